@@ -1,0 +1,138 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Reader of KHR_mesh_collapse_compression payloads. No dependencies, exceptions, RTTI or globals.
+#ifndef MCC_READER_H_
+#define MCC_READER_H_
+
+#include <cstdint>
+#include <span>
+
+#include "mcc/status.h"
+#include "mcc/types.h"
+
+namespace mcc {
+
+/// Where the reader takes memory from. Null members mean malloc and free.
+struct Allocator {
+  void* (*allocate)(void* user, size_t bytes) = nullptr;  ///< may return null: kOutOfMemory
+  void (*release)(void* user, void* memory, size_t bytes) = nullptr;
+  void* user = nullptr;
+};
+
+/// Bounds that hold before anything is allocated. The format's own bounds hold besides.
+struct Limits {
+  uint64_t max_vertices = uint64_t{1} << 28;   ///< wedges and topological vertices of a payload
+  uint64_t max_triangles = uint64_t{1} << 28;  ///< triangles of a payload
+  uint32_t max_attributes = 1024;              ///< attributes of a payload, morph targets included
+  uint32_t max_pieces = 65536;
+};
+
+struct PartInfo {
+  uint32_t triangle_count = 0;
+};
+
+/// How an attribute is coded; for reports, and for callers that compute error bounds.
+enum class AttributeCoding : uint8_t {
+  kLattice = 0,       ///< float32 on a lattice of `bits` bits
+  kInteger = 1,       ///< integer components, exact
+  kExactFloat = 2,    ///< float32 components, every bit pattern kept
+  kOctahedral = 3,    ///< unit vectors, octahedral grid of `bits` bits
+  kTangentAngle = 4,  ///< angle in the decoded normal's frame plus sign
+  kAlias = 5,         ///< equal to an earlier attribute of the piece
+};
+
+struct AttributeInfo {
+  AttributeFormat format;
+  AttributeCoding coding = AttributeCoding::kLattice;
+  uint8_t bits = 0;       ///< of kLattice, kOctahedral, kTangentAngle
+  Lattice lattice;        ///< of kLattice
+  uint8_t predictor = 0;  ///< the coding's own choice, see the specification
+};
+
+struct PieceInfo {
+  uint32_t wedge_count = 0;   ///< glTF vertices, i.e. accessor.count
+  uint32_t vertex_count = 0;  ///< topological vertices before re-stitching
+  std::span<const AttributeInfo> attributes;
+  std::span<const PartInfo> parts;
+};
+
+/// Symbols of the mesh collapse code as the paper's table 1 counts them.
+struct CodeHistogram {
+  uint64_t start = 0;         ///< S
+  uint64_t end = 0;           ///< E
+  uint64_t handle = 0;        ///< M
+  uint64_t dummy = 0;         ///< contractions of dummy vertices (holes)
+  uint64_t degree[256] = {};  ///< [d]: contractions of degree d; [255] collects all above
+};
+
+struct PayloadInfo {
+  uint8_t version_major = 0;
+  uint8_t version_minor = 0;
+  bool single_coder = false;
+  uint32_t context_set = 0;
+  std::span<const PieceInfo> pieces;  ///< owned by the Payload
+  uint64_t codes_bytes = 0;           ///< chunk sizes
+  uint64_t tokens_bytes = 0;
+  uint64_t raw_bits_bytes = 0;
+  uint64_t header_bytes = 0;
+};
+
+/// Where one attribute of a piece goes. `data` null: the attribute is decoded (others may need it) and dropped.
+struct AttributeTarget {
+  void* data =
+      nullptr;  ///< wedge_count elements, component type and count of the attribute's format
+  size_t stride_bytes = 0;  ///< at least elementBytes(format)
+};
+
+/// Where the triangles of one part go: 3 * triangle_count indices of wedges of the piece.
+struct PartTarget {
+  void* indices = nullptr;
+  IndexType index_type = IndexType::kUint32;
+};
+
+struct PieceTarget {
+  std::span<const AttributeTarget> attributes;  ///< one per attribute of the piece
+  std::span<const PartTarget> parts;            ///< one per part of the piece
+};
+
+struct DecodeOptions {
+  Allocator allocator;
+  /// Called now and then with the work done in 0..1; returning false ends decode() with kCancelled.
+  bool (*progress)(void* user, double done) = nullptr;
+  void* progress_user = nullptr;
+  CodeHistogram* histogram = nullptr;  ///< filled when not null
+};
+
+/// An opened payload: its parsed and checked header. Move-only; keeps a reference to the bytes.
+class Payload {
+ public:
+  Payload() = default;
+  Payload(Payload&& other) noexcept;
+  Payload& operator=(Payload&& other) noexcept;
+  ~Payload();
+
+  /// Parses the header, checks the checksum, all counts against `limits` and the format's bounds.
+  /// `bytes` must outlive the Payload and be exactly the buffer view (a trailing byte is an error).
+  /// Returns kTruncated, kBadMagic, kUnsupportedVersion, kBadChecksum, kBadHeader, kTrailingBytes,
+  /// kLimit, kOutOfMemory; the Payload is then empty. Safe for untrusted input. O(bytes).
+  Status open(std::span<const uint8_t> bytes, const Limits& limits = {},
+              const Allocator& allocator = {});
+
+  const PayloadInfo& info() const;
+
+  /// Decodes all pieces into memory the caller owns, see PieceTarget for shapes. `targets` has one entry
+  /// per piece. On an error the targets hold unspecified bytes; nothing is written outside them.
+  /// Returns kTruncated, kBadConnectivity, kBadStitch, kBadAttribute, kTrailingBytes, kLimit,
+  /// kOutOfMemory, kBadArgument, kCancelled. Safe for untrusted input; work and memory are linear in the
+  /// counts of info(); no globals, so different Payloads may be decoded in parallel; same bytes on
+  /// every platform.
+  Status decode(std::span<const PieceTarget> targets, const DecodeOptions& options = {}) const;
+
+ private:
+  struct State;
+  State* state_ = nullptr;
+};
+
+}  // namespace mcc
+
+#endif  // MCC_READER_H_

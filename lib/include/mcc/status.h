@@ -1,0 +1,52 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#ifndef MCC_STATUS_H_
+#define MCC_STATUS_H_
+
+#include <cstdint>
+
+namespace mcc {
+
+/// What went wrong. Stable numbers: they are part of the C API and of the conformance suite.
+enum class Error : uint8_t {
+  kOk = 0,
+  kTruncated = 1,           ///< the payload ends inside a field or a stream
+  kBadMagic = 2,            ///< the bytes are no mesh collapse payload
+  kUnsupportedVersion = 3,  ///< a major version this reader does not know
+  kBadChecksum = 4,         ///< the CRC-32 does not match: the payload is damaged
+  kBadHeader = 5,           ///< a header field has a value the format does not assign
+  kBadConnectivity = 6,     ///< an operation that no mesh collapse code can contain here
+  kBadStitch = 7,           ///< a reference to a vertex group that does not exist
+  kBadAttribute = 8,        ///< an attribute stream that no writer produces
+  kTrailingBytes = 9,       ///< bytes are left over behind the last stream
+  kLimit = 10,              ///< a count above the caller's limits or above the format's own
+  kOutOfMemory = 11,        ///< the allocator returned null
+  kBadArgument = 12,  ///< the caller's arguments contradict each other (our API, not the file)
+  kCancelled = 13,    ///< the caller's progress callback asked to stop
+};
+
+/// Result of every fallible call. `what` is a string literal in plain English ("" when ok);
+/// `offset_bytes` is the place in the payload when one is known, else kNoOffset.
+struct [[nodiscard]] Status {
+  static constexpr uint64_t kNoOffset = ~uint64_t{0};
+
+  Error error = Error::kOk;
+  const char* what = "";
+  uint64_t offset_bytes = kNoOffset;
+
+  constexpr bool ok() const { return error == Error::kOk; }
+};
+
+constexpr Status fail(Error error, const char* what, uint64_t offset_bytes = Status::kNoOffset) {
+  return Status{error, what, offset_bytes};
+}
+
+}  // namespace mcc
+
+/// Returns early with the status of `expression` unless it is ok.
+#define MCC_TRY(expression)                         \
+  do {                                              \
+    const ::mcc::Status mcc_status_ = (expression); \
+    if (!mcc_status_.ok()) return mcc_status_;      \
+  } while (false)
+
+#endif  // MCC_STATUS_H_

@@ -1,0 +1,76 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#ifndef MCC_TYPES_H_
+#define MCC_TYPES_H_
+
+#include <cstddef>
+#include <cstdint>
+
+namespace mcc {
+
+inline constexpr uint32_t kNone = 0xffffffffu;
+
+/// Component types of glTF 2.0 accessors, in the order of their GL enumerants.
+enum class ComponentType : uint8_t {
+  kInt8 = 0,
+  kUint8 = 1,
+  kInt16 = 2,
+  kUint16 = 3,
+  kUint32 = 4,
+  kFloat32 = 5,
+};
+
+constexpr uint32_t componentBytes(ComponentType type) {
+  switch (type) {
+    case ComponentType::kInt8:
+    case ComponentType::kUint8: return 1;
+    case ComponentType::kInt16:
+    case ComponentType::kUint16: return 2;
+    case ComponentType::kUint32:
+    case ComponentType::kFloat32: return 4;
+  }
+  return 0;
+}
+
+/// What an attribute means; decides its predictor, never its exactness.
+enum class Semantic : uint8_t {
+  kPosition = 0,
+  kNormal = 1,
+  kTangent = 2,
+  kTexcoord = 3,
+  kColor = 4,
+  kJoints = 5,
+  kWeights = 6,
+  kCustom = 7,
+};
+
+/// The type of one attribute of a piece. Elements have `component_count` components, tightly packed
+/// (matrices too: the glTF layer removes and adds the column padding).
+struct AttributeFormat {
+  Semantic semantic = Semantic::kPosition;
+  uint8_t set_index = 0;  ///< n of TEXCOORD_n; for kCustom the low 8 bits of the CRC-32 of the name
+  ComponentType component_type = ComponentType::kFloat32;
+  bool normalized = false;
+  uint8_t component_count = 3;  ///< 1..16
+  uint16_t morph_target = 0;    ///< 0: the base mesh; k: deltas of morph target k-1
+
+  bool operator==(const AttributeFormat&) const = default;
+};
+
+constexpr uint32_t elementBytes(const AttributeFormat& format) {
+  return componentBytes(format.component_type) * format.component_count;
+}
+
+/// Regular grid of a quantised float attribute: value = float(float(q * step) + origin), DESIGN 9.5.
+struct Lattice {
+  float origin[4] = {0, 0, 0, 0};
+  float step = 0;
+
+  bool operator==(const Lattice&) const = default;
+};
+
+/// Index types of the output of decode().
+enum class IndexType : uint8_t { kUint8 = 1, kUint16 = 2, kUint32 = 4 };  // value = bytes
+
+}  // namespace mcc
+
+#endif  // MCC_TYPES_H_

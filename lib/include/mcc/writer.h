@@ -1,0 +1,93 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Writer of KHR_mesh_collapse_compression payloads.
+#ifndef MCC_WRITER_H_
+#define MCC_WRITER_H_
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mcc/status.h"
+#include "mcc/types.h"
+
+namespace mcc {
+
+/// One vertex attribute of a piece as the caller holds it.
+struct AttributeView {
+  AttributeFormat format;
+  const void* data = nullptr;  ///< wedge_count elements
+  size_t stride_bytes = 0;     ///< at least elementBytes(format)
+  /// Bits of the lattice of a float attribute (1..24; octahedral bits of normals 2..16); 0: exact.
+  /// Ignored by integer attributes, which are exact. An attribute with NaN or infinity goes exact.
+  uint8_t quantization_bits = 0;
+  /// Lattice to use instead of the attribute's own bounding box; null: own box. Borrowed.
+  const Lattice* lattice = nullptr;
+};
+
+/// A triangle list on the wedges of a piece. Any indices below wedge_count are allowed: degenerate and
+/// duplicate triangles, non-manifold edges, unused wedges.
+struct PartView {
+  std::span<const uint32_t> indices;  ///< 3 per triangle
+};
+
+/// A set of wedges (glTF vertices) with its attributes and the triangle lists on them.
+/// attributes[0] must be POSITION of the base mesh: float32 or integer, 3 components.
+struct PieceView {
+  uint32_t wedge_count = 0;
+  std::span<const AttributeView> attributes;
+  std::span<const PartView> parts;
+};
+
+struct EncodeOptions {
+  /// Half-edge (3 * triangle + corner) the first component's collapse starts at; kNone: the encoder chooses.
+  /// A test hook.
+  uint32_t start_half_edge = kNone;
+  /// Not normally set: forces one of the connectivity context sets.
+  uint32_t context_set = kNone;
+  /// Effort: 0 fast (few trials) .. 2 (all trials). The bytes depend on it, exactness does not.
+  uint8_t effort = 1;
+};
+
+/// Bits per stream, as the entropy coders spent them (the sum over streams is total_bytes * 8).
+struct StreamSizes {
+  double header_bits = 0;        ///< container, attribute descriptions, flushes, padding
+  double connectivity_bits = 0;  ///< mesh collapse codes
+  double stitch_bits = 0;        ///< re-joining of cut vertices
+  double leftover_bits = 0;      ///< duplicate and degenerate triangles, parts
+  double seam_bits = 0;          ///< wedges and equality flags
+  double position_bits = 0;
+  double order_bits = 0;
+  std::vector<double>
+      attribute_bits;  ///< per attribute of the payload, in piece order; position included as 0
+};
+
+struct PieceResult {
+  /// source_wedge[i] is the wedge of the PieceView that decoded wedge i carries: a bijection.
+  std::vector<uint32_t> source_wedge;
+  uint32_t topological_vertex_count = 0;  ///< distinct positions (classes after stitching) in use
+  uint32_t cut_copy_count = 0;            ///< vertices duplicated to become manifold
+  uint32_t hole_count = 0;
+  uint32_t component_count = 0;
+  uint32_t leftover_triangle_count = 0;  ///< duplicates and degenerates coded apart
+};
+
+struct EncodeResult {
+  std::vector<uint8_t> payload;
+  StreamSizes sizes;
+  std::vector<PieceResult> pieces;
+  std::vector<std::string> notes;  ///< attributes that went exact and why, in plain English
+};
+
+/// Compresses pieces into one payload; they share adaptive models.
+/// Errors: kBadArgument (an index >= wedge_count, no POSITION, bits out of range, null data),
+/// kLimit (more than 2^28 triangles or wedges), kOutOfMemory. Deterministic: the same input gives the
+/// same bytes on every machine. Time O(n log n) in triangles and wedges.
+/// Inverse: Payload::decode(). Tests: tests/roundtrip/.
+Status encode(std::span<const PieceView> pieces, const EncodeOptions& options,
+              EncodeResult& result);
+
+}  // namespace mcc
+
+#endif  // MCC_WRITER_H_

@@ -1,0 +1,212 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "attributes/enc_quantize.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "attributes/dequantize.h"
+#include "attributes/octahedral.h"
+
+namespace mcc {
+namespace {
+
+constexpr double kUnitTolerance = 0.01;
+
+class Quantizer {
+ public:
+  Quantizer(const AttributeView& view, uint32_t wedge_count)
+      : view_(view), count_(wedge_count), components_(view.format.component_count) {}
+
+  QuantizedAttribute run(std::vector<std::string>& notes) {
+    result_.info.format = view_.format;
+    result_.components = components_;
+    if (view_.format.component_type != ComponentType::kFloat32) return copyIntegers();
+    if (view_.quantization_bits == 0) return copyExactly();
+    if (!allFinite()) {
+      notes.push_back(name() + " holds NaN or infinite values: kept exact");
+      return copyExactly();
+    }
+    if (components_ > 4) return copyExactly();
+    const bool is_base_normal = view_.format.semantic == Semantic::kNormal &&
+                                view_.format.morph_target == 0 && components_ == 3;
+    if (is_base_normal && view_.quantization_bits >= 2) {
+      if (allUnit()) return toOctahedral();
+      notes.push_back(name() + " is not of unit length: coded by components");
+    }
+    return toLattice(notes);
+  }
+
+ private:
+  const uint8_t* element(uint32_t wedge) const {
+    return static_cast<const uint8_t*>(view_.data) + view_.stride_bytes * wedge;
+  }
+  float component(uint32_t wedge, uint32_t c) const {
+    float value = 0;
+    std::memcpy(&value, element(wedge) + 4 * c, 4);
+    return value;
+  }
+
+  std::string name() const {
+    static const char* const kNames[] = {"POSITION", "NORMAL", "TANGENT", "TEXCOORD",
+                                         "COLOR",    "JOINTS", "WEIGHTS", "a custom attribute"};
+    std::string text = kNames[static_cast<size_t>(view_.format.semantic)];
+    if (view_.format.semantic >= Semantic::kTexcoord &&
+        view_.format.semantic <= Semantic::kWeights) {
+      text += "_" + std::to_string(view_.format.set_index);
+    }
+    if (view_.format.morph_target != 0) {
+      text += " of morph target " + std::to_string(view_.format.morph_target - 1);
+    }
+    return text;
+  }
+
+  bool allFinite() const {
+    for (uint32_t w = 0; w < count_; ++w) {
+      for (uint32_t c = 0; c < components_; ++c) {
+        if (!std::isfinite(component(w, c))) return false;
+      }
+    }
+    return true;
+  }
+
+  bool allUnit() const {
+    for (uint32_t w = 0; w < count_; ++w) {
+      double square = 0;
+      for (uint32_t c = 0; c < 3; ++c) square += double{component(w, c)} * component(w, c);
+      if (std::fabs(std::sqrt(square) - 1) > kUnitTolerance) return false;
+    }
+    return true;
+  }
+
+  QuantizedAttribute copyIntegers() {
+    result_.info.coding = AttributeCoding::kInteger;
+    result_.values.resize(size_t{count_} * components_);
+    const uint32_t bytes = componentBytes(view_.format.component_type);
+    for (uint32_t w = 0; w < count_; ++w) {
+      for (uint32_t c = 0; c < components_; ++c) {
+        uint32_t raw = 0;
+        std::memcpy(&raw, element(w) + size_t{bytes} * c, bytes);
+        int32_t value = static_cast<int32_t>(raw);
+        if (view_.format.component_type == ComponentType::kInt8) value = static_cast<int8_t>(raw);
+        if (view_.format.component_type == ComponentType::kInt16) value = static_cast<int16_t>(raw);
+        result_.values[size_t{w} * components_ + c] = value;
+      }
+    }
+    return std::move(result_);
+  }
+
+  QuantizedAttribute copyExactly() {
+    result_.info.coding = AttributeCoding::kExactFloat;
+    result_.values.resize(size_t{count_} * components_);
+    for (uint32_t w = 0; w < count_; ++w) {
+      for (uint32_t c = 0; c < components_; ++c) {
+        result_.values[size_t{w} * components_ + c] =
+            orderedFromBits(std::bit_cast<uint32_t>(component(w, c)));
+      }
+    }
+    return std::move(result_);
+  }
+
+  /// DESIGN 9.5.
+  QuantizedAttribute toLattice(std::vector<std::string>& notes) {
+    result_.info.coding = AttributeCoding::kLattice;
+    result_.info.bits = std::min<uint8_t>(view_.quantization_bits, 24);
+    Lattice lattice = view_.lattice != nullptr ? *view_.lattice : ownLattice();
+    for (uint32_t c = components_; c < 4; ++c) lattice.origin[c] = 0;
+    if (!(lattice.step > 0) || !std::isfinite(lattice.step)) {
+      notes.push_back(name() + " spans a range no lattice covers: kept exact");
+      return copyExactly();
+    }
+    result_.info.lattice = lattice;
+    result_.values.resize(size_t{count_} * components_);
+    for (uint32_t w = 0; w < count_; ++w) {
+      for (uint32_t c = 0; c < components_; ++c) {
+        const double x = component(w, c);
+        const double q = std::floor((x - double{lattice.origin[c]}) / double{lattice.step} + 0.5);
+        if (std::fabs(q) > double{1 << 28}) {
+          notes.push_back(name() + " reaches beyond the given lattice: kept exact");
+          result_.info.lattice = Lattice{};
+          result_.info.bits = 0;
+          return copyExactly();
+        }
+        result_.values[size_t{w} * components_ + c] = static_cast<int32_t>(q);
+      }
+    }
+    return std::move(result_);
+  }
+
+  Lattice ownLattice() const {
+    Lattice lattice;
+    double extent = 0;
+    for (uint32_t c = 0; c < components_; ++c) {
+      float low = count_ == 0 ? 0 : component(0, c);
+      float high = low;
+      for (uint32_t w = 1; w < count_; ++w) {
+        low = std::min(low, component(w, c));
+        high = std::max(high, component(w, c));
+      }
+      lattice.origin[c] = low == 0 ? 0.0f : low;
+      extent = std::max(extent, double{high} - double{low});
+    }
+    const double cells = std::ldexp(1.0, result_.info.bits) - 1;
+    lattice.step = extent == 0 ? 1.0f : static_cast<float>(extent / cells);
+    return lattice;
+  }
+
+  QuantizedAttribute toOctahedral() {
+    result_.info.coding = AttributeCoding::kOctahedral;
+    result_.info.bits = std::clamp<uint8_t>(view_.quantization_bits, 2, 16);
+    result_.components = 2;
+    result_.values.resize(size_t{count_} * 2);
+    for (uint32_t w = 0; w < count_; ++w) {
+      const float n[3] = {component(w, 0), component(w, 1), component(w, 2)};
+      nearestGridPoint(n, &result_.values[size_t{w} * 2]);
+    }
+    return std::move(result_);
+  }
+
+  /// The best of the four grid points around the projection.
+  void nearestGridPoint(const float* n, int32_t* point) const {
+    const int32_t centre = octahedralCentre(result_.info.bits);
+    const double sum = std::fabs(double{n[0]}) + std::fabs(double{n[1]}) + std::fabs(double{n[2]});
+    double x = double{n[0]} / sum;
+    double y = double{n[1]} / sum;
+    if (n[2] < 0) {
+      const double folded_x = 1 - std::fabs(y);
+      const double folded_y = 1 - std::fabs(x);
+      x = x < 0 ? -folded_x : folded_x;
+      y = y < 0 ? -folded_y : folded_y;
+    }
+    const int32_t s0 = static_cast<int32_t>(std::floor((x + 1) * centre));
+    const int32_t t0 = static_cast<int32_t>(std::floor((y + 1) * centre));
+    double best = -2;
+    for (int32_t s = s0; s <= s0 + 1; ++s) {
+      for (int32_t t = t0; t <= t0 + 1; ++t) {
+        if (s < 0 || t < 0 || s > 2 * centre || t > 2 * centre) continue;
+        float unit[3];
+        octahedralToUnit(s, t, centre, unit);
+        const double dot = double{unit[0]} * n[0] + double{unit[1]} * n[1] + double{unit[2]} * n[2];
+        if (dot <= best) continue;
+        best = dot;
+        point[0] = s;
+        point[1] = t;
+      }
+    }
+  }
+
+  const AttributeView& view_;
+  const uint32_t count_;
+  const uint32_t components_;
+  QuantizedAttribute result_;
+};
+
+}  // namespace
+
+QuantizedAttribute quantizeAttribute(const AttributeView& view, uint32_t wedge_count,
+                                     std::vector<std::string>& notes) {
+  return Quantizer(view, wedge_count).run(notes);
+}
+
+}  // namespace mcc

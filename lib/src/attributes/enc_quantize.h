@@ -1,0 +1,28 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#ifndef MCC_ATTRIBUTES_ENC_QUANTIZE_H_
+#define MCC_ATTRIBUTES_ENC_QUANTIZE_H_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mcc/reader.h"
+#include "mcc/writer.h"
+
+namespace mcc {
+
+/// An attribute as integers: `components` per source wedge, and how the reader turns them back.
+struct QuantizedAttribute {
+  AttributeInfo info;
+  uint32_t components = 0;
+  std::vector<int32_t> values;
+};
+
+/// Chooses the coding (lattice, octahedral, integer, exact) and converts all wedges. What the requested bits would
+/// ruin goes exact, with a line in `notes`.
+QuantizedAttribute quantizeAttribute(const AttributeView& view, uint32_t wedge_count,
+                                     std::vector<std::string>& notes);
+
+}  // namespace mcc
+
+#endif  // MCC_ATTRIBUTES_ENC_QUANTIZE_H_

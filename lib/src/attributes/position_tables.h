@@ -1,0 +1,117 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Constants of the position coder; part of the format.                                     [B.2]
+#ifndef MCC_ATTRIBUTES_POSITION_TABLES_H_
+#define MCC_ATTRIBUTES_POSITION_TABLES_H_
+
+#include <cstdint>
+
+#include "entropy/models.h"
+
+namespace mcc {
+
+/// Predictor classes by what is known around a vertex. Classes 9..15 are fans of three known neighbours with both
+/// parallelogram tips known, by the vertex' degree.
+inline constexpr uint32_t kClassNoTip = 0;
+inline constexpr uint32_t kClassOneTip = 1;
+inline constexpr uint32_t kClassClosedFewTips = 5;
+inline constexpr uint32_t kClassClosedManyTips = 6;
+inline constexpr uint32_t kClassFan = 6;  ///< + clamped degree 3..9
+inline constexpr uint32_t kPredictorClasses = 16;
+inline constexpr uint32_t kWeights = 5;
+
+/// Weights in units of 1/128 of the features f0, f1, f3, f4, f5; kClassOneTip has the degree of v in place of f3.
+struct PredictorWeights {
+  int16_t w[kPredictorClasses][kWeights];
+};
+
+inline constexpr PredictorWeights kAverageWeights{};
+
+inline constexpr PredictorWeights kUniversalWeights{{
+    {0, 0, 0, 0, 0},
+    {-7, 6, 17, -15, 1},
+    {0, 13, 0, 0, 0},
+    {0, 20, 0, 0, 0},
+    {0, 26, 0, 0, 0},
+    {0, 49, 0, 0, 0},
+    {0, 72, 0, 0, 0},
+    {0, 0, 0, 0, 0},
+    {0, 0, 0, 0, 0},
+    {0, 0, 0, 0, 0},
+    {65, -77, -4, -1, -1},
+    {62, -46, -6, -3, -4},
+    {47, -9, -9, -7, -2},
+    {29, 14, -8, -9, -4},
+    {10, 42, -15, -10, -1},
+    {-4, 49, -13, -10, -3},
+}};
+
+/// Scale of a residual from neighbours' residuals, spread of the tips and a constant, in 1/64.
+struct ScaleCoefficients {
+  uint16_t c[3];
+};
+
+/// [weighted predictor][shear][fan of three][component]
+inline constexpr ScaleCoefficients kUniversalScale[2][2][2][3] = {
+    {{{{{196, 12, 1662}}, {{216, 12, 1638}}, {{208, 13, 1749}}},
+      {{{138, 182, 1222}}, {{143, 186, 1186}}, {{140, 178, 1299}}}},
+     {{{{183, 9, 1774}}, {{170, 13, 1780}}, {{147, 17, 1437}}},
+      {{{112, 181, 1364}}, {{110, 182, 1382}}, {{140, 77, 1151}}}}},
+    {{{{{200, 17, 1672}}, {{207, 19, 1672}}, {{188, 18, 1766}}},
+      {{{136, 106, 1207}}, {{142, 109, 1185}}, {{136, 107, 1292}}}},
+     {{{{169, 13, 1818}}, {{160, 16, 1786}}, {{157, 14, 1446}}},
+      {{{113, 102, 1386}}, {{108, 107, 1378}}, {{123, 58, 1121}}}}}};
+
+inline constexpr uint32_t kScaleBuckets = 40;
+inline constexpr uint32_t kFirstTabledBucket = 2;
+inline constexpr uint32_t kLastTabledBucket = 22;
+
+/// Initial frequencies of the tokens, per mille, by scale bucket 2..22.
+inline constexpr uint16_t kTokenFrequencies[kLastTabledBucket - kFirstTabledBucket + 1][16] = {
+    {902, 97, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
+    {795, 193, 7, 2, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0},
+    {751, 235, 10, 2, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
+    {627, 342, 23, 5, 2, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
+    {530, 409, 47, 9, 2, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0},
+    {420, 445, 96, 23, 8, 3, 2, 1, 1, 0, 0, 0, 0, 0, 0, 0},
+    {313, 419, 165, 57, 23, 10, 5, 3, 4, 1, 1, 0, 0, 0, 0, 0},
+    {226, 355, 213, 102, 48, 23, 12, 7, 10, 2, 1, 0, 0, 0, 0, 0},
+    {153, 266, 204, 145, 86, 50, 30, 19, 32, 8, 5, 1, 1, 0, 0, 0},
+    {105, 191, 163, 139, 115, 81, 53, 37, 72, 23, 15, 4, 3, 1, 0, 0},
+    {214, 232, 196, 121, 74, 46, 31, 21, 39, 13, 9, 3, 1, 0, 0, 0},
+    {140, 165, 149, 130, 99, 72, 51, 38, 83, 35, 25, 8, 4, 1, 0, 0},
+    {202, 204, 180, 125, 79, 53, 38, 27, 55, 19, 11, 3, 1, 0, 0, 0},
+    {134, 141, 141, 143, 109, 75, 56, 41, 90, 36, 23, 6, 3, 1, 0, 0},
+    {197, 201, 211, 138, 80, 51, 34, 24, 43, 13, 7, 1, 0, 0, 0, 0},
+    {147, 144, 150, 167, 117, 69, 50, 36, 74, 26, 15, 3, 1, 0, 0, 0},
+    {225, 203, 252, 110, 74, 46, 29, 18, 31, 8, 3, 0, 0, 0, 0, 0},
+    {183, 160, 142, 126, 108, 80, 57, 39, 72, 20, 10, 2, 0, 0, 0, 0},
+    {268, 206, 178, 146, 87, 45, 27, 14, 23, 5, 1, 0, 0, 0, 0, 0},
+    {209, 153, 141, 132, 127, 83, 48, 32, 56, 11, 5, 0, 0, 0, 0, 0},
+    {370, 196, 176, 117, 69, 31, 16, 9, 15, 1, 0, 0, 0, 0, 0, 0},
+};
+
+inline constexpr uint32_t kTokenInitialUses = 6;
+inline constexpr uint32_t kTokenInitialFloor = 8;
+
+/// Row of a scale bucket before the first symbol. Beyond the table the rows repeat: tokens are relative to the
+/// scale there.
+inline void initialTokenRow(uint32_t bucket, TokenRow& row) {
+  uint32_t b = bucket < kFirstTabledBucket ? kFirstTabledBucket : bucket;
+  if (b > kLastTabledBucket) b = kLastTabledBucket - ((b - kLastTabledBucket) & 1);
+  const uint16_t* frequency = kTokenFrequencies[b - kFirstTabledBucket];
+  uint32_t sum = 0;
+  for (uint32_t i = 0; i < kTokenCount; ++i) sum += frequency[i];
+  const uint32_t shared = kTokenOne - kTokenCount * kTokenInitialFloor;
+  uint32_t before = 0;
+  for (uint32_t i = 0; i < kTokenCount; ++i) {
+    row.c[i] = static_cast<uint16_t>(before * shared / sum + i * kTokenInitialFloor);
+    before += frequency[i];
+  }
+  row.c[kTokenCount] = static_cast<uint16_t>(kTokenOne);
+  row.uses = kTokenInitialUses;
+}
+
+}  // namespace mcc
+
+#endif  // MCC_ATTRIBUTES_POSITION_TABLES_H_

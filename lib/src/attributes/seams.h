@@ -1,0 +1,256 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Seams: the partition of the corners around every vertex into wedges, shared by all attributes.   [A.7]
+//
+// In traversal order, umbrella by umbrella: does the umbrella have a seam at all; then per edge, whether the corners
+// on its two sides at this vertex are different wedges (the other end of the edge says so for itself, and is a
+// context). A wedge that is not one contiguous run of corners is a run with a merge flag and the number of an
+// earlier wedge of the same group. The pass rewrites face corners from groups to wedges.
+#ifndef MCC_ATTRIBUTES_SEAMS_H_
+#define MCC_ATTRIBUTES_SEAMS_H_
+
+#include <algorithm>
+#include <cstdint>
+
+#include "base/memory.h"
+#include "entropy/models.h"
+#include "entropy/numbers.h"
+#include "mesh/face_mesh.h"
+#include "mesh/groups.h"
+
+namespace mcc {
+
+struct SeamModels {
+  BitModel has_seam[4][2];  ///< [seam ends known on the ring][boundary]
+  BitModel edge[3][3][2];   ///< [other end: unknown, no, yes][seam ends so far][boundary]
+  BitModel merge[2][4];     ///< [first run of its umbrella][candidates]
+  GolombModel merge_with;
+};
+
+/// Two bits per half-edge in a face's kSeamWord: end not coded yet, no seam, seam.
+inline uint32_t seamState(const FaceView& faces, uint32_t h) {
+  return (faces.words[(h & ~7u) + kSeamWord] >> (2 * (h & 3))) & 3;
+}
+inline void setSeamState(const FaceView& faces, uint32_t h, bool seam) {
+  faces.words[(h & ~7u) + kSeamWord] |= (seam ? 2u : 1u) << (2 * (h & 3));
+}
+
+template <class Io>
+class SeamCoder {
+ public:
+  /// `group_order`: a half-edge per group in coding order. `corner_source` (encoder): source wedge by 3f+k.
+  SeamCoder(Io& io, SeamModels& models, FaceMesh& mesh, const Groups& groups, bool has_merges,
+            uint32_t wedge_limit, const Allocator& allocator, const uint32_t* corner_source)
+      : io_(io),
+        models_(models),
+        faces_(mesh.view()),
+        face_count_(mesh.face_count),
+        groups_(groups),
+        has_merges_(has_merges),
+        wedge_limit_(wedge_limit),
+        corner_source_(corner_source),
+        fan_(allocator),
+        group_wedges_(allocator),
+        group_sources_(allocator) {}
+
+  /// `wedge_start` receives the clockwise-most half-edge of each wedge's first run, `wedge_group` its group.
+  Status run(const Array<uint32_t>& group_order, Array<uint32_t>& wedge_start,
+             Array<uint32_t>& wedge_group);
+
+ private:
+  Status codeUmbrella(uint32_t group, uint32_t start, Array<uint32_t>& wedge_start,
+                      Array<uint32_t>& wedge_group);
+  Status collectFan(uint32_t start);
+  void codeSeamEnds();
+  Status codeWedge(uint32_t first, uint32_t excluded_a, uint32_t excluded_b, bool first_run,
+                   uint32_t group, Array<uint32_t>& wedge_start, Array<uint32_t>& wedge_group,
+                   uint32_t& wedge);
+  uint32_t source(uint32_t h) const { return corner_source_[3 * size_t{faceOf(h)} + (h & 3)]; }
+  /// Whether the edge before fan face i (behind the last one for i == 0) carries a seam end here.
+  bool seamBefore(uint32_t i) const { return seamState(faces_, fan_[i]) == 2; }
+
+  Io& io_;
+  SeamModels& models_;
+  const FaceView faces_;
+  const uint32_t face_count_;
+  const Groups& groups_;
+  const bool has_merges_;
+  const uint32_t wedge_limit_;
+  const uint32_t* corner_source_;
+  Array<uint32_t> fan_;            ///< half-edges leaving the vertex, counterclockwise
+  Array<uint32_t> group_wedges_;   ///< wedges of the group so far
+  Array<uint32_t> group_sources_;  ///< encoder: their source wedges
+  bool closed_ = false;
+  uint32_t wedge_count_ = 0;
+};
+
+template <class Io>
+Status SeamCoder<Io>::run(const Array<uint32_t>& group_order, Array<uint32_t>& wedge_start,
+                          Array<uint32_t>& wedge_group) {
+  if (!wedge_start.reserve(wedge_limit_) || !wedge_group.reserve(wedge_limit_)) {
+    return fail(Error::kOutOfMemory, "no memory for wedges");
+  }
+  // Corners become wedges with this flag, so that a corner no umbrella reached is noticed.
+  constexpr uint32_t kDone = 1u << 31;
+  for (size_t i = 0; i < group_order.size(); ++i) {
+    const uint32_t entry = group_order[i];
+    const uint32_t group = faces_.vertex(entry);
+    group_wedges_.clear();
+    group_sources_.clear();
+    MCC_TRY(codeUmbrella(group, entry, wedge_start, wedge_group));
+    if (groups_.hasCopies()) {
+      for (uint32_t u = groups_.umbrella_begin[group]; u < groups_.umbrella_begin[group + 1]; ++u) {
+        const uint32_t start = groups_.umbrellas[u];
+        if ((faces_.vertex(start) & kDone) != 0) continue;  // the entry's umbrella
+        MCC_TRY(codeUmbrella(group, start, wedge_start, wedge_group));
+      }
+    }
+    if ((i & 0xff) == 0 && io_.overrun()) {
+      return fail(Error::kTruncated, "the code stream ends inside the seams");
+    }
+  }
+  for (uint32_t f = 0; f < face_count_; ++f) {
+    for (uint32_t h = f * kFaceWords; h < f * kFaceWords + 3; ++h) {
+      if ((faces_.words[h] & kDone) == 0) {
+        return fail(Error::kBadConnectivity, "a corner belongs to no umbrella");
+      }
+      faces_.words[h] &= ~kDone;
+    }
+  }
+  return {};
+}
+
+/// The umbrella from its clockwise boundary, or once around from `start`.
+template <class Io>
+Status SeamCoder<Io>::collectFan(uint32_t start) {
+  fan_.clear();
+  uint32_t first = start;
+  for (uint32_t h = faces_.rotateCw(start); h != kNone && h != start; h = faces_.rotateCw(h))
+    first = h;
+  closed_ = faces_.twin(first) != kNone;
+  if (closed_) first = start;
+  uint32_t h = first;
+  do {
+    if (!fan_.push_back(h)) return fail(Error::kOutOfMemory, "no memory for wedges");
+    h = faces_.rotateCcw(h);
+  } while (h != kNone && h != first);
+  return {};
+}
+
+/// Bits for edges 1 .. n-1 between fan faces i-1 and i, then for the closing edge 0.           [A.7.2]
+template <class Io>
+void SeamCoder<Io>::codeSeamEnds() {
+  const uint32_t n = static_cast<uint32_t>(fan_.size());
+  const uint32_t edges = closed_ ? n : n - 1;
+  const uint32_t boundary = closed_ ? 0 : 1;
+  const uint32_t needed = closed_ ? 2 : 1;  // seam ends of an umbrella that has any
+  uint32_t known_ends = 0;
+  for (uint32_t i = closed_ ? 0 : 1; i < n; ++i) {
+    known_ends += seamState(faces_, faces_.twin(fan_[i])) == 2 ? 1 : 0;
+  }
+  bool any = false;
+  if constexpr (Io::kEncoding) {
+    for (uint32_t i = 1; i < n; ++i) any |= source(fan_[i]) != source(fan_[0]);
+  }
+  any = edges >= needed && io_.bit(models_.has_seam[std::min(known_ends, 3u)][boundary], any);
+  uint32_t ends = 0;
+  for (uint32_t k = 1; k <= edges; ++k) {
+    const uint32_t i = k == n ? 0 : k;
+    bool seam = false;
+    if (any) {
+      seam = ends + (edges - k + 1) == needed;  // implied
+      if (!seam) {
+        const uint32_t other = seamState(faces_, faces_.twin(fan_[i]));
+        bool truth = false;
+        if constexpr (Io::kEncoding)
+          truth = source(fan_[i]) != source(fan_[i == 0 ? n - 1 : i - 1]);
+        seam = io_.bit(models_.edge[other][std::min(ends, 2u)][boundary], truth);
+      }
+    }
+    ends += seam ? 1 : 0;
+    setSeamState(faces_, fan_[i], seam);
+  }
+}
+
+template <class Io>
+Status SeamCoder<Io>::codeUmbrella(uint32_t group, uint32_t start, Array<uint32_t>& wedge_start,
+                                   Array<uint32_t>& wedge_group) {
+  constexpr uint32_t kDone = 1u << 31;
+  MCC_TRY(collectFan(start));
+  codeSeamEnds();
+  const uint32_t n = static_cast<uint32_t>(fan_.size());
+  // Runs start behind a seam end; the first may reach back over the closing edge.
+  uint32_t first = 0;
+  while (closed_ && first < n && !seamBefore(first)) ++first;
+  if (first == n) first = 0;
+  uint32_t first_wedge = kNone;
+  uint32_t previous = kNone;
+  const uint32_t groups_before = static_cast<uint32_t>(group_wedges_.size());
+  for (uint32_t i = 0; i < n;) {
+    uint32_t length = 1;
+    while (i + length < n && !seamBefore((first + i + length) % n)) ++length;
+    const bool last = i + length == n;
+    const uint32_t h = fan_[(first + i) % n];
+    uint32_t wedge = kNone;
+    MCC_TRY(codeWedge(h, previous, last && closed_ ? first_wedge : kNone,
+                      groups_before == group_wedges_.size() && i == 0, group, wedge_start,
+                      wedge_group, wedge));
+    for (uint32_t k = 0; k < length; ++k) faces_.words[fan_[(first + i + k) % n]] = wedge | kDone;
+    if (first_wedge == kNone) first_wedge = wedge;
+    previous = wedge;
+    i += length;
+  }
+  return {};
+}
+
+/// A new wedge, or one of the group's wedges again.                                          [A.7.3]
+template <class Io>
+Status SeamCoder<Io>::codeWedge(uint32_t first, uint32_t excluded_a, uint32_t excluded_b,
+                                bool first_run, uint32_t group, Array<uint32_t>& wedge_start,
+                                Array<uint32_t>& wedge_group, uint32_t& wedge) {
+  uint32_t candidates = 0;
+  uint32_t rank = 0;
+  bool merged = false;
+  if (has_merges_) {
+    // Ranks count from the latest wedge back.
+    for (size_t i = group_wedges_.size(); i-- != 0;) {
+      const uint32_t w = group_wedges_[i];
+      if (w == excluded_a || w == excluded_b) continue;
+      if constexpr (Io::kEncoding) {
+        if (group_sources_[i] == source(first)) {
+          merged = true;
+          rank = candidates;
+        }
+      }
+      ++candidates;
+    }
+  }
+  if (candidates != 0) {
+    merged = io_.bit(models_.merge[first_run ? 1 : 0][std::min(candidates, 4u) - 1], merged);
+  }
+  if (merged) {
+    if (candidates > 1) rank = codeGolomb(io_, models_.merge_with, rank);
+    if (rank >= candidates)
+      return fail(Error::kBadAttribute, "a wedge is merged with none of its group");
+    for (size_t i = group_wedges_.size(); i-- != 0;) {
+      const uint32_t w = group_wedges_[i];
+      if (w == excluded_a || w == excluded_b || rank-- != 0) continue;
+      wedge = w;
+      return {};
+    }
+  }
+  if (wedge_count_ == wedge_limit_) {
+    return fail(Error::kBadAttribute, "the seams make more wedges than the header claims");
+  }
+  wedge = wedge_count_++;
+  const bool ok = wedge_start.push_back(first) && wedge_group.push_back(group) &&
+                  (!has_merges_ || group_wedges_.push_back(wedge));
+  if constexpr (Io::kEncoding) {
+    if (!group_sources_.push_back(source(first))) return fail(Error::kOutOfMemory, "no memory");
+  }
+  return ok ? Status{} : fail(Error::kOutOfMemory, "no memory for wedges");
+}
+
+}  // namespace mcc
+
+#endif  // MCC_ATTRIBUTES_SEAMS_H_

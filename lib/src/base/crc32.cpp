@@ -1,0 +1,53 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "base/crc32.h"
+
+#include <cstddef>
+
+namespace mcc {
+namespace {
+
+constexpr uint32_t kPolynomial = 0xedb88320u;
+constexpr size_t kSlices = 8;
+constexpr size_t kBigInput = 1024;  // from here on building the tables pays
+
+uint32_t crcOfByte(uint32_t crc) {
+  for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (kPolynomial & (~(crc & 1) + 1));
+  return crc;
+}
+
+struct SliceTables {
+  uint32_t entry[kSlices][256];
+
+  SliceTables() {
+    for (uint32_t i = 0; i < 256; ++i) entry[0][i] = crcOfByte(i);
+    for (size_t slice = 1; slice < kSlices; ++slice) {
+      for (uint32_t i = 0; i < 256; ++i) {
+        const uint32_t previous = entry[slice - 1][i];
+        entry[slice][i] = (previous >> 8) ^ entry[0][previous & 0xff];
+      }
+    }
+  }
+};
+
+}  // namespace
+
+uint32_t crc32(std::span<const uint8_t> bytes, uint32_t crc) {
+  crc = ~crc;
+  const uint8_t* p = bytes.data();
+  size_t rest = bytes.size();
+  if (rest >= kBigInput) {
+    const SliceTables tables;
+    for (; rest >= kSlices; rest -= kSlices, p += kSlices) {
+      const uint32_t low = crc ^ (uint32_t{p[0]} | uint32_t{p[1]} << 8 | uint32_t{p[2]} << 16 |
+                                  uint32_t{p[3]} << 24);
+      crc = tables.entry[7][low & 0xff] ^ tables.entry[6][(low >> 8) & 0xff] ^
+            tables.entry[5][(low >> 16) & 0xff] ^ tables.entry[4][low >> 24] ^
+            tables.entry[3][p[4]] ^ tables.entry[2][p[5]] ^ tables.entry[1][p[6]] ^
+            tables.entry[0][p[7]];
+    }
+  }
+  for (; rest != 0; --rest, ++p) crc = (crc >> 8) ^ crcOfByte((crc ^ *p) & 0xff);
+  return ~crc;
+}
+
+}  // namespace mcc

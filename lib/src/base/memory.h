@@ -1,0 +1,114 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Memory for reader and writer: growable arrays of plain data that report failure instead of throwing.
+#ifndef MCC_BASE_MEMORY_H_
+#define MCC_BASE_MEMORY_H_
+
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+
+#include "mcc/reader.h"
+
+namespace mcc {
+
+inline void* allocateBytes(const Allocator& allocator, size_t bytes) {
+  return allocator.allocate != nullptr ? allocator.allocate(allocator.user, bytes)
+                                       : std::malloc(bytes);
+}
+
+inline void releaseBytes(const Allocator& allocator, void* memory, size_t bytes) {
+  if (memory == nullptr) return;
+  if (allocator.release != nullptr) {
+    allocator.release(allocator.user, memory, bytes);
+  } else if (allocator.allocate == nullptr) {
+    std::free(memory);
+  }
+}
+
+/// Array of trivially copyable elements in memory of an Allocator. Every growing call returns false when
+/// the allocator gives none, and leaves the array as it was.
+template <class T>
+class Array {
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+
+ public:
+  explicit Array(const Allocator& allocator = {}) : allocator_(allocator) {}
+  Array(const Array&) = delete;
+  Array& operator=(const Array&) = delete;
+  Array(Array&& other) noexcept { swap(other); }
+  Array& operator=(Array&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~Array() { reset(); }
+
+  T* data() { return data_; }
+  const T* data() const { return data_; }
+  size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  T& operator[](size_t i) { return data_[i]; }
+  const T& operator[](size_t i) const { return data_[i]; }
+  T& back() { return data_[size_ - 1]; }
+  void pop_back() { --size_; }
+  void clear() { size_ = 0; }
+
+  /// Gives the memory back.
+  void reset() {
+    releaseBytes(allocator_, data_, capacity_ * sizeof(T));
+    data_ = nullptr;
+    size_ = capacity_ = 0;
+  }
+
+  [[nodiscard]] bool reserve(size_t capacity) {
+    if (capacity <= capacity_) return true;
+    if (capacity > SIZE_MAX / sizeof(T)) return false;
+    T* data = static_cast<T*>(allocateBytes(allocator_, capacity * sizeof(T)));
+    if (data == nullptr) return false;
+    if (size_ != 0) std::memcpy(static_cast<void*>(data), data_, size_ * sizeof(T));
+    releaseBytes(allocator_, data_, capacity_ * sizeof(T));
+    data_ = data;
+    capacity_ = capacity;
+    return true;
+  }
+
+  /// New elements are uninitialised.
+  [[nodiscard]] bool resize(size_t size) {
+    if (!reserve(size)) return false;
+    size_ = size;
+    return true;
+  }
+
+  [[nodiscard]] bool assign(size_t size, T value) {
+    if (!resize(size)) return false;
+    for (size_t i = 0; i < size; ++i) data_[i] = value;
+    return true;
+  }
+
+  [[nodiscard]] bool push_back(T value) {
+    if (size_ == capacity_ && !grow()) return false;
+    data_[size_++] = value;
+    return true;
+  }
+
+  void swap(Array& other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    std::swap(capacity_, other.capacity_);
+    std::swap(allocator_, other.allocator_);
+  }
+
+ private:
+  bool grow() { return reserve(capacity_ < 16 ? 16 : capacity_ + capacity_ / 2); }
+
+  T* data_ = nullptr;
+  size_t size_ = 0;
+  size_t capacity_ = 0;
+  Allocator allocator_;
+};
+
+}  // namespace mcc
+
+#endif  // MCC_BASE_MEMORY_H_

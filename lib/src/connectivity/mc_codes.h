@@ -1,0 +1,708 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Mesh Collapse Compression after Isenburg & Snoeyink: the operations in decoding order.     [A.4]
+//
+// State. The digons are circular lists of nodes: the link of the (implicit) mc-vertex, one node per edge
+// mc-vertex -- vertex. `top` is the vertex end of the mc-edge of the digon at work, `stack` holds the tops of the
+// digons that wait. The gate of node i is the edge from its vertex to the vertex of next(i), seen from the
+// side that is not decoded yet.
+//
+//            a3 ---- a2                   EXPAND(v, r): v takes the r gates after top = a0; the r-1 nodes between
+//           /   \   /  \                  a0 and a_r close. mc-expand of degree r+3.
+//         a4 --  mc --  a1   <- gates     SPUR: EXPAND with r = 0: v hangs on the top; the top's vertex has
+//           \   /  \   /                        two nodes from now on. mc-expand of degree 3.
+//            a5 ---- a0 = top             END(v1, v2): trivial digon; the digon at work is pushed (paper: E)
+//                                         START: the digon on the stack is joined: mc-join (paper: S), a property of
+//                                                the operation before it, whose vertex is the stack's top
+//                                         TWIG:  END then START: a spur whose top stays (paper: E, S)
+//                                         HANDLE: like START, but splits the cycle and puts the other part
+//                                                back into the stack (paper: M)
+//                                         finish: the mc-vertex takes all gates (END with an empty stack, last op)
+//
+// Triangles are final as soon as they are emitted, twins are known in the same step: every gate carries the
+// half-edge of the finished triangle behind it, or the gate it is glued to, or kGateBoundary.
+#ifndef MCC_CONNECTIVITY_MC_CODES_H_
+#define MCC_CONNECTIVITY_MC_CODES_H_
+
+#include <algorithm>
+#include <cstdint>
+
+#include "base/memory.h"
+#include "entropy/models.h"
+#include "entropy/numbers.h"
+#include "mcc/reader.h"
+#include "mesh/face_mesh.h"
+
+namespace mcc {
+
+inline constexpr uint32_t kContextSetCount = 5;
+
+/// Vertex of all dummies: the apex of the cone over a hole. Triangles with it are not emitted.
+inline constexpr uint32_t kDummyVertex = kMaxVertices;
+
+/// Claims of the piece header about its connectivity.
+struct McCounts {
+  uint32_t operation_count = 0;
+  uint32_t vertex_count = 0;
+  uint32_t dummy_count = 0;
+  uint32_t face_count = 0;
+  bool has_handles = false;
+};
+
+enum class McKind : uint8_t { kExpand, kTwig, kEnd };
+enum class McJoin : uint8_t { kSimple, kStart, kHandle };
+
+/// One operation as the collapse recorded it; the list is replayed from the back. Encoder only.
+struct McOperation {
+  McKind kind = McKind::kExpand;
+  McJoin join = McJoin::kSimple;
+  bool finishes = false;  ///< kEnd: a component ends before this operation (in decoding order)
+  uint32_t degree = 0;    ///< kExpand: r
+  uint32_t vertex_a = 0;  ///< the removed vertex; kEnd: v1
+  uint32_t vertex_b = 0;  ///< kEnd, kTwig: v2
+  uint32_t node_a = 0;    ///< collapse nodes that this operation creates when decoded
+  uint32_t node_b = 0;
+  uint32_t first_gate = 0;  ///< kExpand: index of the first of r gates in McRecord::gates
+  uint32_t handle = 0;      ///< kHandle: index in McRecord::handles
+};
+
+struct McHandle {
+  uint32_t node = 0;         ///< collapse node on the waiting digon
+  uint32_t top = 0;          ///< collapse node: top of the waiting digon
+  uint32_t stack_depth = 0;  ///< digons above it
+};
+
+/// mc-vertex of a component and the gates of its last digon.
+struct McComponent {
+  uint32_t vertex = 0;
+  uint32_t first_gate =
+      0;  ///< as many gates as the last digon has nodes, counterclockwise from its top
+  uint32_t operation = 0;  ///< number of operations recorded before the component's last
+};
+
+// --- models ----------------------------------------------------------------------------------------
+
+/// Classes of operations in contexts: EXPAND by degree 0..4, TWIG, END.
+inline constexpr uint32_t kClassCount = 7;
+inline constexpr uint32_t kClassTwig = 5;
+inline constexpr uint32_t kClassEnd = 6;
+inline constexpr uint32_t kStartAges = 6;
+
+struct McModels {
+  explicit McModels(const Allocator& allocator) : run(allocator), special(allocator) {}
+
+  BitModel start[kStartAges];
+  BitModel kind_spur[4];
+  BitModel kind_twig[4];
+  BitModel kind_start[4];
+  BitModel kind_end[4];
+  BitModel kind_handle;
+  BitModel finish;
+  BitModel joined_spur[2];
+  BitModel dummy_end[2];
+  BitModel dummy_twig;
+  BitModel dummy_finish;
+  GolombModel dummy_degree;
+  GolombModel handle_node;
+  GolombModel handle_top;
+  GolombModel handle_depth;
+  Array<BitModel> run;  ///< sized by the context set
+  Array<BitModel> special;
+  uint32_t context_set = 0;
+
+  [[nodiscard]] bool init(uint32_t set);
+};
+
+inline constexpr uint32_t kRunContexts = 4 * 16 * 2;  ///< position, degree, shared
+inline constexpr uint32_t kPatternClasses =
+    5;  ///< context set 4: class of one of the last four operations
+inline constexpr uint32_t kPatterns = 625;
+
+constexpr uint32_t runContextFactor(uint32_t set) {
+  switch (set) {
+    case 1: return 8;
+    case 2: return kClassCount * kClassCount;
+    case 3: return 16 * 16;
+    case 4: return kPatterns;
+    default: return 1;
+  }
+}
+constexpr uint32_t specialContextFactor(uint32_t set) { return set == 4 ? kPatterns : 49; }
+
+inline bool McModels::init(uint32_t set) {
+  context_set = set;
+  return run.assign(kRunContexts * runContextFactor(set), BitModel{}) &&
+         special.assign(8 * specialContextFactor(set), BitModel{});
+}
+
+// --- the machine -----------------------------------------------------------------------------------
+
+inline constexpr uint32_t kGateFlag = 1u << 31;  ///< gate | kGateFlag: glued to another gate
+inline constexpr uint32_t kGateBoundary = kNone;
+inline constexpr uint32_t kClosedNode = kNone;  ///< vertex of a node that left its digon
+
+struct McNode {
+  uint32_t next;
+  uint32_t vertex;
+  uint32_t gate;    ///< half-edge behind the gate, kGateFlag | node, or kGateBoundary
+  uint16_t degree;  ///< edges of the vertex so far, saturating
+  uint16_t shared;  ///< the vertex has another node
+};
+
+/// What the encoder knows and the decoder learns; null pointers when decoding.
+struct McTruth {
+  const McOperation* operations = nullptr;  ///< in collapse order
+  const McHandle* handles = nullptr;
+  const McComponent* components = nullptr;  ///< in collapse order
+  uint32_t component_count = 0;
+  const uint32_t* gates = nullptr;
+  const uint8_t* vertex_is_dummy = nullptr;   ///< by source vertex
+  uint32_t* node_of_collapse_node = nullptr;  ///< work space
+  uint32_t* source_of_vertex = nullptr;       ///< out: source vertex of each decoded vertex
+  uint32_t* source_gate_of_face = nullptr;    ///< out: source half-edge of half-edge 8f+1
+};
+
+template <class Io>
+class McMachine {
+ public:
+  McMachine(Io& io, McModels& models, const McCounts& counts, const Allocator& allocator,
+            FaceMesh& mesh, const McTruth& truth, CodeHistogram* histogram)
+      : io_(io),
+        models_(models),
+        counts_(counts),
+        nodes_(allocator),
+        stack_(allocator),
+        mesh_(mesh),
+        truth_(truth),
+        histogram_(histogram) {}
+
+  /// Runs all operations; fills `mesh`, whose words have been sized for counts.face_count.
+  Status run();
+
+ private:
+  // Coding of one operation.
+  Status codeOperation(const McOperation* op);
+  Status codeEnd(const McOperation* op, bool first);
+  Status codeExpand(const McOperation* op, McJoin join);
+  Status codeRun(const McOperation* op, uint32_t vertex, bool dummy);
+  Status expandSpur(const McOperation* op, uint32_t vertex);
+  uint32_t runContext(uint32_t position, uint32_t node) const;
+  uint32_t specialContext() const;
+  bool codeStartFlag(const McOperation* op);
+  void remember(uint32_t operation_class);
+
+  // Changes of the lists.
+  Status newNode(uint32_t vertex, uint32_t degree, uint32_t& node);
+  Status newVertex(bool dummy, uint32_t source, uint32_t& vertex);
+  Status takeGate(uint32_t vertex, uint32_t node, uint32_t source_gate);
+  void openFan();
+  void closeFan(uint32_t left, uint32_t right);
+  void closeNodes(uint32_t first, uint32_t node_count);
+  Status spur(uint32_t vertex, uint32_t& first, uint32_t& second);
+  void swapLinks(uint32_t a, uint32_t b);
+  void pointBack(uint32_t node);
+  Status joinStart();
+  Status joinHandle(const McOperation* op, uint32_t handle_node);
+  Status finishComponent();
+  void count(uint64_t CodeHistogram::*field) {
+    if (histogram_ != nullptr) [[unlikely]]
+      ++(histogram_->*field);
+  }
+  void countDegree(uint32_t degree) {
+    if (histogram_ != nullptr) [[unlikely]]
+      ++histogram_->degree[std::min(degree, 255u)];
+  }
+
+  static void addDegree(McNode& node, uint32_t edges) {
+    node.degree = static_cast<uint16_t>(std::min<uint32_t>(node.degree + edges, 0xffff));
+  }
+
+  Io& io_;
+  McModels& models_;
+  const McCounts counts_;
+  Array<McNode> nodes_;
+  Array<uint32_t> stack_;
+  FaceMesh& mesh_;
+  const McTruth truth_;
+  CodeHistogram* histogram_;
+
+  uint32_t top_ = kNone;
+  uint32_t vertex_count_ = 0;
+  uint32_t dummy_count_ = 0;
+  uint32_t face_count_ = 0;
+  uint32_t component_ = 0;
+  uint32_t age_ = 0;  ///< operations since the last END
+  uint32_t last_class_ = kClassEnd;
+  uint32_t class_before_ = kClassEnd;
+  uint32_t pattern_ = 0;        ///< last four operations, context set 4
+  uint32_t fan_first_ = kNone;  ///< of the fan being emitted: first triangle's left half-edge
+  uint32_t fan_last_ = kNone;   ///< ... last triangle's right half-edge
+  bool fan_empty_ = true;
+};
+
+template <class Io>
+Status McMachine<Io>::run() {
+  // Nodes are about one per vertex; the bound below holds for every stream, see newNode().
+  if (!nodes_.reserve(std::min<uint64_t>(counts_.vertex_count, 1u << 16))) {
+    return fail(Error::kOutOfMemory, "no memory for the connectivity decoder");
+  }
+  for (uint32_t i = 0; i < counts_.operation_count; ++i) {
+    const McOperation* op =
+        Io::kEncoding ? truth_.operations + (counts_.operation_count - 1 - i) : nullptr;
+    MCC_TRY(top_ == kNone ? codeEnd(op, true) : codeOperation(op));
+    if ((i & 0xfff) == 0 && io_.overrun()) {
+      return fail(Error::kTruncated, "the code stream ends before its last operation");
+    }
+  }
+  if (top_ != kNone) MCC_TRY(finishComponent());
+  if (vertex_count_ != counts_.vertex_count || face_count_ != counts_.face_count ||
+      dummy_count_ != counts_.dummy_count) {
+    return fail(Error::kBadConnectivity,
+                "the codes do not yield the counts that the header claims");
+  }
+  mesh_.face_count = face_count_;
+  mesh_.vertex_count = vertex_count_;
+  return {};
+}
+
+// --- coding ----------------------------------------------------------------------------------------
+
+template <class Io>
+uint32_t McMachine<Io>::specialContext() const {
+  const uint32_t degree = std::min<uint32_t>(nodes_[top_].degree, 7);
+  if (models_.context_set == 4) return degree * kPatterns + pattern_;
+  return degree * 49 + last_class_ * kClassCount + class_before_;
+}
+
+template <class Io>
+uint32_t McMachine<Io>::runContext(uint32_t position, uint32_t node) const {
+  const McNode& n = nodes_[node];
+  const uint32_t base =
+      (std::min(position, 4u) - 1) * 32 + std::min<uint32_t>(n.degree, 15) * 2 + n.shared;
+  switch (models_.context_set) {
+    case 1: return base * 8 + std::min<uint32_t>(nodes_[n.next].degree, 7);
+    case 2: return base * 49 + last_class_ * kClassCount + class_before_;
+    case 3:
+      return base * 256 + std::min<uint32_t>(nodes_[n.next].degree, 15) * 16 +
+             std::min<uint32_t>(nodes_[top_].degree, 15);
+    case 4: return base * kPatterns + pattern_;
+    default: return base;
+  }
+}
+
+template <class Io>
+void McMachine<Io>::remember(uint32_t operation_class) {
+  class_before_ = last_class_;
+  last_class_ = operation_class;
+  constexpr uint8_t kPatternOfClass[kClassCount] = {0, 1, 2, 3, 3, 4, 4};
+  pattern_ =
+      pattern_ % (kPatterns / kPatternClasses) * kPatternClasses + kPatternOfClass[operation_class];
+}
+
+template <class Io>
+bool McMachine<Io>::codeStartFlag(const McOperation* op) {
+  if (age_ >= kStartAges || stack_.empty()) return false;
+  return io_.bit(models_.start[age_],
+                 Io::kEncoding && op->kind == McKind::kExpand && op->join == McJoin::kStart);
+}
+
+template <class Io>
+Status McMachine<Io>::codeOperation(const McOperation* op) {
+  if (codeStartFlag(op)) return codeExpand(op, McJoin::kStart);
+  const bool is_special =
+      Io::kEncoding && (op->kind != McKind::kExpand || op->join != McJoin::kSimple ||
+                        op->degree == 0 || truth_.vertex_is_dummy[op->vertex_a] != 0);
+  if (!io_.bit(models_.special[specialContext()], is_special)) {
+    uint32_t vertex = 0;
+    MCC_TRY(newVertex(false, Io::kEncoding ? op->vertex_a : 0, vertex));
+    return codeRun(op, vertex, false);
+  }
+  const uint32_t context = std::min<uint32_t>(std::max<uint32_t>(nodes_[top_].degree, 1) - 1, 3);
+  const bool plain_expand = Io::kEncoding && op->kind == McKind::kExpand &&
+                            op->join == McJoin::kSimple &&
+                            truth_.vertex_is_dummy[op->vertex_a] == 0;
+  if (io_.bit(models_.kind_spur[context], plain_expand)) {
+    uint32_t vertex = 0;
+    MCC_TRY(newVertex(false, Io::kEncoding ? op->vertex_a : 0, vertex));
+    return expandSpur(op, vertex);
+  }
+  if (io_.bit(models_.kind_twig[context], Io::kEncoding && op->kind == McKind::kTwig)) {
+    const bool dummy =
+        dummy_count_ < counts_.dummy_count &&
+        io_.bit(models_.dummy_twig, Io::kEncoding && truth_.vertex_is_dummy[op->vertex_b] != 0);
+    uint32_t vertex = 0;
+    MCC_TRY(newVertex(dummy, Io::kEncoding ? op->vertex_b : 0, vertex));
+    uint32_t tip = 0;
+    uint32_t copy = 0;
+    MCC_TRY(spur(vertex, tip, copy));
+    if constexpr (Io::kEncoding) {
+      truth_.node_of_collapse_node[op->node_a] = copy;
+      truth_.node_of_collapse_node[op->node_b] = tip;
+    }
+    nodes_[copy].shared = nodes_[top_].shared;
+    nodes_[top_].shared = 1;
+    addDegree(nodes_[copy], 1);
+    top_ = copy;
+    ++age_;
+    remember(kClassTwig);
+    count(&CodeHistogram::end);
+    count(&CodeHistogram::start);
+    return {};
+  }
+  if (!stack_.empty() &&
+      io_.bit(models_.kind_start[context],
+              Io::kEncoding && op->kind == McKind::kExpand && op->join == McJoin::kStart)) {
+    return codeExpand(op, McJoin::kStart);
+  }
+  const bool may_be_other = counts_.has_handles || dummy_count_ < counts_.dummy_count;
+  if (!may_be_other ||
+      io_.bit(models_.kind_end[context], Io::kEncoding && op->kind == McKind::kEnd)) {
+    return codeEnd(op, false);
+  }
+  const bool handle_possible = counts_.has_handles;
+  const bool dummy_possible = dummy_count_ < counts_.dummy_count;
+  bool handle = handle_possible;
+  if (handle_possible && dummy_possible) {
+    handle = io_.bit(models_.kind_handle, Io::kEncoding && op->join == McJoin::kHandle);
+  }
+  if (handle) return codeExpand(op, McJoin::kHandle);
+  uint32_t vertex = 0;
+  MCC_TRY(newVertex(true, Io::kEncoding ? op->vertex_a : 0, vertex));
+  count(&CodeHistogram::dummy);
+  return codeRun(op, vertex, true);
+}
+
+/// END, with the end of the component before it if the stack is empty. [A.4.3]
+template <class Io>
+Status McMachine<Io>::codeEnd(const McOperation* op, bool first) {
+  if (!first) {
+    bool finishes = false;
+    if (stack_.empty()) finishes = io_.bit(models_.finish, Io::kEncoding && op->finishes);
+    if (finishes) {
+      MCC_TRY(finishComponent());
+    } else if (!stack_.push_back(top_)) {
+      return fail(Error::kOutOfMemory, "no memory for the digon stack");
+    }
+  }
+  uint32_t vertex[2] = {};
+  for (int i = 0; i < 2; ++i) {
+    const uint32_t source = Io::kEncoding ? (i == 0 ? op->vertex_a : op->vertex_b) : 0;
+    const bool dummy =
+        dummy_count_ < counts_.dummy_count &&
+        io_.bit(models_.dummy_end[i], Io::kEncoding && truth_.vertex_is_dummy[source] != 0);
+    MCC_TRY(newVertex(dummy, source, vertex[i]));
+  }
+  uint32_t a = 0;
+  uint32_t b = 0;
+  MCC_TRY(newNode(vertex[0], 1, a));
+  MCC_TRY(newNode(vertex[1], 1, b));
+  if constexpr (Io::kEncoding) {
+    truth_.node_of_collapse_node[op->node_a] = a;
+    truth_.node_of_collapse_node[op->node_b] = b;
+  }
+  nodes_[a].next = b;
+  nodes_[b].next = a;
+  nodes_[a].gate = kGateFlag | b;
+  nodes_[b].gate = kGateFlag | a;
+  top_ = a;
+  age_ = 0;
+  remember(kClassEnd);
+  count(&CodeHistogram::end);
+  return {};
+}
+
+/// EXPAND joined with another digon: its vertex is not new. [A.4.4]
+template <class Io>
+Status McMachine<Io>::codeExpand(const McOperation* op, McJoin join) {
+  uint32_t vertex = 0;
+  uint32_t handle_node = kNone;
+  if (join == McJoin::kStart) {
+    vertex = nodes_[stack_.back()].vertex;
+    if (vertex == kClosedNode) return fail(Error::kBadConnectivity, "a waiting digon was closed");
+  } else {
+    const uint32_t last = static_cast<uint32_t>(nodes_.size()) - 1;
+    uint32_t back = 0;
+    if constexpr (Io::kEncoding) {
+      back = last - truth_.node_of_collapse_node[truth_.handles[op->handle].node];
+    }
+    back = codeGolomb(io_, models_.handle_node, back);
+    if (back > last)
+      return fail(Error::kBadConnectivity, "a handle refers to a node that is not there");
+    handle_node = last - back;
+    vertex = nodes_[handle_node].vertex;
+    if (vertex == kClosedNode)
+      return fail(Error::kBadConnectivity, "a handle refers to a closed node");
+  }
+  const bool dummy = vertex == kDummyVertex;
+  const bool is_spur = !dummy && io_.bit(models_.joined_spur[join == McJoin::kStart ? 0 : 1],
+                                         Io::kEncoding && op->degree == 0);
+  MCC_TRY(is_spur ? expandSpur(op, vertex) : codeRun(op, vertex, dummy));
+  return join == McJoin::kStart ? joinStart() : joinHandle(op, handle_node);
+}
+
+/// EXPAND of degree 3: takes no gate. [A.4.5]
+template <class Io>
+Status McMachine<Io>::expandSpur(const McOperation* op, uint32_t vertex) {
+  uint32_t tip = 0;
+  uint32_t copy = 0;
+  MCC_TRY(spur(vertex, tip, copy));
+  if constexpr (Io::kEncoding) {
+    truth_.node_of_collapse_node[op->node_a] = tip;
+    truth_.node_of_collapse_node[op->node_b] = copy;
+  }
+  nodes_[copy].shared = 1;
+  addDegree(nodes_[top_], 1);
+  top_ = tip;
+  ++age_;
+  remember(0);
+  countDegree(3);
+  return {};
+}
+
+/// The degree of an EXPAND, gate by gate: "close the next vertex too?". [A.4.5]
+template <class Io>
+Status McMachine<Io>::codeRun(const McOperation* op, uint32_t vertex, bool dummy) {
+  uint32_t degree = 0;
+  if (dummy) {
+    degree = codeGolomb(io_, models_.dummy_degree, Io::kEncoding ? op->degree : 0);
+    if (degree == 0) return expandSpur(op, vertex);
+  }
+  openFan();
+  const uint32_t first_closed = nodes_[top_].next;
+  uint32_t q = top_;
+  uint32_t taken = 0;
+  for (;;) {
+    MCC_TRY(takeGate(vertex, q, Io::kEncoding ? truth_.gates[op->first_gate + taken] : 0));
+    ++taken;
+    q = nodes_[q].next;
+    if (q == top_) {
+      if (dummy && taken != degree) {
+        return fail(Error::kBadConnectivity, "a dummy vertex takes more edges than its digon has");
+      }
+      break;
+    }
+    if (dummy) {
+      if (taken == degree) break;
+    } else if (!io_.bit(models_.run[runContext(taken, q)], Io::kEncoding && taken < op->degree)) {
+      break;
+    }
+  }
+  closeNodes(first_closed, taken - 1);
+  uint32_t node = 0;
+  MCC_TRY(newNode(vertex, taken + 1, node));
+  if constexpr (Io::kEncoding) truth_.node_of_collapse_node[op->node_a] = node;
+  addDegree(nodes_[top_], 1);
+  addDegree(nodes_[q], 1);
+  nodes_[top_].next = node;
+  nodes_[node].next = q;
+  closeFan(top_, node);
+  top_ = node;
+  ++age_;
+  remember(std::min(taken, 4u));
+  countDegree(taken + 3);
+  return {};
+}
+
+// --- lists -----------------------------------------------------------------------------------------
+
+template <class Io>
+Status McMachine<Io>::newNode(uint32_t vertex, uint32_t degree, uint32_t& node) {
+  if (nodes_.size() >= kMaxVertices) return fail(Error::kLimit, "too many digon nodes");
+  node = static_cast<uint32_t>(nodes_.size());
+  const uint16_t clamped = static_cast<uint16_t>(std::min(degree, 0xffffu));
+  if (!nodes_.push_back(McNode{node, vertex, kGateBoundary, clamped, 0})) {
+    return fail(Error::kOutOfMemory, "no memory for the connectivity decoder");
+  }
+  return {};
+}
+
+template <class Io>
+Status McMachine<Io>::newVertex(bool dummy, uint32_t source, uint32_t& vertex) {
+  if (dummy) {
+    ++dummy_count_;  // callers tested that a dummy is left
+    vertex = kDummyVertex;
+    return {};
+  }
+  if (vertex_count_ == counts_.vertex_count) {
+    return fail(Error::kBadConnectivity, "the codes create more vertices than the header claims");
+  }
+  if constexpr (Io::kEncoding) truth_.source_of_vertex[vertex_count_] = source;
+  vertex = vertex_count_++;
+  return {};
+}
+
+template <class Io>
+void McMachine<Io>::openFan() {
+  fan_empty_ = true;
+  fan_first_ = kNone;
+  fan_last_ = kNone;
+}
+
+/// Emits triangle (vertex, node's vertex, next node's vertex) behind the gate of `node`.
+template <class Io>
+Status McMachine<Io>::takeGate(uint32_t vertex, uint32_t node, uint32_t source_gate) {
+  const McNode& n = nodes_[node];
+  const uint32_t gate = n.gate;
+  const uint32_t va = n.vertex;
+  const uint32_t vb = nodes_[n.next].vertex;
+  uint32_t* words = mesh_.words.data();
+  uint32_t left = kNone;
+  uint32_t right = kNone;
+  uint32_t base = kNone;
+  if (std::max(vertex, std::max(va, vb)) < kDummyVertex) [[likely]] {
+    if (face_count_ == counts_.face_count) {
+      return fail(Error::kBadConnectivity, "the codes yield more triangles than the header claims");
+    }
+    if constexpr (Io::kEncoding) truth_.source_gate_of_face[face_count_] = source_gate;
+    left = face_count_++ * kFaceWords;
+    base = left + 1;
+    right = left + 2;
+    words[left] = vertex;
+    words[base] = va;
+    words[right] = vb;
+    words[left + kFaceWord] = 0;
+    words[left + kSeamWord] = 0;
+    words[left + 4] = words[base + 4] = words[right + 4] = kNone;
+  }
+  if (gate < kGateFlag) {
+    words[gate + 4] = base;
+    if (base != kNone) words[base + 4] = gate;
+  } else if (gate != kGateBoundary) {
+    nodes_[gate ^ kGateFlag].gate = base;  // kNone is kGateBoundary
+  }
+  if (fan_empty_) {
+    fan_empty_ = false;
+    fan_first_ = left;
+  } else {
+    if (left != kNone) words[left + 4] = fan_last_;
+    if (fan_last_ != kNone) words[fan_last_ + 4] = left;
+  }
+  fan_last_ = right;
+  return {};
+}
+
+/// Invariant: `next` permutes the open nodes, so every walk along a digon ends where it began. Only handles can
+/// refer to other nodes than those of the digon at work, so only then closed nodes need a mark.
+template <class Io>
+void McMachine<Io>::closeNodes(uint32_t first, uint32_t node_count) {
+  if (!counts_.has_handles) return;
+  for (uint32_t i = 0, q = first; i < node_count; ++i, q = nodes_[q].next) {
+    nodes_[q].vertex = kClosedNode;
+  }
+}
+
+template <class Io>
+void McMachine<Io>::closeFan(uint32_t left, uint32_t right) {
+  nodes_[left].gate = fan_first_;
+  nodes_[right].gate = fan_last_;
+}
+
+/// Inserts `tip` (of a new vertex) and `copy` (of the top's vertex) behind the top: top -> tip -> copy.
+template <class Io>
+Status McMachine<Io>::spur(uint32_t vertex, uint32_t& tip, uint32_t& copy) {
+  MCC_TRY(newNode(nodes_[top_].vertex, nodes_[top_].degree + 1u, copy));
+  MCC_TRY(newNode(vertex, 1, tip));
+  McNode& t = nodes_[top_];
+  addDegree(t, 1);
+  nodes_[copy].next = t.next;
+  nodes_[copy].gate = t.gate;
+  pointBack(copy);
+  nodes_[tip].next = copy;
+  t.next = tip;
+  t.gate = kGateFlag | tip;
+  nodes_[tip].gate = kGateFlag | top_;
+  return {};
+}
+
+/// The gate glued to the gate of `node`, if any, learns where that gate is now.
+template <class Io>
+void McMachine<Io>::pointBack(uint32_t node) {
+  const uint32_t gate = nodes_[node].gate;
+  if (gate >= kGateFlag && gate != kGateBoundary) nodes_[gate ^ kGateFlag].gate = kGateFlag | node;
+}
+
+template <class Io>
+void McMachine<Io>::swapLinks(uint32_t a, uint32_t b) {
+  std::swap(nodes_[a].next, nodes_[b].next);
+  if (nodes_[a].gate == (kGateFlag | b)) return;  // glued to each other: still so
+  std::swap(nodes_[a].gate, nodes_[b].gate);
+  pointBack(a);
+  pointBack(b);
+}
+
+template <class Io>
+Status McMachine<Io>::joinStart() {
+  const uint32_t s = stack_.back();
+  stack_.pop_back();
+  swapLinks(top_, s);
+  const uint32_t degree = uint32_t{nodes_[top_].degree} + nodes_[s].degree;
+  nodes_[s].degree = static_cast<uint16_t>(std::min(degree, 0xffffu));
+  nodes_[s].shared = 1;
+  nodes_[top_].degree = static_cast<uint16_t>(std::min(degree + 1, 0xffffu));
+  count(&CodeHistogram::start);
+  return {};
+}
+
+/// Splits the cycle at two nodes of one vertex; the other part waits below `depth` digons.
+template <class Io>
+Status McMachine<Io>::joinHandle(const McOperation* op, uint32_t handle_node) {
+  uint32_t other_top = 0;
+  uint32_t depth = 0;
+  if constexpr (Io::kEncoding) {
+    other_top = truth_.node_of_collapse_node[truth_.handles[op->handle].top];
+    depth = truth_.handles[op->handle].stack_depth;
+  }
+  const int32_t difference =
+      codeSignedGolomb(io_, models_.handle_top, static_cast<int32_t>(other_top - handle_node));
+  other_top = handle_node + static_cast<uint32_t>(difference);
+  depth = codeGolomb(io_, models_.handle_depth, depth);
+  if (other_top >= nodes_.size() || depth > stack_.size() ||
+      nodes_[other_top].vertex == kClosedNode || nodes_[handle_node].vertex == kClosedNode) {
+    return fail(Error::kBadConnectivity, "a handle refers to a digon that is not there");
+  }
+  swapLinks(top_, handle_node);
+  if (!stack_.push_back(0)) return fail(Error::kOutOfMemory, "no memory for the digon stack");
+  const size_t place = stack_.size() - 1 - depth;
+  for (size_t i = stack_.size() - 1; i > place; --i) stack_[i] = stack_[i - 1];
+  stack_[place] = other_top;
+  nodes_[handle_node].shared = 1;
+  addDegree(nodes_[top_], 1);
+  count(&CodeHistogram::handle);
+  return {};
+}
+
+/// The mc-vertex takes all gates of the last digon. [A.4.6]
+template <class Io>
+Status McMachine<Io>::finishComponent() {
+  if (!stack_.empty()) {
+    return fail(Error::kBadConnectivity, "a component ends while digons wait on the stack");
+  }
+  const McComponent* component = nullptr;
+  if constexpr (Io::kEncoding) {
+    component = truth_.components + (truth_.component_count - 1 - component_);
+  }
+  const bool dummy = dummy_count_ < counts_.dummy_count &&
+                     io_.bit(models_.dummy_finish,
+                             Io::kEncoding && truth_.vertex_is_dummy[component->vertex] != 0);
+  uint32_t vertex = 0;
+  MCC_TRY(newVertex(dummy, Io::kEncoding ? component->vertex : 0, vertex));
+  openFan();
+  uint32_t q = top_;
+  uint32_t taken = 0;
+  do {
+    MCC_TRY(takeGate(vertex, q, Io::kEncoding ? truth_.gates[component->first_gate + taken] : 0));
+    ++taken;
+    q = nodes_[q].next;
+  } while (q != top_);
+  closeNodes(top_, taken);
+  uint32_t* words = mesh_.words.data();
+  if (fan_first_ != kNone) words[fan_first_ + 4] = fan_last_;
+  if (fan_last_ != kNone) words[fan_last_ + 4] = fan_first_;
+  top_ = kNone;
+  ++component_;
+  return {};
+}
+
+}  // namespace mcc
+
+#endif  // MCC_CONNECTIVITY_MC_CODES_H_

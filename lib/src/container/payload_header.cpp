@@ -1,0 +1,235 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "container/payload_header.h"
+
+#include <bit>
+#include <cstring>
+
+#include "base/crc32.h"
+
+namespace mcc {
+namespace {
+
+constexpr uint32_t kMaxContextSet = 4;
+constexpr uint32_t kMaxLatticeBits = 24;
+
+bool isFinitePositive(float value) {
+  const uint32_t bits = std::bit_cast<uint32_t>(value);
+  return bits != 0 && bits < 0x7f800000u;
+}
+bool isFinite(float value) { return (std::bit_cast<uint32_t>(value) & 0x7f800000u) != 0x7f800000u; }
+
+/// [A.2.4]
+Status parseAttribute(ByteReader& in, AttributeInfo& a) {
+  const size_t at = in.offset();
+  uint8_t kind = 0;
+  uint8_t shape = 0;
+  MCC_TRY(in.readU8(kind));
+  MCC_TRY(in.readU8(shape));
+  a = AttributeInfo{};
+  a.format.semantic = static_cast<Semantic>(kind & 7);
+  if (((kind >> 3) & 7) > static_cast<uint8_t>(ComponentType::kFloat32)) {
+    return fail(Error::kBadHeader, "an attribute has an unknown component type", at);
+  }
+  a.format.component_type = static_cast<ComponentType>((kind >> 3) & 7);
+  a.format.normalized = (kind & 0x40) != 0;
+  a.format.component_count = static_cast<uint8_t>((shape & 15) + 1);
+  if ((kind & 0x80) != 0) {
+    MCC_TRY(in.readU8(a.format.set_index));
+    uint32_t target = 0;
+    MCC_TRY(in.readVarint(target));
+    if (target > 0xffff)
+      return fail(Error::kBadHeader, "a morph target number is out of range", at);
+    a.format.morph_target = static_cast<uint16_t>(target);
+  }
+  if ((shape >> 4) > static_cast<uint8_t>(AttributeCoding::kOctahedral)) {
+    return fail(Error::kBadHeader, "an attribute has an unknown coding", at);
+  }
+  a.coding = static_cast<AttributeCoding>(shape >> 4);
+  const bool is_float = a.format.component_type == ComponentType::kFloat32;
+  if (is_float == (a.coding == AttributeCoding::kInteger)) {
+    return fail(Error::kBadHeader, "an attribute's coding does not fit its component type", at);
+  }
+  MCC_TRY(in.readU8(a.predictor));
+  if (a.coding == AttributeCoding::kLattice) {
+    MCC_TRY(in.readU8(a.bits));
+    if (a.bits == 0 || a.bits > kMaxLatticeBits || a.format.component_count > 4) {
+      return fail(Error::kBadHeader, "an attribute's lattice is malformed", at);
+    }
+    MCC_TRY(in.readF32(a.lattice.step));
+    bool finite = isFinitePositive(a.lattice.step);
+    for (uint32_t c = 0; c < a.format.component_count; ++c) {
+      MCC_TRY(in.readF32(a.lattice.origin[c]));
+      finite = finite && isFinite(a.lattice.origin[c]);
+    }
+    if (!finite) return fail(Error::kBadHeader, "an attribute's lattice is not finite", at);
+  } else if (a.coding == AttributeCoding::kOctahedral) {
+    MCC_TRY(in.readU8(a.bits));
+    if (a.bits < 2 || a.bits > 16 || a.format.component_count != 3) {
+      return fail(Error::kBadHeader, "an octahedral attribute is malformed", at);
+    }
+  }
+  return {};
+}
+
+bool isBasePosition(const AttributeInfo& a) {
+  return a.format.semantic == Semantic::kPosition && a.format.morph_target == 0;
+}
+
+/// [A.2.3]
+Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& header,
+                       PieceHeader& piece) {
+  const size_t at = in.offset();
+  piece.first_attribute = static_cast<uint32_t>(header.attributes.size());
+  if (piece.has(piece_flag::kSameAttributes)) {
+    if (header.pieces.empty())
+      return fail(Error::kBadHeader, "the first piece refers to one before it", at);
+    const PieceHeader& before = header.pieces.back();
+    piece.attribute_count = before.attribute_count;
+  } else {
+    MCC_TRY(in.readVarint(piece.attribute_count));
+  }
+  if (piece.attribute_count == 0) return fail(Error::kBadHeader, "a piece has no attributes", at);
+  if (header.attributes.size() + uint64_t{piece.attribute_count} > limits.max_attributes) {
+    return fail(Error::kLimit, "the payload has more attributes than the limit allows", at);
+  }
+  for (uint32_t i = 0; i < piece.attribute_count; ++i) {
+    AttributeInfo a;
+    if (piece.has(piece_flag::kSameAttributes)) {
+      a = header.attributes[header.pieces.back().first_attribute + i];
+    } else {
+      MCC_TRY(parseAttribute(in, a));
+    }
+    if (!header.attributes.push_back(a))
+      return fail(Error::kOutOfMemory, "no memory for the header");
+  }
+  const AttributeInfo& position = header.attributes[piece.first_attribute];
+  if (!isBasePosition(position) || position.format.component_count != 3 ||
+      position.coding == AttributeCoding::kOctahedral) {
+    return fail(Error::kBadHeader, "the first attribute of a piece is not its position", at);
+  }
+  return {};
+}
+
+/// [A.2.2]
+Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, uint64_t& elements) {
+  PieceHeader piece;
+  const size_t at = in.offset();
+  MCC_TRY(in.readVarint(piece.flags));
+  if ((piece.flags & ~piece_flag::kAll) != 0)
+    return fail(Error::kBadHeader, "reserved bits are set", at);
+  uint32_t zigzagged = 0;
+  MCC_TRY(in.readVarint(piece.vertex_count));
+  MCC_TRY(in.readVarint(piece.face_count));
+  MCC_TRY(in.readVarint(zigzagged));
+  piece.operation_count = piece.vertex_count + static_cast<uint32_t>(unzigzag(zigzagged));
+  MCC_TRY(in.readVarint(zigzagged));
+  piece.wedge_count = piece.vertex_count + static_cast<uint32_t>(unzigzag(zigzagged));
+  if (piece.has(piece_flag::kHoles)) MCC_TRY(in.readVarint(piece.dummy_count));
+  if (piece.has(piece_flag::kIsolated)) MCC_TRY(in.readVarint(piece.isolated_count));
+  if (piece.has(piece_flag::kDuplicates)) MCC_TRY(in.readVarint(piece.duplicate_count));
+  if (piece.has(piece_flag::kListed)) MCC_TRY(in.readVarint(piece.listed_count));
+  if (piece.has(piece_flag::kManyParts)) MCC_TRY(in.readVarint(piece.part_count));
+  const uint64_t triangles =
+      uint64_t{piece.face_count} + piece.duplicate_count + piece.listed_count;
+  elements += triangles + piece.vertex_count + piece.wedge_count;
+  if (piece.vertex_count > limits.max_vertices || piece.wedge_count > limits.max_vertices ||
+      piece.vertex_count >= (1u << 28) || piece.wedge_count >= (1u << 28)) {
+    return fail(Error::kLimit, "the payload has more vertices than the limit allows", at);
+  }
+  if (triangles > limits.max_triangles || triangles >= (1u << 28)) {
+    return fail(Error::kLimit, "the payload has more triangles than the limit allows", at);
+  }
+  if (piece.isolated_count > piece.wedge_count || piece.part_count == 0 ||
+      piece.vertex_count > 3 * uint64_t{piece.face_count} ||
+      piece.dummy_count > 3 * uint64_t{piece.face_count} ||
+      (piece.vertex_count != 0) != (piece.face_count != 0) ||
+      piece.operation_count > uint64_t{piece.vertex_count} + 4 * uint64_t{piece.face_count}) {
+    return fail(Error::kBadHeader, "the counts of a piece contradict each other", at);
+  }
+  if (piece.part_count > in.remaining() + 1) {
+    return fail(Error::kTruncated, "the payload ends inside its header", at);
+  }
+  piece.first_part = static_cast<uint32_t>(header.parts.size());
+  uint64_t of_parts = 0;
+  for (uint32_t i = 0; i < piece.part_count; ++i) {
+    PartInfo part{static_cast<uint32_t>(triangles)};
+    if (piece.has(piece_flag::kManyParts)) MCC_TRY(in.readVarint(part.triangle_count));
+    of_parts += part.triangle_count;
+    if (!header.parts.push_back(part)) return fail(Error::kOutOfMemory, "no memory for the header");
+  }
+  if (of_parts != triangles) {
+    return fail(Error::kBadHeader,
+                "the parts of a piece have another number of triangles than the piece", at);
+  }
+  MCC_TRY(parseAttributes(in, limits, header, piece));
+  if (!header.pieces.push_back(piece)) return fail(Error::kOutOfMemory, "no memory for the header");
+  return {};
+}
+
+/// Lengths of all streams but the last, which takes the rest. [A.2.5]
+Status parseStreams(ByteReader& in, PayloadHeader& header) {
+  uint32_t codes_bytes = 0;
+  uint32_t tokens_bytes = 0;
+  if (!header.singleCoder()) {
+    MCC_TRY(in.readVarint(codes_bytes));
+    MCC_TRY(in.readVarint(tokens_bytes));
+  }
+  if ((header.flags & payload_flag::kPadded) != 0) {
+    uint32_t padding = 0;
+    std::span<const uint8_t> zeros;
+    MCC_TRY(in.readVarint(padding));
+    const size_t at = in.offset();
+    MCC_TRY(in.readBytes(padding, zeros));
+    for (const uint8_t byte : zeros) {
+      if (byte != 0) return fail(Error::kBadHeader, "the padding is not zero", at);
+    }
+  }
+  header.header_bytes = in.offset();
+  if (header.singleCoder()) return in.readBytes(in.remaining(), header.codes);
+  MCC_TRY(in.readBytes(codes_bytes, header.codes));
+  MCC_TRY(in.readBytes(tokens_bytes, header.tokens));
+  return in.readBytes(in.remaining(), header.raw);
+}
+
+}  // namespace
+
+Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, PayloadHeader& header) {
+  if (bytes.size() < 3 || std::memcmp(bytes.data(), kMagic, 3) != 0) {
+    return fail(Error::kBadMagic, "the bytes are no mesh collapse payload", 0);
+  }
+  ByteReader in(bytes);
+  std::span<const uint8_t> magic;
+  uint8_t version = 0;
+  uint32_t checksum = 0;
+  MCC_TRY(in.readBytes(3, magic));
+  MCC_TRY(in.readU8(version));
+  if (version >> 4 != kVersionMajor) {
+    return fail(Error::kUnsupportedVersion,
+                "the payload is of a major version this reader does not know", 3);
+  }
+  header.version_minor = version & 15;
+  MCC_TRY(in.readU32(checksum));
+  if (crc32(bytes.subspan(kChecksummedFrom), crc32(bytes.first(kChecksumOffset))) != checksum) {
+    return fail(Error::kBadChecksum, "the checksum does not match: the payload is damaged",
+                kChecksumOffset);
+  }
+  uint8_t flags = 0;
+  MCC_TRY(in.readU8(flags));
+  header.flags = flags;
+  if ((header.flags & ~payload_flag::kAll) != 0 || header.contextSet() > kMaxContextSet) {
+    return fail(Error::kBadHeader, "reserved bits are set", 8);
+  }
+  uint32_t piece_count = 1;
+  if ((flags & payload_flag::kManyPieces) != 0) MCC_TRY(in.readVarint(piece_count));
+  if (piece_count == 0 || piece_count > limits.max_pieces) {
+    return fail(Error::kLimit, "the payload has more pieces than the limit allows", 9);
+  }
+  uint64_t elements = 0;
+  for (uint32_t i = 0; i < piece_count; ++i) MCC_TRY(parsePiece(in, limits, header, elements));
+  if (elements > kMaxElementsPerByte * bytes.size()) {
+    return fail(Error::kLimit, "the payload claims more than its size can hold", 9);
+  }
+  return parseStreams(in, header);
+}
+
+}  // namespace mcc

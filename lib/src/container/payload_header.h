@@ -1,0 +1,99 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The container: header, piece headers, three streams.                                      [A.2]
+#ifndef MCC_CONTAINER_PAYLOAD_HEADER_H_
+#define MCC_CONTAINER_PAYLOAD_HEADER_H_
+
+#include <cstdint>
+#include <span>
+
+#include "base/bytes.h"
+#include "base/memory.h"
+#include "mcc/reader.h"
+#include "mcc/status.h"
+
+namespace mcc {
+
+inline constexpr uint8_t kMagic[3] = {'M', 'C', 'C'};
+inline constexpr uint8_t kVersionMajor = 0;
+inline constexpr uint8_t kVersionMinor = 1;
+inline constexpr size_t kChecksumOffset = 4;
+inline constexpr size_t kChecksummedFrom = 8;  ///< the checksum covers bytes 0..3 and from here on
+
+/// Bound on work per byte: writers pad a payload to keep it.                                [A.2.6]
+inline constexpr uint64_t kMaxElementsPerByte = 4096;
+
+namespace payload_flag {
+inline constexpr uint32_t kSingleCoder = 1u << 0;
+inline constexpr uint32_t kManyPieces = 1u << 1;
+inline constexpr uint32_t kPadded = 1u << 2;
+inline constexpr uint32_t kContextSetShift = 3;  ///< three bits
+inline constexpr uint32_t kAll = 0x3f;
+}  // namespace payload_flag
+
+namespace piece_flag {
+inline constexpr uint32_t kSeams = 1u << 0;
+inline constexpr uint32_t kManyParts = 1u << 1;
+inline constexpr uint32_t kSameAttributes = 1u << 2;
+inline constexpr uint32_t kHoles = 1u << 3;
+inline constexpr uint32_t kHandles = 1u << 4;
+inline constexpr uint32_t kCopies = 1u << 5;
+inline constexpr uint32_t kInteriorCopies = 1u << 6;
+inline constexpr uint32_t kMerges = 1u << 7;
+inline constexpr uint32_t kIsolated = 1u << 8;
+inline constexpr uint32_t kDuplicates = 1u << 9;
+inline constexpr uint32_t kListed = 1u << 10;
+inline constexpr uint32_t kAll = 0x7ff;
+}  // namespace piece_flag
+
+/// Bits of AttributeInfo::predictor of a position.
+namespace position_flag {
+inline constexpr uint8_t kWeighted = 1u << 0;
+inline constexpr uint8_t kShear = 1u << 1;
+inline constexpr uint8_t kOwnWeights = 1u << 2;
+inline constexpr uint8_t kOwnScale = 1u << 3;
+inline constexpr uint8_t kAll = 0x01;
+}  // namespace position_flag
+
+struct PieceHeader {
+  uint32_t flags = 0;
+  uint32_t vertex_count = 0;  ///< umbrellas, i.e. vertices of the cut mesh
+  uint32_t face_count = 0;
+  uint32_t operation_count = 0;
+  uint32_t dummy_count = 0;
+  uint32_t wedge_count = 0;  ///< isolated ones included
+  uint32_t isolated_count = 0;
+  uint32_t duplicate_count = 0;
+  uint32_t listed_count = 0;
+  uint32_t first_part = 0;
+  uint32_t part_count = 1;
+  uint32_t first_attribute = 0;
+  uint32_t attribute_count = 0;
+
+  bool has(uint32_t flag) const { return (flags & flag) != 0; }
+};
+
+struct PayloadHeader {
+  explicit PayloadHeader(const Allocator& allocator)
+      : pieces(allocator), parts(allocator), attributes(allocator) {}
+
+  uint8_t version_minor = 0;
+  uint32_t flags = 0;
+  Array<PieceHeader> pieces;
+  Array<PartInfo> parts;
+  Array<AttributeInfo> attributes;
+  size_t header_bytes = 0;
+  std::span<const uint8_t> codes;
+  std::span<const uint8_t> tokens;
+  std::span<const uint8_t> raw;
+
+  bool singleCoder() const { return (flags & payload_flag::kSingleCoder) != 0; }
+  uint32_t contextSet() const { return flags >> payload_flag::kContextSetShift; }
+};
+
+/// Parses and checks everything before the streams. Allocates in proportion to the bytes only. [A.2.1]
+Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, PayloadHeader& header);
+
+}  // namespace mcc
+
+#endif  // MCC_CONTAINER_PAYLOAD_HEADER_H_

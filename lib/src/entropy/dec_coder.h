@@ -1,0 +1,262 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Entropy decoders.                                                                        [A.3]
+//
+// A payload has three streams: `codes` (binary range coder), `tokens` (three interleaved rANS states) and
+// `raw` (plain bits). A small payload has `codes` alone, and tokens and raw bits go through its range coder.
+// Stage code is written once against the interface of DecoderIo and EncoderIo:
+//   bit(model, truth)            one adaptive binary decision
+//   token<state>(row, schedule, truth)   one of 16 symbols
+//   raw(bits, truth)             up to 32 equiprobable bits
+// The decoder ignores `truth` and returns what it read; the encoder codes `truth` and returns it.
+#ifndef MCC_ENTROPY_DEC_CODER_H_
+#define MCC_ENTROPY_DEC_CODER_H_
+
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <type_traits>
+
+#include "entropy/models.h"
+#include "mcc/status.h"
+
+namespace mcc {
+
+/// Little-endian loads; the compilers turn the shifts into one load.
+inline uint32_t loadU16(const uint8_t* p) { return uint32_t{p[0]} | uint32_t{p[1]} << 8; }
+inline uint32_t loadU32(const uint8_t* p) {
+  return uint32_t{p[0]} | uint32_t{p[1]} << 8 | uint32_t{p[2]} << 16 | uint32_t{p[3]} << 24;
+}
+inline uint64_t loadU64(const uint8_t* p) {
+  return uint64_t{loadU32(p)} | uint64_t{loadU32(p + 4)} << 32;
+}
+
+/// Binary range decoder, 64-bit range, 32-bit words. Behind its end the stream continues with zeros, so
+/// that the writer may drop trailing zero bytes.                                          [A.3.2]
+class RangeDecoder {
+ public:
+  explicit RangeDecoder(std::span<const uint8_t> bytes) : bytes_(bytes) {
+    code_ = uint64_t{nextWord()} << 32;
+    code_ |= nextWord();
+  }
+
+  bool bit(BitModel& model) {
+    const uint64_t split = (range_ >> kProbabilityBits) * model.zeroProbability();
+    const bool one = code_ >= split;
+    const uint64_t mask = ~static_cast<uint64_t>(one) + 1;
+    code_ -= split & mask;
+    range_ = (split & ~mask) | ((range_ - split) & mask);
+    model.update(one);
+    renormalise();
+    return one;
+  }
+
+  /// Value below 2^bits of a symbol interval; consume() must follow.
+  uint32_t peek(uint32_t bits) {
+    const uint64_t value = code_ / (range_ >> bits);
+    const uint64_t last = (uint64_t{1} << bits) - 1;
+    return static_cast<uint32_t>(value < last ? value : last);
+  }
+  void consume(uint32_t start, uint32_t frequency, uint32_t bits) {
+    const uint64_t unit = range_ >> bits;
+    code_ -= unit * start;
+    range_ = unit * frequency;
+    renormalise();
+  }
+
+  /// All bytes were used and not more than the padding zeros besides.
+  bool finished() const { return next_ >= bytes_.size() && next_ <= bytes_.size() + 8; }
+  bool overrun() const { return next_ > bytes_.size() + 8; }
+
+ private:
+  void renormalise() {
+    if (range_ < (uint64_t{1} << 32)) [[unlikely]] {
+      range_ <<= 32;
+      code_ = code_ << 32 | nextWord();
+    }
+  }
+
+  uint32_t nextWord() {
+    uint32_t word = 0;
+    if (next_ + 4 <= bytes_.size()) {
+      word = loadU32(bytes_.data() + next_);
+    } else {
+      for (size_t i = 0; i < 4 && next_ + i < bytes_.size(); ++i) {
+        word |= uint32_t{bytes_[next_ + i]} << (8 * i);
+      }
+    }
+    next_ += 4;
+    return word;
+  }
+
+  std::span<const uint8_t> bytes_;
+  size_t next_ = 0;
+  uint64_t range_ = ~uint64_t{0};
+  uint64_t code_ = 0;
+};
+
+/// Three interleaved rANS states over one sequence of 16-bit words, which starts with the states' first
+/// values (32 bits each).                                                                 [A.3.3]
+class RansDecoder {
+ public:
+  explicit RansDecoder(std::span<const uint8_t> bytes) : bytes_(bytes) {
+    for (uint32_t& state : state_) {
+      state = nextWord();
+      state |= nextWord() << 16;
+      if (state < kRansLow) {
+        overrun_ = true;
+        state = kRansLow;
+      }
+    }
+  }
+
+  template <uint32_t kState>
+  uint32_t token(TokenRow& row, const TokenSchedule& schedule) {
+    uint32_t x = state_[kState];
+    const uint32_t slot = x & (kTokenOne - 1);
+    uint32_t start = 0;
+    uint32_t frequency = 0;
+    const uint32_t symbol = row.findAndAdapt(slot, schedule, start, frequency);
+    x = frequency * (x >> kTokenBits) + slot - start;
+    if (next_ + 2 <= bytes_.size()) [[likely]] {
+      // Branch-free: whether a word is due is close to random.
+      const uint32_t due = x < kRansLow ? 1 : 0;
+      const uint32_t word = loadU16(bytes_.data() + next_);
+      const uint32_t mask = ~due + 1;
+      x = (x << (16 * due)) | (word & mask);
+      next_ += 2 * due;
+    } else if (x < kRansLow) {
+      x = x << 16 | nextWord();
+    }
+    state_[kState] = x;
+    return symbol;
+  }
+
+  bool finished() const {
+    return !overrun_ && next_ == bytes_.size() && state_[0] == kRansLow && state_[1] == kRansLow &&
+           state_[2] == kRansLow;
+  }
+  bool overrun() const { return overrun_; }
+
+ private:
+  uint32_t nextWord() {
+    if (next_ + 2 > bytes_.size()) {
+      overrun_ = true;
+      return 0;
+    }
+    const uint32_t word = loadU16(bytes_.data() + next_);
+    next_ += 2;
+    return word;
+  }
+
+  std::span<const uint8_t> bytes_;
+  size_t next_ = 0;
+  uint32_t state_[kRansStateCount];
+  bool overrun_ = false;
+};
+
+/// Plain bits, least significant first.                                                   [A.3.4]
+class RawBitsDecoder {
+ public:
+  explicit RawBitsDecoder(std::span<const uint8_t> bytes) : bytes_(bytes) {}
+
+  uint32_t read(uint32_t bits) {  // bits <= 32
+    const size_t byte = static_cast<size_t>(next_bit_ >> 3);
+    uint64_t window = 0;
+    if (byte + 8 <= bytes_.size()) [[likely]] {
+      window = loadU64(bytes_.data() + byte);
+    } else {
+      for (size_t i = 0; i < 8 && byte + i < bytes_.size(); ++i) {
+        window |= uint64_t{bytes_[byte + i]} << (8 * i);
+      }
+    }
+    window >>= next_bit_ & 7;
+    next_bit_ += bits;
+    return static_cast<uint32_t>(window & ((uint64_t{1} << bits) - 1));
+  }
+
+  bool finished() const { return (next_bit_ + 7) / 8 == bytes_.size(); }
+  bool overrun() const { return (next_bit_ + 7) / 8 > bytes_.size(); }
+
+ private:
+  std::span<const uint8_t> bytes_;
+  uint64_t next_bit_ = 0;
+};
+
+/// The decoder as stage code sees it. kSingle: everything goes through the range coder.
+template <bool kSingle>
+class DecoderIo {
+ public:
+  static constexpr bool kEncoding = false;
+
+  DecoderIo(std::span<const uint8_t> codes, std::span<const uint8_t> tokens,
+            std::span<const uint8_t> raw)
+      : codes_(codes), tokens_(tokens), raw_(raw) {}
+
+  bool bit(BitModel& model, bool = false) { return codes_.bit(model); }
+
+  template <uint32_t kState>
+  uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t = 0) {
+    if constexpr (kSingle) {
+      const uint32_t slot = codes_.peek(kTokenBits);
+      uint32_t start = 0;
+      uint32_t frequency = 0;
+      const uint32_t symbol = row.findAndAdapt(slot, schedule, start, frequency);
+      codes_.consume(start, frequency, kTokenBits);
+      return symbol;
+    } else {
+      return tokens_.template token<kState>(row, schedule);
+    }
+  }
+
+  uint32_t raw(uint32_t bits, uint32_t = 0) {
+    if constexpr (kSingle) {
+      uint32_t value = 0;
+      for (uint32_t done = 0; done < bits; done += 16) {
+        const uint32_t count = bits - done < 16 ? bits - done : 16;
+        const uint32_t part = codes_.peek(count);
+        codes_.consume(part, 1, count);
+        value |= part << done;
+      }
+      return value;
+    } else {
+      return raw_.read(bits);
+    }
+  }
+
+  /// True once more was read than the streams hold: the values since are meaningless.
+  bool overrun() const {
+    if constexpr (kSingle) {
+      return codes_.overrun();
+    } else {
+      return codes_.overrun() || tokens_.overrun() || raw_.overrun();
+    }
+  }
+
+  /// Checks that every stream was used up exactly.
+  Status finish() const {
+    if (overrun()) return fail(Error::kTruncated, "a stream ends before its last symbol");
+    if (!codes_.finished())
+      return fail(Error::kTrailingBytes, "the code stream has bytes left over");
+    if constexpr (!kSingle) {
+      if (!tokens_.finished()) {
+        return fail(Error::kTrailingBytes,
+                    "the token stream does not end where its last symbol does");
+      }
+      if (!raw_.finished()) return fail(Error::kTrailingBytes, "the raw bits have bytes left over");
+    }
+    return {};
+  }
+
+ private:
+  struct Absent {
+    explicit Absent(std::span<const uint8_t>) {}
+  };
+  RangeDecoder codes_;
+  [[no_unique_address]] std::conditional_t<kSingle, Absent, RansDecoder> tokens_;
+  [[no_unique_address]] std::conditional_t<kSingle, Absent, RawBitsDecoder> raw_;
+};
+
+}  // namespace mcc
+
+#endif  // MCC_ENTROPY_DEC_CODER_H_

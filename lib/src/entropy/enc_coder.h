@@ -1,0 +1,230 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Entropy encoders: the inverses of dec_coder.h, and a coder that only counts.
+#ifndef MCC_ENTROPY_ENC_CODER_H_
+#define MCC_ENTROPY_ENC_CODER_H_
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "entropy/enc_cost.h"
+#include "entropy/models.h"
+
+namespace mcc {
+
+/// Inverse of RangeDecoder.
+class RangeEncoder {
+ public:
+  void bit(const BitModel& model, bool one) {
+    const uint64_t split = (range_ >> kProbabilityBits) * model.zeroProbability();
+    if (one) {
+      add(split);
+      range_ -= split;
+    } else {
+      range_ = split;
+    }
+    renormalise();
+  }
+
+  void symbol(uint32_t start, uint32_t frequency, uint32_t bits) {
+    const uint64_t unit = range_ >> bits;
+    add(unit * start);
+    range_ = unit * frequency;
+    renormalise();
+  }
+
+  /// Ends the stream with as few bytes as tell the last interval; the coder is then empty.
+  std::vector<uint8_t> finish() {
+    // Some multiple of 2^32 lies in [low, low + range), since range >= 2^32.
+    const uint64_t rounded = (low_ + 0xffffffffu) & ~uint64_t{0xffffffffu};
+    add(rounded - low_);
+    emitWord();
+    // The decoder fills up with zeros, and takes at most eight bytes more than there are.
+    for (int i = 0; i < 4 && !bytes_.empty() && bytes_.back() == 0; ++i) bytes_.pop_back();
+    return std::move(bytes_);
+  }
+
+ private:
+  void add(uint64_t value) {
+    low_ += value;
+    if (low_ >= value) return;
+    size_t i = bytes_.size();  // a carry: add one to the number formed by the words written so far
+    for (;;) {
+      i -= 4;
+      uint32_t word = 0;
+      for (size_t k = 0; k < 4; ++k) word |= uint32_t{bytes_[i + k]} << (8 * k);
+      ++word;
+      for (size_t k = 0; k < 4; ++k) bytes_[i + k] = static_cast<uint8_t>(word >> (8 * k));
+      if (word != 0) return;
+    }
+  }
+
+  void renormalise() {
+    if (range_ < (uint64_t{1} << 32)) {
+      emitWord();
+      range_ <<= 32;
+    }
+  }
+
+  void emitWord() {
+    const uint32_t word = static_cast<uint32_t>(low_ >> 32);
+    for (int shift = 0; shift < 32; shift += 8)
+      bytes_.push_back(static_cast<uint8_t>(word >> shift));
+    low_ <<= 32;
+  }
+
+  std::vector<uint8_t> bytes_;
+  uint64_t low_ = 0;
+  uint64_t range_ = ~uint64_t{0};
+};
+
+/// Inverse of RansDecoder: records tokens forwards, codes them backwards.
+class RansEncoder {
+ public:
+  void token(uint32_t state, uint32_t start, uint32_t frequency) {
+    events_.push_back(state << 30 | start << 15 | (frequency - 1));
+  }
+
+  bool empty() const { return events_.empty(); }
+
+  std::vector<uint8_t> finish() {
+    std::vector<uint8_t> reversed;
+    const auto pushWord = [&reversed](uint32_t word) {
+      reversed.push_back(static_cast<uint8_t>(word >> 8));
+      reversed.push_back(static_cast<uint8_t>(word));
+    };
+    uint32_t state[kRansStateCount] = {kRansLow, kRansLow, kRansLow};
+    for (size_t i = events_.size(); i-- != 0;) {
+      const uint32_t frequency = (events_[i] & 0x7fff) + 1;
+      const uint32_t start = (events_[i] >> 15) & 0x7fff;
+      uint32_t& x = state[events_[i] >> 30];
+      if (x >= uint64_t{frequency} << 17) {
+        pushWord(x & 0xffff);
+        x >>= 16;
+      }
+      x = ((x / frequency) << kTokenBits) + x % frequency + start;
+    }
+    for (uint32_t i = kRansStateCount; i-- != 0;) {
+      pushWord(state[i] >> 16);
+      pushWord(state[i] & 0xffff);
+    }
+    std::reverse(reversed.begin(), reversed.end());
+    events_.clear();
+    return reversed;
+  }
+
+ private:
+  std::vector<uint32_t> events_;  // state 2 | start 15 | frequency-1 15
+};
+
+/// Inverse of RawBitsDecoder.
+class RawBitsEncoder {
+ public:
+  void write(uint32_t bits, uint32_t value) {
+    window_ |= uint64_t{value} << count_;
+    count_ += bits;
+    for (; count_ >= 8; count_ -= 8, window_ >>= 8) bytes_.push_back(static_cast<uint8_t>(window_));
+  }
+  std::vector<uint8_t> finish() {
+    if (count_ != 0) bytes_.push_back(static_cast<uint8_t>(window_));
+    window_ = 0;
+    count_ = 0;
+    return std::move(bytes_);
+  }
+
+ private:
+  std::vector<uint8_t> bytes_;
+  uint64_t window_ = 0;
+  uint32_t count_ = 0;
+};
+
+/// Spends nothing but a count: for the encoder's trials.
+class CostIo {
+ public:
+  static constexpr bool kEncoding = true;
+
+  bool bit(BitModel& model, bool truth) {
+    const uint32_t zero = model.zeroProbability();
+    cost_ += costOf(truth ? kProbabilityOne - zero : zero, kProbabilityBits);
+    model.update(truth);
+    return truth;
+  }
+
+  template <uint32_t kState>
+  uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t truth) {
+    cost_ += costOf(row.frequency(truth), kTokenBits);
+    row.adapt(truth, schedule);
+    return truth;
+  }
+
+  uint32_t raw(uint32_t bits, uint32_t truth) {
+    cost_ += uint64_t{bits} * kCostOne;
+    return truth;
+  }
+
+  bool overrun() const { return false; }
+  uint64_t cost() const { return cost_; }  ///< in 1/65536 bit
+
+ protected:
+  uint64_t cost_ = 0;
+};
+
+/// The encoder as stage code sees it, see dec_coder.h. Codes into three streams or, if `single`, into one;
+/// counts the cost besides.
+class EncoderIo : public CostIo {
+ public:
+  explicit EncoderIo(bool single) : single_(single) {}
+
+  bool bit(BitModel& model, bool truth) {
+    codes_.bit(model, truth);
+    return CostIo::bit(model, truth);
+  }
+
+  template <uint32_t kState>
+  uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t truth) {
+    if (single_) {
+      codes_.symbol(row.start(truth), row.frequency(truth), kTokenBits);
+    } else {
+      tokens_.token(kState, row.start(truth), row.frequency(truth));
+    }
+    return CostIo::token<kState>(row, schedule, truth);
+  }
+
+  uint32_t raw(uint32_t bits, uint32_t truth) {
+    if (single_) {
+      for (uint32_t done = 0; done < bits; done += 16) {
+        const uint32_t count = std::min(bits - done, 16u);
+        codes_.symbol((truth >> done) & ((1u << count) - 1), 1, count);
+      }
+    } else {
+      raw_.write(bits, truth);
+    }
+    return CostIo::raw(bits, truth);
+  }
+
+  struct Streams {
+    std::vector<uint8_t> codes;
+    std::vector<uint8_t> tokens;
+    std::vector<uint8_t> raw;
+  };
+  Streams finish() {
+    Streams streams;
+    streams.codes = codes_.finish();
+    if (!single_) {
+      streams.tokens = tokens_.finish();
+      streams.raw = raw_.finish();
+    }
+    return streams;
+  }
+
+ private:
+  bool single_;
+  RangeEncoder codes_;
+  RansEncoder tokens_;
+  RawBitsEncoder raw_;
+};
+
+}  // namespace mcc
+
+#endif  // MCC_ENTROPY_ENC_CODER_H_

@@ -1,0 +1,183 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Adaptive models of both entropy coders. Reader and writer share every update.            [A.3.1]
+#ifndef MCC_ENTROPY_MODELS_H_
+#define MCC_ENTROPY_MODELS_H_
+
+#include <bit>
+#include <cstdint>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#elif defined(__ARM_NEON)
+#include <arm_neon.h>
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
+#endif
+
+namespace mcc {
+
+// --- binary decisions ------------------------------------------------------------------------------
+
+inline constexpr uint32_t kProbabilityBits = 22;
+inline constexpr uint32_t kProbabilityOne = 1u << kProbabilityBits;
+inline constexpr uint32_t kBitCountLimit = 255;
+
+struct AdaptationRates {
+  uint16_t of_count[kBitCountLimit + 1];
+};
+
+/// round(65536 / (n + 1.6)): the first outcomes move a probability fast, later ones like a mean.
+constexpr AdaptationRates makeAdaptationRates() {
+  AdaptationRates rates{};
+  for (uint32_t n = 0; n <= kBitCountLimit; ++n) {
+    const uint32_t divisor = 5 * n + 8;  // 5 * (n + 1.6)
+    rates.of_count[n] = static_cast<uint16_t>((2 * 5 * 65536 + divisor) / (2 * divisor));
+  }
+  return rates;
+}
+inline constexpr AdaptationRates kAdaptationRates = makeAdaptationRates();
+
+/// Probability that the next bit is 0, in 22 bits, above a count of outcomes in 10 bits.
+struct BitModel {
+  uint32_t state = (kProbabilityOne / 2) << 10;
+
+  uint32_t zeroProbability() const { return state >> 10; }
+
+  void update(bool bit) {
+    const uint32_t count = state & 1023;
+    const uint32_t p = state >> 10;
+    const uint64_t rate = kAdaptationRates.of_count[count];
+    const uint32_t up = static_cast<uint32_t>(((kProbabilityOne - p) * rate) >> 16);
+    const uint32_t down = static_cast<uint32_t>((p * rate) >> 16);
+    const uint32_t mask = ~(static_cast<uint32_t>(bit)) + 1;  // all ones for bit 1
+    const uint32_t next = p + (up & ~mask) - (down & mask);
+    state = next << 10 | (count + (count < kBitCountLimit ? 1 : 0));
+  }
+};
+
+// --- tokens: rows of 16 symbols --------------------------------------------------------------------
+
+inline constexpr uint32_t kTokenBits = 15;  ///< rows count in units of 2^-15
+inline constexpr uint32_t kTokenOne = 1u << kTokenBits;
+inline constexpr uint32_t kTokenCount = 16;
+inline constexpr uint32_t kTokenFloor = 4;  ///< units every symbol keeps in the limit
+
+/// Adaptation shift by number of uses.
+struct TokenSchedule {
+  uint8_t shift[64];
+};
+
+struct TokenScheduleStep {
+  uint32_t from_use;
+  uint8_t shift;
+};
+
+template <uint32_t kSteps>
+constexpr TokenSchedule makeTokenSchedule(const TokenScheduleStep (&steps)[kSteps]) {
+  TokenSchedule schedule{};
+  for (uint32_t use = 0; use < 64; ++use) {
+    for (const TokenScheduleStep& step : steps) {
+      if (use >= step.from_use) schedule.shift[use] = step.shift;
+    }
+  }
+  return schedule;
+}
+
+inline constexpr TokenSchedule kPositionSchedule =
+    makeTokenSchedule<6>({{0, 2}, {2, 3}, {5, 4}, {11, 5}, {30, 6}, {63, 7}});
+inline constexpr TokenSchedule kAttributeSchedule =
+    makeTokenSchedule<6>({{0, 1}, {1, 2}, {3, 3}, {7, 4}, {15, 5}, {31, 6}});
+
+/// Cumulative frequencies of 16 symbols; symbol s owns [c[s], c[s+1]).
+struct TokenRow {
+  alignas(16) uint16_t c[kTokenCount + 1];
+  uint16_t uses;
+
+  void setUniform() {
+    for (uint32_t i = 0; i <= kTokenCount; ++i) {
+      c[i] = static_cast<uint16_t>(i * (kTokenOne / kTokenCount));
+    }
+    uses = 0;
+  }
+
+  uint32_t start(uint32_t symbol) const { return c[symbol]; }
+  uint32_t frequency(uint32_t symbol) const { return uint32_t{c[symbol + 1]} - c[symbol]; }
+
+  /// Finds the symbol whose range holds `slot` and adapts; `start` and `frequency` are those before.
+  uint32_t findAndAdapt(uint32_t slot, const TokenSchedule& schedule, uint32_t& start_out,
+                        uint32_t& frequency_out);
+  void adapt(uint32_t symbol, const TokenSchedule& schedule);
+
+ private:
+  uint32_t nextShift(const TokenSchedule& schedule) {
+    const uint32_t use = uses;
+    uses = static_cast<uint16_t>(use + (use < 63 ? 1 : 0));
+    return schedule.shift[use];
+  }
+};
+
+#if defined(__SSE2__)
+
+inline uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& schedule,
+                                       uint32_t& start_out, uint32_t& frequency_out) {
+  __m128i* rows = reinterpret_cast<__m128i*>(c);
+  const __m128i low = _mm_load_si128(rows);
+  const __m128i high = _mm_load_si128(rows + 1);
+  const __m128i slots = _mm_set1_epi16(static_cast<short>(slot));
+  const __m128i low_above = _mm_cmpgt_epi16(low, slots);
+  const __m128i high_above = _mm_cmpgt_epi16(high, slots);
+  const uint32_t above =
+      static_cast<uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(low_above, high_above)));
+  const uint32_t symbol = static_cast<uint32_t>(std::countr_zero(above | 0x10000u)) - 1;
+  start_out = c[symbol];
+  frequency_out = uint32_t{c[symbol + 1]} - start_out;
+  const __m128i shift = _mm_cvtsi32_si128(static_cast<int>(nextShift(schedule)));
+  const __m128i span = _mm_set1_epi16(static_cast<short>(kTokenOne - kTokenFloor * kTokenCount));
+  const __m128i low_floor = _mm_setr_epi16(0, 4, 8, 12, 16, 20, 24, 28);
+  const __m128i high_floor = _mm_setr_epi16(32, 36, 40, 44, 48, 52, 56, 60);
+  const __m128i low_target = _mm_add_epi16(low_floor, _mm_and_si128(low_above, span));
+  const __m128i high_target = _mm_add_epi16(high_floor, _mm_and_si128(high_above, span));
+  _mm_store_si128(rows, _mm_add_epi16(low, _mm_sra_epi16(_mm_sub_epi16(low_target, low), shift)));
+  _mm_store_si128(rows + 1,
+                  _mm_add_epi16(high, _mm_sra_epi16(_mm_sub_epi16(high_target, high), shift)));
+  return symbol;
+}
+
+inline void TokenRow::adapt(uint32_t symbol, const TokenSchedule& schedule) {
+  uint32_t start = 0;
+  uint32_t frequency = 0;
+  findAndAdapt(c[symbol], schedule, start, frequency);
+}
+
+#else
+
+inline void TokenRow::adapt(uint32_t symbol, const TokenSchedule& schedule) {
+  const uint32_t shift = nextShift(schedule);
+  for (uint32_t i = 0; i < kTokenCount; ++i) {
+    const uint32_t above = i > symbol ? kTokenOne - kTokenFloor * kTokenCount : 0;
+    const int32_t target = static_cast<int32_t>(kTokenFloor * i + above);
+    c[i] = static_cast<uint16_t>(c[i] + ((target - static_cast<int32_t>(c[i])) >> shift));
+  }
+}
+
+inline uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& schedule,
+                                       uint32_t& start_out, uint32_t& frequency_out) {
+  uint32_t symbol = 0;
+  for (uint32_t i = 1; i < kTokenCount; ++i) symbol += c[i] <= slot ? 1 : 0;
+  start_out = c[symbol];
+  frequency_out = uint32_t{c[symbol + 1]} - start_out;
+  adapt(symbol, schedule);
+  return symbol;
+}
+
+#endif
+
+// --- rANS constants --------------------------------------------------------------------------------
+
+inline constexpr uint32_t kRansStateCount = 3;
+inline constexpr uint32_t kRansLow = 1u << 16;  ///< states live in [2^16, 2^32); 16-bit words
+
+}  // namespace mcc
+
+#endif  // MCC_ENTROPY_MODELS_H_

@@ -1,0 +1,219 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The stages of one piece, in payload order, for reader and writer alike:
+//
+//   codeConnectivity   mesh collapse codes -> faces, twins                         connectivity/mc_codes.h   [A.4]
+//   codeStitch         which cut vertices share a position -> groups              connectivity/stitch.h     [A.5]
+//   codePositions      traversal, positions of groups and of isolated vertices    attributes/positions.h    [A.6]
+//   codeSeams          corners -> wedges                                          attributes/seams.h        [A.7]
+//   codeLeftovers      parts, duplicate and degenerate triangles                  attributes/leftovers.h    [A.9]
+//   codeAttribute      every further attribute along the same traversal           attributes/values.h       [A.8]
+//
+// The writer runs the same stages with an encoder and with pointers to what it knows (PieceTruth).
+#ifndef MCC_PIECE_H_
+#define MCC_PIECE_H_
+
+#include <new>
+
+#include "attributes/leftovers.h"
+#include "attributes/positions.h"
+#include "attributes/seams.h"
+#include "attributes/values.h"
+#include "connectivity/mc_codes.h"
+#include "connectivity/stitch.h"
+#include "container/payload_header.h"
+
+namespace mcc {
+
+/// Adaptive models of a payload; all its pieces share them.
+struct PayloadModels {
+  explicit PayloadModels(const Allocator& allocator) : mc(allocator), values(allocator) {
+    for (uint32_t& slot : value_slot) slot = kNone;
+  }
+
+  McModels mc;
+  StitchModels stitch;
+  PositionModels positions;
+  SeamModels seams;
+  LeftoverModels leftovers;
+  Array<ValueModels> values;
+  uint32_t value_slot[64];
+
+  /// Models for attributes of one kind: semantic, first or further set, base or morph target. [A.3.6]
+  ValueModels* valueModels(const AttributeInfo& a) {
+    const uint32_t kind = static_cast<uint32_t>(a.format.semantic) * 4 +
+                          (a.format.set_index != 0 ? 2 : 0) + (a.format.morph_target != 0 ? 1 : 0);
+    if (value_slot[kind] == kNone) {
+      value_slot[kind] = static_cast<uint32_t>(values.size());
+      if (!values.push_back(ValueModels())) return nullptr;
+    }
+    return &values[value_slot[kind]];
+  }
+};
+
+/// What the writer knows about a piece, stage by stage; all null when reading.
+struct PieceTruth {
+  McTruth connectivity;
+  const uint32_t* class_of_vertex = nullptr;  ///< by decoded vertex
+  uint32_t class_count = 0;
+  const int32_t* positions = nullptr;       ///< 3 per group, isolated vertices behind
+  const uint32_t* corner_source = nullptr;  ///< source wedge by 3f+k
+  LeftoverTruth leftovers;
+};
+
+template <class Io>
+class PieceCoder {
+ public:
+  PieceCoder(Io& io, PayloadModels& models, const PieceHeader& header,
+             const AttributeInfo* attributes, const Allocator& allocator,
+             CodeHistogram* histogram = nullptr)
+      : mesh(allocator),
+        groups(allocator),
+        records(allocator),
+        sequence(allocator),
+        wedge_group(allocator),
+        copies(allocator),
+        list(allocator),
+        io_(io),
+        models_(models),
+        header_(header),
+        attributes_(attributes),
+        allocator_(allocator),
+        lengths_(allocator),
+        histogram_(histogram) {}
+
+  Status codeConnectivity(const PieceTruth& truth) {
+    if (!mesh.words.resize(size_t{header_.face_count} * kFaceWords)) return noMemory();
+    mesh.face_count = 0;
+    mesh.vertex_count = 0;
+    const McCounts counts{header_.operation_count, header_.vertex_count, header_.dummy_count,
+                          header_.face_count, header_.has(piece_flag::kHandles)};
+    McMachine<Io> machine(io_, models_.mc, counts, allocator_, mesh, truth.connectivity,
+                          histogram_);
+    return machine.run();
+  }
+
+  Status codeStitch(const PieceTruth& truth) {
+    groups.count = mesh.vertex_count;
+    if (!header_.has(piece_flag::kCopies)) return {};
+    Stitcher<Io> stitcher(io_, models_.stitch, mesh, allocator_, truth.class_of_vertex);
+    return stitcher.run(header_.has(piece_flag::kInteriorCopies), truth.class_count, groups);
+  }
+
+  Status codePositions(const PieceTruth& truth) {
+    if (!records.resize(size_t{groups.count} + header_.isolated_count)) return noMemory();
+    const AttributeInfo& info = attributes_[0];
+    PositionParameters parameters;
+    parameters.bits = info.coding == AttributeCoding::kLattice ? info.bits
+                      : info.coding == AttributeCoding::kInteger
+                          ? static_cast<uint8_t>(8 * componentBytes(info.format.component_type))
+                          : kExactPositionBits;
+    parameters.bits = std::min(parameters.bits, kExactPositionBits);
+    parameters.weighted = (info.predictor & position_flag::kWeighted) != 0;
+    if (parameters.weighted) parameters.weights = kUniversalWeights;
+    setUniversalScale(parameters);
+    Array<uint32_t>* order = needsSequence() ? &sequence : nullptr;
+    if (order != nullptr && !order->reserve(groups.count)) return noMemory();
+    if (parameters.bits <= kNarrowBits) {
+      return PositionCoder<Io, int32_t>(io_, models_.positions, parameters, mesh, groups,
+                                        records.data(), allocator_, truth.positions)
+          .run(order, header_.isolated_count);
+    }
+    return PositionCoder<Io, int64_t>(io_, models_.positions, parameters, mesh, groups,
+                                      records.data(), allocator_, truth.positions)
+        .run(order, header_.isolated_count);
+  }
+
+  Status codeSeams(const PieceTruth& truth) {
+    const uint32_t surface_wedges = header_.wedge_count - header_.isolated_count;
+    wedges.isolated_count = header_.isolated_count;
+    wedges.isolated_first = surface_wedges;
+    if (header_.has(piece_flag::kSeams)) {
+      Array<uint32_t> starts(allocator_);
+      SeamCoder<Io> coder(io_, models_.seams, mesh, groups, header_.has(piece_flag::kMerges),
+                          surface_wedges, allocator_, truth.corner_source);
+      MCC_TRY(coder.run(sequence, starts, wedge_group));
+      sequence.swap(starts);
+    }
+    const size_t found = header_.has(piece_flag::kSeams) ? sequence.size() : groups.count;
+    if (found != surface_wedges) {
+      return fail(Error::kBadAttribute, "the seams make fewer wedges than the header claims");
+    }
+    wedges.half_edges = sequence.data();
+    wedges.count = static_cast<uint32_t>(sequence.size());
+    return {};
+  }
+
+  Status codeLeftovers(const PieceTruth& truth) {
+    MCC_TRY(codeParts(io_, models_.leftovers, mesh.view(), mesh.face_count, header_.part_count,
+                      truth.leftovers));
+    if (header_.has(piece_flag::kDuplicates)) {
+      MCC_TRY(codeDuplicates(io_, models_.leftovers, mesh.view(), mesh.face_count,
+                             header_.duplicate_count, truth.leftovers, copies));
+    }
+    if (!header_.has(piece_flag::kListed)) return {};
+    return codeList(io_, models_.leftovers, header_.wedge_count, header_.part_count,
+                    header_.listed_count, truth.leftovers, list);
+  }
+
+  /// Codes attribute `index` (not 0) into `values`: its coded components per wedge, see codedComponents().
+  Status codeAttribute(uint32_t index, Array<int32_t>& values) {
+    const AttributeInfo& info = attributes_[index];
+    const uint32_t components = codedComponents(info);
+    if (info.predictor >= kValuePredictors) {
+      return fail(Error::kBadAttribute, "an attribute has an unknown predictor");
+    }
+    if (!values.resize(size_t{header_.wedge_count} * components) ||
+        !lengths_.resize(header_.wedge_count)) {
+      return noMemory();
+    }
+    ValueModels* models = models_.valueModels(info);
+    if (models == nullptr) return noMemory();
+    ValueCoder<Io>(io_, *models, mesh.view(), wedges, components,
+                   static_cast<ValuePredictor>(info.predictor), values.data(), lengths_.data())
+        .run();
+    if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside an attribute");
+    return {};
+  }
+
+  static uint32_t codedComponents(const AttributeInfo& info) {
+    return info.coding == AttributeCoding::kOctahedral ? 2 : info.format.component_count;
+  }
+
+  bool needsSequence() const {
+    return header_.has(piece_flag::kSeams) || header_.attribute_count > 1;
+  }
+  /// Group whose record holds the position of a wedge; isolated vertices come behind the groups.
+  uint32_t groupOf(uint32_t wedge) const {
+    if (wedge >= wedges.isolated_first) return groups.count + (wedge - wedges.isolated_first);
+    return header_.has(piece_flag::kSeams) ? wedge_group[wedge] : wedge;
+  }
+
+  FaceMesh mesh;  ///< corners: vertices, after codeStitch() groups, after codeSeams() wedges
+  Groups groups;
+  Array<VertexRecord> records;  ///< by group
+  Array<uint32_t>
+      sequence;  ///< a half-edge per group, after codeSeams() per wedge, in coding order
+  Array<uint32_t> wedge_group;  ///< only with seams
+  WedgeSequence wedges;
+  Array<uint32_t> copies;  ///< further copies of each face, only with duplicates
+  Array<ListedTriangle> list;
+
+ private:
+  static constexpr uint8_t kNarrowBits = 17;         ///< Q8 predictions fit 32 bits up to here
+  static constexpr uint8_t kExactPositionBits = 26;  ///< scale the seeds of exact floats start with
+
+  static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for the decoded mesh"); }
+
+  Io& io_;
+  PayloadModels& models_;
+  const PieceHeader& header_;
+  const AttributeInfo* const attributes_;
+  const Allocator allocator_;
+  Array<uint8_t> lengths_;
+  CodeHistogram* const histogram_;
+};
+
+}  // namespace mcc
+
+#endif  // MCC_PIECE_H_

@@ -1,0 +1,191 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "prepare/enc_cut.h"
+
+#include <algorithm>
+
+#include "mcc/types.h"
+
+namespace mcc {
+namespace {
+
+constexpr uint32_t nextCorner(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
+constexpr uint32_t prevCorner(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
+
+class Cutter {
+ public:
+  Cutter(std::span<const uint32_t> corner_class, uint32_t class_count)
+      : corner_class_(corner_class), class_count_(class_count) {}
+
+  CutResult run(EdgePairing pairing, uint32_t start_half_edge) {
+    result_.mesh.real_face_count = static_cast<uint32_t>(corner_class_.size() / 3);
+    pairHalfEdges(pairing);
+    makeVertices();
+    coneHoles();
+    findComponents(start_half_edge);
+    return std::move(result_);
+  }
+
+ private:
+  bool isLoose(uint32_t h) const {
+    const uint32_t f = h - h % 3;
+    return corner_class_[f] == corner_class_[f + 1] ||
+           corner_class_[f + 1] == corner_class_[f + 2] || corner_class_[f + 2] == corner_class_[f];
+  }
+
+  /// Buckets half-edges by the smaller class of their ends, sorts each bucket by the larger one.
+  void pairHalfEdges(EdgePairing pairing) {
+    const uint32_t half_edge_count = static_cast<uint32_t>(corner_class_.size());
+    result_.mesh.twin.assign(half_edge_count, kNone);
+    std::vector<uint32_t> bucket_end(size_t{class_count_} + 1, 0);
+    const auto smallerClass = [this](uint32_t h) {
+      return std::min(corner_class_[h], corner_class_[nextCorner(h)]);
+    };
+    for (uint32_t h = 0; h < half_edge_count; ++h) ++bucket_end[smallerClass(h) + 1];
+    for (uint32_t c = 0; c < class_count_; ++c) bucket_end[c + 1] += bucket_end[c];
+    struct Entry {
+      uint32_t larger_class;
+      uint32_t half_edge;
+      bool operator<(const Entry& other) const {
+        return larger_class != other.larger_class ? larger_class < other.larger_class
+                                                  : half_edge < other.half_edge;
+      }
+    };
+    std::vector<Entry> entries(half_edge_count);
+    std::vector<uint32_t> fill(bucket_end.begin(), bucket_end.end() - 1);
+    for (uint32_t h = 0; h < half_edge_count; ++h) {
+      entries[fill[smallerClass(h)]++] = {std::max(corner_class_[h], corner_class_[nextCorner(h)]),
+                                          h};
+    }
+    std::vector<uint32_t> open;
+    for (uint32_t c = 0; c < class_count_; ++c) {
+      std::sort(entries.begin() + bucket_end[c], entries.begin() + bucket_end[c + 1]);
+      for (uint32_t i = bucket_end[c], end = i; i < bucket_end[c + 1]; i = end) {
+        while (end < bucket_end[c + 1] && entries[end].larger_class == entries[i].larger_class)
+          ++end;
+        if (end - i > 2 && pairing == EdgePairing::kCut) continue;
+        open.clear();
+        for (uint32_t k = i; k < end; ++k) pairOne(entries[k].half_edge, open);
+      }
+    }
+  }
+
+  void pairOne(uint32_t h, std::vector<uint32_t>& open) {
+    if (isLoose(h)) return;
+    if (!open.empty() && corner_class_[open.back()] != corner_class_[h]) {
+      result_.mesh.twin[h] = open.back();
+      result_.mesh.twin[open.back()] = h;
+      open.pop_back();
+    } else {
+      open.push_back(h);
+    }
+  }
+
+  /// One vertex per umbrella, numbered by first corner.
+  void makeVertices() {
+    ClosedMesh& mesh = result_.mesh;
+    mesh.corner_vertex.assign(corner_class_.size(), kNone);
+    for (uint32_t corner = 0; corner < corner_class_.size(); ++corner) {
+      if (mesh.corner_vertex[corner] != kNone) continue;
+      const uint32_t vertex = mesh.real_vertex_count++;
+      result_.class_of_vertex.push_back(corner_class_[corner]);
+      uint32_t h = corner;
+      for (; h != kNone && mesh.corner_vertex[h] == kNone; h = mesh.twin[prevCorner(h)]) {
+        mesh.corner_vertex[h] = vertex;
+      }
+      if (h != kNone) continue;
+      for (h = mesh.twin[corner]; h != kNone;
+           h = mesh.twin[h]) {  // clockwise from the first corner
+        h = nextCorner(h);
+        mesh.corner_vertex[h] = vertex;
+      }
+    }
+  }
+
+  void coneHoles() {
+    ClosedMesh& mesh = result_.mesh;
+    const uint32_t real_half_edges = static_cast<uint32_t>(corner_class_.size());
+    std::vector<uint32_t> boundary_from(mesh.real_vertex_count, kNone);
+    for (uint32_t h = 0; h < real_half_edges; ++h) {
+      if (mesh.twin[h] == kNone) boundary_from[mesh.corner_vertex[h]] = h;
+    }
+    for (uint32_t h = 0; h < real_half_edges; ++h) {
+      if (mesh.twin[h] != kNone) continue;
+      const uint32_t dummy = mesh.real_vertex_count + mesh.dummy_count++;
+      const uint32_t first_cone = static_cast<uint32_t>(mesh.twin.size());
+      uint32_t g = h;
+      do {  // cone face (end, start, dummy) per boundary half-edge
+        const uint32_t cone = static_cast<uint32_t>(mesh.twin.size());
+        const uint32_t end = mesh.corner_vertex[nextCorner(g)];
+        mesh.corner_vertex.insert(mesh.corner_vertex.end(), {end, mesh.corner_vertex[g], dummy});
+        mesh.twin[g] = cone;
+        // dummy -> end meets end -> dummy of the next cone, the half-edge behind its first
+        mesh.twin.insert(mesh.twin.end(), {g, cone - 1, cone + 4});
+        g = boundary_from[end];
+      } while (g != h);
+      mesh.twin[first_cone + 1] = static_cast<uint32_t>(mesh.twin.size()) - 1;
+      mesh.twin.back() = first_cone + 1;
+    }
+    result_.hole_count = mesh.dummy_count;
+  }
+
+  /// Flood fill; the mc-vertex is the dummy of the largest hole, so that this hole costs nothing.
+  void findComponents(uint32_t start_half_edge) {
+    ClosedMesh& mesh = result_.mesh;
+    const uint32_t vertex_count = mesh.real_vertex_count + mesh.dummy_count;
+    std::vector<uint32_t> degree(vertex_count, 0);
+    for (const uint32_t v : mesh.corner_vertex) ++degree[v];
+    std::vector<uint8_t> face_seen(mesh.faceCount(), 0);
+    std::vector<uint8_t> vertex_seen(vertex_count, 0);
+    std::vector<uint32_t> todo;
+    for (uint32_t first = 0; first < mesh.real_face_count; ++first) {
+      if (face_seen[first] != 0) continue;
+      ClosedMesh::Component component;
+      component.start_half_edge = 3 * first;
+      uint32_t largest_hole = 0;
+      int64_t vertices = 0;
+      int64_t faces = 0;
+      face_seen[first] = 1;
+      todo.push_back(first);
+      while (!todo.empty()) {
+        const uint32_t f = todo.back();
+        todo.pop_back();
+        ++faces;
+        for (uint32_t h = 3 * f; h < 3 * f + 3; ++h) {
+          const uint32_t v = mesh.corner_vertex[h];
+          if (vertex_seen[v] == 0) {
+            vertex_seen[v] = 1;
+            ++vertices;
+          }
+          if (v >= mesh.real_vertex_count &&
+              (degree[v] > largest_hole ||
+               (degree[v] == largest_hole && h < component.start_half_edge))) {
+            largest_hole = degree[v];
+            component.start_half_edge = h;
+          }
+          const uint32_t neighbour = mesh.twin[h] / 3;
+          if (face_seen[neighbour] != 0) continue;
+          face_seen[neighbour] = 1;
+          todo.push_back(neighbour);
+        }
+      }
+      component.has_handles = vertices - faces / 2 < 2;  // Euler, with 3/2 edges per face
+      mesh.components.push_back(component);
+    }
+    if (start_half_edge < mesh.twin.size() && !mesh.components.empty()) {
+      mesh.components.front().start_half_edge = start_half_edge;
+    }
+  }
+
+  std::span<const uint32_t> corner_class_;
+  uint32_t class_count_;
+  CutResult result_;
+};
+
+}  // namespace
+
+CutResult cutToManifold(std::span<const uint32_t> corner_class, uint32_t class_count,
+                        EdgePairing pairing, uint32_t start_half_edge) {
+  return Cutter(corner_class, class_count).run(pairing, start_half_edge);
+}
+
+}  // namespace mcc

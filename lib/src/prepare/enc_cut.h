@@ -1,0 +1,34 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#ifndef MCC_PREPARE_ENC_CUT_H_
+#define MCC_PREPARE_ENC_CUT_H_
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/enc_closed_mesh.h"
+
+namespace mcc {
+
+/// What happens at an edge with more than two faces.
+enum class EdgePairing : uint8_t {
+  kStack,  ///< neighbours in file order of opposite direction stay joined
+  kCut,    ///< all its faces are cut apart
+};
+
+/// Cuts triangles into oriented manifold pieces: joins half-edges of opposite direction, makes one vertex per
+/// umbrella, cones every hole to a dummy. `corner_class` has 3 position classes per triangle; triangles with two
+/// corners of one class are left loose. Every boundary, non-manifold edge and inconsistent orientation ends up as
+/// a boundary of the result. O(n log n).
+struct CutResult {
+  ClosedMesh mesh;
+  std::vector<uint32_t> class_of_vertex;  ///< of the real vertices
+  uint32_t hole_count = 0;
+};
+
+CutResult cutToManifold(std::span<const uint32_t> corner_class, uint32_t class_count,
+                        EdgePairing pairing, uint32_t start_half_edge);
+
+}  // namespace mcc
+
+#endif  // MCC_PREPARE_ENC_CUT_H_

@@ -1,0 +1,254 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Reader: header, then every piece through its stages (piece.h), then floats and indices into the caller's memory.
+#include "mcc/reader.h"
+
+#include <new>
+#include <utility>
+
+#include "attributes/dequantize.h"
+#include "attributes/octahedral.h"
+#include "base/memory.h"
+#include "container/payload_header.h"
+#include "entropy/dec_coder.h"
+#include "piece.h"
+
+namespace mcc {
+
+struct Payload::State {
+  explicit State(const Allocator& a) : allocator(a), header(a), pieces(a) {}
+
+  Allocator allocator;
+  PayloadHeader header;
+  Array<PieceInfo> pieces;
+  PayloadInfo info;
+};
+
+namespace {
+
+const PayloadInfo kEmptyInfo{};
+
+/// Copies wedge values to the caller's elements. [A.8.4]
+void storeValues(const AttributeInfo& info, const int32_t* values, uint32_t wedge_count,
+                 const AttributeTarget& target) {
+  const uint32_t components = info.format.component_count;
+  const uint32_t bytes = componentBytes(info.format.component_type);
+  uint8_t* to = static_cast<uint8_t*>(target.data);
+  const int32_t centre =
+      info.coding == AttributeCoding::kOctahedral ? octahedralCentre(info.bits) : 0;
+  for (uint32_t w = 0; w < wedge_count; ++w, to += target.stride_bytes) {
+    switch (info.coding) {
+      case AttributeCoding::kLattice:
+        for (uint32_t c = 0; c < components; ++c) {
+          storeFloat(to + 4 * c,
+                     latticeValue(*values++, info.lattice.step, info.lattice.origin[c]));
+        }
+        break;
+      case AttributeCoding::kOctahedral: {
+        float unit[3];
+        octahedralToUnit(values[0], values[1], centre, unit);
+        values += 2;
+        for (uint32_t c = 0; c < 3; ++c) storeFloat(to + 4 * c, unit[c]);
+        break;
+      }
+      case AttributeCoding::kExactFloat:
+        for (uint32_t c = 0; c < components; ++c) {
+          const uint32_t bits = bitsFromOrdered(*values++);
+          std::memcpy(to + 4 * c, &bits, 4);
+        }
+        break;
+      default:
+        for (uint32_t c = 0; c < components; ++c) {
+          storeInteger(to + size_t{bytes} * c, info.format.component_type, *values++);
+        }
+    }
+  }
+}
+
+template <class Io>
+void storePositions(const PieceCoder<Io>& piece, const AttributeInfo& info, uint32_t wedge_count,
+                    const AttributeTarget& target) {
+  if (target.data == nullptr) return;
+  uint8_t* to = static_cast<uint8_t*>(target.data);
+  for (uint32_t w = 0; w < wedge_count; ++w, to += target.stride_bytes) {
+    storeValues(info, piece.records[piece.groupOf(w)].q, 1, {to, target.stride_bytes});
+  }
+}
+
+void storeIndex(const PartTarget& target, size_t at, uint32_t index) {
+  switch (target.index_type) {
+    case IndexType::kUint8:
+      static_cast<uint8_t*>(target.indices)[at] = static_cast<uint8_t>(index);
+      return;
+    case IndexType::kUint16:
+      static_cast<uint16_t*>(target.indices)[at] = static_cast<uint16_t>(index);
+      return;
+    case IndexType::kUint32: static_cast<uint32_t*>(target.indices)[at] = index; return;
+  }
+}
+
+/// Faces in decoding order, each with its duplicates, then the listed triangles; split into parts.
+template <class Io>
+Status storeTriangles(PieceCoder<Io>& piece, std::span<const PartInfo> infos,
+                      std::span<const PartTarget> targets, const Allocator& allocator) {
+  Array<uint64_t> fill(allocator);
+  if (!fill.assign(targets.size(), 0)) return fail(Error::kOutOfMemory, "no memory for the parts");
+  const auto store = [&](uint32_t part, const uint32_t* wedges) {
+    const uint64_t at = fill[part]++;
+    if (at >= infos[part].triangle_count || targets[part].indices == nullptr) return;
+    for (size_t k = 0; k < 3; ++k) storeIndex(targets[part], 3 * at + k, wedges[k]);
+  };
+  const bool many = targets.size() > 1;
+  for (uint32_t f = 0; f < piece.mesh.face_count; ++f) {
+    const uint32_t* face = piece.mesh.words.data() + size_t{f} * kFaceWords;
+    const uint32_t count = 1 + (piece.copies.empty() ? 0 : piece.copies[f]);
+    for (uint32_t i = 0; i < count; ++i) store(many ? face[kFaceWord] : 0, face);
+  }
+  for (size_t i = 0; i < piece.list.size(); ++i) store(piece.list[i].part, piece.list[i].wedge);
+  for (size_t p = 0; p < targets.size(); ++p) {
+    if (fill[p] != infos[p].triangle_count) {
+      return fail(Error::kBadAttribute,
+                  "a part has another number of triangles than the header claims");
+    }
+  }
+  return {};
+}
+
+Status checkTargets(const PayloadInfo& info, std::span<const PieceTarget> targets) {
+  if (targets.size() != info.pieces.size()) {
+    return fail(Error::kBadArgument, "the number of targets is not that of the pieces");
+  }
+  for (size_t i = 0; i < targets.size(); ++i) {
+    const PieceInfo& piece = info.pieces[i];
+    if (targets[i].attributes.size() != piece.attributes.size() ||
+        targets[i].parts.size() != piece.parts.size()) {
+      return fail(Error::kBadArgument, "a target has not the shape of its piece");
+    }
+    for (size_t a = 0; a < piece.attributes.size(); ++a) {
+      const AttributeTarget& t = targets[i].attributes[a];
+      if (t.data != nullptr && t.stride_bytes < elementBytes(piece.attributes[a].format)) {
+        return fail(Error::kBadArgument, "the stride of a target is smaller than its elements");
+      }
+    }
+    for (const PartTarget& t : targets[i].parts) {
+      const uint32_t bits = 8 * static_cast<uint32_t>(t.index_type);
+      if (bits < 32 && piece.wedge_count > (1u << bits)) {
+        return fail(Error::kBadArgument, "the index type of a target is too narrow");
+      }
+    }
+  }
+  return {};
+}
+
+bool proceeds(const DecodeOptions& options, size_t done, size_t all) {
+  return options.progress == nullptr ||
+         options.progress(options.progress_user,
+                          static_cast<double>(done) / static_cast<double>(all));
+}
+
+template <class Io>
+Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, const PieceInfo& info,
+                   const PieceTarget& target, const DecodeOptions& options) {
+  const Allocator& allocator = options.allocator;
+  PieceCoder<Io> piece(io, models, header, info.attributes.data(), allocator, options.histogram);
+  const PieceTruth nothing;
+  MCC_TRY(piece.codeConnectivity(nothing));
+  MCC_TRY(piece.codeStitch(nothing));
+  MCC_TRY(piece.codePositions(nothing));
+  MCC_TRY(piece.codeSeams(nothing));
+  MCC_TRY(piece.codeLeftovers(nothing));
+  storePositions(piece, info.attributes[0], info.wedge_count, target.attributes[0]);
+  MCC_TRY(storeTriangles(piece, info.parts, target.parts, allocator));
+  Array<int32_t> values(allocator);
+  for (uint32_t a = 1; a < info.attributes.size(); ++a) {
+    MCC_TRY(piece.codeAttribute(a, values));
+    if (target.attributes[a].data != nullptr) {
+      storeValues(info.attributes[a], values.data(), info.wedge_count, target.attributes[a]);
+    }
+  }
+  return {};
+}
+
+template <bool kSingle>
+Status decodePieces(const PayloadHeader& header, const PayloadInfo& info,
+                    std::span<const PieceTarget> targets, const DecodeOptions& options) {
+  void* memory = allocateBytes(options.allocator, sizeof(PayloadModels));
+  if (memory == nullptr) return fail(Error::kOutOfMemory, "no memory for the models");
+  PayloadModels* models = new (memory) PayloadModels(options.allocator);
+  DecoderIo<kSingle> io(header.codes, header.tokens, header.raw);
+  Status status;
+  if (!models->mc.init(header.contextSet()))
+    status = fail(Error::kOutOfMemory, "no memory for the models");
+  for (size_t i = 0; i < targets.size() && status.ok(); ++i) {
+    status = decodePiece(io, *models, header.pieces[i], info.pieces[i], targets[i], options);
+    if (status.ok() && !proceeds(options, i + 1, targets.size())) {
+      status = fail(Error::kCancelled, "decoding was cancelled");
+    }
+  }
+  if (status.ok()) status = io.finish();
+  models->~PayloadModels();
+  releaseBytes(options.allocator, memory, sizeof(PayloadModels));
+  return status;
+}
+
+}  // namespace
+
+Payload::Payload(Payload&& other) noexcept : state_(std::exchange(other.state_, nullptr)) {}
+
+Payload& Payload::operator=(Payload&& other) noexcept {
+  std::swap(state_, other.state_);
+  return *this;
+}
+
+Payload::~Payload() {
+  if (state_ == nullptr) return;
+  const Allocator allocator = state_->allocator;
+  state_->~State();
+  releaseBytes(allocator, state_, sizeof(State));
+}
+
+Status Payload::open(std::span<const uint8_t> bytes, const Limits& limits,
+                     const Allocator& allocator) {
+  *this = Payload();
+  void* memory = allocateBytes(allocator, sizeof(State));
+  if (memory == nullptr) return fail(Error::kOutOfMemory, "no memory for the header");
+  Payload opened;
+  opened.state_ = new (memory) State(allocator);
+  State& state = *opened.state_;
+  PayloadHeader& header = state.header;
+  MCC_TRY(parsePayload(bytes, limits, header));
+  if (!state.pieces.reserve(header.pieces.size()))
+    return fail(Error::kOutOfMemory, "no memory for the header");
+  for (size_t i = 0; i < header.pieces.size(); ++i) {
+    const PieceHeader& p = header.pieces[i];
+    PieceInfo info;
+    info.wedge_count = p.wedge_count;
+    info.vertex_count = p.vertex_count;
+    info.attributes = {header.attributes.data() + p.first_attribute, p.attribute_count};
+    info.parts = {header.parts.data() + p.first_part, p.part_count};
+    (void)state.pieces.push_back(info);  // reserved above
+  }
+  state.info.version_major = kVersionMajor;
+  state.info.version_minor = header.version_minor;
+  state.info.single_coder = header.singleCoder();
+  state.info.context_set = header.contextSet();
+  state.info.pieces = {state.pieces.data(), state.pieces.size()};
+  state.info.codes_bytes = header.codes.size();
+  state.info.tokens_bytes = header.tokens.size();
+  state.info.raw_bits_bytes = header.raw.size();
+  state.info.header_bytes = header.header_bytes;
+  *this = std::move(opened);
+  return {};
+}
+
+const PayloadInfo& Payload::info() const { return state_ == nullptr ? kEmptyInfo : state_->info; }
+
+Status Payload::decode(std::span<const PieceTarget> targets, const DecodeOptions& options) const {
+  if (state_ == nullptr) return fail(Error::kBadArgument, "no payload is open");
+  MCC_TRY(checkTargets(state_->info, targets));
+  const PayloadHeader& header = state_->header;
+  return header.singleCoder() ? decodePieces<true>(header, state_->info, targets, options)
+                              : decodePieces<false>(header, state_->info, targets, options);
+}
+
+}  // namespace mcc

@@ -1,0 +1,526 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Writer: prepares every piece (quantise, weld, sort, cut, collapse), tries the format's choices on a counting coder,
+// then runs the stages of piece.h with the real one.
+#include "mcc/writer.h"
+
+#include <algorithm>
+#include <memory>
+#include <new>
+
+#include "attributes/enc_quantize.h"
+#include "connectivity/enc_collapse.h"
+#include "container/enc_payload.h"
+#include "entropy/enc_coder.h"
+#include "piece.h"
+#include "prepare/enc_cut.h"
+#include "prepare/enc_triangles.h"
+#include "prepare/enc_weld.h"
+
+namespace mcc {
+namespace {
+
+constexpr uint32_t kSingleCoderVertices = 2000;  ///< up to here the single coder is tried as well
+
+/// A piece on its way through the writer.
+struct Plan {
+  const PieceView* view = nullptr;
+  PieceHeader header;
+  std::vector<QuantizedAttribute> attributes;  ///< POSITION first
+  std::vector<uint32_t> source_attribute;      ///< index in view->attributes of each
+  PositionClasses classes;
+  SortedTriangles triangles;
+  CutResult cut;
+  McRecord record;
+
+  // Filled while the stages run; the same in every run.
+  std::vector<uint32_t> node_map;
+  std::vector<uint32_t> source_of_vertex;
+  std::vector<uint32_t> source_gate;
+  std::vector<uint32_t> class_of_vertex;
+  std::vector<uint32_t> corner_source;
+  std::vector<int32_t> positions;
+  std::vector<uint32_t> wedge_source;
+  std::vector<uint32_t> part_of_face;
+  std::vector<uint32_t> duplicates_of_face;
+  std::vector<ListedTriangle> list;
+};
+
+constexpr uint32_t nextCorner(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
+constexpr uint32_t prevCorner(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
+
+// --- preparation -----------------------------------------------------------------------------------
+
+bool isBasePosition(const AttributeFormat& f) {
+  return f.semantic == Semantic::kPosition && f.morph_target == 0;
+}
+
+Status checkPiece(const PieceView& piece) {
+  if (piece.attributes.empty() || !isBasePosition(piece.attributes[0].format) ||
+      piece.attributes[0].format.component_count != 3) {
+    return fail(Error::kBadArgument,
+                "the first attribute of a piece must be POSITION with 3 components");
+  }
+  if (piece.wedge_count >= (1u << 28))
+    return fail(Error::kLimit, "a piece has more than 2^28 vertices");
+  if (piece.parts.empty()) return fail(Error::kBadArgument, "a piece has no parts");
+  for (const AttributeView& a : piece.attributes) {
+    if (a.format.component_count == 0 || a.format.component_count > kMaxComponents ||
+        (a.data == nullptr && piece.wedge_count != 0) || a.stride_bytes < elementBytes(a.format) ||
+        a.quantization_bits > 24) {
+      return fail(Error::kBadArgument,
+                  "an attribute's format, data, stride or bits are out of range");
+    }
+  }
+  uint64_t triangles = 0;
+  for (const PartView& part : piece.parts) {
+    if (part.indices.size() % 3 != 0)
+      return fail(Error::kBadArgument, "a part's indices are no triangles");
+    triangles += part.indices.size() / 3;
+    for (const uint32_t index : part.indices) {
+      if (index >= piece.wedge_count)
+        return fail(Error::kBadArgument, "an index is not below wedge_count");
+    }
+  }
+  if (triangles >= (1u << 28)) return fail(Error::kLimit, "a piece has more than 2^28 triangles");
+  return {};
+}
+
+void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_edge) {
+  std::vector<uint32_t> corner_class(plan.triangles.wedges.size());
+  for (size_t i = 0; i < corner_class.size(); ++i) {
+    corner_class[i] = plan.classes.class_of_wedge[plan.triangles.wedges[i]];
+  }
+  plan.cut = cutToManifold(corner_class, plan.classes.class_count, pairing, start_half_edge);
+  plan.record = collapse(plan.cut.mesh);
+  const ClosedMesh& mesh = plan.cut.mesh;
+  plan.node_map.resize(plan.record.node_count);
+  plan.source_of_vertex.resize(mesh.real_vertex_count);
+  plan.source_gate.resize(mesh.real_face_count);
+
+  PieceHeader& h = plan.header;
+  h.vertex_count = mesh.real_vertex_count;
+  h.face_count = mesh.real_face_count;
+  h.operation_count = static_cast<uint32_t>(plan.record.operations.size());
+  h.dummy_count = mesh.dummy_count;
+  h.flags &= ~(piece_flag::kHoles | piece_flag::kHandles | piece_flag::kCopies |
+               piece_flag::kInteriorCopies | piece_flag::kMerges);
+  if (mesh.dummy_count != 0) h.flags |= piece_flag::kHoles;
+  if (!plan.record.handles.empty()) h.flags |= piece_flag::kHandles;
+
+  std::vector<uint8_t> on_boundary(mesh.real_vertex_count, 0);
+  std::vector<uint8_t> has_run_start(mesh.real_vertex_count, 0);
+  uint32_t run_count = 0;
+  for (uint32_t c = 0; c < 3 * mesh.real_face_count; ++c) {
+    const uint32_t t = mesh.twin[c];
+    const bool boundary = t / 3 >= mesh.real_face_count;
+    if (boundary) {
+      on_boundary[mesh.corner_vertex[c]] = 1;
+    } else if (plan.triangles.wedges[nextCorner(t)] == plan.triangles.wedges[c]) {
+      continue;
+    }
+    has_run_start[mesh.corner_vertex[c]] = 1;
+    ++run_count;
+  }
+  std::vector<uint8_t> umbrellas(plan.classes.class_count, 0);
+  for (uint32_t v = 0; v < mesh.real_vertex_count; ++v) {
+    uint8_t& n = umbrellas[plan.cut.class_of_vertex[v]];
+    n = static_cast<uint8_t>(std::min(2, n + 1));
+    run_count += has_run_start[v] == 0 ? 1 : 0;
+  }
+  for (uint32_t v = 0; v < mesh.real_vertex_count; ++v) {
+    if (umbrellas[plan.cut.class_of_vertex[v]] < 2) continue;
+    h.flags |= piece_flag::kCopies;
+    if (on_boundary[v] == 0) h.flags |= piece_flag::kInteriorCopies;
+  }
+  const uint32_t surface_wedges = h.wedge_count - h.isolated_count;
+  if (h.has(piece_flag::kSeams) && run_count > surface_wedges) h.flags |= piece_flag::kMerges;
+}
+
+Status preparePiece(const PieceView& view, Plan& plan, std::vector<std::string>& notes) {
+  MCC_TRY(checkPiece(view));
+  plan.view = &view;
+  for (const AttributeView& a : view.attributes) {
+    plan.attributes.push_back(quantizeAttribute(a, view.wedge_count, notes));
+  }
+  plan.classes = weldPositions(view.attributes[0], view.wedge_count,
+                               plan.attributes[0].info.coding == AttributeCoding::kExactFloat);
+  plan.triangles = sortTriangles(view.parts, view.wedge_count);
+  PieceHeader& h = plan.header;
+  h.wedge_count = view.wedge_count;
+  h.isolated_count = static_cast<uint32_t>(plan.triangles.isolated.size());
+  h.duplicate_count = plan.triangles.duplicate_count;
+  h.listed_count = static_cast<uint32_t>(plan.triangles.listed.size());
+  h.part_count = static_cast<uint32_t>(view.parts.size());
+  h.attribute_count = static_cast<uint32_t>(view.attributes.size());
+  if (h.isolated_count != 0) h.flags |= piece_flag::kIsolated;
+  if (h.duplicate_count != 0) h.flags |= piece_flag::kDuplicates;
+  if (h.listed_count != 0) h.flags |= piece_flag::kListed;
+  if (h.part_count > 1) h.flags |= piece_flag::kManyParts;
+  std::vector<uint32_t> wedge_of_class(plan.classes.class_count, kNone);
+  for (const uint32_t w : plan.triangles.wedges) {
+    uint32_t& first = wedge_of_class[plan.classes.class_of_wedge[w]];
+    if (first == kNone) first = w;
+    if (first != w) h.flags |= piece_flag::kSeams;
+  }
+  return {};
+}
+
+// --- truth: what each stage needs to know, derived from the stage before -----------------------------
+
+McTruth connectivityTruth(Plan& plan) {
+  const McRecord& r = plan.record;
+  McTruth truth;
+  truth.operations = r.operations.data();
+  truth.handles = r.handles.data();
+  truth.components = r.components.data();
+  truth.component_count = static_cast<uint32_t>(r.components.size());
+  truth.gates = r.gates.data();
+  truth.vertex_is_dummy = r.vertex_is_dummy.data();
+  truth.node_of_collapse_node = plan.node_map.data();
+  truth.source_of_vertex = plan.source_of_vertex.data();
+  truth.source_gate_of_face = plan.source_gate.data();
+  return truth;
+}
+
+void learnVertices(Plan& plan) {
+  plan.class_of_vertex.resize(plan.source_of_vertex.size());
+  for (size_t v = 0; v < plan.class_of_vertex.size(); ++v) {
+    plan.class_of_vertex[v] = plan.cut.class_of_vertex[plan.source_of_vertex[v]];
+  }
+  plan.corner_source.resize(3 * plan.source_gate.size());
+  for (size_t f = 0; f < plan.source_gate.size(); ++f) {
+    const uint32_t gate = plan.source_gate[f];  // becomes half-edge 1
+    plan.corner_source[3 * f] = plan.triangles.wedges[prevCorner(gate)];
+    plan.corner_source[3 * f + 1] = plan.triangles.wedges[gate];
+    plan.corner_source[3 * f + 2] = plan.triangles.wedges[nextCorner(gate)];
+  }
+}
+
+void learnPositions(Plan& plan, const FaceMesh& mesh, const Groups& groups) {
+  const std::vector<int32_t>& q = plan.attributes[0].values;
+  plan.positions.resize(3 * (size_t{groups.count} + plan.triangles.isolated.size()));
+  for (uint32_t f = 0; f < mesh.face_count; ++f) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const size_t group = mesh.words[size_t{f} * kFaceWords + k];
+      const size_t source = plan.corner_source[3 * size_t{f} + k];
+      for (size_t s = 0; s < 3; ++s) plan.positions[3 * group + s] = q[3 * source + s];
+    }
+  }
+  for (size_t i = 0; i < plan.triangles.isolated.size(); ++i) {
+    for (size_t s = 0; s < 3; ++s) {
+      plan.positions[3 * (groups.count + i) + s] = q[3 * size_t{plan.triangles.isolated[i]} + s];
+    }
+  }
+}
+
+void learnWedges(Plan& plan, const FaceMesh& mesh) {
+  plan.wedge_source.assign(plan.header.wedge_count, kNone);
+  for (uint32_t f = 0; f < mesh.face_count; ++f) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      plan.wedge_source[mesh.words[size_t{f} * kFaceWords + k]] =
+          plan.corner_source[3 * size_t{f} + k];
+    }
+  }
+  const uint32_t first_isolated = plan.header.wedge_count - plan.header.isolated_count;
+  for (size_t i = 0; i < plan.triangles.isolated.size(); ++i) {
+    plan.wedge_source[first_isolated + i] = plan.triangles.isolated[i];
+  }
+  std::vector<uint32_t> wedge_of_source(plan.header.wedge_count);
+  for (uint32_t w = 0; w < plan.header.wedge_count; ++w) wedge_of_source[plan.wedge_source[w]] = w;
+  plan.part_of_face.resize(mesh.face_count);
+  plan.duplicates_of_face.resize(mesh.face_count);
+  for (uint32_t f = 0; f < mesh.face_count; ++f) {
+    plan.part_of_face[f] = plan.triangles.part[plan.source_gate[f] / 3];
+    plan.duplicates_of_face[f] = plan.triangles.duplicates[plan.source_gate[f] / 3];
+  }
+  plan.list.clear();
+  for (const SortedTriangles::Listed& t : plan.triangles.listed) {
+    plan.list.push_back(
+        {{wedge_of_source[t.wedge[0]], wedge_of_source[t.wedge[1]], wedge_of_source[t.wedge[2]]},
+         t.part});
+  }
+}
+
+void learnAttribute(const Plan& plan, uint32_t index, Array<int32_t>& values) {
+  const QuantizedAttribute& a = plan.attributes[index];
+  if (!values.resize(size_t{plan.header.wedge_count} * a.components)) throw std::bad_alloc();
+  for (uint32_t w = 0; w < plan.header.wedge_count; ++w) {
+    for (uint32_t c = 0; c < a.components; ++c) {
+      values[size_t{w} * a.components + c] =
+          a.values[size_t{plan.wedge_source[w]} * a.components + c];
+    }
+  }
+}
+
+// --- stages ------------------------------------------------------------------------------------------
+
+/// Runs every stage of one piece; `sizes`, if given, receives what each cost.
+template <class Io>
+class StageRunner {
+ public:
+  StageRunner(Io& io, PayloadModels& models, Plan& plan)
+      : io_(io),
+        plan_(plan),
+        infos_(infosOf(plan)),
+        piece_(io, models, plan.header, infos_.data(), {}) {}
+
+  Status codeSurface(StreamSizes* sizes) {
+    truth_.connectivity = connectivityTruth(plan_);
+    MCC_TRY(piece_.codeConnectivity(truth_));
+    account(sizes, &StreamSizes::connectivity_bits);
+    learnVertices(plan_);
+    truth_.class_of_vertex = plan_.class_of_vertex.data();
+    truth_.class_count = plan_.classes.class_count;
+    truth_.corner_source = plan_.corner_source.data();
+    MCC_TRY(piece_.codeStitch(truth_));
+    account(sizes, &StreamSizes::stitch_bits);
+    learnPositions(plan_, piece_.mesh, piece_.groups);
+    truth_.positions = plan_.positions.data();
+    return {};
+  }
+
+  Status codePositions(StreamSizes* sizes) {
+    infos_[0] = plan_.attributes[0].info;
+    piece_.sequence.clear();
+    MCC_TRY(piece_.codePositions(truth_));
+    account(sizes, &StreamSizes::position_bits);
+    return {};
+  }
+
+  Status codeSeams(StreamSizes* sizes) {
+    MCC_TRY(piece_.codeSeams(truth_));
+    account(sizes, &StreamSizes::seam_bits);
+    learnWedges(plan_, piece_.mesh);
+    truth_.leftovers = {plan_.part_of_face.data(), plan_.duplicates_of_face.data(),
+                        plan_.list.data()};
+    MCC_TRY(piece_.codeLeftovers(truth_));
+    account(sizes, &StreamSizes::leftover_bits);
+    return {};
+  }
+
+  Status codeAttribute(uint32_t index, StreamSizes* sizes) {
+    infos_[index] = plan_.attributes[index].info;
+    learnAttribute(plan_, index, values_);
+    MCC_TRY(piece_.codeAttribute(index, values_));
+    if (sizes != nullptr) sizes->attribute_bits.push_back(since());
+    return {};
+  }
+
+  uint32_t groupCount() const { return piece_.groups.count; }
+
+ private:
+  static std::vector<AttributeInfo> infosOf(const Plan& plan) {
+    std::vector<AttributeInfo> infos;
+    for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
+    return infos;
+  }
+  double since() {
+    const uint64_t before = cost_before_;
+    cost_before_ = io_.cost();
+    return static_cast<double>(cost_before_ - before) / kCostOne;
+  }
+  void account(StreamSizes* sizes, double StreamSizes::*field) {
+    if (sizes != nullptr) sizes->*field += since();
+  }
+
+  Io& io_;
+  Plan& plan_;
+  std::vector<AttributeInfo> infos_;
+  PieceCoder<Io> piece_;
+  PieceTruth truth_;
+  Array<int32_t> values_;
+  uint64_t cost_before_ = io_.cost();
+};
+
+std::unique_ptr<PayloadModels> makeModels(uint32_t context_set) {
+  auto models = std::make_unique<PayloadModels>(Allocator{});
+  if (!models->mc.init(context_set)) throw std::bad_alloc();
+  return models;
+}
+
+// --- choices -----------------------------------------------------------------------------------------
+
+Status surfaceCost(Plan& plan, uint64_t& cost) {
+  CostIo io;
+  auto models = makeModels(0);
+  StageRunner<CostIo> runner(io, *models, plan);
+  MCC_TRY(runner.codeSurface(nullptr));
+  cost = io.cost();
+  return {};
+}
+
+/// Edges with more than two faces: joined in file order or cut apart, whichever is smaller.
+Status choosePairing(Plan& plan, uint32_t start_half_edge) {
+  prepareConnectivity(plan, EdgePairing::kStack, start_half_edge);
+  if (!plan.header.has(piece_flag::kCopies)) return {};
+  Plan other = plan;
+  prepareConnectivity(other, EdgePairing::kCut, start_half_edge);
+  if (other.header.vertex_count == plan.header.vertex_count) return {};
+  uint64_t joined = 0;
+  uint64_t cut = 0;
+  MCC_TRY(surfaceCost(plan, joined));
+  MCC_TRY(surfaceCost(other, cut));
+  if (cut < joined) plan = std::move(other);
+  return {};
+}
+
+Status chooseContextSet(std::vector<Plan>& plans, uint32_t& best_set) {
+  uint64_t best = ~uint64_t{0};
+  for (uint32_t set = 0; set < kContextSetCount; ++set) {
+    CostIo io;
+    auto models = makeModels(set);
+    FaceMesh mesh{Allocator{}};
+    for (Plan& plan : plans) {
+      const PieceHeader& h = plan.header;
+      if (!mesh.words.resize(size_t{h.face_count} * kFaceWords)) throw std::bad_alloc();
+      const McCounts counts{h.operation_count, h.vertex_count, h.dummy_count, h.face_count,
+                            h.has(piece_flag::kHandles)};
+      MCC_TRY(McMachine<CostIo>(io, models->mc, counts, {}, mesh, connectivityTruth(plan), nullptr)
+                  .run());
+    }
+    if (io.cost() < best) {
+      best = io.cost();
+      best_set = set;
+    }
+  }
+  return {};
+}
+
+/// Tries `candidates` values of a choice made for all pieces alike; `code` sets one and counts its cost.
+template <class Code>
+Status chooseCheapest(uint32_t candidates, Code code) {
+  uint64_t best = ~uint64_t{0};
+  uint32_t best_candidate = 0;
+  for (uint32_t candidate = 0; candidate < candidates; ++candidate) {
+    uint64_t cost = 0;
+    MCC_TRY(code(candidate, cost));
+    if (cost < best) {
+      best = cost;
+      best_candidate = candidate;
+    }
+  }
+  uint64_t cost = 0;
+  return code(best_candidate, cost);
+}
+
+Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set) {
+  auto models = makeModels(context_set);
+  CostIo io;
+  std::vector<std::unique_ptr<StageRunner<CostIo>>> runners;
+  for (Plan& plan : plans) {
+    runners.push_back(std::make_unique<StageRunner<CostIo>>(io, *models, plan));
+    MCC_TRY(runners.back()->codeSurface(nullptr));
+  }
+  Status chosen = chooseCheapest(2, [&](uint32_t candidate, uint64_t& cost) -> Status {
+    models->positions = PositionModels();
+    const uint64_t before = io.cost();
+    for (size_t i = 0; i < plans.size(); ++i) {
+      plans[i].attributes[0].info.predictor = candidate == 0 ? 0 : position_flag::kWeighted;
+      MCC_TRY(runners[i]->codePositions(nullptr));
+    }
+    cost = io.cost() - before;
+    return {};
+  });
+  MCC_TRY(chosen);
+  for (size_t i = 0; i < plans.size(); ++i) {
+    MCC_TRY(runners[i]->codeSeams(nullptr));
+    for (uint32_t a = 1; a < plans[i].attributes.size(); ++a) {
+      AttributeInfo& info = plans[i].attributes[a].info;
+      chosen = chooseCheapest(kValuePredictors, [&](uint32_t candidate, uint64_t& cost) -> Status {
+        info.predictor = static_cast<uint8_t>(candidate);
+        ValueModels* of_kind = models->valueModels(info);
+        if (of_kind == nullptr) throw std::bad_alloc();
+        *of_kind = ValueModels();
+        const uint64_t before = io.cost();
+        MCC_TRY(runners[i]->codeAttribute(a, nullptr));
+        cost = io.cost() - before;
+        return {};
+      });
+      MCC_TRY(chosen);
+    }
+  }
+  return {};
+}
+
+// --- output ------------------------------------------------------------------------------------------
+
+Status codeAll(std::vector<Plan>& plans, uint32_t context_set, bool single, EncodeResult& result) {
+  EncoderIo io(single);
+  auto models = makeModels(context_set);
+  PayloadHeader header{Allocator{}};
+  header.flags =
+      context_set << payload_flag::kContextSetShift | (single ? payload_flag::kSingleCoder : 0);
+  result.sizes = StreamSizes{};
+  result.pieces.clear();
+  for (Plan& plan : plans) {
+    StageRunner<EncoderIo> runner(io, *models, plan);
+    MCC_TRY(runner.codeSurface(&result.sizes));
+    MCC_TRY(runner.codePositions(&result.sizes));
+    MCC_TRY(runner.codeSeams(&result.sizes));
+    result.sizes.attribute_bits.push_back(0);
+    for (uint32_t a = 1; a < plan.attributes.size(); ++a)
+      MCC_TRY(runner.codeAttribute(a, &result.sizes));
+
+    plan.header.first_attribute = static_cast<uint32_t>(header.attributes.size());
+    plan.header.first_part = static_cast<uint32_t>(header.parts.size());
+    for (const QuantizedAttribute& a : plan.attributes) {
+      if (!header.attributes.push_back(a.info)) throw std::bad_alloc();
+    }
+    for (const PartView& part : plan.view->parts) {
+      if (!header.parts.push_back({static_cast<uint32_t>(part.indices.size() / 3)}))
+        throw std::bad_alloc();
+    }
+    if (!header.pieces.push_back(plan.header)) throw std::bad_alloc();
+
+    PieceResult piece;
+    piece.source_wedge = plan.wedge_source;
+    piece.topological_vertex_count = runner.groupCount();
+    piece.cut_copy_count = plan.header.vertex_count - runner.groupCount();
+    piece.hole_count = plan.cut.hole_count;
+    piece.component_count = static_cast<uint32_t>(plan.cut.mesh.components.size());
+    piece.leftover_triangle_count = plan.header.duplicate_count + plan.header.listed_count;
+    result.pieces.push_back(std::move(piece));
+  }
+  const double coded_bits = static_cast<double>(io.cost()) / kCostOne;
+  const EncoderIo::Streams streams = io.finish();
+  result.payload = writePayload(header, streams.codes, streams.tokens, streams.raw);
+  result.sizes.header_bits = 8.0 * static_cast<double>(result.payload.size()) - coded_bits;
+  return {};
+}
+
+Status encodePieces(std::span<const PieceView> pieces, const EncodeOptions& options,
+                    EncodeResult& result) {
+  if (pieces.empty()) return fail(Error::kBadArgument, "there is nothing to encode");
+  result = EncodeResult{};
+  std::vector<Plan> plans(pieces.size());
+  uint64_t vertices = 0;
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    MCC_TRY(preparePiece(pieces[i], plans[i], result.notes));
+    MCC_TRY(choosePairing(plans[i], i == 0 ? options.start_half_edge : kNone));
+    vertices += plans[i].header.vertex_count;
+  }
+  uint32_t context_set = options.context_set;
+  if (context_set >= kContextSetCount) MCC_TRY(chooseContextSet(plans, context_set));
+  MCC_TRY(choosePredictors(plans, context_set));
+  MCC_TRY(codeAll(plans, context_set, false, result));
+  if (vertices > kSingleCoderVertices) return {};
+  EncodeResult single;
+  MCC_TRY(codeAll(plans, context_set, true, single));
+  if (single.payload.size() < result.payload.size()) {
+    single.notes = std::move(result.notes);
+    result = std::move(single);
+  }
+  return {};
+}
+
+}  // namespace
+
+Status encode(std::span<const PieceView> pieces, const EncodeOptions& options,
+              EncodeResult& result) try {
+  return encodePieces(pieces, options, result);
+} catch (const std::bad_alloc&) {
+  return fail(Error::kOutOfMemory, "no memory for the encoder");
+}
+
+}  // namespace mcc
