@@ -151,6 +151,12 @@ class PieceCoder {
       MCC_TRY(codeDuplicates(io_, models_.leftovers, mesh.view(), mesh.face_count,
                              header_.duplicate_count, truth.leftovers, copies));
     }
+    if (header_.has(piece_flag::kEdgeDegenerates)) {
+      EdgeDegenerateCoder<Io> coder(io_, models_.leftovers, mesh.view(), mesh.face_count,
+                                    allocator_, truth.leftovers);
+      MCC_TRY(
+          coder.run(header_.wedge_count, header_.part_count, header_.edge_degenerate_count, list));
+    }
     if (!header_.has(piece_flag::kListed)) return {};
     return codeList(io_, models_.leftovers, header_.wedge_count, header_.part_count,
                     header_.listed_count, truth.leftovers, list);

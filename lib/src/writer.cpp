@@ -43,6 +43,8 @@ struct Plan {
   std::vector<uint32_t> wedge_source;
   std::vector<uint32_t> part_of_face;
   std::vector<uint32_t> duplicates_of_face;
+  std::vector<uint32_t> degenerates_of_edge;
+  std::vector<uint32_t> degenerate_parts;
   std::vector<ListedTriangle> list;
 };
 
@@ -214,7 +216,66 @@ void learnPositions(Plan& plan, const FaceMesh& mesh, const Groups& groups) {
   }
 }
 
-void learnWedges(Plan& plan, const FaceMesh& mesh) {
+/// Sorts the triangles with a doubled wedge into those along an edge of a face and the others.
+void learnListed(Plan& plan, FaceMesh& mesh, const std::vector<uint32_t>& wedge_of_source) {
+  struct EdgeTriangle {
+    uint64_t edge;  ///< doubled wedge, single wedge
+    uint32_t part;
+    bool operator<(const EdgeTriangle& o) const {
+      return edge != o.edge ? edge < o.edge : part < o.part;
+    }
+  };
+  std::vector<EdgeTriangle> waiting;
+  plan.list.clear();
+  for (const SortedTriangles::Listed& t : plan.triangles.listed) {
+    uint32_t w[3];
+    for (int k = 0; k < 3; ++k) w[k] = wedge_of_source[t.wedge[k]];
+    if (w[0] == w[1] && w[1] == w[2]) {
+      plan.list.push_back({{w[0], w[1], w[2]}, t.part});
+      continue;
+    }
+    const int single = w[0] == w[1] ? 2 : (w[1] == w[2] ? 0 : 1);
+    waiting.push_back({uint64_t{w[(single + 1) % 3]} << 32 | w[single], t.part});
+  }
+  std::sort(waiting.begin(), waiting.end());
+  std::vector<uint8_t> taken(waiting.size(), 0);
+  plan.degenerates_of_edge.assign(waiting.empty() ? 0 : 6 * size_t{mesh.face_count}, 0);
+  plan.degenerate_parts.clear();
+  const FaceView faces = mesh.view();
+  for (uint32_t f = 0; f < mesh.face_count && !waiting.empty(); ++f) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t h = f * kFaceWords + k;
+      if (!EdgeDegenerateCoder<CostIo>::asksAt(faces, h)) continue;
+      const uint64_t a = faces.vertex(h);
+      const uint64_t b = faces.vertex(nextHalfEdge(h));
+      for (const uint32_t side : {0u, 1u}) {
+        const uint64_t edge = side == 0 ? a << 32 | b : b << 32 | a;
+        auto it = std::lower_bound(waiting.begin(), waiting.end(), EdgeTriangle{edge, 0});
+        for (; it != waiting.end() && it->edge == edge; ++it) {
+          uint8_t& is_taken = taken[static_cast<size_t>(it - waiting.begin())];
+          if (is_taken != 0) break;
+          is_taken = 1;
+          ++plan.degenerates_of_edge[2 * (3 * size_t{f} + k) + side];
+          plan.degenerate_parts.push_back(it->part);
+        }
+      }
+    }
+  }
+  for (size_t i = 0; i < waiting.size(); ++i) {
+    if (taken[i] != 0) continue;
+    const uint32_t doubled = static_cast<uint32_t>(waiting[i].edge >> 32);
+    plan.list.push_back(
+        {{doubled, doubled, static_cast<uint32_t>(waiting[i].edge)}, waiting[i].part});
+  }
+  PieceHeader& header = plan.header;
+  header.edge_degenerate_count = static_cast<uint32_t>(plan.degenerate_parts.size());
+  header.listed_count = static_cast<uint32_t>(plan.list.size());
+  header.flags &= ~(piece_flag::kEdgeDegenerates | piece_flag::kListed);
+  if (header.edge_degenerate_count != 0) header.flags |= piece_flag::kEdgeDegenerates;
+  if (header.listed_count != 0) header.flags |= piece_flag::kListed;
+}
+
+void learnWedges(Plan& plan, FaceMesh& mesh) {
   plan.wedge_source.assign(plan.header.wedge_count, kNone);
   for (uint32_t f = 0; f < mesh.face_count; ++f) {
     for (uint32_t k = 0; k < 3; ++k) {
@@ -234,12 +295,7 @@ void learnWedges(Plan& plan, const FaceMesh& mesh) {
     plan.part_of_face[f] = plan.triangles.part[plan.source_gate[f] / 3];
     plan.duplicates_of_face[f] = plan.triangles.duplicates[plan.source_gate[f] / 3];
   }
-  plan.list.clear();
-  for (const SortedTriangles::Listed& t : plan.triangles.listed) {
-    plan.list.push_back(
-        {{wedge_of_source[t.wedge[0]], wedge_of_source[t.wedge[1]], wedge_of_source[t.wedge[2]]},
-         t.part});
-  }
+  learnListed(plan, mesh, wedge_of_source);
 }
 
 void learnAttribute(const Plan& plan, uint32_t index, Array<int32_t>& values) {
@@ -293,6 +349,7 @@ class StageRunner {
     account(sizes, &StreamSizes::seam_bits);
     learnWedges(plan_, piece_.mesh);
     truth_.leftovers = {plan_.part_of_face.data(), plan_.duplicates_of_face.data(),
+                        plan_.degenerates_of_edge.data(), plan_.degenerate_parts.data(),
                         plan_.list.data()};
     MCC_TRY(piece_.codeLeftovers(truth_));
     account(sizes, &StreamSizes::leftover_bits);
@@ -479,7 +536,8 @@ Status codeAll(std::vector<Plan>& plans, uint32_t context_set, bool single, Enco
     piece.cut_copy_count = plan.header.vertex_count - runner.groupCount();
     piece.hole_count = plan.cut.hole_count;
     piece.component_count = static_cast<uint32_t>(plan.cut.mesh.components.size());
-    piece.leftover_triangle_count = plan.header.duplicate_count + plan.header.listed_count;
+    piece.leftover_triangle_count =
+        static_cast<uint32_t>(plan.header.triangleCount()) - plan.header.face_count;
     result.pieces.push_back(std::move(piece));
   }
   const double coded_bits = static_cast<double>(io.cost()) / kCostOne;

@@ -69,12 +69,10 @@ const uint8_t* elementOf(const DecodedAttribute& attribute, uint32_t wedge) {
 }
 
 /// What both sides must compute: DESIGN 9.5.
-float latticeValue(float x, float origin, float step, uint8_t bits) {
-  if (step == 0) return origin;
+float latticeValue(float x, float origin, float step) {
   const double q = std::floor(
       (static_cast<double>(x) - static_cast<double>(origin)) / static_cast<double>(step) + 0.5);
-  const double last = std::ldexp(1.0, bits) - 1;
-  const float scaled = static_cast<float>(std::clamp(q, 0.0, last)) * step;
+  const float scaled = static_cast<float>(q) * step;
   return scaled + origin;
 }
 
@@ -85,7 +83,8 @@ std::string compareLatticeItself(const AttributeView& source, uint32_t wedge_cou
   if (source.lattice != nullptr) {
     return info.lattice == *source.lattice ? "" : "the lattice is not the one the caller gave";
   }
-  if (info.lattice.step > 0 && info.bits < source.quantization_bits) {
+  if (!(info.lattice.step > 0)) return text("the lattice's step is ", info.lattice.step);
+  if (info.bits < source.quantization_bits) {
     return text("has ", int{info.bits}, " bits, asked for were ", int{source.quantization_bits});
   }
   double extent = 0;
@@ -100,7 +99,7 @@ std::string compareLatticeItself(const AttributeView& source, uint32_t wedge_cou
     extent = std::max(extent, high - low);
   }
   const double step = extent / (std::ldexp(1.0, source.quantization_bits) - 1);
-  if (static_cast<double>(info.lattice.step) > step * (1 + 1e-6)) {
+  if (extent > 0 && static_cast<double>(info.lattice.step) > step * (1 + 1e-6)) {
     return text("the lattice's step is ", info.lattice.step, ", the extent needs ", step);
   }
   return "";
@@ -120,7 +119,7 @@ std::string compareLattice(const AttributeView& source, const DecodedAttribute& 
       const float x = componentAt(elementOf(source, source_wedge[i]), k);
       const float got = componentAt(elementOf(decoded, i), k);
       const float origin = info.lattice.origin[std::min<size_t>(k, 3)];
-      const float expected = latticeValue(x, origin, info.lattice.step, info.bits);
+      const float expected = latticeValue(x, origin, info.lattice.step);
       const double error = std::abs(static_cast<double>(got) - static_cast<double>(x));
       const double rounding = 1.2e-7 * std::max({std::abs(static_cast<double>(x)),
                                                  std::abs(static_cast<double>(origin)), step});

@@ -20,6 +20,8 @@ struct LeftoverModels {
   BitModel duplicate[4][4]
                     [2];  ///< [earlier neighbours][how many of them are duplicates][previous face]
   BitModel more_duplicates;
+  BitModel degenerate[2][3][2][2][2];  ///< see EdgeDegenerateCoder
+  BitModel more_degenerates;
   GolombModel list_wedge[3];
 };
 
@@ -32,6 +34,8 @@ struct ListedTriangle {
 struct LeftoverTruth {
   const uint32_t* part_of_face = nullptr;
   const uint32_t* duplicates_of_face = nullptr;
+  const uint32_t* degenerates_of_edge = nullptr;  ///< two counts per half-edge 3f+k
+  const uint32_t* degenerate_parts = nullptr;     ///< in coding order
   const ListedTriangle* list = nullptr;
 };
 
@@ -96,11 +100,115 @@ Status codeDuplicates(Io& io, LeftoverModels& models, const FaceView& faces, uin
   return {};
 }
 
+/// Triangles (a, a, b) whose wedges a and b are the ends of a face's edge: two counts per edge, for (a, a, b) and
+/// (b, b, a). An edge is asked at its first half-edge, and at the second one, too, if the wedges differ there. [A.9.3]
+template <class Io>
+class EdgeDegenerateCoder {
+ public:
+  EdgeDegenerateCoder(Io& io, LeftoverModels& models, const FaceView& faces, uint32_t face_count,
+                      const Allocator& allocator, const LeftoverTruth& truth)
+      : io_(io),
+        models_(models),
+        faces_(faces),
+        face_count_(face_count),
+        truth_(truth),
+        roles_(allocator) {}
+
+  /// Appends `limit` triangles to `list`.
+  Status run(uint32_t wedge_count, uint32_t part_count, uint32_t limit,
+             Array<ListedTriangle>& list) {
+    if (!roles_.assign(wedge_count, Roles{}) || !list.reserve(list.size() + limit))
+      return noMemory();
+    uint32_t total = 0;
+    for (uint32_t f = 0; f < face_count_; ++f) {
+      for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t h = f * kFaceWords + k;
+        if (!asksAt(faces_, h)) continue;
+        const uint32_t* of_edge =
+            Io::kEncoding ? truth_.degenerates_of_edge + 2 * (3 * size_t{f} + k) : nullptr;
+        uint32_t first = 0;
+        for (uint32_t side = 0; side < 2; ++side) {
+          const uint32_t a = faces_.vertex(side == 0 ? h : nextHalfEdge(h));
+          const uint32_t b = faces_.vertex(side == 0 ? nextHalfEdge(h) : h);
+          const uint32_t count =
+              codeCount(side, a, b, first, Io::kEncoding ? of_edge[side] : 0, limit - total);
+          total += count;
+          if (count > limit || total > limit) return tooMany();
+          for (uint32_t i = 0; i < count; ++i) {
+            if (!list.push_back({{a, a, b}, faces_.words[f * kFaceWords + kFaceWord]}))
+              return noMemory();
+          }
+          first = count != 0 ? 1 : 0;
+        }
+      }
+      if ((f & 0xfff) == 0 && io_.overrun()) return tooMany();
+    }
+    if (total != limit)
+      return fail(Error::kBadAttribute, "fewer degenerate triangles than the header claims");
+    return codePartsOf(part_count, limit, list);
+  }
+
+  static bool asksAt(const FaceView& faces, uint32_t h) {
+    const uint32_t t = faces.twin(h);
+    return t == kNone || t > h || faces.vertex(t) != faces.vertex(nextHalfEdge(h)) ||
+           faces.vertex(nextHalfEdge(t)) != faces.vertex(h);
+  }
+
+ private:
+  /// What a wedge has been in degenerate triangles so far, saturating.
+  struct Roles {
+    uint8_t doubled = 0;
+    uint8_t single = 0;
+  };
+
+  static Status noMemory() {
+    return fail(Error::kOutOfMemory, "no memory for degenerate triangles");
+  }
+  static Status tooMany() {
+    return fail(Error::kBadAttribute, "more degenerate triangles than the header claims");
+  }
+
+  uint32_t codeCount(uint32_t side, uint32_t a, uint32_t b, uint32_t first, uint32_t truth,
+                     uint32_t left) {
+    BitModel& model =
+        models_.degenerate[side][roles_[a].doubled][roles_[b].single][roles_[a].single][first];
+    uint32_t count = io_.bit(model, truth != 0) ? 1 : 0;
+    while (count != 0 && count < left && io_.bit(models_.more_degenerates, truth > count)) ++count;
+    if (count != 0) {
+      roles_[a].doubled = static_cast<uint8_t>(std::min(2, roles_[a].doubled + 1));
+      roles_[b].single = 1;
+    }
+    return count;
+  }
+
+  /// The part is mostly that of the face.
+  Status codePartsOf(uint32_t part_count, uint32_t limit, Array<ListedTriangle>& list) {
+    for (size_t i = list.size() - limit; part_count > 1 && i < list.size(); ++i) {
+      uint32_t part = 0;
+      if constexpr (Io::kEncoding) part = truth_.degenerate_parts[i - (list.size() - limit)];
+      const uint32_t guess = list[i].part;
+      const uint32_t distance = codeGolomb(
+          io_, models_.part, Io::kEncoding ? (part + part_count - guess) % part_count : 0);
+      if (distance >= part_count) return fail(Error::kBadAttribute, "a triangle is in no part");
+      list[i].part = (guess + distance) % part_count;
+    }
+    return {};
+  }
+
+  Io& io_;
+  LeftoverModels& models_;
+  const FaceView faces_;
+  const uint32_t face_count_;
+  const LeftoverTruth& truth_;
+  Array<Roles> roles_;
+};
+
 /// Triangles one by one: first corner against the last triangle's, the others against the first. [A.9.4]
 template <class Io>
 Status codeList(Io& io, LeftoverModels& models, uint32_t wedge_count, uint32_t part_count,
                 uint32_t count, const LeftoverTruth& truth, Array<ListedTriangle>& list) {
-  if (!list.reserve(count)) return fail(Error::kOutOfMemory, "no memory for listed triangles");
+  if (!list.reserve(list.size() + size_t{count}))
+    return fail(Error::kOutOfMemory, "no memory for listed triangles");
   uint32_t last = 0;
   for (uint32_t i = 0; i < count; ++i) {
     ListedTriangle t{};

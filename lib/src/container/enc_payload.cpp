@@ -59,6 +59,7 @@ void writePiece(ByteWriter& out, const PayloadHeader& header, size_t index) {
   if (piece.has(piece_flag::kHoles)) out.writeVarint(piece.dummy_count);
   if (piece.has(piece_flag::kIsolated)) out.writeVarint(piece.isolated_count);
   if (piece.has(piece_flag::kDuplicates)) out.writeVarint(piece.duplicate_count);
+  if (piece.has(piece_flag::kEdgeDegenerates)) out.writeVarint(piece.edge_degenerate_count);
   if (piece.has(piece_flag::kListed)) out.writeVarint(piece.listed_count);
   if (piece.has(piece_flag::kManyParts)) {
     out.writeVarint(piece.part_count);
@@ -83,8 +84,7 @@ std::vector<uint8_t> writePayload(const PayloadHeader& header, std::span<const u
   for (size_t i = 0; i < header.pieces.size(); ++i) {
     writePiece(pieces, header, i);
     const PieceHeader& p = header.pieces[i];
-    elements += uint64_t{p.face_count} + p.duplicate_count + p.listed_count + p.vertex_count +
-                p.wedge_count;
+    elements += p.triangleCount() + p.vertex_count + p.wedge_count;
   }
   if (!header.singleCoder()) {
     pieces.writeVarint(static_cast<uint32_t>(codes.size()));

@@ -127,10 +127,10 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, u
   if (piece.has(piece_flag::kHoles)) MCC_TRY(in.readVarint(piece.dummy_count));
   if (piece.has(piece_flag::kIsolated)) MCC_TRY(in.readVarint(piece.isolated_count));
   if (piece.has(piece_flag::kDuplicates)) MCC_TRY(in.readVarint(piece.duplicate_count));
+  if (piece.has(piece_flag::kEdgeDegenerates)) MCC_TRY(in.readVarint(piece.edge_degenerate_count));
   if (piece.has(piece_flag::kListed)) MCC_TRY(in.readVarint(piece.listed_count));
   if (piece.has(piece_flag::kManyParts)) MCC_TRY(in.readVarint(piece.part_count));
-  const uint64_t triangles =
-      uint64_t{piece.face_count} + piece.duplicate_count + piece.listed_count;
+  const uint64_t triangles = piece.triangleCount();
   elements += triangles + piece.vertex_count + piece.wedge_count;
   if (piece.vertex_count > limits.max_vertices || piece.wedge_count > limits.max_vertices ||
       piece.vertex_count >= (1u << 28) || piece.wedge_count >= (1u << 28)) {

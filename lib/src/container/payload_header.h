@@ -43,7 +43,8 @@ inline constexpr uint32_t kMerges = 1u << 7;
 inline constexpr uint32_t kIsolated = 1u << 8;
 inline constexpr uint32_t kDuplicates = 1u << 9;
 inline constexpr uint32_t kListed = 1u << 10;
-inline constexpr uint32_t kAll = 0x7ff;
+inline constexpr uint32_t kEdgeDegenerates = 1u << 11;
+inline constexpr uint32_t kAll = 0xfff;
 }  // namespace piece_flag
 
 /// Bits of AttributeInfo::predictor of a position.
@@ -64,6 +65,7 @@ struct PieceHeader {
   uint32_t wedge_count = 0;  ///< isolated ones included
   uint32_t isolated_count = 0;
   uint32_t duplicate_count = 0;
+  uint32_t edge_degenerate_count = 0;
   uint32_t listed_count = 0;
   uint32_t first_part = 0;
   uint32_t part_count = 1;
@@ -71,6 +73,9 @@ struct PieceHeader {
   uint32_t attribute_count = 0;
 
   bool has(uint32_t flag) const { return (flags & flag) != 0; }
+  uint64_t triangleCount() const {
+    return uint64_t{face_count} + duplicate_count + edge_degenerate_count + listed_count;
+  }
 };
 
 struct PayloadHeader {
