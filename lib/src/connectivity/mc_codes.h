@@ -180,13 +180,36 @@ class McMachine {
   Status run();
 
  private:
+  /// The fan of triangles that one operation emits.
+  struct Fan {
+    uint32_t first_left =
+        kNone;  ///< half-edge from the new vertex to the first gate, kNone: no triangle there
+    uint32_t last_right = kNone;  ///< half-edge from the last gate back to it
+    uint32_t taken = 0;           ///< gates
+  };
+
+  /// Context of a run's decisions: [position][degree][shared] x one of the context sets.
+  struct RunContext {
+    uint32_t factor;
+    uint32_t constant;
+    uint32_t next_limit;  ///< degree of the next node, clamped to this, times next_factor
+    uint32_t next_factor;
+
+    MCC_ALWAYS_INLINE uint32_t of(uint32_t position, const McNode& node, const McNode& next) const {
+      const uint32_t base =
+          (std::min(position, 4u) - 1) * 32 + std::min<uint32_t>(node.degree, 15) * 2 + node.shared;
+      return base * factor + constant + std::min<uint32_t>(next.degree, next_limit) * next_factor;
+    }
+  };
+
   // Coding of one operation.
   Status codeOperation(const McOperation* op);
   Status codeEnd(const McOperation* op, bool first);
   Status codeExpand(const McOperation* op, McJoin join);
-  Status codeRun(const McOperation* op, uint32_t vertex, bool dummy);
+  Status codeRun(const McOperation* op, uint32_t vertex);
+  Status codeDummyRun(const McOperation* op);
   Status expandSpur(const McOperation* op, uint32_t vertex);
-  uint32_t runContext(uint32_t position, uint32_t node) const;
+  RunContext runContext() const;
   uint32_t specialContext() const;
   bool codeStartFlag(const McOperation* op);
   void remember(uint32_t operation_class);
@@ -194,9 +217,11 @@ class McMachine {
   // Changes of the lists.
   Status newNode(uint32_t vertex, uint32_t degree, uint32_t& node);
   Status newVertex(bool dummy, uint32_t source, uint32_t& vertex);
-  Status takeGate(uint32_t vertex, uint32_t node, uint32_t source_gate);
-  void openFan();
-  void closeFan(uint32_t left, uint32_t right);
+  Status endRun(const McOperation* op, uint32_t vertex, uint32_t q, const Fan& fan);
+  bool takeGate(uint32_t vertex, uint32_t node, Fan& fan, uint32_t source_gate);
+  static Status tooManyTriangles() {
+    return fail(Error::kBadConnectivity, "the codes yield more triangles than the header claims");
+  }
   void closeNodes(uint32_t first, uint32_t node_count);
   Status spur(uint32_t vertex, uint32_t& first, uint32_t& second);
   void swapLinks(uint32_t a, uint32_t b);
@@ -234,10 +259,7 @@ class McMachine {
   uint32_t age_ = 0;  ///< operations since the last END
   uint32_t last_class_ = kClassEnd;
   uint32_t class_before_ = kClassEnd;
-  uint32_t pattern_ = 0;        ///< last four operations, context set 4
-  uint32_t fan_first_ = kNone;  ///< of the fan being emitted: first triangle's left half-edge
-  uint32_t fan_last_ = kNone;   ///< ... last triangle's right half-edge
-  bool fan_empty_ = true;
+  uint32_t pattern_ = 0;  ///< last four operations, context set 4
 };
 
 template <class Io>
@@ -275,18 +297,13 @@ uint32_t McMachine<Io>::specialContext() const {
 }
 
 template <class Io>
-uint32_t McMachine<Io>::runContext(uint32_t position, uint32_t node) const {
-  const McNode& n = nodes_[node];
-  const uint32_t base =
-      (std::min(position, 4u) - 1) * 32 + std::min<uint32_t>(n.degree, 15) * 2 + n.shared;
+typename McMachine<Io>::RunContext McMachine<Io>::runContext() const {
   switch (models_.context_set) {
-    case 1: return base * 8 + std::min<uint32_t>(nodes_[n.next].degree, 7);
-    case 2: return base * 49 + last_class_ * kClassCount + class_before_;
-    case 3:
-      return base * 256 + std::min<uint32_t>(nodes_[n.next].degree, 15) * 16 +
-             std::min<uint32_t>(nodes_[top_].degree, 15);
-    case 4: return base * kPatterns + pattern_;
-    default: return base;
+    case 1: return {8, 0, 7, 1};
+    case 2: return {49, last_class_ * kClassCount + class_before_, 0, 0};
+    case 3: return {256, std::min<uint32_t>(nodes_[top_].degree, 15), 15, 16};
+    case 4: return {kPatterns, pattern_, 0, 0};
+    default: return {1, 0, 0, 0};
   }
 }
 
@@ -315,7 +332,7 @@ Status McMachine<Io>::codeOperation(const McOperation* op) {
   if (!io_.bit(models_.special[specialContext()], is_special)) {
     uint32_t vertex = 0;
     MCC_TRY(newVertex(false, Io::kEncoding ? op->vertex_a : 0, vertex));
-    return codeRun(op, vertex, false);
+    return codeRun(op, vertex);
   }
   const uint32_t context = std::min<uint32_t>(std::max<uint32_t>(nodes_[top_].degree, 1) - 1, 3);
   const bool plain_expand = Io::kEncoding && op->kind == McKind::kExpand &&
@@ -369,7 +386,7 @@ Status McMachine<Io>::codeOperation(const McOperation* op) {
   uint32_t vertex = 0;
   MCC_TRY(newVertex(true, Io::kEncoding ? op->vertex_a : 0, vertex));
   count(&CodeHistogram::dummy);
-  return codeRun(op, vertex, true);
+  return codeDummyRun(op);
 }
 
 /// END, with the end of the component before it if the stack is empty. [A.4.3]
@@ -436,7 +453,11 @@ Status McMachine<Io>::codeExpand(const McOperation* op, McJoin join) {
   const bool dummy = vertex == kDummyVertex;
   const bool is_spur = !dummy && io_.bit(models_.joined_spur[join == McJoin::kStart ? 0 : 1],
                                          Io::kEncoding && op->degree == 0);
-  MCC_TRY(is_spur ? expandSpur(op, vertex) : codeRun(op, vertex, dummy));
+  if (dummy) {
+    MCC_TRY(codeDummyRun(op));
+  } else {
+    MCC_TRY(is_spur ? expandSpur(op, vertex) : codeRun(op, vertex));
+  }
   return join == McJoin::kStart ? joinStart() : joinHandle(op, handle_node);
 }
 
@@ -459,47 +480,64 @@ Status McMachine<Io>::expandSpur(const McOperation* op, uint32_t vertex) {
   return {};
 }
 
-/// The degree of an EXPAND, gate by gate: "close the next vertex too?". [A.4.5]
+/// The degree of an EXPAND, gate by gate: "close the next vertex too?". Where the decoder spends its time: everything
+/// it needs is local, and each node is read once. [A.4.5]
 template <class Io>
-Status McMachine<Io>::codeRun(const McOperation* op, uint32_t vertex, bool dummy) {
-  uint32_t degree = 0;
-  if (dummy) {
-    degree = codeGolomb(io_, models_.dummy_degree, Io::kEncoding ? op->degree : 0);
-    if (degree == 0) return expandSpur(op, vertex);
+Status McMachine<Io>::codeRun(const McOperation* op, uint32_t vertex) {
+  const RunContext context = runContext();
+  const uint32_t top = top_;
+  const uint32_t first_closed = nodes_[top].next;
+  uint32_t q = top;
+  Fan fan;
+  for (;;) {
+    if (!takeGate(vertex, q, fan, Io::kEncoding ? truth_.gates[op->first_gate + fan.taken] : 0)) {
+      return tooManyTriangles();
+    }
+    q = nodes_[q].next;
+    if (q == top) break;
+    const McNode& n = nodes_[q];
+    const uint32_t index = context.of(fan.taken, n, nodes_[n.next]);
+    if (!io_.bit(models_.run[index], Io::kEncoding && fan.taken < op->degree)) break;
   }
-  openFan();
+  closeNodes(first_closed, fan.taken - 1);
+  return endRun(op, vertex, q, fan);
+}
+
+/// A dummy vertex: its degree comes first, as holes have any size. [A.4.5]
+template <class Io>
+Status McMachine<Io>::codeDummyRun(const McOperation* op) {
+  const uint32_t degree = codeGolomb(io_, models_.dummy_degree, Io::kEncoding ? op->degree : 0);
+  if (degree == 0) return expandSpur(op, kDummyVertex);
   const uint32_t first_closed = nodes_[top_].next;
   uint32_t q = top_;
-  uint32_t taken = 0;
-  for (;;) {
-    MCC_TRY(takeGate(vertex, q, Io::kEncoding ? truth_.gates[op->first_gate + taken] : 0));
-    ++taken;
+  Fan fan;
+  do {
+    (void)takeGate(kDummyVertex, q, fan, 0);  // emits nothing
     q = nodes_[q].next;
-    if (q == top_) {
-      if (dummy && taken != degree) {
-        return fail(Error::kBadConnectivity, "a dummy vertex takes more edges than its digon has");
-      }
-      break;
-    }
-    if (dummy) {
-      if (taken == degree) break;
-    } else if (!io_.bit(models_.run[runContext(taken, q)], Io::kEncoding && taken < op->degree)) {
-      break;
-    }
+  } while (fan.taken < degree && q != top_);
+  if (fan.taken != degree) {
+    return fail(Error::kBadConnectivity, "a dummy vertex takes more edges than its digon has");
   }
-  closeNodes(first_closed, taken - 1);
+  closeNodes(first_closed, fan.taken - 1);
+  return endRun(op, kDummyVertex, q, fan);
+}
+
+/// The new vertex takes the place of the closed ones: top -> node -> q.
+template <class Io>
+Status McMachine<Io>::endRun(const McOperation* op, uint32_t vertex, uint32_t q, const Fan& fan) {
   uint32_t node = 0;
-  MCC_TRY(newNode(vertex, taken + 1, node));
+  MCC_TRY(newNode(vertex, fan.taken + 1, node));
   if constexpr (Io::kEncoding) truth_.node_of_collapse_node[op->node_a] = node;
   addDegree(nodes_[top_], 1);
   addDegree(nodes_[q], 1);
   nodes_[top_].next = node;
   nodes_[node].next = q;
-  closeFan(top_, node);
+  nodes_[top_].gate = fan.first_left;
+  nodes_[node].gate = fan.last_right;
   top_ = node;
   ++age_;
-  remember(std::min(taken, 4u));
-  countDegree(taken + 3);
+  remember(std::min(fan.taken, 4u));
+  countDegree(fan.taken + 3);
   return {};
 }
 
@@ -531,54 +569,47 @@ Status McMachine<Io>::newVertex(bool dummy, uint32_t source, uint32_t& vertex) {
   return {};
 }
 
+/// Emits triangle (vertex, node's vertex, next node's vertex) behind the gate of `node`, unless it touches a dummy.
+/// False if there are more than the header claims.
 template <class Io>
-void McMachine<Io>::openFan() {
-  fan_empty_ = true;
-  fan_first_ = kNone;
-  fan_last_ = kNone;
-}
-
-/// Emits triangle (vertex, node's vertex, next node's vertex) behind the gate of `node`.
-template <class Io>
-Status McMachine<Io>::takeGate(uint32_t vertex, uint32_t node, uint32_t source_gate) {
-  const McNode& n = nodes_[node];
-  const uint32_t gate = n.gate;
-  const uint32_t va = n.vertex;
-  const uint32_t vb = nodes_[n.next].vertex;
+MCC_ALWAYS_INLINE bool McMachine<Io>::takeGate(uint32_t vertex, uint32_t node, Fan& fan,
+                                               uint32_t source_gate) {
+  McNode* nodes = nodes_.data();
   uint32_t* words = mesh_.words.data();
+  const McNode& n = nodes[node];
+  const uint32_t va = n.vertex;
+  const uint32_t vb = nodes[n.next].vertex;
+  const uint32_t gate = n.gate;  // only now: the triangle before may have been glued to it
   uint32_t left = kNone;
-  uint32_t right = kNone;
   uint32_t base = kNone;
   if (std::max(vertex, std::max(va, vb)) < kDummyVertex) [[likely]] {
-    if (face_count_ == counts_.face_count) {
-      return fail(Error::kBadConnectivity, "the codes yield more triangles than the header claims");
-    }
+    if (face_count_ == counts_.face_count) return false;
     if constexpr (Io::kEncoding) truth_.source_gate_of_face[face_count_] = source_gate;
     left = face_count_++ * kFaceWords;
     base = left + 1;
-    right = left + 2;
-    words[left] = vertex;
-    words[base] = va;
-    words[right] = vb;
-    words[left + kFaceWord] = 0;
-    words[left + kSeamWord] = 0;
-    words[left + 4] = words[base + 4] = words[right + 4] = kNone;
+    uint32_t* face = words + left;
+    face[0] = vertex;
+    face[1] = va;
+    face[2] = vb;
+    face[kFaceWord] = 0;
+    face[4] = fan.last_right;
+    face[5] = gate < kGateFlag ? gate : kNone;
+    face[6] = kNone;
+    face[kSeamWord] = 0;
   }
   if (gate < kGateFlag) {
     words[gate + 4] = base;
-    if (base != kNone) words[base + 4] = gate;
   } else if (gate != kGateBoundary) {
-    nodes_[gate ^ kGateFlag].gate = base;  // kNone is kGateBoundary
+    nodes[gate ^ kGateFlag].gate = base;  // kNone is kGateBoundary
   }
-  if (fan_empty_) {
-    fan_empty_ = false;
-    fan_first_ = left;
-  } else {
-    if (left != kNone) words[left + 4] = fan_last_;
-    if (fan_last_ != kNone) words[fan_last_ + 4] = left;
+  if (fan.taken == 0) {
+    fan.first_left = left;
+  } else if (fan.last_right != kNone) {
+    words[fan.last_right + 4] = left;
   }
-  fan_last_ = right;
-  return {};
+  fan.last_right = left == kNone ? kNone : left + 2;
+  ++fan.taken;
+  return true;
 }
 
 /// Invariant: `next` permutes the open nodes, so every walk along a digon ends where it began. Only handles can
@@ -589,12 +620,6 @@ void McMachine<Io>::closeNodes(uint32_t first, uint32_t node_count) {
   for (uint32_t i = 0, q = first; i < node_count; ++i, q = nodes_[q].next) {
     nodes_[q].vertex = kClosedNode;
   }
-}
-
-template <class Io>
-void McMachine<Io>::closeFan(uint32_t left, uint32_t right) {
-  nodes_[left].gate = fan_first_;
-  nodes_[right].gate = fan_last_;
 }
 
 /// Inserts `tip` (of a new vertex) and `copy` (of the top's vertex) behind the top: top -> tip -> copy.
@@ -686,18 +711,19 @@ Status McMachine<Io>::finishComponent() {
                              Io::kEncoding && truth_.vertex_is_dummy[component->vertex] != 0);
   uint32_t vertex = 0;
   MCC_TRY(newVertex(dummy, Io::kEncoding ? component->vertex : 0, vertex));
-  openFan();
   uint32_t q = top_;
-  uint32_t taken = 0;
+  Fan fan;
   do {
-    MCC_TRY(takeGate(vertex, q, Io::kEncoding ? truth_.gates[component->first_gate + taken] : 0));
-    ++taken;
+    if (!takeGate(vertex, q, fan,
+                  Io::kEncoding ? truth_.gates[component->first_gate + fan.taken] : 0)) {
+      return tooManyTriangles();
+    }
     q = nodes_[q].next;
   } while (q != top_);
-  closeNodes(top_, taken);
+  closeNodes(top_, fan.taken);
   uint32_t* words = mesh_.words.data();
-  if (fan_first_ != kNone) words[fan_first_ + 4] = fan_last_;
-  if (fan_last_ != kNone) words[fan_last_ + 4] = fan_first_;
+  if (fan.first_left != kNone) words[fan.first_left + 4] = fan.last_right;
+  if (fan.last_right != kNone) words[fan.last_right + 4] = fan.first_left;
   top_ = kNone;
   ++component_;
   return {};

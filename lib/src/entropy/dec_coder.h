@@ -17,6 +17,7 @@
 #include <span>
 #include <type_traits>
 
+#include "base/host.h"
 #include "entropy/models.h"
 #include "mcc/status.h"
 
@@ -40,12 +41,16 @@ class RangeDecoder {
     code_ |= nextWord();
   }
 
-  bool bit(BitModel& model) {
+  /// Branches on the bit, which callers do anyway: the next decision then starts from a predicted range.
+  MCC_ALWAYS_INLINE bool bit(BitModel& model) {
     const uint64_t split = (range_ >> kProbabilityBits) * model.zeroProbability();
     const bool one = code_ >= split;
-    const uint64_t mask = ~static_cast<uint64_t>(one) + 1;
-    code_ -= split & mask;
-    range_ = (split & ~mask) | ((range_ - split) & mask);
+    if (one) {
+      code_ -= split;
+      range_ -= split;
+    } else {
+      range_ = split;
+    }
     model.update(one);
     renormalise();
     return one;
@@ -69,14 +74,14 @@ class RangeDecoder {
   bool overrun() const { return next_ > bytes_.size() + 8; }
 
  private:
-  void renormalise() {
+  MCC_ALWAYS_INLINE void renormalise() {
     if (range_ < (uint64_t{1} << 32)) [[unlikely]] {
       range_ <<= 32;
       code_ = code_ << 32 | nextWord();
     }
   }
 
-  uint32_t nextWord() {
+  [[gnu::noinline]] uint32_t nextWord() {
     uint32_t word = 0;
     if (next_ + 4 <= bytes_.size()) {
       word = loadU32(bytes_.data() + next_);
@@ -193,7 +198,7 @@ class DecoderIo {
             std::span<const uint8_t> raw)
       : codes_(codes), tokens_(tokens), raw_(raw) {}
 
-  bool bit(BitModel& model, bool = false) { return codes_.bit(model); }
+  MCC_ALWAYS_INLINE bool bit(BitModel& model, bool = false) { return codes_.bit(model); }
 
   template <uint32_t kState>
   uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t = 0) {

@@ -7,6 +7,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "base/host.h"
+
 #if defined(__SSE2__)
 #include <emmintrin.h>
 #elif defined(__ARM_NEON)
@@ -44,14 +46,12 @@ struct BitModel {
 
   uint32_t zeroProbability() const { return state >> 10; }
 
-  void update(bool bit) {
+  MCC_ALWAYS_INLINE void update(bool bit) {
     const uint32_t count = state & 1023;
     const uint32_t p = state >> 10;
     const uint64_t rate = kAdaptationRates.of_count[count];
-    const uint32_t up = static_cast<uint32_t>(((kProbabilityOne - p) * rate) >> 16);
-    const uint32_t down = static_cast<uint32_t>((p * rate) >> 16);
-    const uint32_t mask = ~(static_cast<uint32_t>(bit)) + 1;  // all ones for bit 1
-    const uint32_t next = p + (up & ~mask) - (down & mask);
+    const uint32_t next = bit ? p - static_cast<uint32_t>((p * rate) >> 16)
+                              : p + static_cast<uint32_t>(((kProbabilityOne - p) * rate) >> 16);
     state = next << 10 | (count + (count < kBitCountLimit ? 1 : 0));
   }
 };
