@@ -28,39 +28,53 @@ namespace {
 
 const PayloadInfo kEmptyInfo{};
 
-/// Copies wedge values to the caller's elements. [A.8.4]
-void storeValues(const AttributeInfo& info, const int32_t* values, uint32_t wedge_count,
-                 const AttributeTarget& target) {
-  const uint32_t components = info.format.component_count;
-  const uint32_t bytes = componentBytes(info.format.component_type);
+/// Copies coded integers to the caller's elements; `load(w)` points to the integers of wedge w. [A.8.4]
+template <class Load>
+void storeElements(const AttributeInfo& info, uint32_t wedge_count, const AttributeTarget& target,
+                   Load load) {
+  if (target.data == nullptr) return;
+  const AttributeFormat& format = info.format;
+  const uint32_t components = format.component_count;
   uint8_t* to = static_cast<uint8_t*>(target.data);
-  const int32_t centre =
-      info.coding == AttributeCoding::kOctahedral ? octahedralCentre(info.bits) : 0;
-  for (uint32_t w = 0; w < wedge_count; ++w, to += target.stride_bytes) {
-    switch (info.coding) {
-      case AttributeCoding::kLattice:
+  const size_t stride = target.stride_bytes;
+  switch (info.coding) {
+    case AttributeCoding::kLattice: {
+      const Lattice lattice = info.lattice;
+      for (uint32_t w = 0; w < wedge_count; ++w, to += stride) {
+        const int32_t* q = load(w);
         for (uint32_t c = 0; c < components; ++c) {
-          storeFloat(to + 4 * c,
-                     latticeValue(*values++, info.lattice.step, info.lattice.origin[c]));
+          storeFloat(to + 4 * c, latticeValue(q[c], lattice.step, lattice.origin[c]));
         }
-        break;
-      case AttributeCoding::kOctahedral: {
-        float unit[3];
-        octahedralToUnit(values[0], values[1], centre, unit);
-        values += 2;
-        for (uint32_t c = 0; c < 3; ++c) storeFloat(to + 4 * c, unit[c]);
-        break;
       }
-      case AttributeCoding::kExactFloat:
+      return;
+    }
+    case AttributeCoding::kOctahedral: {
+      const int32_t centre = octahedralCentre(info.bits);
+      for (uint32_t w = 0; w < wedge_count; ++w, to += stride) {
+        const int32_t* q = load(w);
+        float unit[3];
+        octahedralToUnit(q[0], q[1], centre, unit);
+        std::memcpy(to, unit, sizeof unit);
+      }
+      return;
+    }
+    case AttributeCoding::kExactFloat:
+      for (uint32_t w = 0; w < wedge_count; ++w, to += stride) {
+        const int32_t* q = load(w);
         for (uint32_t c = 0; c < components; ++c) {
-          const uint32_t bits = bitsFromOrdered(*values++);
+          const uint32_t bits = bitsFromOrdered(q[c]);
           std::memcpy(to + 4 * c, &bits, 4);
         }
-        break;
-      default:
+      }
+      return;
+    default: {
+      const uint32_t bytes = componentBytes(format.component_type);
+      for (uint32_t w = 0; w < wedge_count; ++w, to += stride) {
+        const int32_t* q = load(w);
         for (uint32_t c = 0; c < components; ++c) {
-          storeInteger(to + size_t{bytes} * c, info.format.component_type, *values++);
+          storeInteger(to + size_t{bytes} * c, format.component_type, q[c]);
         }
+      }
     }
   }
 }
@@ -68,10 +82,12 @@ void storeValues(const AttributeInfo& info, const int32_t* values, uint32_t wedg
 template <class Io>
 void storePositions(const PieceCoder<Io>& piece, const AttributeInfo& info, uint32_t wedge_count,
                     const AttributeTarget& target) {
-  if (target.data == nullptr) return;
-  uint8_t* to = static_cast<uint8_t*>(target.data);
-  for (uint32_t w = 0; w < wedge_count; ++w, to += target.stride_bytes) {
-    storeValues(info, piece.records[piece.groupOf(w)].q, 1, {to, target.stride_bytes});
+  const VertexRecord* records = piece.records.data();
+  if (piece.wedge_group.empty()) {
+    storeElements(info, wedge_count, target, [=](uint32_t w) { return records[w].q; });
+  } else {
+    storeElements(info, wedge_count, target,
+                  [&](uint32_t w) { return records[piece.groupOf(w)].q; });
   }
 }
 
@@ -87,10 +103,30 @@ void storeIndex(const PartTarget& target, size_t at, uint32_t index) {
   }
 }
 
-/// Faces in decoding order, each with its duplicates, then the listed triangles; split into parts.
+/// The usual case: one part, no triangles beside the surface.
+template <class Index>
+void storeFaces(const FaceMesh& mesh, Index* to) {
+  const uint32_t* face = mesh.words.data();
+  for (uint32_t f = 0; f < mesh.face_count; ++f, face += kFaceWords, to += 3) {
+    for (int k = 0; k < 3; ++k) to[k] = static_cast<Index>(face[k]);
+  }
+}
+
+/// Faces in decoding order, each with its duplicates, then the other triangles; split into parts.
 template <class Io>
 Status storeTriangles(PieceCoder<Io>& piece, std::span<const PartInfo> infos,
                       std::span<const PartTarget> targets, const Allocator& allocator) {
+  const bool many = targets.size() > 1;
+  if (!many && piece.copies.empty() && piece.list.empty()) {
+    void* to = targets[0].indices;
+    if (to == nullptr) return {};
+    switch (targets[0].index_type) {
+      case IndexType::kUint8: storeFaces(piece.mesh, static_cast<uint8_t*>(to)); break;
+      case IndexType::kUint16: storeFaces(piece.mesh, static_cast<uint16_t*>(to)); break;
+      case IndexType::kUint32: storeFaces(piece.mesh, static_cast<uint32_t*>(to)); break;
+    }
+    return {};
+  }
   Array<uint64_t> fill(allocator);
   if (!fill.assign(targets.size(), 0)) return fail(Error::kOutOfMemory, "no memory for the parts");
   const auto store = [&](uint32_t part, const uint32_t* wedges) {
@@ -98,7 +134,6 @@ Status storeTriangles(PieceCoder<Io>& piece, std::span<const PartInfo> infos,
     if (at >= infos[part].triangle_count || targets[part].indices == nullptr) return;
     for (size_t k = 0; k < 3; ++k) storeIndex(targets[part], 3 * at + k, wedges[k]);
   };
-  const bool many = targets.size() > 1;
   for (uint32_t f = 0; f < piece.mesh.face_count; ++f) {
     const uint32_t* face = piece.mesh.words.data() + size_t{f} * kFaceWords;
     const uint32_t count = 1 + (piece.copies.empty() ? 0 : piece.copies[f]);
@@ -162,9 +197,9 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
   Array<int32_t> values(allocator);
   for (uint32_t a = 1; a < info.attributes.size(); ++a) {
     MCC_TRY(piece.codeAttribute(a, values));
-    if (target.attributes[a].data != nullptr) {
-      storeValues(info.attributes[a], values.data(), info.wedge_count, target.attributes[a]);
-    }
+    const uint32_t components = PieceCoder<Io>::codedComponents(info.attributes[a]);
+    storeElements(info.attributes[a], info.wedge_count, target.attributes[a],
+                  [&](uint32_t w) { return values.data() + size_t{w} * components; });
   }
   return {};
 }
