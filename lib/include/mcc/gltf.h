@@ -1,0 +1,193 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// glTF 2.0 files in, glTF 2.0 files out: KHR_mesh_collapse_compression put on and taken off.
+// No exception leaves these functions; they use no globals and may run in parallel.
+#ifndef MCC_GLTF_H_
+#define MCC_GLTF_H_
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mcc/reader.h"
+#include "mcc/types.h"
+
+namespace mcc::gltf {
+
+inline constexpr char kExtensionName[] = "KHR_mesh_collapse_compression";
+
+/// Result of every fallible call: `what` is empty when all went well.
+struct [[nodiscard]] Result {
+  std::string where;  ///< JSON path ("/meshes/0/primitives/2"), "byte 20", a file name, or empty
+  std::string what;   ///< what is wrong and, where that helps, what to do; one line, no full stop
+
+  bool ok() const { return what.empty(); }
+  /// "where: what", or only one of them when the other is empty.
+  std::string message() const;
+};
+
+/// Which primitives share one lattice of positions. Primitives that share one cannot crack apart.
+enum class Grid : uint8_t {
+  kMesh,       ///< all primitives of a mesh
+  kScene,      ///< all primitives of the file (in mesh coordinates)
+  kPrimitive,  ///< every piece has its own
+};
+
+/// Bits per component of float attributes; 0 keeps every bit. Integer attributes, joints and
+/// custom attributes are always exact.
+struct QuantizationBits {
+  uint8_t position = 14;  ///< 0..24; also the grid of POSITION morph deltas
+  uint8_t normal = 10;    ///< 0 or 2..16, octahedral
+  uint8_t texcoord = 12;  ///< 0..24
+  uint8_t color = 8;      ///< 0..24
+  uint8_t tangent = 12;   ///< 0 or 2..16
+  uint8_t weight = 12;    ///< 0..24
+};
+
+struct ConvertOptions {
+  QuantizationBits bits;
+  bool lossless = false;  ///< every float keeps every bit; `bits` is ignored
+  Grid grid = Grid::kMesh;
+  uint32_t thread_count = 1;  ///< payloads coded at the same time; the result does not depend on it
+  uint8_t effort = 1;         ///< see EncodeOptions::effort
+  /// Compress also where that makes the file larger. For tests of the file layer.
+  bool allow_larger = false;
+};
+
+/// How one attribute fared. Errors are in units of the accessor (normalised integers: of the stored
+/// integer), in degrees for unit vectors.
+struct AttributeReport {
+  std::string name;  ///< "POSITION", "TEXCOORD_1", "target 0 NORMAL"
+  AttributeCoding coding = AttributeCoding::kExactFloat;
+  uint8_t bits = 0;  ///< of the lattice, octahedron or angle; 0: exact
+  uint32_t component_count = 0;
+  uint32_t vertex_count = 0;
+  double coded_bits = 0;      ///< bits in the payload; of POSITION the positions themselves
+  bool is_angle = false;      ///< errors are in degrees
+  double promised_error = 0;  ///< no value is farther from its source than this
+  double max_error = 0;       ///< measured on the file that was written
+  double median_error = 0;    ///< measured, only of angles
+};
+
+struct StreamReport {
+  std::string name;  ///< "connectivity", "stitching", "leftovers", "seams", "order", "header"
+  double bits = 0;
+};
+
+struct PayloadReport {
+  uint32_t mesh = 0;  ///< the first mesh it belongs to
+  uint64_t payload_bytes = 0;
+  uint64_t freed_bytes = 0;   ///< buffer bytes the payload makes unnecessary
+  uint64_t wedge_count = 0;   ///< glTF vertices
+  uint64_t vertex_count = 0;  ///< topological vertices (distinct positions)
+  uint64_t triangle_count = 0;
+  uint64_t component_count = 0;
+  uint64_t hole_count = 0;
+  uint64_t cut_copy_count = 0;
+  uint64_t leftover_triangle_count = 0;
+  uint32_t piece_count = 0;
+  std::vector<StreamReport> streams;
+  std::vector<AttributeReport> attributes;  ///< merged by name over the pieces
+};
+
+struct PrimitiveReport {
+  uint32_t mesh = 0;
+  uint32_t primitive = 0;
+  bool compressed = false;
+  uint32_t payload = kNone;  ///< index into ConvertReport::payloads
+  uint64_t triangle_count = 0;
+  uint64_t wedge_count = 0;
+  std::string note;  ///< why it was left as it was
+};
+
+struct ConvertReport {
+  uint64_t input_bytes = 0;  ///< with all buffers
+  uint64_t output_bytes = 0;
+  bool copied = false;   ///< nothing was gained: the output is the input
+  bool checked = false;  ///< the output was decoded and compared with the source
+  double encode_seconds = 0;
+  double decode_seconds = 0;
+  double check_seconds = 0;
+  std::vector<PayloadReport> payloads;
+  std::vector<PrimitiveReport> primitives;  ///< all primitives of the file, in file order
+  std::vector<std::string> notes;           ///< "/meshes/0/primitives/1: why"
+};
+
+struct DecodeReport {
+  uint64_t input_bytes = 0;
+  uint64_t output_bytes = 0;
+  uint32_t payload_count = 0;
+  uint32_t primitive_count = 0;
+  uint64_t triangle_count = 0;
+  uint64_t wedge_count = 0;
+  double decode_seconds = 0;
+  std::vector<std::string> notes;
+};
+
+struct InspectPiece {
+  uint32_t wedge_count = 0;
+  uint32_t vertex_count = 0;
+  uint64_t triangle_count = 0;
+  uint32_t part_count = 0;
+  std::vector<AttributeInfo> attributes;
+  std::vector<std::string>
+      attribute_names;  ///< as in the JSON; "(unused)" when no primitive names it
+};
+
+struct InspectPayload {
+  uint32_t buffer_view = 0;
+  uint64_t payload_bytes = 0;
+  uint8_t version_major = 0;
+  uint8_t version_minor = 0;
+  uint64_t header_bytes = 0;
+  uint64_t codes_bytes = 0;
+  uint64_t tokens_bytes = 0;
+  uint64_t raw_bits_bytes = 0;
+  std::vector<std::string> primitives;  ///< JSON paths of the primitives that use it
+  std::vector<InspectPiece> pieces;
+  bool has_codes = false;
+  CodeHistogram codes;  ///< when asked for
+};
+
+struct InspectReport {
+  uint64_t input_bytes = 0;
+  std::vector<InspectPayload> payloads;
+  std::vector<std::string> extensions_used;
+  uint32_t mesh_count = 0;
+  uint32_t primitive_count = 0;
+};
+
+/// Compresses the triangle primitives of a glTF file held in memory.
+/// source   a GLB, or the JSON of a .gltf whose buffers are data URIs.
+/// output   a GLB. When compressing gains nothing a GLB source is copied byte for byte.
+/// Everything that is not geometry is kept as it was. The output is decoded and compared with the
+/// source before the call returns. On an error `output` is unspecified and `report` holds what was
+/// known by then. Safe for untrusted input. Deterministic. Inverse: decodeGlb().
+/// Tests: tests/gltf/.
+Result convertGlb(std::span<const uint8_t> source, const ConvertOptions& options,
+                  std::vector<uint8_t>& output, ConvertReport& report);
+
+/// The same over files; `source` may be a .gltf with its buffers and images beside it, `output` is a
+/// .glb. The output is written to a temporary file in its folder, read back, checked, and renamed:
+/// on an error an existing output is as it was. Both paths may name the same file.
+Result convertFile(const std::filesystem::path& source, const std::filesystem::path& output,
+                   const ConvertOptions& options, ConvertReport& report);
+
+/// Turns compressed primitives into ordinary accessors again; a file without any is copied.
+/// Safe for untrusted input. On an error `output` is unspecified.
+Result decodeGlb(std::span<const uint8_t> source, std::vector<uint8_t>& output,
+                 DecodeReport& report);
+
+/// The same over files, with the guarantees of convertFile().
+Result decodeFile(const std::filesystem::path& source, const std::filesystem::path& output,
+                  DecodeReport& report);
+
+/// Lists the payloads of a file. With `count_codes` they are decoded to count their codes.
+Result inspectGlb(std::span<const uint8_t> source, bool count_codes, InspectReport& report);
+Result inspectFile(const std::filesystem::path& source, bool count_codes, InspectReport& report);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_H_

@@ -1,0 +1,56 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Elements of accessors, whatever way they are stored.
+#ifndef MCC_GLTF_ACCESSORS_H_
+#define MCC_GLTF_ACCESSORS_H_
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gltf/document.h"
+
+namespace mcc::gltf {
+
+/// Elements without padding inside; `data` points into the document or into `owned`.
+struct AccessorData {
+  const uint8_t* data = nullptr;
+  size_t stride_bytes = 0;
+  uint64_t count = 0;
+  uint32_t element_bytes = 0;
+  std::vector<uint8_t> owned;
+
+  std::span<const uint8_t> element(uint64_t index) const {
+    return {data + index * stride_bytes, element_bytes};
+  }
+};
+
+/// Largest count of an accessor that has no bytes in the file.
+inline constexpr uint64_t kMaxZeroCount = uint64_t{1} << 24;
+
+/// Reads an accessor: strided, interleaved, sparse, without view, a matrix with padded columns.
+/// Does not copy when the bytes can be used where they are. Errors carry the path /accessors/N.
+Result readAccessor(const Document& document, uint32_t index, AccessorData& elements);
+
+/// Reads an accessor of indices. Errors: it is no SCALAR of an unsigned integer type.
+Result readIndices(const Document& document, uint32_t index, std::vector<uint32_t>& indices);
+
+/// Expands the vertices of a primitive of mode 4 (triangles), 5 (strip) or 6 (fan) to triangles as
+/// glTF 2.0, 3.7.2.1 says. False when `mode` is none of these or the count makes no triangles.
+bool expandTriangles(uint64_t mode, std::vector<uint32_t>& vertices);
+
+/// Name of a component type and type as glTF spells them: "VEC3 of FLOAT".
+std::string describeType(const Accessor& accessor);
+
+/// One component as a number.
+double componentValue(const uint8_t* bytes, ComponentType type);
+
+/// Copies tight elements into the layout of a buffer: columns of matrices padded, elements of vertex
+/// attributes at multiples of four. `stride_bytes` becomes 0 when that is the plain element size.
+std::vector<uint8_t> packElements(std::span<const uint8_t> tight, const Accessor& accessor,
+                                  bool is_vertex_attribute, uint32_t& stride_bytes);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_ACCESSORS_H_

@@ -1,0 +1,244 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/check.h"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+#include "gltf/accessors.h"
+#include "gltf/check_json.h"
+#include "gltf/check_values.h"
+#include "gltf/decompress.h"
+
+namespace mcc::gltf {
+namespace {
+
+Result failed(Result result, const std::string& where) {
+  if (result.ok()) return result;
+  if (result.where.empty()) result.where = where;
+  result.what = "the check of the result failed: " + result.what + "; please report this";
+  return result;
+}
+
+class Checker {
+ public:
+  Checker(const Document& source, const std::vector<EncodedPayload>& payloads, CheckResult& result)
+      : source_(source), payloads_(payloads), result_(result) {}
+
+  Result run(std::span<const uint8_t> written) {
+    const auto start = std::chrono::steady_clock::now();
+    Document compressed;
+    MCC_GLTF_TRY(failed(loadDocument(written, nullptr, compressed), ""));
+    Decompressed decompressed;
+    MCC_GLTF_TRY(failed(decompressDocument(compressed, decompressed), ""));
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    result_.decode_seconds = time.count();
+    coded_ = std::move(decompressed.coded_attributes);
+    std::vector<ExtensionUse> uses;
+    MCC_GLTF_TRY(findExtensionUses(compressed, uses));
+    MCC_GLTF_TRY(failed(
+        adoptDocument(std::move(decompressed.json), std::move(decompressed.bin), decoded_), ""));
+    for (const EncodedPayload& payload : payloads_) MCC_GLTF_TRY(checkPayload(payload));
+    MCC_GLTF_TRY(failed(checkUses(uses), ""));
+    return failed(compareRest(source_, decoded_, uses), "");
+  }
+
+ private:
+  /// The written file compresses the primitives of the plan and no others.
+  Result checkUses(const std::vector<ExtensionUse>& uses) const {
+    std::set<std::pair<uint32_t, uint32_t>> found;
+    for (const ExtensionUse& use : uses) {
+      const Json& primitive = source_.json["meshes"][use.mesh]["primitives"][use.primitive];
+      const Json* extensions = findMember(primitive, "extensions");
+      const bool was_compressed =
+          extensions != nullptr && findMember(*extensions, kExtensionName) != nullptr;
+      if (!was_compressed) found.emplace(use.mesh, use.primitive);
+    }
+    if (found != planned_) {
+      return error("", "the compressed primitives are not those that were meant");
+    }
+    return {};
+  }
+
+  Result checkPayload(const EncodedPayload& payload) {
+    result_.attributes.emplace_back();
+    angles_.clear();
+    for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
+      const PiecePlan& piece = payload.plan.pieces[i];
+      const std::string where = piece.parts[0].users[0].path();
+      const std::vector<uint32_t>& source_of = payload.result.pieces[i].source_wedge;
+      MCC_GLTF_TRY(failed(checkBijection(source_of, piece.wedge_count), where));
+      for (const AttributePlan& attribute : piece.attributes) {
+        MCC_GLTF_TRY(failed(checkAttribute(piece, attribute, source_of), where));
+      }
+      for (const PartPlan& part : piece.parts) {
+        MCC_GLTF_TRY(failed(checkPart(piece, part, source_of), part.users[0].path()));
+      }
+    }
+    for (AttributeReport& report : result_.attributes.back()) {
+      std::vector<float>& angles = angles_[report.name];
+      if (angles.empty()) continue;
+      const auto middle = angles.begin() + static_cast<ptrdiff_t>(angles.size() / 2);
+      std::nth_element(angles.begin(), middle, angles.end());
+      report.median_error = *middle;
+    }
+    return {};
+  }
+
+  static Result checkBijection(const std::vector<uint32_t>& source_of, uint32_t wedge_count) {
+    if (source_of.size() != wedge_count) return error("", "the vertex permutation is incomplete");
+    std::vector<bool> is_seen(wedge_count, false);
+    for (const uint32_t wedge : source_of) {
+      if (wedge >= wedge_count || is_seen[wedge]) {
+        return error("", "the vertex permutation is no permutation");
+      }
+      is_seen[wedge] = true;
+    }
+    return {};
+  }
+
+  const Json& primitiveOf(const Document& document, const PrimitiveRef& ref) const {
+    return document.json["meshes"][ref.mesh]["primitives"][ref.primitive];
+  }
+
+  /// The accessor of an attribute of a decoded primitive.
+  Result decodedAccessor(const PrimitiveRef& ref, const AttributePlan& attribute,
+                         uint32_t& accessor) const {
+    const Json& primitive = primitiveOf(decoded_, ref);
+    const Json* map = attribute.target == kNone ? findMember(primitive, "attributes")
+                                                : &arrayOf(primitive, "targets")[attribute.target];
+    uint64_t index = 0;
+    const Json* number = map == nullptr ? nullptr : findMember(*map, attribute.name.c_str());
+    if (number == nullptr || !asUnsigned(*number, index) || index >= decoded_.accessors.size()) {
+      return error("", attribute.label() + " is missing");
+    }
+    accessor = static_cast<uint32_t>(index);
+    return {};
+  }
+
+  AttributeReport& reportOf(const AttributePlan& attribute) {
+    for (AttributeReport& report : result_.attributes.back()) {
+      if (report.name == attribute.label()) return report;
+    }
+    result_.attributes.back().emplace_back();
+    result_.attributes.back().back().name = attribute.label();
+    return result_.attributes.back().back();
+  }
+
+  Result checkAttribute(const PiecePlan& piece, const AttributePlan& attribute,
+                        std::span<const uint32_t> source_of) {
+    uint32_t index = 0;
+    MCC_GLTF_TRY(decodedAccessor(piece.parts[0].users[0], attribute, index));
+    const Accessor& accessor = decoded_.accessors[index];
+    const Accessor& original = source_.accessors[attribute.accessor];
+    if (accessor.count != original.count ||
+        formatOf(attribute.name, attribute.target, accessor) != attribute.format) {
+      return error("", attribute.label() + " has another count or type");
+    }
+    const auto coded = coded_.find(index);
+    if (coded == coded_.end()) return error("", attribute.label() + " is not in the payload");
+    AccessorData source_values;
+    AccessorData decoded_values;
+    MCC_GLTF_TRY(readAccessor(source_, attribute.accessor, source_values));
+    MCC_GLTF_TRY(readAccessor(decoded_, index, decoded_values));
+    Promise promise;
+    MCC_GLTF_TRY(promiseOf(attribute, coded->second, source_values, promise));
+    AttributeReport& report = reportOf(attribute);
+    report.coding = coded->second.coding;
+    report.bits = promise.kind == Promise::Kind::kExact ? uint8_t{0} : attribute.bits;
+    report.component_count = attribute.format.component_count;
+    report.vertex_count += piece.wedge_count;
+    return compareValues(source_values, decoded_values, source_of, attribute.format, promise,
+                         report, angles_[report.name]);
+  }
+
+  Result decodedTriangles(const PrimitiveRef& ref, std::vector<uint32_t>& indices) const {
+    const Json* number = findMember(primitiveOf(decoded_, ref), "indices");
+    uint64_t index = 0;
+    if (number == nullptr || !asUnsigned(*number, index) || index >= decoded_.accessors.size()) {
+      return error("", "the indices are missing");
+    }
+    return readIndices(decoded_, static_cast<uint32_t>(index), indices);
+  }
+
+  /// The source's triangles, read again and not taken from the plan.
+  Result sourceTriangles(const PrimitiveRef& ref, uint32_t wedge_count,
+                         std::vector<uint32_t>& indices) const {
+    const Json& primitive = primitiveOf(source_, ref);
+    uint64_t mode = 4;
+    MCC_GLTF_TRY(readOptionalUnsigned(primitive, "mode", ref.path(), 6, mode));
+    uint64_t accessor = 0;
+    if (const Json* number = findMember(primitive, "indices"); number != nullptr) {
+      if (!asUnsigned(*number, accessor)) return error("", "the indices are missing");
+      MCC_GLTF_TRY(readIndices(source_, static_cast<uint32_t>(accessor), indices));
+    } else {
+      for (uint32_t i = 0; i < wedge_count; ++i) indices.push_back(i);
+    }
+    if (!expandTriangles(mode, indices)) return error("", "the source has no triangles");
+    return {};
+  }
+
+  Result checkPart(const PiecePlan& piece, const PartPlan& part,
+                   std::span<const uint32_t> source_of) {
+    for (const PrimitiveRef& user : part.users) {
+      planned_.emplace(user.mesh, user.primitive);
+      MCC_GLTF_TRY(checkSharing(piece, part, user));
+    }
+    std::vector<uint32_t> indices;
+    MCC_GLTF_TRY(decodedTriangles(part.users[0], indices));
+    for (const uint32_t index : indices) {
+      if (index >= source_of.size()) return error("", "an index is out of range");
+    }
+    const std::vector<Triangle> decoded = canonicalTriangles(indices, source_of);
+    indices.clear();
+    MCC_GLTF_TRY(sourceTriangles(part.users[0], piece.wedge_count, indices));
+    if (decoded.size() != indices.size() / 3) {
+      return error("", "there are " + std::to_string(decoded.size()) +
+                           " triangles, the source has " + std::to_string(indices.size() / 3));
+    }
+    if (decoded != canonicalTriangles(indices, {})) return error("", "the triangles differ");
+    return {};
+  }
+
+  /// All users of a part refer to the accessors of the first, in the result as in the source.
+  Result checkSharing(const PiecePlan& piece, const PartPlan& part,
+                      const PrimitiveRef& user) const {
+    for (const Document* document : {&source_, static_cast<const Document*>(&decoded_)}) {
+      const Json& own = primitiveOf(*document, user);
+      const Json& first = primitiveOf(*document, piece.parts[0].users[0]);
+      const Json& first_of_part = primitiveOf(*document, part.users[0]);
+      const bool has_same = sameMap(own, first, "attributes") && sameMap(own, first, "targets") &&
+                            sameMap(own, first_of_part, "indices");
+      if (!has_same) return error(user.path(), "does not share the accessors of its piece");
+    }
+    if (arrayOf(primitiveOf(decoded_, user), "targets").size() != piece.target_count) {
+      return error(user.path(), "has another number of morph targets");
+    }
+    return {};
+  }
+
+  static bool sameMap(const Json& a, const Json& b, const char* key) {
+    const Json* in_a = findMember(a, key);
+    const Json* in_b = findMember(b, key);
+    if (in_a == nullptr || in_b == nullptr) return in_a == in_b;
+    return equalJson(*in_a, *in_b);
+  }
+
+  const Document& source_;
+  const std::vector<EncodedPayload>& payloads_;
+  CheckResult& result_;
+  Document decoded_;
+  std::map<uint32_t, AttributeInfo> coded_;
+  std::map<std::string, std::vector<float>> angles_;
+  std::set<std::pair<uint32_t, uint32_t>> planned_;
+};
+
+}  // namespace
+
+Result checkConversion(const Document& source, const std::vector<EncodedPayload>& payloads,
+                       std::span<const uint8_t> written, CheckResult& result) {
+  result = {};
+  return Checker(source, payloads, result).run(written);
+}
+
+}  // namespace mcc::gltf

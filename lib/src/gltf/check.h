@@ -1,0 +1,34 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The proof of a conversion: the bytes that were written are decoded and compared with the source. Uses
+// nothing of the encoder but its claim which decoded vertex is which source vertex, and checks that.
+#ifndef MCC_GLTF_CHECK_H_
+#define MCC_GLTF_CHECK_H_
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gltf/compress.h"
+#include "mcc/gltf.h"
+
+namespace mcc::gltf {
+
+struct CheckResult {
+  /// Per payload: what was measured, merged by attribute name.
+  std::vector<std::vector<AttributeReport>> attributes;
+  double decode_seconds = 0;
+};
+
+/// Checks that `written` holds the document `source`:
+/// - each compressed primitive has the source's vertices in a permuted order and the same multiset of
+///   triangles, up to rotation;
+/// - every attribute value is within the promised distance of its source, exact ones are bit-equal;
+/// - accessors, images and JSON that are not compressed geometry are equal.
+/// Errors name the first difference.
+Result checkConversion(const Document& source, const std::vector<EncodedPayload>& payloads,
+                       std::span<const uint8_t> written, CheckResult& result);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_CHECK_H_

@@ -1,0 +1,192 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/check_json.h"
+
+#include <algorithm>
+#include <set>
+
+#include "gltf/accessors.h"
+#include "gltf/references.h"
+
+namespace mcc::gltf {
+namespace {
+
+/// Whether two values differ, and where. `path` is extended up to the difference.
+bool differs(const Json& a, const Json& b, std::string& path) {
+  if (!a.is_structured() || a.type() != b.type()) return !(a == b);
+  if (a.size() != b.size()) return true;
+  const size_t length = path.size();
+  if (a.is_array()) {
+    for (size_t i = 0; i < a.size(); ++i) {
+      path = at(path, i);
+      if (differs(a[i], b[i], path)) return true;
+      path.resize(length);
+    }
+    return false;
+  }
+  for (const auto& [key, value] : a.items()) {
+    path = at(path, key);
+    const Json* other = findMember(b, key.c_str());
+    if (other == nullptr || differs(value, *other, path)) return true;
+    path.resize(length);
+  }
+  return false;
+}
+
+void eraseAll(Json& object, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) object.erase(key);
+}
+
+void eraseOurName(Json& root, const char* list) {
+  const auto found = root.find(list);
+  if (found == root.end() || !found->is_array()) return;
+  Json others = Json::array();
+  for (const Json& name : *found) {
+    if (name != kExtensionName) others.push_back(name);
+  }
+  if (others.empty()) {
+    root.erase(list);
+  } else {
+    *found = std::move(others);
+  }
+}
+
+void eraseGeometry(Json& primitive) {
+  eraseAll(primitive, {"attributes", "indices", "mode", "targets"});
+  const auto extensions = primitive.find("extensions");
+  if (extensions == primitive.end()) return;
+  extensions->erase(kExtensionName);
+  if (extensions->empty()) primitive.erase("extensions");
+}
+
+/// The document without what conversion may change: numbers and places of buffer views, and the
+/// compressed geometry itself. Accessors behind `accessor_count` are ours.
+Json withoutGeometry(const Document& document, const std::vector<ExtensionUse>& uses,
+                     const std::set<uint32_t>& touched, size_t accessor_count) {
+  Json json = document.json;
+  eraseAll(json, {"buffers", "bufferViews"});
+  eraseOurName(json, "extensionsUsed");
+  eraseOurName(json, "extensionsRequired");
+  visitViewReferences(json, [](Json& number, uint32_t) { number = 0; });
+  for (const ExtensionUse& use : uses) {
+    eraseGeometry(json["meshes"][use.mesh]["primitives"][use.primitive]);
+  }
+  if (json.find("accessors") == json.end()) return json;
+  Json accessors = Json::array();
+  for (uint32_t i = 0; i < std::min(accessor_count, json["accessors"].size()); ++i) {
+    Json accessor = std::move(json["accessors"][i]);
+    accessor.erase("byteOffset");
+    if (Json* sparse = accessor.contains("sparse") ? &accessor["sparse"] : nullptr) {
+      (*sparse)["indices"].erase("byteOffset");
+      (*sparse)["values"].erase("byteOffset");
+    }
+    if (touched.count(i) != 0) {
+      eraseAll(accessor, {"bufferView", "sparse", "min", "max", "count", "componentType"});
+    }
+    accessors.push_back(std::move(accessor));
+  }
+  if (accessors.empty()) {
+    json.erase("accessors");
+  } else {
+    json["accessors"] = std::move(accessors);
+  }
+  return json;
+}
+
+std::span<const uint8_t> viewBytes(const Document& document, uint64_t view) {
+  const BufferView& range = document.views[view];
+  return document.buffers[range.buffer].subspan(range.offset, range.length);
+}
+
+bool sameBytes(std::span<const uint8_t> a, std::span<const uint8_t> b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end());
+}
+
+Result compareAccessor(const Document& source, const Document& decoded, uint32_t index) {
+  const std::string path = at("/accessors", index);
+  if (!source.accessors[index].is_known_type) return {};
+  if (source.accessors[index].view == kNone && source.accessors[index].sparse.count == 0) return {};
+  AccessorData a;
+  AccessorData b;
+  MCC_GLTF_TRY(readAccessor(source, index, a));
+  MCC_GLTF_TRY(readAccessor(decoded, index, b));
+  if (a.count != b.count || a.element_bytes != b.element_bytes) {
+    return error(path, "has another size");
+  }
+  for (uint64_t i = 0; i < a.count; ++i) {
+    if (!sameBytes(a.element(i), b.element(i))) {
+      return error(path, "element " + std::to_string(i) + " changed");
+    }
+  }
+  return {};
+}
+
+Result compareImages(const Document& source, const Document& decoded) {
+  const Json& images = arrayOf(source.json, "images");
+  for (size_t i = 0; i < images.size(); ++i) {
+    const Json* number = findMember(images[i], "bufferView");
+    if (number == nullptr) continue;
+    uint64_t old_view = 0;
+    uint64_t new_view = 0;
+    const Json* new_number = findMember(arrayOf(decoded.json, "images")[i], "bufferView");
+    const bool is_valid = asUnsigned(*number, old_view) && old_view < source.views.size() &&
+                          new_number != nullptr && asUnsigned(*new_number, new_view) &&
+                          new_view < decoded.views.size();
+    if (!is_valid || !sameBytes(viewBytes(source, old_view), viewBytes(decoded, new_view))) {
+      return error(at("/images", i), "the image changed");
+    }
+  }
+  return {};
+}
+
+/// Where numbers stay, every view that compressed accessors alone did not use is as it was.
+Result compareViews(const Document& source, const Document& decoded,
+                    const std::set<uint32_t>& touched) {
+  if (!findForeignReferences(source.json).keep_numbers) return {};
+  std::vector<bool> is_freed(source.views.size(), false);
+  for (const uint32_t index : touched) {
+    if (index >= source.accessors.size()) continue;
+    const Accessor& accessor = source.accessors[index];
+    if (accessor.view != kNone) is_freed[accessor.view] = true;
+    if (accessor.sparse.count == 0) continue;
+    is_freed[accessor.sparse.index_view] = true;
+    is_freed[accessor.sparse.value_view] = true;
+  }
+  for (size_t view = 0; view < source.views.size(); ++view) {
+    if (is_freed[view]) continue;
+    if (view >= decoded.views.size() ||
+        !sameBytes(viewBytes(source, view), viewBytes(decoded, view))) {
+      return error(at("/bufferViews", view), "the bytes changed");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+bool equalJson(const Json& a, const Json& b) { return firstDifference(a, b).empty(); }
+
+std::string firstDifference(const Json& a, const Json& b) {
+  std::string path;
+  if (!differs(a, b, path)) return "";
+  return path.empty() ? "/" : path;
+}
+
+Result compareRest(const Document& source, const Document& decoded,
+                   const std::vector<ExtensionUse>& uses) {
+  std::set<uint32_t> touched;
+  for (const ExtensionUse& use : uses) {
+    touched.insert(use.indices_accessor);
+    for (const auto& attribute : use.attributes) touched.insert(attribute.accessor);
+  }
+  const size_t count = source.accessors.size();
+  const std::string difference = firstDifference(withoutGeometry(source, uses, touched, count),
+                                                 withoutGeometry(decoded, uses, touched, count));
+  if (!difference.empty()) return error(difference, "the JSON changed");
+  for (uint32_t i = 0; i < count; ++i) {
+    if (touched.count(i) == 0) MCC_GLTF_TRY(compareAccessor(source, decoded, i));
+  }
+  MCC_GLTF_TRY(compareImages(source, decoded));
+  return compareViews(source, decoded, touched);
+}
+
+}  // namespace mcc::gltf

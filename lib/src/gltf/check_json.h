@@ -1,0 +1,26 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#ifndef MCC_GLTF_CHECK_JSON_H_
+#define MCC_GLTF_CHECK_JSON_H_
+
+#include <string>
+#include <vector>
+
+#include "gltf/decompress.h"
+#include "gltf/document.h"
+
+namespace mcc::gltf {
+
+/// Whether two values are equal; members may come in another order.
+bool equalJson(const Json& a, const Json& b);
+
+/// JSON path of the first difference, or an empty string. The root itself is "/".
+std::string firstDifference(const Json& a, const Json& b);
+
+/// Compares what no compressed primitive of `uses` has to do with: the JSON, the bytes of the other
+/// accessors and of the images, and, where nothing was renumbered, all views.
+Result compareRest(const Document& source, const Document& decoded,
+                   const std::vector<ExtensionUse>& uses);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_CHECK_JSON_H_

@@ -1,0 +1,257 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/compress.h"
+
+#include <algorithm>
+
+#include "gltf/quantize.h"
+#include "gltf/rebuild.h"
+
+namespace mcc::gltf {
+namespace {
+
+Json numbersOf(const std::vector<double>& values, ComponentType type) {
+  Json numbers = Json::array();
+  for (const double value : values) {
+    if (type == ComponentType::kFloat32) {
+      numbers.push_back(value);
+    } else {
+      numbers.push_back(static_cast<int64_t>(value));
+    }
+  }
+  return numbers;
+}
+
+void removeBytes(Json& accessor) {
+  accessor.erase("bufferView");
+  accessor.erase("byteOffset");
+  accessor.erase("sparse");
+}
+
+void setBounds(Json& accessor, const Bounds& bounds, ComponentType type, bool is_required) {
+  if (bounds.min.empty()) return;
+  if (is_required || findMember(accessor, "min") != nullptr) {
+    accessor["min"] = numbersOf(bounds.min, type);
+  }
+  if (is_required || findMember(accessor, "max") != nullptr) {
+    accessor["max"] = numbersOf(bounds.max, type);
+  }
+}
+
+void addExtensionName(Json& root, const char* list) {
+  Json& names = root[list];
+  if (!names.is_array()) names = Json::array();
+  for (const Json& name : names) {
+    if (name == kExtensionName) return;
+  }
+  names.push_back(kExtensionName);
+}
+
+/// Index type of new accessors for `vertex_count` vertices; the largest value is the restart value.
+uint32_t indexTypeFor(uint32_t vertex_count) { return vertex_count <= 65535 ? 5123 : 5125; }
+
+bool indexTypeFits(ComponentType type, uint32_t vertex_count) {
+  switch (type) {
+    case ComponentType::kUint8: return vertex_count <= 255;
+    case ComponentType::kUint16: return vertex_count <= 65535;
+    case ComponentType::kUint32: return true;
+    default: return false;
+  }
+}
+
+/// Writes the payloads into the JSON.
+class Applier {
+ public:
+  Applier(const Document& document, const ForeignReferences& foreign, Compressed& compressed)
+      : document_(document),
+        compressed_(compressed),
+        is_taken_(accessorsInOtherUse(document, foreign, compressed.payloads)) {}
+
+  std::vector<NewView> run() {
+    compressed_.json = document_.json;
+    std::vector<NewView> views;
+    for (EncodedPayload& payload : compressed_.payloads) {
+      const uint64_t view = document_.views.size() + views.size();
+      NewView new_view;
+      new_view.bytes = std::move(payload.result.payload);
+      views.push_back(std::move(new_view));
+      for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
+        applyPiece(payload, i, view);
+      }
+    }
+    addExtensionName(compressed_.json, "extensionsUsed");
+    addExtensionName(compressed_.json, "extensionsRequired");
+    return views;
+  }
+
+ private:
+  void applyPiece(const EncodedPayload& payload, size_t number, uint64_t view) {
+    const PiecePlan& piece = payload.plan.pieces[number];
+    const std::string where = piece.parts[0].users[0].path();
+    std::vector<uint32_t> accessors;
+    for (size_t k = 0; k < piece.attributes.size(); ++k) {
+      const AttributePlan& attribute = piece.attributes[k];
+      const uint32_t index = take(attribute.accessor, where + ": " + attribute.label());
+      Json& accessor = compressed_.json["accessors"][index];
+      const bool is_position = attribute.name == "POSITION";
+      setBounds(accessor, payload.bounds[number][k], attribute.format.component_type, is_position);
+      accessors.push_back(index);
+    }
+    for (size_t k = 0; k < piece.parts.size(); ++k) {
+      const uint32_t indices = takeIndices(piece.parts[k], piece.wedge_count);
+      for (const PrimitiveRef& user : piece.parts[k].users) {
+        Json& primitive = compressed_.json["meshes"][user.mesh]["primitives"][user.primitive];
+        setAccessors(piece, accessors, primitive);
+        primitive["indices"] = indices;
+        if (piece.parts[k].mode != 4) primitive["mode"] = 4;
+        primitive["extensions"][kExtensionName] = extensionJson(view, number, piece, k);
+      }
+    }
+  }
+
+  static void setAccessors(const PiecePlan& piece, const std::vector<uint32_t>& accessors,
+                           Json& primitive) {
+    for (size_t k = 0; k < accessors.size(); ++k) {
+      const AttributePlan& attribute = piece.attributes[k];
+      Json& map = attribute.target == kNone ? primitive["attributes"]
+                                            : primitive["targets"][attribute.target];
+      if (accessors[k] != attribute.accessor) map[attribute.name] = accessors[k];
+    }
+  }
+
+  /// The accessor to compress: the source's own, or a clone of one that somebody else needs.
+  uint32_t take(uint32_t source, const std::string& where) {
+    Json& accessors = compressed_.json["accessors"];
+    uint32_t index = source;
+    if (is_taken_[source]) {
+      index = static_cast<uint32_t>(accessors.size());
+      Json clone = document_.json["accessors"][source];
+      accessors.push_back(std::move(clone));
+      compressed_.notes.push_back(where + " shares accessor " + std::to_string(source) +
+                                  " with others and gets its own");
+    }
+    is_taken_[source] = true;
+    removeBytes(accessors[index]);
+    return index;
+  }
+
+  uint32_t takeIndices(const PartPlan& part, uint32_t wedge_count) {
+    Json& accessors = compressed_.json["accessors"];
+    uint32_t index = 0;
+    if (part.indices_accessor == kNone) {
+      index = static_cast<uint32_t>(accessors.size());
+      accessors.push_back({{"componentType", 0}, {"count", 0}, {"type", "SCALAR"}});
+    } else {
+      index = take(part.indices_accessor, part.users[0].path() + ": indices");
+    }
+    Json& accessor = accessors[index];
+    const uint32_t gl_type = indexTypeFor(wedge_count);
+    const bool fits =
+        part.indices_accessor != kNone &&
+        indexTypeFits(document_.accessors[part.indices_accessor].component_type, wedge_count);
+    if (!fits) accessor["componentType"] = gl_type;
+    accessor["count"] = part.triangles.size();
+    Bounds bounds;
+    const auto [low, high] = std::minmax_element(part.triangles.begin(), part.triangles.end());
+    bounds.min = {static_cast<double>(*low)};
+    bounds.max = {static_cast<double>(*high)};
+    setBounds(accessor, bounds, ComponentType::kUint32, false);
+    return index;
+  }
+
+  const Document& document_;
+  Compressed& compressed_;
+  std::vector<bool> is_taken_;  ///< source accessors that must not be changed (again)
+};
+
+void mark(const Json& map, std::vector<bool>& is_used) {
+  if (!map.is_object()) return;
+  for (const Json& value : map) {
+    uint64_t index = 0;
+    if (asUnsigned(value, index) && index < is_used.size()) is_used[index] = true;
+  }
+}
+
+void sortByPlace(std::vector<LeftAlone>& left_alone) {
+  std::stable_sort(left_alone.begin(), left_alone.end(),
+                   [](const LeftAlone& a, const LeftAlone& b) {
+                     return std::pair(a.primitive.mesh, a.primitive.primitive) <
+                            std::pair(b.primitive.mesh, b.primitive.primitive);
+                   });
+}
+
+}  // namespace
+
+std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignReferences& foreign,
+                                      const std::vector<EncodedPayload>& payloads) {
+  std::vector<std::vector<bool>> is_compressed;
+  for (const Json& mesh : arrayOf(document.json, "meshes")) {
+    is_compressed.emplace_back(arrayOf(mesh, "primitives").size(), false);
+  }
+  for (const EncodedPayload& payload : payloads) {
+    for (const PiecePlan& piece : payload.plan.pieces) {
+      for (const PartPlan& part : piece.parts) {
+        for (const PrimitiveRef& user : part.users) is_compressed[user.mesh][user.primitive] = true;
+      }
+    }
+  }
+  std::vector<bool> is_used;
+  markAccessorsOutsideMeshes(document, foreign, is_used);
+  const Json& meshes = arrayOf(document.json, "meshes");
+  for (size_t m = 0; m < meshes.size(); ++m) {
+    const Json& primitives = arrayOf(meshes[m], "primitives");
+    for (size_t p = 0; p < primitives.size(); ++p) {
+      if (is_compressed[m][p]) continue;
+      const Json* attributes = findMember(primitives[p], "attributes");
+      if (attributes != nullptr) mark(*attributes, is_used);
+      for (const Json& target : arrayOf(primitives[p], "targets")) mark(target, is_used);
+      uint64_t index = 0;
+      const Json* indices = findMember(primitives[p], "indices");
+      if (indices != nullptr && asUnsigned(*indices, index) && index < is_used.size()) {
+        is_used[index] = true;
+      }
+    }
+  }
+  return is_used;
+}
+
+Json extensionJson(uint64_t buffer_view, size_t piece_number, const PiecePlan& piece,
+                   size_t part_number) {
+  Json json = {{"bufferView", buffer_view}};
+  if (piece_number != 0) json["piece"] = piece_number;
+  if (part_number != 0) json["part"] = part_number;
+  json["attributes"] = Json::object();
+  std::vector<Json> targets(piece.target_count, Json::object());
+  for (size_t id = 0; id < piece.attributes.size(); ++id) {
+    const AttributePlan& attribute = piece.attributes[id];
+    Json& map = attribute.target == kNone ? json["attributes"] : targets[attribute.target];
+    map[attribute.name] = id;
+  }
+  if (!targets.empty()) json["targets"] = std::move(targets);
+  return json;
+}
+
+Result compressDocument(const Document& document, const ConvertOptions& options,
+                        Compressed& compressed) {
+  compressed = {};
+  std::vector<PayloadPlan> plans;
+  MCC_GLTF_TRY(planPayloads(document, plans, compressed.left_alone));
+  planQuantization(options, plans, compressed.notes);
+  MCC_GLTF_TRY(
+      encodePayloads(options, std::move(plans), compressed.payloads, compressed.left_alone));
+  const ForeignReferences foreign = findForeignReferences(document.json);
+  countFreedBytes(document, foreign, compressed.payloads);
+  if (!options.allow_larger) {
+    dropLosers(document, foreign, compressed.payloads, compressed.left_alone);
+  }
+  sortByPlace(compressed.left_alone);
+  if (compressed.payloads.empty()) return {};
+  for (const EncodedPayload& payload : compressed.payloads) {
+    for (const std::string& note : payload.result.notes) {
+      compressed.notes.push_back(at("/meshes", payload.plan.mesh) + ": " + note);
+    }
+  }
+  std::vector<NewView> views = Applier(document, foreign, compressed).run();
+  return rebuildBuffers(document, foreign, views, compressed.json, compressed.bin);
+}
+
+}  // namespace mcc::gltf

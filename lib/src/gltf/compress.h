@@ -1,0 +1,67 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#ifndef MCC_GLTF_COMPRESS_H_
+#define MCC_GLTF_COMPRESS_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "gltf/plan.h"
+#include "gltf/references.h"
+#include "mcc/gltf.h"
+#include "mcc/writer.h"
+
+namespace mcc::gltf {
+
+/// Smallest and largest value of each component of an attribute; no entries when one is no number.
+struct Bounds {
+  std::vector<double> min;
+  std::vector<double> max;
+};
+
+/// A payload plan after encoding.
+struct EncodedPayload {
+  PayloadPlan plan;
+  EncodeResult result;
+  /// Bounds of the decoded data, per piece and attribute.
+  std::vector<std::vector<Bounds>> bounds;
+  uint64_t payload_bytes = 0;
+  uint64_t freed_bytes = 0;
+};
+
+/// A compressed document before it is written.
+struct Compressed {
+  Json json;
+  std::vector<uint8_t> bin;
+  std::vector<EncodedPayload> payloads;  ///< those that are in the document
+  std::vector<LeftAlone> left_alone;
+  std::vector<std::string> notes;
+};
+
+/// Compresses what gains by it. With no payloads in the result `json` and `bin` are not filled in.
+/// Errors: the document contradicts itself. What the codec refuses is left alone.
+Result compressDocument(const Document& document, const ConvertOptions& options,
+                        Compressed& compressed);
+
+/// Encodes the planned payloads and decodes each at once. Pieces the codec refuses go to `left_alone`.
+Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> plans,
+                      std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone);
+
+/// Fills in EncodedPayload::freed_bytes; returns the bytes that all payloads free together.
+uint64_t countFreedBytes(const Document& document, const ForeignReferences& foreign,
+                         std::vector<EncodedPayload>& payloads);
+
+/// Drops the payloads that are not smaller than the buffer bytes they free.
+void dropLosers(const Document& document, const ForeignReferences& foreign,
+                std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone);
+
+/// Accessors used by anything but the primitives of `payloads`.
+std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignReferences& foreign,
+                                      const std::vector<EncodedPayload>& payloads);
+
+/// The extension object of a primitive that uses a part of a piece.
+Json extensionJson(uint64_t buffer_view, size_t piece_number, const PiecePlan& piece,
+                   size_t part_number);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_COMPRESS_H_

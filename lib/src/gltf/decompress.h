@@ -1,0 +1,62 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#ifndef MCC_GLTF_DECOMPRESS_H_
+#define MCC_GLTF_DECOMPRESS_H_
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gltf/document.h"
+#include "mcc/reader.h"
+
+namespace mcc::gltf {
+
+/// Our extension on one primitive, checked against the document but not yet against the payload.
+struct ExtensionUse {
+  uint32_t mesh = 0;
+  uint32_t primitive = 0;
+  uint32_t view = 0;
+  uint64_t piece = 0;
+  uint64_t part = 0;
+  uint32_t indices_accessor = 0;
+  struct AttributeUse {
+    std::string name;
+    uint32_t target = kNone;  ///< morph target, kNone: the base mesh
+    uint64_t id = 0;          ///< attribute of the piece
+    uint32_t accessor = 0;
+    std::string path;  ///< of the id in the JSON
+  };
+  std::vector<AttributeUse> attributes;
+  std::string path;  ///< of the extension object
+};
+
+/// Finds and checks the extension objects of all primitives.
+Result findExtensionUses(const Document& document, std::vector<ExtensionUse>& uses);
+
+/// Bytes of the buffer view that holds a payload.
+std::span<const uint8_t> payloadBytes(const Document& document, uint32_t view);
+
+/// Checks an extension object against the pieces of its payload: numbers, counts, types, semantics.
+Result checkAgainstPayload(const Document& document, const ExtensionUse& use,
+                           const PayloadInfo& info);
+
+struct Decompressed {
+  Json json;
+  std::vector<uint8_t> bin;
+  uint32_t payload_count = 0;
+  uint32_t primitive_count = 0;
+  uint64_t triangle_count = 0;
+  uint64_t wedge_count = 0;
+  /// How the accessors that were decoded had been coded, by accessor number.
+  std::map<uint32_t, AttributeInfo> coded_attributes;
+};
+
+/// Replaces all payloads by ordinary accessors and removes the extension from the document. With no
+/// payload in the document `payload_count` is 0 and `json` and `bin` are not filled in.
+/// Errors carry JSON paths. Safe for untrusted documents.
+Result decompressDocument(const Document& document, Decompressed& decompressed);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_DECOMPRESS_H_

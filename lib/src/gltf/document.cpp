@@ -1,0 +1,355 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/document.h"
+
+#include <string_view>
+
+#include "gltf/uri.h"
+
+namespace mcc::gltf {
+namespace {
+
+constexpr uint64_t kMaxCount = uint64_t{1} << 53;
+constexpr uint64_t kMaxAccessorCount = 0xffffffffu;
+
+struct TypeName {
+  std::string_view name;
+  uint32_t columns;
+  uint32_t rows;
+};
+constexpr TypeName kTypeNames[] = {{"SCALAR", 1, 1}, {"VEC2", 1, 2}, {"VEC3", 1, 3}, {"VEC4", 1, 4},
+                                   {"MAT2", 2, 2},   {"MAT3", 3, 3}, {"MAT4", 4, 4}};
+
+bool componentTypeOf(uint64_t gl_type, ComponentType& type) {
+  switch (gl_type) {
+    case 5120: type = ComponentType::kInt8; return true;
+    case 5121: type = ComponentType::kUint8; return true;
+    case 5122: type = ComponentType::kInt16; return true;
+    case 5123: type = ComponentType::kUint16; return true;
+    case 5125: type = ComponentType::kUint32; return true;
+    case 5126: type = ComponentType::kFloat32; return true;
+    default: return false;
+  }
+}
+
+Result readString(const Json& object, const char* key, const std::string& path, std::string& text) {
+  const Json* member = findMember(object, key);
+  if (member == nullptr || !member->is_string()) {
+    return error(path, std::string("\"") + key + "\" is missing or no string");
+  }
+  text = member->get<std::string>();
+  return {};
+}
+
+/// Checks the shape of the document down to the objects that are read everywhere.
+Result checkShape(const Json& json) {
+  if (!json.is_object()) return error("JSON", "this is no glTF file: the JSON is no object");
+  const Json* asset = findMember(json, "asset");
+  const Json* version = asset != nullptr ? findMember(*asset, "version") : nullptr;
+  if (version == nullptr || !version->is_string()) {
+    return error("/asset/version", "this is no glTF file: it has no version");
+  }
+  const std::string number = version->get<std::string>();
+  if (!number.starts_with("2.")) {
+    return error("/asset/version", "glTF " + number + " is not supported; only glTF 2.0 is");
+  }
+  for (const char* key : {"accessors", "animations", "bufferViews", "buffers", "images", "meshes",
+                          "nodes", "skins"}) {
+    const Json* list = findMember(json, key);
+    if (list == nullptr) continue;
+    if (!list->is_array()) return error(at("", key), "must be an array");
+    for (size_t i = 0; i < list->size(); ++i) {
+      if (!(*list)[i].is_object()) return error(at(at("", key), i), "must be an object");
+    }
+  }
+  return {};
+}
+
+/// Refuses views whose bytes are not what accessors read (they may not even have a buffer).
+Result refuseForeignViews(const Json& json) {
+  const Json& views = arrayOf(json, "bufferViews");
+  for (size_t i = 0; i < views.size(); ++i) {
+    const Json* extensions = findMember(views[i], "extensions");
+    if (extensions == nullptr) continue;
+    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+      if (findMember(*extensions, name) != nullptr) {
+        return error(at("/bufferViews", i) + "/extensions/" + name,
+                     "this compression cannot be read; decompress the file first");
+      }
+    }
+  }
+  return {};
+}
+
+/// Where a buffer or an image comes from, once its bytes are needed.
+Result fetchUri(const std::string& uri, const std::string& where, const FileReader& read_file,
+                std::vector<uint8_t>& bytes) {
+  if (isDataUri(uri)) return decodeDataUri(uri, where, bytes);
+  std::string path;
+  MCC_GLTF_TRY(relativePathOf(uri, where, path));
+  if (!read_file) {
+    return error(where,
+                 "the file \"" + path + "\" is needed; convert from a path, not from memory");
+  }
+  return read_file(path, where, bytes);
+}
+
+Result loadBuffer(const Json& json, const std::string& path, const GlbFile* glb, bool is_first,
+                  const FileReader& read_file, Document& document) {
+  uint64_t length = 0;
+  MCC_GLTF_TRY(readUnsigned(json, "byteLength", path, kMaxCount, length));
+  std::span<const uint8_t> bytes;
+  if (findMember(json, "uri") != nullptr) {
+    std::string uri;
+    MCC_GLTF_TRY(readString(json, "uri", path, uri));
+    document.storage.emplace_back();
+    MCC_GLTF_TRY(fetchUri(uri, path + "/uri", read_file, document.storage.back()));
+    bytes = document.storage.back();
+    if (!isDataUri(uri)) document.source_bytes += bytes.size();
+  } else if (is_first && glb != nullptr && glb->has_bin) {
+    bytes = glb->bin;
+  } else {
+    return error(path, "the buffer has neither a URI nor a BIN chunk");
+  }
+  if (length > bytes.size()) {
+    return error(path + "/byteLength", std::to_string(length) + " bytes are announced but only " +
+                                           std::to_string(bytes.size()) + " are there");
+  }
+  document.buffers.push_back(bytes.first(length));
+  return {};
+}
+
+Result parseView(const Document& document, const Json& json, const std::string& path,
+                 BufferView& view) {
+  uint64_t buffer = 0;
+  MCC_GLTF_TRY(readUnsigned(json, "buffer", path, kMaxCount, buffer));
+  if (buffer >= document.buffers.size()) {
+    return error(path + "/buffer", "there is no buffer " + std::to_string(buffer));
+  }
+  view.buffer = static_cast<uint32_t>(buffer);
+  MCC_GLTF_TRY(readOptionalUnsigned(json, "byteOffset", path, kMaxCount, view.offset));
+  MCC_GLTF_TRY(readUnsigned(json, "byteLength", path, kMaxCount, view.length));
+  MCC_GLTF_TRY(readOptionalUnsigned(json, "byteStride", path, 65536, view.stride));
+  const uint64_t available = document.buffers[buffer].size();
+  if (view.offset > available || view.length > available - view.offset) {
+    return error(path, "bytes " + std::to_string(view.offset) + " to " +
+                           std::to_string(view.offset + view.length) + " are outside buffer " +
+                           std::to_string(buffer) + " of " + std::to_string(available) + " bytes");
+  }
+  return {};
+}
+
+/// Checks that `count` elements of `bytes` each lie inside a view.
+Result checkRange(const Document& document, uint32_t view, uint64_t offset, uint64_t count,
+                  uint64_t bytes, uint64_t stride, const std::string& path) {
+  if (count == 0) return {};
+  // count < 2^32, stride <= 2^16, offset <= 2^53: nothing wraps.
+  const uint64_t end = offset + (count - 1) * stride + bytes;
+  const uint64_t available = document.views[view].length;
+  if (end <= available) return {};
+  return error(path, "needs " + std::to_string(end) + " bytes of bufferView " +
+                         std::to_string(view) + ", which has " + std::to_string(available));
+}
+
+Result readViewIndex(const Document& document, const Json& json, const std::string& path,
+                     uint32_t& view) {
+  uint64_t index = 0;
+  MCC_GLTF_TRY(readUnsigned(json, "bufferView", path, kMaxCount, index));
+  if (index >= document.views.size()) {
+    return error(path + "/bufferView", "there is no bufferView " + std::to_string(index));
+  }
+  view = static_cast<uint32_t>(index);
+  return {};
+}
+
+Result parseSparse(const Document& document, const Json& json, const std::string& path,
+                   const Accessor& accessor, Sparse& sparse) {
+  uint64_t count = 0;
+  MCC_GLTF_TRY(readUnsigned(json, "count", path, accessor.count, count));
+  const Json* indices = findMember(json, "indices");
+  const Json* values = findMember(json, "values");
+  if (indices == nullptr) return error(path, "\"indices\" is missing");
+  if (values == nullptr) return error(path, "\"values\" is missing");
+  uint64_t gl_type = 0;
+  MCC_GLTF_TRY(readUnsigned(*indices, "componentType", path + "/indices", kMaxCount, gl_type));
+  if (!componentTypeOf(gl_type, sparse.index_type) || (gl_type & 1) == 0) {
+    return error(path + "/indices/componentType", std::to_string(gl_type) + " is no index type");
+  }
+  MCC_GLTF_TRY(readViewIndex(document, *indices, path + "/indices", sparse.index_view));
+  MCC_GLTF_TRY(readOptionalUnsigned(*indices, "byteOffset", path + "/indices", kMaxCount,
+                                    sparse.index_offset));
+  MCC_GLTF_TRY(readViewIndex(document, *values, path + "/values", sparse.value_view));
+  MCC_GLTF_TRY(readOptionalUnsigned(*values, "byteOffset", path + "/values", kMaxCount,
+                                    sparse.value_offset));
+  const uint64_t index_bytes = componentBytes(sparse.index_type);
+  MCC_GLTF_TRY(checkRange(document, sparse.index_view, sparse.index_offset, count, index_bytes,
+                          index_bytes, path + "/indices"));
+  MCC_GLTF_TRY(checkRange(document, sparse.value_view, sparse.value_offset, count,
+                          accessor.elementBytes(), accessor.elementBytes(), path + "/values"));
+  sparse.count = count;
+  return {};
+}
+
+Result parseType(const Json& json, const std::string& path, Accessor& accessor) {
+  std::string type;
+  MCC_GLTF_TRY(readString(json, "type", path, type));
+  uint64_t gl_type = 0;
+  MCC_GLTF_TRY(readUnsigned(json, "componentType", path, kMaxCount, gl_type));
+  accessor.is_known_type = false;
+  for (const TypeName& name : kTypeNames) {
+    if (name.name != type) continue;
+    accessor.columns = name.columns;
+    accessor.rows = name.rows;
+    accessor.is_known_type = componentTypeOf(gl_type, accessor.component_type);
+  }
+  return {};
+}
+
+Result loadTables(Document& document) {
+  const Json& views = arrayOf(document.json, "bufferViews");
+  document.views.resize(views.size());
+  for (size_t i = 0; i < views.size(); ++i) {
+    MCC_GLTF_TRY(parseView(document, views[i], at("/bufferViews", i), document.views[i]));
+  }
+  const Json& accessors = arrayOf(document.json, "accessors");
+  document.accessors.resize(accessors.size());
+  for (size_t i = 0; i < accessors.size(); ++i) {
+    MCC_GLTF_TRY(parseAccessor(document, accessors[i], at("/accessors", i), document.accessors[i]));
+  }
+  return {};
+}
+
+/// Media type of an image by its first bytes; empty when unknown.
+std::string imageTypeOf(std::span<const uint8_t> bytes) {
+  const std::string_view head(reinterpret_cast<const char*>(bytes.data()),
+                              std::min<size_t>(bytes.size(), 12));
+  if (head.starts_with("\x89PNG")) return "image/png";
+  if (head.starts_with("\xff\xd8\xff")) return "image/jpeg";
+  if (head.starts_with("\xabKTX 20")) return "image/ktx2";
+  if (head.starts_with("RIFF") && head.substr(8).starts_with("WEBP")) return "image/webp";
+  if (head.starts_with("DDS ")) return "image/vnd-ms.dds";
+  if (head.size() == 12 && head.substr(4, 8) == "ftypavif") return "image/avif";
+  return "";
+}
+
+Result embedImage(const FileReader& read_file, size_t index, Document& document) {
+  const std::string path = at("/images", index);
+  Json& image = document.json["images"][index];
+  std::string uri;
+  MCC_GLTF_TRY(readString(image, "uri", path, uri));
+  if (isDataUri(uri)) return {};
+  std::vector<uint8_t> bytes;
+  MCC_GLTF_TRY(fetchUri(uri, path + "/uri", read_file, bytes));
+  const std::string type = imageTypeOf(bytes);
+  if (type.empty() && findMember(image, "mimeType") == nullptr) {
+    document.notes.push_back(path + ": of an unknown type; it stays a file of its own");
+    return {};
+  }
+  const size_t buffer = document.buffers.size();
+  document.source_bytes += bytes.size();
+  document.storage.push_back(std::move(bytes));
+  document.buffers.push_back(document.storage.back());
+  document.json["buffers"].push_back({{"byteLength", document.buffers.back().size()}});
+  document.json["bufferViews"].push_back(
+      {{"buffer", buffer}, {"byteLength", document.buffers.back().size()}});
+  document.views.push_back({static_cast<uint32_t>(buffer), 0, document.buffers.back().size(), 0});
+  image.erase("uri");
+  image["bufferView"] = document.views.size() - 1;
+  if (findMember(image, "mimeType") == nullptr) image["mimeType"] = type;
+  return {};
+}
+
+}  // namespace
+
+const Json& arrayOf(const Json& root, const char* key) {
+  static const Json kEmpty = Json::array();
+  const Json* member = findMember(root, key);
+  return member != nullptr && member->is_array() ? *member : kEmpty;
+}
+
+Result parseAccessor(const Document& document, const Json& json, const std::string& path,
+                     Accessor& accessor) {
+  accessor = {};
+  MCC_GLTF_TRY(parseType(json, path, accessor));
+  MCC_GLTF_TRY(readUnsigned(json, "count", path, kMaxAccessorCount, accessor.count));
+  if (findMember(json, "bufferView") != nullptr) {
+    MCC_GLTF_TRY(readViewIndex(document, json, path, accessor.view));
+    MCC_GLTF_TRY(readOptionalUnsigned(json, "byteOffset", path, kMaxCount, accessor.offset));
+  }
+  if (!accessor.is_known_type) return {};
+  if (const Json* flag = findMember(json, "normalized"); flag != nullptr) {
+    if (!flag->is_boolean()) return error(path + "/normalized", "must be true or false");
+    accessor.normalized = flag->get<bool>();
+  }
+  if (accessor.view != kNone) {
+    const uint64_t stride = document.views[accessor.view].stride;
+    const uint64_t bytes = accessor.elementBytes();
+    if (stride != 0 && stride < bytes) {
+      return error(path, "elements of " + std::to_string(bytes) + " bytes do not fit the stride " +
+                             std::to_string(stride) + " of bufferView " +
+                             std::to_string(accessor.view));
+    }
+    MCC_GLTF_TRY(checkRange(document, accessor.view, accessor.offset, accessor.count, bytes,
+                            stride == 0 ? bytes : stride, path));
+  }
+  if (const Json* sparse = findMember(json, "sparse"); sparse != nullptr) {
+    MCC_GLTF_TRY(parseSparse(document, *sparse, path + "/sparse", accessor, accessor.sparse));
+  }
+  return {};
+}
+
+Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file,
+                    Document& document) {
+  document = {};
+  document.source_bytes = file.size();
+  if (file.empty()) return error("", "the file is empty");
+  document.is_glb = isGlb(file);
+  GlbFile glb;
+  if (document.is_glb) {
+    MCC_GLTF_TRY(readGlb(file, glb));
+    document.other_chunks = glb.other_chunks;
+    if (glb.trailing_bytes != 0) {
+      document.notes.push_back(std::to_string(glb.trailing_bytes) +
+                               " bytes behind the end of the GLB were ignored");
+    }
+  } else {
+    const size_t first = std::string_view(reinterpret_cast<const char*>(file.data()), file.size())
+                             .find_first_not_of(" \t\r\n\xef\xbb\xbf");
+    if (first == std::string_view::npos || file[first] != '{') {
+      return error("byte 0", "this is no glTF file: neither a GLB nor JSON");
+    }
+    glb.json = file;
+  }
+  MCC_GLTF_TRY(parseJson(glb.json, document.json));
+  MCC_GLTF_TRY(checkShape(document.json));
+  MCC_GLTF_TRY(refuseForeignViews(document.json));
+  const Json& buffers = arrayOf(document.json, "buffers");
+  for (size_t i = 0; i < buffers.size(); ++i) {
+    MCC_GLTF_TRY(loadBuffer(buffers[i], at("/buffers", i), document.is_glb ? &glb : nullptr, i == 0,
+                            read_file, document));
+  }
+  return loadTables(document);
+}
+
+Result adoptDocument(Json json, std::vector<uint8_t> bin, Document& document) {
+  document = {};
+  document.json = std::move(json);
+  document.is_glb = true;
+  document.storage.push_back(std::move(bin));
+  if (!arrayOf(document.json, "buffers").empty()) {
+    document.buffers.push_back(document.storage.back());
+  }
+  return loadTables(document);
+}
+
+Result embedImages(const FileReader& read_file, Document& document) {
+  if (document.is_glb) return {};
+  const size_t image_count = arrayOf(document.json, "images").size();
+  for (size_t i = 0; i < image_count; ++i) {
+    if (findMember(document.json["images"][i], "uri") != nullptr) {
+      MCC_GLTF_TRY(embedImage(read_file, i, document));
+    }
+  }
+  return {};
+}
+
+}  // namespace mcc::gltf

@@ -1,0 +1,147 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <limits>
+
+#include "gltf/compress.h"
+#include "gltf/parallel.h"
+#include "gltf/payload.h"
+
+namespace mcc::gltf {
+namespace {
+
+/// What the codec is given; the views borrow from the plan.
+struct PieceInput {
+  std::vector<AttributeView> attributes;
+  std::vector<PartView> parts;
+  PieceView view;
+
+  explicit PieceInput(const PiecePlan& plan) {
+    for (const AttributePlan& attribute : plan.attributes) {
+      AttributeView view_of;
+      view_of.format = attribute.format;
+      view_of.data = attribute.source.data;
+      view_of.stride_bytes = attribute.source.stride_bytes;
+      if (!attribute.adjusted.empty()) {
+        view_of.data = attribute.adjusted.data();
+        view_of.stride_bytes = elementBytes(attribute.format);
+      }
+      view_of.quantization_bits = attribute.bits;
+      view_of.lattice = attribute.has_lattice ? &attribute.lattice : nullptr;
+      attributes.push_back(view_of);
+    }
+    for (const PartPlan& part : plan.parts) parts.push_back({part.triangles});
+    view = {plan.wedge_count, attributes, parts};
+  }
+};
+
+Status encodePieces(const std::vector<const PiecePlan*>& plans, const EncodeOptions& options,
+                    EncodeResult& result) {
+  std::vector<PieceInput> inputs;
+  inputs.reserve(plans.size());  // views point into the elements
+  std::vector<PieceView> views;
+  for (const PiecePlan* plan : plans) {
+    inputs.emplace_back(*plan);
+    views.push_back(inputs.back().view);
+  }
+  return encode(views, options, result);
+}
+
+void leaveAlone(const PiecePlan& piece, const std::string& note,
+                std::vector<LeftAlone>& left_alone) {
+  for (const PartPlan& part : piece.parts) {
+    for (const PrimitiveRef& user : part.users) left_alone.push_back({user, note});
+  }
+}
+
+/// Removes the pieces the codec refuses.
+void removeRefusedPieces(const EncodeOptions& options, PayloadPlan& plan,
+                         std::vector<LeftAlone>& left_alone) {
+  std::vector<PiecePlan> accepted;
+  for (PiecePlan& piece : plan.pieces) {
+    EncodeResult ignored;
+    const Status status = encodePieces({&piece}, options, ignored);
+    if (status.ok()) {
+      accepted.push_back(std::move(piece));
+    } else {
+      leaveAlone(piece, "the codec refuses it (" + toResult(status, "").what + "); left as it was",
+                 left_alone);
+    }
+  }
+  plan.pieces = std::move(accepted);
+}
+
+Status encodePlan(const EncodeOptions& options, const PayloadPlan& plan, EncodeResult& result) {
+  std::vector<const PiecePlan*> pieces;
+  for (const PiecePlan& piece : plan.pieces) pieces.push_back(&piece);
+  return encodePieces(pieces, options, result);
+}
+
+Bounds boundsOf(const std::vector<uint8_t>& tight, const AttributeFormat& format) {
+  Bounds bounds;
+  const uint32_t step = componentBytes(format.component_type);
+  bounds.min.assign(format.component_count, std::numeric_limits<double>::infinity());
+  bounds.max.assign(format.component_count, -std::numeric_limits<double>::infinity());
+  uint32_t component = 0;
+  for (size_t offset = 0; offset < tight.size(); offset += step) {
+    const double value = componentValue(tight.data() + offset, format.component_type);
+    if (!std::isfinite(value)) return {};
+    bounds.min[component] = std::min(bounds.min[component], value);
+    bounds.max[component] = std::max(bounds.max[component], value);
+    if (++component == format.component_count) component = 0;
+  }
+  return bounds;
+}
+
+/// Decodes what was just encoded: the bounds of accessors are those of the decoded values.
+Result measure(EncodedPayload& payload) {
+  const std::string where = at("/meshes", payload.plan.mesh);
+  DecodedPayload decoded;
+  Result result = decodePayload(payload.result.payload, where, decoded);
+  if (!result.ok()) {
+    result.what = "the payload does not decode again: " + result.what + "; please report this";
+    return result;
+  }
+  for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
+    const std::vector<AttributePlan>& attributes = payload.plan.pieces[i].attributes;
+    payload.bounds.emplace_back();
+    for (size_t k = 0; k < attributes.size(); ++k) {
+      payload.bounds.back().push_back(
+          boundsOf(decoded.pieces[i].attributes[k], attributes[k].format));
+    }
+  }
+  return {};
+}
+
+Result encodeOne(const EncodeOptions& options, EncodedPayload& payload,
+                 std::vector<LeftAlone>& left_alone) {
+  if (!encodePlan(options, payload.plan, payload.result).ok()) {
+    removeRefusedPieces(options, payload.plan, left_alone);
+    payload.result = {};
+    if (payload.plan.pieces.empty()) return {};
+    MCC_GLTF_TRY(toResult(encodePlan(options, payload.plan, payload.result),
+                          at("/meshes", payload.plan.mesh)));
+  }
+  payload.payload_bytes = payload.result.payload.size();
+  return measure(payload);
+}
+
+}  // namespace
+
+Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> plans,
+                      std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone) {
+  EncodeOptions encode_options;
+  encode_options.effort = options.effort;
+  std::vector<EncodedPayload> encoded(plans.size());
+  std::vector<std::vector<LeftAlone>> refused(plans.size());
+  MCC_GLTF_TRY(runParallel(plans.size(), options.thread_count, [&](size_t i) {
+    encoded[i].plan = std::move(plans[i]);
+    return encodeOne(encode_options, encoded[i], refused[i]);
+  }));
+  for (size_t i = 0; i < encoded.size(); ++i) {
+    left_alone.insert(left_alone.end(), refused[i].begin(), refused[i].end());
+    if (!encoded[i].plan.pieces.empty()) payloads.push_back(std::move(encoded[i]));
+  }
+  return {};
+}
+
+}  // namespace mcc::gltf

@@ -1,0 +1,219 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/json.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+#include <vector>
+
+namespace mcc::gltf {
+namespace {
+
+/// Yields the numbers of a JSON text in the order in which a parser reports them.
+class NumberScanner {
+ public:
+  explicit NumberScanner(std::string_view text) : rest_(text) {}
+
+  std::string_view next() {
+    size_t i = 0;
+    while (i < rest_.size() && !startsNumber(rest_[i])) i = rest_[i] == '"' ? pastString(i) : i + 1;
+    size_t end = i;
+    while (end < rest_.size() && continuesNumber(rest_[end])) ++end;
+    const std::string_view number = rest_.substr(i, end - i);
+    rest_.remove_prefix(end);
+    return number;
+  }
+
+ private:
+  static bool startsNumber(char c) { return c == '-' || (c >= '0' && c <= '9'); }
+  static bool continuesNumber(char c) {
+    return startsNumber(c) || c == '+' || c == '.' || c == 'e' || c == 'E';
+  }
+
+  size_t pastString(size_t i) const {
+    for (++i; i < rest_.size() && rest_[i] != '"'; ++i) {
+      if (rest_[i] == '\\') ++i;
+    }
+    return std::min(i + 1, rest_.size());
+  }
+
+  std::string_view rest_;
+};
+
+/// Builds the document from the events of nlohmann's parser.
+class DocumentBuilder : public nlohmann::json_sax<Json> {
+ public:
+  DocumentBuilder(std::string_view text, Json& root) : numbers_(text), root_(root) {}
+
+  const Result& result() const { return result_; }
+
+  bool null() override { return add(nullptr) != nullptr; }
+  bool boolean(bool value) override { return add(value) != nullptr; }
+  bool number_integer(number_integer_t value) override { return addNumber(value); }
+  bool number_unsigned(number_unsigned_t value) override { return addNumber(value); }
+  bool number_float(number_float_t value, const string_t&) override { return addNumber(value); }
+  bool string(string_t& value) override { return add(std::move(value)) != nullptr; }
+  bool binary(binary_t&) override { return false; }  // not JSON text
+  bool start_object(std::size_t) override { return open(Json::object()); }
+  bool start_array(std::size_t) override { return open(Json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+
+  bool key(string_t& value) override {
+    key_ = std::move(value);
+    return true;
+  }
+
+  bool parse_error(std::size_t position, const std::string&,
+                   const nlohmann::detail::exception& exception) override {
+    std::string what = exception.what();
+    if (const size_t colon = what.rfind(": "); colon != std::string::npos) what.erase(0, colon + 2);
+    result_ = error("JSON byte " + std::to_string(position), "the JSON is damaged (" + what + ")");
+    return false;
+  }
+
+ private:
+  Json* add(Json value) {
+    if (open_.empty()) {
+      root_ = std::move(value);
+      return &root_;
+    }
+    Json& parent = *open_.back();
+    if (parent.is_array()) {
+      parent.push_back(std::move(value));
+      return &parent.back();
+    }
+    // Straight into the ordered map's vector: no search, and repeated keys stay as they were.
+    auto& members = parent.get_ref<Json::object_t&>();
+    members.emplace_back(std::move(key_), std::move(value));
+    return &members.back().second;
+  }
+
+  bool addNumber(Json value) {
+    const std::string_view spelling = numbers_.next();
+    if (value.dump() != spelling) {
+      value = Json::binary(std::vector<uint8_t>(spelling.begin(), spelling.end()));
+    }
+    return add(std::move(value)) != nullptr;
+  }
+
+  bool open(Json value) {
+    if (open_.size() >= kMaxJsonDepth) {
+      result_ = error("JSON", "objects and arrays are nested deeper than " +
+                                  std::to_string(kMaxJsonDepth) + " levels");
+      return false;
+    }
+    open_.push_back(add(std::move(value)));
+    return true;
+  }
+
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+
+  NumberScanner numbers_;
+  Json& root_;
+  std::vector<Json*> open_;
+  std::string key_;
+  Result result_;
+};
+
+void print(const Json& json, std::string& out) {
+  switch (json.type()) {
+    case Json::value_t::object: {
+      char separator = '{';
+      for (const auto& [key, value] : json.get_ref<const Json::object_t&>()) {
+        out += separator;
+        out += Json(key).dump();
+        out += ':';
+        print(value, out);
+        separator = ',';
+      }
+      out += separator == '{' ? "{}" : "}";
+      break;
+    }
+    case Json::value_t::array: {
+      char separator = '[';
+      for (const Json& value : json) {
+        out += separator;
+        print(value, out);
+        separator = ',';
+      }
+      out += separator == '[' ? "[]" : "]";
+      break;
+    }
+    case Json::value_t::binary: {
+      const auto& spelling = json.get_binary();
+      out.append(spelling.begin(), spelling.end());
+      break;
+    }
+    default: out += json.dump(); break;
+  }
+}
+
+}  // namespace
+
+std::string Result::message() const {
+  if (where.empty()) return what;
+  return what.empty() ? where : where + ": " + what;
+}
+
+Result parseJson(std::span<const uint8_t> text, Json& json) {
+  const std::string_view view(reinterpret_cast<const char*>(text.data()), text.size());
+  DocumentBuilder builder(view, json);
+  if (Json::sax_parse(view.begin(), view.end(), &builder)) return {};
+  if (!builder.result().ok()) return builder.result();
+  return error("JSON", "the JSON is damaged");
+}
+
+std::string printJson(const Json& json) {
+  std::string out;
+  print(json, out);
+  return out;
+}
+
+const Json* findMember(const Json& json, const char* key) {
+  if (!json.is_object()) return nullptr;
+  const auto found = json.find(key);
+  return found == json.end() ? nullptr : &*found;
+}
+
+bool asUnsigned(const Json& json, uint64_t& value) {
+  if (json.is_number_unsigned()) {
+    value = json.get<uint64_t>();
+    return true;
+  }
+  double number = -1;
+  if (json.is_binary()) {
+    const auto& spelling = json.get_binary();
+    number = std::strtod(std::string(spelling.begin(), spelling.end()).c_str(), nullptr);
+  } else if (json.is_number()) {
+    number = json.get<double>();
+  }
+  if (!(number >= 0 && number <= 9007199254740992.0) || number != std::floor(number)) return false;
+  value = static_cast<uint64_t>(number);
+  return true;
+}
+
+Result readUnsigned(const Json& object, const char* key, const std::string& path, uint64_t max,
+                    uint64_t& value) {
+  const Json* member = findMember(object, key);
+  if (member == nullptr) return error(path, std::string("\"") + key + "\" is missing");
+  if (!asUnsigned(*member, value)) {
+    return error(at(path, key), "must be a whole number that is not negative");
+  }
+  if (value > max) {
+    return error(at(path, key),
+                 std::to_string(value) + " is too large (at most " + std::to_string(max) + ")");
+  }
+  return {};
+}
+
+Result readOptionalUnsigned(const Json& object, const char* key, const std::string& path,
+                            uint64_t max, uint64_t& value) {
+  if (findMember(object, key) == nullptr) return {};
+  return readUnsigned(object, key, path, max, value);
+}
+
+}  // namespace mcc::gltf

@@ -1,0 +1,43 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// JSON whose members keep their order and whose numbers keep their spelling. A number that printing
+// would change (1e-7, -0, 2^70, 0.10 …) is held as a *binary* value: the bytes of its source text.
+#ifndef MCC_GLTF_JSON_H_
+#define MCC_GLTF_JSON_H_
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+#include "gltf/result.h"
+
+namespace mcc::gltf {
+
+using Json = nlohmann::ordered_json;
+
+/// Deepest nesting of arrays and objects that is read.
+inline constexpr uint32_t kMaxJsonDepth = 256;
+
+/// Parses UTF-8 text. Errors name the byte.
+Result parseJson(std::span<const uint8_t> text, Json& json);
+
+/// Prints without white space; numbers as parseJson() found them.
+std::string printJson(const Json& json);
+
+/// The member `key` of an object, or null when there is none or `json` is no object.
+const Json* findMember(const Json& json, const char* key);
+
+/// Value of a non-negative integer however it is spelt (3, 3.0, 3e0); false for anything else.
+bool asUnsigned(const Json& json, uint64_t& value);
+
+/// Reads the member `key` of the object at `path`. The first form requires it, the second leaves
+/// `value` alone when it is absent. Values above `max` are errors.
+Result readUnsigned(const Json& object, const char* key, const std::string& path, uint64_t max,
+                    uint64_t& value);
+Result readOptionalUnsigned(const Json& object, const char* key, const std::string& path,
+                            uint64_t max, uint64_t& value);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_JSON_H_

@@ -1,0 +1,313 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/plan.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <string_view>
+#include <tuple>
+
+#include "base/crc32.h"
+#include "gltf/references.h"
+
+namespace mcc::gltf {
+namespace {
+
+constexpr uint64_t kMaxVertices = uint64_t{1} << 28;  // of the payload format
+constexpr uint64_t kMaxTargets = 4096;
+
+struct SemanticRule {
+  std::string_view name;
+  Semantic semantic;
+  uint32_t min_components;
+  uint32_t max_components;
+  bool has_set;  ///< NAME_n
+};
+constexpr SemanticRule kSemanticRules[] = {
+    {"POSITION", Semantic::kPosition, 3, 3, false}, {"NORMAL", Semantic::kNormal, 3, 3, false},
+    {"TANGENT", Semantic::kTangent, 3, 4, false},   {"TEXCOORD_", Semantic::kTexcoord, 2, 2, true},
+    {"COLOR_", Semantic::kColor, 3, 4, true},       {"JOINTS_", Semantic::kJoints, 4, 4, true},
+    {"WEIGHTS_", Semantic::kWeights, 4, 4, true}};
+
+bool parseSet(std::string_view digits, uint8_t& set) {
+  if (digits.empty() || digits.size() > 3) return false;
+  uint32_t number = 0;
+  for (const char c : digits) {
+    if (c < '0' || c > '9') return false;
+    number = number * 10 + static_cast<uint32_t>(c - '0');
+  }
+  if (number > 255 || (digits.size() > 1 && digits[0] == '0')) return false;
+  set = static_cast<uint8_t>(number);
+  return true;
+}
+
+bool matches(const SemanticRule& rule, std::string_view name, const Accessor& accessor,
+             uint8_t& set) {
+  const uint32_t components = accessor.componentCount();
+  if (accessor.columns != 1 || components < rule.min_components ||
+      components > rule.max_components) {
+    return false;
+  }
+  if (rule.semantic == Semantic::kJoints && accessor.component_type == ComponentType::kFloat32) {
+    return false;
+  }
+  if (!rule.has_set) return name == rule.name;
+  return name.starts_with(rule.name) && parseSet(name.substr(rule.name.size()), set);
+}
+
+class Planner {
+ public:
+  Planner(const Document& document, std::vector<PayloadPlan>& payloads,
+          std::vector<LeftAlone>& left_alone)
+      : document_(document), payloads_(payloads), left_alone_(left_alone) {}
+
+  Result run() {
+    const Json& meshes = arrayOf(document_.json, "meshes");
+    for (uint32_t mesh = 0; mesh < meshes.size(); ++mesh) {
+      const Json& primitives = arrayOf(meshes[mesh], "primitives");
+      const std::string mesh_extension = orderDependentExtension(meshes[mesh]);
+      for (uint32_t primitive = 0; primitive < primitives.size(); ++primitive) {
+        const PrimitiveRef ref = {mesh, primitive};
+        std::string note;
+        if (!primitives[primitive].is_object()) return error(ref.path(), "must be an object");
+        MCC_GLTF_TRY(planPrimitive(ref, primitives[primitive], mesh_extension, note));
+        if (!note.empty()) left_alone_.push_back({ref, note});
+      }
+    }
+    return {};
+  }
+
+ private:
+  /// Place of a piece or part in the plan.
+  struct PieceRef {
+    size_t payload;
+    size_t piece;
+  };
+
+  Result planPrimitive(const PrimitiveRef& ref, const Json& json, const std::string& mesh_extension,
+                       std::string& note) {
+    uint64_t mode = 4;
+    MCC_GLTF_TRY(readOptionalUnsigned(json, "mode", ref.path(), 6, mode));
+    if (mode < 4) return checkReferences(ref, json);
+    const Json* extensions = findMember(json, "extensions");
+    if (extensions != nullptr && !extensions->is_object()) {
+      return error(ref.path() + "/extensions", "must be an object");
+    }
+    note = extensionNote(json, mesh_extension);
+    if (!note.empty()) return {};
+
+    PiecePlan piece;
+    MCC_GLTF_TRY(collectAttributes(ref, json, piece));
+    note = attributeNote(piece);
+    if (!note.empty()) return {};
+    piece.wedge_count =
+        static_cast<uint32_t>(document_.accessors[piece.attributes[0].accessor].count);
+
+    PartPlan part;
+    part.mode = mode;
+    MCC_GLTF_TRY(collectTriangles(ref, json, piece.wedge_count, part, note));
+    if (!note.empty()) return {};
+    part.users.push_back(ref);
+    return addPart(ref, std::move(piece), std::move(part));
+  }
+
+  static std::string extensionNote(const Json& json, const std::string& mesh_extension) {
+    const Json* extensions = findMember(json, "extensions");
+    if (extensions != nullptr && findMember(*extensions, kExtensionName) != nullptr) {
+      return "is compressed already";
+    }
+    if (extensions != nullptr && findMember(*extensions, "KHR_draco_mesh_compression") != nullptr) {
+      return "is compressed with Draco; left as it was";
+    }
+    const std::string own = orderDependentExtension(json);
+    if (!own.empty() || !mesh_extension.empty()) {
+      return "has the extension " + (own.empty() ? mesh_extension : own) +
+             ", which may depend on the order of vertices; left as it was";
+    }
+    return "";
+  }
+
+  Result readAccessorIndex(const Json& json, const std::string& path, uint32_t& accessor) const {
+    uint64_t index = 0;
+    if (!asUnsigned(json, index)) return error(path, "must be the number of an accessor");
+    if (index >= document_.accessors.size()) {
+      return error(path, "there is no accessor " + std::to_string(index));
+    }
+    accessor = static_cast<uint32_t>(index);
+    return {};
+  }
+
+  Result checkReferences(const PrimitiveRef& ref, const Json& json) const {
+    PiecePlan ignored;
+    MCC_GLTF_TRY(collectAttributes(ref, json, ignored));
+    uint32_t accessor = 0;
+    const Json* indices = findMember(json, "indices");
+    if (indices == nullptr) return {};
+    return readAccessorIndex(*indices, ref.path() + "/indices", accessor);
+  }
+
+  Result collectMap(const Json& map, const std::string& path, uint32_t target,
+                    PiecePlan& piece) const {
+    if (!map.is_object()) return error(path, "must be an object");
+    for (const auto& [name, value] : map.items()) {
+      AttributePlan attribute;
+      attribute.name = name;
+      attribute.target = target;
+      MCC_GLTF_TRY(readAccessorIndex(value, at(path, name), attribute.accessor));
+      attribute.format = formatOf(name, target, document_.accessors[attribute.accessor]);
+      piece.attributes.push_back(std::move(attribute));
+    }
+    return {};
+  }
+
+  Result collectAttributes(const PrimitiveRef& ref, const Json& json, PiecePlan& piece) const {
+    const Json* attributes = findMember(json, "attributes");
+    if (attributes == nullptr) return error(ref.path(), "\"attributes\" is missing");
+    MCC_GLTF_TRY(collectMap(*attributes, ref.path() + "/attributes", kNone, piece));
+    if (const Json* targets = findMember(json, "targets"); targets != nullptr) {
+      const std::string path = ref.path() + "/targets";
+      if (!targets->is_array()) return error(path, "must be an array");
+      if (targets->size() > kMaxTargets) return error(path, "there are too many morph targets");
+      piece.target_count = static_cast<uint32_t>(targets->size());
+      for (uint32_t i = 0; i < targets->size(); ++i) {
+        MCC_GLTF_TRY(collectMap((*targets)[i], at(path, i), i, piece));
+      }
+    }
+    std::stable_sort(piece.attributes.begin(), piece.attributes.end(), comesBefore);
+    return {};
+  }
+
+  /// Why the attributes cannot be coded; empty when they can.
+  std::string attributeNote(const PiecePlan& piece) const {
+    if (piece.attributes.empty() || piece.attributes[0].format.semantic != Semantic::kPosition ||
+        piece.attributes[0].target != kNone) {
+      return "has no POSITION of three components; left as it was";
+    }
+    const uint64_t count = document_.accessors[piece.attributes[0].accessor].count;
+    if (count == 0 || count > kMaxVertices) {
+      return "has " + std::to_string(count) + " vertices; left as it was";
+    }
+    for (const AttributePlan& attribute : piece.attributes) {
+      const Accessor& accessor = document_.accessors[attribute.accessor];
+      if (!accessor.is_known_type) {
+        return attribute.label() + " has an unknown type; left as it was";
+      }
+      if (accessor.count != count) {
+        return "has " + std::to_string(count) + " positions but " + std::to_string(accessor.count) +
+               " elements of " + attribute.label() + "; left as it was";
+      }
+      if (accessor.view == kNone && accessor.count > kMaxZeroCount) {
+        return attribute.label() + " is large and has no bytes in the file; left as it was";
+      }
+    }
+    return "";
+  }
+
+  Result collectTriangles(const PrimitiveRef& ref, const Json& json, uint32_t wedge_count,
+                          PartPlan& part, std::string& note) const {
+    if (const Json* indices = findMember(json, "indices"); indices != nullptr) {
+      MCC_GLTF_TRY(readAccessorIndex(*indices, ref.path() + "/indices", part.indices_accessor));
+      MCC_GLTF_TRY(readIndices(document_, part.indices_accessor, part.triangles));
+    } else {
+      part.triangles.resize(wedge_count);
+      std::iota(part.triangles.begin(), part.triangles.end(), 0u);
+    }
+    for (size_t i = 0; i < part.triangles.size(); ++i) {
+      if (part.triangles[i] < wedge_count) continue;
+      return error(ref.path() + "/indices", "index number " + std::to_string(i) + " is " +
+                                                std::to_string(part.triangles[i]) +
+                                                " but there are only " +
+                                                std::to_string(wedge_count) + " vertices");
+    }
+    const size_t count = part.triangles.size();
+    if (!expandTriangles(part.mode, part.triangles)) {
+      note = "has " + std::to_string(count) + " indices, which make no triangles; left as it was";
+    } else if (part.triangles.size() / 3 > kMaxVertices) {
+      note = "has more triangles than a payload can hold; left as it was";
+    }
+    return {};
+  }
+
+  static std::string pieceKey(const PiecePlan& piece) {
+    std::string key = std::to_string(piece.target_count);
+    for (const AttributePlan& attribute : piece.attributes) {
+      key += "/" + std::to_string(attribute.target + 1) + Json(attribute.name).dump() +
+             std::to_string(attribute.accessor);
+    }
+    return key;
+  }
+
+  /// The payload of a mesh: created when its first piece comes.
+  size_t payloadOf(uint32_t mesh) {
+    if (payloads_.empty() || payloads_.back().mesh != mesh) {
+      payloads_.emplace_back();
+      payloads_.back().mesh = mesh;
+    }
+    return payloads_.size() - 1;
+  }
+
+  Result addPart(const PrimitiveRef& ref, PiecePlan&& piece, PartPlan&& part) {
+    const std::string key = pieceKey(piece);
+    const auto [found, is_new] = pieces_.try_emplace(key);
+    if (is_new) {
+      for (AttributePlan& attribute : piece.attributes) {
+        MCC_GLTF_TRY(readAccessor(document_, attribute.accessor, attribute.source));
+      }
+      const size_t payload = payloadOf(ref.mesh);
+      found->second = {payload, payloads_[payload].pieces.size()};
+      payloads_[payload].pieces.push_back(std::move(piece));
+    }
+    PiecePlan& target = payloads_[found->second.payload].pieces[found->second.piece];
+    for (PartPlan& other : target.parts) {
+      if (other.indices_accessor == part.indices_accessor && other.mode == part.mode) {
+        other.users.push_back(ref);
+        return {};
+      }
+    }
+    target.parts.push_back(std::move(part));
+    return {};
+  }
+
+  const Document& document_;
+  std::vector<PayloadPlan>& payloads_;
+  std::vector<LeftAlone>& left_alone_;
+  std::map<std::string, PieceRef> pieces_;
+};
+
+}  // namespace
+
+std::string AttributePlan::label() const {
+  return target == kNone ? name : "target " + std::to_string(target) + " " + name;
+}
+
+AttributeFormat formatOf(const std::string& name, uint32_t target, const Accessor& accessor) {
+  AttributeFormat format;
+  format.component_type = accessor.component_type;
+  format.normalized = accessor.normalized;
+  format.component_count = static_cast<uint8_t>(accessor.componentCount());
+  format.morph_target = static_cast<uint16_t>(target == kNone ? 0 : target + 1);
+  for (const SemanticRule& rule : kSemanticRules) {
+    if (!matches(rule, name, accessor, format.set_index)) continue;
+    format.semantic = rule.semantic;
+    return format;
+  }
+  format.semantic = Semantic::kCustom;
+  format.set_index =
+      static_cast<uint8_t>(crc32({reinterpret_cast<const uint8_t*>(name.data()), name.size()}));
+  return format;
+}
+
+bool comesBefore(const AttributePlan& a, const AttributePlan& b) {
+  const auto key = [](const AttributePlan& attribute) {
+    return std::tie(attribute.format.morph_target, attribute.format.semantic,
+                    attribute.format.set_index, attribute.name);
+  };
+  return key(a) < key(b);
+}
+
+Result planPayloads(const Document& document, std::vector<PayloadPlan>& payloads,
+                    std::vector<LeftAlone>& left_alone) {
+  return Planner(document, payloads, left_alone).run();
+}
+
+}  // namespace mcc::gltf

@@ -1,0 +1,85 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Which primitives are compressed, and what of them goes into which payload.
+#ifndef MCC_GLTF_PLAN_H_
+#define MCC_GLTF_PLAN_H_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gltf/accessors.h"
+#include "gltf/document.h"
+#include "mcc/gltf.h"
+#include "mcc/writer.h"
+
+namespace mcc::gltf {
+
+struct PrimitiveRef {
+  uint32_t mesh = 0;
+  uint32_t primitive = 0;
+
+  std::string path() const { return primitivePath(mesh, primitive); }
+};
+
+/// One attribute of a piece: an entry of a primitive's `attributes` or of one of its `targets`.
+struct AttributePlan {
+  std::string name;         ///< "POSITION"
+  uint32_t target = kNone;  ///< morph target it belongs to
+  uint32_t accessor = 0;    ///< of the source
+  AttributeFormat format;
+  AccessorData source;
+  uint8_t bits = 0;  ///< 0: exact
+  bool has_lattice = false;
+  Lattice lattice;
+  /// When not empty, what is coded instead of `source`: values moved to lattice points by at most
+  /// one step (weights that must add up to one).
+  std::vector<float> adjusted;
+
+  /// "POSITION" or "target 2 POSITION".
+  std::string label() const;
+};
+
+/// One triangle list; primitives that share attributes, indices and mode share it.
+struct PartPlan {
+  uint32_t indices_accessor = kNone;  ///< of the source
+  uint64_t mode = 4;                  ///< of the source
+  std::vector<uint32_t> triangles;    ///< expanded to mode 4
+  std::vector<PrimitiveRef> users;
+};
+
+/// Primitives with identical attributes and targets.
+struct PiecePlan {
+  uint32_t wedge_count = 0;
+  uint32_t target_count = 0;
+  std::vector<AttributePlan> attributes;  ///< in payload order
+  std::vector<PartPlan> parts;
+};
+
+/// What one mesh puts into one buffer view. A piece that several meshes use belongs to the first.
+struct PayloadPlan {
+  uint32_t mesh = 0;
+  std::vector<PiecePlan> pieces;
+};
+
+/// Why a primitive stays as it was.
+struct LeftAlone {
+  PrimitiveRef primitive;
+  std::string note;
+};
+
+/// Format of an attribute as the payload describes it. Semantics whose accessor has not the type
+/// glTF 2.0 gives them are custom ones.
+AttributeFormat formatOf(const std::string& name, uint32_t target, const Accessor& accessor);
+
+/// Semantic order of payload attributes: what others are predicted from comes first.
+bool comesBefore(const AttributePlan& a, const AttributePlan& b);
+
+/// Collects the triangle primitives of all meshes. Points and lines are left alone without a note.
+/// Errors: the document contradicts itself (an index out of range, an accessor that does not exist).
+Result planPayloads(const Document& document, std::vector<PayloadPlan>& payloads,
+                    std::vector<LeftAlone>& left_alone);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_PLAN_H_

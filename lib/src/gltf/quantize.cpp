@@ -1,0 +1,370 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/quantize.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+
+namespace mcc::gltf {
+namespace {
+
+constexpr uint32_t kMaxComponents = 4;
+constexpr uint32_t kMaxLatticeBits = 24;
+constexpr size_t kMaxSamples = 65536;
+
+float floatAt(const AttributePlan& attribute, uint64_t element, uint32_t component) {
+  float value = 0;
+  std::memcpy(&value,
+              attribute.source.data + element * attribute.source.stride_bytes + 4 * component, 4);
+  return value;
+}
+
+/// Bounding box of float attributes that share a lattice, with samples of their values.
+struct Extent {
+  uint32_t component_count = 0;
+  float min[kMaxComponents];
+  float max[kMaxComponents];
+  std::vector<float> samples[kMaxComponents];
+
+  explicit Extent(uint32_t components) : component_count(components) {
+    std::fill_n(min, kMaxComponents, std::numeric_limits<float>::infinity());
+    std::fill_n(max, kMaxComponents, -std::numeric_limits<float>::infinity());
+  }
+
+  /// Adds all values; false when one is NaN or infinite (nothing is added then).
+  bool add(const AttributePlan& attribute) {
+    const uint64_t count = attribute.source.count;
+    for (uint64_t i = 0; i < count; ++i) {
+      for (uint32_t c = 0; c < component_count; ++c) {
+        if (!std::isfinite(floatAt(attribute, i, c))) return false;
+      }
+    }
+    const uint64_t sample_step = count / kMaxSamples + 1;
+    for (uint64_t i = 0; i < count; ++i) {
+      for (uint32_t c = 0; c < component_count; ++c) {
+        const float value = floatAt(attribute, i, c) + 0.0f;  // -0 counts as +0
+        min[c] = std::min(min[c], value);
+        max[c] = std::max(max[c], value);
+        if (i % sample_step == 0) samples[c].push_back(value);
+      }
+    }
+    return true;
+  }
+
+  /// Largest side of the box.
+  double size() const {
+    double largest = 0;
+    for (uint32_t c = 0; c < component_count; ++c) {
+      largest = std::max(largest, double{max[c]} - double{min[c]});
+    }
+    return largest;
+  }
+
+  /// Largest side of the box without the outer percent of the values on either end.
+  double innerSize() {
+    double largest = 0;
+    for (uint32_t c = 0; c < component_count; ++c) {
+      std::vector<float>& values = samples[c];
+      if (values.size() < 16) return size();
+      const auto trimmed = static_cast<ptrdiff_t>(std::max<size_t>(values.size() / 100, 1));
+      std::nth_element(values.begin(), values.begin() + trimmed, values.end());
+      const double low = values[static_cast<size_t>(trimmed)];
+      std::nth_element(values.begin(), values.end() - 1 - trimmed, values.end());
+      largest = std::max(largest, double{*(values.end() - 1 - trimmed)} - low);
+    }
+    return largest;
+  }
+
+  bool isInside(float low, float high) const {
+    for (uint32_t c = 0; c < component_count; ++c) {
+      if (min[c] < low || max[c] > high) return false;
+    }
+    return true;
+  }
+};
+
+/// Lattice points a value may lie on, as the writer will round it.                        [DESIGN 9.5]
+double latticePoint(float value, float origin, float step) {
+  return std::floor((double{value} - double{origin}) / double{step} + 0.5);
+}
+
+/// step = size / (2^bits - 1), enlarged until every value has a point. False when float32 has no
+/// such step.
+bool fitBox(const Extent& extent, uint8_t bits, Lattice& lattice) {
+  const double last_point = static_cast<double>((uint64_t{1} << bits) - 1);
+  lattice = {};
+  const double size = extent.size();
+  lattice.step = size == 0 ? 1.0f : static_cast<float>(size / last_point);
+  if (!std::isnormal(lattice.step)) return false;
+  for (uint32_t c = 0; c < extent.component_count; ++c) {
+    lattice.origin[c] = extent.min[c];
+    while (latticePoint(extent.max[c], lattice.origin[c], lattice.step) > last_point) {
+      lattice.step = std::nextafter(lattice.step, std::numeric_limits<float>::infinity());
+      if (!std::isfinite(lattice.step)) return false;
+    }
+  }
+  return true;
+}
+
+/// The lattice of 0..1 with points at both ends.
+Lattice unitLattice(uint8_t bits) {
+  Lattice lattice;
+  lattice.step = static_cast<float>(1.0 / static_cast<double>((uint64_t{1} << bits) - 1));
+  return lattice;
+}
+
+/// A lattice of a given step that has a point at exactly 0, so that unmoved vertices of a morph target
+/// stay unmoved. `bits` becomes what it needs; false when that is too much.
+bool fitAroundZero(const Extent& extent, float step, Lattice& lattice, uint8_t& bits) {
+  if (!std::isnormal(step)) return false;
+  constexpr double kLastPoint = (1 << kMaxLatticeBits) - 1;
+  lattice = {};
+  lattice.step = step;
+  double last_point = 1;
+  for (uint32_t c = 0; c < extent.component_count; ++c) {
+    const double points_below = std::ceil(std::max(0.0, -double{extent.min[c]} / double{step}));
+    if (points_below > kLastPoint) return false;
+    lattice.origin[c] = -(static_cast<float>(points_below) * step) + 0.0f;
+    last_point = std::max(last_point, latticePoint(extent.max[c], lattice.origin[c], step));
+    last_point = std::max(last_point, points_below);
+  }
+  if (last_point > kLastPoint) return false;
+  bits = static_cast<uint8_t>(std::bit_width(static_cast<uint64_t>(last_point)));
+  return true;
+}
+
+/// Whether a few far values leave less than half of the bits to the others.
+bool isRuinedByOutliers(Extent& extent, uint8_t bits) {
+  const double size = extent.size();
+  return size > 0 && extent.innerSize() * std::exp2((bits + 1) / 2) < size;
+}
+
+void useLattice(AttributePlan& attribute, const Lattice& lattice, uint8_t bits) {
+  attribute.bits = bits;
+  attribute.has_lattice = true;
+  attribute.lattice = lattice;
+}
+
+bool isFloat(const AttributePlan& attribute) {
+  return attribute.format.component_type == ComponentType::kFloat32;
+}
+
+bool isBasePosition(const AttributePlan& attribute) {
+  return attribute.format.semantic == Semantic::kPosition && attribute.target == kNone;
+}
+
+class Quantizer {
+ public:
+  Quantizer(const ConvertOptions& options, std::vector<PayloadPlan>& payloads,
+            std::vector<std::string>& notes)
+      : options_(options), payloads_(payloads), notes_(notes) {}
+
+  void run() {
+    if (options_.lossless) return;
+    planPositions();
+    for (PayloadPlan& payload : payloads_) {
+      for (PiecePlan& piece : payload.pieces) {
+        for (AttributePlan& attribute : piece.attributes) planAttribute(piece, attribute);
+        adjustWeights(piece);
+      }
+    }
+  }
+
+ private:
+  struct Member {
+    PiecePlan* piece;
+    AttributePlan* attribute;
+  };
+
+  static std::string where(const PiecePlan& piece, const AttributePlan& attribute) {
+    return piece.parts[0].users[0].path() + ": " + attribute.label();
+  }
+
+  void planPositions() {
+    const uint8_t bits = options_.bits.position;
+    if (bits == 0) return;
+    std::vector<std::vector<Member>> groups;
+    for (PayloadPlan& payload : payloads_) {
+      if (options_.grid != Grid::kScene || groups.empty()) groups.emplace_back();
+      for (PiecePlan& piece : payload.pieces) {
+        if (options_.grid == Grid::kPrimitive) groups.emplace_back();
+        for (AttributePlan& attribute : piece.attributes) {
+          if (isBasePosition(attribute) && isFloat(attribute)) {
+            groups.back().push_back({&piece, &attribute});
+          }
+        }
+      }
+    }
+    for (const auto& group : groups) planPositionGroup(group, bits);
+  }
+
+  void planPositionGroup(const std::vector<Member>& group, uint8_t bits) {
+    Extent extent(3);
+    std::vector<AttributePlan*> finite;
+    for (const Member& member : group) {
+      if (extent.add(*member.attribute)) {
+        finite.push_back(member.attribute);
+      } else {
+        notes_.push_back(where(*member.piece, *member.attribute) +
+                         " has NaN or infinite values and stays exact");
+      }
+    }
+    if (finite.empty()) return;
+    Lattice lattice;
+    if (isRuinedByOutliers(extent, bits) || !fitBox(extent, bits, lattice)) {
+      notes_.push_back(where(*group[0].piece, *group[0].attribute) +
+                       " has outliers that a lattice of " + std::to_string(bits) +
+                       " bits would serve at the cost of all others; it stays exact");
+      return;
+    }
+    for (AttributePlan* attribute : finite) useLattice(*attribute, lattice, bits);
+  }
+
+  uint8_t bitsOf(Semantic semantic) const {
+    switch (semantic) {
+      case Semantic::kPosition: return options_.bits.position;
+      case Semantic::kNormal: return options_.bits.normal;
+      case Semantic::kTangent: return options_.bits.tangent;
+      case Semantic::kTexcoord: return options_.bits.texcoord;
+      case Semantic::kColor: return options_.bits.color;
+      case Semantic::kWeights: return options_.bits.weight;
+      case Semantic::kJoints:
+      case Semantic::kCustom: break;
+    }
+    return 0;
+  }
+
+  void planAttribute(const PiecePlan& piece, AttributePlan& attribute) {
+    const uint8_t bits = bitsOf(attribute.format.semantic);
+    if (!isFloat(attribute) || bits == 0 || isBasePosition(attribute)) return;
+    Extent extent(attribute.format.component_count);
+    if (!extent.add(attribute)) {
+      notes_.push_back(where(piece, attribute) + " has NaN or infinite values and stays exact");
+    } else if (attribute.target != kNone) {
+      planMorphDelta(piece, attribute, extent, bits);
+    } else if (attribute.format.semantic == Semantic::kNormal) {
+      attribute.bits = bits;  // unit vectors: the codec has its own grid
+    } else if (attribute.format.semantic == Semantic::kTangent) {
+      planTangent(piece, attribute, extent, bits);
+    } else {
+      planValues(piece, attribute, extent, bits);
+    }
+  }
+
+  void planValues(const PiecePlan& piece, AttributePlan& attribute, Extent& extent, uint8_t bits) {
+    const bool is_unit_range =
+        attribute.format.semantic != Semantic::kTexcoord && extent.isInside(0, 1);
+    Lattice lattice;
+    if (is_unit_range) {  // 0 and 1 are points; black stays black and no weight appears from nothing
+      useLattice(attribute, unitLattice(bits), bits);
+    } else if (isRuinedByOutliers(extent, bits) || !fitBox(extent, bits, lattice)) {
+      notes_.push_back(where(piece, attribute) + " has outliers that a lattice of " +
+                       std::to_string(bits) +
+                       " bits would serve at the cost of all others; it stays exact");
+    } else {
+      useLattice(attribute, lattice, bits);
+    }
+  }
+
+  /// A step of a power of two from -1: the signs in w, and 0, stay what they are.
+  void planTangent(const PiecePlan& piece, AttributePlan& attribute, const Extent& extent,
+                   uint8_t bits) {
+    if (!extent.isInside(-1.01f, 1.01f)) {
+      notes_.push_back(where(piece, attribute) + " is not of unit length and stays exact");
+      return;
+    }
+    Lattice lattice;
+    std::fill_n(lattice.origin, attribute.format.component_count, -1.0f);
+    lattice.step = std::ldexp(1.0f, 1 - int{bits});
+    useLattice(attribute, lattice, bits);
+  }
+
+  /// Deltas of positions lie on the steps of the positions, those of unit vectors on steps of the
+  /// interval -1..1; the others use their own range.
+  void planMorphDelta(const PiecePlan& piece, AttributePlan& attribute, const Extent& extent,
+                      uint8_t bits) {
+    const double points = static_cast<double>((uint64_t{1} << bits) - 1);
+    float step = 0;
+    if (attribute.format.semantic == Semantic::kPosition) {
+      step = piece.attributes[0].has_lattice ? piece.attributes[0].lattice.step : 0;
+    } else if (attribute.format.semantic == Semantic::kNormal ||
+               attribute.format.semantic == Semantic::kTangent) {
+      step = static_cast<float>(2.0 / points);
+    }
+    if (step == 0) step = static_cast<float>(extent.size() == 0 ? 1.0 : extent.size() / points);
+    Lattice lattice;
+    uint8_t needed_bits = 0;
+    if (fitAroundZero(extent, step, lattice, needed_bits)) {
+      useLattice(attribute, lattice, needed_bits);
+    } else {
+      notes_.push_back(where(piece, attribute) + " spans too many steps and stays exact");
+    }
+  }
+
+  /// Weights of a vertex that add up to one in the source do so on the lattice, too.
+  void adjustWeights(PiecePlan& piece) const {
+    std::vector<AttributePlan*> sets;
+    for (AttributePlan& attribute : piece.attributes) {
+      if (attribute.format.semantic != Semantic::kWeights || attribute.target != kNone) continue;
+      const bool is_on_unit =
+          attribute.has_lattice && attribute.lattice == unitLattice(attribute.bits);
+      if (!is_on_unit) return;
+      sets.push_back(&attribute);
+    }
+    if (sets.empty()) return;
+    for (AttributePlan* set : sets) set->adjusted.resize(size_t{4} * piece.wedge_count);
+    std::vector<double> points(4 * sets.size());
+    for (uint64_t wedge = 0; wedge < piece.wedge_count; ++wedge) {
+      for (size_t i = 0; i < points.size(); ++i) {
+        points[i] = double{floatAt(*sets[i / 4], wedge, i % 4)} / double{sets[0]->lattice.step};
+      }
+      roundTogether(points, std::round(1 / double{sets[0]->lattice.step}));
+      for (size_t i = 0; i < points.size(); ++i) {
+        sets[i / 4]->adjusted[wedge * 4 + i % 4] =
+            static_cast<float>(points[i]) * sets[0]->lattice.step;
+      }
+    }
+  }
+
+  /// Rounds every number to a whole one. When their sum is near `total` it becomes `total`: all are
+  /// rounded down and those that lost most go up.
+  static void roundTogether(std::vector<double>& points, double total) {
+    double sum = 0;
+    double floor_sum = 0;
+    for (const double point : points) {
+      sum += point;
+      floor_sum += std::floor(point);
+    }
+    if (std::abs(sum - total) > 0.25) {
+      for (double& point : points) point = std::floor(point + 0.5);
+      return;
+    }
+    std::vector<size_t> order;
+    for (size_t i = 0; i < points.size(); ++i) {
+      if (points[i] > std::floor(points[i])) order.push_back(i);
+    }
+    const auto loss = [&](size_t i) { return points[i] - std::floor(points[i]); };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](size_t a, size_t b) { return loss(a) > loss(b); });
+    const size_t missing = static_cast<size_t>(std::max(0.0, total - floor_sum));
+    if (missing > order.size()) order.clear();  // cannot be: the sum is near
+    for (size_t i = 0; i < std::min(missing, order.size()); ++i) points[order[i]] += 1;
+    for (double& point : points) point = std::floor(point);
+  }
+
+  const ConvertOptions& options_;
+  std::vector<PayloadPlan>& payloads_;
+  std::vector<std::string>& notes_;
+};
+
+}  // namespace
+
+void planQuantization(const ConvertOptions& options, std::vector<PayloadPlan>& payloads,
+                      std::vector<std::string>& notes) {
+  Quantizer(options, payloads, notes).run();
+}
+
+}  // namespace mcc::gltf

@@ -1,0 +1,45 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The buffers of a document whose accessors changed: bytes nobody refers to any more are dropped, new
+// buffer views are added, and everything ends up in one buffer, the BIN chunk of a GLB.
+#ifndef MCC_GLTF_REBUILD_H_
+#define MCC_GLTF_REBUILD_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "gltf/references.h"
+
+namespace mcc::gltf {
+
+/// Bytes of one source buffer.
+struct ByteRange {
+  uint32_t buffer = 0;
+  uint64_t begin = 0;
+  uint64_t end = 0;
+};
+
+/// Source bytes an accessor needs: its elements, or its whole buffer views when `whole_views`.
+std::vector<ByteRange> accessorRanges(const Document& document, uint32_t accessor,
+                                      bool whole_views);
+
+struct NewView {
+  std::vector<uint8_t> bytes;
+  uint32_t stride_bytes = 0;  ///< 0: none is written
+  uint32_t target = 0;        ///< 0: none is written
+};
+
+/// Removes what was freed and adds what is new.
+/// document   the source, as it was loaded.
+/// json       the edited document. Buffer views have the numbers of the source; new view k has the
+///            number document.views.size() + k. Accessors keep their numbers; of old ones that
+///            still have a bufferView nothing about the bytes was edited.
+/// new_views  consumed.
+/// On return `json` has the final numbers and offsets, `bin` the bytes of its one buffer. A view no
+/// one referred to in the source is kept. View numbers do not change when foreign.keep_numbers.
+Result rebuildBuffers(const Document& document, const ForeignReferences& foreign,
+                      std::vector<NewView>& new_views, Json& json, std::vector<uint8_t>& bin);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_REBUILD_H_

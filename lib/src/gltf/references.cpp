@@ -1,0 +1,212 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/references.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace mcc::gltf {
+namespace {
+
+/// Extensions that hold no numbers of buffer views or accessors, apart from those of
+/// visitViewReferences() and markAccessorsOutsideMeshes().
+constexpr std::string_view kKnownExtensions[] = {
+    "ADOBE_materials_clearcoat_specular",
+    "ADOBE_materials_clearcoat_tint",
+    "ADOBE_materials_thin_transparency",
+    "CESIUM_RTC",
+    "EXT_lights_image_based",
+    "EXT_mesh_gpu_instancing",
+    "EXT_texture_avif",
+    "EXT_texture_webp",
+    "KHR_animation_pointer",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_mesh_collapse_compression",
+    "KHR_mesh_quantization",
+    "KHR_node_hoverability",
+    "KHR_node_selectability",
+    "KHR_node_visibility",
+    "KHR_texture_basisu",
+    "KHR_texture_transform",
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+    "MSFT_lod",
+    "MSFT_packing_normalRoughnessMetallic",
+    "MSFT_packing_occlusionRoughnessMetallic",
+    "MSFT_texture_dds",
+    "VRM",
+    "VRMC_materials_mtoon",
+    "VRMC_node_constraint",
+    "VRMC_springBone",
+    "VRMC_vrm",
+};
+
+/// Extensions of meshes and primitives that do not care for the order of vertices and triangles.
+constexpr std::string_view kOrderFreeExtensions[] = {
+    "KHR_materials_variants", "KHR_mesh_collapse_compression", "KHR_xmp", "KHR_xmp_json_ld"};
+
+bool isKnownExtension(std::string_view name) {
+  return name.starts_with("KHR_materials_") ||
+         std::find(std::begin(kKnownExtensions), std::end(kKnownExtensions), name) !=
+             std::end(kKnownExtensions);
+}
+
+bool containsIgnoringCase(const std::string& text, std::string_view word) {
+  const auto same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) ==
+           std::tolower(static_cast<unsigned char>(b));
+  };
+  return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
+}
+
+void collectNumbers(const Json& json, std::set<uint64_t>& numbers) {
+  uint64_t number = 0;
+  if (json.is_structured()) {
+    for (const Json& value : json) collectNumbers(value, numbers);
+  } else if (asUnsigned(json, number)) {
+    numbers.insert(number);
+  }
+}
+
+void keepNumbers(ForeignReferences& foreign, const std::string& reason) {
+  if (!foreign.keep_numbers) foreign.reason = reason;
+  foreign.keep_numbers = true;
+}
+
+/// Walks extras and unknown extensions.
+void walkForeign(const Json& json, ForeignReferences& foreign) {
+  if (json.is_array()) {
+    for (const Json& value : json) walkForeign(value, foreign);
+  }
+  if (!json.is_object()) return;
+  for (const auto& [key, value] : json.items()) {
+    if (containsIgnoringCase(key, "bufferView")) {
+      collectNumbers(value, foreign.views);
+      keepNumbers(foreign, "\"" + key + "\"");
+    } else if (containsIgnoringCase(key, "accessor")) {
+      collectNumbers(value, foreign.accessors);
+    }
+    walkForeign(value, foreign);
+  }
+}
+
+void walkKnown(const Json& json, ForeignReferences& foreign) {
+  if (json.is_array()) {
+    for (const Json& value : json) walkKnown(value, foreign);
+  }
+  if (!json.is_object()) return;
+  for (const auto& [key, value] : json.items()) {
+    if (key == "extras") {
+      walkForeign(value, foreign);
+    } else if (key == "extensions" && value.is_object()) {
+      for (const auto& [name, extension] : value.items()) {
+        if (isKnownExtension(name)) {
+          walkKnown(extension, foreign);
+        } else {
+          keepNumbers(foreign, name);
+          walkForeign(extension, foreign);
+        }
+      }
+    } else {
+      walkKnown(value, foreign);
+    }
+  }
+}
+
+/// The member as something that can be changed, or null.
+Json* member(Json* json, const char* key) {
+  if (json == nullptr || !json->is_object()) return nullptr;
+  const auto found = json->find(key);
+  return found == json->end() ? nullptr : &*found;
+}
+
+void visitMember(Json* object, const char* key, uint32_t accessor,
+                 const std::function<void(Json&, uint32_t)>& visit) {
+  if (Json* number = member(object, key); number != nullptr) visit(*number, accessor);
+}
+
+void mark(const Json* json, std::vector<bool>& is_used) {
+  uint64_t index = 0;
+  if (json != nullptr && asUnsigned(*json, index) && index < is_used.size()) is_used[index] = true;
+}
+
+void markAll(const Json* object, std::vector<bool>& is_used) {
+  if (object == nullptr || !object->is_object()) return;
+  for (const Json& value : *object) mark(&value, is_used);
+}
+
+}  // namespace
+
+ForeignReferences findForeignReferences(const Json& root) {
+  ForeignReferences foreign;
+  walkKnown(root, foreign);
+  for (const Json& name : arrayOf(root, "extensionsUsed")) {
+    if (name.is_string() && !isKnownExtension(name.get<std::string>())) {
+      keepNumbers(foreign, name.get<std::string>());
+    }
+  }
+  return foreign;
+}
+
+void visitViewReferences(Json& root, const std::function<void(Json&, uint32_t)>& visit) {
+  if (Json* accessors = member(&root, "accessors"); accessors != nullptr) {
+    for (uint32_t i = 0; i < accessors->size(); ++i) {
+      Json* accessor = &(*accessors)[i];
+      visitMember(accessor, "bufferView", i, visit);
+      Json* sparse = member(accessor, "sparse");
+      visitMember(member(sparse, "indices"), "bufferView", i, visit);
+      visitMember(member(sparse, "values"), "bufferView", i, visit);
+    }
+  }
+  if (Json* images = member(&root, "images"); images != nullptr) {
+    for (Json& image : *images) visitMember(&image, "bufferView", kNone, visit);
+  }
+  Json* meshes = member(&root, "meshes");
+  if (meshes == nullptr) return;
+  for (Json& mesh : *meshes) {
+    Json* primitives = member(&mesh, "primitives");
+    if (primitives == nullptr || !primitives->is_array()) continue;
+    for (Json& primitive : *primitives) {
+      Json* extensions = member(&primitive, "extensions");
+      visitMember(member(extensions, kExtensionName), "bufferView", kNone, visit);
+      visitMember(member(extensions, "KHR_draco_mesh_compression"), "bufferView", kNone, visit);
+    }
+  }
+}
+
+std::string orderDependentExtension(const Json& mesh_or_primitive) {
+  const Json* extensions = findMember(mesh_or_primitive, "extensions");
+  if (extensions == nullptr || !extensions->is_object()) return "";
+  for (const auto& [name, value] : extensions->items()) {
+    if (std::find(std::begin(kOrderFreeExtensions), std::end(kOrderFreeExtensions), name) ==
+        std::end(kOrderFreeExtensions)) {
+      return name;
+    }
+  }
+  return "";
+}
+
+void markAccessorsOutsideMeshes(const Document& document, const ForeignReferences& foreign,
+                                std::vector<bool>& is_used) {
+  is_used.resize(document.accessors.size(), false);
+  for (const uint64_t index : foreign.accessors) {
+    if (index < is_used.size()) is_used[index] = true;
+  }
+  for (const Json& skin : arrayOf(document.json, "skins")) {
+    mark(findMember(skin, "inverseBindMatrices"), is_used);
+  }
+  for (const Json& animation : arrayOf(document.json, "animations")) {
+    for (const Json& sampler : arrayOf(animation, "samplers")) {
+      mark(findMember(sampler, "input"), is_used);
+      mark(findMember(sampler, "output"), is_used);
+    }
+  }
+  for (const Json& node : arrayOf(document.json, "nodes")) {
+    const Json* extensions = findMember(node, "extensions");
+    if (extensions == nullptr) continue;
+    const Json* instancing = findMember(*extensions, "EXT_mesh_gpu_instancing");
+    if (instancing != nullptr) markAll(findMember(*instancing, "attributes"), is_used);
+  }
+}
+
+}  // namespace mcc::gltf

@@ -1,0 +1,45 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Who refers to buffer views and accessors, in the document and in parts of it we do not understand.
+#ifndef MCC_GLTF_REFERENCES_H_
+#define MCC_GLTF_REFERENCES_H_
+
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gltf/document.h"
+
+namespace mcc::gltf {
+
+/// References from extras and from extensions that are not on our list. What looks like a reference
+/// there ("bufferView": 3, "myAccessors": [1, 2]) is taken for one.
+struct ForeignReferences {
+  /// There is something we do not understand: buffer views keep their numbers and all their bytes.
+  bool keep_numbers = false;
+  std::string reason;  ///< the first extension or path that made keep_numbers true
+  std::set<uint64_t> views;
+  std::set<uint64_t> accessors;
+};
+
+ForeignReferences findForeignReferences(const Json& root);
+
+/// Calls `visit` with every number of a buffer view in the places glTF 2.0 and the extensions on our
+/// list have them. `accessor` is the accessor the reference belongs to, or kNone.
+void visitViewReferences(Json& root,
+                         const std::function<void(Json& number, uint32_t accessor)>& visit);
+
+/// Extension of a mesh or primitive that depends on the order of vertices or triangles as far as we
+/// know: the first one that is not on our list, or an empty string.
+std::string orderDependentExtension(const Json& mesh_or_primitive);
+
+/// Marks accessors used by anything but mesh primitives: skins, animations, instancing, foreign uses.
+void markAccessorsOutsideMeshes(const Document& document, const ForeignReferences& foreign,
+                                std::vector<bool>& is_used);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_REFERENCES_H_

@@ -1,0 +1,25 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#ifndef MCC_GLTF_URI_H_
+#define MCC_GLTF_URI_H_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gltf/result.h"
+
+namespace mcc::gltf {
+
+bool isDataUri(const std::string& uri);
+
+/// Decodes "data:TYPE;base64,…" (or percent-encoded text without ";base64").
+Result decodeDataUri(const std::string& uri, const std::string& where, std::vector<uint8_t>& bytes);
+
+/// Turns a relative URI of a file at or below the model's folder into a relative path with '/'.
+/// Refuses everything else: schemes, absolute paths, drive letters, `..` that climbs out, control
+/// characters; percent encoding is resolved before the test.
+Result relativePathOf(const std::string& uri, const std::string& where, std::string& path);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_URI_H_

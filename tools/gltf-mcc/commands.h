@@ -1,0 +1,42 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#ifndef MCC_TOOL_COMMANDS_H_
+#define MCC_TOOL_COMMANDS_H_
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "mcc/gltf.h"
+#include "table.h"
+
+namespace mcc::tool {
+
+/// Exit status of the tool.
+inline constexpr int kDone = 0;
+inline constexpr int kFailed = 1;  ///< the input is bad or the check failed; nothing was written
+inline constexpr int kUsage = 2;
+
+/// What the commands have in common.
+struct CommonOptions {
+  Format format = Format::kPretty;
+  bool is_quiet = false;
+  bool is_verbose = false;
+};
+
+/// Each adds a subcommand to the app; when the user chose it, `status` becomes the exit status.
+void addConvert(CLI::App& app, int& status);
+void addDecode(CLI::App& app, int& status);
+void addInspect(CLI::App& app, int& status);
+
+/// Options of CommonOptions.
+void addFormatOption(CLI::App& command, CommonOptions& options);
+void addVerbosityOptions(CLI::App& command, CommonOptions& options);
+
+/// Prints "gltf-mcc: FILE: where: what" on standard error; returns kFailed.
+int reportFailure(const gltf::Result& result);
+
+/// Prints on standard output; returns kFailed when that fails.
+int printOut(const std::string& text);
+
+}  // namespace mcc::tool
+
+#endif  // MCC_TOOL_COMMANDS_H_

@@ -1,0 +1,93 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+
+#include "commands.h"
+#include "convert_report.h"
+
+namespace mcc::tool {
+namespace {
+
+struct ConvertCommand {
+  CommonOptions common;
+  gltf::ConvertOptions convert;
+  std::string input;
+  std::string output;
+  std::string report;
+
+  int run() const {
+    gltf::ConvertReport result;
+    const gltf::Result outcome = gltf::convertFile(input, output, convert, result);
+    if (!outcome.ok()) return reportFailure(outcome);
+    if (!report.empty()) {
+      const gltf::Result written = writeText(report, reportJson(input, output, convert, result));
+      if (!written.ok()) return reportFailure(written);
+    }
+    if (common.is_quiet) return kDone;
+    return printOut(common.format == Format::kJson ? reportJson(input, output, convert, result)
+                                                   : reportText(input, output, result, common));
+  }
+};
+
+void addBits(CLI::App& command, const std::string& name, uint8_t& bits, int low, int high) {
+  const auto check = [low, high](const std::string& text) -> std::string {
+    int number = -1;
+    const bool is_number = CLI::detail::lexical_cast(text, number);
+    if (is_number && (number == 0 || (number >= low && number <= high))) return "";
+    return fmt::format("{} is not 0 or {} to {}", text, low, high);
+  };
+  // Parsed as a number: a uint8_t would be taken for a character.
+  command
+      .add_option_function<int>(
+          "--quantize-" + name, [&bits](const int& number) { bits = static_cast<uint8_t>(number); },
+          fmt::format("Bits of {}, 0 keeps all [{}]", name, bits))
+      ->check(CLI::Validator(check, ""))
+      ->type_name("N");
+}
+
+void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
+  addBits(command, "position", options.bits.position, 1, 24);
+  addBits(command, "normal", options.bits.normal, 2, 16);
+  addBits(command, "texcoord", options.bits.texcoord, 1, 24);
+  addBits(command, "color", options.bits.color, 1, 24);
+  addBits(command, "tangent", options.bits.tangent, 2, 16);
+  addBits(command, "weight", options.bits.weight, 1, 24);
+  command.add_flag("--lossless", options.lossless, "Keep every bit of every number");
+  const std::map<std::string, gltf::Grid> grids = {{"mesh", gltf::Grid::kMesh},
+                                                   {"scene", gltf::Grid::kScene},
+                                                   {"primitive", gltf::Grid::kPrimitive}};
+  command
+      .add_option("--grid", options.grid,
+                  "What shares one grid of positions, so that no cracks open [mesh]")
+      ->transform(CLI::CheckedTransformer(grids, CLI::ignore_case).description(""))
+      ->type_name("mesh|scene|primitive");
+}
+
+}  // namespace
+
+void addConvert(CLI::App& app, int& status) {
+  CLI::App* command = app.add_subcommand("convert", "Compress a .glb or .gltf into a .glb");
+  auto state = std::make_shared<ConvertCommand>();
+  command->add_option("-i,--input,IN", state->input, "The .glb or .gltf to read")->required();
+  command->add_option("-o,--output,OUT", state->output, "The .glb to write")->required();
+  addQuantization(*command, state->convert);
+  command->add_option("--report", state->report, "Write all figures to this JSON file")
+      ->type_name("FILE");
+  addFormatOption(*command, state->common);
+  command->add_option("-j,--jobs", state->convert.thread_count, "Threads to use [1]")
+      ->check(CLI::Range(1, 1024).description(""))
+      ->type_name("N");
+  addVerbosityOptions(*command, state->common);
+  command->footer(
+      "The result is decoded and compared with the source before it takes its place; sizes and\n"
+      "measured errors are printed.\n\n"
+      "Examples:\n"
+      "  gltf-mcc convert model.glb small.glb\n"
+      "  gltf-mcc convert scene.gltf small.glb --quantize-position 12 --report sizes.json\n"
+      "  gltf-mcc convert scan.glb exact.glb --lossless");
+  command->callback([state, &status]() { status = state->run(); });
+}
+
+}  // namespace mcc::tool

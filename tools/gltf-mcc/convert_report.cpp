@@ -1,0 +1,272 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "convert_report.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace mcc::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// All payloads of a file added up.
+struct Totals {
+  uint64_t payload_bytes = 0;
+  uint64_t wedge_count = 0;
+  uint64_t vertex_count = 0;
+  uint64_t triangle_count = 0;
+  uint64_t compressed_primitives = 0;
+  std::vector<gltf::StreamReport> streams;
+  std::vector<gltf::AttributeReport> attributes;
+};
+
+void addStream(const gltf::StreamReport& stream, Totals& totals) {
+  for (gltf::StreamReport& total : totals.streams) {
+    if (total.name != stream.name) continue;
+    total.bits += stream.bits;
+    return;
+  }
+  totals.streams.push_back(stream);
+}
+
+void addAttribute(const gltf::AttributeReport& attribute, Totals& totals) {
+  for (gltf::AttributeReport& total : totals.attributes) {
+    const bool is_same = total.name == attribute.name && total.is_angle == attribute.is_angle &&
+                         total.coding == attribute.coding && total.bits == attribute.bits;
+    if (!is_same) continue;
+    total.coded_bits += attribute.coded_bits;
+    total.vertex_count += attribute.vertex_count;
+    total.max_error = std::max(total.max_error, attribute.max_error);
+    total.promised_error = std::max(total.promised_error, attribute.promised_error);
+    total.median_error = std::max(total.median_error, attribute.median_error);
+    return;
+  }
+  totals.attributes.push_back(attribute);
+}
+
+Totals totalsOf(const gltf::ConvertReport& report) {
+  Totals totals;
+  for (const gltf::PayloadReport& payload : report.payloads) {
+    totals.payload_bytes += payload.payload_bytes;
+    totals.wedge_count += payload.wedge_count;
+    totals.vertex_count += payload.vertex_count;
+    totals.triangle_count += payload.triangle_count;
+    for (const auto& stream : payload.streams) addStream(stream, totals);
+    for (const auto& attribute : payload.attributes) addAttribute(attribute, totals);
+  }
+  for (const auto& primitive : report.primitives) {
+    totals.compressed_primitives += primitive.compressed ? 1 : 0;
+  }
+  return totals;
+}
+
+std::string perVertex(double bits, uint64_t vertices) {
+  return vertices == 0 ? "" : fmt::format("{:.3f}", bits / static_cast<double>(vertices));
+}
+
+std::string errorText(const gltf::AttributeReport& attribute, double error) {
+  if (attribute.bits == 0) return "exact";
+  return fmt::format("{:.3g}{}", error, attribute.is_angle ? " deg" : "");
+}
+
+Table streamTable(const Totals& totals, Format format) {
+  Table table(
+      {"stream", "bytes", "bits/vertex", "bits/position", "coding", "max error", "promised"}, {4});
+  const auto bytes = [&](double bits) {
+    return count(static_cast<uint64_t>(bits / 8 + 0.5), format);
+  };
+  for (const auto& stream : totals.streams) {
+    const bool is_rare =
+        stream.name == "order" || stream.name == "leftovers" || stream.name == "stitching";
+    if (is_rare && stream.bits == 0) continue;
+    table.addRow({stream.name, bytes(stream.bits), perVertex(stream.bits, totals.wedge_count),
+                  perVertex(stream.bits, totals.vertex_count)});
+  }
+  for (const auto& attribute : totals.attributes) {
+    table.addRow({attribute.name, bytes(attribute.coded_bits),
+                  perVertex(attribute.coded_bits, attribute.vertex_count),
+                  perVertex(attribute.coded_bits, totals.vertex_count),
+                  codingName(attribute.coding, attribute.bits),
+                  errorText(attribute, attribute.max_error),
+                  errorText(attribute, attribute.promised_error)});
+  }
+  table.addRule();
+  const double all_bits = 8 * static_cast<double>(totals.payload_bytes);
+  table.addRow({"all", count(totals.payload_bytes, format), perVertex(all_bits, totals.wedge_count),
+                perVertex(all_bits, totals.vertex_count)});
+  return table;
+}
+
+Table primitiveTable(const gltf::ConvertReport& report, Format format) {
+  Table table({"primitive", "triangles", "vertices", "payload", "note"}, {4});
+  for (const auto& primitive : report.primitives) {
+    table.addRow({fmt::format("/meshes/{}/primitives/{}", primitive.mesh, primitive.primitive),
+                  primitive.compressed ? count(primitive.triangle_count, format) : "",
+                  primitive.compressed ? count(primitive.wedge_count, format) : "",
+                  primitive.compressed ? std::to_string(primitive.payload) : "-", primitive.note});
+  }
+  return table;
+}
+
+std::string summaryText(const std::string& input, const std::string& output,
+                        const gltf::ConvertReport& report, const Totals& totals) {
+  const double in = static_cast<double>(report.input_bytes);
+  const double out = static_cast<double>(report.output_bytes);
+  std::string text = fmt::format("{} -> {}: {} -> {} bytes ({:.1f} %, ratio {:.2f})\n", input,
+                                 output, grouped(report.input_bytes), grouped(report.output_bytes),
+                                 in == 0 ? 0 : 100 * out / in, out == 0 ? 0 : in / out);
+  if (report.copied) return text;
+  text += fmt::format(
+      "{} of {} primitives compressed into {} {} of {} bytes; {} triangles and {} vertices "
+      "kept ({} positions)\n",
+      totals.compressed_primitives, report.primitives.size(), report.payloads.size(),
+      report.payloads.size() == 1 ? "payload" : "payloads", grouped(totals.payload_bytes),
+      grouped(totals.triangle_count), grouped(totals.wedge_count), grouped(totals.vertex_count));
+  if (report.checked && !report.copied) {
+    text += fmt::format(
+        "decoded and compared with the source: equal within the promised errors "
+        "(encode {:.0f} ms, decode {:.0f} ms, check {:.0f} ms)\n",
+        1000 * report.encode_seconds, 1000 * report.decode_seconds, 1000 * report.check_seconds);
+  }
+  return text;
+}
+
+std::string notesText(const gltf::ConvertReport& report, bool is_verbose) {
+  constexpr size_t kShownNotes = 12;
+  std::string text;
+  const size_t shown =
+      is_verbose ? report.notes.size() : std::min(report.notes.size(), kShownNotes);
+  for (size_t i = 0; i < shown; ++i) text += "note: " + report.notes[i] + "\n";
+  if (shown < report.notes.size()) {
+    text +=
+        fmt::format("and {} more notes; -v or --report shows them\n", report.notes.size() - shown);
+  }
+  return text;
+}
+
+Json attributeJson(const gltf::AttributeReport& attribute) {
+  Json json = {{"name", attribute.name},
+               {"coding", codingName(attribute.coding, 0)},
+               {"bits", attribute.bits},
+               {"components", attribute.component_count},
+               {"vertices", attribute.vertex_count},
+               {"coded_bytes", attribute.coded_bits / 8},
+               {"error_unit", attribute.is_angle ? "degrees" : "accessor units"},
+               {"promised_error", attribute.promised_error},
+               {"max_error", attribute.max_error}};
+  if (attribute.is_angle) json["median_error"] = attribute.median_error;
+  return json;
+}
+
+Json payloadJson(const gltf::PayloadReport& payload) {
+  Json streams = Json::object();
+  for (const auto& stream : payload.streams) streams[stream.name] = stream.bits / 8;
+  Json attributes = Json::array();
+  for (const auto& attribute : payload.attributes) attributes.push_back(attributeJson(attribute));
+  return {{"mesh", payload.mesh},
+          {"bytes", payload.payload_bytes},
+          {"freed_bytes", payload.freed_bytes},
+          {"pieces", payload.piece_count},
+          {"vertices", payload.wedge_count},
+          {"positions", payload.vertex_count},
+          {"triangles", payload.triangle_count},
+          {"components", payload.component_count},
+          {"holes", payload.hole_count},
+          {"cut_copies", payload.cut_copy_count},
+          {"leftover_triangles", payload.leftover_triangle_count},
+          {"stream_bytes", streams},
+          {"attributes", attributes}};
+}
+
+Json primitiveJson(const gltf::PrimitiveReport& primitive) {
+  Json json = {{"mesh", primitive.mesh},
+               {"primitive", primitive.primitive},
+               {"compressed", primitive.compressed}};
+  if (primitive.compressed) {
+    json["payload"] = primitive.payload;
+    json["triangles"] = primitive.triangle_count;
+    json["vertices"] = primitive.wedge_count;
+  }
+  if (!primitive.note.empty()) json["note"] = primitive.note;
+  return json;
+}
+
+Json optionsJson(const gltf::ConvertOptions& options) {
+  static constexpr const char* kGrids[] = {"mesh", "scene", "primitive"};
+  return {{"lossless", options.lossless},
+          {"grid", kGrids[static_cast<size_t>(options.grid)]},
+          {"quantize_position", options.bits.position},
+          {"quantize_normal", options.bits.normal},
+          {"quantize_texcoord", options.bits.texcoord},
+          {"quantize_color", options.bits.color},
+          {"quantize_tangent", options.bits.tangent},
+          {"quantize_weight", options.bits.weight}};
+}
+
+}  // namespace
+
+std::string codingName(AttributeCoding coding, uint32_t bits) {
+  std::string name;
+  switch (coding) {
+    case AttributeCoding::kLattice: name = "lattice"; break;
+    case AttributeCoding::kInteger: return "integer";
+    case AttributeCoding::kExactFloat: return "exact float";
+    case AttributeCoding::kOctahedral: name = "octahedral"; break;
+    case AttributeCoding::kTangentAngle: name = "angle"; break;
+    case AttributeCoding::kAlias: return "alias";
+  }
+  return bits == 0 ? name : fmt::format("{} {}", name, bits);
+}
+
+std::string reportText(const std::string& input, const std::string& output,
+                       const gltf::ConvertReport& report, const CommonOptions& options) {
+  const Totals totals = totalsOf(report);
+  if (options.format == Format::kCsv)
+    return streamTable(totals, options.format).print(Format::kCsv);
+  std::string text = summaryText(input, output, report, totals);
+  if (!report.payloads.empty()) {
+    text += "\n" + streamTable(totals, options.format).print(options.format);
+  }
+  if (options.is_verbose && !report.primitives.empty()) {
+    text += "\n" + primitiveTable(report, options.format).print(options.format);
+  }
+  const std::string notes = notesText(report, options.is_verbose);
+  return notes.empty() ? text : text + "\n" + notes;
+}
+
+std::string reportJson(const std::string& input, const std::string& output,
+                       const gltf::ConvertOptions& options, const gltf::ConvertReport& report) {
+  Json payloads = Json::array();
+  for (const auto& payload : report.payloads) payloads.push_back(payloadJson(payload));
+  Json primitives = Json::array();
+  for (const auto& primitive : report.primitives) primitives.push_back(primitiveJson(primitive));
+  const Json json = {{"tool", std::string("gltf-mcc ") + MCC_VERSION},
+                     {"input", input},
+                     {"output", output},
+                     {"options", optionsJson(options)},
+                     {"input_bytes", report.input_bytes},
+                     {"output_bytes", report.output_bytes},
+                     {"copied", report.copied},
+                     {"checked", report.checked},
+                     {"encode_seconds", report.encode_seconds},
+                     {"decode_seconds", report.decode_seconds},
+                     {"check_seconds", report.check_seconds},
+                     {"payloads", payloads},
+                     {"primitives", primitives},
+                     {"notes", report.notes}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+gltf::Result writeText(const std::string& path, const std::string& text) {
+  std::ofstream stream(path, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (stream) return {};
+  return {path, fmt::format("the report cannot be written: {}", std::strerror(errno))};
+}
+
+}  // namespace mcc::tool

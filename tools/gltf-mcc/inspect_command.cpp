@@ -1,0 +1,235 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "convert_report.h"
+
+namespace mcc::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Counts {
+  uint64_t wedges = 0;
+  uint64_t vertices = 0;
+  uint64_t triangles = 0;
+};
+
+Counts countsOf(const gltf::InspectPayload& payload) {
+  Counts counts;
+  for (const gltf::InspectPiece& piece : payload.pieces) {
+    counts.wedges += piece.wedge_count;
+    counts.vertices += piece.vertex_count;
+    counts.triangles += piece.triangle_count;
+  }
+  return counts;
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : " ") + text;
+  return all;
+}
+
+std::string attributeText(const AttributeInfo& attribute) {
+  static constexpr const char* kTypes[] = {"i8", "u8", "i16", "u16", "u32", "f32"};
+  return fmt::format("{}x{}{}", kTypes[static_cast<size_t>(attribute.format.component_type)],
+                     attribute.format.component_count, attribute.format.normalized ? "n" : "");
+}
+
+Table payloadTable(const gltf::InspectReport& report, Format format) {
+  Table table({"bufferView", "bytes", "bits/vertex", "version", "pieces", "triangles", "vertices",
+               "positions", "header", "codes", "tokens", "raw bits", "used by"},
+              {12});
+  for (const auto& payload : report.payloads) {
+    const Counts counts = countsOf(payload);
+    std::string users = payload.primitives[0];
+    if (payload.primitives.size() > 1) {
+      users += fmt::format(" and {} more", payload.primitives.size() - 1);
+    }
+    const double bits = 8 * static_cast<double>(payload.payload_bytes);
+    table.addRow(
+        {std::to_string(payload.buffer_view), count(payload.payload_bytes, format),
+         counts.wedges == 0 ? "" : fmt::format("{:.3f}", bits / static_cast<double>(counts.wedges)),
+         fmt::format("{}.{}", payload.version_major, payload.version_minor),
+         std::to_string(payload.pieces.size()), count(counts.triangles, format),
+         count(counts.wedges, format), count(counts.vertices, format),
+         count(payload.header_bytes, format), count(payload.codes_bytes, format),
+         count(payload.tokens_bytes, format), count(payload.raw_bits_bytes, format), users});
+  }
+  return table;
+}
+
+Table attributeTable(const gltf::InspectReport& report, Format format) {
+  Table table({"bufferView", "piece", "triangles", "vertices", "parts", "attribute", "type",
+               "coding", "step"},
+              {5, 6, 7});
+  for (const auto& payload : report.payloads) {
+    for (size_t i = 0; i < payload.pieces.size(); ++i) {
+      const gltf::InspectPiece& piece = payload.pieces[i];
+      for (size_t k = 0; k < piece.attributes.size(); ++k) {
+        const AttributeInfo& attribute = piece.attributes[k];
+        const bool has_lattice = attribute.coding == AttributeCoding::kLattice;
+        table.addRow({std::to_string(payload.buffer_view), std::to_string(i),
+                      count(piece.triangle_count, format), count(piece.wedge_count, format),
+                      std::to_string(piece.part_count), piece.attribute_names[k],
+                      attributeText(attribute), codingName(attribute.coding, attribute.bits),
+                      has_lattice ? fmt::format("{:.6g}", attribute.lattice.step) : ""});
+      }
+    }
+  }
+  return table;
+}
+
+/// The columns of the paper's table 1: how often each code occurs.
+Table codeTable(const gltf::InspectReport& report, Format format) {
+  uint32_t last_degree = 8;
+  for (const auto& payload : report.payloads) {
+    for (uint32_t d = last_degree; d < 256; ++d) {
+      if (payload.codes.degree[d] != 0) last_degree = d;
+    }
+  }
+  last_degree = std::min(last_degree, 12u);  // the rest in one column
+  std::vector<std::string> header = {"bufferView", "vertices", "triangles", "S", "E", "M", "holes"};
+  for (uint32_t d = 2; d <= last_degree; ++d) header.push_back(std::to_string(d));
+  header.push_back(fmt::format(">{}", last_degree));
+  header.push_back("bits/vertex");
+  Table table(header);
+  for (const auto& payload : report.payloads) {
+    const Counts counts = countsOf(payload);
+    const CodeHistogram& codes = payload.codes;
+    std::vector<std::string> row = {std::to_string(payload.buffer_view),
+                                    count(counts.vertices, format),
+                                    count(counts.triangles, format),
+                                    count(codes.start, format),
+                                    count(codes.end, format),
+                                    count(codes.handle, format),
+                                    count(codes.dummy, format)};
+    uint64_t above = 0;
+    for (uint32_t d = 2; d < 256; ++d) {
+      if (d <= last_degree) row.push_back(count(codes.degree[d], format));
+      if (d > last_degree) above += codes.degree[d];
+    }
+    row.push_back(count(above, format));
+    const double bits = 8 * static_cast<double>(payload.codes_bytes);
+    row.push_back(counts.vertices == 0
+                      ? ""
+                      : fmt::format("{:.3f}", bits / static_cast<double>(counts.vertices)));
+    table.addRow(row);
+  }
+  return table;
+}
+
+Json codesJson(const CodeHistogram& codes) {
+  Json degrees = Json::object();
+  for (uint32_t d = 0; d < 256; ++d) {
+    if (codes.degree[d] != 0) degrees[std::to_string(d)] = codes.degree[d];
+  }
+  return {{"S", codes.start},
+          {"E", codes.end},
+          {"M", codes.handle},
+          {"dummy", codes.dummy},
+          {"degrees", degrees}};
+}
+
+Json pieceJson(const gltf::InspectPiece& piece) {
+  Json attributes = Json::array();
+  for (size_t k = 0; k < piece.attributes.size(); ++k) {
+    const AttributeInfo& attribute = piece.attributes[k];
+    Json json = {{"name", piece.attribute_names[k]},
+                 {"type", attributeText(attribute)},
+                 {"coding", codingName(attribute.coding, 0)},
+                 {"bits", attribute.bits},
+                 {"predictor", attribute.predictor}};
+    if (attribute.coding == AttributeCoding::kLattice) {
+      json["step"] = attribute.lattice.step;
+      json["origin"] = attribute.lattice.origin;
+    }
+    attributes.push_back(std::move(json));
+  }
+  return {{"vertices", piece.wedge_count},
+          {"positions", piece.vertex_count},
+          {"triangles", piece.triangle_count},
+          {"parts", piece.part_count},
+          {"attributes", attributes}};
+}
+
+std::string inspectJson(const std::string& input, const gltf::InspectReport& report) {
+  Json payloads = Json::array();
+  for (const auto& payload : report.payloads) {
+    Json pieces = Json::array();
+    for (const auto& piece : payload.pieces) pieces.push_back(pieceJson(piece));
+    Json json = {{"bufferView", payload.buffer_view},
+                 {"bytes", payload.payload_bytes},
+                 {"version", fmt::format("{}.{}", payload.version_major, payload.version_minor)},
+                 {"header_bytes", payload.header_bytes},
+                 {"codes_bytes", payload.codes_bytes},
+                 {"tokens_bytes", payload.tokens_bytes},
+                 {"raw_bits_bytes", payload.raw_bits_bytes},
+                 {"primitives", payload.primitives},
+                 {"pieces", pieces}};
+    if (payload.has_codes) json["codes"] = codesJson(payload.codes);
+    payloads.push_back(std::move(json));
+  }
+  const Json json = {{"input", input},
+                     {"input_bytes", report.input_bytes},
+                     {"meshes", report.mesh_count},
+                     {"primitives", report.primitive_count},
+                     {"extensionsUsed", report.extensions_used},
+                     {"payloads", payloads}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+struct InspectCommand {
+  CommonOptions common;
+  std::string input;
+  bool show_codes = false;
+
+  int run() const {
+    gltf::InspectReport report;
+    const gltf::Result outcome = gltf::inspectFile(input, show_codes, report);
+    if (!outcome.ok()) return reportFailure(outcome);
+    if (common.format == Format::kJson) return printOut(inspectJson(input, report));
+    if (common.format == Format::kCsv) {
+      const Table table =
+          show_codes ? codeTable(report, common.format) : payloadTable(report, common.format);
+      return printOut(table.print(common.format));
+    }
+    return printOut(text(report));
+  }
+
+  std::string text(const gltf::InspectReport& report) const {
+    std::string out =
+        fmt::format("{}: {} bytes, {} meshes, {} primitives; extensions: {}\n", input,
+                    grouped(report.input_bytes), report.mesh_count, report.primitive_count,
+                    report.extensions_used.empty() ? "none" : joined(report.extensions_used));
+    if (report.payloads.empty()) {
+      return out + "nothing in it is compressed with " + gltf::kExtensionName + "\n";
+    }
+    out += "\n" + payloadTable(report, common.format).print(common.format);
+    if (show_codes) return out + "\n" + codeTable(report, common.format).print(common.format);
+    return out + "\n" + attributeTable(report, common.format).print(common.format);
+  }
+};
+
+}  // namespace
+
+void addInspect(CLI::App& app, int& status) {
+  CLI::App* command = app.add_subcommand("inspect", "List what the payloads of a file hold");
+  auto state = std::make_shared<InspectCommand>();
+  command->add_option("-i,--input,IN", state->input, "The .glb or .gltf to read")->required();
+  command->add_flag(
+      "--codes", state->show_codes,
+      "Count the mesh collapse codes: S, E, M and the degrees of contracted vertices");
+  addFormatOption(*command, state->common);
+  command->footer(
+      "Examples:\n"
+      "  gltf-mcc inspect small.glb\n"
+      "  gltf-mcc inspect small.glb --codes --format md");
+  command->callback([state, &status]() { status = state->run(); });
+}
+
+}  // namespace mcc::tool

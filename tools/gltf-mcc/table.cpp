@@ -1,0 +1,116 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "table.h"
+
+#include <algorithm>
+
+namespace mcc::tool {
+namespace {
+
+/// Columns a UTF-8 text takes on a terminal (one per code point).
+size_t widthOf(const std::string& text) {
+  return static_cast<size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+  }));
+}
+
+std::string padded(const std::string& text, size_t width, bool is_left) {
+  const std::string space(width - std::min(width, widthOf(text)), ' ');
+  return is_left ? text + space : space + text;
+}
+
+bool isRule(const std::vector<std::string>& row) { return row.size() == 1 && row[0].empty(); }
+
+std::string csvCell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+void trimRight(std::string& text) { text.erase(text.find_last_not_of(' ') + 1); }
+
+}  // namespace
+
+bool Table::isText(size_t column) const {
+  return column == 0 ||
+         std::find(text_columns_.begin(), text_columns_.end(), column) != text_columns_.end();
+}
+
+std::string Table::printAligned(bool is_markdown) const {
+  std::vector<size_t> widths(header_.size(), 0);
+  const auto measure = [&](const std::vector<std::string>& row) {
+    for (size_t c = 0; c < std::min(row.size(), widths.size()); ++c) {
+      widths[c] = std::max(widths[c], widthOf(row[c]));
+    }
+  };
+  measure(header_);
+  for (const auto& row : rows_) measure(row);
+
+  std::string out;
+  const auto addLine = [&](const std::vector<std::string>& row) {
+    std::string line = is_markdown ? "|" : "";
+    for (size_t c = 0; c < widths.size(); ++c) {
+      const std::string cell = padded(c < row.size() ? row[c] : "", widths[c], isText(c));
+      line += is_markdown ? " " + cell + " |" : (c == 0 ? "" : "  ") + cell;
+    }
+    trimRight(line);
+    out += line + "\n";
+  };
+  const auto addRuleLine = [&]() {
+    std::string line = is_markdown ? "|" : "";
+    for (size_t c = 0; c < widths.size(); ++c) {
+      const std::string dashes(widths[c], '-');
+      line +=
+          is_markdown ? " " + dashes + (isText(c) ? " |" : ":|") : (c == 0 ? "" : "  ") + dashes;
+    }
+    out += line + "\n";
+  };
+  addLine(header_);
+  addRuleLine();
+  for (const auto& row : rows_) {
+    if (!isRule(row)) {
+      addLine(row);
+    } else if (!is_markdown) {
+      addRuleLine();
+    }
+  }
+  return out;
+}
+
+std::string Table::printCsv() const {
+  std::string out;
+  const auto addLine = [&](const std::vector<std::string>& row) {
+    for (size_t c = 0; c < header_.size(); ++c) {
+      out += (c == 0 ? "" : ",") + csvCell(c < row.size() ? row[c] : "");
+    }
+    out += "\n";
+  };
+  addLine(header_);
+  for (const auto& row : rows_) {
+    if (!isRule(row)) addLine(row);
+  }
+  return out;
+}
+
+std::string Table::print(Format format) const {
+  switch (format) {
+    case Format::kPretty: return printAligned(false);
+    case Format::kMarkdown: return printAligned(true);
+    case Format::kCsv:
+    case Format::kJson: break;
+  }
+  return printCsv();
+}
+
+std::string grouped(uint64_t number) {
+  std::string digits = std::to_string(number);
+  for (size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
+  return digits;
+}
+
+std::string count(uint64_t number, Format format) {
+  const bool is_for_people = format == Format::kPretty || format == Format::kMarkdown;
+  return is_for_people ? grouped(number) : std::to_string(number);
+}
+
+}  // namespace mcc::tool
