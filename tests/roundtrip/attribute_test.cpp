@@ -1,0 +1,446 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Every kind of attribute comes back: integers and exact floats bit for bit, the others as DESIGN 9.5 says.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include "support/mesh_compare.h"
+#include "support/mesh_generators.h"
+
+namespace mcc::test {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+AttributeFormat formatOf(Semantic semantic, ComponentType type, uint8_t components,
+                         bool normalized = false) {
+  AttributeFormat format;
+  format.semantic = semantic;
+  format.component_type = type;
+  format.component_count = components;
+  format.normalized = normalized;
+  return format;
+}
+
+/// Meshes attributes are tried on: smooth, with seams, with boundaries and several components, wild.
+std::vector<TestMesh> carriers() {
+  return {torus(16, 10),
+          chartGrid(12, 10, 4),
+          withRandomWedges(sheetWithHoles(4, 1), 2, 2),
+          looseTriangles(9),
+          withUnused(uvSphere(7, 6), 3, 9),
+          withRandomWedges(randomSoup(4), 5, 2),
+          openFan(1)};
+}
+
+enum class Shape : uint8_t { kSmooth, kRandom, kConstant, kExtremes };
+constexpr std::array<Shape, 4> kShapes = {Shape::kSmooth, Shape::kRandom, Shape::kConstant,
+                                          Shape::kExtremes};
+
+/// Bytes of `count` elements of an integer format.
+std::vector<uint8_t> integerValues(const TestMesh& mesh, const AttributeFormat& format,
+                                   Shape shape) {
+  Random random(format.component_count + static_cast<uint64_t>(shape) * 64);
+  const uint32_t width = componentBytes(format.component_type);
+  std::vector<uint8_t> bytes;
+  for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+    for (uint32_t k = 0; k < format.component_count; ++k) {
+      uint32_t value = 0;
+      switch (shape) {
+        case Shape::kSmooth:
+          value = static_cast<uint32_t>(std::lround(mesh.positions[v * 3 + k % 3] * 30)) + 60;
+          break;
+        case Shape::kRandom: value = static_cast<uint32_t>(random.next()); break;
+        case Shape::kConstant: value = 77 + k; break;
+        case Shape::kExtremes:
+          value = random.chance(50) ? 0xffffffffu : (random.chance(50) ? 0x80808080u : 0);
+          break;
+      }
+      for (uint32_t byte = 0; byte < width; ++byte)
+        bytes.push_back(static_cast<uint8_t>(value >> (8 * byte)));
+    }
+  }
+  return bytes;
+}
+
+std::vector<float> floatValues(const TestMesh& mesh, uint32_t components, Shape shape) {
+  constexpr std::array<float, 12> kOdd = {0.0f,    -0.0f,    1.0f,      -1.0f,      1e-45f, -1e-39f,
+                                          3.4e38f, -3.4e38f, kInfinity, -kInfinity, kNan,   0.1f};
+  Random random(components + static_cast<uint64_t>(shape) * 64);
+  std::vector<float> values;
+  for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+    for (uint32_t k = 0; k < components; ++k) {
+      switch (shape) {
+        case Shape::kSmooth:
+          values.push_back(mesh.positions[v * 3 + k % 3] * 0.25f + static_cast<float>(k));
+          break;
+        case Shape::kRandom: values.push_back(random.unit() * 200 - 100); break;
+        case Shape::kConstant: values.push_back(-3.25f); break;
+        case Shape::kExtremes:
+          values.push_back(kOdd[random.below(static_cast<uint32_t>(kOdd.size()))]);
+          break;
+      }
+    }
+  }
+  return values;
+}
+
+std::vector<float> unitVectors(const TestMesh& mesh, Shape shape) {
+  Random random(9);
+  std::vector<float> values;
+  for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+    std::array<float, 3> n = {0, 0, 1};
+    if (shape == Shape::kRandom)
+      n = {random.unit() - 0.5f, random.unit() - 0.5f, random.unit() - 0.5f};
+    if (shape == Shape::kSmooth) n = {mesh.positions[v * 3], mesh.positions[v * 3 + 1] + 0.01f, 2};
+    if (shape == Shape::kExtremes) {  // corners, edges and folds of the octahedron
+      n = {static_cast<float>(random.between(0, 2)) - 1,
+           static_cast<float>(random.between(0, 2)) - 1,
+           static_cast<float>(random.between(0, 2)) - 1};
+      if (n[0] == 0 && n[1] == 0 && n[2] == 0) n[2] = -1;
+    }
+    const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (const float x : n) values.push_back(x / length);
+  }
+  return values;
+}
+
+/// Unit vectors at right angles to `normals`, with a sign.
+std::vector<float> tangentsOf(const std::vector<float>& normals, Shape shape) {
+  Random random(4);
+  std::vector<float> values;
+  for (size_t i = 0; i < normals.size(); i += 3) {
+    const double x = static_cast<double>(normals[i]);
+    const double y = static_cast<double>(normals[i + 1]);
+    const double z = static_cast<double>(normals[i + 2]);
+    // Two vectors across the normal, then an angle between them.
+    std::array<double, 3> u =
+        std::abs(x) < 0.7 ? std::array<double, 3>{0, z, -y} : std::array<double, 3>{-z, 0, x};
+    const double length = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+    for (double& c : u) c /= length;
+    const std::array<double, 3> w = {y * u[2] - z * u[1], z * u[0] - x * u[2], x * u[1] - y * u[0]};
+    const CosSin angle = turn(shape == Shape::kRandom ? static_cast<double>(random.unit()) : 0.1);
+    for (size_t k = 0; k < 3; ++k)
+      values.push_back(static_cast<float>(u[k] * angle.cos + w[k] * angle.sin));
+    values.push_back(shape != Shape::kConstant && random.chance(30) ? -1.0f : 1.0f);
+  }
+  return values;
+}
+
+void expectRoundTrip(const MeshPiece& piece, const std::string& what) {
+  for (uint8_t effort = 0; effort <= 2; ++effort) {
+    EncodeOptions options;
+    options.effort = effort;
+    EXPECT_EQ(roundTrip(piece.view(), options, {effort == 2 ? 4u : 0u, IndexType::kUint32}).failure,
+              "")
+        << what << ", effort " << int{effort};
+  }
+}
+
+TEST(Attributes, IntegersOfEveryFormat) {
+  constexpr std::array<ComponentType, 5> kTypes = {ComponentType::kInt8, ComponentType::kUint8,
+                                                   ComponentType::kInt16, ComponentType::kUint16,
+                                                   ComponentType::kUint32};
+  constexpr std::array<Semantic, 5> kSemantics = {Semantic::kTexcoord, Semantic::kColor,
+                                                  Semantic::kJoints, Semantic::kNormal,
+                                                  Semantic::kCustom};
+  for (const TestMesh& mesh : carriers()) {
+    for (const Shape shape : kShapes) {
+      MeshPiece piece(mesh);
+      std::vector<std::vector<uint8_t>> kept;
+      for (const ComponentType type : kTypes) {
+        for (const Semantic semantic : kSemantics) {
+          uint8_t components = static_cast<uint8_t>(1 + kept.size() % 4);
+          if (semantic == Semantic::kNormal) components = 3;
+          AttributeFormat format = formatOf(semantic, type, components, kept.size() % 2 == 0);
+          format.set_index = static_cast<uint8_t>(type);
+          kept.push_back(integerValues(mesh, format, shape));
+          piece.add(format, kept.back().data(), 12);  // bits mean nothing to integers
+        }
+      }
+      EXPECT_EQ(roundTrip(piece.view()).failure, "")
+          << mesh.name << ", shape " << static_cast<int>(shape);
+    }
+  }
+}
+
+TEST(Attributes, IntegerPositions) {
+  for (const TestMesh& mesh : carriers()) {
+    for (const ComponentType type :
+         {ComponentType::kInt8, ComponentType::kUint8, ComponentType::kInt16,
+          ComponentType::kUint16, ComponentType::kUint32}) {
+      for (const Shape shape : kShapes) {
+        const AttributeFormat format =
+            formatOf(Semantic::kPosition, type, 3, shape == Shape::kRandom);
+        const std::vector<uint8_t> values = integerValues(mesh, format, shape);
+        MeshPiece piece(mesh);
+        piece.setPositions(format, values.data());
+        EXPECT_EQ(roundTrip(piece.view()).failure, "")
+            << mesh.name << ", type " << static_cast<int>(type) << ", shape "
+            << static_cast<int>(shape);
+      }
+    }
+  }
+}
+
+TEST(Attributes, FloatsOfEverySemantic) {
+  constexpr std::array<Semantic, 5> kSemantics = {Semantic::kTexcoord, Semantic::kColor,
+                                                  Semantic::kWeights, Semantic::kCustom,
+                                                  Semantic::kNormal};
+  for (const TestMesh& mesh : carriers()) {
+    for (const Shape shape : kShapes) {
+      for (const uint8_t bits : {uint8_t{0}, uint8_t{1}, uint8_t{8}, uint8_t{12}, uint8_t{16}}) {
+        MeshPiece piece(mesh);
+        std::vector<std::vector<float>> kept;
+        for (const Semantic semantic : kSemantics) {
+          uint8_t components = semantic == Semantic::kTexcoord ? 2 : 4;
+          if (semantic == Semantic::kNormal) components = 3;  // no unit vectors
+          if (semantic == Semantic::kWeights && bits > 0) continue;
+          if (semantic == Semantic::kNormal && bits == 1) continue;
+          kept.push_back(floatValues(mesh, components, shape));
+          piece.add(formatOf(semantic, ComponentType::kFloat32, components), kept.back().data(),
+                    bits);
+        }
+        EXPECT_EQ(roundTrip(piece.view()).failure, "")
+            << mesh.name << ", shape " << static_cast<int>(shape) << ", bits " << int{bits};
+      }
+    }
+  }
+}
+
+TEST(Attributes, PositionBits) {
+  const TestMesh mesh = flipped(icosphere(3), 1, 500);
+  for (uint8_t bits = 0; bits <= 24; ++bits) {
+    const MeshPiece piece(mesh, {bits, 10, 12});
+    EXPECT_EQ(roundTrip(piece.view()).failure, "") << int{bits};
+  }
+}
+
+TEST(Attributes, OddExactPositions) {
+  for (const TestMesh& mesh : carriers()) {
+    for (const Shape shape : kShapes) {
+      TestMesh odd = mesh;
+      odd.positions = floatValues(mesh, 3, shape);
+      const MeshPiece exact(odd, kExactBits);
+      EXPECT_EQ(roundTrip(exact.view()).failure, "")
+          << mesh.name << ", shape " << static_cast<int>(shape);
+      const MeshPiece lossy(odd);  // NaN and infinity make them exact
+      EXPECT_EQ(roundTrip(lossy.view()).failure, "")
+          << mesh.name << ", lossy, shape " << static_cast<int>(shape);
+    }
+  }
+}
+
+TEST(Attributes, ZeroAndMinusZeroWeldWhenLossy) {
+  TestMesh mesh = grid(4, 4);
+  for (float& x : mesh.positions) {
+    if (x == 0) x = -0.0f;
+  }
+  mesh = doubled(mesh);
+  for (size_t i = 0; i < mesh.positions.size() / 2; ++i) mesh.positions[i] += 0.0f;  // -0 + 0 = 0
+  for (const uint8_t bits : {uint8_t{0}, uint8_t{14}}) {
+    const MeshPiece piece(mesh, {bits, 10, 12});
+    EXPECT_EQ(roundTrip(piece.view()).failure, "") << int{bits};
+  }
+}
+
+TEST(Attributes, GivenLattice) {
+  const TestMesh mesh = torus(20, 12);
+  MeshPiece piece(mesh);
+  const Lattice lattice = {{-2, -1.5f, -2, 0}, 1.0f / 1024};
+  PieceView view = piece.view();
+  std::vector<AttributeView> attributes(view.attributes.begin(), view.attributes.end());
+  attributes[0].lattice = &lattice;
+  view.attributes = attributes;
+  const RoundTrip result = roundTrip(view);
+  EXPECT_EQ(result.failure, "");
+  EXPECT_EQ(result.decoded[0].attributes[0].info.coding, AttributeCoding::kLattice);
+}
+
+TEST(Attributes, NormalsAndTangents) {
+  for (const TestMesh& carrier : carriers()) {
+    for (const Shape shape : kShapes) {
+      TestMesh mesh = carrier;
+      mesh.normals = unitVectors(mesh, shape);
+      const std::vector<float> tangents = tangentsOf(mesh.normals, shape);
+      for (const uint8_t bits : {uint8_t{0}, uint8_t{2}, uint8_t{8}, uint8_t{10}, uint8_t{16}}) {
+        MeshPiece piece(mesh, {14, bits, 12});
+        piece.add(formatOf(Semantic::kTangent, ComponentType::kFloat32, 4), tangents.data(),
+                  static_cast<uint8_t>(bits == 0 ? 0 : 12));
+        expectRoundTrip(piece, mesh.name + ", shape " + std::to_string(static_cast<int>(shape)) +
+                                   ", bits " + std::to_string(bits));
+      }
+    }
+  }
+}
+
+TEST(Attributes, TangentsWithoutGoodNormals) {
+  for (const TestMesh& carrier : carriers()) {
+    TestMesh mesh = carrier;
+    mesh.normals.clear();
+    const std::vector<float> unit = unitVectors(mesh, Shape::kRandom);
+    std::vector<float> tangents;
+    for (size_t i = 0; i < unit.size(); i += 3) {
+      for (size_t k = 0; k < 3; ++k) tangents.push_back(unit[i + k]);
+      tangents.push_back(i % 2 == 0 ? 1.0f : -1.0f);
+    }
+    const AttributeFormat format = formatOf(Semantic::kTangent, ComponentType::kFloat32, 4);
+    MeshPiece alone(mesh);
+    alone.add(format, tangents.data(), 12);
+    expectRoundTrip(alone, mesh.name + ", no normals");
+    mesh.normals = unitVectors(mesh, Shape::kConstant);
+    MeshPiece askew(mesh);
+    askew.add(format, tangents.data(), 12);
+    expectRoundTrip(askew, mesh.name + ", askew");
+  }
+}
+
+TEST(Attributes, Skins) {
+  for (const TestMesh& mesh : carriers()) {
+    Random random(2);
+    std::vector<uint8_t> joints;
+    std::vector<float> weights;
+    std::vector<uint8_t> normalized;
+    for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+      const float second = random.chance(50) ? 0.0f : random.unit() * 0.5f;
+      const float third = second > 0 && random.chance(50) ? random.unit() * 0.25f : 0.0f;
+      for (const float w : {1 - second - third, second, third, 0.0f}) weights.push_back(w);
+      for (const bool uses : {true, second > 0, third > 0, false}) {
+        joints.push_back(static_cast<uint8_t>(uses ? v / 9 + random.below(3) : 0));
+      }
+      const uint8_t part = static_cast<uint8_t>(random.below(100));
+      for (const int w : {255 - part, int{part}, 0, 0})
+        normalized.push_back(static_cast<uint8_t>(w));
+    }
+    for (const uint8_t bits : {uint8_t{0}, uint8_t{8}, uint8_t{12}}) {
+      MeshPiece piece(mesh);
+      piece.add(formatOf(Semantic::kJoints, ComponentType::kUint8, 4), joints.data());
+      piece.add(formatOf(Semantic::kWeights, ComponentType::kFloat32, 4), weights.data(), bits);
+      AttributeFormat second_set = formatOf(Semantic::kJoints, ComponentType::kUint8, 4);
+      second_set.set_index = 1;
+      piece.add(second_set, joints.data());
+      second_set = formatOf(Semantic::kWeights, ComponentType::kUint8, 4, true);
+      second_set.set_index = 1;
+      piece.add(second_set, normalized.data());
+      expectRoundTrip(piece, mesh.name + ", bits " + std::to_string(bits));
+    }
+  }
+}
+
+TEST(Attributes, MorphTargets) {
+  for (const TestMesh& mesh : carriers()) {
+    std::vector<std::vector<float>> kept;
+    MeshPiece piece(mesh);
+    for (uint16_t target = 1; target <= 5; ++target) {
+      std::vector<float> deltas(mesh.positions.size(), 0.0f);
+      Random random(target);
+      for (size_t i = 0; i < deltas.size(); ++i) {  // some move all, some few, one nothing
+        if (target != 3 && (target == 1 || i / 3 % 11 < target))
+          deltas[i] = random.unit() * 0.1f - 0.05f;
+      }
+      kept.push_back(std::move(deltas));
+      AttributeFormat format = formatOf(Semantic::kPosition, ComponentType::kFloat32, 3);
+      format.morph_target = target;
+      piece.add(format, kept.back().data(), target == 5 ? 0 : 12);
+      format.semantic = Semantic::kNormal;
+      piece.add(format, kept.back().data(), target == 5 ? 0 : 10);
+      format.semantic = Semantic::kTangent;
+      piece.add(format, kept.back().data(), 10);
+    }
+    expectRoundTrip(piece, mesh.name);
+  }
+}
+
+TEST(Attributes, EqualAttributesAndManyOfThem) {
+  const TestMesh mesh = chartGrid(10, 10, 5);
+  MeshPiece piece(mesh);
+  for (uint8_t set = 1; set < 60; ++set) {
+    AttributeFormat format = formatOf(Semantic::kTexcoord, ComponentType::kFloat32, 2);
+    format.set_index = set;
+    piece.add(format, mesh.texcoords.data(), set % 2 == 0 ? 12 : 0);
+  }
+  expectRoundTrip(piece, "sixty times the same texture coordinates");
+}
+
+TEST(Attributes, WideCustomOnes) {
+  for (const TestMesh& mesh : carriers()) {
+    std::vector<std::vector<uint8_t>> integers;
+    std::vector<std::vector<float>> floats;
+    MeshPiece piece(mesh);
+    for (uint8_t components = 1; components <= 16; ++components) {
+      AttributeFormat format = formatOf(Semantic::kCustom, ComponentType::kUint16, components);
+      format.set_index = components;
+      integers.push_back(integerValues(mesh, format, Shape::kSmooth));
+      piece.add(format, integers.back().data());
+      format.component_type = ComponentType::kFloat32;
+      format.set_index = static_cast<uint8_t>(100 + components);
+      floats.push_back(floatValues(mesh, components, Shape::kSmooth));
+      piece.add(format, floats.back().data());
+    }
+    expectRoundTrip(piece, mesh.name);
+  }
+}
+
+TEST(Attributes, StridedSources) {
+  const TestMesh mesh = torus(9, 7);
+  std::vector<float> interleaved;
+  for (size_t v = 0; v < mesh.vertexCount(); ++v) {
+    for (size_t k = 0; k < 3; ++k) interleaved.push_back(mesh.positions[v * 3 + k]);
+    for (size_t k = 0; k < 3; ++k) interleaved.push_back(mesh.normals[v * 3 + k]);
+  }
+  const MeshPiece piece(mesh);
+  PieceView view = piece.view();
+  std::vector<AttributeView> attributes(view.attributes.begin(), view.attributes.end());
+  attributes[0].data = interleaved.data();
+  attributes[1].data = interleaved.data() + 3;
+  attributes[0].stride_bytes = attributes[1].stride_bytes = 24;
+  const RoundTrip tight = roundTrip(view);
+  view.attributes = attributes;
+  const RoundTrip strided = roundTrip(view);
+  EXPECT_EQ(tight.failure, "");
+  EXPECT_EQ(strided.failure, "");
+  EXPECT_EQ(strided.encoded.payload, tight.encoded.payload);
+}
+
+TEST(Attributes, WrongArgumentsAreRefused) {
+  const TestMesh mesh = torus(4, 4);
+  const MeshPiece piece(mesh);
+  const auto refuses = [](const PieceView& view) {
+    EncodeResult result;
+    return encode(std::span<const PieceView>(&view, 1), {}, result).error == Error::kBadArgument;
+  };
+  std::vector<AttributeView> attributes(piece.view().attributes.begin(),
+                                        piece.view().attributes.end());
+  PieceView view = piece.view();
+  view.attributes = attributes;
+  EXPECT_FALSE(refuses(view));
+
+  const std::vector<uint32_t> beyond = {0, 1, mesh.vertexCount()};
+  const PartView bad_part = {beyond};
+  view.parts = std::span<const PartView>(&bad_part, 1);
+  EXPECT_TRUE(refuses(view)) << "index out of range";
+  view.parts = piece.view().parts;
+
+  attributes[0].data = nullptr;
+  EXPECT_TRUE(refuses(view)) << "no data";
+  attributes[0] = piece.view().attributes[0];
+  attributes[0].quantization_bits = 25;
+  EXPECT_TRUE(refuses(view)) << "too many bits";
+  attributes[0] = piece.view().attributes[0];
+  attributes[0].stride_bytes = 11;
+  EXPECT_TRUE(refuses(view)) << "stride below the element";
+  attributes[0] = piece.view().attributes[0];
+  attributes[0].format.component_count = 2;
+  EXPECT_TRUE(refuses(view)) << "positions of two components";
+  view.attributes = std::span<const AttributeView>(attributes).subspan(1);
+  EXPECT_TRUE(refuses(view)) << "no positions";
+}
+
+}  // namespace
+}  // namespace mcc::test

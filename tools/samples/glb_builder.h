@@ -1,0 +1,63 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Builds one GLB in memory: JSON plus a binary chunk that accessors and images are appended to.
+#ifndef MCC_TOOLS_SAMPLES_GLB_BUILDER_H_
+#define MCC_TOOLS_SAMPLES_GLB_BUILDER_H_
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mcc/types.h"
+
+namespace mcc::samples {
+
+using Json = nlohmann::ordered_json;
+
+class GlbBuilder {
+ public:
+  /// `title` names the scene and its first node.
+  explicit GlbBuilder(const std::string& title);
+
+  /// The document; members may be added and changed until finish().
+  Json& json() { return json_; }
+
+  /// Vertex attributes: `components` (1..4) floats per element; min and max are written.
+  uint32_t addFloats(std::span<const float> values, uint32_t components);
+  /// As addFloats for anything that is no vertex attribute (animation, inverse bind matrices: 16).
+  uint32_t addPlainFloats(std::span<const float> values, uint32_t components);
+  /// Integer vertex attributes. Elements are padded to a multiple of four bytes, as glTF demands.
+  /// `values` holds components * count numbers in the range of `type`.
+  uint32_t addIntegers(std::span<const int32_t> values, uint32_t components, ComponentType type,
+                       bool normalized);
+  /// Indices, 16 bits wide when they fit.
+  uint32_t addIndices(std::span<const uint32_t> indices);
+  /// A VEC3 float accessor that takes `base` and replaces the elements `where` (ascending) by `values`.
+  uint32_t addSparseFloats(uint32_t base_accessor, std::span<const float> base,
+                           std::span<const uint32_t> where, std::span<const float> values);
+  /// A material; colour components 0..1, linear.
+  uint32_t addMaterial(const std::string& name, float red, float green, float blue, float metallic,
+                       float roughness, bool double_sided = false);
+  /// An embedded PNG with a texture that repeats nowhere.
+  uint32_t addTexture(const std::string& name, std::span<const uint8_t> png);
+  /// A mesh; returns its index.
+  uint32_t addMesh(const std::string& name, const Json& primitives);
+  /// A node; `in_scene` makes it a root of the scene.
+  uint32_t addNode(const Json& node, bool in_scene = true);
+
+  std::vector<uint8_t> finish() const;
+
+ private:
+  uint32_t addView(std::span<const uint8_t> bytes, uint32_t target, uint32_t stride_bytes);
+  uint32_t addAccessor(uint32_t view, uint32_t component_type, size_t count, const char* type);
+  uint32_t push(const char* array, Json element);
+
+  Json json_;
+  std::vector<uint8_t> binary_;
+};
+
+}  // namespace mcc::samples
+
+#endif  // MCC_TOOLS_SAMPLES_GLB_BUILDER_H_

@@ -1,0 +1,72 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// generate-samples DIR writes the sample models into DIR and prints the table of samples/README.md.
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <set>
+
+#include "models.h"
+
+namespace mcc::samples {
+namespace {
+
+struct Counts {
+  uint64_t vertices = 0;
+  uint64_t triangles = 0;
+};
+
+/// Vertices of all meshes (each POSITION accessor once) and triangles of all primitives.
+Counts countOf(const Json& json) {
+  constexpr uint32_t kTriangles = 4;
+  Counts counts;
+  std::set<uint64_t> seen;
+  for (const Json& mesh : json["meshes"]) {
+    for (const Json& primitive : mesh["primitives"]) {
+      const uint64_t position = primitive["attributes"]["POSITION"].get<uint64_t>();
+      const uint64_t vertices = json["accessors"][position]["count"].get<uint64_t>();
+      if (seen.insert(position).second) counts.vertices += vertices;
+      uint64_t corners = vertices;
+      if (primitive.contains("indices")) {
+        corners = json["accessors"][primitive["indices"].get<uint64_t>()]["count"].get<uint64_t>();
+      }
+      const bool separate = primitive.value("mode", kTriangles) == kTriangles;
+      counts.triangles += separate ? corners / 3 : corners - 2;
+    }
+  }
+  return counts;
+}
+
+int run(const std::filesystem::path& folder) {
+  std::cout << "| file | shows | vertices | triangles | bytes |\n|---|---|---:|---:|---:|\n";
+  std::error_code ignored;
+  std::filesystem::create_directories(folder, ignored);
+  for (const Model& model : allModels()) {
+    GlbBuilder glb = model.build();
+    const std::vector<uint8_t> bytes = glb.finish();
+    const std::filesystem::path path = folder / model.file;
+    std::ofstream file(path, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+    if (!file.flush()) {
+      std::cerr << "generate-samples: cannot write " << path.string() << '\n';
+      return 1;
+    }
+    const Counts counts = countOf(glb.json());
+    std::cout << "| `" << model.file << "` | " << model.shows << " | " << counts.vertices << " | "
+              << counts.triangles << " | " << bytes.size() << " |\n";
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace mcc::samples
+
+int main(int argc, char** argv) {
+  if (argc != 2 || argv[1][0] == '-') {
+    std::fputs("usage: generate-samples DIR\n", stderr);
+    return 2;
+  }
+  return mcc::samples::run(argv[1]);
+}

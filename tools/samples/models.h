@@ -1,0 +1,23 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The sample models: one function each, same bytes on every platform.
+#ifndef MCC_TOOLS_SAMPLES_MODELS_H_
+#define MCC_TOOLS_SAMPLES_MODELS_H_
+
+#include <span>
+
+#include "glb_builder.h"
+
+namespace mcc::samples {
+
+struct Model {
+  const char* file;
+  const char* shows;  ///< a phrase for the table in samples/README.md
+  GlbBuilder (*build)();
+};
+
+std::span<const Model> allModels();
+
+}  // namespace mcc::samples
+
+#endif  // MCC_TOOLS_SAMPLES_MODELS_H_
