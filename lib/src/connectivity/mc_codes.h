@@ -77,7 +77,6 @@ struct McComponent {
   uint32_t vertex = 0;
   uint32_t first_gate =
       0;  ///< as many gates as the last digon has nodes, counterclockwise from its top
-  uint32_t operation = 0;  ///< number of operations recorded before the component's last
 };
 
 // --- models ----------------------------------------------------------------------------------------
