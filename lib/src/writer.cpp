@@ -5,6 +5,7 @@
 #include "mcc/writer.h"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <new>
 
@@ -282,7 +283,6 @@ class StageRunner {
 
   Status codePositions(StreamSizes* sizes) {
     infos_[0] = plan_.attributes[0].info;
-    piece_.sequence.clear();
     MCC_TRY(piece_.codePositions(truth_));
     account(sizes, &StreamSizes::position_bits);
     return {};
@@ -412,16 +412,25 @@ Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set) {
     runners.push_back(std::make_unique<StageRunner<CostIo>>(io, *models, plan));
     MCC_TRY(runners.back()->codeSurface(nullptr));
   }
-  Status chosen = chooseCheapest(2, [&](uint32_t candidate, uint64_t& cost) -> Status {
-    models->positions = PositionModels();
-    const uint64_t before = io.cost();
-    for (size_t i = 0; i < plans.size(); ++i) {
-      plans[i].attributes[0].info.predictor = candidate == 0 ? 0 : position_flag::kWeighted;
-      MCC_TRY(runners[i]->codePositions(nullptr));
-    }
-    cost = io.cost() - before;
-    return {};
-  });
+  constexpr uint8_t kShear = position_flag::kShear;
+  constexpr uint8_t kFold = position_flag::kFold;
+  constexpr uint8_t kSplit = position_flag::kSplit;
+  constexpr uint8_t kCandidates[] = {
+      0,     1,         4,         kShear, kShear | 1,     kShear | 4,
+      kFold, kFold | 1, kFold | 4, kSplit, kSplit | kFold, kSplit | kShear | 1};
+  Status chosen =
+      chooseCheapest(std::size(kCandidates), [&](uint32_t candidate, uint64_t& cost) -> Status {
+        models->positions = PositionModels();
+        const uint64_t before = io.cost();
+        for (size_t i = 0; i < plans.size(); ++i) {
+          plans[i].attributes[0].info.predictor = kCandidates[candidate];
+          MCC_TRY(runners[i]->codePositions(nullptr));
+        }
+        cost = io.cost() - before;
+        // Shear takes time in the decoder: it has to be worth it.
+        if ((kCandidates[candidate] & kShear) != 0) cost += cost / 24;
+        return {};
+      });
   MCC_TRY(chosen);
   for (size_t i = 0; i < plans.size(); ++i) {
     MCC_TRY(runners[i]->codeSeams(nullptr));
