@@ -27,6 +27,7 @@ namespace mcc {
 /// What the coder needs to know about a vertex before its residuals.
 template <class Wide>
 struct Prediction {
+  using Coordinate = Wide;
   std::make_unsigned_t<Wide> q8[3];
   uint32_t spread[3];      ///< disagreement of the first two tips, saturating
   uint64_t normal[3];      ///< sum over the tips, wrapping; only with shear
@@ -113,45 +114,85 @@ TipSelection selectTip(const PlainFan& f, const Beyond& b) {
           static_cast<int32_t>(error0 < error1) - static_cast<int32_t>(error0 > error1)};
 }
 
+/// Class, and what scales the weights of a plain fan besides the features of a component.
+struct PlainClass {
+  uint32_t predictor_class;
+  int32_t degree_sum;
+  int32_t degree_skew;
+  int32_t better;  ///< see TipSelection
+};
+
+template <class Wide>
+PlainClass classifyPlain(PositionPredictor predictor, bool select, const PlainFan& f,
+                         const Beyond& b, uint32_t degree) {
+  PlainClass c;
+  c.predictor_class = kClassFan + std::clamp<uint32_t>(degree, 3, 9);
+  c.degree_sum = std::clamp(int32_t{f.n0->degree} + f.n2->degree - 12, -12, 12);
+  c.degree_skew = std::clamp(int32_t{f.n0->degree} - f.n2->degree, -12, 12);
+  c.better = 0;
+  if (!select) return c;
+  if (b.has_x & ((degree == 6) | (predictor == PositionPredictor::kSelecting))) {
+    const TipSelection selection = selectTip<Wide>(f, b);
+    c.predictor_class = selection.predictor_class;
+    c.better = selection.better;
+  }
+  return c;
+}
+
+/// Features of one component.
+template <class UWide>
+struct PlainFeatures {
+  UWide f0;    ///< fan against tips
+  UWide f1;    ///< ends of the fan against its middle
+  UWide fy;    ///< ya, yb against their parallelograms
+  UWide fd;    ///< from one end to the other
+  UWide tips;  ///< t0 - t1; this and the next two only where a tip was selected
+  UWide x;
+  UWide y;
+};
+
+template <class UWide>
+PlainFeatures<UWide> plainFeatures(const PlainFan& f, const Beyond& b, int s, bool select) {
+  PlainFeatures<UWide> r{};
+  const UWide n0 = static_cast<UWide>(f.n0->q[s]);
+  const UWide n1 = static_cast<UWide>(f.n1->q[s]);
+  const UWide n2 = static_cast<UWide>(f.n2->q[s]);
+  const UWide o0 = static_cast<UWide>(f.o0->q[s]);
+  const UWide o1 = static_cast<UWide>(f.o1->q[s]);
+  const UWide ya =
+      (static_cast<UWide>(b.ya->q[s]) - n0 - o0 + n1) & (UWide{0} - static_cast<UWide>(b.has_ya));
+  const UWide yb =
+      (static_cast<UWide>(b.yb->q[s]) - n2 - o1 + n1) & (UWide{0} - static_cast<UWide>(b.has_yb));
+  r.f0 = n0 + n2 + o0 + o1 - 4 * n1;
+  r.f1 = n0 + n2 - 2 * n1;
+  r.fy = 2 * (ya + yb);
+  r.fd = 2 * (n0 - n2);
+  if (!select) return r;
+  r.tips = n0 - n2 + o1 - o0;
+  r.x = (n1 + o0 - static_cast<UWide>(b.xa->q[s]) - n0) -
+        (n1 + o1 - static_cast<UWide>(b.xb->q[s]) - n2);
+  r.y = ya - yb;
+  return r;
+}
+
 /// Weighted features of a plain fan, added to the average of the tips.
 template <class Wide>
 void addPlainFeatures(const PositionParameters& p, const PlainFan& f, const Beyond& b,
                       uint32_t degree, bool select, std::make_unsigned_t<Wide>* q8) {
   using UWide = std::make_unsigned_t<Wide>;
-  uint32_t predictor_class = kClassFan + std::clamp<uint32_t>(degree, 3, 9);
-  int32_t better = 0;
-  if (select) {
-    if (b.has_x & ((degree == 6) | (p.predictor == PositionPredictor::kSelecting))) {
-      const TipSelection selection = selectTip<Wide>(f, b);
-      predictor_class = selection.predictor_class;
-      better = selection.better;
-    }
-  }
-  const int16_t* w = p.weights.w[predictor_class];
-  const int32_t sum = std::clamp(int32_t{f.n0->degree} + f.n2->degree - 12, -12, 12);
-  const int32_t skew = std::clamp(int32_t{f.n0->degree} - f.n2->degree, -12, 12);
-  const UWide w0 = static_cast<UWide>(w[0] + w[4] * sum);
+  const PlainClass c = classifyPlain<Wide>(p.predictor, select, f, b, degree);
+  const int16_t* w = p.weights.w[c.predictor_class];
+  const UWide w0 = static_cast<UWide>(w[0] + w[4] * c.degree_sum);
   const UWide w1 = static_cast<UWide>(w[1]);
-  const UWide wy = static_cast<UWide>(2 * w[2]);
-  const UWide wd = static_cast<UWide>(2 * w[3] * skew);
-  const UWide mask_a = UWide{0} - static_cast<UWide>(b.has_ya);
-  const UWide mask_b = UWide{0} - static_cast<UWide>(b.has_yb);
+  const UWide wy = static_cast<UWide>(w[2]);
+  const UWide wd = static_cast<UWide>(w[3] * c.degree_skew);
+  const UWide w_tips = static_cast<UWide>(c.better * w[5]);
+  const UWide wx = static_cast<UWide>(c.better * w[6]);
+  const UWide w_y = static_cast<UWide>(c.better * w[7]);
   for (int s = 0; s < 3; ++s) {
-    const UWide n0 = static_cast<UWide>(f.n0->q[s]);
-    const UWide n1 = static_cast<UWide>(f.n1->q[s]);
-    const UWide n2 = static_cast<UWide>(f.n2->q[s]);
-    const UWide o0 = static_cast<UWide>(f.o0->q[s]);
-    const UWide o1 = static_cast<UWide>(f.o1->q[s]);
-    const UWide ya = (static_cast<UWide>(b.ya->q[s]) - n0 - o0 + n1) & mask_a;
-    const UWide yb = (static_cast<UWide>(b.yb->q[s]) - n2 - o1 + n1) & mask_b;
-    q8[s] += w0 * (n0 + n2 + o0 + o1 - 4 * n1) + w1 * (n0 + n2 - 2 * n1) + wy * (ya + yb) +
-             wd * (n0 - n2);
-    if (!select || !b.has_x) continue;
-    const UWide xa = n1 + o0 - static_cast<UWide>(b.xa->q[s]) - n0;
-    const UWide xb = n1 + o1 - static_cast<UWide>(b.xb->q[s]) - n2;
-    q8[s] += static_cast<UWide>(better * w[5]) * (n0 - n2 + o1 - o0) +
-             static_cast<UWide>(better * w[6]) * (xa - xb) +
-             static_cast<UWide>(better * w[7]) * (ya - yb);
+    const PlainFeatures<UWide> v = plainFeatures<UWide>(f, b, s, select);
+    q8[s] += w0 * v.f0 + w1 * v.f1 + wy * v.fy + wd * v.fd;
+    if (select) q8[s] += w_tips * v.tips + wx * v.x + w_y * v.y;
   }
 }
 
@@ -193,22 +234,32 @@ void predictPlain(const PositionParameters& p, const PlainFan& f, const Beyond& 
   addNormal(*f.n1, *f.n2, *f.o1, out.normal);
 }
 
-/// Everything but the plain fan: the mean of the tips, or of the neighbours without any.      [B.2.4]
+/// Everything but the plain fan: the mean of the tips, or of the neighbours without any, and features. [B.2.4]
 template <class Wide>
-void predictAny(const PositionParameters& p, const AnyFan& fan, uint32_t degree,
-                Prediction<Wide>& out) {
+struct AnyFeatures {
   using UWide = std::make_unsigned_t<Wide>;
-  out = Prediction<Wide>{};
+  uint32_t predictor_class;
+  int32_t degree_term;  ///< this and the following only with one tip
+  int32_t degree_sum;
+  int32_t degree_skew;
+  UWide base[3];
+  UWide mean[3];  ///< of the neighbours minus base, in 1/2
+  UWide tip[3];
+  UWide edge[3];
+};
+
+template <class Wide>
+AnyFeatures<Wide> anyFeatures(const AnyFan& fan, uint32_t degree, uint32_t* spread,
+                              uint64_t* normal) {
+  using UWide = std::make_unsigned_t<Wide>;
+  AnyFeatures<Wide> r{};
   UWide neighbour_sum[3] = {};
   UWide tip_sum[3] = {};
   UWide tip[2][3] = {};
   uint32_t tip_count = 0;
   uint32_t last_tip = 0;
   for (uint32_t i = 0; i < fan.neighbour_count; ++i) {
-    for (int s = 0; s < 3; ++s) {
-      neighbour_sum[s] += static_cast<UWide>(fan.n[i]->q[s]);
-      out.magnitudes[s] += unpackMagnitude<Wide>(fan.n[i]->magnitude[s]);
-    }
+    for (int s = 0; s < 3; ++s) neighbour_sum[s] += static_cast<UWide>(fan.n[i]->q[s]);
   }
   for (uint32_t i = 0; i < fan.face_count; ++i) {
     if (fan.o[i] == nullptr) continue;
@@ -219,40 +270,53 @@ void predictAny(const PositionParameters& p, const AnyFan& fan, uint32_t degree,
       tip_sum[s] += t;
       if (tip_count < 2) tip[tip_count][s] = t;
     }
-    addNormal(*fan.n[i], *fan.n[i + 1], *fan.o[i], out.normal);
+    addNormal(*fan.n[i], *fan.n[i + 1], *fan.o[i], normal);
     ++tip_count;
   }
-  uint32_t predictor_class = std::min(tip_count, 4u);
+  r.predictor_class = std::min(tip_count, 4u);
   if (fan.closed && tip_count != 0) {
-    predictor_class = tip_count < 4 ? kClassClosedFewTips : kClassClosedManyTips;
-  }
-  const int16_t* w = p.weights.w[predictor_class];
-  const VertexRecord& a = *fan.n[last_tip];
-  const VertexRecord& b = *fan.n[last_tip + 1];
-  UWide w_tip = 0;
-  UWide w_skew = 0;
-  if (predictor_class == kClassOneTip) {
-    const int32_t sum = std::clamp(int32_t{a.degree} + b.degree - 12, -12, 12);
-    const int32_t skew = std::clamp(int32_t{a.degree} - b.degree, -12, 12);
-    w_tip = static_cast<UWide>(
-        w[0] + w[2] * (std::min<int32_t>(12, static_cast<int32_t>(degree)) - 6) + w[4] * sum);
-    w_skew = static_cast<UWide>(2 * w[3] * skew);
+    r.predictor_class = tip_count < 4 ? kClassClosedFewTips : kClassClosedManyTips;
   }
   for (int s = 0; s < 3; ++s) {
-    if (fan.neighbour_count != 3) out.magnitudes[s] = out.magnitudes[s] * 3 / fan.neighbour_count;
     const Wide mean =
         static_cast<Wide>(256 * neighbour_sum[s]) / static_cast<Wide>(fan.neighbour_count);
-    out.q8[s] = static_cast<UWide>(mean);
+    r.base[s] = static_cast<UWide>(mean);
     if (tip_count == 0) continue;
-    out.q8[s] =
+    r.base[s] =
         static_cast<UWide>(static_cast<Wide>(256 * tip_sum[s]) / static_cast<Wide>(tip_count));
-    if (tip_count >= 2) out.spread[s] = saturatedAbsolute<UWide>(tip[0][s] - tip[1][s]);
-    const Wide f1 = static_cast<Wide>(static_cast<UWide>(mean) - out.q8[s]) >> 7;
-    out.q8[s] += static_cast<UWide>(w[1]) * static_cast<UWide>(f1);
-    if (predictor_class != kClassOneTip) continue;
-    out.q8[s] += w_tip * (static_cast<UWide>(a.q[s]) + static_cast<UWide>(b.q[s]) -
-                          2 * static_cast<UWide>(fan.o[last_tip]->q[s])) +
-                 w_skew * (static_cast<UWide>(a.q[s]) - static_cast<UWide>(b.q[s]));
+    r.mean[s] = static_cast<UWide>(static_cast<Wide>(static_cast<UWide>(mean) - r.base[s]) >> 7);
+    if (tip_count >= 2) spread[s] = saturatedAbsolute<UWide>(tip[0][s] - tip[1][s]);
+  }
+  if (r.predictor_class != kClassOneTip) return r;
+  const VertexRecord& a = *fan.n[last_tip];
+  const VertexRecord& b = *fan.n[last_tip + 1];
+  r.degree_term = static_cast<int32_t>(std::min(12u, degree)) - 6;
+  r.degree_sum = std::clamp(int32_t{a.degree} + b.degree - 12, -12, 12);
+  r.degree_skew = std::clamp(int32_t{a.degree} - b.degree, -12, 12);
+  for (int s = 0; s < 3; ++s) {
+    r.tip[s] = static_cast<UWide>(a.q[s]) + static_cast<UWide>(b.q[s]) -
+               2 * static_cast<UWide>(fan.o[last_tip]->q[s]);
+    r.edge[s] = 2 * (static_cast<UWide>(a.q[s]) - static_cast<UWide>(b.q[s]));
+  }
+  return r;
+}
+
+template <class Wide>
+void predictAny(const PositionParameters& p, const AnyFan& fan, uint32_t degree,
+                Prediction<Wide>& out) {
+  using UWide = std::make_unsigned_t<Wide>;
+  out = Prediction<Wide>{};
+  const AnyFeatures<Wide> v = anyFeatures<Wide>(fan, degree, out.spread, out.normal);
+  const int16_t* w = p.weights.w[v.predictor_class];
+  const UWide w_mean = static_cast<UWide>(w[1]);
+  const UWide w_tip = static_cast<UWide>(w[0] + w[2] * v.degree_term + w[4] * v.degree_sum);
+  const UWide w_edge = static_cast<UWide>(w[3] * v.degree_skew);
+  for (int s = 0; s < 3; ++s) {
+    out.q8[s] = v.base[s] + w_mean * v.mean[s] + w_tip * v.tip[s] + w_edge * v.edge[s];
+    for (uint32_t i = 0; i < fan.neighbour_count; ++i) {
+      out.magnitudes[s] += unpackMagnitude<Wide>(fan.n[i]->magnitude[s]);
+    }
+    if (fan.neighbour_count != 3) out.magnitudes[s] = out.magnitudes[s] * 3 / fan.neighbour_count;
   }
 }
 

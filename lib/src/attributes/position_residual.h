@@ -21,18 +21,39 @@ inline constexpr uint32_t kFractionClasses = 4;
 inline constexpr uint32_t kRowsPerSet = kScaleBuckets + kFractionClasses * kFoldBuckets;
 inline constexpr uint32_t kRowSets = 3;
 
+/// Rows start when a piece first needs their kind.
 struct PositionRows {
   TokenRow row[3][kRowSets * kRowsPerSet];
+  bool has_basic = false;
+  bool has_folded = false;
+  bool has_split = false;
 
-  PositionRows() {
-    for (auto& component : row) {
-      for (uint32_t set = 0; set < kRowSets; ++set) {
-        TokenRow* rows = component + set * kRowsPerSet;
+  void prepare(bool fold, bool split) {
+    for (uint32_t set = 0; set < kRowSets; ++set) {
+      const bool old_set = set == 0 ? has_basic : has_split;
+      if (set != 0 && !split && !has_split) break;
+      TokenRow* rows = row[0] + set * kRowsPerSet;
+      if (!old_set) {
         for (uint32_t b = 0; b < kScaleBuckets; ++b) initialTokenRow(b, rows[b]);
-        for (uint32_t i = 0; i < kFractionClasses * kFoldBuckets; ++i) {
+        copyToComponents(set * kRowsPerSet, kScaleBuckets);
+      }
+      if ((fold || has_folded) && !(old_set && has_folded)) {
+        constexpr uint32_t kFoldedRows = kFractionClasses * kFoldBuckets;
+        for (uint32_t i = 0; i < kFoldedRows; ++i) {
           initialFoldedRow(i / kFoldBuckets, i % kFoldBuckets, rows[kScaleBuckets + i]);
         }
+        copyToComponents(set * kRowsPerSet + kScaleBuckets, kFoldedRows);
       }
+    }
+    has_basic = true;
+    has_folded = has_folded || fold;
+    has_split = has_split || split;
+  }
+
+ private:
+  void copyToComponents(uint32_t begin, uint32_t count) {
+    for (uint32_t s = 1; s < 3; ++s) {
+      for (uint32_t i = begin; i < begin + count; ++i) row[s][i] = row[0][i];
     }
   }
 };
