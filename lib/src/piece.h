@@ -100,28 +100,26 @@ class PieceCoder {
     return stitcher.run(header_.has(piece_flag::kInteriorCopies), truth.class_count, groups);
   }
 
-  Status codePositions(const PieceTruth& truth) {
+  /// `fitted`, in the writer, has the fitted tables the position's flags ask for.
+  Status codePositions(const PieceTruth& truth, const PositionParameters* fitted = nullptr) {
     if (!records.resize(size_t{groups.count} + header_.isolated_count)) return noMemory();
-    const AttributeInfo& info = attributes_[0];
-    PositionParameters parameters;
-    parameters.bits = info.coding == AttributeCoding::kLattice ? info.bits
-                      : info.coding == AttributeCoding::kInteger
-                          ? static_cast<uint8_t>(8 * componentBytes(info.format.component_type))
-                          : kExactPositionBits;
-    parameters.bits = std::min(parameters.bits, kExactPositionBits);
-    parameters.weighted = (info.predictor & position_flag::kWeighted) != 0;
-    if (parameters.weighted) parameters.weights = kUniversalWeights;
-    setUniversalScale(parameters);
-    Array<uint32_t>* order = needsSequence() ? &sequence : nullptr;
-    if (order != nullptr && !order->reserve(groups.count)) return noMemory();
-    if (parameters.bits <= kNarrowBits) {
-      return PositionCoder<Io, int32_t>(io_, models_.positions, parameters, mesh, groups,
-                                        records.data(), allocator_, truth.positions)
-          .run(order, header_.isolated_count);
+    PositionParameters parameters = fitted != nullptr ? *fitted : PositionParameters{};
+    describePositions(attributes_[0], parameters);
+    MCC_TRY(codePositionTables(io_, models_.positions.tables, parameters));
+    models_.positions.rows.prepare(parameters.has(position_mode::kFold),
+                                   parameters.has(position_mode::kSplit));
+    sequence.clear();
+    if (needsSequence() && !sequence.resize(groups.count)) return noMemory();
+    if (parameters.bits > kNarrowBits) return runPositions<int64_t, kAnyModes>(parameters, truth);
+    if constexpr (Io::kFast) {
+      switch (parameters.modes) {
+        case 0: return runPositions<int32_t, 0>(parameters, truth);
+        case position_mode::kWeights:
+          return runPositions<int32_t, position_mode::kWeights>(parameters, truth);
+        default: break;
+      }
     }
-    return PositionCoder<Io, int64_t>(io_, models_.positions, parameters, mesh, groups,
-                                      records.data(), allocator_, truth.positions)
-        .run(order, header_.isolated_count);
+    return runPositions<int32_t, kAnyModes>(parameters, truth);
   }
 
   Status codeSeams(const PieceTruth& truth) {
@@ -182,6 +180,32 @@ class PieceCoder {
     return {};
   }
 
+  static void describePositions(const AttributeInfo& info, PositionParameters& p) {
+    const uint32_t bits = info.coding == AttributeCoding::kLattice ? info.bits
+                          : info.coding == AttributeCoding::kInteger
+                              ? 8 * componentBytes(info.format.component_type)
+                              : kExactPositionBits;
+    p.bits = static_cast<uint8_t>(std::min<uint32_t>(bits, kExactPositionBits));
+    p.predictor = static_cast<PositionPredictor>(info.predictor & position_flag::kPredictorMask);
+    p.own_scale = (info.predictor & position_flag::kOwnScale) != 0;
+    p.modes = 0;
+    if ((info.predictor & position_flag::kShear) != 0) p.modes |= position_mode::kShear;
+    if ((info.predictor & position_flag::kFold) != 0) p.modes |= position_mode::kFold;
+    if ((info.predictor & position_flag::kSplit) != 0) p.modes |= position_mode::kSplit;
+    if ((info.predictor & position_flag::kPalette) != 0) p.modes |= position_mode::kPalette;
+  }
+
+  /// Inverse of describePositions() for AttributeInfo::predictor.
+  static uint8_t positionFlags(const PositionParameters& p) {
+    uint32_t flags = static_cast<uint32_t>(p.predictor);
+    if (p.own_scale) flags |= position_flag::kOwnScale;
+    if (p.has(position_mode::kShear)) flags |= position_flag::kShear;
+    if (p.has(position_mode::kFold)) flags |= position_flag::kFold;
+    if (p.has(position_mode::kSplit)) flags |= position_flag::kSplit;
+    if (p.has(position_mode::kPalette)) flags |= position_flag::kPalette;
+    return static_cast<uint8_t>(flags);
+  }
+
   static uint32_t codedComponents(const AttributeInfo& info) {
     return info.coding == AttributeCoding::kOctahedral ? 2 : info.format.component_count;
   }
@@ -208,6 +232,13 @@ class PieceCoder {
  private:
   static constexpr uint8_t kNarrowBits = 17;         ///< Q8 predictions fit 32 bits up to here
   static constexpr uint8_t kExactPositionBits = 26;  ///< scale the seeds of exact floats start with
+
+  template <class Wide, uint32_t kModes>
+  Status runPositions(const PositionParameters& parameters, const PieceTruth& truth) {
+    return PositionCoder<Io, Wide, kModes>(io_, models_.positions, parameters, mesh, groups,
+                                           records.data(), allocator_, truth.positions)
+        .run(needsSequence() ? sequence.data() : nullptr, header_.isolated_count);
+  }
 
   static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for the decoded mesh"); }
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <new>
 
+#include "attributes/enc_position_fit.h"
 #include "attributes/enc_quantize.h"
 #include "connectivity/enc_collapse.h"
 #include "container/enc_payload.h"
@@ -40,6 +41,7 @@ struct Plan {
   std::vector<uint32_t> class_of_vertex;
   std::vector<uint32_t> corner_source;
   std::vector<int32_t> positions;
+  PositionParameters positions_as;  ///< chosen, with fitted tables
   std::vector<uint32_t> wedge_source;
   std::vector<uint32_t> part_of_face;
   std::vector<uint32_t> duplicates_of_face;
@@ -336,10 +338,20 @@ class StageRunner {
     return {};
   }
 
+  /// Walks the surface once for the trials; codeSurface() must have run.
+  Status recordPositions(PositionRecording& recording, PositionCandidate& candidate) {
+    if (!piece_.records.resize(plan_.positions.size() / 3)) throw std::bad_alloc();
+    MCC_TRY(recording.record(piece_.mesh, piece_.groups, piece_.records.data(),
+                             plan_.header.isolated_count, plan_.positions.data()));
+    PositionParameters parameters;
+    PieceCoder<Io>::describePositions(plan_.attributes[0].info, parameters);
+    candidate = {&recording, plan_.positions.data(), parameters.bits};
+    return {};
+  }
+
   Status codePositions(StreamSizes* sizes) {
     infos_[0] = plan_.attributes[0].info;
-    piece_.sequence.clear();
-    MCC_TRY(piece_.codePositions(truth_));
+    MCC_TRY(piece_.codePositions(truth_, &plan_.positions_as));
     account(sizes, &StreamSizes::position_bits);
     return {};
   }
@@ -461,39 +473,50 @@ Status chooseCheapest(uint32_t candidates, Code code) {
   return code(best_candidate, cost);
 }
 
-Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set) {
+using Runners = std::vector<std::unique_ptr<StageRunner<CostIo>>>;
+
+/// One choice for all pieces, since they share tables and models.
+Status choosePositions(std::vector<Plan>& plans, Runners& runners, uint8_t effort) {
+  std::vector<PositionRecording> recordings(plans.size());
+  std::vector<PositionCandidate> candidates;
+  for (size_t i = 0; i < plans.size(); ++i) {
+    PositionCandidate candidate;
+    MCC_TRY(runners[i]->recordPositions(recordings[i], candidate));
+    candidates.push_back(candidate);
+  }
+  const PositionParameters chosen = choosePositionParameters(candidates, effort);
+  for (Plan& plan : plans) {
+    plan.positions_as = chosen;
+    plan.attributes[0].info.predictor = PieceCoder<CostIo>::positionFlags(chosen);
+  }
+  return {};
+}
+
+Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t effort) {
   auto models = makeModels(context_set);
   CostIo io;
-  std::vector<std::unique_ptr<StageRunner<CostIo>>> runners;
+  Runners runners;
   for (Plan& plan : plans) {
     runners.push_back(std::make_unique<StageRunner<CostIo>>(io, *models, plan));
     MCC_TRY(runners.back()->codeSurface(nullptr));
   }
-  Status chosen = chooseCheapest(2, [&](uint32_t candidate, uint64_t& cost) -> Status {
-    models->positions = PositionModels();
-    const uint64_t before = io.cost();
-    for (size_t i = 0; i < plans.size(); ++i) {
-      plans[i].attributes[0].info.predictor = candidate == 0 ? 0 : position_flag::kWeighted;
-      MCC_TRY(runners[i]->codePositions(nullptr));
-    }
-    cost = io.cost() - before;
-    return {};
-  });
-  MCC_TRY(chosen);
+  MCC_TRY(choosePositions(plans, runners, effort));
+  for (size_t i = 0; i < plans.size(); ++i) MCC_TRY(runners[i]->codePositions(nullptr));
   for (size_t i = 0; i < plans.size(); ++i) {
     MCC_TRY(runners[i]->codeSeams(nullptr));
     for (uint32_t a = 1; a < plans[i].attributes.size(); ++a) {
       AttributeInfo& info = plans[i].attributes[a].info;
-      chosen = chooseCheapest(kValuePredictors, [&](uint32_t candidate, uint64_t& cost) -> Status {
-        info.predictor = static_cast<uint8_t>(candidate);
-        ValueModels* of_kind = models->valueModels(info);
-        if (of_kind == nullptr) throw std::bad_alloc();
-        *of_kind = ValueModels();
-        const uint64_t before = io.cost();
-        MCC_TRY(runners[i]->codeAttribute(a, nullptr));
-        cost = io.cost() - before;
-        return {};
-      });
+      Status chosen =
+          chooseCheapest(kValuePredictors, [&](uint32_t candidate, uint64_t& cost) -> Status {
+            info.predictor = static_cast<uint8_t>(candidate);
+            ValueModels* of_kind = models->valueModels(info);
+            if (of_kind == nullptr) throw std::bad_alloc();
+            *of_kind = ValueModels();
+            const uint64_t before = io.cost();
+            MCC_TRY(runners[i]->codeAttribute(a, nullptr));
+            cost = io.cost() - before;
+            return {};
+          });
       MCC_TRY(chosen);
     }
   }
@@ -560,7 +583,7 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeOptions& opti
   }
   uint32_t context_set = options.context_set;
   if (context_set >= kContextSetCount) MCC_TRY(chooseContextSet(plans, context_set));
-  MCC_TRY(choosePredictors(plans, context_set));
+  MCC_TRY(choosePredictors(plans, context_set, options.effort));
   MCC_TRY(codeAll(plans, context_set, false, result));
   if (vertices > kSingleCoderVertices) return {};
   EncodeResult single;

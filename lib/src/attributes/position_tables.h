@@ -10,17 +10,20 @@
 
 namespace mcc {
 
-/// Predictor classes by what is known around a vertex. Classes 9..15 are fans of three known neighbours with both
-/// parallelogram tips known, by the vertex' degree.
+/// Predictor classes by what is known around a vertex. Classes 9..15 are plain fans, by the vertex' degree; classes
+/// 16..24 plain fans by how well the three kinds of parallelograms did one step back (tip selection).
 inline constexpr uint32_t kClassNoTip = 0;
 inline constexpr uint32_t kClassOneTip = 1;
 inline constexpr uint32_t kClassClosedFewTips = 5;
 inline constexpr uint32_t kClassClosedManyTips = 6;
 inline constexpr uint32_t kClassFan = 6;  ///< + clamped degree 3..9
-inline constexpr uint32_t kPredictorClasses = 16;
-inline constexpr uint32_t kWeights = 5;
+inline constexpr uint32_t kClassSelect = 16;
+inline constexpr uint32_t kPredictorClasses = 25;
+inline constexpr uint32_t kBasicWeights = 5;
+inline constexpr uint32_t kWeights = 8;
 
-/// Weights in units of 1/128 of the features f0, f1, f3, f4, f5; kClassOneTip has the degree of v in place of f3.
+/// Weights in units of 1/128 of the features f0, f1, f3, f4, f5, and of three more with tip selection;
+/// kClassOneTip has the degree of v in place of f3.                                         [B.2.2]
 struct PredictorWeights {
   int16_t w[kPredictorClasses][kWeights];
 };
@@ -45,6 +48,23 @@ inline constexpr PredictorWeights kUniversalWeights{{
     {10, 42, -15, -10, -1},
     {-4, 49, -13, -10, -3},
 }};
+
+/// Fixed tip selection: the parallelogram that did clearly best one step back, else the average.
+constexpr PredictorWeights makeSelectingWeights() {
+  PredictorWeights weights{};
+  for (uint32_t preference = 0; preference < 3; ++preference) {
+    for (uint32_t third = 0; third < 3; ++third) {
+      int16_t* w = weights.w[kClassSelect + 3 * preference + third];
+      if (third == 2) {
+        w[0] = 128;  // n0 + n2 - n1
+      } else {
+        w[5] = static_cast<int16_t>(64 * preference);
+      }
+    }
+  }
+  return weights;
+}
+inline constexpr PredictorWeights kSelectingWeights = makeSelectingWeights();
 
 /// Scale of a residual from neighbours' residuals, spread of the tips and a constant, in 1/64.
 struct ScaleCoefficients {
@@ -94,22 +114,72 @@ inline constexpr uint16_t kTokenFrequencies[kLastTabledBucket - kFirstTabledBuck
 inline constexpr uint32_t kTokenInitialUses = 6;
 inline constexpr uint32_t kTokenInitialFloor = 8;
 
-/// Row of a scale bucket before the first symbol. Beyond the table the rows repeat: tokens are relative to the
-/// scale there.
-inline void initialTokenRow(uint32_t bucket, TokenRow& row) {
-  uint32_t b = bucket < kFirstTabledBucket ? kFirstTabledBucket : bucket;
-  if (b > kLastTabledBucket) b = kLastTabledBucket - ((b - kLastTabledBucket) & 1);
-  const uint16_t* frequency = kTokenFrequencies[b - kFirstTabledBucket];
+/// What stands behind a token: values [base, base + 2^extra), times the scale's low bits.
+inline constexpr uint8_t kTokenExtraBits[kTokenCount] = {0, 0, 0, 0, 0, 0, 0, 0,
+                                                         2, 2, 3, 3, 4, 4, 6, 0};
+inline constexpr uint8_t kTokenBase[kTokenCount] = {0, 1,  2,  3,  4,  5,  6,  7,
+                                                    8, 12, 16, 24, 32, 48, 64, 128};
+inline constexpr uint32_t kTokenEscape = 15;
+
+inline uint32_t tokenOf(uint32_t z) {
+  if (z < 8) return z;
+  uint32_t token = 8;
+  while (token < kTokenEscape && kTokenBase[token + 1] <= z) ++token;
+  return token;
+}
+
+/// Row with frequencies in these proportions.
+inline void setTokenRow(const uint32_t* frequency, TokenRow& row) {
   uint32_t sum = 0;
   for (uint32_t i = 0; i < kTokenCount; ++i) sum += frequency[i];
-  const uint32_t shared = kTokenOne - kTokenCount * kTokenInitialFloor;
-  uint32_t before = 0;
+  const uint64_t shared = kTokenOne - kTokenCount * kTokenInitialFloor;
+  uint64_t before = 0;
   for (uint32_t i = 0; i < kTokenCount; ++i) {
     row.c[i] = static_cast<uint16_t>(before * shared / sum + i * kTokenInitialFloor);
     before += frequency[i];
   }
   row.c[kTokenCount] = static_cast<uint16_t>(kTokenOne);
   row.uses = kTokenInitialUses;
+}
+
+/// Trained frequencies of a bucket. Beyond the table the rows repeat: tokens are relative to the scale there.
+inline const uint16_t* trainedFrequencies(uint32_t bucket) {
+  uint32_t b = bucket < kFirstTabledBucket ? kFirstTabledBucket : bucket;
+  if (b > kLastTabledBucket) b = kLastTabledBucket - ((b - kLastTabledBucket) & 1);
+  return kTokenFrequencies[b - kFirstTabledBucket];
+}
+
+/// Row of a scale bucket before the first symbol.
+inline void initialTokenRow(uint32_t bucket, TokenRow& row) {
+  uint32_t frequency[kTokenCount];
+  const uint16_t* trained = trainedFrequencies(bucket);
+  for (uint32_t i = 0; i < kTokenCount; ++i) frequency[i] = trained[i];
+  setTokenRow(frequency, row);
+}
+
+/// Row of a folded bucket before the first symbol: the trained density of |residual|, taken as symmetric and linear
+/// between integers, moved by the middle of the fraction class, (2k+1)/16.                  [B.2.6]
+inline void initialFoldedRow(uint32_t fraction_class, uint32_t bucket, TokenRow& row) {
+  constexpr uint32_t kReach = 128;
+  constexpr uint32_t kUnit = 64;  // resolution of densities within a token of 64 values
+  const uint16_t* trained = trainedFrequencies(bucket);
+  uint32_t density[kReach + 1];  // of +i, and of -i
+  for (uint32_t i = 0; i <= kReach; ++i) {
+    const uint32_t token = tokenOf(i);
+    density[i] = token == kTokenEscape ? 0 : (trained[token] * kUnit) >> kTokenExtraBits[token];
+    if (i == 0) density[i] *= 2;
+  }
+  const uint32_t part = 2 * fraction_class + 1;
+  uint32_t frequency[kTokenCount] = {};
+  for (uint32_t a = 0; a < kReach; ++a) {
+    const uint32_t i = (a + 1) / 2;
+    const uint32_t towards = (a & 1) != 0 ? i - 1 : i + 1;  // +i lies nearer to the prediction
+    frequency[tokenOf(a)] += density[towards] * part + density[i] * (16 - part);
+  }
+  uint32_t sum = 0;
+  for (const uint32_t f : frequency) sum += f;
+  for (uint32_t& f : frequency) f += sum / 2000;
+  setTokenRow(frequency, row);
 }
 
 }  // namespace mcc

@@ -107,6 +107,9 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
       position.coding == AttributeCoding::kOctahedral) {
     return fail(Error::kBadHeader, "the first attribute of a piece is not its position", at);
   }
+  if ((position.predictor & position_flag::kPredictorMask) >= position_flag::kPredictorCount) {
+    return fail(Error::kBadHeader, "the positions have an unknown predictor", at);
+  }
   return {};
 }
 

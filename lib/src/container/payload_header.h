@@ -47,13 +47,15 @@ inline constexpr uint32_t kEdgeDegenerates = 1u << 11;
 inline constexpr uint32_t kAll = 0xfff;
 }  // namespace piece_flag
 
-/// Bits of AttributeInfo::predictor of a position.
+/// AttributeInfo::predictor of a position: which predictor in the low bits, then flags.   [A.2.7]
 namespace position_flag {
-inline constexpr uint8_t kWeighted = 1u << 0;
-inline constexpr uint8_t kShear = 1u << 1;
-inline constexpr uint8_t kOwnWeights = 1u << 2;
-inline constexpr uint8_t kOwnScale = 1u << 3;
-inline constexpr uint8_t kAll = 0x01;
+inline constexpr uint8_t kPredictorMask = 7;  ///< PositionPredictor
+inline constexpr uint8_t kPredictorCount = 5;
+inline constexpr uint8_t kShear = 1u << 3;
+inline constexpr uint8_t kOwnScale = 1u << 4;
+inline constexpr uint8_t kFold = 1u << 5;
+inline constexpr uint8_t kSplit = 1u << 6;
+inline constexpr uint8_t kPalette = 1u << 7;
 }  // namespace position_flag
 
 struct PieceHeader {

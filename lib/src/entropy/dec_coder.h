@@ -8,6 +8,7 @@
 //   bit(model, truth)            one adaptive binary decision
 //   token<state>(row, schedule, truth)   one of 16 symbols
 //   raw(bits, truth)             up to 32 equiprobable bits
+//   magnitude(base, bits, sign, truth, negative)   base + raw bits, then a sign bit unless zero
 // The decoder ignores `truth` and returns what it read; the encoder codes `truth` and returns it.
 #ifndef MCC_ENTROPY_DEC_CODER_H_
 #define MCC_ENTROPY_DEC_CODER_H_
@@ -180,6 +181,22 @@ class RawBitsDecoder {
     return static_cast<uint32_t>(window & ((uint64_t{1} << bits) - 1));
   }
 
+  /// base + `bits` raw bits (at most 56 with the sign); a sign bit follows if `sign` and the sum is not zero.
+  uint32_t readMagnitude(uint32_t base, uint32_t bits, bool sign, uint32_t& negative) {
+    const size_t byte = static_cast<size_t>(next_bit_ >> 3);
+    if (byte + 8 > bytes_.size()) [[unlikely]] {
+      const uint32_t value = base + read(bits);
+      negative = read(sign && value != 0 ? 1 : 0);
+      return value;
+    }
+    const uint64_t window = loadU64(bytes_.data() + byte) >> (next_bit_ & 7);
+    const uint32_t value = base + static_cast<uint32_t>(window & ((uint64_t{1} << bits) - 1));
+    const uint32_t signs = sign && value != 0 ? 1 : 0;
+    negative = static_cast<uint32_t>(window >> bits) & signs;
+    next_bit_ += bits + signs;
+    return value;
+  }
+
   bool finished() const { return (next_bit_ + 7) / 8 == bytes_.size(); }
   bool overrun() const { return (next_bit_ + 7) / 8 > bytes_.size(); }
 
@@ -193,6 +210,7 @@ template <bool kSingle>
 class DecoderIo {
  public:
   static constexpr bool kEncoding = false;
+  static constexpr bool kFast = !kSingle;  ///< worth compiling inner loops for every choice
 
   DecoderIo(std::span<const uint8_t> codes, std::span<const uint8_t> tokens,
             std::span<const uint8_t> raw)
@@ -226,6 +244,17 @@ class DecoderIo {
       return value;
     } else {
       return raw_.read(bits);
+    }
+  }
+
+  /// base + `bits` raw bits, then a sign bit if `sign` and the sum is not zero.
+  uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t, uint32_t& negative) {
+    if constexpr (kSingle) {
+      const uint32_t value = base + raw(bits);
+      negative = raw(sign && value != 0 ? 1 : 0);
+      return value;
+    } else {
+      return raw_.readMagnitude(base, bits, sign, negative);
     }
   }
 

@@ -143,6 +143,7 @@ class RawBitsEncoder {
 class CostIo {
  public:
   static constexpr bool kEncoding = true;
+  static constexpr bool kFast = false;
 
   bool bit(BitModel& model, bool truth) {
     const uint32_t zero = model.zeroProbability();
@@ -160,6 +161,12 @@ class CostIo {
 
   uint32_t raw(uint32_t bits, uint32_t truth) {
     cost_ += uint64_t{bits} * kCostOne;
+    return truth;
+  }
+
+  uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t truth, uint32_t& negative) {
+    raw(bits, truth - base);
+    if (sign && truth != 0) raw(1, negative);
     return truth;
   }
 
@@ -201,6 +208,12 @@ class EncoderIo : public CostIo {
       raw_.write(bits, truth);
     }
     return CostIo::raw(bits, truth);
+  }
+
+  uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t truth, uint32_t& negative) {
+    raw(bits, truth - base);
+    if (sign && truth != 0) raw(1, negative);
+    return truth;
   }
 
   struct Streams {

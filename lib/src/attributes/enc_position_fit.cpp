@@ -1,0 +1,524 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "attributes/enc_position_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "attributes/position_vertex.h"
+#include "entropy/enc_coder.h"
+
+namespace mcc {
+namespace {
+
+using Kind = PositionRecording::Kind;
+
+constexpr uint8_t kNarrowBits = 17;
+constexpr uint32_t kRunLength = 1024;                      ///< of consecutive vertices in a sample
+constexpr uint32_t kTrialVertices[] = {4000, 16000, ~0u};  ///< by effort
+constexpr uint32_t kFitVertices[] = {4000, 8000, 32000};
+
+// --- sampling ---------------------------------------------------------------------------------------
+
+/// Visits of one piece to replay, in coding order. The cost of those not `counted` does not matter: others need their
+/// residuals.
+struct Sample {
+  struct Entry {
+    uint32_t visit;
+    bool counted;
+  };
+  std::vector<Entry> entries;
+  uint32_t counted = 0;
+};
+
+Sample takeSample(const PositionRecording& recording, uint64_t counted_of_all, uint64_t all) {
+  const std::vector<PositionRecording::Visit>& visits = recording.visits();
+  Sample sample;
+  if (counted_of_all >= all) {
+    for (uint32_t i = 0; i < visits.size(); ++i) sample.entries.push_back({i, true});
+    sample.counted = static_cast<uint32_t>(visits.size());
+    return sample;
+  }
+  // One run in `period`, the middle one.
+  const uint64_t period = (all + counted_of_all - 1) / counted_of_all;
+  const uint32_t run =
+      std::clamp<uint32_t>(static_cast<uint32_t>(visits.size() / period), 1, kRunLength);
+  std::vector<uint8_t> needed(visits.size(), 0);
+  std::vector<uint8_t> counted(visits.size(), 0);
+  for (uint32_t i = 0; i < visits.size(); ++i) {
+    if ((i / run) % period != period / 2) continue;
+    counted[i] = 1;
+    needed[visits[i].vertex] = 1;
+    recording.forNeighbours(visits[i], [&](uint32_t v) { needed[v] = 1; });
+    ++sample.counted;
+  }
+  for (uint32_t i = 0; i < visits.size(); ++i) {
+    if (needed[visits[i].vertex] != 0) sample.entries.push_back({i, counted[i] != 0});
+  }
+  return sample;
+}
+
+// --- trials -----------------------------------------------------------------------------------------
+
+/// Spends and counts nothing.
+class SilentIo {
+ public:
+  static constexpr bool kEncoding = true;
+  template <uint32_t kState>
+  uint32_t token(TokenRow&, const TokenSchedule&, uint32_t truth) {
+    return truth;
+  }
+  uint32_t raw(uint32_t, uint32_t truth) { return truth; }
+  uint32_t magnitude(uint32_t, uint32_t, bool, uint32_t truth, uint32_t&) { return truth; }
+};
+
+class Trials {
+ public:
+  Trials(std::span<const PositionCandidate> pieces, uint32_t max_vertices)
+      : pieces_(pieces), rows_(std::make_unique<PositionRows>()) {
+    for (const PositionCandidate& piece : pieces) all_ += piece.recording->visits().size();
+    for (const PositionCandidate& piece : pieces) {
+      samples_.push_back(takeSample(*piece.recording, max_vertices, all_));
+      counted_ += samples_.back().counted;
+    }
+  }
+
+  /// Expected cost of all positions and their tables, in bits.
+  double cost(const PositionParameters& p) {
+    *rows_ = PositionRows();
+    rows_->prepare(p.has(position_mode::kFold), p.has(position_mode::kSplit));
+    CostIo io;
+    for (size_t i = 0; i < pieces_.size(); ++i) {
+      PositionParameters of_piece = p;
+      of_piece.bits = pieces_[i].bits;
+      if (of_piece.bits > kNarrowBits) {
+        replay<int64_t>(io, of_piece, i, [](uint32_t, const auto&, const VertexRecord&) {});
+      } else {
+        replay<int32_t>(io, of_piece, i, [](uint32_t, const auto&, const VertexRecord&) {});
+      }
+    }
+    const double scale =
+        counted_ == 0 ? 1 : static_cast<double>(all_) / static_cast<double>(counted_);
+    return static_cast<double>(io.cost()) / kCostOne * scale + tableBits(p);
+  }
+
+  /// Calls use(plain, prediction, record) behind every counted vertex that is no seed.
+  template <class Use>
+  void observe(const PositionParameters& p, Use use) {
+    SilentIo io;
+    for (size_t i = 0; i < pieces_.size(); ++i) {
+      PositionParameters of_piece = p;
+      of_piece.bits = pieces_[i].bits;
+      if (of_piece.bits > kNarrowBits) {
+        replay<int64_t>(io, of_piece, i, use);
+      } else {
+        replay<int32_t>(io, of_piece, i, use);
+      }
+    }
+  }
+
+ private:
+  static double tableBits(const PositionParameters& p) {
+    CostIo io;
+    PositionTables tables;
+    PositionParameters copy = p;
+    (void)codePositionTables(io, tables, copy);  // what was fitted is in range
+    return static_cast<double>(io.cost()) / kCostOne;
+  }
+
+  template <class Wide, class Io, class Use>
+  void replay(Io& io, const PositionParameters& p, size_t piece, Use use) {
+    const PositionRecording& recording = *pieces_[piece].recording;
+    VertexRecord* records = recording.records();
+    SilentIo silent;
+    VertexCoder<Io, Wide, kAnyModes> coder(*rows_, p, records, pieces_[piece].truth);
+    VertexCoder<SilentIo, Wide, kAnyModes> silent_coder(*rows_, p, records, pieces_[piece].truth);
+    for (const Sample::Entry& entry : samples_[piece].entries) {
+      const PositionRecording::Visit& visit = recording.visits()[entry.visit];
+      const uint32_t v = visit.vertex;
+      if (visit.kind == static_cast<uint32_t>(Kind::kSeed)) {
+        coder.codeSeed(io, v, recording.seedNeighbour(visit));
+        continue;
+      }
+      Prediction<Wide> prediction;
+      const uint32_t plain = visit.kind == static_cast<uint32_t>(Kind::kPlain) ? 1 : 0;
+      if (plain != 0) {
+        PlainFan fan;
+        Beyond beyond;
+        recording.plain(visit, fan, beyond);
+        predictPlain<Wide>(p, fan, beyond, records[v].degree, p.modes, prediction);
+      } else {
+        AnyFan fan;
+        recording.any(visit, fan);
+        predictAny<Wide>(p, fan, records[v].degree, prediction);
+      }
+      if (entry.counted) {
+        coder.codeVertex(io, v, prediction, plain);
+        use(plain, prediction, records[v]);
+      } else {
+        silent_coder.codeVertex(silent, v, prediction, plain);
+      }
+    }
+  }
+
+  std::span<const PositionCandidate> pieces_;
+  std::vector<Sample> samples_;
+  std::unique_ptr<PositionRows> rows_;
+  uint64_t all_ = 0;
+  uint64_t counted_ = 0;
+};
+
+// --- least squares ----------------------------------------------------------------------------------
+
+/// Normal equations of up to 8 unknowns; + - * / only, in one fixed order.
+struct NormalEquations {
+  double matrix[kWeights][kWeights] = {};
+  double right[kWeights] = {};
+  double count = 0;
+
+  void add(const double* x, double y, double weight, uint32_t n) {
+    for (uint32_t i = 0; i < n; ++i) {
+      const double scaled = weight * x[i];
+      for (uint32_t k = 0; k <= i; ++k) matrix[i][k] += scaled * x[k];
+      right[i] += scaled * y;
+    }
+  }
+
+  /// Gaussian elimination of the symmetric matrix; unknowns that nothing depends on become 0.
+  void solve(uint32_t n, double ridge, double* solution) const {
+    double a[kWeights][kWeights + 1];
+    for (uint32_t i = 0; i < n; ++i) {
+      for (uint32_t k = 0; k < n; ++k) a[i][k] = i >= k ? matrix[i][k] : matrix[k][i];
+      a[i][n] = right[i];
+      a[i][i] += ridge * a[i][i];
+    }
+    for (uint32_t i = 0; i < n; ++i) {
+      if (!(a[i][i] > 1e-9)) {
+        for (uint32_t k = 0; k <= n; ++k) a[i][k] = 0;
+        a[i][i] = 1;
+      }
+      for (uint32_t row = i + 1; row < n; ++row) {
+        const double factor = a[row][i] / a[i][i];
+        for (uint32_t k = i; k <= n; ++k) a[row][k] -= factor * a[i][k];
+      }
+    }
+    for (uint32_t i = n; i-- != 0;) {
+      double sum = a[i][n];
+      for (uint32_t k = i + 1; k < n; ++k) sum -= a[i][k] * solution[k];
+      solution[i] = sum / a[i][i];
+    }
+  }
+};
+
+/// One vertex of a fit: the target in lattice steps, what the average predicts taken off, and the features such that
+/// weights of 1 (128 in the format) add up to it.
+struct FitRow {
+  uint32_t predictor_class;
+  float length;
+  float target[3];
+  float feature[3][kWeights];
+};
+
+template <class UWide>
+float stepsOf(UWide value, double unit) {
+  return static_cast<float>(static_cast<double>(static_cast<std::make_signed_t<UWide>>(value)) *
+                            unit);
+}
+
+template <class Wide>
+void gatherRows(const PositionCandidate& piece, PositionPredictor predictor, uint32_t stride,
+                std::vector<FitRow>& rows) {
+  using UWide = std::make_unsigned_t<Wide>;
+  const PositionRecording& recording = *piece.recording;
+  const bool select = predictor == PositionPredictor::kFittedSelecting;
+  for (size_t i = stride / 2; i < recording.visits().size(); i += stride) {
+    const PositionRecording::Visit& visit = recording.visits()[i];
+    const uint32_t v = visit.vertex;
+    const uint32_t degree = recording.records()[v].degree;
+    FitRow row{};
+    UWide base[3];
+    if (visit.kind == static_cast<uint32_t>(Kind::kPlain)) {
+      PlainFan fan;
+      Beyond beyond;
+      recording.plain(visit, fan, beyond);
+      const PlainClass c = classifyPlain<Wide>(predictor, select, fan, beyond, degree);
+      row.predictor_class = c.predictor_class;
+      for (int s = 0; s < 3; ++s) {
+        const PlainFeatures<UWide> f = plainFeatures<UWide>(fan, beyond, s, select);
+        const UWide n1 = static_cast<UWide>(fan.n1->q[s]);
+        base[s] = 128 * (2 * n1 + 2 * f.f1 - f.f0);  // the average of the tips
+        const float f0 = stepsOf<UWide>(f.f0, 0.5);
+        row.feature[s][0] = f0;
+        row.feature[s][1] = stepsOf<UWide>(f.f1, 0.5);
+        row.feature[s][2] = stepsOf<UWide>(f.fy, 0.5);
+        row.feature[s][3] = stepsOf<UWide>(f.fd, 0.5) * static_cast<float>(c.degree_skew);
+        row.feature[s][4] = f0 * static_cast<float>(c.degree_sum);
+        const float better = static_cast<float>(c.better);
+        row.feature[s][5] = stepsOf<UWide>(f.tips, 0.5) * better;
+        row.feature[s][6] = stepsOf<UWide>(f.x, 0.5) * better;
+        row.feature[s][7] = stepsOf<UWide>(f.y, 0.5) * better;
+        row.length += std::fabs(stepsOf<UWide>(f.f1, 1));
+      }
+    } else if (visit.kind == static_cast<uint32_t>(Kind::kAny)) {
+      AnyFan fan;
+      recording.any(visit, fan);
+      uint32_t spread[3];
+      uint64_t normal[3] = {};
+      const AnyFeatures<Wide> f = anyFeatures<Wide>(fan, degree, spread, normal);
+      row.predictor_class = f.predictor_class;
+      if (f.predictor_class == kClassNoTip) continue;
+      for (int s = 0; s < 3; ++s) {
+        base[s] = f.base[s];
+        const float tip = stepsOf<UWide>(f.tip[s], 0.5);
+        row.feature[s][0] = tip;
+        row.feature[s][1] = stepsOf<UWide>(f.mean[s], 0.5);
+        row.feature[s][2] = tip * static_cast<float>(f.degree_term);
+        row.feature[s][3] = stepsOf<UWide>(f.edge[s], 0.5) * static_cast<float>(f.degree_skew);
+        row.feature[s][4] = tip * static_cast<float>(f.degree_sum);
+        row.length += std::fabs(stepsOf<UWide>(f.mean[s], 1));
+      }
+    } else {
+      continue;
+    }
+    for (int s = 0; s < 3; ++s) {
+      const UWide truth = static_cast<UWide>(piece.truth[3 * size_t{v} + static_cast<size_t>(s)]);
+      row.target[s] = stepsOf<UWide>((truth << 8) - base[s], 1.0 / 256);
+    }
+    rows.push_back(row);
+  }
+}
+
+/// Re-weighted least squares of one class around the universal weights.
+void fitClass(const std::vector<FitRow>& rows, uint32_t predictor_class, bool robust, int16_t* w) {
+  constexpr uint32_t kRounds = 4;
+  constexpr double kOne = 128;
+  const uint32_t n = predictor_class >= kClassSelect ? kWeights
+                     : predictor_class > kClassFan || predictor_class == kClassOneTip
+                         ? kBasicWeights
+                         : 2;
+  double solution[kWeights] = {};
+  double start[kWeights] = {};
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < n; ++i) solution[i] = start[i] = w[i] / kOne;
+  for (uint32_t round = 0; round < kRounds; ++round) {
+    NormalEquations equations;
+    count = 0;
+    for (const FitRow& row : rows) {
+      if (row.predictor_class != predictor_class) continue;
+      ++count;
+      double residual[3];
+      double size = 0;
+      for (int s = 0; s < 3; ++s) {
+        double predicted = 0;
+        double universal = 0;
+        for (uint32_t i = 0; i < n; ++i) {
+          predicted += solution[i] * double{row.feature[s][i]};
+          universal += start[i] * double{row.feature[s][i]};
+        }
+        size += std::fabs(double{row.target[s]} - predicted);
+        residual[s] = double{row.target[s]} - universal;
+      }
+      const double length = double{row.length};
+      const double near = size + 0.02 * length + (robust ? 1.0 : 0.5);
+      const double weight = robust ? 1 / (near * near) : 1 / ((length + 1) * near);
+      for (int s = 0; s < 3; ++s) {
+        double x[kWeights];
+        for (uint32_t i = 0; i < n; ++i) x[i] = double{row.feature[s][i]};
+        equations.add(x, residual[s], weight, n);
+      }
+    }
+    if (count < 2 * n) return;
+    double change[kWeights] = {};
+    equations.solve(n, 1e-3 + 3.0 / count, change);
+    for (uint32_t i = 0; i < n; ++i) solution[i] = start[i] + change[i];
+  }
+  for (uint32_t i = 0; i < n; ++i) {
+    w[i] = static_cast<int16_t>(std::clamp(std::floor(solution[i] * kOne + 0.5), -255.0, 255.0));
+  }
+}
+
+/// Scale coefficients: non-negative weighted least squares of |residual|.
+void fitScale(Trials& trials, PositionParameters& p) {
+  struct Row {
+    float neighbours;
+    float spread;
+    float size;
+  };
+  std::vector<Row> rows[2][3];
+  trials.observe(p, [&](uint32_t plain, const auto& prediction, const VertexRecord& r) {
+    using Wide = typename std::decay_t<decltype(prediction)>::Coordinate;
+    Shear shear;
+    if (p.has(position_mode::kShear)) shear = makeShear(prediction.normal);
+    for (uint32_t s = 0; s < 3; ++s) {
+      rows[plain][s].push_back({static_cast<float>(prediction.magnitudes[s]),
+                                static_cast<float>(prediction.spread[shear.axis[s]]),
+                                static_cast<float>(unpackMagnitude<Wide>(r.magnitude[s]))});
+    }
+  });
+  for (uint32_t plain = 0; plain < 2; ++plain) {
+    for (uint32_t s = 0; s < 3; ++s) {
+      if (rows[plain][s].size() < 200) continue;
+      double c[3];
+      for (uint32_t i = 0; i < 3; ++i) c[i] = p.scale[plain][s].c[i] / 64.0;
+      for (uint32_t round = 0; round < 4; ++round) {
+        NormalEquations equations;
+        for (const Row& row : rows[plain][s]) {
+          const double x[3] = {double{row.neighbours}, double{row.spread}, 1};
+          const double estimate = c[0] * x[0] + c[1] * x[1] + c[2];
+          const double target = std::min(16 * double{row.size}, 6 * estimate + 16);
+          equations.add(x, target, 1 / ((estimate + 8) * (estimate + 8)), 3);
+        }
+        // Non-negative: what would be negative is left out.
+        bool used[3] = {true, true, true};
+        for (uint32_t attempt = 0; attempt < 3; ++attempt) {
+          NormalEquations reduced = equations;
+          for (uint32_t i = 0; i < 3; ++i) {
+            if (used[i]) continue;
+            for (uint32_t k = 0; k < 3; ++k) reduced.matrix[i][k] = reduced.matrix[k][i] = 0;
+            reduced.right[i] = 0;
+          }
+          reduced.solve(3, 1e-6, c);
+          bool negative = false;
+          for (uint32_t i = 0; i < 3; ++i) {
+            if (c[i] >= 0) continue;
+            used[i] = false;
+            c[i] = 0;
+            negative = true;
+          }
+          if (!negative) break;
+        }
+      }
+      for (uint32_t i = 0; i < 3; ++i) {
+        p.scale[plain][s].c[i] = static_cast<uint16_t>(
+            std::clamp(std::floor(c[i] * 64 + 0.5), 0.0, static_cast<double>(kMaxCoefficient[i])));
+      }
+    }
+  }
+  p.own_scale = true;
+}
+
+// --- choice -----------------------------------------------------------------------------------------
+
+class Chooser {
+ public:
+  Chooser(std::span<const PositionCandidate> pieces, uint8_t effort)
+      : pieces_(pieces),
+        effort_(std::min<uint8_t>(effort, 2)),
+        trials_(pieces, kTrialVertices[effort_]) {}
+
+  PositionParameters run() {
+    tryPredictors();
+    tryMode(position_mode::kShear, 0.96);
+    tryMode(position_mode::kFold, 0.995);
+    tryOwnScale();
+    tryMode(position_mode::kSplit, 0.998);
+    return best_;
+  }
+
+ private:
+  struct Ranked {
+    PositionParameters parameters;
+    double cost;
+  };
+
+  /// All predictors; those within a few per cent of the best stay in the race for the modes.
+  void tryPredictors() {
+    for (uint8_t i = 0; i < kPositionPredictors; ++i) {
+      PositionParameters p;
+      p.predictor = static_cast<PositionPredictor>(i);
+      setUniversalTables(p);
+      const bool selecting = p.predictor == PositionPredictor::kFittedSelecting;
+      if (!p.fitted()) {
+        add(p);
+        continue;
+      }
+      for (const bool robust : {true, false}) {
+        if (selecting && !robust) continue;
+        p.weights = fitWeights(pieces_, p.predictor, robust, kFitVertices[effort_]);
+        add(p);
+      }
+    }
+    std::sort(ranked_.begin(), ranked_.end(),
+              [](const Ranked& a, const Ranked& b) { return a.cost < b.cost; });
+    best_ = ranked_[0].parameters;
+    best_cost_ = ranked_[0].cost;
+    if (ranked_.size() > kRace) ranked_.resize(kRace);
+  }
+
+  void add(const PositionParameters& p) { ranked_.push_back({p, trials_.cost(p)}); }
+
+  /// A mode for the leaders: taken if the best with it is below `worth` times the best without.
+  void tryMode(uint32_t mode, double worth) {
+    Ranked best{best_, best_cost_ * worth};
+    bool better = false;
+    std::vector<Ranked> with;
+    for (const Ranked& r : ranked_) {
+      PositionParameters p = r.parameters;
+      p.modes |= mode;
+      if (mode == position_mode::kShear) {
+        const PredictorWeights weights = p.weights;
+        setUniversalTables(p);
+        p.weights = weights;
+      }
+      with.push_back({p, trials_.cost(p)});
+      if (with.back().cost >= best.cost) continue;
+      best = with.back();
+      better = true;
+    }
+    if (!better) return;
+    best_ = best.parameters;
+    best_cost_ = best.cost;
+    ranked_ = std::move(with);
+  }
+
+  void tryOwnScale() {
+    PositionParameters p = best_;
+    fitScale(trials_, p);
+    const double cost = trials_.cost(p);
+    if (cost < best_cost_) {
+      best_ = p;
+      best_cost_ = cost;
+    }
+    ranked_ = {{best_, best_cost_}};
+  }
+
+  static constexpr size_t kRace = 2;
+
+  std::span<const PositionCandidate> pieces_;
+  uint8_t effort_;
+  Trials trials_;
+  std::vector<Ranked> ranked_;
+  PositionParameters best_;
+  double best_cost_ = 0;
+};
+
+}  // namespace
+
+PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, PositionPredictor predictor,
+                            bool robust, uint32_t max_vertices) {
+  uint64_t all = 0;
+  for (const PositionCandidate& piece : pieces) all += piece.recording->visits().size();
+  const uint32_t stride = static_cast<uint32_t>(all / max_vertices + 1);
+  std::vector<FitRow> rows;
+  for (const PositionCandidate& piece : pieces) {
+    if (piece.bits > kNarrowBits) {
+      gatherRows<int64_t>(piece, predictor, stride, rows);
+    } else {
+      gatherRows<int32_t>(piece, predictor, stride, rows);
+    }
+  }
+  PredictorWeights weights = kUniversalWeights;
+  for (uint32_t c = 1; c < kPredictorClasses; ++c) {
+    if (c >= kClassSelect && predictor != PositionPredictor::kFittedSelecting) break;
+    fitClass(rows, c, robust, weights.w[c]);
+  }
+  return weights;
+}
+
+PositionParameters choosePositionParameters(std::span<const PositionCandidate> pieces,
+                                            uint8_t effort) {
+  return Chooser(pieces, effort).run();
+}
+
+}  // namespace mcc

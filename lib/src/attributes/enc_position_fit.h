@@ -1,0 +1,35 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The encoder's choices for the positions of a payload: predictor, fitted tables, modes.
+#ifndef MCC_ATTRIBUTES_ENC_POSITION_FIT_H_
+#define MCC_ATTRIBUTES_ENC_POSITION_FIT_H_
+
+#include <cstdint>
+#include <span>
+
+#include "attributes/enc_position_recording.h"
+#include "attributes/position_parameters.h"
+
+namespace mcc {
+
+/// One piece as the trials see it.
+struct PositionCandidate {
+  const PositionRecording* recording = nullptr;
+  const int32_t* truth = nullptr;  ///< 3 per record
+  uint8_t bits = 0;                ///< PositionParameters::bits
+};
+
+/// Tries the predictors and modes on the pieces, or on an even sample of their vertices if they have many, and returns
+/// the cheapest combination with its tables. What takes time in the decoder has to be worth it. `effort` as in
+/// EncodeOptions. Deterministic on every machine.
+PositionParameters choosePositionParameters(std::span<const PositionCandidate> pieces,
+                                            uint8_t effort);
+
+/// Least-squares weights of the predictor on these pieces. `robust` weighs residuals by the inverse of their square,
+/// else by the inverse of their size. Also used by tools/train.
+PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, PositionPredictor predictor,
+                            bool robust, uint32_t max_vertices);
+
+}  // namespace mcc
+
+#endif  // MCC_ATTRIBUTES_ENC_POSITION_FIT_H_

@@ -1,0 +1,379 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Order of the vertices: a region of known ones grows over the surface.                      [A.6.1]
+//
+// A vertex comes when most of its faces have both other corners known: three FIFO queues of half-edges, by that
+// number. What is known around it is its fan: the contiguous known neighbours n0, n1, .. on both sides of the face it
+// was queued by. Nine in ten vertices have the plain fan:
+//
+//          o0 --- n1 --- o1
+//           \    /  \    /      n0 n1 n2 known, the vertices behind both ends not,
+//            n0       n2        o0 and o1 known
+//              \    /
+//                v
+//
+// The order does not depend on any position, so the writer walks once and tries predictors on what it recorded.
+// A Visitor sees plain fans, other fans and seeds (vertices without a known face). Its Plain part lives in the inner
+// loop, in registers as far as they last; it is closed before and reopened after anything else.
+#ifndef MCC_ATTRIBUTES_POSITION_GROWTH_H_
+#define MCC_ATTRIBUTES_POSITION_GROWTH_H_
+
+#include <algorithm>
+#include <cstdint>
+
+#include "attributes/position_record.h"
+#include "base/memory.h"
+#include "mesh/face_mesh.h"
+#include "mesh/groups.h"
+
+namespace mcc {
+
+/// Growing ring buffer of half-edges.
+class HalfEdgeQueue {
+ public:
+  explicit HalfEdgeQueue(const Allocator& allocator) : ring_(allocator) {}
+
+  [[nodiscard]] bool init() {
+    mask_ = 1023;
+    return ring_.resize(1024);
+  }
+  bool empty() const { return head_ == tail_; }
+  uint32_t pop() { return ring_[head_++ & mask_]; }
+  [[nodiscard]] bool push(uint32_t half_edge) {
+    if (tail_ - head_ > mask_ && !grow()) [[unlikely]]
+      return false;
+    ring_[tail_++ & mask_] = half_edge;
+    return true;
+  }
+
+ private:
+  bool grow() {
+    const uint32_t old_size = mask_ + 1;
+    if (!ring_.resize(size_t{old_size} * 2)) return false;
+    mask_ = 2 * old_size - 1;
+    // Entries keep their index modulo the new size: those whose bit old_size is set move up.
+    for (uint32_t i = head_; i != tail_; ++i) {
+      if ((i & old_size) != 0) ring_[i & mask_] = ring_[i & (old_size - 1)];
+    }
+    return true;
+  }
+
+  Array<uint32_t> ring_;
+  uint32_t head_ = 0;
+  uint32_t tail_ = 0;
+  uint32_t mask_ = 0;
+};
+
+/// The plain fan: two faces, three neighbours, both tips known.
+struct PlainFan {
+  const VertexRecord* n0;
+  const VertexRecord* n1;
+  const VertexRecord* n2;
+  const VertexRecord* o0;
+  const VertexRecord* o1;
+  uint32_t beyond0;  ///< half-edge n1 -> n0 of the face (n1, n0, o0)
+  uint32_t beyond1;  ///< half-edge n2 -> n1 of the face (n2, n1, o1)
+};
+
+/// Any other fan, at most kFanLimit faces on each side of the entry face.
+struct AnyFan {
+  static constexpr uint32_t kFanLimit = 8;
+
+  const VertexRecord* n[2 * kFanLimit + 2];  ///< neighbours, clockwise-most first
+  const VertexRecord* o[2 * kFanLimit + 1];  ///< across from v over n[i], n[i+1]; null when unknown
+  uint32_t face_count;
+  uint32_t neighbour_count;  ///< face_count, or one more when not closed
+  bool closed;
+};
+
+class RegionGrowth {
+ public:
+  RegionGrowth(FaceMesh& mesh, const Groups& groups, VertexRecord* records,
+               const Allocator& allocator)
+      : faces_(mesh.view()),
+        face_count_(mesh.face_count),
+        groups_(groups),
+        records_(records),
+        queue_{HalfEdgeQueue(allocator), HalfEdgeQueue(allocator), HalfEdgeQueue(allocator)} {}
+
+  /// Visits every group once. `order`, if not null, has room for all groups and receives the half-edge each was
+  /// entered by, in coding order.
+  template <class Visitor>
+  Status run(Visitor& visitor, uint32_t* order);
+
+  const FaceView& faces() const { return faces_; }
+
+ private:
+  void prepareRecords();
+  template <class Visitor>
+  Status plantSeed(Visitor& visitor, uint32_t& cursor);
+  template <class Visitor>
+  Status grow(Visitor& visitor);
+  bool plainFan(uint32_t half_edge, PlainFan& fan, uint32_t& ccw_end, uint32_t& cw_end) const;
+  void walkFan(uint32_t half_edge, AnyFan& fan);
+  void become(uint32_t v, uint32_t half_edge) {
+    records_[v].known = 1;
+    ++known_count_;
+    if (order_ != nullptr) *order_++ = half_edge;
+  }
+
+  void push(uint32_t half_edge) {
+    VertexRecord& r = records_[faces_.vertex(half_edge)];
+    const uint32_t score = uint32_t{r.score} + (r.score != 0xffff ? 1 : 0);
+    r.score = static_cast<uint16_t>(score);
+    if (!queue_[std::min<uint32_t>(score, 3) - 1].push(half_edge)) [[unlikely]]
+      no_memory_ = true;
+  }
+  void pushRing(uint32_t start);
+  void pushOtherUmbrellas(uint32_t v, uint32_t entry);
+  bool ringContains(uint32_t start, uint32_t half_edge) const;
+
+  bool known(uint32_t v) const { return records_[v].known != 0; }
+  const VertexRecord& recordAt(uint32_t half_edge) const {
+    return records_[faces_.vertex(half_edge)];
+  }
+  static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for the traversal"); }
+
+  const FaceView faces_;
+  const uint32_t face_count_;
+  const Groups& groups_;
+  VertexRecord* const records_;
+  HalfEdgeQueue queue_[3];
+  uint32_t* order_ = nullptr;
+  uint32_t known_count_ = 0;
+  bool no_memory_ = false;
+};
+
+inline void RegionGrowth::prepareRecords() {
+  for (uint32_t v = 0; v < groups_.count; ++v) records_[v] = VertexRecord{};
+  for (uint32_t f = 0; f < face_count_; ++f) {
+    const uint32_t h = f * kFaceWords;
+    for (uint32_t k = 0; k < 3; ++k) {
+      VertexRecord& r = records_[faces_.vertex(h + k)];
+      r.degree = static_cast<uint16_t>(r.degree + (r.degree != 0xffff ? 1 : 0));
+      if (faces_.twin(h + k) == kNone) {
+        r.boundary = 1;
+        records_[faces_.vertex(nextHalfEdge(h + k))].boundary = 1;
+      }
+    }
+  }
+  for (uint32_t v = 0; v < groups_.count; ++v) {
+    VertexRecord& r = records_[v];
+    if (r.boundary != 0) r.degree = static_cast<uint16_t>(std::min(12, 2 * r.degree));
+  }
+}
+
+template <class Visitor>
+Status RegionGrowth::run(Visitor& visitor, uint32_t* order) {
+  for (HalfEdgeQueue& queue : queue_) {
+    if (!queue.init()) return noMemory();
+  }
+  order_ = order;
+  prepareRecords();
+  uint32_t cursor = 0;
+  while (known_count_ < groups_.count) {
+    MCC_TRY(visitor.check());
+    MCC_TRY(plantSeed(visitor, cursor));
+    MCC_TRY(grow(visitor));
+  }
+  return {};
+}
+
+/// Visits vertices of the next face that is not known yet until two of its corners are; that queues the third.
+template <class Visitor>
+Status RegionGrowth::plantSeed(Visitor& visitor, uint32_t& cursor) {
+  for (; cursor < face_count_; ++cursor) {
+    const uint32_t base = cursor * kFaceWords;
+    uint32_t known_corners = 0;
+    for (uint32_t k = 0; k < 3; ++k) known_corners += known(faces_.vertex(base + k)) ? 1 : 0;
+    if (known_corners == 3) continue;
+    if (known_corners == 2) {  // between two fans: nobody queued it
+      for (uint32_t k = 0; k < 3; ++k) {
+        if (!known(faces_.vertex(base + k))) push(base + k);
+      }
+    }
+    for (uint32_t k = 0; k < 3 && known_corners < 2; ++k) {
+      const uint32_t h = base + k;
+      const uint32_t v = faces_.vertex(h);
+      if (known(v)) continue;
+      const VertexRecord* neighbour = nullptr;
+      if (known(faces_.vertex(nextHalfEdge(h)))) neighbour = &recordAt(nextHalfEdge(h));
+      if (known(faces_.vertex(prevHalfEdge(h)))) neighbour = &recordAt(prevHalfEdge(h));
+      visitor.seed(v, neighbour);
+      become(v, h);
+      pushRing(h);
+      pushOtherUmbrellas(v, h);
+      ++known_corners;
+    }
+    return no_memory_ ? noMemory() : Status{};
+  }
+  return fail(Error::kBadConnectivity, "a vertex has no triangle");
+}
+
+template <class Visitor>
+Status RegionGrowth::grow(Visitor& visitor) {
+  const bool copies = groups_.hasCopies();
+  typename Visitor::Plain plain(visitor);
+  for (;;) {
+    uint32_t level = 2;
+    while (queue_[level].empty()) {
+      if (level-- == 0) {
+        plain.close(visitor);
+        return {};
+      }
+    }
+    const uint32_t h = queue_[level].pop();
+    const uint32_t v = faces_.vertex(h);
+    const VertexRecord& r = records_[v];
+    if (r.known != 0 || std::min<uint32_t>(r.score, 3) != level + 1) continue;  // stale
+    PlainFan fan;
+    uint32_t ccw_end = 0;
+    uint32_t cw_end = 0;
+    if (plainFan(h, fan, ccw_end, cw_end)) [[likely]] {
+      if (ccw_end != kNone) [[likely]]
+        push(prevHalfEdge(ccw_end));
+      if (cw_end != kNone) [[likely]]
+        push(prevHalfEdge(cw_end));
+      plain.visit(v, fan);
+    } else {
+      AnyFan any;
+      walkFan(h, any);
+      plain.close(visitor);
+      visitor.fan(v, any);
+      plain.reopen(visitor);
+    }
+    become(v, h);
+    if (copies) pushOtherUmbrellas(v, h);
+    if ((known_count_ & 0xfff) == 0) [[unlikely]] {
+      plain.close(visitor);
+      MCC_TRY(visitor.check());
+      plain.reopen(visitor);
+    }
+    if (no_memory_) [[unlikely]]
+      return noMemory();
+  }
+}
+
+/// Recognises the plain fan around `half_edge` without branches on which side of it is known. `ccw_end` and `cw_end`
+/// are half-edges of the faces behind its ends, kNone on a boundary. Queues nothing.
+inline bool RegionGrowth::plainFan(uint32_t half_edge, PlainFan& fan, uint32_t& ccw_end,
+                                   uint32_t& cw_end) const {
+  const uint32_t v = faces_.vertex(half_edge);  // unknown: stands for missing vertices
+  const uint32_t ccw = faces_.rotateCcw(half_edge);
+  const uint32_t cw_twin = faces_.twin(half_edge);
+  const uint32_t ccw_third = ccw != kNone ? faces_.vertex(prevHalfEdge(ccw)) : v;
+  const uint32_t cw_third = cw_twin != kNone ? faces_.vertex(prevHalfEdge(cw_twin)) : v;
+  const bool ccw_known = known(ccw_third);
+  if (ccw_known == known(cw_third)) return false;
+  const uint32_t h0 = ccw_known ? half_edge : nextHalfEdge(cw_twin);
+  const uint32_t h1 = ccw_known ? ccw : half_edge;
+  ccw_end = faces_.rotateCcw(h1);
+  cw_end = faces_.twin(h0);
+  const uint32_t ccw_last = ccw_end != kNone ? faces_.vertex(prevHalfEdge(ccw_end)) : v;
+  const uint32_t cw_last = cw_end != kNone ? faces_.vertex(prevHalfEdge(cw_end)) : v;
+  fan.beyond0 = faces_.twin(nextHalfEdge(h0));
+  fan.beyond1 = faces_.twin(nextHalfEdge(h1));
+  const uint32_t tip0 = fan.beyond0 != kNone ? faces_.vertex(prevHalfEdge(fan.beyond0)) : v;
+  const uint32_t tip1 = fan.beyond1 != kNone ? faces_.vertex(prevHalfEdge(fan.beyond1)) : v;
+  fan.n0 = &recordAt(nextHalfEdge(h0));
+  fan.n1 = &recordAt(prevHalfEdge(h0));
+  fan.n2 = &recordAt(prevHalfEdge(h1));
+  fan.o0 = &records_[tip0];
+  fan.o1 = &records_[tip1];
+  const uint32_t longer = uint32_t{records_[ccw_last].known} | records_[cw_last].known;
+  return longer < (uint32_t{fan.o0->known} & fan.o1->known);
+}
+
+/// The fan of known neighbours on both sides of the entry face; queues the vertices behind its ends.
+inline void RegionGrowth::walkFan(uint32_t half_edge, AnyFan& fan) {
+  constexpr uint32_t kLimit = AnyFan::kFanLimit;
+  uint32_t h[2 * kLimit + 1];
+  uint32_t first = kLimit;
+  uint32_t end = kLimit;
+  h[end++] = half_edge;
+  fan.closed = false;
+  while (end - kLimit <= kLimit) {
+    const uint32_t next = faces_.rotateCcw(h[end - 1]);
+    if (next == kNone) break;
+    if (next == half_edge) {
+      fan.closed = true;
+      break;
+    }
+    const uint32_t third = prevHalfEdge(next);
+    if (!known(faces_.vertex(third))) {
+      push(third);
+      break;
+    }
+    h[end++] = next;
+  }
+  while (first != 0 && !fan.closed) {
+    const uint32_t t = faces_.twin(h[first]);
+    if (t == kNone) break;
+    const uint32_t third = prevHalfEdge(t);
+    if (!known(faces_.vertex(third))) {
+      push(third);
+      break;
+    }
+    const uint32_t next = nextHalfEdge(t);
+    if (next == h[end - 1]) break;  // met the other side beyond its limit
+    h[--first] = next;
+  }
+  fan.face_count = end - first;
+  fan.neighbour_count = fan.face_count + (fan.closed ? 0 : 1);
+  for (uint32_t i = 0; i < fan.face_count; ++i) {
+    fan.n[i] = &recordAt(nextHalfEdge(h[first + i]));
+    const uint32_t t = faces_.twin(nextHalfEdge(h[first + i]));
+    fan.o[i] =
+        t != kNone && recordAt(prevHalfEdge(t)).known != 0 ? &recordAt(prevHalfEdge(t)) : nullptr;
+  }
+  fan.n[fan.face_count] = &recordAt(prevHalfEdge(h[end - 1]));
+}
+
+/// Queues every face around `start` with one unknown corner.
+inline void RegionGrowth::pushRing(uint32_t start) {
+  uint32_t h = start;
+  bool ccw = true;
+  for (;;) {
+    const uint32_t a = nextHalfEdge(h);
+    const uint32_t b = prevHalfEdge(h);
+    const bool a_known = known(faces_.vertex(a));
+    const bool b_known = known(faces_.vertex(b));
+    if (a_known != b_known) push(a_known ? b : a);
+    h = ccw ? faces_.rotateCcw(h) : faces_.rotateCw(h);
+    if (h == start) return;
+    if (h == kNone) {
+      if (!ccw) return;
+      ccw = false;
+      h = faces_.rotateCw(start);
+      if (h == kNone) return;
+    }
+  }
+}
+
+/// Faces of a group's other umbrellas: whatever is known through one piece of the surface is known to all.
+inline void RegionGrowth::pushOtherUmbrellas(uint32_t v, uint32_t entry) {
+  if (!groups_.hasCopies()) return;
+  const uint32_t begin = groups_.umbrella_begin[v];
+  const uint32_t end = groups_.umbrella_begin[v + 1];
+  if (end - begin < 2) return;
+  for (uint32_t i = begin; i < end; ++i) {
+    if (!ringContains(groups_.umbrellas[i], entry)) pushRing(groups_.umbrellas[i]);
+  }
+}
+
+inline bool RegionGrowth::ringContains(uint32_t start, uint32_t half_edge) const {
+  uint32_t h = start;
+  do {
+    if (h == half_edge) return true;
+    h = faces_.rotateCcw(h);
+  } while (h != kNone && h != start);
+  if (h == start) return false;
+  for (h = faces_.rotateCw(start); h != kNone; h = faces_.rotateCw(h)) {
+    if (h == half_edge) return true;
+  }
+  return false;
+}
+
+}  // namespace mcc
+
+#endif  // MCC_ATTRIBUTES_POSITION_GROWTH_H_

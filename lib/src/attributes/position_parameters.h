@@ -1,0 +1,160 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// What the encoder chooses for the positions of a piece, and how fitted tables travel.       [A.6.2]
+#ifndef MCC_ATTRIBUTES_POSITION_PARAMETERS_H_
+#define MCC_ATTRIBUTES_POSITION_PARAMETERS_H_
+
+#include <cstdint>
+
+#include "attributes/position_tables.h"
+#include "entropy/numbers.h"
+#include "mcc/status.h"
+
+namespace mcc {
+
+enum class PositionPredictor : uint8_t {
+  kAverage = 0,          ///< of the tips
+  kUniversal = 1,        ///< trained weights
+  kFitted = 2,           ///< weights in the payload
+  kFittedSelecting = 3,  ///< the same, with classes of tip selection at vertices of degree 6
+  kSelecting = 4,        ///< the best tip, without weights
+};
+inline constexpr uint8_t kPositionPredictors = 5;
+
+/// Bits of PositionParameters::modes. Off, they cost the coder nothing.
+namespace position_mode {
+inline constexpr uint32_t kWeights = 1u << 0;
+inline constexpr uint32_t kSelect = 1u << 1;
+inline constexpr uint32_t kShear = 1u << 2;
+inline constexpr uint32_t kFold = 1u << 3;
+inline constexpr uint32_t kSplit = 1u << 4;
+inline constexpr uint32_t kPalette = 1u << 5;
+}  // namespace position_mode
+
+struct PositionParameters {
+  PositionPredictor predictor = PositionPredictor::kAverage;
+  uint32_t modes = 0;
+  bool own_scale = false;
+  uint8_t bits = 14;  ///< of the lattice; seeds start from its middle
+  PredictorWeights weights = kAverageWeights;
+  ScaleCoefficients scale[2][3] = {};  ///< [plain fan][component]
+
+  bool has(uint32_t mode) const { return (modes & mode) != 0; }
+  bool fitted() const {
+    return predictor == PositionPredictor::kFitted ||
+           predictor == PositionPredictor::kFittedSelecting;
+  }
+};
+
+/// Tables and modes that follow from the predictor; fitted ones replace them.
+inline void setUniversalTables(PositionParameters& p) {
+  p.modes &= ~(position_mode::kWeights | position_mode::kSelect);
+  if (p.predictor != PositionPredictor::kAverage) p.modes |= position_mode::kWeights;
+  if (p.predictor >= PositionPredictor::kFittedSelecting) p.modes |= position_mode::kSelect;
+  p.weights = p.predictor == PositionPredictor::kAverage     ? kAverageWeights
+              : p.predictor == PositionPredictor::kSelecting ? kSelectingWeights
+                                                             : kUniversalWeights;
+  const uint32_t weighted =
+      p.has(position_mode::kWeights) && p.predictor != PositionPredictor::kSelecting ? 1 : 0;
+  const uint32_t shear = p.has(position_mode::kShear) ? 1 : 0;
+  for (uint32_t fan = 0; fan < 2; ++fan) {
+    for (uint32_t s = 0; s < 3; ++s) p.scale[fan][s] = kUniversalScale[weighted][shear][fan][s];
+  }
+}
+
+/// Fitted tables of a payload, coded with the first piece that uses them.
+struct PositionTables {
+  bool has_weights = false;
+  bool has_selecting = false;
+  bool has_scale = false;
+  PredictorWeights weights = kUniversalWeights;
+  int32_t scale_change[2][3][3] = {};  ///< added to the universal coefficients
+  BitModel present;
+  GolombModel weight;
+  GolombModel selecting_weight;
+  GolombModel coefficient[3];
+};
+
+inline constexpr int32_t kMaxWeight = 1023;
+inline constexpr int32_t kMaxCoefficient[3] = {4095, 4095, 65535};
+
+/// Weights of classes [begin, end) as differences to the universal ones.
+template <class Io>
+Status codeWeights(Io& io, PositionTables& t, const PredictorWeights& truth, uint32_t begin,
+                   uint32_t end) {
+  const uint32_t count = begin >= kClassSelect ? kWeights : kBasicWeights;
+  GolombModel& model = begin >= kClassSelect ? t.selecting_weight : t.weight;
+  for (uint32_t c = begin; c < end; ++c) {
+    bool differs = false;
+    for (uint32_t i = 0; Io::kEncoding && i < count; ++i) {
+      differs = differs || truth.w[c][i] != kUniversalWeights.w[c][i];
+    }
+    if (!io.bit(t.present, differs)) continue;
+    for (uint32_t i = 0; i < count; ++i) {
+      const int32_t from = kUniversalWeights.w[c][i];
+      const int64_t w = int64_t{from} + codeSignedGolomb(io, model, truth.w[c][i] - from);
+      if (w > kMaxWeight || w < -kMaxWeight) {
+        return fail(Error::kBadAttribute, "a weight of the positions is out of range");
+      }
+      t.weights.w[c][i] = static_cast<int16_t>(w);
+    }
+  }
+  return {};
+}
+
+template <class Io>
+Status codeScale(Io& io, PositionTables& t, const PositionParameters& universal,
+                 const ScaleCoefficients (*truth)[3]) {
+  for (uint32_t fan = 0; fan < 2; ++fan) {
+    for (uint32_t s = 0; s < 3; ++s) {
+      for (uint32_t i = 0; i < 3; ++i) {
+        const int32_t from = universal.scale[fan][s].c[i];
+        const int32_t target = Io::kEncoding ? truth[fan][s].c[i] - from : 0;
+        const int64_t change = codeSignedGolomb(io, t.coefficient[i], target);
+        if (from + change < 0 || from + change > kMaxCoefficient[i]) {
+          return fail(Error::kBadAttribute, "a scale of the positions is out of range");
+        }
+        t.scale_change[fan][s][i] = static_cast<int32_t>(change);
+      }
+    }
+  }
+  return {};
+}
+
+/// Completes `p` with the payload's fitted tables; reads those that no piece before this one had. In the encoder `p`
+/// holds them.
+template <class Io>
+Status codePositionTables(Io& io, PositionTables& t, PositionParameters& p) {
+  const PositionParameters truth = p;
+  setUniversalTables(p);
+  if (p.fitted()) {
+    if (!t.has_weights) MCC_TRY(codeWeights(io, t, truth.weights, 0, kClassSelect));
+    t.has_weights = true;
+    if (p.has(position_mode::kSelect)) {
+      if (!t.has_selecting) {
+        MCC_TRY(codeWeights(io, t, truth.weights, kClassSelect, kPredictorClasses));
+      }
+      t.has_selecting = true;
+    }
+    p.weights = t.weights;
+  }
+  if (!p.own_scale) return {};
+  if (!t.has_scale) MCC_TRY(codeScale(io, t, p, truth.scale));
+  t.has_scale = true;
+  for (uint32_t fan = 0; fan < 2; ++fan) {
+    for (uint32_t s = 0; s < 3; ++s) {
+      for (uint32_t i = 0; i < 3; ++i) {
+        const int32_t c = p.scale[fan][s].c[i] + t.scale_change[fan][s][i];
+        if (c < 0 || c > kMaxCoefficient[i]) {
+          return fail(Error::kBadAttribute, "a scale of the positions is out of range");
+        }
+        p.scale[fan][s].c[i] = static_cast<uint16_t>(c);
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace mcc
+
+#endif  // MCC_ATTRIBUTES_POSITION_PARAMETERS_H_
