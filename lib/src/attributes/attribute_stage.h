@@ -8,6 +8,7 @@
 
 #include "attributes/equality.h"
 #include "attributes/normals.h"
+#include "attributes/texcoords.h"
 #include "attributes/values.h"
 #include "attributes/wedges.h"
 #include "mesh/attribute_method.h"
@@ -18,6 +19,7 @@ namespace mcc {
 struct AttributeModels {
   EqualityModels equalities[8];  ///< [semantic]
   NormalModels normals;
+  TexcoordModels texcoords[2];  ///< [further set]
   ValueModels values[8][2][2];  ///< [semantic][further set][morph target]
 
   EqualityModels& equalitiesOf(const AttributeInfo& a) {
@@ -44,6 +46,7 @@ class AttributeStage {
         models_(models),
         groups_(allocator),
         floats_(allocator),
+        memory_(allocator),
         lengths_(allocator) {}
 
   /// Codes one attribute into `values`, codedComponents() per wedge; the encoder gives them. `sequence` is the order
@@ -65,6 +68,15 @@ class AttributeStage {
                         lengths_.data())
             .run(positions.data());
         break;
+      case AttributeMethod::kTexcoord: {
+        const bool repeats = (info.predictor & texcoord_method::kRepeats) != 0;
+        if (repeats && !memory_.assign(ResidualMemory::kEntries, {})) return noMemory();
+        TexcoordCoder<Io>(io_, models_.texcoords[info.format.set_index != 0 ? 1 : 0], wedges,
+                          groups_, info, positions.data(), values.data(), lengths_.data(),
+                          repeats ? memory_.data() : nullptr)
+            .run();
+        break;
+      }
       case AttributeMethod::kValues:
         ValueCoder<Io>(io_, models_.valuesOf(info), wedges.faces, sequence, components,
                        static_cast<ValuePredictor>(info.predictor & 1), values.data(),
@@ -87,6 +99,7 @@ class AttributeStage {
   AttributeModels& models_;
   EqualGroups groups_;
   Array<float> floats_;
+  Array<ResidualMemory::Entry> memory_;
   Array<uint8_t> lengths_;
 };
 

@@ -22,6 +22,11 @@ class PredictorSearch {
                   {normal_method::kBlendMask,
                    {1 << normal_method::kBlendShift, 2 << normal_method::kBlendShift}}};
         break;
+      case AttributeMethod::kTexcoord:
+        best_ = has_seams ? kHasEqualities : 0;
+        steps_ = {{texcoord_method::kPredictorMask, {0, 1, 3, 2, 4}},
+                  {texcoord_method::kRepeats, {texcoord_method::kRepeats}}};
+        break;
       case AttributeMethod::kValues: steps_ = {{1, {0, 1}}}; break;
     }
     if (has_seams && best_ >= kHasEqualities) steps_.push_back({kHasEqualities, {0}});

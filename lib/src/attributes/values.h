@@ -26,7 +26,6 @@ struct WedgeSequence {
 enum class ValuePredictor : uint8_t { kParallelogram = 0, kMean = 1 };
 inline constexpr uint32_t kValuePredictors = 2;
 
-inline constexpr uint8_t kNotCoded = 0xff;
 inline constexpr uint32_t kMaxComponents = 16;
 
 struct ValueModels {

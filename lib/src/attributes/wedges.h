@@ -35,6 +35,9 @@ class WedgeMesh {
     return group_of_wedge_ != nullptr && w != 0 && w < surface_count &&
            group_of_wedge_[w] == group_of_wedge_[w - 1];
   }
+  /// Calls visit(h) with half-edges leaving `wedge` in its first run of faces, until it returns false; at most 16.
+  template <class Visit>
+  void forRun(uint32_t wedge, Visit visit) const;
   bool hasSeams() const { return group_of_wedge_ != nullptr; }
   uint32_t startOf(uint32_t i) const { return starts_[i]; }
 
@@ -85,6 +88,21 @@ inline Status WedgeMesh::build(FaceMesh& mesh, const uint32_t* starts, uint32_t 
     first = last;
   }
   return {};
+}
+
+template <class Visit>
+void WedgeMesh::forRun(uint32_t wedge, Visit visit) const {
+  const uint32_t start = starts_[rankOf(wedge)];
+  uint32_t budget = 16;
+  uint32_t h = start;
+  do {
+    if (!visit(h) || --budget == 0) return;
+    h = faces.rotateCcw(h);
+  } while (h != kNone && h != start && faces.vertex(h) == wedge);
+  if (h == start) return;
+  for (h = faces.rotateCw(start); h != kNone && faces.vertex(h) == wedge; h = faces.rotateCw(h)) {
+    if (!visit(h) || --budget == 0) return;
+  }
 }
 
 /// Groups of wedges of a vertex that have equal values; each is coded once, at its first wedge.
