@@ -15,10 +15,10 @@
 
 #include <new>
 
+#include "attributes/attribute_stage.h"
 #include "attributes/leftovers.h"
 #include "attributes/positions.h"
 #include "attributes/seams.h"
-#include "attributes/values.h"
 #include "connectivity/mc_codes.h"
 #include "connectivity/stitch.h"
 #include "container/payload_header.h"
@@ -27,28 +27,14 @@ namespace mcc {
 
 /// Adaptive models of a payload; all its pieces share them.
 struct PayloadModels {
-  explicit PayloadModels(const Allocator& allocator) : mc(allocator), values(allocator) {
-    for (uint32_t& slot : value_slot) slot = kNone;
-  }
+  explicit PayloadModels(const Allocator& allocator) : mc(allocator) {}
 
   McModels mc;
   StitchModels stitch;
   PositionModels positions;
   SeamModels seams;
   LeftoverModels leftovers;
-  Array<ValueModels> values;
-  uint32_t value_slot[64];
-
-  /// Models for attributes of one kind: semantic, first or further set, base or morph target. [A.3.6]
-  ValueModels* valueModels(const AttributeInfo& a) {
-    const uint32_t kind = static_cast<uint32_t>(a.format.semantic) * 4 +
-                          (a.format.set_index != 0 ? 2 : 0) + (a.format.morph_target != 0 ? 1 : 0);
-    if (value_slot[kind] == kNone) {
-      value_slot[kind] = static_cast<uint32_t>(values.size());
-      if (!values.push_back(ValueModels())) return nullptr;
-    }
-    return &values[value_slot[kind]];
-  }
+  AttributeModels attributes;
 };
 
 /// What the writer knows about a piece, stage by stage; all null when reading.
@@ -79,7 +65,7 @@ class PieceCoder {
         header_(header),
         attributes_(attributes),
         allocator_(allocator),
-        lengths_(allocator),
+        stage_(io, models.attributes, allocator),
         histogram_(histogram) {}
 
   Status codeConnectivity(const PieceTruth& truth) {
@@ -160,24 +146,15 @@ class PieceCoder {
                     header_.listed_count, truth.leftovers, list);
   }
 
-  /// Codes attribute `index` (not 0) into `values`: its coded components per wedge, see codedComponents().
-  Status codeAttribute(uint32_t index, Array<int32_t>& values) {
-    const AttributeInfo& info = attributes_[index];
-    const uint32_t components = codedComponents(info);
-    if (info.predictor >= kValuePredictors) {
-      return fail(Error::kBadAttribute, "an attribute has an unknown predictor");
-    }
-    if (!values.resize(size_t{header_.wedge_count} * components) ||
-        !lengths_.resize(header_.wedge_count)) {
-      return noMemory();
-    }
-    ValueModels* models = models_.valueModels(info);
-    if (models == nullptr) return noMemory();
-    ValueCoder<Io>(io_, *models, mesh.view(), wedges, components,
-                   static_cast<ValuePredictor>(info.predictor), values.data(), lengths_.data())
-        .run();
-    if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside an attribute");
-    return {};
+  /// Between the stages before and codeAttribute(). Overwrites the faces' parts.
+  Status prepareAttributes() {
+    if (header_.attribute_count < 2) return {};
+    MCC_TRY(stage_.wedges.build(mesh, wedges.half_edges, wedges.count, header_.wedge_count,
+                                header_.has(piece_flag::kSeams) ? wedge_group.data() : nullptr));
+    const auto position = [this](uint32_t wedge) { return records[groupOf(wedge)].q; };
+    return attributes_[0].coding == AttributeCoding::kExactFloat
+               ? floatPredictionPositions(header_.wedge_count, position, stage_.positions)
+               : latticePredictionPositions(header_.wedge_count, position, stage_.positions);
   }
 
   static void describePositions(const AttributeInfo& info, PositionParameters& p) {
@@ -206,8 +183,9 @@ class PieceCoder {
     return static_cast<uint8_t>(flags);
   }
 
-  static uint32_t codedComponents(const AttributeInfo& info) {
-    return info.coding == AttributeCoding::kOctahedral ? 2 : info.format.component_count;
+  /// Codes attribute `index` (not 0) into `values`: codedComponents() per wedge.
+  Status codeAttribute(uint32_t index, Array<int32_t>& values) {
+    return stage_.code(attributes_[index], wedges, values);
   }
 
   bool needsSequence() const {
@@ -247,7 +225,7 @@ class PieceCoder {
   const PieceHeader& header_;
   const AttributeInfo* const attributes_;
   const Allocator allocator_;
-  Array<uint8_t> lengths_;
+  AttributeStage<Io> stage_;
   CodeHistogram* const histogram_;
 };
 

@@ -195,9 +195,10 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
   storePositions(piece, info.attributes[0], info.wedge_count, target.attributes[0]);
   MCC_TRY(storeTriangles(piece, info.parts, target.parts, allocator));
   Array<int32_t> values(allocator);
+  MCC_TRY(piece.prepareAttributes());
   for (uint32_t a = 1; a < info.attributes.size(); ++a) {
     MCC_TRY(piece.codeAttribute(a, values));
-    const uint32_t components = PieceCoder<Io>::codedComponents(info.attributes[a]);
+    const uint32_t components = codedComponents(info.attributes[a]);
     storeElements(info.attributes[a], info.wedge_count, target.attributes[a],
                   [&](uint32_t w) { return values.data() + size_t{w} * components; });
   }

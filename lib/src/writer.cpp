@@ -9,6 +9,7 @@
 #include <new>
 
 #include "attributes/enc_position_fit.h"
+#include "attributes/enc_predictor_search.h"
 #include "attributes/enc_quantize.h"
 #include "connectivity/enc_collapse.h"
 #include "container/enc_payload.h"
@@ -365,7 +366,7 @@ class StageRunner {
                         plan_.list.data()};
     MCC_TRY(piece_.codeLeftovers(truth_));
     account(sizes, &StreamSizes::leftover_bits);
-    return {};
+    return piece_.prepareAttributes();
   }
 
   Status codeAttribute(uint32_t index, StreamSizes* sizes) {
@@ -492,6 +493,29 @@ Status choosePositions(std::vector<Plan>& plans, Runners& runners, uint8_t effor
   return {};
 }
 
+/// Tries the candidates of one attribute, stage by stage, from where its models are; goes on with the best.
+Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& runner,
+                             PayloadModels& models, const CostIo& io) {
+  AttributeInfo& info = plan.attributes[index].info;
+  const auto before = std::make_unique<AttributeModels>(models.attributes);
+  const auto costWith = [&](uint8_t predictor, uint64_t& cost) -> Status {
+    info.predictor = predictor;
+    models.attributes = *before;
+    const uint64_t spent = io.cost();
+    MCC_TRY(runner.codeAttribute(index, nullptr));
+    cost = io.cost() - spent;
+    return {};
+  };
+  PredictorSearch search(info, plan.header.has(piece_flag::kSeams));
+  while (!search.done()) {
+    uint64_t cost = 0;
+    MCC_TRY(costWith(search.candidate(), cost));
+    search.report(cost);
+  }
+  uint64_t cost = 0;
+  return costWith(search.best(), cost);
+}
+
 Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t effort) {
   auto models = makeModels(context_set);
   CostIo io;
@@ -505,19 +529,7 @@ Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t 
   for (size_t i = 0; i < plans.size(); ++i) {
     MCC_TRY(runners[i]->codeSeams(nullptr));
     for (uint32_t a = 1; a < plans[i].attributes.size(); ++a) {
-      AttributeInfo& info = plans[i].attributes[a].info;
-      Status chosen =
-          chooseCheapest(kValuePredictors, [&](uint32_t candidate, uint64_t& cost) -> Status {
-            info.predictor = static_cast<uint8_t>(candidate);
-            ValueModels* of_kind = models->valueModels(info);
-            if (of_kind == nullptr) throw std::bad_alloc();
-            *of_kind = ValueModels();
-            const uint64_t before = io.cost();
-            MCC_TRY(runners[i]->codeAttribute(a, nullptr));
-            cost = io.cost() - before;
-            return {};
-          });
-      MCC_TRY(chosen);
+      MCC_TRY(chooseAttributeMethod(plans[i], a, *runners[i], *models, io));
     }
   }
   return {};

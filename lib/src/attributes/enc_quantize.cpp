@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "attributes/dequantize.h"
+#include "attributes/normals.h"
 #include "attributes/octahedral.h"
 
 namespace mcc {
@@ -163,6 +164,7 @@ class Quantizer {
     for (uint32_t w = 0; w < count_; ++w) {
       const float n[3] = {component(w, 0), component(w, 1), component(w, 2)};
       nearestGridPoint(n, &result_.values[size_t{w} * 2]);
+      canonicalGridPoint(octahedralCentre(result_.info.bits), &result_.values[size_t{w} * 2]);
     }
     return std::move(result_);
   }

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "attributes/residuals.h"
 #include "base/memory.h"
 #include "entropy/models.h"
 #include "mesh/face_mesh.h"
@@ -25,9 +26,6 @@ struct WedgeSequence {
 enum class ValuePredictor : uint8_t { kParallelogram = 0, kMean = 1 };
 inline constexpr uint32_t kValuePredictors = 2;
 
-inline constexpr uint32_t kLengthContexts = 12;
-inline constexpr uint32_t kNoNeighbours = 11;
-inline constexpr uint8_t kNotCoded = 0xff;
 inline constexpr uint32_t kMaxComponents = 16;
 
 struct ValueModels {
@@ -39,26 +37,6 @@ struct ValueModels {
     }
   }
 };
-
-/// Bit length of |residual| as a token (15 escapes to 5 raw bits), then the bits below its leading one and the sign.
-template <uint32_t kState, class Io>
-int32_t codeByLength(Io& io, TokenRow& row, int32_t truth) {
-  uint32_t a = truth < 0 ? 0u - static_cast<uint32_t>(truth) : static_cast<uint32_t>(truth);
-  uint32_t length = static_cast<uint32_t>(std::bit_width(a));
-  const uint32_t token = io.template token<kState>(row, kAttributeSchedule, std::min(length, 15u));
-  if (token == 15) {
-    length = 15 + io.raw(5, length - 15);
-    if (length > 32) length = 32;
-  } else {
-    length = token;
-  }
-  if (length == 0) return 0;
-  const uint32_t low_mask = static_cast<uint32_t>((uint64_t{1} << (length - 1)) - 1);
-  a = (low_mask + 1) | io.raw(length - 1, a & low_mask);
-  const uint32_t negative = io.raw(1, truth < 0 ? 1 : 0);
-  const uint32_t mask = ~negative + 1;
-  return static_cast<int32_t>((a ^ mask) - mask);
-}
 
 /// Codes `values`, component_count per wedge. `lengths` is work space, one byte per wedge.
 template <class Io>

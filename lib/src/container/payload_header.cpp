@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/crc32.h"
+#include "mesh/attribute_method.h"
 
 namespace mcc {
 namespace {
@@ -17,6 +18,10 @@ bool isFinitePositive(float value) {
   return bits != 0 && bits < 0x7f800000u;
 }
 bool isFinite(float value) { return (std::bit_cast<uint32_t>(value) & 0x7f800000u) != 0x7f800000u; }
+
+bool isBasePosition(const AttributeInfo& a) {
+  return a.format.semantic == Semantic::kPosition && a.format.morph_target == 0;
+}
 
 /// [A.2.4]
 Status parseAttribute(ByteReader& in, AttributeInfo& a) {
@@ -68,11 +73,10 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
       return fail(Error::kBadHeader, "an octahedral attribute is malformed", at);
     }
   }
+  if (!isBasePosition(a) && !isKnownPredictor(a)) {
+    return fail(Error::kBadHeader, "an attribute has an unknown predictor", at);
+  }
   return {};
-}
-
-bool isBasePosition(const AttributeInfo& a) {
-  return a.format.semantic == Semantic::kPosition && a.format.morph_target == 0;
 }
 
 /// [A.2.3]

@@ -25,6 +25,14 @@ fs::path temporaryName(const fs::path& destination) {
   return destination.parent_path() / ("." + name.string());
 }
 
+/// Without any permission to write, also for a user who needs none.
+bool isReadOnly(const fs::path& path) {
+  std::error_code code;
+  const fs::perms write = fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
+  const fs::perms permissions = fs::status(path, code).permissions();
+  return (permissions & write) == fs::perms::none || ::access(path.c_str(), W_OK) != 0;
+}
+
 fs::path folderOf(const fs::path& path) {
   return path.parent_path().empty() ? fs::path(".") : path.parent_path();
 }
@@ -82,11 +90,9 @@ Result ReplacementFile::check() const {
   if (!fs::is_directory(folder, code)) {
     return error(name, "\"" + folder.string() + "\" is no folder");
   }
-  if (::access(folder.c_str(), W_OK) != 0) {
-    return error(name, "the folder cannot be written: " + reasonOf(errno));
-  }
-  if (fs::exists(destination_, code) && ::access(destination_.c_str(), W_OK) != 0) {
-    return error(name, "cannot be written: " + reasonOf(errno));
+  if (isReadOnly(folder)) return error(name, "the folder \"" + folder.string() + "\" is read-only");
+  if (fs::exists(destination_, code) && isReadOnly(destination_)) {
+    return error(name, "the file exists and is read-only");
   }
   return {};
 }

@@ -1,0 +1,68 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Which values of an attribute's header byte `predictor` the encoder tries, and in which order.
+#ifndef MCC_ATTRIBUTES_ENC_PREDICTOR_SEARCH_H_
+#define MCC_ATTRIBUTES_ENC_PREDICTOR_SEARCH_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/attribute_method.h"
+
+namespace mcc {
+
+/// Coordinate descent: each step varies one field of the byte and keeps the best value so far.
+class PredictorSearch {
+ public:
+  PredictorSearch(const AttributeInfo& info, bool has_seams) {
+    switch (methodOf(info)) {
+      case AttributeMethod::kNormal:
+        best_ = has_seams ? 1 | kHasEqualities : 1;
+        steps_ = {{normal_method::kWeightMask, {1, 0, 2}},
+                  {normal_method::kBlendMask,
+                   {1 << normal_method::kBlendShift, 2 << normal_method::kBlendShift}}};
+        break;
+      case AttributeMethod::kTexcoord:
+        best_ = has_seams ? kHasEqualities : 0;
+        steps_ = {{texcoord_method::kPredictorMask, {0, 1, 3, 2, 4}},
+                  {texcoord_method::kRepeats, {texcoord_method::kRepeats}}};
+        break;
+      case AttributeMethod::kValues: steps_ = {{1, {0, 1}}}; break;
+    }
+    if (has_seams && best_ >= kHasEqualities) steps_.push_back({kHasEqualities, {0}});
+  }
+
+  bool done() const { return step_ == steps_.size(); }
+  uint8_t candidate() const {
+    const Step& step = steps_[step_];
+    return static_cast<uint8_t>((best_ & ~step.mask) | step.values[value_]);
+  }
+  void report(uint64_t cost) {
+    if (cost < best_cost_) {
+      best_cost_ = cost;
+      found_ = candidate();
+    }
+    if (++value_ != steps_[step_].values.size()) return;
+    value_ = 0;
+    ++step_;
+    best_ = found_;
+  }
+  uint8_t best() const { return best_; }
+
+ private:
+  struct Step {
+    uint8_t mask;
+    std::vector<uint8_t> values;
+  };
+
+  std::vector<Step> steps_;
+  size_t step_ = 0;
+  size_t value_ = 0;
+  uint8_t best_ = 0;
+  uint8_t found_ = 0;
+  uint64_t best_cost_ = ~uint64_t{0};
+};
+
+}  // namespace mcc
+
+#endif  // MCC_ATTRIBUTES_ENC_PREDICTOR_SEARCH_H_

@@ -1,0 +1,327 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Unit normals on the octahedral grid, predicted from the decoded faces.                     [A.8.5, B.4]
+//
+// Prediction: the weighted sum of the normals of all faces around a group of equal wedges; optionally corrected by what
+// the prediction missed at the two neighbours of the entry face. Residual: both grid points are mapped so that the
+// prediction lies near the centre and in one quadrant, then subtracted modulo the grid (as in Draco's canonicalised
+// transform).
+#ifndef MCC_ATTRIBUTES_NORMALS_H_
+#define MCC_ATTRIBUTES_NORMALS_H_
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "attributes/octahedral.h"
+#include "attributes/residuals.h"
+#include "attributes/wedges.h"
+#include "mesh/attribute_method.h"
+
+namespace mcc {
+
+/// Weight of a face's normal at a corner.
+enum class NormalWeight : uint8_t {
+  kArea = 0,   ///< area of the face
+  kAngle = 1,  ///< angle at the corner
+  kSine = 2,   ///< area over the squared lengths of the corner's sides (Max 1999)
+};
+
+struct NormalModels {
+  TokenRow row[2][kLengthContexts];
+
+  NormalModels() {
+    for (auto& component : row) {
+      for (TokenRow& r : component) r.setUniform();
+    }
+  }
+};
+
+/// Angle of the vector (x, y), y >= 0, in 0..pi, by a polynomial. [B.4.3]
+inline float cornerAngle(float y, float x) {
+  const float ax = std::fabs(x);
+  const float low = std::min(ax, y);
+  const float high = std::max(ax, y);
+  const float t = low / (high + 1e-30f);
+  const float s = t * t;
+  float r = ((-0.0464964749f * s + 0.15931422f) * s - 0.327622764f) * s * t + t;
+  if (y > ax) r = 1.57079637f - r;
+  return x < 0 ? 3.14159274f - r : r;
+}
+
+/// Adds the weighted normal of every face to its three wedges' sums (3 floats each). [B.4.2]
+template <NormalWeight kWeight>
+void addFaceNormals(const WedgeMesh& wedges, const float* positions, float* sums) {
+  for (uint32_t h = 0; h < wedges.face_count * kFaceWords; h += kFaceWords) {
+    const uint32_t* corner = wedges.faces.words + h;
+    const float* a = positions + 4 * size_t{corner[0]};
+    const float* b = positions + 4 * size_t{corner[1]};
+    const float* c = positions + 4 * size_t{corner[2]};
+    const float e0[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    const float e1[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    const float n[3] = {e0[1] * e1[2] - e0[2] * e1[1], e0[2] * e1[0] - e0[0] * e1[2],
+                        e0[0] * e1[1] - e0[1] * e1[0]};
+    float weight[3] = {1, 1, 1};
+    if constexpr (kWeight != NormalWeight::kArea) {
+      const float nn = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+      if (nn == 0) continue;  // else all sides are longer than 0
+      const float d0 = e0[0] * e1[0] + e0[1] * e1[1] + e0[2] * e1[2];
+      const float q0 = e0[0] * e0[0] + e0[1] * e0[1] + e0[2] * e0[2];
+      const float q1 = e1[0] * e1[0] + e1[1] * e1[1] + e1[2] * e1[2];
+      if constexpr (kWeight == NormalWeight::kAngle) {
+        const float length = std::sqrt(nn);
+        const float inverse = 1.0f / length;
+        const float at_a = cornerAngle(length, d0);
+        const float at_b = cornerAngle(length, q0 - d0);
+        weight[0] = at_a * inverse;
+        weight[1] = at_b * inverse;
+        weight[2] = (3.14159274f - at_a - at_b) * inverse;
+      } else {
+        const float e2[3] = {c[0] - b[0], c[1] - b[1], c[2] - b[2]};
+        const float q2 = e2[0] * e2[0] + e2[1] * e2[1] + e2[2] * e2[2];
+        const float all = 1.0f / (q0 * q1 * q2);
+        weight[0] = all * q2;
+        weight[1] = all * q1;
+        weight[2] = all * q0;
+      }
+    }
+    for (uint32_t k = 0; k < 3; ++k) {
+      float* sum = sums + 3 * size_t{corner[k]};
+      for (uint32_t s = 0; s < 3; ++s) sum[s] += weight[k] * n[s];
+    }
+  }
+}
+
+/// Grid coordinate, relative to the centre, of x in -1..1 (or beyond by rounding errors).
+inline int32_t gridCoordinate(float x, int32_t centre) {
+  const float scaled = std::min(std::max(x, -1.0f), 1.0f) * static_cast<float>(centre);
+  return static_cast<int32_t>(scaled + (scaled < 0 ? -0.5f : 0.5f));
+}
+
+/// Grid point, relative to the centre, nearest to the projection of a vector of any length but 0. [B.4.4]
+inline void projectToGrid(const float* v, int32_t centre, int32_t* point) {
+  const float inverse = 1.0f / (std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]));
+  float x = v[0] * inverse;
+  float y = v[1] * inverse;
+  if (v[2] < 0) {
+    const float folded_x = 1.0f - std::fabs(y);
+    const float folded_y = 1.0f - std::fabs(x);
+    x = x < 0 ? -folded_x : folded_x;
+    y = y < 0 ? -folded_y : folded_y;
+  }
+  point[0] = gridCoordinate(x, centre);
+  point[1] = gridCoordinate(y, centre);
+}
+
+/// The residual's frame, chosen by the predicted point; maps grid points to and fro. [B.4.5]
+class OctahedralFrame {
+ public:
+  OctahedralFrame(const int32_t* predicted, int32_t centre)
+      : centre_(centre), p_{predicted[0], predicted[1]} {
+    turned_over_ = std::abs(p_[0]) + std::abs(p_[1]) > centre;
+    if (turned_over_) turnOver(p_, centre);
+    while (quarter_turns_ < 4 && !(p_[0] < 0 && p_[1] <= 0) && (p_[0] != 0 || p_[1] != 0)) {
+      rotate(p_);
+      ++quarter_turns_;
+    }
+  }
+
+  /// Swaps the inside and the outside of the diamond |x| + |y| = centre.
+  static void turnOver(int32_t* p, int32_t centre) {
+    const int32_t x = p[0];
+    const int32_t y = p[1];
+    const bool same = (x >= 0 && y >= 0) || (x <= 0 && y <= 0);
+    const int32_t sign_x = same ? (x >= 0 && y >= 0 ? 1 : -1) : (x > 0 ? 1 : -1);
+    const int32_t sign_y = same ? sign_x : -sign_x;
+    p[0] = sign_x * (centre - std::abs(y));
+    p[1] = sign_y * (centre - std::abs(x));
+  }
+
+  void residualOf(const int32_t* point, int32_t* residual) const {
+    int32_t p[2] = {point[0], point[1]};
+    if (turned_over_) turnOver(p, centre_);
+    for (uint32_t i = 0; i < quarter_turns_; ++i) rotate(p);
+    for (int k = 0; k < 2; ++k) residual[k] = wrap(p[k] - p_[k]);
+  }
+
+  /// `residual` may be anything; the point is on the grid.
+  void pointOf(const int32_t* residual, int32_t* point) const {
+    for (int k = 0; k < 2; ++k) {
+      const int32_t r = std::clamp(residual[k], -centre_, centre_);
+      point[k] = wrap(p_[k] + r);
+    }
+    for (uint32_t i = quarter_turns_; i % 4 != 0; ++i) rotate(point);
+    if (turned_over_) turnOver(point, centre_);
+  }
+
+ private:
+  static void rotate(int32_t* p) {
+    const int32_t x = p[0];
+    p[0] = -p[1];
+    p[1] = x;
+  }
+  int32_t wrap(int32_t value) const {
+    if (value > centre_) return value - (2 * centre_ + 1);
+    return value < -centre_ ? value + (2 * centre_ + 1) : value;
+  }
+
+  const int32_t centre_;
+  int32_t p_[2];
+  bool turned_over_ = false;
+  uint32_t quarter_turns_ = 0;
+};
+
+/// One of the up to four grid points that stand for the same direction on the border. Writers store only it.
+inline void canonicalGridPoint(int32_t centre, int32_t* point) {
+  int32_t p[2] = {point[0] - centre, point[1] - centre};
+  if (std::abs(p[0]) != centre && std::abs(p[1]) != centre) return;
+  OctahedralFrame::turnOver(p, centre);
+  OctahedralFrame::turnOver(p, centre);
+  point[0] = p[0] + centre;
+  point[1] = p[1] + centre;
+}
+
+/// Codes grid points (s, t) in 0..2*centre, two per wedge.
+template <class Io>
+class NormalCoder {
+ public:
+  /// Work space: `sums` 3 floats per wedge, `lengths` a byte per wedge.
+  NormalCoder(Io& io, NormalModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
+              const AttributeInfo& info, int32_t* values, float* sums, uint8_t* lengths)
+      : io_(io),
+        models_(models),
+        wedges_(wedges),
+        groups_(groups),
+        weight_(static_cast<NormalWeight>(info.predictor & normal_method::kWeightMask)),
+        blend_((info.predictor & normal_method::kBlendMask) >> normal_method::kBlendShift),
+        centre_(octahedralCentre(info.bits)),
+        values_(values),
+        sums_(sums),
+        lengths_(lengths) {}
+
+  void run(const float* positions) {
+    std::fill(sums_, sums_ + 3 * size_t{wedges_.count}, 0.0f);
+    switch (weight_) {
+      case NormalWeight::kArea:
+        addFaceNormals<NormalWeight::kArea>(wedges_, positions, sums_);
+        break;
+      case NormalWeight::kAngle:
+        addFaceNormals<NormalWeight::kAngle>(wedges_, positions, sums_);
+        break;
+      case NormalWeight::kSine:
+        addFaceNormals<NormalWeight::kSine>(wedges_, positions, sums_);
+        break;
+    }
+    for (uint32_t i = 0; i < wedges_.surface_count; ++i) {
+      const uint32_t w = wedges_.wedgeAt(i);
+      if (groups_.isFirst(w)) codeGroup(w);
+    }
+    for (uint32_t w = wedges_.surface_count; w < wedges_.count; ++w)
+      codePoint(w, last_, kNoNeighbours);
+  }
+
+ private:
+  float* sum(uint32_t w) { return sums_ + 3 * size_t{w}; }
+
+  void codeGroup(uint32_t w);
+  void correct(float* direction, const uint32_t* neighbours);
+  void codePoint(uint32_t w, const int32_t* predicted, uint32_t context);
+
+  Io& io_;
+  NormalModels& models_;
+  const WedgeMesh& wedges_;
+  const EqualGroups& groups_;
+  const NormalWeight weight_;
+  const uint32_t blend_;
+  const int32_t centre_;
+  int32_t* const values_;
+  float* const sums_;  ///< of faces; once a wedge is coded: what its prediction missed, if blending
+  uint8_t* const lengths_;
+  int32_t last_[2] = {};
+};
+
+/// Length 1, or all zeros.
+inline void normalise(float* v) {
+  const float as = std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]);
+  if (!(as > 0)) return;
+  const float inverse = 1.0f / as;
+  for (int s = 0; s < 3; ++s) v[s] *= inverse;
+  const float unit = 1.0f / std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  for (int s = 0; s < 3; ++s) v[s] *= unit;
+}
+
+template <class Io>
+void NormalCoder<Io>::codeGroup(uint32_t w) {
+  float direction[3] = {sum(w)[0], sum(w)[1], sum(w)[2]};
+  uint32_t entry = wedges_.firstCompleted(w);
+  for (uint32_t m = groups_.nextOf(w); m != kNone; m = groups_.nextOf(m)) {
+    for (int s = 0; s < 3; ++s) direction[s] += sum(m)[s];
+    if (entry == kNone) entry = wedges_.firstCompleted(m);
+  }
+  uint32_t context = kNoNeighbours;
+  uint32_t neighbours[2] = {kNone, kNone};
+  if (entry != kNone) {
+    neighbours[0] = wedges_.faces.vertex(nextHalfEdge(entry));
+    neighbours[1] = wedges_.faces.vertex(prevHalfEdge(entry));
+    context = (lengths_[neighbours[0]] + lengths_[neighbours[1]] + 1u) / 2;
+  }
+  float corrected[3];
+  if (blend_ != 0) {
+    normalise(direction);
+    for (int s = 0; s < 3; ++s) corrected[s] = direction[s];
+    if (entry != kNone) correct(corrected, neighbours);
+  }
+  const float* used = blend_ != 0 ? corrected : direction;
+  int32_t predicted[2] = {last_[0], last_[1]};
+  if (std::fabs(used[0]) + std::fabs(used[1]) + std::fabs(used[2]) > 0) {
+    projectToGrid(used, centre_, predicted);
+  }
+  codePoint(w, predicted, context);
+  float missed[3] = {0, 0, 0};
+  if (blend_ != 0) {
+    octahedralToUnit(values_[2 * size_t{w}], values_[2 * size_t{w} + 1], centre_, missed);
+    for (int s = 0; s < 3; ++s) missed[s] -= direction[s];
+  }
+  for (uint32_t m = w; m != kNone; m = groups_.nextOf(m)) {
+    values_[2 * size_t{m}] = values_[2 * size_t{w}];
+    values_[2 * size_t{m} + 1] = values_[2 * size_t{w} + 1];
+    lengths_[m] = lengths_[w];
+    if (blend_ == 0) continue;
+    for (int s = 0; s < 3; ++s) sum(m)[s] = missed[s];
+  }
+}
+
+template <class Io>
+void NormalCoder<Io>::correct(float* direction, const uint32_t* neighbours) {
+  const float part = blend_ == 1 ? 0.25f : 0.5f;
+  const float* a = sum(neighbours[0]);
+  const float* b = sum(neighbours[1]);
+  for (int s = 0; s < 3; ++s) direction[s] += part * (a[s] + b[s]);
+}
+
+template <class Io>
+void NormalCoder<Io>::codePoint(uint32_t w, const int32_t* predicted, uint32_t context) {
+  const OctahedralFrame frame(predicted, centre_);
+  int32_t* value = values_ + 2 * size_t{w};
+  int32_t residual[2] = {};
+  int32_t point[2] = {};
+  if constexpr (Io::kEncoding) {
+    point[0] = value[0] - centre_;
+    point[1] = value[1] - centre_;
+    frame.residualOf(point, residual);
+  }
+  residual[0] = codeSmallSigned<0>(io_, models_.row[0][context], residual[0]);
+  const uint32_t length = contextLength(residual[0]);
+  const uint32_t second = context == kNoNeighbours ? length : (context + length + 1) / 2;
+  residual[1] = codeSmallSigned<1>(io_, models_.row[1][second], residual[1]);
+  frame.pointOf(residual, point);
+  lengths_[w] = static_cast<uint8_t>(std::max(length, contextLength(residual[1])));
+  value[0] = point[0] + centre_;
+  value[1] = point[1] + centre_;
+  last_[0] = point[0];
+  last_[1] = point[1];
+}
+
+}  // namespace mcc
+
+#endif  // MCC_ATTRIBUTES_NORMALS_H_

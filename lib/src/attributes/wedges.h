@@ -1,0 +1,193 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// What all attributes of a piece share: the order of the wedges, the faces each wedge completes, positions as the
+// predictions see them, and groups of wedges with equal values.                              [A.8.1]
+#ifndef MCC_ATTRIBUTES_WEDGES_H_
+#define MCC_ATTRIBUTES_WEDGES_H_
+
+#include <bit>
+#include <cstdint>
+
+#include "attributes/dequantize.h"
+#include "base/memory.h"
+#include "mesh/face_mesh.h"
+
+namespace mcc {
+
+/// Wedges in coding order. Built once per piece, after the seams; keeps links in the faces' kFaceWord.
+class WedgeMesh {
+ public:
+  explicit WedgeMesh(const Allocator& allocator)
+      : faces(FaceView{nullptr}), order_(allocator), rank_(allocator), completed_(allocator) {}
+
+  /// `starts`: a half-edge per wedge in coding order. Wedges behind the surface's are in no face. `numbered`: they
+  /// are numbered in that order. `group_of_wedge` is null without seams.
+  Status build(FaceMesh& mesh, const uint32_t* starts, uint32_t surface_wedges,
+               uint32_t wedge_count, const uint32_t* group_of_wedge);
+
+  uint32_t wedgeAt(uint32_t i) const { return order_.empty() ? i : order_[i]; }
+  uint32_t rankOf(uint32_t wedge) const { return rank_.empty() ? wedge : rank_[wedge]; }
+  /// Half-edges leaving `wedge` in the faces it completes: all other corners have a lower rank.
+  uint32_t firstCompleted(uint32_t wedge) const { return completed_[wedge]; }
+  uint32_t nextCompleted(uint32_t h) const { return faces.words[(h & ~7u) + kFaceWord]; }
+  /// Whether wedge `w` is on the same vertex as wedge w-1.
+  bool continuesVertex(uint32_t w) const {
+    return group_of_wedge_ != nullptr && w != 0 && w < surface_count &&
+           group_of_wedge_[w] == group_of_wedge_[w - 1];
+  }
+  /// Calls visit(h) with half-edges leaving `wedge` in its first run of faces, until it returns false; at most 16.
+  template <class Visit>
+  void forRun(uint32_t wedge, Visit visit) const;
+  bool hasSeams() const { return group_of_wedge_ != nullptr; }
+  uint32_t startOf(uint32_t i) const { return starts_[i]; }
+
+  FaceView faces;
+  uint32_t face_count = 0;
+  uint32_t surface_count = 0;  ///< wedges in faces
+  uint32_t count = 0;
+
+ private:
+  Array<uint32_t> order_;  ///< empty: wedges are numbered in coding order
+  Array<uint32_t> rank_;
+  Array<uint32_t> completed_;
+  const uint32_t* starts_ = nullptr;
+  const uint32_t* group_of_wedge_ = nullptr;
+};
+
+inline Status WedgeMesh::build(FaceMesh& mesh, const uint32_t* starts, uint32_t surface_wedges,
+                               uint32_t wedge_count, const uint32_t* group_of_wedge) {
+  faces = mesh.view();
+  face_count = mesh.face_count;
+  surface_count = surface_wedges;
+  count = wedge_count;
+  starts_ = starts;
+  group_of_wedge_ = group_of_wedge;
+  order_.clear();
+  rank_.clear();
+  if (!completed_.assign(surface_wedges, kNone) ||
+      (group_of_wedge == nullptr &&
+       (!order_.resize(surface_wedges) || !rank_.resize(surface_wedges)))) {
+    return fail(Error::kOutOfMemory, "no memory for attributes");
+  }
+  for (uint32_t i = 0; group_of_wedge == nullptr && i < surface_wedges; ++i) {
+    order_[i] = faces.vertex(starts[i]);
+    rank_[order_[i]] = i;
+  }
+  for (uint32_t f = face_count; f-- != 0;) {  // backwards, so that the lists ascend
+    uint32_t last = f * kFaceWords;
+    uint32_t last_rank = rankOf(faces.vertex(last));
+    for (uint32_t h = last + 1; h <= f * kFaceWords + 2; ++h) {
+      const uint32_t rank = rankOf(faces.vertex(h));
+      if (rank > last_rank) {
+        last_rank = rank;
+        last = h;
+      }
+    }
+    uint32_t& first = completed_[faces.vertex(last)];
+    faces.words[f * kFaceWords + kFaceWord] = first;
+    first = last;
+  }
+  return {};
+}
+
+template <class Visit>
+void WedgeMesh::forRun(uint32_t wedge, Visit visit) const {
+  const uint32_t start = starts_[rankOf(wedge)];
+  uint32_t budget = 16;
+  uint32_t h = start;
+  do {
+    if (!visit(h) || --budget == 0) return;
+    h = faces.rotateCcw(h);
+  } while (h != kNone && h != start && faces.vertex(h) == wedge);
+  if (h == start) return;
+  for (h = faces.rotateCw(start); h != kNone && faces.vertex(h) == wedge; h = faces.rotateCw(h)) {
+    if (!visit(h) || --budget == 0) return;
+  }
+}
+
+/// Groups of wedges of a vertex that have equal values; each is coded once, at its first wedge.
+struct EqualGroups {
+  explicit EqualGroups(const Allocator& allocator) : first(allocator), next(allocator) {}
+
+  Array<uint32_t> first;  ///< empty: every wedge is its own group
+  Array<uint32_t> next;   ///< of the same group; kNone behind the last
+
+  bool isFirst(uint32_t wedge) const { return first.empty() || first[wedge] == wedge; }
+  uint32_t firstOf(uint32_t wedge) const { return first.empty() ? wedge : first[wedge]; }
+  uint32_t nextOf(uint32_t wedge) const { return next.empty() ? kNone : next[wedge]; }
+  void clear() {
+    first.clear();
+    next.clear();
+  }
+};
+
+/// Coordinates of predictions are integers of at most this many bits, as floats: products of a few of their
+/// differences neither overflow nor become denormal.                                          [B.4.2]
+inline constexpr uint32_t kPredictionBits = 22;
+
+/// Wedge positions as float32 integers, 4 per wedge, from the coordinates `position(w)` (int32[3]) of any range.
+template <class Position>
+Status latticePredictionPositions(uint32_t count, Position position, Array<float>& out) {
+  if (!out.resize(4 * size_t{count})) return fail(Error::kOutOfMemory, "no memory for attributes");
+  if (count == 0) return {};
+  const int32_t* centre = position(0);
+  uint64_t reach = 0;
+  for (uint32_t w = 0; w < count; ++w) {
+    const int32_t* q = position(w);
+    for (int s = 0; s < 3; ++s) {
+      const int64_t d = int64_t{q[s]} - centre[s];
+      reach |= static_cast<uint64_t>(d < 0 ? -d : d);
+    }
+  }
+  const uint32_t length = static_cast<uint32_t>(std::bit_width(reach));
+  const uint32_t shift = length > kPredictionBits ? length - kPredictionBits : 0;
+  for (uint32_t w = 0; w < count; ++w) {
+    const int32_t* q = position(w);
+    float* p = &out[4 * size_t{w}];
+    for (int s = 0; s < 3; ++s) {
+      p[s] = static_cast<float>(static_cast<int32_t>((int64_t{q[s]} - centre[s]) >> shift));
+    }
+    p[3] = 0;
+  }
+  return {};
+}
+
+/// The same from exact floats (as ordered integers); what is not finite counts as 0.
+template <class Position>
+Status floatPredictionPositions(uint32_t count, Position position, Array<float>& out) {
+  if (!out.resize(4 * size_t{count})) return fail(Error::kOutOfMemory, "no memory for attributes");
+  if (count == 0) return {};
+  const auto valueOf = [](int32_t ordered) {
+    const uint32_t bits = bitsFromOrdered(ordered);
+    return (bits & 0x7f800000u) == 0x7f800000u ? 0.0
+                                               : static_cast<double>(std::bit_cast<float>(bits));
+  };
+  const int32_t* q0 = position(0);
+  const double centre[3] = {valueOf(q0[0]), valueOf(q0[1]), valueOf(q0[2])};
+  double reach = 0;
+  for (uint32_t w = 0; w < count; ++w) {
+    const int32_t* q = position(w);
+    for (int s = 0; s < 3; ++s) {
+      const double d = valueOf(q[s]) - centre[s];
+      const double absolute = d < 0 ? -d : d;
+      reach = absolute > reach ? absolute : reach;
+    }
+  }
+  // A power of two that brings `reach` (below 2^129, not denormal as a double) to 2^22 at most.
+  const uint64_t exponent = std::bit_cast<uint64_t>(reach) >> 52;
+  const uint64_t scale_exponent = exponent == 0 ? 1023 : 2 * 1023 + kPredictionBits - 1 - exponent;
+  const double scale = std::bit_cast<double>(scale_exponent << 52);
+  for (uint32_t w = 0; w < count; ++w) {
+    const int32_t* q = position(w);
+    float* p = &out[4 * size_t{w}];
+    for (int s = 0; s < 3; ++s) {
+      p[s] = static_cast<float>(static_cast<int32_t>((valueOf(q[s]) - centre[s]) * scale));
+    }
+    p[3] = 0;
+  }
+  return {};
+}
+
+}  // namespace mcc
+
+#endif  // MCC_ATTRIBUTES_WEDGES_H_
