@@ -43,6 +43,7 @@ struct PieceTruth {
   const uint32_t* class_of_vertex = nullptr;  ///< by decoded vertex
   uint32_t class_count = 0;
   const int32_t* positions = nullptr;       ///< 3 per group, isolated vertices behind
+  const AxisPalette* palettes = nullptr;    ///< 3, if the position has them
   const uint32_t* corner_source = nullptr;  ///< source wedge by 3f+k
   LeftoverTruth leftovers;
 };
@@ -92,6 +93,12 @@ class PieceCoder {
     PositionParameters parameters = fitted != nullptr ? *fitted : PositionParameters{};
     describePositions(attributes_[0], parameters);
     MCC_TRY(codePositionTables(io_, models_.positions.tables, parameters));
+    PositionPalettes palettes(allocator_);
+    if (parameters.has(position_mode::kPalette)) {
+      MCC_TRY(palettes.code(io_, models_.positions.tables.palettes, truth.palettes,
+                            static_cast<uint32_t>(records.size())));
+      for (uint32_t s = 0; s < 3; ++s) parameters.palette[s] = palettes.axis(s);
+    }
     models_.positions.rows.prepare(parameters.has(position_mode::kFold),
                                    parameters.has(position_mode::kSplit));
     sequence.clear();

@@ -42,6 +42,7 @@ struct Plan {
   std::vector<uint32_t> class_of_vertex;
   std::vector<uint32_t> corner_source;
   std::vector<int32_t> positions;
+  DistinctCoordinates coordinates;
   PositionParameters positions_as;  ///< chosen, with fitted tables
   std::vector<uint32_t> wedge_source;
   std::vector<uint32_t> part_of_face;
@@ -346,12 +347,19 @@ class StageRunner {
                              plan_.header.isolated_count, plan_.positions.data()));
     PositionParameters parameters;
     PieceCoder<Io>::describePositions(plan_.attributes[0].info, parameters);
-    candidate = {&recording, plan_.positions.data(), parameters.bits};
+    candidate.recording = &recording;
+    candidate.truth = plan_.positions.data();
+    candidate.bits = parameters.bits;
+    plan_.coordinates.find(plan_.positions);
+    for (uint32_t s = 0; s < 3; ++s) candidate.palettes[s] = plan_.coordinates.palette(s);
     return {};
   }
 
   Status codePositions(StreamSizes* sizes) {
     infos_[0] = plan_.attributes[0].info;
+    AxisPalette palettes[3];
+    for (uint32_t s = 0; s < 3; ++s) palettes[s] = plan_.coordinates.palette(s);
+    truth_.palettes = palettes;
     MCC_TRY(piece_.codePositions(truth_, &plan_.positions_as));
     account(sizes, &StreamSizes::position_bits);
     return {};

@@ -92,6 +92,7 @@ class Trials {
     for (size_t i = 0; i < pieces_.size(); ++i) {
       PositionParameters of_piece = p;
       of_piece.bits = pieces_[i].bits;
+      std::copy(pieces_[i].palettes, pieces_[i].palettes + 3, of_piece.palette);
       if (of_piece.bits > kNarrowBits) {
         replay<int64_t>(io, of_piece, i, [](uint32_t, const auto&, const VertexRecord&) {});
       } else {
@@ -100,7 +101,11 @@ class Trials {
     }
     const double scale =
         counted_ == 0 ? 1 : static_cast<double>(all_) / static_cast<double>(counted_);
-    return static_cast<double>(io.cost()) / kCostOne * scale + tableBits(p);
+    printf("  pred %d modes %x own %d: %.0f tables %.0f (sample %.0f of %.0f)\n", (int)p.predictor,
+           p.modes, p.own_scale, static_cast<double>(io.cost()) / kCostOne * scale / 8,
+           tableBits(p) / 8, (double)counted_, (double)all_);
+    return static_cast<double>(io.cost()) / kCostOne * scale + tableBits(p) +
+           (p.has(position_mode::kPalette) ? paletteBits() : 0);
   }
 
   /// Calls use(plain, prediction, record) behind every counted vertex that is no seed.
@@ -110,6 +115,7 @@ class Trials {
     for (size_t i = 0; i < pieces_.size(); ++i) {
       PositionParameters of_piece = p;
       of_piece.bits = pieces_[i].bits;
+      std::copy(pieces_[i].palettes, pieces_[i].palettes + 3, of_piece.palette);
       if (of_piece.bits > kNarrowBits) {
         replay<int64_t>(io, of_piece, i, use);
       } else {
@@ -124,6 +130,15 @@ class Trials {
     PositionTables tables;
     PositionParameters copy = p;
     (void)codePositionTables(io, tables, copy);  // what was fitted is in range
+    return static_cast<double>(io.cost()) / kCostOne;
+  }
+
+  double paletteBits() const {
+    CostIo io;
+    PaletteModels models;
+    for (const PositionCandidate& piece : pieces_) {
+      (void)PositionPalettes(Allocator{}).code(io, models, piece.palettes, ~0u);
+    }
     return static_cast<double>(io.cost()) / kCostOne;
   }
 
@@ -147,7 +162,7 @@ class Trials {
         PlainFan fan;
         Beyond beyond;
         recording.plain(visit, fan, beyond);
-        predictPlain<Wide>(p, fan, beyond, records[v].degree, p.modes, prediction);
+        predictPlain<Wide>(p, fan, &beyond, records[v].degree, p.modes, prediction);
       } else {
         AnyFan fan;
         recording.any(visit, fan);
@@ -409,6 +424,7 @@ class Chooser {
 
   PositionParameters run() {
     tryPredictors();
+    if (anyPalette()) tryMode(position_mode::kPalette, 0.97);
     tryMode(position_mode::kShear, 0.96);
     tryMode(position_mode::kFold, 0.995);
     tryOwnScale();
@@ -444,6 +460,15 @@ class Chooser {
     best_ = ranked_[0].parameters;
     best_cost_ = ranked_[0].cost;
     if (ranked_.size() > kRace) ranked_.resize(kRace);
+  }
+
+  bool anyPalette() const {
+    for (const PositionCandidate& piece : pieces_) {
+      for (const AxisPalette& palette : piece.palettes) {
+        if (palette.count != 0) return true;
+      }
+    }
+    return false;
   }
 
   void add(const PositionParameters& p) { ranked_.push_back({p, trials_.cost(p)}); }
@@ -514,6 +539,18 @@ PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, PositionP
     fitClass(rows, c, robust, weights.w[c]);
   }
   return weights;
+}
+
+void DistinctCoordinates::find(std::span<const int32_t> truth) {
+  const size_t vertices = truth.size() / 3;
+  for (uint32_t s = 0; s < 3; ++s) {
+    std::vector<int32_t>& values = axis[s];
+    values.resize(vertices);
+    for (size_t i = 0; i < vertices; ++i) values[i] = truth[3 * i + s];
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    if (2 * values.size() > vertices) values.clear();
+  }
 }
 
 PositionParameters choosePositionParameters(std::span<const PositionCandidate> pieces,

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "attributes/enc_position_recording.h"
 #include "attributes/position_parameters.h"
@@ -17,6 +18,17 @@ struct PositionCandidate {
   const PositionRecording* recording = nullptr;
   const int32_t* truth = nullptr;  ///< 3 per record
   uint8_t bits = 0;                ///< PositionParameters::bits
+  AxisPalette palettes[3];         ///< of axes with few distinct values
+};
+
+/// Sorted distinct coordinates of each axis, empty where there are too many for a palette to be of use.
+struct DistinctCoordinates {
+  std::vector<int32_t> axis[3];
+
+  void find(std::span<const int32_t> truth);
+  AxisPalette palette(uint32_t s) const {
+    return {axis[s].data(), static_cast<uint32_t>(axis[s].size()), nullptr, 0};
+  }
 };
 
 /// Tries the predictors and modes on the pieces, or on an even sample of their vertices if they have many, and returns

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "attributes/position_palette.h"
 #include "attributes/position_tables.h"
 #include "entropy/numbers.h"
 #include "mcc/status.h"
@@ -38,6 +39,7 @@ struct PositionParameters {
   uint8_t bits = 14;  ///< of the lattice; seeds start from its middle
   PredictorWeights weights = kAverageWeights;
   ScaleCoefficients scale[2][3] = {};  ///< [plain fan][component]
+  AxisPalette palette[3];              ///< only with kPalette; borrowed
 
   bool has(uint32_t mode) const { return (modes & mode) != 0; }
   bool fitted() const {
@@ -73,6 +75,7 @@ struct PositionTables {
   GolombModel weight;
   GolombModel selecting_weight;
   GolombModel coefficient[3];
+  PaletteModels palettes;
 };
 
 inline constexpr int32_t kMaxWeight = 1023;

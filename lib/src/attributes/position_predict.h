@@ -210,9 +210,10 @@ inline void addNormal(const VertexRecord& a, const VertexRecord& b, const Vertex
   normal[2] += u[0] * w[1] - u[1] * w[0];
 }
 
+/// `beyond` may be null without weights.
 template <class Wide>
-void predictPlain(const PositionParameters& p, const PlainFan& f, const Beyond& b, uint32_t degree,
-                  uint32_t modes, Prediction<Wide>& out) {
+void predictPlain(const PositionParameters& p, const PlainFan& f, const Beyond* beyond,
+                  uint32_t degree, uint32_t modes, Prediction<Wide>& out) {
   using UWide = std::make_unsigned_t<Wide>;
   for (int s = 0; s < 3; ++s) {
     const UWide e = static_cast<UWide>(f.n0->q[s]) + static_cast<UWide>(f.n2->q[s]);
@@ -226,7 +227,7 @@ void predictPlain(const PositionParameters& p, const PlainFan& f, const Beyond& 
                         unpackMagnitude<Wide>(f.n2->magnitude[s]);
   }
   if ((modes & position_mode::kWeights) != 0) {
-    addPlainFeatures<Wide>(p, f, b, degree, (modes & position_mode::kSelect) != 0, out.q8);
+    addPlainFeatures<Wide>(p, f, *beyond, degree, (modes & position_mode::kSelect) != 0, out.q8);
   }
   if ((modes & position_mode::kShear) == 0) return;
   out.normal[0] = out.normal[1] = out.normal[2] = 0;

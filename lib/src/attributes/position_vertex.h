@@ -31,7 +31,7 @@ class VertexCoder {
     }
   }
 
-  void codePlain(Io& io, uint32_t v, const PlainFan& fan, const Beyond& beyond) const {
+  void codePlain(Io& io, uint32_t v, const PlainFan& fan, const Beyond* beyond) const {
     Prediction<Wide> prediction;
     predictPlain<Wide>(p_, fan, beyond, records_[v].degree, modes(), prediction);
     codeVertex(io, v, prediction, 1);
@@ -53,6 +53,12 @@ class VertexCoder {
   template <uint32_t kSlot>
   int32_t codeComponent(Io& io, uint32_t v, uint32_t axis, UWide q8, const ScaleEstimate& scale,
                         uint32_t& magnitude) const;
+  template <uint32_t kSlot>
+  int32_t codeNear(Io& io, uint32_t prediction, uint32_t q8, const ScaleEstimate& scale,
+                   int32_t truth) const;
+  template <uint32_t kSlot>
+  int32_t codeRank(Io& io, const AxisPalette& palette, int64_t q8, const ScaleEstimate& scale,
+                   int32_t truth) const;
 
   TokenRow* const rows_;
   const PositionParameters& p_;
@@ -111,7 +117,24 @@ template <uint32_t kSlot>
 int32_t VertexCoder<Io, Wide, kModes>::codeComponent(Io& io, uint32_t v, uint32_t axis, UWide q8,
                                                      const ScaleEstimate& scale,
                                                      uint32_t& magnitude) const {
-  const int32_t prediction = static_cast<int32_t>(static_cast<Wide>(q8 + 128) >> 8);
+  const int32_t truth = Io::kEncoding ? truth_[3 * size_t{v} + axis] : 0;
+  const uint32_t prediction = static_cast<uint32_t>(static_cast<Wide>(q8 + 128) >> 8);
+  int32_t value = 0;
+  if (has(position_mode::kPalette) && p_.palette[axis].count != 0) {
+    value = codeRank<kSlot>(io, p_.palette[axis], static_cast<Wide>(q8), scale, truth);
+  } else {
+    value = codeNear<kSlot>(io, prediction, static_cast<uint32_t>(q8), scale, truth);
+  }
+  const uint32_t residual = static_cast<uint32_t>(value) - prediction;
+  magnitude = static_cast<int32_t>(residual) < 0 ? 0u - residual : residual;
+  return value;
+}
+
+/// An integer near its prediction, whose Q8 form gives the fraction.
+template <class Io, class Wide, uint32_t kModes>
+template <uint32_t kSlot>
+int32_t VertexCoder<Io, Wide, kModes>::codeNear(Io& io, uint32_t prediction, uint32_t q8,
+                                                const ScaleEstimate& scale, int32_t truth) const {
   const uint32_t bucket = scaleBucket(scale.scale);
   uint32_t row = bucket;
   bool folded = false;
@@ -123,16 +146,24 @@ int32_t VertexCoder<Io, Wide, kModes>::codeComponent(Io& io, uint32_t v, uint32_
     row = folded ? kScaleBuckets + kFoldBuckets * folding.fraction_class + bucket : bucket;
   }
   if (has(position_mode::kSplit)) row += scale.set * kRowsPerSet;
-  int32_t residual = 0;
-  if constexpr (Io::kEncoding) {
-    residual = static_cast<int32_t>(static_cast<uint32_t>(truth_[3 * size_t{v} + axis]) -
-                                    static_cast<uint32_t>(prediction));
-  }
-  residual = codeResidual<kSlot>(io, rows_[kSlot * kRowSets * kRowsPerSet + row], bucket, folded,
-                                 flip, residual);
-  const uint32_t bits = static_cast<uint32_t>(residual);
-  magnitude = residual < 0 ? 0u - bits : bits;
-  return static_cast<int32_t>(static_cast<uint32_t>(prediction) + bits);
+  const int32_t target = static_cast<int32_t>(static_cast<uint32_t>(truth) - prediction);
+  const int32_t residual = codeResidual<kSlot>(io, rows_[kSlot * kRowSets * kRowsPerSet + row],
+                                               bucket, folded, flip, target);
+  return static_cast<int32_t>(prediction + static_cast<uint32_t>(residual));
+}
+
+/// The same among the values of a palette: prediction and scale become ranks.
+template <class Io, class Wide, uint32_t kModes>
+template <uint32_t kSlot>
+int32_t VertexCoder<Io, Wide, kModes>::codeRank(Io& io, const AxisPalette& palette, int64_t q8,
+                                                const ScaleEstimate& scale, int32_t truth) const {
+  const int64_t reach = int64_t{16} * scale.scale;
+  const int64_t rank = palette.rankOf(q8);
+  const int64_t width = palette.rankOf(q8 + reach) - palette.rankOf(q8 - reach);
+  const ScaleEstimate of_rank{static_cast<uint32_t>(width >> 5), scale.set};
+  const int32_t true_rank = Io::kEncoding ? static_cast<int32_t>(palette.countUpTo(truth)) - 1 : 0;
+  return palette.valueOf(codeNear<kSlot>(io, static_cast<uint32_t>((rank + 128) >> 8),
+                                         static_cast<uint32_t>(rank), of_rank, true_rank));
 }
 
 /// A vertex without a known face around it: a neighbour's position or the last seed's, scale by earlier seeds. [B.2.7]

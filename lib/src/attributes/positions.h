@@ -60,11 +60,9 @@ class PositionCoder {
           faces_(coder.growth_.faces()),
           records_(coder.records_) {}
     void visit(uint32_t v, const PlainFan& fan) {
-      Beyond beyond;
-      if (vertex_.has(position_mode::kWeights)) {
-        beyond = lookBeyond(faces_, records_, fan, vertex_.has(position_mode::kSelect));
-      }
-      vertex_.codePlain(io_, v, fan, beyond);
+      if (!vertex_.has(position_mode::kWeights)) return vertex_.codePlain(io_, v, fan, nullptr);
+      const Beyond beyond = lookBeyond(faces_, records_, fan, vertex_.has(position_mode::kSelect));
+      vertex_.codePlain(io_, v, fan, &beyond);
     }
     void close(PositionCoder& coder) {
       if constexpr (!Io::kEncoding) coder.io_ = io_;
