@@ -65,7 +65,7 @@ class PieceCoder {
         header_(header),
         attributes_(attributes),
         allocator_(allocator),
-        stage_(io, models.attributes, allocator),
+        stage_(io, models.attributes, attributes, header.attribute_count, allocator),
         histogram_(histogram) {}
 
   Status codeConnectivity(const PieceTruth& truth) {
@@ -155,8 +155,12 @@ class PieceCoder {
 
   /// Codes attribute `index` (not 0) into `values`: codedComponents() per wedge.
   Status codeAttribute(uint32_t index, Array<int32_t>& values) {
-    return stage_.code(attributes_[index], wedges, values);
+    return stage_.code(index, wedges, values);
   }
+
+  /// Grid points of the normals that tangents refer to, and how they are coded.
+  const int32_t* tangentNormals() const { return stage_.normals.data(); }
+  const AttributeInfo& tangentNormalInfo() const { return stage_.normalInfo(); }
 
   bool needsSequence() const {
     return header_.has(piece_flag::kSeams) || header_.attribute_count > 1;
