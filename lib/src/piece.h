@@ -115,6 +115,7 @@ class PieceCoder {
     wedges.isolated_count = header_.isolated_count;
     wedges.isolated_first = surface_wedges;
     if (header_.has(piece_flag::kSeams)) {
+      if (header_.has(piece_flag::kCreases)) MCC_TRY(findCreases());
       Array<uint32_t> starts(allocator_);
       SeamCoder<Io> coder(io_, models_.seams, mesh, groups, header_.has(piece_flag::kMerges),
                           surface_wedges, allocator_, truth.corner_source);
@@ -147,10 +148,9 @@ class PieceCoder {
     if (header_.attribute_count < 2) return {};
     MCC_TRY(stage_.wedges.build(mesh, wedges.half_edges, wedges.count, header_.wedge_count,
                                 header_.has(piece_flag::kSeams) ? wedge_group.data() : nullptr));
-    const auto position = [this](uint32_t wedge) { return records[groupOf(wedge)].q; };
-    return attributes_[0].coding == AttributeCoding::kExactFloat
-               ? floatPredictionPositions(header_.wedge_count, position, stage_.positions)
-               : latticePredictionPositions(header_.wedge_count, position, stage_.positions);
+    return predictionPositions(
+        header_.wedge_count, [this](uint32_t wedge) { return records[groupOf(wedge)].q; },
+        stage_.positions);
   }
 
   /// Codes attribute `index` (not 0) into `values`: codedComponents() per wedge.
@@ -184,6 +184,20 @@ class PieceCoder {
  private:
   static constexpr uint8_t kNarrowBits = 17;         ///< Q8 predictions fit 32 bits up to here
   static constexpr uint8_t kExactPositionBits = 26;  ///< scale the seeds of exact floats start with
+
+  template <class Position>
+  Status predictionPositions(uint32_t count, Position position, Array<float>& out) const {
+    return attributes_[0].coding == AttributeCoding::kExactFloat
+               ? floatPredictionPositions(count, position, out)
+               : latticePredictionPositions(count, position, out);
+  }
+
+  Status findCreases() {
+    Array<float> positions(allocator_);
+    const auto position = [this](uint32_t group) { return records[group].q; };
+    MCC_TRY(predictionPositions(groups.count, position, positions));
+    return classifyCreases(mesh.view(), mesh.face_count, positions.data(), allocator_);
+  }
 
   static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for the decoded mesh"); }
 

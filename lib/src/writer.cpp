@@ -322,6 +322,33 @@ class StageRunner {
     return piece_.prepareAttributes();
   }
 
+  /// The seams without and with creases as contexts; sets the cheaper way. The seams must be coded again.
+  Status chooseCreases(PayloadModels& models) {
+    if (!plan_.header.has(piece_flag::kSeams)) return {};
+    const std::vector<uint32_t> words(piece_.mesh.words.data(),
+                                      piece_.mesh.words.data() + piece_.mesh.words.size());
+    const std::vector<uint32_t> sequence(piece_.sequence.data(),
+                                         piece_.sequence.data() + piece_.sequence.size());
+    const SeamModels before = models.seams;
+    uint64_t cost[2] = {};
+    for (const uint32_t with : {0u, 1u}) {
+      plan_.header.flags =
+          (plan_.header.flags & ~piece_flag::kCreases) | (with != 0 ? piece_flag::kCreases : 0);
+      const uint64_t spent = io_.cost();
+      MCC_TRY(piece_.codeSeams(truth_));
+      cost[with] = io_.cost() - spent;
+      models.seams = before;
+      piece_.wedge_group.clear();
+      piece_.sequence.clear();
+      for (const uint32_t h : sequence) {
+        if (!piece_.sequence.push_back(h)) throw std::bad_alloc();
+      }
+      std::copy(words.begin(), words.end(), piece_.mesh.words.data());
+    }
+    if (cost[0] <= cost[1]) plan_.header.flags &= ~piece_flag::kCreases;
+    return {};
+  }
+
   Status codeAttribute(uint32_t index, StreamSizes* sizes) {
     infos_[index] = plan_.attributes[index].info;
     learnAttribute(plan_, index, values_);
@@ -481,6 +508,7 @@ Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set) {
   });
   MCC_TRY(chosen);
   for (size_t i = 0; i < plans.size(); ++i) {
+    MCC_TRY(runners[i]->chooseCreases(*models));
     MCC_TRY(runners[i]->codeSeams(nullptr));
     for (const uint32_t a : codingOrder(plans[i])) {
       MCC_TRY(chooseAttributeMethod(plans[i], a, *runners[i], *models, io));

@@ -135,6 +135,9 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, u
   MCC_TRY(in.readVarint(piece.flags));
   if ((piece.flags & ~piece_flag::kAll) != 0)
     return fail(Error::kBadHeader, "reserved bits are set", at);
+  if (piece.has(piece_flag::kCreases) && !piece.has(piece_flag::kSeams)) {
+    return fail(Error::kBadHeader, "a piece without seams has creases", at);
+  }
   uint32_t zigzagged = 0;
   MCC_TRY(in.readVarint(piece.vertex_count));
   MCC_TRY(in.readVarint(piece.face_count));

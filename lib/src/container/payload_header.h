@@ -43,7 +43,8 @@ inline constexpr uint32_t kMerges = 1u << 7;
 inline constexpr uint32_t kIsolated = 1u << 8;
 inline constexpr uint32_t kDuplicates = 1u << 9;
 inline constexpr uint32_t kListed = 1u << 10;
-inline constexpr uint32_t kAll = 0x7ff;
+inline constexpr uint32_t kCreases = 1u << 11;
+inline constexpr uint32_t kAll = 0xfff;
 }  // namespace piece_flag
 
 /// Bits of AttributeInfo::predictor of a position.
