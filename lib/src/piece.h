@@ -66,7 +66,7 @@ class PieceCoder {
         header_(header),
         attributes_(attributes),
         allocator_(allocator),
-        stage_(io, models.attributes, allocator),
+        stage_(io, models.attributes, attributes, header.attribute_count, allocator),
         histogram_(histogram) {}
 
   Status codeConnectivity(const PieceTruth& truth) {
@@ -120,6 +120,7 @@ class PieceCoder {
     wedges.isolated_count = header_.isolated_count;
     wedges.isolated_first = surface_wedges;
     if (header_.has(piece_flag::kSeams)) {
+      if (header_.has(piece_flag::kCreases)) MCC_TRY(findCreases());
       Array<uint32_t> starts(allocator_);
       SeamCoder<Io> coder(io_, models_.seams, mesh, groups, header_.has(piece_flag::kMerges),
                           surface_wedges, allocator_, truth.corner_source);
@@ -158,10 +159,9 @@ class PieceCoder {
     if (header_.attribute_count < 2) return {};
     MCC_TRY(stage_.wedges.build(mesh, wedges.half_edges, wedges.count, header_.wedge_count,
                                 header_.has(piece_flag::kSeams) ? wedge_group.data() : nullptr));
-    const auto position = [this](uint32_t wedge) { return records[groupOf(wedge)].q; };
-    return attributes_[0].coding == AttributeCoding::kExactFloat
-               ? floatPredictionPositions(header_.wedge_count, position, stage_.positions)
-               : latticePredictionPositions(header_.wedge_count, position, stage_.positions);
+    return predictionPositions(
+        header_.wedge_count, [this](uint32_t wedge) { return records[groupOf(wedge)].q; },
+        stage_.positions);
   }
 
   static void describePositions(const AttributeInfo& info, PositionParameters& p) {
@@ -192,8 +192,12 @@ class PieceCoder {
 
   /// Codes attribute `index` (not 0) into `values`: codedComponents() per wedge.
   Status codeAttribute(uint32_t index, Array<int32_t>& values) {
-    return stage_.code(attributes_[index], wedges, values);
+    return stage_.code(index, wedges, values);
   }
+
+  /// Grid points of the normals that tangents refer to, and how they are coded.
+  const int32_t* tangentNormals() const { return stage_.normals.data(); }
+  const AttributeInfo& tangentNormalInfo() const { return stage_.normalInfo(); }
 
   bool needsSequence() const {
     return header_.has(piece_flag::kSeams) || header_.attribute_count > 1;
@@ -223,6 +227,20 @@ class PieceCoder {
     return PositionCoder<Io, Wide, kModes>(io_, models_.positions, parameters, mesh, groups,
                                            records.data(), allocator_, truth.positions)
         .run(needsSequence() ? sequence.data() : nullptr, header_.isolated_count);
+  }
+
+  template <class Position>
+  Status predictionPositions(uint32_t count, Position position, Array<float>& out) const {
+    return attributes_[0].coding == AttributeCoding::kExactFloat
+               ? floatPredictionPositions(count, position, out)
+               : latticePredictionPositions(count, position, out);
+  }
+
+  Status findCreases() {
+    Array<float> positions(allocator_);
+    const auto position = [this](uint32_t group) { return records[group].q; };
+    MCC_TRY(predictionPositions(groups.count, position, positions));
+    return classifyCreases(mesh.view(), mesh.face_count, positions.data(), allocator_);
   }
 
   static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for the decoded mesh"); }

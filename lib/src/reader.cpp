@@ -79,6 +79,36 @@ void storeElements(const AttributeInfo& info, uint32_t wedge_count, const Attrib
   }
 }
 
+/// Tangents from angles in the planes of their normals. [A.8.7]
+void storeTangents(const AttributeInfo& info, const int32_t* values,
+                   const AttributeInfo& normal_info, const int32_t* normals, uint32_t wedge_count,
+                   const AttributeTarget& target) {
+  const int32_t centre = octahedralCentre(normal_info.bits);
+  uint8_t* to = static_cast<uint8_t*>(target.data);
+  for (uint32_t w = 0; w < wedge_count; ++w, to += target.stride_bytes) {
+    float normal[3];
+    float tangent[3];
+    octahedralToUnit(normals[2 * size_t{w}], normals[2 * size_t{w} + 1], centre, normal);
+    tangentFromAngle(normal, values[2 * size_t{w}], info.bits, tangent);
+    for (uint32_t c = 0; c < 3; ++c) storeFloat(to + 4 * c, tangent[c]);
+    storeFloat(to + 12, values[2 * size_t{w} + 1] != 0 ? -1.0f : 1.0f);
+  }
+}
+
+template <class Io>
+void storeAttribute(const PieceCoder<Io>& piece, const AttributeInfo& info, const int32_t* values,
+                    uint32_t wedge_count, const AttributeTarget& target) {
+  if (target.data == nullptr) return;
+  if (info.coding == AttributeCoding::kTangentAngle) {
+    storeTangents(info, values, piece.tangentNormalInfo(), piece.tangentNormals(), wedge_count,
+                  target);
+  } else {
+    const uint32_t components = codedComponents(info);
+    storeElements(info, wedge_count, target,
+                  [=](uint32_t w) { return values + size_t{w} * components; });
+  }
+}
+
 template <class Io>
 void storePositions(const PieceCoder<Io>& piece, const AttributeInfo& info, uint32_t wedge_count,
                     const AttributeTarget& target) {
@@ -196,11 +226,13 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
   MCC_TRY(storeTriangles(piece, info.parts, target.parts, allocator));
   Array<int32_t> values(allocator);
   MCC_TRY(piece.prepareAttributes());
-  for (uint32_t a = 1; a < info.attributes.size(); ++a) {
-    MCC_TRY(piece.codeAttribute(a, values));
-    const uint32_t components = codedComponents(info.attributes[a]);
-    storeElements(info.attributes[a], info.wedge_count, target.attributes[a],
-                  [&](uint32_t w) { return values.data() + size_t{w} * components; });
+  for (uint32_t phase = 0; phase < kCodingPhases; ++phase) {
+    for (uint32_t a = 1; a < info.attributes.size(); ++a) {
+      if (codingPhase(info.attributes[a]) != phase) continue;
+      MCC_TRY(piece.codeAttribute(a, values));
+      storeAttribute(piece, info.attributes[a], values.data(), info.wedge_count,
+                     target.attributes[a]);
+    }
   }
   return {};
 }

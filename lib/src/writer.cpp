@@ -143,12 +143,32 @@ void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_ed
   if (h.has(piece_flag::kSeams) && run_count > surface_wedges) h.flags |= piece_flag::kMerges;
 }
 
+/// Tangents last: they need to know what became of the normals.
+void quantizeAll(const PieceView& view, Plan& plan, std::vector<std::string>& notes) {
+  const auto isTangent = [](const AttributeView& a) {
+    return a.format.semantic == Semantic::kTangent && a.format.morph_target == 0;
+  };
+  plan.attributes.resize(view.attributes.size());
+  size_t normal = view.attributes.size();
+  for (size_t i = view.attributes.size(); i-- != 0;) {
+    if (isTangent(view.attributes[i])) continue;
+    plan.attributes[i] =
+        quantizeAttribute(view.attributes[i], view.wedge_count, nullptr, nullptr, notes);
+    if (plan.attributes[i].info.coding == AttributeCoding::kOctahedral) normal = i;
+  }
+  const bool has_normal = normal != view.attributes.size();
+  for (size_t i = 0; i < view.attributes.size(); ++i) {
+    if (!isTangent(view.attributes[i])) continue;
+    plan.attributes[i] = quantizeAttribute(view.attributes[i], view.wedge_count,
+                                           has_normal ? &view.attributes[normal] : nullptr,
+                                           has_normal ? &plan.attributes[normal] : nullptr, notes);
+  }
+}
+
 Status preparePiece(const PieceView& view, Plan& plan, std::vector<std::string>& notes) {
   MCC_TRY(checkPiece(view));
   plan.view = &view;
-  for (const AttributeView& a : view.attributes) {
-    plan.attributes.push_back(quantizeAttribute(a, view.wedge_count, notes));
-  }
+  quantizeAll(view, plan, notes);
   plan.classes = weldPositions(view.attributes[0], view.wedge_count,
                                plan.attributes[0].info.coding == AttributeCoding::kExactFloat);
   plan.triangles = sortTriangles(view.parts, view.wedge_count);
@@ -319,9 +339,11 @@ void learnAttribute(const Plan& plan, uint32_t index, Array<int32_t>& values) {
 template <class Io>
 class StageRunner {
  public:
-  StageRunner(Io& io, PayloadModels& models, Plan& plan)
+  /// `first_attribute`: number of attributes of the payload before this piece's.
+  StageRunner(Io& io, PayloadModels& models, Plan& plan, size_t first_attribute = 0)
       : io_(io),
         plan_(plan),
+        first_attribute_(first_attribute),
         infos_(infosOf(plan)),
         piece_(io, models, plan.header, infos_.data(), {}) {}
 
@@ -377,11 +399,38 @@ class StageRunner {
     return piece_.prepareAttributes();
   }
 
+  /// The seams without and with creases as contexts; sets the cheaper way. The seams must be coded again.
+  Status chooseCreases(PayloadModels& models) {
+    if (!plan_.header.has(piece_flag::kSeams)) return {};
+    const std::vector<uint32_t> words(piece_.mesh.words.data(),
+                                      piece_.mesh.words.data() + piece_.mesh.words.size());
+    const std::vector<uint32_t> sequence(piece_.sequence.data(),
+                                         piece_.sequence.data() + piece_.sequence.size());
+    const SeamModels before = models.seams;
+    uint64_t cost[2] = {};
+    for (const uint32_t with : {0u, 1u}) {
+      plan_.header.flags =
+          (plan_.header.flags & ~piece_flag::kCreases) | (with != 0 ? piece_flag::kCreases : 0);
+      const uint64_t spent = io_.cost();
+      MCC_TRY(piece_.codeSeams(truth_));
+      cost[with] = io_.cost() - spent;
+      models.seams = before;
+      piece_.wedge_group.clear();
+      piece_.sequence.clear();
+      for (const uint32_t h : sequence) {
+        if (!piece_.sequence.push_back(h)) throw std::bad_alloc();
+      }
+      std::copy(words.begin(), words.end(), piece_.mesh.words.data());
+    }
+    if (cost[0] <= cost[1]) plan_.header.flags &= ~piece_flag::kCreases;
+    return {};
+  }
+
   Status codeAttribute(uint32_t index, StreamSizes* sizes) {
     infos_[index] = plan_.attributes[index].info;
     learnAttribute(plan_, index, values_);
     MCC_TRY(piece_.codeAttribute(index, values_));
-    if (sizes != nullptr) sizes->attribute_bits.push_back(since());
+    if (sizes != nullptr) sizes->attribute_bits[first_attribute_ + index] = since();
     return {};
   }
 
@@ -404,12 +453,23 @@ class StageRunner {
 
   Io& io_;
   Plan& plan_;
+  const size_t first_attribute_;
   std::vector<AttributeInfo> infos_;
   PieceCoder<Io> piece_;
   PieceTruth truth_;
   Array<int32_t> values_;
   uint64_t cost_before_ = io_.cost();
 };
+
+std::vector<uint32_t> codingOrder(const Plan& plan) {
+  std::vector<uint32_t> order;
+  for (uint32_t phase = 0; phase < kCodingPhases; ++phase) {
+    for (uint32_t a = 1; a < plan.attributes.size(); ++a) {
+      if (codingPhase(plan.attributes[a].info) == phase) order.push_back(a);
+    }
+  }
+  return order;
+}
 
 std::unique_ptr<PayloadModels> makeModels(uint32_t context_set) {
   auto models = std::make_unique<PayloadModels>(Allocator{});
@@ -535,8 +595,9 @@ Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t 
   MCC_TRY(choosePositions(plans, runners, effort));
   for (size_t i = 0; i < plans.size(); ++i) MCC_TRY(runners[i]->codePositions(nullptr));
   for (size_t i = 0; i < plans.size(); ++i) {
+    MCC_TRY(runners[i]->chooseCreases(*models));
     MCC_TRY(runners[i]->codeSeams(nullptr));
-    for (uint32_t a = 1; a < plans[i].attributes.size(); ++a) {
+    for (const uint32_t a : codingOrder(plans[i])) {
       MCC_TRY(chooseAttributeMethod(plans[i], a, *runners[i], *models, io));
     }
   }
@@ -554,13 +615,12 @@ Status codeAll(std::vector<Plan>& plans, uint32_t context_set, bool single, Enco
   result.sizes = StreamSizes{};
   result.pieces.clear();
   for (Plan& plan : plans) {
-    StageRunner<EncoderIo> runner(io, *models, plan);
+    StageRunner<EncoderIo> runner(io, *models, plan, header.attributes.size());
+    result.sizes.attribute_bits.resize(header.attributes.size() + plan.attributes.size(), 0);
     MCC_TRY(runner.codeSurface(&result.sizes));
     MCC_TRY(runner.codePositions(&result.sizes));
     MCC_TRY(runner.codeSeams(&result.sizes));
-    result.sizes.attribute_bits.push_back(0);
-    for (uint32_t a = 1; a < plan.attributes.size(); ++a)
-      MCC_TRY(runner.codeAttribute(a, &result.sizes));
+    for (const uint32_t a : codingOrder(plan)) MCC_TRY(runner.codeAttribute(a, &result.sizes));
 
     plan.header.first_attribute = static_cast<uint32_t>(header.attributes.size());
     plan.header.first_part = static_cast<uint32_t>(header.parts.size());

@@ -8,6 +8,7 @@
 
 #include "attributes/equality.h"
 #include "attributes/normals.h"
+#include "attributes/tangents.h"
 #include "attributes/texcoords.h"
 #include "attributes/values.h"
 #include "attributes/wedges.h"
@@ -20,6 +21,7 @@ struct AttributeModels {
   EqualityModels equalities[8];  ///< [semantic]
   NormalModels normals;
   TexcoordModels texcoords[2];  ///< [further set]
+  TangentModels tangents;
   ValueModels values[8][2][2];  ///< [semantic][further set][morph target]
 
   EqualityModels& equalitiesOf(const AttributeInfo& a) {
@@ -33,25 +35,39 @@ struct AttributeModels {
 
 /// Integers per wedge that an attribute is coded as.
 inline uint32_t codedComponents(const AttributeInfo& info) {
-  return info.coding == AttributeCoding::kOctahedral ? 2 : info.format.component_count;
+  const bool pairs =
+      info.coding == AttributeCoding::kOctahedral || info.coding == AttributeCoding::kTangentAngle;
+  return pairs ? 2 : info.format.component_count;
 }
 
 template <class Io>
 class AttributeStage {
  public:
-  AttributeStage(Io& io, AttributeModels& models, const Allocator& allocator)
+  /// `attributes` of the piece, its position first.
+  AttributeStage(Io& io, AttributeModels& models, const AttributeInfo* attributes,
+                 uint32_t attribute_count, const Allocator& allocator)
       : wedges(allocator),
         positions(allocator),
+        normals(allocator),
         io_(io),
         models_(models),
+        attributes_(attributes),
+        normal_(normalOfTangents(attributes, attribute_count)),
+        chart_(chartOfTangents(attributes, attribute_count)),
         groups_(allocator),
         floats_(allocator),
+        chart_coordinates_(allocator),
         memory_(allocator),
-        lengths_(allocator) {}
+        lengths_(allocator) {
+    for (uint32_t i = 1; i < attribute_count; ++i) {
+      has_tangents_ |= attributes[i].coding == AttributeCoding::kTangentAngle;
+    }
+  }
 
-  /// Codes one attribute into `values`, codedComponents() per wedge; the encoder gives them. `sequence` is the order
-  /// for attributes/values.h.
-  Status code(const AttributeInfo& info, const WedgeSequence& sequence, Array<int32_t>& values) {
+  /// Codes attribute `index` into `values`, codedComponents() per wedge; the encoder gives them. `sequence` is the
+  /// order for attributes/values.h.
+  Status code(uint32_t index, const WedgeSequence& sequence, Array<int32_t>& values) {
+    const AttributeInfo& info = attributes_[index];
     const uint32_t components = codedComponents(info);
     if (!values.resize(size_t{wedges.count} * components) || !lengths_.resize(wedges.count)) {
       return noMemory();
@@ -62,21 +78,9 @@ class AttributeStage {
                   .run(groups_));
     }
     switch (methodOf(info)) {
-      case AttributeMethod::kNormal:
-        if (!floats_.resize(3 * size_t{wedges.count})) return noMemory();
-        NormalCoder<Io>(io_, models_.normals, wedges, groups_, info, values.data(), floats_.data(),
-                        lengths_.data())
-            .run(positions.data());
-        break;
-      case AttributeMethod::kTexcoord: {
-        const bool repeats = (info.predictor & texcoord_method::kRepeats) != 0;
-        if (repeats && !memory_.assign(ResidualMemory::kEntries, {})) return noMemory();
-        TexcoordCoder<Io>(io_, models_.texcoords[info.format.set_index != 0 ? 1 : 0], wedges,
-                          groups_, info, positions.data(), values.data(), lengths_.data(),
-                          repeats ? memory_.data() : nullptr)
-            .run();
-        break;
-      }
+      case AttributeMethod::kNormal: MCC_TRY(codeNormals(info, values.data())); break;
+      case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(info, values.data())); break;
+      case AttributeMethod::kTangent: MCC_TRY(codeTangents(info, values.data())); break;
       case AttributeMethod::kValues:
         ValueCoder<Io>(io_, models_.valuesOf(info), wedges.faces, sequence, components,
                        static_cast<ValuePredictor>(info.predictor & 1), values.data(),
@@ -85,20 +89,69 @@ class AttributeStage {
         break;
     }
     if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside an attribute");
-    return {};
+    return has_tangents_ ? keepForTangents(index, values) : Status{};
   }
+
+  const AttributeInfo& normalInfo() const { return attributes_[normal_]; }
 
   WedgeMesh wedges;
   Array<float>
       positions;  ///< 4 per wedge, see wedges.h; only when an attribute is predicted from them
+  Array<int32_t> normals;  ///< 2 per wedge, only with tangents
 
  private:
   static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for attributes"); }
 
+  Status codeNormals(const AttributeInfo& info, int32_t* values) {
+    if (!floats_.resize(3 * size_t{wedges.count})) return noMemory();
+    NormalCoder<Io>(io_, models_.normals, wedges, groups_, info, values, floats_.data(),
+                    lengths_.data())
+        .run(positions.data());
+    return {};
+  }
+
+  Status codeTexcoords(const AttributeInfo& info, int32_t* values) {
+    const bool repeats = (info.predictor & texcoord_method::kRepeats) != 0;
+    if (repeats && !memory_.assign(ResidualMemory::kEntries, {})) return noMemory();
+    TexcoordCoder<Io>(io_, models_.texcoords[info.format.set_index != 0 ? 1 : 0], wedges, groups_,
+                      info, positions.data(), values, lengths_.data(),
+                      repeats ? memory_.data() : nullptr)
+        .run();
+    return {};
+  }
+
+  Status codeTangents(const AttributeInfo& info, int32_t* values) {
+    if (!floats_.assign(4 * size_t{wedges.count}, 0.0f)) return noMemory();
+    if (chart_ != kNone) {
+      addFaceTangents(wedges, positions.data(), chart_coordinates_.data(), floats_.data());
+    }
+    TangentCoder<Io>(io_, models_.tangents, wedges, groups_, info, normalInfo(), normals.data(),
+                     floats_.data(), values, lengths_.data())
+        .run();
+    return {};
+  }
+
+  Status keepForTangents(uint32_t index, const Array<int32_t>& values) {
+    if (index == normal_) {
+      if (!normals.resize(values.size())) return noMemory();
+      std::copy(values.data(), values.data() + values.size(), normals.data());
+    }
+    if (index == chart_) {
+      if (!chart_coordinates_.resize(values.size())) return noMemory();
+      chartCoordinates(attributes_[index], values.data(), values.size(), chart_coordinates_.data());
+    }
+    return {};
+  }
+
   Io& io_;
   AttributeModels& models_;
+  const AttributeInfo* const attributes_;
+  const uint32_t normal_;
+  const uint32_t chart_;
+  bool has_tangents_ = false;
   EqualGroups groups_;
   Array<float> floats_;
+  Array<float> chart_coordinates_;  ///< 2 per wedge, only with tangents
   Array<ResidualMemory::Entry> memory_;
   Array<uint8_t> lengths_;
 };

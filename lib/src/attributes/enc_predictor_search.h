@@ -27,6 +27,10 @@ class PredictorSearch {
         steps_ = {{texcoord_method::kPredictorMask, {0, 1, 3, 2, 4}},
                   {texcoord_method::kRepeats, {texcoord_method::kRepeats}}};
         break;
+      case AttributeMethod::kTangent:
+        best_ = has_seams ? kHasEqualities : 0;
+        steps_ = {{0, {0}}};
+        break;
       case AttributeMethod::kValues: steps_ = {{1, {0, 1}}}; break;
     }
     if (has_seams && best_ >= kHasEqualities) steps_.push_back({kHasEqualities, {0}});

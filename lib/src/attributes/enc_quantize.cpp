@@ -9,16 +9,24 @@
 #include "attributes/dequantize.h"
 #include "attributes/normals.h"
 #include "attributes/octahedral.h"
+#include "attributes/tangents.h"
 
 namespace mcc {
 namespace {
 
 constexpr double kUnitTolerance = 0.01;
+constexpr double kPerpendicularTolerance =
+    0.002;  ///< cosine between tangent and normal, 0.11 degrees
 
 class Quantizer {
  public:
-  Quantizer(const AttributeView& view, uint32_t wedge_count)
-      : view_(view), count_(wedge_count), components_(view.format.component_count) {}
+  Quantizer(const AttributeView& view, uint32_t wedge_count, const AttributeView* normal_view,
+            const QuantizedAttribute* normal)
+      : view_(view),
+        count_(wedge_count),
+        components_(view.format.component_count),
+        normal_view_(normal_view),
+        normal_(normal) {}
 
   QuantizedAttribute run(std::vector<std::string>& notes) {
     result_.info.format = view_.format;
@@ -35,6 +43,9 @@ class Quantizer {
     if (is_base_normal && view_.quantization_bits >= 2) {
       if (allUnit()) return toOctahedral();
       notes.push_back(name() + " is not of unit length: coded by components");
+    }
+    if (normal_ != nullptr && view_.quantization_bits >= 2 && isTangentFrame()) {
+      return toTangentAngles();
     }
     return toLattice(notes);
   }
@@ -198,17 +209,85 @@ class Quantizer {
     }
   }
 
+  /// Unit vectors perpendicular to the normals, with a sign of 1 or -1.
+  bool isTangentFrame() const {
+    if (components_ != 4 || !allUnit()) return false;
+    for (uint32_t w = 0; w < count_; ++w) {
+      const float sign = component(w, 3);
+      if (sign != 1.0f && sign != -1.0f) return false;
+      double dot = 0;
+      for (uint32_t c = 0; c < 3; ++c) {
+        float n = 0;
+        std::memcpy(&n,
+                    static_cast<const uint8_t*>(normal_view_->data) +
+                        normal_view_->stride_bytes * w + 4 * c,
+                    4);
+        dot += double{n} * component(w, c);
+      }
+      if (std::fabs(dot) > kPerpendicularTolerance) return false;
+    }
+    return true;
+  }
+
+  QuantizedAttribute toTangentAngles() {
+    result_.info.coding = AttributeCoding::kTangentAngle;
+    result_.info.bits = std::clamp<uint8_t>(view_.quantization_bits, 2, 16);
+    result_.components = 2;
+    result_.values.resize(size_t{count_} * 2);
+    for (uint32_t w = 0; w < count_; ++w) {
+      const int32_t* point = &normal_->values[size_t{w} * 2];
+      float normal[3];
+      octahedralToUnit(point[0], point[1], octahedralCentre(normal_->info.bits), normal);
+      const float tangent[3] = {component(w, 0), component(w, 1), component(w, 2)};
+      result_.values[size_t{w} * 2] = nearestAngle(normal, tangent);
+      result_.values[size_t{w} * 2 + 1] = component(w, 3) < 0 ? 1 : 0;
+    }
+    return std::move(result_);
+  }
+
+  /// The polynomial's angle or one of its neighbours, whichever decodes closest.
+  int32_t nearestAngle(const float* normal, const float* tangent) const {
+    const uint32_t bits = result_.info.bits;
+    float e1[3];
+    float e2[3];
+    tangentFrame(normal, e1, e2);
+    float x = 0;
+    float y = 0;
+    for (int s = 0; s < 3; ++s) {
+      x += tangent[s] * e1[s];
+      y += tangent[s] * e2[s];
+    }
+    const float steps = static_cast<float>(uint32_t{1} << bits) * 0.159154943f * planeAngle(y, x);
+    const int32_t middle = static_cast<int32_t>(std::floor(steps + 0.5f));
+    int32_t best = 0;
+    double best_dot = -2;
+    for (int32_t angle = middle - 1; angle <= middle + 1; ++angle) {
+      float unit[3];
+      tangentFromAngle(normal, angle, bits, unit);
+      double dot = 0;
+      for (int s = 0; s < 3; ++s) dot += double{unit[s]} * tangent[s];
+      if (dot <= best_dot) continue;
+      best_dot = dot;
+      best = angle & static_cast<int32_t>((uint32_t{1} << bits) - 1);
+    }
+    return best;
+  }
+
   const AttributeView& view_;
   const uint32_t count_;
   const uint32_t components_;
+  const AttributeView* const normal_view_;
+  const QuantizedAttribute* const normal_;
   QuantizedAttribute result_;
 };
 
 }  // namespace
 
 QuantizedAttribute quantizeAttribute(const AttributeView& view, uint32_t wedge_count,
+                                     const AttributeView* normal_view,
+                                     const QuantizedAttribute* normal,
                                      std::vector<std::string>& notes) {
-  return Quantizer(view, wedge_count).run(notes);
+  return Quantizer(view, wedge_count, normal_view, normal).run(notes);
 }
 
 }  // namespace mcc

@@ -10,15 +10,16 @@
 #include <cstdint>
 #include <cstring>
 
+#include "attributes/creases.h"
 #include "attributes/wedges.h"
 #include "entropy/models.h"
 
 namespace mcc {
 
 struct EqualityModels {
-  BitModel previous[4]
-                   [3];  ///< [other end of the seam][answer before at this vertex: none, no, yes]
-  BitModel first[4];
+  /// [other end of the seam][answer before at this vertex: none, no, yes][crease]
+  BitModel previous[4][3][kCreaseClasses];
+  BitModel first[4];  ///< [other end of the seam]
 };
 
 template <class Io>
@@ -43,7 +44,9 @@ class EqualityCoder {
         continue;
       }
       const uint32_t other_end = otherEnd(groups, w);
-      const bool equal = io_.bit(models_.previous[other_end][answer_before], isEqual(w - 1, w));
+      const uint32_t crease = creaseClass(wedges_.faces, wedges_.startOf(w));
+      const bool equal =
+          io_.bit(models_.previous[other_end][answer_before][crease], isEqual(w - 1, w));
       answer_before = equal ? 2 : 1;
       if (equal) {
         join(groups, w - 1, w);

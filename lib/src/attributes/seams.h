@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "attributes/creases.h"
 #include "base/memory.h"
 #include "entropy/models.h"
 #include "entropy/numbers.h"
@@ -21,9 +22,11 @@
 namespace mcc {
 
 struct SeamModels {
-  BitModel has_seam[4][2];  ///< [seam ends known on the ring][boundary]
-  BitModel edge[3][3][2];   ///< [other end: unknown, no, yes][seam ends so far][boundary]
-  BitModel merge[2][4];     ///< [first run of its umbrella][candidates]
+  /// [seam ends known on the ring][boundary][sharpest crease]
+  BitModel has_seam[4][2][kCreaseClasses];
+  /// [other end: unknown, no, yes][seam ends so far][boundary][crease]
+  BitModel edge[3][3][2][kCreaseClasses];
+  BitModel merge[2][4];  ///< [first run of its umbrella][candidates]
   GolombModel merge_with;
 };
 
@@ -145,14 +148,17 @@ void SeamCoder<Io>::codeSeamEnds() {
   const uint32_t boundary = closed_ ? 0 : 1;
   const uint32_t needed = closed_ ? 2 : 1;  // seam ends of an umbrella that has any
   uint32_t known_ends = 0;
+  uint32_t sharpest = 0;
   for (uint32_t i = closed_ ? 0 : 1; i < n; ++i) {
+    sharpest = std::max(sharpest, creaseClass(faces_, fan_[i]));
     known_ends += seamState(faces_, faces_.twin(fan_[i])) == 2 ? 1 : 0;
   }
   bool any = false;
   if constexpr (Io::kEncoding) {
     for (uint32_t i = 1; i < n; ++i) any |= source(fan_[i]) != source(fan_[0]);
   }
-  any = edges >= needed && io_.bit(models_.has_seam[std::min(known_ends, 3u)][boundary], any);
+  any = edges >= needed &&
+        io_.bit(models_.has_seam[std::min(known_ends, 3u)][boundary][sharpest], any);
   uint32_t ends = 0;
   for (uint32_t k = 1; k <= edges; ++k) {
     const uint32_t i = k == n ? 0 : k;
@@ -164,7 +170,8 @@ void SeamCoder<Io>::codeSeamEnds() {
         bool truth = false;
         if constexpr (Io::kEncoding)
           truth = source(fan_[i]) != source(fan_[i == 0 ? n - 1 : i - 1]);
-        seam = io_.bit(models_.edge[other][std::min(ends, 2u)][boundary], truth);
+        const uint32_t crease = creaseClass(faces_, fan_[i]);
+        seam = io_.bit(models_.edge[other][std::min(ends, 2u)][boundary][crease], truth);
       }
     }
     ends += seam ? 1 : 0;

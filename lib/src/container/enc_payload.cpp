@@ -24,7 +24,8 @@ void writeAttribute(ByteWriter& out, const AttributeInfo& a) {
     out.writeU8(a.bits);
     out.writeF32(a.lattice.step);
     for (uint32_t c = 0; c < f.component_count; ++c) out.writeF32(a.lattice.origin[c]);
-  } else if (a.coding == AttributeCoding::kOctahedral) {
+  } else if (a.coding == AttributeCoding::kOctahedral ||
+             a.coding == AttributeCoding::kTangentAngle) {
     out.writeU8(a.bits);
   }
 }

@@ -46,7 +46,7 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
       return fail(Error::kBadHeader, "a morph target number is out of range", at);
     a.format.morph_target = static_cast<uint16_t>(target);
   }
-  if ((shape >> 4) > static_cast<uint8_t>(AttributeCoding::kOctahedral)) {
+  if ((shape >> 4) > static_cast<uint8_t>(AttributeCoding::kTangentAngle)) {
     return fail(Error::kBadHeader, "an attribute has an unknown coding", at);
   }
   a.coding = static_cast<AttributeCoding>(shape >> 4);
@@ -71,6 +71,13 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
     MCC_TRY(in.readU8(a.bits));
     if (a.bits < 2 || a.bits > 16 || a.format.component_count != 3) {
       return fail(Error::kBadHeader, "an octahedral attribute is malformed", at);
+    }
+  }
+  if (a.coding == AttributeCoding::kTangentAngle) {
+    MCC_TRY(in.readU8(a.bits));
+    if (a.bits < 2 || a.bits > 16 || a.format.component_count != 4 ||
+        a.format.semantic != Semantic::kTangent || a.format.morph_target != 0) {
+      return fail(Error::kBadHeader, "a tangent attribute is malformed", at);
     }
   }
   if (!isBasePosition(a) && !isKnownPredictor(a)) {
@@ -106,9 +113,16 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
     if (!header.attributes.push_back(a))
       return fail(Error::kOutOfMemory, "no memory for the header");
   }
+  const AttributeInfo* const all = &header.attributes[piece.first_attribute];
+  for (uint32_t i = 0; i < piece.attribute_count; ++i) {
+    if (all[i].coding == AttributeCoding::kTangentAngle &&
+        normalOfTangents(all, piece.attribute_count) == kNone) {
+      return fail(Error::kBadHeader, "tangents refer to normals that are not there", at);
+    }
+  }
   const AttributeInfo& position = header.attributes[piece.first_attribute];
   if (!isBasePosition(position) || position.format.component_count != 3 ||
-      position.coding == AttributeCoding::kOctahedral) {
+      position.coding > AttributeCoding::kExactFloat) {
     return fail(Error::kBadHeader, "the first attribute of a piece is not its position", at);
   }
   if ((position.predictor & position_flag::kPredictorMask) >= position_flag::kPredictorCount) {
@@ -124,6 +138,9 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, u
   MCC_TRY(in.readVarint(piece.flags));
   if ((piece.flags & ~piece_flag::kAll) != 0)
     return fail(Error::kBadHeader, "reserved bits are set", at);
+  if (piece.has(piece_flag::kCreases) && !piece.has(piece_flag::kSeams)) {
+    return fail(Error::kBadHeader, "a piece without seams has creases", at);
+  }
   uint32_t zigzagged = 0;
   MCC_TRY(in.readVarint(piece.vertex_count));
   MCC_TRY(in.readVarint(piece.face_count));

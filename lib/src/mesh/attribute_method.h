@@ -15,10 +15,36 @@ enum class AttributeMethod : uint8_t {
   kValues,    ///< attributes/values.h
   kNormal,    ///< attributes/normals.h
   kTexcoord,  ///< attributes/texcoords.h
+  kTangent,   ///< attributes/tangents.h
 };
+
+/// The attribute of a piece that gives tangents their plane: the first NORMAL on the octahedral grid; or kNone.
+constexpr uint32_t normalOfTangents(const AttributeInfo* attributes, uint32_t count) {
+  for (uint32_t i = 0; i < count; ++i) {
+    if (attributes[i].coding == AttributeCoding::kOctahedral) return i;
+  }
+  return kNone;
+}
+
+/// The attribute of a piece that gives tangents their direction: the first TEXCOORD; or kNone.
+constexpr uint32_t chartOfTangents(const AttributeInfo* attributes, uint32_t count) {
+  for (uint32_t i = 0; i < count; ++i) {
+    const AttributeFormat& f = attributes[i].format;
+    if (f.semantic == Semantic::kTexcoord && f.morph_target == 0 && f.component_count == 2)
+      return i;
+  }
+  return kNone;
+}
+
+/// Attributes are coded in the order of their phases, within a phase in that of the header. [A.8.1]
+inline constexpr uint32_t kCodingPhases = 2;
+constexpr uint32_t codingPhase(const AttributeInfo& a) {
+  return a.coding == AttributeCoding::kTangentAngle ? 1 : 0;  // behind normals and charts
+}
 
 constexpr AttributeMethod methodOf(const AttributeInfo& a) {
   if (a.coding == AttributeCoding::kOctahedral) return AttributeMethod::kNormal;
+  if (a.coding == AttributeCoding::kTangentAngle) return AttributeMethod::kTangent;
   const bool is_base = a.format.morph_target == 0;
   const bool is_float = a.coding == AttributeCoding::kExactFloat;
   if (a.format.semantic == Semantic::kTexcoord && is_base && !is_float &&
@@ -49,6 +75,7 @@ constexpr bool isKnownPredictor(const AttributeInfo& a) {
     case AttributeMethod::kNormal:
       return (bits & ~0x0f) == 0 && (bits & normal_method::kWeightMask) != 3 &&
              (bits & normal_method::kBlendMask) != normal_method::kBlendMask;
+    case AttributeMethod::kTangent: return bits == 0;
     case AttributeMethod::kTexcoord:
       return (bits & ~0x0f) == 0 && (bits & texcoord_method::kPredictorMask) < 5;
   }
