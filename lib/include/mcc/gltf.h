@@ -169,9 +169,9 @@ struct InspectReport {
 Result convertGlb(std::span<const uint8_t> source, const ConvertOptions& options,
                   std::vector<uint8_t>& output, ConvertReport& report);
 
-/// The same over files; `source` may be a .gltf with its buffers and images beside it, `output` is a
-/// .glb. The output is written to a temporary file in its folder, read back, checked, and renamed:
-/// on an error an existing output is as it was. Both paths may name the same file.
+/// The same over files; `source` may be a .gltf with its buffers and images beside it, `output` is
+/// a .glb. The output is written to a temporary file in its folder, read back, checked, and
+/// renamed: on an error an existing output is as it was. Both paths may name the same file.
 Result convertFile(const std::filesystem::path& source, const std::filesystem::path& output,
                    const ConvertOptions& options, ConvertReport& report);
 

@@ -194,15 +194,21 @@ class Quantizer {
     }
     const int32_t s0 = static_cast<int32_t>(std::floor((x + 1) * centre));
     const int32_t t0 = static_cast<int32_t>(std::floor((y + 1) * centre));
-    double best = -2;
+    // By the distance of unit vectors: their cosine would drown in float32 from 12 bits on.
+    const double length = std::sqrt(double{n[0]} * n[0] + double{n[1]} * n[1] + double{n[2]} * n[2]);
+    double best = 8;
     for (int32_t s = s0; s <= s0 + 1; ++s) {
       for (int32_t t = t0; t <= t0 + 1; ++t) {
         if (s < 0 || t < 0 || s > 2 * centre || t > 2 * centre) continue;
         float unit[3];
         octahedralToUnit(s, t, centre, unit);
-        const double dot = double{unit[0]} * n[0] + double{unit[1]} * n[1] + double{unit[2]} * n[2];
-        if (dot <= best) continue;
-        best = dot;
+        double distance = 0;
+        for (int c = 0; c < 3; ++c) {
+          const double difference = double{unit[c]} - double{n[c]} / length;
+          distance += difference * difference;
+        }
+        if (distance >= best) continue;
+        best = distance;
         point[0] = s;
         point[1] = t;
       }

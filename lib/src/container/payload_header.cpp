@@ -131,8 +131,17 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
   return {};
 }
 
+/// Over the pieces so far: limits hold for the payload.
+struct Totals {
+  uint64_t vertices = 0;
+  uint64_t wedges = 0;
+  uint64_t triangles = 0;
+
+  uint64_t elements() const { return vertices + wedges + triangles; }
+};
+
 /// [A.2.2]
-Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, uint64_t& elements) {
+Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, Totals& totals) {
   PieceHeader piece;
   const size_t at = in.offset();
   MCC_TRY(in.readVarint(piece.flags));
@@ -155,12 +164,14 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, u
   if (piece.has(piece_flag::kListed)) MCC_TRY(in.readVarint(piece.listed_count));
   if (piece.has(piece_flag::kManyParts)) MCC_TRY(in.readVarint(piece.part_count));
   const uint64_t triangles = piece.triangleCount();
-  elements += triangles + piece.vertex_count + piece.wedge_count;
-  if (piece.vertex_count > limits.max_vertices || piece.wedge_count > limits.max_vertices ||
+  totals.vertices += piece.vertex_count;
+  totals.wedges += piece.wedge_count;
+  totals.triangles += triangles;
+  if (totals.vertices > limits.max_vertices || totals.wedges > limits.max_vertices ||
       piece.vertex_count >= (1u << 28) || piece.wedge_count >= (1u << 28)) {
     return fail(Error::kLimit, "the payload has more vertices than the limit allows", at);
   }
-  if (triangles > limits.max_triangles || triangles >= (1u << 28)) {
+  if (totals.triangles > limits.max_triangles || triangles >= (1u << 28)) {
     return fail(Error::kLimit, "the payload has more triangles than the limit allows", at);
   }
   if (piece.isolated_count > piece.wedge_count || piece.part_count == 0 ||
@@ -248,9 +259,9 @@ Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, Payloa
   if (piece_count == 0 || piece_count > limits.max_pieces) {
     return fail(Error::kLimit, "the payload has more pieces than the limit allows", 9);
   }
-  uint64_t elements = 0;
-  for (uint32_t i = 0; i < piece_count; ++i) MCC_TRY(parsePiece(in, limits, header, elements));
-  if (elements > kMaxElementsPerByte * bytes.size()) {
+  Totals totals;
+  for (uint32_t i = 0; i < piece_count; ++i) MCC_TRY(parsePiece(in, limits, header, totals));
+  if (totals.elements() > kMaxElementsPerByte * bytes.size()) {
     return fail(Error::kLimit, "the payload claims more than its size can hold", 9);
   }
   return parseStreams(in, header);

@@ -46,8 +46,9 @@ std::string describeType(const Accessor& accessor);
 /// One component as a number.
 double componentValue(const uint8_t* bytes, ComponentType type);
 
-/// Copies tight elements into the layout of a buffer: columns of matrices padded, elements of vertex
-/// attributes at multiples of four. `stride_bytes` becomes 0 when that is the plain element size.
+/// Copies tight elements into the layout of a buffer: columns of matrices padded, elements of
+/// vertex attributes at multiples of four. `stride_bytes` becomes 0 when that is the plain element
+/// size.
 std::vector<uint8_t> packElements(std::span<const uint8_t> tight, const Accessor& accessor,
                                   bool is_vertex_attribute, uint32_t& stride_bytes);
 

@@ -125,6 +125,15 @@ class Checker {
     return result_.attributes.back().back();
   }
 
+  static uint8_t normalBits(const PiecePlan& piece) {
+    for (const AttributePlan& attribute : piece.attributes) {
+      const bool is_normal =
+          attribute.format.semantic == Semantic::kNormal && attribute.target == kNone;
+      if (is_normal) return attribute.bits;
+    }
+    return 0;
+  }
+
   Result checkAttribute(const PiecePlan& piece, const AttributePlan& attribute,
                         std::span<const uint32_t> source_of) {
     uint32_t index = 0;
@@ -142,7 +151,7 @@ class Checker {
     MCC_GLTF_TRY(readAccessor(source_, attribute.accessor, source_values));
     MCC_GLTF_TRY(readAccessor(decoded_, index, decoded_values));
     Promise promise;
-    MCC_GLTF_TRY(promiseOf(attribute, coded->second, source_values, promise));
+    MCC_GLTF_TRY(promiseOf(attribute, coded->second, source_values, normalBits(piece), promise));
     AttributeReport& report = reportOf(attribute);
     report.coding = coded->second.coding;
     report.bits = promise.kind == Promise::Kind::kExact ? uint8_t{0} : attribute.bits;

@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The proof of a conversion: the bytes that were written are decoded and compared with the source. Uses
-// nothing of the encoder but its claim which decoded vertex is which source vertex, and checks that.
+// The proof of a conversion: the bytes that were written are decoded and compared with the source.
+// Uses nothing of the encoder but its claim which decoded vertex is which source vertex, and checks
+// that.
 #ifndef MCC_GLTF_CHECK_H_
 #define MCC_GLTF_CHECK_H_
 
@@ -21,7 +22,8 @@ struct CheckResult {
 };
 
 /// Checks that `written` holds the document `source`:
-/// - each compressed primitive has the source's vertices in a permuted order and the same multiset of
+/// - each compressed primitive has the source's vertices in a permuted order and the same multiset
+/// of
 ///   triangles, up to rotation;
 /// - every attribute value is within the promised distance of its source, exact ones are bit-equal;
 /// - accessors, images and JSON that are not compressed geometry are equal.

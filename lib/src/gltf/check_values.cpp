@@ -11,18 +11,20 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-/// Largest angle between a unit vector and the nearest point of an octahedral grid of 2^bits - 1 points
-/// per axis: half a cell in both axes moves a point of the octahedron by sqrt(6) halves, where its
-/// faces are 1/sqrt(3) from the centre.
+/// Largest angle between a unit vector and the nearest point of an octahedral grid of 2^bits - 1
+/// points per axis: half a cell in both axes moves a point of the octahedron by sqrt(6) halves,
+/// where its faces are 1/sqrt(3) from the centre.
 double octahedralBound(uint32_t bits) {
   const double half_cell = 1.0 / static_cast<double>((uint64_t{1} << bits) - 2);
   return std::sqrt(18.0) * half_cell * (1 + half_cell) + 1e-6;
 }
 
-/// Half a step of the angle, and the frame: its normal is off by up to the normal's bound, and tangents
-/// need not be quite perpendicular to it.
-double tangentBound(uint32_t bits) {
-  return std::numbers::pi / static_cast<double>(uint64_t{1} << bits) + 0.02;
+/// Half a step of the angle; the plane it lies in is off by the normal's bound, and the source's
+/// tangents need not be quite perpendicular to their normals.
+double tangentBound(uint32_t bits, uint32_t normal_bits) {
+  constexpr double kPerpendicular = 0.0025;
+  return std::numbers::pi / static_cast<double>(uint64_t{1} << bits) + kPerpendicular +
+         octahedralBound(normal_bits);
 }
 
 double largestSide(const AccessorData& source, const AttributeFormat& format) {
@@ -146,7 +148,7 @@ double latticeBound(const Promise& promise, uint32_t component, double decoded) 
 }
 
 Result promiseOf(const AttributePlan& plan, const AttributeInfo& coded, const AccessorData& source,
-                 Promise& promise) {
+                 uint8_t normal_bits, Promise& promise) {
   promise = {};
   const bool is_float = plan.format.component_type == ComponentType::kFloat32;
   if (plan.bits == 0 || !is_float) return {};
@@ -161,8 +163,8 @@ Result promiseOf(const AttributePlan& plan, const AttributeInfo& coded, const Ac
       if (coded.bits < plan.bits) break;
       return promiseAngle(plan, octahedralBound(plan.bits), promise);
     case AttributeCoding::kTangentAngle:
-      if (coded.bits < plan.bits) break;
-      return promiseAngle(plan, tangentBound(plan.bits), promise);
+      if (coded.bits < plan.bits || normal_bits < 2) break;
+      return promiseAngle(plan, tangentBound(plan.bits, normal_bits), promise);
   }
   return error("", plan.label() + " is coded with fewer bits than asked for");
 }

@@ -23,8 +23,9 @@ struct Promise {
 };
 
 /// What the plan asked for, given what the payload says it did. Fails when that is coarser.
+/// normal_bits   of the NORMAL of the piece: angles of tangents are angles around it.
 Result promiseOf(const AttributePlan& plan, const AttributeInfo& coded, const AccessorData& source,
-                 Promise& promise);
+                 uint8_t normal_bits, Promise& promise);
 
 /// Largest deviation of a decoded value that the promise allows, by lattice rounding and the two
 /// float32 roundings of decoding.

@@ -42,7 +42,8 @@ struct Compressed {
 Result compressDocument(const Document& document, const ConvertOptions& options,
                         Compressed& compressed);
 
-/// Encodes the planned payloads and decodes each at once. Pieces the codec refuses go to `left_alone`.
+/// Encodes the planned payloads and decodes each at once. Pieces the codec refuses go to
+/// `left_alone`.
 Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> plans,
                       std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone);
 

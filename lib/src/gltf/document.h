@@ -81,7 +81,8 @@ Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file, 
 /// Images inside data URIs stay as they are. Does nothing to a GLB.
 Result embedImages(const FileReader& read_file, Document& document);
 
-/// Makes a document of parts that are already in memory: JSON with at most one buffer and its bytes.
+/// Makes a document of parts that are already in memory: JSON with at most one buffer and its
+/// bytes.
 Result adoptDocument(Json json, std::vector<uint8_t> bin, Document& document);
 
 /// Array of the root object, or an empty array.

@@ -76,7 +76,8 @@ AttributeFormat formatOf(const std::string& name, uint32_t target, const Accesso
 bool comesBefore(const AttributePlan& a, const AttributePlan& b);
 
 /// Collects the triangle primitives of all meshes. Points and lines are left alone without a note.
-/// Errors: the document contradicts itself (an index out of range, an accessor that does not exist).
+/// Errors: the document contradicts itself (an index out of range, an accessor that does not
+/// exist).
 Result planPayloads(const Document& document, std::vector<PayloadPlan>& payloads,
                     std::vector<LeftAlone>& left_alone);
 

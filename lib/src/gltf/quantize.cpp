@@ -86,7 +86,7 @@ struct Extent {
   }
 };
 
-/// Lattice points a value may lie on, as the writer will round it.                        [DESIGN 9.5]
+/// Lattice points a value may lie on, as the writer will round it. [DESIGN 9.5]
 double latticePoint(float value, float origin, float step) {
   return std::floor((double{value} - double{origin}) / double{step} + 0.5);
 }
@@ -116,8 +116,8 @@ Lattice unitLattice(uint8_t bits) {
   return lattice;
 }
 
-/// A lattice of a given step that has a point at exactly 0, so that unmoved vertices of a morph target
-/// stay unmoved. `bits` becomes what it needs; false when that is too much.
+/// A lattice of a given step that has a point at exactly 0, so that unmoved vertices of a morph
+/// target stay unmoved. `bits` becomes what it needs; false when that is too much.
 bool fitAroundZero(const Extent& extent, float step, Lattice& lattice, uint8_t& bits) {
   if (!std::isnormal(step)) return false;
   constexpr double kLastPoint = (1 << kMaxLatticeBits) - 1;
@@ -258,7 +258,8 @@ class Quantizer {
     const bool is_unit_range =
         attribute.format.semantic != Semantic::kTexcoord && extent.isInside(0, 1);
     Lattice lattice;
-    if (is_unit_range) {  // 0 and 1 are points; black stays black and no weight appears from nothing
+    if (is_unit_range) {  // 0 and 1 are points; black stays black and no weight appears from
+                          // nothing
       useLattice(attribute, unitLattice(bits), bits);
     } else if (isRuinedByOutliers(extent, bits) || !fitBox(extent, bits, lattice)) {
       notes_.push_back(where(piece, attribute) + " has outliers that a lattice of " +

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The buffers of a document whose accessors changed: bytes nobody refers to any more are dropped, new
-// buffer views are added, and everything ends up in one buffer, the BIN chunk of a GLB.
+// The buffers of a document whose accessors changed: bytes nobody refers to any more are dropped,
+// new buffer views are added, and everything ends up in one buffer, the BIN chunk of a GLB.
 #ifndef MCC_GLTF_REBUILD_H_
 #define MCC_GLTF_REBUILD_H_
 

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Who refers to buffer views and accessors, in the document and in parts of it we do not understand.
+// Who refers to buffer views and accessors, in the document and in parts of it we do not
+// understand.
 #ifndef MCC_GLTF_REFERENCES_H_
 #define MCC_GLTF_REFERENCES_H_
 
@@ -27,8 +28,8 @@ struct ForeignReferences {
 
 ForeignReferences findForeignReferences(const Json& root);
 
-/// Calls `visit` with every number of a buffer view in the places glTF 2.0 and the extensions on our
-/// list have them. `accessor` is the accessor the reference belongs to, or kNone.
+/// Calls `visit` with every number of a buffer view in the places glTF 2.0 and the extensions on
+/// our list have them. `accessor` is the accessor the reference belongs to, or kNone.
 void visitViewReferences(Json& root,
                          const std::function<void(Json& number, uint32_t accessor)>& visit);
 
@@ -36,7 +37,8 @@ void visitViewReferences(Json& root,
 /// know: the first one that is not on our list, or an empty string.
 std::string orderDependentExtension(const Json& mesh_or_primitive);
 
-/// Marks accessors used by anything but mesh primitives: skins, animations, instancing, foreign uses.
+/// Marks accessors used by anything but mesh primitives: skins, animations, instancing, foreign
+/// uses.
 void markAccessorsOutsideMeshes(const Document& document, const ForeignReferences& foreign,
                                 std::vector<bool>& is_used);
 
