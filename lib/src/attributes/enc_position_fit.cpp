@@ -101,9 +101,6 @@ class Trials {
     }
     const double scale =
         counted_ == 0 ? 1 : static_cast<double>(all_) / static_cast<double>(counted_);
-    printf("  pred %d modes %x own %d: %.0f tables %.0f (sample %.0f of %.0f)\n", (int)p.predictor,
-           p.modes, p.own_scale, static_cast<double>(io.cost()) / kCostOne * scale / 8,
-           tableBits(p) / 8, (double)counted_, (double)all_);
     return static_cast<double>(io.cost()) / kCostOne * scale + tableBits(p) +
            (p.has(position_mode::kPalette) ? paletteBits() : 0);
   }

@@ -21,6 +21,7 @@
 
 #include "attributes/position_growth.h"
 #include "attributes/position_parameters.h"
+#include "base/host.h"
 
 namespace mcc {
 
@@ -54,8 +55,8 @@ struct Beyond {
   bool has_x;  ///< both, and the ring around n1 has room for them
 };
 
-inline const VertexRecord* lookAcross(const FaceView& faces, const VertexRecord* records,
-                                      uint32_t half_edge, bool& known) {
+MCC_INLINE const VertexRecord* lookAcross(const FaceView& faces, const VertexRecord* records,
+                                          uint32_t half_edge, bool& known) {
   const uint32_t t = faces.twin(half_edge);
   const VertexRecord& r =
       records[faces.vertex(t != kNone ? prevHalfEdge(t) : prevHalfEdge(half_edge))];
@@ -63,8 +64,8 @@ inline const VertexRecord* lookAcross(const FaceView& faces, const VertexRecord*
   return &r;
 }
 
-inline Beyond lookBeyond(const FaceView& faces, const VertexRecord* records, const PlainFan& fan,
-                         bool select) {
+MCC_INLINE Beyond lookBeyond(const FaceView& faces, const VertexRecord* records,
+                             const PlainFan& fan, bool select) {
   Beyond b;
   b.ya = lookAcross(faces, records, nextHalfEdge(fan.beyond0), b.has_ya);
   b.yb = lookAcross(faces, records, prevHalfEdge(fan.beyond1), b.has_yb);
@@ -85,7 +86,7 @@ struct TipSelection {
 };
 
 template <class Wide>
-TipSelection selectTip(const PlainFan& f, const Beyond& b) {
+MCC_INLINE TipSelection selectTip(const PlainFan& f, const Beyond& b) {
   using UWide = std::make_unsigned_t<Wide>;
   uint32_t error0 = 0;
   uint32_t error1 = 0;
@@ -123,8 +124,8 @@ struct PlainClass {
 };
 
 template <class Wide>
-PlainClass classifyPlain(PositionPredictor predictor, bool select, const PlainFan& f,
-                         const Beyond& b, uint32_t degree) {
+MCC_INLINE PlainClass classifyPlain(PositionPredictor predictor, bool select, const PlainFan& f,
+                                    const Beyond& b, uint32_t degree) {
   PlainClass c;
   c.predictor_class = kClassFan + std::clamp<uint32_t>(degree, 3, 9);
   c.degree_sum = std::clamp(int32_t{f.n0->degree} + f.n2->degree - 12, -12, 12);
@@ -152,7 +153,8 @@ struct PlainFeatures {
 };
 
 template <class UWide>
-PlainFeatures<UWide> plainFeatures(const PlainFan& f, const Beyond& b, int s, bool select) {
+MCC_INLINE PlainFeatures<UWide> plainFeatures(const PlainFan& f, const Beyond& b, int s,
+                                              bool select) {
   PlainFeatures<UWide> r{};
   const UWide n0 = static_cast<UWide>(f.n0->q[s]);
   const UWide n1 = static_cast<UWide>(f.n1->q[s]);
@@ -177,8 +179,8 @@ PlainFeatures<UWide> plainFeatures(const PlainFan& f, const Beyond& b, int s, bo
 
 /// Weighted features of a plain fan, added to the average of the tips.
 template <class Wide>
-void addPlainFeatures(const PositionParameters& p, const PlainFan& f, const Beyond& b,
-                      uint32_t degree, bool select, std::make_unsigned_t<Wide>* q8) {
+MCC_INLINE void addPlainFeatures(const PositionParameters& p, const PlainFan& f, const Beyond& b,
+                                 uint32_t degree, bool select, std::make_unsigned_t<Wide>* q8) {
   using UWide = std::make_unsigned_t<Wide>;
   const PlainClass c = classifyPlain<Wide>(p.predictor, select, f, b, degree);
   const int16_t* w = p.weights.w[c.predictor_class];
@@ -197,8 +199,8 @@ void addPlainFeatures(const PositionParameters& p, const PlainFan& f, const Beyo
 }
 
 /// Adds the normal of a tip's triangle (a, b, o).                                             [B.2.3]
-inline void addNormal(const VertexRecord& a, const VertexRecord& b, const VertexRecord& o,
-                      uint64_t* normal) {
+MCC_INLINE void addNormal(const VertexRecord& a, const VertexRecord& b, const VertexRecord& o,
+                          uint64_t* normal) {
   uint64_t u[3];
   uint64_t w[3];
   for (int s = 0; s < 3; ++s) {
@@ -212,8 +214,8 @@ inline void addNormal(const VertexRecord& a, const VertexRecord& b, const Vertex
 
 /// `beyond` may be null without weights.
 template <class Wide>
-void predictPlain(const PositionParameters& p, const PlainFan& f, const Beyond* beyond,
-                  uint32_t degree, uint32_t modes, Prediction<Wide>& out) {
+MCC_INLINE void predictPlain(const PositionParameters& p, const PlainFan& f, const Beyond* beyond,
+                             uint32_t degree, uint32_t modes, Prediction<Wide>& out) {
   using UWide = std::make_unsigned_t<Wide>;
   for (int s = 0; s < 3; ++s) {
     const UWide e = static_cast<UWide>(f.n0->q[s]) + static_cast<UWide>(f.n2->q[s]);
@@ -337,7 +339,7 @@ struct Shear {
   int32_t c21 = 0;
 };
 
-inline Shear makeShear(const uint64_t* wrapped) {
+MCC_INLINE Shear makeShear(const uint64_t* wrapped) {
   int64_t n[3];
   uint64_t size[3];
   for (int s = 0; s < 3; ++s) {

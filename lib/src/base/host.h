@@ -14,4 +14,13 @@ static_assert(FLT_EVAL_METHOD == 0, "build with SSE2 or an equivalent, not with 
 
 }  // namespace mcc
 
+/// For the few functions of inner loops that compilers would rather call.
+#if defined(__GNUC__)
+#define MCC_INLINE inline __attribute__((always_inline))
+#define MCC_OUT_OF_LINE __attribute__((noinline))
+#else
+#define MCC_INLINE inline
+#define MCC_OUT_OF_LINE
+#endif
+
 #endif  // MCC_BASE_HOST_H_

@@ -112,7 +112,7 @@ class RansDecoder {
   }
 
   template <uint32_t kState>
-  uint32_t token(TokenRow& row, const TokenSchedule& schedule) {
+  MCC_INLINE uint32_t token(TokenRow& row, const TokenSchedule& schedule) {
     uint32_t x = state_[kState];
     const uint32_t slot = x & (kTokenOne - 1);
     uint32_t start = 0;
@@ -177,7 +177,7 @@ class RawBitsDecoder {
   }
 
   /// base + `bits` raw bits (at most 56 with the sign); a sign bit follows if `sign` and the sum is not zero.
-  uint32_t readMagnitude(uint32_t base, uint32_t bits, bool sign, uint32_t& negative) {
+  MCC_INLINE uint32_t readMagnitude(uint32_t base, uint32_t bits, bool sign, uint32_t& negative) {
     const size_t byte = static_cast<size_t>(next_bit_ >> 3);
     if (byte + 8 > bytes_.size()) [[unlikely]] {
       const uint32_t value = base + read(bits);
@@ -214,7 +214,7 @@ class DecoderIo {
   bool bit(BitModel& model, bool = false) { return codes_.bit(model); }
 
   template <uint32_t kState>
-  uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t = 0) {
+  MCC_INLINE uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t = 0) {
     if constexpr (kSingle) {
       const uint32_t slot = codes_.peek(kTokenBits);
       uint32_t start = 0;
@@ -243,7 +243,8 @@ class DecoderIo {
   }
 
   /// base + `bits` raw bits, then a sign bit if `sign` and the sum is not zero.
-  uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t, uint32_t& negative) {
+  MCC_INLINE uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t,
+                                uint32_t& negative) {
     if constexpr (kSingle) {
       const uint32_t value = base + raw(bits);
       negative = raw(sign && value != 0 ? 1 : 0);

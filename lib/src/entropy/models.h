@@ -7,6 +7,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "base/host.h"
+
 #if defined(__SSE2__)
 #include <emmintrin.h>
 #elif defined(__ARM_NEON)
@@ -119,8 +121,8 @@ struct TokenRow {
 
 #if defined(__SSE2__)
 
-inline uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& schedule,
-                                       uint32_t& start_out, uint32_t& frequency_out) {
+MCC_INLINE uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& schedule,
+                                           uint32_t& start_out, uint32_t& frequency_out) {
   __m128i* rows = reinterpret_cast<__m128i*>(c);
   const __m128i low = _mm_load_si128(rows);
   const __m128i high = _mm_load_si128(rows + 1);
@@ -161,8 +163,8 @@ inline void TokenRow::adapt(uint32_t symbol, const TokenSchedule& schedule) {
   }
 }
 
-inline uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& schedule,
-                                       uint32_t& start_out, uint32_t& frequency_out) {
+MCC_INLINE uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& schedule,
+                                           uint32_t& start_out, uint32_t& frequency_out) {
   uint32_t symbol = 0;
   for (uint32_t i = 1; i < kTokenCount; ++i) symbol += c[i] <= slot ? 1 : 0;
   start_out = c[symbol];
