@@ -30,15 +30,16 @@ template <class Wide>
 struct Prediction {
   using Coordinate = Wide;
   std::make_unsigned_t<Wide> q8[3];
-  uint32_t spread[3];      ///< disagreement of the first two tips, saturating
-  uint64_t normal[3];      ///< sum over the tips, wrapping; only with shear
-  uint64_t magnitudes[3];  ///< of three neighbours' residuals, by component as coded
+  uint32_t spread[3];  ///< disagreement of the first two tips, saturating
+  uint64_t normal[3];  ///< sum over the tips, wrapping; only with shear
+  std::make_unsigned_t<Wide>
+      magnitudes[3];  ///< of three neighbours' residuals, by component as coded
 };
 
 inline constexpr uint32_t kSpreadLimit = 1u << 19;
 
 template <class UWide>
-uint32_t saturatedAbsolute(UWide difference) {
+MCC_INLINE uint32_t saturatedAbsolute(UWide difference) {
   const auto d = static_cast<std::make_signed_t<UWide>>(difference);
   const UWide absolute = d < 0 ? UWide{0} - difference : difference;
   return static_cast<uint32_t>(std::min<UWide>(absolute, kSpreadLimit));
@@ -91,6 +92,7 @@ MCC_INLINE TipSelection selectTip(const PlainFan& f, const Beyond& b) {
   uint32_t error0 = 0;
   uint32_t error1 = 0;
   uint32_t error2 = 0;
+  MCC_UNROLL
   for (int s = 0; s < 3; ++s) {
     const UWide n0 = static_cast<UWide>(f.n0->q[s]);
     const UWide n1 = static_cast<UWide>(f.n1->q[s]);
@@ -191,6 +193,7 @@ MCC_INLINE void addPlainFeatures(const PositionParameters& p, const PlainFan& f,
   const UWide w_tips = static_cast<UWide>(c.better * w[5]);
   const UWide wx = static_cast<UWide>(c.better * w[6]);
   const UWide w_y = static_cast<UWide>(c.better * w[7]);
+  MCC_UNROLL
   for (int s = 0; s < 3; ++s) {
     const PlainFeatures<UWide> v = plainFeatures<UWide>(f, b, s, select);
     q8[s] += w0 * v.f0 + w1 * v.f1 + wy * v.fy + wd * v.fd;
@@ -203,6 +206,7 @@ MCC_INLINE void addNormal(const VertexRecord& a, const VertexRecord& b, const Ve
                           uint64_t* normal) {
   uint64_t u[3];
   uint64_t w[3];
+  MCC_UNROLL
   for (int s = 0; s < 3; ++s) {
     u[s] = static_cast<uint64_t>(int64_t{a.q[s]} - b.q[s]);
     w[s] = static_cast<uint64_t>(int64_t{o.q[s]} - b.q[s]);
@@ -217,6 +221,7 @@ template <class Wide>
 MCC_INLINE void predictPlain(const PositionParameters& p, const PlainFan& f, const Beyond* beyond,
                              uint32_t degree, uint32_t modes, Prediction<Wide>& out) {
   using UWide = std::make_unsigned_t<Wide>;
+  MCC_UNROLL
   for (int s = 0; s < 3; ++s) {
     const UWide e = static_cast<UWide>(f.n0->q[s]) + static_cast<UWide>(f.n2->q[s]);
     const UWide o = static_cast<UWide>(f.o0->q[s]) + static_cast<UWide>(f.o1->q[s]);
@@ -224,7 +229,7 @@ MCC_INLINE void predictPlain(const PositionParameters& p, const PlainFan& f, con
     out.spread[s] =
         saturatedAbsolute<UWide>(static_cast<UWide>(f.n0->q[s]) - static_cast<UWide>(f.o0->q[s]) -
                                  static_cast<UWide>(f.n2->q[s]) + static_cast<UWide>(f.o1->q[s]));
-    out.magnitudes[s] = uint64_t{unpackMagnitude<Wide>(f.n0->magnitude[s])} +
+    out.magnitudes[s] = UWide{unpackMagnitude<Wide>(f.n0->magnitude[s])} +
                         unpackMagnitude<Wide>(f.n1->magnitude[s]) +
                         unpackMagnitude<Wide>(f.n2->magnitude[s]);
   }
@@ -342,6 +347,7 @@ struct Shear {
 MCC_INLINE Shear makeShear(const uint64_t* wrapped) {
   int64_t n[3];
   uint64_t size[3];
+  MCC_UNROLL
   for (int s = 0; s < 3; ++s) {
     n[s] = static_cast<int64_t>(wrapped[s]);
     size[s] = n[s] < 0 ? 0 - wrapped[s] : wrapped[s];
@@ -361,6 +367,7 @@ MCC_INLINE Shear makeShear(const uint64_t* wrapped) {
   const uint32_t width = static_cast<uint32_t>(std::bit_width(size[axis[2]]));
   if (width == 0) return shear;
   int32_t v[3];
+  MCC_UNROLL
   for (int s = 0; s < 3; ++s) {  // the largest gets 14 bits
     const int64_t x = n[axis[s]];
     v[s] = static_cast<int32_t>(

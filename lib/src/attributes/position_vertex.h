@@ -85,10 +85,12 @@ MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeVertex(Io& io, uint32_t v,
   Shear shear;
   if (has(position_mode::kShear)) {
     shear = makeShear(prediction.normal);
+    MCC_UNROLL
     for (int s = 0; s < 3; ++s) axis[s] = shear.axis[s];
   }
   ScaleEstimate scale[3];
   UWide q8[3];
+  MCC_UNROLL
   for (int s = 0; s < 3; ++s) {
     scale[s] = estimateScale<Wide>(c[s], prediction.magnitudes[s], prediction.spread[axis[s]]);
     q8[s] = prediction.q8[axis[s]];
@@ -114,6 +116,7 @@ MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeVertex(Io& io, uint32_t v,
   }
   q[2] = codeComponent<2>(io, v, axis[2], q8[2], scale[2], magnitude[2]);
   VertexRecord& r = records_[v];
+  MCC_UNROLL
   for (int s = 0; s < 3; ++s) {
     r.q[axis[s]] = q[s];
     r.magnitude[s] = packMagnitude<Wide>(magnitude[s]);

@@ -24,11 +24,11 @@
 namespace mcc {
 
 /// Little-endian loads; the compilers turn the shifts into one load.
-inline uint32_t loadU16(const uint8_t* p) { return uint32_t{p[0]} | uint32_t{p[1]} << 8; }
-inline uint32_t loadU32(const uint8_t* p) {
+MCC_INLINE uint32_t loadU16(const uint8_t* p) { return uint32_t{p[0]} | uint32_t{p[1]} << 8; }
+MCC_INLINE uint32_t loadU32(const uint8_t* p) {
   return uint32_t{p[0]} | uint32_t{p[1]} << 8 | uint32_t{p[2]} << 16 | uint32_t{p[3]} << 24;
 }
-inline uint64_t loadU64(const uint8_t* p) {
+MCC_INLINE uint64_t loadU64(const uint8_t* p) {
   return uint64_t{loadU32(p)} | uint64_t{loadU32(p + 4)} << 32;
 }
 
