@@ -105,10 +105,18 @@ class PieceCoder {
     if (needsSequence() && !sequence.resize(groups.count)) return noMemory();
     if (parameters.bits > kNarrowBits) return runPositions<int64_t, kAnyModes>(parameters, truth);
     if constexpr (Io::kFast) {
-      switch (parameters.modes) {
+      constexpr uint32_t kWeighted = position_mode::kWeights;
+      constexpr uint32_t kSelecting = position_mode::kWeights | position_mode::kSelect;
+      constexpr uint32_t kShear = position_mode::kShear;
+      switch (parameters.modes & kCompiledModes) {
         case 0: return runPositions<int32_t, 0>(parameters, truth);
-        case position_mode::kWeights:
-          return runPositions<int32_t, position_mode::kWeights>(parameters, truth);
+        case kWeighted: return runPositions<int32_t, kWeighted>(parameters, truth);
+        case kSelecting: return runPositions<int32_t, kSelecting>(parameters, truth);
+        case kShear: return runPositions<int32_t, kShear>(parameters, truth);
+        case kWeighted | kShear:
+          return runPositions<int32_t, kWeighted | kShear>(parameters, truth);
+        case kSelecting | kShear:
+          return runPositions<int32_t, kSelecting | kShear>(parameters, truth);
         default: break;
       }
     }

@@ -22,6 +22,7 @@
 #include <cstdint>
 
 #include "attributes/position_record.h"
+#include "base/host.h"
 #include "base/memory.h"
 #include "mesh/face_mesh.h"
 #include "mesh/groups.h"
@@ -38,8 +39,8 @@ class HalfEdgeQueue {
     return ring_.resize(1024);
   }
   bool empty() const { return head_ == tail_; }
-  uint32_t pop() { return ring_[head_++ & mask_]; }
-  [[nodiscard]] bool push(uint32_t half_edge) {
+  MCC_INLINE uint32_t pop() { return ring_[head_++ & mask_]; }
+  [[nodiscard]] MCC_INLINE bool push(uint32_t half_edge) {
     if (tail_ - head_ > mask_ && !grow()) [[unlikely]]
       return false;
     ring_[tail_++ & mask_] = half_edge;
@@ -111,13 +112,13 @@ class RegionGrowth {
   Status grow(Visitor& visitor);
   bool plainFan(uint32_t half_edge, PlainFan& fan, uint32_t& ccw_end, uint32_t& cw_end) const;
   void walkFan(uint32_t half_edge, AnyFan& fan);
-  void become(uint32_t v, uint32_t half_edge) {
+  MCC_INLINE void become(uint32_t v, uint32_t half_edge) {
     records_[v].known = 1;
     ++known_count_;
     if (order_ != nullptr) *order_++ = half_edge;
   }
 
-  void push(uint32_t half_edge) {
+  MCC_INLINE void push(uint32_t half_edge) {
     VertexRecord& r = records_[faces_.vertex(half_edge)];
     const uint32_t score = uint32_t{r.score} + (r.score != 0xffff ? 1 : 0);
     r.score = static_cast<uint16_t>(score);
@@ -148,18 +149,23 @@ inline void RegionGrowth::prepareRecords() {
   for (uint32_t v = 0; v < groups_.count; ++v) records_[v] = VertexRecord{};
   for (uint32_t f = 0; f < face_count_; ++f) {
     const uint32_t h = f * kFaceWords;
+    bool boundary = false;
     for (uint32_t k = 0; k < 3; ++k) {
-      VertexRecord& r = records_[faces_.vertex(h + k)];
-      r.degree = static_cast<uint16_t>(r.degree + (r.degree != 0xffff ? 1 : 0));
-      if (faces_.twin(h + k) == kNone) {
-        r.boundary = 1;
-        records_[faces_.vertex(nextHalfEdge(h + k))].boundary = 1;
-      }
+      ++records_[faces_.vertex(h + k)].q[3];  // counts faces; there are fewer than 2^28
+      boundary |= faces_.twin(h + k) == kNone;
+    }
+    if (!boundary) [[likely]]
+      continue;
+    for (uint32_t k = 0; k < 3; ++k) {
+      if (faces_.twin(h + k) != kNone) continue;
+      records_[faces_.vertex(h + k)].boundary = 1;
+      records_[faces_.vertex(nextHalfEdge(h + k))].boundary = 1;
     }
   }
   for (uint32_t v = 0; v < groups_.count; ++v) {
     VertexRecord& r = records_[v];
-    if (r.boundary != 0) r.degree = static_cast<uint16_t>(std::min(12, 2 * r.degree));
+    r.degree = static_cast<uint16_t>(r.boundary != 0 ? std::min(12, 2 * r.q[3])
+                                                     : std::min(0xffff, r.q[3]));
   }
 }
 
@@ -256,8 +262,8 @@ Status RegionGrowth::grow(Visitor& visitor) {
 
 /// Recognises the plain fan around `half_edge` without branches on which side of it is known. `ccw_end` and `cw_end`
 /// are half-edges of the faces behind its ends, kNone on a boundary. Queues nothing.
-inline bool RegionGrowth::plainFan(uint32_t half_edge, PlainFan& fan, uint32_t& ccw_end,
-                                   uint32_t& cw_end) const {
+MCC_INLINE bool RegionGrowth::plainFan(uint32_t half_edge, PlainFan& fan, uint32_t& ccw_end,
+                                       uint32_t& cw_end) const {
   const uint32_t v = faces_.vertex(half_edge);  // unknown: stands for missing vertices
   const uint32_t ccw = faces_.rotateCcw(half_edge);
   const uint32_t cw_twin = faces_.twin(half_edge);

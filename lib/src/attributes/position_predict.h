@@ -21,6 +21,7 @@
 
 #include "attributes/position_growth.h"
 #include "attributes/position_parameters.h"
+#include "base/host.h"
 
 namespace mcc {
 
@@ -29,15 +30,16 @@ template <class Wide>
 struct Prediction {
   using Coordinate = Wide;
   std::make_unsigned_t<Wide> q8[3];
-  uint32_t spread[3];      ///< disagreement of the first two tips, saturating
-  uint64_t normal[3];      ///< sum over the tips, wrapping; only with shear
-  uint64_t magnitudes[3];  ///< of three neighbours' residuals, by component as coded
+  uint32_t spread[3];  ///< disagreement of the first two tips, saturating
+  uint64_t normal[3];  ///< sum over the tips, wrapping; only with shear
+  std::make_unsigned_t<Wide>
+      magnitudes[3];  ///< of three neighbours' residuals, by component as coded
 };
 
 inline constexpr uint32_t kSpreadLimit = 1u << 19;
 
 template <class UWide>
-uint32_t saturatedAbsolute(UWide difference) {
+MCC_INLINE uint32_t saturatedAbsolute(UWide difference) {
   const auto d = static_cast<std::make_signed_t<UWide>>(difference);
   const UWide absolute = d < 0 ? UWide{0} - difference : difference;
   return static_cast<uint32_t>(std::min<UWide>(absolute, kSpreadLimit));
@@ -54,8 +56,8 @@ struct Beyond {
   bool has_x;  ///< both, and the ring around n1 has room for them
 };
 
-inline const VertexRecord* lookAcross(const FaceView& faces, const VertexRecord* records,
-                                      uint32_t half_edge, bool& known) {
+MCC_INLINE const VertexRecord* lookAcross(const FaceView& faces, const VertexRecord* records,
+                                          uint32_t half_edge, bool& known) {
   const uint32_t t = faces.twin(half_edge);
   const VertexRecord& r =
       records[faces.vertex(t != kNone ? prevHalfEdge(t) : prevHalfEdge(half_edge))];
@@ -63,8 +65,8 @@ inline const VertexRecord* lookAcross(const FaceView& faces, const VertexRecord*
   return &r;
 }
 
-inline Beyond lookBeyond(const FaceView& faces, const VertexRecord* records, const PlainFan& fan,
-                         bool select) {
+MCC_INLINE Beyond lookBeyond(const FaceView& faces, const VertexRecord* records,
+                             const PlainFan& fan, bool select) {
   Beyond b;
   b.ya = lookAcross(faces, records, nextHalfEdge(fan.beyond0), b.has_ya);
   b.yb = lookAcross(faces, records, prevHalfEdge(fan.beyond1), b.has_yb);
@@ -85,11 +87,12 @@ struct TipSelection {
 };
 
 template <class Wide>
-TipSelection selectTip(const PlainFan& f, const Beyond& b) {
+MCC_INLINE TipSelection selectTip(const PlainFan& f, const Beyond& b) {
   using UWide = std::make_unsigned_t<Wide>;
   uint32_t error0 = 0;
   uint32_t error1 = 0;
   uint32_t error2 = 0;
+  MCC_UNROLL
   for (int s = 0; s < 3; ++s) {
     const UWide n0 = static_cast<UWide>(f.n0->q[s]);
     const UWide n1 = static_cast<UWide>(f.n1->q[s]);
@@ -123,8 +126,8 @@ struct PlainClass {
 };
 
 template <class Wide>
-PlainClass classifyPlain(PositionPredictor predictor, bool select, const PlainFan& f,
-                         const Beyond& b, uint32_t degree) {
+MCC_INLINE PlainClass classifyPlain(PositionPredictor predictor, bool select, const PlainFan& f,
+                                    const Beyond& b, uint32_t degree) {
   PlainClass c;
   c.predictor_class = kClassFan + std::clamp<uint32_t>(degree, 3, 9);
   c.degree_sum = std::clamp(int32_t{f.n0->degree} + f.n2->degree - 12, -12, 12);
@@ -152,7 +155,8 @@ struct PlainFeatures {
 };
 
 template <class UWide>
-PlainFeatures<UWide> plainFeatures(const PlainFan& f, const Beyond& b, int s, bool select) {
+MCC_INLINE PlainFeatures<UWide> plainFeatures(const PlainFan& f, const Beyond& b, int s,
+                                              bool select) {
   PlainFeatures<UWide> r{};
   const UWide n0 = static_cast<UWide>(f.n0->q[s]);
   const UWide n1 = static_cast<UWide>(f.n1->q[s]);
@@ -177,8 +181,8 @@ PlainFeatures<UWide> plainFeatures(const PlainFan& f, const Beyond& b, int s, bo
 
 /// Weighted features of a plain fan, added to the average of the tips.
 template <class Wide>
-void addPlainFeatures(const PositionParameters& p, const PlainFan& f, const Beyond& b,
-                      uint32_t degree, bool select, std::make_unsigned_t<Wide>* q8) {
+MCC_INLINE void addPlainFeatures(const PositionParameters& p, const PlainFan& f, const Beyond& b,
+                                 uint32_t degree, bool select, std::make_unsigned_t<Wide>* q8) {
   using UWide = std::make_unsigned_t<Wide>;
   const PlainClass c = classifyPlain<Wide>(p.predictor, select, f, b, degree);
   const int16_t* w = p.weights.w[c.predictor_class];
@@ -189,6 +193,7 @@ void addPlainFeatures(const PositionParameters& p, const PlainFan& f, const Beyo
   const UWide w_tips = static_cast<UWide>(c.better * w[5]);
   const UWide wx = static_cast<UWide>(c.better * w[6]);
   const UWide w_y = static_cast<UWide>(c.better * w[7]);
+  MCC_UNROLL
   for (int s = 0; s < 3; ++s) {
     const PlainFeatures<UWide> v = plainFeatures<UWide>(f, b, s, select);
     q8[s] += w0 * v.f0 + w1 * v.f1 + wy * v.fy + wd * v.fd;
@@ -197,10 +202,11 @@ void addPlainFeatures(const PositionParameters& p, const PlainFan& f, const Beyo
 }
 
 /// Adds the normal of a tip's triangle (a, b, o).                                             [B.2.3]
-inline void addNormal(const VertexRecord& a, const VertexRecord& b, const VertexRecord& o,
-                      uint64_t* normal) {
+MCC_INLINE void addNormal(const VertexRecord& a, const VertexRecord& b, const VertexRecord& o,
+                          uint64_t* normal) {
   uint64_t u[3];
   uint64_t w[3];
+  MCC_UNROLL
   for (int s = 0; s < 3; ++s) {
     u[s] = static_cast<uint64_t>(int64_t{a.q[s]} - b.q[s]);
     w[s] = static_cast<uint64_t>(int64_t{o.q[s]} - b.q[s]);
@@ -212,9 +218,10 @@ inline void addNormal(const VertexRecord& a, const VertexRecord& b, const Vertex
 
 /// `beyond` may be null without weights.
 template <class Wide>
-void predictPlain(const PositionParameters& p, const PlainFan& f, const Beyond* beyond,
-                  uint32_t degree, uint32_t modes, Prediction<Wide>& out) {
+MCC_INLINE void predictPlain(const PositionParameters& p, const PlainFan& f, const Beyond* beyond,
+                             uint32_t degree, uint32_t modes, Prediction<Wide>& out) {
   using UWide = std::make_unsigned_t<Wide>;
+  MCC_UNROLL
   for (int s = 0; s < 3; ++s) {
     const UWide e = static_cast<UWide>(f.n0->q[s]) + static_cast<UWide>(f.n2->q[s]);
     const UWide o = static_cast<UWide>(f.o0->q[s]) + static_cast<UWide>(f.o1->q[s]);
@@ -222,7 +229,7 @@ void predictPlain(const PositionParameters& p, const PlainFan& f, const Beyond* 
     out.spread[s] =
         saturatedAbsolute<UWide>(static_cast<UWide>(f.n0->q[s]) - static_cast<UWide>(f.o0->q[s]) -
                                  static_cast<UWide>(f.n2->q[s]) + static_cast<UWide>(f.o1->q[s]));
-    out.magnitudes[s] = uint64_t{unpackMagnitude<Wide>(f.n0->magnitude[s])} +
+    out.magnitudes[s] = UWide{unpackMagnitude<Wide>(f.n0->magnitude[s])} +
                         unpackMagnitude<Wide>(f.n1->magnitude[s]) +
                         unpackMagnitude<Wide>(f.n2->magnitude[s]);
   }
@@ -337,9 +344,10 @@ struct Shear {
   int32_t c21 = 0;
 };
 
-inline Shear makeShear(const uint64_t* wrapped) {
+MCC_INLINE Shear makeShear(const uint64_t* wrapped) {
   int64_t n[3];
   uint64_t size[3];
+  MCC_UNROLL
   for (int s = 0; s < 3; ++s) {
     n[s] = static_cast<int64_t>(wrapped[s]);
     size[s] = n[s] < 0 ? 0 - wrapped[s] : wrapped[s];
@@ -359,6 +367,7 @@ inline Shear makeShear(const uint64_t* wrapped) {
   const uint32_t width = static_cast<uint32_t>(std::bit_width(size[axis[2]]));
   if (width == 0) return shear;
   int32_t v[3];
+  MCC_UNROLL
   for (int s = 0; s < 3; ++s) {  // the largest gets 14 bits
     const int64_t x = n[axis[s]];
     v[s] = static_cast<int32_t>(

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "base/host.h"
+
 namespace mcc {
 
 struct VertexRecord {
@@ -23,7 +25,7 @@ static_assert(sizeof(VertexRecord) == 32);
 
 /// |residual| as contexts keep it. Narrow lattices saturate; wide ones keep 11 leading bits.
 template <class Wide>
-uint16_t packMagnitude(uint32_t absolute) {
+MCC_INLINE uint16_t packMagnitude(uint32_t absolute) {
   if constexpr (std::is_same_v<Wide, int32_t>) {
     return static_cast<uint16_t>(std::min(absolute, 0xffffu));
   } else {
@@ -34,7 +36,7 @@ uint16_t packMagnitude(uint32_t absolute) {
 }
 
 template <class Wide>
-uint32_t unpackMagnitude(uint16_t packed) {
+MCC_INLINE uint32_t unpackMagnitude(uint16_t packed) {
   if constexpr (std::is_same_v<Wide, int32_t>) {
     return packed;
   } else {

@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "attributes/position_tables.h"
+#include "base/host.h"
 #include "entropy/models.h"
 
 namespace mcc {
@@ -65,7 +66,8 @@ struct ScaleEstimate {
 };
 
 template <class Wide>
-ScaleEstimate estimateScale(const ScaleCoefficients& c, uint64_t magnitudes, uint32_t spread) {
+MCC_INLINE ScaleEstimate estimateScale(const ScaleCoefficients& c, uint64_t magnitudes,
+                                       uint32_t spread) {
   using Sum = std::conditional_t<std::is_same_v<Wide, int32_t>, uint32_t, uint64_t>;
   const Sum of_neighbours = c.c[0] * static_cast<Sum>(magnitudes);
   const Sum of_spread = c.c[1] * Sum{spread};
@@ -76,7 +78,7 @@ ScaleEstimate estimateScale(const ScaleCoefficients& c, uint64_t magnitudes, uin
 }
 
 /// Half-octave bucket of a scale, 0 .. kScaleBuckets-1.
-inline uint32_t scaleBucket(uint32_t scale) {
+MCC_INLINE uint32_t scaleBucket(uint32_t scale) {
   const uint32_t y = scale + 1;
   const uint32_t k = static_cast<uint32_t>(std::bit_width(y)) - 1;
   const uint32_t bucket = 2 * k + ((2 * y >> k) & 1);
@@ -89,15 +91,15 @@ struct Folding {
   bool flip;  ///< the prediction was rounded up
 };
 
-inline Folding foldingOf(int32_t fraction) {  // -128 .. 127
+MCC_INLINE Folding foldingOf(int32_t fraction) {  // -128 .. 127
   const uint32_t size = static_cast<uint32_t>(fraction < 0 ? -fraction : fraction);
   return {std::min<uint32_t>(size >> 5, kFractionClasses - 1), fraction < 0};
 }
 
 /// One residual: its magnitude above the bucket's low bits as a token, then raw bits, then a sign unless folded.
 template <uint32_t kState, class Io>
-int32_t codeResidual(Io& io, TokenRow& row, uint32_t bucket, bool folded, bool flip,
-                     int32_t truth) {
+MCC_INLINE int32_t codeResidual(Io& io, TokenRow& row, uint32_t bucket, bool folded, bool flip,
+                                int32_t truth) {
   const uint32_t low_bits = bucket >= 10 ? bucket / 2 - 5 : 0;
   uint32_t a = 0;
   uint32_t token = 0;

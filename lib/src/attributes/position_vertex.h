@@ -12,11 +12,15 @@
 #include "attributes/position_parameters.h"
 #include "attributes/position_predict.h"
 #include "attributes/position_residual.h"
+#include "base/host.h"
 
 namespace mcc {
 
-/// `kModes` are the position_mode bits known when compiling; kAnyModes takes them from the parameters.
+/// `kModes` are position_mode bits: those of kCompiledModes are on or off as they say, the others as the parameters
+/// say. kAnyModes leaves all of them to the parameters.
 inline constexpr uint32_t kAnyModes = ~0u;
+inline constexpr uint32_t kCompiledModes = position_mode::kWeights | position_mode::kSelect |
+                                           position_mode::kShear | position_mode::kPalette;
 
 template <class Io, class Wide, uint32_t kModes>
 class VertexCoder {
@@ -31,9 +35,9 @@ class VertexCoder {
     }
   }
 
-  void codePlain(Io& io, uint32_t v, const PlainFan& fan, const Beyond* beyond) const {
+  MCC_INLINE void codePlain(Io& io, uint32_t v, const PlainFan& fan, const Beyond* beyond) const {
     Prediction<Wide> prediction;
-    predictPlain<Wide>(p_, fan, beyond, records_[v].degree, modes(), prediction);
+    predictPlain<Wide>(p_, fan, beyond, records_[v].degree, compiledModes(), prediction);
     codeVertex(io, v, prediction, 1);
   }
   void codeAny(Io& io, uint32_t v, const AnyFan& fan) const {
@@ -44,11 +48,15 @@ class VertexCoder {
   void codeVertex(Io& io, uint32_t v, const Prediction<Wide>& prediction, uint32_t plain) const;
   void codeSeed(Io& io, uint32_t v, const VertexRecord* neighbour);
 
-  uint32_t modes() const { return kModes == kAnyModes ? p_.modes : kModes; }
-  bool has(uint32_t mode) const { return (modes() & mode) != 0; }
+  bool has(uint32_t mode) const {
+    if (kModes != kAnyModes && (mode & kCompiledModes) != 0) return (kModes & mode) != 0;
+    return p_.has(mode);
+  }
 
  private:
   using UWide = std::make_unsigned_t<Wide>;
+
+  uint32_t compiledModes() const { return kModes == kAnyModes ? p_.modes : kModes; }
 
   template <uint32_t kSlot>
   int32_t codeComponent(Io& io, uint32_t v, uint32_t axis, UWide q8, const ScaleEstimate& scale,
@@ -69,18 +77,20 @@ class VertexCoder {
 };
 
 template <class Io, class Wide, uint32_t kModes>
-void VertexCoder<Io, Wide, kModes>::codeVertex(Io& io, uint32_t v,
-                                               const Prediction<Wide>& prediction,
-                                               uint32_t plain) const {
+MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeVertex(Io& io, uint32_t v,
+                                                          const Prediction<Wide>& prediction,
+                                                          uint32_t plain) const {
   const ScaleCoefficients* c = p_.scale[plain];
   uint32_t axis[3] = {0, 1, 2};
   Shear shear;
   if (has(position_mode::kShear)) {
     shear = makeShear(prediction.normal);
+    MCC_UNROLL
     for (int s = 0; s < 3; ++s) axis[s] = shear.axis[s];
   }
   ScaleEstimate scale[3];
   UWide q8[3];
+  MCC_UNROLL
   for (int s = 0; s < 3; ++s) {
     scale[s] = estimateScale<Wide>(c[s], prediction.magnitudes[s], prediction.spread[axis[s]]);
     q8[s] = prediction.q8[axis[s]];
@@ -106,6 +116,7 @@ void VertexCoder<Io, Wide, kModes>::codeVertex(Io& io, uint32_t v,
   }
   q[2] = codeComponent<2>(io, v, axis[2], q8[2], scale[2], magnitude[2]);
   VertexRecord& r = records_[v];
+  MCC_UNROLL
   for (int s = 0; s < 3; ++s) {
     r.q[axis[s]] = q[s];
     r.magnitude[s] = packMagnitude<Wide>(magnitude[s]);
@@ -114,9 +125,10 @@ void VertexCoder<Io, Wide, kModes>::codeVertex(Io& io, uint32_t v,
 
 template <class Io, class Wide, uint32_t kModes>
 template <uint32_t kSlot>
-int32_t VertexCoder<Io, Wide, kModes>::codeComponent(Io& io, uint32_t v, uint32_t axis, UWide q8,
-                                                     const ScaleEstimate& scale,
-                                                     uint32_t& magnitude) const {
+MCC_INLINE int32_t VertexCoder<Io, Wide, kModes>::codeComponent(Io& io, uint32_t v, uint32_t axis,
+                                                                UWide q8,
+                                                                const ScaleEstimate& scale,
+                                                                uint32_t& magnitude) const {
   const int32_t truth = Io::kEncoding ? truth_[3 * size_t{v} + axis] : 0;
   const uint32_t prediction = static_cast<uint32_t>(static_cast<Wide>(q8 + 128) >> 8);
   int32_t value = 0;
@@ -133,8 +145,9 @@ int32_t VertexCoder<Io, Wide, kModes>::codeComponent(Io& io, uint32_t v, uint32_
 /// An integer near its prediction, whose Q8 form gives the fraction.
 template <class Io, class Wide, uint32_t kModes>
 template <uint32_t kSlot>
-int32_t VertexCoder<Io, Wide, kModes>::codeNear(Io& io, uint32_t prediction, uint32_t q8,
-                                                const ScaleEstimate& scale, int32_t truth) const {
+MCC_INLINE int32_t VertexCoder<Io, Wide, kModes>::codeNear(Io& io, uint32_t prediction, uint32_t q8,
+                                                           const ScaleEstimate& scale,
+                                                           int32_t truth) const {
   const uint32_t bucket = scaleBucket(scale.scale);
   uint32_t row = bucket;
   bool folded = false;

@@ -59,7 +59,7 @@ class PositionCoder {
           vertex_(coder.vertex_),
           faces_(coder.growth_.faces()),
           records_(coder.records_) {}
-    void visit(uint32_t v, const PlainFan& fan) {
+    MCC_INLINE void visit(uint32_t v, const PlainFan& fan) {
       if (!vertex_.has(position_mode::kWeights)) return vertex_.codePlain(io_, v, fan, nullptr);
       const Beyond beyond = lookBeyond(faces_, records_, fan, vertex_.has(position_mode::kSelect));
       vertex_.codePlain(io_, v, fan, &beyond);
@@ -78,7 +78,7 @@ class PositionCoder {
     const VertexRecord* const records_;
   };
 
-  void fan(uint32_t v, const AnyFan& fan) { vertex_.codeAny(io_, v, fan); }
+  MCC_OUT_OF_LINE void fan(uint32_t v, const AnyFan& fan) { vertex_.codeAny(io_, v, fan); }
   void seed(uint32_t v, const VertexRecord* neighbour) { vertex_.codeSeed(io_, v, neighbour); }
   Status check() const {
     if (!io_.overrun()) return {};

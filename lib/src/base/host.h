@@ -14,7 +14,20 @@ static_assert(FLT_EVAL_METHOD == 0, "build with SSE2 or an equivalent, not with 
 
 }  // namespace mcc
 
-/// For the few functions that every symbol passes through: gcc would leave them out of line at -O2.
-#define MCC_ALWAYS_INLINE __attribute__((always_inline)) inline
+/// For the few functions of inner loops that compilers would rather call, for what must not be inlined there, and for
+/// loops over the three components, which gcc keeps as loops at -O2.
+#if defined(__GNUC__)
+#define MCC_INLINE inline __attribute__((always_inline))
+#define MCC_OUT_OF_LINE __attribute__((noinline))
+#if defined(__clang__)
+#define MCC_UNROLL _Pragma("unroll")
+#else
+#define MCC_UNROLL _Pragma("GCC unroll 4")
+#endif
+#else
+#define MCC_INLINE inline
+#define MCC_OUT_OF_LINE
+#define MCC_UNROLL
+#endif
 
 #endif  // MCC_BASE_HOST_H_

@@ -194,7 +194,7 @@ class McMachine {
     uint32_t next_limit;  ///< degree of the next node, clamped to this, times next_factor
     uint32_t next_factor;
 
-    MCC_ALWAYS_INLINE uint32_t of(uint32_t position, const McNode& node, const McNode& next) const {
+    MCC_INLINE uint32_t of(uint32_t position, const McNode& node, const McNode& next) const {
       const uint32_t base =
           (std::min(position, 4u) - 1) * 32 + std::min<uint32_t>(node.degree, 15) * 2 + node.shared;
       return base * factor + constant + std::min<uint32_t>(next.degree, next_limit) * next_factor;
@@ -571,7 +571,7 @@ Status McMachine<Io>::newVertex(bool dummy, uint32_t source, uint32_t& vertex) {
 /// Emits triangle (vertex, node's vertex, next node's vertex) behind the gate of `node`, unless it touches a dummy.
 /// False if there are more than the header claims.
 template <class Io>
-MCC_ALWAYS_INLINE bool McMachine<Io>::takeGate(uint32_t vertex, uint32_t node, Fan& fan,
+MCC_INLINE bool McMachine<Io>::takeGate(uint32_t vertex, uint32_t node, Fan& fan,
                                                uint32_t source_gate) {
   McNode* nodes = nodes_.data();
   uint32_t* words = mesh_.words.data();

@@ -25,11 +25,11 @@
 namespace mcc {
 
 /// Little-endian loads; the compilers turn the shifts into one load.
-inline uint32_t loadU16(const uint8_t* p) { return uint32_t{p[0]} | uint32_t{p[1]} << 8; }
-inline uint32_t loadU32(const uint8_t* p) {
+MCC_INLINE uint32_t loadU16(const uint8_t* p) { return uint32_t{p[0]} | uint32_t{p[1]} << 8; }
+MCC_INLINE uint32_t loadU32(const uint8_t* p) {
   return uint32_t{p[0]} | uint32_t{p[1]} << 8 | uint32_t{p[2]} << 16 | uint32_t{p[3]} << 24;
 }
-inline uint64_t loadU64(const uint8_t* p) {
+MCC_INLINE uint64_t loadU64(const uint8_t* p) {
   return uint64_t{loadU32(p)} | uint64_t{loadU32(p + 4)} << 32;
 }
 
@@ -43,7 +43,7 @@ class RangeDecoder {
   }
 
   /// Branches on the bit, which callers do anyway: the next decision then starts from a predicted range.
-  MCC_ALWAYS_INLINE bool bit(BitModel& model) {
+  MCC_INLINE bool bit(BitModel& model) {
     const uint64_t split = (range_ >> kProbabilityBits) * model.zeroProbability();
     const bool one = code_ >= split;
     if (one) {
@@ -75,7 +75,7 @@ class RangeDecoder {
   bool overrun() const { return next_ > bytes_.size() + 8; }
 
  private:
-  MCC_ALWAYS_INLINE void renormalise() {
+  MCC_INLINE void renormalise() {
     if (range_ < (uint64_t{1} << 32)) [[unlikely]] {
       range_ <<= 32;
       code_ = code_ << 32 | nextWord();
@@ -117,7 +117,7 @@ class RansDecoder {
   }
 
   template <uint32_t kState>
-  uint32_t token(TokenRow& row, const TokenSchedule& schedule) {
+  MCC_INLINE uint32_t token(TokenRow& row, const TokenSchedule& schedule) {
     uint32_t x = state_[kState];
     const uint32_t slot = x & (kTokenOne - 1);
     uint32_t start = 0;
@@ -182,7 +182,7 @@ class RawBitsDecoder {
   }
 
   /// base + `bits` raw bits (at most 56 with the sign); a sign bit follows if `sign` and the sum is not zero.
-  uint32_t readMagnitude(uint32_t base, uint32_t bits, bool sign, uint32_t& negative) {
+  MCC_INLINE uint32_t readMagnitude(uint32_t base, uint32_t bits, bool sign, uint32_t& negative) {
     const size_t byte = static_cast<size_t>(next_bit_ >> 3);
     if (byte + 8 > bytes_.size()) [[unlikely]] {
       const uint32_t value = base + read(bits);
@@ -216,10 +216,10 @@ class DecoderIo {
             std::span<const uint8_t> raw)
       : codes_(codes), tokens_(tokens), raw_(raw) {}
 
-  MCC_ALWAYS_INLINE bool bit(BitModel& model, bool = false) { return codes_.bit(model); }
+  MCC_INLINE bool bit(BitModel& model, bool = false) { return codes_.bit(model); }
 
   template <uint32_t kState>
-  uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t = 0) {
+  MCC_INLINE uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t = 0) {
     if constexpr (kSingle) {
       const uint32_t slot = codes_.peek(kTokenBits);
       uint32_t start = 0;
@@ -248,7 +248,8 @@ class DecoderIo {
   }
 
   /// base + `bits` raw bits, then a sign bit if `sign` and the sum is not zero.
-  uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t, uint32_t& negative) {
+  MCC_INLINE uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t,
+                                uint32_t& negative) {
     if constexpr (kSingle) {
       const uint32_t value = base + raw(bits);
       negative = raw(sign && value != 0 ? 1 : 0);

@@ -46,7 +46,7 @@ struct BitModel {
 
   uint32_t zeroProbability() const { return state >> 10; }
 
-  MCC_ALWAYS_INLINE void update(bool bit) {
+  MCC_INLINE void update(bool bit) {
     const uint32_t count = state & 1023;
     const uint32_t p = state >> 10;
     const uint64_t rate = kAdaptationRates.of_count[count];
@@ -119,8 +119,8 @@ struct TokenRow {
 
 #if defined(__SSE2__)
 
-inline uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& schedule,
-                                       uint32_t& start_out, uint32_t& frequency_out) {
+MCC_INLINE uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& schedule,
+                                           uint32_t& start_out, uint32_t& frequency_out) {
   __m128i* rows = reinterpret_cast<__m128i*>(c);
   const __m128i low = _mm_load_si128(rows);
   const __m128i high = _mm_load_si128(rows + 1);
@@ -161,8 +161,8 @@ inline void TokenRow::adapt(uint32_t symbol, const TokenSchedule& schedule) {
   }
 }
 
-inline uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& schedule,
-                                       uint32_t& start_out, uint32_t& frequency_out) {
+MCC_INLINE uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& schedule,
+                                           uint32_t& start_out, uint32_t& frequency_out) {
   uint32_t symbol = 0;
   for (uint32_t i = 1; i < kTokenCount; ++i) symbol += c[i] <= slot ? 1 : 0;
   start_out = c[symbol];

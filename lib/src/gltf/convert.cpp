@@ -14,6 +14,7 @@
 #include "gltf/parallel.h"
 #include "gltf/payload.h"
 #include "gltf/rebuild.h"
+#include "gltf/uri.h"
 #include "mcc/gltf.h"
 
 namespace mcc::gltf {
@@ -283,6 +284,21 @@ Result inspectBytes(std::span<const uint8_t> source, const FileReader& read_file
   return {};
 }
 
+/// Relative references of images lead elsewhere from another folder.
+void noteFilesLeftBehind(const Document& document, const fs::path& source, const fs::path& output,
+                         std::vector<std::string>& notes) {
+  std::error_code ignored;
+  const fs::path from = fs::absolute(source, ignored).parent_path();
+  if (fs::equivalent(from, fs::absolute(output, ignored).parent_path(), ignored)) return;
+  const Json& images = arrayOf(document.json, "images");
+  for (size_t i = 0; i < images.size(); ++i) {
+    const Json* uri = findMember(images[i], "uri");
+    if (uri == nullptr || !uri->is_string() || isDataUri(uri->get<std::string>())) continue;
+    notes.push_back(at("/images", i) + ": \"" + uri->get<std::string>() +
+                    "\" stays a file beside the input; copy it to the output's folder");
+  }
+}
+
 /// Puts the name of the file in front of where in it something is wrong.
 Result inFile(const fs::path& path, Result result) {
   if (result.ok()) return result;
@@ -312,6 +328,7 @@ Result convertFile(const fs::path& source, const fs::path& output, const Convert
     std::vector<uint8_t> result;
     MCC_GLTF_TRY(inFile(source, convertBytes(bytes, readerOf(source.parent_path()), options,
                                              conversion, result, report)));
+    noteFilesLeftBehind(conversion.document, source, output, report.notes);
     MCC_GLTF_TRY(file.write(result));
     MCC_GLTF_TRY(readFile(file.temporaryPath(), result));
     MCC_GLTF_TRY(inFile(source, checkBytes(conversion, result, report)));

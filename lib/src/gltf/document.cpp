@@ -52,6 +52,10 @@ Result checkShape(const Json& json) {
   if (!number.starts_with("2.")) {
     return error("/asset/version", "glTF " + number + " is not supported; only glTF 2.0 is");
   }
+  for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+    const Json* list = findMember(json, key);
+    if (list != nullptr && !list->is_array()) return error(at("", key), "must be an array");
+  }
   for (const char* key : {"accessors", "animations", "bufferViews", "buffers", "images", "meshes",
                           "nodes", "skins"}) {
     const Json* list = findMember(json, key);

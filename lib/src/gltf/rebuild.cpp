@@ -154,7 +154,7 @@ class Rebuilder {
     for (uint32_t i = 0; i < document_.accessors.size(); ++i) {
       Json& accessor = json_["accessors"][i];
       moveOffset(accessor, document_.accessors[i].offset);
-      if (findMember(accessor, "sparse") == nullptr) continue;
+      if (document_.accessors[i].sparse.count == 0) continue;
       moveOffset(accessor["sparse"]["indices"], document_.accessors[i].sparse.index_offset);
       moveOffset(accessor["sparse"]["values"], document_.accessors[i].sparse.value_offset);
     }

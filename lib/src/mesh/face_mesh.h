@@ -15,6 +15,7 @@
 
 #include <cstdint>
 
+#include "base/host.h"
 #include "base/memory.h"
 #include "mcc/types.h"
 
@@ -26,20 +27,20 @@ inline constexpr uint32_t kSeamWord = 7;
 inline constexpr uint32_t kMaxFaces = 1u << 28;
 inline constexpr uint32_t kMaxVertices = 1u << 28;
 
-constexpr uint32_t nextHalfEdge(uint32_t h) { return (h & 3) == 2 ? h - 2 : h + 1; }
-constexpr uint32_t prevHalfEdge(uint32_t h) { return (h & 3) == 0 ? h + 2 : h - 1; }
+MCC_INLINE constexpr uint32_t nextHalfEdge(uint32_t h) { return (h & 3) == 2 ? h - 2 : h + 1; }
+MCC_INLINE constexpr uint32_t prevHalfEdge(uint32_t h) { return (h & 3) == 0 ? h + 2 : h - 1; }
 constexpr uint32_t faceOf(uint32_t h) { return h / kFaceWords; }
 
 /// Read access by half-edge; `words` has kFaceWords per face.
 struct FaceView {
   uint32_t* words;
 
-  uint32_t vertex(uint32_t h) const { return words[h]; }
-  uint32_t twin(uint32_t h) const { return words[h + 4]; }
+  MCC_INLINE uint32_t vertex(uint32_t h) const { return words[h]; }
+  MCC_INLINE uint32_t twin(uint32_t h) const { return words[h + 4]; }
   /// The next half-edge leaving the same vertex, counterclockwise; kNone at a boundary.
-  uint32_t rotateCcw(uint32_t h) const { return twin(prevHalfEdge(h)); }
+  MCC_INLINE uint32_t rotateCcw(uint32_t h) const { return twin(prevHalfEdge(h)); }
   /// The next half-edge leaving the same vertex, clockwise; kNone at a boundary.
-  uint32_t rotateCw(uint32_t h) const {
+  MCC_INLINE uint32_t rotateCw(uint32_t h) const {
     const uint32_t t = twin(h);
     return t == kNone ? kNone : nextHalfEdge(t);
   }
