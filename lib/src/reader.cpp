@@ -29,37 +29,36 @@ namespace {
 const PayloadInfo kEmptyInfo{};
 
 /// Copies wedge values to the caller's elements. [A.8.4]
-void storeValues(const AttributeInfo& info, const int32_t* values, uint32_t wedge_count,
-                 const AttributeTarget& target) {
+void storeValues(const AttributeInfo& info, const int32_t* values, uint32_t value_stride,
+                 uint32_t wedge_count, const AttributeTarget& target) {
   const uint32_t components = info.format.component_count;
   const uint32_t bytes = componentBytes(info.format.component_type);
   uint8_t* to = static_cast<uint8_t*>(target.data);
   const int32_t centre =
       info.coding == AttributeCoding::kOctahedral ? octahedralCentre(info.bits) : 0;
-  for (uint32_t w = 0; w < wedge_count; ++w, to += target.stride_bytes) {
+  for (uint32_t w = 0; w < wedge_count; ++w, to += target.stride_bytes, values += value_stride) {
     switch (info.coding) {
       case AttributeCoding::kLattice:
         for (uint32_t c = 0; c < components; ++c) {
           storeFloat(to + 4 * c,
-                     latticeValue(*values++, info.lattice.step, info.lattice.origin[c]));
+                     latticeValue(values[c], info.lattice.step, info.lattice.origin[c]));
         }
         break;
       case AttributeCoding::kOctahedral: {
         float unit[3];
         octahedralToUnit(values[0], values[1], centre, unit);
-        values += 2;
         for (uint32_t c = 0; c < 3; ++c) storeFloat(to + 4 * c, unit[c]);
         break;
       }
       case AttributeCoding::kExactFloat:
         for (uint32_t c = 0; c < components; ++c) {
-          const uint32_t bits = bitsFromOrdered(*values++);
+          const uint32_t bits = bitsFromOrdered(values[c]);
           std::memcpy(to + 4 * c, &bits, 4);
         }
         break;
       default:
         for (uint32_t c = 0; c < components; ++c) {
-          storeInteger(to + size_t{bytes} * c, info.format.component_type, *values++);
+          storeInteger(to + size_t{bytes} * c, info.format.component_type, values[c]);
         }
     }
   }
@@ -81,15 +80,22 @@ void storeTangents(const AttributeInfo& info, const int32_t* values,
   }
 }
 
+/// Stores `values`, value_stride per wedge, to attribute `index` and to all that are equal to it.
 template <class Io>
-void storeAttribute(const PieceCoder<Io>& piece, const AttributeInfo& info, const int32_t* values,
-                    uint32_t wedge_count, const AttributeTarget& target) {
-  if (target.data == nullptr) return;
-  if (info.coding == AttributeCoding::kTangentAngle) {
-    storeTangents(info, values, piece.tangentNormalInfo(), piece.tangentNormals(), wedge_count,
-                  target);
-  } else {
-    storeValues(info, values, wedge_count, target);
+void storeAttribute(const PieceCoder<Io>& piece, const PieceInfo& info, uint32_t index,
+                    const int32_t* values, uint32_t value_stride,
+                    std::span<const AttributeTarget> targets) {
+  const AttributeInfo& a = info.attributes[index];
+  for (size_t i = index; i < targets.size(); ++i) {
+    const bool is_alias = info.attributes[i].coding == AttributeCoding::kAlias &&
+                          info.attributes[i].alias_of == index;
+    if (targets[i].data == nullptr || (i != index && !is_alias)) continue;
+    if (a.coding == AttributeCoding::kTangentAngle) {
+      storeTangents(a, values, piece.tangentNormalInfo(), piece.tangentNormals(), info.wedge_count,
+                    targets[i]);
+    } else {
+      storeValues(a, values, value_stride, info.wedge_count, targets[i]);
+    }
   }
 }
 
@@ -99,7 +105,7 @@ void storePositions(const PieceCoder<Io>& piece, const AttributeInfo& info, uint
   if (target.data == nullptr) return;
   uint8_t* to = static_cast<uint8_t*>(target.data);
   for (uint32_t w = 0; w < wedge_count; ++w, to += target.stride_bytes) {
-    storeValues(info, piece.records[piece.groupOf(w)].q, 1, {to, target.stride_bytes});
+    storeValues(info, piece.records[piece.groupOf(w)].q, 0, 1, {to, target.stride_bytes});
   }
 }
 
@@ -192,9 +198,14 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
   for (uint32_t phase = 0; phase < kCodingPhases; ++phase) {
     for (uint32_t a = 1; a < info.attributes.size(); ++a) {
       if (codingPhase(info.attributes[a]) != phase) continue;
+      const AttributeMethod method = methodOf(info.attributes.data(), header.attribute_count, a);
+      if (method == AttributeMethod::kNone) continue;
       MCC_TRY(piece.codeAttribute(a, values));
-      storeAttribute(piece, info.attributes[a], values.data(), info.wedge_count,
-                     target.attributes[a]);
+      const uint32_t stride = piece.codedComponentsOf(a);
+      storeAttribute(piece, info, a, values.data(), stride, target.attributes);
+      if (method != AttributeMethod::kSkin) continue;
+      const uint32_t weights = skinPartner(info.attributes.data(), header.attribute_count, a);
+      storeAttribute(piece, info, weights, values.data() + kSkinSlots, stride, target.attributes);
     }
   }
   return {};
