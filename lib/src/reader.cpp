@@ -199,7 +199,7 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
     for (uint32_t a = 1; a < info.attributes.size(); ++a) {
       if (codingPhase(info.attributes[a]) != phase) continue;
       const AttributeMethod method = methodOf(info.attributes.data(), header.attribute_count, a);
-      if (method == AttributeMethod::kNone) continue;
+      if (method == AttributeMethod::kWithAnother) continue;
       MCC_TRY(piece.codeAttribute(a, values));
       const uint32_t stride = piece.codedComponentsOf(a);
       storeAttribute(piece, info, a, values.data(), stride, target.attributes);

@@ -332,7 +332,7 @@ class StageRunner {
     infos_[index] = plan_.attributes[index].info;
     const uint32_t count = plan_.header.attribute_count;
     const AttributeMethod method = methodOf(infos_.data(), count, index);
-    if (method == AttributeMethod::kNone) return {};
+    if (method == AttributeMethod::kWithAnother) return {};
     const uint32_t stride = piece_.codedComponentsOf(index);
     if (!values_.resize(size_t{plan_.header.wedge_count} * stride)) throw std::bad_alloc();
     learnValues(plan_, index, 0, stride, values_);
@@ -468,7 +468,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
   std::vector<AttributeInfo> infos;
   for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
   const AttributeMethod method = methodOf(infos.data(), plan.header.attribute_count, index);
-  if (method == AttributeMethod::kNone) return {};
+  if (method == AttributeMethod::kWithAnother) return {};
   PredictorSearch search(method, info.predictor, plan.header.has(piece_flag::kSeams));
   while (!search.done()) {
     uint64_t cost = 0;

@@ -75,7 +75,7 @@ class AttributeStage {
   Status code(uint32_t index, const WedgeSequence& sequence, Array<int32_t>& values) {
     const AttributeInfo& info = attributes_[index];
     const AttributeMethod method = methodOf(attributes_, count_, index);
-    if (method == AttributeMethod::kNone) return {};
+    if (method == AttributeMethod::kWithAnother) return {};
     const uint32_t components = codedComponents(attributes_, count_, index);
     if (!values.resize(size_t{wedges.count} * components) || !lengths_.resize(wedges.count)) {
       return noMemory();
@@ -90,7 +90,7 @@ class AttributeStage {
       case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(info, values.data())); break;
       case AttributeMethod::kTangent: MCC_TRY(codeTangents(info, values.data())); break;
       case AttributeMethod::kSkin: codeSkin(index, values.data()); break;
-      case AttributeMethod::kNone: break;
+      case AttributeMethod::kWithAnother: break;
       case AttributeMethod::kValues:
         ValueCoder<Io>(io_, models_.valuesOf(info), wedges.faces, sequence, components,
                        static_cast<ValuePredictor>(info.predictor & 1), values.data(),

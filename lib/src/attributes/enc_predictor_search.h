@@ -35,7 +35,7 @@ class PredictorSearch {
         best_ = static_cast<uint8_t>(predictor | (has_seams ? kHasEqualities : 0));
         steps_ = {{0, {0}}};
         break;
-      case AttributeMethod::kNone: break;
+      case AttributeMethod::kWithAnother: break;
       case AttributeMethod::kValues: steps_ = {{1, {0, 1}}}; break;
     }
     if (has_seams && best_ >= kHasEqualities) steps_.push_back({kHasEqualities, {0}});

@@ -12,12 +12,12 @@ namespace mcc {
 
 /// The coder follows from what the header says; there is no field for it.
 enum class AttributeMethod : uint8_t {
-  kValues,    ///< attributes/values.h
-  kNormal,    ///< attributes/normals.h
-  kTexcoord,  ///< attributes/texcoords.h
-  kTangent,   ///< attributes/tangents.h
-  kSkin,      ///< attributes/skin.h: JOINTS_n with its WEIGHTS_n
-  kNone,      ///< coded with another attribute: WEIGHTS_n with its JOINTS_n, aliases
+  kValues,       ///< attributes/values.h
+  kNormal,       ///< attributes/normals.h
+  kTexcoord,     ///< attributes/texcoords.h
+  kTangent,      ///< attributes/tangents.h
+  kSkin,         ///< attributes/skin.h: JOINTS_n with its WEIGHTS_n
+  kWithAnother,  ///< coded with another attribute: WEIGHTS_n with its JOINTS_n, aliases
 };
 
 /// The attribute of a piece that gives tangents their plane: the first NORMAL on the octahedral grid; or kNone.
@@ -72,12 +72,12 @@ constexpr AttributeMethod methodOf(const AttributeInfo* attributes, uint32_t cou
   switch (a.coding) {
     case AttributeCoding::kOctahedral: return AttributeMethod::kNormal;
     case AttributeCoding::kTangentAngle: return AttributeMethod::kTangent;
-    case AttributeCoding::kAlias: return AttributeMethod::kNone;
+    case AttributeCoding::kAlias: return AttributeMethod::kWithAnother;
     default: break;
   }
   if (skinPartner(attributes, count, index) != kNone) {
     const bool is_joints = a.format.semantic == Semantic::kJoints;
-    return is_joints ? AttributeMethod::kSkin : AttributeMethod::kNone;
+    return is_joints ? AttributeMethod::kSkin : AttributeMethod::kWithAnother;
   }
   if (a.format.semantic == Semantic::kTexcoord && a.format.morph_target == 0 &&
       a.format.component_count == 2 && a.coding != AttributeCoding::kExactFloat) {
@@ -129,7 +129,7 @@ constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count,
     case AttributeMethod::kTexcoord:
       return (bits & ~0x0f) == 0 && (bits & texcoord_method::kPredictorMask) < 5;
     case AttributeMethod::kSkin: return bits <= skin_method::kIdleJoints;
-    case AttributeMethod::kNone:
+    case AttributeMethod::kWithAnother:
       if (a.coding == AttributeCoding::kAlias) return a.predictor == 0;
       return a.predictor == 0 ||
              ((a.predictor == skin_method::kUnitSum || a.predictor == skin_method::kUsualSum) &&
