@@ -203,6 +203,10 @@ class PieceCoder {
     return stage_.code(index, wedges, values);
   }
 
+  uint32_t codedComponentsOf(uint32_t index) const {
+    return codedComponents(attributes_, header_.attribute_count, index);
+  }
+
   /// Grid points of the normals that tangents refer to, and how they are coded.
   const int32_t* tangentNormals() const { return stage_.normals.data(); }
   const AttributeInfo& tangentNormalInfo() const { return stage_.normalInfo(); }

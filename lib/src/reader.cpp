@@ -95,17 +95,23 @@ void storeTangents(const AttributeInfo& info, const int32_t* values,
   }
 }
 
+/// Stores `values`, value_stride per wedge, to attribute `index` and to all that are equal to it.
 template <class Io>
-void storeAttribute(const PieceCoder<Io>& piece, const AttributeInfo& info, const int32_t* values,
-                    uint32_t wedge_count, const AttributeTarget& target) {
-  if (target.data == nullptr) return;
-  if (info.coding == AttributeCoding::kTangentAngle) {
-    storeTangents(info, values, piece.tangentNormalInfo(), piece.tangentNormals(), wedge_count,
-                  target);
-  } else {
-    const uint32_t components = codedComponents(info);
-    storeElements(info, wedge_count, target,
-                  [=](uint32_t w) { return values + size_t{w} * components; });
+void storeAttribute(const PieceCoder<Io>& piece, const PieceInfo& info, uint32_t index,
+                    const int32_t* values, uint32_t value_stride,
+                    std::span<const AttributeTarget> targets) {
+  const AttributeInfo& a = info.attributes[index];
+  for (size_t i = index; i < targets.size(); ++i) {
+    const bool is_alias = info.attributes[i].coding == AttributeCoding::kAlias &&
+                          info.attributes[i].alias_of == index;
+    if (targets[i].data == nullptr || (i != index && !is_alias)) continue;
+    if (a.coding == AttributeCoding::kTangentAngle) {
+      storeTangents(a, values, piece.tangentNormalInfo(), piece.tangentNormals(), info.wedge_count,
+                    targets[i]);
+    } else {
+      storeElements(a, info.wedge_count, targets[i],
+                    [=](uint32_t w) { return values + size_t{w} * value_stride; });
+    }
   }
 }
 
@@ -229,9 +235,14 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
   for (uint32_t phase = 0; phase < kCodingPhases; ++phase) {
     for (uint32_t a = 1; a < info.attributes.size(); ++a) {
       if (codingPhase(info.attributes[a]) != phase) continue;
+      const AttributeMethod method = methodOf(info.attributes.data(), header.attribute_count, a);
+      if (method == AttributeMethod::kWithAnother) continue;
       MCC_TRY(piece.codeAttribute(a, values));
-      storeAttribute(piece, info.attributes[a], values.data(), info.wedge_count,
-                     target.attributes[a]);
+      const uint32_t stride = piece.codedComponentsOf(a);
+      storeAttribute(piece, info, a, values.data(), stride, target.attributes);
+      if (method != AttributeMethod::kSkin) continue;
+      const uint32_t weights = skinPartner(info.attributes.data(), header.attribute_count, a);
+      storeAttribute(piece, info, weights, values.data() + kSkinSlots, stride, target.attributes);
     }
   }
   return {};

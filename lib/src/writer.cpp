@@ -143,32 +143,10 @@ void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_ed
   if (h.has(piece_flag::kSeams) && run_count > surface_wedges) h.flags |= piece_flag::kMerges;
 }
 
-/// Tangents last: they need to know what became of the normals.
-void quantizeAll(const PieceView& view, Plan& plan, std::vector<std::string>& notes) {
-  const auto isTangent = [](const AttributeView& a) {
-    return a.format.semantic == Semantic::kTangent && a.format.morph_target == 0;
-  };
-  plan.attributes.resize(view.attributes.size());
-  size_t normal = view.attributes.size();
-  for (size_t i = view.attributes.size(); i-- != 0;) {
-    if (isTangent(view.attributes[i])) continue;
-    plan.attributes[i] =
-        quantizeAttribute(view.attributes[i], view.wedge_count, nullptr, nullptr, notes);
-    if (plan.attributes[i].info.coding == AttributeCoding::kOctahedral) normal = i;
-  }
-  const bool has_normal = normal != view.attributes.size();
-  for (size_t i = 0; i < view.attributes.size(); ++i) {
-    if (!isTangent(view.attributes[i])) continue;
-    plan.attributes[i] = quantizeAttribute(view.attributes[i], view.wedge_count,
-                                           has_normal ? &view.attributes[normal] : nullptr,
-                                           has_normal ? &plan.attributes[normal] : nullptr, notes);
-  }
-}
-
 Status preparePiece(const PieceView& view, Plan& plan, std::vector<std::string>& notes) {
   MCC_TRY(checkPiece(view));
   plan.view = &view;
-  quantizeAll(view, plan, notes);
+  plan.attributes = quantizeAttributes(view, notes);
   plan.classes = weldPositions(view.attributes[0], view.wedge_count,
                                plan.attributes[0].info.coding == AttributeCoding::kExactFloat);
   plan.triangles = sortTriangles(view.parts, view.wedge_count);
@@ -322,12 +300,13 @@ void learnWedges(Plan& plan, FaceMesh& mesh) {
   learnListed(plan, mesh, wedge_of_source);
 }
 
-void learnAttribute(const Plan& plan, uint32_t index, Array<int32_t>& values) {
+/// The values of `index` behind those of the attributes coded with it, in `stride` words per wedge.
+void learnValues(const Plan& plan, uint32_t index, uint32_t offset, uint32_t stride,
+                 Array<int32_t>& values) {
   const QuantizedAttribute& a = plan.attributes[index];
-  if (!values.resize(size_t{plan.header.wedge_count} * a.components)) throw std::bad_alloc();
   for (uint32_t w = 0; w < plan.header.wedge_count; ++w) {
     for (uint32_t c = 0; c < a.components; ++c) {
-      values[size_t{w} * a.components + c] =
+      values[size_t{w} * stride + offset + c] =
           a.values[size_t{plan.wedge_source[w]} * a.components + c];
     }
   }
@@ -428,7 +407,15 @@ class StageRunner {
 
   Status codeAttribute(uint32_t index, StreamSizes* sizes) {
     infos_[index] = plan_.attributes[index].info;
-    learnAttribute(plan_, index, values_);
+    const uint32_t count = plan_.header.attribute_count;
+    const AttributeMethod method = methodOf(infos_.data(), count, index);
+    if (method == AttributeMethod::kWithAnother) return {};
+    const uint32_t stride = piece_.codedComponentsOf(index);
+    if (!values_.resize(size_t{plan_.header.wedge_count} * stride)) throw std::bad_alloc();
+    learnValues(plan_, index, 0, stride, values_);
+    if (method == AttributeMethod::kSkin) {
+      learnValues(plan_, skinPartner(infos_.data(), count, index), kSkinSlots, stride, values_);
+    }
     MCC_TRY(piece_.codeAttribute(index, values_));
     if (sizes != nullptr) sizes->attribute_bits[first_attribute_ + index] = since();
     return {};
@@ -574,7 +561,11 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
     cost = io.cost() - spent;
     return {};
   };
-  PredictorSearch search(info, plan.header.has(piece_flag::kSeams));
+  std::vector<AttributeInfo> infos;
+  for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
+  const AttributeMethod method = methodOf(infos.data(), plan.header.attribute_count, index);
+  if (method == AttributeMethod::kWithAnother) return {};
+  PredictorSearch search(method, info.predictor, plan.header.has(piece_flag::kSeams));
   while (!search.done()) {
     uint64_t cost = 0;
     MCC_TRY(costWith(search.candidate(), cost));

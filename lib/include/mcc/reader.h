@@ -33,12 +33,15 @@ struct PartInfo {
 
 /// How an attribute is coded; for reports, and for callers that compute error bounds.
 enum class AttributeCoding : uint8_t {
-  kLattice = 0,       ///< float32 on a lattice of `bits` bits
-  kInteger = 1,       ///< integer components, exact
-  kExactFloat = 2,    ///< float32 components, every bit pattern kept
-  kOctahedral = 3,    ///< unit vectors, octahedral grid of `bits` bits
-  kTangentAngle = 4,  ///< angle in the decoded normal's frame plus sign
-  kAlias = 5,         ///< equal to an earlier attribute of the piece
+  kLattice = 0,     ///< float32 on a lattice of `bits` bits
+  kInteger = 1,     ///< integer components, exact
+  kExactFloat = 2,  ///< float32 components, every bit pattern kept
+  kOctahedral = 3,  ///< unit vectors, octahedral grid of `bits` bits
+  /// TANGENT as an angle of `bits` bits in the plane of the decoded normal, and a sign. The decoded tangent is perpendicular
+  /// to the decoded normal; it differs from the source by at most half a step (180 / 2^bits degrees) plus the error of the
+  /// normal (that of its kOctahedral grid) plus what the source was off perpendicular (writers allow 0.12 degrees).
+  kTangentAngle = 4,
+  kAlias = 5,  ///< equal to attribute `alias_of` of the piece, whose coding holds
 };
 
 struct AttributeInfo {
@@ -47,6 +50,7 @@ struct AttributeInfo {
   uint8_t bits = 0;       ///< of kLattice, kOctahedral, kTangentAngle
   Lattice lattice;        ///< of kLattice
   uint8_t predictor = 0;  ///< the coding's own choice, see the specification
+  uint32_t alias_of = 0;  ///< of kAlias
 };
 
 struct PieceInfo {

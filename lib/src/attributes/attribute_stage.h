@@ -8,6 +8,7 @@
 
 #include "attributes/equality.h"
 #include "attributes/normals.h"
+#include "attributes/skin.h"
 #include "attributes/tangents.h"
 #include "attributes/texcoords.h"
 #include "attributes/values.h"
@@ -22,6 +23,7 @@ struct AttributeModels {
   NormalModels normals;
   TexcoordModels texcoords[2];  ///< [further set]
   TangentModels tangents;
+  SkinModels skins[2];          ///< [further set]
   ValueModels values[8][2][2];  ///< [semantic][further set][morph target]
 
   EqualityModels& equalitiesOf(const AttributeInfo& a) {
@@ -33,11 +35,14 @@ struct AttributeModels {
   }
 };
 
-/// Integers per wedge that an attribute is coded as.
-inline uint32_t codedComponents(const AttributeInfo& info) {
-  const bool pairs =
-      info.coding == AttributeCoding::kOctahedral || info.coding == AttributeCoding::kTangentAngle;
-  return pairs ? 2 : info.format.component_count;
+/// Integers per wedge that an attribute is coded as; JOINTS_n is coded with its WEIGHTS_n behind.
+inline uint32_t codedComponents(const AttributeInfo* attributes, uint32_t count, uint32_t index) {
+  switch (methodOf(attributes, count, index)) {
+    case AttributeMethod::kNormal:
+    case AttributeMethod::kTangent: return 2;
+    case AttributeMethod::kSkin: return kSkinWords;
+    default: return attributes[index].format.component_count;
+  }
 }
 
 template <class Io>
@@ -52,6 +57,7 @@ class AttributeStage {
         io_(io),
         models_(models),
         attributes_(attributes),
+        count_(attribute_count),
         normal_(normalOfTangents(attributes, attribute_count)),
         chart_(chartOfTangents(attributes, attribute_count)),
         groups_(allocator),
@@ -68,7 +74,9 @@ class AttributeStage {
   /// order for attributes/values.h.
   Status code(uint32_t index, const WedgeSequence& sequence, Array<int32_t>& values) {
     const AttributeInfo& info = attributes_[index];
-    const uint32_t components = codedComponents(info);
+    const AttributeMethod method = methodOf(attributes_, count_, index);
+    if (method == AttributeMethod::kWithAnother) return {};
+    const uint32_t components = codedComponents(attributes_, count_, index);
     if (!values.resize(size_t{wedges.count} * components) || !lengths_.resize(wedges.count)) {
       return noMemory();
     }
@@ -77,10 +85,12 @@ class AttributeStage {
       MCC_TRY(EqualityCoder<Io>(io_, models_.equalitiesOf(info), wedges, values.data(), components)
                   .run(groups_));
     }
-    switch (methodOf(info)) {
+    switch (method) {
       case AttributeMethod::kNormal: MCC_TRY(codeNormals(info, values.data())); break;
       case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(info, values.data())); break;
       case AttributeMethod::kTangent: MCC_TRY(codeTangents(info, values.data())); break;
+      case AttributeMethod::kSkin: codeSkin(index, values.data()); break;
+      case AttributeMethod::kWithAnother: break;
       case AttributeMethod::kValues:
         ValueCoder<Io>(io_, models_.valuesOf(info), wedges.faces, sequence, components,
                        static_cast<ValuePredictor>(info.predictor & 1), values.data(),
@@ -131,6 +141,17 @@ class AttributeStage {
     return {};
   }
 
+  void codeSkin(uint32_t index, int32_t* values) {
+    const AttributeInfo& joints = attributes_[index];
+    const AttributeInfo& weights = attributes_[skinPartner(attributes_, count_, index)];
+    const int32_t sum = weights.predictor != 0 ? unitSum(weights) : 0;
+    const bool sums_vary = weights.predictor == skin_method::kUsualSum;
+    SkinCoder<Io>(io_, models_.skins[joints.format.set_index != 0 ? 1 : 0], wedges, groups_, sum,
+                  sums_vary, (joints.predictor & skin_method::kIdleJoints) != 0, values,
+                  lengths_.data())
+        .run();
+  }
+
   Status keepForTangents(uint32_t index, const Array<int32_t>& values) {
     if (index == normal_) {
       if (!normals.resize(values.size())) return noMemory();
@@ -146,6 +167,7 @@ class AttributeStage {
   Io& io_;
   AttributeModels& models_;
   const AttributeInfo* const attributes_;
+  const uint32_t count_;
   const uint32_t normal_;
   const uint32_t chart_;
   bool has_tangents_ = false;

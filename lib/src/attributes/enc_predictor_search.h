@@ -14,8 +14,8 @@ namespace mcc {
 /// Coordinate descent: each step varies one field of the byte and keeps the best value so far.
 class PredictorSearch {
  public:
-  PredictorSearch(const AttributeInfo& info, bool has_seams) {
-    switch (methodOf(info)) {
+  PredictorSearch(AttributeMethod method, uint8_t predictor, bool has_seams) {
+    switch (method) {
       case AttributeMethod::kNormal:
         best_ = has_seams ? 1 | kHasEqualities : 1;
         steps_ = {{normal_method::kWeightMask, {1, 0, 2}},
@@ -31,6 +31,11 @@ class PredictorSearch {
         best_ = has_seams ? kHasEqualities : 0;
         steps_ = {{0, {0}}};
         break;
+      case AttributeMethod::kSkin:
+        best_ = static_cast<uint8_t>(predictor | (has_seams ? kHasEqualities : 0));
+        steps_ = {{0, {0}}};
+        break;
+      case AttributeMethod::kWithAnother: break;
       case AttributeMethod::kValues: steps_ = {{1, {0, 1}}}; break;
     }
     if (has_seams && best_ >= kHasEqualities) steps_.push_back({kHasEqualities, {0}});

@@ -287,13 +287,173 @@ class Quantizer {
   QuantizedAttribute result_;
 };
 
+bool isBase(const AttributeFormat& f, Semantic semantic) {
+  return f.semantic == semantic && f.morph_target == 0;
+}
+
+float floatAt(const AttributeView& view, uint32_t wedge, uint32_t c) {
+  float value = 0;
+  std::memcpy(&value, static_cast<const uint8_t*>(view.data) + view.stride_bytes * wedge + 4 * c,
+              4);
+  return value;
+}
+
+/// Weights of all sets on one lattice from 0 to 1, such that tuples that sum to 1 still do: DESIGN 9.
+class WeightQuantizer {
+ public:
+  WeightQuantizer(const PieceView& piece, std::vector<QuantizedAttribute>& all)
+      : piece_(piece), all_(all) {
+    for (size_t i = 1; i < all.size(); ++i) {
+      const AttributeView& view = piece.attributes[i];
+      if (isBase(view.format, Semantic::kWeights) && view.lattice == nullptr &&
+          all[i].info.coding == AttributeCoding::kLattice && inUnitRange(view)) {
+        sets_.push_back(i);
+      }
+    }
+  }
+
+  void run() {
+    if (sets_.empty()) return;
+    uint8_t bits = 24;
+    for (const size_t i : sets_) bits = std::min(bits, all_[i].info.bits);
+    total_ = (1 << bits) - 1;
+    for (const size_t i : sets_) {
+      all_[i].info.bits = bits;
+      all_[i].info.lattice = Lattice{};
+      all_[i].info.lattice.step = static_cast<float>(1.0 / total_);
+    }
+    for (uint32_t w = 0; w < piece_.wedge_count; ++w) quantizeTuple(w);
+  }
+
+ private:
+  static constexpr double kSumTolerance = 1e-3;
+
+  bool inUnitRange(const AttributeView& view) const {
+    for (uint32_t w = 0; w < piece_.wedge_count; ++w) {
+      for (uint32_t c = 0; c < view.format.component_count; ++c) {
+        const float x = floatAt(view, w, c);
+        if (!(x >= 0 && x <= 1)) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Rounds down, then gives what is missing to the components with the largest remainders.
+  void quantizeTuple(uint32_t w) {
+    remainders_.clear();
+    double sum = 0;
+    int32_t given = 0;
+    for (const size_t i : sets_) {
+      const uint32_t components = piece_.attributes[i].format.component_count;
+      for (uint32_t c = 0; c < components; ++c) {
+        const double x = floatAt(piece_.attributes[i], w, c);
+        int32_t& value = all_[i].values[size_t{w} * components + c];
+        value = static_cast<int32_t>(x * total_);
+        sum += x;
+        given += value;
+        remainders_.push_back({x * total_ - value, &value});
+      }
+    }
+    const bool sums_to_one = std::fabs(sum - 1) <= kSumTolerance;
+    if (sums_to_one) {
+      std::stable_sort(remainders_.begin(), remainders_.end(),
+                       [](const Remainder& a, const Remainder& b) { return a.part > b.part; });
+    }
+    for (const Remainder& r : remainders_) {
+      if (sums_to_one ? given < total_ && r.part > 0 : r.part >= 0.5) {
+        ++*r.value;
+        ++given;
+      }
+    }
+  }
+
+  struct Remainder {
+    double part;
+    int32_t* value;
+  };
+  const PieceView& piece_;
+  std::vector<QuantizedAttribute>& all_;
+  std::vector<size_t> sets_;
+  std::vector<Remainder> remainders_;
+  int32_t total_ = 0;
+};
+
+/// The bits of skin_method that hold for a pair of JOINTS and WEIGHTS.
+void describeSkin(uint32_t wedge_count, QuantizedAttribute& joints, QuantizedAttribute& weights) {
+  const int32_t unit = unitSum(weights.info);
+  uint32_t unit_sums = 0;
+  for (uint32_t w = 0; w < wedge_count; ++w) {
+    int64_t sum = 0;
+    for (size_t k = 4 * size_t{w}; k < 4 * size_t{w} + 4; ++k) {
+      sum += weights.values[k];
+      if (weights.values[k] == 0 && joints.values[k] != 0) {
+        joints.info.predictor |= skin_method::kIdleJoints;
+      }
+    }
+    unit_sums += sum == unit ? 1 : 0;
+  }
+  if (unit == 0 || 2 * unit_sums < wedge_count) return;
+  weights.info.predictor |=
+      unit_sums == wedge_count ? skin_method::kUnitSum : skin_method::kUsualSum;
+}
+
+bool isEqual(const QuantizedAttribute& a, const QuantizedAttribute& b) {
+  const AttributeInfo& x = a.info;
+  const AttributeInfo& y = b.info;
+  return x.coding == y.coding && x.bits == y.bits && x.lattice == y.lattice &&
+         x.format.component_type == y.format.component_type &&
+         x.format.component_count == y.format.component_count && a.values == b.values;
+}
+
+/// Attributes equal to an earlier one become its aliases.
+void findAliases(std::vector<QuantizedAttribute>& all) {
+  for (uint32_t i = 1; i < all.size(); ++i) {
+    for (uint32_t source = 1; source < i; ++source) {
+      if (all[source].info.coding == AttributeCoding::kAlias || !isEqual(all[source], all[i]))
+        continue;
+      AttributeInfo info;
+      info.format = all[i].info.format;
+      info.coding = AttributeCoding::kAlias;
+      info.alias_of = source;
+      all[i].info = info;
+      all[i].values.clear();
+      break;
+    }
+  }
+}
+
 }  // namespace
 
-QuantizedAttribute quantizeAttribute(const AttributeView& view, uint32_t wedge_count,
-                                     const AttributeView* normal_view,
-                                     const QuantizedAttribute* normal,
-                                     std::vector<std::string>& notes) {
-  return Quantizer(view, wedge_count, normal_view, normal).run(notes);
+std::vector<QuantizedAttribute> quantizeAttributes(const PieceView& piece,
+                                                   std::vector<std::string>& notes) {
+  const size_t count = piece.attributes.size();
+  std::vector<QuantizedAttribute> all(count);
+  size_t normal = count;
+  for (size_t i = count; i-- != 0;) {
+    const AttributeView& view = piece.attributes[i];
+    if (isBase(view.format, Semantic::kTangent)) continue;
+    all[i] = Quantizer(view, piece.wedge_count, nullptr, nullptr).run(notes);
+    if (all[i].info.coding == AttributeCoding::kOctahedral) normal = i;
+  }
+  // Tangents last: they need to know what became of the normals.
+  for (size_t i = 0; i < count; ++i) {
+    const AttributeView& view = piece.attributes[i];
+    if (!isBase(view.format, Semantic::kTangent)) continue;
+    const bool has_normal = normal != count;
+    all[i] = Quantizer(view, piece.wedge_count, has_normal ? &piece.attributes[normal] : nullptr,
+                       has_normal ? &all[normal] : nullptr)
+                 .run(notes);
+  }
+  WeightQuantizer(piece, all).run();
+  findAliases(all);
+  std::vector<AttributeInfo> infos;
+  for (const QuantizedAttribute& a : all) infos.push_back(a.info);
+  for (uint32_t i = 1; i < count; ++i) {
+    const uint32_t number = static_cast<uint32_t>(count);
+    if (methodOf(infos.data(), number, i) != AttributeMethod::kSkin) continue;
+    describeSkin(piece.wedge_count, all[i], all[skinPartner(infos.data(), number, i)]);
+  }
+  return all;
 }
 
 }  // namespace mcc

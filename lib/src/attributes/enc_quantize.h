@@ -18,13 +18,10 @@ struct QuantizedAttribute {
   std::vector<int32_t> values;
 };
 
-/// Chooses the coding (lattice, octahedral, tangent angle, integer, exact) and converts all wedges. What the requested
-/// bits would ruin goes exact, with a line in `notes`. `normal_view` and `normal`: the octahedral normals of a tangent,
-/// null when there are none.
-QuantizedAttribute quantizeAttribute(const AttributeView& view, uint32_t wedge_count,
-                                     const AttributeView* normal_view,
-                                     const QuantizedAttribute* normal,
-                                     std::vector<std::string>& notes);
+/// Chooses the coding of every attribute of a piece and converts all wedges. What the requested bits would ruin goes
+/// exact, with a line in `notes`. The values of an alias are empty.
+std::vector<QuantizedAttribute> quantizeAttributes(const PieceView& piece,
+                                                   std::vector<std::string>& notes);
 
 }  // namespace mcc
 

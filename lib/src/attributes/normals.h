@@ -95,80 +95,91 @@ void addFaceNormals(const WedgeMesh& wedges, const float* positions, float* sums
 /// Grid coordinate, relative to the centre, of x in -1..1 (or beyond by rounding errors).
 inline int32_t gridCoordinate(float x, int32_t centre) {
   const float scaled = std::min(std::max(x, -1.0f), 1.0f) * static_cast<float>(centre);
-  return static_cast<int32_t>(scaled + (scaled < 0 ? -0.5f : 0.5f));
+  return static_cast<int32_t>(scaled + std::copysign(0.5f, scaled));
 }
 
 /// Grid point, relative to the centre, nearest to the projection of a vector of any length but 0. [B.4.4]
 inline void projectToGrid(const float* v, int32_t centre, int32_t* point) {
   const float inverse = 1.0f / (std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]));
-  float x = v[0] * inverse;
-  float y = v[1] * inverse;
-  if (v[2] < 0) {
-    const float folded_x = 1.0f - std::fabs(y);
-    const float folded_y = 1.0f - std::fabs(x);
-    x = x < 0 ? -folded_x : folded_x;
-    y = y < 0 ? -folded_y : folded_y;
-  }
-  point[0] = gridCoordinate(x, centre);
-  point[1] = gridCoordinate(y, centre);
+  const float x = v[0] * inverse;
+  const float y = v[1] * inverse;
+  const bool folded = v[2] < 0;  // as likely as not: selects, no branches
+  const float folded_x = std::copysign(1.0f - std::fabs(y), x);
+  const float folded_y = std::copysign(1.0f - std::fabs(x), y);
+  point[0] = gridCoordinate(folded ? folded_x : x, centre);
+  point[1] = gridCoordinate(folded ? folded_y : y, centre);
 }
 
-/// The residual's frame, chosen by the predicted point; maps grid points to and fro. [B.4.5]
+/// The residual's frame, chosen by the predicted point; maps grid points to and fro. The cases are equally likely, so
+/// it is all selects and no branches. [B.4.5]
 class OctahedralFrame {
  public:
   OctahedralFrame(const int32_t* predicted, int32_t centre)
-      : centre_(centre), p_{predicted[0], predicted[1]} {
-    turned_over_ = std::abs(p_[0]) + std::abs(p_[1]) > centre;
-    if (turned_over_) turnOver(p_, centre);
-    while (quarter_turns_ < 4 && !(p_[0] < 0 && p_[1] <= 0) && (p_[0] != 0 || p_[1] != 0)) {
-      rotate(p_);
-      ++quarter_turns_;
-    }
+      : centre_(centre),
+        turned_over_(std::abs(predicted[0]) + std::abs(predicted[1]) > centre),
+        p_{predicted[0], predicted[1]} {
+    turnOverIf(turned_over_, p_);
+    // Quarter turns that bring p to x < 0, y <= 0.
+    const int32_t x = p_[0];
+    const int32_t y = p_[1];
+    const int32_t one = (y > 0) & (x <= 0);
+    const int32_t two = (x > 0) & (y >= 0);
+    const int32_t three = (y < 0) & (x >= 0);
+    cosine_ = 1 - one - 2 * two - three;
+    sine_ = one - three;
+    turn(p_, sine_);
   }
 
   /// Swaps the inside and the outside of the diamond |x| + |y| = centre.
   static void turnOver(int32_t* p, int32_t centre) {
     const int32_t x = p[0];
     const int32_t y = p[1];
-    const bool same = (x >= 0 && y >= 0) || (x <= 0 && y <= 0);
-    const int32_t sign_x = same ? (x >= 0 && y >= 0 ? 1 : -1) : (x > 0 ? 1 : -1);
-    const int32_t sign_y = same ? sign_x : -sign_x;
-    p[0] = sign_x * (centre - std::abs(y));
-    p[1] = sign_y * (centre - std::abs(x));
+    const bool x_negative = (x < 0) | ((x == 0) & (y < 0));
+    const bool y_negative = (y < 0) | ((y == 0) & (x < 0));
+    const int32_t to_x = centre - std::abs(y);
+    const int32_t to_y = centre - std::abs(x);
+    p[0] = x_negative ? -to_x : to_x;
+    p[1] = y_negative ? -to_y : to_y;
   }
 
   void residualOf(const int32_t* point, int32_t* residual) const {
     int32_t p[2] = {point[0], point[1]};
-    if (turned_over_) turnOver(p, centre_);
-    for (uint32_t i = 0; i < quarter_turns_; ++i) rotate(p);
+    turnOverIf(turned_over_, p);
+    turn(p, sine_);
     for (int k = 0; k < 2; ++k) residual[k] = wrap(p[k] - p_[k]);
   }
 
   /// `residual` may be anything; the point is on the grid.
   void pointOf(const int32_t* residual, int32_t* point) const {
     for (int k = 0; k < 2; ++k) {
-      const int32_t r = std::clamp(residual[k], -centre_, centre_);
-      point[k] = wrap(p_[k] + r);
+      point[k] = wrap(p_[k] + std::clamp(residual[k], -centre_, centre_));
     }
-    for (uint32_t i = quarter_turns_; i % 4 != 0; ++i) rotate(point);
-    if (turned_over_) turnOver(point, centre_);
+    turn(point, -sine_);
+    turnOverIf(turned_over_, point);
   }
 
  private:
-  static void rotate(int32_t* p) {
+  void turn(int32_t* p, int32_t sine) const {
     const int32_t x = p[0];
-    p[0] = -p[1];
-    p[1] = x;
+    p[0] = cosine_ * x - sine * p[1];
+    p[1] = sine * x + cosine_ * p[1];
+  }
+  void turnOverIf(bool condition, int32_t* p) const {
+    int32_t q[2] = {p[0], p[1]};
+    turnOver(q, centre_);
+    p[0] = condition ? q[0] : p[0];
+    p[1] = condition ? q[1] : p[1];
   }
   int32_t wrap(int32_t value) const {
-    if (value > centre_) return value - (2 * centre_ + 1);
-    return value < -centre_ ? value + (2 * centre_ + 1) : value;
+    const int32_t size = 2 * centre_ + 1;
+    return value - (value > centre_ ? size : 0) + (value < -centre_ ? size : 0);
   }
 
   const int32_t centre_;
+  const bool turned_over_;
   int32_t p_[2];
-  bool turned_over_ = false;
-  uint32_t quarter_turns_ = 0;
+  int32_t cosine_ = 1;
+  int32_t sine_ = 0;
 };
 
 /// One of the up to four grid points that stand for the same direction on the border. Writers store only it.

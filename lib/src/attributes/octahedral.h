@@ -17,17 +17,16 @@ constexpr int32_t octahedralCentre(uint32_t bits) {
 /// Unit vector of a grid point. Outside the grid the result is some finite vector.
 inline void octahedralToUnit(int32_t s, int32_t t, int32_t centre, float* unit) {
   const float scale = 1.0f / static_cast<float>(centre);
-  float x = static_cast<float>(s - centre) * scale;
-  float y = static_cast<float>(t - centre) * scale;
-  const float ax = std::fabs(x);
-  const float ay = std::fabs(y);
+  const float grid_x = static_cast<float>(s - centre) * scale;
+  const float grid_y = static_cast<float>(t - centre) * scale;
+  const float ax = std::fabs(grid_x);
+  const float ay = std::fabs(grid_y);
   const float z = 1.0f - ax - ay;
-  if (z < 0.0f) {
-    const float folded_x = 1.0f - ay;
-    const float folded_y = 1.0f - ax;
-    x = x < 0.0f ? -folded_x : folded_x;
-    y = y < 0.0f ? -folded_y : folded_y;
-  }
+  const bool folded = z < 0.0f;  // as likely as not: selects, no branches
+  const float folded_x = std::copysign(1.0f - ay, grid_x);
+  const float folded_y = std::copysign(1.0f - ax, grid_y);
+  const float x = folded ? folded_x : grid_x;
+  const float y = folded ? folded_y : grid_y;
   const float length = std::sqrt(x * x + y * y + z * z);
   const float inverse = 1.0f / length;
   unit[0] = x * inverse;

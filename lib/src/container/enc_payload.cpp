@@ -27,12 +27,14 @@ void writeAttribute(ByteWriter& out, const AttributeInfo& a) {
   } else if (a.coding == AttributeCoding::kOctahedral ||
              a.coding == AttributeCoding::kTangentAngle) {
     out.writeU8(a.bits);
+  } else if (a.coding == AttributeCoding::kAlias) {
+    out.writeVarint(a.alias_of);
   }
 }
 
 bool sameAttribute(const AttributeInfo& a, const AttributeInfo& b) {
   if (a.format != b.format || a.coding != b.coding || a.predictor != b.predictor ||
-      a.bits != b.bits) {
+      a.bits != b.bits || a.alias_of != b.alias_of) {
     return false;
   }
   return a.coding != AttributeCoding::kLattice || a.lattice == b.lattice;

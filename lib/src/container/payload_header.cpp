@@ -46,7 +46,7 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
       return fail(Error::kBadHeader, "a morph target number is out of range", at);
     a.format.morph_target = static_cast<uint16_t>(target);
   }
-  if ((shape >> 4) > static_cast<uint8_t>(AttributeCoding::kTangentAngle)) {
+  if ((shape >> 4) > static_cast<uint8_t>(AttributeCoding::kAlias)) {
     return fail(Error::kBadHeader, "an attribute has an unknown coding", at);
   }
   a.coding = static_cast<AttributeCoding>(shape >> 4);
@@ -80,8 +80,27 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
       return fail(Error::kBadHeader, "a tangent attribute is malformed", at);
     }
   }
-  if (!isBasePosition(a) && !isKnownPredictor(a)) {
-    return fail(Error::kBadHeader, "an attribute has an unknown predictor", at);
+  if (a.coding == AttributeCoding::kAlias) MCC_TRY(in.readVarint(a.alias_of));
+  return {};
+}
+
+/// Aliases are of earlier attributes that are none and not the position, tangents have normals, predictors are known.
+Status checkReferences(const AttributeInfo* all, uint32_t count, size_t at) {
+  for (uint32_t i = 1; i < count; ++i) {
+    if (all[i].coding == AttributeCoding::kAlias) {
+      const uint32_t source = all[i].alias_of;
+      if (source == 0 || source >= i || all[source].coding == AttributeCoding::kAlias ||
+          all[source].format.component_type != all[i].format.component_type ||
+          all[source].format.component_count != all[i].format.component_count) {
+        return fail(Error::kBadHeader, "an attribute is equal to one it cannot be equal to", at);
+      }
+    }
+    if (all[i].coding == AttributeCoding::kTangentAngle && normalOfTangents(all, count) == kNone) {
+      return fail(Error::kBadHeader, "tangents refer to normals that are not there", at);
+    }
+    if (!isKnownPredictor(all, count, i)) {
+      return fail(Error::kBadHeader, "an attribute has an unknown predictor", at);
+    }
   }
   return {};
 }
@@ -113,13 +132,7 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
     if (!header.attributes.push_back(a))
       return fail(Error::kOutOfMemory, "no memory for the header");
   }
-  const AttributeInfo* const all = &header.attributes[piece.first_attribute];
-  for (uint32_t i = 0; i < piece.attribute_count; ++i) {
-    if (all[i].coding == AttributeCoding::kTangentAngle &&
-        normalOfTangents(all, piece.attribute_count) == kNone) {
-      return fail(Error::kBadHeader, "tangents refer to normals that are not there", at);
-    }
-  }
+  MCC_TRY(checkReferences(&header.attributes[piece.first_attribute], piece.attribute_count, at));
   const AttributeInfo& position = header.attributes[piece.first_attribute];
   if (!isBasePosition(position) || position.format.component_count != 3 ||
       position.coding > AttributeCoding::kExactFloat) {

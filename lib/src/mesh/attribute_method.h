@@ -12,10 +12,12 @@ namespace mcc {
 
 /// The coder follows from what the header says; there is no field for it.
 enum class AttributeMethod : uint8_t {
-  kValues,    ///< attributes/values.h
-  kNormal,    ///< attributes/normals.h
-  kTexcoord,  ///< attributes/texcoords.h
-  kTangent,   ///< attributes/tangents.h
+  kValues,       ///< attributes/values.h
+  kNormal,       ///< attributes/normals.h
+  kTexcoord,     ///< attributes/texcoords.h
+  kTangent,      ///< attributes/tangents.h
+  kSkin,         ///< attributes/skin.h: JOINTS_n with its WEIGHTS_n
+  kWithAnother,  ///< coded with another attribute: WEIGHTS_n with its JOINTS_n, aliases
 };
 
 /// The attribute of a piece that gives tangents their plane: the first NORMAL on the octahedral grid; or kNone.
@@ -30,6 +32,7 @@ constexpr uint32_t normalOfTangents(const AttributeInfo* attributes, uint32_t co
 constexpr uint32_t chartOfTangents(const AttributeInfo* attributes, uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) {
     const AttributeFormat& f = attributes[i].format;
+    if (attributes[i].coding == AttributeCoding::kAlias) continue;
     if (f.semantic == Semantic::kTexcoord && f.morph_target == 0 && f.component_count == 2)
       return i;
   }
@@ -42,13 +45,42 @@ constexpr uint32_t codingPhase(const AttributeInfo& a) {
   return a.coding == AttributeCoding::kTangentAngle ? 1 : 0;  // behind normals and charts
 }
 
-constexpr AttributeMethod methodOf(const AttributeInfo& a) {
-  if (a.coding == AttributeCoding::kOctahedral) return AttributeMethod::kNormal;
-  if (a.coding == AttributeCoding::kTangentAngle) return AttributeMethod::kTangent;
-  const bool is_base = a.format.morph_target == 0;
-  const bool is_float = a.coding == AttributeCoding::kExactFloat;
-  if (a.format.semantic == Semantic::kTexcoord && is_base && !is_float &&
-      a.format.component_count == 2) {
+/// JOINTS_n and WEIGHTS_n of four components are coded as one: the other attribute of the pair, or kNone.
+constexpr uint32_t skinPartner(const AttributeInfo* attributes, uint32_t count, uint32_t index) {
+  const auto isHalf = [](const AttributeInfo& a) {
+    return a.format.morph_target == 0 && a.format.component_count == 4 &&
+           (a.format.semantic == Semantic::kJoints ? a.coding == AttributeCoding::kInteger
+                                                   : a.format.semantic == Semantic::kWeights &&
+                                                         a.coding <= AttributeCoding::kExactFloat);
+  };
+  const auto firstOf = [=](Semantic semantic, uint8_t set) {
+    for (uint32_t i = 1; i < count; ++i) {
+      const AttributeFormat& f = attributes[i].format;
+      if (f.semantic == semantic && f.set_index == set && isHalf(attributes[i])) return i;
+    }
+    return kNone;
+  };
+  const AttributeFormat& f = attributes[index].format;
+  if (!isHalf(attributes[index]) || firstOf(f.semantic, f.set_index) != index) return kNone;
+  const bool is_joints = f.semantic == Semantic::kJoints;
+  return firstOf(is_joints ? Semantic::kWeights : Semantic::kJoints, f.set_index);
+}
+
+constexpr AttributeMethod methodOf(const AttributeInfo* attributes, uint32_t count,
+                                   uint32_t index) {
+  const AttributeInfo& a = attributes[index];
+  switch (a.coding) {
+    case AttributeCoding::kOctahedral: return AttributeMethod::kNormal;
+    case AttributeCoding::kTangentAngle: return AttributeMethod::kTangent;
+    case AttributeCoding::kAlias: return AttributeMethod::kWithAnother;
+    default: break;
+  }
+  if (skinPartner(attributes, count, index) != kNone) {
+    const bool is_joints = a.format.semantic == Semantic::kJoints;
+    return is_joints ? AttributeMethod::kSkin : AttributeMethod::kWithAnother;
+  }
+  if (a.format.semantic == Semantic::kTexcoord && a.format.morph_target == 0 &&
+      a.format.component_count == 2 && a.coding != AttributeCoding::kExactFloat) {
     return AttributeMethod::kTexcoord;
   }
   return AttributeMethod::kValues;
@@ -68,9 +100,27 @@ inline constexpr uint8_t kPredictorMask = 0x07;  ///< TexcoordPredictor
 inline constexpr uint8_t kRepeats = 0x08;
 }  // namespace texcoord_method
 
-constexpr bool isKnownPredictor(const AttributeInfo& a) {
+namespace skin_method {
+inline constexpr uint8_t kIdleJoints =
+    0x01;  ///< of JOINTS: slots of weight 0 may have any joint, else 0
+inline constexpr uint8_t kUnitSum = 0x01;   ///< of WEIGHTS: every tuple sums to unitSum()
+inline constexpr uint8_t kUsualSum = 0x02;  ///< of WEIGHTS: most do
+}  // namespace skin_method
+
+/// What the coded weights of a tuple sum to when they stand for 1; 0 when nothing does.
+constexpr int32_t unitSum(const AttributeInfo& weights) {
+  if (weights.coding == AttributeCoding::kLattice && weights.bits <= 24) {
+    return static_cast<int32_t>((uint32_t{1} << weights.bits) - 1);
+  }
+  if (weights.format.component_type == ComponentType::kUint8) return 0xff;
+  if (weights.format.component_type == ComponentType::kUint16) return 0xffff;
+  return 0;
+}
+
+constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count, uint32_t index) {
+  const AttributeInfo& a = attributes[index];
   const uint8_t bits = a.predictor & static_cast<uint8_t>(~kHasEqualities);
-  switch (methodOf(a)) {
+  switch (methodOf(attributes, count, index)) {
     case AttributeMethod::kValues: return bits < 2;
     case AttributeMethod::kNormal:
       return (bits & ~0x0f) == 0 && (bits & normal_method::kWeightMask) != 3 &&
@@ -78,6 +128,12 @@ constexpr bool isKnownPredictor(const AttributeInfo& a) {
     case AttributeMethod::kTangent: return bits == 0;
     case AttributeMethod::kTexcoord:
       return (bits & ~0x0f) == 0 && (bits & texcoord_method::kPredictorMask) < 5;
+    case AttributeMethod::kSkin: return bits <= skin_method::kIdleJoints;
+    case AttributeMethod::kWithAnother:
+      if (a.coding == AttributeCoding::kAlias) return a.predictor == 0;
+      return a.predictor == 0 ||
+             ((a.predictor == skin_method::kUnitSum || a.predictor == skin_method::kUsualSum) &&
+              unitSum(a) != 0);
   }
   return false;
 }
