@@ -100,6 +100,13 @@ inline constexpr uint8_t kPredictorMask = 0x07;  ///< TexcoordPredictor
 inline constexpr uint8_t kRepeats = 0x08;
 }  // namespace texcoord_method
 
+namespace value_method {
+inline constexpr uint8_t kPredictorMask = 0x03;  ///< ValuePredictor
+inline constexpr uint8_t kSameFlags = 0x04;
+inline constexpr uint8_t kZeroFlags = 0x08;
+inline constexpr uint8_t kSmallTokens = 0x10;
+}  // namespace value_method
+
 namespace skin_method {
 inline constexpr uint8_t kIdleJoints =
     0x01;  ///< of JOINTS: slots of weight 0 may have any joint, else 0
@@ -121,7 +128,8 @@ constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count,
   const AttributeInfo& a = attributes[index];
   const uint8_t bits = a.predictor & static_cast<uint8_t>(~kHasEqualities);
   switch (methodOf(attributes, count, index)) {
-    case AttributeMethod::kValues: return bits < 2;
+    case AttributeMethod::kValues:
+      return (bits & ~0x1f) == 0 && (bits & value_method::kPredictorMask) < 3;
     case AttributeMethod::kNormal:
       return (bits & ~0x0f) == 0 && (bits & normal_method::kWeightMask) != 3 &&
              (bits & normal_method::kBlendMask) != normal_method::kBlendMask;
