@@ -163,8 +163,7 @@ class AttributeStage {
     const int32_t sum = weights.predictor != 0 ? unitSum(weights) : 0;
     const bool sums_vary = weights.predictor == skin_method::kUsualSum;
     SkinCoder<Io>(io_, models_.skins[joints.format.set_index != 0 ? 1 : 0], wedges, groups_, sum,
-                  sums_vary, (joints.predictor & skin_method::kIdleJoints) != 0, values,
-                  lengths_.data())
+                  sums_vary, joints.predictor, values, lengths_.data())
         .run();
   }
 

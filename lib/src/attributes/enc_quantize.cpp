@@ -385,16 +385,22 @@ class WeightQuantizer {
 void describeSkin(uint32_t wedge_count, QuantizedAttribute& joints, QuantizedAttribute& weights) {
   const int32_t unit = unitSum(weights.info);
   uint32_t unit_sums = 0;
+  bool ascending = true;
   for (uint32_t w = 0; w < wedge_count; ++w) {
     int64_t sum = 0;
+    int32_t previous = -1;
     for (size_t k = 4 * size_t{w}; k < 4 * size_t{w} + 4; ++k) {
       sum += weights.values[k];
       if (weights.values[k] == 0 && joints.values[k] != 0) {
         joints.info.predictor |= skin_method::kIdleJoints;
       }
+      if (weights.values[k] == 0) continue;
+      ascending &= joints.values[k] > previous;
+      previous = joints.values[k];
     }
     unit_sums += sum == unit ? 1 : 0;
   }
+  if (ascending) joints.info.predictor |= skin_method::kAscending;
   if (unit == 0 || 2 * unit_sums < wedge_count) return;
   weights.info.predictor |=
       unit_sums == wedge_count ? skin_method::kUnitSum : skin_method::kUsualSum;

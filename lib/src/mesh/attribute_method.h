@@ -110,6 +110,8 @@ inline constexpr uint8_t kSmallTokens = 0x10;
 namespace skin_method {
 inline constexpr uint8_t kIdleJoints =
     0x01;  ///< of JOINTS: slots of weight 0 may have any joint, else 0
+inline constexpr uint8_t kAscending =
+    0x02;  ///< of JOINTS: those with weight ascend from slot to slot
 inline constexpr uint8_t kUnitSum = 0x01;   ///< of WEIGHTS: every tuple sums to unitSum()
 inline constexpr uint8_t kUsualSum = 0x02;  ///< of WEIGHTS: most do
 }  // namespace skin_method
@@ -136,7 +138,8 @@ constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count,
     case AttributeMethod::kTangent: return bits == 0;
     case AttributeMethod::kTexcoord:
       return (bits & ~0x0f) == 0 && (bits & texcoord_method::kPredictorMask) < 5;
-    case AttributeMethod::kSkin: return bits <= skin_method::kIdleJoints;
+    case AttributeMethod::kSkin:
+      return bits <= (skin_method::kIdleJoints | skin_method::kAscending);
     case AttributeMethod::kWithAnother:
       if (a.coding == AttributeCoding::kAlias) return a.predictor == 0;
       return a.predictor == 0 ||
