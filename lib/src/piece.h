@@ -200,7 +200,7 @@ class PieceCoder {
 
   /// Codes attribute `index` (not 0) into `values`: codedComponents() per wedge.
   Status codeAttribute(uint32_t index, Array<int32_t>& values) {
-    return stage_.code(index, wedges, values);
+    return stage_.code(index, values);
   }
 
   uint32_t codedComponentsOf(uint32_t index) const {

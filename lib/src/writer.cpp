@@ -565,7 +565,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
   for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
   const AttributeMethod method = methodOf(infos.data(), plan.header.attribute_count, index);
   if (method == AttributeMethod::kWithAnother) return {};
-  PredictorSearch search(method, info.predictor, plan.header.has(piece_flag::kSeams));
+  PredictorSearch search(method, info, plan.header.has(piece_flag::kSeams));
   while (!search.done()) {
     uint64_t cost = 0;
     MCC_TRY(costWith(search.candidate(), cost));

@@ -64,15 +64,16 @@ class AttributeStage {
         floats_(allocator),
         chart_coordinates_(allocator),
         memory_(allocator),
-        lengths_(allocator) {
+        lengths_(allocator),
+        moved_before_(allocator),
+        moved_(allocator) {
     for (uint32_t i = 1; i < attribute_count; ++i) {
       has_tangents_ |= attributes[i].coding == AttributeCoding::kTangentAngle;
     }
   }
 
-  /// Codes attribute `index` into `values`, codedComponents() per wedge; the encoder gives them. `sequence` is the
-  /// order for attributes/values.h.
-  Status code(uint32_t index, const WedgeSequence& sequence, Array<int32_t>& values) {
+  /// Codes attribute `index` into `values`, codedComponents() per wedge; the encoder gives them.
+  Status code(uint32_t index, Array<int32_t>& values) {
     const AttributeInfo& info = attributes_[index];
     const AttributeMethod method = methodOf(attributes_, count_, index);
     if (method == AttributeMethod::kWithAnother) return {};
@@ -91,12 +92,7 @@ class AttributeStage {
       case AttributeMethod::kTangent: MCC_TRY(codeTangents(info, values.data())); break;
       case AttributeMethod::kSkin: codeSkin(index, values.data()); break;
       case AttributeMethod::kWithAnother: break;
-      case AttributeMethod::kValues:
-        ValueCoder<Io>(io_, models_.valuesOf(info), wedges.faces, sequence, components,
-                       static_cast<ValuePredictor>(info.predictor & 1), values.data(),
-                       lengths_.data())
-            .run();
-        break;
+      case AttributeMethod::kValues: MCC_TRY(codeValues(info, components, values.data())); break;
     }
     if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside an attribute");
     return has_tangents_ ? keepForTangents(index, values) : Status{};
@@ -111,6 +107,26 @@ class AttributeStage {
 
  private:
   static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for attributes"); }
+
+  Status codeValues(const AttributeInfo& info, uint32_t components, int32_t* values) {
+    const bool is_target = info.format.morph_target != 0;
+    if (is_target) MCC_TRY(enterTarget(info.format.morph_target));
+    ValueCoder<Io>(io_, models_.valuesOf(info), wedges, groups_, info, components, positions.data(),
+                   values, lengths_.data(), is_target ? moved_before_.data() : nullptr,
+                   is_target ? moved_.data() : nullptr)
+        .run();
+    return {};
+  }
+
+  /// What was noted of the last target becomes what is known of the one before.
+  Status enterTarget(uint32_t target) {
+    if (target == target_) return {};
+    if (moved_.empty() && !moved_.assign(wedges.count, 0)) return noMemory();
+    if (!moved_before_.resize(wedges.count)) return noMemory();
+    std::copy(moved_.data(), moved_.data() + wedges.count, moved_before_.data());
+    target_ = target;
+    return {};
+  }
 
   Status codeNormals(const AttributeInfo& info, int32_t* values) {
     if (!floats_.resize(3 * size_t{wedges.count})) return noMemory();
@@ -147,8 +163,7 @@ class AttributeStage {
     const int32_t sum = weights.predictor != 0 ? unitSum(weights) : 0;
     const bool sums_vary = weights.predictor == skin_method::kUsualSum;
     SkinCoder<Io>(io_, models_.skins[joints.format.set_index != 0 ? 1 : 0], wedges, groups_, sum,
-                  sums_vary, (joints.predictor & skin_method::kIdleJoints) != 0, values,
-                  lengths_.data())
+                  sums_vary, joints.predictor, values, lengths_.data())
         .run();
   }
 
@@ -176,6 +191,9 @@ class AttributeStage {
   Array<float> chart_coordinates_;  ///< 2 per wedge, only with tangents
   Array<ResidualMemory::Entry> memory_;
   Array<uint8_t> lengths_;
+  Array<uint8_t> moved_before_;  ///< see attributes/values.h; only with morph targets
+  Array<uint8_t> moved_;
+  uint32_t target_ = 0;  ///< that `moved_` is about
 };
 
 }  // namespace mcc

@@ -14,7 +14,8 @@ namespace mcc {
 /// Coordinate descent: each step varies one field of the byte and keeps the best value so far.
 class PredictorSearch {
  public:
-  PredictorSearch(AttributeMethod method, uint8_t predictor, bool has_seams) {
+  PredictorSearch(AttributeMethod method, const AttributeInfo& info, bool has_seams) {
+    const bool is_target = info.format.morph_target != 0;
     switch (method) {
       case AttributeMethod::kNormal:
         best_ = has_seams ? 1 | kHasEqualities : 1;
@@ -32,11 +33,18 @@ class PredictorSearch {
         steps_ = {{0, {0}}};
         break;
       case AttributeMethod::kSkin:
-        best_ = static_cast<uint8_t>(predictor | (has_seams ? kHasEqualities : 0));
+        best_ = static_cast<uint8_t>(info.predictor | (has_seams ? kHasEqualities : 0));
         steps_ = {{0, {0}}};
         break;
       case AttributeMethod::kWithAnother: break;
-      case AttributeMethod::kValues: steps_ = {{1, {0, 1}}}; break;
+      case AttributeMethod::kValues:
+        best_ = static_cast<uint8_t>((has_seams ? kHasEqualities : 0) |
+                                     (is_target ? value_method::kZeroFlags : 0));
+        steps_ = {{value_method::kPredictorMask, {0, 1, 2}},
+                  {value_method::kSameFlags, {value_method::kSameFlags}},
+                  {value_method::kSmallTokens, {value_method::kSmallTokens}}};
+        if (is_target) steps_.push_back({value_method::kZeroFlags, {0}});
+        break;
     }
     if (has_seams && best_ >= kHasEqualities) steps_.push_back({kHasEqualities, {0}});
   }

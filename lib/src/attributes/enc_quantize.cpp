@@ -20,13 +20,15 @@ constexpr double kPerpendicularTolerance =
 
 class Quantizer {
  public:
+  /// `normal_view`, `normal`: of tangents, or null. `delta_step`: of the lattice of a morph target, or 0.
   Quantizer(const AttributeView& view, uint32_t wedge_count, const AttributeView* normal_view,
-            const QuantizedAttribute* normal)
+            const QuantizedAttribute* normal, float delta_step)
       : view_(view),
         count_(wedge_count),
         components_(view.format.component_count),
         normal_view_(normal_view),
-        normal_(normal) {}
+        normal_(normal),
+        delta_step_(delta_step) {}
 
   QuantizedAttribute run(std::vector<std::string>& notes) {
     result_.info.format = view_.format;
@@ -149,8 +151,13 @@ class Quantizer {
     return std::move(result_);
   }
 
+  /// Deltas: through 0, so that what does not move stays; else from the corner of the bounding box.
   Lattice ownLattice() const {
     Lattice lattice;
+    if (delta_step_ > 0) {
+      lattice.step = delta_step_;
+      return lattice;
+    }
     double extent = 0;
     for (uint32_t c = 0; c < components_; ++c) {
       float low = count_ == 0 ? 0 : component(0, c);
@@ -164,6 +171,7 @@ class Quantizer {
     }
     const double cells = std::ldexp(1.0, result_.info.bits) - 1;
     lattice.step = extent == 0 ? 1.0f : static_cast<float>(extent / cells);
+    if (view_.format.morph_target != 0) std::fill(lattice.origin, lattice.origin + 4, 0.0f);
     return lattice;
   }
 
@@ -284,6 +292,7 @@ class Quantizer {
   const uint32_t components_;
   const AttributeView* const normal_view_;
   const QuantizedAttribute* const normal_;
+  const float delta_step_;
   QuantizedAttribute result_;
 };
 
@@ -382,19 +391,40 @@ class WeightQuantizer {
 void describeSkin(uint32_t wedge_count, QuantizedAttribute& joints, QuantizedAttribute& weights) {
   const int32_t unit = unitSum(weights.info);
   uint32_t unit_sums = 0;
+  bool ascending = true;
   for (uint32_t w = 0; w < wedge_count; ++w) {
     int64_t sum = 0;
+    int32_t previous = -1;
     for (size_t k = 4 * size_t{w}; k < 4 * size_t{w} + 4; ++k) {
       sum += weights.values[k];
       if (weights.values[k] == 0 && joints.values[k] != 0) {
         joints.info.predictor |= skin_method::kIdleJoints;
       }
+      if (weights.values[k] == 0) continue;
+      ascending &= joints.values[k] > previous;
+      previous = joints.values[k];
     }
     unit_sums += sum == unit ? 1 : 0;
   }
+  if (ascending) joints.info.predictor |= skin_method::kAscending;
   if (unit == 0 || 2 * unit_sums < wedge_count) return;
   weights.info.predictor |=
       unit_sums == wedge_count ? skin_method::kUnitSum : skin_method::kUsualSum;
+}
+
+/// Lattice step of a morph target: that of what it moves; of directions, the precision of unit vectors; 0: own range.
+float deltaStep(const AttributeView& view, const std::vector<QuantizedAttribute>& all) {
+  const AttributeFormat& f = view.format;
+  if (f.semantic == Semantic::kNormal || f.semantic == Semantic::kTangent) {
+    return static_cast<float>(2.0 / (std::ldexp(1.0, view.quantization_bits) - 1));
+  }
+  for (const QuantizedAttribute& a : all) {
+    if (isBase(a.info.format, f.semantic) && a.info.format.set_index == f.set_index &&
+        a.info.coding == AttributeCoding::kLattice) {
+      return a.info.lattice.step;
+    }
+  }
+  return 0;
 }
 
 bool isEqual(const QuantizedAttribute& a, const QuantizedAttribute& b) {
@@ -431,8 +461,8 @@ std::vector<QuantizedAttribute> quantizeAttributes(const PieceView& piece,
   size_t normal = count;
   for (size_t i = count; i-- != 0;) {
     const AttributeView& view = piece.attributes[i];
-    if (isBase(view.format, Semantic::kTangent)) continue;
-    all[i] = Quantizer(view, piece.wedge_count, nullptr, nullptr).run(notes);
+    if (isBase(view.format, Semantic::kTangent) || view.format.morph_target != 0) continue;
+    all[i] = Quantizer(view, piece.wedge_count, nullptr, nullptr, 0).run(notes);
     if (all[i].info.coding == AttributeCoding::kOctahedral) normal = i;
   }
   // Tangents last: they need to know what became of the normals.
@@ -441,8 +471,13 @@ std::vector<QuantizedAttribute> quantizeAttributes(const PieceView& piece,
     if (!isBase(view.format, Semantic::kTangent)) continue;
     const bool has_normal = normal != count;
     all[i] = Quantizer(view, piece.wedge_count, has_normal ? &piece.attributes[normal] : nullptr,
-                       has_normal ? &all[normal] : nullptr)
+                       has_normal ? &all[normal] : nullptr, 0)
                  .run(notes);
+  }
+  for (size_t i = 0; i < count; ++i) {
+    const AttributeView& view = piece.attributes[i];
+    if (view.format.morph_target == 0) continue;
+    all[i] = Quantizer(view, piece.wedge_count, nullptr, nullptr, deltaStep(view, all)).run(notes);
   }
   WeightQuantizer(piece, all).run();
   findAliases(all);

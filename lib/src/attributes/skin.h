@@ -23,13 +23,15 @@ inline constexpr uint32_t kSkinSlots = 4;
 inline constexpr uint32_t kSkinWords = 2 * kSkinSlots;  ///< joints, then weights
 
 struct SkinModels {
-  BitModel same[3][4];                 ///< [which neighbour][how many neighbours share its tuple]
-  BitModel weightless[kSkinSlots][5];  ///< [slot][neighbours' influences, rounded]
-  BitModel rank[kSkinSlots][6];        ///< [slot][rank]
-  BitModel idle_joint[2];              ///< of a weightless slot: 0; the neighbour's
+  BitModel same[3][4];  ///< [which neighbour][how many neighbours share its tuple]
+  BitModel weightless[kSkinSlots][5]
+                     [2];  ///< [slot][neighbours' influences][slot before weightless]
+  BitModel rank[kSkinSlots][6]
+               [3];        ///< [slot][rank][neighbours with it: the first in this slot; all; some]
+  BitModel idle_joint[2];  ///< of a weightless slot: 0; the neighbour's
   BitModel has_sum;
   GolombModel joint;
-  TokenRow weight[2][kLengthContexts];  ///< [first slot or not][context]
+  TokenRow weight[3][kLengthContexts];  ///< [slot][context]
 
   SkinModels() {
     for (auto& slot : weight) {
@@ -42,17 +44,18 @@ struct SkinModels {
 template <class Io>
 class SkinCoder {
  public:
-  /// `sum`: of the weights of every tuple (of most, if `sums_vary`), or 0. `idle_joints`: weightless slots may have any joint,
-  /// else 0. `lengths`: work space, a byte per wedge.
+  /// `sum`: of the weights of every tuple (of most, if `sums_vary`), or 0. `joint_bits`: skin_method's of JOINTS.
+  /// `lengths`: work space, a byte per wedge.
   SkinCoder(Io& io, SkinModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
-            int32_t sum, bool sums_vary, bool idle_joints, int32_t* values, uint8_t* lengths)
+            int32_t sum, bool sums_vary, uint8_t joint_bits, int32_t* values, uint8_t* lengths)
       : io_(io),
         models_(models),
         wedges_(wedges),
         groups_(groups),
         usual_sum_(sum),
         sums_vary_(sums_vary),
-        idle_joints_(idle_joints),
+        idle_joints_((joint_bits & skin_method::kIdleJoints) != 0),
+        ascending_((joint_bits & skin_method::kAscending) != 0),
         values_(values),
         lengths_(lengths) {}
 
@@ -75,6 +78,8 @@ class SkinCoder {
   static constexpr uint32_t kCandidates = kNeighbours * kSkinSlots;
   static constexpr uint32_t kRanks = 6;  ///< asked for before the joint is spelled out
 
+  static constexpr int64_t kTypicalShare = 8;
+
   struct Candidate {
     int32_t joint;
     uint32_t count;  ///< neighbours that use it
@@ -90,16 +95,21 @@ class SkinCoder {
     return std::memcmp(tuple(a), tuple(b), 4 * kSkinWords) == 0;
   }
 
+  bool goesBefore(const Candidate& a, const Candidate& b) const {
+    return ascending_ ? a.joint < b.joint : a.weight > b.weight;
+  }
   void collectNeighbours(uint32_t w);
   void addNeighbour(uint32_t w);
   void collectCandidates();
   bool codeSame(uint32_t w);
   int32_t codeSum(const int32_t* weights);
   void codeTuple(uint32_t w);
-  int32_t codeJoint(uint32_t slot, int32_t truth, Candidate& used);
+  uint32_t codeJoints(int32_t* t, int64_t* expected);
+  void codeWeights(uint32_t w, uint32_t used, const int64_t* expected);
+  int32_t codeJoint(uint32_t slot, int32_t previous, int32_t truth, int64_t& weight);
   int32_t codeIdleJoint(uint32_t slot, int32_t truth);
-  int32_t codeWeight(uint32_t slot, uint32_t context, const Candidate& used, int64_t rest,
-                     int32_t truth, uint32_t& longest);
+  int32_t codeWeight(uint32_t slot, uint32_t context, uint32_t predicted, int32_t truth,
+                     uint32_t& longest);
 
   Io& io_;
   SkinModels& models_;
@@ -108,6 +118,7 @@ class SkinCoder {
   const int32_t usual_sum_;
   const bool sums_vary_;
   const bool idle_joints_;
+  const bool ascending_;
   int32_t* const values_;
   uint8_t* const lengths_;
   uint32_t last_ = kNone;
@@ -117,6 +128,8 @@ class SkinCoder {
   uint32_t neighbour_count_ = 0;
   Candidate candidates_[kCandidates];
   uint32_t candidate_count_ = 0;
+  int64_t typical_ = 0;  ///< weight expected of joints the neighbours do not have
+  uint32_t uses_ = 0;    ///< neighbours, equal ones included
 };
 
 template <class Io>
@@ -169,13 +182,16 @@ bool SkinCoder<Io>::codeSame(uint32_t w) {
   return false;
 }
 
-/// The neighbours' joints with weight, the heaviest first.
+/// The neighbours' joints with weight, in ascending order or the heaviest first.
 template <class Io>
 void SkinCoder<Io>::collectCandidates() {
   candidate_count_ = 0;
+  uses_ = 0;
+  typical_ = 0;
   for (uint32_t i = 0; i < neighbour_count_; ++i) {
     const int32_t* t = tuple(neighbours_[i]);
     const uint32_t uses = 1 + shared_[i];
+    uses_ += uses;
     for (uint32_t k = 0; k < kSkinSlots; ++k) {
       if (t[kSkinSlots + k] == 0) continue;
       uint32_t c = 0;
@@ -183,14 +199,16 @@ void SkinCoder<Io>::collectCandidates() {
       if (c == candidate_count_) candidates_[candidate_count_++] = {t[k], 0, 0, false};
       candidates_[c].count += uses;
       candidates_[c].weight += int64_t{t[kSkinSlots + k]} * uses;
+      typical_ += int64_t{t[kSkinSlots + k]} * uses;
     }
   }
   for (uint32_t i = 1; i < candidate_count_; ++i) {
     const Candidate c = candidates_[i];
     uint32_t k = i;
-    for (; k != 0 && candidates_[k - 1].weight < c.weight; --k) candidates_[k] = candidates_[k - 1];
+    for (; k != 0 && goesBefore(c, candidates_[k - 1]); --k) candidates_[k] = candidates_[k - 1];
     candidates_[k] = c;
   }
+  typical_ /= kTypicalShare * int64_t{std::max(uses_, 1u)};
 }
 
 /// The sum of the tuple's weights if that is known, else 0.
@@ -209,58 +227,95 @@ void SkinCoder<Io>::codeTuple(uint32_t w) {
   collectNeighbours(w);
   if (codeSame(w)) return;
   collectCandidates();
+  int64_t expected[kSkinSlots];
+  const uint32_t used = codeJoints(tuple(w), expected);
+  codeWeights(w, used, expected);
+}
+
+/// Which slots have weight (a bit each), and all joints. `expected`: the neighbours' weights of each joint.
+template <class Io>
+uint32_t SkinCoder<Io>::codeJoints(int32_t* t, int64_t* expected) {
   uint32_t influences = 0;
-  uint32_t length = 0;
   for (uint32_t i = 0; i < neighbour_count_; ++i) {
-    const int32_t* t = tuple(neighbours_[i]) + kSkinSlots;
-    for (uint32_t k = 0; k < kSkinSlots; ++k) influences += t[k] != 0 ? 1 : 0;
-    length += lengths_[neighbours_[i]];
+    const int32_t* weights = tuple(neighbours_[i]) + kSkinSlots;
+    for (uint32_t k = 0; k < kSkinSlots; ++k) influences += weights[k] != 0 ? 1 : 0;
   }
-  uint32_t context = kNoNeighbours;
-  if (neighbour_count_ != 0) {
-    influences = (influences + neighbour_count_ / 2) / neighbour_count_;
-    context = std::min((length + neighbour_count_ / 2) / neighbour_count_, kLongestContext);
-  }
-  int32_t* t = tuple(w);
-  const int32_t sum = codeSum(t + kSkinSlots);
-  int64_t rest = sum;
-  uint32_t longest = 0;
+  if (neighbour_count_ != 0) influences = (influences + neighbour_count_ / 2) / neighbour_count_;
+  uint32_t used = 0;
+  int32_t previous = -1;
   for (uint32_t k = 0; k < kSkinSlots; ++k) {
-    int32_t& joint = t[k];
-    int32_t& weight = t[kSkinSlots + k];
-    const bool last_of_sum = sum != 0 && (k + 1 == kSkinSlots || rest == 0);
-    bool weightless = sum != 0 && rest == 0;
-    if (!last_of_sum) {
-      weightless = io_.bit(models_.weightless[k][influences], Io::kEncoding && weight == 0);
-    }
-    if (weightless) {
-      weight = 0;
-      joint = idle_joints_ ? codeIdleJoint(k, joint) : 0;
+    const bool idle_before = k != 0 && (used >> (k - 1)) == 0;
+    BitModel& model = models_.weightless[k][influences][idle_before ? 1 : 0];
+    expected[k] = 0;
+    if (io_.bit(model, Io::kEncoding && t[kSkinSlots + k] == 0)) {
+      t[k] = idle_joints_ ? codeIdleJoint(k, t[k]) : 0;
       continue;
     }
-    Candidate used{};
-    joint = codeJoint(k, joint, used);
-    weight = last_of_sum ? static_cast<int32_t>(rest)
-                         : codeWeight(k, context, used, rest, weight, longest);
-    rest -= sum != 0 ? weight : 0;
+    used |= 1u << k;
+    t[k] = codeJoint(k, previous, t[k], expected[k]);
+    previous = t[k];
+  }
+  return used;
+}
+
+/// Each weight against its share of what is left; the last one is what is left, if the sum is known.
+template <class Io>
+void SkinCoder<Io>::codeWeights(uint32_t w, uint32_t used, const int64_t* expected) {
+  uint32_t context = kNoNeighbours;
+  if (neighbour_count_ != 0) {
+    uint32_t length = 0;
+    for (uint32_t i = 0; i < neighbour_count_; ++i) length += lengths_[neighbours_[i]];
+    context = std::min((length + neighbour_count_ / 2) / neighbour_count_, kLongestContext);
+  }
+  int32_t* weights = tuple(w) + kSkinSlots;
+  const int32_t sum = codeSum(weights);
+  int64_t rest = sum;
+  int64_t expected_rest = 0;
+  for (uint32_t k = 0; k < kSkinSlots; ++k) expected_rest += expected[k];
+  uint32_t longest = 0;
+  for (uint32_t k = 0; k < kSkinSlots; ++k) {
+    if ((used >> k & 1) == 0) {
+      weights[k] = 0;
+      continue;
+    }
+    const bool is_last = used >> k == 1;
+    if (sum != 0 && is_last) {
+      weights[k] = static_cast<int32_t>(static_cast<uint32_t>(rest));
+      continue;
+    }
+    int64_t predicted = expected[k];
+    if (sum != 0 && expected_rest > 0 && expected[k] >= 0 && expected[k] <= expected_rest) {
+      predicted =
+          static_cast<int64_t>(static_cast<double>(rest) * (static_cast<double>(expected[k]) /
+                                                            static_cast<double>(expected_rest)));
+    }
+    weights[k] = codeWeight(k, context, static_cast<uint32_t>(predicted), weights[k], longest);
+    rest -= weights[k];
+    expected_rest -= expected[k];
   }
   lengths_[w] = static_cast<uint8_t>(longest);
 }
 
-/// `used`: what the neighbours know about the joint.
+/// `weight`: what the neighbours give the joint.
 template <class Io>
-int32_t SkinCoder<Io>::codeJoint(uint32_t slot, int32_t truth, Candidate& used) {
+int32_t SkinCoder<Io>::codeJoint(uint32_t slot, int32_t previous, int32_t truth, int64_t& weight) {
   uint32_t rank = 0;
   for (uint32_t i = 0; i < candidate_count_ && rank < kRanks; ++i) {
-    if (candidates_[i].taken) continue;
-    if (io_.bit(models_.rank[slot][rank], Io::kEncoding && candidates_[i].joint == truth)) {
-      candidates_[i].taken = true;
-      used = candidates_[i];
-      return used.joint;
+    Candidate& c = candidates_[i];
+    if (c.taken || (ascending_ && c.joint <= previous)) continue;
+    const bool here = tuple(neighbours_[0])[slot] == c.joint;
+    const uint32_t kind = here ? 0 : c.count == uses_ ? 1 : 2;
+    if (io_.bit(models_.rank[slot][rank][kind], Io::kEncoding && c.joint == truth)) {
+      c.taken = true;
+      weight = c.weight / int64_t{c.count};
+      return c.joint;
     }
     ++rank;
   }
-  return static_cast<int32_t>(codeGolomb(io_, models_.joint, static_cast<uint32_t>(truth)));
+  weight = typical_;
+  const uint32_t from = ascending_ ? static_cast<uint32_t>(previous) + 1 : 0;
+  return static_cast<int32_t>(from +
+                              codeGolomb(io_, models_.joint, static_cast<uint32_t>(truth) - from));
 }
 
 template <class Io>
@@ -274,11 +329,11 @@ int32_t SkinCoder<Io>::codeIdleJoint(uint32_t slot, int32_t truth) {
 }
 
 template <class Io>
-int32_t SkinCoder<Io>::codeWeight(uint32_t slot, uint32_t context, const Candidate& used,
-                                  int64_t rest, int32_t truth, uint32_t& longest) {
-  uint32_t predicted = static_cast<uint32_t>(rest) / 2;
-  if (used.count != 0) predicted = static_cast<uint32_t>(used.weight / int64_t{used.count});
-  TokenRow& row = models_.weight[slot == 0 ? 0 : 1][context];
+int32_t SkinCoder<Io>::codeWeight(uint32_t slot, uint32_t context, uint32_t predicted,
+                                  int32_t truth, uint32_t& longest) {
+  const uint32_t mixed =
+      slot == 0 || context == kNoNeighbours ? context : (context + longest + 1) / 2;
+  TokenRow& row = models_.weight[std::min(slot, 2u)][mixed];
   int32_t residual =
       Io::kEncoding ? static_cast<int32_t>(static_cast<uint32_t>(truth) - predicted) : 0;
   residual = codeByLength<0>(io_, row, residual);

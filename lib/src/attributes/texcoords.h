@@ -167,10 +167,7 @@ class TexcoordCoder {
 /// Whether the edge n-p is the longest so far.
 template <class Io>
 bool TexcoordCoder<Io>::isLonger(uint32_t n, uint32_t p, Sum& sum) const {
-  const float* a = positions_ + 4 * size_t{n};
-  const float* b = positions_ + 4 * size_t{p};
-  const float e[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  const float length = e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
+  const float length = squaredDistance(positions_, n, p);
   if (length <= sum.longest) return false;
   sum.longest = length;
   return true;

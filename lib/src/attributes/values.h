@@ -1,35 +1,38 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Attributes by parallelograms and means of neighbours: any number of integer components.    [A.8, B.3]
+// Attributes without a predictor of their own (colours, custom attributes, morph deltas, exact floats): any number of
+// integer components, by parallelograms or means of neighbours.                              [A.8.4, B.3]
+//
+// Optionally, a flag first tells that all components are 0 (morph deltas), or equal to those of a neighbour (colours of
+// parts, ids, rigid regions).
 #ifndef MCC_ATTRIBUTES_VALUES_H_
 #define MCC_ATTRIBUTES_VALUES_H_
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
+#include <cstring>
 
 #include "attributes/residuals.h"
-#include "base/memory.h"
+#include "attributes/wedges.h"
 #include "entropy/models.h"
-#include "mesh/face_mesh.h"
+#include "mesh/attribute_method.h"
 
 namespace mcc {
 
-/// Order in which wedges are coded: wedge faces.vertex(sequence[i]) is the i-th, isolated wedges follow.
-struct WedgeSequence {
-  const uint32_t* half_edges = nullptr;
-  uint32_t count = 0;
-  uint32_t isolated_first = 0;  ///< wedges that are in no triangle are numbered from here
-  uint32_t isolated_count = 0;
+enum class ValuePredictor : uint8_t {
+  kParallelograms = 0,  ///< mean of all
+  kMean = 1,            ///< of the neighbours in the entry face
+  kDiagonal = 2,        ///< the parallelogram over the longest edge (exact on grids)
 };
-
-enum class ValuePredictor : uint8_t { kParallelogram = 0, kMean = 1 };
-inline constexpr uint32_t kValuePredictors = 2;
 
 inline constexpr uint32_t kMaxComponents = 16;
 
 struct ValueModels {
   TokenRow row[4][kLengthContexts];  ///< [component, 3 for all further][context]
+  BitModel zero
+      [4][2]
+      [2];  ///< [neighbours that are 0, 3: none][moved in the target before][its position moves]
+  BitModel same[2][3];  ///< [first or second neighbour][they are equal: no, yes, only one]
 
   ValueModels() {
     for (auto& component : row) {
@@ -38,139 +41,241 @@ struct ValueModels {
   }
 };
 
-/// Codes `values`, component_count per wedge. `lengths` is work space, one byte per wedge.
+/// Codes `values`, `components` per wedge.
 template <class Io>
 class ValueCoder {
  public:
-  ValueCoder(Io& io, ValueModels& models, const FaceView& faces, const WedgeSequence& sequence,
-             uint32_t component_count, ValuePredictor predictor, int32_t* values, uint8_t* lengths)
+  /// Work space: `lengths`, a byte per wedge. Of morph targets, else null, a byte per wedge with a bit per semantic that is
+  /// set when the delta is not 0: `moved_before` of the targets before, `moved` of this one (written here).
+  ValueCoder(Io& io, ValueModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
+             const AttributeInfo& info, uint32_t components, const float* positions,
+             int32_t* values, uint8_t* lengths, const uint8_t* moved_before, uint8_t* moved)
       : io_(io),
         models_(models),
-        faces_(faces),
-        sequence_(sequence),
-        components_(component_count),
-        predictor_(predictor),
+        wedges_(wedges),
+        groups_(groups),
+        components_(components),
+        predictor_(static_cast<ValuePredictor>(info.predictor & value_method::kPredictorMask)),
+        may_repeat_((info.predictor & value_method::kSameFlags) != 0),
+        may_vanish_((info.predictor & value_method::kZeroFlags) != 0),
+        small_((info.predictor & value_method::kSmallTokens) != 0),
+        moved_bit_(static_cast<uint8_t>(1u << static_cast<uint32_t>(info.format.semantic))),
+        positions_(positions),
         values_(values),
-        lengths_(lengths) {}
+        lengths_(lengths),
+        moved_before_(moved_before),
+        moved_(moved) {}
 
   void run() {
-    const uint32_t wedge_count = sequence_.isolated_first + sequence_.isolated_count;
-    for (uint32_t w = 0; w < wedge_count; ++w) lengths_[w] = kNotCoded;
-    int64_t prediction[kMaxComponents] = {};
-    for (uint32_t i = 0; i < sequence_.count; ++i) {
-      const uint32_t h = sequence_.half_edges[i];
-      const uint32_t w = faces_.vertex(h);
-      const uint32_t context = predict(h, w, prediction);
-      code(w, prediction, context);
-    }
-    for (uint32_t i = 0; i < sequence_.isolated_count; ++i) {
-      const uint32_t w = sequence_.isolated_first + i;
-      for (uint32_t c = 0; c < components_; ++c) prediction[c] = last_ == nullptr ? 0 : last_[c];
-      code(w, prediction, kNoNeighbours);
+    std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
+    for (uint32_t i = 0; i < wedges_.count; ++i) {
+      const uint32_t w = i < wedges_.surface_count ? wedges_.wedgeAt(i) : i;
+      if (groups_.isFirst(w)) codeGroup(w);
     }
   }
 
  private:
-  static constexpr uint32_t kRunLimit = 16;  ///< corners of a wedge looked at
+  static constexpr uint32_t kFaceLimit = 8;  ///< faces looked at
 
-  const int32_t* at(uint32_t wedge) const { return values_ + size_t{wedge} * components_; }
-  bool coded(uint32_t wedge) const { return lengths_[wedge] != kNotCoded; }
+  int32_t* at(uint32_t w) const { return values_ + size_t{w} * components_; }
+  bool coded(uint32_t w) const { return lengths_[w] != kNotCoded; }
+  bool isZero(uint32_t w) const {
+    for (uint32_t c = 0; c < components_; ++c) {
+      if (at(w)[c] != 0) return false;
+    }
+    return true;
+  }
+  bool isEqual(uint32_t a, uint32_t b) const {
+    return std::memcmp(at(a), at(b), 4 * size_t{components_}) == 0;
+  }
+  void copy(uint32_t to, uint32_t from) { std::memcpy(at(to), at(from), 4 * size_t{components_}); }
 
-  /// Returns the context: mean bit length of the two neighbours' residuals.
-  uint32_t predict(uint32_t start, uint32_t w, int64_t* prediction);
-  void visitCorner(uint32_t h);
-  void code(uint32_t w, const int64_t* prediction, uint32_t context);
+  void codeGroup(uint32_t w);
+  void findNeighbours(uint32_t w);
+  void predict(uint32_t w);
+  bool addParallelogram(uint32_t h, float& longest);
+  bool codeFlags(uint32_t w);
+  void codeResiduals(uint32_t w);
+  template <uint32_t kState>
+  int32_t codeResidual(TokenRow& row, int32_t truth) {
+    return small_ ? codeSmallSigned<kState>(io_, row, truth)
+                  : codeByLength<kState>(io_, row, truth);
+  }
 
   Io& io_;
   ValueModels& models_;
-  const FaceView faces_;
-  const WedgeSequence& sequence_;
+  const WedgeMesh& wedges_;
+  const EqualGroups& groups_;
   const uint32_t components_;
   const ValuePredictor predictor_;
+  const bool may_repeat_;
+  const bool may_vanish_;
+  const bool small_;
+  const uint8_t moved_bit_;
+  const float* const positions_;
   int32_t* const values_;
   uint8_t* const lengths_;
-  const int32_t* last_ = nullptr;
+  const uint8_t* const moved_before_;
+  uint8_t* const moved_;
+  uint32_t last_ = kNone;
 
-  // What visitCorner() gathers.
-  int64_t parallelogram_sum_[kMaxComponents];
-  int64_t neighbour_sum_[kMaxComponents];
+  uint32_t entry_ = kNone;  ///< first face the group completes
+  uint32_t n_ = kNone;      ///< its corners, or whatever neighbour there is
+  uint32_t p_ = kNone;
+  int64_t sum_[kMaxComponents];  ///< of parallelograms
   uint32_t parallelograms_ = 0;
-  uint32_t neighbours_ = 0;
-  uint32_t length_sum_ = 0;
+  int32_t predicted_[kMaxComponents];
 };
 
 template <class Io>
-void ValueCoder<Io>::visitCorner(uint32_t h) {
-  const uint32_t next = nextHalfEdge(h);
-  const uint32_t a = faces_.vertex(next);
-  const uint32_t b = faces_.vertex(prevHalfEdge(h));
-  const bool a_coded = coded(a);
-  const bool b_coded = coded(b);
-  for (const uint32_t n : {a, b}) {
-    if (!coded(n)) continue;
-    for (uint32_t c = 0; c < components_; ++c) neighbour_sum_[c] += at(n)[c];
-    length_sum_ += std::min<uint32_t>(lengths_[n], 10);
-    ++neighbours_;
+void ValueCoder<Io>::findNeighbours(uint32_t w) {
+  entry_ = n_ = p_ = kNone;
+  if (w >= wedges_.surface_count) return;
+  for (uint32_t m = w; m != kNone && entry_ == kNone; m = groups_.nextOf(m)) {
+    entry_ = wedges_.firstCompleted(m);
   }
-  if (!a_coded || !b_coded) return;
-  const uint32_t t = faces_.twin(next);
-  if (t == kNone || faces_.vertex(t) != b || faces_.vertex(nextHalfEdge(t)) != a) return;
-  const uint32_t o = faces_.vertex(prevHalfEdge(t));
-  if (!coded(o)) return;
+  if (entry_ != kNone) {
+    n_ = wedges_.faces.vertex(nextHalfEdge(entry_));
+    p_ = wedges_.faces.vertex(prevHalfEdge(entry_));
+    if (!coded(n_)) n_ = kNone;  // no sound mesh has such a face
+    if (!coded(p_)) p_ = kNone;
+  } else {
+    wedges_.forRun(w, [this](uint32_t h) {
+      const uint32_t a = wedges_.faces.vertex(nextHalfEdge(h));
+      const uint32_t b = wedges_.faces.vertex(prevHalfEdge(h));
+      n_ = coded(a) ? a : coded(b) ? b : kNone;
+      return n_ == kNone;
+    });
+  }
+  if (n_ == kNone) std::swap(n_, p_);
+}
+
+/// The face of half-edge h (leaving the wedge) and the one behind it.
+template <class Io>
+bool ValueCoder<Io>::addParallelogram(uint32_t h, float& longest) {
+  const FaceView& faces = wedges_.faces;
+  const uint32_t n = faces.vertex(nextHalfEdge(h));
+  const uint32_t p = faces.vertex(prevHalfEdge(h));
+  const uint32_t t = faces.twin(nextHalfEdge(h));
+  if (t == kNone || faces.vertex(t) != p || faces.vertex(nextHalfEdge(t)) != n) return false;
+  const uint32_t o = faces.vertex(prevHalfEdge(t));
+  if (!coded(n) || !coded(p) || !coded(o)) return false;
+  if (predictor_ == ValuePredictor::kDiagonal) {
+    const float length = squaredDistance(positions_, n, p);
+    if (length <= longest) return false;
+    longest = length;
+    parallelograms_ = 0;
+    std::fill(sum_, sum_ + components_, 0);
+  }
   for (uint32_t c = 0; c < components_; ++c) {
-    parallelogram_sum_[c] += int64_t{at(a)[c]} + at(b)[c] - at(o)[c];
+    sum_[c] += int64_t{at(n)[c]} + at(p)[c] - at(o)[c];
   }
   ++parallelograms_;
+  return true;
 }
 
 template <class Io>
-uint32_t ValueCoder<Io>::predict(uint32_t start, uint32_t w, int64_t* prediction) {
-  parallelograms_ = neighbours_ = length_sum_ = 0;
-  for (uint32_t c = 0; c < components_; ++c) parallelogram_sum_[c] = neighbour_sum_[c] = 0;
-  uint32_t corners = 0;
-  uint32_t h = start;
-  do {
-    visitCorner(h);
-    h = faces_.rotateCcw(h);
-  } while (h != kNone && h != start && faces_.vertex(h) == w && ++corners < kRunLimit);
-  if (h != start) {
-    for (h = faces_.rotateCw(start); h != kNone && faces_.vertex(h) == w && ++corners < kRunLimit;
-         h = faces_.rotateCw(h)) {
-      visitCorner(h);
+void ValueCoder<Io>::predict(uint32_t w) {
+  parallelograms_ = 0;
+  if (predictor_ != ValuePredictor::kMean && entry_ != kNone) {
+    std::fill(sum_, sum_ + components_, 0);
+    uint32_t faces = 0;
+    float longest = -1;
+    for (uint32_t m = w; m != kNone && faces < kFaceLimit; m = groups_.nextOf(m)) {
+      for (uint32_t h = wedges_.firstCompleted(m); h != kNone && faces < kFaceLimit;
+           h = wedges_.nextCompleted(h), ++faces) {
+        addParallelogram(h, longest);
+      }
     }
   }
-  const bool use_tips = parallelograms_ != 0 && predictor_ == ValuePredictor::kParallelogram;
+  const uint32_t fallback = n_ != kNone ? n_ : last_;
   for (uint32_t c = 0; c < components_; ++c) {
-    if (use_tips) {
-      prediction[c] = parallelogram_sum_[c] / int64_t{parallelograms_};
-    } else if (neighbours_ != 0) {
-      prediction[c] = neighbour_sum_[c] / int64_t{neighbours_};
-    } else {
-      prediction[c] = last_ == nullptr ? 0 : last_[c];
+    int64_t p = 0;
+    if (parallelograms_ != 0) {
+      p = sum_[c] / int64_t{parallelograms_};
+    } else if (p_ != kNone) {
+      p = (int64_t{at(n_)[c]} + at(p_)[c]) / 2;
+    } else if (fallback != kNone) {
+      p = at(fallback)[c];
+    }
+    predicted_[c] = static_cast<int32_t>(static_cast<uint32_t>(p));
+  }
+}
+
+/// Whether a flag tells the value; it is then in place.
+template <class Io>
+bool ValueCoder<Io>::codeFlags(uint32_t w) {
+  bool n_is_zero = false;
+  if (may_vanish_) {
+    n_is_zero = n_ != kNone && isZero(n_);
+    const uint32_t zeros = n_ == kNone ? 3u
+                                       : (n_is_zero ? 1u : 0u) + (p_ == kNone  ? n_is_zero
+                                                                  : isZero(p_) ? 1u
+                                                                               : 0u);
+    const uint32_t moved = moved_ == nullptr || (moved_before_[w] & moved_bit_) == 0 ? 0 : 1;
+    const uint32_t position_moved = moved_ == nullptr ? 0 : moved_[w] & 1;
+    const bool zero =
+        io_.bit(models_.zero[zeros][moved][position_moved], Io::kEncoding && isZero(w));
+    if (zero) {
+      std::fill(at(w), at(w) + components_, 0);
+      return true;
     }
   }
-  return neighbours_ == 0 ? kNoNeighbours : length_sum_ / neighbours_;
+  if (!may_repeat_ || n_ == kNone) return false;
+  const uint32_t kind = p_ == kNone ? 2 : isEqual(n_, p_) ? 1 : 0;
+  if (!n_is_zero && io_.bit(models_.same[0][kind], Io::kEncoding && isEqual(n_, w))) {
+    copy(w, n_);
+    return true;
+  }
+  if (kind == 0 && io_.bit(models_.same[1][kind], Io::kEncoding && isEqual(p_, w))) {
+    copy(w, p_);
+    return true;
+  }
+  return false;
 }
 
 template <class Io>
-void ValueCoder<Io>::code(uint32_t w, const int64_t* prediction, uint32_t context) {
-  int32_t* value = values_ + size_t{w} * components_;
+void ValueCoder<Io>::codeResiduals(uint32_t w) {
+  uint32_t context = kNoNeighbours;
+  if (n_ != kNone) {
+    const uint32_t other = p_ != kNone ? p_ : n_;
+    context = std::min((lengths_[n_] + lengths_[other] + 1u) / 2, kLongestContext);
+  }
+  int32_t* value = at(w);
   uint32_t longest = 0;
   for (uint32_t c = 0; c < components_; ++c) {
     TokenRow& row = models_.row[std::min(c, 3u)][context];
-    const uint32_t p = static_cast<uint32_t>(prediction[c]);
-    const int32_t truth =
+    const uint32_t p = static_cast<uint32_t>(predicted_[c]);
+    int32_t residual =
         Io::kEncoding ? static_cast<int32_t>(static_cast<uint32_t>(value[c]) - p) : 0;
-    const int32_t residual = c % 3 == 0   ? codeByLength<0>(io_, row, truth)
-                             : c % 3 == 1 ? codeByLength<1>(io_, row, truth)
-                                          : codeByLength<2>(io_, row, truth);
+    residual = c % 3 == 0   ? codeResidual<0>(row, residual)
+               : c % 3 == 1 ? codeResidual<1>(row, residual)
+                            : codeResidual<2>(row, residual);
     value[c] = static_cast<int32_t>(p + static_cast<uint32_t>(residual));
-    const uint32_t bits = static_cast<uint32_t>(residual);
-    const uint32_t absolute = residual < 0 ? 0u - bits : bits;
-    longest = std::max(longest, static_cast<uint32_t>(std::bit_width(absolute)));
+    const uint32_t length = contextLength(residual);
+    longest = std::max(longest, length);
+    if (context != kNoNeighbours) context = (context + length + 1) / 2;
   }
   lengths_[w] = static_cast<uint8_t>(longest);
-  last_ = value;
+}
+
+template <class Io>
+void ValueCoder<Io>::codeGroup(uint32_t w) {
+  findNeighbours(w);
+  if ((may_repeat_ || may_vanish_) && codeFlags(w)) {
+    lengths_[w] = 0;
+  } else {
+    predict(w);
+    codeResiduals(w);
+  }
+  last_ = w;
+  uint8_t moved = 0;
+  if (moved_ != nullptr && !isZero(w)) moved = moved_bit_;
+  for (uint32_t m = w; m != kNone; m = groups_.nextOf(m)) {
+    if (m != w) copy(m, w);
+    lengths_[m] = lengths_[w];
+    if (moved_ != nullptr) moved_[m] = static_cast<uint8_t>((moved_[m] & ~moved_bit_) | moved);
+  }
 }
 
 }  // namespace mcc

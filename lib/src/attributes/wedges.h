@@ -121,6 +121,22 @@ struct EqualGroups {
   }
 };
 
+/// Order in which wedges are coded: wedge faces.vertex(half_edges[i]) is the i-th, isolated wedges follow.
+struct WedgeSequence {
+  const uint32_t* half_edges = nullptr;
+  uint32_t count = 0;
+  uint32_t isolated_first = 0;  ///< wedges that are in no triangle are numbered from here
+  uint32_t isolated_count = 0;
+};
+
+/// Between two wedges, of `positions` as below.
+inline float squaredDistance(const float* positions, uint32_t a, uint32_t b) {
+  const float* p = positions + 4 * size_t{a};
+  const float* q = positions + 4 * size_t{b};
+  const float d[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+}
+
 /// Coordinates of predictions are integers of at most this many bits, as floats: products of a few of their
 /// differences neither overflow nor become denormal.                                          [B.4.2]
 inline constexpr uint32_t kPredictionBits = 22;

@@ -100,9 +100,18 @@ inline constexpr uint8_t kPredictorMask = 0x07;  ///< TexcoordPredictor
 inline constexpr uint8_t kRepeats = 0x08;
 }  // namespace texcoord_method
 
+namespace value_method {
+inline constexpr uint8_t kPredictorMask = 0x03;  ///< ValuePredictor
+inline constexpr uint8_t kSameFlags = 0x04;
+inline constexpr uint8_t kZeroFlags = 0x08;
+inline constexpr uint8_t kSmallTokens = 0x10;
+}  // namespace value_method
+
 namespace skin_method {
 inline constexpr uint8_t kIdleJoints =
     0x01;  ///< of JOINTS: slots of weight 0 may have any joint, else 0
+inline constexpr uint8_t kAscending =
+    0x02;  ///< of JOINTS: those with weight ascend from slot to slot
 inline constexpr uint8_t kUnitSum = 0x01;   ///< of WEIGHTS: every tuple sums to unitSum()
 inline constexpr uint8_t kUsualSum = 0x02;  ///< of WEIGHTS: most do
 }  // namespace skin_method
@@ -121,14 +130,16 @@ constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count,
   const AttributeInfo& a = attributes[index];
   const uint8_t bits = a.predictor & static_cast<uint8_t>(~kHasEqualities);
   switch (methodOf(attributes, count, index)) {
-    case AttributeMethod::kValues: return bits < 2;
+    case AttributeMethod::kValues:
+      return (bits & ~0x1f) == 0 && (bits & value_method::kPredictorMask) < 3;
     case AttributeMethod::kNormal:
       return (bits & ~0x0f) == 0 && (bits & normal_method::kWeightMask) != 3 &&
              (bits & normal_method::kBlendMask) != normal_method::kBlendMask;
     case AttributeMethod::kTangent: return bits == 0;
     case AttributeMethod::kTexcoord:
       return (bits & ~0x0f) == 0 && (bits & texcoord_method::kPredictorMask) < 5;
-    case AttributeMethod::kSkin: return bits <= skin_method::kIdleJoints;
+    case AttributeMethod::kSkin:
+      return bits <= (skin_method::kIdleJoints | skin_method::kAscending);
     case AttributeMethod::kWithAnother:
       if (a.coding == AttributeCoding::kAlias) return a.predictor == 0;
       return a.predictor == 0 ||
