@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -127,7 +128,7 @@ std::string compareLattice(const AttributeView& source, const DecodedAttribute& 
         return text("wedge ", i, " component ", k, ": ", x, " came back as ", got, ", off by ",
                     error, " at step ", step);
       }
-      if (!loose && std::memcmp(&got, &expected, sizeof(float)) != 0) {
+      if (!loose && std::bit_cast<uint32_t>(got) != std::bit_cast<uint32_t>(expected)) {
         return text("wedge ", i, " component ", k, ": ", x, " is ", expected,
                     " on the lattice, came back as ", got);
       }
@@ -170,8 +171,9 @@ double lengthOf(const uint8_t* a) {
   return std::sqrt(sum);
 }
 
-/// Largest angle an octahedral grid of `bits` bits may turn a unit vector. Half a cell is h in x and y, so at
-/// most 2h in z: sqrt(6) h on the octahedron, whose points are 1 / sqrt(3) or more from the centre.
+/// Largest angle an octahedral grid of `bits` bits may turn a unit vector. Half a cell is h in x
+/// and y, so at most 2h in z: sqrt(6) h on the octahedron, whose points are 1 / sqrt(3) or more
+/// from the centre.
 double octahedralAngle(uint8_t bits) {
   const double half_cell = 1 / (std::ldexp(1.0, bits) - 2);
   return std::sqrt(18.0) * half_cell;
@@ -213,7 +215,8 @@ std::string compareAs(AttributeCoding coding, const PieceView& piece, const Deco
     case AttributeCoding::kTangentAngle: {
       if (source.quantization_bits == 0)
         return "was quantised although exact floats were asked for";
-      // The angle lies in the decoded normal's plane; a source tangent may leave its plane a little.
+      // The angle lies in the decoded normal's plane; a source tangent may leave its plane a
+      // little.
       double bound = kPi / std::ldexp(1.0, attribute.info.bits) + 0.03;
       for (const DecodedAttribute& other : decoded.attributes) {
         if (other.info.coding == AttributeCoding::kOctahedral)
@@ -372,7 +375,7 @@ std::string decodePayload(std::span<const uint8_t> payload, const TargetLayout& 
 
   pieces.clear();
   for (size_t p = 0; p < infos.size(); ++p) {
-    const std::string failure = checkTargets(infos[p], memory[p].attributes, layout.padding_bytes);
+    std::string failure = checkTargets(infos[p], memory[p].attributes, layout.padding_bytes);
     if (!failure.empty()) return failure;
     DecodedPiece piece;
     piece.wedge_count = infos[p].wedge_count;

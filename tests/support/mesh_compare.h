@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Exact comparison of a source mesh with what came back, and the round trip that feeds it. Uses the public
-// headers alone. Every function that returns a string returns "" for success, else what is wrong.
+// Exact comparison of a source mesh with what came back, and the round trip that feeds it. Uses the
+// public headers alone. Every function that returns a string returns "" for success, else what is
+// wrong.
 #ifndef MCC_TESTS_SUPPORT_MESH_COMPARE_H_
 #define MCC_TESTS_SUPPORT_MESH_COMPARE_H_
 
@@ -32,16 +33,17 @@ struct DecodedPiece {
 /// Whether source_wedge[i] for all decoded wedges i names each of `wedge_count` source wedges once.
 std::string compareWedges(uint32_t wedge_count, std::span<const uint32_t> source_wedge);
 
-/// Whether the triangles, taken through source_wedge, are those of the source: as a multiset, each with its
-/// orientation, up to which corner comes first.
+/// Whether the triangles, taken through source_wedge, are those of the source: as a multiset, each
+/// with its orientation, up to which corner comes first.
 std::string compareTriangles(std::span<const uint32_t> source, std::span<const uint32_t> decoded,
                              std::span<const uint32_t> source_wedge);
 
 /// Whether attribute `which` of a piece holds, wedge for wedge,
-///   the source's bits                                     integers and exact floats,
-///   fl(fl(q * step) + origin), q = floor((x - origin) / step + .5)    lattices (weights: within one step),
-///   a unit vector within the grid's angle                 octahedral normals,
-///   a direction within the angle's step, the same sign    tangents,
+///   integers, exact floats  the source's bits;
+///   lattices                fl(fl(q * step) + origin) with q = floor((x - origin) / step + .5);
+///                           weights within one step of the source;
+///   octahedral normals      a unit vector within half a cell of the grid;
+///   tangents                a direction within half a step of the angle, the same sign;
 /// and whether a lattice is as fine as was asked for.
 std::string compareAttribute(const PieceView& source, const DecodedPiece& decoded, size_t which,
                              std::span<const uint32_t> source_wedge);

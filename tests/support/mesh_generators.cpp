@@ -29,8 +29,10 @@ uint32_t addPlacedVertex(TestMesh& mesh) {
   const float dx = random.unit() * 0.5f;
   const float dy = random.unit() * 0.5f;
   const float dz = random.unit() * 0.5f;
-  return addVertex(mesh, static_cast<float>(i % 64) + dx, static_cast<float>(i / 64 % 64) + dy,
-                   static_cast<float>(i / 4096) + dz);
+  const uint32_t row = i / 64 % 64;
+  const uint32_t layer = i / 4096;
+  return addVertex(mesh, static_cast<float>(i % 64) + dx, static_cast<float>(row) + dy,
+                   static_cast<float>(layer) + dz);
 }
 
 void addTriangle(TestMesh& mesh, uint32_t a, uint32_t b, uint32_t c) {
@@ -39,7 +41,8 @@ void addTriangle(TestMesh& mesh, uint32_t a, uint32_t b, uint32_t c) {
   mesh.indices.push_back(c);
 }
 
-/// The quad v[0] .. v[3] with the diagonal 0-2, or 1-3. An array, because braces are evaluated in order.
+/// The quad v[0] .. v[3] with the diagonal 0-2, or 1-3. An array, because braces are evaluated in
+/// order.
 void addQuad(TestMesh& mesh, const std::array<uint32_t, 4>& v, bool other_diagonal = false) {
   if (other_diagonal) {
     addTriangle(mesh, v[1], v[2], v[3]);
@@ -641,9 +644,10 @@ TestMesh generated(uint64_t seed, uint32_t genus, uint32_t holes, uint32_t compo
   std::vector<TestMesh> pieces;
   for (uint32_t i = 0; i < components; ++i) {
     TestMesh piece = generatedPiece(random, genus_of[i], holes_of[i], components <= 20);
+    const uint32_t row = i / 8 % 8;
+    const uint32_t layer = i / 64;
     pieces.push_back(translated(std::move(piece), static_cast<float>(i % 8) * 64,
-                                static_cast<float>(i / 8 % 8) * 64,
-                                static_cast<float>(i / 64) * 64));
+                                static_cast<float>(row) * 64, static_cast<float>(layer) * 64));
   }
   TestMesh mesh = shuffled(unionOf(pieces, ""), random.next());
   mesh.name = call("generated", {seed, genus, holes, components});
@@ -786,7 +790,8 @@ TestMesh tetrahedralSoup(uint32_t n) {
       for (uint32_t x = 0; x <= n; ++x) addVertex(mesh, x, y, z);
     }
   }
-  // The six ways to walk the axes one after the other from corner 0 to corner 7 of a cube (bits: x, y, z).
+  // The six ways to walk the axes one after the other from corner 0 to corner 7 of a cube (bits: x,
+  // y, z).
   constexpr uint32_t kPaths[6][2] = {{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}};
   for (uint32_t z = 0; z < n; ++z) {
     for (uint32_t y = 0; y < n; ++y) {
@@ -844,7 +849,8 @@ TestMesh soup(uint64_t seed, uint32_t triangles, uint32_t vertices, const SoupOp
       continue;
     }
     const uint32_t a = random.below(vertices);
-    const uint32_t b = (a + 1 + random.below(vertices - 1)) % vertices;
+    uint32_t b = random.below(vertices);
+    while (b == a) b = random.below(vertices);
     uint32_t c = random.below(vertices);
     while (c == a || c == b) c = random.below(vertices);
     addTriangle(mesh, a, b, c);
@@ -1141,7 +1147,7 @@ TestMesh withUnused(TestMesh mesh, uint64_t seed, uint32_t count) {
   return mesh;
 }
 
-TestMesh doubled(TestMesh mesh) {
+TestMesh doubled(const TestMesh& mesh) {
   const std::array<TestMesh, 2> both = {mesh, mesh};
   return unionOf(both, "doubled " + mesh.name);
 }
@@ -1185,7 +1191,8 @@ TestMesh chartGrid(uint32_t w, uint32_t h, uint32_t chart) {
           mesh.normals.push_back(whole.normals[size_t{v} * 3 + axis]);
         }
         const double s = static_cast<double>(v % (w + 1) - cx * chart) / chart;
-        const double r = static_cast<double>(v / (w + 1) - cy * chart) / chart;
+        const uint32_t row = v / (w + 1);
+        const double r = static_cast<double>(row - cy * chart) / chart;
         mesh.texcoords.push_back(static_cast<float>((cx + 0.05 + 0.9 * s) / charts));
         mesh.texcoords.push_back(static_cast<float>((cy + 0.05 + 0.9 * r) / charts));
       }

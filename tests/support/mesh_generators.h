@@ -1,10 +1,11 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Triangle meshes for tests and samples. The same arguments give the same bits on every platform: own
-// integer random numbers, own sine and cosine, otherwise only + - * / and sqrt in a fixed order.
+// Triangle meshes for tests and samples. The same arguments give the same bits on every platform:
+// own integer random numbers, own sine and cosine, otherwise only + - * / and sqrt in a fixed
+// order.
 //
-// Unless a generator says otherwise its result is manifold, consistently oriented (counter-clockwise
-// seen from outside) and has pairwise different positions.
+// Unless a generator says otherwise its result is manifold, consistently oriented
+// (counter-clockwise seen from outside) and has pairwise different positions.
 #ifndef MCC_TESTS_SUPPORT_MESH_GENERATORS_H_
 #define MCC_TESTS_SUPPORT_MESH_GENERATORS_H_
 
@@ -100,8 +101,8 @@ TestMesh randomStacked(uint64_t seed, uint32_t n);
 TestMesh combOfStacks(uint32_t teeth, uint32_t depth);
 /// Surface of the Menger sponge, level 1..3.
 TestMesh mengerSponge(uint32_t level);
-/// Surface of the filled cells of a box of cells, vertices shared by lattice point. Manifold only where no
-/// two filled cells meet in an edge or a corner alone.
+/// Surface of the filled cells of a box of cells, vertices shared by lattice point. Manifold only
+/// where no two filled cells meet in an edge or a corner alone.
 TestMesh voxelSurface(uint32_t nx, uint32_t ny, uint32_t nz,
                       const std::function<bool(uint32_t, uint32_t, uint32_t)>& filled);
 
@@ -117,8 +118,8 @@ TestMesh openFan(uint32_t n);
 /// One component per triangle.
 TestMesh looseTriangles(uint32_t n);
 
-/// `components` pieces with `genus` handles and `holes` boundary loops in all, of random shapes, flipped,
-/// jittered and shuffled. components >= 1.
+/// `components` pieces with `genus` handles and `holes` boundary loops in all, of random shapes,
+/// flipped, jittered and shuffled. components >= 1.
 TestMesh generated(uint64_t seed, uint32_t genus, uint32_t holes, uint32_t components);
 
 // ---- Not manifold or not orientable -------------------------------------------------------------
@@ -162,8 +163,8 @@ TestMesh shuffled(TestMesh mesh, uint64_t seed);
 TestMesh flipped(TestMesh mesh, uint64_t seed, uint64_t flips);
 /// Each triangle in four, `times` times.
 TestMesh subdivided(TestMesh mesh, uint32_t times);
-/// Removes triangles or vertex stars that touch neither each other nor a boundary: up to `holes` new
-/// boundary loops. Returns how many were made.
+/// Removes triangles or vertex stars that touch neither each other nor a boundary: up to `holes`
+/// new boundary loops. Returns how many were made.
 uint32_t punchHoles(TestMesh& mesh, uint64_t seed, uint32_t holes);
 /// Moves every position by up to `amount` in each coordinate.
 TestMesh jittered(TestMesh mesh, uint64_t seed, float amount);
@@ -172,21 +173,22 @@ TestMesh translated(TestMesh mesh, float x, float y, float z);
 TestMesh withFlippedTriangles(TestMesh mesh, uint64_t seed, uint32_t percent);
 /// Repeats `count` random triangles with the same indices; every third one turned round.
 TestMesh withIndexDuplicates(TestMesh mesh, uint64_t seed, uint32_t count);
-/// Repeats `count` random triangles on new wedges with the same positions; every third one turned round.
+/// Repeats `count` random triangles on new wedges with the same positions; every third one turned
+/// round.
 TestMesh withPositionDuplicates(TestMesh mesh, uint64_t seed, uint32_t count);
 /// Adds `count` degenerate triangles: on edges that exist, on pairs that are none, and (a,a,a).
 TestMesh withDegenerates(TestMesh mesh, uint64_t seed, uint32_t count);
 /// Adds wedges no triangle uses, every other one on a position that is in use; then shuffles.
 TestMesh withUnused(TestMesh mesh, uint64_t seed, uint32_t count);
 /// The whole mesh twice on the same positions, sharing no wedge.
-TestMesh doubled(TestMesh mesh);
+TestMesh doubled(const TestMesh& mesh);
 /// Area-weighted normals per wedge (wedges of one position are not joined).
 TestMesh withNormals(TestMesh mesh);
 
 // ---- Seams: several wedges per vertex -----------------------------------------------------------
 
-/// A grid cut into charts of chart x chart quads with their own texture coordinates; the vertices on chart
-/// borders have one wedge per chart. Has normals.
+/// A grid cut into charts of chart x chart quads with their own texture coordinates; the vertices
+/// on chart borders have one wedge per chart. Has normals.
 TestMesh chartGrid(uint32_t w, uint32_t h, uint32_t chart);
 /// Gives every corner one of up to `wedges` copies of its vertex at random: wedges that are not
 /// contiguous in their fan, and that span fans where the mesh has several at a vertex.
@@ -197,7 +199,8 @@ TestMesh withEqualTuples(TestMesh mesh, uint64_t seed);
 /// One wedge per corner, the face normal as normal: flat shading.
 TestMesh flatShaded(const TestMesh& mesh);
 
-/// Every generator above on small arguments: one mesh or more of each kind, also those of seams and soups.
+/// Every generator above on small arguments: one mesh or more of each kind, also those of seams and
+/// soups.
 std::vector<TestMesh> smallZoo();
 
 }  // namespace mcc::test

@@ -1,0 +1,374 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Random decisions straight into the stages of the decoder, past the entropy coders: topologies that no writer makes
+// (handles and dummies anywhere), claims in the header that fit them, and every later stage on top.
+// MCC_MACHINE_RUNS sets the number of runs.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "entropy/dec_coder.h"
+#include "piece.h"
+#include "robustness/damage.h"
+#include "support/mesh_generators.h"
+
+namespace mcc::test {
+namespace {
+
+constexpr uint64_t kRuns = 30000;
+constexpr uint32_t kUntouched = 0xabababab;
+
+uint64_t runsFromEnvironment() {
+  const char* text = std::getenv("MCC_MACHINE_RUNS");
+  return text == nullptr ? kRuns : std::strtoull(text, nullptr, 10);
+}
+
+/// A decoder whose answers are random, with leanings that change now and then.
+class RandomIo {
+ public:
+  static constexpr bool kEncoding = false;
+  static constexpr bool kFast = true;  // the inner loops of the decoder
+
+  RandomIo(uint64_t seed, uint32_t budget) : random_(seed), budget_(budget) { lean(); }
+
+  /// Counts the ones answered for these models.
+  void watch(const BitModel* first, size_t count) { watched_.push_back({first, first + count}); }
+  uint32_t watchedOnes() const { return watched_ones_; }
+
+  bool bit(BitModel& model, bool = false) {
+    step();
+    const bool one = random_.chance(percent_);
+    model.update(one);
+    for (const Watched& w : watched_) {
+      if (one && &model >= w.begin && &model < w.end) ++watched_ones_;
+    }
+    return one;
+  }
+
+  template <uint32_t kState>
+  uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t = 0) {
+    step();
+    const uint32_t symbol = random_.below(random_.chance(10) ? kTokenCount : 4);
+    row.adapt(symbol, schedule);
+    return symbol;
+  }
+
+  uint32_t raw(uint32_t bits, uint32_t = 0) {
+    step();
+    return static_cast<uint32_t>(random_.next() & ((uint64_t{1} << bits) - 1));
+  }
+
+  uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t, uint32_t& negative) {
+    const uint32_t value = base + raw(bits);
+    negative = raw(sign && value != 0 ? 1 : 0);
+    return value;
+  }
+
+  bool overrun() const { return used_ > budget_; }
+  uint64_t used() const { return used_; }
+
+ private:
+  struct Watched {
+    const BitModel* begin;
+    const BitModel* end;
+  };
+
+  void lean() {
+    percent_ = random_.between(random_.chance(30) ? 1 : 20, random_.chance(30) ? 98 : 70);
+    left_ = random_.between(3, 60);
+  }
+  void step() {
+    ++used_;
+    if (left_-- == 0) lean();
+  }
+
+  Random random_;
+  uint32_t budget_;
+  uint64_t used_ = 0;
+  uint32_t percent_ = 50;
+  uint32_t left_ = 0;
+  std::vector<Watched> watched_;
+  uint32_t watched_ones_ = 0;
+};
+
+/// What is promised of the faces of every code, also of one no writer makes.
+std::string checkFaces(const uint32_t* words, uint32_t face_count, uint32_t vertex_count) {
+  const uint32_t end = face_count * kFaceWords;
+  for (uint32_t f = 0; f < face_count; ++f) {
+    for (uint32_t h = f * kFaceWords; h < f * kFaceWords + 3; ++h) {
+      if (words[h] >= vertex_count) return "a corner has no vertex";
+      const uint32_t t = words[h + 4];
+      if (t == kNone) continue;
+      if (t >= end || t % kFaceWords > 2) return "a twin is no half-edge";
+      if (words[t + 4] != h) return "a twin is not mutual";
+      if (words[t] != words[nextHalfEdge(h)] || words[nextHalfEdge(t)] != words[h])
+        return "twins have other ends";
+    }
+  }
+  return "";
+}
+
+struct Observed {
+  uint32_t vertices = 0;
+  uint32_t faces = 0;
+  uint32_t dummies = 0;
+  bool complete = false;  ///< all operations were taken
+  std::string failure;
+};
+
+/// Runs the machine on claims it cannot fulfil, to learn what the answers of `seed` yield.
+Observed observe(uint64_t seed, const McCounts& claims, uint32_t context_set) {
+  Observed observed;
+  FaceMesh mesh{Allocator{}};
+  McModels models{Allocator{}};
+  if (!mesh.words.assign(size_t{claims.face_count} * kFaceWords, kUntouched) ||
+      !models.init(context_set)) {
+    observed.failure = "no memory";
+    return observed;
+  }
+  RandomIo io(seed, 1u << 22);
+  io.watch(models.dummy_end, 2);
+  io.watch(&models.dummy_twig, 1);
+  io.watch(&models.dummy_finish, 1);
+  CodeHistogram histogram;
+  const Status status =
+      McMachine<RandomIo>(io, models, claims, {}, mesh, McTruth{}, &histogram).run();
+  // Every answer is one of an operation, or closes a node of which operations make two at most; handles take some more.
+  if (io.used() > 200 * (uint64_t{claims.operation_count} + 10)) observed.failure = "too much work";
+  if (status.ok()) observed.failure = "fulfils impossible claims";
+  while (observed.faces < claims.face_count &&
+         mesh.words[size_t{observed.faces} * kFaceWords] != kUntouched) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      observed.vertices = std::max(
+          observed.vertices, mesh.words[size_t{observed.faces} * kFaceWords + k] + 1);
+    }
+    ++observed.faces;
+  }
+  observed.dummies = io.watchedOnes() + static_cast<uint32_t>(histogram.dummy);
+  observed.complete = std::string(status.what) ==
+                      "the codes do not yield the counts that the header claims";
+  if (observed.failure.empty())
+    observed.failure = checkFaces(mesh.words.data(), observed.faces, observed.vertices);
+  return observed;
+}
+
+struct Depth {
+  uint64_t connectivity = 0;
+  uint64_t stitched = 0;
+  uint64_t positions = 0;
+  uint64_t seams = 0;
+  uint64_t attributes = 0;
+};
+
+/// All stages on one random topology. Claims that only later answers can settle are learnt in a first pass.
+class RandomPiece {
+ public:
+  RandomPiece(uint64_t seed, const PieceHeader& header, uint32_t context_set)
+      : seed_(seed), header_(header), context_set_(context_set), attributes_(8) {
+    Random random(seed + 1);
+    attributes_[0].bits = static_cast<uint8_t>(random.between(1, 24));
+    if (random.chance(20)) attributes_[0].coding = AttributeCoding::kExactFloat;
+    attributes_[0].predictor = static_cast<uint8_t>(random.below(position_flag::kPredictorCount) |
+                                                    (random.chance(50) ? 0 : random.below(256)));
+    if ((attributes_[0].predictor & position_flag::kPredictorMask) >=
+        position_flag::kPredictorCount) {
+      attributes_[0].predictor = 0;
+    }
+    const auto attribute = [&](uint32_t i, Semantic semantic, AttributeCoding coding,
+                               uint8_t components, ComponentType type = ComponentType::kFloat32) {
+      attributes_[i].format.semantic = semantic;
+      attributes_[i].format.component_count = components;
+      attributes_[i].format.component_type = type;
+      attributes_[i].coding = coding;
+      attributes_[i].bits = static_cast<uint8_t>(random.between(2, 16));
+    };
+    attribute(1, Semantic::kNormal, AttributeCoding::kOctahedral, 3);
+    attribute(2, Semantic::kTexcoord, AttributeCoding::kLattice, 2);
+    attribute(3, Semantic::kCustom, AttributeCoding::kInteger, 16, ComponentType::kUint32);
+    attribute(4, Semantic::kColor, AttributeCoding::kExactFloat, 4);
+    attribute(5, Semantic::kTangent, AttributeCoding::kTangentAngle, 4);
+    attribute(6, Semantic::kJoints, AttributeCoding::kInteger, 4, ComponentType::kUint8);
+    attribute(7, Semantic::kWeights, AttributeCoding::kLattice, 4);
+    const uint32_t count = static_cast<uint32_t>(attributes_.size());
+    for (uint32_t i = 1; i < count; ++i) {
+      do {
+        attributes_[i].predictor = static_cast<uint8_t>(random.below(256));
+      } while (!isKnownPredictor(attributes_.data(), count, i));
+    }
+    header_.attribute_count = static_cast<uint32_t>(attributes_.size());
+  }
+
+  std::string run(Depth& depth) {
+    for (int pass = 0; pass < 3 && pass_failure_.empty(); ++pass) {
+      if (runOnce(pass == 2 ? &depth : nullptr)) break;
+    }
+    return pass_failure_;
+  }
+
+ private:
+  /// False: claims were learnt, another pass is due.
+  bool runOnce(Depth* depth) {
+    RandomIo io(seed_, 1u << 22);
+    PayloadModels models{Allocator{}};
+    if (!models.mc.init(context_set_)) return true;
+    PieceCoder<RandomIo> piece(io, models, header_, attributes_.data(), {}, nullptr);
+    const PieceTruth nothing;
+    // Fails when the last vertices have no triangle, which the faces do not tell.
+    if (!piece.codeConnectivity(nothing).ok()) return true;
+    if (depth != nullptr) ++depth->connectivity;
+    if (!piece.codeStitch(nothing).ok()) return depth != nullptr;
+    if (piece.groups.count > header_.vertex_count) return end("stitching makes vertices");
+    pass_failure_ = checkFaces(piece.mesh.words.data(), piece.mesh.face_count, piece.groups.count);
+    if (!pass_failure_.empty()) return true;
+    if (depth != nullptr) ++depth->stitched;
+    const bool seams = header_.has(piece_flag::kSeams);
+    if (!seams) header_.wedge_count = piece.groups.count + header_.isolated_count;
+    if (!piece.codePositions(nothing).ok()) return true;
+    if (depth != nullptr) ++depth->positions;
+    if (!piece.codeSeams(nothing).ok()) {
+      if (seams) {
+        header_.wedge_count =
+            static_cast<uint32_t>(piece.wedge_group.size()) + header_.isolated_count;
+      }
+      return depth != nullptr;
+    }
+    const uint32_t surface_wedges = header_.wedge_count - header_.isolated_count;
+    for (uint32_t f = 0; f < piece.mesh.face_count; ++f) {
+      for (uint32_t k = 0; k < 3; ++k) {
+        if (piece.mesh.words[size_t{f} * kFaceWords + k] >= surface_wedges)
+          return end("a corner has no wedge");
+      }
+    }
+    for (uint32_t w = 0; w < header_.wedge_count; ++w) {
+      if (piece.groupOf(w) >= piece.records.size()) return end("a wedge has no position");
+    }
+    if (depth != nullptr) ++depth->seams;
+    if (!piece.codeLeftovers(nothing).ok()) return true;
+    for (size_t i = 0; i < piece.list.size(); ++i) {
+      for (const uint32_t w : piece.list[i].wedge) {
+        if (w >= header_.wedge_count) return end("a listed triangle has no wedge");
+      }
+      if (piece.list[i].part >= header_.part_count) return end("a listed triangle has no part");
+    }
+    Array<int32_t> values;
+    if (!piece.prepareAttributes().ok()) return true;
+    for (uint32_t a = 1; a < attributes_.size(); ++a) {
+      if (!piece.codeAttribute(a, values).ok()) return true;
+    }
+    if (depth != nullptr) ++depth->attributes;
+    return false;
+  }
+  bool end(const char* what) {
+    pass_failure_ = what;
+    return true;
+  }
+
+  const uint64_t seed_;
+  PieceHeader header_;
+  const uint32_t context_set_;
+  std::vector<AttributeInfo> attributes_;
+  std::string pass_failure_;
+};
+
+TEST(Machine, RandomAnswers) {
+  const uint64_t runs = runsFromEnvironment();
+  Watchdog watchdog;
+  Depth depth;
+  uint64_t with_handles = 0;
+  for (uint64_t i = 0; i < runs; ++i) {
+    watchdog.step(0, i);
+    Random random(i);
+    McCounts claims;
+    claims.operation_count = random.between(1, random.chance(80) ? 30 : 400);
+    claims.vertex_count = 4 * claims.operation_count + 8;
+    claims.face_count = 8 * claims.operation_count + 8;
+    claims.dummy_count = random.chance(50) ? 0 : random.between(1, 4);
+    claims.has_handles = random.chance(70);
+    const uint32_t context_set = random.below(kContextSetCount);
+    const uint64_t seed = random.next();
+    const Observed observed = observe(seed, claims, context_set);
+    ASSERT_EQ(observed.failure, "") << "run " << i;
+    if (!observed.complete || observed.dummies != claims.dummy_count || observed.faces == 0)
+      continue;
+    PieceHeader header;
+    header.operation_count = claims.operation_count;
+    header.vertex_count = observed.vertices;
+    header.face_count = observed.faces;
+    header.dummy_count = claims.dummy_count;
+    header.isolated_count = random.chance(50) ? 0 : random.between(1, 5);
+    header.wedge_count = 3 * observed.faces + header.isolated_count;
+    header.flags = claims.has_handles ? piece_flag::kHandles : 0;
+    if (random.chance(60)) header.flags |= piece_flag::kCopies;
+    if (random.chance(50)) header.flags |= piece_flag::kInteriorCopies;
+    if (random.chance(60)) header.flags |= piece_flag::kSeams;
+    if (random.chance(50)) header.flags |= piece_flag::kMerges;
+    if (header.has(piece_flag::kSeams) && random.chance(50)) header.flags |= piece_flag::kCreases;
+    if (random.chance(50)) header.part_count = random.between(2, 4);
+    if (random.chance(20)) {
+      header.flags |= piece_flag::kDuplicates;
+      header.duplicate_count = random.between(1, 9);
+    }
+    if (random.chance(20)) {
+      header.flags |= piece_flag::kEdgeDegenerates;
+      header.edge_degenerate_count = random.between(1, 9);
+    }
+    if (random.chance(30)) {
+      header.flags |= piece_flag::kListed;
+      header.listed_count = random.between(1, 9);
+    }
+    with_handles += claims.has_handles ? 1 : 0;
+    ASSERT_EQ(RandomPiece(seed, header, context_set).run(depth), "") << "run " << i;
+  }
+  RecordProperty("connectivity", std::to_string(depth.connectivity));
+  RecordProperty("stitched", std::to_string(depth.stitched));
+  RecordProperty("positions", std::to_string(depth.positions));
+  RecordProperty("seams", std::to_string(depth.seams));
+  RecordProperty("attributes", std::to_string(depth.attributes));
+  // The runs are worth something: a part of them reaches the end.
+  EXPECT_GT(with_handles, runs / 200);
+  EXPECT_GT(depth.attributes, runs / 200);
+}
+
+/// Random bytes as code stream, under any claims.
+TEST(Machine, RandomCodeStreams) {
+  const uint64_t runs = runsFromEnvironment();
+  Watchdog watchdog;
+  for (uint64_t i = 0; i < runs; ++i) {
+    watchdog.step(1, i);
+    Random random(~i);
+    std::vector<uint8_t> bytes(random.below(60));
+    const uint32_t kind = random.below(3);  // random, all ones, few ones
+    for (uint8_t& byte : bytes) {
+      byte = static_cast<uint8_t>(kind == 0   ? random.below(256)
+                                  : kind == 1 ? 0xffu
+                                              : 1u << random.below(8));
+    }
+    McCounts claims;
+    claims.operation_count = random.below(3000);
+    claims.vertex_count = random.below(2000);
+    claims.face_count = random.below(4000);
+    claims.dummy_count = random.below(5);
+    claims.has_handles = random.chance(70);
+    FaceMesh mesh{Allocator{}};
+    McModels models{Allocator{}};
+    ASSERT_TRUE(mesh.words.assign(size_t{claims.face_count} * kFaceWords, kUntouched));
+    ASSERT_TRUE(models.init(random.below(kContextSetCount)));
+    DecoderIo<true> io(bytes, {}, {});
+    const Status status =
+        McMachine<DecoderIo<true>>(io, models, claims, {}, mesh, McTruth{}, nullptr).run();
+    if (status.ok()) {
+      ASSERT_EQ(checkFaces(mesh.words.data(), mesh.face_count, mesh.vertex_count), "")
+          << "run " << i;
+      EXPECT_EQ(mesh.face_count, claims.face_count);
+      EXPECT_EQ(mesh.vertex_count, claims.vertex_count);
+    } else {
+      ASSERT_TRUE(status.error == Error::kBadConnectivity || status.error == Error::kTruncated)
+          << "run " << i << ": " << status.what;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mcc::test

@@ -1,0 +1,160 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "robustness/payloads.h"
+
+#include <array>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "mcc/writer.h"
+#include "support/mesh_compare.h"
+#include "support/mesh_generators.h"
+
+namespace mcc::test {
+namespace {
+
+class PayloadList {
+ public:
+  void add(const std::string& name, std::span<const PieceView> pieces,
+           const EncodeOptions& options = {}) {
+    EncodeResult result;
+    const Status status = encode(pieces, options, result);
+    if (!status.ok()) throw std::runtime_error(name + ": " + status.what);
+    payloads_.push_back({name, std::move(result.payload)});
+  }
+  void add(const TestMesh& mesh, const MeshBits& bits = {}, const EncodeOptions& options = {}) {
+    const MeshPiece piece(mesh, bits);
+    const PieceView view = piece.view();
+    add(mesh.name, {&view, 1}, options);
+  }
+  std::vector<NamedPayload> take() { return std::move(payloads_); }
+
+ private:
+  std::vector<NamedPayload> payloads_;
+};
+
+EncodeOptions contextSet(uint32_t set) {
+  EncodeOptions options;
+  options.context_set = set;
+  return options;
+}
+
+/// Triangles dealt out to `count` parts in turns, and an empty part behind them.
+void addParts(PayloadList& list, const TestMesh& mesh, uint32_t count) {
+  std::vector<std::vector<uint32_t>> indices(count + 1);
+  for (uint32_t t = 0; t < mesh.triangleCount(); ++t) {
+    std::vector<uint32_t>& part = indices[t / 3 % count];
+    part.insert(part.end(), mesh.indices.begin() + 3 * t, mesh.indices.begin() + 3 * t + 3);
+  }
+  std::vector<PartView> parts;
+  for (const std::vector<uint32_t>& part : indices) parts.push_back({part});
+  MeshPiece piece(mesh);
+  piece.setParts(std::move(parts));
+  const PieceView view = piece.view();
+  list.add("parts of " + mesh.name, {&view, 1});
+}
+
+void addPieces(PayloadList& list) {
+  const TestMesh meshes[] = {torus(6, 5), torus(5, 4), withUnused(torus(4, 3), 3, 4),
+                             uvSphere(6, 4), sheetWithHoles(2, 7)};
+  std::vector<std::unique_ptr<MeshPiece>> pieces;
+  std::vector<PieceView> views;
+  for (const TestMesh& mesh : meshes) {
+    pieces.push_back(std::make_unique<MeshPiece>(mesh));
+    views.push_back(pieces.back()->view());
+  }
+  list.add("five pieces", views);
+}
+
+/// One attribute of each component type and count that matters, filled with a little of everything.
+void addAttributes(PayloadList& list, const TestMesh& mesh) {
+  MeshPiece piece(mesh, {16, 12, 0});
+  std::vector<std::vector<uint8_t>> memory;
+  uint8_t set = 1;
+  const auto attribute = [&](Semantic semantic, ComponentType type, uint8_t components,
+                             uint16_t morph_target, uint8_t bits) {
+    AttributeFormat format;
+    format.semantic = semantic;
+    format.set_index = set++;
+    format.component_type = type;
+    format.component_count = components;
+    format.normalized = type == ComponentType::kUint8;
+    format.morph_target = morph_target;
+    const uint32_t bytes = componentBytes(type);
+    memory.emplace_back(size_t{mesh.vertexCount()} * elementBytes(format));
+    for (size_t i = 0; i < memory.back().size() / bytes; ++i) {
+      const float x = mesh.positions[i % mesh.positions.size()];
+      if (type == ComponentType::kFloat32) {
+        std::memcpy(&memory.back()[4 * i], &x, 4);
+      } else {
+        const int32_t value = static_cast<int32_t>(x * 100);
+        std::memcpy(&memory.back()[bytes * i], &value, bytes);
+      }
+    }
+    piece.add(format, memory.back().data(), bits);
+  };
+  memory.reserve(16);
+  attribute(Semantic::kJoints, ComponentType::kUint8, 4, 0, 0);
+  attribute(Semantic::kWeights, ComponentType::kFloat32, 4, 0, 10);
+  attribute(Semantic::kColor, ComponentType::kUint8, 4, 0, 0);
+  attribute(Semantic::kTangent, ComponentType::kFloat32, 4, 0, 10);
+  attribute(Semantic::kTexcoord, ComponentType::kUint16, 2, 0, 0);
+  attribute(Semantic::kCustom, ComponentType::kInt8, 1, 0, 0);
+  attribute(Semantic::kCustom, ComponentType::kInt16, 3, 0, 0);
+  attribute(Semantic::kCustom, ComponentType::kUint32, 16, 0, 0);
+  attribute(Semantic::kPosition, ComponentType::kFloat32, 3, 1, 12);
+  attribute(Semantic::kNormal, ComponentType::kFloat32, 3, 1, 8);
+  const PieceView view = piece.view();
+  list.add("attributes on " + mesh.name, {&view, 1});
+}
+
+std::vector<NamedPayload> makePayloads() {
+  PayloadList list;
+  list.add(tetrahedron());
+  list.add(looseTriangles(1), kExactBits);
+  list.add(icosphere(1), kExactBits, contextSet(1));
+  list.add(torus(9, 7), {}, contextSet(2));
+  list.add(plateWithTunnels(3, 2), {}, contextSet(3));
+  list.add(sheetWithHoles(4, 1), {}, contextSet(4));
+  list.add(generated(5, 4, 6, 7), {});
+  list.add(mengerSponge(1), {}, contextSet(0));
+  list.add(book(4, 3, 2));
+  list.add(fins(5));
+  list.add(bowTies(3, 3, 2));
+  list.add(randomVoxels(3, 4, 50));
+  list.add(moebius(12, 2));
+  list.add(pinchedSpheres(3));
+  list.add(doubled(icosphere(0)));
+  list.add(chartGrid(8, 8, 3));
+  list.add(withRandomWedges(torus(7, 5), 4, 3));
+  list.add(withRandomWedges(book(3, 3, 3), 4, 3), kExactBits);
+  list.add(flatShaded(icosphere(0)));
+  list.add(withIndexDuplicates(icosphere(1), 5, 9));
+  list.add(withPositionDuplicates(icosphere(1), 5, 9));
+  list.add(withDegenerates(icosphere(1), 5, 9));
+  list.add(withUnused(icosphere(1), 5, 9));
+  list.add(randomSoup(11));
+  list.add(randomSoup(12), kExactBits);
+  addParts(list, withDegenerates(withIndexDuplicates(grid(6, 6), 1, 8), 2, 8), 3);
+  addPieces(list);
+  addAttributes(list, withNormals(torus(8, 6)));
+  // More than 2000 vertices: three streams.
+  list.add(icosphere(4), {20, 10, 12});
+  list.add(generated(9, 5, 12, 40));
+  list.add(chartGrid(50, 50, 9));
+  list.add(unionOf(std::array{randomVoxels(5, 9, 40), book(5, 8, 8), flipped(icosphere(4), 3, 999)},
+                   "big copies"));
+  addParts(list, withDegenerates(withIndexDuplicates(grid(50, 50), 1, 80), 2, 80), 3);
+  addAttributes(list, withNormals(torus(60, 40)));
+  return list.take();
+}
+
+}  // namespace
+
+const std::vector<NamedPayload>& robustnessPayloads() {
+  static const std::vector<NamedPayload> kPayloads = makePayloads();
+  return kPayloads;
+}
+
+}  // namespace mcc::test

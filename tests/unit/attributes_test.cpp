@@ -1,0 +1,465 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The stages behind connectivity, on values made up at random: positions, seams, and triangles beside the surface.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <vector>
+
+#include "support/mesh_generators.h"
+#include "unit/surface.h"
+
+namespace mcc::test {
+namespace {
+
+/// Meshes that take the traversal everywhere: closed, open, of one triangle, with copies, of high degree.
+std::vector<TestMesh> surfaces() {
+  return {tetrahedron(),       looseTriangles(5),   grid(9, 7),           torus(8, 6),
+          openFan(40),         bipyramid(30),       sheetWithHoles(3, 1), book(4, 4, 3),
+          pinchedSpheres(3),   moebius(8, 2),       randomVoxels(1, 4, 50), fins(4),
+          generated(2, 2, 3, 4), combOfStacks(5, 6)};
+}
+
+/// Both sides up to the positions. What is made up goes into `truth` between the stages.
+template <bool kSingle>
+class Pair {
+ public:
+  Pair(const TestMesh& mesh, const AttributeInfo& position, uint32_t isolated_count = 0)
+      : surface_(mesh),
+        encoder_(kSingle),
+        writer_(encoder_, headerOf(surface_, isolated_count), {position, positionInfo(10)}) {
+    truth.connectivity = surface_.truth();
+    EXPECT_TRUE(writer_.piece.codeConnectivity(truth).ok());
+    classes_ = surface_.classOfVertex();
+    truth.class_of_vertex = classes_.data();
+    truth.class_count = mesh.vertexCount();
+    EXPECT_TRUE(writer_.piece.codeStitch(truth).ok());
+    writer_.header.wedge_count = groupCount() + isolated_count;
+  }
+
+  uint32_t groupCount() const { return writer_.piece.groups.count; }
+  uint32_t faceCount() const { return writer_.piece.mesh.face_count; }
+  uint32_t group(uint32_t f, uint32_t k) const {
+    return writer_.piece.mesh.words[size_t{f} * kFaceWords + k];
+  }
+  FaceView faces() { return writer_.piece.mesh.view(); }
+  Stages<EncoderIo>& writer() { return writer_; }
+  EncoderIo& encoder() { return encoder_; }
+  PieceHeader& header() { return writer_.header; }
+
+  /// Ends the streams and opens the other side up to the same stage.
+  Stages<DecoderIo<kSingle>>& reader() {
+    streams_ = encoder_.finish();
+    return readerOf(writer_.header);
+  }
+  /// Again, with other claims.
+  Stages<DecoderIo<kSingle>>& readerOf(const PieceHeader& header) {
+    decoder_ = std::make_unique<DecoderIo<kSingle>>(streams_.codes, streams_.tokens, streams_.raw);
+    reader_ = std::make_unique<Stages<DecoderIo<kSingle>>>(*decoder_, header, writer_.attributes);
+    EXPECT_TRUE(reader_->piece.codeConnectivity(PieceTruth{}).ok());
+    EXPECT_TRUE(reader_->piece.codeStitch(PieceTruth{}).ok());
+    return *reader_;
+  }
+  DecoderIo<kSingle>& decoder() { return *decoder_; }
+
+  PieceTruth truth;
+
+ private:
+  static PieceHeader headerOf(const Surface& surface, uint32_t isolated_count) {
+    PieceHeader header = surface.header();
+    header.isolated_count = isolated_count;
+    if (isolated_count != 0) header.flags |= piece_flag::kIsolated;
+    return header;
+  }
+
+  Surface surface_;
+  EncoderIo encoder_;
+  Stages<EncoderIo> writer_;
+  std::vector<uint32_t> classes_;
+  EncoderIo::Streams streams_;
+  std::unique_ptr<DecoderIo<kSingle>> decoder_;
+  std::unique_ptr<Stages<DecoderIo<kSingle>>> reader_;
+};
+
+// ---- Positions ----------------------------------------------------------------------------------
+
+enum class Values : uint8_t { kRandom, kSmooth, kAnyInteger, kJumps };
+
+/// Choices of the encoder that need nothing besides.
+std::vector<uint8_t> positionPredictors() {
+  using namespace position_flag;
+  return {0, 1, 4, kFold, 1 | kShear, 1 | kFold | kSplit, 4 | kFold | kSplit | kShear};
+}
+
+
+template <bool kSingle>
+void expectPositions(const TestMesh& mesh, uint8_t bits, uint8_t predictor, Values kind,
+                     uint32_t isolated_count) {
+  SCOPED_TRACE(mesh.name + ", bits " + std::to_string(bits) + ", predictor " +
+               std::to_string(predictor));
+  AttributeInfo info = positionInfo(bits);
+  info.predictor = predictor;
+  Pair<kSingle> pair(mesh, info, isolated_count);
+  Random random(bits);
+  std::vector<int32_t> positions(3 * (size_t{pair.groupCount()} + isolated_count));
+  for (size_t i = 0; i < positions.size(); ++i) {
+    switch (kind) {
+      case Values::kRandom: positions[i] = static_cast<int32_t>(random.below(1u << bits)); break;
+      case Values::kSmooth:
+        positions[i] = static_cast<int32_t>((i / 3 * (1 + i % 3)) & ((1u << bits) - 1));
+        break;
+      case Values::kAnyInteger:
+        positions[i] = static_cast<int32_t>(random.next() >> 32);
+        if (random.chance(10)) positions[i] = std::numeric_limits<int32_t>::min();
+        if (random.chance(10)) positions[i] = std::numeric_limits<int32_t>::max();
+        break;
+      case Values::kJumps:  // as far as it goes, where nobody expects it
+        positions[i] = random.chance(97) ? 0 : std::numeric_limits<int32_t>::min();
+    }
+  }
+  pair.truth.positions = positions.data();
+  ASSERT_TRUE(pair.writer().piece.codePositions(pair.truth).ok());
+  auto& reader = pair.reader();
+  const Status status = reader.piece.codePositions(PieceTruth{});
+  ASSERT_TRUE(status.ok()) << status.what;
+  ASSERT_TRUE(pair.decoder().finish().ok());
+  ASSERT_GE(reader.piece.records.size(), positions.size() / 3);
+  for (size_t g = 0; g < positions.size() / 3; ++g) {
+    for (size_t s = 0; s < 3; ++s)
+      ASSERT_EQ(reader.piece.records[g].q[s], positions[3 * g + s]) << "group " << g;
+  }
+  // The traversal enters each group once, by a half-edge of its own, alike on both sides.
+  const auto& sequence = reader.piece.sequence;
+  ASSERT_EQ(sequence.size(), pair.groupCount());
+  std::set<uint32_t> entered;
+  for (size_t i = 0; i < sequence.size(); ++i) {
+    ASSERT_EQ(sequence[i], pair.writer().piece.sequence[i]);
+    ASSERT_TRUE(entered.insert(reader.piece.mesh.words[sequence[i]]).second);
+  }
+}
+
+TEST(Positions, AnyValuesAtAllBits) {
+  const std::vector<TestMesh> meshes = surfaces();
+  for (uint8_t bits = 1; bits <= 24; ++bits) {
+    for (const uint8_t predictor : positionPredictors()) {
+      const TestMesh& mesh = meshes[(bits + 5u * predictor) % meshes.size()];
+      for (const Values kind :
+           {Values::kRandom, Values::kSmooth, Values::kAnyInteger, Values::kJumps}) {
+        expectPositions<true>(mesh, bits, predictor, kind, bits % 4u);
+        expectPositions<false>(mesh, bits, predictor, kind, bits % 3u);
+      }
+    }
+  }
+}
+
+TEST(Positions, OnAllKindsOfSurfaces) {
+  for (const TestMesh& mesh : surfaces()) {
+    for (const uint8_t bits : {uint8_t{6}, uint8_t{14}, uint8_t{17}, uint8_t{18}, uint8_t{24}}) {
+      for (const uint8_t predictor : positionPredictors()) {
+        expectPositions<true>(mesh, bits, predictor, Values::kRandom, 0);
+        expectPositions<false>(mesh, bits, predictor, Values::kSmooth, 7);
+      }
+    }
+  }
+}
+
+TEST(Positions, AFlatRegularGridIsCheap) {
+  const TestMesh mesh = grid(40, 40);
+  AttributeInfo info = positionInfo(14);
+  Pair<false> pair(mesh, info);
+  std::vector<int32_t> positions(3 * size_t{pair.groupCount()});
+  // Group g is some vertex of the grid: its place comes from the source mesh.
+  Surface surface(mesh);
+  EncoderIo io(true);
+  Stages<EncoderIo> stages(io, surface.header(), {info});
+  PieceTruth truth;
+  truth.connectivity = surface.truth();
+  ASSERT_TRUE(stages.piece.codeConnectivity(truth).ok());
+  const std::vector<uint32_t> source = surface.classOfVertex();
+  for (size_t g = 0; g < source.size(); ++g) {
+    positions[3 * g] = static_cast<int32_t>(source[g] % 41 * 100);
+    positions[3 * g + 1] = static_cast<int32_t>(source[g] / 41 * 100);
+  }
+  pair.truth.positions = positions.data();
+  const uint64_t before = pair.encoder().cost();
+  ASSERT_TRUE(pair.writer().piece.codePositions(pair.truth).ok());
+  const double bits = static_cast<double>(pair.encoder().cost() - before) / kCostOne;
+  EXPECT_LT(bits, 4.0 * pair.groupCount());  // 14-bit values, 42 bits as they are
+}
+
+TEST(Positions, AStreamThatEndsIsAnError) {
+  const TestMesh mesh = torus(30, 20);
+  Pair<true> pair(mesh, positionInfo(14));
+  Random random(1);
+  std::vector<int32_t> positions(3 * size_t{pair.groupCount()});
+  for (int32_t& q : positions) q = static_cast<int32_t>(random.below(1u << 14));
+  const size_t connectivity_bytes = static_cast<size_t>(pair.encoder().cost() / kCostOne / 8 + 8);
+  pair.truth.positions = positions.data();
+  ASSERT_TRUE(pair.writer().piece.codePositions(pair.truth).ok());
+  const std::vector<uint8_t> codes = pair.encoder().finish().codes;
+  for (size_t size = connectivity_bytes; size + 100 < codes.size(); size += 97) {
+    const std::vector<uint8_t> cut(codes.begin(), codes.begin() + static_cast<std::ptrdiff_t>(size));
+    DecoderIo<true> decoder(cut, {}, {});
+    Stages<DecoderIo<true>> reader(decoder, pair.header(), pair.writer().attributes);
+    ASSERT_TRUE(reader.piece.codeConnectivity(PieceTruth{}).ok());
+    ASSERT_TRUE(reader.piece.codeStitch(PieceTruth{}).ok());
+    const bool decoded = reader.piece.codePositions(PieceTruth{}).ok();
+    EXPECT_FALSE(decoded && decoder.finish().ok()) << size;
+  }
+}
+
+// ---- Seams --------------------------------------------------------------------------------------
+
+uint32_t findRoot(std::vector<uint32_t>& parent, uint32_t i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+/// Wedge of each corner (3f+k), by cutting edges at random: every wedge is one run of corners.
+std::vector<uint32_t> cutWedges(const FaceView& faces, uint32_t face_count, uint32_t cut_percent,
+                                Random& random) {
+  std::vector<uint32_t> parent(3 * size_t{face_count});
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto corner = [](uint32_t h) { return 3 * faceOf(h) + (h & 3); };
+  for (uint32_t f = 0; f < face_count; ++f) {
+    for (uint32_t h = f * kFaceWords; h < f * kFaceWords + 3; ++h) {
+      const uint32_t clockwise = faces.rotateCw(h);
+      if (clockwise == kNone || random.chance(cut_percent)) continue;
+      parent[findRoot(parent, corner(h))] = findRoot(parent, corner(clockwise));
+    }
+  }
+  std::vector<uint32_t> wedges(parent.size());
+  for (uint32_t c = 0; c < wedges.size(); ++c) wedges[c] = findRoot(parent, c);
+  return wedges;
+}
+
+/// ... one of up to `most` wedges per group, corner by corner: runs come again, also in other umbrellas.
+std::vector<uint32_t> scatteredWedges(const FaceView& faces, uint32_t face_count, uint32_t most,
+                                      Random& random) {
+  std::vector<uint32_t> wedges;
+  for (uint32_t f = 0; f < face_count; ++f) {
+    for (uint32_t k = 0; k < 3; ++k)
+      wedges.push_back(faces.vertex(f * kFaceWords + k) * most + random.below(most));
+  }
+  return wedges;
+}
+
+template <bool kSingle>
+void expectSeams(const TestMesh& mesh, uint32_t percent, uint32_t most, uint32_t isolated_count) {
+  SCOPED_TRACE(mesh.name + ", " + std::to_string(percent) + " % cut, " + std::to_string(most));
+  Pair<kSingle> pair(mesh, positionInfo(10), isolated_count);
+  Random random(percent + most);
+  const std::vector<uint32_t> source =
+      most == 0 ? cutWedges(pair.faces(), pair.faceCount(), percent, random)
+                : scatteredWedges(pair.faces(), pair.faceCount(), most, random);
+  std::vector<uint32_t> group_of_corner;
+  for (uint32_t f = 0; f < pair.faceCount(); ++f) {
+    for (uint32_t k = 0; k < 3; ++k) group_of_corner.push_back(pair.group(f, k));
+  }
+  const uint32_t surface_wedges =
+      static_cast<uint32_t>(std::set<uint32_t>(source.begin(), source.end()).size());
+  pair.header().flags |= piece_flag::kSeams | (most == 0 ? 0 : piece_flag::kMerges);
+  pair.header().wedge_count = surface_wedges + isolated_count;
+  const std::vector<int32_t> positions(3 * (size_t{pair.groupCount()} + isolated_count), 0);
+  pair.truth.positions = positions.data();
+  ASSERT_TRUE(pair.writer().piece.codePositions(pair.truth).ok());
+  pair.truth.corner_source = source.data();
+  const Status written = pair.writer().piece.codeSeams(pair.truth);
+  ASSERT_TRUE(written.ok()) << written.what;
+
+  auto& reader = pair.reader();
+  ASSERT_TRUE(reader.piece.codePositions(PieceTruth{}).ok());
+  const Status status = reader.piece.codeSeams(PieceTruth{});
+  ASSERT_TRUE(status.ok()) << status.what;
+  ASSERT_TRUE(pair.decoder().finish().ok());
+  std::map<uint32_t, uint32_t> wedge_of_source;
+  std::set<uint32_t> wedges;
+  for (uint32_t c = 0; c < source.size(); ++c) {
+    const uint32_t wedge = reader.piece.mesh.words[size_t{c / 3} * kFaceWords + c % 3];
+    ASSERT_EQ(pair.writer().piece.mesh.words[size_t{c / 3} * kFaceWords + c % 3], wedge);
+    ASSERT_LT(wedge, surface_wedges);
+    ASSERT_EQ(reader.piece.groupOf(wedge), group_of_corner[c]);
+    const auto [entry, is_new] = wedge_of_source.emplace(source[c], wedge);
+    ASSERT_EQ(entry->second, wedge) << "a wedge fell apart";
+    ASSERT_TRUE(!is_new || wedges.insert(wedge).second) << "two wedges became one";
+  }
+  // The sequence for the attributes: each wedge once.
+  ASSERT_EQ(reader.piece.wedges.count, surface_wedges);
+  ASSERT_EQ(reader.piece.wedges.isolated_count, isolated_count);
+  ASSERT_EQ(reader.piece.wedges.isolated_first, surface_wedges);
+  std::set<uint32_t> entered;
+  for (uint32_t i = 0; i < surface_wedges; ++i) {
+    ASSERT_TRUE(
+        entered.insert(reader.piece.mesh.words[reader.piece.wedges.half_edges[i]]).second);
+  }
+  for (uint32_t i = 0; i < isolated_count; ++i)
+    ASSERT_EQ(reader.piece.groupOf(surface_wedges + i), pair.groupCount() + i);
+}
+
+TEST(Seams, AnyPartitionIntoRuns) {
+  for (const TestMesh& mesh : surfaces()) {
+    for (const uint32_t percent : {0u, 3u, 30u, 70u, 100u}) {
+      expectSeams<true>(mesh, percent, 0, 0);
+      expectSeams<false>(mesh, percent, 0, percent % 4);
+    }
+  }
+}
+
+TEST(Seams, WedgesThatComeAgain) {
+  for (const TestMesh& mesh : surfaces()) {
+    for (const uint32_t most : {1u, 2u, 3u, 9u}) {
+      expectSeams<true>(mesh, 0, most, 0);
+      expectSeams<false>(mesh, 0, most, most);
+    }
+  }
+}
+
+TEST(Seams, OtherCountsAreErrors) {
+  Pair<true> pair(grid(9, 7), positionInfo(10));
+  Random random(1);
+  const std::vector<uint32_t> source = cutWedges(pair.faces(), pair.faceCount(), 30, random);
+  const uint32_t count =
+      static_cast<uint32_t>(std::set<uint32_t>(source.begin(), source.end()).size());
+  pair.header().flags |= piece_flag::kSeams;
+  pair.header().wedge_count = count;
+  const std::vector<int32_t> positions(3 * size_t{pair.groupCount()}, 0);
+  pair.truth.positions = positions.data();
+  ASSERT_TRUE(pair.writer().piece.codePositions(pair.truth).ok());
+  pair.truth.corner_source = source.data();
+  ASSERT_TRUE(pair.writer().piece.codeSeams(pair.truth).ok());
+  (void)pair.reader();
+  for (const uint32_t claimed : {0u, 1u, count - 1, count, count + 1, 10 * count}) {
+    PieceHeader header = pair.header();
+    header.wedge_count = claimed;
+    auto& reader = pair.readerOf(header);
+    ASSERT_TRUE(reader.piece.codePositions(PieceTruth{}).ok());
+    const Error error = reader.piece.codeSeams(PieceTruth{}).error;
+    EXPECT_EQ(error, claimed == count ? Error::kOk : Error::kBadAttribute) << claimed;
+  }
+}
+
+// ---- Parts, duplicates, listed triangles ----------------------------------------------------------
+
+struct Leftovers {
+  std::vector<uint32_t> parts;
+  std::vector<uint32_t> duplicates;
+  std::vector<ListedTriangle> list;
+
+  LeftoverTruth truth() const {
+    LeftoverTruth truth;
+    truth.part_of_face = parts.data();
+    truth.duplicates_of_face = duplicates.data();
+    truth.list = list.data();
+    return truth;
+  }
+};
+
+Leftovers randomLeftovers(uint32_t face_count, uint32_t wedge_count, uint32_t part_count,
+                          uint32_t listed_count, uint32_t duplicate_percent, Random& random) {
+  Leftovers leftovers;
+  uint32_t part = 0;
+  for (uint32_t f = 0; f < face_count; ++f) {
+    if (random.chance(20)) part = random.below(part_count);
+    leftovers.parts.push_back(part);
+    leftovers.duplicates.push_back(
+        random.chance(duplicate_percent) ? random.between(1, random.chance(90) ? 2 : 300) : 0);
+  }
+  for (uint32_t i = 0; i < listed_count; ++i) {
+    const uint32_t a = random.below(wedge_count);
+    leftovers.list.push_back({{a, random.below(wedge_count), a}, random.below(part_count)});
+  }
+  if (listed_count > 1) {
+    leftovers.list[0] = {{wedge_count - 1, 0, wedge_count - 1}, part_count - 1};
+    leftovers.list[1] = {{0, wedge_count - 1, 0}, 0};
+  }
+  return leftovers;
+}
+
+/// Writes the leftovers and sets the header's claims.
+template <bool kSingle>
+void writeLeftovers(Pair<kSingle>& pair, const Leftovers& leftovers, uint32_t part_count) {
+  PieceHeader& header = pair.header();
+  header.part_count = part_count;
+  header.duplicate_count = std::accumulate(leftovers.duplicates.begin(), leftovers.duplicates.end(), 0u);
+  header.listed_count = static_cast<uint32_t>(leftovers.list.size());
+  if (part_count > 1) header.flags |= piece_flag::kManyParts;
+  if (header.duplicate_count != 0) header.flags |= piece_flag::kDuplicates;
+  if (header.listed_count != 0) header.flags |= piece_flag::kListed;
+  pair.truth.leftovers = leftovers.truth();
+  ASSERT_TRUE(pair.writer().piece.codeLeftovers(pair.truth).ok());
+}
+
+template <bool kSingle>
+void expectLeftovers(const TestMesh& mesh, uint32_t part_count, uint32_t listed_count,
+                     uint32_t duplicate_percent) {
+  SCOPED_TRACE(mesh.name + ", " + std::to_string(part_count) + " parts");
+  Pair<kSingle> pair(mesh, positionInfo(10), 2);
+  Random random(part_count + listed_count);
+  const Leftovers leftovers = randomLeftovers(pair.faceCount(), pair.header().wedge_count,
+                                              part_count, listed_count, duplicate_percent, random);
+  writeLeftovers(pair, leftovers, part_count);
+  auto& reader = pair.reader();
+  const Status status = reader.piece.codeLeftovers(PieceTruth{});
+  ASSERT_TRUE(status.ok()) << status.what;
+  ASSERT_TRUE(pair.decoder().finish().ok());
+  for (uint32_t f = 0; f < pair.faceCount(); ++f) {
+    if (part_count > 1) {
+      ASSERT_EQ(reader.piece.mesh.words[size_t{f} * kFaceWords + kFaceWord], leftovers.parts[f]);
+    }
+    const uint32_t copies = reader.piece.copies.empty() ? 0 : reader.piece.copies[f];
+    ASSERT_EQ(copies, leftovers.duplicates[f]);
+  }
+  ASSERT_EQ(reader.piece.list.size(), leftovers.list.size());
+  for (size_t i = 0; i < leftovers.list.size(); ++i) {
+    ASSERT_EQ(reader.piece.list[i].part, leftovers.list[i].part);
+    for (int k = 0; k < 3; ++k)
+      ASSERT_EQ(reader.piece.list[i].wedge[k], leftovers.list[i].wedge[k]);
+  }
+}
+
+TEST(Leftovers, PartsDuplicatesAndListedTriangles) {
+  for (const TestMesh& mesh : {grid(9, 7), torus(6, 5), looseTriangles(20), book(4, 4, 3)}) {
+    for (const uint32_t part_count : {1u, 2u, 3u, 50u}) {
+      for (const uint32_t listed_count : {0u, 1u, 40u}) {
+        for (const uint32_t percent : {0u, 10u, 100u}) {
+          expectLeftovers<true>(mesh, part_count, listed_count, percent);
+          expectLeftovers<false>(mesh, part_count, listed_count, percent);
+        }
+      }
+    }
+  }
+}
+
+TEST(Leftovers, OtherClaimsAreErrors) {
+  Pair<true> pair(grid(5, 5), positionInfo(10));
+  Random random(3);
+  const Leftovers leftovers =
+      randomLeftovers(pair.faceCount(), pair.header().wedge_count, 3, 20, 30, random);
+  writeLeftovers(pair, leftovers, 3);
+  (void)pair.reader();
+  const auto decode = [&](const PieceHeader& header) {
+    return pair.readerOf(header).piece.codeLeftovers(PieceTruth{}).error;
+  };
+  EXPECT_EQ(decode(pair.header()), Error::kOk);
+  for (const uint32_t wrong : {0u, 1u, pair.header().duplicate_count - 1}) {
+    PieceHeader header = pair.header();
+    header.duplicate_count = wrong;
+    EXPECT_EQ(decode(header), Error::kBadAttribute) << wrong;
+  }
+  PieceHeader header = pair.header();
+  header.duplicate_count += 100000;
+  EXPECT_NE(decode(header), Error::kOk);
+  header = pair.header();
+  header.wedge_count -= 1;  // the first listed triangle has the last wedge
+  EXPECT_EQ(decode(header), Error::kBadAttribute);
+  header = pair.header();
+  header.part_count = 2;
+  EXPECT_NE(decode(header), Error::kOk);
+}
+
+}  // namespace
+}  // namespace mcc::test

@@ -1,0 +1,83 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// A mesh on its way through the stages of piece.h, one stage at a time: what each stage needs to know is made up by
+// the test that uses it.
+#ifndef MCC_TESTS_UNIT_SURFACE_H_
+#define MCC_TESTS_UNIT_SURFACE_H_
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mcc/types.h"
+
+#include "connectivity/enc_collapse.h"
+#include "entropy/dec_coder.h"
+#include "entropy/enc_coder.h"
+#include "piece.h"
+#include "prepare/enc_cut.h"
+#include "support/mesh_generators.h"
+
+namespace mcc::test {
+
+/// A collapsed mesh. Vertices are welded by index, not by position.
+class Surface {
+ public:
+  explicit Surface(const TestMesh& mesh, EdgePairing pairing = EdgePairing::kStack,
+                   uint32_t start_half_edge = kNone);
+
+  /// Flags of connectivity alone.
+  PieceHeader header() const;
+  /// Borrows this; the machine writes into it.
+  McTruth truth();
+
+  const CutResult& cut() const { return cut_; }
+  const McRecord& record() const { return record_; }
+  const std::vector<uint32_t>& sourceOfVertex() const { return source_of_vertex_; }
+  /// Source half-edge (3 * triangle + corner) that became half-edge 1 of a face.
+  const std::vector<uint32_t>& sourceGate() const { return source_gate_; }
+  /// Class (index in the mesh) of each decoded vertex.
+  std::vector<uint32_t> classOfVertex() const;
+  bool hasCopies() const;
+
+ private:
+  uint32_t class_count_;
+  CutResult cut_;
+  McRecord record_;
+  std::vector<uint32_t> node_map_;
+  std::vector<uint32_t> source_of_vertex_;
+  std::vector<uint32_t> source_gate_;
+};
+
+/// Models, header and stages of one piece on one coder.
+template <class Io>
+struct Stages {
+  Stages(Io& io, const PieceHeader& piece_header, std::vector<AttributeInfo> infos,
+         uint32_t context_set = 0, CodeHistogram* histogram = nullptr)
+      : header(piece_header),
+        attributes(std::move(infos)),
+        models(std::make_unique<PayloadModels>(Allocator{})),
+        piece(io, *models, header, attributes.data(), {}, histogram) {
+    header.attribute_count = static_cast<uint32_t>(attributes.size());
+    ready = models->mc.init(context_set);
+  }
+  Stages(const Stages&) = delete;
+  Stages& operator=(const Stages&) = delete;
+
+  PieceHeader header;  ///< may be changed between stages
+  std::vector<AttributeInfo> attributes;
+  std::unique_ptr<PayloadModels> models;
+  PieceCoder<Io> piece;
+  bool ready = false;
+};
+
+/// POSITION on a lattice of `bits` bits.
+AttributeInfo positionInfo(uint8_t bits);
+
+/// Whether twins are mutual, have each other's ends, and vertices are below `vertex_count`; "" if so.
+std::string checkFaceMesh(const FaceMesh& mesh, uint32_t vertex_count);
+
+}  // namespace mcc::test
+
+#endif  // MCC_TESTS_UNIT_SURFACE_H_
