@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Every kind of attribute comes back: integers and exact floats bit for bit, the others as DESIGN 9.5 says.
+// Every kind of attribute comes back: integers and exact floats bit for bit, the others as DESIGN
+// 9.5 says.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -28,7 +29,8 @@ AttributeFormat formatOf(Semantic semantic, ComponentType type, uint8_t componen
   return format;
 }
 
-/// Meshes attributes are tried on: smooth, with seams, with boundaries and several components, wild.
+/// Meshes attributes are tried on: smooth, with seams, with boundaries and several components,
+/// wild.
 std::vector<TestMesh> carriers() {
   return {torus(16, 10),
           chartGrid(12, 10, 4),

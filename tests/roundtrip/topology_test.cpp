@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Whatever the triangles are like, the same ones come back, on the same wedges. The environment variable
-// MCC_SOUPS sets the number of random soups.
+// Whatever the triangles are like, the same ones come back, on the same wedges. The environment
+// variable MCC_SOUPS sets the number of random soups.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -66,8 +66,8 @@ void expectExact(const TestMesh& mesh, Positions positions = Positions::kLattice
 
 // ---- Manifold meshes ----------------------------------------------------------------------------
 
-/// Genus, holes and components of the sample: every component count once, every genus and every number of
-/// holes many times, in all combinations of small and large.
+/// Genus, holes and components of the sample: every component count once, every genus and every
+/// number of holes many times, in all combinations of small and large.
 class Generated : public testing::TestWithParam<uint32_t> {};
 
 TEST_P(Generated, GenusHolesAndComponents) {
@@ -156,8 +156,9 @@ TEST(Topology, ManyComponents) {
   expectExact(looseTriangles(5000));
   std::vector<TestMesh> pieces;
   for (uint32_t i = 0; i < 3000; ++i) {
-    pieces.push_back(translated(tetrahedron(), static_cast<float>(i % 60) * 4,
-                                static_cast<float>(i / 60) * 4, 0));
+    const uint32_t row = i / 60;
+    pieces.push_back(
+        translated(tetrahedron(), static_cast<float>(i % 60) * 4, static_cast<float>(row) * 4, 0));
   }
   expectExact(shuffled(unionOf(pieces, "3000 tetrahedra"), 1));
 }
@@ -286,7 +287,7 @@ TEST(Topology, TinyMeshes) {
 /// All 64 index triples, degenerate ones too, with one another; then random sets of up to nine.
 TEST(Topology, AllPairsOfTrianglesOnFourVertices) {
   TestMesh mesh = tetrahedron();
-  const auto setTriangle = [&mesh](size_t t, uint32_t code) {
+  const auto set_triangle = [&mesh](size_t t, uint32_t code) {
     for (size_t k = 0; k < 3; ++k) mesh.indices[t * 3 + k] = code >> (2 * k) & 3;
   };
   EncodeOptions options;
@@ -294,8 +295,8 @@ TEST(Topology, AllPairsOfTrianglesOnFourVertices) {
   mesh.indices.resize(6);
   for (uint32_t first = 0; first < 64; ++first) {
     for (uint32_t second = first; second < 64; ++second) {
-      setTriangle(0, first);
-      setTriangle(1, second);
+      set_triangle(0, first);
+      set_triangle(1, second);
       ASSERT_EQ(roundTripOf(mesh, Positions::kLattice14, options).failure, "")
           << first << ' ' << second;
     }
@@ -304,7 +305,7 @@ TEST(Topology, AllPairsOfTrianglesOnFourVertices) {
   for (int trial = 0; trial < 1500; ++trial) {
     const uint32_t count = random.between(3, 9);
     mesh.indices.resize(size_t{count} * 3);
-    for (uint32_t t = 0; t < count; ++t) setTriangle(t, random.below(64));
+    for (uint32_t t = 0; t < count; ++t) set_triangle(t, random.below(64));
     ASSERT_EQ(roundTripOf(mesh, Positions::kLattice14, options).failure, "")
         << testing::PrintToString(mesh.indices);
   }

@@ -34,7 +34,8 @@ class GlbBuilder {
                        bool normalized);
   /// Indices, 16 bits wide when they fit.
   uint32_t addIndices(std::span<const uint32_t> indices);
-  /// A VEC3 float accessor that takes `base` and replaces the elements `where` (ascending) by `values`.
+  /// A VEC3 float accessor that takes `base` and replaces the elements `where` (ascending) by
+  /// `values`.
   uint32_t addSparseFloats(uint32_t base_accessor, std::span<const float> base,
                            std::span<const uint32_t> where, std::span<const float> values);
   /// A material; colour components 0..1, linear.

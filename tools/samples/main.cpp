@@ -2,6 +2,7 @@
 //
 // generate-samples DIR writes the sample models into DIR and prints the table of samples/README.md.
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -68,5 +69,10 @@ int main(int argc, char** argv) {
     std::fputs("usage: generate-samples DIR\n", stderr);
     return 2;
   }
-  return mcc::samples::run(argv[1]);
+  try {
+    return mcc::samples::run(argv[1]);
+  } catch (const std::exception& exception) {
+    std::fprintf(stderr, "generate-samples: %s\n", exception.what());
+    return 1;
+  }
 }

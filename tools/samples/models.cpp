@@ -223,8 +223,8 @@ std::vector<uint8_t> normalTexture() {
   std::vector<uint8_t> rgb;
   for (uint32_t y = 0; y < kChartsDown * kChart; ++y) {
     for (uint32_t x = 0; x < kChartsAcross * kChart; ++x) {
-      const double dx = (x % kBump + 0.5) / (kBump / 2) - 1;
-      const double dy = (y % kBump + 0.5) / (kBump / 2) - 1;
+      const double dx = (2.0 * (x % kBump) + 1) / kBump - 1;
+      const double dy = (2.0 * (y % kBump) + 1) / kBump - 1;
       const bool bump = dx * dx + dy * dy < 0.8;
       const Vec3 n =
           unit({bump ? 0.5 * dx : 0, bump ? -0.5 * dy : 0, 1});  // rows go down, green goes up
@@ -245,12 +245,14 @@ GlbBuilder textured() {
     // The side's normal, u and v directions are the axes in turn, so that u x v = n.
     const uint32_t axis = side / 2;
     const double sign = side % 2 == 0 ? 1 : -1;
-    const auto onAxis = [](uint32_t k, double length) {
+    const auto on_axis = [](uint32_t k, double length) {
       return Vec3{k == 0 ? length : 0, k == 1 ? length : 0, k == 2 ? length : 0};
     };
-    const Vec3 n = onAxis(axis, sign);
-    const Vec3 u = onAxis((axis + 1) % 3, sign);
-    const Vec3 v = onAxis((axis + 2) % 3, 1);
+    const Vec3 n = on_axis(axis, sign);
+    const Vec3 u = on_axis((axis + 1) % 3, sign);
+    const Vec3 v = on_axis((axis + 2) % 3, 1);
+    const uint32_t column = side % kChartsAcross;
+    const uint32_t row = side / kChartsAcross;
     const uint32_t base = mesh.vertexCount();
     for (uint32_t j = 0; j <= kCells; ++j) {
       for (uint32_t i = 0; i <= kCells; ++i) {
@@ -264,9 +266,9 @@ GlbBuilder textured() {
         push(mesh.positions, (core + normal * (1 - kFlat)) * 0.6);
         push(mesh.normals, normal);
         mesh.texcoords.push_back(
-            static_cast<float>((side % kChartsAcross + 0.03 + 0.94 * i / kCells) / kChartsAcross));
+            static_cast<float>((column + 0.03 + 0.94 * i / kCells) / kChartsAcross));
         mesh.texcoords.push_back(
-            static_cast<float>((side / kChartsAcross + 0.97 - 0.94 * j / kCells) / kChartsDown));
+            static_cast<float>((row + 0.97 - 0.94 * j / kCells) / kChartsDown));
         push(tangents, unit(u - normal * dot(u, normal)));
         tangents.push_back(1.0f);
         if (i == kCells || j == kCells) continue;
@@ -293,8 +295,8 @@ GlbBuilder textured() {
 
 // ---- Several primitives -------------------------------------------------------------------------
 
-/// Rows first..last of a surface of revolution about y; `profile` holds (radius, y). Rows of radius zero are
-/// one vertex. The same row gives the same bits in every call.
+/// Rows first..last of a surface of revolution about y; `profile` holds (radius, y). Rows of radius
+/// zero are one vertex. The same row gives the same bits in every call.
 TestMesh revolved(std::span<const std::array<double, 2>> profile, size_t first, size_t last,
                   uint32_t segments) {
   TestMesh mesh;
@@ -620,7 +622,7 @@ GlbBuilder modes() {
   constexpr uint32_t kStrip = 5;
   constexpr uint32_t kFan = 6;
   GlbBuilder glb("modes");
-  const auto addNode = [&glb](const char* name, const Json& made, double x) {
+  const auto add_node = [&glb](const char* name, const Json& made, double x) {
     const uint32_t index = glb.addMesh(name, Json::array({made}));
     glb.addNode({{"name", name}, {"mesh", index}, {"translation", {x, 0.0, 0.0}}});
   };
@@ -648,7 +650,7 @@ GlbBuilder modes() {
   Json strip =
       addPrimitive(glb, flag, glb.addMaterial("strip", 0.8f, 0.2f, 0.1f, 0.0f, 0.6f, true));
   strip["mode"] = kStrip;
-  addNode("triangle strip", strip, -3.0);
+  add_node("triangle strip", strip, -3.0);
 
   TestMesh disc;
   push(disc.positions, {0, 0, 0.3});
@@ -659,13 +661,13 @@ GlbBuilder modes() {
   Json fan = {{"attributes", addAttributes(glb, disc)},
               {"material", glb.addMaterial("fan", 0.9f, 0.7f, 0.1f, 0.0f, 0.6f, true)},
               {"mode", kFan}};
-  addNode("triangle fan without indices", fan, -1.0);
+  add_node("triangle fan without indices", fan, -1.0);
 
   TestMesh crystal = test::flatShaded(test::bipyramid(6));
   for (float& x : crystal.positions) x *= 0.6f;
   Json loose = {{"attributes", addAttributes(glb, crystal)},
                 {"material", glb.addMaterial("loose", 0.1f, 0.6f, 0.4f, 0.0f, 0.3f)}};
-  addNode("triangles without indices", loose, 1.0);
+  add_node("triangles without indices", loose, 1.0);
 
   TestMesh plane;
   std::vector<uint32_t> raised;
@@ -687,9 +689,9 @@ GlbBuilder modes() {
   const uint32_t sparse = glb.addSparseFloats(base, plane.positions, raised, raised_places);
   const uint32_t indices = glb.addIndices(plane.indices);
   const uint32_t blue = glb.addMaterial("sparse", 0.25f, 0.35f, 0.8f, 0.0f, 0.6f, true);
-  addNode("sparse accessor over a plane", primitive({{"POSITION", sparse}}, indices, blue), 2.6);
+  add_node("sparse accessor over a plane", primitive({{"POSITION", sparse}}, indices, blue), 2.6);
   const uint32_t grey = glb.addMaterial("plane", 0.5f, 0.5f, 0.5f, 0.0f, 0.9f, true);
-  addNode("the plane itself", primitive({{"POSITION", base}}, indices, grey), 4.0);
+  add_node("the plane itself", primitive({{"POSITION", base}}, indices, grey), 4.0);
   return glb;
 }
 

@@ -151,7 +151,7 @@ class Checker {
     MCC_GLTF_TRY(readAccessor(source_, attribute.accessor, source_values));
     MCC_GLTF_TRY(readAccessor(decoded_, index, decoded_values));
     Promise promise;
-    MCC_GLTF_TRY(promiseOf(attribute, coded->second, source_values, normalBits(piece), promise));
+    MCC_GLTF_TRY(promiseOf(attribute, coded->second, normalBits(piece), promise));
     AttributeReport& report = reportOf(attribute);
     report.coding = coded->second.coding;
     report.bits = promise.kind == Promise::Kind::kExact ? uint8_t{0} : attribute.bits;

@@ -107,7 +107,7 @@ Result compareAccessor(const Document& source, const Document& decoded, uint32_t
   if (source.accessors[index].view == kNone && source.accessors[index].sparse.count == 0) return {};
   AccessorData a;
   AccessorData b;
-  MCC_GLTF_TRY(readAccessor(source, index, a));
+  if (!readAccessor(source, index, a).ok()) return {};  // as unreadable as it was
   MCC_GLTF_TRY(readAccessor(decoded, index, b));
   if (a.count != b.count || a.element_bytes != b.element_bytes) {
     return error(path, "has another size");
@@ -127,9 +127,10 @@ Result compareImages(const Document& source, const Document& decoded) {
     if (number == nullptr) continue;
     uint64_t old_view = 0;
     uint64_t new_view = 0;
+    // A reference to nothing is as wrong as it was.
+    if (!asUnsigned(*number, old_view) || old_view >= source.views.size()) continue;
     const Json* new_number = findMember(arrayOf(decoded.json, "images")[i], "bufferView");
-    const bool is_valid = asUnsigned(*number, old_view) && old_view < source.views.size() &&
-                          new_number != nullptr && asUnsigned(*new_number, new_view) &&
+    const bool is_valid = new_number != nullptr && asUnsigned(*new_number, new_view) &&
                           new_view < decoded.views.size();
     if (!is_valid || !sameBytes(viewBytes(source, old_view), viewBytes(decoded, new_view))) {
       return error(at("/images", i), "the image changed");

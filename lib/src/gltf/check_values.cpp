@@ -27,21 +27,6 @@ double tangentBound(uint32_t bits, uint32_t normal_bits) {
          octahedralBound(normal_bits);
 }
 
-double largestSide(const AccessorData& source, const AttributeFormat& format) {
-  double side = 0;
-  for (uint32_t c = 0; c < format.component_count; ++c) {
-    double low = 0;
-    double high = 0;
-    for (uint64_t i = 0; i < source.count; ++i) {
-      const double value = componentValue(source.element(i).data() + 4 * c, format.component_type);
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-    side = std::max(side, high - low);
-  }
-  return side;
-}
-
 bool isBase(const AttributeFormat& format, Semantic semantic) {
   return format.semantic == semantic && format.morph_target == 0;
 }
@@ -54,18 +39,12 @@ Result promiseAngle(const AttributePlan& plan, double radians, Promise& promise)
   return is_unit ? Result{} : error("", plan.label() + " is coded as a unit vector");
 }
 
-Result promiseLattice(const AttributePlan& plan, const Lattice& lattice, const AccessorData& source,
-                      Promise& promise) {
+Result promiseLattice(const AttributePlan& plan, const Lattice& lattice, Promise& promise) {
   promise.kind = Promise::Kind::kLattice;
   promise.step = lattice.step;
   std::copy_n(lattice.origin, 4, promise.origin);
   promise.half_steps = plan.adjusted.empty() ? 1 : 2;
-  double largest_step = plan.lattice.step;
-  if (!plan.has_lattice) {  // the codec's own box: unit vectors that are none
-    const double points = static_cast<double>((uint64_t{1} << plan.bits) - 1);
-    largest_step = std::max(largestSide(source, plan.format), 2.0) / points * 1.001;
-  }
-  if (promise.step > 0 && promise.step <= largest_step) return {};
+  if (plan.has_lattice && promise.step > 0 && promise.step <= double{plan.lattice.step}) return {};
   return error("", "the lattice step of " + plan.label() + " is coarser than asked for");
 }
 
@@ -147,18 +126,17 @@ double latticeBound(const Promise& promise, uint32_t component, double decoded) 
   return promise.half_steps * promise.step / 2 * (1 + 1e-7) + rounding + 1e-44;
 }
 
-Result promiseOf(const AttributePlan& plan, const AttributeInfo& coded, const AccessorData& source,
-                 uint8_t normal_bits, Promise& promise) {
+Result promiseOf(const AttributePlan& plan, const AttributeInfo& coded, uint8_t normal_bits,
+                 Promise& promise) {
   promise = {};
   const bool is_float = plan.format.component_type == ComponentType::kFloat32;
   if (plan.bits == 0 || !is_float) return {};
   switch (coded.coding) {
     case AttributeCoding::kInteger:
     case AttributeCoding::kExactFloat: return {};
-    case AttributeCoding::kLattice: return promiseLattice(plan, coded.lattice, source, promise);
+    case AttributeCoding::kLattice: return promiseLattice(plan, coded.lattice, promise);
     case AttributeCoding::kAlias:  // of an attribute with the same plan
-      if (plan.has_lattice) return promiseLattice(plan, plan.lattice, source, promise);
-      return promiseAngle(plan, octahedralBound(plan.bits), promise);
+      return promiseLattice(plan, plan.lattice, promise);
     case AttributeCoding::kOctahedral:
       if (coded.bits < plan.bits) break;
       return promiseAngle(plan, octahedralBound(plan.bits), promise);

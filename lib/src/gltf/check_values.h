@@ -24,8 +24,8 @@ struct Promise {
 
 /// What the plan asked for, given what the payload says it did. Fails when that is coarser.
 /// normal_bits   of the NORMAL of the piece: angles of tangents are angles around it.
-Result promiseOf(const AttributePlan& plan, const AttributeInfo& coded, const AccessorData& source,
-                 uint8_t normal_bits, Promise& promise);
+Result promiseOf(const AttributePlan& plan, const AttributeInfo& coded, uint8_t normal_bits,
+                 Promise& promise);
 
 /// Largest deviation of a decoded value that the promise allows, by lattice rounding and the two
 /// float32 roundings of decoding.

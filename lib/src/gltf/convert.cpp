@@ -132,6 +132,12 @@ Result writeUncompressed(const Document& document, std::vector<uint8_t>& output)
   return writeGlb(printJson(json), bin, document.other_chunks, output);
 }
 
+/// What is compressed already must decode: it is part of what the check compares.
+Result checkOldPayloads(const Document& document) {
+  Decompressed ignored;
+  return decompressDocument(document, ignored);
+}
+
 Result convertBytes(std::span<const uint8_t> source, const FileReader& read_file,
                     const ConvertOptions& options, Conversion& conversion,
                     std::vector<uint8_t>& output, ConvertReport& report) {
@@ -143,6 +149,7 @@ Result convertBytes(std::span<const uint8_t> source, const FileReader& read_file
   MCC_GLTF_TRY(embedImages(read_file, document));
   report.input_bytes = document.source_bytes;
   report.notes = document.notes;
+  MCC_GLTF_TRY(checkOldPayloads(document));
   MCC_GLTF_TRY(compressDocument(document, options, compressed));
   report.notes.insert(report.notes.end(), compressed.notes.begin(), compressed.notes.end());
   addPrimitives(document, compressed, report);

@@ -30,7 +30,7 @@ struct AttributePlan {
   AttributeFormat format;
   AccessorData source;
   uint8_t bits = 0;  ///< 0: exact
-  bool has_lattice = false;
+  bool has_lattice = false;  ///< of float attributes with bits; the codec may prefer a finer grid
   Lattice lattice;
   /// When not empty, what is coded instead of `source`: values moved to lattice points by at most
   /// one step (weights that must add up to one).

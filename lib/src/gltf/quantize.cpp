@@ -97,7 +97,8 @@ bool fitBox(const Extent& extent, uint8_t bits, Lattice& lattice) {
   const double last_point = static_cast<double>((uint64_t{1} << bits) - 1);
   lattice = {};
   const double size = extent.size();
-  lattice.step = size == 0 ? 1.0f : static_cast<float>(size / last_point);
+  constexpr float kAnyStep = 0x1p-24f;  // all values are the origin
+  lattice.step = size == 0 ? kAnyStep : static_cast<float>(size / last_point);
   if (!std::isnormal(lattice.step)) return false;
   for (uint32_t c = 0; c < extent.component_count; ++c) {
     lattice.origin[c] = extent.min[c];
@@ -246,7 +247,7 @@ class Quantizer {
     } else if (attribute.target != kNone) {
       planMorphDelta(piece, attribute, extent, bits);
     } else if (attribute.format.semantic == Semantic::kNormal) {
-      attribute.bits = bits;  // unit vectors: the codec has its own grid
+      planNormal(piece, attribute, extent, bits);
     } else if (attribute.format.semantic == Semantic::kTangent) {
       planTangent(piece, attribute, extent, bits);
     } else {
@@ -267,6 +268,17 @@ class Quantizer {
                        " bits would serve at the cost of all others; it stays exact");
     } else {
       useLattice(attribute, lattice, bits);
+    }
+  }
+
+  /// The codec has a grid of its own for unit vectors; the lattice is for vectors that are none.
+  void planNormal(const PiecePlan& piece, AttributePlan& attribute, const Extent& extent,
+                  uint8_t bits) {
+    Lattice lattice;
+    if (fitBox(extent, bits, lattice)) {
+      useLattice(attribute, lattice, bits);
+    } else {
+      notes_.push_back(where(piece, attribute) + " has values no lattice can hold; it stays exact");
     }
   }
 

@@ -154,7 +154,8 @@ class Rebuilder {
     for (uint32_t i = 0; i < document_.accessors.size(); ++i) {
       Json& accessor = json_["accessors"][i];
       moveOffset(accessor, document_.accessors[i].offset);
-      if (document_.accessors[i].sparse.count == 0) continue;
+      const bool is_sparse = document_.accessors[i].sparse.count != 0;
+      if (!is_sparse || findMember(accessor, "sparse") == nullptr) continue;
       moveOffset(accessor["sparse"]["indices"], document_.accessors[i].sparse.index_offset);
       moveOffset(accessor["sparse"]["values"], document_.accessors[i].sparse.value_offset);
     }

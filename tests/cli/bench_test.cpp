@@ -1,0 +1,102 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The benchmark command: consistent figures, formats, exit status. No time is judged. And the sizes of
+// the samples, so that a change of size shows in review.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/run_tool.h"
+
+namespace mcc::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+TEST(Bench, FiguresAreConsistent) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  const ToolResult result =
+      runTool(folder, "bench --runs 5 --format json " + samplePath("modes.glb") + " " +
+                          samplePath("two_materials.glb"));
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "") << "no progress where there is no terminal";
+  const Json json = Json::parse(result.out);
+  EXPECT_NE(json["compiler_flags"].get<std::string>().find("-ffp-contract=off"), std::string::npos);
+  EXPECT_FALSE(json["versions"]["draco"].get<std::string>().empty());
+  ASSERT_EQ(json["files"].size(), 2u);
+  for (const Json& file : json["files"]) {
+    SCOPED_TRACE(file["file"]);
+    ASSERT_EQ(file["codecs"].size(), 5u);
+    for (const auto& [name, codec] : file["codecs"].items()) {
+      SCOPED_TRACE(name);
+      double sum = 0;
+      for (const auto& [stream, bytes] : codec["stream_bytes"].items()) sum += bytes.get<double>();
+      EXPECT_NEAR(sum, codec["bytes"].get<double>(), 1);
+      EXPECT_NEAR(codec["bits_per_vertex"].get<double>() * file["vertices"].get<double>(),
+                  8 * codec["bytes"].get<double>(), 1e-3);
+      EXPECT_GE(codec["decode_runs"], 5);
+      EXPECT_GE(codec["encode_runs"], 1);
+      EXPECT_GT(codec["decode_ns_per_vertex"], 0);
+      EXPECT_GT(codec["peak_bytes_above_arrays"], 0);
+      EXPECT_GE(codec["array_bytes"].get<uint64_t>(),
+                12 * codec["triangles"].get<uint64_t>() + 12 * codec["vertices"].get<uint64_t>());
+      EXPECT_GT(codec["acmr"], 0.3);
+      EXPECT_LE(codec["acmr"], 3);
+    }
+    EXPECT_EQ(file["codecs"]["mcc"]["triangles"], file["triangles"]);
+    EXPECT_EQ(file["category"], "all");
+  }
+  ASSERT_EQ(json["geometric_means"].size(), 1u);
+  EXPECT_EQ(json["geometric_means"][0]["files"], 2);
+}
+
+TEST(Bench, CategoriesComeFromTheNames) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  for (const char* name : {"a_one.glb", "a_two.glb", "t_three.glb"}) {
+    std::filesystem::copy_file(std::string(MCC_SAMPLES_DIR) + "/modes.glb", folder.path() / name);
+  }
+  const ToolResult result =
+      runTool(folder, "bench --apart t --format json a_one.glb a_two.glb t_three.glb");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json means = Json::parse(result.out)["geometric_means"];
+  ASSERT_EQ(means.size(), 3u);
+  EXPECT_EQ(means[0]["category"], "a");
+  EXPECT_EQ(means[0]["files"], 2);
+  EXPECT_EQ(means[1]["category"], "t");
+  EXPECT_EQ(means[2]["category"], "all");
+  EXPECT_EQ(means[2]["files"], 2) << "without t";
+}
+
+TEST(Bench, FormatsAndExitStatus) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  const std::string modes = samplePath("modes.glb");
+  const ToolResult csv = runTool(folder, "bench --format csv " + modes);
+  ASSERT_EQ(csv.status, 0) << csv.err;
+  EXPECT_EQ(std::count(csv.out.begin(), csv.out.end(), '\n'), 6) << csv.out;
+  EXPECT_EQ(csv.out.rfind("file,category,codec,", 0), 0u);
+  const ToolResult markdown = runTool(folder, "bench --format md " + modes);
+  EXPECT_NE(markdown.out.find("| geometric mean"), std::string::npos) << markdown.out;
+  EXPECT_EQ(runTool(folder, "bench").status, 2);
+  EXPECT_EQ(runTool(folder, "bench --runs 4 " + modes).status, 2);
+  EXPECT_EQ(runTool(folder, "bench none.glb").status, 1);
+  const ToolResult mixed = runTool(folder, "bench --format csv none.glb " + modes);
+  EXPECT_EQ(mixed.status, 1);
+  EXPECT_NE(mixed.out.find("modes,"), std::string::npos);
+}
+
+TEST(Sizes, SamplesHaveTheCommittedSizes) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  const ToolResult result =
+      runTool(folder, std::string("bench --sizes sizes.csv '") + MCC_SAMPLES_DIR + "'/*.glb");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(contentOf(folder.path() / "sizes.csv"),
+            contentOf(std::string(MCC_SOURCE_DIR) + "/tests/results/sizes.csv"))
+      << "the sizes have changed. If that is meant, write them anew and say so in the CHANGELOG:\n"
+         "  tools/run bench --sizes tests/results/sizes.csv samples/*.glb";
+}
+
+}  // namespace
+}  // namespace mcc::test

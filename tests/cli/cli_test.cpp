@@ -1,0 +1,331 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The command line tool as a user calls it: exit status, messages, what is written and what is not.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "gltf/gltf_builder.h"
+
+#if !defined(MCC_TOOL_GLTF_MCC) && defined(MCC_TOOL_PATH)
+#define MCC_TOOL_GLTF_MCC MCC_TOOL_PATH
+#endif
+
+namespace mcc::gltf::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+std::string contentOf(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void store(const fs::path& path, const std::string& content) {
+  std::ofstream(path, std::ios::binary) << content;
+}
+
+size_t linesOf(const std::string& text) {
+  return static_cast<size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+class Cli : public testing::Test {
+ protected:
+  void SetUp() override {
+#ifndef MCC_TOOL_GLTF_MCC
+    GTEST_SKIP() << "the tool is not part of this build";
+#endif
+    std::string pattern = (fs::temp_directory_path() / "gltf-mcc-test-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+    Builder builder;
+    builder.addMesh({Sheet(20).addTo(builder)});
+    const std::vector<uint8_t> file = builder.toGlb();
+    sheet_.assign(file.begin(), file.end());
+    store(folder_ / "in.glb", sheet_);
+  }
+
+  void TearDown() override {
+    if (folder_.empty()) return;
+    std::error_code ignored;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_, ignored)) {
+      fs::permissions(entry.path(), fs::perms::owner_all, fs::perm_options::add, ignored);
+    }
+    fs::remove_all(folder_, ignored);
+  }
+
+  /// Runs the tool in the test's folder; arguments are shell words.
+  Outcome run(const std::string& arguments) const {
+#ifdef MCC_TOOL_GLTF_MCC
+    const std::string tool = MCC_TOOL_GLTF_MCC;
+#else
+    const std::string tool;
+#endif
+    const std::string command = "cd '" + folder_.string() + "' && '" + tool + "' " + arguments +
+                                " >.stdout 2>.stderr </dev/null";
+    const int code = std::system(command.c_str());
+    Outcome outcome;
+    outcome.status = WIFEXITED(code) ? WEXITSTATUS(code) : -1;
+    outcome.out = contentOf(folder_ / ".stdout");
+    outcome.err = contentOf(folder_ / ".stderr");
+    return outcome;
+  }
+
+  /// Names in the test's folder, without those of run().
+  std::set<std::string> names() const {
+    std::set<std::string> found;
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+      found.insert(entry.path().filename().string());
+    }
+    found.erase(".stdout");
+    found.erase(".stderr");
+    return found;
+  }
+
+  /// Expects exit status 1, one line on standard error that contains `message`, and no output.
+  void expectFailure(const std::string& arguments, const std::string& message) const {
+    const auto before = names();
+    const Outcome result = run(arguments);
+    EXPECT_EQ(result.status, 1) << arguments << "\n" << result.err;
+    EXPECT_EQ(linesOf(result.err), 1u) << result.err;
+    EXPECT_EQ(result.err.rfind("gltf-mcc: ", 0), 0u) << result.err;
+    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(names(), before) << arguments;
+  }
+
+  fs::path folder_;
+  std::string sheet_;
+};
+
+TEST_F(Cli, ConvertDecodeInspect) {
+  const Outcome convert = run("convert in.glb out.glb");
+  EXPECT_EQ(convert.status, 0) << convert.err;
+  EXPECT_EQ(convert.err, "");
+  for (const char* word :
+       {"connectivity", "POSITION", "NORMAL", "TEXCOORD_0", "lattice 14", "ratio",
+        "800 triangles and 441 vertices kept", "compared with the source"}) {
+    EXPECT_NE(convert.out.find(word), std::string::npos) << word << "\n" << convert.out;
+  }
+  EXPECT_LT(fs::file_size(folder_ / "out.glb") * 3, sheet_.size());
+  const Outcome decode = run("decode out.glb back.glb");
+  EXPECT_EQ(decode.status, 0) << decode.err;
+  EXPECT_EQ(jsonOf(asBytes(contentOf(folder_ / "back.glb")))["accessors"][0]["count"], 441);
+  const Outcome inspect = run("inspect out.glb");
+  EXPECT_EQ(inspect.status, 0) << inspect.err;
+  EXPECT_NE(inspect.out.find("octahedral 10"), std::string::npos) << inspect.out;
+  const Outcome codes = run("inspect --codes out.glb");
+  EXPECT_EQ(codes.status, 0) << codes.err;
+  EXPECT_NE(codes.out.find("bits/vertex"), std::string::npos) << codes.out;
+  EXPECT_EQ(names(), (std::set<std::string>{"in.glb", "out.glb", "back.glb"}));
+}
+
+TEST_F(Cli, ColumnsLineUp) {
+  const Outcome result = run("convert in.glb out.glb");
+  const size_t begin = result.out.find("stream");
+  ASSERT_NE(begin, std::string::npos);
+  const size_t column = result.out.find("bytes", begin) + 5 - begin;
+  size_t line = begin;
+  for (int row = 0; row < 5; ++row) {
+    EXPECT_NE(result.out[line + column - 1], ' ') << result.out;
+    EXPECT_EQ(result.out[line + column], ' ') << result.out;
+    line = result.out.find('\n', line) + 1;
+  }
+}
+
+TEST_F(Cli, InputMayBeOutput) {
+  EXPECT_EQ(run("convert in.glb in.glb").status, 0);
+  EXPECT_LT(fs::file_size(folder_ / "in.glb") * 3, sheet_.size());
+  EXPECT_EQ(run("decode in.glb ./in.glb").status, 0);
+  EXPECT_GT(fs::file_size(folder_ / "in.glb") * 2, sheet_.size());
+}
+
+TEST_F(Cli, OptionsAndFormats) {
+  EXPECT_EQ(run("convert -i in.glb -o out.glb -q").out, "");
+  EXPECT_NE(run("convert in.glb out.glb --format md").out.find("| stream"), std::string::npos);
+  EXPECT_EQ(run("convert in.glb out.glb --format csv").out.rfind("stream,bytes,", 0), 0u);
+  const Outcome json = run("convert in.glb out.glb --format json --report r.json -v -j 2");
+  EXPECT_EQ(json.status, 0) << json.err;
+  Json printed;
+  Json stored;
+  ASSERT_TRUE(parseJson(asBytes(json.out), printed).ok());
+  ASSERT_TRUE(parseJson(asBytes(contentOf(folder_ / "r.json")), stored).ok());
+  EXPECT_EQ(printed["payloads"][0]["triangles"], 800);
+  EXPECT_EQ(stored["payloads"][0]["vertices"], 441);
+  EXPECT_EQ(stored["options"]["quantize_position"], 14);
+  EXPECT_EQ(run("inspect out.glb --format json").status, 0);
+  EXPECT_EQ(run("inspect out.glb --format csv --codes").status, 0);
+  EXPECT_EQ(run("inspect out.glb --format md").status, 0);
+}
+
+TEST_F(Cli, QuantizationIsApplied) {
+  const auto bits = [&](const std::string& options) {
+    const Outcome result = run("convert in.glb out.glb --format json " + options);
+    EXPECT_EQ(result.status, 0) << options << result.err;
+    Json json;
+    EXPECT_TRUE(parseJson(asBytes(result.out), json).ok());
+    std::map<std::string, int> found;
+    for (const Json& attribute : json["payloads"][0]["attributes"]) {
+      found[attribute["name"]] = attribute["bits"];
+    }
+    return found;
+  };
+  using Bits = std::map<std::string, int>;
+  EXPECT_EQ(bits(""), (Bits{{"POSITION", 14}, {"NORMAL", 10}, {"TEXCOORD_0", 12}}));
+  EXPECT_EQ(bits("--quantize-position 11 --quantize-normal 8 --quantize-texcoord 10 --grid scene"),
+            (Bits{{"POSITION", 11}, {"NORMAL", 8}, {"TEXCOORD_0", 10}}));
+  EXPECT_EQ(bits("--quantize-position 0"),
+            (Bits{{"POSITION", 0}, {"NORMAL", 10}, {"TEXCOORD_0", 12}}));
+  EXPECT_EQ(bits("--lossless"), (Bits{{"POSITION", 0}, {"NORMAL", 0}, {"TEXCOORD_0", 0}}));
+}
+
+TEST_F(Cli, WrongUsageIsStatusTwo) {
+  for (const char* arguments :
+       {"", "frobnicate", "convert", "convert in.glb", "convert in.glb out.glb more.glb",
+        "convert in.glb out.glb --frobnicate", "convert in.glb out.glb --quantize-position 25",
+        "convert in.glb out.glb --quantize-position x",
+        "convert in.glb out.glb --quantize-normal 1", "convert in.glb out.glb --grid world",
+        "convert in.glb out.glb --format xml", "convert in.glb out.glb -j 0", "decode in.glb",
+        "inspect"}) {
+    const Outcome result = run(arguments);
+    EXPECT_EQ(result.status, 2) << arguments << "\n" << result.err;
+    EXPECT_EQ(result.err.rfind("gltf-mcc: ", 0), 0u) << result.err;
+    EXPECT_EQ(names(), (std::set<std::string>{"in.glb"})) << arguments;
+  }
+}
+
+TEST_F(Cli, HelpAndVersion) {
+  for (const char* arguments : {"--help", "convert --help", "decode --help", "inspect --help"}) {
+    const Outcome result = run(arguments);
+    EXPECT_EQ(result.status, 0) << arguments;
+    EXPECT_NE(result.out.find("Examples:\n  gltf-mcc "), std::string::npos) << arguments;
+    EXPECT_EQ(result.err, "");
+  }
+  const Outcome version = run("--version");
+  EXPECT_EQ(version.status, 0);
+  EXPECT_NE(version.out.find('.'), std::string::npos);
+}
+
+TEST_F(Cli, BadInput) {
+  fs::create_directory(folder_ / "folder");
+  store(folder_ / "empty.glb", "");
+  store(folder_ / "text.glb", "hello, this is no model");
+  store(folder_ / "short.glb", sheet_.substr(0, sheet_.size() / 2));
+  store(folder_ / "stub.glb", sheet_.substr(0, 9));
+  std::string damaged = sheet_;
+  damaged[40] = '\x01';
+  store(folder_ / "damaged.glb", damaged);
+  for (const std::string command : {"convert ", "decode "}) {
+    expectFailure(command + "none.glb out.glb", "none.glb: there is no such file");
+    expectFailure(command + "folder out.glb", "folder: is a folder");
+    expectFailure(command + "empty.glb out.glb", "empty.glb: the file is empty");
+    expectFailure(command + "text.glb out.glb", "text.glb: byte 0: this is no glTF file");
+    expectFailure(command + "short.glb out.glb", "short.glb: byte 8: ");
+    expectFailure(command + "stub.glb out.glb", "stub.glb: byte 9: ");
+    expectFailure(command + "damaged.glb out.glb", "damaged.glb: JSON byte ");
+  }
+  expectFailure("inspect none.glb", "none.glb: there is no such file");
+  expectFailure("inspect text.glb", "text.glb: byte 0");
+}
+
+TEST_F(Cli, IndexOutOfRange) {
+  Builder builder;
+  Sheet sheet(20);
+  sheet.indices[5] = 50000;
+  builder.addMesh({sheet.addTo(builder)});
+  const std::vector<uint8_t> file = builder.toGlb();
+  store(folder_ / "bad.glb", {file.begin(), file.end()});
+  expectFailure("convert bad.glb out.glb",
+                "bad.glb: /meshes/0/primitives/0/indices: index number 5 is 50000");
+}
+
+TEST_F(Cli, DamagedPayload) {
+  ASSERT_EQ(run("convert in.glb out.glb").status, 0);
+  std::string damaged = contentOf(folder_ / "out.glb");
+  damaged[damaged.size() - 100] ^= 4;
+  store(folder_ / "damaged.glb", damaged);
+  expectFailure(
+      "decode damaged.glb back.glb",
+      "damaged.glb: /meshes/0/primitives/0/extensions/KHR_mesh_collapse_compression/bufferView");
+  expectFailure("inspect damaged.glb", "damaged.glb: /meshes/0/primitives/0/extensions/");
+}
+
+TEST_F(Cli, BadDestination) {
+  fs::create_directory(folder_ / "folder");
+  fs::create_directory(folder_ / "locked");
+  fs::permissions(folder_ / "locked", fs::perms::owner_read | fs::perms::owner_exec);
+  store(folder_ / "kept.glb", "precious");
+  fs::permissions(folder_ / "kept.glb", fs::perms::owner_read);
+  expectFailure("convert in.glb none/out.glb", "none/out.glb: the folder \"none\" does not exist");
+  expectFailure("convert in.glb folder", "folder: is a folder");
+  expectFailure("convert in.glb folder/", "folder/: is a folder");
+  expectFailure("convert in.glb locked/out.glb",
+                "locked/out.glb: the folder \"locked\" is read-only");
+  expectFailure("convert in.glb kept.glb", "kept.glb: the file exists and is read-only");
+  expectFailure("convert in.glb in.glb/out.glb", "is no folder");
+  expectFailure("convert in.glb out.glb --report none/r.json", "none/r.json: the report cannot be");
+  EXPECT_EQ(contentOf(folder_ / "kept.glb"), "precious");
+}
+
+TEST_F(Cli, AnExistingOutputSurvivesAFailure) {
+  store(folder_ / "out.glb", "precious");
+  store(folder_ / "bad.glb", sheet_.substr(0, 100));
+  expectFailure("convert bad.glb out.glb", "bad.glb: ");
+  expectFailure("convert bad.glb bad.glb", "bad.glb: ");
+  expectFailure("convert bad.glb out.glb --report new.json", "bad.glb: ");
+  EXPECT_EQ(contentOf(folder_ / "out.glb"), "precious");
+  EXPECT_EQ(contentOf(folder_ / "bad.glb"), sheet_.substr(0, 100));
+}
+
+TEST_F(Cli, GltfWithFilesBesideIt) {
+  Builder builder;
+  builder.addMesh({Sheet(20).addTo(builder)});
+  builder.json["images"] = {{{"uri", "sub%20dir/a.png"}}, {{"uri", "data:image/png;base64,AAAA"}}};
+  builder.json["buffers"] = {{{"byteLength", builder.bin.size()}, {"uri", "mesh.bin"}}};
+  fs::create_directories(folder_ / "m" / "sub dir");
+  store(folder_ / "m" / "a.gltf", builder.json.dump(2));
+  store(folder_ / "m" / "mesh.bin", {builder.bin.begin(), builder.bin.end()});
+  store(folder_ / "m" / "sub dir" / "a.png", "\x89PNG image");
+  const Outcome result = run("convert m/a.gltf out.glb");
+  EXPECT_EQ(result.status, 0) << result.err;
+  const Json json = jsonOf(asBytes(contentOf(folder_ / "out.glb")));
+  EXPECT_EQ(json["images"][0]["mimeType"], "image/png");
+  EXPECT_TRUE(json["images"][0].contains("bufferView"));
+  EXPECT_EQ(json["images"][1]["uri"], "data:image/png;base64,AAAA");
+  EXPECT_EQ(json["buffers"].size(), 1u);
+
+  fs::remove(folder_ / "m" / "mesh.bin");
+  expectFailure("convert m/a.gltf x.glb",
+                "a.gltf: /buffers/0/uri: \"mesh.bin\": there is no such file");
+  store(folder_ / "m" / "mesh.bin", "short");
+  expectFailure("convert m/a.gltf x.glb", "/buffers/0/byteLength: ");
+}
+
+TEST_F(Cli, UnsafeUrisAreRefused) {
+  store(folder_ / "secret.bin", std::string(1000, 'x'));
+  fs::create_directory(folder_ / "m");
+  for (const std::string& uri :
+       {(folder_ / "secret.bin").string(), "file://" + (folder_ / "secret.bin").string(),
+        std::string("../secret.bin"), std::string("..%2fsecret.bin"),
+        std::string("http://127.0.0.1/secret.bin")}) {
+    const Json json = {{"asset", {{"version", "2.0"}}},
+                       {"buffers", {{{"byteLength", 1000}, {"uri", uri}}}}};
+    store(folder_ / "m" / "a.gltf", json.dump());
+    expectFailure("convert m/a.gltf out.glb", "/buffers/0/uri: the URI ");
+  }
+}
+
+}  // namespace
+}  // namespace mcc::gltf::test

@@ -1,0 +1,201 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The comparison with Draco: consistent numbers, formats, exit status; the Draco file read by others.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "cli/run_tool.h"
+
+namespace mcc::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::vector<std::string> kCodecs = {"mcc", "draco_0", "draco_3", "draco_5"};
+
+/// What has to hold for the figures of any file.
+void expectConsistent(const Json& figures) {
+  SCOPED_TRACE(figures.value("file", ""));
+  for (const std::string& key : kCodecs) {
+    const Json& codec = figures["codecs"][key];
+    ASSERT_FALSE(codec.contains("failure")) << key << ": " << codec;
+    double sum = 0;
+    for (const Json& stream : figures["streams"]) sum += stream.value(key, 0.0);
+    EXPECT_NEAR(sum, codec["bytes"].get<double>(), 1) << key;
+    EXPECT_GT(codec["decode_seconds"].get<double>(), 0);
+    EXPECT_GT(codec["encode_seconds"].get<double>(), 0);
+    EXPECT_LE(codec["triangles"], figures["triangles"]) << key;
+  }
+  const Json& codecs = figures["codecs"];
+  EXPECT_EQ(codecs["mcc"]["triangles"], figures["triangles"]);
+  EXPECT_EQ(codecs["mcc"]["vertices"], figures["vertices"]);
+  EXPECT_EQ(codecs["mcc"]["lost_vertices"], 0);
+  const std::string best =
+      codecs["draco_5"]["bytes"] < codecs["draco_0"]["bytes"] ? "draco_5" : "draco_0";
+  EXPECT_EQ(figures["best"], best);
+  EXPECT_NEAR(figures["ratio_to_best"].get<double>(),
+              codecs["mcc"]["bytes"].get<double>() / codecs[best]["bytes"].get<double>(), 1e-9);
+}
+
+TEST(Compare, SamplesAddUp) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  std::string inputs;
+  size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(MCC_SAMPLES_DIR)) {
+    if (entry.path().extension() != ".glb") continue;
+    inputs += " '" + entry.path().string() + "'";
+    ++count;
+  }
+  const ToolResult result = runTool(folder, "compare --format json --runs 1" + inputs);
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const Json json = Json::parse(result.out);
+  ASSERT_EQ(json["files"].size(), count);
+  for (const Json& figures : json["files"]) expectConsistent(figures);
+}
+
+TEST(Compare, ErrorsAreWithinTheLattice) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  const ToolResult result = runTool(
+      folder, "compare --format json --runs 1 --quantize-position 10 " + samplePath("torus.glb"));
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json figures = Json::parse(result.out)["files"][0];
+  expectConsistent(figures);
+  for (const std::string& key : kCodecs) {
+    const Json& errors = figures["codecs"][key]["errors"];
+    if (key == "draco_3" || key == "draco_5") {
+      EXPECT_EQ(errors, figures["codecs"]["draco_0"]["errors"]) << "the speed changes no value";
+    }
+    ASSERT_EQ(errors.size(), 2u);
+    EXPECT_EQ(errors[0]["name"], "POSITION");
+    const double error = errors[0]["max"];
+    EXPECT_GT(error, 0.0005) << key;
+    EXPECT_LT(error, 0.005) << key;
+    EXPECT_LE(errors[0]["median"], error);
+    EXPECT_EQ(errors[1]["unit"], "degrees");
+    EXPECT_LT(errors[1]["max"], 0.5) << key;
+  }
+}
+
+TEST(Compare, MorphTargetsAreShownApart) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  const ToolResult result =
+      runTool(folder, "compare --format json --runs 1 " + samplePath("morphed.glb"));
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json figures = Json::parse(result.out)["files"][0];
+  expectConsistent(figures);
+  ASSERT_TRUE(figures.contains("left_out"));
+  EXPECT_GT(figures["left_out"]["bytes_with"], figures["codecs"]["mcc"]["bytes"]);
+  EXPECT_EQ(figures["left_out"]["streams"][0]["name"], "target 0 POSITION");
+  for (const Json& stream : figures["streams"]) {
+    EXPECT_EQ(stream["name"].get<std::string>().find("target"), std::string::npos);
+  }
+}
+
+TEST(Compare, FormatsAreTables) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  const std::string inputs = samplePath("torus.glb") + " " + samplePath("modes.glb");
+  const ToolResult pretty = runTool(folder, "compare --runs 1 " + inputs);
+  ASSERT_EQ(pretty.status, 0) << pretty.err;
+  for (const char* word : {"connectivity", "POSITION", "draco 0", "mcc/best", "triangles kept",
+                           "decode, ms", "error of", "geometric mean"}) {
+    EXPECT_NE(pretty.out.find(word), std::string::npos) << word << "\n" << pretty.out;
+  }
+  const ToolResult markdown = runTool(folder, "compare --runs 1 --format md " + inputs);
+  EXPECT_NE(markdown.out.find("| bytes of"), std::string::npos) << markdown.out;
+  const ToolResult csv = runTool(folder, "compare --runs 1 --format csv " + inputs);
+  EXPECT_EQ(csv.out.rfind("file,row,unit,mcc,draco_0,draco_3,draco_5,mcc_to_best\n", 0), 0u);
+  size_t begin = 0;
+  while (begin < csv.out.size()) {
+    const size_t end = csv.out.find('\n', begin);
+    const std::string line = csv.out.substr(begin, end - begin);
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 7) << line;
+    begin = end + 1;
+  }
+  EXPECT_EQ(runTool(folder, "compare --runs 1 -q " + inputs).out, "");
+}
+
+TEST(Compare, ExitStatus) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  const std::string torus = samplePath("torus.glb");
+  EXPECT_EQ(runTool(folder, "compare").status, 2);
+  EXPECT_EQ(runTool(folder, "compare --frobnicate " + torus).status, 2);
+  EXPECT_EQ(runTool(folder, "compare --runs 0 " + torus).status, 2);
+  EXPECT_EQ(runTool(folder, "compare --emit-draco o.glb " + torus + " " + torus).status, 2);
+  EXPECT_EQ(runTool(folder, "compare --help").status, 0);
+  const ToolResult mixed = runTool(folder, "compare --runs 1 none.glb " + torus);
+  EXPECT_EQ(mixed.status, 1);
+  EXPECT_EQ(mixed.err.rfind("gltf-mcc: none.glb: ", 0), 0u) << mixed.err;
+  EXPECT_NE(mixed.out.find("POSITION"), std::string::npos) << "the other file is compared";
+}
+
+TEST(Compare, ConvertReportsTheComparison) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  const std::string torus = samplePath("torus.glb");
+  const ToolResult convert = runTool(folder, "convert " + torus + " o.glb --report r.json");
+  ASSERT_EQ(convert.status, 0) << convert.err;
+  EXPECT_NE(convert.out.find("draco 0"), std::string::npos) << convert.out;
+  const Json report = Json::parse(contentOf(folder.path() / "r.json"));
+  expectConsistent(report["comparison"]);
+  EXPECT_EQ(report["comparison"]["codecs"]["mcc"]["bytes"], report["payloads"][0]["bytes"]);
+  const ToolResult without =
+      runTool(folder, "convert " + torus + " o.glb --compare none --report r.json");
+  ASSERT_EQ(without.status, 0) << without.err;
+  EXPECT_EQ(without.out.find("draco"), std::string::npos) << without.out;
+  EXPECT_FALSE(Json::parse(contentOf(folder.path() / "r.json")).contains("comparison"));
+  EXPECT_EQ(runTool(folder, "convert " + torus + " o.glb --compare zip").status, 2);
+}
+
+TEST(Compare, ConvertInPlaceComparesTheSource) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  std::filesystem::copy_file(std::string(MCC_SAMPLES_DIR) + "/torus.glb", folder.path() / "a.glb");
+  const ToolResult result = runTool(folder, "convert a.glb a.glb --format json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  expectConsistent(Json::parse(result.out)["comparison"]);
+}
+
+TEST(Compare, DracoFileThatCannotBeWritten) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  const ToolResult result =
+      runTool(folder, "convert " + samplePath("torus.glb") + " o.glb --emit-draco none/d.glb");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("none"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "o.glb"));
+}
+
+/// The file is read by Draco's own JavaScript decoder and by the Khronos validator.
+TEST(Compare, DracoFileIsReadByOthers) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  const std::string modules = std::string(MCC_SOURCE_DIR) + "/tests/web/node_modules";
+  const bool has_node = runCommand(folder, "node --version").status == 0;
+  if (!has_node || !std::filesystem::exists(modules + "/draco3dgltf")) {
+    GTEST_SKIP() << "no node, or no draco3dgltf in tests/web/node_modules (npm ci)";
+  }
+  std::string pairs;
+  for (const auto& entry : std::filesystem::directory_iterator(MCC_SAMPLES_DIR)) {
+    if (entry.path().extension() != ".glb") continue;
+    const std::string source = "'" + entry.path().string() + "'";
+    const std::string name = entry.path().filename().string();
+    const ToolResult emitted =
+        runTool(folder, "convert -q --compare none " + source + " x.glb --emit-draco " + name);
+    ASSERT_EQ(emitted.status, 0) << emitted.err;
+    pairs += " " + source + " " + name;
+  }
+  const ToolResult read =
+      runCommand(folder, std::string("node '") + MCC_SOURCE_DIR + "/tests/cli/read_draco.mjs' '" +
+                             modules + "'" + pairs);
+  EXPECT_EQ(read.status, 0) << read.out << read.err;
+}
+
+}  // namespace
+}  // namespace mcc::test

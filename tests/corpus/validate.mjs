@@ -1,0 +1,42 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// node validate.mjs PATH_OF_GLTF_VALIDATOR LIST: LIST has three lines per model, the source, the
+// converted and the decoded file. Prints errors and warnings the source does not have; the exit status
+// is 1 when one of them is an error.
+import fs from 'node:fs';
+import { createRequire } from 'node:module';
+
+const require = createRequire(import.meta.url);
+const validator = require(process.argv[2]);
+const lines = fs.readFileSync(process.argv[3], 'utf8').trim().split('\n');
+const severities = ['error', 'warning', 'info', 'hint'];
+// A decoder that does not know the extension sees a payload nobody uses.
+const expectedInConverted = new Set(['UNSUPPORTED_EXTENSION', 'UNUSED_OBJECT']);
+
+/** Number of messages per "severity code". */
+async function countMessages(path) {
+  const report = await validator.validateBytes(new Uint8Array(fs.readFileSync(path)),
+                                               { maxIssues: 0 });
+  const counts = new Map();
+  for (const { severity, code } of report.issues.messages) {
+    const key = `${severities[severity]} ${code}`;
+    counts.set(key, (counts.get(key) ?? 0) + 1);
+  }
+  return counts;
+}
+
+let failures = 0;
+for (let i = 0; i < lines.length; i += 3) {
+  const source = await countMessages(lines[i]);
+  for (const path of [lines[i + 1], lines[i + 2]]) {
+    for (const [key, count] of await countMessages(path)) {
+      if (count <= (source.get(key) ?? 0)) continue;
+      const [severity, code] = key.split(' ');
+      const isExpected = path === lines[i + 1] && expectedInConverted.has(code);
+      if (isExpected || severity === 'info' || severity === 'hint') continue;
+      console.log(`${path}: ${key}: ${count}, in the source ${source.get(key) ?? 0}`);
+      if (severity === 'error') failures += 1;
+    }
+  }
+}
+process.exit(failures === 0 ? 0 : 1);

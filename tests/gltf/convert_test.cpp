@@ -1,0 +1,768 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Round trips of small documents. convertGlb() decodes and compares what it wrote, so that a call
+// that succeeds already proves most; the tests look at the rest.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "gltf/accessors.h"
+#include "gltf/check_json.h"
+#include "gltf/gltf_builder.h"
+#include "mcc/gltf.h"
+
+namespace mcc::gltf::test {
+namespace {
+
+struct RoundTrip {
+  std::vector<uint8_t> source;
+  std::vector<uint8_t> converted;
+  std::vector<uint8_t> decoded;
+  ConvertReport report;
+  std::string error;
+};
+
+RoundTrip roundTrip(const std::vector<uint8_t>& source, const ConvertOptions& options = {}) {
+  RoundTrip trip;
+  trip.source = source;
+  Result result = convertGlb(source, options, trip.converted, trip.report);
+  DecodeReport decode_report;
+  if (result.ok()) result = decodeGlb(trip.converted, trip.decoded, decode_report);
+  trip.error = result.message();
+  return trip;
+}
+
+RoundTrip roundTrip(const Builder& builder, const ConvertOptions& options = {}) {
+  return roundTrip(builder.toGlb(), options);
+}
+
+ConvertOptions evenIfLarger() {
+  ConvertOptions options;
+  options.allow_larger = true;
+  return options;
+}
+
+bool isCompressed(const Json& json, size_t mesh, size_t primitive) {
+  const Json& object = json["meshes"][mesh]["primitives"][primitive];
+  return object.contains("extensions") && object["extensions"].contains(kExtensionName);
+}
+
+bool hasNote(const ConvertReport& report, const std::string& text) {
+  for (const std::string& note : report.notes) {
+    if (note.find(text) != std::string::npos) return true;
+  }
+  return false;
+}
+
+/// The elements of an accessor as a multiset of byte strings.
+std::multiset<std::string> elementsOf(const std::vector<uint8_t>& file, uint32_t accessor) {
+  Document document;
+  std::multiset<std::string> elements;
+  AccessorData data;
+  if (!loadDocument(file, nullptr, document).ok() || !readAccessor(document, accessor, data).ok()) {
+    return elements;
+  }
+  for (uint64_t i = 0; i < data.count; ++i) {
+    const auto element = data.element(i);
+    elements.emplace(element.begin(), element.end());
+  }
+  return elements;
+}
+
+TEST(Convert, SheetBecomesSmallerAndComesBack) {
+  Builder builder;
+  const Sheet sheet(30);
+  builder.addMesh({sheet.addTo(builder)});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_LT(trip.converted.size() * 4, trip.source.size());
+  const Json json = jsonOf(trip.converted);
+  ASSERT_TRUE(isCompressed(json, 0, 0));
+  EXPECT_EQ(json["extensionsUsed"], Json::array({kExtensionName}));
+  EXPECT_EQ(json["extensionsRequired"], Json::array({kExtensionName}));
+  EXPECT_EQ(json["bufferViews"].size(), 1u);
+  for (const Json& accessor : json["accessors"]) EXPECT_FALSE(accessor.contains("bufferView"));
+
+  const Json decoded = jsonOf(trip.decoded);
+  EXPECT_FALSE(decoded.contains("extensionsUsed"));
+  EXPECT_FALSE(decoded["meshes"][0]["primitives"][0].contains("extensions"));
+  EXPECT_EQ(decoded["accessors"][0]["count"], sheet.count());
+  EXPECT_EQ(decoded["bufferViews"].back()["target"], 34963);
+  ASSERT_EQ(trip.report.payloads.size(), 1u);
+  EXPECT_EQ(trip.report.payloads[0].triangle_count, sheet.indices.size() / 3);
+  for (const AttributeReport& attribute : trip.report.payloads[0].attributes) {
+    EXPECT_LE(attribute.max_error, attribute.promised_error) << attribute.name;
+    EXPECT_GT(attribute.promised_error, 0) << attribute.name;
+  }
+}
+
+TEST(Convert, BoundsAreThoseOfTheDecodedData) {
+  Builder builder;
+  builder.addMesh({Sheet(20, 0.1234567f).addTo(builder)});
+  builder.json["accessors"][1]["min"] = {-1, -1, -1};  // kept, and made right
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  const Json json = jsonOf(trip.decoded);
+  Document document;
+  ASSERT_TRUE(loadDocument(trip.decoded, nullptr, document).ok());
+  for (const uint32_t accessor : {0u, 1u}) {
+    AccessorData data;
+    ASSERT_TRUE(readAccessor(document, accessor, data).ok());
+    for (uint32_t c = 0; c < 3; ++c) {
+      double min = 1e9;
+      for (uint64_t i = 0; i < data.count; ++i) {
+        min =
+            std::min(min, componentValue(data.element(i).data() + 4 * c, ComponentType::kFloat32));
+      }
+      EXPECT_EQ(json["accessors"][accessor]["min"][c].get<double>(), min);
+    }
+  }
+  EXPECT_FALSE(json["accessors"][1].contains("max"));
+}
+
+TEST(Convert, LosslessKeepsEveryBit) {
+  Builder builder;
+  Sheet sheet(20);
+  sheet.positions[4] = -0.0f;
+  sheet.positions[5] = 1e-42f;
+  const uint32_t nan_bits = 0x7fc12345;
+  std::memcpy(&sheet.normals[7], &nan_bits, 4);
+  builder.addMesh({sheet.addTo(builder)});
+  ConvertOptions options = evenIfLarger();
+  options.lossless = true;
+  const RoundTrip trip = roundTrip(builder, options);
+  ASSERT_EQ(trip.error, "");
+  for (const uint32_t accessor : {0u, 1u, 2u}) {
+    EXPECT_EQ(elementsOf(trip.source, accessor), elementsOf(trip.decoded, accessor));
+  }
+}
+
+TEST(Convert, NanMakesAnAttributeExactWithANote) {
+  Builder builder;
+  Sheet sheet(20);
+  sheet.texcoords[3] = std::numeric_limits<float>::quiet_NaN();
+  builder.addMesh({sheet.addTo(builder)});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_TRUE(hasNote(trip.report, "TEXCOORD_0 has NaN"));
+  EXPECT_EQ(elementsOf(trip.source, 2), elementsOf(trip.decoded, 2));
+}
+
+TEST(Convert, AnOutlierMakesAnAttributeExactWithANote) {
+  Builder builder;
+  Sheet sheet(20);
+  sheet.texcoords[3] = 1e30f;
+  builder.addMesh({sheet.addTo(builder)});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_TRUE(hasNote(trip.report, "TEXCOORD_0 has outliers"));
+  EXPECT_EQ(elementsOf(trip.source, 2), elementsOf(trip.decoded, 2));
+}
+
+/// A document full of things we do not know.
+Builder strangeDocument() {
+  Builder builder;
+  builder.addMesh({Sheet(20).addTo(builder)});
+  const uint32_t image = builder.addView({0x89, 'P', 'N', 'G', 1, 2, 3});
+  builder.json["images"] = {{{"bufferView", image}, {"mimeType", "image/png"}, {"name", "é"}}};
+  Json strange;
+  const Result parsed = parseJson(
+      asBytes(
+          R"({"big":12345678901234567890123,"tiny":1e-7,"neg":-0,"none":null,"empty":{},"list":[[],{},null],)"
+          R"("long":0.10000000000000000555,"int":9007199254740993,"s":"\u0001\ud83d\ude00"})"),
+      strange);
+  if (!parsed.ok()) strange = nullptr;
+  builder.json["extras"] = strange;
+  for (const char* list : {"accessors", "bufferViews", "meshes", "nodes", "scenes", "images"}) {
+    builder.json[list][0]["extras"] = strange;
+    builder.json[list][0]["name"] = list;
+  }
+  builder.json["meshes"][0]["primitives"][0]["extras"] = strange;
+  builder.json["meshes"][0]["weights"] = Json::array();
+  builder.json["animations"] = {{{"channels", Json::array()}, {"samplers", Json::array()}}};
+  return builder;
+}
+
+TEST(Convert, KeepsEverythingElse) {
+  const Builder builder = strangeDocument();
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  const Json source = jsonOf(trip.source);
+  const Json converted = jsonOf(trip.converted);
+  const Json decoded = jsonOf(trip.decoded);
+  ASSERT_TRUE(isCompressed(converted, 0, 0));
+  for (const Json* json : {&converted, &decoded}) {
+    for (const char* key : {"asset", "extras", "nodes", "scenes", "animations"}) {
+      EXPECT_EQ(firstDifference(source[key], (*json)[key]), "") << key;
+    }
+    EXPECT_TRUE(equalJson(source["accessors"][0]["extras"], (*json)["accessors"][0]["extras"]));
+    EXPECT_EQ((*json)["accessors"][0]["name"], "accessors");
+    EXPECT_TRUE(equalJson(source["meshes"][0]["weights"], (*json)["meshes"][0]["weights"]));
+  }
+  const std::string text = printJson(decoded);
+  EXPECT_NE(text.find("12345678901234567890123"), std::string::npos);
+  EXPECT_NE(text.find(":1e-7"), std::string::npos);
+  EXPECT_NE(text.find(":-0"), std::string::npos);
+  EXPECT_NE(text.find("0.10000000000000000555"), std::string::npos);
+}
+
+TEST(Convert, KnownExtensionsLetViewsBeRenumbered) {
+  Builder builder = strangeDocument();
+  builder.json["extensionsUsed"] = {"KHR_materials_unlit", "KHR_texture_transform"};
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_EQ(jsonOf(trip.converted)["bufferViews"].size(), 2u);  // the image and the payload
+  EXPECT_EQ(jsonOf(trip.converted)["images"][0]["bufferView"], 0);
+  EXPECT_EQ(jsonOf(trip.decoded)["extensionsUsed"].size(), 2u);
+}
+
+TEST(Convert, UnknownExtensionsKeepTheNumbersOfViews) {
+  Builder builder = strangeDocument();
+  const uint32_t table = builder.addView({7, 7, 7, 7, 7});
+  builder.json["extensionsUsed"] = {"ACME_tables"};
+  builder.json["extensions"]["ACME_tables"] = {{"values", table}};
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  const Json source = jsonOf(trip.source);
+  for (const auto* file : {&trip.converted, &trip.decoded}) {
+    const Json json = jsonOf(*file);
+    EXPECT_GE(json["bufferViews"].size(), source["bufferViews"].size());
+    EXPECT_EQ(json["images"][0]["bufferView"], source["images"][0]["bufferView"]);
+    EXPECT_EQ(json["extensions"], source["extensions"]);
+    Document document;
+    ASSERT_TRUE(loadDocument(*file, nullptr, document).ok());
+    const BufferView& view = document.views[table];
+    EXPECT_EQ(view.length, 5u);
+    EXPECT_EQ(document.buffers[0][view.offset + 4], 7);
+  }
+}
+
+TEST(Convert, AccessorsNamedByUnknownExtensionsStayReadable) {
+  Builder builder;
+  builder.addMesh({Sheet(20).addTo(builder)});
+  builder.json["extensionsUsed"] = {"ACME_physics"};
+  builder.json["nodes"][0]["extensions"]["ACME_physics"] = {{"hullAccessor", 0}};
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_EQ(elementsOf(trip.source, 0), elementsOf(trip.converted, 0));
+}
+
+TEST(Convert, ExtensionsThatMayNeedTheOrderLeaveThePrimitiveAlone) {
+  Builder builder;
+  const Json sheet = Sheet(20).addTo(builder);
+  builder.addMesh({sheet});
+  builder.json["meshes"][0]["primitives"][0]["extensions"]["ACME_polygons"] = {{"a", 1}};
+  RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_TRUE(trip.report.copied);
+  EXPECT_EQ(trip.converted, trip.source);
+  EXPECT_TRUE(hasNote(trip.report, "ACME_polygons"));
+
+  Builder harmless;
+  harmless.addMesh({Sheet(20).addTo(harmless)});
+  harmless.json["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"] = {
+      {"mappings", Json::array()}};
+  trip = roundTrip(harmless);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_TRUE(isCompressed(jsonOf(trip.converted), 0, 0));
+}
+
+TEST(Convert, PrimitivesWithTheSameAttributesShareAPiece) {
+  Builder builder;
+  const Sheet sheet(24);
+  Json first = sheet.addTo(builder);
+  const auto half = static_cast<ptrdiff_t>(sheet.indices.size() / 6 * 3);
+  first["indices"] = builder.addIndices({sheet.indices.begin(), sheet.indices.begin() + half});
+  Json second = first;
+  second["indices"] = builder.addIndices({sheet.indices.begin() + half, sheet.indices.end()});
+  Json third = second;  // the same triangles again, say with another material
+  third["extras"] = "third";
+  builder.addMesh({first, second, third});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  const Json json = jsonOf(trip.converted);
+  for (size_t p = 0; p < 3; ++p) ASSERT_TRUE(isCompressed(json, 0, p)) << p;
+  const auto extension = [&](size_t p) {
+    return json["meshes"][0]["primitives"][p]["extensions"][kExtensionName];
+  };
+  EXPECT_EQ(extension(0)["attributes"], extension(1)["attributes"]);
+  EXPECT_FALSE(extension(0).contains("part"));
+  EXPECT_EQ(extension(1)["part"], 1);
+  EXPECT_EQ(extension(2)["part"], 1);
+  EXPECT_EQ(json["bufferViews"].size(), 2u);  // the payload, and the first indices nobody uses
+  const Json decoded = jsonOf(trip.decoded);
+  const auto& primitives = decoded["meshes"][0]["primitives"];
+  EXPECT_EQ(primitives[0]["attributes"], primitives[1]["attributes"]);
+  EXPECT_EQ(primitives[1]["indices"], primitives[2]["indices"]);
+}
+
+TEST(Convert, PiecesOfAMeshShareAPayload) {
+  Builder builder;
+  builder.addMesh({Sheet(20).addTo(builder), Sheet(24, 0.3f).addTo(builder)});
+  builder.addMesh({Sheet(18).addTo(builder)});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_EQ(trip.report.payloads.size(), 2u);
+  const Json json = jsonOf(trip.converted);
+  const auto& primitives = json["meshes"][0]["primitives"];
+  EXPECT_EQ(primitives[1]["extensions"][kExtensionName]["piece"], 1);
+  EXPECT_EQ(primitives[0]["extensions"][kExtensionName]["bufferView"],
+            primitives[1]["extensions"][kExtensionName]["bufferView"]);
+}
+
+TEST(Convert, PrimitivesOfAMeshShareTheirGrid) {
+  // Two sheets side by side; the vertices of the common edge must stay together.
+  Builder builder;
+  const Sheet left(20, 0.37f);
+  Sheet right(20, 0.37f);
+  for (size_t i = 0; i < right.positions.size(); i += 3) right.positions[i + 1] += 1;
+  builder.addMesh({left.addTo(builder), right.addTo(builder)});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  ASSERT_EQ(trip.report.payloads.size(), 1u);
+  const auto a = elementsOf(trip.decoded, 0);
+  const auto b = elementsOf(trip.decoded, 4);
+  size_t common = 0;
+  for (const std::string& element : a) common += b.count(element);
+  EXPECT_EQ(common, 21u);
+}
+
+TEST(Convert, AccessorsSharedBetweenPiecesAreCloned) {
+  Builder builder;
+  const Sheet sheet(24);
+  const Json first = sheet.addTo(builder);
+  Json second = first;
+  second["attributes"]["TEXCOORD_0"] = builder.addFloats(sheet.texcoords, 2);
+  builder.addMesh({first});
+  builder.addMesh({second});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  const Json json = jsonOf(trip.converted);
+  ASSERT_TRUE(isCompressed(json, 0, 0));
+  ASSERT_TRUE(isCompressed(json, 1, 0));
+  EXPECT_NE(json["meshes"][0]["primitives"][0]["attributes"]["POSITION"],
+            json["meshes"][1]["primitives"][0]["attributes"]["POSITION"]);
+  EXPECT_TRUE(hasNote(trip.report, "shares accessor"));
+}
+
+TEST(Convert, MeshesWithTheSameGeometryShareOnePayload) {
+  Builder builder;
+  const Json primitive = Sheet(24).addTo(builder);
+  builder.addMesh({primitive});
+  builder.addMesh({primitive});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_EQ(trip.report.payloads.size(), 1u);
+  const Json json = jsonOf(trip.decoded);
+  EXPECT_EQ(json["meshes"][0]["primitives"][0], json["meshes"][1]["primitives"][0]);
+}
+
+TEST(Convert, PointsKeepTheAccessorsTheyShare) {
+  Builder builder;
+  const Json primitive = Sheet(24).addTo(builder);
+  Json points = {{"attributes", primitive["attributes"]}, {"mode", 0}};
+  builder.addMesh({primitive, points});
+  const RoundTrip trip = roundTrip(builder, evenIfLarger());
+  ASSERT_EQ(trip.error, "");
+  const Json json = jsonOf(trip.converted);
+  EXPECT_TRUE(isCompressed(json, 0, 0));
+  EXPECT_FALSE(isCompressed(json, 0, 1));
+  EXPECT_EQ(elementsOf(trip.source, 0), elementsOf(trip.converted, 0));
+  EXPECT_EQ(elementsOf(trip.source, 0), elementsOf(trip.decoded, 0));
+}
+
+TEST(Convert, AnAccessorUsedTwiceInAPieceIsCloned) {
+  Builder builder;
+  Json primitive = Sheet(24).addTo(builder);
+  primitive["attributes"]["TEXCOORD_1"] = primitive["attributes"]["TEXCOORD_0"];
+  builder.addMesh({primitive});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_TRUE(isCompressed(jsonOf(trip.converted), 0, 0));
+}
+
+TEST(Convert, StripsFansAndUnindexedBecomeTriangles) {
+  for (const int mode : {4, 5, 6}) {
+    for (const bool is_indexed : {false, true}) {
+      Builder builder;
+      const Sheet sheet(11);  // 144 vertices: a multiple of three
+      Json primitive = {{"attributes", {{"POSITION", builder.addPositions(sheet.positions)}}},
+                        {"mode", mode}};
+      if (is_indexed) {
+        std::vector<uint16_t> indices;
+        for (uint16_t i = 0; i < sheet.count(); ++i) indices.push_back(i);
+        primitive["indices"] = builder.addIndices(indices);
+      }
+      builder.addMesh({primitive});
+      const RoundTrip trip = roundTrip(builder, evenIfLarger());
+      ASSERT_EQ(trip.error, "") << mode;
+      const Json json = jsonOf(trip.decoded);
+      const Json& decoded = json["meshes"][0]["primitives"][0];
+      EXPECT_EQ(decoded["mode"], 4);
+      const size_t triangles = mode == 4 ? sheet.count() / 3 : sheet.count() - 2;
+      EXPECT_EQ(json["accessors"][decoded["indices"].get<size_t>()]["count"], 3 * triangles);
+    }
+  }
+}
+
+TEST(Convert, MorphTargetsAreCompressedWithTheMesh) {
+  Builder builder;
+  const Sheet sheet(24);
+  Json primitive = sheet.addTo(builder);
+  std::vector<float> deltas(sheet.positions.size(), 0.0f);
+  for (size_t i = 0; i < deltas.size(); i += 15) deltas[i] = 0.01f * static_cast<float>(i % 7);
+  const std::vector<float> normal_deltas(sheet.normals.size(), 0.125f);
+  primitive["targets"] = {
+      {{"POSITION", builder.addPositions(deltas)}, {"NORMAL", builder.addFloats(normal_deltas, 3)}},
+      {{"POSITION", builder.addPositions(sheet.positions)}}};
+  builder.addMesh({primitive});
+  builder.json["meshes"][0]["weights"] = {0.5, 0.25};
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  const Json json = jsonOf(trip.converted);
+  ASSERT_TRUE(isCompressed(json, 0, 0));
+  const Json& extension = json["meshes"][0]["primitives"][0]["extensions"][kExtensionName];
+  ASSERT_EQ(extension["targets"].size(), 2u);
+  EXPECT_TRUE(extension["targets"][0].contains("NORMAL"));
+  // Vertices that did not move do not move.
+  const std::string zero(12, '\0');
+  const uint32_t accessor = primitive["targets"][0]["POSITION"];
+  EXPECT_EQ(elementsOf(trip.source, accessor).count(zero),
+            elementsOf(trip.decoded, accessor).count(zero));
+}
+
+TEST(Convert, WeightsStillAddUpToOne) {
+  Builder builder;
+  const Sheet sheet(24);
+  Json primitive = sheet.addTo(builder);
+  std::vector<float> weights;
+  std::vector<uint8_t> joints;
+  for (uint32_t i = 0; i < sheet.count(); ++i) {
+    const float a = 0.37f + 0.0005f * static_cast<float>(i % 997);
+    const float b = (1 - a) * 0.61f;
+    weights.insert(weights.end(), {a, b, 1 - a - b, 0});
+    joints.insert(joints.end(), {0, 1, 2, 0});
+  }
+  primitive["attributes"]["WEIGHTS_0"] = builder.addFloats(weights, 4);
+  primitive["attributes"]["JOINTS_0"] =
+      builder.addAccessor(joints, kUnsignedByte, "VEC4", sheet.count());
+  builder.addMesh({primitive});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  Document document;
+  ASSERT_TRUE(loadDocument(trip.decoded, nullptr, document).ok());
+  AccessorData data;
+  ASSERT_TRUE(readAccessor(document, primitive["attributes"]["WEIGHTS_0"], data).ok());
+  for (uint64_t i = 0; i < data.count; ++i) {
+    double sum = 0;
+    for (uint32_t c = 0; c < 4; ++c) {
+      sum += componentValue(data.element(i).data() + 4 * c, ComponentType::kFloat32);
+    }
+    ASSERT_NEAR(sum, 1, 3e-7);
+    ASSERT_EQ(componentValue(data.element(i).data() + 12, ComponentType::kFloat32), 0);
+  }
+}
+
+TEST(Convert, TangentSignsStay) {
+  Builder builder;
+  const Sheet sheet(24);
+  Json primitive = sheet.addTo(builder);
+  std::vector<float> tangents;
+  for (uint32_t i = 0; i < sheet.count(); ++i) {
+    const float angle = 0.01f * static_cast<float>(i);
+    tangents.insert(tangents.end(),
+                    {std::cos(angle), std::sin(angle), 0, i % 3 == 0 ? -1.0f : 1.0f});
+  }
+  primitive["attributes"]["TANGENT"] = builder.addFloats(tangents, 4);
+  builder.addMesh({primitive});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  size_t negative = 0;
+  for (const std::string& element : elementsOf(trip.decoded, primitive["attributes"]["TANGENT"])) {
+    float sign = 0;
+    std::memcpy(&sign, element.data() + 12, 4);
+    ASSERT_EQ(std::abs(sign), 1.0f);
+    negative += sign < 0 ? 1 : 0;
+  }
+  EXPECT_EQ(negative, (sheet.count() + 2) / 3);
+}
+
+TEST(Convert, IntegersAndCustomAttributesStayExact) {
+  Builder builder;
+  const Sheet sheet(24);
+  Json primitive = sheet.addTo(builder);
+  std::vector<uint8_t> bytes;
+  std::vector<uint16_t> shorts;
+  std::vector<float> matrices;
+  for (uint32_t i = 0; i < sheet.count(); ++i) {
+    bytes.insert(bytes.end(), {static_cast<uint8_t>(i), 7, static_cast<uint8_t>(i / 3), 255});
+    shorts.push_back(static_cast<uint16_t>(65535 - i));
+    shorts.push_back(static_cast<uint16_t>(i));
+    for (int c = 0; c < 9; ++c) matrices.push_back(static_cast<float>(c) + 0.1f);
+  }
+  Json& attributes = primitive["attributes"];
+  attributes["COLOR_0"] = builder.addAccessor(bytes, kUnsignedByte, "VEC4", sheet.count());
+  builder.json["accessors"].back()["normalized"] = true;
+  attributes["_ID"] = builder.addAccessor(shorts, kUnsignedShort, "VEC2", sheet.count());
+  attributes["_FRAME"] = builder.addAccessor(matrices, kFloat, "MAT3", sheet.count());
+  builder.addMesh({primitive});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  ASSERT_TRUE(isCompressed(jsonOf(trip.converted), 0, 0));
+  for (const char* name : {"COLOR_0", "_ID", "_FRAME"}) {
+    EXPECT_EQ(elementsOf(trip.source, attributes[name]), elementsOf(trip.decoded, attributes[name]))
+        << name;
+  }
+  EXPECT_EQ(jsonOf(trip.decoded)["accessors"][attributes["COLOR_0"].get<size_t>()]["normalized"],
+            true);
+}
+
+TEST(Convert, TinyMeshesStayAsTheyWere) {
+  Builder builder;
+  builder.addMesh({Sheet(1).addTo(builder)});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_TRUE(trip.report.copied);
+  EXPECT_EQ(trip.converted, trip.source);
+  EXPECT_TRUE(hasNote(trip.report, "would not become smaller"));
+}
+
+TEST(Convert, TinyMeshesBesideLargeOnesStayAndKeepTheirBytes) {
+  Builder builder;
+  builder.addMesh({Sheet(1).addTo(builder)});
+  builder.addMesh({Sheet(24).addTo(builder)});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  const Json json = jsonOf(trip.converted);
+  EXPECT_FALSE(isCompressed(json, 0, 0));
+  EXPECT_TRUE(isCompressed(json, 1, 0));
+  EXPECT_EQ(elementsOf(trip.source, 0), elementsOf(trip.converted, 0));
+}
+
+TEST(Convert, OneViewForAllIsTrimmed) {
+  // As many exporters write: all accessors one behind the other in one view.
+  Builder builder;
+  builder.addMesh({Sheet(1).addTo(builder)});
+  builder.addMesh({Sheet(24).addTo(builder)});
+  for (Json& accessor : builder.json["accessors"]) {
+    const size_t view = accessor["bufferView"];
+    accessor["byteOffset"] = builder.json["bufferViews"][view]["byteOffset"];
+    accessor["bufferView"] = 0;
+  }
+  builder.json["bufferViews"] = {{{"buffer", 0}, {"byteLength", builder.bin.size()}}};
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_LT(trip.converted.size() * 3, trip.source.size());
+  EXPECT_EQ(elementsOf(trip.source, 0), elementsOf(trip.converted, 0));
+  EXPECT_EQ(elementsOf(trip.source, 3), elementsOf(trip.converted, 3));
+}
+
+TEST(Convert, InterleavedAttributes) {
+  Builder builder;
+  const Sheet sheet(24);
+  std::vector<float> vertices;
+  for (uint32_t i = 0; i < sheet.count(); ++i) {
+    vertices.insert(vertices.end(), &sheet.positions[3 * i], &sheet.positions[3 * i] + 3);
+    vertices.insert(vertices.end(), &sheet.texcoords[2 * i], &sheet.texcoords[2 * i] + 2);
+  }
+  const uint32_t view = builder.addView(bytesOf(vertices), 20);
+  const Json position = {
+      {"bufferView", view}, {"componentType", kFloat}, {"count", sheet.count()}, {"type", "VEC3"}};
+  Json texcoord = position;
+  texcoord["byteOffset"] = 12;
+  texcoord["type"] = "VEC2";
+  const Json primitive = {{"attributes",
+                           {{"POSITION", builder.addAccessor(position)},
+                            {"TEXCOORD_0", builder.addAccessor(texcoord)}}},
+                          {"indices", builder.addIndices(sheet.indices)}};
+  builder.addMesh({primitive});
+  RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_EQ(jsonOf(trip.converted)["bufferViews"].size(), 1u);
+
+  // With the texture coordinates in use elsewhere the vertices stay, and stay readable.
+  const Json points = {{"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}}}, {"mode", 0}};
+  builder.addMesh({points});
+  trip = roundTrip(builder, evenIfLarger());
+  ASSERT_EQ(trip.error, "");
+  EXPECT_EQ(elementsOf(trip.source, 1), elementsOf(trip.converted, 1));
+}
+
+TEST(Convert, OverlappingViewsAreNotDoubled) {
+  Builder builder;
+  builder.addMesh({Sheet(24).addTo(builder)});
+  const std::vector<uint8_t> image(5000, 'x');
+  const uint32_t first = builder.addView(image);
+  builder.json["bufferViews"].push_back(builder.json["bufferViews"][first]);
+  builder.json["images"] = {{{"bufferView", first}, {"mimeType", "image/png"}},
+                            {{"bufferView", first + 1}, {"mimeType", "image/png"}}};
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  const Json json = jsonOf(trip.converted);
+  EXPECT_LT(json["buffers"][0]["byteLength"].get<size_t>(), 10000u);
+  EXPECT_EQ(json["bufferViews"][0]["byteLength"], 5000);
+  EXPECT_EQ(json["bufferViews"][1]["byteLength"], 5000);
+}
+
+TEST(Convert, UnknownChunksSurvive) {
+  Builder builder;
+  builder.addMesh({Sheet(24).addTo(builder)});
+  const std::vector<uint8_t> extra = {1, 2, 3, 4};
+  const GlbChunk chunk = {0x31415926, extra};
+  std::vector<uint8_t> file;
+  Json json = builder.json;
+  json["buffers"] = {{{"byteLength", builder.bin.size()}}};
+  ASSERT_TRUE(writeGlb(printJson(json), builder.bin, {&chunk, 1}, file).ok());
+  const RoundTrip trip = roundTrip(file);
+  ASSERT_EQ(trip.error, "");
+  for (const auto* bytes : {&trip.converted, &trip.decoded}) {
+    GlbFile glb;
+    ASSERT_TRUE(readGlb(*bytes, glb).ok());
+    ASSERT_EQ(glb.other_chunks.size(), 1u);
+    EXPECT_EQ(glb.other_chunks[0].type, 0x31415926u);
+    EXPECT_EQ(glb.other_chunks[0].bytes[3], 4);
+  }
+}
+
+TEST(Convert, ElementsStayAligned) {
+  Builder builder;
+  builder.addMesh({Sheet(1).addTo(builder)});
+  builder.addMesh({Sheet(24).addTo(builder)});
+  builder.addMesh({Sheet(2).addTo(builder)});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  for (const auto* bytes : {&trip.converted, &trip.decoded}) {
+    Document document;
+    ASSERT_TRUE(loadDocument(*bytes, nullptr, document).ok());
+    for (const Accessor& accessor : document.accessors) {
+      if (accessor.view == kNone) continue;
+      const uint64_t offset = document.views[accessor.view].offset + accessor.offset;
+      EXPECT_EQ(offset % componentBytes(accessor.component_type), 0u);
+    }
+  }
+}
+
+TEST(Convert, ConvertingAgainChangesNothing) {
+  Builder builder;
+  builder.addMesh({Sheet(24).addTo(builder)});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  const RoundTrip again = roundTrip(trip.converted);
+  ASSERT_EQ(again.error, "");
+  EXPECT_EQ(again.converted, trip.converted);
+  EXPECT_TRUE(again.report.copied);
+}
+
+TEST(Convert, SecondRoundIsStable) {
+  // Decoded data lie on the lattice: compressing them again loses nothing more.
+  Builder builder;
+  builder.addMesh({Sheet(24, 0.123f).addTo(builder)});
+  const RoundTrip first = roundTrip(builder);
+  ASSERT_EQ(first.error, "");
+  const RoundTrip second = roundTrip(first.decoded);
+  ASSERT_EQ(second.error, "");
+  EXPECT_EQ(elementsOf(first.decoded, 0), elementsOf(second.decoded, 0));
+}
+
+TEST(Convert, ThreadsDoNotChangeTheResult) {
+  Builder builder;
+  for (uint32_t n = 10; n < 30; n += 2) builder.addMesh({Sheet(n).addTo(builder)});
+  ConvertOptions options;
+  const RoundTrip one = roundTrip(builder, options);
+  options.thread_count = 4;
+  const RoundTrip four = roundTrip(builder, options);
+  ASSERT_EQ(one.error, "");
+  EXPECT_EQ(one.converted, four.converted);
+}
+
+TEST(Convert, TextWithDataUrisIsRead) {
+  Builder builder;
+  builder.addMesh({Sheet(12).addTo(builder)});
+  Json json = builder.json;
+  std::string uri = "data:application/octet-stream,";
+  for (const uint8_t byte : builder.bin) {
+    static constexpr char kDigits[] = "0123456789abcdef";
+    uri += {'%', kDigits[byte / 16], kDigits[byte % 16]};
+  }
+  json["buffers"] = {{{"byteLength", builder.bin.size()}, {"uri", uri}}};
+  const std::string text = json.dump(2);
+  std::vector<uint8_t> output;
+  ConvertReport report;
+  const Result result = convertGlb(asBytes(text), {}, output, report);
+  ASSERT_TRUE(result.ok()) << result.message();
+  EXPECT_TRUE(isCompressed(jsonOf(output), 0, 0));
+  EXPECT_FALSE(jsonOf(output)["buffers"][0].contains("uri"));
+}
+
+std::string convertError(const Builder& builder) { return roundTrip(builder).error; }
+
+TEST(ConvertErrors, IndexOutOfRange) {
+  Builder builder;
+  Sheet sheet(20);
+  sheet.indices[17] = 60000;
+  builder.addMesh({sheet.addTo(builder)});
+  EXPECT_EQ(
+      convertError(builder),
+      "/meshes/0/primitives/0/indices: index number 17 is 60000 but there are only 441 vertices");
+}
+
+TEST(ConvertErrors, MissingAccessor) {
+  Builder builder;
+  Json primitive = Sheet(20).addTo(builder);
+  primitive["attributes"]["COLOR_0"] = 77;
+  builder.addMesh({primitive});
+  EXPECT_EQ(convertError(builder),
+            "/meshes/0/primitives/0/attributes/COLOR_0: there is no accessor 77");
+}
+
+TEST(ConvertErrors, WrongKinds) {
+  const auto with = [](const std::function<void(Json&)>& damage) {
+    Builder builder;
+    builder.addMesh({Sheet(4).addTo(builder)});
+    damage(builder.json);
+    return convertError(builder);
+  };
+  EXPECT_NE(with([](Json& j) { j["asset"]["version"] = "1.0"; }).find("glTF 1.0"),
+            std::string::npos);
+  EXPECT_NE(with([](Json& j) { j.erase("asset"); }).find("no glTF"), std::string::npos);
+  EXPECT_NE(with([](Json& j) { j["meshes"] = 3; }).find("/meshes: must be an array"),
+            std::string::npos);
+  EXPECT_NE(with([](Json& j) { j["extensionsUsed"] = "all"; }).find("/extensionsUsed"),
+            std::string::npos);
+  EXPECT_NE(with([](Json& j) { j["meshes"][0] = nullptr; }), "");
+  EXPECT_NE(with([](Json& j) { j["meshes"][0]["primitives"][0] = 1; }), "");
+  EXPECT_NE(with([](Json& j) { j["meshes"][0]["primitives"][0]["mode"] = 9; }), "");
+  EXPECT_NE(with([](Json& j) { j["meshes"][0]["primitives"][0]["attributes"] = 1; }), "");
+  EXPECT_NE(with([](Json& j) { j["meshes"][0]["primitives"][0]["targets"] = 1; }), "");
+  EXPECT_NE(with([](Json& j) { j["meshes"][0]["primitives"][0]["extensions"] = 1; }), "");
+  EXPECT_NE(with([](Json& j) { j["accessors"][0]["count"] = 26; }), "");
+  EXPECT_NE(with([](Json& j) {
+              j["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = Json::object();
+            }).find("/bufferViews/0/extensions/EXT_meshopt_compression"),
+            std::string::npos);
+}
+
+TEST(ConvertErrors, WhatCannotBeCodedIsLeftAlone) {
+  const auto noteOf = [](const std::function<void(Json&)>& change) {
+    Builder builder;
+    builder.addMesh({Sheet(20).addTo(builder)});
+    change(builder.json);
+    const RoundTrip trip = roundTrip(builder);
+    EXPECT_EQ(trip.error, "");
+    EXPECT_TRUE(trip.report.copied);
+    return trip.report.notes.empty() ? "" : trip.report.notes[0];
+  };
+  EXPECT_NE(noteOf([](Json& j) {
+              j["meshes"][0]["primitives"][0]["attributes"].erase("POSITION");
+            }).find("no POSITION"),
+            std::string::npos);
+  EXPECT_NE(noteOf([](Json& j) { j["accessors"][1]["count"] = 440; }).find("elements of NORMAL"),
+            std::string::npos);
+  EXPECT_NE(noteOf([](Json& j) { j["accessors"][3]["count"] = 2399; }).find("no triangles"),
+            std::string::npos);
+  EXPECT_NE(noteOf([](Json& j) { j["accessors"][1]["componentType"] = 5130; }).find("unknown type"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace mcc::gltf::test

@@ -1,0 +1,157 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Documents with a value changed at random: they convert, decode and are inspected, or they are refused
+// with one line. Meant to run with the sanitizers.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "gltf/gltf_builder.h"
+#include "mcc/gltf.h"
+
+namespace mcc::gltf::test {
+namespace {
+
+using Random = std::mt19937;
+
+uint32_t below(Random& random, size_t end) { return static_cast<uint32_t>(random() % end); }
+
+/// Values that have a meaning somewhere, or nowhere.
+Json strangeValue(Random& random) {
+  static const std::vector<Json> kValues = {0,
+                                            1,
+                                            2,
+                                            3,
+                                            5,
+                                            255,
+                                            65535,
+                                            65536,
+                                            4294967295u,
+                                            4294967296u,
+                                            18446744073709551615u,
+                                            -1,
+                                            0.5,
+                                            1e300,
+                                            5120,
+                                            5123,
+                                            5125,
+                                            5126,
+                                            "",
+                                            "VEC3",
+                                            "SCALAR",
+                                            "MAT4",
+                                            "POSITION",
+                                            nullptr,
+                                            true,
+                                            false,
+                                            Json::array(),
+                                            Json::object(),
+                                            Json::array({0, 1}),
+                                            Json::object({{"bufferView", 0}})};
+  return kValues[below(random, kValues.size())];
+}
+
+/// Collects pointers to all values of a document.
+void collect(Json& json, std::vector<Json*>& values) {
+  values.push_back(&json);
+  if (!json.is_structured()) return;
+  for (Json& value : json) collect(value, values);
+}
+
+void change(Json& json, Random& random) {
+  std::vector<Json*> values;
+  collect(json, values);
+  Json& value = *values[below(random, values.size())];
+  if (value.is_object() && !value.empty() && random() % 2 == 0) {
+    auto member = value.begin();
+    std::advance(member, below(random, value.size()));
+    const std::string key = member.key();
+    value.erase(key);
+  } else {
+    value = strangeValue(random);
+  }
+}
+
+Builder document() {
+  Builder builder;
+  Json sheet = Sheet(6).addTo(builder);
+  sheet["targets"] = {{{"POSITION", builder.addPositions(Sheet(6).positions)}}};
+  Json part = sheet;
+  part["indices"] = builder.addIndices({0, 1, 2, 3, 4, 5});
+  builder.addMesh({sheet, part, Sheet(5).addTo(builder)});
+  const uint32_t indices = builder.addView(bytesOf(std::vector<uint16_t>{1, 3}));
+  const uint32_t values = builder.addView(bytesOf(std::vector<float>{1, 2, 3, 4, 5, 6}));
+  Json& accessor = builder.json["accessors"][1];
+  accessor["sparse"] = {{"count", 2},
+                        {"indices", {{"bufferView", indices}, {"componentType", kUnsignedShort}}},
+                        {"values", {{"bufferView", values}}}};
+  builder.json["images"] = {{{"bufferView", values}, {"mimeType", "image/png"}}};
+  builder.json["skins"] = {{{"joints", {0}}, {"inverseBindMatrices", 2}}};
+  builder.json["animations"] = {{{"samplers", {{{"input", 1}, {"output", 0}}}}}};
+  return builder;
+}
+
+void expectOneLine(const Result& result) {
+  if (result.ok()) return;
+  EXPECT_EQ(result.message().find('\n'), std::string::npos);
+  EXPECT_EQ(result.message().find("internal error"), std::string::npos) << result.message();
+  EXPECT_EQ(result.message().find("please report"), std::string::npos) << result.message();
+}
+
+void tryAll(std::span<const uint8_t> file) {
+  ConvertOptions options;
+  options.allow_larger = true;
+  std::vector<uint8_t> output;
+  ConvertReport convert_report;
+  expectOneLine(convertGlb(file, options, output, convert_report));
+  DecodeReport decode_report;
+  expectOneLine(decodeGlb(file, output, decode_report));
+  InspectReport inspect_report;
+  expectOneLine(inspectGlb(file, true, inspect_report));
+}
+
+/// Changes the JSON of a file in `count` ways and tries them all.
+void tryChanges(std::span<const uint8_t> file, uint32_t count) {
+  GlbFile glb;
+  ASSERT_TRUE(readGlb(file, glb).ok());
+  const Json good = jsonOf(file);
+  for (uint32_t seed = 0; seed < count; ++seed) {
+    Random random(seed);
+    Json json = good;
+    for (uint32_t i = 0; i <= seed % 3; ++i) change(json, random);
+    std::vector<uint8_t> changed;
+    ASSERT_TRUE(writeGlb(json.dump(), glb.bin, {}, changed).ok());
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    tryAll(changed);
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(DamagedDocuments, Source) { tryChanges(document().toGlb(), 1500); }
+
+TEST(DamagedDocuments, Compressed) {
+  ConvertOptions options;
+  options.allow_larger = true;
+  std::vector<uint8_t> compressed;
+  ConvertReport report;
+  const Result result = convertGlb(document().toGlb(), options, compressed, report);
+  ASSERT_TRUE(result.ok()) << result.message();
+  tryChanges(compressed, 1500);
+}
+
+TEST(DamagedDocuments, Bytes) {
+  const std::vector<uint8_t> good = document().toGlb();
+  for (uint32_t seed = 0; seed < 500; ++seed) {
+    Random random(seed);
+    std::vector<uint8_t> file = good;
+    for (uint32_t i = 0; i < 1 + seed % 4; ++i) {
+      file[below(random, seed % 2 == 0 ? 2000 : file.size())] = static_cast<uint8_t>(random());
+    }
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    tryAll(file);
+    if (HasFailure()) return;
+  }
+}
+
+}  // namespace
+}  // namespace mcc::gltf::test

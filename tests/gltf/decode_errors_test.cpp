@@ -1,0 +1,177 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Extension objects that contradict the document or the payload.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "gltf/gltf_builder.h"
+#include "mcc/gltf.h"
+
+namespace mcc::gltf::test {
+namespace {
+
+constexpr char kPath[] = "/meshes/0/primitives/0/extensions/KHR_mesh_collapse_compression";
+
+class DecodeErrors : public testing::Test {
+ protected:
+  void SetUp() override {
+    Builder builder;
+    Json primitive = Sheet(12).addTo(builder);
+    primitive["targets"] = {{{"POSITION", builder.addPositions(Sheet(12).positions)}}};
+    builder.addMesh({primitive});
+    ConvertOptions options;
+    options.allow_larger = true;
+    ConvertReport report;
+    ASSERT_EQ(convertGlb(builder.toGlb(), options, file_, report).message(), "");
+  }
+
+  /// What decoding says after a change of the JSON. `change` gets the document and the extension.
+  std::string errorAfter(const std::function<void(Json&, Json&)>& change) {
+    GlbFile glb;
+    Json json;
+    EXPECT_TRUE(readGlb(file_, glb).ok());
+    EXPECT_TRUE(parseJson(glb.json, json).ok());
+    change(json, json["meshes"][0]["primitives"][0]["extensions"][kExtensionName]);
+    std::vector<uint8_t> changed;
+    EXPECT_TRUE(writeGlb(printJson(json), glb.bin, {}, changed).ok());
+    std::vector<uint8_t> output;
+    DecodeReport report;
+    return decodeGlb(changed, output, report).message();
+  }
+
+  std::vector<uint8_t> file_;
+};
+
+TEST_F(DecodeErrors, UnchangedIsFine) {
+  EXPECT_EQ(errorAfter([](Json&, Json&) {}), "");
+}
+
+TEST_F(DecodeErrors, BufferView) {
+  const std::string path = std::string(kPath) + "/bufferView: ";
+  EXPECT_EQ(errorAfter([](Json&, Json& e) { e["bufferView"] = 9; }),
+            path + "there is no bufferView 9");
+  EXPECT_NE(errorAfter([](Json&, Json& e) { e["bufferView"] = -1; }).find(path), std::string::npos);
+  EXPECT_NE(errorAfter([](Json&, Json& e) { e["bufferView"] = "0"; }).find(path),
+            std::string::npos);
+  EXPECT_EQ(errorAfter([](Json&, Json& e) { e.erase("bufferView"); }),
+            std::string(kPath) + ": \"bufferView\" is missing");
+  EXPECT_NE(errorAfter([](Json& j, Json&) {
+              auto& length = j["bufferViews"][0]["byteLength"];
+              length = length.get<size_t>() - 1;
+            }).find(path),
+            std::string::npos);
+}
+
+TEST_F(DecodeErrors, PieceAndPart) {
+  EXPECT_EQ(errorAfter([](Json&, Json& e) { e["piece"] = 1; }),
+            std::string(kPath) + "/piece: there is no piece 1 in the payload, which has 1");
+  EXPECT_EQ(errorAfter([](Json&, Json& e) { e["part"] = 1; }),
+            std::string(kPath) + "/part: there is no part 1 in the piece, which has 1");
+  EXPECT_NE(errorAfter([](Json&, Json& e) { e["piece"] = 0.5; }), "");
+  EXPECT_EQ(errorAfter([](Json&, Json& e) { e["piece"] = 0; }), "");
+}
+
+TEST_F(DecodeErrors, AttributeIds) {
+  EXPECT_NE(errorAfter([](Json&, Json& e) {
+              e["attributes"]["NORMAL"] = 9;
+            }).find(std::string(kPath) + "/attributes/NORMAL: there is no attribute 9"),
+            std::string::npos);
+  EXPECT_NE(errorAfter([](Json&, Json& e) {
+              e["attributes"]["COLOR_0"] = 1;
+            }).find("/attributes/COLOR_0: the primitive has no attribute"),
+            std::string::npos);
+  EXPECT_NE(errorAfter([](Json&, Json& e) { e["attributes"] = 1; }), "");
+  EXPECT_NE(errorAfter([](Json&, Json& e) {  // the same type, another meaning
+              const Json normal = e["attributes"]["NORMAL"];
+              e["attributes"]["NORMAL"] = e["attributes"]["POSITION"];
+              e["attributes"]["POSITION"] = normal;
+            })
+                .find("of the payload is no"),
+            std::string::npos);
+  EXPECT_NE(errorAfter([](Json&, Json& e) {  // a morph target is no base attribute
+              e["targets"][0]["POSITION"] = 0;
+            })
+                .find("/targets/0/POSITION"),
+            std::string::npos);
+}
+
+TEST_F(DecodeErrors, Targets) {
+  EXPECT_NE(errorAfter([](Json&, Json& e) {
+              e["targets"].push_back(Json::object());
+            }).find(std::string(kPath) + "/targets: has 2 targets, the primitive 1"),
+            std::string::npos);
+  EXPECT_NE(errorAfter([](Json&, Json& e) { e["targets"] = 1; }), "");
+  EXPECT_NE(errorAfter([](Json&, Json& e) { e["targets"][0] = 1; }), "");
+}
+
+TEST_F(DecodeErrors, AccessorsMustMatchThePayload) {
+  EXPECT_NE(errorAfter([](Json& j, Json&) {
+              j["accessors"][0]["count"] = 170;
+            }).find("/accessors/0/count: 170 does not match the payload, which has 169 vertices"),
+            std::string::npos);
+  EXPECT_NE(errorAfter([](Json& j, Json&) {
+              j["accessors"][1]["componentType"] = kShort;
+            }).find("/accessors/1: its type is VEC3 of SHORT"),
+            std::string::npos);
+  EXPECT_NE(errorAfter([](Json& j, Json&) { j["accessors"][2]["type"] = "VEC3"; }), "");
+  EXPECT_NE(errorAfter([](Json& j, Json&) { j["accessors"][1]["normalized"] = true; }), "");
+  EXPECT_NE(
+      errorAfter([](Json& j, Json&) { j["accessors"][3]["count"] = 3; }).find("/accessors/3/count"),
+      std::string::npos);
+  EXPECT_NE(errorAfter([](Json& j, Json&) { j["accessors"][3]["componentType"] = kFloat; }), "");
+  EXPECT_EQ(errorAfter([](Json& j, Json&) { j["accessors"][3]["componentType"] = kUnsignedByte; }),
+            "");
+}
+
+TEST_F(DecodeErrors, Primitive) {
+  EXPECT_NE(errorAfter([](Json& j, Json&) {
+              j["meshes"][0]["primitives"][0]["mode"] = 5;
+            }).find("/meshes/0/primitives/0/mode"),
+            std::string::npos);
+  EXPECT_NE(errorAfter([](Json& j, Json&) { j["meshes"][0]["primitives"][0].erase("indices"); }),
+            "");
+  EXPECT_NE(errorAfter([](Json& j, Json&) { j["meshes"][0]["primitives"][0]["indices"] = 99; }),
+            "");
+}
+
+TEST_F(DecodeErrors, OneAccessorForTwoThings) {
+  EXPECT_NE(errorAfter([](Json& j, Json& e) {
+              j["meshes"][0]["primitives"][0]["targets"][0]["POSITION"] = 0;
+              (void)e;
+            }).find("filled from two different places"),
+            std::string::npos);
+}
+
+TEST_F(DecodeErrors, EveryByteOfThePayloadIsChecked) {
+  GlbFile glb;
+  ASSERT_TRUE(readGlb(file_, glb).ok());
+  const Json json = jsonOf(file_);
+  const size_t length = json["bufferViews"][0]["byteLength"];
+  for (size_t i = 0; i < length; ++i) {
+    std::vector<uint8_t> bin(glb.bin.begin(), glb.bin.end());
+    bin[i] ^= 0x10;
+    std::vector<uint8_t> changed;
+    ASSERT_TRUE(writeGlb(printJson(json), bin, {}, changed).ok());
+    std::vector<uint8_t> output;
+    DecodeReport report;
+    const Result result = decodeGlb(changed, output, report);
+    ASSERT_FALSE(result.ok()) << i;
+    ASSERT_EQ(result.where, std::string(kPath) + "/bufferView");
+  }
+}
+
+TEST_F(DecodeErrors, InspectSaysTheSame) {
+  InspectReport report;
+  ASSERT_TRUE(inspectGlb(file_, true, report).ok());
+  ASSERT_EQ(report.payloads.size(), 1u);
+  EXPECT_EQ(report.payloads[0].pieces[0].wedge_count, 169u);
+  EXPECT_EQ(report.payloads[0].pieces[0].triangle_count, 288u);
+  EXPECT_TRUE(report.payloads[0].has_codes);
+  std::vector<uint8_t> damaged = file_;
+  damaged[damaged.size() - 8] ^= 1;
+  EXPECT_FALSE(inspectGlb(damaged, false, report).ok());
+}
+
+}  // namespace
+}  // namespace mcc::gltf::test

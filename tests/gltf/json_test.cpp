@@ -1,0 +1,75 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/json.h"
+
+#include <gtest/gtest.h>
+
+#include "gltf/gltf_builder.h"
+
+namespace mcc::gltf::test {
+namespace {
+
+std::string reprinted(const std::string& text) {
+  Json json;
+  const Result result = parseJson(asBytes(text), json);
+  return result.ok() ? printJson(json) : "error: " + result.message();
+}
+
+TEST(GltfJson, KeepsNumbersAsTheyWereWritten) {
+  const std::string text =
+      R"({"a":[1e-7,1E+5,-0,-0.0,0.10,1.0,100000000000000000000000,12345678901234567890,)"
+      R"(-9223372036854775808,0.1000000000000000055511151231257827,1e308,5e-324,42,-7,2.5]})";
+  EXPECT_EQ(reprinted(text), text);
+}
+
+TEST(GltfJson, KeepsOrderNullsAndEmptyThings) {
+  const std::string text =
+      R"({"z":null,"a":{},"m":[],"b":[null,{},[]],"":"","t":true,"f":false,"k":{"y":1,"x":2}})";
+  EXPECT_EQ(reprinted(text), text);
+}
+
+TEST(GltfJson, NumbersInsideStringsAreNoNumbers) {
+  const std::string text = R"({"1e-7":"-0 \"0.10\" \\","x":[1e-7,"2.50",3.50]})";
+  EXPECT_EQ(reprinted(text), text);
+}
+
+TEST(GltfJson, KeepsTextOfAllLanguages) {
+  const std::string text = "{\"n\":\"\xc3\xa9\xe4\xb8\xad\xf0\x9f\x98\x80\\n\"}";
+  EXPECT_EQ(reprinted(text), text);
+}
+
+TEST(GltfJson, ErrorsNameTheByte) {
+  EXPECT_NE(reprinted("{\"a\":1,}").find("error: JSON byte 8"), std::string::npos);
+  EXPECT_NE(reprinted("").find("error: JSON byte"), std::string::npos);
+  EXPECT_NE(reprinted("{} x").find("error: JSON byte"), std::string::npos);
+  EXPECT_NE(reprinted("{\"a\":\"\xff\"}").find("error: JSON byte"), std::string::npos);
+}
+
+TEST(GltfJson, DeepNestingIsAnError) {
+  const std::string deep(100000, '[');
+  EXPECT_NE(reprinted(deep).find("nested deeper"), std::string::npos);
+  const std::string fine = std::string(200, '[') + std::string(200, ']');
+  EXPECT_EQ(reprinted(fine), fine);
+}
+
+TEST(GltfJson, ReadsWholeNumbersInAnySpelling) {
+  Json json;
+  ASSERT_TRUE(
+      parseJson(asBytes(R"({"a":3,"b":3.0,"c":3e0,"d":-1,"e":3.5,"f":"3","g":1e99})"), json).ok());
+  for (const char* key : {"a", "b", "c"}) {
+    uint64_t value = 0;
+    EXPECT_TRUE(readUnsigned(json, key, "", 10, value).ok()) << key;
+    EXPECT_EQ(value, 3u);
+  }
+  for (const char* key : {"d", "e", "f", "g", "missing"}) {
+    uint64_t value = 0;
+    EXPECT_FALSE(readUnsigned(json, key, "/x", 10, value).ok()) << key;
+  }
+  uint64_t value = 7;
+  EXPECT_TRUE(readOptionalUnsigned(json, "missing", "", 10, value).ok());
+  EXPECT_EQ(value, 7u);
+  EXPECT_NE(readUnsigned(json, "a", "/x", 2, value).message().find("/x/a: 3 is too large"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace mcc::gltf::test
