@@ -26,10 +26,17 @@ struct CommonOptions {
 void addConvert(CLI::App& app, int& status);
 void addDecode(CLI::App& app, int& status);
 void addInspect(CLI::App& app, int& status);
+#if defined(MCC_HAS_FOREIGN)
+void addCompare(CLI::App& app, int& status);
+void addBench(CLI::App& app, int& status);
+#endif
 
 /// Options of CommonOptions.
 void addFormatOption(CLI::App& command, CommonOptions& options);
 void addVerbosityOptions(CLI::App& command, CommonOptions& options);
+
+/// Bits, --lossless and --grid.
+void addQuantization(CLI::App& command, gltf::ConvertOptions& options);
 
 /// Prints "gltf-mcc: FILE: where: what" on standard error; returns kFailed.
 int reportFailure(const gltf::Result& result);

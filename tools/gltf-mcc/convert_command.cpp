@@ -1,10 +1,13 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cstdio>
+#include <filesystem>
 #include <map>
 #include <memory>
 
 #include "commands.h"
+#include "convert_comparison.h"
 #include "convert_report.h"
 
 namespace mcc::tool {
@@ -16,18 +19,34 @@ struct ConvertCommand {
   std::string input;
   std::string output;
   std::string report;
+  ConvertComparison comparison;
 
   int run() const {
-    gltf::ConvertReport result;
-    const gltf::Result outcome = gltf::convertFile(input, output, convert, result);
-    if (!outcome.ok()) return reportFailure(outcome);
+    // Before any work is done: a conversion whose report cannot be written is a failure.
+    const bool report_is_new = !report.empty() && !std::filesystem::exists(report);
     if (!report.empty()) {
-      const gltf::Result written = writeText(report, reportJson(input, output, convert, result));
+      const gltf::Result writable = checkWritable(report);
+      if (!writable.ok()) return reportFailure(writable);
+    }
+    gltf::ConvertReport result;
+    ConvertComparison compared = comparison;
+    gltf::Result outcome = compared.begin(input, convert);
+    if (outcome.ok()) outcome = gltf::convertFile(input, output, convert, result);
+    if (!outcome.ok()) {
+      if (report_is_new) std::remove(report.c_str());
+      return reportFailure(outcome);
+    }
+    outcome = compared.finish(input, convert, result, common, !report.empty());
+    if (!outcome.ok()) return reportFailure(outcome);
+    const std::string json = reportJson(input, output, convert, result, compared.json);
+    if (!report.empty()) {
+      const gltf::Result written = writeText(report, json);
       if (!written.ok()) return reportFailure(written);
     }
     if (common.is_quiet) return kDone;
-    return printOut(common.format == Format::kJson ? reportJson(input, output, convert, result)
-                                                   : reportText(input, output, result, common));
+    if (common.format == Format::kJson) return printOut(json);
+    const std::string text = reportText(input, output, result, common);
+    return printOut(compared.text.empty() ? text : text + "\n" + compared.text);
   }
 };
 
@@ -47,6 +66,8 @@ void addBits(CLI::App& command, const std::string& name, uint8_t& bits, int low,
       ->type_name("N");
 }
 
+}  // namespace
+
 void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
   addBits(command, "position", options.bits.position, 1, 24);
   addBits(command, "normal", options.bits.normal, 2, 16);
@@ -65,8 +86,6 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
       ->type_name("mesh|scene|primitive");
 }
 
-}  // namespace
-
 void addConvert(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("convert", "Compress a .glb or .gltf into a .glb");
   auto state = std::make_shared<ConvertCommand>();
@@ -75,6 +94,7 @@ void addConvert(CLI::App& app, int& status) {
   addQuantization(*command, state->convert);
   command->add_option("--report", state->report, "Write all figures to this JSON file")
       ->type_name("FILE");
+  state->comparison.addOptions(*command);
   addFormatOption(*command, state->common);
   command->add_option("-j,--jobs", state->convert.thread_count, "Threads to use [1]")
       ->check(CLI::Range(1, 1024).description(""))

@@ -239,26 +239,33 @@ std::string reportText(const std::string& input, const std::string& output,
 }
 
 std::string reportJson(const std::string& input, const std::string& output,
-                       const gltf::ConvertOptions& options, const gltf::ConvertReport& report) {
+                       const gltf::ConvertOptions& options, const gltf::ConvertReport& report,
+                       const nlohmann::ordered_json& comparison) {
   Json payloads = Json::array();
   for (const auto& payload : report.payloads) payloads.push_back(payloadJson(payload));
   Json primitives = Json::array();
   for (const auto& primitive : report.primitives) primitives.push_back(primitiveJson(primitive));
-  const Json json = {{"tool", std::string("gltf-mcc ") + MCC_VERSION},
-                     {"input", input},
-                     {"output", output},
-                     {"options", optionsJson(options)},
-                     {"input_bytes", report.input_bytes},
-                     {"output_bytes", report.output_bytes},
-                     {"copied", report.copied},
-                     {"checked", report.checked},
-                     {"encode_seconds", report.encode_seconds},
-                     {"decode_seconds", report.decode_seconds},
-                     {"check_seconds", report.check_seconds},
-                     {"payloads", payloads},
-                     {"primitives", primitives},
-                     {"notes", report.notes}};
+  Json json = {{"tool", std::string("gltf-mcc ") + MCC_VERSION},
+               {"input", input},
+               {"output", output},
+               {"options", optionsJson(options)},
+               {"input_bytes", report.input_bytes},
+               {"output_bytes", report.output_bytes},
+               {"copied", report.copied},
+               {"checked", report.checked},
+               {"encode_seconds", report.encode_seconds},
+               {"decode_seconds", report.decode_seconds},
+               {"check_seconds", report.check_seconds},
+               {"payloads", payloads},
+               {"primitives", primitives},
+               {"notes", report.notes}};
+  if (!comparison.is_null()) json["comparison"] = comparison;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+gltf::Result checkWritable(const std::string& path) {
+  if (std::ofstream(path, std::ios::binary | std::ios::app)) return {};
+  return {path, fmt::format("the report cannot be written: {}", std::strerror(errno))};
 }
 
 gltf::Result writeText(const std::string& path, const std::string& text) {

@@ -63,6 +63,10 @@ int run(int argc, char** argv) {
   addConvert(app, status);
   addDecode(app, status);
   addInspect(app, status);
+#if defined(MCC_HAS_FOREIGN)
+  addCompare(app, status);
+  addBench(app, status);
+#endif
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {  // also thrown for --help and --version

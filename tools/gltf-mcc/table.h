@@ -12,8 +12,8 @@ namespace mcc::tool {
 
 enum class Format { kPretty, kMarkdown, kCsv, kJson };
 
-/// Rows of text under a header. Numbers are aligned right; the first column and those of `text_columns`
-/// left. A row of one empty cell is a rule in kPretty and left out elsewhere.
+/// Rows of text under a header. Numbers are aligned right; the first column and those of
+/// `text_columns` left. A row of one empty cell is a rule in kPretty and left out elsewhere.
 class Table {
  public:
   explicit Table(std::vector<std::string> header, std::vector<size_t> text_columns = {})

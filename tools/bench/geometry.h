@@ -1,0 +1,85 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The triangle primitives of a glTF file as every codec gets them.
+#ifndef MCC_TOOLS_BENCH_GEOMETRY_H_
+#define MCC_TOOLS_BENCH_GEOMETRY_H_
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "gltf/compress.h"
+#include "mcc/gltf.h"
+#include "mcc/writer.h"
+
+namespace mcc::bench {
+
+/// Whether Draco cannot take an attribute: morph targets, more than four components.
+bool isLeftOut(const AttributeFormat& format);
+
+/// One piece of a payload: wedges, attributes, one triangle list per glTF primitive. What Draco cannot
+/// take is left out here, for all codecs.
+struct PieceInput {
+  uint32_t wedge_count = 0;
+  std::vector<AttributeView> coded;   ///< what our writer gets: weights moved to a sum of one
+  std::vector<AttributeView> source;  ///< what the others get, and what errors are measured against
+  std::vector<std::string> labels;    ///< "POSITION", "TEXCOORD_1"
+  std::vector<PartView> parts;
+  bool has_left_out = false;
+
+  PieceView forUs() const { return {wedge_count, coded, parts}; }
+  PieceView forOthers() const { return {wedge_count, source, parts}; }
+};
+
+/// What goes into one of our payloads.
+struct PayloadInput {
+  std::vector<PieceInput> pieces;
+};
+
+struct Geometry {
+  Geometry() = default;
+  Geometry(const Geometry&) = delete;  // the views point into the members
+  Geometry& operator=(const Geometry&) = delete;
+
+  std::vector<uint8_t> file;
+  gltf::Document document;
+  /// Everything as `convert` codes it, left-out attributes too.
+  std::vector<gltf::EncodedPayload> payloads;
+  std::vector<PayloadInput> inputs;  ///< one per payload
+  std::vector<std::string> notes;  ///< primitives that no payload takes, attributes that stay exact
+  uint64_t triangle_count = 0;
+  uint64_t wedge_count = 0;   ///< glTF vertices
+  uint64_t vertex_count = 0;  ///< distinct positions
+  bool has_left_out = false;
+  uint8_t effort = 1;  ///< of our encoder
+};
+
+/// Whether a primitive takes part.
+using PrimitiveFilter = std::function<bool(uint32_t mesh, uint32_t primitive)>;
+
+/// Quantises and encodes a file as `convert` does, but keeps payloads that gain nothing.
+/// path    names the file in messages; the buffers of a .gltf lie beside it.
+/// file    its bytes, see gltf::readFile().
+/// wanted  null: all triangle primitives. A primitive counts once however often it is used; primitives
+///         with the same attributes share a piece, those with the same indices too are one.
+/// Errors: as convertFile(). A file without triangle primitives is none: `inputs` is empty then.
+gltf::Result loadGeometry(const std::filesystem::path& path, std::vector<uint8_t> file,
+                          const gltf::ConvertOptions& options, const PrimitiveFilter& wanted,
+                          Geometry& geometry);
+
+/// A piece of a plan; with `keep_all` nothing is left out. Borrows from the plan.
+PieceInput makePiece(const gltf::PiecePlan& plan, bool keep_all);
+
+/// A part of a piece: one glTF primitive, the unit the other codecs work on.
+struct PrimitiveInput {
+  const PieceInput* piece = nullptr;
+  size_t part = 0;
+};
+
+std::vector<PrimitiveInput> primitivesOf(const Geometry& geometry);
+
+}  // namespace mcc::bench
+
+#endif  // MCC_TOOLS_BENCH_GEOMETRY_H_

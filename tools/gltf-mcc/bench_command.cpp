@@ -1,0 +1,132 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#if defined(MCC_HAS_FOREIGN)
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "bench/measure.h"
+#include "bench_report.h"
+#include "commands.h"
+#include "convert_report.h"
+#include "gltf/file_io.h"
+#include "progress_line.h"
+
+namespace mcc::tool {
+namespace {
+
+/// Encoding is repeated for so long, per codec and file.
+constexpr double kEncodeSeconds = 2;
+
+struct BenchCommand {
+  CommonOptions common;
+  gltf::ConvertOptions convert;
+  std::vector<std::string> inputs;
+  std::string sizes;  ///< write only this file, measure nothing
+  std::string apart;
+  uint32_t run_count = 5;
+
+  int run() const;
+  gltf::Result measure(size_t number, const ProgressLine& line, bench::FileFigures& figures) const;
+};
+
+gltf::Result BenchCommand::measure(size_t number, const ProgressLine& line,
+                                   bench::FileFigures& figures) const {
+  const std::string& input = inputs[number];
+  const std::string name = std::filesystem::path(input).stem().string();
+  const std::string place = fmt::format("[{}/{}] ", number + 1, inputs.size());
+  line.show(place + name);
+  std::vector<uint8_t> file;
+  gltf::Result loaded = gltf::readFile(input, file);
+  if (!loaded.ok()) return loaded;
+  bench::Geometry geometry;
+  loaded = bench::loadGeometry(input, std::move(file), convert, nullptr, geometry);
+  if (!loaded.ok()) return loaded;
+  if (geometry.inputs.empty()) return {input, "has no triangles to measure"};
+  if (!sizes.empty()) {
+    figures.name = name;
+    for (const gltf::EncodedPayload& payload : geometry.payloads) {
+      figures.full_bytes += payload.payload_bytes;
+    }
+    bench::fullStreams(geometry, figures.full_streams);
+    return {};
+  }
+  bench::MeasureOptions options;
+  options.run_count = run_count;
+  options.encode_seconds = kEncodeSeconds;
+  options.with_memory = true;
+  options.progress = [&](const std::string& text) { line.show(place + text); };
+  const bench::Outcome measured = bench::measureFile(name, geometry, options, figures);
+  return measured.ok() ? gltf::Result{} : gltf::Result{input, measured.message};
+}
+
+/// A file that fails does not stop the others.
+int BenchCommand::run() const {
+  int status = kDone;
+  std::vector<bench::FileFigures> files;
+  {
+    const ProgressLine line(common.is_quiet);
+    for (size_t i = 0; i < inputs.size(); ++i) {
+      bench::FileFigures figures;
+      const gltf::Result result = measure(i, line, figures);
+      if (result.ok()) {
+        files.push_back(std::move(figures));
+      } else {
+        line.clear();
+        status = reportFailure(result);
+      }
+    }
+  }
+  if (files.empty()) return status;
+  if (!sizes.empty()) {
+    const gltf::Result written = writeText(sizes, sizesCsv(files));
+    return written.ok() ? status : reportFailure(written);
+  }
+  std::string text;
+  switch (common.format) {
+    case Format::kJson: text = benchJson(files, apart); break;
+    case Format::kCsv: text = benchCsv(files); break;
+    case Format::kPretty:
+    case Format::kMarkdown: text = benchText(files, apart, common.format); break;
+  }
+  return printOut(text) == kDone ? status : kFailed;
+}
+
+}  // namespace
+
+void addBench(CLI::App& app, int& status) {
+  CLI::App* command = app.add_subcommand(
+      "bench", "Measure sizes and speed beside Draco and meshoptimizer; writes no file");
+  auto state = std::make_shared<BenchCommand>();
+  command->add_option("IN", state->inputs, "The .glb or .gltf files to read")
+      ->required()
+      ->type_name("");
+  addQuantization(*command, state->convert);
+  command->add_option("--runs", state->run_count, "Decode so many times, the least time counts [5]")
+      ->check(CLI::Range(5, 1000).description(""))
+      ->type_name("N");
+  command
+      ->add_option("--apart", state->apart,
+                   "Letters of the categories that the means of all files leave out")
+      ->type_name("LETTERS");
+  command->add_option("--sizes", state->sizes, "Measure nothing, write our bytes per stream here")
+      ->type_name("FILE")
+      ->group("");  // for tests/results
+  addFormatOption(*command, state->common);
+  command->add_flag("-q,--quiet", state->common.is_quiet, "Show no progress");
+  command->footer(
+      "All codecs get the same grids and run in turns on one thread of one process; the least CPU "
+      "time\n"
+      "of at least N runs counts, from payloads in memory to new float and index arrays. "
+      "Encoding,\n"
+      "which takes long, is repeated for two seconds per codec and file, N times at most.\n"
+      "The category of a file is the letter before '_' in names like a_bunny.glb.\n\n"
+      "Example:\n"
+      "  gltf-mcc bench --format md models/*.glb > table.md");
+  command->callback([state, &status]() { status = state->run(); });
+}
+
+}  // namespace mcc::tool
+
+#endif  // MCC_HAS_FOREIGN

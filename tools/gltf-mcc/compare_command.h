@@ -1,0 +1,26 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#ifndef MCC_TOOL_COMPARE_COMMAND_H_
+#define MCC_TOOL_COMPARE_COMMAND_H_
+
+#if defined(MCC_HAS_FOREIGN)
+
+#include "bench/measure.h"
+#include "commands.h"
+
+namespace mcc::tool {
+
+/// Measures ours and Draco's speeds 0, 3 and 5 on a file, with errors. Errors: as loadGeometry(); nothing
+/// to compare; our codec failed.
+gltf::Result compareWithDraco(const std::string& input, std::vector<uint8_t> file,
+                              const gltf::ConvertOptions& convert,
+                              const bench::PrimitiveFilter& wanted, uint32_t run_count,
+                              bool is_quiet, bench::FileFigures& figures);
+
+/// Writes a file as convertFile() does: a temporary one first, then renamed.
+gltf::Result writeBytes(const std::string& path, std::span<const uint8_t> bytes);
+
+}  // namespace mcc::tool
+
+#endif  // MCC_HAS_FOREIGN
+
+#endif  // MCC_TOOL_COMPARE_COMMAND_H_
