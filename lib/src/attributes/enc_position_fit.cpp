@@ -15,9 +15,9 @@ namespace {
 using Kind = PositionRecording::Kind;
 
 constexpr uint8_t kNarrowBits = 17;
-constexpr uint32_t kRunLength = 1024;                      ///< of consecutive vertices in a sample
-constexpr uint32_t kTrialVertices[] = {4000, 16000, ~0u};  ///< by effort
-constexpr uint32_t kFitVertices[] = {4000, 8000, 32000};
+constexpr uint32_t kRunLength = 1024;                     ///< of consecutive vertices in a sample
+constexpr uint32_t kTrialVertices[] = {3000, 8000, ~0u};  ///< by effort
+constexpr uint32_t kFitVertices[] = {3000, 5000, 32000};
 
 // --- sampling ---------------------------------------------------------------------------------------
 
@@ -303,7 +303,7 @@ void gatherRows(const PositionCandidate& piece, PositionPredictor predictor, uin
 
 /// Re-weighted least squares of one class around the universal weights.
 void fitClass(const std::vector<FitRow>& rows, uint32_t predictor_class, bool robust, int16_t* w) {
-  constexpr uint32_t kRounds = 4;
+  constexpr uint32_t kRounds = 3;
   constexpr double kOne = 128;
   const uint32_t n = predictor_class >= kClassSelect ? kWeights
                      : predictor_class > kClassFan || predictor_class == kClassOneTip
