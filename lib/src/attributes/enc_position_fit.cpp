@@ -16,8 +16,8 @@ using Kind = PositionRecording::Kind;
 
 constexpr uint8_t kNarrowBits = 17;
 constexpr uint32_t kRunLength = 1024;                      ///< of consecutive vertices in a sample
-constexpr uint32_t kTrialVertices[] = {4000, 16000, ~0u};  ///< by effort
-constexpr uint32_t kFitVertices[] = {4000, 8000, 32000};
+constexpr uint32_t kTrialVertices[] = {4000, 12000, ~0u};  ///< by effort
+constexpr uint32_t kFitVertices[] = {3000, 7000, 32000};
 
 // --- sampling ---------------------------------------------------------------------------------------
 
@@ -244,7 +244,13 @@ void gatherRows(const PositionCandidate& piece, PositionPredictor predictor, uin
   using UWide = std::make_unsigned_t<Wide>;
   const PositionRecording& recording = *piece.recording;
   const bool select = predictor == PositionPredictor::kFittedSelecting;
-  for (size_t i = stride / 2; i < recording.visits().size(); i += stride) {
+  // Steps of random length, `stride` on average: even ones would see only some columns of a grid.
+  uint32_t random = 1;
+  const auto step = [&] {
+    random = random * 1664525 + 1013904223;
+    return 1 + (random >> 8) % (2 * stride - 1);
+  };
+  for (size_t i = step() - 1; i < recording.visits().size(); i += step()) {
     const PositionRecording::Visit& visit = recording.visits()[i];
     const uint32_t v = visit.vertex;
     const uint32_t degree = recording.records()[v].degree;
@@ -421,7 +427,7 @@ class Chooser {
 
   PositionParameters run() {
     tryPredictors();
-    if (anyPalette()) tryMode(position_mode::kPalette, 0.97);
+    if (anyPalette()) tryMode(position_mode::kPalette, 0.98);
     tryMode(position_mode::kShear, 0.96);
     tryMode(position_mode::kFold, 0.995);
     tryOwnScale();

@@ -11,7 +11,7 @@
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
-#elif defined(__ARM_NEON)
+#elif defined(__ARM_NEON) && defined(__aarch64__)
 #include <arm_neon.h>
 #elif defined(__wasm_simd128__)
 #include <wasm_simd128.h>
@@ -144,34 +144,86 @@ MCC_INLINE uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& s
   return symbol;
 }
 
-inline void TokenRow::adapt(uint32_t symbol, const TokenSchedule& schedule) {
-  uint32_t start = 0;
-  uint32_t frequency = 0;
-  findAndAdapt(c[symbol], schedule, start, frequency);
+#elif defined(__ARM_NEON) && defined(__aarch64__)
+
+MCC_INLINE uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& schedule,
+                                           uint32_t& start_out, uint32_t& frequency_out) {
+  static constexpr int16_t kFloors[kTokenCount] = {0,  4,  8,  12, 16, 20, 24, 28,
+                                                   32, 36, 40, 44, 48, 52, 56, 60};
+  const int16x8_t low = vreinterpretq_s16_u16(vld1q_u16(c));
+  const int16x8_t high = vreinterpretq_s16_u16(vld1q_u16(c + 8));
+  const int16x8_t slots = vdupq_n_s16(static_cast<int16_t>(slot));
+  const uint16x8_t low_above = vcgtq_s16(low, slots);
+  const uint16x8_t high_above = vcgtq_s16(high, slots);
+  // Each entry above counts as -1; those that are not are the first ones, up to the symbol's.
+  const int32_t above = vaddvq_s16(vreinterpretq_s16_u16(vaddq_u16(low_above, high_above)));
+  const uint32_t symbol = static_cast<uint32_t>(static_cast<int32_t>(kTokenCount) + above - 1);
+  start_out = c[symbol];
+  frequency_out = uint32_t{c[symbol + 1]} - start_out;
+  const int16x8_t shift =
+      vdupq_n_s16(static_cast<int16_t>(-static_cast<int32_t>(nextShift(schedule))));
+  const uint16x8_t span = vdupq_n_u16(kTokenOne - kTokenFloor * kTokenCount);
+  const int16x8_t low_target =
+      vaddq_s16(vld1q_s16(kFloors), vreinterpretq_s16_u16(vandq_u16(low_above, span)));
+  const int16x8_t high_target =
+      vaddq_s16(vld1q_s16(kFloors + 8), vreinterpretq_s16_u16(vandq_u16(high_above, span)));
+  const int16x8_t new_low = vaddq_s16(low, vshlq_s16(vsubq_s16(low_target, low), shift));
+  const int16x8_t new_high = vaddq_s16(high, vshlq_s16(vsubq_s16(high_target, high), shift));
+  vst1q_u16(c, vreinterpretq_u16_s16(new_low));
+  vst1q_u16(c + 8, vreinterpretq_u16_s16(new_high));
+  return symbol;
+}
+
+#elif defined(__wasm_simd128__)
+
+MCC_INLINE uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& schedule,
+                                           uint32_t& start_out, uint32_t& frequency_out) {
+  const v128_t low = wasm_v128_load(c);
+  const v128_t high = wasm_v128_load(c + 8);
+  const v128_t slots = wasm_i16x8_splat(static_cast<int16_t>(slot));
+  const v128_t low_above = wasm_i16x8_gt(low, slots);
+  const v128_t high_above = wasm_i16x8_gt(high, slots);
+  const uint32_t above =
+      static_cast<uint32_t>(wasm_i8x16_bitmask(wasm_i8x16_narrow_i16x8(low_above, high_above)));
+  const uint32_t symbol = static_cast<uint32_t>(std::countr_zero(above | 0x10000u)) - 1;
+  start_out = c[symbol];
+  frequency_out = uint32_t{c[symbol + 1]} - start_out;
+  const uint32_t shift = nextShift(schedule);
+  const v128_t span = wasm_i16x8_splat(static_cast<int16_t>(kTokenOne - kTokenFloor * kTokenCount));
+  const v128_t low_target =
+      wasm_i16x8_add(wasm_i16x8_make(0, 4, 8, 12, 16, 20, 24, 28), wasm_v128_and(low_above, span));
+  const v128_t high_target = wasm_i16x8_add(wasm_i16x8_make(32, 36, 40, 44, 48, 52, 56, 60),
+                                            wasm_v128_and(high_above, span));
+  wasm_v128_store(c, wasm_i16x8_add(low, wasm_i16x8_shr(wasm_i16x8_sub(low_target, low), shift)));
+  wasm_v128_store(c + 8,
+                  wasm_i16x8_add(high, wasm_i16x8_shr(wasm_i16x8_sub(high_target, high), shift)));
+  return symbol;
 }
 
 #else
 
-inline void TokenRow::adapt(uint32_t symbol, const TokenSchedule& schedule) {
+inline uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& schedule,
+                                       uint32_t& start_out, uint32_t& frequency_out) {
+  uint32_t symbol = 0;
+  for (uint32_t i = 1; i < kTokenCount; ++i) symbol += c[i] <= slot ? 1 : 0;
+  start_out = c[symbol];
+  frequency_out = uint32_t{c[symbol + 1]} - start_out;
   const uint32_t shift = nextShift(schedule);
   for (uint32_t i = 0; i < kTokenCount; ++i) {
     const uint32_t above = i > symbol ? kTokenOne - kTokenFloor * kTokenCount : 0;
     const int32_t target = static_cast<int32_t>(kTokenFloor * i + above);
     c[i] = static_cast<uint16_t>(c[i] + ((target - static_cast<int32_t>(c[i])) >> shift));
   }
-}
-
-MCC_INLINE uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& schedule,
-                                           uint32_t& start_out, uint32_t& frequency_out) {
-  uint32_t symbol = 0;
-  for (uint32_t i = 1; i < kTokenCount; ++i) symbol += c[i] <= slot ? 1 : 0;
-  start_out = c[symbol];
-  frequency_out = uint32_t{c[symbol + 1]} - start_out;
-  adapt(symbol, schedule);
   return symbol;
 }
 
 #endif
+
+inline void TokenRow::adapt(uint32_t symbol, const TokenSchedule& schedule) {
+  uint32_t start = 0;
+  uint32_t frequency = 0;
+  findAndAdapt(c[symbol], schedule, start, frequency);
+}
 
 // --- rANS constants --------------------------------------------------------------------------------
 
