@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The benchmark command: consistent figures, formats, exit status. No time is judged. And the sizes of
-// the samples, so that a change of size shows in review.
+// The benchmark command: consistent figures, formats, exit status. No time is judged. And the sizes
+// of the samples, so that a change of size shows in review.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 

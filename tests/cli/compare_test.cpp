@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The comparison with Draco: consistent numbers, formats, exit status; the Draco file read by others.
+// The comparison with Draco: consistent numbers, formats, exit status; the Draco file read by
+// others.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>

@@ -1,9 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// node read_draco.mjs NODE_MODULES SOURCE DRACO...: pairs of a GLB and what `--emit-draco` made of it.
-// Decodes every KHR_draco_mesh_compression primitive with draco3dgltf, compares it with its accessors
-// and with the source's bounding box, and runs the Khronos validator. Prints what is wrong; exit status 1
-// when something is.
+// node read_draco.mjs NODE_MODULES SOURCE DRACO...: pairs of a GLB and what `--emit-draco` made of
+// it. Decodes every KHR_draco_mesh_compression primitive with draco3dgltf, compares it with its
+// accessors and with the source's box, and runs the Khronos validator. Prints what is wrong;
+// exit status 1 when something is.
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
 import path from 'node:path';
@@ -74,10 +74,12 @@ function checkPrimitive(where, glb, primitive, sourcePosition, tolerance) {
     const attribute = decoder.GetAttributeByUniqueId(mesh, id);
     expect(accessor.bufferView === undefined, `${where}: ${name} has a bufferView`);
     expect(mesh.num_points() === accessor.count, `${where}: ${name}: count`);
-    expect(attribute.num_components() === componentCounts[accessor.type], `${where}: ${name}: type`);
+    const components = attribute.num_components();
+    expect(components === componentCounts[accessor.type], `${where}: ${name}: type`);
     if (accessor.min === undefined) continue;
     const bounds = boundsOf(decoder, mesh, attribute);
-    expect(JSON.stringify([bounds.min, bounds.max]) === JSON.stringify([accessor.min, accessor.max]),
+    const { min, max } = accessor;
+    expect(JSON.stringify(bounds) === JSON.stringify({ min, max }),
            `${where}: ${name}: bounds ${JSON.stringify(bounds)}`);
     if (name !== 'POSITION') continue;
     bounds.min.forEach((value, i) => {  // unused vertices may have been the outermost

@@ -503,7 +503,7 @@ TEST(Container, Padding) {
     ASSERT_TRUE(parsePayload(payload, {}, parsed).ok());
     EXPECT_TRUE(sameBytes(parsed.codes, claim(faces).codes));
     EXPECT_GE(payload.size() * kMaxElementsPerByte, uint64_t{faces} * 2);
-    EXPECT_LE(payload.size(), uint64_t{faces} * 2 / kMaxElementsPerByte + 100);
+    EXPECT_LE(payload.size(), uint64_t{faces} * 4 / kMaxElementsPerByte + 100);
 
     std::vector<uint8_t> damaged = payload;  // the padding ends the header
     damaged[parsed.header_bytes - 1] = 1;

@@ -50,13 +50,13 @@ struct EncodedFile {
   uint64_t bytes() const;
 };
 
-/// Encodes everything in `geometry.inputs`, from accessors in memory. Fails with the codec's own words and
-/// the number of the primitive.
+/// Encodes everything in `geometry.inputs`, from accessors in memory. Fails with the codec's own
+/// words and the number of the primitive.
 Outcome encodeFile(const Geometry& geometry, Codec codec, EncodedFile& encoded);
 
-/// Bytes of all units by stream. Draco's triangles are "connectivity" as measured alone, on the mesh
-/// welded by position without seams, and "seams", what they take more in the file. meshoptimizer's
-/// streams are those before zstd, and "zstd" what it saves, a negative number.
+/// Bytes of all units by stream. Draco's triangles are "connectivity" as measured alone, on the
+/// mesh welded by position without seams, and "seams", what they take more in the file.
+/// meshoptimizer's streams are those before zstd, and "zstd" what it saves, a negative number.
 Outcome streamsOf(const Geometry& geometry, const EncodedFile& encoded,
                   std::vector<Stream>& streams);
 

@@ -14,12 +14,12 @@ namespace mcc::bench {
 
 /// Makes the same document with KHR_draco_mesh_compression (required), speed 0, our lattices. Every
 /// triangle primitive gets a buffer view and accessors of its own; one with morph targets is coded
-/// sequentially, so that the deltas, which stay ordinary accessors, keep their order. Primitives that
-/// Draco cannot code stay as they are, with a note.
+/// sequentially, so that the deltas, which stay ordinary accessors, keep their order. Primitives
+/// that Draco cannot code stay as they are, with a note.
 /// source  names the file in messages; the buffers of a .gltf lie beside it.
 /// file    its bytes.
 /// output  a GLB.
-/// Errors: the document contradicts itself. Tests: tests/foreign/emit_draco_test.cpp.
+/// Errors: the document contradicts itself. Tests: tests/cli/compare_test.cpp.
 gltf::Result emitDraco(const std::filesystem::path& source, std::span<const uint8_t> file,
                        const gltf::ConvertOptions& options, std::vector<uint8_t>& output,
                        std::vector<std::string>& notes);

@@ -19,8 +19,8 @@ namespace mcc::bench {
 /// Whether Draco cannot take an attribute: morph targets, more than four components.
 bool isLeftOut(const AttributeFormat& format);
 
-/// One piece of a payload: wedges, attributes, one triangle list per glTF primitive. What Draco cannot
-/// take is left out here, for all codecs.
+/// One piece of a payload: wedges, attributes, one triangle list per glTF primitive. What Draco
+/// cannot take is left out here, for all codecs.
 struct PieceInput {
   uint32_t wedge_count = 0;
   std::vector<AttributeView> coded;   ///< what our writer gets: weights moved to a sum of one
@@ -62,7 +62,7 @@ using PrimitiveFilter = std::function<bool(uint32_t mesh, uint32_t primitive)>;
 /// Quantises and encodes a file as `convert` does, but keeps payloads that gain nothing.
 /// path    names the file in messages; the buffers of a .gltf lie beside it.
 /// file    its bytes, see gltf::readFile().
-/// wanted  null: all triangle primitives. A primitive counts once however often it is used; primitives
+/// wanted  null: all triangle primitives. A primitive counts once however often it is used; those
 ///         with the same attributes share a piece, those with the same indices too are one.
 /// Errors: as convertFile(). A file without triangle primitives is none: `inputs` is empty then.
 gltf::Result loadGeometry(const std::filesystem::path& path, std::vector<uint8_t> file,

@@ -53,7 +53,8 @@ struct FileFigures {
   uint64_t vertex_count = 0;  ///< distinct positions
   uint64_t primitive_count = 0;
   std::array<CodecFigures, kCodecCount> codecs;
-  /// With morph targets and whatever else Draco cannot take, ours alone; the figures above are without.
+  /// With morph targets and whatever else Draco cannot take, ours alone; the figures above are
+  /// without.
   bool has_left_out = false;
   uint64_t full_bytes = 0;
   std::vector<Stream> full_streams;
@@ -63,13 +64,13 @@ struct FileFigures {
   const CodecFigures& of(Codec codec) const { return codecs[indexOf(codec)]; }
 };
 
-/// Measures all codecs on the geometry of a file. A codec that fails has a message in its figures; only
-/// when ours fails does the call.
+/// Measures all codecs on the geometry of a file. A codec that fails has a message in its figures;
+/// only when ours fails does the call.
 Outcome measureFile(const std::string& name, const Geometry& geometry,
                     const MeasureOptions& options, FileFigures& figures);
 
-/// Draco's best: the smaller of its speeds 0 and 5 over the whole file, as far as they worked and were
-/// measured; Codec::kMcc when there is none.
+/// Draco's best: the smaller of its speeds 0 and 5 over the whole file, as far as they worked and
+/// were measured; Codec::kMcc when there is none.
 Codec bestDraco(const FileFigures& figures);
 
 /// CPU seconds of this thread.

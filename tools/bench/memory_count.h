@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// How much memory a piece of code has in use at most. Linking this file replaces operator new and delete
-// of the program, hence also those of the codecs it calls.
+// How much memory a piece of code has in use at most. Linking this file replaces operator new and
+// delete of the program, hence also those of the codecs it calls.
 #ifndef MCC_TOOLS_BENCH_MEMORY_COUNT_H_
 #define MCC_TOOLS_BENCH_MEMORY_COUNT_H_
 
@@ -11,9 +11,9 @@
 
 namespace mcc::bench {
 
-/// Counts from its construction to its end, on this thread: the bytes asked for from operator new and from
-/// countedAllocator(), and not yet given back. Not counted: what C code takes from malloc (zstd's context
-/// of 160 kB), and what an allocator adds of its own. One at a time per thread.
+/// Counts from its construction to its end, on this thread: the bytes asked for from operator new
+/// and from countedAllocator(), and not yet given back. Not counted: what C code takes from malloc
+/// (zstd's context of 160 kB), and what an allocator adds of its own. One at a time per thread.
 class MemoryCount {
  public:
   MemoryCount();

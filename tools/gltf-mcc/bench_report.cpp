@@ -471,7 +471,12 @@ std::string benchJson(const std::vector<FileFigures>& files, const std::string& 
 std::string sizesCsv(const std::vector<FileFigures>& files) {
   Table table({"file", "stream", "bytes"});
   for (const FileFigures& figures : files) {
-    for (const bench::Stream& stream : figures.full_streams) {
+    std::vector<bench::Stream> streams = figures.full_streams;
+    std::stable_sort(streams.begin(), streams.end(),
+                     [](const bench::Stream& a, const bench::Stream& b) {
+                       return streamRank(a.name) < streamRank(b.name);
+                     });
+    for (const bench::Stream& stream : streams) {
       if (stream.bits == 0) continue;
       table.addRow({figures.name, stream.name, fmt::format("{:.0f}", stream.bits / 8)});
     }

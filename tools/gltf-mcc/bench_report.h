@@ -13,13 +13,13 @@
 
 namespace mcc::tool {
 
-/// Tables for people: sizes, bits per vertex of each stream, decoding, encoding, memory and vertex cache,
-/// geometric means. `apart` are the categories left out of the row "all".
+/// Tables for people: sizes, bits per vertex of each stream, decoding, encoding, memory and vertex
+/// cache, geometric means. `apart` are the categories left out of the row "all".
 ///
-/// Per vertex is per vertex of the source as glTF counts, for all codecs; so are triangles per second.
-/// best         the smaller of Draco's speeds 0 and 5 for that file
-/// mcc/best     bytes of ours / bytes of that
-/// faster       time of the other / time of ours
+/// Per vertex is per vertex of the source as glTF counts, for all codecs; triangles per second are
+/// those of the source, too.
+/// mcc/best     our bytes / those of Draco's best, the smaller of its speeds 0 and 5 for that file
+/// draco 0/mcc  its time / ours
 /// peak         most memory in use above the final arrays, see MemoryCount
 /// acmr         vertex cache misses per triangle of the decoded order, FIFO of 16
 std::string benchText(const std::vector<bench::FileFigures>& files, const std::string& apart,
@@ -34,7 +34,7 @@ std::string benchJson(const std::vector<bench::FileFigures>& files, const std::s
 /// "gltf-mcc 0.1.0, draco 1.5.5, …" and how this program was compiled.
 std::string versionsText();
 
-/// Category of a file: what is before the first '_' of its name when that is one letter, else "all".
+/// What is before the first '_' of a file's name when that is one letter, else "all".
 std::string categoryOf(const std::string& name);
 
 /// Bytes of each stream as tests/results/sizes.csv has them.

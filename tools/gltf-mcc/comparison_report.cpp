@@ -29,15 +29,6 @@ struct Row {
 
 double bytesOf(double bits) { return bits / 8; }
 
-/// Triangles first, attributes in the order of our payload, header last.
-int rankOf(const std::string& stream) {
-  static const std::vector<std::string> kFirst = {"connectivity", "stitching", "leftovers",
-                                                  "seams"};
-  const auto found = std::find(kFirst.begin(), kFirst.end(), stream);
-  if (found != kFirst.end()) return static_cast<int>(found - kFirst.begin());
-  return stream == "order" ? 11 : stream == "header" ? 12 : 10;
-}
-
 /// The streams of all codecs; those that are empty everywhere are left out.
 std::vector<std::string> streamNames(const FileFigures& figures) {
   std::vector<std::string> names;
@@ -48,7 +39,7 @@ std::vector<std::string> streamNames(const FileFigures& figures) {
     }
   }
   std::stable_sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
-    return rankOf(a) < rankOf(b);
+    return streamRank(a) < streamRank(b);
   });
   return names;
 }
@@ -208,6 +199,14 @@ Json leftOutJson(const FileFigures& figures) {
 }
 
 }  // namespace
+
+int streamRank(const std::string& name) {
+  static const std::vector<std::string> kFirst = {"connectivity", "stitching", "leftovers",
+                                                  "seams"};
+  const auto found = std::find(kFirst.begin(), kFirst.end(), name);
+  if (found != kFirst.end()) return static_cast<int>(found - kFirst.begin());
+  return name == "order" ? 11 : name == "header" ? 12 : 10;
+}
 
 double geometricMean(const std::vector<double>& values) {
   if (values.empty()) return 0;

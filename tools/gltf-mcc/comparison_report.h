@@ -24,23 +24,28 @@ std::string comparisonCsv(const std::vector<bench::FileFigures>& files);
 
 /// The same as JSON, also "comparison" in the report of `convert`:
 ///   triangles, vertices, positions, primitives: of the source. `vertices` are glTF's.
-///   best           "draco_0" or "draco_5", whichever is smaller over the file; absent when Draco failed
+///   best           "draco_0" or "draco_5", the smaller over the file; absent when Draco failed
 ///   ratio_to_best  our bytes / its bytes
-///   streams        [{name, mcc, draco_0, draco_3, draco_5, ratio_to_best}], bytes. "connectivity" of
-///                  Draco is measured alone, on the mesh welded by position; "seams" is what its
-///                  triangles take more in the file. They add up to `bytes`.
-///   codecs         {mcc, draco_0, draco_3, draco_5}: {bytes, triangles, vertices, lost_vertices,
-///                  encode_seconds, decode_seconds, errors: [{name, unit, max, median}]} or {failure}
-///                    triangles, vertices  after decoding, as the codec counts
-///                    lost_vertices  in use by triangles of the source, by none of the decoded ones
-///                    encode_seconds, decode_seconds  CPU time, least of several runs in one process:
-///                    from accessors to payloads in memory and to final float and index arrays
-///                    errors  against the source; unit "degrees" or "accessor units"
+///   streams        [{name, mcc, draco_0, draco_3, draco_5, ratio_to_best}], bytes. "connectivity"
+///                  of Draco is measured alone, on the mesh welded by position; "seams" is what
+///                  its triangles take more in the file. They add up to `bytes`.
+///   codecs         {mcc, draco_0, draco_3, draco_5}: {failure} or {bytes, triangles, vertices,
+///                  lost_vertices, encode_seconds, decode_seconds, errors: [{name, unit, max,
+///                  median}]}
+///     triangles, vertices  after decoding, as the codec counts
+///     lost_vertices        in use by triangles of the source, by none of the decoded ones
+///     encode_seconds       CPU time from accessors to payloads in memory
+///     decode_seconds       from there to final float and index arrays; least of several runs in
+///                          one process, both
+///     errors               against the source; unit "degrees" or "accessor units"
 ///   left_out       when the file has what Draco cannot take (morph targets): {bytes_with, streams:
 ///                  [{name, mcc}]}. `codecs` are without on both sides.
 ///   versions       {draco}
 ///   notes          what was not compared, and why
 nlohmann::ordered_json comparisonJson(const bench::FileFigures& figures);
+
+/// Order of streams in tables: triangles first, attributes as they come, header last.
+int streamRank(const std::string& name);
 
 /// Geometric mean; 0 of nothing.
 double geometricMean(const std::vector<double>& values);

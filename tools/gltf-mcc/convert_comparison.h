@@ -12,8 +12,8 @@
 
 namespace mcc::tool {
 
-/// `--compare` and `--emit-draco` of `convert`. In a build without other codecs there are no such options
-/// and nothing is compared.
+/// `--compare` and `--emit-draco` of `convert`. In a build without other codecs there are no such
+/// options and nothing is compared.
 struct ConvertComparison {
   std::string mode;             ///< "draco" or "none"; empty: Draco, unless the file is large
   std::string draco_output;     ///< empty: none
@@ -25,7 +25,8 @@ struct ConvertComparison {
   void addOptions(CLI::App& command);
   /// Before the conversion: reads the source, makes the Draco file, sees whether it can be written.
   gltf::Result begin(const std::string& input, const gltf::ConvertOptions& convert);
-  /// After it: writes the Draco file; compares the primitives that were compressed, unless nobody sees it.
+  /// After it: writes the Draco file; compares the primitives that were compressed, unless nobody
+  /// sees it.
   gltf::Result finish(const std::string& input, const gltf::ConvertOptions& convert,
                       const gltf::ConvertReport& report, const CommonOptions& common,
                       bool is_reported);

@@ -106,7 +106,9 @@ MCC_INLINE int32_t codeResidual(Io& io, TokenRow& row, uint32_t bucket, bool fol
   if constexpr (Io::kEncoding) {
     const uint32_t t = static_cast<uint32_t>(truth);
     a = truth < 0 ? 0u - t : t;
-    if (folded && a != 0) a = 2 * a - ((truth > 0) != flip ? 1 : 0);
+    // -2^31 and 2^31 are the same residual; only the latter has a folded number.
+    const bool odd = (truth > 0) != flip || a == 0x80000000u;
+    if (folded && a != 0) a = 2 * a - (odd ? 1 : 0);
     token = tokenOf(a >> low_bits);
   }
   token = io.template token<kState>(row, kPositionSchedule, token);
@@ -123,7 +125,7 @@ MCC_INLINE int32_t codeResidual(Io& io, TokenRow& row, uint32_t bucket, bool fol
     const uint32_t base = uint32_t{kTokenBase[token]} << low_bits;
     a = io.magnitude(base, kTokenExtraBits[token] + low_bits, !folded, a, negative);
   }
-  const uint32_t unfolded = (a + 1) / 2;
+  const uint32_t unfolded = a / 2 + (a & 1);
   const uint32_t side = (~a & 1) ^ (flip ? 1u : 0u);
   a = folded ? unfolded : a;
   negative = folded ? side : negative;

@@ -658,6 +658,9 @@ template <class Io>
 Status McMachine<Io>::joinStart() {
   const uint32_t s = stack_.back();
   stack_.pop_back();
+  if (nodes_[s].vertex == kClosedNode) {  // by this very operation
+    return fail(Error::kBadConnectivity, "a waiting digon was closed");
+  }
   swapLinks(top_, s);
   const uint32_t degree = uint32_t{nodes_[top_].degree} + nodes_[s].degree;
   nodes_[s].degree = static_cast<uint16_t>(std::min(degree, 0xffffu));

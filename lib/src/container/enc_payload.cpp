@@ -88,6 +88,10 @@ std::vector<uint8_t> writePayload(const PayloadHeader& header, std::span<const u
     writePiece(pieces, header, i);
     const PieceHeader& p = header.pieces[i];
     elements += p.triangleCount() + p.vertex_count + p.wedge_count;
+    for (uint32_t a = 0; a < p.attribute_count; ++a) {
+      elements += uint64_t{p.wedge_count} *
+                  header.attributes[p.first_attribute + a].format.component_count;
+    }
   }
   if (!header.singleCoder()) {
     pieces.writeVarint(static_cast<uint32_t>(codes.size()));

@@ -51,7 +51,8 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
   }
   a.coding = static_cast<AttributeCoding>(shape >> 4);
   const bool is_float = a.format.component_type == ComponentType::kFloat32;
-  if (is_float == (a.coding == AttributeCoding::kInteger)) {
+  if (a.coding != AttributeCoding::kAlias &&
+      is_float == (a.coding == AttributeCoding::kInteger)) {
     return fail(Error::kBadHeader, "an attribute's coding does not fit its component type", at);
   }
   MCC_TRY(in.readU8(a.predictor));
@@ -149,8 +150,9 @@ struct Totals {
   uint64_t vertices = 0;
   uint64_t wedges = 0;
   uint64_t triangles = 0;
+  uint64_t values = 0;  ///< components of all attributes, for which callers take memory
 
-  uint64_t elements() const { return vertices + wedges + triangles; }
+  uint64_t elements() const { return vertices + wedges + triangles + values; }
 };
 
 /// [A.2.2]
@@ -210,6 +212,10 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, T
                 "the parts of a piece have another number of triangles than the piece", at);
   }
   MCC_TRY(parseAttributes(in, limits, header, piece));
+  for (uint32_t i = 0; i < piece.attribute_count; ++i) {
+    totals.values += uint64_t{piece.wedge_count} *
+                     header.attributes[piece.first_attribute + i].format.component_count;
+  }
   if (!header.pieces.push_back(piece)) return fail(Error::kOutOfMemory, "no memory for the header");
   return {};
 }
