@@ -312,6 +312,7 @@ void NormalCoder<Io>::correct(float* direction, const uint32_t* neighbours) {
 
 template <class Io>
 void NormalCoder<Io>::codePoint(uint32_t w, const int32_t* predicted, uint32_t context) {
+  context = std::min(context, kNoNeighbours);  // a neighbour that is coded later counts as none
   const OctahedralFrame frame(predicted, centre_);
   int32_t* value = values_ + 2 * size_t{w};
   int32_t residual[2] = {};
@@ -327,8 +328,10 @@ void NormalCoder<Io>::codePoint(uint32_t w, const int32_t* predicted, uint32_t c
   residual[1] = codeSmallSigned<1>(io_, models_.row[1][second], residual[1]);
   frame.pointOf(residual, point);
   lengths_[w] = static_cast<uint8_t>(std::max(length, contextLength(residual[1])));
-  value[0] = point[0] + centre_;
-  value[1] = point[1] + centre_;
+  for (int s = 0; s < 2; ++s) {
+    value[s] =
+        static_cast<int32_t>(static_cast<uint32_t>(point[s]) + static_cast<uint32_t>(centre_));
+  }
   last_[0] = point[0];
   last_[1] = point[1];
 }

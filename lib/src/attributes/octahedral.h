@@ -17,8 +17,8 @@ constexpr int32_t octahedralCentre(uint32_t bits) {
 /// Unit vector of a grid point. Outside the grid the result is some finite vector.
 inline void octahedralToUnit(int32_t s, int32_t t, int32_t centre, float* unit) {
   const float scale = 1.0f / static_cast<float>(centre);
-  const float grid_x = static_cast<float>(s - centre) * scale;
-  const float grid_y = static_cast<float>(t - centre) * scale;
+  const float grid_x = (static_cast<float>(s) - static_cast<float>(centre)) * scale;
+  const float grid_y = (static_cast<float>(t) - static_cast<float>(centre)) * scale;
   const float ax = std::fabs(grid_x);
   const float ay = std::fabs(grid_y);
   const float z = 1.0f - ax - ay;
