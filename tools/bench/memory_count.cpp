@@ -110,7 +110,8 @@ Allocator countedAllocator() { return {countedAllocate, countedRelease, nullptr}
 
 }  // namespace mcc::bench
 
-// The array and nothrow forms of the standard library call these.
+// All forms of the operators: those of the standard library would call the first ones, those of a
+// sanitizer would not, and it asks that memory go back to where it came from.
 void* operator new(std::size_t bytes) {
   void* memory = mcc::bench::allocateForNew(bytes, 1);
   if (memory == nullptr) throw std::bad_alloc();
@@ -121,11 +122,54 @@ void* operator new(std::size_t bytes, std::align_val_t alignment) {
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  return mcc::bench::allocateForNew(bytes, 1);
+}
+void* operator new(std::size_t bytes, std::align_val_t alignment, const std::nothrow_t&) noexcept {
+  return mcc::bench::allocateForNew(bytes, static_cast<std::size_t>(alignment));
+}
 void operator delete(void* memory) noexcept { mcc::bench::releaseForDelete(memory); }
 void operator delete(void* memory, std::size_t) noexcept { mcc::bench::releaseForDelete(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept {
   mcc::bench::releaseForDelete(memory);
 }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  mcc::bench::releaseForDelete(memory);
+}
+void operator delete(void* memory, const std::nothrow_t&) noexcept {
+  mcc::bench::releaseForDelete(memory);
+}
+void operator delete(void* memory, std::align_val_t, const std::nothrow_t&) noexcept {
+  mcc::bench::releaseForDelete(memory);
+}
+void* operator new[](std::size_t bytes) {
+  void* memory = mcc::bench::allocateForNew(bytes, 1);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+void* operator new[](std::size_t bytes, std::align_val_t alignment) {
+  void* memory = mcc::bench::allocateForNew(bytes, static_cast<std::size_t>(alignment));
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept {
+  return mcc::bench::allocateForNew(bytes, 1);
+}
+void* operator new[](std::size_t bytes, std::align_val_t alignment,
+                     const std::nothrow_t&) noexcept {
+  return mcc::bench::allocateForNew(bytes, static_cast<std::size_t>(alignment));
+}
+void operator delete[](void* memory) noexcept { mcc::bench::releaseForDelete(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { mcc::bench::releaseForDelete(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept {
+  mcc::bench::releaseForDelete(memory);
+}
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
+  mcc::bench::releaseForDelete(memory);
+}
+void operator delete[](void* memory, const std::nothrow_t&) noexcept {
+  mcc::bench::releaseForDelete(memory);
+}
+void operator delete[](void* memory, std::align_val_t, const std::nothrow_t&) noexcept {
   mcc::bench::releaseForDelete(memory);
 }
