@@ -7,6 +7,7 @@
 //   codePositions      traversal, positions of groups and of isolated vertices    attributes/positions.h    [A.6]
 //   codeSeams          corners -> wedges                                          attributes/seams.h        [A.7]
 //   codeLeftovers      parts, duplicate and degenerate triangles                  attributes/leftovers.h    [A.9]
+//   codeOrders         the source's order of triangles and wedges, if kept        connectivity/order.h      [A.10]
 //   codeAttribute      every further attribute along the same traversal           attributes/values.h       [A.8]
 //
 // The writer runs the same stages with an encoder and with pointers to what it knows (PieceTruth).
@@ -20,6 +21,7 @@
 #include "attributes/positions.h"
 #include "attributes/seams.h"
 #include "connectivity/mc_codes.h"
+#include "connectivity/order.h"
 #include "connectivity/stitch.h"
 #include "container/payload_header.h"
 
@@ -34,6 +36,7 @@ struct PayloadModels {
   PositionModels positions;
   SeamModels seams;
   LeftoverModels leftovers;
+  OrderModels orders;
   AttributeModels attributes;
 };
 
@@ -46,6 +49,8 @@ struct PieceTruth {
   const AxisPalette* palettes = nullptr;    ///< 3, if the position has them
   const uint32_t* corner_source = nullptr;  ///< source wedge by 3f+k
   LeftoverTruth leftovers;
+  const uint32_t* triangle_order = nullptr;  ///< see TriangleOrderCoder
+  const uint32_t* wedge_order = nullptr;     ///< wedge by place
 };
 
 template <class Io>
@@ -61,6 +66,9 @@ class PieceCoder {
         wedge_group(allocator),
         copies(allocator),
         list(allocator),
+        triangles(allocator),
+        triangle_order(allocator),
+        wedge_order(allocator),
         io_(io),
         models_(models),
         header_(header),
@@ -162,6 +170,43 @@ class PieceCoder {
                     header_.listed_count, truth.leftovers, list);
   }
 
+  Status codeOrders(const PieceTruth& truth) {
+    if (!header_.has(piece_flag::kTriangleOrder | piece_flag::kVertexOrder)) return {};
+    if (!listTriangles()) return noMemory();
+    if (header_.has(piece_flag::kTriangleOrder)) {
+      TriangleOrderCoder<Io> coder(io_, models_.orders, mesh.view(), mesh.face_count, triangles,
+                                   allocator_);
+      MCC_TRY(coder.run(header_.part_count, truth.triangle_order, triangle_order));
+    }
+    if (!header_.has(piece_flag::kVertexOrder)) return {};
+    WedgeOrderCoder<Io> coder(io_, models_.orders, triangles, allocator_);
+    return coder.run(header_.wedge_count, triangle_order, truth.wedge_order, wedge_order);
+  }
+
+  /// Fills `triangles`.
+  [[nodiscard]] bool listTriangles() {
+    const uint64_t count = header_.triangleCount();
+    const bool many = header_.part_count > 1;
+    if (!triangles.wedges.resize(3 * count) || !triangles.part.resize(many ? count : 0) ||
+        !triangles.first_of_face.resize(copies.empty() ? 0 : mesh.face_count)) {
+      return false;
+    }
+    uint32_t next = 0;
+    const auto add = [&](const uint32_t* corners, uint32_t part) {
+      for (uint32_t k = 0; k < 3; ++k) triangles.wedges[3 * size_t{next} + k] = corners[k];
+      if (many) triangles.part[next] = part;
+      ++next;
+    };
+    for (uint32_t f = 0; f < mesh.face_count; ++f) {
+      const uint32_t* face = mesh.words.data() + size_t{f} * kFaceWords;
+      if (!copies.empty()) triangles.first_of_face[f] = next;
+      const uint32_t times = copies.empty() ? 1 : copies[f] + 1;
+      for (uint32_t i = 0; i < times; ++i) add(face, face[kFaceWord]);
+    }
+    for (size_t i = 0; i < list.size(); ++i) add(list[i].wedge, list[i].part);
+    return true;
+  }
+
   /// Between the stages before and codeAttribute(). Overwrites the faces' parts.
   Status prepareAttributes() {
     if (header_.attribute_count < 2) return {};
@@ -229,6 +274,9 @@ class PieceCoder {
   WedgeSequence wedges;
   Array<uint32_t> copies;  ///< further copies of each face, only with duplicates
   Array<ListedTriangle> list;
+  TriangleTable triangles;         ///< only if an order is kept
+  Array<uint32_t> triangle_order;  ///< see TriangleOrderCoder; empty if not kept
+  Array<uint32_t> wedge_order;     ///< wedge by place; empty if not kept
 
  private:
   static constexpr uint8_t kNarrowBits = 17;         ///< Q8 predictions fit 32 bits up to here

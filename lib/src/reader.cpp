@@ -28,7 +28,18 @@ namespace {
 
 const PayloadInfo kEmptyInfo{};
 
-/// Copies coded integers to the caller's elements; `load(w)` points to the integers of wedge w. [A.8.4]
+/// Which wedge an element of the caller's memory gets.
+struct WedgeAt {
+  const uint32_t* order;  ///< null: as decoded
+
+  size_t operator()(uint32_t place) const { return order == nullptr ? place : order[place]; }
+};
+template <class Io>
+WedgeAt wedgeAt(const PieceCoder<Io>& piece) {
+  return {piece.wedge_order.empty() ? nullptr : piece.wedge_order.data()};
+}
+
+/// Copies coded integers to the caller's elements; `load(i)` points to the integers of element i. [A.8.4]
 template <class Load>
 void storeElements(const AttributeInfo& info, uint32_t wedge_count, const AttributeTarget& target,
                    Load load) {
@@ -82,16 +93,17 @@ void storeElements(const AttributeInfo& info, uint32_t wedge_count, const Attrib
 /// Tangents from angles in the planes of their normals. [A.8.7]
 void storeTangents(const AttributeInfo& info, const int32_t* values,
                    const AttributeInfo& normal_info, const int32_t* normals, uint32_t wedge_count,
-                   const AttributeTarget& target) {
+                   WedgeAt wedge_at, const AttributeTarget& target) {
   const int32_t centre = octahedralCentre(normal_info.bits);
   uint8_t* to = static_cast<uint8_t*>(target.data);
-  for (uint32_t w = 0; w < wedge_count; ++w, to += target.stride_bytes) {
+  for (uint32_t i = 0; i < wedge_count; ++i, to += target.stride_bytes) {
+    const size_t w = wedge_at(i);
     float normal[3];
     float tangent[3];
-    octahedralToUnit(normals[2 * size_t{w}], normals[2 * size_t{w} + 1], centre, normal);
-    tangentFromAngle(normal, values[2 * size_t{w}], info.bits, tangent);
+    octahedralToUnit(normals[2 * w], normals[2 * w + 1], centre, normal);
+    tangentFromAngle(normal, values[2 * w], info.bits, tangent);
     for (uint32_t c = 0; c < 3; ++c) storeFloat(to + 4 * c, tangent[c]);
-    storeFloat(to + 12, values[2 * size_t{w} + 1] != 0 ? -1.0f : 1.0f);
+    storeFloat(to + 12, values[2 * w + 1] != 0 ? -1.0f : 1.0f);
   }
 }
 
@@ -101,16 +113,17 @@ void storeAttribute(const PieceCoder<Io>& piece, const PieceInfo& info, uint32_t
                     const int32_t* values, uint32_t value_stride,
                     std::span<const AttributeTarget> targets) {
   const AttributeInfo& a = info.attributes[index];
+  const WedgeAt wedge_at = wedgeAt(piece);
   for (size_t i = index; i < targets.size(); ++i) {
     const bool is_alias = info.attributes[i].coding == AttributeCoding::kAlias &&
                           info.attributes[i].alias_of == index;
     if (targets[i].data == nullptr || (i != index && !is_alias)) continue;
     if (a.coding == AttributeCoding::kTangentAngle) {
       storeTangents(a, values, piece.tangentNormalInfo(), piece.tangentNormals(), info.wedge_count,
-                    targets[i]);
+                    wedge_at, targets[i]);
     } else {
       storeElements(a, info.wedge_count, targets[i],
-                    [=](uint32_t w) { return values + size_t{w} * value_stride; });
+                    [=](uint32_t place) { return values + wedge_at(place) * value_stride; });
     }
   }
 }
@@ -119,11 +132,13 @@ template <class Io>
 void storePositions(const PieceCoder<Io>& piece, const AttributeInfo& info, uint32_t wedge_count,
                     const AttributeTarget& target) {
   const VertexRecord* records = piece.records.data();
-  if (piece.wedge_group.empty()) {
+  if (piece.wedge_group.empty() && piece.wedge_order.empty()) {
     storeElements(info, wedge_count, target, [=](uint32_t w) { return records[w].q; });
   } else {
     storeElements(info, wedge_count, target,
-                  [&](uint32_t w) { return records[piece.groupOf(w)].q; });
+                  [&piece, records, wedge_at = wedgeAt(piece)](uint32_t i) {
+                    return records[piece.groupOf(static_cast<uint32_t>(wedge_at(i)))].q;
+                  });
   }
 }
 
@@ -148,10 +163,46 @@ void storeFaces(const FaceMesh& mesh, Index* to) {
   }
 }
 
+Status checkPartCounts(std::span<const PartInfo> infos, const Array<uint32_t>& counts) {
+  for (size_t p = 0; p < infos.size(); ++p) {
+    if (counts[p] != infos[p].triangle_count) {
+      return fail(Error::kBadAttribute,
+                  "a part has another number of triangles than the header claims");
+    }
+  }
+  return {};
+}
+
+/// Triangles and wedges in the orders that are kept.
+template <class Io>
+Status storeOrderedTriangles(const PieceCoder<Io>& piece, std::span<const PartInfo> infos,
+                             std::span<const PartTarget> targets, const Allocator& allocator) {
+  Array<uint32_t> fill(allocator);
+  Array<uint32_t> place_of(allocator);
+  if (!fill.assign(targets.size(), 0) || !place_of.resize(piece.wedge_order.size()))
+    return fail(Error::kOutOfMemory, "no memory for the order");
+  for (uint32_t i = 0; i < piece.wedge_order.size(); ++i) place_of[piece.wedge_order[i]] = i;
+  const TriangleTable& table = piece.triangles;
+  for (uint32_t i = 0; i < table.count(); ++i) {
+    const uint32_t ordered =
+        piece.triangle_order.empty() ? orderedTriangle(i, 0) : piece.triangle_order[i];
+    const uint32_t triangle = ordered >> 2;
+    const uint32_t part = table.partOf(triangle);
+    const uint32_t at = fill[part]++;
+    if (at >= infos[part].triangle_count || targets[part].indices == nullptr) continue;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t wedge = table.wedges[3 * size_t{triangle} + ((ordered & 3) + k) % 3];
+      storeIndex(targets[part], 3 * size_t{at} + k, place_of.empty() ? wedge : place_of[wedge]);
+    }
+  }
+  return checkPartCounts(infos, fill);
+}
+
 /// Faces in decoding order, each with its duplicates, then the other triangles; split into parts.
 template <class Io>
 Status storeTriangles(PieceCoder<Io>& piece, std::span<const PartInfo> infos,
                       std::span<const PartTarget> targets, const Allocator& allocator) {
+  if (piece.triangles.count() != 0) return storeOrderedTriangles(piece, infos, targets, allocator);
   const bool many = targets.size() > 1;
   if (!many && piece.copies.empty() && piece.list.empty()) {
     void* to = targets[0].indices;
@@ -163,10 +214,10 @@ Status storeTriangles(PieceCoder<Io>& piece, std::span<const PartInfo> infos,
     }
     return {};
   }
-  Array<uint64_t> fill(allocator);
+  Array<uint32_t> fill(allocator);
   if (!fill.assign(targets.size(), 0)) return fail(Error::kOutOfMemory, "no memory for the parts");
   const auto store = [&](uint32_t part, const uint32_t* wedges) {
-    const uint64_t at = fill[part]++;
+    const size_t at = fill[part]++;
     if (at >= infos[part].triangle_count || targets[part].indices == nullptr) return;
     for (size_t k = 0; k < 3; ++k) storeIndex(targets[part], 3 * at + k, wedges[k]);
   };
@@ -176,13 +227,7 @@ Status storeTriangles(PieceCoder<Io>& piece, std::span<const PartInfo> infos,
     for (uint32_t i = 0; i < count; ++i) store(many ? face[kFaceWord] : 0, face);
   }
   for (size_t i = 0; i < piece.list.size(); ++i) store(piece.list[i].part, piece.list[i].wedge);
-  for (size_t p = 0; p < targets.size(); ++p) {
-    if (fill[p] != infos[p].triangle_count) {
-      return fail(Error::kBadAttribute,
-                  "a part has another number of triangles than the header claims");
-    }
-  }
-  return {};
+  return checkPartCounts(infos, fill);
 }
 
 Status checkTargets(const PayloadInfo& info, std::span<const PieceTarget> targets) {
@@ -228,6 +273,7 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
   MCC_TRY(piece.codePositions(nothing));
   MCC_TRY(piece.codeSeams(nothing));
   MCC_TRY(piece.codeLeftovers(nothing));
+  MCC_TRY(piece.codeOrders(nothing));
   storePositions(piece, info.attributes[0], info.wedge_count, target.attributes[0]);
   MCC_TRY(storeTriangles(piece, info.parts, target.parts, allocator));
   Array<int32_t> values(allocator);

@@ -5,8 +5,11 @@
 #include "mcc/writer.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <new>
+#include <numeric>
+#include <tuple>
 
 #include "attributes/enc_position_fit.h"
 #include "attributes/enc_predictor_search.h"
@@ -50,6 +53,8 @@ struct Plan {
   std::vector<uint32_t> degenerates_of_edge;
   std::vector<uint32_t> degenerate_parts;
   std::vector<ListedTriangle> list;
+  std::vector<uint32_t> triangle_order;
+  std::vector<uint32_t> wedge_order;
 };
 
 constexpr uint32_t nextCorner(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
@@ -143,7 +148,8 @@ void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_ed
   if (h.has(piece_flag::kSeams) && run_count > surface_wedges) h.flags |= piece_flag::kMerges;
 }
 
-Status preparePiece(const PieceView& view, Plan& plan, std::vector<std::string>& notes) {
+Status preparePiece(const PieceView& view, const EncodeOptions& options, Plan& plan,
+                    std::vector<std::string>& notes) {
   MCC_TRY(checkPiece(view));
   plan.view = &view;
   plan.attributes = quantizeAttributes(view, notes);
@@ -161,6 +167,8 @@ Status preparePiece(const PieceView& view, Plan& plan, std::vector<std::string>&
   if (h.duplicate_count != 0) h.flags |= piece_flag::kDuplicates;
   if (h.listed_count != 0) h.flags |= piece_flag::kListed;
   if (h.part_count > 1) h.flags |= piece_flag::kManyParts;
+  if (options.keep_triangle_order) h.flags |= piece_flag::kTriangleOrder;
+  if (options.keep_vertex_order) h.flags |= piece_flag::kVertexOrder;
   std::vector<uint32_t> wedge_of_class(plan.classes.class_count, kNone);
   for (const uint32_t w : plan.triangles.wedges) {
     uint32_t& first = wedge_of_class[plan.classes.class_of_wedge[w]];
@@ -300,6 +308,53 @@ void learnWedges(Plan& plan, FaceMesh& mesh) {
   learnListed(plan, mesh, wedge_of_source);
 }
 
+/// The source's order of triangles as TriangleOrderCoder names them. Equal triangles are paired in their order.
+void learnTriangleOrder(Plan& plan, const TriangleTable& table) {
+  using Wedges = std::array<uint32_t, 3>;
+  struct Named {
+    Wedges wedges;  ///< of its turns the smallest
+    uint32_t part;
+    uint32_t place;
+    bool operator<(const Named& o) const {
+      return std::tie(wedges, part, place) < std::tie(o.wedges, o.part, o.place);
+    }
+  };
+  const auto turned = [](const Wedges& w, uint32_t by) {
+    return Wedges{w[by % 3], w[(by + 1) % 3], w[(by + 2) % 3]};
+  };
+  const auto nameOf = [&](const Wedges& w, uint32_t part, uint32_t place) {
+    return Named{std::min({w, turned(w, 1), turned(w, 2)}), part, place};
+  };
+  std::vector<uint32_t> wedge_of_source(plan.header.wedge_count);
+  for (uint32_t w = 0; w < plan.header.wedge_count; ++w) wedge_of_source[plan.wedge_source[w]] = w;
+  std::vector<Wedges> source;
+  std::vector<Named> wanted;
+  for (uint32_t part = 0; part < plan.view->parts.size(); ++part) {
+    const std::span<const uint32_t> indices = plan.view->parts[part].indices;
+    for (size_t i = 0; i < indices.size(); i += 3) {
+      const Wedges w = {wedge_of_source[indices[i]], wedge_of_source[indices[i + 1]],
+                        wedge_of_source[indices[i + 2]]};
+      wanted.push_back(nameOf(w, part, static_cast<uint32_t>(source.size())));
+      source.push_back(w);
+    }
+  }
+  const auto wedgesOf = [&](uint32_t t) {
+    return Wedges{table.wedges[3 * size_t{t}], table.wedges[3 * size_t{t} + 1],
+                  table.wedges[3 * size_t{t} + 2]};
+  };
+  std::vector<Named> coded;
+  for (uint32_t t = 0; t < table.count(); ++t)
+    coded.push_back(nameOf(wedgesOf(t), table.partOf(t), t));
+  std::sort(wanted.begin(), wanted.end());
+  std::sort(coded.begin(), coded.end());
+  plan.triangle_order.resize(table.count());
+  for (size_t i = 0; i < coded.size(); ++i) {
+    uint32_t corner = 0;
+    while (turned(wedgesOf(coded[i].place), corner) != source[wanted[i].place]) ++corner;
+    plan.triangle_order[wanted[i].place] = orderedTriangle(coded[i].place, corner);
+  }
+}
+
 /// The values of `index` behind those of the attributes coded with it, in `stride` words per wedge.
 void learnValues(const Plan& plan, uint32_t index, uint32_t offset, uint32_t stride,
                  Array<int32_t>& values) {
@@ -375,8 +430,19 @@ class StageRunner {
                         plan_.list.data()};
     MCC_TRY(piece_.codeLeftovers(truth_));
     account(sizes, &StreamSizes::leftover_bits);
-    return piece_.prepareAttributes();
+    return {};
   }
+
+  Status codeOrders(StreamSizes* sizes) {
+    if (plan_.header.has(piece_flag::kTriangleOrder | piece_flag::kVertexOrder)) {
+      learnOrders();
+      MCC_TRY(piece_.codeOrders(truth_));
+      account(sizes, &StreamSizes::order_bits);
+    }
+    return {};
+  }
+
+  Status prepareAttributes() { return piece_.prepareAttributes(); }
 
   /// The seams without and with creases as contexts; sets the cheaper way. The seams must be coded again.
   Status chooseCreases(PayloadModels& models) {
@@ -428,6 +494,16 @@ class StageRunner {
     std::vector<AttributeInfo> infos;
     for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
     return infos;
+  }
+  void learnOrders() {
+    if (!piece_.listTriangles()) throw std::bad_alloc();
+    if (plan_.header.has(piece_flag::kTriangleOrder)) learnTriangleOrder(plan_, piece_.triangles);
+    plan_.wedge_order.resize(plan_.wedge_source.size());
+    for (uint32_t w = 0; w < plan_.wedge_source.size(); ++w) {
+      plan_.wedge_order[plan_.wedge_source[w]] = w;
+    }
+    truth_.triangle_order = plan_.triangle_order.data();
+    truth_.wedge_order = plan_.wedge_order.data();
   }
   double since() {
     const uint64_t before = cost_before_;
@@ -588,6 +664,7 @@ Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t 
   for (size_t i = 0; i < plans.size(); ++i) {
     MCC_TRY(runners[i]->chooseCreases(*models));
     MCC_TRY(runners[i]->codeSeams(nullptr));
+    MCC_TRY(runners[i]->prepareAttributes());
     for (const uint32_t a : codingOrder(plans[i])) {
       MCC_TRY(chooseAttributeMethod(plans[i], a, *runners[i], *models, io));
     }
@@ -611,6 +688,8 @@ Status codeAll(std::vector<Plan>& plans, uint32_t context_set, bool single, Enco
     MCC_TRY(runner.codeSurface(&result.sizes));
     MCC_TRY(runner.codePositions(&result.sizes));
     MCC_TRY(runner.codeSeams(&result.sizes));
+    MCC_TRY(runner.codeOrders(&result.sizes));
+    MCC_TRY(runner.prepareAttributes());
     for (const uint32_t a : codingOrder(plan)) MCC_TRY(runner.codeAttribute(a, &result.sizes));
 
     plan.header.first_attribute = static_cast<uint32_t>(header.attributes.size());
@@ -626,6 +705,9 @@ Status codeAll(std::vector<Plan>& plans, uint32_t context_set, bool single, Enco
 
     PieceResult piece;
     piece.source_wedge = plan.wedge_source;
+    if (plan.header.has(piece_flag::kVertexOrder)) {
+      std::iota(piece.source_wedge.begin(), piece.source_wedge.end(), 0u);
+    }
     piece.topological_vertex_count = runner.groupCount();
     piece.cut_copy_count = plan.header.vertex_count - runner.groupCount();
     piece.hole_count = plan.cut.hole_count;
@@ -648,7 +730,7 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeOptions& opti
   std::vector<Plan> plans(pieces.size());
   uint64_t vertices = 0;
   for (size_t i = 0; i < pieces.size(); ++i) {
-    MCC_TRY(preparePiece(pieces[i], plans[i], result.notes));
+    MCC_TRY(preparePiece(pieces[i], options, plans[i], result.notes));
     MCC_TRY(choosePairing(plans[i], i == 0 ? options.start_half_edge : kNone));
     vertices += plans[i].header.vertex_count;
   }

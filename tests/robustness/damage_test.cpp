@@ -51,7 +51,7 @@ TEST(Damage, EveryTruncationIsAnError) {
                                      payload.bytes.begin() + static_cast<std::ptrdiff_t>(size));
       Payload opened;
       const Error error = opened.open(cut).error;
-      EXPECT_TRUE(error == (size < 3 ? Error::kBadMagic
+      EXPECT_TRUE(error == (size < 3   ? Error::kBadMagic
                             : size < 8 ? Error::kTruncated
                                        : Error::kBadChecksum))
           << payload.name << " cut to " << size << ": " << static_cast<int>(error);

@@ -141,14 +141,14 @@ Observed observe(uint64_t seed, const McCounts& claims, uint32_t context_set) {
   while (observed.faces < claims.face_count &&
          mesh.words[size_t{observed.faces} * kFaceWords] != kUntouched) {
     for (uint32_t k = 0; k < 3; ++k) {
-      observed.vertices = std::max(
-          observed.vertices, mesh.words[size_t{observed.faces} * kFaceWords + k] + 1);
+      observed.vertices =
+          std::max(observed.vertices, mesh.words[size_t{observed.faces} * kFaceWords + k] + 1);
     }
     ++observed.faces;
   }
   observed.dummies = io.watchedOnes() + static_cast<uint32_t>(histogram.dummy);
-  observed.complete = std::string(status.what) ==
-                      "the codes do not yield the counts that the header claims";
+  observed.complete =
+      std::string(status.what) == "the codes do not yield the counts that the header claims";
   if (observed.failure.empty())
     observed.failure = checkFaces(mesh.words.data(), observed.faces, observed.vertices);
   return observed;
@@ -252,6 +252,9 @@ class RandomPiece {
       }
       if (piece.list[i].part >= header_.part_count) return end("a listed triangle has no part");
     }
+    if (!piece.codeOrders(nothing).ok()) return true;
+    if (!isPermutation(piece.wedge_order, 1)) return end("the wedges are in no order");
+    if (!isPermutation(piece.triangle_order, 4)) return end("the triangles are in no order");
     Array<int32_t> values;
     if (!piece.prepareAttributes().ok()) return true;
     for (uint32_t a = 1; a < attributes_.size(); ++a) {
@@ -259,6 +262,15 @@ class RandomPiece {
     }
     if (depth != nullptr) ++depth->attributes;
     return false;
+  }
+  static bool isPermutation(const Array<uint32_t>& order, uint32_t unit) {
+    std::vector<bool> is_seen(order.size(), false);
+    for (size_t i = 0; i < order.size(); ++i) {
+      const uint32_t element = order[i] / unit;
+      if (element >= order.size() || order[i] % unit == 3 || is_seen[element]) return false;
+      is_seen[element] = true;
+    }
+    return true;
   }
   bool end(const char* what) {
     pass_failure_ = what;
@@ -305,6 +317,8 @@ TEST(Machine, RandomAnswers) {
     if (random.chance(60)) header.flags |= piece_flag::kSeams;
     if (random.chance(50)) header.flags |= piece_flag::kMerges;
     if (header.has(piece_flag::kSeams) && random.chance(50)) header.flags |= piece_flag::kCreases;
+    if (random.chance(50)) header.flags |= piece_flag::kTriangleOrder;
+    if (random.chance(50)) header.flags |= piece_flag::kVertexOrder;
     if (random.chance(50)) header.part_count = random.between(2, 4);
     if (random.chance(20)) {
       header.flags |= piece_flag::kDuplicates;

@@ -40,8 +40,16 @@ EncodeOptions contextSet(uint32_t set) {
   return options;
 }
 
+EncodeOptions keepingOrders(bool vertices, bool triangles) {
+  EncodeOptions options;
+  options.keep_vertex_order = vertices;
+  options.keep_triangle_order = triangles;
+  return options;
+}
+
 /// Triangles dealt out to `count` parts in turns, and an empty part behind them.
-void addParts(PayloadList& list, const TestMesh& mesh, uint32_t count) {
+void addParts(PayloadList& list, const TestMesh& mesh, uint32_t count,
+              const EncodeOptions& options = {}) {
   std::vector<std::vector<uint32_t>> indices(count + 1);
   for (uint32_t t = 0; t < mesh.triangleCount(); ++t) {
     std::vector<uint32_t>& part = indices[t / 3 % count];
@@ -52,7 +60,7 @@ void addParts(PayloadList& list, const TestMesh& mesh, uint32_t count) {
   MeshPiece piece(mesh);
   piece.setParts(std::move(parts));
   const PieceView view = piece.view();
-  list.add("parts of " + mesh.name, {&view, 1});
+  list.add("parts of " + mesh.name, {&view, 1}, options);
 }
 
 void addPieces(PayloadList& list) {
@@ -136,7 +144,11 @@ std::vector<NamedPayload> makePayloads() {
   list.add(withUnused(icosphere(1), 5, 9));
   list.add(randomSoup(11));
   list.add(randomSoup(12), kExactBits);
-  addParts(list, withDegenerates(withIndexDuplicates(grid(6, 6), 1, 8), 2, 8), 3);
+  const TestMesh leftovers = withDegenerates(withIndexDuplicates(grid(6, 6), 1, 8), 2, 8);
+  addParts(list, leftovers, 3);
+  addParts(list, leftovers, 3, keepingOrders(true, true));
+  list.add(shuffled(icosphere(1), 1), {}, keepingOrders(true, false));
+  list.add(chartGrid(8, 8, 3), {}, keepingOrders(false, true));
   addPieces(list);
   addAttributes(list, withNormals(torus(8, 6)));
   // More than 2000 vertices: three streams.
@@ -147,6 +159,7 @@ std::vector<NamedPayload> makePayloads() {
                    "big copies"));
   addParts(list, withDegenerates(withIndexDuplicates(grid(50, 50), 1, 80), 2, 80), 3);
   addAttributes(list, withNormals(torus(60, 40)));
+  list.add(shuffled(chartGrid(50, 50, 9), 1), {}, keepingOrders(true, true));
   return list.take();
 }
 

@@ -402,6 +402,21 @@ std::string decodePayload(std::span<const uint8_t> payload, const TargetLayout& 
   return "";
 }
 
+std::string compareOrder(const PieceView& source, const DecodedPiece& decoded,
+                         std::span<const uint32_t> source_wedge, const EncodeOptions& options) {
+  for (uint32_t i = 0; options.keep_vertex_order && i < source_wedge.size(); ++i) {
+    if (source_wedge[i] != i) return text("wedge ", i, " was wedge ", source_wedge[i]);
+  }
+  for (size_t p = 0; options.keep_triangle_order && p < source.parts.size(); ++p) {
+    for (size_t i = 0; i < source.parts[p].indices.size(); ++i) {
+      if (source_wedge[decoded.parts[p][i]] != source.parts[p].indices[i]) {
+        return text("part ", p, ": triangle ", i / 3, " is another one or turned");
+      }
+    }
+  }
+  return "";
+}
+
 RoundTrip roundTrip(std::span<const PieceView> pieces, const EncodeOptions& options,
                     const TargetLayout& layout) {
   RoundTrip result;
@@ -419,6 +434,10 @@ RoundTrip roundTrip(std::span<const PieceView> pieces, const EncodeOptions& opti
   for (size_t p = 0; p < pieces.size(); ++p) {
     result.failure =
         comparePiece(pieces[p], result.decoded[p], result.encoded.pieces[p].source_wedge);
+    if (result.failure.empty()) {
+      result.failure = compareOrder(pieces[p], result.decoded[p],
+                                    result.encoded.pieces[p].source_wedge, options);
+    }
     if (!result.failure.empty()) {
       if (pieces.size() > 1) result.failure = text("piece ", p, ": ", result.failure);
       break;

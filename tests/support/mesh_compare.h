@@ -52,6 +52,10 @@ std::string compareAttribute(const PieceView& source, const DecodedPiece& decode
 std::string comparePiece(const PieceView& source, const DecodedPiece& decoded,
                          std::span<const uint32_t> source_wedge);
 
+/// Whether the orders that the options keep are the source's.
+std::string compareOrder(const PieceView& source, const DecodedPiece& decoded,
+                         std::span<const uint32_t> source_wedge, const EncodeOptions& options);
+
 /// Memory the decoder is given.
 struct TargetLayout {
   uint32_t padding_bytes = 0;  ///< between the elements of attributes; must stay untouched

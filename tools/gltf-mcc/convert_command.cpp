@@ -86,12 +86,26 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
       ->type_name("mesh|scene|primitive");
 }
 
+void addKeepOrder(CLI::App& command, gltf::ConvertOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--keep-order",
+          [&options](const std::string& what) {
+            options.keep_vertex_order = what != "triangles";
+            options.keep_triangle_order = what != "vertices";
+          },
+          "Bring back the order of vertices, triangles or both")
+      ->check(CLI::IsMember({"vertices", "triangles", "both"}).description(""))
+      ->type_name("vertices|triangles|both");
+}
+
 void addConvert(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("convert", "Compress a .glb or .gltf into a .glb");
   auto state = std::make_shared<ConvertCommand>();
   command->add_option("-i,--input,IN", state->input, "The .glb or .gltf to read")->required();
   command->add_option("-o,--output,OUT", state->output, "The .glb to write")->required();
   addQuantization(*command, state->convert);
+  addKeepOrder(*command, state->convert);
   command->add_option("--report", state->report, "Write all figures to this JSON file")
       ->type_name("FILE");
   state->comparison.addOptions(*command);

@@ -198,6 +198,8 @@ Json primitiveJson(const gltf::PrimitiveReport& primitive) {
 Json optionsJson(const gltf::ConvertOptions& options) {
   static constexpr const char* kGrids[] = {"mesh", "scene", "primitive"};
   return {{"lossless", options.lossless},
+          {"keep_vertex_order", options.keep_vertex_order},
+          {"keep_triangle_order", options.keep_triangle_order},
           {"grid", kGrids[static_cast<size_t>(options.grid)]},
           {"quantize_position", options.bits.position},
           {"quantize_normal", options.bits.normal},

@@ -50,6 +50,10 @@ struct ConvertOptions {
   QuantizationBits bits;
   bool lossless = false;  ///< every float keeps every bit; `bits` is ignored
   Grid grid = Grid::kMesh;
+  /// Vertices, triangles (with each one's first corner) come back in the source's order. Always so where a mesh or
+  /// primitive has an extension this library does not know, which may refer to them by number.
+  bool keep_vertex_order = false;
+  bool keep_triangle_order = false;
   uint32_t thread_count = 1;  ///< payloads coded at the same time; the result does not depend on it
   uint8_t effort = 1;         ///< see EncodeOptions::effort
   /// Compress also where that makes the file larger. For tests of the file layer.

@@ -46,6 +46,10 @@ struct EncodeOptions {
   uint32_t start_half_edge = kNone;
   /// Not normally set: forces one of the connectivity context sets.
   uint32_t context_set = kNone;
+  /// The decoded triangles of every part in the order of PartView::indices, each beginning with the same corner.
+  bool keep_triangle_order = false;
+  /// The decoded wedges in the order of the PieceView: source_wedge is then the identity.
+  bool keep_vertex_order = false;
   /// Effort: 0 fast (few trials) .. 2 (all trials). The bytes depend on it, exactness does not.
   uint8_t effort = 1;
 };
@@ -58,7 +62,7 @@ struct StreamSizes {
   double leftover_bits = 0;      ///< duplicate and degenerate triangles, parts
   double seam_bits = 0;          ///< wedges and equality flags
   double position_bits = 0;
-  double order_bits = 0;
+  double order_bits = 0;  ///< of vertices and triangles, where kept
   std::vector<double>
       attribute_bits;  ///< per attribute of the payload, in piece order; position included as 0
 };

@@ -45,7 +45,9 @@ inline constexpr uint32_t kDuplicates = 1u << 9;
 inline constexpr uint32_t kListed = 1u << 10;
 inline constexpr uint32_t kEdgeDegenerates = 1u << 11;
 inline constexpr uint32_t kCreases = 1u << 12;
-inline constexpr uint32_t kAll = 0x1fff;
+inline constexpr uint32_t kTriangleOrder = 1u << 13;
+inline constexpr uint32_t kVertexOrder = 1u << 14;
+inline constexpr uint32_t kAll = 0x7fff;
 }  // namespace piece_flag
 
 /// AttributeInfo::predictor of a position: which predictor in the low bits, then flags.   [A.2.7]

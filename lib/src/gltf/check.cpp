@@ -68,11 +68,12 @@ class Checker {
       const std::string where = piece.parts[0].users[0].path();
       const std::vector<uint32_t>& source_of = payload.result.pieces[i].source_wedge;
       MCC_GLTF_TRY(failed(checkBijection(source_of, piece.wedge_count), where));
+      if (payload.plan.keep_vertex_order) MCC_GLTF_TRY(failed(checkIdentity(source_of), where));
       for (const AttributePlan& attribute : piece.attributes) {
         MCC_GLTF_TRY(failed(checkAttribute(piece, attribute, source_of), where));
       }
       for (const PartPlan& part : piece.parts) {
-        MCC_GLTF_TRY(failed(checkPart(piece, part, source_of), part.users[0].path()));
+        MCC_GLTF_TRY(failed(checkPart(payload.plan, piece, part, source_of), part.users[0].path()));
       }
     }
     for (AttributeReport& report : result_.attributes.back()) {
@@ -93,6 +94,13 @@ class Checker {
         return error("", "the vertex permutation is no permutation");
       }
       is_seen[wedge] = true;
+    }
+    return {};
+  }
+
+  static Result checkIdentity(const std::vector<uint32_t>& source_of) {
+    for (uint32_t i = 0; i < source_of.size(); ++i) {
+      if (source_of[i] != i) return error("", "the order of vertices differs");
     }
     return {};
   }
@@ -187,7 +195,7 @@ class Checker {
     return {};
   }
 
-  Result checkPart(const PiecePlan& piece, const PartPlan& part,
+  Result checkPart(const PayloadPlan& payload, const PiecePlan& piece, const PartPlan& part,
                    std::span<const uint32_t> source_of) {
     for (const PrimitiveRef& user : part.users) {
       planned_.emplace(user.mesh, user.primitive);
@@ -198,14 +206,21 @@ class Checker {
     for (const uint32_t index : indices) {
       if (index >= source_of.size()) return error("", "an index is out of range");
     }
-    const std::vector<Triangle> decoded = canonicalTriangles(indices, source_of);
-    indices.clear();
-    MCC_GLTF_TRY(sourceTriangles(part.users[0], piece.wedge_count, indices));
-    if (decoded.size() != indices.size() / 3) {
-      return error("", "there are " + std::to_string(decoded.size()) +
-                           " triangles, the source has " + std::to_string(indices.size() / 3));
+    std::vector<uint32_t> expected;
+    MCC_GLTF_TRY(sourceTriangles(part.users[0], piece.wedge_count, expected));
+    if (indices.size() != expected.size()) {
+      return error("", "there are " + std::to_string(indices.size() / 3) +
+                           " triangles, the source has " + std::to_string(expected.size() / 3));
     }
-    if (decoded != canonicalTriangles(indices, {})) return error("", "the triangles differ");
+    if (payload.keep_triangle_order) {
+      for (size_t i = 0; i < indices.size(); ++i) {
+        if (source_of[indices[i]] != expected[i])
+          return error("", "the order of triangles differs");
+      }
+    }
+    if (canonicalTriangles(indices, source_of) != canonicalTriangles(expected, {})) {
+      return error("", "the triangles differ");
+    }
     return {};
   }
 

@@ -139,11 +139,15 @@ Result compareImages(const Document& source, const Document& decoded) {
   return {};
 }
 
-/// Where numbers stay, every view that compressed accessors alone did not use is as it was.
+/// Where numbers stay, every view that compressed accessors alone did not use is as it was; payloads that the source
+/// had already are decoded.
 Result compareViews(const Document& source, const Document& decoded,
                     const std::set<uint32_t>& touched) {
   if (!findForeignReferences(source.json).keep_numbers) return {};
   std::vector<bool> is_freed(source.views.size(), false);
+  std::vector<ExtensionUse> own;
+  MCC_GLTF_TRY(findExtensionUses(source, own));
+  for (const ExtensionUse& use : own) is_freed[use.view] = true;
   for (const uint32_t index : touched) {
     if (index >= source.accessors.size()) continue;
     const Accessor& accessor = source.accessors[index];

@@ -129,12 +129,17 @@ Result encodeOne(const EncodeOptions& options, EncodedPayload& payload,
 
 Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> plans,
                       std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone) {
-  EncodeOptions encode_options;
-  encode_options.effort = options.effort;
   std::vector<EncodedPayload> encoded(plans.size());
   std::vector<std::vector<LeftAlone>> refused(plans.size());
   MCC_GLTF_TRY(runParallel(plans.size(), options.thread_count, [&](size_t i) {
-    encoded[i].plan = std::move(plans[i]);
+    PayloadPlan& plan = encoded[i].plan;
+    plan = std::move(plans[i]);
+    plan.keep_vertex_order |= options.keep_vertex_order;
+    plan.keep_triangle_order |= options.keep_triangle_order;
+    EncodeOptions encode_options;
+    encode_options.effort = options.effort;
+    encode_options.keep_vertex_order = plan.keep_vertex_order;
+    encode_options.keep_triangle_order = plan.keep_triangle_order;
     return encodeOne(encode_options, encoded[i], refused[i]);
   }));
   for (size_t i = 0; i < encoded.size(); ++i) {

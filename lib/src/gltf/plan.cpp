@@ -93,8 +93,10 @@ class Planner {
     if (extensions != nullptr && !extensions->is_object()) {
       return error(ref.path() + "/extensions", "must be an object");
     }
-    note = extensionNote(json, mesh_extension);
+    note = extensionNote(json);
     if (!note.empty()) return {};
+    const std::string own_extension = orderDependentExtension(json);
+    const std::string& unknown = own_extension.empty() ? mesh_extension : own_extension;
 
     PiecePlan piece;
     MCC_GLTF_TRY(collectAttributes(ref, json, piece));
@@ -107,22 +109,22 @@ class Planner {
     part.mode = mode;
     MCC_GLTF_TRY(collectTriangles(ref, json, piece.wedge_count, part, note));
     if (!note.empty()) return {};
+    if (!unknown.empty() && (mode != 4 || part.indices_accessor == kNone)) {
+      note = "has the extension " + unknown +
+             ", which may depend on its not being an indexed triangle list; left as it was";
+      return {};
+    }
     part.users.push_back(ref);
-    return addPart(ref, std::move(piece), std::move(part));
+    return addPart(ref, !unknown.empty(), std::move(piece), std::move(part));
   }
 
-  static std::string extensionNote(const Json& json, const std::string& mesh_extension) {
+  static std::string extensionNote(const Json& json) {
     const Json* extensions = findMember(json, "extensions");
     if (extensions != nullptr && findMember(*extensions, kExtensionName) != nullptr) {
       return "is compressed already";
     }
     if (extensions != nullptr && findMember(*extensions, "KHR_draco_mesh_compression") != nullptr) {
       return "is compressed with Draco; left as it was";
-    }
-    const std::string own = orderDependentExtension(json);
-    if (!own.empty() || !mesh_extension.empty()) {
-      return "has the extension " + (own.empty() ? mesh_extension : own) +
-             ", which may depend on the order of vertices; left as it was";
     }
     return "";
   }
@@ -246,7 +248,7 @@ class Planner {
     return payloads_.size() - 1;
   }
 
-  Result addPart(const PrimitiveRef& ref, PiecePlan&& piece, PartPlan&& part) {
+  Result addPart(const PrimitiveRef& ref, bool keep_orders, PiecePlan&& piece, PartPlan&& part) {
     const std::string key = pieceKey(piece);
     const auto [found, is_new] = pieces_.try_emplace(key);
     if (is_new) {
@@ -257,7 +259,10 @@ class Planner {
       found->second = {payload, payloads_[payload].pieces.size()};
       payloads_[payload].pieces.push_back(std::move(piece));
     }
-    PiecePlan& target = payloads_[found->second.payload].pieces[found->second.piece];
+    PayloadPlan& payload = payloads_[found->second.payload];
+    payload.keep_vertex_order |= keep_orders;
+    payload.keep_triangle_order |= keep_orders;
+    PiecePlan& target = payload.pieces[found->second.piece];
     for (PartPlan& other : target.parts) {
       if (other.indices_accessor == part.indices_accessor && other.mode == part.mode) {
         other.users.push_back(ref);

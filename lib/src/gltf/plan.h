@@ -59,6 +59,8 @@ struct PiecePlan {
 /// What one mesh puts into one buffer view. A piece that several meshes use belongs to the first.
 struct PayloadPlan {
   uint32_t mesh = 0;
+  bool keep_vertex_order = false;
+  bool keep_triangle_order = false;
   std::vector<PiecePlan> pieces;
 };
 
