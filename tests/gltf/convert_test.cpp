@@ -4,6 +4,9 @@
 // that succeeds already proves most; the tests look at the rest.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
+
 #include <set>
 
 #include "gltf/accessors.h"
@@ -54,19 +57,34 @@ bool hasNote(const ConvertReport& report, const std::string& text) {
   return false;
 }
 
-/// The elements of an accessor as a multiset of byte strings.
-std::multiset<std::string> elementsOf(const std::vector<uint8_t>& file, uint32_t accessor) {
+/// The elements of an accessor as byte strings.
+std::vector<std::string> elementsInOrder(const std::vector<uint8_t>& file, uint32_t accessor) {
   Document document;
-  std::multiset<std::string> elements;
+  std::vector<std::string> elements;
   AccessorData data;
   if (!loadDocument(file, nullptr, document).ok() || !readAccessor(document, accessor, data).ok()) {
     return elements;
   }
   for (uint64_t i = 0; i < data.count; ++i) {
     const auto element = data.element(i);
-    elements.emplace(element.begin(), element.end());
+    elements.emplace_back(element.begin(), element.end());
   }
   return elements;
+}
+
+std::multiset<std::string> elementsOf(const std::vector<uint8_t>& file, uint32_t accessor) {
+  const std::vector<std::string> elements = elementsInOrder(file, accessor);
+  return {elements.begin(), elements.end()};
+}
+
+std::vector<float> floatsInOrder(const std::vector<uint8_t>& file, uint32_t accessor) {
+  std::vector<float> floats;
+  for (const std::string& element : elementsInOrder(file, accessor)) {
+    const size_t first = floats.size();
+    floats.resize(first + element.size() / 4);
+    std::memcpy(&floats[first], element.data(), element.size());
+  }
+  return floats;
 }
 
 TEST(Convert, SheetBecomesSmallerAndComesBack) {
@@ -248,6 +266,98 @@ TEST(Convert, AccessorsNamedByUnknownExtensionsStayReadable) {
 }
 
 /// The decoded indices and positions in the source's order, and the same bits where exact.
+TEST(Convert, OrdersAreKeptOnRequest) {
+  Builder builder;
+  const Json sheet = Sheet(20).addTo(builder);
+  builder.addMesh({sheet});
+  ConvertOptions options;
+  options.lossless = true;
+  const uint32_t position = sheet["attributes"]["POSITION"];
+  const uint32_t indices = sheet["indices"];
+  for (const uint32_t kept : {0u, 1u, 2u, 3u}) {
+    options.keep_vertex_order = (kept & 1) != 0;
+    options.keep_triangle_order = (kept & 2) != 0;
+    const RoundTrip trip = roundTrip(builder, options);
+    ASSERT_EQ(trip.error, "");
+    EXPECT_EQ(elementsInOrder(trip.source, position) == elementsInOrder(trip.decoded, position),
+              options.keep_vertex_order);
+    EXPECT_EQ(elementsInOrder(trip.source, indices) == elementsInOrder(trip.decoded, indices),
+              kept == 3);
+  }
+}
+
+/// Distances measured without the library's check, at a place where floats are coarse.
+TEST(Convert, NoPositionIsFartherThanPromised) {
+  for (const float offset : {0.0f, 1000.0f, -30000.0f}) {
+    Builder builder;
+    Sheet sheet(30);
+    for (float& x : sheet.positions) x += offset;
+    builder.addMesh({sheet.addTo(builder)});
+    for (const double error : {0.3, 0.02, 0.004, 1e-6}) {
+      ConvertOptions options;
+      options.keep_vertex_order = true;
+      options.max_position_error = error;
+      const RoundTrip trip = roundTrip(builder, options);
+      ASSERT_EQ(trip.error, "");
+      const std::vector<float> positions = floatsInOrder(trip.decoded, 0);
+      ASSERT_EQ(positions.size(), sheet.positions.size());
+      double farthest = 0;
+      for (size_t i = 0; i < positions.size(); i += 3) {
+        double square = 0;
+        for (size_t c = i; c < i + 3; ++c) {
+          const double off = double{positions[c]} - double{sheet.positions[c]};
+          square += off * off;
+        }
+        farthest = std::max(farthest, std::sqrt(square));
+      }
+      EXPECT_LE(farthest, error);
+      const bool is_exact = farthest == 0;
+      EXPECT_EQ(is_exact, hasNote(trip.report, "for the promised error"));
+      EXPECT_TRUE(is_exact || farthest > error / 4) << "finer than need be";
+    }
+  }
+}
+
+TEST(Convert, ARelativeErrorIsOfTheLongestSide) {
+  Builder builder;
+  Sheet sheet(20);
+  for (float& x : sheet.positions) x *= 50;
+  builder.addMesh({sheet.addTo(builder)});
+  ConvertOptions options;
+  options.max_position_error = 0.01;
+  options.is_error_relative = true;
+  const RoundTrip trip = roundTrip(builder, options);
+  ASSERT_EQ(trip.error, "");
+  const AttributeReport& position = trip.report.payloads[0].attributes[0];
+  EXPECT_DOUBLE_EQ(position.promised_distance, 0.5);
+  EXPECT_GT(position.max_distance, 0.1);
+}
+
+/// Two tiles with a border in common, converted apart.
+TEST(Convert, AGivenLatticeMakesTilesMeet) {
+  ConvertOptions options;
+  options.keep_vertex_order = true;
+  options.position_lattice = Lattice{{0, 0, 0, 0}, 0.01f};
+  std::vector<float> borders[2];
+  for (const uint32_t tile : {0u, 1u}) {
+    Builder builder;
+    Sheet sheet(20);
+    for (size_t i = 0; i < sheet.positions.size(); i += 3) {
+      if (tile == 1) sheet.positions[i] = 2 - sheet.positions[i];  // mirrored at x = 1
+    }
+    builder.addMesh({sheet.addTo(builder)});
+    const RoundTrip trip = roundTrip(builder, options);
+    ASSERT_EQ(trip.error, "");
+    const std::vector<float> positions = floatsInOrder(trip.decoded, 0);
+    for (size_t i = 0; i < positions.size(); i += 3) {
+      if (sheet.positions[i] == 1)
+        borders[tile].insert(borders[tile].end(), &positions[i], &positions[i] + 3);
+    }
+  }
+  EXPECT_EQ(borders[0].size(), 63u);
+  EXPECT_EQ(borders[0], borders[1]);
+}
+
 TEST(Convert, ExtensionsThatMayNeedTheOrderKeepIt) {
   for (const bool on_mesh : {false, true}) {
     Builder builder;
@@ -261,9 +371,9 @@ TEST(Convert, ExtensionsThatMayNeedTheOrderKeepIt) {
     ASSERT_EQ(trip.error, "");
     EXPECT_TRUE(isCompressed(jsonOf(trip.converted), 0, 0));
     const uint32_t position = sheet["attributes"]["POSITION"];
-    EXPECT_EQ(elementsOf(trip.source, position), elementsOf(trip.decoded, position));
-    EXPECT_EQ(elementsOf(trip.source, sheet["indices"]),
-              elementsOf(trip.decoded, sheet["indices"]));
+    EXPECT_EQ(elementsInOrder(trip.source, position), elementsInOrder(trip.decoded, position));
+    EXPECT_EQ(elementsInOrder(trip.source, sheet["indices"]),
+              elementsInOrder(trip.decoded, sheet["indices"]));
   }
 
   Builder strip;

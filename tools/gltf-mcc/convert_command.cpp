@@ -66,6 +66,49 @@ void addBits(CLI::App& command, const std::string& name, uint8_t& bits, int low,
       ->type_name("N");
 }
 
+/// --max-error, --max-error-relative, --lattice: each instead of --quantize-position.
+void addPositionPromises(CLI::App& command, gltf::ConvertOptions& options, CLI::Option* lossless) {
+  const auto addError = [&](const std::string& name, bool is_relative, const std::string& help) {
+    return command
+        .add_option_function<double>(
+            name,
+            [&options, is_relative](const double& value) {
+              options.max_position_error = value;
+              options.is_error_relative = is_relative;
+            },
+            help)
+        ->check(CLI::PositiveNumber.description(""))
+        ->type_name("X");
+  };
+  CLI::Option* absolute =
+      addError("--max-error", false, "No position moves farther than X, in units of the model");
+  CLI::Option* relative =
+      addError("--max-error-relative", true, "The same, X times the longest side of the box");
+  CLI::Option* lattice =
+      command
+          .add_option_function<std::vector<float>>(
+              "--lattice",
+              [&options](const std::vector<float>& numbers) {
+                Lattice given;
+                std::copy_n(numbers.begin(), 3, given.origin);
+                given.step = numbers[3];
+                if (!(given.step > 0)) {
+                  throw CLI::ValidationError("--lattice", "the step must be greater than 0");
+                }
+                options.position_lattice = given;
+              },
+              "Origin and step of the grid of positions, for tiles that must fit together")
+          ->expected(4)
+          ->delimiter(',')
+          ->type_name("X,Y,Z,STEP");
+  CLI::Option* bits = command.get_option("--quantize-position");
+  for (CLI::Option* option : {absolute, relative, lattice}) {
+    option->excludes(lossless)->excludes(bits);
+  }
+  absolute->excludes(relative)->excludes(lattice);
+  relative->excludes(lattice);
+}
+
 }  // namespace
 
 void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
@@ -75,7 +118,9 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
   addBits(command, "color", options.bits.color, 1, 24);
   addBits(command, "tangent", options.bits.tangent, 2, 16);
   addBits(command, "weight", options.bits.weight, 1, 24);
-  command.add_flag("--lossless", options.lossless, "Keep every bit of every number");
+  CLI::Option* lossless =
+      command.add_flag("--lossless", options.lossless, "Keep every bit of every number");
+  addPositionPromises(command, options, lossless);
   const std::map<std::string, gltf::Grid> grids = {{"mesh", gltf::Grid::kMesh},
                                                    {"scene", gltf::Grid::kScene},
                                                    {"primitive", gltf::Grid::kPrimitive}};
@@ -120,7 +165,9 @@ void addConvert(CLI::App& app, int& status) {
       "Examples:\n"
       "  gltf-mcc convert model.glb small.glb\n"
       "  gltf-mcc convert scene.gltf small.glb --quantize-position 12 --report sizes.json\n"
-      "  gltf-mcc convert scan.glb exact.glb --lossless");
+      "  gltf-mcc convert scan.glb exact.glb --lossless\n"
+      "  gltf-mcc convert part.glb small.glb --max-error 0.05\n"
+      "  gltf-mcc convert terrain.glb small.glb --keep-order both");
   command->callback([state, &status]() { status = state->run(); });
 }
 

@@ -43,6 +43,8 @@ void addAttribute(const gltf::AttributeReport& attribute, Totals& totals) {
     total.max_error = std::max(total.max_error, attribute.max_error);
     total.promised_error = std::max(total.promised_error, attribute.promised_error);
     total.median_error = std::max(total.median_error, attribute.median_error);
+    total.promised_distance = std::max(total.promised_distance, attribute.promised_distance);
+    total.max_distance = std::max(total.max_distance, attribute.max_distance);
     return;
   }
   totals.attributes.push_back(attribute);
@@ -132,6 +134,11 @@ std::string summaryText(const std::string& input, const std::string& output,
         "(encode {:.0f} ms, decode {:.0f} ms, check {:.0f} ms)\n",
         1000 * report.encode_seconds, 1000 * report.decode_seconds, 1000 * report.check_seconds);
   }
+  for (const auto& attribute : totals.attributes) {
+    if (attribute.promised_distance == 0) continue;
+    text += fmt::format("no {} is farther than {:.6g} from its source (promised {:.6g})\n",
+                        attribute.name, attribute.max_distance, attribute.promised_distance);
+  }
   return text;
 }
 
@@ -158,6 +165,10 @@ Json attributeJson(const gltf::AttributeReport& attribute) {
                {"error_unit", attribute.is_angle ? "degrees" : "accessor units"},
                {"promised_error", attribute.promised_error},
                {"max_error", attribute.max_error}};
+  if (attribute.promised_distance > 0) {
+    json["promised_distance"] = attribute.promised_distance;
+    json["max_distance"] = attribute.max_distance;
+  }
   if (attribute.is_angle) json["median_error"] = attribute.median_error;
   return json;
 }
@@ -197,7 +208,15 @@ Json primitiveJson(const gltf::PrimitiveReport& primitive) {
 
 Json optionsJson(const gltf::ConvertOptions& options) {
   static constexpr const char* kGrids[] = {"mesh", "scene", "primitive"};
+  Json lattice;
+  if (options.position_lattice) {
+    const Lattice& l = *options.position_lattice;
+    lattice = {l.origin[0], l.origin[1], l.origin[2], l.step};
+  }
   return {{"lossless", options.lossless},
+          {"max_position_error", options.max_position_error},
+          {"is_error_relative", options.is_error_relative},
+          {"position_lattice", lattice},
           {"keep_vertex_order", options.keep_vertex_order},
           {"keep_triangle_order", options.keep_triangle_order},
           {"grid", kGrids[static_cast<size_t>(options.grid)]},

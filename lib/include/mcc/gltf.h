@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,6 +50,15 @@ struct QuantizationBits {
 struct ConvertOptions {
   QuantizationBits bits;
   bool lossless = false;  ///< every float keeps every bit; `bits` is ignored
+  /// When not 0: no decoded POSITION (and no delta of a morph target's) is farther from its source than this, as the
+  /// distance of two points in the coordinates of the mesh; `bits.position` is ignored. Checked on the written file.
+  double max_position_error = 0;
+  bool is_error_relative =
+      false;  ///< max_position_error is a fraction of the largest side of the box of what shares
+              ///< the lattice
+  /// When not null: the lattice of every float POSITION, for tiles that are converted apart; `grid`, `bits.position` and
+  /// max_position_error are ignored.
+  std::optional<Lattice> position_lattice;
   Grid grid = Grid::kMesh;
   /// Vertices, triangles (with each one's first corner) come back in the source's order. Always so where a mesh or
   /// primitive has an extension this library does not know, which may refer to them by number.
@@ -68,11 +78,13 @@ struct AttributeReport {
   uint8_t bits = 0;  ///< of the lattice, octahedron or angle; 0: exact
   uint32_t component_count = 0;
   uint32_t vertex_count = 0;
-  double coded_bits = 0;      ///< bits in the payload; of POSITION the positions themselves
-  bool is_angle = false;      ///< errors are in degrees
-  double promised_error = 0;  ///< no value is farther from its source than this
-  double max_error = 0;       ///< measured on the file that was written
-  double median_error = 0;    ///< measured, only of angles
+  double coded_bits = 0;         ///< bits in the payload; of POSITION the positions themselves
+  bool is_angle = false;         ///< errors are in degrees
+  double promised_error = 0;     ///< no value is farther from its source than this
+  double max_error = 0;          ///< measured on the file that was written
+  double median_error = 0;       ///< measured, only of angles
+  double promised_distance = 0;  ///< of positions under max_position_error, else 0
+  double max_distance = 0;       ///< measured, where promised
 };
 
 struct StreamReport {

@@ -44,6 +44,7 @@ Result promiseLattice(const AttributePlan& plan, const Lattice& lattice, Promise
   promise.step = lattice.step;
   std::copy_n(lattice.origin, 4, promise.origin);
   promise.half_steps = plan.adjusted.empty() ? 1 : 2;
+  promise.distance = plan.max_distance;
   if (plan.has_lattice && promise.step > 0 && promise.step <= double{plan.lattice.step}) return {};
   return error("", "the lattice step of " + plan.label() + " is coarser than asked for");
 }
@@ -159,6 +160,7 @@ Result compareValues(const AccessorData& source, const AccessorData& decoded,
   report.is_angle |= is_angle;
   double a[16] = {};
   double b[16] = {};
+  report.promised_distance = std::max(report.promised_distance, promise.distance);
   for (uint64_t i = 0; i < decoded.count; ++i) {
     readComponents(source.element(source_of[i]), format.component_type, a);
     readComponents(decoded.element(i), format.component_type, b);
@@ -167,6 +169,11 @@ Result compareValues(const AccessorData& source, const AccessorData& decoded,
     const bool sign_is_lost = has_sign && std::abs(a[3]) == 1 && a[3] != b[3];
     if (!deviation.is_within || sign_is_lost)
       return tooFar(report, i, deviation.off * unit, is_angle);
+    if (promise.distance > 0) {
+      const double distance = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+      report.max_distance = std::max(report.max_distance, distance);
+      if (!(distance <= promise.distance)) return tooFar(report, i, distance, false);
+    }
     report.max_error = std::max(report.max_error, deviation.off * unit);
     report.promised_error = std::max(report.promised_error, deviation.allowed * unit);
     if (is_angle) angles.push_back(static_cast<float>(deviation.off * unit));

@@ -19,7 +19,8 @@ struct Promise {
   double step = 0;        ///< of kLattice: the lattice step
   double half_steps = 1;  ///< of kLattice: 1 for rounding, 2 for weights moved to a sum of one
   double origin[4] = {0, 0, 0, 0};
-  double radians = 0;  ///< of kAngle
+  double radians = 0;   ///< of kAngle
+  double distance = 0;  ///< of positions: between two points; 0: none promised
 };
 
 /// What the plan asked for, given what the payload says it did. Fails when that is coarser.

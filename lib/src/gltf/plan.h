@@ -32,6 +32,7 @@ struct AttributePlan {
   uint8_t bits = 0;  ///< 0: exact
   bool has_lattice = false;  ///< of float attributes with bits; the codec may prefer a finer grid
   Lattice lattice;
+  double max_distance = 0;  ///< between source and decoded positions, where promised
   /// When not empty, what is coded instead of `source`: values moved to lattice points by at most
   /// one step (weights that must add up to one).
   std::vector<float> adjusted;

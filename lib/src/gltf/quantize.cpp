@@ -110,6 +110,27 @@ bool fitBox(const Extent& extent, uint8_t bits, Lattice& lattice) {
   return true;
 }
 
+/// The lattice with the largest step that keeps every point within `distance` of its source: rounding to the lattice and
+/// the two float32 roundings of decoding moves a component by step / 2 + 2^-24 (|scaled| + |decoded|). False when float32
+/// or 24 bits have no such lattice.
+bool fitDistance(const Extent& extent, double distance, Lattice& lattice, uint8_t& bits) {
+  lattice = {};
+  double largest = 0;
+  for (uint32_t c = 0; c < extent.component_count; ++c) {
+    lattice.origin[c] = extent.min[c];
+    largest = std::max({largest, std::abs(double{extent.min[c]}), std::abs(double{extent.max[c]})});
+  }
+  const double rounding = std::ldexp(1.02 * (extent.size() + 2 * largest), -24);
+  const double per_component =
+      distance / std::sqrt(static_cast<double>(extent.component_count)) - rounding;
+  if (!(per_component > 0)) return false;
+  lattice.step = static_cast<float>(2 * per_component * (1 - 0x1p-20));
+  if (!std::isnormal(lattice.step)) return false;
+  const double last_point = std::floor(extent.size() / double{lattice.step} + 0.5);
+  bits = static_cast<uint8_t>(std::bit_width(static_cast<uint64_t>(std::max(last_point, 1.0))));
+  return last_point < std::ldexp(1.0, kMaxLatticeBits);
+}
+
 /// The lattice of 0..1 with points at both ends.
 Lattice unitLattice(uint8_t bits) {
   Lattice lattice;
@@ -186,7 +207,7 @@ class Quantizer {
 
   void planPositions() {
     const uint8_t bits = options_.bits.position;
-    if (bits == 0) return;
+    if (bits == 0 && options_.max_position_error == 0 && !options_.position_lattice) return;
     std::vector<std::vector<Member>> groups;
     for (PayloadPlan& payload : payloads_) {
       if (options_.grid != Grid::kScene || groups.empty()) groups.emplace_back();
@@ -215,6 +236,36 @@ class Quantizer {
     }
     if (finite.empty()) return;
     Lattice lattice;
+    if (options_.position_lattice) {
+      const double far = farthestPoint(extent, *options_.position_lattice);
+      if (far >= std::ldexp(1.0, kMaxLatticeBits)) {
+        notes_.push_back(
+            where(*group[0].piece, *group[0].attribute) +
+            " is more than 2^24 steps from the origin of the given lattice; it stays exact");
+        return;
+      }
+      const auto needed =
+          static_cast<uint8_t>(std::bit_width(static_cast<uint64_t>(std::max(far, 1.0))));
+      for (AttributePlan* attribute : finite)
+        useLattice(*attribute, *options_.position_lattice, needed);
+      return;
+    }
+    if (options_.max_position_error > 0) {
+      const double distance =
+          options_.max_position_error * (options_.is_error_relative ? extent.size() : 1);
+      uint8_t needed = 0;
+      if (!fitDistance(extent, distance, lattice, needed)) {
+        notes_.push_back(
+            where(*group[0].piece, *group[0].attribute) +
+            " needs more than a lattice of 24 bits for the promised error; it stays exact");
+        return;
+      }
+      for (AttributePlan* attribute : finite) {
+        useLattice(*attribute, lattice, needed);
+        attribute->max_distance = distance;
+      }
+      return;
+    }
     if (isRuinedByOutliers(extent, bits) || !fitBox(extent, bits, lattice)) {
       notes_.push_back(where(*group[0].piece, *group[0].attribute) +
                        " has outliers that a lattice of " + std::to_string(bits) +
@@ -222,6 +273,18 @@ class Quantizer {
       return;
     }
     for (AttributePlan* attribute : finite) useLattice(*attribute, lattice, bits);
+  }
+
+  /// Largest distance of a value from the lattice's origin along an axis, in steps.
+  static double farthestPoint(const Extent& extent, const Lattice& lattice) {
+    double farthest = 0;
+    for (uint32_t c = 0; c < extent.component_count; ++c) {
+      for (const float value : {extent.min[c], extent.max[c]}) {
+        farthest =
+            std::max(farthest, std::abs(latticePoint(value, lattice.origin[c], lattice.step)));
+      }
+    }
+    return farthest;
   }
 
   uint8_t bitsOf(Semantic semantic) const {
@@ -239,7 +302,10 @@ class Quantizer {
   }
 
   void planAttribute(const PiecePlan& piece, AttributePlan& attribute) {
-    const uint8_t bits = bitsOf(attribute.format.semantic);
+    uint8_t bits = bitsOf(attribute.format.semantic);
+    const bool follows_position =
+        attribute.format.semantic == Semantic::kPosition && piece.attributes[0].has_lattice;
+    if (follows_position && bits == 0) bits = piece.attributes[0].bits;
     if (!isFloat(attribute) || bits == 0 || isBasePosition(attribute)) return;
     Extent extent(attribute.format.component_count);
     if (!extent.add(attribute)) {
