@@ -97,6 +97,7 @@ class PieceCoder {
 
   /// `fitted`, in the writer, has the fitted tables the position's flags ask for.
   Status codePositions(const PieceTruth& truth, const PositionParameters* fitted = nullptr) {
+    if (header_.attribute_count == 0) return needsSequence() ? enterGroups() : Status{};
     if (!records.resize(size_t{groups.count} + header_.isolated_count)) return noMemory();
     PositionParameters parameters = fitted != nullptr ? *fitted : PositionParameters{};
     describePositions(attributes_[0], parameters);
@@ -287,6 +288,21 @@ class PieceCoder {
     return PositionCoder<Io, Wide, kModes>(io_, models_.positions, parameters, mesh, groups,
                                            records.data(), allocator_, truth.positions)
         .run(needsSequence() ? sequence.data() : nullptr, header_.isolated_count);
+  }
+
+  /// Without positions: the groups in the order of the faces.
+  Status enterGroups() {
+    Array<uint8_t> is_entered(allocator_);
+    if (!is_entered.assign(groups.count, 0) || !sequence.reserve(groups.count)) return noMemory();
+    for (uint32_t f = 0; f < mesh.face_count; ++f) {
+      for (uint32_t h = f * kFaceWords; h < f * kFaceWords + 3; ++h) {
+        const uint32_t group = mesh.words[h];
+        if (is_entered[group] != 0) continue;
+        is_entered[group] = 1;
+        if (!sequence.push_back(h)) return noMemory();
+      }
+    }
+    return {};
   }
 
   template <class Position>

@@ -274,7 +274,8 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
   MCC_TRY(piece.codeSeams(nothing));
   MCC_TRY(piece.codeLeftovers(nothing));
   MCC_TRY(piece.codeOrders(nothing));
-  storePositions(piece, info.attributes[0], info.wedge_count, target.attributes[0]);
+  if (header.attribute_count != 0)
+    storePositions(piece, info.attributes[0], info.wedge_count, target.attributes[0]);
   MCC_TRY(storeTriangles(piece, info.parts, target.parts, allocator));
   Array<int32_t> values(allocator);
   MCC_TRY(piece.prepareAttributes());

@@ -151,6 +151,8 @@ void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_ed
 Status preparePiece(const PieceView& view, const EncodeOptions& options, Plan& plan,
                     std::vector<std::string>& notes) {
   MCC_TRY(checkPiece(view));
+  if (options.indices_only && view.attributes.size() != 1)
+    return fail(Error::kBadArgument, "a piece without attributes has more than its position");
   plan.view = &view;
   plan.attributes = quantizeAttributes(view, notes);
   plan.classes = weldPositions(view.attributes[0], view.wedge_count,
@@ -162,7 +164,8 @@ Status preparePiece(const PieceView& view, const EncodeOptions& options, Plan& p
   h.duplicate_count = plan.triangles.duplicate_count;
   h.listed_count = static_cast<uint32_t>(plan.triangles.listed.size());
   h.part_count = static_cast<uint32_t>(view.parts.size());
-  h.attribute_count = static_cast<uint32_t>(view.attributes.size());
+  if (options.indices_only) plan.attributes.clear();
+  h.attribute_count = static_cast<uint32_t>(plan.attributes.size());
   if (h.isolated_count != 0) h.flags |= piece_flag::kIsolated;
   if (h.duplicate_count != 0) h.flags |= piece_flag::kDuplicates;
   if (h.listed_count != 0) h.flags |= piece_flag::kListed;
@@ -210,6 +213,7 @@ void learnVertices(Plan& plan) {
 }
 
 void learnPositions(Plan& plan, const FaceMesh& mesh, const Groups& groups) {
+  if (plan.attributes.empty()) return;
   const std::vector<int32_t>& q = plan.attributes[0].values;
   plan.positions.resize(3 * (size_t{groups.count} + plan.triangles.isolated.size()));
   for (uint32_t f = 0; f < mesh.face_count; ++f) {
@@ -412,10 +416,12 @@ class StageRunner {
   }
 
   Status codePositions(StreamSizes* sizes) {
-    infos_[0] = plan_.attributes[0].info;
     AxisPalette palettes[3];
-    for (uint32_t s = 0; s < 3; ++s) palettes[s] = plan_.coordinates.palette(s);
-    truth_.palettes = palettes;
+    if (!plan_.attributes.empty()) {
+      infos_[0] = plan_.attributes[0].info;
+      for (uint32_t s = 0; s < 3; ++s) palettes[s] = plan_.coordinates.palette(s);
+      truth_.palettes = palettes;
+    }
     MCC_TRY(piece_.codePositions(truth_, &plan_.positions_as));
     account(sizes, &StreamSizes::position_bits);
     return {};
@@ -446,7 +452,7 @@ class StageRunner {
 
   /// The seams without and with creases as contexts; sets the cheaper way. The seams must be coded again.
   Status chooseCreases(PayloadModels& models) {
-    if (!plan_.header.has(piece_flag::kSeams)) return {};
+    if (!plan_.header.has(piece_flag::kSeams) || plan_.attributes.empty()) return {};
     const std::vector<uint32_t> words(piece_.mesh.words.data(),
                                       piece_.mesh.words.data() + piece_.mesh.words.size());
     const std::vector<uint32_t> sequence(piece_.sequence.data(),
@@ -609,6 +615,7 @@ using Runners = std::vector<std::unique_ptr<StageRunner<CostIo>>>;
 
 /// One choice for all pieces, since they share tables and models.
 Status choosePositions(std::vector<Plan>& plans, Runners& runners, uint8_t effort) {
+  if (plans[0].attributes.empty()) return {};
   std::vector<PositionRecording> recordings(plans.size());
   std::vector<PositionCandidate> candidates;
   for (size_t i = 0; i < plans.size(); ++i) {

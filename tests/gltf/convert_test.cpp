@@ -286,6 +286,54 @@ TEST(Convert, OrdersAreKeptOnRequest) {
   }
 }
 
+TEST(Convert, IndicesOnlyMovesTheAttributes) {
+  Builder builder;
+  const Json sheet = Sheet(30).addTo(builder);
+  builder.addMesh({sheet});
+  ConvertOptions options;
+  options.indices_only = true;
+  RoundTrip trip = roundTrip(builder, options);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_FALSE(trip.report.copied);
+  const Json extension =
+      jsonOf(trip.converted)["meshes"][0]["primitives"][0]["extensions"][kExtensionName];
+  EXPECT_FALSE(extension.contains("attributes"));
+  for (const uint32_t accessor : {0u, 1u, 2u}) {
+    EXPECT_EQ(elementsOf(trip.source, accessor), elementsOf(trip.decoded, accessor));
+    EXPECT_EQ(elementsInOrder(trip.converted, accessor), elementsInOrder(trip.decoded, accessor));
+    EXPECT_NE(elementsInOrder(trip.source, accessor), elementsInOrder(trip.decoded, accessor));
+  }
+  const uint64_t moved_bytes = trip.converted.size();
+
+  options.keep_vertex_order = true;
+  options.keep_triangle_order = true;
+  trip = roundTrip(builder, options);
+  ASSERT_EQ(trip.error, "");
+  for (const uint32_t accessor : {0u, 1u, 2u, 3u}) {
+    EXPECT_EQ(elementsInOrder(trip.source, accessor), elementsInOrder(trip.decoded, accessor));
+  }
+  EXPECT_GT(trip.converted.size(), moved_bytes);
+}
+
+/// An accessor in other hands stays as it is, and the payload tells the order.
+TEST(Convert, IndicesOnlyLeavesSharedAttributes) {
+  Builder builder;
+  const Json sheet = Sheet(30).addTo(builder);
+  Json points = sheet;
+  points.erase("indices");
+  points["mode"] = 0;
+  builder.addMesh({sheet});
+  builder.addMesh({points});
+  ConvertOptions options;
+  options.indices_only = true;
+  const RoundTrip trip = roundTrip(builder, options);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_FALSE(trip.report.copied);
+  for (const uint32_t accessor : {0u, 1u, 2u}) {
+    EXPECT_EQ(elementsInOrder(trip.source, accessor), elementsInOrder(trip.converted, accessor));
+  }
+}
+
 /// Distances measured without the library's check, at a place where floats are coarse.
 TEST(Convert, NoPositionIsFartherThanPromised) {
   for (const float offset : {0.0f, 1000.0f, -30000.0f}) {

@@ -63,6 +63,15 @@ void addParts(PayloadList& list, const TestMesh& mesh, uint32_t count,
   list.add("parts of " + mesh.name, {&view, 1}, options);
 }
 
+void addIndicesOnly(PayloadList& list, const TestMesh& mesh) {
+  const MeshPiece piece(mesh, kExactBits);
+  PieceView view = piece.view();
+  view.attributes = view.attributes.first(1);
+  EncodeOptions options = keepingOrders(true, false);
+  options.indices_only = true;
+  list.add("indices of " + mesh.name, {&view, 1}, options);
+}
+
 void addPieces(PayloadList& list) {
   const TestMesh meshes[] = {torus(6, 5), torus(5, 4), withUnused(torus(4, 3), 3, 4),
                              uvSphere(6, 4), sheetWithHoles(2, 7)};
@@ -149,6 +158,7 @@ std::vector<NamedPayload> makePayloads() {
   addParts(list, leftovers, 3, keepingOrders(true, true));
   list.add(shuffled(icosphere(1), 1), {}, keepingOrders(true, false));
   list.add(chartGrid(8, 8, 3), {}, keepingOrders(false, true));
+  addIndicesOnly(list, withRandomWedges(book(3, 3, 3), 4, 3));
   addPieces(list);
   addAttributes(list, withNormals(torus(8, 6)));
   // More than 2000 vertices: three streams.

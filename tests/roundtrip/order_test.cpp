@@ -83,6 +83,31 @@ TEST(Order, KeptInEveryPart) {
   }
 }
 
+/// Triangles without attributes, kept orders or not.
+TEST(Order, IndicesOnly) {
+  const TestMesh meshes[] = {tetrahedron(),
+                             chartGrid(20, 20, 5),
+                             flatShaded(icosphere(2)),
+                             withUnused(withRandomWedges(book(4, 5, 5), 2, 200), 3, 20),
+                             withDegenerates(withIndexDuplicates(torus(9, 7), 1, 60), 2, 60),
+                             randomVoxels(3, 8, 40),
+                             randomSoup(5),
+                             unionOf(std::vector<TestMesh>{icosphere(4), moebius(40, 6)}, "two")};
+  for (const TestMesh& mesh : meshes) {
+    for (const uint32_t kept : {0u, 1u, 2u, 3u}) {
+      EncodeOptions options = keeping((kept & 1) != 0, (kept & 2) != 0);
+      options.indices_only = true;
+      const MeshPiece piece(mesh, kExactBits);
+      PieceView view = piece.view();
+      view.attributes = view.attributes.first(1);
+      const RoundTrip result = roundTrip(view, options);
+      EXPECT_EQ(result.failure, "") << mesh.name << ", kept " << kept;
+      EXPECT_EQ(result.encoded.sizes.position_bits, 0);
+      EXPECT_TRUE(result.decoded[0].attributes.empty());
+    }
+  }
+}
+
 /// No order can be told in fewer bits than log2(n!) on average.
 TEST(Order, RandomOrderCostsWhatItMust) {
   TestMesh mesh = shuffled(icosphere(5), 7);  // 10,242 vertices

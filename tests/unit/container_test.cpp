@@ -119,9 +119,9 @@ Draft anyDraft(uint64_t seed) {
   for (Draft::Piece& piece : draft.pieces) {
     PieceHeader& h = piece.header;
     const auto sometimes = [&](uint32_t flag) { return random.chance(50) ? flag : 0; };
-    for (const uint32_t flag : {piece_flag::kManyParts, piece_flag::kHoles, piece_flag::kHandles,
-                                piece_flag::kIsolated, piece_flag::kDuplicates,
-                                piece_flag::kEdgeDegenerates, piece_flag::kListed}) {
+    for (const uint32_t flag :
+         {piece_flag::kManyParts, piece_flag::kHoles, piece_flag::kHandles, piece_flag::kIsolated,
+          piece_flag::kDuplicates, piece_flag::kEdgeDegenerates, piece_flag::kListed}) {
       h.flags |= sometimes(flag);
     }
     if (random.chance(50)) h.flags |= piece_flag::kSeams | sometimes(piece_flag::kMerges);
@@ -143,8 +143,7 @@ Draft anyDraft(uint64_t seed) {
     }
     piece.part_triangles.push_back(rest);
     const uint32_t attribute_count = random.below(6);
-    for (uint32_t i = 0; i < attribute_count; ++i)
-      piece.attributes.push_back(anyAttribute(random));
+    for (uint32_t i = 0; i < attribute_count; ++i) piece.attributes.push_back(anyAttribute(random));
     if (&piece != draft.pieces.data() && random.chance(50))
       piece.attributes = (&piece - 1)->attributes;
   }
@@ -224,11 +223,11 @@ TEST(Container, EveryTruncationOfTheHeaderIsAnError) {
     const std::vector<uint8_t> payload = anyDraft(seed).write();
     PayloadHeader parsed{Allocator{}};
     ASSERT_TRUE(parsePayload(payload, {}, parsed).ok());
-    const size_t needed = parsed.header_bytes + (parsed.singleCoder()
-                                                     ? 0
-                                                     : parsed.codes.size() + parsed.tokens.size());
+    const size_t needed = parsed.header_bytes +
+                          (parsed.singleCoder() ? 0 : parsed.codes.size() + parsed.tokens.size());
     for (size_t size = 0; size < std::min<size_t>(needed, 600); ++size) {
-      std::vector<uint8_t> cut(payload.begin(), payload.begin() + static_cast<std::ptrdiff_t>(size));
+      std::vector<uint8_t> cut(payload.begin(),
+                               payload.begin() + static_cast<std::ptrdiff_t>(size));
       if (size >= kChecksummedFrom) repairChecksum(cut);
       const Error error = parseError(cut);
       EXPECT_TRUE(error == (size < 3 ? Error::kBadMagic : Error::kTruncated) ||
@@ -244,9 +243,9 @@ TEST(Container, ChecksumCoversEveryBit) {
     std::vector<uint8_t> damaged = payload;
     damaged[bit / 8] = static_cast<uint8_t>(damaged[bit / 8] ^ 1u << bit % 8);
     const Error error = parseError(damaged);
-    const Error expected = bit < 24                   ? Error::kBadMagic
-                           : bit >= 28 && bit < 32    ? Error::kUnsupportedVersion
-                                                      : Error::kBadChecksum;
+    const Error expected = bit < 24                ? Error::kBadMagic
+                           : bit >= 28 && bit < 32 ? Error::kUnsupportedVersion
+                                                   : Error::kBadChecksum;
     EXPECT_EQ(error, expected) << "bit " << bit;
   }
 }
@@ -265,8 +264,8 @@ TEST(Container, Versions) {
 
 TEST(Container, ReservedBits) {
   for (uint32_t flags = 0; flags < 256; ++flags) {
-    const bool known = (flags & ~payload_flag::kAll) == 0 &&
-                       flags >> payload_flag::kContextSetShift <= 4;
+    const bool known =
+        (flags & ~payload_flag::kAll) == 0 && flags >> payload_flag::kContextSetShift <= 4;
     std::vector<uint8_t> payload = simpleDraft().write();
     payload[kChecksummedFrom] = static_cast<uint8_t>(flags);
     repairChecksum(payload);
@@ -368,7 +367,12 @@ TEST(Container, AttributesThatAreNone) {
 }
 
 TEST(Container, PositionComesFirst) {
-  EXPECT_EQ(errorAfter([](Draft& d) { d.pieces[0].attributes.clear(); }), Error::kBadHeader);
+  EXPECT_EQ(errorAfter([](Draft& d) { d.pieces[0].attributes.clear(); }), Error::kOk);
+  EXPECT_EQ(errorAfter([](Draft& d) {
+              d.pieces[0].attributes.clear();
+              d.pieces[0].header.flags |= piece_flag::kSeams | piece_flag::kCreases;
+            }),
+            Error::kBadHeader);
   const std::vector<std::function<void(AttributeInfo&)>> changes = {
       [](AttributeInfo& a) { a.format.semantic = Semantic::kNormal; },
       [](AttributeInfo& a) { a.format.morph_target = 1; },
@@ -447,11 +451,13 @@ TEST(Container, LimitsOfTheFormat) {
   Limits limits;
   limits.max_vertices = limits.max_triangles = ~uint64_t{0};
   const auto with = [&limits](uint32_t PieceHeader::*field, uint32_t value) {
-    return errorAfter([=](Draft& d) {
-      d.pieces[0].header.flags |= piece_flag::kDuplicates | piece_flag::kListed;
-      d.pieces[0].header.*field = value;
-      d.pieces[0].part_triangles = {static_cast<uint32_t>(d.pieces[0].header.triangleCount())};
-    }, limits);
+    return errorAfter(
+        [=](Draft& d) {
+          d.pieces[0].header.flags |= piece_flag::kDuplicates | piece_flag::kListed;
+          d.pieces[0].header.*field = value;
+          d.pieces[0].part_triangles = {static_cast<uint32_t>(d.pieces[0].header.triangleCount())};
+        },
+        limits);
   };
   EXPECT_EQ(with(&PieceHeader::wedge_count, 1u << 28), Error::kLimit);
   EXPECT_EQ(with(&PieceHeader::wedge_count, ~0u), Error::kLimit);

@@ -132,6 +132,8 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
 }
 
 void addKeepOrder(CLI::App& command, gltf::ConvertOptions& options) {
+  command.add_flag("--indices-only", options.indices_only,
+                   "Compress the triangles alone, keep the attributes as they are");
   command
       .add_option_function<std::string>(
           "--keep-order",

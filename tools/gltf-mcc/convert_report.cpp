@@ -217,6 +217,7 @@ Json optionsJson(const gltf::ConvertOptions& options) {
           {"max_position_error", options.max_position_error},
           {"is_error_relative", options.is_error_relative},
           {"position_lattice", lattice},
+          {"indices_only", options.indices_only},
           {"keep_vertex_order", options.keep_vertex_order},
           {"keep_triangle_order", options.keep_triangle_order},
           {"grid", kGrids[static_cast<size_t>(options.grid)]},

@@ -59,6 +59,9 @@ struct ConvertOptions {
   /// When not null: the lattice of every float POSITION, for tiles that are converted apart; `grid`, `bits.position` and
   /// max_position_error are ignored.
   std::optional<Lattice> position_lattice;
+  /// Compresses the triangles alone. Attributes stay accessors with every bit, in the order of the payload; where others
+  /// refer to them they stay untouched and the payload holds the order.
+  bool indices_only = false;
   Grid grid = Grid::kMesh;
   /// Vertices, triangles (with each one's first corner) come back in the source's order. Always so where a mesh or
   /// primitive has an extension this library does not know, which may refer to them by number.

@@ -56,7 +56,7 @@ struct AttributeInfo {
 struct PieceInfo {
   uint32_t wedge_count = 0;   ///< glTF vertices, i.e. accessor.count
   uint32_t vertex_count = 0;  ///< topological vertices before re-stitching
-  std::span<const AttributeInfo> attributes;
+  std::span<const AttributeInfo> attributes;  ///< none: the payload has the triangles alone
   std::span<const PartInfo> parts;
 };
 

@@ -46,6 +46,9 @@ struct EncodeOptions {
   uint32_t start_half_edge = kNone;
   /// Not normally set: forces one of the connectivity context sets.
   uint32_t context_set = kNone;
+  /// The payload holds no attributes, only the triangles. The caller reorders its attributes by source_wedge, or keeps the
+  /// vertex order. Each PieceView has POSITION alone, which is used to find equal positions.
+  bool indices_only = false;
   /// The decoded triangles of every part in the order of PartView::indices, each beginning with the same corner.
   bool keep_triangle_order = false;
   /// The decoded wedges in the order of the PieceView: source_wedge is then the identity.
@@ -85,7 +88,8 @@ struct EncodeResult {
 };
 
 /// Compresses pieces into one payload; they share adaptive models.
-/// Errors: kBadArgument (an index >= wedge_count, no POSITION, bits out of range, null data),
+/// Errors: kBadArgument (an index >= wedge_count, no POSITION, bits out of range, null data, further attributes with
+/// indices_only),
 /// kLimit (more than 2^28 triangles or wedges), kOutOfMemory. Deterministic: the same input gives the
 /// same bytes on every machine. Time O(n log n) in triangles and wedges.
 /// Inverse: Payload::decode(). Tests: tests/roundtrip/.

@@ -119,7 +119,11 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
   } else {
     MCC_TRY(in.readVarint(piece.attribute_count));
   }
-  if (piece.attribute_count == 0) return fail(Error::kBadHeader, "a piece has no attributes", at);
+  if (piece.attribute_count == 0) {  // indices only
+    return piece.has(piece_flag::kCreases)
+               ? fail(Error::kBadHeader, "a piece without positions has creases", at)
+               : Status{};
+  }
   if (header.attributes.size() + uint64_t{piece.attribute_count} > limits.max_attributes) {
     return fail(Error::kLimit, "the payload has more attributes than the limit allows", at);
   }

@@ -177,8 +177,8 @@ std::string firstDifference(const Json& a, const Json& b) {
 }
 
 Result compareRest(const Document& source, const Document& decoded,
-                   const std::vector<ExtensionUse>& uses) {
-  std::set<uint32_t> touched;
+                   const std::vector<ExtensionUse>& uses, const std::set<uint32_t>& reordered) {
+  std::set<uint32_t> touched = reordered;
   for (const ExtensionUse& use : uses) {
     touched.insert(use.indices_accessor);
     for (const auto& attribute : use.attributes) touched.insert(attribute.accessor);

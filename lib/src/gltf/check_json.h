@@ -2,6 +2,7 @@
 #ifndef MCC_GLTF_CHECK_JSON_H_
 #define MCC_GLTF_CHECK_JSON_H_
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,10 @@ bool equalJson(const Json& a, const Json& b);
 std::string firstDifference(const Json& a, const Json& b);
 
 /// Compares what no compressed primitive of `uses` has to do with: the JSON, the bytes of the other
-/// accessors and of the images, and, where nothing was renumbered, all views.
+/// accessors and of the images, and, where nothing was renumbered, all views. The bytes of `reordered` accessors are
+/// compared elsewhere.
 Result compareRest(const Document& source, const Document& decoded,
-                   const std::vector<ExtensionUse>& uses);
+                   const std::vector<ExtensionUse>& uses, const std::set<uint32_t>& reordered);
 
 }  // namespace mcc::gltf
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "gltf/indices_only.h"
 #include "gltf/quantize.h"
 #include "gltf/rebuild.h"
 
@@ -76,6 +77,9 @@ class Applier {
       views.push_back(std::move(new_view));
       for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
         applyPiece(payload, i, view);
+        if (!payload.plan.reorders()) continue;
+        reorderAttributes(document_, payload.plan.pieces[i], payload.result.pieces[i].source_wedge,
+                          compressed_.json, views);
       }
     }
     addExtensionName(compressed_.json, "extensionsUsed");
@@ -183,12 +187,19 @@ void sortByPlace(std::vector<LeftAlone>& left_alone) {
 
 std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignReferences& foreign,
                                       const std::vector<EncodedPayload>& payloads) {
+  std::vector<const PayloadPlan*> plans;
+  for (const EncodedPayload& payload : payloads) plans.push_back(&payload.plan);
+  return accessorsInOtherUse(document, foreign, plans);
+}
+
+std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignReferences& foreign,
+                                      const std::vector<const PayloadPlan*>& payloads) {
   std::vector<std::vector<bool>> is_compressed;
   for (const Json& mesh : arrayOf(document.json, "meshes")) {
     is_compressed.emplace_back(arrayOf(mesh, "primitives").size(), false);
   }
-  for (const EncodedPayload& payload : payloads) {
-    for (const PiecePlan& piece : payload.plan.pieces) {
+  for (const PayloadPlan* payload : payloads) {
+    for (const PiecePlan& piece : payload->pieces) {
       for (const PartPlan& part : piece.parts) {
         for (const PrimitiveRef& user : part.users) is_compressed[user.mesh][user.primitive] = true;
       }
@@ -219,6 +230,7 @@ Json extensionJson(uint64_t buffer_view, size_t piece_number, const PiecePlan& p
   Json json = {{"bufferView", buffer_view}};
   if (piece_number != 0) json["piece"] = piece_number;
   if (part_number != 0) json["part"] = part_number;
+  if (piece.attributes.empty()) return json;
   json["attributes"] = Json::object();
   std::vector<Json> targets(piece.target_count, Json::object());
   for (size_t id = 0; id < piece.attributes.size(); ++id) {
@@ -235,10 +247,14 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
   compressed = {};
   std::vector<PayloadPlan> plans;
   MCC_GLTF_TRY(planPayloads(document, plans, compressed.left_alone));
-  planQuantization(options, plans, compressed.notes);
+  const ForeignReferences foreign = findForeignReferences(document.json);
+  if (options.indices_only) {
+    planIndicesOnly(document, foreign, plans);
+  } else {
+    planQuantization(options, plans, compressed.notes);
+  }
   MCC_GLTF_TRY(
       encodePayloads(options, std::move(plans), compressed.payloads, compressed.left_alone));
-  const ForeignReferences foreign = findForeignReferences(document.json);
   countFreedBytes(document, foreign, compressed.payloads);
   if (!options.allow_larger) {
     dropLosers(document, foreign, compressed.payloads, compressed.left_alone);

@@ -57,6 +57,8 @@ void dropLosers(const Document& document, const ForeignReferences& foreign,
 
 /// Accessors used by anything but the primitives of `payloads`.
 std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignReferences& foreign,
+                                      const std::vector<const PayloadPlan*>& payloads);
+std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignReferences& foreign,
                                       const std::vector<EncodedPayload>& payloads);
 
 /// The extension object of a primitive that uses a part of a piece.

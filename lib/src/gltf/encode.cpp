@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "gltf/compress.h"
+#include "gltf/indices_only.h"
 #include "gltf/parallel.h"
 #include "gltf/payload.h"
 
@@ -29,6 +30,7 @@ struct PieceInput {
       view_of.lattice = attribute.has_lattice ? &attribute.lattice : nullptr;
       attributes.push_back(view_of);
     }
+    if (plan.attributes.empty()) attributes.push_back(weldingView(plan));
     for (const PartPlan& part : plan.parts) parts.push_back({part.triangles});
     view = {plan.wedge_count, attributes, parts};
   }
@@ -138,6 +140,7 @@ Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> pl
     plan.keep_triangle_order |= options.keep_triangle_order;
     EncodeOptions encode_options;
     encode_options.effort = options.effort;
+    encode_options.indices_only = plan.indices_only;
     encode_options.keep_vertex_order = plan.keep_vertex_order;
     encode_options.keep_triangle_order = plan.keep_triangle_order;
     return encodeOne(encode_options, encoded[i], refused[i]);

@@ -29,7 +29,7 @@ struct AttributePlan {
   uint32_t accessor = 0;    ///< of the source
   AttributeFormat format;
   AccessorData source;
-  uint8_t bits = 0;  ///< 0: exact
+  uint8_t bits = 0;          ///< 0: exact
   bool has_lattice = false;  ///< of float attributes with bits; the codec may prefer a finer grid
   Lattice lattice;
   double max_distance = 0;  ///< between source and decoded positions, where promised
@@ -53,7 +53,9 @@ struct PartPlan {
 struct PiecePlan {
   uint32_t wedge_count = 0;
   uint32_t target_count = 0;
-  std::vector<AttributePlan> attributes;  ///< in payload order
+  std::vector<AttributePlan> attributes;  ///< in payload order; none with indices_only
+  std::vector<AttributePlan>
+      ordinary;  ///< with indices_only: those that stay accessors, POSITION first
   std::vector<PartPlan> parts;
 };
 
@@ -62,6 +64,10 @@ struct PayloadPlan {
   uint32_t mesh = 0;
   bool keep_vertex_order = false;
   bool keep_triangle_order = false;
+  bool indices_only = false;
+
+  /// Accessors of attributes get their elements in another order.
+  bool reorders() const { return indices_only && !keep_vertex_order; }
   std::vector<PiecePlan> pieces;
 };
 

@@ -1,0 +1,89 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/indices_only.h"
+
+#include <utility>
+
+#include "gltf/compress.h"
+
+namespace mcc::gltf {
+namespace {
+
+constexpr uint32_t kArrayBuffer = 34962;
+
+/// Accessors that more than one piece uses, or a piece and something else.
+std::vector<bool> sharedAccessors(const Document& document, const ForeignReferences& foreign,
+                                  const std::vector<PayloadPlan>& payloads) {
+  std::vector<const PayloadPlan*> all;
+  for (const PayloadPlan& payload : payloads) all.push_back(&payload);
+  std::vector<bool> is_shared = accessorsInOtherUse(document, foreign, all);
+  std::vector<bool> is_used(is_shared.size(), false);
+  for (const PayloadPlan& payload : payloads) {
+    for (const PiecePlan& piece : payload.pieces) {
+      std::vector<bool> is_own(is_shared.size(), false);
+      for (const AttributePlan& attribute : piece.ordinary) is_own[attribute.accessor] = true;
+      for (size_t i = 0; i < is_own.size(); ++i) {
+        if (!is_own[i]) continue;
+        if (is_used[i]) is_shared[i] = true;
+        is_used[i] = true;
+      }
+    }
+  }
+  return is_shared;
+}
+
+/// Sparse ones would grow, and those without a view have no elements to move.
+bool canBeReordered(const Accessor& accessor) {
+  return accessor.sparse.count == 0 && accessor.is_known_type;
+}
+
+}  // namespace
+
+void planIndicesOnly(const Document& document, const ForeignReferences& foreign,
+                     std::vector<PayloadPlan>& payloads) {
+  for (PayloadPlan& payload : payloads) {
+    payload.indices_only = true;
+    for (PiecePlan& piece : payload.pieces) piece.ordinary = std::exchange(piece.attributes, {});
+  }
+  const std::vector<bool> is_shared = sharedAccessors(document, foreign, payloads);
+  for (PayloadPlan& payload : payloads) {
+    payload.keep_vertex_order |= foreign.keep_numbers;
+    for (const PiecePlan& piece : payload.pieces) {
+      for (const AttributePlan& attribute : piece.ordinary) {
+        payload.keep_vertex_order |= is_shared[attribute.accessor] ||
+                                     !canBeReordered(document.accessors[attribute.accessor]);
+      }
+    }
+  }
+}
+
+AttributeView weldingView(const PiecePlan& piece) {
+  const AttributePlan& position = piece.ordinary[0];
+  AttributeView view;
+  view.format = position.format;
+  view.data = position.source.data;
+  view.stride_bytes = position.source.stride_bytes;
+  return view;
+}
+
+void reorderAttributes(const Document& document, const PiecePlan& piece,
+                       const std::vector<uint32_t>& source_wedge, Json& json,
+                       std::vector<NewView>& views) {
+  for (const AttributePlan& attribute : piece.ordinary) {
+    const Accessor& accessor = document.accessors[attribute.accessor];
+    if (accessor.view == kNone) continue;
+    std::vector<uint8_t> tight;
+    for (const uint32_t wedge : source_wedge) {
+      const auto element = attribute.source.element(wedge);
+      tight.insert(tight.end(), element.begin(), element.end());
+    }
+    NewView view;
+    view.target = kArrayBuffer;
+    view.bytes = packElements(tight, accessor, true, view.stride_bytes);
+    Json& edited = json["accessors"][attribute.accessor];
+    edited.erase("byteOffset");
+    edited["bufferView"] = document.views.size() + views.size();
+    views.push_back(std::move(view));
+  }
+}
+
+}  // namespace mcc::gltf
