@@ -159,11 +159,11 @@ class Trials {
         PlainFan fan;
         Beyond beyond;
         recording.plain(visit, fan, beyond);
-        predictPlain<Wide>(p, fan, &beyond, records[v].degree, p.modes, prediction);
+        predictPlain<Wide>(p, fan, &beyond, records[v].degree(), p.modes, prediction);
       } else {
         AnyFan fan;
         recording.any(visit, fan);
-        predictAny<Wide>(p, fan, records[v].degree, prediction);
+        predictAny<Wide>(p, fan, records[v].degree(), prediction);
       }
       if (entry.counted) {
         coder.codeVertex(io, v, prediction, plain);
@@ -253,7 +253,7 @@ void gatherRows(const PositionCandidate& piece, PositionPredictor predictor, uin
   for (size_t i = step() - 1; i < recording.visits().size(); i += step()) {
     const PositionRecording::Visit& visit = recording.visits()[i];
     const uint32_t v = visit.vertex;
-    const uint32_t degree = recording.records()[v].degree;
+    const uint32_t degree = recording.records()[v].degree();
     FitRow row{};
     UWide base[3];
     if (visit.kind == static_cast<uint32_t>(Kind::kPlain)) {
@@ -262,27 +262,27 @@ void gatherRows(const PositionCandidate& piece, PositionPredictor predictor, uin
       recording.plain(visit, fan, beyond);
       const PlainClass c = classifyPlain<Wide>(predictor, select, fan, beyond, degree);
       row.predictor_class = c.predictor_class;
+      const PlainFeatures<UWide> f = plainFeatures<UWide>(fan, beyond, select);
+      const float better = static_cast<float>(c.better);
       for (int s = 0; s < 3; ++s) {
-        const PlainFeatures<UWide> f = plainFeatures<UWide>(fan, beyond, s, select);
         const UWide n1 = static_cast<UWide>(fan.n1->q[s]);
-        base[s] = 128 * (2 * n1 + 2 * f.f1 - f.f0);  // the average of the tips
-        const float f0 = stepsOf<UWide>(f.f0, 0.5);
+        base[s] = 128 * (2 * n1 + 2 * f.f1[s] - f.f0[s]);  // the average of the tips
+        const float f0 = stepsOf<UWide>(f.f0[s], 0.5);
         row.feature[s][0] = f0;
-        row.feature[s][1] = stepsOf<UWide>(f.f1, 0.5);
-        row.feature[s][2] = stepsOf<UWide>(f.fy, 0.5);
-        row.feature[s][3] = stepsOf<UWide>(f.fd, 0.5) * static_cast<float>(c.degree_skew);
+        row.feature[s][1] = stepsOf<UWide>(f.f1[s], 0.5);
+        row.feature[s][2] = stepsOf<UWide>(f.fy[s], 0.5);
+        row.feature[s][3] = stepsOf<UWide>(f.fd[s], 0.5) * static_cast<float>(c.degree_skew);
         row.feature[s][4] = f0 * static_cast<float>(c.degree_sum);
-        const float better = static_cast<float>(c.better);
-        row.feature[s][5] = stepsOf<UWide>(f.tips, 0.5) * better;
-        row.feature[s][6] = stepsOf<UWide>(f.x, 0.5) * better;
-        row.feature[s][7] = stepsOf<UWide>(f.y, 0.5) * better;
-        row.length += std::fabs(stepsOf<UWide>(f.f1, 1));
+        row.feature[s][5] = stepsOf<UWide>(f.tips[s], 0.5) * better;
+        row.feature[s][6] = stepsOf<UWide>(f.x[s], 0.5) * better;
+        row.feature[s][7] = stepsOf<UWide>(f.y[s], 0.5) * better;
+        row.length += std::fabs(stepsOf<UWide>(f.f1[s], 1));
       }
     } else if (visit.kind == static_cast<uint32_t>(Kind::kAny)) {
       AnyFan fan;
       recording.any(visit, fan);
-      uint32_t spread[3];
-      uint64_t normal[3] = {};
+      UWide spread[3];
+      Lanes<float> normal{};
       const AnyFeatures<Wide> f = anyFeatures<Wide>(fan, degree, spread, normal);
       row.predictor_class = f.predictor_class;
       if (f.predictor_class == kClassNoTip) continue;
@@ -365,13 +365,12 @@ void fitScale(Trials& trials, PositionParameters& p) {
   };
   std::vector<Row> rows[2][3];
   trials.observe(p, [&](uint32_t plain, const auto& prediction, const VertexRecord& r) {
-    using Wide = typename std::decay_t<decltype(prediction)>::Coordinate;
-    Shear shear;
-    if (p.has(position_mode::kShear)) shear = makeShear(prediction.normal);
+    const uint8_t* axis =
+        p.has(position_mode::kShear) ? makeShear(prediction.normal).axis : kFileOrder;
     for (uint32_t s = 0; s < 3; ++s) {
       rows[plain][s].push_back({static_cast<float>(prediction.magnitudes[s]),
-                                static_cast<float>(prediction.spread[shear.axis[s]]),
-                                static_cast<float>(unpackMagnitude<Wide>(r.magnitude[s]))});
+                                static_cast<float>(prediction.spread[axis[s]]),
+                                static_cast<float>(r.magnitude[s])});
     }
   });
   for (uint32_t plain = 0; plain < 2; ++plain) {
