@@ -427,7 +427,7 @@ class Chooser {
   PositionParameters run() {
     tryPredictors();
     if (anyPalette()) tryMode(position_mode::kPalette, 0.98);
-    tryMode(position_mode::kShear, 0.96);
+    if (!best_.has(position_mode::kPalette)) tryMode(position_mode::kShear, 0.96);
     tryMode(position_mode::kFold, 0.995);
     tryOwnScale();
     tryMode(position_mode::kSplit, 0.998);
@@ -551,7 +551,13 @@ void DistinctCoordinates::find(std::span<const int32_t> truth) {
     for (size_t i = 0; i < vertices; ++i) values[i] = truth[3 * i + s];
     std::sort(values.begin(), values.end());
     values.erase(std::unique(values.begin(), values.end()), values.end());
-    if (2 * values.size() > vertices) values.clear();
+    if (2 * values.size() > vertices || values.size() > kMaxPalette) values.clear();
+    if (values.empty()) continue;
+    const PaletteIndex index(values.data(), static_cast<uint32_t>(values.size()));
+    shift[s] = index.shift;
+    cells[s].resize(index.cell_count);
+    inverse[s].resize(values.size());
+    index.fill(cells[s].data(), inverse[s].data());
   }
 }
 

@@ -193,10 +193,9 @@ void VertexCoder<Io, Wide, kModes>::codeRanks(Io& io, uint32_t v, const Lanes<UW
     if (palette.count == 0) continue;
     if (Io::kEncoding) truth[s] = static_cast<int32_t>(palette.countUpTo(truth[s])) - 1;
     const int64_t reach = int64_t{16} * width[s];
-    const int64_t low = palette.rankOf(at[s] - reach);
-    const int64_t high = palette.rankOf(at[s] + reach);
+    const int64_t ranks = palette.roughRankOf(at[s] + reach) - palette.roughRankOf(at[s] - reach);
     at[s] = static_cast<Wide>(palette.rankOf(at[s]));
-    width[s] = static_cast<uint32_t>((high - low) >> 5);
+    width[s] = static_cast<uint32_t>(ranks >> 5);
   }
   const Lanes<UWide> rounded = (Lanes<UWide>)loadLanes<Wide>(at) + 128;
   ResidualContexts c;
