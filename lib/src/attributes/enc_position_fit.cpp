@@ -429,8 +429,8 @@ class Chooser {
     if (anyPalette()) tryMode(position_mode::kPalette, 0.98);
     if (!best_.has(position_mode::kPalette)) tryMode(position_mode::kShear, 0.96);
     tryMode(position_mode::kFold, 0.995);
-    tryOwnScale();
     tryMode(position_mode::kSplit, 0.998);
+    tryOwnScale();
     return best_;
   }
 
@@ -440,28 +440,27 @@ class Chooser {
     double cost;
   };
 
-  /// All predictors; those within a few per cent of the best stay in the race for the modes.
+  /// All predictors; the best ones stay in the race for the modes.
   void tryPredictors() {
     for (uint8_t i = 0; i < kPositionPredictors; ++i) {
       PositionParameters p;
       p.predictor = static_cast<PositionPredictor>(i);
       setUniversalTables(p);
-      const bool selecting = p.predictor == PositionPredictor::kFittedSelecting;
-      if (!p.fitted()) {
-        add(p);
-        continue;
-      }
-      for (const bool robust : {true, false}) {
-        if (selecting && !robust) continue;
-        p.weights = fitWeights(pieces_, p.predictor, robust, kFitVertices[effort_]);
-        add(p);
-      }
+      if (p.fitted()) p.weights = fitWeights(pieces_, p.predictor, true, kFitVertices[effort_]);
+      add(p);
     }
+    const Ranked average = ranked_[0];
     std::sort(ranked_.begin(), ranked_.end(),
               [](const Ranked& a, const Ranked& b) { return a.cost < b.cost; });
     best_ = ranked_[0].parameters;
     best_cost_ = ranked_[0].cost;
-    if (ranked_.size() > kRace) ranked_.resize(kRace);
+    ranked_.resize(kRace);
+    // On scans the average gains more by the modes than what wins without them by a little.
+    if (average.parameters.predictor != ranked_[0].parameters.predictor &&
+        average.parameters.predictor != ranked_[1].parameters.predictor) {
+      ranked_.push_back(average);
+    }
+    while (ranked_.back().cost > kOutOfRace * best_cost_) ranked_.pop_back();
   }
 
   bool anyPalette() const {
@@ -489,6 +488,8 @@ class Chooser {
         p.weights = weights;
       }
       with.push_back({p, trials_.cost(p)});
+      // Whether shear pays is a matter of the surface, not of the predictor.
+      if (mode == position_mode::kShear && with.back().cost >= r.cost * worth) break;
       if (with.back().cost >= best.cost) continue;
       best = with.back();
       better = true;
@@ -507,10 +508,10 @@ class Chooser {
       best_ = p;
       best_cost_ = cost;
     }
-    ranked_ = {{best_, best_cost_}};
   }
 
   static constexpr size_t kRace = 2;
+  static constexpr double kOutOfRace = 1.04;
 
   std::span<const PositionCandidate> pieces_;
   uint8_t effort_;
