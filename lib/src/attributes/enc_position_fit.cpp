@@ -544,14 +544,36 @@ PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, PositionP
   return weights;
 }
 
+namespace {
+
+/// Sorts and drops repetitions; by marks where the values lie as close as those of lattices do.
+void sortDistinct(std::vector<int32_t>& values) {
+  if (values.empty()) return;
+  const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+  const int64_t first = *lowest;
+  const uint64_t range = static_cast<uint64_t>(*highest - first) + 1;
+  if (range > 8 * uint64_t{values.size()}) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return;
+  }
+  std::vector<uint8_t> marks(range, 0);
+  for (const int32_t value : values) marks[static_cast<size_t>(value - first)] = 1;
+  values.clear();
+  for (size_t i = 0; i < range; ++i) {
+    if (marks[i] != 0) values.push_back(static_cast<int32_t>(first + static_cast<int64_t>(i)));
+  }
+}
+
+}  // namespace
+
 void DistinctCoordinates::find(std::span<const int32_t> truth) {
   const size_t vertices = truth.size() / 3;
   for (uint32_t s = 0; s < 3; ++s) {
     std::vector<int32_t>& values = axis[s];
-    values.resize(vertices);
-    for (size_t i = 0; i < vertices; ++i) values[i] = truth[3 * i + s];
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
+    values.clear();
+    for (size_t i = 0; i < vertices; ++i) values.push_back(truth[3 * i + s]);
+    sortDistinct(values);
     if (2 * values.size() > vertices || values.size() > kMaxPalette) values.clear();
     if (values.empty()) continue;
     const PaletteIndex index(values.data(), static_cast<uint32_t>(values.size()));
