@@ -303,7 +303,8 @@ MCC_INLINE bool RegionGrowth::plainFan(uint32_t half_edge, PlainFan& fan, uint32
   const uint32_t inner_third = select(mask, cw_third, ccw_third);
   ccw_tip = select(mask, outer_third, inner_third);
   cw_tip = select(mask, inner_third, outer_third);
-  return fan.o0->known() & fan.o1->known() & !recordAt(outer_third).known();
+  const bool closed = recordAt(outer_third).known();
+  return (uint32_t{fan.o0->known()} & uint32_t{fan.o1->known()} & uint32_t{!closed}) != 0;
 }
 
 /// The fan of known neighbours on both sides of the entry face; queues the vertices behind its ends.
