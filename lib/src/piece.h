@@ -104,6 +104,9 @@ class PieceCoder {
     MCC_TRY(codePositionTables(io_, models_.positions.tables, parameters));
     PositionPalettes palettes(allocator_);
     if (parameters.has(position_mode::kPalette)) {
+      if (parameters.has(position_mode::kShear)) {
+        return fail(Error::kBadAttribute, "positions with palettes cannot be sheared");
+      }
       MCC_TRY(palettes.code(io_, models_.positions.tables.palettes, truth.palettes,
                             static_cast<uint32_t>(records.size())));
       for (uint32_t s = 0; s < 3; ++s) parameters.palette[s] = palettes.axis(s);

@@ -667,6 +667,10 @@ Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t 
     MCC_TRY(runners.back()->codeSurface(nullptr));
   }
   MCC_TRY(choosePositions(plans, runners, effort));
+  const bool only_positions = std::all_of(plans.begin(), plans.end(), [](const Plan& plan) {
+    return plan.attributes.size() == 1 && !plan.header.has(piece_flag::kSeams);
+  });
+  if (only_positions) return {};
   for (size_t i = 0; i < plans.size(); ++i) MCC_TRY(runners[i]->codePositions(nullptr));
   for (size_t i = 0; i < plans.size(); ++i) {
     MCC_TRY(runners[i]->chooseCreases(*models));

@@ -28,6 +28,7 @@ uint64_t runsFromEnvironment() {
 /// A decoder whose answers are random, with leanings that change now and then.
 class RandomIo {
  public:
+  using Burst = SameIo<RandomIo>;
   static constexpr bool kEncoding = false;
   static constexpr bool kFast = true;  // the inner loops of the decoder
 

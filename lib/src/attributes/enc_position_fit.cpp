@@ -159,11 +159,11 @@ class Trials {
         PlainFan fan;
         Beyond beyond;
         recording.plain(visit, fan, beyond);
-        predictPlain<Wide>(p, fan, &beyond, records[v].degree, p.modes, prediction);
+        predictPlain<Wide>(p, fan, &beyond, records[v].degree(), p.modes, prediction);
       } else {
         AnyFan fan;
         recording.any(visit, fan);
-        predictAny<Wide>(p, fan, records[v].degree, prediction);
+        predictAny<Wide>(p, fan, records[v].degree(), prediction);
       }
       if (entry.counted) {
         coder.codeVertex(io, v, prediction, plain);
@@ -253,7 +253,7 @@ void gatherRows(const PositionCandidate& piece, PositionPredictor predictor, uin
   for (size_t i = step() - 1; i < recording.visits().size(); i += step()) {
     const PositionRecording::Visit& visit = recording.visits()[i];
     const uint32_t v = visit.vertex;
-    const uint32_t degree = recording.records()[v].degree;
+    const uint32_t degree = recording.records()[v].degree();
     FitRow row{};
     UWide base[3];
     if (visit.kind == static_cast<uint32_t>(Kind::kPlain)) {
@@ -262,27 +262,27 @@ void gatherRows(const PositionCandidate& piece, PositionPredictor predictor, uin
       recording.plain(visit, fan, beyond);
       const PlainClass c = classifyPlain<Wide>(predictor, select, fan, beyond, degree);
       row.predictor_class = c.predictor_class;
+      const PlainFeatures<UWide> f = plainFeatures<UWide>(fan, beyond, select);
+      const float better = static_cast<float>(c.better);
       for (int s = 0; s < 3; ++s) {
-        const PlainFeatures<UWide> f = plainFeatures<UWide>(fan, beyond, s, select);
         const UWide n1 = static_cast<UWide>(fan.n1->q[s]);
-        base[s] = 128 * (2 * n1 + 2 * f.f1 - f.f0);  // the average of the tips
-        const float f0 = stepsOf<UWide>(f.f0, 0.5);
+        base[s] = 128 * (2 * n1 + 2 * f.f1[s] - f.f0[s]);  // the average of the tips
+        const float f0 = stepsOf<UWide>(f.f0[s], 0.5);
         row.feature[s][0] = f0;
-        row.feature[s][1] = stepsOf<UWide>(f.f1, 0.5);
-        row.feature[s][2] = stepsOf<UWide>(f.fy, 0.5);
-        row.feature[s][3] = stepsOf<UWide>(f.fd, 0.5) * static_cast<float>(c.degree_skew);
+        row.feature[s][1] = stepsOf<UWide>(f.f1[s], 0.5);
+        row.feature[s][2] = stepsOf<UWide>(f.fy[s], 0.5);
+        row.feature[s][3] = stepsOf<UWide>(f.fd[s], 0.5) * static_cast<float>(c.degree_skew);
         row.feature[s][4] = f0 * static_cast<float>(c.degree_sum);
-        const float better = static_cast<float>(c.better);
-        row.feature[s][5] = stepsOf<UWide>(f.tips, 0.5) * better;
-        row.feature[s][6] = stepsOf<UWide>(f.x, 0.5) * better;
-        row.feature[s][7] = stepsOf<UWide>(f.y, 0.5) * better;
-        row.length += std::fabs(stepsOf<UWide>(f.f1, 1));
+        row.feature[s][5] = stepsOf<UWide>(f.tips[s], 0.5) * better;
+        row.feature[s][6] = stepsOf<UWide>(f.x[s], 0.5) * better;
+        row.feature[s][7] = stepsOf<UWide>(f.y[s], 0.5) * better;
+        row.length += std::fabs(stepsOf<UWide>(f.f1[s], 1));
       }
     } else if (visit.kind == static_cast<uint32_t>(Kind::kAny)) {
       AnyFan fan;
       recording.any(visit, fan);
-      uint32_t spread[3];
-      uint64_t normal[3] = {};
+      UWide spread[3];
+      Lanes<float> normal{};
       const AnyFeatures<Wide> f = anyFeatures<Wide>(fan, degree, spread, normal);
       row.predictor_class = f.predictor_class;
       if (f.predictor_class == kClassNoTip) continue;
@@ -365,13 +365,12 @@ void fitScale(Trials& trials, PositionParameters& p) {
   };
   std::vector<Row> rows[2][3];
   trials.observe(p, [&](uint32_t plain, const auto& prediction, const VertexRecord& r) {
-    using Wide = typename std::decay_t<decltype(prediction)>::Coordinate;
-    Shear shear;
-    if (p.has(position_mode::kShear)) shear = makeShear(prediction.normal);
+    const uint8_t* axis =
+        p.has(position_mode::kShear) ? makeShear(prediction.normal).axis : kFileOrder;
     for (uint32_t s = 0; s < 3; ++s) {
       rows[plain][s].push_back({static_cast<float>(prediction.magnitudes[s]),
-                                static_cast<float>(prediction.spread[shear.axis[s]]),
-                                static_cast<float>(unpackMagnitude<Wide>(r.magnitude[s]))});
+                                static_cast<float>(prediction.spread[axis[s]]),
+                                static_cast<float>(r.magnitude[s])});
     }
   });
   for (uint32_t plain = 0; plain < 2; ++plain) {
@@ -428,10 +427,10 @@ class Chooser {
   PositionParameters run() {
     tryPredictors();
     if (anyPalette()) tryMode(position_mode::kPalette, 0.98);
-    tryMode(position_mode::kShear, 0.96);
+    if (!best_.has(position_mode::kPalette)) tryMode(position_mode::kShear, 0.96);
     tryMode(position_mode::kFold, 0.995);
-    tryOwnScale();
     tryMode(position_mode::kSplit, 0.998);
+    tryOwnScale();
     return best_;
   }
 
@@ -441,28 +440,27 @@ class Chooser {
     double cost;
   };
 
-  /// All predictors; those within a few per cent of the best stay in the race for the modes.
+  /// All predictors; the best ones stay in the race for the modes.
   void tryPredictors() {
     for (uint8_t i = 0; i < kPositionPredictors; ++i) {
       PositionParameters p;
       p.predictor = static_cast<PositionPredictor>(i);
       setUniversalTables(p);
-      const bool selecting = p.predictor == PositionPredictor::kFittedSelecting;
-      if (!p.fitted()) {
-        add(p);
-        continue;
-      }
-      for (const bool robust : {true, false}) {
-        if (selecting && !robust) continue;
-        p.weights = fitWeights(pieces_, p.predictor, robust, kFitVertices[effort_]);
-        add(p);
-      }
+      if (p.fitted()) p.weights = fitWeights(pieces_, p.predictor, true, kFitVertices[effort_]);
+      add(p);
     }
+    const Ranked average = ranked_[0];
     std::sort(ranked_.begin(), ranked_.end(),
               [](const Ranked& a, const Ranked& b) { return a.cost < b.cost; });
     best_ = ranked_[0].parameters;
     best_cost_ = ranked_[0].cost;
-    if (ranked_.size() > kRace) ranked_.resize(kRace);
+    ranked_.resize(kRace);
+    // On scans the average gains more by the modes than what wins without them by a little.
+    if (average.parameters.predictor != ranked_[0].parameters.predictor &&
+        average.parameters.predictor != ranked_[1].parameters.predictor) {
+      ranked_.push_back(average);
+    }
+    while (ranked_.back().cost > kOutOfRace * best_cost_) ranked_.pop_back();
   }
 
   bool anyPalette() const {
@@ -490,6 +488,8 @@ class Chooser {
         p.weights = weights;
       }
       with.push_back({p, trials_.cost(p)});
+      // Whether shear pays is a matter of the surface, not of the predictor.
+      if (mode == position_mode::kShear && with.back().cost >= r.cost * worth) break;
       if (with.back().cost >= best.cost) continue;
       best = with.back();
       better = true;
@@ -508,10 +508,10 @@ class Chooser {
       best_ = p;
       best_cost_ = cost;
     }
-    ranked_ = {{best_, best_cost_}};
   }
 
   static constexpr size_t kRace = 2;
+  static constexpr double kOutOfRace = 1.04;
 
   std::span<const PositionCandidate> pieces_;
   uint8_t effort_;
@@ -544,15 +544,43 @@ PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, PositionP
   return weights;
 }
 
+namespace {
+
+/// Sorts and drops repetitions; by marks where the values lie as close as those of lattices do.
+void sortDistinct(std::vector<int32_t>& values) {
+  if (values.empty()) return;
+  const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+  const int64_t first = *lowest;
+  const uint64_t range = static_cast<uint64_t>(*highest - first) + 1;
+  if (range > 8 * uint64_t{values.size()}) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return;
+  }
+  std::vector<uint8_t> marks(range, 0);
+  for (const int32_t value : values) marks[static_cast<size_t>(value - first)] = 1;
+  values.clear();
+  for (size_t i = 0; i < range; ++i) {
+    if (marks[i] != 0) values.push_back(static_cast<int32_t>(first + static_cast<int64_t>(i)));
+  }
+}
+
+}  // namespace
+
 void DistinctCoordinates::find(std::span<const int32_t> truth) {
   const size_t vertices = truth.size() / 3;
   for (uint32_t s = 0; s < 3; ++s) {
     std::vector<int32_t>& values = axis[s];
-    values.resize(vertices);
-    for (size_t i = 0; i < vertices; ++i) values[i] = truth[3 * i + s];
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-    if (2 * values.size() > vertices) values.clear();
+    values.clear();
+    for (size_t i = 0; i < vertices; ++i) values.push_back(truth[3 * i + s]);
+    sortDistinct(values);
+    if (2 * values.size() > vertices || values.size() > kMaxPalette) values.clear();
+    if (values.empty()) continue;
+    const PaletteIndex index(values.data(), static_cast<uint32_t>(values.size()));
+    shift[s] = index.shift;
+    cells[s].resize(index.cell_count);
+    inverse[s].resize(values.size());
+    index.fill(cells[s].data(), inverse[s].data());
   }
 }
 

@@ -24,10 +24,14 @@ struct PositionCandidate {
 /// Sorted distinct coordinates of each axis, empty where there are too many for a palette to be of use.
 struct DistinctCoordinates {
   std::vector<int32_t> axis[3];
+  std::vector<uint32_t> inverse[3];
+  std::vector<uint32_t> cells[3];
+  uint32_t shift[3] = {};
 
   void find(std::span<const int32_t> truth);
   AxisPalette palette(uint32_t s) const {
-    return {axis[s].data(), static_cast<uint32_t>(axis[s].size()), nullptr, 0};
+    return {axis[s].data(), static_cast<uint32_t>(axis[s].size()), inverse[s].data(),
+            cells[s].data(), shift[s]};
   }
 };
 

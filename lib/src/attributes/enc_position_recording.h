@@ -32,7 +32,7 @@ class PositionRecording {
     visits_.reserve(size_t{groups.count} + isolated_count);
     plain_.clear();
     any_.clear();
-    RegionGrowth growth(mesh, groups, records, Allocator{});
+    RegionGrowth growth(mesh, groups, records, true, Allocator{});
     faces_ = growth.faces();
     MCC_TRY(growth.run(*this, nullptr));
     for (uint32_t i = 0; i < isolated_count; ++i) {
@@ -96,7 +96,10 @@ class PositionRecording {
   class Plain {
    public:
     explicit Plain(PositionRecording& recording) : recording_(recording) {}
-    void visit(uint32_t v, const PlainFan& fan) { recording_.plainFan(v, fan); }
+    bool visit(uint32_t v, const PlainFan& fan) {
+      recording_.plain(v, fan);
+      return true;
+    }
     void close(PositionRecording&) {}
     void reopen(PositionRecording&) {}
 
@@ -104,6 +107,14 @@ class PositionRecording {
     PositionRecording& recording_;
   };
 
+  void plain(uint32_t v, const PlainFan& fan) {
+    const Beyond b = lookBeyond(faces_, records_, fan, true);
+    addVisit(v, plain_.size(), Kind::kPlain);
+    plain_.push_back({{indexOf(fan.n0), indexOf(fan.n1), indexOf(fan.n2)},
+                      {indexOf(fan.o0), indexOf(fan.o1)},
+                      {b.has_ya ? indexOf(b.ya) : kNone, b.has_yb ? indexOf(b.yb) : kNone},
+                      {b.has_x ? indexOf(b.xa) : kNone, b.has_x ? indexOf(b.xb) : kNone}});
+  }
   void fan(uint32_t v, const AnyFan& fan) {
     addVisit(v, any_.size(), Kind::kAny);
     any_.push_back(fan.face_count << 1 | (fan.closed ? 1u : 0u));
@@ -125,15 +136,8 @@ class PositionRecording {
     uint32_t x[2];
   };
 
-  void plainFan(uint32_t v, const PlainFan& fan) {
-    const Beyond b = lookBeyond(faces_, records_, fan, true);
-    addVisit(v, plain_.size(), Kind::kPlain);
-    plain_.push_back({{indexOf(fan.n0), indexOf(fan.n1), indexOf(fan.n2)},
-                      {indexOf(fan.o0), indexOf(fan.o1)},
-                      {b.has_ya ? indexOf(b.ya) : kNone, b.has_yb ? indexOf(b.yb) : kNone},
-                      {b.has_x ? indexOf(b.xa) : kNone, b.has_x ? indexOf(b.xb) : kNone}});
-  }
   void addVisit(uint32_t v, size_t at, Kind kind) {
+    records_[v].q[3] = kKnown;
     visits_.push_back(
         {v, static_cast<uint32_t>(at) & ((1u << 30) - 1), static_cast<uint32_t>(kind) & 3});
   }

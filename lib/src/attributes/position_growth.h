@@ -13,13 +13,15 @@
 //                v
 //
 // The order does not depend on any position, so the writer walks once and tries predictors on what it recorded.
-// A Visitor sees plain fans, other fans and seeds (vertices without a known face). Its Plain part lives in the inner
-// loop, in registers as far as they last; it is closed before and reopened after anything else.
+// A Visitor sees plain fans, other fans and seeds (vertices without a known face), and makes their vertices known. Its
+// Plain part lives in the inner loop, in registers as far as they last; it is closed before and reopened after anything
+// else, a plain fan that it declines too.
 #ifndef MCC_ATTRIBUTES_POSITION_GROWTH_H_
 #define MCC_ATTRIBUTES_POSITION_GROWTH_H_
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 
 #include "attributes/position_record.h"
 #include "base/host.h"
@@ -89,12 +91,13 @@ struct AnyFan {
 
 class RegionGrowth {
  public:
-  RegionGrowth(FaceMesh& mesh, const Groups& groups, VertexRecord* records,
+  RegionGrowth(FaceMesh& mesh, const Groups& groups, VertexRecord* records, bool with_degrees,
                const Allocator& allocator)
       : faces_(mesh.view()),
         face_count_(mesh.face_count),
         groups_(groups),
         records_(records),
+        with_degrees_(with_degrees),
         queue_{HalfEdgeQueue(allocator), HalfEdgeQueue(allocator), HalfEdgeQueue(allocator)} {}
 
   /// Visits every group once. `order`, if not null, has room for all groups and receives the half-edge each was
@@ -106,30 +109,31 @@ class RegionGrowth {
 
  private:
   void prepareRecords();
+  void countDegrees();
   template <class Visitor>
   Status plantSeed(Visitor& visitor, uint32_t& cursor);
   template <class Visitor>
   Status grow(Visitor& visitor);
-  bool plainFan(uint32_t half_edge, PlainFan& fan, uint32_t& ccw_end, uint32_t& cw_end) const;
+  bool plainFan(uint32_t half_edge, PlainFan& fan, uint32_t& ccw_tip, uint32_t& cw_tip) const;
   void walkFan(uint32_t half_edge, AnyFan& fan);
-  MCC_INLINE void become(uint32_t v, uint32_t half_edge) {
-    records_[v].known = 1;
+  MCC_INLINE void entered(uint32_t half_edge) {
     ++known_count_;
     if (order_ != nullptr) *order_++ = half_edge;
   }
 
+  /// Queues a vertex that is not known.
   MCC_INLINE void push(uint32_t half_edge) {
-    VertexRecord& r = records_[faces_.vertex(half_edge)];
-    const uint32_t score = uint32_t{r.score} + (r.score != 0xffff ? 1 : 0);
-    r.score = static_cast<uint16_t>(score);
-    if (!queue_[std::min<uint32_t>(score, 3) - 1].push(half_edge)) [[unlikely]]
+    int32_t& state = records_[faces_.vertex(half_edge)].q[3];
+    const int32_t score = state + (state < kHighestScore ? 1 : 0);
+    state = score;
+    if (!queue_[score - 1].push(half_edge)) [[unlikely]]
       no_memory_ = true;
   }
   void pushRing(uint32_t start);
   void pushOtherUmbrellas(uint32_t v, uint32_t entry);
   bool ringContains(uint32_t start, uint32_t half_edge) const;
 
-  bool known(uint32_t v) const { return records_[v].known != 0; }
+  bool known(uint32_t v) const { return records_[v].known(); }
   const VertexRecord& recordAt(uint32_t half_edge) const {
     return records_[faces_.vertex(half_edge)];
   }
@@ -139,33 +143,36 @@ class RegionGrowth {
   const uint32_t face_count_;
   const Groups& groups_;
   VertexRecord* const records_;
-  HalfEdgeQueue queue_[3];
+  const bool with_degrees_;
+  HalfEdgeQueue queue_[3];  ///< by score
   uint32_t* order_ = nullptr;
   uint32_t known_count_ = 0;
   bool no_memory_ = false;
 };
 
 inline void RegionGrowth::prepareRecords() {
-  for (uint32_t v = 0; v < groups_.count; ++v) records_[v] = VertexRecord{};
+  if (groups_.count != 0) std::memset(records_, 0, groups_.count * sizeof(VertexRecord));
+  if (with_degrees_) countDegrees();
+}
+
+inline void RegionGrowth::countDegrees() {
+  bool any_boundary = false;
   for (uint32_t f = 0; f < face_count_; ++f) {
     const uint32_t h = f * kFaceWords;
-    bool boundary = false;
-    for (uint32_t k = 0; k < 3; ++k) {
-      ++records_[faces_.vertex(h + k)].q[3];  // counts faces; there are fewer than 2^28
-      boundary |= faces_.twin(h + k) == kNone;
-    }
-    if (!boundary) [[likely]]
+    for (uint32_t k = 0; k < 3; ++k) ++records_[faces_.vertex(h + k)].magnitude[3];
+    // Only kNone has the highest bit.
+    if (((faces_.twin(h) | faces_.twin(h + 1) | faces_.twin(h + 2)) >> 31) == 0) [[likely]]
       continue;
+    any_boundary = true;
     for (uint32_t k = 0; k < 3; ++k) {
       if (faces_.twin(h + k) != kNone) continue;
-      records_[faces_.vertex(h + k)].boundary = 1;
-      records_[faces_.vertex(nextHalfEdge(h + k))].boundary = 1;
+      records_[faces_.vertex(h + k)].magnitude[0] = 1;
+      records_[faces_.vertex(nextHalfEdge(h + k))].magnitude[0] = 1;
     }
   }
-  for (uint32_t v = 0; v < groups_.count; ++v) {
-    VertexRecord& r = records_[v];
-    r.degree = static_cast<uint16_t>(r.boundary != 0 ? std::min(12, 2 * r.q[3])
-                                                     : std::min(0xffff, r.q[3]));
+  for (uint32_t v = 0; v < groups_.count && any_boundary; ++v) {
+    uint32_t* r = records_[v].magnitude;
+    if (r[0] != 0) r[3] = std::min(12u, 2 * r[3]);
   }
 }
 
@@ -206,7 +213,7 @@ Status RegionGrowth::plantSeed(Visitor& visitor, uint32_t& cursor) {
       if (known(faces_.vertex(nextHalfEdge(h)))) neighbour = &recordAt(nextHalfEdge(h));
       if (known(faces_.vertex(prevHalfEdge(h)))) neighbour = &recordAt(prevHalfEdge(h));
       visitor.seed(v, neighbour);
-      become(v, h);
+      entered(h);
       pushRing(h);
       pushOtherUmbrellas(v, h);
       ++known_corners;
@@ -230,17 +237,20 @@ Status RegionGrowth::grow(Visitor& visitor) {
     }
     const uint32_t h = queue_[level].pop();
     const uint32_t v = faces_.vertex(h);
-    const VertexRecord& r = records_[v];
-    if (r.known != 0 || std::min<uint32_t>(r.score, 3) != level + 1) continue;  // stale
+    if (records_[v].state() != static_cast<int32_t>(level) + 1) continue;  // stale
     PlainFan fan;
-    uint32_t ccw_end = 0;
-    uint32_t cw_end = 0;
-    if (plainFan(h, fan, ccw_end, cw_end)) [[likely]] {
-      if (ccw_end != kNone) [[likely]]
-        push(prevHalfEdge(ccw_end));
-      if (cw_end != kNone) [[likely]]
-        push(prevHalfEdge(cw_end));
-      plain.visit(v, fan);
+    uint32_t ccw_tip = h;
+    uint32_t cw_tip = h;
+    if (plainFan(h, fan, ccw_tip, cw_tip)) [[likely]] {
+      if (ccw_tip != h) [[likely]]
+        push(ccw_tip);
+      if (cw_tip != h) [[likely]]
+        push(cw_tip);
+      if (!plain.visit(v, fan)) [[unlikely]] {
+        plain.close(visitor);
+        visitor.plain(v, fan);
+        plain.reopen(visitor);
+      }
     } else {
       AnyFan any;
       walkFan(h, any);
@@ -248,7 +258,7 @@ Status RegionGrowth::grow(Visitor& visitor) {
       visitor.fan(v, any);
       plain.reopen(visitor);
     }
-    become(v, h);
+    entered(h);
     if (copies) pushOtherUmbrellas(v, h);
     if ((known_count_ & 0xfff) == 0) [[unlikely]] {
       plain.close(visitor);
@@ -260,34 +270,41 @@ Status RegionGrowth::grow(Visitor& visitor) {
   }
 }
 
-/// Recognises the plain fan around `half_edge` without branches on which side of it is known. `ccw_end` and `cw_end`
-/// are half-edges of the faces behind its ends, kNone on a boundary. Queues nothing.
-MCC_INLINE bool RegionGrowth::plainFan(uint32_t half_edge, PlainFan& fan, uint32_t& ccw_end,
-                                       uint32_t& cw_end) const {
-  const uint32_t v = faces_.vertex(half_edge);  // unknown: stands for missing vertices
+/// `a` where `mask` has ones, else `b`. Which side of a fan is known is close to random: no branches on it.
+MCC_INLINE uint32_t select(uint32_t mask, uint32_t a, uint32_t b) { return b ^ ((a ^ b) & mask); }
+
+/// Recognises the plain fan around `half_edge`. `ccw_tip` and `cw_tip` are the half-edges of the vertices behind its
+/// ends, `half_edge` itself on a boundary. Queues nothing.
+MCC_INLINE bool RegionGrowth::plainFan(uint32_t half_edge, PlainFan& fan, uint32_t& ccw_tip,
+                                       uint32_t& cw_tip) const {
+  // The half-edge of the vertex across from `h`. Behind a boundary stands the vertex itself, which is not known.
+  const auto across = [&](uint32_t twin) MCC_INLINE_LAMBDA {
+    return twin != kNone ? prevHalfEdge(twin) : half_edge;
+  };
   const uint32_t ccw = faces_.rotateCcw(half_edge);
   const uint32_t cw_twin = faces_.twin(half_edge);
-  const uint32_t ccw_third = ccw != kNone ? faces_.vertex(prevHalfEdge(ccw)) : v;
-  const uint32_t cw_third = cw_twin != kNone ? faces_.vertex(prevHalfEdge(cw_twin)) : v;
-  const bool ccw_known = known(ccw_third);
-  if (ccw_known == known(cw_third)) return false;
-  const uint32_t h0 = ccw_known ? half_edge : nextHalfEdge(cw_twin);
-  const uint32_t h1 = ccw_known ? ccw : half_edge;
-  ccw_end = faces_.rotateCcw(h1);
-  cw_end = faces_.twin(h0);
-  const uint32_t ccw_last = ccw_end != kNone ? faces_.vertex(prevHalfEdge(ccw_end)) : v;
-  const uint32_t cw_last = cw_end != kNone ? faces_.vertex(prevHalfEdge(cw_end)) : v;
+  const uint32_t ccw_third = across(ccw);
+  const uint32_t cw_third = across(cw_twin);
+  const bool ccw_known = recordAt(ccw_third).known();
+  if (ccw_known == recordAt(cw_third).known()) return false;
+  // The fan's second face is on the known side; what lies behind it is the only end not seen yet.
+  const uint32_t mask = 0u - (ccw_known ? 1u : 0u);
+  const uint32_t cw_next = nextHalfEdge(cw_twin);
+  const uint32_t h0 = select(mask, half_edge, cw_next);
+  const uint32_t h1 = select(mask, ccw, half_edge);
+  const uint32_t outer_third = across(faces_.twin(select(mask, ccw_third, cw_next)));
   fan.beyond0 = faces_.twin(nextHalfEdge(h0));
   fan.beyond1 = faces_.twin(nextHalfEdge(h1));
-  const uint32_t tip0 = fan.beyond0 != kNone ? faces_.vertex(prevHalfEdge(fan.beyond0)) : v;
-  const uint32_t tip1 = fan.beyond1 != kNone ? faces_.vertex(prevHalfEdge(fan.beyond1)) : v;
   fan.n0 = &recordAt(nextHalfEdge(h0));
   fan.n1 = &recordAt(prevHalfEdge(h0));
   fan.n2 = &recordAt(prevHalfEdge(h1));
-  fan.o0 = &records_[tip0];
-  fan.o1 = &records_[tip1];
-  const uint32_t longer = uint32_t{records_[ccw_last].known} | records_[cw_last].known;
-  return longer < (uint32_t{fan.o0->known} & fan.o1->known);
+  fan.o0 = &recordAt(across(fan.beyond0));
+  fan.o1 = &recordAt(across(fan.beyond1));
+  const uint32_t inner_third = select(mask, cw_third, ccw_third);
+  ccw_tip = select(mask, outer_third, inner_third);
+  cw_tip = select(mask, inner_third, outer_third);
+  const bool closed = recordAt(outer_third).known();
+  return (uint32_t{fan.o0->known()} & uint32_t{fan.o1->known()} & uint32_t{!closed}) != 0;
 }
 
 /// The fan of known neighbours on both sides of the entry face; queues the vertices behind its ends.
@@ -330,7 +347,7 @@ inline void RegionGrowth::walkFan(uint32_t half_edge, AnyFan& fan) {
     fan.n[i] = &recordAt(nextHalfEdge(h[first + i]));
     const uint32_t t = faces_.twin(nextHalfEdge(h[first + i]));
     fan.o[i] =
-        t != kNone && recordAt(prevHalfEdge(t)).known != 0 ? &recordAt(prevHalfEdge(t)) : nullptr;
+        t != kNone && recordAt(prevHalfEdge(t)).known() ? &recordAt(prevHalfEdge(t)) : nullptr;
   }
   fan.n[fan.face_count] = &recordAt(prevHalfEdge(h[end - 1]));
 }

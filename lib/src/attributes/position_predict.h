@@ -21,29 +21,21 @@
 
 #include "attributes/position_growth.h"
 #include "attributes/position_parameters.h"
+#include "attributes/position_record.h"
 #include "base/host.h"
 
 namespace mcc {
 
-/// What the coder needs to know about a vertex before its residuals.
+/// What the coder needs to know about a vertex before its residuals, by component.
 template <class Wide>
 struct Prediction {
   using Coordinate = Wide;
-  std::make_unsigned_t<Wide> q8[3];
-  uint32_t spread[3];  ///< disagreement of the first two tips, saturating
-  uint64_t normal[3];  ///< sum over the tips, wrapping; only with shear
-  std::make_unsigned_t<Wide>
-      magnitudes[3];  ///< of three neighbours' residuals, by component as coded
+  using UWide = std::make_unsigned_t<Wide>;
+  Lanes<UWide> q8;
+  Lanes<UWide> spread;      ///< disagreement of the first two tips
+  Lanes<UWide> magnitudes;  ///< of three neighbours' residuals, by component as coded
+  Lanes<float> normal;      ///< sum over the tips; only with shear
 };
-
-inline constexpr uint32_t kSpreadLimit = 1u << 19;
-
-template <class UWide>
-MCC_INLINE uint32_t saturatedAbsolute(UWide difference) {
-  const auto d = static_cast<std::make_signed_t<UWide>>(difference);
-  const UWide absolute = d < 0 ? UWide{0} - difference : difference;
-  return static_cast<uint32_t>(std::min<UWide>(absolute, kSpreadLimit));
-}
 
 /// Vertices behind the plain fan; missing ones point to some other vertex and have a zero mask.
 struct Beyond {
@@ -61,7 +53,7 @@ MCC_INLINE const VertexRecord* lookAcross(const FaceView& faces, const VertexRec
   const uint32_t t = faces.twin(half_edge);
   const VertexRecord& r =
       records[faces.vertex(t != kNone ? prevHalfEdge(t) : prevHalfEdge(half_edge))];
-  known = (t != kNone) & (r.known != 0);
+  known = (t != kNone) & r.known();
   return &r;
 }
 
@@ -76,7 +68,7 @@ MCC_INLINE Beyond lookBeyond(const FaceView& faces, const VertexRecord* records,
   bool has_xb = false;
   b.xa = lookAcross(faces, records, prevHalfEdge(fan.beyond0), has_xa);
   b.xb = lookAcross(faces, records, nextHalfEdge(fan.beyond1), has_xb);
-  b.has_x = has_xa & has_xb & (fan.n1->degree >= 6);
+  b.has_x = has_xa & has_xb & (fan.n1->degree() >= 6);
   return b;
 }
 
@@ -86,31 +78,38 @@ struct TipSelection {
   int32_t better;  ///< +1: t0, -1: t1, 0: a tie
 };
 
+template <class UWide>
+MCC_INLINE UWide sumOfComponents(const Lanes<UWide>& x) {
+  return x[0] + x[1] + x[2];
+}
+
+/// ya or yb against the parallelogram next to it.
+template <class UWide>
+MCC_INLINE Lanes<UWide> stepBeyond(const VertexRecord* y, const VertexRecord* n,
+                                   const VertexRecord* o, const Lanes<UWide>& n1, bool has) {
+  return (coordinates<UWide>(y) - coordinates<UWide>(n) - coordinates<UWide>(o) + n1) &
+         (UWide{0} - static_cast<UWide>(has));
+}
+
 template <class Wide>
 MCC_INLINE TipSelection selectTip(const PlainFan& f, const Beyond& b) {
   using UWide = std::make_unsigned_t<Wide>;
-  uint32_t error0 = 0;
-  uint32_t error1 = 0;
-  uint32_t error2 = 0;
-  MCC_UNROLL
-  for (int s = 0; s < 3; ++s) {
-    const UWide n0 = static_cast<UWide>(f.n0->q[s]);
-    const UWide n1 = static_cast<UWide>(f.n1->q[s]);
-    const UWide n2 = static_cast<UWide>(f.n2->q[s]);
-    const UWide o0 = static_cast<UWide>(f.o0->q[s]);
-    const UWide o1 = static_cast<UWide>(f.o1->q[s]);
-    const UWide mask_a = UWide{0} - static_cast<UWide>(b.has_ya);
-    const UWide mask_b = UWide{0} - static_cast<UWide>(b.has_yb);
-    error1 += saturatedAbsolute<UWide>(n1 + o0 - static_cast<UWide>(b.xa->q[s]) - n0);
-    error0 += saturatedAbsolute<UWide>(n1 + o1 - static_cast<UWide>(b.xb->q[s]) - n2);
-    error2 += saturatedAbsolute<UWide>((static_cast<UWide>(b.ya->q[s]) - n0 - o0 + n1) & mask_a);
-    error2 += saturatedAbsolute<UWide>((static_cast<UWide>(b.yb->q[s]) - n2 - o1 + n1) & mask_b);
-  }
-  const uint32_t both = b.has_ya && b.has_yb ? 1 : 0;
+  const Lanes<UWide> n1 = coordinates<UWide>(f.n1);
+  const Lanes<UWide> behind_t1 =
+      n1 + coordinates<UWide>(f.o0) - coordinates<UWide>(b.xa) - coordinates<UWide>(f.n0);
+  const Lanes<UWide> behind_t0 =
+      n1 + coordinates<UWide>(f.o1) - coordinates<UWide>(b.xb) - coordinates<UWide>(f.n2);
+  const UWide error1 = sumOfComponents<UWide>(absoluteLanes<UWide>(behind_t1));
+  const UWide error0 = sumOfComponents<UWide>(absoluteLanes<UWide>(behind_t0));
+  UWide error2 = sumOfComponents<UWide>(
+      absoluteLanes<UWide>(stepBeyond<UWide>(b.ya, f.n0, f.o0, n1, b.has_ya)) +
+      absoluteLanes<UWide>(stepBeyond<UWide>(b.yb, f.n2, f.o1, n1, b.has_yb)));
+  const uint32_t both = (b.has_ya & b.has_yb) ? 1 : 0;
   error2 = (error2 + both) >> both;
-  if (!b.has_ya & !b.has_yb) error2 = 1u << 28;
-  const uint32_t low = std::min(error0, error1);
-  const uint32_t high = std::max(error0, error1);
+  // Without both there is nothing to trust: far above what lattices reach.
+  error2 |= static_cast<UWide>(!b.has_ya & !b.has_yb) << (8 * sizeof(UWide) - 4);
+  const UWide low = std::min(error0, error1);
+  const UWide high = std::max(error0, error1);
   const uint32_t preference = uint32_t{2 * high > 3 * low + 2} + uint32_t{high > 3 * low + 2};
   const uint32_t third = uint32_t{error2 <= 2 * low} + uint32_t{2 * error2 <= low};
   return {kClassSelect + 3 * preference + third,
@@ -130,8 +129,10 @@ MCC_INLINE PlainClass classifyPlain(PositionPredictor predictor, bool select, co
                                     const Beyond& b, uint32_t degree) {
   PlainClass c;
   c.predictor_class = kClassFan + std::clamp<uint32_t>(degree, 3, 9);
-  c.degree_sum = std::clamp(int32_t{f.n0->degree} + f.n2->degree - 12, -12, 12);
-  c.degree_skew = std::clamp(int32_t{f.n0->degree} - f.n2->degree, -12, 12);
+  const int32_t degree0 = static_cast<int32_t>(f.n0->degree());
+  const int32_t degree2 = static_cast<int32_t>(f.n2->degree());
+  c.degree_sum = std::clamp(degree0 + degree2 - 12, -12, 12);
+  c.degree_skew = std::clamp(degree0 - degree2, -12, 12);
   c.better = 0;
   if (!select) return c;
   if (b.has_x & ((degree == 6) | (predictor == PositionPredictor::kSelecting))) {
@@ -142,78 +143,77 @@ MCC_INLINE PlainClass classifyPlain(PositionPredictor predictor, bool select, co
   return c;
 }
 
-/// Features of one component.
+/// Features of a plain fan.
 template <class UWide>
 struct PlainFeatures {
-  UWide f0;    ///< fan against tips
-  UWide f1;    ///< ends of the fan against its middle
-  UWide fy;    ///< ya, yb against their parallelograms
-  UWide fd;    ///< from one end to the other
-  UWide tips;  ///< t0 - t1; this and the next two only where a tip was selected
-  UWide x;
-  UWide y;
+  Lanes<UWide> f0;    ///< fan against tips
+  Lanes<UWide> f1;    ///< ends of the fan against its middle
+  Lanes<UWide> fy;    ///< ya, yb against their parallelograms
+  Lanes<UWide> fd;    ///< from one end to the other
+  Lanes<UWide> tips;  ///< t0 - t1; this and the next two only where a tip was selected
+  Lanes<UWide> x;
+  Lanes<UWide> y;
 };
 
 template <class UWide>
-MCC_INLINE PlainFeatures<UWide> plainFeatures(const PlainFan& f, const Beyond& b, int s,
-                                              bool select) {
+MCC_INLINE PlainFeatures<UWide> plainFeatures(const PlainFan& f, const Beyond& b, bool select) {
   PlainFeatures<UWide> r{};
-  const UWide n0 = static_cast<UWide>(f.n0->q[s]);
-  const UWide n1 = static_cast<UWide>(f.n1->q[s]);
-  const UWide n2 = static_cast<UWide>(f.n2->q[s]);
-  const UWide o0 = static_cast<UWide>(f.o0->q[s]);
-  const UWide o1 = static_cast<UWide>(f.o1->q[s]);
-  const UWide ya =
-      (static_cast<UWide>(b.ya->q[s]) - n0 - o0 + n1) & (UWide{0} - static_cast<UWide>(b.has_ya));
-  const UWide yb =
-      (static_cast<UWide>(b.yb->q[s]) - n2 - o1 + n1) & (UWide{0} - static_cast<UWide>(b.has_yb));
-  r.f0 = n0 + n2 + o0 + o1 - 4 * n1;
+  const Lanes<UWide> n0 = coordinates<UWide>(f.n0);
+  const Lanes<UWide> n1 = coordinates<UWide>(f.n1);
+  const Lanes<UWide> n2 = coordinates<UWide>(f.n2);
+  const Lanes<UWide> o0 = coordinates<UWide>(f.o0);
+  const Lanes<UWide> o1 = coordinates<UWide>(f.o1);
+  const Lanes<UWide> ya = stepBeyond<UWide>(b.ya, f.n0, f.o0, n1, b.has_ya);
+  const Lanes<UWide> yb = stepBeyond<UWide>(b.yb, f.n2, f.o1, n1, b.has_yb);
   r.f1 = n0 + n2 - 2 * n1;
+  r.f0 = r.f1 + o0 + o1 - 2 * n1;
   r.fy = 2 * (ya + yb);
   r.fd = 2 * (n0 - n2);
   if (!select) return r;
   r.tips = n0 - n2 + o1 - o0;
-  r.x = (n1 + o0 - static_cast<UWide>(b.xa->q[s]) - n0) -
-        (n1 + o1 - static_cast<UWide>(b.xb->q[s]) - n2);
+  r.x = (o0 - coordinates<UWide>(b.xa) - n0) - (o1 - coordinates<UWide>(b.xb) - n2);
   r.y = ya - yb;
   return r;
 }
 
-/// Weighted features of a plain fan, added to the average of the tips.
+/// Weighted features of a plain fan, to be added to the average of the tips.
 template <class Wide>
-MCC_INLINE void addPlainFeatures(const PositionParameters& p, const PlainFan& f, const Beyond& b,
-                                 uint32_t degree, bool select, std::make_unsigned_t<Wide>* q8) {
+MCC_INLINE Lanes<std::make_unsigned_t<Wide>> weightPlainFeatures(const PositionParameters& p,
+                                                                 const PlainFan& f, const Beyond& b,
+                                                                 uint32_t degree, bool select) {
   using UWide = std::make_unsigned_t<Wide>;
   const PlainClass c = classifyPlain<Wide>(p.predictor, select, f, b, degree);
   const int16_t* w = p.weights.w[c.predictor_class];
-  const UWide w0 = static_cast<UWide>(w[0] + w[4] * c.degree_sum);
-  const UWide w1 = static_cast<UWide>(w[1]);
-  const UWide wy = static_cast<UWide>(w[2]);
-  const UWide wd = static_cast<UWide>(w[3] * c.degree_skew);
-  const UWide w_tips = static_cast<UWide>(c.better * w[5]);
-  const UWide wx = static_cast<UWide>(c.better * w[6]);
-  const UWide w_y = static_cast<UWide>(c.better * w[7]);
-  MCC_UNROLL
-  for (int s = 0; s < 3; ++s) {
-    const PlainFeatures<UWide> v = plainFeatures<UWide>(f, b, s, select);
-    q8[s] += w0 * v.f0 + w1 * v.f1 + wy * v.fy + wd * v.fd;
-    if (select) q8[s] += w_tips * v.tips + wx * v.x + w_y * v.y;
+  const PlainFeatures<UWide> v = plainFeatures<UWide>(f, b, select);
+  const auto weight = [](int32_t x) { return static_cast<UWide>(static_cast<Wide>(x)); };
+  Lanes<UWide> sum = v.f0 * weight(w[0] + w[4] * c.degree_sum) + v.f1 * weight(w[1]) +
+                     v.fy * weight(w[2]) + v.fd * weight(w[3] * c.degree_skew);
+  if (select) {
+    sum += v.tips * weight(c.better * w[5]) + v.x * weight(c.better * w[6]) +
+           v.y * weight(c.better * w[7]);
   }
+  return sum;
 }
 
-/// Adds the normal of a tip's triangle (a, b, o).                                             [B.2.3]
-MCC_INLINE void addNormal(const VertexRecord& a, const VertexRecord& b, const VertexRecord& o,
-                          uint64_t* normal) {
-  uint64_t u[3];
-  uint64_t w[3];
-  MCC_UNROLL
-  for (int s = 0; s < 3; ++s) {
-    u[s] = static_cast<uint64_t>(int64_t{a.q[s]} - b.q[s]);
-    w[s] = static_cast<uint64_t>(int64_t{o.q[s]} - b.q[s]);
-  }
-  normal[0] += u[1] * w[2] - u[2] * w[1];
-  normal[1] += u[2] * w[0] - u[0] * w[2];
-  normal[2] += u[0] * w[1] - u[1] * w[0];
+MCC_INLINE Lanes<float> rotateComponents(const Lanes<float>& x) {  // y z x
+#if defined(__clang__)
+  return __builtin_shufflevector(x, x, 1, 2, 0, 3);
+#else
+  return __builtin_shuffle(x, Lanes<int32_t>{1, 2, 0, 3});
+#endif
+}
+
+/// Normal of a tip's triangle (a, b, o), its components in the order z x y.                     [B.2.3]
+template <class Wide>
+MCC_INLINE Lanes<float> tipNormal(const VertexRecord* a, const VertexRecord* b,
+                                  const VertexRecord* o) {
+  using UWide = std::make_unsigned_t<Wide>;
+  const auto edge = [&](const VertexRecord* to) MCC_INLINE_LAMBDA {
+    return convertLanes<float>((Lanes<Wide>)(coordinates<UWide>(to) - coordinates<UWide>(b)));
+  };
+  const Lanes<float> u = edge(a);
+  const Lanes<float> w = edge(o);
+  return u * rotateComponents(w) - rotateComponents(u) * w;
 }
 
 /// `beyond` may be null without weights.
@@ -221,25 +221,23 @@ template <class Wide>
 MCC_INLINE void predictPlain(const PositionParameters& p, const PlainFan& f, const Beyond* beyond,
                              uint32_t degree, uint32_t modes, Prediction<Wide>& out) {
   using UWide = std::make_unsigned_t<Wide>;
-  MCC_UNROLL
-  for (int s = 0; s < 3; ++s) {
-    const UWide e = static_cast<UWide>(f.n0->q[s]) + static_cast<UWide>(f.n2->q[s]);
-    const UWide o = static_cast<UWide>(f.o0->q[s]) + static_cast<UWide>(f.o1->q[s]);
-    out.q8[s] = 128 * (e + 2 * static_cast<UWide>(f.n1->q[s]) - o);
-    out.spread[s] =
-        saturatedAbsolute<UWide>(static_cast<UWide>(f.n0->q[s]) - static_cast<UWide>(f.o0->q[s]) -
-                                 static_cast<UWide>(f.n2->q[s]) + static_cast<UWide>(f.o1->q[s]));
-    out.magnitudes[s] = UWide{unpackMagnitude<Wide>(f.n0->magnitude[s])} +
-                        unpackMagnitude<Wide>(f.n1->magnitude[s]) +
-                        unpackMagnitude<Wide>(f.n2->magnitude[s]);
-  }
+  const Lanes<UWide> n0 = coordinates<UWide>(f.n0);
+  const Lanes<UWide> n1 = coordinates<UWide>(f.n1);
+  const Lanes<UWide> n2 = coordinates<UWide>(f.n2);
+  const Lanes<UWide> o0 = coordinates<UWide>(f.o0);
+  const Lanes<UWide> o1 = coordinates<UWide>(f.o1);
+  const Lanes<UWide> d0 = n0 - o0;
+  const Lanes<UWide> d1 = n2 - o1;
+  out.q8 = (d0 + d1 + n1 + n1) << 7;
+  out.spread = absoluteLanes<UWide>(d0 - d1);
+  out.magnitudes = magnitudes<UWide>(f.n0) + magnitudes<UWide>(f.n1) + magnitudes<UWide>(f.n2);
   if ((modes & position_mode::kWeights) != 0) {
-    addPlainFeatures<Wide>(p, f, *beyond, degree, (modes & position_mode::kSelect) != 0, out.q8);
+    out.q8 +=
+        weightPlainFeatures<Wide>(p, f, *beyond, degree, (modes & position_mode::kSelect) != 0);
   }
   if ((modes & position_mode::kShear) == 0) return;
-  out.normal[0] = out.normal[1] = out.normal[2] = 0;
-  addNormal(*f.n0, *f.n1, *f.o0, out.normal);
-  addNormal(*f.n1, *f.n2, *f.o1, out.normal);
+  out.normal =
+      rotateComponents(tipNormal<Wide>(f.n0, f.n1, f.o0) + tipNormal<Wide>(f.n1, f.n2, f.o1));
 }
 
 /// Everything but the plain fan: the mean of the tips, or of the neighbours without any, and features. [B.2.4]
@@ -257,8 +255,8 @@ struct AnyFeatures {
 };
 
 template <class Wide>
-AnyFeatures<Wide> anyFeatures(const AnyFan& fan, uint32_t degree, uint32_t* spread,
-                              uint64_t* normal) {
+AnyFeatures<Wide> anyFeatures(const AnyFan& fan, uint32_t degree,
+                              std::make_unsigned_t<Wide>* spread, Lanes<float>& normal) {
   using UWide = std::make_unsigned_t<Wide>;
   AnyFeatures<Wide> r{};
   UWide neighbour_sum[3] = {};
@@ -278,7 +276,7 @@ AnyFeatures<Wide> anyFeatures(const AnyFan& fan, uint32_t degree, uint32_t* spre
       tip_sum[s] += t;
       if (tip_count < 2) tip[tip_count][s] = t;
     }
-    addNormal(*fan.n[i], *fan.n[i + 1], *fan.o[i], normal);
+    normal += tipNormal<Wide>(fan.n[i], fan.n[i + 1], fan.o[i]);
     ++tip_count;
   }
   r.predictor_class = std::min(tip_count, 4u);
@@ -293,14 +291,18 @@ AnyFeatures<Wide> anyFeatures(const AnyFan& fan, uint32_t degree, uint32_t* spre
     r.base[s] =
         static_cast<UWide>(static_cast<Wide>(256 * tip_sum[s]) / static_cast<Wide>(tip_count));
     r.mean[s] = static_cast<UWide>(static_cast<Wide>(static_cast<UWide>(mean) - r.base[s]) >> 7);
-    if (tip_count >= 2) spread[s] = saturatedAbsolute<UWide>(tip[0][s] - tip[1][s]);
+    if (tip_count < 2) continue;
+    const UWide difference = tip[0][s] - tip[1][s];
+    spread[s] = static_cast<Wide>(difference) < 0 ? UWide{0} - difference : difference;
   }
   if (r.predictor_class != kClassOneTip) return r;
   const VertexRecord& a = *fan.n[last_tip];
   const VertexRecord& b = *fan.n[last_tip + 1];
   r.degree_term = static_cast<int32_t>(std::min(12u, degree)) - 6;
-  r.degree_sum = std::clamp(int32_t{a.degree} + b.degree - 12, -12, 12);
-  r.degree_skew = std::clamp(int32_t{a.degree} - b.degree, -12, 12);
+  const int32_t degree_a = static_cast<int32_t>(a.degree());
+  const int32_t degree_b = static_cast<int32_t>(b.degree());
+  r.degree_sum = std::clamp(degree_a + degree_b - 12, -12, 12);
+  r.degree_skew = std::clamp(degree_a - degree_b, -12, 12);
   for (int s = 0; s < 3; ++s) {
     r.tip[s] = static_cast<UWide>(a.q[s]) + static_cast<UWide>(b.q[s]) -
                2 * static_cast<UWide>(fan.o[last_tip]->q[s]);
@@ -313,19 +315,24 @@ template <class Wide>
 void predictAny(const PositionParameters& p, const AnyFan& fan, uint32_t degree,
                 Prediction<Wide>& out) {
   using UWide = std::make_unsigned_t<Wide>;
-  out = Prediction<Wide>{};
-  const AnyFeatures<Wide> v = anyFeatures<Wide>(fan, degree, out.spread, out.normal);
+  UWide spread[4] = {};
+  Lanes<float> normal{};
+  const AnyFeatures<Wide> v = anyFeatures<Wide>(fan, degree, spread, normal);
   const int16_t* w = p.weights.w[v.predictor_class];
   const UWide w_mean = static_cast<UWide>(w[1]);
   const UWide w_tip = static_cast<UWide>(w[0] + w[2] * v.degree_term + w[4] * v.degree_sum);
   const UWide w_edge = static_cast<UWide>(w[3] * v.degree_skew);
+  UWide q8[4] = {};
+  UWide magnitudes[4] = {};
   for (int s = 0; s < 3; ++s) {
-    out.q8[s] = v.base[s] + w_mean * v.mean[s] + w_tip * v.tip[s] + w_edge * v.edge[s];
-    for (uint32_t i = 0; i < fan.neighbour_count; ++i) {
-      out.magnitudes[s] += unpackMagnitude<Wide>(fan.n[i]->magnitude[s]);
-    }
-    if (fan.neighbour_count != 3) out.magnitudes[s] = out.magnitudes[s] * 3 / fan.neighbour_count;
+    q8[s] = v.base[s] + w_mean * v.mean[s] + w_tip * v.tip[s] + w_edge * v.edge[s];
+    for (uint32_t i = 0; i < fan.neighbour_count; ++i) magnitudes[s] += fan.n[i]->magnitude[s];
+    if (fan.neighbour_count != 3) magnitudes[s] = magnitudes[s] * 3 / fan.neighbour_count;
   }
+  out.q8 = loadLanes<UWide>(q8);
+  out.spread = loadLanes<UWide>(spread);
+  out.magnitudes = loadLanes<UWide>(magnitudes);
+  out.normal = rotateComponents(normal);
 }
 
 inline int64_t wrappingMultiply(int64_t a, int64_t b) {
@@ -338,46 +345,41 @@ inline int64_t wrappingAdd(int64_t a, int64_t b) {
 /// Normal shear: components are coded in the order of growing |normal|; what the first ones turn out to be moves the
 /// predictions of the later ones along the tangent plane.                                     [B.2.3]
 struct Shear {
-  uint32_t axis[3] = {0, 1, 2};
-  int32_t c10 = 0;  ///< in 1/4096
-  int32_t c20 = 0;
-  int32_t c21 = 0;
+  const uint8_t* axis;  ///< by slot; three
+  const uint8_t* slot;  ///< by axis
+  int32_t c10;          ///< in 1/4096
+  int32_t c20;
+  int32_t c21;
 };
 
-MCC_INLINE Shear makeShear(const uint64_t* wrapped) {
-  int64_t n[3];
-  uint64_t size[3];
-  MCC_UNROLL
-  for (int s = 0; s < 3; ++s) {
-    n[s] = static_cast<int64_t>(wrapped[s]);
-    size[s] = n[s] < 0 ? 0 - wrapped[s] : wrapped[s];
-  }
+struct ComponentOrder {
+  uint8_t axis[4];
+  uint8_t slot[4];
+};
+/// By which of 0 > 1, 0 > 2, 1 > 2 hold (bits 0, 1, 2); two of the eight cannot happen.
+inline constexpr ComponentOrder kComponentOrders[8] = {
+    {{0, 1, 2}, {0, 1, 2}}, {{1, 0, 2}, {1, 0, 2}}, {{0, 1, 2}, {0, 1, 2}}, {{1, 2, 0}, {2, 0, 1}},
+    {{0, 2, 1}, {0, 2, 1}}, {{0, 1, 2}, {0, 1, 2}}, {{2, 0, 1}, {1, 2, 0}}, {{2, 1, 0}, {2, 1, 0}},
+};
+
+MCC_INLINE Shear makeShear(const Lanes<float>& normal) {
+  float n[4];
+  uint32_t size[4];  // bits of |n|, which are ordered like |n|
+  storeLanes<float>(normal, n);
+  storeLanes<uint32_t>((Lanes<uint32_t>)normal & 0x7fffffffu, size);
+  const uint32_t order = uint32_t{size[0] > size[1]} | uint32_t{size[0] > size[2]} << 1 |
+                         uint32_t{size[1] > size[2]} << 2;
   Shear shear;
-  uint32_t* axis = shear.axis;
-  // Sorts by size; conditional moves, since any order is as likely.
-  const auto order = [&](uint32_t i, uint32_t k) {
-    const bool swap = size[axis[i]] > size[axis[k]];
-    const uint32_t low = swap ? axis[k] : axis[i];
-    axis[k] = swap ? axis[i] : axis[k];
-    axis[i] = low;
-  };
-  order(0, 1);
-  order(1, 2);
-  order(0, 1);
-  const uint32_t width = static_cast<uint32_t>(std::bit_width(size[axis[2]]));
-  if (width == 0) return shear;
-  int32_t v[3];
-  MCC_UNROLL
-  for (int s = 0; s < 3; ++s) {  // the largest gets 14 bits
-    const int64_t x = n[axis[s]];
-    v[s] = static_cast<int32_t>(
-        width > 14 ? x >> (width - 14)
-                   : static_cast<int64_t>(static_cast<uint64_t>(x) << (14 - width)));
-  }
-  shear.c10 = -(v[0] * v[1]) / ((v[1] * v[1] + v[2] * v[2]) >> 12);
-  const int32_t inverse = (1 << 28) / v[2];
-  shear.c20 = -((v[0] * inverse) >> 16);
-  shear.c21 = -((v[1] * inverse) >> 16);
+  shear.axis = kComponentOrders[order].axis;
+  shear.slot = kComponentOrders[order].slot;
+  // The largest component is 0 only if all are: nothing is moved then.
+  const float largest = n[shear.axis[2]];
+  const float inverse = 1.0f / (largest == 0 ? 1.0f : largest);
+  const float t0 = n[shear.axis[0]] * inverse;
+  const float t1 = n[shear.axis[1]] * inverse;
+  shear.c20 = -static_cast<int32_t>(t0 * 4096.0f);
+  shear.c21 = -static_cast<int32_t>(t1 * 4096.0f);
+  shear.c10 = -static_cast<int32_t>(t0 * t1 / (t1 * t1 + 1.0f) * 4096.0f);
   return shear;
 }
 

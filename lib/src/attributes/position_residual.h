@@ -11,6 +11,7 @@
 
 #include "attributes/position_tables.h"
 #include "base/host.h"
+#include "base/lanes.h"
 #include "entropy/models.h"
 
 namespace mcc {
@@ -59,56 +60,93 @@ struct PositionRows {
   }
 };
 
+/// Coefficients of the scale by component, of one kind of fan.
+template <class UWide>
+struct ScaleLanes {
+  Lanes<UWide> neighbours;
+  Lanes<UWide> spread;
+  Lanes<UWide> constant;
+
+  explicit ScaleLanes(const ScaleCoefficients* c)
+      : neighbours{c[0].c[0], c[1].c[0], c[2].c[0], 0},
+        spread{c[0].c[1], c[1].c[1], c[2].c[1], 0},
+        constant{c[0].c[2], c[1].c[2], c[2].c[2], 0} {}
+};
+
 /// Scale in 1/16 of a lattice step, and which of its two terms is more than twice the other.
 struct ScaleEstimate {
-  uint32_t scale;
-  uint32_t set;  ///< 1: spread, 2: neighbours, 0: neither
+  Lanes<uint32_t> scale;  ///< at most kScaleLimit
+  Lanes<uint32_t> set;    ///< 1: spread, 2: neighbours, 0: neither
 };
+inline constexpr uint32_t kScaleLimit = 1u << 26;
 
-template <class Wide>
-MCC_INLINE ScaleEstimate estimateScale(const ScaleCoefficients& c, uint64_t magnitudes,
-                                       uint32_t spread) {
-  using Sum = std::conditional_t<std::is_same_v<Wide, int32_t>, uint32_t, uint64_t>;
-  const Sum of_neighbours = c.c[0] * static_cast<Sum>(magnitudes);
-  const Sum of_spread = c.c[1] * Sum{spread};
-  const Sum scale = (of_neighbours + of_spread + c.c[2]) >> 6;
-  const uint32_t set =
-      (of_spread / 2 > of_neighbours ? 1u : 0u) + (of_neighbours / 2 > of_spread ? 2u : 0u);
-  return {static_cast<uint32_t>(std::min<Sum>(scale, 0x7fffffff)), set};
+template <class UWide>
+MCC_INLINE ScaleEstimate estimateScale(const ScaleLanes<UWide>& c, const Lanes<UWide>& magnitudes,
+                                       const Lanes<UWide>& spread) {
+  using Signed = Lanes<std::make_signed_t<UWide>>;
+  const Lanes<UWide> of_neighbours = c.neighbours * magnitudes;
+  const Lanes<UWide> of_spread = c.spread * spread;
+  Lanes<UWide> scale = (of_neighbours + of_spread + c.constant) >> 6;
+  if (sizeof(UWide) > 4) scale = minimumLanes<UWide>(scale, kScaleLimit);
+  // Halved, since comparisons are signed.
+  const Signed by_spread = (Signed)(of_spread >> 2) > (Signed)(of_neighbours >> 1);
+  const Signed by_neighbours = (Signed)(of_neighbours >> 2) > (Signed)(of_spread >> 1);
+  return {convertLanes<uint32_t>(scale),
+          convertLanes<uint32_t>((by_spread & 1) | (by_neighbours & 2))};
 }
 
-/// Half-octave bucket of a scale, 0 .. kScaleBuckets-1.
-MCC_INLINE uint32_t scaleBucket(uint32_t scale) {
-  const uint32_t y = scale + 1;
-  const uint32_t k = static_cast<uint32_t>(std::bit_width(y)) - 1;
-  const uint32_t bucket = 2 * k + ((2 * y >> k) & 1);
-  return std::min(bucket, kScaleBuckets - 1);
+/// Half-octave buckets of scales, 0 .. kScaleBuckets-1: the exponent and the highest fraction bit of scale + 1 as a
+/// float. Below the last bucket the conversion is exact.
+MCC_INLINE Lanes<uint32_t> scaleBuckets(const Lanes<uint32_t>& scale) {
+  const Lanes<float> y = convertLanes<float>((Lanes<int32_t>)(scale + 1));
+  const Lanes<uint32_t> bucket = ((Lanes<uint32_t>)y >> 22) - 2 * 127;
+  return minimumLanes<uint32_t>(bucket, kScaleBuckets - 1);
 }
 
-/// Small residuals are numbered outwards from the unrounded prediction: 0, +1, -1, .. or 0, -1, +1, ..
-struct Folding {
-  uint32_t fraction_class;
-  bool flip;  ///< the prediction was rounded up
+/// How the residuals of a vertex are coded, by component.
+struct ResidualContexts {
+  uint32_t row[4];
+  uint32_t low_bits[4];
+  /// Small residuals are numbered outwards from the unrounded prediction: 0, +1, -1, .. or 0, -1, +1, ..
+  uint32_t folded[4];  ///< all ones or 0
+  uint32_t flip[4];    ///< 1: the prediction was rounded up
 };
 
-MCC_INLINE Folding foldingOf(int32_t fraction) {  // -128 .. 127
-  const uint32_t size = static_cast<uint32_t>(fraction < 0 ? -fraction : fraction);
-  return {std::min<uint32_t>(size >> 5, kFractionClasses - 1), fraction < 0};
+/// `rounded` is the prediction in Q8 plus one half.
+template <bool kFold>
+MCC_INLINE void findContexts(const ScaleEstimate& scale, const Lanes<uint32_t>& rounded, bool split,
+                             ResidualContexts& out) {
+  constexpr uint32_t kRows = kRowSets * kRowsPerSet;
+  const Lanes<uint32_t> bucket = scaleBuckets(scale.scale);
+  Lanes<uint32_t> row = bucket + Lanes<uint32_t>{0, kRows, 2 * kRows, 0};
+  if (split) row += scale.set * kRowsPerSet;
+  const Lanes<uint32_t> low = (bucket >> 1) - 5;
+  storeLanes<uint32_t>(low & (Lanes<uint32_t>)(bucket > 9), out.low_bits);
+  if (kFold) {
+    const Lanes<uint32_t> fraction = (rounded & 255) - 128;
+    const Lanes<uint32_t> folded = (Lanes<uint32_t>)(bucket < kFoldBuckets);
+    const Lanes<uint32_t> fraction_class =
+        minimumLanes<uint32_t>(absoluteLanes<uint32_t>(fraction) >> 5, kFractionClasses - 1);
+    row += folded & (fraction_class * kFoldBuckets + kScaleBuckets);
+    storeLanes<uint32_t>(folded, out.folded);
+    storeLanes<uint32_t>(fraction >> 31, out.flip);
+  }
+  storeLanes<uint32_t>(row, out.row);
 }
 
 /// One residual: its magnitude above the bucket's low bits as a token, then raw bits, then a sign unless folded.
-template <uint32_t kState, class Io>
-MCC_INLINE int32_t codeResidual(Io& io, TokenRow& row, uint32_t bucket, bool folded, bool flip,
-                                int32_t truth) {
-  const uint32_t low_bits = bucket >= 10 ? bucket / 2 - 5 : 0;
+template <uint32_t kState, bool kFold, class Io>
+MCC_INLINE int32_t codeResidual(Io& io, TokenRow& row, uint32_t low_bits, uint32_t folded,
+                                uint32_t flip, int32_t truth) {
+  const bool has_sign = !kFold || folded == 0;
   uint32_t a = 0;
   uint32_t token = 0;
   if constexpr (Io::kEncoding) {
     const uint32_t t = static_cast<uint32_t>(truth);
     a = truth < 0 ? 0u - t : t;
     // -2^31 and 2^31 are the same residual; only the latter has a folded number.
-    const bool odd = (truth > 0) != flip || a == 0x80000000u;
-    if (folded && a != 0) a = 2 * a - (odd ? 1 : 0);
+    const bool odd = (truth > 0) != (flip != 0) || a == 0x80000000u;
+    if (!has_sign && a != 0) a = 2 * a - (odd ? 1 : 0);
     token = tokenOf(a >> low_bits);
   }
   token = io.template token<kState>(row, kPositionSchedule, token);
@@ -120,15 +158,17 @@ MCC_INLINE int32_t codeResidual(Io& io, TokenRow& row, uint32_t bucket, bool fol
     const uint32_t mask = (uint32_t{1} << k) - 1;
     const uint32_t z = ((mask + 1) | io.raw(k, above & mask)) + 127;
     a = z << low_bits | io.raw(low_bits, a & ((1u << low_bits) - 1));
-    if (!folded) negative = io.raw(1, negative);
+    if (has_sign) negative = io.raw(1, negative);
   } else {
     const uint32_t base = uint32_t{kTokenBase[token]} << low_bits;
-    a = io.magnitude(base, kTokenExtraBits[token] + low_bits, !folded, a, negative);
+    a = io.magnitude(base, kTokenExtraBits[token] + low_bits, has_sign, a, negative);
   }
-  const uint32_t unfolded = a / 2 + (a & 1);
-  const uint32_t side = (~a & 1) ^ (flip ? 1u : 0u);
-  a = folded ? unfolded : a;
-  negative = folded ? side : negative;
+  if constexpr (kFold) {
+    const uint32_t unfolded = a / 2 + (a & 1);
+    const uint32_t side = (~a & 1) ^ flip;
+    a ^= (a ^ unfolded) & folded;
+    negative ^= (negative ^ side) & folded;
+  }
   const uint32_t mask = ~negative + 1;
   return static_cast<int32_t>((a ^ mask) - mask);
 }

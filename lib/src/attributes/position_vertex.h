@@ -25,9 +25,15 @@ inline constexpr uint32_t kCompiledModes = position_mode::kWeights | position_mo
 template <class Io, class Wide, uint32_t kModes>
 class VertexCoder {
  public:
+  using UWide = std::make_unsigned_t<Wide>;
+
   VertexCoder(PositionRows& rows, const PositionParameters& parameters, VertexRecord* records,
               const int32_t* truth)
-      : rows_(rows.row[0]), p_(parameters), records_(records), truth_(truth) {
+      : rows_(rows.row[0]),
+        p_(parameters),
+        records_(records),
+        truth_(truth),
+        scale_{ScaleLanes<UWide>(parameters.scale[0]), ScaleLanes<UWide>(parameters.scale[1])} {
     for (int s = 0; s < 3; ++s) {
       last_seed_[s] = static_cast<int32_t>((uint32_t{1} << p_.bits) / 2);
       seed_scale_[0][s] = 8u << p_.bits;
@@ -37,15 +43,22 @@ class VertexCoder {
 
   MCC_INLINE void codePlain(Io& io, uint32_t v, const PlainFan& fan, const Beyond* beyond) const {
     Prediction<Wide> prediction;
-    predictPlain<Wide>(p_, fan, beyond, records_[v].degree, compiledModes(), prediction);
+    predictPlain<Wide>(p_, fan, beyond, records_[v].degree(), compiledModes(), prediction);
     codeVertex(io, v, prediction, 1);
   }
   void codeAny(Io& io, uint32_t v, const AnyFan& fan) const {
     Prediction<Wide> prediction;
-    predictAny<Wide>(p_, fan, records_[v].degree, prediction);
+    predictAny<Wide>(p_, fan, records_[v].degree(), prediction);
     codeVertex(io, v, prediction, 0);
   }
-  void codeVertex(Io& io, uint32_t v, const Prediction<Wide>& prediction, uint32_t plain) const;
+  MCC_INLINE void codeVertex(Io& io, uint32_t v, const Prediction<Wide>& prediction,
+                             uint32_t plain) const {
+    if (has(position_mode::kFold)) {
+      codeComponents<true>(io, v, prediction, plain);
+    } else {
+      codeComponents<false>(io, v, prediction, plain);
+    }
+  }
   void codeSeed(Io& io, uint32_t v, const VertexRecord* neighbour);
 
   bool has(uint32_t mode) const {
@@ -54,129 +67,152 @@ class VertexCoder {
   }
 
  private:
-  using UWide = std::make_unsigned_t<Wide>;
-
   uint32_t compiledModes() const { return kModes == kAnyModes ? p_.modes : kModes; }
 
-  template <uint32_t kSlot>
-  int32_t codeComponent(Io& io, uint32_t v, uint32_t axis, UWide q8, const ScaleEstimate& scale,
-                        uint32_t& magnitude) const;
-  template <uint32_t kSlot>
-  int32_t codeNear(Io& io, uint32_t prediction, uint32_t q8, const ScaleEstimate& scale,
-                   int32_t truth) const;
-  template <uint32_t kSlot>
-  int32_t codeRank(Io& io, const AxisPalette& palette, int64_t q8, const ScaleEstimate& scale,
-                   int32_t truth) const;
+  template <bool kFold>
+  void codeComponents(Io& io, uint32_t v, const Prediction<Wide>& prediction, uint32_t plain) const;
+  template <bool kFold, class Shift>
+  void codeSlots(Io& io, uint32_t v, const uint8_t* axis, const uint8_t* slot,
+                 const Lanes<UWide>& q8, const ScaleEstimate& scale, Shift shift) const;
+  template <uint32_t kSlot, bool kFold>
+  int32_t codeSlot(Io& io, const ResidualContexts& c, uint32_t prediction, int32_t truth,
+                   int32_t* residual) const;
+  template <bool kFold>
+  void codeRanks(Io& io, uint32_t v, const Lanes<UWide>& q8, const ScaleEstimate& scale) const;
+
+  MCC_INLINE int32_t truthOf(uint32_t v, uint32_t axis) const {
+    return Io::kEncoding ? truth_[3 * size_t{v} + axis] : 0;
+  }
+  MCC_INLINE void store(uint32_t v, int32_t x, int32_t y, int32_t z,
+                        const int32_t* residual) const {
+    VertexRecord& r = records_[v];
+    const Lanes<uint32_t> residuals = {
+        static_cast<uint32_t>(residual[0]), static_cast<uint32_t>(residual[1]),
+        static_cast<uint32_t>(residual[2]), static_cast<uint32_t>(r.degree())};
+    storeLanes<uint32_t>(absoluteLanes<uint32_t>(residuals), r.magnitude);
+    storeLanes<int32_t>(Lanes<int32_t>{x, y, z, kKnown}, r.q);
+  }
 
   TokenRow* const rows_;
   const PositionParameters& p_;
   VertexRecord* const records_;
   const int32_t* const truth_;
+  const ScaleLanes<UWide> scale_[2];  ///< [plain fan]
   int32_t last_seed_[3] = {};
   uint32_t seed_scale_[2][3] = {};
 };
 
+inline constexpr uint8_t kFileOrder[4] = {0, 1, 2, 3};
+
 template <class Io, class Wide, uint32_t kModes>
-MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeVertex(Io& io, uint32_t v,
-                                                          const Prediction<Wide>& prediction,
-                                                          uint32_t plain) const {
-  const ScaleCoefficients* c = p_.scale[plain];
-  uint32_t axis[3] = {0, 1, 2};
-  Shear shear;
-  if (has(position_mode::kShear)) {
-    shear = makeShear(prediction.normal);
-    MCC_UNROLL
-    for (int s = 0; s < 3; ++s) axis[s] = shear.axis[s];
+template <bool kFold>
+MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeComponents(Io& io, uint32_t v,
+                                                              const Prediction<Wide>& prediction,
+                                                              uint32_t plain) const {
+  if (!has(position_mode::kShear)) {
+    const ScaleEstimate scale =
+        estimateScale<UWide>(scale_[plain], prediction.magnitudes, prediction.spread);
+    if (has(position_mode::kPalette)) return codeRanks<kFold>(io, v, prediction.q8, scale);
+    const auto none = [](int, const int32_t*) MCC_INLINE_LAMBDA { return UWide{0}; };
+    return codeSlots<kFold>(io, v, kFileOrder, kFileOrder, prediction.q8, scale, none);
   }
-  ScaleEstimate scale[3];
-  UWide q8[3];
-  MCC_UNROLL
-  for (int s = 0; s < 3; ++s) {
-    scale[s] = estimateScale<Wide>(c[s], prediction.magnitudes[s], prediction.spread[axis[s]]);
-    q8[s] = prediction.q8[axis[s]];
-  }
-  uint32_t magnitude[3];
+  const Shear shear = makeShear(prediction.normal);
+  const auto inOrder = [&](const Lanes<UWide>& x) MCC_INLINE_LAMBDA {
+    UWide by_axis[4];
+    storeLanes<UWide>(x, by_axis);
+    return Lanes<UWide>{by_axis[shear.axis[0]], by_axis[shear.axis[1]], by_axis[shear.axis[2]], 0};
+  };
+  const ScaleEstimate scale =
+      estimateScale<UWide>(scale_[plain], prediction.magnitudes, inOrder(prediction.spread));
+  const Lanes<UWide> q8 = inOrder(prediction.q8);
+  // Deviations from the unrounded, unsheared prediction; with fold the shift keeps its fraction.
+  const auto shift = [&](int s, const int32_t* q) MCC_INLINE_LAMBDA {
+    const auto deviation = [&](int k) {
+      return static_cast<Wide>((static_cast<UWide>(q[k]) << 8) - q8[k]);
+    };
+    const int64_t sum = s == 1 ? wrappingMultiply(shear.c10, deviation(0))
+                               : wrappingAdd(wrappingMultiply(shear.c20, deviation(0)),
+                                             wrappingMultiply(shear.c21, deviation(1)));
+    return static_cast<UWide>(kFold ? ((sum >> 12) + 128) & ~int64_t{255} : sum >> 12);
+  };
+  codeSlots<kFold>(io, v, shear.axis, shear.slot, q8, scale, shift);
+}
+
+/// Components by slot: `axis` of each and back; `shift(s, q)` moves the prediction of slot s > 0 by what the slots
+/// before turned out to be.
+template <class Io, class Wide, uint32_t kModes>
+template <bool kFold, class Shift>
+MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeSlots(Io& io, uint32_t v, const uint8_t* axis,
+                                                         const uint8_t* slot,
+                                                         const Lanes<UWide>& q8,
+                                                         const ScaleEstimate& scale,
+                                                         Shift shift) const {
+  const Lanes<UWide> rounded = q8 + 128;
+  ResidualContexts c;
+  findContexts<kFold>(scale, convertLanes<uint32_t>(rounded), has(position_mode::kSplit), c);
+  const auto prediction = [&](UWide q8_rounded) {
+    return static_cast<uint32_t>(static_cast<Wide>(q8_rounded) >> 8);
+  };
   int32_t q[3];
-  // Deviation from the unrounded, unsheared prediction; with fold the shift keeps its fraction.
-  const auto deviation = [&](uint32_t s) {
-    return static_cast<Wide>((static_cast<UWide>(q[s]) << 8) - prediction.q8[axis[s]]);
-  };
-  const auto shift = [&](int64_t sum) {
-    sum >>= 12;
-    return static_cast<UWide>(has(position_mode::kFold) ? (sum + 128) & ~int64_t{255} : sum);
-  };
-  q[0] = codeComponent<0>(io, v, axis[0], q8[0], scale[0], magnitude[0]);
-  if (has(position_mode::kShear)) {
-    q8[1] += shift(wrappingMultiply(shear.c10, deviation(0)));
-  }
-  q[1] = codeComponent<1>(io, v, axis[1], q8[1], scale[1], magnitude[1]);
-  if (has(position_mode::kShear)) {
-    q8[2] += shift(wrappingAdd(wrappingMultiply(shear.c20, deviation(0)),
-                               wrappingMultiply(shear.c21, deviation(1))));
-  }
-  q[2] = codeComponent<2>(io, v, axis[2], q8[2], scale[2], magnitude[2]);
-  VertexRecord& r = records_[v];
-  MCC_UNROLL
-  for (int s = 0; s < 3; ++s) {
-    r.q[axis[s]] = q[s];
-    r.magnitude[s] = packMagnitude<Wide>(magnitude[s]);
-  }
+  int32_t residual[3];
+  q[0] = codeSlot<0, kFold>(io, c, prediction(rounded[0]), truthOf(v, axis[0]), residual);
+  q[1] = codeSlot<1, kFold>(io, c, prediction(rounded[1] + shift(1, q)), truthOf(v, axis[1]),
+                            residual);
+  q[2] = codeSlot<2, kFold>(io, c, prediction(rounded[2] + shift(2, q)), truthOf(v, axis[2]),
+                            residual);
+  store(v, q[slot[0]], q[slot[1]], q[slot[2]], residual);
 }
 
+/// A number near its prediction; `residual` receives the difference.
 template <class Io, class Wide, uint32_t kModes>
-template <uint32_t kSlot>
-MCC_INLINE int32_t VertexCoder<Io, Wide, kModes>::codeComponent(Io& io, uint32_t v, uint32_t axis,
-                                                                UWide q8,
-                                                                const ScaleEstimate& scale,
-                                                                uint32_t& magnitude) const {
-  const int32_t truth = Io::kEncoding ? truth_[3 * size_t{v} + axis] : 0;
-  const uint32_t prediction = static_cast<uint32_t>(static_cast<Wide>(q8 + 128) >> 8);
-  int32_t value = 0;
-  if (has(position_mode::kPalette) && p_.palette[axis].count != 0) {
-    value = codeRank<kSlot>(io, p_.palette[axis], static_cast<Wide>(q8), scale, truth);
-  } else {
-    value = codeNear<kSlot>(io, prediction, static_cast<uint32_t>(q8), scale, truth);
-  }
-  const uint32_t residual = static_cast<uint32_t>(value) - prediction;
-  magnitude = static_cast<int32_t>(residual) < 0 ? 0u - residual : residual;
-  return value;
-}
-
-/// An integer near its prediction, whose Q8 form gives the fraction.
-template <class Io, class Wide, uint32_t kModes>
-template <uint32_t kSlot>
-MCC_INLINE int32_t VertexCoder<Io, Wide, kModes>::codeNear(Io& io, uint32_t prediction, uint32_t q8,
-                                                           const ScaleEstimate& scale,
-                                                           int32_t truth) const {
-  const uint32_t bucket = scaleBucket(scale.scale);
-  uint32_t row = bucket;
-  bool folded = false;
-  bool flip = false;
-  if (has(position_mode::kFold)) {
-    const Folding folding = foldingOf(static_cast<int32_t>((q8 + 128) & 255) - 128);
-    folded = bucket < kFoldBuckets;
-    flip = folding.flip;
-    row = folded ? kScaleBuckets + kFoldBuckets * folding.fraction_class + bucket : bucket;
-  }
-  if (has(position_mode::kSplit)) row += scale.set * kRowsPerSet;
+template <uint32_t kSlot, bool kFold>
+MCC_INLINE int32_t VertexCoder<Io, Wide, kModes>::codeSlot(Io& io, const ResidualContexts& c,
+                                                           uint32_t prediction, int32_t truth,
+                                                           int32_t* residual) const {
   const int32_t target = static_cast<int32_t>(static_cast<uint32_t>(truth) - prediction);
-  const int32_t residual = codeResidual<kSlot>(io, rows_[kSlot * kRowSets * kRowsPerSet + row],
-                                               bucket, folded, flip, target);
-  return static_cast<int32_t>(prediction + static_cast<uint32_t>(residual));
+  residual[kSlot] = codeResidual<kSlot, kFold>(io, rows_[c.row[kSlot]], c.low_bits[kSlot],
+                                               c.folded[kSlot], c.flip[kSlot], target);
+  return static_cast<int32_t>(prediction + static_cast<uint32_t>(residual[kSlot]));
 }
 
-/// The same among the values of a palette: prediction and scale become ranks.
+/// The same with palettes, never sheared: where an axis has one, prediction and scale become ranks.
 template <class Io, class Wide, uint32_t kModes>
-template <uint32_t kSlot>
-int32_t VertexCoder<Io, Wide, kModes>::codeRank(Io& io, const AxisPalette& palette, int64_t q8,
-                                                const ScaleEstimate& scale, int32_t truth) const {
-  const int64_t reach = int64_t{16} * scale.scale;
-  const int64_t rank = palette.rankOf(q8);
-  const int64_t width = palette.rankOf(q8 + reach) - palette.rankOf(q8 - reach);
-  const ScaleEstimate of_rank{static_cast<uint32_t>(width >> 5), scale.set};
-  const int32_t true_rank = Io::kEncoding ? static_cast<int32_t>(palette.countUpTo(truth)) - 1 : 0;
-  return palette.valueOf(codeNear<kSlot>(io, static_cast<uint32_t>((rank + 128) >> 8),
-                                         static_cast<uint32_t>(rank), of_rank, true_rank));
+template <bool kFold>
+void VertexCoder<Io, Wide, kModes>::codeRanks(Io& io, uint32_t v, const Lanes<UWide>& q8,
+                                              const ScaleEstimate& scale) const {
+  Wide at[4] = {};
+  uint32_t width[4];
+  storeLanes<Wide>((Lanes<Wide>)q8, at);
+  storeLanes<uint32_t>(scale.scale, width);
+  uint32_t near[3];
+  int32_t truth[3];
+  for (uint32_t s = 0; s < 3; ++s) {
+    near[s] = static_cast<uint32_t>(static_cast<Wide>(static_cast<UWide>(at[s]) + 128) >> 8);
+    truth[s] = truthOf(v, s);
+    const AxisPalette& palette = p_.palette[s];
+    if (palette.count == 0) continue;
+    if (Io::kEncoding) truth[s] = static_cast<int32_t>(palette.countUpTo(truth[s])) - 1;
+    const int64_t reach = int64_t{16} * width[s];
+    const int64_t ranks = palette.roughRankOf(at[s] + reach) - palette.roughRankOf(at[s] - reach);
+    at[s] = static_cast<Wide>(palette.rankOf(at[s]));
+    width[s] = static_cast<uint32_t>(ranks >> 5);
+  }
+  const Lanes<UWide> rounded = (Lanes<UWide>)loadLanes<Wide>(at) + 128;
+  ResidualContexts c;
+  findContexts<kFold>({loadLanes<uint32_t>(width), scale.set}, convertLanes<uint32_t>(rounded),
+                      has(position_mode::kSplit), c);
+  const auto prediction = [&](uint32_t s) {
+    return static_cast<uint32_t>(static_cast<Wide>(rounded[s]) >> 8);
+  };
+  int32_t residual[3];
+  int32_t q[3] = {codeSlot<0, kFold>(io, c, prediction(0), truth[0], residual),
+                  codeSlot<1, kFold>(io, c, prediction(1), truth[1], residual),
+                  codeSlot<2, kFold>(io, c, prediction(2), truth[2], residual)};
+  for (uint32_t s = 0; s < 3; ++s) {
+    if (p_.palette[s].count != 0) q[s] = p_.palette[s].valueOf(q[s]);
+    residual[s] = static_cast<int32_t>(static_cast<uint32_t>(q[s]) - near[s]);
+  }
+  store(v, q[0], q[1], q[2], residual);
 }
 
 /// A vertex without a known face around it: a neighbour's position or the last seed's, scale by earlier seeds. [B.2.7]
@@ -185,21 +221,28 @@ void VertexCoder<Io, Wide, kModes>::codeSeed(Io& io, uint32_t v, const VertexRec
   VertexRecord& r = records_[v];
   uint32_t* scale = seed_scale_[neighbour != nullptr ? 1 : 0];
   const int32_t* from = neighbour != nullptr ? neighbour->q : last_seed_;
-  const UWide q8[3] = {static_cast<UWide>(from[0]) << 8, static_cast<UWide>(from[1]) << 8,
-                       static_cast<UWide>(from[2]) << 8};
-  uint32_t magnitude[3];
-  const int32_t q[3] = {codeComponent<0>(io, v, 0, q8[0], {scale[0], 0}, magnitude[0]),
-                        codeComponent<1>(io, v, 1, q8[1], {scale[1], 0}, magnitude[1]),
-                        codeComponent<2>(io, v, 2, q8[2], {scale[2], 0}, magnitude[2])};
-  for (int s = 0; s < 3; ++s) {
-    r.q[s] = q[s];
-    r.magnitude[s] = packMagnitude<Wide>(magnitude[s]);
-    scale[s] = (scale[s] + 16 * std::min(magnitude[s], 1u << 24)) / 2;
-    if (neighbour == nullptr) {
-      last_seed_[s] = q[s];
-      // The distance between components says nothing about the residuals around this vertex.
-      r.magnitude[s] = packMagnitude<Wide>(seed_scale_[1][s] / 16);
+  const Lanes<UWide> q8 = {static_cast<UWide>(from[0]) << 8, static_cast<UWide>(from[1]) << 8,
+                           static_cast<UWide>(from[2]) << 8, 0};
+  const Lanes<uint32_t> scales = {scale[0], scale[1], scale[2], 0};
+  const ScaleEstimate estimate{minimumLanes<uint32_t>(scales, kScaleLimit), {}};
+  const auto none = [](int, const int32_t*) MCC_INLINE_LAMBDA { return UWide{0}; };
+  if (has(position_mode::kPalette)) {
+    if (has(position_mode::kFold)) {
+      codeRanks<true>(io, v, q8, estimate);
+    } else {
+      codeRanks<false>(io, v, q8, estimate);
     }
+  } else if (has(position_mode::kFold)) {
+    codeSlots<true>(io, v, kFileOrder, kFileOrder, q8, estimate, none);
+  } else {
+    codeSlots<false>(io, v, kFileOrder, kFileOrder, q8, estimate, none);
+  }
+  for (int s = 0; s < 3; ++s) {
+    scale[s] = (scale[s] + 16 * std::min(r.magnitude[s], 1u << 24)) / 2;
+    if (neighbour != nullptr) continue;
+    last_seed_[s] = r.q[s];
+    // The distance between components says nothing about the residuals around this vertex.
+    r.magnitude[s] = seed_scale_[1][s] / 16;
   }
 }
 

@@ -32,8 +32,11 @@ class PositionCoder {
                 FaceMesh& mesh, const Groups& groups, VertexRecord* records,
                 const Allocator& allocator, const int32_t* truth)
       : io_(io),
+        rows_(models.rows),
+        parameters_(parameters),
+        truth_(truth),
         vertex_(models.rows, parameters, records, truth),
-        growth_(mesh, groups, records, allocator),
+        growth_(mesh, groups, records, parameters.has(position_mode::kWeights), allocator),
         group_count_(groups.count),
         records_(records) {}
 
@@ -56,28 +59,29 @@ class PositionCoder {
    public:
     explicit Plain(PositionCoder& coder)
         : io_(coder.io_),
-          vertex_(coder.vertex_),
+          vertex_(coder.rows_, coder.parameters_, coder.records_, coder.truth_),
           faces_(coder.growth_.faces()),
           records_(coder.records_) {}
-    MCC_INLINE void visit(uint32_t v, const PlainFan& fan) {
-      if (!vertex_.has(position_mode::kWeights)) return vertex_.codePlain(io_, v, fan, nullptr);
-      const Beyond beyond = lookBeyond(faces_, records_, fan, vertex_.has(position_mode::kSelect));
-      vertex_.codePlain(io_, v, fan, &beyond);
+    /// False without room in the streams for any vertex.
+    MCC_INLINE bool visit(uint32_t v, const PlainFan& fan) {
+      if (!io_.hasRoom()) [[unlikely]]
+        return false;
+      codePlain(vertex_, io_, faces_, records_, v, fan);
+      return true;
     }
-    void close(PositionCoder& coder) {
-      if constexpr (!Io::kEncoding) coder.io_ = io_;
-    }
-    void reopen(PositionCoder& coder) {
-      if constexpr (!Io::kEncoding) io_ = coder.io_;
-    }
+    void close(PositionCoder& coder) { io_.giveBack(coder.io_); }
+    void reopen(PositionCoder& coder) { io_.take(coder.io_); }
 
    private:
-    std::conditional_t<Io::kEncoding, Io&, Io> io_;
-    const VertexCoder<Io, Wide, kModes> vertex_;
+    typename Io::Burst io_;
+    const VertexCoder<typename Io::Burst, Wide, kModes> vertex_;
     const FaceView faces_;
     const VertexRecord* const records_;
   };
 
+  MCC_OUT_OF_LINE void plain(uint32_t v, const PlainFan& fan) {
+    codePlain(vertex_, io_, growth_.faces(), records_, v, fan);
+  }
   MCC_OUT_OF_LINE void fan(uint32_t v, const AnyFan& fan) { vertex_.codeAny(io_, v, fan); }
   void seed(uint32_t v, const VertexRecord* neighbour) { vertex_.codeSeed(io_, v, neighbour); }
   Status check() const {
@@ -86,7 +90,19 @@ class PositionCoder {
   }
 
  private:
+  template <class AnyIo>
+  MCC_INLINE static void codePlain(const VertexCoder<AnyIo, Wide, kModes>& vertex, AnyIo& io,
+                                   const FaceView& faces, const VertexRecord* records, uint32_t v,
+                                   const PlainFan& fan) {
+    if (!vertex.has(position_mode::kWeights)) return vertex.codePlain(io, v, fan, nullptr);
+    const Beyond beyond = lookBeyond(faces, records, fan, vertex.has(position_mode::kSelect));
+    vertex.codePlain(io, v, fan, &beyond);
+  }
+
   Io& io_;
+  PositionRows& rows_;
+  const PositionParameters& parameters_;
+  const int32_t* const truth_;
   VertexCoder<Io, Wide, kModes> vertex_;
   RegionGrowth growth_;
   const uint32_t group_count_;

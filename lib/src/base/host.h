@@ -18,6 +18,7 @@ static_assert(FLT_EVAL_METHOD == 0, "build with SSE2 or an equivalent, not with 
 /// loops over the three components, which gcc keeps as loops at -O2.
 #if defined(__GNUC__)
 #define MCC_INLINE inline __attribute__((always_inline))
+#define MCC_INLINE_LAMBDA __attribute__((always_inline))
 #define MCC_OUT_OF_LINE __attribute__((noinline))
 #if defined(__clang__)
 #define MCC_UNROLL _Pragma("unroll")
@@ -26,6 +27,7 @@ static_assert(FLT_EVAL_METHOD == 0, "build with SSE2 or an equivalent, not with 
 #endif
 #else
 #define MCC_INLINE inline
+#define MCC_INLINE_LAMBDA
 #define MCC_OUT_OF_LINE
 #define MCC_UNROLL
 #endif

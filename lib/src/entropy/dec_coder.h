@@ -116,7 +116,8 @@ class RansDecoder {
     }
   }
 
-  template <uint32_t kState>
+  /// Unchecked: hasWords(1) holds.
+  template <uint32_t kState, bool kUnchecked = false>
   MCC_INLINE uint32_t token(TokenRow& row, const TokenSchedule& schedule) {
     uint32_t x = state_[kState];
     const uint32_t slot = x & (kTokenOne - 1);
@@ -124,19 +125,20 @@ class RansDecoder {
     uint32_t frequency = 0;
     const uint32_t symbol = row.findAndAdapt(slot, schedule, start, frequency);
     x = frequency * (x >> kTokenBits) + slot - start;
-    if (next_ + 2 <= bytes_.size()) [[likely]] {
+    if (kUnchecked || hasWords(1)) [[likely]] {
       // Branch-free: whether a word is due is close to random.
-      const uint32_t due = x < kRansLow ? 1 : 0;
-      const uint32_t word = loadU16(bytes_.data() + next_);
-      const uint32_t mask = ~due + 1;
-      x = (x << (16 * due)) | (word & mask);
-      next_ += 2 * due;
+      const int64_t due = (int64_t{x} - kRansLow) >> 63;  // -1 or 0
+      const uint32_t longer = x << 16 | loadU16(bytes_.data() + next_);
+      x ^= (x ^ longer) & static_cast<uint32_t>(due);
+      next_ -= static_cast<size_t>(2 * due);
     } else if (x < kRansLow) {
       x = x << 16 | nextWord();
     }
     state_[kState] = x;
     return symbol;
   }
+
+  MCC_INLINE bool hasWords(size_t count) const { return next_ + 2 * count <= bytes_.size(); }
 
   bool finished() const {
     return !overrun_ && next_ == bytes_.size() && state_[0] == kRansLow && state_[1] == kRansLow &&
@@ -181,10 +183,12 @@ class RawBitsDecoder {
     return static_cast<uint32_t>(window & ((uint64_t{1} << bits) - 1));
   }
 
-  /// base + `bits` raw bits (at most 56 with the sign); a sign bit follows if `sign` and the sum is not zero.
+  /// base + `bits` raw bits (at most 56 with the sign); a sign bit follows if `sign` and the sum is not zero. Unchecked:
+  /// hasBytes(8) holds.
+  template <bool kUnchecked = false>
   MCC_INLINE uint32_t readMagnitude(uint32_t base, uint32_t bits, bool sign, uint32_t& negative) {
     const size_t byte = static_cast<size_t>(next_bit_ >> 3);
-    if (byte + 8 > bytes_.size()) [[unlikely]] {
+    if (!kUnchecked && byte + 8 > bytes_.size()) [[unlikely]] {
       const uint32_t value = base + read(bits);
       negative = read(sign && value != 0 ? 1 : 0);
       return value;
@@ -197,6 +201,7 @@ class RawBitsDecoder {
     return value;
   }
 
+  MCC_INLINE bool hasBytes(size_t count) const { return (next_bit_ >> 3) + count <= bytes_.size(); }
   bool finished() const { return (next_bit_ + 7) / 8 == bytes_.size(); }
   bool overrun() const { return (next_bit_ + 7) / 8 > bytes_.size(); }
 
@@ -205,10 +210,64 @@ class RawBitsDecoder {
   uint64_t next_bit_ = 0;
 };
 
+/// Inner loops that code a vertex after another do so through an Io::Burst: taken from the Io, given back before
+/// anything else uses that. This one is the Io itself.
+template <class Io>
+class SameIo {
+ public:
+  static constexpr bool kEncoding = Io::kEncoding;
+  explicit SameIo(Io& io) : io_(io) {}
+  void take(Io&) {}
+  void giveBack(Io&) const {}
+  bool hasRoom() const { return true; }
+
+  template <uint32_t kState>
+  uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t truth) {
+    return io_.template token<kState>(row, schedule, truth);
+  }
+  uint32_t raw(uint32_t bits, uint32_t truth) { return io_.raw(bits, truth); }
+  uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t truth, uint32_t& negative) {
+    return io_.magnitude(base, bits, sign, truth, negative);
+  }
+
+ private:
+  Io& io_;
+};
+
+template <bool kSingle>
+class DecoderIo;
+
+/// Copies of the token and raw decoders, which check their bounds once per vertex.
+class DecoderBurst {
+ public:
+  static constexpr bool kEncoding = false;
+  explicit DecoderBurst(const DecoderIo<false>& io);
+  void take(const DecoderIo<false>& io);
+  void giveBack(DecoderIo<false>& io) const;
+
+  /// For three tokens and their raw bits, three times 51 at most and what loads reach beyond them.
+  MCC_INLINE bool hasRoom() const { return tokens_.hasWords(3) && raw_.hasBytes(32); }
+
+  template <uint32_t kState>
+  MCC_INLINE uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t = 0) {
+    return tokens_.token<kState, true>(row, schedule);
+  }
+  uint32_t raw(uint32_t bits, uint32_t = 0) { return raw_.read(bits); }
+  MCC_INLINE uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t,
+                                uint32_t& negative) {
+    return raw_.readMagnitude<true>(base, bits, sign, negative);
+  }
+
+ private:
+  RansDecoder tokens_;
+  RawBitsDecoder raw_;
+};
+
 /// The decoder as stage code sees it. kSingle: everything goes through the range coder.
 template <bool kSingle>
 class DecoderIo {
  public:
+  using Burst = std::conditional_t<kSingle, SameIo<DecoderIo>, DecoderBurst>;
   static constexpr bool kEncoding = false;
   static constexpr bool kFast = !kSingle;  ///< worth compiling inner loops for every choice
 
@@ -287,10 +346,20 @@ class DecoderIo {
   struct Absent {
     explicit Absent(std::span<const uint8_t>) {}
   };
+  friend class DecoderBurst;
+
   RangeDecoder codes_;
   [[no_unique_address]] std::conditional_t<kSingle, Absent, RansDecoder> tokens_;
   [[no_unique_address]] std::conditional_t<kSingle, Absent, RawBitsDecoder> raw_;
 };
+
+inline DecoderBurst::DecoderBurst(const DecoderIo<false>& io)
+    : tokens_(io.tokens_), raw_(io.raw_) {}
+inline void DecoderBurst::take(const DecoderIo<false>& io) { *this = DecoderBurst(io); }
+inline void DecoderBurst::giveBack(DecoderIo<false>& io) const {
+  io.tokens_ = tokens_;
+  io.raw_ = raw_;
+}
 
 }  // namespace mcc
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "entropy/dec_coder.h"
 #include "entropy/enc_cost.h"
 #include "entropy/models.h"
 
@@ -142,6 +143,7 @@ class RawBitsEncoder {
 /// Spends nothing but a count: for the encoder's trials.
 class CostIo {
  public:
+  using Burst = SameIo<CostIo>;
   static constexpr bool kEncoding = true;
   static constexpr bool kFast = false;
 
@@ -181,6 +183,7 @@ class CostIo {
 /// counts the cost besides.
 class EncoderIo : public CostIo {
  public:
+  using Burst = SameIo<EncoderIo>;
   explicit EncoderIo(bool single) : single_(single) {}
 
   bool bit(BitModel& model, bool truth) {

@@ -110,7 +110,7 @@ struct TokenRow {
   void adapt(uint32_t symbol, const TokenSchedule& schedule);
 
  private:
-  uint32_t nextShift(const TokenSchedule& schedule) {
+  MCC_INLINE uint32_t nextShift(const TokenSchedule& schedule) {
     const uint32_t use = uses;
     uses = static_cast<uint16_t>(use + (use < 63 ? 1 : 0));
     return schedule.shift[use];
