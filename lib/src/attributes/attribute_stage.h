@@ -129,7 +129,7 @@ class AttributeStage {
   }
 
   Status codeNormals(const AttributeInfo& info, int32_t* values) {
-    if (!floats_.resize(3 * size_t{wedges.count})) return noMemory();
+    if (!floats_.resize(4 * size_t{wedges.count})) return noMemory();
     NormalCoder<Io>(io_, models_.normals, wedges, groups_, info, values, floats_.data(),
                     lengths_.data())
         .run(positions.data());

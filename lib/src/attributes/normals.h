@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "attributes/face_pass.h"
 #include "attributes/octahedral.h"
 #include "attributes/residuals.h"
 #include "attributes/wedges.h"
@@ -37,59 +38,35 @@ struct NormalModels {
   }
 };
 
-/// Angle of the vector (x, y), y >= 0, in 0..pi, by a polynomial. [B.4.3]
-inline float cornerAngle(float y, float x) {
-  const float ax = std::fabs(x);
-  const float low = std::min(ax, y);
-  const float high = std::max(ax, y);
-  const float t = low / (high + 1e-30f);
-  const float s = t * t;
-  float r = ((-0.0464964749f * s + 0.15931422f) * s - 0.327622764f) * s * t + t;
-  if (y > ax) r = 1.57079637f - r;
-  return x < 0 ? 3.14159274f - r : r;
-}
-
-/// Adds the weighted normal of every face to its three wedges' sums (3 floats each). [B.4.2]
+/// Adds the weighted normal of every face to its three wedges' sums (4 floats each). [B.4.2]
 template <NormalWeight kWeight>
 void addFaceNormals(const WedgeMesh& wedges, const float* positions, float* sums) {
-  for (uint32_t h = 0; h < wedges.face_count * kFaceWords; h += kFaceWords) {
-    const uint32_t* corner = wedges.faces.words + h;
-    const float* a = positions + 4 * size_t{corner[0]};
-    const float* b = positions + 4 * size_t{corner[1]};
-    const float* c = positions + 4 * size_t{corner[2]};
-    const float e0[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    const float e1[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    const float n[3] = {e0[1] * e1[2] - e0[2] * e1[1], e0[2] * e1[0] - e0[0] * e1[2],
-                        e0[0] * e1[1] - e0[1] * e1[0]};
-    float weight[3] = {1, 1, 1};
-    if constexpr (kWeight != NormalWeight::kArea) {
-      const float nn = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-      if (nn == 0) continue;  // else all sides are longer than 0
-      const float d0 = e0[0] * e1[0] + e0[1] * e1[1] + e0[2] * e1[2];
-      const float q0 = e0[0] * e0[0] + e0[1] * e0[1] + e0[2] * e0[2];
-      const float q1 = e1[0] * e1[0] + e1[1] * e1[1] + e1[2] * e1[2];
-      if constexpr (kWeight == NormalWeight::kAngle) {
-        const float length = std::sqrt(nn);
-        const float inverse = 1.0f / length;
-        const float at_a = cornerAngle(length, d0);
-        const float at_b = cornerAngle(length, q0 - d0);
-        weight[0] = at_a * inverse;
-        weight[1] = at_b * inverse;
-        weight[2] = (3.14159274f - at_a - at_b) * inverse;
-      } else {
-        const float e2[3] = {c[0] - b[0], c[1] - b[1], c[2] - b[2]};
-        const float q2 = e2[0] * e2[0] + e2[1] * e2[1] + e2[2] * e2[2];
-        const float all = 1.0f / (q0 * q1 * q2);
-        weight[0] = all * q2;
-        weight[1] = all * q1;
-        weight[2] = all * q0;
-      }
+  forFourFaces(wedges.faces, wedges.face_count, [=](const uint32_t* words, uint32_t count) {
+    const FourFaces faces(words, count, positions);
+    const Float4 one = allLanes(1.0f);
+    const Float4 nn = dotProduct(faces.normal, faces.normal);
+    const Mask4 is_face = nn > allLanes(0.0f);  // then all sides are longer than 0
+    Float4 weight[3] = {one, one, one};
+    if constexpr (kWeight == NormalWeight::kAngle) {
+      const Float4 length = squareRoot(nn);
+      const Float4 inverse = select(is_face, one / length, allLanes(0.0f));
+      faces.cornerAngles(length, weight);
+      for (Float4& w : weight) w = w * inverse;
+    } else if constexpr (kWeight == NormalWeight::kSine) {
+      Float4 e2[3];
+      for (int s = 0; s < 3; ++s) e2[s] = faces.e1[s] - faces.e0[s];
+      const Float4 q0 = dotProduct(faces.e0, faces.e0);
+      const Float4 q1 = dotProduct(faces.e1, faces.e1);
+      const Float4 q2 = dotProduct(e2, e2);
+      const Float4 inverse = select(is_face, one / (q0 * q1 * q2), allLanes(0.0f));
+      weight[0] = inverse * q2;
+      weight[1] = inverse * q1;
+      weight[2] = inverse * q0;
     }
-    for (uint32_t k = 0; k < 3; ++k) {
-      float* sum = sums + 3 * size_t{corner[k]};
-      for (uint32_t s = 0; s < 3; ++s) sum[s] += weight[k] * n[s];
-    }
-  }
+    Float4 rows[4] = {faces.normal[0], faces.normal[1], faces.normal[2], allLanes(0.0f)};
+    transpose(rows[0], rows[1], rows[2], rows[3]);
+    CornerSums(faces, count, sums).add(rows, weight, nullptr);
+  });
 }
 
 /// Grid coordinate, relative to the centre, of x in -1..1 (or beyond by rounding errors).
@@ -196,7 +173,7 @@ inline void canonicalGridPoint(int32_t centre, int32_t* point) {
 template <class Io>
 class NormalCoder {
  public:
-  /// Work space: `sums` 3 floats per wedge, `lengths` a byte per wedge.
+  /// Work space: `sums` 4 floats per wedge, `lengths` a byte per wedge.
   NormalCoder(Io& io, NormalModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
               const AttributeInfo& info, int32_t* values, float* sums, uint8_t* lengths)
       : io_(io),
@@ -211,7 +188,7 @@ class NormalCoder {
         lengths_(lengths) {}
 
   void run(const float* positions) {
-    std::fill(sums_, sums_ + 3 * size_t{wedges_.count}, 0.0f);
+    std::fill(sums_, sums_ + 4 * size_t{wedges_.count}, 0.0f);
     switch (weight_) {
       case NormalWeight::kArea:
         addFaceNormals<NormalWeight::kArea>(wedges_, positions, sums_);
@@ -232,7 +209,7 @@ class NormalCoder {
   }
 
  private:
-  float* sum(uint32_t w) { return sums_ + 3 * size_t{w}; }
+  float* sum(uint32_t w) { return sums_ + 4 * size_t{w}; }
 
   void codeGroup(uint32_t w);
   void correct(float* direction, const uint32_t* neighbours);

@@ -99,40 +99,40 @@ inline void tangentFromAngle(const float* normal, int32_t angle, uint32_t bits, 
 /// corner, and the orientation of the chart. `chart` has 2 finite floats per wedge, see chartCoordinates(). [B.6.4]
 inline void addFaceTangents(const WedgeMesh& wedges, const float* positions, const float* chart,
                             float* sums) {
-  for (uint32_t h = 0; h < wedges.face_count * kFaceWords; h += kFaceWords) {
-    const uint32_t* corner = wedges.faces.words + h;
-    const float* a = positions + 4 * size_t{corner[0]};
-    const float* b = positions + 4 * size_t{corner[1]};
-    const float* c = positions + 4 * size_t{corner[2]};
-    const float* ua = chart + 2 * size_t{corner[0]};
-    const float* ub = chart + 2 * size_t{corner[1]};
-    const float* uc = chart + 2 * size_t{corner[2]};
-    const float v0 = ub[1] - ua[1];
-    const float v1 = uc[1] - ua[1];
-    const float determinant = (ub[0] - ua[0]) * v1 - (uc[0] - ua[0]) * v0;
-    if (determinant == 0) continue;
-    const float side = determinant < 0 ? -1.0f : 1.0f;
-    const float e0[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    const float e1[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    float t[3];
-    for (int s = 0; s < 3; ++s) t[s] = side * (e0[s] * v1 - e1[s] * v0);
-    const float tt = t[0] * t[0] + t[1] * t[1] + t[2] * t[2];
-    if (!(tt > 0)) continue;
-    const float inverse = 1.0f / std::sqrt(tt);
-    const float n[3] = {e0[1] * e1[2] - e0[2] * e1[1], e0[2] * e1[0] - e0[0] * e1[2],
-                        e0[0] * e1[1] - e0[1] * e1[0]};
-    const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    const float d0 = e0[0] * e1[0] + e0[1] * e1[1] + e0[2] * e1[2];
-    const float at_a = cornerAngle(length, d0);
-    const float at_b = cornerAngle(length, e0[0] * e0[0] + e0[1] * e0[1] + e0[2] * e0[2] - d0);
-    const float angle[3] = {at_a, at_b, 3.14159274f - at_a - at_b};
-    for (uint32_t k = 0; k < 3; ++k) {
-      float* sum = sums + 4 * size_t{corner[k]};
-      const float weight = angle[k] * inverse;
-      for (int s = 0; s < 3; ++s) sum[s] += weight * t[s];
-      sum[3] += side;
+  forFourFaces(wedges.faces, wedges.face_count, [=](const uint32_t* words, uint32_t count) {
+    const FourFaces faces(words, count, positions);
+    const Float4 zero = allLanes(0.0f);
+    Float4 u0;
+    Float4 v0;
+    Float4 u1;
+    Float4 v1;
+    for (int i = 0; i < 4; ++i) {
+      const float* a = chart + 2 * size_t{faces.corner[i][0]};
+      const float* b = chart + 2 * size_t{faces.corner[i][1]};
+      const float* c = chart + 2 * size_t{faces.corner[i][2]};
+      u0[i] = b[0] - a[0];
+      v0[i] = b[1] - a[1];
+      u1[i] = c[0] - a[0];
+      v1[i] = c[1] - a[1];
     }
-  }
+    const Float4 determinant = u0 * v1 - u1 * v0;
+    Float4 side = select(determinant < zero, allLanes(-1.0f), allLanes(1.0f));
+    Float4 rows[4];
+    for (int s = 0; s < 3; ++s) rows[s] = side * (faces.e0[s] * v1 - faces.e1[s] * v0);
+    const Float4 tt = dotProduct(rows, rows);
+    const Mask4 counts = (magnitude(determinant) > zero) & (tt > zero);
+    const Float4 inverse = select(counts, allLanes(1.0f) / squareRoot(tt), zero);
+    side = select(counts, side, zero);
+    Float4 weight[3];
+    faces.cornerAngles(squareRoot(dotProduct(faces.normal, faces.normal)), weight);
+    for (Float4& w : weight) w = w * inverse;
+    for (int s = 0; s < 3; ++s) rows[s] = select(counts, rows[s], zero);  // not an infinite one
+    rows[3] = zero;
+    Float4 sides[4] = {zero, zero, zero, side};
+    transpose(rows[0], rows[1], rows[2], rows[3]);
+    transpose(sides[0], sides[1], sides[2], sides[3]);
+    CornerSums(faces, count, sums).add(rows, weight, sides);
+  });
 }
 
 /// Texture coordinates as finite floats whose products neither overflow nor become denormal. [B.6.5]
