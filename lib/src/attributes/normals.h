@@ -75,9 +75,14 @@ inline int32_t gridCoordinate(float x, int32_t centre) {
   return static_cast<int32_t>(scaled + std::copysign(0.5f, scaled));
 }
 
-/// Grid point, relative to the centre, nearest to the projection of a vector of any length but 0. [B.4.4]
-inline void projectToGrid(const float* v, int32_t centre, int32_t* point) {
-  const float inverse = 1.0f / (std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]));
+inline float manhattanLength(const float* v) {
+  return std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]);
+}
+
+/// Grid point, relative to the centre, nearest to the projection of a vector; `length`: its manhattanLength(), not 0.
+/// [B.4.4]
+inline void projectToGrid(const float* v, float length, int32_t centre, int32_t* point) {
+  const float inverse = 1.0f / length;
   const float x = v[0] * inverse;
   const float y = v[1] * inverse;
   const bool folded = v[2] < 0;  // as likely as not: selects, no branches
@@ -182,7 +187,9 @@ class NormalCoder {
         groups_(groups),
         weight_(static_cast<NormalWeight>(info.predictor & normal_method::kWeightMask)),
         blend_((info.predictor & normal_method::kBlendMask) >> normal_method::kBlendShift),
+        part_(blend_ == 1 ? 0.25f : 0.5f),
         centre_(octahedralCentre(info.bits)),
+        scale_(1.0f / static_cast<float>(centre_)),
         values_(values),
         sums_(sums),
         lengths_(lengths) {}
@@ -212,7 +219,6 @@ class NormalCoder {
   float* sum(uint32_t w) { return sums_ + 4 * size_t{w}; }
 
   void codeGroup(uint32_t w);
-  void correct(float* direction, const uint32_t* neighbours);
   void codePoint(uint32_t w, const int32_t* predicted, uint32_t context);
 
   Io& io_;
@@ -221,22 +227,14 @@ class NormalCoder {
   const EqualGroups& groups_;
   const NormalWeight weight_;
   const uint32_t blend_;
+  const float part_;  ///< of what both neighbours' predictions missed
   const int32_t centre_;
+  const float scale_;
   int32_t* const values_;
   float* const sums_;  ///< of faces; once a wedge is coded: what its prediction missed, if blending
   uint8_t* const lengths_;
   int32_t last_[2] = {};
 };
-
-/// Length 1, or all zeros.
-inline void normalise(float* v) {
-  const float as = std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]);
-  if (!(as > 0)) return;
-  const float inverse = 1.0f / as;
-  for (int s = 0; s < 3; ++s) v[s] *= inverse;
-  const float unit = 1.0f / std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  for (int s = 0; s < 3; ++s) v[s] *= unit;
-}
 
 template <class Io>
 void NormalCoder<Io>::codeGroup(uint32_t w) {
@@ -246,45 +244,37 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
     for (int s = 0; s < 3; ++s) direction[s] += sum(m)[s];
     if (entry == kNone) entry = wedges_.firstCompleted(m);
   }
+  float length = manhattanLength(direction);
   uint32_t context = kNoNeighbours;
-  uint32_t neighbours[2] = {kNone, kNone};
+  float used[3] = {direction[0], direction[1], direction[2]};
+  if (blend_ != 0) {
+    const float inverse = length > 0 ? 1.0f / length : 0.0f;
+    for (int s = 0; s < 3; ++s) used[s] = direction[s] = direction[s] * inverse;
+  }
   if (entry != kNone) {
-    neighbours[0] = wedges_.faces.vertex(nextHalfEdge(entry));
-    neighbours[1] = wedges_.faces.vertex(prevHalfEdge(entry));
-    context = (lengths_[neighbours[0]] + lengths_[neighbours[1]] + 1u) / 2;
+    const uint32_t n = wedges_.faces.vertex(nextHalfEdge(entry));
+    const uint32_t p = wedges_.faces.vertex(prevHalfEdge(entry));
+    context = (lengths_[n] + lengths_[p] + 1u) / 2;
+    if (blend_ != 0) {
+      for (int s = 0; s < 3; ++s) used[s] = direction[s] + part_ * (sum(n)[s] + sum(p)[s]);
+    }
   }
-  float corrected[3];
-  if (blend_ != 0) {
-    normalise(direction);
-    for (int s = 0; s < 3; ++s) corrected[s] = direction[s];
-    if (entry != kNone) correct(corrected, neighbours);
-  }
-  const float* used = blend_ != 0 ? corrected : direction;
+  if (blend_ != 0) length = manhattanLength(used);
   int32_t predicted[2] = {last_[0], last_[1]};
-  if (std::fabs(used[0]) + std::fabs(used[1]) + std::fabs(used[2]) > 0) {
-    projectToGrid(used, centre_, predicted);
-  }
+  if (length > 0) projectToGrid(used, length, centre_, predicted);
   codePoint(w, predicted, context);
-  float missed[3] = {0, 0, 0};
   if (blend_ != 0) {
-    octahedralToUnit(values_[2 * size_t{w}], values_[2 * size_t{w} + 1], centre_, missed);
-    for (int s = 0; s < 3; ++s) missed[s] -= direction[s];
+    float missed[4] = {0, 0, 0, 0};
+    foldToOctahedron(static_cast<float>(last_[0]) * scale_, static_cast<float>(last_[1]) * scale_,
+                     missed);
+    for (int s = 0; s < 3; ++s) sum(w)[s] = missed[s] - direction[s];
   }
-  for (uint32_t m = w; m != kNone; m = groups_.nextOf(m)) {
+  for (uint32_t m = groups_.nextOf(w); m != kNone; m = groups_.nextOf(m)) {
     values_[2 * size_t{m}] = values_[2 * size_t{w}];
     values_[2 * size_t{m} + 1] = values_[2 * size_t{w} + 1];
     lengths_[m] = lengths_[w];
-    if (blend_ == 0) continue;
-    for (int s = 0; s < 3; ++s) sum(m)[s] = missed[s];
+    if (blend_ != 0) std::copy(sum(w), sum(w) + 3, sum(m));
   }
-}
-
-template <class Io>
-void NormalCoder<Io>::correct(float* direction, const uint32_t* neighbours) {
-  const float part = blend_ == 1 ? 0.25f : 0.5f;
-  const float* a = sum(neighbours[0]);
-  const float* b = sum(neighbours[1]);
-  for (int s = 0; s < 3; ++s) direction[s] += part * (a[s] + b[s]);
 }
 
 template <class Io>
@@ -299,12 +289,13 @@ void NormalCoder<Io>::codePoint(uint32_t w, const int32_t* predicted, uint32_t c
     point[1] = value[1] - centre_;
     frame.residualOf(point, residual);
   }
-  residual[0] = codeSmallSigned<0>(io_, models_.row[0][context], residual[0]);
-  const uint32_t length = contextLength(residual[0]);
+  uint32_t length = 0;
+  uint32_t second_length = 0;
+  residual[0] = codeSmallSigned<0>(io_, models_.row[0][context], residual[0], length);
   const uint32_t second = context == kNoNeighbours ? length : (context + length + 1) / 2;
-  residual[1] = codeSmallSigned<1>(io_, models_.row[1][second], residual[1]);
+  residual[1] = codeSmallSigned<1>(io_, models_.row[1][second], residual[1], second_length);
+  lengths_[w] = static_cast<uint8_t>(std::max(length, second_length));
   frame.pointOf(residual, point);
-  lengths_[w] = static_cast<uint8_t>(std::max(length, contextLength(residual[1])));
   for (int s = 0; s < 2; ++s) {
     value[s] =
         static_cast<int32_t>(static_cast<uint32_t>(point[s]) + static_cast<uint32_t>(centre_));

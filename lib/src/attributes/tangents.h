@@ -241,12 +241,13 @@ void TangentCoder<Io>::codeTangent(uint32_t w, int32_t predicted, uint32_t predi
     const uint32_t difference = static_cast<uint32_t>(value[0]) - static_cast<uint32_t>(predicted);
     residual = static_cast<int32_t>(difference << (32 - bits_)) >> (32 - bits_);
   }
-  residual = codeSmallSigned<0>(io_, models_.row[context], residual);
+  uint32_t length = 0;
+  residual = codeSmallSigned<0>(io_, models_.row[context], residual, length);
   const uint32_t mask = (uint32_t{1} << bits_) - 1;
   value[0] = static_cast<int32_t>(
       (static_cast<uint32_t>(predicted) + static_cast<uint32_t>(residual)) & mask);
   value[1] = io_.bit(models_.negative[predicted_sign], value[1] != 0) ? 1 : 0;
-  lengths_[w] = static_cast<uint8_t>(contextLength(residual));
+  lengths_[w] = static_cast<uint8_t>(length);
   last_ = value[0];
 }
 

@@ -330,6 +330,7 @@ void TexcoordCoder<Io>::codePair(uint32_t w, const int32_t* predicted, uint32_t 
     }
   }
   bool hit = false;
+  uint32_t longest = 0;
   if (repeats_ && memory_.guess().confidence != 0) {
     const ResidualMemory::Entry& guess = memory_.guess();
     hit = io_.bit(
@@ -339,17 +340,19 @@ void TexcoordCoder<Io>::codePair(uint32_t w, const int32_t* predicted, uint32_t 
     if (hit) {
       residual[0] = guess.residual[0];
       residual[1] = guess.residual[1];
+      longest = std::max(contextLength(residual[0]), contextLength(residual[1]));
     }
   }
   if (!hit) {
-    residual[0] = codeByLength<0>(io_, models_.row[0][context], residual[0]);
-    const uint32_t length = contextLength(residual[0]);
+    uint32_t length = 0;
+    uint32_t second_length = 0;
+    residual[0] = codeByLength<0>(io_, models_.row[0][context], residual[0], length);
     const uint32_t second = context == kNoNeighbours ? context : (context + length + 1) / 2;
-    residual[1] = codeByLength<1>(io_, models_.row[1][second], residual[1]);
+    residual[1] = codeByLength<1>(io_, models_.row[1][second], residual[1], second_length);
+    longest = std::max(length, second_length);
   }
   if (repeats_) memory_.learn(residual);
-  lengths_[w] =
-      static_cast<uint8_t>(std::max(contextLength(residual[0]), contextLength(residual[1])));
+  lengths_[w] = static_cast<uint8_t>(longest);
   for (int c = 0; c < 2; ++c) {
     value[c] = static_cast<int32_t>(static_cast<uint32_t>(predicted[c]) +
                                     static_cast<uint32_t>(residual[c]));

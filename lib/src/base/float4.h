@@ -33,6 +33,9 @@ MCC_INLINE Float4 select(Mask4 mask, Float4 a, Float4 b) {
 MCC_INLINE Float4 magnitude(Float4 x) {
   return (Float4)((Mask4)x & Mask4{0x7fffffff, 0x7fffffff, 0x7fffffff, 0x7fffffff});
 }
+MCC_INLINE Float4 withSignOf(Float4 x, Float4 sign) {
+  return select(Mask4{0x7fffffff, 0x7fffffff, 0x7fffffff, 0x7fffffff}, x, sign);
+}
 MCC_INLINE Float4 squareRoot(Float4 x) {
 #if defined(__SSE2__)
   return (Float4)_mm_sqrt_ps((__m128)x);
@@ -122,6 +125,9 @@ inline Float4 select(Mask4 mask, Float4 a, Float4 b) {
 inline Float4 magnitude(Float4 x) {
   return eachLane<Float4>([=](int i) { return std::fabs(x[i]); });
 }
+inline Float4 withSignOf(Float4 x, Float4 sign) {
+  return eachLane<Float4>([=](int i) { return std::copysign(x[i], sign[i]); });
+}
 inline Float4 squareRoot(Float4 x) {
   return eachLane<Float4>([=](int i) { return std::sqrt(x[i]); });
 }
@@ -151,6 +157,7 @@ MCC_INLINE void storeFloat4(float* to, Float4 x) { std::memcpy(to, &x, sizeof x)
 /// The same names for floats.
 MCC_INLINE float select(bool condition, float a, float b) { return condition ? a : b; }
 MCC_INLINE float magnitude(float x) { return std::fabs(x); }
+MCC_INLINE float withSignOf(float x, float sign) { return std::copysign(x, sign); }
 MCC_INLINE float squareRoot(float x) { return std::sqrt(x); }
 
 /// `x` in every lane of a Real.
