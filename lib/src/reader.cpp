@@ -3,6 +3,7 @@
 // Reader: header, then every piece through its stages (piece.h), then floats and indices into the caller's memory.
 #include "mcc/reader.h"
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
@@ -28,6 +29,38 @@ namespace {
 
 const PayloadInfo kEmptyInfo{};
 
+/// Four integers as floats.
+MCC_INLINE Float4 fourFloats(int32_t a, int32_t b, int32_t c, int32_t d) {
+  return Float4{static_cast<float>(a), static_cast<float>(b), static_cast<float>(c),
+                static_cast<float>(d)};
+}
+
+/// Unit vectors of four grid points.
+MCC_INLINE void unitVectors(const int32_t* const* points, float centre, Float4* unit) {
+  const Float4 s = fourFloats(points[0][0], points[1][0], points[2][0], points[3][0]);
+  const Float4 t = fourFloats(points[0][1], points[1][1], points[2][1], points[3][1]);
+  const Float4 middle = allLanes(centre);
+  octahedralToUnit(s - middle, t - middle, allLanes(1.0f / centre), unit);
+}
+
+/// Normals from grid points, four at a time.
+template <class Load>
+void storeNormals(int32_t centre, uint32_t wedge_count, const AttributeTarget& target, Load load) {
+  uint8_t* to = static_cast<uint8_t*>(target.data);
+  for (uint32_t w = 0; w < wedge_count; w += 4) {
+    const uint32_t count = std::min(wedge_count - w, 4u);
+    const int32_t* points[4];
+    for (uint32_t i = 0; i < 4; ++i) points[i] = load(w + (i < count ? i : 0));
+    Float4 rows[4];
+    unitVectors(points, static_cast<float>(centre), rows);
+    rows[3] = allLanes(0.0f);
+    transpose(rows[0], rows[1], rows[2], rows[3]);
+    for (uint32_t i = 0; i < count; ++i, to += target.stride_bytes) {
+      std::memcpy(to, &rows[i], 3 * sizeof(float));
+    }
+  }
+}
+
 /// Copies coded integers to the caller's elements; `load(w)` points to the integers of wedge w. [A.8.4]
 template <class Load>
 void storeElements(const AttributeInfo& info, uint32_t wedge_count, const AttributeTarget& target,
@@ -48,16 +81,9 @@ void storeElements(const AttributeInfo& info, uint32_t wedge_count, const Attrib
       }
       return;
     }
-    case AttributeCoding::kOctahedral: {
-      const int32_t centre = octahedralCentre(info.bits);
-      for (uint32_t w = 0; w < wedge_count; ++w, to += stride) {
-        const int32_t* q = load(w);
-        float unit[3];
-        octahedralToUnit(q[0], q[1], centre, unit);
-        std::memcpy(to, unit, sizeof unit);
-      }
+    case AttributeCoding::kOctahedral:
+      storeNormals(octahedralCentre(info.bits), wedge_count, target, load);
       return;
-    }
     case AttributeCoding::kExactFloat:
       for (uint32_t w = 0; w < wedge_count; ++w, to += stride) {
         const int32_t* q = load(w);

@@ -69,38 +69,29 @@ void addFaceNormals(const WedgeMesh& wedges, const float* positions, float* sums
   });
 }
 
-/// Grid coordinate, relative to the centre, of x in -1..1 (or beyond by rounding errors).
-inline int32_t gridCoordinate(float x, int32_t centre) {
-  const float scaled = std::min(std::max(x, -1.0f), 1.0f) * static_cast<float>(centre);
-  return static_cast<int32_t>(scaled + std::copysign(0.5f, scaled));
-}
-
+/// Sum of the coordinates' absolute values.
 inline float manhattanLength(const float* v) {
   return std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]);
 }
+inline constexpr float kShortest = 1e-35f;  ///< shorter vectors have no direction
 
-/// Grid point, relative to the centre, nearest to the projection of a vector; `length`: its manhattanLength(), not 0.
-/// [B.4.4]
+/// Grid point, relative to the centre, nearest to the projection of a vector along z; `length`: its manhattanLength(),
+/// above kShortest. Vectors with z < 0 are mirrored first. [B.4.4]
 inline void projectToGrid(const float* v, float length, int32_t centre, int32_t* point) {
-  const float inverse = 1.0f / length;
-  const float x = v[0] * inverse;
-  const float y = v[1] * inverse;
-  const bool folded = v[2] < 0;  // as likely as not: selects, no branches
-  const float folded_x = std::copysign(1.0f - std::fabs(y), x);
-  const float folded_y = std::copysign(1.0f - std::fabs(x), y);
-  point[0] = gridCoordinate(folded ? folded_x : x, centre);
-  point[1] = gridCoordinate(folded ? folded_y : y, centre);
+  const float scale = static_cast<float>(centre) / length;
+  for (int s = 0; s < 2; ++s) {
+    const float scaled = v[s] * scale;  // rounding errors stay below half a step
+    point[s] = static_cast<int32_t>(scaled + std::copysign(0.5f, scaled));
+  }
 }
 
 /// The residual's frame, chosen by the predicted point; maps grid points to and fro. The cases are equally likely, so
 /// it is all selects and no branches. [B.4.5]
 class OctahedralFrame {
  public:
-  OctahedralFrame(const int32_t* predicted, int32_t centre)
-      : centre_(centre),
-        turned_over_(std::abs(predicted[0]) + std::abs(predicted[1]) > centre),
-        p_{predicted[0], predicted[1]} {
-    turnOverIf(turned_over_, p_);
+  /// `inside`: the predicted point or, if that is `turned_over`, its image in the diamond.
+  OctahedralFrame(const int32_t* inside, bool turned_over, int32_t centre)
+      : centre_(centre), turned_over_(turned_over), p_{inside[0], inside[1]} {
     // Quarter turns that bring p to x < 0, y <= 0.
     const int32_t x = p_[0];
     const int32_t y = p_[1];
@@ -110,6 +101,13 @@ class OctahedralFrame {
     cosine_ = 1 - one - 2 * two - three;
     sine_ = one - three;
     turn(p_, sine_);
+  }
+
+  static OctahedralFrame around(const int32_t* predicted, int32_t centre) {
+    int32_t inside[2] = {predicted[0], predicted[1]};
+    const bool turned_over = std::abs(inside[0]) + std::abs(inside[1]) > centre;
+    if (turned_over) turnOver(inside, centre);
+    return OctahedralFrame(inside, turned_over, centre);
   }
 
   /// Swaps the inside and the outside of the diamond |x| + |y| = centre.
@@ -209,17 +207,18 @@ class NormalCoder {
     }
     for (uint32_t i = 0; i < wedges_.surface_count; ++i) {
       const uint32_t w = wedges_.wedgeAt(i);
+      wedges_.prefetch(i, sums_, 4);
       if (groups_.isFirst(w)) codeGroup(w);
     }
     for (uint32_t w = wedges_.surface_count; w < wedges_.count; ++w)
-      codePoint(w, last_, kNoNeighbours);
+      codePoint(w, OctahedralFrame::around(last_, centre_), kNoNeighbours);
   }
 
  private:
   float* sum(uint32_t w) { return sums_ + 4 * size_t{w}; }
 
   void codeGroup(uint32_t w);
-  void codePoint(uint32_t w, const int32_t* predicted, uint32_t context);
+  void codePoint(uint32_t w, const OctahedralFrame& frame, uint32_t context);
 
   Io& io_;
   NormalModels& models_;
@@ -248,7 +247,7 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
   uint32_t context = kNoNeighbours;
   float used[3] = {direction[0], direction[1], direction[2]};
   if (blend_ != 0) {
-    const float inverse = length > 0 ? 1.0f / length : 0.0f;
+    const float inverse = length > kShortest ? 1.0f / length : 0.0f;
     for (int s = 0; s < 3; ++s) used[s] = direction[s] = direction[s] * inverse;
   }
   if (entry != kNone) {
@@ -260,9 +259,13 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
     }
   }
   if (blend_ != 0) length = manhattanLength(used);
-  int32_t predicted[2] = {last_[0], last_[1]};
-  if (length > 0) projectToGrid(used, length, centre_, predicted);
-  codePoint(w, predicted, context);
+  if (length > kShortest) [[likely]] {
+    int32_t inside[2];
+    projectToGrid(used, length, centre_, inside);
+    codePoint(w, OctahedralFrame(inside, used[2] < 0, centre_), context);
+  } else {
+    codePoint(w, OctahedralFrame::around(last_, centre_), context);
+  }
   if (blend_ != 0) {
     float missed[4] = {0, 0, 0, 0};
     foldToOctahedron(static_cast<float>(last_[0]) * scale_, static_cast<float>(last_[1]) * scale_,
@@ -278,9 +281,9 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
 }
 
 template <class Io>
-void NormalCoder<Io>::codePoint(uint32_t w, const int32_t* predicted, uint32_t context) {
+MCC_INLINE void NormalCoder<Io>::codePoint(uint32_t w, const OctahedralFrame& frame,
+                                           uint32_t context) {
   context = std::min(context, kNoNeighbours);  // a neighbour that is coded later counts as none
-  const OctahedralFrame frame(predicted, centre_);
   int32_t* value = values_ + 2 * size_t{w};
   int32_t residual[2] = {};
   int32_t point[2] = {};

@@ -67,13 +67,13 @@ MCC_INLINE int32_t codeByLength(Io& io, TokenRow& row, int32_t truth, uint32_t& 
 
 /// What the tokens of layout 1 stand for.
 struct SmallSignedToken {
-  uint8_t length;    ///< of the magnitude that follows, 0: none does
-  int8_t value;      ///< when none does
+  uint8_t length;      ///< of the magnitude that follows, 0: none does
+  int8_t value;        ///< when none does
   uint8_t in_context;  ///< contextLength()
 };
 inline constexpr SmallSignedToken kSmallSignedTokens[16] = {
-    {0, 0, 0},  {0, 1, 1},  {0, -1, 1}, {0, 2, 2},  {0, -2, 2}, {0, 3, 2},  {0, -3, 2},  {3, 0, 3},
-    {4, 0, 4},  {5, 0, 5},  {6, 0, 6},  {7, 0, 7},  {8, 0, 8},  {9, 0, 9},  {10, 0, 10}, {11, 0, 10}};
+    {0, 0, 0}, {0, 1, 1}, {0, -1, 1}, {0, 2, 2}, {0, -2, 2}, {0, 3, 2}, {0, -3, 2},  {3, 0, 3},
+    {4, 0, 4}, {5, 0, 5}, {6, 0, 6},  {7, 0, 7}, {8, 0, 8},  {9, 0, 9}, {10, 0, 10}, {11, 0, 10}};
 
 /// Layout 1: tokens 0..6 are 0, 1, -1, 2, -2, 3, -3; from 7 on the bit length, 3 and more.
 template <uint32_t kState, class Io>

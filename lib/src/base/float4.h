@@ -5,6 +5,7 @@
 #ifndef MCC_BASE_FLOAT4_H_
 #define MCC_BASE_FLOAT4_H_
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -155,7 +156,11 @@ MCC_INLINE Float4 loadFloat4(const float* from) {
 MCC_INLINE void storeFloat4(float* to, Float4 x) { std::memcpy(to, &x, sizeof x); }
 
 /// The same names for floats.
-MCC_INLINE float select(bool condition, float a, float b) { return condition ? a : b; }
+MCC_INLINE float select(bool condition, float a, float b) {  // by bits: compilers would branch
+  const uint32_t mask = ~uint32_t{condition} + 1;
+  return std::bit_cast<float>((mask & std::bit_cast<uint32_t>(a)) |
+                              (~mask & std::bit_cast<uint32_t>(b)));
+}
 MCC_INLINE float magnitude(float x) { return std::fabs(x); }
 MCC_INLINE float withSignOf(float x, float sign) { return std::copysign(x, sign); }
 MCC_INLINE float squareRoot(float x) { return std::sqrt(x); }
