@@ -193,6 +193,7 @@ class NormalCoder {
         lengths_(lengths) {}
 
   void run(const float* positions) {
+    std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
     std::fill(sums_, sums_ + 4 * size_t{wedges_.count}, 0.0f);
     switch (weight_) {
       case NormalWeight::kArea:
@@ -283,7 +284,7 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
 template <class Io>
 MCC_INLINE void NormalCoder<Io>::codePoint(uint32_t w, const OctahedralFrame& frame,
                                            uint32_t context) {
-  context = std::min(context, kNoNeighbours);  // a neighbour that is coded later counts as none
+  context = std::min(context, kNoNeighbours);  // kNotCoded makes it long
   int32_t* value = values_ + 2 * size_t{w};
   int32_t residual[2] = {};
   int32_t point[2] = {};

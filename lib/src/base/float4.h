@@ -48,6 +48,30 @@ MCC_INLINE Float4 squareRoot(Float4 x) {
   return Float4{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
 #endif
 }
+/// a0 - b0, a1 - b1 of pairs of integers; the subtraction wraps.
+MCC_INLINE Float4 pairDifferences(const int32_t* a0, const int32_t* b0, const int32_t* a1,
+                                  const int32_t* b1) {
+  typedef uint32_t Unsigned4 __attribute__((vector_size(16)));
+  typedef uint64_t Pairs __attribute__((vector_size(16)));
+  const auto pair = [](const int32_t* from) {
+    uint64_t x;
+    std::memcpy(&x, from, sizeof x);
+    return x;
+  };
+  const Unsigned4 a = (Unsigned4)Pairs{pair(a0), pair(a1)};
+  const Unsigned4 b = (Unsigned4)Pairs{pair(b0), pair(b1)};
+  return __builtin_convertvector((Mask4)(a - b), Float4);
+}
+/// Pairs (x, y) to all x and all y.
+MCC_INLINE void splitPairs(Float4 first, Float4 second, Float4& x, Float4& y) {
+#if defined(__clang__) || __GNUC__ >= 12
+  x = __builtin_shufflevector(first, second, 0, 2, 4, 6);
+  y = __builtin_shufflevector(first, second, 1, 3, 5, 7);
+#else
+  x = Float4{first[0], first[2], second[0], second[2]};
+  y = Float4{first[1], first[3], second[1], second[3]};
+#endif
+}
 template <int kLane>
 MCC_INLINE Float4 broadcast(Float4 x) {
 #if defined(__clang__) || __GNUC__ >= 12
@@ -132,6 +156,19 @@ inline Float4 withSignOf(Float4 x, Float4 sign) {
 inline Float4 squareRoot(Float4 x) {
   return eachLane<Float4>([=](int i) { return std::sqrt(x[i]); });
 }
+inline Float4 pairDifferences(const int32_t* a0, const int32_t* b0, const int32_t* a1,
+                              const int32_t* b1) {
+  const auto difference = [](int32_t a, int32_t b) {
+    return static_cast<float>(
+        static_cast<int32_t>(static_cast<uint32_t>(a) - static_cast<uint32_t>(b)));
+  };
+  return {{difference(a0[0], b0[0]), difference(a0[1], b0[1]), difference(a1[0], b1[0]),
+           difference(a1[1], b1[1])}};
+}
+inline void splitPairs(Float4 first, Float4 second, Float4& x, Float4& y) {
+  x = {{first[0], first[2], second[0], second[2]}};
+  y = {{first[1], first[3], second[1], second[3]}};
+}
 template <int kLane>
 inline Float4 broadcast(Float4 x) {
   return allLanes(x[kLane]);
@@ -148,6 +185,12 @@ inline void transpose(Float4& a, Float4& b, Float4& c, Float4& d) {
 
 #endif
 
+/// Stores a pair at once: loads of pairs stall behind two stores.
+MCC_INLINE void storePair(int32_t* to, const int32_t* pair) {
+  const uint64_t both =
+      uint64_t{static_cast<uint32_t>(pair[1])} << 32 | static_cast<uint32_t>(pair[0]);
+  std::memcpy(to, &both, sizeof both);
+}
 MCC_INLINE Float4 loadFloat4(const float* from) {
   Float4 x;
   std::memcpy(&x, from, sizeof x);
