@@ -203,6 +203,15 @@ class PieceCoder {
     return stage_.code(index, values);
   }
 
+  /// The writer's trials: codeAttribute() leaves out all but the first wedges in coding order.
+  void codeFirstWedges(uint32_t count) {
+    stage_.wedges.coded_count = std::min(count, stage_.wedges.count);
+  }
+  /// The writer: what codeAttribute() would leave behind for tangents.
+  Status keepForTangents(uint32_t index, const Array<int32_t>& values) {
+    return stage_.keepForTangents(index, values);
+  }
+
   uint32_t codedComponentsOf(uint32_t index) const {
     return codedComponents(attributes_, header_.attribute_count, index);
   }

@@ -206,12 +206,12 @@ class NormalCoder {
         addFaceNormals<NormalWeight::kSine>(wedges_, positions, sums_);
         break;
     }
-    for (uint32_t i = 0; i < wedges_.surface_count; ++i) {
+    for (uint32_t i = 0; i < wedges_.surfaceEnd(); ++i) {
       const uint32_t w = wedges_.wedgeAt(i);
       wedges_.prefetch(i, sums_, 4);
       if (groups_.isFirst(w)) codeGroup(w);
     }
-    for (uint32_t w = wedges_.surface_count; w < wedges_.count; ++w)
+    for (uint32_t w = wedges_.surface_count; w < wedges_.coded_count; ++w)
       codePoint(w, OctahedralFrame::around(last_, centre_), kNoNeighbours);
   }
 

@@ -172,11 +172,11 @@ class TangentCoder {
 
   void run() {
     std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
-    for (uint32_t i = 0; i < wedges_.surface_count; ++i) {
+    for (uint32_t i = 0; i < wedges_.surfaceEnd(); ++i) {
       const uint32_t w = wedges_.wedgeAt(i);
       if (groups_.isFirst(w)) codeGroup(w);
     }
-    for (uint32_t w = wedges_.surface_count; w < wedges_.count; ++w)
+    for (uint32_t w = wedges_.surface_count; w < wedges_.coded_count; ++w)
       codeTangent(w, last_, 0, kNoNeighbours);
   }
 

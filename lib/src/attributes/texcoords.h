@@ -108,12 +108,12 @@ class TexcoordCoder {
 
   void run() {
     std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
-    for (uint32_t i = 0; i < wedges_.surface_count; ++i) {
+    for (uint32_t i = 0; i < wedges_.surfaceEnd(); ++i) {
       const uint32_t w = wedges_.wedgeAt(i);
       wedges_.prefetch(i, positions_, 4);
       if (groups_.isFirst(w)) codeGroup(w);
     }
-    for (uint32_t w = wedges_.surface_count; w < wedges_.count; ++w)
+    for (uint32_t w = wedges_.surface_count; w < wedges_.coded_count; ++w)
       codePair(w, last_, kNoNeighbours);
   }
 

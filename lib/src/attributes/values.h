@@ -68,7 +68,7 @@ class ValueCoder {
 
   void run() {
     std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
-    for (uint32_t i = 0; i < wedges_.count; ++i) {
+    for (uint32_t i = 0; i < wedges_.coded_count; ++i) {
       const uint32_t w = i < wedges_.surface_count ? wedges_.wedgeAt(i) : i;
       if (groups_.isFirst(w)) codeGroup(w);
     }

@@ -56,6 +56,10 @@ class WedgeMesh {
   uint32_t face_count = 0;
   uint32_t surface_count = 0;  ///< wedges in faces
   uint32_t count = 0;
+  uint32_t coded_count = 0;  ///< in coding order; fewer than all in the writer's trials
+
+  /// Wedges in faces that are coded.
+  uint32_t surfaceEnd() const { return std::min(surface_count, coded_count); }
 
  private:
   static constexpr uint32_t kPrefetch = 4;  ///< places ahead
@@ -72,7 +76,7 @@ inline Status WedgeMesh::build(FaceMesh& mesh, const uint32_t* starts, uint32_t 
   faces = mesh.view();
   face_count = mesh.face_count;
   surface_count = surface_wedges;
-  count = wedge_count;
+  count = coded_count = wedge_count;
   starts_ = starts;
   group_of_wedge_ = group_of_wedge;
   order_.clear();
