@@ -29,20 +29,6 @@ namespace {
 
 const PayloadInfo kEmptyInfo{};
 
-/// Four integers as floats.
-MCC_INLINE Float4 fourFloats(int32_t a, int32_t b, int32_t c, int32_t d) {
-  return Float4{static_cast<float>(a), static_cast<float>(b), static_cast<float>(c),
-                static_cast<float>(d)};
-}
-
-/// Unit vectors of four grid points.
-MCC_INLINE void unitVectors(const int32_t* const* points, float centre, Float4* unit) {
-  const Float4 s = fourFloats(points[0][0], points[1][0], points[2][0], points[3][0]);
-  const Float4 t = fourFloats(points[0][1], points[1][1], points[2][1], points[3][1]);
-  const Float4 middle = allLanes(centre);
-  octahedralToUnit(s - middle, t - middle, allLanes(1.0f / centre), unit);
-}
-
 /// Normals from grid points, four at a time.
 template <class Load>
 void storeNormals(int32_t centre, uint32_t wedge_count, const AttributeTarget& target, Load load) {
@@ -52,7 +38,7 @@ void storeNormals(int32_t centre, uint32_t wedge_count, const AttributeTarget& t
     const int32_t* points[4];
     for (uint32_t i = 0; i < 4; ++i) points[i] = load(w + (i < count ? i : 0));
     Float4 rows[4];
-    unitVectors(points, static_cast<float>(centre), rows);
+    octahedralToUnit(points, centre, rows);
     rows[3] = allLanes(0.0f);
     transpose(rows[0], rows[1], rows[2], rows[3]);
     for (uint32_t i = 0; i < count; ++i, to += target.stride_bytes) {
@@ -111,13 +97,28 @@ void storeTangents(const AttributeInfo& info, const int32_t* values,
                    const AttributeTarget& target) {
   const int32_t centre = octahedralCentre(normal_info.bits);
   uint8_t* to = static_cast<uint8_t*>(target.data);
-  for (uint32_t w = 0; w < wedge_count; ++w, to += target.stride_bytes) {
-    float normal[3];
-    float tangent[3];
-    octahedralToUnit(normals[2 * size_t{w}], normals[2 * size_t{w} + 1], centre, normal);
-    tangentFromAngle(normal, values[2 * size_t{w}], info.bits, tangent);
-    for (uint32_t c = 0; c < 3; ++c) storeFloat(to + 4 * c, tangent[c]);
-    storeFloat(to + 12, values[2 * size_t{w} + 1] != 0 ? -1.0f : 1.0f);
+  for (uint32_t w = 0; w < wedge_count; w += 4) {
+    const uint32_t count = std::min(wedge_count - w, 4u);
+    const int32_t* points[4];
+    AngleSteps steps[4] = {{0, 2}, {0, 2}, {0, 2}, {0, 2}};
+    int32_t signs[4];
+    for (uint32_t i = 0; i < 4; ++i) {
+      const size_t from = w + (i < count ? i : 0);
+      points[i] = normals + 2 * from;
+      steps[i] = AngleSteps(values[2 * from], info.bits);
+      signs[i] = values[2 * from + 1] != 0 ? -1 : 1;
+    }
+    Float4 normal[3];
+    Float4 rows[4];
+    octahedralToUnit(points, centre, normal);
+    tangentFromSteps(
+        normal, fourFloats(steps[0].quarter, steps[1].quarter, steps[2].quarter, steps[3].quarter),
+        fourFloats(steps[0].rest, steps[1].rest, steps[2].rest, steps[3].rest), info.bits, rows);
+    rows[3] = fourFloats(signs[0], signs[1], signs[2], signs[3]);
+    transpose(rows[0], rows[1], rows[2], rows[3]);
+    for (uint32_t i = 0; i < count; ++i, to += target.stride_bytes) {
+      std::memcpy(to, &rows[i], 4 * sizeof(float));
+    }
   }
 }
 

@@ -24,8 +24,8 @@ namespace {
 
 constexpr uint32_t kSingleCoderVertices = 2000;  ///< up to here the single coder is tried as well
 
-constexpr uint32_t kTrialWedges = 6000;  ///< an attribute's candidates are tried on so many wedges,
-constexpr uint32_t kTrialShare = 5;      ///< or on this part of all
+constexpr uint32_t kTrialWedges = 4000;  ///< an attribute's candidates are tried on so many wedges,
+constexpr uint32_t kTrialShare = 6;      ///< or on this part of all
 
 /// A piece on its way through the writer.
 struct Plan {

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "attributes/dequantize.h"
+#include "base/float4.h"
 #include "base/memory.h"
 #include "mesh/face_mesh.h"
 
@@ -136,6 +137,17 @@ struct EqualGroups {
     next.clear();
   }
 };
+
+/// Adds the sums (4 floats each) of all members of a group to those of its first wedge.
+inline void gatherGroups(const WedgeMesh& wedges, const EqualGroups& groups, float* sums) {
+  if (groups.first.empty()) return;
+  for (uint32_t w = 0; w < wedges.surface_count; ++w) {
+    const uint32_t first = groups.first[w];
+    if (first == w) continue;
+    storeFloat4(sums + 4 * size_t{first},
+                loadFloat4(sums + 4 * size_t{first}) + loadFloat4(sums + 4 * size_t{w}));
+  }
+}
 
 /// Order in which wedges are coded: wedge faces.vertex(half_edges[i]) is the i-th, isolated wedges follow.
 struct WedgeSequence {

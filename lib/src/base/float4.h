@@ -144,6 +144,9 @@ inline Mask4 operator<=(Float4 a, Float4 b) {
 inline Mask4 operator&(Mask4 a, Mask4 b) {
   return eachLane<Mask4>([=](int i) { return a.lane[i] && b.lane[i]; });
 }
+inline Mask4 operator|(Mask4 a, Mask4 b) {
+  return eachLane<Mask4>([=](int i) { return a.lane[i] || b.lane[i]; });
+}
 inline Float4 select(Mask4 mask, Float4 a, Float4 b) {
   return eachLane<Float4>([=](int i) { return mask.lane[i] ? a[i] : b[i]; });
 }
@@ -190,6 +193,11 @@ MCC_INLINE void storePair(int32_t* to, const int32_t* pair) {
   const uint64_t both =
       uint64_t{static_cast<uint32_t>(pair[1])} << 32 | static_cast<uint32_t>(pair[0]);
   std::memcpy(to, &both, sizeof both);
+}
+/// Four integers as floats.
+MCC_INLINE Float4 fourFloats(int32_t a, int32_t b, int32_t c, int32_t d) {
+  return Float4{static_cast<float>(a), static_cast<float>(b), static_cast<float>(c),
+                static_cast<float>(d)};
 }
 MCC_INLINE Float4 loadFloat4(const float* from) {
   Float4 x;
