@@ -67,6 +67,7 @@ class PieceCoder {
         attributes_(attributes),
         allocator_(allocator),
         stage_(io, models.attributes, attributes, header.attribute_count, allocator),
+        group_positions_(allocator),
         histogram_(histogram) {}
 
   Status codeConnectivity(const PieceTruth& truth) {
@@ -167,9 +168,18 @@ class PieceCoder {
     if (header_.attribute_count < 2) return {};
     MCC_TRY(stage_.wedges.build(mesh, wedges.half_edges, wedges.count, header_.wedge_count,
                                 header_.has(piece_flag::kSeams) ? wedge_group.data() : nullptr));
-    return predictionPositions(
-        header_.wedge_count, [this](uint32_t wedge) { return records[groupOf(wedge)].q; },
-        stage_.positions);
+    MCC_TRY(findGroupPositions());
+    if (!header_.has(piece_flag::kSeams)) {  // wedges are numbered as groups
+      stage_.positions.swap(group_positions_);
+      return {};
+    }
+    if (!stage_.positions.resize(4 * size_t{header_.wedge_count})) return noMemory();
+    for (uint32_t w = 0; w < header_.wedge_count; ++w) {
+      storeFloat4(&stage_.positions[4 * size_t{w}],
+                  loadFloat4(&group_positions_[4 * size_t{groupOf(w)}]));
+    }
+    group_positions_.reset();
+    return {};
   }
 
   static void describePositions(const AttributeInfo& info, PositionParameters& p) {
@@ -250,18 +260,19 @@ class PieceCoder {
         .run(needsSequence() ? sequence.data() : nullptr, header_.isolated_count);
   }
 
-  template <class Position>
-  Status predictionPositions(uint32_t count, Position position, Array<float>& out) const {
+  /// Positions as creases and attributes see them, of groups and of the isolated vertices behind.
+  Status findGroupPositions() {
+    if (!group_positions_.empty()) return {};
+    const uint32_t count = static_cast<uint32_t>(records.size());
+    const auto position = [this](uint32_t group) { return records[group].q; };
     return attributes_[0].coding == AttributeCoding::kExactFloat
-               ? floatPredictionPositions(count, position, out)
-               : latticePredictionPositions(count, position, out);
+               ? floatPredictionPositions(count, position, group_positions_)
+               : latticePredictionPositions(count, position, group_positions_);
   }
 
   Status findCreases() {
-    Array<float> positions(allocator_);
-    const auto position = [this](uint32_t group) { return records[group].q; };
-    MCC_TRY(predictionPositions(groups.count, position, positions));
-    return classifyCreases(mesh.view(), mesh.face_count, positions.data(), allocator_);
+    MCC_TRY(findGroupPositions());
+    return classifyCreases(mesh.view(), mesh.face_count, group_positions_.data(), allocator_);
   }
 
   static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for the decoded mesh"); }
@@ -272,6 +283,7 @@ class PieceCoder {
   const AttributeInfo* const attributes_;
   const Allocator allocator_;
   AttributeStage<Io> stage_;
+  Array<float> group_positions_;  ///< 4 per group, see attributes/wedges.h
   CodeHistogram* const histogram_;
 };
 

@@ -44,19 +44,28 @@ inline Status classifyCreases(const FaceView& faces, uint32_t face_count, const 
     return fail(Error::kOutOfMemory, "no memory for the seams");
   }
   faceNormals(faces, face_count, positions, normals.data());
+  const Float4 zero = allLanes(0.0f);
+  const Float4 one = allLanes(1.0f);
   for (uint32_t f = 0; f < face_count; ++f) {
-    const float* a = &normals[4 * size_t{f}];
+    uint32_t* words = faces.words + size_t{f} * kFaceWords;
+    const Float4 own = loadFloat4(&normals[4 * size_t{f}]);
+    Float4 rows[4] = {own, own, own, zero};
+    uint32_t known = 0;
     for (uint32_t k = 0; k < 3; ++k) {
-      const uint32_t h = f * kFaceWords + k;
-      const uint32_t t = faces.twin(h);
-      if (t == kNone || t > h) continue;  // once per edge
-      const float* b = &normals[4 * size_t{faceOf(t)}];
-      const float cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-      const uint32_t crease =
-          (cosine < 0.99f ? 1u : 0u) + (cosine < 0.9f ? 1u : 0u) + (cosine < 0.6f ? 1u : 0u);
-      faces.words[(h & ~7u) + kSeamWord] |= crease << (kCreaseShift + 2 * (h & 3));
-      faces.words[(t & ~7u) + kSeamWord] |= crease << (kCreaseShift + 2 * (t & 3));
+      const uint32_t t = faces.twin(f * kFaceWords + k);
+      if (t == kNone) continue;
+      known |= 3u << (2 * k);
+      rows[k] = loadFloat4(&normals[4 * size_t{faceOf(t)}]);
     }
+    transpose(rows[0], rows[1], rows[2], rows[3]);
+    const Float4 cosine =
+        broadcast<0>(own) * rows[0] + broadcast<1>(own) * rows[1] + broadcast<2>(own) * rows[2];
+    const Float4 crease = select(cosine < allLanes(0.99f), one, zero) +
+                          select(cosine < allLanes(0.9f), one, zero) +
+                          select(cosine < allLanes(0.6f), one, zero);
+    const float classes = crease[0] + 4 * crease[1] + 16 * crease[2];
+    words[kSeamWord] |= (static_cast<uint32_t>(static_cast<int32_t>(classes)) & known)
+                        << kCreaseShift;
   }
   return {};
 }
