@@ -73,7 +73,7 @@ void addFaceNormals(const WedgeMesh& wedges, const float* positions, float* sums
 inline float manhattanLength(const float* v) {
   return std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]);
 }
-inline constexpr float kShortest = 1e-35f;  ///< shorter vectors have no direction
+inline constexpr float kShortest = 1e-30f;  ///< shorter vectors have no direction
 
 /// Grid point, relative to the centre, nearest to the projection of a vector along z; `length`: its manhattanLength(),
 /// above kShortest. Vectors with z < 0 are mirrored first. [B.4.4]
