@@ -75,6 +75,7 @@ class PieceCoder {
         attributes_(attributes),
         allocator_(allocator),
         stage_(io, models.attributes, attributes, header.attribute_count, allocator),
+        group_positions_(allocator),
         histogram_(histogram) {}
 
   Status codeConnectivity(const PieceTruth& truth) {
@@ -216,9 +217,18 @@ class PieceCoder {
     if (header_.attribute_count < 2) return {};
     MCC_TRY(stage_.wedges.build(mesh, wedges.half_edges, wedges.count, header_.wedge_count,
                                 header_.has(piece_flag::kSeams) ? wedge_group.data() : nullptr));
-    return predictionPositions(
-        header_.wedge_count, [this](uint32_t wedge) { return records[groupOf(wedge)].q; },
-        stage_.positions);
+    MCC_TRY(findGroupPositions());
+    if (!header_.has(piece_flag::kSeams)) {  // wedges are numbered as groups
+      stage_.positions.swap(group_positions_);
+      return {};
+    }
+    if (!stage_.positions.resize(4 * size_t{header_.wedge_count})) return noMemory();
+    for (uint32_t w = 0; w < header_.wedge_count; ++w) {
+      storeFloat4(&stage_.positions[4 * size_t{w}],
+                  loadFloat4(&group_positions_[4 * size_t{groupOf(w)}]));
+    }
+    group_positions_.reset();
+    return {};
   }
 
   static void describePositions(const AttributeInfo& info, PositionParameters& p) {
@@ -250,6 +260,15 @@ class PieceCoder {
   /// Codes attribute `index` (not 0) into `values`: codedComponents() per wedge.
   Status codeAttribute(uint32_t index, Array<int32_t>& values) {
     return stage_.code(index, values);
+  }
+
+  /// The writer's trials: codeAttribute() leaves out all but the first wedges in coding order.
+  void codeFirstWedges(uint32_t count) {
+    stage_.wedges.coded_count = std::min(count, stage_.wedges.count);
+  }
+  /// The writer: what codeAttribute() would leave behind for tangents.
+  Status keepForTangents(uint32_t index, const Array<int32_t>& values) {
+    return stage_.keepForTangents(index, values);
   }
 
   uint32_t codedComponentsOf(uint32_t index) const {
@@ -308,18 +327,19 @@ class PieceCoder {
     return {};
   }
 
-  template <class Position>
-  Status predictionPositions(uint32_t count, Position position, Array<float>& out) const {
+  /// Positions as creases and attributes see them, of groups and of the isolated vertices behind.
+  Status findGroupPositions() {
+    if (!group_positions_.empty()) return {};
+    const uint32_t count = static_cast<uint32_t>(records.size());
+    const auto position = [this](uint32_t group) { return records[group].q; };
     return attributes_[0].coding == AttributeCoding::kExactFloat
-               ? floatPredictionPositions(count, position, out)
-               : latticePredictionPositions(count, position, out);
+               ? floatPredictionPositions(count, position, group_positions_)
+               : latticePredictionPositions(count, position, group_positions_);
   }
 
   Status findCreases() {
-    Array<float> positions(allocator_);
-    const auto position = [this](uint32_t group) { return records[group].q; };
-    MCC_TRY(predictionPositions(groups.count, position, positions));
-    return classifyCreases(mesh.view(), mesh.face_count, positions.data(), allocator_);
+    MCC_TRY(findGroupPositions());
+    return classifyCreases(mesh.view(), mesh.face_count, group_positions_.data(), allocator_);
   }
 
   static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for the decoded mesh"); }
@@ -330,6 +350,7 @@ class PieceCoder {
   const AttributeInfo* const attributes_;
   const Allocator allocator_;
   AttributeStage<Io> stage_;
+  Array<float> group_positions_;  ///< 4 per group, see attributes/wedges.h
   CodeHistogram* const histogram_;
 };
 

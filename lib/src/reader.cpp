@@ -3,6 +3,7 @@
 // Reader: header, then every piece through its stages (piece.h), then floats and indices into the caller's memory.
 #include "mcc/reader.h"
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
@@ -39,6 +40,24 @@ WedgeAt wedgeAt(const PieceCoder<Io>& piece) {
   return {piece.wedge_order.empty() ? nullptr : piece.wedge_order.data()};
 }
 
+/// Normals from grid points, four at a time.
+template <class Load>
+void storeNormals(int32_t centre, uint32_t wedge_count, const AttributeTarget& target, Load load) {
+  uint8_t* to = static_cast<uint8_t*>(target.data);
+  for (uint32_t w = 0; w < wedge_count; w += 4) {
+    const uint32_t count = std::min(wedge_count - w, 4u);
+    const int32_t* points[4];
+    for (uint32_t i = 0; i < 4; ++i) points[i] = load(w + (i < count ? i : 0));
+    Float4 rows[4];
+    octahedralToUnit(points, centre, rows);
+    rows[3] = allLanes(0.0f);
+    transpose(rows[0], rows[1], rows[2], rows[3]);
+    for (uint32_t i = 0; i < count; ++i, to += target.stride_bytes) {
+      std::memcpy(to, &rows[i], 3 * sizeof(float));
+    }
+  }
+}
+
 /// Copies coded integers to the caller's elements; `load(i)` points to the integers of element i. [A.8.4]
 template <class Load>
 void storeElements(const AttributeInfo& info, uint32_t wedge_count, const AttributeTarget& target,
@@ -59,16 +78,9 @@ void storeElements(const AttributeInfo& info, uint32_t wedge_count, const Attrib
       }
       return;
     }
-    case AttributeCoding::kOctahedral: {
-      const int32_t centre = octahedralCentre(info.bits);
-      for (uint32_t w = 0; w < wedge_count; ++w, to += stride) {
-        const int32_t* q = load(w);
-        float unit[3];
-        octahedralToUnit(q[0], q[1], centre, unit);
-        std::memcpy(to, unit, sizeof unit);
-      }
+    case AttributeCoding::kOctahedral:
+      storeNormals(octahedralCentre(info.bits), wedge_count, target, load);
       return;
-    }
     case AttributeCoding::kExactFloat:
       for (uint32_t w = 0; w < wedge_count; ++w, to += stride) {
         const int32_t* q = load(w);
@@ -96,14 +108,28 @@ void storeTangents(const AttributeInfo& info, const int32_t* values,
                    WedgeAt wedge_at, const AttributeTarget& target) {
   const int32_t centre = octahedralCentre(normal_info.bits);
   uint8_t* to = static_cast<uint8_t*>(target.data);
-  for (uint32_t i = 0; i < wedge_count; ++i, to += target.stride_bytes) {
-    const size_t w = wedge_at(i);
-    float normal[3];
-    float tangent[3];
-    octahedralToUnit(normals[2 * w], normals[2 * w + 1], centre, normal);
-    tangentFromAngle(normal, values[2 * w], info.bits, tangent);
-    for (uint32_t c = 0; c < 3; ++c) storeFloat(to + 4 * c, tangent[c]);
-    storeFloat(to + 12, values[2 * w + 1] != 0 ? -1.0f : 1.0f);
+  for (uint32_t w = 0; w < wedge_count; w += 4) {
+    const uint32_t count = std::min(wedge_count - w, 4u);
+    const int32_t* points[4];
+    AngleSteps steps[4] = {{0, 2}, {0, 2}, {0, 2}, {0, 2}};
+    int32_t signs[4];
+    for (uint32_t i = 0; i < 4; ++i) {
+      const size_t from = wedge_at(w + (i < count ? i : 0));
+      points[i] = normals + 2 * from;
+      steps[i] = AngleSteps(values[2 * from], info.bits);
+      signs[i] = values[2 * from + 1] != 0 ? -1 : 1;
+    }
+    Float4 normal[3];
+    Float4 rows[4];
+    octahedralToUnit(points, centre, normal);
+    tangentFromSteps(
+        normal, fourFloats(steps[0].quarter, steps[1].quarter, steps[2].quarter, steps[3].quarter),
+        fourFloats(steps[0].rest, steps[1].rest, steps[2].rest, steps[3].rest), info.bits, rows);
+    rows[3] = fourFloats(signs[0], signs[1], signs[2], signs[3]);
+    transpose(rows[0], rows[1], rows[2], rows[3]);
+    for (uint32_t i = 0; i < count; ++i, to += target.stride_bytes) {
+      std::memcpy(to, &rows[i], 4 * sizeof(float));
+    }
   }
 }
 

@@ -27,6 +27,9 @@ namespace {
 
 constexpr uint32_t kSingleCoderVertices = 2000;  ///< up to here the single coder is tried as well
 
+constexpr uint32_t kTrialWedges = 4000;  ///< an attribute's candidates are tried on so many wedges,
+constexpr uint32_t kTrialShare = 6;      ///< or on this part of all
+
 /// A piece on its way through the writer.
 struct Plan {
   const PieceView* view = nullptr;
@@ -479,23 +482,51 @@ class StageRunner {
 
   Status codeAttribute(uint32_t index, StreamSizes* sizes) {
     infos_[index] = plan_.attributes[index].info;
-    const uint32_t count = plan_.header.attribute_count;
-    const AttributeMethod method = methodOf(infos_.data(), count, index);
-    if (method == AttributeMethod::kWithAnother) return {};
-    const uint32_t stride = piece_.codedComponentsOf(index);
-    if (!values_.resize(size_t{plan_.header.wedge_count} * stride)) throw std::bad_alloc();
-    learnValues(plan_, index, 0, stride, values_);
-    if (method == AttributeMethod::kSkin) {
-      learnValues(plan_, skinPartner(infos_.data(), count, index), kSkinSlots, stride, values_);
-    }
+    if (isCodedWithAnother(index)) return {};
+    learnAttribute(index);
     MCC_TRY(piece_.codeAttribute(index, values_));
     if (sizes != nullptr) sizes->attribute_bits[first_attribute_ + index] = since();
     return {};
   }
 
+  /// What codeAttribute() costs for the first wedges; the models adapt.
+  Status tryAttribute(uint32_t index, uint32_t wedges, uint64_t& cost) {
+    const uint64_t spent = io_.cost();
+    piece_.codeFirstWedges(wedges);
+    const Status status = codeAttribute(index, nullptr);
+    piece_.codeFirstWedges(kNone);
+    cost = io_.cost() - spent;
+    return status;
+  }
+
+  /// Instead of codeAttribute(), when its models are not needed any more.
+  Status passAttribute(uint32_t index) {
+    infos_[index] = plan_.attributes[index].info;
+    if (isCodedWithAnother(index)) return {};
+    learnAttribute(index);
+    return piece_.keepForTangents(index, values_);
+  }
+
   uint32_t groupCount() const { return piece_.groups.count; }
 
  private:
+  bool isCodedWithAnother(uint32_t index) const {
+    return methodOf(infos_.data(), plan_.header.attribute_count, index) ==
+           AttributeMethod::kWithAnother;
+  }
+
+  /// Fills values_, which coding leaves as they are.
+  void learnAttribute(uint32_t index) {
+    if (learned_ == index) return;
+    learned_ = index;
+    const uint32_t stride = piece_.codedComponentsOf(index);
+    if (!values_.resize(size_t{plan_.header.wedge_count} * stride)) throw std::bad_alloc();
+    learnValues(plan_, index, 0, stride, values_);
+    const uint32_t count = plan_.header.attribute_count;
+    if (methodOf(infos_.data(), count, index) != AttributeMethod::kSkin) return;
+    learnValues(plan_, skinPartner(infos_.data(), count, index), kSkinSlots, stride, values_);
+  }
+
   static std::vector<AttributeInfo> infosOf(const Plan& plan) {
     std::vector<AttributeInfo> infos;
     for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
@@ -527,6 +558,7 @@ class StageRunner {
   PieceCoder<Io> piece_;
   PieceTruth truth_;
   Array<int32_t> values_;
+  uint32_t learned_ = kNone;  ///< attribute that values_ are of
   uint64_t cost_before_ = io_.cost();
 };
 
@@ -631,31 +663,29 @@ Status choosePositions(std::vector<Plan>& plans, Runners& runners, uint8_t effor
   return {};
 }
 
-/// Tries the candidates of one attribute, stage by stage, from where its models are; goes on with the best.
+/// Tries the candidates of one attribute, from where its models are, and goes on with the best. `goes_on`: some later
+/// attribute shares its models.
 Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& runner,
-                             PayloadModels& models, const CostIo& io) {
+                             PayloadModels& models, bool goes_on) {
   AttributeInfo& info = plan.attributes[index].info;
-  const auto before = std::make_unique<AttributeModels>(models.attributes);
-  const auto costWith = [&](uint8_t predictor, uint64_t& cost) -> Status {
-    info.predictor = predictor;
-    models.attributes = *before;
-    const uint64_t spent = io.cost();
-    MCC_TRY(runner.codeAttribute(index, nullptr));
-    cost = io.cost() - spent;
-    return {};
-  };
   std::vector<AttributeInfo> infos;
   for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
   const AttributeMethod method = methodOf(infos.data(), plan.header.attribute_count, index);
   if (method == AttributeMethod::kWithAnother) return {};
   PredictorSearch search(method, info, plan.header.has(piece_flag::kSeams));
-  while (!search.done()) {
-    uint64_t cost = 0;
-    MCC_TRY(costWith(search.candidate(), cost));
-    search.report(cost);
+  if (!search.isSettled()) {
+    const uint32_t sample = std::max(kTrialWedges, plan.header.wedge_count / kTrialShare);
+    const auto before = std::make_unique<AttributeModels>(models.attributes);
+    while (!search.done()) {
+      info.predictor = search.candidate();
+      uint64_t cost = 0;
+      MCC_TRY(runner.tryAttribute(index, sample, cost));
+      search.report(cost);
+      models.attributes = *before;
+    }
   }
-  uint64_t cost = 0;
-  return costWith(search.best(), cost);
+  info.predictor = search.best();
+  return goes_on ? runner.codeAttribute(index, nullptr) : runner.passAttribute(index);
 }
 
 Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t effort) {
@@ -676,8 +706,14 @@ Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t 
     MCC_TRY(runners[i]->chooseCreases(*models));
     MCC_TRY(runners[i]->codeSeams(nullptr));
     MCC_TRY(runners[i]->prepareAttributes());
-    for (const uint32_t a : codingOrder(plans[i])) {
-      MCC_TRY(chooseAttributeMethod(plans[i], a, *runners[i], *models, io));
+    const std::vector<uint32_t> order = codingOrder(plans[i]);
+    for (size_t k = 0; k < order.size(); ++k) {
+      bool goes_on = i + 1 < plans.size();
+      for (size_t later = k + 1; later < order.size(); ++later) {
+        goes_on |= plans[i].attributes[order[later]].info.format.semantic ==
+                   plans[i].attributes[order[k]].info.format.semantic;
+      }
+      MCC_TRY(chooseAttributeMethod(plans[i], order[k], *runners[i], *models, goes_on));
     }
   }
   return {};

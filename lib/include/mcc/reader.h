@@ -33,7 +33,9 @@ struct PartInfo {
 
 /// How an attribute is coded; for reports, and for callers that compute error bounds.
 enum class AttributeCoding : uint8_t {
-  kLattice = 0,     ///< float32 on a lattice of `bits` bits
+  /// float32 on a lattice of `bits` bits. Each component is off by at most half a step, but WEIGHTS by at most one: tuples
+  /// that sum to 1 (over all sets) still do, for they are rounded down and the rest goes to the largest remainders.
+  kLattice = 0,
   kInteger = 1,     ///< integer components, exact
   kExactFloat = 2,  ///< float32 components, every bit pattern kept
   kOctahedral = 3,  ///< unit vectors, octahedral grid of `bits` bits

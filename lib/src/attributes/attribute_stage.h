@@ -95,7 +95,21 @@ class AttributeStage {
       case AttributeMethod::kValues: MCC_TRY(codeValues(info, components, values.data())); break;
     }
     if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside an attribute");
-    return has_tangents_ ? keepForTangents(index, values) : Status{};
+    return keepForTangents(index, values);
+  }
+
+  /// Keeps what the tangents will be predicted from.
+  Status keepForTangents(uint32_t index, const Array<int32_t>& values) {
+    if (!has_tangents_) return {};
+    if (index == normal_) {
+      if (!normals.resize(values.size())) return noMemory();
+      std::copy(values.data(), values.data() + values.size(), normals.data());
+    }
+    if (index == chart_) {
+      if (!chart_coordinates_.resize(values.size())) return noMemory();
+      chartCoordinates(attributes_[index], values.data(), values.size(), chart_coordinates_.data());
+    }
+    return {};
   }
 
   const AttributeInfo& normalInfo() const { return attributes_[normal_]; }
@@ -129,7 +143,7 @@ class AttributeStage {
   }
 
   Status codeNormals(const AttributeInfo& info, int32_t* values) {
-    if (!floats_.resize(3 * size_t{wedges.count})) return noMemory();
+    if (!floats_.resize(4 * size_t{wedges.count})) return noMemory();
     NormalCoder<Io>(io_, models_.normals, wedges, groups_, info, values, floats_.data(),
                     lengths_.data())
         .run(positions.data());
@@ -165,18 +179,6 @@ class AttributeStage {
     SkinCoder<Io>(io_, models_.skins[joints.format.set_index != 0 ? 1 : 0], wedges, groups_, sum,
                   sums_vary, joints.predictor, values, lengths_.data())
         .run();
-  }
-
-  Status keepForTangents(uint32_t index, const Array<int32_t>& values) {
-    if (index == normal_) {
-      if (!normals.resize(values.size())) return noMemory();
-      std::copy(values.data(), values.data() + values.size(), normals.data());
-    }
-    if (index == chart_) {
-      if (!chart_coordinates_.resize(values.size())) return noMemory();
-      chartCoordinates(attributes_[index], values.data(), values.size(), chart_coordinates_.data());
-    }
-    return {};
   }
 
   Io& io_;

@@ -4,9 +4,9 @@
 #ifndef MCC_ATTRIBUTES_CREASES_H_
 #define MCC_ATTRIBUTES_CREASES_H_
 
-#include <cmath>
 #include <cstdint>
 
+#include "attributes/face_pass.h"
 #include "base/memory.h"
 #include "mesh/face_mesh.h"
 
@@ -20,45 +20,52 @@ inline uint32_t creaseClass(const FaceView& faces, uint32_t h) {
   return (faces.words[(h & ~7u) + kSeamWord] >> (kCreaseShift + 2 * (h & 3))) & 3;
 }
 
-/// Unit normals of faces from `positions` (4 floats per vertex); all zeros for a degenerate face.
+/// Unit normals of faces (4 floats each) from `positions` (4 floats per vertex); all zeros for a degenerate face.
 inline void faceNormals(const FaceView& faces, uint32_t face_count, const float* positions,
                         float* normals) {
-  for (uint32_t f = 0; f < face_count; ++f, normals += 3) {
-    const uint32_t* corner = faces.words + size_t{f} * kFaceWords;
-    const float* a = positions + 4 * size_t{corner[0]};
-    const float* b = positions + 4 * size_t{corner[1]};
-    const float* c = positions + 4 * size_t{corner[2]};
-    const float d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    const float e[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    const float n[3] = {d[1] * e[2] - d[2] * e[1], d[2] * e[0] - d[0] * e[2],
-                        d[0] * e[1] - d[1] * e[0]};
-    const float nn = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-    const float inverse = nn > 0 ? 1.0f / std::sqrt(nn) : 0.0f;
-    for (int s = 0; s < 3; ++s) normals[s] = n[s] * inverse;
-  }
+  forFourFaces(faces, face_count, [=](const uint32_t* words, uint32_t count) {
+    const FourFaces four(words, count, positions);
+    const Float4 zero = allLanes(0.0f);
+    const Float4 nn = dotProduct(four.normal, four.normal);
+    const Float4 inverse = select(nn > zero, allLanes(1.0f) / squareRoot(nn), zero);
+    Float4 rows[4] = {four.normal[0] * inverse, four.normal[1] * inverse, four.normal[2] * inverse,
+                      zero};
+    transpose(rows[0], rows[1], rows[2], rows[3]);
+    const size_t f = static_cast<size_t>(words - faces.words) / kFaceWords;
+    for (uint32_t i = 0; i < count; ++i) storeFloat4(normals + 4 * (f + i), rows[i]);
+  });
 }
 
 /// Writes the class of every half-edge into its face. `positions` as for faceNormals().
 inline Status classifyCreases(const FaceView& faces, uint32_t face_count, const float* positions,
                               const Allocator& allocator) {
   Array<float> normals(allocator);
-  if (!normals.resize(3 * size_t{face_count})) {
+  if (!normals.resize(4 * size_t{face_count})) {
     return fail(Error::kOutOfMemory, "no memory for the seams");
   }
   faceNormals(faces, face_count, positions, normals.data());
+  const Float4 zero = allLanes(0.0f);
+  const Float4 one = allLanes(1.0f);
   for (uint32_t f = 0; f < face_count; ++f) {
-    const float* a = &normals[3 * size_t{f}];
-    uint32_t classes = 0;
+    uint32_t* words = faces.words + size_t{f} * kFaceWords;
+    const Float4 own = loadFloat4(&normals[4 * size_t{f}]);
+    Float4 rows[4] = {own, own, own, zero};
+    uint32_t known = 0;
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t t = faces.twin(f * kFaceWords + k);
       if (t == kNone) continue;
-      const float* b = &normals[3 * size_t{faceOf(t)}];
-      const float cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-      const uint32_t crease =
-          (cosine < 0.99f ? 1u : 0u) + (cosine < 0.9f ? 1u : 0u) + (cosine < 0.6f ? 1u : 0u);
-      classes |= crease << (2 * k);
+      known |= 3u << (2 * k);
+      rows[k] = loadFloat4(&normals[4 * size_t{faceOf(t)}]);
     }
-    faces.words[f * kFaceWords + kSeamWord] |= classes << kCreaseShift;
+    transpose(rows[0], rows[1], rows[2], rows[3]);
+    const Float4 cosine =
+        broadcast<0>(own) * rows[0] + broadcast<1>(own) * rows[1] + broadcast<2>(own) * rows[2];
+    const Float4 crease = select(cosine < allLanes(0.99f), one, zero) +
+                          select(cosine < allLanes(0.9f), one, zero) +
+                          select(cosine < allLanes(0.6f), one, zero);
+    const float classes = crease[0] + 4 * crease[1] + 16 * crease[2];
+    words[kSeamWord] |= (static_cast<uint32_t>(static_cast<int32_t>(classes)) & known)
+                        << kCreaseShift;
   }
   return {};
 }

@@ -49,6 +49,10 @@ class PredictorSearch {
     if (has_seams && best_ >= kHasEqualities) steps_.push_back({kHasEqualities, {0}});
   }
 
+  /// Whether there is nothing to choose.
+  bool isSettled() const {
+    return steps_.empty() || (steps_.size() == 1 && steps_[0].values.size() == 1);
+  }
   bool done() const { return step_ == steps_.size(); }
   uint8_t candidate() const {
     const Step& step = steps_[step_];
@@ -75,7 +79,7 @@ class PredictorSearch {
   std::vector<Step> steps_;
   size_t step_ = 0;
   size_t value_ = 0;
-  uint8_t best_ = 0;
+  uint8_t best_ = 0;  ///< of the steps done
   uint8_t found_ = 0;
   uint64_t best_cost_ = ~uint64_t{0};
 };

@@ -38,7 +38,7 @@ class EqualityCoder {
     uint32_t answer_before = 0;
     for (uint32_t w = 0; w < wedges_.count; ++w) {
       groups.first[w] = w;
-      if (!wedges_.continuesVertex(w)) {
+      if (w >= wedges_.coded_count || !wedges_.continuesVertex(w)) {
         vertex_first = w;
         answer_before = 0;
         continue;

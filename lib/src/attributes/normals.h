@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "attributes/face_pass.h"
 #include "attributes/octahedral.h"
 #include "attributes/residuals.h"
 #include "attributes/wedges.h"
@@ -37,88 +38,60 @@ struct NormalModels {
   }
 };
 
-/// Angle of the vector (x, y), y >= 0, in 0..pi, by a polynomial. [B.4.3]
-inline float cornerAngle(float y, float x) {
-  const float ax = std::fabs(x);
-  const float low = std::min(ax, y);
-  const float high = std::max(ax, y);
-  const float t = low / (high + 1e-30f);
-  const float s = t * t;
-  float r = ((-0.0464964749f * s + 0.15931422f) * s - 0.327622764f) * s * t + t;
-  if (y > ax) r = 1.57079637f - r;
-  return x < 0 ? 3.14159274f - r : r;
-}
-
-/// Adds the weighted normal of every face to its three wedges' sums (3 floats each). [B.4.2]
+/// Adds the weighted normal of every face to its three wedges' sums (4 floats each). [B.4.2]
 template <NormalWeight kWeight>
 void addFaceNormals(const WedgeMesh& wedges, const float* positions, float* sums) {
-  for (uint32_t h = 0; h < wedges.face_count * kFaceWords; h += kFaceWords) {
-    const uint32_t* corner = wedges.faces.words + h;
-    const float* a = positions + 4 * size_t{corner[0]};
-    const float* b = positions + 4 * size_t{corner[1]};
-    const float* c = positions + 4 * size_t{corner[2]};
-    const float e0[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    const float e1[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    const float n[3] = {e0[1] * e1[2] - e0[2] * e1[1], e0[2] * e1[0] - e0[0] * e1[2],
-                        e0[0] * e1[1] - e0[1] * e1[0]};
-    float weight[3] = {1, 1, 1};
-    if constexpr (kWeight != NormalWeight::kArea) {
-      const float nn = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-      if (nn == 0) continue;  // else all sides are longer than 0
-      const float d0 = e0[0] * e1[0] + e0[1] * e1[1] + e0[2] * e1[2];
-      const float q0 = e0[0] * e0[0] + e0[1] * e0[1] + e0[2] * e0[2];
-      const float q1 = e1[0] * e1[0] + e1[1] * e1[1] + e1[2] * e1[2];
-      if constexpr (kWeight == NormalWeight::kAngle) {
-        const float length = std::sqrt(nn);
-        const float inverse = 1.0f / length;
-        const float at_a = cornerAngle(length, d0);
-        const float at_b = cornerAngle(length, q0 - d0);
-        weight[0] = at_a * inverse;
-        weight[1] = at_b * inverse;
-        weight[2] = (3.14159274f - at_a - at_b) * inverse;
-      } else {
-        const float e2[3] = {c[0] - b[0], c[1] - b[1], c[2] - b[2]};
-        const float q2 = e2[0] * e2[0] + e2[1] * e2[1] + e2[2] * e2[2];
-        const float all = 1.0f / (q0 * q1 * q2);
-        weight[0] = all * q2;
-        weight[1] = all * q1;
-        weight[2] = all * q0;
-      }
+  forFourFaces(wedges.faces, wedges.face_count, [=](const uint32_t* words, uint32_t count) {
+    const FourFaces faces(words, count, positions);
+    const Float4 one = allLanes(1.0f);
+    const Float4 nn = dotProduct(faces.normal, faces.normal);
+    const Mask4 is_face = nn > allLanes(0.0f);  // then all sides are longer than 0
+    Float4 weight[3] = {one, one, one};
+    if constexpr (kWeight == NormalWeight::kAngle) {
+      const Float4 length = squareRoot(nn);
+      const Float4 inverse = select(is_face, one / length, allLanes(0.0f));
+      faces.cornerAngles(length, weight);
+      for (Float4& w : weight) w = w * inverse;
+    } else if constexpr (kWeight == NormalWeight::kSine) {
+      Float4 e2[3];
+      for (int s = 0; s < 3; ++s) e2[s] = faces.e1[s] - faces.e0[s];
+      const Float4 q0 = dotProduct(faces.e0, faces.e0);
+      const Float4 q1 = dotProduct(faces.e1, faces.e1);
+      const Float4 q2 = dotProduct(e2, e2);
+      const Float4 inverse = select(is_face, one / (q0 * q1 * q2), allLanes(0.0f));
+      weight[0] = inverse * q2;
+      weight[1] = inverse * q1;
+      weight[2] = inverse * q0;
     }
-    for (uint32_t k = 0; k < 3; ++k) {
-      float* sum = sums + 3 * size_t{corner[k]};
-      for (uint32_t s = 0; s < 3; ++s) sum[s] += weight[k] * n[s];
-    }
+    Float4 rows[4] = {faces.normal[0], faces.normal[1], faces.normal[2], allLanes(0.0f)};
+    transpose(rows[0], rows[1], rows[2], rows[3]);
+    CornerSums(faces, count, sums).add(rows, weight, nullptr);
+  });
+}
+
+/// Sum of the coordinates' absolute values.
+inline float manhattanLength(const float* v) {
+  return std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]);
+}
+inline constexpr float kShortest = 1e-30f;  ///< shorter vectors have no direction
+
+/// Grid point, relative to the centre, nearest to the projection of a vector along z; `length`: its manhattanLength(),
+/// above kShortest. Vectors with z < 0 are mirrored first. [B.4.4]
+inline void projectToGrid(const float* v, float length, int32_t centre, int32_t* point) {
+  const float scale = static_cast<float>(centre) / length;
+  for (int s = 0; s < 2; ++s) {
+    const float scaled = v[s] * scale;  // rounding errors stay below half a step
+    point[s] = static_cast<int32_t>(scaled + std::copysign(0.5f, scaled));
   }
-}
-
-/// Grid coordinate, relative to the centre, of x in -1..1 (or beyond by rounding errors).
-inline int32_t gridCoordinate(float x, int32_t centre) {
-  const float scaled = std::min(std::max(x, -1.0f), 1.0f) * static_cast<float>(centre);
-  return static_cast<int32_t>(scaled + std::copysign(0.5f, scaled));
-}
-
-/// Grid point, relative to the centre, nearest to the projection of a vector of any length but 0. [B.4.4]
-inline void projectToGrid(const float* v, int32_t centre, int32_t* point) {
-  const float inverse = 1.0f / (std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]));
-  const float x = v[0] * inverse;
-  const float y = v[1] * inverse;
-  const bool folded = v[2] < 0;  // as likely as not: selects, no branches
-  const float folded_x = std::copysign(1.0f - std::fabs(y), x);
-  const float folded_y = std::copysign(1.0f - std::fabs(x), y);
-  point[0] = gridCoordinate(folded ? folded_x : x, centre);
-  point[1] = gridCoordinate(folded ? folded_y : y, centre);
 }
 
 /// The residual's frame, chosen by the predicted point; maps grid points to and fro. The cases are equally likely, so
 /// it is all selects and no branches. [B.4.5]
 class OctahedralFrame {
  public:
-  OctahedralFrame(const int32_t* predicted, int32_t centre)
-      : centre_(centre),
-        turned_over_(std::abs(predicted[0]) + std::abs(predicted[1]) > centre),
-        p_{predicted[0], predicted[1]} {
-    turnOverIf(turned_over_, p_);
+  /// `inside`: the predicted point or, if that is `turned_over`, its image in the diamond.
+  OctahedralFrame(const int32_t* inside, bool turned_over, int32_t centre)
+      : centre_(centre), turned_over_(turned_over), p_{inside[0], inside[1]} {
     // Quarter turns that bring p to x < 0, y <= 0.
     const int32_t x = p_[0];
     const int32_t y = p_[1];
@@ -128,6 +101,13 @@ class OctahedralFrame {
     cosine_ = 1 - one - 2 * two - three;
     sine_ = one - three;
     turn(p_, sine_);
+  }
+
+  static OctahedralFrame around(const int32_t* predicted, int32_t centre) {
+    int32_t inside[2] = {predicted[0], predicted[1]};
+    const bool turned_over = std::abs(inside[0]) + std::abs(inside[1]) > centre;
+    if (turned_over) turnOver(inside, centre);
+    return OctahedralFrame(inside, turned_over, centre);
   }
 
   /// Swaps the inside and the outside of the diamond |x| + |y| = centre.
@@ -196,7 +176,7 @@ inline void canonicalGridPoint(int32_t centre, int32_t* point) {
 template <class Io>
 class NormalCoder {
  public:
-  /// Work space: `sums` 3 floats per wedge, `lengths` a byte per wedge.
+  /// Work space: `sums` 4 floats per wedge, `lengths` a byte per wedge.
   NormalCoder(Io& io, NormalModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
               const AttributeInfo& info, int32_t* values, float* sums, uint8_t* lengths)
       : io_(io),
@@ -205,13 +185,16 @@ class NormalCoder {
         groups_(groups),
         weight_(static_cast<NormalWeight>(info.predictor & normal_method::kWeightMask)),
         blend_((info.predictor & normal_method::kBlendMask) >> normal_method::kBlendShift),
+        part_(blend_ == 1 ? 0.25f : 0.5f),
         centre_(octahedralCentre(info.bits)),
+        scale_(1.0f / static_cast<float>(centre_)),
         values_(values),
         sums_(sums),
         lengths_(lengths) {}
 
   void run(const float* positions) {
-    std::fill(sums_, sums_ + 3 * size_t{wedges_.count}, 0.0f);
+    std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
+    std::fill(sums_, sums_ + 4 * size_t{wedges_.count}, 0.0f);
     switch (weight_) {
       case NormalWeight::kArea:
         addFaceNormals<NormalWeight::kArea>(wedges_, positions, sums_);
@@ -223,20 +206,20 @@ class NormalCoder {
         addFaceNormals<NormalWeight::kSine>(wedges_, positions, sums_);
         break;
     }
-    for (uint32_t i = 0; i < wedges_.surface_count; ++i) {
+    for (uint32_t i = 0; i < wedges_.surfaceEnd(); ++i) {
       const uint32_t w = wedges_.wedgeAt(i);
+      wedges_.prefetch(i, sums_, 4);
       if (groups_.isFirst(w)) codeGroup(w);
     }
-    for (uint32_t w = wedges_.surface_count; w < wedges_.count; ++w)
-      codePoint(w, last_, kNoNeighbours);
+    for (uint32_t w = wedges_.surface_count; w < wedges_.coded_count; ++w)
+      codePoint(w, OctahedralFrame::around(last_, centre_), kNoNeighbours);
   }
 
  private:
-  float* sum(uint32_t w) { return sums_ + 3 * size_t{w}; }
+  float* sum(uint32_t w) { return sums_ + 4 * size_t{w}; }
 
   void codeGroup(uint32_t w);
-  void correct(float* direction, const uint32_t* neighbours);
-  void codePoint(uint32_t w, const int32_t* predicted, uint32_t context);
+  void codePoint(uint32_t w, const OctahedralFrame& frame, uint32_t context);
 
   Io& io_;
   NormalModels& models_;
@@ -244,22 +227,14 @@ class NormalCoder {
   const EqualGroups& groups_;
   const NormalWeight weight_;
   const uint32_t blend_;
+  const float part_;  ///< of what both neighbours' predictions missed
   const int32_t centre_;
+  const float scale_;
   int32_t* const values_;
   float* const sums_;  ///< of faces; once a wedge is coded: what its prediction missed, if blending
   uint8_t* const lengths_;
   int32_t last_[2] = {};
 };
-
-/// Length 1, or all zeros.
-inline void normalise(float* v) {
-  const float as = std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]);
-  if (!(as > 0)) return;
-  const float inverse = 1.0f / as;
-  for (int s = 0; s < 3; ++s) v[s] *= inverse;
-  const float unit = 1.0f / std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  for (int s = 0; s < 3; ++s) v[s] *= unit;
-}
 
 template <class Io>
 void NormalCoder<Io>::codeGroup(uint32_t w) {
@@ -269,51 +244,47 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
     for (int s = 0; s < 3; ++s) direction[s] += sum(m)[s];
     if (entry == kNone) entry = wedges_.firstCompleted(m);
   }
+  float length = manhattanLength(direction);
   uint32_t context = kNoNeighbours;
-  uint32_t neighbours[2] = {kNone, kNone};
+  float used[3] = {direction[0], direction[1], direction[2]};
+  if (blend_ != 0) {
+    const float inverse = length > kShortest ? 1.0f / length : 0.0f;
+    for (int s = 0; s < 3; ++s) used[s] = direction[s] = direction[s] * inverse;
+  }
   if (entry != kNone) {
-    neighbours[0] = wedges_.faces.vertex(nextHalfEdge(entry));
-    neighbours[1] = wedges_.faces.vertex(prevHalfEdge(entry));
-    context = (lengths_[neighbours[0]] + lengths_[neighbours[1]] + 1u) / 2;
+    const uint32_t n = wedges_.faces.vertex(nextHalfEdge(entry));
+    const uint32_t p = wedges_.faces.vertex(prevHalfEdge(entry));
+    context = (lengths_[n] + lengths_[p] + 1u) / 2;
+    if (blend_ != 0) {
+      for (int s = 0; s < 3; ++s) used[s] = direction[s] + part_ * (sum(n)[s] + sum(p)[s]);
+    }
   }
-  float corrected[3];
+  if (blend_ != 0) length = manhattanLength(used);
+  if (length > kShortest) [[likely]] {
+    int32_t inside[2];
+    projectToGrid(used, length, centre_, inside);
+    codePoint(w, OctahedralFrame(inside, used[2] < 0, centre_), context);
+  } else {
+    codePoint(w, OctahedralFrame::around(last_, centre_), context);
+  }
   if (blend_ != 0) {
-    normalise(direction);
-    for (int s = 0; s < 3; ++s) corrected[s] = direction[s];
-    if (entry != kNone) correct(corrected, neighbours);
+    float missed[4] = {0, 0, 0, 0};
+    foldToOctahedron(static_cast<float>(last_[0]) * scale_, static_cast<float>(last_[1]) * scale_,
+                     missed);
+    for (int s = 0; s < 3; ++s) sum(w)[s] = missed[s] - direction[s];
   }
-  const float* used = blend_ != 0 ? corrected : direction;
-  int32_t predicted[2] = {last_[0], last_[1]};
-  if (std::fabs(used[0]) + std::fabs(used[1]) + std::fabs(used[2]) > 0) {
-    projectToGrid(used, centre_, predicted);
-  }
-  codePoint(w, predicted, context);
-  float missed[3] = {0, 0, 0};
-  if (blend_ != 0) {
-    octahedralToUnit(values_[2 * size_t{w}], values_[2 * size_t{w} + 1], centre_, missed);
-    for (int s = 0; s < 3; ++s) missed[s] -= direction[s];
-  }
-  for (uint32_t m = w; m != kNone; m = groups_.nextOf(m)) {
+  for (uint32_t m = groups_.nextOf(w); m != kNone; m = groups_.nextOf(m)) {
     values_[2 * size_t{m}] = values_[2 * size_t{w}];
     values_[2 * size_t{m} + 1] = values_[2 * size_t{w} + 1];
     lengths_[m] = lengths_[w];
-    if (blend_ == 0) continue;
-    for (int s = 0; s < 3; ++s) sum(m)[s] = missed[s];
+    if (blend_ != 0) std::copy(sum(w), sum(w) + 3, sum(m));
   }
 }
 
 template <class Io>
-void NormalCoder<Io>::correct(float* direction, const uint32_t* neighbours) {
-  const float part = blend_ == 1 ? 0.25f : 0.5f;
-  const float* a = sum(neighbours[0]);
-  const float* b = sum(neighbours[1]);
-  for (int s = 0; s < 3; ++s) direction[s] += part * (a[s] + b[s]);
-}
-
-template <class Io>
-void NormalCoder<Io>::codePoint(uint32_t w, const int32_t* predicted, uint32_t context) {
-  context = std::min(context, kNoNeighbours);  // a neighbour that is coded later counts as none
-  const OctahedralFrame frame(predicted, centre_);
+MCC_INLINE void NormalCoder<Io>::codePoint(uint32_t w, const OctahedralFrame& frame,
+                                           uint32_t context) {
+  context = std::min(context, kNoNeighbours);  // kNotCoded makes it long
   int32_t* value = values_ + 2 * size_t{w};
   int32_t residual[2] = {};
   int32_t point[2] = {};
@@ -322,12 +293,13 @@ void NormalCoder<Io>::codePoint(uint32_t w, const int32_t* predicted, uint32_t c
     point[1] = value[1] - centre_;
     frame.residualOf(point, residual);
   }
-  residual[0] = codeSmallSigned<0>(io_, models_.row[0][context], residual[0]);
-  const uint32_t length = contextLength(residual[0]);
+  uint32_t length = 0;
+  uint32_t second_length = 0;
+  residual[0] = codeSmallSigned<0>(io_, models_.row[0][context], residual[0], length);
   const uint32_t second = context == kNoNeighbours ? length : (context + length + 1) / 2;
-  residual[1] = codeSmallSigned<1>(io_, models_.row[1][second], residual[1]);
+  residual[1] = codeSmallSigned<1>(io_, models_.row[1][second], residual[1], second_length);
+  lengths_[w] = static_cast<uint8_t>(std::max(length, second_length));
   frame.pointOf(residual, point);
-  lengths_[w] = static_cast<uint8_t>(std::max(length, contextLength(residual[1])));
   for (int s = 0; s < 2; ++s) {
     value[s] =
         static_cast<int32_t>(static_cast<uint32_t>(point[s]) + static_cast<uint32_t>(centre_));

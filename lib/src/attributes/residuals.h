@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "base/host.h"
 #include "entropy/models.h"
 
 namespace mcc {
@@ -27,35 +28,56 @@ constexpr uint32_t contextLength(int32_t residual) {
   return std::min(static_cast<uint32_t>(std::bit_width(absoluteOf(residual))), kLongestContext);
 }
 
-/// The bits of a residual below the leading one of its magnitude, and its sign. length 1..32.
-template <class Io>
-int32_t codeBelowLength(Io& io, uint32_t length, int32_t truth) {
-  const uint32_t low_mask = static_cast<uint32_t>((uint64_t{1} << (length - 1)) - 1);
-  const uint32_t a = (low_mask + 1) | io.raw(length - 1, absoluteOf(truth) & low_mask);
-  const uint32_t negative = io.raw(1, truth < 0 ? 1 : 0);
-  const uint32_t mask = ~negative + 1;
-  return static_cast<int32_t>((a ^ mask) - mask);
-}
-
 /// A length too long for a token: 5 raw bits from `from` on.
 template <class Io>
-uint32_t codeLongLength(Io& io, uint32_t from, uint32_t length) {
+MCC_OUT_OF_LINE uint32_t codeLongLength(Io& io, uint32_t from, uint32_t length) {
   return std::min(from + io.raw(5, length - from), 32u);
 }
 
-/// Layout 0: the token is the bit length of |residual|.
+/// The bits of a magnitude of `length` bits (0..32) below its leading one, and a sign above them; returns the
+/// magnitude. No branches: lengths are close to random. `negative`: all ones or zero.
+template <class Io>
+MCC_INLINE uint32_t codeBelowLength(Io& io, uint32_t length, int32_t truth, uint32_t& negative) {
+  const uint32_t leading = static_cast<uint32_t>((uint64_t{1} << length) >> 1);
+  uint32_t bits = 0;
+  if constexpr (Io::kEncoding) {
+    bits = leading == 0 ? 0 : (absoluteOf(truth) & (leading - 1)) | (truth < 0 ? leading : 0);
+  }
+  bits = io.raw(length, bits);
+  negative = ~uint32_t{(bits & leading) != 0} + 1;
+  return leading | (bits & (leading - 1));
+}
+
+/// Layout 0: the token is the bit length of |residual|. `seen`: contextLength() of the residual, known earlier.
 template <uint32_t kState, class Io>
-int32_t codeByLength(Io& io, TokenRow& row, int32_t truth) {
+MCC_INLINE int32_t codeByLength(Io& io, TokenRow& row, int32_t truth, uint32_t& seen) {
   uint32_t length = static_cast<uint32_t>(std::bit_width(absoluteOf(truth)));
   const uint32_t token =
       io.template token<kState>(row, kAttributeSchedule, std::min(length, kTokenEscapeLength));
-  length = token != kTokenEscapeLength ? token : codeLongLength(io, kTokenEscapeLength, length);
-  return length == 0 ? 0 : codeBelowLength(io, length, truth);
+  seen = std::min(token, kLongestContext);
+  if (token == kTokenEscapeLength) [[unlikely]] {
+    length = codeLongLength(io, kTokenEscapeLength, length);
+  } else {
+    length = token;
+  }
+  uint32_t negative = 0;
+  const uint32_t absolute = codeBelowLength(io, length, truth, negative);
+  return static_cast<int32_t>((absolute ^ negative) - negative);
 }
+
+/// What the tokens of layout 1 stand for.
+struct SmallSignedToken {
+  uint8_t length;      ///< of the magnitude that follows, 0: none does
+  int8_t value;        ///< when none does
+  uint8_t in_context;  ///< contextLength()
+};
+inline constexpr SmallSignedToken kSmallSignedTokens[16] = {
+    {0, 0, 0}, {0, 1, 1}, {0, -1, 1}, {0, 2, 2}, {0, -2, 2}, {0, 3, 2}, {0, -3, 2},  {3, 0, 3},
+    {4, 0, 4}, {5, 0, 5}, {6, 0, 6},  {7, 0, 7}, {8, 0, 8},  {9, 0, 9}, {10, 0, 10}, {11, 0, 10}};
 
 /// Layout 1: tokens 0..6 are 0, 1, -1, 2, -2, 3, -3; from 7 on the bit length, 3 and more.
 template <uint32_t kState, class Io>
-int32_t codeSmallSigned(Io& io, TokenRow& row, int32_t truth) {
+MCC_INLINE int32_t codeSmallSigned(Io& io, TokenRow& row, int32_t truth, uint32_t& seen) {
   constexpr uint32_t kFirstLength = 7;  // token of length 3
   constexpr uint32_t kEscapedLength = 11;
   const uint32_t absolute = absoluteOf(truth);
@@ -66,14 +88,15 @@ int32_t codeSmallSigned(Io& io, TokenRow& row, int32_t truth) {
                          : std::min(true_length + (kFirstLength - 3), kTokenEscapeLength);
   }
   token = io.template token<kState>(row, kAttributeSchedule, token);
-  if (token < kFirstLength) {
-    const int32_t magnitude = static_cast<int32_t>((token + 1) / 2);
-    return (token & 1) != 0 ? magnitude : -magnitude;
+  const SmallSignedToken& t = kSmallSignedTokens[token];
+  seen = t.in_context;
+  uint32_t length = t.length;
+  if (token == kTokenEscapeLength) [[unlikely]] {
+    length = codeLongLength(io, kEscapedLength, true_length);
   }
-  const uint32_t length = token != kTokenEscapeLength
-                              ? token - (kFirstLength - 3)
-                              : codeLongLength(io, kEscapedLength, true_length);
-  return codeBelowLength(io, length, truth);
+  uint32_t negative = 0;
+  const uint32_t large = codeBelowLength(io, length, truth, negative);
+  return static_cast<int32_t>((large ^ negative) - negative) + t.value;
 }
 
 }  // namespace mcc

@@ -30,12 +30,12 @@ struct SeamModels {
   GolombModel merge_with;
 };
 
-/// Two bits per half-edge in a face's kSeamWord: end not coded yet, no seam, seam.
-inline uint32_t seamState(const FaceView& faces, uint32_t h) {
-  return (faces.words[(h & ~7u) + kSeamWord] >> (2 * (h & 3))) & 3;
+/// A bit per half-edge in a face's kSeamWord: a seam ends here.
+inline uint32_t seamEnd(const FaceView& faces, uint32_t h) {
+  return (faces.words[(h & ~7u) + kSeamWord] >> (h & 3)) & 1;
 }
-inline void setSeamState(const FaceView& faces, uint32_t h, bool seam) {
-  faces.words[(h & ~7u) + kSeamWord] |= (seam ? 2u : 1u) << (2 * (h & 3));
+inline void setSeamEnd(const FaceView& faces, uint32_t h) {
+  faces.words[(h & ~7u) + kSeamWord] |= 1u << (h & 3);
 }
 
 template <class Io>
@@ -61,16 +61,26 @@ class SeamCoder {
              Array<uint32_t>& wedge_group);
 
  private:
+  /// Of corners that have become wedges; a corner no umbrella reached is noticed by it.
+  static constexpr uint32_t kDone = 1u << 31;
+
   Status codeUmbrella(uint32_t group, uint32_t start, Array<uint32_t>& wedge_start,
                       Array<uint32_t>& wedge_group);
   Status collectFan(uint32_t start);
+  bool codeHasSeam();
   void codeSeamEnds();
+  Status codeRuns(uint32_t group, Array<uint32_t>& wedge_start, Array<uint32_t>& wedge_group);
   Status codeWedge(uint32_t first, uint32_t excluded_a, uint32_t excluded_b, bool first_run,
                    uint32_t group, Array<uint32_t>& wedge_start, Array<uint32_t>& wedge_group,
                    uint32_t& wedge);
   uint32_t source(uint32_t h) const { return corner_source_[3 * size_t{faceOf(h)} + (h & 3)]; }
   /// Whether the edge before fan face i (behind the last one for i == 0) carries a seam end here.
-  bool seamBefore(uint32_t i) const { return seamState(faces_, fan_[i]) == 2; }
+  bool seamBefore(uint32_t i) const { return seamEnd(faces_, fan_[i]) != 0; }
+  /// Index in the fan; i below twice its length.
+  uint32_t around(uint32_t i) const {
+    const uint32_t n = static_cast<uint32_t>(fan_.size());
+    return i < n ? i : i - n;
+  }
 
   Io& io_;
   SeamModels& models_;
@@ -84,6 +94,8 @@ class SeamCoder {
   Array<uint32_t> group_wedges_;   ///< wedges of the group so far
   Array<uint32_t> group_sources_;  ///< encoder: their source wedges
   bool closed_ = false;
+  uint32_t known_ends_ = 0;  ///< of seams, at the other ends of the fan's edges
+  uint32_t sharpest_ = 0;    ///< crease class of the fan's edges
   uint32_t wedge_count_ = 0;
 };
 
@@ -93,8 +105,6 @@ Status SeamCoder<Io>::run(const Array<uint32_t>& group_order, Array<uint32_t>& w
   if (!wedge_start.reserve(wedge_limit_) || !wedge_group.reserve(wedge_limit_)) {
     return fail(Error::kOutOfMemory, "no memory for wedges");
   }
-  // Corners become wedges with this flag, so that a corner no umbrella reached is noticed.
-  constexpr uint32_t kDone = 1u << 31;
   for (size_t i = 0; i < group_order.size(); ++i) {
     const uint32_t entry = group_order[i];
     const uint32_t group = faces_.vertex(entry);
@@ -123,21 +133,45 @@ Status SeamCoder<Io>::run(const Array<uint32_t>& group_order, Array<uint32_t>& w
   return {};
 }
 
-/// The umbrella from its clockwise boundary, or once around from `start`.
+/// The umbrella from its clockwise boundary, or once around from `start`; notes the contexts on the way.
 template <class Io>
 Status SeamCoder<Io>::collectFan(uint32_t start) {
   fan_.clear();
-  uint32_t first = start;
-  for (uint32_t h = faces_.rotateCw(start); h != kNone && h != start; h = faces_.rotateCw(h))
-    first = h;
-  closed_ = faces_.twin(first) != kNone;
-  if (closed_) first = start;
-  uint32_t h = first;
+  known_ends_ = 0;
+  sharpest_ = 0;
+  const auto add = [this](uint32_t h) {
+    const uint32_t t = faces_.twin(h);
+    if (t != kNone) {
+      known_ends_ += seamEnd(faces_, t);
+      sharpest_ = std::max(sharpest_, creaseClass(faces_, h));
+    }
+    return fan_.push_back(h);
+  };
+  uint32_t h = start;
   do {
-    if (!fan_.push_back(h)) return fail(Error::kOutOfMemory, "no memory for wedges");
+    if (!add(h)) return fail(Error::kOutOfMemory, "no memory for wedges");
     h = faces_.rotateCcw(h);
-  } while (h != kNone && h != first);
+  } while (h != kNone && h != start);
+  closed_ = h == start;
+  if (closed_) return {};
+  const size_t behind = fan_.size();
+  for (h = faces_.rotateCw(start); h != kNone; h = faces_.rotateCw(h)) {
+    if (!add(h)) return fail(Error::kOutOfMemory, "no memory for wedges");
+  }
+  std::reverse(fan_.data() + behind, fan_.data() + fan_.size());
+  std::rotate(fan_.data(), fan_.data() + behind, fan_.data() + fan_.size());
   return {};
+}
+
+template <class Io>
+bool SeamCoder<Io>::codeHasSeam() {
+  const uint32_t n = static_cast<uint32_t>(fan_.size());
+  if (n < 2) return false;  // a closed umbrella needs two seam ends, another one
+  bool any = false;
+  if constexpr (Io::kEncoding) {
+    for (uint32_t i = 1; i < n; ++i) any |= source(fan_[i]) != source(fan_[0]);
+  }
+  return io_.bit(models_.has_seam[std::min(known_ends_, 3u)][closed_ ? 0 : 1][sharpest_], any);
 }
 
 /// Bits for edges 1 .. n-1 between fan faces i-1 and i, then for the closing edge 0.           [A.7.2]
@@ -146,63 +180,61 @@ void SeamCoder<Io>::codeSeamEnds() {
   const uint32_t n = static_cast<uint32_t>(fan_.size());
   const uint32_t edges = closed_ ? n : n - 1;
   const uint32_t boundary = closed_ ? 0 : 1;
-  const uint32_t needed = closed_ ? 2 : 1;  // seam ends of an umbrella that has any
-  uint32_t known_ends = 0;
-  uint32_t sharpest = 0;
-  for (uint32_t i = closed_ ? 0 : 1; i < n; ++i) {
-    sharpest = std::max(sharpest, creaseClass(faces_, fan_[i]));
-    known_ends += seamState(faces_, faces_.twin(fan_[i])) == 2 ? 1 : 0;
-  }
-  bool any = false;
-  if constexpr (Io::kEncoding) {
-    for (uint32_t i = 1; i < n; ++i) any |= source(fan_[i]) != source(fan_[0]);
-  }
-  any = edges >= needed &&
-        io_.bit(models_.has_seam[std::min(known_ends, 3u)][boundary][sharpest], any);
+  const uint32_t needed = closed_ ? 2 : 1;
   uint32_t ends = 0;
   for (uint32_t k = 1; k <= edges; ++k) {
     const uint32_t i = k == n ? 0 : k;
-    bool seam = false;
-    if (any) {
-      seam = ends + (edges - k + 1) == needed;  // implied
-      if (!seam) {
-        const uint32_t other = seamState(faces_, faces_.twin(fan_[i]));
-        bool truth = false;
-        if constexpr (Io::kEncoding)
-          truth = source(fan_[i]) != source(fan_[i == 0 ? n - 1 : i - 1]);
-        const uint32_t crease = creaseClass(faces_, fan_[i]);
-        seam = io_.bit(models_.edge[other][std::min(ends, 2u)][boundary][crease], truth);
-      }
+    bool seam = ends + (edges - k + 1) == needed;  // implied
+    if (!seam) {
+      const uint32_t t = faces_.twin(fan_[i]);
+      const uint32_t other = (faces_.vertex(t) & kDone) == 0 ? 0 : 1 + seamEnd(faces_, t);
+      bool truth = false;
+      if constexpr (Io::kEncoding) truth = source(fan_[i]) != source(fan_[i == 0 ? n - 1 : i - 1]);
+      const uint32_t crease = creaseClass(faces_, fan_[i]);
+      seam = io_.bit(models_.edge[other][std::min(ends, 2u)][boundary][crease], truth);
     }
-    ends += seam ? 1 : 0;
-    setSeamState(faces_, fan_[i], seam);
+    if (!seam) continue;
+    ++ends;
+    setSeamEnd(faces_, fan_[i]);
   }
 }
 
 template <class Io>
 Status SeamCoder<Io>::codeUmbrella(uint32_t group, uint32_t start, Array<uint32_t>& wedge_start,
                                    Array<uint32_t>& wedge_group) {
-  constexpr uint32_t kDone = 1u << 31;
   MCC_TRY(collectFan(start));
-  codeSeamEnds();
+  if (codeHasSeam()) {
+    codeSeamEnds();
+    return codeRuns(group, wedge_start, wedge_group);
+  }
+  uint32_t wedge = kNone;
+  MCC_TRY(codeWedge(fan_[0], kNone, kNone, true, group, wedge_start, wedge_group, wedge));
+  for (size_t i = 0; i < fan_.size(); ++i) faces_.words[fan_[i]] = wedge | kDone;
+  return {};
+}
+
+/// Runs start behind a seam end; the first may reach back over the closing edge.
+template <class Io>
+Status SeamCoder<Io>::codeRuns(uint32_t group, Array<uint32_t>& wedge_start,
+                               Array<uint32_t>& wedge_group) {
   const uint32_t n = static_cast<uint32_t>(fan_.size());
-  // Runs start behind a seam end; the first may reach back over the closing edge.
   uint32_t first = 0;
   while (closed_ && first < n && !seamBefore(first)) ++first;
   if (first == n) first = 0;
   uint32_t first_wedge = kNone;
   uint32_t previous = kNone;
-  const uint32_t groups_before = static_cast<uint32_t>(group_wedges_.size());
+  const size_t wedges_before = group_wedges_.size();
   for (uint32_t i = 0; i < n;) {
     uint32_t length = 1;
-    while (i + length < n && !seamBefore((first + i + length) % n)) ++length;
+    while (i + length < n && !seamBefore(around(first + i + length))) ++length;
     const bool last = i + length == n;
-    const uint32_t h = fan_[(first + i) % n];
     uint32_t wedge = kNone;
-    MCC_TRY(codeWedge(h, previous, last && closed_ ? first_wedge : kNone,
-                      groups_before == group_wedges_.size() && i == 0, group, wedge_start,
+    MCC_TRY(codeWedge(fan_[around(first + i)], previous, last && closed_ ? first_wedge : kNone,
+                      wedges_before == group_wedges_.size() && i == 0, group, wedge_start,
                       wedge_group, wedge));
-    for (uint32_t k = 0; k < length; ++k) faces_.words[fan_[(first + i + k) % n]] = wedge | kDone;
+    for (uint32_t k = 0; k < length; ++k) {
+      faces_.words[fan_[around(first + i + k)]] = wedge | kDone;
+    }
     if (first_wedge == kNone) first_wedge = wedge;
     previous = wedge;
     i += length;

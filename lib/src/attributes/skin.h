@@ -61,7 +61,7 @@ class SkinCoder {
 
   void run() {
     std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
-    for (uint32_t i = 0; i < wedges_.count; ++i) {
+    for (uint32_t i = 0; i < wedges_.coded_count; ++i) {
       const uint32_t w = i < wedges_.surface_count ? wedges_.wedgeAt(i) : i;
       if (!groups_.isFirst(w)) continue;
       codeTuple(w);
@@ -336,8 +336,9 @@ int32_t SkinCoder<Io>::codeWeight(uint32_t slot, uint32_t context, uint32_t pred
   TokenRow& row = models_.weight[std::min(slot, 2u)][mixed];
   int32_t residual =
       Io::kEncoding ? static_cast<int32_t>(static_cast<uint32_t>(truth) - predicted) : 0;
-  residual = codeByLength<0>(io_, row, residual);
-  longest = std::max(longest, contextLength(residual));
+  uint32_t length = 0;
+  residual = codeByLength<0>(io_, row, residual, length);
+  longest = std::max(longest, length);
   return static_cast<int32_t>(predicted + static_cast<uint32_t>(residual));
 }
 

@@ -29,110 +29,134 @@ struct TangentModels {
 };
 
 /// Orthonormal vectors beside a unit vector: the first is perpendicular to its smallest component's axis. [B.6.1]
-inline void tangentFrame(const float* n, float* e1, float* e2) {
-  const float ax = std::fabs(n[0]);
-  const float ay = std::fabs(n[1]);
-  const float az = std::fabs(n[2]);
-  e1[0] = e1[1] = e1[2] = 0;
-  if (ax <= ay && ax <= az) {
-    e1[1] = -n[2];
-    e1[2] = n[1];
-  } else if (ay <= az) {
-    e1[0] = n[2];
-    e1[2] = -n[0];
-  } else {
-    e1[0] = -n[1];
-    e1[1] = n[0];
-  }
-  const float inverse = 1.0f / std::sqrt(e1[0] * e1[0] + e1[1] * e1[1] + e1[2] * e1[2]);
-  for (int s = 0; s < 3; ++s) e1[s] *= inverse;
+template <class Real>
+MCC_INLINE void tangentFrame(const Real* n, Real* e1, Real* e2) {
+  const Real zero = constant<Real>(0.0f);
+  const Real ax = magnitude(n[0]);
+  const Real ay = magnitude(n[1]);
+  const Real az = magnitude(n[2]);
+  const auto first = (ax <= ay) & (ax <= az);  // as likely as the others: selects, no branches
+  const auto second = ay <= az;
+  e1[0] = select(first, zero, select(second, n[2], -n[1]));
+  e1[1] = select(first, -n[2], select(second, zero, n[0]));
+  e1[2] = select(first, n[1], select(second, -n[0], zero));
+  const Real inverse =
+      constant<Real>(1.0f) / squareRoot(e1[0] * e1[0] + e1[1] * e1[1] + e1[2] * e1[2]);
+  for (int s = 0; s < 3; ++s) e1[s] = e1[s] * inverse;
   e2[0] = n[1] * e1[2] - n[2] * e1[1];
   e2[1] = n[2] * e1[0] - n[0] * e1[2];
   e2[2] = n[0] * e1[1] - n[1] * e1[0];
 }
 
 /// Angle of (x, y) in -pi..pi, by a polynomial; (0, 0) gives 0. [B.6.2]
-inline float planeAngle(float y, float x) {
-  const float ax = std::fabs(x);
-  const float ay = std::fabs(y);
-  const float high = std::max(ax, ay);
-  if (!(high > 0)) return 0;
-  const float t = std::min(ax, ay) / high;
-  const float s = t * t;
-  float r =
-      ((((-0.01172120f * s + 0.05265332f) * s - 0.11643287f) * s + 0.19354346f) * s - 0.33262347f) *
-          s +
-      0.99997726f;
-  r *= t;
-  if (ay > ax) r = 1.57079637f - r;
-  if (x < 0) r = 3.14159274f - r;
-  return y < 0 ? -r : r;
+template <class Real>
+MCC_INLINE Real planeAngle(Real y, Real x) {
+  const Real zero = constant<Real>(0.0f);
+  const Real ax = magnitude(x);
+  const Real ay = magnitude(y);
+  const Real t = lower(ax, ay) / (higher(ax, ay) + constant<Real>(1e-30f));
+  const Real s = t * t;
+  Real r = constant<Real>(-0.01172120f) * s + constant<Real>(0.05265332f);
+  r = r * s - constant<Real>(0.11643287f);
+  r = r * s + constant<Real>(0.19354346f);
+  r = r * s - constant<Real>(0.33262347f);
+  r = (r * s + constant<Real>(0.99997726f)) * t;
+  r = select(ay > ax, constant<Real>(1.57079637f) - r, r);
+  r = select(x < zero, constant<Real>(3.14159274f) - r, r);
+  return select(y < zero, -r, r);
 }
 
-/// Unit vector of `angle` (modulo 2^bits steps of a turn) in the plane of a unit normal. [B.6.3]
-inline void tangentFromAngle(const float* normal, int32_t angle, uint32_t bits, float* tangent) {
-  float e1[3];
-  float e2[3];
+/// An angle as quarter turns and the rest of the steps, so that polynomials see 0..pi/2.
+struct AngleSteps {
+  int32_t quarter;  ///< 0..3
+  int32_t rest;     ///< below 2^(bits-2)
+
+  AngleSteps(int32_t angle, uint32_t bits) {
+    const uint32_t steps = static_cast<uint32_t>(angle) & ((uint32_t{1} << bits) - 1);
+    quarter = static_cast<int32_t>(steps >> (bits - 2));
+    rest = static_cast<int32_t>(steps & ((uint32_t{1} << (bits - 2)) - 1));
+  }
+};
+
+/// Unit vectors of angles in the planes of unit normals; `quarter`, `rest` as in AngleSteps. [B.6.3]
+template <class Real>
+MCC_INLINE void tangentFromSteps(const Real* normal, Real quarter, Real rest, uint32_t bits,
+                                 Real* tangent) {
+  Real e1[3];
+  Real e2[3];
   tangentFrame(normal, e1, e2);
-  // By quarter turns, so that the polynomials see 0..pi/2.
-  const uint32_t steps = static_cast<uint32_t>(angle) & ((uint32_t{1} << bits) - 1);
-  const uint32_t quarter = steps >> (bits - 2);
-  const uint32_t rest = steps & ((uint32_t{1} << (bits - 2)) - 1);
-  const double x = static_cast<double>(rest) *
-                   (1.5707963267948966 / static_cast<double>(uint32_t{1} << (bits - 2)));
-  const double xx = x * x;
-  const double sine =
-      x * (1 + xx * (-1.0 / 6 +
-                     xx * (1.0 / 120 + xx * (-1.0 / 5040 + xx * (1.0 / 362880 - xx / 39916800)))));
-  const double cosine =
-      1 + xx * (-0.5 + xx * (1.0 / 24 +
-                             xx * (-1.0 / 720 +
-                                   xx * (1.0 / 40320 + xx * (-1.0 / 3628800 + xx / 479001600)))));
-  float along = static_cast<float>((quarter & 1) == 0 ? cosine : sine);
-  float across = static_cast<float>((quarter & 1) == 0 ? sine : cosine);
-  if (quarter == 1 || quarter == 2) along = -along;
-  if (quarter >= 2) across = -across;
+  const Real one = constant<Real>(1.0f);
+  const Real x = rest * constant<Real>(1.57079637f / static_cast<float>(uint32_t{1} << (bits - 2)));
+  const Real xx = x * x;
+  Real sine = xx * constant<Real>(-1.0f / 39916800) + constant<Real>(1.0f / 362880);
+  sine = xx * sine + constant<Real>(-1.0f / 5040);
+  sine = xx * sine + constant<Real>(1.0f / 120);
+  sine = xx * sine + constant<Real>(-1.0f / 6);
+  sine = x + x * (xx * sine);
+  Real cosine = xx * constant<Real>(1.0f / 479001600) + constant<Real>(-1.0f / 3628800);
+  cosine = xx * cosine + constant<Real>(1.0f / 40320);
+  cosine = xx * cosine + constant<Real>(-1.0f / 720);
+  cosine = xx * cosine + constant<Real>(1.0f / 24);
+  cosine = xx * cosine + constant<Real>(-0.5f);
+  cosine = one + xx * cosine;
+  const auto past_first = quarter > constant<Real>(0.5f);
+  const auto past_second = quarter > constant<Real>(1.5f);
+  const auto past_third = quarter > constant<Real>(2.5f);
+  const Real along_if_odd = select(past_third, sine, -sine);
+  const Real along_if_even = select(past_second, -cosine, cosine);
+  const Real across_if_odd = select(past_third, -cosine, cosine);
+  const Real across_if_even = select(past_second, -sine, sine);
+  const auto odd = past_third | (past_first & (quarter < constant<Real>(1.5f)));
+  const Real along = select(odd, along_if_odd, along_if_even);
+  const Real across = select(odd, across_if_odd, across_if_even);
   for (int s = 0; s < 3; ++s) tangent[s] = along * e1[s] + across * e2[s];
+}
+
+/// Unit vector of `angle` (modulo 2^bits steps of a turn) in the plane of a unit normal.
+inline void tangentFromAngle(const float* normal, int32_t angle, uint32_t bits, float* tangent) {
+  const AngleSteps steps(angle, bits);
+  tangentFromSteps(normal, static_cast<float>(steps.quarter), static_cast<float>(steps.rest), bits,
+                   tangent);
 }
 
 /// Adds to the three wedges of every face (4 floats each) the direction in which u grows, weighted by the angle at the
 /// corner, and the orientation of the chart. `chart` has 2 finite floats per wedge, see chartCoordinates(). [B.6.4]
 inline void addFaceTangents(const WedgeMesh& wedges, const float* positions, const float* chart,
                             float* sums) {
-  for (uint32_t h = 0; h < wedges.face_count * kFaceWords; h += kFaceWords) {
-    const uint32_t* corner = wedges.faces.words + h;
-    const float* a = positions + 4 * size_t{corner[0]};
-    const float* b = positions + 4 * size_t{corner[1]};
-    const float* c = positions + 4 * size_t{corner[2]};
-    const float* ua = chart + 2 * size_t{corner[0]};
-    const float* ub = chart + 2 * size_t{corner[1]};
-    const float* uc = chart + 2 * size_t{corner[2]};
-    const float v0 = ub[1] - ua[1];
-    const float v1 = uc[1] - ua[1];
-    const float determinant = (ub[0] - ua[0]) * v1 - (uc[0] - ua[0]) * v0;
-    if (determinant == 0) continue;
-    const float side = determinant < 0 ? -1.0f : 1.0f;
-    const float e0[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    const float e1[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    float t[3];
-    for (int s = 0; s < 3; ++s) t[s] = side * (e0[s] * v1 - e1[s] * v0);
-    const float tt = t[0] * t[0] + t[1] * t[1] + t[2] * t[2];
-    if (!(tt > 0)) continue;
-    const float inverse = 1.0f / std::sqrt(tt);
-    const float n[3] = {e0[1] * e1[2] - e0[2] * e1[1], e0[2] * e1[0] - e0[0] * e1[2],
-                        e0[0] * e1[1] - e0[1] * e1[0]};
-    const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    const float d0 = e0[0] * e1[0] + e0[1] * e1[1] + e0[2] * e1[2];
-    const float at_a = cornerAngle(length, d0);
-    const float at_b = cornerAngle(length, e0[0] * e0[0] + e0[1] * e0[1] + e0[2] * e0[2] - d0);
-    const float angle[3] = {at_a, at_b, 3.14159274f - at_a - at_b};
-    for (uint32_t k = 0; k < 3; ++k) {
-      float* sum = sums + 4 * size_t{corner[k]};
-      const float weight = angle[k] * inverse;
-      for (int s = 0; s < 3; ++s) sum[s] += weight * t[s];
-      sum[3] += side;
+  forFourFaces(wedges.faces, wedges.face_count, [=](const uint32_t* words, uint32_t count) {
+    const FourFaces faces(words, count, positions);
+    const Float4 zero = allLanes(0.0f);
+    Float4 u0;
+    Float4 v0;
+    Float4 u1;
+    Float4 v1;
+    for (int i = 0; i < 4; ++i) {
+      const float* a = chart + 2 * size_t{faces.corner[i][0]};
+      const float* b = chart + 2 * size_t{faces.corner[i][1]};
+      const float* c = chart + 2 * size_t{faces.corner[i][2]};
+      u0[i] = b[0] - a[0];
+      v0[i] = b[1] - a[1];
+      u1[i] = c[0] - a[0];
+      v1[i] = c[1] - a[1];
     }
-  }
+    const Float4 determinant = u0 * v1 - u1 * v0;
+    Float4 side = select(determinant < zero, allLanes(-1.0f), allLanes(1.0f));
+    Float4 rows[4];
+    for (int s = 0; s < 3; ++s) rows[s] = side * (faces.e0[s] * v1 - faces.e1[s] * v0);
+    const Float4 tt = dotProduct(rows, rows);
+    const Mask4 counts = (magnitude(determinant) > zero) & (tt > zero);
+    const Float4 inverse = select(counts, allLanes(1.0f) / squareRoot(tt), zero);
+    side = select(counts, side, zero);
+    Float4 weight[3];
+    faces.cornerAngles(squareRoot(dotProduct(faces.normal, faces.normal)), weight);
+    for (Float4& w : weight) w = w * inverse;
+    for (int s = 0; s < 3; ++s) rows[s] = select(counts, rows[s], zero);  // not an infinite one
+    rows[3] = zero;
+    Float4 sides[4] = {zero, zero, zero, side};
+    transpose(rows[0], rows[1], rows[2], rows[3]);
+    transpose(sides[0], sides[1], sides[2], sides[3]);
+    CornerSums(faces, count, sums).add(rows, weight, sides);
+  });
 }
 
 /// Texture coordinates as finite floats whose products neither overflow nor become denormal. [B.6.5]
@@ -155,10 +179,10 @@ template <class Io>
 class TangentCoder {
  public:
   /// `normals`: grid points of the wedges' normals, coded as `normal_info` says. `sums`: 4 floats per wedge, from
-  /// addFaceTangents(). `lengths`: work space, a byte per wedge.
+  /// addFaceTangents(), overwritten. `lengths`: work space, a byte per wedge.
   TangentCoder(Io& io, TangentModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
                const AttributeInfo& info, const AttributeInfo& normal_info, const int32_t* normals,
-               const float* sums, int32_t* values, uint8_t* lengths)
+               float* sums, int32_t* values, uint8_t* lengths)
       : io_(io),
         models_(models),
         wedges_(wedges),
@@ -172,15 +196,19 @@ class TangentCoder {
 
   void run() {
     std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
-    for (uint32_t i = 0; i < wedges_.surface_count; ++i) {
+    gatherGroups(wedges_, groups_, sums_);
+    for (uint32_t w = 0; w < wedges_.surface_count; w += 4) predictFour(w);
+    for (uint32_t i = 0; i < wedges_.surfaceEnd(); ++i) {
       const uint32_t w = wedges_.wedgeAt(i);
+      wedges_.prefetch(i, sums_, 4);
       if (groups_.isFirst(w)) codeGroup(w);
     }
-    for (uint32_t w = wedges_.surface_count; w < wedges_.count; ++w)
+    for (uint32_t w = wedges_.surface_count; w < wedges_.coded_count; ++w)
       codeTangent(w, last_, 0, kNoNeighbours);
   }
 
  private:
+  void predictFour(uint32_t w);
   void codeGroup(uint32_t w);
   void codeTangent(uint32_t w, int32_t predicted, uint32_t predicted_sign, uint32_t context);
 
@@ -191,19 +219,46 @@ class TangentCoder {
   const uint32_t bits_;
   const int32_t centre_;
   const int32_t* const normals_;
-  const float* const sums_;
+  float* const
+      sums_;  ///< then: steps of the predicted angle, whether there are any, -, sum of signs
   int32_t* const values_;
   uint8_t* const lengths_;
   int32_t last_ = 0;
 };
 
+/// Angles of the sums of wedges w .. w+3 in the planes of their normals.
+template <class Io>
+MCC_INLINE void TangentCoder<Io>::predictFour(uint32_t w) {
+  const uint32_t count = std::min(wedges_.surface_count - w, 4u);
+  const int32_t* points[4];
+  Float4 rows[4];
+  for (uint32_t i = 0; i < 4; ++i) {
+    const size_t from = w + (i < count ? i : 0);
+    points[i] = normals_ + 2 * from;
+    rows[i] = loadFloat4(sums_ + 4 * from);
+  }
+  transpose(rows[0], rows[1], rows[2], rows[3]);
+  Float4 normal[3];
+  Float4 e1[3];
+  Float4 e2[3];
+  octahedralToUnit(points, centre_, normal);
+  tangentFrame(normal, e1, e2);
+  const Float4 x = dotProduct(rows, e1);
+  const Float4 y = dotProduct(rows, e2);
+  const Float4 zero = allLanes(0.0f);
+  rows[0] = allLanes(static_cast<float>(uint32_t{1} << bits_) * 0.159154943f) * planeAngle(y, x);
+  rows[1] = select(magnitude(x) + magnitude(y) > allLanes(1e-6f), allLanes(1.0f), zero);
+  rows[2] = zero;
+  transpose(rows[0], rows[1], rows[2], rows[3]);
+  for (uint32_t i = 0; i < count; ++i) storeFloat4(sums_ + 4 * size_t{w + i}, rows[i]);
+}
+
 template <class Io>
 void TangentCoder<Io>::codeGroup(uint32_t w) {
-  float sum[4] = {0, 0, 0, 0};
+  const float* sum = sums_ + 4 * size_t{w};
   uint32_t entry = kNone;
-  for (uint32_t m = w; m != kNone; m = groups_.nextOf(m)) {
-    for (int s = 0; s < 4; ++s) sum[s] += sums_[4 * size_t{m} + static_cast<size_t>(s)];
-    if (entry == kNone) entry = wedges_.firstCompleted(m);
+  for (uint32_t m = w; m != kNone && entry == kNone; m = groups_.nextOf(m)) {
+    entry = wedges_.firstCompleted(m);
   }
   int32_t predicted = last_;
   uint32_t context = kNoNeighbours;
@@ -211,18 +266,10 @@ void TangentCoder<Io>::codeGroup(uint32_t w) {
     const uint32_t n = wedges_.faces.vertex(nextHalfEdge(entry));
     const uint32_t p = wedges_.faces.vertex(prevHalfEdge(entry));
     context = std::min((lengths_[n] + lengths_[p] + 1u) / 2, kLongestContext);
-    predicted = values_[2 * size_t{n}];
+    if (lengths_[n] != kNotCoded) predicted = values_[2 * size_t{n}];
   }
-  float normal[3];
-  float e1[3];
-  float e2[3];
-  octahedralToUnit(normals_[2 * size_t{w}], normals_[2 * size_t{w} + 1], centre_, normal);
-  tangentFrame(normal, e1, e2);
-  const float x = sum[0] * e1[0] + sum[1] * e1[1] + sum[2] * e1[2];
-  const float y = sum[0] * e2[0] + sum[1] * e2[1] + sum[2] * e2[2];
-  if (std::fabs(x) + std::fabs(y) > 1e-6f) {
-    const float steps = static_cast<float>(uint32_t{1} << bits_) * 0.159154943f * planeAngle(y, x);
-    predicted = static_cast<int32_t>(steps + (steps < 0 ? -0.5f : 0.5f));
+  if (sum[1] != 0) {
+    predicted = static_cast<int32_t>(sum[0] + std::copysign(0.5f, sum[0]));
   }
   codeTangent(w, predicted, sum[3] > 0 ? 1 : sum[3] < 0 ? 2 : 0, context);
   for (uint32_t m = groups_.nextOf(w); m != kNone; m = groups_.nextOf(m)) {
@@ -241,12 +288,13 @@ void TangentCoder<Io>::codeTangent(uint32_t w, int32_t predicted, uint32_t predi
     const uint32_t difference = static_cast<uint32_t>(value[0]) - static_cast<uint32_t>(predicted);
     residual = static_cast<int32_t>(difference << (32 - bits_)) >> (32 - bits_);
   }
-  residual = codeSmallSigned<0>(io_, models_.row[context], residual);
+  uint32_t length = 0;
+  residual = codeSmallSigned<0>(io_, models_.row[context], residual, length);
   const uint32_t mask = (uint32_t{1} << bits_) - 1;
   value[0] = static_cast<int32_t>(
       (static_cast<uint32_t>(predicted) + static_cast<uint32_t>(residual)) & mask);
   value[1] = io_.bit(models_.negative[predicted_sign], value[1] != 0) ? 1 : 0;
-  lengths_[w] = static_cast<uint8_t>(contextLength(residual));
+  lengths_[w] = static_cast<uint8_t>(length);
   last_ = value[0];
 }
 

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "attributes/face_pass.h"
 #include "attributes/residuals.h"
 #include "attributes/wedges.h"
 #include "mesh/attribute_method.h"
@@ -107,46 +108,42 @@ class TexcoordCoder {
 
   void run() {
     std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
-    for (uint32_t i = 0; i < wedges_.surface_count; ++i) {
+    for (uint32_t i = 0; i < wedges_.surfaceEnd(); ++i) {
       const uint32_t w = wedges_.wedgeAt(i);
+      wedges_.prefetch(i, positions_, 4);
       if (groups_.isFirst(w)) codeGroup(w);
     }
-    for (uint32_t w = wedges_.surface_count; w < wedges_.count; ++w)
+    for (uint32_t w = wedges_.surface_count; w < wedges_.coded_count; ++w)
       codePair(w, last_, kNoNeighbours);
   }
 
  private:
   static constexpr uint32_t kOneNeighbour = 10;  ///< context
-  static constexpr uint32_t kFaceLimit = 16;     ///< faces looked at
+  static constexpr uint32_t kFaceLimit = 4;      ///< faces looked at: lanes of a Float4
   static constexpr float kSteepest =
       36;  ///< square of the largest ratio of heights a hinge unfolds
 
-  /// A weighted sum of predictions, relative to the value `origin`.
-  struct Sum {
-    const int32_t* origin = nullptr;
+  /// Completed faces whose other corners are coded; `o` is the corner behind n-p, or n when that is not known.
+  struct Faces {
+    uint32_t count = 0;
+    uint32_t n[kFaceLimit];
+    uint32_t p[kFaceLimit];
+    uint32_t o[kFaceLimit];
+  };
+
+  /// What the faces predict, relative to the value of the first one's n.
+  struct Prediction {
     float u[2] = {0, 0};
-    float weight = 0;
-    float longest = -1;  ///< squared length of the edge used by kDiagonal
-    void set(float x, float y) {
-      u[0] = x;
-      u[1] = y;
-      weight = 1;
-    }
-    void add(float x, float y, float w) {
-      u[0] += w * x;
-      u[1] += w * y;
-      weight += w;
-    }
   };
 
   const int32_t* at(uint32_t w) const { return values_ + 2 * size_t{w}; }
   bool coded(uint32_t w) const { return lengths_[w] != kNotCoded; }
 
   void codeGroup(uint32_t w);
-  bool isLonger(uint32_t n, uint32_t p, Sum& sum) const;
-  void addFace(uint32_t h, Sum& sum);
-  void addGeometry(uint32_t v, uint32_t n, uint32_t p, uint32_t o, float x, float y,
-                   const float* du, const float* duo, Sum& sum);
+  Faces completedFaces(uint32_t w) const;
+  Prediction predictByParallelograms(const Faces& faces) const;
+  Prediction predictByGeometry(uint32_t v, const Faces& faces) const;
+  void learnSide(uint32_t w, uint32_t n, uint32_t p);
   uint32_t codedNeighbour(uint32_t w) const;
   void codePair(uint32_t w, const int32_t* predicted, uint32_t context);
 
@@ -164,145 +161,179 @@ class TexcoordCoder {
   int32_t last_[2] = {};
 };
 
-/// Whether the edge n-p is the longest so far.
 template <class Io>
-bool TexcoordCoder<Io>::isLonger(uint32_t n, uint32_t p, Sum& sum) const {
-  const float length = squaredDistance(positions_, n, p);
-  if (length <= sum.longest) return false;
-  sum.longest = length;
-  return true;
-}
-
-/// Adds what the completed face of half-edge h (leaving v) predicts for v.
-template <class Io>
-void TexcoordCoder<Io>::addFace(uint32_t h, Sum& sum) {
-  const FaceView& faces = wedges_.faces;
-  const uint32_t across = nextHalfEdge(h);
-  const uint32_t n = faces.vertex(across);
-  const uint32_t p = faces.vertex(prevHalfEdge(h));
-  if (!coded(n) || !coded(p)) return;
-  uint32_t o = kNone;
-  const uint32_t t = faces.twin(across);
-  if (t != kNone && faces.vertex(t) == p && faces.vertex(nextHalfEdge(t)) == n) {
-    o = faces.vertex(prevHalfEdge(t));
-    if (!coded(o)) o = kNone;
-  }
-  const int32_t* un = at(n);
-  const float du[2] = {coordinateDifference(at(p)[0], un[0]),
-                       coordinateDifference(at(p)[1], un[1])};
-  const float x = coordinateDifference(un[0], sum.origin[0]);
-  const float y = coordinateDifference(un[1], sum.origin[1]);
-  float duo[2] = {0, 0};
-  if (o != kNone) {
-    duo[0] = coordinateDifference(at(o)[0], un[0]);
-    duo[1] = coordinateDifference(at(o)[1], un[1]);
-  }
-  if (predictor_ == TexcoordPredictor::kDiagonal) {
-    if (o != kNone && isLonger(n, p, sum)) sum.set(x + du[0] - duo[0], y + du[1] - duo[1]);
-    return;
-  }
-  if (predictor_ == TexcoordPredictor::kParallelograms) {
-    if (o != kNone) sum.add(x + du[0] - duo[0], y + du[1] - duo[1], 1);
-    return;
-  }
-  if (predictor_ == TexcoordPredictor::kMixed && o != kNone) {
-    sum.add(x + du[0] - duo[0], y + du[1] - duo[1], 0.5f);
-  }
-  addGeometry(faces.vertex(h), n, p, o, x, y, du, duo, sum);
-}
-
-/// (x, y), du, duo: the coordinates of n relative to the sum's origin, of p and o relative to n's. [B.5.2]
-template <class Io>
-void TexcoordCoder<Io>::addGeometry(uint32_t v, uint32_t n, uint32_t p, uint32_t o, float x,
-                                    float y, const float* du, const float* duo, Sum& sum) {
-  const float* pn = positions_ + 4 * size_t{n};
-  const float* pp = positions_ + 4 * size_t{p};
-  const float* pv = positions_ + 4 * size_t{v};
-  const float e[3] = {pp[0] - pn[0], pp[1] - pn[1], pp[2] - pn[2]};
-  const float d[3] = {pv[0] - pn[0], pv[1] - pn[1], pv[2] - pn[2]};
-  const float ee = e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
-  if (ee == 0) return;
-  const float inverse = 1.0f / ee;
-  const float ed = e[0] * d[0] + e[1] * d[1] + e[2] * d[2];
-  const float s = ed * inverse;
-  const float height = std::max(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - s * ed, 0.0f);
-  if (o != kNone && predictor_ != TexcoordPredictor::kSimilarity) {
-    const float* po = positions_ + 4 * size_t{o};
-    const float f[3] = {po[0] - pn[0], po[1] - pn[1], po[2] - pn[2]};
-    const float ef = e[0] * f[0] + e[1] * f[1] + e[2] * f[2];
-    const float so = ef * inverse;
-    const float height_o = f[0] * f[0] + f[1] * f[1] + f[2] * f[2] - so * ef;
-    if (height < kSteepest * height_o) {
-      const float ratio2 = height / height_o;
-      const float ratio = std::sqrt(ratio2);
-      sum.add(x + s * du[0] + ratio * (so * du[0] - duo[0]),
-              y + s * du[1] + ratio * (so * du[1] - duo[1]), 1.0f / (1.0f + ratio2));
-      return;
+MCC_INLINE typename TexcoordCoder<Io>::Faces TexcoordCoder<Io>::completedFaces(uint32_t w) const {
+  const FaceView& view = wedges_.faces;
+  Faces faces;
+  for (uint32_t m = w; m != kNone; m = groups_.nextOf(m)) {
+    for (uint32_t h = wedges_.firstCompleted(m); h != kNone; h = wedges_.nextCompleted(h)) {
+      if (faces.count == kFaceLimit) return faces;
+      const uint32_t across = nextHalfEdge(h);
+      const uint32_t n = view.vertex(across);
+      const uint32_t p = view.vertex(prevHalfEdge(h));
+      if (!coded(n) || !coded(p)) continue;  // on the same vertex
+      uint32_t o = n;
+      const uint32_t t = view.twin(across);
+      if (t != kNone && view.vertex(t) == p && view.vertex(nextHalfEdge(t)) == n) {
+        const uint32_t behind = view.vertex(prevHalfEdge(t));
+        o = coded(behind) ? behind : n;
+      }
+      faces.n[faces.count] = n;
+      faces.p[faces.count] = p;
+      faces.o[faces.count++] = o;
     }
   }
-  float side = side_;
-  if (o != kNone) {
-    const float turn = du[0] * duo[1] - du[1] * duo[0];
-    if (turn != 0) side = turn > 0 ? -1.0f : 1.0f;
+  return faces;
+}
+
+/// Their mean, or the one over the longest edge.
+template <class Io>
+typename TexcoordCoder<Io>::Prediction TexcoordCoder<Io>::predictByParallelograms(
+    const Faces& faces) const {
+  Prediction sum;
+  float count = 0;
+  float longest = -1;
+  const int32_t* origin = at(faces.n[0]);
+  for (uint32_t i = 0; i < faces.count; ++i) {
+    if (faces.o[i] == faces.n[i]) continue;
+    if (predictor_ == TexcoordPredictor::kDiagonal) {
+      const float length = squaredDistance(positions_, faces.n[i], faces.p[i]);
+      if (length <= longest) continue;
+      longest = length;
+      sum = Prediction{};
+      count = 0;
+    }
+    for (int c = 0; c < 2; ++c) {
+      sum.u[c] += coordinateDifference(at(faces.n[i])[c], origin[c]) +
+                  coordinateDifference(at(faces.p[i])[c], at(faces.o[i])[c]);
+    }
+    count += 1;
   }
-  const float k = side * std::sqrt(height * inverse);
-  sum.add(x + s * du[0] - k * du[1], y + s * du[1] + k * du[0], 0.25f);
+  if (count > 1) {
+    for (float& u : sum.u) u /= count;
+  }
+  return sum;
+}
+
+/// All faces at once, a lane each. [B.5.2]
+template <class Io>
+typename TexcoordCoder<Io>::Prediction TexcoordCoder<Io>::predictByGeometry(
+    uint32_t v, const Faces& faces) const {
+  Float4 e[4];  // rows, then columns: from n to p, to v, to o
+  Float4 d[4];
+  Float4 f[4];
+  const int32_t* un[4];
+  const int32_t* up[4];
+  const int32_t* uo[4];
+  const Float4 pv = loadFloat4(positions_ + 4 * size_t{v});
+  for (uint32_t i = 0; i < 4; ++i) {
+    const uint32_t k = i < faces.count ? i : 0;
+    const Float4 pn = loadFloat4(positions_ + 4 * size_t{faces.n[k]});
+    e[i] = loadFloat4(positions_ + 4 * size_t{faces.p[k]}) - pn;
+    d[i] = pv - pn;
+    f[i] = loadFloat4(positions_ + 4 * size_t{faces.o[k]}) - pn;
+    un[i] = at(faces.n[k]);
+    up[i] = at(faces.p[k]);
+    uo[i] = at(faces.o[k]);
+  }
+  transpose(e[0], e[1], e[2], e[3]);
+  transpose(d[0], d[1], d[2], d[3]);
+  transpose(f[0], f[1], f[2], f[3]);
+  const Float4 zero = allLanes(0.0f);
+  const Float4 one = allLanes(1.0f);
+  const Float4 ee = dotProduct(e, e);
+  const Float4 inverse = one / ee;
+  const Float4 ed = dotProduct(e, d);
+  const Float4 s = ed * inverse;
+  const Float4 height = higher(dotProduct(d, d) - s * ed, zero);
+  const Float4 ef = dotProduct(e, f);
+  const Float4 so = ef * inverse;
+  const Float4 height_o = dotProduct(f, f) - so * ef;
+
+  const int32_t* origin = un[0];
+  Float4 x, y, du, dv, ou, ov;
+  splitPairs(pairDifferences(un[0], origin, un[1], origin),
+             pairDifferences(un[2], origin, un[3], origin), x, y);
+  splitPairs(pairDifferences(up[0], un[0], up[1], un[1]),
+             pairDifferences(up[2], un[2], up[3], un[3]), du, dv);
+  splitPairs(pairDifferences(uo[0], un[0], uo[1], un[1]),
+             pairDifferences(uo[2], un[2], uo[3], un[3]), ou, ov);
+
+  const Float4 turn = du * ov - dv * ou;
+  Float4 side = select(turn < zero, one, allLanes(side_));
+  side = select(turn > zero, allLanes(-1.0f), side);
+  const Float4 k = side * squareRoot(height * inverse);
+  Float4 across_u = zero - k * dv;
+  Float4 across_v = k * du;
+  Float4 weight = allLanes(0.25f);
+  if (predictor_ != TexcoordPredictor::kSimilarity) {
+    const Mask4 unfolds = height < allLanes(kSteepest) * height_o;  // never when o is n
+    const Float4 ratio2 = height / height_o;
+    const Float4 ratio = squareRoot(ratio2);
+    across_u = select(unfolds, ratio * (so * du - ou), across_u);
+    across_v = select(unfolds, ratio * (so * dv - ov), across_v);
+    weight = select(unfolds, one / (one + ratio2), weight);
+  }
+  const Float4 count = allLanes(static_cast<float>(faces.count));
+  const Mask4 is_face = (ee > zero) & (Float4{0.0f, 1.0f, 2.0f, 3.0f} < count);
+  weight = select(is_face, weight, zero);
+  Float4 rows[4] = {select(is_face, weight * (x + s * du + across_u), zero),
+                    select(is_face, weight * (y + s * dv + across_v), zero), weight, zero};
+  if (predictor_ == TexcoordPredictor::kMixed) {
+    const Mask4 has_o = (dotProduct(f, f) > zero) & is_face;
+    const Float4 half = select(has_o, allLanes(0.5f), zero);
+    rows[0] = rows[0] + half * (x + du - ou);
+    rows[1] = rows[1] + half * (y + dv - ov);
+    rows[2] = rows[2] + half;
+  }
+  transpose(rows[0], rows[1], rows[2], rows[3]);
+  const Float4 sum = (rows[0] + rows[1]) + (rows[2] + rows[3]);
+  Prediction prediction;
+  if (sum[2] > 0) {
+    const float scale = 1.0f / sum[2];
+    prediction.u[0] = sum[0] * scale;
+    prediction.u[1] = sum[1] * scale;
+  }
+  return prediction;
 }
 
 template <class Io>
 void TexcoordCoder<Io>::codeGroup(uint32_t w) {
-  uint32_t entry = kNone;
-  uint32_t faces = 0;
-  Sum sum;
-  for (uint32_t m = w; m != kNone && faces < kFaceLimit; m = groups_.nextOf(m)) {
-    for (uint32_t h = wedges_.firstCompleted(m); h != kNone && faces < kFaceLimit;
-         h = wedges_.nextCompleted(h)) {
-      if (entry == kNone) {
-        entry = h;
-        sum.origin = at(wedges_.faces.vertex(nextHalfEdge(h)));
-      }
-      addFace(h, sum);
-      ++faces;
-    }
-  }
+  const Faces faces = completedFaces(w);
+  const bool has_faces = faces.count != 0;
+  const uint32_t n = has_faces ? faces.n[0] : codedNeighbour(w);
+  uint32_t context = n == kNone ? kNoNeighbours : kOneNeighbour;
   int32_t predicted[2] = {last_[0], last_[1]};
-  uint32_t context = kNoNeighbours;
-  uint32_t n = kNone;
-  if (entry != kNone) {
-    n = wedges_.faces.vertex(nextHalfEdge(entry));
-    const uint32_t p = wedges_.faces.vertex(prevHalfEdge(entry));
-    context = std::min((lengths_[n] + lengths_[p] + 1u) / 2, kOneNeighbour);
-  } else {
-    n = codedNeighbour(w);
-    if (n != kNone) context = kOneNeighbour;
-  }
-  if (n != kNone) {
-    const int32_t* from = entry != kNone ? sum.origin : at(n);
-    const float inverse = sum.weight > 0 ? 1.0f / sum.weight : 0.0f;
+  if (n != kNone) std::copy(at(n), at(n) + 2, predicted);
+  if (has_faces) {
+    context = std::min((lengths_[n] + lengths_[faces.p[0]] + 1u) / 2, kOneNeighbour);
+    const Prediction prediction = predictor_ < TexcoordPredictor::kSimilarity
+                                      ? predictByParallelograms(faces)
+                                      : predictByGeometry(w, faces);
     for (int c = 0; c < 2; ++c) {
-      const float delta = sum.u[c] * inverse;
-      predicted[c] = from[c];
-      if (std::fabs(delta) < 1e9f) {  // not with wild values, not with NaN
-        const int32_t step = static_cast<int32_t>(delta + (delta < 0 ? -0.5f : 0.5f));
-        predicted[c] =
-            static_cast<int32_t>(static_cast<uint32_t>(from[c]) + static_cast<uint32_t>(step));
-      }
+      const float delta = prediction.u[c];
+      if (!(std::fabs(delta) < 1e9f)) continue;  // wild values, NaN
+      const int32_t step = static_cast<int32_t>(delta + std::copysign(0.5f, delta));
+      predicted[c] =
+          static_cast<int32_t>(static_cast<uint32_t>(predicted[c]) + static_cast<uint32_t>(step));
     }
   }
   codePair(w, predicted, context);
-  if (entry != kNone && predictor_ >= TexcoordPredictor::kSimilarity) {
-    const int32_t* un = at(n);
-    const int32_t* up = at(wedges_.faces.vertex(prevHalfEdge(entry)));
-    const int32_t* uv = at(w);
-    const float turn = coordinateDifference(up[0], un[0]) * coordinateDifference(uv[1], un[1]) -
-                       coordinateDifference(up[1], un[1]) * coordinateDifference(uv[0], un[0]);
-    if (turn != 0) side_ = turn > 0 ? 1.0f : -1.0f;
-  }
+  if (has_faces && predictor_ >= TexcoordPredictor::kSimilarity) learnSide(w, n, faces.p[0]);
   for (uint32_t m = groups_.nextOf(w); m != kNone; m = groups_.nextOf(m)) {
-    values_[2 * size_t{m}] = at(w)[0];
-    values_[2 * size_t{m} + 1] = at(w)[1];
+    storePair(values_ + 2 * size_t{m}, at(w));
     lengths_[m] = lengths_[w];
   }
+}
+
+template <class Io>
+void TexcoordCoder<Io>::learnSide(uint32_t w, uint32_t n, uint32_t p) {
+  const int32_t* un = at(n);
+  const float turn = coordinateDifference(at(p)[0], un[0]) * coordinateDifference(at(w)[1], un[1]) -
+                     coordinateDifference(at(p)[1], un[1]) * coordinateDifference(at(w)[0], un[0]);
+  // Branches, which are predicted: a select would tie the next prediction to this value.
+  if (turn > 0) side_ = 1.0f;
+  if (turn < 0) side_ = -1.0f;
 }
 
 /// Some neighbour of the wedge that is coded, for wedges without a completed face.
@@ -330,6 +361,7 @@ void TexcoordCoder<Io>::codePair(uint32_t w, const int32_t* predicted, uint32_t 
     }
   }
   bool hit = false;
+  uint32_t longest = 0;
   if (repeats_ && memory_.guess().confidence != 0) {
     const ResidualMemory::Entry& guess = memory_.guess();
     hit = io_.bit(
@@ -339,22 +371,24 @@ void TexcoordCoder<Io>::codePair(uint32_t w, const int32_t* predicted, uint32_t 
     if (hit) {
       residual[0] = guess.residual[0];
       residual[1] = guess.residual[1];
+      longest = std::max(contextLength(residual[0]), contextLength(residual[1]));
     }
   }
   if (!hit) {
-    residual[0] = codeByLength<0>(io_, models_.row[0][context], residual[0]);
-    const uint32_t length = contextLength(residual[0]);
+    uint32_t length = 0;
+    uint32_t second_length = 0;
+    residual[0] = codeByLength<0>(io_, models_.row[0][context], residual[0], length);
     const uint32_t second = context == kNoNeighbours ? context : (context + length + 1) / 2;
-    residual[1] = codeByLength<1>(io_, models_.row[1][second], residual[1]);
+    residual[1] = codeByLength<1>(io_, models_.row[1][second], residual[1], second_length);
+    longest = std::max(length, second_length);
   }
   if (repeats_) memory_.learn(residual);
-  lengths_[w] =
-      static_cast<uint8_t>(std::max(contextLength(residual[0]), contextLength(residual[1])));
+  lengths_[w] = static_cast<uint8_t>(longest);
   for (int c = 0; c < 2; ++c) {
-    value[c] = static_cast<int32_t>(static_cast<uint32_t>(predicted[c]) +
+    last_[c] = static_cast<int32_t>(static_cast<uint32_t>(predicted[c]) +
                                     static_cast<uint32_t>(residual[c]));
-    last_[c] = value[c];
   }
+  storePair(value, last_);
 }
 
 }  // namespace mcc

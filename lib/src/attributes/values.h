@@ -68,7 +68,7 @@ class ValueCoder {
 
   void run() {
     std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
-    for (uint32_t i = 0; i < wedges_.count; ++i) {
+    for (uint32_t i = 0; i < wedges_.coded_count; ++i) {
       const uint32_t w = i < wedges_.surface_count ? wedges_.wedgeAt(i) : i;
       if (groups_.isFirst(w)) codeGroup(w);
     }
@@ -97,9 +97,9 @@ class ValueCoder {
   bool codeFlags(uint32_t w);
   void codeResiduals(uint32_t w);
   template <uint32_t kState>
-  int32_t codeResidual(TokenRow& row, int32_t truth) {
-    return small_ ? codeSmallSigned<kState>(io_, row, truth)
-                  : codeByLength<kState>(io_, row, truth);
+  int32_t codeResidual(TokenRow& row, int32_t truth, uint32_t& length) {
+    return small_ ? codeSmallSigned<kState>(io_, row, truth, length)
+                  : codeByLength<kState>(io_, row, truth, length);
   }
 
   Io& io_;
@@ -248,11 +248,11 @@ void ValueCoder<Io>::codeResiduals(uint32_t w) {
     const uint32_t p = static_cast<uint32_t>(predicted_[c]);
     int32_t residual =
         Io::kEncoding ? static_cast<int32_t>(static_cast<uint32_t>(value[c]) - p) : 0;
-    residual = c % 3 == 0   ? codeResidual<0>(row, residual)
-               : c % 3 == 1 ? codeResidual<1>(row, residual)
-                            : codeResidual<2>(row, residual);
+    uint32_t length = 0;
+    residual = c % 3 == 0   ? codeResidual<0>(row, residual, length)
+               : c % 3 == 1 ? codeResidual<1>(row, residual, length)
+                            : codeResidual<2>(row, residual, length);
     value[c] = static_cast<int32_t>(p + static_cast<uint32_t>(residual));
-    const uint32_t length = contextLength(residual);
     longest = std::max(longest, length);
     if (context != kNoNeighbours) context = (context + length + 1) / 2;
   }

@@ -5,10 +5,12 @@
 #ifndef MCC_ATTRIBUTES_WEDGES_H_
 #define MCC_ATTRIBUTES_WEDGES_H_
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
 #include "attributes/dequantize.h"
+#include "base/float4.h"
 #include "base/memory.h"
 #include "mesh/face_mesh.h"
 
@@ -30,6 +32,16 @@ class WedgeMesh {
   /// Half-edges leaving `wedge` in the faces it completes: all other corners have a lower rank.
   uint32_t firstCompleted(uint32_t wedge) const { return completed_[wedge]; }
   uint32_t nextCompleted(uint32_t h) const { return faces.words[(h & ~7u) + kFaceWord]; }
+  /// Fetches what coding the wedges a few places behind i will look at; `data`: `stride` elements per wedge.
+  template <class T>
+  MCC_INLINE void prefetch(uint32_t i, const T* data, size_t stride) const {
+    if (i + 2 * kPrefetch >= surface_count) return;
+    const uint32_t far = wedgeAt(i + 2 * kPrefetch);
+    MCC_PREFETCH(&completed_[far]);
+    MCC_PREFETCH(data + stride * far);
+    const uint32_t entry = completed_[wedgeAt(i + kPrefetch)];
+    if (entry != kNone) MCC_PREFETCH(&faces.words[entry]);
+  }
   /// Whether wedge `w` is on the same vertex as wedge w-1.
   bool continuesVertex(uint32_t w) const {
     return group_of_wedge_ != nullptr && w != 0 && w < surface_count &&
@@ -45,8 +57,14 @@ class WedgeMesh {
   uint32_t face_count = 0;
   uint32_t surface_count = 0;  ///< wedges in faces
   uint32_t count = 0;
+  uint32_t coded_count = 0;  ///< in coding order; fewer than all in the writer's trials
+
+  /// Wedges in faces that are coded.
+  uint32_t surfaceEnd() const { return std::min(surface_count, coded_count); }
 
  private:
+  static constexpr uint32_t kPrefetch = 4;  ///< places ahead
+
   Array<uint32_t> order_;  ///< empty: wedges are numbered in coding order
   Array<uint32_t> rank_;
   Array<uint32_t> completed_;
@@ -59,7 +77,7 @@ inline Status WedgeMesh::build(FaceMesh& mesh, const uint32_t* starts, uint32_t 
   faces = mesh.view();
   face_count = mesh.face_count;
   surface_count = surface_wedges;
-  count = wedge_count;
+  count = coded_count = wedge_count;
   starts_ = starts;
   group_of_wedge_ = group_of_wedge;
   order_.clear();
@@ -74,15 +92,14 @@ inline Status WedgeMesh::build(FaceMesh& mesh, const uint32_t* starts, uint32_t 
     rank_[order_[i]] = i;
   }
   for (uint32_t f = face_count; f-- != 0;) {  // backwards, so that the lists ascend
-    uint32_t last = f * kFaceWords;
-    uint32_t last_rank = rankOf(faces.vertex(last));
-    for (uint32_t h = last + 1; h <= f * kFaceWords + 2; ++h) {
-      const uint32_t rank = rankOf(faces.vertex(h));
-      if (rank > last_rank) {
-        last_rank = rank;
-        last = h;
-      }
-    }
+    // No branches: which corner is the last one is close to random.
+    const uint32_t* corner = faces.words + f * kFaceWords;
+    const uint32_t rank0 = rankOf(corner[0]);
+    const uint32_t rank1 = rankOf(corner[1]);
+    const uint32_t rank2 = rankOf(corner[2]);
+    const uint32_t one = rank1 > rank0 ? 1 : 0;
+    const uint32_t two = rank2 > std::max(rank0, rank1) ? 1 : 0;
+    const uint32_t last = f * kFaceWords + ((one & ~two) | two << 1);
     uint32_t& first = completed_[faces.vertex(last)];
     faces.words[f * kFaceWords + kFaceWord] = first;
     first = last;
@@ -120,6 +137,17 @@ struct EqualGroups {
     next.clear();
   }
 };
+
+/// Adds the sums (4 floats each) of all members of a group to those of its first wedge.
+inline void gatherGroups(const WedgeMesh& wedges, const EqualGroups& groups, float* sums) {
+  if (groups.first.empty()) return;
+  for (uint32_t w = 0; w < wedges.surface_count; ++w) {
+    const uint32_t first = groups.first[w];
+    if (first == w) continue;
+    storeFloat4(sums + 4 * size_t{first},
+                loadFloat4(sums + 4 * size_t{first}) + loadFloat4(sums + 4 * size_t{w}));
+  }
+}
 
 /// Order in which wedges are coded: wedge faces.vertex(half_edges[i]) is the i-th, isolated wedges follow.
 struct WedgeSequence {

@@ -20,6 +20,7 @@ static_assert(FLT_EVAL_METHOD == 0, "build with SSE2 or an equivalent, not with 
 #define MCC_INLINE inline __attribute__((always_inline))
 #define MCC_INLINE_LAMBDA __attribute__((always_inline))
 #define MCC_OUT_OF_LINE __attribute__((noinline))
+#define MCC_PREFETCH(address) __builtin_prefetch(address)
 #if defined(__clang__)
 #define MCC_UNROLL _Pragma("unroll")
 #else
@@ -29,6 +30,7 @@ static_assert(FLT_EVAL_METHOD == 0, "build with SSE2 or an equivalent, not with 
 #define MCC_INLINE inline
 #define MCC_INLINE_LAMBDA
 #define MCC_OUT_OF_LINE
+#define MCC_PREFETCH(address)
 #define MCC_UNROLL
 #endif
 

@@ -168,7 +168,7 @@ class RawBitsDecoder {
  public:
   explicit RawBitsDecoder(std::span<const uint8_t> bytes) : bytes_(bytes) {}
 
-  uint32_t read(uint32_t bits) {  // bits <= 32
+  MCC_INLINE uint32_t read(uint32_t bits) {  // bits <= 32
     const size_t byte = static_cast<size_t>(next_bit_ >> 3);
     uint64_t window = 0;
     if (byte + 8 <= bytes_.size()) [[likely]] {
@@ -291,7 +291,7 @@ class DecoderIo {
     }
   }
 
-  uint32_t raw(uint32_t bits, uint32_t = 0) {
+  MCC_INLINE uint32_t raw(uint32_t bits, uint32_t = 0) {
     if constexpr (kSingle) {
       uint32_t value = 0;
       for (uint32_t done = 0; done < bits; done += 16) {
