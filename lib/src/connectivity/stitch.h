@@ -123,6 +123,7 @@ class Stitcher {
   void excludeRing(uint32_t v);
   void sortCandidates();
 
+  uint32_t boundaryDegree(uint32_t v) const;
   bool codeCopy(uint32_t v, uint32_t truth);
   Status codeReference(uint32_t v, uint32_t truth, uint32_t& group);
   bool codeCandidate(uint32_t truth, uint32_t& group);
@@ -170,6 +171,7 @@ class Stitcher {
   bool interior_copies_ = false;
   uint32_t now_ = 0;  ///< the vertex at work
   uint32_t time_ = 0;
+  uint32_t copy_count_ = 0;
   uint32_t last_reference_ = 0;
   uint32_t recent_[kStitchRecent];
   uint32_t recent_count_ = 0;
@@ -218,7 +220,7 @@ Status Stitcher<Io>::run(bool interior_copies, uint32_t class_count, Groups& gro
     if (!interior_copies && !onBoundary(v)) continue;
     MCC_TRY(stitchVertex(v));
     if ((v & 0xff) == 0 && io_.overrun()) {
-      return fail(Error::kTruncated, "the code stream ends inside the stitching");
+      return fail(Error::kTruncated, "the code stream ends edge the stitching");
     }
   }
   return finish(groups);
@@ -249,13 +251,13 @@ void Stitcher<Io>::found(uint32_t v) {
   (void)groups_.push_back(
       Group{v, v, 1, 0, kNone, 0, place, 0});  // reserved: one group per vertex at most
   vertices_[v].group = group;
-  vertices_[v].next_member = kNone;
   if constexpr (Io::kEncoding) leader_of_class_[class_of_vertex_[v]] = group;
 }
 
 template <class Io>
 void Stitcher<Io>::join(uint32_t v, uint32_t group) {
   Group& g = groups_[group];
+  ++copy_count_;
   vertices_[g.last_member].next_member = v;
   vertices_[v].next_member = kNone;
   g.last_member = v;
@@ -264,14 +266,23 @@ void Stitcher<Io>::join(uint32_t v, uint32_t group) {
   markNeighbours(v);
 }
 
-/// So that vertices without glued neighbours, that is most, need no look at their ring. Once per vertex.
+/// So that vertices without copies around, that is most, need no look at them. Once per vertex.
 template <class Io>
 void Stitcher<Io>::markNeighbours(uint32_t v) {
   forRing(vertices_, faces_, v, [this](uint32_t u, EdgeSide) {
-    uint8_t& glued = vertices_[u].kind.glued;
-    if (glued < 3) ++glued;
+    StitchKind& kind = vertices_[u].kind;
+    if (kind.gluedNeighbours() < 3) ++kind.marks;
     return true;
   });
+  if (!onBoundary(v)) return;
+  for (const bool forward : {true, false}) {
+    uint32_t u = v;
+    for (uint32_t hops = 0; hops < kStitchHops; ++hops) {
+      u = forward ? vertices_[u].next : vertices_[u].prev;
+      if (u == kNone) break;
+      vertices_[u].kind.marks |= StitchKind::kNearGlued;
+    }
+  }
 }
 
 // --- candidates --------------------------------------------------------------------------------------
@@ -282,7 +293,7 @@ void Stitcher<Io>::collectCandidates(uint32_t v) {
   best_score_ = 0;
   work_ = 0;
   work_limit_ = std::max(kStitchWorkLimit >> (misses_ / kStitchPatience), kStitchLeastWork);
-  if (vertices_[v].kind.glued != 0) {
+  if (vertices_[v].kind.gluedNeighbours() != 0) {
     excludeRing(v);
     uint32_t seen = 0;
     forRing(vertices_, faces_, v, [this, &seen](uint32_t u, EdgeSide side) {
@@ -290,7 +301,7 @@ void Stitcher<Io>::collectCandidates(uint32_t v) {
       return ++seen < kStitchRingLimit && work_ < work_limit_;
     });
   }
-  if (onBoundary(v)) collectAlongBoundary(v);
+  if ((vertices_[v].kind.marks & StitchKind::kNearGlued) != 0) collectAlongBoundary(v);
 }
 
 /// No face has a vertex twice.
@@ -405,18 +416,27 @@ void Stitcher<Io>::sortCandidates() {
 
 // --- coding ------------------------------------------------------------------------------------------
 
+/// Triangles at a vertex of a boundary, up to 15.
+template <class Io>
+uint32_t Stitcher<Io>::boundaryDegree(uint32_t v) const {
+  uint32_t degree = 1;
+  for (uint32_t h = faces_.rotateCcw(vertices_[v].start); h != kNone && degree < 15; ++degree) {
+    h = faces_.rotateCcw(h);
+  }
+  return degree;
+}
+
 template <class Io>
 bool Stitcher<Io>::codeCopy(uint32_t v, uint32_t truth) {
   if (groups_.empty()) return false;
   const StitchKind& kind = vertices_[v].kind;
   const uint32_t best = candidate_count_ == 0 ? 0 : 1 + std::min(18u, best_score_);
-  const uint32_t inside = onBoundary(v) ? 1 : 0;
+  const uint32_t edge = onBoundary(v) ? 1 : 0;
   const uint32_t level = std::min(3u, (best + 2) / 3);
-  const uint32_t degree = std::min<uint32_t>(kind.degree, 15);
-  const uint32_t shape = inside != 0 ? kind.loop * 16 + degree
-                                     : std::min<uint32_t>(kind.highest_degree, 31) * 16 + degree;
-  return codeMixed(io_, models_.copy[inside][kind.glued][best],
-                   models_.copy_shape[inside][level][shape], Io::kEncoding && truth != kNone);
+  const uint32_t shape = edge != 0 ? kind.loop * 16 + boundaryDegree(v)
+                                   : kind.highest_degree * 16 + std::min<uint32_t>(kind.degree, 15);
+  return codeMixed(io_, models_.copy[edge][kind.gluedNeighbours()][best],
+                   models_.copy_shape[edge][level][shape], Io::kEncoding && truth != kNone);
 }
 
 template <class Io>
@@ -426,7 +446,7 @@ Status Stitcher<Io>::codeReference(uint32_t v, uint32_t truth, uint32_t& group) 
     return {};
   }
   misses_ = std::min(misses_ + 1, 8 * kStitchPatience);
-  if (vertices_[v].kind.glued == 0) excludeRing(v);
+  if (vertices_[v].kind.gluedNeighbours() == 0) excludeRing(v);
   if (onBoundary(v) ? codeOnLoop(v, truth, group) : codeNearby(v, truth, group)) return {};
   bool is_recent = false;
   MCC_TRY(codeRecent(truth, group, is_recent));
@@ -627,24 +647,27 @@ void Stitcher<Io>::noteUse(uint32_t group) {
 template <class Io>
 Status Stitcher<Io>::finish(Groups& groups) {
   const uint32_t n = mesh_.vertex_count;
-  groups.count = 0;
-  if (!groups.umbrellas.reserve(n) || !groups.umbrella_begin.reserve(size_t{n} + 1)) {
+  groups.count = n - copy_count_;
+  if (!groups.umbrellas.resize(n) || !groups.umbrella_begin.resize(size_t{groups.count} + 1)) {
     return fail(Error::kOutOfMemory, "no memory for stitching");
   }
+  uint32_t* const umbrellas = groups.umbrellas.data();
+  uint32_t number = 0;
+  uint32_t count = 0;
   for (uint32_t v = 0; v < n; ++v) {
-    if (processed(v) && groups_[vertices_[v].group].leader != v) {
-      vertices_[v].number = vertices_[groups_[vertices_[v].group].leader].number;
+    StitchVertex& vertex = vertices_[v];
+    if (processed(v) && groups_[vertex.group].leader != v) {
+      vertex.number = vertices_[groups_[vertex.group].leader].number;
       continue;
     }
-    vertices_[v].number = groups.count++;
-    (void)groups.umbrella_begin.push_back(static_cast<uint32_t>(groups.umbrellas.size()));
-    (void)groups.umbrellas.push_back(vertices_[v].start);
-    if (!processed(v)) continue;
-    for (uint32_t u = vertices_[v].next_member; u != kNone; u = vertices_[u].next_member) {
-      (void)groups.umbrellas.push_back(vertices_[u].start);
+    vertex.number = number;
+    groups.umbrella_begin[number++] = count;
+    umbrellas[count++] = vertex.start;
+    for (uint32_t u = vertex.next_member; u != kNone; u = vertices_[u].next_member) {
+      umbrellas[count++] = vertices_[u].start;
     }
   }
-  (void)groups.umbrella_begin.push_back(static_cast<uint32_t>(groups.umbrellas.size()));
+  groups.umbrella_begin[number] = count;
   for (uint32_t f = 0; f < mesh_.face_count; ++f) {
     uint32_t* corner = mesh_.words.data() + size_t{f} * kFaceWords;
     for (int k = 0; k < 3; ++k) corner[k] = vertices_[corner[k]].number;

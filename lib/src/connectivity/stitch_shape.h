@@ -13,7 +13,7 @@
 namespace mcc {
 
 inline constexpr uint32_t kStitchLoopClasses = 64;  ///< 0: not on a boundary, else min(length, 63)
-inline constexpr uint32_t kStitchDegreeClasses = 16;
+inline constexpr uint32_t kStitchDegreeLimit = 31;  ///< degrees above count as this
 
 /// Boundary half-edge leaving or entering the vertex, or neither.
 enum class EdgeSide : uint8_t { kInner, kOut, kIn };
@@ -21,9 +21,12 @@ enum class EdgeSide : uint8_t { kInner, kOut, kIn };
 /// What contexts need to know of a vertex.
 struct StitchKind {
   uint8_t loop = 0;            ///< class of its boundary loop
-  uint8_t degree = 0;          ///< triangles, saturating
-  uint8_t highest_degree = 0;  ///< of its neighbours, set where copies may lie inside
-  uint8_t glued = 0;           ///< neighbours that have copies so far, up to 3
+  uint8_t degree = 0;          ///< triangles; set where copies may lie inside
+  uint8_t highest_degree = 0;  ///< of its neighbours, likewise
+  uint8_t marks = 0;           ///< neighbours that have copies so far, up to 3, and kNearGlued
+
+  static constexpr uint8_t kNearGlued = 4;  ///< copies few steps along the boundary
+  uint32_t gluedNeighbours() const { return marks & 3u; }
 };
 
 /// All about a vertex of the cut mesh, within one cache line: soups jump around.
@@ -72,26 +75,15 @@ inline void measureLoops(Array<StitchVertex>& vertices) {
   }
 }
 
-/// False without memory.
-[[nodiscard]] inline bool buildShape(const FaceMesh& mesh, FaceView faces, bool with_interior,
-                                     Array<StitchVertex>& vertices) {
-  if (!vertices.assign(mesh.vertex_count, StitchVertex{})) return false;
+inline void measureDegrees(const FaceMesh& mesh, FaceView faces, Array<StitchVertex>& vertices) {
   for (uint32_t f = 0; f < mesh.face_count; ++f) {
-    for (uint32_t h = f * kFaceWords; h < f * kFaceWords + 3; ++h) {
-      StitchVertex& from = vertices[faces.vertex(h)];
-      if (from.kind.degree < 0xff) ++from.kind.degree;
-      if (faces.twin(h) != kNone) {
-        if (from.start == kNone) from.start = h;
-        continue;
-      }
-      const uint32_t to = faces.vertex(nextHalfEdge(h));
-      from.start = h;
-      from.next = to;
-      vertices[to].prev = faces.vertex(h);
+    const uint32_t* corner = faces.words + size_t{f} * kFaceWords;
+    for (uint32_t k = 0; k < 3; ++k) {
+      uint8_t& degree = vertices[corner[k]].kind.degree;
+      degree = static_cast<uint8_t>(degree + (degree < kStitchDegreeLimit ? 1 : 0));
     }
   }
-  measureLoops(vertices);
-  for (uint32_t f = 0; f < mesh.face_count && with_interior; ++f) {
+  for (uint32_t f = 0; f < mesh.face_count; ++f) {
     const uint32_t* corner = faces.words + size_t{f} * kFaceWords;
     for (uint32_t k = 0; k < 3; ++k) {
       StitchKind& kind = vertices[corner[k]].kind;
@@ -99,6 +91,28 @@ inline void measureLoops(Array<StitchVertex>& vertices) {
           std::max(kind.highest_degree, vertices[corner[k == 2 ? 0 : k + 1]].kind.degree);
     }
   }
+}
+
+/// Degrees only `with_interior`, else boundaryDegree() has them. False without memory.
+[[nodiscard]] inline bool buildShape(const FaceMesh& mesh, FaceView faces, bool with_interior,
+                                     Array<StitchVertex>& vertices) {
+  if (!vertices.assign(mesh.vertex_count, StitchVertex{})) return false;
+  for (uint32_t f = 0; f < mesh.face_count; ++f) {
+    const uint32_t h = f * kFaceWords;
+    for (uint32_t k = 0; k < 3; ++k) vertices[faces.vertex(h + k)].start = h + k;
+  }
+  for (uint32_t f = 0; f < mesh.face_count; ++f) {
+    for (uint32_t h = f * kFaceWords; h < f * kFaceWords + 3; ++h) {
+      if (faces.twin(h) != kNone) continue;
+      const uint32_t from = faces.vertex(h);
+      const uint32_t to = faces.vertex(nextHalfEdge(h));
+      vertices[from].start = h;
+      vertices[from].next = to;
+      vertices[to].prev = from;
+    }
+  }
+  measureLoops(vertices);
+  if (with_interior) measureDegrees(mesh, faces, vertices);
   return true;
 }
 
