@@ -38,8 +38,10 @@ inline constexpr uint32_t kStitchPatience = 16;     ///< useless copies until th
 inline constexpr uint32_t kStitchCandidateLimit = 64;
 inline constexpr uint32_t kStitchCodedLimit = 12;  ///< candidates asked for one by one
 inline constexpr uint32_t kStitchHops = 4;
-inline constexpr uint32_t kStitchSteps = 16;      ///< along the own loop, each way
-inline constexpr uint32_t kStitchNearLimit = 96;  ///< vertices visited nearby
+inline constexpr uint32_t kStitchSteps = 16;  ///< along the own loop, each way
+inline constexpr uint32_t kStitchNearLimit =
+    96;  ///< vertices visited nearby until no further ring is looked at
+inline constexpr uint32_t kStitchNearRoom = kStitchNearLimit + kStitchRingLimit + 1;
 inline constexpr uint32_t kStitchNearRadius = 4;
 inline constexpr uint32_t kStitchRecent = 16;
 
@@ -180,9 +182,9 @@ class Stitcher {
   uint32_t best_score_ = 0;
   uint32_t misses_ = 0;  ///< copies in a row that no candidate stood for
   uint32_t work_limit_ = 0;
-  uint32_t work_ = 0;                    ///< vertices looked at for candidates
-  uint32_t nearby_[kStitchNearLimit];    ///< vertices
-  uint32_t eligible_[kStitchNearLimit];  ///< groups
+  uint32_t work_ = 0;                   ///< vertices looked at for candidates
+  uint32_t nearby_[kStitchNearRoom];    ///< vertices
+  uint32_t eligible_[kStitchNearRoom];  ///< groups
 };
 
 template <class Io>
@@ -540,14 +542,13 @@ bool Stitcher<Io>::codeNearby(uint32_t v, uint32_t truth, uint32_t& group) {
 template <class Io>
 uint32_t Stitcher<Io>::visitRing(uint32_t v, uint32_t begin, uint32_t end) {
   uint32_t count = end;
-  for (uint32_t i = begin; i < end; ++i) {
+  for (uint32_t i = begin; i < end && count < kStitchNearLimit; ++i) {
     uint32_t seen = 0;
+    // Branch-free: whether a vertex was visited is close to random.
     forRing(vertices_, faces_, nearby_[i], [&](uint32_t w, EdgeSide) {
-      if (vertices_[w].visited_by != v) {
-        if (count == kStitchNearLimit) return false;
-        vertices_[w].visited_by = v;
-        nearby_[count++] = w;
-      }
+      nearby_[count] = w;
+      count += vertices_[w].visited_by != v ? 1 : 0;
+      vertices_[w].visited_by = v;
       return ++seen < kStitchRingLimit;
     });
   }
