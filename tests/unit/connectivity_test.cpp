@@ -94,9 +94,9 @@ uint64_t contractions(const CodeHistogram& histogram) {
 }
 
 TEST(Connectivity, Spheres) {
-  for (const TestMesh& mesh :
-       {tetrahedron(), icosphere(0), icosphere(2), uvSphere(9, 7), bipyramid(3), bipyramid(50),
-        randomStacked(1, 200), deepStack(300), combOfStacks(7, 9), flipped(icosphere(2), 3, 2000)}) {
+  for (const TestMesh& mesh : {tetrahedron(), icosphere(0), icosphere(2), uvSphere(9, 7),
+                               bipyramid(3), bipyramid(50), randomStacked(1, 200), deepStack(300),
+                               combOfStacks(7, 9), flipped(icosphere(2), 3, 2000)}) {
     const Coded coded = expectConnectivity(mesh);
     // An operation takes a vertex away, down to the last triangle's three. A divide takes none, but leaves two parts to
     // end.
@@ -122,8 +122,8 @@ TEST(Connectivity, EveryStartHalfEdge) {
 
 TEST(Connectivity, Handles) {
   for (const TestMesh& mesh :
-       {torus(3, 3), torus(12, 9), plateWithTunnels(1, 2), plateWithTunnels(4, 1),
-        mengerSponge(1), mengerSponge(2), flipped(torus(20, 10), 5, 3000)}) {
+       {torus(3, 3), torus(12, 9), plateWithTunnels(1, 2), plateWithTunnels(4, 1), mengerSponge(1),
+        mengerSponge(2), flipped(torus(20, 10), 5, 3000)}) {
     const uint32_t genus = measureTopology(mesh).genus;
     const Coded coded = expectConnectivity(mesh);
     EXPECT_EQ(coded.histogram.handle, genus) << mesh.name;
@@ -149,10 +149,24 @@ TEST(Connectivity, HolesAndComponents) {
   }
 }
 
+TEST(Connectivity, TrianglesAloneAreOneDecisionEach) {
+  // Alone, before and behind other components, and next to triangles that are not alone.
+  const Coded loose = expectConnectivity(looseTriangles(1000));
+  EXPECT_LT(loose.cost, 100 * uint64_t{kCostOne});
+  EXPECT_EQ(loose.histogram.end, 1000u);
+  EXPECT_EQ(loose.histogram.degree[4], 1000u);
+  const std::vector<TestMesh> mixed = {looseTriangles(3), icosphere(1),      looseTriangles(1),
+                                       grid(2, 1),        looseTriangles(2), torus(5, 4),
+                                       grid(3, 3),        looseTriangles(1)};
+  expectConnectivity(unionOf(mixed, "triangles among others"));
+  const std::vector<TestMesh> closed = {looseTriangles(1), torus(5, 4), tetrahedron()};
+  expectConnectivity(unionOf(closed, "one hole"));
+}
+
 TEST(Connectivity, WhatTheCutLeavesOfBadMeshes) {
-  for (const TestMesh& mesh :
-       {moebius(8, 2), kleinBottle(6, 5), bowTies(3, 4, 3), pinchedSpheres(4), book(5, 4, 3),
-        fins(5), randomVoxels(2, 5, 50), tetrahedralSoup(2), withFlippedTriangles(torus(8, 6), 3, 30)}) {
+  for (const TestMesh& mesh : {moebius(8, 2), kleinBottle(6, 5), bowTies(3, 4, 3),
+                               pinchedSpheres(4), book(5, 4, 3), fins(5), randomVoxels(2, 5, 50),
+                               tetrahedralSoup(2), withFlippedTriangles(torus(8, 6), 3, 30)}) {
     for (const EdgePairing pairing : {EdgePairing::kStack, EdgePairing::kCut})
       expectConnectivity(mesh, pairing);
   }
@@ -183,8 +197,8 @@ TEST(Connectivity, WorkIsLinear) {
     const McRecord& record = surface.record();
     const ClosedMesh& cut = surface.cut().mesh;
     EXPECT_LE(record.operations.size(), cut.real_vertex_count + cut.dummy_count) << mesh.name;
-    EXPECT_LE(record.node_count, cut.real_vertex_count + cut.dummy_count +
-                                     2 * record.operations.size())
+    EXPECT_LE(record.node_count,
+              cut.real_vertex_count + cut.dummy_count + 2 * record.operations.size())
         << mesh.name;
     EXPECT_EQ(record.gates.size(), cut.faceCount()) << mesh.name;  // one gate per triangle
   }

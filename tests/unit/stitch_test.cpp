@@ -30,8 +30,7 @@ void expectGroups(const FaceMesh& mesh, const Groups& groups, const std::vector<
   std::map<uint32_t, uint32_t> group_of_class;
   std::set<uint32_t> seen;
   for (size_t c = 0; c < corners.size(); ++c) {
-    const auto [entry, is_new] =
-        group_of_class.emplace(class_of_vertex[vertices[c]], corners[c]);
+    const auto [entry, is_new] = group_of_class.emplace(class_of_vertex[vertices[c]], corners[c]);
     ASSERT_EQ(entry->second, corners[c]) << "a class in two groups";
     ASSERT_TRUE(!is_new || seen.insert(corners[c]).second) << "two classes in a group";
   }
@@ -120,6 +119,31 @@ TEST(Stitch, AnyPartitionOfTheVertices) {
   }
 }
 
+/// Bits of a copy, flags included.
+double bitsPerCopy(const TestMesh& mesh) {
+  Surface surface(mesh);
+  PieceHeader header = surface.header();
+  header.flags |= piece_flag::kCopies | piece_flag::kInteriorCopies;
+  CostIo io;
+  Stages<CostIo> stages(io, header, {positionInfo(10)});
+  PieceTruth truth;
+  truth.connectivity = surface.truth();
+  EXPECT_TRUE(stages.piece.codeConnectivity(truth).ok());
+  const std::vector<uint32_t> classes = surface.classOfVertex();
+  truth.class_of_vertex = classes.data();
+  truth.class_count = *std::max_element(classes.begin(), classes.end()) + 1;
+  const uint64_t before = io.cost();
+  EXPECT_TRUE(stages.piece.codeStitch(truth).ok());
+  const double copies = header.vertex_count - stages.piece.groups.count;
+  return static_cast<double>(io.cost() - before) / kCostOne / copies;
+}
+
+TEST(Stitch, BitsPerCopy) {
+  EXPECT_LT(bitsPerCopy(randomVoxels(3, 16, 50)), 11);
+  EXPECT_LT(bitsPerCopy(tetrahedralSoup(8)), 3.5);
+  EXPECT_LT(bitsPerCopy(withFlippedTriangles(torus(60, 60), 1, 10)), 8);
+}
+
 TEST(Stitch, DamageIsAnError) {
   Surface surface(book(7, 6, 3), EdgePairing::kCut);
   EncoderIo encoder(true);
@@ -133,7 +157,8 @@ TEST(Stitch, DamageIsAnError) {
   ASSERT_TRUE(writer.piece.codeStitch(truth).ok());
   const std::vector<uint8_t> codes = encoder.finish().codes;
   for (size_t size = 0; size + 9 < codes.size(); ++size) {
-    const std::vector<uint8_t> cut(codes.begin(), codes.begin() + static_cast<std::ptrdiff_t>(size));
+    const std::vector<uint8_t> cut(codes.begin(),
+                                   codes.begin() + static_cast<std::ptrdiff_t>(size));
     DecoderIo<true> decoder(cut, {}, {});
     Stages<DecoderIo<true>> reader(decoder, surface.header(), {positionInfo(10)});
     Status status = reader.piece.codeConnectivity(PieceTruth{});

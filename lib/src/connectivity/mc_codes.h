@@ -97,6 +97,7 @@ struct McModels {
   BitModel kind_end[4];
   BitModel kind_handle;
   BitModel finish;
+  BitModel lone_triangle[2];
   BitModel joined_spur[2];
   BitModel dummy_end[2];
   BitModel dummy_twig;
@@ -204,6 +205,8 @@ class McMachine {
   // Coding of one operation.
   Status codeOperation(const McOperation* op);
   Status codeEnd(const McOperation* op, bool first);
+  bool isLoneTriangle(const McOperation* op) const;
+  Status addLoneTriangle(const McOperation* op);
   Status codeExpand(const McOperation* op, McJoin join);
   Status codeRun(const McOperation* op, uint32_t vertex);
   Status codeDummyRun(const McOperation* op);
@@ -255,6 +258,8 @@ class McMachine {
   uint32_t dummy_count_ = 0;
   uint32_t face_count_ = 0;
   uint32_t component_ = 0;
+  uint32_t operation_ = 0;  ///< operations begun
+  bool after_lone_triangle_ = false;
   uint32_t age_ = 0;  ///< operations since the last END
   uint32_t last_class_ = kClassEnd;
   uint32_t class_before_ = kClassEnd;
@@ -267,9 +272,10 @@ Status McMachine<Io>::run() {
   if (!nodes_.reserve(std::min<uint64_t>(counts_.vertex_count, 1u << 16))) {
     return fail(Error::kOutOfMemory, "no memory for the connectivity decoder");
   }
-  for (uint32_t i = 0; i < counts_.operation_count; ++i) {
+  for (uint32_t i = 0; operation_ < counts_.operation_count; ++i) {
     const McOperation* op =
-        Io::kEncoding ? truth_.operations + (counts_.operation_count - 1 - i) : nullptr;
+        Io::kEncoding ? truth_.operations + (counts_.operation_count - 1 - operation_) : nullptr;
+    ++operation_;
     MCC_TRY(top_ == kNone ? codeEnd(op, true) : codeOperation(op));
     if ((i & 0xfff) == 0 && io_.overrun()) {
       return fail(Error::kTruncated, "the code stream ends before its last operation");
@@ -400,6 +406,12 @@ Status McMachine<Io>::codeEnd(const McOperation* op, bool first) {
       return fail(Error::kOutOfMemory, "no memory for the digon stack");
     }
   }
+  // A triangle alone needs a dummy, and the operation that takes it.
+  if (top_ == kNone && dummy_count_ < counts_.dummy_count && operation_ < counts_.operation_count) {
+    BitModel& model = models_.lone_triangle[after_lone_triangle_ ? 1 : 0];
+    after_lone_triangle_ = io_.bit(model, Io::kEncoding && isLoneTriangle(op));
+    if (after_lone_triangle_) return addLoneTriangle(op);
+  }
   uint32_t vertex[2] = {};
   for (int i = 0; i < 2; ++i) {
     const uint32_t source = Io::kEncoding ? (i == 0 ? op->vertex_a : op->vertex_b) : 0;
@@ -424,6 +436,41 @@ Status McMachine<Io>::codeEnd(const McOperation* op, bool first) {
   age_ = 0;
   remember(kClassEnd);
   count(&CodeHistogram::end);
+  return {};
+}
+
+/// Encoder only. Is the component that begins with `op` (END) a triangle: EXPAND of degree 4, then a dummy?
+template <class Io>
+bool McMachine<Io>::isLoneTriangle(const McOperation* op) const {
+  const McOperation& expand = op[-1];  // `operation_` tells that there is one
+  const bool ends =
+      operation_ + 1 == counts_.operation_count || (op[-2].kind == McKind::kEnd && op[-2].finishes);
+  const uint32_t apex = truth_.components[truth_.component_count - 1 - component_].vertex;
+  return ends && expand.kind == McKind::kExpand && expand.join == McJoin::kSimple &&
+         expand.degree == 1 && truth_.vertex_is_dummy[apex] != 0 &&
+         truth_.vertex_is_dummy[op->vertex_a] == 0 && truth_.vertex_is_dummy[op->vertex_b] == 0 &&
+         truth_.vertex_is_dummy[expand.vertex_a] == 0;
+}
+
+/// A component of one triangle, END and EXPAND and the finish at once: soups consist of them. [A.4.3]
+template <class Io>
+Status McMachine<Io>::addLoneTriangle(const McOperation* op) {
+  if (face_count_ == counts_.face_count) return tooManyTriangles();
+  if constexpr (Io::kEncoding) {
+    truth_.source_gate_of_face[face_count_] = truth_.gates[op[-1].first_gate];
+  }
+  uint32_t* face = mesh_.words.data() + size_t{face_count_++} * kFaceWords;
+  MCC_TRY(newVertex(false, Io::kEncoding ? op->vertex_a : 0, face[1]));
+  MCC_TRY(newVertex(false, Io::kEncoding ? op->vertex_b : 0, face[2]));
+  MCC_TRY(newVertex(false, Io::kEncoding ? op[-1].vertex_a : 0, face[0]));
+  face[kFaceWord] = 0;
+  face[4] = face[5] = face[6] = kNone;
+  face[kSeamWord] = 0;
+  ++operation_;
+  ++dummy_count_;
+  ++component_;
+  count(&CodeHistogram::end);
+  countDegree(4);
   return {};
 }
 
@@ -572,7 +619,7 @@ Status McMachine<Io>::newVertex(bool dummy, uint32_t source, uint32_t& vertex) {
 /// False if there are more than the header claims.
 template <class Io>
 MCC_INLINE bool McMachine<Io>::takeGate(uint32_t vertex, uint32_t node, Fan& fan,
-                                               uint32_t source_gate) {
+                                        uint32_t source_gate) {
   McNode* nodes = nodes_.data();
   uint32_t* words = mesh_.words.data();
   const McNode& n = nodes[node];
