@@ -11,6 +11,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "attributes/enc_exact_grid.h"
 #include "attributes/enc_position_fit.h"
 #include "attributes/enc_predictor_search.h"
 #include "attributes/enc_quantize.h"
@@ -45,6 +46,7 @@ struct Plan {
   std::vector<uint32_t> class_of_vertex;
   std::vector<uint32_t> corner_source;
   std::vector<int32_t> positions;
+  std::vector<int32_t> exact_positions;  ///< ordered floats, if the positions are on an exact grid
   DistinctCoordinates coordinates;
   PositionParameters positions_as;  ///< chosen, with fitted tables
   std::vector<uint32_t> wedge_source;
@@ -148,13 +150,17 @@ void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_ed
   if (h.has(piece_flag::kSeams) && run_count > surface_wedges) h.flags |= piece_flag::kMerges;
 }
 
+bool isExact(AttributeCoding coding) {
+  return coding == AttributeCoding::kExactFloat || coding == AttributeCoding::kGrid;
+}
+
 Status preparePiece(const PieceView& view, const EncodeOptions& options, Plan& plan,
                     std::vector<std::string>& notes) {
   MCC_TRY(checkPiece(view));
   plan.view = &view;
   plan.attributes = quantizeAttributes(view, notes);
-  plan.classes = weldPositions(view.attributes[0], view.wedge_count,
-                               plan.attributes[0].info.coding == AttributeCoding::kExactFloat);
+  plan.classes =
+      weldPositions(view.attributes[0], view.wedge_count, isExact(plan.attributes[0].info.coding));
   plan.triangles = sortTriangles(view.parts, view.wedge_count);
   PieceHeader& h = plan.header;
   h.wedge_count = view.wedge_count;
@@ -224,6 +230,10 @@ void learnPositions(Plan& plan, const FaceMesh& mesh, const Groups& groups) {
       plan.positions[3 * (groups.count + i) + s] = q[3 * size_t{plan.triangles.isolated[i]} + s];
     }
   }
+  const AttributeInfo& info = plan.attributes[0].info;
+  if (info.coding != AttributeCoding::kGrid) return;
+  plan.exact_positions = plan.positions;
+  for (int32_t& value : plan.positions) value = gridInteger(info, value);
 }
 
 /// Sorts the triangles with a doubled wedge into those along an edge of a face and the others.
@@ -393,6 +403,7 @@ class StageRunner {
     account(sizes, &StreamSizes::stitch_bits);
     learnPositions(plan_, piece_.mesh, piece_.groups);
     truth_.positions = plan_.positions.data();
+    truth_.exact_positions = plan_.exact_positions.data();
     return {};
   }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "attributes/equality.h"
+#include "attributes/exact_tails.h"
 #include "attributes/normals.h"
 #include "attributes/skin.h"
 #include "attributes/tangents.h"
@@ -25,9 +26,13 @@ struct AttributeModels {
   TangentModels tangents;
   SkinModels skins[2];          ///< [further set]
   ValueModels values[8][2][2];  ///< [semantic][further set][morph target]
+  TailModels tails[8][2];       ///< [semantic][morph target]
 
   EqualityModels& equalitiesOf(const AttributeInfo& a) {
     return equalities[static_cast<uint32_t>(a.format.semantic)];
+  }
+  TailModels& tailsOf(const AttributeInfo& a) {
+    return tails[static_cast<uint32_t>(a.format.semantic)][a.format.morph_target != 0 ? 1 : 0];
   }
   ValueModels& valuesOf(const AttributeInfo& a) {
     return values[static_cast<uint32_t>(a.format.semantic)][a.format.set_index != 0 ? 1 : 0]
@@ -58,6 +63,8 @@ class AttributeStage {
         models_(models),
         attributes_(attributes),
         count_(attribute_count),
+        allocator_(allocator),
+        exact_(allocator),
         normal_(normalOfTangents(attributes, attribute_count)),
         chart_(chartOfTangents(attributes, attribute_count)),
         groups_(allocator),
@@ -86,6 +93,8 @@ class AttributeStage {
       MCC_TRY(EqualityCoder<Io>(io_, models_.equalitiesOf(info), wedges, values.data(), components)
                   .run(groups_));
     }
+    const GridPart grid = gridPart(index, method, components);
+    if (grid.info != nullptr) MCC_TRY(enterGrid(grid, values.data()));
     switch (method) {
       case AttributeMethod::kNormal: MCC_TRY(codeNormals(info, values.data())); break;
       case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(info, values.data())); break;
@@ -94,6 +103,7 @@ class AttributeStage {
       case AttributeMethod::kWithAnother: break;
       case AttributeMethod::kValues: MCC_TRY(codeValues(info, components, values.data())); break;
     }
+    if (grid.info != nullptr) MCC_TRY(leaveGrid(grid, values.data()));
     if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside an attribute");
     return has_tangents_ ? keepForTangents(index, values) : Status{};
   }
@@ -107,6 +117,54 @@ class AttributeStage {
 
  private:
   static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for attributes"); }
+
+  /// Which of the coded values are on an exact grid; `info` null: none.
+  struct GridPart {
+    const AttributeInfo* info = nullptr;
+    uint32_t first = 0;
+    uint32_t count = 0;
+    uint32_t stride = 0;
+  };
+  GridPart gridPart(uint32_t index, AttributeMethod method, uint32_t components) const {
+    const bool is_skin = method == AttributeMethod::kSkin;
+    const AttributeInfo& info =
+        attributes_[is_skin ? skinPartner(attributes_, count_, index) : index];
+    if (info.coding != AttributeCoding::kGrid) return {};
+    return {&info, is_skin ? kSkinSlots : 0, info.format.component_count, components};
+  }
+
+  /// Encoder: from ordered floats to the integers of their grid.
+  Status enterGrid(const GridPart& part, int32_t* values) {
+    if constexpr (Io::kEncoding) {
+      if (!exact_.resize(size_t{wedges.count} * part.count)) return noMemory();
+      for (uint32_t w = 0; w < wedges.count; ++w) {
+        int32_t* value = values + size_t{w} * part.stride + part.first;
+        for (uint32_t c = 0; c < part.count; ++c) {
+          exact_[size_t{w} * part.count + c] = value[c];
+          value[c] = gridInteger(*part.info, value[c]);
+        }
+      }
+    }
+    return {};
+  }
+
+  /// And back, with what is below the grid.
+  Status leaveGrid(const GridPart& part, int32_t* values) {
+    TailCoder<Io> tails(io_, models_.tailsOf(*part.info), *part.info, allocator_);
+    MCC_TRY(tails.prepare());
+    for (uint32_t w = 0; w < wedges.count; ++w) {
+      int32_t* value = values + size_t{w} * part.stride + part.first;
+      const uint32_t first = groups_.firstOf(w);
+      if (first != w) {
+        std::copy_n(values + size_t{first} * part.stride + part.first, part.count, value);
+        continue;
+      }
+      for (uint32_t c = 0; c < part.count; ++c) {
+        value[c] = tails.code(c, value[c], Io::kEncoding ? exact_[size_t{w} * part.count + c] : 0);
+      }
+    }
+    return {};
+  }
 
   Status codeValues(const AttributeInfo& info, uint32_t components, int32_t* values) {
     const bool is_target = info.format.morph_target != 0;
@@ -183,6 +241,8 @@ class AttributeStage {
   AttributeModels& models_;
   const AttributeInfo* const attributes_;
   const uint32_t count_;
+  const Allocator allocator_;
+  Array<int32_t> exact_;  ///< encoder: ordered floats of what is on a grid
   const uint32_t normal_;
   const uint32_t chart_;
   bool has_tangents_ = false;

@@ -49,9 +49,11 @@ constexpr uint32_t codingPhase(const AttributeInfo& a) {
 constexpr uint32_t skinPartner(const AttributeInfo* attributes, uint32_t count, uint32_t index) {
   const auto isHalf = [](const AttributeInfo& a) {
     return a.format.morph_target == 0 && a.format.component_count == 4 &&
-           (a.format.semantic == Semantic::kJoints ? a.coding == AttributeCoding::kInteger
-                                                   : a.format.semantic == Semantic::kWeights &&
-                                                         a.coding <= AttributeCoding::kExactFloat);
+           (a.format.semantic == Semantic::kJoints
+                ? a.coding == AttributeCoding::kInteger
+                : a.format.semantic == Semantic::kWeights &&
+                      (a.coding <= AttributeCoding::kExactFloat ||
+                       a.coding == AttributeCoding::kGrid));
   };
   const auto firstOf = [=](Semantic semantic, uint8_t set) {
     for (uint32_t i = 1; i < count; ++i) {
