@@ -201,6 +201,7 @@ class PieceCoder {
     if (header_.attribute_count < 2) return {};
     MCC_TRY(stage_.wedges.build(mesh, wedges.half_edges, wedges.count, header_.wedge_count,
                                 header_.has(piece_flag::kSeams) ? wedge_group.data() : nullptr));
+    if (stage_.needsExactPositions()) MCC_TRY(listExactPositions());
     return predictionPositions(
         header_.wedge_count, [this](uint32_t wedge) { return records[groupOf(wedge)].q; },
         stage_.positions);
@@ -271,6 +272,24 @@ class PieceCoder {
  private:
   static constexpr uint8_t kNarrowBits = 17;         ///< Q8 predictions fit 32 bits up to here
   static constexpr uint8_t kExactPositionBits = 26;  ///< scale the seeds of exact floats start with
+
+  /// What the reader gives its caller; what is not finite counts as 0.
+  Status listExactPositions() {
+    if (!stage_.exact_positions.resize(3 * size_t{header_.wedge_count})) return noMemory();
+    const AttributeInfo& info = attributes_[0];
+    for (uint32_t w = 0; w < header_.wedge_count; ++w) {
+      const int32_t* q = records[groupOf(w)].q;
+      float* to = &stage_.exact_positions[3 * size_t{w}];
+      for (uint32_t s = 0; s < 3; ++s) {
+        to[s] = info.coding == AttributeCoding::kLattice
+                    ? latticeValue(q[s], info.lattice.step, info.lattice.origin[s])
+                : info.coding == AttributeCoding::kInteger ? static_cast<float>(q[s])
+                                                           : static_cast<float>(finiteValue(q[s]));
+        if (!(std::fabs(to[s]) <= 3e38f)) to[s] = 0;
+      }
+    }
+    return {};
+  }
 
   /// The compiled combination of modes that fits.
   Status runPositions(const PositionParameters& parameters, const PieceTruth& truth) {

@@ -635,31 +635,51 @@ Status choosePositions(std::vector<Plan>& plans, Runners& runners, uint8_t effor
   return {};
 }
 
+/// Floats on a grid may be coded as floats as well: the values of a plan are the same.
+std::vector<AttributeInfo> exactAlternatives(const AttributeInfo& info) {
+  std::vector<AttributeInfo> all = {info};
+  if (info.coding == AttributeCoding::kGrid && info.format.semantic == Semantic::kNormal) {
+    AttributeInfo plain;
+    plain.format = info.format;
+    plain.coding = AttributeCoding::kExactFloat;
+    all.push_back(plain);
+  }
+  return all;
+}
+
 /// Tries the candidates of one attribute, stage by stage, from where its models are; goes on with the best.
 Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& runner,
                              PayloadModels& models, const CostIo& io) {
   AttributeInfo& info = plan.attributes[index].info;
   const auto before = std::make_unique<AttributeModels>(models.attributes);
-  const auto costWith = [&](uint8_t predictor, uint64_t& cost) -> Status {
-    info.predictor = predictor;
+  const auto costWith = [&](const AttributeInfo& candidate, uint64_t& cost) -> Status {
+    info = candidate;
     models.attributes = *before;
     const uint64_t spent = io.cost();
     MCC_TRY(runner.codeAttribute(index, nullptr));
     cost = io.cost() - spent;
     return {};
   };
-  std::vector<AttributeInfo> infos;
-  for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
-  const AttributeMethod method = methodOf(infos.data(), plan.header.attribute_count, index);
-  if (method == AttributeMethod::kWithAnother) return {};
-  PredictorSearch search(method, info, plan.header.has(piece_flag::kSeams));
-  while (!search.done()) {
-    uint64_t cost = 0;
-    MCC_TRY(costWith(search.candidate(), cost));
-    search.report(cost);
+  AttributeInfo best = info;
+  uint64_t best_cost = ~uint64_t{0};
+  for (AttributeInfo candidate : exactAlternatives(info)) {
+    info = candidate;
+    std::vector<AttributeInfo> infos;
+    for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
+    const AttributeMethod method = methodOf(infos.data(), plan.header.attribute_count, index);
+    if (method == AttributeMethod::kWithAnother) return {};
+    PredictorSearch search(method, candidate, plan.header.has(piece_flag::kSeams));
+    while (!search.done()) {
+      uint64_t cost = 0;
+      candidate.predictor = search.candidate();
+      MCC_TRY(costWith(candidate, cost));
+      search.report(cost);
+      if (cost >= best_cost) continue;
+      best_cost = cost;
+      best = candidate;
+    }
   }
-  uint64_t cost = 0;
-  return costWith(search.best(), cost);
+  return costWith(best, best_cost);
 }
 
 Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t effort) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "attributes/equality.h"
+#include "attributes/exact_normals.h"
 #include "attributes/exact_tails.h"
 #include "attributes/normals.h"
 #include "attributes/skin.h"
@@ -26,7 +27,8 @@ struct AttributeModels {
   TangentModels tangents;
   SkinModels skins[2];          ///< [further set]
   ValueModels values[8][2][2];  ///< [semantic][further set][morph target]
-  TailModels tails[8][2];       ///< [semantic][morph target]
+  VectorModels exact_normals;
+  TailModels tails[8][2];  ///< [semantic][morph target]
 
   EqualityModels& equalitiesOf(const AttributeInfo& a) {
     return equalities[static_cast<uint32_t>(a.format.semantic)];
@@ -58,6 +60,7 @@ class AttributeStage {
                  uint32_t attribute_count, const Allocator& allocator)
       : wedges(allocator),
         positions(allocator),
+        exact_positions(allocator),
         normals(allocator),
         io_(io),
         models_(models),
@@ -69,6 +72,8 @@ class AttributeStage {
         chart_(chartOfTangents(attributes, attribute_count)),
         groups_(allocator),
         floats_(allocator),
+        doubles_(allocator),
+        errors_(allocator),
         chart_coordinates_(allocator),
         memory_(allocator),
         lengths_(allocator),
@@ -97,6 +102,7 @@ class AttributeStage {
     if (grid.info != nullptr) MCC_TRY(enterGrid(grid, values.data()));
     switch (method) {
       case AttributeMethod::kNormal: MCC_TRY(codeNormals(info, values.data())); break;
+      case AttributeMethod::kExactNormal: MCC_TRY(codeExactNormals(info, values.data())); break;
       case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(info, values.data())); break;
       case AttributeMethod::kTangent: MCC_TRY(codeTangents(info, values.data())); break;
       case AttributeMethod::kSkin: codeSkin(index, values.data()); break;
@@ -108,12 +114,22 @@ class AttributeStage {
     return has_tangents_ ? keepForTangents(index, values) : Status{};
   }
 
+  /// Whether an attribute is predicted from positions that are not rounded.
+  bool needsExactPositions() const {
+    for (uint32_t i = 1; i < count_; ++i) {
+      if (methodOf(attributes_, count_, i) == AttributeMethod::kExactNormal) return true;
+      if (Io::kEncoding && attributes_[i].coding == AttributeCoding::kGrid) return true;  // perhaps
+    }
+    return false;
+  }
+
   const AttributeInfo& normalInfo() const { return attributes_[normal_]; }
 
   WedgeMesh wedges;
   Array<float>
       positions;  ///< 4 per wedge, see wedges.h; only when an attribute is predicted from them
-  Array<int32_t> normals;  ///< 2 per wedge, only with tangents
+  Array<float> exact_positions;  ///< 3 per wedge, finite; only if needsExactPositions()
+  Array<int32_t> normals;        ///< 2 per wedge, only with tangents
 
  private:
   static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for attributes"); }
@@ -194,6 +210,15 @@ class AttributeStage {
     return {};
   }
 
+  Status codeExactNormals(const AttributeInfo& info, int32_t* values) {
+    if (!doubles_.resize(3 * size_t{wedges.count}) || !errors_.resize(wedges.count))
+      return noMemory();
+    ExactNormalCoder<Io>(io_, models_.exact_normals, wedges, groups_, info, values, doubles_.data(),
+                         errors_.data())
+        .run(exact_positions.data());
+    return {};
+  }
+
   Status codeTexcoords(const AttributeInfo& info, int32_t* values) {
     const bool repeats = (info.predictor & texcoord_method::kRepeats) != 0;
     if (repeats && !memory_.assign(ResidualMemory::kEntries, {})) return noMemory();
@@ -248,6 +273,8 @@ class AttributeStage {
   bool has_tangents_ = false;
   EqualGroups groups_;
   Array<float> floats_;
+  Array<double> doubles_;
+  Array<VectorError> errors_;
   Array<float> chart_coordinates_;  ///< 2 per wedge, only with tangents
   Array<ResidualMemory::Entry> memory_;
   Array<uint8_t> lengths_;

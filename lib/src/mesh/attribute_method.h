@@ -17,6 +17,7 @@ enum class AttributeMethod : uint8_t {
   kTexcoord,     ///< attributes/texcoords.h
   kTangent,      ///< attributes/tangents.h
   kSkin,         ///< attributes/skin.h: JOINTS_n with its WEIGHTS_n
+  kExactNormal,  ///< attributes/exact_normals.h
   kWithAnother,  ///< coded with another attribute: WEIGHTS_n with its JOINTS_n, aliases
 };
 
@@ -85,6 +86,10 @@ constexpr AttributeMethod methodOf(const AttributeInfo* attributes, uint32_t cou
       a.format.component_count == 2 && a.coding != AttributeCoding::kExactFloat) {
     return AttributeMethod::kTexcoord;
   }
+  if (a.coding == AttributeCoding::kExactFloat && a.format.semantic == Semantic::kNormal &&
+      a.format.morph_target == 0 && a.format.component_count == 3) {
+    return AttributeMethod::kExactNormal;
+  }
   return AttributeMethod::kValues;
 }
 
@@ -96,6 +101,13 @@ inline constexpr uint8_t kWeightMask = 0x03;  ///< NormalWeight
 inline constexpr uint8_t kBlendShift = 2;     ///< 0 none, 1 half, 2 whole
 inline constexpr uint8_t kBlendMask = 0x0c;
 }  // namespace normal_method
+
+namespace exact_normal_method {
+inline constexpr uint8_t kWeightMask = 0x03;  ///< ExactWeight
+inline constexpr uint8_t kBlendShift = 2;     ///< 0 none, 1 half, 2 whole
+inline constexpr uint8_t kBlendMask = 0x0c;
+inline constexpr uint8_t kRemembers = 0x10;
+}  // namespace exact_normal_method
 
 namespace texcoord_method {
 inline constexpr uint8_t kPredictorMask = 0x07;  ///< TexcoordPredictor
@@ -137,6 +149,9 @@ constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count,
     case AttributeMethod::kNormal:
       return (bits & ~0x0f) == 0 && (bits & normal_method::kWeightMask) != 3 &&
              (bits & normal_method::kBlendMask) != normal_method::kBlendMask;
+    case AttributeMethod::kExactNormal:
+      return (bits & ~0x1f) == 0 &&
+             (bits & exact_normal_method::kBlendMask) != exact_normal_method::kBlendMask;
     case AttributeMethod::kTangent: return bits == 0;
     case AttributeMethod::kTexcoord:
       return (bits & ~0x0f) == 0 && (bits & texcoord_method::kPredictorMask) < 5;
