@@ -9,6 +9,7 @@
 #include "attributes/equality.h"
 #include "attributes/exact_normals.h"
 #include "attributes/exact_tails.h"
+#include "attributes/exact_tangents.h"
 #include "attributes/normals.h"
 #include "attributes/skin.h"
 #include "attributes/tangents.h"
@@ -28,6 +29,7 @@ struct AttributeModels {
   SkinModels skins[2];          ///< [further set]
   ValueModels values[8][2][2];  ///< [semantic][further set][morph target]
   VectorModels exact_normals;
+  ExactTangentModels exact_tangents;
   TailModels tails[8][2];  ///< [semantic][morph target]
 
   EqualityModels& equalitiesOf(const AttributeInfo& a) {
@@ -69,18 +71,20 @@ class AttributeStage {
         allocator_(allocator),
         exact_(allocator),
         normal_(normalOfTangents(attributes, attribute_count)),
+        exact_normal_(exactNormalOf(attributes, attribute_count)),
         chart_(chartOfTangents(attributes, attribute_count)),
         groups_(allocator),
         floats_(allocator),
         doubles_(allocator),
         errors_(allocator),
         chart_coordinates_(allocator),
+        exact_normals_(allocator),
         memory_(allocator),
         lengths_(allocator),
         moved_before_(allocator),
         moved_(allocator) {
     for (uint32_t i = 1; i < attribute_count; ++i) {
-      has_tangents_ |= attributes[i].coding == AttributeCoding::kTangentAngle;
+      has_tangents_ |= codingPhase(attributes[i]) == 1;
     }
   }
 
@@ -103,6 +107,7 @@ class AttributeStage {
     switch (method) {
       case AttributeMethod::kNormal: MCC_TRY(codeNormals(info, values.data())); break;
       case AttributeMethod::kExactNormal: MCC_TRY(codeExactNormals(info, values.data())); break;
+      case AttributeMethod::kExactTangent: MCC_TRY(codeExactTangents(info, values.data())); break;
       case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(info, values.data())); break;
       case AttributeMethod::kTangent: MCC_TRY(codeTangents(info, values.data())); break;
       case AttributeMethod::kSkin: codeSkin(index, values.data()); break;
@@ -117,7 +122,9 @@ class AttributeStage {
   /// Whether an attribute is predicted from positions that are not rounded.
   bool needsExactPositions() const {
     for (uint32_t i = 1; i < count_; ++i) {
-      if (methodOf(attributes_, count_, i) == AttributeMethod::kExactNormal) return true;
+      const AttributeMethod method = methodOf(attributes_, count_, i);
+      if (method == AttributeMethod::kExactNormal || method == AttributeMethod::kExactTangent)
+        return true;
       if (Io::kEncoding && attributes_[i].coding == AttributeCoding::kGrid) return true;  // perhaps
     }
     return false;
@@ -219,6 +226,19 @@ class AttributeStage {
     return {};
   }
 
+  Status codeExactTangents(const AttributeInfo& info, int32_t* values) {
+    if (!doubles_.resize(4 * size_t{wedges.count}) || !errors_.resize(wedges.count))
+      return noMemory();
+    TangentSources from;
+    from.positions = exact_positions.data();
+    if (chart_ != kNone) from.chart = chart_coordinates_.data();
+    if (exact_normal_ != kNone) from.normals = exact_normals_.data();
+    ExactTangentCoder<Io>(io_, models_.exact_tangents, wedges, groups_, info, from, values,
+                          doubles_.data(), errors_.data())
+        .run();
+    return {};
+  }
+
   Status codeTexcoords(const AttributeInfo& info, int32_t* values) {
     const bool repeats = (info.predictor & texcoord_method::kRepeats) != 0;
     if (repeats && !memory_.assign(ResidualMemory::kEntries, {})) return noMemory();
@@ -255,6 +275,10 @@ class AttributeStage {
       if (!normals.resize(values.size())) return noMemory();
       std::copy(values.data(), values.data() + values.size(), normals.data());
     }
+    if (index == exact_normal_) {
+      if (!exact_normals_.resize(values.size())) return noMemory();
+      std::copy(values.data(), values.data() + values.size(), exact_normals_.data());
+    }
     if (index == chart_) {
       if (!chart_coordinates_.resize(values.size())) return noMemory();
       chartCoordinates(attributes_[index], values.data(), values.size(), chart_coordinates_.data());
@@ -269,6 +293,7 @@ class AttributeStage {
   const Allocator allocator_;
   Array<int32_t> exact_;  ///< encoder: ordered floats of what is on a grid
   const uint32_t normal_;
+  const uint32_t exact_normal_;
   const uint32_t chart_;
   bool has_tangents_ = false;
   EqualGroups groups_;
@@ -276,6 +301,7 @@ class AttributeStage {
   Array<double> doubles_;
   Array<VectorError> errors_;
   Array<float> chart_coordinates_;  ///< 2 per wedge, only with tangents
+  Array<int32_t> exact_normals_;    ///< 3 ordered floats per wedge, only with tangents
   Array<ResidualMemory::Entry> memory_;
   Array<uint8_t> lengths_;
   Array<uint8_t> moved_before_;  ///< see attributes/values.h; only with morph targets

@@ -157,7 +157,7 @@ void ExactNormalCoder<Io>::codeGroup(uint32_t w) {
     }
   }
   int32_t* value = values_ + 3 * size_t{w};
-  coder_.code(predicted, error, value);
+  coder_.code(predicted, nullptr, error, value);
   last_error_ = error;
   double missed[3];
   for (int s = 0; s < 3; ++s) {

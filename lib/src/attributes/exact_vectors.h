@@ -92,14 +92,19 @@ class VectorCoder {
   VectorCoder(Io& io, VectorModels& models, bool remembers)
       : io_(io), models_(models), remembers_(remembers) {}
 
-  /// `predicted`: of length 1 or 0. `value`: three ordered floats. `error`: expected, then that of this vector.
-  void code(const double* predicted, VectorError& error, int32_t* value) {
+  /// `predicted`: of length 1 or 0. `value`: three ordered floats. `error`: expected, then that of this vector. `normal`:
+  /// unit vector that the prediction is, and the vector may be, perpendicular to; or null.
+  void code(const double* predicted, const double* normal, VectorError& error, int32_t* value) {
     VectorMemory::Entry* entry = remembers_ ? &models_.memory.of(predicted) : nullptr;
     if (entry != nullptr && codeKnown(predicted, *entry, value)) {
       error.size *= 0.5f;
       return;
     }
-    codeComponents(predicted, error, value);
+    if (normal != nullptr) {
+      codeInPlane(predicted, normal, error, value);
+    } else {
+      codeComponents(predicted, error, value);
+    }
     if (entry == nullptr) return;
     for (int s = 0; s < 3; ++s) entry->magnitude[s] = bitsFromOrdered(value[s]) & 0x7fffffffu;
     entry->confidence = entry->confidence > 1 ? 1 : entry->confidence + (entry->confidence == 0);
@@ -136,11 +141,47 @@ class VectorCoder {
     const double y = finiteValue(value[b]);
     const double rest = 1.0 - x * x - y * y;
     const double third = rest > 0 ? std::sqrt(rest) : 0.0;
-    const double last = predicted[longest] < 0 ? -third : third;
+    double last = predicted[longest] < 0 ? -third : third;
+    if (!(std::fabs(last) < 4)) last = 0;
     const double place = lastPlaceOf(orderedFromFloat(static_cast<float>(last)));
     const double missed =
         codeComponent<2>(last, static_cast<double>(error.places) * place, value[longest]);
     error.places = (error.places + static_cast<float>(missed / place)) / 2;
+  }
+
+  /// One component by itself, the other two such that the vector is perpendicular to the normal.
+  void codeInPlane(const double* predicted, const double* normal, VectorError& error,
+                   int32_t* value) {
+    double beside[3];
+    cross(normal, predicted, beside);
+    uint32_t first = 0;  // the one that turns fastest
+    for (uint32_t s = 1; s < 3; ++s) {
+      if (std::fabs(beside[s]) > std::fabs(beside[first])) first = s;
+    }
+    const double of_first =
+        codeComponent<0>(predicted[first], static_cast<double>(error.size), value[first]);
+    error.size = static_cast<float>(of_first);
+    const double x = finiteValue(value[first]);
+    const double p = predicted[first];
+    const double b = beside[first];
+    const double reach = p * p + b * b;
+    const double rest = reach - x * x;
+    const double root = rest > 0 ? std::sqrt(rest) : 0.0;
+    const double inverse = reach > 1e-30 ? 1.0 / reach : 0.0;
+    const double along = (x * p + std::fabs(b) * root) * inverse;
+    const double across = (x * b - (b < 0 ? -p : p) * root) * inverse;
+    float missed_places = 0;
+    for (uint32_t i = 1; i < 3; ++i) {
+      const uint32_t s = (first + i) % 3;
+      double last = along * predicted[s] + across * beside[s];
+      if (!(std::fabs(last) < 4)) last = 0;
+      const double place = lastPlaceOf(orderedFromFloat(static_cast<float>(last)));
+      const double expected = static_cast<double>(error.places) * place;
+      const double missed = i == 1 ? codeComponent<1>(last, expected, value[s])
+                                   : codeComponent<2>(last, expected, value[s]);
+      missed_places += static_cast<float>(missed / place);
+    }
+    error.places = (error.places + missed_places / 2) / 2;
   }
 
   /// Returns what the prediction missed, in multiples of its last place.

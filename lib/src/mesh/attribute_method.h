@@ -12,19 +12,33 @@ namespace mcc {
 
 /// The coder follows from what the header says; there is no field for it.
 enum class AttributeMethod : uint8_t {
-  kValues,       ///< attributes/values.h
-  kNormal,       ///< attributes/normals.h
-  kTexcoord,     ///< attributes/texcoords.h
-  kTangent,      ///< attributes/tangents.h
-  kSkin,         ///< attributes/skin.h: JOINTS_n with its WEIGHTS_n
-  kExactNormal,  ///< attributes/exact_normals.h
-  kWithAnother,  ///< coded with another attribute: WEIGHTS_n with its JOINTS_n, aliases
+  kValues,        ///< attributes/values.h
+  kNormal,        ///< attributes/normals.h
+  kTexcoord,      ///< attributes/texcoords.h
+  kTangent,       ///< attributes/tangents.h
+  kSkin,          ///< attributes/skin.h: JOINTS_n with its WEIGHTS_n
+  kExactNormal,   ///< attributes/exact_normals.h
+  kExactTangent,  ///< attributes/exact_tangents.h
+  kWithAnother,   ///< coded with another attribute: WEIGHTS_n with its JOINTS_n, aliases
 };
 
 /// The attribute of a piece that gives tangents their plane: the first NORMAL on the octahedral grid; or kNone.
 constexpr uint32_t normalOfTangents(const AttributeInfo* attributes, uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) {
     if (attributes[i].coding == AttributeCoding::kOctahedral) return i;
+  }
+  return kNone;
+}
+
+/// The attribute of a piece that exact tangents are perpendicular to: the first NORMAL with exact floats; or kNone.
+constexpr uint32_t exactNormalOf(const AttributeInfo* attributes, uint32_t count) {
+  for (uint32_t i = 0; i < count; ++i) {
+    const AttributeInfo& a = attributes[i];
+    if (a.format.semantic == Semantic::kNormal && a.format.morph_target == 0 &&
+        a.format.component_count == 3 &&
+        (a.coding == AttributeCoding::kExactFloat || a.coding == AttributeCoding::kGrid)) {
+      return i;
+    }
   }
   return kNone;
 }
@@ -43,7 +57,8 @@ constexpr uint32_t chartOfTangents(const AttributeInfo* attributes, uint32_t cou
 /// Attributes are coded in the order of their phases, within a phase in that of the header. [A.8.1]
 inline constexpr uint32_t kCodingPhases = 2;
 constexpr uint32_t codingPhase(const AttributeInfo& a) {
-  return a.coding == AttributeCoding::kTangentAngle ? 1 : 0;  // behind normals and charts
+  const bool is_tangent = a.format.semantic == Semantic::kTangent && a.format.morph_target == 0;
+  return is_tangent ? 1 : 0;  // behind normals and charts
 }
 
 /// JOINTS_n and WEIGHTS_n of four components are coded as one: the other attribute of the pair, or kNone.
@@ -90,6 +105,10 @@ constexpr AttributeMethod methodOf(const AttributeInfo* attributes, uint32_t cou
       a.format.morph_target == 0 && a.format.component_count == 3) {
     return AttributeMethod::kExactNormal;
   }
+  if (a.coding == AttributeCoding::kExactFloat && a.format.semantic == Semantic::kTangent &&
+      a.format.morph_target == 0 && a.format.component_count == 4) {
+    return AttributeMethod::kExactTangent;
+  }
   return AttributeMethod::kValues;
 }
 
@@ -108,6 +127,12 @@ inline constexpr uint8_t kBlendShift = 2;     ///< 0 none, 1 half, 2 whole
 inline constexpr uint8_t kBlendMask = 0x0c;
 inline constexpr uint8_t kRemembers = 0x10;
 }  // namespace exact_normal_method
+
+namespace exact_tangent_method {
+inline constexpr uint8_t kWeightMask = 0x03;  ///< TangentWeight
+inline constexpr uint8_t kPerpendicular = 0x04;
+inline constexpr uint8_t kRemembers = 0x08;
+}  // namespace exact_tangent_method
 
 namespace texcoord_method {
 inline constexpr uint8_t kPredictorMask = 0x07;  ///< TexcoordPredictor
@@ -152,6 +177,7 @@ constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count,
     case AttributeMethod::kExactNormal:
       return (bits & ~0x1f) == 0 &&
              (bits & exact_normal_method::kBlendMask) != exact_normal_method::kBlendMask;
+    case AttributeMethod::kExactTangent: return (bits & ~0x0f) == 0;
     case AttributeMethod::kTangent: return bits == 0;
     case AttributeMethod::kTexcoord:
       return (bits & ~0x0f) == 0 && (bits & texcoord_method::kPredictorMask) < 5;
