@@ -638,9 +638,7 @@ Status choosePositions(std::vector<Plan>& plans, Runners& runners, uint8_t effor
 /// Floats on a grid may be coded as floats as well: the values of a plan are the same.
 std::vector<AttributeInfo> exactAlternatives(const AttributeInfo& info) {
   std::vector<AttributeInfo> all = {info};
-  if (info.coding == AttributeCoding::kGrid &&
-      (info.format.semantic == Semantic::kNormal || info.format.semantic == Semantic::kTangent) &&
-      info.format.morph_target == 0) {
+  if (info.coding == AttributeCoding::kGrid && info.format.morph_target == 0) {
     AttributeInfo plain;
     plain.format = info.format;
     plain.coding = AttributeCoding::kExactFloat;

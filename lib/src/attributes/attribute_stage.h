@@ -10,6 +10,7 @@
 #include "attributes/exact_normals.h"
 #include "attributes/exact_tails.h"
 #include "attributes/exact_tangents.h"
+#include "attributes/exact_values.h"
 #include "attributes/normals.h"
 #include "attributes/skin.h"
 #include "attributes/tangents.h"
@@ -30,7 +31,8 @@ struct AttributeModels {
   ValueModels values[8][2][2];  ///< [semantic][further set][morph target]
   VectorModels exact_normals;
   ExactTangentModels exact_tangents;
-  TailModels tails[8][2];  ///< [semantic][morph target]
+  ExactValueModels exact_values[8];  ///< [semantic]
+  TailModels tails[8][2];            ///< [semantic][morph target]
 
   EqualityModels& equalitiesOf(const AttributeInfo& a) {
     return equalities[static_cast<uint32_t>(a.format.semantic)];
@@ -77,6 +79,7 @@ class AttributeStage {
         floats_(allocator),
         doubles_(allocator),
         errors_(allocator),
+        edges_(allocator),
         chart_coordinates_(allocator),
         exact_normals_(allocator),
         memory_(allocator),
@@ -108,6 +111,7 @@ class AttributeStage {
       case AttributeMethod::kNormal: MCC_TRY(codeNormals(info, values.data())); break;
       case AttributeMethod::kExactNormal: MCC_TRY(codeExactNormals(info, values.data())); break;
       case AttributeMethod::kExactTangent: MCC_TRY(codeExactTangents(info, values.data())); break;
+      case AttributeMethod::kExactValues: MCC_TRY(codeExactValues(info, values.data())); break;
       case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(info, values.data())); break;
       case AttributeMethod::kTangent: MCC_TRY(codeTangents(info, values.data())); break;
       case AttributeMethod::kSkin: codeSkin(index, values.data()); break;
@@ -123,7 +127,8 @@ class AttributeStage {
   bool needsExactPositions() const {
     for (uint32_t i = 1; i < count_; ++i) {
       const AttributeMethod method = methodOf(attributes_, count_, i);
-      if (method == AttributeMethod::kExactNormal || method == AttributeMethod::kExactTangent)
+      if (method == AttributeMethod::kExactNormal || method == AttributeMethod::kExactTangent ||
+          method == AttributeMethod::kExactValues)
         return true;
       if (Io::kEncoding && attributes_[i].coding == AttributeCoding::kGrid) return true;  // perhaps
     }
@@ -239,6 +244,18 @@ class AttributeStage {
     return {};
   }
 
+  Status codeExactValues(const AttributeInfo& info, int32_t* values) {
+    const bool remembers = (info.predictor & exact_value_method::kRemembers) != 0;
+    if (!floats_.resize(wedges.count) || (remembers && !edges_.prepare(wedges.face_count)))
+      return noMemory();
+    ExactValueCoder<Io>(io_, models_.exact_values[static_cast<uint32_t>(info.format.semantic)],
+                        wedges, groups_, info, exact_positions.data(), values, floats_.data(),
+                        remembers ? &edges_ : nullptr)
+        .run();
+    edges_.clear();
+    return {};
+  }
+
   Status codeTexcoords(const AttributeInfo& info, int32_t* values) {
     const bool repeats = (info.predictor & texcoord_method::kRepeats) != 0;
     if (repeats && !memory_.assign(ResidualMemory::kEntries, {})) return noMemory();
@@ -300,6 +317,7 @@ class AttributeStage {
   Array<float> floats_;
   Array<double> doubles_;
   Array<VectorError> errors_;
+  EdgeMemory edges_;
   Array<float> chart_coordinates_;  ///< 2 per wedge, only with tangents
   Array<int32_t> exact_normals_;    ///< 3 ordered floats per wedge, only with tangents
   Array<ResidualMemory::Entry> memory_;

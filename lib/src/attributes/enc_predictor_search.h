@@ -37,6 +37,11 @@ class PredictorSearch {
                   {exact_tangent_method::kRemembers, {exact_tangent_method::kRemembers}},
                   {exact_tangent_method::kPerpendicular, {0}}};
         break;
+      case AttributeMethod::kExactValues:
+        best_ = has_seams ? kHasEqualities : 0;
+        steps_ = {{exact_value_method::kPredictorMask, {0, 1, 2}},
+                  {exact_value_method::kRemembers, {exact_value_method::kRemembers}}};
+        break;
       case AttributeMethod::kTexcoord:
         best_ = has_seams ? kHasEqualities : 0;
         steps_ = {{texcoord_method::kPredictorMask, {0, 1, 3, 2, 4}},

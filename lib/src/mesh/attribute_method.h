@@ -19,6 +19,7 @@ enum class AttributeMethod : uint8_t {
   kSkin,          ///< attributes/skin.h: JOINTS_n with its WEIGHTS_n
   kExactNormal,   ///< attributes/exact_normals.h
   kExactTangent,  ///< attributes/exact_tangents.h
+  kExactValues,   ///< attributes/exact_values.h
   kWithAnother,   ///< coded with another attribute: WEIGHTS_n with its JOINTS_n, aliases
 };
 
@@ -109,6 +110,10 @@ constexpr AttributeMethod methodOf(const AttributeInfo* attributes, uint32_t cou
       a.format.morph_target == 0 && a.format.component_count == 4) {
     return AttributeMethod::kExactTangent;
   }
+  if (a.coding == AttributeCoding::kExactFloat && a.format.morph_target == 0 &&
+      a.format.component_count <= 4) {
+    return AttributeMethod::kExactValues;
+  }
   return AttributeMethod::kValues;
 }
 
@@ -133,6 +138,11 @@ inline constexpr uint8_t kWeightMask = 0x03;  ///< TangentWeight
 inline constexpr uint8_t kPerpendicular = 0x04;
 inline constexpr uint8_t kRemembers = 0x08;
 }  // namespace exact_tangent_method
+
+namespace exact_value_method {
+inline constexpr uint8_t kPredictorMask = 0x03;  ///< ExactPredictor
+inline constexpr uint8_t kRemembers = 0x04;
+}  // namespace exact_value_method
 
 namespace texcoord_method {
 inline constexpr uint8_t kPredictorMask = 0x07;  ///< TexcoordPredictor
@@ -178,6 +188,8 @@ constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count,
       return (bits & ~0x1f) == 0 &&
              (bits & exact_normal_method::kBlendMask) != exact_normal_method::kBlendMask;
     case AttributeMethod::kExactTangent: return (bits & ~0x0f) == 0;
+    case AttributeMethod::kExactValues:
+      return (bits & ~0x07) == 0 && (bits & exact_value_method::kPredictorMask) < 3;
     case AttributeMethod::kTangent: return bits == 0;
     case AttributeMethod::kTexcoord:
       return (bits & ~0x0f) == 0 && (bits & texcoord_method::kPredictorMask) < 5;
