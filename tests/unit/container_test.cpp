@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "attributes/exact_grid.h"
 #include "base/crc32.h"
 #include "container/enc_payload.h"
 #include "container/payload_header.h"
@@ -49,6 +50,15 @@ AttributeInfo anyAttribute(Random& random) {
   if (random.chance(40)) {
     a.format.component_type = static_cast<ComponentType>(random.below(5));
     a.coding = AttributeCoding::kInteger;
+  } else if (random.chance(30)) {
+    a.coding = AttributeCoding::kGrid;
+    a.format.component_count = static_cast<uint8_t>(random.between(1, kGridComponents));
+    a.bits = static_cast<uint8_t>(random.between(1, kGridBits + 1));
+    a.grid = static_cast<uint16_t>(random.below(kGridFractionEnd));
+    if (random.chance(50)) {
+      a.grid = static_cast<uint16_t>(random.between(kGridBinary, kGridCount - 1));
+      a.tails = static_cast<uint8_t>(random.below(3));
+    }
   } else if (random.chance(30)) {
     a.coding = AttributeCoding::kExactFloat;
   } else if (random.chance(30)) {
@@ -119,9 +129,9 @@ Draft anyDraft(uint64_t seed) {
   for (Draft::Piece& piece : draft.pieces) {
     PieceHeader& h = piece.header;
     const auto sometimes = [&](uint32_t flag) { return random.chance(50) ? flag : 0; };
-    for (const uint32_t flag : {piece_flag::kManyParts, piece_flag::kHoles, piece_flag::kHandles,
-                                piece_flag::kIsolated, piece_flag::kDuplicates,
-                                piece_flag::kEdgeDegenerates, piece_flag::kListed}) {
+    for (const uint32_t flag :
+         {piece_flag::kManyParts, piece_flag::kHoles, piece_flag::kHandles, piece_flag::kIsolated,
+          piece_flag::kDuplicates, piece_flag::kEdgeDegenerates, piece_flag::kListed}) {
       h.flags |= sometimes(flag);
     }
     if (random.chance(50)) h.flags |= piece_flag::kSeams | sometimes(piece_flag::kMerges);
@@ -143,8 +153,7 @@ Draft anyDraft(uint64_t seed) {
     }
     piece.part_triangles.push_back(rest);
     const uint32_t attribute_count = random.below(6);
-    for (uint32_t i = 0; i < attribute_count; ++i)
-      piece.attributes.push_back(anyAttribute(random));
+    for (uint32_t i = 0; i < attribute_count; ++i) piece.attributes.push_back(anyAttribute(random));
     if (&piece != draft.pieces.data() && random.chance(50))
       piece.attributes = (&piece - 1)->attributes;
   }
@@ -172,6 +181,8 @@ void expectSameAttribute(const AttributeInfo& parsed, const AttributeInfo& writt
   EXPECT_TRUE(parsed.format == written.format);
   EXPECT_EQ(parsed.coding, written.coding);
   EXPECT_EQ(parsed.predictor, written.predictor);
+  EXPECT_EQ(parsed.grid, written.grid);
+  EXPECT_EQ(parsed.tails, written.tails);
   EXPECT_EQ(parsed.bits, written.bits);
   EXPECT_TRUE(parsed.lattice == written.lattice);
 }
@@ -224,11 +235,11 @@ TEST(Container, EveryTruncationOfTheHeaderIsAnError) {
     const std::vector<uint8_t> payload = anyDraft(seed).write();
     PayloadHeader parsed{Allocator{}};
     ASSERT_TRUE(parsePayload(payload, {}, parsed).ok());
-    const size_t needed = parsed.header_bytes + (parsed.singleCoder()
-                                                     ? 0
-                                                     : parsed.codes.size() + parsed.tokens.size());
+    const size_t needed = parsed.header_bytes +
+                          (parsed.singleCoder() ? 0 : parsed.codes.size() + parsed.tokens.size());
     for (size_t size = 0; size < std::min<size_t>(needed, 600); ++size) {
-      std::vector<uint8_t> cut(payload.begin(), payload.begin() + static_cast<std::ptrdiff_t>(size));
+      std::vector<uint8_t> cut(payload.begin(),
+                               payload.begin() + static_cast<std::ptrdiff_t>(size));
       if (size >= kChecksummedFrom) repairChecksum(cut);
       const Error error = parseError(cut);
       EXPECT_TRUE(error == (size < 3 ? Error::kBadMagic : Error::kTruncated) ||
@@ -244,9 +255,9 @@ TEST(Container, ChecksumCoversEveryBit) {
     std::vector<uint8_t> damaged = payload;
     damaged[bit / 8] = static_cast<uint8_t>(damaged[bit / 8] ^ 1u << bit % 8);
     const Error error = parseError(damaged);
-    const Error expected = bit < 24                   ? Error::kBadMagic
-                           : bit >= 28 && bit < 32    ? Error::kUnsupportedVersion
-                                                      : Error::kBadChecksum;
+    const Error expected = bit < 24                ? Error::kBadMagic
+                           : bit >= 28 && bit < 32 ? Error::kUnsupportedVersion
+                                                   : Error::kBadChecksum;
     EXPECT_EQ(error, expected) << "bit " << bit;
   }
 }
@@ -265,8 +276,8 @@ TEST(Container, Versions) {
 
 TEST(Container, ReservedBits) {
   for (uint32_t flags = 0; flags < 256; ++flags) {
-    const bool known = (flags & ~payload_flag::kAll) == 0 &&
-                       flags >> payload_flag::kContextSetShift <= 4;
+    const bool known =
+        (flags & ~payload_flag::kAll) == 0 && flags >> payload_flag::kContextSetShift <= 4;
     std::vector<uint8_t> payload = simpleDraft().write();
     payload[kChecksummedFrom] = static_cast<uint8_t>(flags);
     repairChecksum(payload);
@@ -318,6 +329,13 @@ TEST(Container, CountsThatContradictEachOther) {
     EXPECT_EQ(errorAfter(changes[i]), Error::kBadHeader) << "change " << i;
 }
 
+void setGrid(AttributeInfo& a, uint32_t bits, uint32_t tails, uint32_t grid) {
+  a.coding = AttributeCoding::kGrid;
+  a.bits = static_cast<uint8_t>(bits);
+  a.tails = static_cast<uint8_t>(tails);
+  a.grid = static_cast<uint16_t>(grid);
+}
+
 TEST(Container, AttributesThatAreNone) {
   using Change = std::function<void(AttributeInfo&)>;
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -354,6 +372,20 @@ TEST(Container, AttributesThatAreNone) {
         a.coding = AttributeCoding::kOctahedral;
         a.bits = 10;
         a.format.component_count = 2;
+      },
+      [](AttributeInfo& a) { setGrid(a, 0, 0, 3); },
+      [](AttributeInfo& a) { setGrid(a, kGridBits + 2, 0, 3); },
+      [](AttributeInfo& a) { setGrid(a, 10, 1, 3); },
+      [](AttributeInfo& a) { setGrid(a, 10, 3, kGridBinary); },
+      [](AttributeInfo& a) { setGrid(a, 10, 0, kGridFractionEnd); },
+      [](AttributeInfo& a) { setGrid(a, 10, 0, kGridCount); },
+      [](AttributeInfo& a) {
+        setGrid(a, 10, 0, 3);
+        a.format.component_count = kGridComponents + 1;
+      },
+      [](AttributeInfo& a) {
+        setGrid(a, 10, 0, 3);
+        a.format.component_type = ComponentType::kUint32;
       },
   };
   for (size_t i = 0; i < changes.size(); ++i) {
@@ -447,11 +479,13 @@ TEST(Container, LimitsOfTheFormat) {
   Limits limits;
   limits.max_vertices = limits.max_triangles = ~uint64_t{0};
   const auto with = [&limits](uint32_t PieceHeader::*field, uint32_t value) {
-    return errorAfter([=](Draft& d) {
-      d.pieces[0].header.flags |= piece_flag::kDuplicates | piece_flag::kListed;
-      d.pieces[0].header.*field = value;
-      d.pieces[0].part_triangles = {static_cast<uint32_t>(d.pieces[0].header.triangleCount())};
-    }, limits);
+    return errorAfter(
+        [=](Draft& d) {
+          d.pieces[0].header.flags |= piece_flag::kDuplicates | piece_flag::kListed;
+          d.pieces[0].header.*field = value;
+          d.pieces[0].part_triangles = {static_cast<uint32_t>(d.pieces[0].header.triangleCount())};
+        },
+        limits);
   };
   EXPECT_EQ(with(&PieceHeader::wedge_count, 1u << 28), Error::kLimit);
   EXPECT_EQ(with(&PieceHeader::wedge_count, ~0u), Error::kLimit);

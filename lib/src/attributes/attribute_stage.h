@@ -225,9 +225,12 @@ class AttributeStage {
   Status codeExactNormals(const AttributeInfo& info, int32_t* values) {
     if (!doubles_.resize(3 * size_t{wedges.count}) || !errors_.resize(wedges.count))
       return noMemory();
+    const bool remembers = (info.predictor & exact_normal_method::kRemembersEdges) != 0;
+    if (remembers && !edges_.prepare(wedges.face_count)) return noMemory();
     ExactNormalCoder<Io>(io_, models_.exact_normals, wedges, groups_, info, values, doubles_.data(),
-                         errors_.data())
+                         errors_.data(), remembers ? &edges_ : nullptr)
         .run(exact_positions.data());
+    edges_.clear();
     return {};
   }
 

@@ -90,7 +90,7 @@ bool findExactGrid(std::span<const int32_t> ordered, AttributeInfo& info) {
   if (!e.finite) return false;
   const float largest = std::bit_cast<float>(e.largest);
   if (e.largest == 0) {
-    setGrid(0, GridTails::kNone, 0, info);
+    setGrid(0, GridTails::kNoTails, 0, info);
     if (e.minus_zero) setGrid(binaryGrid(0), GridTails::kPlain, 0, info);
     return true;
   }
@@ -102,13 +102,13 @@ bool findExactGrid(std::span<const int32_t> ordered, AttributeInfo& info) {
   if (e.lowest_bit - kSmallestExponent < kGridExponents && -e.lowest_bit <= best &&
       isOn(ExactGrid(binaryGrid(e.lowest_bit)), ordered, largest)) {
     best = -e.lowest_bit;
-    setGrid(binaryGrid(e.lowest_bit), GridTails::kNone, largest, info);
+    setGrid(binaryGrid(e.lowest_bit), GridTails::kNoTails, largest, info);
   }
   for (uint32_t grid = 0; grid < kGridFractionEnd; ++grid) {
     const ExactGrid candidate(grid);
     if (std::log2(candidate.scale()) >= best || !isOn(candidate, ordered, largest)) continue;
     best = std::log2(candidate.scale());
-    setGrid(grid, GridTails::kNone, largest, info);
+    setGrid(grid, GridTails::kNoTails, largest, info);
   }
   return true;
 }

@@ -15,6 +15,7 @@ namespace {
 using Kind = PositionRecording::Kind;
 
 constexpr uint8_t kNarrowBits = 17;
+constexpr size_t kLargePalette = 1u << 16;                 ///< vertices
 constexpr uint32_t kRunLength = 1024;                      ///< of consecutive vertices in a sample
 constexpr uint32_t kTrialVertices[] = {4000, 12000, ~0u};  ///< by effort
 constexpr uint32_t kFitVertices[] = {3000, 7000, 32000};
@@ -552,7 +553,9 @@ void DistinctCoordinates::find(std::span<const int32_t> truth) {
     for (size_t i = 0; i < vertices; ++i) values[i] = truth[3 * i + s];
     std::sort(values.begin(), values.end());
     values.erase(std::unique(values.begin(), values.end()), values.end());
-    if (2 * values.size() > vertices) values.clear();
+    // Searching a large palette misses the cache at every step: it must pay.
+    const size_t limit = vertices < kLargePalette ? 3 * vertices / 4 : vertices / 2;
+    if (values.size() > limit) values.clear();
   }
 }
 

@@ -27,6 +27,7 @@ class PredictorSearch {
         best_ = has_seams ? kHasEqualities : 0;
         steps_ = {{exact_normal_method::kWeightMask, {0, 1, 2, 3}},
                   {exact_normal_method::kRemembers, {exact_normal_method::kRemembers}},
+                  {exact_normal_method::kRemembersEdges, {exact_normal_method::kRemembersEdges}},
                   {exact_normal_method::kBlendMask,
                    {1 << exact_normal_method::kBlendShift, 2 << exact_normal_method::kBlendShift}}};
         break;

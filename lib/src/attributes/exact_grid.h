@@ -27,7 +27,7 @@ inline constexpr uint32_t kGridBits = 26;  ///< of a grid's integers, without th
 
 /// AttributeInfo::tails: how the bits below the step are coded.
 enum class GridTails : uint8_t {
-  kNone = 0,
+  kNoTails = 0,
   kPlain = 1,
   kCached = 2,  ///< those of equal integers tend to be equal
 };
@@ -105,8 +105,8 @@ class ExactGrid {
 inline int32_t gridInteger(const AttributeInfo& info, int32_t ordered) {
   const ExactGrid grid(info.grid);
   const float value = std::bit_cast<float>(bitsFromOrdered(ordered));
-  return static_cast<GridTails>(info.tails) == GridTails::kNone ? grid.nearest(value)
-                                                                : grid.integerPart(value);
+  return static_cast<GridTails>(info.tails) == GridTails::kNoTails ? grid.nearest(value)
+                                                                   : grid.integerPart(value);
 }
 
 }  // namespace mcc

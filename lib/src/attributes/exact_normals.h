@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "attributes/edge_memory.h"
 #include "attributes/exact_vectors.h"
 #include "attributes/wedges.h"
 #include "mcc/reader.h"
@@ -85,8 +86,12 @@ class ExactNormalCoder {
  public:
   /// Work space: `sums` 3 per wedge, `errors` one per wedge. `values`: three ordered floats per wedge.
   ExactNormalCoder(Io& io, VectorModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
-                   const AttributeInfo& info, int32_t* values, double* sums, VectorError* errors)
-      : coder_(io, models, (info.predictor & exact_normal_method::kRemembers) != 0),
+                   const AttributeInfo& info, int32_t* values, double* sums, VectorError* errors,
+                   EdgeMemory* edges)
+      : io_(io),
+        models_(models),
+        edges_(edges),
+        coder_(io, models, (info.predictor & exact_normal_method::kRemembers) != 0),
         wedges_(wedges),
         groups_(groups),
         weight_(static_cast<ExactWeight>(info.predictor & exact_normal_method::kWeightMask)),
@@ -98,7 +103,7 @@ class ExactNormalCoder {
 
   void run(const float* positions) {
     std::fill(sums_, sums_ + 3 * size_t{wedges_.count}, 0.0);
-    std::fill(errors_, errors_ + wedges_.count, VectorError{});
+    std::fill(errors_, errors_ + wedges_.count, VectorError{0, kNotYet});
     switch (weight_) {
       case ExactWeight::kArea: addExactFaces<ExactWeight::kArea>(wedges_, positions, sums_); break;
       case ExactWeight::kAngle:
@@ -119,6 +124,32 @@ class ExactNormalCoder {
   double* sum(uint32_t w) { return sums_ + 3 * size_t{w}; }
   void codeGroup(uint32_t w);
 
+  /// Without signs: mirrored parts are alike.
+  uint64_t hashOf(uint32_t w) const {
+    uint64_t h = 0x243f6a8885a308d3u;
+    for (uint32_t s = 0; s < 3; ++s) {
+      const uint32_t bits = bitsFromOrdered(values_[3 * size_t{w} + s]) & 0x7fffffffu;
+      h = (h ^ bits) * 0x9e3779b97f4a7c15u;
+      h ^= h >> 29;
+    }
+    return h;
+  }
+  uint64_t keyOf(uint32_t a, uint32_t b) const {
+    const uint64_t h = (hashOf(a) + hashOf(b)) * 0xbf58476d1ce4e5b9u;
+    return h ^ (h >> 32);
+  }
+  bool codeKnown(uint32_t w, uint32_t entry, const double* predicted);
+  void learnFaces(uint32_t w);
+
+  static constexpr uint32_t kFaceLimit = 16;
+  static constexpr float kNotYet = -1;
+
+  bool coded(uint32_t w) const { return errors_[w].places >= 0; }
+
+  Io& io_;
+  VectorModels& models_;
+  EdgeMemory* const edges_;  ///< prepared, or null
+  uint32_t history_ = 0;
   VectorCoder<Io> coder_;
   const WedgeMesh& wedges_;
   const EqualGroups& groups_;
@@ -145,7 +176,11 @@ void ExactNormalCoder<Io>::codeGroup(uint32_t w) {
   VectorError error = last_error_;
   double predicted[3] = {direction[0], direction[1], direction[2]};
   if (entry != kNone) {
-    // A neighbour that is coded later, which no sound mesh has, still holds its sum: deterministic, merely useless.
+    const uint32_t n = wedges_.faces.vertex(nextHalfEdge(entry));
+    const uint32_t p = wedges_.faces.vertex(prevHalfEdge(entry));
+    if (!coded(n) || !coded(p)) entry = kNone;  // a face with two corners at one vertex
+  }
+  if (entry != kNone) {
     const uint32_t n = wedges_.faces.vertex(nextHalfEdge(entry));
     const uint32_t p = wedges_.faces.vertex(prevHalfEdge(entry));
     error.size = (errors_[n].size + errors_[p].size) / 2;
@@ -157,7 +192,9 @@ void ExactNormalCoder<Io>::codeGroup(uint32_t w) {
     }
   }
   int32_t* value = values_ + 3 * size_t{w};
-  coder_.code(predicted, nullptr, error, value);
+  if (edges_ == nullptr || entry == kNone || !codeKnown(w, entry, predicted)) {
+    coder_.code(predicted, nullptr, error, value);
+  }
   last_error_ = error;
   double missed[3];
   for (int s = 0; s < 3; ++s) {
@@ -170,6 +207,51 @@ void ExactNormalCoder<Io>::codeGroup(uint32_t w) {
     std::copy_n(value, 3, values_ + 3 * size_t{m});
     std::copy_n(missed, 3, sum(m));
     errors_[m] = error;
+    if (edges_ != nullptr) learnFaces(m);
+  }
+}
+
+/// Whether the vector is, but for signs, one that stood beside those of the entry face before.
+template <class Io>
+bool ExactNormalCoder<Io>::codeKnown(uint32_t w, uint32_t entry, const double* predicted) {
+  const FaceView& faces = wedges_.faces;
+  const uint32_t t = faces.twin(nextHalfEdge(entry));
+  const uint32_t o = t == kNone ? w : faces.vertex(prevHalfEdge(t));
+  const EdgeMemory::Known known =
+      edges_->at(keyOf(faces.vertex(nextHalfEdge(entry)), faces.vertex(prevHalfEdge(entry))));
+  int32_t* value = values_ + 3 * size_t{w};
+  uint32_t asked = 0;
+  for (const uint32_t k : known.wedge) {
+    if (k == kNone || k == o) continue;
+    int32_t candidate[3];
+    for (uint32_t s = 0; s < 3; ++s) {
+      const uint32_t bits = bitsFromOrdered(values_[3 * size_t{k} + s]) & 0x7fffffffu;
+      candidate[s] = orderedFromBits(bits | (predicted[s] < 0 ? 0x80000000u : 0u));
+    }
+    const bool equal = std::equal(candidate, candidate + 3, value);
+    const bool hit = io_.bit(models_.beside[asked][history_], Io::kEncoding && equal);
+    history_ = (history_ << 1 | (hit ? 1u : 0u)) & 3;
+    if (hit) {
+      std::copy_n(candidate, 3, value);
+      return true;
+    }
+    asked = 1;
+  }
+  return false;
+}
+
+template <class Io>
+void ExactNormalCoder<Io>::learnFaces(uint32_t w) {
+  if (w >= wedges_.surface_count) return;
+  uint32_t faces = 0;
+  for (uint32_t h = wedges_.firstCompleted(w); h != kNone && faces < kFaceLimit;
+       h = wedges_.nextCompleted(h), ++faces) {
+    const uint32_t n = wedges_.faces.vertex(nextHalfEdge(h));
+    const uint32_t p = wedges_.faces.vertex(prevHalfEdge(h));
+    if (!coded(n) || !coded(p)) continue;
+    edges_->learn(keyOf(n, p), w);
+    edges_->learn(keyOf(w, n), p);
+    edges_->learn(keyOf(w, p), n);
   }
 }
 

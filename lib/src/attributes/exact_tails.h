@@ -39,7 +39,7 @@ class TailCoder {
 
   /// `truth`: the ordered float (encoder).
   int32_t code(uint32_t component, int32_t q, int32_t truth) {
-    if (tails_ == GridTails::kNone) return orderedFromFloat(grid_.valueOf(q));
+    if (tails_ == GridTails::kNoTails) return orderedFromFloat(grid_.valueOf(q));
     if (tails_ == GridTails::kPlain) return codeTail(component, q, truth);
     Entry& entry = cache_[hashOf(component, q)];
     if (entry.used && entry.q == q) {

@@ -9,13 +9,12 @@
 #define MCC_ATTRIBUTES_EXACT_VALUES_H_
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
+#include "attributes/edge_memory.h"
 #include "attributes/exact_vectors.h"
 #include "attributes/wedges.h"
-#include "base/memory.h"
 #include "mesh/attribute_method.h"
 
 namespace mcc {
@@ -24,41 +23,6 @@ enum class ExactPredictor : uint8_t {
   kParallelograms = 0,  ///< mean of all
   kMean = 1,            ///< of the neighbours in the entry face
   kHinge = 2,  ///< affine map from space to values, unfolded over the edge; see texcoords.h
-};
-
-/// Third corners by the values at an edge.
-class EdgeMemory {
- public:
-  struct Entry {
-    uint32_t check;
-    uint32_t wedge[2];  ///< the latest first; kNone: none
-  };
-  struct Known {
-    uint32_t wedge[2];
-  };
-
-  explicit EdgeMemory(const Allocator& allocator) : entries_(allocator) {}
-
-  [[nodiscard]] bool prepare(uint32_t face_count) {
-    bits_ = std::min(static_cast<uint32_t>(std::bit_width(uint64_t{face_count} * 2)) + 1, 26u);
-    return entries_.assign(size_t{1} << bits_, Entry{0, {kNone, kNone}});
-  }
-  void clear() { entries_.clear(); }
-
-  Known at(uint64_t key) const {
-    const Entry& e = entries_[key >> (64 - bits_)];
-    if (e.check != static_cast<uint32_t>(key)) return {{kNone, kNone}};
-    return {{e.wedge[0], e.wedge[1]}};
-  }
-  void learn(uint64_t key, uint32_t wedge) {
-    Entry& e = entries_[key >> (64 - bits_)];
-    const bool known = e.check == static_cast<uint32_t>(key);
-    e = Entry{static_cast<uint32_t>(key), {wedge, known ? e.wedge[0] : kNone}};
-  }
-
- private:
-  Array<Entry> entries_;
-  uint32_t bits_ = 0;
 };
 
 struct ExactValueModels {

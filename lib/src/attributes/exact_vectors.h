@@ -77,6 +77,7 @@ struct VectorMemory {
 struct VectorModels {
   TokenRow row[3][kScaleBuckets];  ///< [component as coded]
   BitModel known[4][4];            ///< [confidence][last two outcomes]
+  BitModel beside[2][4];           ///< [first or second candidate][last two outcomes]
   VectorMemory memory;
 
   VectorModels() {

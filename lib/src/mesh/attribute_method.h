@@ -130,7 +130,8 @@ namespace exact_normal_method {
 inline constexpr uint8_t kWeightMask = 0x03;  ///< ExactWeight
 inline constexpr uint8_t kBlendShift = 2;     ///< 0 none, 1 half, 2 whole
 inline constexpr uint8_t kBlendMask = 0x0c;
-inline constexpr uint8_t kRemembers = 0x10;
+inline constexpr uint8_t kRemembers = 0x10;       ///< by predictions
+inline constexpr uint8_t kRemembersEdges = 0x20;  ///< by the vectors of neighbours
 }  // namespace exact_normal_method
 
 namespace exact_tangent_method {
@@ -185,7 +186,7 @@ constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count,
       return (bits & ~0x0f) == 0 && (bits & normal_method::kWeightMask) != 3 &&
              (bits & normal_method::kBlendMask) != normal_method::kBlendMask;
     case AttributeMethod::kExactNormal:
-      return (bits & ~0x1f) == 0 &&
+      return (bits & ~0x3f) == 0 &&
              (bits & exact_normal_method::kBlendMask) != exact_normal_method::kBlendMask;
     case AttributeMethod::kExactTangent: return (bits & ~0x0f) == 0;
     case AttributeMethod::kExactValues:
