@@ -28,22 +28,25 @@ enum class Kind : uint8_t {
   kCount,
 };
 
+double nearest(float x, double scale) {
+  return std::round(static_cast<double>(x) * scale) + 0.0;
+}  // no -0
+
 float valueOf(Kind kind, float x, uint32_t i) {
-  const double wide = static_cast<double>(x);
   const bool odd = i % 31 == 7;
   switch (kind) {
-    case Kind::kThousandths: return static_cast<float>(std::lround(wide * 1000) / 1000.0);
-    case Kind::kMillionths: return static_cast<float>(std::lround(wide * 1e6) / 1e6);
-    case Kind::kBinary: return static_cast<float>(std::lround(wide * 4096) / 4096.0);
-    case Kind::kBytes: return static_cast<float>((std::lround(wide * 77) & 255) / 255.0);
+    case Kind::kThousandths: return static_cast<float>(nearest(x, 1000) / 1000.0);
+    case Kind::kMillionths: return static_cast<float>(nearest(x, 1e6) / 1e6);
+    case Kind::kBinary: return static_cast<float>(nearest(x, 4096) / 4096.0);
+    case Kind::kBytes:
+      return static_cast<float>((static_cast<int32_t>(nearest(x, 77)) & 255) / 255.0);
     case Kind::kFull: return x * 1.2345678f + 0.1f;
-    case Kind::kRepeated: return static_cast<float>(std::lround(wide * 5)) * 1.2345678f;
-    case Kind::kOutlier:
-      return odd ? x * 1e7f : static_cast<float>(std::lround(wide * 100) / 100.0);
+    case Kind::kRepeated: return static_cast<float>(nearest(x, 5)) * 1.2345678f;
+    case Kind::kOutlier: return odd ? x * 1e7f : static_cast<float>(nearest(x, 100) / 100.0);
     case Kind::kMinusZero: return odd ? -0.0f : i % 3 == 0 ? 0.0f : x;
     case Kind::kDenormal: return odd ? std::bit_cast<float>(i * 37 % 0x800000) : x;
     case Kind::kInfinite:
-      return odd ? (i % 2 == 0 ? 1 : -1) * std::numeric_limits<float>::infinity() : x;
+      return odd ? (i % 2 == 0 ? 1.0f : -1.0f) * std::numeric_limits<float>::infinity() : x;
     case Kind::kNan: return odd ? std::bit_cast<float>(0xff812345u ^ (i << 3)) : x;
     case Kind::kCount: break;
   }

@@ -102,7 +102,7 @@ bool findExactGrid(std::span<const int32_t> ordered, AttributeInfo& info) {
   if (e.lowest_bit - kSmallestExponent < kGridExponents && -e.lowest_bit <= best &&
       isOn(ExactGrid(binaryGrid(e.lowest_bit)), ordered, largest)) {
     best = -e.lowest_bit;
-    setGrid(binaryGrid(e.lowest_bit), GridTails::kNoTails, largest, info);
+    setGrid(e.lowest_bit == 0 ? 0 : binaryGrid(e.lowest_bit), GridTails::kNoTails, largest, info);
   }
   for (uint32_t grid = 0; grid < kGridFractionEnd; ++grid) {
     const ExactGrid candidate(grid);

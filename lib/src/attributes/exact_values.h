@@ -29,7 +29,12 @@ struct ExactValueModels {
   TokenRow row[kGridComponents][kScaleBuckets];
   BitModel known[2][4];  ///< [first or second wedge known][last two outcomes]
 
-  ExactValueModels() {
+  bool is_ready = false;
+
+  /// Before the first use: most payloads have no such values.
+  void prepare() {
+    if (is_ready) return;
+    is_ready = true;
     for (auto& component : row) {
       for (uint32_t b = 0; b < kScaleBuckets; ++b) initialTokenRow(b, component[b]);
     }
@@ -54,7 +59,9 @@ class ExactValueCoder {
         positions_(positions),
         values_(values),
         errors_(errors),
-        edges_(edges) {}
+        edges_(edges) {
+    models_.prepare();
+  }
 
   void run() {
     std::fill(errors_, errors_ + wedges_.count, kNotYet);

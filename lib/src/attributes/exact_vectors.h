@@ -5,9 +5,11 @@
 #ifndef MCC_ATTRIBUTES_EXACT_VECTORS_H_
 #define MCC_ATTRIBUTES_EXACT_VECTORS_H_
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 
 #include "attributes/dequantize.h"
 #include "attributes/exact_grid.h"
@@ -61,7 +63,7 @@ struct VectorMemory {
     uint32_t magnitude[3];  ///< bits of the components without their signs
     uint32_t confidence;    ///< 0: never seen; 1..3
   };
-  Entry entry[1u << kEntryBits] = {};
+  Entry entry[1u << kEntryBits];
 
   Entry& of(const double* predicted) {
     uint32_t hash = 0;
@@ -80,7 +82,13 @@ struct VectorModels {
   BitModel beside[2][4];           ///< [first or second candidate][last two outcomes]
   VectorMemory memory;
 
-  VectorModels() {
+  bool is_ready = false;
+
+  /// Before the first use: most payloads have no exact vectors.
+  void prepare() {
+    if (is_ready) return;
+    is_ready = true;
+    std::fill(std::begin(memory.entry), std::end(memory.entry), VectorMemory::Entry{});
     for (auto& component : row) {
       for (uint32_t b = 0; b < kScaleBuckets; ++b) initialTokenRow(b, component[b]);
     }
@@ -91,7 +99,9 @@ template <class Io>
 class VectorCoder {
  public:
   VectorCoder(Io& io, VectorModels& models, bool remembers)
-      : io_(io), models_(models), remembers_(remembers) {}
+      : io_(io), models_(models), remembers_(remembers) {
+    models_.prepare();
+  }
 
   /// `predicted`: of length 1 or 0. `value`: three ordered floats. `error`: expected, then that of this vector. `normal`:
   /// unit vector that the prediction is, and the vector may be, perpendicular to; or null.
