@@ -17,6 +17,7 @@
 #include <new>
 
 #include "attributes/attribute_stage.h"
+#include "attributes/exact_tails.h"
 #include "attributes/leftovers.h"
 #include "attributes/positions.h"
 #include "attributes/seams.h"
@@ -34,6 +35,7 @@ struct PayloadModels {
   McModels mc;
   StitchModels stitch;
   PositionModels positions;
+  TailModels position_tails;
   SeamModels seams;
   LeftoverModels leftovers;
   OrderModels orders;
@@ -45,7 +47,9 @@ struct PieceTruth {
   McTruth connectivity;
   const uint32_t* class_of_vertex = nullptr;  ///< by decoded vertex
   uint32_t class_count = 0;
-  const int32_t* positions = nullptr;       ///< 3 per group, isolated vertices behind
+  const int32_t* positions = nullptr;  ///< 3 per group, isolated vertices behind
+  const int32_t* exact_positions =
+      nullptr;  ///< the same as ordered floats, if they are on an exact grid
   const AxisPalette* palettes = nullptr;    ///< 3, if the position has them
   const uint32_t* corner_source = nullptr;  ///< source wedge by 3f+k
   LeftoverTruth leftovers;
@@ -116,24 +120,9 @@ class PieceCoder {
                                    parameters.has(position_mode::kSplit));
     sequence.clear();
     if (needsSequence() && !sequence.resize(groups.count)) return noMemory();
-    if (parameters.bits > kNarrowBits) return runPositions<int64_t, kAnyModes>(parameters, truth);
-    if constexpr (Io::kFast) {
-      constexpr uint32_t kWeighted = position_mode::kWeights;
-      constexpr uint32_t kSelecting = position_mode::kWeights | position_mode::kSelect;
-      constexpr uint32_t kShear = position_mode::kShear;
-      switch (parameters.modes & kCompiledModes) {
-        case 0: return runPositions<int32_t, 0>(parameters, truth);
-        case kWeighted: return runPositions<int32_t, kWeighted>(parameters, truth);
-        case kSelecting: return runPositions<int32_t, kSelecting>(parameters, truth);
-        case kShear: return runPositions<int32_t, kShear>(parameters, truth);
-        case kWeighted | kShear:
-          return runPositions<int32_t, kWeighted | kShear>(parameters, truth);
-        case kSelecting | kShear:
-          return runPositions<int32_t, kSelecting | kShear>(parameters, truth);
-        default: break;
-      }
-    }
-    return runPositions<int32_t, kAnyModes>(parameters, truth);
+    MCC_TRY(runPositions(parameters, truth));
+    if (attributes_[0].coding == AttributeCoding::kGrid) MCC_TRY(codePositionTails(truth));
+    return {};
   }
 
   Status codeSeams(const PieceTruth& truth) {
@@ -217,6 +206,7 @@ class PieceCoder {
     if (header_.attribute_count < 2) return {};
     MCC_TRY(stage_.wedges.build(mesh, wedges.half_edges, wedges.count, header_.wedge_count,
                                 header_.has(piece_flag::kSeams) ? wedge_group.data() : nullptr));
+    if (stage_.needsExactPositions()) MCC_TRY(listExactPositions());
     MCC_TRY(findGroupPositions());
     if (!header_.has(piece_flag::kSeams)) {  // wedges are numbered as groups
       stage_.positions.swap(group_positions_);
@@ -233,6 +223,7 @@ class PieceCoder {
 
   static void describePositions(const AttributeInfo& info, PositionParameters& p) {
     const uint32_t bits = info.coding == AttributeCoding::kLattice ? info.bits
+                          : info.coding == AttributeCoding::kGrid  ? info.bits
                           : info.coding == AttributeCoding::kInteger
                               ? 8 * componentBytes(info.format.component_type)
                               : kExactPositionBits;
@@ -305,6 +296,60 @@ class PieceCoder {
   static constexpr uint8_t kNarrowBits = 17;         ///< Q8 predictions fit 32 bits up to here
   static constexpr uint8_t kExactPositionBits = 26;  ///< scale the seeds of exact floats start with
 
+  /// What the reader gives its caller; what is not finite counts as 0.
+  Status listExactPositions() {
+    if (!stage_.exact_positions.resize(3 * size_t{header_.wedge_count})) return noMemory();
+    const AttributeInfo& info = attributes_[0];
+    for (uint32_t w = 0; w < header_.wedge_count; ++w) {
+      const int32_t* q = records[groupOf(w)].q;
+      float* to = &stage_.exact_positions[3 * size_t{w}];
+      for (uint32_t s = 0; s < 3; ++s) {
+        to[s] = info.coding == AttributeCoding::kLattice
+                    ? latticeValue(q[s], info.lattice.step, info.lattice.origin[s])
+                : info.coding == AttributeCoding::kInteger ? static_cast<float>(q[s])
+                                                           : static_cast<float>(finiteValue(q[s]));
+        if (!(std::fabs(to[s]) <= 3e38f)) to[s] = 0;
+      }
+    }
+    return {};
+  }
+
+  /// The compiled combination of modes that fits.
+  Status runPositions(const PositionParameters& parameters, const PieceTruth& truth) {
+    if (parameters.bits > kNarrowBits) return runPositions<int64_t, kAnyModes>(parameters, truth);
+    if constexpr (Io::kFast) {
+      constexpr uint32_t kWeighted = position_mode::kWeights;
+      constexpr uint32_t kSelecting = position_mode::kWeights | position_mode::kSelect;
+      constexpr uint32_t kShear = position_mode::kShear;
+      switch (parameters.modes & kCompiledModes) {
+        case 0: return runPositions<int32_t, 0>(parameters, truth);
+        case kWeighted: return runPositions<int32_t, kWeighted>(parameters, truth);
+        case kSelecting: return runPositions<int32_t, kSelecting>(parameters, truth);
+        case kShear: return runPositions<int32_t, kShear>(parameters, truth);
+        case kWeighted | kShear:
+          return runPositions<int32_t, kWeighted | kShear>(parameters, truth);
+        case kSelecting | kShear:
+          return runPositions<int32_t, kSelecting | kShear>(parameters, truth);
+        default: break;
+      }
+    }
+    return runPositions<int32_t, kAnyModes>(parameters, truth);
+  }
+
+  /// The records then hold ordered floats.
+  Status codePositionTails(const PieceTruth& truth) {
+    TailCoder<Io> tails(io_, models_.position_tails, attributes_[0], allocator_);
+    MCC_TRY(tails.prepare());
+    for (size_t v = 0; v < records.size(); ++v) {
+      for (uint32_t s = 0; s < 3; ++s) {
+        int32_t& q = records[v].q[s];
+        q = tails.code(s, q, Io::kEncoding ? truth.exact_positions[3 * v + s] : 0);
+      }
+    }
+    if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside the positions");
+    return {};
+  }
+
   template <class Wide, uint32_t kModes>
   Status runPositions(const PositionParameters& parameters, const PieceTruth& truth) {
     return PositionCoder<Io, Wide, kModes>(io_, models_.positions, parameters, mesh, groups,
@@ -332,7 +377,8 @@ class PieceCoder {
     if (!group_positions_.empty()) return {};
     const uint32_t count = static_cast<uint32_t>(records.size());
     const auto position = [this](uint32_t group) { return records[group].q; };
-    return attributes_[0].coding == AttributeCoding::kExactFloat
+    return attributes_[0].coding == AttributeCoding::kExactFloat ||
+                   attributes_[0].coding == AttributeCoding::kGrid
                ? floatPredictionPositions(count, position, group_positions_)
                : latticePredictionPositions(count, position, group_positions_);
   }

@@ -82,6 +82,7 @@ void storeElements(const AttributeInfo& info, uint32_t wedge_count, const Attrib
       storeNormals(octahedralCentre(info.bits), wedge_count, target, load);
       return;
     case AttributeCoding::kExactFloat:
+    case AttributeCoding::kGrid:  // as ordered floats by now
       for (uint32_t w = 0; w < wedge_count; ++w, to += stride) {
         const int32_t* q = load(w);
         for (uint32_t c = 0; c < components; ++c) {

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "attributes/enc_exact_grid.h"
 #include "attributes/enc_position_fit.h"
 #include "attributes/enc_predictor_search.h"
 #include "attributes/enc_quantize.h"
@@ -48,6 +49,7 @@ struct Plan {
   std::vector<uint32_t> class_of_vertex;
   std::vector<uint32_t> corner_source;
   std::vector<int32_t> positions;
+  std::vector<int32_t> exact_positions;  ///< ordered floats, if the positions are on an exact grid
   DistinctCoordinates coordinates;
   PositionParameters positions_as;  ///< chosen, with fitted tables
   std::vector<uint32_t> wedge_source;
@@ -151,6 +153,10 @@ void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_ed
   if (h.has(piece_flag::kSeams) && run_count > surface_wedges) h.flags |= piece_flag::kMerges;
 }
 
+bool isExact(AttributeCoding coding) {
+  return coding == AttributeCoding::kExactFloat || coding == AttributeCoding::kGrid;
+}
+
 Status preparePiece(const PieceView& view, const EncodeOptions& options, Plan& plan,
                     std::vector<std::string>& notes) {
   MCC_TRY(checkPiece(view));
@@ -158,8 +164,8 @@ Status preparePiece(const PieceView& view, const EncodeOptions& options, Plan& p
     return fail(Error::kBadArgument, "a piece without attributes has more than its position");
   plan.view = &view;
   plan.attributes = quantizeAttributes(view, notes);
-  plan.classes = weldPositions(view.attributes[0], view.wedge_count,
-                               plan.attributes[0].info.coding == AttributeCoding::kExactFloat);
+  plan.classes =
+      weldPositions(view.attributes[0], view.wedge_count, isExact(plan.attributes[0].info.coding));
   plan.triangles = sortTriangles(view.parts, view.wedge_count);
   PieceHeader& h = plan.header;
   h.wedge_count = view.wedge_count;
@@ -231,6 +237,10 @@ void learnPositions(Plan& plan, const FaceMesh& mesh, const Groups& groups) {
       plan.positions[3 * (groups.count + i) + s] = q[3 * size_t{plan.triangles.isolated[i]} + s];
     }
   }
+  const AttributeInfo& info = plan.attributes[0].info;
+  if (info.coding != AttributeCoding::kGrid) return;
+  plan.exact_positions = plan.positions;
+  for (int32_t& value : plan.positions) value = gridInteger(info, value);
 }
 
 /// Sorts the triangles with a doubled wedge into those along an edge of a face and the others.
@@ -400,6 +410,7 @@ class StageRunner {
     account(sizes, &StreamSizes::stitch_bits);
     learnPositions(plan_, piece_.mesh, piece_.groups);
     truth_.positions = plan_.positions.data();
+    truth_.exact_positions = plan_.exact_positions.data();
     return {};
   }
 
@@ -663,28 +674,53 @@ Status choosePositions(std::vector<Plan>& plans, Runners& runners, uint8_t effor
   return {};
 }
 
+/// Floats on a grid may be coded as floats as well: the values of a plan are the same.
+std::vector<AttributeInfo> exactAlternatives(const AttributeInfo& info) {
+  std::vector<AttributeInfo> all = {info};
+  if (info.coding == AttributeCoding::kGrid && info.format.morph_target == 0) {
+    AttributeInfo plain;
+    plain.format = info.format;
+    plain.coding = AttributeCoding::kExactFloat;
+    all.push_back(plain);
+  }
+  return all;
+}
+
 /// Tries the candidates of one attribute, from where its models are, and goes on with the best. `goes_on`: some later
 /// attribute shares its models.
 Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& runner,
                              PayloadModels& models, bool goes_on) {
   AttributeInfo& info = plan.attributes[index].info;
-  std::vector<AttributeInfo> infos;
-  for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
-  const AttributeMethod method = methodOf(infos.data(), plan.header.attribute_count, index);
-  if (method == AttributeMethod::kWithAnother) return {};
-  PredictorSearch search(method, info, plan.header.has(piece_flag::kSeams));
-  if (!search.isSettled()) {
-    const uint32_t sample = std::max(kTrialWedges, plan.header.wedge_count / kTrialShare);
-    const auto before = std::make_unique<AttributeModels>(models.attributes);
+  const std::vector<AttributeInfo> alternatives = exactAlternatives(info);
+  const uint32_t part = std::max(kTrialWedges, plan.header.wedge_count / kTrialShare);
+  // What lies below a grid is always coded for all wedges.
+  const uint32_t sample = alternatives.size() > 1 ? kNone : part;
+  const auto before = std::make_unique<AttributeModels>(models.attributes);
+  AttributeInfo best = info;
+  uint64_t best_cost = ~uint64_t{0};
+  for (AttributeInfo candidate : alternatives) {
+    info = candidate;
+    std::vector<AttributeInfo> infos;
+    for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
+    const AttributeMethod method = methodOf(infos.data(), plan.header.attribute_count, index);
+    if (method == AttributeMethod::kWithAnother) return {};
+    PredictorSearch search(method, candidate, plan.header.has(piece_flag::kSeams));
+    if (alternatives.size() == 1 && search.isSettled()) {
+      best.predictor = search.best();
+      break;
+    }
     while (!search.done()) {
-      info.predictor = search.candidate();
       uint64_t cost = 0;
+      info.predictor = candidate.predictor = search.candidate();
       MCC_TRY(runner.tryAttribute(index, sample, cost));
       search.report(cost);
       models.attributes = *before;
+      if (cost >= best_cost) continue;
+      best_cost = cost;
+      best = candidate;
     }
   }
-  info.predictor = search.best();
+  info = best;
   return goes_on ? runner.codeAttribute(index, nullptr) : runner.passAttribute(index);
 }
 

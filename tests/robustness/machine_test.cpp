@@ -167,10 +167,11 @@ struct Depth {
 class RandomPiece {
  public:
   RandomPiece(uint64_t seed, const PieceHeader& header, uint32_t context_set)
-      : seed_(seed), header_(header), context_set_(context_set), attributes_(8) {
+      : seed_(seed), header_(header), context_set_(context_set), attributes_(13) {
     Random random(seed + 1);
     attributes_[0].bits = static_cast<uint8_t>(random.between(1, 24));
     if (random.chance(20)) attributes_[0].coding = AttributeCoding::kExactFloat;
+    if (random.chance(30)) grid(attributes_[0], random);
     attributes_[0].predictor = static_cast<uint8_t>(random.below(position_flag::kPredictorCount) |
                                                     (random.chance(50) ? 0 : random.below(256)));
     if ((attributes_[0].predictor & position_flag::kPredictorMask) >=
@@ -192,6 +193,13 @@ class RandomPiece {
     attribute(5, Semantic::kTangent, AttributeCoding::kTangentAngle, 4);
     attribute(6, Semantic::kJoints, AttributeCoding::kInteger, 4, ComponentType::kUint8);
     attribute(7, Semantic::kWeights, AttributeCoding::kLattice, 4);
+    attribute(8, Semantic::kNormal, AttributeCoding::kExactFloat, 3);
+    attribute(9, Semantic::kTangent, AttributeCoding::kExactFloat, 4);
+    attribute(10, Semantic::kTexcoord, AttributeCoding::kGrid, 2);
+    attribute(11, Semantic::kTexcoord, AttributeCoding::kExactFloat, 2);
+    attribute(12, Semantic::kCustom, AttributeCoding::kGrid, 4);
+    grid(attributes_[10], random);
+    grid(attributes_[12], random);
     const uint32_t count = static_cast<uint32_t>(attributes_.size());
     for (uint32_t i = 1; i < count; ++i) {
       do {
@@ -199,6 +207,15 @@ class RandomPiece {
       } while (!isKnownPredictor(attributes_.data(), count, i));
     }
     header_.attribute_count = static_cast<uint32_t>(attributes_.size());
+  }
+
+  static void grid(AttributeInfo& info, Random& random) {
+    info.coding = AttributeCoding::kGrid;
+    info.bits = static_cast<uint8_t>(random.between(1, kGridBits + 1));
+    info.tails = static_cast<uint8_t>(random.below(3));
+    do {
+      info.grid = static_cast<uint16_t>(random.below(kGridCount));
+    } while (!isKnownGrid(info.grid) || (info.tails != 0 && !isBinaryGrid(info.grid)));
   }
 
   std::string run(Depth& depth) {

@@ -126,6 +126,33 @@ void addAttributes(PayloadList& list, const TestMesh& mesh) {
   list.add("attributes on " + mesh.name, {&view, 1});
 }
 
+/// Everything exact: grids with and without tails, computed normals, tangents, values that fit nothing.
+void addExact(PayloadList& list, const TestMesh& mesh) {
+  MeshPiece piece(mesh, kExactBits);
+  std::vector<std::vector<float>> memory;
+  memory.reserve(8);
+  const auto attribute = [&](Semantic semantic, uint8_t components, uint16_t target, float scale) {
+    memory.emplace_back();
+    for (uint32_t i = 0; i < mesh.vertexCount() * components; ++i) {
+      const float x = mesh.positions[i % mesh.positions.size()] * scale;
+      memory.back().push_back(i % 40 == 3 ? -0.0f : x);
+    }
+    AttributeFormat format;
+    format.semantic = semantic;
+    format.component_count = components;
+    format.morph_target = target;
+    format.set_index = semantic == Semantic::kTexcoord ? 1 : 0;
+    piece.add(format, memory.back().data());
+  };
+  attribute(Semantic::kTangent, 4, 0, 1);
+  attribute(Semantic::kTexcoord, 2, 0, 0.371f);
+  attribute(Semantic::kColor, 4, 0, 1e37f);
+  attribute(Semantic::kWeights, 4, 0, 3e38f);
+  attribute(Semantic::kNormal, 3, 1, 0.01f);
+  const PieceView view = piece.view();
+  list.add("exact attributes on " + mesh.name, {&view, 1});
+}
+
 std::vector<NamedPayload> makePayloads() {
   PayloadList list;
   list.add(tetrahedron());
@@ -161,7 +188,11 @@ std::vector<NamedPayload> makePayloads() {
   addIndicesOnly(list, withRandomWedges(book(3, 3, 3), 4, 3));
   addPieces(list);
   addAttributes(list, withNormals(torus(8, 6)));
+  addExact(list, withNormals(torus(8, 6)));
+  addExact(list, withNormals(withRandomWedges(chartGrid(6, 6, 3), 4, 3)));
+  list.add(chartGrid(8, 8, 3), kExactBits);
   // More than 2000 vertices: three streams.
+  addExact(list, withNormals(torus(60, 40)));
   list.add(icosphere(4), {20, 10, 12});
   list.add(generated(9, 5, 12, 40));
   list.add(chartGrid(50, 50, 9));

@@ -50,7 +50,7 @@ RoundTrip roundTripOf(const TestMesh& mesh, Positions positions, const EncodeOpt
   RoundTrip result = roundTrip(piece.view(), options, layout);
   if (!result.failure.empty()) return result;
   const AttributeCoding coding = result.decoded[0].attributes[0].info.coding;
-  const AttributeCoding expected = positions == Positions::kExact   ? AttributeCoding::kExactFloat
+  const AttributeCoding expected = positions == Positions::kExact   ? AttributeCoding::kGrid
                                    : positions == Positions::kInt16 ? AttributeCoding::kInteger
                                                                     : AttributeCoding::kLattice;
   if (coding != expected)

@@ -208,7 +208,8 @@ std::string compareAs(AttributeCoding coding, const PieceView& piece, const Deco
       return is_float ? compareLattice(source, attribute, source_wedge)
                       : "is an integer and went on a lattice";
     case AttributeCoding::kInteger:
-    case AttributeCoding::kExactFloat: return compareBits(source, attribute, source_wedge);
+    case AttributeCoding::kExactFloat:
+    case AttributeCoding::kGrid: return compareBits(source, attribute, source_wedge);
     case AttributeCoding::kOctahedral:
       if (source.quantization_bits == 0)
         return "was quantised although exact floats were asked for";

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "attributes/exact_grid.h"
 #include "base/crc32.h"
 #include "container/enc_payload.h"
 #include "container/payload_header.h"
@@ -49,6 +50,15 @@ AttributeInfo anyAttribute(Random& random) {
   if (random.chance(40)) {
     a.format.component_type = static_cast<ComponentType>(random.below(5));
     a.coding = AttributeCoding::kInteger;
+  } else if (random.chance(30)) {
+    a.coding = AttributeCoding::kGrid;
+    a.format.component_count = static_cast<uint8_t>(random.between(1, kGridComponents));
+    a.bits = static_cast<uint8_t>(random.between(1, kGridBits + 1));
+    a.grid = static_cast<uint16_t>(random.below(kGridFractionEnd));
+    if (random.chance(50)) {
+      a.grid = static_cast<uint16_t>(random.between(kGridBinary, kGridCount - 1));
+      a.tails = static_cast<uint8_t>(random.below(3));
+    }
   } else if (random.chance(30)) {
     a.coding = AttributeCoding::kExactFloat;
   } else if (random.chance(30)) {
@@ -171,6 +181,8 @@ void expectSameAttribute(const AttributeInfo& parsed, const AttributeInfo& writt
   EXPECT_TRUE(parsed.format == written.format);
   EXPECT_EQ(parsed.coding, written.coding);
   EXPECT_EQ(parsed.predictor, written.predictor);
+  EXPECT_EQ(parsed.grid, written.grid);
+  EXPECT_EQ(parsed.tails, written.tails);
   EXPECT_EQ(parsed.bits, written.bits);
   EXPECT_TRUE(parsed.lattice == written.lattice);
 }
@@ -317,6 +329,13 @@ TEST(Container, CountsThatContradictEachOther) {
     EXPECT_EQ(errorAfter(changes[i]), Error::kBadHeader) << "change " << i;
 }
 
+void setGrid(AttributeInfo& a, uint32_t bits, uint32_t tails, uint32_t grid) {
+  a.coding = AttributeCoding::kGrid;
+  a.bits = static_cast<uint8_t>(bits);
+  a.tails = static_cast<uint8_t>(tails);
+  a.grid = static_cast<uint16_t>(grid);
+}
+
 TEST(Container, AttributesThatAreNone) {
   using Change = std::function<void(AttributeInfo&)>;
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -353,6 +372,20 @@ TEST(Container, AttributesThatAreNone) {
         a.coding = AttributeCoding::kOctahedral;
         a.bits = 10;
         a.format.component_count = 2;
+      },
+      [](AttributeInfo& a) { setGrid(a, 0, 0, 3); },
+      [](AttributeInfo& a) { setGrid(a, kGridBits + 2, 0, 3); },
+      [](AttributeInfo& a) { setGrid(a, 10, 1, 3); },
+      [](AttributeInfo& a) { setGrid(a, 10, 3, kGridBinary); },
+      [](AttributeInfo& a) { setGrid(a, 10, 0, kGridFractionEnd); },
+      [](AttributeInfo& a) { setGrid(a, 10, 0, kGridCount); },
+      [](AttributeInfo& a) {
+        setGrid(a, 10, 0, 3);
+        a.format.component_count = kGridComponents + 1;
+      },
+      [](AttributeInfo& a) {
+        setGrid(a, 10, 0, 3);
+        a.format.component_type = ComponentType::kUint32;
       },
   };
   for (size_t i = 0; i < changes.size(); ++i) {

@@ -54,15 +54,18 @@ Quantized quantized(const std::vector<float>& values, uint8_t components, uint8_
   return result;
 }
 
+bool isExact(AttributeCoding coding) {
+  return coding == AttributeCoding::kExactFloat || coding == AttributeCoding::kGrid;
+}
+
 /// Every component as the reader will give it back.
 float decoded(const QuantizedAttribute& a, size_t i) {
-  if (a.info.coding == AttributeCoding::kExactFloat)
-    return std::bit_cast<float>(bitsFromOrdered(a.values[i]));
+  if (isExact(a.info.coding)) return std::bit_cast<float>(bitsFromOrdered(a.values[i]));
   return latticeValue(a.values[i], a.info.lattice.step, a.info.lattice.origin[i % a.components]);
 }
 
 void expectExact(const Quantized& q, const std::vector<float>& values) {
-  EXPECT_EQ(q.attribute.info.coding, AttributeCoding::kExactFloat);
+  EXPECT_TRUE(isExact(q.attribute.info.coding));
   for (size_t i = 0; i < values.size(); ++i) {
     EXPECT_EQ(std::bit_cast<uint32_t>(decoded(q.attribute, i)), std::bit_cast<uint32_t>(values[i]));
   }
@@ -138,9 +141,15 @@ TEST(Quantize, WhatNoLatticeHoldsGoesExact) {
 }
 
 TEST(Quantize, ExactKeepsEveryBit) {
-  std::vector<float> values = {0.0f, -0.0f, kNan, -kNan, kInfinity, -kInfinity,
+  std::vector<float> values = {0.0f,
+                               -0.0f,
+                               kNan,
+                               -kNan,
+                               kInfinity,
+                               -kInfinity,
                                std::numeric_limits<float>::denorm_min(),
-                               std::bit_cast<float>(0x7fc12345u), std::bit_cast<float>(0xff812345u)};
+                               std::bit_cast<float>(0x7fc12345u),
+                               std::bit_cast<float>(0xff812345u)};
   Random random(2);
   while (values.size() < 3000)
     values.push_back(std::bit_cast<float>(static_cast<uint32_t>(random.next())));
@@ -180,8 +189,7 @@ TEST(Quantize, IntegersOfAllTypes) {
     const uint32_t bytes = componentBytes(type);
     constexpr size_t kStride = 11;  // elements need not be aligned
     std::vector<uint8_t> memory(kStride * values.size(), 0xee);
-    for (size_t i = 0; i < values.size(); ++i)
-      std::memcpy(&memory[kStride * i], &values[i], bytes);
+    for (size_t i = 0; i < values.size(); ++i) std::memcpy(&memory[kStride * i], &values[i], bytes);
     AttributeView view;
     view.format.semantic = Semantic::kCustom;
     view.format.component_type = type;
@@ -190,8 +198,7 @@ TEST(Quantize, IntegersOfAllTypes) {
     view.stride_bytes = kStride;
     view.quantization_bits = 8;  // ignored
     std::vector<std::string> notes;
-    const QuantizedAttribute a =
-        quantizedAlone(view, static_cast<uint32_t>(values.size()), notes);
+    const QuantizedAttribute a = quantizedAlone(view, static_cast<uint32_t>(values.size()), notes);
     EXPECT_EQ(a.info.coding, AttributeCoding::kInteger);
     ASSERT_EQ(a.values.size(), values.size());
     for (size_t i = 0; i < values.size(); ++i) {
@@ -205,7 +212,8 @@ TEST(Quantize, IntegersOfAllTypes) {
 }
 
 TEST(OrderedFloats, AreABijectionInOrder) {
-  const float ordered[] = {-kInfinity, -1e30f, -1, -1e-40f, -0.0f, 0.0f, 1e-40f, 1, 1e30f, kInfinity};
+  const float ordered[] = {-kInfinity, -1e30f, -1, -1e-40f, -0.0f,
+                           0.0f,       1e-40f, 1,  1e30f,   kInfinity};
   for (size_t i = 1; i < std::size(ordered); ++i) {
     EXPECT_LT(orderedFromBits(std::bit_cast<uint32_t>(ordered[i - 1])),
               orderedFromBits(std::bit_cast<uint32_t>(ordered[i])));
@@ -297,8 +305,8 @@ TEST(Octahedral, EveryGridPointIsAUnitVector) {
       for (int32_t t = 0; t <= 2 * centre; ++t) {
         float n[3];
         octahedralToUnit(s, t, centre, n);
-        const double length = std::sqrt(double{n[0]} * n[0] + double{n[1]} * n[1] +
-                                        double{n[2]} * n[2]);
+        const double length =
+            std::sqrt(double{n[0]} * n[0] + double{n[1]} * n[1] + double{n[2]} * n[2]);
         ASSERT_NEAR(length, 1, 1e-6) << s << ", " << t;
       }
     }

@@ -237,6 +237,7 @@ std::string codingName(AttributeCoding coding, uint32_t bits) {
     case AttributeCoding::kLattice: name = "lattice"; break;
     case AttributeCoding::kInteger: return "integer";
     case AttributeCoding::kExactFloat: return "exact float";
+    case AttributeCoding::kGrid: return "exact grid";
     case AttributeCoding::kOctahedral: name = "octahedral"; break;
     case AttributeCoding::kTangentAngle: name = "angle"; break;
     case AttributeCoding::kAlias: return "alias";

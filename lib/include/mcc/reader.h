@@ -44,15 +44,18 @@ enum class AttributeCoding : uint8_t {
   /// normal (that of its kOctahedral grid) plus what the source was off perpendicular (writers allow 0.12 degrees).
   kTangentAngle = 4,
   kAlias = 5,  ///< equal to attribute `alias_of` of the piece, whose coding holds
+  kGrid = 6,   ///< float32 components, exact: on a grid or near one, see attributes/exact_grid.h
 };
 
 struct AttributeInfo {
   AttributeFormat format;
   AttributeCoding coding = AttributeCoding::kLattice;
-  uint8_t bits = 0;       ///< of kLattice, kOctahedral, kTangentAngle
+  uint8_t bits = 0;       ///< of kLattice, kOctahedral, kTangentAngle, kGrid
   Lattice lattice;        ///< of kLattice
   uint8_t predictor = 0;  ///< the coding's own choice, see the specification
   uint32_t alias_of = 0;  ///< of kAlias
+  uint16_t grid = 0;      ///< of kGrid: its steps
+  uint8_t tails = 0;  ///< of kGrid: whether values have bits below them, and how those are coded
 };
 
 struct PieceInfo {

@@ -7,6 +7,10 @@
 #include <cstdint>
 
 #include "attributes/equality.h"
+#include "attributes/exact_normals.h"
+#include "attributes/exact_tails.h"
+#include "attributes/exact_tangents.h"
+#include "attributes/exact_values.h"
 #include "attributes/normals.h"
 #include "attributes/skin.h"
 #include "attributes/tangents.h"
@@ -25,9 +29,16 @@ struct AttributeModels {
   TangentModels tangents;
   SkinModels skins[2];          ///< [further set]
   ValueModels values[8][2][2];  ///< [semantic][further set][morph target]
+  VectorModels exact_normals;
+  ExactTangentModels exact_tangents;
+  ExactValueModels exact_values[8];  ///< [semantic]
+  TailModels tails[8][2];            ///< [semantic][morph target]
 
   EqualityModels& equalitiesOf(const AttributeInfo& a) {
     return equalities[static_cast<uint32_t>(a.format.semantic)];
+  }
+  TailModels& tailsOf(const AttributeInfo& a) {
+    return tails[static_cast<uint32_t>(a.format.semantic)][a.format.morph_target != 0 ? 1 : 0];
   }
   ValueModels& valuesOf(const AttributeInfo& a) {
     return values[static_cast<uint32_t>(a.format.semantic)][a.format.set_index != 0 ? 1 : 0]
@@ -53,22 +64,30 @@ class AttributeStage {
                  uint32_t attribute_count, const Allocator& allocator)
       : wedges(allocator),
         positions(allocator),
+        exact_positions(allocator),
         normals(allocator),
         io_(io),
         models_(models),
         attributes_(attributes),
         count_(attribute_count),
+        allocator_(allocator),
+        exact_(allocator),
         normal_(normalOfTangents(attributes, attribute_count)),
+        exact_normal_(exactNormalOf(attributes, attribute_count)),
         chart_(chartOfTangents(attributes, attribute_count)),
         groups_(allocator),
         floats_(allocator),
+        doubles_(allocator),
+        errors_(allocator),
+        edges_(allocator),
         chart_coordinates_(allocator),
+        exact_normals_(allocator),
         memory_(allocator),
         lengths_(allocator),
         moved_before_(allocator),
         moved_(allocator) {
     for (uint32_t i = 1; i < attribute_count; ++i) {
-      has_tangents_ |= attributes[i].coding == AttributeCoding::kTangentAngle;
+      has_tangents_ |= codingPhase(attributes[i]) == 1;
     }
   }
 
@@ -86,14 +105,20 @@ class AttributeStage {
       MCC_TRY(EqualityCoder<Io>(io_, models_.equalitiesOf(info), wedges, values.data(), components)
                   .run(groups_));
     }
+    const GridPart grid = gridPart(index, method, components);
+    if (grid.info != nullptr) MCC_TRY(enterGrid(grid, values.data()));
     switch (method) {
       case AttributeMethod::kNormal: MCC_TRY(codeNormals(info, values.data())); break;
+      case AttributeMethod::kExactNormal: MCC_TRY(codeExactNormals(info, values.data())); break;
+      case AttributeMethod::kExactTangent: MCC_TRY(codeExactTangents(info, values.data())); break;
+      case AttributeMethod::kExactValues: MCC_TRY(codeExactValues(info, values.data())); break;
       case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(info, values.data())); break;
       case AttributeMethod::kTangent: MCC_TRY(codeTangents(info, values.data())); break;
       case AttributeMethod::kSkin: codeSkin(index, values.data()); break;
       case AttributeMethod::kWithAnother: break;
       case AttributeMethod::kValues: MCC_TRY(codeValues(info, components, values.data())); break;
     }
+    if (grid.info != nullptr) MCC_TRY(leaveGrid(grid, values.data()));
     if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside an attribute");
     return keepForTangents(index, values);
   }
@@ -105,6 +130,10 @@ class AttributeStage {
       if (!normals.resize(values.size())) return noMemory();
       std::copy(values.data(), values.data() + values.size(), normals.data());
     }
+    if (index == exact_normal_) {
+      if (!exact_normals_.resize(values.size())) return noMemory();
+      std::copy(values.data(), values.data() + values.size(), exact_normals_.data());
+    }
     if (index == chart_) {
       if (!chart_coordinates_.resize(values.size())) return noMemory();
       chartCoordinates(attributes_[index], values.data(), values.size(), chart_coordinates_.data());
@@ -112,15 +141,76 @@ class AttributeStage {
     return {};
   }
 
+  /// Whether an attribute is predicted from positions that are not rounded.
+  bool needsExactPositions() const {
+    for (uint32_t i = 1; i < count_; ++i) {
+      const AttributeMethod method = methodOf(attributes_, count_, i);
+      if (method == AttributeMethod::kExactNormal || method == AttributeMethod::kExactTangent ||
+          method == AttributeMethod::kExactValues)
+        return true;
+      if (Io::kEncoding && attributes_[i].coding == AttributeCoding::kGrid) return true;  // perhaps
+    }
+    return false;
+  }
+
   const AttributeInfo& normalInfo() const { return attributes_[normal_]; }
 
   WedgeMesh wedges;
   Array<float>
       positions;  ///< 4 per wedge, see wedges.h; only when an attribute is predicted from them
-  Array<int32_t> normals;  ///< 2 per wedge, only with tangents
+  Array<float> exact_positions;  ///< 3 per wedge, finite; only if needsExactPositions()
+  Array<int32_t> normals;        ///< 2 per wedge, only with tangents
 
  private:
   static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for attributes"); }
+
+  /// Which of the coded values are on an exact grid; `info` null: none.
+  struct GridPart {
+    const AttributeInfo* info = nullptr;
+    uint32_t first = 0;
+    uint32_t count = 0;
+    uint32_t stride = 0;
+  };
+  GridPart gridPart(uint32_t index, AttributeMethod method, uint32_t components) const {
+    const bool is_skin = method == AttributeMethod::kSkin;
+    const AttributeInfo& info =
+        attributes_[is_skin ? skinPartner(attributes_, count_, index) : index];
+    if (info.coding != AttributeCoding::kGrid) return {};
+    return {&info, is_skin ? kSkinSlots : 0, info.format.component_count, components};
+  }
+
+  /// Encoder: from ordered floats to the integers of their grid.
+  Status enterGrid(const GridPart& part, int32_t* values) {
+    if constexpr (Io::kEncoding) {
+      if (!exact_.resize(size_t{wedges.count} * part.count)) return noMemory();
+      for (uint32_t w = 0; w < wedges.count; ++w) {
+        int32_t* value = values + size_t{w} * part.stride + part.first;
+        for (uint32_t c = 0; c < part.count; ++c) {
+          exact_[size_t{w} * part.count + c] = value[c];
+          value[c] = gridInteger(*part.info, value[c]);
+        }
+      }
+    }
+    return {};
+  }
+
+  /// And back, with what is below the grid.
+  Status leaveGrid(const GridPart& part, int32_t* values) {
+    TailCoder<Io> tails(io_, models_.tailsOf(*part.info), *part.info, allocator_);
+    MCC_TRY(tails.prepare());
+    for (uint32_t w = 0; w < wedges.count; ++w) {
+      int32_t* value = values + size_t{w} * part.stride + part.first;
+      const uint32_t first = groups_.firstOf(w);
+      if (first != w) {
+        std::copy_n(values + size_t{first} * part.stride + part.first, part.count, value);
+        continue;
+      }
+      for (uint32_t c = 0; c < part.count; ++c) {
+        value[c] = tails.code(c, value[c], Io::kEncoding ? exact_[size_t{w} * part.count + c] : 0);
+      }
+    }
+    return {};
+  }
 
   Status codeValues(const AttributeInfo& info, uint32_t components, int32_t* values) {
     const bool is_target = info.format.morph_target != 0;
@@ -147,6 +237,43 @@ class AttributeStage {
     NormalCoder<Io>(io_, models_.normals, wedges, groups_, info, values, floats_.data(),
                     lengths_.data())
         .run(positions.data());
+    return {};
+  }
+
+  Status codeExactNormals(const AttributeInfo& info, int32_t* values) {
+    if (!doubles_.resize(3 * size_t{wedges.count}) || !errors_.resize(wedges.count))
+      return noMemory();
+    const bool remembers = (info.predictor & exact_normal_method::kRemembersEdges) != 0;
+    if (remembers && !edges_.prepare(wedges.face_count)) return noMemory();
+    ExactNormalCoder<Io>(io_, models_.exact_normals, wedges, groups_, info, values, doubles_.data(),
+                         errors_.data(), remembers ? &edges_ : nullptr)
+        .run(exact_positions.data());
+    edges_.clear();
+    return {};
+  }
+
+  Status codeExactTangents(const AttributeInfo& info, int32_t* values) {
+    if (!doubles_.resize(4 * size_t{wedges.count}) || !errors_.resize(wedges.count))
+      return noMemory();
+    TangentSources from;
+    from.positions = exact_positions.data();
+    if (chart_ != kNone) from.chart = chart_coordinates_.data();
+    if (exact_normal_ != kNone) from.normals = exact_normals_.data();
+    ExactTangentCoder<Io>(io_, models_.exact_tangents, wedges, groups_, info, from, values,
+                          doubles_.data(), errors_.data())
+        .run();
+    return {};
+  }
+
+  Status codeExactValues(const AttributeInfo& info, int32_t* values) {
+    const bool remembers = (info.predictor & exact_value_method::kRemembers) != 0;
+    if (!floats_.resize(wedges.count) || (remembers && !edges_.prepare(wedges.face_count)))
+      return noMemory();
+    ExactValueCoder<Io>(io_, models_.exact_values[static_cast<uint32_t>(info.format.semantic)],
+                        wedges, groups_, info, exact_positions.data(), values, floats_.data(),
+                        remembers ? &edges_ : nullptr)
+        .run();
+    edges_.clear();
     return {};
   }
 
@@ -185,12 +312,19 @@ class AttributeStage {
   AttributeModels& models_;
   const AttributeInfo* const attributes_;
   const uint32_t count_;
+  const Allocator allocator_;
+  Array<int32_t> exact_;  ///< encoder: ordered floats of what is on a grid
   const uint32_t normal_;
+  const uint32_t exact_normal_;
   const uint32_t chart_;
   bool has_tangents_ = false;
   EqualGroups groups_;
   Array<float> floats_;
+  Array<double> doubles_;
+  Array<VectorError> errors_;
+  EdgeMemory edges_;
   Array<float> chart_coordinates_;  ///< 2 per wedge, only with tangents
+  Array<int32_t> exact_normals_;    ///< 3 ordered floats per wedge, only with tangents
   Array<ResidualMemory::Entry> memory_;
   Array<uint8_t> lengths_;
   Array<uint8_t> moved_before_;  ///< see attributes/values.h; only with morph targets

@@ -15,6 +15,7 @@ namespace {
 using Kind = PositionRecording::Kind;
 
 constexpr uint8_t kNarrowBits = 17;
+constexpr size_t kLargePalette = 1u << 16;                 ///< vertices
 constexpr uint32_t kRunLength = 1024;                      ///< of consecutive vertices in a sample
 constexpr uint32_t kTrialVertices[] = {4000, 12000, ~0u};  ///< by effort
 constexpr uint32_t kFitVertices[] = {3000, 7000, 32000};
@@ -574,7 +575,9 @@ void DistinctCoordinates::find(std::span<const int32_t> truth) {
     values.clear();
     for (size_t i = 0; i < vertices; ++i) values.push_back(truth[3 * i + s]);
     sortDistinct(values);
-    if (2 * values.size() > vertices || values.size() > kMaxPalette) values.clear();
+    // Searching a large palette misses the cache at every step: it must pay.
+    const size_t limit = vertices < kLargePalette ? 3 * vertices / 4 : vertices / 2;
+    if (values.size() > std::min<size_t>(limit, kMaxPalette)) values.clear();
     if (values.empty()) continue;
     const PaletteIndex index(values.data(), static_cast<uint32_t>(values.size()));
     shift[s] = index.shift;

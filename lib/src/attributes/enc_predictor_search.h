@@ -23,6 +23,26 @@ class PredictorSearch {
                   {normal_method::kBlendMask,
                    {1 << normal_method::kBlendShift, 2 << normal_method::kBlendShift}}};
         break;
+      case AttributeMethod::kExactNormal:
+        best_ = has_seams ? kHasEqualities : 0;
+        steps_ = {{exact_normal_method::kWeightMask, {0, 1, 2, 3}},
+                  {exact_normal_method::kRemembers, {exact_normal_method::kRemembers}},
+                  {exact_normal_method::kRemembersEdges, {exact_normal_method::kRemembersEdges}},
+                  {exact_normal_method::kBlendMask,
+                   {1 << exact_normal_method::kBlendShift, 2 << exact_normal_method::kBlendShift}}};
+        break;
+      case AttributeMethod::kExactTangent:
+        best_ = static_cast<uint8_t>((has_seams ? kHasEqualities : 0) |
+                                     exact_tangent_method::kPerpendicular);
+        steps_ = {{exact_tangent_method::kWeightMask, {0, 1, 2, 3}},
+                  {exact_tangent_method::kRemembers, {exact_tangent_method::kRemembers}},
+                  {exact_tangent_method::kPerpendicular, {0}}};
+        break;
+      case AttributeMethod::kExactValues:
+        best_ = has_seams ? kHasEqualities : 0;
+        steps_ = {{exact_value_method::kPredictorMask, {0, 1, 2}},
+                  {exact_value_method::kRemembers, {exact_value_method::kRemembers}}};
+        break;
       case AttributeMethod::kTexcoord:
         best_ = has_seams ? kHasEqualities : 0;
         steps_ = {{texcoord_method::kPredictorMask, {0, 1, 3, 2, 4}},

@@ -7,6 +7,8 @@
 #include <cstring>
 
 #include "attributes/dequantize.h"
+#include "attributes/enc_exact_grid.h"
+#include "attributes/exact_grid.h"
 #include "attributes/normals.h"
 #include "attributes/octahedral.h"
 #include "attributes/tangents.h"
@@ -120,6 +122,7 @@ class Quantizer {
             orderedFromBits(std::bit_cast<uint32_t>(component(w, c)));
       }
     }
+    findExactGrid(result_.values, result_.info);
     return std::move(result_);
   }
 
@@ -203,7 +206,8 @@ class Quantizer {
     const int32_t s0 = static_cast<int32_t>(std::floor((x + 1) * centre));
     const int32_t t0 = static_cast<int32_t>(std::floor((y + 1) * centre));
     // By the distance of unit vectors: their cosine would drown in float32 from 12 bits on.
-    const double length = std::sqrt(double{n[0]} * n[0] + double{n[1]} * n[1] + double{n[2]} * n[2]);
+    const double length =
+        std::sqrt(double{n[0]} * n[0] + double{n[1]} * n[1] + double{n[2]} * n[2]);
     double best = 8;
     for (int32_t s = s0; s <= s0 + 1; ++s) {
       for (int32_t t = t0; t <= t0 + 1; ++t) {
@@ -390,17 +394,18 @@ class WeightQuantizer {
 /// The bits of skin_method that hold for a pair of JOINTS and WEIGHTS.
 void describeSkin(uint32_t wedge_count, QuantizedAttribute& joints, QuantizedAttribute& weights) {
   const int32_t unit = unitSum(weights.info);
+  const bool on_grid = weights.info.coding == AttributeCoding::kGrid;
   uint32_t unit_sums = 0;
   bool ascending = true;
   for (uint32_t w = 0; w < wedge_count; ++w) {
     int64_t sum = 0;
     int32_t previous = -1;
     for (size_t k = 4 * size_t{w}; k < 4 * size_t{w} + 4; ++k) {
-      sum += weights.values[k];
-      if (weights.values[k] == 0 && joints.values[k] != 0) {
-        joints.info.predictor |= skin_method::kIdleJoints;
-      }
-      if (weights.values[k] == 0) continue;
+      const int32_t weight =
+          on_grid ? gridInteger(weights.info, weights.values[k]) : weights.values[k];
+      sum += weight;
+      if (weight == 0 && joints.values[k] != 0) joints.info.predictor |= skin_method::kIdleJoints;
+      if (weight == 0) continue;
       ascending &= joints.values[k] > previous;
       previous = joints.values[k];
     }

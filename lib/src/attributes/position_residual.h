@@ -173,6 +173,20 @@ MCC_INLINE int32_t codeResidual(Io& io, TokenRow& row, uint32_t low_bits, uint32
   return static_cast<int32_t>((a ^ mask) - mask);
 }
 
+/// The same of one scale: half-octave bucket, 0 .. kScaleBuckets-1.
+MCC_INLINE uint32_t scaleBucket(uint32_t scale) {
+  const uint32_t y = scale + 1;
+  const uint32_t k = static_cast<uint32_t>(std::bit_width(y)) - 1;
+  const uint32_t bucket = 2 * k + ((2 * y >> k) & 1);
+  return std::min(bucket, kScaleBuckets - 1);
+}
+
+/// A residual alone, in the row of its scale's bucket.
+template <uint32_t kState, class Io>
+MCC_INLINE int32_t codeScaledResidual(Io& io, TokenRow& row, uint32_t bucket, int32_t truth) {
+  return codeResidual<kState, false>(io, row, bucket >= 10 ? bucket / 2 - 5 : 0, 0, 0, truth);
+}
+
 }  // namespace mcc
 
 #endif  // MCC_ATTRIBUTES_POSITION_RESIDUAL_H_

@@ -27,6 +27,9 @@ void writeAttribute(ByteWriter& out, const AttributeInfo& a) {
   } else if (a.coding == AttributeCoding::kOctahedral ||
              a.coding == AttributeCoding::kTangentAngle) {
     out.writeU8(a.bits);
+  } else if (a.coding == AttributeCoding::kGrid) {
+    out.writeU8(static_cast<uint8_t>(a.bits | a.tails << 5));
+    out.writeVarint(a.grid);
   } else if (a.coding == AttributeCoding::kAlias) {
     out.writeVarint(a.alias_of);
   }
@@ -34,7 +37,7 @@ void writeAttribute(ByteWriter& out, const AttributeInfo& a) {
 
 bool sameAttribute(const AttributeInfo& a, const AttributeInfo& b) {
   if (a.format != b.format || a.coding != b.coding || a.predictor != b.predictor ||
-      a.bits != b.bits || a.alias_of != b.alias_of) {
+      a.bits != b.bits || a.alias_of != b.alias_of || a.grid != b.grid || a.tails != b.tails) {
     return false;
   }
   return a.coding != AttributeCoding::kLattice || a.lattice == b.lattice;
@@ -89,8 +92,8 @@ std::vector<uint8_t> writePayload(const PayloadHeader& header, std::span<const u
     const PieceHeader& p = header.pieces[i];
     elements += p.triangleCount() + p.vertex_count + p.wedge_count;
     for (uint32_t a = 0; a < p.attribute_count; ++a) {
-      elements += uint64_t{p.wedge_count} *
-                  header.attributes[p.first_attribute + a].format.component_count;
+      elements +=
+          uint64_t{p.wedge_count} * header.attributes[p.first_attribute + a].format.component_count;
     }
   }
   if (!header.singleCoder()) {

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 
+#include "attributes/exact_grid.h"
 #include "base/crc32.h"
 #include "mesh/attribute_method.h"
 
@@ -21,6 +22,24 @@ bool isFinite(float value) { return (std::bit_cast<uint32_t>(value) & 0x7f800000
 
 bool isBasePosition(const AttributeInfo& a) {
   return a.format.semantic == Semantic::kPosition && a.format.morph_target == 0;
+}
+
+/// [A.2.4]
+Status parseGrid(ByteReader& in, AttributeInfo& a) {
+  const size_t at = in.offset();
+  uint8_t shape = 0;
+  uint32_t grid = 0;
+  MCC_TRY(in.readU8(shape));
+  MCC_TRY(in.readVarint(grid));
+  a.bits = shape & 31;
+  a.tails = shape >> 5;
+  a.grid = static_cast<uint16_t>(grid);
+  if (a.bits == 0 || a.bits > kGridBits + 1 || !isKnownGrid(grid) ||
+      a.format.component_count > kGridComponents ||
+      a.tails > static_cast<uint8_t>(GridTails::kCached) || (a.tails != 0 && !isBinaryGrid(grid))) {
+    return fail(Error::kBadHeader, "an attribute's grid is malformed", at);
+  }
+  return {};
 }
 
 /// [A.2.4]
@@ -46,13 +65,12 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
       return fail(Error::kBadHeader, "a morph target number is out of range", at);
     a.format.morph_target = static_cast<uint16_t>(target);
   }
-  if ((shape >> 4) > static_cast<uint8_t>(AttributeCoding::kAlias)) {
+  if ((shape >> 4) > static_cast<uint8_t>(AttributeCoding::kGrid)) {
     return fail(Error::kBadHeader, "an attribute has an unknown coding", at);
   }
   a.coding = static_cast<AttributeCoding>(shape >> 4);
   const bool is_float = a.format.component_type == ComponentType::kFloat32;
-  if (a.coding != AttributeCoding::kAlias &&
-      is_float == (a.coding == AttributeCoding::kInteger)) {
+  if (a.coding != AttributeCoding::kAlias && is_float == (a.coding == AttributeCoding::kInteger)) {
     return fail(Error::kBadHeader, "an attribute's coding does not fit its component type", at);
   }
   MCC_TRY(in.readU8(a.predictor));
@@ -82,6 +100,7 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
     }
   }
   if (a.coding == AttributeCoding::kAlias) MCC_TRY(in.readVarint(a.alias_of));
+  if (a.coding == AttributeCoding::kGrid) MCC_TRY(parseGrid(in, a));
   return {};
 }
 
@@ -140,7 +159,8 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
   MCC_TRY(checkReferences(&header.attributes[piece.first_attribute], piece.attribute_count, at));
   const AttributeInfo& position = header.attributes[piece.first_attribute];
   if (!isBasePosition(position) || position.format.component_count != 3 ||
-      position.coding > AttributeCoding::kExactFloat) {
+      (position.coding > AttributeCoding::kExactFloat &&
+       position.coding != AttributeCoding::kGrid)) {
     return fail(Error::kBadHeader, "the first attribute of a piece is not its position", at);
   }
   if ((position.predictor & position_flag::kPredictorMask) >= position_flag::kPredictorCount) {

@@ -134,7 +134,8 @@ Result promiseOf(const AttributePlan& plan, const AttributeInfo& coded, uint8_t 
   if (plan.bits == 0 || !is_float) return {};
   switch (coded.coding) {
     case AttributeCoding::kInteger:
-    case AttributeCoding::kExactFloat: return {};
+    case AttributeCoding::kExactFloat:
+    case AttributeCoding::kGrid: return {};
     case AttributeCoding::kLattice: return promiseLattice(plan, coded.lattice, promise);
     case AttributeCoding::kAlias:  // of an attribute with the same plan
       return promiseLattice(plan, plan.lattice, promise);

@@ -12,18 +12,34 @@ namespace mcc {
 
 /// The coder follows from what the header says; there is no field for it.
 enum class AttributeMethod : uint8_t {
-  kValues,       ///< attributes/values.h
-  kNormal,       ///< attributes/normals.h
-  kTexcoord,     ///< attributes/texcoords.h
-  kTangent,      ///< attributes/tangents.h
-  kSkin,         ///< attributes/skin.h: JOINTS_n with its WEIGHTS_n
-  kWithAnother,  ///< coded with another attribute: WEIGHTS_n with its JOINTS_n, aliases
+  kValues,        ///< attributes/values.h
+  kNormal,        ///< attributes/normals.h
+  kTexcoord,      ///< attributes/texcoords.h
+  kTangent,       ///< attributes/tangents.h
+  kSkin,          ///< attributes/skin.h: JOINTS_n with its WEIGHTS_n
+  kExactNormal,   ///< attributes/exact_normals.h
+  kExactTangent,  ///< attributes/exact_tangents.h
+  kExactValues,   ///< attributes/exact_values.h
+  kWithAnother,   ///< coded with another attribute: WEIGHTS_n with its JOINTS_n, aliases
 };
 
 /// The attribute of a piece that gives tangents their plane: the first NORMAL on the octahedral grid; or kNone.
 constexpr uint32_t normalOfTangents(const AttributeInfo* attributes, uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) {
     if (attributes[i].coding == AttributeCoding::kOctahedral) return i;
+  }
+  return kNone;
+}
+
+/// The attribute of a piece that exact tangents are perpendicular to: the first NORMAL with exact floats; or kNone.
+constexpr uint32_t exactNormalOf(const AttributeInfo* attributes, uint32_t count) {
+  for (uint32_t i = 0; i < count; ++i) {
+    const AttributeInfo& a = attributes[i];
+    if (a.format.semantic == Semantic::kNormal && a.format.morph_target == 0 &&
+        a.format.component_count == 3 &&
+        (a.coding == AttributeCoding::kExactFloat || a.coding == AttributeCoding::kGrid)) {
+      return i;
+    }
   }
   return kNone;
 }
@@ -42,16 +58,19 @@ constexpr uint32_t chartOfTangents(const AttributeInfo* attributes, uint32_t cou
 /// Attributes are coded in the order of their phases, within a phase in that of the header. [A.8.1]
 inline constexpr uint32_t kCodingPhases = 2;
 constexpr uint32_t codingPhase(const AttributeInfo& a) {
-  return a.coding == AttributeCoding::kTangentAngle ? 1 : 0;  // behind normals and charts
+  const bool is_tangent = a.format.semantic == Semantic::kTangent && a.format.morph_target == 0;
+  return is_tangent ? 1 : 0;  // behind normals and charts
 }
 
 /// JOINTS_n and WEIGHTS_n of four components are coded as one: the other attribute of the pair, or kNone.
 constexpr uint32_t skinPartner(const AttributeInfo* attributes, uint32_t count, uint32_t index) {
   const auto isHalf = [](const AttributeInfo& a) {
     return a.format.morph_target == 0 && a.format.component_count == 4 &&
-           (a.format.semantic == Semantic::kJoints ? a.coding == AttributeCoding::kInteger
-                                                   : a.format.semantic == Semantic::kWeights &&
-                                                         a.coding <= AttributeCoding::kExactFloat);
+           (a.format.semantic == Semantic::kJoints
+                ? a.coding == AttributeCoding::kInteger
+                : a.format.semantic == Semantic::kWeights &&
+                      (a.coding <= AttributeCoding::kExactFloat ||
+                       a.coding == AttributeCoding::kGrid));
   };
   const auto firstOf = [=](Semantic semantic, uint8_t set) {
     for (uint32_t i = 1; i < count; ++i) {
@@ -83,6 +102,18 @@ constexpr AttributeMethod methodOf(const AttributeInfo* attributes, uint32_t cou
       a.format.component_count == 2 && a.coding != AttributeCoding::kExactFloat) {
     return AttributeMethod::kTexcoord;
   }
+  if (a.coding == AttributeCoding::kExactFloat && a.format.semantic == Semantic::kNormal &&
+      a.format.morph_target == 0 && a.format.component_count == 3) {
+    return AttributeMethod::kExactNormal;
+  }
+  if (a.coding == AttributeCoding::kExactFloat && a.format.semantic == Semantic::kTangent &&
+      a.format.morph_target == 0 && a.format.component_count == 4) {
+    return AttributeMethod::kExactTangent;
+  }
+  if (a.coding == AttributeCoding::kExactFloat && a.format.morph_target == 0 &&
+      a.format.component_count <= 4) {
+    return AttributeMethod::kExactValues;
+  }
   return AttributeMethod::kValues;
 }
 
@@ -94,6 +125,25 @@ inline constexpr uint8_t kWeightMask = 0x03;  ///< NormalWeight
 inline constexpr uint8_t kBlendShift = 2;     ///< 0 none, 1 half, 2 whole
 inline constexpr uint8_t kBlendMask = 0x0c;
 }  // namespace normal_method
+
+namespace exact_normal_method {
+inline constexpr uint8_t kWeightMask = 0x03;  ///< ExactWeight
+inline constexpr uint8_t kBlendShift = 2;     ///< 0 none, 1 half, 2 whole
+inline constexpr uint8_t kBlendMask = 0x0c;
+inline constexpr uint8_t kRemembers = 0x10;       ///< by predictions
+inline constexpr uint8_t kRemembersEdges = 0x20;  ///< by the vectors of neighbours
+}  // namespace exact_normal_method
+
+namespace exact_tangent_method {
+inline constexpr uint8_t kWeightMask = 0x03;  ///< TangentWeight
+inline constexpr uint8_t kPerpendicular = 0x04;
+inline constexpr uint8_t kRemembers = 0x08;
+}  // namespace exact_tangent_method
+
+namespace exact_value_method {
+inline constexpr uint8_t kPredictorMask = 0x03;  ///< ExactPredictor
+inline constexpr uint8_t kRemembers = 0x04;
+}  // namespace exact_value_method
 
 namespace texcoord_method {
 inline constexpr uint8_t kPredictorMask = 0x07;  ///< TexcoordPredictor
@@ -135,6 +185,12 @@ constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count,
     case AttributeMethod::kNormal:
       return (bits & ~0x0f) == 0 && (bits & normal_method::kWeightMask) != 3 &&
              (bits & normal_method::kBlendMask) != normal_method::kBlendMask;
+    case AttributeMethod::kExactNormal:
+      return (bits & ~0x3f) == 0 &&
+             (bits & exact_normal_method::kBlendMask) != exact_normal_method::kBlendMask;
+    case AttributeMethod::kExactTangent: return (bits & ~0x0f) == 0;
+    case AttributeMethod::kExactValues:
+      return (bits & ~0x07) == 0 && (bits & exact_value_method::kPredictorMask) < 3;
     case AttributeMethod::kTangent: return bits == 0;
     case AttributeMethod::kTexcoord:
       return (bits & ~0x0f) == 0 && (bits & texcoord_method::kPredictorMask) < 5;
