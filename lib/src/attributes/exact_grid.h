@@ -11,31 +11,9 @@
 
 #include "attributes/dequantize.h"
 #include "mcc/reader.h"
+#include "mesh/attribute_method.h"
 
 namespace mcc {
-
-/// AttributeInfo::grid: below kGridFraction 10^grid steps per unit, below kGridFractionEnd 2^(grid - 8) - 1 steps (what
-/// integers of 2..16 bits count for as fractions), from kGridBinary steps of 2^(grid - kGridBinary - 149).
-inline constexpr uint32_t kGridFraction = 10;
-inline constexpr uint32_t kGridFractionEnd = 25;
-inline constexpr uint32_t kGridBinary = 32;
-inline constexpr int32_t kSmallestExponent = -149;  ///< of float32
-inline constexpr int32_t kGridExponents = 246;      ///< up to 2^96: no integer overflows
-inline constexpr uint32_t kGridCount = kGridBinary + kGridExponents;
-inline constexpr uint32_t kGridComponents = 4;
-inline constexpr uint32_t kGridBits = 26;  ///< of a grid's integers, without their sign
-
-/// AttributeInfo::tails: how the bits below the step are coded.
-enum class GridTails : uint8_t {
-  kNoTails = 0,
-  kPlain = 1,
-  kCached = 2,  ///< those of equal integers tend to be equal
-};
-
-constexpr bool isBinaryGrid(uint32_t grid) { return grid >= kGridBinary; }
-constexpr bool isKnownGrid(uint32_t grid) {
-  return grid < kGridFractionEnd || (isBinaryGrid(grid) && grid < kGridCount);
-}
 
 /// 2^exponent, normal as a double.
 constexpr double powerOfTwo(int32_t exponent) {

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cstring>
 
-#include "attributes/exact_grid.h"
 #include "base/crc32.h"
 #include "mesh/attribute_method.h"
 
