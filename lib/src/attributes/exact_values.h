@@ -286,7 +286,8 @@ double ExactValueCoder<Io>::codeComponent(uint32_t c, double predicted, double e
   const double scale = 16.0 * expected / place;
   const uint32_t bucket = scaleBucket(scale < 2e9 ? static_cast<uint32_t>(scale) : 2000000000u);
   const uint32_t target = static_cast<uint32_t>(value) - static_cast<uint32_t>(from);
-  const int32_t residual = codeScaledResidual<kState>(io_, models_.row[c][bucket], bucket, static_cast<int32_t>(target));
+  const int32_t residual =
+      codeScaledResidual<kState>(io_, models_.row[c][bucket], bucket, static_cast<int32_t>(target));
   value = static_cast<int32_t>(static_cast<uint32_t>(from) + static_cast<uint32_t>(residual));
   // Of a prediction of another sign or far too small, the difference tells more than the places.
   const double missed = std::fabs(finiteValue(value) - near);

@@ -203,7 +203,8 @@ class VectorCoder {
     const double scale = 16.0 * expected / place;
     const uint32_t bucket = scaleBucket(scale < 2e9 ? static_cast<uint32_t>(scale) : 2000000000u);
     const uint32_t target = static_cast<uint32_t>(value) - static_cast<uint32_t>(from);
-    const int32_t residual = codeScaledResidual<kSlot>(io_, models_.row[kSlot][bucket], bucket, static_cast<int32_t>(target));
+    const int32_t residual = codeScaledResidual<kSlot>(io_, models_.row[kSlot][bucket], bucket,
+                                                       static_cast<int32_t>(target));
     value = static_cast<int32_t>(static_cast<uint32_t>(from) + static_cast<uint32_t>(residual));
     const double size = static_cast<double>(residual) * place;
     const double absolute = size < 0 ? -size : size;
