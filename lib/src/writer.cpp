@@ -424,7 +424,7 @@ class StageRunner {
     candidate.recording = &recording;
     candidate.truth = plan_.positions.data();
     candidate.bits = parameters.bits;
-    plan_.coordinates.find(plan_.positions);
+    plan_.coordinates.find(plan_.positions, isExact(plan_.attributes[0].info.coding));
     for (uint32_t s = 0; s < 3; ++s) candidate.palettes[s] = plan_.coordinates.palette(s);
     return {};
   }

@@ -568,7 +568,7 @@ void sortDistinct(std::vector<int32_t>& values) {
 
 }  // namespace
 
-void DistinctCoordinates::find(std::span<const int32_t> truth) {
+void DistinctCoordinates::find(std::span<const int32_t> truth, bool is_exact) {
   const size_t vertices = truth.size() / 3;
   for (uint32_t s = 0; s < 3; ++s) {
     std::vector<int32_t>& values = axis[s];
@@ -576,7 +576,7 @@ void DistinctCoordinates::find(std::span<const int32_t> truth) {
     for (size_t i = 0; i < vertices; ++i) values.push_back(truth[3 * i + s]);
     sortDistinct(values);
     // Searching a large palette misses the cache at every step: it must pay.
-    const size_t limit = vertices < kLargePalette ? 3 * vertices / 4 : vertices / 2;
+    const size_t limit = is_exact && vertices < kLargePalette ? 3 * vertices / 4 : vertices / 2;
     if (values.size() > std::min<size_t>(limit, kMaxPalette)) values.clear();
     if (values.empty()) continue;
     const PaletteIndex index(values.data(), static_cast<uint32_t>(values.size()));

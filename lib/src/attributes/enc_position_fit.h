@@ -28,7 +28,8 @@ struct DistinctCoordinates {
   std::vector<uint32_t> cells[3];
   uint32_t shift[3] = {};
 
-  void find(std::span<const int32_t> truth);
+  /// `is_exact`: the coordinates are floats that keep every bit, for which even a large palette may pay.
+  void find(std::span<const int32_t> truth, bool is_exact);
   AxisPalette palette(uint32_t s) const {
     return {axis[s].data(), static_cast<uint32_t>(axis[s].size()), inverse[s].data(),
             cells[s].data(), shift[s]};
