@@ -18,7 +18,7 @@ constexpr uint8_t kNarrowBits = 17;
 constexpr size_t kLargePalette = 1u << 16;                 ///< vertices
 constexpr uint32_t kRunLength = 1024;                      ///< of consecutive vertices in a sample
 constexpr uint32_t kTrialVertices[] = {4000, 12000, ~0u};  ///< by effort
-constexpr uint32_t kFitVertices[] = {3000, 7000, 32000};
+constexpr uint32_t kFitVertices[] = {3000, 20000, 32000};
 
 // --- sampling ---------------------------------------------------------------------------------------
 

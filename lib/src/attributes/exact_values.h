@@ -36,7 +36,7 @@ struct ExactValueModels {
     if (is_ready) return;
     is_ready = true;
     for (auto& component : row) {
-      for (uint32_t b = 0; b < kScaleBuckets; ++b) initialTokenRow(b, component[b]);
+      std::copy_n(kInitialTokenRows.plain, kScaleBuckets, component);
     }
   }
 };

@@ -90,7 +90,7 @@ struct VectorModels {
     is_ready = true;
     std::fill(std::begin(memory.entry), std::end(memory.entry), VectorMemory::Entry{});
     for (auto& component : row) {
-      for (uint32_t b = 0; b < kScaleBuckets; ++b) initialTokenRow(b, component[b]);
+      std::copy_n(kInitialTokenRows.plain, kScaleBuckets, component);
     }
   }
 };

@@ -18,8 +18,6 @@ namespace mcc {
 
 /// Rows of one component: 40 buckets, then the folded ones by fraction class; all of it three times, by which term of
 /// the scale dominates (only with position_mode::kSplit).
-inline constexpr uint32_t kFoldBuckets = 10;
-inline constexpr uint32_t kFractionClasses = 4;
 inline constexpr uint32_t kRowsPerSet = kScaleBuckets + kFractionClasses * kFoldBuckets;
 inline constexpr uint32_t kRowSets = 3;
 
@@ -36,14 +34,12 @@ struct PositionRows {
       if (set != 0 && !split && !has_split) break;
       TokenRow* rows = row[0] + set * kRowsPerSet;
       if (!old_set) {
-        for (uint32_t b = 0; b < kScaleBuckets; ++b) initialTokenRow(b, rows[b]);
+        std::copy_n(kInitialTokenRows.plain, kScaleBuckets, rows);
         copyToComponents(set * kRowsPerSet, kScaleBuckets);
       }
       if ((fold || has_folded) && !(old_set && has_folded)) {
         constexpr uint32_t kFoldedRows = kFractionClasses * kFoldBuckets;
-        for (uint32_t i = 0; i < kFoldedRows; ++i) {
-          initialFoldedRow(i / kFoldBuckets, i % kFoldBuckets, rows[kScaleBuckets + i]);
-        }
+        std::copy_n(kInitialTokenRows.folded, kFoldedRows, rows + kScaleBuckets);
         copyToComponents(set * kRowsPerSet + kScaleBuckets, kFoldedRows);
       }
     }

@@ -121,7 +121,7 @@ inline constexpr uint8_t kTokenBase[kTokenCount] = {0, 1,  2,  3,  4,  5,  6,  7
                                                     8, 12, 16, 24, 32, 48, 64, 128};
 inline constexpr uint32_t kTokenEscape = 15;
 
-inline uint32_t tokenOf(uint32_t z) {
+constexpr uint32_t tokenOf(uint32_t z) {
   if (z < 8) return z;
   uint32_t token = 8;
   while (token < kTokenEscape && kTokenBase[token + 1] <= z) ++token;
@@ -129,7 +129,7 @@ inline uint32_t tokenOf(uint32_t z) {
 }
 
 /// Row with frequencies in these proportions.
-inline void setTokenRow(const uint32_t* frequency, TokenRow& row) {
+constexpr void setTokenRow(const uint32_t* frequency, TokenRow& row) {
   uint32_t sum = 0;
   for (uint32_t i = 0; i < kTokenCount; ++i) sum += frequency[i];
   const uint64_t shared = kTokenOne - kTokenCount * kTokenInitialFloor;
@@ -143,15 +143,15 @@ inline void setTokenRow(const uint32_t* frequency, TokenRow& row) {
 }
 
 /// Trained frequencies of a bucket. Beyond the table the rows repeat: tokens are relative to the scale there.
-inline const uint16_t* trainedFrequencies(uint32_t bucket) {
+constexpr const uint16_t* trainedFrequencies(uint32_t bucket) {
   uint32_t b = bucket < kFirstTabledBucket ? kFirstTabledBucket : bucket;
   if (b > kLastTabledBucket) b = kLastTabledBucket - ((b - kLastTabledBucket) & 1);
   return kTokenFrequencies[b - kFirstTabledBucket];
 }
 
 /// Row of a scale bucket before the first symbol.
-inline void initialTokenRow(uint32_t bucket, TokenRow& row) {
-  uint32_t frequency[kTokenCount];
+constexpr void makeTokenRow(uint32_t bucket, TokenRow& row) {
+  uint32_t frequency[kTokenCount] = {};
   const uint16_t* trained = trainedFrequencies(bucket);
   for (uint32_t i = 0; i < kTokenCount; ++i) frequency[i] = trained[i];
   setTokenRow(frequency, row);
@@ -159,11 +159,11 @@ inline void initialTokenRow(uint32_t bucket, TokenRow& row) {
 
 /// Row of a folded bucket before the first symbol: the trained density of |residual|, taken as symmetric and linear
 /// between integers, moved by the middle of the fraction class, (2k+1)/16.                  [B.2.6]
-inline void initialFoldedRow(uint32_t fraction_class, uint32_t bucket, TokenRow& row) {
+constexpr void makeFoldedRow(uint32_t fraction_class, uint32_t bucket, TokenRow& row) {
   constexpr uint32_t kReach = 128;
   constexpr uint32_t kUnit = 64;  // resolution of densities within a token of 64 values
   const uint16_t* trained = trainedFrequencies(bucket);
-  uint32_t density[kReach + 1];  // of +i, and of -i
+  uint32_t density[kReach + 1] = {};  // of +i, and of -i
   for (uint32_t i = 0; i <= kReach; ++i) {
     const uint32_t token = tokenOf(i);
     density[i] = token == kTokenEscape ? 0 : (trained[token] * kUnit) >> kTokenExtraBits[token];
@@ -181,6 +181,25 @@ inline void initialFoldedRow(uint32_t fraction_class, uint32_t bucket, TokenRow&
   for (uint32_t& f : frequency) f += sum / 2000;
   setTokenRow(frequency, row);
 }
+
+/// Small residuals have rows of their own by class of the prediction's fraction, see Folding.
+inline constexpr uint32_t kFoldBuckets = 10;
+inline constexpr uint32_t kFractionClasses = 4;
+
+/// Made by the compiler, since they would take longer than a small mesh.
+struct InitialTokenRows {
+  TokenRow plain[kScaleBuckets];
+  TokenRow folded[kFractionClasses * kFoldBuckets];
+};
+constexpr InitialTokenRows makeInitialTokenRows() {
+  InitialTokenRows rows{};
+  for (uint32_t b = 0; b < kScaleBuckets; ++b) makeTokenRow(b, rows.plain[b]);
+  for (uint32_t i = 0; i < kFractionClasses * kFoldBuckets; ++i) {
+    makeFoldedRow(i / kFoldBuckets, i % kFoldBuckets, rows.folded[i]);
+  }
+  return rows;
+}
+inline constexpr InitialTokenRows kInitialTokenRows = makeInitialTokenRows();
 
 }  // namespace mcc
 
