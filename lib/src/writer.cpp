@@ -13,6 +13,7 @@
 
 #include "attributes/enc_exact_grid.h"
 #include "attributes/enc_position_fit.h"
+#include "attributes/enc_position_planes.h"
 #include "attributes/enc_predictor_search.h"
 #include "attributes/enc_quantize.h"
 #include "connectivity/enc_collapse.h"
@@ -51,6 +52,7 @@ struct Plan {
   std::vector<int32_t> positions;
   std::vector<int32_t> exact_positions;  ///< ordered floats, if the positions are on an exact grid
   DistinctCoordinates coordinates;
+  AxisPlanes planes[3];
   PositionParameters positions_as;  ///< chosen, with fitted tables
   std::vector<uint32_t> wedge_source;
   std::vector<uint32_t> part_of_face;
@@ -426,6 +428,11 @@ class StageRunner {
     candidate.bits = parameters.bits;
     plan_.coordinates.find(plan_.positions, isExact(plan_.attributes[0].info.coding));
     for (uint32_t s = 0; s < 3; ++s) candidate.palettes[s] = plan_.coordinates.palette(s);
+    const AttributeInfo& info = plan_.attributes[0].info;
+    if (info.coding == AttributeCoding::kLattice && info.bits <= position_flag::kMaxBitsOfPlanes &&
+        findPlanes(plan_.positions, plan_.planes)) {
+      candidate.planes = plan_.planes;
+    }
     return {};
   }
 
@@ -435,6 +442,7 @@ class StageRunner {
       infos_[0] = plan_.attributes[0].info;
       for (uint32_t s = 0; s < 3; ++s) palettes[s] = plan_.coordinates.palette(s);
       truth_.palettes = palettes;
+      truth_.planes = plan_.planes;
     }
     MCC_TRY(piece_.codePositions(truth_, &plan_.positions_as));
     account(sizes, &StreamSizes::position_bits);
