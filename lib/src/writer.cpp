@@ -765,6 +765,14 @@ Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t 
 
 // --- output ------------------------------------------------------------------------------------------
 
+void scale(StreamSizes& sizes, double by) {
+  for (double* bits : {&sizes.connectivity_bits, &sizes.stitch_bits, &sizes.leftover_bits,
+                       &sizes.seam_bits, &sizes.position_bits, &sizes.order_bits}) {
+    *bits *= by;
+  }
+  for (double& bits : sizes.attribute_bits) bits *= by;
+}
+
 Status codeAll(std::vector<Plan>& plans, uint32_t context_set, bool single, EncodeResult& result) {
   EncoderIo io(single);
   auto models = makeModels(context_set);
@@ -810,7 +818,12 @@ Status codeAll(std::vector<Plan>& plans, uint32_t context_set, bool single, Enco
   const double coded_bits = static_cast<double>(io.cost()) / kCostOne;
   const EncoderIo::Streams streams = io.finish();
   result.payload = writePayload(header, streams.codes, streams.tokens, streams.raw);
-  result.sizes.header_bits = 8.0 * static_cast<double>(result.payload.size()) - coded_bits;
+  const double stream_bits =
+      8.0 * static_cast<double>(streams.codes.size() + streams.tokens.size() + streams.raw.size());
+  // The count of costs is off by a little, which over millions of tokens may be more than the flushes.
+  const double spent_bits = std::min(coded_bits, stream_bits);
+  if (spent_bits < coded_bits) scale(result.sizes, spent_bits / coded_bits);
+  result.sizes.header_bits = 8.0 * static_cast<double>(result.payload.size()) - spent_bits;
   return {};
 }
 

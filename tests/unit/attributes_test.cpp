@@ -18,10 +18,20 @@ namespace {
 
 /// Meshes that take the traversal everywhere: closed, open, of one triangle, with copies, of high degree.
 std::vector<TestMesh> surfaces() {
-  return {tetrahedron(),       looseTriangles(5),   grid(9, 7),           torus(8, 6),
-          openFan(40),         bipyramid(30),       sheetWithHoles(3, 1), book(4, 4, 3),
-          pinchedSpheres(3),   moebius(8, 2),       randomVoxels(1, 4, 50), fins(4),
-          generated(2, 2, 3, 4), combOfStacks(5, 6)};
+  return {tetrahedron(),
+          looseTriangles(5),
+          grid(9, 7),
+          torus(8, 6),
+          openFan(40),
+          bipyramid(30),
+          sheetWithHoles(3, 1),
+          book(4, 4, 3),
+          pinchedSpheres(3),
+          moebius(8, 2),
+          randomVoxels(1, 4, 50),
+          fins(4),
+          generated(2, 2, 3, 4),
+          combOfStacks(5, 6)};
 }
 
 /// Both sides up to the positions. What is made up goes into `truth` between the stages.
@@ -87,7 +97,7 @@ class Pair {
 
 // ---- Positions ----------------------------------------------------------------------------------
 
-enum class Values : uint8_t { kRandom, kSmooth, kAnyInteger, kJumps };
+enum class Values : uint8_t { kRandom, kSmooth, kAnyInteger, kJumps, kPlanes };
 
 /// Choices of the encoder that need nothing besides.
 std::vector<uint8_t> positionPredictors() {
@@ -95,6 +105,23 @@ std::vector<uint8_t> positionPredictors() {
   return {0, 1, 4, kFold, 1 | kShear, 1 | kFold | kSplit, 4 | kFold | kSplit | kShear};
 }
 
+const AxisPlanes kSomePlanes[3] = {{0, 5 * AxisPlanes::kOne},
+                                   {7 * AxisPlanes::kOne / 3, 31 * AxisPlanes::kOne / 4},
+                                   {AxisPlanes::kMinStep - 1, AxisPlanes::kMinStep}};
+
+/// On planes, on diagonals or anywhere, as on no isosurface in the world.
+void setNearPlanes(Random& random, uint8_t bits, int32_t* q) {
+  const int32_t end = 1 << bits;
+  const int32_t t = static_cast<int32_t>(random.below(8));
+  const bool on_diagonal = random.chance(30);
+  for (uint32_t s = 0; s < 3; ++s) {
+    const int32_t plane = static_cast<int32_t>(random.below(1u << bits) / 8);
+    q[s] = kSomePlanes[s].at(plane);
+    if (on_diagonal) q[s] += random.chance(50) ? t : -t;
+    if (!on_diagonal && random.chance(40)) q[s] += static_cast<int32_t>(random.below(4));
+    q[s] = std::clamp(q[s], 0, end - 1);
+  }
+}
 
 template <bool kSingle>
 void expectPositions(const TestMesh& mesh, uint8_t bits, uint8_t predictor, Values kind,
@@ -119,9 +146,13 @@ void expectPositions(const TestMesh& mesh, uint8_t bits, uint8_t predictor, Valu
         break;
       case Values::kJumps:  // as far as it goes, where nobody expects it
         positions[i] = random.chance(97) ? 0 : std::numeric_limits<int32_t>::min();
+        break;
+      case Values::kPlanes:
+        if (i % 3 == 0) setNearPlanes(random, bits, &positions[i]);
     }
   }
   pair.truth.positions = positions.data();
+  pair.truth.planes = kSomePlanes;
   ASSERT_TRUE(pair.writer().piece.codePositions(pair.truth).ok());
   auto& reader = pair.reader();
   const Status status = reader.piece.codePositions(PieceTruth{});
@@ -139,6 +170,20 @@ void expectPositions(const TestMesh& mesh, uint8_t bits, uint8_t predictor, Valu
   for (size_t i = 0; i < sequence.size(); ++i) {
     ASSERT_EQ(sequence[i], pair.writer().piece.sequence[i]);
     ASSERT_TRUE(entered.insert(reader.piece.mesh.words[sequence[i]]).second);
+  }
+}
+
+TEST(Positions, PlanesHoldAnyValuesOfTheLattice) {
+  for (const TestMesh& mesh : surfaces()) {
+    for (const uint8_t bits : {1, 4, 9, 17}) {
+      for (const uint8_t predictor : {0, 1, 4}) {
+        const uint8_t with_planes = predictor | position_flag::kPlanes;
+        for (const Values kind : {Values::kPlanes, Values::kRandom, Values::kSmooth}) {
+          expectPositions<true>(mesh, bits, with_planes, kind, 2);
+          expectPositions<false>(mesh, bits, with_planes, kind, 3);
+        }
+      }
+    }
   }
 }
 
@@ -202,7 +247,8 @@ TEST(Positions, AStreamThatEndsIsAnError) {
   ASSERT_TRUE(pair.writer().piece.codePositions(pair.truth).ok());
   const std::vector<uint8_t> codes = pair.encoder().finish().codes;
   for (size_t size = connectivity_bytes; size + 100 < codes.size(); size += 97) {
-    const std::vector<uint8_t> cut(codes.begin(), codes.begin() + static_cast<std::ptrdiff_t>(size));
+    const std::vector<uint8_t> cut(codes.begin(),
+                                   codes.begin() + static_cast<std::ptrdiff_t>(size));
     DecoderIo<true> decoder(cut, {}, {});
     Stages<DecoderIo<true>> reader(decoder, pair.header(), pair.writer().attributes);
     ASSERT_TRUE(reader.piece.codeConnectivity(PieceTruth{}).ok());
@@ -293,8 +339,7 @@ void expectSeams(const TestMesh& mesh, uint32_t percent, uint32_t most, uint32_t
   ASSERT_EQ(reader.piece.wedges.isolated_first, surface_wedges);
   std::set<uint32_t> entered;
   for (uint32_t i = 0; i < surface_wedges; ++i) {
-    ASSERT_TRUE(
-        entered.insert(reader.piece.mesh.words[reader.piece.wedges.half_edges[i]]).second);
+    ASSERT_TRUE(entered.insert(reader.piece.mesh.words[reader.piece.wedges.half_edges[i]]).second);
   }
   for (uint32_t i = 0; i < isolated_count; ++i)
     ASSERT_EQ(reader.piece.groupOf(surface_wedges + i), pair.groupCount() + i);
@@ -384,7 +429,8 @@ template <bool kSingle>
 void writeLeftovers(Pair<kSingle>& pair, const Leftovers& leftovers, uint32_t part_count) {
   PieceHeader& header = pair.header();
   header.part_count = part_count;
-  header.duplicate_count = std::accumulate(leftovers.duplicates.begin(), leftovers.duplicates.end(), 0u);
+  header.duplicate_count =
+      std::accumulate(leftovers.duplicates.begin(), leftovers.duplicates.end(), 0u);
   header.listed_count = static_cast<uint32_t>(leftovers.list.size());
   if (part_count > 1) header.flags |= piece_flag::kManyParts;
   if (header.duplicate_count != 0) header.flags |= piece_flag::kDuplicates;

@@ -76,8 +76,8 @@ void roundToPeaks(const std::vector<int32_t>& peaks, Line& line) {
     bool moved = false;
     for (const int32_t x : peaks) {
       const double error = line.error(x);
-      if (std::fabs(error) > 1.5 || (error > -0.49 && error <= 0.49)) continue;
-      const double excess = error > 0 ? error - 0.48 : error + 0.48;
+      if (std::fabs(error) > 1.5 || std::fabs(error) < 0.4999) continue;
+      const double excess = error > 0 ? error - 0.499 : error + 0.499;
       const double lever = line.number(x) * kLever;
       const double part = excess / (1 + lever * lever);
       line.origin += part;
