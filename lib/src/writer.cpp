@@ -712,7 +712,8 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
     for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
     const AttributeMethod method = methodOf(infos.data(), plan.header.attribute_count, index);
     if (method == AttributeMethod::kWithAnother) return {};
-    PredictorSearch search(method, candidate, plan.header.has(piece_flag::kSeams));
+    PredictorSearch search(method, candidate, plan.header.has(piece_flag::kSeams),
+                           hasNormals(infos.data(), plan.header.attribute_count));
     if (alternatives.size() == 1 && search.isSettled()) {
       best.predictor = search.best();
       break;

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -38,10 +40,11 @@ std::vector<TestMesh> surfaces() {
 template <bool kSingle>
 class Pair {
  public:
-  Pair(const TestMesh& mesh, const AttributeInfo& position, uint32_t isolated_count = 0)
+  Pair(const TestMesh& mesh, const AttributeInfo& position, uint32_t isolated_count = 0,
+       const AttributeInfo& further = positionInfo(10))
       : surface_(mesh),
         encoder_(kSingle),
-        writer_(encoder_, headerOf(surface_, isolated_count), {position, positionInfo(10)}) {
+        writer_(encoder_, headerOf(surface_, isolated_count), {position, further}) {
     truth.connectivity = surface_.truth();
     EXPECT_TRUE(writer_.piece.codeConnectivity(truth).ok());
     classes_ = surface_.classOfVertex();
@@ -57,6 +60,21 @@ class Pair {
     return writer_.piece.mesh.words[size_t{f} * kFaceWords + k];
   }
   FaceView faces() { return writer_.piece.mesh.view(); }
+  /// Of the groups, in thousandths, and zeros for isolated vertices.
+  std::vector<int32_t> latticePositions(const TestMesh& mesh, uint32_t isolated_count) const {
+    std::vector<int32_t> positions(3 * (size_t{groupCount()} + isolated_count));
+    for (uint32_t f = 0; f < faceCount(); ++f) {
+      const uint32_t gate = surface_.sourceGate()[f];  // became half-edge 1
+      for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t corner = gate / 3 * 3 + (gate + k + 2) % 3;
+        const float* p = mesh.positions.data() + 3 * size_t{mesh.indices[corner]};
+        for (size_t s = 0; s < 3; ++s) {
+          positions[3 * size_t{group(f, k)} + s] = static_cast<int32_t>(std::lround(p[s] * 1000));
+        }
+      }
+    }
+    return positions;
+  }
   Stages<EncoderIo>& writer() { return writer_; }
   EncoderIo& encoder() { return encoder_; }
   PieceHeader& header() { return writer_.header; }
@@ -256,6 +274,87 @@ TEST(Positions, AStreamThatEndsIsAnError) {
     const bool decoded = reader.piece.codePositions(PieceTruth{}).ok();
     EXPECT_FALSE(decoded && decoder.finish().ok()) << size;
   }
+}
+
+// ---- Values ---------------------------------------------------------------------------------------
+
+AttributeInfo valuesInfo(uint8_t components, uint8_t predictor) {
+  AttributeInfo info;
+  info.format.semantic = Semantic::kColor;
+  info.format.component_type = ComponentType::kUint32;
+  info.format.component_count = components;
+  info.coding = AttributeCoding::kInteger;
+  info.predictor = predictor;
+  return info;
+}
+
+/// Through both sides; returns the bits they take. `values` are of wedges in the order of the writer's.
+template <bool kSingle>
+double codeValues(const TestMesh& mesh, const AttributeInfo& info, uint32_t isolated_count,
+                  const std::function<int32_t(uint32_t wedge, const int32_t* q)>& value) {
+  Pair<kSingle> pair(mesh, positionInfo(16), isolated_count, info);
+  const std::vector<int32_t> positions = pair.latticePositions(mesh, isolated_count);
+  pair.truth.positions = positions.data();
+  const uint32_t components = info.format.component_count;
+  Array<int32_t> values;
+  for (uint32_t i = 0; i < positions.size() / 3 * components; ++i)
+    EXPECT_TRUE(values.push_back(value(i, &positions[i / components * 3])));
+  PieceCoder<EncoderIo>& writer = pair.writer().piece;
+  EXPECT_TRUE(writer.codePositions(pair.truth).ok());
+  EXPECT_TRUE(writer.codeSeams(pair.truth).ok());
+  EXPECT_TRUE(writer.prepareAttributes().ok());
+  const uint64_t before = pair.encoder().cost();
+  EXPECT_TRUE(writer.codeAttribute(1, values).ok());
+  const double bits = static_cast<double>(pair.encoder().cost() - before) / kCostOne;
+  PieceCoder<DecoderIo<kSingle>>& reader = pair.reader().piece;
+  EXPECT_TRUE(reader.codePositions(PieceTruth{}).ok());
+  EXPECT_TRUE(reader.codeSeams(PieceTruth{}).ok());
+  EXPECT_TRUE(reader.prepareAttributes().ok());
+  Array<int32_t> decoded;
+  EXPECT_TRUE(reader.codeAttribute(1, decoded).ok());
+  EXPECT_TRUE(pair.decoder().finish().ok());
+  EXPECT_TRUE(std::equal(values.data(), values.data() + values.size(), decoded.data(),
+                         decoded.data() + decoded.size()));
+  return bits;
+}
+
+TEST(Values, EveryMethodOnAllKindsOfSurfaces) {
+  for (const TestMesh& mesh : surfaces()) {
+    for (uint8_t components : {uint8_t{1}, uint8_t{2}, uint8_t{3}, uint8_t{4}, uint8_t{7}}) {
+      for (uint32_t predictor = 0; predictor < 0x80; ++predictor) {
+        const AttributeInfo info = valuesInfo(components, static_cast<uint8_t>(predictor));
+        const AttributeInfo infos[2] = {positionInfo(16), info};
+        if (!isKnownPredictor(infos, 2, 1)) continue;
+        SCOPED_TRACE(mesh.name + ", predictor " + std::to_string(predictor));
+        Random random(predictor);
+        codeValues<false>(mesh, info, 3, [&](uint32_t, const int32_t* q) {
+          if (predictor % 2 == 0) return q[0] + q[1] / 8;
+          const int32_t any = static_cast<int32_t>(random.next() >> 32);
+          return random.chance(20) ? any : random.chance(50) ? 0 : any >> 24;
+        });
+      }
+    }
+  }
+}
+
+/// Colours that bend along one axis only: which candidate does well differs from component to component.
+TEST(Values, ABlendFollowsWhatDoesWell) {
+  const TestMesh mesh = grid(60, 60);
+  const auto value = [](uint32_t i, const int32_t* q) {
+    const double x = (i % 2 == 0 ? q[0] : q[1]) * 0.004;
+    const double y = (i % 2 == 0 ? q[1] : q[0]) * 0.0001;
+    return static_cast<int32_t>(std::lround(127.5 + 127.5 * std::sin(x * x + y)));
+  };
+  const double diagonal = codeValues<true>(mesh, valuesInfo(4, 2), 0, value);
+  const double blend = codeValues<true>(mesh, valuesInfo(4, value_method::kBlend), 0, value);
+  EXPECT_LT(blend, 0.88 * diagonal);
+}
+
+TEST(Values, BlendsHaveFourComponentsAtMost) {
+  const AttributeInfo infos[3] = {positionInfo(16), valuesInfo(4, value_method::kBlend),
+                                  valuesInfo(5, value_method::kBlend)};
+  EXPECT_TRUE(isKnownPredictor(infos, 3, 1));
+  EXPECT_FALSE(isKnownPredictor(infos, 3, 2));
 }
 
 // ---- Seams --------------------------------------------------------------------------------------

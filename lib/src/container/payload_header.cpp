@@ -87,7 +87,9 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
     if (!finite) return fail(Error::kBadHeader, "an attribute's lattice is not finite", at);
   } else if (a.coding == AttributeCoding::kOctahedral) {
     MCC_TRY(in.readU8(a.bits));
-    if (a.bits < 2 || a.bits > 16 || a.format.component_count != 3) {
+    const bool is_tangent = a.format.semantic == Semantic::kTangent;
+    if (a.bits < 2 || a.bits > 16 || a.format.component_count != (is_tangent ? 4 : 3) ||
+        (is_tangent && a.format.morph_target != 0)) {
       return fail(Error::kBadHeader, "an octahedral attribute is malformed", at);
     }
   }
