@@ -120,12 +120,30 @@ class Pair {
 
 // ---- Positions ----------------------------------------------------------------------------------
 
-enum class Values : uint8_t { kRandom, kSmooth, kAnyInteger, kJumps };
+enum class Values : uint8_t { kRandom, kSmooth, kAnyInteger, kJumps, kPlanes };
 
 /// Choices of the encoder that need nothing besides.
 std::vector<uint8_t> positionPredictors() {
   using namespace position_flag;
   return {0, 1, 4, kFold, 1 | kShear, 1 | kFold | kSplit, 4 | kFold | kSplit | kShear};
+}
+
+const AxisPlanes kSomePlanes[3] = {{0, 5 * AxisPlanes::kOne},
+                                   {7 * AxisPlanes::kOne / 3, 31 * AxisPlanes::kOne / 4},
+                                   {AxisPlanes::kMinStep - 1, AxisPlanes::kMinStep}};
+
+/// On planes, on diagonals or anywhere, as on no isosurface in the world.
+void setNearPlanes(Random& random, uint8_t bits, int32_t* q) {
+  const int32_t end = 1 << bits;
+  const int32_t t = static_cast<int32_t>(random.below(8));
+  const bool on_diagonal = random.chance(30);
+  for (uint32_t s = 0; s < 3; ++s) {
+    const int32_t plane = static_cast<int32_t>(random.below(1u << bits) / 8);
+    q[s] = kSomePlanes[s].at(plane);
+    if (on_diagonal) q[s] += random.chance(50) ? t : -t;
+    if (!on_diagonal && random.chance(40)) q[s] += static_cast<int32_t>(random.below(4));
+    q[s] = std::clamp(q[s], 0, end - 1);
+  }
 }
 
 template <bool kSingle>
@@ -151,9 +169,13 @@ void expectPositions(const TestMesh& mesh, uint8_t bits, uint8_t predictor, Valu
         break;
       case Values::kJumps:  // as far as it goes, where nobody expects it
         positions[i] = random.chance(97) ? 0 : std::numeric_limits<int32_t>::min();
+        break;
+      case Values::kPlanes:
+        if (i % 3 == 0) setNearPlanes(random, bits, &positions[i]);
     }
   }
   pair.truth.positions = positions.data();
+  pair.truth.planes = kSomePlanes;
   ASSERT_TRUE(pair.writer().piece.codePositions(pair.truth).ok());
   auto& reader = pair.reader();
   const Status status = reader.piece.codePositions(PieceTruth{});
@@ -171,6 +193,20 @@ void expectPositions(const TestMesh& mesh, uint8_t bits, uint8_t predictor, Valu
   for (size_t i = 0; i < sequence.size(); ++i) {
     ASSERT_EQ(sequence[i], pair.writer().piece.sequence[i]);
     ASSERT_TRUE(entered.insert(reader.piece.mesh.words[sequence[i]]).second);
+  }
+}
+
+TEST(Positions, PlanesHoldAnyValuesOfTheLattice) {
+  for (const TestMesh& mesh : surfaces()) {
+    for (const uint8_t bits : {1, 4, 9, 17}) {
+      for (const uint8_t predictor : {0, 1, 4}) {
+        const uint8_t with_planes = predictor | position_flag::kPlanes;
+        for (const Values kind : {Values::kPlanes, Values::kRandom, Values::kSmooth}) {
+          expectPositions<true>(mesh, bits, with_planes, kind, 2);
+          expectPositions<false>(mesh, bits, with_planes, kind, 3);
+        }
+      }
+    }
   }
 }
 

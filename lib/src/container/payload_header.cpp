@@ -168,6 +168,12 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
   if ((position.predictor & position_flag::kPredictorMask) >= position_flag::kPredictorCount) {
     return fail(Error::kBadHeader, "the positions have an unknown predictor", at);
   }
+  if ((position.predictor & position_flag::kKindMask) == position_flag::kPlanes &&
+      (position.predictor > (position_flag::kKindMask | position_flag::kPredictorMask) ||
+       position.coding != AttributeCoding::kLattice ||
+       position.bits > position_flag::kMaxBitsOfPlanes)) {
+    return fail(Error::kBadHeader, "these positions cannot have planes", at);
+  }
   return {};
 }
 
