@@ -277,7 +277,7 @@ class Checker {
   const std::vector<EncodedPayload>& payloads_;
   CheckResult& result_;
   Document decoded_;
-  std::map<uint32_t, AttributeInfo> coded_;
+  CodedAttributes coded_;
   std::map<std::string, std::vector<float>> angles_;
   std::set<uint32_t> reordered_;  ///< accessors beside payloads, compared in another order
   std::set<std::pair<uint32_t, uint32_t>> planned_;

@@ -196,7 +196,7 @@ Result checkBytes(const Conversion& conversion, std::span<const uint8_t> stored,
   return {};
 }
 
-Result decodeBytes(std::span<const uint8_t> source, const FileReader& read_file,
+Result decodeBytes(std::span<const uint8_t> source, const FileReader& read_file, DecodeTo decode_to,
                    std::vector<uint8_t>& output, DecodeReport& report) {
   report = {};
   const Stopwatch watch;
@@ -206,7 +206,8 @@ Result decodeBytes(std::span<const uint8_t> source, const FileReader& read_file,
   report.input_bytes = document.source_bytes;
   report.notes = document.notes;
   Decompressed decompressed;
-  MCC_GLTF_TRY(decompressDocument(document, decompressed));
+  MCC_GLTF_TRY(decompressDocument(document, decompressed, decode_to));
+  report.notes.insert(report.notes.end(), decompressed.notes.begin(), decompressed.notes.end());
   report.payload_count = decompressed.payload_count;
   report.primitive_count = decompressed.primitive_count;
   report.triangle_count = decompressed.triangle_count;
@@ -344,19 +345,20 @@ Result convertFile(const fs::path& source, const fs::path& output, const Convert
 }
 
 Result decodeGlb(std::span<const uint8_t> source, std::vector<uint8_t>& output,
-                 DecodeReport& report) {
-  return guarded([&]() { return decodeBytes(source, nullptr, output, report); });
+                 DecodeReport& report, DecodeTo decode_to) {
+  return guarded([&]() { return decodeBytes(source, nullptr, decode_to, output, report); });
 }
 
-Result decodeFile(const fs::path& source, const fs::path& output, DecodeReport& report) {
+Result decodeFile(const fs::path& source, const fs::path& output, DecodeReport& report,
+                  DecodeTo decode_to) {
   return guarded([&]() -> Result {
     std::vector<uint8_t> bytes;
     MCC_GLTF_TRY(readFile(source, bytes));
     ReplacementFile file(output);
     MCC_GLTF_TRY(file.check());
     std::vector<uint8_t> result;
-    MCC_GLTF_TRY(
-        inFile(source, decodeBytes(bytes, readerOf(source.parent_path()), result, report)));
+    MCC_GLTF_TRY(inFile(
+        source, decodeBytes(bytes, readerOf(source.parent_path()), decode_to, result, report)));
     MCC_GLTF_TRY(file.write(result));
     return file.commit();
   });

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "gltf/accessors.h"
+#include "gltf/integers.h"
 #include "gltf/payload.h"
 #include "gltf/rebuild.h"
 
@@ -18,7 +19,8 @@ using Origin = std::tuple<uint32_t, uint64_t, bool, uint64_t>;
 
 class Decompressor {
  public:
-  Decompressor(const Document& document, Decompressed& out) : document_(document), out_(out) {}
+  Decompressor(const Document& document, DecodeTo decode_to, Decompressed& out)
+      : document_(document), decode_to_(decode_to), out_(out) {}
 
   Result run() {
     std::vector<ExtensionUse> uses;
@@ -33,6 +35,9 @@ class Decompressor {
     removeExtensionName("extensionsRequired");
     out_.payload_count = static_cast<uint32_t>(by_view.size());
     out_.primitive_count = static_cast<uint32_t>(uses.size());
+    if (decode_to_ == DecodeTo::kIntegers) {
+      storeIntegers(document_, out_.coded_attributes, out_.json, new_views_, out_.notes);
+    }
     const ForeignReferences foreign = findForeignReferences(document_.json);
     return rebuildBuffers(document_, foreign, new_views_, out_.json, out_.bin);
   }
@@ -83,7 +88,13 @@ class Decompressor {
       view.bytes = packElements(decoded.pieces[use.piece].attributes[attribute.id], accessor, true,
                                 view.stride_bytes);
       setView(attribute.accessor, std::move(view));
-      const AttributeInfo& info = decoded.payload.info().pieces[use.piece].attributes[attribute.id];
+      const auto& attributes = decoded.payload.info().pieces[use.piece].attributes;
+      AttributeInfo info = attributes[attribute.id];
+      if (info.coding == AttributeCoding::kAlias) {
+        const AttributeFormat format = info.format;
+        info = attributes[info.alias_of];
+        info.format = format;
+      }
       out_.coded_attributes.emplace(attribute.accessor, info);
     }
   }
@@ -129,6 +140,7 @@ class Decompressor {
   }
 
   const Document& document_;
+  const DecodeTo decode_to_;
   Decompressed& out_;
   std::map<uint32_t, Origin> origins_;
   std::set<uint32_t> stored_;
@@ -137,9 +149,10 @@ class Decompressor {
 
 }  // namespace
 
-Result decompressDocument(const Document& document, Decompressed& decompressed) {
+Result decompressDocument(const Document& document, Decompressed& decompressed,
+                          DecodeTo decode_to) {
   decompressed = {};
-  return Decompressor(document, decompressed).run();
+  return Decompressor(document, decode_to, decompressed).run();
 }
 
 }  // namespace mcc::gltf

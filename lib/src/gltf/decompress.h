@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "gltf/document.h"
-#include "mcc/reader.h"
+#include "gltf/integer_accessors.h"
+#include "mcc/gltf.h"
 
 namespace mcc::gltf {
 
@@ -48,14 +48,16 @@ struct Decompressed {
   uint32_t primitive_count = 0;
   uint64_t triangle_count = 0;
   uint64_t wedge_count = 0;
-  /// How the accessors that were decoded had been coded, by accessor number.
-  std::map<uint32_t, AttributeInfo> coded_attributes;
+  CodedAttributes coded_attributes;
+  std::vector<std::string> notes;
 };
 
 /// Replaces all payloads by ordinary accessors and removes the extension from the document. With no
 /// payload in the document `payload_count` is 0 and `json` and `bin` are not filled in.
+/// decode_to   what quantised attributes become; with integers `notes` names what stays float.
 /// Errors carry JSON paths. Safe for untrusted documents.
-Result decompressDocument(const Document& document, Decompressed& decompressed);
+Result decompressDocument(const Document& document, Decompressed& decompressed,
+                          DecodeTo decode_to = DecodeTo::kFloats);
 
 }  // namespace mcc::gltf
 
