@@ -19,34 +19,37 @@
 #include "attributes/texcoords.h"
 #include "attributes/values.h"
 #include "attributes/wedges.h"
+#include "base/lazy.h"
 #include "mesh/attribute_method.h"
 
 namespace mcc {
 
-/// Adaptive models of all attributes of a payload. Plain data: the encoder's trials copy it. [A.3.6]
+/// Adaptive models of all attributes of a payload. The encoder's trials copy it. [A.3.6]
 struct AttributeModels {
-  EqualityModels equalities[8];  ///< [semantic]
-  NormalModels normals;
-  TexcoordModels texcoords[2];  ///< [further set]
-  TangentModels tangents;
-  TangentPointModels tangent_points;
-  SkinModels skins[2];  ///< [further set]
-  IdModels ids;
-  ValueModels values[8][2][2];  ///< [semantic][further set][morph target]
-  VectorModels exact_normals;
-  ExactTangentModels exact_tangents;
-  ExactValueModels exact_values[8];  ///< [semantic]
-  TailModels tails[8][2];            ///< [semantic][morph target]
+  Lazy<EqualityModels> equalities[8];  ///< [semantic]
+  Lazy<NormalModels> normals;
+  Lazy<TexcoordModels> texcoords[2];  ///< [further set]
+  Lazy<TangentModels> tangents;
+  Lazy<TangentPointModels> tangent_points;
+  Lazy<SkinModels> skins[2];  ///< [further set]
+  Lazy<IdModels> ids;
+  Lazy<ValueModels> values[8][2][2];  ///< [semantic][further set][morph target]
+  Lazy<VectorModels> exact_normals;
+  Lazy<ExactTangentModels> exact_tangents;
+  Lazy<ExactValueModels> exact_values[8];  ///< [semantic]
+  Lazy<TailModels> tails[8][2];            ///< [semantic][morph target]
 
   EqualityModels& equalitiesOf(const AttributeInfo& a) {
-    return equalities[static_cast<uint32_t>(a.format.semantic)];
+    return equalities[static_cast<uint32_t>(a.format.semantic)].get();
   }
   TailModels& tailsOf(const AttributeInfo& a) {
-    return tails[static_cast<uint32_t>(a.format.semantic)][a.format.morph_target != 0 ? 1 : 0];
+    return tails[static_cast<uint32_t>(a.format.semantic)][a.format.morph_target != 0 ? 1 : 0]
+        .get();
   }
   ValueModels& valuesOf(const AttributeInfo& a) {
     return values[static_cast<uint32_t>(a.format.semantic)][a.format.set_index != 0 ? 1 : 0]
-                 [a.format.morph_target != 0 ? 1 : 0];
+                 [a.format.morph_target != 0 ? 1 : 0]
+                     .get();
   }
 };
 
@@ -323,9 +326,9 @@ class AttributeStage {
     if (blends && !floats_.resize(ValueBlend::kErrorFloats * size_t{wedges.count}))
       return noMemory();
     ValueCoder<Io>(io_, models_.valuesOf(info), wedges, groups_, info, components, positions.data(),
-                   has_units ? &units : nullptr, has_ids ? &ids_ : nullptr, &models_.ids, values,
-                   lengths_.data(), floats_.data(), is_target ? moved_before_.data() : nullptr,
-                   is_target ? moved_.data() : nullptr)
+                   has_units ? &units : nullptr, has_ids ? &ids_ : nullptr,
+                   has_ids ? &models_.ids.get() : nullptr, values, lengths_.data(), floats_.data(),
+                   is_target ? moved_before_.data() : nullptr, is_target ? moved_.data() : nullptr)
         .run();
     if (bends) exchangeBends(true, values);
     return {};
@@ -343,7 +346,7 @@ class AttributeStage {
 
   Status codeNormals(const AttributeInfo& info, int32_t* values) {
     if (!floats_.resize(4 * size_t{wedges.count})) return noMemory();
-    NormalCoder<Io>(io_, models_.normals, wedges, groups_, info, values, floats_.data(),
+    NormalCoder<Io>(io_, models_.normals.get(), wedges, groups_, info, values, floats_.data(),
                     lengths_.data())
         .run(positions.data());
     return {};
@@ -354,8 +357,8 @@ class AttributeStage {
       return noMemory();
     const bool remembers = (info.predictor & exact_normal_method::kRemembersEdges) != 0;
     if (remembers && !edges_.prepare(wedges.face_count)) return noMemory();
-    ExactNormalCoder<Io>(io_, models_.exact_normals, wedges, groups_, info, values, doubles_.data(),
-                         errors_.data(), remembers ? &edges_ : nullptr)
+    ExactNormalCoder<Io>(io_, models_.exact_normals.get(), wedges, groups_, info, values,
+                         doubles_.data(), errors_.data(), remembers ? &edges_ : nullptr)
         .run(exact_positions.data());
     edges_.clear();
     return {};
@@ -368,7 +371,7 @@ class AttributeStage {
     from.positions = exact_positions.data();
     if (chart_ != kNone) from.chart = chart_coordinates_.data();
     if (exact_normal_ != kNone) from.normals = exact_normals_.data();
-    ExactTangentCoder<Io>(io_, models_.exact_tangents, wedges, groups_, info, from, values,
+    ExactTangentCoder<Io>(io_, models_.exact_tangents.get(), wedges, groups_, info, from, values,
                           doubles_.data(), errors_.data())
         .run();
     return {};
@@ -378,7 +381,8 @@ class AttributeStage {
     const bool remembers = (info.predictor & exact_value_method::kRemembers) != 0;
     if (!floats_.resize(wedges.count) || (remembers && !edges_.prepare(wedges.face_count)))
       return noMemory();
-    ExactValueCoder<Io>(io_, models_.exact_values[static_cast<uint32_t>(info.format.semantic)],
+    ExactValueCoder<Io>(io_,
+                        models_.exact_values[static_cast<uint32_t>(info.format.semantic)].get(),
                         wedges, groups_, info, exact_positions.data(), values, floats_.data(),
                         remembers ? &edges_ : nullptr)
         .run();
@@ -389,8 +393,8 @@ class AttributeStage {
   Status codeTexcoords(const AttributeInfo& info, int32_t* values) {
     const bool repeats = (info.predictor & texcoord_method::kRepeats) != 0;
     if (repeats && !memory_.assign(ResidualMemory::kEntries, {})) return noMemory();
-    TexcoordCoder<Io>(io_, models_.texcoords[info.format.set_index != 0 ? 1 : 0], wedges, groups_,
-                      info, positions.data(), values, lengths_.data(),
+    TexcoordCoder<Io>(io_, models_.texcoords[info.format.set_index != 0 ? 1 : 0].get(), wedges,
+                      groups_, info, positions.data(), values, lengths_.data(),
                       repeats ? memory_.data() : nullptr)
         .run();
     return {};
@@ -401,8 +405,8 @@ class AttributeStage {
     if (chart_ != kNone) {
       addFaceTangents(wedges, positions.data(), chart_coordinates_.data(), floats_.data());
     }
-    TangentCoder<Io>(io_, models_.tangents, wedges, groups_, info, normalInfo(), normals.data(),
-                     floats_.data(), values, lengths_.data())
+    TangentCoder<Io>(io_, models_.tangents.get(), wedges, groups_, info, normalInfo(),
+                     normals.data(), floats_.data(), values, lengths_.data())
         .run();
     return {};
   }
@@ -414,7 +418,7 @@ class AttributeStage {
     }
     const bool projects = (info.predictor & tangent_point_method::kPerpendicular) != 0;
     if (projects) MCC_TRY(listNormals());
-    TangentPointCoder<Io>(io_, models_.tangent_points, wedges, groups_, info,
+    TangentPointCoder<Io>(io_, models_.tangent_points.get(), wedges, groups_, info,
                           projects ? unit_normals_.data() : nullptr, floats_.data(), values,
                           lengths_.data())
         .run();
@@ -443,8 +447,8 @@ class AttributeStage {
     const AttributeInfo& weights = attributes_[skinPartner(attributes_, count_, index)];
     const int32_t sum = weights.predictor != 0 ? unitSum(weights) : 0;
     const bool sums_vary = weights.predictor == skin_method::kUsualSum;
-    SkinCoder<Io>(io_, models_.skins[joints.format.set_index != 0 ? 1 : 0], wedges, groups_, sum,
-                  sums_vary, joints.predictor, values, lengths_.data())
+    SkinCoder<Io>(io_, models_.skins[joints.format.set_index != 0 ? 1 : 0].get(), wedges, groups_,
+                  sum, sums_vary, joints.predictor, values, lengths_.data())
         .run();
   }
 
