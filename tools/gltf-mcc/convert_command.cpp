@@ -9,6 +9,9 @@
 #include "commands.h"
 #include "convert_comparison.h"
 #include "convert_report.h"
+#if defined(MCC_HAS_FOREIGN)
+#include "foreign/decoders.h"
+#endif
 
 namespace mcc::tool {
 namespace {
@@ -149,6 +152,9 @@ void addKeepOrder(CLI::App& command, gltf::ConvertOptions& options) {
 void addConvert(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("convert", "Compress a .glb or .gltf into a .glb");
   auto state = std::make_shared<ConvertCommand>();
+#if defined(MCC_HAS_FOREIGN)
+  state->convert.decoders = foreign::foreignDecoders();
+#endif
   command->add_option("-i,--input,IN", state->input, "The .glb or .gltf to read")->required();
   command->add_option("-o,--output,OUT", state->output, "The .glb to write")->required();
   addQuantization(*command, state->convert);
@@ -163,7 +169,7 @@ void addConvert(CLI::App& app, int& status) {
   addVerbosityOptions(*command, state->common);
   command->footer(
       "The result is decoded and compared with the source before it takes its place; sizes and\n"
-      "measured errors are printed.\n\n"
+      "measured errors are printed. IN may be compressed with Draco or meshoptimizer already.\n\n"
       "Examples:\n"
       "  gltf-mcc convert model.glb small.glb\n"
       "  gltf-mcc convert scene.gltf small.glb --quantize-position 12 --report sizes.json\n"

@@ -8,6 +8,7 @@
 #include "gltf/accessors.h"
 #include "gltf/check_json.h"
 #include "gltf/check_values.h"
+#include "gltf/coded_input.h"
 #include "gltf/decompress.h"
 
 namespace mcc::gltf {
@@ -25,7 +26,7 @@ class Checker {
   Checker(const Document& source, const std::vector<EncodedPayload>& payloads, CheckResult& result)
       : source_(source), payloads_(payloads), result_(result) {}
 
-  Result run(std::span<const uint8_t> written) {
+  Result run(const ForeignDecoders& decoders, std::span<const uint8_t> written) {
     const auto start = std::chrono::steady_clock::now();
     Document compressed;
     MCC_GLTF_TRY(failed(loadDocument(written, nullptr, compressed), ""));
@@ -38,6 +39,7 @@ class Checker {
     MCC_GLTF_TRY(findExtensionUses(compressed, uses));
     MCC_GLTF_TRY(failed(
         adoptDocument(std::move(decompressed.json), std::move(decompressed.bin), decoded_), ""));
+    MCC_GLTF_TRY(failed(decodeViews(decoders, decoded_), ""));
     for (const EncodedPayload& payload : payloads_) MCC_GLTF_TRY(checkPayload(payload));
     MCC_GLTF_TRY(failed(checkUses(uses), ""));
     return failed(compareRest(source_, decoded_, uses, reordered_), "");
@@ -286,9 +288,10 @@ class Checker {
 }  // namespace
 
 Result checkConversion(const Document& source, const std::vector<EncodedPayload>& payloads,
-                       std::span<const uint8_t> written, CheckResult& result) {
+                       const ForeignDecoders& decoders, std::span<const uint8_t> written,
+                       CheckResult& result) {
   result = {};
-  return Checker(source, payloads, result).run(written);
+  return Checker(source, payloads, result).run(decoders, written);
 }
 
 }  // namespace mcc::gltf

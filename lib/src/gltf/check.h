@@ -27,9 +27,11 @@ struct CheckResult {
 ///   triangles, up to rotation;
 /// - every attribute value is within the promised distance of its source, exact ones are bit-equal;
 /// - accessors, images and JSON that are not compressed geometry are equal.
+/// decoders   for attributes beside payloads that another codec holds, before and after.
 /// Errors name the first difference.
 Result checkConversion(const Document& source, const std::vector<EncodedPayload>& payloads,
-                       std::span<const uint8_t> written, CheckResult& result);
+                       const ForeignDecoders& decoders, std::span<const uint8_t> written,
+                       CheckResult& result);
 
 }  // namespace mcc::gltf
 

@@ -7,6 +7,7 @@
 
 #include "gltf/accessors.h"
 #include "gltf/check.h"
+#include "gltf/coded_input.h"
 #include "gltf/compress.h"
 #include "gltf/decompress.h"
 #include "gltf/file_io.h"
@@ -147,6 +148,9 @@ Result convertBytes(std::span<const uint8_t> source, const FileReader& read_file
   Compressed& compressed = conversion.compressed;
   MCC_GLTF_TRY(loadDocument(source, read_file, document));
   MCC_GLTF_TRY(embedImages(read_file, document));
+  MCC_GLTF_TRY(decodeViews(options.decoders, document));
+  // Attributes beside a payload of triangles would have to be stored anew.
+  if (!options.indices_only) MCC_GLTF_TRY(decodeMeshes(options.decoders, document));
   report.input_bytes = document.source_bytes;
   report.notes = document.notes;
   MCC_GLTF_TRY(checkOldPayloads(document));
@@ -175,13 +179,13 @@ Result convertBytes(std::span<const uint8_t> source, const FileReader& read_file
 }
 
 /// Checks the stored output and completes the report.
-Result checkBytes(const Conversion& conversion, std::span<const uint8_t> stored,
-                  ConvertReport& report) {
+Result checkBytes(const Conversion& conversion, const ForeignDecoders& decoders,
+                  std::span<const uint8_t> stored, ConvertReport& report) {
   if (report.copied) return {};
   const Stopwatch watch;
   CheckResult checked;
   const std::vector<EncodedPayload>& payloads = conversion.compressed.payloads;
-  MCC_GLTF_TRY(checkConversion(conversion.document, payloads, stored, checked));
+  MCC_GLTF_TRY(checkConversion(conversion.document, payloads, decoders, stored, checked));
   for (size_t i = 0; i < payloads.size(); ++i) {
     PayloadReport payload;
     addCounts(payloads[i], payload);
@@ -321,7 +325,7 @@ Result convertGlb(std::span<const uint8_t> source, const ConvertOptions& options
   return guarded([&]() -> Result {
     Conversion conversion;
     MCC_GLTF_TRY(convertBytes(source, nullptr, options, conversion, output, report));
-    return checkBytes(conversion, output, report);
+    return checkBytes(conversion, options.decoders, output, report);
   });
 }
 
@@ -339,7 +343,7 @@ Result convertFile(const fs::path& source, const fs::path& output, const Convert
     noteFilesLeftBehind(conversion.document, source, output, report.notes);
     MCC_GLTF_TRY(file.write(result));
     MCC_GLTF_TRY(readFile(file.temporaryPath(), result));
-    MCC_GLTF_TRY(inFile(source, checkBytes(conversion, result, report)));
+    MCC_GLTF_TRY(inFile(source, checkBytes(conversion, options.decoders, result, report)));
     return file.commit();
   });
 }

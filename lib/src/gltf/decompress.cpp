@@ -31,8 +31,9 @@ class Decompressor {
     out_.json = document_.json;
     for (const auto& [view, users] : by_view) MCC_GLTF_TRY(decodeView(view, users));
     for (const ExtensionUse& use : uses) removeExtension(use);
-    removeExtensionName("extensionsUsed");
-    removeExtensionName("extensionsRequired");
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+      removeExtensionName(out_.json, list, kExtensionName);
+    }
     out_.payload_count = static_cast<uint32_t>(by_view.size());
     out_.primitive_count = static_cast<uint32_t>(uses.size());
     if (decode_to_ == DecodeTo::kIntegers) {
@@ -123,20 +124,6 @@ class Decompressor {
     Json& primitive = out_.json["meshes"][use.mesh]["primitives"][use.primitive];
     primitive["extensions"].erase(kExtensionName);
     if (primitive["extensions"].empty()) primitive.erase("extensions");
-  }
-
-  void removeExtensionName(const char* list) {
-    const auto found = out_.json.find(list);
-    if (found == out_.json.end() || !found->is_array()) return;
-    Json names = Json::array();
-    for (const Json& name : *found) {
-      if (name != kExtensionName) names.push_back(name);
-    }
-    if (names.empty()) {
-      out_.json.erase(list);
-    } else {
-      *found = std::move(names);
-    }
   }
 
   const Document& document_;
