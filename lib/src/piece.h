@@ -266,9 +266,9 @@ class PieceCoder {
   void codeFirstWedges(uint32_t count) {
     stage_.wedges.coded_count = std::min(count, stage_.wedges.count);
   }
-  /// The writer: what codeAttribute() would leave behind for tangents.
-  Status keepForTangents(uint32_t index, const Array<int32_t>& values) {
-    return stage_.keepForTangents(index, values);
+  /// The writer: what codeAttribute() would leave behind for other attributes.
+  Status keepForOthers(uint32_t index, const Array<int32_t>& values) {
+    return stage_.keepForOthers(index, values);
   }
 
   uint32_t codedComponentsOf(uint32_t index) const {
