@@ -32,8 +32,8 @@ inline ForeignDecoders madeUpDecoders() {
   decoders.mesh = [](const CodedMesh& coded, DecodedMesh& mesh) -> Result {
     size_t at = 0;
     const auto take = [&](size_t bytes) {
-      const auto part = coded.bytes.subspan(at, bytes);
-      at += bytes;
+      const auto part = coded.bytes.subspan(at, std::min(bytes, coded.bytes.size() - at));
+      at += part.size();
       return std::vector<uint8_t>(part.begin(), part.end());
     };
     if (coded.bytes.size() < 12 * coded.triangle_count) return {"", "is damaged"};
