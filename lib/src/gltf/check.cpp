@@ -25,10 +25,10 @@ class Checker {
   Checker(const Document& source, const std::vector<EncodedPayload>& payloads, CheckResult& result)
       : source_(source), payloads_(payloads), result_(result) {}
 
-  Result run(std::span<const uint8_t> written) {
+  Result run(std::span<const uint8_t> written, const FileReader& read_file) {
     const auto start = std::chrono::steady_clock::now();
     Document compressed;
-    MCC_GLTF_TRY(failed(loadDocument(written, nullptr, compressed), ""));
+    MCC_GLTF_TRY(failed(loadDocument(written, read_file, compressed), ""));
     Decompressed decompressed;
     MCC_GLTF_TRY(failed(decompressDocument(compressed, decompressed), ""));
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
@@ -40,6 +40,7 @@ class Checker {
         adoptDocument(std::move(decompressed.json), std::move(decompressed.bin), decoded_), ""));
     for (const EncodedPayload& payload : payloads_) MCC_GLTF_TRY(checkPayload(payload));
     MCC_GLTF_TRY(failed(checkUses(uses), ""));
+    MCC_GLTF_TRY(failed(checkFallback(compressed, uses), ""));
     return failed(compareRest(source_, decoded_, uses, reordered_), "");
   }
 
@@ -56,6 +57,29 @@ class Checker {
     }
     if (found != planned_) {
       return error("", "the compressed primitives are not those that were meant");
+    }
+    return {};
+  }
+
+  /// Compressed accessors that have bytes of their own have those of the payload.
+  Result checkFallback(const Document& compressed, const std::vector<ExtensionUse>& uses) const {
+    std::set<uint32_t> accessors;
+    for (const ExtensionUse& use : uses) {
+      accessors.insert(use.indices_accessor);
+      for (const auto& attribute : use.attributes) accessors.insert(attribute.accessor);
+    }
+    for (const uint32_t index : accessors) {
+      if (compressed.accessors[index].view == kNone) continue;
+      AccessorData fallback;
+      AccessorData decoded;
+      MCC_GLTF_TRY(readAccessor(compressed, index, fallback));
+      MCC_GLTF_TRY(readAccessor(decoded_, index, decoded));
+      for (uint64_t i = 0; i < decoded.count; ++i) {
+        const auto element = fallback.element(i);
+        if (!std::equal(element.begin(), element.end(), decoded.element(i).begin())) {
+          return error(at("/accessors", index), "the fallback is not what the payload holds");
+        }
+      }
     }
     return {};
   }
@@ -286,9 +310,10 @@ class Checker {
 }  // namespace
 
 Result checkConversion(const Document& source, const std::vector<EncodedPayload>& payloads,
-                       std::span<const uint8_t> written, CheckResult& result) {
+                       std::span<const uint8_t> written, const FileReader& read_file,
+                       CheckResult& result) {
   result = {};
-  return Checker(source, payloads, result).run(written);
+  return Checker(source, payloads, result).run(written, read_file);
 }
 
 }  // namespace mcc::gltf

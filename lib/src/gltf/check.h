@@ -27,9 +27,11 @@ struct CheckResult {
 ///   triangles, up to rotation;
 /// - every attribute value is within the promised distance of its source, exact ones are bit-equal;
 /// - accessors, images and JSON that are not compressed geometry are equal.
+/// read_file  fetches the files beside the written one; null: there are none.
 /// Errors name the first difference.
 Result checkConversion(const Document& source, const std::vector<EncodedPayload>& payloads,
-                       std::span<const uint8_t> written, CheckResult& result);
+                       std::span<const uint8_t> written, const FileReader& read_file,
+                       CheckResult& result);
 
 }  // namespace mcc::gltf
 

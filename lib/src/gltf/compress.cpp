@@ -83,7 +83,7 @@ class Applier {
       }
     }
     addExtensionName(compressed_.json, "extensionsUsed");
-    addExtensionName(compressed_.json, "extensionsRequired");
+    addExtensionName(compressed_.json, "extensionsRequired");  // unless there will be a fallback
     return views;
   }
 

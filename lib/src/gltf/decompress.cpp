@@ -5,7 +5,6 @@
 
 #include "gltf/accessors.h"
 #include "gltf/payload.h"
-#include "gltf/rebuild.h"
 
 namespace mcc::gltf {
 namespace {
@@ -20,21 +19,36 @@ class Decompressor {
  public:
   Decompressor(const Document& document, Decompressed& out) : document_(document), out_(out) {}
 
-  Result run() {
-    std::vector<ExtensionUse> uses;
-    MCC_GLTF_TRY(findExtensionUses(document_, uses));
-    if (uses.empty()) return {};
+  /// Fills in accessors() and the counts.
+  Result decode() {
+    MCC_GLTF_TRY(findExtensionUses(document_, uses_));
     std::map<uint32_t, std::vector<const ExtensionUse*>> by_view;
-    for (const ExtensionUse& use : uses) by_view[use.view].push_back(&use);
-    out_.json = document_.json;
+    for (const ExtensionUse& use : uses_) by_view[use.view].push_back(&use);
     for (const auto& [view, users] : by_view) MCC_GLTF_TRY(decodeView(view, users));
-    for (const ExtensionUse& use : uses) removeExtension(use);
+    out_.payload_count = static_cast<uint32_t>(by_view.size());
+    out_.primitive_count = static_cast<uint32_t>(uses_.size());
+    return {};
+  }
+
+  std::vector<DecodedAccessor>& accessors() { return accessors_; }
+
+  /// After decode(): the document without the extension.
+  Result rebuild() {
+    if (uses_.empty()) return {};
+    out_.json = document_.json;
+    std::vector<NewView> views;
+    for (DecodedAccessor& decoded : accessors_) {
+      Json& accessor = out_.json["accessors"][decoded.index];
+      accessor.erase("byteOffset");
+      accessor.erase("sparse");
+      accessor["bufferView"] = document_.views.size() + views.size();
+      views.push_back(std::move(decoded.view));
+    }
+    for (const ExtensionUse& use : uses_) removeExtension(use);
     removeExtensionName("extensionsUsed");
     removeExtensionName("extensionsRequired");
-    out_.payload_count = static_cast<uint32_t>(by_view.size());
-    out_.primitive_count = static_cast<uint32_t>(uses.size());
     const ForeignReferences foreign = findForeignReferences(document_.json);
-    return rebuildBuffers(document_, foreign, new_views_, out_.json, out_.bin);
+    return rebuildBuffers(document_, foreign, views, out_.json, out_.bin);
   }
 
  private:
@@ -82,7 +96,7 @@ class Decompressor {
       view.target = kArrayBuffer;
       view.bytes = packElements(decoded.pieces[use.piece].attributes[attribute.id], accessor, true,
                                 view.stride_bytes);
-      setView(attribute.accessor, std::move(view));
+      accessors_.push_back({attribute.accessor, std::move(view)});
       const AttributeInfo& info = decoded.payload.info().pieces[use.piece].attributes[attribute.id];
       out_.coded_attributes.emplace(attribute.accessor, info);
     }
@@ -97,15 +111,7 @@ class Decompressor {
       for (uint32_t i = 0; i < bytes; ++i)
         view.bytes.push_back(static_cast<uint8_t>(index >> 8 * i));
     }
-    setView(use.indices_accessor, std::move(view));
-  }
-
-  void setView(uint32_t index, NewView view) {
-    Json& accessor = out_.json["accessors"][index];
-    accessor.erase("byteOffset");
-    accessor.erase("sparse");
-    accessor["bufferView"] = document_.views.size() + new_views_.size();
-    new_views_.push_back(std::move(view));
+    accessors_.push_back({use.indices_accessor, std::move(view)});
   }
 
   void removeExtension(const ExtensionUse& use) {
@@ -132,14 +138,25 @@ class Decompressor {
   Decompressed& out_;
   std::map<uint32_t, Origin> origins_;
   std::set<uint32_t> stored_;
-  std::vector<NewView> new_views_;
+  std::vector<ExtensionUse> uses_;
+  std::vector<DecodedAccessor> accessors_;
 };
 
 }  // namespace
 
+Result decodeAccessors(const Document& document, std::vector<DecodedAccessor>& accessors) {
+  Decompressed ignored;
+  Decompressor decompressor(document, ignored);
+  MCC_GLTF_TRY(decompressor.decode());
+  accessors = std::move(decompressor.accessors());
+  return {};
+}
+
 Result decompressDocument(const Document& document, Decompressed& decompressed) {
   decompressed = {};
-  return Decompressor(document, decompressed).run();
+  Decompressor decompressor(document, decompressed);
+  MCC_GLTF_TRY(decompressor.decode());
+  return decompressor.rebuild();
 }
 
 }  // namespace mcc::gltf

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gltf/document.h"
+#include "gltf/rebuild.h"
 #include "mcc/reader.h"
 
 namespace mcc::gltf {
@@ -51,6 +52,15 @@ struct Decompressed {
   /// How the accessors that were decoded had been coded, by accessor number.
   std::map<uint32_t, AttributeInfo> coded_attributes;
 };
+
+/// The elements of an accessor that a payload fills.
+struct DecodedAccessor {
+  uint32_t index = 0;
+  NewView view;
+};
+
+/// Decodes all payloads. Errors carry JSON paths. Safe for untrusted documents.
+Result decodeAccessors(const Document& document, std::vector<DecodedAccessor>& accessors);
 
 /// Replaces all payloads by ordinary accessors and removes the extension from the document. With no
 /// payload in the document `payload_count` is 0 and `json` and `bin` are not filled in.
