@@ -114,6 +114,7 @@ gltf::Result compareWithDraco(const std::string& input, std::vector<uint8_t> fil
   options.codecs = {bench::Codec::kMcc, bench::Codec::kDraco0, bench::Codec::kDraco3,
                     bench::Codec::kDraco5};
   options.run_count = run_count;
+  options.thread_count = convert.thread_count;
   options.with_errors = true;
   options.progress = [&](const std::string& text) { line.show(text); };
   const std::string name = std::filesystem::path(input).stem().string();

@@ -25,12 +25,12 @@ class Checker {
   Checker(const Document& source, const std::vector<EncodedPayload>& payloads, CheckResult& result)
       : source_(source), payloads_(payloads), result_(result) {}
 
-  Result run(std::span<const uint8_t> written, const FileReader& read_file) {
+  Result run(std::span<const uint8_t> written, const FileReader& read_file, uint32_t thread_count) {
     const auto start = std::chrono::steady_clock::now();
     Document compressed;
     MCC_GLTF_TRY(failed(loadDocument(written, read_file, compressed), ""));
     Decompressed decompressed;
-    MCC_GLTF_TRY(failed(decompressDocument(compressed, decompressed), ""));
+    MCC_GLTF_TRY(failed(decompressDocument(compressed, decompressed, thread_count), ""));
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     result_.decode_seconds = time.count();
     coded_ = std::move(decompressed.coded_attributes);
@@ -311,9 +311,9 @@ class Checker {
 
 Result checkConversion(const Document& source, const std::vector<EncodedPayload>& payloads,
                        std::span<const uint8_t> written, const FileReader& read_file,
-                       CheckResult& result) {
+                       uint32_t thread_count, CheckResult& result) {
   result = {};
-  return Checker(source, payloads, result).run(written, read_file);
+  return Checker(source, payloads, result).run(written, read_file, thread_count);
 }
 
 }  // namespace mcc::gltf

@@ -215,12 +215,13 @@ Result convertInput(const Input& input, const Output& output, const ConvertOptio
 
 /// Checks the stored output and completes the report.
 Result checkOutput(const Conversion& conversion, std::span<const uint8_t> stored,
-                   const FileReader& read_file, ConvertReport& report) {
+                   const FileReader& read_file, uint32_t thread_count, ConvertReport& report) {
   if (!report.copied) {
     const Stopwatch watch;
     CheckResult checked;
     const std::vector<EncodedPayload>& payloads = conversion.compressed.payloads;
-    MCC_GLTF_TRY(checkConversion(conversion.document, payloads, stored, read_file, checked));
+    MCC_GLTF_TRY(
+        checkConversion(conversion.document, payloads, stored, read_file, thread_count, checked));
     report.decode_seconds = checked.decode_seconds;
     report.check_seconds = watch.seconds() - checked.decode_seconds;
     addPayloads(payloads, std::move(checked), report);
@@ -283,7 +284,8 @@ Result convert(const Source& source, const Sink& sink, const ConvertOptions& opt
       read_file = output.destination->reader();
     }
     const std::span<const uint8_t> written = output.destination ? stored : *output.bytes;
-    MCC_GLTF_TRY(inInput(input, checkOutput(conversion, written, read_file, report)));
+    MCC_GLTF_TRY(
+        inInput(input, checkOutput(conversion, written, read_file, options.thread_count, report)));
     MCC_GLTF_TRY(output.commit());
     if (output.destination) report.files.output = output.destination->files();
     return {};

@@ -1,9 +1,11 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/decompress.h"
 
+#include <algorithm>
 #include <tuple>
 
 #include "gltf/accessors.h"
+#include "gltf/parallel.h"
 #include "gltf/payload.h"
 
 namespace mcc::gltf {
@@ -17,14 +19,20 @@ using Origin = std::tuple<uint32_t, uint64_t, bool, uint64_t>;
 
 class Decompressor {
  public:
-  Decompressor(const Document& document, Decompressed& out) : document_(document), out_(out) {}
+  Decompressor(const Document& document, uint32_t thread_count, Decompressed& out)
+      : document_(document), thread_count_(thread_count), out_(out) {}
 
   /// Fills in accessors() and the counts.
   Result decode() {
     MCC_GLTF_TRY(findExtensionUses(document_, uses_));
     std::map<uint32_t, std::vector<const ExtensionUse*>> by_view;
     for (const ExtensionUse& use : uses_) by_view[use.view].push_back(&use);
-    for (const auto& [view, users] : by_view) MCC_GLTF_TRY(decodeView(view, users));
+    const std::vector<View> views(by_view.begin(), by_view.end());
+    // As many at a time as there are threads, so that no more are in memory.
+    for (size_t begin = 0; begin < views.size(); begin += thread_count_) {
+      const size_t count = std::min<size_t>(thread_count_, views.size() - begin);
+      MCC_GLTF_TRY(decodeViews(std::span(views).subspan(begin, count)));
+    }
     out_.payload_count = static_cast<uint32_t>(by_view.size());
     out_.primitive_count = static_cast<uint32_t>(uses_.size());
     return {};
@@ -52,17 +60,34 @@ class Decompressor {
   }
 
  private:
-  Result decodeView(uint32_t view, const std::vector<const ExtensionUse*>& users) {
-    const std::string where = users[0]->path + "/bufferView";
-    DecodedPayload decoded;
-    MCC_GLTF_TRY(toResult(decoded.payload.open(payloadBytes(document_, view)), where));
-    // All counts must match the accessors before memory is taken for them.
+  /// A buffer view with a payload, and the primitives that use it.
+  using View = std::pair<uint32_t, std::vector<const ExtensionUse*>>;
+
+  Result decodeViews(std::span<const View> views) {
+    std::vector<DecodedPayload> decoded(views.size());
+    for (size_t i = 0; i < views.size(); ++i) MCC_GLTF_TRY(openView(views[i], decoded[i]));
+    MCC_GLTF_TRY(runParallel(views.size(), thread_count_, [&](size_t i) {
+      return decodePieces(whereOf(views[i]), decoded[i], nullptr);
+    }));
+    for (size_t i = 0; i < views.size(); ++i) storeView(views[i], decoded[i]);
+    return {};
+  }
+
+  static std::string whereOf(const View& view) { return view.second[0]->path + "/bufferView"; }
+
+  /// All counts must match the accessors before memory is taken for them.
+  Result openView(const View& view, DecodedPayload& decoded) {
+    const auto& [number, users] = view;
+    MCC_GLTF_TRY(toResult(decoded.payload.open(payloadBytes(document_, number)), whereOf(view)));
     for (const ExtensionUse* use : users) {
       MCC_GLTF_TRY(checkAgainstPayload(document_, *use, decoded.payload.info()));
       MCC_GLTF_TRY(claimAccessors(*use));
     }
-    MCC_GLTF_TRY(decodePieces(where, decoded, nullptr));
-    for (const ExtensionUse* use : users) {
+    return {};
+  }
+
+  void storeView(const View& view, DecodedPayload& decoded) {
+    for (const ExtensionUse* use : view.second) {
       storeAttributes(*use, decoded);
       storeIndices(*use, decoded);
     }
@@ -70,7 +95,7 @@ class Decompressor {
       out_.wedge_count += piece.wedge_count;
       for (const PartInfo& part : piece.parts) out_.triangle_count += part.triangle_count;
     }
-    return {};
+    decoded.pieces.clear();
   }
 
   Result claim(uint32_t accessor, const Origin& origin, const std::string& path) {
@@ -135,6 +160,7 @@ class Decompressor {
   }
 
   const Document& document_;
+  const uint32_t thread_count_;
   Decompressed& out_;
   std::map<uint32_t, Origin> origins_;
   std::set<uint32_t> stored_;
@@ -146,15 +172,16 @@ class Decompressor {
 
 Result decodeAccessors(const Document& document, std::vector<DecodedAccessor>& accessors) {
   Decompressed ignored;
-  Decompressor decompressor(document, ignored);
+  Decompressor decompressor(document, 1, ignored);
   MCC_GLTF_TRY(decompressor.decode());
   accessors = std::move(decompressor.accessors());
   return {};
 }
 
-Result decompressDocument(const Document& document, Decompressed& decompressed) {
+Result decompressDocument(const Document& document, Decompressed& decompressed,
+                          uint32_t thread_count) {
   decompressed = {};
-  Decompressor decompressor(document, decompressed);
+  Decompressor decompressor(document, std::max(thread_count, 1u), decompressed);
   MCC_GLTF_TRY(decompressor.decode());
   return decompressor.rebuild();
 }

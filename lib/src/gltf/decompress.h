@@ -64,8 +64,10 @@ Result decodeAccessors(const Document& document, std::vector<DecodedAccessor>& a
 
 /// Replaces all payloads by ordinary accessors and removes the extension from the document. With no
 /// payload in the document `payload_count` is 0 and `json` and `bin` are not filled in.
+/// thread_count  payloads decoded at the same time; the result does not depend on it.
 /// Errors carry JSON paths. Safe for untrusted documents.
-Result decompressDocument(const Document& document, Decompressed& decompressed);
+Result decompressDocument(const Document& document, Decompressed& decompressed,
+                          uint32_t thread_count = 1);
 
 }  // namespace mcc::gltf
 
