@@ -51,6 +51,7 @@ struct PieceTruth {
   const int32_t* exact_positions =
       nullptr;  ///< the same as ordered floats, if they are on an exact grid
   const AxisPalette* palettes = nullptr;    ///< 3, if the position has them
+  const AxisPlanes* planes = nullptr;       ///< 3, if the position has them
   const uint32_t* corner_source = nullptr;  ///< source wedge by 3f+k
   LeftoverTruth leftovers;
   const uint32_t* triangle_order = nullptr;  ///< see TriangleOrderCoder
@@ -109,15 +110,20 @@ class PieceCoder {
     MCC_TRY(codePositionTables(io_, models_.positions.tables, parameters));
     PositionPalettes palettes(allocator_);
     if (parameters.has(position_mode::kPalette)) {
-      if (parameters.has(position_mode::kShear)) {
-        return fail(Error::kBadAttribute, "positions with palettes cannot be sheared");
-      }
       MCC_TRY(palettes.code(io_, models_.positions.tables.palettes, truth.palettes,
                             static_cast<uint32_t>(records.size())));
       for (uint32_t s = 0; s < 3; ++s) parameters.palette[s] = palettes.axis(s);
     }
-    models_.positions.rows.prepare(parameters.has(position_mode::kFold),
-                                   parameters.has(position_mode::kSplit));
+    AxisPlanes planes[3];
+    if (parameters.has(position_mode::kPlanes)) {
+      for (uint32_t s = 0; s < 3; ++s) {
+        if (Io::kEncoding) planes[s] = truth.planes[s];
+        MCC_TRY(codePlanes(io_, planes[s]));
+      }
+    }
+    const GridPlanes grid(planes);
+    parameters.planes = &grid;
+    models_.positions.rows.prepare(parameters.modes);
     sequence.clear();
     if (needsSequence() && !sequence.resize(groups.count)) return noMemory();
     MCC_TRY(runPositions(parameters, truth));
@@ -230,11 +236,13 @@ class PieceCoder {
     p.bits = static_cast<uint8_t>(std::min<uint32_t>(bits, kExactPositionBits));
     p.predictor = static_cast<PositionPredictor>(info.predictor & position_flag::kPredictorMask);
     p.own_scale = (info.predictor & position_flag::kOwnScale) != 0;
+    const uint32_t kind = info.predictor & position_flag::kKindMask;
     p.modes = 0;
-    if ((info.predictor & position_flag::kShear) != 0) p.modes |= position_mode::kShear;
+    if (kind == position_flag::kShear) p.modes |= position_mode::kShear;
+    if (kind == position_flag::kPalette) p.modes |= position_mode::kPalette;
+    if (kind == position_flag::kPlanes) p.modes |= position_mode::kPlanes;
     if ((info.predictor & position_flag::kFold) != 0) p.modes |= position_mode::kFold;
     if ((info.predictor & position_flag::kSplit) != 0) p.modes |= position_mode::kSplit;
-    if ((info.predictor & position_flag::kPalette) != 0) p.modes |= position_mode::kPalette;
   }
 
   /// Inverse of describePositions() for AttributeInfo::predictor.
@@ -245,6 +253,7 @@ class PieceCoder {
     if (p.has(position_mode::kFold)) flags |= position_flag::kFold;
     if (p.has(position_mode::kSplit)) flags |= position_flag::kSplit;
     if (p.has(position_mode::kPalette)) flags |= position_flag::kPalette;
+    if (p.has(position_mode::kPlanes)) flags |= position_flag::kPlanes;
     return static_cast<uint8_t>(flags);
   }
 
@@ -321,6 +330,7 @@ class PieceCoder {
       constexpr uint32_t kWeighted = position_mode::kWeights;
       constexpr uint32_t kSelecting = position_mode::kWeights | position_mode::kSelect;
       constexpr uint32_t kShear = position_mode::kShear;
+      constexpr uint32_t kPlanes = position_mode::kPlanes;
       switch (parameters.modes & kCompiledModes) {
         case 0: return runPositions<int32_t, 0>(parameters, truth);
         case kWeighted: return runPositions<int32_t, kWeighted>(parameters, truth);
@@ -330,6 +340,8 @@ class PieceCoder {
           return runPositions<int32_t, kWeighted | kShear>(parameters, truth);
         case kSelecting | kShear:
           return runPositions<int32_t, kSelecting | kShear>(parameters, truth);
+        case kSelecting | kPlanes:
+          return runPositions<int32_t, kSelecting | kPlanes>(parameters, truth);
         default: break;
       }
     }

@@ -40,9 +40,10 @@ WedgeAt wedgeAt(const PieceCoder<Io>& piece) {
   return {piece.wedge_order.empty() ? nullptr : piece.wedge_order.data()};
 }
 
-/// Normals from grid points, four at a time.
+/// Unit vectors from grid points, four at a time; `has_sign`: a fourth component is -1 or 1.
 template <class Load>
-void storeNormals(int32_t centre, uint32_t wedge_count, const AttributeTarget& target, Load load) {
+void storeNormals(int32_t centre, bool has_sign, uint32_t wedge_count,
+                  const AttributeTarget& target, Load load) {
   uint8_t* to = static_cast<uint8_t*>(target.data);
   for (uint32_t w = 0; w < wedge_count; w += 4) {
     const uint32_t count = std::min(wedge_count - w, 4u);
@@ -50,10 +51,11 @@ void storeNormals(int32_t centre, uint32_t wedge_count, const AttributeTarget& t
     for (uint32_t i = 0; i < 4; ++i) points[i] = load(w + (i < count ? i : 0));
     Float4 rows[4];
     octahedralToUnit(points, centre, rows);
-    rows[3] = allLanes(0.0f);
+    rows[3] = allLanes(1.0f);
     transpose(rows[0], rows[1], rows[2], rows[3]);
     for (uint32_t i = 0; i < count; ++i, to += target.stride_bytes) {
-      std::memcpy(to, &rows[i], 3 * sizeof(float));
+      std::memcpy(to, &rows[i], (has_sign ? 4 : 3) * sizeof(float));
+      if (has_sign && points[i][2] != 0) storeFloat(to + 12, -1.0f);
     }
   }
 }
@@ -79,7 +81,7 @@ void storeElements(const AttributeInfo& info, uint32_t wedge_count, const Attrib
       return;
     }
     case AttributeCoding::kOctahedral:
-      storeNormals(octahedralCentre(info.bits), wedge_count, target, load);
+      storeNormals(octahedralCentre(info.bits), components == 4, wedge_count, target, load);
       return;
     case AttributeCoding::kExactFloat:
     case AttributeCoding::kGrid:  // as ordered floats by now

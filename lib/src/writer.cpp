@@ -13,6 +13,7 @@
 
 #include "attributes/enc_exact_grid.h"
 #include "attributes/enc_position_fit.h"
+#include "attributes/enc_position_planes.h"
 #include "attributes/enc_predictor_search.h"
 #include "attributes/enc_quantize.h"
 #include "connectivity/enc_collapse.h"
@@ -51,6 +52,7 @@ struct Plan {
   std::vector<int32_t> positions;
   std::vector<int32_t> exact_positions;  ///< ordered floats, if the positions are on an exact grid
   DistinctCoordinates coordinates;
+  AxisPlanes planes[3];
   PositionParameters positions_as;  ///< chosen, with fitted tables
   std::vector<uint32_t> wedge_source;
   std::vector<uint32_t> part_of_face;
@@ -426,6 +428,11 @@ class StageRunner {
     candidate.bits = parameters.bits;
     plan_.coordinates.find(plan_.positions, isExact(plan_.attributes[0].info.coding));
     for (uint32_t s = 0; s < 3; ++s) candidate.palettes[s] = plan_.coordinates.palette(s);
+    const AttributeInfo& info = plan_.attributes[0].info;
+    if (info.coding == AttributeCoding::kLattice && info.bits <= position_flag::kMaxBitsOfPlanes &&
+        findPlanes(plan_.positions, plan_.planes)) {
+      candidate.planes = plan_.planes;
+    }
     return {};
   }
 
@@ -435,6 +442,7 @@ class StageRunner {
       infos_[0] = plan_.attributes[0].info;
       for (uint32_t s = 0; s < 3; ++s) palettes[s] = plan_.coordinates.palette(s);
       truth_.palettes = palettes;
+      truth_.planes = plan_.planes;
     }
     MCC_TRY(piece_.codePositions(truth_, &plan_.positions_as));
     account(sizes, &StreamSizes::position_bits);
@@ -704,7 +712,8 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
     for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
     const AttributeMethod method = methodOf(infos.data(), plan.header.attribute_count, index);
     if (method == AttributeMethod::kWithAnother) return {};
-    PredictorSearch search(method, candidate, plan.header.has(piece_flag::kSeams));
+    PredictorSearch search(method, candidate, plan.header.has(piece_flag::kSeams),
+                           hasNormals(infos.data(), plan.header.attribute_count));
     if (alternatives.size() == 1 && search.isSettled()) {
       best.predictor = search.best();
       break;
@@ -757,6 +766,14 @@ Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t 
 
 // --- output ------------------------------------------------------------------------------------------
 
+void scale(StreamSizes& sizes, double by) {
+  for (double* bits : {&sizes.connectivity_bits, &sizes.stitch_bits, &sizes.leftover_bits,
+                       &sizes.seam_bits, &sizes.position_bits, &sizes.order_bits}) {
+    *bits *= by;
+  }
+  for (double& bits : sizes.attribute_bits) bits *= by;
+}
+
 Status codeAll(std::vector<Plan>& plans, uint32_t context_set, bool single, EncodeResult& result) {
   EncoderIo io(single);
   auto models = makeModels(context_set);
@@ -802,7 +819,12 @@ Status codeAll(std::vector<Plan>& plans, uint32_t context_set, bool single, Enco
   const double coded_bits = static_cast<double>(io.cost()) / kCostOne;
   const EncoderIo::Streams streams = io.finish();
   result.payload = writePayload(header, streams.codes, streams.tokens, streams.raw);
-  result.sizes.header_bits = 8.0 * static_cast<double>(result.payload.size()) - coded_bits;
+  const double stream_bits =
+      8.0 * static_cast<double>(streams.codes.size() + streams.tokens.size() + streams.raw.size());
+  // The count of costs is off by a little, which over millions of tokens may be more than the flushes.
+  const double spent_bits = std::min(coded_bits, stream_bits);
+  if (spent_bits < coded_bits) scale(result.sizes, spent_bits / coded_bits);
+  result.sizes.header_bits = 8.0 * static_cast<double>(result.payload.size()) - spent_bits;
   return {};
 }
 

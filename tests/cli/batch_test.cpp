@@ -159,9 +159,23 @@ TEST_F(Batch, BuffersAndImagesCountForWhatIsUpToDate) {
   store("g/a.png", "\x89PNG, another");
   EXPECT_FALSE(isUpToDate());
   EXPECT_EQ(contentOf(path("out/a.png")), "\x89PNG, another");
+  fs::remove(path("out/a.png"));
+  EXPECT_FALSE(isUpToDate());
+  fs::remove(path("out/a.bin"));
+  EXPECT_FALSE(isUpToDate());
+  EXPECT_TRUE(isUpToDate());
   store("g/a.bin", contentOf(path("g/a.bin")) + "more");
   EXPECT_FALSE(isUpToDate());
   EXPECT_TRUE(isUpToDate());
+}
+
+TEST_F(Batch, FallbacksCountForWhatIsUpToDate) {
+  const std::string command = "convert --fallback -o out/ in/torus.glb";
+  ASSERT_EQ(run(command).status, 0);
+  EXPECT_EQ(countOf(run(command).out, ": up to date\n"), 1u);
+  fs::remove(path("out/torus.fallback.bin"));
+  EXPECT_EQ(countOf(run(command).out, ": up to date\n"), 0u);
+  EXPECT_TRUE(fs::exists(path("out/torus.fallback.bin")));
 }
 
 TEST_F(Batch, CollisionsAreRefused) {
@@ -255,7 +269,7 @@ TEST_F(Streams, StandInForFiles) {
   ASSERT_EQ(run("decode small.glb back.glb").status, 0);
 #ifdef MCC_TOOL_GLTF_MCC
   const std::string tool = std::string("'") + MCC_TOOL_GLTF_MCC + "' ";
-  for (const std::string command :
+  for (const std::string& command :
        {"cat in/textured.glb | " + tool + "convert - - --report r.json > a.glb",
         tool + "convert in/textured.glb - -v > a.glb",
         tool + "convert - a.glb -q < in/textured.glb",

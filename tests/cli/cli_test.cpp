@@ -132,6 +132,18 @@ TEST_F(Cli, ConvertDecodeInspect) {
   EXPECT_EQ(names(), (std::set<std::string>{"in.glb", "out.glb", "back.glb"}));
 }
 
+TEST_F(Cli, DecodeToIntegers) {
+  ASSERT_EQ(run("convert in.glb out.glb -q").status, 0);
+  EXPECT_EQ(run("decode out.glb back.glb --decode-to integers").status, 0);
+  const Json json = jsonOf(asBytes(contentOf(folder_ / "back.glb")));
+  EXPECT_EQ(json["accessors"][0]["componentType"], kUnsignedShort);
+  EXPECT_EQ(json["extensionsRequired"], Json::array({"KHR_mesh_quantization"}));
+  EXPECT_EQ(run("decode out.glb back.glb --decode-to floats").status, 0);
+  EXPECT_EQ(jsonOf(asBytes(contentOf(folder_ / "back.glb")))["accessors"][0]["componentType"],
+            kFloat);
+  EXPECT_EQ(run("decode out.glb back.glb --decode-to doubles").status, 2);
+}
+
 TEST_F(Cli, ColumnsLineUp) {
   const Outcome result = run("convert in.glb out.glb");
   const size_t begin = result.out.find("stream");

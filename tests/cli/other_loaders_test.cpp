@@ -57,7 +57,7 @@ TEST(OtherLoaders, ShowTheFallback) {
 #endif
   const ScratchFolder folder;
   for (const std::string sample : kSamples) {
-    for (const std::string extension : {std::string(".glb"), std::string(".gltf")}) {
+    for (const std::string& extension : {std::string(".glb"), std::string(".gltf")}) {
       const std::string out = extension.substr(1) + "_" + sample + extension;
       ASSERT_EQ(runTool(folder, "convert --fallback " + samplePath(sample) + " " + out).status, 0);
       ASSERT_EQ(runTool(folder, "decode " + out + " decoded.glb").status, 0);
@@ -97,8 +97,8 @@ TEST(OtherLoaders, ValidatorFindsNothing) {
   const ScratchFolder folder;
   std::string files;
   for (const std::string sample : kSamples) {
-    for (const std::string options : {std::string(), std::string("--fallback ")}) {
-      for (const std::string extension : {std::string(".glb"), std::string(".gltf")}) {
+    for (const std::string& options : {std::string(), std::string("--fallback ")}) {
+      for (const std::string& extension : {std::string(".glb"), std::string(".gltf")}) {
         const std::string name = (options.empty() ? "plain_" : "fallback_") + extension.substr(1) +
                                  "_" + sample + extension;
         ASSERT_EQ(runTool(folder, "convert " + options + samplePath(sample) + " " + name).status,

@@ -86,8 +86,22 @@ Builder document() {
                         {"indices", {{"bufferView", indices}, {"componentType", kUnsignedShort}}},
                         {"values", {{"bufferView", values}}}};
   builder.json["images"] = {{{"bufferView", values}, {"mimeType", "image/png"}}};
-  builder.json["skins"] = {{{"joints", {0}}, {"inverseBindMatrices", 2}}};
-  builder.json["animations"] = {{{"samplers", {{{"input", 1}, {"output", 0}}}}}};
+  const uint32_t matrix = builder.addAccessor(std::vector<float>(16, 0.5f), kFloat, "MAT4", 1);
+  builder.json["skins"] = {{{"joints", {0}}, {"inverseBindMatrices", matrix}},
+                           {{"joints", {0}}, {"inverseBindMatrices", 2}}};
+  const Sheet sheet_of_skin(4);
+  Json skinned = sheet_of_skin.addTo(builder);
+  const std::vector<uint8_t> joints(size_t{4} * sheet_of_skin.count(), 0);
+  const std::vector<float> weights(joints.size(), 0.25f);
+  skinned["attributes"]["JOINTS_0"] =
+      builder.addAccessor(joints, kUnsignedByte, "VEC4", sheet_of_skin.count());
+  skinned["attributes"]["WEIGHTS_0"] = builder.addFloats(weights, 4);
+  builder.addMesh({skinned});
+  builder.json["nodes"][1]["skin"] = 0;
+  builder.json["nodes"][0]["children"] = Json::array();
+  builder.json["animations"] = {
+      {{"samplers", {{{"input", 1}, {"output", 0}}}},
+       {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
   return builder;
 }
 
@@ -106,6 +120,7 @@ void tryAll(std::span<const uint8_t> file) {
   expectOneLine(convertGlb(file, options, output, convert_report));
   DecodeReport decode_report;
   expectOneLine(decodeGlb(file, output, decode_report));
+  expectOneLine(decodeGlb(file, output, decode_report, DecodeTo::kIntegers));
   InspectReport inspect_report;
   expectOneLine(inspectGlb(file, true, inspect_report));
 }

@@ -167,7 +167,7 @@ struct Depth {
 class RandomPiece {
  public:
   RandomPiece(uint64_t seed, const PieceHeader& header, uint32_t context_set)
-      : seed_(seed), header_(header), context_set_(context_set), attributes_(13) {
+      : seed_(seed), header_(header), context_set_(context_set), attributes_(14) {
     Random random(seed + 1);
     attributes_[0].bits = static_cast<uint8_t>(random.between(1, 24));
     if (random.chance(20)) attributes_[0].coding = AttributeCoding::kExactFloat;
@@ -198,6 +198,7 @@ class RandomPiece {
     attribute(10, Semantic::kTexcoord, AttributeCoding::kGrid, 2);
     attribute(11, Semantic::kTexcoord, AttributeCoding::kExactFloat, 2);
     attribute(12, Semantic::kCustom, AttributeCoding::kGrid, 4);
+    attribute(13, Semantic::kTangent, AttributeCoding::kOctahedral, 4);
     grid(attributes_[10], random);
     grid(attributes_[12], random);
     const uint32_t count = static_cast<uint32_t>(attributes_.size());

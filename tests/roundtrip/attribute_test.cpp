@@ -282,25 +282,98 @@ TEST(Attributes, NormalsAndTangents) {
   }
 }
 
-TEST(Attributes, TangentsWithoutGoodNormals) {
-  for (const TestMesh& carrier : carriers()) {
-    TestMesh mesh = carrier;
-    mesh.normals.clear();
-    const std::vector<float> unit = unitVectors(mesh, Shape::kRandom);
-    std::vector<float> tangents;
-    for (size_t i = 0; i < unit.size(); i += 3) {
-      for (size_t k = 0; k < 3; ++k) tangents.push_back(unit[i + k]);
-      tangents.push_back(i % 2 == 0 ? 1.0f : -1.0f);
-    }
-    const AttributeFormat format = formatOf(Semantic::kTangent, ComponentType::kFloat32, 4);
-    MeshPiece alone(mesh);
-    alone.add(format, tangents.data(), 12);
-    expectRoundTrip(alone, mesh.name + ", no normals");
-    mesh.normals = unitVectors(mesh, Shape::kConstant);
-    MeshPiece askew(mesh);
-    askew.add(format, tangents.data(), 12);
-    expectRoundTrip(askew, mesh.name + ", askew");
+/// Four components per wedge, with a sign now and then.
+std::vector<float> withSigns(const std::vector<float>& unit) {
+  std::vector<float> tangents;
+  for (size_t i = 0; i < unit.size(); i += 3) {
+    for (size_t k = 0; k < 3; ++k) tangents.push_back(unit[i + k]);
+    tangents.push_back(i % 2 == 0 ? 1.0f : -1.0f);
   }
+  return tangents;
+}
+
+/// How TANGENT is coded beside normals of `normal_bits` (0: exact), or without.
+AttributeCoding tangentCoding(TestMesh mesh, const std::vector<float>* normals, uint8_t normal_bits,
+                              const std::vector<float>& tangents, uint8_t bits) {
+  mesh.normals = normals == nullptr ? std::vector<float>() : *normals;
+  MeshPiece piece(mesh, {14, normal_bits, 12});
+  piece.add(formatOf(Semantic::kTangent, ComponentType::kFloat32, 4), tangents.data(), bits);
+  expectRoundTrip(piece, mesh.name + ", normals " + std::to_string(normal_bits) + ", tangents " +
+                             std::to_string(bits));
+  return roundTrip(piece.view()).decoded[0].attributes.back().info.coding;
+}
+
+TEST(Attributes, TangentsWithoutGoodNormals) {
+  for (const TestMesh& mesh : carriers()) {
+    for (const Shape shape : kShapes) {
+      const std::vector<float> normals = unitVectors(mesh, shape);
+      const std::vector<float> beside = tangentsOf(normals, shape);
+      const std::vector<float> askew = withSigns(unitVectors(mesh, Shape::kRandom));
+      for (const uint8_t bits : {uint8_t{2}, uint8_t{8}, uint8_t{12}, uint8_t{16}}) {
+        EXPECT_EQ(tangentCoding(mesh, nullptr, 0, beside, bits), AttributeCoding::kOctahedral);
+        EXPECT_EQ(tangentCoding(mesh, &normals, 0, beside, bits), AttributeCoding::kOctahedral);
+        EXPECT_EQ(tangentCoding(mesh, &normals, 10, askew, bits), AttributeCoding::kOctahedral);
+        EXPECT_EQ(tangentCoding(mesh, &normals, 10, beside, bits), AttributeCoding::kTangentAngle);
+      }
+    }
+  }
+}
+
+TEST(Attributes, TangentsThatAreNone) {
+  const TestMesh mesh = torus(16, 10);
+  const std::vector<float> good = tangentsOf(mesh.normals, Shape::kSmooth);
+  std::vector<float> longer = good;
+  for (size_t k = 0; k < 3; ++k) longer[40 + k] *= 1.02f;
+  std::vector<float> half_sign = good;
+  half_sign[43] = 0.5f;
+  std::vector<float> nothing = good;
+  for (size_t k = 0; k < 4; ++k) nothing[40 + k] = 0;
+  std::vector<float> odd = good;
+  odd[40] = kNan;
+  for (const std::vector<float>* normals :
+       {&mesh.normals, static_cast<const std::vector<float>*>(nullptr)}) {
+    EXPECT_EQ(tangentCoding(mesh, normals, 10, longer, 12), AttributeCoding::kLattice);
+    EXPECT_EQ(tangentCoding(mesh, normals, 10, half_sign, 12), AttributeCoding::kLattice);
+    EXPECT_EQ(tangentCoding(mesh, normals, 10, nothing, 12), AttributeCoding::kLattice);
+    const AttributeCoding exact = tangentCoding(mesh, normals, 10, odd, 12);
+    EXPECT_TRUE(exact == AttributeCoding::kExactFloat || exact == AttributeCoding::kGrid);
+  }
+}
+
+/// Tangents along u cost little on the grid, too; projected on exact normals less.
+TEST(Attributes, TangentsOnTheGridFollowTheChart) {
+  TestMesh mesh = torus(48, 32);
+  mesh.texcoords.clear();
+  std::vector<float> tangents;
+  for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+    const float* p = &mesh.positions[v * 3];
+    const float* n = &mesh.normals[v * 3];
+    mesh.texcoords.push_back(p[0] + 0.25f * p[1]);
+    mesh.texcoords.push_back(p[2]);
+    // In the plane of the normal and across the gradient of v, where u grows.
+    std::array<double, 3> t = {static_cast<double>(n[1]), -static_cast<double>(n[0]), 0};
+    const double length = std::hypot(t[0], t[1]);
+    const double side = t[0] + 0.25 * t[1] < 0 ? -1 : 1;
+    if (length < 1e-6) t = {1, 0, 0};
+    for (const double x : t)
+      tangents.push_back(static_cast<float>(length < 1e-6 ? x : side * x / length));
+    tangents.push_back(1);
+  }
+  const auto bitsPerTangent = [&](bool with_normals) {
+    TestMesh carrier = mesh;
+    if (!with_normals) carrier.normals.clear();
+    MeshPiece piece(carrier, {14, 0, 12});
+    piece.add(formatOf(Semantic::kTangent, ComponentType::kFloat32, 4), tangents.data(), 12);
+    const RoundTrip result = roundTrip(piece.view());
+    EXPECT_EQ(result.failure, "");
+    EXPECT_EQ(result.decoded[0].attributes.back().info.coding, AttributeCoding::kOctahedral);
+    return result.encoded.sizes.attribute_bits.back() / mesh.vertexCount();
+  };
+  const double alone = bitsPerTangent(false);
+  RecordProperty("alone", std::to_string(alone));
+  RecordProperty("with_normals", std::to_string(bitsPerTangent(true)));
+  EXPECT_LT(alone, 12);
+  EXPECT_LT(bitsPerTangent(true), 0.9 * alone);
 }
 
 TEST(Attributes, Skins) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <numeric>
 #include <unordered_map>
 #include <unordered_set>
@@ -505,6 +506,103 @@ TestMesh mengerSponge(uint32_t level) {
   });
   mesh.name = call("mengerSponge", {level});
   return mesh;
+}
+
+namespace {
+
+/// Six tetrahedra a cube, each from its first corner to its last along another order of the axes.
+class MarchingTetrahedra {
+ public:
+  MarchingTetrahedra(uint32_t n, const std::function<double(double, double, double)>& field)
+      : n_(n) {
+    for (uint32_t i = 0; i < (n + 1) * (n + 1) * (n + 1); ++i) {
+      double at[3];
+      place(i, at);
+      value_.push_back(field(at[0], at[1], at[2]));
+    }
+  }
+
+  TestMesh run() {
+    constexpr uint32_t kOrders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1},
+                                        {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+    const uint32_t stride[3] = {1, n_ + 1, (n_ + 1) * (n_ + 1)};
+    for (uint32_t cell = 0; cell < n_ * n_ * n_; ++cell) {
+      const uint32_t first =
+          cell % n_ * stride[0] + cell / n_ % n_ * stride[1] + cell / n_ / n_ * stride[2];
+      for (uint32_t o = 0; o < 6; ++o) {
+        uint32_t corner[4] = {first, 0, 0, 0};
+        for (uint32_t i = 0; i < 3; ++i) corner[i + 1] = corner[i] + stride[kOrders[o][i]];
+        cut(corner, o >= 3);
+      }
+    }
+    mesh_.name = call("isosurface", {n_});
+    return std::move(mesh_);
+  }
+
+ private:
+  void place(uint32_t corner, double* at) const {
+    const uint32_t k[3] = {corner % (n_ + 1), corner / (n_ + 1) % (n_ + 1),
+                           corner / (n_ + 1) / (n_ + 1)};
+    for (uint32_t s = 0; s < 3; ++s) at[s] = 2.0 * k[s] / n_ - 1;
+  }
+  bool isInside(uint32_t corner) const { return value_[corner] < 0; }
+
+  uint32_t vertexBetween(uint32_t a, uint32_t b) {
+    if (a > b) std::swap(a, b);
+    const auto [entry, is_new] = vertices_.try_emplace({a, b}, mesh_.vertexCount());
+    if (is_new) {
+      double from[3];
+      double to[3];
+      place(a, from);
+      place(b, to);
+      const double t = value_[a] / (value_[a] - value_[b]);
+      for (uint32_t s = 0; s < 3; ++s) from[s] += t * (to[s] - from[s]);
+      addVertex(mesh_, from[0], from[1], from[2]);
+    }
+    return entry->second;
+  }
+
+  /// What is inside of one tetrahedron: a corner, an edge or a face.
+  void cut(const uint32_t* corner, bool mirrored) {
+    uint32_t inside[4];
+    uint32_t outside[4];
+    uint32_t in = 0;
+    uint32_t out = 0;
+    bool odd = mirrored;  // the permutation that puts the inner corners first
+    for (uint32_t i = 0; i < 4; ++i) {
+      if (isInside(corner[i])) {
+        odd ^= out % 2 != 0;
+        inside[in++] = corner[i];
+      } else {
+        outside[out++] = corner[i];
+      }
+    }
+    const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
+      if (odd) std::swap(b, c);
+      addTriangle(mesh_, a, b, c);
+    };
+    const auto between = [&](uint32_t i, uint32_t o) {
+      return vertexBetween(inside[i], outside[o]);
+    };
+    if (in == 1) add(between(0, 0), between(0, 1), between(0, 2));
+    if (in == 3) add(between(0, 0), between(1, 0), between(2, 0));
+    if (in == 2) {
+      const uint32_t quad[4] = {between(0, 0), between(0, 1), between(1, 1), between(1, 0)};
+      add(quad[0], quad[1], quad[2]);
+      add(quad[0], quad[2], quad[3]);
+    }
+  }
+
+  uint32_t n_;
+  std::vector<double> value_;
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> vertices_;
+  TestMesh mesh_;
+};
+
+}  // namespace
+
+TestMesh isosurface(uint32_t n, const std::function<double(double, double, double)>& field) {
+  return MarchingTetrahedra(n, field).run();
 }
 
 TestMesh voxelSurface(uint32_t nx, uint32_t ny, uint32_t nz,

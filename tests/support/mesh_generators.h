@@ -105,6 +105,9 @@ TestMesh mengerSponge(uint32_t level);
 /// where no two filled cells meet in an edge or a corner alone.
 TestMesh voxelSurface(uint32_t nx, uint32_t ny, uint32_t nz,
                       const std::function<bool(uint32_t, uint32_t, uint32_t)>& filled);
+/// Marching tetrahedra of field(x, y, z) = 0 on n^3 cells over [-1, 1]^3: vertices on edges and diagonals of the cells.
+/// May touch itself where the field is that fine.
+TestMesh isosurface(uint32_t n, const std::function<double(double, double, double)>& field);
 
 // ---- Surfaces with boundaries -------------------------------------------------------------------
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -18,20 +20,31 @@ namespace {
 
 /// Meshes that take the traversal everywhere: closed, open, of one triangle, with copies, of high degree.
 std::vector<TestMesh> surfaces() {
-  return {tetrahedron(),       looseTriangles(5),   grid(9, 7),           torus(8, 6),
-          openFan(40),         bipyramid(30),       sheetWithHoles(3, 1), book(4, 4, 3),
-          pinchedSpheres(3),   moebius(8, 2),       randomVoxels(1, 4, 50), fins(4),
-          generated(2, 2, 3, 4), combOfStacks(5, 6)};
+  return {tetrahedron(),
+          looseTriangles(5),
+          grid(9, 7),
+          torus(8, 6),
+          openFan(40),
+          bipyramid(30),
+          sheetWithHoles(3, 1),
+          book(4, 4, 3),
+          pinchedSpheres(3),
+          moebius(8, 2),
+          randomVoxels(1, 4, 50),
+          fins(4),
+          generated(2, 2, 3, 4),
+          combOfStacks(5, 6)};
 }
 
 /// Both sides up to the positions. What is made up goes into `truth` between the stages.
 template <bool kSingle>
 class Pair {
  public:
-  Pair(const TestMesh& mesh, const AttributeInfo& position, uint32_t isolated_count = 0)
+  Pair(const TestMesh& mesh, const AttributeInfo& position, uint32_t isolated_count = 0,
+       const AttributeInfo& further = positionInfo(10))
       : surface_(mesh),
         encoder_(kSingle),
-        writer_(encoder_, headerOf(surface_, isolated_count), {position, positionInfo(10)}) {
+        writer_(encoder_, headerOf(surface_, isolated_count), {position, further}) {
     truth.connectivity = surface_.truth();
     EXPECT_TRUE(writer_.piece.codeConnectivity(truth).ok());
     classes_ = surface_.classOfVertex();
@@ -47,6 +60,21 @@ class Pair {
     return writer_.piece.mesh.words[size_t{f} * kFaceWords + k];
   }
   FaceView faces() { return writer_.piece.mesh.view(); }
+  /// Of the groups, in thousandths, and zeros for isolated vertices.
+  std::vector<int32_t> latticePositions(const TestMesh& mesh, uint32_t isolated_count) const {
+    std::vector<int32_t> positions(3 * (size_t{groupCount()} + isolated_count));
+    for (uint32_t f = 0; f < faceCount(); ++f) {
+      const uint32_t gate = surface_.sourceGate()[f];  // became half-edge 1
+      for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t corner = gate / 3 * 3 + (gate + k + 2) % 3;
+        const float* p = mesh.positions.data() + 3 * size_t{mesh.indices[corner]};
+        for (size_t s = 0; s < 3; ++s) {
+          positions[3 * size_t{group(f, k)} + s] = static_cast<int32_t>(std::lround(p[s] * 1000));
+        }
+      }
+    }
+    return positions;
+  }
   Stages<EncoderIo>& writer() { return writer_; }
   EncoderIo& encoder() { return encoder_; }
   PieceHeader& header() { return writer_.header; }
@@ -87,7 +115,7 @@ class Pair {
 
 // ---- Positions ----------------------------------------------------------------------------------
 
-enum class Values : uint8_t { kRandom, kSmooth, kAnyInteger, kJumps };
+enum class Values : uint8_t { kRandom, kSmooth, kAnyInteger, kJumps, kPlanes };
 
 /// Choices of the encoder that need nothing besides.
 std::vector<uint8_t> positionPredictors() {
@@ -95,6 +123,23 @@ std::vector<uint8_t> positionPredictors() {
   return {0, 1, 4, kFold, 1 | kShear, 1 | kFold | kSplit, 4 | kFold | kSplit | kShear};
 }
 
+const AxisPlanes kSomePlanes[3] = {{0, 5 * AxisPlanes::kOne},
+                                   {7 * AxisPlanes::kOne / 3, 31 * AxisPlanes::kOne / 4},
+                                   {AxisPlanes::kMinStep - 1, AxisPlanes::kMinStep}};
+
+/// On planes, on diagonals or anywhere, as on no isosurface in the world.
+void setNearPlanes(Random& random, uint8_t bits, int32_t* q) {
+  const int32_t end = 1 << bits;
+  const int32_t t = static_cast<int32_t>(random.below(8));
+  const bool on_diagonal = random.chance(30);
+  for (uint32_t s = 0; s < 3; ++s) {
+    const int32_t plane = static_cast<int32_t>(random.below(1u << bits) / 8);
+    q[s] = kSomePlanes[s].at(plane);
+    if (on_diagonal) q[s] += random.chance(50) ? t : -t;
+    if (!on_diagonal && random.chance(40)) q[s] += static_cast<int32_t>(random.below(4));
+    q[s] = std::clamp(q[s], 0, end - 1);
+  }
+}
 
 template <bool kSingle>
 void expectPositions(const TestMesh& mesh, uint8_t bits, uint8_t predictor, Values kind,
@@ -119,9 +164,13 @@ void expectPositions(const TestMesh& mesh, uint8_t bits, uint8_t predictor, Valu
         break;
       case Values::kJumps:  // as far as it goes, where nobody expects it
         positions[i] = random.chance(97) ? 0 : std::numeric_limits<int32_t>::min();
+        break;
+      case Values::kPlanes:
+        if (i % 3 == 0) setNearPlanes(random, bits, &positions[i]);
     }
   }
   pair.truth.positions = positions.data();
+  pair.truth.planes = kSomePlanes;
   ASSERT_TRUE(pair.writer().piece.codePositions(pair.truth).ok());
   auto& reader = pair.reader();
   const Status status = reader.piece.codePositions(PieceTruth{});
@@ -139,6 +188,20 @@ void expectPositions(const TestMesh& mesh, uint8_t bits, uint8_t predictor, Valu
   for (size_t i = 0; i < sequence.size(); ++i) {
     ASSERT_EQ(sequence[i], pair.writer().piece.sequence[i]);
     ASSERT_TRUE(entered.insert(reader.piece.mesh.words[sequence[i]]).second);
+  }
+}
+
+TEST(Positions, PlanesHoldAnyValuesOfTheLattice) {
+  for (const TestMesh& mesh : surfaces()) {
+    for (const uint8_t bits : {1, 4, 9, 17}) {
+      for (const uint8_t predictor : {0, 1, 4}) {
+        const uint8_t with_planes = predictor | position_flag::kPlanes;
+        for (const Values kind : {Values::kPlanes, Values::kRandom, Values::kSmooth}) {
+          expectPositions<true>(mesh, bits, with_planes, kind, 2);
+          expectPositions<false>(mesh, bits, with_planes, kind, 3);
+        }
+      }
+    }
   }
 }
 
@@ -202,7 +265,8 @@ TEST(Positions, AStreamThatEndsIsAnError) {
   ASSERT_TRUE(pair.writer().piece.codePositions(pair.truth).ok());
   const std::vector<uint8_t> codes = pair.encoder().finish().codes;
   for (size_t size = connectivity_bytes; size + 100 < codes.size(); size += 97) {
-    const std::vector<uint8_t> cut(codes.begin(), codes.begin() + static_cast<std::ptrdiff_t>(size));
+    const std::vector<uint8_t> cut(codes.begin(),
+                                   codes.begin() + static_cast<std::ptrdiff_t>(size));
     DecoderIo<true> decoder(cut, {}, {});
     Stages<DecoderIo<true>> reader(decoder, pair.header(), pair.writer().attributes);
     ASSERT_TRUE(reader.piece.codeConnectivity(PieceTruth{}).ok());
@@ -210,6 +274,87 @@ TEST(Positions, AStreamThatEndsIsAnError) {
     const bool decoded = reader.piece.codePositions(PieceTruth{}).ok();
     EXPECT_FALSE(decoded && decoder.finish().ok()) << size;
   }
+}
+
+// ---- Values ---------------------------------------------------------------------------------------
+
+AttributeInfo valuesInfo(uint8_t components, uint8_t predictor) {
+  AttributeInfo info;
+  info.format.semantic = Semantic::kColor;
+  info.format.component_type = ComponentType::kUint32;
+  info.format.component_count = components;
+  info.coding = AttributeCoding::kInteger;
+  info.predictor = predictor;
+  return info;
+}
+
+/// Through both sides; returns the bits they take. `values` are of wedges in the order of the writer's.
+template <bool kSingle>
+double codeValues(const TestMesh& mesh, const AttributeInfo& info, uint32_t isolated_count,
+                  const std::function<int32_t(uint32_t wedge, const int32_t* q)>& value) {
+  Pair<kSingle> pair(mesh, positionInfo(16), isolated_count, info);
+  const std::vector<int32_t> positions = pair.latticePositions(mesh, isolated_count);
+  pair.truth.positions = positions.data();
+  const uint32_t components = info.format.component_count;
+  Array<int32_t> values;
+  for (uint32_t i = 0; i < positions.size() / 3 * components; ++i)
+    EXPECT_TRUE(values.push_back(value(i, &positions[i / components * 3])));
+  PieceCoder<EncoderIo>& writer = pair.writer().piece;
+  EXPECT_TRUE(writer.codePositions(pair.truth).ok());
+  EXPECT_TRUE(writer.codeSeams(pair.truth).ok());
+  EXPECT_TRUE(writer.prepareAttributes().ok());
+  const uint64_t before = pair.encoder().cost();
+  EXPECT_TRUE(writer.codeAttribute(1, values).ok());
+  const double bits = static_cast<double>(pair.encoder().cost() - before) / kCostOne;
+  PieceCoder<DecoderIo<kSingle>>& reader = pair.reader().piece;
+  EXPECT_TRUE(reader.codePositions(PieceTruth{}).ok());
+  EXPECT_TRUE(reader.codeSeams(PieceTruth{}).ok());
+  EXPECT_TRUE(reader.prepareAttributes().ok());
+  Array<int32_t> decoded;
+  EXPECT_TRUE(reader.codeAttribute(1, decoded).ok());
+  EXPECT_TRUE(pair.decoder().finish().ok());
+  EXPECT_TRUE(std::equal(values.data(), values.data() + values.size(), decoded.data(),
+                         decoded.data() + decoded.size()));
+  return bits;
+}
+
+TEST(Values, EveryMethodOnAllKindsOfSurfaces) {
+  for (const TestMesh& mesh : surfaces()) {
+    for (uint8_t components : {uint8_t{1}, uint8_t{2}, uint8_t{3}, uint8_t{4}, uint8_t{7}}) {
+      for (uint32_t predictor = 0; predictor < 0x80; ++predictor) {
+        const AttributeInfo info = valuesInfo(components, static_cast<uint8_t>(predictor));
+        const AttributeInfo infos[2] = {positionInfo(16), info};
+        if (!isKnownPredictor(infos, 2, 1)) continue;
+        SCOPED_TRACE(mesh.name + ", predictor " + std::to_string(predictor));
+        Random random(predictor);
+        codeValues<false>(mesh, info, 3, [&](uint32_t, const int32_t* q) {
+          if (predictor % 2 == 0) return q[0] + q[1] / 8;
+          const int32_t any = static_cast<int32_t>(random.next() >> 32);
+          return random.chance(20) ? any : random.chance(50) ? 0 : any >> 24;
+        });
+      }
+    }
+  }
+}
+
+/// Colours that bend along one axis only: which candidate does well differs from component to component.
+TEST(Values, ABlendFollowsWhatDoesWell) {
+  const TestMesh mesh = grid(60, 60);
+  const auto value = [](uint32_t i, const int32_t* q) {
+    const double x = (i % 2 == 0 ? q[0] : q[1]) * 0.004;
+    const double y = (i % 2 == 0 ? q[1] : q[0]) * 0.0001;
+    return static_cast<int32_t>(std::lround(127.5 + 127.5 * std::sin(x * x + y)));
+  };
+  const double diagonal = codeValues<true>(mesh, valuesInfo(4, 2), 0, value);
+  const double blend = codeValues<true>(mesh, valuesInfo(4, value_method::kBlend), 0, value);
+  EXPECT_LT(blend, 0.88 * diagonal);
+}
+
+TEST(Values, BlendsHaveFourComponentsAtMost) {
+  const AttributeInfo infos[3] = {positionInfo(16), valuesInfo(4, value_method::kBlend),
+                                  valuesInfo(5, value_method::kBlend)};
+  EXPECT_TRUE(isKnownPredictor(infos, 3, 1));
+  EXPECT_FALSE(isKnownPredictor(infos, 3, 2));
 }
 
 // ---- Seams --------------------------------------------------------------------------------------
@@ -293,8 +438,7 @@ void expectSeams(const TestMesh& mesh, uint32_t percent, uint32_t most, uint32_t
   ASSERT_EQ(reader.piece.wedges.isolated_first, surface_wedges);
   std::set<uint32_t> entered;
   for (uint32_t i = 0; i < surface_wedges; ++i) {
-    ASSERT_TRUE(
-        entered.insert(reader.piece.mesh.words[reader.piece.wedges.half_edges[i]]).second);
+    ASSERT_TRUE(entered.insert(reader.piece.mesh.words[reader.piece.wedges.half_edges[i]]).second);
   }
   for (uint32_t i = 0; i < isolated_count; ++i)
     ASSERT_EQ(reader.piece.groupOf(surface_wedges + i), pair.groupCount() + i);
@@ -384,7 +528,8 @@ template <bool kSingle>
 void writeLeftovers(Pair<kSingle>& pair, const Leftovers& leftovers, uint32_t part_count) {
   PieceHeader& header = pair.header();
   header.part_count = part_count;
-  header.duplicate_count = std::accumulate(leftovers.duplicates.begin(), leftovers.duplicates.end(), 0u);
+  header.duplicate_count =
+      std::accumulate(leftovers.duplicates.begin(), leftovers.duplicates.end(), 0u);
   header.listed_count = static_cast<uint32_t>(leftovers.list.size());
   if (part_count > 1) header.flags |= piece_flag::kManyParts;
   if (header.duplicate_count != 0) header.flags |= piece_flag::kDuplicates;

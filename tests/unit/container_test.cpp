@@ -63,7 +63,9 @@ AttributeInfo anyAttribute(Random& random) {
     a.coding = AttributeCoding::kExactFloat;
   } else if (random.chance(30)) {
     a.coding = AttributeCoding::kOctahedral;
-    a.format.component_count = 3;
+    const bool is_tangent = a.format.semantic == Semantic::kTangent;
+    if (is_tangent) a.format.morph_target = 0;
+    a.format.component_count = is_tangent ? 4 : 3;
     a.bits = static_cast<uint8_t>(random.between(2, 16));
   } else {
     a.format.component_count = static_cast<uint8_t>(random.between(1, 4));
@@ -372,6 +374,37 @@ TEST(Container, AttributesThatAreNone) {
         a.coding = AttributeCoding::kOctahedral;
         a.bits = 10;
         a.format.component_count = 2;
+      },
+      [](AttributeInfo& a) {
+        a.coding = AttributeCoding::kOctahedral;
+        a.bits = 10;
+        a.format.semantic = Semantic::kTangent;
+        a.format.component_count = 3;
+      },
+      [](AttributeInfo& a) {
+        a.coding = AttributeCoding::kOctahedral;
+        a.bits = 10;
+        a.format.semantic = Semantic::kNormal;
+        a.format.component_count = 4;
+      },
+      [](AttributeInfo& a) {  // a delta
+        a.coding = AttributeCoding::kOctahedral;
+        a.bits = 10;
+        a.format.semantic = Semantic::kTangent;
+        a.format.component_count = 4;
+        a.format.morph_target = 1;
+      },
+      [](AttributeInfo& a) {  // perpendicular to no normals
+        a.coding = AttributeCoding::kOctahedral;
+        a.bits = 10;
+        a.format.semantic = Semantic::kTangent;
+        a.format.component_count = 4;
+        a.predictor = tangent_point_method::kPerpendicular;
+      },
+      [](AttributeInfo& a) {  // a blend of five components
+        a.coding = AttributeCoding::kExactFloat;
+        a.format.component_count = 5;
+        a.predictor = value_method::kBlend;
       },
       [](AttributeInfo& a) { setGrid(a, 0, 0, 3); },
       [](AttributeInfo& a) { setGrid(a, kGridBits + 2, 0, 3); },

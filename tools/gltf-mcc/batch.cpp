@@ -12,6 +12,7 @@
 
 #include "batch_record.h"
 #include "convert_report.h"
+#include "gltf/file_io.h"
 #include "gltf/package.h"
 #include "gltf/parallel.h"
 #include "progress_line.h"
@@ -48,6 +49,7 @@ class Batch {
   void convertAll();
   void convertOne(BatchFile& file);
   void finishOne(const BatchFile& file, const gltf::ConvertReport& report);
+  std::vector<fs::path> outputsOf(const BatchFile& file, const gltf::ConvertReport& report) const;
   void keepRecord(bool is_last);
   void showProgress() const;
   std::string lineOf(const BatchFile& file) const;
@@ -148,12 +150,26 @@ void Batch::keepRecord(bool is_last) {
   }
 }
 
+/// Those made for it, whether they turned out to be needed or not, and copies of the others.
+std::vector<fs::path> Batch::outputsOf(const BatchFile& file,
+                                       const gltf::ConvertReport& report) const {
+  std::vector<fs::path> paths;
+  for (const std::string& name : namesOf(file.name, options_.convert.fallback)) {
+    paths.push_back(options_.folder / name);
+  }
+  const fs::path source_folder = gltf::folderOf(file.input);
+  for (const fs::path& path : report.files.other_input) {
+    paths.push_back(options_.folder / path.lexically_relative(source_folder));
+  }
+  return paths;
+}
+
 void Batch::finishOne(const BatchFile& file, const gltf::ConvertReport& report) {
   const std::lock_guard lock(mutex_);
   ++done_;
   if (file.outcome == Outcome::kFailed) record_->remove(file.name);
   if (file.outcome == Outcome::kConverted || file.outcome == Outcome::kCopied) {
-    record_->add(file.name, report);
+    record_->add(file.name, report, outputsOf(file, report));
     keepRecord(false);
   }
   line_.clear();

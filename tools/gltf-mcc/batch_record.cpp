@@ -67,13 +67,14 @@ std::pair<uint64_t, uint64_t> BatchRecord::sizesOf(const std::string& output_nam
   return {bytes.at(0).get<uint64_t>(), bytes.at(1).get<uint64_t>()};
 }
 
-void BatchRecord::add(const std::string& output_name, const gltf::ConvertReport& report) {
+void BatchRecord::add(const std::string& output_name, const gltf::ConvertReport& report,
+                      const std::vector<fs::path>& outputs) {
   std::vector<fs::path> inputs = report.files.input;
   inputs.insert(inputs.end(), report.files.other_input.begin(), report.files.other_input.end());
   files_[output_name] = {{"maker", maker_},
                          {"bytes", {report.input_bytes, report.output_bytes}},
                          {"input", stampsOf(inputs)},
-                         {"output", stampsOf(report.files.output)}};
+                         {"output", stampsOf(outputs)}};
 }
 
 void BatchRecord::remove(const std::string& output_name) { files_.erase(output_name); }

@@ -24,7 +24,9 @@ class BatchRecord {
   /// Bytes before and after, of a file that is up to date.
   std::pair<uint64_t, uint64_t> sizesOf(const std::string& output_name) const;
 
-  void add(const std::string& output_name, const gltf::ConvertReport& report);
+  /// outputs  all files that belong to the output.
+  void add(const std::string& output_name, const gltf::ConvertReport& report,
+           const std::vector<std::filesystem::path>& outputs);
   void remove(const std::string& output_name);
   gltf::Result write() const;
 

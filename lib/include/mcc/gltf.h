@@ -146,6 +146,16 @@ struct ConvertReport {
   std::vector<std::string> notes;           ///< "/meshes/0/primitives/1: why"
 };
 
+/// What quantised attributes become when a file is decoded.
+enum class DecodeTo : uint8_t {
+  kFloats,  ///< what the source had
+  /// Integers with KHR_mesh_quantization, for the memory of graphics cards. Positions are points of their lattice, which goes
+  /// into a new child node per node with a mesh, or into the inverse bind matrices of a skin. Values move by float rounding
+  /// at most, others than positions by half a step of a type whose steps are not coarser than those of the coded grid.
+  /// What cannot become integer stays float, with a note.
+  kIntegers,
+};
+
 struct DecodeReport {
   FilesInUse files;
   uint64_t input_bytes = 0;
@@ -229,13 +239,14 @@ Result convertFile(const std::filesystem::path& source, const std::filesystem::p
 
 /// Turns compressed primitives into ordinary accessors again; a file without any is copied. Files are
 /// treated as by convert(). Safe for untrusted input.
-Result decode(const Source& source, const Sink& sink, DecodeReport& report);
+Result decode(const Source& source, const Sink& sink, DecodeReport& report,
+              DecodeTo decode_to = DecodeTo::kFloats);
 
 /// decode() from memory to memory, and from file to file.
 Result decodeGlb(std::span<const uint8_t> source, std::vector<uint8_t>& output,
-                 DecodeReport& report);
+                 DecodeReport& report, DecodeTo decode_to = DecodeTo::kFloats);
 Result decodeFile(const std::filesystem::path& source, const std::filesystem::path& output,
-                  DecodeReport& report);
+                  DecodeReport& report, DecodeTo decode_to = DecodeTo::kFloats);
 
 /// Lists the payloads of a file. With `count_codes` they are decoded to count their codes.
 Result inspectGlb(std::span<const uint8_t> source, bool count_codes, InspectReport& report);

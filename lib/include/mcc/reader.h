@@ -38,7 +38,7 @@ enum class AttributeCoding : uint8_t {
   kLattice = 0,
   kInteger = 1,     ///< integer components, exact
   kExactFloat = 2,  ///< float32 components, every bit pattern kept
-  kOctahedral = 3,  ///< unit vectors, octahedral grid of `bits` bits
+  kOctahedral = 3,  ///< unit vectors, octahedral grid of `bits` bits; of TANGENT besides a sign
   /// TANGENT as an angle of `bits` bits in the plane of the decoded normal, and a sign. The decoded tangent is perpendicular
   /// to the decoded normal; it differs from the source by at most half a step (180 / 2^bits degrees) plus the error of the
   /// normal (that of its kOctahedral grid) plus what the source was off perpendicular (writers allow 0.12 degrees).
@@ -59,8 +59,8 @@ struct AttributeInfo {
 };
 
 struct PieceInfo {
-  uint32_t wedge_count = 0;   ///< glTF vertices, i.e. accessor.count
-  uint32_t vertex_count = 0;  ///< topological vertices before re-stitching
+  uint32_t wedge_count = 0;                   ///< glTF vertices, i.e. accessor.count
+  uint32_t vertex_count = 0;                  ///< topological vertices before re-stitching
   std::span<const AttributeInfo> attributes;  ///< none: the payload has the triangles alone
   std::span<const PartInfo> parts;
 };

@@ -13,6 +13,7 @@
 #include "attributes/exact_values.h"
 #include "attributes/normals.h"
 #include "attributes/skin.h"
+#include "attributes/tangent_points.h"
 #include "attributes/tangents.h"
 #include "attributes/texcoords.h"
 #include "attributes/values.h"
@@ -27,6 +28,7 @@ struct AttributeModels {
   NormalModels normals;
   TexcoordModels texcoords[2];  ///< [further set]
   TangentModels tangents;
+  TangentPointModels tangent_points;
   SkinModels skins[2];          ///< [further set]
   ValueModels values[8][2][2];  ///< [semantic][further set][morph target]
   VectorModels exact_normals;
@@ -51,6 +53,7 @@ inline uint32_t codedComponents(const AttributeInfo* attributes, uint32_t count,
   switch (methodOf(attributes, count, index)) {
     case AttributeMethod::kNormal:
     case AttributeMethod::kTangent: return 2;
+    case AttributeMethod::kTangentPoint: return kTangentPointWords;
     case AttributeMethod::kSkin: return kSkinWords;
     default: return attributes[index].format.component_count;
   }
@@ -82,6 +85,7 @@ class AttributeStage {
         edges_(allocator),
         chart_coordinates_(allocator),
         exact_normals_(allocator),
+        unit_normals_(allocator),
         memory_(allocator),
         lengths_(allocator),
         moved_before_(allocator),
@@ -114,6 +118,7 @@ class AttributeStage {
       case AttributeMethod::kExactValues: MCC_TRY(codeExactValues(info, values.data())); break;
       case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(info, values.data())); break;
       case AttributeMethod::kTangent: MCC_TRY(codeTangents(info, values.data())); break;
+      case AttributeMethod::kTangentPoint: MCC_TRY(codeTangentPoints(info, values.data())); break;
       case AttributeMethod::kSkin: codeSkin(index, values.data()); break;
       case AttributeMethod::kWithAnother: break;
       case AttributeMethod::kValues: MCC_TRY(codeValues(info, components, values.data())); break;
@@ -215,9 +220,12 @@ class AttributeStage {
   Status codeValues(const AttributeInfo& info, uint32_t components, int32_t* values) {
     const bool is_target = info.format.morph_target != 0;
     if (is_target) MCC_TRY(enterTarget(info.format.morph_target));
+    const bool blends = (info.predictor & value_method::kPredictorMask) == value_method::kBlend;
+    if (blends && !floats_.resize(ValueBlend::kErrorFloats * size_t{wedges.count}))
+      return noMemory();
     ValueCoder<Io>(io_, models_.valuesOf(info), wedges, groups_, info, components, positions.data(),
-                   values, lengths_.data(), is_target ? moved_before_.data() : nullptr,
-                   is_target ? moved_.data() : nullptr)
+                   values, lengths_.data(), floats_.data(),
+                   is_target ? moved_before_.data() : nullptr, is_target ? moved_.data() : nullptr)
         .run();
     return {};
   }
@@ -298,6 +306,36 @@ class AttributeStage {
     return {};
   }
 
+  Status codeTangentPoints(const AttributeInfo& info, int32_t* values) {
+    if (!floats_.assign(4 * size_t{wedges.count}, 0.0f)) return noMemory();
+    if (chart_ != kNone) {
+      addFaceTangents(wedges, positions.data(), chart_coordinates_.data(), floats_.data());
+    }
+    const bool projects = (info.predictor & tangent_point_method::kPerpendicular) != 0;
+    if (projects) MCC_TRY(listNormals());
+    TangentPointCoder<Io>(io_, models_.tangent_points, wedges, groups_, info,
+                          projects ? unit_normals_.data() : nullptr, floats_.data(), values,
+                          lengths_.data())
+        .run();
+    return {};
+  }
+
+  /// What tangents on a grid may be perpendicular to.
+  Status listNormals() {
+    if (!unit_normals_.resize(3 * size_t{wedges.count})) return noMemory();
+    for (size_t w = 0; w < wedges.count; ++w) {
+      float* normal = &unit_normals_[3 * w];
+      if (exact_normal_ != kNone) {
+        for (size_t s = 0; s < 3; ++s)
+          normal[s] = static_cast<float>(finiteValue(exact_normals_[3 * w + s]));
+      } else {
+        octahedralToUnit(normals[2 * w], normals[2 * w + 1], octahedralCentre(normalInfo().bits),
+                         normal);
+      }
+    }
+    return {};
+  }
+
   void codeSkin(uint32_t index, int32_t* values) {
     const AttributeInfo& joints = attributes_[index];
     const AttributeInfo& weights = attributes_[skinPartner(attributes_, count_, index)];
@@ -325,6 +363,7 @@ class AttributeStage {
   EdgeMemory edges_;
   Array<float> chart_coordinates_;  ///< 2 per wedge, only with tangents
   Array<int32_t> exact_normals_;    ///< 3 ordered floats per wedge, only with tangents
+  Array<float> unit_normals_;       ///< 3 per wedge, only with tangents on a grid
   Array<ResidualMemory::Entry> memory_;
   Array<uint8_t> lengths_;
   Array<uint8_t> moved_before_;  ///< see attributes/values.h; only with morph targets

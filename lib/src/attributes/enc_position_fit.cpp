@@ -88,12 +88,14 @@ class Trials {
   /// Expected cost of all positions and their tables, in bits.
   double cost(const PositionParameters& p) {
     *rows_ = PositionRows();
-    rows_->prepare(p.has(position_mode::kFold), p.has(position_mode::kSplit));
+    rows_->prepare(p.modes);
     CostIo io;
     for (size_t i = 0; i < pieces_.size(); ++i) {
       PositionParameters of_piece = p;
       of_piece.bits = pieces_[i].bits;
       std::copy(pieces_[i].palettes, pieces_[i].palettes + 3, of_piece.palette);
+      const GridPlanes planes = planesOf(pieces_[i]);
+      of_piece.planes = &planes;
       if (of_piece.bits > kNarrowBits) {
         replay<int64_t>(io, of_piece, i, [](uint32_t, const auto&, const VertexRecord&) {});
       } else {
@@ -103,7 +105,8 @@ class Trials {
     const double scale =
         counted_ == 0 ? 1 : static_cast<double>(all_) / static_cast<double>(counted_);
     return static_cast<double>(io.cost()) / kCostOne * scale + tableBits(p) +
-           (p.has(position_mode::kPalette) ? paletteBits() : 0);
+           (p.has(position_mode::kPalette) ? paletteBits() : 0) +
+           (p.has(position_mode::kPlanes) ? planeBits() : 0);
   }
 
   /// Calls use(plain, prediction, record) behind every counted vertex that is no seed.
@@ -114,6 +117,8 @@ class Trials {
       PositionParameters of_piece = p;
       of_piece.bits = pieces_[i].bits;
       std::copy(pieces_[i].palettes, pieces_[i].palettes + 3, of_piece.palette);
+      const GridPlanes planes = planesOf(pieces_[i]);
+      of_piece.planes = &planes;
       if (of_piece.bits > kNarrowBits) {
         replay<int64_t>(io, of_piece, i, use);
       } else {
@@ -140,6 +145,13 @@ class Trials {
     return static_cast<double>(io.cost()) / kCostOne;
   }
 
+  double planeBits() const { return static_cast<double>(pieces_.size()) * 6 * AxisPlanes::kBits; }
+
+  static GridPlanes planesOf(const PositionCandidate& piece) {
+    const AxisPlanes none[3];
+    return GridPlanes(piece.planes != nullptr ? piece.planes : none);
+  }
+
   template <class Wide, class Io, class Use>
   void replay(Io& io, const PositionParameters& p, size_t piece, Use use) {
     const PositionRecording& recording = *pieces_[piece].recording;
@@ -154,24 +166,26 @@ class Trials {
         coder.codeSeed(io, v, recording.seedNeighbour(visit));
         continue;
       }
+      const bool plain = visit.kind == static_cast<uint32_t>(Kind::kPlain);
+      const auto code = [&](const auto& with, auto& into, Prediction<Wide>& prediction) {
+        if (plain) {
+          PlainFan fan;
+          Beyond beyond;
+          recording.plain(visit, fan, beyond);
+          with.codePlain(into, v, fan, &beyond, prediction);
+        } else {
+          AnyFan fan;
+          recording.any(visit, fan);
+          with.codeAny(into, v, fan, prediction);
+        }
+      };
       Prediction<Wide> prediction;
-      const uint32_t plain = visit.kind == static_cast<uint32_t>(Kind::kPlain) ? 1 : 0;
-      if (plain != 0) {
-        PlainFan fan;
-        Beyond beyond;
-        recording.plain(visit, fan, beyond);
-        predictPlain<Wide>(p, fan, &beyond, records[v].degree(), p.modes, prediction);
-      } else {
-        AnyFan fan;
-        recording.any(visit, fan);
-        predictAny<Wide>(p, fan, records[v].degree(), prediction);
+      if (!entry.counted) {
+        code(silent_coder, silent, prediction);
+        continue;
       }
-      if (entry.counted) {
-        coder.codeVertex(io, v, prediction, plain);
-        use(plain, prediction, records[v]);
-      } else {
-        silent_coder.codeVertex(silent, v, prediction, plain);
-      }
+      code(coder, io, prediction);
+      use(plain ? 1u : 0u, prediction, records[v]);
     }
   }
 
@@ -428,6 +442,8 @@ class Chooser {
   PositionParameters run() {
     tryPredictors();
     if (anyPalette()) tryMode(position_mode::kPalette, 0.98);
+    if (anyPlanes()) tryMode(position_mode::kPlanes, 0.98);
+    if (best_.has(position_mode::kPlanes)) return best_;
     if (!best_.has(position_mode::kPalette)) tryMode(position_mode::kShear, 0.96);
     tryMode(position_mode::kFold, 0.995);
     tryMode(position_mode::kSplit, 0.998);
@@ -473,6 +489,12 @@ class Chooser {
     return false;
   }
 
+  /// Pieces share the choice: all must have them.
+  bool anyPlanes() const {
+    return std::all_of(pieces_.begin(), pieces_.end(),
+                       [](const PositionCandidate& piece) { return piece.planes != nullptr; });
+  }
+
   void add(const PositionParameters& p) { ranked_.push_back({p, trials_.cost(p)}); }
 
   /// A mode for the leaders: taken if the best with it is below `worth` times the best without.
@@ -483,6 +505,7 @@ class Chooser {
     for (const Ranked& r : ranked_) {
       PositionParameters p = r.parameters;
       p.modes |= mode;
+      if (mode == position_mode::kPlanes) p.modes &= ~position_mode::kPalette;
       if (mode == position_mode::kShear) {
         const PredictorWeights weights = p.weights;
         setUniversalTables(p);

@@ -16,9 +16,10 @@ namespace mcc {
 /// One piece as the trials see it.
 struct PositionCandidate {
   const PositionRecording* recording = nullptr;
-  const int32_t* truth = nullptr;  ///< 3 per record
-  uint8_t bits = 0;                ///< PositionParameters::bits
-  AxisPalette palettes[3];         ///< of axes with few distinct values
+  const int32_t* truth = nullptr;      ///< 3 per record
+  uint8_t bits = 0;                    ///< PositionParameters::bits
+  AxisPalette palettes[3];             ///< of axes with few distinct values
+  const AxisPlanes* planes = nullptr;  ///< of the three axes, or null
 };
 
 /// Sorted distinct coordinates of each axis, empty where there are too many for a palette to be of use.

@@ -14,7 +14,9 @@ namespace mcc {
 /// Coordinate descent: each step varies one field of the byte and keeps the best value so far.
 class PredictorSearch {
  public:
-  PredictorSearch(AttributeMethod method, const AttributeInfo& info, bool has_seams) {
+  /// `has_normals`: see hasNormals().
+  PredictorSearch(AttributeMethod method, const AttributeInfo& info, bool has_seams,
+                  bool has_normals) {
     const bool is_target = info.format.morph_target != 0;
     switch (method) {
       case AttributeMethod::kNormal:
@@ -52,6 +54,14 @@ class PredictorSearch {
         best_ = has_seams ? kHasEqualities : 0;
         steps_ = {{0, {0}}};
         break;
+      case AttributeMethod::kTangentPoint:
+        best_ = has_seams ? kHasEqualities : 0;
+        steps_ = {{0, {0}}};
+        if (has_normals) {
+          steps_[0] = {tangent_point_method::kPerpendicular,
+                       {tangent_point_method::kPerpendicular, 0}};
+        }
+        break;
       case AttributeMethod::kSkin:
         best_ = static_cast<uint8_t>(info.predictor | (has_seams ? kHasEqualities : 0));
         steps_ = {{0, {0}}};
@@ -63,6 +73,9 @@ class PredictorSearch {
         steps_ = {{value_method::kPredictorMask, {0, 1, 2}},
                   {value_method::kSameFlags, {value_method::kSameFlags}},
                   {value_method::kSmallTokens, {value_method::kSmallTokens}}};
+        if (info.format.component_count <= value_method::kBlendComponents) {
+          steps_[0].values.push_back(value_method::kBlend);
+        }
         if (is_target) steps_.push_back({value_method::kZeroFlags, {0}});
         break;
     }

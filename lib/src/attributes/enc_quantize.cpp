@@ -11,6 +11,7 @@
 #include "attributes/exact_grid.h"
 #include "attributes/normals.h"
 #include "attributes/octahedral.h"
+#include "attributes/tangent_points.h"
 #include "attributes/tangents.h"
 
 namespace mcc {
@@ -50,6 +51,13 @@ class Quantizer {
     }
     if (normal_ != nullptr && view_.quantization_bits >= 2 && isTangentFrame()) {
       return toTangentAngles();
+    }
+    const bool is_base_tangent =
+        view_.format.semantic == Semantic::kTangent && view_.format.morph_target == 0;
+    if (is_base_tangent && view_.quantization_bits >= 2) {
+      if (isSignedUnit()) return toOctahedral();
+      notes.push_back(name() +
+                      " is not of unit length with a sign of 1 or -1: coded by components");
     }
     return toLattice(notes);
   }
@@ -181,12 +189,15 @@ class Quantizer {
   QuantizedAttribute toOctahedral() {
     result_.info.coding = AttributeCoding::kOctahedral;
     result_.info.bits = std::clamp<uint8_t>(view_.quantization_bits, 2, 16);
-    result_.components = 2;
-    result_.values.resize(size_t{count_} * 2);
+    const uint32_t words = components_ == 4 ? kTangentPointWords : 2;
+    result_.components = words;
+    result_.values.resize(size_t{count_} * words);
     for (uint32_t w = 0; w < count_; ++w) {
       const float n[3] = {component(w, 0), component(w, 1), component(w, 2)};
-      nearestGridPoint(n, &result_.values[size_t{w} * 2]);
-      canonicalGridPoint(octahedralCentre(result_.info.bits), &result_.values[size_t{w} * 2]);
+      int32_t* point = &result_.values[size_t{w} * words];
+      nearestGridPoint(n, point);
+      canonicalGridPoint(octahedralCentre(result_.info.bits), point);
+      if (components_ == 4) point[2] = component(w, 3) < 0 ? 1 : 0;
     }
     return std::move(result_);
   }
@@ -227,12 +238,18 @@ class Quantizer {
     }
   }
 
-  /// Unit vectors perpendicular to the normals, with a sign of 1 or -1.
-  bool isTangentFrame() const {
+  bool isSignedUnit() const {
     if (components_ != 4 || !allUnit()) return false;
     for (uint32_t w = 0; w < count_; ++w) {
-      const float sign = component(w, 3);
-      if (sign != 1.0f && sign != -1.0f) return false;
+      if (std::fabs(component(w, 3)) != 1.0f) return false;
+    }
+    return true;
+  }
+
+  /// Unit vectors perpendicular to the normals, with a sign of 1 or -1.
+  bool isTangentFrame() const {
+    if (!isSignedUnit()) return false;
+    for (uint32_t w = 0; w < count_; ++w) {
       double dot = 0;
       for (uint32_t c = 0; c < 3; ++c) {
         float n = 0;

@@ -172,6 +172,31 @@ inline void canonicalGridPoint(int32_t centre, int32_t* point) {
   point[1] = p[1] + centre;
 }
 
+/// Codes a grid point `value` in 0..2*centre; `point`: relative to the centre. `context`: up to kNoNeighbours. [A.8.5]
+template <class Io>
+MCC_INLINE void codeGridPoint(Io& io, TokenRow (&rows)[2][kLengthContexts],
+                              const OctahedralFrame& frame, int32_t centre, uint32_t context,
+                              int32_t* value, uint8_t& longest, int32_t* point) {
+  int32_t residual[2] = {};
+  int32_t p[2] = {};
+  if constexpr (Io::kEncoding) {
+    p[0] = value[0] - centre;
+    p[1] = value[1] - centre;
+    frame.residualOf(p, residual);
+  }
+  uint32_t length = 0;
+  uint32_t second_length = 0;
+  residual[0] = codeSmallSigned<0>(io, rows[0][context], residual[0], length);
+  const uint32_t second = context == kNoNeighbours ? length : (context + length + 1) / 2;
+  residual[1] = codeSmallSigned<1>(io, rows[1][second], residual[1], second_length);
+  longest = static_cast<uint8_t>(std::max(length, second_length));
+  frame.pointOf(residual, p);
+  for (int s = 0; s < 2; ++s) {
+    value[s] = static_cast<int32_t>(static_cast<uint32_t>(p[s]) + static_cast<uint32_t>(centre));
+    point[s] = p[s];
+  }
+}
+
 /// Codes grid points (s, t) in 0..2*centre, two per wedge.
 template <class Io>
 class NormalCoder {
@@ -284,28 +309,8 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
 template <class Io>
 MCC_INLINE void NormalCoder<Io>::codePoint(uint32_t w, const OctahedralFrame& frame,
                                            uint32_t context) {
-  context = std::min(context, kNoNeighbours);  // kNotCoded makes it long
-  int32_t* value = values_ + 2 * size_t{w};
-  int32_t residual[2] = {};
-  int32_t point[2] = {};
-  if constexpr (Io::kEncoding) {
-    point[0] = value[0] - centre_;
-    point[1] = value[1] - centre_;
-    frame.residualOf(point, residual);
-  }
-  uint32_t length = 0;
-  uint32_t second_length = 0;
-  residual[0] = codeSmallSigned<0>(io_, models_.row[0][context], residual[0], length);
-  const uint32_t second = context == kNoNeighbours ? length : (context + length + 1) / 2;
-  residual[1] = codeSmallSigned<1>(io_, models_.row[1][second], residual[1], second_length);
-  lengths_[w] = static_cast<uint8_t>(std::max(length, second_length));
-  frame.pointOf(residual, point);
-  for (int s = 0; s < 2; ++s) {
-    value[s] =
-        static_cast<int32_t>(static_cast<uint32_t>(point[s]) + static_cast<uint32_t>(centre_));
-  }
-  last_[0] = point[0];
-  last_[1] = point[1];
+  codeGridPoint(io_, models_.row, frame, centre_, std::min(context, kNoNeighbours),
+                values_ + 2 * size_t{w}, lengths_[w], last_);  // kNotCoded makes it long
 }
 
 }  // namespace mcc

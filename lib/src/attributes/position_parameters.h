@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "attributes/position_palette.h"
+#include "attributes/position_planes.h"
 #include "attributes/position_tables.h"
 #include "entropy/numbers.h"
 #include "mcc/status.h"
@@ -30,6 +31,7 @@ inline constexpr uint32_t kShear = 1u << 2;
 inline constexpr uint32_t kFold = 1u << 3;
 inline constexpr uint32_t kSplit = 1u << 4;
 inline constexpr uint32_t kPalette = 1u << 5;
+inline constexpr uint32_t kPlanes = 1u << 6;  ///< without shear, fold, split and palette
 }  // namespace position_mode
 
 struct PositionParameters {
@@ -40,6 +42,7 @@ struct PositionParameters {
   PredictorWeights weights = kAverageWeights;
   ScaleCoefficients scale[2][3] = {};  ///< [plain fan][component]
   AxisPalette palette[3];              ///< only with kPalette; borrowed
+  const GridPlanes* planes = nullptr;  ///< only with kPlanes; borrowed
 
   bool has(uint32_t mode) const { return (modes & mode) != 0; }
   bool fitted() const {

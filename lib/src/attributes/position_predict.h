@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <type_traits>
 
@@ -34,7 +35,8 @@ struct Prediction {
   Lanes<UWide> q8;
   Lanes<UWide> spread;      ///< disagreement of the first two tips
   Lanes<UWide> magnitudes;  ///< of three neighbours' residuals, by component as coded
-  Lanes<float> normal;      ///< sum over the tips; only with shear
+  Lanes<float> normal;      ///< sum over the tips; only with shear and planes
+  float disagreement;       ///< of the first two tips along the normal; only with planes
 };
 
 /// Vertices behind the plain fan; missing ones point to some other vertex and have a zero mask.
@@ -240,6 +242,16 @@ MCC_INLINE void predictPlain(const PositionParameters& p, const PlainFan& f, con
       rotateComponents(tipNormal<Wide>(f.n0, f.n1, f.o0) + tipNormal<Wide>(f.n1, f.n2, f.o1));
 }
 
+/// What planes need besides.
+MCC_INLINE void findNormal(const PlainFan& f, Prediction<int32_t>& out) {
+  out.normal =
+      rotateComponents(tipNormal<int32_t>(f.n0, f.n1, f.o0) + tipNormal<int32_t>(f.n1, f.n2, f.o1));
+  const Lanes<uint32_t> between_tips = coordinates<uint32_t>(f.n0) - coordinates<uint32_t>(f.o0) -
+                                       coordinates<uint32_t>(f.n2) + coordinates<uint32_t>(f.o1);
+  const Lanes<float> d = convertLanes<float>((Lanes<int32_t>)between_tips) * out.normal;
+  out.disagreement = std::fabs(d[0] + d[1] + d[2]);
+}
+
 /// Everything but the plain fan: the mean of the tips, or of the neighbours without any, and features. [B.2.4]
 template <class Wide>
 struct AnyFeatures {
@@ -333,6 +345,7 @@ void predictAny(const PositionParameters& p, const AnyFan& fan, uint32_t degree,
   out.spread = loadLanes<UWide>(spread);
   out.magnitudes = loadLanes<UWide>(magnitudes);
   out.normal = rotateComponents(normal);
+  out.disagreement = 0;
 }
 
 inline int64_t wrappingMultiply(int64_t a, int64_t b) {

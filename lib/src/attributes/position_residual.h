@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "attributes/position_parameters.h"
+#include "attributes/position_planes.h"
 #include "attributes/position_tables.h"
 #include "base/host.h"
 #include "base/lanes.h"
@@ -24,11 +26,20 @@ inline constexpr uint32_t kRowSets = 3;
 /// Rows start when a piece first needs their kind.
 struct PositionRows {
   TokenRow row[3][kRowSets * kRowsPerSet];
+  PlaneModels planes;
+  bool has_planes = false;
   bool has_basic = false;
   bool has_folded = false;
   bool has_split = false;
 
-  void prepare(bool fold, bool split) {
+  /// For these position_mode bits.
+  void prepare(uint32_t modes) {
+    const bool fold = (modes & (position_mode::kFold | position_mode::kPlanes)) != 0;
+    const bool split = (modes & position_mode::kSplit) != 0;
+    if ((modes & position_mode::kPlanes) != 0 && !has_planes) {
+      planes.setUniform();
+      has_planes = true;
+    }
     for (uint32_t set = 0; set < kRowSets; ++set) {
       const bool old_set = set == 0 ? has_basic : has_split;
       if (set != 0 && !split && !has_split) break;

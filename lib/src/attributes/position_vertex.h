@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "attributes/position_parameters.h"
+#include "attributes/position_plane_vertex.h"
 #include "attributes/position_predict.h"
 #include "attributes/position_residual.h"
 #include "base/host.h"
@@ -20,7 +21,11 @@ namespace mcc {
 /// say. kAnyModes leaves all of them to the parameters.
 inline constexpr uint32_t kAnyModes = ~0u;
 inline constexpr uint32_t kCompiledModes = position_mode::kWeights | position_mode::kSelect |
-                                           position_mode::kShear | position_mode::kPalette;
+                                           position_mode::kShear | position_mode::kPalette |
+                                           position_mode::kPlanes;
+/// What a vertex may take from the streams; with planes.
+inline constexpr uint32_t kTokensOfVertex = 3;
+inline constexpr uint32_t kTokensWithPlanes = 8;
 
 template <class Io, class Wide, uint32_t kModes>
 class VertexCoder {
@@ -30,6 +35,7 @@ class VertexCoder {
   VertexCoder(PositionRows& rows, const PositionParameters& parameters, VertexRecord* records,
               const int32_t* truth)
       : rows_(rows.row[0]),
+        planes_(rows.planes),
         p_(parameters),
         records_(records),
         truth_(truth),
@@ -41,14 +47,27 @@ class VertexCoder {
     }
   }
 
-  MCC_INLINE void codePlain(Io& io, uint32_t v, const PlainFan& fan, const Beyond* beyond) const {
-    Prediction<Wide> prediction;
+  /// `prediction` receives what was expected.
+  MCC_INLINE void codePlain(Io& io, uint32_t v, const PlainFan& fan, const Beyond* beyond,
+                            Prediction<Wide>& prediction) const {
     predictPlain<Wide>(p_, fan, beyond, records_[v].degree(), compiledModes(), prediction);
+    if constexpr (std::is_same_v<Wide, int32_t>) {
+      if (has(position_mode::kPlanes)) {
+        findNormal(fan, prediction);
+        return codeOnPlanes(io, v, prediction, axesAround(fan.n0, fan.n1, fan.n2));
+      }
+    }
     codeVertex(io, v, prediction, 1);
   }
-  void codeAny(Io& io, uint32_t v, const AnyFan& fan) const {
-    Prediction<Wide> prediction;
+  void codeAny(Io& io, uint32_t v, const AnyFan& fan, Prediction<Wide>& prediction) const {
     predictAny<Wide>(p_, fan, records_[v].degree(), prediction);
+    if constexpr (std::is_same_v<Wide, int32_t>) {
+      if (has(position_mode::kPlanes)) {
+        const uint32_t last = fan.neighbour_count - 1;
+        return codeOnPlanes(io, v, prediction,
+                            axesAround(fan.n[0], fan.n[(last + 1) / 2], fan.n[last]));
+      }
+    }
     codeVertex(io, v, prediction, 0);
   }
   MCC_INLINE void codeVertex(Io& io, uint32_t v, const Prediction<Wide>& prediction,
@@ -77,6 +96,18 @@ class VertexCoder {
   template <uint32_t kSlot, bool kFold>
   int32_t codeSlot(Io& io, const ResidualContexts& c, uint32_t prediction, int32_t truth,
                    int32_t* residual) const;
+  void codeOnPlanes(Io& io, uint32_t v, const Prediction<int32_t>& prediction,
+                    uint32_t context) const {
+    const int32_t* truth = Io::kEncoding ? truth_ + 3 * size_t{v} : nullptr;
+    PlaneVertexCoder<Io>(io, rows_, planes_, *p_.planes, prediction, truth)
+        .code(context, records_[v]);
+  }
+  /// The axes on which three neighbours lie between planes.
+  MCC_INLINE static uint32_t axesAround(const VertexRecord* a, const VertexRecord* b,
+                                        const VertexRecord* c) {
+    return (a->magnitude[1] & kAllAxes) << 6 | (b->magnitude[1] & kAllAxes) << 3 |
+           (c->magnitude[1] & kAllAxes);
+  }
   template <bool kFold>
   void codeRanks(Io& io, uint32_t v, const Lanes<UWide>& q8, const ScaleEstimate& scale) const;
 
@@ -94,6 +125,7 @@ class VertexCoder {
   }
 
   TokenRow* const rows_;
+  PlaneModels& planes_;
   const PositionParameters& p_;
   VertexRecord* const records_;
   const int32_t* const truth_;
@@ -226,6 +258,15 @@ void VertexCoder<Io, Wide, kModes>::codeSeed(Io& io, uint32_t v, const VertexRec
   const Lanes<uint32_t> scales = {scale[0], scale[1], scale[2], 0};
   const ScaleEstimate estimate{minimumLanes<uint32_t>(scales, kScaleLimit), {}};
   const auto none = [](int, const int32_t*) MCC_INLINE_LAMBDA { return UWide{0}; };
+  if constexpr (std::is_same_v<Wide, int32_t>) {
+    if (has(position_mode::kPlanes)) {
+      Prediction<int32_t> prediction{};
+      prediction.q8 = q8;
+      codeOnPlanes(io, v, prediction, PlaneModels::kNoFan);
+      if (neighbour == nullptr) std::copy(r.q, r.q + 3, last_seed_);
+      return;
+    }
+  }
   if (has(position_mode::kPalette)) {
     if (has(position_mode::kFold)) {
       codeRanks<true>(io, v, q8, estimate);

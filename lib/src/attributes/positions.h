@@ -64,7 +64,8 @@ class PositionCoder {
           records_(coder.records_) {}
     /// False without room in the streams for any vertex.
     MCC_INLINE bool visit(uint32_t v, const PlainFan& fan) {
-      if (!io_.hasRoom()) [[unlikely]]
+      if (!io_.hasRoom(vertex_.has(position_mode::kPlanes) ? kTokensWithPlanes : kTokensOfVertex))
+          [[unlikely]]
         return false;
       codePlain(vertex_, io_, faces_, records_, v, fan);
       return true;
@@ -82,7 +83,10 @@ class PositionCoder {
   MCC_OUT_OF_LINE void plain(uint32_t v, const PlainFan& fan) {
     codePlain(vertex_, io_, growth_.faces(), records_, v, fan);
   }
-  MCC_OUT_OF_LINE void fan(uint32_t v, const AnyFan& fan) { vertex_.codeAny(io_, v, fan); }
+  MCC_OUT_OF_LINE void fan(uint32_t v, const AnyFan& fan) {
+    Prediction<Wide> prediction;
+    vertex_.codeAny(io_, v, fan, prediction);
+  }
   void seed(uint32_t v, const VertexRecord* neighbour) { vertex_.codeSeed(io_, v, neighbour); }
   Status check() const {
     if (!io_.overrun()) return {};
@@ -94,9 +98,12 @@ class PositionCoder {
   MCC_INLINE static void codePlain(const VertexCoder<AnyIo, Wide, kModes>& vertex, AnyIo& io,
                                    const FaceView& faces, const VertexRecord* records, uint32_t v,
                                    const PlainFan& fan) {
-    if (!vertex.has(position_mode::kWeights)) return vertex.codePlain(io, v, fan, nullptr);
+    Prediction<Wide> prediction;
+    if (!vertex.has(position_mode::kWeights)) {
+      return vertex.codePlain(io, v, fan, nullptr, prediction);
+    }
     const Beyond beyond = lookBeyond(faces, records, fan, vertex.has(position_mode::kSelect));
-    vertex.codePlain(io, v, fan, &beyond);
+    vertex.codePlain(io, v, fan, &beyond, prediction);
   }
 
   Io& io_;

@@ -13,6 +13,7 @@
 #include <cstring>
 
 #include "attributes/residuals.h"
+#include "attributes/value_blend.h"
 #include "attributes/wedges.h"
 #include "entropy/models.h"
 #include "mesh/attribute_method.h"
@@ -20,9 +21,10 @@
 namespace mcc {
 
 enum class ValuePredictor : uint8_t {
-  kParallelograms = 0,  ///< mean of all
-  kMean = 1,            ///< of the neighbours in the entry face
-  kDiagonal = 2,        ///< the parallelogram over the longest edge (exact on grids)
+  kParallelograms = 0,            ///< mean of all
+  kMean = 1,                      ///< of the neighbours in the entry face
+  kDiagonal = 2,                  ///< the parallelogram over the longest edge (exact on grids)
+  kBlend = value_method::kBlend,  ///< of several, see value_blend.h; up to 4 components
 };
 
 inline constexpr uint32_t kMaxComponents = 16;
@@ -45,11 +47,12 @@ struct ValueModels {
 template <class Io>
 class ValueCoder {
  public:
-  /// Work space: `lengths`, a byte per wedge. Of morph targets, else null, a byte per wedge with a bit per semantic that is
+  /// Work space: `lengths`, a byte per wedge; `errors`, of kBlend only, see ValueBlend. Of morph targets, else null, a byte per wedge with a bit per semantic that is
   /// set when the delta is not 0: `moved_before` of the targets before, `moved` of this one (written here).
   ValueCoder(Io& io, ValueModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
              const AttributeInfo& info, uint32_t components, const float* positions,
-             int32_t* values, uint8_t* lengths, const uint8_t* moved_before, uint8_t* moved)
+             int32_t* values, uint8_t* lengths, float* errors, const uint8_t* moved_before,
+             uint8_t* moved)
       : io_(io),
         models_(models),
         wedges_(wedges),
@@ -63,6 +66,8 @@ class ValueCoder {
         positions_(positions),
         values_(values),
         lengths_(lengths),
+        blends_(predictor_ == ValuePredictor::kBlend),
+        blend_(wedges, groups, positions, values, components, lengths, errors),
         moved_before_(moved_before),
         moved_(moved) {}
 
@@ -70,6 +75,7 @@ class ValueCoder {
     std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
     for (uint32_t i = 0; i < wedges_.coded_count; ++i) {
       const uint32_t w = i < wedges_.surface_count ? wedges_.wedgeAt(i) : i;
+      wedges_.prefetch(i, values_, components_);
       if (groups_.isFirst(w)) codeGroup(w);
     }
   }
@@ -95,7 +101,7 @@ class ValueCoder {
   void predict(uint32_t w);
   bool addParallelogram(uint32_t h, float& longest);
   bool codeFlags(uint32_t w);
-  void codeResiduals(uint32_t w);
+  void codeResiduals(uint32_t w, bool blended);
   template <uint32_t kState>
   int32_t codeResidual(TokenRow& row, int32_t truth, uint32_t& length) {
     return small_ ? codeSmallSigned<kState>(io_, row, truth, length)
@@ -115,6 +121,8 @@ class ValueCoder {
   const float* const positions_;
   int32_t* const values_;
   uint8_t* const lengths_;
+  const bool blends_;
+  ValueBlend blend_;
   const uint8_t* const moved_before_;
   uint8_t* const moved_;
   uint32_t last_ = kNone;
@@ -125,6 +133,7 @@ class ValueCoder {
   int64_t sum_[kMaxComponents];  ///< of parallelograms
   uint32_t parallelograms_ = 0;
   int32_t predicted_[kMaxComponents];
+  uint32_t contexts_[kMaxComponents];
 };
 
 template <class Io>
@@ -235,7 +244,7 @@ bool ValueCoder<Io>::codeFlags(uint32_t w) {
 }
 
 template <class Io>
-void ValueCoder<Io>::codeResiduals(uint32_t w) {
+void ValueCoder<Io>::codeResiduals(uint32_t w, bool blended) {
   uint32_t context = kNoNeighbours;
   if (n_ != kNone) {
     const uint32_t other = p_ != kNone ? p_ : n_;
@@ -244,6 +253,7 @@ void ValueCoder<Io>::codeResiduals(uint32_t w) {
   int32_t* value = at(w);
   uint32_t longest = 0;
   for (uint32_t c = 0; c < components_; ++c) {
+    if (blended) context = contexts_[c];
     TokenRow& row = models_.row[std::min(c, 3u)][context];
     const uint32_t p = static_cast<uint32_t>(predicted_[c]);
     int32_t residual =
@@ -264,15 +274,24 @@ void ValueCoder<Io>::codeGroup(uint32_t w) {
   findNeighbours(w);
   if ((may_repeat_ || may_vanish_) && codeFlags(w)) {
     lengths_[w] = 0;
+    if (blends_) blend_.pass(w);
+  } else if (blends_ && entry_ != kNone && p_ != kNone) {
+    blend_.predict(w, predicted_, contexts_);
+    codeResiduals(w, true);
+    blend_.learn(w);
   } else {
     predict(w);
-    codeResiduals(w);
+    codeResiduals(w, false);
+    if (blends_) blend_.pass(w);
   }
   last_ = w;
   uint8_t moved = 0;
   if (moved_ != nullptr && !isZero(w)) moved = moved_bit_;
   for (uint32_t m = w; m != kNone; m = groups_.nextOf(m)) {
-    if (m != w) copy(m, w);
+    if (m != w) {
+      copy(m, w);
+      if (blends_) blend_.copy(m, w);
+    }
     lengths_[m] = lengths_[w];
     if (moved_ != nullptr) moved_[m] = static_cast<uint8_t>((moved_[m] & ~moved_bit_) | moved);
   }

@@ -62,6 +62,15 @@ MCC_INLINE Float4 pairDifferences(const int32_t* a0, const int32_t* b0, const in
   const Unsigned4 b = (Unsigned4)Pairs{pair(b0), pair(b1)};
   return __builtin_convertvector((Mask4)(a - b), Float4);
 }
+/// a - b of four integers; the subtraction wraps.
+MCC_INLINE Float4 fourDifferences(const int32_t* a, const int32_t* b) {
+  typedef uint32_t Unsigned4 __attribute__((vector_size(16)));
+  Unsigned4 x;
+  Unsigned4 y;
+  std::memcpy(&x, a, sizeof x);
+  std::memcpy(&y, b, sizeof y);
+  return __builtin_convertvector((Mask4)(x - y), Float4);
+}
 /// Pairs (x, y) to all x and all y.
 MCC_INLINE void splitPairs(Float4 first, Float4 second, Float4& x, Float4& y) {
 #if defined(__clang__) || __GNUC__ >= 12
@@ -167,6 +176,12 @@ inline Float4 pairDifferences(const int32_t* a0, const int32_t* b0, const int32_
   };
   return {{difference(a0[0], b0[0]), difference(a0[1], b0[1]), difference(a1[0], b1[0]),
            difference(a1[1], b1[1])}};
+}
+inline Float4 fourDifferences(const int32_t* a, const int32_t* b) {
+  return eachLane<Float4>([=](int i) {
+    return static_cast<float>(
+        static_cast<int32_t>(static_cast<uint32_t>(a[i]) - static_cast<uint32_t>(b[i])));
+  });
 }
 inline void splitPairs(Float4 first, Float4 second, Float4& x, Float4& y) {
   x = {{first[0], first[2], second[0], second[2]}};

@@ -87,7 +87,9 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
     if (!finite) return fail(Error::kBadHeader, "an attribute's lattice is not finite", at);
   } else if (a.coding == AttributeCoding::kOctahedral) {
     MCC_TRY(in.readU8(a.bits));
-    if (a.bits < 2 || a.bits > 16 || a.format.component_count != 3) {
+    const bool is_tangent = a.format.semantic == Semantic::kTangent;
+    if (a.bits < 2 || a.bits > 16 || a.format.component_count != (is_tangent ? 4 : 3) ||
+        (is_tangent && a.format.morph_target != 0)) {
       return fail(Error::kBadHeader, "an octahedral attribute is malformed", at);
     }
   }
@@ -164,6 +166,12 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
   }
   if ((position.predictor & position_flag::kPredictorMask) >= position_flag::kPredictorCount) {
     return fail(Error::kBadHeader, "the positions have an unknown predictor", at);
+  }
+  if ((position.predictor & position_flag::kKindMask) == position_flag::kPlanes &&
+      (position.predictor > (position_flag::kKindMask | position_flag::kPredictorMask) ||
+       position.coding != AttributeCoding::kLattice ||
+       position.bits > position_flag::kMaxBitsOfPlanes)) {
+    return fail(Error::kBadHeader, "these positions cannot have planes", at);
   }
   return {};
 }

@@ -50,15 +50,19 @@ inline constexpr uint32_t kVertexOrder = 1u << 14;
 inline constexpr uint32_t kAll = 0x7fff;
 }  // namespace piece_flag
 
-/// AttributeInfo::predictor of a position: which predictor in the low bits, then flags.   [A.2.7]
+/// AttributeInfo::predictor of a position: which predictor in the low bits, then one of four kinds of
+/// residuals, then flags, which positions with planes do not have.                          [A.2.7]
 namespace position_flag {
 inline constexpr uint8_t kPredictorMask = 7;  ///< PositionPredictor
 inline constexpr uint8_t kPredictorCount = 5;
+inline constexpr uint8_t kKindMask = 3u << 3;  ///< 0: plain
 inline constexpr uint8_t kShear = 1u << 3;
-inline constexpr uint8_t kOwnScale = 1u << 4;
-inline constexpr uint8_t kFold = 1u << 5;
-inline constexpr uint8_t kSplit = 1u << 6;
-inline constexpr uint8_t kPalette = 1u << 7;
+inline constexpr uint8_t kPalette = 2u << 3;
+inline constexpr uint8_t kPlanes = 3u << 3;
+inline constexpr uint8_t kMaxBitsOfPlanes = 17;  ///< of the lattice
+inline constexpr uint8_t kOwnScale = 1u << 5;
+inline constexpr uint8_t kFold = 1u << 6;
+inline constexpr uint8_t kSplit = 1u << 7;
 }  // namespace position_flag
 
 struct PieceHeader {

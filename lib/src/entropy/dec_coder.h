@@ -219,7 +219,7 @@ class SameIo {
   explicit SameIo(Io& io) : io_(io) {}
   void take(Io&) {}
   void giveBack(Io&) const {}
-  bool hasRoom() const { return true; }
+  bool hasRoom(uint32_t) const { return true; }
 
   template <uint32_t kState>
   uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t truth) {
@@ -245,8 +245,10 @@ class DecoderBurst {
   void take(const DecoderIo<false>& io);
   void giveBack(DecoderIo<false>& io) const;
 
-  /// For three tokens and their raw bits, three times 51 at most and what loads reach beyond them.
-  MCC_INLINE bool hasRoom() const { return tokens_.hasWords(3) && raw_.hasBytes(32); }
+  /// For so many tokens and their raw bits, 51 each at most, and what loads reach beyond them.
+  MCC_INLINE bool hasRoom(uint32_t tokens) const {
+    return tokens_.hasWords(tokens) && raw_.hasBytes(8 + 8 * tokens);
+  }
 
   template <uint32_t kState>
   MCC_INLINE uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t = 0) {

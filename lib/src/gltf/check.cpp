@@ -30,7 +30,8 @@ class Checker {
     Document compressed;
     MCC_GLTF_TRY(failed(loadDocument(written, read_file, compressed), ""));
     Decompressed decompressed;
-    MCC_GLTF_TRY(failed(decompressDocument(compressed, decompressed, thread_count), ""));
+    MCC_GLTF_TRY(
+        failed(decompressDocument(compressed, decompressed, DecodeTo::kFloats, thread_count), ""));
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     result_.decode_seconds = time.count();
     coded_ = std::move(decompressed.coded_attributes);
@@ -301,7 +302,7 @@ class Checker {
   const std::vector<EncodedPayload>& payloads_;
   CheckResult& result_;
   Document decoded_;
-  std::map<uint32_t, AttributeInfo> coded_;
+  CodedAttributes coded_;
   std::map<std::string, std::vector<float>> angles_;
   std::set<uint32_t> reordered_;  ///< accessors beside payloads, compared in another order
   std::set<std::pair<uint32_t, uint32_t>> planned_;

@@ -137,8 +137,7 @@ Result promiseOf(const AttributePlan& plan, const AttributeInfo& coded, uint8_t 
     case AttributeCoding::kExactFloat:
     case AttributeCoding::kGrid: return {};
     case AttributeCoding::kLattice: return promiseLattice(plan, coded.lattice, promise);
-    case AttributeCoding::kAlias:  // of an attribute with the same plan
-      return promiseLattice(plan, plan.lattice, promise);
+    case AttributeCoding::kAlias: break;  // resolved by the decoder
     case AttributeCoding::kOctahedral:
       if (coded.bits < plan.bits) break;
       return promiseAngle(plan, octahedralBound(plan.bits), promise);

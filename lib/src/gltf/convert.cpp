@@ -230,7 +230,7 @@ Result checkOutput(const Conversion& conversion, std::span<const uint8_t> stored
   return {};
 }
 
-Result decodeInput(const Input& input, const Output& output, Package& package,
+Result decodeInput(const Input& input, const Output& output, DecodeTo decode_to, Package& package,
                    DecodeReport& report) {
   report = {};
   const Stopwatch watch;
@@ -239,7 +239,8 @@ Result decodeInput(const Input& input, const Output& output, Package& package,
   report.input_bytes = document.source_bytes;
   report.notes = document.notes;
   Decompressed decompressed;
-  MCC_GLTF_TRY(decompressDocument(document, decompressed));
+  MCC_GLTF_TRY(decompressDocument(document, decompressed, decode_to));
+  report.notes.insert(report.notes.end(), decompressed.notes.begin(), decompressed.notes.end());
   report.payload_count = decompressed.payload_count;
   report.primitive_count = decompressed.primitive_count;
   report.triangle_count = decompressed.triangle_count;
@@ -292,14 +293,14 @@ Result convert(const Source& source, const Sink& sink, const ConvertOptions& opt
   });
 }
 
-Result decode(const Source& source, const Sink& sink, DecodeReport& report) {
+Result decode(const Source& source, const Sink& sink, DecodeReport& report, DecodeTo decode_to) {
   return guarded([&]() -> Result {
     Input input;
     Output output;
     MCC_GLTF_TRY(input.open(source));
     MCC_GLTF_TRY(output.open(sink, false));
     Package package;
-    MCC_GLTF_TRY(inInput(input, decodeInput(input, output, package, report)));
+    MCC_GLTF_TRY(inInput(input, decodeInput(input, output, decode_to, package, report)));
     MCC_GLTF_TRY(output.write(std::move(package)));
     MCC_GLTF_TRY(output.commit());
     if (output.destination) report.files.output = output.destination->files();
@@ -318,12 +319,13 @@ Result convertFile(const fs::path& source, const fs::path& output, const Convert
 }
 
 Result decodeGlb(std::span<const uint8_t> source, std::vector<uint8_t>& output,
-                 DecodeReport& report) {
-  return decode({{}, source}, {{}, &output}, report);
+                 DecodeReport& report, DecodeTo decode_to) {
+  return decode({{}, source}, {{}, &output}, report, decode_to);
 }
 
-Result decodeFile(const fs::path& source, const fs::path& output, DecodeReport& report) {
-  return decode({source, {}}, {output, nullptr}, report);
+Result decodeFile(const fs::path& source, const fs::path& output, DecodeReport& report,
+                  DecodeTo decode_to) {
+  return decode({source, {}}, {output, nullptr}, report, decode_to);
 }
 
 }  // namespace mcc::gltf

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "gltf/accessors.h"
+#include "gltf/integers.h"
 #include "gltf/parallel.h"
 #include "gltf/payload.h"
 
@@ -19,8 +20,12 @@ using Origin = std::tuple<uint32_t, uint64_t, bool, uint64_t>;
 
 class Decompressor {
  public:
-  Decompressor(const Document& document, uint32_t thread_count, Decompressed& out)
-      : document_(document), thread_count_(thread_count), out_(out) {}
+  Decompressor(const Document& document, DecodeTo decode_to, uint32_t thread_count,
+               Decompressed& out)
+      : document_(document),
+        decode_to_(decode_to),
+        thread_count_(std::max(thread_count, 1u)),
+        out_(out) {}
 
   /// Fills in accessors() and the counts.
   Result decode() {
@@ -55,6 +60,9 @@ class Decompressor {
     for (const ExtensionUse& use : uses_) removeExtension(use);
     removeExtensionName("extensionsUsed");
     removeExtensionName("extensionsRequired");
+    if (decode_to_ == DecodeTo::kIntegers) {
+      storeIntegers(document_, out_.coded_attributes, out_.json, views, out_.notes);
+    }
     const ForeignReferences foreign = findForeignReferences(document_.json);
     return rebuildBuffers(document_, foreign, views, out_.json, out_.bin);
   }
@@ -122,7 +130,13 @@ class Decompressor {
       view.bytes = packElements(decoded.pieces[use.piece].attributes[attribute.id], accessor, true,
                                 view.stride_bytes);
       accessors_.push_back({attribute.accessor, std::move(view)});
-      const AttributeInfo& info = decoded.payload.info().pieces[use.piece].attributes[attribute.id];
+      const auto& attributes = decoded.payload.info().pieces[use.piece].attributes;
+      AttributeInfo info = attributes[attribute.id];
+      if (info.coding == AttributeCoding::kAlias) {
+        const AttributeFormat format = info.format;
+        info = attributes[info.alias_of];
+        info.format = format;
+      }
       out_.coded_attributes.emplace(attribute.accessor, info);
     }
   }
@@ -160,6 +174,7 @@ class Decompressor {
   }
 
   const Document& document_;
+  const DecodeTo decode_to_;
   const uint32_t thread_count_;
   Decompressed& out_;
   std::map<uint32_t, Origin> origins_;
@@ -172,16 +187,16 @@ class Decompressor {
 
 Result decodeAccessors(const Document& document, std::vector<DecodedAccessor>& accessors) {
   Decompressed ignored;
-  Decompressor decompressor(document, 1, ignored);
+  Decompressor decompressor(document, DecodeTo::kFloats, 1, ignored);
   MCC_GLTF_TRY(decompressor.decode());
   accessors = std::move(decompressor.accessors());
   return {};
 }
 
-Result decompressDocument(const Document& document, Decompressed& decompressed,
+Result decompressDocument(const Document& document, Decompressed& decompressed, DecodeTo decode_to,
                           uint32_t thread_count) {
   decompressed = {};
-  Decompressor decompressor(document, std::max(thread_count, 1u), decompressed);
+  Decompressor decompressor(document, decode_to, thread_count, decompressed);
   MCC_GLTF_TRY(decompressor.decode());
   return decompressor.rebuild();
 }

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "gltf/document.h"
+#include "gltf/integer_accessors.h"
 #include "gltf/rebuild.h"
-#include "mcc/reader.h"
+#include "mcc/gltf.h"
 
 namespace mcc::gltf {
 
@@ -49,8 +49,8 @@ struct Decompressed {
   uint32_t primitive_count = 0;
   uint64_t triangle_count = 0;
   uint64_t wedge_count = 0;
-  /// How the accessors that were decoded had been coded, by accessor number.
-  std::map<uint32_t, AttributeInfo> coded_attributes;
+  CodedAttributes coded_attributes;
+  std::vector<std::string> notes;
 };
 
 /// The elements of an accessor that a payload fills.
@@ -64,10 +64,11 @@ Result decodeAccessors(const Document& document, std::vector<DecodedAccessor>& a
 
 /// Replaces all payloads by ordinary accessors and removes the extension from the document. With no
 /// payload in the document `payload_count` is 0 and `json` and `bin` are not filled in.
+/// decode_to     what quantised attributes become; with integers `notes` names what stays float.
 /// thread_count  payloads decoded at the same time; the result does not depend on it.
 /// Errors carry JSON paths. Safe for untrusted documents.
 Result decompressDocument(const Document& document, Decompressed& decompressed,
-                          uint32_t thread_count = 1);
+                          DecodeTo decode_to = DecodeTo::kFloats, uint32_t thread_count = 1);
 
 }  // namespace mcc::gltf
 

@@ -103,9 +103,11 @@ Result ReplacementFile::check() const {
   if (!fs::is_directory(folder, code)) {
     return error(name, "\"" + folder.string() + "\" is no folder");
   }
-  if (isReadOnly(folder)) return error(name, "the folder \"" + folder.string() + "\" is read-only");
+  if (isReadOnly(folder)) {
+    return error(name, "the folder \"" + folder.string() + "\" is read-only; choose another one");
+  }
   if (fs::exists(destination_, code) && isReadOnly(destination_)) {
-    return error(name, "the file exists and is read-only");
+    return error(name, "the file exists and is read-only; make it writable or choose another name");
   }
   return {};
 }

@@ -408,38 +408,36 @@ class Quantizer {
     }
   }
 
-  /// Rounds every number to a whole one. When their sum is near `total` it becomes `total`: all are
-  /// rounded down and those that lost most go up.
-  static void roundTogether(std::vector<double>& points, double total) {
-    double sum = 0;
-    double floor_sum = 0;
-    for (const double point : points) {
-      sum += point;
-      floor_sum += std::floor(point);
-    }
-    if (std::abs(sum - total) > 0.25) {
-      for (double& point : points) point = std::floor(point + 0.5);
-      return;
-    }
-    std::vector<size_t> order;
-    for (size_t i = 0; i < points.size(); ++i) {
-      if (points[i] > std::floor(points[i])) order.push_back(i);
-    }
-    const auto loss = [&](size_t i) { return points[i] - std::floor(points[i]); };
-    std::stable_sort(order.begin(), order.end(),
-                     [&](size_t a, size_t b) { return loss(a) > loss(b); });
-    const size_t missing = static_cast<size_t>(std::max(0.0, total - floor_sum));
-    if (missing > order.size()) order.clear();  // cannot be: the sum is near
-    for (size_t i = 0; i < std::min(missing, order.size()); ++i) points[order[i]] += 1;
-    for (double& point : points) point = std::floor(point);
-  }
-
   const ConvertOptions& options_;
   std::vector<PayloadPlan>& payloads_;
   std::vector<std::string>& notes_;
 };
 
 }  // namespace
+
+void roundTogether(std::vector<double>& points, double total) {
+  double sum = 0;
+  double floor_sum = 0;
+  for (const double point : points) {
+    sum += point;
+    floor_sum += std::floor(point);
+  }
+  if (std::abs(sum - total) > 0.25) {
+    for (double& point : points) point = std::floor(point + 0.5);
+    return;
+  }
+  std::vector<size_t> order;
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (points[i] > std::floor(points[i])) order.push_back(i);
+  }
+  const auto loss = [&](size_t i) { return points[i] - std::floor(points[i]); };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return loss(a) > loss(b); });
+  const size_t missing = static_cast<size_t>(std::max(0.0, total - floor_sum));
+  if (missing > order.size()) order.clear();  // cannot be: the sum is near
+  for (size_t i = 0; i < std::min(missing, order.size()); ++i) points[order[i]] += 1;
+  for (double& point : points) point = std::floor(point);
+}
 
 void planQuantization(const ConvertOptions& options, std::vector<PayloadPlan>& payloads,
                       std::vector<std::string>& notes) {

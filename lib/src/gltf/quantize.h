@@ -17,6 +17,10 @@ namespace mcc::gltf {
 void planQuantization(const ConvertOptions& options, std::vector<PayloadPlan>& payloads,
                       std::vector<std::string>& notes);
 
+/// Rounds every number, none of them negative, to a whole one. When their sum is near `total` it becomes `total`: all are
+/// rounded down and those that lost most go up.
+void roundTogether(std::vector<double>& points, double total);
+
 }  // namespace mcc::gltf
 
 #endif  // MCC_GLTF_QUANTIZE_H_

@@ -45,6 +45,11 @@ constexpr std::string_view kKnownExtensions[] = {
 constexpr std::string_view kOrderFreeExtensions[] = {
     "KHR_materials_variants", "KHR_mesh_collapse_compression", "KHR_xmp", "KHR_xmp_json_ld"};
 
+/// Extensions on our list that name nodes for the sake of their meshes.
+constexpr std::string_view kNodeExtensions[] = {
+    "KHR_animation_pointer", "MSFT_lod",        "VRM",
+    "VRMC_node_constraint",  "VRMC_springBone", "VRMC_vrm"};
+
 bool isKnownExtension(std::string_view name) {
   return name.starts_with("KHR_materials_") ||
          std::find(std::begin(kKnownExtensions), std::end(kKnownExtensions), name) !=
@@ -71,6 +76,11 @@ void collectNumbers(const Json& json, std::set<uint64_t>& numbers) {
 void keepNumbers(ForeignReferences& foreign, const std::string& reason) {
   if (!foreign.keep_numbers) foreign.reason = reason;
   foreign.keep_numbers = true;
+}
+
+void keepNumbersFor(ForeignReferences& foreign, const std::string& extension) {
+  keepNumbers(foreign, extension);
+  if (foreign.extension.empty()) foreign.extension = extension;
 }
 
 /// Walks extras and unknown extensions.
@@ -103,7 +113,7 @@ void walkKnown(const Json& json, ForeignReferences& foreign) {
         if (isKnownExtension(name)) {
           walkKnown(extension, foreign);
         } else {
-          keepNumbers(foreign, name);
+          keepNumbersFor(foreign, name);
           walkForeign(extension, foreign);
         }
       }
@@ -142,7 +152,7 @@ ForeignReferences findForeignReferences(const Json& root) {
   walkKnown(root, foreign);
   for (const Json& name : arrayOf(root, "extensionsUsed")) {
     if (name.is_string() && !isKnownExtension(name.get<std::string>())) {
-      keepNumbers(foreign, name.get<std::string>());
+      keepNumbersFor(foreign, name.get<std::string>());
     }
   }
   return foreign;
@@ -181,6 +191,16 @@ std::string orderDependentExtension(const Json& mesh_or_primitive) {
     if (std::find(std::begin(kOrderFreeExtensions), std::end(kOrderFreeExtensions), name) ==
         std::end(kOrderFreeExtensions)) {
       return name;
+    }
+  }
+  return "";
+}
+
+std::string nodeDependentExtension(const Json& root, const ForeignReferences& foreign) {
+  if (!foreign.extension.empty()) return foreign.extension;
+  for (const Json& name : arrayOf(root, "extensionsUsed")) {
+    for (const std::string_view listed : kNodeExtensions) {
+      if (name == listed) return name.get<std::string>();
     }
   }
   return "";

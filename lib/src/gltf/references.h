@@ -21,7 +21,8 @@ namespace mcc::gltf {
 struct ForeignReferences {
   /// There is something we do not understand: buffer views keep their numbers and all their bytes.
   bool keep_numbers = false;
-  std::string reason;  ///< the first extension or path that made keep_numbers true
+  std::string reason;     ///< the first extension or path that made keep_numbers true
+  std::string extension;  ///< the first extension that is not on our list
   std::set<uint64_t> views;
   std::set<uint64_t> accessors;
 };
@@ -36,6 +37,9 @@ void visitViewReferences(Json& root,
 /// Extension of a mesh or primitive that depends on the order of vertices or triangles as far as we
 /// know: the first one that is not on our list, or an empty string.
 std::string orderDependentExtension(const Json& mesh_or_primitive);
+
+/// Extension of the document that may refer to nodes and expect their meshes there: the first one, or an empty string.
+std::string nodeDependentExtension(const Json& root, const ForeignReferences& foreign);
 
 /// Marks accessors used by anything but mesh primitives: skins, animations, instancing, foreign
 /// uses.

@@ -39,6 +39,7 @@ enum class AttributeMethod : uint8_t {
   kNormal,        ///< attributes/normals.h
   kTexcoord,      ///< attributes/texcoords.h
   kTangent,       ///< attributes/tangents.h
+  kTangentPoint,  ///< attributes/tangent_points.h
   kSkin,          ///< attributes/skin.h: JOINTS_n with its WEIGHTS_n
   kExactNormal,   ///< attributes/exact_normals.h
   kExactTangent,  ///< attributes/exact_tangents.h
@@ -49,7 +50,9 @@ enum class AttributeMethod : uint8_t {
 /// The attribute of a piece that gives tangents their plane: the first NORMAL on the octahedral grid; or kNone.
 constexpr uint32_t normalOfTangents(const AttributeInfo* attributes, uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) {
-    if (attributes[i].coding == AttributeCoding::kOctahedral) return i;
+    const AttributeInfo& a = attributes[i];
+    if (a.coding == AttributeCoding::kOctahedral && a.format.semantic != Semantic::kTangent)
+      return i;
   }
   return kNone;
 }
@@ -65,6 +68,11 @@ constexpr uint32_t exactNormalOf(const AttributeInfo* attributes, uint32_t count
     }
   }
   return kNone;
+}
+
+/// Whether tangents on a grid have normals to be perpendicular to: exact ones, or else octahedral ones.
+constexpr bool hasNormals(const AttributeInfo* attributes, uint32_t count) {
+  return exactNormalOf(attributes, count) != kNone || normalOfTangents(attributes, count) != kNone;
 }
 
 /// The attribute of a piece that gives tangents their direction: the first TEXCOORD; or kNone.
@@ -112,7 +120,9 @@ constexpr AttributeMethod methodOf(const AttributeInfo* attributes, uint32_t cou
                                    uint32_t index) {
   const AttributeInfo& a = attributes[index];
   switch (a.coding) {
-    case AttributeCoding::kOctahedral: return AttributeMethod::kNormal;
+    case AttributeCoding::kOctahedral:
+      return a.format.semantic == Semantic::kTangent ? AttributeMethod::kTangentPoint
+                                                     : AttributeMethod::kNormal;
     case AttributeCoding::kTangentAngle: return AttributeMethod::kTangent;
     case AttributeCoding::kAlias: return AttributeMethod::kWithAnother;
     default: break;
@@ -149,6 +159,10 @@ inline constexpr uint8_t kBlendShift = 2;     ///< 0 none, 1 half, 2 whole
 inline constexpr uint8_t kBlendMask = 0x0c;
 }  // namespace normal_method
 
+namespace tangent_point_method {
+inline constexpr uint8_t kPerpendicular = 0x01;  ///< to the normals, see hasNormals()
+}  // namespace tangent_point_method
+
 namespace exact_normal_method {
 inline constexpr uint8_t kWeightMask = 0x03;  ///< ExactWeight
 inline constexpr uint8_t kBlendShift = 2;     ///< 0 none, 1 half, 2 whole
@@ -178,6 +192,8 @@ inline constexpr uint8_t kPredictorMask = 0x03;  ///< ValuePredictor
 inline constexpr uint8_t kSameFlags = 0x04;
 inline constexpr uint8_t kZeroFlags = 0x08;
 inline constexpr uint8_t kSmallTokens = 0x10;
+inline constexpr uint8_t kBlend = 3;             ///< ValuePredictor::kBlend
+inline constexpr uint32_t kBlendComponents = 4;  ///< that it can have
 }  // namespace value_method
 
 namespace skin_method {
@@ -204,7 +220,9 @@ constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count,
   const uint8_t bits = a.predictor & static_cast<uint8_t>(~kHasEqualities);
   switch (methodOf(attributes, count, index)) {
     case AttributeMethod::kValues:
-      return (bits & ~0x1f) == 0 && (bits & value_method::kPredictorMask) < 3;
+      return (bits & ~0x1f) == 0 &&
+             ((bits & value_method::kPredictorMask) != value_method::kBlend ||
+              a.format.component_count <= value_method::kBlendComponents);
     case AttributeMethod::kNormal:
       return (bits & ~0x0f) == 0 && (bits & normal_method::kWeightMask) != 3 &&
              (bits & normal_method::kBlendMask) != normal_method::kBlendMask;
@@ -215,6 +233,9 @@ constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count,
     case AttributeMethod::kExactValues:
       return (bits & ~0x07) == 0 && (bits & exact_value_method::kPredictorMask) < 3;
     case AttributeMethod::kTangent: return bits == 0;
+    case AttributeMethod::kTangentPoint:
+      return bits == 0 ||
+             (bits == tangent_point_method::kPerpendicular && hasNormals(attributes, count));
     case AttributeMethod::kTexcoord:
       return (bits & ~0x0f) == 0 && (bits & texcoord_method::kPredictorMask) < 5;
     case AttributeMethod::kSkin:

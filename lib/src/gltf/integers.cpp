@@ -1,0 +1,392 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/integers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+#include "gltf/accessors.h"
+
+namespace mcc::gltf {
+namespace {
+
+constexpr int64_t kLastPoint = 65535;
+constexpr int64_t kLastDelta = 32767;
+
+/// Extensions of a node that mean the same when its mesh moves to a child.
+constexpr std::string_view kNodeExtensions[] = {"KHR_lights_punctual",
+                                                "KHR_node_hoverability",
+                                                "KHR_node_selectability",
+                                                "KHR_node_visibility",
+                                                "KHR_xmp",
+                                                "KHR_xmp_json_ld"};
+
+void visitMember(const Json& map, const char* key, std::vector<uint32_t>& accessors) {
+  uint64_t index = 0;
+  const Json* value = findMember(map, key);
+  if (value != nullptr && asUnsigned(*value, index))
+    accessors.push_back(static_cast<uint32_t>(index));
+}
+
+/// A mesh whose positions may become points of one lattice.
+struct MeshPlan {
+  std::vector<uint32_t> positions;  ///< accessors of POSITION
+  std::vector<uint32_t> deltas;     ///< accessors of POSITION of morph targets
+  std::vector<uint32_t> nodes;      ///< that show the mesh
+  Lattice lattice;
+  bool is_chosen = false;
+};
+
+class PositionStore {
+ public:
+  PositionStore(const Document& source, const ForeignReferences& foreign,
+                IntegerAccessors& accessors, Json& json, std::vector<NewView>& views,
+                std::vector<std::string>& notes)
+      : source_(source),
+        foreign_(foreign),
+        accessors_(accessors),
+        json_(json),
+        views_(views),
+        notes_(notes) {}
+
+  bool run() {
+    collectMeshes();
+    for (size_t mesh = 0; mesh < meshes_.size(); ++mesh) chooseMesh(mesh);
+    dropSharers();
+    for (const MeshPlan& mesh : meshes_) storeMesh(mesh);
+    moveSkins();
+    const auto is_chosen = [](const MeshPlan& mesh) { return mesh.is_chosen; };
+    return std::any_of(meshes_.begin(), meshes_.end(), is_chosen);
+  }
+
+ private:
+  void collectMeshes() {
+    for (const Json& mesh : arrayOf(json_, "meshes")) {
+      MeshPlan& plan = meshes_.emplace_back();
+      for (const Json& primitive : arrayOf(mesh, "primitives")) {
+        const Json* map = findMember(primitive, "attributes");
+        if (map != nullptr) visitMember(*map, "POSITION", plan.positions);
+        for (const Json& target : arrayOf(primitive, "targets")) {
+          visitMember(target, "POSITION", plan.deltas);
+        }
+      }
+    }
+    const Json& nodes = arrayOf(json_, "nodes");
+    for (uint32_t node = 0; node < nodes.size(); ++node) {
+      uint64_t mesh = 0;
+      const Json* number = findMember(nodes[node], "mesh");
+      if (number == nullptr || !asUnsigned(*number, mesh) || mesh >= meshes_.size()) continue;
+      meshes_[mesh].nodes.push_back(node);
+    }
+  }
+
+  bool isOnLattice(uint32_t accessor) const {
+    const AttributeInfo* info = accessors_.coding(accessor);
+    return info != nullptr && info->coding == AttributeCoding::kLattice;
+  }
+
+  void chooseMesh(size_t number) {
+    MeshPlan& mesh = meshes_[number];
+    const auto is_on_lattice = [&](uint32_t accessor) { return isOnLattice(accessor); };
+    if (std::none_of(mesh.positions.begin(), mesh.positions.end(), is_on_lattice)) return;
+    const std::string reason = obstacle(mesh);
+    mesh.is_chosen = reason.empty();
+    if (!mesh.is_chosen) {
+      notes_.push_back(at("/meshes", number) + ": " + reason + "; its positions stay float");
+    }
+  }
+
+  /// Why the positions of a mesh stay float; empty when they need not. Finds their lattice.
+  std::string obstacle(MeshPlan& mesh) const {
+    const std::string extension = nodeDependentExtension(source_.json, foreign_);
+    if (!extension.empty()) return "the extension " + extension + " may refer to its nodes";
+    for (const uint32_t accessor : mesh.positions) {
+      if (!isOnLattice(accessor)) return "not all of its primitives are on a lattice";
+      const Lattice& lattice = accessors_.coding(accessor)->lattice;
+      if (accessor == mesh.positions[0]) mesh.lattice = lattice;
+      if (lattice != mesh.lattice) return "its primitives are on different lattices";
+      if (!fits(accessor, mesh.lattice.origin, mesh.lattice.step, 0, kLastPoint)) {
+        return "its lattice has more than 16 bits";
+      }
+    }
+    for (const uint32_t accessor : mesh.deltas) {
+      constexpr float kZero[3] = {0, 0, 0};
+      const bool has_same_step =
+          isOnLattice(accessor) && accessors_.coding(accessor)->lattice.step == mesh.lattice.step;
+      if (!has_same_step || !fits(accessor, kZero, mesh.lattice.step, -kLastDelta, kLastDelta)) {
+        return "a morph target is not on its lattice";
+      }
+    }
+    if (mesh.nodes.empty()) return "no node shows it";
+    for (const uint32_t node : mesh.nodes) {
+      const std::string reason = nodeObstacle(json_["nodes"][node]);
+      if (!reason.empty()) return at("/nodes", node) + " " + reason;
+    }
+    return "";
+  }
+
+  /// Point of the lattice, and how far the value is from it in steps.
+  static int64_t pointOf(double value, double origin, double step) {
+    const double point = std::floor((value - origin) / step + 0.5);
+    return static_cast<int64_t>(std::clamp(point, -0x1p40, 0x1p40));
+  }
+
+  /// Whether all values are points within these bounds. Far from the origin the floats are too coarse to show their point.
+  bool fits(uint32_t accessor, const float* origin, float step, int64_t first, int64_t last) const {
+    const uint64_t count = 3 * accessors_.count(accessor);
+    for (uint64_t i = 0; i < count; ++i) {
+      const double value = accessors_.value(accessor, i);
+      const int64_t point = pointOf(value, double{origin[i % 3]}, double{step});
+      if (point < first || point > last) return false;
+      const double off = value - double{origin[i % 3]} - static_cast<double>(point) * double{step};
+      const double rounding = std::ldexp(std::abs(value) + std::abs(double{origin[i % 3]}), -23);
+      if (!(std::abs(off) <= rounding + 0x1p-10 * double{step})) return false;
+    }
+    return true;
+  }
+
+  std::string nodeObstacle(const Json& node) const {
+    if (const Json* extensions = findMember(node, "extensions")) {
+      if (!extensions->is_object()) return "has no proper extensions";
+      for (const auto& [name, value] : extensions->items()) {
+        const bool is_harmless = std::find(std::begin(kNodeExtensions), std::end(kNodeExtensions),
+                                           name) != std::end(kNodeExtensions);
+        if (!is_harmless) return "has the extension " + name;
+      }
+    }
+    const Json* children = findMember(node, "children");
+    if (children != nullptr && !children->is_array()) return "has no proper children";
+    const Json* skin = findMember(node, "skin");
+    return skin == nullptr || inverseBindMatrices(*skin) ? ""
+                                                         : "has a skin without proper matrices";
+  }
+
+  /// Meshes that share accessors become integers together or not at all.
+  void dropSharers() {
+    std::set<uint32_t> kept_float;
+    const auto keepFloat = [&](const MeshPlan& mesh) {
+      kept_float.insert(mesh.positions.begin(), mesh.positions.end());
+      kept_float.insert(mesh.deltas.begin(), mesh.deltas.end());
+    };
+    const auto isKept = [&](uint32_t accessor) { return kept_float.count(accessor) != 0; };
+    for (const MeshPlan& mesh : meshes_) {
+      if (!mesh.is_chosen) keepFloat(mesh);
+    }
+    for (bool is_stable = false; !is_stable;) {
+      is_stable = true;
+      for (size_t number = 0; number < meshes_.size(); ++number) {
+        MeshPlan& mesh = meshes_[number];
+        const bool shares = std::any_of(mesh.positions.begin(), mesh.positions.end(), isKept) ||
+                            std::any_of(mesh.deltas.begin(), mesh.deltas.end(), isKept);
+        if (!mesh.is_chosen || !shares) continue;
+        mesh.is_chosen = false;
+        keepFloat(mesh);
+        is_stable = false;
+        notes_.push_back(at("/meshes", number) +
+                         ": shares positions with a mesh whose positions stay float");
+      }
+    }
+  }
+
+  void storePoints(uint32_t accessor, const Lattice& lattice, bool is_delta) {
+    if (accessors_.coding(accessor) == nullptr) return;  // stored already
+    std::vector<int32_t> points(3 * accessors_.count(accessor));
+    for (uint64_t i = 0; i < points.size(); ++i) {
+      const double origin = is_delta ? 0.0 : double{lattice.origin[i % 3]};
+      points[i] = static_cast<int32_t>(
+          pointOf(accessors_.value(accessor, i), origin, double{lattice.step}));
+    }
+    const auto [low, high] = std::minmax_element(points.begin(), points.end());
+    const bool is_small = is_delta ? *low >= -127 && *high <= 127 : *high <= 255;
+    accessors_.replace(accessor,
+                       is_delta ? (is_small ? ComponentType::kInt8 : ComponentType::kInt16)
+                                : (is_small ? ComponentType::kUint8 : ComponentType::kUint16),
+                       false, points);
+  }
+
+  void storeMesh(const MeshPlan& mesh) {
+    if (!mesh.is_chosen) return;
+    for (const uint32_t accessor : mesh.positions) storePoints(accessor, mesh.lattice, false);
+    for (const uint32_t accessor : mesh.deltas) storePoints(accessor, mesh.lattice, true);
+    for (const uint32_t node : mesh.nodes) {
+      uint64_t skin = 0;
+      const Json* number = findMember(json_["nodes"][node], "skin");
+      if (number != nullptr && asUnsigned(*number, skin)) {
+        skinned_[skin].push_back({node, mesh.lattice});
+      } else {
+        moveToChild(node, mesh.lattice);
+      }
+    }
+  }
+
+  /// The lattice becomes the transform of a new child that has the mesh: what else the node does, and its animations, stay.
+  void moveToChild(uint32_t number, const Lattice& lattice) {
+    const size_t child_number = json_["nodes"].size();
+    Json& node = json_["nodes"][number];
+    Json child = {{"mesh", std::move(node["mesh"])},
+                  {"translation", {lattice.origin[0], lattice.origin[1], lattice.origin[2]}},
+                  {"scale", {lattice.step, lattice.step, lattice.step}}};
+    node.erase("mesh");
+    if (findMember(node, "weights") != nullptr) child["weights"] = std::move(node["weights"]);
+    node.erase("weights");
+    node["children"].push_back(child_number);
+    json_["nodes"].push_back(std::move(child));
+    if (json_.find("animations") == json_.end()) return;
+    for (Json& animation : json_["animations"]) {
+      if (arrayOf(animation, "channels").empty()) continue;
+      for (Json& channel : animation["channels"]) {
+        uint64_t target = 0;
+        const Json* old = findMember(channel, "target");
+        const Json* path = old == nullptr ? nullptr : findMember(*old, "path");
+        const Json* target_node = old == nullptr ? nullptr : findMember(*old, "node");
+        const bool is_ours = path != nullptr && *path == "weights" && target_node != nullptr &&
+                             asUnsigned(*target_node, target) && target == number;
+        if (is_ours) channel["target"]["node"] = child_number;
+      }
+    }
+  }
+
+  /// The matrices of a skin, identities when it names none; nothing when they are unusable.
+  std::optional<std::vector<float>> inverseBindMatrices(const Json& skin_number) const {
+    uint64_t skin = 0;
+    const Json& skins = arrayOf(json_, "skins");
+    if (!asUnsigned(skin_number, skin) || skin >= skins.size()) return {};
+    const size_t joint_count = arrayOf(skins[skin], "joints").size();
+    std::vector<float> matrices(16 * joint_count, 0.0f);
+    const Json* number = findMember(skins[skin], "inverseBindMatrices");
+    if (number == nullptr) {
+      for (size_t i = 0; i < joint_count; ++i) {
+        for (size_t k = 0; k < 4; ++k) matrices[16 * i + 5 * k] = 1;
+      }
+      return matrices;
+    }
+    uint64_t index = 0;
+    if (!asUnsigned(*number, index) || index >= source_.accessors.size()) return {};
+    const Accessor& accessor = source_.accessors[index];
+    const bool is_usable = accessor.is_known_type && accessor.columns == 4 &&
+                           accessor.component_type == ComponentType::kFloat32 &&
+                           accessor.count >= joint_count;
+    AccessorData data;
+    if (!is_usable || !readAccessor(source_, static_cast<uint32_t>(index), data).ok()) return {};
+    for (size_t i = 0; i < matrices.size(); ++i) {
+      const auto element = data.element(i / 16);
+      matrices[i] = static_cast<float>(
+          componentValue(element.data() + 4 * (i % 16), ComponentType::kFloat32));
+    }
+    return matrices;
+  }
+
+  /// matrix * (translation by the origin) * (scale by the step), columns first.
+  static void fold(const Lattice& lattice, float* matrix) {
+    for (size_t row = 0; row < 4; ++row) {
+      double moved = double{matrix[12 + row]};
+      for (size_t column = 0; column < 3; ++column) {
+        float& entry = matrix[4 * column + row];
+        moved += double{entry} * double{lattice.origin[column]};
+        entry = static_cast<float>(double{entry} * double{lattice.step});
+      }
+      matrix[12 + row] = static_cast<float>(moved);
+    }
+  }
+
+  struct SkinnedNode {
+    uint32_t node;
+    Lattice lattice;
+  };
+
+  /// Nodes of a skin with the same lattice get a skin of their own; the last of them the skin itself when nobody else has it.
+  void moveSkins() {
+    for (auto& [skin, nodes] : skinned_) {
+      size_t user_count = 0;
+      for (const Json& node : arrayOf(json_, "nodes")) {
+        uint64_t number = 0;
+        const Json* other = findMember(node, "skin");
+        user_count += other != nullptr && asUnsigned(*other, number) && number == skin ? 1 : 0;
+      }
+      while (!nodes.empty()) {
+        const Lattice lattice = nodes.back().lattice;
+        const auto is_other = [&](const SkinnedNode& node) { return node.lattice != lattice; };
+        const auto same = std::stable_partition(nodes.begin(), nodes.end(), is_other);
+        const auto same_count = static_cast<size_t>(nodes.end() - same);
+        const uint64_t folded = foldedSkin(skin, lattice, same_count == user_count);
+        for (auto node = same; node != nodes.end(); ++node)
+          json_["nodes"][node->node]["skin"] = folded;
+        user_count -= same_count;
+        nodes.erase(same, nodes.end());
+      }
+    }
+  }
+
+  /// Whether the matrices of a skin belong to it alone.
+  bool hasOwnMatrices(const Json& skin) const {
+    uint64_t accessor = 0;
+    const Json* number = findMember(skin, "inverseBindMatrices");
+    if (number == nullptr || !asUnsigned(*number, accessor)) return false;
+    size_t user_count = 0;
+    for (const Json& other : arrayOf(json_, "skins")) {
+      uint64_t of_other = 0;
+      number = findMember(other, "inverseBindMatrices");
+      if (number != nullptr && asUnsigned(*number, of_other)) user_count += of_other == accessor;
+    }
+    return user_count == 1 && foreign_.accessors.count(accessor) == 0;
+  }
+
+  /// Number of a skin whose matrices take lattice points.
+  uint64_t foldedSkin(uint64_t number, const Lattice& lattice, bool in_place) {
+    std::vector<float> matrices = *inverseBindMatrices(Json(number));
+    for (size_t i = 0; i < matrices.size(); i += 16) fold(lattice, &matrices[i]);
+    Json skin = json_["skins"][number];
+    uint64_t accessor = json_["accessors"].size();
+    if (in_place && hasOwnMatrices(skin)) {
+      asUnsigned(skin["inverseBindMatrices"], accessor);
+    } else {
+      json_["accessors"].push_back({{"componentType", 5126}, {"type", "MAT4"}});
+    }
+    skin["inverseBindMatrices"] = accessor;
+    Json& json = json_["accessors"][accessor];
+    for (const char* key : {"byteOffset", "sparse", "min", "max"}) json.erase(key);
+    json["bufferView"] = source_.views.size() + views_.size();
+    json["count"] = matrices.size() / 16;
+    NewView view;
+    view.bytes.resize(4 * matrices.size());
+    std::memcpy(view.bytes.data(), matrices.data(), view.bytes.size());
+    views_.push_back(std::move(view));
+    if (in_place) {
+      json_["skins"][number] = std::move(skin);
+      return number;
+    }
+    json_["skins"].push_back(std::move(skin));
+    return json_["skins"].size() - 1;
+  }
+
+  const Document& source_;
+  const ForeignReferences& foreign_;
+  IntegerAccessors& accessors_;
+  Json& json_;
+  std::vector<NewView>& views_;
+  std::vector<std::string>& notes_;
+  std::vector<MeshPlan> meshes_;
+  std::map<uint64_t, std::vector<SkinnedNode>> skinned_;  ///< by skin
+};
+
+void addExtensionName(Json& root, const char* list, const char* name) {
+  Json& names = root[list];
+  if (!names.is_array()) names = Json::array();
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+}  // namespace
+
+void storeIntegers(const Document& source, const CodedAttributes& coded, Json& json,
+                   std::vector<NewView>& views, std::vector<std::string>& notes) {
+  const ForeignReferences foreign = findForeignReferences(source.json);
+  IntegerAccessors accessors(source, foreign, coded, json, views);
+  bool needs_extension = PositionStore(source, foreign, accessors, json, views, notes).run();
+  needs_extension |= storeIntegerValues(coded, arrayOf(json, "meshes"), accessors, notes);
+  if (!needs_extension) return;
+  addExtensionName(json, "extensionsUsed", "KHR_mesh_quantization");
+  addExtensionName(json, "extensionsRequired", "KHR_mesh_quantization");
+}
+
+}  // namespace mcc::gltf
