@@ -13,6 +13,7 @@
 #include <set>
 
 #include "cli/run_tool.h"
+#include "gltf/gltf_builder.h"
 
 namespace mcc::test {
 namespace {
@@ -76,6 +77,28 @@ TEST_F(Batch, ResultsDoNotDependOnTheThreads) {
   for (const auto& [name, content] : first) {
     ASSERT_EQ(run("convert in/" + name + " one.glb -j 3").status, 0);
     EXPECT_TRUE(contentOf(path("one.glb")) == content) << name;
+  }
+}
+
+/// Payloads are coded, decoded for the check and compared by several threads.
+TEST_F(Batch, OneFileDoesNotDependOnTheThreads) {
+  gltf::test::Builder builder;
+  for (const uint32_t size : {20u, 31u, 12u, 25u, 16u}) {
+    builder.addMesh({gltf::test::Sheet(size, 0.01f * static_cast<float>(size)).addTo(builder)});
+  }
+  const std::vector<uint8_t> file = builder.toGlb();
+  store("many.glb", {file.begin(), file.end()});
+  const std::string names[] = {"a.glb", "a.fallback.bin", "b.gltf", "b.bin"};
+  std::map<std::string, std::string> first;
+  for (const std::string jobs : {"1", "2", "4"}) {
+    ASSERT_EQ(run("convert many.glb a.glb --fallback -j " + jobs).status, 0);
+    const ToolResult result = run("convert many.glb b.gltf --format json -j " + jobs);
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(Json::parse(result.out)["payloads"].size(), 5u);
+    for (const std::string& name : names) {
+      const std::string content = contentOf(path(name));
+      EXPECT_TRUE(first.try_emplace(name, content).first->second == content) << name << " " << jobs;
+    }
   }
 }
 

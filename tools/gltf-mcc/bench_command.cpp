@@ -97,8 +97,8 @@ int BenchCommand::run() const {
 }  // namespace
 
 void addBench(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand(
-      "bench", "Measure sizes and speed beside Draco and meshoptimizer");
+  CLI::App* command =
+      app.add_subcommand("bench", "Measure sizes and speed beside Draco and meshoptimizer");
   auto state = std::make_shared<BenchCommand>();
   command->add_option("IN", state->inputs, "The .glb or .gltf files to read")
       ->required()

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <map>
 #include <memory>
@@ -92,6 +93,11 @@ int ConvertCommand::runMany() const {
   return runBatch(options);
 }
 
+bool isReplaced(const std::string& input, const std::string& output) {
+  std::error_code ignored;
+  return std::filesystem::equivalent(input, output, ignored);
+}
+
 /// Converts, compares, and measures the files.
 gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison& compared) const {
   StreamSource source;
@@ -102,28 +108,27 @@ gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison&
   CommonOptions shown = common;
   shown.is_quiet |= sink.isStandardOutput();
   const bool is_measured = canMeasureWhole() && (!report.empty() || !shown.is_quiet);
+  const auto measure = [&](const char* name, std::function<FileContents()> read) {
+    return std::async(launchPolicy(convert.thread_count),
+                      [name, read = std::move(read)]() { return measureWhole(name, read()); });
+  };
   std::future<WholeSize> input_size;
-  if (is_measured) {
-    // Read now: the output may take its place.
-    FileContents contents =
-        source.source().bytes
-            ? FileContents{{source.source().bytes->begin(), source.source().bytes->end()}}
-            : readDocumentFiles(converted.input, !isGltf(converted.output));
-    input_size = std::async(launchPolicy(convert.thread_count),
-                            [held = std::move(contents)]() { return measureWhole("input", held); });
+  if (is_measured && isReplaced(converted.input, converted.output)) {
+    FileContents contents = readDocumentFiles(converted.input, !isGltf(converted.output));
+    input_size = measure("input", [held = std::move(contents)]() { return held; });
   }
   result = compared.begin(source.source(), converted.output, convert);
   if (!result.ok()) return result;
   result = gltf::convert(source.source(), sink.sink(), convert, converted.report);
   if (result.ok()) result = sink.finish();
   if (!result.ok()) return result;
+  const gltf::ConvertReport& done = converted.report;
+  if (is_measured && !input_size.valid()) {
+    input_size = measure("input", [&]() { return source.contents(done.files.input); });
+  }
   std::future<WholeSize> output_size;
-  if (is_measured && !converted.report.copied) {
-    FileContents contents = sink.sink().bytes != nullptr ? FileContents{*sink.sink().bytes}
-                                                         : readFiles(converted.report.files.output);
-    output_size = std::async(launchPolicy(convert.thread_count), [held = std::move(contents)]() {
-      return measureWhole("output", held);
-    });
+  if (is_measured && !done.copied) {
+    output_size = measure("output", [&]() { return sink.contents(done.files.output); });
   }
   result = compared.finish(source.source(), convert, converted.report, shown, !report.empty());
   if (!result.ok() || !is_measured) return result;

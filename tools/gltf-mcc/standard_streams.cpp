@@ -45,6 +45,10 @@ gltf::Source StreamSource::source() const {
   return source;
 }
 
+FileContents StreamSource::contents(const std::vector<std::filesystem::path>& files) const {
+  return bytes_ ? FileContents{*bytes_} : readFiles(files);
+}
+
 gltf::Result StreamSink::open(const std::string& name) {
   name_ = name;
   is_standard_output_ = isStandardStream(name);
@@ -57,6 +61,10 @@ gltf::Result StreamSink::open(const std::string& name) {
 gltf::Sink StreamSink::sink() {
   if (is_standard_output_) return {kOutputName, &bytes_};
   return {name_, nullptr};
+}
+
+FileContents StreamSink::contents(const std::vector<std::filesystem::path>& files) const {
+  return is_standard_output_ ? FileContents{bytes_} : readFiles(files);
 }
 
 gltf::Result StreamSink::finish() const {

@@ -4,12 +4,13 @@
 #ifndef MCC_TOOL_STANDARD_STREAMS_H_
 #define MCC_TOOL_STANDARD_STREAMS_H_
 
+#include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "mcc/gltf.h"
+#include "whole_sizes.h"
 
 namespace mcc::tool {
 
@@ -22,6 +23,8 @@ class StreamSource {
   gltf::Result open(const std::string& name);
   /// Valid as long as this object.
   gltf::Source source() const;
+  /// What was read, or the contents of these files when it is no stream.
+  FileContents contents(const std::vector<std::filesystem::path>& files) const;
 
  private:
   std::string name_;
@@ -34,6 +37,8 @@ class StreamSink {
   /// Errors: standard output is a terminal.
   gltf::Result open(const std::string& name);
   gltf::Sink sink();
+  /// What was received, or the contents of these files when it is no stream.
+  FileContents contents(const std::vector<std::filesystem::path>& files) const;
   /// Sends what was received to standard output, if it is that.
   gltf::Result finish() const;
   bool isStandardOutput() const { return is_standard_output_; }
