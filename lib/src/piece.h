@@ -21,6 +21,7 @@
 #include "attributes/leftovers.h"
 #include "attributes/positions.h"
 #include "attributes/seams.h"
+#include "base/lazy.h"
 #include "connectivity/mc_codes.h"
 #include "connectivity/order.h"
 #include "connectivity/stitch.h"
@@ -33,12 +34,12 @@ struct PayloadModels {
   explicit PayloadModels(const Allocator& allocator) : mc(allocator) {}
 
   McModels mc;
-  StitchModels stitch;
+  Lazy<StitchModels> stitch;
   PositionModels positions;
   TailModels position_tails;
   SeamModels seams;
   LeftoverModels leftovers;
-  OrderModels orders;
+  Lazy<OrderModels> orders;
   AttributeModels attributes;
 };
 
@@ -97,7 +98,7 @@ class PieceCoder {
   Status codeStitch(const PieceTruth& truth) {
     groups.count = mesh.vertex_count;
     if (!header_.has(piece_flag::kCopies)) return {};
-    Stitcher<Io> stitcher(io_, models_.stitch, mesh, allocator_, truth.class_of_vertex);
+    Stitcher<Io> stitcher(io_, models_.stitch.get(), mesh, allocator_, truth.class_of_vertex);
     return stitcher.run(header_.has(piece_flag::kInteriorCopies), truth.class_count, groups);
   }
 
@@ -174,12 +175,12 @@ class PieceCoder {
     if (!header_.has(piece_flag::kTriangleOrder | piece_flag::kVertexOrder)) return {};
     if (!listTriangles()) return noMemory();
     if (header_.has(piece_flag::kTriangleOrder)) {
-      TriangleOrderCoder<Io> coder(io_, models_.orders, mesh.view(), mesh.face_count, triangles,
-                                   allocator_);
+      TriangleOrderCoder<Io> coder(io_, models_.orders.get(), mesh.view(), mesh.face_count,
+                                   triangles, allocator_);
       MCC_TRY(coder.run(header_.part_count, truth.triangle_order, triangle_order));
     }
     if (!header_.has(piece_flag::kVertexOrder)) return {};
-    WedgeOrderCoder<Io> coder(io_, models_.orders, triangles, allocator_);
+    WedgeOrderCoder<Io> coder(io_, models_.orders.get(), triangles, allocator_);
     return coder.run(header_.wedge_count, triangle_order, truth.wedge_order, wedge_order);
   }
 
@@ -266,9 +267,9 @@ class PieceCoder {
   void codeFirstWedges(uint32_t count) {
     stage_.wedges.coded_count = std::min(count, stage_.wedges.count);
   }
-  /// The writer: what codeAttribute() would leave behind for tangents.
-  Status keepForTangents(uint32_t index, const Array<int32_t>& values) {
-    return stage_.keepForTangents(index, values);
+  /// The writer: what codeAttribute() would leave behind for other attributes.
+  Status keepForOthers(uint32_t index, const Array<int32_t>& values) {
+    return stage_.keepForOthers(index, values);
   }
 
   uint32_t codedComponentsOf(uint32_t index) const {
@@ -330,6 +331,7 @@ class PieceCoder {
       constexpr uint32_t kWeighted = position_mode::kWeights;
       constexpr uint32_t kSelecting = position_mode::kWeights | position_mode::kSelect;
       constexpr uint32_t kShear = position_mode::kShear;
+      constexpr uint32_t kPalette = position_mode::kPalette;
       constexpr uint32_t kPlanes = position_mode::kPlanes;
       switch (parameters.modes & kCompiledModes) {
         case 0: return runPositions<int32_t, 0>(parameters, truth);
@@ -340,6 +342,9 @@ class PieceCoder {
           return runPositions<int32_t, kWeighted | kShear>(parameters, truth);
         case kSelecting | kShear:
           return runPositions<int32_t, kSelecting | kShear>(parameters, truth);
+        case kPalette: return runPositions<int32_t, kPalette>(parameters, truth);
+        case kSelecting | kPalette:
+          return runPositions<int32_t, kSelecting | kPalette>(parameters, truth);
         case kSelecting | kPlanes:
           return runPositions<int32_t, kSelecting | kPlanes>(parameters, truth);
         default: break;

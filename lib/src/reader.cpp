@@ -10,6 +10,7 @@
 #include "attributes/dequantize.h"
 #include "attributes/octahedral.h"
 #include "base/memory.h"
+#include "base/working_memory.h"
 #include "container/payload_header.h"
 #include "entropy/dec_coder.h"
 #include "piece.h"
@@ -346,6 +347,25 @@ Status decodePieces(const PayloadHeader& header, const PayloadInfo& info,
   return status;
 }
 
+Status decodeAll(const PayloadHeader& header, const PayloadInfo& info,
+                 std::span<const PieceTarget> targets, const DecodeOptions& options) {
+  return header.singleCoder() ? decodePieces<true>(header, info, targets, options)
+                              : decodePieces<false>(header, info, targets, options);
+}
+
+/// What the largest piece takes at a time, about.
+uint64_t expectedBytes(const PayloadHeader& header) {
+  uint64_t most = 0;
+  for (size_t i = 0; i < header.pieces.size(); ++i) {
+    const PieceHeader& p = header.pieces[i];
+    uint64_t bytes = uint64_t{p.face_count} * kFaceWords * sizeof(uint32_t) +
+                     uint64_t{p.vertex_count} * sizeof(VertexRecord);
+    if (p.attribute_count > 1) bytes += uint64_t{p.wedge_count} * 48;
+    most = std::max(most, bytes);
+  }
+  return most;
+}
+
 }  // namespace
 
 Payload::Payload(Payload&& other) noexcept : state_(std::exchange(other.state_, nullptr)) {}
@@ -401,9 +421,14 @@ const PayloadInfo& Payload::info() const { return state_ == nullptr ? kEmptyInfo
 Status Payload::decode(std::span<const PieceTarget> targets, const DecodeOptions& options) const {
   if (state_ == nullptr) return fail(Error::kBadArgument, "no payload is open");
   MCC_TRY(checkTargets(state_->info, targets));
-  const PayloadHeader& header = state_->header;
-  return header.singleCoder() ? decodePieces<true>(header, state_->info, targets, options)
-                              : decodePieces<false>(header, state_->info, targets, options);
+  const uint64_t expected_bytes = expectedBytes(state_->header);
+  if (options.allocator.allocate != nullptr || !WorkingMemory::pays(expected_bytes)) {
+    return decodeAll(state_->header, state_->info, targets, options);
+  }
+  WorkingMemory memory(expected_bytes);
+  DecodeOptions with_memory = options;
+  with_memory.allocator = memory.allocator();
+  return decodeAll(state_->header, state_->info, targets, with_memory);
 }
 
 }  // namespace mcc

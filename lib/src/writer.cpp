@@ -523,7 +523,7 @@ class StageRunner {
     infos_[index] = plan_.attributes[index].info;
     if (isCodedWithAnother(index)) return {};
     learnAttribute(index);
-    return piece_.keepForTangents(index, values_);
+    return piece_.keepForOthers(index, values_);
   }
 
   uint32_t groupCount() const { return piece_.groups.count; }
@@ -701,8 +701,10 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
   AttributeInfo& info = plan.attributes[index].info;
   const std::vector<AttributeInfo> alternatives = exactAlternatives(info);
   const uint32_t part = std::max(kTrialWedges, plan.header.wedge_count / kTrialShare);
-  // What lies below a grid is always coded for all wedges.
-  const uint32_t sample = alternatives.size() > 1 ? kNone : part;
+  // What lies below a grid is always coded for all wedges. A part of the ids may be all alike.
+  const bool may_be_ids =
+      info.format.component_count == 1 && info.format.semantic == Semantic::kCustom;
+  const uint32_t sample = alternatives.size() > 1 || may_be_ids ? kNone : part;
   const auto before = std::make_unique<AttributeModels>(models.attributes);
   AttributeInfo best = info;
   uint64_t best_cost = ~uint64_t{0};
@@ -712,8 +714,8 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
     for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
     const AttributeMethod method = methodOf(infos.data(), plan.header.attribute_count, index);
     if (method == AttributeMethod::kWithAnother) return {};
-    PredictorSearch search(method, candidate, plan.header.has(piece_flag::kSeams),
-                           hasNormals(infos.data(), plan.header.attribute_count));
+    PredictorSearch search(infos.data(), plan.header.attribute_count, index,
+                           plan.header.has(piece_flag::kSeams));
     if (alternatives.size() == 1 && search.isSettled()) {
       best.predictor = search.best();
       break;

@@ -11,7 +11,7 @@
 #include <map>
 #include <set>
 
-#include "gltf/gltf_builder.h"
+#include "gltf/round_trip.h"
 
 #if !defined(MCC_TOOL_GLTF_MCC) && defined(MCC_TOOL_PATH)
 #define MCC_TOOL_GLTF_MCC MCC_TOOL_PATH
@@ -142,6 +142,49 @@ TEST_F(Cli, DecodeToIntegers) {
   EXPECT_EQ(jsonOf(asBytes(contentOf(folder_ / "back.glb")))["accessors"][0]["componentType"],
             kFloat);
   EXPECT_EQ(run("decode out.glb back.glb --decode-to doubles").status, 2);
+}
+
+/// Eight influences: joints as they were, weights that still add up to one.
+TEST_F(Cli, SkinsOfEightInfluences) {
+  Builder builder;
+  const Sheet sheet(20);
+  Json primitive = sheet.addTo(builder);
+  std::vector<uint8_t> joints[2];
+  std::vector<float> weights[2];
+  for (uint32_t i = 0; i < sheet.count(); ++i) {
+    const float share = 0.1f + 0.0005f * static_cast<float>(i);
+    for (uint32_t k = 0; k < 8; ++k) {
+      joints[k / 4].push_back(static_cast<uint8_t>((i / 50 + k) % 12));
+      weights[k / 4].push_back(k == 7 ? 1 - share * 2.5f : share * 2.5f / 7);
+    }
+  }
+  Json& attributes = primitive["attributes"];
+  for (size_t set = 0; set < 2; ++set) {
+    const std::string n = std::to_string(set);
+    attributes["JOINTS_" + n] =
+        builder.addAccessor(joints[set], kUnsignedByte, "VEC4", sheet.count());
+    attributes["WEIGHTS_" + n] = builder.addFloats(weights[set], 4);
+  }
+  builder.addMesh({primitive});
+  const std::vector<uint8_t> file = builder.toGlb();
+  store(folder_ / "skin.glb", std::string(file.begin(), file.end()));
+  ASSERT_EQ(run("convert skin.glb small.glb --keep-order vertices --compare none").status, 0);
+  ASSERT_EQ(run("decode small.glb back.glb").status, 0);
+  const std::string text = contentOf(folder_ / "back.glb");
+  const std::vector<uint8_t> back(text.begin(), text.end());
+  for (size_t set = 0; set < 2; ++set) {
+    const uint32_t accessor = attributes["JOINTS_" + std::to_string(set)];
+    EXPECT_EQ(elementsInOrder(file, accessor), elementsInOrder(back, accessor));
+  }
+  const std::vector<float> first = floatsInOrder(back, attributes["WEIGHTS_0"]);
+  const std::vector<float> second = floatsInOrder(back, attributes["WEIGHTS_1"]);
+  ASSERT_EQ(first.size(), size_t{4} * sheet.count());
+  for (size_t i = 0; i < first.size(); i += 4) {
+    double sum = 0;
+    for (size_t k = i; k < i + 4; ++k) sum += double{first[k]} + double{second[k]};
+    ASSERT_NEAR(sum, 1, 5e-7);
+    for (size_t k = i; k < i + 4; ++k) ASSERT_NEAR(first[k], weights[0][k], 1.01 / 4095);
+  }
 }
 
 TEST_F(Cli, ColumnsLineUp) {

@@ -167,7 +167,7 @@ struct Depth {
 class RandomPiece {
  public:
   RandomPiece(uint64_t seed, const PieceHeader& header, uint32_t context_set)
-      : seed_(seed), header_(header), context_set_(context_set), attributes_(14) {
+      : seed_(seed), header_(header), context_set_(context_set), attributes_(18) {
     Random random(seed + 1);
     attributes_[0].bits = static_cast<uint8_t>(random.between(1, 24));
     if (random.chance(20)) attributes_[0].coding = AttributeCoding::kExactFloat;
@@ -199,6 +199,17 @@ class RandomPiece {
     attribute(11, Semantic::kTexcoord, AttributeCoding::kExactFloat, 2);
     attribute(12, Semantic::kCustom, AttributeCoding::kGrid, 4);
     attribute(13, Semantic::kTangent, AttributeCoding::kOctahedral, 4);
+    const AttributeCoding deltas =
+        random.chance(50) ? AttributeCoding::kLattice : AttributeCoding::kGrid;
+    attribute(14, Semantic::kPosition, deltas, 3);
+    attribute(15, Semantic::kNormal, deltas, 3);
+    attribute(16, Semantic::kTangent, deltas, 3);
+    attribute(17, Semantic::kCustom, AttributeCoding::kInteger, 1, ComponentType::kUint32);
+    for (uint32_t i = 14; i < 17; ++i) {
+      attributes_[i].format.morph_target = 1;
+      attributes_[i].lattice.step = random.unit() + 1e-9f;
+      if (deltas == AttributeCoding::kGrid) grid(attributes_[i], random);
+    }
     grid(attributes_[10], random);
     grid(attributes_[12], random);
     const uint32_t count = static_cast<uint32_t>(attributes_.size());

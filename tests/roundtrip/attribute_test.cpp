@@ -432,6 +432,197 @@ TEST(Attributes, MorphTargets) {
   }
 }
 
+/// Scrambled names of stripes of a sheet: most vertices are named as their neighbours, borders by what was beside them.
+TEST(Attributes, IdsOfStripes) {
+  const TestMesh mesh = grid(80, 80);
+  std::vector<uint16_t> ids;
+  std::vector<float> floats;
+  for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+    const uint32_t stripe = v / 81 / 4;
+    ids.push_back(static_cast<uint16_t>(stripe * 40503u));
+    floats.push_back(static_cast<float>(stripe * 7919u % 104729u));
+  }
+  MeshPiece piece(mesh);
+  AttributeFormat format = formatOf(Semantic::kCustom, ComponentType::kUint16, 1);
+  piece.add(format, ids.data());
+  format.component_type = ComponentType::kFloat32;
+  format.set_index = 1;
+  piece.add(format, floats.data());
+  expectRoundTrip(piece, "stripes");
+  const RoundTrip result = roundTrip(piece.view());
+  const auto& attributes = result.decoded[0].attributes;
+  const std::vector<double>& bits = result.encoded.sizes.attribute_bits;
+  for (size_t i = attributes.size() - 2; i < attributes.size(); ++i) {
+    EXPECT_NE(attributes[i].info.predictor & 0x20, 0) << i;
+    RecordProperty("bytes_" + std::to_string(i), std::to_string(bits[i] / 8));
+    EXPECT_LT(bits[i] / 8, 500) << i;
+  }
+}
+
+/// Eight influences: tuples whose sum over both sets is 1 still sum to 1.
+TEST(Attributes, WeightsOfTwoSetsSumToOne) {
+  for (const TestMesh& mesh : carriers()) {
+    Random random(3);
+    std::array<std::vector<float>, 2> weights;
+    std::array<std::vector<uint8_t>, 2> joints;
+    for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+      std::array<double, 8> w{};
+      double sum = 0;
+      const uint32_t used = random.between(1, 8);
+      for (uint32_t k = 0; k < used; ++k) sum += w[k] = 0.01 + static_cast<double>(random.unit());
+      for (uint32_t k = 0; k < 8; ++k) {
+        weights[k / 4].push_back(static_cast<float>(w[k] / sum));
+        joints[k / 4].push_back(static_cast<uint8_t>(k < used ? v / 20 + 3 * k : 0));
+      }
+    }
+    for (const uint8_t bits : {uint8_t{0}, uint8_t{8}, uint8_t{12}, uint8_t{16}}) {
+      MeshPiece piece(mesh);
+      for (uint8_t set = 0; set < 2; ++set) {
+        AttributeFormat format = formatOf(Semantic::kJoints, ComponentType::kUint8, 4);
+        format.set_index = set;
+        piece.add(format, joints[set].data());
+        format = formatOf(Semantic::kWeights, ComponentType::kFloat32, 4);
+        format.set_index = set;
+        piece.add(format, weights[set].data(), bits);
+      }
+      const RoundTrip result = roundTrip(piece.view());
+      ASSERT_EQ(result.failure, "") << mesh.name << ", bits " << int{bits};
+      if (bits == 0) continue;
+      const auto& decoded = result.decoded[0].attributes;
+      const size_t last = decoded.size() - 1;  // WEIGHTS_1, behind WEIGHTS_0 and JOINTS_1
+      for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+        double points = 0;
+        for (const size_t a : {last - 2, last}) {
+          for (uint32_t k = 0; k < 4; ++k) {
+            float w = 0;
+            std::memcpy(&w, decoded[a].bytes.data() + 16 * size_t{v} + 4 * size_t{k}, 4);
+            points += std::round(static_cast<double>(w) /
+                                 static_cast<double>(decoded[a].info.lattice.step));
+          }
+        }
+        ASSERT_EQ(points, std::ldexp(1.0, bits) - 1) << mesh.name << ", wedge " << v;
+      }
+    }
+  }
+}
+
+/// Deltas to normals and tangents of the moved surface, and what they cost per moved wedge.
+TEST(Attributes, MorphTargetsOfUnitVectors) {
+  const TestMesh mesh = torus(48, 32);
+  const std::vector<float> tangents = tangentsOf(mesh.normals, Shape::kConstant);
+  TestMesh moved = mesh;
+  uint32_t moved_count = 0;
+  for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+    float* p = &moved.positions[v * 3];
+    if (p[0] < 0) continue;
+    ++moved_count;
+    p[1] += 0.3f * p[0] * p[2];
+  }
+  moved.normals.assign(mesh.positions.size(), 0.0f);
+  std::vector<double> sums(mesh.positions.size());
+  for (size_t t = 0; t < mesh.indices.size(); t += 3) {
+    std::array<std::array<double, 3>, 2> e{};
+    for (size_t k = 0; k < 3; ++k) {
+      for (size_t i = 0; i < 2; ++i) {
+        e[i][k] = static_cast<double>(moved.positions[mesh.indices[t + 1 + i] * 3 + k]) -
+                  static_cast<double>(moved.positions[mesh.indices[t] * 3 + k]);
+      }
+    }
+    for (size_t k = 0; k < 3; ++k) {
+      const double area =
+          e[0][(k + 1) % 3] * e[1][(k + 2) % 3] - e[0][(k + 2) % 3] * e[1][(k + 1) % 3];
+      for (size_t i = 0; i < 3; ++i) sums[mesh.indices[t + i] * 3 + k] += area;
+    }
+  }
+  for (size_t v = 0; v < sums.size(); v += 3) {
+    const double length = std::hypot(sums[v], sums[v + 1], sums[v + 2]);
+    const bool moves = moved.positions[v + 1] != mesh.positions[v + 1];
+    for (size_t k = 0; k < 3; ++k) {
+      moved.normals[v + k] = moves ? static_cast<float>(sums[v + k] / length) : mesh.normals[v + k];
+    }
+  }
+  std::vector<float> moved_tangents = tangentsOf(moved.normals, Shape::kConstant);
+  std::array<std::vector<float>, 3> deltas;
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    deltas[0].push_back(moved.positions[i] - mesh.positions[i]);
+    deltas[1].push_back(moved.normals[i] - mesh.normals[i]);
+    deltas[2].push_back(moved_tangents[i / 3 * 4 + i % 3] - tangents[i / 3 * 4 + i % 3]);
+  }
+  for (const uint8_t bits : {uint8_t{0}, uint8_t{10}}) {
+    MeshPiece piece(mesh, {static_cast<uint8_t>(bits == 0 ? 0 : 14), bits, 12});
+    piece.add(formatOf(Semantic::kTangent, ComponentType::kFloat32, 4), tangents.data(), bits);
+    AttributeFormat format = formatOf(Semantic::kPosition, ComponentType::kFloat32, 3);
+    format.morph_target = 1;
+    piece.add(format, deltas[0].data(), bits == 0 ? 0 : 14);
+    format.semantic = Semantic::kNormal;
+    piece.add(format, deltas[1].data(), bits);
+    format.semantic = Semantic::kTangent;
+    piece.add(format, deltas[2].data(), bits);
+    const RoundTrip result = roundTrip(piece.view());
+    ASSERT_EQ(result.failure, "") << int{bits};
+    const size_t count = result.encoded.sizes.attribute_bits.size();
+    const double normal_bits = result.encoded.sizes.attribute_bits[count - 2] / moved_count;
+    const double tangent_bits = result.encoded.sizes.attribute_bits[count - 1] / moved_count;
+    RecordProperty("normal_bits_" + std::to_string(bits), std::to_string(normal_bits));
+    RecordProperty("tangent_bits_" + std::to_string(bits), std::to_string(tangent_bits));
+    if (bits == 0) continue;
+    EXPECT_LT(normal_bits, 6);
+    EXPECT_LT(tangent_bits, 12);
+  }
+}
+
+/// Every semantic that can move, densely and sparsely.
+TEST(Attributes, MorphTargetsOfColorsAndCharts) {
+  for (const TestMesh& carrier : carriers()) {
+    for (const uint8_t bits : {uint8_t{0}, uint8_t{8}, uint8_t{12}}) {
+      MeshPiece piece(carrier);
+      const std::vector<float> colors = floatValues(carrier, 4, Shape::kSmooth);
+      const std::vector<float> chart = floatValues(carrier, 2, Shape::kSmooth);
+      piece.add(formatOf(Semantic::kTexcoord, ComponentType::kFloat32, 2), chart.data(), bits);
+      piece.add(formatOf(Semantic::kColor, ComponentType::kFloat32, 4), colors.data(), bits);
+      std::vector<std::vector<float>> kept;
+      for (uint16_t target = 1; target <= 4; ++target) {
+        for (const Semantic semantic : {Semantic::kTexcoord, Semantic::kColor}) {
+          const uint8_t components = semantic == Semantic::kColor ? 4 : 2;
+          const Shape shape = target % 2 == 0 ? Shape::kRandom : Shape::kSmooth;
+          std::vector<float> deltas = floatValues(carrier, components, shape);
+          for (size_t i = 0; i < deltas.size(); ++i) {
+            if (target > 2 && i / components % 7 != 0) deltas[i] = 0;
+          }
+          kept.push_back(std::move(deltas));
+          AttributeFormat format = formatOf(semantic, ComponentType::kFloat32, components);
+          format.morph_target = target;
+          piece.add(format, kept.back().data(), bits);
+        }
+      }
+      expectRoundTrip(piece, carrier.name + ", bits " + std::to_string(bits));
+    }
+  }
+}
+
+/// Deltas with NaN and infinity go exact, whatever the bits.
+TEST(Attributes, MorphTargetsWithOddFloats) {
+  for (const TestMesh& carrier : carriers()) {
+    TestMesh mesh = carrier;
+    mesh.normals = unitVectors(mesh, Shape::kRandom);
+    const std::vector<float> tangents = tangentsOf(mesh.normals, Shape::kRandom);
+    const std::vector<float> smooth = floatValues(mesh, 3, Shape::kSmooth);
+    const std::vector<float> odd = floatValues(mesh, 3, Shape::kExtremes);
+    MeshPiece piece(mesh);
+    piece.add(formatOf(Semantic::kTangent, ComponentType::kFloat32, 4), tangents.data(), 12);
+    for (uint16_t target = 1; target <= 4; ++target) {
+      uint32_t place = 0;
+      for (const Semantic semantic : {Semantic::kPosition, Semantic::kNormal, Semantic::kTangent}) {
+        AttributeFormat format = formatOf(semantic, ComponentType::kFloat32, 3);
+        format.morph_target = target;
+        const bool is_odd = target == 4 || ++place == target;
+        piece.add(format, is_odd ? odd.data() : smooth.data(), 10);
+      }
+    }
+    expectRoundTrip(piece, mesh.name);
+  }
+}
+
 TEST(Attributes, EqualAttributesAndManyOfThem) {
   const TestMesh mesh = chartGrid(10, 10, 5);
   MeshPiece piece(mesh);

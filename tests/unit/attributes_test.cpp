@@ -41,10 +41,10 @@ template <bool kSingle>
 class Pair {
  public:
   Pair(const TestMesh& mesh, const AttributeInfo& position, uint32_t isolated_count = 0,
-       const AttributeInfo& further = positionInfo(10))
+       const std::vector<AttributeInfo>& further = {positionInfo(10)})
       : surface_(mesh),
         encoder_(kSingle),
-        writer_(encoder_, headerOf(surface_, isolated_count), {position, further}) {
+        writer_(encoder_, headerOf(surface_, isolated_count), listOf(position, further)) {
     truth.connectivity = surface_.truth();
     EXPECT_TRUE(writer_.piece.codeConnectivity(truth).ok());
     classes_ = surface_.classOfVertex();
@@ -97,6 +97,11 @@ class Pair {
   PieceTruth truth;
 
  private:
+  static std::vector<AttributeInfo> listOf(const AttributeInfo& position,
+                                           std::vector<AttributeInfo> further) {
+    further.insert(further.begin(), position);
+    return further;
+  }
   static PieceHeader headerOf(const Surface& surface, uint32_t isolated_count) {
     PieceHeader header = surface.header();
     header.isolated_count = isolated_count;
@@ -288,33 +293,42 @@ AttributeInfo valuesInfo(uint8_t components, uint8_t predictor) {
   return info;
 }
 
-/// Through both sides; returns the bits they take. `values` are of wedges in the order of the writer's.
+/// Integer `i` of an attribute; q: the position of its wedge.
+using MakeValue = std::function<int32_t(uint32_t attribute, uint32_t i, const int32_t* q)>;
+
+/// Attributes through both sides, in this order; returns the bits of the last one.
 template <bool kSingle>
-double codeValues(const TestMesh& mesh, const AttributeInfo& info, uint32_t isolated_count,
-                  const std::function<int32_t(uint32_t wedge, const int32_t* q)>& value) {
-  Pair<kSingle> pair(mesh, positionInfo(16), isolated_count, info);
+double codeAttributes(const TestMesh& mesh, const std::vector<AttributeInfo>& infos,
+                      uint32_t isolated_count, const MakeValue& value) {
+  Pair<kSingle> pair(mesh, positionInfo(16), isolated_count, infos);
   const std::vector<int32_t> positions = pair.latticePositions(mesh, isolated_count);
   pair.truth.positions = positions.data();
-  const uint32_t components = info.format.component_count;
-  Array<int32_t> values;
-  for (uint32_t i = 0; i < positions.size() / 3 * components; ++i)
-    EXPECT_TRUE(values.push_back(value(i, &positions[i / components * 3])));
   PieceCoder<EncoderIo>& writer = pair.writer().piece;
   EXPECT_TRUE(writer.codePositions(pair.truth).ok());
   EXPECT_TRUE(writer.codeSeams(pair.truth).ok());
   EXPECT_TRUE(writer.prepareAttributes().ok());
-  const uint64_t before = pair.encoder().cost();
-  EXPECT_TRUE(writer.codeAttribute(1, values).ok());
+  std::vector<Array<int32_t>> values(infos.size() + 1);
+  uint64_t before = 0;
+  for (uint32_t a = 1; a <= infos.size(); ++a) {
+    const uint32_t words = writer.codedComponentsOf(a);
+    for (uint32_t i = 0; i < positions.size() / 3 * words; ++i)
+      EXPECT_TRUE(values[a].push_back(value(a, i, &positions[i / words * 3])));
+    before = pair.encoder().cost();
+    EXPECT_TRUE(writer.codeAttribute(a, values[a]).ok());
+  }
   const double bits = static_cast<double>(pair.encoder().cost() - before) / kCostOne;
   PieceCoder<DecoderIo<kSingle>>& reader = pair.reader().piece;
   EXPECT_TRUE(reader.codePositions(PieceTruth{}).ok());
   EXPECT_TRUE(reader.codeSeams(PieceTruth{}).ok());
   EXPECT_TRUE(reader.prepareAttributes().ok());
-  Array<int32_t> decoded;
-  EXPECT_TRUE(reader.codeAttribute(1, decoded).ok());
+  for (uint32_t a = 1; a <= infos.size(); ++a) {
+    Array<int32_t> decoded;
+    EXPECT_TRUE(reader.codeAttribute(a, decoded).ok());
+    EXPECT_TRUE(std::equal(values[a].data(), values[a].data() + values[a].size(), decoded.data(),
+                           decoded.data() + decoded.size()))
+        << "attribute " << a;
+  }
   EXPECT_TRUE(pair.decoder().finish().ok());
-  EXPECT_TRUE(std::equal(values.data(), values.data() + values.size(), decoded.data(),
-                         decoded.data() + decoded.size()));
   return bits;
 }
 
@@ -327,7 +341,7 @@ TEST(Values, EveryMethodOnAllKindsOfSurfaces) {
         if (!isKnownPredictor(infos, 2, 1)) continue;
         SCOPED_TRACE(mesh.name + ", predictor " + std::to_string(predictor));
         Random random(predictor);
-        codeValues<false>(mesh, info, 3, [&](uint32_t, const int32_t* q) {
+        codeAttributes<false>(mesh, {info}, 3, [&](uint32_t, uint32_t, const int32_t* q) {
           if (predictor % 2 == 0) return q[0] + q[1] / 8;
           const int32_t any = static_cast<int32_t>(random.next() >> 32);
           return random.chance(20) ? any : random.chance(50) ? 0 : any >> 24;
@@ -340,13 +354,13 @@ TEST(Values, EveryMethodOnAllKindsOfSurfaces) {
 /// Colours that bend along one axis only: which candidate does well differs from component to component.
 TEST(Values, ABlendFollowsWhatDoesWell) {
   const TestMesh mesh = grid(60, 60);
-  const auto value = [](uint32_t i, const int32_t* q) {
+  const auto value = [](uint32_t, uint32_t i, const int32_t* q) {
     const double x = (i % 2 == 0 ? q[0] : q[1]) * 0.004;
     const double y = (i % 2 == 0 ? q[1] : q[0]) * 0.0001;
     return static_cast<int32_t>(std::lround(127.5 + 127.5 * std::sin(x * x + y)));
   };
-  const double diagonal = codeValues<true>(mesh, valuesInfo(4, 2), 0, value);
-  const double blend = codeValues<true>(mesh, valuesInfo(4, value_method::kBlend), 0, value);
+  const double diagonal = codeAttributes<true>(mesh, {valuesInfo(4, 2)}, 0, value);
+  const double blend = codeAttributes<true>(mesh, {valuesInfo(4, value_method::kBlend)}, 0, value);
   EXPECT_LT(blend, 0.88 * diagonal);
 }
 
@@ -355,6 +369,92 @@ TEST(Values, BlendsHaveFourComponentsAtMost) {
                                   valuesInfo(5, value_method::kBlend)};
   EXPECT_TRUE(isKnownPredictor(infos, 3, 1));
   EXPECT_FALSE(isKnownPredictor(infos, 3, 2));
+}
+
+// ---- Deltas of unit vectors ---------------------------------------------------------------------
+
+AttributeInfo vectorInfo(Semantic semantic, AttributeCoding coding, uint8_t components,
+                         uint16_t target, uint8_t predictor) {
+  AttributeInfo info;
+  info.format.semantic = semantic;
+  info.format.component_count = components;
+  info.format.morph_target = target;
+  info.coding = coding;
+  info.bits = 10;
+  info.predictor = predictor;
+  info.lattice.step = 1.0f / 512;
+  info.grid = coding == AttributeCoding::kGrid ? 3 : 0;  // thousandths
+  return info;
+}
+
+/// Normals, tangents and a morph target of them.
+std::vector<AttributeInfo> morphInfos(AttributeCoding coding, uint8_t predictor) {
+  const uint8_t bends = static_cast<uint8_t>(predictor & ~value_method::kUnits);
+  const uint8_t units = static_cast<uint8_t>(predictor & ~value_method::kBends);
+  return {vectorInfo(Semantic::kNormal, AttributeCoding::kOctahedral, 3, 0, 0),
+          vectorInfo(Semantic::kTangent, AttributeCoding::kTangentAngle, 4, 0, 0),
+          vectorInfo(Semantic::kPosition, coding, 3, 1, 0),
+          vectorInfo(Semantic::kNormal, coding, 3, 1, bends),
+          vectorInfo(Semantic::kNormal, coding, 3, 1, predictor),
+          vectorInfo(Semantic::kTangent, coding, 3, 1, units)};
+}
+
+/// What the bits promise need not be true.
+TEST(Deltas, AnyValuesWithAnyBits) {
+  for (const TestMesh& mesh : surfaces()) {
+    for (const AttributeCoding coding : {AttributeCoding::kLattice, AttributeCoding::kGrid}) {
+      for (uint32_t bits = 0; bits < 16; ++bits) {
+        SCOPED_TRACE(mesh.name + ", bits " + std::to_string(bits));
+        const std::vector<AttributeInfo> infos =
+            morphInfos(coding, static_cast<uint8_t>((bits >> 2) << 5 | (bits & 3)));
+        Random random(bits);
+        codeAttributes<false>(mesh, infos, 2, [&](uint32_t a, uint32_t i, const int32_t*) {
+          if (a == 1) return static_cast<int32_t>(random.between(100, 900));
+          if (a == 2)
+            return static_cast<int32_t>(i % 2 == 0 ? random.below(1024) : random.below(2));
+          // Of grids: ordered floats of thousandths, see attributes/exact_grid.h.
+          const int32_t q = static_cast<int32_t>(random.below(2001)) - 1000;
+          if (coding == AttributeCoding::kLattice) return random.chance(30) ? 0 : q * (1 << a);
+          return orderedFromFloat(ExactGrid(3).valueOf(random.chance(30) ? 0 : q));
+        });
+      }
+    }
+  }
+}
+
+TEST(Deltas, BitsNeedWhatTheyReferTo) {
+  std::vector<AttributeInfo> infos = morphInfos(AttributeCoding::kLattice, 0x60);
+  const auto isKnown = [&](uint32_t index) {
+    return isKnownPredictor(infos.data(), static_cast<uint32_t>(infos.size()), index);
+  };
+  for (uint32_t i = 0; i < infos.size(); ++i) EXPECT_TRUE(isKnown(i)) << i;
+  const auto refuses = [&](uint32_t index, uint32_t changed, auto change) {
+    const AttributeInfo before = infos[changed];
+    change(infos[changed]);
+    EXPECT_FALSE(isKnown(index)) << index << " beside a changed " << changed;
+    infos[changed] = before;
+  };
+  const auto toAlias = [](AttributeInfo& a) { a.coding = AttributeCoding::kAlias; };
+  const auto toOther = [](AttributeInfo& a) { a.format.morph_target = 2; };
+  const auto toPoints = [](AttributeInfo& a) { a.coding = AttributeCoding::kOctahedral; };
+  const auto toBase = [](AttributeInfo& a) { a.format.morph_target = 0; };
+  for (const uint32_t normal : {3u, 4u}) {
+    refuses(normal, 2, toAlias);
+    refuses(normal, 2, toOther);
+    refuses(normal, 2, toPoints);
+    refuses(normal, 2, toBase);
+    refuses(normal, normal, toBase);
+    refuses(normal, normal, toOther);
+    refuses(normal, normal, [](AttributeInfo& a) { a.format.component_count = 4; });
+    refuses(normal, normal, [](AttributeInfo& a) { a.coding = AttributeCoding::kExactFloat; });
+  }
+  refuses(4, 0, [](AttributeInfo& a) { a.coding = AttributeCoding::kLattice; });
+  refuses(5, 0, [](AttributeInfo& a) { a.coding = AttributeCoding::kLattice; });
+  refuses(5, 1, toAlias);
+  refuses(5, 1, [](AttributeInfo& a) { a.coding = AttributeCoding::kLattice; });
+  refuses(5, 4, toAlias);
+  refuses(5, 4, toOther);
+  refuses(5, 5, [](AttributeInfo& a) { a.predictor = value_method::kBends; });
 }
 
 // ---- Seams --------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -11,7 +12,9 @@
 #include "base/bytes.h"
 #include "base/crc32.h"
 #include "base/enc_bytes.h"
+#include "base/lazy.h"
 #include "base/memory.h"
+#include "base/working_memory.h"
 #include "support/mesh_generators.h"
 #include "unit/failing_allocator.h"
 
@@ -233,6 +236,80 @@ TEST(Array, DefaultAllocatorIsTheHeap) {
   Array<uint8_t> array;
   ASSERT_TRUE(array.assign(100, 3));
   EXPECT_EQ(array[99], 3);
+}
+
+// ---- WorkingMemory ------------------------------------------------------------------------------
+
+struct Block {
+  uint8_t* memory;
+  size_t bytes;
+  uint8_t filling;
+
+  bool isUnharmed() const {
+    return std::all_of(memory, memory + bytes, [this](uint8_t x) { return x == filling; });
+  }
+};
+
+TEST(WorkingMemory, BlocksAreDisjointAligned) {
+  WorkingMemory memory(1000);
+  const Allocator allocator = memory.allocator();
+  std::vector<Block> blocks;
+  Random random(5);
+  const auto releaseOne = [&](size_t i) {
+    ASSERT_TRUE(blocks[i].isUnharmed());
+    releaseBytes(allocator, blocks[i].memory, blocks[i].bytes);
+    blocks.erase(blocks.begin() + static_cast<std::ptrdiff_t>(i));
+  };
+  for (uint32_t step = 0; step < 400; ++step) {
+    if (blocks.size() > 6 || (!blocks.empty() && random.below(3) == 0)) {
+      releaseOne(random.below(static_cast<uint32_t>(blocks.size())));
+      continue;
+    }
+    const size_t bytes = size_t{1} + random.below(1u << (8 + step % 14));
+    void* block = allocateBytes(allocator, bytes);
+    ASSERT_NE(block, nullptr);
+    if (bytes >= WorkingMemory::kSmallBytes) {
+      EXPECT_EQ(reinterpret_cast<uintptr_t>(block) % 64, 0u);
+    }
+    blocks.push_back({static_cast<uint8_t*>(block), bytes, static_cast<uint8_t>(step)});
+    std::memset(block, blocks.back().filling, bytes);
+  }
+  while (!blocks.empty()) releaseOne(blocks.size() - 1);
+}
+
+TEST(WorkingMemory, WhatWasReleasedIsJoinedAndUsedAgain) {
+  constexpr size_t kBytes = WorkingMemory::kPageBytes / 4;
+  WorkingMemory memory(4 * kBytes);
+  void* first[4];
+  for (void*& block : first) block = memory.allocate(kBytes);
+  for (const int i : {2, 0, 3, 1}) memory.release(first[i], kBytes);
+  EXPECT_EQ(memory.allocate(4 * kBytes), first[0]);
+  memory.release(first[0], 4 * kBytes);
+}
+
+TEST(WorkingMemory, RefusesWhatNoMachineHas) {
+  WorkingMemory memory(std::numeric_limits<uint64_t>::max());
+  EXPECT_EQ(memory.allocate(std::numeric_limits<size_t>::max() - 10), nullptr);
+  void* block = memory.allocate(100000);  // expected too much, but this much there is
+  ASSERT_NE(block, nullptr);
+  memory.release(block, 100000);
+}
+
+// ---- Lazy ---------------------------------------------------------------------------------------
+
+TEST(Lazy, MadeOnceAndCopiedAsItIs) {
+  struct Counter {
+    uint32_t count = 7;
+  };
+  Lazy<Counter> lazy;
+  Lazy<Counter> untouched = lazy;
+  EXPECT_EQ(lazy.get().count, 7u);
+  ++lazy.get().count;
+  EXPECT_EQ(lazy.get().count, 8u);
+  Lazy<Counter> copy = lazy;
+  EXPECT_EQ(copy.get().count, 8u);
+  copy = untouched;  // as before its first use
+  EXPECT_EQ(copy.get().count, 7u);
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ AttributeInfo anyAttribute(Random& random) {
     a.format.component_count = static_cast<uint8_t>(random.between(1, 4));
     a.bits = static_cast<uint8_t>(random.between(1, 24));
     a.lattice.step = random.unit() + 1e-30f;
-    for (uint32_t c = 0; c < a.format.component_count; ++c)
+    for (uint32_t c = 0; c < a.format.component_count && a.format.morph_target == 0; ++c)
       a.lattice.origin[c] = random.unit() - 0.5f;
   }
   return a;

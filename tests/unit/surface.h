@@ -55,15 +55,19 @@ template <class Io>
 struct Stages {
   Stages(Io& io, const PieceHeader& piece_header, std::vector<AttributeInfo> infos,
          uint32_t context_set = 0, CodeHistogram* histogram = nullptr)
-      : header(piece_header),
+      : header(withAttributes(piece_header, infos.size())),
         attributes(std::move(infos)),
         models(std::make_unique<PayloadModels>(Allocator{})),
         piece(io, *models, header, attributes.data(), {}, histogram) {
-    header.attribute_count = static_cast<uint32_t>(attributes.size());
     ready = models->mc.init(context_set);
   }
   Stages(const Stages&) = delete;
   Stages& operator=(const Stages&) = delete;
+
+  static PieceHeader withAttributes(PieceHeader piece_header, size_t count) {
+    piece_header.attribute_count = static_cast<uint32_t>(count);
+    return piece_header;
+  }
 
   PieceHeader header;  ///< may be changed between stages
   std::vector<AttributeInfo> attributes;

@@ -6,6 +6,7 @@
 
 #include "bench/geometry.h"
 #include "foreign/draco_codec.h"
+#include "gltf/coded_input.h"
 #include "gltf/file_io.h"
 #include "gltf/parallel.h"
 #include "gltf/quantize.h"
@@ -180,6 +181,7 @@ gltf::Result emit(std::span<const uint8_t> source, const gltf::FileReader& read_
   gltf::Document document;
   MCC_GLTF_TRY(gltf::loadDocument(source, read_file, document));
   MCC_GLTF_TRY(gltf::embedImages(read_file, document));
+  MCC_GLTF_TRY(gltf::decodeViews(options.decoders, document));
   std::vector<gltf::PayloadPlan> plans;
   std::vector<gltf::LeftAlone> left_alone;
   MCC_GLTF_TRY(gltf::planPayloads(document, plans, left_alone));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "gltf/coded_input.h"
 #include "gltf/file_io.h"
 #include "gltf/parallel.h"
 #include "gltf/quantize.h"
@@ -45,6 +46,8 @@ gltf::Result load(const std::filesystem::path& path, const gltf::ConvertOptions&
                   const PrimitiveFilter& wanted, Geometry& geometry) {
   MCC_GLTF_TRY(
       gltf::loadDocument(geometry.file, gltf::readerOf(path.parent_path()), geometry.document));
+  MCC_GLTF_TRY(gltf::decodeViews(options.decoders, geometry.document));
+  MCC_GLTF_TRY(gltf::decodeMeshes(options.decoders, geometry.document));
   std::vector<PayloadPlan> plans;
   std::vector<gltf::LeftAlone> left_alone;
   MCC_GLTF_TRY(gltf::planPayloads(geometry.document, plans, left_alone));

@@ -21,7 +21,9 @@
 #include "draco/compression/mesh/mesh_sequential_encoder.h"
 #include "draco/core/draco_version.h"
 #include "draco/core/options.h"
+#include "draco/core/varint_decoding.h"
 #include "draco/mesh/mesh.h"
+#include "draco/metadata/metadata_decoder.h"
 
 namespace mcc::foreign {
 namespace {
@@ -436,6 +438,39 @@ Outcome decodeDraco(std::span<const uint8_t> bytes, DecodedMesh& mesh) {
     }
     mesh.decode_ms = watch.elapsedMs();
     mesh.extract_ms = mesh.decode_ms - codec_ms;
+    return {};
+  });
+}
+
+Outcome readDracoCounts(std::span<const uint8_t> bytes, DracoCounts& counts) {
+  counts = {};
+  return guarded([&]() -> Outcome {
+    draco::DecoderBuffer buffer;
+    buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    draco::DracoHeader header;
+    const draco::Status status = draco::PointCloudDecoder::DecodeHeader(&buffer, &header);
+    if (!status.ok()) return fromDraco(status);
+    const uint16_t version = DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor);
+    if (header.encoder_type != draco::TRIANGULAR_MESH) return failure("Draco: no triangle mesh");
+    if (version < DRACO_BITSTREAM_VERSION(2, 2)) return failure("Draco: older than version 2.2");
+    buffer.set_bitstream_version(version);
+    if ((header.flags & METADATA_FLAG_MASK) != 0) {
+      draco::GeometryMetadata ignored;
+      draco::MetadataDecoder decoder;
+      if (!decoder.DecodeGeometryMetadata(&buffer, &ignored)) {
+        return failure("Draco: damaged metadata");
+      }
+    }
+    uint8_t traversal = 0;
+    uint32_t first = 0;
+    uint32_t second = 0;
+    const bool is_edgebreaker = header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING;
+    if ((is_edgebreaker && !buffer.Decode(&traversal)) || !draco::DecodeVarint(&first, &buffer) ||
+        !draco::DecodeVarint(&second, &buffer)) {
+      return failure("Draco: the data end in the header");
+    }
+    counts.vertex_count = is_edgebreaker ? first : second;
+    counts.triangle_count = is_edgebreaker ? second : first;
     return {};
   });
 }

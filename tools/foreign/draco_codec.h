@@ -95,6 +95,16 @@ Outcome encodeDracoConnectivity(const DracoInput& input, int speed,
 /// around.
 Outcome decodeDraco(std::span<const uint8_t> bytes, DecodedMesh& mesh);
 
+/// What a Draco mesh says of itself before its data.
+struct DracoCounts {
+  uint64_t triangle_count = 0;
+  uint64_t vertex_count =
+      0;  ///< edgebreaker: before seams split vertices; the decoded ones are not fewer
+};
+
+/// Reads the counts alone; takes no memory for what they claim. Fails on anything that is no triangle mesh.
+Outcome readDracoCounts(std::span<const uint8_t> bytes, DracoCounts& counts);
+
 /// Decodes the triangles and stops before the attributes. Edgebreaker only.
 Outcome decodeDracoConnectivity(std::span<const uint8_t> bytes, uint32_t& triangle_count,
                                 double& decode_ms);

@@ -399,6 +399,56 @@ Outcome decodeMeshoptZstd(const MeshoptEncoded& layout, std::span<const uint8_t>
   });
 }
 
+Outcome decodeMeshoptView(std::span<const uint8_t> bytes, uint64_t count, uint32_t stride,
+                          const std::string& mode, const std::string& filter,
+                          std::vector<uint8_t>& elements) {
+  const bool is_vertices = mode == "ATTRIBUTES";
+  const bool is_triangles = mode == "TRIANGLES";
+  if (!is_vertices && !is_triangles && mode != "INDICES") {
+    return failure("has the unknown mode \"" + mode + "\"");
+  }
+  const bool stride_fits = is_vertices ? stride != 0 && stride % 4 == 0 && stride <= kMaxStrideBytes
+                                       : stride == 2 || stride == 4;
+  if (!stride_fits || (is_triangles && count % 3 != 0)) {
+    return failure("has a stride or count its mode does not allow");
+  }
+  // The upper half of the first byte is the kind of stream, the lower half its version.
+  const uint8_t kind = is_vertices ? 0xa0 : is_triangles ? 0xe0 : 0xd0;
+  const uint8_t newest = is_vertices ? 0 : 1;
+  if (!bytes.empty() && (bytes[0] & 0xf0) == kind && (bytes[0] & 0x0f) > newest) {
+    return failure("has version " + std::to_string(bytes[0] & 0x0f) +
+                   " of its codec, which meshoptimizer " + meshoptVersion() +
+                   " cannot read; decompress the file with a newer tool first");
+  }
+  return guarded([&]() -> Outcome {
+    elements.resize(count * stride);
+    int status = 0;
+    if (is_vertices) {
+      status =
+          meshopt_decodeVertexBuffer(elements.data(), count, stride, bytes.data(), bytes.size());
+    } else if (is_triangles) {
+      status =
+          meshopt_decodeIndexBuffer(elements.data(), count, stride, bytes.data(), bytes.size());
+    } else {
+      status =
+          meshopt_decodeIndexSequence(elements.data(), count, stride, bytes.data(), bytes.size());
+    }
+    if (status != 0) return failure("is damaged");
+    if (filter == "NONE") return {};
+    if (is_vertices && filter == "OCTAHEDRAL" && (stride == 4 || stride == 8)) {
+      meshopt_decodeFilterOct(elements.data(), count, stride);
+    } else if (is_vertices && filter == "QUATERNION" && stride == 8) {
+      meshopt_decodeFilterQuat(elements.data(), count, stride);
+    } else if (is_vertices && filter == "EXPONENTIAL") {
+      meshopt_decodeFilterExp(elements.data(), count, stride);
+    } else {
+      return failure("has the filter \"" + filter + "\", which meshoptimizer " + meshoptVersion() +
+                     " cannot undo here; decompress the file with a newer tool first");
+    }
+    return {};
+  });
+}
+
 Outcome measureMeshoptErrors(const PieceView& piece, const MeshoptEncoded& layout,
                              const DecodedMesh& decoded, std::vector<AttributeError>& errors) {
   errors.assign(layout.streams.size(), {});

@@ -78,6 +78,12 @@ Outcome decodeMeshopt(const MeshoptEncoded& layout, std::span<const uint8_t> byt
 Outcome decodeMeshoptZstd(const MeshoptEncoded& layout, std::span<const uint8_t> zstd_bytes,
                           DecodedMesh& mesh);
 
+/// Decodes a buffer view of EXT_meshopt_compression, or of KHR_meshopt_compression as far as this version of meshoptimizer
+/// can: `count` elements of `stride` bytes. Safe for untrusted input; the caller bounds the product.
+Outcome decodeMeshoptView(std::span<const uint8_t> bytes, uint64_t count, uint32_t stride,
+                          const std::string& mode, const std::string& filter,
+                          std::vector<uint8_t>& elements);
+
 /// Errors per stream of `layout`, from a decode of it, over all wedges that were not dropped.
 Outcome measureMeshoptErrors(const PieceView& piece, const MeshoptEncoded& layout,
                              const DecodedMesh& decoded, std::vector<AttributeError>& errors);

@@ -17,6 +17,10 @@
 #include "help.h"
 #include "standard_streams.h"
 
+#if defined(MCC_HAS_FOREIGN)
+#include "foreign/decoders.h"
+#endif
+
 namespace mcc::tool {
 namespace {
 
@@ -263,6 +267,9 @@ void addKeepOrder(CLI::App& command, gltf::ConvertOptions& options) {
 void addConvert(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("convert", "Compress .glb and .gltf files");
   auto state = std::make_shared<ConvertCommand>();
+#if defined(MCC_HAS_FOREIGN)
+  state->convert.decoders = foreign::foreignDecoders();
+#endif
   command->add_option("FILES", state->files, "IN and OUT");
   command->add_option("-i,--input", state->input, "The same as IN")->type_name("FILE");
   command->add_option("-o,--output", state->output, "The same as OUT, or the folder for many IN")
@@ -289,6 +296,7 @@ void addConvert(CLI::App& app, int& status) {
       "measured errors are printed. One of --quantize-position, --max-error, "
       "--max-error-relative,\n"
       "--lattice and --lossless decides on positions.\n"
+      "IN may be compressed with Draco or meshoptimizer already.\n"
       "With -o DIR every IN becomes a file of the same name in DIR. What was made there before\n"
       "with the same options, from files that have not changed since, is left as it is.",
       "convert model.glb small.glb\n"

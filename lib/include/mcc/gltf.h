@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -47,6 +48,42 @@ struct QuantizationBits {
   uint8_t weight = 12;    ///< 0..24
 };
 
+/// A buffer view that EXT_meshopt_compression or KHR_meshopt_compression codes, as its extension object describes it.
+struct CodedView {
+  std::span<const uint8_t> bytes;
+  uint64_t count = 0;  ///< elements of `stride_bytes` each; at most 256 bytes per coded byte
+  uint32_t stride_bytes = 0;
+  std::string mode;    ///< "ATTRIBUTES", "TRIANGLES", "INDICES" or another
+  std::string filter;  ///< "NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL" or another
+};
+
+/// A primitive that KHR_draco_mesh_compression codes, and what its accessors claim.
+struct CodedMesh {
+  struct Attribute {
+    uint32_t id = 0;
+    ComponentType component_type = ComponentType::kFloat32;
+    uint32_t component_count = 0;
+  };
+  std::span<const uint8_t> bytes;
+  uint64_t vertex_count = 0;
+  uint64_t triangle_count = 0;  ///< at most 4096 per coded byte, as vertices
+  std::vector<Attribute> attributes;
+};
+
+struct DecodedMesh {
+  std::vector<uint32_t> indices;                 ///< 3 * triangle_count, each below vertex_count
+  std::vector<std::vector<uint8_t>> attributes;  ///< as in CodedMesh: vertex_count tight elements
+};
+
+/// Decoders of what other projects' codecs made. They get untrusted bytes, throw nothing, and may be called in parallel.
+/// Where one is null, such views and primitives stay as they are.
+struct ForeignDecoders {
+  /// `elements` becomes count * stride_bytes bytes.
+  std::function<Result(const CodedView& view, std::vector<uint8_t>& elements)> view;
+  /// An error also when the counts or types are not those claimed; known before memory is taken for them, where possible.
+  std::function<Result(const CodedMesh& coded, DecodedMesh& mesh)> mesh;
+};
+
 struct ConvertOptions {
   QuantizationBits bits;
   bool lossless = false;  ///< every float keeps every bit; `bits` is ignored
@@ -72,6 +109,7 @@ struct ConvertOptions {
   bool fallback = false;
   uint32_t thread_count = 1;  ///< payloads coded at the same time; the result does not depend on it
   uint8_t effort = 1;         ///< see EncodeOptions::effort
+  ForeignDecoders decoders;   ///< for sources that are compressed already
   /// Compress also where that makes the file larger. For tests of the file layer.
   bool allow_larger = false;
 };
@@ -218,7 +256,8 @@ struct Sink {
 
 /// Compresses the triangle primitives of a glTF file. Everything that is not geometry is kept as it
 /// was. When compressing gains nothing the source is copied byte for byte, unless the container is
-/// another. The output is decoded and compared with the source before the call returns.
+/// another. Geometry that other codecs compressed is decoded by options.decoders and compressed again.
+/// The output is decoded and compared with the source before the call returns.
 ///
 /// Files are written under temporary names, read back, checked, and renamed together: on an error
 /// what was there is as it was. Both paths may name the same file. The .bin of a .gltf replaces

@@ -22,7 +22,8 @@ struct AttributeView {
   /// Bits of the lattice of a float attribute (1..24; octahedral bits of normals 2..16); 0: exact.
   /// Ignored by integer attributes, which are exact. An attribute with NaN or infinity goes exact.
   uint8_t quantization_bits = 0;
-  /// Lattice to use instead of the attribute's own bounding box; null: own box. Borrowed.
+  /// Lattice to use instead of the attribute's own bounding box; null: own box. Borrowed. Deltas of morph targets use its
+  /// step alone: their lattices go through 0.
   const Lattice* lattice = nullptr;
 };
 

@@ -11,6 +11,7 @@
 #include "attributes/exact_tails.h"
 #include "attributes/exact_tangents.h"
 #include "attributes/exact_values.h"
+#include "attributes/moved.h"
 #include "attributes/normals.h"
 #include "attributes/skin.h"
 #include "attributes/tangent_points.h"
@@ -18,33 +19,37 @@
 #include "attributes/texcoords.h"
 #include "attributes/values.h"
 #include "attributes/wedges.h"
+#include "base/lazy.h"
 #include "mesh/attribute_method.h"
 
 namespace mcc {
 
-/// Adaptive models of all attributes of a payload. Plain data: the encoder's trials copy it. [A.3.6]
+/// Adaptive models of all attributes of a payload. The encoder's trials copy it. [A.3.6]
 struct AttributeModels {
-  EqualityModels equalities[8];  ///< [semantic]
-  NormalModels normals;
-  TexcoordModels texcoords[2];  ///< [further set]
-  TangentModels tangents;
-  TangentPointModels tangent_points;
-  SkinModels skins[2];          ///< [further set]
-  ValueModels values[8][2][2];  ///< [semantic][further set][morph target]
-  VectorModels exact_normals;
-  ExactTangentModels exact_tangents;
-  ExactValueModels exact_values[8];  ///< [semantic]
-  TailModels tails[8][2];            ///< [semantic][morph target]
+  Lazy<EqualityModels> equalities[8];  ///< [semantic]
+  Lazy<NormalModels> normals;
+  Lazy<TexcoordModels> texcoords[2];  ///< [further set]
+  Lazy<TangentModels> tangents;
+  Lazy<TangentPointModels> tangent_points;
+  Lazy<SkinModels> skins[2];  ///< [further set]
+  Lazy<IdModels> ids;
+  Lazy<ValueModels> values[8][2][2];  ///< [semantic][further set][morph target]
+  Lazy<VectorModels> exact_normals;
+  Lazy<ExactTangentModels> exact_tangents;
+  Lazy<ExactValueModels> exact_values[8];  ///< [semantic]
+  Lazy<TailModels> tails[8][2];            ///< [semantic][morph target]
 
   EqualityModels& equalitiesOf(const AttributeInfo& a) {
-    return equalities[static_cast<uint32_t>(a.format.semantic)];
+    return equalities[static_cast<uint32_t>(a.format.semantic)].get();
   }
   TailModels& tailsOf(const AttributeInfo& a) {
-    return tails[static_cast<uint32_t>(a.format.semantic)][a.format.morph_target != 0 ? 1 : 0];
+    return tails[static_cast<uint32_t>(a.format.semantic)][a.format.morph_target != 0 ? 1 : 0]
+        .get();
   }
   ValueModels& valuesOf(const AttributeInfo& a) {
     return values[static_cast<uint32_t>(a.format.semantic)][a.format.set_index != 0 ? 1 : 0]
-                 [a.format.morph_target != 0 ? 1 : 0];
+                 [a.format.morph_target != 0 ? 1 : 0]
+                     .get();
   }
 };
 
@@ -86,12 +91,17 @@ class AttributeStage {
         chart_coordinates_(allocator),
         exact_normals_(allocator),
         unit_normals_(allocator),
+        moved_vectors_(allocator),
+        ids_(allocator),
         memory_(allocator),
         lengths_(allocator),
         moved_before_(allocator),
         moved_(allocator) {
     for (uint32_t i = 1; i < attribute_count; ++i) {
       has_tangents_ |= codingPhase(attributes[i]) == 1;
+      const uint8_t bits = deltaBits(i);
+      has_bends_ |= (bits & value_method::kBends) != 0;
+      has_units_ |= (bits & value_method::kUnits) != 0;
     }
   }
 
@@ -125,12 +135,15 @@ class AttributeStage {
     }
     if (grid.info != nullptr) MCC_TRY(leaveGrid(grid, values.data()));
     if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside an attribute");
-    return keepForTangents(index, values);
+    return keepForOthers(index, values);
   }
 
-  /// Keeps what the tangents will be predicted from.
-  Status keepForTangents(uint32_t index, const Array<int32_t>& values) {
-    if (!has_tangents_) return {};
+  /// Keeps what tangents and morph targets will be predicted from.
+  Status keepForOthers(uint32_t index, const Array<int32_t>& values) {
+    if (has_units_ && index == baseTangentOf(attributes_, count_))
+      MCC_TRY(keepTangents(index, values.data()));
+    if (attributes_[index].format.morph_target != 0) return keepDeltas(index, values.data());
+    if (!has_tangents_ && !has_bends_ && !has_units_) return {};
     if (index == normal_) {
       if (!normals.resize(values.size())) return noMemory();
       std::copy(values.data(), values.data() + values.size(), normals.data());
@@ -139,7 +152,7 @@ class AttributeStage {
       if (!exact_normals_.resize(values.size())) return noMemory();
       std::copy(values.data(), values.data() + values.size(), exact_normals_.data());
     }
-    if (index == chart_) {
+    if (index == chart_ && has_tangents_) {
       if (!chart_coordinates_.resize(values.size())) return noMemory();
       chartCoordinates(attributes_[index], values.data(), values.size(), chart_coordinates_.data());
     }
@@ -148,6 +161,7 @@ class AttributeStage {
 
   /// Whether an attribute is predicted from positions that are not rounded.
   bool needsExactPositions() const {
+    if (has_bends_) return true;
     for (uint32_t i = 1; i < count_; ++i) {
       const AttributeMethod method = methodOf(attributes_, count_, i);
       if (method == AttributeMethod::kExactNormal || method == AttributeMethod::kExactTangent ||
@@ -164,7 +178,7 @@ class AttributeStage {
   Array<float>
       positions;  ///< 4 per wedge, see wedges.h; only when an attribute is predicted from them
   Array<float> exact_positions;  ///< 3 per wedge, finite; only if needsExactPositions()
-  Array<int32_t> normals;        ///< 2 per wedge, only with tangents
+  Array<int32_t> normals;        ///< 2 per wedge, only if others are predicted from them
 
  private:
   static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for attributes"); }
@@ -217,16 +231,106 @@ class AttributeStage {
     return {};
   }
 
+  /// The bits of deltas that need something of others; of the encoder, all that are possible.
+  uint8_t deltaBits(uint32_t index) const {
+    if (methodOf(attributes_, count_, index) != AttributeMethod::kValues ||
+        attributes_[index].format.morph_target == 0) {
+      return 0;
+    }
+    return Io::kEncoding ? knownValueBits(attributes_, count_, index)
+                         : attributes_[index].predictor;
+  }
+
+  /// Base tangents as vectors.
+  Status keepTangents(uint32_t index, const int32_t* values) {
+    if (!moved_vectors_.tangents.resize(3 * size_t{wedges.count})) return noMemory();
+    const AttributeInfo& info = attributes_[index];
+    for (size_t w = 0; w < wedges.count; ++w) {
+      float* tangent = &moved_vectors_.tangents[3 * w];
+      if (info.coding == AttributeCoding::kTangentAngle) {
+        float normal[3];
+        octahedralToUnit(normals[2 * w], normals[2 * w + 1], octahedralCentre(normalInfo().bits),
+                         normal);
+        tangentFromAngle(normal, values[2 * w], info.bits, tangent);
+      } else if (info.coding == AttributeCoding::kOctahedral) {
+        const int32_t* point = values + kTangentPointWords * w;
+        octahedralToUnit(point[0], point[1], octahedralCentre(info.bits), tangent);
+      } else {
+        for (size_t s = 0; s < 3; ++s)
+          tangent[s] = static_cast<float>(finiteValue(values[4 * w + s]));
+      }
+    }
+    return {};
+  }
+
+  /// Moved positions for the normals of the target, moved normals for its tangents.
+  Status keepDeltas(uint32_t index, const int32_t* values) {
+    const AttributeInfo& info = attributes_[index];
+    if (!areVectors(info)) return {};
+    if (info.format.semantic == Semantic::kPosition && has_bends_)
+      return moved_vectors_.keepPositions(wedges.count, exact_positions.data(), info, values);
+    if (info.format.semantic != Semantic::kNormal || !has_units_ ||
+        baseTangentOf(attributes_, count_) == kNone || !hasNormals(attributes_, count_)) {
+      return {};
+    }
+    MCC_TRY(listNormals());
+    return moved_vectors_.keepNormals(wedges.count, unit_normals_.data(), info, values);
+  }
+
+  /// See unit_deltas.h.
+  Status findBends(const AttributeInfo& info) {
+    const bool has_normals = hasNormals(attributes_, count_);
+    if (has_normals) MCC_TRY(listNormals());
+    NormalWeight weight = NormalWeight::kAngle;  // or what the mesh's own normals have
+    if (has_normals) {
+      const uint8_t own = attributes_[exact_normal_ != kNone ? exact_normal_ : normal_].predictor;
+      const uint8_t bits = own & normal_method::kWeightMask;
+      if (bits < 3) weight = static_cast<NormalWeight>(bits);
+    }
+    return moved_vectors_.findBends(wedges, positions.data(),
+                                    has_normals ? unit_normals_.data() : nullptr, weight,
+                                    deltaStep(info));
+  }
+
+  /// Takes what the faces tell from the integers of the wedges, or adds it.
+  void exchangeBends(bool adds, int32_t* values) const {
+    for (uint32_t w = 0; w < wedges.count; ++w) {
+      const int32_t* bend = &moved_vectors_.bends[3 * size_t{groups_.firstOf(w)}];
+      for (size_t c = 0; c < 3; ++c) {
+        const uint32_t value = static_cast<uint32_t>(values[3 * size_t{w} + c]);
+        const uint32_t b = static_cast<uint32_t>(bend[c]);
+        values[3 * size_t{w} + c] = static_cast<int32_t>(adds ? value + b : value - b);
+      }
+    }
+  }
+
   Status codeValues(const AttributeInfo& info, uint32_t components, int32_t* values) {
     const bool is_target = info.format.morph_target != 0;
+    const bool has_ids = !is_target && (info.predictor & value_method::kIds) != 0;
+    if (has_ids && !ids_.start()) return noMemory();
+    const bool bends = is_target && (info.predictor & value_method::kBends) != 0;
+    if (bends) MCC_TRY(findBends(info));
+    UnitDeltas units;
+    const bool has_units = (info.predictor & value_method::kUnits) != 0;
+    if (has_units) {
+      const bool is_normal = info.format.semantic == Semantic::kNormal;
+      if (is_normal) MCC_TRY(listNormals());
+      units.base = is_normal ? unit_normals_.data() : moved_vectors_.tangents.data();
+      if (!is_normal) units.normals = moved_vectors_.normals.data();
+      if (bends) units.bends = moved_vectors_.bends.data();
+      units.step = deltaStep(info);
+    }
+    if (bends && Io::kEncoding) exchangeBends(false, values);
     if (is_target) MCC_TRY(enterTarget(info.format.morph_target));
     const bool blends = (info.predictor & value_method::kPredictorMask) == value_method::kBlend;
     if (blends && !floats_.resize(ValueBlend::kErrorFloats * size_t{wedges.count}))
       return noMemory();
     ValueCoder<Io>(io_, models_.valuesOf(info), wedges, groups_, info, components, positions.data(),
-                   values, lengths_.data(), floats_.data(),
+                   has_units ? &units : nullptr, has_ids ? &ids_ : nullptr,
+                   has_ids ? &models_.ids.get() : nullptr, values, lengths_.data(), floats_.data(),
                    is_target ? moved_before_.data() : nullptr, is_target ? moved_.data() : nullptr)
         .run();
+    if (bends) exchangeBends(true, values);
     return {};
   }
 
@@ -242,7 +346,7 @@ class AttributeStage {
 
   Status codeNormals(const AttributeInfo& info, int32_t* values) {
     if (!floats_.resize(4 * size_t{wedges.count})) return noMemory();
-    NormalCoder<Io>(io_, models_.normals, wedges, groups_, info, values, floats_.data(),
+    NormalCoder<Io>(io_, models_.normals.get(), wedges, groups_, info, values, floats_.data(),
                     lengths_.data())
         .run(positions.data());
     return {};
@@ -253,8 +357,8 @@ class AttributeStage {
       return noMemory();
     const bool remembers = (info.predictor & exact_normal_method::kRemembersEdges) != 0;
     if (remembers && !edges_.prepare(wedges.face_count)) return noMemory();
-    ExactNormalCoder<Io>(io_, models_.exact_normals, wedges, groups_, info, values, doubles_.data(),
-                         errors_.data(), remembers ? &edges_ : nullptr)
+    ExactNormalCoder<Io>(io_, models_.exact_normals.get(), wedges, groups_, info, values,
+                         doubles_.data(), errors_.data(), remembers ? &edges_ : nullptr)
         .run(exact_positions.data());
     edges_.clear();
     return {};
@@ -267,7 +371,7 @@ class AttributeStage {
     from.positions = exact_positions.data();
     if (chart_ != kNone) from.chart = chart_coordinates_.data();
     if (exact_normal_ != kNone) from.normals = exact_normals_.data();
-    ExactTangentCoder<Io>(io_, models_.exact_tangents, wedges, groups_, info, from, values,
+    ExactTangentCoder<Io>(io_, models_.exact_tangents.get(), wedges, groups_, info, from, values,
                           doubles_.data(), errors_.data())
         .run();
     return {};
@@ -277,7 +381,8 @@ class AttributeStage {
     const bool remembers = (info.predictor & exact_value_method::kRemembers) != 0;
     if (!floats_.resize(wedges.count) || (remembers && !edges_.prepare(wedges.face_count)))
       return noMemory();
-    ExactValueCoder<Io>(io_, models_.exact_values[static_cast<uint32_t>(info.format.semantic)],
+    ExactValueCoder<Io>(io_,
+                        models_.exact_values[static_cast<uint32_t>(info.format.semantic)].get(),
                         wedges, groups_, info, exact_positions.data(), values, floats_.data(),
                         remembers ? &edges_ : nullptr)
         .run();
@@ -288,8 +393,8 @@ class AttributeStage {
   Status codeTexcoords(const AttributeInfo& info, int32_t* values) {
     const bool repeats = (info.predictor & texcoord_method::kRepeats) != 0;
     if (repeats && !memory_.assign(ResidualMemory::kEntries, {})) return noMemory();
-    TexcoordCoder<Io>(io_, models_.texcoords[info.format.set_index != 0 ? 1 : 0], wedges, groups_,
-                      info, positions.data(), values, lengths_.data(),
+    TexcoordCoder<Io>(io_, models_.texcoords[info.format.set_index != 0 ? 1 : 0].get(), wedges,
+                      groups_, info, positions.data(), values, lengths_.data(),
                       repeats ? memory_.data() : nullptr)
         .run();
     return {};
@@ -300,8 +405,8 @@ class AttributeStage {
     if (chart_ != kNone) {
       addFaceTangents(wedges, positions.data(), chart_coordinates_.data(), floats_.data());
     }
-    TangentCoder<Io>(io_, models_.tangents, wedges, groups_, info, normalInfo(), normals.data(),
-                     floats_.data(), values, lengths_.data())
+    TangentCoder<Io>(io_, models_.tangents.get(), wedges, groups_, info, normalInfo(),
+                     normals.data(), floats_.data(), values, lengths_.data())
         .run();
     return {};
   }
@@ -313,15 +418,16 @@ class AttributeStage {
     }
     const bool projects = (info.predictor & tangent_point_method::kPerpendicular) != 0;
     if (projects) MCC_TRY(listNormals());
-    TangentPointCoder<Io>(io_, models_.tangent_points, wedges, groups_, info,
+    TangentPointCoder<Io>(io_, models_.tangent_points.get(), wedges, groups_, info,
                           projects ? unit_normals_.data() : nullptr, floats_.data(), values,
                           lengths_.data())
         .run();
     return {};
   }
 
-  /// What tangents on a grid may be perpendicular to.
+  /// Normals as vectors: what tangents on a grid may be perpendicular to, what morph targets move.
   Status listNormals() {
+    if (!unit_normals_.empty()) return {};
     if (!unit_normals_.resize(3 * size_t{wedges.count})) return noMemory();
     for (size_t w = 0; w < wedges.count; ++w) {
       float* normal = &unit_normals_[3 * w];
@@ -341,8 +447,8 @@ class AttributeStage {
     const AttributeInfo& weights = attributes_[skinPartner(attributes_, count_, index)];
     const int32_t sum = weights.predictor != 0 ? unitSum(weights) : 0;
     const bool sums_vary = weights.predictor == skin_method::kUsualSum;
-    SkinCoder<Io>(io_, models_.skins[joints.format.set_index != 0 ? 1 : 0], wedges, groups_, sum,
-                  sums_vary, joints.predictor, values, lengths_.data())
+    SkinCoder<Io>(io_, models_.skins[joints.format.set_index != 0 ? 1 : 0].get(), wedges, groups_,
+                  sum, sums_vary, joints.predictor, values, lengths_.data())
         .run();
   }
 
@@ -363,7 +469,11 @@ class AttributeStage {
   EdgeMemory edges_;
   Array<float> chart_coordinates_;  ///< 2 per wedge, only with tangents
   Array<int32_t> exact_normals_;    ///< 3 ordered floats per wedge, only with tangents
-  Array<float> unit_normals_;       ///< 3 per wedge, only with tangents on a grid
+  Array<float> unit_normals_;       ///< 3 per wedge, see listNormals()
+  MovedVectors moved_vectors_;
+  IdMemory ids_;
+  bool has_bends_ = false;
+  bool has_units_ = false;
   Array<ResidualMemory::Entry> memory_;
   Array<uint8_t> lengths_;
   Array<uint8_t> moved_before_;  ///< see attributes/values.h; only with morph targets

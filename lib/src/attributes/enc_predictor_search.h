@@ -14,11 +14,11 @@ namespace mcc {
 /// Coordinate descent: each step varies one field of the byte and keeps the best value so far.
 class PredictorSearch {
  public:
-  /// `has_normals`: see hasNormals().
-  PredictorSearch(AttributeMethod method, const AttributeInfo& info, bool has_seams,
-                  bool has_normals) {
+  /// Of attribute `index` of a piece.
+  PredictorSearch(const AttributeInfo* attributes, uint32_t count, uint32_t index, bool has_seams) {
+    const AttributeInfo& info = attributes[index];
     const bool is_target = info.format.morph_target != 0;
-    switch (method) {
+    switch (methodOf(attributes, count, index)) {
       case AttributeMethod::kNormal:
         best_ = has_seams ? 1 | kHasEqualities : 1;
         steps_ = {{normal_method::kWeightMask, {1, 0, 2}},
@@ -57,7 +57,7 @@ class PredictorSearch {
       case AttributeMethod::kTangentPoint:
         best_ = has_seams ? kHasEqualities : 0;
         steps_ = {{0, {0}}};
-        if (has_normals) {
+        if (hasNormals(attributes, count)) {
           steps_[0] = {tangent_point_method::kPerpendicular,
                        {tangent_point_method::kPerpendicular, 0}};
         }
@@ -76,7 +76,15 @@ class PredictorSearch {
         if (info.format.component_count <= value_method::kBlendComponents) {
           steps_[0].values.push_back(value_method::kBlend);
         }
+        if ((knownValueBits(attributes, count, index) & value_method::kIds) != 0 && !is_target) {
+          steps_.push_back({value_method::kIds | value_method::kSameFlags,
+                            {value_method::kIds | value_method::kSameFlags}});
+        }
         if (is_target) steps_.push_back({value_method::kZeroFlags, {0}});
+        for (const uint8_t bit : {value_method::kBends, value_method::kUnits}) {
+          if (is_target && (knownValueBits(attributes, count, index) & bit) != 0)
+            steps_.insert(steps_.begin(), {bit, {0, bit}});
+        }
         break;
     }
     if (has_seams && best_ >= kHasEqualities) steps_.push_back({kHasEqualities, {0}});

@@ -139,7 +139,8 @@ class Quantizer {
     result_.info.coding = AttributeCoding::kLattice;
     result_.info.bits = std::min<uint8_t>(view_.quantization_bits, 24);
     Lattice lattice = view_.lattice != nullptr ? *view_.lattice : ownLattice();
-    for (uint32_t c = components_; c < 4; ++c) lattice.origin[c] = 0;
+    const uint32_t origins = view_.format.morph_target != 0 ? 0 : components_;
+    for (uint32_t c = origins; c < 4; ++c) lattice.origin[c] = 0;
     if (!(lattice.step > 0) || !std::isfinite(lattice.step)) {
       notes.push_back(name() + " spans a range no lattice covers: kept exact");
       return copyExactly();
@@ -182,7 +183,6 @@ class Quantizer {
     }
     const double cells = std::ldexp(1.0, result_.info.bits) - 1;
     lattice.step = extent == 0 ? 1.0f : static_cast<float>(extent / cells);
-    if (view_.format.morph_target != 0) std::fill(lattice.origin, lattice.origin + 4, 0.0f);
     return lattice;
   }
 

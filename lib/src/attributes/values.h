@@ -12,7 +12,9 @@
 #include <cstdint>
 #include <cstring>
 
+#include "attributes/ids.h"
 #include "attributes/residuals.h"
+#include "attributes/unit_deltas.h"
 #include "attributes/value_blend.h"
 #include "attributes/wedges.h"
 #include "entropy/models.h"
@@ -34,12 +36,14 @@ struct ValueModels {
   BitModel zero
       [4][2]
       [2];  ///< [neighbours that are 0, 3: none][moved in the target before][its position moves]
-  BitModel same[2][3];  ///< [first or second neighbour][they are equal: no, yes, only one]
+  TokenRow following[2];  ///< of unit vectors' deltas: components that follow from others
+  BitModel same[2][3];    ///< [first or second neighbour][they are equal: no, yes, only one]
 
   ValueModels() {
     for (auto& component : row) {
       for (TokenRow& r : component) r.setUniform();
     }
+    for (TokenRow& r : following) r.setUniform();
   }
 };
 
@@ -47,12 +51,12 @@ struct ValueModels {
 template <class Io>
 class ValueCoder {
  public:
-  /// Work space: `lengths`, a byte per wedge; `errors`, of kBlend only, see ValueBlend. Of morph targets, else null, a byte per wedge with a bit per semantic that is
+  /// `units`: of kUnits, else null. `ids`, `id_models`: of kIds, else null; `ids` is started. Work space: `lengths`, a byte per wedge; `errors`, of kBlend only, see ValueBlend. Of morph targets, else null, a byte per wedge with a bit per semantic that is
   /// set when the delta is not 0: `moved_before` of the targets before, `moved` of this one (written here).
   ValueCoder(Io& io, ValueModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
              const AttributeInfo& info, uint32_t components, const float* positions,
-             int32_t* values, uint8_t* lengths, float* errors, const uint8_t* moved_before,
-             uint8_t* moved)
+             const UnitDeltas* units, IdMemory* ids, IdModels* id_models, int32_t* values,
+             uint8_t* lengths, float* errors, const uint8_t* moved_before, uint8_t* moved)
       : io_(io),
         models_(models),
         wedges_(wedges),
@@ -64,6 +68,9 @@ class ValueCoder {
         small_((info.predictor & value_method::kSmallTokens) != 0),
         moved_bit_(static_cast<uint8_t>(1u << static_cast<uint32_t>(info.format.semantic))),
         positions_(positions),
+        units_(units),
+        ids_(ids),
+        id_models_(id_models),
         values_(values),
         lengths_(lengths),
         blends_(predictor_ == ValuePredictor::kBlend),
@@ -102,6 +109,12 @@ class ValueCoder {
   bool addParallelogram(uint32_t h, float& longest);
   bool codeFlags(uint32_t w);
   void codeResiduals(uint32_t w, bool blended);
+  void codeUnitResiduals(uint32_t w, const uint32_t* contexts);
+  int32_t codeResidualAt(uint32_t place, TokenRow& row, int32_t truth, uint32_t& length) {
+    return place % 3 == 0   ? codeResidual<0>(row, truth, length)
+           : place % 3 == 1 ? codeResidual<1>(row, truth, length)
+                            : codeResidual<2>(row, truth, length);
+  }
   template <uint32_t kState>
   int32_t codeResidual(TokenRow& row, int32_t truth, uint32_t& length) {
     return small_ ? codeSmallSigned<kState>(io_, row, truth, length)
@@ -119,6 +132,9 @@ class ValueCoder {
   const bool small_;
   const uint8_t moved_bit_;
   const float* const positions_;
+  const UnitDeltas* const units_;
+  IdMemory* const ids_;
+  IdModels* const id_models_;
   int32_t* const values_;
   uint8_t* const lengths_;
   const bool blends_;
@@ -250,6 +266,10 @@ void ValueCoder<Io>::codeResiduals(uint32_t w, bool blended) {
     const uint32_t other = p_ != kNone ? p_ : n_;
     context = std::min((lengths_[n_] + lengths_[other] + 1u) / 2, kLongestContext);
   }
+  if (units_ != nullptr) {
+    const uint32_t alike[3] = {context, context, context};
+    return codeUnitResiduals(w, blended ? contexts_ : alike);
+  }
   int32_t* value = at(w);
   uint32_t longest = 0;
   for (uint32_t c = 0; c < components_; ++c) {
@@ -259,12 +279,32 @@ void ValueCoder<Io>::codeResiduals(uint32_t w, bool blended) {
     int32_t residual =
         Io::kEncoding ? static_cast<int32_t>(static_cast<uint32_t>(value[c]) - p) : 0;
     uint32_t length = 0;
-    residual = c % 3 == 0   ? codeResidual<0>(row, residual, length)
-               : c % 3 == 1 ? codeResidual<1>(row, residual, length)
-                            : codeResidual<2>(row, residual, length);
+    residual = codeResidualAt(c, row, residual, length);
     value[c] = static_cast<int32_t>(p + static_cast<uint32_t>(residual));
     longest = std::max(longest, length);
     if (context != kNoNeighbours) context = (context + length + 1) / 2;
+  }
+  lengths_[w] = static_cast<uint8_t>(longest);
+}
+
+/// The same for three components of which some follow from the others.
+template <class Io>
+void ValueCoder<Io>::codeUnitResiduals(uint32_t w, const uint32_t* contexts) {
+  const UnitDeltaFrame frame(*units_, w, predicted_);
+  int32_t* value = at(w);
+  uint32_t longest = 0;
+  for (uint32_t i = 0; i < 3; ++i) {
+    const uint32_t c = frame.component(i);
+    const bool follows = frame.follows(i);
+    TokenRow& row = follows ? models_.following[i - 1] : models_.row[i][contexts[c]];
+    const uint32_t p = static_cast<uint32_t>(predicted_[c]);
+    int32_t residual =
+        Io::kEncoding ? static_cast<int32_t>(static_cast<uint32_t>(value[c]) - p) : 0;
+    uint32_t length = 0;
+    residual = codeResidualAt(i, row, residual, length);
+    value[c] = static_cast<int32_t>(p + static_cast<uint32_t>(residual));
+    if (!follows) longest = std::max(longest, length);
+    frame.learn(i, value, predicted_);
   }
   lengths_[w] = static_cast<uint8_t>(longest);
 }
@@ -275,6 +315,10 @@ void ValueCoder<Io>::codeGroup(uint32_t w) {
   if ((may_repeat_ || may_vanish_) && codeFlags(w)) {
     lengths_[w] = 0;
     if (blends_) blend_.pass(w);
+  } else if (ids_ != nullptr) {
+    const uint32_t beside = n_ != kNone ? n_ : last_;
+    *at(w) = ids_->code(io_, *id_models_, beside == kNone ? 0 : *at(beside), *at(w));
+    lengths_[w] = 0;
   } else if (blends_ && entry_ != kNone && p_ != kNone) {
     blend_.predict(w, predicted_, contexts_);
     codeResiduals(w, true);

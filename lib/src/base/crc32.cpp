@@ -8,9 +8,8 @@ namespace {
 
 constexpr uint32_t kPolynomial = 0xedb88320u;
 constexpr size_t kSlices = 8;
-constexpr size_t kBigInput = 1024;  // from here on building the tables pays
 
-uint32_t crcOfByte(uint32_t crc) {
+constexpr uint32_t crcOfByte(uint32_t crc) {
   for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (kPolynomial & (~(crc & 1) + 1));
   return crc;
 }
@@ -18,7 +17,7 @@ uint32_t crcOfByte(uint32_t crc) {
 struct SliceTables {
   uint32_t entry[kSlices][256];
 
-  SliceTables() {
+  constexpr SliceTables() : entry{} {
     for (uint32_t i = 0; i < 256; ++i) entry[0][i] = crcOfByte(i);
     for (size_t slice = 1; slice < kSlices; ++slice) {
       for (uint32_t i = 0; i < 256; ++i) {
@@ -28,6 +27,7 @@ struct SliceTables {
     }
   }
 };
+constexpr SliceTables kTables;
 
 }  // namespace
 
@@ -35,18 +35,15 @@ uint32_t crc32(std::span<const uint8_t> bytes, uint32_t crc) {
   crc = ~crc;
   const uint8_t* p = bytes.data();
   size_t rest = bytes.size();
-  if (rest >= kBigInput) {
-    const SliceTables tables;
-    for (; rest >= kSlices; rest -= kSlices, p += kSlices) {
-      const uint32_t low = crc ^ (uint32_t{p[0]} | uint32_t{p[1]} << 8 | uint32_t{p[2]} << 16 |
-                                  uint32_t{p[3]} << 24);
-      crc = tables.entry[7][low & 0xff] ^ tables.entry[6][(low >> 8) & 0xff] ^
-            tables.entry[5][(low >> 16) & 0xff] ^ tables.entry[4][low >> 24] ^
-            tables.entry[3][p[4]] ^ tables.entry[2][p[5]] ^ tables.entry[1][p[6]] ^
-            tables.entry[0][p[7]];
-    }
+  for (; rest >= kSlices; rest -= kSlices, p += kSlices) {
+    const uint32_t low =
+        crc ^ (uint32_t{p[0]} | uint32_t{p[1]} << 8 | uint32_t{p[2]} << 16 | uint32_t{p[3]} << 24);
+    crc = kTables.entry[7][low & 0xff] ^ kTables.entry[6][(low >> 8) & 0xff] ^
+          kTables.entry[5][(low >> 16) & 0xff] ^ kTables.entry[4][low >> 24] ^
+          kTables.entry[3][p[4]] ^ kTables.entry[2][p[5]] ^ kTables.entry[1][p[6]] ^
+          kTables.entry[0][p[7]];
   }
-  for (; rest != 0; --rest, ++p) crc = (crc >> 8) ^ crcOfByte((crc ^ *p) & 0xff);
+  for (; rest != 0; --rest, ++p) crc = (crc >> 8) ^ kTables.entry[0][(crc ^ *p) & 0xff];
   return ~crc;
 }
 

@@ -653,15 +653,16 @@ Status Stitcher<Io>::finish(Groups& groups) {
     return fail(Error::kOutOfMemory, "no memory for stitching");
   }
   uint32_t* const umbrellas = groups.umbrellas.data();
+  uint32_t* const number_of = by_class_.data();  // by vertex: classes are not needed any more
   uint32_t number = 0;
   uint32_t count = 0;
   for (uint32_t v = 0; v < n; ++v) {
-    StitchVertex& vertex = vertices_[v];
+    const StitchVertex& vertex = vertices_[v];
     if (processed(v) && groups_[vertex.group].leader != v) {
-      vertex.number = vertices_[groups_[vertex.group].leader].number;
+      number_of[v] = number_of[groups_[vertex.group].leader];
       continue;
     }
-    vertex.number = number;
+    number_of[v] = number;
     groups.umbrella_begin[number++] = count;
     umbrellas[count++] = vertex.start;
     for (uint32_t u = vertex.next_member; u != kNone; u = vertices_[u].next_member) {
@@ -671,7 +672,7 @@ Status Stitcher<Io>::finish(Groups& groups) {
   groups.umbrella_begin[number] = count;
   for (uint32_t f = 0; f < mesh_.face_count; ++f) {
     uint32_t* corner = mesh_.words.data() + size_t{f} * kFaceWords;
-    for (int k = 0; k < 3; ++k) corner[k] = vertices_[corner[k]].number;
+    for (int k = 0; k < 3; ++k) corner[k] = number_of[corner[k]];
   }
   return {};
 }

@@ -29,7 +29,7 @@ struct StitchKind {
   uint32_t gluedNeighbours() const { return marks & 3u; }
 };
 
-/// All about a vertex of the cut mesh, within one cache line: soups jump around.
+/// All about a vertex of the cut mesh: soups jump around.
 struct StitchVertex {
   uint32_t start = kNone;  ///< half-edge leaving it; on a boundary the clockwise-most
   uint32_t next = kNone;   ///< along the boundary, kNone inside
@@ -38,7 +38,6 @@ struct StitchVertex {
   uint32_t group = kNone;  ///< once it is processed
   uint32_t next_member = kNone;
   uint32_t visited_by = kNone;  ///< the vertex whose surroundings were searched last
-  uint32_t number = 0;          ///< of its group, at the end
 };
 
 /// Calls visit(neighbour, side) for the ring of v, clockwise-most first, until it returns false.
@@ -97,18 +96,19 @@ inline void measureDegrees(const FaceMesh& mesh, FaceView faces, Array<StitchVer
 [[nodiscard]] inline bool buildShape(const FaceMesh& mesh, FaceView faces, bool with_interior,
                                      Array<StitchVertex>& vertices) {
   if (!vertices.assign(mesh.vertex_count, StitchVertex{})) return false;
+  StitchVertex* const vertex = vertices.data();
   for (uint32_t f = 0; f < mesh.face_count; ++f) {
-    const uint32_t h = f * kFaceWords;
-    for (uint32_t k = 0; k < 3; ++k) vertices[faces.vertex(h + k)].start = h + k;
-  }
-  for (uint32_t f = 0; f < mesh.face_count; ++f) {
-    for (uint32_t h = f * kFaceWords; h < f * kFaceWords + 3; ++h) {
-      if (faces.twin(h) != kNone) continue;
-      const uint32_t from = faces.vertex(h);
-      const uint32_t to = faces.vertex(nextHalfEdge(h));
-      vertices[from].start = h;
-      vertices[from].next = to;
-      vertices[to].prev = from;
+    const uint32_t base = f * kFaceWords;
+    for (uint32_t h = base; h < base + 3; ++h) {
+      StitchVertex& from = vertex[faces.vertex(h)];
+      if (faces.twin(h) == kNone) {
+        const uint32_t to = faces.vertex(nextHalfEdge(h));
+        from.start = h;
+        from.next = to;
+        vertex[to].prev = faces.vertex(h);
+      } else if (from.next == kNone) {
+        from.start = h;
+      }
     }
   }
   measureLoops(vertices);

@@ -23,7 +23,8 @@ void writeAttribute(ByteWriter& out, const AttributeInfo& a) {
   if (a.coding == AttributeCoding::kLattice) {
     out.writeU8(a.bits);
     out.writeF32(a.lattice.step);
-    for (uint32_t c = 0; c < f.component_count; ++c) out.writeF32(a.lattice.origin[c]);
+    for (uint32_t c = 0; c < f.component_count && f.morph_target == 0; ++c)
+      out.writeF32(a.lattice.origin[c]);
   } else if (a.coding == AttributeCoding::kOctahedral ||
              a.coding == AttributeCoding::kTangentAngle) {
     out.writeU8(a.bits);

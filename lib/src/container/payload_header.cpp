@@ -80,7 +80,8 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
     }
     MCC_TRY(in.readF32(a.lattice.step));
     bool finite = isFinitePositive(a.lattice.step);
-    for (uint32_t c = 0; c < a.format.component_count; ++c) {
+    const bool has_origin = a.format.morph_target == 0;  // deltas are on grids through 0
+    for (uint32_t c = 0; c < a.format.component_count && has_origin; ++c) {
       MCC_TRY(in.readF32(a.lattice.origin[c]));
       finite = finite && isFinite(a.lattice.origin[c]);
     }

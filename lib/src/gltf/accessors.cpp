@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/accessors.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -15,6 +16,7 @@ uint32_t readLittleEndian(const uint8_t* bytes, uint32_t byte_count) {
 
 const uint8_t* viewBytes(const Document& document, uint32_t view, uint64_t offset) {
   const BufferView& from = document.views[view];
+  if (from.isCoded()) return document.storage[from.coding.decoded].data() + offset;
   return document.buffers[from.buffer].data() + from.offset + offset;
 }
 
@@ -54,14 +56,35 @@ bool canBeUsedInPlace(const Accessor& accessor, const uint8_t* bytes, uint64_t s
 
 }  // namespace
 
+std::string whyUnreadable(const Document& document, const Accessor& accessor) {
+  if (!accessor.is_known_type) return "the type or component type is unknown";
+  const auto is_sealed = [&](uint32_t view) {
+    return document.views[view].isCoded() && document.views[view].coding.decoded == kNone;
+  };
+  std::vector<uint32_t> views;
+  if (accessor.view != kNone) views.push_back(accessor.view);
+  if (accessor.sparse.count != 0) {
+    views.insert(views.end(), {accessor.sparse.index_view, accessor.sparse.value_view});
+  }
+  const auto sealed = std::find_if(views.begin(), views.end(), is_sealed);
+  if (sealed == views.end()) return "";
+  return "is coded with " + document.views[*sealed].coding.extension +
+         ", which this program cannot read";
+}
+
 Result readAccessor(const Document& document, uint32_t index, AccessorData& elements) {
   const Accessor& accessor = document.accessors[index];
   const std::string path = at("/accessors", index);
   elements = {};
-  if (!accessor.is_known_type) return error(path, "the type or component type is unknown");
+  const std::string reason = whyUnreadable(document, accessor);
+  if (!reason.empty()) return error(path, reason);
   elements.count = accessor.count;
   elements.element_bytes = accessor.tightBytes();
   elements.stride_bytes = elements.element_bytes;
+  if (accessor.decoded != kNone) {
+    elements.data = document.storage[accessor.decoded].data();
+    return {};
+  }
   const uint8_t* source = nullptr;
   uint64_t stride = 0;
   if (accessor.view != kNone) {

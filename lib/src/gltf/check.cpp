@@ -8,6 +8,7 @@
 #include "gltf/accessors.h"
 #include "gltf/check_json.h"
 #include "gltf/check_values.h"
+#include "gltf/coded_input.h"
 #include "gltf/decompress.h"
 
 namespace mcc::gltf {
@@ -25,7 +26,8 @@ class Checker {
   Checker(const Document& source, const std::vector<EncodedPayload>& payloads, CheckResult& result)
       : source_(source), payloads_(payloads), result_(result) {}
 
-  Result run(std::span<const uint8_t> written, const FileReader& read_file, uint32_t thread_count) {
+  Result run(const ForeignDecoders& decoders, std::span<const uint8_t> written,
+             const FileReader& read_file, uint32_t thread_count) {
     const auto start = std::chrono::steady_clock::now();
     Document compressed;
     MCC_GLTF_TRY(failed(loadDocument(written, read_file, compressed), ""));
@@ -39,6 +41,7 @@ class Checker {
     MCC_GLTF_TRY(findExtensionUses(compressed, uses));
     MCC_GLTF_TRY(failed(
         adoptDocument(std::move(decompressed.json), std::move(decompressed.bin), decoded_), ""));
+    MCC_GLTF_TRY(failed(decodeViews(decoders, decoded_), ""));
     for (const EncodedPayload& payload : payloads_) MCC_GLTF_TRY(checkPayload(payload));
     MCC_GLTF_TRY(failed(checkUses(uses), ""));
     MCC_GLTF_TRY(failed(checkFallback(compressed, uses), ""));
@@ -311,10 +314,10 @@ class Checker {
 }  // namespace
 
 Result checkConversion(const Document& source, const std::vector<EncodedPayload>& payloads,
-                       std::span<const uint8_t> written, const FileReader& read_file,
-                       uint32_t thread_count, CheckResult& result) {
+                       const ForeignDecoders& decoders, std::span<const uint8_t> written,
+                       const FileReader& read_file, uint32_t thread_count, CheckResult& result) {
   result = {};
-  return Checker(source, payloads, result).run(written, read_file, thread_count);
+  return Checker(source, payloads, result).run(decoders, written, read_file, thread_count);
 }
 
 }  // namespace mcc::gltf

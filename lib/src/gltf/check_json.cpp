@@ -36,25 +36,12 @@ void eraseAll(Json& object, std::initializer_list<const char*> keys) {
   for (const char* key : keys) object.erase(key);
 }
 
-void eraseOurName(Json& root, const char* list) {
-  const auto found = root.find(list);
-  if (found == root.end() || !found->is_array()) return;
-  Json others = Json::array();
-  for (const Json& name : *found) {
-    if (name != kExtensionName) others.push_back(name);
-  }
-  if (others.empty()) {
-    root.erase(list);
-  } else {
-    *found = std::move(others);
-  }
-}
-
 void eraseGeometry(Json& primitive) {
   eraseAll(primitive, {"attributes", "indices", "mode", "targets"});
   const auto extensions = primitive.find("extensions");
   if (extensions == primitive.end()) return;
   extensions->erase(kExtensionName);
+  extensions->erase(kMeshExtension);
   if (extensions->empty()) primitive.erase("extensions");
 }
 
@@ -64,8 +51,11 @@ Json withoutGeometry(const Document& document, const std::vector<ExtensionUse>& 
                      const std::set<uint32_t>& touched, size_t accessor_count) {
   Json json = document.json;
   eraseAll(json, {"buffers", "bufferViews"});
-  eraseOurName(json, "extensionsUsed");
-  eraseOurName(json, "extensionsRequired");
+  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+    for (const char* name : kViewExtensions) removeExtensionName(json, list, name);
+    removeExtensionName(json, list, kMeshExtension);
+    removeExtensionName(json, list, kExtensionName);
+  }
   visitViewReferences(json, [](Json& number, uint32_t) { number = 0; });
   for (const ExtensionUse& use : uses) {
     eraseGeometry(json["meshes"][use.mesh]["primitives"][use.primitive]);
@@ -101,9 +91,26 @@ bool sameBytes(std::span<const uint8_t> a, std::span<const uint8_t> b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
+/// A view another codec holds is as it was.
+Result compareCoding(const Document& source, uint32_t source_view, const Document& decoded,
+                     uint32_t decoded_view) {
+  const std::string path = at("/bufferViews", source_view);
+  if (decoded_view == kNone) return error(path, "is lost");
+  const ViewCoding& a = source.views[source_view].coding;
+  const ViewCoding& b = decoded.views[decoded_view].coding;
+  const bool is_same = a.extension == b.extension && a.mode == b.mode && a.filter == b.filter &&
+                       a.count == b.count && a.stride == b.stride &&
+                       sameBytes(viewBytes(source, source_view), viewBytes(decoded, decoded_view));
+  return is_same ? Result{} : error(path, "the coded bytes changed");
+}
+
 Result compareAccessor(const Document& source, const Document& decoded, uint32_t index) {
   const std::string path = at("/accessors", index);
   if (!source.accessors[index].is_known_type) return {};
+  const uint32_t view = source.accessors[index].view;
+  if (view != kNone && source.views[view].isCoded()) {
+    return compareCoding(source, view, decoded, decoded.accessors[index].view);
+  }
   if (source.accessors[index].view == kNone && source.accessors[index].sparse.count == 0) return {};
   AccessorData a;
   AccessorData b;

@@ -3,6 +3,8 @@
 // Never larger: which payloads pay for themselves.
 #include <algorithm>
 #include <map>
+#include <set>
+#include <string>
 #include <tuple>
 
 #include "gltf/compress.h"
@@ -11,17 +13,25 @@
 namespace mcc::gltf {
 namespace {
 
-constexpr uint64_t kViewJsonBytes = 48;  // {"buffer":0,"byteOffset":…,"byteLength":…}
+constexpr uint64_t kViewJsonBytes = 48;      // {"buffer":0,"byteOffset":…,"byteLength":…}
+constexpr uint64_t kSmallPieceBytes = 2048;  // larger ones gain for certain
+constexpr uint64_t kSharedBytes = 24;        // of a payload: what its pieces have in common
+
+/// Bytes of JSON that a piece adds to the file.
+uint64_t jsonCostOf(const PiecePlan& piece, size_t number) {
+  uint64_t cost = 0;
+  for (size_t part = 0; part < piece.parts.size(); ++part) {
+    const size_t bytes = extensionJson(0, number, piece, part).dump().size();
+    cost += (bytes + sizeof("\"extensions\":{}")) * piece.parts[part].users.size();
+  }
+  return cost;
+}
 
 /// Bytes a payload adds to the file.
 uint64_t costOf(const EncodedPayload& payload) {
   uint64_t cost = ((payload.result.payload.size() + 3) & ~uint64_t{3}) + kViewJsonBytes;
   for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
-    const PiecePlan& piece = payload.plan.pieces[i];
-    for (size_t part = 0; part < piece.parts.size(); ++part) {
-      const size_t bytes = extensionJson(0, i, piece, part).dump().size();
-      cost += (bytes + sizeof("\"extensions\":{}")) * piece.parts[part].users.size();
-    }
+    cost += jsonCostOf(payload.plan.pieces[i], i);
   }
   return cost;
 }
@@ -71,38 +81,29 @@ class ByteOwners {
 };
 
 template <typename Visit>
-void visitAccessors(const EncodedPayload& payload, const Visit& visit) {
-  for (const PiecePlan& piece : payload.plan.pieces) {
-    for (const AttributePlan& attribute : piece.attributes) visit(attribute.accessor);
-    for (const PartPlan& part : piece.parts) {
-      if (part.indices_accessor != kNone) visit(part.indices_accessor);
-    }
+void visitAccessors(const PiecePlan& piece, const Visit& visit) {
+  for (const AttributePlan& attribute : piece.attributes) visit(attribute.accessor);
+  for (const PartPlan& part : piece.parts) {
+    if (part.indices_accessor != kNone) visit(part.indices_accessor);
   }
 }
 
-void leaveAlone(const EncodedPayload& payload, std::vector<LeftAlone>& left_alone) {
-  const std::string note = "would not become smaller (payload " +
-                           std::to_string(payload.result.payload.size()) + " bytes, buffers " +
-                           std::to_string(payload.freed_bytes) + " bytes); left as it was";
-  for (const PiecePlan& piece : payload.plan.pieces) {
-    for (const PartPlan& part : piece.parts) {
-      for (const PrimitiveRef& user : part.users) left_alone.push_back({user, note});
-    }
-  }
-}
+struct OwnedPiece {
+  const PiecePlan* piece;
+  size_t owner;
+};
 
-}  // namespace
-
-uint64_t countFreedBytes(const Document& document, const ForeignReferences& foreign,
-                         std::vector<EncodedPayload>& payloads) {
-  const std::vector<bool> in_other_use = accessorsInOtherUse(document, foreign, payloads);
+/// Fills in the source bytes each owner's pieces free; returns those of all together.
+uint64_t countFreed(const Document& document, const ForeignReferences& foreign,
+                    const std::vector<bool>& in_other_use, const std::vector<OwnedPiece>& pieces,
+                    std::vector<uint64_t>& freed) {
   std::vector<bool> is_ours(document.accessors.size(), false);
   ByteOwners owners;
-  for (size_t i = 0; i < payloads.size(); ++i) {
-    visitAccessors(payloads[i], [&](uint32_t accessor) {
+  for (const OwnedPiece& owned : pieces) {
+    visitAccessors(*owned.piece, [&](uint32_t accessor) {
       if (in_other_use[accessor]) return;
       is_ours[accessor] = true;
-      owners.add(accessorRanges(document, accessor, foreign.keep_numbers), i);
+      owners.add(accessorRanges(document, accessor, foreign.keep_numbers), owned.owner);
     });
   }
   for (uint32_t accessor = 0; accessor < is_ours.size(); ++accessor) {
@@ -117,10 +118,88 @@ uint64_t countFreedBytes(const Document& document, const ForeignReferences& fore
     owners.add({{range.buffer, range.offset, range.offset + range.length}},
                ByteOwners::kSomebodyElse);
   }
+  return owners.count(freed);
+}
+
+/// Whether a piece has a position that another piece of the plan has, too: left as it was it would part from that one.
+bool touchesAnother(const PayloadPlan& plan, const PiecePlan& piece) {
+  const auto positionsOf = [](const PiecePlan& of) -> const AccessorData& {
+    return (of.attributes.empty() ? of.ordinary : of.attributes)[0].source;
+  };
+  const auto textOf = [](std::span<const uint8_t> bytes) {
+    return std::string(bytes.begin(), bytes.end());
+  };
+  std::set<std::string> own;
+  const AccessorData& positions = positionsOf(piece);
+  for (uint64_t i = 0; i < positions.count; ++i) own.insert(textOf(positions.element(i)));
+  for (const PiecePlan& other : plan.pieces) {
+    if (&other == &piece) continue;
+    const AccessorData& others = positionsOf(other);
+    for (uint64_t i = 0; i < others.count; ++i) {
+      if (own.count(textOf(others.element(i))) != 0) return true;
+    }
+  }
+  return false;
+}
+
+/// cost   "payload 20 bytes"
+void leaveAlone(const PiecePlan& piece, const std::string& cost, uint64_t freed_bytes,
+                std::vector<LeftAlone>& left_alone) {
+  const std::string note = "would not become smaller (" + cost + ", buffers " +
+                           std::to_string(freed_bytes) + " bytes); left as it was";
+  for (const PartPlan& part : piece.parts) {
+    for (const PrimitiveRef& user : part.users) left_alone.push_back({user, note});
+  }
+}
+
+}  // namespace
+
+uint64_t countFreedBytes(const Document& document, const ForeignReferences& foreign,
+                         std::vector<EncodedPayload>& payloads) {
+  std::vector<OwnedPiece> pieces;
+  for (size_t i = 0; i < payloads.size(); ++i) {
+    for (const PiecePlan& piece : payloads[i].plan.pieces) pieces.push_back({&piece, i});
+  }
   std::vector<uint64_t> freed(payloads.size(), 0);
-  const uint64_t total = owners.count(freed);
+  const uint64_t total = countFreed(
+      document, foreign, accessorsInOtherUse(document, foreign, payloads), pieces, freed);
   for (size_t i = 0; i < payloads.size(); ++i) payloads[i].freed_bytes = freed[i];
   return total;
+}
+
+void dropTinyPieces(const Document& document, const ForeignReferences& foreign,
+                    const ConvertOptions& options, std::vector<PayloadPlan>& plans,
+                    std::vector<LeftAlone>& left_alone) {
+  std::vector<const PayloadPlan*> all;
+  std::vector<OwnedPiece> pieces;
+  for (const PayloadPlan& plan : plans) {
+    all.push_back(&plan);
+    for (const PiecePlan& piece : plan.pieces) pieces.push_back({&piece, pieces.size()});
+  }
+  std::vector<uint64_t> freed(pieces.size(), 0);
+  countFreed(document, foreign, accessorsInOtherUse(document, foreign, all), pieces, freed);
+  size_t next = 0;
+  for (PayloadPlan& plan : plans) {
+    std::vector<bool> is_dropped;
+    for (const PiecePlan& piece : plan.pieces) {
+      const uint64_t freed_bytes = freed[next++];
+      const bool is_small = plan.pieces.size() > 1 && freed_bytes < kSmallPieceBytes;
+      const uint64_t bytes = is_small ? bytesAlone(options, plan, piece) : 0;
+      const uint64_t cost = jsonCostOf(piece, 1) + bytes - std::min(bytes, kSharedBytes);
+      const bool is_tiny = bytes != 0 && cost >= freed_bytes;
+      is_dropped.push_back(is_tiny && !touchesAnother(plan, piece));
+      if (is_dropped.back()) {
+        leaveAlone(piece, "payload and JSON " + std::to_string(cost) + " bytes", freed_bytes,
+                   left_alone);
+      }
+    }
+    std::vector<PiecePlan> kept;
+    for (size_t i = 0; i < plan.pieces.size(); ++i) {
+      if (!is_dropped[i]) kept.push_back(std::move(plan.pieces[i]));
+    }
+    plan.pieces = std::move(kept);
+  }
+  std::erase_if(plans, [](const PayloadPlan& plan) { return plan.pieces.empty(); });
 }
 
 void dropLosers(const Document& document, const ForeignReferences& foreign,
@@ -139,7 +218,10 @@ void dropLosers(const Document& document, const ForeignReferences& foreign,
     std::vector<EncodedPayload> winners;
     for (EncodedPayload& payload : payloads) {
       if (all_lose || costOf(payload) >= payload.freed_bytes) {
-        leaveAlone(payload, left_alone);
+        for (const PiecePlan& piece : payload.plan.pieces) {
+          leaveAlone(piece, "payload " + std::to_string(payload.result.payload.size()) + " bytes",
+                     payload.freed_bytes, left_alone);
+        }
       } else {
         winners.push_back(std::move(payload));
       }

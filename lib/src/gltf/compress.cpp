@@ -38,15 +38,6 @@ void setBounds(Json& accessor, const Bounds& bounds, ComponentType type, bool is
   }
 }
 
-void addExtensionName(Json& root, const char* list) {
-  Json& names = root[list];
-  if (!names.is_array()) names = Json::array();
-  for (const Json& name : names) {
-    if (name == kExtensionName) return;
-  }
-  names.push_back(kExtensionName);
-}
-
 /// Index type of new accessors for `vertex_count` vertices; the largest value is the restart value.
 uint32_t indexTypeFor(uint32_t vertex_count) { return vertex_count <= 65535 ? 5123 : 5125; }
 
@@ -82,8 +73,11 @@ class Applier {
                           compressed_.json, views);
       }
     }
-    addExtensionName(compressed_.json, "extensionsUsed");
-    addExtensionName(compressed_.json, "extensionsRequired");  // unless there will be a fallback
+    // A fallback takes the requirement back.
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+      addExtensionName(compressed_.json, list, kExtensionName);
+      if (!usesMeshExtension()) removeExtensionName(compressed_.json, list, kMeshExtension);
+    }
     return views;
   }
 
@@ -107,9 +101,21 @@ class Applier {
         setAccessors(piece, accessors, primitive);
         primitive["indices"] = indices;
         if (piece.parts[k].mode != 4) primitive["mode"] = 4;
+        if (primitive.contains("extensions")) primitive["extensions"].erase(kMeshExtension);
         primitive["extensions"][kExtensionName] = extensionJson(view, number, piece, k);
       }
     }
+  }
+
+  bool usesMeshExtension() const {
+    for (const Json& mesh : arrayOf(compressed_.json, "meshes")) {
+      for (const Json& primitive : arrayOf(mesh, "primitives")) {
+        const Json* extensions = findMember(primitive, "extensions");
+        if (extensions != nullptr && findMember(*extensions, kMeshExtension) != nullptr)
+          return true;
+      }
+    }
+    return false;
   }
 
   static void setAccessors(const PiecePlan& piece, const std::vector<uint32_t>& accessors,
@@ -252,6 +258,9 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
     planIndicesOnly(document, foreign, plans);
   } else {
     planQuantization(options, plans, compressed.notes);
+  }
+  if (!options.allow_larger) {
+    dropTinyPieces(document, foreign, options, plans, compressed.left_alone);
   }
   MCC_GLTF_TRY(
       encodePayloads(options, std::move(plans), compressed.payloads, compressed.left_alone));

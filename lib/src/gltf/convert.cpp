@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "gltf/check.h"
+#include "gltf/coded_input.h"
 #include "gltf/compress.h"
 #include "gltf/convert_report.h"
 #include "gltf/decompress.h"
@@ -182,6 +183,9 @@ Result convertInput(const Input& input, const Output& output, const ConvertOptio
   Compressed& compressed = conversion.compressed;
   Package& package = conversion.package;
   MCC_GLTF_TRY(loadFor(output, input, document, report.files));
+  MCC_GLTF_TRY(decodeViews(options.decoders, document));
+  // Attributes beside a payload of triangles would have to be stored anew.
+  if (!options.indices_only) MCC_GLTF_TRY(decodeMeshes(options.decoders, document));
   report.input_bytes = document.source_bytes;
   report.notes = document.notes;
   MCC_GLTF_TRY(checkOldPayloads(document));
@@ -214,14 +218,15 @@ Result convertInput(const Input& input, const Output& output, const ConvertOptio
 }
 
 /// Checks the stored output and completes the report.
-Result checkOutput(const Conversion& conversion, std::span<const uint8_t> stored,
-                   const FileReader& read_file, uint32_t thread_count, ConvertReport& report) {
+Result checkOutput(const Conversion& conversion, const ConvertOptions& options,
+                   std::span<const uint8_t> stored, const FileReader& read_file,
+                   ConvertReport& report) {
   if (!report.copied) {
     const Stopwatch watch;
     CheckResult checked;
     const std::vector<EncodedPayload>& payloads = conversion.compressed.payloads;
-    MCC_GLTF_TRY(
-        checkConversion(conversion.document, payloads, stored, read_file, thread_count, checked));
+    MCC_GLTF_TRY(checkConversion(conversion.document, payloads, options.decoders, stored, read_file,
+                                 options.thread_count, checked));
     report.decode_seconds = checked.decode_seconds;
     report.check_seconds = watch.seconds() - checked.decode_seconds;
     addPayloads(payloads, std::move(checked), report);
@@ -285,8 +290,7 @@ Result convert(const Source& source, const Sink& sink, const ConvertOptions& opt
       read_file = output.destination->reader();
     }
     const std::span<const uint8_t> written = output.destination ? stored : *output.bytes;
-    MCC_GLTF_TRY(
-        inInput(input, checkOutput(conversion, written, read_file, options.thread_count, report)));
+    MCC_GLTF_TRY(inInput(input, checkOutput(conversion, options, written, read_file, report)));
     MCC_GLTF_TRY(output.commit());
     if (output.destination) report.files.output = output.destination->files();
     return {};

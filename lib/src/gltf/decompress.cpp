@@ -58,8 +58,9 @@ class Decompressor {
       views.push_back(std::move(decoded.view));
     }
     for (const ExtensionUse& use : uses_) removeExtension(use);
-    removeExtensionName("extensionsUsed");
-    removeExtensionName("extensionsRequired");
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+      removeExtensionName(out_.json, list, kExtensionName);
+    }
     if (decode_to_ == DecodeTo::kIntegers) {
       storeIntegers(document_, out_.coded_attributes, out_.json, views, out_.notes);
     }
@@ -157,20 +158,6 @@ class Decompressor {
     Json& primitive = out_.json["meshes"][use.mesh]["primitives"][use.primitive];
     primitive["extensions"].erase(kExtensionName);
     if (primitive["extensions"].empty()) primitive.erase("extensions");
-  }
-
-  void removeExtensionName(const char* list) {
-    const auto found = out_.json.find(list);
-    if (found == out_.json.end() || !found->is_array()) return;
-    Json names = Json::array();
-    for (const Json& name : *found) {
-      if (name != kExtensionName) names.push_back(name);
-    }
-    if (names.empty()) {
-      out_.json.erase(list);
-    } else {
-      *found = std::move(names);
-    }
   }
 
   const Document& document_;

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "gltf/fallback.h"
+#include "gltf/references.h"
 #include "gltf/uri.h"
 
 namespace mcc::gltf {
@@ -11,6 +12,7 @@ namespace {
 
 constexpr uint64_t kMaxCount = uint64_t{1} << 53;
 constexpr uint64_t kMaxAccessorCount = 0xffffffffu;
+constexpr uint64_t kMaxStride = 65536;
 
 struct TypeName {
   std::string_view name;
@@ -69,20 +71,22 @@ Result checkShape(const Json& json) {
   return {};
 }
 
-/// Refuses views whose bytes are not what accessors read (they may not even have a buffer).
-Result refuseForeignViews(const Json& json) {
-  const Json& views = arrayOf(json, "bufferViews");
-  for (size_t i = 0; i < views.size(); ++i) {
-    const Json* extensions = findMember(views[i], "extensions");
-    if (extensions == nullptr) continue;
-    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-      if (findMember(*extensions, name) != nullptr) {
-        return error(at("/bufferViews", i) + "/extensions/" + name,
-                     "this compression cannot be read; decompress the file first");
-      }
-    }
+/// The object by which an extension codes a view, or marks a buffer as one whose bytes need not exist; null: there is none.
+const Json* codingOf(const Json& view_or_buffer, std::string& extension) {
+  const Json* extensions = findMember(view_or_buffer, "extensions");
+  if (extensions == nullptr) return nullptr;
+  for (const char* name : kViewExtensions) {
+    extension = name;
+    if (const Json* coding = findMember(*extensions, name)) return coding;
   }
-  return {};
+  return nullptr;
+}
+
+bool isPlaceholder(const Json& buffer) {
+  std::string ignored;
+  const Json* coding = codingOf(buffer, ignored);
+  const Json* flag = coding == nullptr ? nullptr : findMember(*coding, "fallback");
+  return flag != nullptr && *flag == true;
 }
 
 /// Where a buffer or an image comes from, once its bytes are needed.
@@ -103,6 +107,10 @@ Result loadBuffer(const Json& json, const std::string& path, const GlbFile* glb,
   uint64_t length = 0;
   MCC_GLTF_TRY(readUnsigned(json, "byteLength", path, kMaxCount, length));
   std::span<const uint8_t> bytes;
+  if (isPlaceholder(json)) {  // the views in it are decoded from elsewhere
+    document.buffers.emplace_back();
+    return {};
+  }
   if (findMember(json, "uri") != nullptr) {
     std::string uri;
     MCC_GLTF_TRY(readString(json, "uri", path, uri));
@@ -123,8 +131,9 @@ Result loadBuffer(const Json& json, const std::string& path, const GlbFile* glb,
   return {};
 }
 
-Result parseView(const Document& document, const Json& json, const std::string& path,
-                 BufferView& view) {
+/// Where the bytes of a view are: `json` is the view, or the object that codes it.
+Result parseBytes(const Document& document, const Json& json, const std::string& path,
+                  BufferView& view) {
   uint64_t buffer = 0;
   MCC_GLTF_TRY(readUnsigned(json, "buffer", path, kMaxCount, buffer));
   if (buffer >= document.buffers.size()) {
@@ -133,7 +142,6 @@ Result parseView(const Document& document, const Json& json, const std::string& 
   view.buffer = static_cast<uint32_t>(buffer);
   MCC_GLTF_TRY(readOptionalUnsigned(json, "byteOffset", path, kMaxCount, view.offset));
   MCC_GLTF_TRY(readUnsigned(json, "byteLength", path, kMaxCount, view.length));
-  MCC_GLTF_TRY(readOptionalUnsigned(json, "byteStride", path, 65536, view.stride));
   const uint64_t available = document.buffers[buffer].size();
   if (view.offset > available || view.length > available - view.offset) {
     return error(path, "bytes " + std::to_string(view.offset) + " to " +
@@ -143,13 +151,44 @@ Result parseView(const Document& document, const Json& json, const std::string& 
   return {};
 }
 
+Result parseCoding(const Json& json, const std::string& path, uint64_t length, ViewCoding& coding) {
+  MCC_GLTF_TRY(readUnsigned(json, "count", path, kMaxAccessorCount, coding.count));
+  uint64_t stride = 0;
+  MCC_GLTF_TRY(readUnsigned(json, "byteStride", path, kMaxStride, stride));
+  MCC_GLTF_TRY(readString(json, "mode", path, coding.mode));
+  coding.filter = "NONE";
+  if (findMember(json, "filter") != nullptr) {
+    MCC_GLTF_TRY(readString(json, "filter", path, coding.filter));
+  }
+  coding.stride = static_cast<uint32_t>(stride);
+  coding.length = coding.count * stride;
+  if (coding.length == length) return {};
+  return error(path, "codes " + std::to_string(coding.length) + " bytes, but the view has " +
+                         std::to_string(length));
+}
+
+Result parseView(const Document& document, const Json& json, const std::string& path,
+                 BufferView& view) {
+  MCC_GLTF_TRY(readOptionalUnsigned(json, "byteStride", path, kMaxStride, view.stride));
+  std::string extension;
+  const Json* coded = codingOf(json, extension);
+  if (coded == nullptr) return parseBytes(document, json, path, view);
+  const std::string coded_path = path + "/extensions/" + extension;
+  uint64_t length = 0;
+  MCC_GLTF_TRY(readUnsigned(json, "byteLength", path, kMaxCount, length));
+  MCC_GLTF_TRY(parseBytes(document, *coded, coded_path, view));
+  MCC_GLTF_TRY(parseCoding(*coded, coded_path, length, view.coding));
+  view.coding.extension = extension;
+  return {};
+}
+
 /// Checks that `count` elements of `bytes` each lie inside a view.
 Result checkRange(const Document& document, uint32_t view, uint64_t offset, uint64_t count,
                   uint64_t bytes, uint64_t stride, const std::string& path) {
   if (count == 0) return {};
   // count < 2^32, stride <= 2^16, offset <= 2^53: nothing wraps.
   const uint64_t end = offset + (count - 1) * stride + bytes;
-  const uint64_t available = document.views[view].length;
+  const uint64_t available = document.views[view].elementsLength();
   if (end <= available) return {};
   return error(path, "needs " + std::to_string(end) + " bytes of bufferView " +
                          std::to_string(view) + ", which has " + std::to_string(available));
@@ -256,7 +295,8 @@ Result embedImage(const FileReader& read_file, size_t index, Document& document)
   document.json["buffers"].push_back({{"byteLength", document.buffers.back().size()}});
   document.json["bufferViews"].push_back(
       {{"buffer", buffer}, {"byteLength", document.buffers.back().size()}});
-  document.views.push_back({static_cast<uint32_t>(buffer), 0, document.buffers.back().size(), 0});
+  document.views.push_back(
+      {static_cast<uint32_t>(buffer), 0, document.buffers.back().size(), 0, {}});
   image.erase("uri");
   image["bufferView"] = document.views.size() - 1;
   if (findMember(image, "mimeType") == nullptr) image["mimeType"] = type;
@@ -326,7 +366,6 @@ Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file,
   }
   MCC_GLTF_TRY(parseJson(glb.json, document.json));
   MCC_GLTF_TRY(checkShape(document.json));
-  MCC_GLTF_TRY(refuseForeignViews(document.json));
   const Json& buffers = arrayOf(document.json, "buffers");
   for (size_t i = 0; i < buffers.size(); ++i) {
     const Result loaded = loadBuffer(buffers[i], at("/buffers", i),
@@ -344,8 +383,10 @@ Result adoptDocument(Json json, std::vector<uint8_t> bin, Document& document) {
   document.json = std::move(json);
   document.is_glb = true;
   document.storage.push_back(std::move(bin));
-  if (!arrayOf(document.json, "buffers").empty()) {
-    document.buffers.push_back(document.storage.back());
+  for (const Json& buffer : arrayOf(document.json, "buffers")) {
+    const bool is_first = document.buffers.empty();
+    document.buffers.push_back(is_first && !isPlaceholder(buffer) ? document.storage.back()
+                                                                  : std::span<const uint8_t>());
   }
   return loadTables(document);
 }

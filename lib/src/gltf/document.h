@@ -17,11 +17,28 @@
 
 namespace mcc::gltf {
 
+/// How an extension codes the elements of a buffer view.
+struct ViewCoding {
+  std::string
+      extension;  ///< "EXT_meshopt_compression" or its successor; empty: the view is not coded
+  std::string mode;
+  std::string filter;
+  uint64_t count = 0;
+  uint32_t stride = 0;
+  uint64_t length = 0;       ///< of the elements
+  uint32_t decoded = kNone;  ///< Document::storage that has them; kNone: not decoded
+};
+
 struct BufferView {
-  uint32_t buffer = 0;
+  uint32_t buffer = 0;  ///< these three say where its bytes are, coded or not
   uint64_t offset = 0;
   uint64_t length = 0;
   uint64_t stride = 0;  ///< 0: tight
+  ViewCoding coding;
+
+  bool isCoded() const { return !coding.extension.empty(); }
+  /// Bytes that accessors may use.
+  uint64_t elementsLength() const { return isCoded() ? coding.length : length; }
 };
 
 /// Values that replace some elements of an accessor.
@@ -44,6 +61,9 @@ struct Accessor {
   uint32_t rows = 1;          ///< components of a vector or of a matrix column
   bool normalized = false;
   Sparse sparse;
+  /// Of one that an extension of primitives fills: Document::storage with its tight elements, and the view they came from.
+  uint32_t decoded = kNone;
+  uint32_t decoded_from = kNone;
 
   uint32_t componentCount() const { return columns * rows; }
   uint32_t tightBytes() const { return componentCount() * componentBytes(component_type); }
@@ -65,7 +85,7 @@ struct Document {
   std::vector<GlbChunk> other_chunks;
   uint64_t source_bytes = 0;  ///< of the file and the files its buffers came from
   std::vector<std::string> notes;
-  /// Owns the buffers that are not part of the file.
+  /// Owns the buffers that are not part of the file, and what was decoded.
   std::vector<std::vector<uint8_t>> storage;
 };
 

@@ -48,6 +48,15 @@ Status encodePieces(const std::vector<const PiecePlan*>& plans, const EncodeOpti
   return encode(views, options, result);
 }
 
+EncodeOptions optionsOf(const ConvertOptions& options, const PayloadPlan& plan) {
+  EncodeOptions encode_options;
+  encode_options.effort = options.effort;
+  encode_options.indices_only = plan.indices_only;
+  encode_options.keep_vertex_order = plan.keep_vertex_order;
+  encode_options.keep_triangle_order = plan.keep_triangle_order;
+  return encode_options;
+}
+
 void leaveAlone(const PiecePlan& piece, const std::string& note,
                 std::vector<LeftAlone>& left_alone) {
   for (const PartPlan& part : piece.parts) {
@@ -129,6 +138,12 @@ Result encodeOne(const EncodeOptions& options, EncodedPayload& payload,
 
 }  // namespace
 
+uint64_t bytesAlone(const ConvertOptions& options, const PayloadPlan& plan,
+                    const PiecePlan& piece) {
+  EncodeResult result;
+  return encodePieces({&piece}, optionsOf(options, plan), result).ok() ? result.payload.size() : 0;
+}
+
 Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> plans,
                       std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone) {
   std::vector<EncodedPayload> encoded(plans.size());
@@ -138,12 +153,7 @@ Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> pl
     plan = std::move(plans[i]);
     plan.keep_vertex_order |= options.keep_vertex_order;
     plan.keep_triangle_order |= options.keep_triangle_order;
-    EncodeOptions encode_options;
-    encode_options.effort = options.effort;
-    encode_options.indices_only = plan.indices_only;
-    encode_options.keep_vertex_order = plan.keep_vertex_order;
-    encode_options.keep_triangle_order = plan.keep_triangle_order;
-    return encodeOne(encode_options, encoded[i], refused[i]);
+    return encodeOne(optionsOf(options, plan), encoded[i], refused[i]);
   }));
   for (size_t i = 0; i < encoded.size(); ++i) {
     left_alone.insert(left_alone.end(), refused[i].begin(), refused[i].end());

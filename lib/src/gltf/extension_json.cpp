@@ -72,6 +72,11 @@ Result readExtension(const Document& document, const Json& extension, const Json
   if (view >= document.views.size()) {
     return error(use.path + "/bufferView", "there is no bufferView " + std::to_string(view));
   }
+  if (document.views[view].isCoded()) {
+    return error(use.path + "/bufferView", "bufferView " + std::to_string(view) +
+                                               " is coded with " +
+                                               document.views[view].coding.extension);
+  }
   use.view = static_cast<uint32_t>(view);
   MCC_GLTF_TRY(readOptionalUnsigned(extension, "piece", use.path, kMaxNumber, use.piece));
   MCC_GLTF_TRY(readOptionalUnsigned(extension, "part", use.path, kMaxNumber, use.part));

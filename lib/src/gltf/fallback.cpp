@@ -42,20 +42,6 @@ std::set<uint64_t> compressedAccessors(const Json& root) {
   return compressed;
 }
 
-void removeRequirement(Json& root) {
-  const auto required = root.find("extensionsRequired");
-  if (required == root.end()) return;
-  Json others = Json::array();
-  for (const Json& name : *required) {
-    if (name != kExtensionName) others.push_back(name);
-  }
-  if (others.empty()) {
-    root.erase(required);
-  } else {
-    *required = std::move(others);
-  }
-}
-
 bool isAt(const Json& object, const char* key, uint64_t number) {
   uint64_t value = 0;
   const Json* member = findMember(object, key);
@@ -85,7 +71,7 @@ Result addFallback(const std::vector<uint8_t>& bin, const std::string& uri, Json
     json["bufferViews"].push_back(std::move(view));
   }
   json["buffers"].push_back({{"uri", uri}, {"byteLength", fallback.size()}});
-  removeRequirement(json);
+  removeExtensionName(json, "extensionsRequired", kExtensionName);
   return {};
 }
 

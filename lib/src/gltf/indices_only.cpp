@@ -31,9 +31,10 @@ std::vector<bool> sharedAccessors(const Document& document, const ForeignReferen
   return is_shared;
 }
 
-/// Sparse ones would grow, and those without a view have no elements to move.
-bool canBeReordered(const Accessor& accessor) {
-  return accessor.sparse.count == 0 && accessor.is_known_type;
+/// Sparse and coded ones would grow, and those without a view have no elements to move.
+bool canBeReordered(const Document& document, const Accessor& accessor) {
+  const bool is_coded = accessor.view != kNone && document.views[accessor.view].isCoded();
+  return accessor.sparse.count == 0 && accessor.is_known_type && !is_coded;
 }
 
 }  // namespace
@@ -49,8 +50,9 @@ void planIndicesOnly(const Document& document, const ForeignReferences& foreign,
     payload.keep_vertex_order |= foreign.keep_numbers;
     for (const PiecePlan& piece : payload.pieces) {
       for (const AttributePlan& attribute : piece.ordinary) {
-        payload.keep_vertex_order |= is_shared[attribute.accessor] ||
-                                     !canBeReordered(document.accessors[attribute.accessor]);
+        payload.keep_vertex_order |=
+            is_shared[attribute.accessor] ||
+            !canBeReordered(document, document.accessors[attribute.accessor]);
       }
     }
   }

@@ -370,12 +370,6 @@ class PositionStore {
   std::map<uint64_t, std::vector<SkinnedNode>> skinned_;  ///< by skin
 };
 
-void addExtensionName(Json& root, const char* list, const char* name) {
-  Json& names = root[list];
-  if (!names.is_array()) names = Json::array();
-  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-}
-
 }  // namespace
 
 void storeIntegers(const Document& source, const CodedAttributes& coded, Json& json,

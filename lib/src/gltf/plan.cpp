@@ -65,12 +65,12 @@ class Planner {
     const Json& meshes = arrayOf(document_.json, "meshes");
     for (uint32_t mesh = 0; mesh < meshes.size(); ++mesh) {
       const Json& primitives = arrayOf(meshes[mesh], "primitives");
-      const std::string mesh_extension = orderDependentExtension(meshes[mesh]);
+      const std::string mesh_part = orderDependentPart(meshes[mesh]);
       for (uint32_t primitive = 0; primitive < primitives.size(); ++primitive) {
         const PrimitiveRef ref = {mesh, primitive};
         std::string note;
         if (!primitives[primitive].is_object()) return error(ref.path(), "must be an object");
-        MCC_GLTF_TRY(planPrimitive(ref, primitives[primitive], mesh_extension, note));
+        MCC_GLTF_TRY(planPrimitive(ref, primitives[primitive], mesh_part, note));
         if (!note.empty()) left_alone_.push_back({ref, note});
       }
     }
@@ -84,7 +84,7 @@ class Planner {
     size_t piece;
   };
 
-  Result planPrimitive(const PrimitiveRef& ref, const Json& json, const std::string& mesh_extension,
+  Result planPrimitive(const PrimitiveRef& ref, const Json& json, const std::string& mesh_part,
                        std::string& note) {
     uint64_t mode = 4;
     MCC_GLTF_TRY(readOptionalUnsigned(json, "mode", ref.path(), 6, mode));
@@ -93,14 +93,15 @@ class Planner {
     if (extensions != nullptr && !extensions->is_object()) {
       return error(ref.path() + "/extensions", "must be an object");
     }
-    note = extensionNote(json);
+    note = extensionNote(json, mesh_part);
     if (!note.empty()) return {};
-    const std::string own_extension = orderDependentExtension(json);
-    const std::string& unknown = own_extension.empty() ? mesh_extension : own_extension;
+    const std::string own_part = orderDependentPart(json);
+    const std::string& unknown = own_part.empty() ? mesh_part : own_part;
 
     PiecePlan piece;
     MCC_GLTF_TRY(collectAttributes(ref, json, piece));
     note = attributeNote(piece);
+    if (note.empty()) note = codedNote(json, piece);
     if (!note.empty()) return {};
     piece.wedge_count =
         static_cast<uint32_t>(document_.accessors[piece.attributes[0].accessor].count);
@@ -110,7 +111,7 @@ class Planner {
     MCC_GLTF_TRY(collectTriangles(ref, json, piece.wedge_count, part, note));
     if (!note.empty()) return {};
     if (!unknown.empty() && (mode != 4 || part.indices_accessor == kNone)) {
-      note = "has the extension " + unknown +
+      note = "has " + unknown +
              ", which may depend on its not being an indexed triangle list; left as it was";
       return {};
     }
@@ -118,15 +119,52 @@ class Planner {
     return addPart(ref, !unknown.empty(), std::move(piece), std::move(part));
   }
 
-  static std::string extensionNote(const Json& json) {
+  static std::string extensionNote(const Json& json, const std::string& mesh_part) {
+    if (mesh_part == "EXT_mesh_manifold") {  // its indices and those of the primitives share bytes
+      return "belongs to a mesh with EXT_mesh_manifold; left as it was";
+    }
     const Json* extensions = findMember(json, "extensions");
     if (extensions != nullptr && findMember(*extensions, kExtensionName) != nullptr) {
       return "is compressed already";
     }
-    if (extensions != nullptr && findMember(*extensions, "KHR_draco_mesh_compression") != nullptr) {
-      return "is compressed with Draco; left as it was";
-    }
     return "";
+  }
+
+  /// Why an accessor cannot be read, or may mean something else than what can be read.
+  std::string unreadableNote(uint32_t index) const {
+    const Accessor& accessor = document_.accessors[index];
+    std::string unknown = unknownExtension(document_.json["accessors"][index]);
+    for (const uint32_t view :
+         {accessor.view, accessor.sparse.index_view, accessor.sparse.value_view}) {
+      const bool is_used = view != kNone && (view == accessor.view || accessor.sparse.count != 0);
+      if (is_used && unknown.empty()) {
+        unknown = unknownExtension(document_.json["bufferViews"][view]);
+      }
+    }
+    return unknown.empty() ? whyUnreadable(document_, accessor)
+                           : "has the unknown extension " + unknown;
+  }
+
+  /// Why accessors of a primitive cannot be read; empty when they can be.
+  std::string codedNote(const Json& json, const PiecePlan& piece) const {
+    for (const AttributePlan& attribute : piece.attributes) {
+      const std::string reason = unreadableNote(attribute.accessor);
+      if (!reason.empty()) return attribute.label() + " " + reason + "; left as it was";
+    }
+    uint64_t accessor = 0;
+    const Json* indices = findMember(json, "indices");
+    if (indices != nullptr && asUnsigned(*indices, accessor) &&
+        accessor < document_.accessors.size()) {
+      const std::string reason = unreadableNote(static_cast<uint32_t>(accessor));
+      if (!reason.empty()) return "its index accessor " + reason + "; left as it was";
+    }
+    const Json* extensions = findMember(json, "extensions");
+    const Json* coded = extensions == nullptr ? nullptr : findMember(*extensions, kMeshExtension);
+    if (coded == nullptr) return "";
+    const bool is_decoded = indices != nullptr && accessor < document_.accessors.size() &&
+                            document_.accessors[accessor].decoded != kNone;
+    return is_decoded ? ""
+                      : std::string("is compressed with ") + kMeshExtension + "; left as it was";
   }
 
   Result readAccessorIndex(const Json& json, const std::string& path, uint32_t& accessor) const {

@@ -138,8 +138,8 @@ Lattice unitLattice(uint8_t bits) {
   return lattice;
 }
 
-/// A lattice of a given step that has a point at exactly 0, so that unmoved vertices of a morph
-/// target stay unmoved. `bits` becomes what it needs; false when that is too much.
+/// A lattice of a given step through 0, so that unmoved vertices of a morph target stay unmoved. `bits` becomes what the
+/// larger side of it needs; false when that is too much.
 bool fitAroundZero(const Extent& extent, float step, Lattice& lattice, uint8_t& bits) {
   if (!std::isnormal(step)) return false;
   constexpr double kLastPoint = (1 << kMaxLatticeBits) - 1;
@@ -147,11 +147,8 @@ bool fitAroundZero(const Extent& extent, float step, Lattice& lattice, uint8_t& 
   lattice.step = step;
   double last_point = 1;
   for (uint32_t c = 0; c < extent.component_count; ++c) {
-    const double points_below = std::ceil(std::max(0.0, -double{extent.min[c]} / double{step}));
-    if (points_below > kLastPoint) return false;
-    lattice.origin[c] = -(static_cast<float>(points_below) * step) + 0.0f;
-    last_point = std::max(last_point, latticePoint(extent.max[c], lattice.origin[c], step));
-    last_point = std::max(last_point, points_below);
+    for (const float end : {extent.min[c], extent.max[c]})
+      last_point = std::max(last_point, std::abs(latticePoint(end, 0, step)));
   }
   if (last_point > kLastPoint) return false;
   bits = static_cast<uint8_t>(std::bit_width(static_cast<uint64_t>(last_point)));

@@ -2,6 +2,8 @@
 #include "gltf/rebuild.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <tuple>
 
 namespace mcc::gltf {
@@ -67,7 +69,8 @@ class Rebuilder {
     }
     visitOldViews(json_, [&](uint32_t view, uint32_t accessor) {
       const bool is_old = accessor < document_.accessors.size();
-      if (!is_old || foreign_.keep_numbers || !document_.accessors[accessor].is_known_type ||
+      if (!is_old || foreign_.keep_numbers || document_.views[view].isCoded() ||
+          !document_.accessors[accessor].is_known_type ||
           document_.accessors[accessor].count == 0) {
         keepWhole(view);
         return;
@@ -188,6 +191,15 @@ class Rebuilder {
     view["byteLength"] = length;
   }
 
+  /// A coded view keeps its coded bytes; its own range lies in a buffer without bytes.
+  void setCodedRange(Json& view, const ViewCoding& coding, uint64_t offset, uint64_t length) {
+    setRange(view["extensions"][coding.extension], offset, length);
+    view["buffer"] = 1;
+    view["byteOffset"] = placeholder_bytes_;
+    placeholder_bytes_ += (coding.length + 3) & ~uint64_t{3};
+    coded_extensions_.insert(coding.extension);
+  }
+
   void writeViews() {
     const size_t old_count = document_.views.size();
     std::vector<Json> views(view_count_);
@@ -197,11 +209,17 @@ class Rebuilder {
       json = json_["bufferViews"][view];
       if (!ranges_[view].empty()) {
         const ByteRange kept = keptRange(view);
-        setRange(json, moved(kept.buffer, kept.begin),
-                 kept.end - kept.begin == 0
-                     ? 0
-                     : moved(kept.buffer, kept.end - 1) + 1 - moved(kept.buffer, kept.begin));
+        const uint64_t offset = moved(kept.buffer, kept.begin);
+        const uint64_t length =
+            kept.end == kept.begin ? 0 : moved(kept.buffer, kept.end - 1) + 1 - offset;
+        const ViewCoding& coding = document_.views[view].coding;
+        if (coding.extension.empty()) {
+          setRange(json, offset, length);
+        } else {
+          setCodedRange(json, coding, offset, length);
+        }
       } else {  // a number that must stay in use
+        eraseViewExtensions(json);
         json.erase("byteStride");
         json.erase("target");
         setRange(json, 0, 1);
@@ -234,8 +252,36 @@ class Rebuilder {
     }
     Json first = document_.buffers.empty() ? Json::object() : json_["buffers"][0];
     first.erase("uri");
+    eraseViewExtensions(first);
     first["byteLength"] = bin_.size();
     json_["buffers"] = Json::array({std::move(first)});
+    nameCodings();
+    if (coded_extensions_.empty()) return;
+    Json placeholder = {{"byteLength", placeholder_bytes_}};
+    for (const std::string& name : coded_extensions_) {
+      placeholder["extensions"][name]["fallback"] = true;
+    }
+    json_["buffers"].push_back(std::move(placeholder));
+  }
+
+  static void eraseViewExtensions(Json& object) {
+    const auto extensions = object.find("extensions");
+    if (extensions == object.end() || !extensions->is_object()) return;
+    for (const char* name : kViewExtensions) extensions->erase(name);
+    if (extensions->empty()) object.erase("extensions");
+  }
+
+  /// Lists the extensions of coded views, as required ones, since their bytes are nowhere else; or no longer.
+  void nameCodings() {
+    for (const char* name : kViewExtensions) {
+      for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+        if (coded_extensions_.count(name) != 0) {
+          addExtensionName(json_, list, name);
+        } else {
+          removeExtensionName(json_, list, name);
+        }
+      }
+    }
   }
 
   const Document& document_;
@@ -248,15 +294,18 @@ class Rebuilder {
   std::vector<Block> blocks_;      ///< ascending in buffer and begin
   std::vector<uint32_t> numbers_;  ///< final numbers of old and new views
   uint32_t view_count_ = 0;
+  uint64_t placeholder_bytes_ = 0;          ///< of the buffer that coded views claim to be in
+  std::set<std::string> coded_extensions_;  ///< of the views that are still coded
 };
 
 }  // namespace
 
 std::vector<ByteRange> accessorRanges(const Document& document, uint32_t index, bool whole_views) {
   const Accessor& accessor = document.accessors[index];
+  if (accessor.decoded_from != kNone) return {viewRange(document, accessor.decoded_from)};
   std::vector<ByteRange> ranges;
   const auto add = [&](uint32_t view, uint64_t offset, uint64_t bytes) {
-    if (whole_views || !accessor.is_known_type) {
+    if (whole_views || !accessor.is_known_type || document.views[view].isCoded()) {
       ranges.push_back(viewRange(document, view));
     } else if (bytes != 0) {
       const BufferView& from = document.views[view];

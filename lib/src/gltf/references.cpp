@@ -16,6 +16,7 @@ constexpr std::string_view kKnownExtensions[] = {
     "CESIUM_RTC",
     "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
     "EXT_texture_avif",
     "EXT_texture_webp",
     "KHR_animation_pointer",
@@ -23,6 +24,7 @@ constexpr std::string_view kKnownExtensions[] = {
     "KHR_lights_punctual",
     "KHR_mesh_collapse_compression",
     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
     "KHR_node_hoverability",
     "KHR_node_selectability",
     "KHR_node_visibility",
@@ -43,7 +45,8 @@ constexpr std::string_view kKnownExtensions[] = {
 
 /// Extensions of meshes and primitives that do not care for the order of vertices and triangles.
 constexpr std::string_view kOrderFreeExtensions[] = {
-    "KHR_materials_variants", "KHR_mesh_collapse_compression", "KHR_xmp", "KHR_xmp_json_ld"};
+    "KHR_draco_mesh_compression", "KHR_materials_variants", "KHR_mesh_collapse_compression",
+    "KHR_xmp", "KHR_xmp_json_ld"};
 
 /// Extensions on our list that name nodes for the sake of their meshes.
 constexpr std::string_view kNodeExtensions[] = {
@@ -62,6 +65,23 @@ bool containsIgnoringCase(const std::string& text, std::string_view word) {
            std::tolower(static_cast<unsigned char>(b));
   };
   return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
+}
+
+/// Words in keys of extras whose numbers may count vertices or triangles.
+constexpr std::string_view kOrderWords[] = {"face",  "first",  "group",    "index",   "indices",
+                                            "range", "vertex", "vertices", "triangle"};
+
+/// The first key in extras that has such a word and anything but a text, or an empty string.
+std::string orderWordOf(const Json& json) {
+  if (!json.is_structured()) return "";
+  for (const auto& [key, value] : json.items()) {
+    const bool is_named = json.is_object() && !value.is_string() &&
+                          std::any_of(std::begin(kOrderWords), std::end(kOrderWords),
+                                      [&](auto word) { return containsIgnoringCase(key, word); });
+    const std::string found = is_named ? key : orderWordOf(value);
+    if (!found.empty()) return found;
+  }
+  return "";
 }
 
 void collectNumbers(const Json& json, std::set<uint64_t>& numbers) {
@@ -179,21 +199,53 @@ void visitViewReferences(Json& root, const std::function<void(Json&, uint32_t)>&
     for (Json& primitive : *primitives) {
       Json* extensions = member(&primitive, "extensions");
       visitMember(member(extensions, kExtensionName), "bufferView", kNone, visit);
-      visitMember(member(extensions, "KHR_draco_mesh_compression"), "bufferView", kNone, visit);
+      visitMember(member(extensions, kMeshExtension), "bufferView", kNone, visit);
     }
   }
 }
 
-std::string orderDependentExtension(const Json& mesh_or_primitive) {
-  const Json* extensions = findMember(mesh_or_primitive, "extensions");
-  if (extensions == nullptr || !extensions->is_object()) return "";
-  for (const auto& [name, value] : extensions->items()) {
-    if (std::find(std::begin(kOrderFreeExtensions), std::end(kOrderFreeExtensions), name) ==
-        std::end(kOrderFreeExtensions)) {
-      return name;
+std::string orderDependentPart(const Json& mesh_or_primitive) {
+  if (const Json* extensions = findMember(mesh_or_primitive, "extensions");
+      extensions != nullptr && extensions->is_object()) {
+    for (const auto& [name, value] : extensions->items()) {
+      if (std::find(std::begin(kOrderFreeExtensions), std::end(kOrderFreeExtensions), name) ==
+          std::end(kOrderFreeExtensions)) {
+        return name;
+      }
     }
   }
+  const Json* extras = findMember(mesh_or_primitive, "extras");
+  return extras == nullptr ? "" : orderWordOf(*extras);
+}
+
+std::string unknownExtension(const Json& object) {
+  const Json* extensions = findMember(object, "extensions");
+  if (extensions == nullptr || !extensions->is_object()) return "";
+  for (const auto& [name, value] : extensions->items()) {
+    if (!isKnownExtension(name)) return name;
+  }
   return "";
+}
+
+void addExtensionName(Json& root, const char* list, const char* name) {
+  Json& names = root[list];
+  if (!names.is_array()) names = Json::array();
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+void removeExtensionName(Json& root, const char* list, const char* name) {
+  const auto found = root.find(list);
+  if (found == root.end() || !found->is_array()) return;
+  Json others = Json::array();
+  for (const Json& other : *found) {
+    if (other != name) others.push_back(other);
+  }
+  if (others.size() == found->size()) return;
+  if (others.empty()) {
+    root.erase(list);
+  } else {
+    *found = std::move(others);
+  }
 }
 
 std::string nodeDependentExtension(const Json& root, const ForeignReferences& foreign) {

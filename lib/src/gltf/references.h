@@ -34,12 +34,25 @@ ForeignReferences findForeignReferences(const Json& root);
 void visitViewReferences(Json& root,
                          const std::function<void(Json& number, uint32_t accessor)>& visit);
 
-/// Extension of a mesh or primitive that depends on the order of vertices or triangles as far as we
-/// know: the first one that is not on our list, or an empty string.
-std::string orderDependentExtension(const Json& mesh_or_primitive);
+/// What of a mesh or primitive depends on the order of vertices or triangles as far as we know: the first extension that is
+/// not on our list, a key of its extras that looks like it ("drawRange"), or an empty string.
+std::string orderDependentPart(const Json& mesh_or_primitive);
+
+/// The first extension of an object that is not on our list, or an empty string.
+std::string unknownExtension(const Json& object);
 
 /// Extension of the document that may refer to nodes and expect their meshes there: the first one, or an empty string.
 std::string nodeDependentExtension(const Json& root, const ForeignReferences& foreign);
+
+/// Extensions that code the elements of buffer views.
+inline constexpr const char* kViewExtensions[] = {"EXT_meshopt_compression",
+                                                  "KHR_meshopt_compression"};
+/// The extension that codes primitives, besides ours.
+inline constexpr char kMeshExtension[] = "KHR_draco_mesh_compression";
+
+/// Adds a name to a list of extensions, or removes it; an empty list goes.
+void addExtensionName(Json& root, const char* list, const char* name);
+void removeExtensionName(Json& root, const char* list, const char* name);
 
 /// Marks accessors used by anything but mesh primitives: skins, animations, instancing, foreign
 /// uses.

@@ -75,6 +75,37 @@ constexpr bool hasNormals(const AttributeInfo* attributes, uint32_t count) {
   return exactNormalOf(attributes, count) != kNone || normalOfTangents(attributes, count) != kNone;
 }
 
+/// The attribute of a piece that deltas of tangents move: the first TANGENT of unit vectors; or kNone.
+constexpr uint32_t baseTangentOf(const AttributeInfo* attributes, uint32_t count) {
+  for (uint32_t i = 0; i < count; ++i) {
+    const AttributeInfo& a = attributes[i];
+    if (a.format.semantic == Semantic::kTangent && a.format.morph_target == 0 &&
+        a.format.component_count == 4 && a.coding != AttributeCoding::kLattice &&
+        a.coding != AttributeCoding::kInteger && a.coding != AttributeCoding::kAlias) {
+      return i;
+    }
+  }
+  return kNone;
+}
+
+/// Deltas of a semantic in the morph target of attribute `index`, if they are the last ones before it; or kNone.
+constexpr uint32_t deltasBefore(const AttributeInfo* attributes, uint32_t index,
+                                Semantic semantic) {
+  for (uint32_t i = index; i-- != 0;) {
+    const AttributeFormat& f = attributes[i].format;
+    if (f.semantic != semantic || f.morph_target == 0) continue;
+    return f.morph_target == attributes[index].format.morph_target ? i : kNone;
+  }
+  return kNone;
+}
+
+/// Whether deltas are three floats that others can be predicted from.
+constexpr bool areVectors(const AttributeInfo& a) {
+  return a.format.component_count == 3 &&
+         (a.coding == AttributeCoding::kLattice || a.coding == AttributeCoding::kExactFloat ||
+          a.coding == AttributeCoding::kGrid);
+}
+
 /// The attribute of a piece that gives tangents their direction: the first TEXCOORD; or kNone.
 constexpr uint32_t chartOfTangents(const AttributeInfo* attributes, uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) {
@@ -87,10 +118,10 @@ constexpr uint32_t chartOfTangents(const AttributeInfo* attributes, uint32_t cou
 }
 
 /// Attributes are coded in the order of their phases, within a phase in that of the header. [A.8.1]
-inline constexpr uint32_t kCodingPhases = 2;
+inline constexpr uint32_t kCodingPhases = 3;
 constexpr uint32_t codingPhase(const AttributeInfo& a) {
-  const bool is_tangent = a.format.semantic == Semantic::kTangent && a.format.morph_target == 0;
-  return is_tangent ? 1 : 0;  // behind normals and charts
+  if (a.format.morph_target != 0) return 2;                // behind what is moved
+  return a.format.semantic == Semantic::kTangent ? 1 : 0;  // behind normals and charts
 }
 
 /// JOINTS_n and WEIGHTS_n of four components are coded as one: the other attribute of the pair, or kNone.
@@ -192,6 +223,10 @@ inline constexpr uint8_t kPredictorMask = 0x03;  ///< ValuePredictor
 inline constexpr uint8_t kSameFlags = 0x04;
 inline constexpr uint8_t kZeroFlags = 0x08;
 inline constexpr uint8_t kSmallTokens = 0x10;
+inline constexpr uint8_t kIds =
+    0x20;  ///< of one component of the mesh itself, see attributes/ids.h
+inline constexpr uint8_t kBends = 0x20;          ///< of deltas, see attributes/unit_deltas.h
+inline constexpr uint8_t kUnits = 0x40;          ///< of deltas, the same
 inline constexpr uint8_t kBlend = 3;             ///< ValuePredictor::kBlend
 inline constexpr uint32_t kBlendComponents = 4;  ///< that it can have
 }  // namespace value_method
@@ -215,12 +250,38 @@ constexpr int32_t unitSum(const AttributeInfo& weights) {
   return 0;
 }
 
+/// The bits of value_method that attribute `index` may have besides the predictor's and kHasEqualities.
+constexpr uint8_t knownValueBits(const AttributeInfo* attributes, uint32_t count, uint32_t index) {
+  constexpr uint8_t kAlways =
+      value_method::kSameFlags | value_method::kZeroFlags | value_method::kSmallTokens;
+  const AttributeInfo& a = attributes[index];
+  const bool has_step = a.coding == AttributeCoding::kLattice || a.coding == AttributeCoding::kGrid;
+  if (a.format.morph_target == 0 && a.format.component_count == 1) {
+    return kAlways | value_method::kIds;
+  }
+  if (a.format.morph_target == 0 || !areVectors(a) || !has_step) return kAlways;
+  const auto vectorsBefore = [=](Semantic semantic) {
+    const uint32_t i = deltasBefore(attributes, index, semantic);
+    return i != kNone && areVectors(attributes[i]);
+  };
+  uint8_t bits = kAlways;
+  if (a.format.semantic == Semantic::kNormal) {
+    if (vectorsBefore(Semantic::kPosition)) bits |= value_method::kBends;
+    if (hasNormals(attributes, count)) bits |= value_method::kUnits;
+  } else if (a.format.semantic == Semantic::kTangent && hasNormals(attributes, count) &&
+             baseTangentOf(attributes, count) != kNone && vectorsBefore(Semantic::kNormal)) {
+    bits |= value_method::kUnits;
+  }
+  return bits;
+}
+
 constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count, uint32_t index) {
   const AttributeInfo& a = attributes[index];
   const uint8_t bits = a.predictor & static_cast<uint8_t>(~kHasEqualities);
   switch (methodOf(attributes, count, index)) {
     case AttributeMethod::kValues:
-      return (bits & ~0x1f) == 0 &&
+      return (bits & ~(value_method::kPredictorMask | knownValueBits(attributes, count, index))) ==
+                 0 &&
              ((bits & value_method::kPredictorMask) != value_method::kBlend ||
               a.format.component_count <= value_method::kBlendComponents);
     case AttributeMethod::kNormal:

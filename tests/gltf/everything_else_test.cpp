@@ -1,0 +1,258 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// What is no geometry survives: extras and unknown extensions on every object, odd numbers, images, animations, instances.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "gltf/check_json.h"
+#include "gltf/round_trip.h"
+
+namespace mcc::gltf::test {
+namespace {
+
+constexpr char kUnknown[] = "ACME_everything";
+
+Json strangeThings() {
+  Json strange;
+  const Result parsed = parseJson(
+      asBytes(
+          R"({"big":12345678901234567890123,"tiny":1e-7,"neg":-0,"none":null,"empty":{},"no":[],)"
+          R"("list":[[],{},null,[null]],"long":0.10000000000000000555,"int":-5000000000,)"
+          R"("s":"\u0001\ud83d\ude00 \" \\","":"no key","true":true})"),
+      strange);
+  return parsed.ok() ? strange : Json();
+}
+
+/// A document that uses every object of glTF 2.0.
+Builder fullDocument() {
+  Builder builder;
+  Json& json = builder.json;
+  const Sheet sheet(20);
+  Json primitive = sheet.addTo(builder);
+  primitive["material"] = 0;
+  primitive["targets"] = {{{"POSITION", builder.addPositions(sheet.positions)}}};
+  builder.addMesh({primitive});
+  json["meshes"][0]["weights"] = {0.5};
+  json["meshes"][0]["name"] = "née \u00fc";
+  json["nodes"].push_back({{"camera", 0}, {"name", ""}, {"children", {2}}});
+  json["nodes"].push_back({{"name", "joint"}});
+  json["scenes"][0]["nodes"].push_back(1);
+  json["scene"] = 0;
+  const uint32_t image = builder.addView({0x89, 'P', 'N', 'G', 1, 2, 3});
+  json["images"] = {{{"bufferView", image}, {"mimeType", "image/png"}},
+                    {{"uri", "data:image/png;base64,iVBORw0KGgo="}}};
+  json["samplers"] = {{{"magFilter", 9729}}};
+  json["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 1}}};
+  json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                        {"normalTexture", {{"index", 1}, {"scale", 0.5}}},
+                        {"occlusionTexture", {{"index", 1}, {"strength", 0.5}}}}};
+  json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.01}}}},
+                     {{"type", "orthographic"},
+                      {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 10}, {"znear", 0.1}}}}};
+  const uint32_t matrices = builder.addAccessor(std::vector<float>(16, 1), kFloat, "MAT4", 1);
+  json["skins"] = {{{"joints", {2}}, {"inverseBindMatrices", matrices}}};
+  const uint32_t times = builder.addFloats({0, 1}, 1);
+  const uint32_t places = builder.addFloats({0, 0, 0, 1, 1, 1}, 3);
+  json["animations"] = {
+      {{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}},
+       {"samplers", {{{"input", times}, {"output", places}}}}}};
+  const uint32_t instances = builder.addFloats({0, 0, 0, 5, 5, 5}, 3);
+  json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
+      instances;
+  const uint32_t sparse_index = builder.addView({1, 0, 0, 0});
+  const uint32_t sparse_value = builder.addView(bytesOf(std::vector<float>{9}));
+  builder.addAccessor(
+      {{"componentType", kFloat},
+       {"count", 4},
+       {"type", "SCALAR"},
+       {"sparse",
+        {{"count", 1},
+         {"indices", {{"bufferView", sparse_index}, {"componentType", kUnsignedShort}}},
+         {"values", {{"bufferView", sparse_value}}}}}});
+  json["asset"]["generator"] = "a test";
+  json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+  json["buffers"] = {{{"byteLength", builder.bin.size()}, {"name", "all"}}};
+  return builder;
+}
+
+/// Visits every object that may have extras, with its path.
+void visitObjects(Json& json, const std::string& path,
+                  const std::function<void(Json&, const std::string&)>& visit) {
+  const bool is_map = path.ends_with("/attributes") ||
+                      path.find("/targets/") != std::string::npos || path.ends_with("/extensions");
+  if (json.is_array()) {
+    for (size_t i = 0; i < json.size(); ++i) visitObjects(json[i], at(path, i), visit);
+  } else if (json.is_object()) {
+    for (const auto& [key, value] : json.items()) visitObjects(value, at(path, key), visit);
+    if (!is_map) visit(json, path);
+  }
+}
+
+/// Members in which the file with compressed or decoded geometry may differ from its source.
+bool mayDiffer(const std::string& path) {
+  static const std::set<std::string> kOfAccessors = {"bufferView", "byteOffset", "min", "max"};
+  static const std::set<std::string> kOfViews = {"buffer", "byteOffset", "byteLength"};
+  const std::string key = path.substr(path.rfind('/') + 1);
+  if (path.starts_with("/accessors/")) return kOfAccessors.count(key) != 0;
+  if (path.starts_with("/bufferViews/")) return kOfViews.count(key) != 0;
+  return path == "/buffers/0/byteLength" || path == "/extensionsUsed" ||
+         (path.starts_with("/images/") && key == "bufferView") ||
+         path.ends_with("/indices/bufferView") || path.ends_with("/values/bufferView");
+}
+
+/// Everything of `a` is in `b`.
+void expectKept(const Json& a, const Json& b, const std::string& path) {
+  if (mayDiffer(path)) return;
+  ASSERT_EQ(a.type(), b.type()) << path;
+  if (a.is_array()) {
+    ASSERT_LE(a.size(), b.size()) << path;
+    for (size_t i = 0; i < a.size(); ++i) expectKept(a[i], b[i], at(path, i));
+  } else if (a.is_object()) {
+    for (const auto& [key, value] : a.items()) {
+      const Json* other = findMember(b, key.c_str());
+      if (mayDiffer(at(path, key))) continue;
+      ASSERT_NE(other, nullptr) << at(path, key);
+      expectKept(value, *other, at(path, key));
+    }
+  } else {
+    EXPECT_TRUE(a == b) << path;
+  }
+}
+
+void expectBytesKept(const RoundTrip& trip, const std::set<uint32_t>& compressed) {
+  Document source;
+  ASSERT_TRUE(loadDocument(trip.source, nullptr, source).ok());
+  for (const auto* file : {&trip.converted, &trip.decoded}) {
+    Document document;
+    ASSERT_TRUE(loadDocument(*file, nullptr, document).ok());
+    for (uint32_t i = 0; i < source.accessors.size(); ++i) {
+      if (compressed.count(i) == 0) {
+        EXPECT_EQ(elementsInOrder(trip.source, i), elementsInOrder(*file, i)) << i;
+      }
+    }
+    const uint32_t view = document.json["images"][0]["bufferView"];
+    const BufferView& range = document.views[view];
+    const auto image = document.buffers[range.buffer].subspan(range.offset, range.length);
+    EXPECT_EQ(std::vector<uint8_t>(image.begin(), image.end()),
+              (std::vector<uint8_t>{0x89, 'P', 'N', 'G', 1, 2, 3}));
+  }
+}
+
+std::vector<uint8_t> fileOf(const Builder& builder) {
+  std::vector<uint8_t> file;
+  const Result result = writeGlb(printJson(builder.json), builder.bin, {}, file);
+  return result.ok() ? file : std::vector<uint8_t>{};
+}
+
+void expectSurvival(const Builder& builder, bool keeps_views) {
+  const RoundTrip trip = roundTrip(fileOf(builder));
+  ASSERT_EQ(trip.error, "");
+  ASSERT_TRUE(isCompressed(jsonOf(trip.converted), 0, 0));
+  Json source = jsonOf(trip.source);
+  if (!keeps_views) source.erase("bufferViews");  // those of the geometry go
+  expectKept(source, jsonOf(trip.converted), "");
+  Json decoded_source = source;
+  expectKept(decoded_source, jsonOf(trip.decoded), "");
+  expectBytesKept(trip, {0, 1, 2, 3, 4});
+}
+
+TEST(EverythingElse, ExtrasOnEveryObject) {
+  Builder builder = fullDocument();
+  size_t count = 0;
+  visitObjects(builder.json, "", [&](Json& object, const std::string& path) {
+    if (path.starts_with("/accessors/") && path.find("/sparse") != std::string::npos) return;
+    object["extras"] = strangeThings();
+    ++count;
+  });
+  EXPECT_GT(count, 40u);
+  expectSurvival(builder, false);
+}
+
+/// All but on the accessors and views of the geometry, whose meaning it may change.
+TEST(EverythingElse, UnknownExtensionsOnEveryObject) {
+  Builder builder = fullDocument();
+  size_t count = 0;
+  visitObjects(builder.json, "", [&](Json& object, const std::string& path) {
+    for (const char* list : {"/accessors/", "/bufferViews/"}) {
+      for (const char number : {'0', '1', '2', '3', '4'}) {
+        if (path == std::string(list) + number) return;
+      }
+    }
+    object["extensions"][kUnknown] = strangeThings();
+    ++count;
+  });
+  EXPECT_GT(count, 30u);
+  builder.json["extensionsUsed"].push_back(kUnknown);
+  expectSurvival(builder, true);
+}
+
+TEST(EverythingElse, UnknownExtensionsOnGeometryLeaveItAlone) {
+  for (const char* list : {"accessors", "bufferViews"}) {
+    for (const size_t number : {0u, 3u}) {
+      Builder builder = fullDocument();
+      builder.json["extensionsUsed"].push_back(kUnknown);
+      builder.json[list][number]["extensions"][kUnknown] = {{"cipher", "rot13"}};
+      const RoundTrip trip = roundTrip(fileOf(builder));
+      ASSERT_EQ(trip.error, "");
+      EXPECT_TRUE(trip.report.copied);
+      EXPECT_TRUE(hasNote(trip.report, "has the unknown extension ACME_everything"));
+    }
+  }
+}
+
+/// Things that count vertices or triangles keep their meaning.
+TEST(EverythingElse, WhatNumbersVerticesKeepsTheOrder) {
+  const auto keepsOrder = [](const std::function<void(Json&)>& change) {
+    Builder builder;
+    const Json sheet = Sheet(20).addTo(builder);
+    builder.addMesh({sheet});
+    change(builder.json);
+    ConvertOptions options;
+    options.lossless = true;
+    const RoundTrip trip = roundTrip(builder, options);
+    EXPECT_EQ(trip.error, "");
+    EXPECT_TRUE(isCompressed(jsonOf(trip.converted), 0, 0));
+    const uint32_t position = sheet["attributes"]["POSITION"];
+    return elementsInOrder(trip.source, position) == elementsInOrder(trip.decoded, position) &&
+           elementsInOrder(trip.source, sheet["indices"]) ==
+               elementsInOrder(trip.decoded, sheet["indices"]);
+  };
+  EXPECT_FALSE(keepsOrder([](Json&) {}));
+  EXPECT_FALSE(keepsOrder([](Json& j) { j["meshes"][0]["extras"]["targetNames"] = {"a", "b"}; }));
+  EXPECT_TRUE(keepsOrder([](Json& j) {
+    j["meshes"][0]["extras"]["drawRanges"] = {{{"start", 0}, {"count", 300}}};
+  }));
+  EXPECT_TRUE(keepsOrder([](Json& j) {
+    j["meshes"][0]["primitives"][0]["extras"]["editor"]["pinnedVertices"] = {1, 2};
+  }));
+  EXPECT_TRUE(keepsOrder([](Json& j) {
+    j["extensionsUsed"] = {"EXT_mesh_features"};
+    j["meshes"][0]["primitives"][0]["extensions"]["EXT_mesh_features"]["featureIds"] = {
+        {{"featureCount", 441}}};  // the number of a vertex is its id
+  }));
+  EXPECT_TRUE(keepsOrder([](Json& j) {
+    j["extensionsUsed"] = {"EXT_structural_metadata"};
+    j["meshes"][0]["primitives"][0]["extensions"]["EXT_structural_metadata"]["propertyAttributes"] =
+        {0};
+  }));
+}
+
+TEST(EverythingElse, ManifoldMeshesAreLeftAlone) {
+  Builder builder;
+  const Json sheet = Sheet(20).addTo(builder);
+  builder.addMesh({sheet});
+  builder.addMesh({Sheet(24).addTo(builder)});
+  builder.json["extensionsUsed"] = {"EXT_mesh_manifold"};
+  builder.json["meshes"][0]["extensions"]["EXT_mesh_manifold"]["manifoldPrimitive"] = {
+      {"indices", sheet["indices"]},
+      {"attributes", {{"POSITION", sheet["attributes"]["POSITION"]}}}};
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_FALSE(isCompressed(jsonOf(trip.converted), 0, 0));
+  EXPECT_TRUE(isCompressed(jsonOf(trip.converted), 1, 0));
+  EXPECT_TRUE(hasNote(trip.report, "EXT_mesh_manifold"));
+}
+
+}  // namespace
+}  // namespace mcc::gltf::test
