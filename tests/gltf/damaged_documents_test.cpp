@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "gltf/gltf_builder.h"
+#include "gltf/made_up_codecs.h"
 #include "mcc/gltf.h"
 
 namespace mcc::gltf::test {
@@ -113,10 +113,12 @@ void expectOneLine(const Result& result) {
 }
 
 void tryAll(std::span<const uint8_t> file) {
-  ConvertOptions options;
+  ConvertOptions options = withDecoders();
   options.allow_larger = true;
   std::vector<uint8_t> output;
   ConvertReport convert_report;
+  expectOneLine(convertGlb(file, options, output, convert_report));
+  options.indices_only = true;
   expectOneLine(convertGlb(file, options, output, convert_report));
   DecodeReport decode_report;
   expectOneLine(decodeGlb(file, output, decode_report));
@@ -152,6 +154,16 @@ TEST(DamagedDocuments, Compressed) {
   const Result result = convertGlb(document().toGlb(), options, compressed, report);
   ASSERT_TRUE(result.ok()) << result.message();
   tryChanges(compressed, 1500);
+}
+
+/// What other codecs compressed, one mesh and the views of another.
+TEST(DamagedDocuments, Coded) {
+  Builder builder;
+  builder.addMesh({Sheet(6).addTo(builder)});
+  builder.addMesh({Sheet(5).addTo(builder)});
+  codeMesh(builder, 0);
+  codeViews(builder, {4, 5, 6, 7});
+  tryChanges(fileOf(builder), 1500);
 }
 
 TEST(DamagedDocuments, Bytes) {

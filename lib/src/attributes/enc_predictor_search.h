@@ -78,7 +78,7 @@ class PredictorSearch {
         }
         if ((knownValueBits(attributes, count, index) & value_method::kIds) != 0 && !is_target) {
           steps_.push_back({value_method::kIds | value_method::kSameFlags,
-                            {value_method::kIds | value_method::kSameFlags}});
+                            {value_method::kIds, value_method::kIds | value_method::kSameFlags}});
         }
         if (is_target) steps_.push_back({value_method::kZeroFlags, {0}});
         for (const uint8_t bit : {value_method::kBends, value_method::kUnits}) {

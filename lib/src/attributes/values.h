@@ -4,7 +4,8 @@
 // integer components, by parallelograms or means of neighbours.                              [A.8.4, B.3]
 //
 // Optionally, a flag first tells that all components are 0 (morph deltas), or equal to those of a neighbour (colours of
-// parts, ids, rigid regions).
+// parts, ids, rigid regions). Ids are not predicted, see ids.h; of deltas of unit vectors some components follow from the
+// others, see unit_deltas.h.
 #ifndef MCC_ATTRIBUTES_VALUES_H_
 #define MCC_ATTRIBUTES_VALUES_H_
 

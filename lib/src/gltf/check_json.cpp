@@ -159,6 +159,7 @@ Result compareViews(const Document& source, const Document& decoded,
     if (index >= source.accessors.size()) continue;
     const Accessor& accessor = source.accessors[index];
     if (accessor.view != kNone) is_freed[accessor.view] = true;
+    if (accessor.decoded_from != kNone) is_freed[accessor.decoded_from] = true;
     if (accessor.sparse.count == 0) continue;
     is_freed[accessor.sparse.index_view] = true;
     is_freed[accessor.sparse.value_view] = true;

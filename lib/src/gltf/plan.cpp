@@ -62,6 +62,7 @@ class Planner {
       : document_(document), payloads_(payloads), left_alone_(left_alone) {}
 
   Result run() {
+    findFilledAccessors();
     const Json& meshes = arrayOf(document_.json, "meshes");
     for (uint32_t mesh = 0; mesh < meshes.size(); ++mesh) {
       const Json& primitives = arrayOf(meshes[mesh], "primitives");
@@ -130,9 +131,36 @@ class Planner {
     return "";
   }
 
+  /// Marks the accessors that payloads of the source fill.
+  void findFilledAccessors() {
+    is_filled_.assign(document_.accessors.size(), false);
+    const auto mark = [&](const Json& number) {
+      uint64_t accessor = 0;
+      if (asUnsigned(number, accessor) && accessor < is_filled_.size()) is_filled_[accessor] = true;
+    };
+    const auto markAll = [&](const Json* map) {
+      if (map == nullptr || !map->is_object()) return;
+      for (const Json& number : *map) mark(number);
+    };
+    for (const Json& mesh : arrayOf(document_.json, "meshes")) {
+      for (const Json& primitive : arrayOf(mesh, "primitives")) {
+        const Json* extensions = findMember(primitive, "extensions");
+        const Json* ours =
+            extensions == nullptr ? nullptr : findMember(*extensions, kExtensionName);
+        if (ours == nullptr) continue;
+        if (const Json* indices = findMember(primitive, "indices")) mark(*indices);
+        if (findMember(*ours, "attributes") != nullptr)
+          markAll(findMember(primitive, "attributes"));
+        if (findMember(*ours, "targets") == nullptr) continue;
+        for (const Json& target : arrayOf(primitive, "targets")) markAll(&target);
+      }
+    }
+  }
+
   /// Why an accessor cannot be read, or may mean something else than what can be read.
   std::string unreadableNote(uint32_t index) const {
     const Accessor& accessor = document_.accessors[index];
+    if (is_filled_[index]) return "is in the payload of another primitive";
     std::string unknown = unknownExtension(document_.json["accessors"][index]);
     for (const uint32_t view :
          {accessor.view, accessor.sparse.index_view, accessor.sparse.value_view}) {
@@ -315,6 +343,7 @@ class Planner {
   std::vector<PayloadPlan>& payloads_;
   std::vector<LeftAlone>& left_alone_;
   std::map<std::string, PieceRef> pieces_;
+  std::vector<bool> is_filled_;  ///< accessors that are compressed already
 };
 
 }  // namespace

@@ -1,0 +1,182 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// node draw.mjs: writes the figures of Appendix A beside itself.
+import fs from 'node:fs';
+
+const GREY = '#90a4ae';
+const DARK = '#37474f';
+const BLUE = '#1e88e5';
+const RED = '#e53935';
+const ORANGE = '#fb8c00';
+const DONE = '#e3f2fd';
+const NEW = '#bbdefb';
+
+const number = (x) => Number(x.toFixed(1));
+const line = (a, b, colour = GREY, width = 2, more = '') =>
+  `<line x1="${number(a[0])}" y1="${number(a[1])}" x2="${number(b[0])}" y2="${number(b[1])}" stroke="${colour}" stroke-width="${width}"${more}/>`;
+const arrow = (a, b, colour = DARK) => line(a, b, colour, 2, ` marker-end="url(#${colour === BLUE ? 'b' : 'a'})"`);
+const dashed = (a, b, colour = GREY) => line(a, b, colour, 1.5, ' stroke-dasharray="5 4"');
+const dot = (p, colour = DARK, radius = 5) =>
+  `<circle cx="${number(p[0])}" cy="${number(p[1])}" r="${radius}" fill="${colour}"/>`;
+const area = (points, fill = DONE) =>
+  `<polygon points="${points.map((p) => `${number(p[0])},${number(p[1])}`).join(' ')}" fill="${fill}"/>`;
+const box = (x, y, width, height, fill) =>
+  `<rect x="${x}" y="${y}" width="${width}" height="${height}" fill="${fill}" stroke="${DARK}"/>`;
+const text = (p, string, size = 13, anchor = 'middle', colour = '#263238', weight = 'normal') =>
+  `<text x="${number(p[0])}" y="${number(p[1])}" fill="${colour}" font-size="${size}" font-weight="${weight}" text-anchor="${anchor}">${string}</text>`;
+
+/// Points of a regular polygon, counterclockwise from `degrees`.
+function ring(centre, radius, count, degrees = -90) {
+  return Array.from({ length: count }, (_, i) => {
+    const angle = ((degrees - (360 * i) / count) * Math.PI) / 180;
+    return [centre[0] + radius * Math.cos(angle), centre[1] + radius * Math.sin(angle)];
+  });
+}
+const middle = (a, b, t = 0.5) => [a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t];
+const closed = (points, colour = GREY, width = 2) =>
+  points.map((p, i) => line(p, points[(i + 1) % points.length], colour, width));
+
+function write(name, top, width, bottom, label, parts) {
+  const marker = (id, colour) =>
+    `<marker id="${id}" viewBox="0 0 10 10" refX="8" refY="5" markerWidth="7" markerHeight="7" orient="auto"><path d="M0 0L10 5L0 10z" fill="${colour}"/></marker>`;
+  const svg = [
+    `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 ${top} ${width} ${bottom - top}" font-family="Helvetica, Arial, sans-serif" role="img" aria-label="${label}">`,
+    `<defs>${marker('a', DARK)}${marker('b', BLUE)}</defs>`,
+    `<rect y="${top}" width="${width}" height="${bottom - top}" fill="#ffffff"/>`,
+    ...parts.flat(),
+    '</svg>',
+  ].join('\n');
+  fs.writeFileSync(new URL(name, import.meta.url), `${svg}\n`);
+}
+
+function container() {
+  const parts = [];
+  let x = 20;
+  const field = (name, below, width, fill) => {
+    parts.push(box(x, 40, width, 46, fill), text([x + width / 2, 68], name));
+    below.forEach((row, i) => parts.push(text([x + width / 2, 106 + 17 * i], row, 12, 'middle', '#546e7a')));
+    x += width;
+  };
+  field('magic', ['3'], 60, '#eceff1');
+  field('version', ['1'], 60, '#eceff1');
+  field('CRC-32', ['4'], 60, '#ffe0b2');
+  field('flags', ['1'], 50, '#eceff1');
+  field('pieces', ['counts, parts,', 'attributes'], 150, '#eceff1');
+  field('lengths', ['of streams,', 'padding'], 80, '#eceff1');
+  field('codes', ['range coder: connectivity,', 'stitching, seams, flags'], 180, NEW);
+  field('tokens', ['rANS: residuals of positions', 'and attributes'], 190, '#c8e6c9');
+  field('raw', ['plain bits'], 90, '#f8bbd0');
+  parts.push(text([20, 26], 'one buffer view', 13, 'start'));
+  parts.push(text([20, 158], 'Bytes. The checksum covers everything but itself. A small payload has one stream, codes.', 12, 'start', '#546e7a'));
+  write('container.svg', 0, 960, 172, 'Fields of a payload: magic, version, checksum, flags, pieces, lengths, and three streams', parts);
+}
+
+function halfEdges() {
+  const a = [110, 190], b = [290, 190], c = [200, 50], d = [390, 60];
+  const inside = (p, q, r) => {
+    const centre = [(p[0] + q[0] + r[0]) / 3, (p[1] + q[1] + r[1]) / 3];
+    return arrow(middle(middle(p, q, 0.14), centre, 0.2), middle(middle(p, q, 0.86), centre, 0.2), BLUE);
+  };
+  const parts = [area([a, b, c]), area([b, d, c])];
+  for (const [p, q] of [[a, b], [b, c], [c, a], [b, d], [d, c]]) parts.push(line(p, q));
+  for (const [p, q, r] of [[a, b, c], [b, c, a], [c, a, b], [c, b, d], [b, d, c], [d, c, b]]) parts.push(inside(p, q, r));
+  for (const p of [a, b, c, d]) parts.push(dot(p));
+  parts.push(text([200, 150], 'face f'), text([295, 106], 'face g'));
+  parts.push(text([88, 206], 'corner 0', 12), text([312, 206], 'corner 1', 12), text([200, 38], 'corner 2', 12));
+  const rows = [
+    ['3f', 'runs from corner 0 to corner 1 of face f'],
+    ['3f + 1', 'from corner 1 to corner 2'],
+    ['3f + 2', 'from corner 2 to corner 0'],
+    ['twin(3f + 1)', 'the half-edge of face g along the same edge'],
+    ['ccw(h)', 'twin(prev(h)): leaves the same vertex as h'],
+    ['cw(h)', 'next(twin(h)): likewise, clockwise'],
+  ];
+  rows.forEach(([left, right], i) => {
+    parts.push(text([450, 62 + 26 * i], left, 13, 'start', '#1565c0', 'bold'), text([560, 62 + 26 * i], right, 13, 'start'));
+  });
+  write('half_edges.svg', 20, 900, 225, 'Corners and half-edges of a face, and its neighbour', parts);
+}
+
+/// A digon as the decoder sees it: decoded faces outside, gates as a ring, the mc-vertex unknown in the middle.
+function digon(centre, names) {
+  const inner = ring(centre, 62, names.length);
+  const outer = ring(centre, 108, names.length);
+  const parts = [];
+  inner.forEach((p, i) => {
+    const j = (i + 1) % inner.length;
+    parts.push(area([p, inner[j], outer[j], outer[i]]), line(outer[i], p, '#cfd8dc', 1.5), line(outer[i], inner[j], '#cfd8dc', 1.5));
+  });
+  return { inner, outer, parts };
+}
+
+function expand() {
+  const parts = [];
+  const names = ['a1', 'a2', 'a3', 'a4', 'a5', 'a0 = top'];
+  const left = [150, 170], right = [460, 170];
+  const before = digon(left, names);
+  parts.push(before.parts, closed(before.inner, BLUE, 2.5));
+  before.inner.forEach((p, i) => parts.push(dashed(p, left), dot(p, i === 5 ? RED : DARK)));
+  parts.push(dot(left, '#b0bec5', 7), text([150, 194], 'mc-vertex', 12, 'middle', '#78909c'));
+  const after = digon(right, names);
+  const v = middle(after.inner[1], right, 0.62);
+  const fan = [after.inner[5], after.inner[0], after.inner[1], after.inner[2]];
+  parts.push(after.parts);
+  for (let i = 0; i < 3; ++i) parts.push(area([v, fan[i], fan[i + 1]], NEW));
+  parts.push(closed(after.inner, GREY, 2));
+  for (const p of fan) parts.push(line(v, p, BLUE, 2.5));
+  for (const i of [2, 3, 4]) parts.push(line(after.inner[i], after.inner[i + 1], BLUE, 2.5));
+  after.inner.forEach((p, i) => parts.push(dot(p, i < 2 ? '#b0bec5' : DARK)));
+  parts.push(dot(v, RED, 6), text([v[0] + 14, v[1] + 18], 'v', 13, 'middle', '#c62828', 'bold'));
+  before.inner.forEach((p, i) => parts.push(text([p[0] + (p[0] - left[0]) * 0.3, p[1] + (p[1] - left[1]) * 0.3 + 4], names[i].split(' ')[0], 12, 'middle', i === 5 ? '#c62828' : '#263238', 'bold')));
+  parts.push(arrow([276, 170], [334, 170]), text([305, 158], 'EXPAND', 12), text([305, 190], 'r = 3', 12));
+  parts.push(text([150, 318], 'ring of nodes around the mc-vertex; blue: gates', 12));
+  parts.push(text([460, 318], 'three gates taken; a1, a2 close; v is the top', 12));
+
+  const spur = ring([735, 170], 62, 5);
+  const tip = middle(spur[0], [735, 170], 0.72);
+  parts.push(area(ring([735, 170], 100, 5)), `<polygon points="${spur.map((p) => p.map(number).join(',')).join(' ')}" fill="#ffffff"/>`);
+  parts.push(closed(spur, BLUE, 2.5), line(spur[0], tip, RED, 4));
+  spur.forEach((p) => parts.push(dot(p)));
+  parts.push(dot(tip, RED, 6), text([735, 318], 'spur, r = 0: the top gets', 12), text([735, 335], 'a second node', 12), text([tip[0] + 12, tip[1] + 16], 'v', 13, 'middle', '#c62828', 'bold'));
+
+  const p = [905, 130], q = [905, 210];
+  parts.push(line(p, q, RED, 4), dot(p, RED, 6), dot(q), text([921, 134], 'v1 = top', 12, 'start'), text([921, 214], 'v2', 12, 'start'));
+  parts.push(text([920, 318], 'END: two gates,', 12), text([920, 335], 'glued together', 12));
+  write('expand.svg', 50, 980, 345, 'EXPAND takes gates of the ring, a spur takes none, END begins a digon of two vertices', parts);
+}
+
+function joins() {
+  const parts = [];
+  // A hole and its dummy.
+  const hole = ring([130, 150], 58, 7);
+  const far = ring([130, 150], 105, 7, -64);
+  parts.push(area(far));
+  hole.forEach((p, i) => parts.push(line(p, far[i], '#cfd8dc', 1.5), line(p, far[(i + 6) % 7], '#cfd8dc', 1.5)));
+  parts.push(area(hole, '#ffffff'), closed(hole, DARK, 2.5));
+  hole.forEach((p) => parts.push(dashed(p, [130, 150], ORANGE), dot(p)));
+  parts.push(dot([130, 150], ORANGE, 7), text([130, 286], 'hole: a dummy closes it,', 12), text([130, 303], 'its triangles are not emitted', 12));
+
+  // START.
+  const one = ring([360, 150], 50, 6, 0), two = ring([490, 150], 50, 6, 180);
+  parts.push(closed(one, BLUE, 2.5), closed(two, GREY, 2.5));
+  one.forEach((p, i) => parts.push(dot(p, i === 0 ? RED : DARK, i === 0 ? 6 : 5)));
+  two.forEach((p, i) => parts.push(dot(p, i === 0 ? RED : DARK, i === 0 ? 6 : 5)));
+  parts.push(`<path d="M ${one[0][0] + 8} 150 L ${two[0][0] - 8} 150" stroke="${RED}" stroke-width="1.5" stroke-dasharray="3 3" fill="none"/>`);
+  parts.push(text([360, 154], 'at work', 12), text([490, 154], 'waits', 12, 'middle', '#78909c'));
+  parts.push(text([425, 226], 'the same vertex', 12, 'middle', '#c62828'), arrow([425, 212], [425, 162]));
+  parts.push(text([425, 286], 'START: the links of the two tops are exchanged,', 12), text([425, 303], 'two rings become one', 12));
+
+  // HANDLE.
+  const big = ring([740, 150], 82, 12, 90);
+  parts.push(closed(big, BLUE, 2.5));
+  big.forEach((p, i) => parts.push(dot(p, i === 0 || i === 6 ? RED : DARK, i === 0 || i === 6 ? 6 : 5)));
+  parts.push(dashed(big[0], big[6], RED), text([740, 256], 'top', 12, 'middle', '#c62828'), text([740, 58], 'named node', 12, 'middle', '#c62828'));
+  parts.push(text([700, 154], 'waits', 12, 'middle', '#78909c'), text([784, 154], 'at work', 12));
+  parts.push(text([740, 286], 'HANDLE: likewise with a node of the same ring,', 12), text([740, 303], 'which splits it', 12));
+  write('joins.svg', 40, 900, 320, 'A hole with its dummy, START joins two rings, HANDLE splits one', parts);
+}
+
+container();
+halfEdges();
+expand();
+joins();
