@@ -58,7 +58,8 @@ class Check : public testing::Test {
     std::vector<uint8_t> written;
     EXPECT_TRUE(writeGlb(printJson(json), bin, {}, written).ok());
     CheckResult result;
-    return checkConversion(source_, compressed_.payloads, {}, written, result).message();
+    return checkConversion(source_, compressed_.payloads, {}, written, nullptr, 1, result)
+        .message();
   }
 
   std::vector<uint8_t> file_;

@@ -261,11 +261,12 @@ TEST(WorkingMemory, BlocksAreDisjointAligned) {
     blocks.erase(blocks.begin() + static_cast<std::ptrdiff_t>(i));
   };
   for (uint32_t step = 0; step < 400; ++step) {
+    static_assert(WorkingMemory::kLargeBytes < 1u << 24);
     if (blocks.size() > 6 || (!blocks.empty() && random.below(3) == 0)) {
       releaseOne(random.below(static_cast<uint32_t>(blocks.size())));
       continue;
     }
-    const size_t bytes = size_t{1} + random.below(1u << (8 + step % 14));
+    const size_t bytes = size_t{1} + random.below(1u << (8 + step % 17));
     void* block = allocateBytes(allocator, bytes);
     ASSERT_NE(block, nullptr);
     if (bytes >= WorkingMemory::kSmallBytes) {

@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "bench/memory_count.h"
+#include "gltf/parallel.h"
 
 namespace mcc::bench {
 namespace {
@@ -23,9 +24,9 @@ class FileMeasurer {
     for (const Codec codec : options_.codecs) figures_.codecs[indexOf(codec)].is_asked = true;
     encodeAll();
     decodeAll();
-    for (const Codec codec : options_.codecs) {
+    forEachCodec(options_.codecs, [&](Codec codec) {
       if (figures_.of(codec).ok()) noteFailure(codec, examine(codec));
-    }
+    });
     const CodecFigures& ours = figures_.of(Codec::kMcc);
     return ours.failure.empty() ? Outcome{} : foreign::failure(ours.failure);
   }
@@ -39,14 +40,28 @@ class FileMeasurer {
     if (!outcome.ok()) figures_.codecs[indexOf(codec)].failure = outcome.message;
   }
 
+  /// Each codec touches its own figures only.
+  template <typename Job>
+  void forEachCodec(const std::vector<Codec>& codecs, const Job& job) {
+    const gltf::Result done =
+        gltf::runParallel(codecs.size(), options_.thread_count, [&](size_t i) -> gltf::Result {
+          job(codecs[i]);
+          return {};
+        });
+    if (!done.ok()) noteFailure(Codec::kMcc, foreign::failure(done.message()));
+  }
+
   /// In rounds over the codecs, so that a disturbance does not hit one of them alone.
   void encodeAll() {
     std::array<double, kCodecCount> spent = {};
     for (uint32_t round = 0; round < std::max(options_.run_count, 1u); ++round) {
+      std::vector<Codec> due;
       for (const Codec codec : options_.codecs) {
+        const bool has_time = round == 0 || spent[indexOf(codec)] < options_.encode_seconds;
+        if (has_time && figures_.of(codec).ok()) due.push_back(codec);
+      }
+      forEachCodec(due, [&](Codec codec) {
         CodecFigures& figures = figures_.codecs[indexOf(codec)];
-        if (!figures.ok() || (round > 0 && spent[indexOf(codec)] >= options_.encode_seconds))
-          continue;
         tell(std::string("encode with ") + codecName(codec));
         const double start = threadSeconds();
         noteFailure(codec, encodeFile(geometry_, codec, encoded_[indexOf(codec)]));
@@ -54,7 +69,7 @@ class FileMeasurer {
         spent[indexOf(codec)] += seconds;
         if (round == 0 || seconds < figures.encode_seconds) figures.encode_seconds = seconds;
         ++figures.encode_runs;
-      }
+      });
     }
   }
 

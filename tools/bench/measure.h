@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Sizes, times, memory and errors of the codecs on one file, in one process and on one thread.
+// Sizes, times, memory and errors of the codecs on one file, in one process.
 #ifndef MCC_TOOLS_BENCH_MEASURE_H_
 #define MCC_TOOLS_BENCH_MEASURE_H_
 
@@ -18,9 +18,11 @@ struct MeasureOptions {
   std::vector<Codec> codecs = {kAllCodecs.begin(), kAllCodecs.end()};
   uint32_t run_count = 5;     ///< decodes per codec, at least
   double encode_seconds = 0;  ///< encodes are repeated, up to run_count times, while they took less
+  /// Codecs that encode, or are examined after decoding, at the same time. Decoding is timed alone.
+  uint32_t thread_count = 1;
   bool with_errors = false;
   bool with_memory = false;  ///< peak memory and cache misses
-  /// Told what is being done now: "a_bunny: decode 3 of 5".
+  /// Told what is being done now: "a_bunny: decode 3 of 5". By any of the threads.
   std::function<void(const std::string&)> progress;
 };
 

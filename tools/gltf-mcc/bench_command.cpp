@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "convert_report.h"
 #include "gltf/file_io.h"
+#include "help.h"
 #include "progress_line.h"
 
 namespace mcc::tool {
@@ -96,8 +97,8 @@ int BenchCommand::run() const {
 }  // namespace
 
 void addBench(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand(
-      "bench", "Measure sizes and speed beside Draco and meshoptimizer; writes no file");
+  CLI::App* command =
+      app.add_subcommand("bench", "Measure sizes and speed beside Draco and meshoptimizer");
   auto state = std::make_shared<BenchCommand>();
   command->add_option("IN", state->inputs, "The .glb or .gltf files to read")
       ->required()
@@ -115,15 +116,14 @@ void addBench(CLI::App& app, int& status) {
       ->group("");  // for tests/results
   addFormatOption(*command, state->common);
   command->add_flag("-q,--quiet", state->common.is_quiet, "Show no progress");
-  command->footer(
-      "All codecs get the same grids and run in turns on one thread of one process; the least CPU "
-      "time\n"
-      "of at least N runs counts, from payloads in memory to new float and index arrays. "
-      "Encoding,\n"
-      "which takes long, is repeated for two seconds per codec and file, N times at most.\n"
-      "The category of a file is the letter before '_' in names like a_bunny.glb.\n\n"
-      "Example:\n"
-      "  gltf-mcc bench --format md models/*.glb > table.md");
+  setHelp(
+      *command, "bench [OPTIONS] IN…",
+      "All codecs get the same grids and run in turns on one thread of one process; the least CPU\n"
+      "time of at least N runs counts, from payloads in memory to new float and index arrays.\n"
+      "Encoding, which takes long, is repeated for two seconds per codec and file, N times at "
+      "most.\n"
+      "The category of a file is the letter before '_' in names like a_bunny.glb.",
+      "bench --format md models/*.glb > table.md");
   command->callback([state, &status]() { status = state->run(); });
 }
 

@@ -12,6 +12,7 @@
 #include "bench/emit_draco.h"
 #include "comparison_report.h"
 #include "gltf/file_io.h"
+#include "help.h"
 #include "progress_line.h"
 
 namespace mcc::tool {
@@ -56,7 +57,7 @@ gltf::Result CompareCommand::compare(const std::string& input, bench::FileFigure
   if (result.ok() && !draco_output.empty()) {
     std::vector<uint8_t> draco;
     result = bench::emitDraco(input, file, convert, draco, notes);
-    if (result.ok()) result = writeBytes(draco_output, draco);
+    if (result.ok()) result = gltf::writeFile(draco_output, draco);
   }
   if (!result.ok()) return result;
   result = compareWithDraco(input, std::move(file), convert, nullptr, run_count, common.is_quiet,
@@ -99,13 +100,6 @@ int CompareCommand::run() const {
 
 }  // namespace
 
-gltf::Result writeBytes(const std::string& path, std::span<const uint8_t> bytes) {
-  gltf::ReplacementFile file(path);
-  gltf::Result result = file.check();
-  if (result.ok()) result = file.write(bytes);
-  return result.ok() ? file.commit() : result;
-}
-
 gltf::Result compareWithDraco(const std::string& input, std::vector<uint8_t> file,
                               const gltf::ConvertOptions& convert,
                               const bench::PrimitiveFilter& wanted, uint32_t run_count,
@@ -120,6 +114,7 @@ gltf::Result compareWithDraco(const std::string& input, std::vector<uint8_t> fil
   options.codecs = {bench::Codec::kMcc, bench::Codec::kDraco0, bench::Codec::kDraco3,
                     bench::Codec::kDraco5};
   options.run_count = run_count;
+  options.thread_count = convert.thread_count;
   options.with_errors = true;
   options.progress = [&](const std::string& text) { line.show(text); };
   const std::string name = std::filesystem::path(input).stem().string();
@@ -143,19 +138,19 @@ void addCompare(CLI::App& app, int& status) {
       ->type_name("OUT2");
   addFormatOption(*command, state->common);
   addVerbosityOptions(*command, state->common);
-  command->footer(
-      "Draco gets the same grids as we, at speeds 0 (smallest), 3 and 5 (glTF-Transform's "
-      "default).\n"
-      "\"best\" is the smaller of its speeds 0 and 5. Its connectivity is measured alone, on the "
-      "mesh\n"
-      "welded by position; \"seams\" is what its triangles take more in the file. Morph targets, "
-      "which\n"
-      "it has not, are left out on both sides and listed below. Times are CPU times in one "
-      "process,\n"
-      "from payloads in memory to float and index arrays, the least of several runs.\n\n"
-      "Examples:\n"
-      "  gltf-mcc compare model.glb\n"
-      "  gltf-mcc compare --quantize-position 12 --format md a.glb b.glb");
+  setHelp(
+      *command, "compare [OPTIONS] IN…",
+      "Draco gets the same grids as we, at speeds 0 (smallest), 3 and 5 (glTF-Transform's\n"
+      "default). \"best\" is the smaller of its speeds 0 and 5. Its connectivity is measured "
+      "alone,\n"
+      "on the mesh welded by position; \"seams\" is what its triangles take more in the file. "
+      "Morph\n"
+      "targets, which it has not, are left out on both sides and listed below. Times are CPU "
+      "times\n"
+      "in one process, from payloads in memory to float and index arrays, the least of several\n"
+      "runs.",
+      "compare model.glb\n"
+      "compare --quantize-position 12 --format md a.glb b.glb");
   command->callback([state, &status]() {
     if (!state->draco_output.empty() && state->inputs.size() != 1) {
       throw CLI::ValidationError("--emit-draco", "takes one input");

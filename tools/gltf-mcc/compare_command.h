@@ -16,9 +16,6 @@ gltf::Result compareWithDraco(const std::string& input, std::vector<uint8_t> fil
                               const bench::PrimitiveFilter& wanted, uint32_t run_count,
                               bool is_quiet, bench::FileFigures& figures);
 
-/// Writes a file as convertFile() does: a temporary one first, then renamed.
-gltf::Result writeBytes(const std::string& path, std::span<const uint8_t> bytes);
-
 }  // namespace mcc::tool
 
 #endif  // MCC_HAS_FOREIGN

@@ -1,14 +1,22 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <future>
 #include <map>
 #include <memory>
 
+#include "batch.h"
 #include "commands.h"
 #include "convert_comparison.h"
 #include "convert_report.h"
+#include "gltf/package.h"
+#include "help.h"
+#include "standard_streams.h"
+
 #if defined(MCC_HAS_FOREIGN)
 #include "foreign/decoders.h"
 #endif
@@ -19,39 +27,146 @@ namespace {
 struct ConvertCommand {
   CommonOptions common;
   gltf::ConvertOptions convert;
-  std::string input;
-  std::string output;
+  std::vector<std::string> files;  ///< as they stand on the command line
+  std::string input;               ///< of -i
+  std::string output;              ///< of -o
   std::string report;
+  bool is_forced = false;
   ConvertComparison comparison;
 
-  int run() const {
-    // Before any work is done: a conversion whose report cannot be written is a failure.
-    const bool report_is_new = !report.empty() && !std::filesystem::exists(report);
-    if (!report.empty()) {
-      const gltf::Result writable = checkWritable(report);
-      if (!writable.ok()) return reportFailure(writable);
-    }
-    gltf::ConvertReport result;
-    ConvertComparison compared = comparison;
-    gltf::Result outcome = compared.begin(input, convert);
-    if (outcome.ok()) outcome = gltf::convertFile(input, output, convert, result);
-    if (!outcome.ok()) {
-      if (report_is_new) std::remove(report.c_str());
-      return reportFailure(outcome);
-    }
-    outcome = compared.finish(input, convert, result, common, !report.empty());
-    if (!outcome.ok()) return reportFailure(outcome);
-    const std::string json = reportJson(input, output, convert, result, compared.json);
-    if (!report.empty()) {
-      const gltf::Result written = writeText(report, json);
-      if (!written.ok()) return reportFailure(written);
-    }
-    if (common.is_quiet) return kDone;
-    if (common.format == Format::kJson) return printOut(json);
-    const std::string text = reportText(input, output, result, common);
-    return printOut(compared.text.empty() ? text : text + "\n" + compared.text);
-  }
+  int run();
+
+ private:
+  bool isBatch() const;
+  void sortFiles();
+  int runMany() const;
+  int runOne() const;
+  gltf::Result convertOne(Converted& converted, ConvertComparison& compared) const;
 };
+
+bool isGltf(const std::string& name) {
+  gltf::Container container;
+  return gltf::containerOf(name, container).ok() && container.is_gltf;
+}
+
+/// IN and OUT from the command line. Throws what the parser reports as wrong usage.
+void ConvertCommand::sortFiles() {
+  if (!input.empty()) files.insert(files.begin(), input);
+  if (output.empty() && files.size() > 2) {
+    throw CLI::ValidationError("convert", "several inputs need a folder: -o DIR IN…");
+  }
+  if (output.empty() && files.size() == 2) {
+    output = files.back();
+    files.pop_back();
+  }
+  if (files.empty() || output.empty()) {
+    throw CLI::ValidationError("convert", files.empty() ? "IN is missing" : "OUT is missing");
+  }
+}
+
+/// -o names a folder: by a slash, because it is one, or because there are several inputs.
+bool ConvertCommand::isBatch() const {
+  std::error_code ignored;
+  return files.size() > 1 || output.ends_with('/') ||
+         std::filesystem::is_directory(output, ignored);
+}
+
+int ConvertCommand::run() {
+  const bool names_folder = !output.empty();  // and not OUT, which must be a file
+  sortFiles();
+  return names_folder && isBatch() ? runMany() : runOne();
+}
+
+int ConvertCommand::runMany() const {
+  const bool compares = comparison.mode == "draco" || !comparison.draco_output.empty();
+  if (compares) {
+    throw CLI::ValidationError("convert",
+                               "--compare and --emit-draco take one input; see gltf-mcc compare");
+  }
+  if (std::any_of(files.begin(), files.end(), isStandardStream)) {
+    throw CLI::ValidationError("convert", "standard input cannot be one of several inputs");
+  }
+  BatchOptions options;
+  options.inputs = files;
+  options.folder = output;
+  options.report = report;
+  options.convert = convert;
+  options.common = common;
+  options.job_count = convert.thread_count;
+  options.is_forced = is_forced;
+  return runBatch(options);
+}
+
+bool isReplaced(const std::string& input, const std::string& output) {
+  std::error_code ignored;
+  return std::filesystem::equivalent(input, output, ignored);
+}
+
+/// Converts, compares, and measures the files.
+gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison& compared) const {
+  StreamSource source;
+  StreamSink sink;
+  gltf::Result result = source.open(converted.input);
+  if (result.ok()) result = sink.open(converted.output);
+  if (!result.ok()) return result;
+  CommonOptions shown = common;
+  shown.is_quiet |= sink.isStandardOutput();
+  const bool is_measured = canMeasureWhole() && (!report.empty() || !shown.is_quiet);
+  const auto measure = [&](const char* name, std::function<FileContents()> read) {
+    return std::async(launchPolicy(convert.thread_count),
+                      [name, read = std::move(read)]() { return measureWhole(name, read()); });
+  };
+  std::future<WholeSize> input_size;
+  if (is_measured && isReplaced(converted.input, converted.output)) {
+    FileContents contents = readDocumentFiles(converted.input, !isGltf(converted.output));
+    input_size = measure("input", [held = std::move(contents)]() { return held; });
+  }
+  result = compared.begin(source.source(), converted.output, convert);
+  if (!result.ok()) return result;
+  result = gltf::convert(source.source(), sink.sink(), convert, converted.report);
+  if (result.ok()) result = sink.finish();
+  if (!result.ok()) return result;
+  const gltf::ConvertReport& done = converted.report;
+  if (is_measured && !input_size.valid()) {
+    input_size = measure("input", [&]() { return source.contents(done.files.input); });
+  }
+  std::future<WholeSize> output_size;
+  if (is_measured && !done.copied) {
+    output_size = measure("output", [&]() { return sink.contents(done.files.output); });
+  }
+  result = compared.finish(source.source(), convert, converted.report, shown, !report.empty());
+  if (!result.ok() || !is_measured) return result;
+  converted.sizes.push_back(input_size.get());
+  if (output_size.valid()) converted.sizes.push_back(output_size.get());
+  if (compared.draco_size) converted.sizes.push_back(*compared.draco_size);
+  return {};
+}
+
+int ConvertCommand::runOne() const {
+  // Before any work is done: a conversion whose report cannot be written is a failure.
+  const bool report_is_new = !report.empty() && !std::filesystem::exists(report);
+  if (!report.empty()) {
+    const gltf::Result writable = checkWritable(report);
+    if (!writable.ok()) return reportFailure(writable);
+  }
+  Converted converted{files[0], output, {}, {}};
+  ConvertComparison compared = comparison;
+  const gltf::Result outcome = convertOne(converted, compared);
+  if (!outcome.ok()) {
+    if (report_is_new) std::remove(report.c_str());
+    return reportFailure(outcome);
+  }
+  const auto json = reportJson(converted, convert, compared.json);
+  if (!report.empty()) {
+    const gltf::Result written = writeText(report, printReport(json));
+    if (!written.ok()) return reportFailure(written);
+  }
+  if (common.is_quiet || isStandardStream(output)) return kDone;
+  if (common.format == Format::kJson) return printOut(printReport(json));
+  const std::string text = reportText(converted, common);
+  const bool has_more = !compared.text.empty() && common.format != Format::kCsv;
+  return printOut(has_more ? text + "\n" + compared.text : text);
+}
 
 void addBits(CLI::App& command, const std::string& name, uint8_t& bits, int low, int high) {
   const auto check = [low, high](const std::string& text) -> std::string {
@@ -100,7 +215,7 @@ void addPositionPromises(CLI::App& command, gltf::ConvertOptions& options, CLI::
                 }
                 options.position_lattice = given;
               },
-              "Origin and step of the grid of positions, for tiles that must fit together")
+              "Grid of positions, for tiles that must fit together")
           ->expected(4)
           ->delimiter(',')
           ->type_name("X,Y,Z,STEP");
@@ -129,7 +244,7 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
                                                    {"primitive", gltf::Grid::kPrimitive}};
   command
       .add_option("--grid", options.grid,
-                  "What shares one grid of positions, so that no cracks open [mesh]")
+                  "What shares a grid of positions: no cracks inside [mesh]")
       ->transform(CLI::CheckedTransformer(grids, CLI::ignore_case).description(""))
       ->type_name("mesh|scene|primitive");
 }
@@ -150,15 +265,19 @@ void addKeepOrder(CLI::App& command, gltf::ConvertOptions& options) {
 }
 
 void addConvert(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("convert", "Compress a .glb or .gltf into a .glb");
+  CLI::App* command = app.add_subcommand("convert", "Compress .glb and .gltf files");
   auto state = std::make_shared<ConvertCommand>();
 #if defined(MCC_HAS_FOREIGN)
   state->convert.decoders = foreign::foreignDecoders();
 #endif
-  command->add_option("-i,--input,IN", state->input, "The .glb or .gltf to read")->required();
-  command->add_option("-o,--output,OUT", state->output, "The .glb to write")->required();
+  command->add_option("FILES", state->files, "IN and OUT");
+  command->add_option("-i,--input", state->input, "The same as IN")->type_name("FILE");
+  command->add_option("-o,--output", state->output, "The same as OUT, or the folder for many IN")
+      ->type_name("FILE|DIR");
   addQuantization(*command, state->convert);
   addKeepOrder(*command, state->convert);
+  command->add_flag("--fallback", state->convert.fallback,
+                    "Keep the geometry uncompressed, too, in OUT.fallback.bin");
   command->add_option("--report", state->report, "Write all figures to this JSON file")
       ->type_name("FILE");
   state->comparison.addOptions(*command);
@@ -166,16 +285,27 @@ void addConvert(CLI::App& app, int& status) {
   command->add_option("-j,--jobs", state->convert.thread_count, "Threads to use [1]")
       ->check(CLI::Range(1, 1024).description(""))
       ->type_name("N");
+  command->add_flag("--force", state->is_forced, "With -o DIR: convert what is up to date, too");
   addVerbosityOptions(*command, state->common);
-  command->footer(
+  setHelp(
+      *command, "convert [OPTIONS] IN OUT\nconvert [OPTIONS] -o DIR IN…",
+      "IN and OUT are .glb or .gltf files, or - for standard input and output. A .gltf gets its\n"
+      "buffer beside it (a.gltf: a.bin); images that are files stay files there, and move into a "
+      ".glb.\n"
       "The result is decoded and compared with the source before it takes its place; sizes and\n"
-      "measured errors are printed. IN may be compressed with Draco or meshoptimizer already.\n\n"
-      "Examples:\n"
-      "  gltf-mcc convert model.glb small.glb\n"
-      "  gltf-mcc convert scene.gltf small.glb --quantize-position 12 --report sizes.json\n"
-      "  gltf-mcc convert scan.glb exact.glb --lossless\n"
-      "  gltf-mcc convert part.glb small.glb --max-error 0.05\n"
-      "  gltf-mcc convert terrain.glb small.glb --keep-order both");
+      "measured errors are printed. One of --quantize-position, --max-error, "
+      "--max-error-relative,\n"
+      "--lattice and --lossless decides on positions.\n"
+      "IN may be compressed with Draco or meshoptimizer already.\n"
+      "With -o DIR every IN becomes a file of the same name in DIR. What was made there before\n"
+      "with the same options, from files that have not changed since, is left as it is.",
+      "convert model.glb small.glb\n"
+      "convert scene.gltf small.glb --quantize-position 12 --report sizes.json\n"
+      "convert scan.glb exact.glb --lossless\n"
+      "convert part.glb small.glb --max-error 0.05\n"
+      "convert terrain.glb small.glb --keep-order both\n"
+      "convert -j 4 -o small models/*.glb\n"
+      "convert - - < model.glb | upload");
   command->callback([state, &status]() { status = state->run(); });
 }
 

@@ -5,15 +5,19 @@
 
 #include <fmt/format.h>
 
+#include <future>
 #include <set>
 
 #include "bench/emit_draco.h"
 #include "compare_command.h"
 #include "comparison_report.h"
 #include "gltf/file_io.h"
+#include "gltf/glb.h"
 
 namespace mcc::tool {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Above this many triangles a comparison has to be asked for.
 constexpr uint64_t kComparedTriangles = 2'000'000;
@@ -22,35 +26,42 @@ constexpr uint32_t kRuns = 3;
 }  // namespace
 
 void ConvertComparison::addOptions(CLI::App& command) {
-  command
-      .add_option("--compare", mode,
-                  "Show what Draco makes of it [draco, none above 2 million triangles]")
+  command.add_option("--compare", mode, "Show what Draco makes of it [draco up to 2M triangles]")
       ->check(CLI::IsMember({"draco", "none"}).description(""))
       ->type_name("draco|none");
   command
-      .add_option("--emit-draco", draco_output,
-                  "Write IN with KHR_draco_mesh_compression, speed 0, to this .glb too")
+      .add_option("--emit-draco", draco_output, "Write IN with Draco, speed 0, to this .glb, too")
       ->type_name("OUT2");
 }
 
-gltf::Result ConvertComparison::begin(const std::string& input,
+gltf::Result ConvertComparison::begin(const gltf::Source& input, const std::string& output,
                                       const gltf::ConvertOptions& convert) {
   if (mode == "none" && draco_output.empty()) return {};
-  gltf::Result result = gltf::readFile(input, source);
+  gltf::Result result;
+  if (input.bytes) {
+    source.assign(input.bytes->begin(), input.bytes->end());
+  } else {
+    result = gltf::readFile(input.path, source);
+  }
+  std::error_code ignored;
+  if (result.ok() && !gltf::isGlb(source) && fs::equivalent(input.path, output, ignored)) {
+    mode = "none";  // its buffer may be replaced, too
+    text += "note: not compared with Draco: the input is replaced\n";
+  }
   if (!result.ok() || draco_output.empty()) return result;
   result = gltf::ReplacementFile(draco_output).check();
   std::vector<std::string> notes;
-  if (result.ok()) result = bench::emitDraco(input, source, convert, draco, notes);
+  if (result.ok()) result = bench::emitDraco(input.path, source, convert, draco, notes);
   for (const std::string& note : notes) text += "note: " + draco_output + ": " + note + "\n";
   return result;
 }
 
-gltf::Result ConvertComparison::finish(const std::string& input,
+gltf::Result ConvertComparison::finish(const gltf::Source& input,
                                        const gltf::ConvertOptions& convert,
                                        const gltf::ConvertReport& report,
                                        const CommonOptions& common, bool is_reported) {
   if (!draco_output.empty()) {
-    gltf::Result written = writeBytes(draco_output, draco);
+    gltf::Result written = gltf::writeFile(draco_output, draco);
     if (!written.ok()) return written;
   }
   std::set<std::pair<uint32_t, uint32_t>> compressed;
@@ -60,20 +71,37 @@ gltf::Result ConvertComparison::finish(const std::string& input,
     compressed.insert({primitive.mesh, primitive.primitive});
     triangle_count += primitive.triangle_count;
   }
-  // CSV is one table, and `compare` prints the other.
-  const bool is_seen = is_reported || (!common.is_quiet && common.format != Format::kCsv);
+  const bool is_seen = is_reported || !common.is_quiet;
   if (mode == "none" || !is_seen || compressed.empty()) return {};
   if (mode.empty() && triangle_count > kComparedTriangles) {
     text += fmt::format("note: not compared with Draco above {} triangles; --compare draco does\n",
                         grouped(kComparedTriangles));
     return {};
   }
+  auto size = std::async(launchPolicy(convert.thread_count), [&]() -> std::optional<WholeSize> {
+    std::vector<std::string> ignored;
+    const bool is_made =
+        !draco.empty() || bench::emitDraco(input.path, source, convert, draco, ignored).ok();
+    if (!is_made) return std::nullopt;
+    return measureWhole("draco", {std::move(draco)});
+  });
+  // CSV is one table, and `compare` prints the other.
+  const bool is_csv = common.format == Format::kCsv && !is_reported;
+  const gltf::Result result = is_csv ? gltf::Result{} : compare(input, convert, common, compressed);
+  draco_size = size.get();
+  return result;
+}
+
+gltf::Result ConvertComparison::compare(const gltf::Source& input,
+                                        const gltf::ConvertOptions& convert,
+                                        const CommonOptions& common,
+                                        const std::set<std::pair<uint32_t, uint32_t>>& compressed) {
   const auto is_compressed = [&](uint32_t mesh, uint32_t primitive) {
     return compressed.count({mesh, primitive}) != 0;
   };
   bench::FileFigures figures;
-  const gltf::Result compared = compareWithDraco(input, std::move(source), convert, is_compressed,
-                                                 kRuns, common.is_quiet, figures);
+  const gltf::Result compared = compareWithDraco(input.path.string(), source, convert,
+                                                 is_compressed, kRuns, common.is_quiet, figures);
   if (!compared.ok()) {
     text += "note: not compared with Draco: " + compared.message() + "\n";
     return {};
@@ -91,11 +119,12 @@ namespace mcc::tool {
 
 void ConvertComparison::addOptions(CLI::App&) {}
 
-gltf::Result ConvertComparison::begin(const std::string&, const gltf::ConvertOptions&) {
+gltf::Result ConvertComparison::begin(const gltf::Source&, const std::string&,
+                                      const gltf::ConvertOptions&) {
   return {};
 }
 
-gltf::Result ConvertComparison::finish(const std::string&, const gltf::ConvertOptions&,
+gltf::Result ConvertComparison::finish(const gltf::Source&, const gltf::ConvertOptions&,
                                        const gltf::ConvertReport&, const CommonOptions&, bool) {
   return {};
 }

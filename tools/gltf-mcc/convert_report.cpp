@@ -114,14 +114,17 @@ Table primitiveTable(const gltf::ConvertReport& report, Format format) {
   return table;
 }
 
-std::string summaryText(const std::string& input, const std::string& output,
-                        const gltf::ConvertReport& report, const Totals& totals) {
+std::string summaryText(const Converted& converted, const Totals& totals) {
+  const gltf::ConvertReport& report = converted.report;
   const double in = static_cast<double>(report.input_bytes);
   const double out = static_cast<double>(report.output_bytes);
-  std::string text = fmt::format("{} -> {}: {} -> {} bytes ({:.1f} %, ratio {:.2f})\n", input,
-                                 output, grouped(report.input_bytes), grouped(report.output_bytes),
-                                 in == 0 ? 0 : 100 * out / in, out == 0 ? 0 : in / out);
+  std::string text =
+      fmt::format("{} -> {}: {}, ratio {:.2f}\n", converted.input, converted.output,
+                  sizeChange(report.input_bytes, report.output_bytes), out == 0 ? 0 : in / out);
   if (report.copied) return text;
+  if (report.fallback_bytes != 0) {
+    text += fmt::format("fallback beside it: {} bytes\n", grouped(report.fallback_bytes));
+  }
   text += fmt::format(
       "{} of {} primitives compressed into {} {} of {} bytes; {} triangles and {} vertices "
       "kept ({} positions)\n",
@@ -206,6 +209,8 @@ Json primitiveJson(const gltf::PrimitiveReport& primitive) {
   return json;
 }
 
+}  // namespace
+
 Json optionsJson(const gltf::ConvertOptions& options) {
   static constexpr const char* kGrids[] = {"mesh", "scene", "primitive"};
   Json lattice;
@@ -218,6 +223,7 @@ Json optionsJson(const gltf::ConvertOptions& options) {
           {"is_error_relative", options.is_error_relative},
           {"position_lattice", lattice},
           {"indices_only", options.indices_only},
+          {"fallback", options.fallback},
           {"keep_vertex_order", options.keep_vertex_order},
           {"keep_triangle_order", options.keep_triangle_order},
           {"grid", kGrids[static_cast<size_t>(options.grid)]},
@@ -228,8 +234,6 @@ Json optionsJson(const gltf::ConvertOptions& options) {
           {"quantize_tangent", options.bits.tangent},
           {"quantize_weight", options.bits.weight}};
 }
-
-}  // namespace
 
 std::string codingName(AttributeCoding coding, uint32_t bits) {
   std::string name;
@@ -245,35 +249,51 @@ std::string codingName(AttributeCoding coding, uint32_t bits) {
   return bits == 0 ? name : fmt::format("{} {}", name, bits);
 }
 
-std::string reportText(const std::string& input, const std::string& output,
-                       const gltf::ConvertReport& report, const CommonOptions& options) {
+std::string sizeChange(uint64_t input_bytes, uint64_t output_bytes) {
+  const double percent =
+      input_bytes == 0 ? 0
+                       : 100 * static_cast<double>(output_bytes) / static_cast<double>(input_bytes);
+  return fmt::format("{} -> {} bytes ({:.1f} %)", grouped(input_bytes), grouped(output_bytes),
+                     percent);
+}
+
+std::string reportText(const Converted& converted, const CommonOptions& options) {
+  const gltf::ConvertReport& report = converted.report;
   const Totals totals = totalsOf(report);
-  if (options.format == Format::kCsv)
-    return streamTable(totals, options.format).print(Format::kCsv);
-  std::string text = summaryText(input, output, report, totals);
+  if (options.format == Format::kCsv) {
+    Table table = streamTable(totals, options.format);
+    for (const WholeSize& size : converted.sizes) {
+      table.addRow({size.name + " file", std::to_string(size.bytes)});
+      table.addRow({size.name + " file after brotli", std::to_string(size.brotli_bytes)});
+    }
+    return table.print(Format::kCsv);
+  }
+  std::string text = summaryText(converted, totals);
   if (!report.payloads.empty()) {
     text += "\n" + streamTable(totals, options.format).print(options.format);
   }
   if (options.is_verbose && !report.primitives.empty()) {
     text += "\n" + primitiveTable(report, options.format).print(options.format);
   }
+  if (!converted.sizes.empty()) text += "\n" + wholeSizesText(converted.sizes, options.format);
   const std::string notes = notesText(report, options.is_verbose);
   return notes.empty() ? text : text + "\n" + notes;
 }
 
-std::string reportJson(const std::string& input, const std::string& output,
-                       const gltf::ConvertOptions& options, const gltf::ConvertReport& report,
-                       const nlohmann::ordered_json& comparison) {
+Json reportJson(const Converted& converted, const gltf::ConvertOptions& options,
+                const Json& comparison) {
+  const gltf::ConvertReport& report = converted.report;
   Json payloads = Json::array();
   for (const auto& payload : report.payloads) payloads.push_back(payloadJson(payload));
   Json primitives = Json::array();
   for (const auto& primitive : report.primitives) primitives.push_back(primitiveJson(primitive));
   Json json = {{"tool", std::string("gltf-mcc ") + MCC_VERSION},
-               {"input", input},
-               {"output", output},
+               {"input", converted.input},
+               {"output", converted.output},
                {"options", optionsJson(options)},
                {"input_bytes", report.input_bytes},
                {"output_bytes", report.output_bytes},
+               {"fallback_bytes", report.fallback_bytes},
                {"copied", report.copied},
                {"checked", report.checked},
                {"encode_seconds", report.encode_seconds},
@@ -282,7 +302,12 @@ std::string reportJson(const std::string& input, const std::string& output,
                {"payloads", payloads},
                {"primitives", primitives},
                {"notes", report.notes}};
+  if (!converted.sizes.empty()) json["files"] = wholeSizesJson(converted.sizes);
   if (!comparison.is_null()) json["comparison"] = comparison;
+  return json;
+}
+
+std::string printReport(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

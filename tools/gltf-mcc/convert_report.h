@@ -7,17 +7,33 @@
 
 #include "commands.h"
 #include "mcc/gltf.h"
+#include "whole_sizes.h"
 
 namespace mcc::tool {
 
-/// The tables of `convert`.
-std::string reportText(const std::string& input, const std::string& output,
-                       const gltf::ConvertReport& report, const CommonOptions& options);
+/// A conversion with what was measured of it.
+struct Converted {
+  std::string input;
+  std::string output;
+  gltf::ConvertReport report;
+  std::vector<WholeSize> sizes;  ///< of whole files; empty when not measured
+};
 
-/// Everything that is known about a conversion, as JSON. `comparison` is left out when it is null.
-std::string reportJson(const std::string& input, const std::string& output,
-                       const gltf::ConvertOptions& options, const gltf::ConvertReport& report,
-                       const nlohmann::ordered_json& comparison);
+/// The tables of `convert`.
+std::string reportText(const Converted& converted, const CommonOptions& options);
+
+/// Everything that is known about a conversion. `comparison` is left out when it is null.
+nlohmann::ordered_json reportJson(const Converted& converted, const gltf::ConvertOptions& options,
+                                  const nlohmann::ordered_json& comparison);
+
+/// What decides on the bytes of the output.
+nlohmann::ordered_json optionsJson(const gltf::ConvertOptions& options);
+
+/// Indented text of a report.
+std::string printReport(const nlohmann::ordered_json& json);
+
+/// "1,838,104 -> 171,656 bytes (9.3 %)".
+std::string sizeChange(uint64_t input_bytes, uint64_t output_bytes);
 
 /// Whether a file can be written; an empty one is left when there was none.
 gltf::Result checkWritable(const std::string& path);

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "convert_report.h"
+#include "help.h"
 
 namespace mcc::tool {
 namespace {
@@ -220,15 +221,15 @@ struct InspectCommand {
 void addInspect(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("inspect", "List what the payloads of a file hold");
   auto state = std::make_shared<InspectCommand>();
-  command->add_option("-i,--input,IN", state->input, "The .glb or .gltf to read")->required();
-  command->add_flag(
-      "--codes", state->show_codes,
-      "Count the mesh collapse codes: S, E, M and the degrees of contracted vertices");
+  command->add_option("-i,--input,IN", state->input, "The same as IN")
+      ->required()
+      ->type_name("FILE");
+  command->add_flag("--codes", state->show_codes,
+                    "Count the codes: S, E, M and the degrees of vertices");
   addFormatOption(*command, state->common);
-  command->footer(
-      "Examples:\n"
-      "  gltf-mcc inspect small.glb\n"
-      "  gltf-mcc inspect small.glb --codes --format md");
+  setHelp(*command, "inspect [OPTIONS] IN", "IN is a .glb or .gltf file.",
+          "inspect small.glb\n"
+          "inspect small.glb --codes --format md");
   command->callback([state, &status]() { status = state->run(); });
 }
 

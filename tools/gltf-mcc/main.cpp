@@ -8,6 +8,7 @@
 #include <map>
 
 #include "commands.h"
+#include "help.h"
 
 namespace mcc::tool {
 
@@ -52,13 +53,6 @@ int run(int argc, char** argv) {
     return fmt::format("gltf-mcc: {}\nRun \"gltf-mcc --help\" or \"gltf-mcc COMMAND --help\".\n",
                        failure.what());
   });
-  app.footer(
-      "Examples:\n"
-      "  gltf-mcc convert model.glb small.glb\n"
-      "  gltf-mcc decode small.glb model.glb\n"
-      "  gltf-mcc inspect small.glb\n\n"
-      "Exit status: 0 done; 1 the input is bad or the check failed, nothing was written;\n"
-      "2 wrong usage.");
   int status = kDone;
   addConvert(app, status);
   addDecode(app, status);
@@ -67,6 +61,15 @@ int run(int argc, char** argv) {
   addCompare(app, status);
   addBench(app, status);
 #endif
+  setHelp(
+      app, "COMMAND …",
+      "gltf-mcc COMMAND --help says more.\n"
+      "Exit status: 0 done; 1 the input is bad or the check failed, nothing was written; 2 wrong\n"
+      "usage.",
+      "convert model.glb small.glb\n"
+      "convert -j 4 -o small models/*.glb\n"
+      "decode small.glb model.glb\n"
+      "inspect small.glb");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {  // also thrown for --help and --version

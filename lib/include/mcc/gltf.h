@@ -104,6 +104,9 @@ struct ConvertOptions {
   /// primitive has an extension this library does not know, which may refer to them by number.
   bool keep_vertex_order = false;
   bool keep_triangle_order = false;
+  /// Keeps the decoded geometry uncompressed in a second file beside the output, NAME.fallback.bin, for loaders that do
+  /// not know the extension, which is then not required.
+  bool fallback = false;
   uint32_t thread_count = 1;  ///< payloads coded at the same time; the result does not depend on it
   uint8_t effort = 1;         ///< see EncodeOptions::effort
   ForeignDecoders decoders;   ///< for sources that are compressed already
@@ -159,9 +162,18 @@ struct PrimitiveReport {
   std::string note;  ///< why it was left as it was
 };
 
+/// Files of a conversion; none where it went from or to memory.
+struct FilesInUse {
+  std::vector<std::filesystem::path> input;        ///< those of input_bytes, the main one first
+  std::vector<std::filesystem::path> other_input;  ///< images that stay files
+  std::vector<std::filesystem::path> output;       ///< those of output_bytes, the main one first
+};
+
 struct ConvertReport {
-  uint64_t input_bytes = 0;  ///< with all buffers
-  uint64_t output_bytes = 0;
+  uint64_t input_bytes = 0;     ///< with all buffers
+  uint64_t output_bytes = 0;    ///< with all buffers, without the fallback
+  uint64_t fallback_bytes = 0;  ///< of the second file
+  FilesInUse files;
   bool copied = false;   ///< nothing was gained: the output is the input
   bool checked = false;  ///< the output was decoded and compared with the source
   double encode_seconds = 0;
@@ -183,6 +195,7 @@ enum class DecodeTo : uint8_t {
 };
 
 struct DecodeReport {
+  FilesInUse files;
   uint64_t input_bytes = 0;
   uint64_t output_bytes = 0;
   uint32_t payload_count = 0;
@@ -226,29 +239,51 @@ struct InspectReport {
   uint32_t primitive_count = 0;
 };
 
-/// Compresses the triangle primitives of a glTF file held in memory.
-/// source   a GLB, or the JSON of a .gltf whose buffers are data URIs.
-/// output   a GLB. When compressing gains nothing a GLB source is copied byte for byte.
-/// Geometry that other codecs compressed is decoded by options.decoders and compressed again.
-/// Everything that is not geometry is kept as it was. The output is decoded and compared with the
-/// source before the call returns. On an error `output` is unspecified and `report` holds what was
-/// known by then. Safe for untrusted input. Deterministic. Inverse: decodeGlb().
-/// Tests: tests/gltf/.
+/// Where a document comes from.
+struct Source {
+  std::filesystem::path path;  ///< of a .glb or .gltf; its buffers and images lie beside it
+  /// Instead of the file when it is in memory; `path` is then only its name in messages. A .gltf needs
+  /// its buffers in data URIs. Borrowed.
+  std::optional<std::span<const uint8_t>> bytes;
+};
+
+/// Where a document goes to.
+struct Sink {
+  /// NAME.gltf gets its buffer beside it, in NAME.bin; any other name is that of a GLB.
+  std::filesystem::path path;
+  std::vector<uint8_t>* bytes = nullptr;  ///< when not null: receives a GLB, no file is written
+};
+
+/// Compresses the triangle primitives of a glTF file. Everything that is not geometry is kept as it
+/// was. When compressing gains nothing the source is copied byte for byte, unless the container is
+/// another. Geometry that other codecs compressed is decoded by options.decoders and compressed again.
+/// The output is decoded and compared with the source before the call returns.
+///
+/// Files are written under temporary names, read back, checked, and renamed together: on an error
+/// what was there is as it was. Both paths may name the same file. The .bin of a .gltf replaces
+/// another file only when the .gltf that was there referred to it. Images of a .gltf that are files
+/// move into a GLB; beside a .gltf they stay files, and are copied where it lies in another folder.
+/// URIs that are absolute or lead out of the folder of the source are refused.
+///
+/// On an error the bytes of a sink in memory are unspecified and `report` holds what was known by
+/// then. Safe for untrusted input. Deterministic. Inverse: decode(). Tests: tests/gltf/, tests/cli/.
+Result convert(const Source& source, const Sink& sink, const ConvertOptions& options,
+               ConvertReport& report);
+
+/// convert() from memory to memory, and from file to file.
 Result convertGlb(std::span<const uint8_t> source, const ConvertOptions& options,
                   std::vector<uint8_t>& output, ConvertReport& report);
-
-/// The same over files; `source` may be a .gltf with its buffers and images beside it, `output` is
-/// a .glb. The output is written to a temporary file in its folder, read back, checked, and
-/// renamed: on an error an existing output is as it was. Both paths may name the same file.
 Result convertFile(const std::filesystem::path& source, const std::filesystem::path& output,
                    const ConvertOptions& options, ConvertReport& report);
 
-/// Turns compressed primitives into ordinary accessors again; a file without any is copied.
-/// Safe for untrusted input. On an error `output` is unspecified.
+/// Turns compressed primitives into ordinary accessors again; a file without any is copied. Files are
+/// treated as by convert(). Safe for untrusted input.
+Result decode(const Source& source, const Sink& sink, DecodeReport& report,
+              DecodeTo decode_to = DecodeTo::kFloats);
+
+/// decode() from memory to memory, and from file to file.
 Result decodeGlb(std::span<const uint8_t> source, std::vector<uint8_t>& output,
                  DecodeReport& report, DecodeTo decode_to = DecodeTo::kFloats);
-
-/// The same over files, with the guarantees of convertFile().
 Result decodeFile(const std::filesystem::path& source, const std::filesystem::path& output,
                   DecodeReport& report, DecodeTo decode_to = DecodeTo::kFloats);
 

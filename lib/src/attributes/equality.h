@@ -35,11 +35,12 @@ class EqualityCoder {
       return fail(Error::kOutOfMemory, "no memory for attributes");
     }
     uint32_t vertex_first = 0;
+    uint32_t last_like_first = 0;  // of the vertex' wedges so far
     uint32_t answer_before = 0;
     for (uint32_t w = 0; w < wedges_.count; ++w) {
       groups.first[w] = w;
       if (w >= wedges_.coded_count || !wedges_.continuesVertex(w)) {
-        vertex_first = w;
+        vertex_first = last_like_first = w;
         answer_before = 0;
         continue;
       }
@@ -52,8 +53,9 @@ class EqualityCoder {
         join(groups, w - 1, w);
       } else if (groups.first[w - 1] != vertex_first &&
                  io_.bit(models_.first[other_end], isEqual(vertex_first, w))) {
-        join(groups, vertex_first, w);
+        join(groups, last_like_first, w);
       }
+      if (groups.first[w] == vertex_first) last_like_first = w;
     }
     return {};
   }
@@ -65,12 +67,9 @@ class EqualityCoder {
                        4 * size_t{components_}) == 0;
   }
 
-  /// Puts w at the end of the group of `member`: the last of a group is the latest member, w-1 or before.
-  void join(EqualGroups& groups, uint32_t member, uint32_t w) const {
-    const uint32_t first = groups.first[member];
-    uint32_t last = member;
-    while (groups.next[last] != kNone) last = groups.next[last];
-    groups.first[w] = first;
+  /// Puts w behind the last wedge of a group so far.
+  void join(EqualGroups& groups, uint32_t last, uint32_t w) const {
+    groups.first[w] = groups.first[last];
     groups.next[last] = w;
   }
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include "attributes/creases.h"
 #include "base/memory.h"
@@ -53,8 +54,7 @@ class SeamCoder {
         wedge_limit_(wedge_limit),
         corner_source_(corner_source),
         fan_(allocator),
-        group_wedges_(allocator),
-        group_sources_(allocator) {}
+        wedge_of_source_(allocator) {}
 
   /// `wedge_start` receives the clockwise-most half-edge of each wedge's first run, `wedge_group` its group.
   Status run(const Array<uint32_t>& group_order, Array<uint32_t>& wedge_start,
@@ -74,6 +74,21 @@ class SeamCoder {
                    uint32_t group, Array<uint32_t>& wedge_start, Array<uint32_t>& wedge_group,
                    uint32_t& wedge);
   uint32_t source(uint32_t h) const { return corner_source_[3 * size_t{faceOf(h)} + (h & 3)]; }
+  /// Encoder: the wedge that a source wedge has become.
+  uint32_t wedgeOf(uint32_t source) const {
+    return source < wedge_of_source_.size() ? wedge_of_source_[source] : kNone;
+  }
+  bool noteSource(uint32_t source, uint32_t wedge) {
+    const size_t known = wedge_of_source_.size();
+    if (source >= known) {
+      if (!wedge_of_source_.resize(std::max<size_t>(size_t{source} + 1, wedge_limit_)))
+        return false;
+      std::fill(wedge_of_source_.data() + known, wedge_of_source_.data() + wedge_of_source_.size(),
+                kNone);
+    }
+    wedge_of_source_[source] = wedge;
+    return true;
+  }
   /// Whether the edge before fan face i (behind the last one for i == 0) carries a seam end here.
   bool seamBefore(uint32_t i) const { return seamEnd(faces_, fan_[i]) != 0; }
   /// Index in the fan; i below twice its length.
@@ -90,9 +105,9 @@ class SeamCoder {
   const bool has_merges_;
   const uint32_t wedge_limit_;
   const uint32_t* corner_source_;
-  Array<uint32_t> fan_;            ///< half-edges leaving the vertex, counterclockwise
-  Array<uint32_t> group_wedges_;   ///< wedges of the group so far
-  Array<uint32_t> group_sources_;  ///< encoder: their source wedges
+  Array<uint32_t> fan_;              ///< half-edges leaving the vertex, counterclockwise
+  Array<uint32_t> wedge_of_source_;  ///< encoder: kNone until it is coded
+  uint32_t group_begin_ = 0;         ///< first wedge of the group; the others follow it
   bool closed_ = false;
   uint32_t known_ends_ = 0;  ///< of seams, at the other ends of the fan's edges
   uint32_t sharpest_ = 0;    ///< crease class of the fan's edges
@@ -108,8 +123,7 @@ Status SeamCoder<Io>::run(const Array<uint32_t>& group_order, Array<uint32_t>& w
   for (size_t i = 0; i < group_order.size(); ++i) {
     const uint32_t entry = group_order[i];
     const uint32_t group = faces_.vertex(entry);
-    group_wedges_.clear();
-    group_sources_.clear();
+    group_begin_ = wedge_count_;
     MCC_TRY(codeUmbrella(group, entry, wedge_start, wedge_group));
     if (groups_.hasCopies()) {
       for (uint32_t u = groups_.umbrella_begin[group]; u < groups_.umbrella_begin[group + 1]; ++u) {
@@ -223,15 +237,13 @@ Status SeamCoder<Io>::codeRuns(uint32_t group, Array<uint32_t>& wedge_start,
   if (first == n) first = 0;
   uint32_t first_wedge = kNone;
   uint32_t previous = kNone;
-  const size_t wedges_before = group_wedges_.size();
   for (uint32_t i = 0; i < n;) {
     uint32_t length = 1;
     while (i + length < n && !seamBefore(around(first + i + length))) ++length;
     const bool last = i + length == n;
     uint32_t wedge = kNone;
     MCC_TRY(codeWedge(fan_[around(first + i)], previous, last && closed_ ? first_wedge : kNone,
-                      wedges_before == group_wedges_.size() && i == 0, group, wedge_start,
-                      wedge_group, wedge));
+                      i == 0, group, wedge_start, wedge_group, wedge));
     for (uint32_t k = 0; k < length; ++k) {
       faces_.words[fan_[around(first + i + k)]] = wedge | kDone;
     }
@@ -242,26 +254,29 @@ Status SeamCoder<Io>::codeRuns(uint32_t group, Array<uint32_t>& wedge_start,
   return {};
 }
 
-/// A new wedge, or one of the group's wedges again.                                          [A.7.3]
+/// A new wedge, or one of the group's wedges again: its rank counts from the latest back, without the excluded ones, which
+/// are of the group as well or kNone.                                                         [A.7.3]
 template <class Io>
 Status SeamCoder<Io>::codeWedge(uint32_t first, uint32_t excluded_a, uint32_t excluded_b,
                                 bool first_run, uint32_t group, Array<uint32_t>& wedge_start,
                                 Array<uint32_t>& wedge_group, uint32_t& wedge) {
-  uint32_t candidates = 0;
-  uint32_t rank = 0;
+  const uint32_t latest = wedge_count_ - 1;
+  // The excluded ones from the latest back.
+  if (excluded_a == excluded_b) excluded_b = kNone;
+  if (excluded_a < excluded_b) std::swap(excluded_a, excluded_b);
+  if (excluded_a == kNone) std::swap(excluded_a, excluded_b);
+  const uint32_t excluded_count = (excluded_a != kNone ? 1u : 0u) + (excluded_b != kNone ? 1u : 0u);
+  const uint32_t candidates = has_merges_ ? wedge_count_ - group_begin_ - excluded_count : 0;
   bool merged = false;
-  if (has_merges_) {
-    // Ranks count from the latest wedge back.
-    for (size_t i = group_wedges_.size(); i-- != 0;) {
-      const uint32_t w = group_wedges_[i];
-      if (w == excluded_a || w == excluded_b) continue;
-      if constexpr (Io::kEncoding) {
-        if (group_sources_[i] == source(first)) {
-          merged = true;
-          rank = candidates;
-        }
-      }
-      ++candidates;
+  uint32_t rank = 0;
+  if constexpr (Io::kEncoding) {
+    const uint32_t known = wedgeOf(source(first));
+    merged = candidates != 0 && known != kNone && known >= group_begin_ && known != excluded_a &&
+             known != excluded_b;
+    if (merged) {
+      rank = latest - known;
+      rank -= excluded_a != kNone && excluded_a > known ? 1 : 0;
+      rank -= excluded_b != kNone && excluded_b > known ? 1 : 0;
     }
   }
   if (candidates != 0) {
@@ -271,22 +286,17 @@ Status SeamCoder<Io>::codeWedge(uint32_t first, uint32_t excluded_a, uint32_t ex
     if (candidates > 1) rank = codeGolomb(io_, models_.merge_with, rank);
     if (rank >= candidates)
       return fail(Error::kBadAttribute, "a wedge is merged with none of its group");
-    for (size_t i = group_wedges_.size(); i-- != 0;) {
-      const uint32_t w = group_wedges_[i];
-      if (w == excluded_a || w == excluded_b || rank-- != 0) continue;
-      wedge = w;
-      return {};
-    }
+    wedge = latest - rank;
+    if (excluded_a != kNone && wedge <= excluded_a) --wedge;
+    if (excluded_b != kNone && wedge <= excluded_b) --wedge;
+    return {};
   }
   if (wedge_count_ == wedge_limit_) {
     return fail(Error::kBadAttribute, "the seams make more wedges than the header claims");
   }
   wedge = wedge_count_++;
-  const bool ok = wedge_start.push_back(first) && wedge_group.push_back(group) &&
-                  (!has_merges_ || group_wedges_.push_back(wedge));
-  if constexpr (Io::kEncoding) {
-    if (!group_sources_.push_back(source(first))) return fail(Error::kOutOfMemory, "no memory");
-  }
+  bool ok = wedge_start.push_back(first) && wedge_group.push_back(group);
+  if constexpr (Io::kEncoding) ok = ok && (!has_merges_ || noteSource(source(first), wedge));
   return ok ? Status{} : fail(Error::kOutOfMemory, "no memory for wedges");
 }
 

@@ -56,7 +56,7 @@ void unmapPages(void* memory, size_t) { std::free(memory); }
 }  // namespace
 
 WorkingMemory::WorkingMemory(uint64_t expected_bytes)
-    : next_region_bytes_(static_cast<size_t>(std::min<uint64_t>(expected_bytes, kLargest))) {}
+    : next_region_bytes_(static_cast<size_t>(std::min<uint64_t>(expected_bytes, kLargeBytes))) {}
 
 WorkingMemory::~WorkingMemory() {
   for (size_t i = 0; i < region_count_; ++i) unmapPages(regions_[i].memory, regions_[i].bytes);
@@ -69,6 +69,7 @@ bool WorkingMemory::pays(uint64_t expected_bytes) {
 void* WorkingMemory::allocate(size_t bytes) {
   if (bytes < kSmallBytes) return std::malloc(bytes);
   if (bytes > kLargest) return nullptr;
+  if (bytes >= kLargeBytes) return mapPages(roundUp(bytes, kPageBytes));
   bytes = roundUp(bytes, kLineBytes);
   for (int attempt = 0; attempt < 2; ++attempt) {
     for (FreeBlock** link = &free_; *link != nullptr; link = &(*link)->next) {
@@ -90,6 +91,7 @@ void* WorkingMemory::allocate(size_t bytes) {
 
 void WorkingMemory::release(void* memory, size_t bytes) {
   if (bytes < kSmallBytes) return std::free(memory);
+  if (bytes >= kLargeBytes) return unmapPages(memory, roundUp(bytes, kPageBytes));
   addFree(memory, roundUp(bytes, kLineBytes));
 }
 

@@ -26,12 +26,14 @@ class Checker {
   Checker(const Document& source, const std::vector<EncodedPayload>& payloads, CheckResult& result)
       : source_(source), payloads_(payloads), result_(result) {}
 
-  Result run(const ForeignDecoders& decoders, std::span<const uint8_t> written) {
+  Result run(const ForeignDecoders& decoders, std::span<const uint8_t> written,
+             const FileReader& read_file, uint32_t thread_count) {
     const auto start = std::chrono::steady_clock::now();
     Document compressed;
-    MCC_GLTF_TRY(failed(loadDocument(written, nullptr, compressed), ""));
+    MCC_GLTF_TRY(failed(loadDocument(written, read_file, compressed), ""));
     Decompressed decompressed;
-    MCC_GLTF_TRY(failed(decompressDocument(compressed, decompressed), ""));
+    MCC_GLTF_TRY(
+        failed(decompressDocument(compressed, decompressed, DecodeTo::kFloats, thread_count), ""));
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     result_.decode_seconds = time.count();
     coded_ = std::move(decompressed.coded_attributes);
@@ -42,6 +44,7 @@ class Checker {
     MCC_GLTF_TRY(failed(decodeViews(decoders, decoded_), ""));
     for (const EncodedPayload& payload : payloads_) MCC_GLTF_TRY(checkPayload(payload));
     MCC_GLTF_TRY(failed(checkUses(uses), ""));
+    MCC_GLTF_TRY(failed(checkFallback(compressed, uses), ""));
     return failed(compareRest(source_, decoded_, uses, reordered_), "");
   }
 
@@ -58,6 +61,29 @@ class Checker {
     }
     if (found != planned_) {
       return error("", "the compressed primitives are not those that were meant");
+    }
+    return {};
+  }
+
+  /// Compressed accessors that have bytes of their own have those of the payload.
+  Result checkFallback(const Document& compressed, const std::vector<ExtensionUse>& uses) const {
+    std::set<uint32_t> accessors;
+    for (const ExtensionUse& use : uses) {
+      accessors.insert(use.indices_accessor);
+      for (const auto& attribute : use.attributes) accessors.insert(attribute.accessor);
+    }
+    for (const uint32_t index : accessors) {
+      if (compressed.accessors[index].view == kNone) continue;
+      AccessorData fallback;
+      AccessorData decoded;
+      MCC_GLTF_TRY(readAccessor(compressed, index, fallback));
+      MCC_GLTF_TRY(readAccessor(decoded_, index, decoded));
+      for (uint64_t i = 0; i < decoded.count; ++i) {
+        const auto element = fallback.element(i);
+        if (!std::equal(element.begin(), element.end(), decoded.element(i).begin())) {
+          return error(at("/accessors", index), "the fallback is not what the payload holds");
+        }
+      }
     }
     return {};
   }
@@ -289,9 +315,9 @@ class Checker {
 
 Result checkConversion(const Document& source, const std::vector<EncodedPayload>& payloads,
                        const ForeignDecoders& decoders, std::span<const uint8_t> written,
-                       CheckResult& result) {
+                       const FileReader& read_file, uint32_t thread_count, CheckResult& result) {
   result = {};
-  return Checker(source, payloads, result).run(decoders, written);
+  return Checker(source, payloads, result).run(decoders, written, read_file, thread_count);
 }
 
 }  // namespace mcc::gltf

@@ -27,11 +27,13 @@ struct CheckResult {
 ///   triangles, up to rotation;
 /// - every attribute value is within the promised distance of its source, exact ones are bit-equal;
 /// - accessors, images and JSON that are not compressed geometry are equal.
-/// decoders   for attributes beside payloads that another codec holds, before and after.
+/// decoders      for attributes beside payloads that another codec holds, before and after.
+/// read_file     fetches the files beside the written one; null: there are none.
+/// thread_count  payloads decoded at the same time.
 /// Errors name the first difference.
 Result checkConversion(const Document& source, const std::vector<EncodedPayload>& payloads,
                        const ForeignDecoders& decoders, std::span<const uint8_t> written,
-                       CheckResult& result);
+                       const FileReader& read_file, uint32_t thread_count, CheckResult& result);
 
 }  // namespace mcc::gltf
 

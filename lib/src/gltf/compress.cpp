@@ -73,6 +73,7 @@ class Applier {
                           compressed_.json, views);
       }
     }
+    // A fallback takes the requirement back.
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
       addExtensionName(compressed_.json, list, kExtensionName);
       if (!usesMeshExtension()) removeExtensionName(compressed_.json, list, kMeshExtension);

@@ -2,18 +2,16 @@
 //
 // The public functions: load, compress or decompress, write, check.
 #include <chrono>
-#include <map>
-#include <set>
+#include <memory>
 
-#include "gltf/accessors.h"
 #include "gltf/check.h"
 #include "gltf/coded_input.h"
 #include "gltf/compress.h"
+#include "gltf/convert_report.h"
 #include "gltf/decompress.h"
-#include "gltf/file_io.h"
-#include "gltf/glb.h"
+#include "gltf/destination.h"
+#include "gltf/fallback.h"
 #include "gltf/parallel.h"
-#include "gltf/payload.h"
 #include "gltf/rebuild.h"
 #include "gltf/uri.h"
 #include "mcc/gltf.h"
@@ -34,103 +32,116 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-void addStreams(const StreamSizes& sizes, PayloadReport& report) {
-  report.streams = {{"connectivity", sizes.connectivity_bits},
-                    {"stitching", sizes.stitch_bits},
-                    {"leftovers", sizes.leftover_bits},
-                    {"seams", sizes.seam_bits},
-                    {"order", sizes.order_bits},
-                    {"header", sizes.header_bits}};
-}
+/// A source with what is needed to read it.
+struct Input {
+  fs::path path;  ///< only a name in memory
+  std::vector<uint8_t> owned;
+  std::span<const uint8_t> bytes;
+  FileReader read_file;  ///< null in memory
 
-void addCounts(const EncodedPayload& payload, PayloadReport& report) {
-  report.mesh = payload.plan.mesh;
-  report.payload_bytes = payload.payload_bytes;
-  report.freed_bytes = payload.freed_bytes;
-  report.piece_count = static_cast<uint32_t>(payload.plan.pieces.size());
-  for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
-    const PiecePlan& piece = payload.plan.pieces[i];
-    const PieceResult& result = payload.result.pieces[i];
-    report.wedge_count += piece.wedge_count;
-    report.vertex_count += result.topological_vertex_count;
-    report.component_count += result.component_count;
-    report.hole_count += result.hole_count;
-    report.cut_copy_count += result.cut_copy_count;
-    report.leftover_triangle_count += result.leftover_triangle_count;
-    for (const PartPlan& part : piece.parts) report.triangle_count += part.triangles.size() / 3;
-  }
-}
-
-/// Adds the coded bits to the measured attributes.
-void addAttributeBits(const EncodedPayload& payload, std::vector<AttributeReport>& attributes) {
-  std::map<std::string, double> bits;
-  size_t next = 0;
-  for (const PiecePlan& piece : payload.plan.pieces) {
-    for (const AttributePlan& attribute : piece.attributes) {
-      const auto& attribute_bits = payload.result.sizes.attribute_bits;
-      if (next < attribute_bits.size()) bits[attribute.label()] += attribute_bits[next];
-      ++next;
+  Result open(const Source& source) {
+    path = source.path;
+    if (source.bytes) {
+      bytes = *source.bytes;
+      return {};
     }
+    MCC_GLTF_TRY(readFile(path, owned));
+    bytes = owned;
+    read_file = readerOf(path.parent_path());
+    return {};
   }
-  bits["POSITION"] += payload.result.sizes.position_bits;
-  for (AttributeReport& attribute : attributes) attribute.coded_bits = bits[attribute.name];
-}
-
-void addPrimitives(const Document& document, const Compressed& compressed, ConvertReport& report) {
-  std::map<std::pair<uint32_t, uint32_t>, PrimitiveReport> known;
-  for (uint32_t i = 0; i < compressed.payloads.size(); ++i) {
-    for (const PiecePlan& piece : compressed.payloads[i].plan.pieces) {
-      for (const PartPlan& part : piece.parts) {
-        for (const PrimitiveRef& user : part.users) {
-          known[{user.mesh, user.primitive}] = {
-              user.mesh, user.primitive, true, i, part.triangles.size() / 3, piece.wedge_count, ""};
-        }
-      }
-    }
-  }
-  for (const LeftAlone& left : compressed.left_alone) {
-    PrimitiveReport& primitive = known[{left.primitive.mesh, left.primitive.primitive}];
-    primitive.note = left.note;
-    report.notes.push_back(left.primitive.path() + ": " + left.note);
-  }
-  const Json& meshes = arrayOf(document.json, "meshes");
-  for (uint32_t m = 0; m < meshes.size(); ++m) {
-    const size_t count = arrayOf(meshes[m], "primitives").size();
-    for (uint32_t p = 0; p < count; ++p) {
-      PrimitiveReport primitive = known[{m, p}];
-      primitive.mesh = m;
-      primitive.primitive = p;
-      report.primitives.push_back(primitive);
-    }
-  }
-}
-
-void copySource(std::span<const uint8_t> source, std::vector<uint8_t>& output,
-                ConvertReport& report) {
-  output.assign(source.begin(), source.end());
-  report.copied = true;
-  report.checked = true;
-  report.payloads.clear();
-  for (PrimitiveReport& primitive : report.primitives) {
-    primitive.compressed = false;
-    primitive.payload = kNone;
-  }
-}
-
-/// One conversion from a loaded document; the check comes later, on the bytes that were stored.
-struct Conversion {
-  Document document;
-  Compressed compressed;
+  bool isFile() const { return read_file != nullptr; }
 };
 
-/// A .gltf in which nothing was compressed still becomes a GLB.
-Result writeUncompressed(const Document& document, std::vector<uint8_t>& output) {
+/// Where the result goes: a file with others beside it, or memory.
+struct Output {
+  std::vector<uint8_t>* bytes = nullptr;
+  std::unique_ptr<Destination> destination;  ///< null in memory
+  Container container;
+
+  Result open(const Sink& sink, bool with_fallback) {
+    bytes = sink.bytes;
+    if (bytes != nullptr && with_fallback) {
+      return error("", "a fallback is a second file; name a file for the output");
+    }
+    if (bytes != nullptr) return {};
+    destination = std::make_unique<Destination>(sink.path);
+    MCC_GLTF_TRY(destination->check(with_fallback));
+    container = destination->container();
+    return {};
+  }
+
+  Result write(Package package) {
+    if (destination) return destination->write(package);
+    *bytes = std::move(package.main);
+    return {};
+  }
+
+  Result commit() { return destination ? destination->commit() : Result{}; }
+};
+
+/// Loads the source for an output. Image files move into the buffers of a GLB.
+Result loadFor(const Output& output, const Input& input, Document& document, FilesInUse& files) {
+  MCC_GLTF_TRY(loadDocument(input.bytes, input.read_file, document));
+  if (input.isFile()) {
+    files.input = {input.path};
+    files.other_input.clear();
+    const fs::path folder = folderOf(input.path);
+    const bool embeds = !document.is_glb && !output.container.is_gltf;
+    for (const std::string& path : filesOf(document.json, "buffers")) {
+      files.input.push_back(folder / path);
+    }
+    for (const std::string& path : filesOf(document.json, "images")) {
+      (embeds ? files.input : files.other_input).push_back(folder / path);
+    }
+    if (output.destination) {
+      MCC_GLTF_TRY(output.destination->checkSource(input.path, document.json));
+    }
+  }
+  return output.container.is_gltf ? Result{} : embedImages(input.read_file, document);
+}
+
+/// The files that the JSON still names have to be where the output looks for them.
+Result addFilesBeside(const Json& json, bool with_buffers, const Input& input, const Output& output,
+                      Package& package, std::vector<std::string>& notes) {
+  if (input.isFile() && output.destination) {
+    if (output.destination->isBeside(input.path)) return {};
+    return addCopies(json, with_buffers, input.read_file, package, notes);
+  }
+  for (const std::string& path : filesBeside(json)) {
+    notes.push_back("\"" + path + "\" stays a file of its own; put it beside the output");
+  }
+  return {};
+}
+
+/// Stores an edited document; its other files come along.
+Result packageDocument(const Document& document, Json json, std::vector<uint8_t> bin,
+                       const Input& input, const Output& output, Package& package,
+                       std::vector<std::string>& notes) {
+  MCC_GLTF_TRY(addFilesBeside(json, false, input, output, package, notes));
+  if (output.container.is_gltf && !document.other_chunks.empty()) {
+    notes.push_back("the GLB has chunks that a .gltf cannot hold; they are left out");
+  }
+  return writePackage(output.container, std::move(json), std::move(bin), document.other_chunks,
+                      package);
+}
+
+/// Nothing was compressed or decompressed: the source itself, or as it is in the other container.
+Result packageSource(const Document& document, const Input& input, const Output& output,
+                     Package& package, std::vector<std::string>& notes, bool& is_copy) {
+  package = {};
+  is_copy = document.is_glb != output.container.is_gltf;
+  if (is_copy) {
+    package.main.assign(input.bytes.begin(), input.bytes.end());
+    Json json = document.json;
+    return addFilesBeside(json, true, input, output, package, notes);
+  }
   Json json = document.json;
   std::vector<uint8_t> bin;
   std::vector<NewView> no_views;
   const ForeignReferences foreign = findForeignReferences(document.json);
   MCC_GLTF_TRY(rebuildBuffers(document, foreign, no_views, json, bin));
-  return writeGlb(printJson(json), bin, document.other_chunks, output);
+  return packageDocument(document, std::move(json), std::move(bin), input, output, package, notes);
 }
 
 /// What is compressed already must decode: it is part of what the check compares.
@@ -139,15 +150,39 @@ Result checkOldPayloads(const Document& document) {
   return decompressDocument(document, ignored);
 }
 
-Result convertBytes(std::span<const uint8_t> source, const FileReader& read_file,
-                    const ConvertOptions& options, Conversion& conversion,
-                    std::vector<uint8_t>& output, ConvertReport& report) {
+/// One conversion of a loaded document; the check comes later, on the bytes that were stored.
+struct Conversion {
+  Document document;
+  Compressed compressed;
+  Package package;
+};
+
+Result packageFallback(const Container& container, Compressed& compressed, Package& package,
+                       uint64_t& fallback_bytes) {
+  SideFile file;
+  file.kind = SideFile::Kind::kFallback;
+  file.path = container.fallback_name;
+  MCC_GLTF_TRY(addFallback(compressed.bin, uriOf(file.path), compressed.json, file.bytes));
+  fallback_bytes = file.bytes.size();
+  package.beside.push_back(std::move(file));
+  return {};
+}
+
+void forgetPayloads(ConvertReport& report) {
+  for (PrimitiveReport& primitive : report.primitives) {
+    primitive.compressed = false;
+    primitive.payload = kNone;
+  }
+}
+
+Result convertInput(const Input& input, const Output& output, const ConvertOptions& options,
+                    Conversion& conversion, ConvertReport& report) {
   report = {};
   const Stopwatch watch;
   Document& document = conversion.document;
   Compressed& compressed = conversion.compressed;
-  MCC_GLTF_TRY(loadDocument(source, read_file, document));
-  MCC_GLTF_TRY(embedImages(read_file, document));
+  Package& package = conversion.package;
+  MCC_GLTF_TRY(loadFor(output, input, document, report.files));
   MCC_GLTF_TRY(decodeViews(options.decoders, document));
   // Attributes beside a payload of triangles would have to be stored anew.
   if (!options.indices_only) MCC_GLTF_TRY(decodeMeshes(options.decoders, document));
@@ -158,55 +193,54 @@ Result convertBytes(std::span<const uint8_t> source, const FileReader& read_file
   report.notes.insert(report.notes.end(), compressed.notes.begin(), compressed.notes.end());
   addPrimitives(document, compressed, report);
   if (!compressed.payloads.empty()) {
-    MCC_GLTF_TRY(
-        writeGlb(printJson(compressed.json), compressed.bin, document.other_chunks, output));
+    if (options.fallback) {
+      MCC_GLTF_TRY(packageFallback(output.container, compressed, package, report.fallback_bytes));
+    }
+    MCC_GLTF_TRY(packageDocument(document, std::move(compressed.json), std::move(compressed.bin),
+                                 input, output, package, report.notes));
     compressed.json = {};
     compressed.bin = {};
   }
-  const bool is_larger = document.is_glb && !options.allow_larger && output.size() >= source.size();
+  const bool is_larger = document.is_glb != output.container.is_gltf && !options.allow_larger &&
+                         package.documentBytes() >= document.source_bytes;
   if (compressed.payloads.empty() || is_larger) {
     compressed.payloads.clear();
-    if (document.is_glb) {
-      copySource(source, output, report);
+    MCC_GLTF_TRY(packageSource(document, input, output, package, report.notes, report.copied));
+    forgetPayloads(report);
+    report.fallback_bytes = 0;
+    if (report.copied) {
       report.notes.push_back("nothing becomes smaller; the output is a copy of the input");
-    } else {
-      MCC_GLTF_TRY(writeUncompressed(document, output));
     }
   }
   report.encode_seconds = watch.seconds();
-  report.output_bytes = output.size();
+  report.output_bytes = report.copied ? document.source_bytes : package.documentBytes();
   return {};
 }
 
 /// Checks the stored output and completes the report.
-Result checkBytes(const Conversion& conversion, const ForeignDecoders& decoders,
-                  std::span<const uint8_t> stored, ConvertReport& report) {
-  if (report.copied) return {};
-  const Stopwatch watch;
-  CheckResult checked;
-  const std::vector<EncodedPayload>& payloads = conversion.compressed.payloads;
-  MCC_GLTF_TRY(checkConversion(conversion.document, payloads, decoders, stored, checked));
-  for (size_t i = 0; i < payloads.size(); ++i) {
-    PayloadReport payload;
-    addCounts(payloads[i], payload);
-    addStreams(payloads[i].result.sizes, payload);
-    payload.attributes = std::move(checked.attributes[i]);
-    addAttributeBits(payloads[i], payload.attributes);
-    report.payloads.push_back(std::move(payload));
+Result checkOutput(const Conversion& conversion, const ConvertOptions& options,
+                   std::span<const uint8_t> stored, const FileReader& read_file,
+                   ConvertReport& report) {
+  if (!report.copied) {
+    const Stopwatch watch;
+    CheckResult checked;
+    const std::vector<EncodedPayload>& payloads = conversion.compressed.payloads;
+    MCC_GLTF_TRY(checkConversion(conversion.document, payloads, options.decoders, stored, read_file,
+                                 options.thread_count, checked));
+    report.decode_seconds = checked.decode_seconds;
+    report.check_seconds = watch.seconds() - checked.decode_seconds;
+    addPayloads(payloads, std::move(checked), report);
   }
-  report.decode_seconds = checked.decode_seconds;
-  report.check_seconds = watch.seconds() - checked.decode_seconds;
   report.checked = true;
   return {};
 }
 
-Result decodeBytes(std::span<const uint8_t> source, const FileReader& read_file, DecodeTo decode_to,
-                   std::vector<uint8_t>& output, DecodeReport& report) {
+Result decodeInput(const Input& input, const Output& output, DecodeTo decode_to, Package& package,
+                   DecodeReport& report) {
   report = {};
   const Stopwatch watch;
   Document document;
-  MCC_GLTF_TRY(loadDocument(source, read_file, document));
-  MCC_GLTF_TRY(embedImages(read_file, document));
+  MCC_GLTF_TRY(loadFor(output, input, document, report.files));
   report.input_bytes = document.source_bytes;
   report.notes = document.notes;
   Decompressed decompressed;
@@ -216,168 +250,86 @@ Result decodeBytes(std::span<const uint8_t> source, const FileReader& read_file,
   report.primitive_count = decompressed.primitive_count;
   report.triangle_count = decompressed.triangle_count;
   report.wedge_count = decompressed.wedge_count;
+  bool is_copy = false;
   if (decompressed.payload_count != 0) {
-    MCC_GLTF_TRY(
-        writeGlb(printJson(decompressed.json), decompressed.bin, document.other_chunks, output));
-  } else if (document.is_glb) {
-    report.notes.push_back("nothing in it is compressed; the output is a copy of the input");
-    output.assign(source.begin(), source.end());
+    MCC_GLTF_TRY(packageDocument(document, std::move(decompressed.json),
+                                 std::move(decompressed.bin), input, output, package,
+                                 report.notes));
   } else {
-    MCC_GLTF_TRY(writeUncompressed(document, output));
-  }
-  report.decode_seconds = watch.seconds();
-  report.output_bytes = output.size();
-  return {};
-}
-
-std::string primitiveLabel(const ExtensionUse::AttributeUse& use) {
-  return use.target == kNone ? use.name : "target " + std::to_string(use.target) + " " + use.name;
-}
-
-Result inspectView(const Document& document, uint32_t view,
-                   const std::vector<const ExtensionUse*>& users, bool count_codes,
-                   InspectPayload& report) {
-  const std::string where = users[0]->path + "/bufferView";
-  const std::span<const uint8_t> bytes = payloadBytes(document, view);
-  DecodedPayload decoded;
-  MCC_GLTF_TRY(toResult(decoded.payload.open(bytes), where));
-  const PayloadInfo& info = decoded.payload.info();
-  report.buffer_view = view;
-  report.payload_bytes = bytes.size();
-  report.version_major = info.version_major;
-  report.version_minor = info.version_minor;
-  report.header_bytes = info.header_bytes;
-  report.codes_bytes = info.codes_bytes;
-  report.tokens_bytes = info.tokens_bytes;
-  report.raw_bits_bytes = info.raw_bits_bytes;
-  for (const PieceInfo& piece : info.pieces) {
-    InspectPiece row;
-    row.wedge_count = piece.wedge_count;
-    row.vertex_count = piece.vertex_count;
-    row.part_count = static_cast<uint32_t>(piece.parts.size());
-    for (const PartInfo& part : piece.parts) row.triangle_count += part.triangle_count;
-    row.attributes.assign(piece.attributes.begin(), piece.attributes.end());
-    row.attribute_names.assign(row.attributes.size(), "(unused)");
-    report.pieces.push_back(std::move(row));
-  }
-  for (const ExtensionUse* use : users) {
-    MCC_GLTF_TRY(checkAgainstPayload(document, *use, info));
-    report.primitives.push_back(primitivePath(use->mesh, use->primitive));
-    for (const auto& attribute : use->attributes) {
-      report.pieces[use->piece].attribute_names[attribute.id] = primitiveLabel(attribute);
+    MCC_GLTF_TRY(packageSource(document, input, output, package, report.notes, is_copy));
+    if (is_copy) {
+      report.notes.push_back("nothing in it is compressed; the output is a copy of the input");
     }
   }
-  if (!count_codes) return {};
-  report.has_codes = true;
-  return decodePieces(where, decoded, &report.codes);
-}
-
-Result inspectBytes(std::span<const uint8_t> source, const FileReader& read_file, bool count_codes,
-                    InspectReport& report) {
-  report = {};
-  Document document;
-  MCC_GLTF_TRY(loadDocument(source, read_file, document));
-  report.input_bytes = document.source_bytes;
-  for (const Json& name : arrayOf(document.json, "extensionsUsed")) {
-    if (name.is_string()) report.extensions_used.push_back(name.get<std::string>());
-  }
-  for (const Json& mesh : arrayOf(document.json, "meshes")) {
-    ++report.mesh_count;
-    report.primitive_count += static_cast<uint32_t>(arrayOf(mesh, "primitives").size());
-  }
-  std::vector<ExtensionUse> uses;
-  MCC_GLTF_TRY(findExtensionUses(document, uses));
-  std::map<uint32_t, std::vector<const ExtensionUse*>> by_view;
-  for (const ExtensionUse& use : uses) by_view[use.view].push_back(&use);
-  for (const auto& [view, users] : by_view) {
-    report.payloads.emplace_back();
-    MCC_GLTF_TRY(inspectView(document, view, users, count_codes, report.payloads.back()));
-  }
+  report.decode_seconds = watch.seconds();
+  report.output_bytes = is_copy ? document.source_bytes : package.documentBytes();
   return {};
 }
 
-/// Relative references of images lead elsewhere from another folder.
-void noteFilesLeftBehind(const Document& document, const fs::path& source, const fs::path& output,
-                         std::vector<std::string>& notes) {
-  std::error_code ignored;
-  const fs::path from = fs::absolute(source, ignored).parent_path();
-  if (fs::equivalent(from, fs::absolute(output, ignored).parent_path(), ignored)) return;
-  const Json& images = arrayOf(document.json, "images");
-  for (size_t i = 0; i < images.size(); ++i) {
-    const Json* uri = findMember(images[i], "uri");
-    if (uri == nullptr || !uri->is_string() || isDataUri(uri->get<std::string>())) continue;
-    notes.push_back(at("/images", i) + ": \"" + uri->get<std::string>() +
-                    "\" stays a file beside the input; copy it to the output's folder");
-  }
-}
-
-/// Puts the name of the file in front of where in it something is wrong.
-Result inFile(const fs::path& path, Result result) {
-  if (result.ok()) return result;
-  result.where = result.where.empty() ? path.string() : path.string() + ": " + result.where;
-  return result;
+/// In memory there is no name to put in front.
+Result inInput(const Input& input, Result result) {
+  return input.path.empty() ? result : inFile(input.path, std::move(result));
 }
 
 }  // namespace
 
+Result convert(const Source& source, const Sink& sink, const ConvertOptions& options,
+               ConvertReport& report) {
+  return guarded([&]() -> Result {
+    Input input;
+    Output output;
+    MCC_GLTF_TRY(input.open(source));
+    MCC_GLTF_TRY(output.open(sink, options.fallback));
+    Conversion conversion;
+    MCC_GLTF_TRY(inInput(input, convertInput(input, output, options, conversion, report)));
+    MCC_GLTF_TRY(output.write(std::move(conversion.package)));
+    std::vector<uint8_t> stored;
+    FileReader read_file;
+    if (output.destination) {
+      MCC_GLTF_TRY(output.destination->readBack(stored));
+      read_file = output.destination->reader();
+    }
+    const std::span<const uint8_t> written = output.destination ? stored : *output.bytes;
+    MCC_GLTF_TRY(inInput(input, checkOutput(conversion, options, written, read_file, report)));
+    MCC_GLTF_TRY(output.commit());
+    if (output.destination) report.files.output = output.destination->files();
+    return {};
+  });
+}
+
+Result decode(const Source& source, const Sink& sink, DecodeReport& report, DecodeTo decode_to) {
+  return guarded([&]() -> Result {
+    Input input;
+    Output output;
+    MCC_GLTF_TRY(input.open(source));
+    MCC_GLTF_TRY(output.open(sink, false));
+    Package package;
+    MCC_GLTF_TRY(inInput(input, decodeInput(input, output, decode_to, package, report)));
+    MCC_GLTF_TRY(output.write(std::move(package)));
+    MCC_GLTF_TRY(output.commit());
+    if (output.destination) report.files.output = output.destination->files();
+    return {};
+  });
+}
+
 Result convertGlb(std::span<const uint8_t> source, const ConvertOptions& options,
                   std::vector<uint8_t>& output, ConvertReport& report) {
-  return guarded([&]() -> Result {
-    Conversion conversion;
-    MCC_GLTF_TRY(convertBytes(source, nullptr, options, conversion, output, report));
-    return checkBytes(conversion, options.decoders, output, report);
-  });
+  return convert({{}, source}, {{}, &output}, options, report);
 }
 
 Result convertFile(const fs::path& source, const fs::path& output, const ConvertOptions& options,
                    ConvertReport& report) {
-  return guarded([&]() -> Result {
-    std::vector<uint8_t> bytes;
-    MCC_GLTF_TRY(readFile(source, bytes));
-    ReplacementFile file(output);
-    MCC_GLTF_TRY(file.check());
-    Conversion conversion;
-    std::vector<uint8_t> result;
-    MCC_GLTF_TRY(inFile(source, convertBytes(bytes, readerOf(source.parent_path()), options,
-                                             conversion, result, report)));
-    noteFilesLeftBehind(conversion.document, source, output, report.notes);
-    MCC_GLTF_TRY(file.write(result));
-    MCC_GLTF_TRY(readFile(file.temporaryPath(), result));
-    MCC_GLTF_TRY(inFile(source, checkBytes(conversion, options.decoders, result, report)));
-    return file.commit();
-  });
+  return convert({source, {}}, {output, nullptr}, options, report);
 }
 
 Result decodeGlb(std::span<const uint8_t> source, std::vector<uint8_t>& output,
                  DecodeReport& report, DecodeTo decode_to) {
-  return guarded([&]() { return decodeBytes(source, nullptr, decode_to, output, report); });
+  return decode({{}, source}, {{}, &output}, report, decode_to);
 }
 
 Result decodeFile(const fs::path& source, const fs::path& output, DecodeReport& report,
                   DecodeTo decode_to) {
-  return guarded([&]() -> Result {
-    std::vector<uint8_t> bytes;
-    MCC_GLTF_TRY(readFile(source, bytes));
-    ReplacementFile file(output);
-    MCC_GLTF_TRY(file.check());
-    std::vector<uint8_t> result;
-    MCC_GLTF_TRY(inFile(
-        source, decodeBytes(bytes, readerOf(source.parent_path()), decode_to, result, report)));
-    MCC_GLTF_TRY(file.write(result));
-    return file.commit();
-  });
-}
-
-Result inspectGlb(std::span<const uint8_t> source, bool count_codes, InspectReport& report) {
-  return guarded([&]() { return inspectBytes(source, nullptr, count_codes, report); });
-}
-
-Result inspectFile(const fs::path& source, bool count_codes, InspectReport& report) {
-  return guarded([&]() -> Result {
-    std::vector<uint8_t> bytes;
-    MCC_GLTF_TRY(readFile(source, bytes));
-    return inFile(source, inspectBytes(bytes, readerOf(source.parent_path()), count_codes, report));
-  });
+  return decode({source, {}}, {output, nullptr}, report, decode_to);
 }
 
 }  // namespace mcc::gltf

@@ -1,12 +1,13 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/decompress.h"
 
+#include <algorithm>
 #include <tuple>
 
 #include "gltf/accessors.h"
 #include "gltf/integers.h"
+#include "gltf/parallel.h"
 #include "gltf/payload.h"
-#include "gltf/rebuild.h"
 
 namespace mcc::gltf {
 namespace {
@@ -19,42 +20,83 @@ using Origin = std::tuple<uint32_t, uint64_t, bool, uint64_t>;
 
 class Decompressor {
  public:
-  Decompressor(const Document& document, DecodeTo decode_to, Decompressed& out)
-      : document_(document), decode_to_(decode_to), out_(out) {}
+  Decompressor(const Document& document, DecodeTo decode_to, uint32_t thread_count,
+               Decompressed& out)
+      : document_(document),
+        decode_to_(decode_to),
+        thread_count_(std::max(thread_count, 1u)),
+        out_(out) {}
 
-  Result run() {
-    std::vector<ExtensionUse> uses;
-    MCC_GLTF_TRY(findExtensionUses(document_, uses));
-    if (uses.empty()) return {};
+  /// Fills in accessors() and the counts.
+  Result decode() {
+    MCC_GLTF_TRY(findExtensionUses(document_, uses_));
     std::map<uint32_t, std::vector<const ExtensionUse*>> by_view;
-    for (const ExtensionUse& use : uses) by_view[use.view].push_back(&use);
+    for (const ExtensionUse& use : uses_) by_view[use.view].push_back(&use);
+    const std::vector<View> views(by_view.begin(), by_view.end());
+    // As many at a time as there are threads, so that no more are in memory.
+    for (size_t begin = 0; begin < views.size(); begin += thread_count_) {
+      const size_t count = std::min<size_t>(thread_count_, views.size() - begin);
+      MCC_GLTF_TRY(decodeViews(std::span(views).subspan(begin, count)));
+    }
+    out_.payload_count = static_cast<uint32_t>(by_view.size());
+    out_.primitive_count = static_cast<uint32_t>(uses_.size());
+    return {};
+  }
+
+  std::vector<DecodedAccessor>& accessors() { return accessors_; }
+
+  /// After decode(): the document without the extension.
+  Result rebuild() {
+    if (uses_.empty()) return {};
     out_.json = document_.json;
-    for (const auto& [view, users] : by_view) MCC_GLTF_TRY(decodeView(view, users));
-    for (const ExtensionUse& use : uses) removeExtension(use);
+    std::vector<NewView> views;
+    for (DecodedAccessor& decoded : accessors_) {
+      Json& accessor = out_.json["accessors"][decoded.index];
+      accessor.erase("byteOffset");
+      accessor.erase("sparse");
+      accessor["bufferView"] = document_.views.size() + views.size();
+      views.push_back(std::move(decoded.view));
+    }
+    for (const ExtensionUse& use : uses_) removeExtension(use);
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
       removeExtensionName(out_.json, list, kExtensionName);
     }
-    out_.payload_count = static_cast<uint32_t>(by_view.size());
-    out_.primitive_count = static_cast<uint32_t>(uses.size());
     if (decode_to_ == DecodeTo::kIntegers) {
-      storeIntegers(document_, out_.coded_attributes, out_.json, new_views_, out_.notes);
+      storeIntegers(document_, out_.coded_attributes, out_.json, views, out_.notes);
     }
     const ForeignReferences foreign = findForeignReferences(document_.json);
-    return rebuildBuffers(document_, foreign, new_views_, out_.json, out_.bin);
+    return rebuildBuffers(document_, foreign, views, out_.json, out_.bin);
   }
 
  private:
-  Result decodeView(uint32_t view, const std::vector<const ExtensionUse*>& users) {
-    const std::string where = users[0]->path + "/bufferView";
-    DecodedPayload decoded;
-    MCC_GLTF_TRY(toResult(decoded.payload.open(payloadBytes(document_, view)), where));
-    // All counts must match the accessors before memory is taken for them.
+  /// A buffer view with a payload, and the primitives that use it.
+  using View = std::pair<uint32_t, std::vector<const ExtensionUse*>>;
+
+  Result decodeViews(std::span<const View> views) {
+    std::vector<DecodedPayload> decoded(views.size());
+    for (size_t i = 0; i < views.size(); ++i) MCC_GLTF_TRY(openView(views[i], decoded[i]));
+    MCC_GLTF_TRY(runParallel(views.size(), thread_count_, [&](size_t i) {
+      return decodePieces(whereOf(views[i]), decoded[i], nullptr);
+    }));
+    for (size_t i = 0; i < views.size(); ++i) storeView(views[i], decoded[i]);
+    return {};
+  }
+
+  static std::string whereOf(const View& view) { return view.second[0]->path + "/bufferView"; }
+
+  /// All counts must match the accessors before memory is taken for them.
+  Result openView(const View& view, DecodedPayload& decoded) {
+    const auto& [number, users] = view;
+    MCC_GLTF_TRY(toResult(decoded.payload.open(payloadBytes(document_, number)), whereOf(view)));
     for (const ExtensionUse* use : users) {
       MCC_GLTF_TRY(checkAgainstPayload(document_, *use, decoded.payload.info()));
       MCC_GLTF_TRY(claimAccessors(*use));
     }
-    MCC_GLTF_TRY(decodePieces(where, decoded, nullptr));
-    for (const ExtensionUse* use : users) {
+    return {};
+  }
+
+  void storeView(const View& view, DecodedPayload& decoded) {
+    for (const ExtensionUse* use : view.second) {
       storeAttributes(*use, decoded);
       storeIndices(*use, decoded);
     }
@@ -62,7 +104,7 @@ class Decompressor {
       out_.wedge_count += piece.wedge_count;
       for (const PartInfo& part : piece.parts) out_.triangle_count += part.triangle_count;
     }
-    return {};
+    decoded.pieces.clear();
   }
 
   Result claim(uint32_t accessor, const Origin& origin, const std::string& path) {
@@ -88,7 +130,7 @@ class Decompressor {
       view.target = kArrayBuffer;
       view.bytes = packElements(decoded.pieces[use.piece].attributes[attribute.id], accessor, true,
                                 view.stride_bytes);
-      setView(attribute.accessor, std::move(view));
+      accessors_.push_back({attribute.accessor, std::move(view)});
       const auto& attributes = decoded.payload.info().pieces[use.piece].attributes;
       AttributeInfo info = attributes[attribute.id];
       if (info.coding == AttributeCoding::kAlias) {
@@ -109,15 +151,7 @@ class Decompressor {
       for (uint32_t i = 0; i < bytes; ++i)
         view.bytes.push_back(static_cast<uint8_t>(index >> 8 * i));
     }
-    setView(use.indices_accessor, std::move(view));
-  }
-
-  void setView(uint32_t index, NewView view) {
-    Json& accessor = out_.json["accessors"][index];
-    accessor.erase("byteOffset");
-    accessor.erase("sparse");
-    accessor["bufferView"] = document_.views.size() + new_views_.size();
-    new_views_.push_back(std::move(view));
+    accessors_.push_back({use.indices_accessor, std::move(view)});
   }
 
   void removeExtension(const ExtensionUse& use) {
@@ -128,18 +162,30 @@ class Decompressor {
 
   const Document& document_;
   const DecodeTo decode_to_;
+  const uint32_t thread_count_;
   Decompressed& out_;
   std::map<uint32_t, Origin> origins_;
   std::set<uint32_t> stored_;
-  std::vector<NewView> new_views_;
+  std::vector<ExtensionUse> uses_;
+  std::vector<DecodedAccessor> accessors_;
 };
 
 }  // namespace
 
-Result decompressDocument(const Document& document, Decompressed& decompressed,
-                          DecodeTo decode_to) {
+Result decodeAccessors(const Document& document, std::vector<DecodedAccessor>& accessors) {
+  Decompressed ignored;
+  Decompressor decompressor(document, DecodeTo::kFloats, 1, ignored);
+  MCC_GLTF_TRY(decompressor.decode());
+  accessors = std::move(decompressor.accessors());
+  return {};
+}
+
+Result decompressDocument(const Document& document, Decompressed& decompressed, DecodeTo decode_to,
+                          uint32_t thread_count) {
   decompressed = {};
-  return Decompressor(document, decode_to, decompressed).run();
+  Decompressor decompressor(document, decode_to, thread_count, decompressed);
+  MCC_GLTF_TRY(decompressor.decode());
+  return decompressor.rebuild();
 }
 
 }  // namespace mcc::gltf

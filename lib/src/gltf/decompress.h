@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gltf/integer_accessors.h"
+#include "gltf/rebuild.h"
 #include "mcc/gltf.h"
 
 namespace mcc::gltf {
@@ -52,12 +53,22 @@ struct Decompressed {
   std::vector<std::string> notes;
 };
 
+/// The elements of an accessor that a payload fills.
+struct DecodedAccessor {
+  uint32_t index = 0;
+  NewView view;
+};
+
+/// Decodes all payloads. Errors carry JSON paths. Safe for untrusted documents.
+Result decodeAccessors(const Document& document, std::vector<DecodedAccessor>& accessors);
+
 /// Replaces all payloads by ordinary accessors and removes the extension from the document. With no
 /// payload in the document `payload_count` is 0 and `json` and `bin` are not filled in.
-/// decode_to   what quantised attributes become; with integers `notes` names what stays float.
+/// decode_to     what quantised attributes become; with integers `notes` names what stays float.
+/// thread_count  payloads decoded at the same time; the result does not depend on it.
 /// Errors carry JSON paths. Safe for untrusted documents.
 Result decompressDocument(const Document& document, Decompressed& decompressed,
-                          DecodeTo decode_to = DecodeTo::kFloats);
+                          DecodeTo decode_to = DecodeTo::kFloats, uint32_t thread_count = 1);
 
 }  // namespace mcc::gltf
 

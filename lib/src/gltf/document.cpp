@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "gltf/fallback.h"
 #include "gltf/references.h"
 #include "gltf/uri.h"
 
@@ -367,8 +368,12 @@ Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file,
   MCC_GLTF_TRY(checkShape(document.json));
   const Json& buffers = arrayOf(document.json, "buffers");
   for (size_t i = 0; i < buffers.size(); ++i) {
-    MCC_GLTF_TRY(loadBuffer(buffers[i], at("/buffers", i), document.is_glb ? &glb : nullptr, i == 0,
-                            read_file, document));
+    const Result loaded = loadBuffer(buffers[i], at("/buffers", i),
+                                     document.is_glb ? &glb : nullptr, i == 0, read_file, document);
+    if (loaded.ok()) continue;
+    if (!removeFallback(i, document.json)) return loaded;
+    document.notes.push_back(loaded.message() + "; this fallback is not needed");
+    break;
   }
   return loadTables(document);
 }

@@ -33,11 +33,17 @@ bool isReadOnly(const fs::path& path) {
   return (permissions & write) == fs::perms::none || ::access(path.c_str(), W_OK) != 0;
 }
 
+}  // namespace
+
 fs::path folderOf(const fs::path& path) {
   return path.parent_path().empty() ? fs::path(".") : path.parent_path();
 }
 
-}  // namespace
+Result inFile(const fs::path& path, Result result) {
+  if (result.ok()) return result;
+  result.where = result.where.empty() ? path.string() : path.string() + ": " + result.where;
+  return result;
+}
 
 Result readFile(const fs::path& path, std::vector<uint8_t>& bytes) {
   std::error_code code;
@@ -61,6 +67,12 @@ Result readFile(const fs::path& path, std::vector<uint8_t>& bytes) {
   return {};
 }
 
+bool haveSameContent(const fs::path& a, const fs::path& b) {
+  std::vector<uint8_t> bytes_of_a;
+  std::vector<uint8_t> bytes_of_b;
+  return readFile(a, bytes_of_a).ok() && readFile(b, bytes_of_b).ok() && bytes_of_a == bytes_of_b;
+}
+
 FileReader readerOf(const fs::path& folder) {
   return [folder](const std::string& path, const std::string& where, std::vector<uint8_t>& bytes) {
     Result result = readFile(folder / path, bytes);
@@ -75,6 +87,7 @@ ReplacementFile::ReplacementFile(fs::path destination)
 ReplacementFile::~ReplacementFile() {
   std::error_code ignored;
   if (!temporary_.empty()) fs::remove(temporary_, ignored);
+  if (!backup_.empty()) fs::remove(backup_, ignored);
 }
 
 Result ReplacementFile::check() const {
@@ -90,9 +103,11 @@ Result ReplacementFile::check() const {
   if (!fs::is_directory(folder, code)) {
     return error(name, "\"" + folder.string() + "\" is no folder");
   }
-  if (isReadOnly(folder)) return error(name, "the folder \"" + folder.string() + "\" is read-only");
+  if (isReadOnly(folder)) {
+    return error(name, "the folder \"" + folder.string() + "\" is read-only; choose another one");
+  }
   if (fs::exists(destination_, code) && isReadOnly(destination_)) {
-    return error(name, "the file exists and is read-only");
+    return error(name, "the file exists and is read-only; make it writable or choose another name");
   }
   return {};
 }
@@ -121,6 +136,53 @@ Result ReplacementFile::commit() {
   if (code) return error(destination_.string(), "cannot be written: " + code.message());
   temporary_.clear();
   return {};
+}
+
+Result ReplacementFile::commitForNow() {
+  std::error_code code;
+  if (fs::exists(fs::symlink_status(destination_, code))) {
+    const fs::path backup = temporaryName(destination_);
+    // Linked where the file system can, so that the destination is there at every moment.
+    fs::create_hard_link(destination_, backup, code);
+    if (code) fs::rename(destination_, backup, code);
+    if (code) return error(destination_.string(), "cannot be written: " + code.message());
+    backup_ = backup;
+  }
+  is_for_now_ = true;
+  Result result = commit();
+  if (!result.ok()) undo();
+  return result;
+}
+
+Result ReplacementFile::commitNew() {
+  if (::link(temporary_.c_str(), destination_.c_str()) == 0) {
+    is_for_now_ = true;
+    return {};  // the temporary name goes with this object
+  }
+  std::error_code code;
+  if (!fs::exists(fs::symlink_status(destination_, code))) return commitForNow();  // without links
+  if (haveSameContent(temporary_, destination_)) return {};
+  return error(destination_.string(), "another file appeared there; choose another folder");
+}
+
+void ReplacementFile::undo() {
+  if (!is_for_now_) return;
+  is_for_now_ = false;
+  std::error_code ignored;
+  if (backup_.empty()) {
+    fs::remove(destination_, ignored);
+  } else {
+    fs::rename(backup_, destination_, ignored);
+    fs::remove(backup_, ignored);  // two links of one file: rename() left both
+    backup_.clear();
+  }
+}
+
+Result writeFile(const fs::path& path, std::span<const uint8_t> bytes) {
+  ReplacementFile file(path);
+  Result result = file.check();
+  if (result.ok()) result = file.write(bytes);
+  return result.ok() ? file.commit() : result;
 }
 
 }  // namespace mcc::gltf

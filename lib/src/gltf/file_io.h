@@ -14,14 +14,23 @@ namespace mcc::gltf {
 /// Reads a whole file. Errors say plainly what is there instead (nothing, a folder, no permission).
 Result readFile(const std::filesystem::path& path, std::vector<uint8_t>& bytes);
 
+/// Whether two files have the same bytes; false when one cannot be read.
+bool haveSameContent(const std::filesystem::path& a, const std::filesystem::path& b);
+
 /// Reads files below a folder, for loadDocument().
 FileReader readerOf(const std::filesystem::path& folder);
+
+/// Puts the name of the file in front of where in it something is wrong.
+Result inFile(const std::filesystem::path& path, Result result);
+
+/// The folder a path lies in; "." when it names none.
+std::filesystem::path folderOf(const std::filesystem::path& path);
 
 /// A file that takes the place of another only when all is well.
 class ReplacementFile {
  public:
   explicit ReplacementFile(std::filesystem::path destination);
-  /// Removes the temporary file unless commit() was called.
+  /// Removes the temporary file unless it was committed; then no undo() is possible any more.
   ~ReplacementFile();
   ReplacementFile(const ReplacementFile&) = delete;
   ReplacementFile& operator=(const ReplacementFile&) = delete;
@@ -30,14 +39,26 @@ class ReplacementFile {
   Result check() const;
   /// Writes a temporary file in the folder of the destination.
   Result write(std::span<const uint8_t> bytes);
+  const std::filesystem::path& destination() const { return destination_; }
   const std::filesystem::path& temporaryPath() const { return temporary_; }
   /// Renames it to the destination.
   Result commit();
+  /// commit() that undo() can take back.
+  Result commitForNow();
+  /// The same where nothing is there, or an equal file that may stay; another file is an error.
+  Result commitNew();
+  /// Puts back what was there before commitForNow() or commitNew().
+  void undo();
 
  private:
   std::filesystem::path destination_;
   std::filesystem::path temporary_;
+  std::filesystem::path backup_;  ///< what was at the destination, while undo() is possible
+  bool is_for_now_ = false;
 };
+
+/// Writes a file in the place of another: a temporary one first, then renamed.
+Result writeFile(const std::filesystem::path& path, std::span<const uint8_t> bytes);
 
 }  // namespace mcc::gltf
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cctype>
+#include <string_view>
 
 namespace mcc::gltf {
 namespace {
@@ -151,6 +152,27 @@ Result relativePathOf(const std::string& uri, const std::string& where, std::str
                             " leaves the folder of the model and is refused" + advice);
   }
   return {};
+}
+
+std::string uriOf(const std::string& name) {
+  static constexpr std::string_view kPlain = "-._~!$&'()*+,;=@";
+  static constexpr char kHexDigits[] = "0123456789ABCDEF";
+  std::string uri = hasScheme(name) ? "./" : "";  // "a:b.bin" would be of the scheme "a"
+  for (const char c : name) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x80 && (std::isalnum(code) != 0 || kPlain.find(c) != std::string_view::npos)) {
+      uri += c;
+    } else {
+      uri += {'%', kHexDigits[code >> 4], kHexDigits[code & 15]};
+    }
+  }
+  return uri;
+}
+
+bool isUsableName(const std::string& name) {
+  std::string path;
+  if (!relativePathOf(uriOf(name), "", path).ok()) return false;
+  return path == name || path == "./" + name;  // not so when it has a backslash
 }
 
 }  // namespace mcc::gltf

@@ -20,6 +20,12 @@ Result decodeDataUri(const std::string& uri, const std::string& where, std::vect
 /// characters; percent encoding is resolved before the test.
 Result relativePathOf(const std::string& uri, const std::string& where, std::string& path);
 
+/// The URI of a file beside the model, percent-encoded; relativePathOf() leads back to the file.
+std::string uriOf(const std::string& name);
+
+/// Whether a file of this name can be named by a URI.
+bool isUsableName(const std::string& name);
+
 }  // namespace mcc::gltf
 
 #endif  // MCC_GLTF_URI_H_

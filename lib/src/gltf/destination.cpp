@@ -1,0 +1,200 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/destination.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "gltf/uri.h"
+
+namespace mcc::gltf {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "./a//b" -> "a/b".
+std::string normalized(const std::string& path) {
+  return fs::path(path).lexically_normal().generic_string();
+}
+
+bool isSameFile(const fs::path& a, const fs::path& b) {
+  std::error_code ignored;
+  return fs::equivalent(a, b, ignored);
+}
+
+/// Whether the file at `main` is a document that refers to a file beside it.
+bool refersTo(const fs::path& main, const std::string& name) {
+  std::vector<uint8_t> bytes;
+  if (!readFile(main, bytes).ok()) return false;
+  Json json;
+  if (!readJson(bytes, json).ok()) return false;
+  const std::vector<std::string> paths = filesBeside(json);
+  return std::any_of(paths.begin(), paths.end(),
+                     [&](const std::string& path) { return normalized(path) == name; });
+}
+
+bool hasContent(const fs::path& path, std::span<const uint8_t> content) {
+  std::error_code code;
+  if (fs::file_size(path, code) != content.size() || code) return false;
+  std::vector<uint8_t> bytes;
+  return readFile(path, bytes).ok() &&
+         std::equal(bytes.begin(), bytes.end(), content.begin(), content.end());
+}
+
+}  // namespace
+
+Destination::Destination(fs::path main)
+    : main_path_(std::move(main)), folder_(folderOf(main_path_)), main_(main_path_) {}
+
+Destination::~Destination() {
+  sides_.clear();
+  std::error_code ignored;
+  for (auto folder = new_folders_.rbegin(); folder != new_folders_.rend(); ++folder) {
+    fs::remove(*folder, ignored);  // those that something was put into stay
+  }
+}
+
+std::vector<std::string> Destination::ownNames() const {
+  std::vector<std::string> names;
+  if (container_.is_gltf) names.push_back(container_.buffer_name);
+  if (with_fallback_) names.push_back(container_.fallback_name);
+  return names;
+}
+
+Result Destination::checkOwner(const std::string& name) const {
+  const fs::path path = folder_ / name;
+  std::error_code ignored;
+  if (!fs::exists(fs::symlink_status(path, ignored)) || refersTo(main_path_, name)) return {};
+  return error(main_path_.string(), "\"" + path.string() +
+                                        "\" would be replaced, which does not belong to it; move "
+                                        "that file or choose another name");
+}
+
+Result Destination::check(bool with_fallback) {
+  MCC_GLTF_TRY(main_.check());
+  MCC_GLTF_TRY(containerOf(main_path_.filename().string(), container_));
+  with_fallback_ = with_fallback;
+  if (with_fallback && !isUsableName(container_.fallback_name)) {
+    return error(main_path_.string(), "no URI can name a file \"" + container_.fallback_name +
+                                          "\"; choose another name");
+  }
+  for (const std::string& name : ownNames()) {
+    MCC_GLTF_TRY(ReplacementFile(folder_ / name).check());
+    MCC_GLTF_TRY(checkOwner(name));
+  }
+  return {};
+}
+
+Result Destination::checkSource(const fs::path& source, const Json& json) const {
+  const bool is_in_place = isSameFile(source, main_path_);
+  const auto refuse = [&](const fs::path& path) {
+    return error(main_path_.string(), "\"" + path.string() +
+                                          "\" is part of the input and would be replaced; choose "
+                                          "another name or folder");
+  };
+  for (const std::string& name : ownNames()) {
+    const fs::path path = folder_ / name;
+    if (isSameFile(path, source)) return refuse(path);
+    if (is_in_place) continue;
+    for (const std::string& beside : filesBeside(json)) {
+      if (isSameFile(path, folderOf(source) / beside)) return refuse(path);
+    }
+  }
+  return {};
+}
+
+bool Destination::isBeside(const fs::path& source) const {
+  return isSameFile(folderOf(source), folder_);
+}
+
+Result Destination::createFolders(const fs::path& folder) {
+  std::vector<fs::path> missing;
+  std::error_code code;
+  for (fs::path path = folder; !path.empty() && !fs::exists(path, code);
+       path = path.parent_path()) {
+    missing.push_back(path);
+  }
+  for (auto path = missing.rbegin(); path != missing.rend(); ++path) {
+    // Another thread may have been faster.
+    if (fs::create_directory(*path, code)) new_folders_.push_back(*path);
+    if (code) return error(path->string(), "cannot be created: " + code.message());
+  }
+  return {};
+}
+
+/// A copy is made only where there is no equal file.
+Result Destination::writeCopy(const SideFile& copy) {
+  const std::string name = normalized(copy.path);
+  const fs::path path = folder_ / name;
+  std::error_code ignored;
+  const bool is_there = fs::exists(fs::symlink_status(path, ignored));
+  if (is_there && hasContent(path, copy.bytes)) return {};
+  const bool is_ours =
+      name == main_path_.filename().string() ||
+      std::any_of(sides_.begin(), sides_.end(), [&](const auto& s) { return s->name == name; });
+  if (is_ours || (is_there && !refersTo(main_path_, name))) {
+    return error(main_path_.string(), "a file beside the input has to be copied to \"" +
+                                          path.string() +
+                                          "\", which is another file; choose another folder");
+  }
+  MCC_GLTF_TRY(createFolders(folderOf(path)));
+  return writeSide(copy);
+}
+
+Result Destination::writeSide(const SideFile& side) {
+  const std::string name = normalized(side.path);
+  std::error_code ignored;
+  const bool is_new = !fs::exists(fs::symlink_status(folder_ / name, ignored));
+  sides_.push_back(
+      std::unique_ptr<Side>(new Side{side.kind, is_new, name, ReplacementFile(folder_ / name)}));
+  return sides_.back()->file.write(side.bytes);
+}
+
+Result Destination::write(const Package& package) {
+  for (const SideFile& side : package.beside) {
+    if (side.kind != SideFile::Kind::kCopy) MCC_GLTF_TRY(writeSide(side));
+  }
+  for (const SideFile& side : package.beside) {
+    if (side.kind == SideFile::Kind::kCopy) MCC_GLTF_TRY(writeCopy(side));
+  }
+  return main_.write(package.main);
+}
+
+Result Destination::readBack(std::vector<uint8_t>& main) const {
+  return readFile(main_.temporaryPath(), main);
+}
+
+FileReader Destination::reader() const {
+  return [this](const std::string& path, const std::string& where, std::vector<uint8_t>& bytes) {
+    for (const auto& side : sides_) {
+      if (side->name == normalized(path)) return readFile(side->file.temporaryPath(), bytes);
+    }
+    return error(where, "\"" + path + "\" was not written");
+  };
+}
+
+Result Destination::commit() {
+  Result result;
+  size_t done = 0;
+  while (done < sides_.size() && result.ok()) {
+    Side& side = *sides_[done];
+    result = side.is_new ? side.file.commitNew() : side.file.commitForNow();
+    if (result.ok()) ++done;
+  }
+  if (result.ok()) result = main_.commit();
+  if (result.ok()) {
+    new_folders_.clear();
+    return {};
+  }
+  while (done-- != 0) sides_[done]->file.undo();
+  return result;
+}
+
+std::vector<fs::path> Destination::files() const {
+  std::vector<fs::path> paths = {main_path_};
+  for (const auto& side : sides_) {
+    if (side->kind == SideFile::Kind::kBuffer) paths.push_back(side->file.destination());
+  }
+  return paths;
+}
+
+}  // namespace mcc::gltf

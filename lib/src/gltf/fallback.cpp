@@ -1,0 +1,111 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/fallback.h"
+
+#include <set>
+
+#include "gltf/decompress.h"
+#include "gltf/references.h"
+
+namespace mcc::gltf {
+namespace {
+
+/// The accessors that payloads fill, by what the extension objects of the primitives name.
+void collectCompressed(const Json& ids, const Json& accessors, std::set<uint64_t>& compressed) {
+  if (!ids.is_object()) return;
+  for (const auto& [name, ignored] : ids.items()) {
+    uint64_t index = 0;
+    const Json* accessor = findMember(accessors, name.c_str());
+    if (accessor != nullptr && asUnsigned(*accessor, index)) compressed.insert(index);
+  }
+}
+
+std::set<uint64_t> compressedAccessors(const Json& root) {
+  std::set<uint64_t> compressed;
+  for (const Json& mesh : arrayOf(root, "meshes")) {
+    for (const Json& primitive : arrayOf(mesh, "primitives")) {
+      const Json* extensions = findMember(primitive, "extensions");
+      const Json* ours = extensions == nullptr ? nullptr : findMember(*extensions, kExtensionName);
+      if (ours == nullptr) continue;
+      uint64_t index = 0;
+      const Json* indices = findMember(primitive, "indices");
+      if (indices != nullptr && asUnsigned(*indices, index)) compressed.insert(index);
+      const Json* ids = findMember(*ours, "attributes");
+      const Json* attributes = findMember(primitive, "attributes");
+      if (ids != nullptr && attributes != nullptr) collectCompressed(*ids, *attributes, compressed);
+      const Json& target_ids = arrayOf(*ours, "targets");
+      const Json& targets = arrayOf(primitive, "targets");
+      for (size_t i = 0; i < std::min(target_ids.size(), targets.size()); ++i) {
+        collectCompressed(target_ids[i], targets[i], compressed);
+      }
+    }
+  }
+  return compressed;
+}
+
+bool isAt(const Json& object, const char* key, uint64_t number) {
+  uint64_t value = 0;
+  const Json* member = findMember(object, key);
+  return member != nullptr && asUnsigned(*member, value) && value == number;
+}
+
+}  // namespace
+
+Result addFallback(const std::vector<uint8_t>& bin, const std::string& uri, Json& json,
+                   std::vector<uint8_t>& fallback) {
+  Document document;
+  MCC_GLTF_TRY(adoptDocument(json, bin, document));
+  std::vector<DecodedAccessor> decoded;
+  MCC_GLTF_TRY(decodeAccessors(document, decoded));
+  fallback.clear();
+  for (DecodedAccessor& accessor : decoded) {
+    if (document.accessors[accessor.index].view != kNone) continue;  // has a fallback already
+    fallback.resize((fallback.size() + 3) & ~size_t{3}, 0);
+    Json view = {{"buffer", json["buffers"].size()},
+                 {"byteOffset", fallback.size()},
+                 {"byteLength", accessor.view.bytes.size()}};
+    if (accessor.view.stride_bytes != 0) view["byteStride"] = accessor.view.stride_bytes;
+    view["target"] = accessor.view.target;
+    fallback.insert(fallback.end(), accessor.view.bytes.begin(), accessor.view.bytes.end());
+    accessor.view.bytes = {};
+    json["accessors"][accessor.index]["bufferView"] = json["bufferViews"].size();
+    json["bufferViews"].push_back(std::move(view));
+  }
+  json["buffers"].push_back({{"uri", uri}, {"byteLength", fallback.size()}});
+  removeExtensionName(json, "extensionsRequired", kExtensionName);
+  return {};
+}
+
+bool removeFallback(size_t number, Json& json) {
+  const Json& buffers = arrayOf(json, "buffers");
+  if (number + 1 != buffers.size()) return false;  // others would get new numbers
+  const Json& views = arrayOf(json, "bufferViews");
+  size_t view_count = views.size();
+  while (view_count != 0 && isAt(views[view_count - 1], "buffer", number)) --view_count;
+  if (view_count == views.size()) return false;
+  for (size_t i = 0; i < view_count; ++i) {
+    if (isAt(views[i], "buffer", number)) return false;
+  }
+  if (findForeignReferences(json).keep_numbers) return false;
+  const std::set<uint64_t> compressed = compressedAccessors(json);
+  bool is_needed = false;
+  visitViewReferences(json, [&](Json& reference, uint32_t accessor) {
+    uint64_t view = 0;
+    const bool is_lost = !asUnsigned(reference, view) || view >= view_count;
+    is_needed |= is_lost && compressed.count(accessor) == 0;
+  });
+  if (is_needed) return false;
+  for (const uint64_t index : compressed) {
+    if (index >= arrayOf(json, "accessors").size()) return false;
+    Json& accessor = json["accessors"][index];
+    uint64_t view = 0;
+    const Json* reference = findMember(accessor, "bufferView");
+    if (reference == nullptr || !asUnsigned(*reference, view) || view < view_count) continue;
+    for (const char* key : {"bufferView", "byteOffset", "sparse"}) accessor.erase(key);
+  }
+  json["bufferViews"].erase(json["bufferViews"].begin() + static_cast<ptrdiff_t>(view_count),
+                            json["bufferViews"].end());
+  json["buffers"].erase(number);
+  return true;
+}
+
+}  // namespace mcc::gltf

@@ -1,0 +1,109 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/package.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "gltf/uri.h"
+
+namespace mcc::gltf {
+namespace {
+
+/// Relative URIs of one list, with their JSON paths. Data URIs are no files.
+void listUris(const Json& json, const char* list,
+              std::vector<std::pair<std::string, std::string>>& uris) {
+  const Json& items = arrayOf(json, list);
+  for (size_t i = 0; i < items.size(); ++i) {
+    const Json* uri = findMember(items[i], "uri");
+    if (uri == nullptr || !uri->is_string() || isDataUri(uri->get<std::string>())) continue;
+    uris.emplace_back(uri->get<std::string>(), at(at("", list), i) + "/uri");
+  }
+}
+
+}  // namespace
+
+uint64_t Package::documentBytes() const {
+  uint64_t bytes = main.size();
+  for (const SideFile& file : beside) {
+    if (file.kind == SideFile::Kind::kBuffer) bytes += file.bytes.size();
+  }
+  return bytes;
+}
+
+Result containerOf(const std::string& file_name, Container& container) {
+  container = {};
+  const size_t dot = file_name.rfind('.');
+  const std::string stem = dot == 0 ? file_name : file_name.substr(0, dot);
+  std::string extension = dot == std::string::npos ? "" : file_name.substr(dot);
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  container.is_gltf = extension == ".gltf";
+  if (container.is_gltf) container.buffer_name = stem + ".bin";
+  container.fallback_name = stem + ".fallback.bin";
+  if (container.is_gltf && !isUsableName(container.buffer_name)) {
+    return error(file_name,
+                 "no URI can name a file \"" + container.buffer_name + "\"; choose another name");
+  }
+  return {};
+}
+
+Result writePackage(const Container& container, Json json, std::vector<uint8_t> bin,
+                    const std::vector<GlbChunk>& other_chunks, Package& package) {
+  if (!container.is_gltf) return writeGlb(printJson(json), bin, other_chunks, package.main);
+  if (!bin.empty()) {
+    json["buffers"][0]["uri"] = uriOf(container.buffer_name);
+    package.beside.push_back({SideFile::Kind::kBuffer, container.buffer_name, std::move(bin)});
+  }
+  const std::string text = printJson(json) + "\n";
+  package.main.assign(text.begin(), text.end());
+  return {};
+}
+
+Result addCopies(const Json& json, bool with_buffers, const FileReader& read_file, Package& package,
+                 std::vector<std::string>& notes) {
+  std::vector<std::pair<std::string, std::string>> uris;
+  if (with_buffers) listUris(json, "buffers", uris);
+  listUris(json, "images", uris);
+  for (const auto& [uri, where] : uris) {
+    SideFile file;
+    file.kind = SideFile::Kind::kCopy;
+    MCC_GLTF_TRY(relativePathOf(uri, where, file.path));
+    const bool is_known =
+        std::any_of(package.beside.begin(), package.beside.end(), [&](const SideFile& other) {
+          return other.kind == SideFile::Kind::kCopy && other.path == file.path;
+        });
+    if (is_known) continue;
+    if (const Result read = read_file(file.path, where, file.bytes); read.ok()) {
+      package.beside.push_back(std::move(file));
+    } else {
+      notes.push_back(read.message() + "; it is not copied");
+    }
+  }
+  return {};
+}
+
+Result readJson(std::span<const uint8_t> file, Json& json) {
+  GlbFile glb;
+  glb.json = file;
+  if (isGlb(file)) MCC_GLTF_TRY(readGlb(file, glb));
+  return parseJson(glb.json, json);
+}
+
+std::vector<std::string> filesOf(const Json& json, const char* list) {
+  std::vector<std::pair<std::string, std::string>> uris;
+  listUris(json, list, uris);
+  std::vector<std::string> paths;
+  for (const auto& [uri, where] : uris) {
+    std::string path;
+    if (relativePathOf(uri, where, path).ok()) paths.push_back(path);
+  }
+  return paths;
+}
+
+std::vector<std::string> filesBeside(const Json& json) {
+  std::vector<std::string> paths = filesOf(json, "buffers");
+  const std::vector<std::string> images = filesOf(json, "images");
+  paths.insert(paths.end(), images.begin(), images.end());
+  return paths;
+}
+
+}  // namespace mcc::gltf

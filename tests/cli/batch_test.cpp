@@ -1,0 +1,382 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// `convert -o DIR`, and "-" for the standard streams.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/run_tool.h"
+#include "gltf/gltf_builder.h"
+
+namespace mcc::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+class Batch : public testing::Test {
+ protected:
+  void SetUp() override {
+#ifndef MCC_TOOL_GLTF_MCC
+    GTEST_SKIP() << "the tool is not part of this build";
+#endif
+    fs::create_directory(path("in"));
+    for (const auto& entry : fs::directory_iterator(MCC_SAMPLES_DIR)) {
+      if (entry.path().extension() != ".glb") continue;
+      fs::copy_file(entry.path(), path("in") / entry.path().filename());
+      names_.insert(entry.path().filename().string());
+    }
+  }
+
+  fs::path path(const std::string& name) const { return folder_.path() / name; }
+  ToolResult run(const std::string& arguments) const { return runTool(folder_, arguments); }
+
+  void store(const std::string& name, const std::string& content) const {
+    std::ofstream(path(name), std::ios::binary) << content;
+  }
+
+  /// Files of a folder with their contents, without the record.
+  std::map<std::string, std::string> filesOf(const std::string& name) const {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::directory_iterator(path(name))) {
+      const std::string file = entry.path().filename().string();
+      if (file != ".gltf-mcc.json") files[file] = contentOf(entry.path());
+    }
+    return files;
+  }
+
+  static size_t countOf(const std::string& text, const std::string& word) {
+    size_t count = 0;
+    for (size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+      ++count;
+    return count;
+  }
+
+  ScratchFolder folder_;
+  std::set<std::string> names_;
+};
+
+TEST_F(Batch, ResultsDoNotDependOnTheThreads) {
+  std::map<std::string, std::string> first;
+  for (const std::string jobs : {"1", "2", "4"}) {
+    const ToolResult result = run("convert -j " + jobs + " -o out" + jobs + "/ in/*.glb");
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    const auto files = filesOf("out" + jobs);
+    EXPECT_EQ(files.size(), names_.size());
+    if (first.empty()) first = files;
+    EXPECT_TRUE(files == first) << jobs;
+  }
+  for (const auto& [name, content] : first) {
+    ASSERT_EQ(run("convert in/" + name + " one.glb -j 3").status, 0);
+    EXPECT_TRUE(contentOf(path("one.glb")) == content) << name;
+  }
+}
+
+/// Payloads are coded, decoded for the check and compared by several threads.
+TEST_F(Batch, OneFileDoesNotDependOnTheThreads) {
+  gltf::test::Builder builder;
+  for (const uint32_t size : {20u, 31u, 12u, 25u, 16u}) {
+    builder.addMesh({gltf::test::Sheet(size, 0.01f * static_cast<float>(size)).addTo(builder)});
+  }
+  const std::vector<uint8_t> file = builder.toGlb();
+  store("many.glb", {file.begin(), file.end()});
+  const std::string names[] = {"a.glb", "a.fallback.bin", "b.gltf", "b.bin"};
+  std::map<std::string, std::string> first;
+  for (const std::string jobs : {"1", "2", "4"}) {
+    ASSERT_EQ(run("convert many.glb a.glb --fallback -j " + jobs).status, 0);
+    const ToolResult result = run("convert many.glb b.gltf --format json -j " + jobs);
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(Json::parse(result.out)["payloads"].size(), 5u);
+    for (const std::string& name : names) {
+      const std::string content = contentOf(path(name));
+      EXPECT_TRUE(first.try_emplace(name, content).first->second == content) << name << " " << jobs;
+    }
+  }
+}
+
+TEST_F(Batch, OneFailureDoesNotStopTheRest) {
+  std::string damaged = contentOf(path("in/torus.glb"));
+  damaged.resize(damaged.size() / 2);
+  store("in/a_damaged.glb", damaged);
+  store("in/b_empty.glb", "");
+  fs::create_symlink("nowhere.glb", path("in/c_dangling.glb"));
+  fs::create_directory(path("in/d_folder.glb"));
+  const ToolResult result = run("convert -j 2 -o out/ in/*.glb");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(filesOf("out").size(), names_.size());
+  for (const std::string& name : names_) EXPECT_EQ(filesOf("out").count(name), 1u) << name;
+  // A line per file; the summary; what failed, in the order of the arguments.
+  for (const std::string& name : names_) {
+    EXPECT_EQ(countOf(result.out, "] in/" + name + ": "), 1u) << result.out;
+  }
+  EXPECT_EQ(countOf(result.out, ": failed\n"), 4u) << result.out;
+  EXPECT_NE(result.out.find("\nfailed      "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\nall         "), std::string::npos) << result.out;
+  EXPECT_EQ(countOf(result.err, "\n"), 4u) << result.err;
+  size_t at = 0;
+  for (const std::string line :
+       {"gltf-mcc: in/a_damaged.glb: byte 8: ", "gltf-mcc: in/b_empty.glb: the file is empty",
+        "gltf-mcc: in/c_dangling.glb: there is no such file",
+        "gltf-mcc: in/d_folder.glb: is a folder"}) {
+    at = result.err.find(line, at);
+    EXPECT_NE(at, std::string::npos) << line << "\n" << result.err;
+  }
+}
+
+TEST_F(Batch, WhatIsUpToDateIsLeft) {
+  ASSERT_EQ(run("convert -o out/ in/*.glb").status, 0);
+  const auto before = filesOf("out");
+  const auto counted = [&](const std::string& options) {
+    const ToolResult result = run("convert -o out " + options + " in/*.glb");
+    EXPECT_EQ(result.status, 0) << result.err;
+    return names_.size() - countOf(result.out, ": up to date\n");
+  };
+  EXPECT_EQ(counted(""), 0u);
+  EXPECT_EQ(counted("--force"), names_.size());
+  EXPECT_EQ(counted("-j 2"), 0u);
+  EXPECT_EQ(counted("--quantize-position 9"), names_.size());
+  EXPECT_EQ(counted("--quantize-position 9"), 0u);
+  EXPECT_EQ(counted(""), names_.size());
+  EXPECT_TRUE(filesOf("out") == before);
+
+  // A source that changed, also to an older one; an output that somebody removed or replaced.
+  fs::last_write_time(path("in/torus.glb"),
+                      fs::last_write_time(path("in/torus.glb")) - std::chrono::hours(1));
+  EXPECT_EQ(counted(""), 1u);
+  fs::remove(path("out/sphere.glb"));
+  store("out/modes.glb", "else");
+  EXPECT_EQ(counted(""), 2u);
+  EXPECT_TRUE(filesOf("out") == before);
+  EXPECT_EQ(counted(""), 0u);
+
+  // The record of all that may be gone or damaged.
+  store("out/.gltf-mcc.json", R"({"files":{"torus.glb":{"maker":1,"input":[[1]],"output":{}}}})");
+  EXPECT_EQ(counted(""), names_.size());
+  store("out/.gltf-mcc.json", "[");
+  EXPECT_EQ(counted(""), names_.size());
+}
+
+TEST_F(Batch, BuffersAndImagesCountForWhatIsUpToDate) {
+  fs::create_directories(path("g"));
+  ASSERT_EQ(run("decode in/textured.glb g/a.gltf").status, 0);
+  Json json = Json::parse(contentOf(path("g/a.gltf")));
+  json["images"] = {{{"uri", "a.png"}}};
+  store("g/a.gltf", json.dump());
+  store("g/a.png", "\x89PNG");
+  const auto isUpToDate = [&]() {
+    const ToolResult result = run("convert -o out/ g/a.gltf");
+    EXPECT_EQ(result.status, 0) << result.err;
+    return countOf(result.out, ": up to date\n") == 1;
+  };
+  EXPECT_FALSE(isUpToDate());
+  EXPECT_TRUE(isUpToDate());
+  EXPECT_EQ(filesOf("out").size(), 3u);
+  store("g/a.png", "\x89PNG, another");
+  EXPECT_FALSE(isUpToDate());
+  EXPECT_EQ(contentOf(path("out/a.png")), "\x89PNG, another");
+  fs::remove(path("out/a.png"));
+  EXPECT_FALSE(isUpToDate());
+  fs::remove(path("out/a.bin"));
+  EXPECT_FALSE(isUpToDate());
+  EXPECT_TRUE(isUpToDate());
+  store("g/a.bin", contentOf(path("g/a.bin")) + "more");
+  EXPECT_FALSE(isUpToDate());
+  EXPECT_TRUE(isUpToDate());
+}
+
+TEST_F(Batch, FallbacksCountForWhatIsUpToDate) {
+  const std::string command = "convert --fallback -o out/ in/torus.glb";
+  ASSERT_EQ(run(command).status, 0);
+  EXPECT_EQ(countOf(run(command).out, ": up to date\n"), 1u);
+  fs::remove(path("out/torus.fallback.bin"));
+  EXPECT_EQ(countOf(run(command).out, ": up to date\n"), 0u);
+  EXPECT_TRUE(fs::exists(path("out/torus.fallback.bin")));
+}
+
+TEST_F(Batch, CollisionsAreRefused) {
+  fs::create_directory(path("in2"));
+  fs::copy_file(path("in/torus.glb"), path("in2/torus.glb"));
+  store("in/torus.gltf", "{}");
+  store("in/torus.GLTF", "{}");
+  for (const auto& [arguments, message] : std::map<std::string, std::string>{
+           {"-o out/ in/sphere.glb in/torus.glb in2/torus.glb",
+            "in2/torus.glb: writes \"out/torus.glb\", as \"in/torus.glb\" does; "},
+           {"-o out/ in/torus.gltf in/torus.GLTF", "writes \"out/torus.bin\", as "},
+           {"-o out/ --fallback in/torus.gltf in/torus.glb", "writes \"out/torus.fallback.bin\""},
+           {"-o in in/torus.glb", "in/torus.glb: would be replaced by its output; "},
+           {"-o out/ in/torus.glb -", "standard input cannot be one of several inputs"},
+           {"-o out/ --compare draco in/torus.glb", "take one input"},
+           {"in/torus.glb in/sphere.glb out", "several inputs need a folder: -o DIR"},
+           {"-o out/", "IN is missing"}}) {
+    const ToolResult result = run("convert " + arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_NE(result.err.find(message), std::string::npos) << arguments << "\n" << result.err;
+    EXPECT_FALSE(fs::exists(path("out"))) << arguments;
+  }
+  store("file", "");
+  EXPECT_EQ(run("convert -o file in/torus.glb in/sphere.glb").status, 1);
+  EXPECT_EQ(run("convert -o none/out in/torus.glb in/sphere.glb").status, 1);
+}
+
+TEST_F(Batch, FormatsAndReport) {
+  const std::string files = "in/torus.glb in/none.glb in/sphere.glb";
+  const ToolResult csv = run("convert -o out/ --format csv --report r.json " + files);
+  EXPECT_EQ(csv.status, 1);
+  EXPECT_EQ(csv.out.rfind("file,outcome,bytes in,bytes out,ratio\nin/torus.glb,converted,", 0), 0u)
+      << csv.out;
+  EXPECT_EQ(countOf(csv.out, "\n"), 4u) << csv.out;
+  const Json report = Json::parse(contentOf(path("r.json")));
+  ASSERT_EQ(report["files"].size(), 3u);
+  EXPECT_EQ(report["files"][0]["conversion"]["checked"], true);
+  EXPECT_EQ(report["files"][1]["outcome"], "failed");
+  EXPECT_EQ(report["files"][1]["message"], "in/none.glb: there is no such file");
+  EXPECT_EQ(report["files"][2]["output"], "out/sphere.glb");
+  const Json printed = Json::parse(run("convert -o out --format json " + files).out);
+  EXPECT_EQ(printed["files"][0]["outcome"], "up to date");
+  EXPECT_EQ(printed["files"][0]["output_bytes"], fs::file_size(path("out/torus.glb")));
+  EXPECT_EQ(run("convert -o out --format md " + files).out.rfind("| file", 0), 0u);
+  const ToolResult quiet = run("convert -q -o out " + files);
+  EXPECT_EQ(quiet.out, "");
+  EXPECT_EQ(quiet.err, "gltf-mcc: in/none.glb: there is no such file\n");
+}
+
+/// Runs the tool with a terminal as standard error; returns what it was sent.
+std::string runWithTerminal(const ScratchFolder& folder, const std::string& arguments) {
+#ifdef MCC_TOOL_GLTF_MCC
+  const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
+  if (terminal < 0 || ::grantpt(terminal) != 0 || ::unlockpt(terminal) != 0) return "";
+  const std::string command = "cd '" + folder.path().string() + "' && '" + MCC_TOOL_GLTF_MCC +
+                              "' " + arguments + " >.stdout 2>'" + ::ptsname(terminal) + "'";
+  const int other_end = ::open(::ptsname(terminal), O_RDWR | O_NOCTTY);  // so that reading waits
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    ::_exit(127);
+  }
+  int code = 0;
+  ::waitpid(child, &code, 0);
+  EXPECT_EQ(code, 0);
+  std::string text(1 << 16, '\0');
+  ::fcntl(terminal, F_SETFL, O_NONBLOCK);
+  const ssize_t count = ::read(terminal, text.data(), text.size());
+  text.resize(count > 0 ? static_cast<size_t>(count) : 0);
+  ::close(other_end);
+  ::close(terminal);
+  return text;
+#else
+  return "";
+#endif
+}
+
+TEST_F(Batch, ProgressOnATerminalOnly) {
+  const std::string files = "in/torus.glb in/sphere.glb";
+  const std::string seen = runWithTerminal(folder_, "convert -o out/ " + files);
+  EXPECT_NE(seen.find("[############------------] 1 of 2 files"), std::string::npos) << seen;
+  EXPECT_TRUE(seen.ends_with("\r\033[K")) << "the bar is left behind";
+  EXPECT_EQ(runWithTerminal(folder_, "convert -q -o out/ " + files), "");
+  EXPECT_EQ(run("convert -o out2/ " + files).err, "");
+}
+
+class Streams : public Batch {};
+
+TEST_F(Streams, StandInForFiles) {
+  ASSERT_EQ(run("convert in/textured.glb small.glb").status, 0);
+  ASSERT_EQ(run("decode small.glb back.glb").status, 0);
+#ifdef MCC_TOOL_GLTF_MCC
+  const std::string tool = std::string("'") + MCC_TOOL_GLTF_MCC + "' ";
+  for (const std::string& command :
+       {"cat in/textured.glb | " + tool + "convert - - --report r.json > a.glb",
+        tool + "convert in/textured.glb - -v > a.glb",
+        tool + "convert - a.glb -q < in/textured.glb",
+        tool + "convert -i - -o - < in/textured.glb | cat > a.glb"}) {
+    fs::remove(path("a.glb"));
+    const ToolResult result = runCommand(folder_, "( " + command + " )");
+    EXPECT_EQ(result.status, 0) << command << result.err;
+    EXPECT_TRUE(contentOf(path("a.glb")) == contentOf(path("small.glb"))) << command;
+  }
+  EXPECT_EQ(Json::parse(contentOf(path("r.json")))["input"], "-");
+  const ToolResult decode = runCommand(folder_, "( " + tool + "decode - - < small.glb > b.glb )");
+  EXPECT_EQ(decode.status, 0) << decode.err;
+  EXPECT_TRUE(contentOf(path("b.glb")) == contentOf(path("back.glb")));
+  const ToolResult bad = runCommand(folder_, "( echo nothing | " + tool + "convert - - )");
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_EQ(bad.out, "");
+  EXPECT_EQ(bad.err,
+            "gltf-mcc: standard input: byte 0: this is no glTF file: neither a GLB nor JSON\n");
+  // Nobody reads: an error, not silence.
+  const ToolResult full =
+      runCommand(folder_, "( " + tool + "convert in/textured.glb - > /dev/full )");
+  EXPECT_EQ(full.status, 1);
+  EXPECT_EQ(full.err, "gltf-mcc: standard output: cannot be written\n");
+#endif
+}
+
+TEST_F(Streams, BuffersMustBeInside) {
+  ASSERT_EQ(run("decode in/torus.glb a.gltf").status, 0);
+#ifdef MCC_TOOL_GLTF_MCC
+  const ToolResult result =
+      runCommand(folder_, std::string("( '") + MCC_TOOL_GLTF_MCC + "' convert - b.glb < a.gltf )");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("standard input: /buffers/0/uri: the file \"a.bin\" is needed"),
+            std::string::npos)
+      << result.err;
+#endif
+}
+
+TEST_F(Batch, WholeFileSizes) {
+  const Json json = Json::parse(run("convert in/textured.glb out.glb --format json").out);
+  const Json& files = json["files"];
+  EXPECT_EQ(files["input"]["bytes"], fs::file_size(path("in/textured.glb")));
+  EXPECT_EQ(files["output"]["bytes"], fs::file_size(path("out.glb")));
+  for (const char* name : {"input", "output"}) {
+    EXPECT_GT(files[name]["brotli_bytes"], 100) << name;
+    EXPECT_LE(files[name]["brotli_bytes"], files[name]["bytes"].get<uint64_t>() + 64) << name;
+  }
+#if defined(MCC_HAS_FOREIGN)
+  ASSERT_EQ(run("convert in/textured.glb out.glb --emit-draco draco.glb").status, 0);
+  EXPECT_EQ(files["draco"]["bytes"], fs::file_size(path("draco.glb")));
+#endif
+  const std::string text = run("convert in/textured.glb out.glb").out;
+  EXPECT_NE(text.find("whole file"), std::string::npos) << text;
+  EXPECT_NE(text.find("after brotli 5"), std::string::npos) << text;
+  const std::string csv = run("convert in/textured.glb out.glb --format csv").out;
+  EXPECT_NE(csv.find("\noutput file after brotli,"), std::string::npos) << csv;
+  // In place, and with files beside it.
+  const auto size = fs::file_size(path("in/textured.glb"));
+  const Json in_place =
+      Json::parse(run("convert in/textured.glb in/textured.glb --format json").out);
+  EXPECT_EQ(in_place["files"]["input"]["bytes"], size);
+  const Json gltf = Json::parse(run("convert in/torus.glb o.gltf --format json").out);
+  EXPECT_EQ(gltf["files"]["output"]["bytes"],
+            fs::file_size(path("o.gltf")) + fs::file_size(path("o.bin")));
+  EXPECT_EQ(gltf["output_bytes"], gltf["files"]["output"]["bytes"]);
+}
+
+TEST_F(Batch, HelpIsShort) {
+  for (const std::string command : {"", "convert", "decode", "inspect", "compare", "bench"}) {
+    const ToolResult result = run(command + " --help");
+    if (result.status != 0) continue;  // not part of this build
+    EXPECT_EQ(result.out.find("Excludes"), std::string::npos) << result.out;
+    EXPECT_EQ(result.out.find("REQUIRED"), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("Usage: gltf-mcc "), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("\nExamples:\n  gltf-mcc "), std::string::npos) << result.out;
+    EXPECT_LE(countOf(result.out, "\n"), 60u) << command;
+    size_t begin = 0;
+    while (begin < result.out.size()) {
+      const size_t end = std::min(result.out.find('\n', begin), result.out.size());
+      EXPECT_LE(end - begin, 100u) << result.out.substr(begin, end - begin);
+      begin = end + 1;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mcc::test

@@ -1,0 +1,360 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// .gltf files with their buffers and images beside them, and fallbacks.
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "cli/run_tool.h"
+#include "gltf/accessors.h"
+#include "gltf/file_io.h"
+#include "gltf/gltf_builder.h"
+
+namespace mcc::gltf::test {
+namespace {
+
+namespace fs = std::filesystem;
+using mcc::test::contentOf;
+using mcc::test::runTool;
+using mcc::test::ScratchFolder;
+using mcc::test::ToolResult;
+
+class GltfOutput : public testing::Test {
+ protected:
+  void SetUp() override {
+#ifndef MCC_TOOL_GLTF_MCC
+    GTEST_SKIP() << "the tool is not part of this build";
+#endif
+    Builder builder;
+    builder.addMesh({Sheet(20).addTo(builder)});
+    json_ = builder.json;
+    bin_ = {builder.bin.begin(), builder.bin.end()};
+    const std::vector<uint8_t> glb = builder.toGlb();
+    store("in.glb", {glb.begin(), glb.end()});
+    json_["images"] = {{{"uri", "sub%20dir/a.png"}}, {{"uri", "data:image/png;base64,AAAA"}}};
+    json_["buffers"] = {{{"byteLength", bin_.size()}, {"uri", "mesh.bin"}}};
+    fs::create_directories(path("m/sub dir"));
+    store("m/a.gltf", json_.dump(2));
+    store("m/mesh.bin", bin_);
+    store("m/sub dir/a.png", "\x89PNG image");
+  }
+
+  fs::path path(const std::string& name) const { return folder_.path() / name; }
+  void store(const std::string& name, const std::string& content) const {
+    std::ofstream(path(name), std::ios::binary) << content;
+  }
+  ToolResult run(const std::string& arguments) const { return runTool(folder_, arguments); }
+
+  /// Paths of all files below the folder, without those of run().
+  std::set<std::string> names() const {
+    std::set<std::string> found;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) {
+      if (!entry.is_regular_file()) continue;
+      const std::string name = entry.path().lexically_relative(folder_.path()).string();
+      if (name != ".stdout" && name != ".stderr") found.insert(name);
+    }
+    return found;
+  }
+
+  void expectDone(const std::string& arguments) const {
+    const ToolResult result = run(arguments);
+    EXPECT_EQ(result.status, 0) << arguments << "\n" << result.err;
+    EXPECT_EQ(result.err, "");
+  }
+
+  /// Expects status 1, a message, and that no file changed.
+  void expectRefused(const std::string& arguments, const std::string& message) const {
+    std::map<std::string, std::string> before;
+    for (const std::string& name : names()) before[name] = contentOf(path(name));
+    const ToolResult result = run(arguments);
+    EXPECT_EQ(result.status, 1) << arguments;
+    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+    EXPECT_EQ(result.out, "");
+    std::map<std::string, std::string> after;
+    for (const std::string& name : names()) after[name] = contentOf(path(name));
+    EXPECT_EQ(after, before) << arguments;
+  }
+
+  Json jsonAt(const std::string& name) const {
+    Json json;
+    EXPECT_TRUE(parseJson(asBytes(contentOf(path(name))), json).ok()) << name;
+    return json;
+  }
+
+  ScratchFolder folder_;
+  Json json_;
+  std::string bin_;
+};
+
+TEST_F(GltfOutput, BufferLiesBesideIt) {
+  const auto before = names();
+  expectDone("convert in.glb 'out 1.gltf'");
+  auto after = before;
+  after.insert({"out 1.gltf", "out 1.bin"});
+  EXPECT_EQ(names(), after);
+  const Json json = jsonAt("out 1.gltf");
+  EXPECT_EQ(json["buffers"][0]["uri"], "out%201.bin");
+  EXPECT_EQ(json["buffers"][0]["byteLength"], fs::file_size(path("out 1.bin")));
+  EXPECT_EQ(json["extensionsRequired"], Json::array({"KHR_mesh_collapse_compression"}));
+
+  // Both containers hold the same document.
+  expectDone("decode 'out 1.gltf' a.glb");
+  expectDone("convert in.glb out.glb");
+  expectDone("decode out.glb b.glb");
+  EXPECT_TRUE(contentOf(path("a.glb")) == contentOf(path("b.glb")));
+  expectDone("decode 'out 1.gltf' back.gltf");
+  expectDone("convert back.gltf c.glb");
+  EXPECT_EQ(fs::file_size(path("c.glb")), fs::file_size(path("out.glb")));
+}
+
+TEST_F(GltfOutput, ImagesComeAlong) {
+  fs::create_directory(path("o"));
+  const auto before = names();
+  expectDone("convert m/a.gltf o/b.gltf");
+  auto after = before;
+  after.insert({"o/b.gltf", "o/b.bin", "o/sub dir/a.png"});
+  EXPECT_EQ(names(), after);
+  EXPECT_EQ(contentOf(path("o/sub dir/a.png")), "\x89PNG image");
+  EXPECT_EQ(jsonAt("o/b.gltf")["images"], jsonAt("m/a.gltf")["images"]);
+
+  // Once more, with another image: it belongs to the output. Beside another output it does not.
+  store("m/sub dir/a.png", "\x89PNG another");
+  expectRefused("convert m/a.gltf o/other.gltf", "which is another file; choose another folder");
+  expectDone("convert m/a.gltf o/b.gltf");
+  EXPECT_EQ(contentOf(path("o/sub dir/a.png")), "\x89PNG another");
+  expectDone("decode o/b.gltf m/c.gltf");
+  EXPECT_EQ(jsonAt("m/c.gltf")["images"], json_["images"]);
+
+  // An image that is missing is none of our business.
+  fs::remove(path("m/sub dir/a.png"));
+  fs::create_directory(path("p"));
+  const ToolResult result = run("convert m/a.gltf p/b.gltf");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("a.png\": there is no such file; it is not copied"), std::string::npos)
+      << result.out;
+}
+
+TEST_F(GltfOutput, ImagesBesideTheInputStayWhereTheyAre) {
+  const auto before = names();
+  expectDone("convert m/a.gltf m/b.gltf");
+  auto after = before;
+  after.insert({"m/b.gltf", "m/b.bin"});
+  EXPECT_EQ(names(), after);
+}
+
+TEST_F(GltfOutput, ForeignFilesAreNotReplaced) {
+  store("out.bin", "precious");
+  expectRefused("convert in.glb out.gltf",
+                "out.bin\" would be replaced, which does not belong to it");
+  expectRefused("decode in.glb out.gltf", "out.bin\" would be replaced");
+  store("out.gltf", "{}");
+  expectRefused("convert in.glb out.gltf", "out.bin\" would be replaced");
+  store("out.gltf", R"({"buffers":[{"uri":"out.bin","byteLength":8}]})");
+  expectDone("convert in.glb out.gltf");
+  expectDone("convert in.glb out.gltf --lossless");
+
+  // The buffer of the input, even when the output of that name refers to it, too.
+  store("m/b.gltf", R"({"buffers":[{"uri":"mesh.bin","byteLength":8}]})");
+  fs::copy_file(path("m/b.gltf"), path("m/mesh.gltf"));
+  expectRefused("convert m/a.gltf m/mesh.gltf", "is part of the input and would be replaced");
+  // A model called like our buffer.
+  fs::copy_file(path("in.glb"), path("x.bin"));
+  store("x.gltf", R"({"buffers":[{"uri":"x.bin","byteLength":8}]})");
+  expectRefused("convert x.bin x.gltf", "is part of the input and would be replaced");
+}
+
+TEST_F(GltfOutput, InputMayBeOutput) {
+  store("m/a.gltf", [&] {
+    json_["buffers"][0]["uri"] = "a.bin";
+    return json_.dump();
+  }());
+  fs::rename(path("m/mesh.bin"), path("m/a.bin"));
+  const auto before = names();
+  expectDone("convert m/a.gltf m/a.gltf");
+  EXPECT_EQ(names(), before);
+  EXPECT_LT(fs::file_size(path("m/a.bin")) * 3, bin_.size());
+  const std::string json = contentOf(path("m/a.gltf"));
+  const std::string bin = contentOf(path("m/a.bin"));
+  expectDone("convert m/a.gltf m/a.gltf");  // nothing is gained: nothing changes
+  EXPECT_EQ(contentOf(path("m/a.gltf")), json);
+  EXPECT_EQ(contentOf(path("m/a.bin")), bin);
+  expectDone("decode m/a.gltf m/a.gltf");
+  EXPECT_GT(fs::file_size(path("m/a.bin")) * 2, bin_.size());
+}
+
+TEST_F(GltfOutput, WhatGainsNothingIsCopiedWithItsFiles) {
+  expectDone("convert m/a.gltf m/small.gltf");
+  fs::create_directory(path("o"));
+  const auto before = names();
+  const ToolResult result = run("convert m/small.gltf o/small.gltf");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("the output is a copy of the input"), std::string::npos) << result.out;
+  auto after = before;
+  after.insert({"o/small.gltf", "o/small.bin", "o/sub dir/a.png"});
+  EXPECT_EQ(names(), after);
+  EXPECT_EQ(contentOf(path("o/small.gltf")), contentOf(path("m/small.gltf")));
+  EXPECT_EQ(contentOf(path("o/small.bin")), contentOf(path("m/small.bin")));
+  expectDone("decode o/small.gltf o/back.gltf");
+}
+
+TEST_F(GltfOutput, DataUrisAndSeveralBuffersAreRead) {
+  // The second half of the buffer views in another buffer, the first in a data URI.
+  Json json = json_;
+  json.erase("images");
+  uint64_t split = 0;
+  for (size_t i = 0; i < json["bufferViews"].size(); ++i) {
+    Json& view = json["bufferViews"][i];
+    if (i == 2) split = view["byteOffset"];
+    if (i < 2) continue;
+    view["byteOffset"] = view["byteOffset"].get<uint64_t>() - split;
+    view["buffer"] = 1;
+  }
+  std::string base64;
+  static constexpr char kDigits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  ASSERT_EQ(split % 3, 0u);  // no padding below
+  for (size_t i = 0; i < split; i += 3) {
+    const uint32_t bits = uint32_t{static_cast<uint8_t>(bin_[i])} << 16 |
+                          uint32_t{static_cast<uint8_t>(bin_[i + 1])} << 8 |
+                          uint32_t{static_cast<uint8_t>(bin_[i + 2])};
+    for (int shift = 18; shift >= 0; shift -= 6) base64 += kDigits[bits >> shift & 63];
+  }
+  json["buffers"] = {
+      {{"byteLength", split}, {"uri", "data:application/octet-stream;base64," + base64}},
+      {{"byteLength", bin_.size() - split}, {"uri", "m%2dx/second.bin"}}};
+  fs::create_directory(path("m-x"));
+  store("m-x/second.bin", bin_.substr(split));
+  store("two.gltf", json.dump());
+  expectDone("convert two.gltf two_out.gltf");
+  expectDone("convert in.glb one_out.gltf");
+  EXPECT_EQ(contentOf(path("two_out.bin")), contentOf(path("one_out.bin")));
+}
+
+TEST_F(GltfOutput, UnsafeUrisAreRefused) {
+  store("secret.png", "secret");
+  fs::create_directory(path("o"));
+  for (const std::string& uri :
+       {path("secret.png").string(), "file://" + path("secret.png").string(),
+        std::string("../secret.png"), std::string("..%2Fsecret.png"),
+        std::string("sub dir/../../secret.png")}) {
+    json_["images"] = {{{"uri", uri}}};
+    store("m/a.gltf", json_.dump());
+    expectRefused("convert m/a.gltf o/b.gltf", "/images/0/uri: the URI ");
+    expectRefused("decode m/a.gltf o/b.gltf", "/images/0/uri: the URI ");
+  }
+}
+
+TEST_F(GltfOutput, NamesThatUrisCannotHave) {
+  expectDone("convert in.glb 'a:b.gltf'");
+  EXPECT_EQ(jsonAt("a:b.gltf")["buffers"][0]["uri"], "./a%3Ab.bin");
+  expectDone("decode 'a:b.gltf' back.glb");
+  expectDone("convert in.glb '100%.gltf'");
+  EXPECT_EQ(jsonAt("100%.gltf")["buffers"][0]["uri"], "100%25.bin");
+  expectDone("decode '100%.gltf' back.glb");
+  expectRefused(R"(convert in.glb 'a\b.gltf')", "no URI can name a file");
+}
+
+TEST_F(GltfOutput, ReplacementLeavesNoTemporaryFiles) {
+  {
+    ReplacementFile file(path("m/mesh.bin"));
+    ASSERT_TRUE(file.write(asBytes("new")).ok());
+    ASSERT_TRUE(file.commitForNow().ok());
+  }
+  EXPECT_EQ(contentOf(path("m/mesh.bin")), "new");
+  EXPECT_EQ(names(),
+            (std::set<std::string>{"in.glb", "m/a.gltf", "m/mesh.bin", "m/sub dir/a.png"}));
+  ReplacementFile late(path("m/mesh.bin"));
+  ASSERT_TRUE(late.write(asBytes("other")).ok());
+  EXPECT_FALSE(late.commitNew().ok());
+  EXPECT_EQ(contentOf(path("m/mesh.bin")), "new");
+}
+
+class Fallback : public GltfOutput {
+ protected:
+  /// Loads a file with the files beside it.
+  Document load(const std::string& name) {
+    Document document;
+    held_.push_back(contentOf(path(name)));
+    const Result result =
+        loadDocument(asBytes(held_.back()), readerOf(path(name).parent_path()), document);
+    EXPECT_TRUE(result.ok()) << result.message();
+    return document;
+  }
+
+  std::deque<std::string> held_;  ///< documents borrow from these
+};
+
+TEST_F(Fallback, HoldsWhatThePayloadHolds) {
+  for (const std::string name : {"out.glb", "out.gltf"}) {
+    expectDone("convert in.glb " + name + " --fallback");
+    expectDone("convert in.glb plain.glb");
+    expectDone("decode plain.glb decoded.glb");
+    const Json json = load(name).json;
+    EXPECT_EQ(json["extensionsUsed"], Json::array({"KHR_mesh_collapse_compression"}));
+    EXPECT_FALSE(json.contains("extensionsRequired"));
+    ASSERT_EQ(json["buffers"].size(), 2u);
+    EXPECT_EQ(json["buffers"][1]["uri"], "out.fallback.bin");
+
+    // Who does not know the extension reads the accessors as they stand.
+    const Document fallback = load(name);
+    const Document decoded = load("decoded.glb");
+    ASSERT_EQ(fallback.accessors.size(), decoded.accessors.size());
+    for (uint32_t i = 0; i < decoded.accessors.size(); ++i) {
+      AccessorData a;
+      AccessorData b;
+      EXPECT_NE(fallback.accessors[i].view, kNone);
+      ASSERT_EQ(fallback.accessors[i].count, decoded.accessors[i].count);
+      ASSERT_EQ(json["accessors"][i].value("min", Json()),
+                decoded.json["accessors"][i].value("min", Json()));
+      ASSERT_TRUE(readAccessor(fallback, i, a).ok());
+      ASSERT_TRUE(readAccessor(decoded, i, b).ok());
+      for (uint64_t k = 0; k < a.count; ++k) {
+        const auto x = a.element(k);
+        ASSERT_TRUE(std::equal(x.begin(), x.end(), b.element(k).begin())) << i << " " << k;
+      }
+    }
+    // Who knows it does not need the second file.
+    expectDone("decode " + name + " back.glb");
+    EXPECT_EQ(fs::file_size(path("back.glb")), fs::file_size(path("decoded.glb")));
+    fs::remove(path("out.fallback.bin"));
+    const ToolResult result = run("decode " + name + " back.glb");
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(result.out.find("this fallback is not needed"), std::string::npos) << result.out;
+    EXPECT_EQ(fs::file_size(path("back.glb")), fs::file_size(path("decoded.glb")));
+  }
+}
+
+TEST_F(Fallback, IsReplacedWithItsFileOnly) {
+  store("out.fallback.bin", "precious");
+  expectRefused("convert in.glb out.glb --fallback", "out.fallback.bin\" would be replaced");
+  fs::remove(path("out.fallback.bin"));
+  expectDone("convert in.glb out.glb --fallback");
+  expectDone("convert in.glb out.glb --fallback --lossless");
+  expectRefused("convert in.glb - --fallback", "a fallback is a second file");
+}
+
+TEST_F(Fallback, AMissingBufferOfAnythingElseIsAnError) {
+  expectDone("convert in.glb out.gltf --fallback");
+  Json json = jsonAt("out.gltf");
+  const Json view = json["accessors"][0]["bufferView"];
+  json["accessors"].push_back(
+      {{"bufferView", view}, {"componentType", 5126}, {"count", 1}, {"type", "VEC3"}});
+  store("out.gltf", json.dump());
+  expectDone("decode out.gltf back.glb");
+  fs::remove(path("out.fallback.bin"));
+  expectRefused("decode out.gltf back.glb", "out.fallback.bin\": there is no such file");
+}
+
+TEST_F(Fallback, SurvivesACopy) {
+  expectDone("convert in.glb out.glb --fallback");
+  fs::create_directory(path("o"));
+  expectDone("convert out.glb o/again.glb");
+  EXPECT_EQ(contentOf(path("o/again.glb")), contentOf(path("out.glb")));
+  EXPECT_EQ(contentOf(path("o/out.fallback.bin")), contentOf(path("out.fallback.bin")));
+}
+
+}  // namespace
+}  // namespace mcc::gltf::test

@@ -1,0 +1,338 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "batch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <system_error>
+
+#include "batch_record.h"
+#include "convert_report.h"
+#include "gltf/file_io.h"
+#include "gltf/package.h"
+#include "gltf/parallel.h"
+#include "progress_line.h"
+
+namespace mcc::tool {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+enum class Outcome : uint8_t { kConverted, kCopied, kUpToDate, kFailed };
+constexpr const char* kOutcomeNames[] = {"converted", "copied", "up to date", "failed"};
+
+struct BatchFile {
+  std::string input;
+  std::string name;  ///< of the output in the folder
+  uint64_t size = 0;
+  Outcome outcome = Outcome::kFailed;
+  gltf::Result failure;
+  uint64_t input_bytes = 0;
+  uint64_t output_bytes = 0;
+  Json report;  ///< when one is written
+};
+
+class Batch {
+ public:
+  explicit Batch(const BatchOptions& options) : options_(options), line_(options.common.is_quiet) {}
+
+  int run();
+
+ private:
+  gltf::Result listFiles();
+  gltf::Result makeFolder() const;
+  void convertAll();
+  void convertOne(BatchFile& file);
+  void finishOne(const BatchFile& file, const gltf::ConvertReport& report);
+  std::vector<fs::path> outputsOf(const BatchFile& file, const gltf::ConvertReport& report) const;
+  void keepRecord(bool is_last);
+  void showProgress() const;
+  std::string lineOf(const BatchFile& file) const;
+  std::string summaryText() const;
+  std::string fileTable() const;
+  Json reportOf() const;
+  int printResults() const;
+  fs::path outputOf(const BatchFile& file) const { return options_.folder / file.name; }
+  /// Lines are for people; the other formats are one table.
+  bool printsLines() const {
+    return !options_.common.is_quiet && options_.common.format == Format::kPretty;
+  }
+
+  const BatchOptions& options_;
+  std::vector<BatchFile> files_;
+  std::unique_ptr<BatchRecord> record_;
+  std::chrono::steady_clock::time_point recorded_;
+  ProgressLine line_;
+  std::mutex mutex_;  ///< over record_, done_, line_ and standard output
+  size_t done_ = 0;
+  bool has_output_failed_ = false;
+};
+
+/// The files an output consists of.
+std::vector<std::string> namesOf(const std::string& name, bool with_fallback) {
+  std::vector<std::string> names = {name};
+  gltf::Container container;
+  if (!gltf::containerOf(name, container).ok()) return names;
+  if (container.is_gltf) names.push_back(container.buffer_name);
+  if (with_fallback) names.push_back(container.fallback_name);
+  return names;
+}
+
+gltf::Result Batch::listFiles() {
+  std::map<std::string, std::string> taken;  // name -> input
+  for (const std::string& input : options_.inputs) {
+    BatchFile file;
+    file.input = input;
+    file.name = fs::path(input).filename().string();
+    if (file.name.empty()) return {input, "is a folder; name the files in it"};
+    std::error_code code;
+    file.size = fs::file_size(input, code);
+    if (code) file.size = 0;  // said when it is its turn
+    if (fs::equivalent(input, outputOf(file), code)) {
+      return {input, "would be replaced by its output; choose another folder with -o"};
+    }
+    for (const std::string& name : namesOf(file.name, options_.convert.fallback)) {
+      const auto [found, is_new] = taken.try_emplace(name, input);
+      if (is_new) continue;
+      return {input, fmt::format("writes \"{}\", as \"{}\" does; convert them into different "
+                                 "folders or rename one",
+                                 (options_.folder / name).string(), found->second)};
+    }
+    files_.push_back(std::move(file));
+  }
+  return {};
+}
+
+gltf::Result Batch::makeFolder() const {
+  std::error_code code;
+  if (fs::is_directory(options_.folder, code)) return {};
+  const std::string name = options_.folder.string();
+  if (fs::exists(options_.folder, code)) {
+    return {name, "is a file; several inputs need a folder"};
+  }
+  fs::create_directory(options_.folder, code);
+  if (!code) return {};
+  return {name, "the folder cannot be created: " + code.message()};
+}
+
+void Batch::showProgress() const {
+  constexpr size_t kBarWidth = 24;
+  const size_t filled = files_.empty() ? kBarWidth : kBarWidth * done_ / files_.size();
+  line_.show(fmt::format("[{}{}] {} of {} files", std::string(filled, '#'),
+                         std::string(kBarWidth - filled, '-'), done_, files_.size()));
+}
+
+std::string Batch::lineOf(const BatchFile& file) const {
+  const std::string start = fmt::format("[{}/{}] {}: ", done_, files_.size(), file.input);
+  switch (file.outcome) {
+    case Outcome::kConverted: return start + sizeChange(file.input_bytes, file.output_bytes) + "\n";
+    case Outcome::kCopied: return start + "copied, nothing becomes smaller\n";
+    case Outcome::kUpToDate: return start + "up to date\n";
+    case Outcome::kFailed: break;
+  }
+  return start + "failed\n";
+}
+
+void Batch::keepRecord(bool is_last) {
+  constexpr std::chrono::seconds kInterval(2);
+  const auto now = std::chrono::steady_clock::now();
+  if (!is_last && now - recorded_ < kInterval) return;
+  recorded_ = now;
+  const gltf::Result written = record_->write();
+  if (is_last && !written.ok()) {
+    fmt::print(stderr, "gltf-mcc: note: {}; the next run will convert everything again\n",
+               written.message());
+  }
+}
+
+/// Those made for it, whether they turned out to be needed or not, and copies of the others.
+std::vector<fs::path> Batch::outputsOf(const BatchFile& file,
+                                       const gltf::ConvertReport& report) const {
+  std::vector<fs::path> paths;
+  for (const std::string& name : namesOf(file.name, options_.convert.fallback)) {
+    paths.push_back(options_.folder / name);
+  }
+  const fs::path source_folder = gltf::folderOf(file.input);
+  for (const fs::path& path : report.files.other_input) {
+    paths.push_back(options_.folder / path.lexically_relative(source_folder));
+  }
+  return paths;
+}
+
+void Batch::finishOne(const BatchFile& file, const gltf::ConvertReport& report) {
+  const std::lock_guard lock(mutex_);
+  ++done_;
+  if (file.outcome == Outcome::kFailed) record_->remove(file.name);
+  if (file.outcome == Outcome::kConverted || file.outcome == Outcome::kCopied) {
+    record_->add(file.name, report, outputsOf(file, report));
+    keepRecord(false);
+  }
+  line_.clear();
+  if (printsLines()) has_output_failed_ |= printOut(lineOf(file)) != kDone;
+  showProgress();
+}
+
+void Batch::convertOne(BatchFile& file) {
+  gltf::ConvertReport report;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!options_.is_forced && record_->isUpToDate(file.name, file.input)) {
+      file.outcome = Outcome::kUpToDate;
+      std::tie(file.input_bytes, file.output_bytes) = record_->sizesOf(file.name);
+    }
+  }
+  if (file.outcome != Outcome::kUpToDate) {
+    gltf::ConvertOptions convert = options_.convert;
+    const auto count = static_cast<uint32_t>(files_.size());
+    convert.thread_count = std::max(1u, options_.job_count / std::max(1u, count));
+    file.failure = gltf::convertFile(file.input, outputOf(file), convert, report);
+    if (file.failure.ok()) {
+      file.outcome = report.copied ? Outcome::kCopied : Outcome::kConverted;
+      file.input_bytes = report.input_bytes;
+      file.output_bytes = report.output_bytes;
+    }
+    if (file.failure.ok() && !options_.report.empty()) {
+      file.report = reportJson({file.input, outputOf(file).string(), report, {}}, convert, nullptr);
+    }
+  }
+  finishOne(file, report);
+}
+
+/// Large files first: they take longest, and N of them at a time are the most memory there will be.
+void Batch::convertAll() {
+  std::vector<size_t> order(files_.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return files_[a].size > files_[b].size; });
+  showProgress();
+  const gltf::Result all =
+      gltf::runParallel(order.size(), options_.job_count, [&](size_t i) -> gltf::Result {
+        BatchFile& file = files_[order[i]];
+        const gltf::Result done = gltf::guarded([&]() -> gltf::Result {
+          convertOne(file);
+          return {};
+        });
+        if (!done.ok()) file.failure = {file.input, done.what};
+        return {};  // one failure does not stop the rest
+      });
+  for (BatchFile& file : files_) {
+    const bool is_unsaid = file.outcome == Outcome::kFailed && file.failure.ok();
+    if (is_unsaid) file.failure = {file.input, all.ok() ? "was not converted" : all.what};
+  }
+  line_.clear();
+}
+
+std::string ratioOf(uint64_t input_bytes, uint64_t output_bytes) {
+  if (output_bytes == 0) return "";
+  return fmt::format("{:.2f}",
+                     static_cast<double>(input_bytes) / static_cast<double>(output_bytes));
+}
+
+std::string Batch::summaryText() const {
+  struct Sum {
+    size_t files = 0;
+    uint64_t input_bytes = 0;
+    uint64_t output_bytes = 0;
+  };
+  Sum sums[std::size(kOutcomeNames)];
+  Sum all;
+  for (const BatchFile& file : files_) {
+    for (Sum* sum : {&sums[static_cast<size_t>(file.outcome)], &all}) {
+      ++sum->files;
+      sum->input_bytes += file.input_bytes;
+      sum->output_bytes += file.output_bytes;
+    }
+  }
+  Table table({"", "files", "bytes in", "bytes out", "ratio"});
+  const auto addRow = [&](const std::string& name, const Sum& sum) {
+    const bool has_bytes = sum.output_bytes != 0;
+    table.addRow({name, grouped(sum.files), has_bytes ? grouped(sum.input_bytes) : "",
+                  has_bytes ? grouped(sum.output_bytes) : "",
+                  ratioOf(sum.input_bytes, sum.output_bytes)});
+  };
+  for (size_t i = 0; i < std::size(sums); ++i) {
+    if (sums[i].files != 0) addRow(kOutcomeNames[i], sums[i]);
+  }
+  table.addRule();
+  addRow("all", all);
+  return "\n" + table.print(Format::kPretty);
+}
+
+/// One row per file, in the order they were named.
+std::string Batch::fileTable() const {
+  Table table({"file", "outcome", "bytes in", "bytes out", "ratio"}, {1});
+  const Format format = options_.common.format;
+  for (const BatchFile& file : files_) {
+    const bool is_done = file.outcome != Outcome::kFailed;
+    table.addRow({file.input, kOutcomeNames[static_cast<size_t>(file.outcome)],
+                  is_done ? count(file.input_bytes, format) : "",
+                  is_done ? count(file.output_bytes, format) : "",
+                  ratioOf(file.input_bytes, file.output_bytes)});
+  }
+  return table.print(format);
+}
+
+Json Batch::reportOf() const {
+  Json list = Json::array();
+  for (const BatchFile& file : files_) {
+    Json entry = {{"input", file.input},
+                  {"output", outputOf(file).string()},
+                  {"outcome", kOutcomeNames[static_cast<size_t>(file.outcome)]}};
+    if (file.outcome == Outcome::kFailed) {
+      entry["message"] = file.failure.message();
+    } else {
+      entry["input_bytes"] = file.input_bytes;
+      entry["output_bytes"] = file.output_bytes;
+    }
+    if (!file.report.is_null()) entry["conversion"] = file.report;
+    list.push_back(std::move(entry));
+  }
+  return {{"tool", std::string("gltf-mcc ") + MCC_VERSION},
+          {"options", optionsJson(options_.convert)},
+          {"files", std::move(list)}};
+}
+
+int Batch::printResults() const {
+  int status = has_output_failed_ ? kFailed : kDone;
+  if (!options_.report.empty()) {
+    const gltf::Result written = writeText(options_.report, printReport(reportOf()));
+    if (!written.ok()) status = reportFailure(written);
+  }
+  if (!options_.common.is_quiet) {
+    const Format format = options_.common.format;
+    const std::string text = format == Format::kPretty ? summaryText()
+                             : format == Format::kJson ? printReport(reportOf())
+                                                       : fileTable();
+    if (printOut(text) != kDone) status = kFailed;
+  }
+  for (const BatchFile& file : files_) {
+    if (file.outcome == Outcome::kFailed) status = reportFailure(file.failure);
+  }
+  return status;
+}
+
+int Batch::run() {
+  gltf::Result ready = listFiles();
+  if (!ready.ok()) {
+    reportFailure(ready);
+    return kUsage;
+  }
+  if (!options_.report.empty()) ready = checkWritable(options_.report);
+  if (ready.ok()) ready = makeFolder();
+  if (!ready.ok()) return reportFailure(ready);
+  record_ = std::make_unique<BatchRecord>(options_.folder, options_.convert);
+  convertAll();
+  keepRecord(true);
+  return printResults();
+}
+
+}  // namespace
+
+int runBatch(const BatchOptions& options) { return Batch(options).run(); }
+
+}  // namespace mcc::tool

@@ -1,0 +1,88 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "batch_record.h"
+
+#include <chrono>
+
+#include "convert_report.h"
+#include "gltf/file_io.h"
+
+namespace mcc::tool {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr char kFileName[] = ".gltf-mcc.json";
+
+/// Path, size and time of a file; size -1 when it is not there.
+Json stampOf(const fs::path& path) {
+  std::error_code code;
+  const fs::path absolute = fs::absolute(path, code).lexically_normal();
+  const uintmax_t size = fs::file_size(path, code);
+  const auto time = fs::last_write_time(path, code);
+  if (code) return {absolute.string(), -1, 0};
+  return {absolute.string(), size, static_cast<int64_t>(time.time_since_epoch().count())};
+}
+
+Json stampsOf(const std::vector<fs::path>& paths) {
+  Json stamps = Json::array();
+  for (const fs::path& path : paths) stamps.push_back(stampOf(path));
+  return stamps;
+}
+
+bool areUnchanged(const Json& stamps) {
+  for (const Json& stamp : stamps) {
+    if (stampOf(stamp.at(0).get<std::string>()) != stamp) return false;
+  }
+  return !stamps.empty();
+}
+
+}  // namespace
+
+BatchRecord::BatchRecord(fs::path folder, const gltf::ConvertOptions& options)
+    : path_(std::move(folder) / kFileName),
+      maker_(std::string(MCC_VERSION) + " " + optionsJson(options).dump()),
+      files_(Json::object()) {
+  std::vector<uint8_t> bytes;
+  if (!gltf::readFile(path_, bytes).ok()) return;
+  Json json = Json::parse(bytes, nullptr, false);
+  if (json.is_object() && json.contains("files") && json["files"].is_object()) {
+    files_ = std::move(json["files"]);
+  }
+}
+
+bool BatchRecord::isUpToDate(const std::string& output_name, const fs::path& input) const {
+  try {
+    const auto found = files_.find(output_name);
+    return found != files_.end() && found->at("maker") == maker_ &&
+           found->at("input").at(0) == stampOf(input) && areUnchanged(found->at("input")) &&
+           areUnchanged(found->at("output")) && found->at("bytes").at(1).is_number_unsigned();
+  } catch (const Json::exception&) {
+    return false;  // damaged
+  }
+}
+
+std::pair<uint64_t, uint64_t> BatchRecord::sizesOf(const std::string& output_name) const {
+  const Json& bytes = files_.at(output_name).at("bytes");
+  return {bytes.at(0).get<uint64_t>(), bytes.at(1).get<uint64_t>()};
+}
+
+void BatchRecord::add(const std::string& output_name, const gltf::ConvertReport& report,
+                      const std::vector<fs::path>& outputs) {
+  std::vector<fs::path> inputs = report.files.input;
+  inputs.insert(inputs.end(), report.files.other_input.begin(), report.files.other_input.end());
+  files_[output_name] = {{"maker", maker_},
+                         {"bytes", {report.input_bytes, report.output_bytes}},
+                         {"input", stampsOf(inputs)},
+                         {"output", stampsOf(outputs)}};
+}
+
+void BatchRecord::remove(const std::string& output_name) { files_.erase(output_name); }
+
+gltf::Result BatchRecord::write() const {
+  const Json json = {{"tool", std::string("gltf-mcc ") + MCC_VERSION}, {"files", files_}};
+  const std::string text = json.dump(1, ' ', true, Json::error_handler_t::replace) + "\n";
+  return gltf::writeFile(path_, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+}  // namespace mcc::tool

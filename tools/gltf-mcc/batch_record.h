@@ -1,0 +1,41 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// What a folder of converted files was made of: the file .gltf-mcc.json in it.
+#ifndef MCC_TOOL_BATCH_RECORD_H_
+#define MCC_TOOL_BATCH_RECORD_H_
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "mcc/gltf.h"
+
+namespace mcc::tool {
+
+/// An output is up to date when it was made by this version with these options, and neither it nor
+/// any file of its input has another size or time than then. Contents are not compared.
+class BatchRecord {
+ public:
+  /// Reads the record of a folder. One that is absent or damaged counts as empty.
+  BatchRecord(std::filesystem::path folder, const gltf::ConvertOptions& options);
+
+  bool isUpToDate(const std::string& output_name, const std::filesystem::path& input) const;
+  /// Bytes before and after, of a file that is up to date.
+  std::pair<uint64_t, uint64_t> sizesOf(const std::string& output_name) const;
+
+  /// outputs  all files that belong to the output.
+  void add(const std::string& output_name, const gltf::ConvertReport& report,
+           const std::vector<std::filesystem::path>& outputs);
+  void remove(const std::string& output_name);
+  gltf::Result write() const;
+
+ private:
+  std::filesystem::path path_;
+  std::string maker_;  ///< version and options
+  nlohmann::json files_;
+};
+
+}  // namespace mcc::tool
+
+#endif  // MCC_TOOL_BATCH_RECORD_H_

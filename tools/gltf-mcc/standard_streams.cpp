@@ -1,0 +1,77 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "standard_streams.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace mcc::tool {
+namespace {
+
+constexpr size_t kReadBytes = size_t{1} << 18;
+constexpr char kInputName[] = "standard input";
+constexpr char kOutputName[] = "standard output";
+
+}  // namespace
+
+gltf::Result StreamSource::open(const std::string& name) {
+  name_ = name;
+  if (!isStandardStream(name)) return {};
+  name_ = kInputName;
+  if (isatty(STDIN_FILENO) == 1) {
+    return {kInputName, "is a terminal; send a file to it (gltf-mcc … < model.glb)"};
+  }
+  bytes_.emplace();
+  size_t size = 0;
+  while (true) {
+    bytes_->resize(size + kReadBytes);
+    const ssize_t count = ::read(STDIN_FILENO, bytes_->data() + size, kReadBytes);
+    if (count > 0) size += static_cast<size_t>(count);
+    if (count < 0 && errno != EINTR) {
+      return {kInputName, std::string("cannot be read: ") + std::strerror(errno)};
+    }
+    if (count == 0) break;
+  }
+  bytes_->resize(size);
+  return {};
+}
+
+gltf::Source StreamSource::source() const {
+  gltf::Source source;
+  source.path = name_;
+  if (bytes_) source.bytes = *bytes_;
+  return source;
+}
+
+FileContents StreamSource::contents(const std::vector<std::filesystem::path>& files) const {
+  return bytes_ ? FileContents{*bytes_} : readFiles(files);
+}
+
+gltf::Result StreamSink::open(const std::string& name) {
+  name_ = name;
+  is_standard_output_ = isStandardStream(name);
+  if (is_standard_output_ && isatty(STDOUT_FILENO) == 1) {
+    return {kOutputName, "is a terminal, and a GLB is no text; send it to a file (… > small.glb)"};
+  }
+  return {};
+}
+
+gltf::Sink StreamSink::sink() {
+  if (is_standard_output_) return {kOutputName, &bytes_};
+  return {name_, nullptr};
+}
+
+FileContents StreamSink::contents(const std::vector<std::filesystem::path>& files) const {
+  return is_standard_output_ ? FileContents{bytes_} : readFiles(files);
+}
+
+gltf::Result StreamSink::finish() const {
+  if (!is_standard_output_) return {};
+  const bool is_written = std::fwrite(bytes_.data(), 1, bytes_.size(), stdout) == bytes_.size();
+  if (is_written && std::fflush(stdout) == 0) return {};
+  return {kOutputName, "cannot be written"};
+}
+
+}  // namespace mcc::tool

@@ -1,0 +1,54 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// "-" in the place of a file.
+#ifndef MCC_TOOL_STANDARD_STREAMS_H_
+#define MCC_TOOL_STANDARD_STREAMS_H_
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mcc/gltf.h"
+#include "whole_sizes.h"
+
+namespace mcc::tool {
+
+inline bool isStandardStream(const std::string& name) { return name == "-"; }
+
+/// A file, or standard input when it is called "-".
+class StreamSource {
+ public:
+  /// Reads standard input to its end, if it is that. Errors: it is a terminal; it cannot be read.
+  gltf::Result open(const std::string& name);
+  /// Valid as long as this object.
+  gltf::Source source() const;
+  /// What was read, or the contents of these files when it is no stream.
+  FileContents contents(const std::vector<std::filesystem::path>& files) const;
+
+ private:
+  std::string name_;
+  std::optional<std::vector<uint8_t>> bytes_;
+};
+
+/// A file, or standard output when it is called "-".
+class StreamSink {
+ public:
+  /// Errors: standard output is a terminal.
+  gltf::Result open(const std::string& name);
+  gltf::Sink sink();
+  /// What was received, or the contents of these files when it is no stream.
+  FileContents contents(const std::vector<std::filesystem::path>& files) const;
+  /// Sends what was received to standard output, if it is that.
+  gltf::Result finish() const;
+  bool isStandardOutput() const { return is_standard_output_; }
+
+ private:
+  std::string name_;
+  std::vector<uint8_t> bytes_;
+  bool is_standard_output_ = false;
+};
+
+}  // namespace mcc::tool
+
+#endif  // MCC_TOOL_STANDARD_STREAMS_H_

@@ -1,0 +1,75 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "whole_sizes.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#if defined(MCC_HAS_FOREIGN)
+#include "foreign/brotli_codec.h"
+#endif
+#include "gltf/file_io.h"
+#include "gltf/package.h"
+
+namespace mcc::tool {
+bool canMeasureWhole() {
+#if defined(MCC_HAS_FOREIGN)
+  return true;
+#else
+  return false;
+#endif
+}
+
+FileContents readFiles(const std::vector<std::filesystem::path>& paths) {
+  FileContents files;
+  for (const std::filesystem::path& path : paths) {
+    std::vector<uint8_t> bytes;
+    if (gltf::readFile(path, bytes).ok()) files.push_back(std::move(bytes));
+  }
+  return files;
+}
+
+FileContents readDocumentFiles(const std::filesystem::path& main, bool with_images) {
+  FileContents files = readFiles({main});
+  gltf::Json json;
+  if (files.empty() || !gltf::readJson(files[0], json).ok()) return files;
+  std::vector<std::filesystem::path> paths;
+  for (const char* list : {"buffers", "images"}) {
+    if (!with_images && std::string(list) == "images") continue;
+    for (const std::string& path : gltf::filesOf(json, list)) {
+      paths.push_back(gltf::folderOf(main) / path);
+    }
+  }
+  for (std::vector<uint8_t>& file : readFiles(paths)) files.push_back(std::move(file));
+  return files;
+}
+
+WholeSize measureWhole(std::string name, const FileContents& files) {
+  WholeSize size;
+  size.name = std::move(name);
+  for (const std::vector<uint8_t>& file : files) {
+    size.bytes += file.size();
+#if defined(MCC_HAS_FOREIGN)
+    size.brotli_bytes += foreign::brotliBytes(file, kBrotliQuality);
+#endif
+  }
+  return size;
+}
+
+std::string wholeSizesText(const std::vector<WholeSize>& sizes, Format format) {
+  Table table({"whole file", "bytes", fmt::format("after brotli {}", kBrotliQuality)});
+  for (const WholeSize& size : sizes) {
+    table.addRow({size.name, count(size.bytes, format), count(size.brotli_bytes, format)});
+  }
+  return table.print(format);
+}
+
+nlohmann::ordered_json wholeSizesJson(const std::vector<WholeSize>& sizes) {
+  nlohmann::ordered_json json = {{"brotli_quality", kBrotliQuality}};
+  for (const WholeSize& size : sizes) {
+    json[size.name] = {{"bytes", size.bytes}, {"brotli_bytes", size.brotli_bytes}};
+  }
+  return json;
+}
+
+}  // namespace mcc::tool
