@@ -253,6 +253,7 @@ class PositionStore {
     const Json& skins = arrayOf(json_, "skins");
     if (!asUnsigned(skin_number, skin) || skin >= skins.size()) return {};
     const size_t joint_count = arrayOf(skins[skin], "joints").size();
+    if (joint_count == 0) return {};
     std::vector<float> matrices(16 * joint_count, 0.0f);
     const Json* number = findMember(skins[skin], "inverseBindMatrices");
     if (number == nullptr) {
