@@ -75,9 +75,10 @@ constexpr std::string_view kOrderWords[] = {"face",  "first",  "group",    "inde
 std::string orderWordOf(const Json& json) {
   if (!json.is_structured()) return "";
   for (const auto& [key, value] : json.items()) {
-    const bool is_named = json.is_object() && !value.is_string() &&
-                          std::any_of(std::begin(kOrderWords), std::end(kOrderWords),
-                                      [&](auto word) { return containsIgnoringCase(key, word); });
+    const bool is_named =
+        json.is_object() && !value.is_string() &&
+        std::any_of(std::begin(kOrderWords), std::end(kOrderWords),
+                    [&name = key](auto word) { return containsIgnoringCase(name, word); });
     const std::string found = is_named ? key : orderWordOf(value);
     if (!found.empty()) return found;
   }
