@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// node draw.mjs: writes the figures of Appendix A beside itself.
+// node draw.mjs: writes the figures of Appendices A and B beside itself.
 import fs from 'node:fs';
 
 const GREY = '#90a4ae';
@@ -176,7 +176,80 @@ function joins() {
   write('joins.svg', 40, 900, 320, 'A hole with its dummy, START joins two rings, HANDLE splits one', parts);
 }
 
+/// Appendix B: the known region, a vertex with the three scores, and a plain fan with what lies beyond.
+function fan() {
+  const parts = [];
+  const at = (x, y) => [x, y];
+  // Growth: rows of a triangle strip, the upper ones known.
+  const rows = [60, 125, 190, 255];
+  const grid = rows.map((y, r) => Array.from({ length: 6 }, (_, i) => at(40 + 66 * i + (r % 2) * 33, y)));
+  const known = (r, i) => r < 2 || (r === 2 && i < 2);
+  for (let r = 0; r < 3; ++r) {
+    for (let i = 0; i < 6; ++i) {
+      const below = r % 2 === 0 ? [i - 1, i] : [i, i + 1];
+      for (const [a, b, c] of [[[r, i], [r + 1, below[0]], [r + 1, below[1]]], [[r, i], [r + 1, r % 2 === 0 ? i : i + 1], [r, i + 1]]]) {
+        const corners = [a, b, c];
+        if (corners.some(([y, x]) => grid[y] === undefined || grid[y][x] === undefined)) continue;
+        const points = corners.map(([y, x]) => grid[y][x]);
+        parts.push(area(points, corners.every(([y, x]) => known(y, x)) ? DONE : '#ffffff'), closed(points, GREY, 1.5));
+      }
+    }
+  }
+  grid.forEach((row, r) => row.forEach((p, i) => parts.push(dot(p, known(r, i) ? DARK : '#cfd8dc'))));
+  const scores = [[2, 2, '2', RED], [2, 3, '1', ORANGE], [2, 4, '1', ORANGE], [2, 5, '1', ORANGE], [3, 0, '1', ORANGE]];
+  for (const [r, i, score, colour] of scores) {
+    parts.push(dot(grid[r][i], colour, 9), text([grid[r][i][0], grid[r][i][1] + 4], score, 12, 'middle', '#ffffff', 'bold'));
+  }
+  parts.push(text([205, 292], 'Known vertices are dark. A score is the number of', 12), text([205, 309], 'faces with two known corners, 3 at most; the highest', 12));
+  parts.push(text([205, 326], 'one comes next.', 12));
+
+  // The plain fan.
+  const n0 = at(560, 200), n1 = at(640, 160), n2 = at(720, 200), v = at(640, 262), o0 = at(570, 120), o1 = at(710, 120);
+  const ya = at(490, 150), yb = at(790, 150), xa = at(600, 62), xb = at(680, 62);
+  parts.push(area([n0, n1, o0]), area([n1, n2, o1]), area([n0, n1, v], NEW), area([n1, n2, v], NEW));
+  for (const [p, q] of [[n0, n1], [n1, n2], [n0, o0], [o0, n1], [n1, o1], [o1, n2], [n0, v], [n1, v], [n2, v]]) parts.push(line(p, q));
+  for (const [p, q] of [[ya, n0], [ya, o0], [yb, n2], [yb, o1], [xa, o0], [xa, n1], [xb, o1], [xb, n1]]) parts.push(dashed(p, q));
+  const t0 = at(n0[0] + n1[0] - o0[0], n0[1] + n1[1] - o0[1]), t1 = at(n1[0] + n2[0] - o1[0], n1[1] + n2[1] - o1[1]);
+  parts.push(dashed(n0, t0, BLUE), dashed(n1, t0, BLUE), dashed(n1, t1, BLUE), dashed(n2, t1, BLUE));
+  const labels = [[n0, 'n0', -18, 4], [n1, 'n1', 0, -12], [n2, 'n2', 18, 4], [o0, 'o0', -16, -4], [o1, 'o1', 16, -4], [ya, 'ya', -16, 4], [yb, 'yb', 16, 4], [xa, 'xa', 0, -10], [xb, 'xb', 0, -10]];
+  for (const [p, name, dx, dy] of labels) parts.push(dot(p, 'xy'.includes(name[0]) ? '#90a4ae' : DARK), text([p[0] + dx, p[1] + dy], name));
+  parts.push(dot(t0, BLUE, 4), text([t0[0] - 14, t0[1] + 12], 't0', 12, 'middle', '#1565c0'), dot(t1, BLUE, 4), text([t1[0] + 14, t1[1] + 12], 't1', 12, 'middle', '#1565c0'));
+  parts.push(dot(v, RED, 6), text([v[0], v[1] + 20], 'v', 14, 'middle', '#c62828', 'bold'));
+  parts.push(text([640, 309], 'A plain fan: two faces of v, the parallelograms over them, their tips t0 and t1,', 12), text([640, 326], 'and what the weights look at beyond', 12));
+  write('fan.svg', 40, 900, 340, 'The region of known vertices with scores, and a plain fan with its tips', parts);
+}
+
+/// Appendix B: unfolding a chart, and a cell of planes.
+function hingeAndPlanes() {
+  const parts = [];
+  const n = [60, 160], p = [210, 160], o = [120, 70], v = [150, 262];
+  parts.push(area([n, p, o]), area([n, p, v], NEW), closed([n, p, o]), closed([n, p, v]));
+  const foot = [150, 160], footO = [120, 160];
+  parts.push(dashed(v, foot, RED), dashed(o, footO, BLUE));
+  for (const [q, name, dx, dy] of [[n, 'n', -14, 4], [p, 'p', 14, 4], [o, 'o', 0, -12], [v, 'v', 0, 20]]) parts.push(dot(q, name === 'v' ? RED : DARK), text([q[0] + dx, q[1] + dy], name));
+  parts.push(text([176, 214], 'height', 11, 'middle', '#c62828'), text([96, 120], 'height o', 11, 'middle', '#1565c0'), text([135, 304], 'in space', 12));
+  parts.push(arrow([240, 160], [290, 160]));
+  const un = [330, 185], up = [470, 150], uo = [360, 85], uv = [447, 270];
+  parts.push(area([un, up, uo]), closed([un, up, uo]), dashed(un, uv, RED), dashed(up, uv, RED));
+  const along = middle(un, up, 0.6), alongO = middle(un, up, 0.4);
+  parts.push(dashed(uo, alongO, BLUE), dashed(along, uv, RED));
+  for (const [q, name, dx, dy] of [[un, 'n', -14, 4], [up, 'p', 14, 4], [uo, 'o', 0, -12], [uv, 'v', 14, 14]]) parts.push(dot(q, name === 'v' ? RED : DARK), text([q[0] + dx, q[1] + dy], name));
+  parts.push(text([400, 304], 'in the chart: the map of n, p, o goes on behind n-p', 12));
+
+  const x = [600, 690, 780, 870], y = [70, 160, 250];
+  for (const a of x) parts.push(line([a, 50], [a, 270], '#cfd8dc', 1.5));
+  for (const b of y) parts.push(line([580, b], [890, b], '#cfd8dc', 1.5));
+  parts.push(dashed([690, 250], [780, 160], ORANGE));
+  const marks = [[[690, 112], BLUE, 'on a plane of x, between those of y', -36], [[735, 205], ORANGE, 'on a diagonal', 0], [[815, 92], RED, 'between planes on both axes', 0], [[600, 160], DARK, 'on planes of both', 0]];
+  marks.forEach(([q, colour, string], i) => {
+    parts.push(dot(q, colour, 6), dot([604, 300 + 18 * i], colour, 5), text([618, 304 + 18 * i], string, 12, 'start'));
+  });
+  write('hinge_and_planes.svg', 40, 900, 370, 'A chart unfolded over an edge, and vertices on and between the planes of a grid', parts);
+}
+
 container();
 halfEdges();
 expand();
 joins();
+fan();
+hingeAndPlanes();
