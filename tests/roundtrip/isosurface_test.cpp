@@ -42,7 +42,7 @@ TestMesh turned(TestMesh mesh) {
 
 TEST(Isosurface, PlanesOfTheGridAreUsed) {
   for (const TestMesh& mesh : {isosurface(40, blob), isosurface(33, blobs)}) {
-    for (const uint8_t bits : {12, 14, 17}) {
+    for (const uint8_t bits : {uint8_t{12}, uint8_t{14}, uint8_t{17}}) {
       SCOPED_TRACE(mesh.name + ", bits " + std::to_string(bits));
       const RoundTrip on_grid = roundTrip(MeshPiece(mesh, {bits, 0, 0}).view());
       ASSERT_EQ(on_grid.failure, "");

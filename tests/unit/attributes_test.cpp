@@ -198,9 +198,9 @@ void expectPositions(const TestMesh& mesh, uint8_t bits, uint8_t predictor, Valu
 
 TEST(Positions, PlanesHoldAnyValuesOfTheLattice) {
   for (const TestMesh& mesh : surfaces()) {
-    for (const uint8_t bits : {1, 4, 9, 17}) {
-      for (const uint8_t predictor : {0, 1, 4}) {
-        const uint8_t with_planes = predictor | position_flag::kPlanes;
+    for (const uint8_t bits : {uint8_t{1}, uint8_t{4}, uint8_t{9}, uint8_t{17}}) {
+      for (const uint32_t predictor : {0u, 1u, 4u}) {
+        const auto with_planes = static_cast<uint8_t>(predictor | position_flag::kPlanes);
         for (const Values kind : {Values::kPlanes, Values::kRandom, Values::kSmooth}) {
           expectPositions<true>(mesh, bits, with_planes, kind, 2);
           expectPositions<false>(mesh, bits, with_planes, kind, 3);

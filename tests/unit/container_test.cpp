@@ -432,6 +432,44 @@ TEST(Container, AttributesThatAreNone) {
   }
 }
 
+TEST(Container, TangentsNeedNormalsOfTheBaseMesh) {
+  const auto errorWithNormals = [](uint16_t morph_target) {
+    return errorAfter([=](Draft& d) {
+      AttributeInfo normal = position();
+      normal.format.semantic = Semantic::kNormal;
+      normal.format.morph_target = morph_target;
+      normal.coding = AttributeCoding::kOctahedral;
+      normal.bits = 10;
+      AttributeInfo tangent = position();
+      tangent.format.semantic = Semantic::kTangent;
+      tangent.format.component_count = 4;
+      tangent.coding = AttributeCoding::kTangentAngle;
+      tangent.bits = 12;
+      d.pieces[0].attributes.push_back(normal);
+      d.pieces[0].attributes.push_back(tangent);
+    });
+  };
+  EXPECT_EQ(errorWithNormals(0), Error::kOk);
+  EXPECT_EQ(errorWithNormals(1), Error::kBadHeader);  // decoded behind the tangents
+}
+
+TEST(Container, PlanesNeedACoarseLattice) {
+  const auto errorOf = [](uint8_t bits, AttributeCoding coding, uint8_t flags) {
+    return errorAfter([=](Draft& d) {
+      AttributeInfo& a = d.pieces[0].attributes[0];
+      a.bits = bits;
+      a.coding = coding;
+      a.predictor = static_cast<uint8_t>(position_flag::kPlanes | flags);
+    });
+  };
+  EXPECT_EQ(errorOf(17, AttributeCoding::kLattice, 4), Error::kOk);
+  EXPECT_EQ(errorOf(18, AttributeCoding::kLattice, 0), Error::kBadHeader);
+  EXPECT_EQ(errorOf(0, AttributeCoding::kExactFloat, 0), Error::kBadHeader);
+  EXPECT_EQ(errorOf(14, AttributeCoding::kLattice, position_flag::kFold), Error::kBadHeader);
+  EXPECT_EQ(errorOf(14, AttributeCoding::kLattice, position_flag::kSplit), Error::kBadHeader);
+  EXPECT_EQ(errorOf(14, AttributeCoding::kLattice, position_flag::kOwnScale), Error::kBadHeader);
+}
+
 TEST(Container, PositionComesFirst) {
   EXPECT_EQ(errorAfter([](Draft& d) { d.pieces[0].attributes.clear(); }), Error::kOk);
   EXPECT_EQ(errorAfter([](Draft& d) {

@@ -151,7 +151,7 @@ MCC_INLINE int32_t PlaneVertexCoder<Io>::codePlane(uint32_t s, float in_planes, 
   const uint32_t fraction = static_cast<uint32_t>(std::min(std::fabs(off_middle) * 8, 3.0f));
   TokenRow& row = models_.plane[kind][spread_class][fraction];
   const int32_t target = Io::kEncoding ? grid_.axis[s].below(truthOf(s)) - near : 0;
-  const uint32_t flip = off_middle < 0 ? 0 : 1;
+  const uint32_t flip = off_middle < 0 ? 1 : 0;
   const int32_t change = codeResidual<2, true>(io_, row, 0, ~0u, flip, target);
   return static_cast<int32_t>(static_cast<uint32_t>(near) + static_cast<uint32_t>(change));
 }
@@ -237,7 +237,7 @@ MCC_INLINE int32_t PlaneVertexCoder<Io>::codeNumber(float prediction, float scal
   constexpr float kFarthest = 1 << 22;  // in Q8 and rounded it fits
   const int32_t q8 = static_cast<int32_t>(std::clamp(prediction, -kFarthest, kFarthest) * 256);
   const uint32_t rounded = static_cast<uint32_t>(q8) + 128;
-  const uint32_t s = static_cast<uint32_t>(std::min(scale, kLargestScale));
+  const uint32_t s = static_cast<uint32_t>(std::clamp(scale, 0.0f, kLargestScale));
   ResidualContexts c;
   findContexts<true>(ScaleEstimate{Lanes<uint32_t>{s, s, s, 0}, Lanes<uint32_t>{}},
                      Lanes<uint32_t>{rounded, rounded, rounded, 0}, false, c);

@@ -51,8 +51,10 @@ enum class AttributeMethod : uint8_t {
 constexpr uint32_t normalOfTangents(const AttributeInfo* attributes, uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) {
     const AttributeInfo& a = attributes[i];
-    if (a.coding == AttributeCoding::kOctahedral && a.format.semantic != Semantic::kTangent)
+    if (a.coding == AttributeCoding::kOctahedral && a.format.semantic != Semantic::kTangent &&
+        a.format.morph_target == 0) {
       return i;
+    }
   }
   return kNone;
 }
