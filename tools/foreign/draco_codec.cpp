@@ -450,7 +450,8 @@ Outcome readDracoCounts(std::span<const uint8_t> bytes, DracoCounts& counts) {
     draco::DracoHeader header;
     const draco::Status status = draco::PointCloudDecoder::DecodeHeader(&buffer, &header);
     if (!status.ok()) return fromDraco(status);
-    const uint16_t version = DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor);
+    const auto version =
+        static_cast<uint16_t>(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
     if (header.encoder_type != draco::TRIANGULAR_MESH) return failure("Draco: no triangle mesh");
     if (version < DRACO_BITSTREAM_VERSION(2, 2)) return failure("Draco: older than version 2.2");
     buffer.set_bitstream_version(version);
