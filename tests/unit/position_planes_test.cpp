@@ -12,6 +12,7 @@
 #include "attributes/position_planes.h"
 #include "entropy/dec_coder.h"
 #include "entropy/enc_coder.h"
+#include "support/mesh_generators.h"
 
 namespace mcc::test {
 namespace {
@@ -45,13 +46,13 @@ TEST(PositionPlanes, FloorsComeToTheEnds) {
 
 /// Vertices on the edges of a grid: two coordinates are those of planes.
 std::vector<int32_t> onEdges(double origin, double step, uint32_t plane_count, uint32_t seed) {
-  std::mt19937 random(seed);
+  Random random(seed);
   std::vector<int32_t> truth;
   for (uint32_t v = 0; v < 200 * plane_count; ++v) {
-    const uint32_t free_axis = random() % 3;
+    const uint32_t free_axis = random.below(3);
     for (uint32_t s = 0; s < 3; ++s) {
-      const double along = s == free_axis ? static_cast<double>(random() % 1000) / 1000 : 0;
-      const double x = origin + step * (random() % plane_count + along);
+      const double along = s == free_axis ? static_cast<double>(random.below(1000)) / 1000 : 0;
+      const double x = origin + step * (random.below(plane_count) + along);
       truth.push_back(static_cast<int32_t>(std::floor(x + 0.5)));
     }
   }
