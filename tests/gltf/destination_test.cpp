@@ -94,7 +94,8 @@ TEST_F(DestinationTest, LeavesNothingWithoutCommit) {
 TEST_F(DestinationTest, TakesEverythingBack) {
   for (const bool with_older : {false, true}) {
     if (with_older) {
-      store("a.gltf", std::string(package("").main.begin(), package("").main.end()));
+      const std::vector<uint8_t> older = package("").main;
+      store("a.gltf", std::string(older.begin(), older.end()));
       store("a.bin", "older buffer");
       store("a.fallback.bin", "older fallback");
     }
