@@ -400,11 +400,17 @@ class AttributeStage {
     return {};
   }
 
-  Status codeTangents(const AttributeInfo& info, int32_t* values) {
+  /// What the chart says about tangents, into floats_: 4 per wedge.
+  Status sumFaceTangents() {
     if (!floats_.assign(4 * size_t{wedges.count}, 0.0f)) return noMemory();
     if (chart_ != kNone) {
       addFaceTangents(wedges, positions.data(), chart_coordinates_.data(), floats_.data());
     }
+    return {};
+  }
+
+  Status codeTangents(const AttributeInfo& info, int32_t* values) {
+    MCC_TRY(sumFaceTangents());
     TangentCoder<Io>(io_, models_.tangents.get(), wedges, groups_, info, normalInfo(),
                      normals.data(), floats_.data(), values, lengths_.data())
         .run();
@@ -412,10 +418,7 @@ class AttributeStage {
   }
 
   Status codeTangentPoints(const AttributeInfo& info, int32_t* values) {
-    if (!floats_.assign(4 * size_t{wedges.count}, 0.0f)) return noMemory();
-    if (chart_ != kNone) {
-      addFaceTangents(wedges, positions.data(), chart_coordinates_.data(), floats_.data());
-    }
+    MCC_TRY(sumFaceTangents());
     const bool projects = (info.predictor & tangent_point_method::kPerpendicular) != 0;
     if (projects) MCC_TRY(listNormals());
     TangentPointCoder<Io>(io_, models_.tangent_points.get(), wedges, groups_, info,

@@ -111,10 +111,17 @@ class ValueCoder {
   bool codeFlags(uint32_t w);
   void codeResiduals(uint32_t w, bool blended);
   void codeUnitResiduals(uint32_t w, const uint32_t* contexts);
-  int32_t codeResidualAt(uint32_t place, TokenRow& row, int32_t truth, uint32_t& length) {
-    return place % 3 == 0   ? codeResidual<0>(row, truth, length)
-           : place % 3 == 1 ? codeResidual<1>(row, truth, length)
-                            : codeResidual<2>(row, truth, length);
+  /// A component near its prediction; `place` picks the coder's state. Returns the length of the residual.
+  uint32_t codeComponent(uint32_t place, TokenRow& row, int32_t predicted, int32_t& value) {
+    const uint32_t p = static_cast<uint32_t>(predicted);
+    const int32_t truth =
+        Io::kEncoding ? static_cast<int32_t>(static_cast<uint32_t>(value) - p) : 0;
+    uint32_t length = 0;
+    const int32_t residual = place % 3 == 0   ? codeResidual<0>(row, truth, length)
+                             : place % 3 == 1 ? codeResidual<1>(row, truth, length)
+                                              : codeResidual<2>(row, truth, length);
+    value = static_cast<int32_t>(p + static_cast<uint32_t>(residual));
+    return length;
   }
   template <uint32_t kState>
   int32_t codeResidual(TokenRow& row, int32_t truth, uint32_t& length) {
@@ -276,12 +283,7 @@ void ValueCoder<Io>::codeResiduals(uint32_t w, bool blended) {
   for (uint32_t c = 0; c < components_; ++c) {
     if (blended) context = contexts_[c];
     TokenRow& row = models_.row[std::min(c, 3u)][context];
-    const uint32_t p = static_cast<uint32_t>(predicted_[c]);
-    int32_t residual =
-        Io::kEncoding ? static_cast<int32_t>(static_cast<uint32_t>(value[c]) - p) : 0;
-    uint32_t length = 0;
-    residual = codeResidualAt(c, row, residual, length);
-    value[c] = static_cast<int32_t>(p + static_cast<uint32_t>(residual));
+    const uint32_t length = codeComponent(c, row, predicted_[c], value[c]);
     longest = std::max(longest, length);
     if (context != kNoNeighbours) context = (context + length + 1) / 2;
   }
@@ -298,12 +300,7 @@ void ValueCoder<Io>::codeUnitResiduals(uint32_t w, const uint32_t* contexts) {
     const uint32_t c = frame.component(i);
     const bool follows = frame.follows(i);
     TokenRow& row = follows ? models_.following[i - 1] : models_.row[i][contexts[c]];
-    const uint32_t p = static_cast<uint32_t>(predicted_[c]);
-    int32_t residual =
-        Io::kEncoding ? static_cast<int32_t>(static_cast<uint32_t>(value[c]) - p) : 0;
-    uint32_t length = 0;
-    residual = codeResidualAt(i, row, residual, length);
-    value[c] = static_cast<int32_t>(p + static_cast<uint32_t>(residual));
+    const uint32_t length = codeComponent(i, row, predicted_[c], value[c]);
     if (!follows) longest = std::max(longest, length);
     frame.learn(i, value, predicted_);
   }
