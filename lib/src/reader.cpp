@@ -286,40 +286,84 @@ Status checkTargets(const PayloadInfo& info, std::span<const PieceTarget> target
   return {};
 }
 
-bool proceeds(const DecodeOptions& options, size_t done, size_t all) {
-  return options.progress == nullptr ||
-         options.progress(options.progress_user,
-                          static_cast<double>(done) / static_cast<double>(all));
+/// Tells the caller how many elements [A.2.6] are done.
+class Progress {
+ public:
+  Progress(const DecodeOptions& options, const PayloadHeader& header) : options_(options) {
+    if (options.progress == nullptr) return;
+    for (size_t i = 0; i < header.pieces.size(); ++i) {
+      const PieceHeader& p = header.pieces[i];
+      all_ += p.triangleCount() + p.vertex_count + p.wedge_count;
+      for (uint32_t a = 0; a < p.attribute_count; ++a) {
+        all_ += componentsOf(p, header.attributes[p.first_attribute + a]);
+      }
+    }
+  }
+
+  static uint64_t componentsOf(const PieceHeader& piece, const AttributeInfo& attribute) {
+    return uint64_t{piece.wedge_count} * attribute.format.component_count;
+  }
+
+  /// An error if the caller asks to stop.
+  Status advance(uint64_t elements) {
+    if (options_.progress == nullptr) return {};
+    done_ += elements;
+    const double share = all_ == 0 ? 1 : static_cast<double>(done_) / static_cast<double>(all_);
+    if (options_.progress(options_.progress_user, share)) return {};
+    return fail(Error::kCancelled, "decoding was cancelled");
+  }
+
+ private:
+  const DecodeOptions& options_;
+  uint64_t all_ = 0;
+  uint64_t done_ = 0;
+};
+
+/// Attributes that are coded with another one are stored with that.
+template <class Io>
+Status decodeAttribute(PieceCoder<Io>& piece, const PieceInfo& info, uint32_t index,
+                       const PieceTarget& target, Array<int32_t>& values) {
+  const AttributeInfo* all = info.attributes.data();
+  const uint32_t count = static_cast<uint32_t>(info.attributes.size());
+  const AttributeMethod method = methodOf(all, count, index);
+  if (method == AttributeMethod::kWithAnother) return {};
+  MCC_TRY(piece.codeAttribute(index, values));
+  const uint32_t stride = piece.codedComponentsOf(index);
+  storeAttribute(piece, info, index, values.data(), stride, target.attributes);
+  if (method != AttributeMethod::kSkin) return {};
+  storeAttribute(piece, info, skinPartner(all, count, index), values.data() + kSkinSlots, stride,
+                 target.attributes);
+  return {};
 }
 
 template <class Io>
 Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, const PieceInfo& info,
-                   const PieceTarget& target, const DecodeOptions& options) {
+                   const PieceTarget& target, const DecodeOptions& options, Progress& progress) {
   const Allocator& allocator = options.allocator;
   PieceCoder<Io> piece(io, models, header, info.attributes.data(), allocator, options.histogram);
   const PieceTruth nothing;
   MCC_TRY(piece.codeConnectivity(nothing));
+  MCC_TRY(progress.advance(header.triangleCount()));
   MCC_TRY(piece.codeStitch(nothing));
+  MCC_TRY(progress.advance(header.vertex_count));
   MCC_TRY(piece.codePositions(nothing));
+  if (header.attribute_count != 0) {
+    MCC_TRY(progress.advance(Progress::componentsOf(header, info.attributes[0])));
+  }
   MCC_TRY(piece.codeSeams(nothing));
   MCC_TRY(piece.codeLeftovers(nothing));
   MCC_TRY(piece.codeOrders(nothing));
   if (header.attribute_count != 0)
     storePositions(piece, info.attributes[0], info.wedge_count, target.attributes[0]);
   MCC_TRY(storeTriangles(piece, info.parts, target.parts, allocator));
+  MCC_TRY(progress.advance(header.wedge_count));
   Array<int32_t> values(allocator);
   MCC_TRY(piece.prepareAttributes());
   for (uint32_t phase = 0; phase < kCodingPhases; ++phase) {
     for (uint32_t a = 1; a < info.attributes.size(); ++a) {
       if (codingPhase(info.attributes[a]) != phase) continue;
-      const AttributeMethod method = methodOf(info.attributes.data(), header.attribute_count, a);
-      if (method == AttributeMethod::kWithAnother) continue;
-      MCC_TRY(piece.codeAttribute(a, values));
-      const uint32_t stride = piece.codedComponentsOf(a);
-      storeAttribute(piece, info, a, values.data(), stride, target.attributes);
-      if (method != AttributeMethod::kSkin) continue;
-      const uint32_t weights = skinPartner(info.attributes.data(), header.attribute_count, a);
-      storeAttribute(piece, info, weights, values.data() + kSkinSlots, stride, target.attributes);
+      MCC_TRY(decodeAttribute(piece, info, a, target, values));
+      MCC_TRY(progress.advance(Progress::componentsOf(header, info.attributes[a])));
     }
   }
   return {};
@@ -332,14 +376,13 @@ Status decodePieces(const PayloadHeader& header, const PayloadInfo& info,
   if (memory == nullptr) return fail(Error::kOutOfMemory, "no memory for the models");
   PayloadModels* models = new (memory) PayloadModels(options.allocator);
   DecoderIo<kSingle> io(header.codes, header.tokens, header.raw);
+  Progress progress(options, header);
   Status status;
   if (!models->mc.init(header.contextSet()))
     status = fail(Error::kOutOfMemory, "no memory for the models");
   for (size_t i = 0; i < targets.size() && status.ok(); ++i) {
-    status = decodePiece(io, *models, header.pieces[i], info.pieces[i], targets[i], options);
-    if (status.ok() && !proceeds(options, i + 1, targets.size())) {
-      status = fail(Error::kCancelled, "decoding was cancelled");
-    }
+    status =
+        decodePiece(io, *models, header.pieces[i], info.pieces[i], targets[i], options, progress);
   }
   if (status.ok()) status = io.finish();
   models->~PayloadModels();

@@ -135,6 +135,54 @@ TEST_F(DecodeErrors, Primitive) {
             "");
 }
 
+TEST_F(DecodeErrors, OrdinaryAttributesHaveAsManyElements) {
+  const auto with = [this](uint32_t count, bool in_target) {
+    return errorAfter([=](Json& j, Json& e) {
+      Json accessor = {{"componentType", kFloat}, {"count", count}, {"type", "VEC3"}};
+      j["accessors"].push_back(accessor);
+      Json& primitive = j["meshes"][0]["primitives"][0];
+      Json& attributes = in_target ? primitive["targets"][0] : primitive["attributes"];
+      attributes["_EXTRA"] = j["accessors"].size() - 1;
+      (void)e;
+    });
+  };
+  for (const bool in_target : {false, true}) {
+    EXPECT_EQ(with(169, in_target), "");
+    EXPECT_NE(with(168, in_target).find("/_EXTRA: the accessor has not the 169 elements"),
+              std::string::npos);
+  }
+}
+
+TEST_F(DecodeErrors, TwoCompressions) {
+  EXPECT_EQ(
+      errorAfter([](Json& j, Json&) {
+        j["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {
+            {"bufferView", 0}, {"attributes", Json::object()}};
+      }),
+      std::string(kPath) + ": the primitive is compressed with KHR_draco_mesh_compression, too");
+}
+
+/// A byte has the indices 0 to 254; 255 is none.
+TEST_F(DecodeErrors, IndexTypesHoldTheNumberOfVertices) {
+  for (const uint32_t vertex_count : {225u, 256u}) {
+    Builder builder;
+    builder.addMesh({Sheet(vertex_count == 225 ? 14 : 15).addTo(builder)});
+    ConvertOptions options;
+    options.allow_larger = true;
+    ConvertReport report;
+    ASSERT_EQ(convertGlb(builder.toGlb(), options, file_, report).message(), "");
+    const std::string message = errorAfter([](Json& j, Json&) {
+      Json& indices = j["accessors"][j["meshes"][0]["primitives"][0]["indices"].get<size_t>()];
+      indices["componentType"] = kUnsignedByte;
+    });
+    if (vertex_count == 225) {
+      EXPECT_EQ(message, "");
+    } else {
+      EXPECT_NE(message.find("cannot hold indices of 256 vertices"), std::string::npos);
+    }
+  }
+}
+
 TEST_F(DecodeErrors, OneAccessorForTwoThings) {
   EXPECT_NE(errorAfter([](Json& j, Json& e) {
               j["meshes"][0]["primitives"][0]["targets"][0]["POSITION"] = 0;

@@ -142,14 +142,16 @@ Draft anyDraft(uint64_t seed) {
     h.vertex_count = 1 + random.below(std::min(3 * h.face_count, 100000000u));
     h.operation_count = random.below(std::min(h.vertex_count + 4 * h.face_count, 200000000u) + 1);
     h.wedge_count = anyCount(random, limit);
-    if (h.has(piece_flag::kHoles)) h.dummy_count = random.below(3 * h.face_count + 1);
-    if (h.has(piece_flag::kIsolated)) h.isolated_count = random.below(h.wedge_count + 1);
-    if (h.has(piece_flag::kDuplicates)) h.duplicate_count = anyCount(random, limit);
-    if (h.has(piece_flag::kEdgeDegenerates)) h.edge_degenerate_count = anyCount(random, limit);
-    if (h.has(piece_flag::kListed)) h.listed_count = anyCount(random, limit);
+    if (h.wedge_count == 0) h.flags &= ~piece_flag::kIsolated;
+    if (h.has(piece_flag::kHoles)) h.dummy_count = 1 + random.below(3 * h.face_count);
+    if (h.has(piece_flag::kIsolated)) h.isolated_count = 1 + random.below(h.wedge_count);
+    if (h.has(piece_flag::kDuplicates)) h.duplicate_count = 1 + anyCount(random, limit);
+    if (h.has(piece_flag::kEdgeDegenerates)) h.edge_degenerate_count = 1 + anyCount(random, limit);
+    if (h.has(piece_flag::kListed)) h.listed_count = 1 + anyCount(random, limit);
     uint32_t rest = static_cast<uint32_t>(h.triangleCount());
     piece.part_triangles.clear();
-    while (h.has(piece_flag::kManyParts) && piece.part_triangles.size() < random.below(6)) {
+    const uint32_t part_count = h.has(piece_flag::kManyParts) ? random.between(2, 6) : 1;
+    while (piece.part_triangles.size() + 1 < part_count) {
       piece.part_triangles.push_back(random.below(rest + 1));
       rest -= piece.part_triangles.back();
     }
@@ -325,6 +327,16 @@ TEST(Container, CountsThatContradictEachOther) {
         d.pieces[0].header.flags |= piece_flag::kManyParts;
         d.pieces[0].part_triangles = {5, ~0u};  // their sum is right modulo 2^32
       },
+      // Flags that say nothing, or nothing without another one.
+      [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kManyParts; },
+      [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kHoles; },
+      [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kIsolated; },
+      [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kDuplicates; },
+      [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kEdgeDegenerates; },
+      [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kListed; },
+      [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kCreases; },
+      [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kMerges; },
+      [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kInteriorCopies; },
   };
   EXPECT_EQ(errorAfter([](Draft&) {}), Error::kOk);
   for (size_t i = 0; i < changes.size(); ++i)
@@ -535,6 +547,18 @@ TEST(Container, LimitsOfTheCaller) {
   EXPECT_EQ(errorAfter(big, limits), Error::kLimit);
   limits.max_pieces = 2;
   EXPECT_EQ(errorAfter(big, limits), Error::kOk);
+
+  // Vertices, wedges, triangles, components: of the first piece, then of the other.
+  limits = {};
+  limits.max_elements = 100 + 150 + 230 + 9 * 150 + 4 + 4 + 4 + 3 * 4;
+  EXPECT_EQ(errorAfter(big, limits), Error::kOk);
+  --limits.max_elements;
+  EXPECT_EQ(errorAfter(big, limits), Error::kLimit);
+  limits = {};
+  limits.max_output_bytes = 230 * 12 + 9 * 4 * 150 + 4 * 12 + 3 * 4 * 4;
+  EXPECT_EQ(errorAfter(big, limits), Error::kOk);
+  --limits.max_output_bytes;
+  EXPECT_EQ(errorAfter(big, limits), Error::kLimit);
 }
 
 /// They are limits of a payload, not of each of its pieces.
@@ -557,8 +581,10 @@ TEST(Container, LimitsOfTheFormat) {
   const auto with = [&limits](uint32_t PieceHeader::*field, uint32_t value) {
     return errorAfter(
         [=](Draft& d) {
-          d.pieces[0].header.flags |= piece_flag::kDuplicates | piece_flag::kListed;
-          d.pieces[0].header.*field = value;
+          PieceHeader& h = d.pieces[0].header;
+          h.flags |= piece_flag::kDuplicates | piece_flag::kListed;
+          h.duplicate_count = h.listed_count = 1;
+          h.*field = value;
           d.pieces[0].part_triangles = {static_cast<uint32_t>(d.pieces[0].header.triangleCount())};
         },
         limits);
@@ -567,16 +593,40 @@ TEST(Container, LimitsOfTheFormat) {
   EXPECT_EQ(with(&PieceHeader::wedge_count, ~0u), Error::kLimit);
   EXPECT_EQ(with(&PieceHeader::vertex_count, 1u << 28), Error::kLimit);
   EXPECT_EQ(with(&PieceHeader::face_count, 1u << 28), Error::kLimit);
-  EXPECT_EQ(with(&PieceHeader::duplicate_count, (1u << 28) - 4), Error::kLimit);
+  EXPECT_EQ(with(&PieceHeader::duplicate_count, (1u << 28) - 5), Error::kLimit);
   EXPECT_EQ(with(&PieceHeader::listed_count, ~0u), Error::kLimit);
 }
 
-TEST(Container, NoPieces) {
+/// The number of pieces is stated when it is not 1.
+TEST(Container, NoPiecesAndOnePiece) {
+  for (const uint8_t count : {uint8_t{0}, uint8_t{1}}) {
+    std::vector<uint8_t> payload = simpleDraft().write();
+    payload[kChecksummedFrom] |= payload_flag::kManyPieces;
+    payload.insert(payload.begin() + kChecksummedFrom + 1, count);
+    repairChecksum(payload);
+    EXPECT_EQ(parseError(payload), Error::kBadHeader);
+  }
+}
+
+/// Neither is a set of 0 of the base mesh, nor padding of no bytes.
+TEST(Container, WhatNeedsNoStatement) {
   std::vector<uint8_t> payload = simpleDraft().write();
-  payload[kChecksummedFrom] |= payload_flag::kManyPieces;
-  payload.insert(payload.begin() + kChecksummedFrom + 1, 0);
+  const size_t kind = kChecksummedFrom + 1 + 1 + 4 + 1;  // behind flags, counts, attribute count
+  std::vector<uint8_t> more = payload;
+  more[kind] |= 0x80;
+  more.insert(more.begin() + kind + 2, 2, 0);
+  repairChecksum(more);
+  EXPECT_EQ(parseError(more), Error::kBadHeader);
+  more[kind + 2] = 1;
+  repairChecksum(more);
+  EXPECT_EQ(parseError(more), Error::kBadHeader) << "a position of set 1 is none of the base mesh";
+
+  PayloadHeader parsed{Allocator{}};
+  ASSERT_TRUE(parsePayload(payload, {}, parsed).ok());
+  payload[kChecksummedFrom] |= payload_flag::kPadded;
+  payload.insert(payload.begin() + static_cast<std::ptrdiff_t>(parsed.header_bytes), 0);
   repairChecksum(payload);
-  EXPECT_NE(parseError(payload), Error::kOk);
+  EXPECT_EQ(parseError(payload), Error::kBadHeader);
 }
 
 /// The same claims in fewer bytes.

@@ -25,6 +25,11 @@ struct Limits {
   uint64_t max_triangles = uint64_t{1} << 28;  ///< triangles of a payload
   uint32_t max_attributes = 1024;              ///< attributes of a payload, morph targets included
   uint32_t max_pieces = 65536;
+  /// The work: the sum of vertices, wedges, triangles and components of all attributes (the specification's elements).
+  /// Decoding takes time and working memory in proportion.
+  uint64_t max_elements = ~uint64_t{0};
+  /// What the caller would take for the outputs: all attributes, and indices of 32 bits.
+  uint64_t max_output_bytes = ~uint64_t{0};
 };
 
 struct PartInfo {
@@ -106,7 +111,8 @@ struct PieceTarget {
 
 struct DecodeOptions {
   Allocator allocator;
-  /// Called now and then with the work done in 0..1; returning false ends decode() with kCancelled.
+  /// Called behind every stage of every piece with the work done, rising to 1, on the thread of decode(); returning false
+  /// ends that with kCancelled. A stage takes a few hundred nanoseconds per vertex at most.
   bool (*progress)(void* user, double done) = nullptr;
   void* progress_user = nullptr;
   CodeHistogram* histogram = nullptr;  ///< filled when not null

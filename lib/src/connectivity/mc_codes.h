@@ -28,6 +28,7 @@
 #include <cstdint>
 
 #include "base/memory.h"
+#include "connectivity/digon_stack.h"
 #include "entropy/models.h"
 #include "entropy/numbers.h"
 #include "mcc/reader.h"
@@ -248,7 +249,7 @@ class McMachine {
   McModels& models_;
   const McCounts counts_;
   Array<McNode> nodes_;
-  Array<uint32_t> stack_;
+  DigonStack stack_;
   FaceMesh& mesh_;
   const McTruth truth_;
   CodeHistogram* histogram_;
@@ -402,7 +403,7 @@ Status McMachine<Io>::codeEnd(const McOperation* op, bool first) {
     if (stack_.empty()) finishes = io_.bit(models_.finish, Io::kEncoding && op->finishes);
     if (finishes) {
       MCC_TRY(finishComponent());
-    } else if (!stack_.push_back(top_)) {
+    } else if (!stack_.push(top_)) {
       return fail(Error::kOutOfMemory, "no memory for the digon stack");
     }
   }
@@ -480,7 +481,7 @@ Status McMachine<Io>::codeExpand(const McOperation* op, McJoin join) {
   uint32_t vertex = 0;
   uint32_t handle_node = kNone;
   if (join == McJoin::kStart) {
-    vertex = nodes_[stack_.back()].vertex;
+    vertex = nodes_[stack_.top()].vertex;
     if (vertex == kClosedNode) return fail(Error::kBadConnectivity, "a waiting digon was closed");
   } else {
     const uint32_t last = static_cast<uint32_t>(nodes_.size()) - 1;
@@ -703,8 +704,8 @@ void McMachine<Io>::swapLinks(uint32_t a, uint32_t b) {
 
 template <class Io>
 Status McMachine<Io>::joinStart() {
-  const uint32_t s = stack_.back();
-  stack_.pop_back();
+  const uint32_t s = stack_.top();
+  stack_.pop();
   if (nodes_[s].vertex == kClosedNode) {  // by this very operation
     return fail(Error::kBadConnectivity, "a waiting digon was closed");
   }
@@ -730,15 +731,15 @@ Status McMachine<Io>::joinHandle(const McOperation* op, uint32_t handle_node) {
       codeSignedGolomb(io_, models_.handle_top, static_cast<int32_t>(other_top - handle_node));
   other_top = handle_node + static_cast<uint32_t>(difference);
   depth = codeGolomb(io_, models_.handle_depth, depth);
-  if (other_top >= nodes_.size() || depth > stack_.size() ||
+  if (other_top >= nodes_.size() || depth > kMaxHandleDepth ||
+      depth > stack_.size() ||
       nodes_[other_top].vertex == kClosedNode || nodes_[handle_node].vertex == kClosedNode) {
     return fail(Error::kBadConnectivity, "a handle refers to a digon that is not there");
   }
   swapLinks(top_, handle_node);
-  if (!stack_.push_back(0)) return fail(Error::kOutOfMemory, "no memory for the digon stack");
-  const size_t place = stack_.size() - 1 - depth;
-  for (size_t i = stack_.size() - 1; i > place; --i) stack_[i] = stack_[i - 1];
-  stack_[place] = other_top;
+  if (!stack_.insertBelow(depth, other_top)) {
+    return fail(Error::kOutOfMemory, "no memory for the digon stack");
+  }
   nodes_[handle_node].shared = 1;
   addDegree(nodes_[top_], 1);
   count(&CodeHistogram::handle);

@@ -176,6 +176,12 @@ class SequenceCoder {
     return found;
   }
 
+  /// Behind the last element: whether there was a place in a list that is not so long.
+  Status finish() const {
+    if (!is_malformed_) return {};
+    return fail(Error::kBadAttribute, "an order refers to an element that is not there");
+  }
+
  private:
   Way codeWay(uint32_t expected, uint32_t truth) {
     const uint32_t last = static_cast<uint32_t>(last_way_);
@@ -199,7 +205,10 @@ class SequenceCoder {
     const RecentElements& recent = elements_.recent(found.way);
     TreeModel<5>& model = models_.rank[which][class_[which]][last_way_ == found.way ? 1 : 0];
     uint32_t rank = codeTree(io_, model, Io::kEncoding ? recent.rankOf(truth) : 0);
-    if (rank >= recent.count()) rank = 0;  // no writer does this
+    if (rank >= recent.count()) {
+      rank = 0;
+      is_malformed_ = true;
+    }
     class_[which] = rank < 2 ? rank : (rank < 4 ? 2 : 3);
     found.element = recent.element(rank);
     found.note = recent.note(rank);
@@ -210,6 +219,7 @@ class SequenceCoder {
   OpenElements& elements_;
   uint32_t history_ = 0;
   uint32_t class_[2] = {0, 0};
+  bool is_malformed_ = false;
   Way last_way_ = Way::kAny;
 };
 
@@ -235,7 +245,7 @@ constexpr uint32_t orderedTriangle(uint32_t triangle, uint32_t corner) {
   return 4 * triangle + corner;
 }
 
-/// Order of the triangles within each part. `twins`: the faces of the mesh, of which only twins are read. [A.10.3]
+/// Order of the triangles within each part. Of `faces` only twins are read. [A.10.3]
 template <class Io>
 class TriangleOrderCoder {
  public:
@@ -272,7 +282,7 @@ class TriangleOrderCoder {
         if ((place & 0xfff) == 0 && io_.overrun()) return truncated();
       }
     }
-    return {};
+    return sequence.finish();
   }
 
  private:
@@ -371,7 +381,7 @@ class WedgeOrderCoder {
         return fail(Error::kTruncated, "a stream ends inside the order of the vertices");
       }
     }
-    return {};
+    return sequence.finish();
   }
 
  private:

@@ -20,7 +20,8 @@ bool isFinitePositive(float value) {
 bool isFinite(float value) { return (std::bit_cast<uint32_t>(value) & 0x7f800000u) != 0x7f800000u; }
 
 bool isBasePosition(const AttributeInfo& a) {
-  return a.format.semantic == Semantic::kPosition && a.format.morph_target == 0;
+  return a.format.semantic == Semantic::kPosition && a.format.set_index == 0 &&
+         a.format.morph_target == 0;
 }
 
 /// [A.2.4]
@@ -62,6 +63,8 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
     MCC_TRY(in.readVarint(target));
     if (target > 0xffff)
       return fail(Error::kBadHeader, "a morph target number is out of range", at);
+    if (target == 0 && a.format.set_index == 0)
+      return fail(Error::kBadHeader, "a set and a morph target that need no statement", at);
     a.format.morph_target = static_cast<uint16_t>(target);
   }
   if ((shape >> 4) > static_cast<uint8_t>(AttributeCoding::kGrid)) {
@@ -177,12 +180,22 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
   return {};
 }
 
+/// A count behind a flag is what the flag would not say without it. [A.2.2]
+Status parseFlaggedCount(ByteReader& in, bool is_stated, uint32_t least, uint32_t& count) {
+  if (!is_stated) return {};
+  const size_t at = in.offset();
+  MCC_TRY(in.readVarint(count));
+  if (count >= least) return {};
+  return fail(Error::kBadHeader, "a count that needs no statement is stated", at);
+}
+
 /// Over the pieces so far: limits hold for the payload.
 struct Totals {
   uint64_t vertices = 0;
   uint64_t wedges = 0;
   uint64_t triangles = 0;
-  uint64_t values = 0;  ///< components of all attributes, for which callers take memory
+  uint64_t values = 0;        ///< components of all attributes, for which callers take memory
+  uint64_t output_bytes = 0;  ///< what callers take for indices of 32 bits and attributes
 
   uint64_t elements() const { return vertices + wedges + triangles + values; }
 };
@@ -194,8 +207,11 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, T
   MCC_TRY(in.readVarint(piece.flags));
   if ((piece.flags & ~piece_flag::kAll) != 0)
     return fail(Error::kBadHeader, "reserved bits are set", at);
-  if (piece.has(piece_flag::kCreases) && !piece.has(piece_flag::kSeams)) {
-    return fail(Error::kBadHeader, "a piece without seams has creases", at);
+  if (piece.has(piece_flag::kCreases | piece_flag::kMerges) && !piece.has(piece_flag::kSeams)) {
+    return fail(Error::kBadHeader, "a piece without seams has creases or merges", at);
+  }
+  if (piece.has(piece_flag::kInteriorCopies) && !piece.has(piece_flag::kCopies)) {
+    return fail(Error::kBadHeader, "a piece without copies has interior ones", at);
   }
   uint32_t zigzagged = 0;
   MCC_TRY(in.readVarint(piece.vertex_count));
@@ -204,16 +220,18 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, T
   piece.operation_count = piece.vertex_count + static_cast<uint32_t>(unzigzag(zigzagged));
   MCC_TRY(in.readVarint(zigzagged));
   piece.wedge_count = piece.vertex_count + static_cast<uint32_t>(unzigzag(zigzagged));
-  if (piece.has(piece_flag::kHoles)) MCC_TRY(in.readVarint(piece.dummy_count));
-  if (piece.has(piece_flag::kIsolated)) MCC_TRY(in.readVarint(piece.isolated_count));
-  if (piece.has(piece_flag::kDuplicates)) MCC_TRY(in.readVarint(piece.duplicate_count));
-  if (piece.has(piece_flag::kEdgeDegenerates)) MCC_TRY(in.readVarint(piece.edge_degenerate_count));
-  if (piece.has(piece_flag::kListed)) MCC_TRY(in.readVarint(piece.listed_count));
-  if (piece.has(piece_flag::kManyParts)) MCC_TRY(in.readVarint(piece.part_count));
+  MCC_TRY(parseFlaggedCount(in, piece.has(piece_flag::kHoles), 1, piece.dummy_count));
+  MCC_TRY(parseFlaggedCount(in, piece.has(piece_flag::kIsolated), 1, piece.isolated_count));
+  MCC_TRY(parseFlaggedCount(in, piece.has(piece_flag::kDuplicates), 1, piece.duplicate_count));
+  MCC_TRY(parseFlaggedCount(in, piece.has(piece_flag::kEdgeDegenerates), 1,
+                            piece.edge_degenerate_count));
+  MCC_TRY(parseFlaggedCount(in, piece.has(piece_flag::kListed), 1, piece.listed_count));
+  MCC_TRY(parseFlaggedCount(in, piece.has(piece_flag::kManyParts), 2, piece.part_count));
   const uint64_t triangles = piece.triangleCount();
   totals.vertices += piece.vertex_count;
   totals.wedges += piece.wedge_count;
   totals.triangles += triangles;
+  totals.output_bytes += triangles * 3 * sizeof(uint32_t);
   if (totals.vertices > limits.max_vertices || totals.wedges > limits.max_vertices ||
       piece.vertex_count >= (1u << 28) || piece.wedge_count >= (1u << 28)) {
     return fail(Error::kLimit, "the payload has more vertices than the limit allows", at);
@@ -221,7 +239,7 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, T
   if (totals.triangles > limits.max_triangles || triangles >= (1u << 28)) {
     return fail(Error::kLimit, "the payload has more triangles than the limit allows", at);
   }
-  if (piece.isolated_count > piece.wedge_count || piece.part_count == 0 ||
+  if (piece.isolated_count > piece.wedge_count ||
       piece.vertex_count > 3 * uint64_t{piece.face_count} ||
       piece.dummy_count > 3 * uint64_t{piece.face_count} ||
       (piece.vertex_count != 0) != (piece.face_count != 0) ||
@@ -245,8 +263,9 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, T
   }
   MCC_TRY(parseAttributes(in, limits, header, piece));
   for (uint32_t i = 0; i < piece.attribute_count; ++i) {
-    totals.values += uint64_t{piece.wedge_count} *
-                     header.attributes[piece.first_attribute + i].format.component_count;
+    const AttributeFormat& format = header.attributes[piece.first_attribute + i].format;
+    totals.values += uint64_t{piece.wedge_count} * format.component_count;
+    totals.output_bytes += uint64_t{piece.wedge_count} * elementBytes(format);
   }
   if (!header.pieces.push_back(piece)) return fail(Error::kOutOfMemory, "no memory for the header");
   return {};
@@ -263,7 +282,7 @@ Status parseStreams(ByteReader& in, PayloadHeader& header) {
   if ((header.flags & payload_flag::kPadded) != 0) {
     uint32_t padding = 0;
     std::span<const uint8_t> zeros;
-    MCC_TRY(in.readVarint(padding));
+    MCC_TRY(parseFlaggedCount(in, true, 1, padding));
     const size_t at = in.offset();
     MCC_TRY(in.readBytes(padding, zeros));
     for (const uint8_t byte : zeros) {
@@ -306,14 +325,17 @@ Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, Payloa
     return fail(Error::kBadHeader, "reserved bits are set", 8);
   }
   uint32_t piece_count = 1;
-  if ((flags & payload_flag::kManyPieces) != 0) MCC_TRY(in.readVarint(piece_count));
-  if (piece_count == 0 || piece_count > limits.max_pieces) {
+  MCC_TRY(parseFlaggedCount(in, (flags & payload_flag::kManyPieces) != 0, 2, piece_count));
+  if (piece_count > limits.max_pieces) {
     return fail(Error::kLimit, "the payload has more pieces than the limit allows", 9);
   }
   Totals totals;
   for (uint32_t i = 0; i < piece_count; ++i) MCC_TRY(parsePiece(in, limits, header, totals));
   if (totals.elements() > kMaxElementsPerByte * bytes.size()) {
     return fail(Error::kLimit, "the payload claims more than its size can hold", 9);
+  }
+  if (totals.elements() > limits.max_elements || totals.output_bytes > limits.max_output_bytes) {
+    return fail(Error::kLimit, "the payload is larger than the limit allows", 9);
   }
   return parseStreams(in, header);
 }

@@ -202,7 +202,11 @@ class RawBitsDecoder {
   }
 
   MCC_INLINE bool hasBytes(size_t count) const { return (next_bit_ >> 3) + count <= bytes_.size(); }
-  bool finished() const { return (next_bit_ + 7) / 8 == bytes_.size(); }
+  /// Every byte was used, and what is left of the last is zero.
+  bool finished() const {
+    if ((next_bit_ + 7) / 8 != bytes_.size()) return false;
+    return next_bit_ % 8 == 0 || bytes_.back() >> (next_bit_ % 8) == 0;
+  }
   bool overrun() const { return (next_bit_ + 7) / 8 > bytes_.size(); }
 
  private:
@@ -339,7 +343,7 @@ class DecoderIo {
         return fail(Error::kTrailingBytes,
                     "the token stream does not end where its last symbol does");
       }
-      if (!raw_.finished()) return fail(Error::kTrailingBytes, "the raw bits have bytes left over");
+      if (!raw_.finished()) return fail(Error::kTrailingBytes, "the raw bits do not end where the last of them does");
     }
     return {};
   }

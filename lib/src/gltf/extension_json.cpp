@@ -67,6 +67,9 @@ Result readExtension(const Document& document, const Json& extension, const Json
   const std::string primitive_path = primitivePath(use.mesh, use.primitive);
   use.path = primitive_path + "/extensions/" + kExtensionName;
   if (!extension.is_object()) return error(use.path, "must be an object");
+  if (findMember(primitive["extensions"], "KHR_draco_mesh_compression") != nullptr) {
+    return error(use.path, "the primitive is compressed with KHR_draco_mesh_compression, too");
+  }
   uint64_t view = 0;
   MCC_GLTF_TRY(readUnsigned(extension, "bufferView", use.path, kMaxNumber, view));
   if (view >= document.views.size()) {
@@ -139,30 +142,41 @@ Result checkIndices(const Document& document, const ExtensionUse& use, const Pie
   if (!accessor.is_known_type || accessor.componentCount() != 1 || accessor.normalized) {
     return error(path, "indices must be SCALAR of an unsigned type");
   }
-  const uint64_t last = piece.wedge_count == 0 ? 0 : piece.wedge_count - 1;
+  // The largest value of a type is no index: it restarts strips.
   const bool fits = type == ComponentType::kUint32 ||
-                    (type == ComponentType::kUint16 && last <= 0xffff) ||
-                    (type == ComponentType::kUint8 && last <= 0xff);
+                    (type == ComponentType::kUint16 && piece.wedge_count <= 0xffff) ||
+                    (type == ComponentType::kUint8 && piece.wedge_count <= 0xff);
   if (!fits) {
-    return error(path + "/componentType", "cannot hold indices up to " + std::to_string(last));
+    return error(path + "/componentType",
+                 "cannot hold indices of " + std::to_string(piece.wedge_count) + " vertices");
   }
   return {};
 }
 
-/// Attributes beside the payload must have as many elements.
+Result checkCounts(const Document& document, const Json& attributes, const std::string& path,
+                   uint32_t wedge_count) {
+  for (const auto& [name, value] : attributes.items()) {
+    uint64_t index = 0;
+    if (!asUnsigned(value, index) || index >= document.accessors.size() ||
+        document.accessors[index].count != wedge_count) {
+      return error(at(path, name), "the accessor has not the " + std::to_string(wedge_count) +
+                                       " elements of the payload");
+    }
+  }
+  return {};
+}
+
+/// Attributes beside the payload must have as many elements, those of morph targets too.
 Result checkOrdinaryAttributes(const Document& document, const ExtensionUse& use,
                                const PieceInfo& piece) {
   const Json& primitive = document.json["meshes"][use.mesh]["primitives"][use.primitive];
-  const Json* attributes = findMember(primitive, "attributes");
-  if (attributes == nullptr) return {};
-  for (const auto& [name, value] : attributes->items()) {
-    uint64_t index = 0;
-    if (!asUnsigned(value, index) || index >= document.accessors.size() ||
-        document.accessors[index].count != piece.wedge_count) {
-      return error(primitivePath(use.mesh, use.primitive) + "/attributes/" + name,
-                   "the accessor has not the " + std::to_string(piece.wedge_count) +
-                       " elements of the payload");
-    }
+  const std::string path = primitivePath(use.mesh, use.primitive);
+  if (const Json* attributes = findMember(primitive, "attributes"); attributes != nullptr) {
+    MCC_GLTF_TRY(checkCounts(document, *attributes, path + "/attributes", piece.wedge_count));
+  }
+  const Json& targets = arrayOf(primitive, "targets");
+  for (uint32_t i = 0; i < targets.size(); ++i) {
+    MCC_GLTF_TRY(checkCounts(document, targets[i], at(path + "/targets", i), piece.wedge_count));
   }
   return {};
 }
