@@ -882,10 +882,11 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeOptions& opti
   const Jobs jobs(options.run_jobs);
   std::vector<Plan> plans(pieces.size());
   std::vector<std::vector<std::string>> notes(pieces.size());
-  MCC_TRY(jobs.tryAll(pieces.size(), [&](size_t i) -> Status {
+  const auto prepare = [&](size_t i) -> Status {
     MCC_TRY(preparePiece(pieces[i], options, jobs, plans[i], notes[i]));
     return choosePairing(plans[i], i == 0 ? options.start_half_edge : kNone, jobs);
-  }));
+  };
+  MCC_TRY(jobs.tryAll(pieces.size(), prepare));
   uint64_t vertices = 0;
   for (size_t i = 0; i < pieces.size(); ++i) {
     vertices += plans[i].header.vertex_count;

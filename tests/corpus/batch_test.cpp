@@ -36,7 +36,7 @@ TEST(CorpusBatch, BadFilesDoNotStopTheRest) {
 
   const ToolResult converted = runTool(folder, "convert -j 2 -o out/ in/*.glb");
   EXPECT_EQ(converted.status, 1);
-  EXPECT_NE(converted.out.find("\nfailed        3"), std::string::npos) << converted.out;
+  EXPECT_NE(converted.out.find("\nfailed         3\n"), std::string::npos) << converted.out;
   size_t from = 0;  // the three lines, in the order of the command line
   for (const char* name : {"damaged", "empty", "unreadable"}) {
     const size_t at = converted.err.find("gltf-mcc: in/" + std::string(name) + ".glb: ", from);
