@@ -848,7 +848,8 @@ TEST(Convert, ThreadsDoNotChangeTheResult) {
   Builder builder;
   for (uint32_t n = 10; n < 30; n += 2) builder.addMesh({Sheet(n).addTo(builder)});
   std::vector<Json> primitives;  // of one payload, some too small for it
-  for (uint32_t n = 2; n < 20; n += 3) primitives.push_back(Sheet(n, 2.0f * n).addTo(builder));
+  for (uint32_t n = 2; n < 20; n += 3)
+    primitives.push_back(Sheet(n, 2.0f * static_cast<float>(n)).addTo(builder));
   builder.addMesh(primitives);
   ConvertOptions options;
   const RoundTrip one = roundTrip(builder, options);
