@@ -16,6 +16,7 @@
 #include "attributes/enc_position_planes.h"
 #include "attributes/enc_predictor_search.h"
 #include "attributes/enc_quantize.h"
+#include "attributes/enc_variation.h"
 #include "connectivity/enc_collapse.h"
 #include "container/enc_payload.h"
 #include "entropy/enc_coder.h"
@@ -675,7 +676,8 @@ Status chooseCheapest(uint32_t candidates, Code code) {
 using Runners = std::vector<std::unique_ptr<StageRunner<CostIo>>>;
 
 /// One choice for all pieces, since they share tables and models.
-Status choosePositions(std::vector<Plan>& plans, Runners& runners, uint8_t effort) {
+Status choosePositions(std::vector<Plan>& plans, Runners& runners, uint8_t effort,
+                       Variation& variation) {
   if (plans[0].attributes.empty()) return {};
   std::vector<PositionRecording> recordings(plans.size());
   std::vector<PositionCandidate> candidates;
@@ -684,7 +686,9 @@ Status choosePositions(std::vector<Plan>& plans, Runners& runners, uint8_t effor
     MCC_TRY(runners[i]->recordPositions(recordings[i], candidate));
     candidates.push_back(candidate);
   }
-  const PositionParameters chosen = choosePositionParameters(candidates, effort);
+  const PositionParameters chosen = variation.active()
+                                        ? variation.positions(candidates)
+                                        : choosePositionParameters(candidates, effort);
   for (Plan& plan : plans) {
     plan.positions_as = chosen;
     plan.attributes[0].info.predictor = PieceCoder<CostIo>::positionFlags(chosen);
@@ -745,7 +749,17 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
   return goes_on ? runner.codeAttribute(index, nullptr) : runner.passAttribute(index);
 }
 
-Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t effort) {
+/// Instead of chooseAttributeMethod().
+void varyAttributeMethod(Plan& plan, uint32_t index, Variation& variation) {
+  std::vector<AttributeInfo> infos;
+  for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
+  infos[index] = variation.oneOf(exactAlternatives(infos[index]));
+  variation.predictors(infos, index);
+  for (size_t i = 0; i < infos.size(); ++i) plan.attributes[i].info = infos[i];
+}
+
+Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t effort,
+                        Variation& variation) {
   auto models = makeModels(context_set);
   CostIo io;
   Runners runners;
@@ -753,7 +767,7 @@ Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t 
     runners.push_back(std::make_unique<StageRunner<CostIo>>(io, *models, plan));
     MCC_TRY(runners.back()->codeSurface(nullptr));
   }
-  MCC_TRY(choosePositions(plans, runners, effort));
+  MCC_TRY(choosePositions(plans, runners, effort, variation));
   const bool only_positions = std::all_of(plans.begin(), plans.end(), [](const Plan& plan) {
     return plan.attributes.size() == 1 && !plan.header.has(piece_flag::kSeams);
   });
@@ -761,10 +775,18 @@ Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t 
   for (size_t i = 0; i < plans.size(); ++i) MCC_TRY(runners[i]->codePositions(nullptr));
   for (size_t i = 0; i < plans.size(); ++i) {
     MCC_TRY(runners[i]->chooseCreases(*models));
+    if (variation.active() && plans[i].header.has(piece_flag::kSeams) &&
+        !plans[i].attributes.empty() && variation.coin()) {
+      plans[i].header.flags ^= piece_flag::kCreases;
+    }
     MCC_TRY(runners[i]->codeSeams(nullptr));
     MCC_TRY(runners[i]->prepareAttributes());
     const std::vector<uint32_t> order = codingOrder(plans[i]);
     for (size_t k = 0; k < order.size(); ++k) {
+      if (variation.active()) {
+        varyAttributeMethod(plans[i], order[k], variation);
+        continue;
+      }
       bool goes_on = i + 1 < plans.size();
       for (size_t later = k + 1; later < order.size(); ++later) {
         goes_on |= plans[i].attributes[order[later]].info.format.semantic ==
@@ -851,14 +873,17 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeOptions& opti
     MCC_TRY(choosePairing(plans[i], i == 0 ? options.start_half_edge : kNone));
     vertices += plans[i].header.vertex_count;
   }
+  Variation variation(options.variation);
   uint32_t context_set = options.context_set;
+  if (context_set >= kContextSetCount && variation.active())
+    context_set = variation.below(kContextSetCount);
   if (context_set >= kContextSetCount) MCC_TRY(chooseContextSet(plans, context_set));
-  MCC_TRY(choosePredictors(plans, context_set, options.effort));
+  MCC_TRY(choosePredictors(plans, context_set, options.effort, variation));
   MCC_TRY(codeAll(plans, context_set, false, result));
   if (vertices > kSingleCoderVertices) return {};
   EncodeResult single;
   MCC_TRY(codeAll(plans, context_set, true, single));
-  if (single.payload.size() < result.payload.size()) {
+  if (variation.active() ? variation.coin() : single.payload.size() < result.payload.size()) {
     single.notes = std::move(result.notes);
     result = std::move(single);
   }

@@ -56,6 +56,9 @@ struct EncodeOptions {
   bool keep_vertex_order = false;
   /// Effort: 0 fast (few trials) .. 2 (all trials). The bytes depend on it, exactness does not.
   uint8_t effort = 1;
+  /// Not normally set: every choice is made at random among those the format allows, by this seed, instead of for the
+  /// smallest result. A test hook.
+  uint64_t variation = 0;
 };
 
 /// Bits per stream, as the entropy coders spent them (the sum over streams is total_bytes * 8).
