@@ -16,6 +16,7 @@
 #include "attributes/enc_position_planes.h"
 #include "attributes/enc_predictor_search.h"
 #include "attributes/enc_quantize.h"
+#include "attributes/enc_variation.h"
 #include "base/enc_jobs.h"
 #include "connectivity/enc_collapse.h"
 #include "container/enc_payload.h"
@@ -821,6 +822,46 @@ Status chooseAll(std::vector<Plan>& plans, const EncodeOptions& options, const J
   });
 }
 
+/// Instead of chooseAttributeMethod().
+void varyAttributeMethod(Plan& plan, uint32_t index, Variation& variation) {
+  std::vector<AttributeInfo> infos;
+  for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
+  infos[index] = variation.oneOf(exactAlternatives(infos[index]));
+  variation.predictors(infos, index);
+  for (size_t i = 0; i < infos.size(); ++i) plan.attributes[i].info = infos[i];
+}
+
+/// Instead of chooseAll(), for tests: choices at random.
+Status varyAll(std::vector<Plan>& plans, const EncodeOptions& options, Variation& variation,
+               uint32_t& context_set) {
+  context_set = options.context_set;
+  if (context_set >= kContextSetCount) context_set = variation.below(kContextSetCount);
+  auto models = makeModels(context_set);
+  CostIo io;
+  Runners runners;
+  for (Plan& plan : plans) {
+    runners.push_back(std::make_unique<StageRunner<CostIo>>(io, *models, plan));
+    MCC_TRY(runners.back()->codeSurface(nullptr));
+  }
+  if (plans[0].attributes.empty()) return {};
+  std::vector<RecordedPositions> recorded(plans.size());
+  std::vector<PositionCandidate> candidates;
+  for (size_t i = 0; i < plans.size(); ++i) {
+    MCC_TRY(runners[i]->recordPositions(recorded[i]));
+    candidates.push_back(recorded[i].candidate);
+  }
+  const PositionParameters positions = variation.positions(candidates);
+  for (size_t i = 0; i < plans.size(); ++i) {
+    Plan& plan = plans[i];
+    plan.positions_as = positions;
+    plan.attributes[0].info.predictor = PieceCoder<CostIo>::positionFlags(positions);
+    if (plan.header.has(piece_flag::kSeams) && variation.coin())
+      plan.header.flags ^= piece_flag::kCreases;
+    for (const uint32_t a : codingOrder(plan)) varyAttributeMethod(plan, a, variation);
+  }
+  return {};
+}
+
 // --- output ------------------------------------------------------------------------------------------
 
 void scale(StreamSizes& sizes, double by) {
@@ -903,12 +944,14 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeOptions& opti
     result.notes.insert(result.notes.end(), notes[i].begin(), notes[i].end());
   }
   uint32_t context_set = kNone;
-  MCC_TRY(chooseAll(plans, options, jobs, context_set));
+  Variation variation(options.variation);
+  MCC_TRY(variation.active() ? varyAll(plans, options, variation, context_set)
+                             : chooseAll(plans, options, jobs, context_set));
   MCC_TRY(codeAll(plans, context_set, false, result));
   if (vertices > kSingleCoderVertices) return {};
   EncodeResult single;
   MCC_TRY(codeAll(plans, context_set, true, single));
-  if (single.payload.size() < result.payload.size()) {
+  if (variation.active() ? variation.coin() : single.payload.size() < result.payload.size()) {
     single.notes = std::move(result.notes);
     result = std::move(single);
   }

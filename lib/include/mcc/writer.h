@@ -65,6 +65,9 @@ struct EncodeOptions {
   /// Threads for the trials of the writer, which starts none itself; empty: it runs on the caller's alone. The bytes do not
   /// depend on it. Takes up to half the memory of a piece more for each job at a time.
   RunJobs run_jobs;
+  /// Not normally set: every choice is made at random among those the format allows, by this seed, instead of for the
+  /// smallest result. A test hook.
+  uint64_t variation = 0;
 };
 
 /// Bits per stream, as the entropy coders spent them (the sum over streams is total_bytes * 8).

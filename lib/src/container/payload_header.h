@@ -16,7 +16,7 @@ namespace mcc {
 
 inline constexpr uint8_t kMagic[3] = {'M', 'C', 'C'};
 inline constexpr uint8_t kVersionMajor = 1;
-inline constexpr uint8_t kVersionMinor = 1;
+inline constexpr uint8_t kVersionMinor = 0;
 inline constexpr size_t kChecksumOffset = 4;
 inline constexpr size_t kChecksummedFrom = 8;  ///< the checksum covers bytes 0..3 and from here on
 

@@ -1,0 +1,111 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Choices at random, for tests: what the encoder would seldom choose, decoders must know all the same.
+#ifndef MCC_ATTRIBUTES_ENC_VARIATION_H_
+#define MCC_ATTRIBUTES_ENC_VARIATION_H_
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "attributes/enc_position_fit.h"
+#include "mesh/attribute_method.h"
+
+namespace mcc {
+
+/// A sequence of choices (SplitMix64), the same on every machine.
+class Variation {
+ public:
+  /// 0: none, the encoder chooses what is smallest.
+  explicit Variation(uint64_t seed) : state_(seed), active_(seed != 0) {}
+
+  bool active() const { return active_; }
+
+  /// 0 .. bound - 1; bound > 0.
+  uint32_t below(uint32_t bound) {
+    state_ += 0x9e3779b97f4a7c15u;
+    uint64_t x = state_;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return static_cast<uint32_t>((x ^ (x >> 31)) >> 33) % bound;
+  }
+  bool coin() { return below(2) != 0; }
+  template <class T>
+  T oneOf(const std::vector<T>& all) {
+    return all[below(static_cast<uint32_t>(all.size()))];
+  }
+
+  PositionParameters positions(std::span<const PositionCandidate> pieces) {
+    PositionParameters p;
+    p.predictor = static_cast<PositionPredictor>(below(kPositionPredictors));
+    const bool planes =
+        std::all_of(pieces.begin(), pieces.end(),
+                    [](const PositionCandidate& piece) { return piece.planes != nullptr; });
+    const uint32_t kinds[] = {0, position_mode::kShear, position_mode::kPalette,
+                              position_mode::kPlanes};
+    p.modes = kinds[below(planes ? 4 : 3)];
+    if (!p.has(position_mode::kPlanes)) {
+      if (coin()) p.modes |= position_mode::kFold;
+      if (coin()) p.modes |= position_mode::kSplit;
+      p.own_scale = coin();
+    }
+    setUniversalTables(p);
+    if (p.fitted()) varyWeights(p);
+    if (p.own_scale) varyScale(p);
+    return p;
+  }
+
+  /// Sets the predictor of attribute `index` and of its partner to any that hold for their values.
+  void predictors(std::vector<AttributeInfo>& infos, uint32_t index) {
+    const uint32_t count = static_cast<uint32_t>(infos.size());
+    AttributeInfo& info = infos[index];
+    const AttributeMethod method = methodOf(infos.data(), count, index);
+    if (method == AttributeMethod::kWithAnother) return;
+    if (method == AttributeMethod::kSkin) {
+      // What the bits say of the tuples may be left unsaid.
+      if (coin()) info.predictor |= skin_method::kIdleJoints;
+      if (coin()) info.predictor &= static_cast<uint8_t>(~skin_method::kAscending);
+      if (coin()) info.predictor |= kHasEqualities;
+      uint8_t& sums = infos[skinPartner(infos.data(), count, index)].predictor;
+      if (sums != 0 && coin()) sums = coin() ? skin_method::kUsualSum : 0;
+      return;
+    }
+    do {
+      info.predictor = static_cast<uint8_t>(below(256));
+    } while (!isKnownPredictor(infos.data(), count, index));
+  }
+
+ private:
+  void varyWeights(PositionParameters& p) {
+    const uint32_t classes =
+        p.predictor == PositionPredictor::kFittedSelecting ? kPredictorClasses : kClassSelect;
+    for (uint32_t c = 0; c < classes; ++c) {
+      if (below(4) == 0) continue;
+      const uint32_t count = c >= kClassSelect ? kWeights : kBasicWeights;
+      for (uint32_t i = 0; i < count; ++i) {
+        const int32_t far = static_cast<int32_t>(below(33)) - 16;
+        p.weights.w[c][i] = static_cast<int16_t>(p.weights.w[c][i] + far);
+      }
+    }
+  }
+
+  void varyScale(PositionParameters& p) {
+    for (auto& fan : p.scale) {
+      for (ScaleCoefficients& scale : fan) {
+        for (uint32_t i = 0; i < 3; ++i) {
+          const int32_t from = scale.c[i];
+          const int32_t to = from + static_cast<int32_t>(below(81)) - 40;
+          scale.c[i] = static_cast<uint16_t>(std::clamp(to, 0, kMaxCoefficient[i]));
+        }
+      }
+    }
+  }
+
+  uint64_t state_;
+  bool active_;
+};
+
+}  // namespace mcc
+
+#endif  // MCC_ATTRIBUTES_ENC_VARIATION_H_

@@ -1,0 +1,161 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The reader against the conformance suite; the suite's own program `run` tests whole files.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "gltf/glb.h"
+#include "gltf/json.h"
+#include "mcc/gltf.h"
+#include "mcc/reader.h"
+#include "robustness/damage.h"
+#include "support/mesh_compare.h"
+#include "support/sha256.h"
+
+namespace mcc::test {
+namespace {
+
+using gltf::Json;
+
+std::vector<uint8_t> contentOf(const std::string& name) {
+  std::ifstream file(std::string(MCC_SOURCE_DIR "/tests/conformance/") + name, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+const Json& manifest() {
+  static const Json kManifest = [] {
+    Json json;
+    const std::vector<uint8_t> text = contentOf("manifest.json");
+    const gltf::Result result = gltf::parseJson(text, json);
+    if (!result.ok()) ADD_FAILURE() << result.message();
+    return json;
+  }();
+  return kManifest;
+}
+
+struct File {
+  std::string name;
+  std::vector<uint8_t> bytes;
+  Json json;
+  std::span<const uint8_t> payload;
+
+  explicit File(const Json& asset) : name(asset["file"]), bytes(contentOf(name)) {
+    gltf::GlbFile glb;
+    EXPECT_TRUE(gltf::readGlb(bytes, glb).ok()) << name;
+    EXPECT_TRUE(gltf::parseJson(glb.json, json).ok()) << name;
+    const Json& view = json["bufferViews"][0];
+    payload = glb.bin.subspan(view["byteOffset"], view["byteLength"]);
+  }
+};
+
+/// How a payload alone fares, in memory of its own size.
+Error errorOf(std::span<const uint8_t> payload, size_t size) {
+  const std::vector<uint8_t> copy(payload.begin(),
+                                  payload.begin() + static_cast<std::ptrdiff_t>(size));
+  return decodeDamaged(copy).error;
+}
+
+void expectHash(const Json& expected, std::span<const uint8_t> bytes, const std::string& what) {
+  EXPECT_EQ(sha256(bytes), expected["sha256"].get<std::string>()) << what;
+}
+
+/// The attributes that an extension object names.
+void expectAttributes(const Json& ids, const Json& expected, const DecodedPiece& piece,
+                      const std::string& where) {
+  for (const auto& [name, id] : ids.items()) {
+    const DecodedAttribute& a = piece.attributes.at(id.get<size_t>());
+    EXPECT_EQ(piece.wedge_count, expected[name]["count"].get<uint32_t>()) << where << name;
+    expectHash(expected[name], a.bytes, where + name);
+  }
+}
+
+TEST(Sha256, ExamplesOfTheStandard) {
+  const auto hash = [](const std::string& text) {
+    return sha256({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+  };
+  EXPECT_EQ(hash(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(hash("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(hash("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+}
+
+TEST(Conformance, AssetsDecodeToTheirHashes) {
+  ASSERT_GT(manifest()["assets"].size(), 100u);
+  for (const Json& asset : manifest()["assets"]) {
+    const File file(asset);
+    std::vector<DecodedPiece> pieces;
+    ASSERT_EQ(decodePayload(file.payload, {}, pieces), "") << file.name;
+    const Json& primitives = file.json["meshes"][0]["primitives"];
+    ASSERT_EQ(primitives.size(), asset["primitives"].size()) << file.name;
+    for (size_t i = 0; i < primitives.size(); ++i) {
+      const Json& expected = asset["primitives"][i];
+      const Json& extension = primitives[i]["extensions"][gltf::kExtensionName];
+      const DecodedPiece& piece = pieces.at(extension.value("piece", size_t{0}));
+      const std::vector<uint32_t>& indices = piece.parts.at(extension.value("part", size_t{0}));
+      const std::string where = file.name + ", primitive " + std::to_string(i) + ", ";
+      EXPECT_EQ(indices.size(), expected["indices"]["count"].get<size_t>()) << where;
+      std::vector<uint8_t> bytes;
+      for (const uint32_t index : indices) {
+        for (uint32_t shift = 0; shift < 32; shift += 8)
+          bytes.push_back(static_cast<uint8_t>(index >> shift));
+      }
+      expectHash(expected["indices"], bytes, where + "indices");
+      expectAttributes(extension.value("attributes", Json::object()), expected["attributes"], piece,
+                       where);
+      const Json targets = extension.value("targets", Json::array());
+      for (size_t t = 0; t < targets.size(); ++t)
+        expectAttributes(targets[t], expected["targets"][t], piece, where + "target ");
+    }
+  }
+}
+
+TEST(Conformance, NegativeAssetsAreRefusedForTheirReason) {
+  ASSERT_GT(manifest()["negative"].size(), 100u);
+  std::vector<bool> seen(11, false);
+  for (const Json& asset : manifest()["negative"]) {
+    const File file(asset);
+    std::vector<uint8_t> output;
+    gltf::DecodeReport report;
+    EXPECT_FALSE(gltf::decodeGlb(file.bytes, output, report).ok()) << file.name;
+    EXPECT_TRUE(output.empty()) << file.name;
+    const uint32_t error = asset["error"];
+    seen.at(error) = true;
+    if (error == 0) continue;  // the document is wrong
+    EXPECT_EQ(static_cast<uint32_t>(errorOf(file.payload, file.payload.size())), error)
+        << file.name;
+  }
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), false), 0) << "not every kind of error is there";
+}
+
+TEST(Conformance, EveryTruncationIsAnError) {
+  for (const Json& asset : manifest()["assets"]) {
+    const File file(asset);
+    for (size_t size = 0; size < file.payload.size(); ++size)
+      ASSERT_NE(errorOf(file.payload, size), Error::kOk) << file.name << " cut to " << size;
+  }
+}
+
+/// Every part of the format that an asset can show is shown by one, as far as the sections tell.
+TEST(Conformance, SectionsAreCovered) {
+  std::set<std::string> covered;
+  for (const char* const list : {"assets", "negative"}) {
+    for (const Json& asset : manifest()[list]) {
+      for (const Json& id : asset["spec"]) covered.insert(id);
+    }
+  }
+  for (const char* const section :
+       {"A.2.4", "A.3.3", "A.3.4", "A.3.5", "A.3.7",  "A.4.3",  "A.4.4",  "A.4.5",
+        "A.4.6", "A.5.3", "A.5.4", "A.7.3", "A.7.4",  "A.8.3",  "A.8.4",  "A.8.5",
+        "A.8.6", "A.8.7", "A.8.8", "A.8.9", "A.8.10", "A.8.11", "A.8.13", "A.8.14",
+        "A.9.1", "A.9.2", "A.9.3", "A.9.4", "A.10.2", "A.10.3", "A.10.4", "B.2.3",
+        "B.2.8", "B.2.9", "B.3.2", "B.3.3", "B.5.2",  "B.5.3",  "B.5.4",  "B.6.6",
+        "B.6.7", "B.7.3", "B.7.4", "B.7.5", "B.8.1",  "B.8.2"}) {
+    EXPECT_TRUE(covered.contains(section)) << section;
+  }
+}
+
+}  // namespace
+}  // namespace mcc::test

@@ -1,0 +1,293 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "asset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <stdexcept>
+
+#include "gltf/accessors.h"
+#include "gltf/glb.h"
+#include "gltf/payload.h"
+#include "gltf/plan.h"
+#include "support/mesh_compare.h"
+#include "support/sha256.h"
+
+namespace mcc::conformance {
+namespace {
+
+struct Shape {
+  uint32_t columns;
+  uint32_t rows;
+};
+
+Shape shapeOf(const std::string& type) {
+  if (type == "SCALAR") return {1, 1};
+  const auto size = static_cast<uint32_t>(type.back() - '0');
+  return type.starts_with("MAT") ? Shape{size, size} : Shape{1, size};
+}
+
+uint32_t enumerantOf(ComponentType type) {
+  switch (type) {
+    case ComponentType::kInt8: return 5120;
+    case ComponentType::kUint8: return 5121;
+    case ComponentType::kInt16: return 5122;
+    case ComponentType::kUint16: return 5123;
+    case ComponentType::kUint32: return 5125;
+    case ComponentType::kFloat32: break;
+  }
+  return 5126;
+}
+
+void check(const gltf::Result& result, const std::string& name) {
+  if (!result.ok()) throw std::runtime_error(name + ": " + result.message());
+}
+
+/// Least type that holds `wedge_count` indices; its largest value is none.
+ComponentType indexType(uint32_t wedge_count) {
+  if (wedge_count <= 0xff) return ComponentType::kUint8;
+  return wedge_count <= 0xffff ? ComponentType::kUint16 : ComponentType::kUint32;
+}
+
+class Document {
+ public:
+  explicit Document(const Asset& asset) : asset_(asset) {
+    check(gltf::decodePayload(asset.payload, asset.name, decoded_), asset.name);
+    bin_ = asset.payload;
+    json_ = {{"asset", {{"version", "2.0"}, {"generator", "generate-conformance"}}},
+             {"extensionsUsed", {gltf::kExtensionName}},
+             {"extensionsRequired", {gltf::kExtensionName}},
+             {"scene", 0},
+             {"scenes", {{{"nodes", {0}}}}},
+             {"nodes", {{{"mesh", 0}}}},
+             {"meshes", {{{"primitives", Json::array()}}}},
+             {"accessors", Json::array()},
+             {"bufferViews",
+              {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", asset.payload.size()}}}}};
+    expected_ = Json::array();
+    const PayloadInfo& info = decoded_.payload.info();
+    for (uint32_t p = 0; p < info.pieces.size(); ++p) {
+      if (info.pieces[p].wedge_count != 0) addPiece(p, info.pieces[p]);
+    }
+    json_["buffers"] = {{{"byteLength", bin_.size()}}};
+  }
+
+  const Json& json() const { return json_; }
+  const std::vector<uint8_t>& bin() const { return bin_; }
+  const Json& expected() const { return expected_; }
+
+ private:
+  static Json describe(const NamedAttribute& a, uint32_t count, std::span<const uint8_t> tight) {
+    Json expected = {{"type", a.type},
+                     {"componentType", enumerantOf(a.format.component_type)},
+                     {"normalized", a.format.normalized},
+                     {"count", count},
+                     {"sha256", test::sha256(tight)}};
+    return expected;
+  }
+
+  static void addBounds(Json& accessor, const NamedAttribute& a, std::span<const uint8_t> tight) {
+    const uint32_t bytes = componentBytes(a.format.component_type);
+    const uint32_t n = a.format.component_count;
+    std::vector<double> low;
+    std::vector<double> high;
+    for (size_t i = 0; i < tight.size() / bytes; ++i) {
+      const double x = gltf::componentValue(&tight[i * bytes], a.format.component_type);
+      if (i < n) {
+        low.push_back(x);
+        high.push_back(x);
+      }
+      low[i % n] = std::min(low[i % n], x);
+      high[i % n] = std::max(high[i % n], x);
+    }
+    const auto write = [&](const std::vector<double>& bounds) {
+      Json array = Json::array();
+      for (const double x : bounds) {
+        if (x == std::floor(x) && std::fabs(x) < 1e15) {
+          array.push_back(static_cast<int64_t>(x));
+        } else {
+          array.push_back(x);
+        }
+      }
+      return array;
+    };
+    accessor["min"] = write(low);
+    accessor["max"] = write(high);
+  }
+
+  uint32_t addAccessor(const NamedAttribute& a, uint32_t count, std::span<const uint8_t> tight) {
+    Json accessor = {{"componentType", enumerantOf(a.format.component_type)},
+                     {"count", count},
+                     {"type", a.type}};
+    if (a.format.normalized) accessor["normalized"] = true;
+    if (a.name == "POSITION") addBounds(accessor, a, tight);
+    json_["accessors"].push_back(std::move(accessor));
+    return static_cast<uint32_t>(json_["accessors"].size() - 1);
+  }
+
+  /// An accessor with elements of its own.
+  uint32_t addOrdinary(const NamedAttribute& a, uint32_t count) {
+    const uint32_t number = addAccessor(a, count, a.bytes);
+    while (bin_.size() % 4 != 0) bin_.push_back(0);
+    json_["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", bin_.size()}, {"byteLength", a.bytes.size()}});
+    bin_.insert(bin_.end(), a.bytes.begin(), a.bytes.end());
+    json_["accessors"][number]["bufferView"] = json_["bufferViews"].size() - 1;
+    return number;
+  }
+
+  void addPiece(uint32_t p, const PieceInfo& info) {
+    const PieceNames& names = asset_.pieces[p];
+    Json primitive = {{"attributes", Json::object()}, {"indices", 0}};
+    Json extension = {{"bufferView", 0}};
+    if (p != 0) extension["piece"] = p;
+    Json expected = {{"indices", Json::object()}, {"attributes", Json::object()}};
+    Json targets = Json::array();
+    Json target_ids = Json::array();
+    Json expected_targets = Json::array();
+    const auto place = [&](const NamedAttribute& a, uint32_t accessor, int64_t id, Json described) {
+      if (a.target == kNone) {
+        primitive["attributes"][a.name] = accessor;
+        if (id >= 0) extension["attributes"][a.name] = id;
+        expected["attributes"][a.name] = std::move(described);
+        return;
+      }
+      while (targets.size() <= a.target) {
+        for (Json* list : {&targets, &target_ids, &expected_targets})
+          list->push_back(Json::object());
+      }
+      targets[a.target][a.name] = accessor;
+      if (id >= 0) target_ids[a.target][a.name] = id;
+      expected_targets[a.target][a.name] = std::move(described);
+    };
+    for (size_t i = 0; i < names.coded.size(); ++i) {
+      const NamedAttribute& a = names.coded[i];
+      const std::vector<uint8_t>& tight = decoded_.pieces[p].attributes[i];
+      if (a.name.empty()) continue;
+      place(a, addAccessor(a, info.wedge_count, tight), static_cast<int64_t>(i),
+            describe(a, info.wedge_count, tight));
+    }
+    for (const NamedAttribute& a : names.ordinary) {
+      place(a, addOrdinary(a, info.wedge_count), -1, describe(a, info.wedge_count, a.bytes));
+    }
+    if (!targets.empty()) {
+      primitive["targets"] = targets;
+      extension["targets"] = target_ids;
+      expected["targets"] = expected_targets;
+    }
+    for (uint32_t part = 0; part < info.parts.size(); ++part) {
+      const std::vector<uint32_t>& indices = decoded_.pieces[p].parts[part];
+      if (indices.empty()) continue;
+      if (part != 0) extension["part"] = part;
+      json_["accessors"].push_back({{"componentType", enumerantOf(indexType(info.wedge_count))},
+                                    {"count", indices.size()},
+                                    {"type", "SCALAR"}});
+      primitive["indices"] = json_["accessors"].size() - 1;
+      primitive["extensions"][gltf::kExtensionName] = extension;
+      json_["meshes"][0]["primitives"].push_back(primitive);
+      std::vector<uint8_t> bytes;
+      for (const uint32_t index : indices) {
+        for (uint32_t shift = 0; shift < 32; shift += 8)
+          bytes.push_back(static_cast<uint8_t>(index >> shift));
+      }
+      expected["indices"] = {{"count", indices.size()}, {"sha256", test::sha256(bytes)}};
+      expected_.push_back(expected);
+    }
+  }
+
+  const Asset& asset_;
+  gltf::DecodedPayload decoded_;
+  Json json_;
+  Json expected_;
+  std::vector<uint8_t> bin_;
+};
+
+std::vector<std::vector<AttributeView>> viewsOf(const Source& source) {
+  std::vector<std::vector<AttributeView>> views;
+  for (const SourcePiece& piece : source.pieces) {
+    views.emplace_back();
+    for (const NamedAttribute& a : piece.attributes) {
+      if (a.bytes.size() != size_t{piece.wedge_count} * elementBytes(a.format))
+        throw std::runtime_error(source.name + ": " + a.name + " has not one element per wedge");
+      views.back().push_back({a.format, a.bytes.data(), elementBytes(a.format), a.bits,
+                              a.lattice ? &*a.lattice : nullptr});
+      if (source.options.indices_only) break;
+    }
+  }
+  return views;
+}
+
+/// Attributes that the payload does not hold, put in the decoded order.
+std::vector<NamedAttribute> reordered(const SourcePiece& piece, const PieceResult& result) {
+  std::vector<NamedAttribute> all = piece.attributes;
+  for (NamedAttribute& a : all) {
+    const std::vector<uint8_t> source = a.bytes;
+    const size_t bytes = elementBytes(a.format);
+    for (size_t w = 0; w < piece.wedge_count; ++w)
+      std::memcpy(&a.bytes[w * bytes], &source[result.source_wedge[w] * bytes], bytes);
+  }
+  return all;
+}
+
+}  // namespace
+
+NamedAttribute makeAttribute(const std::string& name, uint32_t target, const std::string& type,
+                             ComponentType component_type, bool normalized) {
+  gltf::Accessor accessor;
+  accessor.columns = shapeOf(type).columns;
+  accessor.rows = shapeOf(type).rows;
+  accessor.component_type = component_type;
+  accessor.normalized = normalized;
+  NamedAttribute a;
+  a.name = name;
+  a.target = target;
+  a.type = type;
+  a.format = gltf::formatOf(name, target, accessor);
+  return a;
+}
+
+Asset encodeSource(const Source& source) {
+  const std::vector<std::vector<AttributeView>> attributes = viewsOf(source);
+  std::vector<std::vector<PartView>> parts;
+  std::vector<PieceView> pieces;
+  for (size_t i = 0; i < source.pieces.size(); ++i) {
+    parts.emplace_back();
+    for (const std::vector<uint32_t>& part : source.pieces[i].parts) parts[i].push_back({part});
+  }
+  for (size_t i = 0; i < source.pieces.size(); ++i)
+    pieces.push_back({source.pieces[i].wedge_count, attributes[i], parts[i]});
+  test::RoundTrip trip = test::roundTrip(pieces, source.options);
+  if (!trip.failure.empty()) throw std::runtime_error(source.name + ": " + trip.failure);
+  Asset asset{source.name, source.shows, std::move(trip.encoded.payload), {}};
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    PieceNames names;
+    if (source.options.indices_only) {
+      names.ordinary = reordered(source.pieces[i], trip.encoded.pieces[i]);
+    } else {
+      names.coded = source.pieces[i].attributes;
+      for (NamedAttribute& a : names.coded) {
+        a.bytes.clear();
+        // Targets that no primitive of a small document can have stay unnamed.
+        if (a.target != kNone && a.target >= 16) a.name.clear();
+      }
+    }
+    asset.pieces.push_back(std::move(names));
+  }
+  return asset;
+}
+
+std::vector<uint8_t> makeGlb(const Asset& asset) {
+  const Document document(asset);
+  return glbOf(document.json(), document.bin());
+}
+
+Json expectedOf(const Asset& asset) { return Document(asset).expected(); }
+
+std::vector<uint8_t> glbOf(const Json& json, std::span<const uint8_t> bin) {
+  std::vector<uint8_t> file;
+  check(gltf::writeGlb(gltf::printJson(json), bin, {}, file), "GLB");
+  return file;
+}
+
+}  // namespace mcc::conformance

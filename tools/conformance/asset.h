@@ -1,0 +1,82 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// From sources to payloads to GLB files with what a decoder has to find in them.
+#ifndef MCC_TOOLS_CONFORMANCE_ASSET_H_
+#define MCC_TOOLS_CONFORMANCE_ASSET_H_
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gltf/json.h"
+#include "mcc/reader.h"
+#include "mcc/writer.h"
+
+namespace mcc::conformance {
+
+using gltf::Json;
+
+/// An attribute of a source and its place in the document.
+struct NamedAttribute {
+  std::string name;         ///< "POSITION"
+  uint32_t target = kNone;  ///< morph target; kNone: the base mesh
+  std::string type;         ///< of the accessor, "VEC3"
+  AttributeFormat format;   ///< follows from name, target and type
+  std::vector<uint8_t> bytes;
+  uint8_t bits = 0;  ///< 0: exact
+  std::optional<Lattice> lattice;
+
+  template <class T>
+  void append(T value) {
+    const auto* first = reinterpret_cast<const uint8_t*>(&value);
+    bytes.insert(bytes.end(), first, first + sizeof(T));
+  }
+};
+
+/// An attribute without elements yet. `target` as in NamedAttribute.
+NamedAttribute makeAttribute(const std::string& name, uint32_t target, const std::string& type,
+                             ComponentType component_type, bool normalized = false);
+
+struct SourcePiece {
+  uint32_t wedge_count = 0;
+  std::vector<NamedAttribute> attributes;  ///< POSITION first
+  std::vector<std::vector<uint32_t>> parts;
+};
+
+struct Source {
+  std::string name;   ///< of the file, without extension
+  std::string shows;  ///< one sentence
+  std::vector<SourcePiece> pieces;
+  EncodeOptions options;
+};
+
+/// What a primitive names of a piece.
+struct PieceNames {
+  std::vector<NamedAttribute> coded;     ///< as many as the piece has; without a name: left unnamed
+  std::vector<NamedAttribute> ordinary;  ///< with elements in decoded order
+};
+
+struct Asset {
+  std::string name;
+  std::string shows;
+  std::vector<uint8_t> payload;
+  std::vector<PieceNames> pieces;
+};
+
+/// Encodes, decodes and compares with the source; throws where they differ.
+Asset encodeSource(const Source& source);
+
+/// The file: one mesh, one primitive for each part that has triangles.
+std::vector<uint8_t> makeGlb(const Asset& asset);
+
+/// The member "primitives" of the manifest: counts and hashes of what decodes.
+Json expectedOf(const Asset& asset);
+
+/// A GLB with one mesh; `bin` starts with the payload. Of tests for documents.
+std::vector<uint8_t> glbOf(const Json& json, std::span<const uint8_t> bin);
+
+}  // namespace mcc::conformance
+
+#endif  // MCC_TOOLS_CONFORMANCE_ASSET_H_

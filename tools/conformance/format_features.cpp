@@ -1,0 +1,322 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "format_features.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "container/payload_header.h"
+#include "gltf/payload.h"
+#include "mesh/attribute_method.h"
+
+namespace mcc::conformance {
+namespace {
+
+using Sections = std::set<std::string>;
+
+std::string text(const char* name, uint64_t number) {
+  return std::string(name) + " " + std::to_string(number);
+}
+
+class Listing {
+ public:
+  explicit Listing(const PayloadHeader& header) : header_(header) {}
+
+  Features run() {
+    // What no payload is without.
+    add("payload", {"A.1.1", "A.1.2", "A.1.3", "A.2.1", "A.2.2", "A.2.3", "A.2.5", "A.2.6", "A.2.8",
+                    "A.3.1", "A.3.2", "A.3.6", "A.3.8"});
+    add(header_.singleCoder() ? "single coder" : "three streams",
+        header_.singleCoder() ? Sections{"A.3.7"} : Sections{"A.3.3", "A.3.4"});
+    add(text("context set", header_.contextSet()), {"A.4.2", "A.4.5"});
+    if ((header_.flags & payload_flag::kPadded) != 0) add("PADDED", {"A.2.5", "A.2.6"});
+    if ((header_.flags & payload_flag::kManyPieces) != 0) add("MANY_PIECES", {"A.2.1", "A.3.6"});
+    if (header_.version_minor != 0) add(text("minor version", header_.version_minor), {"A.2.1"});
+    for (size_t i = 0; i < header_.pieces.size(); ++i) addPiece(header_.pieces[i]);
+    return std::move(features_);
+  }
+
+ private:
+  void add(const std::string& name, const Sections& sections) {
+    features_[name].insert(sections.begin(), sections.end());
+  }
+
+  /// The flags whose stages look at what this one's stage does.
+  static uint32_t meetsOf(uint32_t flag) {
+    switch (flag) {
+      case piece_flag::kSeams: return piece_flag::kCopies | piece_flag::kInteriorCopies;
+      case piece_flag::kMerges: return piece_flag::kCopies;
+      case piece_flag::kManyParts:
+        return piece_flag::kDuplicates | piece_flag::kEdgeDegenerates | piece_flag::kListed |
+               piece_flag::kTriangleOrder | piece_flag::kVertexOrder;
+      case piece_flag::kTriangleOrder:
+        return piece_flag::kVertexOrder | piece_flag::kDuplicates | piece_flag::kListed;
+      case piece_flag::kVertexOrder: return piece_flag::kIsolated;
+      default: return 0;
+    }
+  }
+
+  void addPiece(const PieceHeader& piece) {
+    struct Flag {
+      uint32_t bit;
+      const char* name;
+      Sections sections;
+    };
+    static const Flag kFlags[] = {
+        {piece_flag::kSeams, "SEAMS", {"A.7", "A.7.1", "A.7.2", "A.7.3"}},
+        {piece_flag::kManyParts, "MANY_PARTS", {"A.9.1"}},
+        {piece_flag::kSameAttributes, "SAME_ATTRIBUTES", {"A.2.3"}},
+        {piece_flag::kHoles, "HOLES", {"A.4.6"}},
+        {piece_flag::kHandles, "HANDLES", {"A.4.4"}},
+        {piece_flag::kCopies, "COPIES", {"A.5", "A.5.1", "A.5.2", "A.5.3", "A.5.4", "A.3.5"}},
+        {piece_flag::kInteriorCopies, "INTERIOR_COPIES", {"A.5.1", "A.5.2", "A.5.4"}},
+        {piece_flag::kMerges, "MERGES", {"A.7.3"}},
+        {piece_flag::kIsolated, "ISOLATED", {"A.2.2"}},
+        {piece_flag::kDuplicates, "DUPLICATES", {"A.9.2"}},
+        {piece_flag::kListed, "LISTED", {"A.9.4"}},
+        {piece_flag::kEdgeDegenerates, "EDGE_DEGENERATES", {"A.9.3"}},
+        {piece_flag::kCreases, "CREASES", {"A.7.4"}},
+        {piece_flag::kTriangleOrder, "TRIANGLE_ORDER", {"A.10.1", "A.10.2", "A.10.3"}},
+        {piece_flag::kVertexOrder, "VERTEX_ORDER", {"A.10.1", "A.10.2", "A.10.4"}},
+    };
+    for (const Flag& flag : kFlags) {
+      if (!piece.has(flag.bit)) continue;
+      add(flag.name, flag.sections);
+      const uint32_t meets = meetsOf(flag.bit);
+      for (const Flag& other : kFlags) {
+        if ((meets & other.bit) == 0 || !piece.has(other.bit)) continue;
+        Sections both = flag.sections;
+        both.insert(other.sections.begin(), other.sections.end());
+        add(std::string(flag.name) + " and " + other.name, both);
+      }
+    }
+    if (piece.face_count == 0) add("empty piece", {"A.2.2"});
+    if (piece.part_count > 1) {
+      for (uint32_t i = 0; i < piece.part_count; ++i) {
+        if (header_.parts[piece.first_part + i].triangle_count == 0) add("empty part", {"A.2.2"});
+      }
+    }
+    if (piece.attribute_count == 0) {
+      add("no attributes", {"A.2.3", "A.6"});
+      if (piece.has(piece_flag::kSeams)) add("no attributes, SEAMS", {"A.6", "A.7"});
+      return;
+    }
+    all_ = &header_.attributes[piece.first_attribute];
+    count_ = piece.attribute_count;
+    seams_ = piece.has(piece_flag::kSeams);
+    addPosition(all_[0], piece);
+    for (uint32_t i = 1; i < count_; ++i) addAttribute(i);
+  }
+
+  void addCoding(const AttributeInfo& a) {
+    static const char* const kCodings[] = {"lattice",       "integer", "exact float", "octahedral",
+                                           "tangent angle", "alias",   "grid"};
+    const std::string coding = kCodings[static_cast<size_t>(a.coding)];
+    add("coding " + coding, {"A.2.4", "A.8.12"});
+    switch (a.coding) {
+      case AttributeCoding::kLattice: add(text("lattice bits", a.bits), {"A.2.4", "A.8.12"}); break;
+      case AttributeCoding::kOctahedral:
+        add(text("octahedral bits", a.bits), {"A.2.4", "B.4.1"});
+        break;
+      case AttributeCoding::kTangentAngle:
+        add(text("tangent angle bits", a.bits), {"A.2.4", "B.6.3"});
+        break;
+      case AttributeCoding::kGrid:
+        add(text("grid", a.grid), {"A.2.4", "A.8.13"});
+        add(text("tails", a.tails) + (&a == all_ ? " of positions" : ""), {"A.8.13"});
+        break;
+      default: break;
+    }
+    add(text("component type", static_cast<uint64_t>(a.format.component_type)) +
+            (a.format.normalized ? " normalized" : ""),
+        {"A.2.4"});
+    add(text("components", a.format.component_count), {"A.2.4"});
+    if (a.format.set_index != 0) add("set other than 0", {"A.2.4"});
+    if (a.format.set_index == 255) add("set 255", {"A.2.4"});
+    if (a.format.morph_target != 0) add("morph target", {"A.2.4", "A.8.14"});
+    if (a.format.morph_target == 65535) add("morph target 65535", {"A.2.4"});
+  }
+
+  void addPosition(const AttributeInfo& a, const PieceHeader& piece) {
+    addCoding(a);
+    const uint32_t predictor = a.predictor & position_flag::kPredictorMask;
+    const uint32_t kind = (a.predictor & position_flag::kKindMask) >> 3;
+    static const char* const kKinds[] = {"plain", "sheared", "palette", "planes"};
+    static const Sections kKindSections[] = {
+        {"B.2.2", "B.2.4", "B.2.5", "B.2.6"}, {"B.2.3"}, {"B.2.8"}, {"B.2.9"}};
+    Sections sections = kKindSections[kind];
+    sections.insert({"A.6", "A.6.1", "A.6.2", "A.6.3", "A.2.7", "B.2.1", "B.2.2", "B.2.4", "B.2.5",
+                     "B.2.6", "B.2.7", "A.3.3"});
+    const std::string name = text("position predictor", predictor) + " " + kKinds[kind];
+    add(name, sections);
+    for (const auto& [bit, flag] :
+         {std::pair{position_flag::kOwnScale, " OWN_SCALE"},
+          std::pair{position_flag::kFold, " FOLD"}, std::pair{position_flag::kSplit, " SPLIT"}}) {
+      if ((a.predictor & bit) != 0) add(name + flag, sections);
+    }
+    const uint32_t bits = a.coding == AttributeCoding::kInteger
+                              ? 8 * componentBytes(a.format.component_type)
+                          : a.coding == AttributeCoding::kExactFloat ? 26
+                                                                     : a.bits;
+    static const char* const kCodings[] = {"lattice", "integer", "exact", "", "", "", "grid"};
+    const std::string coding = kCodings[static_cast<size_t>(a.coding)];
+    add("positions " + coding + (bits > 17 ? " wide " : " ") + kKinds[kind], sections);
+    if (piece.isolated_count != 0) add(std::string("isolated wedges, ") + kKinds[kind], {"B.2.7"});
+    if (piece.has(piece_flag::kCopies)) add(std::string("copies, ") + kKinds[kind], {"A.6.1"});
+    if (piece.has(piece_flag::kCreases)) add("creases, positions " + coding, {"A.7.4", "B.4.6"});
+  }
+
+  /// A method with these bits of its predictor together and each of the others apart.
+  void addMethod(const std::string& method, uint8_t predictor, uint8_t together,
+                 const Sections& sections) {
+    add(text((method + ", predictor").c_str(), predictor & together), sections);
+    for (uint32_t bit = 1; bit < kHasEqualities; bit *= 2) {
+      if ((predictor & ~together & bit) != 0) add(text((method + ", bit").c_str(), bit), sections);
+    }
+    if (!seams_) return;
+    if ((predictor & kHasEqualities) != 0) {
+      Sections with = sections;
+      with.insert("A.8.3");
+      add(method + ", equal values", with);
+    } else {
+      add(method + ", seams without equal values", sections);
+    }
+  }
+
+  void addAttribute(uint32_t index) {
+    const AttributeInfo& a = all_[index];
+    addCoding(a);
+    const AttributeInfo& position = all_[0];
+    const bool exact_positions = position.coding != AttributeCoding::kLattice;
+    const bool exact_normal = exactNormalOf(all_, count_) != kNone;
+    const bool chart = chartOfTangents(all_, count_) != kNone;
+    switch (methodOf(all_, count_, index)) {
+      case AttributeMethod::kNormal:
+        addMethod("normal", a.predictor, 0x0f,
+                  {"A.8.5", "A.8.1", "A.8.2", "B.4.1", "B.4.2", "B.4.4", "B.4.5", "B.4.6"});
+        if ((a.predictor & 3) == 1) add("normal by angles", {"B.4.3"});
+        if (exact_positions) add("normals of exact positions", {"B.4.6"});
+        break;
+      case AttributeMethod::kTexcoord: {
+        Sections sections = {"A.8.6", "A.8.1", "A.8.2", "B.5.1"};
+        const uint32_t predictor = a.predictor & texcoord_method::kPredictorMask;
+        sections.insert(predictor >= 2 ? "B.5.2" : "B.5.3");
+        if ((a.predictor & texcoord_method::kRepeats) != 0) sections.insert("B.5.4");
+        addMethod("texture coordinate", a.predictor, 0x0f, sections);
+        if (a.coding == AttributeCoding::kGrid)
+          add("texture coordinate on a grid", {"A.8.6", "A.8.13"});
+        break;
+      }
+      case AttributeMethod::kTangent:
+        addMethod(chart ? "tangent angle" : "tangent angle without a chart", a.predictor, 0,
+                  {"A.8.7", "B.6.1", "B.6.2", "B.6.3", "B.6.4", "B.6.5", "B.4.3"});
+        break;
+      case AttributeMethod::kTangentPoint:
+        addMethod(std::string("tangent point") + (exact_normal ? ", exact normal" : "") +
+                      (chart ? "" : ", no chart"),
+                  a.predictor, 0x01, {"A.8.7", "B.6.4", "B.6.6", "B.4.4", "B.4.5"});
+        break;
+      case AttributeMethod::kSkin: {
+        const AttributeInfo& weights = all_[skinPartner(all_, count_, index)];
+        addMethod("skin", a.predictor, 0x03, {"A.8.8", "A.8.1", "A.8.2"});
+        add(text("weights, predictor", weights.predictor) +
+                (weights.coding == AttributeCoding::kInteger   ? " integer"
+                 : weights.coding == AttributeCoding::kLattice ? " lattice"
+                                                               : " exact"),
+            {"A.8.8"});
+        break;
+      }
+      case AttributeMethod::kExactNormal:
+        addMethod("exact normal", a.predictor, 0x0f, {"A.8.9", "B.4.7", "B.7.1", "B.7.2"});
+        if ((a.predictor & exact_normal_method::kRemembers) != 0)
+          add("exact normal remembers", {"B.7.3"});
+        if ((a.predictor & exact_normal_method::kRemembersEdges) != 0)
+          add("exact normal remembers edges", {"B.7.4"});
+        break;
+      case AttributeMethod::kExactTangent:
+        addMethod(std::string("exact tangent") + (exact_normal ? "" : " without exact normal") +
+                      (chart ? "" : ", no chart"),
+                  a.predictor, 0x07, {"A.8.10", "B.6.7", "B.7.1", "B.7.2", "B.6.5"});
+        if ((a.predictor & exact_tangent_method::kRemembers) != 0)
+          add("exact tangent remembers", {"B.7.3"});
+        break;
+      case AttributeMethod::kExactValues:
+        addMethod("exact values", a.predictor, 0x07, {"A.8.11", "B.7.1", "B.7.5"});
+        if ((a.predictor & exact_value_method::kRemembers) != 0)
+          add("exact values remember", {"B.7.4"});
+        break;
+      case AttributeMethod::kWithAnother: break;
+      case AttributeMethod::kValues: addValues(index); break;
+    }
+  }
+
+  void addValues(uint32_t index) {
+    const AttributeInfo& a = all_[index];
+    const bool is_target = a.format.morph_target != 0;
+    Sections sections = {"A.8.4", "A.8.1", "A.8.2", "B.3.1"};
+    if ((a.predictor & value_method::kPredictorMask) == value_method::kBlend)
+      sections.insert("B.3.2");
+    std::string method = "values";
+    if (is_target) {
+      sections.insert("A.8.14");
+      static const char* const kNames[] = {" of POSITION deltas", " of NORMAL deltas",
+                                           " of TANGENT deltas"};
+      method += a.format.semantic <= Semantic::kTangent
+                    ? kNames[static_cast<size_t>(a.format.semantic)]
+                    : " of other deltas";
+      if (a.format.semantic == Semantic::kNormal && (a.predictor & value_method::kBends) != 0)
+        sections.insert("B.8.1");
+      if ((a.predictor & value_method::kUnits) != 0) sections.insert("B.8.2");
+    } else if ((a.predictor & value_method::kIds) != 0) {
+      method = "ids";
+      sections.insert("B.3.3");
+    }
+    if (a.coding == AttributeCoding::kGrid) method += " on a grid";
+    addMethod(method, a.predictor, 0x03, sections);
+    if ((a.predictor & value_method::kPredictorMask) == value_method::kBlend)
+      add(text("blend of components", a.format.component_count), {"B.3.2"});
+  }
+
+  const PayloadHeader& header_;
+  const AttributeInfo* all_ = nullptr;
+  uint32_t count_ = 0;
+  bool seams_ = false;
+  Features features_;
+};
+
+void addCodes(std::span<const uint8_t> payload, Features& features) {
+  gltf::DecodedPayload decoded;
+  CodeHistogram histogram{};
+  const Status opened = decoded.payload.open(payload);
+  if (!opened.ok()) throw std::runtime_error(opened.what);
+  const gltf::Result result = gltf::decodePieces("payload", decoded, &histogram);
+  if (!result.ok()) throw std::runtime_error(result.message());
+  const auto add = [&](const std::string& name, uint64_t count, const Sections& sections) {
+    if (count != 0) features[name].insert(sections.begin(), sections.end());
+  };
+  add("code S", histogram.start, {"A.4.4"});
+  add("code E", histogram.end, {"A.4.1", "A.4.3"});
+  add("code M", histogram.handle, {"A.4.4", "A.3.5"});
+  add("dummies coded", histogram.dummy, {"A.4.5", "A.3.5"});
+  for (uint32_t degree = 0; degree < 256; ++degree) {
+    add(text("code of degree", std::min(degree, 16u)), histogram.degree[degree], {"A.4.5"});
+  }
+}
+
+}  // namespace
+
+Features featuresOf(std::span<const uint8_t> payload) {
+  PayloadHeader header{Allocator{}};
+  const Status status = parsePayload(payload, {}, header);
+  if (!status.ok()) throw std::runtime_error(status.what);
+  Features features = Listing(header).run();
+  addCodes(payload, features);
+  return features;
+}
+
+std::set<std::string> sectionsOf(const Features& features) {
+  Sections all;
+  for (const auto& [name, sections] : features) all.insert(sections.begin(), sections.end());
+  return all;
+}
+
+}  // namespace mcc::conformance

@@ -1,0 +1,151 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "header_fields.h"
+
+#include <stdexcept>
+
+#include "base/crc32.h"
+#include "base/enc_bytes.h"
+#include "container/payload_header.h"
+
+namespace mcc::conformance {
+
+void repairChecksum(Bytes& payload) {
+  if (payload.size() < kChecksummedFrom) return;
+  const std::span<const uint8_t> all(payload);
+  const uint32_t checksum = crc32(all.subspan(kChecksummedFrom), crc32(all.first(kChecksumOffset)));
+  for (size_t i = 0; i < 4; ++i)
+    payload[kChecksumOffset + i] = static_cast<uint8_t>(checksum >> (8 * i));
+}
+
+Bytes varint(uint32_t value) {
+  ByteWriter out;
+  out.writeVarint(value);
+  return out.bytes();
+}
+
+HeaderFields::HeaderFields(std::span<const uint8_t> payload)
+    : rest_(payload.subspan(8)), version_(payload[3]) {
+  take("flags", 1);
+  const uint32_t flags = get("flags");
+  const bool many = (flags & payload_flag::kManyPieces) != 0;
+  const uint32_t pieces = many ? takeVarint("piece count") : 1;
+  for (uint32_t i = 0; i < pieces; ++i) takePiece(std::to_string(i) + ".");
+  const bool single = (flags & payload_flag::kSingleCoder) != 0;
+  const uint32_t codes = single ? 0 : takeVarint("codes bytes");
+  const uint32_t tokens = single ? 0 : takeVarint("tokens bytes");
+  if ((flags & payload_flag::kPadded) != 0) take("padding", takeVarint("padding bytes"));
+  take("codes", single ? rest_.size() : codes);
+  if (single) return;
+  take("tokens", tokens);
+  take("raw", rest_.size());
+}
+
+void HeaderFields::takePiece(const std::string& prefix) {
+  const uint32_t flags = takeVarint(prefix + "flags");
+  for (const char* const name : {"vertices", "faces", "operations", "wedges"})
+    takeVarint(prefix + name);
+  const auto takeIf = [&](uint32_t flag, const char* name) {
+    return (flags & flag) != 0 ? takeVarint(prefix + name) : 0;
+  };
+  takeIf(piece_flag::kHoles, "dummies");
+  takeIf(piece_flag::kIsolated, "isolated");
+  takeIf(piece_flag::kDuplicates, "duplicates");
+  takeIf(piece_flag::kEdgeDegenerates, "degenerates");
+  takeIf(piece_flag::kListed, "listed");
+  const uint32_t parts = takeIf(piece_flag::kManyParts, "parts");
+  for (uint32_t i = 0; i < parts; ++i) takeVarint(prefix + "part " + std::to_string(i));
+  if ((flags & piece_flag::kSameAttributes) != 0) return;
+  const uint32_t attributes = takeVarint(prefix + "attributes");
+  for (uint32_t i = 0; i < attributes; ++i) takeAttribute(prefix + std::to_string(i) + ".");
+}
+
+void HeaderFields::takeAttribute(const std::string& prefix) {
+  take(prefix + "kind", 1);
+  take(prefix + "shape", 1);
+  const uint32_t kind = get(prefix + "kind");
+  const uint32_t components = (get(prefix + "shape") & 15) + 1;
+  uint32_t target = 0;
+  if ((kind & 0x80) != 0) {
+    take(prefix + "set", 1);
+    target = takeVarint(prefix + "target");
+  }
+  take(prefix + "predictor", 1);
+  switch (static_cast<AttributeCoding>(get(prefix + "shape") >> 4)) {
+    case AttributeCoding::kLattice:
+      take(prefix + "bits", 1);
+      take(prefix + "step", 4);
+      for (uint32_t c = 0; c < components && target == 0; ++c)
+        take(prefix + "origin " + std::to_string(c), 4);
+      break;
+    case AttributeCoding::kOctahedral:
+    case AttributeCoding::kTangentAngle: take(prefix + "bits", 1); break;
+    case AttributeCoding::kAlias: takeVarint(prefix + "alias"); break;
+    case AttributeCoding::kGrid:
+      take(prefix + "grid bits", 1);
+      takeVarint(prefix + "grid");
+      break;
+    default: break;
+  }
+}
+
+void HeaderFields::take(const std::string& name, size_t count) {
+  const std::span<const uint8_t> bytes = rest_.first(count);
+  fields_.push_back({name, {bytes.begin(), bytes.end()}, true});
+  rest_ = rest_.subspan(count);
+}
+
+uint32_t HeaderFields::takeVarint(const std::string& name) {
+  size_t count = 1;
+  while (rest_[count - 1] >= 0x80) ++count;
+  take(name, count);
+  fields_.back().is_fixed = false;
+  return get(name);
+}
+
+size_t HeaderFields::find(const std::string& name) const {
+  for (size_t i = 0; i < fields_.size(); ++i) {
+    if (fields_[i].name == name) return i;
+  }
+  return fields_.size();
+}
+
+bool HeaderFields::has(const std::string& name) const { return find(name) != fields_.size(); }
+
+uint32_t HeaderFields::get(const std::string& name) const {
+  const Field& field = fields_.at(find(name));
+  uint64_t value = 0;
+  for (size_t i = field.bytes.size(); i-- != 0;) {
+    value = field.is_fixed ? value << 8 | field.bytes[i] : value << 7 | (field.bytes[i] & 0x7f);
+  }
+  return static_cast<uint32_t>(value);
+}
+
+Bytes& HeaderFields::bytes(const std::string& name) { return fields_.at(find(name)).bytes; }
+
+void HeaderFields::set(const std::string& name, uint32_t value) {
+  Field& field = fields_.at(find(name));
+  if (!field.is_fixed) {
+    field.bytes = varint(value);
+    return;
+  }
+  for (size_t i = 0; i < field.bytes.size(); ++i)
+    field.bytes[i] = static_cast<uint8_t>(value >> (8 * i));
+}
+
+void HeaderFields::insertBefore(const std::string& name, const std::string& added,
+                                const Bytes& bytes) {
+  fields_.insert(fields_.begin() + static_cast<std::ptrdiff_t>(find(name)), {added, bytes, true});
+}
+
+void HeaderFields::erase(const std::string& name) {
+  fields_.erase(fields_.begin() + static_cast<std::ptrdiff_t>(find(name)));
+}
+
+Bytes HeaderFields::payload() const {
+  Bytes all = {kMagic[0], kMagic[1], kMagic[2], version_, 0, 0, 0, 0};
+  for (const Field& field : fields_) all.insert(all.end(), field.bytes.begin(), field.bytes.end());
+  repairChecksum(all);
+  return all;
+}
+
+}  // namespace mcc::conformance

@@ -1,0 +1,953 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "negatives.h"
+
+#include <algorithm>
+#include <bit>
+#include <functional>
+#include <map>
+#include <stdexcept>
+
+#include "container/payload_header.h"
+#include "gltf/glb.h"
+#include "header_fields.h"
+#include "mcc/gltf.h"
+#include "mesh/attribute_method.h"
+#include "support/mesh_generators.h"
+
+namespace mcc::conformance {
+namespace {
+
+/// How a payload fares; what it decodes to is dropped.
+Status decode(std::span<const uint8_t> bytes) {
+  Payload payload;
+  Limits limits;
+  limits.max_elements = 1u << 20;
+  MCC_TRY(payload.open(bytes, limits));
+  std::vector<std::vector<AttributeTarget>> attributes;
+  std::vector<std::vector<PartTarget>> parts;
+  std::vector<PieceTarget> targets;
+  for (const PieceInfo& piece : payload.info().pieces) {
+    attributes.emplace_back(piece.attributes.size());
+    parts.emplace_back(piece.parts.size());
+    targets.push_back({attributes.back(), parts.back()});
+  }
+  return payload.decode(targets);
+}
+
+PayloadHeader headerOf(std::span<const uint8_t> payload) {
+  PayloadHeader header{Allocator{}};
+  const Status status = parsePayload(payload, {}, header);
+  if (!status.ok()) throw std::runtime_error(status.what);
+  return header;
+}
+
+std::string slug(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'))
+      out += c;
+    else if (c >= 'A' && c <= 'Z')
+      out += static_cast<char>(c - 'A' + 'a');
+    else if (!out.empty() && out.back() != '_')
+      out += '_';
+  }
+  return out;
+}
+
+class Maker {
+ public:
+  explicit Maker(std::span<const Asset> assets) : assets_(assets) {
+    for (const Asset& asset : assets) headers_.push_back(headerOf(asset.payload));
+  }
+
+  std::vector<Negative> run() {
+    frames();
+    payloadFlags();
+    pieces();
+    attributes();
+    methods();
+    positionPredictors();
+    streams();
+    contradictions();
+    searched();
+    documents();
+    if (!problems_.empty()) throw std::runtime_error(problems_);
+    return std::move(all_);
+  }
+
+ private:
+  using Wanted = std::function<bool(const PayloadHeader&)>;
+
+  /// The smallest asset of this kind.
+  const Asset& base(const Wanted& wanted) const {
+    const Asset* best = nullptr;
+    for (size_t i = 0; i < assets_.size(); ++i) {
+      if (!wanted(headers_[i]) ||
+          (best != nullptr && best->payload.size() <= assets_[i].payload.size()))
+        continue;
+      best = &assets_[i];
+    }
+    return best == nullptr ? throw std::runtime_error("there is no asset to damage") : *best;
+  }
+  static bool hasFlag(const PayloadHeader& h, uint32_t flag) {
+    return h.pieces.size() == 1 && h.pieces[0].has(flag);
+  }
+  /// The number of an attribute of the first piece for which `wanted` holds, or kNone.
+  static uint32_t attributeWith(const PayloadHeader& h,
+                                const std::function<bool(const AttributeInfo&)>& wanted) {
+    if (h.pieces.size() != 1) return kNone;
+    for (uint32_t i = 1; i < h.pieces[0].attribute_count; ++i) {
+      if (wanted(h.attributes[i])) return i;
+    }
+    return kNone;
+  }
+
+  void add(const std::string& name, const std::string& section, Error error,
+           const std::string& shows, const Asset& asset, Bytes payload) {
+    const Status status = decode(payload);
+    if (status.error != error) {
+      const auto number = static_cast<uint32_t>(status.error);
+      problems_ += name + ": the error is " + std::to_string(number) + ", " + status.what + "\n";
+      return;
+    }
+    addFile(name, section, static_cast<uint32_t>(error), shows, withPayload(asset, payload));
+  }
+
+  void addFile(const std::string& name, const std::string& section, uint32_t error,
+               const std::string& shows, std::vector<uint8_t> glb) {
+    std::vector<uint8_t> output;
+    gltf::DecodeReport report;
+    if (gltf::decodeGlb(glb, output, report).ok()) {
+      problems_ += name + " decodes without an error\n";
+      return;
+    }
+    all_.push_back({slug(section) + "_" + slug(name), shows, section, error, std::move(glb)});
+  }
+
+  /// A change of the header's fields.
+  void field(const std::string& name, const std::string& section, Error error,
+             const std::string& shows, const Wanted& wanted,
+             const std::function<void(HeaderFields&)>& change) {
+    const Asset& asset = base(wanted);
+    HeaderFields fields(asset.payload);
+    change(fields);
+    add(name, section, error, shows, asset, fields.payload());
+  }
+  void header(const std::string& name, const std::string& section, const std::string& shows,
+              const Wanted& wanted, const std::function<void(HeaderFields&)>& change) {
+    field(name, section, Error::kBadHeader, shows, wanted, change);
+  }
+
+  /// The file of an asset with another payload.
+  static std::vector<uint8_t> withPayload(const Asset& asset, const Bytes& payload) {
+    const std::vector<uint8_t> file = makeGlb(asset);
+    gltf::GlbFile glb;
+    Json json;
+    if (!gltf::readGlb(file, glb).ok() || !gltf::parseJson(glb.json, json).ok())
+      throw std::runtime_error("an asset is no GLB");
+    Bytes bin = payload;
+    while (bin.size() % 4 != 0) bin.push_back(0);
+    const size_t before = (asset.payload.size() + 3) & ~size_t{3};
+    if (glb.bin.size() > before)
+      bin.insert(bin.end(), glb.bin.begin() + static_cast<std::ptrdiff_t>(before), glb.bin.end());
+    const int64_t moved =
+        static_cast<int64_t>((payload.size() + 3) & ~size_t{3}) - static_cast<int64_t>(before);
+    for (Json& view : json["bufferViews"]) {
+      const int64_t offset = view["byteOffset"];
+      if (offset != 0) view["byteOffset"] = offset + moved;
+    }
+    json["bufferViews"][0]["byteLength"] = payload.size();
+    json["buffers"][0]["byteLength"] = bin.size();
+    return glbOf(json, bin);
+  }
+
+  static bool any(const PayloadHeader& h) {
+    return h.pieces.size() == 1 && h.pieces[0].attribute_count == 1 &&
+           h.attributes[0].coding == AttributeCoding::kLattice && h.pieces[0].vertex_count >= 4;
+  }
+  static bool threeStreams(const PayloadHeader& h) {
+    return any(h) && !h.singleCoder() && h.raw.size() > 2;
+  }
+
+  void frames() {
+    const Asset& asset = base(any);
+    const auto cutTo = [&](size_t count) {
+      Bytes bytes(asset.payload.begin(),
+                  asset.payload.begin() + static_cast<std::ptrdiff_t>(count));
+      repairChecksum(bytes);
+      return bytes;
+    };
+    const auto with = [&](size_t at, uint8_t value, bool repair) {
+      Bytes bytes = asset.payload;
+      bytes[at] = value;
+      if (repair) repairChecksum(bytes);
+      return bytes;
+    };
+    add("two bytes", "A.2.1", Error::kBadMagic, "Two bytes", asset, cutTo(2));
+    add("other magic", "A.2.1", Error::kBadMagic, "The magic is MCD", asset, with(2, 'D', true));
+    add("ends behind magic", "A.2.1", Error::kTruncated, "The payload ends behind the magic", asset,
+        cutTo(3));
+    add("ends in checksum", "A.2.1", Error::kTruncated, "The payload ends inside the checksum",
+        asset, cutTo(7));
+    add("ends behind checksum", "A.2.1", Error::kTruncated, "The payload has no flags", asset,
+        cutTo(8));
+    add("ends in header", "A.2.2", Error::kTruncated, "The payload ends inside the piece", asset,
+        cutTo(11));
+    add("major version 0", "A.2.1", Error::kUnsupportedVersion, "The major version is 0", asset,
+        with(3, 0x01, true));
+    add("major version 2", "A.2.1", Error::kUnsupportedVersion, "The major version is 2", asset,
+        with(3, 0x20, true));
+    add("damaged stream", "A.2.1", Error::kBadChecksum, "A bit of the streams is flipped", asset,
+        with(asset.payload.size() - 1, asset.payload.back() ^ 1, false));
+    add("damaged version", "A.2.1", Error::kBadChecksum,
+        "The minor version differs, which the checksum covers", asset, with(3, 0x11, false));
+    add("damaged checksum", "A.1.3", Error::kBadChecksum, "A bit of the checksum is flipped", asset,
+        with(4, asset.payload[4] ^ 0x80, false));
+    Bytes longer = asset.payload;
+    longer.push_back(0);
+    add("a byte more", "A.2.1", Error::kBadChecksum, "A zero byte behind the payload", asset,
+        longer);
+  }
+
+  void payloadFlags() {
+    for (const uint32_t set : {5u, 7u}) {
+      header("context set " + std::to_string(set), "A.2.1", "A context set that is not assigned",
+             any, [=](HeaderFields& f) { f.set("flags", (f.get("flags") & 7) | set << 3); });
+    }
+    for (const uint32_t bit : {6u, 7u}) {
+      header("reserved bit " + std::to_string(bit), "A.2.1",
+             "A reserved bit of the payload's flags", any,
+             [=](HeaderFields& f) { f.set("flags", f.get("flags") | 1u << bit); });
+    }
+    for (const uint8_t count : {uint8_t{0}, uint8_t{1}}) {
+      header("piece count " + std::to_string(count), "A.2.1",
+             "A piece count that needs no statement", any, [=](HeaderFields& f) {
+               f.set("flags", f.get("flags") | payload_flag::kManyPieces);
+               f.insertBefore("0.flags", "piece count", {count});
+             });
+    }
+    field("pieces above the limit", "A.2.1", Error::kLimit, "2^32 - 1 pieces", any,
+          [](HeaderFields& f) {
+            f.set("flags", f.get("flags") | payload_flag::kManyPieces);
+            f.insertBefore("0.flags", "piece count", varint(0xffffffff));
+          });
+    header("varint with a zero", "A.1.1", "A number whose last byte is a zero that is not needed",
+           any, [](HeaderFields& f) {
+             Bytes& bytes = f.bytes("0.vertices");
+             bytes.back() |= 0x80;
+             bytes.push_back(0);
+           });
+    header("varint of 33 bits", "A.1.1", "A number whose fifth byte exceeds 15", any,
+           [](HeaderFields& f) {
+             f.bytes("0.vertices") = {0xff, 0xff, 0xff, 0xff, 0x10};
+           });
+    header("varint of six bytes", "A.1.1", "A number of six bytes", any,
+           [](HeaderFields& f) { f.bytes("0.vertices") = {0x80, 0x80, 0x80, 0x80, 0x80, 0x01}; });
+  }
+
+  void pieces() {
+    const auto withFlag = [](uint32_t flag) {
+      return [=](const PayloadHeader& h) { return hasFlag(h, flag); };
+    };
+    for (const uint32_t bit : {15u, 31u}) {
+      header("reserved bit " + std::to_string(bit), "A.2.2", "A reserved bit of the piece's flags",
+             any, [=](HeaderFields& f) { f.set("0.flags", f.get("0.flags") | 1u << bit); });
+    }
+    const auto setFlag = [](uint32_t flag) {
+      return [=](HeaderFields& f) { f.set("0.flags", f.get("0.flags") | flag); };
+    };
+    header("creases without seams", "A.2.2", "CREASES without SEAMS", any,
+           setFlag(piece_flag::kCreases));
+    header("merges without seams", "A.2.2", "MERGES without SEAMS", any,
+           setFlag(piece_flag::kMerges));
+    header("interior copies alone", "A.2.2", "INTERIOR_COPIES without COPIES", any,
+           setFlag(piece_flag::kInteriorCopies));
+    struct Stated {
+      uint32_t flag;
+      const char* name;
+    };
+    for (const Stated& stated :
+         {Stated{piece_flag::kHoles, "dummies"}, Stated{piece_flag::kIsolated, "isolated"},
+          Stated{piece_flag::kDuplicates, "duplicates"},
+          Stated{piece_flag::kEdgeDegenerates, "degenerates"},
+          Stated{piece_flag::kListed, "listed"}}) {
+      header(std::string("no ") + stated.name, "A.2.2",
+             std::string("The number of ") + stated.name + " is stated as 0", withFlag(stated.flag),
+             [&](HeaderFields& f) { f.set(std::string("0.") + stated.name, 0); });
+    }
+    const auto parts = withFlag(piece_flag::kManyParts);
+    for (const uint32_t count : {0u, 1u}) {
+      header(std::to_string(count) + " parts", "A.2.2", "A number of parts that needs no statement",
+             parts, [=](HeaderFields& f) { f.set("0.parts", count); });
+    }
+    field("parts beyond the bytes", "A.2.2", Error::kTruncated, "More parts than bytes", parts,
+          [](HeaderFields& f) { f.set("0.parts", 1u << 27); });
+    header("parts do not sum", "A.2.2",
+           "The triangles of the parts are one more than the piece has", parts,
+           [](HeaderFields& f) { f.set("0.part 0", f.get("0.part 0") + 1); });
+    struct Count {
+      const char* name;
+      const char* field;
+      uint32_t value;
+      Error error;
+      const char* shows;
+    };
+    constexpr uint32_t kMuch = 1u << 28;
+    const Count counts[] = {
+        {"vertices at the limit", "0.vertices", kMuch, Error::kLimit, "2^28 vertices"},
+        {"faces at the limit", "0.faces", kMuch, Error::kLimit, "2^28 faces"},
+        {"wedges at the limit", "0.wedges", 2 * kMuch, Error::kLimit,
+         "2^28 wedges more than vertices"},
+        {"fewer wedges than none", "0.wedges", 0xffffffff, Error::kLimit,
+         "The number of wedges is negative, that is, huge"},
+        {"no vertices", "0.vertices", 0, Error::kBadHeader, "Faces without vertices"},
+        {"no faces", "0.faces", 0, Error::kBadHeader, "Vertices without faces"},
+        {"few faces", "0.faces", 1, Error::kBadHeader, "More than three vertices to a face"},
+        {"operations", "0.operations", 200000, Error::kBadHeader,
+         "More operations than vertices and four per face"},
+        {"fewer operations than none", "0.operations", 0xffff, Error::kBadHeader,
+         "The number of operations is negative"},
+    };
+    for (const Count& count : counts) {
+      field(count.name, "A.2.2", count.error, count.shows, any, [&](HeaderFields& f) {
+        // A small change of the faces may not end before the vertices.
+        f.set(count.field, count.value);
+        if (std::string(count.field) == "0.vertices" && count.value == 0) {
+          f.set("0.operations", 4);
+          f.set("0.wedges", 8);
+        }
+      });
+    }
+    field("triangles at the limit", "A.2.2", Error::kLimit,
+          "Faces and duplicates are 2^28 together", withFlag(piece_flag::kDuplicates),
+          [](HeaderFields& f) { f.set("0.duplicates", kMuch - 1); });
+    header("isolated above wedges", "A.2.2", "More isolated wedges than wedges",
+           withFlag(piece_flag::kIsolated), [](HeaderFields& f) { f.set("0.isolated", 5000); });
+    header("dummies above corners", "A.2.2", "More dummies than corners",
+           withFlag(piece_flag::kHoles),
+           [](HeaderFields& f) { f.set("0.dummies", 3 * f.get("0.faces") + 1); });
+    field("many elements", "A.2.6", Error::kLimit, "More than 4096 elements to a byte",
+          withFlag(piece_flag::kIsolated), [](HeaderFields& f) {
+            const uint32_t more = 1u << 26;
+            f.set("0.isolated", f.get("0.isolated") + more);
+            f.set("0.wedges", f.get("0.wedges") + 2 * more);
+          });
+    field(
+        "wedges without seams", "A.2.8", Error::kBadAttribute,
+        "A wedge more than groups, without seams",
+        [](const PayloadHeader& h) {
+          return any(h) && !h.pieces[0].has(piece_flag::kSeams | piece_flag::kIsolated) &&
+                 h.pieces[0].wedge_count == h.pieces[0].vertex_count;
+        },
+        [](HeaderFields& f) { f.set("0.wedges", 2); });
+    header("same attributes first", "A.2.3", "The first piece has the attributes of the one before",
+           any, [](HeaderFields& f) {
+             f.set("0.flags", f.get("0.flags") | piece_flag::kSameAttributes);
+           });
+    header(
+        "creases without positions", "A.2.3", "CREASES in a piece without attributes",
+        [](const PayloadHeader& h) {
+          return h.pieces.size() == 1 && h.pieces[0].attribute_count == 0;
+        },
+        [](HeaderFields& f) {
+          f.set("0.flags", f.get("0.flags") | piece_flag::kSeams | piece_flag::kCreases);
+        });
+    field("attributes above the limit", "A.2.3", Error::kLimit, "2^32 - 1 attributes", any,
+          [](HeaderFields& f) { f.set("0.attributes", 0xffffffff); });
+  }
+
+  void attributes() {
+    struct Change {
+      const char* name;
+      const char* shows;
+      std::function<void(HeaderFields&)> change;
+    };
+    const auto set = [](const std::string& name, uint32_t value) {
+      return [=](HeaderFields& f) { f.set(name, value); };
+    };
+    const auto floatBits = [](float value) { return std::bit_cast<uint32_t>(value); };
+    // Of the position, which is on a lattice.
+    const Change positions[] = {
+        {"position is a normal", "The first attribute is no position", set("0.0.kind", 5 << 3 | 1)},
+        {"position with a set", "The position has set 1",
+         [](HeaderFields& f) {
+           f.set("0.0.kind", f.get("0.0.kind") | 0x80);
+           f.insertBefore("0.0.predictor", "0.0.set", {1});
+           f.insertBefore("0.0.predictor", "0.0.target", {0});
+         }},
+        {"position of two components", "The position has two components",
+         [](HeaderFields& f) {
+           f.set("0.0.shape", 1);
+           f.erase("0.0.origin 2");
+         }},
+        {"position octahedral", "The position is octahedral",
+         [](HeaderFields& f) {
+           f.set("0.0.shape", 3 << 4 | 2);
+           f.set("0.0.bits", 8);
+           f.erase("0.0.step");
+           for (const char* name : {"0.0.origin 0", "0.0.origin 1", "0.0.origin 2"}) f.erase(name);
+         }},
+    };
+    for (const Change& c : positions) header(c.name, "A.2.3", c.shows, any, c.change);
+    const Change lattices[] = {
+        {"component type 6", "A component type that is not assigned", set("0.0.kind", 6 << 3)},
+        {"component type 7", "A component type that is not assigned", set("0.0.kind", 7 << 3)},
+        {"coding 7", "A coding that is not assigned", set("0.0.shape", 7 << 4 | 2)},
+        {"coding 15", "A coding that is not assigned", set("0.0.shape", 15 << 4 | 2)},
+        {"more without need", "MORE, though set and morph target are 0",
+         [](HeaderFields& f) {
+           f.set("0.0.kind", f.get("0.0.kind") | 0x80);
+           f.insertBefore("0.0.predictor", "0.0.set", {0});
+           f.insertBefore("0.0.predictor", "0.0.target", {0});
+         }},
+        {"morph target 65536", "A morph target above 65535",
+         [](HeaderFields& f) {
+           f.set("0.0.kind", f.get("0.0.kind") | 0x80);
+           f.insertBefore("0.0.predictor", "0.0.set", {0});
+           f.insertBefore("0.0.predictor", "0.0.target", varint(65536));
+         }},
+        {"integer floats", "Floats with the coding of integers", set("0.0.shape", 1 << 4 | 2)},
+        {"lattice of integers", "Integers with the coding of floats", set("0.0.kind", 2 << 3)},
+        {"lattice of 0 bits", "A lattice of 0 bits", set("0.0.bits", 0)},
+        {"lattice of 25 bits", "A lattice of 25 bits", set("0.0.bits", 25)},
+        {"step of 0", "A lattice whose step is 0", set("0.0.step", 0)},
+        {"negative step", "A lattice with a negative step", set("0.0.step", floatBits(-1.0f))},
+        {"step of minus zero", "A lattice whose step is -0", set("0.0.step", 0x80000000)},
+        {"infinite step", "A lattice with an infinite step", set("0.0.step", 0x7f800000)},
+        {"step of nan", "A lattice whose step is no number", set("0.0.step", 0x7fc00000)},
+        {"infinite origin", "A lattice with an infinite origin", set("0.0.origin 1", 0xff800000)},
+        {"origin of nan", "A lattice whose origin is no number", set("0.0.origin 2", 0x7f800001)},
+    };
+    for (const Change& c : lattices) header(c.name, "A.2.4", c.shows, any, c.change);
+
+    // Of another attribute: `k` is its number.
+    const auto other = [&](const std::string& name, const std::string& shows,
+                           const std::function<bool(const AttributeInfo&)>& wanted,
+                           const std::function<void(HeaderFields&, const std::string& k)>& change) {
+      const Wanted has = [&](const PayloadHeader& h) { return attributeWith(h, wanted) != kNone; };
+      header(name, "A.2.4", shows, has, [&](HeaderFields& f) {
+        const uint32_t k = attributeWith(headerOf(base(has).payload), wanted);
+        change(f, "0." + std::to_string(k) + ".");
+      });
+    };
+    const auto coded = [](AttributeCoding coding) {
+      return [=](const AttributeInfo& a) { return a.coding == coding; };
+    };
+    const auto baseNormal = [](const AttributeInfo& a) {
+      return a.coding == AttributeCoding::kOctahedral && a.format.semantic == Semantic::kNormal;
+    };
+    for (const uint32_t bits : {1u, 17u}) {
+      other("octahedral of " + std::to_string(bits) + " bits",
+            "An octahedral grid of a number of bits that is not allowed", baseNormal,
+            [=](HeaderFields& f, const std::string& k) { f.set(k + "bits", bits); });
+      other("tangent angle of " + std::to_string(bits) + " bits",
+            "A tangent angle of a number of bits that is not allowed",
+            coded(AttributeCoding::kTangentAngle),
+            [=](HeaderFields& f, const std::string& k) { f.set(k + "bits", bits); });
+    }
+    other("octahedral of four components",
+          "An octahedral attribute that is no tangent, of four components", baseNormal,
+          [](HeaderFields& f, const std::string& k) { f.set(k + "shape", 3 << 4 | 3); });
+    other(
+        "octahedral tangent of three", "An octahedral tangent of three components",
+        [](const AttributeInfo& a) {
+          return a.coding == AttributeCoding::kOctahedral &&
+                 a.format.semantic == Semantic::kTangent;
+        },
+        [](HeaderFields& f, const std::string& k) { f.set(k + "shape", 3 << 4 | 2); });
+    other(
+        "octahedral tangent of a target", "An octahedral tangent of a morph target",
+        [](const AttributeInfo& a) {
+          return a.coding == AttributeCoding::kOctahedral &&
+                 a.format.semantic == Semantic::kTangent;
+        },
+        [](HeaderFields& f, const std::string& k) {
+          f.set(k + "kind", f.get(k + "kind") | 0x80);
+          f.insertBefore(k + "predictor", k + "set", {0});
+          f.insertBefore(k + "predictor", k + "target", {1});
+        });
+    other("angle that is no tangent", "A tangent angle whose semantic is not that of tangents",
+          coded(AttributeCoding::kTangentAngle),
+          [](HeaderFields& f, const std::string& k) { f.set(k + "kind", 5 << 3 | 4); });
+    other("angle of three components", "A tangent angle of three components",
+          coded(AttributeCoding::kTangentAngle),
+          [](HeaderFields& f, const std::string& k) { f.set(k + "shape", 4 << 4 | 2); });
+    other("angle without a normal", "A tangent angle, and no octahedral normal before or behind it",
+          baseNormal, [](HeaderFields& f, const std::string& k) {
+            f.set(k + "kind", 5 << 3 | 2);
+            f.set(k + "shape", 4 << 4 | 3);
+            f.set(k + "predictor", 0);
+          });
+    other(
+        "lattice of five components", "A lattice of five components",
+        [](const AttributeInfo& a) {
+          return a.coding == AttributeCoding::kLattice && a.format.component_count == 4;
+        },
+        [](HeaderFields& f, const std::string& k) {
+          f.set(k + "shape", 4);
+          f.insertBefore(k + "origin 0", k + "origin 4", {0, 0, 0, 0});
+        });
+    const auto grid = coded(AttributeCoding::kGrid);
+    for (const uint32_t number : {25u, 31u, 278u, 65536u}) {
+      other("grid " + std::to_string(number), "A grid that is not assigned", grid,
+            [=](HeaderFields& f, const std::string& k) { f.set(k + "grid", number); });
+    }
+    other("grid of 0 bits", "A grid of 0 bits", grid,
+          [](HeaderFields& f, const std::string& k) { f.set(k + "grid bits", 0); });
+    other("grid of 28 bits", "A grid of 28 bits", grid,
+          [](HeaderFields& f, const std::string& k) { f.set(k + "grid bits", 28); });
+    other("tails 3", "Tails that are not assigned", grid,
+          [](HeaderFields& f, const std::string& k) {
+            f.set(k + "grid", 100);
+            f.set(k + "grid bits", 3 << 5 | 8);
+          });
+    other("tails of decimals", "Tails below a decimal grid", grid,
+          [](HeaderFields& f, const std::string& k) {
+            f.set(k + "grid", 3);
+            f.set(k + "grid bits", 1 << 5 | 8);
+          });
+    other("grid of five components", "A grid of five components", grid,
+          [](HeaderFields& f, const std::string& k) { f.set(k + "shape", 6 << 4 | 4); });
+    const auto alias = coded(AttributeCoding::kAlias);
+    other("alias of the position", "An alias of attribute 0", alias,
+          [](HeaderFields& f, const std::string& k) { f.set(k + "alias", 0); });
+    other("alias of itself", "An alias of itself", alias,
+          [](HeaderFields& f, const std::string& k) {
+            f.set(k + "alias", static_cast<uint32_t>(std::stoul(k.substr(2))));
+          });
+    other("alias of none", "An alias of an attribute that is not there", alias,
+          [](HeaderFields& f, const std::string& k) { f.set(k + "alias", 0xffffffff); });
+    other("alias of another type", "An alias with another component type", alias,
+          [](HeaderFields& f, const std::string& k) {
+            f.set(k + "kind", (f.get(k + "kind") & 0xc7) | 2 << 3);
+          });
+    other("alias of other components", "An alias with another number of components", alias,
+          [](HeaderFields& f, const std::string& k) { f.set(k + "shape", 5 << 4 | 8); });
+    other("alias with a predictor", "An alias whose predictor is not 0", alias,
+          [](HeaderFields& f, const std::string& k) { f.set(k + "predictor", 0x80); });
+  }
+
+  /// A predictor byte for each method that no decoder knows.
+  void methods() {
+    struct Method {
+      AttributeMethod method;
+      const char* name;
+      std::vector<uint8_t> predictors;
+    };
+    const Method all[] = {
+        {AttributeMethod::kTangentPoint, "tangent point", {2, 0x40}},
+        {AttributeMethod::kNormal, "normal", {3, 0x0c, 0x10}},
+        {AttributeMethod::kTangent, "tangent", {1}},
+        {AttributeMethod::kSkin, "skin", {4, 0x40}},
+        {AttributeMethod::kTexcoord, "texture coordinate", {5, 7, 0x10}},
+        {AttributeMethod::kExactNormal, "exact normal", {0x0c, 0x40}},
+        {AttributeMethod::kExactTangent, "exact tangent", {0x10}},
+        {AttributeMethod::kExactValues, "exact values", {3, 8}},
+    };
+    for (const Method& m : all) {
+      const auto number = [&](const PayloadHeader& h) {
+        if (h.pieces.size() != 1) return kNone;
+        for (uint32_t i = 1; i < h.pieces[0].attribute_count; ++i) {
+          if (methodOf(h.attributes.data(), h.pieces[0].attribute_count, i) == m.method) return i;
+        }
+        return kNone;
+      };
+      predictorsOf(m.name, m.predictors, number);
+    }
+    predictorsOf("weights", {3, 0x80}, [](const PayloadHeader& h) {
+      if (h.pieces.size() != 1) return kNone;
+      for (uint32_t i = 1; i < h.pieces[0].attribute_count; ++i) {
+        const bool is_weights = h.attributes[i].format.semantic == Semantic::kWeights;
+        if (is_weights && skinPartner(h.attributes.data(), h.pieces[0].attribute_count, i) != kNone)
+          return i;
+      }
+      return kNone;
+    });
+    predictorsOf("exact weights", {1, 2}, [](const PayloadHeader& h) {
+      if (h.pieces.size() != 1) return kNone;
+      for (uint32_t i = 1; i < h.pieces[0].attribute_count; ++i) {
+        const AttributeInfo& a = h.attributes[i];
+        if (a.format.semantic == Semantic::kWeights && unitSum(a) == 0 &&
+            skinPartner(h.attributes.data(), h.pieces[0].attribute_count, i) != kNone) {
+          return i;
+        }
+      }
+      return kNone;
+    });
+    const auto valuesWith = [](uint32_t components, bool is_target) {
+      return [=](const PayloadHeader& h) {
+        if (h.pieces.size() != 1) return kNone;
+        for (uint32_t i = 1; i < h.pieces[0].attribute_count; ++i) {
+          const AttributeFormat& f = h.attributes[i].format;
+          if (methodOf(h.attributes.data(), h.pieces[0].attribute_count, i) ==
+                  AttributeMethod::kValues &&
+              f.component_count == components && (f.morph_target != 0) == is_target &&
+              f.semantic != Semantic::kNormal && f.semantic != Semantic::kTangent) {
+            return i;
+          }
+        }
+        return kNone;
+      };
+    };
+    predictorsOf("values of three", {0x20, 0x40}, valuesWith(3, false));
+    predictorsOf("values of nine", {3}, valuesWith(9, false));
+    predictorsOf("position deltas", {0x20, 0x40}, valuesWith(3, true));
+    predictorsOf("values of one", {0x40}, valuesWith(1, false));
+  }
+
+  void predictorsOf(const std::string& name, const std::vector<uint8_t>& predictors,
+                    const std::function<uint32_t(const PayloadHeader&)>& number) {
+    const Wanted wanted = [&](const PayloadHeader& h) { return number(h) != kNone; };
+    for (const uint8_t predictor : predictors) {
+      header("predictor " + std::to_string(predictor) + " of " + name, "A.2.4",
+             "A predictor that the method " + name + " does not have", wanted,
+             [&](HeaderFields& f) {
+               const uint32_t k = number(headerOf(base(wanted).payload));
+               f.set("0." + std::to_string(k) + ".predictor", predictor);
+             });
+    }
+  }
+
+  void positionPredictors() {
+    for (const uint32_t predictor : {5u, 7u}) {
+      header("predictor " + std::to_string(predictor), "A.2.7",
+             "A predictor of positions that is not assigned", any,
+             [=](HeaderFields& f) { f.set("0.0.predictor", predictor); });
+    }
+    for (const uint32_t bit : {0x20u, 0x40u, 0x80u}) {
+      header("planes with bit " + std::to_string(bit), "A.2.7",
+             "Planes with a flag they cannot have", any,
+             [=](HeaderFields& f) { f.set("0.0.predictor", 3 << 3 | bit); });
+    }
+    header("planes of 18 bits", "A.2.7", "Planes of a lattice with more than 17 bits", any,
+           [](HeaderFields& f) {
+             f.set("0.0.predictor", 3 << 3);
+             f.set("0.0.bits", 18);
+           });
+    header(
+        "planes of integers", "A.2.7", "Planes of positions that are not on a lattice",
+        [](const PayloadHeader& h) {
+          return h.pieces.size() == 1 && h.pieces[0].attribute_count == 1 &&
+                 h.attributes[0].coding != AttributeCoding::kLattice;
+        },
+        [](HeaderFields& f) { f.set("0.0.predictor", 3 << 3); });
+  }
+
+  void streams() {
+    const auto padded = [](uint32_t count, uint8_t byte) {
+      return [=](HeaderFields& f) {
+        f.set("flags", f.get("flags") | payload_flag::kPadded);
+        f.insertBefore("codes", "padding bytes", varint(count));
+        f.insertBefore("codes", "padding", Bytes(count, byte));
+      };
+    };
+    header("padding of 0 bytes", "A.2.5", "Padding of no bytes", any, padded(0, 0));
+    header("padding with a one", "A.2.5", "Padding that is not zero", any, padded(4, 1));
+    field("padding beyond the end", "A.2.5", Error::kTruncated, "More padding than bytes", any,
+          [](HeaderFields& f) {
+            f.set("flags", f.get("flags") | payload_flag::kPadded);
+            f.insertBefore("codes", "padding bytes", varint(1u << 30));
+          });
+    const auto three = [this](const std::string& name, const std::string& section, Error error,
+                              const std::string& shows,
+                              const std::function<void(HeaderFields&)>& change) {
+      field(name, section, error, shows, threeStreams, change);
+    };
+    three("codes beyond the end", "A.2.5", Error::kTruncated,
+          "The length of codes is beyond the payload",
+          [](HeaderFields& f) { f.set("codes bytes", 100000); });
+    three("tokens beyond the end", "A.2.5", Error::kTruncated,
+          "The length of tokens is beyond the payload",
+          [](HeaderFields& f) { f.set("tokens bytes", 0xffffffff); });
+    three("state below 2 16", "A.3.3", Error::kTruncated,
+          "A state of the tokens is below 2^16 at the start", [](HeaderFields& f) {
+            for (size_t i = 2; i < 4; ++i) f.bytes("tokens")[i] = 0;
+          });
+    three("no tokens", "A.3.3", Error::kTruncated, "The stream of tokens has less than 12 bytes",
+          [](HeaderFields& f) {
+            f.bytes("tokens").resize(10);
+            f.set("tokens bytes", 10);
+          });
+    three("tokens cut", "A.3.3", Error::kTruncated, "The stream of tokens ends two bytes early",
+          [](HeaderFields& f) {
+            f.bytes("tokens").resize(f.bytes("tokens").size() - 2);
+            f.set("tokens bytes", f.get("tokens bytes") - 2);
+          });
+    three("codes longer", "A.3.8", Error::kTrailingBytes, "Bytes behind the end of codes",
+          [](HeaderFields& f) {
+            f.bytes("codes").resize(f.bytes("codes").size() + 12);
+            f.set("codes bytes", f.get("codes bytes") + 12);
+          });
+    three("tokens longer", "A.3.8", Error::kTrailingBytes, "Bytes behind the end of tokens",
+          [](HeaderFields& f) {
+            f.bytes("tokens").resize(f.bytes("tokens").size() + 2);
+            f.set("tokens bytes", f.get("tokens bytes") + 2);
+          });
+    three("raw longer", "A.3.8", Error::kTrailingBytes, "A zero byte behind the end of raw",
+          [](HeaderFields& f) { f.bytes("raw").push_back(0); });
+    three("raw cut", "A.3.8", Error::kTruncated, "The stream raw ends a byte early",
+          [](HeaderFields& f) { f.bytes("raw").pop_back(); });
+    field(
+        "single longer", "A.3.8", Error::kTrailingBytes, "Bytes behind the end of the only stream",
+        [](const PayloadHeader& h) { return any(h) && h.singleCoder(); },
+        [](HeaderFields& f) { f.bytes("codes").resize(f.bytes("codes").size() + 12); });
+    field(
+        "unused bit of raw", "A.3.8", Error::kTrailingBytes,
+        "A bit of raw that nobody reads is set",
+        [](const PayloadHeader& h) { return threeStreams(h) && h.raw[h.raw.size() - 1] < 0x40; },
+        [](HeaderFields& f) { f.bytes("raw").back() |= 0x80; });
+  }
+
+  /// Streams that fit no longer because the header changed.
+  void contradictions() {
+    field(
+        "fewer degenerates", "A.9.3", Error::kBadAttribute,
+        "One degenerate triangle on an edge fewer than the header claims",
+        [](const PayloadHeader& h) {
+          return hasFlag(h, piece_flag::kEdgeDegenerates) &&
+                 !h.pieces[0].has(piece_flag::kManyParts) && !h.singleCoder();
+        },
+        [](HeaderFields& f) { f.set("0.degenerates", f.get("0.degenerates") + 1); });
+    field("planes without a step", "B.2.9", Error::kBadAttribute, "Planes with a step of 0",
+          threeStreams, [](HeaderFields& f) {
+            f.set("0.0.predictor", 3 << 3);
+            f.set("0.0.bits", 12);
+            for (uint8_t& byte : f.bytes("raw")) byte = 0;
+          });
+  }
+
+  /// What only damaged streams show: for each message the smallest payload a search finds.
+  void searched() {
+    struct Message {
+      const char* what;
+      const char* section;
+    };
+    static const Message kMessages[] = {
+        {"a stream ends before its last symbol", "A.3.8"},
+        {"the token stream does not end where its last symbol does", "A.3.8"},
+        {"the token stream ends inside the positions", "A.3.3"},
+        {"the token stream ends inside an attribute", "A.3.3"},
+        {"the codes yield more triangles than the header claims", "A.4.1"},
+        {"the codes create more vertices than the header claims", "A.4.1"},
+        {"the codes do not yield the counts that the header claims", "A.4.2"},
+        {"a waiting digon was closed", "A.4.4"},
+        {"a handle refers to a node that is not there", "A.4.4"},
+        {"a handle refers to a closed node", "A.4.4"},
+        {"a handle refers to a digon that is not there", "A.4.4"},
+        {"a dummy vertex takes more edges than its digon has", "A.4.5"},
+        {"a component ends while digons wait on the stack", "A.4.6"},
+        {"a copy refers to a group that is not there", "A.5.4"},
+        {"a vertex has no triangle", "A.6.1"},
+        {"a weight of the positions is out of range", "A.6.2"},
+        {"a scale of the positions is out of range", "A.6.2"},
+        {"the seams make more wedges than the header claims", "A.7.3"},
+        {"the seams make fewer wedges than the header claims", "A.7.1"},
+        {"a wedge is merged with none of its group", "A.7.3"},
+        {"a triangle is in no part", "A.9.1"},
+        {"more duplicate triangles than the header claims", "A.9.2"},
+        {"fewer duplicate triangles than the header claims", "A.9.2"},
+        {"more degenerate triangles than the header claims", "A.9.3"},
+        {"a listed triangle refers to a vertex that is not there", "A.9.4"},
+        {"an order refers to an element that is not there", "A.10.2"},
+        {"a part has another number of triangles than the header claims", "A.10.5"},
+        {"a palette has more values than there are vertices", "B.2.8"},
+        {"a palette is not increasing", "B.2.8"},
+    };
+    struct Found {
+      const Asset* asset = nullptr;
+      Bytes payload;
+      Error error = Error::kOk;
+    };
+    std::map<std::string, Found> found;
+    test::Random random(1);
+    for (size_t i = 0; i < assets_.size(); ++i) {
+      if (assets_[i].payload.size() > kSearchedBytes) continue;
+      for (uint32_t round = 0; round < kRounds; ++round) {
+        Bytes payload = assets_[i].payload;
+        const size_t first = headers_[i].header_bytes;
+        if (first >= payload.size()) break;
+        for (uint32_t change = random.between(1, 3); change != 0; --change) {
+          const size_t at = first + random.below(static_cast<uint32_t>(payload.size() - first));
+          payload[at] = static_cast<uint8_t>(random.below(256));
+        }
+        repairChecksum(payload);
+        const Status status = decode(payload);
+        if (status.ok()) continue;
+        Found& best = found[status.what];
+        if (best.asset != nullptr && best.payload.size() <= payload.size()) continue;
+        best = {&assets_[i], std::move(payload), status.error};
+      }
+    }
+    for (const Message& message : kMessages) {
+      const auto it = found.find(message.what);
+      if (it == found.end()) {
+        problems_ += std::string("no payload found: ") + message.what + "\n";
+        continue;
+      }
+      const Found& f = it->second;
+      add(message.what, message.section, f.error,
+          std::string("The streams say that ") + message.what, *f.asset, f.payload);
+    }
+  }
+
+  // ---- Documents ---------------------------------------------------------------------------------
+
+  /// A change of an asset's JSON. `change` gets the document, its first primitive and that one's extension object.
+  void document(const std::string& name, const std::string& shows, const Asset& asset,
+                const std::function<void(Json& json, Json& primitive, Json& extension)>& change) {
+    const std::vector<uint8_t> file = makeGlb(asset);
+    gltf::GlbFile glb;
+    Json json;
+    if (!gltf::readGlb(file, glb).ok() || !gltf::parseJson(glb.json, json).ok())
+      throw std::runtime_error("an asset is no GLB");
+    Json& primitive = json["meshes"][0]["primitives"][0];
+    change(json, primitive, primitive["extensions"][gltf::kExtensionName]);
+    addFile(name, "restrictions", 0, shows, glbOf(json, glb.bin));
+  }
+
+  void documents() {
+    const Asset& plain = base([](const PayloadHeader& h) {
+      const bool both = attributeWith(h, [](const AttributeInfo& a) {
+                          return a.coding == AttributeCoding::kOctahedral &&
+                                 a.format.semantic == Semantic::kNormal;
+                        }) != kNone;
+      return both && h.pieces[0].wedge_count > 5 && h.pieces[0].wedge_count < 255;
+    });
+    const auto accessorOf = [](Json& json, Json& primitive, const char* name) -> Json& {
+      return json["accessors"][primitive["attributes"][name].get<size_t>()];
+    };
+    const auto indicesOf = [](Json& json, Json& primitive) -> Json& {
+      return json["accessors"][primitive["indices"].get<size_t>()];
+    };
+    document("no buffer view", "the extension object has no bufferView", plain,
+             [](Json&, Json&, Json& e) { e.erase("bufferView"); });
+    document("no such buffer view", "bufferView is none of the document", plain,
+             [](Json&, Json&, Json& e) { e["bufferView"] = 99; });
+    document("buffer view no integer", "bufferView is a string", plain,
+             [](Json&, Json&, Json& e) { e["bufferView"] = "0"; });
+    document("payload cut", "the buffer view is a byte shorter than the payload", plain,
+             [](Json& j, Json&, Json&) {
+               j["bufferViews"][0]["byteLength"] =
+                   j["bufferViews"][0]["byteLength"].get<size_t>() - 1;
+             });
+    document("payload beyond the buffer", "the buffer view ends outside of the buffer", plain,
+             [](Json& j, Json&, Json&) { j["bufferViews"][0]["byteLength"] = 1 << 20; });
+    document("no such piece", "piece is none of the payload", plain,
+             [](Json&, Json&, Json& e) { e["piece"] = 1; });
+    document("no such part", "part is none of the piece", plain,
+             [](Json&, Json&, Json& e) { e["part"] = 1; });
+    document("negative part", "part is negative", plain,
+             [](Json&, Json&, Json& e) { e["part"] = -1; });
+    document("no such attribute", "an attribute's number is none of the piece", plain,
+             [](Json&, Json&, Json& e) { e["attributes"]["NORMAL"] = 99; });
+    document("attribute of no accessor",
+             "the extension names an attribute that the primitive has not", plain,
+             [](Json&, Json& p, Json&) { p["attributes"].erase("NORMAL"); });
+    document("exchanged attributes",
+             "POSITION and NORMAL are exchanged: their semantics contradict the payload", plain,
+             [](Json&, Json&, Json& e) {
+               std::swap(e["attributes"]["POSITION"], e["attributes"]["NORMAL"]);
+             });
+    document("attributes no object", "attributes is an array", plain,
+             [](Json&, Json&, Json& e) { e["attributes"] = Json::array({0}); });
+    document("extension no object", "the extension is a number", plain,
+             [](Json&, Json&, Json& e) { e = 1; });
+    document("mode 5", "the primitive is a strip", plain,
+             [](Json&, Json& p, Json&) { p["mode"] = 5; });
+    document("mode 0", "the primitive is points", plain,
+             [](Json&, Json& p, Json&) { p["mode"] = 0; });
+    document("no indices", "the primitive has no indices", plain,
+             [](Json&, Json& p, Json&) { p.erase("indices"); });
+    document("indices of floats", "the indices are FLOAT", plain,
+             [&](Json& j, Json& p, Json&) { indicesOf(j, p)["componentType"] = 5126; });
+    document("indices of shorts", "the indices are SHORT", plain,
+             [&](Json& j, Json& p, Json&) { indicesOf(j, p)["componentType"] = 5122; });
+    document("indices of pairs", "the indices are VEC2", plain,
+             [&](Json& j, Json& p, Json&) { indicesOf(j, p)["type"] = "VEC2"; });
+    document("normalized indices", "the indices are normalized", plain,
+             [&](Json& j, Json& p, Json&) { indicesOf(j, p)["normalized"] = true; });
+    document("fewer indices", "the indices are one triangle fewer than the part has", plain,
+             [&](Json& j, Json& p, Json&) {
+               indicesOf(j, p)["count"] = indicesOf(j, p)["count"].get<int>() - 3;
+             });
+    document("more indices", "the indices are one more than the part has", plain,
+             [&](Json& j, Json& p, Json&) {
+               indicesOf(j, p)["count"] = indicesOf(j, p)["count"].get<int>() + 1;
+             });
+    document("huge count", "an accessor claims 2^31 elements", plain,
+             [&](Json& j, Json& p, Json&) { accessorOf(j, p, "POSITION")["count"] = 2147483648u; });
+    document("fewer elements", "POSITION has fewer elements than the piece has wedges", plain,
+             [&](Json& j, Json& p, Json&) {
+               accessorOf(j, p, "POSITION")["count"] =
+                   accessorOf(j, p, "POSITION")["count"].get<int>() - 1;
+             });
+    document("other component type", "NORMAL is BYTE, in the payload FLOAT", plain,
+             [&](Json& j, Json& p, Json&) { accessorOf(j, p, "NORMAL")["componentType"] = 5120; });
+    document("other type", "NORMAL is VEC4, in the payload it has three components", plain,
+             [&](Json& j, Json& p, Json&) { accessorOf(j, p, "NORMAL")["type"] = "VEC4"; });
+    document("other normalized", "NORMAL is normalized, in the payload not", plain,
+             [&](Json& j, Json& p, Json&) { accessorOf(j, p, "NORMAL")["normalized"] = true; });
+    document("narrow indices", "the indices are UNSIGNED_BYTE, for 255 wedges and more",
+             base([](const PayloadHeader& h) {
+               return h.pieces.size() == 1 && h.pieces[0].wedge_count > 255;
+             }),
+             [&](Json& j, Json& p, Json&) { indicesOf(j, p)["componentType"] = 5121; });
+    const Asset& two = base([](const PayloadHeader& h) {
+      return h.pieces.size() >= 2 && h.pieces[0].attribute_count != 0 &&
+             h.pieces[0].wedge_count != 0;
+    });
+    document("one accessor for two attributes",
+             "one accessor is filled from POSITION of two pieces", two,
+             [](Json& j, Json& p, Json&) {
+               Json& other = j["meshes"][0]["primitives"].back();
+               other["attributes"]["POSITION"] = p["attributes"]["POSITION"];
+             });
+    const Asset& morphed = base([](const PayloadHeader& h) {
+      return attributeWith(h, [](const AttributeInfo& a) {
+               return a.format.morph_target == 1 && a.format.semantic == Semantic::kPosition &&
+                      a.coding != AttributeCoding::kAlias;
+             }) != kNone;
+    });
+    document("more targets", "the extension has a target more than the primitive", morphed,
+             [](Json&, Json&, Json& e) { e["targets"].push_back(Json::object()); });
+    document("target of the base", "a target's POSITION is the attribute of the base mesh", morphed,
+             [](Json&, Json&, Json& e) { e["targets"][0]["POSITION"] = 0; });
+    document("ordinary attribute too short",
+             "an attribute beside the payload has fewer elements than the piece has wedges",
+             base([](const PayloadHeader& h) { return h.pieces[0].attribute_count == 0; }),
+             [&](Json& j, Json& p, Json&) {
+               accessorOf(j, p, "POSITION")["count"] =
+                   accessorOf(j, p, "POSITION")["count"].get<int>() - 1;
+             });
+    document("draco besides", "the primitive has KHR_draco_mesh_compression, too", plain,
+             [](Json& j, Json& p, Json&) {
+               p["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0},
+                                                                {"attributes", {{"POSITION", 0}}}};
+               j["extensionsUsed"].push_back("KHR_draco_mesh_compression");
+             });
+    document("meshopt below", "the payload's buffer view has EXT_meshopt_compression", plain,
+             [](Json& j, Json&, Json&) {
+               j["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {
+                   {"buffer", 0},
+                   {"byteLength", 8},
+                   {"byteStride", 4},
+                   {"count", 1},
+                   {"mode", "ATTRIBUTES"}};
+               j["extensionsUsed"].push_back("EXT_meshopt_compression");
+             });
+  }
+
+  static constexpr size_t kSearchedBytes = 700;
+  static constexpr uint32_t kRounds = 600;
+
+  std::span<const Asset> assets_;
+  std::vector<PayloadHeader> headers_;
+  std::vector<Negative> all_;
+  std::string problems_;  ///< in what is made here
+};
+
+}  // namespace
+
+std::vector<Negative> makeNegatives(std::span<const Asset> assets) { return Maker(assets).run(); }
+
+}  // namespace mcc::conformance

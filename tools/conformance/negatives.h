@@ -1,0 +1,29 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Files that a decoder must refuse.
+#ifndef MCC_TOOLS_CONFORMANCE_NEGATIVES_H_
+#define MCC_TOOLS_CONFORMANCE_NEGATIVES_H_
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "asset.h"
+
+namespace mcc::conformance {
+
+struct Negative {
+  std::string name;
+  std::string shows;    ///< one sentence
+  std::string section;  ///< of the specification
+  uint32_t error = 0;   ///< A.1.4; 0: the document is wrong, not the payload
+  std::vector<uint8_t> glb;
+};
+
+/// Made of valid assets; throws if one of them decodes, or fails for another reason than it should.
+std::vector<Negative> makeNegatives(std::span<const Asset> assets);
+
+}  // namespace mcc::conformance
+
+#endif  // MCC_TOOLS_CONFORMANCE_NEGATIVES_H_

@@ -1,0 +1,689 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "sources.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "support/mesh_generators.h"
+
+namespace mcc::conformance {
+namespace {
+
+using namespace test;  // the mesh generators
+
+// ---- Surfaces -----------------------------------------------------------------------------------
+
+TestMesh gyroid(uint32_t n) {
+  return isosurface(n, [](double x, double y, double z) {
+    return x * x + y * y * 0.7 + z * z * 1.3 + x * y * z - 0.5;
+  });
+}
+
+/// Every kind of surface, at most a few hundred triangles.
+std::vector<TestMesh> makeSurfaces() {
+  std::vector<TestMesh> all = {
+      tetrahedron(),
+      looseTriangles(1),
+      looseTriangles(9),
+      icosphere(1),
+      icosphere(2),
+      uvSphere(8, 6),
+      torus(9, 7),
+      bipyramid(20),
+      bipyramid(5),
+      deepStack(20),
+      randomStacked(3, 40),
+      combOfStacks(6, 5),
+      mengerSponge(1),
+      plateWithTunnels(3, 2),
+      plateWithTunnels(1, 3),
+      grid(8, 8),
+      grid(7, 9, QuadSplit::kAlternate),
+      grid(9, 7, QuadSplit::kRows),
+      jittered(grid(10, 10, QuadSplit::kRandom, 5), 4, 0.02f),
+      sheetWithHoles(4, 1),
+      sheetWithHoles(2, 7),
+      openFan(12),
+      generated(5, 4, 6, 7),
+      generated(9, 2, 3, 2),
+      generated(11, 1, 0, 1),
+      moebius(12, 2),
+      kleinBottle(6, 5),
+      bowTies(3, 3, 2),
+      bowTies(6, 4, 3),
+      pinchedSpheres(3),
+      book(4, 3, 2),
+      book(3, 6, 3),
+      fins(5),
+      fins(8),
+      randomVoxels(3, 4, 50),
+      randomVoxels(8, 5, 35),
+      tetrahedralSoup(2),
+      randomSoup(11),
+      doubled(icosphere(0)),
+      doubled(grid(4, 4)),
+      chartGrid(8, 8, 3),
+      chartGrid(6, 6, 2),
+      withRandomWedges(torus(7, 5), 4, 3),
+      withRandomWedges(book(3, 3, 3), 4, 3),
+      withRandomWedges(bowTies(3, 3, 3), 4, 2),
+      withEqualTuples(torus(7, 5), 4),
+      flatShaded(icosphere(1)),
+      flatShaded(torus(7, 5)),
+      withIndexDuplicates(icosphere(1), 5, 9),
+      withIndexDuplicates(grid(6, 6), 5, 40),
+      withPositionDuplicates(icosphere(1), 5, 9),
+      withDegenerates(icosphere(1), 5, 9),
+      withDegenerates(withIndexDuplicates(grid(6, 6), 1, 8), 2, 30),
+      withUnused(icosphere(1), 5, 9),
+      withUnused(tetrahedron(), 5, 20),
+      withFlippedTriangles(icosphere(2), 3, 20),
+      gyroid(5),
+      gyroid(7),
+      shuffled(icosphere(2), 1),
+      unionOf(std::array{icosphere(1), translated(icosphere(1), 3, 0, 0),
+                         translated(icosphere(1), 0, 3, 0)},
+              "three spheres"),
+      unionOf(std::array{torus(6, 5), translated(sheetWithHoles(2, 3), 4, 0, 0)}, "ring and sheet"),
+      soup(7, 40, 20, {20, 20, 20, 20}),
+      flipped(icosphere(2), 3, 300),
+      flipped(torus(12, 9), 5, 400),
+  };
+  for (TestMesh& mesh : all) {
+    if (mesh.normals.empty()) mesh = withNormals(std::move(mesh));
+  }
+  return all;
+}
+
+/// Isosurfaces large enough for their planes to be found.
+std::vector<TestMesh> makePlanar() {
+  const TestMesh surface = isosurface(16, [](double x, double y, double z) {
+    return x * x + y * y * 0.9 + z * z * 0.8 + 0.3 * x * y * z - 0.8;
+  });
+  std::vector<TestMesh> all = {surface, withUnused(surface, 3, 20),
+                               unionOf(std::array{surface, book(3, 2, 2)}, "isosurface and book")};
+  for (TestMesh& mesh : all) mesh = withNormals(std::move(mesh));
+  return all;
+}
+
+const std::vector<TestMesh>& planarSurfaces() {
+  static const std::vector<TestMesh> kAll = makePlanar();
+  return kAll;
+}
+
+const std::vector<TestMesh>& surfaces() {
+  static const std::vector<TestMesh> kAll = makeSurfaces();
+  return kAll;
+}
+
+// ---- Attributes ---------------------------------------------------------------------------------
+
+constexpr uint32_t kBase = kNone;
+
+/// Where on its surface a wedge is: what values are made of.
+struct Place {
+  const TestMesh& mesh;
+  uint32_t wedge;
+
+  float position(uint32_t c) const { return mesh.positions[3 * size_t{wedge} + c]; }
+  float normal(uint32_t c) const { return mesh.normals[3 * size_t{wedge} + c]; }
+  float texcoord(uint32_t c) const {
+    if (!mesh.texcoords.empty()) return mesh.texcoords[2 * size_t{wedge} + c];
+    return 0.5f + position(c) * 0.31f + position(2) * 0.17f;
+  }
+};
+
+/// How exact the floats of an attribute are.
+enum class Floats : uint8_t { kAny, kDecimal, kFraction, kBinary, kCoarse, kTiny, kSpecial, kHuge };
+
+float shaped(float x, Floats floats, uint32_t digits, Random& random) {
+  const auto roundedTo = [](double value, double scale) {
+    return static_cast<float>(std::floor(value * scale + 0.5) / scale);
+  };
+  double power = 1;
+  for (uint32_t i = 0; i < digits; ++i) power *= 10;
+  switch (floats) {
+    case Floats::kAny: return x;
+    case Floats::kDecimal: return roundedTo(double{x}, power);
+    case Floats::kFraction: return roundedTo(double{x}, std::ldexp(1.0, 2 + digits) - 1);
+    case Floats::kBinary: return roundedTo(double{x}, std::ldexp(1.0, digits));
+    case Floats::kCoarse: return static_cast<float>(std::floor(x * 3)) * 0.3731f;
+    case Floats::kTiny: return x * 1e-41f;
+    case Floats::kSpecial: {
+      const uint32_t specials[] = {0x7fc00000, 0xffc12345, 0x7f800000, 0xff800000,
+                                   0x80000000, 0x00000001, 0x807fffff, 0x7f7fffff};
+      return random.chance(85) ? x : std::bit_cast<float>(specials[random.below(8)]);
+    }
+    case Floats::kHuge: break;
+  }
+  return random.chance(50) ? x * 3e35f : x * 1e-3f;
+}
+
+class SourceBuilder {
+ public:
+  SourceBuilder(const TestMesh& mesh, uint64_t seed) : mesh_(mesh), random_(seed) {
+    piece_.wedge_count = mesh.vertexCount();
+    piece_.parts = {mesh.indices};
+  }
+
+  Random& random() { return random_; }
+  SourcePiece& piece() { return piece_; }
+  SourcePiece take() { return std::move(piece_); }
+
+  using Value = std::function<float(const Place&, uint32_t)>;
+
+  /// A float attribute; `value` gives component c.
+  void floats(const std::string& name, uint32_t target, const std::string& type, uint8_t bits,
+              const Value& value) {
+    NamedAttribute a = makeAttribute(name, target, type, ComponentType::kFloat32);
+    a.bits = bits;
+    for (uint32_t w = 0; w < piece_.wedge_count; ++w) {
+      for (uint32_t c = 0; c < a.format.component_count; ++c) a.append(value({mesh_, w}, c));
+    }
+    piece_.attributes.push_back(std::move(a));
+  }
+  void integers(const std::string& name, uint32_t target, const std::string& type,
+                ComponentType component_type, bool normalized, const Value& value) {
+    NamedAttribute a = makeAttribute(name, target, type, component_type, normalized);
+    for (uint32_t w = 0; w < piece_.wedge_count; ++w) {
+      for (uint32_t c = 0; c < a.format.component_count; ++c) {
+        const auto x = static_cast<int64_t>(value({mesh_, w}, c));
+        switch (componentBytes(component_type)) {
+          case 1: a.append(static_cast<uint8_t>(x)); break;
+          case 2: a.append(static_cast<uint16_t>(x)); break;
+          default: a.append(static_cast<uint32_t>(x)); break;
+        }
+      }
+    }
+    piece_.attributes.push_back(std::move(a));
+  }
+
+  Floats anyFloats() { return static_cast<Floats>(random_.below(6)); }
+
+  void positions(uint8_t bits, Floats floats_kind = Floats::kAny) {
+    const uint32_t digits = random_.below(7);
+    floats("POSITION", kBase, "VEC3", bits, [=, this](const Place& at, uint32_t c) {
+      return shaped(at.position(c), floats_kind, digits, random_);
+    });
+  }
+  void integerPositions(ComponentType type) {
+    const float scale = componentBytes(type) == 1 ? 30.0f : 4000.0f;
+    const bool is_unsigned = type == ComponentType::kUint8 || type == ComponentType::kUint16;
+    integers("POSITION", kBase, "VEC3", type, random_.chance(30), [=](const Place& at, uint32_t c) {
+      return std::floor(at.position(c) * scale) + (is_unsigned ? 2 * scale : 0);
+    });
+  }
+
+  void normals(uint8_t bits, Floats kind = Floats::kAny) {
+    const uint32_t digits = random_.below(6);
+    const bool exact = bits == 0;
+    floats("NORMAL", kBase, "VEC3", bits, [=, this](const Place& at, uint32_t c) {
+      return exact ? shaped(at.normal(c), kind, digits, random_) : at.normal(c);
+    });
+  }
+
+  /// `beside`: perpendicular to the normals.
+  void tangents(uint8_t bits, bool beside, Floats kind = Floats::kAny) {
+    const uint32_t digits = random_.below(6);
+    NamedAttribute a = makeAttribute("TANGENT", kBase, "VEC4", ComponentType::kFloat32);
+    a.bits = bits;
+    for (uint32_t w = 0; w < piece_.wedge_count; ++w) {
+      const Place at{mesh_, w};
+      double t[3] = {1.0 + 0.3 * double{at.position(0)}, 0.2 * double{at.position(1)} - 0.4,
+                     0.7 * double{at.position(2)} + 0.1};
+      double dot = 0;
+      for (uint32_t c = 0; c < 3; ++c) dot += t[c] * double{at.normal(c)};
+      double square = 0;
+      for (uint32_t c = 0; c < 3; ++c) {
+        if (beside) t[c] -= dot * double{at.normal(c)};
+        square += t[c] * t[c];
+      }
+      const double scale = square > 1e-9 ? 1 / std::sqrt(square) : 0;
+      for (uint32_t c = 0; c < 3; ++c) {
+        const auto x = static_cast<float>(square > 1e-9 ? t[c] * scale : (c == 0 ? 1.0 : 0.0));
+        a.append(bits == 0 ? shaped(x, kind, digits, random_) : x);
+      }
+      const bool odd = kind == Floats::kSpecial && random_.chance(10);
+      a.append(odd ? 0.25f : at.position(1) < 0.1f ? -1.0f : 1.0f);
+    }
+    piece_.attributes.push_back(std::move(a));
+  }
+
+  void texcoords(const std::string& name, uint8_t bits, Floats kind = Floats::kAny) {
+    const uint32_t digits = random_.below(6);
+    const uint32_t repeat = random_.below(3);
+    floats(name, kBase, "VEC2", bits, [=, this](const Place& at, uint32_t c) {
+      const float x = at.texcoord(c);
+      const float folded = repeat == 0 ? std::fabs(x - 0.5f) : x;
+      return shaped(folded, bits == 0 ? kind : Floats::kAny, digits, random_);
+    });
+  }
+
+  void colors(const std::string& name, uint8_t bits, Floats kind = Floats::kAny) {
+    const uint32_t digits = random_.below(6);
+    const std::string type = random_.chance(50) ? "VEC3" : "VEC4";
+    floats(name, kBase, type, bits, [=, this](const Place& at, uint32_t c) {
+      if (c == 3) return 1.0f;
+      return shaped(0.5f + at.position(c) * 0.2f + at.normal((c + 1) % 3) * 0.1f,
+                    bits == 0 ? kind : Floats::kAny, digits, random_);
+    });
+  }
+
+  /// Rigid, blended or wild; weights as floats or normalized integers.
+  void skin(const std::string& set) {
+    const uint32_t way = random_.below(4);
+    const uint32_t weights_as = random_.below(4);
+    const uint8_t bits = weights_as == 0 ? static_cast<uint8_t>(random_.between(2, 14)) : 0;
+    const bool idle = random_.chance(30);
+    const bool loose = random_.chance(30);
+    NamedAttribute joints =
+        makeAttribute("JOINTS_" + set, kBase, "VEC4",
+                      random_.chance(50) ? ComponentType::kUint8 : ComponentType::kUint16);
+    const ComponentType types[] = {ComponentType::kFloat32, ComponentType::kUint8,
+                                   ComponentType::kUint16, ComponentType::kFloat32};
+    NamedAttribute weights = makeAttribute("WEIGHTS_" + set, kBase, "VEC4", types[weights_as],
+                                           types[weights_as] != ComponentType::kFloat32);
+    weights.bits = bits;
+    for (uint32_t w = 0; w < piece_.wedge_count; ++w) {
+      const Place at{mesh_, w};
+      const auto bone = static_cast<int32_t>(std::floor((at.position(0) + 4) * 2));
+      uint32_t joint[4] = {};
+      float weight[4] = {};
+      for (uint32_t k = 0; k < 4; ++k) {
+        joint[k] = static_cast<uint32_t>(std::abs(bone) + (way == 3 ? 3 - static_cast<int>(k)
+                                                                    : static_cast<int>(k))) %
+                   60;
+        weight[k] = way == 0 ? (k == 0 ? 1.0f : 0.0f)
+                             : std::fabs(at.position(k % 3)) * static_cast<float>(4 - k) + 0.01f;
+        if (way == 2 && random_.chance(30)) {
+          weight[k] = 0;
+          joint[k] = idle ? random_.below(50) : 0;
+        }
+        if (way == 3 && random_.chance(10)) joint[k] = random_.below(60);
+      }
+      weight[0] += 0.05f;
+      float sum = 0;
+      for (const float x : weight) sum += x;
+      int32_t rest = types[weights_as] == ComponentType::kUint8 ? 255 : 65535;
+      const auto whole = static_cast<float>(rest);
+      for (uint32_t k = 0; k < 4; ++k) {
+        if (weight[k] == 0 && !idle) joint[k] = 0;
+        if (joints.format.component_type == ComponentType::kUint8) {
+          joints.append(static_cast<uint8_t>(joint[k]));
+        } else {
+          joints.append(static_cast<uint16_t>(joint[k]));
+        }
+        const float share = weight[k] / sum;
+        if (types[weights_as] == ComponentType::kFloat32) {
+          weights.append(loose && random_.chance(20) ? share * 0.5f : share);
+          continue;
+        }
+        int32_t value = std::min(static_cast<int32_t>(std::floor(share * whole)), rest);
+        rest -= value;
+        if (k == 3 && !(loose && random_.chance(20)) && weight[3] != 0) value += rest;
+        if (types[weights_as] == ComponentType::kUint8) {
+          weights.append(static_cast<uint8_t>(value));
+        } else {
+          weights.append(static_cast<uint16_t>(value));
+        }
+      }
+    }
+    piece_.attributes.push_back(std::move(joints));
+    piece_.attributes.push_back(std::move(weights));
+  }
+
+  void custom(const std::string& name, uint32_t target = kBase) {
+    static const char* const kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+    const std::string type = kTypes[random_.below(7)];
+    const auto component_type = static_cast<ComponentType>(random_.below(6));
+    const uint32_t digits = random_.below(6);
+    const Floats kind = random_.chance(20) ? Floats::kSpecial : anyFloats();
+    if (component_type == ComponentType::kFloat32) {
+      const uint8_t bits = random_.chance(50) ? 0 : static_cast<uint8_t>(random_.between(1, 24));
+      const bool special = bits == 0;
+      floats(name, target, type, bits, [=, this](const Place& at, uint32_t c) {
+        return shaped(at.position(c % 3) * static_cast<float>(c + 1), special ? kind : Floats::kAny,
+                      digits, random_);
+      });
+      return;
+    }
+    const bool normalized = component_type != ComponentType::kUint32 && random_.chance(30);
+    integers(name, target, type, component_type, normalized, [](const Place& at, uint32_t c) {
+      return std::floor(at.position(c % 3) * 37 + static_cast<float>(3 * c) + 120);
+    });
+  }
+
+  /// Numbers of regions, in order of appearance or not.
+  void ids(const std::string& name) {
+    const float size = random_.chance(50) ? 1.7f : 5.0f;
+    const ComponentType type = random_.chance(50) ? ComponentType::kUint16 : ComponentType::kUint32;
+    integers(name, kBase, "SCALAR", type, false, [=, this](const Place& at, uint32_t) {
+      const float cell = std::floor(at.position(0) * size) * 7 + std::floor(at.position(1) * size);
+      return std::fabs(cell) * 3 + (random_.chance(5) ? 1000.0f : 0.0f);
+    });
+  }
+
+  void morph(uint32_t target) {
+    const uint8_t bits = random_.chance(50) ? 0 : static_cast<uint8_t>(random_.between(4, 14));
+    const Floats kind = bits == 0 ? anyFloats() : Floats::kAny;
+    const uint32_t digits = random_.below(5);
+    const auto moves = [](const Place& at) { return at.position(0) > 0; };
+    if (random_.chance(85)) {
+      floats("POSITION", target, "VEC3", bits, [=, this](const Place& at, uint32_t c) {
+        if (!moves(at)) return 0.0f;
+        return shaped(at.position((c + 1) % 3) * 0.1f, kind, digits, random_);
+      });
+    }
+    if (random_.chance(70)) {
+      floats("NORMAL", target, "VEC3", bits, [=, this](const Place& at, uint32_t c) {
+        if (!moves(at)) return 0.0f;
+        return shaped(at.normal((c + 1) % 3) * 0.1f, kind, digits, random_);
+      });
+    }
+    if (random_.chance(50)) {
+      floats("TANGENT", target, "VEC3", bits, [=, this](const Place& at, uint32_t c) {
+        return moves(at) ? shaped(at.normal((c + 2) % 3) * 0.07f, kind, digits, random_) : 0.0f;
+      });
+    }
+    if (random_.chance(20)) {
+      floats("TEXCOORD_0", target, "VEC2", bits, [=](const Place& at, uint32_t c) {
+        return moves(at) ? at.position(c) * 0.01f : 0.0f;
+      });
+    }
+    if (random_.chance(20)) {
+      integers("POSITION_X", target, "VEC3", ComponentType::kInt8, true,
+               [](const Place& at, uint32_t c) { return std::floor(at.position(c) * 9); });
+    }
+  }
+
+  /// Triangles dealt out to parts in turns, and an empty part behind them.
+  void split(uint32_t count) {
+    std::vector<std::vector<uint32_t>> parts(count + 1);
+    for (uint32_t t = 0; t < mesh_.triangleCount(); ++t) {
+      std::vector<uint32_t>& part =
+          parts[random_.chance(10) ? random_.below(count) : t / 5 % count];
+      part.insert(part.end(), mesh_.indices.begin() + 3 * t, mesh_.indices.begin() + 3 * t + 3);
+    }
+    piece_.parts = std::move(parts);
+  }
+
+ private:
+  const TestMesh& mesh_;
+  Random random_;
+  SourcePiece piece_;
+};
+
+uint8_t latticeBits(Random& random, uint8_t low, uint8_t high) {
+  if (random.chance(8)) return low;
+  if (random.chance(8)) return high;
+  return static_cast<uint8_t>(random.between(low, high));
+}
+
+void addRandomAttributes(SourceBuilder& b) {
+  Random& random = b.random();
+  switch (random.below(8)) {
+    case 0: b.integerPositions(static_cast<ComponentType>(random.below(4))); break;
+    case 1: b.positions(0, b.anyFloats()); break;
+    case 2: b.positions(0, random.chance(60) ? Floats::kHuge : Floats::kTiny); break;
+    default: b.positions(latticeBits(random, 1, 24)); break;
+  }
+  if (random.chance(20)) return;
+  if (random.chance(55)) {
+    if (random.chance(60)) {
+      b.normals(latticeBits(random, 2, 16));
+    } else {
+      b.normals(0, random.chance(50) ? Floats::kAny : static_cast<Floats>(random.below(7)));
+    }
+  }
+  if (random.chance(50)) {
+    b.texcoords("TEXCOORD_0", random.chance(65) ? latticeBits(random, 1, 24) : uint8_t{0},
+                random.chance(30) ? Floats::kSpecial : b.anyFloats());
+  }
+  if (random.chance(15)) b.texcoords("TEXCOORD_1", latticeBits(random, 1, 24));
+  if (random.chance(35)) {
+    if (random.chance(60)) {
+      b.tangents(latticeBits(random, 2, 16), random.chance(60));
+    } else {
+      b.tangents(0, random.chance(80), random.chance(60) ? Floats::kAny : Floats::kSpecial);
+    }
+  }
+  if (random.chance(25)) {
+    b.colors("COLOR_0", random.chance(50) ? uint8_t{0} : latticeBits(random, 1, 12),
+             random.chance(30) ? Floats::kSpecial : b.anyFloats());
+  }
+  if (random.chance(25)) b.skin(random.chance(70) ? "0" : "3");
+  if (random.chance(25)) b.custom("_A");
+  if (random.chance(12)) b.custom("_B");
+  if (random.chance(15)) b.ids("_ID");
+  if (random.chance(25)) {
+    b.morph(0);
+    if (random.chance(50)) b.morph(1);
+  }
+}
+
+}  // namespace
+
+Source randomSource(uint64_t seed) {
+  Random random(seed);
+  Source source;
+  const std::vector<TestMesh>& all = surfaces();
+  const uint32_t piece_count = random.chance(12) ? random.between(2, 4) : 1;
+  const bool indices_only = random.chance(6);
+  const uint64_t attributes_seed = random.next();
+  for (uint32_t i = 0; i < piece_count; ++i) {
+    const TestMesh& mesh = all[random.below(static_cast<uint32_t>(all.size()))];
+    source.name += (i == 0 ? "" : "_and_") + mesh.name;
+    source.shows += (i == 0 ? "" : ", ") + mesh.name;
+    SourceBuilder b(mesh, attributes_seed);
+    if (indices_only) {
+      b.positions(0);
+    } else {
+      addRandomAttributes(b);
+    }
+    if (random.chance(15)) b.split(random.between(1, 5));
+    source.pieces.push_back(b.take());
+  }
+  source.options.variation = seed | 1;
+  source.options.indices_only = indices_only;
+  source.options.keep_vertex_order = random.chance(15);
+  source.options.keep_triangle_order = random.chance(15);
+  return source;
+}
+
+Source planarSource(uint64_t seed) {
+  Random random(seed);
+  const std::vector<TestMesh>& all = planarSurfaces();
+  const TestMesh& mesh = all[random.below(static_cast<uint32_t>(all.size()))];
+  SourceBuilder b(mesh, random.next());
+  b.positions(static_cast<uint8_t>(random.between(9, 17)));
+  Source source;
+  source.name = mesh.name;
+  source.shows = mesh.name;
+  source.pieces.push_back(b.take());
+  source.options.variation = seed | 1;
+  return source;
+}
+
+namespace {
+
+/// A source whose only piece is made by `fill`.
+Source single(const std::string& name, const std::string& shows, const TestMesh& mesh,
+              const std::function<void(SourceBuilder&)>& fill) {
+  SourceBuilder b(mesh, 1);
+  fill(b);
+  Source source;
+  source.name = name;
+  source.shows = shows;
+  source.pieces.push_back(b.take());
+  return source;
+}
+
+void smallSources(std::vector<Source>& all) {
+  const auto positionsAt = [](uint8_t bits) {
+    return [=](SourceBuilder& b) { b.positions(bits); };
+  };
+  all.push_back(single("one_triangle", "One triangle, its positions exact", looseTriangles(1),
+                       positionsAt(0)));
+  all.push_back(single("one_triangle_lattice", "One triangle on a lattice of one bit",
+                       looseTriangles(1), positionsAt(1)));
+  all.push_back(
+      single("tetrahedron", "The smallest closed surface", tetrahedron(), positionsAt(14)));
+  Source alone = single("triangles_alone", "Triangles without attributes, which stay accessors",
+                        icosphere(0), positionsAt(0));
+  alone.options.indices_only = true;
+  all.push_back(alone);
+  TestMesh unused;
+  unused.name = "isolated wedges beside one triangle";
+  unused = withUnused(looseTriangles(1), 3, 300);
+  unused = withNormals(unused);
+  all.push_back(single("mostly_isolated",
+                       "One triangle and 300 vertices that no triangle uses: indices of 16 bits",
+                       unused, [](SourceBuilder& b) {
+                         b.positions(11);
+                         b.normals(5);
+                       }));
+  Source empty = single("empty_piece", "A piece without triangles and wedges before one with some",
+                        tetrahedron(), positionsAt(10));
+  SourcePiece nothing;
+  nothing.parts = {{}};
+  nothing.attributes = {makeAttribute("POSITION", kNone, "VEC3", ComponentType::kFloat32)};
+  nothing.attributes[0].bits = 10;
+  empty.pieces.insert(empty.pieces.begin(), nothing);
+  all.push_back(empty);
+  Source pieces;
+  pieces.name = "nine_pieces";
+  pieces.shows = "Nine pieces that share models; those with equal headers say so";
+  for (uint32_t i = 0; i < 9; ++i) {
+    const TestMesh mesh = i % 2 == 0 ? icosphere(1) : uvSphere(6 + i, 5);
+    SourceBuilder b(mesh, 3);
+    b.positions(12);
+    const Lattice lattice{{-2, -2, -2, 0}, 0.001f};
+    b.piece().attributes[0].lattice = lattice;
+    pieces.pieces.push_back(b.take());
+  }
+  all.push_back(pieces);
+  all.push_back(
+      single("large_numbers", "Set 255, morph target 65535, integers at their limits",
+             withNormals(grid(5, 5)), [](SourceBuilder& b) {
+               b.positions(14);
+               b.texcoords("TEXCOORD_255", 9);
+               b.colors("COLOR_255", 6);
+               const auto extreme = [](const Place& at, uint32_t c) {
+                 const float all_values[] = {
+                     0, 1, 4294967040.0f, 2147483648.0f, 4294966784.0f, 2147483520.0f, 65535, 127};
+                 return all_values[(at.wedge * 3 + c) % 8];
+               };
+               for (uint32_t i = 0; i < 5; ++i) {
+                 b.integers("_LIMITS_" + std::to_string(i), kBase, i == 3 ? "VEC2" : "VEC3",
+                            static_cast<ComponentType>(i), false, extreme);
+               }
+               b.floats("POSITION", 65534, "VEC3", 8,
+                        [](const Place& at, uint32_t c) { return at.position(c) * 0.1f; });
+               b.floats("POSITION", 15, "VEC3", 8,
+                        [](const Place& at, uint32_t c) { return at.position(2 - c) * 0.1f; });
+             }));
+  all.push_back(single("aliases", "Attributes that are equal to earlier ones",
+                       withNormals(chartGrid(6, 6, 3)), [](SourceBuilder& b) {
+                         b.positions(12);
+                         b.texcoords("TEXCOORD_0", 10);
+                         b.piece().attributes.push_back(b.piece().attributes[1]);
+                         b.piece().attributes.back().name = "TEXCOORD_1";
+                         b.piece().attributes.back().format.set_index = 1;
+                         for (uint32_t target : {0u, 1u}) {
+                           b.floats(
+                               "POSITION", target, "VEC3", 10,
+                               [](const Place& at, uint32_t c) { return at.position(c) * 0.2f; });
+                         }
+                       }));
+}
+
+/// Exact grids: every decimal and fractional one, binary ones from end to end.
+void gridSources(std::vector<Source>& all) {
+  for (uint32_t first = 0; first < 24; first += 8) {
+    all.push_back(single(
+        "grids_" + std::to_string(first), "Decimal grids, fractional grids and binary ones",
+        withNormals(torus(7, 6)), [first](SourceBuilder& b) {
+          b.positions(10);
+          for (uint32_t i = first; i < first + 8; ++i) {
+            const double scale =
+                i < 9 ? std::pow(10.0, i) : std::ldexp(1.0, static_cast<int>(i) - 7) - 1;
+            b.floats("_GRID_" + std::to_string(i), kBase, "SCALAR", 0,
+                     [scale](const Place& at, uint32_t) {
+                       const double x = double{at.position(0)} * 0.03 + double{at.wedge} * 0.001;
+                       return static_cast<float>(std::floor(x * scale + 0.5) / scale);
+                     });
+          }
+        }));
+  }
+  all.push_back(single("grids_binary", "Binary grids with steps of 2^-149 to 2^96",
+                       withNormals(torus(7, 6)), [](SourceBuilder& b) {
+                         b.positions(10);
+                         for (const int exponent : {-149, -148, -130, -60, -7, 3, 70, 96}) {
+                           b.floats("_STEP_" + std::to_string(exponent + 149), kBase, "VEC2", 0,
+                                    [=](const Place& at, uint32_t c) {
+                                      const double x = std::floor(double{at.position(c)} * 90);
+                                      return static_cast<float>(std::ldexp(x, exponent));
+                                    });
+                         }
+                       }));
+  for (const bool cached : {false, true}) {
+    all.push_back(single(cached ? "tails_cached" : "tails_plain",
+                         "Binary grids with bits below the step, zeros of both signs among them",
+                         withNormals(torus(9, 8)), [cached](SourceBuilder& b) {
+                           b.positions(0);
+                           b.floats("_TAILS", kBase, "VEC4", 0, [=](const Place& at, uint32_t c) {
+                             const auto wedge =
+                                 static_cast<float>(cached ? at.wedge % 5 : at.wedge);
+                             if ((at.wedge + c) % 7 == 0)
+                               return (at.wedge + c) % 2 == 0 ? -0.0f : 0.0f;
+                             if ((at.wedge + c) % 11 == 0) return 1e-30f * wedge;
+                             return 0.3713f * wedge - 0.0101f * static_cast<float>(c);
+                           });
+                         }));
+  }
+}
+
+/// Larger surfaces: contexts and tables that small ones do not reach.
+void largerSources(std::vector<Source>& all) {
+  struct Larger {
+    const char* name;
+    TestMesh mesh;
+  };
+  const Larger surfaces[] = {
+      {"irregular", flipped(icosphere(3), 3, 2000)},
+      {"wavy", jittered(grid(24, 24, QuadSplit::kRandom, 3), 9, 0.004f)},
+      {"handles", generated(21, 9, 14, 12)},
+      {"copies", unionOf(std::array{randomVoxels(5, 6, 40), book(5, 6, 6),
+                                    flipped(icosphere(2), 3, 99), bowTies(9, 4, 3)},
+                         "copies")},
+      {"isosurface", gyroid(12)},
+      {"stacks", combOfStacks(14, 12)},
+  };
+  for (const Larger& larger : surfaces) {
+    for (uint32_t set = 0; set < 5; ++set) {
+      Source source =
+          single(std::string(larger.name) + "_contexts_" + std::to_string(set),
+                 "A few hundred triangles or more, context set " + std::to_string(set), larger.mesh,
+                 [set](SourceBuilder& b) { b.positions(static_cast<uint8_t>(10 + 2 * set)); });
+      source.options.context_set = set;
+      source.options.variation = set + 1;
+      all.push_back(source);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Source> chosenSources() {
+  std::vector<Source> all;
+  smallSources(all);
+  gridSources(all);
+  largerSources(all);
+  return all;
+}
+
+}  // namespace mcc::conformance

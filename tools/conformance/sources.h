@@ -1,0 +1,24 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Meshes with attributes of all kinds.
+#ifndef MCC_TOOLS_CONFORMANCE_SOURCES_H_
+#define MCC_TOOLS_CONFORMANCE_SOURCES_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "asset.h"
+
+namespace mcc::conformance {
+
+/// Sources that show one thing each; all become assets.
+std::vector<Source> chosenSources();
+
+/// A random source: surface, attributes, options. The same for the same seed on every machine.
+Source randomSource(uint64_t seed);
+/// The same of an isosurface whose positions may lie on planes.
+Source planarSource(uint64_t seed);
+
+}  // namespace mcc::conformance
+
+#endif  // MCC_TOOLS_CONFORMANCE_SOURCES_H_

@@ -1,0 +1,254 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "suite.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "asset.h"
+#include "container/payload_header.h"
+#include "format_features.h"
+#include "header_fields.h"
+#include "negatives.h"
+#include "sources.h"
+
+namespace mcc::conformance {
+namespace {
+
+constexpr uint64_t kCandidates = 2500;
+constexpr uint32_t kTimes = 2;  ///< every feature is in so many assets, if there are candidates
+constexpr size_t kAssetBytes = 24000;
+
+struct Candidate {
+  Asset asset;
+  Features features;
+};
+
+/// Letters, digits and single underscores.
+std::string fileName(const std::string& name) {
+  std::string file;
+  for (const char c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+    if (plain)
+      file += c;
+    else if (c >= 'A' && c <= 'Z')
+      file += static_cast<char>(c - 'A' + 'a');
+    else if (!file.empty() && file.back() != '_')
+      file += '_';
+  }
+  file.resize(std::min<size_t>(file.size(), 40));
+  while (!file.empty() && file.back() == '_') file.pop_back();
+  return file;
+}
+
+/// The payload of the specification's Appendix C.
+Asset appendixC() {
+  Asset asset;
+  asset.name = "appendix_c";
+  asset.shows = "The payload of Appendix C: two triangles, without attributes";
+  asset.payload = {0x4d, 0x43, 0x43, 0x10, 0x79, 0x5c, 0x5c, 0xef, 0x01, 0x08,
+                   0x04, 0x02, 0x01, 0x00, 0x01, 0x00, 0x00, 0x00, 0x00, 0x01};
+  NamedAttribute positions = makeAttribute("POSITION", kNone, "VEC3", ComponentType::kFloat32);
+  for (uint32_t i = 0; i < 4; ++i) {
+    positions.append(static_cast<float>(i % 2));
+    positions.append(static_cast<float>(i / 2));
+    positions.append(0.0f);
+  }
+  asset.pieces.push_back({{}, {positions}});
+  return asset;
+}
+
+/// Changes that must not matter.
+void addVariants(std::vector<Asset>& assets) {
+  Asset minor = assets[0];
+  minor.name = "minor_version_15";
+  minor.shows = "A minor version from the future, which decoders accept";
+  minor.payload[3] |= 15;
+  repairChecksum(minor.payload);
+  Asset padded = assets[0];
+  padded.name = "padded";
+  padded.shows = "Padding that nobody needs";
+  HeaderFields fields(padded.payload);
+  fields.set("flags", fields.get("flags") | payload_flag::kPadded);
+  fields.insertBefore("codes", "padding bytes", {3});
+  fields.insertBefore("codes", "padding", {0, 0, 0});
+  padded.payload = fields.payload();
+  assets.push_back(minor);
+  assets.push_back(padded);
+}
+
+/// Takes candidates until every feature was met kTimes, small ones that show much first.
+std::vector<Candidate> choose(std::vector<Candidate> candidates,
+                              std::map<std::string, uint32_t> met) {
+  std::vector<Candidate> chosen;
+  while (true) {
+    double best = 0;
+    size_t best_at = 0;
+    for (size_t i = 0; i < candidates.size(); ++i) {
+      double gain = 0;
+      for (const auto& [name, sections] : candidates[i].features) {
+        const auto it = met.find(name);
+        const uint32_t times = it == met.end() ? 0 : it->second;
+        if (times < kTimes) gain += times == 0 ? 1 : 0.3;
+      }
+      gain /= static_cast<double>(candidates[i].asset.payload.size()) + 800;
+      if (gain > best) {
+        best = gain;
+        best_at = i;
+      }
+    }
+    if (best == 0) return chosen;
+    std::string news;
+    uint32_t news_count = 0;
+    for (const auto& [name, sections] : candidates[best_at].features) {
+      if (met[name]++ == 0 && ++news_count <= 6) news += (news.empty() ? "" : "; ") + name;
+    }
+    Candidate& taken = candidates[best_at];
+    if (!news.empty()) taken.asset.shows += ": " + news;
+    chosen.push_back(std::move(taken));
+    candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(best_at));
+  }
+}
+
+std::vector<Candidate> makeCandidates() {
+  std::vector<Asset> fixed;
+  fixed.push_back(appendixC());
+  addVariants(fixed);
+  for (const Source& source : chosenSources()) fixed.push_back(encodeSource(source));
+  std::vector<Candidate> all;
+  std::map<std::string, uint32_t> met;
+  for (Asset& asset : fixed) {
+    Features features = featuresOf(asset.payload);
+    for (const auto& [name, sections] : features) ++met[name];
+    all.push_back({std::move(asset), std::move(features)});
+  }
+  std::vector<Candidate> random;
+  for (uint64_t seed = 1; seed <= kCandidates; ++seed) {
+    Asset asset = encodeSource(seed % 25 == 0 ? planarSource(seed) : randomSource(seed));
+    if (asset.payload.size() > kAssetBytes) continue;
+    Features features = featuresOf(asset.payload);
+    random.push_back({std::move(asset), std::move(features)});
+  }
+  for (Candidate& candidate : choose(std::move(random), met)) all.push_back(std::move(candidate));
+  uint32_t number = 0;
+  for (Candidate& candidate : all) {
+    char prefix[8];
+    std::snprintf(prefix, sizeof prefix, "%03u_", static_cast<unsigned>(++number));
+    candidate.asset.name = prefix + fileName(candidate.asset.name);
+  }
+  return all;
+}
+
+std::vector<uint8_t> asFile(const Json& manifest) {
+  // One line for each asset: small differences of the suite are small differences of the file.
+  std::string text = "{\n";
+  bool first_member = true;
+  for (const auto& [key, value] : manifest.items()) {
+    text += std::string(first_member ? "" : ",\n") + "\"" + key + "\": ";
+    first_member = false;
+    if (!value.is_array()) {
+      text += value.dump();
+      continue;
+    }
+    text += "[\n";
+    for (size_t i = 0; i < value.size(); ++i)
+      text += "  " + value[i].dump() + (i + 1 < value.size() ? ",\n" : "\n");
+    text += "]";
+  }
+  text += "\n}\n";
+  return {text.begin(), text.end()};
+}
+
+std::vector<uint8_t> contentOf(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+const char* kindOf(uint32_t error) {
+  static const char* const kKinds[] = {"document",           "Truncated",   "BadMagic",
+                                       "UnsupportedVersion", "BadChecksum", "BadHeader",
+                                       "BadConnectivity",    "BadStitch",   "BadAttribute",
+                                       "TrailingBytes",      "Limit"};
+  return kKinds[error];
+}
+
+}  // namespace
+
+Suite makeSuite() {
+  const std::vector<Candidate> candidates = makeCandidates();
+  Suite suite;
+  Json manifest = {{"extension", gltf::kExtensionName},
+                   {"payloadVersion", "1.0"},
+                   {"assets", Json::array()},
+                   {"negative", Json::array()}};
+  std::set<std::string> features;
+  size_t bytes = 0;
+  std::vector<Asset> assets;
+  for (const Candidate& candidate : candidates) {
+    const std::string file = "assets/" + candidate.asset.name + ".glb";
+    suite[file] = makeGlb(candidate.asset);
+    bytes += suite[file].size();
+    for (const auto& [name, sections] : candidate.features) features.insert(name);
+    manifest["assets"].push_back({{"file", file},
+                                  {"shows", candidate.asset.shows},
+                                  {"spec", sectionsOf(candidate.features)},
+                                  {"primitives", expectedOf(candidate.asset)}});
+    assets.push_back(candidate.asset);
+  }
+  const std::vector<Negative> negatives = makeNegatives(assets);
+  for (const Negative& negative : negatives) {
+    const std::string file = "negative/" + negative.name + ".glb";
+    suite[file] = negative.glb;
+    bytes += negative.glb.size();
+    manifest["negative"].push_back({{"file", file},
+                                    {"shows", negative.shows},
+                                    {"spec", {negative.section}},
+                                    {"error", negative.error},
+                                    {"kind", kindOf(negative.error)}});
+  }
+  suite["manifest.json"] = asFile(manifest);
+  std::printf("%zu assets, %zu negative ones, %zu features, %zu bytes, manifest %zu bytes\n",
+              assets.size(), negatives.size(), features.size(), bytes,
+              suite["manifest.json"].size());
+  return suite;
+}
+
+int writeSuite(const Suite& suite, const std::filesystem::path& folder) {
+  for (const char* const part : {"assets", "negative"}) {
+    std::filesystem::remove_all(folder / part);
+    std::filesystem::create_directories(folder / part);
+  }
+  for (const auto& [name, bytes] : suite) {
+    std::ofstream file(folder / name, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+    if (!file.flush()) {
+      std::fprintf(stderr, "generate-conformance: cannot write %s\n", name.c_str());
+      return 1;
+    }
+  }
+  return 0;
+}
+
+int checkSuite(const Suite& suite, const std::filesystem::path& folder) {
+  uint32_t different = 0;
+  for (const auto& [name, bytes] : suite) {
+    if (contentOf(folder / name) == bytes) continue;
+    std::printf("%s differs\n", name.c_str());
+    ++different;
+  }
+  for (const char* const part : {"assets", "negative"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder / part)) {
+      const std::string name = std::string(part) + "/" + entry.path().filename().string();
+      if (suite.contains(name)) continue;
+      std::printf("%s is not generated\n", name.c_str());
+      ++different;
+    }
+  }
+  if (different != 0) std::printf("%u of %zu files differ\n", different, suite.size());
+  return different == 0 ? 0 : 1;
+}
+
+}  // namespace mcc::conformance
