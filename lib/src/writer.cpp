@@ -85,7 +85,7 @@ Status checkPiece(const PieceView& piece) {
     return fail(Error::kLimit, "a piece has more than 2^28 vertices");
   if (piece.parts.empty()) return fail(Error::kBadArgument, "a piece has no parts");
   for (const AttributeView& a : piece.attributes) {
-    if (a.format.component_count == 0 || a.format.component_count > kMaxComponents ||
+    if (!isComponentCount(a.format.component_count) ||
         (a.data == nullptr && piece.wedge_count != 0) || a.stride_bytes < elementBytes(a.format) ||
         a.quantization_bits > 24) {
       return fail(Error::kBadArgument,

@@ -45,7 +45,8 @@ FedAttribute anyAttribute(uint32_t wedge_count, ByteFeed& feed) {
   a.format.component_type = static_cast<ComponentType>((kind >> 3 & 7) % 6);
   a.format.normalized = (kind & 64) != 0;
   const uint32_t shape = feed.byte();
-  a.format.component_count = static_cast<uint8_t>((shape & 15) + 1);
+  constexpr uint8_t kCounts[] = {1, 2, 3, 4, 9, 16};
+  a.format.component_count = kCounts[(shape & 15) % sizeof kCounts];
   if (a.format.semantic < Semantic::kCustom) {
     constexpr uint8_t kComponents[] = {3, 3, 4, 2, 4, 4, 4};
     a.format.component_count = kComponents[kind & 7];

@@ -118,7 +118,7 @@ class VectorCoder {
     }
     if (entry == nullptr) return;
     for (int s = 0; s < 3; ++s) entry->magnitude[s] = bitsFromOrdered(value[s]) & 0x7fffffffu;
-    entry->confidence = entry->confidence > 1 ? 1 : entry->confidence + (entry->confidence == 0);
+    entry->confidence = 1;
   }
 
  private:
