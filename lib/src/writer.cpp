@@ -15,6 +15,7 @@
 #include "attributes/enc_position_fit.h"
 #include "attributes/enc_position_planes.h"
 #include "attributes/enc_predictor_search.h"
+#include "attributes/enc_prices.h"
 #include "attributes/enc_quantize.h"
 #include "connectivity/enc_collapse.h"
 #include "container/enc_payload.h"
@@ -665,7 +666,8 @@ Status chooseCheapest(uint32_t candidates, Code code) {
 using Runners = std::vector<std::unique_ptr<StageRunner<CostIo>>>;
 
 /// One choice for all pieces, since they share tables and models.
-Status choosePositions(std::vector<Plan>& plans, Runners& runners, uint8_t effort) {
+Status choosePositions(std::vector<Plan>& plans, Runners& runners, double surface_bits,
+                       uint8_t effort) {
   if (plans[0].attributes.empty()) return {};
   std::vector<PositionRecording> recordings(plans.size());
   std::vector<PositionCandidate> candidates;
@@ -674,7 +676,7 @@ Status choosePositions(std::vector<Plan>& plans, Runners& runners, uint8_t effor
     MCC_TRY(runners[i]->recordPositions(recordings[i], candidate));
     candidates.push_back(candidate);
   }
-  const PositionParameters chosen = choosePositionParameters(candidates, effort);
+  const PositionParameters chosen = choosePositionParameters(candidates, surface_bits, effort);
   for (Plan& plan : plans) {
     plan.positions_as = chosen;
     plan.attributes[0].info.predictor = PieceCoder<CostIo>::positionFlags(chosen);
@@ -696,8 +698,9 @@ std::vector<AttributeInfo> exactAlternatives(const AttributeInfo& info) {
 
 /// Tries the candidates of one attribute, from where its models are, and goes on with the best. `goes_on`: some later
 /// attribute shares its models.
+/// `wedge_share`: what the payload takes so far, per wedge, in the units of costs.
 Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& runner,
-                             PayloadModels& models, bool goes_on) {
+                             PayloadModels& models, double wedge_share, bool goes_on) {
   AttributeInfo& info = plan.attributes[index].info;
   const std::vector<AttributeInfo> alternatives = exactAlternatives(info);
   const uint32_t part = std::max(kTrialWedges, plan.header.wedge_count / kTrialShare);
@@ -724,6 +727,11 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
       uint64_t cost = 0;
       info.predictor = candidate.predictor = search.candidate();
       MCC_TRY(runner.tryAttribute(index, sample, cost));
+      if (info.format.morph_target == 0) {  // deltas take time only where something moves
+        const double tried = std::min(sample, plan.header.wedge_count);
+        cost +=
+            static_cast<uint64_t>(surcharge(tried * wedge_share, timeOf(method, info.predictor)));
+      }
       search.report(cost);
       models.attributes = *before;
       if (cost >= best_cost) continue;
@@ -743,12 +751,18 @@ Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t 
     runners.push_back(std::make_unique<StageRunner<CostIo>>(io, *models, plan));
     MCC_TRY(runners.back()->codeSurface(nullptr));
   }
-  MCC_TRY(choosePositions(plans, runners, effort));
+  const double surface_bits = static_cast<double>(io.cost()) / kCostOne;
+  MCC_TRY(choosePositions(plans, runners, surface_bits, effort));
   const bool only_positions = std::all_of(plans.begin(), plans.end(), [](const Plan& plan) {
     return plan.attributes.size() == 1 && !plan.header.has(piece_flag::kSeams);
   });
   if (only_positions) return {};
-  for (size_t i = 0; i < plans.size(); ++i) MCC_TRY(runners[i]->codePositions(nullptr));
+  double wedges = 1;
+  for (size_t i = 0; i < plans.size(); ++i) {
+    MCC_TRY(runners[i]->codePositions(nullptr));
+    wedges += plans[i].header.wedge_count;
+  }
+  const double wedge_share = static_cast<double>(io.cost()) / wedges;
   for (size_t i = 0; i < plans.size(); ++i) {
     MCC_TRY(runners[i]->chooseCreases(*models));
     MCC_TRY(runners[i]->codeSeams(nullptr));
@@ -760,7 +774,8 @@ Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t 
         goes_on |= plans[i].attributes[order[later]].info.format.semantic ==
                    plans[i].attributes[order[k]].info.format.semantic;
       }
-      MCC_TRY(chooseAttributeMethod(plans[i], order[k], *runners[i], *models, goes_on));
+      MCC_TRY(
+          chooseAttributeMethod(plans[i], order[k], *runners[i], *models, wedge_share, goes_on));
     }
   }
   return {};

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "attributes/enc_prices.h"
 #include "attributes/position_vertex.h"
 #include "entropy/enc_coder.h"
 
@@ -434,19 +435,20 @@ void fitScale(Trials& trials, PositionParameters& p) {
 
 class Chooser {
  public:
-  Chooser(std::span<const PositionCandidate> pieces, uint8_t effort)
+  Chooser(std::span<const PositionCandidate> pieces, double surface_bits, uint8_t effort)
       : pieces_(pieces),
+        surface_bits_(surface_bits),
         effort_(std::min<uint8_t>(effort, 2)),
         trials_(pieces, kTrialVertices[effort_]) {}
 
   PositionParameters run() {
     tryPredictors();
-    if (anyPalette()) tryMode(position_mode::kPalette, 0.98);
-    if (anyPlanes()) tryMode(position_mode::kPlanes, 0.98);
+    if (anyPalette()) tryMode(position_mode::kPalette);
+    if (anyPlanes()) tryMode(position_mode::kPlanes);
     if (best_.has(position_mode::kPlanes)) return best_;
-    if (!best_.has(position_mode::kPalette)) tryMode(position_mode::kShear, 0.96);
-    tryMode(position_mode::kFold, 0.995);
-    tryMode(position_mode::kSplit, 0.998);
+    if (!best_.has(position_mode::kPalette)) tryMode(position_mode::kShear);
+    tryMode(position_mode::kFold);
+    tryMode(position_mode::kSplit);
     tryOwnScale();
     return best_;
   }
@@ -495,11 +497,16 @@ class Chooser {
                        [](const PositionCandidate& piece) { return piece.planes != nullptr; });
   }
 
-  void add(const PositionParameters& p) { ranked_.push_back({p, trials_.cost(p)}); }
+  /// Bits of connectivity and positions, more for what takes time.
+  double costOf(const PositionParameters& p) {
+    const double bits = surface_bits_ + trials_.cost(p);
+    return bits + surcharge(bits, timeOf(p));
+  }
+  void add(const PositionParameters& p) { ranked_.push_back({p, costOf(p)}); }
 
-  /// A mode for the leaders: taken if the best with it is below `worth` times the best without.
-  void tryMode(uint32_t mode, double worth) {
-    Ranked best{best_, best_cost_ * worth};
+  /// A mode for the leaders: taken if the best with it is cheaper than the best without.
+  void tryMode(uint32_t mode) {
+    Ranked best{best_, best_cost_};
     bool better = false;
     std::vector<Ranked> with;
     for (const Ranked& r : ranked_) {
@@ -511,9 +518,9 @@ class Chooser {
         setUniversalTables(p);
         p.weights = weights;
       }
-      with.push_back({p, trials_.cost(p)});
+      with.push_back({p, costOf(p)});
       // Whether shear pays is a matter of the surface, not of the predictor.
-      if (mode == position_mode::kShear && with.back().cost >= r.cost * worth) break;
+      if (mode == position_mode::kShear && with.back().cost >= r.cost) break;
       if (with.back().cost >= best.cost) continue;
       best = with.back();
       better = true;
@@ -527,7 +534,7 @@ class Chooser {
   void tryOwnScale() {
     PositionParameters p = best_;
     fitScale(trials_, p);
-    const double cost = trials_.cost(p);
+    const double cost = costOf(p);
     if (cost < best_cost_) {
       best_ = p;
       best_cost_ = cost;
@@ -538,6 +545,7 @@ class Chooser {
   static constexpr double kOutOfRace = 1.04;
 
   std::span<const PositionCandidate> pieces_;
+  const double surface_bits_;
   uint8_t effort_;
   Trials trials_;
   std::vector<Ranked> ranked_;
@@ -611,8 +619,8 @@ void DistinctCoordinates::find(std::span<const int32_t> truth, bool is_exact) {
 }
 
 PositionParameters choosePositionParameters(std::span<const PositionCandidate> pieces,
-                                            uint8_t effort) {
-  return Chooser(pieces, effort).run();
+                                            double surface_bits, uint8_t effort) {
+  return Chooser(pieces, surface_bits, effort).run();
 }
 
 }  // namespace mcc
