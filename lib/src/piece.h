@@ -345,8 +345,9 @@ class PieceCoder {
         case kPalette: return runPositions<int32_t, kPalette>(parameters, truth);
         case kSelecting | kPalette:
           return runPositions<int32_t, kSelecting | kPalette>(parameters, truth);
-        case kSelecting | kPlanes:
-          return runPositions<int32_t, kSelecting | kPlanes>(parameters, truth);
+        case kPlanes: return runPositions<int32_t, kPlanes>(parameters, truth);
+        case kWeighted | kPlanes:
+          return runPositions<int32_t, kWeighted | kPlanes>(parameters, truth);
         default: break;
       }
     }

@@ -15,6 +15,7 @@
 #include "attributes/enc_position_fit.h"
 #include "attributes/enc_position_planes.h"
 #include "attributes/enc_predictor_search.h"
+#include "attributes/enc_prices.h"
 #include "attributes/enc_quantize.h"
 #include "attributes/enc_variation.h"
 #include "base/enc_jobs.h"
@@ -695,11 +696,11 @@ Status chooseContextSet(const std::vector<Connectivity>& pieces, const Jobs& job
 using Runners = std::vector<std::unique_ptr<StageRunner<CostIo>>>;
 
 /// One choice for all pieces, since they share tables and models. Consumes the recordings.
-PositionParameters choosePositions(std::vector<RecordedPositions> recorded, uint8_t effort,
-                                   const Jobs& jobs) {
+PositionParameters choosePositions(std::vector<RecordedPositions> recorded, double surface_bits,
+                                   uint8_t effort, const Jobs& jobs) {
   std::vector<PositionCandidate> candidates;
   for (const RecordedPositions& piece : recorded) candidates.push_back(piece.candidate);
-  return choosePositionParameters(candidates, effort, jobs);
+  return choosePositionParameters(candidates, surface_bits, effort, jobs);
 }
 
 /// Floats on a grid may be coded as floats as well: the values of a plan are the same.
@@ -716,8 +717,9 @@ std::vector<AttributeInfo> exactAlternatives(const AttributeInfo& info) {
 
 /// Tries the candidates of one attribute, from where its models are, and goes on with the best. `goes_on`: some later
 /// attribute shares its models.
+/// `wedge_share`: what the payload takes so far, per wedge, in the units of costs.
 Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& runner,
-                             PayloadModels& models, bool goes_on) {
+                             PayloadModels& models, double wedge_share, bool goes_on) {
   AttributeInfo& info = plan.attributes[index].info;
   const std::vector<AttributeInfo> alternatives = exactAlternatives(info);
   const uint32_t part = std::max(kTrialWedges, plan.header.wedge_count / kTrialShare);
@@ -744,6 +746,11 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
       uint64_t cost = 0;
       info.predictor = candidate.predictor = search.candidate();
       MCC_TRY(runner.tryAttribute(index, sample, cost));
+      if (info.format.morph_target == 0) {  // deltas take time only where something moves
+        const double tried = std::min(sample, plan.header.wedge_count);
+        cost +=
+            static_cast<uint64_t>(surcharge(tried * wedge_share, timeOf(method, info.predictor)));
+      }
       search.report(cost);
       models.attributes = *before;
       if (cost >= best_cost) continue;
@@ -755,13 +762,20 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
   return goes_on ? runner.codeAttribute(index, nullptr) : runner.passAttribute(index);
 }
 
-/// Creases and the methods of all attributes but positions, which are the same however they are coded.
-Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& models) {
+/// Creases and the methods of all attributes but positions, which are the same however they are coded. `io` has counted the
+/// surfaces.
+Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& models,
+                     const CostIo& io) {
   const bool only_positions = std::all_of(plans.begin(), plans.end(), [](const Plan& plan) {
     return plan.attributes.size() == 1 && !plan.header.has(piece_flag::kSeams);
   });
   if (only_positions) return {};
-  for (size_t i = 0; i < plans.size(); ++i) MCC_TRY(runners[i]->codePositions(nullptr));
+  double wedges = 1;
+  for (size_t i = 0; i < plans.size(); ++i) {
+    MCC_TRY(runners[i]->codePositions(nullptr));
+    wedges += plans[i].header.wedge_count;
+  }
+  const double wedge_share = static_cast<double>(io.cost()) / wedges;
   for (size_t i = 0; i < plans.size(); ++i) {
     MCC_TRY(runners[i]->chooseCreases(models));
     MCC_TRY(runners[i]->codeSeams(nullptr));
@@ -773,7 +787,7 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& 
         goes_on |= plans[i].attributes[order[later]].info.format.semantic ==
                    plans[i].attributes[order[k]].info.format.semantic;
       }
-      MCC_TRY(chooseAttributeMethod(plans[i], order[k], *runners[i], models, goes_on));
+      MCC_TRY(chooseAttributeMethod(plans[i], order[k], *runners[i], models, wedge_share, goes_on));
     }
   }
   return {};
@@ -787,14 +801,15 @@ Status choosePredictors(std::vector<Plan>& plans, uint8_t effort, const Jobs& jo
     runners.push_back(std::make_unique<StageRunner<CostIo>>(io, *models, plan));
     MCC_TRY(runners.back()->codeSurface(nullptr));
   }
-  if (plans[0].attributes.empty()) return chooseMethods(plans, runners, *models);
+  const double surface_bits = static_cast<double>(io.cost()) / kCostOne;
+  if (plans[0].attributes.empty()) return chooseMethods(plans, runners, *models, io);
   std::vector<RecordedPositions> recorded(plans.size());
   MCC_TRY(jobs.tryAll(plans.size(),
                       [&](size_t i) { return runners[i]->recordPositions(recorded[i]); }));
   PositionParameters chosen;
   MCC_TRY(jobs.tryAll(2, [&](size_t i) -> Status {
-    if (i == 1) return chooseMethods(plans, runners, *models);
-    chosen = choosePositions(std::move(recorded), effort, jobs);
+    if (i == 1) return chooseMethods(plans, runners, *models, io);
+    chosen = choosePositions(std::move(recorded), surface_bits, effort, jobs);
     return {};
   }));
   for (Plan& plan : plans) {

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <vector>
 
+#include "attributes/enc_prices.h"
 #include "attributes/position_vertex.h"
 #include "entropy/enc_coder.h"
 
@@ -473,20 +474,22 @@ void fitScale(Trials& trials, const Jobs& jobs, PositionParameters& p) {
 
 class Chooser {
  public:
-  Chooser(std::span<const PositionCandidate> pieces, uint8_t effort, const Jobs& jobs)
+  Chooser(std::span<const PositionCandidate> pieces, double surface_bits, uint8_t effort,
+          const Jobs& jobs)
       : pieces_(pieces),
         jobs_(jobs),
+        surface_bits_(surface_bits),
         effort_(std::min<uint8_t>(effort, 2)),
         trials_(pieces, kTrialVertices[effort_]) {}
 
   PositionParameters run() {
     tryPredictors();
-    if (anyPalette()) tryMode(position_mode::kPalette, 0.98);
-    if (anyPlanes()) tryMode(position_mode::kPlanes, 0.98);
+    if (anyPalette()) tryMode(position_mode::kPalette);
+    if (anyPlanes()) tryMode(position_mode::kPlanes);
     if (best_.has(position_mode::kPlanes)) return best_;
-    if (!best_.has(position_mode::kPalette)) tryMode(position_mode::kShear, 0.96);
-    tryMode(position_mode::kFold, 0.995);
-    tryMode(position_mode::kSplit, 0.998);
+    if (!best_.has(position_mode::kPalette)) tryMode(position_mode::kShear);
+    tryMode(position_mode::kFold);
+    tryMode(position_mode::kSplit);
     tryOwnScale();
     return best_;
   }
@@ -505,7 +508,7 @@ class Chooser {
       p.predictor = static_cast<PositionPredictor>(i);
       setUniversalTables(p);
       if (p.fitted()) p.weights = fitWeights(pieces_, p.predictor, true, kFitVertices[effort_]);
-      ranked_[i].cost = trials_.cost(p);
+      ranked_[i].cost = costOf(p);
     });
     const Ranked average = ranked_[0];
     std::sort(ranked_.begin(), ranked_.end(),
@@ -536,9 +539,15 @@ class Chooser {
                        [](const PositionCandidate& piece) { return piece.planes != nullptr; });
   }
 
-  /// A mode for the leaders: taken if the best with it is below `worth` times the best without.
-  void tryMode(uint32_t mode, double worth) {
-    Ranked best{best_, best_cost_ * worth};
+  /// Bits of connectivity and positions, more for what takes time.
+  double costOf(const PositionParameters& p) {
+    const double bits = surface_bits_ + trials_.cost(p);
+    return bits + surcharge(bits, timeOf(p));
+  }
+
+  /// A mode for the leaders: taken if the best with it is cheaper than the best without.
+  void tryMode(uint32_t mode) {
+    Ranked best{best_, best_cost_};
     bool better = false;
     std::vector<Ranked> with(ranked_.size());
     const auto tryWith = [&](size_t i) {
@@ -551,13 +560,11 @@ class Chooser {
         setUniversalTables(p);
         p.weights = weights;
       }
-      with[i].cost = trials_.cost(p);
+      with[i].cost = costOf(p);
     };
     // Whether shear pays is a matter of the surface, not of the predictor: the first that loses by it ends its trials.
     const bool is_shear = mode == position_mode::kShear;
-    const auto loses = [&](size_t i) {
-      return is_shear && with[i].cost >= ranked_[i].cost * worth;
-    };
+    const auto loses = [&](size_t i) { return is_shear && with[i].cost >= ranked_[i].cost; };
     if (is_shear) tryWith(0);
     if (loses(0)) return;
     const size_t first = is_shear ? 1 : 0;
@@ -580,7 +587,7 @@ class Chooser {
   void tryOwnScale() {
     PositionParameters p = best_;
     fitScale(trials_, jobs_, p);
-    const double cost = trials_.cost(p);
+    const double cost = costOf(p);
     if (cost < best_cost_) {
       best_ = p;
       best_cost_ = cost;
@@ -592,6 +599,7 @@ class Chooser {
 
   std::span<const PositionCandidate> pieces_;
   const Jobs& jobs_;
+  const double surface_bits_;
   uint8_t effort_;
   Trials trials_;
   std::vector<Ranked> ranked_;
@@ -665,8 +673,8 @@ void DistinctCoordinates::find(std::span<const int32_t> truth, bool is_exact) {
 }
 
 PositionParameters choosePositionParameters(std::span<const PositionCandidate> pieces,
-                                            uint8_t effort, const Jobs& jobs) {
-  return Chooser(pieces, effort, jobs).run();
+                                            double surface_bits, uint8_t effort, const Jobs& jobs) {
+  return Chooser(pieces, surface_bits, effort, jobs).run();
 }
 
 }  // namespace mcc

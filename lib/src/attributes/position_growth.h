@@ -43,10 +43,8 @@ class HalfEdgeQueue {
   bool empty() const { return head_ == tail_; }
   MCC_INLINE uint32_t pop() { return ring_[head_++ & mask_]; }
   [[nodiscard]] MCC_INLINE bool push(uint32_t half_edge) {
-    if (tail_ - head_ > mask_ && !grow()) [[unlikely]]
-      return false;
-    ring_[tail_++ & mask_] = half_edge;
-    return true;
+    ring_[tail_++ & mask_] = half_edge;  // there is room for one always
+    return tail_ - head_ <= mask_ || grow();
   }
 
  private:

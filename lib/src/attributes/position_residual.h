@@ -141,6 +141,24 @@ MCC_INLINE void findContexts(const ScaleEstimate& scale, const Lanes<uint32_t>& 
   storeLanes<uint32_t>(row, out.row);
 }
 
+/// What follows the token of a magnitude: raw bits and a sign.
+template <class Io>
+MCC_INLINE uint32_t codeBelowToken(Io& io, uint32_t token, uint32_t low_bits, bool has_sign,
+                                   uint32_t truth, uint32_t& negative) {
+  if (token != kTokenEscape) [[likely]] {
+    const uint32_t base = uint32_t{kTokenBase[token]} << low_bits;
+    return io.magnitude(base, kTokenExtraBits[token] + low_bits, has_sign, truth, negative);
+  }
+  const uint32_t above = (truth >> low_bits) - 127;
+  const uint32_t k =
+      io.raw(5, Io::kEncoding ? static_cast<uint32_t>(std::bit_width(above)) - 1 : 0);
+  const uint32_t mask = (uint32_t{1} << k) - 1;
+  const uint32_t z = ((mask + 1) | io.raw(k, above & mask)) + 127;
+  const uint32_t a = z << low_bits | io.raw(low_bits, truth & ((1u << low_bits) - 1));
+  if (has_sign) negative = io.raw(1, negative);
+  return a;
+}
+
 /// One residual: its magnitude above the bucket's low bits as a token, then raw bits, then a sign unless folded.
 template <uint32_t kState, bool kFold, class Io>
 MCC_INLINE int32_t codeResidual(Io& io, TokenRow& row, uint32_t low_bits, uint32_t folded,
@@ -158,18 +176,7 @@ MCC_INLINE int32_t codeResidual(Io& io, TokenRow& row, uint32_t low_bits, uint32
   }
   token = io.template token<kState>(row, kPositionSchedule, token);
   uint32_t negative = truth < 0 ? 1 : 0;
-  if (token == kTokenEscape) [[unlikely]] {
-    const uint32_t above = (a >> low_bits) - 127;
-    const uint32_t k =
-        io.raw(5, Io::kEncoding ? static_cast<uint32_t>(std::bit_width(above)) - 1 : 0);
-    const uint32_t mask = (uint32_t{1} << k) - 1;
-    const uint32_t z = ((mask + 1) | io.raw(k, above & mask)) + 127;
-    a = z << low_bits | io.raw(low_bits, a & ((1u << low_bits) - 1));
-    if (has_sign) negative = io.raw(1, negative);
-  } else {
-    const uint32_t base = uint32_t{kTokenBase[token]} << low_bits;
-    a = io.magnitude(base, kTokenExtraBits[token] + low_bits, has_sign, a, negative);
-  }
+  a = codeBelowToken(io, token, low_bits, has_sign, a, negative);
   if constexpr (kFold) {
     const uint32_t unfolded = a / 2 + (a & 1);
     const uint32_t side = (~a & 1) ^ flip;
@@ -178,6 +185,43 @@ MCC_INLINE int32_t codeResidual(Io& io, TokenRow& row, uint32_t low_bits, uint32
   }
   const uint32_t mask = ~negative + 1;
   return static_cast<int32_t>((a ^ mask) - mask);
+}
+
+/// Decodes the residuals of all components, for an Io with kThreeAtOnce; lane 3 is 0.
+template <bool kFold, class Io>
+MCC_INLINE Lanes<uint32_t> decodeResiduals(Io& io, TokenRow* rows, const ResidualContexts& c) {
+  TokenRow* const row[3] = {rows + c.row[0], rows + c.row[1], rows + c.row[2]};
+  uint32_t token[3];
+  io.threeTokens(row, kPositionSchedule, token);
+  uint32_t base[3];
+  uint32_t bits[3];
+  uint32_t signs[3];
+  uint32_t a[3];
+  uint32_t negative[3];
+  MCC_UNROLL
+  for (uint32_t s = 0; s < 3; ++s) {
+    base[s] = uint32_t{kTokenBase[token[s]]} << c.low_bits[s];
+    bits[s] = kTokenExtraBits[token[s]] + c.low_bits[s];
+    signs[s] = kFold ? ~c.folded[s] & 1 : 1;
+  }
+  if (!io.threeMagnitudes(base, bits, signs, a, negative)) [[unlikely]] {
+    MCC_UNROLL  // else gcc keeps the arrays in memory for this
+        for (uint32_t s = 0; s < 3; ++s) {
+      negative[s] = 0;
+      a[s] = codeBelowToken(io, token[s], c.low_bits[s], signs[s] != 0, 0, negative[s]);
+    }
+  }
+  Lanes<uint32_t> size = {a[0], a[1], a[2], 0};
+  Lanes<uint32_t> side = {negative[0], negative[1], negative[2], 0};
+  if constexpr (kFold) {
+    const Lanes<uint32_t> folded = loadLanes<uint32_t>(c.folded);
+    const Lanes<uint32_t> unfolded = (size >> 1) + (size & 1);
+    const Lanes<uint32_t> side_of_folded = (~size & 1) ^ loadLanes<uint32_t>(c.flip);
+    size ^= (size ^ unfolded) & folded;
+    side ^= (side ^ side_of_folded) & folded;
+  }
+  const Lanes<uint32_t> mask = 0u - side;
+  return (size ^ mask) - mask;
 }
 
 /// The same of one scale: half-octave bucket, 0 .. kScaleBuckets-1.

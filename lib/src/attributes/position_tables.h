@@ -114,9 +114,10 @@ inline constexpr uint16_t kTokenFrequencies[kLastTabledBucket - kFirstTabledBuck
 inline constexpr uint32_t kTokenInitialUses = 6;
 inline constexpr uint32_t kTokenInitialFloor = 8;
 
-/// What stands behind a token: values [base, base + 2^extra), times the scale's low bits.
+/// What stands behind a token: values [base, base + 2^extra), times the scale's low bits. That of the escape is none,
+/// and too many for one look at the raw bits.
 inline constexpr uint8_t kTokenExtraBits[kTokenCount] = {0, 0, 0, 0, 0, 0, 0, 0,
-                                                         2, 2, 3, 3, 4, 4, 6, 0};
+                                                         2, 2, 3, 3, 4, 4, 6, 64};
 inline constexpr uint8_t kTokenBase[kTokenCount] = {0, 1,  2,  3,  4,  5,  6,  7,
                                                     8, 12, 16, 24, 32, 48, 64, 128};
 inline constexpr uint32_t kTokenEscape = 15;

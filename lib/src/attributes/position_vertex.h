@@ -90,6 +90,10 @@ class VertexCoder {
 
   template <bool kFold>
   void codeComponents(Io& io, uint32_t v, const Prediction<Wide>& prediction, uint32_t plain) const;
+  /// What codeSlots() takes without shear.
+  struct NoShift {
+    UWide operator()(int, const int32_t*) const { return 0; }
+  };
   template <bool kFold, class Shift>
   void codeSlots(Io& io, uint32_t v, const uint8_t* axis, const uint8_t* slot,
                  const Lanes<UWide>& q8, const ScaleEstimate& scale, Shift shift) const;
@@ -116,12 +120,23 @@ class VertexCoder {
   }
   MCC_INLINE void store(uint32_t v, int32_t x, int32_t y, int32_t z,
                         const int32_t* residual) const {
+    const Lanes<uint32_t> q = {static_cast<uint32_t>(x), static_cast<uint32_t>(y),
+                               static_cast<uint32_t>(z), 0};
+    const Lanes<uint32_t> residuals = {static_cast<uint32_t>(residual[0]),
+                                       static_cast<uint32_t>(residual[1]),
+                                       static_cast<uint32_t>(residual[2]), 0};
+    store(v, q, residuals);
+  }
+  /// `residuals` has 0 in lane 3.
+  MCC_INLINE void store(uint32_t v, const Lanes<uint32_t>& q,
+                        const Lanes<uint32_t>& residuals) const {
     VertexRecord& r = records_[v];
-    const Lanes<uint32_t> residuals = {
-        static_cast<uint32_t>(residual[0]), static_cast<uint32_t>(residual[1]),
-        static_cast<uint32_t>(residual[2]), static_cast<uint32_t>(r.degree())};
-    storeLanes<uint32_t>(absoluteLanes<uint32_t>(residuals), r.magnitude);
-    storeLanes<int32_t>(Lanes<int32_t>{x, y, z, kKnown}, r.q);
+    storeLanes<uint32_t>(absoluteLanes<uint32_t>(residuals) | Lanes<uint32_t>{0, 0, 0, r.degree()},
+                         r.magnitude);
+    constexpr uint32_t kAll = ~0u;
+    const Lanes<uint32_t> three = {kAll, kAll, kAll, 0};
+    storeLanes<uint32_t>((q & three) | Lanes<uint32_t>{0, 0, 0, kKnown},
+                         reinterpret_cast<uint32_t*>(r.q));
   }
 
   TokenRow* const rows_;
@@ -145,8 +160,7 @@ MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeComponents(Io& io, uint32_t v
     const ScaleEstimate scale =
         estimateScale<UWide>(scale_[plain], prediction.magnitudes, prediction.spread);
     if (has(position_mode::kPalette)) return codeRanks<kFold>(io, v, prediction.q8, scale);
-    const auto none = [](int, const int32_t*) MCC_INLINE_LAMBDA { return UWide{0}; };
-    return codeSlots<kFold>(io, v, kFileOrder, kFileOrder, prediction.q8, scale, none);
+    return codeSlots<kFold>(io, v, kFileOrder, kFileOrder, prediction.q8, scale, NoShift{});
   }
   const Shear shear = makeShear(prediction.normal);
   const auto inOrder = [&](const Lanes<UWide>& x) MCC_INLINE_LAMBDA {
@@ -187,6 +201,23 @@ MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeSlots(Io& io, uint32_t v, con
   };
   int32_t q[3];
   int32_t residual[3];
+  if constexpr (requires { Io::kThreeAtOnce; }) {
+    const Lanes<uint32_t> residuals = decodeResiduals<kFold>(io, rows_, c);
+    if constexpr (std::is_same_v<Shift, NoShift> && std::is_same_v<Wide, int32_t>) {
+      return store(v, (Lanes<uint32_t>)((Lanes<int32_t>)rounded >> 8) + residuals, residuals);
+    }
+    const auto known = [&](int s, UWide q8_rounded) MCC_INLINE_LAMBDA {
+      residual[s] = static_cast<int32_t>(residuals[s]);
+      q[s] = static_cast<int32_t>(prediction(q8_rounded) + residuals[s]);
+    };
+    known(0, rounded[0]);
+    known(1, rounded[1] + shift(1, q));
+    known(2, rounded[2] + shift(2, q));
+    const Lanes<uint32_t> by_axis = {static_cast<uint32_t>(q[slot[0]]),
+                                     static_cast<uint32_t>(q[slot[1]]),
+                                     static_cast<uint32_t>(q[slot[2]]), 0};
+    return store(v, by_axis, residuals);
+  }
   q[0] = codeSlot<0, kFold>(io, c, prediction(rounded[0]), truthOf(v, axis[0]), residual);
   q[1] = codeSlot<1, kFold>(io, c, prediction(rounded[1] + shift(1, q)), truthOf(v, axis[1]),
                             residual);
@@ -257,7 +288,6 @@ void VertexCoder<Io, Wide, kModes>::codeSeed(Io& io, uint32_t v, const VertexRec
                            static_cast<UWide>(from[2]) << 8, 0};
   const Lanes<uint32_t> scales = {scale[0], scale[1], scale[2], 0};
   const ScaleEstimate estimate{minimumLanes<uint32_t>(scales, kScaleLimit), {}};
-  const auto none = [](int, const int32_t*) MCC_INLINE_LAMBDA { return UWide{0}; };
   if constexpr (std::is_same_v<Wide, int32_t>) {
     if (has(position_mode::kPlanes)) {
       Prediction<int32_t> prediction{};
@@ -274,9 +304,9 @@ void VertexCoder<Io, Wide, kModes>::codeSeed(Io& io, uint32_t v, const VertexRec
       codeRanks<false>(io, v, q8, estimate);
     }
   } else if (has(position_mode::kFold)) {
-    codeSlots<true>(io, v, kFileOrder, kFileOrder, q8, estimate, none);
+    codeSlots<true>(io, v, kFileOrder, kFileOrder, q8, estimate, NoShift{});
   } else {
-    codeSlots<false>(io, v, kFileOrder, kFileOrder, q8, estimate, none);
+    codeSlots<false>(io, v, kFileOrder, kFileOrder, q8, estimate, NoShift{});
   }
   for (int s = 0; s < 3; ++s) {
     scale[s] = (scale[s] + 16 * std::min(r.magnitude[s], 1u << 24)) / 2;

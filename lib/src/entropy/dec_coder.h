@@ -25,7 +25,12 @@
 namespace mcc {
 
 /// Little-endian loads; the compilers turn the shifts into one load.
-MCC_INLINE uint32_t loadU16(const uint8_t* p) { return uint32_t{p[0]} | uint32_t{p[1]} << 8; }
+MCC_INLINE uint32_t loadU16(const uint8_t* p) {
+  uint16_t
+      value;  // gcc does not see through two shifted bytes everywhere; hosts are little-endian, see host.h
+  std::memcpy(&value, p, sizeof value);
+  return value;
+}
 MCC_INLINE uint32_t loadU32(const uint8_t* p) {
   return uint32_t{p[0]} | uint32_t{p[1]} << 8 | uint32_t{p[2]} << 16 | uint32_t{p[3]} << 24;
 }
@@ -138,6 +143,25 @@ class RansDecoder {
     return symbol;
   }
 
+  /// A token of each state. Unchecked: hasWords(3) holds.
+  MCC_INLINE void tokens(TokenRow* const* rows, const TokenSchedule& schedule, uint32_t* symbols) {
+    const uint8_t* at = bytes_.data() + next_;
+    MCC_UNROLL
+    for (uint32_t s = 0; s < kRansStateCount; ++s) {
+      uint32_t x = state_[s];
+      const uint32_t slot = x & (kTokenOne - 1);
+      uint32_t start = 0;
+      uint32_t frequency = 0;
+      symbols[s] = rows[s]->findAndAdapt(slot, schedule, start, frequency);
+      x = frequency * (x >> kTokenBits) + slot - start;
+      const uint64_t due = uint64_t{0} - uint64_t{x < kRansLow};
+      const uint32_t longer = x << 16 | loadU16(at);
+      state_[s] = x ^ ((x ^ longer) & static_cast<uint32_t>(due));
+      at -= 2 * static_cast<int64_t>(due);
+    }
+    next_ = static_cast<size_t>(at - bytes_.data());
+  }
+
   MCC_INLINE bool hasWords(size_t count) const { return next_ + 2 * count <= bytes_.size(); }
 
   bool finished() const {
@@ -201,6 +225,25 @@ class RawBitsDecoder {
     return value;
   }
 
+  /// Three magnitudes and signs (`signs`: 0 or 1) in one look, kThreeMagnitudesBits of bits at most. Unchecked:
+  /// hasBytes(8) holds.
+  MCC_INLINE void readThreeMagnitudes(const uint32_t* base, const uint32_t* bits,
+                                      const uint32_t* signs, uint32_t* values, uint32_t* negative) {
+    uint64_t window =
+        loadU64(bytes_.data() + static_cast<size_t>(next_bit_ >> 3)) >> (next_bit_ & 7);
+    MCC_UNROLL
+    for (uint32_t s = 0; s < 3; ++s) {
+      const uint32_t value = base[s] + (static_cast<uint32_t>(window) & ((1u << bits[s]) - 1));
+      const uint32_t has_sign = uint32_t{value != 0} & signs[s];
+      window >>= bits[s];
+      values[s] = value;
+      negative[s] = static_cast<uint32_t>(window) & has_sign;
+      window >>= has_sign;
+      next_bit_ += bits[s] + has_sign;
+    }
+  }
+  static constexpr uint32_t kThreeMagnitudesBits = 64 - 7 - 3;
+
   MCC_INLINE bool hasBytes(size_t count) const { return (next_bit_ >> 3) + count <= bytes_.size(); }
   /// Every byte was used, and what is left of the last is zero.
   bool finished() const {
@@ -245,6 +288,8 @@ class DecoderIo;
 class DecoderBurst {
  public:
   static constexpr bool kEncoding = false;
+  static constexpr bool kThreeAtOnce =
+      true;  ///< has threeTokens() and threeMagnitudes(); others lack this
   explicit DecoderBurst(const DecoderIo<false>& io);
   void take(const DecoderIo<false>& io);
   void giveBack(DecoderIo<false>& io) const;
@@ -262,6 +307,20 @@ class DecoderBurst {
   MCC_INLINE uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t,
                                 uint32_t& negative) {
     return raw_.readMagnitude<true>(base, bits, sign, negative);
+  }
+
+  /// A token of each state.
+  MCC_INLINE void threeTokens(TokenRow* const* rows, const TokenSchedule& schedule,
+                              uint32_t* symbols) {
+    tokens_.tokens(rows, schedule, symbols);
+  }
+  /// magnitude() three times; false, and nothing was read, when they have too many bits for one look.
+  MCC_INLINE bool threeMagnitudes(const uint32_t* base, const uint32_t* bits, const uint32_t* signs,
+                                  uint32_t* values, uint32_t* negative) {
+    if (bits[0] + bits[1] + bits[2] > RawBitsDecoder::kThreeMagnitudesBits) [[unlikely]]
+      return false;
+    raw_.readThreeMagnitudes(base, bits, signs, values, negative);
+    return true;
   }
 
  private:
