@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The stages of one piece, in payload order, for reader and writer alike:
+// The stages of one piece, in payload order, for reader and writer alike: [A.2.8]
 //
 //   codeConnectivity   mesh collapse codes -> faces, twins                         connectivity/mc_codes.h   [A.4]
 //   codeStitch         which cut vertices share a position -> groups              connectivity/stitch.h     [A.5]

@@ -61,7 +61,7 @@ void storeNormals(int32_t centre, bool has_sign, uint32_t wedge_count,
   }
 }
 
-/// Copies coded integers to the caller's elements; `load(i)` points to the integers of element i. [A.8.4]
+/// Copies coded integers to the caller's elements; `load(i)` points to the integers of element i. [A.8.12]
 template <class Load>
 void storeElements(const AttributeInfo& info, uint32_t wedge_count, const AttributeTarget& target,
                    Load load) {
@@ -228,7 +228,7 @@ Status storeOrderedTriangles(const PieceCoder<Io>& piece, std::span<const PartIn
   return checkPartCounts(infos, fill);
 }
 
-/// Faces in decoding order, each with its duplicates, then the other triangles; split into parts.
+/// Faces in decoding order, each with its duplicates, then the other triangles; split into parts. [A.10.5]
 template <class Io>
 Status storeTriangles(PieceCoder<Io>& piece, std::span<const PartInfo> infos,
                       std::span<const PartTarget> targets, const Allocator& allocator) {

@@ -17,6 +17,7 @@
 #include "attributes/enc_predictor_search.h"
 #include "attributes/enc_quantize.h"
 #include "attributes/enc_variation.h"
+#include "base/enc_jobs.h"
 #include "connectivity/enc_collapse.h"
 #include "container/enc_payload.h"
 #include "entropy/enc_coder.h"
@@ -84,7 +85,7 @@ Status checkPiece(const PieceView& piece) {
     return fail(Error::kLimit, "a piece has more than 2^28 vertices");
   if (piece.parts.empty()) return fail(Error::kBadArgument, "a piece has no parts");
   for (const AttributeView& a : piece.attributes) {
-    if (a.format.component_count == 0 || a.format.component_count > kMaxComponents ||
+    if (!isComponentCount(a.format.component_count) ||
         (a.data == nullptr && piece.wedge_count != 0) || a.stride_bytes < elementBytes(a.format) ||
         a.quantization_bits > 24) {
       return fail(Error::kBadArgument,
@@ -160,16 +161,21 @@ bool isExact(AttributeCoding coding) {
   return coding == AttributeCoding::kExactFloat || coding == AttributeCoding::kGrid;
 }
 
-Status preparePiece(const PieceView& view, const EncodeOptions& options, Plan& plan,
-                    std::vector<std::string>& notes) {
+Status preparePiece(const PieceView& view, const EncodeOptions& options, const Jobs& jobs,
+                    Plan& plan, std::vector<std::string>& notes) {
   MCC_TRY(checkPiece(view));
   if (options.indices_only && view.attributes.size() != 1)
     return fail(Error::kBadArgument, "a piece without attributes has more than its position");
   plan.view = &view;
-  plan.attributes = quantizeAttributes(view, notes);
-  plan.classes =
-      weldPositions(view.attributes[0], view.wedge_count, isExact(plan.attributes[0].info.coding));
-  plan.triangles = sortTriangles(view.parts, view.wedge_count);
+  jobs.run(2, [&](size_t i) {
+    if (i == 1) {
+      plan.triangles = sortTriangles(view.parts, view.wedge_count);
+      return;
+    }
+    plan.attributes = quantizeAttributes(view, notes);
+    plan.classes = weldPositions(view.attributes[0], view.wedge_count,
+                                 isExact(plan.attributes[0].info.coding));
+  });
   PieceHeader& h = plan.header;
   h.wedge_count = view.wedge_count;
   h.isolated_count = static_cast<uint32_t>(plan.triangles.isolated.size());
@@ -195,8 +201,14 @@ Status preparePiece(const PieceView& view, const EncodeOptions& options, Plan& p
 
 // --- truth: what each stage needs to know, derived from the stage before -----------------------------
 
-McTruth connectivityTruth(Plan& plan) {
-  const McRecord& r = plan.record;
+/// Where a run of the connectivity puts what it learns.
+struct SurfaceLearned {
+  std::vector<uint32_t>& node_map;
+  std::vector<uint32_t>& source_of_vertex;
+  std::vector<uint32_t>& source_gate;
+};
+
+McTruth connectivityTruth(const McRecord& r, const SurfaceLearned& learned) {
   McTruth truth;
   truth.operations = r.operations.data();
   truth.handles = r.handles.data();
@@ -204,9 +216,9 @@ McTruth connectivityTruth(Plan& plan) {
   truth.component_count = static_cast<uint32_t>(r.components.size());
   truth.gates = r.gates.data();
   truth.vertex_is_dummy = r.vertex_is_dummy.data();
-  truth.node_of_collapse_node = plan.node_map.data();
-  truth.source_of_vertex = plan.source_of_vertex.data();
-  truth.source_gate_of_face = plan.source_gate.data();
+  truth.node_of_collapse_node = learned.node_map.data();
+  truth.source_of_vertex = learned.source_of_vertex.data();
+  truth.source_gate_of_face = learned.source_gate.data();
   return truth;
 }
 
@@ -389,6 +401,13 @@ void learnValues(const Plan& plan, uint32_t index, uint32_t offset, uint32_t str
 
 // --- stages ------------------------------------------------------------------------------------------
 
+/// The positions of a piece as the trials see them, whatever other stages do meanwhile.
+struct RecordedPositions {
+  Array<VertexRecord> records;
+  PositionRecording recording;
+  PositionCandidate candidate;  ///< refers to the recording
+};
+
 /// Runs every stage of one piece; `sizes`, if given, receives what each cost.
 template <class Io>
 class StageRunner {
@@ -402,7 +421,8 @@ class StageRunner {
         piece_(io, models, plan.header, infos_.data(), {}) {}
 
   Status codeSurface(StreamSizes* sizes) {
-    truth_.connectivity = connectivityTruth(plan_);
+    truth_.connectivity = connectivityTruth(
+        plan_.record, {plan_.node_map, plan_.source_of_vertex, plan_.source_gate});
     MCC_TRY(piece_.codeConnectivity(truth_));
     account(sizes, &StreamSizes::connectivity_bits);
     learnVertices(plan_);
@@ -418,9 +438,11 @@ class StageRunner {
   }
 
   /// Walks the surface once for the trials; codeSurface() must have run.
-  Status recordPositions(PositionRecording& recording, PositionCandidate& candidate) {
-    if (!piece_.records.resize(plan_.positions.size() / 3)) throw std::bad_alloc();
-    MCC_TRY(recording.record(piece_.mesh, piece_.groups, piece_.records.data(),
+  Status recordPositions(RecordedPositions& recorded) {
+    PositionRecording& recording = recorded.recording;
+    PositionCandidate& candidate = recorded.candidate;
+    if (!recorded.records.resize(plan_.positions.size() / 3)) throw std::bad_alloc();
+    MCC_TRY(recording.record(piece_.mesh, piece_.groups, recorded.records.data(),
                              plan_.header.isolated_count, plan_.positions.data()));
     PositionParameters parameters;
     PieceCoder<Io>::describePositions(plan_.attributes[0].info, parameters);
@@ -619,7 +641,7 @@ Status checkHandles(const Plan& plan) {
 }
 
 /// Edges with more than two faces: joined in file order or cut apart, whichever is smaller.
-Status choosePairing(Plan& plan, uint32_t start_half_edge) {
+Status choosePairing(Plan& plan, uint32_t start_half_edge, const Jobs& jobs) {
   prepareConnectivity(plan, EdgePairing::kStack, start_half_edge);
   MCC_TRY(checkHandles(plan));
   if (!plan.header.has(piece_flag::kCopies)) return {};
@@ -628,72 +650,56 @@ Status choosePairing(Plan& plan, uint32_t start_half_edge) {
   if (other.header.vertex_count == plan.header.vertex_count || !checkHandles(other).ok()) return {};
   uint64_t joined = 0;
   uint64_t cut = 0;
-  MCC_TRY(surfaceCost(plan, joined));
-  MCC_TRY(surfaceCost(other, cut));
+  MCC_TRY(jobs.tryAll(
+      2, [&](size_t i) { return i == 0 ? surfaceCost(plan, joined) : surfaceCost(other, cut); }));
   if (cut < joined) plan = std::move(other);
   return {};
 }
 
-Status chooseContextSet(std::vector<Plan>& plans, uint32_t& best_set) {
-  uint64_t best = ~uint64_t{0};
-  for (uint32_t set = 0; set < kContextSetCount; ++set) {
-    CostIo io;
-    auto models = makeModels(set);
-    FaceMesh mesh{Allocator{}};
-    for (Plan& plan : plans) {
-      const PieceHeader& h = plan.header;
-      if (!mesh.words.resize(size_t{h.face_count} * kFaceWords)) throw std::bad_alloc();
-      const McCounts counts{h.operation_count, h.vertex_count, h.dummy_count, h.face_count,
-                            h.has(piece_flag::kHandles)};
-      MCC_TRY(McMachine<CostIo>(io, models->mc, counts, {}, mesh, connectivityTruth(plan), nullptr)
-                  .run());
-    }
-    if (io.cost() < best) {
-      best = io.cost();
-      best_set = set;
-    }
+struct Connectivity {
+  const McRecord* record;
+  McCounts counts;
+};
+
+/// What the connectivity of all pieces costs with a context set.
+Status contextSetCost(const std::vector<Connectivity>& pieces, uint32_t set, uint64_t& cost) {
+  CostIo io;
+  auto models = makeModels(set);
+  FaceMesh mesh{Allocator{}};
+  std::vector<uint32_t> node_map;
+  std::vector<uint32_t> source_of_vertex;
+  std::vector<uint32_t> source_gate;
+  for (const Connectivity& piece : pieces) {
+    if (!mesh.words.resize(size_t{piece.counts.face_count} * kFaceWords)) throw std::bad_alloc();
+    node_map.resize(piece.record->node_count);
+    source_of_vertex.resize(piece.counts.vertex_count);
+    source_gate.resize(piece.counts.face_count);
+    const McTruth truth =
+        connectivityTruth(*piece.record, {node_map, source_of_vertex, source_gate});
+    MCC_TRY(McMachine<CostIo>(io, models->mc, piece.counts, {}, mesh, truth, nullptr).run());
   }
+  cost = io.cost();
   return {};
 }
 
-/// Tries `candidates` values of a choice made for all pieces alike; `code` sets one and counts its cost.
-template <class Code>
-Status chooseCheapest(uint32_t candidates, Code code) {
-  uint64_t best = ~uint64_t{0};
-  uint32_t best_candidate = 0;
-  for (uint32_t candidate = 0; candidate < candidates; ++candidate) {
-    uint64_t cost = 0;
-    MCC_TRY(code(candidate, cost));
-    if (cost < best) {
-      best = cost;
-      best_candidate = candidate;
-    }
-  }
-  uint64_t cost = 0;
-  return code(best_candidate, cost);
+Status chooseContextSet(const std::vector<Connectivity>& pieces, const Jobs& jobs,
+                        uint32_t& best_set) {
+  uint64_t costs[kContextSetCount];
+  MCC_TRY(jobs.tryAll(kContextSetCount, [&](size_t set) {
+    return contextSetCost(pieces, static_cast<uint32_t>(set), costs[set]);
+  }));
+  best_set = static_cast<uint32_t>(std::min_element(costs, std::end(costs)) - costs);
+  return {};
 }
 
 using Runners = std::vector<std::unique_ptr<StageRunner<CostIo>>>;
 
-/// One choice for all pieces, since they share tables and models.
-Status choosePositions(std::vector<Plan>& plans, Runners& runners, uint8_t effort,
-                       Variation& variation) {
-  if (plans[0].attributes.empty()) return {};
-  std::vector<PositionRecording> recordings(plans.size());
+/// One choice for all pieces, since they share tables and models. Consumes the recordings.
+PositionParameters choosePositions(std::vector<RecordedPositions> recorded, uint8_t effort,
+                                   const Jobs& jobs) {
   std::vector<PositionCandidate> candidates;
-  for (size_t i = 0; i < plans.size(); ++i) {
-    PositionCandidate candidate;
-    MCC_TRY(runners[i]->recordPositions(recordings[i], candidate));
-    candidates.push_back(candidate);
-  }
-  const PositionParameters chosen = variation.active()
-                                        ? variation.positions(candidates)
-                                        : choosePositionParameters(candidates, effort);
-  for (Plan& plan : plans) {
-    plan.positions_as = chosen;
-    plan.attributes[0].info.predictor = PieceCoder<CostIo>::positionFlags(chosen);
-  }
-  return {};
+  for (const RecordedPositions& piece : recorded) candidates.push_back(piece.candidate);
+  return choosePositionParameters(candidates, effort, jobs);
 }
 
 /// Floats on a grid may be coded as floats as well: the values of a plan are the same.
@@ -749,6 +755,73 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
   return goes_on ? runner.codeAttribute(index, nullptr) : runner.passAttribute(index);
 }
 
+/// Creases and the methods of all attributes but positions, which are the same however they are coded.
+Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& models) {
+  const bool only_positions = std::all_of(plans.begin(), plans.end(), [](const Plan& plan) {
+    return plan.attributes.size() == 1 && !plan.header.has(piece_flag::kSeams);
+  });
+  if (only_positions) return {};
+  for (size_t i = 0; i < plans.size(); ++i) MCC_TRY(runners[i]->codePositions(nullptr));
+  for (size_t i = 0; i < plans.size(); ++i) {
+    MCC_TRY(runners[i]->chooseCreases(models));
+    MCC_TRY(runners[i]->codeSeams(nullptr));
+    MCC_TRY(runners[i]->prepareAttributes());
+    const std::vector<uint32_t> order = codingOrder(plans[i]);
+    for (size_t k = 0; k < order.size(); ++k) {
+      bool goes_on = i + 1 < plans.size();
+      for (size_t later = k + 1; later < order.size(); ++later) {
+        goes_on |= plans[i].attributes[order[later]].info.format.semantic ==
+                   plans[i].attributes[order[k]].info.format.semantic;
+      }
+      MCC_TRY(chooseAttributeMethod(plans[i], order[k], *runners[i], models, goes_on));
+    }
+  }
+  return {};
+}
+
+Status choosePredictors(std::vector<Plan>& plans, uint8_t effort, const Jobs& jobs) {
+  auto models = makeModels(0);  // none of these choices depends on the context set
+  CostIo io;
+  Runners runners;
+  for (Plan& plan : plans) {
+    runners.push_back(std::make_unique<StageRunner<CostIo>>(io, *models, plan));
+    MCC_TRY(runners.back()->codeSurface(nullptr));
+  }
+  if (plans[0].attributes.empty()) return chooseMethods(plans, runners, *models);
+  std::vector<RecordedPositions> recorded(plans.size());
+  MCC_TRY(jobs.tryAll(plans.size(),
+                      [&](size_t i) { return runners[i]->recordPositions(recorded[i]); }));
+  PositionParameters chosen;
+  MCC_TRY(jobs.tryAll(2, [&](size_t i) -> Status {
+    if (i == 1) return chooseMethods(plans, runners, *models);
+    chosen = choosePositions(std::move(recorded), effort, jobs);
+    return {};
+  }));
+  for (Plan& plan : plans) {
+    plan.positions_as = chosen;
+    plan.attributes[0].info.predictor = PieceCoder<CostIo>::positionFlags(chosen);
+  }
+  return {};
+}
+
+/// The context set, predictors and methods, once the surface of every piece is settled.
+Status chooseAll(std::vector<Plan>& plans, const EncodeOptions& options, const Jobs& jobs,
+                 uint32_t& context_set) {
+  std::vector<Connectivity> connectivity;
+  for (const Plan& plan : plans) {
+    const PieceHeader& h = plan.header;
+    connectivity.push_back({&plan.record,
+                            {h.operation_count, h.vertex_count, h.dummy_count, h.face_count,
+                             h.has(piece_flag::kHandles)}});
+  }
+  context_set = options.context_set;
+  return jobs.tryAll(2, [&](size_t i) -> Status {
+    if (i == 0) return choosePredictors(plans, options.effort, jobs);
+    const bool is_given = context_set < kContextSetCount;
+    return is_given ? Status{} : chooseContextSet(connectivity, jobs, context_set);
+  });
+}
+
 /// Instead of chooseAttributeMethod().
 void varyAttributeMethod(Plan& plan, uint32_t index, Variation& variation) {
   std::vector<AttributeInfo> infos;
@@ -758,8 +831,11 @@ void varyAttributeMethod(Plan& plan, uint32_t index, Variation& variation) {
   for (size_t i = 0; i < infos.size(); ++i) plan.attributes[i].info = infos[i];
 }
 
-Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t effort,
-                        Variation& variation) {
+/// Instead of chooseAll(), for tests: choices at random.
+Status varyAll(std::vector<Plan>& plans, const EncodeOptions& options, Variation& variation,
+               uint32_t& context_set) {
+  context_set = options.context_set;
+  if (context_set >= kContextSetCount) context_set = variation.below(kContextSetCount);
   auto models = makeModels(context_set);
   CostIo io;
   Runners runners;
@@ -767,33 +843,21 @@ Status choosePredictors(std::vector<Plan>& plans, uint32_t context_set, uint8_t 
     runners.push_back(std::make_unique<StageRunner<CostIo>>(io, *models, plan));
     MCC_TRY(runners.back()->codeSurface(nullptr));
   }
-  MCC_TRY(choosePositions(plans, runners, effort, variation));
-  const bool only_positions = std::all_of(plans.begin(), plans.end(), [](const Plan& plan) {
-    return plan.attributes.size() == 1 && !plan.header.has(piece_flag::kSeams);
-  });
-  if (only_positions) return {};
-  for (size_t i = 0; i < plans.size(); ++i) MCC_TRY(runners[i]->codePositions(nullptr));
+  if (plans[0].attributes.empty()) return {};
+  std::vector<RecordedPositions> recorded(plans.size());
+  std::vector<PositionCandidate> candidates;
   for (size_t i = 0; i < plans.size(); ++i) {
-    MCC_TRY(runners[i]->chooseCreases(*models));
-    if (variation.active() && plans[i].header.has(piece_flag::kSeams) &&
-        !plans[i].attributes.empty() && variation.coin()) {
-      plans[i].header.flags ^= piece_flag::kCreases;
-    }
-    MCC_TRY(runners[i]->codeSeams(nullptr));
-    MCC_TRY(runners[i]->prepareAttributes());
-    const std::vector<uint32_t> order = codingOrder(plans[i]);
-    for (size_t k = 0; k < order.size(); ++k) {
-      if (variation.active()) {
-        varyAttributeMethod(plans[i], order[k], variation);
-        continue;
-      }
-      bool goes_on = i + 1 < plans.size();
-      for (size_t later = k + 1; later < order.size(); ++later) {
-        goes_on |= plans[i].attributes[order[later]].info.format.semantic ==
-                   plans[i].attributes[order[k]].info.format.semantic;
-      }
-      MCC_TRY(chooseAttributeMethod(plans[i], order[k], *runners[i], *models, goes_on));
-    }
+    MCC_TRY(runners[i]->recordPositions(recorded[i]));
+    candidates.push_back(recorded[i].candidate);
+  }
+  const PositionParameters positions = variation.positions(candidates);
+  for (size_t i = 0; i < plans.size(); ++i) {
+    Plan& plan = plans[i];
+    plan.positions_as = positions;
+    plan.attributes[0].info.predictor = PieceCoder<CostIo>::positionFlags(positions);
+    if (plan.header.has(piece_flag::kSeams) && variation.coin())
+      plan.header.flags ^= piece_flag::kCreases;
+    for (const uint32_t a : codingOrder(plan)) varyAttributeMethod(plan, a, variation);
   }
   return {};
 }
@@ -866,19 +930,23 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeOptions& opti
                     EncodeResult& result) {
   if (pieces.empty()) return fail(Error::kBadArgument, "there is nothing to encode");
   result = EncodeResult{};
+  const Jobs jobs(options.run_jobs);
   std::vector<Plan> plans(pieces.size());
+  std::vector<std::vector<std::string>> notes(pieces.size());
+  const auto prepare = [&](size_t i) -> Status {
+    MCC_TRY(preparePiece(pieces[i], options, jobs, plans[i], notes[i]));
+    return choosePairing(plans[i], i == 0 ? options.start_half_edge : kNone, jobs);
+  };
+  MCC_TRY(jobs.tryAll(pieces.size(), prepare));
   uint64_t vertices = 0;
   for (size_t i = 0; i < pieces.size(); ++i) {
-    MCC_TRY(preparePiece(pieces[i], options, plans[i], result.notes));
-    MCC_TRY(choosePairing(plans[i], i == 0 ? options.start_half_edge : kNone));
     vertices += plans[i].header.vertex_count;
+    result.notes.insert(result.notes.end(), notes[i].begin(), notes[i].end());
   }
+  uint32_t context_set = kNone;
   Variation variation(options.variation);
-  uint32_t context_set = options.context_set;
-  if (context_set >= kContextSetCount && variation.active())
-    context_set = variation.below(kContextSetCount);
-  if (context_set >= kContextSetCount) MCC_TRY(chooseContextSet(plans, context_set));
-  MCC_TRY(choosePredictors(plans, context_set, options.effort, variation));
+  MCC_TRY(variation.active() ? varyAll(plans, options, variation, context_set)
+                             : chooseAll(plans, options, jobs, context_set));
   MCC_TRY(codeAll(plans, context_set, false, result));
   if (vertices > kSingleCoderVertices) return {};
   EncodeResult single;

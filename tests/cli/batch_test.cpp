@@ -102,6 +102,37 @@ TEST_F(Batch, OneFileDoesNotDependOnTheThreads) {
   }
 }
 
+TEST_F(Batch, DecodesAsItConverts) {
+  ASSERT_EQ(run("convert -o small/ in/*.glb").status, 0);
+  std::map<std::string, std::string> first;
+  for (const std::string jobs : {"1", "3"}) {
+    const ToolResult result = run("decode -j " + jobs + " -o back" + jobs + " small/*.glb");
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(countOf(result.out, ".glb: "), names_.size()) << result.out;
+    EXPECT_NE(result.out.find("decoded"), std::string::npos) << result.out;
+    const auto files = filesOf("back" + jobs);
+    EXPECT_EQ(files.size(), names_.size());
+    if (first.empty()) first = files;
+    EXPECT_TRUE(files == first) << jobs;
+  }
+  for (const auto& [name, content] : first) {
+    ASSERT_EQ(run("decode small/" + name + " one.glb -j 3").status, 0);
+    EXPECT_TRUE(contentOf(path("one.glb")) == content) << name;
+  }
+  const ToolResult again = run("decode -o back1 small/*.glb");
+  EXPECT_EQ(countOf(again.out, "up to date\n"), names_.size()) << again.out;
+  const ToolResult integers = run("decode -o back1 small/*.glb --decode-to integers");
+  EXPECT_EQ(countOf(integers.out, "up to date\n"), 0u) << integers.out;
+  const ToolResult copies = run("decode -o copies/ in/torus.glb");
+  EXPECT_NE(copies.out.find("copied, nothing in it is compressed"), std::string::npos)
+      << copies.out;
+  store("small/a_damaged.glb", contentOf(path("small/torus.glb")).substr(0, 1000));
+  const ToolResult failed = run("decode --force -o back1 small/*.glb");
+  EXPECT_EQ(failed.status, 1);
+  EXPECT_EQ(failed.err.rfind("gltf-mcc: small/a_damaged.glb: byte 8", 0), 0u) << failed.err;
+  EXPECT_TRUE(filesOf("back1").size() == names_.size());
+}
+
 TEST_F(Batch, OneFailureDoesNotStopTheRest) {
   std::string damaged = contentOf(path("in/torus.glb"));
   damaged.resize(damaged.size() / 2);
@@ -316,6 +347,23 @@ TEST_F(Streams, StandInForFiles) {
       runCommand(folder_, "( " + tool + "convert in/textured.glb - > /dev/full )");
   EXPECT_EQ(full.status, 1);
   EXPECT_EQ(full.err, "gltf-mcc: standard output: cannot be written\n");
+#endif
+}
+
+/// <(command) of a shell, which can be read once.
+TEST_F(Streams, PipesAreRead) {
+#ifdef MCC_TOOL_GLTF_MCC
+  ASSERT_EQ(run("convert -q in/torus.glb out.glb").status, 0);
+  for (const char* command : {"convert -q --compare draco", "decode -q"}) {
+    const std::string input = command[0] == 'c' ? "in/torus.glb" : "out.glb";
+    ASSERT_EQ(run(std::string(command) + " " + input + " a.glb").status, 0);
+    const ToolResult piped =
+        runCommand(folder_, "mkfifo pipe && { cat " + input + " > pipe & '" + MCC_TOOL_GLTF_MCC +
+                                "' " + command + " pipe b.glb; }");
+    EXPECT_EQ(piped.status, 0) << piped.err;
+    EXPECT_TRUE(contentOf(path("a.glb")) == contentOf(path("b.glb"))) << command;
+    fs::remove(path("pipe"));
+  }
 #endif
 }
 

@@ -261,6 +261,25 @@ TEST_F(Cli, WrongUsageIsStatusTwo) {
   }
 }
 
+TEST_F(Cli, WrongUsageSaysWhatIsWrong) {
+  const auto expectSays = [&](const std::string& arguments, const std::string& text) {
+    const Outcome result = run(arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_EQ(result.err.rfind("gltf-mcc: " + text, 0), 0u) << result.err;
+    EXPECT_LT(result.err.size(), 250u) << result.err;
+  };
+  expectSays("", "name a command: convert, decode, inspect");
+  expectSays("frobnicate in.glb", "\"frobnicate\" is no command; there are convert, ");
+  expectSays("convert in.glb", "convert: OUT is missing");
+  expectSays("decode in.glb", "decode: OUT is missing");
+  expectSays("decode a.glb b.glb c.glb", "decode: several inputs need a folder: -o DIR");
+  expectSays("convert in.glb out.glb --max-error -1", "--max-error: -1 is not greater than 0");
+  expectSays("convert in.glb out.glb --max-error-relative x", "--max-error-relative: x is not");
+  expectSays("convert in.glb out.obj", "convert: out.obj: only .glb and .gltf files are written");
+  expectSays("convert in.glb out.glb --frobnicate", "The following argument was not expected: ");
+  EXPECT_EQ(run("convert in.glb out.vrm").status, 0);
+}
+
 TEST_F(Cli, HelpAndVersion) {
   for (const char* arguments : {"--help", "convert --help", "decode --help", "inspect --help"}) {
     const Outcome result = run(arguments);

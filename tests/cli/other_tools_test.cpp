@@ -46,6 +46,10 @@ TEST_P(OtherTools, OutputsAreConverted) {
     const ToolResult converted =
         runTool(folder, "convert --compare none in/" + name + " out_" + name);
     ASSERT_EQ(converted.status, 0) << converted.err;
+    for (const std::string command : {"compare --runs 1 -q ", "inspect "}) {  // read it alike
+      const ToolResult others = runTool(folder, command + "in/" + name);
+      EXPECT_EQ(others.status, 0) << others.err;
+    }
     const bool is_smaller =
         fs::file_size(folder.path() / ("out_" + name)) < fs::file_size(entry.path());
     if (!is_smaller) {

@@ -4,7 +4,11 @@
 // their arrays. Those of others are tested in tests/foreign and tests/cli.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "gltf/file_io.h"
 #include "gltf/made_up_codecs.h"
+#include "support/scratch_folder.h"
 
 namespace mcc::gltf::test {
 namespace {
@@ -81,6 +85,54 @@ TEST(CodedViews, IndicesOnlyWorksBesideThem) {
   ASSERT_TRUE(loadDocument(trip.converted, nullptr, document).ok());
   for (const uint32_t accessor : {0u, 1u, 2u, 4u, 5u}) {
     EXPECT_TRUE(document.views[document.accessors[accessor].view].isCoded()) << accessor;
+  }
+}
+
+/// The fallback is a third buffer then, behind the one that views of others claim to be in.
+TEST(CodedViews, StayCodedBesideAFallback) {
+  Json sheet;
+  Builder builder = plainDocument(sheet);
+  const std::vector<uint8_t> plain = builder.toGlb();
+  codeViews(builder, {0, 1, 2, 3, 4, 5});
+  const std::vector<uint8_t> source = fileOf(builder);
+  const mcc::test::ScratchFolder folder;
+  ConvertOptions options = withDecoders();
+  options.fallback = true;
+  for (const char* name : {"a.glb", "a.gltf"}) {
+    SCOPED_TRACE(name);
+    const std::filesystem::path path = folder.path() / name;
+    ConvertReport report;
+    const Result result = convert({"in.glb", source}, {path}, options, report);
+    ASSERT_TRUE(result.ok()) << result.message();
+    EXPECT_GT(report.fallback_bytes, 0u);
+    std::vector<uint8_t> file;
+    ASSERT_TRUE(readFile(path, file).ok());
+    Document document;
+    ASSERT_TRUE(loadDocument(file, readerOf(folder.path()), document).ok());
+    EXPECT_EQ(document.json["extensionsRequired"], Json({kViewName}));  // ours has a fallback
+    ASSERT_EQ(document.json["buffers"].size(), 3u);
+    EXPECT_EQ(document.json["buffers"][1]["extensions"][kViewName]["fallback"], true);
+    EXPECT_EQ(document.json["buffers"][2]["uri"], "a.fallback.bin");
+    EXPECT_TRUE(isCompressed(document.json, 0, 0));
+    for (const auto& [label, accessor] : sheet["attributes"].items()) {  // readable without us
+      const BufferView& view = document.views[document.accessors[accessor].view];
+      EXPECT_FALSE(view.isCoded()) << label;
+      EXPECT_EQ(view.buffer, 2u) << label;
+    }
+    EXPECT_TRUE(document.views[document.accessors[4].view].isCoded());
+    // With the fallback and without it the same is decoded.
+    std::vector<uint8_t> decoded[2];
+    for (std::vector<uint8_t>& bytes : decoded) {
+      DecodeReport decode_report;
+      ASSERT_EQ(decode({path, {}}, {{}, &bytes}, decode_report).message(), "");
+      std::filesystem::remove(folder.path() / "a.fallback.bin");
+      EXPECT_EQ(elementsOf(plain, sheet["indices"]).size(),
+                elementsOf(bytes, sheet["indices"]).size());
+      Document back;
+      ASSERT_TRUE(loadDocument(bytes, nullptr, back).ok());
+      EXPECT_TRUE(back.views[back.accessors[4].view].isCoded());
+    }
+    EXPECT_EQ(decoded[0], decoded[1]);
   }
 }
 

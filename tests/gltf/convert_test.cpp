@@ -847,12 +847,19 @@ TEST(Convert, SecondRoundIsStable) {
 TEST(Convert, ThreadsDoNotChangeTheResult) {
   Builder builder;
   for (uint32_t n = 10; n < 30; n += 2) builder.addMesh({Sheet(n).addTo(builder)});
+  std::vector<Json> primitives;  // of one payload, some too small for it
+  for (uint32_t n = 2; n < 20; n += 3)
+    primitives.push_back(Sheet(n, 2.0f * static_cast<float>(n)).addTo(builder));
+  builder.addMesh(primitives);
   ConvertOptions options;
   const RoundTrip one = roundTrip(builder, options);
-  options.thread_count = 4;
-  const RoundTrip four = roundTrip(builder, options);
   ASSERT_EQ(one.error, "");
-  EXPECT_EQ(one.converted, four.converted);
+  for (const uint32_t thread_count : {2u, 4u, 64u}) {
+    options.thread_count = thread_count;
+    const RoundTrip many = roundTrip(builder, options);
+    EXPECT_EQ(one.converted, many.converted) << thread_count;
+    EXPECT_EQ(one.report.notes, many.report.notes) << thread_count;
+  }
 }
 
 TEST(Convert, TextWithDataUrisIsRead) {

@@ -96,6 +96,12 @@ TEST_F(DecodeErrors, AttributeIds) {
             std::string::npos);
 }
 
+TEST_F(DecodeErrors, PositionIsTheFirstAttribute) {
+  EXPECT_EQ(errorAfter([](Json&, Json& e) { e["attributes"]["POSITION"] = 1; }),
+            std::string(kPath) +
+                "/attributes/POSITION: must be attribute 0, which all others are predicted from");
+}
+
 TEST_F(DecodeErrors, Targets) {
   EXPECT_NE(errorAfter([](Json&, Json& e) {
               e["targets"].push_back(Json::object());

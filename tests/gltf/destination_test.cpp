@@ -90,6 +90,30 @@ TEST_F(DestinationTest, LeavesNothingWithoutCommit) {
   EXPECT_TRUE(everything().empty());
 }
 
+/// What a program does that is ended in the middle of it.
+TEST_F(DestinationTest, TemporariesAreKnown) {
+  TemporaryFiles temporaries;
+  {
+    Destination destination(path("a.gltf"), &temporaries);
+    ASSERT_TRUE(destination.check(true).ok());
+    ASSERT_TRUE(destination.write(package("")).ok());
+    EXPECT_GT(everything().size(), 4u);
+    const TemporaryFiles::Lock held = temporaries.removeAll();
+    EXPECT_TRUE(everything().empty());
+  }
+  for (const std::string content : {"1", "2"}) {
+    Destination destination(path("a.gltf"), &temporaries);
+    ASSERT_TRUE(destination.check(true).ok());
+    ASSERT_TRUE(destination.write(package(content)).ok());
+    ASSERT_EQ(destination.commit().message(), "");
+    (void)temporaries.removeAll();  // what has its name stays; nothing else is left
+    const auto files = everything();
+    EXPECT_EQ(files.size(), 6u) << content;
+    EXPECT_EQ(files.at("a.bin"), "buffer " + content);
+    fs::remove_all(path("new"));
+  }
+}
+
 /// A folder appears where the main file should go: its rename, the last one, fails.
 TEST_F(DestinationTest, TakesEverythingBack) {
   for (const bool with_older : {false, true}) {

@@ -7,6 +7,8 @@
 
 #include "gltf/check_json.h"
 #include "gltf/round_trip.h"
+#include "support/scratch_folder.h"
+#include "support/validator.h"
 
 namespace mcc::gltf::test {
 namespace {
@@ -236,6 +238,111 @@ TEST(EverythingElse, WhatNumbersVerticesKeepsTheOrder) {
     j["meshes"][0]["primitives"][0]["extensions"]["EXT_structural_metadata"]["propertyAttributes"] =
         {0};
   }));
+}
+
+/// Extensions whose objects count vertices, triangles or indices, as their drafts have them.
+std::vector<std::pair<const char*, Json>> countingExtensions() {
+  return {
+      {"EXT_mesh_features", {{"featureIds", {{{"featureCount", 441}}}}}},
+      {"EXT_structural_metadata", {{"propertyAttributes", {0}}}},
+      {"KHR_draw_ranges",
+       {{"ranges", {{{"first", 0}, {"count", 300}}, {{"first", 300}, {"count", 30}}}}}},
+  };
+}
+
+/// The first of two meshes has such an object, on itself or on its primitive.
+Builder countingDocument(const char* name, const Json& object, bool on_primitive) {
+  Builder builder;
+  builder.addMesh({Sheet(20).addTo(builder)});
+  builder.addMesh({Sheet(24).addTo(builder)});
+  builder.json["extensionsUsed"] = {name};
+  Json& mesh = builder.json["meshes"][0];
+  (on_primitive ? mesh["primitives"][0] : mesh)["extensions"][name] = object;
+  return builder;
+}
+
+TEST(EverythingElse, WhatCountsIndicesKeepsThem) {
+  ConvertOptions options;
+  options.lossless = true;
+  for (const auto& [name, object] : countingExtensions()) {
+    for (const bool on_primitive : {false, true}) {
+      SCOPED_TRACE(std::string(name) + (on_primitive ? " of a primitive" : " of a mesh"));
+      const Builder builder = countingDocument(name, object, on_primitive);
+      const RoundTrip trip = roundTrip(builder, options);
+      ASSERT_EQ(trip.error, "");
+      const Json json = jsonOf(trip.converted);
+      EXPECT_TRUE(isCompressed(json, 0, 0));
+      EXPECT_TRUE(isCompressed(json, 1, 0));
+      const Json& mesh = json["meshes"][0];
+      EXPECT_EQ((on_primitive ? mesh["primitives"][0] : mesh)["extensions"][name], object);
+      const auto orderOf = [&](const std::vector<uint8_t>& file, uint32_t number) {
+        const Json& primitive = builder.json["meshes"][number]["primitives"][0];
+        return elementsInOrder(file, primitive["indices"]);
+      };
+      EXPECT_EQ(orderOf(trip.source, 0), orderOf(trip.decoded, 0));
+      EXPECT_NE(orderOf(trip.source, 1), orderOf(trip.decoded, 1));
+    }
+  }
+}
+
+/// A strip becomes a list, in which the same numbers mean other triangles.
+TEST(EverythingElse, WhatCountsTheIndicesOfAStripLeavesItAlone) {
+  for (const auto& [name, object] : countingExtensions()) {
+    for (const bool on_primitive : {false, true}) {
+      for (const bool is_strip : {false, true}) {
+        SCOPED_TRACE(name);
+        Builder builder = countingDocument(name, object, on_primitive);
+        Json& primitive = builder.json["meshes"][0]["primitives"][0];
+        if (is_strip) primitive["mode"] = 5;
+        if (!is_strip) primitive.erase("indices");
+        const RoundTrip trip = roundTrip(builder);
+        ASSERT_EQ(trip.error, "");
+        EXPECT_FALSE(isCompressed(jsonOf(trip.converted), 0, 0));
+        EXPECT_TRUE(isCompressed(jsonOf(trip.converted), 1, 0));
+        EXPECT_TRUE(hasNote(trip.report, std::string("has ") + name + ", which may depend on"));
+      }
+    }
+  }
+}
+
+TEST(EverythingElse, ValidatorHasNoObjectionToWhatCounts) {
+  const std::string missing = mcc::test::Validator::whyNot();
+  if (!missing.empty()) GTEST_SKIP() << missing;
+  const mcc::test::ScratchFolder folder;
+  mcc::test::Validator validator(folder.path());
+  uint32_t number = 0;
+  for (const auto& [name, object] : countingExtensions()) {
+    for (const bool on_primitive : {false, true}) {
+      const RoundTrip trip = roundTrip(countingDocument(name, object, on_primitive));
+      ASSERT_EQ(trip.error, "");
+      validator.add(std::to_string(number++), trip.source, trip.converted, trip.decoded);
+    }
+  }
+  EXPECT_TRUE(validator.run()) << "the lines above name what is new";
+}
+
+/// Property tables lie in views that no accessor names.
+TEST(EverythingElse, PropertyTablesKeepTheirViews) {
+  Builder builder =
+      countingDocument("EXT_structural_metadata", {{"propertyAttributes", {0}}}, true);
+  const std::vector<uint8_t> table = {1, 2, 3, 4, 5, 6, 7, 8};
+  const uint32_t view = builder.addView(table);
+  builder.json["extensions"]["EXT_structural_metadata"] = {
+      {"schema",
+       {{"id", "s"}, {"classes", {{"c", {{"properties", {{"p", {{"type", "SCALAR"}}}}}}}}}}},
+      {"propertyTables",
+       {{{"class", "c"}, {"count", 8}, {"properties", {{"p", {{"values", view}}}}}}}}};
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  for (const auto* file : {&trip.converted, &trip.decoded}) {
+    Document document;
+    ASSERT_TRUE(loadDocument(*file, nullptr, document).ok());
+    const Json& root = document.json["extensions"]["EXT_structural_metadata"];
+    const uint32_t values = root["propertyTables"][0]["properties"]["p"]["values"];
+    const BufferView& kept = document.views[values];
+    const auto bytes = document.buffers[kept.buffer].subspan(kept.offset, kept.length);
+    EXPECT_EQ(std::vector<uint8_t>(bytes.begin(), bytes.end()), table);
+  }
 }
 
 TEST(EverythingElse, ManifoldMeshesAreLeftAlone) {

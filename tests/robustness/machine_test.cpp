@@ -12,6 +12,7 @@
 #include "entropy/dec_coder.h"
 #include "piece.h"
 #include "robustness/damage.h"
+#include "robustness/face_check.h"
 #include "support/mesh_generators.h"
 
 namespace mcc::test {
@@ -93,23 +94,6 @@ class RandomIo {
   std::vector<Watched> watched_;
   uint32_t watched_ones_ = 0;
 };
-
-/// What is promised of the faces of every code, also of one no writer makes.
-std::string checkFaces(const uint32_t* words, uint32_t face_count, uint32_t vertex_count) {
-  const uint32_t end = face_count * kFaceWords;
-  for (uint32_t f = 0; f < face_count; ++f) {
-    for (uint32_t h = f * kFaceWords; h < f * kFaceWords + 3; ++h) {
-      if (words[h] >= vertex_count) return "a corner has no vertex";
-      const uint32_t t = words[h + 4];
-      if (t == kNone) continue;
-      if (t >= end || t % kFaceWords > 2) return "a twin is no half-edge";
-      if (words[t + 4] != h) return "a twin is not mutual";
-      if (words[t] != words[nextHalfEdge(h)] || words[nextHalfEdge(t)] != words[h])
-        return "twins have other ends";
-    }
-  }
-  return "";
-}
 
 struct Observed {
   uint32_t vertices = 0;

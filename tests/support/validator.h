@@ -38,7 +38,8 @@ class Validator {
         write(name + "_decoded", decoded));
   }
 
-  /// True when no file has an error or a warning that its source has not; prints those.
+  /// True when no file has an error, warning, info or hint that its source has not, but for what is expected of the
+  /// extension; prints those.
   bool run() const {
     const std::string command = std::string("node '") + MCC_SOURCE_DIR +
                                 "/tests/support/validate.mjs' '" + module().string() + "' '" +

@@ -44,7 +44,8 @@ AttributeInfo anyAttribute(Random& random) {
   AttributeInfo a;
   a.format.semantic = static_cast<Semantic>(random.below(8));
   a.format.normalized = random.chance(50);
-  a.format.component_count = static_cast<uint8_t>(random.between(1, 16));
+  constexpr uint8_t kCounts[] = {1, 2, 3, 4, 9, 16};
+  a.format.component_count = kCounts[random.below(sizeof kCounts)];
   if (random.chance(50)) a.format.set_index = static_cast<uint8_t>(random.below(256));
   if (random.chance(50)) a.format.morph_target = static_cast<uint16_t>(random.below(65536));
   if (random.chance(40)) {
@@ -141,10 +142,12 @@ Draft anyDraft(uint64_t seed) {
     h.face_count = anyCount(random, limit) + 1;
     h.vertex_count = 1 + random.below(std::min(3 * h.face_count, 100000000u));
     h.operation_count = random.below(std::min(h.vertex_count + 4 * h.face_count, 200000000u) + 1);
-    h.wedge_count = anyCount(random, limit);
-    if (h.wedge_count == 0) h.flags &= ~piece_flag::kIsolated;
+    h.wedge_count = random.below(std::min(3 * h.face_count, 100000000u));
     if (h.has(piece_flag::kHoles)) h.dummy_count = 1 + random.below(3 * h.face_count);
-    if (h.has(piece_flag::kIsolated)) h.isolated_count = 1 + random.below(h.wedge_count);
+    if (h.has(piece_flag::kIsolated)) {
+      h.isolated_count = 1 + anyCount(random, limit);
+      h.wedge_count += h.isolated_count;
+    }
     if (h.has(piece_flag::kDuplicates)) h.duplicate_count = 1 + anyCount(random, limit);
     if (h.has(piece_flag::kEdgeDegenerates)) h.edge_degenerate_count = 1 + anyCount(random, limit);
     if (h.has(piece_flag::kListed)) h.listed_count = 1 + anyCount(random, limit);
@@ -327,6 +330,7 @@ TEST(Container, CountsThatContradictEachOther) {
         d.pieces[0].header.flags |= piece_flag::kManyParts;
         d.pieces[0].part_triangles = {5, ~0u};  // their sum is right modulo 2^32
       },
+      [](Draft& d) { d.pieces[0].header.wedge_count = 13; },  // more than corners
       // Flags that say nothing, or nothing without another one.
       [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kManyParts; },
       [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kHoles; },
@@ -413,9 +417,9 @@ TEST(Container, AttributesThatAreNone) {
         a.format.component_count = 4;
         a.predictor = tangent_point_method::kPerpendicular;
       },
-      [](AttributeInfo& a) {  // a blend of five components
+      [](AttributeInfo& a) {  // a blend of nine components
         a.coding = AttributeCoding::kExactFloat;
-        a.format.component_count = 5;
+        a.format.component_count = 9;
         a.predictor = value_method::kBlend;
       },
       [](AttributeInfo& a) { setGrid(a, 0, 0, 3); },
@@ -426,7 +430,7 @@ TEST(Container, AttributesThatAreNone) {
       [](AttributeInfo& a) { setGrid(a, 10, 0, kGridCount); },
       [](AttributeInfo& a) {
         setGrid(a, 10, 0, 3);
-        a.format.component_count = kGridComponents + 1;
+        a.format.component_count = 9;
       },
       [](AttributeInfo& a) {
         setGrid(a, 10, 0, 3);
@@ -679,7 +683,9 @@ TEST(Container, ClaimsOfAttributesAreBounded) {
   Draft draft = simpleDraft();
   draft.flags = payload_flag::kSingleCoder;
   PieceHeader& h = draft.pieces[0].header;
+  h.flags |= piece_flag::kIsolated;
   h.wedge_count = 2000000;
+  h.isolated_count = h.wedge_count - 4;
   AttributeInfo wide;
   wide.format.semantic = Semantic::kCustom;
   wide.format.component_type = ComponentType::kUint32;

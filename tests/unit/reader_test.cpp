@@ -37,7 +37,8 @@ std::vector<uint8_t> manyPieces(uint32_t count) {
 /// Memory of the right shape for a payload.
 class Targets {
  public:
-  explicit Targets(const PayloadInfo& info) : attributes_(info.pieces.size()), parts_(info.pieces.size()) {
+  explicit Targets(const PayloadInfo& info)
+      : attributes_(info.pieces.size()), parts_(info.pieces.size()) {
     for (size_t p = 0; p < info.pieces.size(); ++p) {
       for (const AttributeInfo& a : info.pieces[p].attributes) {
         const size_t stride = elementBytes(a.format);
@@ -359,7 +360,8 @@ TEST(Writer, BadArguments) {
   EXPECT_EQ(encodeError([](Source& s) { s.wedge_count = 3; }), Error::kBadArgument);
   EXPECT_EQ(encodeError([](Source& s) { s.parts[0].indices = s.parts[0].indices.first(4); }),
             Error::kBadArgument);
-  for (const uint8_t components : {uint8_t{0}, uint8_t{17}}) {
+  for (const uint8_t components :
+       {uint8_t{0}, uint8_t{5}, uint8_t{8}, uint8_t{10}, uint8_t{15}, uint8_t{17}}) {
     EXPECT_EQ(encodeError([components](Source& s) {
                 s.attributes.push_back(s.attributes[0]);
                 s.attributes[1].format.semantic = Semantic::kCustom;

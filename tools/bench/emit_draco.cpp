@@ -182,6 +182,7 @@ gltf::Result emit(std::span<const uint8_t> source, const gltf::FileReader& read_
   MCC_GLTF_TRY(gltf::loadDocument(source, read_file, document));
   MCC_GLTF_TRY(gltf::embedImages(read_file, document));
   MCC_GLTF_TRY(gltf::decodeViews(options.decoders, document));
+  MCC_GLTF_TRY(gltf::decodeMeshes(options.decoders, document));
   std::vector<gltf::PayloadPlan> plans;
   std::vector<gltf::LeftAlone> left_alone;
   MCC_GLTF_TRY(gltf::planPayloads(document, plans, left_alone));
@@ -197,7 +198,11 @@ gltf::Result emit(std::span<const uint8_t> source, const gltf::FileReader& read_
   std::vector<bool> is_taken = gltf::accessorsInOtherUse(document, foreign, payloads);
   for (const EmittedPart& part : parts) {
     for (const uint32_t left_out : part.draco.left_out) {
-      is_taken[part.piece->attributes[left_out].accessor] = true;
+      const gltf::AttributePlan& attribute = part.piece->attributes[left_out];
+      is_taken[attribute.accessor] = true;
+      if (document.accessors[attribute.accessor].decoded_from == kNone) continue;
+      return gltf::error(part.part->users[0].path(),
+                         attribute.label() + " has its only bytes in what is replaced");
     }
   }
   Emitter emitter(document, std::move(is_taken));

@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-enum class Outcome : uint8_t { kConverted, kCopied, kUpToDate, kFailed };
-constexpr const char* kOutcomeNames[] = {"converted", "copied", "up to date", "failed"};
+enum class Outcome : uint8_t { kDone, kCopied, kUpToDate, kFailed };
+constexpr size_t kOutcomeCount = 4;
 
 struct BatchFile {
   std::string input;
@@ -46,10 +46,11 @@ class Batch {
  private:
   gltf::Result listFiles();
   gltf::Result makeFolder() const;
-  void convertAll();
-  void convertOne(BatchFile& file);
-  void finishOne(const BatchFile& file, const gltf::ConvertReport& report);
-  std::vector<fs::path> outputsOf(const BatchFile& file, const gltf::ConvertReport& report) const;
+  void makeAll();
+  void makeOne(BatchFile& file);
+  void finishOne(const BatchFile& file, const BatchResult& made);
+  std::vector<fs::path> outputsOf(const BatchFile& file, const BatchResult& made) const;
+  std::string nameOf(Outcome outcome) const;
   void keepRecord(bool is_last);
   void showProgress() const;
   std::string lineOf(const BatchFile& file) const;
@@ -96,16 +97,26 @@ gltf::Result Batch::listFiles() {
     if (fs::equivalent(input, outputOf(file), code)) {
       return {input, "would be replaced by its output; choose another folder with -o"};
     }
-    for (const std::string& name : namesOf(file.name, options_.convert.fallback)) {
+    for (const std::string& name : namesOf(file.name, options_.with_fallback)) {
       const auto [found, is_new] = taken.try_emplace(name, input);
       if (is_new) continue;
-      return {input, fmt::format("writes \"{}\", as \"{}\" does; convert them into different "
-                                 "folders or rename one",
+      return {input, fmt::format("writes \"{}\", as \"{}\" does; name different folders for "
+                                 "them or rename one",
                                  (options_.folder / name).string(), found->second)};
     }
     files_.push_back(std::move(file));
   }
   return {};
+}
+
+std::string Batch::nameOf(Outcome outcome) const {
+  switch (outcome) {
+    case Outcome::kDone: return options_.done_name;
+    case Outcome::kCopied: return "copied";
+    case Outcome::kUpToDate: return "up to date";
+    case Outcome::kFailed: break;
+  }
+  return "failed";
 }
 
 gltf::Result Batch::makeFolder() const {
@@ -130,8 +141,8 @@ void Batch::showProgress() const {
 std::string Batch::lineOf(const BatchFile& file) const {
   const std::string start = fmt::format("[{}/{}] {}: ", done_, files_.size(), file.input);
   switch (file.outcome) {
-    case Outcome::kConverted: return start + sizeChange(file.input_bytes, file.output_bytes) + "\n";
-    case Outcome::kCopied: return start + "copied, nothing becomes smaller\n";
+    case Outcome::kDone: return start + sizeChange(file.input_bytes, file.output_bytes) + "\n";
+    case Outcome::kCopied: return start + "copied, " + options_.copied_why + "\n";
     case Outcome::kUpToDate: return start + "up to date\n";
     case Outcome::kFailed: break;
   }
@@ -145,31 +156,30 @@ void Batch::keepRecord(bool is_last) {
   recorded_ = now;
   const gltf::Result written = record_->write();
   if (is_last && !written.ok()) {
-    fmt::print(stderr, "gltf-mcc: note: {}; the next run will convert everything again\n",
+    fmt::print(stderr, "gltf-mcc: note: {}; the next run will make everything again\n",
                written.message());
   }
 }
 
 /// Those made for it, whether they turned out to be needed or not, and copies of the others.
-std::vector<fs::path> Batch::outputsOf(const BatchFile& file,
-                                       const gltf::ConvertReport& report) const {
+std::vector<fs::path> Batch::outputsOf(const BatchFile& file, const BatchResult& made) const {
   std::vector<fs::path> paths;
-  for (const std::string& name : namesOf(file.name, options_.convert.fallback)) {
+  for (const std::string& name : namesOf(file.name, options_.with_fallback)) {
     paths.push_back(options_.folder / name);
   }
   const fs::path source_folder = gltf::folderOf(file.input);
-  for (const fs::path& path : report.files.other_input) {
+  for (const fs::path& path : made.files.other_input) {
     paths.push_back(options_.folder / path.lexically_relative(source_folder));
   }
   return paths;
 }
 
-void Batch::finishOne(const BatchFile& file, const gltf::ConvertReport& report) {
+void Batch::finishOne(const BatchFile& file, const BatchResult& made) {
   const std::lock_guard lock(mutex_);
   ++done_;
   if (file.outcome == Outcome::kFailed) record_->remove(file.name);
-  if (file.outcome == Outcome::kConverted || file.outcome == Outcome::kCopied) {
-    record_->add(file.name, report, outputsOf(file, report));
+  if (file.outcome == Outcome::kDone || file.outcome == Outcome::kCopied) {
+    record_->add(file.name, made, outputsOf(file, made));
     keepRecord(false);
   }
   line_.clear();
@@ -177,8 +187,8 @@ void Batch::finishOne(const BatchFile& file, const gltf::ConvertReport& report) 
   showProgress();
 }
 
-void Batch::convertOne(BatchFile& file) {
-  gltf::ConvertReport report;
+void Batch::makeOne(BatchFile& file) {
+  BatchResult made;
   {
     const std::lock_guard lock(mutex_);
     if (!options_.is_forced && record_->isUpToDate(file.name, file.input)) {
@@ -187,24 +197,21 @@ void Batch::convertOne(BatchFile& file) {
     }
   }
   if (file.outcome != Outcome::kUpToDate) {
-    gltf::ConvertOptions convert = options_.convert;
     const auto count = static_cast<uint32_t>(files_.size());
-    convert.thread_count = std::max(1u, options_.job_count / std::max(1u, count));
-    file.failure = gltf::convertFile(file.input, outputOf(file), convert, report);
+    const uint32_t thread_count = std::max(1u, options_.job_count / std::max(1u, count));
+    file.failure = options_.make(file.input, outputOf(file), thread_count, made);
     if (file.failure.ok()) {
-      file.outcome = report.copied ? Outcome::kCopied : Outcome::kConverted;
-      file.input_bytes = report.input_bytes;
-      file.output_bytes = report.output_bytes;
-    }
-    if (file.failure.ok() && !options_.report.empty()) {
-      file.report = reportJson({file.input, outputOf(file).string(), report, {}}, convert, nullptr);
+      file.outcome = made.copied ? Outcome::kCopied : Outcome::kDone;
+      file.input_bytes = made.input_bytes;
+      file.output_bytes = made.output_bytes;
+      file.report = std::move(made.details);
     }
   }
-  finishOne(file, report);
+  finishOne(file, made);
 }
 
 /// Large files first: they take longest, and N of them at a time are the most memory there will be.
-void Batch::convertAll() {
+void Batch::makeAll() {
   std::vector<size_t> order(files_.size());
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -214,7 +221,7 @@ void Batch::convertAll() {
       gltf::runParallel(order.size(), options_.job_count, [&](size_t i) -> gltf::Result {
         BatchFile& file = files_[order[i]];
         const gltf::Result done = gltf::guarded([&]() -> gltf::Result {
-          convertOne(file);
+          makeOne(file);
           return {};
         });
         if (!done.ok()) file.failure = {file.input, done.what};
@@ -222,7 +229,7 @@ void Batch::convertAll() {
       });
   for (BatchFile& file : files_) {
     const bool is_unsaid = file.outcome == Outcome::kFailed && file.failure.ok();
-    if (is_unsaid) file.failure = {file.input, all.ok() ? "was not converted" : all.what};
+    if (is_unsaid) file.failure = {file.input, all.ok() ? "was left out" : all.what};
   }
   line_.clear();
 }
@@ -239,7 +246,7 @@ std::string Batch::summaryText() const {
     uint64_t input_bytes = 0;
     uint64_t output_bytes = 0;
   };
-  Sum sums[std::size(kOutcomeNames)];
+  Sum sums[kOutcomeCount];
   Sum all;
   for (const BatchFile& file : files_) {
     for (Sum* sum : {&sums[static_cast<size_t>(file.outcome)], &all}) {
@@ -256,7 +263,7 @@ std::string Batch::summaryText() const {
                   ratioOf(sum.input_bytes, sum.output_bytes)});
   };
   for (size_t i = 0; i < std::size(sums); ++i) {
-    if (sums[i].files != 0) addRow(kOutcomeNames[i], sums[i]);
+    if (sums[i].files != 0) addRow(nameOf(static_cast<Outcome>(i)), sums[i]);
   }
   table.addRule();
   addRow("all", all);
@@ -269,8 +276,7 @@ std::string Batch::fileTable() const {
   const Format format = options_.common.format;
   for (const BatchFile& file : files_) {
     const bool is_done = file.outcome != Outcome::kFailed;
-    table.addRow({file.input, kOutcomeNames[static_cast<size_t>(file.outcome)],
-                  is_done ? count(file.input_bytes, format) : "",
+    table.addRow({file.input, nameOf(file.outcome), is_done ? count(file.input_bytes, format) : "",
                   is_done ? count(file.output_bytes, format) : "",
                   ratioOf(file.input_bytes, file.output_bytes)});
   }
@@ -282,18 +288,18 @@ Json Batch::reportOf() const {
   for (const BatchFile& file : files_) {
     Json entry = {{"input", file.input},
                   {"output", outputOf(file).string()},
-                  {"outcome", kOutcomeNames[static_cast<size_t>(file.outcome)]}};
+                  {"outcome", nameOf(file.outcome)}};
     if (file.outcome == Outcome::kFailed) {
       entry["message"] = file.failure.message();
     } else {
       entry["input_bytes"] = file.input_bytes;
       entry["output_bytes"] = file.output_bytes;
     }
-    if (!file.report.is_null()) entry["conversion"] = file.report;
+    if (!file.report.is_null()) entry[options_.details_name] = file.report;
     list.push_back(std::move(entry));
   }
   return {{"tool", std::string("gltf-mcc ") + MCC_VERSION},
-          {"options", optionsJson(options_.convert)},
+          {"options", options_.settings},
           {"files", std::move(list)}};
 }
 
@@ -325,8 +331,8 @@ int Batch::run() {
   if (!options_.report.empty()) ready = checkWritable(options_.report);
   if (ready.ok()) ready = makeFolder();
   if (!ready.ok()) return reportFailure(ready);
-  record_ = std::make_unique<BatchRecord>(options_.folder, options_.convert);
-  convertAll();
+  record_ = std::make_unique<BatchRecord>(options_.folder, options_.settings);
+  makeAll();
   keepRecord(true);
   return printResults();
 }

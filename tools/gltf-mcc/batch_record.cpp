@@ -3,8 +3,8 @@
 
 #include <chrono>
 
-#include "convert_report.h"
 #include "gltf/file_io.h"
+#include "interrupt.h"
 
 namespace mcc::tool {
 namespace {
@@ -39,9 +39,9 @@ bool areUnchanged(const Json& stamps) {
 
 }  // namespace
 
-BatchRecord::BatchRecord(fs::path folder, const gltf::ConvertOptions& options)
+BatchRecord::BatchRecord(fs::path folder, const nlohmann::ordered_json& settings)
     : path_(std::move(folder) / kFileName),
-      maker_(std::string(MCC_VERSION) + " " + optionsJson(options).dump()),
+      maker_(std::string(MCC_VERSION) + " " + settings.dump()),
       files_(Json::object()) {
   std::vector<uint8_t> bytes;
   if (!gltf::readFile(path_, bytes).ok()) return;
@@ -67,12 +67,12 @@ std::pair<uint64_t, uint64_t> BatchRecord::sizesOf(const std::string& output_nam
   return {bytes.at(0).get<uint64_t>(), bytes.at(1).get<uint64_t>()};
 }
 
-void BatchRecord::add(const std::string& output_name, const gltf::ConvertReport& report,
+void BatchRecord::add(const std::string& output_name, const BatchResult& made,
                       const std::vector<fs::path>& outputs) {
-  std::vector<fs::path> inputs = report.files.input;
-  inputs.insert(inputs.end(), report.files.other_input.begin(), report.files.other_input.end());
+  std::vector<fs::path> inputs = made.files.input;
+  inputs.insert(inputs.end(), made.files.other_input.begin(), made.files.other_input.end());
   files_[output_name] = {{"maker", maker_},
-                         {"bytes", {report.input_bytes, report.output_bytes}},
+                         {"bytes", {made.input_bytes, made.output_bytes}},
                          {"input", stampsOf(inputs)},
                          {"output", stampsOf(outputs)}};
 }
@@ -82,7 +82,8 @@ void BatchRecord::remove(const std::string& output_name) { files_.erase(output_n
 gltf::Result BatchRecord::write() const {
   const Json json = {{"tool", std::string("gltf-mcc ") + MCC_VERSION}, {"files", files_}};
   const std::string text = json.dump(1, ' ', true, Json::error_handler_t::replace) + "\n";
-  return gltf::writeFile(path_, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+  return gltf::writeFile(path_, {reinterpret_cast<const uint8_t*>(text.data()), text.size()},
+                         &temporaryFiles());
 }
 
 }  // namespace mcc::tool

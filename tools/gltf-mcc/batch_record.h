@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What a folder of converted files was made of: the file .gltf-mcc.json in it.
+// What the files in a folder were made of: the file .gltf-mcc.json in it.
 #ifndef MCC_TOOL_BATCH_RECORD_H_
 #define MCC_TOOL_BATCH_RECORD_H_
 
@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "batch.h"
 #include "mcc/gltf.h"
 
 namespace mcc::tool {
@@ -17,15 +18,15 @@ namespace mcc::tool {
 /// any file of its input has another size or time than then. Contents are not compared.
 class BatchRecord {
  public:
-  /// Reads the record of a folder. One that is absent or damaged counts as empty.
-  BatchRecord(std::filesystem::path folder, const gltf::ConvertOptions& options);
+  /// `settings` as in BatchOptions. Reads the record of a folder. One that is absent or damaged counts as empty.
+  BatchRecord(std::filesystem::path folder, const nlohmann::ordered_json& settings);
 
   bool isUpToDate(const std::string& output_name, const std::filesystem::path& input) const;
   /// Bytes before and after, of a file that is up to date.
   std::pair<uint64_t, uint64_t> sizesOf(const std::string& output_name) const;
 
   /// outputs  all files that belong to the output.
-  void add(const std::string& output_name, const gltf::ConvertReport& report,
+  void add(const std::string& output_name, const BatchResult& made,
            const std::vector<std::filesystem::path>& outputs);
   void remove(const std::string& output_name);
   gltf::Result write() const;

@@ -10,6 +10,7 @@
 #include "bench_report.h"
 #include "commands.h"
 #include "convert_report.h"
+#include "foreign/decoders.h"
 #include "gltf/file_io.h"
 #include "help.h"
 #include "progress_line.h"
@@ -100,6 +101,7 @@ void addBench(CLI::App& app, int& status) {
   CLI::App* command =
       app.add_subcommand("bench", "Measure sizes and speed beside Draco and meshoptimizer");
   auto state = std::make_shared<BenchCommand>();
+  state->convert.decoders = foreign::foreignDecoders();
   command->add_option("IN", state->inputs, "The .glb or .gltf files to read")
       ->required()
       ->type_name("");

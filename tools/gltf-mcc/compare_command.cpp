@@ -11,8 +11,10 @@
 
 #include "bench/emit_draco.h"
 #include "comparison_report.h"
+#include "foreign/decoders.h"
 #include "gltf/file_io.h"
 #include "help.h"
+#include "interrupt.h"
 #include "progress_line.h"
 
 namespace mcc::tool {
@@ -57,7 +59,7 @@ gltf::Result CompareCommand::compare(const std::string& input, bench::FileFigure
   if (result.ok() && !draco_output.empty()) {
     std::vector<uint8_t> draco;
     result = bench::emitDraco(input, file, convert, draco, notes);
-    if (result.ok()) result = gltf::writeFile(draco_output, draco);
+    if (result.ok()) result = gltf::writeFile(draco_output, draco, &temporaryFiles());
   }
   if (!result.ok()) return result;
   result = compareWithDraco(input, std::move(file), convert, nullptr, run_count, common.is_quiet,
@@ -125,6 +127,7 @@ gltf::Result compareWithDraco(const std::string& input, std::vector<uint8_t> fil
 void addCompare(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("compare", "Compare with Draco: bytes, errors, times");
   auto state = std::make_shared<CompareCommand>();
+  state->convert.decoders = foreign::foreignDecoders();
   command->add_option("IN", state->inputs, "The .glb or .gltf files to read")
       ->required()
       ->type_name("");

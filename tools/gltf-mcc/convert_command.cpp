@@ -15,6 +15,8 @@
 #include "convert_report.h"
 #include "gltf/package.h"
 #include "help.h"
+#include "in_out.h"
+#include "interrupt.h"
 #include "standard_streams.h"
 
 #if defined(MCC_HAS_FOREIGN)
@@ -27,9 +29,7 @@ namespace {
 struct ConvertCommand {
   CommonOptions common;
   gltf::ConvertOptions convert;
-  std::vector<std::string> files;  ///< as they stand on the command line
-  std::string input;               ///< of -i
-  std::string output;              ///< of -o
+  InOut files;
   std::string report;
   bool is_forced = false;
   ConvertComparison comparison;
@@ -37,8 +37,6 @@ struct ConvertCommand {
   int run();
 
  private:
-  bool isBatch() const;
-  void sortFiles();
   int runMany() const;
   int runOne() const;
   gltf::Result convertOne(Converted& converted, ConvertComparison& compared) const;
@@ -49,32 +47,9 @@ bool isGltf(const std::string& name) {
   return gltf::containerOf(name, container).ok() && container.is_gltf;
 }
 
-/// IN and OUT from the command line. Throws what the parser reports as wrong usage.
-void ConvertCommand::sortFiles() {
-  if (!input.empty()) files.insert(files.begin(), input);
-  if (output.empty() && files.size() > 2) {
-    throw CLI::ValidationError("convert", "several inputs need a folder: -o DIR IN…");
-  }
-  if (output.empty() && files.size() == 2) {
-    output = files.back();
-    files.pop_back();
-  }
-  if (files.empty() || output.empty()) {
-    throw CLI::ValidationError("convert", files.empty() ? "IN is missing" : "OUT is missing");
-  }
-}
-
-/// -o names a folder: by a slash, because it is one, or because there are several inputs.
-bool ConvertCommand::isBatch() const {
-  std::error_code ignored;
-  return files.size() > 1 || output.ends_with('/') ||
-         std::filesystem::is_directory(output, ignored);
-}
-
 int ConvertCommand::run() {
-  const bool names_folder = !output.empty();  // and not OUT, which must be a file
-  sortFiles();
-  return names_folder && isBatch() ? runMany() : runOne();
+  files.sort("convert");
+  return files.is_batch ? runMany() : runOne();
 }
 
 int ConvertCommand::runMany() const {
@@ -83,17 +58,32 @@ int ConvertCommand::runMany() const {
     throw CLI::ValidationError("convert",
                                "--compare and --emit-draco take one input; see gltf-mcc compare");
   }
-  if (std::any_of(files.begin(), files.end(), isStandardStream)) {
-    throw CLI::ValidationError("convert", "standard input cannot be one of several inputs");
-  }
   BatchOptions options;
-  options.inputs = files;
-  options.folder = output;
+  options.inputs = files.inputs;
+  options.folder = files.output;
   options.report = report;
-  options.convert = convert;
   options.common = common;
   options.job_count = convert.thread_count;
   options.is_forced = is_forced;
+  options.with_fallback = convert.fallback;
+  options.done_name = "converted";
+  options.copied_why = "nothing becomes smaller";
+  options.details_name = "conversion";
+  options.settings = optionsJson(convert);
+  options.make = [this](const std::string& file, const std::filesystem::path& to,
+                        uint32_t thread_count, BatchResult& result) {
+    gltf::ConvertOptions of_file = convert;
+    of_file.thread_count = thread_count;
+    gltf::ConvertReport done;
+    const gltf::Result outcome =
+        gltf::convert({file, {}}, {to, nullptr, &temporaryFiles()}, of_file, done);
+    if (!outcome.ok()) return outcome;
+    result = {done.copied, done.input_bytes, done.output_bytes, done.files, {}};
+    if (!report.empty()) {
+      result.details = reportJson({file, to.string(), std::move(done), {}}, of_file, nullptr);
+    }
+    return outcome;
+  };
   return runBatch(options);
 }
 
@@ -145,11 +135,12 @@ gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison&
 int ConvertCommand::runOne() const {
   // Before any work is done: a conversion whose report cannot be written is a failure.
   const bool report_is_new = !report.empty() && !std::filesystem::exists(report);
+  if (report_is_new) temporaryFiles().add(report);
   if (!report.empty()) {
     const gltf::Result writable = checkWritable(report);
     if (!writable.ok()) return reportFailure(writable);
   }
-  Converted converted{files[0], output, {}, {}};
+  Converted converted{files.inputs[0], files.output, {}, {}};
   ConvertComparison compared = comparison;
   const gltf::Result outcome = convertOne(converted, compared);
   if (!outcome.ok()) {
@@ -158,10 +149,11 @@ int ConvertCommand::runOne() const {
   }
   const auto json = reportJson(converted, convert, compared.json);
   if (!report.empty()) {
+    if (report_is_new) temporaryFiles().forget(report);
     const gltf::Result written = writeText(report, printReport(json));
     if (!written.ok()) return reportFailure(written);
   }
-  if (common.is_quiet || isStandardStream(output)) return kDone;
+  if (common.is_quiet || isStandardStream(files.output)) return kDone;
   if (common.format == Format::kJson) return printOut(printReport(json));
   const std::string text = reportText(converted, common);
   const bool has_more = !compared.text.empty() && common.format != Format::kCsv;
@@ -195,7 +187,13 @@ void addPositionPromises(CLI::App& command, gltf::ConvertOptions& options, CLI::
               options.is_error_relative = is_relative;
             },
             help)
-        ->check(CLI::PositiveNumber.description(""))
+        ->check(CLI::Validator(
+            [](const std::string& text) -> std::string {
+              double number = 0;
+              const bool is_number = CLI::detail::lexical_cast(text, number);
+              return is_number && number > 0 ? "" : text + " is not greater than 0";
+            },
+            ""))
         ->type_name("X");
   };
   CLI::Option* absolute =
@@ -270,10 +268,7 @@ void addConvert(CLI::App& app, int& status) {
 #if defined(MCC_HAS_FOREIGN)
   state->convert.decoders = foreign::foreignDecoders();
 #endif
-  command->add_option("FILES", state->files, "IN and OUT");
-  command->add_option("-i,--input", state->input, "The same as IN")->type_name("FILE");
-  command->add_option("-o,--output", state->output, "The same as OUT, or the folder for many IN")
-      ->type_name("FILE|DIR");
+  state->files.addOptions(*command);
   addQuantization(*command, state->convert);
   addKeepOrder(*command, state->convert);
   command->add_flag("--fallback", state->convert.fallback,

@@ -13,6 +13,7 @@
 #include "comparison_report.h"
 #include "gltf/file_io.h"
 #include "gltf/glb.h"
+#include "interrupt.h"
 
 namespace mcc::tool {
 namespace {
@@ -61,7 +62,7 @@ gltf::Result ConvertComparison::finish(const gltf::Source& input,
                                        const gltf::ConvertReport& report,
                                        const CommonOptions& common, bool is_reported) {
   if (!draco_output.empty()) {
-    gltf::Result written = gltf::writeFile(draco_output, draco);
+    gltf::Result written = gltf::writeFile(draco_output, draco, &temporaryFiles());
     if (!written.ok()) return written;
   }
   std::set<std::pair<uint32_t, uint32_t>> compressed;

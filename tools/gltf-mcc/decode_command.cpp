@@ -4,8 +4,11 @@
 #include <map>
 #include <memory>
 
+#include "batch.h"
 #include "commands.h"
 #include "help.h"
+#include "in_out.h"
+#include "interrupt.h"
 #include "standard_streams.h"
 
 namespace mcc::tool {
@@ -13,56 +16,92 @@ namespace {
 
 struct DecodeCommand {
   CommonOptions common;
-  std::string input;
-  std::string output;
+  InOut files;
   gltf::DecodeTo decode_to = gltf::DecodeTo::kFloats;
+  uint32_t thread_count = 1;
+  bool is_forced = false;
 
-  int run() const {
-    StreamSource source;
-    StreamSink sink;
-    gltf::Result outcome = source.open(input);
-    if (outcome.ok()) outcome = sink.open(output);
-    gltf::DecodeReport report;
-    if (outcome.ok()) outcome = gltf::decode(source.source(), sink.sink(), report, decode_to);
-    if (outcome.ok()) outcome = sink.finish();
-    if (!outcome.ok()) return reportFailure(outcome);
-    if (common.is_quiet || sink.isStandardOutput()) return kDone;
-    std::string text = fmt::format("{} -> {}: {} -> {} bytes\n", input, output,
-                                   grouped(report.input_bytes), grouped(report.output_bytes));
-    text +=
-        fmt::format("{} primitives of {} payloads decoded: {} triangles, {} vertices, {:.0f} ms\n",
-                    report.primitive_count, report.payload_count, grouped(report.triangle_count),
-                    grouped(report.wedge_count), 1000 * report.decode_seconds);
-    for (const std::string& note : report.notes) text += "note: " + note + "\n";
-    return printOut(text);
+  int run() {
+    files.sort("decode");
+    return files.is_batch ? runMany() : runOne();
   }
+
+ private:
+  int runMany() const;
+  int runOne() const;
 };
+
+int DecodeCommand::runMany() const {
+  BatchOptions options;
+  options.inputs = files.inputs;
+  options.folder = files.output;
+  options.common = common;
+  options.job_count = thread_count;
+  options.is_forced = is_forced;
+  options.done_name = "decoded";
+  options.copied_why = "nothing in it is compressed";
+  options.settings = {
+      {"decode_to", decode_to == gltf::DecodeTo::kIntegers ? "integers" : "floats"}};
+  options.make = [this](const std::string& file, const std::filesystem::path& to,
+                        uint32_t threads_of_file, BatchResult& result) {
+    gltf::DecodeReport done;
+    gltf::Result outcome = gltf::decode({file, {}}, {to, nullptr, &temporaryFiles()}, done,
+                                        decode_to, threads_of_file);
+    result = {done.copied, done.input_bytes, done.output_bytes, done.files, {}};
+    return outcome;
+  };
+  return runBatch(options);
+}
+
+int DecodeCommand::runOne() const {
+  const std::string& input = files.inputs[0];
+  StreamSource source;
+  StreamSink sink;
+  gltf::Result outcome = source.open(input);
+  if (outcome.ok()) outcome = sink.open(files.output);
+  gltf::DecodeReport report;
+  if (outcome.ok()) {
+    outcome = gltf::decode(source.source(), sink.sink(), report, decode_to, thread_count);
+  }
+  if (outcome.ok()) outcome = sink.finish();
+  if (!outcome.ok()) return reportFailure(outcome);
+  if (common.is_quiet || sink.isStandardOutput()) return kDone;
+  std::string text = fmt::format("{} -> {}: {} -> {} bytes\n", input, files.output,
+                                 grouped(report.input_bytes), grouped(report.output_bytes));
+  text +=
+      fmt::format("{} primitives of {} payloads decoded: {} triangles, {} vertices, {:.0f} ms\n",
+                  report.primitive_count, report.payload_count, grouped(report.triangle_count),
+                  grouped(report.wedge_count), 1000 * report.decode_seconds);
+  for (const std::string& note : report.notes) text += "note: " + note + "\n";
+  return printOut(text);
+}
 
 }  // namespace
 
 void addDecode(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("decode", "Turn a compressed file into an ordinary one");
+  CLI::App* command = app.add_subcommand("decode", "Turn compressed files into ordinary ones");
   auto state = std::make_shared<DecodeCommand>();
-  command->add_option("-i,--input,IN", state->input, "The same as IN")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("-o,--output,OUT", state->output, "The same as OUT")
-      ->required()
-      ->type_name("FILE");
+  state->files.addOptions(*command);
   const std::map<std::string, gltf::DecodeTo> kinds = {{"floats", gltf::DecodeTo::kFloats},
                                                        {"integers", gltf::DecodeTo::kIntegers}};
   command->add_option("--decode-to", state->decode_to, "What quantised attributes become [floats]")
       ->transform(CLI::CheckedTransformer(kinds, CLI::ignore_case).description(""))
       ->type_name("floats|integers");
+  command->add_option("-j,--jobs", state->thread_count, "Threads to use [1]")
+      ->check(CLI::Range(1, 1024).description(""))
+      ->type_name("N");
+  command->add_flag("--force", state->is_forced, "With -o DIR: decode what is up to date, too");
   addVerbosityOptions(*command, state->common);
   setHelp(
-      *command, "decode [OPTIONS] IN OUT",
+      *command, "decode [OPTIONS] IN OUT\ndecode [OPTIONS] -o DIR IN…",
       "IN and OUT are .glb or .gltf files, or - for standard input and output. A .gltf gets its\n"
       "buffer beside it (a.gltf: a.bin). What is not compressed is copied.\n"
-      "Integers (KHR_mesh_quantization) take less memory.",
+      "Integers (KHR_mesh_quantization) take less memory.\n"
+      "With -o DIR every IN becomes a file of the same name in DIR, as with convert.",
       "decode small.glb model.glb\n"
       "decode small.glb model.gltf\n"
       "decode small.glb model.glb --decode-to integers\n"
+      "decode -j 4 -o models small/*.glb\n"
       "decode - - < small.glb > model.glb");
   command->callback([state, &status]() { status = state->run(); });
 }

@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "help.h"
+#include "interrupt.h"
 
 namespace mcc::tool {
 
@@ -44,14 +45,30 @@ int printOut(const std::string& text) {
 
 namespace {
 
+/// Why there is no command, when there is none.
+std::string missingCommand(const CLI::App& app, int argc, char** argv) {
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  for (int i = 1; i < argc; ++i) {
+    if (argv[i][0] == '-') continue;
+    return fmt::format("\"{}\" is no command; there are {}", argv[i], names);
+  }
+  return "name a command: " + names;
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Compresses the meshes of glTF files with KHR_mesh_collapse_compression.");
   app.name("gltf-mcc");
   app.set_version_flag("--version", MCC_VERSION);
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App*, const CLI::Error& failure) {
+  app.failure_message([=](const CLI::App* failed, const CLI::Error& failure) {
+    const bool has_command = !failed->get_subcommands().empty();
+    const std::string what =
+        has_command ? std::string(failure.what()) : missingCommand(*failed, argc, argv);
     return fmt::format("gltf-mcc: {}\nRun \"gltf-mcc --help\" or \"gltf-mcc COMMAND --help\".\n",
-                       failure.what());
+                       what);
   });
   int status = kDone;
   addConvert(app, status);
@@ -83,6 +100,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    mcc::tool::removeTemporariesOnSignals();
     return mcc::tool::run(argc, argv);
   } catch (const std::exception& exception) {
     std::fprintf(stderr, "gltf-mcc: %s\n", exception.what());

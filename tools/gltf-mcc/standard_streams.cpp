@@ -7,6 +7,9 @@
 #include <cstdio>
 #include <cstring>
 
+#include "gltf/file_io.h"
+#include "interrupt.h"
+
 namespace mcc::tool {
 namespace {
 
@@ -18,7 +21,14 @@ constexpr char kOutputName[] = "standard output";
 
 gltf::Result StreamSource::open(const std::string& name) {
   name_ = name;
-  if (!isStandardStream(name)) return {};
+  std::error_code ignored;
+  if (!isStandardStream(name)) {
+    // What is there only once: a pipe, or <(command) of a shell.
+    const std::filesystem::file_type type = std::filesystem::status(name, ignored).type();
+    const bool is_read_once =
+        type == std::filesystem::file_type::fifo || type == std::filesystem::file_type::character;
+    return is_read_once ? gltf::readFile(name, bytes_.emplace()) : gltf::Result{};
+  }
   name_ = kInputName;
   if (isatty(STDIN_FILENO) == 1) {
     return {kInputName, "is a terminal; send a file to it (gltf-mcc … < model.glb)"};
@@ -60,7 +70,7 @@ gltf::Result StreamSink::open(const std::string& name) {
 
 gltf::Sink StreamSink::sink() {
   if (is_standard_output_) return {kOutputName, &bytes_};
-  return {name_, nullptr};
+  return {name_, nullptr, &temporaryFiles()};
 }
 
 FileContents StreamSink::contents(const std::vector<std::filesystem::path>& files) const {

@@ -19,7 +19,7 @@ inline bool isStandardStream(const std::string& name) { return name == "-"; }
 /// A file, or standard input when it is called "-".
 class StreamSource {
  public:
-  /// Reads standard input to its end, if it is that. Errors: it is a terminal; it cannot be read.
+  /// Reads standard input, or a pipe, to its end, if it is that. Errors: it is a terminal; it cannot be read.
   gltf::Result open(const std::string& name);
   /// Valid as long as this object.
   gltf::Source source() const;
@@ -36,7 +36,7 @@ class StreamSink {
  public:
   /// Errors: standard output is a terminal.
   gltf::Result open(const std::string& name);
-  gltf::Sink sink();
+  gltf::Sink sink();  ///< its temporary files are cleared away on interrupts
   /// What was received, or the contents of these files when it is no stream.
   FileContents contents(const std::vector<std::filesystem::path>& files) const;
   /// Sends what was received to standard output, if it is that.

@@ -91,7 +91,7 @@ bool fitOf(const PayloadHeader& header, PredictorWeights& weights,
   const PositionCandidate candidate{&recording, truth.data(), header.attributes[0].bits, {}};
   weights = fitWeights({&candidate, 1}, PositionPredictor::kFitted, false, ~0u);
   for (const PositionRecording::Visit& visit : recording.visits()) {
-    const uint32_t degree = recording.records()[visit.vertex].degree;
+    const uint32_t degree = recording.records()[visit.vertex].degree();
     if (visit.kind == static_cast<uint32_t>(PositionRecording::Kind::kPlain)) {
       ++vertices[kClassFan + std::clamp<uint32_t>(degree, 3, 9)];
     } else if (visit.kind == static_cast<uint32_t>(PositionRecording::Kind::kAny)) {

@@ -107,9 +107,10 @@ struct ConvertOptions {
   /// Keeps the decoded geometry uncompressed in a second file beside the output, NAME.fallback.bin, for loaders that do
   /// not know the extension, which is then not required.
   bool fallback = false;
-  uint32_t thread_count = 1;  ///< payloads coded at the same time; the result does not depend on it
-  uint8_t effort = 1;         ///< see EncodeOptions::effort
-  ForeignDecoders decoders;   ///< for sources that are compressed already
+  /// Threads that work at the same time, on several payloads or on the trials of one; the result does not depend on it.
+  uint32_t thread_count = 1;
+  uint8_t effort = 1;        ///< see EncodeOptions::effort
+  ForeignDecoders decoders;  ///< for sources that are compressed already
   /// Compress also where that makes the file larger. For tests of the file layer.
   bool allow_larger = false;
 };
@@ -198,6 +199,7 @@ struct DecodeReport {
   FilesInUse files;
   uint64_t input_bytes = 0;
   uint64_t output_bytes = 0;
+  bool copied = false;  ///< nothing was compressed: the output is the input
   uint32_t payload_count = 0;
   uint32_t primitive_count = 0;
   uint64_t triangle_count = 0;
@@ -247,11 +249,14 @@ struct Source {
   std::optional<std::span<const uint8_t>> bytes;
 };
 
+class TemporaryFiles;  // gltf/temporary_files.h, for programs that are ended by signals
+
 /// Where a document goes to.
 struct Sink {
   /// NAME.gltf gets its buffer beside it, in NAME.bin; any other name is that of a GLB.
   std::filesystem::path path;
   std::vector<uint8_t>* bytes = nullptr;  ///< when not null: receives a GLB, no file is written
+  TemporaryFiles* temporaries = nullptr;  ///< when not null: is told of them. Borrowed
 };
 
 /// Compresses the triangle primitives of a glTF file. Everything that is not geometry is kept as it
@@ -277,15 +282,17 @@ Result convertFile(const std::filesystem::path& source, const std::filesystem::p
                    const ConvertOptions& options, ConvertReport& report);
 
 /// Turns compressed primitives into ordinary accessors again; a file without any is copied. Files are
-/// treated as by convert(). Safe for untrusted input.
+/// treated as by convert(). `thread_count` payloads are decoded at the same time; the result does not depend on it.
+/// Safe for untrusted input.
 Result decode(const Source& source, const Sink& sink, DecodeReport& report,
-              DecodeTo decode_to = DecodeTo::kFloats);
+              DecodeTo decode_to = DecodeTo::kFloats, uint32_t thread_count = 1);
 
 /// decode() from memory to memory, and from file to file.
 Result decodeGlb(std::span<const uint8_t> source, std::vector<uint8_t>& output,
                  DecodeReport& report, DecodeTo decode_to = DecodeTo::kFloats);
 Result decodeFile(const std::filesystem::path& source, const std::filesystem::path& output,
-                  DecodeReport& report, DecodeTo decode_to = DecodeTo::kFloats);
+                  DecodeReport& report, DecodeTo decode_to = DecodeTo::kFloats,
+                  uint32_t thread_count = 1);
 
 /// Lists the payloads of a file. With `count_codes` they are decoded to count their codes.
 Result inspectGlb(std::span<const uint8_t> source, bool count_codes, InspectReport& report);

@@ -6,7 +6,7 @@
 
 namespace mcc {
 
-/// What went wrong. Stable numbers: they are part of the C API and of the conformance suite.
+/// What went wrong. Stable numbers: they are part of the C API and of the conformance suite. [A.1.4]
 enum class Error : uint8_t {
   kOk = 0,
   kTruncated = 1,           ///< the payload ends inside a field or a stream

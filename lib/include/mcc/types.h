@@ -50,11 +50,16 @@ struct AttributeFormat {
   uint8_t set_index = 0;  ///< n of TEXCOORD_n; for kCustom the low 8 bits of the CRC-32 of the name
   ComponentType component_type = ComponentType::kFloat32;
   bool normalized = false;
-  uint8_t component_count = 3;  ///< 1..16
+  uint8_t component_count = 3;  ///< see isComponentCount()
   uint16_t morph_target = 0;    ///< 0: the base mesh; k: deltas of morph target k-1
 
   bool operator==(const AttributeFormat&) const = default;
 };
+
+/// Scalars, vectors and matrices of glTF: 1 to 4, 9 or 16 components.
+constexpr bool isComponentCount(uint32_t count) {
+  return (count >= 1 && count <= 4) || count == 9 || count == 16;
+}
 
 constexpr uint32_t elementBytes(const AttributeFormat& format) {
   return componentBytes(format.component_type) * format.component_count;

@@ -4,7 +4,9 @@
 #ifndef MCC_WRITER_H_
 #define MCC_WRITER_H_
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,6 +43,10 @@ struct PieceView {
   std::span<const PartView> parts;
 };
 
+/// Runs job(0) … job(count - 1), in any order, at the same time where it likes, and returns when all have ended. Jobs
+/// throw nothing; they may call it again, also at the same time.
+using RunJobs = std::function<void(size_t count, const std::function<void(size_t)>& job)>;
+
 struct EncodeOptions {
   /// Half-edge (3 * triangle + corner) the first component's collapse starts at; kNone: the encoder chooses.
   /// A test hook.
@@ -56,6 +62,9 @@ struct EncodeOptions {
   bool keep_vertex_order = false;
   /// Effort: 0 fast (few trials) .. 2 (all trials). The bytes depend on it, exactness does not.
   uint8_t effort = 1;
+  /// Threads for the trials of the writer, which starts none itself; empty: it runs on the caller's alone. The bytes do not
+  /// depend on it. Takes up to half the memory of a piece more for each job at a time.
+  RunJobs run_jobs;
   /// Not normally set: every choice is made at random among those the format allows, by this seed, instead of for the
   /// smallest result. A test hook.
   uint64_t variation = 0;

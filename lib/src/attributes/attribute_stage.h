@@ -283,9 +283,13 @@ class AttributeStage {
     if (has_normals) MCC_TRY(listNormals());
     NormalWeight weight = NormalWeight::kAngle;  // or what the mesh's own normals have
     if (has_normals) {
-      const uint8_t own = attributes_[exact_normal_ != kNone ? exact_normal_ : normal_].predictor;
-      const uint8_t bits = own & normal_method::kWeightMask;
-      if (bits < 3) weight = static_cast<NormalWeight>(bits);
+      const uint32_t own = exact_normal_ != kNone ? exact_normal_ : normal_;
+      const AttributeMethod method = methodOf(attributes_, count_, own);
+      const uint8_t bits = attributes_[own].predictor & normal_method::kWeightMask;
+      if ((method == AttributeMethod::kNormal || method == AttributeMethod::kExactNormal) &&
+          bits < 3) {
+        weight = static_cast<NormalWeight>(bits);
+      }
     }
     return moved_vectors_.findBends(wedges, positions.data(),
                                     has_normals ? unit_normals_.data() : nullptr, weight,

@@ -11,7 +11,7 @@
 
 namespace mcc {
 
-/// Third corners by the values at an edge.
+/// Third corners by the values at an edge. [B.7.4]
 class EdgeMemory {
  public:
   struct Entry {

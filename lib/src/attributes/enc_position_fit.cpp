@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "attributes/position_vertex.h"
@@ -31,6 +32,7 @@ struct Sample {
   };
   std::vector<Entry> entries;
   uint32_t counted = 0;
+  std::vector<uint32_t> looked_at;  ///< vertices whose records a replay reads; empty: all
 };
 
 Sample takeSample(const PositionRecording& recording, uint64_t counted_of_all, uint64_t all) {
@@ -54,8 +56,15 @@ Sample takeSample(const PositionRecording& recording, uint64_t counted_of_all, u
     recording.forNeighbours(visits[i], [&](uint32_t v) { needed[v] = 1; });
     ++sample.counted;
   }
+  std::vector<uint8_t>& looked_at = needed;  // from here on 2
   for (uint32_t i = 0; i < visits.size(); ++i) {
-    if (needed[visits[i].vertex] != 0) sample.entries.push_back({i, counted[i] != 0});
+    if ((needed[visits[i].vertex] & 1) == 0) continue;
+    sample.entries.push_back({i, counted[i] != 0});
+    recording.forAll(visits[i], [&](uint32_t v) { looked_at[v] |= 2; });
+  }
+  if (!looked_at.empty()) looked_at[0] |= 2;  // stands for vertices that are not there
+  for (uint32_t v = 0; v < looked_at.size(); ++v) {
+    if ((looked_at[v] & 2) != 0) sample.looked_at.push_back(v);
   }
   return sample;
 }
@@ -74,10 +83,10 @@ class SilentIo {
   uint32_t magnitude(uint32_t, uint32_t, bool, uint32_t truth, uint32_t&) { return truth; }
 };
 
+/// Replays the pieces with one choice or another. Trials may run at the same time.
 class Trials {
  public:
-  Trials(std::span<const PositionCandidate> pieces, uint32_t max_vertices)
-      : pieces_(pieces), rows_(std::make_unique<PositionRows>()) {
+  Trials(std::span<const PositionCandidate> pieces, uint32_t max_vertices) : pieces_(pieces) {
     for (const PositionCandidate& piece : pieces) all_ += piece.recording->visits().size();
     for (const PositionCandidate& piece : pieces) {
       samples_.push_back(takeSample(*piece.recording, max_vertices, all_));
@@ -87,21 +96,8 @@ class Trials {
 
   /// Expected cost of all positions and their tables, in bits.
   double cost(const PositionParameters& p) {
-    *rows_ = PositionRows();
-    rows_->prepare(p.modes);
     CostIo io;
-    for (size_t i = 0; i < pieces_.size(); ++i) {
-      PositionParameters of_piece = p;
-      of_piece.bits = pieces_[i].bits;
-      std::copy(pieces_[i].palettes, pieces_[i].palettes + 3, of_piece.palette);
-      const GridPlanes planes = planesOf(pieces_[i]);
-      of_piece.planes = &planes;
-      if (of_piece.bits > kNarrowBits) {
-        replay<int64_t>(io, of_piece, i, [](uint32_t, const auto&, const VertexRecord&) {});
-      } else {
-        replay<int32_t>(io, of_piece, i, [](uint32_t, const auto&, const VertexRecord&) {});
-      }
-    }
+    replayAll(io, p, [](uint32_t, const auto&, const VertexRecord&) {});
     const double scale =
         counted_ == 0 ? 1 : static_cast<double>(all_) / static_cast<double>(counted_);
     return static_cast<double>(io.cost()) / kCostOne * scale + tableBits(p) +
@@ -113,6 +109,43 @@ class Trials {
   template <class Use>
   void observe(const PositionParameters& p, Use use) {
     SilentIo io;
+    replayAll(io, p, use);
+  }
+
+ private:
+  /// What a replay writes to.
+  struct Scratch {
+    std::unique_ptr<PositionRows> rows = std::make_unique<PositionRows>();
+    std::vector<Array<VertexRecord>> records;  ///< by piece; only those looked at are set
+  };
+
+  /// A scratch that no other trial has.
+  std::unique_ptr<Scratch> takeScratch() {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!free_.empty()) {
+        std::unique_ptr<Scratch> scratch = std::move(free_.back());
+        free_.pop_back();
+        return scratch;
+      }
+    }
+    auto scratch = std::make_unique<Scratch>();
+    for (size_t i = 0; i < pieces_.size(); ++i) {
+      const VertexRecord* from = pieces_[i].recording->records();
+      const size_t count = pieces_[i].recording->visits().size();
+      Array<VertexRecord>& records = scratch->records.emplace_back(Allocator{});
+      if (!records.resize(count)) throw std::bad_alloc();
+      if (samples_[i].looked_at.empty()) std::copy(from, from + count, records.data());
+      for (const uint32_t v : samples_[i].looked_at) records[v] = from[v];
+    }
+    return scratch;
+  }
+
+  template <class Io, class Use>
+  void replayAll(Io& io, const PositionParameters& p, Use use) {
+    std::unique_ptr<Scratch> scratch = takeScratch();
+    *scratch->rows = PositionRows();
+    scratch->rows->prepare(p.modes);
     for (size_t i = 0; i < pieces_.size(); ++i) {
       PositionParameters of_piece = p;
       of_piece.bits = pieces_[i].bits;
@@ -120,14 +153,15 @@ class Trials {
       const GridPlanes planes = planesOf(pieces_[i]);
       of_piece.planes = &planes;
       if (of_piece.bits > kNarrowBits) {
-        replay<int64_t>(io, of_piece, i, use);
+        replay<int64_t>(io, of_piece, i, *scratch, use);
       } else {
-        replay<int32_t>(io, of_piece, i, use);
+        replay<int32_t>(io, of_piece, i, *scratch, use);
       }
     }
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(scratch));
   }
 
- private:
   static double tableBits(const PositionParameters& p) {
     CostIo io;
     PositionTables tables;
@@ -153,17 +187,18 @@ class Trials {
   }
 
   template <class Wide, class Io, class Use>
-  void replay(Io& io, const PositionParameters& p, size_t piece, Use use) {
+  void replay(Io& io, const PositionParameters& p, size_t piece, Scratch& scratch, Use use) const {
     const PositionRecording& recording = *pieces_[piece].recording;
-    VertexRecord* records = recording.records();
+    VertexRecord* records = scratch.records[piece].data();
+    PositionRows& rows = *scratch.rows;
     SilentIo silent;
-    VertexCoder<Io, Wide, kAnyModes> coder(*rows_, p, records, pieces_[piece].truth);
-    VertexCoder<SilentIo, Wide, kAnyModes> silent_coder(*rows_, p, records, pieces_[piece].truth);
+    VertexCoder<Io, Wide, kAnyModes> coder(rows, p, records, pieces_[piece].truth);
+    VertexCoder<SilentIo, Wide, kAnyModes> silent_coder(rows, p, records, pieces_[piece].truth);
     for (const Sample::Entry& entry : samples_[piece].entries) {
       const PositionRecording::Visit& visit = recording.visits()[entry.visit];
       const uint32_t v = visit.vertex;
       if (visit.kind == static_cast<uint32_t>(Kind::kSeed)) {
-        coder.codeSeed(io, v, recording.seedNeighbour(visit));
+        coder.codeSeed(io, v, recording.seedNeighbour(records, visit));
         continue;
       }
       const bool plain = visit.kind == static_cast<uint32_t>(Kind::kPlain);
@@ -171,11 +206,11 @@ class Trials {
         if (plain) {
           PlainFan fan;
           Beyond beyond;
-          recording.plain(visit, fan, beyond);
+          recording.plain(records, visit, fan, beyond);
           with.codePlain(into, v, fan, &beyond, prediction);
         } else {
           AnyFan fan;
-          recording.any(visit, fan);
+          recording.any(records, visit, fan);
           with.codeAny(into, v, fan, prediction);
         }
       };
@@ -191,7 +226,8 @@ class Trials {
 
   std::span<const PositionCandidate> pieces_;
   std::vector<Sample> samples_;
-  std::unique_ptr<PositionRows> rows_;
+  std::mutex mutex_;  ///< over free_
+  std::vector<std::unique_ptr<Scratch>> free_;
   uint64_t all_ = 0;
   uint64_t counted_ = 0;
 };
@@ -274,7 +310,7 @@ void gatherRows(const PositionCandidate& piece, PositionPredictor predictor, uin
     if (visit.kind == static_cast<uint32_t>(Kind::kPlain)) {
       PlainFan fan;
       Beyond beyond;
-      recording.plain(visit, fan, beyond);
+      recording.plain(recording.records(), visit, fan, beyond);
       const PlainClass c = classifyPlain<Wide>(predictor, select, fan, beyond, degree);
       row.predictor_class = c.predictor_class;
       const PlainFeatures<UWide> f = plainFeatures<UWide>(fan, beyond, select);
@@ -295,7 +331,7 @@ void gatherRows(const PositionCandidate& piece, PositionPredictor predictor, uin
       }
     } else if (visit.kind == static_cast<uint32_t>(Kind::kAny)) {
       AnyFan fan;
-      recording.any(visit, fan);
+      recording.any(recording.records(), visit, fan);
       UWide spread[3];
       Lanes<float> normal{};
       const AnyFeatures<Wide> f = anyFeatures<Wide>(fan, degree, spread, normal);
@@ -371,14 +407,55 @@ void fitClass(const std::vector<FitRow>& rows, uint32_t predictor_class, bool ro
   }
 }
 
-/// Scale coefficients: non-negative weighted least squares of |residual|.
-void fitScale(Trials& trials, PositionParameters& p) {
-  struct Row {
-    float neighbours;
-    float spread;
-    float size;
-  };
-  std::vector<Row> rows[2][3];
+/// What the scale of a component followed from, and how large its residual was.
+struct ScaleRow {
+  float neighbours;
+  float spread;
+  float size;
+};
+
+/// Non-negative weighted least squares of |residual|.
+void fitCoefficients(const std::vector<ScaleRow>& rows, uint16_t* coefficients) {
+  if (rows.size() < 200) return;
+  double c[3];
+  for (uint32_t i = 0; i < 3; ++i) c[i] = coefficients[i] / 64.0;
+  for (uint32_t round = 0; round < 4; ++round) {
+    NormalEquations equations;
+    for (const ScaleRow& row : rows) {
+      const double x[3] = {double{row.neighbours}, double{row.spread}, 1};
+      const double estimate = c[0] * x[0] + c[1] * x[1] + c[2];
+      const double target = std::min(16 * double{row.size}, 6 * estimate + 16);
+      equations.add(x, target, 1 / ((estimate + 8) * (estimate + 8)), 3);
+    }
+    // Non-negative: what would be negative is left out.
+    bool used[3] = {true, true, true};
+    for (uint32_t attempt = 0; attempt < 3; ++attempt) {
+      NormalEquations reduced = equations;
+      for (uint32_t i = 0; i < 3; ++i) {
+        if (used[i]) continue;
+        for (uint32_t k = 0; k < 3; ++k) reduced.matrix[i][k] = reduced.matrix[k][i] = 0;
+        reduced.right[i] = 0;
+      }
+      reduced.solve(3, 1e-6, c);
+      bool negative = false;
+      for (uint32_t i = 0; i < 3; ++i) {
+        if (c[i] >= 0) continue;
+        used[i] = false;
+        c[i] = 0;
+        negative = true;
+      }
+      if (!negative) break;
+    }
+  }
+  for (uint32_t i = 0; i < 3; ++i) {
+    coefficients[i] = static_cast<uint16_t>(
+        std::clamp(std::floor(c[i] * 64 + 0.5), 0.0, static_cast<double>(kMaxCoefficient[i])));
+  }
+}
+
+/// Scale coefficients of plain and other fans, per component.
+void fitScale(Trials& trials, const Jobs& jobs, PositionParameters& p) {
+  std::vector<ScaleRow> rows[2][3];
   trials.observe(p, [&](uint32_t plain, const auto& prediction, const VertexRecord& r) {
     const uint8_t* axis =
         p.has(position_mode::kShear) ? makeShear(prediction.normal).axis : kFileOrder;
@@ -388,45 +465,7 @@ void fitScale(Trials& trials, PositionParameters& p) {
                                 static_cast<float>(r.magnitude[s])});
     }
   });
-  for (uint32_t plain = 0; plain < 2; ++plain) {
-    for (uint32_t s = 0; s < 3; ++s) {
-      if (rows[plain][s].size() < 200) continue;
-      double c[3];
-      for (uint32_t i = 0; i < 3; ++i) c[i] = p.scale[plain][s].c[i] / 64.0;
-      for (uint32_t round = 0; round < 4; ++round) {
-        NormalEquations equations;
-        for (const Row& row : rows[plain][s]) {
-          const double x[3] = {double{row.neighbours}, double{row.spread}, 1};
-          const double estimate = c[0] * x[0] + c[1] * x[1] + c[2];
-          const double target = std::min(16 * double{row.size}, 6 * estimate + 16);
-          equations.add(x, target, 1 / ((estimate + 8) * (estimate + 8)), 3);
-        }
-        // Non-negative: what would be negative is left out.
-        bool used[3] = {true, true, true};
-        for (uint32_t attempt = 0; attempt < 3; ++attempt) {
-          NormalEquations reduced = equations;
-          for (uint32_t i = 0; i < 3; ++i) {
-            if (used[i]) continue;
-            for (uint32_t k = 0; k < 3; ++k) reduced.matrix[i][k] = reduced.matrix[k][i] = 0;
-            reduced.right[i] = 0;
-          }
-          reduced.solve(3, 1e-6, c);
-          bool negative = false;
-          for (uint32_t i = 0; i < 3; ++i) {
-            if (c[i] >= 0) continue;
-            used[i] = false;
-            c[i] = 0;
-            negative = true;
-          }
-          if (!negative) break;
-        }
-      }
-      for (uint32_t i = 0; i < 3; ++i) {
-        p.scale[plain][s].c[i] = static_cast<uint16_t>(
-            std::clamp(std::floor(c[i] * 64 + 0.5), 0.0, static_cast<double>(kMaxCoefficient[i])));
-      }
-    }
-  }
+  jobs.run(6, [&](size_t i) { fitCoefficients(rows[i / 3][i % 3], p.scale[i / 3][i % 3].c); });
   p.own_scale = true;
 }
 
@@ -434,8 +473,9 @@ void fitScale(Trials& trials, PositionParameters& p) {
 
 class Chooser {
  public:
-  Chooser(std::span<const PositionCandidate> pieces, uint8_t effort)
+  Chooser(std::span<const PositionCandidate> pieces, uint8_t effort, const Jobs& jobs)
       : pieces_(pieces),
+        jobs_(jobs),
         effort_(std::min<uint8_t>(effort, 2)),
         trials_(pieces, kTrialVertices[effort_]) {}
 
@@ -459,13 +499,14 @@ class Chooser {
 
   /// All predictors; the best ones stay in the race for the modes.
   void tryPredictors() {
-    for (uint8_t i = 0; i < kPositionPredictors; ++i) {
-      PositionParameters p;
+    ranked_.resize(kPositionPredictors);
+    jobs_.run(kPositionPredictors, [&](size_t i) {
+      PositionParameters& p = ranked_[i].parameters;
       p.predictor = static_cast<PositionPredictor>(i);
       setUniversalTables(p);
       if (p.fitted()) p.weights = fitWeights(pieces_, p.predictor, true, kFitVertices[effort_]);
-      add(p);
-    }
+      ranked_[i].cost = trials_.cost(p);
+    });
     const Ranked average = ranked_[0];
     std::sort(ranked_.begin(), ranked_.end(),
               [](const Ranked& a, const Ranked& b) { return a.cost < b.cost; });
@@ -495,15 +536,14 @@ class Chooser {
                        [](const PositionCandidate& piece) { return piece.planes != nullptr; });
   }
 
-  void add(const PositionParameters& p) { ranked_.push_back({p, trials_.cost(p)}); }
-
   /// A mode for the leaders: taken if the best with it is below `worth` times the best without.
   void tryMode(uint32_t mode, double worth) {
     Ranked best{best_, best_cost_ * worth};
     bool better = false;
-    std::vector<Ranked> with;
-    for (const Ranked& r : ranked_) {
-      PositionParameters p = r.parameters;
+    std::vector<Ranked> with(ranked_.size());
+    const auto tryWith = [&](size_t i) {
+      PositionParameters& p = with[i].parameters;
+      p = ranked_[i].parameters;
       p.modes |= mode;
       if (mode == position_mode::kPlanes) p.modes &= ~position_mode::kPalette;
       if (mode == position_mode::kShear) {
@@ -511,11 +551,24 @@ class Chooser {
         setUniversalTables(p);
         p.weights = weights;
       }
-      with.push_back({p, trials_.cost(p)});
-      // Whether shear pays is a matter of the surface, not of the predictor.
-      if (mode == position_mode::kShear && with.back().cost >= r.cost * worth) break;
-      if (with.back().cost >= best.cost) continue;
-      best = with.back();
+      with[i].cost = trials_.cost(p);
+    };
+    // Whether shear pays is a matter of the surface, not of the predictor: the first that loses by it ends its trials.
+    const bool is_shear = mode == position_mode::kShear;
+    const auto loses = [&](size_t i) {
+      return is_shear && with[i].cost >= ranked_[i].cost * worth;
+    };
+    if (is_shear) tryWith(0);
+    if (loses(0)) return;
+    const size_t first = is_shear ? 1 : 0;
+    jobs_.run(with.size() - first, [&](size_t i) { tryWith(first + i); });
+    for (size_t i = 0; i < with.size(); ++i) {
+      if (loses(i)) {
+        with.resize(i + 1);
+        break;
+      }
+      if (with[i].cost >= best.cost) continue;
+      best = with[i];
       better = true;
     }
     if (!better) return;
@@ -526,7 +579,7 @@ class Chooser {
 
   void tryOwnScale() {
     PositionParameters p = best_;
-    fitScale(trials_, p);
+    fitScale(trials_, jobs_, p);
     const double cost = trials_.cost(p);
     if (cost < best_cost_) {
       best_ = p;
@@ -538,6 +591,7 @@ class Chooser {
   static constexpr double kOutOfRace = 1.04;
 
   std::span<const PositionCandidate> pieces_;
+  const Jobs& jobs_;
   uint8_t effort_;
   Trials trials_;
   std::vector<Ranked> ranked_;
@@ -611,8 +665,8 @@ void DistinctCoordinates::find(std::span<const int32_t> truth, bool is_exact) {
 }
 
 PositionParameters choosePositionParameters(std::span<const PositionCandidate> pieces,
-                                            uint8_t effort) {
-  return Chooser(pieces, effort).run();
+                                            uint8_t effort, const Jobs& jobs) {
+  return Chooser(pieces, effort, jobs).run();
 }
 
 }  // namespace mcc

@@ -10,6 +10,7 @@
 
 #include "attributes/enc_position_recording.h"
 #include "attributes/position_parameters.h"
+#include "base/enc_jobs.h"
 
 namespace mcc {
 
@@ -41,7 +42,7 @@ struct DistinctCoordinates {
 /// the cheapest combination with its tables. What takes time in the decoder has to be worth it. `effort` as in
 /// EncodeOptions. Deterministic on every machine.
 PositionParameters choosePositionParameters(std::span<const PositionCandidate> pieces,
-                                            uint8_t effort);
+                                            uint8_t effort, const Jobs& jobs);
 
 /// Least-squares weights of the predictor on these pieces. `robust` weighs residuals by the inverse of their square,
 /// else by the inverse of their size. Also used by tools/train.

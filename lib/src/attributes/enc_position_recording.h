@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "attributes/position_growth.h"
@@ -24,7 +25,7 @@ class PositionRecording {
   };
   static constexpr uint32_t kNoNeighbour = (1u << 30) - 1;
 
-  /// Walks the mesh; fills `truth` positions (3 per record) into the records.
+  /// Walks the mesh; fills `truth` positions (3 per record) into `records`, which are borrowed.
   Status record(FaceMesh& mesh, const Groups& groups, VertexRecord* records,
                 uint32_t isolated_count, const int32_t* truth) {
     records_ = records;
@@ -47,37 +48,62 @@ class PositionRecording {
   }
 
   const std::vector<Visit>& visits() const { return visits_; }
-  VertexRecord* records() const { return records_; }
+  /// As the walk left them; trials write to copies.
+  const VertexRecord* records() const { return records_; }
 
-  void plain(const Visit& visit, PlainFan& fan, Beyond& beyond) const {
+  /// What was around the vertex of a visit, in `records`, which are records() or a copy.
+  void plain(const VertexRecord* records, const Visit& visit, PlainFan& fan, Beyond& beyond) const {
     const RecordedPlain& r = plain_[visit.at];
-    fan = {records_ + r.n[0],
-           records_ + r.n[1],
-           records_ + r.n[2],
-           records_ + r.o[0],
-           records_ + r.o[1],
+    fan = {records + r.n[0],
+           records + r.n[1],
+           records + r.n[2],
+           records + r.o[0],
+           records + r.o[1],
            kNone,
            kNone};
     beyond.has_ya = r.y[0] != kNone;
     beyond.has_yb = r.y[1] != kNone;
     beyond.has_x = r.x[0] != kNone;
-    beyond.ya = records_ + (beyond.has_ya ? r.y[0] : 0);
-    beyond.yb = records_ + (beyond.has_yb ? r.y[1] : 0);
-    beyond.xa = records_ + (beyond.has_x ? r.x[0] : 0);
-    beyond.xb = records_ + (beyond.has_x ? r.x[1] : 0);
+    beyond.ya = records + (beyond.has_ya ? r.y[0] : 0);
+    beyond.yb = records + (beyond.has_yb ? r.y[1] : 0);
+    beyond.xa = records + (beyond.has_x ? r.x[0] : 0);
+    beyond.xb = records + (beyond.has_x ? r.x[1] : 0);
   }
-  void any(const Visit& visit, AnyFan& fan) const {
+  void any(const VertexRecord* records, const Visit& visit, AnyFan& fan) const {
     const uint32_t* from = any_.data() + visit.at;
     fan.closed = (*from & 1) != 0;
     fan.face_count = *from++ >> 1;
     fan.neighbour_count = fan.face_count + (fan.closed ? 0 : 1);
-    for (uint32_t i = 0; i <= fan.face_count; ++i) fan.n[i] = records_ + *from++;
+    for (uint32_t i = 0; i <= fan.face_count; ++i) fan.n[i] = records + *from++;
     for (uint32_t i = 0; i < fan.face_count; ++i, ++from) {
-      fan.o[i] = *from != kNone ? records_ + *from : nullptr;
+      fan.o[i] = *from != kNone ? records + *from : nullptr;
     }
   }
-  const VertexRecord* seedNeighbour(const Visit& visit) const {
-    return visit.at != kNoNeighbour ? records_ + visit.at : nullptr;
+  const VertexRecord* seedNeighbour(const VertexRecord* records, const Visit& visit) const {
+    return visit.at != kNoNeighbour ? records + visit.at : nullptr;
+  }
+
+  /// Calls `use` with every vertex that the visit looks at, its own too; with some more than once.
+  template <class Use>
+  void forAll(const Visit& visit, Use use) const {
+    use(visit.vertex);
+    if (visit.kind == static_cast<uint32_t>(Kind::kPlain)) {
+      const RecordedPlain& r = plain_[visit.at];
+      const std::span<const uint32_t> lists[] = {r.n, r.o, r.y, r.x};
+      for (const std::span<const uint32_t> list : lists) {
+        for (const uint32_t v : list) {
+          if (v != kNone) use(v);
+        }
+      }
+    } else if (visit.kind == static_cast<uint32_t>(Kind::kAny)) {
+      const uint32_t faces = any_[visit.at] >> 1;
+      for (uint32_t i = 0; i <= 2 * faces; ++i) {
+        const uint32_t v = any_[visit.at + 1 + i];
+        if (v != kNone) use(v);
+      }
+    } else if (visit.at != kNoNeighbour) {
+      use(visit.at);
+    }
   }
 
   /// Calls `use` with every vertex whose residuals the scale of this visit depends on.

@@ -34,11 +34,13 @@ class PredictorSearch {
                    {1 << exact_normal_method::kBlendShift, 2 << exact_normal_method::kBlendShift}}};
         break;
       case AttributeMethod::kExactTangent:
-        best_ = static_cast<uint8_t>((has_seams ? kHasEqualities : 0) |
-                                     exact_tangent_method::kPerpendicular);
+        best_ = has_seams ? kHasEqualities : 0;
         steps_ = {{exact_tangent_method::kWeightMask, {0, 1, 2, 3}},
-                  {exact_tangent_method::kRemembers, {exact_tangent_method::kRemembers}},
-                  {exact_tangent_method::kPerpendicular, {0}}};
+                  {exact_tangent_method::kRemembers, {exact_tangent_method::kRemembers}}};
+        if (exactNormalOf(attributes, count) != kNone) {
+          best_ |= exact_tangent_method::kPerpendicular;
+          steps_.push_back({exact_tangent_method::kPerpendicular, {0}});
+        }
         break;
       case AttributeMethod::kExactValues:
         best_ = has_seams ? kHasEqualities : 0;

@@ -36,7 +36,7 @@ inline double exactAngle(double cross_length, double dot_product) {
   return dot_product < 0 ? 3.141592653589793 - acute : acute;
 }
 
-/// Adds the weighted normals of all faces to their wedges' sums (3 per wedge). `positions`: 3 floats per wedge.
+/// Adds the weighted normals of all faces to their wedges' sums (3 per wedge). `positions`: 3 floats per wedge. [B.4.7]
 template <ExactWeight kWeight>
 void addExactFaces(const WedgeMesh& wedges, const float* positions, double* sums) {
   for (uint32_t f = 0; f < wedges.face_count; ++f) {

@@ -47,7 +47,7 @@ inline void projectAlong(const double* unit, double* v) {
   for (int s = 0; s < 3; ++s) v[s] -= along * unit[s];
 }
 
-/// Adds to the three wedges of a face (4 sums each) the weighted direction and the orientation of the chart.
+/// Adds to the three wedges of a face (4 sums each) the weighted direction and the orientation of the chart. [B.6.7]
 inline void addExactTangent(const WedgeMesh& wedges, const TangentSources& from,
                             TangentWeight weight, uint32_t face, double* sums) {
   const uint32_t* corner = wedges.faces.words + size_t{face} * kFaceWords;

@@ -121,7 +121,7 @@ class ExactValueCoder {
   double weight_ = 0;
 };
 
-/// The coded wedge behind the edge opposite to half-edge h, in the same chart; or kNone.
+/// The coded wedge behind the edge opposite to half-edge h, in the same chart; or kNone. [B.7.5]
 template <class Io>
 uint32_t ExactValueCoder<Io>::across(uint32_t h) const {
   const FaceView& faces = wedges_.faces;

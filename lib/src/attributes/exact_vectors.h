@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Exact vectors of unit length near a prediction: two components by the distance of their floats, as ordered integers,
-// from the predicted ones, the longest from the other two.                                   [A.8.9]
+// from the predicted ones, the longest from the other two.                                   [B.7.2]
 #ifndef MCC_ATTRIBUTES_EXACT_VECTORS_H_
 #define MCC_ATTRIBUTES_EXACT_VECTORS_H_
 
@@ -27,7 +27,7 @@ inline double finiteValue(int32_t ordered) {
   return (bits & 0x7f800000u) == 0x7f800000u ? 0.0
                                              : static_cast<double>(std::bit_cast<float>(bits));
 }
-/// Distance of a finite float from the next one away from 0.
+/// Distance of a finite float from the next one away from 0. [B.7.1]
 inline double lastPlaceOf(int32_t ordered) {
   const uint32_t exponent = (bitsFromOrdered(ordered) >> 23) & 255;
   return powerOfTwo((exponent == 0 ? 1 : static_cast<int32_t>(exponent)) - 150);
@@ -56,7 +56,7 @@ struct VectorError {
   float places = 0;  ///< of the others, in units of their last places
 };
 
-/// Vectors by rounded predictions: parts that repeat, shifted or mirrored, have repeated vectors.
+/// Vectors by rounded predictions: parts that repeat, shifted or mirrored, have repeated vectors. [B.7.3]
 struct VectorMemory {
   static constexpr uint32_t kEntryBits = 12;
   struct Entry {
@@ -118,7 +118,7 @@ class VectorCoder {
     }
     if (entry == nullptr) return;
     for (int s = 0; s < 3; ++s) entry->magnitude[s] = bitsFromOrdered(value[s]) & 0x7fffffffu;
-    entry->confidence = entry->confidence > 1 ? 1 : entry->confidence + (entry->confidence == 0);
+    entry->confidence = 1;
   }
 
  private:

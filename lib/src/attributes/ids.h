@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Numbers that name things (features, parts): close ones have nothing to do with each other.  [A.8.4]
+// Numbers that name things (features, parts): close ones have nothing to do with each other.  [A.8.4, B.3.3]
 //
 // Of a number that no neighbour has: is it the next new one; is it what came beside its neighbour's number last time; its
 // place among those named last; or its distance from the neighbour's.

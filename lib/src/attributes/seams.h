@@ -147,7 +147,7 @@ Status SeamCoder<Io>::run(const Array<uint32_t>& group_order, Array<uint32_t>& w
   return {};
 }
 
-/// The umbrella from its clockwise boundary, or once around from `start`; notes the contexts on the way.
+/// The umbrella from its clockwise boundary, or once around from `start`; notes the contexts on the way. [A.7.1]
 template <class Io>
 Status SeamCoder<Io>::collectFan(uint32_t start) {
   fan_.clear();

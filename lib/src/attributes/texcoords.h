@@ -123,7 +123,7 @@ class TexcoordCoder {
   static constexpr float kSteepest =
       36;  ///< square of the largest ratio of heights a hinge unfolds
 
-  /// Completed faces whose other corners are coded; `o` is the corner behind n-p, or n when that is not known.
+  /// Completed faces whose other corners are coded; `o` is the corner behind n-p, or n when that is not known. [B.5.1]
   struct Faces {
     uint32_t count = 0;
     uint32_t n[kFaceLimit];
@@ -186,7 +186,7 @@ MCC_INLINE typename TexcoordCoder<Io>::Faces TexcoordCoder<Io>::completedFaces(u
   return faces;
 }
 
-/// Their mean, or the one over the longest edge.
+/// Their mean, or the one over the longest edge. [B.5.3]
 template <class Io>
 typename TexcoordCoder<Io>::Prediction TexcoordCoder<Io>::predictByParallelograms(
     const Faces& faces) const {

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Morph targets of NORMAL and TANGENT: what is known of them from the mesh.                  [A.8.10, B.8]
+// Morph targets of NORMAL and TANGENT: what is known of them from the mesh.                  [A.8.14, B.8]
 //
 //   bends   deltas of normals follow from how the target's positions turn the faces around a wedge
 //   units   a moved normal has unit length; so has a moved tangent, which is perpendicular to the moved normal besides:

@@ -183,7 +183,7 @@ void ValueCoder<Io>::findNeighbours(uint32_t w) {
   if (n_ == kNone) std::swap(n_, p_);
 }
 
-/// The face of half-edge h (leaving the wedge) and the one behind it.
+/// The face of half-edge h (leaving the wedge) and the one behind it. [B.3.1]
 template <class Io>
 bool ValueCoder<Io>::addParallelogram(uint32_t h, float& longest) {
   const FaceView& faces = wedges_.faces;

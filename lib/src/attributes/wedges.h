@@ -166,7 +166,7 @@ inline float squaredDistance(const float* positions, uint32_t a, uint32_t b) {
 }
 
 /// Coordinates of predictions are integers of at most this many bits, as floats: products of a few of their
-/// differences neither overflow nor become denormal.                                          [B.4.2]
+/// differences neither overflow nor become denormal.                                          [B.4.6]
 inline constexpr uint32_t kPredictionBits = 22;
 
 /// Wedge positions as float32 integers, 4 per wedge, from the coordinates `position(w)` (int32[3]) of any range.

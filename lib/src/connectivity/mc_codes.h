@@ -177,7 +177,7 @@ class McMachine {
         truth_(truth),
         histogram_(histogram) {}
 
-  /// Runs all operations; fills `mesh`, whose words have been sized for counts.face_count.
+  /// Runs all operations; fills `mesh`, whose words have been sized for counts.face_count. [A.4.2]
   Status run();
 
  private:

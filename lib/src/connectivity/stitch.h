@@ -316,7 +316,7 @@ void Stitcher<Io>::excludeRing(uint32_t v) {
   });
 }
 
-/// v is a neighbour of u: neighbours of u's copies.
+/// v is a neighbour of u: neighbours of u's copies. [A.5.3]
 template <class Io>
 void Stitcher<Io>::collectAcross(uint32_t u, EdgeSide side) {
   uint32_t seen = 0;
@@ -455,7 +455,7 @@ Status Stitcher<Io>::codeReference(uint32_t v, uint32_t truth, uint32_t& group) 
   return is_recent ? Status{} : codeAnywhere(v, truth, group);
 }
 
-/// One bit per candidate. Those answered with no are excluded from what follows.
+/// One bit per candidate. Those answered with no are excluded from what follows. [A.5.4]
 template <class Io>
 bool Stitcher<Io>::codeCandidate(uint32_t truth, uint32_t& group) {
   sortCandidates();

@@ -57,6 +57,9 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
   a.format.component_type = static_cast<ComponentType>((kind >> 3) & 7);
   a.format.normalized = (kind & 0x40) != 0;
   a.format.component_count = static_cast<uint8_t>((shape & 15) + 1);
+  if (!isComponentCount(a.format.component_count)) {
+    return fail(Error::kBadHeader, "an attribute has a number of components that no type has", at);
+  }
   if ((kind & 0x80) != 0) {
     MCC_TRY(in.readU8(a.format.set_index));
     uint32_t target = 0;
@@ -240,6 +243,7 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, T
     return fail(Error::kLimit, "the payload has more triangles than the limit allows", at);
   }
   if (piece.isolated_count > piece.wedge_count ||
+      piece.wedge_count - piece.isolated_count > 3 * uint64_t{piece.face_count} ||
       piece.vertex_count > 3 * uint64_t{piece.face_count} ||
       piece.dummy_count > 3 * uint64_t{piece.face_count} ||
       (piece.vertex_count != 0) != (piece.face_count != 0) ||

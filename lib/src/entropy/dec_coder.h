@@ -269,7 +269,7 @@ class DecoderBurst {
   RawBitsDecoder raw_;
 };
 
-/// The decoder as stage code sees it. kSingle: everything goes through the range coder.
+/// The decoder as stage code sees it. kSingle: everything goes through the range coder. [A.3.7]
 template <bool kSingle>
 class DecoderIo {
  public:
@@ -333,7 +333,7 @@ class DecoderIo {
     }
   }
 
-  /// Checks that every stream was used up exactly.
+  /// Checks that every stream was used up exactly. [A.3.8]
   Status finish() const {
     if (overrun()) return fail(Error::kTruncated, "a stream ends before its last symbol");
     if (!codes_.finished())

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "gltf/compress.h"
+#include "gltf/parallel.h"
 #include "gltf/rebuild.h"
 
 namespace mcc::gltf {
@@ -167,9 +168,9 @@ uint64_t countFreedBytes(const Document& document, const ForeignReferences& fore
   return total;
 }
 
-void dropTinyPieces(const Document& document, const ForeignReferences& foreign,
-                    const ConvertOptions& options, std::vector<PayloadPlan>& plans,
-                    std::vector<LeftAlone>& left_alone) {
+Result dropTinyPieces(const Document& document, const ForeignReferences& foreign,
+                      const ConvertOptions& options, std::vector<PayloadPlan>& plans,
+                      std::vector<LeftAlone>& left_alone) {
   std::vector<const PayloadPlan*> all;
   std::vector<OwnedPiece> pieces;
   for (const PayloadPlan& plan : plans) {
@@ -178,13 +179,20 @@ void dropTinyPieces(const Document& document, const ForeignReferences& foreign,
   }
   std::vector<uint64_t> freed(pieces.size(), 0);
   countFreed(document, foreign, accessorsInOtherUse(document, foreign, all), pieces, freed);
+  std::vector<const PayloadPlan*> plan_of;
+  for (const PayloadPlan& plan : plans) plan_of.insert(plan_of.end(), plan.pieces.size(), &plan);
+  std::vector<uint64_t> bytes_alone(pieces.size(), 0);
+  MCC_GLTF_TRY(runParallel(pieces.size(), options.thread_count, [&](size_t i) -> Result {
+    const bool is_small = plan_of[i]->pieces.size() > 1 && freed[i] < kSmallPieceBytes;
+    if (is_small) bytes_alone[i] = bytesAlone(options, *plan_of[i], *pieces[i].piece);
+    return {};
+  }));
   size_t next = 0;
   for (PayloadPlan& plan : plans) {
     std::vector<bool> is_dropped;
     for (const PiecePlan& piece : plan.pieces) {
+      const uint64_t bytes = bytes_alone[next];
       const uint64_t freed_bytes = freed[next++];
-      const bool is_small = plan.pieces.size() > 1 && freed_bytes < kSmallPieceBytes;
-      const uint64_t bytes = is_small ? bytesAlone(options, plan, piece) : 0;
       const uint64_t cost = jsonCostOf(piece, 1) + bytes - std::min(bytes, kSharedBytes);
       const bool is_tiny = bytes != 0 && cost >= freed_bytes;
       is_dropped.push_back(is_tiny && !touchesAnother(plan, piece));
@@ -200,6 +208,7 @@ void dropTinyPieces(const Document& document, const ForeignReferences& foreign,
     plan.pieces = std::move(kept);
   }
   std::erase_if(plans, [](const PayloadPlan& plan) { return plan.pieces.empty(); });
+  return {};
 }
 
 void dropLosers(const Document& document, const ForeignReferences& foreign,

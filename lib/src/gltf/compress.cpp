@@ -260,7 +260,7 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
     planQuantization(options, plans, compressed.notes);
   }
   if (!options.allow_larger) {
-    dropTinyPieces(document, foreign, options, plans, compressed.left_alone);
+    MCC_GLTF_TRY(dropTinyPieces(document, foreign, options, plans, compressed.left_alone));
   }
   MCC_GLTF_TRY(
       encodePayloads(options, std::move(plans), compressed.payloads, compressed.left_alone));

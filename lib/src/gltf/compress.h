@@ -55,10 +55,10 @@ uint64_t countFreedBytes(const Document& document, const ForeignReferences& fore
 uint64_t bytesAlone(const ConvertOptions& options, const PayloadPlan& plan, const PiecePlan& piece);
 
 /// Drops small pieces that are not smaller than the buffer bytes they free: with others in a payload they would hide behind
-/// those. One with a position in common with others of its mesh stays: no crack may open.
-void dropTinyPieces(const Document& document, const ForeignReferences& foreign,
-                    const ConvertOptions& options, std::vector<PayloadPlan>& plans,
-                    std::vector<LeftAlone>& left_alone);
+/// those. One with a position in common with others of its mesh stays: no crack may open. Error: no memory.
+Result dropTinyPieces(const Document& document, const ForeignReferences& foreign,
+                      const ConvertOptions& options, std::vector<PayloadPlan>& plans,
+                      std::vector<LeftAlone>& left_alone);
 
 /// Drops the payloads that are not smaller than the buffer bytes they free.
 void dropLosers(const Document& document, const ForeignReferences& foreign,

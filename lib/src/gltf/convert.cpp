@@ -65,7 +65,7 @@ struct Output {
       return error("", "a fallback is a second file; name a file for the output");
     }
     if (bytes != nullptr) return {};
-    destination = std::make_unique<Destination>(sink.path);
+    destination = std::make_unique<Destination>(sink.path, sink.temporaries);
     MCC_GLTF_TRY(destination->check(with_fallback));
     container = destination->container();
     return {};
@@ -235,8 +235,8 @@ Result checkOutput(const Conversion& conversion, const ConvertOptions& options,
   return {};
 }
 
-Result decodeInput(const Input& input, const Output& output, DecodeTo decode_to, Package& package,
-                   DecodeReport& report) {
+Result decodeInput(const Input& input, const Output& output, DecodeTo decode_to,
+                   uint32_t thread_count, Package& package, DecodeReport& report) {
   report = {};
   const Stopwatch watch;
   Document document;
@@ -244,25 +244,24 @@ Result decodeInput(const Input& input, const Output& output, DecodeTo decode_to,
   report.input_bytes = document.source_bytes;
   report.notes = document.notes;
   Decompressed decompressed;
-  MCC_GLTF_TRY(decompressDocument(document, decompressed, decode_to));
+  MCC_GLTF_TRY(decompressDocument(document, decompressed, decode_to, thread_count));
   report.notes.insert(report.notes.end(), decompressed.notes.begin(), decompressed.notes.end());
   report.payload_count = decompressed.payload_count;
   report.primitive_count = decompressed.primitive_count;
   report.triangle_count = decompressed.triangle_count;
   report.wedge_count = decompressed.wedge_count;
-  bool is_copy = false;
   if (decompressed.payload_count != 0) {
     MCC_GLTF_TRY(packageDocument(document, std::move(decompressed.json),
                                  std::move(decompressed.bin), input, output, package,
                                  report.notes));
   } else {
-    MCC_GLTF_TRY(packageSource(document, input, output, package, report.notes, is_copy));
-    if (is_copy) {
+    MCC_GLTF_TRY(packageSource(document, input, output, package, report.notes, report.copied));
+    if (report.copied) {
       report.notes.push_back("nothing in it is compressed; the output is a copy of the input");
     }
   }
   report.decode_seconds = watch.seconds();
-  report.output_bytes = is_copy ? document.source_bytes : package.documentBytes();
+  report.output_bytes = report.copied ? document.source_bytes : package.documentBytes();
   return {};
 }
 
@@ -297,14 +296,16 @@ Result convert(const Source& source, const Sink& sink, const ConvertOptions& opt
   });
 }
 
-Result decode(const Source& source, const Sink& sink, DecodeReport& report, DecodeTo decode_to) {
+Result decode(const Source& source, const Sink& sink, DecodeReport& report, DecodeTo decode_to,
+              uint32_t thread_count) {
   return guarded([&]() -> Result {
     Input input;
     Output output;
     MCC_GLTF_TRY(input.open(source));
     MCC_GLTF_TRY(output.open(sink, false));
     Package package;
-    MCC_GLTF_TRY(inInput(input, decodeInput(input, output, decode_to, package, report)));
+    MCC_GLTF_TRY(
+        inInput(input, decodeInput(input, output, decode_to, thread_count, package, report)));
     MCC_GLTF_TRY(output.write(std::move(package)));
     MCC_GLTF_TRY(output.commit());
     if (output.destination) report.files.output = output.destination->files();
@@ -328,8 +329,8 @@ Result decodeGlb(std::span<const uint8_t> source, std::vector<uint8_t>& output,
 }
 
 Result decodeFile(const fs::path& source, const fs::path& output, DecodeReport& report,
-                  DecodeTo decode_to) {
-  return decode({source, {}}, {output, nullptr}, report, decode_to);
+                  DecodeTo decode_to, uint32_t thread_count) {
+  return decode({source, {}}, {output, nullptr}, report, decode_to, thread_count);
 }
 
 }  // namespace mcc::gltf

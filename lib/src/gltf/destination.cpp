@@ -42,14 +42,18 @@ bool hasContent(const fs::path& path, std::span<const uint8_t> content) {
 
 }  // namespace
 
-Destination::Destination(fs::path main)
-    : main_path_(std::move(main)), folder_(folderOf(main_path_)), main_(main_path_) {}
+Destination::Destination(fs::path main, TemporaryFiles* temporaries)
+    : temporaries_(temporaries),
+      main_path_(std::move(main)),
+      folder_(folderOf(main_path_)),
+      main_(main_path_, temporaries) {}
 
 Destination::~Destination() {
   sides_.clear();
   std::error_code ignored;
   for (auto folder = new_folders_.rbegin(); folder != new_folders_.rend(); ++folder) {
     fs::remove(*folder, ignored);  // those that something was put into stay
+    if (temporaries_ != nullptr) temporaries_->forget(*folder);
   }
 }
 
@@ -114,8 +118,12 @@ Result Destination::createFolders(const fs::path& folder) {
     missing.push_back(path);
   }
   for (auto path = missing.rbegin(); path != missing.rend(); ++path) {
+    const TemporaryFiles::Lock held = lockOf(temporaries_);
     // Another thread may have been faster.
-    if (fs::create_directory(*path, code)) new_folders_.push_back(*path);
+    if (fs::create_directory(*path, code)) {
+      new_folders_.push_back(*path);
+      if (temporaries_ != nullptr) temporaries_->add(*path);
+    }
     if (code) return error(path->string(), "cannot be created: " + code.message());
   }
   return {};
@@ -144,8 +152,8 @@ Result Destination::writeSide(const SideFile& side) {
   const std::string name = normalized(side.path);
   std::error_code ignored;
   const bool is_new = !fs::exists(fs::symlink_status(folder_ / name, ignored));
-  sides_.push_back(
-      std::unique_ptr<Side>(new Side{side.kind, is_new, name, ReplacementFile(folder_ / name)}));
+  sides_.push_back(std::unique_ptr<Side>(
+      new Side{side.kind, is_new, name, ReplacementFile(folder_ / name, temporaries_)}));
   return sides_.back()->file.write(side.bytes);
 }
 
@@ -173,6 +181,7 @@ FileReader Destination::reader() const {
 }
 
 Result Destination::commit() {
+  const TemporaryFiles::Lock held = lockOf(temporaries_);
   Result result;
   size_t done = 0;
   while (done < sides_.size() && result.ok()) {
@@ -182,6 +191,10 @@ Result Destination::commit() {
   }
   if (result.ok()) result = main_.commit();
   if (result.ok()) {
+    for (const auto& side : sides_) side->file.keep();
+    for (const fs::path& folder : new_folders_) {
+      if (temporaries_ != nullptr) temporaries_->forget(folder);
+    }
     new_folders_.clear();
     return {};
   }

@@ -16,7 +16,8 @@ namespace mcc::gltf {
 
 class Destination {
  public:
-  explicit Destination(std::filesystem::path main);
+  /// `temporaries`, which may be null, is told of temporary files and new folders. Borrowed.
+  explicit Destination(std::filesystem::path main, TemporaryFiles* temporaries = nullptr);
   /// Removes what was written unless commit() succeeded.
   ~Destination();
   Destination(const Destination&) = delete;
@@ -57,6 +58,7 @@ class Destination {
   Result writeSide(const SideFile& side);
   Result createFolders(const std::filesystem::path& folder);
 
+  TemporaryFiles* temporaries_;
   std::filesystem::path main_path_;
   std::filesystem::path folder_;
   Container container_;

@@ -148,12 +148,21 @@ Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> pl
                       std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone) {
   std::vector<EncodedPayload> encoded(plans.size());
   std::vector<std::vector<LeftAlone>> refused(plans.size());
-  MCC_GLTF_TRY(runParallel(plans.size(), options.thread_count, [&](size_t i) {
+  ThreadBudget threads(options.thread_count);
+  RunJobs run_jobs;
+  if (options.thread_count > 1) {
+    run_jobs = [&](size_t count, const std::function<void(size_t)>& job) {
+      runAll(count, threads, job);
+    };
+  }
+  MCC_GLTF_TRY(runParallel(plans.size(), threads, [&](size_t i) {
     PayloadPlan& plan = encoded[i].plan;
     plan = std::move(plans[i]);
     plan.keep_vertex_order |= options.keep_vertex_order;
     plan.keep_triangle_order |= options.keep_triangle_order;
-    return encodeOne(optionsOf(options, plan), encoded[i], refused[i]);
+    EncodeOptions encode_options = optionsOf(options, plan);
+    encode_options.run_jobs = run_jobs;
+    return encodeOne(encode_options, encoded[i], refused[i]);
   }));
   for (size_t i = 0; i < encoded.size(); ++i) {
     left_alone.insert(left_alone.end(), refused[i].begin(), refused[i].end());

@@ -113,6 +113,9 @@ Result checkAttribute(const Document& document, const ExtensionUse::AttributeUse
                                                std::to_string(piece.wedge_count) + " vertices");
   }
   if (!accessor.is_known_type) return error(accessor_path, "the type is unknown");
+  if (attribute.name == "POSITION" && attribute.target == kNone && attribute.id != 0) {
+    return error(attribute.path, "must be attribute 0, which all others are predicted from");
+  }
   const AttributeFormat& coded = piece.attributes[attribute.id].format;
   const AttributeFormat named = formatOf(attribute.name, attribute.target, accessor);
   if (coded.component_type != named.component_type ||

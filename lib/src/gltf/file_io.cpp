@@ -49,7 +49,7 @@ Result readFile(const fs::path& path, std::vector<uint8_t>& bytes) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
   if (!fs::exists(status)) return error(path.string(), "there is no such file");
-  if (fs::is_directory(status)) return error(path.string(), "is a folder, not a file");
+  if (fs::is_directory(status)) return error(path.string(), "is a folder; name a file in it");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) return error(path.string(), "cannot be opened: " + reasonOf(errno));
   const uintmax_t size = fs::file_size(path, code);
@@ -81,13 +81,24 @@ FileReader readerOf(const fs::path& folder) {
   };
 }
 
-ReplacementFile::ReplacementFile(fs::path destination)
-    : destination_(std::move(destination)), temporary_(temporaryName(destination_)) {}
+ReplacementFile::ReplacementFile(fs::path destination, TemporaryFiles* temporaries)
+    : temporaries_(temporaries),
+      destination_(std::move(destination)),
+      temporary_(temporaryName(destination_)) {}
 
 ReplacementFile::~ReplacementFile() {
+  keep();
+  if (temporary_.empty()) return;
   std::error_code ignored;
-  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+  fs::remove(temporary_, ignored);
+  if (temporaries_ != nullptr) temporaries_->forget(temporary_);
+}
+
+void ReplacementFile::keep() {
+  std::error_code ignored;
   if (!backup_.empty()) fs::remove(backup_, ignored);
+  backup_.clear();
+  is_for_now_ = false;
 }
 
 Result ReplacementFile::check() const {
@@ -113,8 +124,13 @@ Result ReplacementFile::check() const {
 }
 
 Result ReplacementFile::write(std::span<const uint8_t> bytes) {
-  const int file = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (file < 0) return error(destination_.string(), "cannot be written: " + reasonOf(errno));
+  int file = -1;
+  {
+    const TemporaryFiles::Lock held = lockOf(temporaries_);
+    if (temporaries_ != nullptr) temporaries_->add(temporary_);
+    file = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0) return error(destination_.string(), "cannot be written: " + reasonOf(errno));
+  }
   size_t done = 0;
   int failure = 0;
   while (done < bytes.size() && failure == 0) {
@@ -131,9 +147,11 @@ Result ReplacementFile::write(std::span<const uint8_t> bytes) {
 }
 
 Result ReplacementFile::commit() {
+  const TemporaryFiles::Lock held = lockOf(temporaries_);
   std::error_code code;
   fs::rename(temporary_, destination_, code);
   if (code) return error(destination_.string(), "cannot be written: " + code.message());
+  if (temporaries_ != nullptr) temporaries_->forget(temporary_);
   temporary_.clear();
   return {};
 }
@@ -178,8 +196,9 @@ void ReplacementFile::undo() {
   }
 }
 
-Result writeFile(const fs::path& path, std::span<const uint8_t> bytes) {
-  ReplacementFile file(path);
+Result writeFile(const fs::path& path, std::span<const uint8_t> bytes,
+                 TemporaryFiles* temporaries) {
+  ReplacementFile file(path, temporaries);
   Result result = file.check();
   if (result.ok()) result = file.write(bytes);
   return result.ok() ? file.commit() : result;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gltf/document.h"
+#include "gltf/temporary_files.h"
 
 namespace mcc::gltf {
 
@@ -29,7 +30,9 @@ std::filesystem::path folderOf(const std::filesystem::path& path);
 /// A file that takes the place of another only when all is well.
 class ReplacementFile {
  public:
-  explicit ReplacementFile(std::filesystem::path destination);
+  /// `temporaries`, which may be null, is told of the temporary file. Borrowed.
+  explicit ReplacementFile(std::filesystem::path destination,
+                           TemporaryFiles* temporaries = nullptr);
   /// Removes the temporary file unless it was committed; then no undo() is possible any more.
   ~ReplacementFile();
   ReplacementFile(const ReplacementFile&) = delete;
@@ -49,8 +52,11 @@ class ReplacementFile {
   Result commitNew();
   /// Puts back what was there before commitForNow() or commitNew().
   void undo();
+  /// Removes what undo() would need.
+  void keep();
 
  private:
+  TemporaryFiles* temporaries_;
   std::filesystem::path destination_;
   std::filesystem::path temporary_;
   std::filesystem::path backup_;  ///< what was at the destination, while undo() is possible
@@ -58,7 +64,8 @@ class ReplacementFile {
 };
 
 /// Writes a file in the place of another: a temporary one first, then renamed.
-Result writeFile(const std::filesystem::path& path, std::span<const uint8_t> bytes);
+Result writeFile(const std::filesystem::path& path, std::span<const uint8_t> bytes,
+                 TemporaryFiles* temporaries = nullptr);
 
 }  // namespace mcc::gltf
 

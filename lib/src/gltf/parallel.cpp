@@ -20,25 +20,46 @@ Result guarded(const std::function<Result()>& function) {
   }
 }
 
-Result runParallel(size_t count, uint32_t thread_count, const std::function<Result(size_t)>& job) {
-  std::vector<Result> results(count);
+void runAll(size_t count, ThreadBudget& budget, const std::function<void(size_t)>& job) {
   std::atomic<size_t> next{0};
-  std::atomic<bool> has_failed{false};
   const auto work = [&]() {
-    for (size_t i = next++; i < count && !has_failed; i = next++) {
-      results[i] = guarded([&]() { return job(i); });
-      if (!results[i].ok()) has_failed = true;
-    }
+    for (size_t i = next++; i < count; i = next++) job(i);
+  };
+  // A thread's place is free again as soon as it finds nothing more to do: other jobs may be at it still, and use it.
+  const auto workAndLeave = [&]() {
+    work();
+    budget.giveBack();
   };
   std::vector<std::thread> threads;
-  const size_t extra = std::min<size_t>(std::max(thread_count, 1u), count);
-  for (size_t i = 1; i < extra; ++i) threads.emplace_back(work);
+  for (size_t i = 1; i < count && budget.take(); ++i) {
+    try {
+      threads.emplace_back(workAndLeave);
+    } catch (const std::exception&) {  // the system has no more threads: these are enough
+      budget.giveBack();
+      break;
+    }
+  }
   work();
   for (std::thread& thread : threads) thread.join();
+}
+
+Result runParallel(size_t count, ThreadBudget& budget, const std::function<Result(size_t)>& job) {
+  std::vector<Result> results(count);
+  std::atomic<bool> has_failed{false};
+  runAll(count, budget, [&](size_t i) {
+    if (has_failed) return;
+    results[i] = guarded([&]() { return job(i); });
+    if (!results[i].ok()) has_failed = true;
+  });
   for (Result& result : results) {
     if (!result.ok()) return std::move(result);
   }
   return {};
+}
+
+Result runParallel(size_t count, uint32_t thread_count, const std::function<Result(size_t)>& job) {
+  ThreadBudget budget(thread_count);
+  return runParallel(count, budget, job);
 }
 
 }  // namespace mcc::gltf

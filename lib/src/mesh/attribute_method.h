@@ -292,7 +292,9 @@ constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count,
     case AttributeMethod::kExactNormal:
       return (bits & ~0x3f) == 0 &&
              (bits & exact_normal_method::kBlendMask) != exact_normal_method::kBlendMask;
-    case AttributeMethod::kExactTangent: return (bits & ~0x0f) == 0;
+    case AttributeMethod::kExactTangent:
+      return (bits & ~0x0f) == 0 && ((bits & exact_tangent_method::kPerpendicular) == 0 ||
+                                     exactNormalOf(attributes, count) != kNone);
     case AttributeMethod::kExactValues:
       return (bits & ~0x07) == 0 && (bits & exact_value_method::kPredictorMask) < 3;
     case AttributeMethod::kTangent: return bits == 0;

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The decoded mesh: one flat array of face records, made by the connectivity stage and used by all others.
+// The decoded mesh: one flat array of face records, made by the connectivity stage and used by all others. [A.1.5]
 //
 //                 c2                     half-edge 8f+k runs from corner k to corner k+1 of face f;
 //                /  \                    word 8f+k      vertex of corner k

@@ -1,0 +1,58 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Independent jobs of the writer, on the threads its caller offers.
+#ifndef MCC_BASE_ENC_JOBS_H_
+#define MCC_BASE_ENC_JOBS_H_
+
+#include <cstddef>
+#include <exception>
+#include <vector>
+
+#include "mcc/status.h"
+#include "mcc/writer.h"
+
+namespace mcc {
+
+/// Jobs may run at the same time, so each writes to a place of its own; what is chosen from their results is chosen
+/// behind them, in their order. That is why the bytes do not depend on the number of threads.
+class Jobs {
+ public:
+  /// Borrows the hook; an empty one runs the jobs in order.
+  explicit Jobs(const RunJobs& hook) : hook_(hook) {}
+
+  /// job(0) … job(count - 1), each void. Returns when all have ended; what the lowest of them threw is thrown again.
+  template <class Job>
+  void run(size_t count, const Job& job) const {
+    if (!hook_ || count < 2) {
+      for (size_t i = 0; i < count; ++i) job(i);
+      return;
+    }
+    std::vector<std::exception_ptr> thrown(count);
+    hook_(count, [&](size_t i) noexcept {
+      try {
+        job(i);
+      } catch (...) {
+        thrown[i] = std::current_exception();
+      }
+    });
+    for (const std::exception_ptr& exception : thrown) {
+      if (exception) std::rethrow_exception(exception);
+    }
+  }
+
+  /// The same for jobs that return a Status: that of the lowest job that failed.
+  template <class Job>
+  Status tryAll(size_t count, const Job& job) const {
+    std::vector<Status> statuses(count);
+    run(count, [&](size_t i) { statuses[i] = job(i); });
+    for (const Status& status : statuses) MCC_TRY(status);
+    return {};
+  }
+
+ private:
+  const RunJobs& hook_;
+};
+
+}  // namespace mcc
+
+#endif  // MCC_BASE_ENC_JOBS_H_

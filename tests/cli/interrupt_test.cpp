@@ -1,0 +1,146 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Ctrl-C and its like: the program ends by the signal, and leaves nothing but what was there.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "cli/run_tool.h"
+#include "gltf/gltf_builder.h"
+
+namespace mcc::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Interrupt : public testing::Test {
+ protected:
+  void SetUp() override {
+#ifndef MCC_TOOL_GLTF_MCC
+    GTEST_SKIP() << "the tool is not part of this build";
+#endif
+  }
+
+  fs::path path(const std::string& name) const { return folder_.path() / name; }
+
+  /// Starts the tool in the folder. `before` runs in the new process.
+  pid_t start(const std::vector<std::string>& arguments, void (*before)() = nullptr) const {
+    const pid_t child = fork();
+    if (child != 0) return child;
+#ifdef MCC_TOOL_GLTF_MCC
+    std::vector<char*> words;
+    std::string program = MCC_TOOL_GLTF_MCC;
+    words.push_back(program.data());
+    for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
+    words.push_back(nullptr);
+    if (before != nullptr) before();
+    const int nowhere = open("/dev/null", O_RDWR);
+    for (const int stream : {0, 1, 2}) dup2(nowhere, stream);
+    if (chdir(folder_.path().c_str()) == 0) execv(program.c_str(), words.data());
+#endif
+    _exit(127);
+  }
+
+  /// Number of the signal that ended the process; 0 when it ended by itself, with `status`.
+  static int signalOf(pid_t child, int& status) {
+    int code = 0;
+    waitpid(child, &code, 0);
+    status = WIFEXITED(code) ? WEXITSTATUS(code) : -1;
+    return WIFSIGNALED(code) ? WTERMSIG(code) : 0;
+  }
+
+  /// Names of everything in the folder and below.
+  std::set<std::string> names() const {
+    std::set<std::string> found;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) {
+      found.insert(entry.path().lexically_relative(folder_.path()).string());
+    }
+    return found;
+  }
+
+  bool hasTemporary() const {
+    for (const std::string& name : names()) {
+      if (name.find(".tmp-") != std::string::npos) return true;
+    }
+    return false;
+  }
+
+  ScratchFolder folder_;
+};
+
+/// While the input is read from a pipe that nobody writes to.
+TEST_F(Interrupt, EndsBySignalWhileItWaits) {
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    const pid_t child = start({"convert", "pipe", "out.glb", "--report", "report.json"});
+    const int writer = open(path("pipe").c_str(), O_WRONLY);  // returns when the tool reads
+    ASSERT_GE(writer, 0);
+    EXPECT_TRUE(fs::exists(path("report.json")));
+    kill(child, number);
+    int status = 0;
+    EXPECT_EQ(signalOf(child, status), number);
+    close(writer);
+    EXPECT_EQ(names(), (std::set<std::string>{"pipe"}));
+  }
+}
+
+TEST_F(Interrupt, WhatIsIgnoredStaysIgnored) {
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  const pid_t child = start({"convert", "pipe", "out.glb"}, []() { signal(SIGINT, SIG_IGN); });
+  const int writer = open(path("pipe").c_str(), O_WRONLY);
+  ASSERT_GE(writer, 0);
+  kill(child, SIGINT);
+  close(writer);  // an empty file
+  int status = 0;
+  EXPECT_EQ(signalOf(child, status), 0);
+  EXPECT_EQ(status, 1);
+}
+
+/// While the result, which has a temporary name, is checked.
+TEST_F(Interrupt, TemporaryFilesAreRemoved) {
+  gltf::test::Builder builder;
+  for (uint32_t i = 0; i < 12; ++i) {
+    builder.addMesh({gltf::test::Sheet(200, 0.01f * static_cast<float>(i + 1)).addTo(builder)});
+  }
+  const std::vector<uint8_t> file = builder.toGlb();
+  std::ofstream(path("in.glb"), std::ios::binary)
+      .write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
+  std::ofstream(path("out.glb")) << "older";
+  bool was_there = false;
+  for (int attempt = 0; attempt < 20 && !was_there; ++attempt) {
+    const pid_t child = start({"convert", "in.glb", "out.glb", "--fallback", "--compare", "none"});
+    siginfo_t ended = {};
+    while (!hasTemporary() && ended.si_pid == 0) {
+      waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    kill(child, SIGSTOP);  // it may have been too fast
+    was_there = hasTemporary() && contentOf(path("out.glb")) == "older";
+    kill(child, SIGTERM);
+    kill(child, SIGCONT);
+    int status = 0;
+    const int number = signalOf(child, status);
+    EXPECT_FALSE(hasTemporary());
+    if (number == 0) {  // it got to its end after all
+      was_there = false;
+      std::ofstream(path("out.glb")) << "older";
+      fs::remove(path("out.fallback.bin"));
+      continue;
+    }
+    EXPECT_EQ(number, SIGTERM);
+  }
+  EXPECT_TRUE(was_there);
+  EXPECT_EQ(contentOf(path("out.glb")), "older");
+  EXPECT_EQ(names(), (std::set<std::string>{"in.glb", "out.glb"}));
+}
+
+}  // namespace
+}  // namespace mcc::test

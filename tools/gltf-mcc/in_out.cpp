@@ -1,0 +1,45 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "in_out.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "standard_streams.h"
+
+namespace mcc::tool {
+
+void InOut::addOptions(CLI::App& command) {
+  command.add_option("FILES", inputs, "IN and OUT");
+  command.add_option("-i,--input", input, "The same as IN")->type_name("FILE");
+  command.add_option("-o,--output", output, "The same as OUT, or the folder for many IN")
+      ->type_name("FILE|DIR");
+}
+
+void InOut::sort(const std::string& command) {
+  if (!input.empty()) inputs.insert(inputs.begin(), input);
+  const bool may_be_folder = !output.empty();  // and not OUT, which must be a file
+  if (output.empty() && inputs.size() > 2) {
+    throw CLI::ValidationError(command, "several inputs need a folder: -o DIR IN…");
+  }
+  if (output.empty() && inputs.size() == 2) {
+    output = inputs.back();
+    inputs.pop_back();
+  }
+  if (inputs.empty() || output.empty()) {
+    throw CLI::ValidationError(command, inputs.empty() ? "IN is missing" : "OUT is missing");
+  }
+  // Any other name may be a GLB's (.vrm), but these promise something else.
+  const std::string extension = std::filesystem::path(output).extension().string();
+  for (const char* other : {".obj", ".ply", ".stl", ".fbx", ".dae", ".usdz", ".drc"}) {
+    if (extension != other) continue;
+    throw CLI::ValidationError(command, output + ": only .glb and .gltf files are written");
+  }
+  std::error_code ignored;
+  is_batch = may_be_folder && (inputs.size() > 1 || output.ends_with('/') ||
+                               std::filesystem::is_directory(output, ignored));
+  if (is_batch && std::any_of(inputs.begin(), inputs.end(), isStandardStream)) {
+    throw CLI::ValidationError(command, "standard input cannot be one of several inputs");
+  }
+}
+
+}  // namespace mcc::tool
