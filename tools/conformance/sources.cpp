@@ -677,6 +677,24 @@ void extremeSources(std::vector<Source>& all) {
                          }
                          b.tangents(0, true);
                        }));
+  for (const uint8_t bits : {uint8_t{0}, uint8_t{9}}) {
+    all.push_back(single(bits == 0 ? "huge_positions" : "huge_positions_octahedral",
+                         "Positions of up to 1e38, whose faces overflow", withNormals(torus(9, 8)),
+                         [=](SourceBuilder& b) {
+                           b.floats("POSITION", kBase, "VEC3", 0, [](const Place& at, uint32_t c) {
+                             return at.position(c) * 8e37f;
+                           });
+                           b.normals(bits);
+                           b.texcoords("TEXCOORD_0", 0);
+                           b.tangents(bits, true);
+                           b.floats("POSITION", 0, "VEC3", 0, [](const Place& at, uint32_t c) {
+                             return at.normal(c) * 2e38f;
+                           });
+                           b.floats("NORMAL", 0, "VEC3", 8, [](const Place& at, uint32_t c) {
+                             return at.normal((c + 1) % 3) * 0.1f;
+                           });
+                         }));
+  }
   all.push_back(single(
       "lattice_differences", "A chart and values whose differences exceed 1e9 steps",
       withNormals(torus(9, 8)), [=](SourceBuilder& b) {
@@ -697,6 +715,42 @@ void extremeSources(std::vector<Source>& all) {
                          b.texcoords("TEXCOORD_0", 8);
                          b.tangents(8, false);
                        }));
+}
+
+/// Vertices, groups and loops beyond the numbers at which searches end.
+void crowdedSources(std::vector<Source>& all) {
+  const TestMesh meshes[] = {
+      bipyramid(90),
+      shuffled(bipyramid(90), 3),
+      bowTies(2, 40, 2),
+      bowTies(3, 5, 70),
+      doubled(bipyramid(90)),
+      withRandomWedges(bipyramid(90), 4, 5),
+      flatShaded(bipyramid(90)),
+      book(30, 3, 1),
+      unionOf(std::array{grid(24, 2), book(3, 30, 2), moebius(40, 1)}, "long loops"),
+      pinchedSpheres(9),
+      doubled(sheetWithHoles(5, 3)),
+  };
+  uint32_t number = 0;
+  for (const TestMesh& mesh : meshes) {
+    const TestMesh with_normals = mesh.normals.empty() ? withNormals(mesh) : mesh;
+    Source source =
+        single("crowded_" + std::to_string(++number), "Numbers at which searches end: " + mesh.name,
+               with_normals, [](SourceBuilder& b) {
+                 b.positions(12);
+                 b.normals(8);
+                 b.texcoords("TEXCOORD_0", 9);
+                 b.colors("COLOR_0", 7);
+                 b.floats("_EXACT", kBase, "VEC2", 0, [](const Place& at, uint32_t c) {
+                   return at.position(c) * (c == 0 ? 1e36f : 1e-5f);
+                 });
+               });
+    source.options.variation = number;
+    source.options.keep_vertex_order = number % 3 != 0;
+    source.options.keep_triangle_order = number % 2 == 0;
+    all.push_back(source);
+  }
 }
 
 /// Larger surfaces: contexts and tables that small ones do not reach.
@@ -743,6 +797,7 @@ std::vector<Source> chosenSources() {
       all.back().options.variation = variation;
     }
   }
+  crowdedSources(all);
   largerSources(all);
   return all;
 }
