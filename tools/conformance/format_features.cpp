@@ -23,8 +23,8 @@ class Listing {
 
   Features run() {
     // What no payload is without.
-    add("payload", {"A.1.1", "A.1.2", "A.1.3", "A.2.1", "A.2.2", "A.2.3", "A.2.5", "A.2.6", "A.2.8",
-                    "A.3.1", "A.3.2", "A.3.6", "A.3.8"});
+    add("payload", {"A.1.1", "A.1.2", "A.1.3", "A.1.5", "A.1.6", "A.2.1", "A.2.2", "A.2.3", "A.2.5",
+                    "A.2.6", "A.2.8", "A.3.1", "A.3.2", "A.3.6", "A.3.8"});
     add(header_.singleCoder() ? "single coder" : "three streams",
         header_.singleCoder() ? Sections{"A.3.7"} : Sections{"A.3.3", "A.3.4"});
     add(text("context set", header_.contextSet()), {"A.4.2", "A.4.5"});
@@ -144,8 +144,8 @@ class Listing {
     static const Sections kKindSections[] = {
         {"B.2.2", "B.2.4", "B.2.5", "B.2.6"}, {"B.2.3"}, {"B.2.8"}, {"B.2.9"}};
     Sections sections = kKindSections[kind];
-    sections.insert({"A.6", "A.6.1", "A.6.2", "A.6.3", "A.2.7", "B.2.1", "B.2.2", "B.2.4", "B.2.5",
-                     "B.2.6", "B.2.7", "A.3.3"});
+    sections.insert({"A.6", "A.6.1", "A.6.2", "A.6.3", "A.2.7", "B.1.1", "B.1.2", "B.1.3", "B.2.1",
+                     "B.2.2", "B.2.4", "B.2.5", "B.2.6", "B.2.7", "A.3.3"});
     const std::string name = text("position predictor", predictor) + " " + kKinds[kind];
     add(name, sections);
     for (const auto& [bit, flag] :

@@ -138,6 +138,21 @@ class Maker {
     field(name, section, Error::kBadHeader, shows, wanted, change);
   }
 
+  /// The document claims what the payload's header does, so that the payload is what is refused.
+  static void claimCounts(const Bytes& payload, Json& json) {
+    PayloadHeader header{Allocator{}};
+    if (!parsePayload(payload, {}, header).ok()) return;
+    for (const Json& primitive : json["meshes"][0]["primitives"]) {
+      const Json& extension = primitive["extensions"][gltf::kExtensionName];
+      const PieceHeader& piece = header.pieces[extension.value("piece", size_t{0})];
+      const size_t part = piece.first_part + extension.value("part", size_t{0});
+      json["accessors"][primitive["indices"].get<size_t>()]["count"] =
+          3 * header.parts[part].triangle_count;
+      for (const auto& [name, accessor] : primitive["attributes"].items())
+        json["accessors"][accessor.get<size_t>()]["count"] = piece.wedge_count;
+    }
+  }
+
   /// The file of an asset with another payload.
   static std::vector<uint8_t> withPayload(const Asset& asset, const Bytes& payload) {
     const std::vector<uint8_t> file = makeGlb(asset);
@@ -156,6 +171,7 @@ class Maker {
       const int64_t offset = view["byteOffset"];
       if (offset != 0) view["byteOffset"] = offset + moved;
     }
+    claimCounts(payload, json);
     json["bufferViews"][0]["byteLength"] = payload.size();
     json["buffers"][0]["byteLength"] = bin.size();
     return glbOf(json, bin);
@@ -318,6 +334,10 @@ class Maker {
         }
       });
     }
+    header("wedges above corners", "A.2.2", "More wedges on the surface than corners", any,
+           [](HeaderFields& f) {
+             f.set("0.wedges", 2 * (3 * f.get("0.faces") + 1 - f.get("0.vertices")));
+           });
     field("triangles at the limit", "A.2.2", Error::kLimit,
           "Faces and duplicates are 2^28 together", withFlag(piece_flag::kDuplicates),
           [](HeaderFields& f) { f.set("0.duplicates", kMuch - 1); });
@@ -508,6 +528,15 @@ class Maker {
           });
     other("grid of five components", "A grid of five components", grid,
           [](HeaderFields& f, const std::string& k) { f.set(k + "shape", 6 << 4 | 4); });
+    const auto integers = [](const AttributeInfo& a) {
+      return a.coding == AttributeCoding::kInteger && a.format.semantic == Semantic::kCustom;
+    };
+    for (const uint32_t components : {5u, 8u, 10u}) {
+      other(std::to_string(components) + " components", "A number of components that no type has",
+            integers, [=](HeaderFields& f, const std::string& k) {
+              f.set(k + "shape", 1 << 4 | (components - 1));
+            });
+    }
     const auto alias = coded(AttributeCoding::kAlias);
     other("alias of the position", "An alias of attribute 0", alias,
           [](HeaderFields& f, const std::string& k) { f.set(k + "alias", 0); });
@@ -569,6 +598,19 @@ class Maker {
         const AttributeInfo& a = h.attributes[i];
         if (a.format.semantic == Semantic::kWeights && unitSum(a) == 0 &&
             skinPartner(h.attributes.data(), h.pieces[0].attribute_count, i) != kNone) {
+          return i;
+        }
+      }
+      return kNone;
+    });
+    predictorsOf("exact tangent without exact normal", {4}, [](const PayloadHeader& h) {
+      if (h.pieces.size() != 1 ||
+          exactNormalOf(h.attributes.data(), h.pieces[0].attribute_count) != kNone) {
+        return kNone;
+      }
+      for (uint32_t i = 1; i < h.pieces[0].attribute_count; ++i) {
+        if (methodOf(h.attributes.data(), h.pieces[0].attribute_count, i) ==
+            AttributeMethod::kExactTangent) {
           return i;
         }
       }

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <limits>
 
@@ -647,6 +648,111 @@ void gridSources(std::vector<Source>& all) {
   }
 }
 
+/// Values at which formulas change: guards that no model of anything reaches.
+void extremeSources(std::vector<Source>& all) {
+  const auto spread = [](const Place& at, uint32_t c) {
+    return static_cast<float>((at.wedge * 37 + c * 11) % 101);
+  };
+  all.push_back(single(
+      "values_near_1e38", "Exact values around 1e38, where predictions are cut off",
+      withNormals(torus(9, 8)), [=](SourceBuilder& b) {
+        b.positions(10);
+        b.floats("_LARGE", kBase, "VEC3", 0,
+                 [=](const Place& at, uint32_t c) { return 1.0e38f + spread(at, c) * 1e34f; });
+        b.floats("_LARGEST", kBase, "SCALAR", 0,
+                 [=](const Place& at, uint32_t c) { return spread(at, c) * 3.3e36f; });
+      }));
+  all.push_back(single("charts_near_limits", "Exact chart coordinates around 1e-9 and 1e9",
+                       withNormals(torus(9, 8)), [=](SourceBuilder& b) {
+                         b.positions(0);
+                         b.normals(0);
+                         b.texcoords("TEXCOORD_0", 0);
+                         for (size_t i = 0; i < b.piece().attributes.back().bytes.size(); i += 4) {
+                           const uint32_t n = static_cast<uint32_t>(i / 4);
+                           const float x =
+                               n % 3 == 0   ? 1e-9f * static_cast<float>(95 + n % 11) / 100
+                               : n % 3 == 1 ? 1e9f * static_cast<float>(95 + n % 11) / 100
+                                            : static_cast<float>(n % 17) * 1e20f;
+                           std::memcpy(&b.piece().attributes.back().bytes[i], &x, 4);
+                         }
+                         b.tangents(0, true);
+                       }));
+  for (const uint8_t bits : {uint8_t{0}, uint8_t{9}}) {
+    all.push_back(single(bits == 0 ? "huge_positions" : "huge_positions_octahedral",
+                         "Positions of up to 1e38, whose faces overflow", withNormals(torus(9, 8)),
+                         [=](SourceBuilder& b) {
+                           b.floats("POSITION", kBase, "VEC3", 0, [](const Place& at, uint32_t c) {
+                             return at.position(c) * 8e37f;
+                           });
+                           b.normals(bits);
+                           b.texcoords("TEXCOORD_0", 0);
+                           b.tangents(bits, true);
+                           b.floats("POSITION", 0, "VEC3", 0, [](const Place& at, uint32_t c) {
+                             return at.normal(c) * 2e38f;
+                           });
+                           b.floats("NORMAL", 0, "VEC3", 8, [](const Place& at, uint32_t c) {
+                             return at.normal((c + 1) % 3) * 0.1f;
+                           });
+                         }));
+  }
+  all.push_back(single(
+      "lattice_differences", "A chart and values whose differences exceed 1e9 steps",
+      withNormals(torus(9, 8)), [=](SourceBuilder& b) {
+        b.positions(24);
+        b.integers("_WIDE", kBase, "VEC2", ComponentType::kUint32, false,
+                   [=](const Place& at, uint32_t c) { return spread(at, c) * 42000000.0f; });
+        b.integers("TEXCOORD_0", kBase, "VEC2", ComponentType::kUint32, false,
+                   [=](const Place& at, uint32_t c) { return spread(at, c + 1) * 42000000.0f; });
+        b.colors("COLOR_0", 24);
+      }));
+  all.push_back(single("flat_faces",
+                       "Faces without an area, normals of length 0, positions of no extent",
+                       withNormals(grid(5, 5)), [=](SourceBuilder& b) {
+                         b.floats("POSITION", kBase, "VEC3", 12, [](const Place& at, uint32_t c) {
+                           return c == 0 ? std::floor(at.position(0) * 3) : 0.0f;
+                         });
+                         b.normals(8);
+                         b.texcoords("TEXCOORD_0", 8);
+                         b.tangents(8, false);
+                       }));
+}
+
+/// Vertices, groups and loops beyond the numbers at which searches end.
+void crowdedSources(std::vector<Source>& all) {
+  const TestMesh meshes[] = {
+      bipyramid(90),
+      shuffled(bipyramid(90), 3),
+      bowTies(2, 40, 2),
+      bowTies(3, 5, 70),
+      doubled(bipyramid(90)),
+      withRandomWedges(bipyramid(90), 4, 5),
+      flatShaded(bipyramid(90)),
+      book(30, 3, 1),
+      unionOf(std::array{grid(24, 2), book(3, 30, 2), moebius(40, 1)}, "long loops"),
+      pinchedSpheres(9),
+      doubled(sheetWithHoles(5, 3)),
+  };
+  uint32_t number = 0;
+  for (const TestMesh& mesh : meshes) {
+    const TestMesh with_normals = mesh.normals.empty() ? withNormals(mesh) : mesh;
+    Source source =
+        single("crowded_" + std::to_string(++number), "Numbers at which searches end: " + mesh.name,
+               with_normals, [](SourceBuilder& b) {
+                 b.positions(12);
+                 b.normals(8);
+                 b.texcoords("TEXCOORD_0", 9);
+                 b.colors("COLOR_0", 7);
+                 b.floats("_EXACT", kBase, "VEC2", 0, [](const Place& at, uint32_t c) {
+                   return at.position(c) * (c == 0 ? 1e36f : 1e-5f);
+                 });
+               });
+    source.options.variation = number;
+    source.options.keep_vertex_order = number % 3 != 0;
+    source.options.keep_triangle_order = number % 2 == 0;
+    all.push_back(source);
+  }
+}
+
 /// Larger surfaces: contexts and tables that small ones do not reach.
 void largerSources(std::vector<Source>& all) {
   struct Larger {
@@ -682,6 +788,16 @@ std::vector<Source> chosenSources() {
   std::vector<Source> all;
   smallSources(all);
   gridSources(all);
+  std::vector<Source> extremes;
+  extremeSources(extremes);
+  for (const Source& source : extremes) {
+    for (uint64_t variation = 1; variation <= 3; ++variation) {
+      all.push_back(source);
+      all.back().name += "_" + std::to_string(variation);
+      all.back().options.variation = variation;
+    }
+  }
+  crowdedSources(all);
   largerSources(all);
   return all;
 }

@@ -174,6 +174,15 @@ const char* kindOf(uint32_t error) {
   return kKinds[error];
 }
 
+Json sectionsOf(const Negative& negative) {
+  Json sections = {negative.section};
+  if (negative.error != 0) sections.push_back("A.1.4");
+  const bool is_stream_end = negative.error == static_cast<uint32_t>(Error::kTruncated) &&
+                             negative.section.starts_with("A.3");
+  if (is_stream_end) sections.push_back("B.1.4");
+  return sections;
+}
+
 }  // namespace
 
 Suite makeSuite() {
@@ -204,7 +213,7 @@ Suite makeSuite() {
     bytes += negative.glb.size();
     manifest["negative"].push_back({{"file", file},
                                     {"shows", negative.shows},
-                                    {"spec", {negative.section}},
+                                    {"spec", sectionsOf(negative)},
                                     {"error", negative.error},
                                     {"kind", kindOf(negative.error)}});
   }
