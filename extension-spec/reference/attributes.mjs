@@ -1,0 +1,165 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+
+// The attributes of a piece: A.8 of the specification.
+
+import { elementsOf, vectorOf } from './components.mjs';
+import { models } from './entropy.mjs';
+import { decodeExactNormals, ExactNormalModels } from './exactnormals.mjs';
+import { decodeExactTangents, ExactTangentModels } from './exacttangents.mjs';
+import { decodeExactValues, ExactValueModels } from './exactvalues.mjs';
+import { finite } from './floats.mjs';
+import { BelowGrid, TailModels } from './grids.mjs';
+import { ALIAS, EXACT_FLOAT, GRID, TANGENT } from './names.mjs';
+import { decodeNormals, NormalModels } from './normals.mjs';
+import { centreOf, unitVector } from './octahedral.mjs';
+import { decodeSkins, SkinModels } from './skins.mjs';
+import { AttributeState } from './state.mjs';
+import { chartCoordinates, decodeTangentAngles, decodeTangentPoints, TangentModels } from './tangents.mjs';
+import { decodeTexcoords, TexcoordModels } from './texcoords.mjs';
+import { decodeValues, Moved, ValueModels } from './values.mjs';
+import { EqualityModels, readBundles, Wedges } from './wedges.mjs';
+
+export class AttributeModels {
+	constructor() {
+		this.equalities = new EqualityModels();
+		this.values = new ValueModels();
+		this.normals = new NormalModels();
+		this.texcoords = new TexcoordModels();
+		this.tangents = new TangentModels();
+		this.skins = new SkinModels();
+		this.exactNormals = new ExactNormalModels();
+		this.exactTangents = new ExactTangentModels();
+		this.exactValues = new ExactValueModels();
+		this.tails = models([8, 2], () => new TailModels());
+	}
+}
+
+// What the methods have in common in one piece.
+class Context {
+	constructor(streams, attributeModels, piece, wedges) {
+		this.streams = streams;
+		this.models = attributeModels;
+		this.attributes = piece.attributes;
+		this.wedges = wedges;
+		this.states = new Map(); // by attribute
+		this.moved = new Moved(wedges.count);
+	}
+
+	begin(attribute, bundleOf) {
+		const state = new AttributeState(attribute, this.wedges, bundleOf);
+		this.states.set(attribute, state);
+		return state;
+	}
+
+	stateOf(attribute) {
+		return this.states.get(attribute);
+	}
+
+	perWedge(make) {
+		return Array.from({ length: this.wedges.count }, (_, w) => make(w));
+	}
+
+	// [B.6.5] The chart coordinates of the wedges, or undefined
+	chart() {
+		const { chart } = this.attributes;
+		return chart && chartCoordinates(this.stateOf(chart));
+	}
+
+	exactNormalState() {
+		return this.stateOf(this.attributes.exactNormal);
+	}
+
+	octahedralNormals() {
+		const { octahedralNormal } = this.attributes;
+		if (octahedralNormal === undefined) return undefined;
+		const C = centreOf(octahedralNormal.bits);
+		const state = this.stateOf(octahedralNormal);
+		return this.perWedge((w) => unitVector(C, state.value(w)));
+	}
+
+	// [B.8] The unit normals G, or undefined
+	unitNormals() {
+		const state = this.exactNormalState();
+		if (state === undefined) return this.octahedralNormals();
+		return this.perWedge((w) => [...state.value(w)].map(finite));
+	}
+
+	// [B.8.2] The base tangents without their signs
+	baseTangents() {
+		const { baseTangent } = this.attributes;
+		const state = this.stateOf(baseTangent);
+		if (baseTangent.coding === EXACT_FLOAT || baseTangent.coding === GRID) {
+			return this.perWedge((w) => [...state.value(w)].slice(0, 3).map(finite));
+		}
+		const normals = this.octahedralNormals();
+		return this.perWedge((w) => vectorOf(state, w, normals).slice(0, 3));
+	}
+}
+
+// [A.8.1] Order of the attributes
+function phaseOf(attribute) {
+	if (attribute.target !== 0) return 2;
+	return attribute.semantic === TANGENT ? 1 : 0;
+}
+
+const DECODERS = {
+	'tangent point': decodeTangentPoints,
+	normal: decodeNormals,
+	tangent: decodeTangentAngles,
+	'texture coordinate': decodeTexcoords,
+	'exact normal': decodeExactNormals,
+	'exact tangent': decodeExactTangents,
+	'exact values': decodeExactValues,
+	values: decodeValues,
+};
+
+// [A.8.1] An attribute is read in three steps.
+function decodeAttribute(context, attribute) {
+	if (attribute.method === 'with another') return;
+	const bundleOf = readBundles(context.streams, context.models.equalities, context.wedges, attribute);
+	const state = context.begin(attribute, bundleOf);
+	if (attribute.method === 'skin') {
+		const weights = context.begin(attribute.partner, bundleOf);
+		decodeSkins(context, state, weights);
+		readBelowGrid(context, weights);
+		return;
+	}
+	DECODERS[attribute.method](context, state);
+	readBelowGrid(context, state);
+}
+
+// [A.8.13] A wedge that is not the first of its bundle gets the floats of the first.
+function readBelowGrid({ streams, models: { tails } }, state) {
+	const { attribute, wedges, bundleOf } = state;
+	if (attribute.coding !== GRID) return;
+	const below = new BelowGrid(streams, attribute, tails[attribute.semantic][attribute.target !== 0 ? 1 : 0]);
+	for (let w = 0; w < wedges.count; ++w) {
+		const first = bundleOf[w][0];
+		state.set(w, first === w ? state.value(w).map((q, c) => below.read(q, c)) : state.value(first));
+	}
+}
+
+// The values of the position are those of groups and isolated vertices.
+function positionState(context, attribute) {
+	const state = context.begin(attribute, undefined);
+	const { wedges } = context;
+	for (let w = 0; w < wedges.count; ++w) {
+		const record = wedges.recordOf(w);
+		state.set(w, wedges.integers.subarray(3 * record, 3 * record + 3));
+	}
+}
+
+// The elements of all attributes, in the order of the header: of each wedge the bytes of its components.
+export function decodeAttributes(streams, attributeModels, stages) {
+	const { attributes } = stages.piece;
+	if (attributes.length === 0) return [];
+	const context = new Context(streams, attributeModels, stages.piece, new Wedges(stages));
+	positionState(context, attributes[0]);
+	for (const phase of [0, 1, 2]) {
+		for (const attribute of attributes.slice(1)) {
+			if (phaseOf(attribute) === phase) decodeAttribute(context, attribute);
+		}
+	}
+	const normals = context.octahedralNormals();
+	return attributes.map((a) => elementsOf(context.stateOf(a.coding === ALIAS ? attributes[a.alias] : a), normals));
+}

@@ -1,0 +1,352 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+
+// The container: A.2 of the specification. Reads and checks everything in front of the streams.
+
+import { ByteReader, crc32, fail } from './bytes.mjs';
+import { SingleCoder, ThreeStreams } from './entropy.mjs';
+import { methodOf, predictorIsValid } from './methods.mjs';
+import { ALIAS, EXACT_FLOAT, FLOAT, GRID, INTEGER, JOINTS, LATTICE, NORMAL, OCTAHEDRAL, POSITION, TANGENT, TANGENT_ANGLE, TEXCOORD,
+	WEIGHTS } from './names.mjs';
+
+// [A.2.6] The limits of this decoder: those that decoders SHOULD have at least.
+export const LIMITS = { vertices: 2 ** 24, wedges: 2 ** 24, triangles: 2 ** 24, attributes: 1024, pieces: 65536 };
+
+// [A.2.4] Those of accessors: SCALAR to VEC4 and matrices
+const COMPONENT_COUNTS = [1, 2, 3, 4, 9, 16];
+
+// [A.2.2] Flags of a piece, by bit
+const PIECE_FLAGS = ['SEAMS', 'MANY_PARTS', 'SAME_ATTRIBUTES', 'HOLES', 'HANDLES', 'COPIES', 'INTERIOR_COPIES', 'MERGES',
+	'ISOLATED', 'DUPLICATES', 'LISTED', 'EDGE_DEGENERATES', 'CREASES', 'TRIANGLE_ORDER', 'VERTEX_ORDER'];
+
+function badHeader(section, message) {
+	fail('BadHeader', section, message);
+}
+
+// [A.2.1] Payload: returns its header and the decoder of its streams.
+export function readHeader(bytes) {
+	const reader = new ByteReader(bytes);
+	readMagicVersionChecksum(reader);
+	const header = readPayloadFlags(reader);
+	header.pieces = readPieces(reader, header.pieceCount);
+	checkElements(header.pieces, bytes.length);
+	const streams = readStreams(reader, header);
+	return { header, streams };
+}
+
+// [A.2.1]
+function readMagicVersionChecksum(reader) {
+	const { bytes } = reader;
+	if (bytes.length < 3 || bytes[0] !== 0x4d || bytes[1] !== 0x43 || bytes[2] !== 0x43) fail('BadMagic', 'A.2.1', 'no "MCC"');
+	reader.take(3);
+	const version = reader.u8();
+	if (version >> 4 !== 1) fail('UnsupportedVersion', 'A.2.1', `major version ${version >> 4}`);
+	const checksum = reader.u32();
+	if (crc32(bytes.subarray(0, 4), bytes.subarray(8)) !== checksum) fail('BadChecksum', 'A.2.1', 'the checksum does not match');
+}
+
+// [A.2.1]
+function readPayloadFlags(reader) {
+	const flags = reader.u8();
+	if (flags >> 6 !== 0) badHeader('A.2.1', 'a reserved flag is set');
+	const contextSet = (flags >> 3) & 7;
+	if (contextSet > 4) badHeader('A.2.1', `context set ${contextSet}`);
+	const pieceCount = flags & 2 ? reader.varint() : 1;
+	if (flags & 2 && pieceCount < 2) badHeader('A.2.1', `a stated count of ${pieceCount} pieces`);
+	if (pieceCount > LIMITS.pieces) fail('Limit', 'A.2.1', `${pieceCount} pieces`);
+	return { singleCoder: (flags & 1) !== 0, padded: (flags & 4) !== 0, contextSet, pieceCount };
+}
+
+function readPieces(reader, pieceCount) {
+	const pieces = [];
+	const totals = { vertices: 0, wedges: 0, triangles: 0, attributes: 0 };
+	for (let i = 0; i < pieceCount; ++i) pieces.push(readPiece(reader, pieces[i - 1], totals));
+	return pieces;
+}
+
+// ---- [A.2.2] Piece
+
+function readPiece(reader, before, totals) {
+	const flags = readPieceFlags(reader);
+	const counts = readCounts(reader, flags);
+	checkCounts(counts, totals, reader.remaining());
+	const piece = { flags, ...counts };
+	piece.partSizes = readPartSizes(reader, piece);
+	piece.attributes = readAttributes(reader, piece, before);
+	totals.attributes += piece.attributes.length;
+	if (totals.attributes > LIMITS.attributes) fail('Limit', 'A.2.3', 'too many attributes');
+	return piece;
+}
+
+// [A.2.2]
+function readPieceFlags(reader) {
+	const bits = reader.varint();
+	if (bits >>> PIECE_FLAGS.length !== 0) badHeader('A.2.2', 'a reserved flag of a piece is set');
+	const flags = {};
+	PIECE_FLAGS.forEach((name, i) => { flags[name] = ((bits >>> i) & 1) === 1; });
+	if (flags.CREASES && !flags.SEAMS) badHeader('A.2.2', 'CREASES without SEAMS');
+	if (flags.MERGES && !flags.SEAMS) badHeader('A.2.2', 'MERGES without SEAMS');
+	if (flags.INTERIOR_COPIES && !flags.COPIES) badHeader('A.2.2', 'INTERIOR_COPIES without COPIES');
+	return flags;
+}
+
+// [A.2.2]
+function readCounts(reader, flags) {
+	const vertexCount = reader.varint();
+	const faceCount = reader.varint();
+	const operationCount = (vertexCount + reader.zigzag()) >>> 0;
+	const wedgeCount = (vertexCount + reader.zigzag()) >>> 0;
+	const dummyCount = flags.HOLES ? readAtLeast(reader, 1) : 0;
+	const isolatedCount = flags.ISOLATED ? readAtLeast(reader, 1) : 0;
+	const duplicateCount = flags.DUPLICATES ? readAtLeast(reader, 1) : 0;
+	const edgeDegenerateCount = flags.EDGE_DEGENERATES ? readAtLeast(reader, 1) : 0;
+	const listedCount = flags.LISTED ? readAtLeast(reader, 1) : 0;
+	const partCount = flags.MANY_PARTS ? readAtLeast(reader, 2) : 1;
+	const triangleCount = faceCount + duplicateCount + edgeDegenerateCount + listedCount;
+	return { vertexCount, faceCount, operationCount, wedgeCount, dummyCount, isolatedCount, duplicateCount,
+		edgeDegenerateCount, listedCount, partCount, triangleCount };
+}
+
+// [A.2.2] A count that is not what it is without its flag
+function readAtLeast(reader, least) {
+	const count = reader.varint();
+	if (count < least) badHeader('A.2.2', `a stated count of ${count}`);
+	return count;
+}
+
+// [A.2.2] The table of conditions, in its order.
+function checkCounts(counts, totals, remaining) {
+	const { vertexCount, wedgeCount, faceCount, triangleCount } = counts;
+	totals.vertices += vertexCount;
+	totals.wedges += wedgeCount;
+	if (totals.vertices > LIMITS.vertices || totals.wedges > LIMITS.wedges) fail('Limit', 'A.2.2', 'too many vertices or wedges');
+	if (vertexCount >= 2 ** 28 || wedgeCount >= 2 ** 28) fail('Limit', 'A.2.2', 'too many vertices or wedges');
+	totals.triangles += triangleCount;
+	if (totals.triangles > LIMITS.triangles || triangleCount >= 2 ** 28) fail('Limit', 'A.2.2', 'too many triangles');
+	if (counts.isolatedCount > wedgeCount) badHeader('A.2.2', 'more isolated wedges than wedges');
+	if (wedgeCount - counts.isolatedCount > 3 * faceCount) badHeader('A.2.2', 'more wedges than corners');
+	if (vertexCount > 3 * faceCount || counts.dummyCount > 3 * faceCount) badHeader('A.2.2', 'too few faces');
+	if ((vertexCount === 0) !== (faceCount === 0)) badHeader('A.2.2', 'vertices without faces or faces without vertices');
+	if (counts.operationCount > vertexCount + 4 * faceCount) badHeader('A.2.2', 'too many operations');
+	if (counts.partCount > remaining + 1) fail('Truncated', 'A.2.2', 'more parts than bytes');
+}
+
+// [A.2.2]
+function readPartSizes(reader, piece) {
+	if (!piece.flags.MANY_PARTS) return [piece.triangleCount];
+	const sizes = [];
+	for (let i = 0; i < piece.partCount; ++i) sizes.push(reader.varint());
+	const sum = sizes.reduce((a, b) => a + b, 0);
+	if (sum !== piece.triangleCount) badHeader('A.2.2', 'the triangles of the parts do not sum to those of the piece');
+	return sizes;
+}
+
+// ---- [A.2.3] Attributes of a piece
+
+function readAttributes(reader, piece, before) {
+	if (piece.flags.SAME_ATTRIBUTES) {
+		if (before === undefined) badHeader('A.2.3', 'SAME_ATTRIBUTES in the first piece');
+		checkCreases(piece, before.attributes);
+		return before.attributes;
+	}
+	const count = reader.varint();
+	if (count > LIMITS.attributes) fail('Limit', 'A.2.3', `${count} attributes`);
+	const attributes = [];
+	for (let i = 0; i < count; ++i) attributes.push({ number: i, ...readAttribute(reader) });
+	checkCreases(piece, attributes);
+	if (count > 0) checkPosition(attributes[0]);
+	findRelations(attributes);
+	attributes.slice(1).forEach((attribute) => checkAttribute(attribute, attributes));
+	return attributes;
+}
+
+// [A.2.3]
+function checkCreases(piece, attributes) {
+	if (attributes.length === 0 && piece.flags.CREASES) badHeader('A.2.3', 'CREASES without attributes');
+}
+
+// [A.2.3]
+function checkPosition(position) {
+	if (position.semantic !== POSITION || position.set !== 0 || position.target !== 0 || position.components !== 3) {
+		badHeader('A.2.3', 'attribute 0 is no position of the base mesh');
+	}
+	if (![LATTICE, INTEGER, EXACT_FLOAT, GRID].includes(position.coding)) badHeader('A.2.3', 'coding of attribute 0');
+	checkPositionPredictor(position);
+}
+
+// [A.2.7] Predictor byte of positions
+function checkPositionPredictor(position) {
+	const byte = position.predictor;
+	if ((byte & 7) > 4) badHeader('A.2.7', `predictor ${byte & 7} of positions`);
+	const planes = ((byte >> 3) & 3) === 3;
+	if (!planes) return;
+	if (byte >> 5 !== 0 || position.coding !== LATTICE || position.bits > 17) badHeader('A.2.7', 'planes are not allowed here');
+}
+
+// ---- [A.2.4] Header of an attribute
+
+function readAttribute(reader) {
+	const kind = reader.u8();
+	const shape = reader.u8();
+	const more = kind >> 7 === 1;
+	const attribute = {
+		semantic: kind & 7,
+		type: (kind >> 3) & 7,
+		normalized: ((kind >> 6) & 1) === 1,
+		components: (shape & 15) + 1,
+		coding: shape >> 4,
+		set: more ? reader.u8() : 0,
+		target: more ? reader.varint() : 0,
+		predictor: reader.u8(),
+	};
+	if (more && attribute.set === 0 && attribute.target === 0) badHeader('A.2.4', 'MORE without need');
+	checkTypes(attribute);
+	readParameters(reader, attribute);
+	return attribute;
+}
+
+// [A.2.4]
+function checkTypes({ type, components, target, coding }) {
+	if (type > FLOAT) badHeader('A.2.4', `component type ${type}`);
+	if (!COMPONENT_COUNTS.includes(components)) badHeader('A.2.4', `${components} components`);
+	if (target > 65535) badHeader('A.2.4', `morph target ${target}`);
+	if (coding > GRID) badHeader('A.2.4', `coding ${coding}`);
+	const fits = coding === ALIAS || (coding === INTEGER) === (type !== FLOAT);
+	if (!fits) badHeader('A.2.4', 'the coding does not fit the component type');
+}
+
+// [A.2.4] The table of codings
+function readParameters(reader, attribute) {
+	switch (attribute.coding) {
+	case LATTICE: return readLattice(reader, attribute);
+	case OCTAHEDRAL: return readOctahedral(reader, attribute);
+	case TANGENT_ANGLE: return readTangentAngle(reader, attribute);
+	case ALIAS: attribute.alias = reader.varint(); return undefined;
+	case GRID: return readGrid(reader, attribute);
+	default: return undefined;
+	}
+}
+
+function readBits(reader, attribute, least, most) {
+	attribute.bits = reader.u8();
+	if (attribute.bits < least || attribute.bits > most) badHeader('A.2.4', `${attribute.bits} bits`);
+}
+
+function readLattice(reader, attribute) {
+	if (attribute.components > 4) badHeader('A.2.4', 'a lattice of more than 4 components');
+	readBits(reader, attribute, 1, 24);
+	attribute.step = reader.f32();
+	if (!(attribute.step > 0 && attribute.step < Infinity)) badHeader('A.2.4', 'step of a lattice');
+	attribute.origin = new Float32Array(attribute.components);
+	if (attribute.target !== 0) return;
+	for (let c = 0; c < attribute.components; ++c) attribute.origin[c] = reader.f32();
+	if (!attribute.origin.every(Number.isFinite)) badHeader('A.2.4', 'origin of a lattice');
+}
+
+function readOctahedral(reader, attribute) {
+	readBits(reader, attribute, 2, 16);
+	const isTangent = attribute.semantic === TANGENT;
+	if (attribute.components !== (isTangent ? 4 : 3)) badHeader('A.2.4', 'components of coding octahedral');
+	if (isTangent && attribute.target !== 0) badHeader('A.2.4', 'an octahedral tangent of a morph target');
+}
+
+function readTangentAngle(reader, attribute) {
+	readBits(reader, attribute, 2, 16);
+	if (attribute.semantic !== TANGENT || attribute.components !== 4 || attribute.target !== 0) {
+		badHeader('A.2.4', 'coding tangent angle of another attribute');
+	}
+}
+
+function readGrid(reader, attribute) {
+	if (attribute.components > 4) badHeader('A.2.4', 'a grid of more than 4 components');
+	const byte = reader.u8();
+	attribute.bits = byte & 31;
+	attribute.tails = byte >> 5;
+	attribute.grid = reader.varint();
+	const { bits, tails, grid } = attribute;
+	if (bits < 1 || bits > 27 || tails > 2) badHeader('A.2.4', 'bits or tails of a grid');
+	if (!(grid <= 24 || (grid >= 32 && grid <= 277))) badHeader('A.2.4', `grid ${grid}`);
+	if (tails !== 0 && grid < 32) badHeader('A.2.4', 'tails of a decimal grid');
+}
+
+// ---- [A.2.4] Relations between the attributes of a piece
+
+// Sets octahedralNormal, exactNormal, baseTangent and chart (A.8.1) of the list; partner, positionDeltas and normalDeltas
+// of attributes.
+function findRelations(attributes) {
+	const base = (a) => a.target === 0;
+	attributes.octahedralNormal = attributes.find((a) => base(a) && a.coding === OCTAHEDRAL && a.semantic !== TANGENT);
+	attributes.exactNormal = attributes.find((a) => base(a) && a.semantic === NORMAL && a.components === 3
+		&& (a.coding === EXACT_FLOAT || a.coding === GRID));
+	attributes.baseTangent = attributes.find((a) => base(a) && a.semantic === TANGENT && a.components === 4
+		&& [EXACT_FLOAT, OCTAHEDRAL, TANGENT_ANGLE, GRID].includes(a.coding));
+	attributes.chart = attributes.find((a) => base(a) && a.semantic === TEXCOORD && a.components === 2 && a.coding !== ALIAS);
+	findPartners(attributes);
+	attributes.forEach((a) => {
+		a.positionDeltas = deltasBefore(a, attributes, POSITION);
+		a.normalDeltas = deltasBefore(a, attributes, NORMAL);
+	});
+}
+
+function findPartners(attributes) {
+	const candidate = (a, semantic, codings) => a.number >= 1 && a.semantic === semantic && a.components === 4 && a.target === 0
+		&& codings.includes(a.coding);
+	const isJoints = (a) => candidate(a, JOINTS, [INTEGER]);
+	const isWeights = (a) => candidate(a, WEIGHTS, [LATTICE, INTEGER, EXACT_FLOAT, GRID]);
+	for (const joints of attributes.filter(isJoints)) {
+		if (attributes.find((a) => isJoints(a) && a.set === joints.set) !== joints) continue;
+		const weights = attributes.find((a) => isWeights(a) && a.set === joints.set);
+		if (weights === undefined) continue;
+		joints.partner = weights;
+		weights.partner = joints;
+	}
+}
+
+// The last attribute before a with this semantic and a morph target, if that is the morph target of a.
+function deltasBefore(a, attributes, semantic) {
+	if (a.target === 0) return undefined;
+	const before = attributes.slice(0, a.number).filter((b) => b.semantic === semantic && b.target !== 0);
+	const last = before[before.length - 1];
+	return last !== undefined && last.target === a.target ? last : undefined;
+}
+
+// [A.2.4] The checks of each attribute i >= 1 after all headers of the piece.
+function checkAttribute(attribute, attributes) {
+	if (attribute.coding === ALIAS) checkAlias(attribute, attributes);
+	if (attribute.coding === TANGENT_ANGLE && attributes.octahedralNormal === undefined) {
+		badHeader('A.2.4', 'a tangent angle without an octahedral normal');
+	}
+	attribute.method = methodOf(attribute);
+	if (!predictorIsValid(attribute, attributes)) badHeader('A.2.4', `predictor byte of attribute ${attribute.number}`);
+}
+
+function checkAlias(attribute, attributes) {
+	const source = attributes[attribute.alias];
+	if (attribute.alias < 1 || attribute.alias >= attribute.number || source.coding === ALIAS
+		|| source.type !== attribute.type || source.components !== attribute.components) {
+		badHeader('A.2.4', 'an alias of an attribute that cannot be its source');
+	}
+}
+
+// ---- [A.2.5] Streams
+
+function readStreams(reader, header) {
+	const codesLength = header.singleCoder ? 0 : reader.varint();
+	const tokensLength = header.singleCoder ? 0 : reader.varint();
+	const paddingLength = header.padded ? reader.varint() : 0;
+	if (header.padded && paddingLength === 0) badHeader('A.2.5', 'padding of no bytes');
+	if (reader.take(paddingLength).some((byte) => byte !== 0)) badHeader('A.2.5', 'padding other than zero');
+	if (header.singleCoder) return new SingleCoder(reader.take(reader.remaining()));
+	const codes = reader.take(codesLength);
+	const tokens = reader.take(tokensLength);
+	return new ThreeStreams(codes, tokens, reader.take(reader.remaining()));
+}
+
+// [A.2.6] Limits
+function checkElements(pieces, byteLength) {
+	let elements = 0;
+	for (const piece of pieces) {
+		const components = piece.attributes.reduce((sum, a) => sum + a.components, 0);
+		elements += piece.vertexCount + piece.wedgeCount + piece.triangleCount + piece.wedgeCount * components;
+	}
+	if (elements > 4096 * byteLength) fail('Limit', 'A.2.6', 'too many elements for so few bytes');
+}

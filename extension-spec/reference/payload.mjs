@@ -1,0 +1,107 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+
+// A payload and its stages: A.2.8 of the specification.
+
+import { AttributeModels, decodeAttributes } from './attributes.mjs';
+import { fail } from './bytes.mjs';
+import { ConnectivityModels, decodeConnectivity } from './connectivity.mjs';
+import { predictionPositions } from './faces.mjs';
+import { readHeader } from './header.mjs';
+import { checkParts, decodeTriangleOrder, decodeWedgeOrder, OrderModels, trianglesOfParts } from './orders.mjs';
+import { decodePositions, PositionModels } from './positions.mjs';
+import { orderOfFirstCorners } from './region.mjs';
+import { decodeSeams, findCreases, SeamModels } from './seams.mjs';
+import { stitch, StitchModels } from './stitch.mjs';
+import { decodeTriangles, TriangleModels } from './triangles.mjs';
+
+// [A.3.6] All models exist once per payload.
+class Models {
+	constructor(contextSet) {
+		this.connectivity = new ConnectivityModels(contextSet);
+		this.stitching = new StitchModels();
+		this.positions = new PositionModels();
+		this.seams = new SeamModels();
+		this.triangles = new TriangleModels();
+		this.orders = new OrderModels();
+		this.attributes = new AttributeModels();
+	}
+}
+
+// A payload whose header was read and checked: pieces, the headers of its pieces; decode() decodes them.
+export class Payload {
+	constructor(bytes) {
+		const { header, streams } = readHeader(bytes);
+		this.pieces = header.pieces;
+		this.contextSet = header.contextSet;
+		this.streams = streams;
+	}
+
+	// The pieces, each with: parts, lists of triangles, which are three places of wedges; elements, a list for each attribute of
+	// the bytes of the components of each element.
+	decode() {
+		const models = new Models(this.contextSet);
+		const pieces = this.pieces.map((piece) => decodePiece(this.streams, models, piece));
+		this.streams.finish();
+		return pieces;
+	}
+}
+
+// [A.2.8] The stages of a piece
+function decodePiece(streams, models, piece) {
+	const connectivity = decodeConnectivity(streams, models.connectivity, piece);
+	const groups = piece.flags.COPIES ? stitch(streams, models.stitching, piece, connectivity) : { surface: connectivity };
+	const groupCount = groups.umbrellas?.length ?? piece.vertexCount;
+	const positions = positionStage(streams, models, piece, groups, groupCount);
+	const wedges = piece.flags.SEAMS
+		? seamStage(streams, models, piece, groups, positions)
+		: groupsAsWedges(piece, groups.surface, positions.sequence, groupCount);
+	const triangles = decodeTriangles(streams, models.triangles, piece, wedges.surface);
+	const { parts, order } = orderStage(streams, models.orders, piece, wedges.surface, triangles);
+	const elements = decodeAttributes(streams, models.attributes, { piece, groupCount, wedges, positions });
+	return { parts: placed(parts, order), elements: elements.map((list) => reordered(list, order)) };
+}
+
+// [A.6]
+function positionStage(streams, models, piece, { surface, umbrellas }, groupCount) {
+	if (piece.attributes.length === 0) return { sequence: orderOfFirstCorners(surface, groupCount) };
+	const result = decodePositions(streams, models.positions, piece, surface, umbrellas, groupCount);
+	return { ...result, seen: predictionPositions(piece.attributes[0], result.positions) };
+}
+
+// [A.7]
+function seamStage(streams, models, piece, { surface, umbrellas }, { sequence, seen }) {
+	const crease = piece.flags.CREASES ? findCreases(surface, seen) : new Uint8Array(surface.halfEdgeCount);
+	const result = decodeSeams(streams, models.seams, piece, surface, umbrellas, sequence, crease);
+	return { ...result, crease };
+}
+
+// [A.2.8] Without seams wedge g is group g.
+function groupsAsWedges(piece, surface, sequence, groupCount) {
+	if (groupCount !== piece.wedgeCount - piece.isolatedCount) fail('BadAttribute', 'A.2.8', 'groups and wedges differ in number');
+	const starts = new Int32Array(groupCount);
+	for (const h of sequence) starts[surface.tail(h)] = h;
+	return { surface, starts, groupOf: Int32Array.from({ length: groupCount }, (_, g) => g) };
+}
+
+// [A.10]
+function orderStage(streams, models, piece, surface, triangles) {
+	const { TRIANGLE_ORDER, VERTEX_ORDER } = piece.flags;
+	const parts = trianglesOfParts(piece, triangles);
+	checkParts(piece, parts);
+	const ordered = TRIANGLE_ORDER ? decodeTriangleOrder(streams, models, piece, surface, triangles) : undefined;
+	const order = VERTEX_ORDER ? decodeWedgeOrder(streams, models, piece, triangles, ordered) : undefined;
+	return { parts: ordered ?? parts, order };
+}
+
+// [A.10.5] Triangles with the places of their wedges
+function placed(parts, order) {
+	if (order === undefined) return parts;
+	const place = new Uint32Array(order.length);
+	order.forEach((w, i) => { place[w] = i; });
+	return parts.map((triangles) => triangles.map((wedges) => wedges.map((w) => place[w])));
+}
+
+// [A.10.5] Elements, an array of bytes for each wedge, in their order
+function reordered(elements, order) {
+	return order === undefined ? elements : order.map((w) => elements[w]);
+}
