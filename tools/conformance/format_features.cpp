@@ -249,6 +249,19 @@ class Listing {
     }
   }
 
+  /// Bends weight faces as the normals do.
+  void addBends() {
+    const uint32_t exact = exactNormalOf(all_, count_);
+    const uint32_t normal = exact != kNone ? exact : normalOfTangents(all_, count_);
+    if (normal == kNone) return add("bends without normals", {"B.8.1"});
+    const AttributeMethod method = methodOf(all_, count_, normal);
+    const char* const name = method == AttributeMethod::kNormal ? "bends, octahedral normals by"
+                             : method == AttributeMethod::kExactNormal
+                                 ? "bends, exact normals by"
+                                 : "bends, normals on a grid by";
+    add(text(name, all_[normal].predictor & 3), {"B.8.1"});
+  }
+
   void addValues(uint32_t index) {
     const AttributeInfo& a = all_[index];
     const bool is_target = a.format.morph_target != 0;
@@ -263,8 +276,12 @@ class Listing {
       method += a.format.semantic <= Semantic::kTangent
                     ? kNames[static_cast<size_t>(a.format.semantic)]
                     : " of other deltas";
-      if (a.format.semantic == Semantic::kNormal && (a.predictor & value_method::kBends) != 0)
+      const bool has_bends =
+          a.format.semantic == Semantic::kNormal && (a.predictor & value_method::kBends) != 0;
+      if (has_bends) {
         sections.insert("B.8.1");
+        addBends();
+      }
       if ((a.predictor & value_method::kUnits) != 0) sections.insert("B.8.2");
     } else if ((a.predictor & value_method::kIds) != 0) {
       method = "ids";

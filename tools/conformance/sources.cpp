@@ -500,7 +500,7 @@ Source planarSource(uint64_t seed) {
   const std::vector<TestMesh>& all = planarSurfaces();
   const TestMesh& mesh = all[random.below(static_cast<uint32_t>(all.size()))];
   SourceBuilder b(mesh, random.next());
-  b.positions(static_cast<uint8_t>(random.between(9, 17)));
+  b.positions(static_cast<uint8_t>(random.between(6, 17)));
   Source source;
   source.name = mesh.name;
   source.shows = mesh.name;
@@ -695,6 +695,17 @@ void extremeSources(std::vector<Source>& all) {
                            });
                          }));
   }
+  TestMesh instances = chartGrid(12, 12, 2);
+  for (size_t i = 0; i < instances.texcoords.size(); ++i) {
+    // Every chart the same, of large steps.
+    const auto place = static_cast<uint32_t>(i % 18);
+    instances.texcoords[i] = static_cast<float>(place * place * 7 % 19) / 19.0f;
+  }
+  all.push_back(single("repeated_charts", "Charts whose large residuals repeat", instances,
+                       [](SourceBuilder& b) {
+                         b.positions(9);
+                         b.texcoords("TEXCOORD_0", 16);
+                       }));
   all.push_back(single(
       "lattice_differences", "A chart and values whose differences exceed 1e9 steps",
       withNormals(torus(9, 8)), [=](SourceBuilder& b) {
@@ -760,7 +771,7 @@ void largerSources(std::vector<Source>& all) {
     TestMesh mesh;
   };
   const Larger surfaces[] = {
-      {"irregular", flipped(icosphere(3), 3, 2000)},
+      {"irregular", flipped(icosphere(3), 3, 12000)},
       {"wavy", jittered(grid(24, 24, QuadSplit::kRandom, 3), 9, 0.004f)},
       {"handles", generated(21, 9, 14, 12)},
       {"copies", unionOf(std::array{randomVoxels(5, 6, 40), book(5, 6, 6),
