@@ -614,7 +614,7 @@ void gridSources(std::vector<Source>& all) {
                 i < 9 ? std::pow(10.0, i) : std::ldexp(1.0, static_cast<int>(i) - 7) - 1;
             b.floats("_GRID_" + std::to_string(i), kBase, "SCALAR", 0,
                      [scale](const Place& at, uint32_t) {
-                       const double x = double{at.position(0)} * 0.03 + double{at.wedge} * 0.001;
+                       const double x = double{at.position(0)} * 0.03 + static_cast<double>(at.wedge) * 0.001;
                        return static_cast<float>(std::floor(x * scale + 0.5) / scale);
                      });
           }
