@@ -59,25 +59,35 @@ class Batch : public testing::Test {
     return count;
   }
 
+  /// `command` over the files of `input` writes the same files with each number of jobs, to OUTPUT1,
+  /// OUTPUT2 and so on, reports each file and their sum, and writes the same when a file comes alone.
+  void expectSameForAnyJobs(const std::string& command, const std::string& input,
+                            const std::string& output, const std::vector<std::string>& job_counts) {
+    std::map<std::string, std::string> first;
+    for (const std::string& jobs : job_counts) {
+      const ToolResult result =
+          run(command + " -j " + jobs + " -o " + output + jobs + "/ " + input + "/*.glb");
+      EXPECT_EQ(result.status, 0) << result.err;
+      EXPECT_EQ(result.err, "");
+      EXPECT_EQ(countOf(result.out, ".glb: "), names_.size()) << result.out;
+      EXPECT_NE(result.out.find("\n" + command), std::string::npos) << result.out;
+      const auto files = filesOf(output + jobs);
+      EXPECT_EQ(files.size(), names_.size());
+      if (first.empty()) first = files;
+      EXPECT_TRUE(files == first) << jobs;
+    }
+    for (const auto& [name, content] : first) {
+      ASSERT_EQ(run(command + " " + input + "/" + name + " one.glb -j 3").status, 0);
+      EXPECT_TRUE(contentOf(path("one.glb")) == content) << name;
+    }
+  }
+
   ScratchFolder folder_;
   std::set<std::string> names_;
 };
 
 TEST_F(Batch, ResultsDoNotDependOnTheThreads) {
-  std::map<std::string, std::string> first;
-  for (const std::string jobs : {"1", "2", "4"}) {
-    const ToolResult result = run("convert -j " + jobs + " -o out" + jobs + "/ in/*.glb");
-    EXPECT_EQ(result.status, 0) << result.err;
-    EXPECT_EQ(result.err, "");
-    const auto files = filesOf("out" + jobs);
-    EXPECT_EQ(files.size(), names_.size());
-    if (first.empty()) first = files;
-    EXPECT_TRUE(files == first) << jobs;
-  }
-  for (const auto& [name, content] : first) {
-    ASSERT_EQ(run("convert in/" + name + " one.glb -j 3").status, 0);
-    EXPECT_TRUE(contentOf(path("one.glb")) == content) << name;
-  }
+  expectSameForAnyJobs("convert", "in", "out", {"1", "2", "4"});
 }
 
 /// Payloads are coded, decoded for the check and compared by several threads.
@@ -104,21 +114,7 @@ TEST_F(Batch, OneFileDoesNotDependOnTheThreads) {
 
 TEST_F(Batch, DecodesAsItConverts) {
   ASSERT_EQ(run("convert -o small/ in/*.glb").status, 0);
-  std::map<std::string, std::string> first;
-  for (const std::string jobs : {"1", "3"}) {
-    const ToolResult result = run("decode -j " + jobs + " -o back" + jobs + " small/*.glb");
-    EXPECT_EQ(result.status, 0) << result.err;
-    EXPECT_EQ(countOf(result.out, ".glb: "), names_.size()) << result.out;
-    EXPECT_NE(result.out.find("decoded"), std::string::npos) << result.out;
-    const auto files = filesOf("back" + jobs);
-    EXPECT_EQ(files.size(), names_.size());
-    if (first.empty()) first = files;
-    EXPECT_TRUE(files == first) << jobs;
-  }
-  for (const auto& [name, content] : first) {
-    ASSERT_EQ(run("decode small/" + name + " one.glb -j 3").status, 0);
-    EXPECT_TRUE(contentOf(path("one.glb")) == content) << name;
-  }
+  expectSameForAnyJobs("decode", "small", "back", {"1", "3"});
   const ToolResult again = run("decode -o back1 small/*.glb");
   EXPECT_EQ(countOf(again.out, "up to date\n"), names_.size()) << again.out;
   const ToolResult integers = run("decode -o back1 small/*.glb --decode-to integers");
