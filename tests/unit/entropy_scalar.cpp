@@ -39,8 +39,7 @@ mcc_scalar::TokenSchedule scheduleOf(const uint8_t* shifts) {
 ScalarResult scalarFindAndAdapt(ScalarRow& row, uint32_t slot, const uint8_t* schedule) {
   mcc_scalar::TokenRow copy = rowOf(row);
   ScalarResult result{};
-  result.symbol =
-      copy.findAndAdapt(slot, scheduleOf(schedule), result.start, result.frequency);
+  result.symbol = copy.findAndAdapt(slot, scheduleOf(schedule), result.start, result.frequency);
   store(copy, row);
   return result;
 }

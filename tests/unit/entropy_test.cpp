@@ -537,10 +537,10 @@ struct Mixture {
           const uint32_t truth = random.chance(70) ? 1 : random.below(kTokenCount);
           const uint32_t state = random.below(3);
           TokenRow& row = models.row[state];
-          const uint32_t symbol =
-              state == 0   ? io.template token<0>(row, kPositionSchedule, truth)
-              : state == 1 ? io.template token<1>(row, kPositionSchedule, truth)
-                           : io.template token<2>(row, kAttributeSchedule, truth);
+          const uint32_t symbol = state == 0 ? io.template token<0>(row, kPositionSchedule, truth)
+                                  : state == 1
+                                      ? io.template token<1>(row, kPositionSchedule, truth)
+                                      : io.template token<2>(row, kAttributeSchedule, truth);
           read.push_back(symbol);
           break;
         }
@@ -587,8 +587,8 @@ void expectMixture(uint64_t seed, uint32_t count) {
     EXPECT_TRUE(streams.tokens.empty());
     EXPECT_TRUE(streams.raw.empty());
   }
-  const double spent_bits = 8.0 * static_cast<double>(streams.codes.size() +
-                                                      streams.tokens.size() + streams.raw.size());
+  const double spent_bits =
+      8.0 * static_cast<double>(streams.codes.size() + streams.tokens.size() + streams.raw.size());
   EXPECT_NEAR(cost_bits, spent_bits, 250 + 0.01 * spent_bits);
 
   Mixture counted;

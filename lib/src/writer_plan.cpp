@@ -1,0 +1,147 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Preparation of a piece: quantise, weld, sort, cut, collapse.
+#include "writer_plan.h"
+
+#include <algorithm>
+
+namespace mcc {
+namespace {
+
+bool isBasePosition(const AttributeFormat& f) {
+  return f.semantic == Semantic::kPosition && f.morph_target == 0;
+}
+
+Status checkPiece(const PieceView& piece) {
+  if (piece.attributes.empty() || !isBasePosition(piece.attributes[0].format) ||
+      piece.attributes[0].format.component_count != 3) {
+    return fail(Error::kBadArgument,
+                "the first attribute of a piece must be POSITION with 3 components");
+  }
+  if (piece.wedge_count >= (1u << 28))
+    return fail(Error::kLimit, "a piece has more than 2^28 vertices");
+  if (piece.parts.empty()) return fail(Error::kBadArgument, "a piece has no parts");
+  for (const AttributeView& a : piece.attributes) {
+    if (!isComponentCount(a.format.component_count) ||
+        (a.data == nullptr && piece.wedge_count != 0) || a.stride_bytes < elementBytes(a.format) ||
+        a.quantization_bits > 24) {
+      return fail(Error::kBadArgument,
+                  "an attribute's format, data, stride or bits are out of range");
+    }
+  }
+  uint64_t triangles = 0;
+  for (const PartView& part : piece.parts) {
+    if (part.indices.size() % 3 != 0)
+      return fail(Error::kBadArgument, "a part's indices are no triangles");
+    triangles += part.indices.size() / 3;
+    for (const uint32_t index : part.indices) {
+      if (index >= piece.wedge_count)
+        return fail(Error::kBadArgument, "an index is not below wedge_count");
+    }
+  }
+  if (triangles >= (1u << 28)) return fail(Error::kLimit, "a piece has more than 2^28 triangles");
+  return {};
+}
+
+}  // namespace
+
+void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_edge) {
+  std::vector<uint32_t> corner_class(plan.triangles.wedges.size());
+  for (size_t i = 0; i < corner_class.size(); ++i) {
+    corner_class[i] = plan.classes.class_of_wedge[plan.triangles.wedges[i]];
+  }
+  plan.cut = cutToManifold(corner_class, plan.classes.class_count, pairing, start_half_edge);
+  plan.record = collapse(plan.cut.mesh);
+  const ClosedMesh& mesh = plan.cut.mesh;
+  plan.node_map.resize(plan.record.node_count);
+  plan.source_of_vertex.resize(mesh.real_vertex_count);
+  plan.source_gate.resize(mesh.real_face_count);
+
+  PieceHeader& h = plan.header;
+  h.vertex_count = mesh.real_vertex_count;
+  h.face_count = mesh.real_face_count;
+  h.operation_count = static_cast<uint32_t>(plan.record.operations.size());
+  h.dummy_count = mesh.dummy_count;
+  h.flags &= ~(piece_flag::kHoles | piece_flag::kHandles | piece_flag::kCopies |
+               piece_flag::kInteriorCopies | piece_flag::kMerges);
+  if (mesh.dummy_count != 0) h.flags |= piece_flag::kHoles;
+  if (!plan.record.handles.empty()) h.flags |= piece_flag::kHandles;
+
+  std::vector<uint8_t> on_boundary(mesh.real_vertex_count, 0);
+  std::vector<uint8_t> has_run_start(mesh.real_vertex_count, 0);
+  uint32_t run_count = 0;
+  for (uint32_t c = 0; c < 3 * mesh.real_face_count; ++c) {
+    const uint32_t t = mesh.twin[c];
+    const bool boundary = t / 3 >= mesh.real_face_count;
+    if (boundary) {
+      on_boundary[mesh.corner_vertex[c]] = 1;
+    } else if (plan.triangles.wedges[nextCorner(t)] == plan.triangles.wedges[c]) {
+      continue;
+    }
+    has_run_start[mesh.corner_vertex[c]] = 1;
+    ++run_count;
+  }
+  std::vector<uint8_t> umbrellas(plan.classes.class_count, 0);
+  for (uint32_t v = 0; v < mesh.real_vertex_count; ++v) {
+    uint8_t& n = umbrellas[plan.cut.class_of_vertex[v]];
+    n = static_cast<uint8_t>(std::min(2, n + 1));
+    run_count += has_run_start[v] == 0 ? 1 : 0;
+  }
+  for (uint32_t v = 0; v < mesh.real_vertex_count; ++v) {
+    if (umbrellas[plan.cut.class_of_vertex[v]] < 2) continue;
+    h.flags |= piece_flag::kCopies;
+    if (on_boundary[v] == 0) h.flags |= piece_flag::kInteriorCopies;
+  }
+  const uint32_t surface_wedges = h.wedge_count - h.isolated_count;
+  if (h.has(piece_flag::kSeams) && run_count > surface_wedges) h.flags |= piece_flag::kMerges;
+}
+
+Status preparePiece(const PieceView& view, const EncodeOptions& options, const Jobs& jobs,
+                    Plan& plan, std::vector<std::string>& notes) {
+  MCC_TRY(checkPiece(view));
+  if (options.indices_only && view.attributes.size() != 1)
+    return fail(Error::kBadArgument, "a piece without attributes has more than its position");
+  plan.view = &view;
+  jobs.run(2, [&](size_t i) {
+    if (i == 1) {
+      plan.triangles = sortTriangles(view.parts, view.wedge_count);
+      return;
+    }
+    plan.attributes = quantizeAttributes(view, notes);
+    plan.classes = weldPositions(view.attributes[0], view.wedge_count,
+                                 isExact(plan.attributes[0].info.coding));
+  });
+  PieceHeader& h = plan.header;
+  h.wedge_count = view.wedge_count;
+  h.isolated_count = static_cast<uint32_t>(plan.triangles.isolated.size());
+  h.duplicate_count = plan.triangles.duplicate_count;
+  h.listed_count = static_cast<uint32_t>(plan.triangles.listed.size());
+  h.part_count = static_cast<uint32_t>(view.parts.size());
+  if (options.indices_only) plan.attributes.clear();
+  h.attribute_count = static_cast<uint32_t>(plan.attributes.size());
+  if (h.isolated_count != 0) h.flags |= piece_flag::kIsolated;
+  if (h.duplicate_count != 0) h.flags |= piece_flag::kDuplicates;
+  if (h.listed_count != 0) h.flags |= piece_flag::kListed;
+  if (h.part_count > 1) h.flags |= piece_flag::kManyParts;
+  if (options.keep_triangle_order) h.flags |= piece_flag::kTriangleOrder;
+  if (options.keep_vertex_order) h.flags |= piece_flag::kVertexOrder;
+  std::vector<uint32_t> wedge_of_class(plan.classes.class_count, kNone);
+  for (const uint32_t w : plan.triangles.wedges) {
+    uint32_t& first = wedge_of_class[plan.classes.class_of_wedge[w]];
+    if (first == kNone) first = w;
+    if (first != w) h.flags |= piece_flag::kSeams;
+  }
+  return {};
+}
+
+std::vector<uint32_t> codingOrder(const Plan& plan) {
+  std::vector<uint32_t> order;
+  for (uint32_t phase = 0; phase < kCodingPhases; ++phase) {
+    for (uint32_t a = 1; a < plan.attributes.size(); ++a) {
+      if (codingPhase(plan.attributes[a].info) == phase) order.push_back(a);
+    }
+  }
+  return order;
+}
+
+}  // namespace mcc

@@ -1,0 +1,75 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// A piece on its way through the writer: what preparation finds, what the stages learn from one another, and what is
+// chosen for them.
+#ifndef MCC_SRC_WRITER_PLAN_H_
+#define MCC_SRC_WRITER_PLAN_H_
+
+#include <string>
+#include <vector>
+
+#include "attributes/enc_position_fit.h"
+#include "attributes/enc_position_planes.h"
+#include "attributes/enc_quantize.h"
+#include "base/enc_jobs.h"
+#include "connectivity/enc_collapse.h"
+#include "mcc/writer.h"
+#include "piece.h"
+#include "prepare/enc_cut.h"
+#include "prepare/enc_triangles.h"
+#include "prepare/enc_weld.h"
+
+namespace mcc {
+
+/// A piece on its way through the writer.
+struct Plan {
+  const PieceView* view = nullptr;
+  PieceHeader header;
+  std::vector<QuantizedAttribute> attributes;  ///< POSITION first
+  std::vector<uint32_t> source_attribute;      ///< index in view->attributes of each
+  PositionClasses classes;
+  SortedTriangles triangles;
+  CutResult cut;
+  McRecord record;
+
+  // Filled while the stages run; the same in every run.
+  std::vector<uint32_t> node_map;
+  std::vector<uint32_t> source_of_vertex;
+  std::vector<uint32_t> source_gate;
+  std::vector<uint32_t> class_of_vertex;
+  std::vector<uint32_t> corner_source;
+  std::vector<int32_t> positions;
+  std::vector<int32_t> exact_positions;  ///< ordered floats, if the positions are on an exact grid
+  DistinctCoordinates coordinates;
+  AxisPlanes planes[3];
+  PositionParameters positions_as;  ///< chosen, with fitted tables
+  std::vector<uint32_t> wedge_source;
+  std::vector<uint32_t> part_of_face;
+  std::vector<uint32_t> duplicates_of_face;
+  std::vector<uint32_t> degenerates_of_edge;
+  std::vector<uint32_t> degenerate_parts;
+  std::vector<ListedTriangle> list;
+  std::vector<uint32_t> triangle_order;
+  std::vector<uint32_t> wedge_order;
+};
+
+inline bool isExact(AttributeCoding coding) {
+  return coding == AttributeCoding::kExactFloat || coding == AttributeCoding::kGrid;
+}
+
+constexpr uint32_t nextCorner(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
+constexpr uint32_t prevCorner(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
+
+/// Checks the piece, quantises and welds it, and sorts its triangles.
+Status preparePiece(const PieceView& view, const EncodeOptions& options, const Jobs& jobs,
+                    Plan& plan, std::vector<std::string>& notes);
+
+/// Cuts the surface to a manifold and collapses it; sets what the header says of it. May be called again.
+void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_edge);
+
+/// The attributes but the first in the order in which their phases code them.
+std::vector<uint32_t> codingOrder(const Plan& plan);
+
+}  // namespace mcc
+
+#endif  // MCC_SRC_WRITER_PLAN_H_
