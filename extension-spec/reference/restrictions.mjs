@@ -95,6 +95,7 @@ export function checkPiece(json, primitive, piece) {
 	require(piece.wedgeCount < 2 ** (8 * BYTES[indices.componentType]), 'the indices cannot hold the number of vertices');
 	const triangles = piece.partSizes[primitive.extensions[EXTENSION].part ?? 0];
 	require(triangles !== undefined, 'the part does not exist');
+	require(piece.wedgeCount > 0 && triangles > 0, 'the piece has no wedges, or the part no triangles');
 	require(indices.count === 3 * triangles, 'the indices have another count than the part');
 	for (const { name, target, accessor, attribute } of sourcesOf(primitive)) {
 		checkAttribute(json.accessors[accessor], name, target, piece.attributes[attribute]);

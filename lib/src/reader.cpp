@@ -444,6 +444,8 @@ Status Payload::open(std::span<const uint8_t> bytes, const Limits& limits,
     info.vertex_count = p.vertex_count;
     info.attributes = {header.attributes.data() + p.first_attribute, p.attribute_count};
     info.parts = {header.parts.data() + p.first_part, p.part_count};
+    info.keeps_vertex_order = p.has(piece_flag::kVertexOrder);
+    info.keeps_triangle_order = p.has(piece_flag::kTriangleOrder);
     (void)state.pieces.push_back(info);  // reserved above
   }
   state.info.version_major = kVersionMajor;

@@ -138,6 +138,22 @@ TEST(Conformance, EveryTruncationIsAnError) {
   }
 }
 
+/// The checksum left as it was.
+TEST(Conformance, TenThousandMutationsAreErrors) {
+  std::vector<File> files;
+  for (const Json& asset : manifest()["assets"]) files.emplace_back(asset);
+  for (uint64_t i = 0; i < 10000; ++i) {
+    const File& file = files[i % files.size()];
+    Random random(i);
+    const size_t header_bytes = std::min<size_t>(file.payload.size(), 40);
+    const std::vector<uint8_t> damaged = mutated(file.payload, header_bytes, random);
+    if (std::equal(damaged.begin(), damaged.end(), file.payload.begin(), file.payload.end())) {
+      continue;
+    }
+    ASSERT_NE(errorOf(damaged, damaged.size()), Error::kOk) << file.name << ", mutation " << i;
+  }
+}
+
 /// Every part of the format that an asset can show is shown by one, as far as the sections tell.
 TEST(Conformance, SectionsAreCovered) {
   std::set<std::string> covered;

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Any bytes as a GLB, or any bytes as the JSON and the buffer of one: decode, inspect and convert end with a file or with a
+// Any bytes as a GLB, or any bytes as the JSON and the buffer of one: decode, inspect, validate and convert end with a file or with a
 // message. Payloads in buffer views get the right checksum. What decodes decodes again after another compression.
 #include <algorithm>
 #include <cstring>
@@ -72,6 +72,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   test::requireMessage(result);
   InspectReport inspect_report;
   test::requireMessage(inspectGlb(file, true, inspect_report));
+  ValidationReport validation;
+  test::requireMessage(validate({"file.glb", file}, {}, validation));
   if (!result.ok()) return 0;
   std::vector<uint8_t> converted;
   ConvertOptions options;

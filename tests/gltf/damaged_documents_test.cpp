@@ -121,10 +121,14 @@ void tryAll(std::span<const uint8_t> file) {
   options.indices_only = true;
   expectOneLine(convertGlb(file, options, output, convert_report));
   DecodeReport decode_report;
-  expectOneLine(decodeGlb(file, output, decode_report));
+  const Result decoded = decodeGlb(file, output, decode_report);
+  expectOneLine(decoded);
   expectOneLine(decodeGlb(file, output, decode_report, DecodeTo::kIntegers));
   InspectReport inspect_report;
   expectOneLine(inspectGlb(file, true, inspect_report));
+  ValidationReport validation;
+  expectOneLine(validate({"file.glb", file}, {}, validation));
+  EXPECT_TRUE(decoded.ok() || !validation.isValid()) << decoded.message();
 }
 
 /// Changes the JSON of a file in `count` ways and tries them all.

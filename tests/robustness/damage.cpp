@@ -197,6 +197,11 @@ Outcome decodeDamaged(std::span<const uint8_t> payload) {
       }
       DecodeOptions options;
       options.allocator = counting.allocator();
+      options.progress = [](void* user, double) {
+        ++*static_cast<uint64_t*>(user);
+        return true;
+      };
+      options.progress_user = &outcome.finished_steps;
       ended(opened.decode(targets, options));
       if (outcome.error == Error::kOk) outcome.failure = checkShape(info, memory);
       if (counting.peakBytes() > kFixedBytes + kBytesPerElement * elementCount(info))

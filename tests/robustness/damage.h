@@ -27,6 +27,7 @@ std::vector<uint8_t> mutated(std::span<const uint8_t> payload, size_t header_byt
 struct Outcome {
   Error error = Error::kOk;
   bool reached_decode = false;
+  uint64_t finished_steps = 0;  ///< calls of DecodeOptions::progress
   std::string failure;  ///< "" for an error, or for a shape that is as valid as the reader promises
 };
 

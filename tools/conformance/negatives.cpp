@@ -54,6 +54,14 @@ std::string slug(const std::string& text) {
   return out;
 }
 
+/// Gives an attribute the flag MORE, with this set and morph target. `attribute` is the prefix of its fields.
+void stateMore(HeaderFields& fields, const std::string& attribute, uint8_t set,
+               const Bytes& target) {
+  fields.set(attribute + "kind", fields.get(attribute + "kind") | 0x80);
+  fields.insertBefore(attribute + "predictor", attribute + "set", {set});
+  fields.insertBefore(attribute + "predictor", attribute + "target", target);
+}
+
 class Maker {
  public:
   explicit Maker(std::span<const Asset> assets) : assets_(assets) {
@@ -71,6 +79,8 @@ class Maker {
     contradictions();
     searched();
     documents();
+    sharedAccessors();
+    emptyParts();
     if (!problems_.empty()) throw std::runtime_error(problems_);
     return std::move(all_);
   }
@@ -390,11 +400,7 @@ class Maker {
     const Change positions[] = {
         {"position is a normal", "The first attribute is no position", set("0.0.kind", 5 << 3 | 1)},
         {"position with a set", "The position has set 1",
-         [](HeaderFields& f) {
-           f.set("0.0.kind", f.get("0.0.kind") | 0x80);
-           f.insertBefore("0.0.predictor", "0.0.set", {1});
-           f.insertBefore("0.0.predictor", "0.0.target", {0});
-         }},
+         [](HeaderFields& f) { stateMore(f, "0.0.", 1, {0}); }},
         {"position of two components", "The position has two components",
          [](HeaderFields& f) {
            f.set("0.0.shape", 1);
@@ -415,17 +421,9 @@ class Maker {
         {"coding 7", "A coding that is not assigned", set("0.0.shape", 7 << 4 | 2)},
         {"coding 15", "A coding that is not assigned", set("0.0.shape", 15 << 4 | 2)},
         {"more without need", "MORE, though set and morph target are 0",
-         [](HeaderFields& f) {
-           f.set("0.0.kind", f.get("0.0.kind") | 0x80);
-           f.insertBefore("0.0.predictor", "0.0.set", {0});
-           f.insertBefore("0.0.predictor", "0.0.target", {0});
-         }},
+         [](HeaderFields& f) { stateMore(f, "0.0.", 0, {0}); }},
         {"morph target 65536", "A morph target above 65535",
-         [](HeaderFields& f) {
-           f.set("0.0.kind", f.get("0.0.kind") | 0x80);
-           f.insertBefore("0.0.predictor", "0.0.set", {0});
-           f.insertBefore("0.0.predictor", "0.0.target", varint(65536));
-         }},
+         [](HeaderFields& f) { stateMore(f, "0.0.", 0, varint(65536)); }},
         {"integer floats", "Floats with the coding of integers", set("0.0.shape", 1 << 4 | 2)},
         {"lattice of integers", "Integers with the coding of floats", set("0.0.kind", 2 << 3)},
         {"lattice of 0 bits", "A lattice of 0 bits", set("0.0.bits", 0)},
@@ -481,11 +479,7 @@ class Maker {
           return a.coding == AttributeCoding::kOctahedral &&
                  a.format.semantic == Semantic::kTangent;
         },
-        [](HeaderFields& f, const std::string& k) {
-          f.set(k + "kind", f.get(k + "kind") | 0x80);
-          f.insertBefore(k + "predictor", k + "set", {0});
-          f.insertBefore(k + "predictor", k + "target", {1});
-        });
+        [](HeaderFields& f, const std::string& k) { stateMore(f, k, 0, {1}); });
     other("angle that is no tangent", "A tangent angle whose semantic is not that of tangents",
           coded(AttributeCoding::kTangentAngle),
           [](HeaderFields& f, const std::string& k) { f.set(k + "kind", 5 << 3 | 4); });
@@ -976,6 +970,71 @@ class Maker {
                    {"count", 1},
                    {"mode", "ATTRIBUTES"}};
                j["extensionsUsed"].push_back("EXT_meshopt_compression");
+             });
+  }
+
+  /// Accessors that a payload fills, and something else refers to.
+  void sharedAccessors() {
+    const Asset& plain = base([](const PayloadHeader& h) {
+      return attributeWith(h, [](const AttributeInfo& a) {
+               return a.format.semantic == Semantic::kNormal && a.format.morph_target == 0 &&
+                      a.format.component_count == 3;
+             }) != kNone;
+    });
+    document(
+        "accessor of another mesh", "another primitive, without the extension, draws POSITION",
+        plain, [](Json& j, Json& p, Json&) {
+          const Json position = p["attributes"]["POSITION"];
+          j["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", position}}}}}}});
+        });
+    document("accessor of an ordinary attribute",
+             "an attribute beside the payload has the accessor of NORMAL", plain,
+             [](Json&, Json& p, Json&) { p["attributes"]["_COPY"] = p["attributes"]["NORMAL"]; });
+    document("accessor of a skin", "the inverse bind matrices are the accessor of NORMAL", plain,
+             [](Json& j, Json& p, Json&) {
+               const Json normal = p["attributes"]["NORMAL"];
+               j["skins"] = {{{"joints", {0}}, {"inverseBindMatrices", normal}}};
+             });
+    document("accessor of an animation", "an animation's output is the accessor of NORMAL", plain,
+             [](Json& j, Json& p, Json&) {
+               const Json normal = p["attributes"]["NORMAL"];
+               const Json input = {{"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}};
+               j["accessors"].push_back(input);
+               j["animations"] = {
+                   {{"channels", Json::array()},
+                    {"samplers", {{{"input", j["accessors"].size() - 1}, {"output", normal}}}}}};
+             });
+  }
+
+  /// Accessors have at least one element.
+  void emptyParts() {
+    const auto emptyPart = [](const PayloadHeader& h) {
+      for (uint32_t i = 0; h.pieces.size() == 1 && i < h.pieces[0].part_count; ++i) {
+        if (h.parts[i].triangle_count == 0) return i;
+      }
+      return kNone;
+    };
+    const Asset& parts = base([&](const PayloadHeader& h) { return emptyPart(h) != kNone; });
+    const uint32_t part = emptyPart(headerOf(parts.payload));
+    document("part without triangles", "the part has no triangles", parts,
+             [&](Json& j, Json& p, Json& e) {
+               e["part"] = part;
+               j["accessors"][p["indices"].get<size_t>()]["count"] = 0;
+             });
+    const auto emptyPiece = [](const PayloadHeader& h) {
+      for (uint32_t i = 0; i < h.pieces.size(); ++i) {
+        if (h.pieces[i].wedge_count == 0) return i;
+      }
+      return kNone;
+    };
+    const Asset& pieces = base([&](const PayloadHeader& h) { return emptyPiece(h) != kNone; });
+    const uint32_t piece = emptyPiece(headerOf(pieces.payload));
+    document("piece without wedges", "the piece has no wedges, and so its part no triangles",
+             pieces, [&](Json& j, Json& p, Json& e) {
+               e = {{"bufferView", 0}, {"piece", piece}};
+               p["attributes"] = Json::object();
+               p.erase("targets");
+               j["accessors"][p["indices"].get<size_t>()]["count"] = 0;
              });
   }
 

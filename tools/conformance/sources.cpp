@@ -614,7 +614,8 @@ void gridSources(std::vector<Source>& all) {
                 i < 9 ? std::pow(10.0, i) : std::ldexp(1.0, static_cast<int>(i) - 7) - 1;
             b.floats("_GRID_" + std::to_string(i), kBase, "SCALAR", 0,
                      [scale](const Place& at, uint32_t) {
-                       const double x = double{at.position(0)} * 0.03 + static_cast<double>(at.wedge) * 0.001;
+                       const double x =
+                           double{at.position(0)} * 0.03 + static_cast<double>(at.wedge) * 0.001;
                        return static_cast<float>(std::floor(x * scale + 0.5) / scale);
                      });
           }
@@ -793,7 +794,52 @@ void largerSources(std::vector<Source>& all) {
   }
 }
 
+/// In a part of the grid most vertices have a weight of 1 alone; whole weights among them expect a sum of 1.
+Source skinOfTinyWeights() {
+  return single(
+      "tiny_weights", "Weights whose expected sum is 1", withNormals(grid(14, 14)),
+      [](SourceBuilder& b) {
+        b.positions(10);
+        NamedAttribute joints = makeAttribute("JOINTS_0", kBase, "VEC4", ComponentType::kUint8);
+        NamedAttribute weights =
+            makeAttribute("WEIGHTS_0", kBase, "VEC4", ComponentType::kUint8, true);
+        for (uint32_t w = 0; w < b.piece().wedge_count; ++w) {
+          const bool is_whole = w / 15 < 9 || (w % 15 % 3 == 1 && w / 15 % 3 == 1);
+          const uint32_t first = b.random().between(40, 120);
+          const uint32_t second = b.random().between(60, 120);
+          const std::array<uint32_t, 4> joint = {is_whole ? 1u : 9u, is_whole ? 9u : 0u,
+                                                 is_whole ? 17u : 0u, 0u};
+          const std::array<uint32_t, 4> weight = {is_whole ? first : 1u, is_whole ? second : 0u,
+                                                  is_whole ? 255 - first - second : 0u, 0u};
+          for (const uint32_t x : joint) joints.append(static_cast<uint8_t>(x));
+          for (const uint32_t x : weight) weights.append(static_cast<uint8_t>(x));
+        }
+        b.piece().attributes.push_back(joints);
+        b.piece().attributes.push_back(weights);
+      });
+}
+
+/// Coordinates a little above the largest that directions of faces are computed with.
+Source positionsAbove3e38(uint8_t normal_bits) {
+  const std::string kind = normal_bits == 0 ? "exact" : "octahedral";
+  return single("positions_above_3e38_" + kind,
+                "Coordinates of 3.01e38, which count as 0 where normals are predicted",
+                withNormals(torus(9, 8)), [=](SourceBuilder& b) {
+                  b.floats("POSITION", kBase, "VEC3", 0, [](const Place& at, uint32_t c) {
+                    return c == 0 && at.wedge % 5 == 0 ? 3.01e38f : at.position(c) * 1e38f;
+                  });
+                  b.normals(normal_bits);
+                  b.tangents(normal_bits, true);
+                });
+}
+
 }  // namespace
+
+std::vector<Source> addedSources() {
+  return {single("many_digons", "Hundreds of digons wait, and handles put others far below them",
+                 plateWithTunnels(620, 1), [](SourceBuilder& b) { b.positions(10); }),
+          skinOfTinyWeights(), positionsAbove3e38(0), positionsAbove3e38(9)};
+}
 
 std::vector<Source> chosenSources() {
   std::vector<Source> all;

@@ -14,6 +14,9 @@ namespace mcc::conformance {
 /// Sources that show one thing each; all become assets.
 std::vector<Source> chosenSources();
 
+/// The same, of assets that came later: nothing that was there before depends on them.
+std::vector<Source> addedSources();
+
 /// A random source: surface, attributes, options. The same for the same seed on every machine.
 Source randomSource(uint64_t seed);
 /// The same of an isosurface whose positions may lie on planes.

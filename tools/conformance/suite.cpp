@@ -132,13 +132,25 @@ std::vector<Candidate> makeCandidates() {
     random.push_back({std::move(asset), std::move(features)});
   }
   for (Candidate& candidate : choose(std::move(random), met)) all.push_back(std::move(candidate));
+  return all;
+}
+
+void addSources(std::vector<Candidate>& all) {
+  for (const Source& source : addedSources()) {
+    Asset asset = encodeSource(source);
+    Features features = featuresOf(asset.payload);
+    all.push_back({std::move(asset), std::move(features)});
+  }
+}
+
+/// Puts numbers in front of the names.
+void numberNames(std::vector<Candidate>& all) {
   uint32_t number = 0;
   for (Candidate& candidate : all) {
     char prefix[8];
     std::snprintf(prefix, sizeof prefix, "%03u_", static_cast<unsigned>(++number));
     candidate.asset.name = prefix + fileName(candidate.asset.name);
   }
-  return all;
 }
 
 std::vector<uint8_t> asFile(const Json& manifest) {
@@ -186,7 +198,11 @@ Json sectionsOf(const Negative& negative) {
 }  // namespace
 
 Suite makeSuite() {
-  const std::vector<Candidate> candidates = makeCandidates();
+  std::vector<Candidate> candidates = makeCandidates();
+  std::vector<Asset> assets;  // of which negative ones are made
+  for (const Candidate& candidate : candidates) assets.push_back(candidate.asset);
+  addSources(candidates);
+  numberNames(candidates);
   Suite suite;
   Json manifest = {{"extension", gltf::kExtensionName},
                    {"payloadVersion", "1.0"},
@@ -194,7 +210,6 @@ Suite makeSuite() {
                    {"negative", Json::array()}};
   std::set<std::string> features;
   size_t bytes = 0;
-  std::vector<Asset> assets;
   for (const Candidate& candidate : candidates) {
     const std::string file = "assets/" + candidate.asset.name + ".glb";
     suite[file] = makeGlb(candidate.asset);
@@ -204,7 +219,6 @@ Suite makeSuite() {
                                   {"shows", candidate.asset.shows},
                                   {"spec", sectionsOf(candidate.features)},
                                   {"primitives", expectedOf(candidate.asset)}});
-    assets.push_back(candidate.asset);
   }
   const std::vector<Negative> negatives = makeNegatives(assets);
   for (const Negative& negative : negatives) {
@@ -219,7 +233,7 @@ Suite makeSuite() {
   }
   suite["manifest.json"] = asFile(manifest);
   std::printf("%zu assets, %zu negative ones, %zu features, %zu bytes, manifest %zu bytes\n",
-              assets.size(), negatives.size(), features.size(), bytes,
+              candidates.size(), negatives.size(), features.size(), bytes,
               suite["manifest.json"].size());
   return suite;
 }

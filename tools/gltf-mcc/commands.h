@@ -26,6 +26,7 @@ struct CommonOptions {
 void addConvert(CLI::App& app, int& status);
 void addDecode(CLI::App& app, int& status);
 void addInspect(CLI::App& app, int& status);
+void addValidate(CLI::App& app, int& status);
 #if defined(MCC_HAS_FOREIGN)
 void addCompare(CLI::App& app, int& status);
 void addBench(CLI::App& app, int& status);

@@ -74,6 +74,7 @@ int run(int argc, char** argv) {
   addConvert(app, status);
   addDecode(app, status);
   addInspect(app, status);
+  addValidate(app, status);
 #if defined(MCC_HAS_FOREIGN)
   addCompare(app, status);
   addBench(app, status);
@@ -86,7 +87,8 @@ int run(int argc, char** argv) {
       "convert model.glb small.glb\n"
       "convert -j 4 -o small models/*.glb\n"
       "decode small.glb model.glb\n"
-      "inspect small.glb");
+      "inspect small.glb\n"
+      "validate small.glb");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {  // also thrown for --help and --version

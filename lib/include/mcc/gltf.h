@@ -241,6 +241,41 @@ struct InspectReport {
   uint32_t primitive_count = 0;
 };
 
+/// Numbered as in the reports of Khronos' glTF validator.
+enum class Severity : uint8_t { kError = 0, kWarning = 1, kInfo = 2, kHint = 3 };
+
+struct ValidationIssue {
+  Severity severity = Severity::kError;
+  std::string code;     ///< "COUNT_MISMATCH"; README lists them
+  std::string message;  ///< one line, no full stop
+  std::string pointer;  ///< RFC 6901, into the JSON; empty where the issue has no place there
+};
+
+struct ValidateOptions {
+  Limits limits;               ///< of each payload
+  uint32_t max_issues = 1000;  ///< more are counted, but not listed; 0: all are listed
+};
+
+struct ValidationReport {
+  std::vector<ValidationIssue> issues;  ///< in the order they were found
+  uint64_t issue_counts[4] = {};        ///< by severity; of all, listed or not
+  bool is_truncated = false;            ///< some are not listed
+  // What the file is, as far as it could be loaded.
+  bool is_glb = false;
+  std::string version;    ///< of glTF
+  std::string generator;  ///< as the file says
+  std::vector<std::string> extensions_used;
+  std::vector<std::string> extensions_required;
+  uint64_t input_bytes = 0;
+  uint32_t primitive_count = 0;             ///< of the file
+  uint32_t compressed_primitive_count = 0;  ///< of these, with the extension
+  uint32_t payload_count = 0;
+  uint64_t triangle_count = 0;  ///< of the payloads that decode
+  uint64_t wedge_count = 0;     ///< the same
+
+  bool isValid() const { return issue_counts[static_cast<size_t>(Severity::kError)] == 0; }
+};
+
 /// Where a document comes from.
 struct Source {
   std::filesystem::path path;  ///< of a .glb or .gltf; its buffers and images lie beside it
@@ -297,6 +332,13 @@ Result decodeFile(const std::filesystem::path& source, const std::filesystem::pa
 /// Lists the payloads of a file. With `count_codes` they are decoded to count their codes.
 Result inspectGlb(std::span<const uint8_t> source, bool count_codes, InspectReport& report);
 Result inspectFile(const std::filesystem::path& source, bool count_codes, InspectReport& report);
+
+/// Checks a file against every rule of the extension for loaders and writers: the extension objects, the accessors they
+/// fill, the lists of extensions, fallbacks, and the payloads, which are decoded. Goes on behind an issue wherever that is
+/// possible. Whether the rest of the file is good glTF is another validator's affair, except that it can be loaded.
+/// Errors: the file cannot be read. Whatever is wrong inside is in `report`.
+/// Safe for untrusted input. Deterministic. Tests: tests/gltf/validate_test.cpp, tests/cli/validate_test.cpp.
+Result validate(const Source& source, const ValidateOptions& options, ValidationReport& report);
 
 }  // namespace mcc::gltf
 

@@ -68,6 +68,8 @@ struct PieceInfo {
   uint32_t vertex_count = 0;                  ///< topological vertices before re-stitching
   std::span<const AttributeInfo> attributes;  ///< none: the payload has the triangles alone
   std::span<const PartInfo> parts;
+  bool keeps_vertex_order = false;    ///< wedges are numbered as in the source
+  bool keeps_triangle_order = false;  ///< triangles, with each one's first corner, come as in the source
 };
 
 /// Symbols of the mesh collapse code as the paper's table 1 counts them.

@@ -222,7 +222,7 @@ Status Stitcher<Io>::run(bool interior_copies, uint32_t class_count, Groups& gro
     if (!interior_copies && !onBoundary(v)) continue;
     MCC_TRY(stitchVertex(v));
     if ((v & 0xff) == 0 && io_.overrun()) {
-      return fail(Error::kTruncated, "the code stream ends edge the stitching");
+      return fail(Error::kTruncated, "the code stream ends inside the stitching");
     }
   }
   return finish(groups);

@@ -2,7 +2,7 @@
 #include "gltf/decompress.h"
 
 #include <algorithm>
-#include <tuple>
+#include <set>
 
 #include "gltf/accessors.h"
 #include "gltf/integers.h"
@@ -14,9 +14,6 @@ namespace {
 
 constexpr uint32_t kArrayBuffer = 34962;
 constexpr uint32_t kElementArrayBuffer = 34963;
-
-/// Where the elements of an accessor come from: (buffer view, piece, is a part, id).
-using Origin = std::tuple<uint32_t, uint64_t, bool, uint64_t>;
 
 class Decompressor {
  public:
@@ -90,7 +87,6 @@ class Decompressor {
     MCC_GLTF_TRY(toResult(decoded.payload.open(payloadBytes(document_, number)), whereOf(view)));
     for (const ExtensionUse* use : users) {
       MCC_GLTF_TRY(checkAgainstPayload(document_, *use, decoded.payload.info()));
-      MCC_GLTF_TRY(claimAccessors(*use));
     }
     return {};
   }
@@ -105,21 +101,6 @@ class Decompressor {
       for (const PartInfo& part : piece.parts) out_.triangle_count += part.triangle_count;
     }
     decoded.pieces.clear();
-  }
-
-  Result claim(uint32_t accessor, const Origin& origin, const std::string& path) {
-    const auto [found, is_new] = origins_.try_emplace(accessor, origin);
-    if (is_new || found->second == origin) return {};
-    return error(path, "accessor " + std::to_string(accessor) +
-                           " is filled from two different places of the payloads");
-  }
-
-  Result claimAccessors(const ExtensionUse& use) {
-    for (const ExtensionUse::AttributeUse& attribute : use.attributes) {
-      MCC_GLTF_TRY(
-          claim(attribute.accessor, {use.view, use.piece, false, attribute.id}, attribute.path));
-    }
-    return claim(use.indices_accessor, {use.view, use.piece, true, use.part}, use.path);
   }
 
   void storeAttributes(const ExtensionUse& use, const DecodedPayload& decoded) {
@@ -164,7 +145,6 @@ class Decompressor {
   const DecodeTo decode_to_;
   const uint32_t thread_count_;
   Decompressed& out_;
-  std::map<uint32_t, Origin> origins_;
   std::set<uint32_t> stored_;
   std::vector<ExtensionUse> uses_;
   std::vector<DecodedAccessor> accessors_;

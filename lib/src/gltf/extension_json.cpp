@@ -1,192 +1,334 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Reading and checking the extension objects of primitives.
+#include <map>
 #include <set>
+#include <tuple>
 
 #include "gltf/accessors.h"
 #include "gltf/decompress.h"
 #include "gltf/plan.h"
+#include "gltf/references.h"
 
 namespace mcc::gltf {
 namespace {
 
 constexpr uint64_t kMaxNumber = 0xffffffffu;
 
-Result readAccessorNumber(const Document& document, const Json& object, const char* key,
-                          const std::string& path, uint32_t& accessor) {
+/// The accessor that a member names; false, with an issue, when it names none.
+bool readAccessorNumber(const Document& document, const Json& object, const char* key,
+                        const std::string& path, Rule rule, Issues& issues, uint32_t& accessor) {
   uint64_t index = 0;
-  MCC_GLTF_TRY(readUnsigned(object, key, path, kMaxNumber, index));
+  if (!issues.passes(rule, readUnsigned(object, key, path, kMaxNumber, index))) return false;
   if (index >= document.accessors.size()) {
-    return error(at(path, key), "there is no accessor " + std::to_string(index));
+    issues.add(Rule::kReference, at(path, key), "there is no accessor " + std::to_string(index));
+    return false;
   }
   accessor = static_cast<uint32_t>(index);
-  return {};
+  return true;
 }
 
 /// Reads one map name -> attribute id; the primitive's own map names the accessors.
-Result readMap(const Document& document, const Json& ids, const std::string& path,
-               const Json* accessors, const std::string& accessors_path, uint32_t target,
-               ExtensionUse& use) {
-  if (!ids.is_object()) return error(path, "must be an object");
+void readMap(const Document& document, const Json& ids, const std::string& path,
+             const Json* accessors, const std::string& accessors_path, uint32_t target,
+             Issues& issues, ExtensionUse& use) {
+  if (!ids.is_object()) return issues.add(Rule::kSchema, path, "must be an object");
   for (const auto& [name, ignored] : ids.items()) {
     ExtensionUse::AttributeUse attribute;
     attribute.name = name;
     attribute.target = target;
     attribute.path = at(path, name);
-    MCC_GLTF_TRY(readUnsigned(ids, name.c_str(), path, kMaxNumber, attribute.id));
+    const bool has_id = issues.passes(
+        Rule::kSchema, readUnsigned(ids, name.c_str(), path, kMaxNumber, attribute.id));
     if (accessors == nullptr || findMember(*accessors, name.c_str()) == nullptr) {
-      return error(attribute.path, "the primitive has no attribute of this name");
+      issues.add(Rule::kAttributeName, attribute.path,
+                 "the primitive has no attribute of this name");
+    } else if (readAccessorNumber(document, *accessors, name.c_str(), accessors_path,
+                                  Rule::kReference, issues, attribute.accessor) &&
+               has_id) {
+      use.attributes.push_back(std::move(attribute));
     }
-    MCC_GLTF_TRY(
-        readAccessorNumber(document, *accessors, name.c_str(), accessors_path, attribute.accessor));
-    use.attributes.push_back(std::move(attribute));
   }
-  return {};
 }
 
-Result readTargets(const Document& document, const Json& extension, const Json& primitive,
-                   ExtensionUse& use) {
+void readTargets(const Document& document, const Json& extension, const Json& primitive,
+                 Issues& issues, ExtensionUse& use) {
   const Json* targets = findMember(extension, "targets");
-  if (targets == nullptr) return {};
+  if (targets == nullptr) return;
   const std::string path = use.path + "/targets";
-  if (!targets->is_array()) return error(path, "must be an array");
+  if (!targets->is_array() || targets->empty()) {
+    return issues.add(Rule::kSchema, path, "must be an array that is not empty");
+  }
   const Json& own = arrayOf(primitive, "targets");
   if (targets->size() != own.size()) {
-    return error(path, "has " + std::to_string(targets->size()) + " targets, the primitive " +
-                           std::to_string(own.size()));
+    issues.add(Rule::kTargetCount, path,
+               "has " + std::to_string(targets->size()) + " targets, the primitive " +
+                   std::to_string(own.size()));
   }
   const std::string own_path = primitivePath(use.mesh, use.primitive) + "/targets";
-  for (uint32_t i = 0; i < targets->size(); ++i) {
-    MCC_GLTF_TRY(readMap(document, (*targets)[i], at(path, i), &own[i], at(own_path, i), i, use));
+  for (uint32_t i = 0; i < std::min(targets->size(), own.size()); ++i) {
+    readMap(document, (*targets)[i], at(path, i), &own[i], at(own_path, i), i, issues, use);
   }
-  return {};
 }
 
-Result readExtension(const Document& document, const Json& extension, const Json& primitive,
-                     ExtensionUse& use) {
+void readView(const Document& document, const Json& extension, Issues& issues, ExtensionUse& use) {
+  uint64_t number = 0;
+  if (!issues.passes(Rule::kSchema,
+                     readUnsigned(extension, "bufferView", use.path, kMaxNumber, number))) {
+    return;
+  }
+  const std::string path = use.path + "/bufferView";
+  if (number >= document.views.size()) {
+    return issues.add(Rule::kReference, path, "there is no bufferView " + std::to_string(number));
+  }
+  const BufferView& view = document.views[number];
+  if (view.isCoded()) {
+    return issues.add(
+        Rule::kPayloadView, path,
+        "bufferView " + std::to_string(number) + " is coded with " + view.coding.extension);
+  }
+  use.view = static_cast<uint32_t>(number);
+}
+
+void readExtension(const Document& document, const Json& extension, const Json& primitive,
+                   Issues& issues, ExtensionUse& use) {
   const std::string primitive_path = primitivePath(use.mesh, use.primitive);
   use.path = primitive_path + "/extensions/" + kExtensionName;
-  if (!extension.is_object()) return error(use.path, "must be an object");
-  if (findMember(primitive["extensions"], "KHR_draco_mesh_compression") != nullptr) {
-    return error(use.path, "the primitive is compressed with KHR_draco_mesh_compression, too");
+  if (!extension.is_object()) return issues.add(Rule::kSchema, use.path, "must be an object");
+  if (findMember(primitive["extensions"], kMeshExtension) != nullptr) {
+    issues.add(Rule::kTwoCompressions, use.path,
+               std::string("the primitive is compressed with ") + kMeshExtension + ", too");
   }
-  uint64_t view = 0;
-  MCC_GLTF_TRY(readUnsigned(extension, "bufferView", use.path, kMaxNumber, view));
-  if (view >= document.views.size()) {
-    return error(use.path + "/bufferView", "there is no bufferView " + std::to_string(view));
-  }
-  if (document.views[view].isCoded()) {
-    return error(use.path + "/bufferView", "bufferView " + std::to_string(view) +
-                                               " is coded with " +
-                                               document.views[view].coding.extension);
-  }
-  use.view = static_cast<uint32_t>(view);
-  MCC_GLTF_TRY(readOptionalUnsigned(extension, "piece", use.path, kMaxNumber, use.piece));
-  MCC_GLTF_TRY(readOptionalUnsigned(extension, "part", use.path, kMaxNumber, use.part));
+  readView(document, extension, issues, use);
+  const auto read = [&](const char* key, uint64_t& number) {
+    return issues.passes(Rule::kSchema,
+                         readOptionalUnsigned(extension, key, use.path, kMaxNumber, number));
+  };
+  const bool has_piece = read("piece", use.piece);
+  use.has_numbers = read("part", use.part) && has_piece;
   uint64_t mode = 4;
-  MCC_GLTF_TRY(readOptionalUnsigned(primitive, "mode", primitive_path, 6, mode));
-  if (mode != 4) {
-    return error(primitive_path + "/mode", "must be 4 (triangles) in a compressed primitive");
+  if (issues.passes(Rule::kMode,
+                    readOptionalUnsigned(primitive, "mode", primitive_path, 6, mode)) &&
+      mode != 4) {
+    issues.add(Rule::kMode, primitive_path + "/mode",
+               "must be 4 (triangles) in a compressed primitive");
   }
-  MCC_GLTF_TRY(
-      readAccessorNumber(document, primitive, "indices", primitive_path, use.indices_accessor));
+  readAccessorNumber(document, primitive, "indices", primitive_path, Rule::kIndices, issues,
+                     use.indices_accessor);
   if (const Json* ids = findMember(extension, "attributes"); ids != nullptr) {
-    MCC_GLTF_TRY(readMap(document, *ids, use.path + "/attributes",
-                         findMember(primitive, "attributes"), primitive_path + "/attributes", kNone,
-                         use));
+    readMap(document, *ids, use.path + "/attributes", findMember(primitive, "attributes"),
+            primitive_path + "/attributes", kNone, issues, use);
   }
-  return readTargets(document, extension, primitive, use);
+  readTargets(document, extension, primitive, issues, use);
 }
 
-Result checkAttribute(const Document& document, const ExtensionUse::AttributeUse& attribute,
-                      const PieceInfo& piece) {
+/// What an extension object, if there is one, names of a morph target.
+const Json* targetOf(const Json* extension, uint32_t target) {
+  if (extension == nullptr) return nullptr;
+  const Json& targets = arrayOf(*extension, "targets");
+  return target < targets.size() ? &targets[target] : nullptr;
+}
+
+/// Finds accessors that have two sources, or that something refers to besides what is filled from there.
+class Sharing {
+ public:
+  Sharing(const Document& document, Issues& issues) : document_(document), issues_(issues) {}
+
+  void check(const std::vector<ExtensionUse>& uses) {
+    for (const ExtensionUse& use : uses) claimAll(use);
+    const Json& meshes = arrayOf(document_.json, "meshes");
+    for (uint32_t m = 0; m < meshes.size(); ++m) {
+      const Json& primitives = arrayOf(meshes[m], "primitives");
+      for (uint32_t p = 0; p < primitives.size(); ++p) {
+        noteOrdinary(primitives[p], primitivePath(m, p));
+      }
+    }
+    std::vector<bool> is_used;
+    markAccessorsOutsideMeshes(document_, ForeignReferences{}, is_used);
+    for (const auto& [accessor, ignored] : origins_) {
+      if (!is_used[accessor]) continue;
+      issues_.add(Rule::kUsedElsewhere, at("/accessors", accessor),
+                  "is filled from a payload, but something outside of meshes refers to it, too");
+    }
+  }
+
+ private:
+  /// Where the elements of an accessor come from: (buffer view, piece, is a part, id).
+  using Origin = std::tuple<uint32_t, uint64_t, bool, uint64_t>;
+
+  void claim(uint32_t accessor, const Origin& origin, const std::string& path) {
+    if (accessor == kNone) return;
+    const auto [found, is_new] = origins_.try_emplace(accessor, origin);
+    if (is_new || found->second == origin) return;
+    issues_.add(Rule::kFilledTwice, path,
+                "accessor " + std::to_string(accessor) +
+                    " is filled from two different places of the payloads");
+  }
+
+  void claimAll(const ExtensionUse& use) {
+    for (const ExtensionUse::AttributeUse& attribute : use.attributes) {
+      claim(attribute.accessor, {use.view, use.piece, false, attribute.id}, attribute.path);
+    }
+    claim(use.indices_accessor, {use.view, use.piece, true, use.part}, use.path);
+  }
+
+  /// What a primitive refers to and no payload fills.
+  void noteOrdinary(const Json& primitive, const std::string& path) {
+    const Json* extensions = findMember(primitive, "extensions");
+    const Json* ours = extensions == nullptr ? nullptr : findMember(*extensions, kExtensionName);
+    if (const Json* indices = findMember(primitive, "indices");
+        indices != nullptr && ours == nullptr) {
+      note(*indices, path + "/indices");
+    }
+    noteMap(findMember(primitive, "attributes"),
+            ours == nullptr ? nullptr : findMember(*ours, "attributes"), path + "/attributes");
+    const Json& targets = arrayOf(primitive, "targets");
+    for (uint32_t i = 0; i < targets.size(); ++i) {
+      noteMap(&targets[i], targetOf(ours, i), at(path + "/targets", i));
+    }
+  }
+
+  void noteMap(const Json* attributes, const Json* coded, const std::string& path) {
+    if (attributes == nullptr || !attributes->is_object()) return;
+    for (const auto& [name, accessor] : attributes->items()) {
+      if (coded == nullptr || findMember(*coded, name.c_str()) == nullptr) {
+        note(accessor, at(path, name));
+      }
+    }
+  }
+
+  void note(const Json& accessor, const std::string& path) {
+    uint64_t index = 0;
+    if (!asUnsigned(accessor, index) || index >= document_.accessors.size() ||
+        !origins_.contains(static_cast<uint32_t>(index))) {
+      return;
+    }
+    issues_.add(Rule::kUsedElsewhere, path,
+                "accessor " + std::to_string(index) +
+                    " is filled from a payload; only what that payload fills may refer to it");
+  }
+
+  const Document& document_;
+  Issues& issues_;
+  std::map<uint32_t, Origin> origins_;
+};
+
+void checkAttribute(const Document& document, const ExtensionUse::AttributeUse& attribute,
+                    const PieceInfo& piece, Issues& issues) {
   if (attribute.id >= piece.attributes.size()) {
-    return error(attribute.path, "there is no attribute " + std::to_string(attribute.id) +
-                                     " in the payload's piece, which has " +
-                                     std::to_string(piece.attributes.size()));
+    return issues.add(Rule::kAttributeNumber, attribute.path,
+                      "there is no attribute " + std::to_string(attribute.id) +
+                          " in the payload's piece, which has " +
+                          std::to_string(piece.attributes.size()));
   }
   const Accessor& accessor = document.accessors[attribute.accessor];
   const std::string accessor_path = at("/accessors", attribute.accessor);
   if (accessor.count != piece.wedge_count) {
-    return error(accessor_path + "/count", std::to_string(accessor.count) +
-                                               " does not match the payload, which has " +
-                                               std::to_string(piece.wedge_count) + " vertices");
+    issues.add(Rule::kCount, accessor_path + "/count",
+               std::to_string(accessor.count) + " does not match the payload, which has " +
+                   std::to_string(piece.wedge_count) + " vertices");
   }
-  if (!accessor.is_known_type) return error(accessor_path, "the type is unknown");
+  if (!accessor.is_known_type) {
+    return issues.add(Rule::kType, accessor_path, "the type is unknown");
+  }
   if (attribute.name == "POSITION" && attribute.target == kNone && attribute.id != 0) {
-    return error(attribute.path, "must be attribute 0, which all others are predicted from");
+    return issues.add(Rule::kAttributeNumber, attribute.path,
+                      "must be attribute 0, which all others are predicted from");
   }
   const AttributeFormat& coded = piece.attributes[attribute.id].format;
   const AttributeFormat named = formatOf(attribute.name, attribute.target, accessor);
   if (coded.component_type != named.component_type ||
       coded.component_count != named.component_count || coded.normalized != named.normalized) {
-    return error(accessor_path, "its type is " + describeType(accessor) +
-                                    ", which is not that of attribute " +
-                                    std::to_string(attribute.id) + " in the payload");
+    return issues.add(Rule::kType, accessor_path,
+                      "its type is " + describeType(accessor) +
+                          ", which is not that of attribute " + std::to_string(attribute.id) +
+                          " in the payload");
   }
   if (coded != named) {
-    return error(attribute.path, "attribute " + std::to_string(attribute.id) +
-                                     " of the payload is no " + attribute.name +
-                                     (attribute.target == kNone ? "" : " of this morph target"));
+    issues.add(Rule::kSemantic, attribute.path,
+               "attribute " + std::to_string(attribute.id) + " of the payload is no " +
+                   attribute.name + (attribute.target == kNone ? "" : " of this morph target"));
   }
-  return {};
 }
 
-Result checkIndices(const Document& document, const ExtensionUse& use, const PieceInfo& piece) {
+void checkIndices(const Document& document, const ExtensionUse& use, const PieceInfo& piece,
+                  Issues& issues) {
+  if (use.indices_accessor == kNone) return;
   const Accessor& accessor = document.accessors[use.indices_accessor];
   const std::string path = at("/accessors", use.indices_accessor);
-  const uint64_t count = uint64_t{3} * piece.parts[use.part].triangle_count;
-  if (accessor.count != count) {
-    return error(path + "/count", std::to_string(accessor.count) +
-                                      " does not match the payload, which has " +
-                                      std::to_string(count) + " indices");
+  if (use.part < piece.parts.size()) {
+    const uint64_t count = uint64_t{3} * piece.parts[use.part].triangle_count;
+    if (accessor.count != count) {
+      issues.add(Rule::kCount, path + "/count",
+                 std::to_string(accessor.count) + " does not match the payload, which has " +
+                     std::to_string(count) + " indices");
+    }
   }
   const ComponentType type = accessor.component_type;
-  if (!accessor.is_known_type || accessor.componentCount() != 1 || accessor.normalized) {
-    return error(path, "indices must be SCALAR of an unsigned type");
+  const bool is_unsigned = type == ComponentType::kUint8 || type == ComponentType::kUint16 ||
+                           type == ComponentType::kUint32;
+  if (!accessor.is_known_type || accessor.componentCount() != 1 || accessor.normalized ||
+      !is_unsigned) {
+    return issues.add(Rule::kIndices, path, "indices must be SCALAR of an unsigned type");
   }
   // The largest value of a type is no index: it restarts strips.
   const bool fits = type == ComponentType::kUint32 ||
                     (type == ComponentType::kUint16 && piece.wedge_count <= 0xffff) ||
                     (type == ComponentType::kUint8 && piece.wedge_count <= 0xff);
   if (!fits) {
-    return error(path + "/componentType",
-                 "cannot hold indices of " + std::to_string(piece.wedge_count) + " vertices");
+    issues.add(Rule::kIndexRange, path + "/componentType",
+               "cannot hold indices of " + std::to_string(piece.wedge_count) + " vertices");
   }
-  return {};
 }
 
-Result checkCounts(const Document& document, const Json& attributes, const std::string& path,
-                   uint32_t wedge_count) {
+/// Attributes beside the payload. Accessors that it fills are checked where they are named.
+void checkCounts(const Document& document, const Json& attributes, const Json* coded,
+                 const std::string& path, uint32_t wedge_count, Issues& issues) {
   for (const auto& [name, value] : attributes.items()) {
     uint64_t index = 0;
-    if (!asUnsigned(value, index) || index >= document.accessors.size() ||
-        document.accessors[index].count != wedge_count) {
-      return error(at(path, name), "the accessor has not the " + std::to_string(wedge_count) +
-                                       " elements of the payload");
+    const bool is_coded = coded != nullptr && findMember(*coded, name.c_str()) != nullptr;
+    if (is_coded || (asUnsigned(value, index) && index < document.accessors.size() &&
+                     document.accessors[index].count == wedge_count)) {
+      continue;
     }
+    issues.add(
+        Rule::kCount, at(path, name),
+        "the accessor has not the " + std::to_string(wedge_count) + " elements of the payload");
   }
-  return {};
 }
 
 /// Attributes beside the payload must have as many elements, those of morph targets too.
-Result checkOrdinaryAttributes(const Document& document, const ExtensionUse& use,
-                               const PieceInfo& piece) {
+void checkOrdinaryAttributes(const Document& document, const ExtensionUse& use,
+                             const PieceInfo& piece, Issues& issues) {
   const Json& primitive = document.json["meshes"][use.mesh]["primitives"][use.primitive];
+  const Json& extension = primitive["extensions"][kExtensionName];
   const std::string path = primitivePath(use.mesh, use.primitive);
   if (const Json* attributes = findMember(primitive, "attributes"); attributes != nullptr) {
-    MCC_GLTF_TRY(checkCounts(document, *attributes, path + "/attributes", piece.wedge_count));
+    checkCounts(document, *attributes, findMember(extension, "attributes"), path + "/attributes",
+                piece.wedge_count, issues);
   }
   const Json& targets = arrayOf(primitive, "targets");
   for (uint32_t i = 0; i < targets.size(); ++i) {
-    MCC_GLTF_TRY(checkCounts(document, targets[i], at(path + "/targets", i), piece.wedge_count));
+    checkCounts(document, targets[i], targetOf(&extension, i), at(path + "/targets", i),
+                piece.wedge_count, issues);
   }
-  return {};
+}
+
+void checkPart(const ExtensionUse& use, const PieceInfo& piece, Issues& issues) {
+  if (use.part >= piece.parts.size()) {
+    issues.add(Rule::kPart, use.path + "/part",
+               "there is no part " + std::to_string(use.part) + " in the piece, which has " +
+                   std::to_string(piece.parts.size()));
+  } else if (piece.parts[use.part].triangle_count == 0) {
+    issues.add(Rule::kPart, use.path,
+               "part " + std::to_string(use.part) +
+                   " of the piece has no triangles, so no primitive may name it");
+  }
 }
 
 }  // namespace
 
-Result findExtensionUses(const Document& document, std::vector<ExtensionUse>& uses) {
+void findExtensionUses(const Document& document, Issues& issues, std::vector<ExtensionUse>& uses) {
   uses.clear();
   const Json& meshes = arrayOf(document.json, "meshes");
   for (uint32_t m = 0; m < meshes.size(); ++m) {
@@ -198,11 +340,17 @@ Result findExtensionUses(const Document& document, std::vector<ExtensionUse>& us
       ExtensionUse use;
       use.mesh = m;
       use.primitive = p;
-      MCC_GLTF_TRY(readExtension(document, *ours, primitives[p], use));
+      readExtension(document, *ours, primitives[p], issues, use);
       uses.push_back(std::move(use));
     }
   }
-  return {};
+  if (!uses.empty()) Sharing(document, issues).check(uses);
+}
+
+Result findExtensionUses(const Document& document, std::vector<ExtensionUse>& uses) {
+  Issues issues(1);
+  findExtensionUses(document, issues, uses);
+  return issues.first();
 }
 
 std::span<const uint8_t> payloadBytes(const Document& document, uint32_t view) {
@@ -210,24 +358,32 @@ std::span<const uint8_t> payloadBytes(const Document& document, uint32_t view) {
   return document.buffers[range.buffer].subspan(range.offset, range.length);
 }
 
-Result checkAgainstPayload(const Document& document, const ExtensionUse& use,
-                           const PayloadInfo& info) {
+void checkAgainstPayload(const Document& document, const ExtensionUse& use, const PayloadInfo& info,
+                         Issues& issues) {
   if (use.piece >= info.pieces.size()) {
-    return error(use.path + "/piece", "there is no piece " + std::to_string(use.piece) +
-                                          " in the payload, which has " +
-                                          std::to_string(info.pieces.size()));
+    return issues.add(Rule::kPiece, use.path + "/piece",
+                      "there is no piece " + std::to_string(use.piece) +
+                          " in the payload, which has " + std::to_string(info.pieces.size()));
   }
   const PieceInfo& piece = info.pieces[use.piece];
-  if (use.part >= piece.parts.size()) {
-    return error(use.path + "/part", "there is no part " + std::to_string(use.part) +
-                                         " in the piece, which has " +
-                                         std::to_string(piece.parts.size()));
+  if (piece.wedge_count == 0) {
+    return issues.add(Rule::kPiece, use.path,
+                      "piece " + std::to_string(use.piece) +
+                          " of the payload has no vertices, so no primitive may name it");
   }
+  checkPart(use, piece, issues);
   for (const ExtensionUse::AttributeUse& attribute : use.attributes) {
-    MCC_GLTF_TRY(checkAttribute(document, attribute, piece));
+    checkAttribute(document, attribute, piece, issues);
   }
-  MCC_GLTF_TRY(checkIndices(document, use, piece));
-  return checkOrdinaryAttributes(document, use, piece);
+  checkIndices(document, use, piece, issues);
+  checkOrdinaryAttributes(document, use, piece, issues);
+}
+
+Result checkAgainstPayload(const Document& document, const ExtensionUse& use,
+                           const PayloadInfo& info) {
+  Issues issues(1);
+  checkAgainstPayload(document, use, info, issues);
+  return issues.first();
 }
 
 }  // namespace mcc::gltf

@@ -185,14 +185,22 @@ bool asUnsigned(const Json& json, uint64_t& value) {
     return true;
   }
   double number = -1;
+  if (!asNumber(json, number) || !(number >= 0 && number <= 9007199254740992.0) ||
+      number != std::floor(number))
+    return false;
+  value = static_cast<uint64_t>(number);
+  return true;
+}
+
+bool asNumber(const Json& json, double& value) {
   if (json.is_binary()) {
     const auto& spelling = json.get_binary();
-    number = std::strtod(std::string(spelling.begin(), spelling.end()).c_str(), nullptr);
+    value = std::strtod(std::string(spelling.begin(), spelling.end()).c_str(), nullptr);
   } else if (json.is_number()) {
-    number = json.get<double>();
+    value = json.get<double>();
+  } else {
+    return false;
   }
-  if (!(number >= 0 && number <= 9007199254740992.0) || number != std::floor(number)) return false;
-  value = static_cast<uint64_t>(number);
   return true;
 }
 

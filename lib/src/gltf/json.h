@@ -31,6 +31,9 @@ const Json* findMember(const Json& json, const char* key);
 /// Value of a non-negative integer however it is spelt (3, 3.0, 3e0); false for anything else.
 bool asUnsigned(const Json& json, uint64_t& value);
 
+/// Value of any number; false for anything else.
+bool asNumber(const Json& json, double& value);
+
 /// Reads the member `key` of the object at `path`. The first form requires it, the second leaves
 /// `value` alone when it is absent. Values above `max` are errors.
 Result readUnsigned(const Json& object, const char* key, const std::string& path, uint64_t max,

@@ -13,7 +13,7 @@ Result toResult(const Status& status, const std::string& where) {
   return error(where, what);
 }
 
-Result decodePieces(const std::string& where, DecodedPayload& decoded, CodeHistogram* histogram) {
+Status decodePieces(DecodedPayload& decoded, CodeHistogram* histogram) {
   const std::span<const PieceInfo> infos = decoded.payload.info().pieces;
   std::vector<std::vector<AttributeTarget>> attribute_targets(infos.size());
   std::vector<std::vector<PartTarget>> part_targets(infos.size());
@@ -34,7 +34,11 @@ Result decodePieces(const std::string& where, DecodedPayload& decoded, CodeHisto
   }
   DecodeOptions options;
   options.histogram = histogram;
-  return toResult(decoded.payload.decode(targets, options), where);
+  return decoded.payload.decode(targets, options);
+}
+
+Result decodePieces(const std::string& where, DecodedPayload& decoded, CodeHistogram* histogram) {
+  return toResult(decodePieces(decoded, histogram), where);
 }
 
 Result decodePayload(std::span<const uint8_t> bytes, const std::string& where,

@@ -27,6 +27,7 @@ struct DecodedPayload {
 Result toResult(const Status& status, const std::string& where);
 
 /// Decodes all pieces of an opened payload. `histogram` may be null.
+Status decodePieces(DecodedPayload& decoded, CodeHistogram* histogram);
 Result decodePieces(const std::string& where, DecodedPayload& decoded, CodeHistogram* histogram);
 
 /// Opens and decodes. `bytes` must outlive `decoded`.

@@ -13,11 +13,21 @@ inline Result error(std::string where, std::string what) {
   return Result{std::move(where), std::move(what)};
 }
 
-/// JSON path of an element: at("/accessors", 3) is "/accessors/3".
+/// JSON pointer to an element: at("/accessors", 3) is "/accessors/3".
 inline std::string at(const std::string& path, uint64_t index) {
   return path + "/" + std::to_string(index);
 }
-inline std::string at(const std::string& path, const std::string& key) { return path + "/" + key; }
+inline std::string at(const std::string& path, const std::string& key) {
+  std::string escaped;  // RFC 6901
+  for (const char c : key) {
+    if (c == '~' || c == '/') {
+      escaped += c == '~' ? "~0" : "~1";
+    } else {
+      escaped += c;
+    }
+  }
+  return path + "/" + escaped;
+}
 
 /// JSON path of a primitive.
 inline std::string primitivePath(uint64_t mesh, uint64_t primitive) {
