@@ -225,7 +225,7 @@ class McMachine {
   static Status tooManyTriangles() {
     return fail(Error::kBadConnectivity, "the codes yield more triangles than the header claims");
   }
-  void closeNodes(uint32_t first, uint32_t node_count);
+  void closeNodes(uint32_t first, uint32_t last);
   Status spur(uint32_t vertex, uint32_t& first, uint32_t& second);
   void swapLinks(uint32_t a, uint32_t b);
   void pointBack(uint32_t node);
@@ -255,6 +255,7 @@ class McMachine {
   CodeHistogram* histogram_;
 
   uint32_t top_ = kNone;
+  uint32_t free_ = kNone;  ///< closed nodes to be used again, linked by `next`
   uint32_t vertex_count_ = 0;
   uint32_t dummy_count_ = 0;
   uint32_t face_count_ = 0;
@@ -269,8 +270,9 @@ class McMachine {
 
 template <class Io>
 Status McMachine<Io>::run() {
-  // Nodes are about one per vertex; the bound below holds for every stream, see newNode().
-  if (!nodes_.reserve(std::min<uint64_t>(counts_.vertex_count, 1u << 16))) {
+  // With handles, which number all nodes, there is about one per vertex, else as many as are open at a time.
+  const uint64_t expected = uint64_t{counts_.vertex_count} + counts_.vertex_count / 8;
+  if (!nodes_.reserve(counts_.has_handles ? expected : std::min<uint64_t>(expected, 1u << 10))) {
     return fail(Error::kOutOfMemory, "no memory for the connectivity decoder");
   }
   for (uint32_t i = 0; operation_ < counts_.operation_count; ++i) {
@@ -534,19 +536,21 @@ Status McMachine<Io>::codeRun(const McOperation* op, uint32_t vertex) {
   const RunContext context = runContext();
   const uint32_t top = top_;
   const uint32_t first_closed = nodes_[top].next;
+  uint32_t before = top;
   uint32_t q = top;
   Fan fan;
   for (;;) {
     if (!takeGate(vertex, q, fan, Io::kEncoding ? truth_.gates[op->first_gate + fan.taken] : 0)) {
       return tooManyTriangles();
     }
+    before = q;
     q = nodes_[q].next;
     if (q == top) break;
     const McNode& n = nodes_[q];
     const uint32_t index = context.of(fan.taken, n, nodes_[n.next]);
     if (!io_.bit(models_.run[index], Io::kEncoding && fan.taken < op->degree)) break;
   }
-  closeNodes(first_closed, fan.taken - 1);
+  if (before != top) closeNodes(first_closed, before);
   return endRun(op, vertex, q, fan);
 }
 
@@ -556,16 +560,18 @@ Status McMachine<Io>::codeDummyRun(const McOperation* op) {
   const uint32_t degree = codeGolomb(io_, models_.dummy_degree, Io::kEncoding ? op->degree : 0);
   if (degree == 0) return expandSpur(op, kDummyVertex);
   const uint32_t first_closed = nodes_[top_].next;
+  uint32_t before = top_;
   uint32_t q = top_;
   Fan fan;
   do {
     (void)takeGate(kDummyVertex, q, fan, 0);  // emits nothing
+    before = q;
     q = nodes_[q].next;
   } while (fan.taken < degree && q != top_);
   if (fan.taken != degree) {
     return fail(Error::kBadConnectivity, "a dummy vertex takes more edges than its digon has");
   }
-  closeNodes(first_closed, fan.taken - 1);
+  if (before != top_) closeNodes(first_closed, before);
   return endRun(op, kDummyVertex, q, fan);
 }
 
@@ -592,9 +598,15 @@ Status McMachine<Io>::endRun(const McOperation* op, uint32_t vertex, uint32_t q,
 
 template <class Io>
 Status McMachine<Io>::newNode(uint32_t vertex, uint32_t degree, uint32_t& node) {
+  const uint16_t clamped = static_cast<uint16_t>(std::min(degree, 0xffffu));
+  if (free_ != kNone) [[likely]] {
+    node = free_;
+    free_ = nodes_[node].next;
+    nodes_[node] = McNode{node, vertex, kGateBoundary, clamped, 0};
+    return {};
+  }
   if (nodes_.size() >= kMaxVertices) return fail(Error::kLimit, "too many digon nodes");
   node = static_cast<uint32_t>(nodes_.size());
-  const uint16_t clamped = static_cast<uint16_t>(std::min(degree, 0xffffu));
   if (!nodes_.push_back(McNode{node, vertex, kGateBoundary, clamped, 0})) {
     return fail(Error::kOutOfMemory, "no memory for the connectivity decoder");
   }
@@ -659,13 +671,19 @@ MCC_INLINE bool McMachine<Io>::takeGate(uint32_t vertex, uint32_t node, Fan& fan
   return true;
 }
 
-/// Invariant: `next` permutes the open nodes, so every walk along a digon ends where it began. Only handles can
-/// refer to other nodes than those of the digon at work, so only then closed nodes need a mark.
+/// The nodes from `first` to `last` along `next`. Invariant: `next` permutes the open nodes, so every walk along a digon
+/// ends where it began. Only handles can refer to other nodes than those of the digon at work, so only then closed nodes
+/// need a mark; without them they are used again.
 template <class Io>
-void McMachine<Io>::closeNodes(uint32_t first, uint32_t node_count) {
-  if (!counts_.has_handles) return;
-  for (uint32_t i = 0, q = first; i < node_count; ++i, q = nodes_[q].next) {
+void McMachine<Io>::closeNodes(uint32_t first, uint32_t last) {
+  if (!counts_.has_handles) {
+    nodes_[last].next = free_;
+    free_ = first;
+    return;
+  }
+  for (uint32_t q = first;; q = nodes_[q].next) {
     nodes_[q].vertex = kClosedNode;
+    if (q == last) return;
   }
 }
 
@@ -731,8 +749,7 @@ Status McMachine<Io>::joinHandle(const McOperation* op, uint32_t handle_node) {
       codeSignedGolomb(io_, models_.handle_top, static_cast<int32_t>(other_top - handle_node));
   other_top = handle_node + static_cast<uint32_t>(difference);
   depth = codeGolomb(io_, models_.handle_depth, depth);
-  if (other_top >= nodes_.size() || depth > kMaxHandleDepth ||
-      depth > stack_.size() ||
+  if (other_top >= nodes_.size() || depth > kMaxHandleDepth || depth > stack_.size() ||
       nodes_[other_top].vertex == kClosedNode || nodes_[handle_node].vertex == kClosedNode) {
     return fail(Error::kBadConnectivity, "a handle refers to a digon that is not there");
   }
@@ -761,6 +778,7 @@ Status McMachine<Io>::finishComponent() {
                              Io::kEncoding && truth_.vertex_is_dummy[component->vertex] != 0);
   uint32_t vertex = 0;
   MCC_TRY(newVertex(dummy, Io::kEncoding ? component->vertex : 0, vertex));
+  uint32_t before = top_;
   uint32_t q = top_;
   Fan fan;
   do {
@@ -768,9 +786,10 @@ Status McMachine<Io>::finishComponent() {
                   Io::kEncoding ? truth_.gates[component->first_gate + fan.taken] : 0)) {
       return tooManyTriangles();
     }
+    before = q;
     q = nodes_[q].next;
   } while (q != top_);
-  closeNodes(top_, fan.taken);
+  closeNodes(top_, before);
   uint32_t* words = mesh_.words.data();
   if (fan.first_left != kNone) words[fan.first_left + 4] = fan.last_right;
   if (fan.last_right != kNone) words[fan.last_right + 4] = fan.first_left;
