@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <span>
 
 #include "attributes/position_record.h"
 #include "base/host.h"
@@ -377,11 +378,10 @@ inline void RegionGrowth::pushRing(uint32_t start) {
 /// Faces of a group's other umbrellas: whatever is known through one piece of the surface is known to all.
 inline void RegionGrowth::pushOtherUmbrellas(uint32_t v, uint32_t entry) {
   if (!groups_.hasCopies()) return;
-  const uint32_t begin = groups_.umbrella_begin[v];
-  const uint32_t end = groups_.umbrella_begin[v + 1];
-  if (end - begin < 2) return;
-  for (uint32_t i = begin; i < end; ++i) {
-    if (!ringContains(groups_.umbrellas[i], entry)) pushRing(groups_.umbrellas[i]);
+  const std::span<const uint32_t> umbrellas = groups_.umbrellasOf(v);
+  if (umbrellas.size() < 2) return;
+  for (const uint32_t start : umbrellas) {
+    if (!ringContains(start, entry)) pushRing(start);
   }
 }
 
