@@ -259,6 +259,10 @@ void learnPositions(Plan& plan, const FaceMesh& mesh, const Groups& groups) {
   for (int32_t& value : plan.positions) value = gridInteger(info, value);
 }
 
+/// Triangles with a doubled wedge are listed where faces are so many more: decoding asks every edge for the others, which
+/// takes as long as an eighth of all.
+constexpr size_t kFacesPerListed = 32;
+
 /// Sorts the triangles with a doubled wedge into those along an edge of a face and the others.
 void learnListed(Plan& plan, FaceMesh& mesh, const std::vector<uint32_t>& wedge_of_source) {
   struct EdgeTriangle {
@@ -285,7 +289,8 @@ void learnListed(Plan& plan, FaceMesh& mesh, const std::vector<uint32_t>& wedge_
   plan.degenerates_of_edge.assign(waiting.empty() ? 0 : 6 * size_t{mesh.face_count}, 0);
   plan.degenerate_parts.clear();
   const FaceView faces = mesh.view();
-  for (uint32_t f = 0; f < mesh.face_count && !waiting.empty(); ++f) {
+  const bool asks = kFacesPerListed * waiting.size() > mesh.face_count;
+  for (uint32_t f = 0; f < mesh.face_count && asks; ++f) {
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t h = f * kFaceWords + k;
       if (!EdgeDegenerateCoder<CostIo>::asksAt(faces, h)) continue;
@@ -967,7 +972,10 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeOptions& opti
   if (vertices > kSingleCoderVertices) return {};
   EncodeResult single;
   MCC_TRY(codeAll(plans, context_set, true, single));
-  if (variation.active() ? variation.coin() : single.payload.size() < result.payload.size()) {
+  const double single_bytes = static_cast<double>(single.payload.size());
+  const bool pays = single_bytes + surcharge(single_bytes, price_ns::kSingleCoder) <
+                    static_cast<double>(result.payload.size());
+  if (variation.active() ? variation.coin() : pays) {
     single.notes = std::move(result.notes);
     result = std::move(single);
   }

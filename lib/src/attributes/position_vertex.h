@@ -269,9 +269,15 @@ void VertexCoder<Io, Wide, kModes>::codeRanks(Io& io, uint32_t v, const Lanes<UW
     return static_cast<uint32_t>(static_cast<Wide>(rounded[s]) >> 8);
   };
   int32_t residual[3];
-  int32_t q[3] = {codeSlot<0, kFold>(io, c, prediction(0), truth[0], residual),
-                  codeSlot<1, kFold>(io, c, prediction(1), truth[1], residual),
-                  codeSlot<2, kFold>(io, c, prediction(2), truth[2], residual)};
+  int32_t q[3];
+  if constexpr (requires { Io::kThreeAtOnce; }) {
+    const Lanes<uint32_t> residuals = decodeResiduals<kFold>(io, rows_, c);
+    for (uint32_t s = 0; s < 3; ++s) q[s] = static_cast<int32_t>(prediction(s) + residuals[s]);
+  } else {
+    q[0] = codeSlot<0, kFold>(io, c, prediction(0), truth[0], residual);
+    q[1] = codeSlot<1, kFold>(io, c, prediction(1), truth[1], residual);
+    q[2] = codeSlot<2, kFold>(io, c, prediction(2), truth[2], residual);
+  }
   for (uint32_t s = 0; s < 3; ++s) {
     if (p_.palette[s].count != 0) q[s] = p_.palette[s].valueOf(q[s]);
     residual[s] = static_cast<int32_t>(static_cast<uint32_t>(q[s]) - near[s]);

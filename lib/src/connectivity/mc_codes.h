@@ -322,7 +322,7 @@ template <class Io>
 MCC_INLINE void McMachine<Io>::remember(uint32_t operation_class) {
   class_before_ = last_class_;
   last_class_ = operation_class;
-  constexpr uint8_t kPatternOfClass[kClassCount] = {0, 1, 2, 3, 3, 4, 4};
+  static constexpr uint8_t kPatternOfClass[kClassCount] = {0, 1, 2, 3, 3, 4, 4};
   pattern_ =
       pattern_ % (kPatterns / kPatternClasses) * kPatternClasses + kPatternOfClass[operation_class];
 }
