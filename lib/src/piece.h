@@ -98,7 +98,9 @@ class PieceCoder {
   Status codeStitch(const PieceTruth& truth) {
     groups.count = mesh.vertex_count;
     if (!header_.has(piece_flag::kCopies)) return {};
-    Stitcher<Io> stitcher(io_, models_.stitch.get(), mesh, allocator_, truth.class_of_vertex);
+    StitchModels* const models = models_.stitch.get(allocator_);
+    if (models == nullptr) return noMemory();
+    Stitcher<Io> stitcher(io_, *models, mesh, allocator_, truth.class_of_vertex);
     return stitcher.run(header_.has(piece_flag::kInteriorCopies), truth.class_count, groups);
   }
 
@@ -173,14 +175,15 @@ class PieceCoder {
 
   Status codeOrders(const PieceTruth& truth) {
     if (!header_.has(piece_flag::kTriangleOrder | piece_flag::kVertexOrder)) return {};
-    if (!listTriangles()) return noMemory();
+    OrderModels* const models = models_.orders.get(allocator_);
+    if (models == nullptr || !listTriangles()) return noMemory();
     if (header_.has(piece_flag::kTriangleOrder)) {
-      TriangleOrderCoder<Io> coder(io_, models_.orders.get(), mesh.view(), mesh.face_count,
-                                   triangles, allocator_);
+      TriangleOrderCoder<Io> coder(io_, *models, mesh.view(), mesh.face_count, triangles,
+                                   allocator_);
       MCC_TRY(coder.run(header_.part_count, truth.triangle_order, triangle_order));
     }
     if (!header_.has(piece_flag::kVertexOrder)) return {};
-    WedgeOrderCoder<Io> coder(io_, models_.orders.get(), triangles, allocator_);
+    WedgeOrderCoder<Io> coder(io_, *models, triangles, allocator_);
     return coder.run(header_.wedge_count, triangle_order, truth.wedge_order, wedge_order);
   }
 
@@ -208,13 +211,14 @@ class PieceCoder {
     return true;
   }
 
-  /// Between the stages before and codeAttribute(). Overwrites the faces' parts.
+  /// Between the stages before and codeAttribute(). Overwrites the faces' parts, gives up the records.
   Status prepareAttributes() {
     if (header_.attribute_count < 2) return {};
     MCC_TRY(stage_.wedges.build(mesh, wedges.half_edges, wedges.count, header_.wedge_count,
                                 header_.has(piece_flag::kSeams) ? wedge_group.data() : nullptr));
     if (stage_.needsExactPositions()) MCC_TRY(listExactPositions());
     MCC_TRY(findGroupPositions());
+    records.reset();
     if (!header_.has(piece_flag::kSeams)) {  // wedges are numbered as groups
       stage_.positions.swap(group_positions_);
       return {};

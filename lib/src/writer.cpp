@@ -8,6 +8,7 @@
 #include <new>
 #include <numeric>
 
+#include "attributes/enc_prices.h"
 #include "container/enc_payload.h"
 #include "writer_choices.h"
 #include "writer_stages.h"
@@ -104,7 +105,10 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeOptions& opti
   if (vertices > kSingleCoderVertices) return {};
   EncodeResult single;
   MCC_TRY(codeAll(plans, context_set, true, single));
-  if (variation.active() ? variation.coin() : single.payload.size() < result.payload.size()) {
+  const double single_bytes = static_cast<double>(single.payload.size());
+  const bool pays = single_bytes + surcharge(single_bytes, price_ns::kSingleCoder) <
+                    static_cast<double>(result.payload.size());
+  if (variation.active() ? variation.coin() : pays) {
     single.notes = std::move(result.notes);
     result = std::move(single);
   }

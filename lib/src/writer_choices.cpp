@@ -105,7 +105,8 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
   const bool may_be_ids =
       info.format.component_count == 1 && info.format.semantic == Semantic::kCustom;
   const uint32_t sample = alternatives.size() > 1 || may_be_ids ? kNone : part;
-  const auto before = std::make_unique<AttributeModels>(models.attributes);
+  AttributeModels before;
+  if (!before.copyFrom(models.attributes)) throw std::bad_alloc();
   AttributeInfo best = info;
   uint64_t best_cost = ~uint64_t{0};
   for (AttributeInfo candidate : alternatives) {
@@ -130,7 +131,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
             static_cast<uint64_t>(surcharge(tried * wedge_share, timeOf(method, info.predictor)));
       }
       search.report(cost);
-      models.attributes = *before;
+      if (!models.attributes.copyFrom(before)) throw std::bad_alloc();
       if (cost >= best_cost) continue;
       best_cost = cost;
       best = candidate;

@@ -63,6 +63,10 @@ void learnPositions(Plan& plan, const FaceMesh& mesh, const Groups& groups) {
 
 namespace {
 
+/// Triangles with a doubled wedge are listed where faces are so many more: decoding asks every edge for the others, which
+/// takes as long as an eighth of all.
+constexpr size_t kFacesPerListed = 32;
+
 /// Sorts the triangles with a doubled wedge into those along an edge of a face and the others.
 void learnListed(Plan& plan, FaceMesh& mesh, const std::vector<uint32_t>& wedge_of_source) {
   struct EdgeTriangle {
@@ -89,7 +93,8 @@ void learnListed(Plan& plan, FaceMesh& mesh, const std::vector<uint32_t>& wedge_
   plan.degenerates_of_edge.assign(waiting.empty() ? 0 : 6 * size_t{mesh.face_count}, 0);
   plan.degenerate_parts.clear();
   const FaceView faces = mesh.view();
-  for (uint32_t f = 0; f < mesh.face_count && !waiting.empty(); ++f) {
+  const bool asks = kFacesPerListed * waiting.size() > mesh.face_count;
+  for (uint32_t f = 0; f < mesh.face_count && asks; ++f) {
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t h = f * kFaceWords + k;
       if (!EdgeDegenerateCoder<CostIo>::asksAt(faces, h)) continue;

@@ -15,6 +15,7 @@ namespace {
 class AnswerIo {
  public:
   using Burst = SameIo<AnswerIo>;
+  using CodesBurst = SameIo<AnswerIo>;
   static constexpr bool kEncoding = false;
   [[maybe_unused]] static constexpr bool kFast = true;
 

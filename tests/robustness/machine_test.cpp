@@ -30,6 +30,7 @@ uint64_t runsFromEnvironment() {
 class RandomIo {
  public:
   using Burst = SameIo<RandomIo>;
+  using CodesBurst = SameIo<RandomIo>;
   static constexpr bool kEncoding = false;
   static constexpr bool kFast = true;  // the inner loops of the decoder
 

@@ -302,17 +302,23 @@ TEST(Lazy, MadeOnceAndCopiedAsItIs) {
   struct Counter {
     uint32_t count = 7;
   };
-  // Out of sight of the compiler, which warns of copies of what is not made.
-  std::vector<Lazy<Counter>> lazies(3);
-  Lazy<Counter>& lazy = lazies[0];
-  Lazy<Counter>& untouched = lazies[1] = lazies[2];
-  EXPECT_EQ(lazy.get().count, 7u);
-  ++lazy.get().count;
-  EXPECT_EQ(lazy.get().count, 8u);
-  Lazy<Counter> copy = lazy;
-  EXPECT_EQ(copy.get().count, 8u);
-  copy = untouched;  // as before its first use
-  EXPECT_EQ(copy.get().count, 7u);
+  Lazy<Counter> lazy[2];
+  ASSERT_NE(lazy[0].get({}), nullptr);
+  EXPECT_EQ(lazy[0].get({})->count, 7u);
+  ++lazy[0].get({})->count;
+  EXPECT_EQ(lazy[0].get({})->count, 8u);
+  Lazy<Counter> copy[2];
+  ++copy[1].get({})->count;
+  ASSERT_TRUE(copyLazy(copy, lazy));
+  EXPECT_EQ(copy[0].get({})->count, 8u);
+  EXPECT_EQ(copy[1].get({})->count, 7u);  // as before its first use
+}
+
+TEST(Lazy, NullWithoutMemory) {
+  Allocator none;
+  none.allocate = [](void*, size_t) -> void* { return nullptr; };
+  Lazy<int> lazy;
+  EXPECT_EQ(lazy.get(none), nullptr);
 }
 
 }  // namespace

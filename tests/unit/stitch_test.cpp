@@ -36,17 +36,19 @@ void expectGroups(const FaceMesh& mesh, const Groups& groups, const std::vector<
   }
   ASSERT_EQ(groups.count, group_of_class.size());
   ASSERT_TRUE(groups.hasCopies());
-  // The umbrellas of a group: one half-edge leaving it per vertex, and all vertices are in one.
-  ASSERT_EQ(groups.umbrella_begin.size(), size_t{groups.count} + 1);
-  ASSERT_EQ(groups.umbrellas.size(), mesh.vertex_count);
+  // The umbrellas of a listed group: one half-edge leaving it per vertex. Where there are copies, all vertices are in one.
   std::set<uint32_t> stitched;
   for (uint32_t g = 0; g < groups.count; ++g) {
-    ASSERT_LT(groups.umbrella_begin[g], groups.umbrella_begin[g + 1]);
-    for (uint32_t u = groups.umbrella_begin[g]; u < groups.umbrella_begin[g + 1]; ++u) {
-      const uint32_t h = groups.umbrellas[u];
+    for (const uint32_t h : groups.umbrellasOf(g)) {
       ASSERT_EQ(mesh.words[h], g);
       ASSERT_TRUE(stitched.insert(vertices[3 * faceOf(h) + (h & 3)]).second);
     }
+  }
+  std::map<uint32_t, std::set<uint32_t>> vertices_of_group;
+  for (size_t c = 0; c < corners.size(); ++c) vertices_of_group[corners[c]].insert(vertices[c]);
+  for (const auto& [group, members] : vertices_of_group) {
+    ASSERT_EQ(groups.umbrellasOf(group).size(),
+              members.size() > 1 || !groups.umbrellasOf(group).empty() ? members.size() : 0);
   }
 }
 

@@ -39,17 +39,25 @@ struct AttributeModels {
   Lazy<ExactValueModels> exact_values[8];  ///< [semantic]
   Lazy<TailModels> tails[8][2];            ///< [semantic][morph target]
 
-  EqualityModels& equalitiesOf(const AttributeInfo& a) {
-    return equalities[static_cast<uint32_t>(a.format.semantic)].get();
+  Lazy<EqualityModels>& equalitiesOf(const AttributeInfo& a) {
+    return equalities[static_cast<uint32_t>(a.format.semantic)];
   }
-  TailModels& tailsOf(const AttributeInfo& a) {
-    return tails[static_cast<uint32_t>(a.format.semantic)][a.format.morph_target != 0 ? 1 : 0]
-        .get();
+  Lazy<TailModels>& tailsOf(const AttributeInfo& a) {
+    return tails[static_cast<uint32_t>(a.format.semantic)][a.format.morph_target != 0 ? 1 : 0];
   }
-  ValueModels& valuesOf(const AttributeInfo& a) {
+  Lazy<ValueModels>& valuesOf(const AttributeInfo& a) {
     return values[static_cast<uint32_t>(a.format.semantic)][a.format.set_index != 0 ? 1 : 0]
-                 [a.format.morph_target != 0 ? 1 : 0]
-                     .get();
+                 [a.format.morph_target != 0 ? 1 : 0];
+  }
+
+  /// Becomes what `o` is. False without memory.
+  [[nodiscard]] bool copyFrom(const AttributeModels& o) {
+    return copyLazy(equalities, o.equalities) && copyLazy(normals, o.normals) &&
+           copyLazy(texcoords, o.texcoords) && copyLazy(tangents, o.tangents) &&
+           copyLazy(tangent_points, o.tangent_points) && copyLazy(skins, o.skins) &&
+           copyLazy(ids, o.ids) && copyLazy(values, o.values) &&
+           copyLazy(exact_normals, o.exact_normals) && copyLazy(exact_tangents, o.exact_tangents) &&
+           copyLazy(exact_values, o.exact_values) && copyLazy(tails, o.tails);
   }
 };
 
@@ -116,8 +124,9 @@ class AttributeStage {
     }
     groups_.clear();
     if ((info.predictor & kHasEqualities) != 0 && wedges.hasSeams()) {
-      MCC_TRY(EqualityCoder<Io>(io_, models_.equalitiesOf(info), wedges, values.data(), components)
-                  .run(groups_));
+      EqualityModels* const models = models_.equalitiesOf(info).get(allocator_);
+      if (models == nullptr) return noMemory();
+      MCC_TRY(EqualityCoder<Io>(io_, *models, wedges, values.data(), components).run(groups_));
     }
     const GridPart grid = gridPart(index, method, components);
     if (grid.info != nullptr) MCC_TRY(enterGrid(grid, values.data()));
@@ -129,7 +138,7 @@ class AttributeStage {
       case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(info, values.data())); break;
       case AttributeMethod::kTangent: MCC_TRY(codeTangents(info, values.data())); break;
       case AttributeMethod::kTangentPoint: MCC_TRY(codeTangentPoints(info, values.data())); break;
-      case AttributeMethod::kSkin: codeSkin(index, values.data()); break;
+      case AttributeMethod::kSkin: MCC_TRY(codeSkin(index, values.data())); break;
       case AttributeMethod::kWithAnother: break;
       case AttributeMethod::kValues: MCC_TRY(codeValues(info, components, values.data())); break;
     }
@@ -215,7 +224,9 @@ class AttributeStage {
 
   /// And back, with what is below the grid.
   Status leaveGrid(const GridPart& part, int32_t* values) {
-    TailCoder<Io> tails(io_, models_.tailsOf(*part.info), *part.info, allocator_);
+    TailModels* const models = models_.tailsOf(*part.info).get(allocator_);
+    if (models == nullptr) return noMemory();
+    TailCoder<Io> tails(io_, *models, *part.info, allocator_);
     MCC_TRY(tails.prepare());
     for (uint32_t w = 0; w < wedges.count; ++w) {
       int32_t* value = values + size_t{w} * part.stride + part.first;
@@ -329,10 +340,13 @@ class AttributeStage {
     const bool blends = (info.predictor & value_method::kPredictorMask) == value_method::kBlend;
     if (blends && !floats_.resize(ValueBlend::kErrorFloats * size_t{wedges.count}))
       return noMemory();
-    ValueCoder<Io>(io_, models_.valuesOf(info), wedges, groups_, info, components, positions.data(),
-                   has_units ? &units : nullptr, has_ids ? &ids_ : nullptr,
-                   has_ids ? &models_.ids.get() : nullptr, values, lengths_.data(), floats_.data(),
-                   is_target ? moved_before_.data() : nullptr, is_target ? moved_.data() : nullptr)
+    ValueModels* const models = models_.valuesOf(info).get(allocator_);
+    IdModels* const id_models = has_ids ? models_.ids.get(allocator_) : nullptr;
+    if (models == nullptr || (has_ids && id_models == nullptr)) return noMemory();
+    ValueCoder<Io>(io_, *models, wedges, groups_, info, components, positions.data(),
+                   has_units ? &units : nullptr, has_ids ? &ids_ : nullptr, id_models, values,
+                   lengths_.data(), floats_.data(), is_target ? moved_before_.data() : nullptr,
+                   is_target ? moved_.data() : nullptr)
         .run();
     if (bends) exchangeBends(true, values);
     return {};
@@ -350,8 +364,9 @@ class AttributeStage {
 
   Status codeNormals(const AttributeInfo& info, int32_t* values) {
     if (!floats_.resize(4 * size_t{wedges.count})) return noMemory();
-    NormalCoder<Io>(io_, models_.normals.get(), wedges, groups_, info, values, floats_.data(),
-                    lengths_.data())
+    NormalModels* const models = models_.normals.get(allocator_);
+    if (models == nullptr) return noMemory();
+    NormalCoder<Io>(io_, *models, wedges, groups_, info, values, floats_.data(), lengths_.data())
         .run(positions.data());
     return {};
   }
@@ -361,8 +376,10 @@ class AttributeStage {
       return noMemory();
     const bool remembers = (info.predictor & exact_normal_method::kRemembersEdges) != 0;
     if (remembers && !edges_.prepare(wedges.face_count)) return noMemory();
-    ExactNormalCoder<Io>(io_, models_.exact_normals.get(), wedges, groups_, info, values,
-                         doubles_.data(), errors_.data(), remembers ? &edges_ : nullptr)
+    VectorModels* const models = models_.exact_normals.get(allocator_);
+    if (models == nullptr) return noMemory();
+    ExactNormalCoder<Io>(io_, *models, wedges, groups_, info, values, doubles_.data(),
+                         errors_.data(), remembers ? &edges_ : nullptr)
         .run(exact_positions.data());
     edges_.clear();
     return {};
@@ -375,8 +392,10 @@ class AttributeStage {
     from.positions = exact_positions.data();
     if (chart_ != kNone) from.chart = chart_coordinates_.data();
     if (exact_normal_ != kNone) from.normals = exact_normals_.data();
-    ExactTangentCoder<Io>(io_, models_.exact_tangents.get(), wedges, groups_, info, from, values,
-                          doubles_.data(), errors_.data())
+    ExactTangentModels* const models = models_.exact_tangents.get(allocator_);
+    if (models == nullptr) return noMemory();
+    ExactTangentCoder<Io>(io_, *models, wedges, groups_, info, from, values, doubles_.data(),
+                          errors_.data())
         .run();
     return {};
   }
@@ -385,10 +404,11 @@ class AttributeStage {
     const bool remembers = (info.predictor & exact_value_method::kRemembers) != 0;
     if (!floats_.resize(wedges.count) || (remembers && !edges_.prepare(wedges.face_count)))
       return noMemory();
-    ExactValueCoder<Io>(io_,
-                        models_.exact_values[static_cast<uint32_t>(info.format.semantic)].get(),
-                        wedges, groups_, info, exact_positions.data(), values, floats_.data(),
-                        remembers ? &edges_ : nullptr)
+    ExactValueModels* const models =
+        models_.exact_values[static_cast<uint32_t>(info.format.semantic)].get(allocator_);
+    if (models == nullptr) return noMemory();
+    ExactValueCoder<Io>(io_, *models, wedges, groups_, info, exact_positions.data(), values,
+                        floats_.data(), remembers ? &edges_ : nullptr)
         .run();
     edges_.clear();
     return {};
@@ -397,9 +417,11 @@ class AttributeStage {
   Status codeTexcoords(const AttributeInfo& info, int32_t* values) {
     const bool repeats = (info.predictor & texcoord_method::kRepeats) != 0;
     if (repeats && !memory_.assign(ResidualMemory::kEntries, {})) return noMemory();
-    TexcoordCoder<Io>(io_, models_.texcoords[info.format.set_index != 0 ? 1 : 0].get(), wedges,
-                      groups_, info, positions.data(), values, lengths_.data(),
-                      repeats ? memory_.data() : nullptr)
+    TexcoordModels* const models =
+        models_.texcoords[info.format.set_index != 0 ? 1 : 0].get(allocator_);
+    if (models == nullptr) return noMemory();
+    TexcoordCoder<Io>(io_, *models, wedges, groups_, info, positions.data(), values,
+                      lengths_.data(), repeats ? memory_.data() : nullptr)
         .run();
     return {};
   }
@@ -415,8 +437,10 @@ class AttributeStage {
 
   Status codeTangents(const AttributeInfo& info, int32_t* values) {
     MCC_TRY(sumFaceTangents());
-    TangentCoder<Io>(io_, models_.tangents.get(), wedges, groups_, info, normalInfo(),
-                     normals.data(), floats_.data(), values, lengths_.data())
+    TangentModels* const models = models_.tangents.get(allocator_);
+    if (models == nullptr) return noMemory();
+    TangentCoder<Io>(io_, *models, wedges, groups_, info, normalInfo(), normals.data(),
+                     floats_.data(), values, lengths_.data())
         .run();
     return {};
   }
@@ -425,7 +449,9 @@ class AttributeStage {
     MCC_TRY(sumFaceTangents());
     const bool projects = (info.predictor & tangent_point_method::kPerpendicular) != 0;
     if (projects) MCC_TRY(listNormals());
-    TangentPointCoder<Io>(io_, models_.tangent_points.get(), wedges, groups_, info,
+    TangentPointModels* const models = models_.tangent_points.get(allocator_);
+    if (models == nullptr) return noMemory();
+    TangentPointCoder<Io>(io_, *models, wedges, groups_, info,
                           projects ? unit_normals_.data() : nullptr, floats_.data(), values,
                           lengths_.data())
         .run();
@@ -449,14 +475,17 @@ class AttributeStage {
     return {};
   }
 
-  void codeSkin(uint32_t index, int32_t* values) {
+  Status codeSkin(uint32_t index, int32_t* values) {
     const AttributeInfo& joints = attributes_[index];
     const AttributeInfo& weights = attributes_[skinPartner(attributes_, count_, index)];
     const int32_t sum = weights.predictor != 0 ? unitSum(weights) : 0;
     const bool sums_vary = weights.predictor == skin_method::kUsualSum;
-    SkinCoder<Io>(io_, models_.skins[joints.format.set_index != 0 ? 1 : 0].get(), wedges, groups_,
-                  sum, sums_vary, joints.predictor, values, lengths_.data())
+    SkinModels* const models = models_.skins[joints.format.set_index != 0 ? 1 : 0].get(allocator_);
+    if (models == nullptr) return noMemory();
+    SkinCoder<Io>(io_, *models, wedges, groups_, sum, sums_vary, joints.predictor, values,
+                  lengths_.data())
         .run();
+    return {};
   }
 
   Io& io_;

@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <span>
 
 #include "attributes/position_record.h"
 #include "base/host.h"
@@ -31,38 +32,36 @@
 
 namespace mcc {
 
-/// Growing ring buffer of half-edges.
+/// Half-edges, first in, first out: a buffer whose entries move to its begin when its end is reached.
 class HalfEdgeQueue {
  public:
-  explicit HalfEdgeQueue(const Allocator& allocator) : ring_(allocator) {}
+  explicit HalfEdgeQueue(const Allocator& allocator) : buffer_(allocator) {}
 
-  [[nodiscard]] bool init() {
-    mask_ = 1023;
-    return ring_.resize(1024);
-  }
-  bool empty() const { return head_ == tail_; }
-  MCC_INLINE uint32_t pop() { return ring_[head_++ & mask_]; }
+  [[nodiscard]] bool init() { return buffer_.resize(1024) && makeRoom(); }
+  MCC_INLINE bool empty() const { return head_ == tail_; }
+  MCC_INLINE uint32_t pop() { return *head_++; }
+  /// False without memory; the queue is meaningless then, but may be used.
   [[nodiscard]] MCC_INLINE bool push(uint32_t half_edge) {
-    ring_[tail_++ & mask_] = half_edge;  // there is room for one always
-    return tail_ - head_ <= mask_ || grow();
+    *tail_++ = half_edge;  // there is room for one always
+    return tail_ != end_ || makeRoom();
   }
 
  private:
-  bool grow() {
-    const uint32_t old_size = mask_ + 1;
-    if (!ring_.resize(size_t{old_size} * 2)) return false;
-    mask_ = 2 * old_size - 1;
-    // Entries keep their index modulo the new size: those whose bit old_size is set move up.
-    for (uint32_t i = head_; i != tail_; ++i) {
-      if ((i & old_size) != 0) ring_[i & mask_] = ring_[i & (old_size - 1)];
-    }
-    return true;
+  /// So that the entries, which move to the begin, take half of the buffer at most.
+  MCC_OUT_OF_LINE bool makeRoom() {
+    const size_t count = static_cast<size_t>(tail_ - head_);
+    if (count != 0) std::memmove(buffer_.data(), head_, count * sizeof(uint32_t));
+    const bool done = 2 * count <= buffer_.size() || buffer_.resize(2 * buffer_.size());
+    head_ = buffer_.data();
+    tail_ = head_ + (done ? count : 0);
+    end_ = head_ + buffer_.size();
+    return done;
   }
 
-  Array<uint32_t> ring_;
-  uint32_t head_ = 0;
-  uint32_t tail_ = 0;
-  uint32_t mask_ = 0;
+  uint32_t* head_ = nullptr;
+  uint32_t* tail_ = nullptr;
+  uint32_t* end_ = nullptr;
+  Array<uint32_t> buffer_;
 };
 
 /// The plain fan: two faces, three neighbours, both tips known.
@@ -233,7 +232,7 @@ Status RegionGrowth::grow(Visitor& visitor) {
     while (queue_[level].empty()) {
       if (level-- == 0) {
         plain.close(visitor);
-        return {};
+        return no_memory_ ? noMemory() : Status{};
       }
     }
     const uint32_t h = queue_[level].pop();
@@ -248,8 +247,9 @@ Status RegionGrowth::grow(Visitor& visitor) {
       if (cw_tip != h) [[likely]]
         push(cw_tip);
       if (!plain.visit(v, fan)) [[unlikely]] {
+        const PlainFan copy = fan;  // a pointer to it would keep `fan` in memory
         plain.close(visitor);
-        visitor.plain(v, fan);
+        visitor.plain(v, copy);
         plain.reopen(visitor);
       }
     } else {
@@ -262,12 +262,11 @@ Status RegionGrowth::grow(Visitor& visitor) {
     entered(h);
     if (copies) pushOtherUmbrellas(v, h);
     if ((known_count_ & 0xfff) == 0) [[unlikely]] {
+      if (no_memory_) return noMemory();
       plain.close(visitor);
       MCC_TRY(visitor.check());
       plain.reopen(visitor);
     }
-    if (no_memory_) [[unlikely]]
-      return noMemory();
   }
 }
 
@@ -377,11 +376,10 @@ inline void RegionGrowth::pushRing(uint32_t start) {
 /// Faces of a group's other umbrellas: whatever is known through one piece of the surface is known to all.
 inline void RegionGrowth::pushOtherUmbrellas(uint32_t v, uint32_t entry) {
   if (!groups_.hasCopies()) return;
-  const uint32_t begin = groups_.umbrella_begin[v];
-  const uint32_t end = groups_.umbrella_begin[v + 1];
-  if (end - begin < 2) return;
-  for (uint32_t i = begin; i < end; ++i) {
-    if (!ringContains(groups_.umbrellas[i], entry)) pushRing(groups_.umbrellas[i]);
+  const std::span<const uint32_t> umbrellas = groups_.umbrellasOf(v);
+  if (umbrellas.size() < 2) return;
+  for (const uint32_t start : umbrellas) {
+    if (!ringContains(start, entry)) pushRing(start);
   }
 }
 

@@ -243,8 +243,9 @@ MCC_INLINE int32_t PlaneVertexCoder<Io>::codeNumber(float prediction, float scal
                      Lanes<uint32_t>{rounded, rounded, rounded, 0}, false, c);
   const uint32_t from = static_cast<uint32_t>(static_cast<int32_t>(rounded) >> 8);
   const int32_t target = static_cast<int32_t>(static_cast<uint32_t>(truth) - from);
-  const int32_t residual = codeResidual<kSlot, true>(io_, rows_[c.row[kSlot]], c.low_bits[kSlot],
-                                                     c.folded[kSlot], c.flip[kSlot], target);
+  TokenRow& row = rows_[c.row[kSlot]];
+  const int32_t residual =
+      codeResidual<kSlot, true>(io_, row, row.low_bits, c.folded[kSlot], c.flip[kSlot], target);
   return static_cast<int32_t>(from + static_cast<uint32_t>(residual));
 }
 

@@ -83,18 +83,19 @@ struct ScaleLanes {
 /// Scale in 1/16 of a lattice step, and which of its two terms is more than twice the other.
 struct ScaleEstimate {
   Lanes<uint32_t> scale;  ///< at most kScaleLimit
-  Lanes<uint32_t> set;    ///< 1: spread, 2: neighbours, 0: neither
+  Lanes<uint32_t> set;    ///< 1: spread, 2: neighbours, 0: neither; only with split
 };
 inline constexpr uint32_t kScaleLimit = 1u << 26;
 
 template <class UWide>
 MCC_INLINE ScaleEstimate estimateScale(const ScaleLanes<UWide>& c, const Lanes<UWide>& magnitudes,
-                                       const Lanes<UWide>& spread) {
+                                       const Lanes<UWide>& spread, bool split) {
   using Signed = Lanes<std::make_signed_t<UWide>>;
   const Lanes<UWide> of_neighbours = c.neighbours * magnitudes;
   const Lanes<UWide> of_spread = c.spread * spread;
   Lanes<UWide> scale = (of_neighbours + of_spread + c.constant) >> 6;
   if (sizeof(UWide) > 4) scale = minimumLanes<UWide>(scale, kScaleLimit);
+  if (!split) return {convertLanes<uint32_t>(scale), Lanes<uint32_t>{}};
   // Halved, since comparisons are signed.
   const Signed by_spread = (Signed)(of_spread >> 2) > (Signed)(of_neighbours >> 1);
   const Signed by_neighbours = (Signed)(of_neighbours >> 2) > (Signed)(of_spread >> 1);
@@ -113,7 +114,6 @@ MCC_INLINE Lanes<uint32_t> scaleBuckets(const Lanes<uint32_t>& scale) {
 /// How the residuals of a vertex are coded, by component.
 struct ResidualContexts {
   uint32_t row[4];
-  uint32_t low_bits[4];
   /// Small residuals are numbered outwards from the unrounded prediction: 0, +1, -1, .. or 0, -1, +1, ..
   uint32_t folded[4];  ///< all ones or 0
   uint32_t flip[4];    ///< 1: the prediction was rounded up
@@ -127,8 +127,6 @@ MCC_INLINE void findContexts(const ScaleEstimate& scale, const Lanes<uint32_t>& 
   const Lanes<uint32_t> bucket = scaleBuckets(scale.scale);
   Lanes<uint32_t> row = bucket + Lanes<uint32_t>{0, kRows, 2 * kRows, 0};
   if (split) row += scale.set * kRowsPerSet;
-  const Lanes<uint32_t> low = (bucket >> 1) - 5;
-  storeLanes<uint32_t>(low & (Lanes<uint32_t>)(bucket > 9), out.low_bits);
   if (kFold) {
     const Lanes<uint32_t> fraction = (rounded & 255) - 128;
     const Lanes<uint32_t> folded = (Lanes<uint32_t>)(bucket < kFoldBuckets);
@@ -200,15 +198,16 @@ MCC_INLINE Lanes<uint32_t> decodeResiduals(Io& io, TokenRow* rows, const Residua
   uint32_t negative[3];
   MCC_UNROLL
   for (uint32_t s = 0; s < 3; ++s) {
-    base[s] = uint32_t{kTokenBase[token[s]]} << c.low_bits[s];
-    bits[s] = kTokenExtraBits[token[s]] + c.low_bits[s];
+    const TokenSpans::Span& span = kTokenSpans.of[row[s]->low_bits][token[s]];
+    base[s] = span.base;
+    bits[s] = span.bits;
     signs[s] = kFold ? ~c.folded[s] & 1 : 1;
   }
   if (!io.threeMagnitudes(base, bits, signs, a, negative)) [[unlikely]] {
     MCC_UNROLL  // else gcc keeps the arrays in memory for this
         for (uint32_t s = 0; s < 3; ++s) {
       negative[s] = 0;
-      a[s] = codeBelowToken(io, token[s], c.low_bits[s], signs[s] != 0, 0, negative[s]);
+      a[s] = codeBelowToken(io, token[s], row[s]->low_bits, signs[s] != 0, 0, negative[s]);
     }
   }
   Lanes<uint32_t> size = {a[0], a[1], a[2], 0};
@@ -235,7 +234,7 @@ MCC_INLINE uint32_t scaleBucket(uint32_t scale) {
 /// A residual alone, in the row of its scale's bucket.
 template <uint32_t kState, class Io>
 MCC_INLINE int32_t codeScaledResidual(Io& io, TokenRow& row, uint32_t bucket, int32_t truth) {
-  return codeResidual<kState, false>(io, row, bucket >= 10 ? bucket / 2 - 5 : 0, 0, 0, truth);
+  return codeResidual<kState, false>(io, row, lowBitsOf(bucket), 0, 0, truth);
 }
 
 }  // namespace mcc

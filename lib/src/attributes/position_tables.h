@@ -122,6 +122,28 @@ inline constexpr uint8_t kTokenBase[kTokenCount] = {0, 1,  2,  3,  4,  5,  6,  7
                                                     8, 12, 16, 24, 32, 48, 64, 128};
 inline constexpr uint32_t kTokenEscape = 15;
 
+constexpr uint32_t lowBitsOf(uint32_t bucket) { return bucket >= 10 ? bucket / 2 - 5 : 0; }
+inline constexpr uint32_t kMaxLowBits = lowBitsOf(kScaleBuckets - 1);
+
+/// Base and number of raw bits of the tokens of rows with some low bits.
+struct TokenSpans {
+  struct Span {
+    uint32_t base;
+    uint32_t bits;
+  };
+  Span of[kMaxLowBits + 1][kTokenCount];
+};
+constexpr TokenSpans makeTokenSpans() {
+  TokenSpans spans{};
+  for (uint32_t low = 0; low <= kMaxLowBits; ++low) {
+    for (uint32_t token = 0; token < kTokenCount; ++token) {
+      spans.of[low][token] = {uint32_t{kTokenBase[token]} << low, kTokenExtraBits[token] + low};
+    }
+  }
+  return spans;
+}
+inline constexpr TokenSpans kTokenSpans = makeTokenSpans();
+
 constexpr uint32_t tokenOf(uint32_t z) {
   if (z < 8) return z;
   uint32_t token = 8;
@@ -156,6 +178,7 @@ constexpr void makeTokenRow(uint32_t bucket, TokenRow& row) {
   const uint16_t* trained = trainedFrequencies(bucket);
   for (uint32_t i = 0; i < kTokenCount; ++i) frequency[i] = trained[i];
   setTokenRow(frequency, row);
+  row.low_bits = static_cast<uint16_t>(lowBitsOf(bucket));
 }
 
 /// Row of a folded bucket before the first symbol: the trained density of |residual|, taken as symmetric and linear

@@ -157,8 +157,8 @@ MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeComponents(Io& io, uint32_t v
                                                               const Prediction<Wide>& prediction,
                                                               uint32_t plain) const {
   if (!has(position_mode::kShear)) {
-    const ScaleEstimate scale =
-        estimateScale<UWide>(scale_[plain], prediction.magnitudes, prediction.spread);
+    const ScaleEstimate scale = estimateScale<UWide>(scale_[plain], prediction.magnitudes,
+                                                     prediction.spread, has(position_mode::kSplit));
     if (has(position_mode::kPalette)) return codeRanks<kFold>(io, v, prediction.q8, scale);
     return codeSlots<kFold>(io, v, kFileOrder, kFileOrder, prediction.q8, scale, NoShift{});
   }
@@ -168,8 +168,8 @@ MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeComponents(Io& io, uint32_t v
     storeLanes<UWide>(x, by_axis);
     return Lanes<UWide>{by_axis[shear.axis[0]], by_axis[shear.axis[1]], by_axis[shear.axis[2]], 0};
   };
-  const ScaleEstimate scale =
-      estimateScale<UWide>(scale_[plain], prediction.magnitudes, inOrder(prediction.spread));
+  const ScaleEstimate scale = estimateScale<UWide>(
+      scale_[plain], prediction.magnitudes, inOrder(prediction.spread), has(position_mode::kSplit));
   const Lanes<UWide> q8 = inOrder(prediction.q8);
   // Deviations from the unrounded, unsheared prediction; with fold the shift keeps its fraction.
   const auto shift = [&](int s, const int32_t* q) MCC_INLINE_LAMBDA {
@@ -233,8 +233,9 @@ MCC_INLINE int32_t VertexCoder<Io, Wide, kModes>::codeSlot(Io& io, const Residua
                                                            uint32_t prediction, int32_t truth,
                                                            int32_t* residual) const {
   const int32_t target = static_cast<int32_t>(static_cast<uint32_t>(truth) - prediction);
-  residual[kSlot] = codeResidual<kSlot, kFold>(io, rows_[c.row[kSlot]], c.low_bits[kSlot],
-                                               c.folded[kSlot], c.flip[kSlot], target);
+  TokenRow& row = rows_[c.row[kSlot]];
+  residual[kSlot] =
+      codeResidual<kSlot, kFold>(io, row, row.low_bits, c.folded[kSlot], c.flip[kSlot], target);
   return static_cast<int32_t>(prediction + static_cast<uint32_t>(residual[kSlot]));
 }
 
@@ -268,9 +269,15 @@ void VertexCoder<Io, Wide, kModes>::codeRanks(Io& io, uint32_t v, const Lanes<UW
     return static_cast<uint32_t>(static_cast<Wide>(rounded[s]) >> 8);
   };
   int32_t residual[3];
-  int32_t q[3] = {codeSlot<0, kFold>(io, c, prediction(0), truth[0], residual),
-                  codeSlot<1, kFold>(io, c, prediction(1), truth[1], residual),
-                  codeSlot<2, kFold>(io, c, prediction(2), truth[2], residual)};
+  int32_t q[3];
+  if constexpr (requires { Io::kThreeAtOnce; }) {
+    const Lanes<uint32_t> residuals = decodeResiduals<kFold>(io, rows_, c);
+    for (uint32_t s = 0; s < 3; ++s) q[s] = static_cast<int32_t>(prediction(s) + residuals[s]);
+  } else {
+    q[0] = codeSlot<0, kFold>(io, c, prediction(0), truth[0], residual);
+    q[1] = codeSlot<1, kFold>(io, c, prediction(1), truth[1], residual);
+    q[2] = codeSlot<2, kFold>(io, c, prediction(2), truth[2], residual);
+  }
   for (uint32_t s = 0; s < 3; ++s) {
     if (p_.palette[s].count != 0) q[s] = p_.palette[s].valueOf(q[s]);
     residual[s] = static_cast<int32_t>(static_cast<uint32_t>(q[s]) - near[s]);

@@ -126,8 +126,7 @@ Status SeamCoder<Io>::run(const Array<uint32_t>& group_order, Array<uint32_t>& w
     group_begin_ = wedge_count_;
     MCC_TRY(codeUmbrella(group, entry, wedge_start, wedge_group));
     if (groups_.hasCopies()) {
-      for (uint32_t u = groups_.umbrella_begin[group]; u < groups_.umbrella_begin[group + 1]; ++u) {
-        const uint32_t start = groups_.umbrellas[u];
+      for (const uint32_t start : groups_.umbrellasOf(group)) {
         if ((faces_.vertex(start) & kDone) != 0) continue;  // the entry's umbrella
         MCC_TRY(codeUmbrella(group, start, wedge_start, wedge_group));
       }

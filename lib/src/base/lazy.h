@@ -7,33 +7,61 @@
 #include <new>
 #include <type_traits>
 
+#include "base/memory.h"
+
 namespace mcc {
 
-/// Plain data that is made when it is first asked for: a payload needs few of all models, and a small one has no time for
-/// the others. Copies have what the original had.
+/// Plain data that is made when it is first asked for: a payload needs few of all models, and a small one has neither time
+/// nor memory for the others.
 template <class T>
 class Lazy {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
 
  public:
-  Lazy() {}  // leaves the memory alone
-  Lazy(const Lazy& other) { *this = other; }
-  Lazy& operator=(const Lazy& other) {
-    is_made_ = other.is_made_;
-    if (is_made_ && this != &other) std::memcpy(memory_, other.memory_, sizeof memory_);
-    return *this;
+  Lazy() = default;
+  Lazy(const Lazy&) = delete;
+  Lazy& operator=(const Lazy&) = delete;
+  ~Lazy() { releaseBytes(allocator_, made_, sizeof(T)); }
+
+  /// Null without memory. All calls have the same allocator.
+  T* get(const Allocator& allocator) {
+    if (made_ != nullptr) return made_;
+    allocator_ = allocator;
+    void* memory = allocateBytes(allocator, sizeof(T));
+    if (memory != nullptr) made_ = new (memory) T;
+    return made_;
   }
 
-  T& get() {
-    if (!is_made_) new (memory_) T;
-    is_made_ = true;
-    return *std::launder(reinterpret_cast<T*>(memory_));
+  /// Becomes what `other` is, which has the same allocator. False without memory.
+  [[nodiscard]] bool copyFrom(const Lazy& other) {
+    if (this == &other) return true;
+    if (other.made_ == nullptr) {
+      releaseBytes(allocator_, made_, sizeof(T));
+      made_ = nullptr;
+      return true;
+    }
+    if (get(other.allocator_) == nullptr) return false;
+    std::memcpy(static_cast<void*>(made_), other.made_, sizeof(T));
+    return true;
   }
 
  private:
-  alignas(T) std::byte memory_[sizeof(T)];
-  bool is_made_ = false;
+  T* made_ = nullptr;
+  Allocator allocator_;
 };
+
+/// The same for arrays of them.
+template <class T>
+[[nodiscard]] bool copyLazy(Lazy<T>& to, const Lazy<T>& from) {
+  return to.copyFrom(from);
+}
+template <class T, size_t kCount>
+[[nodiscard]] bool copyLazy(T (&to)[kCount], const T (&from)[kCount]) {
+  for (size_t i = 0; i < kCount; ++i) {
+    if (!copyLazy(to[i], from[i])) return false;
+  }
+  return true;
+}
 
 }  // namespace mcc
 

@@ -203,18 +203,21 @@ class McMachine {
     }
   };
 
+  using CodesBurst = typename Io::CodesBurst;
+
   // Coding of one operation.
   Status codeOperation(const McOperation* op);
+  Status codeSpecial(const McOperation* op);
   Status codeEnd(const McOperation* op, bool first);
   bool isLoneTriangle(const McOperation* op) const;
   Status addLoneTriangle(const McOperation* op);
   Status codeExpand(const McOperation* op, McJoin join);
-  Status codeRun(const McOperation* op, uint32_t vertex);
+  Status codeRun(CodesBurst& codes, const McOperation* op, uint32_t vertex);
   Status codeDummyRun(const McOperation* op);
   Status expandSpur(const McOperation* op, uint32_t vertex);
   RunContext runContext() const;
   uint32_t specialContext() const;
-  bool codeStartFlag(const McOperation* op);
+  bool codeStartFlag(CodesBurst& codes, const McOperation* op);
   void remember(uint32_t operation_class);
 
   // Changes of the lists.
@@ -225,7 +228,7 @@ class McMachine {
   static Status tooManyTriangles() {
     return fail(Error::kBadConnectivity, "the codes yield more triangles than the header claims");
   }
-  void closeNodes(uint32_t first, uint32_t node_count);
+  void closeNodes(uint32_t first, uint32_t last);
   Status spur(uint32_t vertex, uint32_t& first, uint32_t& second);
   void swapLinks(uint32_t a, uint32_t b);
   void pointBack(uint32_t node);
@@ -255,6 +258,7 @@ class McMachine {
   CodeHistogram* histogram_;
 
   uint32_t top_ = kNone;
+  uint32_t free_ = kNone;  ///< closed nodes to be used again, linked by `next`
   uint32_t vertex_count_ = 0;
   uint32_t dummy_count_ = 0;
   uint32_t face_count_ = 0;
@@ -269,8 +273,9 @@ class McMachine {
 
 template <class Io>
 Status McMachine<Io>::run() {
-  // Nodes are about one per vertex; the bound below holds for every stream, see newNode().
-  if (!nodes_.reserve(std::min<uint64_t>(counts_.vertex_count, 1u << 16))) {
+  // With handles, which number all nodes, there is about one per vertex, else as many as are open at a time.
+  const uint64_t expected = uint64_t{counts_.vertex_count} + counts_.vertex_count / 8;
+  if (!nodes_.reserve(counts_.has_handles ? expected : std::min<uint64_t>(expected, 1u << 10))) {
     return fail(Error::kOutOfMemory, "no memory for the connectivity decoder");
   }
   for (uint32_t i = 0; operation_ < counts_.operation_count; ++i) {
@@ -296,14 +301,14 @@ Status McMachine<Io>::run() {
 // --- coding ----------------------------------------------------------------------------------------
 
 template <class Io>
-uint32_t McMachine<Io>::specialContext() const {
+MCC_INLINE uint32_t McMachine<Io>::specialContext() const {
   const uint32_t degree = std::min<uint32_t>(nodes_[top_].degree, 7);
   if (models_.context_set == 4) return degree * kPatterns + pattern_;
   return degree * 49 + last_class_ * kClassCount + class_before_;
 }
 
 template <class Io>
-typename McMachine<Io>::RunContext McMachine<Io>::runContext() const {
+MCC_INLINE typename McMachine<Io>::RunContext McMachine<Io>::runContext() const {
   switch (models_.context_set) {
     case 1: return {8, 0, 7, 1};
     case 2: return {49, last_class_ * kClassCount + class_before_, 0, 0};
@@ -314,32 +319,43 @@ typename McMachine<Io>::RunContext McMachine<Io>::runContext() const {
 }
 
 template <class Io>
-void McMachine<Io>::remember(uint32_t operation_class) {
+MCC_INLINE void McMachine<Io>::remember(uint32_t operation_class) {
   class_before_ = last_class_;
   last_class_ = operation_class;
-  constexpr uint8_t kPatternOfClass[kClassCount] = {0, 1, 2, 3, 3, 4, 4};
+  static constexpr uint8_t kPatternOfClass[kClassCount] = {0, 1, 2, 3, 3, 4, 4};
   pattern_ =
       pattern_ % (kPatterns / kPatternClasses) * kPatternClasses + kPatternOfClass[operation_class];
 }
 
 template <class Io>
-bool McMachine<Io>::codeStartFlag(const McOperation* op) {
+MCC_INLINE bool McMachine<Io>::codeStartFlag(CodesBurst& codes, const McOperation* op) {
   if (age_ >= kStartAges || stack_.empty()) return false;
-  return io_.bit(models_.start[age_],
-                 Io::kEncoding && op->kind == McKind::kExpand && op->join == McJoin::kStart);
+  return codes.bit(models_.start[age_],
+                   Io::kEncoding && op->kind == McKind::kExpand && op->join == McJoin::kStart);
 }
 
 template <class Io>
-Status McMachine<Io>::codeOperation(const McOperation* op) {
-  if (codeStartFlag(op)) return codeExpand(op, McJoin::kStart);
+MCC_INLINE Status McMachine<Io>::codeOperation(const McOperation* op) {
+  CodesBurst codes(io_);
+  if (codeStartFlag(codes, op)) {
+    codes.giveBack(io_);
+    return codeExpand(op, McJoin::kStart);
+  }
   const bool is_special =
       Io::kEncoding && (op->kind != McKind::kExpand || op->join != McJoin::kSimple ||
                         op->degree == 0 || truth_.vertex_is_dummy[op->vertex_a] != 0);
-  if (!io_.bit(models_.special[specialContext()], is_special)) {
+  if (!codes.bit(models_.special[specialContext()], is_special)) [[likely]] {
     uint32_t vertex = 0;
     MCC_TRY(newVertex(false, Io::kEncoding ? op->vertex_a : 0, vertex));
-    return codeRun(op, vertex);
+    return codeRun(codes, op, vertex);
   }
+  codes.giveBack(io_);
+  return codeSpecial(op);
+}
+
+/// All operations but the EXPAND of a new vertex that takes gates.
+template <class Io>
+Status McMachine<Io>::codeSpecial(const McOperation* op) {
   const uint32_t context = std::min<uint32_t>(std::max<uint32_t>(nodes_[top_].degree, 1) - 1, 3);
   const bool plain_expand = Io::kEncoding && op->kind == McKind::kExpand &&
                             op->join == McJoin::kSimple &&
@@ -503,7 +519,8 @@ Status McMachine<Io>::codeExpand(const McOperation* op, McJoin join) {
   if (dummy) {
     MCC_TRY(codeDummyRun(op));
   } else {
-    MCC_TRY(is_spur ? expandSpur(op, vertex) : codeRun(op, vertex));
+    CodesBurst codes(io_);
+    MCC_TRY(is_spur ? expandSpur(op, vertex) : codeRun(codes, op, vertex));
   }
   return join == McJoin::kStart ? joinStart() : joinHandle(op, handle_node);
 }
@@ -530,23 +547,29 @@ Status McMachine<Io>::expandSpur(const McOperation* op, uint32_t vertex) {
 /// The degree of an EXPAND, gate by gate: "close the next vertex too?". Where the decoder spends its time: everything
 /// it needs is local, and each node is read once. [A.4.5]
 template <class Io>
-Status McMachine<Io>::codeRun(const McOperation* op, uint32_t vertex) {
+MCC_INLINE Status McMachine<Io>::codeRun(CodesBurst& codes, const McOperation* op,
+                                         uint32_t vertex) {
   const RunContext context = runContext();
+  const McNode* const nodes = nodes_.data();
+  BitModel* const models = models_.run.data();
   const uint32_t top = top_;
-  const uint32_t first_closed = nodes_[top].next;
+  const uint32_t first_closed = nodes[top].next;
+  uint32_t before = top;
   uint32_t q = top;
   Fan fan;
   for (;;) {
-    if (!takeGate(vertex, q, fan, Io::kEncoding ? truth_.gates[op->first_gate + fan.taken] : 0)) {
+    if (!takeGate(vertex, q, fan, Io::kEncoding ? truth_.gates[op->first_gate + fan.taken] : 0))
+        [[unlikely]]
       return tooManyTriangles();
-    }
-    q = nodes_[q].next;
+    before = q;
+    q = nodes[q].next;
     if (q == top) break;
-    const McNode& n = nodes_[q];
-    const uint32_t index = context.of(fan.taken, n, nodes_[n.next]);
-    if (!io_.bit(models_.run[index], Io::kEncoding && fan.taken < op->degree)) break;
+    const McNode& n = nodes[q];
+    const uint32_t index = context.of(fan.taken, n, nodes[n.next]);
+    if (!codes.bit(models[index], Io::kEncoding && fan.taken < op->degree)) break;
   }
-  closeNodes(first_closed, fan.taken - 1);
+  codes.giveBack(io_);
+  if (before != top) closeNodes(first_closed, before);
   return endRun(op, vertex, q, fan);
 }
 
@@ -556,22 +579,25 @@ Status McMachine<Io>::codeDummyRun(const McOperation* op) {
   const uint32_t degree = codeGolomb(io_, models_.dummy_degree, Io::kEncoding ? op->degree : 0);
   if (degree == 0) return expandSpur(op, kDummyVertex);
   const uint32_t first_closed = nodes_[top_].next;
+  uint32_t before = top_;
   uint32_t q = top_;
   Fan fan;
   do {
     (void)takeGate(kDummyVertex, q, fan, 0);  // emits nothing
+    before = q;
     q = nodes_[q].next;
   } while (fan.taken < degree && q != top_);
   if (fan.taken != degree) {
     return fail(Error::kBadConnectivity, "a dummy vertex takes more edges than its digon has");
   }
-  closeNodes(first_closed, fan.taken - 1);
+  if (before != top_) closeNodes(first_closed, before);
   return endRun(op, kDummyVertex, q, fan);
 }
 
 /// The new vertex takes the place of the closed ones: top -> node -> q.
 template <class Io>
-Status McMachine<Io>::endRun(const McOperation* op, uint32_t vertex, uint32_t q, const Fan& fan) {
+MCC_INLINE Status McMachine<Io>::endRun(const McOperation* op, uint32_t vertex, uint32_t q,
+                                        const Fan& fan) {
   uint32_t node = 0;
   MCC_TRY(newNode(vertex, fan.taken + 1, node));
   if constexpr (Io::kEncoding) truth_.node_of_collapse_node[op->node_a] = node;
@@ -591,10 +617,16 @@ Status McMachine<Io>::endRun(const McOperation* op, uint32_t vertex, uint32_t q,
 // --- lists -----------------------------------------------------------------------------------------
 
 template <class Io>
-Status McMachine<Io>::newNode(uint32_t vertex, uint32_t degree, uint32_t& node) {
+MCC_INLINE Status McMachine<Io>::newNode(uint32_t vertex, uint32_t degree, uint32_t& node) {
+  const uint16_t clamped = static_cast<uint16_t>(std::min(degree, 0xffffu));
+  if (free_ != kNone) [[likely]] {
+    node = free_;
+    free_ = nodes_[node].next;
+    nodes_[node] = McNode{node, vertex, kGateBoundary, clamped, 0};
+    return {};
+  }
   if (nodes_.size() >= kMaxVertices) return fail(Error::kLimit, "too many digon nodes");
   node = static_cast<uint32_t>(nodes_.size());
-  const uint16_t clamped = static_cast<uint16_t>(std::min(degree, 0xffffu));
   if (!nodes_.push_back(McNode{node, vertex, kGateBoundary, clamped, 0})) {
     return fail(Error::kOutOfMemory, "no memory for the connectivity decoder");
   }
@@ -602,7 +634,7 @@ Status McMachine<Io>::newNode(uint32_t vertex, uint32_t degree, uint32_t& node) 
 }
 
 template <class Io>
-Status McMachine<Io>::newVertex(bool dummy, uint32_t source, uint32_t& vertex) {
+MCC_INLINE Status McMachine<Io>::newVertex(bool dummy, uint32_t source, uint32_t& vertex) {
   if (dummy) {
     ++dummy_count_;  // callers tested that a dummy is left
     vertex = kDummyVertex;
@@ -659,13 +691,19 @@ MCC_INLINE bool McMachine<Io>::takeGate(uint32_t vertex, uint32_t node, Fan& fan
   return true;
 }
 
-/// Invariant: `next` permutes the open nodes, so every walk along a digon ends where it began. Only handles can
-/// refer to other nodes than those of the digon at work, so only then closed nodes need a mark.
+/// The nodes from `first` to `last` along `next`. Invariant: `next` permutes the open nodes, so every walk along a digon
+/// ends where it began. Only handles can refer to other nodes than those of the digon at work, so only then closed nodes
+/// need a mark; without them they are used again.
 template <class Io>
-void McMachine<Io>::closeNodes(uint32_t first, uint32_t node_count) {
-  if (!counts_.has_handles) return;
-  for (uint32_t i = 0, q = first; i < node_count; ++i, q = nodes_[q].next) {
+MCC_INLINE void McMachine<Io>::closeNodes(uint32_t first, uint32_t last) {
+  if (!counts_.has_handles) {
+    nodes_[last].next = free_;
+    free_ = first;
+    return;
+  }
+  for (uint32_t q = first;; q = nodes_[q].next) {
     nodes_[q].vertex = kClosedNode;
+    if (q == last) return;
   }
 }
 
@@ -731,8 +769,7 @@ Status McMachine<Io>::joinHandle(const McOperation* op, uint32_t handle_node) {
       codeSignedGolomb(io_, models_.handle_top, static_cast<int32_t>(other_top - handle_node));
   other_top = handle_node + static_cast<uint32_t>(difference);
   depth = codeGolomb(io_, models_.handle_depth, depth);
-  if (other_top >= nodes_.size() || depth > kMaxHandleDepth ||
-      depth > stack_.size() ||
+  if (other_top >= nodes_.size() || depth > kMaxHandleDepth || depth > stack_.size() ||
       nodes_[other_top].vertex == kClosedNode || nodes_[handle_node].vertex == kClosedNode) {
     return fail(Error::kBadConnectivity, "a handle refers to a digon that is not there");
   }
@@ -761,6 +798,7 @@ Status McMachine<Io>::finishComponent() {
                              Io::kEncoding && truth_.vertex_is_dummy[component->vertex] != 0);
   uint32_t vertex = 0;
   MCC_TRY(newVertex(dummy, Io::kEncoding ? component->vertex : 0, vertex));
+  uint32_t before = top_;
   uint32_t q = top_;
   Fan fan;
   do {
@@ -768,9 +806,10 @@ Status McMachine<Io>::finishComponent() {
                   Io::kEncoding ? truth_.gates[component->first_gate + fan.taken] : 0)) {
       return tooManyTriangles();
     }
+    before = q;
     q = nodes_[q].next;
   } while (q != top_);
-  closeNodes(top_, fan.taken);
+  closeNodes(top_, before);
   uint32_t* words = mesh_.words.data();
   if (fan.first_left != kNone) words[fan.first_left + 4] = fan.last_right;
   if (fan.last_right != kNone) words[fan.last_right + 4] = fan.first_left;

@@ -86,7 +86,8 @@ class Stitcher {
         mesh_(mesh),
         faces_(mesh.view()),
         class_of_vertex_(class_of_vertex),
-        vertices_(allocator),
+        shape_(allocator),
+        vertices_(shape_.vertices),
         groups_(allocator),
         by_class_(allocator),
         leader_of_class_(allocator) {}
@@ -139,9 +140,13 @@ class Stitcher {
                           uint32_t& index);
   void noteUse(uint32_t group);
   Status finish(Groups& groups);
+  [[nodiscard]] bool listUmbrellas(uint32_t v, uint32_t number, Groups& groups) const;
 
+  // `v`, `u`, `w` are places in vertices_.
+  uint32_t vertexAt(uint32_t v) const { return faces_.vertex(vertices_[v].start); }
   bool onBoundary(uint32_t v) const { return vertices_[v].next != kNone; }
-  bool processed(uint32_t v) const { return vertices_[v].group != kNone; }
+  /// `v` may be kNone.
+  bool processed(uint32_t v) const { return v != kNone && vertices_[v].group != kNone; }
   bool isMulti(uint32_t v) const {
     return processed(v) && groups_[vertices_[v].group].member_count >= 2;
   }
@@ -153,6 +158,7 @@ class Stitcher {
     groups_[group].stamp = now_;
     groups_[group].slot = kExcluded;
   }
+  static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for stitching"); }
   static Status noSuchGroup() {
     return fail(Error::kBadStitch, "a copy refers to a group that is not there");
   }
@@ -162,7 +168,8 @@ class Stitcher {
   FaceMesh& mesh_;
   FaceView faces_;
   const uint32_t* class_of_vertex_;  ///< encoder only
-  Array<StitchVertex> vertices_;
+  StitchShape shape_;
+  Array<StitchVertex>& vertices_;
   Array<Group> groups_;
   Array<uint32_t>
       by_class_;  ///< groups in the order they were founded, by loop class of their leaders
@@ -189,10 +196,11 @@ class Stitcher {
 
 template <class Io>
 Status Stitcher<Io>::allocate(uint32_t class_count) {
-  const uint32_t n = mesh_.vertex_count;
-  if (!buildShape(mesh_, faces_, interior_copies_, vertices_) || !groups_.reserve(n) ||
-      !by_class_.resize(n) || (Io::kEncoding && !leader_of_class_.assign(class_count, kNone))) {
-    return fail(Error::kOutOfMemory, "no memory for stitching");
+  MCC_TRY(buildShape(mesh_, faces_, interior_copies_, shape_));
+  const size_t n = vertices_.size();
+  if (!groups_.reserve(n) || !by_class_.resize(n) ||
+      (Io::kEncoding && !leader_of_class_.assign(class_count, kNone))) {
+    return noMemory();
   }
   return {};
 }
@@ -201,7 +209,7 @@ Status Stitcher<Io>::allocate(uint32_t class_count) {
 template <class Io>
 void Stitcher<Io>::sortClasses() {
   uint32_t count[kStitchLoopClasses] = {};
-  for (uint32_t v = 0; v < mesh_.vertex_count; ++v) ++count[vertices_[v].kind.loop];
+  for (uint32_t v = 0; v < vertices_.size(); ++v) ++count[vertices_[v].kind.loop];
   uint32_t begin = 0;
   for (uint32_t c = 0; c < kStitchLoopClasses; ++c) {
     class_begin_[c] = class_end_[c] = begin;
@@ -216,10 +224,7 @@ Status Stitcher<Io>::run(bool interior_copies, uint32_t class_count, Groups& gro
   interior_copies_ = interior_copies;
   MCC_TRY(allocate(class_count));
   sortClasses();
-  for (uint32_t v = 0; v < mesh_.vertex_count; ++v) {
-    if (vertices_[v].start == kNone)
-      return fail(Error::kBadConnectivity, "a vertex has no triangle");
-    if (!interior_copies && !onBoundary(v)) continue;
+  for (uint32_t v = 0; v < vertices_.size(); ++v) {
     MCC_TRY(stitchVertex(v));
     if ((v & 0xff) == 0 && io_.overrun()) {
       return fail(Error::kTruncated, "the code stream ends inside the stitching");
@@ -231,7 +236,7 @@ Status Stitcher<Io>::run(bool interior_copies, uint32_t class_count, Groups& gro
 template <class Io>
 Status Stitcher<Io>::stitchVertex(uint32_t v) {
   uint32_t truth = kNone;
-  if constexpr (Io::kEncoding) truth = leader_of_class_[class_of_vertex_[v]];
+  if constexpr (Io::kEncoding) truth = leader_of_class_[class_of_vertex_[vertexAt(v)]];
   now_ = v;
   collectCandidates(v);
   if (!codeCopy(v, truth)) {
@@ -253,7 +258,7 @@ void Stitcher<Io>::found(uint32_t v) {
   (void)groups_.push_back(
       Group{v, v, 1, 0, kNone, 0, place, 0});  // reserved: one group per vertex at most
   vertices_[v].group = group;
-  if constexpr (Io::kEncoding) leader_of_class_[class_of_vertex_[v]] = group;
+  if constexpr (Io::kEncoding) leader_of_class_[class_of_vertex_[vertexAt(v)]] = group;
 }
 
 template <class Io>
@@ -271,7 +276,8 @@ void Stitcher<Io>::join(uint32_t v, uint32_t group) {
 /// So that vertices without copies around, that is most, need no look at them. Once per vertex.
 template <class Io>
 void Stitcher<Io>::markNeighbours(uint32_t v) {
-  forRing(vertices_, faces_, v, [this](uint32_t u, EdgeSide) {
+  forRing(shape_, faces_, v, [this](uint32_t u, EdgeSide) {
+    if (u == kNone) return true;
     StitchKind& kind = vertices_[u].kind;
     if (kind.gluedNeighbours() < 3) ++kind.marks;
     return true;
@@ -298,7 +304,7 @@ void Stitcher<Io>::collectCandidates(uint32_t v) {
   if (vertices_[v].kind.gluedNeighbours() != 0) {
     excludeRing(v);
     uint32_t seen = 0;
-    forRing(vertices_, faces_, v, [this, &seen](uint32_t u, EdgeSide side) {
+    forRing(shape_, faces_, v, [this, &seen](uint32_t u, EdgeSide side) {
       if (isMulti(u)) collectAcross(u, side);
       return ++seen < kStitchRingLimit && work_ < work_limit_;
     });
@@ -310,7 +316,7 @@ void Stitcher<Io>::collectCandidates(uint32_t v) {
 template <class Io>
 void Stitcher<Io>::excludeRing(uint32_t v) {
   uint32_t seen = 0;
-  forRing(vertices_, faces_, v, [this, &seen](uint32_t u, EdgeSide) {
+  forRing(shape_, faces_, v, [this, &seen](uint32_t u, EdgeSide) {
     if (processed(u)) exclude(vertices_[u].group);
     return ++seen < kStitchRingLimit;
   });
@@ -325,7 +331,7 @@ void Stitcher<Io>::collectAcross(uint32_t u, EdgeSide side) {
        u2 = vertices_[u2].next_member) {
     if (u2 == u) continue;
     ++seen;
-    forRing(vertices_, faces_, u2, [this, side](uint32_t w, EdgeSide other) {
+    forRing(shape_, faces_, u2, [this, side](uint32_t w, EdgeSide other) {
       if (processed(w)) {
         uint32_t score = 1;
         // v -> u on a boundary meets u2 -> w if the gap between them was cut.
@@ -545,7 +551,7 @@ uint32_t Stitcher<Io>::visitRing(uint32_t v, uint32_t begin, uint32_t end) {
   for (uint32_t i = begin; i < end && count < kStitchNearLimit; ++i) {
     uint32_t seen = 0;
     // Branch-free: whether a vertex was visited is close to random.
-    forRing(vertices_, faces_, nearby_[i], [&](uint32_t w, EdgeSide) {
+    forRing(shape_, faces_, nearby_[i], [&](uint32_t w, EdgeSide) {
       nearby_[count] = w;
       count += vertices_[w].visited_by != v ? 1 : 0;
       vertices_[w].visited_by = v;
@@ -644,37 +650,51 @@ void Stitcher<Io>::noteUse(uint32_t group) {
   recent_[0] = group;
 }
 
-/// Numbers the groups by their first vertex and rewrites the corners.
+/// Numbers the groups by their first vertex, lists those on boundaries or with copies and rewrites the corners.
 template <class Io>
 Status Stitcher<Io>::finish(Groups& groups) {
   const uint32_t n = mesh_.vertex_count;
   groups.count = n - copy_count_;
-  if (!groups.umbrellas.resize(n) || !groups.umbrella_begin.resize(size_t{groups.count} + 1)) {
-    return fail(Error::kOutOfMemory, "no memory for stitching");
-  }
-  uint32_t* const umbrellas = groups.umbrellas.data();
-  uint32_t* const number_of = by_class_.data();  // by vertex: classes are not needed any more
+  if (!groups.listed.assign(size_t{groups.count} / 64 + 1, Groups::Listed{})) return noMemory();
+  // By vertex, in memory that is not needed any more: of the classes, or of the places behind.
+  uint32_t* const number_of = (interior_copies_ ? by_class_ : shape_.place_of).data();
   uint32_t number = 0;
-  uint32_t count = 0;
-  for (uint32_t v = 0; v < n; ++v) {
-    const StitchVertex& vertex = vertices_[v];
-    if (processed(v) && groups_[vertex.group].leader != v) {
-      number_of[v] = number_of[groups_[vertex.group].leader];
+  for (uint32_t vertex = 0; vertex < n; ++vertex) {
+    const uint32_t v = shape_.placeOf(vertex);
+    const uint32_t leader = v == kNone ? v : groups_[vertices_[v].group].leader;
+    if (leader != v) {
+      number_of[vertex] = number_of[vertexAt(leader)];
       continue;
     }
-    number_of[v] = number;
-    groups.umbrella_begin[number++] = count;
-    umbrellas[count++] = vertex.start;
-    for (uint32_t u = vertex.next_member; u != kNone; u = vertices_[u].next_member) {
-      umbrellas[count++] = vertices_[u].start;
+    if (v != kNone && (onBoundary(v) || vertices_[v].next_member != kNone) &&
+        !listUmbrellas(v, number, groups)) {
+      return noMemory();
     }
+    number_of[vertex] = number++;
   }
-  groups.umbrella_begin[number] = count;
+  if (!groups.umbrella_begin.push_back(static_cast<uint32_t>(groups.umbrellas.size())))
+    return noMemory();
+  uint32_t before = 0;
+  for (size_t i = 0; i < groups.listed.size(); ++i) {
+    groups.listed[i].before = before;
+    before += static_cast<uint32_t>(std::popcount(groups.listed[i].groups));
+  }
   for (uint32_t f = 0; f < mesh_.face_count; ++f) {
     uint32_t* corner = mesh_.words.data() + size_t{f} * kFaceWords;
     for (int k = 0; k < 3; ++k) corner[k] = number_of[corner[k]];
   }
   return {};
+}
+
+/// Group `number`, whose first vertex is v, is the last one listed so far. False without memory.
+template <class Io>
+bool Stitcher<Io>::listUmbrellas(uint32_t v, uint32_t number, Groups& groups) const {
+  groups.listed[number / 64].groups |= uint64_t{1} << (number % 64);
+  bool done = groups.umbrella_begin.push_back(static_cast<uint32_t>(groups.umbrellas.size()));
+  for (uint32_t u = v; u != kNone && done; u = vertices_[u].next_member) {
+    done = groups.umbrellas.push_back(vertices_[u].start);
+  }
+  return done;
 }
 
 }  // namespace mcc

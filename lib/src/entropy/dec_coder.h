@@ -87,16 +87,16 @@ class RangeDecoder {
     }
   }
 
-  [[gnu::noinline]] uint32_t nextWord() {
-    uint32_t word = 0;
-    if (next_ + 4 <= bytes_.size()) {
-      word = loadU32(bytes_.data() + next_);
-    } else {
-      for (size_t i = 0; i < 4 && next_ + i < bytes_.size(); ++i) {
-        word |= uint32_t{bytes_[next_ + i]} << (8 * i);
-      }
-    }
+  MCC_INLINE uint32_t nextWord() {
+    const uint32_t word = wordAt(bytes_.data(), bytes_.size(), next_);
     next_ += 4;
+    return word;
+  }
+  /// Out of the way, and without `this`: a decoder that is a local variable can live in registers.
+  MCC_OUT_OF_LINE static uint32_t wordAt(const uint8_t* bytes, size_t size, size_t at) {
+    if (at + 4 <= size) return loadU32(bytes + at);
+    uint32_t word = 0;
+    for (size_t i = 0; i < 4 && at + i < size; ++i) word |= uint32_t{bytes[at + i]} << (8 * i);
     return word;
   }
 
@@ -187,6 +187,17 @@ class RansDecoder {
   bool overrun_ = false;
 };
 
+/// All ones below a bit, as a table: shifts by a variable take longer.
+struct RawMasks {
+  uint32_t below[64];
+};
+constexpr RawMasks makeRawMasks() {
+  RawMasks masks{};
+  for (uint32_t i = 0; i < 64; ++i) masks.below[i] = static_cast<uint32_t>((uint64_t{1} << i) - 1);
+  return masks;
+}
+inline constexpr RawMasks kRawMasks = makeRawMasks();
+
 /// Plain bits, least significant first.                                                   [A.3.4]
 class RawBitsDecoder {
  public:
@@ -233,7 +244,7 @@ class RawBitsDecoder {
         loadU64(bytes_.data() + static_cast<size_t>(next_bit_ >> 3)) >> (next_bit_ & 7);
     MCC_UNROLL
     for (uint32_t s = 0; s < 3; ++s) {
-      const uint32_t value = base[s] + (static_cast<uint32_t>(window) & ((1u << bits[s]) - 1));
+      const uint32_t value = base[s] + (static_cast<uint32_t>(window) & kRawMasks.below[bits[s]]);
       const uint32_t has_sign = uint32_t{value != 0} & signs[s];
       window >>= bits[s];
       values[s] = value;
@@ -258,7 +269,7 @@ class RawBitsDecoder {
 };
 
 /// Inner loops that code a vertex after another do so through an Io::Burst: taken from the Io, given back before
-/// anything else uses that. This one is the Io itself.
+/// anything else uses that. An Io::CodesBurst is the same for binary decisions. This one is the Io itself, for both.
 template <class Io>
 class SameIo {
  public:
@@ -268,6 +279,7 @@ class SameIo {
   void giveBack(Io&) const {}
   bool hasRoom(uint32_t) const { return true; }
 
+  MCC_INLINE bool bit(BitModel& model, bool truth = false) { return io_.bit(model, truth); }
   template <uint32_t kState>
   uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t truth) {
     return io_.template token<kState>(row, schedule, truth);
@@ -283,6 +295,23 @@ class SameIo {
 
 template <bool kSingle>
 class DecoderIo;
+
+/// A copy of the range decoder.
+class CodesDecoderBurst {
+ public:
+  static constexpr bool kEncoding = false;
+  template <bool kSingle>
+  explicit CodesDecoderBurst(const DecoderIo<kSingle>& io) : codes_(io.codes_) {}
+  template <bool kSingle>
+  MCC_INLINE void giveBack(DecoderIo<kSingle>& io) const {
+    io.codes_ = codes_;
+  }
+
+  MCC_INLINE bool bit(BitModel& model, bool = false) { return codes_.bit(model); }
+
+ private:
+  RangeDecoder codes_;
+};
 
 /// Copies of the token and raw decoders, which check their bounds once per vertex.
 class DecoderBurst {
@@ -333,6 +362,7 @@ template <bool kSingle>
 class DecoderIo {
  public:
   using Burst = std::conditional_t<kSingle, SameIo<DecoderIo>, DecoderBurst>;
+  using CodesBurst = CodesDecoderBurst;
   static constexpr bool kEncoding = false;
   static constexpr bool kFast = !kSingle;  ///< worth compiling inner loops for every choice
 
@@ -402,7 +432,8 @@ class DecoderIo {
         return fail(Error::kTrailingBytes,
                     "the token stream does not end where its last symbol does");
       }
-      if (!raw_.finished()) return fail(Error::kTrailingBytes, "the raw bits do not end where the last of them does");
+      if (!raw_.finished())
+        return fail(Error::kTrailingBytes, "the raw bits do not end where the last of them does");
     }
     return {};
   }
@@ -412,6 +443,7 @@ class DecoderIo {
     explicit Absent(std::span<const uint8_t>) {}
   };
   friend class DecoderBurst;
+  friend class CodesDecoderBurst;
 
   RangeDecoder codes_;
   [[no_unique_address]] std::conditional_t<kSingle, Absent, RansDecoder> tokens_;

@@ -144,6 +144,7 @@ class RawBitsEncoder {
 class CostIo {
  public:
   using Burst = SameIo<CostIo>;
+  using CodesBurst = SameIo<CostIo>;
   static constexpr bool kEncoding = true;
   static constexpr bool kFast = false;
 
@@ -184,6 +185,7 @@ class CostIo {
 class EncoderIo : public CostIo {
  public:
   using Burst = SameIo<EncoderIo>;
+  using CodesBurst = SameIo<EncoderIo>;
   explicit EncoderIo(bool single) : single_(single) {}
 
   bool bit(BitModel& model, bool truth) {

@@ -93,12 +93,15 @@ inline constexpr TokenSchedule kAttributeSchedule =
 struct TokenRow {
   alignas(16) uint16_t c[kTokenCount + 1];
   uint16_t uses;
+  uint16_t
+      low_bits;  ///< of positions: raw bits below the token, at each use of the row; there is room for it
 
   void setUniform() {
     for (uint32_t i = 0; i <= kTokenCount; ++i) {
       c[i] = static_cast<uint16_t>(i * (kTokenOne / kTokenCount));
     }
     uses = 0;
+    low_bits = 0;
   }
 
   uint32_t start(uint32_t symbol) const { return c[symbol]; }
