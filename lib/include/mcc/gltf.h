@@ -13,11 +13,13 @@
 #include <string>
 #include <vector>
 
+#include "mcc/export.h"
 #include "mcc/reader.h"
 #include "mcc/types.h"
 
 namespace mcc::gltf {
 
+/// The key of the extension objects.
 inline constexpr char kExtensionName[] = "KHR_mesh_collapse_compression";
 
 /// Result of every fallible call: `what` is empty when all went well.
@@ -25,9 +27,10 @@ struct [[nodiscard]] Result {
   std::string where;  ///< JSON path ("/meshes/0/primitives/2"), "byte 20", a file name, or empty
   std::string what;   ///< what is wrong and, where that helps, what to do; one line, no full stop
 
+  /// Whether all went well.
   bool ok() const { return what.empty(); }
   /// "where: what", or only one of them when the other is empty.
-  std::string message() const;
+  MCC_API std::string message() const;
 };
 
 /// Which primitives share one lattice of positions. Primitives that share one cannot crack apart.
@@ -59,6 +62,7 @@ struct CodedView {
 
 /// A primitive that KHR_draco_mesh_compression codes, and what its accessors claim.
 struct CodedMesh {
+  /// An attribute by its number in the coded data.
   struct Attribute {
     uint32_t id = 0;
     ComponentType component_type = ComponentType::kFloat32;
@@ -70,6 +74,7 @@ struct CodedMesh {
   std::vector<Attribute> attributes;
 };
 
+/// What a ForeignDecoders::mesh makes of a CodedMesh.
 struct DecodedMesh {
   std::vector<uint32_t> indices;                 ///< 3 * triangle_count, each below vertex_count
   std::vector<std::vector<uint8_t>> attributes;  ///< as in CodedMesh: vertex_count tight elements
@@ -84,6 +89,7 @@ struct ForeignDecoders {
   std::function<Result(const CodedMesh& coded, DecodedMesh& mesh)> mesh;
 };
 
+/// How convert() compresses.
 struct ConvertOptions {
   QuantizationBits bits;
   bool lossless = false;  ///< every float keeps every bit; `bits` is ignored
@@ -132,11 +138,13 @@ struct AttributeReport {
   double max_distance = 0;       ///< measured, where promised
 };
 
+/// Bits of one stream of a payload.
 struct StreamReport {
   std::string name;  ///< "connectivity", "stitching", "leftovers", "seams", "order", "header"
   double bits = 0;
 };
 
+/// A payload that convert() wrote.
 struct PayloadReport {
   uint32_t mesh = 0;  ///< the first mesh it belongs to
   uint64_t payload_bytes = 0;
@@ -153,6 +161,7 @@ struct PayloadReport {
   std::vector<AttributeReport> attributes;  ///< merged by name over the pieces
 };
 
+/// What became of a primitive.
 struct PrimitiveReport {
   uint32_t mesh = 0;
   uint32_t primitive = 0;
@@ -170,6 +179,7 @@ struct FilesInUse {
   std::vector<std::filesystem::path> output;       ///< those of output_bytes, the main one first
 };
 
+/// What convert() did.
 struct ConvertReport {
   uint64_t input_bytes = 0;     ///< with all buffers
   uint64_t output_bytes = 0;    ///< with all buffers, without the fallback
@@ -195,6 +205,7 @@ enum class DecodeTo : uint8_t {
   kIntegers,
 };
 
+/// What decode() did.
 struct DecodeReport {
   FilesInUse files;
   uint64_t input_bytes = 0;
@@ -208,6 +219,7 @@ struct DecodeReport {
   std::vector<std::string> notes;
 };
 
+/// A piece of an inspected payload.
 struct InspectPiece {
   uint32_t wedge_count = 0;
   uint32_t vertex_count = 0;
@@ -218,6 +230,7 @@ struct InspectPiece {
       attribute_names;  ///< as in the JSON; "(unused)" when no primitive names it
 };
 
+/// A payload as its header describes it.
 struct InspectPayload {
   uint32_t buffer_view = 0;
   uint64_t payload_bytes = 0;
@@ -233,6 +246,7 @@ struct InspectPayload {
   CodeHistogram codes;  ///< when asked for
 };
 
+/// All payloads of a file.
 struct InspectReport {
   uint64_t input_bytes = 0;
   std::vector<InspectPayload> payloads;
@@ -284,6 +298,7 @@ struct Source {
   std::optional<std::span<const uint8_t>> bytes;
 };
 
+/// Names of temporary files: gltf/temporary_files.h of the sources.
 class TemporaryFiles;  // gltf/temporary_files.h, for programs that are ended by signals
 
 /// Where a document goes to.
@@ -307,31 +322,32 @@ struct Sink {
 ///
 /// On an error the bytes of a sink in memory are unspecified and `report` holds what was known by
 /// then. Safe for untrusted input. Deterministic. Inverse: decode(). Tests: tests/gltf/, tests/cli/.
-Result convert(const Source& source, const Sink& sink, const ConvertOptions& options,
-               ConvertReport& report);
+MCC_API Result convert(const Source& source, const Sink& sink, const ConvertOptions& options,
+                       ConvertReport& report);
 
 /// convert() from memory to memory, and from file to file.
-Result convertGlb(std::span<const uint8_t> source, const ConvertOptions& options,
-                  std::vector<uint8_t>& output, ConvertReport& report);
-Result convertFile(const std::filesystem::path& source, const std::filesystem::path& output,
-                   const ConvertOptions& options, ConvertReport& report);
+MCC_API Result convertGlb(std::span<const uint8_t> source, const ConvertOptions& options,
+                          std::vector<uint8_t>& output, ConvertReport& report);
+MCC_API Result convertFile(const std::filesystem::path& source, const std::filesystem::path& output,
+                           const ConvertOptions& options, ConvertReport& report);
 
 /// Turns compressed primitives into ordinary accessors again; a file without any is copied. Files are
 /// treated as by convert(). `thread_count` payloads are decoded at the same time; the result does not depend on it.
 /// Safe for untrusted input.
-Result decode(const Source& source, const Sink& sink, DecodeReport& report,
-              DecodeTo decode_to = DecodeTo::kFloats, uint32_t thread_count = 1);
+MCC_API Result decode(const Source& source, const Sink& sink, DecodeReport& report,
+                      DecodeTo decode_to = DecodeTo::kFloats, uint32_t thread_count = 1);
 
 /// decode() from memory to memory, and from file to file.
-Result decodeGlb(std::span<const uint8_t> source, std::vector<uint8_t>& output,
-                 DecodeReport& report, DecodeTo decode_to = DecodeTo::kFloats);
-Result decodeFile(const std::filesystem::path& source, const std::filesystem::path& output,
-                  DecodeReport& report, DecodeTo decode_to = DecodeTo::kFloats,
-                  uint32_t thread_count = 1);
+MCC_API Result decodeGlb(std::span<const uint8_t> source, std::vector<uint8_t>& output,
+                         DecodeReport& report, DecodeTo decode_to = DecodeTo::kFloats);
+MCC_API Result decodeFile(const std::filesystem::path& source, const std::filesystem::path& output,
+                          DecodeReport& report, DecodeTo decode_to = DecodeTo::kFloats,
+                          uint32_t thread_count = 1);
 
-/// Lists the payloads of a file. With `count_codes` they are decoded to count their codes.
-Result inspectGlb(std::span<const uint8_t> source, bool count_codes, InspectReport& report);
-Result inspectFile(const std::filesystem::path& source, bool count_codes, InspectReport& report);
+/// Lists the payloads of a file. With `count_codes` they are decoded to count their codes. Safe for untrusted input.
+MCC_API Result inspectGlb(std::span<const uint8_t> source, bool count_codes, InspectReport& report);
+MCC_API Result inspectFile(const std::filesystem::path& source, bool count_codes,
+                           InspectReport& report);
 
 /// Checks a file against every rule of the extension for loaders and writers: the extension objects, the accessors they
 /// fill, the lists of extensions, fallbacks, and the payloads, which are decoded. Goes on behind an issue wherever that is

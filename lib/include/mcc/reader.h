@@ -6,13 +6,16 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 
+#include "mcc/export.h"
 #include "mcc/status.h"
 #include "mcc/types.h"
 
 namespace mcc {
 
-/// Where the reader takes memory from. Null members mean malloc and free.
+/// Where the reader takes memory from. Null members mean malloc and free. `allocate` returns memory aligned as malloc's;
+/// `release` gets the size it was asked for. Called on the threads of open(), decode() and of the Payload's destructor.
 struct Allocator {
   void* (*allocate)(void* user, size_t bytes) = nullptr;  ///< may return null: kOutOfMemory
   void (*release)(void* user, void* memory, size_t bytes) = nullptr;
@@ -32,6 +35,7 @@ struct Limits {
   uint64_t max_output_bytes = ~uint64_t{0};
 };
 
+/// A triangle list on the wedges of a piece: one primitive of glTF.
 struct PartInfo {
   uint32_t triangle_count = 0;
 };
@@ -52,6 +56,7 @@ enum class AttributeCoding : uint8_t {
   kGrid = 6,   ///< float32 components, exact: on a grid or near one, see attributes/exact_grid.h
 };
 
+/// The type of an attribute and how it is coded.
 struct AttributeInfo {
   AttributeFormat format;
   AttributeCoding coding = AttributeCoding::kLattice;
@@ -63,6 +68,7 @@ struct AttributeInfo {
   uint8_t tails = 0;  ///< of kGrid: whether values have bits below them, and how those are coded
 };
 
+/// A set of wedges (vertices of glTF) with attributes and parts.
 struct PieceInfo {
   uint32_t wedge_count = 0;                   ///< glTF vertices, i.e. accessor.count
   uint32_t vertex_count = 0;                  ///< topological vertices before re-stitching
@@ -71,6 +77,14 @@ struct PieceInfo {
   bool keeps_vertex_order = false;    ///< wedges are numbered as in the source
   bool keeps_triangle_order = false;  ///< triangles, with each one's first corner, come as in the source
 };
+
+/// What a glTF attribute is to this codec: its name decides semantic and set, as far as the type fits.         [A.2.4]
+/// type       component type and count, normalisation and morph target; the rest is ignored.
+/// is_matrix  of a matrix, which is always kCustom.
+/// An accessor may be filled from an attribute of a payload only when this equals its AttributeInfo::format.
+/// Allocates nothing. Tests: tests/tinygltf/, tests/gltf/.
+MCC_API AttributeFormat namedFormat(std::string_view name, const AttributeFormat& type,
+                                    bool is_matrix);
 
 /// Symbols of the mesh collapse code as the paper's table 1 counts them.
 struct CodeHistogram {
@@ -81,6 +95,7 @@ struct CodeHistogram {
   uint64_t degree[256] = {};  ///< [d]: contractions of degree d; [255] collects all above
 };
 
+/// What the header of a payload says. Its counts were checked against the limits.
 struct PayloadInfo {
   uint8_t version_major = 0;
   uint8_t version_minor = 0;
@@ -106,11 +121,13 @@ struct PartTarget {
   IndexType index_type = IndexType::kUint32;
 };
 
+/// Where a piece goes. Targets must not overlap.
 struct PieceTarget {
   std::span<const AttributeTarget> attributes;  ///< one per attribute of the piece
   std::span<const PartTarget> parts;            ///< one per part of the piece
 };
 
+/// What decode() may use, and whom it tells.
 struct DecodeOptions {
   Allocator allocator;
   /// Called behind every stage of every piece with the work done, rising to 1, on the thread of decode(); returning false
@@ -124,26 +141,31 @@ struct DecodeOptions {
 class Payload {
  public:
   Payload() = default;
-  Payload(Payload&& other) noexcept;
-  Payload& operator=(Payload&& other) noexcept;
-  ~Payload();
+  /// Moves leave an empty payload behind, which is as one that was never opened.
+  MCC_API Payload(Payload&& other) noexcept;
+  /// As above; what this had opened goes to `other`.
+  MCC_API Payload& operator=(Payload&& other) noexcept;
+  MCC_API ~Payload();
 
   /// Parses the header, checks the checksum, all counts against `limits` and the format's bounds.
   /// `bytes` must outlive the Payload and be exactly the buffer view (a trailing byte is an error).
   /// Returns kTruncated, kBadMagic, kUnsupportedVersion, kBadChecksum, kBadHeader, kTrailingBytes,
-  /// kLimit, kOutOfMemory; the Payload is then empty. Safe for untrusted input. O(bytes).
-  Status open(std::span<const uint8_t> bytes, const Limits& limits = {},
-              const Allocator& allocator = {});
+  /// kLimit, kOutOfMemory; the Payload is then empty. Safe for untrusted input. Time and memory O(bytes).
+  /// allocator  for the header, of a few bytes per piece, part and attribute. Tests: tests/unit/, tests/robustness/.
+  MCC_API Status open(std::span<const uint8_t> bytes, const Limits& limits = {},
+                      const Allocator& allocator = {});
 
-  const PayloadInfo& info() const;
+  /// Counts and types of what is opened, valid as long as it is; of an empty payload zeros.
+  MCC_API const PayloadInfo& info() const;
 
   /// Decodes all pieces into memory the caller owns, see PieceTarget for shapes. `targets` has one entry
   /// per piece. On an error the targets hold unspecified bytes; nothing is written outside them.
   /// Returns kTruncated, kBadConnectivity, kBadStitch, kBadAttribute, kTrailingBytes, kLimit,
   /// kOutOfMemory, kBadArgument, kCancelled. Safe for untrusted input; work and memory are linear in the
-  /// counts of info(); no globals, so different Payloads may be decoded in parallel; same bytes on
-  /// every platform.
-  Status decode(std::span<const PieceTarget> targets, const DecodeOptions& options = {}) const;
+  /// counts of info(); no globals, so different Payloads may be decoded in parallel, and one Payload several times; same
+  /// bytes on every platform. Inverse: encode(). Tests: tests/roundtrip/, tests/conformance/, tests/robustness/.
+  MCC_API Status decode(std::span<const PieceTarget> targets,
+                        const DecodeOptions& options = {}) const;
 
  private:
   struct State;

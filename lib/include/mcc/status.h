@@ -24,18 +24,21 @@ enum class Error : uint8_t {
   kCancelled = 13,    ///< the caller's progress callback asked to stop
 };
 
-/// Result of every fallible call. `what` is a string literal in plain English ("" when ok);
+/// Result of every fallible call. Cheap to copy; owns nothing. `what` is a string literal in plain English ("" when ok);
 /// `offset_bytes` is the place in the payload when one is known, else kNoOffset.
 struct [[nodiscard]] Status {
+  /// The offset of a status that knows none.
   static constexpr uint64_t kNoOffset = ~uint64_t{0};
 
   Error error = Error::kOk;
   const char* what = "";
   uint64_t offset_bytes = kNoOffset;
 
+  /// Whether all went well.
   constexpr bool ok() const { return error == Error::kOk; }
 };
 
+/// A status of failure. `what` is a string literal.
 constexpr Status fail(Error error, const char* what, uint64_t offset_bytes = Status::kNoOffset) {
   return Status{error, what, offset_bytes};
 }

@@ -7,6 +7,7 @@
 
 namespace mcc {
 
+/// No index.
 inline constexpr uint32_t kNone = 0xffffffffu;
 
 /// Component types of glTF 2.0 accessors, in the order of their GL enumerants.
@@ -19,6 +20,7 @@ enum class ComponentType : uint8_t {
   kFloat32 = 5,
 };
 
+/// Bytes of one component.
 constexpr uint32_t componentBytes(ComponentType type) {
   switch (type) {
     case ComponentType::kInt8:
@@ -53,6 +55,7 @@ struct AttributeFormat {
   uint8_t component_count = 3;  ///< see isComponentCount()
   uint16_t morph_target = 0;    ///< 0: the base mesh; k: deltas of morph target k-1
 
+  /// Equal in every member.
   bool operator==(const AttributeFormat&) const = default;
 };
 
@@ -61,15 +64,17 @@ constexpr bool isComponentCount(uint32_t count) {
   return (count >= 1 && count <= 4) || count == 9 || count == 16;
 }
 
+/// Bytes of one tight element.
 constexpr uint32_t elementBytes(const AttributeFormat& format) {
   return componentBytes(format.component_type) * format.component_count;
 }
 
-/// Regular grid of a quantised float attribute: value = float(float(q * step) + origin), DESIGN 9.5.
+/// Regular grid of a quantised float attribute: value = float(float(q * step) + origin), in the units of the accessor.
 struct Lattice {
   float origin[4] = {0, 0, 0, 0};
   float step = 0;
 
+  /// Equal in every member.
   bool operator==(const Lattice&) const = default;
 };
 

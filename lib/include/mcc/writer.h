@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "mcc/export.h"
 #include "mcc/status.h"
 #include "mcc/types.h"
 
@@ -47,6 +48,7 @@ struct PieceView {
 /// throw nothing; they may call it again, also at the same time.
 using RunJobs = std::function<void(size_t count, const std::function<void(size_t)>& job)>;
 
+/// How to encode. The defaults make small payloads whose orders are free.
 struct EncodeOptions {
   /// Half-edge (3 * triangle + corner) the first component's collapse starts at; kNone: the encoder chooses.
   /// A test hook.
@@ -83,6 +85,7 @@ struct StreamSizes {
       attribute_bits;  ///< per attribute of the payload, in piece order; position included as 0
 };
 
+/// What became of a piece.
 struct PieceResult {
   /// source_wedge[i] is the wedge of the PieceView that decoded wedge i carries: a bijection.
   std::vector<uint32_t> source_wedge;
@@ -93,6 +96,7 @@ struct PieceResult {
   uint32_t leftover_triangle_count = 0;  ///< duplicates and degenerates coded apart
 };
 
+/// A payload and what is known about it.
 struct EncodeResult {
   std::vector<uint8_t> payload;
   StreamSizes sizes;
@@ -106,8 +110,8 @@ struct EncodeResult {
 /// kLimit (more than 2^28 triangles or wedges), kOutOfMemory. Deterministic: the same input gives the
 /// same bytes on every machine. Time O(n log n) in triangles and wedges.
 /// Inverse: Payload::decode(). Tests: tests/roundtrip/.
-Status encode(std::span<const PieceView> pieces, const EncodeOptions& options,
-              EncodeResult& result);
+MCC_API Status encode(std::span<const PieceView> pieces, const EncodeOptions& options,
+                      EncodeResult& result);
 
 }  // namespace mcc
 

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <tuple>
 
-#include "base/crc32.h"
 #include "gltf/references.h"
 
 namespace mcc::gltf {
@@ -15,45 +14,6 @@ namespace {
 
 constexpr uint64_t kMaxVertices = uint64_t{1} << 28;  // of the payload format
 constexpr uint64_t kMaxTargets = 4096;
-
-struct SemanticRule {
-  std::string_view name;
-  Semantic semantic;
-  uint32_t min_components;
-  uint32_t max_components;
-  bool has_set;  ///< NAME_n
-};
-constexpr SemanticRule kSemanticRules[] = {
-    {"POSITION", Semantic::kPosition, 3, 3, false}, {"NORMAL", Semantic::kNormal, 3, 3, false},
-    {"TANGENT", Semantic::kTangent, 3, 4, false},   {"TEXCOORD_", Semantic::kTexcoord, 2, 2, true},
-    {"COLOR_", Semantic::kColor, 3, 4, true},       {"JOINTS_", Semantic::kJoints, 4, 4, true},
-    {"WEIGHTS_", Semantic::kWeights, 4, 4, true}};
-
-bool parseSet(std::string_view digits, uint8_t& set) {
-  if (digits.empty() || digits.size() > 3) return false;
-  uint32_t number = 0;
-  for (const char c : digits) {
-    if (c < '0' || c > '9') return false;
-    number = number * 10 + static_cast<uint32_t>(c - '0');
-  }
-  if (number > 255 || (digits.size() > 1 && digits[0] == '0')) return false;
-  set = static_cast<uint8_t>(number);
-  return true;
-}
-
-bool matches(const SemanticRule& rule, std::string_view name, const Accessor& accessor,
-             uint8_t& set) {
-  const uint32_t components = accessor.componentCount();
-  if (accessor.columns != 1 || components < rule.min_components ||
-      components > rule.max_components) {
-    return false;
-  }
-  if (rule.semantic == Semantic::kJoints && accessor.component_type == ComponentType::kFloat32) {
-    return false;
-  }
-  if (!rule.has_set) return name == rule.name;
-  return name.starts_with(rule.name) && parseSet(name.substr(rule.name.size()), set);
-}
 
 class Planner {
  public:
@@ -353,20 +313,12 @@ std::string AttributePlan::label() const {
 }
 
 AttributeFormat formatOf(const std::string& name, uint32_t target, const Accessor& accessor) {
-  AttributeFormat format;
-  format.component_type = accessor.component_type;
-  format.normalized = accessor.normalized;
-  format.component_count = static_cast<uint8_t>(accessor.componentCount());
-  format.morph_target = static_cast<uint16_t>(target == kNone ? 0 : target + 1);
-  for (const SemanticRule& rule : kSemanticRules) {
-    if (!matches(rule, name, accessor, format.set_index)) continue;
-    format.semantic = rule.semantic;
-    return format;
-  }
-  format.semantic = Semantic::kCustom;
-  format.set_index =
-      static_cast<uint8_t>(crc32({reinterpret_cast<const uint8_t*>(name.data()), name.size()}));
-  return format;
+  AttributeFormat type;
+  type.component_type = accessor.component_type;
+  type.normalized = accessor.normalized;
+  type.component_count = static_cast<uint8_t>(accessor.componentCount());
+  type.morph_target = static_cast<uint16_t>(target == kNone ? 0 : target + 1);
+  return namedFormat(name, type, accessor.columns != 1);
 }
 
 bool comesBefore(const AttributePlan& a, const AttributePlan& b) {

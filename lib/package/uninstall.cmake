@@ -1,0 +1,25 @@
+# Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#
+# Removes what was installed last: cmake -D MANIFEST_DIR=<build folder> -P uninstall.cmake
+file(GLOB manifests ${MANIFEST_DIR}/install_manifest*.txt)
+if(NOT manifests)
+  message(FATAL_ERROR "Nothing was installed from ${MANIFEST_DIR}.")
+endif()
+set(folders "")
+foreach(manifest IN LISTS manifests)
+  file(STRINGS ${manifest} files)
+  foreach(file IN LISTS files)
+    file(REMOVE "$ENV{DESTDIR}${file}")
+    cmake_path(GET file PARENT_PATH folder)
+    list(APPEND folders "$ENV{DESTDIR}${folder}")
+  endforeach()
+  file(REMOVE ${manifest})
+endforeach()
+# Our own folders, which nobody else uses.
+list(REMOVE_DUPLICATES folders)
+foreach(folder IN LISTS folders)
+  file(GLOB left ${folder}/*)
+  if(folder MATCHES "/(mcc|gltf-mcc)$" AND NOT left)
+    file(REMOVE_RECURSE ${folder})
+  endif()
+endforeach()

@@ -1,0 +1,45 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Structures of the C API that grow at their end: the first member, `struct_bytes`, says how much of one the caller knows.
+#ifndef MCC_BASE_C_STRUCT_H_
+#define MCC_BASE_C_STRUCT_H_
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+
+#include "mcc/c_api.h"
+#include "mcc/status.h"
+
+namespace mcc {
+
+inline mcc_status toC(const Status& status) {
+  return {static_cast<int32_t>(status.error), status.what, status.offset_bytes};
+}
+
+inline mcc_status badArgument(const char* what) { return toC(fail(Error::kBadArgument, what)); }
+
+/// Writes what the caller's structure has room for.
+template <class Struct>
+void initStruct(Struct* out, size_t struct_bytes, Struct defaults) {
+  if (out == nullptr || struct_bytes < sizeof(defaults.struct_bytes)) return;
+  defaults.struct_bytes = struct_bytes;
+  std::memcpy(static_cast<void*>(out), &defaults, std::min(struct_bytes, sizeof(Struct)));
+}
+
+/// `given` with `defaults` for what the caller does not know.
+template <class Struct>
+Status readStruct(const Struct* given, Struct defaults, Struct& read) {
+  read = defaults;
+  if (given == nullptr) return {};
+  if (given->struct_bytes < sizeof(given->struct_bytes)) {
+    return fail(Error::kBadArgument,
+                "options whose struct_bytes is not set; call their init function");
+  }
+  std::memcpy(static_cast<void*>(&read), given, std::min(given->struct_bytes, sizeof(Struct)));
+  return {};
+}
+
+}  // namespace mcc
+
+#endif  // MCC_BASE_C_STRUCT_H_

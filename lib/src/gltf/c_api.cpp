@@ -1,0 +1,155 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The part of the C API that works on documents.
+#include "mcc/c_api.h"
+
+#include <algorithm>
+#include <exception>
+#include <functional>
+#include <memory>
+
+#include "base/c_struct.h"
+#include "mcc/gltf.h"
+
+struct mcc_document {
+  std::vector<uint8_t> bytes;
+  std::string message;
+};
+
+namespace mcc::gltf {
+namespace {
+
+static_assert(MCC_GRID_PRIMITIVE == static_cast<int>(Grid::kPrimitive));
+
+mcc_convert_options defaultConvertOptions() {
+  const ConvertOptions defaults;
+  mcc_convert_options options = {};
+  options.struct_bytes = sizeof(options);
+  options.position_bits = defaults.bits.position;
+  options.normal_bits = defaults.bits.normal;
+  options.texcoord_bits = defaults.bits.texcoord;
+  options.color_bits = defaults.bits.color;
+  options.tangent_bits = defaults.bits.tangent;
+  options.weight_bits = defaults.bits.weight;
+  options.effort = defaults.effort;
+  options.thread_count = defaults.thread_count;
+  return options;
+}
+
+mcc_decode_glb_options defaultDecodeOptions() { return {sizeof(mcc_decode_glb_options), 0, 1}; }
+
+/// Bits of floats, or of unit vectors.
+Status readBits(uint32_t bits, bool is_unit_vector, uint8_t& out) {
+  const bool fits = is_unit_vector ? bits == 0 || (bits >= 2 && bits <= 16) : bits <= 24;
+  if (!fits) return fail(Error::kBadArgument, "a number of bits is out of range");
+  out = static_cast<uint8_t>(bits);
+  return {};
+}
+
+Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
+  MCC_TRY(readBits(options.position_bits, false, out.bits.position));
+  MCC_TRY(readBits(options.normal_bits, true, out.bits.normal));
+  MCC_TRY(readBits(options.texcoord_bits, false, out.bits.texcoord));
+  MCC_TRY(readBits(options.color_bits, false, out.bits.color));
+  MCC_TRY(readBits(options.tangent_bits, true, out.bits.tangent));
+  MCC_TRY(readBits(options.weight_bits, false, out.bits.weight));
+  if (options.grid > MCC_GRID_PRIMITIVE || options.effort > 2 ||
+      !(options.max_position_error >= 0)) {
+    return fail(Error::kBadArgument, "grid, effort or max_position_error is out of range");
+  }
+  out.lossless = options.lossless != 0;
+  out.grid = static_cast<Grid>(options.grid);
+  out.max_position_error = options.max_position_error;
+  out.is_error_relative = options.is_error_relative != 0;
+  out.indices_only = options.indices_only != 0;
+  out.keep_vertex_order = options.keep_vertex_order != 0;
+  out.keep_triangle_order = options.keep_triangle_order != 0;
+  out.effort = static_cast<uint8_t>(options.effort);
+  out.thread_count = options.thread_count;
+  if (options.position_lattice != nullptr) {
+    Lattice& lattice = out.position_lattice.emplace();
+    std::copy_n(options.position_lattice->origin, 4, lattice.origin);
+    lattice.step = options.position_lattice->step;
+  }
+  return {};
+}
+
+/// Runs a conversion of `glb` into a new document, which has a message in any case.
+mcc_status makeDocument(const void* glb, size_t byte_count, mcc_document** document,
+                        const std::function<Result(Source, Sink)>& convert) try {
+  if (document == nullptr) return badArgument("document is null");
+  *document = nullptr;
+  if (glb == nullptr && byte_count != 0) return badArgument("glb is null");
+  auto made = std::make_unique<mcc_document>();
+  Source source;
+  source.bytes = std::span(static_cast<const uint8_t*>(glb), byte_count);
+  Sink sink;
+  sink.bytes = &made->bytes;
+  const Result result = convert(source, sink);
+  if (!result.ok()) {
+    made->bytes = {};
+    made->message = result.message();
+  }
+  *document = made.release();
+  if (result.ok()) return toC({});
+  return {MCC_ERROR_DOCUMENT, (*document)->message.c_str(), MCC_NO_OFFSET};
+} catch (const std::exception&) {
+  return toC(fail(Error::kOutOfMemory, "no memory for the document"));
+}
+
+}  // namespace
+}  // namespace mcc::gltf
+
+void mcc_convert_options_init(mcc_convert_options* options, size_t struct_bytes) {
+  mcc::initStruct(options, struct_bytes, mcc::gltf::defaultConvertOptions());
+}
+
+mcc_status mcc_convert_glb(const void* glb, size_t byte_count, const mcc_convert_options* options,
+                           mcc_document** document) {
+  mcc_convert_options read;
+  mcc::Status status = mcc::readStruct(options, mcc::gltf::defaultConvertOptions(), read);
+  mcc::gltf::ConvertOptions convert_options;
+  if (status.ok()) status = mcc::gltf::fromC(read, convert_options);
+  if (!status.ok()) {
+    if (document != nullptr) *document = nullptr;
+    return mcc::toC(status);
+  }
+  return mcc::gltf::makeDocument(glb, byte_count, document,
+                                 [&](const mcc::gltf::Source& source, const mcc::gltf::Sink& sink) {
+                                   mcc::gltf::ConvertReport report;
+                                   return mcc::gltf::convert(source, sink, convert_options, report);
+                                 });
+}
+
+void mcc_decode_glb_options_init(mcc_decode_glb_options* options, size_t struct_bytes) {
+  mcc::initStruct(options, struct_bytes, mcc::gltf::defaultDecodeOptions());
+}
+
+mcc_status mcc_decode_glb(const void* glb, size_t byte_count, const mcc_decode_glb_options* options,
+                          mcc_document** document) {
+  mcc_decode_glb_options read;
+  const mcc::Status status = mcc::readStruct(options, mcc::gltf::defaultDecodeOptions(), read);
+  if (!status.ok()) {
+    if (document != nullptr) *document = nullptr;
+    return mcc::toC(status);
+  }
+  const auto decode_to =
+      read.decode_to_integers != 0 ? mcc::gltf::DecodeTo::kIntegers : mcc::gltf::DecodeTo::kFloats;
+  return mcc::gltf::makeDocument(
+      glb, byte_count, document, [&](const mcc::gltf::Source& source, const mcc::gltf::Sink& sink) {
+        mcc::gltf::DecodeReport report;
+        return mcc::gltf::decode(source, sink, report, decode_to, read.thread_count);
+      });
+}
+
+const uint8_t* mcc_document_bytes(const mcc_document* document, size_t* byte_count) {
+  const bool has_bytes = document != nullptr && !document->bytes.empty();
+  if (byte_count != nullptr) *byte_count = has_bytes ? document->bytes.size() : 0;
+  return has_bytes ? document->bytes.data() : nullptr;
+}
+
+const char* mcc_document_message(const mcc_document* document) {
+  return document == nullptr ? "there is no document" : document->message.c_str();
+}
+
+void mcc_document_release(mcc_document* document) { delete document; }

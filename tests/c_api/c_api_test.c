@@ -1,0 +1,288 @@
+/* Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+ *
+ * The C API from C99: c_api_test GLB. Prints what failed; status 0 when nothing did. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mcc/c_api.h"
+
+static int failure_count = 0;
+
+static void expect(int condition, const char* text, int line) {
+  if (condition) return;
+  ++failure_count;
+  fprintf(stderr, "line %d: %s\n", line, text);
+}
+#define EXPECT(condition) expect((condition), #condition, __LINE__)
+
+/* A sheet of triangles with float positions and bytes of colours, interleaved. */
+enum { kSide = 21, kWedges = kSide * kSide, kTriangles = 2 * (kSide - 1) * (kSide - 1) };
+
+typedef struct vertex {
+  float position[3];
+  uint8_t color[4];
+} vertex;
+
+static vertex vertices[kWedges];
+static uint32_t indices[3 * kTriangles];
+
+static void make_sheet(void) {
+  uint32_t* to = indices;
+  uint32_t x;
+  uint32_t y;
+  for (y = 0; y < kSide; ++y) {
+    for (x = 0; x < kSide; ++x) {
+      const vertex v = {{(float)x, (float)y, (float)(x * y % 7)}, {(uint8_t)x, (uint8_t)y, 0, 255}};
+      const uint32_t i = y * kSide + x;
+      vertices[i] = v;
+      if (x + 1 == kSide || y + 1 == kSide) continue;
+      *to++ = i, *to++ = i + 1, *to++ = i + kSide;
+      *to++ = i + 1, *to++ = i + kSide + 1, *to++ = i + kSide;
+    }
+  }
+}
+
+static mcc_status encode_sheet(const mcc_encode_options* options, mcc_encoding** encoding) {
+  const mcc_attribute_format position = {MCC_POSITION, 0, MCC_FLOAT32, 3, 0, 0};
+  const mcc_attribute_format color = {MCC_COLOR, 0, MCC_UINT8, 4, 1, 0};
+  mcc_attribute_view attributes[2];
+  const mcc_part_view part = {indices, 3 * kTriangles};
+  mcc_piece_view piece;
+  memset(attributes, 0, sizeof attributes);
+  attributes[0].format = position;
+  attributes[0].data = vertices[0].position;
+  attributes[0].stride_bytes = sizeof(vertex);
+  attributes[1].format = color;
+  attributes[1].data = vertices[0].color;
+  attributes[1].stride_bytes = sizeof(vertex);
+  piece.wedge_count = kWedges;
+  piece.attributes = attributes;
+  piece.attribute_count = 2;
+  piece.parts = &part;
+  piece.part_count = 1;
+  return mcc_encode(&piece, 1, options, encoding);
+}
+
+/* Memory that is counted, and that ends. */
+typedef struct purse {
+  size_t used;
+  size_t most;
+} purse;
+
+static void* take(void* user, size_t bytes) {
+  purse* from = (purse*)user;
+  if (from->used + bytes > from->most) return NULL;
+  from->used += bytes;
+  return malloc(bytes);
+}
+
+static void give_back(void* user, void* memory, size_t bytes) {
+  ((purse*)user)->used -= bytes;
+  free(memory);
+}
+
+static int stop_at_once(void* user, double done) {
+  *(double*)user = done;
+  return 0;
+}
+
+static vertex decoded[kWedges];
+
+/* Decodes into `decoded` and `target_indices`, which may be null. */
+static mcc_status decode_sheet(const mcc_payload* payload, void* target_indices, uint32_t index_bytes,
+                               const mcc_decode_options* options) {
+  mcc_attribute_target attributes[2];
+  mcc_part_target part;
+  mcc_piece_target piece;
+  attributes[0].data = decoded[0].position;
+  attributes[1].data = decoded[0].color;
+  attributes[0].stride_bytes = attributes[1].stride_bytes = sizeof(vertex);
+  part.indices = target_indices;
+  part.index_bytes = index_bytes;
+  piece.attributes = attributes;
+  piece.attribute_count = 2;
+  piece.parts = &part;
+  piece.part_count = 1;
+  return mcc_payload_decode(payload, &piece, 1, options);
+}
+
+static void test_round_trip(const mcc_encoding* encoding) {
+  size_t byte_count = 0;
+  size_t wedge_count = 0;
+  const uint8_t* bytes = mcc_encoding_payload(encoding, &byte_count);
+  const uint32_t* source = mcc_encoding_source_wedges(encoding, 0, &wedge_count);
+  static uint16_t short_indices[3 * kTriangles];
+  static uint32_t long_indices[3 * kTriangles];
+  mcc_payload* payload = NULL;
+  mcc_piece_info piece;
+  mcc_attribute_info attribute;
+  uint32_t triangle_count = 0;
+  size_t i;
+  EXPECT(wedge_count == kWedges);
+  EXPECT(mcc_encoding_source_wedges(encoding, 1, &wedge_count) == NULL && wedge_count == 0);
+  EXPECT(mcc_payload_open(bytes, byte_count, NULL, &payload).error == MCC_OK);
+  EXPECT(mcc_payload_piece_count(payload) == 1);
+  EXPECT(mcc_payload_piece(payload, 0, &piece).error == MCC_OK);
+  EXPECT(mcc_payload_piece(payload, 1, &piece).error == MCC_ERROR_BAD_ARGUMENT);
+  EXPECT(piece.wedge_count == kWedges && piece.attribute_count == 2 && piece.part_count == 1);
+  EXPECT(mcc_payload_attribute(payload, 0, 1, &attribute).error == MCC_OK);
+  EXPECT(attribute.format.semantic == MCC_COLOR && attribute.format.normalized == 1);
+  EXPECT(mcc_element_bytes(&attribute.format) == 4 && attribute.coding == 1);
+  EXPECT(mcc_payload_attribute(payload, 0, 2, &attribute).error == MCC_ERROR_BAD_ARGUMENT);
+  EXPECT(mcc_payload_part(payload, 0, 0, &triangle_count).error == MCC_OK);
+  EXPECT(triangle_count == kTriangles);
+  EXPECT(mcc_payload_part(payload, 0, 1, &triangle_count).error == MCC_ERROR_BAD_ARGUMENT);
+
+  EXPECT(decode_sheet(payload, long_indices, 4, NULL).error == MCC_OK);
+  for (i = 0; i < kWedges; ++i) EXPECT(memcmp(&decoded[i], &vertices[source[i]], sizeof(vertex)) == 0);
+  EXPECT(decode_sheet(payload, short_indices, 2, NULL).error == MCC_OK);
+  for (i = 0; i < 3 * kTriangles; ++i) EXPECT(short_indices[i] == long_indices[i]);
+  EXPECT(decode_sheet(payload, short_indices, 1, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  EXPECT(decode_sheet(payload, short_indices, 3, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  EXPECT(decode_sheet(payload, NULL, 4, NULL).error == MCC_OK);
+  EXPECT(mcc_payload_decode(payload, NULL, 0, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  EXPECT(mcc_payload_decode(NULL, NULL, 0, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  mcc_payload_close(payload);
+}
+
+static void test_options(const mcc_encoding* encoding) {
+  size_t byte_count = 0;
+  const uint8_t* bytes = mcc_encoding_payload(encoding, &byte_count);
+  purse memory = {0, 1u << 20};
+  double done = 0;
+  mcc_payload* payload = NULL;
+  mcc_open_options open;
+  mcc_decode_options decode;
+  mcc_open_options_init(&open, sizeof open);
+  EXPECT(open.struct_bytes == sizeof open && open.max_vertices == (uint64_t)1 << 28);
+  open.allocator.allocate = take;
+  open.allocator.release = give_back;
+  open.allocator.user = &memory;
+  open.max_triangles = kTriangles - 1;
+  EXPECT(mcc_payload_open(bytes, byte_count, &open, &payload).error == MCC_ERROR_LIMIT);
+  EXPECT(payload == NULL && memory.used == 0);
+  open.max_triangles = kTriangles;
+  EXPECT(mcc_payload_open(bytes, byte_count, &open, &payload).error == MCC_OK);
+  EXPECT(memory.used != 0);
+
+  mcc_decode_options_init(&decode, sizeof decode);
+  decode.allocator = open.allocator;
+  decode.progress = stop_at_once;
+  decode.progress_user = &done;
+  EXPECT(decode_sheet(payload, NULL, 4, &decode).error == MCC_ERROR_CANCELLED);
+  EXPECT(done > 0 && done < 1);
+  decode.progress = NULL;
+  EXPECT(decode_sheet(payload, NULL, 4, &decode).error == MCC_OK);
+  memory.most = memory.used + 16;
+  EXPECT(decode_sheet(payload, NULL, 4, &decode).error == MCC_ERROR_OUT_OF_MEMORY);
+  mcc_payload_close(payload);
+  EXPECT(memory.used == 0);
+}
+
+/* Programs compiled against another version have shorter or longer structures. */
+static void test_structures_grow(const mcc_encoding* encoding) {
+  size_t byte_count = 0;
+  const uint8_t* bytes = mcc_encoding_payload(encoding, &byte_count);
+  mcc_payload* payload = NULL;
+  struct {
+    mcc_open_options options;
+    uint64_t later;
+  } longer;
+  struct {
+    size_t struct_bytes;
+    uint64_t max_vertices;
+  } shorter;
+  longer.later = 42;
+  mcc_open_options_init(&longer.options, sizeof longer);
+  EXPECT(longer.later == 42 && longer.options.struct_bytes == sizeof longer);
+  EXPECT(mcc_payload_open(bytes, byte_count, &longer.options, &payload).error == MCC_OK);
+  mcc_payload_close(payload);
+  mcc_open_options_init((mcc_open_options*)(void*)&shorter, sizeof shorter);
+  EXPECT(shorter.struct_bytes == sizeof shorter && shorter.max_vertices == (uint64_t)1 << 28);
+  EXPECT(mcc_payload_open(bytes, byte_count, (mcc_open_options*)(void*)&shorter, &payload).error == MCC_OK);
+  mcc_payload_close(payload);
+  longer.options.struct_bytes = 0;
+  EXPECT(mcc_payload_open(bytes, byte_count, &longer.options, &payload).error == MCC_ERROR_BAD_ARGUMENT);
+}
+
+static void test_damage(const mcc_encoding* encoding) {
+  size_t byte_count = 0;
+  const uint8_t* bytes = mcc_encoding_payload(encoding, &byte_count);
+  uint8_t* copy = (uint8_t*)malloc(byte_count);
+  char text[64];
+  mcc_payload* payload = NULL;
+  mcc_status status;
+  memcpy(copy, bytes, byte_count);
+  copy[byte_count / 2] ^= 1;
+  status = mcc_payload_open(copy, byte_count, NULL, &payload);
+  EXPECT(status.error == MCC_ERROR_BAD_CHECKSUM && payload == NULL);
+  EXPECT(mcc_status_text(status, NULL, 0) == mcc_status_text(status, text, sizeof text));
+  EXPECT(strstr(text, "checksum") != NULL);
+  EXPECT(mcc_payload_open(bytes, 5, NULL, &payload).error == MCC_ERROR_TRUNCATED);
+  EXPECT(mcc_payload_open(bytes, byte_count, NULL, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  mcc_payload_close(NULL);
+  free(copy);
+}
+
+static void test_encoder_refuses(void) {
+  mcc_encoding* encoding = NULL;
+  mcc_encode_options options;
+  const uint32_t kept = indices[0];
+  indices[0] = kWedges;
+  EXPECT(encode_sheet(NULL, &encoding).error == MCC_ERROR_BAD_ARGUMENT && encoding == NULL);
+  indices[0] = kept;
+  mcc_encode_options_init(&options, sizeof options);
+  options.effort = 3;
+  EXPECT(encode_sheet(&options, &encoding).error == MCC_ERROR_BAD_ARGUMENT);
+  EXPECT(mcc_encode(NULL, 1, NULL, &encoding).error == MCC_ERROR_BAD_ARGUMENT);
+  mcc_encoding_release(NULL);
+}
+
+static void test_documents(const char* path) {
+  FILE* file = fopen(path, "rb");
+  static uint8_t glb[1 << 20];
+  const size_t glb_bytes = file == NULL ? 0 : fread(glb, 1, sizeof glb, file);
+  size_t small_bytes = 0;
+  size_t back_bytes = 0;
+  mcc_convert_options options;
+  mcc_decode_glb_options decode_options;
+  mcc_document* small = NULL;
+  mcc_document* back = NULL;
+  const uint8_t* bytes;
+  if (file != NULL) fclose(file);
+  EXPECT(glb_bytes != 0);
+  mcc_convert_options_init(&options, sizeof options);
+  EXPECT(options.position_bits == 14);
+  options.normal_bits = 1;
+  EXPECT(mcc_convert_glb(glb, glb_bytes, &options, &small).error == MCC_ERROR_BAD_ARGUMENT);
+  options.normal_bits = 8;
+  EXPECT(mcc_convert_glb(glb, glb_bytes, &options, &small).error == MCC_OK);
+  EXPECT(strcmp(mcc_document_message(small), "") == 0);
+  bytes = mcc_document_bytes(small, &small_bytes);
+  EXPECT(bytes != NULL && small_bytes < glb_bytes / 2);
+  mcc_decode_glb_options_init(&decode_options, sizeof decode_options);
+  decode_options.thread_count = 2;
+  EXPECT(mcc_decode_glb(bytes, small_bytes, &decode_options, &back).error == MCC_OK);
+  EXPECT(mcc_document_bytes(back, &back_bytes) != NULL && back_bytes > small_bytes);
+  mcc_document_release(back);
+  mcc_document_release(small);
+  EXPECT(mcc_decode_glb("no GLB", 6, NULL, &back).error == MCC_ERROR_DOCUMENT);
+  EXPECT(mcc_document_bytes(back, &back_bytes) == NULL && strlen(mcc_document_message(back)) > 10);
+  mcc_document_release(back);
+}
+
+int main(int argument_count, char** arguments) {
+  mcc_encoding* encoding = NULL;
+  make_sheet();
+  EXPECT(argument_count == 2 && strlen(mcc_version()) >= 5);
+  EXPECT(encode_sheet(NULL, &encoding).error == MCC_OK);
+  test_round_trip(encoding);
+  test_options(encoding);
+  test_structures_grow(encoding);
+  test_damage(encoding);
+  test_encoder_refuses();
+  mcc_encoding_release(encoding);
+  test_documents(arguments[1]);
+  return failure_count == 0 ? 0 : 1;
+}
