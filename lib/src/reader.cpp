@@ -193,6 +193,24 @@ void storeFaces(const FaceMesh& mesh, Index* to) {
   }
 }
 
+template <class Io>
+Status tellMcEdges(const PieceCoder<Io>& piece, uint32_t piece_index,
+                   const DecodeOptions& options) {
+  Array<uint32_t> place_of(options.allocator);
+  if (!place_of.resize(piece.wedge_order.size()))
+    return fail(Error::kOutOfMemory, "no memory for the mc-edges");
+  for (uint32_t i = 0; i < piece.wedge_order.size(); ++i) place_of[piece.wedge_order[i]] = i;
+  const auto wedge = [&](uint32_t half_edge) {
+    const uint32_t w = piece.mesh.words[half_edge];
+    return place_of.empty() ? w : place_of[w];
+  };
+  for (size_t i = 0; i < piece.mc_edges.size(); ++i) {
+    const McEdge edge = piece.mc_edges[i];
+    options.mc_edge(options.mc_edge_user, piece_index, wedge(edge.vertex), wedge(edge.from));
+  }
+  return {};
+}
+
 Status checkPartCounts(std::span<const PartInfo> infos, const Array<uint32_t>& counts) {
   for (size_t p = 0; p < infos.size(); ++p) {
     if (counts[p] != infos[p].triangle_count) {
@@ -338,9 +356,11 @@ Status decodeAttribute(PieceCoder<Io>& piece, const PieceInfo& info, uint32_t in
 
 template <class Io>
 Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, const PieceInfo& info,
-                   const PieceTarget& target, const DecodeOptions& options, Progress& progress) {
+                   const PieceTarget& target, uint32_t piece_index, const DecodeOptions& options,
+                   Progress& progress) {
   const Allocator& allocator = options.allocator;
-  PieceCoder<Io> piece(io, models, header, info.attributes.data(), allocator, options.histogram);
+  PieceCoder<Io> piece(io, models, header, info.attributes.data(), allocator, options.histogram,
+                       options.mc_edge != nullptr);
   const PieceTruth nothing;
   MCC_TRY(piece.codeConnectivity(nothing));
   MCC_TRY(progress.advance(header.triangleCount()));
@@ -356,6 +376,7 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
   if (header.attribute_count != 0)
     storePositions(piece, info.attributes[0], info.wedge_count, target.attributes[0]);
   MCC_TRY(storeTriangles(piece, info.parts, target.parts, allocator));
+  if (options.mc_edge != nullptr) MCC_TRY(tellMcEdges(piece, piece_index, options));
   MCC_TRY(progress.advance(header.wedge_count));
   Array<int32_t> values(allocator);
   MCC_TRY(piece.prepareAttributes());
@@ -381,8 +402,8 @@ Status decodePieces(const PayloadHeader& header, const PayloadInfo& info,
   if (!models->mc.init(header.contextSet()))
     status = fail(Error::kOutOfMemory, "no memory for the models");
   for (size_t i = 0; i < targets.size() && status.ok(); ++i) {
-    status =
-        decodePiece(io, *models, header.pieces[i], info.pieces[i], targets[i], options, progress);
+    status = decodePiece(io, *models, header.pieces[i], info.pieces[i], targets[i],
+                         static_cast<uint32_t>(i), options, progress);
   }
   if (status.ok()) status = io.finish();
   models->~PayloadModels();

@@ -135,6 +135,11 @@ struct DecodeOptions {
   bool (*progress)(void* user, double done) = nullptr;
   void* progress_user = nullptr;
   CodeHistogram* histogram = nullptr;  ///< filled when not null
+  /// Called behind every piece for its mc-edges, in decoding order: the writer contracted along them in the opposite one.
+  /// `vertex` was made, or met again, at its edge to `from`; both are a wedge of their vertex, numbered as in the indices.
+  /// Edges to dummies are left out.
+  void (*mc_edge)(void* user, uint32_t piece, uint32_t vertex, uint32_t from) = nullptr;
+  void* mc_edge_user = nullptr;
 };
 
 /// An opened payload: its parsed and checked header. Move-only; keeps a reference to the bytes.
