@@ -33,6 +33,9 @@ void addBench(CLI::App& app, int& status);
 #endif
 
 /// Options of CommonOptions.
+/// --color, which colorModeOf() reads.
+void addColorOption(CLI::App& command);
+
 void addFormatOption(CLI::App& command, CommonOptions& options);
 void addVerbosityOptions(CLI::App& command, CommonOptions& options);
 
@@ -43,6 +46,10 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options);
 int reportFailure(const gltf::Result& result);
 
 /// Prints on standard output; returns kFailed when that fails.
+/// The same of work on one file, with what to do where that is known: names of files like an input that does not exist,
+/// how to write into a folder.
+int reportFailure(const gltf::Result& result, const std::string& input, const std::string& output);
+
 int printOut(const std::string& text);
 
 }  // namespace mcc::tool

@@ -117,6 +117,9 @@ struct ConvertOptions {
   uint32_t thread_count = 1;
   uint8_t effort = 1;        ///< see EncodeOptions::effort
   ForeignDecoders decoders;  ///< for sources that are compressed already
+  /// Called now and then with what is being done, for people who wait, and the share of its triangles that is behind it,
+  /// or -1. One call at a time, on any of the threads; throws nothing. May be null.
+  std::function<void(const char* stage, double share)> progress;
   /// Compress also where that makes the file larger. For tests of the file layer.
   bool allow_larger = false;
 };
