@@ -337,6 +337,36 @@ class Progress {
   uint64_t done_ = 0;
 };
 
+/// Tells the caller what the stages of a piece read. A decoder that does not count tells nothing.
+template <class Io>
+class StageBits {
+ public:
+  StageBits(const Io& io, uint32_t piece, const DecodeOptions& options)
+      : io_(io), piece_(piece), options_(options), last_(now()) {}
+
+  void tell(DecodeStage stage, uint32_t attribute = 0) {
+    if (options_.stage_bits == nullptr) return;
+    const uint64_t bits = now();
+    // To a bit: a stage that reads nothing may seem to give some back.
+    const uint64_t spent = bits > last_ ? bits - last_ : 0;
+    last_ = std::max(last_, bits);
+    options_.stage_bits(options_.stage_bits_user, piece_, stage, attribute, spent);
+  }
+
+ private:
+  uint64_t now() const {
+    if constexpr (requires { io_.spentBits(); }) {
+      if (options_.stage_bits != nullptr) return io_.spentBits();
+    }
+    return 0;
+  }
+
+  const Io& io_;
+  const uint32_t piece_;
+  const DecodeOptions& options_;
+  uint64_t last_;
+};
+
 /// Attributes that are coded with another one are stored with that.
 template <class Io>
 Status decodeAttribute(PieceCoder<Io>& piece, const PieceInfo& info, uint32_t index,
@@ -361,18 +391,25 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
   const Allocator& allocator = options.allocator;
   PieceCoder<Io> piece(io, models, header, info.attributes.data(), allocator, options.histogram,
                        options.mc_edge != nullptr);
+  StageBits<Io> bits(io, piece_index, options);
   const PieceTruth nothing;
   MCC_TRY(piece.codeConnectivity(nothing));
+  bits.tell(DecodeStage::kConnectivity);
   MCC_TRY(progress.advance(header.triangleCount()));
   MCC_TRY(piece.codeStitch(nothing));
+  bits.tell(DecodeStage::kStitching);
   MCC_TRY(progress.advance(header.vertex_count));
   MCC_TRY(piece.codePositions(nothing));
+  bits.tell(DecodeStage::kPositions);
   if (header.attribute_count != 0) {
     MCC_TRY(progress.advance(Progress::componentsOf(header, info.attributes[0])));
   }
   MCC_TRY(piece.codeSeams(nothing));
+  bits.tell(DecodeStage::kSeams);
   MCC_TRY(piece.codeLeftovers(nothing));
+  bits.tell(DecodeStage::kLeftovers);
   MCC_TRY(piece.codeOrders(nothing));
+  bits.tell(DecodeStage::kOrders);
   if (header.attribute_count != 0)
     storePositions(piece, info.attributes[0], info.wedge_count, target.attributes[0]);
   MCC_TRY(storeTriangles(piece, info.parts, target.parts, allocator));
@@ -384,6 +421,7 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
     for (uint32_t a = 1; a < info.attributes.size(); ++a) {
       if (codingPhase(info.attributes[a]) != phase) continue;
       MCC_TRY(decodeAttribute(piece, info, a, target, values));
+      bits.tell(DecodeStage::kAttribute, a);
       MCC_TRY(progress.advance(Progress::componentsOf(header, info.attributes[a])));
     }
   }

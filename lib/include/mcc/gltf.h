@@ -222,6 +222,17 @@ struct DecodeReport {
   std::vector<std::string> notes;
 };
 
+/// What the payload says of an attribute, worked out.
+struct InspectAttribute {
+  std::string name;       ///< as in the JSON; "(unused)" when no primitive names it
+  std::string predictor;  ///< the writer's choice in the specification's words: "fitted, sheared"
+  double coded_bits = 0;  ///< in the payload, right to a few; when codes are counted
+  /// No component is farther from its source than this, but for float32 rounding, where the writer is this library's: it
+  /// chooses the nearest point of the grid. 0: exact.
+  double error_bound = 0;
+  bool is_angle = false;  ///< error_bound is in degrees
+};
+
 /// A piece of an inspected payload.
 struct InspectPiece {
   uint32_t wedge_count = 0;
@@ -230,7 +241,8 @@ struct InspectPiece {
   uint32_t part_count = 0;
   std::vector<AttributeInfo> attributes;
   std::vector<std::string>
-      attribute_names;  ///< as in the JSON; "(unused)" when no primitive names it
+      attribute_names;                    ///< as in the JSON; "(unused)" when no primitive names it
+  std::vector<InspectAttribute> details;  ///< one for each of `attributes`
 };
 
 /// A payload as its header describes it.
@@ -245,8 +257,12 @@ struct InspectPayload {
   uint64_t raw_bits_bytes = 0;
   std::vector<std::string> primitives;  ///< JSON paths of the primitives that use it
   std::vector<InspectPiece> pieces;
+  bool single_coder = false;
+  uint32_t context_set = 0;
   bool has_codes = false;
   CodeHistogram codes;  ///< when asked for
+  /// Likewise: those of ConvertReport that are no attributes; with InspectAttribute::coded_bits they sum up to the payload.
+  std::vector<StreamReport> streams;
 };
 
 /// All payloads of a file.
@@ -347,7 +363,8 @@ MCC_API Result decodeFile(const std::filesystem::path& source, const std::filesy
                           DecodeReport& report, DecodeTo decode_to = DecodeTo::kFloats,
                           uint32_t thread_count = 1);
 
-/// Lists the payloads of a file. With `count_codes` they are decoded to count their codes. Safe for untrusted input.
+/// Lists the payloads of a file. With `count_codes` they are decoded to count their codes, and the bits of their
+/// streams. Safe for untrusted input.
 MCC_API Result inspectGlb(std::span<const uint8_t> source, bool count_codes, InspectReport& report);
 MCC_API Result inspectFile(const std::filesystem::path& source, bool count_codes,
                            InspectReport& report);

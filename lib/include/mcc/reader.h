@@ -127,6 +127,17 @@ struct PieceTarget {
   std::span<const PartTarget> parts;            ///< one per part of the piece
 };
 
+/// What the bits of a payload are for.
+enum class DecodeStage : uint8_t {
+  kConnectivity,
+  kStitching,
+  kPositions,
+  kSeams,
+  kLeftovers,  ///< duplicate and degenerate triangles, parts
+  kOrders,
+  kAttribute,
+};
+
 /// What decode() may use, and whom it tells.
 struct DecodeOptions {
   Allocator allocator;
@@ -140,6 +151,11 @@ struct DecodeOptions {
   /// Edges to dummies are left out.
   void (*mc_edge)(void* user, uint32_t piece, uint32_t vertex, uint32_t from) = nullptr;
   void* mc_edge_user = nullptr;
+  /// Called behind the stages of every piece with the bits they read, right to a few bits; `attribute` is its number in the
+  /// piece, of kAttribute alone. JOINTS take those of WEIGHTS along.
+  void (*stage_bits)(void* user, uint32_t piece, DecodeStage stage, uint32_t attribute,
+                     uint64_t bits) = nullptr;
+  void* stage_bits_user = nullptr;
 };
 
 /// An opened payload: its parsed and checked header. Move-only; keeps a reference to the bytes.
