@@ -101,12 +101,13 @@ int run(int argc, char** argv) {
   addDecode(app, status);
   addInspect(app, status);
   addValidate(app, status);
+  addTree(app, status);
 #if defined(MCC_HAS_FOREIGN)
   addCompare(app, status);
   addBench(app, status);
 #endif
-  setHelp(
   addHelpCommands(app, status);
+  setHelp(
       app, "COMMAND …",
       "gltf-mcc COMMAND --help says more.\n"
       "Exit status: 0 done; 1 the input is bad or the check failed, nothing was written; 2 wrong\n"
@@ -115,7 +116,8 @@ int run(int argc, char** argv) {
       "convert -j 4 -o small models/*.glb\n"
       "decode small.glb model.glb\n"
       "inspect small.glb\n"
-      "validate small.glb");
+      "validate small.glb\n"
+      "tree small.glb tree.svg");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {  // also thrown for --help and --version
@@ -130,9 +132,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     mcc::tool::removeTemporariesOnSignals();
+    mcc::tool::setColorMode(mcc::tool::colorModeOf(argc, argv));
     return mcc::tool::run(argc, argv);
   } catch (const std::exception& exception) {
-    mcc::tool::setColorMode(mcc::tool::colorModeOf(argc, argv));
     std::fprintf(stderr, "gltf-mcc: %s\n", exception.what());
     return mcc::tool::kFailed;
   }

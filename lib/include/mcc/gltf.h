@@ -376,6 +376,25 @@ MCC_API Result inspectFile(const std::filesystem::path& source, bool count_codes
 /// Safe for untrusted input. Deterministic. Tests: tests/gltf/validate_test.cpp, tests/cli/validate_test.cpp.
 Result validate(const Source& source, const ValidateOptions& options, ValidationReport& report);
 
+/// The edges along which a surface was contracted.
+struct McTree {
+  /// `parent` was contracted before `child`, or is the mc-vertex.
+  struct Edge {
+    uint32_t parent = 0;
+    uint32_t child = 0;
+  };
+  std::vector<float> positions;   ///< 3 per vertex
+  std::vector<uint32_t> indices;  ///< 3 per triangle
+  std::vector<Edge> edges;     ///< in the order of the contractions; those to dummies are left out
+  bool is_of_payload = false;  ///< else of one made for the purpose, as convert() would
+};
+
+/// The mc-tree of a primitive: that of the payload's piece, with all triangles of that piece, where the primitive is
+/// compressed. Errors: there is no such primitive; it has no triangles, or cannot be read. Safe for untrusted input.
+/// Deterministic. Tests: tests/gltf/tree_test.cpp.
+MCC_API Result mcTree(const Source& source, uint32_t mesh, uint32_t primitive,
+                      const ForeignDecoders& decoders, McTree& tree);
+
 }  // namespace mcc::gltf
 
 #endif  // MCC_GLTF_H_
