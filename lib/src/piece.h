@@ -64,8 +64,9 @@ class PieceCoder {
  public:
   PieceCoder(Io& io, PayloadModels& models, const PieceHeader& header,
              const AttributeInfo* attributes, const Allocator& allocator,
-             CodeHistogram* histogram = nullptr)
+             CodeHistogram* histogram = nullptr, bool has_mc_edges = false)
       : mesh(allocator),
+        mc_edges(allocator),
         groups(allocator),
         records(allocator),
         sequence(allocator),
@@ -82,7 +83,8 @@ class PieceCoder {
         allocator_(allocator),
         stage_(io, models.attributes, attributes, header.attribute_count, allocator),
         group_positions_(allocator),
-        histogram_(histogram) {}
+        histogram_(histogram),
+        has_mc_edges_(has_mc_edges) {}
 
   Status codeConnectivity(const PieceTruth& truth) {
     if (!mesh.words.resize(size_t{header_.face_count} * kFaceWords)) return noMemory();
@@ -90,9 +92,10 @@ class PieceCoder {
     mesh.vertex_count = 0;
     const McCounts counts{header_.operation_count, header_.vertex_count, header_.dummy_count,
                           header_.face_count, header_.has(piece_flag::kHandles)};
-    McMachine<Io> machine(io_, models_.mc, counts, allocator_, mesh, truth.connectivity,
-                          histogram_);
-    return machine.run();
+    McMachine<Io> machine(io_, models_.mc, counts, allocator_, mesh, truth.connectivity, histogram_,
+                          has_mc_edges_ ? &mc_edges : nullptr);
+    MCC_TRY(machine.run());
+    return has_mc_edges_ ? cornersOfMcEdges() : Status{};
   }
 
   Status codeStitch(const PieceTruth& truth) {
@@ -294,6 +297,7 @@ class PieceCoder {
   }
 
   FaceMesh mesh;  ///< corners: vertices, after codeStitch() groups, after codeSeams() wedges
+  Array<McEdge> mc_edges;  ///< if wanted, between half-edges that begin at the vertices
   Groups groups;
   Array<VertexRecord> records;  ///< by group
   Array<uint32_t>
@@ -307,6 +311,22 @@ class PieceCoder {
   Array<uint32_t> wedge_order;     ///< wedge by place; empty if not kept
 
  private:
+  /// Vertices are renumbered by the next stages, half-edges stay.
+  Status cornersOfMcEdges() {
+    Array<uint32_t> corner(allocator_);
+    if (!corner.assign(mesh.vertex_count, kNone)) return noMemory();
+    for (uint32_t f = 0; f < mesh.face_count; ++f) {
+      for (uint32_t h = f * kFaceWords; h < f * kFaceWords + 3; ++h) corner[mesh.words[h]] = h;
+    }
+    size_t count = 0;
+    for (size_t i = 0; i < mc_edges.size(); ++i) {
+      const McEdge edge{corner[mc_edges[i].vertex], corner[mc_edges[i].from]};
+      // The codes of a bad file may make vertices without a triangle.
+      if (edge.vertex != kNone && edge.from != kNone) mc_edges[count++] = edge;
+    }
+    return mc_edges.resize(count) ? Status{} : noMemory();
+  }
+
   static constexpr uint8_t kNarrowBits = 17;         ///< Q8 predictions fit 32 bits up to here
   static constexpr uint8_t kExactPositionBits = 26;  ///< scale the seeds of exact floats start with
 
@@ -420,6 +440,7 @@ class PieceCoder {
   AttributeStage<Io> stage_;
   Array<float> group_positions_;  ///< 4 per group, see attributes/wedges.h
   CodeHistogram* const histogram_;
+  const bool has_mc_edges_;
 };
 
 }  // namespace mcc

@@ -193,6 +193,24 @@ void storeFaces(const FaceMesh& mesh, Index* to) {
   }
 }
 
+template <class Io>
+Status tellMcEdges(const PieceCoder<Io>& piece, uint32_t piece_index,
+                   const DecodeOptions& options) {
+  Array<uint32_t> place_of(options.allocator);
+  if (!place_of.resize(piece.wedge_order.size()))
+    return fail(Error::kOutOfMemory, "no memory for the mc-edges");
+  for (uint32_t i = 0; i < piece.wedge_order.size(); ++i) place_of[piece.wedge_order[i]] = i;
+  const auto wedge = [&](uint32_t half_edge) {
+    const uint32_t w = piece.mesh.words[half_edge];
+    return place_of.empty() ? w : place_of[w];
+  };
+  for (size_t i = 0; i < piece.mc_edges.size(); ++i) {
+    const McEdge edge = piece.mc_edges[i];
+    options.mc_edge(options.mc_edge_user, piece_index, wedge(edge.vertex), wedge(edge.from));
+  }
+  return {};
+}
+
 Status checkPartCounts(std::span<const PartInfo> infos, const Array<uint32_t>& counts) {
   for (size_t p = 0; p < infos.size(); ++p) {
     if (counts[p] != infos[p].triangle_count) {
@@ -319,6 +337,36 @@ class Progress {
   uint64_t done_ = 0;
 };
 
+/// Tells the caller what the stages of a piece read. A decoder that does not count tells nothing.
+template <class Io>
+class StageBits {
+ public:
+  StageBits(const Io& io, uint32_t piece, const DecodeOptions& options)
+      : io_(io), piece_(piece), options_(options), last_(now()) {}
+
+  void tell(DecodeStage stage, uint32_t attribute = 0) {
+    if (options_.stage_bits == nullptr) return;
+    const uint64_t bits = now();
+    // To a bit: a stage that reads nothing may seem to give some back.
+    const uint64_t spent = bits > last_ ? bits - last_ : 0;
+    last_ = std::max(last_, bits);
+    options_.stage_bits(options_.stage_bits_user, piece_, stage, attribute, spent);
+  }
+
+ private:
+  uint64_t now() const {
+    if constexpr (requires { io_.spentBits(); }) {
+      if (options_.stage_bits != nullptr) return io_.spentBits();
+    }
+    return 0;
+  }
+
+  const Io& io_;
+  const uint32_t piece_;
+  const DecodeOptions& options_;
+  uint64_t last_;
+};
+
 /// Attributes that are coded with another one are stored with that.
 template <class Io>
 Status decodeAttribute(PieceCoder<Io>& piece, const PieceInfo& info, uint32_t index,
@@ -338,24 +386,34 @@ Status decodeAttribute(PieceCoder<Io>& piece, const PieceInfo& info, uint32_t in
 
 template <class Io>
 Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, const PieceInfo& info,
-                   const PieceTarget& target, const DecodeOptions& options, Progress& progress) {
+                   const PieceTarget& target, uint32_t piece_index, const DecodeOptions& options,
+                   Progress& progress) {
   const Allocator& allocator = options.allocator;
-  PieceCoder<Io> piece(io, models, header, info.attributes.data(), allocator, options.histogram);
+  PieceCoder<Io> piece(io, models, header, info.attributes.data(), allocator, options.histogram,
+                       options.mc_edge != nullptr);
+  StageBits<Io> bits(io, piece_index, options);
   const PieceTruth nothing;
   MCC_TRY(piece.codeConnectivity(nothing));
+  bits.tell(DecodeStage::kConnectivity);
   MCC_TRY(progress.advance(header.triangleCount()));
   MCC_TRY(piece.codeStitch(nothing));
+  bits.tell(DecodeStage::kStitching);
   MCC_TRY(progress.advance(header.vertex_count));
   MCC_TRY(piece.codePositions(nothing));
+  bits.tell(DecodeStage::kPositions);
   if (header.attribute_count != 0) {
     MCC_TRY(progress.advance(Progress::componentsOf(header, info.attributes[0])));
   }
   MCC_TRY(piece.codeSeams(nothing));
+  bits.tell(DecodeStage::kSeams);
   MCC_TRY(piece.codeLeftovers(nothing));
+  bits.tell(DecodeStage::kLeftovers);
   MCC_TRY(piece.codeOrders(nothing));
+  bits.tell(DecodeStage::kOrders);
   if (header.attribute_count != 0)
     storePositions(piece, info.attributes[0], info.wedge_count, target.attributes[0]);
   MCC_TRY(storeTriangles(piece, info.parts, target.parts, allocator));
+  if (options.mc_edge != nullptr) MCC_TRY(tellMcEdges(piece, piece_index, options));
   MCC_TRY(progress.advance(header.wedge_count));
   Array<int32_t> values(allocator);
   MCC_TRY(piece.prepareAttributes());
@@ -363,6 +421,7 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
     for (uint32_t a = 1; a < info.attributes.size(); ++a) {
       if (codingPhase(info.attributes[a]) != phase) continue;
       MCC_TRY(decodeAttribute(piece, info, a, target, values));
+      bits.tell(DecodeStage::kAttribute, a);
       MCC_TRY(progress.advance(Progress::componentsOf(header, info.attributes[a])));
     }
   }
@@ -381,8 +440,8 @@ Status decodePieces(const PayloadHeader& header, const PayloadInfo& info,
   if (!models->mc.init(header.contextSet()))
     status = fail(Error::kOutOfMemory, "no memory for the models");
   for (size_t i = 0; i < targets.size() && status.ok(); ++i) {
-    status =
-        decodePiece(io, *models, header.pieces[i], info.pieces[i], targets[i], options, progress);
+    status = decodePiece(io, *models, header.pieces[i], info.pieces[i], targets[i],
+                         static_cast<uint32_t>(i), options, progress);
   }
   if (status.ok()) status = io.finish();
   models->~PayloadModels();

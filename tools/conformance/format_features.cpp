@@ -305,7 +305,9 @@ void addCodes(std::span<const uint8_t> payload, Features& features) {
   CodeHistogram histogram{};
   const Status opened = decoded.payload.open(payload);
   if (!opened.ok()) throw std::runtime_error(opened.what);
-  const gltf::Result result = gltf::decodePieces("payload", decoded, &histogram);
+  DecodeOptions options;
+  options.histogram = &histogram;
+  const gltf::Result result = gltf::toResult(gltf::decodePieces(decoded, options), "payload");
   if (!result.ok()) throw std::runtime_error(result.message());
   const auto add = [&](const std::string& name, uint64_t count, const Sections& sections) {
     if (count != 0) features[name].insert(sections.begin(), sections.end());

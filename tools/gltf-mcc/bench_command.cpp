@@ -130,6 +130,7 @@ void addBench(CLI::App& app, int& status) {
       ->group("");  // for tests/results
   addFormatOption(*command, state->common);
   command->add_flag("-q,--quiet", state->common.is_quiet, "Show no progress");
+  addColorOption(*command);
   setHelp(
       *command, "bench [OPTIONS] IN…",
       "All codecs get the same grids and run in turns on one thread of one process; the least CPU\n"

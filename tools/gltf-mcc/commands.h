@@ -27,10 +27,14 @@ void addConvert(CLI::App& app, int& status);
 void addDecode(CLI::App& app, int& status);
 void addInspect(CLI::App& app, int& status);
 void addValidate(CLI::App& app, int& status);
+void addTree(CLI::App& app, int& status);
 #if defined(MCC_HAS_FOREIGN)
 void addCompare(CLI::App& app, int& status);
 void addBench(CLI::App& app, int& status);
 #endif
+
+/// --color, which colorModeOf() reads.
+void addColorOption(CLI::App& command);
 
 /// Options of CommonOptions.
 void addFormatOption(CLI::App& command, CommonOptions& options);
@@ -41,6 +45,10 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options);
 
 /// Prints "gltf-mcc: FILE: where: what" on standard error; returns kFailed.
 int reportFailure(const gltf::Result& result);
+
+/// The same of work on one file, with what to do where that is known: names of files like an input that does not exist,
+/// how to write into a folder.
+int reportFailure(const gltf::Result& result, const std::string& input, const std::string& output);
 
 /// Prints on standard output; returns kFailed when that fails.
 int printOut(const std::string& text);

@@ -141,6 +141,7 @@ void addCompare(CLI::App& app, int& status) {
       ->type_name("OUT2");
   addFormatOption(*command, state->common);
   addVerbosityOptions(*command, state->common);
+  addColorOption(*command);
   setHelp(
       *command, "compare [OPTIONS] IN…",
       "Draco gets the same grids as we, at speeds 0 (smallest), 3 and 5 (glTF-Transform's\n"

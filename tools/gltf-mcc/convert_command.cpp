@@ -17,6 +17,7 @@
 #include "help.h"
 #include "in_out.h"
 #include "interrupt.h"
+#include "progress_line.h"
 #include "standard_streams.h"
 
 #if defined(MCC_HAS_FOREIGN)
@@ -113,7 +114,12 @@ gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison&
   }
   result = compared.begin(source.source(), converted.output, convert);
   if (!result.ok()) return result;
-  result = gltf::convert(source.source(), sink.sink(), convert, converted.report);
+  {
+    WorkProgress progress(common.is_quiet, converted.input);
+    gltf::ConvertOptions watched = convert;
+    watched.progress = [&](const char* stage, double share) { progress.tell(stage, share); };
+    result = gltf::convert(source.source(), sink.sink(), watched, converted.report);
+  }
   if (result.ok()) result = sink.finish();
   if (!result.ok()) return result;
   const gltf::ConvertReport& done = converted.report;
@@ -145,7 +151,7 @@ int ConvertCommand::runOne() const {
   const gltf::Result outcome = convertOne(converted, compared);
   if (!outcome.ok()) {
     if (report_is_new) std::remove(report.c_str());
-    return reportFailure(outcome);
+    return reportFailure(outcome, converted.input, converted.output);
   }
   const auto json = reportJson(converted, convert, compared.json);
   if (!report.empty()) {
@@ -282,6 +288,7 @@ void addConvert(CLI::App& app, int& status) {
       ->type_name("N");
   command->add_flag("--force", state->is_forced, "With -o DIR: convert what is up to date, too");
   addVerbosityOptions(*command, state->common);
+  addColorOption(*command);
   setHelp(
       *command, "convert [OPTIONS] IN OUT\nconvert [OPTIONS] -o DIR IN…",
       "IN and OUT are .glb or .gltf files, or - for standard input and output. A .gltf gets its\n"

@@ -9,6 +9,7 @@
 #include "help.h"
 #include "in_out.h"
 #include "interrupt.h"
+#include "progress_line.h"
 #include "standard_streams.h"
 
 namespace mcc::tool {
@@ -61,10 +62,11 @@ int DecodeCommand::runOne() const {
   if (outcome.ok()) outcome = sink.open(files.output);
   gltf::DecodeReport report;
   if (outcome.ok()) {
+    const WorkProgress progress(common.is_quiet, "decoding " + input);
     outcome = gltf::decode(source.source(), sink.sink(), report, decode_to, thread_count);
   }
   if (outcome.ok()) outcome = sink.finish();
-  if (!outcome.ok()) return reportFailure(outcome);
+  if (!outcome.ok()) return reportFailure(outcome, input, files.output);
   if (common.is_quiet || sink.isStandardOutput()) return kDone;
   std::string text = fmt::format("{} -> {}: {} -> {} bytes\n", input, files.output,
                                  grouped(report.input_bytes), grouped(report.output_bytes));
@@ -92,6 +94,7 @@ void addDecode(CLI::App& app, int& status) {
       ->type_name("N");
   command->add_flag("--force", state->is_forced, "With -o DIR: decode what is up to date, too");
   addVerbosityOptions(*command, state->common);
+  addColorOption(*command);
   setHelp(
       *command, "decode [OPTIONS] IN OUT\ndecode [OPTIONS] -o DIR IN…",
       "IN and OUT are .glb or .gltf files, or - for standard input and output. A .gltf gets its\n"

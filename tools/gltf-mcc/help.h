@@ -4,26 +4,60 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 namespace mcc::tool {
+
+/// What --help and the man page say of a command besides its options. Lines end with '\n' but the last.
+struct CommandHelp {
+  std::string usage;     ///< what follows "gltf-mcc", a line for each way to call the command
+  std::string text;      ///< between the options and the examples; may be empty
+  std::string examples;  ///< what follows "gltf-mcc", a line each
+};
 
 /// Help that says how a command is called and what an option takes, and no more.
 class HelpFormatter : public CLI::Formatter {
  public:
-  /// lines  what follows "gltf-mcc" in the usage, a line for each way to call the command.
-  explicit HelpFormatter(std::string lines);
+  explicit HelpFormatter(CommandHelp help);
 
+  const CommandHelp& help() const { return help_; }
+
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override;
+  std::string make_description(const CLI::App* app) const override;
   std::string make_usage(const CLI::App* app, std::string name) const override;
+  std::string make_group(std::string group, bool is_positional,
+                         std::vector<const CLI::Option*> options) const override;
+  std::string make_subcommands(const CLI::App* app, CLI::AppFormatMode mode) const override;
   std::string make_positionals(const CLI::App* app) const override;
   std::string make_option_opts(const CLI::Option* option) const override;
+  std::string make_footer(const CLI::App* app) const override;
 
  private:
-  std::string usage_;
+  CommandHelp help_;
 };
 
 /// Sets the usage lines and the examples of a command; `text` comes between the options and them.
 void setHelp(CLI::App& command, const std::string& usage, const std::string& text,
              const std::string& examples);
+
+/// What setHelp() got.
+const CommandHelp& helpOf(const CLI::App& command);
+
+/// The commands that --help lists, in its order.
+std::vector<const CLI::App*> commandsOf(const CLI::App& app);
+
+/// An option as --help lists it.
+struct OptionHelp {
+  std::vector<std::string> names;    ///< "-o", "--output"
+  std::string value;                 ///< "FILE|DIR"; empty: it takes none
+  std::vector<std::string> choices;  ///< the words it takes, where these are all
+  bool takes_file = false;
+  std::string description;
+};
+
+/// Those of the command that --help lists, in its order.
+std::vector<OptionHelp> optionsOf(const CLI::App& command);
 
 }  // namespace mcc::tool
 

@@ -35,6 +35,12 @@ void InOut::sort(const std::string& command) {
     throw CLI::ValidationError(command, output + ": only .glb and .gltf files are written");
   }
   std::error_code ignored;
+  // Nothing opens a model without an extension. What exists may be a device, or is a folder.
+  if (extension.empty() && !may_be_folder && !isStandardStream(output) && !output.ends_with('/') &&
+      !std::filesystem::exists(output, ignored)) {
+    throw CLI::ValidationError(
+        command, output + ": has no extension; name it " + output + ".glb or " + output + ".gltf");
+  }
   is_batch = may_be_folder && (inputs.size() > 1 || output.ends_with('/') ||
                                std::filesystem::is_directory(output, ignored));
   if (is_batch && std::any_of(inputs.begin(), inputs.end(), isStandardStream)) {

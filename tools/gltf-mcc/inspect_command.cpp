@@ -4,9 +4,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bars.h"
 #include "commands.h"
 #include "convert_report.h"
 #include "help.h"
+#include "progress_line.h"
 
 namespace mcc::tool {
 namespace {
@@ -35,6 +37,10 @@ std::string joined(const std::vector<std::string>& texts) {
   return all;
 }
 
+std::string counted(uint64_t number, const char* one, const char* many) {
+  return grouped(number) + " " + (number == 1 ? one : many);
+}
+
 std::string attributeText(const AttributeInfo& attribute) {
   static constexpr const char* kTypes[] = {"i8", "u8", "i16", "u16", "u32", "f32"};
   return fmt::format("{}x{}{}", kTypes[static_cast<size_t>(attribute.format.component_type)],
@@ -42,9 +48,10 @@ std::string attributeText(const AttributeInfo& attribute) {
 }
 
 Table payloadTable(const gltf::InspectReport& report, Format format) {
-  Table table({"bufferView", "bytes", "bits/vertex", "version", "pieces", "triangles", "vertices",
-               "positions", "header", "codes", "tokens", "raw bits", "used by"},
-              {12});
+  Table table(
+      {"bufferView", "bytes", "bits/vertex", "version", "pieces", "triangles", "vertices",
+       "positions", "header", "codes", "tokens", "raw bits", "coders", "contexts", "used by"},
+      {14});
   for (const auto& payload : report.payloads) {
     const Counts counts = countsOf(payload);
     std::string users = payload.primitives[0];
@@ -59,26 +66,97 @@ Table payloadTable(const gltf::InspectReport& report, Format format) {
          std::to_string(payload.pieces.size()), count(counts.triangles, format),
          count(counts.wedges, format), count(counts.vertices, format),
          count(payload.header_bytes, format), count(payload.codes_bytes, format),
-         count(payload.tokens_bytes, format), count(payload.raw_bits_bytes, format), users});
+         count(payload.tokens_bytes, format), count(payload.raw_bits_bytes, format),
+         payload.single_coder ? "1" : "3", std::to_string(payload.context_set), users});
   }
   return table;
 }
 
+/// Streams and attributes of all payloads, by name, in bits.
+std::vector<gltf::StreamReport> streamsOf(const gltf::InspectReport& report) {
+  std::vector<gltf::StreamReport> streams;
+  const auto add = [&](const std::string& name, double bits) {
+    for (gltf::StreamReport& stream : streams) {
+      if (stream.name != name) continue;
+      stream.bits += bits;
+      return;
+    }
+    streams.push_back({name, bits});
+  };
+  for (const auto& payload : report.payloads) {
+    for (const gltf::StreamReport& stream : payload.streams) add(stream.name, stream.bits);
+  }
+  for (const auto& payload : report.payloads) {
+    for (const gltf::InspectPiece& piece : payload.pieces) {
+      for (const gltf::InspectAttribute& details : piece.details) {
+        add(details.name, details.coded_bits);
+      }
+    }
+  }
+  return streams;
+}
+
+Table streamTable(const gltf::InspectReport& report, Format format) {
+  const std::vector<gltf::StreamReport> streams = streamsOf(report);
+  uint64_t vertices = 0;
+  double all = 0;
+  double most = 0;
+  for (const auto& payload : report.payloads) vertices += countsOf(payload).wedges;
+  for (const gltf::StreamReport& stream : streams) {
+    all += stream.bits;
+    most = std::max(most, stream.bits);
+  }
+  const bool has_bars = format == Format::kPretty;
+  Table table(has_bars ? std::vector<std::string>{"stream", "bytes", "share", "bits/vertex", ""}
+                       : std::vector<std::string>{"stream", "bytes", "share", "bits/vertex"},
+              {4});
+  const auto add = [&](const std::string& name, double bits, const std::string& bar) {
+    table.addRow({name, count(static_cast<uint64_t>(bits / 8 + 0.5), format),
+                  all == 0 ? "" : fmt::format("{:.1f} %", 100 * bits / all),
+                  vertices == 0 ? "" : fmt::format("{:.3f}", bits / static_cast<double>(vertices)),
+                  bar});
+  };
+  for (const gltf::StreamReport& stream : streams) {
+    add(stream.name, stream.bits, has_bars ? barOf(most == 0 ? 0 : stream.bits / most) : "");
+  }
+  table.addRule();
+  add("all", all, "");
+  return table;
+}
+
+std::string boundText(const gltf::InspectAttribute& details) {
+  if (details.error_bound == 0) return "exact";
+  return fmt::format("{:.3g}{}", details.error_bound, details.is_angle ? " deg" : "");
+}
+
+std::string originText(const AttributeInfo& info) {
+  std::string text;
+  for (uint32_t c = 0; c < std::min<uint32_t>(info.format.component_count, 4); ++c) {
+    text += fmt::format("{}{:.6g}", c == 0 ? "" : ", ", info.lattice.origin[c]);
+  }
+  return text;
+}
+
 Table attributeTable(const gltf::InspectReport& report, Format format) {
   Table table({"bufferView", "piece", "triangles", "vertices", "parts", "attribute", "type",
-               "coding", "step"},
-              {5, 6, 7});
+               "coding", "step", "error bound", "origin", "predictor"},
+              {5, 6, 7, 10, 11});
   for (const auto& payload : report.payloads) {
     for (size_t i = 0; i < payload.pieces.size(); ++i) {
       const gltf::InspectPiece& piece = payload.pieces[i];
       for (size_t k = 0; k < piece.attributes.size(); ++k) {
         const AttributeInfo& attribute = piece.attributes[k];
         const bool has_lattice = attribute.coding == AttributeCoding::kLattice;
+        const std::string coding = attribute.coding == AttributeCoding::kAlias
+                                       ? "as " + piece.details[attribute.alias_of].name
+                                       : codingName(attribute.coding, attribute.bits);
         table.addRow({std::to_string(payload.buffer_view), std::to_string(i),
                       count(piece.triangle_count, format), count(piece.wedge_count, format),
-                      std::to_string(piece.part_count), piece.attribute_names[k],
-                      attributeText(attribute), codingName(attribute.coding, attribute.bits),
-                      has_lattice ? fmt::format("{:.6g}", attribute.lattice.step) : ""});
+                      std::to_string(piece.part_count), piece.details[k].name,
+                      attributeText(attribute), coding,
+                      has_lattice ? fmt::format("{:.6g}", attribute.lattice.step) : "",
+                      boundText(piece.details[k]), has_lattice ? originText(attribute) : "",
+                      piece.details[k].predictor});
       }
     }
   }
@@ -140,11 +218,16 @@ Json pieceJson(const gltf::InspectPiece& piece) {
   Json attributes = Json::array();
   for (size_t k = 0; k < piece.attributes.size(); ++k) {
     const AttributeInfo& attribute = piece.attributes[k];
-    Json json = {{"name", piece.attribute_names[k]},
+    Json json = {{"name", piece.details[k].name},
                  {"type", attributeText(attribute)},
                  {"coding", codingName(attribute.coding, 0)},
                  {"bits", attribute.bits},
-                 {"predictor", attribute.predictor}};
+                 {"predictor", attribute.predictor},
+                 {"predictor_name", piece.details[k].predictor},
+                 {"coded_bytes", piece.details[k].coded_bits / 8},
+                 {"error_unit", piece.details[k].is_angle ? "degrees" : "accessor units"},
+                 {"error_bound", piece.details[k].error_bound}};
+    if (attribute.coding == AttributeCoding::kAlias) json["alias_of"] = attribute.alias_of;
     if (attribute.coding == AttributeCoding::kLattice) {
       json["step"] = attribute.lattice.step;
       json["origin"] = attribute.lattice.origin;
@@ -170,9 +253,14 @@ std::string inspectJson(const std::string& input, const gltf::InspectReport& rep
                  {"codes_bytes", payload.codes_bytes},
                  {"tokens_bytes", payload.tokens_bytes},
                  {"raw_bits_bytes", payload.raw_bits_bytes},
+                 {"single_coder", payload.single_coder},
+                 {"context_set", payload.context_set},
                  {"primitives", payload.primitives},
                  {"pieces", pieces}};
     if (payload.has_codes) json["codes"] = codesJson(payload.codes);
+    for (const gltf::StreamReport& stream : payload.streams) {
+      json["stream_bytes"][stream.name] = stream.bits / 8;
+    }
     payloads.push_back(std::move(json));
   }
   const Json json = {{"input", input},
@@ -191,8 +279,12 @@ struct InspectCommand {
 
   int run() const {
     gltf::InspectReport report;
-    const gltf::Result outcome = gltf::inspectFile(input, show_codes, report);
-    if (!outcome.ok()) return reportFailure(outcome);
+    gltf::Result outcome;
+    {
+      const WorkProgress progress(false, "reading " + input);
+      outcome = gltf::inspectFile(input, true, report);
+    }
+    if (!outcome.ok()) return reportFailure(outcome, input, "");
     if (common.format == Format::kJson) return printOut(inspectJson(input, report));
     if (common.format == Format::kCsv) {
       const Table table =
@@ -204,14 +296,16 @@ struct InspectCommand {
 
   std::string text(const gltf::InspectReport& report) const {
     std::string out =
-        fmt::format("{}: {} bytes, {} meshes, {} primitives; extensions: {}\n", input,
-                    grouped(report.input_bytes), report.mesh_count, report.primitive_count,
+        fmt::format("{}: {} bytes, {}, {}; extensions: {}\n", input, grouped(report.input_bytes),
+                    counted(report.mesh_count, "mesh", "meshes"),
+                    counted(report.primitive_count, "primitive", "primitives"),
                     report.extensions_used.empty() ? "none" : joined(report.extensions_used));
     if (report.payloads.empty()) {
       return out + "nothing in it is compressed with " + gltf::kExtensionName + "\n";
     }
     out += "\n" + payloadTable(report, common.format).print(common.format);
     if (show_codes) return out + "\n" + codeTable(report, common.format).print(common.format);
+    out += "\n" + streamTable(report, common.format).print(common.format);
     return out + "\n" + attributeTable(report, common.format).print(common.format);
   }
 };
@@ -227,7 +321,12 @@ void addInspect(CLI::App& app, int& status) {
   command->add_flag("--codes", state->show_codes,
                     "Count the codes: S, E, M and the degrees of vertices");
   addFormatOption(*command, state->common);
-  setHelp(*command, "inspect [OPTIONS] IN", "IN is a .glb or .gltf file.",
+  addColorOption(*command);
+  setHelp(*command, "inspect [OPTIONS] IN",
+          "IN is a .glb or .gltf file. Of each payload are shown its streams with their bytes, and "
+          "its\n"
+          "attributes: how each is coded, the step of its grid, how far a value may be from the\n"
+          "source, and what the writer chose to predict it, in the words of the specification.",
           "inspect small.glb\n"
           "inspect small.glb --codes --format md");
   command->callback([state, &status]() { status = state->run(); });

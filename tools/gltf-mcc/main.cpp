@@ -5,13 +5,30 @@
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <map>
 
 #include "commands.h"
+#include "container/payload_header.h"
 #include "help.h"
+#include "help_pages.h"
 #include "interrupt.h"
+#include "standard_streams.h"
+#include "suggest.h"
+#include "terminal.h"
+#include "usage_error.h"
 
 namespace mcc::tool {
+
+void addColorOption(CLI::App& command) {
+  // Its value is known already, see main().
+  command
+      .add_option_function<std::string>(
+          "--color", [](const std::string&) {},
+          "Colours: on a terminal, or always, or never [auto]")
+      ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
+      ->type_name("auto|always|never");
+}
 
 void addFormatOption(CLI::App& command, CommonOptions& options) {
   const std::map<std::string, Format> names = {{"pretty", Format::kPretty},
@@ -33,8 +50,20 @@ int reportFailure(const gltf::Result& result) {
   for (char& c : line) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';  // names come from the file
   }
-  fmt::print(stderr, "gltf-mcc: {}\n", line);
+  fmt::print(stderr, "{} {}\n", styleOfErrors().error("gltf-mcc:"), line);
   return kFailed;
+}
+
+int reportFailure(const gltf::Result& result, const std::string& input, const std::string& output) {
+  namespace fs = std::filesystem;
+  gltf::Result advised = result;
+  std::error_code code;
+  if (!isStandardStream(input) && !fs::exists(input, code)) {
+    advised.what += didYouMeanFile(input);
+  } else if (fs::is_directory(output, code)) {
+    advised.what += "; -o " + output + " writes into it";
+  }
+  return reportFailure(advised);
 }
 
 int printOut(const std::string& text) {
@@ -45,50 +74,50 @@ int printOut(const std::string& text) {
 
 namespace {
 
-/// Why there is no command, when there is none.
-std::string missingCommand(const CLI::App& app, int argc, char** argv) {
-  std::string names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    names += (names.empty() ? "" : ", ") + command->get_name();
-  }
-  for (int i = 1; i < argc; ++i) {
-    if (argv[i][0] == '-') continue;
-    return fmt::format("\"{}\" is no command; there are {}", argv[i], names);
-  }
-  return "name a command: " + names;
+std::string versionText() {
+  std::string text = fmt::format("gltf-mcc {}\n", MCC_VERSION);
+  text += fmt::format("{}: writes format {}.{}, reads {}.x\n", gltf::kExtensionName, kVersionMajor,
+                      kVersionMinor, kVersionMajor);
+#if defined(MCC_HAS_FOREIGN)
+  text += "reads KHR_draco_mesh_compression, EXT_meshopt_compression, KHR_meshopt_compression";
+#else
+  text += "built without Draco and meshoptimizer";
+#endif
+  return text;
 }
 
 int run(int argc, char** argv) {
   CLI::App app("Compresses the meshes of glTF files with KHR_mesh_collapse_compression.");
   app.name("gltf-mcc");
-  app.set_version_flag("--version", MCC_VERSION);
+  app.set_version_flag("--version", versionText())
+      ->description("Print versions of program and format");
+  addColorOption(app);
   app.require_subcommand(1);
   app.failure_message([=](const CLI::App* failed, const CLI::Error& failure) {
-    const bool has_command = !failed->get_subcommands().empty();
-    const std::string what =
-        has_command ? std::string(failure.what()) : missingCommand(*failed, argc, argv);
-    return fmt::format("gltf-mcc: {}\nRun \"gltf-mcc --help\" or \"gltf-mcc COMMAND --help\".\n",
-                       what);
+    return usageErrorText(*failed, failure, argc, argv);
   });
   int status = kDone;
   addConvert(app, status);
   addDecode(app, status);
   addInspect(app, status);
   addValidate(app, status);
+  addTree(app, status);
 #if defined(MCC_HAS_FOREIGN)
   addCompare(app, status);
   addBench(app, status);
 #endif
+  addHelpCommands(app, status);
   setHelp(
       app, "COMMAND …",
       "gltf-mcc COMMAND --help says more.\n"
       "Exit status: 0 done; 1 the input is bad or the check failed, nothing was written; 2 wrong\n"
-      "usage.",
+      "usage. NO_COLOR in the environment does without colours.",
       "convert model.glb small.glb\n"
       "convert -j 4 -o small models/*.glb\n"
       "decode small.glb model.glb\n"
       "inspect small.glb\n"
-      "validate small.glb");
+      "validate small.glb\n"
+      "tree small.glb tree.svg");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {  // also thrown for --help and --version
@@ -103,6 +132,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     mcc::tool::removeTemporariesOnSignals();
+    mcc::tool::setColorMode(mcc::tool::colorModeOf(argc, argv));
     return mcc::tool::run(argc, argv);
   } catch (const std::exception& exception) {
     std::fprintf(stderr, "gltf-mcc: %s\n", exception.what());

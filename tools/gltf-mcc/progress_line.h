@@ -2,30 +2,51 @@
 #ifndef MCC_TOOL_PROGRESS_LINE_H_
 #define MCC_TOOL_PROGRESS_LINE_H_
 
-#include <unistd.h>
-
-#include <cstdio>
+#include <condition_variable>
+#include <mutex>
 #include <string>
+#include <thread>
 
 namespace mcc::tool {
 
 /// One line on standard error that says what is going on; nothing where that is no terminal.
 class ProgressLine {
  public:
-  explicit ProgressLine(bool is_quiet) : is_shown_(!is_quiet && isatty(STDERR_FILENO) == 1) {}
+  explicit ProgressLine(bool is_quiet);
   ~ProgressLine() { clear(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  void show(const std::string& text) const {
-    if (is_shown_) std::fprintf(stderr, "\r\033[K%.78s", text.c_str());
-  }
-  void clear() const {
-    if (is_shown_) std::fputs("\r\033[K", stderr);
-  }
+  bool isShown() const { return is_shown_; }
+  void show(const std::string& text) const;
+  void clear() const;
 
  private:
   bool is_shown_;
+};
+
+/// A ProgressLine for one task, from its second second on: how long it takes and, when told, how far it is.
+class WorkProgress {
+ public:
+  WorkProgress(bool is_quiet, std::string task);
+  ~WorkProgress();  ///< the line goes
+  WorkProgress(const WorkProgress&) = delete;
+  WorkProgress& operator=(const WorkProgress&) = delete;
+
+  /// From any thread. share: 0 to 1 of the whole; less than 0: not known.
+  void tell(const std::string& stage, double share);
+
+ private:
+  void watch();
+
+  const ProgressLine line_;
+  const std::string task_;
+  std::mutex mutex_;  ///< over all below
+  std::condition_variable ending_;
+  std::string stage_;
+  double share_ = -1;
+  bool is_ending_ = false;
+  std::thread watcher_;  ///< only where the line is shown
 };
 
 }  // namespace mcc::tool

@@ -3,15 +3,10 @@
 
 #include <algorithm>
 
+#include "terminal.h"
+
 namespace mcc::tool {
 namespace {
-
-/// Columns a UTF-8 text takes on a terminal (one per code point).
-size_t widthOf(const std::string& text) {
-  return static_cast<size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
-  }));
-}
 
 std::string padded(const std::string& text, size_t width, bool is_left) {
   const std::string space(width - std::min(width, widthOf(text)), ' ');
@@ -66,6 +61,7 @@ std::string Table::printAligned(bool is_markdown) const {
     out += line + "\n";
   };
   addLine(header_);
+  if (!is_markdown) out = styleOfOutput().bold(out.substr(0, out.size() - 1)) + "\n";
   addRuleLine();
   for (const auto& row : rows_) {
     if (!isRule(row)) {

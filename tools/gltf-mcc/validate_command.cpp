@@ -167,6 +167,7 @@ void addValidate(CLI::App& app, int& status) {
       ->type_name("N");
   command->add_flag("-q,--quiet", state->common.is_quiet, "Print errors only");
   addFormatOption(*command, state->common);
+  addColorOption(*command);
   setHelp(
       *command, "validate [OPTIONS] FILE…",
       "FILE is a .glb or .gltf file, or - for standard input. Checked is all that\n"

@@ -117,6 +117,9 @@ struct ConvertOptions {
   uint32_t thread_count = 1;
   uint8_t effort = 1;        ///< see EncodeOptions::effort
   ForeignDecoders decoders;  ///< for sources that are compressed already
+  /// Called now and then with what is being done, for people who wait, and the share of its triangles that is behind it,
+  /// or -1. One call at a time, on any of the threads; throws nothing. May be null.
+  std::function<void(const char* stage, double share)> progress;
   /// Compress also where that makes the file larger. For tests of the file layer.
   bool allow_larger = false;
 };
@@ -219,6 +222,17 @@ struct DecodeReport {
   std::vector<std::string> notes;
 };
 
+/// What the payload says of an attribute, worked out.
+struct InspectAttribute {
+  std::string name;       ///< as in the JSON; "(unused)" when no primitive names it
+  std::string predictor;  ///< the writer's choice in the specification's words: "fitted, sheared"
+  double coded_bits = 0;  ///< in the payload, right to a few; when codes are counted
+  /// No component is farther from its source than this, but for float32 rounding, where the writer is this library's: it
+  /// chooses the nearest point of the grid. 0: exact.
+  double error_bound = 0;
+  bool is_angle = false;  ///< error_bound is in degrees
+};
+
 /// A piece of an inspected payload.
 struct InspectPiece {
   uint32_t wedge_count = 0;
@@ -227,7 +241,8 @@ struct InspectPiece {
   uint32_t part_count = 0;
   std::vector<AttributeInfo> attributes;
   std::vector<std::string>
-      attribute_names;  ///< as in the JSON; "(unused)" when no primitive names it
+      attribute_names;                    ///< as in the JSON; "(unused)" when no primitive names it
+  std::vector<InspectAttribute> details;  ///< one for each of `attributes`
 };
 
 /// A payload as its header describes it.
@@ -242,8 +257,12 @@ struct InspectPayload {
   uint64_t raw_bits_bytes = 0;
   std::vector<std::string> primitives;  ///< JSON paths of the primitives that use it
   std::vector<InspectPiece> pieces;
+  bool single_coder = false;
+  uint32_t context_set = 0;
   bool has_codes = false;
   CodeHistogram codes;  ///< when asked for
+  /// Likewise: those of ConvertReport that are no attributes; with InspectAttribute::coded_bits they sum up to the payload.
+  std::vector<StreamReport> streams;
 };
 
 /// All payloads of a file.
@@ -344,7 +363,8 @@ MCC_API Result decodeFile(const std::filesystem::path& source, const std::filesy
                           DecodeReport& report, DecodeTo decode_to = DecodeTo::kFloats,
                           uint32_t thread_count = 1);
 
-/// Lists the payloads of a file. With `count_codes` they are decoded to count their codes. Safe for untrusted input.
+/// Lists the payloads of a file. With `count_codes` they are decoded to count their codes, and the bits of their
+/// streams. Safe for untrusted input.
 MCC_API Result inspectGlb(std::span<const uint8_t> source, bool count_codes, InspectReport& report);
 MCC_API Result inspectFile(const std::filesystem::path& source, bool count_codes,
                            InspectReport& report);
@@ -355,6 +375,25 @@ MCC_API Result inspectFile(const std::filesystem::path& source, bool count_codes
 /// Errors: the file cannot be read. Whatever is wrong inside is in `report`.
 /// Safe for untrusted input. Deterministic. Tests: tests/gltf/validate_test.cpp, tests/cli/validate_test.cpp.
 Result validate(const Source& source, const ValidateOptions& options, ValidationReport& report);
+
+/// The edges along which a surface was contracted.
+struct McTree {
+  /// `parent` was contracted before `child`, or is the mc-vertex.
+  struct Edge {
+    uint32_t parent = 0;
+    uint32_t child = 0;
+  };
+  std::vector<float> positions;   ///< 3 per vertex
+  std::vector<uint32_t> indices;  ///< 3 per triangle
+  std::vector<Edge> edges;     ///< in the order of the contractions; those to dummies are left out
+  bool is_of_payload = false;  ///< else of one made for the purpose, as convert() would
+};
+
+/// The mc-tree of a primitive: that of the payload's piece, with all triangles of that piece, where the primitive is
+/// compressed. Errors: there is no such primitive; it has no triangles, or cannot be read. Safe for untrusted input.
+/// Deterministic. Tests: tests/gltf/tree_test.cpp.
+MCC_API Result mcTree(const Source& source, uint32_t mesh, uint32_t primitive,
+                      const ForeignDecoders& decoders, McTree& tree);
 
 }  // namespace mcc::gltf
 

@@ -127,6 +127,17 @@ struct PieceTarget {
   std::span<const PartTarget> parts;            ///< one per part of the piece
 };
 
+/// What the bits of a payload are for.
+enum class DecodeStage : uint8_t {
+  kConnectivity,
+  kStitching,
+  kPositions,
+  kSeams,
+  kLeftovers,  ///< duplicate and degenerate triangles, parts
+  kOrders,
+  kAttribute,
+};
+
 /// What decode() may use, and whom it tells.
 struct DecodeOptions {
   Allocator allocator;
@@ -135,6 +146,16 @@ struct DecodeOptions {
   bool (*progress)(void* user, double done) = nullptr;
   void* progress_user = nullptr;
   CodeHistogram* histogram = nullptr;  ///< filled when not null
+  /// Called behind every piece for its mc-edges, in decoding order: the writer contracted along them in the opposite one.
+  /// `vertex` was made, or met again, at its edge to `from`; both are a wedge of their vertex, numbered as in the indices.
+  /// Edges to dummies are left out.
+  void (*mc_edge)(void* user, uint32_t piece, uint32_t vertex, uint32_t from) = nullptr;
+  void* mc_edge_user = nullptr;
+  /// Called behind the stages of every piece with the bits they read, right to a few bits; `attribute` is its number in the
+  /// piece, of kAttribute alone. JOINTS take those of WEIGHTS along.
+  void (*stage_bits)(void* user, uint32_t piece, DecodeStage stage, uint32_t attribute,
+                     uint64_t bits) = nullptr;
+  void* stage_bits_user = nullptr;
 };
 
 /// An opened payload: its parsed and checked header. Move-only; keeps a reference to the bytes.

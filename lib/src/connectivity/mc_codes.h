@@ -136,6 +136,12 @@ inline bool McModels::init(uint32_t set) {
          special.assign(8 * specialContextFactor(set), BitModel{});
 }
 
+/// An mc-edge: `vertex` came to the edge's other end, `from`.
+struct McEdge {
+  uint32_t vertex;
+  uint32_t from;
+};
+
 // --- the machine -----------------------------------------------------------------------------------
 
 inline constexpr uint32_t kGateFlag = 1u << 31;  ///< gate | kGateFlag: glued to another gate
@@ -167,7 +173,8 @@ template <class Io>
 class McMachine {
  public:
   McMachine(Io& io, McModels& models, const McCounts& counts, const Allocator& allocator,
-            FaceMesh& mesh, const McTruth& truth, CodeHistogram* histogram)
+            FaceMesh& mesh, const McTruth& truth, CodeHistogram* histogram,
+            Array<McEdge>* edges = nullptr)
       : io_(io),
         models_(models),
         counts_(counts),
@@ -175,7 +182,8 @@ class McMachine {
         stack_(allocator),
         mesh_(mesh),
         truth_(truth),
-        histogram_(histogram) {}
+        histogram_(histogram),
+        edges_(edges) {}
 
   /// Runs all operations; fills `mesh`, whose words have been sized for counts.face_count. [A.4.2]
   Status run();
@@ -244,6 +252,12 @@ class McMachine {
       ++histogram_->degree[std::min(degree, 255u)];
   }
 
+  /// An operation adds two edges at most, and the last one that of finishComponent(): `edges` has room.
+  void noteEdge(uint32_t vertex, uint32_t from) {
+    if (edges_ != nullptr && vertex != kDummyVertex && from != kDummyVertex) [[unlikely]]
+      (void)edges_->push_back(McEdge{vertex, from});
+  }
+
   static void addDegree(McNode& node, uint32_t edges) {
     node.degree = static_cast<uint16_t>(std::min<uint32_t>(node.degree + edges, 0xffff));
   }
@@ -256,6 +270,7 @@ class McMachine {
   FaceMesh& mesh_;
   const McTruth truth_;
   CodeHistogram* histogram_;
+  Array<McEdge>* edges_;
 
   uint32_t top_ = kNone;
   uint32_t free_ = kNone;  ///< closed nodes to be used again, linked by `next`
@@ -277,6 +292,9 @@ Status McMachine<Io>::run() {
   const uint64_t expected = uint64_t{counts_.vertex_count} + counts_.vertex_count / 8;
   if (!nodes_.reserve(counts_.has_handles ? expected : std::min<uint64_t>(expected, 1u << 10))) {
     return fail(Error::kOutOfMemory, "no memory for the connectivity decoder");
+  }
+  if (edges_ != nullptr && !edges_->reserve(2 * size_t{counts_.operation_count} + 1)) {
+    return fail(Error::kOutOfMemory, "no memory for the mc-edges");
   }
   for (uint32_t i = 0; operation_ < counts_.operation_count; ++i) {
     const McOperation* op =
@@ -449,6 +467,7 @@ Status McMachine<Io>::codeEnd(const McOperation* op, bool first) {
   nodes_[b].next = a;
   nodes_[a].gate = kGateFlag | b;
   nodes_[b].gate = kGateFlag | a;
+  noteEdge(vertex[0], vertex[1]);
   top_ = a;
   age_ = 0;
   remember(kClassEnd);
@@ -480,6 +499,8 @@ Status McMachine<Io>::addLoneTriangle(const McOperation* op) {
   MCC_TRY(newVertex(false, Io::kEncoding ? op->vertex_a : 0, face[1]));
   MCC_TRY(newVertex(false, Io::kEncoding ? op->vertex_b : 0, face[2]));
   MCC_TRY(newVertex(false, Io::kEncoding ? op[-1].vertex_a : 0, face[0]));
+  noteEdge(face[1], face[2]);
+  noteEdge(face[0], face[1]);
   face[kFaceWord] = 0;
   face[4] = face[5] = face[6] = kNone;
   face[kSeamWord] = 0;
@@ -601,6 +622,7 @@ MCC_INLINE Status McMachine<Io>::endRun(const McOperation* op, uint32_t vertex, 
   uint32_t node = 0;
   MCC_TRY(newNode(vertex, fan.taken + 1, node));
   if constexpr (Io::kEncoding) truth_.node_of_collapse_node[op->node_a] = node;
+  noteEdge(vertex, nodes_[top_].vertex);
   addDegree(nodes_[top_], 1);
   addDegree(nodes_[q], 1);
   nodes_[top_].next = node;
@@ -713,6 +735,7 @@ Status McMachine<Io>::spur(uint32_t vertex, uint32_t& tip, uint32_t& copy) {
   MCC_TRY(newNode(nodes_[top_].vertex, nodes_[top_].degree + 1u, copy));
   MCC_TRY(newNode(vertex, 1, tip));
   McNode& t = nodes_[top_];
+  noteEdge(vertex, t.vertex);
   addDegree(t, 1);
   nodes_[copy].next = t.next;
   nodes_[copy].gate = t.gate;
@@ -798,6 +821,7 @@ Status McMachine<Io>::finishComponent() {
                              Io::kEncoding && truth_.vertex_is_dummy[component->vertex] != 0);
   uint32_t vertex = 0;
   MCC_TRY(newVertex(dummy, Io::kEncoding ? component->vertex : 0, vertex));
+  noteEdge(vertex, nodes_[top_].vertex);
   uint32_t before = top_;
   uint32_t q = top_;
   Fan fan;

@@ -13,6 +13,7 @@
 #ifndef MCC_ENTROPY_DEC_CODER_H_
 #define MCC_ENTROPY_DEC_CODER_H_
 
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -78,6 +79,8 @@ class RangeDecoder {
   /// All bytes were used and not more than the padding zeros besides.
   bool finished() const { return next_ >= bytes_.size() && next_ <= bytes_.size() + 8; }
   bool overrun() const { return next_ > bytes_.size() + 8; }
+  /// Read so far, to a bit.
+  uint64_t spentBits() const { return 8 * uint64_t{next_} - std::bit_width(range_); }
 
  private:
   MCC_INLINE void renormalise() {
@@ -169,6 +172,12 @@ class RansDecoder {
            state_[2] == kRansLow;
   }
   bool overrun() const { return overrun_; }
+  /// Read so far, to three bits.
+  uint64_t spentBits() const {
+    uint64_t bits = 8 * uint64_t{next_};
+    for (const uint32_t state : state_) bits -= std::bit_width(state);
+    return bits;
+  }
 
  private:
   uint32_t nextWord() {
@@ -262,6 +271,7 @@ class RawBitsDecoder {
     return next_bit_ % 8 == 0 || bytes_.back() >> (next_bit_ % 8) == 0;
   }
   bool overrun() const { return (next_bit_ + 7) / 8 > bytes_.size(); }
+  uint64_t spentBits() const { return next_bit_; }
 
  private:
   std::span<const uint8_t> bytes_;
@@ -419,6 +429,15 @@ class DecoderIo {
       return codes_.overrun();
     } else {
       return codes_.overrun() || tokens_.overrun() || raw_.overrun();
+    }
+  }
+
+  /// Read so far, to a few bits.
+  uint64_t spentBits() const {
+    if constexpr (kSingle) {
+      return codes_.spentBits();
+    } else {
+      return codes_.spentBits() + tokens_.spentBits() + raw_.spentBits();
     }
   }
 

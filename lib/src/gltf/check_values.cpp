@@ -11,22 +11,6 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-/// Largest angle between a unit vector and the nearest point of an octahedral grid of 2^bits - 1
-/// points per axis: half a cell in both axes moves a point of the octahedron by sqrt(6) halves,
-/// where its faces are 1/sqrt(3) from the centre.
-double octahedralBound(uint32_t bits) {
-  const double half_cell = 1.0 / static_cast<double>((uint64_t{1} << bits) - 2);
-  return std::sqrt(18.0) * half_cell * (1 + half_cell) + 1e-6;
-}
-
-/// Half a step of the angle; the plane it lies in is off by the normal's bound, and the source's
-/// tangents need not be quite perpendicular to their normals.
-double tangentBound(uint32_t bits, uint32_t normal_bits) {
-  constexpr double kPerpendicular = 0.0025;
-  return std::numbers::pi / static_cast<double>(uint64_t{1} << bits) + kPerpendicular +
-         octahedralBound(normal_bits);
-}
-
 bool isBase(const AttributeFormat& format, Semantic semantic) {
   return format.semantic == semantic && format.morph_target == 0;
 }
@@ -118,6 +102,21 @@ Result compareExact(const AccessorData& source, const AccessorData& decoded,
 }
 
 }  // namespace
+
+/// 2^bits - 1 points per axis: half a cell in both axes moves a point of the octahedron by sqrt(6) halves,
+/// where its faces are 1/sqrt(3) from the centre.
+double octahedralBound(uint32_t bits) {
+  const double half_cell = 1.0 / static_cast<double>((uint64_t{1} << bits) - 2);
+  return std::sqrt(18.0) * half_cell * (1 + half_cell) + 1e-6;
+}
+
+/// Half a step of the angle; the plane it lies in is off by the normal's bound, and the source's
+/// tangents need not be quite perpendicular to their normals.
+double tangentBound(uint32_t bits, uint32_t normal_bits) {
+  constexpr double kPerpendicular = 0.0025;
+  return std::numbers::pi / static_cast<double>(uint64_t{1} << bits) + kPerpendicular +
+         octahedralBound(normal_bits);
+}
 
 double latticeBound(const Promise& promise, uint32_t component, double decoded) {
   // |fl(q * step) - q * step| and |fl(sum) - sum| are at most 2^-24 of the result; the writer's

@@ -23,6 +23,11 @@ struct Promise {
   double distance = 0;  ///< of positions: between two points; 0: none promised
 };
 
+/// Largest angle, in radians, between a unit vector and the nearest point of an octahedral grid, and between a tangent
+/// and its coded angle around a normal of such a grid.
+double octahedralBound(uint32_t bits);
+double tangentBound(uint32_t bits, uint32_t normal_bits);
+
 /// What the plan asked for, given what the payload says it did. Fails when that is coarser.
 /// normal_bits   of the NORMAL of the piece: angles of tangents are angles around it.
 Result promiseOf(const AttributePlan& plan, const AttributeInfo& coded, uint8_t normal_bits,

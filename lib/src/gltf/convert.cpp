@@ -175,6 +175,10 @@ void forgetPayloads(ConvertReport& report) {
   }
 }
 
+void tell(const ConvertOptions& options, const char* stage) {
+  if (options.progress) options.progress(stage, -1);
+}
+
 Result convertInput(const Input& input, const Output& output, const ConvertOptions& options,
                     Conversion& conversion, ConvertReport& report) {
   report = {};
@@ -182,6 +186,7 @@ Result convertInput(const Input& input, const Output& output, const ConvertOptio
   Document& document = conversion.document;
   Compressed& compressed = conversion.compressed;
   Package& package = conversion.package;
+  tell(options, "reading");
   MCC_GLTF_TRY(loadFor(output, input, document, report.files));
   MCC_GLTF_TRY(decodeViews(options.decoders, document));
   // Attributes beside a payload of triangles would have to be stored anew.
@@ -189,6 +194,7 @@ Result convertInput(const Input& input, const Output& output, const ConvertOptio
   report.input_bytes = document.source_bytes;
   report.notes = document.notes;
   MCC_GLTF_TRY(checkOldPayloads(document));
+  tell(options, "encoding");
   MCC_GLTF_TRY(compressDocument(document, options, compressed));
   report.notes.insert(report.notes.end(), compressed.notes.begin(), compressed.notes.end());
   addPrimitives(document, compressed, report);
@@ -223,6 +229,7 @@ Result checkOutput(const Conversion& conversion, const ConvertOptions& options,
                    ConvertReport& report) {
   if (!report.copied) {
     const Stopwatch watch;
+    tell(options, "checking");
     CheckResult checked;
     const std::vector<EncodedPayload>& payloads = conversion.compressed.payloads;
     MCC_GLTF_TRY(checkConversion(conversion.document, payloads, options.decoders, stored, read_file,

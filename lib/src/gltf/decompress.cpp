@@ -73,7 +73,7 @@ class Decompressor {
     std::vector<DecodedPayload> decoded(views.size());
     for (size_t i = 0; i < views.size(); ++i) MCC_GLTF_TRY(openView(views[i], decoded[i]));
     MCC_GLTF_TRY(runParallel(views.size(), thread_count_, [&](size_t i) {
-      return decodePieces(whereOf(views[i]), decoded[i], nullptr);
+      return decodePieces(whereOf(views[i]), decoded[i]);
     }));
     for (size_t i = 0; i < views.size(); ++i) storeView(views[i], decoded[i]);
     return {};

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 #include "gltf/compress.h"
 #include "gltf/indices_only.h"
@@ -136,6 +137,36 @@ Result encodeOne(const EncodeOptions& options, EncodedPayload& payload,
   return measure(payload);
 }
 
+/// Tells how much of the payloads' triangles is encoded.
+class EncodingProgress {
+ public:
+  EncodingProgress(const ConvertOptions& options, const std::vector<PayloadPlan>& plans)
+      : options_(options) {
+    for (const PayloadPlan& plan : plans) all_ += trianglesOf(plan);
+  }
+
+  static uint64_t trianglesOf(const PayloadPlan& plan) {
+    uint64_t count = 0;
+    for (const PiecePlan& piece : plan.pieces) {
+      for (const PartPlan& part : piece.parts) count += part.triangles.size() / 3;
+    }
+    return count;
+  }
+
+  void advance(uint64_t triangle_count) {
+    if (!options_.progress || all_ == 0) return;
+    const std::lock_guard lock(mutex_);
+    done_ += triangle_count;
+    options_.progress("encoding", static_cast<double>(done_) / static_cast<double>(all_));
+  }
+
+ private:
+  const ConvertOptions& options_;
+  std::mutex mutex_;
+  uint64_t all_ = 0;
+  uint64_t done_ = 0;
+};
+
 }  // namespace
 
 uint64_t bytesAlone(const ConvertOptions& options, const PayloadPlan& plan,
@@ -148,6 +179,7 @@ Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> pl
                       std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone) {
   std::vector<EncodedPayload> encoded(plans.size());
   std::vector<std::vector<LeftAlone>> refused(plans.size());
+  EncodingProgress progress(options, plans);
   ThreadBudget threads(options.thread_count);
   RunJobs run_jobs;
   if (options.thread_count > 1) {
@@ -162,7 +194,10 @@ Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> pl
     plan.keep_triangle_order |= options.keep_triangle_order;
     EncodeOptions encode_options = optionsOf(options, plan);
     encode_options.run_jobs = run_jobs;
-    return encodeOne(encode_options, encoded[i], refused[i]);
+    const uint64_t triangle_count = EncodingProgress::trianglesOf(plan);
+    Result result = encodeOne(encode_options, encoded[i], refused[i]);
+    progress.advance(triangle_count);
+    return result;
   }));
   for (size_t i = 0; i < encoded.size(); ++i) {
     left_alone.insert(left_alone.end(), refused[i].begin(), refused[i].end());

@@ -13,7 +13,7 @@ Result toResult(const Status& status, const std::string& where) {
   return error(where, what);
 }
 
-Status decodePieces(DecodedPayload& decoded, CodeHistogram* histogram) {
+Status decodePieces(DecodedPayload& decoded, const DecodeOptions& options) {
   const std::span<const PieceInfo> infos = decoded.payload.info().pieces;
   std::vector<std::vector<AttributeTarget>> attribute_targets(infos.size());
   std::vector<std::vector<PartTarget>> part_targets(infos.size());
@@ -32,20 +32,18 @@ Status decodePieces(DecodedPayload& decoded, CodeHistogram* histogram) {
     }
     targets[i] = {attribute_targets[i], part_targets[i]};
   }
-  DecodeOptions options;
-  options.histogram = histogram;
   return decoded.payload.decode(targets, options);
 }
 
-Result decodePieces(const std::string& where, DecodedPayload& decoded, CodeHistogram* histogram) {
-  return toResult(decodePieces(decoded, histogram), where);
+Result decodePieces(const std::string& where, DecodedPayload& decoded) {
+  return toResult(decodePieces(decoded), where);
 }
 
 Result decodePayload(std::span<const uint8_t> bytes, const std::string& where,
                      DecodedPayload& decoded) {
   decoded = {};
   MCC_GLTF_TRY(toResult(decoded.payload.open(bytes), where));
-  return decodePieces(where, decoded, nullptr);
+  return decodePieces(where, decoded);
 }
 
 }  // namespace mcc::gltf

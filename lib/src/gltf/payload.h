@@ -26,9 +26,9 @@ struct DecodedPayload {
 /// A codec status as a result.
 Result toResult(const Status& status, const std::string& where);
 
-/// Decodes all pieces of an opened payload. `histogram` may be null.
-Status decodePieces(DecodedPayload& decoded, CodeHistogram* histogram);
-Result decodePieces(const std::string& where, DecodedPayload& decoded, CodeHistogram* histogram);
+/// Decodes all pieces of an opened payload.
+Status decodePieces(DecodedPayload& decoded, const DecodeOptions& options = {});
+Result decodePieces(const std::string& where, DecodedPayload& decoded);
 
 /// Opens and decodes. `bytes` must outlive `decoded`.
 Result decodePayload(std::span<const uint8_t> bytes, const std::string& where,

@@ -204,7 +204,7 @@ class Validator {
       checkManifold(*use, info);
     }
     if (!issues_.hasErrors()) checkUse(users, info, where);
-    const Status status = decodePieces(decoded, nullptr);
+    const Status status = decodePieces(decoded);
     if (!status.ok()) return issues_.addPayloadError(status, where);
     for (size_t i = 0; i < info.pieces.size(); ++i) {
       report_.wedge_count += info.pieces[i].wedge_count;

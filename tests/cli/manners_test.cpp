@@ -1,0 +1,290 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// What people meet on a terminal: help, versions, suggestions, colours, the man page, completions.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <set>
+
+#include "cli/run_tool.h"
+
+namespace mcc::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Manners : public testing::Test {
+ protected:
+  void SetUp() override {
+#ifndef MCC_TOOL_GLTF_MCC
+    GTEST_SKIP() << "the tool is not part of this build";
+#else
+    tool_ = MCC_TOOL_GLTF_MCC;
+    fs::copy_file(fs::path(MCC_SAMPLES_DIR) / "torus.glb", folder_.path() / "torus.glb");
+#endif
+  }
+
+  ToolResult run(const std::string& arguments) const { return runTool(folder_, arguments); }
+
+  /// Runs bash with this script; $tool is the program.
+  ToolResult bash(const std::string& script) const { return shell("bash", script); }
+  ToolResult shell(const std::string& shell, const std::string& script) const {
+    std::ofstream(folder_.path() / "script") << script;
+    return runCommand(folder_, "tool='" + tool_ + "' " + shell + " script");
+  }
+  bool has(const std::string& command) const {
+    return runCommand(folder_, "command -v " + command).status == 0;
+  }
+
+  void expectUsageError(const std::string& arguments, const std::string& message) const {
+    const ToolResult result = run(arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_EQ(result.out, "");
+    EXPECT_NE(result.err.find("gltf-mcc: " + message + "\n"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("--help\"."), std::string::npos) << result.err;
+  }
+
+  /// The first words of the lines of one section of a help text.
+  static std::vector<std::string> wordsBelow(const std::string& help, const std::string& heading) {
+    std::vector<std::string> words;
+    size_t at = help.find("\n" + heading + ":\n");
+    if (at == std::string::npos) return words;
+    at += heading.size() + 3;
+    while (help.compare(at, 2, "  ") == 0) {
+      const size_t begin = at + 2;
+      const size_t end = help.find_first_of(" \n", begin);
+      if (help[begin] != ' ') words.push_back(help.substr(begin, end - begin));
+      at = help.find('\n', at) + 1;
+    }
+    return words;
+  }
+
+  std::vector<std::string> commands() const { return wordsBelow(run("--help").out, "Commands"); }
+
+  /// Names of the options of a command ("" for the program's own) in its help.
+  std::set<std::string> options(const std::string& command) const {
+    std::set<std::string> names;
+    for (const std::string& words : wordsBelow(run(command + " --help").out, "Options")) {
+      size_t begin = 0;
+      for (size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
+        comma = words.find(',', begin);
+        names.insert(words.substr(begin, comma - begin));
+      }
+    }
+    return names;
+  }
+
+  /// What bash offers for the last of these words.
+  std::set<std::string> offered(const std::vector<std::string>& words) const {
+    std::string list;
+    for (const std::string& word : words) list += " '" + word + "'";
+    const ToolResult result = bash(
+        "source <(\"$tool\" completion bash)\nCOMP_WORDS=(gltf-mcc" + list +
+        ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_gltf_mcc\nprintf '%s\\n' \"${COMPREPLY[@]}\"");
+    EXPECT_EQ(result.err, "");
+    std::set<std::string> found;
+    for (size_t at = 0; at < result.out.size();) {
+      const size_t end = result.out.find('\n', at);
+      if (end != at) found.insert(result.out.substr(at, end - at));
+      at = end + 1;
+    }
+    return found;
+  }
+
+  ScratchFolder folder_;
+  std::string tool_;
+};
+
+using Words = std::set<std::string>;
+
+bool isAscii(const std::string& text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+}
+
+TEST_F(Manners, EveryCommandHasHelpWithExamples) {
+  const std::vector<std::string> all = commands();
+  for (const char* command : {"convert", "decode", "inspect", "help", "completion"}) {
+    EXPECT_EQ(std::count(all.begin(), all.end(), command), 1) << command;
+  }
+  for (const std::string& command : all) {
+    const ToolResult help = run(command + " --help");
+    EXPECT_EQ(help.status, 0);
+    EXPECT_NE(help.out.find("Usage: gltf-mcc " + command), std::string::npos) << help.out;
+    EXPECT_NE(help.out.find("\nExamples:\n  gltf-mcc " + command), std::string::npos) << help.out;
+    EXPECT_EQ(options(command).count("--help"), 1u) << help.out;
+    EXPECT_EQ(run("help " + command).out, help.out);
+    for (size_t at = 0; at < help.out.size(); at = help.out.find('\n', at) + 1) {
+      EXPECT_LE(help.out.find('\n', at) - at, 110u) << help.out.substr(at, 120);
+    }
+  }
+  EXPECT_EQ(run("help").out, run("--help").out);
+  expectUsageError("help convrt", "help: there is no command convrt; did you mean convert?");
+}
+
+TEST_F(Manners, VersionNamesTheFormat) {
+  const ToolResult version = run("--version");
+  EXPECT_EQ(version.status, 0);
+  EXPECT_TRUE(std::regex_search(
+      version.out,
+      std::regex("^gltf-mcc \\d+\\.\\d+\\.\\d+\nKHR_mesh_collapse_compression: writes format "
+                 "1\\.\\d+, reads 1\\.x\n")))
+      << version.out;
+}
+
+TEST_F(Manners, WrongWordsGetSuggestions) {
+  expectUsageError("--colour always", "there is no option --colour; did you mean --color?");
+  EXPECT_NE(run("covnert a.glb b.glb").err.find("; did you mean convert?"), std::string::npos);
+  EXPECT_NE(run("insp torus.glb").err.find("; did you mean inspect?"), std::string::npos);
+  EXPECT_EQ(run("xylophone").err.find("did you mean"), std::string::npos);
+  EXPECT_NE(run("torus.glb small.glb").err.find("name a command before torus.glb: convert, "),
+            std::string::npos);
+  expectUsageError("convert torus.glb s.glb --lossles",
+                   "convert: there is no option --lossles; did you mean --lossless?");
+  expectUsageError("convert torus.glb s.glb --quantise-position=12",
+                   "convert: there is no option --quantise-position; did you mean "
+                   "--quantize-position?");
+  expectUsageError("convert torus.glb s.glb --frobnicate",
+                   "convert: there is no option --frobnicate");
+  expectUsageError("convert torus.glb s.glb -z", "convert: there is no option -z");
+  expectUsageError("convert torus.glb s.glb --grid scen",
+                   "--grid: scen is none of mesh, scene, primitive; did you mean scene?");
+  expectUsageError("inspect torus.glb --format xml",
+                   "--format: xml is none of pretty, md, csv, json");
+  expectUsageError("completion fish", "completion: knows bash and zsh, not fish");
+  EXPECT_NE(run("convert torus.glb s.glb --grid=x").err.find("Run \"gltf-mcc convert --help\"."),
+            std::string::npos);
+}
+
+TEST_F(Manners, FilesGetSuggestions) {
+  const auto expectSays = [&](const std::string& arguments, const std::string& message) {
+    const ToolResult result = run(arguments);
+    EXPECT_EQ(result.status, 1) << arguments;
+    EXPECT_EQ(result.err, "gltf-mcc: " + message + "\n");
+  };
+  expectSays("convert torus s.glb", "torus: there is no such file; did you mean torus.glb?");
+  expectSays("decode tours.glb s.glb", "tours.glb: there is no such file; did you mean torus.glb?");
+  expectSays("inspect ./toruss.glb",
+             "./toruss.glb: there is no such file; did you mean ./torus.glb?");
+  expectSays("inspect violin.glb", "violin.glb: there is no such file");
+  fs::create_directory(folder_.path() / "folder");
+  expectSays("convert torus.glb folder", "folder: is a folder; -o folder writes into it");
+  expectUsageError("convert torus.glb small",
+                   "convert: small: has no extension; name it small.glb or small.gltf");
+  EXPECT_EQ(run("convert torus.glb /dev/null").err.find("extension"), std::string::npos);
+}
+
+TEST_F(Manners, ColoursOnATerminalOnly) {
+  const std::string escape = "\033[";
+  for (const char* arguments : {"--help", "convert --help", "inspect torus.glb", "frobnicate"}) {
+    const ToolResult plain = run(arguments);
+    EXPECT_EQ((plain.out + plain.err).find('\033'), std::string::npos) << arguments;
+  }
+  EXPECT_NE(run("--help --color always").out.find(escape), std::string::npos);
+  EXPECT_NE(run("--color=always frobnicate").err.find(escape), std::string::npos);
+  ASSERT_EQ(run("convert torus.glb small.glb -q").status, 0);
+  EXPECT_NE(run("inspect small.glb --color always").out.find(escape), std::string::npos);
+  EXPECT_EQ(run("inspect small.glb --color always --format json").out.find(escape),
+            std::string::npos);
+  EXPECT_EQ(run("inspect small.glb --color always --format csv").out.find(escape),
+            std::string::npos);
+  expectUsageError("inspect small.glb --color sometimes",
+                   "--color: sometimes is none of auto, always, never");
+  if (!has("script")) GTEST_SKIP() << "no script(1), which makes a terminal";
+  const auto onTerminal = [&](const std::string& setting, const std::string& arguments) {
+    return bash("export TERM=xterm; unset NO_COLOR; " + setting + "\nscript -qec \"'$tool' " +
+                arguments + "\" /dev/null")
+        .out;
+  };
+  EXPECT_NE(onTerminal("", "inspect small.glb").find(escape), std::string::npos);
+  EXPECT_EQ(onTerminal("export NO_COLOR=1", "inspect small.glb").find(escape), std::string::npos);
+  EXPECT_EQ(onTerminal("export TERM=dumb", "inspect small.glb").find(escape), std::string::npos);
+  EXPECT_EQ(onTerminal("", "inspect small.glb --color never").find(escape), std::string::npos);
+  EXPECT_NE(onTerminal("export NO_COLOR=", "inspect small.glb").find(escape), std::string::npos);
+}
+
+TEST_F(Manners, AsciiWhereTheLocaleHasNoMore) {
+  ASSERT_EQ(run("convert torus.glb small.glb -q").status, 0);
+  for (const std::string arguments :
+       {"--help", "convert --help", "decode --help", "inspect small.glb", "frobnicate"}) {
+    const ToolResult ascii = bash("LC_ALL=C \"$tool\" " + arguments);
+    EXPECT_TRUE(isAscii(ascii.out + ascii.err)) << arguments << ascii.out << ascii.err;
+  }
+  EXPECT_FALSE(isAscii(bash("LC_ALL=C.UTF-8 \"$tool\" inspect small.glb").out));
+  EXPECT_FALSE(isAscii(bash("LC_ALL= LC_CTYPE= LANG=en_US.utf8 \"$tool\" convert --help").out));
+  EXPECT_TRUE(isAscii(bash("LC_ALL=C LANG=en_US.utf8 \"$tool\" convert --help").out));
+}
+
+TEST_F(Manners, ManPageHasEveryCommandAndOption) {
+  const std::string page = run("man").out;
+  EXPECT_TRUE(isAscii(page));
+  const auto contains = [&](const std::string& text) {
+    return page.find(std::regex_replace(text, std::regex("-"), "\\-")) != std::string::npos;
+  };
+  for (std::string command : commands()) {
+    EXPECT_NE(page.find("\n.SS " + command + "\n"), std::string::npos);
+    for (const std::string& option : options(command)) EXPECT_TRUE(contains(option)) << option;
+  }
+  for (const std::string& option : options("")) EXPECT_TRUE(contains(option)) << option;
+  std::ofstream(folder_.path() / "gltf-mcc.1") << page;
+  if (!has("groff")) GTEST_SKIP() << "no groff";
+  const ToolResult formatted = runCommand(folder_, "groff -man -Tascii -ww -rLL=100n gltf-mcc.1");
+  EXPECT_EQ(formatted.status, 0);
+  EXPECT_EQ(formatted.err, "");
+  EXPECT_NE(formatted.out.find("EXIT STATUS"), std::string::npos);
+}
+
+TEST_F(Manners, BashCompletesEverythingThatHelpLists) {
+  const std::vector<std::string> all = commands();
+  EXPECT_EQ(offered({""}), Words(all.begin(), all.end()));
+  EXPECT_EQ(offered({"--"}).count("--version"), 1u);
+  EXPECT_EQ(offered({"con"}), Words{"convert"});
+  for (const std::string& command : all) {
+    EXPECT_EQ(offered({command, "-"}), options(command)) << command;
+  }
+  EXPECT_EQ(offered({"convert", "torus.glb", "x.glb", "--grid", ""}),
+            (Words{"mesh", "scene", "primitive"}));
+  EXPECT_EQ(offered({"convert", "--grid", "=", "s"}), Words{"scene"});
+  EXPECT_EQ(offered({"convert", "--grid", "="}), (Words{"mesh", "scene", "primitive"}));
+  EXPECT_EQ(offered({"convert", "--quantize-position", ""}), Words{});
+  EXPECT_EQ(offered({"completion", ""}), (Words{"bash", "zsh"}));
+  EXPECT_EQ(offered({"help", "insp"}), Words{"inspect"});
+  fs::create_directory(folder_.path() / "my models");
+  std::ofstream(folder_.path() / "notes.txt") << "";
+  EXPECT_EQ(offered({"inspect", ""}), (Words{"my models", "torus.glb"}));
+  EXPECT_EQ(offered({"convert", "-o", "my"}), Words{"my models"});
+  EXPECT_EQ(offered({"convert", "--report", "no"}), Words{"notes.txt"});
+}
+
+TEST_F(Manners, ZshCompletesEverythingThatHelpLists) {
+  const std::string script = run("completion zsh").out;
+  EXPECT_EQ(script.rfind("#compdef gltf-mcc\n", 0), 0u);
+  for (const std::string& command : commands()) {
+    const size_t begin = script.find("\n    " + command + ")\n");
+    ASSERT_NE(begin, std::string::npos) << command;
+    const std::string part = script.substr(begin, script.find(";;", begin) - begin);
+    for (const std::string& option : options(command)) {
+      EXPECT_NE(part.find(option), std::string::npos) << command << " " << option;
+    }
+  }
+  if (!has("zsh")) GTEST_SKIP() << "no zsh";
+  EXPECT_EQ(shell("zsh -f", "\"$tool\" completion zsh > _gltf-mcc && zsh -n _gltf-mcc").err, "");
+  // A terminal inside of zsh, in which TAB is pressed.
+  const ToolResult result = shell("zsh -f", R"(
+zmodload zsh/zpty
+"$tool" completion zsh > _gltf-mcc
+zpty z zsh -f
+zpty -w z "PS1=; fpath=($PWD \$fpath); autoload -Uz compinit; compinit -u -D; LISTMAX=1000; stty columns 200"
+zpty -w z "zstyle ':completion:*' list-prompt ''; print REA''DY"
+zpty -r z line '*REA''DY*'
+zpty -w -n z $'gltf-mcc convert --quantize-p\t'
+zpty -r -m z line '*--quantize-position*' && print found
+zpty -d z
+)");
+  EXPECT_EQ(result.out, "found\n") << result.err;
+}
+
+}  // namespace
+}  // namespace mcc::test

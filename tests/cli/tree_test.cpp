@@ -1,0 +1,132 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// `gltf-mcc tree`: a picture of the same tree for the file before and after its compression.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <set>
+
+#include "cli/run_tool.h"
+
+namespace mcc::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Tree : public testing::Test {
+ protected:
+  void SetUp() override {
+#ifndef MCC_TOOL_GLTF_MCC
+    GTEST_SKIP() << "the tool is not part of this build";
+#endif
+  }
+
+  ToolResult run(const std::string& arguments) const { return runTool(folder_, arguments); }
+
+  std::string draw(const std::string& arguments) const {
+    const ToolResult result = run("tree " + arguments + " -");
+    EXPECT_EQ(result.status, 0) << arguments << result.err;
+    return result.out;
+  }
+
+  static size_t countOf(const std::string& text, const std::string& word) {
+    size_t count = 0;
+    for (size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+      ++count;
+    return count;
+  }
+
+  /// Numbers of edges and branches as the title says.
+  static std::pair<int, int> countsOf(const std::string& svg) {
+    std::smatch found;
+    const std::regex title("mc-tree of ([0-9,]+) edges, ([0-9,]+) branches");
+    if (!std::regex_search(svg, found, title)) return {-1, -1};
+    const auto number = [](std::string text) {
+      text.erase(std::remove(text.begin(), text.end(), ','), text.end());
+      return std::stoi(text);
+    };
+    return {number(found[1]), number(found[2])};
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(Tree, SpansTheVerticesOfASphere) {
+  const std::string svg = draw(samplePath("sphere.glb"));
+  EXPECT_EQ(svg.rfind("<svg xmlns=", 0), 0u);
+  EXPECT_NE(svg.find("</svg>\n"), std::string::npos);
+  EXPECT_EQ(countOf(svg, "<g"), countOf(svg, "</g>"));
+  EXPECT_NE(svg.find("sphere.glb: mc-tree"), std::string::npos);
+  EXPECT_EQ(svg, draw(samplePath("sphere.glb"))) << "not the same picture twice";
+  const std::string counts = run("convert " + samplePath("sphere.glb") + " s.glb").out;
+  std::smatch positions;
+  ASSERT_TRUE(std::regex_search(counts, positions, std::regex("\\(([0-9,]+) positions\\)")));
+  std::string number = positions[1];
+  number.erase(std::remove(number.begin(), number.end(), ','), number.end());
+  EXPECT_EQ(countsOf(svg).first, std::stoi(number) - 1);
+}
+
+TEST_F(Tree, OfACompressedFileIsTheTreeItHas) {
+  for (const std::string name : {"sphere.glb", "genus3.glb", "sheet_with_holes.glb"}) {
+    ASSERT_EQ(run("convert -q --compare none --lossless " + samplePath(name) + " small.glb").status,
+              0);
+    ASSERT_EQ(run("convert -q --compare none " + samplePath(name) + " smaller.glb").status, 0);
+    const auto before = countsOf(draw(samplePath(name)));
+    EXPECT_GT(before.first, 100);
+    EXPECT_EQ(countsOf(draw("small.glb")), before) << name;
+    EXPECT_EQ(countsOf(draw("smaller.glb")), before) << name;
+  }
+}
+
+TEST_F(Tree, DrawsWhatIsAskedFor) {
+  const std::string first = draw(samplePath("two_materials.glb"));
+  EXPECT_NE(first, draw(samplePath("two_materials.glb") + " --primitive 1"));
+  EXPECT_NE(first, draw(samplePath("two_materials.glb") + " --view=-1,0,0"));
+  EXPECT_NE(first.find("width=\"800\""), std::string::npos);
+  EXPECT_NE(draw(samplePath("two_materials.glb") + " --size 300").find("width=\"300\""),
+            std::string::npos);
+  for (const char* view : {"0,1,0", "0,-1,0", "0,0,1", "1,0,0"}) {
+    EXPECT_GT(draw(samplePath("torus.glb") + " --view " + view).size(), 20000u) << view;
+  }
+  EXPECT_EQ(run("tree " + samplePath("torus.glb") + " tree.svg -q").out, "");
+  EXPECT_EQ(contentOf(folder_.path() / "tree.svg"), draw(samplePath("torus.glb")));
+}
+
+TEST_F(Tree, SaysWhatCannotBeDrawn) {
+  const auto expectSays = [&](const std::string& arguments, int status, const std::string& text) {
+    const ToolResult result = run("tree " + arguments);
+    EXPECT_EQ(result.status, status) << arguments;
+    EXPECT_NE(result.err.find(text), std::string::npos) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_FALSE(fs::exists(folder_.path() / "x.svg"));
+  };
+  const std::string torus = samplePath("torus.glb");
+  expectSays("none.glb x.svg", 1, "none.glb: there is no such file");
+  expectSays(torus + " x.svg --mesh 7", 1, "torus.glb: there is no mesh 7; the last is 0");
+  expectSays(torus + " x.svg --primitive 3", 1, "/meshes/0: there is no primitive 3; there are 1");
+  expectSays(torus + " x.svg --view 0,0,0", 2, "--view: 0,0,0 is no direction");
+  expectSays(torus + " x.svg --view 1,2", 2, "--view");
+  expectSays(torus + " none/x.svg", 1, "none");
+  expectSays(torus, 2, "OUT");
+  std::ofstream(folder_.path() / "empty.gltf") << R"({"asset": {"version": "2.0"}})";
+  expectSays("empty.gltf x.svg", 1, "empty.gltf: there are no meshes in it");
+}
+
+/// Every kind of primitive has a picture or says why not; none ends the program.
+TEST_F(Tree, OfEverySample) {
+  for (const auto& entry : fs::directory_iterator(MCC_SAMPLES_DIR)) {
+    if (entry.path().extension() != ".glb") continue;
+    for (int primitive = 0; primitive < 8; ++primitive) {
+      const ToolResult result =
+          run("tree '" + entry.path().string() + "' - --primitive " + std::to_string(primitive));
+      EXPECT_TRUE(result.status == 0 || result.status == 1) << entry.path() << primitive;
+      EXPECT_EQ(result.status == 0, result.err.empty()) << result.err;
+      EXPECT_EQ(result.out.find("nan"), std::string::npos) << entry.path();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mcc::test

@@ -1,0 +1,81 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "suggest.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace mcc::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Letters to change, add, remove or exchange with their neighbour.
+size_t distanceOf(std::string_view a, std::string_view b) {
+  std::vector<size_t> before_last(b.size() + 1);
+  std::vector<size_t> last(b.size() + 1);
+  std::vector<size_t> row(b.size() + 1);
+  for (size_t k = 0; k <= b.size(); ++k) row[k] = k;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    std::swap(before_last, last);
+    std::swap(last, row);
+    row[0] = i;
+    for (size_t k = 1; k <= b.size(); ++k) {
+      row[k] =
+          std::min({last[k] + 1, row[k - 1] + 1, last[k - 1] + (a[i - 1] != b[k - 1] ? 1 : 0)});
+      const bool is_exchange = i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1];
+      if (is_exchange) row[k] = std::min(row[k], before_last[k - 2] + 1);
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates) {
+  constexpr size_t kPrefix = 3;  // letters that make a beginning
+  const size_t limit = word.size() < 3 ? 1 : std::max<size_t>(2, word.size() / 3);
+  std::string best;
+  size_t least = limit + 1;
+  for (const std::string& candidate : candidates) {
+    const size_t distance = distanceOf(word, candidate);
+    if (distance >= least || distance >= std::max(word.size(), candidate.size())) continue;
+    least = distance;
+    best = candidate;
+  }
+  if (!best.empty() || word.size() < kPrefix) return best;
+  const auto begins = std::find_if(candidates.begin(), candidates.end(),
+                                   [&](const std::string& c) { return c.starts_with(word); });
+  return begins == candidates.end() ? "" : *begins;
+}
+
+std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates) {
+  const std::string nearest = nearestWord(word, candidates);
+  return nearest.empty() ? "" : "; did you mean " + nearest + "?";
+}
+
+std::string didYouMeanFile(const std::string& path) {
+  constexpr size_t kMostFiles = 10000;  // of a folder that are looked at
+  const fs::path wanted(path);
+  std::error_code code;
+  for (const char* extension : {".glb", ".gltf"}) {
+    const std::string longer = path + extension;
+    if (fs::is_regular_file(longer, code)) return "; did you mean " + longer + "?";
+  }
+  const fs::path folder = wanted.has_parent_path() ? wanted.parent_path() : fs::path(".");
+  std::vector<std::string> names;
+  for (fs::directory_iterator entry(folder, code), end; !code && entry != end;
+       entry.increment(code)) {
+    if (names.size() == kMostFiles) return "";
+    const std::string extension = entry->path().extension().string();
+    if (extension != ".glb" && extension != ".gltf") continue;
+    names.push_back(entry->path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  const std::string nearest = nearestWord(wanted.filename().string(), names);
+  if (nearest.empty()) return "";
+  return "; did you mean " +
+         (wanted.has_parent_path() ? wanted.parent_path() / nearest : fs::path(nearest)).string() +
+         "?";
+}
+
+}  // namespace mcc::tool

@@ -1,0 +1,113 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "terminal.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+namespace mcc::tool {
+namespace {
+
+ColorMode color_mode = ColorMode::kAuto;  // of the process, see setColorMode()
+
+const char* environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+Style styleOf(int stream) {
+  switch (color_mode) {
+    case ColorMode::kAlways: return Style(true);
+    case ColorMode::kNever: return Style(false);
+    case ColorMode::kAuto: break;
+  }
+  const bool is_wanted = *environment("NO_COLOR") == '\0' && *environment("TERM") != '\0' &&
+                         std::strcmp(environment("TERM"), "dumb") != 0;
+  return Style(is_wanted && isatty(stream) == 1);
+}
+
+bool isContinuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
+
+}  // namespace
+
+std::string Style::in(std::string_view code, std::string_view text) const {
+  if (!is_on_ || text.empty()) return std::string(text);
+  return "\033[" + std::string(code) + "m" + std::string(text) + "\033[0m";
+}
+
+void setColorMode(ColorMode mode) { color_mode = mode; }
+
+ColorMode colorModeOf(int argc, const char* const* argv) {
+  constexpr std::string_view kOption = "--color";
+  ColorMode mode = ColorMode::kAuto;
+  for (int i = 1; i < argc; ++i) {
+    std::string_view word = argv[i];
+    if (word == "--") break;
+    if (!word.starts_with(kOption)) continue;
+    word.remove_prefix(kOption.size());
+    if (word.starts_with('=')) {
+      word.remove_prefix(1);
+    } else if (word.empty() && i + 1 < argc) {
+      word = argv[i + 1];
+    }
+    mode = word == "always"  ? ColorMode::kAlways
+           : word == "never" ? ColorMode::kNever
+                             : ColorMode::kAuto;
+  }
+  return mode;
+}
+
+Style styleOfOutput() { return styleOf(STDOUT_FILENO); }
+Style styleOfErrors() { return styleOf(STDERR_FILENO); }
+
+bool hasUtf8() {
+  for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {  // the first that is set decides
+    std::string value = environment(name);
+    if (value.empty()) continue;
+    for (char& c : value) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return value.find("utf-8") != std::string::npos || value.find("utf8") != std::string::npos;
+  }
+  return false;
+}
+
+std::string inLocale(std::string text) {
+  if (hasUtf8()) return text;
+  for (const auto& [character, ascii] :
+       {std::pair<std::string_view, std::string_view>{"…", "..."}, {"≤", "<="}, {"×", "x"}}) {
+    for (size_t at = text.find(character); at != std::string::npos; at = text.find(character, at)) {
+      text.replace(at, character.size(), ascii);
+    }
+  }
+  return text;
+}
+
+size_t widthOf(std::string_view text) {
+  size_t width = 0;
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\033') {
+      i = std::min(text.find('m', i), text.size());
+    } else {
+      width += isContinuation(text[i]) ? 0 : 1;
+    }
+  }
+  return width;
+}
+
+std::string_view cutToWidth(std::string_view text, size_t column_count) {
+  size_t width = 0;
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (!isContinuation(text[i]) && width++ == column_count) return text.substr(0, i);
+  }
+  return text;
+}
+
+size_t columnsOfErrors() {
+  winsize size = {};
+  const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+  return is_known ? size.ws_col : 80;
+}
+
+}  // namespace mcc::tool
