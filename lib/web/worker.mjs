@@ -2,6 +2,7 @@
 //
 // A worker of a decoder pool. Gets the compiled module, then one payload at a time; buffers are moved both ways.
 import { buffersOf, Decoder } from './core.mjs';
+import { importOfNode } from './load.mjs';
 
 let decoder = null;
 
@@ -21,6 +22,8 @@ async function answer({ module, bytes, options }, post) {
 if (typeof self === 'object' && typeof self.postMessage === 'function') {
   self.onmessage = ({ data }) => answer(data, (message, moved) => self.postMessage(message, moved));
 } else {
-  const { parentPort } = await import(/* @vite-ignore */ /* webpackIgnore: true */ `node:${'worker_threads'}`);
-  parentPort.on('message', (data) => answer(data, (message, moved) => parentPort.postMessage(message, moved)));
+  // No await at the top level, which bundlers' usual format for workers has not. Messages wait for the listener.
+  importOfNode('worker_threads').then(({ parentPort }) => {
+    parentPort.on('message', (data) => answer(data, (message, moved) => parentPort.postMessage(message, moved)));
+  });
 }
