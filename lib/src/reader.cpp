@@ -13,6 +13,7 @@
 #include "base/working_memory.h"
 #include "container/payload_header.h"
 #include "entropy/dec_coder.h"
+#include "entropy/dec_compact.h"
 #include "piece.h"
 
 namespace mcc {
@@ -428,13 +429,12 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
   return {};
 }
 
-template <bool kSingle>
-Status decodePieces(const PayloadHeader& header, const PayloadInfo& info,
+template <class Io>
+Status decodePieces(Io& io, const PayloadHeader& header, const PayloadInfo& info,
                     std::span<const PieceTarget> targets, const DecodeOptions& options) {
   void* memory = allocateBytes(options.allocator, sizeof(PayloadModels));
   if (memory == nullptr) return fail(Error::kOutOfMemory, "no memory for the models");
   PayloadModels* models = new (memory) PayloadModels(options.allocator);
-  DecoderIo<kSingle> io(header.codes, header.tokens, header.raw);
   Progress progress(options, header);
   Status status;
   if (!models->mc.init(header.contextSet()))
@@ -451,12 +451,17 @@ Status decodePieces(const PayloadHeader& header, const PayloadInfo& info,
 
 Status decodeAll(const PayloadHeader& header, const PayloadInfo& info,
                  std::span<const PieceTarget> targets, const DecodeOptions& options) {
-  return header.singleCoder() ? decodePieces<true>(header, info, targets, options)
-                              : decodePieces<false>(header, info, targets, options);
+  const auto decode = [&](auto&& io) { return decodePieces(io, header, info, targets, options); };
+#if defined(MCC_COMPACT)
+  return decode(CompactIo(header.codes, header.tokens, header.raw, header.singleCoder()));
+#else
+  if (header.singleCoder()) return decode(DecoderIo<true>(header.codes, {}, {}));
+  return decode(DecoderIo<false>(header.codes, header.tokens, header.raw));
+#endif
 }
 
 /// What the largest piece takes at a time, about.
-uint64_t expectedBytes(const PayloadHeader& header) {
+[[maybe_unused]] uint64_t expectedBytes(const PayloadHeader& header) {
   uint64_t most = 0;
   for (size_t i = 0; i < header.pieces.size(); ++i) {
     const PieceHeader& p = header.pieces[i];
@@ -525,14 +530,16 @@ const PayloadInfo& Payload::info() const { return state_ == nullptr ? kEmptyInfo
 Status Payload::decode(std::span<const PieceTarget> targets, const DecodeOptions& options) const {
   if (state_ == nullptr) return fail(Error::kBadArgument, "no payload is open");
   MCC_TRY(checkTargets(state_->info, targets));
-  const uint64_t expected_bytes = expectedBytes(state_->header);
-  if (options.allocator.allocate != nullptr || !WorkingMemory::pays(expected_bytes)) {
-    return decodeAll(state_->header, state_->info, targets, options);
+  if constexpr (!kCompact) {  // else there are no huge pages
+    const uint64_t expected_bytes = expectedBytes(state_->header);
+    if (options.allocator.allocate == nullptr && WorkingMemory::pays(expected_bytes)) {
+      WorkingMemory memory(expected_bytes);
+      DecodeOptions with_memory = options;
+      with_memory.allocator = memory.allocator();
+      return decodeAll(state_->header, state_->info, targets, with_memory);
+    }
   }
-  WorkingMemory memory(expected_bytes);
-  DecodeOptions with_memory = options;
-  with_memory.allocator = memory.allocator();
-  return decodeAll(state_->header, state_->info, targets, with_memory);
+  return decodeAll(state_->header, state_->info, targets, options);
 }
 
 }  // namespace mcc

@@ -5,10 +5,10 @@
 #include "mcc/writer.h"
 
 #include <algorithm>
-#include <new>
 #include <numeric>
 
 #include "attributes/enc_prices.h"
+#include "base/enc_exceptions.h"
 #include "container/enc_payload.h"
 #include "writer_choices.h"
 #include "writer_stages.h"
@@ -47,13 +47,13 @@ Status codeAll(std::vector<Plan>& plans, uint32_t context_set, bool single, Enco
     plan.header.first_attribute = static_cast<uint32_t>(header.attributes.size());
     plan.header.first_part = static_cast<uint32_t>(header.parts.size());
     for (const QuantizedAttribute& a : plan.attributes) {
-      if (!header.attributes.push_back(a.info)) throw std::bad_alloc();
+      if (!header.attributes.push_back(a.info)) throwBadAlloc();
     }
     for (const PartView& part : plan.view->parts) {
       if (!header.parts.push_back({static_cast<uint32_t>(part.indices.size() / 3)}))
-        throw std::bad_alloc();
+        throwBadAlloc();
     }
-    if (!header.pieces.push_back(plan.header)) throw std::bad_alloc();
+    if (!header.pieces.push_back(plan.header)) throwBadAlloc();
 
     PieceResult piece;
     piece.source_wedge = plan.wedge_source;
@@ -118,10 +118,9 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeOptions& opti
 }  // namespace
 
 Status encode(std::span<const PieceView> pieces, const EncodeOptions& options,
-              EncodeResult& result) try {
-  return encodePieces(pieces, options, result);
-} catch (const std::bad_alloc&) {
-  return fail(Error::kOutOfMemory, "no memory for the encoder");
+              EncodeResult& result) {
+  return catchBadAlloc([&]() { return encodePieces(pieces, options, result); },
+                       []() { return fail(Error::kOutOfMemory, "no memory for the encoder"); });
 }
 
 }  // namespace mcc

@@ -49,7 +49,7 @@ Status contextSetCost(const std::vector<Connectivity>& pieces, uint32_t set, uin
   std::vector<uint32_t> source_of_vertex;
   std::vector<uint32_t> source_gate;
   for (const Connectivity& piece : pieces) {
-    if (!mesh.words.resize(size_t{piece.counts.face_count} * kFaceWords)) throw std::bad_alloc();
+    if (!mesh.words.resize(size_t{piece.counts.face_count} * kFaceWords)) throwBadAlloc();
     node_map.resize(piece.record->node_count);
     source_of_vertex.resize(piece.counts.vertex_count);
     source_gate.resize(piece.counts.face_count);
@@ -106,7 +106,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
       info.format.component_count == 1 && info.format.semantic == Semantic::kCustom;
   const uint32_t sample = alternatives.size() > 1 || may_be_ids ? kNone : part;
   AttributeModels before;
-  if (!before.copyFrom(models.attributes)) throw std::bad_alloc();
+  if (!before.copyFrom(models.attributes)) throwBadAlloc();
   AttributeInfo best = info;
   uint64_t best_cost = ~uint64_t{0};
   for (AttributeInfo candidate : alternatives) {
@@ -131,7 +131,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
             static_cast<uint64_t>(surcharge(tried * wedge_share, timeOf(method, info.predictor)));
       }
       search.report(cost);
-      if (!models.attributes.copyFrom(before)) throw std::bad_alloc();
+      if (!models.attributes.copyFrom(before)) throwBadAlloc();
       if (cost >= best_cost) continue;
       best_cost = cost;
       best = candidate;

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <memory>
-#include <new>
 #include <vector>
 
+#include "base/enc_exceptions.h"
 #include "entropy/enc_coder.h"
 #include "writer_truth.h"
 
@@ -54,7 +54,7 @@ class StageRunner {
   Status recordPositions(RecordedPositions& recorded) {
     PositionRecording& recording = recorded.recording;
     PositionCandidate& candidate = recorded.candidate;
-    if (!recorded.records.resize(plan_.positions.size() / 3)) throw std::bad_alloc();
+    if (!recorded.records.resize(plan_.positions.size() / 3)) throwBadAlloc();
     MCC_TRY(recording.record(piece_.mesh, piece_.groups, recorded.records.data(),
                              plan_.header.isolated_count, plan_.positions.data()));
     PositionParameters parameters;
@@ -127,7 +127,7 @@ class StageRunner {
       piece_.wedge_group.clear();
       piece_.sequence.clear();
       for (const uint32_t h : sequence) {
-        if (!piece_.sequence.push_back(h)) throw std::bad_alloc();
+        if (!piece_.sequence.push_back(h)) throwBadAlloc();
       }
       std::copy(words.begin(), words.end(), piece_.mesh.words.data());
     }
@@ -175,7 +175,7 @@ class StageRunner {
     if (learned_ == index) return;
     learned_ = index;
     const uint32_t stride = piece_.codedComponentsOf(index);
-    if (!values_.resize(size_t{plan_.header.wedge_count} * stride)) throw std::bad_alloc();
+    if (!values_.resize(size_t{plan_.header.wedge_count} * stride)) throwBadAlloc();
     learnValues(plan_, index, 0, stride, values_);
     const uint32_t count = plan_.header.attribute_count;
     if (methodOf(infos_.data(), count, index) != AttributeMethod::kSkin) return;
@@ -188,7 +188,7 @@ class StageRunner {
     return infos;
   }
   void learnOrders() {
-    if (!piece_.listTriangles()) throw std::bad_alloc();
+    if (!piece_.listTriangles()) throwBadAlloc();
     if (plan_.header.has(piece_flag::kTriangleOrder)) learnTriangleOrder(plan_, piece_.triangles);
     plan_.wedge_order.resize(plan_.wedge_source.size());
     for (uint32_t w = 0; w < plan_.wedge_source.size(); ++w) {
@@ -219,7 +219,7 @@ class StageRunner {
 
 inline std::unique_ptr<PayloadModels> makeModels(uint32_t context_set) {
   auto models = std::make_unique<PayloadModels>(Allocator{});
-  if (!models->mc.init(context_set)) throw std::bad_alloc();
+  if (!models->mc.init(context_set)) throwBadAlloc();
   return models;
 }
 

@@ -149,7 +149,7 @@ Table attributeTable(const gltf::InspectReport& report, Format format) {
         const bool has_lattice = attribute.coding == AttributeCoding::kLattice;
         const std::string coding = attribute.coding == AttributeCoding::kAlias
                                        ? "as " + piece.details[attribute.alias_of].name
-                                       : codingName(attribute.coding, attribute.bits);
+                                       : gltf::codingName(attribute.coding, attribute.bits);
         table.addRow({std::to_string(payload.buffer_view), std::to_string(i),
                       count(piece.triangle_count, format), count(piece.wedge_count, format),
                       std::to_string(piece.part_count), piece.details[k].name,
@@ -220,7 +220,7 @@ Json pieceJson(const gltf::InspectPiece& piece) {
     const AttributeInfo& attribute = piece.attributes[k];
     Json json = {{"name", piece.details[k].name},
                  {"type", attributeText(attribute)},
-                 {"coding", codingName(attribute.coding, 0)},
+                 {"coding", gltf::codingName(attribute.coding, 0)},
                  {"bits", attribute.bits},
                  {"predictor", attribute.predictor},
                  {"predictor_name", piece.details[k].predictor},

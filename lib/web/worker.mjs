@@ -1,0 +1,29 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// A worker of a decoder pool. Gets the compiled module, then one payload at a time; buffers are moved both ways.
+import { buffersOf, Decoder } from './core.mjs';
+import { importOfNode } from './load.mjs';
+
+let decoder = null;
+
+async function answer({ module, bytes, options }, post) {
+  if (module !== undefined) {
+    decoder = new Decoder(module);
+    return;
+  }
+  try {
+    const decoded = await decoder.decode(bytes, options);
+    post({ decoded }, buffersOf(decoded));
+  } catch ({ message, code }) {
+    post({ message, code }, []);
+  }
+}
+
+if (typeof self === 'object' && typeof self.postMessage === 'function') {
+  self.onmessage = ({ data }) => answer(data, (message, moved) => self.postMessage(message, moved));
+} else {
+  // No await at the top level, which bundlers' usual format for workers has not. Messages wait for the listener.
+  importOfNode('worker_threads').then(({ parentPort }) => {
+    parentPort.on('message', (data) => answer(data, (message, moved) => parentPort.postMessage(message, moved)));
+  });
+}
