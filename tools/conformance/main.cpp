@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// generate-conformance FOLDER writes assets/, negative/ and manifest.json of the conformance suite into FOLDER.
+// generate-conformance FOLDER adds what is new to assets/, negative/ and manifest.json of the conformance suite in FOLDER.
 // generate-conformance --check FOLDER compares what it would write with what is there.
 #include <cstdio>
 #include <cstring>

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <stdexcept>
 
 #include "asset.h"
 #include "container/payload_header.h"
@@ -178,6 +179,22 @@ std::vector<uint8_t> contentOf(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+/// The manifest that is there, with what `made` has besides. Its lines stay, as their files do.
+std::vector<uint8_t> extended(const std::vector<uint8_t>& there, const std::vector<uint8_t>& made) {
+  if (there.empty()) return made;
+  Json manifest, more;
+  if (!gltf::parseJson(there, manifest).ok() || !gltf::parseJson(made, more).ok())
+    throw std::runtime_error("the manifest is damaged");
+  for (const char* const list : {"assets", "negative"}) {
+    std::set<std::string> known;
+    for (const Json& entry : manifest[list]) known.insert(entry["file"]);
+    for (const Json& entry : more[list]) {
+      if (known.insert(entry["file"]).second) manifest[list].push_back(entry);
+    }
+  }
+  return asFile(manifest);
+}
+
 const char* kindOf(uint32_t error) {
   static const char* const kKinds[] = {"document",           "Truncated",   "BadMagic",
                                        "UnsupportedVersion", "BadChecksum", "BadHeader",
@@ -240,10 +257,14 @@ Suite makeSuite() {
 
 int writeSuite(const Suite& suite, const std::filesystem::path& folder) {
   for (const char* const part : {"assets", "negative"}) {
-    std::filesystem::remove_all(folder / part);
     std::filesystem::create_directories(folder / part);
   }
-  for (const auto& [name, bytes] : suite) {
+  uint32_t added = 0;
+  for (const auto& [name, made] : suite) {
+    const bool is_manifest = name == "manifest.json";
+    if (!is_manifest && std::filesystem::exists(folder / name)) continue;
+    const std::vector<uint8_t> bytes =
+        is_manifest ? extended(contentOf(folder / name), made) : made;
     std::ofstream file(folder / name, std::ios::binary);
     file.write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
@@ -251,7 +272,9 @@ int writeSuite(const Suite& suite, const std::filesystem::path& folder) {
       std::fprintf(stderr, "generate-conformance: cannot write %s\n", name.c_str());
       return 1;
     }
+    added += is_manifest ? 0 : 1;
   }
+  std::printf("%u files are new\n", added);
   return 0;
 }
 
