@@ -300,6 +300,41 @@ TEST(TinyGltf, SavesWhatItEncoded) {
   EXPECT_EQ(decode_report.payload_count, 1u);
 }
 
+/// What is compressed already keeps its payload, whose buffer view has another number then.
+TEST(TinyGltf, EncodesAPartOfAModel) {
+  const Bytes source = readFile(std::filesystem::path(MCC_SAMPLES_DIR) / "two_materials.glb");
+  const Model coded = loadCompressed(convertGlb(source, {}));
+  Model model = loadPlain(source);
+  // A second mesh, plain, behind the compressed one.
+  Model both = coded;
+  const auto view_count = static_cast<int>(both.bufferViews.size());
+  const auto accessor_count = static_cast<int>(both.accessors.size());
+  for (::tinygltf::BufferView view : model.bufferViews) {
+    view.buffer = 1;
+    both.bufferViews.push_back(view);
+  }
+  both.buffers.push_back(model.buffers[0]);
+  for (::tinygltf::Accessor accessor : model.accessors) {
+    accessor.bufferView += view_count;
+    both.accessors.push_back(accessor);
+  }
+  both.meshes.push_back(model.meshes[0]);
+  for (::tinygltf::Primitive& primitive : both.meshes[1].primitives) {
+    primitive.indices += accessor_count;
+    for (auto& [name, index] : primitive.attributes) index += accessor_count;
+  }
+  ASSERT_TRUE(tinygltf::encode(both).ok());
+  EXPECT_EQ(payloadsOf(both), payloadsOf(coded));
+  ASSERT_TRUE(tinygltf::decode(both).ok());
+  const Model expected = [&] {
+    Model decoded = coded;
+    EXPECT_TRUE(tinygltf::decode(decoded).ok());
+    return decoded;
+  }();
+  both.meshes.erase(both.meshes.begin() + 1);
+  expectSameModel(expected, both);
+}
+
 TEST(TinyGltf, LeavesModelsWithoutTheExtensionAlone) {
   const Bytes source = readFile(std::filesystem::path(MCC_SAMPLES_DIR) / "torus.glb");
   const Model expected = loadPlain(source);

@@ -782,13 +782,15 @@ inline void takeOver(Model&& coded, const std::vector<size_t>& images,
     for (size_t p = 0; p < model.meshes[m].primitives.size(); ++p) {
       Primitive& from = coded.meshes[m].primitives[p];
       Primitive& to = model.meshes[m].primitives[p];
-      const auto extension = from.extensions.find(kExtension);
-      if (extension == from.extensions.end()) continue;
       to.attributes = std::move(from.attributes);
       to.targets = std::move(from.targets);
       to.indices = from.indices;
       to.mode = from.mode;
-      to.extensions[kExtension] = extension->second;
+      // Those with numbers of buffer views, which may have changed.
+      for (const char* name : {kExtension, "KHR_draco_mesh_compression"}) {
+        const auto extension = from.extensions.find(name);
+        if (extension != from.extensions.end()) to.extensions[name] = extension->second;
+      }
     }
   }
   for (size_t i = 0; i < images.size(); ++i) {
@@ -841,6 +843,7 @@ inline Result encode(::tinygltf::Model& model, const gltf::ConvertOptions& optio
                      gltf::ConvertReport& report) try {
   gltf::ConvertOptions own = options;
   own.fallback = false;
+  own.decoders = {};
   return detail::encode(model, own, report);
 } catch (const detail::Failure& failure) {
   return {failure.what};
