@@ -50,6 +50,26 @@ TEST(Bench, FiguresAreConsistent) {
   EXPECT_EQ(json["geometric_means"][0]["files"], 2);
 }
 
+TEST(Bench, LoadsWholeFilesWhenAsked) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  const std::string sample = samplePath("two_materials.glb");
+  const ToolResult result = runTool(folder, "bench --load --format json " + sample);
+  if (result.err.find("this build has no tinygltf") != std::string::npos)
+    GTEST_SKIP() << result.err;
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json load = Json::parse(result.out)["files"][0]["load"];
+  EXPECT_EQ(load["payloads"], 1);
+  for (const char* codec : {"mcc", "draco_0", "draco_5"}) {
+    EXPECT_GT(load["cpu_seconds"][codec], 0) << codec;
+  }
+  for (const char* threads : {"threads_1", "threads_2"}) {
+    EXPECT_GT(load["decode_wall_seconds"][threads], 0) << threads;
+  }
+  EXPECT_NE(runTool(folder, "bench --load " + sample).out.find("load with tinygltf"),
+            std::string::npos);
+}
+
 TEST(Bench, CategoriesComeFromTheNames) {
   MCC_REQUIRE_COMPARISON();
   const ScratchFolder folder;

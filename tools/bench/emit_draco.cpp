@@ -19,7 +19,6 @@ using gltf::Json;
 using gltf::PiecePlan;
 
 constexpr char kDracoName[] = "KHR_draco_mesh_compression";
-constexpr int kSpeed = 0;
 
 /// A part of a piece with what Draco made of it.
 struct EmittedPart {
@@ -149,8 +148,8 @@ class Emitter {
 };
 
 /// Encodes all parts; those that fail leave the plans.
-void encodeParts(std::vector<gltf::EncodedPayload>& payloads, std::vector<EmittedPart>& parts,
-                 std::vector<std::string>& notes) {
+void encodeParts(int speed, std::vector<gltf::EncodedPayload>& payloads,
+                 std::vector<EmittedPart>& parts, std::vector<std::string>& notes) {
   for (gltf::EncodedPayload& payload : payloads) {
     for (PiecePlan& piece : payload.plan.pieces) {
       const PieceInput input = makePiece(piece, true);
@@ -159,7 +158,7 @@ void encodeParts(std::vector<gltf::EncodedPayload>& payloads, std::vector<Emitte
       for (size_t i = 0; i < piece.parts.size(); ++i) {
         foreign::DracoPrimitive draco;
         const foreign::Outcome done =
-            foreign::emitDracoPrimitive(input.forOthers(), i, kSpeed, draco);
+            foreign::emitDracoPrimitive(input.forOthers(), i, speed, draco);
         if (done.ok()) {
           kept.push_back(std::move(piece.parts[i]));
           encoded.push_back(std::move(draco));
@@ -176,7 +175,7 @@ void encodeParts(std::vector<gltf::EncodedPayload>& payloads, std::vector<Emitte
 }
 
 gltf::Result emit(std::span<const uint8_t> source, const gltf::FileReader& read_file,
-                  const gltf::ConvertOptions& options, std::vector<uint8_t>& file,
+                  const gltf::ConvertOptions& options, int speed, std::vector<uint8_t>& file,
                   std::vector<std::string>& notes) {
   gltf::Document document;
   MCC_GLTF_TRY(gltf::loadDocument(source, read_file, document));
@@ -193,7 +192,7 @@ gltf::Result emit(std::span<const uint8_t> source, const gltf::FileReader& read_
   std::vector<gltf::EncodedPayload> payloads(plans.size());
   for (size_t i = 0; i < plans.size(); ++i) payloads[i].plan = std::move(plans[i]);
   std::vector<EmittedPart> parts;
-  encodeParts(payloads, parts, notes);
+  encodeParts(speed, payloads, parts, notes);
   const gltf::ForeignReferences foreign = gltf::findForeignReferences(document.json);
   std::vector<bool> is_taken = gltf::accessorsInOtherUse(document, foreign, payloads);
   for (const EmittedPart& part : parts) {
@@ -214,9 +213,10 @@ gltf::Result emit(std::span<const uint8_t> source, const gltf::FileReader& read_
 
 gltf::Result emitDraco(const std::filesystem::path& source, std::span<const uint8_t> file,
                        const gltf::ConvertOptions& options, std::vector<uint8_t>& output,
-                       std::vector<std::string>& notes) {
-  gltf::Result result = gltf::guarded(
-      [&]() { return emit(file, gltf::readerOf(source.parent_path()), options, output, notes); });
+                       std::vector<std::string>& notes, int speed) {
+  gltf::Result result = gltf::guarded([&]() {
+    return emit(file, gltf::readerOf(source.parent_path()), options, speed, output, notes);
+  });
   if (!result.ok()) {
     result.where = source.string() + (result.where.empty() ? "" : ": " + result.where);
   }

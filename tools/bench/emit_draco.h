@@ -12,7 +12,8 @@
 
 namespace mcc::bench {
 
-/// Makes the same document with KHR_draco_mesh_compression (required), speed 0, our lattices. Every
+/// Makes the same document with KHR_draco_mesh_compression (required), our lattices, at
+/// one of Draco's speeds, 0 being the smallest. Every
 /// triangle primitive gets a buffer view and accessors of its own; one with morph targets is coded
 /// sequentially, so that the deltas, which stay ordinary accessors, keep their order. Primitives
 /// that Draco cannot code stay as they are, with a note.
@@ -22,7 +23,7 @@ namespace mcc::bench {
 /// Errors: the document contradicts itself. Tests: tests/cli/compare_test.cpp.
 gltf::Result emitDraco(const std::filesystem::path& source, std::span<const uint8_t> file,
                        const gltf::ConvertOptions& options, std::vector<uint8_t>& output,
-                       std::vector<std::string>& notes);
+                       std::vector<std::string>& notes, int speed = 0);
 
 }  // namespace mcc::bench
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bench/codecs.h"
+#include "bench/measure_load.h"
 
 namespace mcc::bench {
 
@@ -62,6 +63,7 @@ struct FileFigures {
   std::vector<Stream> full_streams;
   std::vector<Stream> left_out;  ///< those of full_streams that are left out
   std::vector<std::string> notes;
+  LoadFigures load;  ///< filled in by measureLoad()
 
   const CodecFigures& of(Codec codec) const { return codecs[indexOf(codec)]; }
 };

@@ -28,6 +28,7 @@ struct BenchCommand {
   std::string sizes;  ///< write only this file, measure nothing
   std::string apart;
   uint32_t run_count = 5;
+  bool with_load = false;
 
   int run() const;
   gltf::Result measure(size_t number, const ProgressLine& line, bench::FileFigures& figures) const;
@@ -59,7 +60,14 @@ gltf::Result BenchCommand::measure(size_t number, const ProgressLine& line,
   options.encode_seconds = kEncodeSeconds;
   options.with_memory = true;
   options.progress = [&](const std::string& text) { line.show(place + text); };
-  const bench::Outcome measured = bench::measureFile(name, geometry, options, figures);
+  bench::Outcome measured = bench::measureFile(name, geometry, options, figures);
+  if (measured.ok() && with_load) {
+    line.show(place + name + ": load");
+    std::vector<uint8_t> again;  // the geometry has taken the first
+    loaded = gltf::readFile(input, again);
+    if (!loaded.ok()) return loaded;
+    measured = bench::measureLoad(input, again, convert, run_count, figures.load);
+  }
   return measured.ok() ? gltf::Result{} : gltf::Result{input, measured.message};
 }
 
@@ -113,6 +121,10 @@ void addBench(CLI::App& app, int& status) {
       ->add_option("--apart", state->apart,
                    "Letters of the categories that the means of all files leave out")
       ->type_name("LETTERS");
+  command->add_flag(
+      "--load", state->with_load,
+      "Also load whole files with tinygltf: ours with our adapter, Draco's with its own\n"
+      "decoder; and decode with two threads");
   command->add_option("--sizes", state->sizes, "Measure nothing, write our bytes per stream here")
       ->type_name("FILE")
       ->group("");  // for tests/results

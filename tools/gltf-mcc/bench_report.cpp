@@ -213,6 +213,22 @@ Table orderTable(const std::vector<FileFigures>& files) {
   return table;
 }
 
+/// Only of files that were loaded.
+Table loadTable(const std::vector<FileFigures>& files) {
+  Table table({"load with tinygltf, ms", "mcc", "draco 0", "draco 5", "draco 0/mcc", "draco 5/mcc",
+               "payloads", "decode, wall ms, 1 thread", "2 threads"});
+  const auto ms = [](double seconds) { return fmt::format("{:.2f}", 1e3 * seconds); };
+  for (const FileFigures& figures : files) {
+    const bench::LoadFigures& load = figures.load;
+    if (!load.is_measured) continue;
+    table.addRow({figures.name, ms(load.mcc), ms(load.draco_0), ms(load.draco_5),
+                  fmt::format("{:.2f}", load.draco_0 / load.mcc),
+                  fmt::format("{:.2f}", load.draco_5 / load.mcc),
+                  std::to_string(load.payload_count), ms(load.decode_1), ms(load.decode_2)});
+  }
+  return table;
+}
+
 /// Means of one category.
 struct Means {
   std::string category;
@@ -357,6 +373,12 @@ Json fileJson(const FileFigures& figures) {
     for (const bench::Stream& stream : figures.left_out) streams[stream.name] = stream.bits / 8;
     json["left_out"] = {{"bytes_with", figures.full_bytes}, {"stream_bytes", std::move(streams)}};
   }
+  if (const bench::LoadFigures& load = figures.load; load.is_measured) {
+    json["load"] = {
+        {"cpu_seconds", {{"mcc", load.mcc}, {"draco_0", load.draco_0}, {"draco_5", load.draco_5}}},
+        {"decode_wall_seconds", {{"threads_1", load.decode_1}, {"threads_2", load.decode_2}}},
+        {"payloads", load.payload_count}};
+  }
   json["notes"] = figures.notes;
   return json;
 }
@@ -428,6 +450,7 @@ std::string benchText(const std::vector<FileFigures>& files, const std::string& 
         timeTable(files, false), memoryTable(files), orderTable(files), meansTable(files, apart)}) {
     text += "\n" + table.print(format);
   }
+  if (const Table load = loadTable(files); !load.empty()) text += "\n" + load.print(format);
   const std::string failures = failureText(files);
   return failures.empty() ? text : text + "\n" + failures;
 }
