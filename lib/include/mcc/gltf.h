@@ -277,6 +277,7 @@ struct InspectReport {
 /// Numbered as in the reports of Khronos' glTF validator.
 enum class Severity : uint8_t { kError = 0, kWarning = 1, kInfo = 2, kHint = 3 };
 
+/// One thing that is wrong with a file, or worth saying.
 struct ValidationIssue {
   Severity severity = Severity::kError;
   std::string code;     ///< "COUNT_MISMATCH"; README lists them
@@ -284,11 +285,13 @@ struct ValidationIssue {
   std::string pointer;  ///< RFC 6901, into the JSON; empty where the issue has no place there
 };
 
+/// Bounds of validate().
 struct ValidateOptions {
   Limits limits;               ///< of each payload
   uint32_t max_issues = 1000;  ///< more are counted, but not listed; 0: all are listed
 };
 
+/// What validate() found.
 struct ValidationReport {
   std::vector<ValidationIssue> issues;  ///< in the order they were found
   uint64_t issue_counts[4] = {};        ///< by severity; of all, listed or not
@@ -306,6 +309,7 @@ struct ValidationReport {
   uint64_t triangle_count = 0;  ///< of the payloads that decode
   uint64_t wedge_count = 0;     ///< the same
 
+  /// Whether there are no errors.
   bool isValid() const { return issue_counts[static_cast<size_t>(Severity::kError)] == 0; }
 };
 
@@ -374,7 +378,8 @@ MCC_API Result inspectFile(const std::filesystem::path& source, bool count_codes
 /// possible. Whether the rest of the file is good glTF is another validator's affair, except that it can be loaded.
 /// Errors: the file cannot be read. Whatever is wrong inside is in `report`.
 /// Safe for untrusted input. Deterministic. Tests: tests/gltf/validate_test.cpp, tests/cli/validate_test.cpp.
-Result validate(const Source& source, const ValidateOptions& options, ValidationReport& report);
+MCC_API Result validate(const Source& source, const ValidateOptions& options,
+                        ValidationReport& report);
 
 /// The edges along which a surface was contracted.
 struct McTree {
