@@ -1,0 +1,14 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+import { runSnippet } from './stage.mjs';
+
+globalThis.draw = async (model) => {
+  const viewer = document.createElement('model-viewer');
+  document.body.replaceChildren(viewer);
+  const isLoaded = new Promise((resolve, reject) => {
+    viewer.addEventListener('load', resolve, { once: true });
+    viewer.addEventListener('error', ({ detail }) => reject(detail.sourceError ?? new Error(detail.type)), { once: true });
+  });
+  await runSnippet('model-viewer', model, {});
+  await isLoaded;
+  return viewer.toDataURL();
+};
