@@ -8,7 +8,10 @@ globalThis.draw = async (model) => {
     viewer.addEventListener('load', resolve, { once: true });
     viewer.addEventListener('error', ({ detail }) => reject(detail.sourceError ?? new Error(detail.type)), { once: true });
   });
+  const isVisible = new Promise((resolve) => viewer.addEventListener('poster-dismissed', resolve, { once: true }));
   await runSnippet('model-viewer', model, {});
   await isLoaded;
+  await isVisible;
+  for (let i = 0; i < 2; ++i) await new Promise(requestAnimationFrame);
   return viewer.toDataURL();
 };
