@@ -13,6 +13,7 @@
 #include "base/working_memory.h"
 #include "container/payload_header.h"
 #include "entropy/dec_coder.h"
+#include "entropy/dec_compact.h"
 #include "piece.h"
 
 namespace mcc {
@@ -369,13 +370,12 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
   return {};
 }
 
-template <bool kSingle>
-Status decodePieces(const PayloadHeader& header, const PayloadInfo& info,
+template <class Io>
+Status decodePieces(Io& io, const PayloadHeader& header, const PayloadInfo& info,
                     std::span<const PieceTarget> targets, const DecodeOptions& options) {
   void* memory = allocateBytes(options.allocator, sizeof(PayloadModels));
   if (memory == nullptr) return fail(Error::kOutOfMemory, "no memory for the models");
   PayloadModels* models = new (memory) PayloadModels(options.allocator);
-  DecoderIo<kSingle> io(header.codes, header.tokens, header.raw);
   Progress progress(options, header);
   Status status;
   if (!models->mc.init(header.contextSet()))
@@ -392,8 +392,13 @@ Status decodePieces(const PayloadHeader& header, const PayloadInfo& info,
 
 Status decodeAll(const PayloadHeader& header, const PayloadInfo& info,
                  std::span<const PieceTarget> targets, const DecodeOptions& options) {
-  return header.singleCoder() ? decodePieces<true>(header, info, targets, options)
-                              : decodePieces<false>(header, info, targets, options);
+  const auto decode = [&](auto&& io) { return decodePieces(io, header, info, targets, options); };
+#if defined(MCC_COMPACT)
+  return decode(CompactIo(header.codes, header.tokens, header.raw, header.singleCoder()));
+#else
+  if (header.singleCoder()) return decode(DecoderIo<true>(header.codes, {}, {}));
+  return decode(DecoderIo<false>(header.codes, header.tokens, header.raw));
+#endif
 }
 
 /// What the largest piece takes at a time, about.

@@ -152,7 +152,7 @@ MCC_INLINE int32_t PlaneVertexCoder<Io>::codePlane(uint32_t s, float in_planes, 
   TokenRow& row = models_.plane[kind][spread_class][fraction];
   const int32_t target = Io::kEncoding ? grid_.axis[s].below(truthOf(s)) - near : 0;
   const uint32_t flip = off_middle < 0 ? 1 : 0;
-  const int32_t change = codeResidual<2, true>(io_, row, 0, ~0u, flip, target);
+  const int32_t change = codeResidual<2>(io_, row, 0, ~0u, flip, target, std::true_type{});
   return static_cast<int32_t>(static_cast<uint32_t>(near) + static_cast<uint32_t>(change));
 }
 
@@ -224,7 +224,8 @@ MCC_INLINE void PlaneVertexCoder<Io>::codeDiagonal() {
     uint32_t q = static_cast<uint32_t>(base[s]) + static_cast<uint32_t>(s == first ? moved : by);
     if (s != first) {
       const int32_t off = static_cast<int32_t>(static_cast<uint32_t>(truthOf(s)) - q);
-      q += static_cast<uint32_t>(codeResidual<1, true>(io_, models_.rest, 0, ~0u, 0, off));
+      q += static_cast<uint32_t>(
+          codeResidual<1>(io_, models_.rest, 0, ~0u, 0, off, std::true_type{}));
     }
     learn(s, static_cast<int32_t>(q));
   }
@@ -239,12 +240,13 @@ MCC_INLINE int32_t PlaneVertexCoder<Io>::codeNumber(float prediction, float scal
   const uint32_t rounded = static_cast<uint32_t>(q8) + 128;
   const uint32_t s = static_cast<uint32_t>(std::clamp(scale, 0.0f, kLargestScale));
   ResidualContexts c;
-  findContexts<true>(ScaleEstimate{Lanes<uint32_t>{s, s, s, 0}, Lanes<uint32_t>{}},
-                     Lanes<uint32_t>{rounded, rounded, rounded, 0}, false, c);
+  findContexts(ScaleEstimate{Lanes<uint32_t>{s, s, s, 0}, Lanes<uint32_t>{}},
+               Lanes<uint32_t>{rounded, rounded, rounded, 0}, false, std::true_type{}, c);
   const uint32_t from = static_cast<uint32_t>(static_cast<int32_t>(rounded) >> 8);
   const int32_t target = static_cast<int32_t>(static_cast<uint32_t>(truth) - from);
-  const int32_t residual = codeResidual<kSlot, true>(io_, rows_[c.row[kSlot]], c.low_bits[kSlot],
-                                                     c.folded[kSlot], c.flip[kSlot], target);
+  const int32_t residual =
+      codeResidual<kSlot>(io_, rows_[c.row[kSlot]], c.low_bits[kSlot], c.folded[kSlot],
+                          c.flip[kSlot], target, std::true_type{});
   return static_cast<int32_t>(from + static_cast<uint32_t>(residual));
 }
 

@@ -120,16 +120,16 @@ struct ResidualContexts {
 };
 
 /// `rounded` is the prediction in Q8 plus one half.
-template <bool kFold>
+template <class Fold>
 MCC_INLINE void findContexts(const ScaleEstimate& scale, const Lanes<uint32_t>& rounded, bool split,
-                             ResidualContexts& out) {
+                             Fold fold, ResidualContexts& out) {
   constexpr uint32_t kRows = kRowSets * kRowsPerSet;
   const Lanes<uint32_t> bucket = scaleBuckets(scale.scale);
   Lanes<uint32_t> row = bucket + Lanes<uint32_t>{0, kRows, 2 * kRows, 0};
   if (split) row += scale.set * kRowsPerSet;
   const Lanes<uint32_t> low = (bucket >> 1) - 5;
   storeLanes<uint32_t>(low & (Lanes<uint32_t>)(bucket > 9), out.low_bits);
-  if (kFold) {
+  if (fold) {
     const Lanes<uint32_t> fraction = (rounded & 255) - 128;
     const Lanes<uint32_t> folded = (Lanes<uint32_t>)(bucket < kFoldBuckets);
     const Lanes<uint32_t> fraction_class =
@@ -160,10 +160,10 @@ MCC_INLINE uint32_t codeBelowToken(Io& io, uint32_t token, uint32_t low_bits, bo
 }
 
 /// One residual: its magnitude above the bucket's low bits as a token, then raw bits, then a sign unless folded.
-template <uint32_t kState, bool kFold, class Io>
+template <uint32_t kState, class Io, class Fold>
 MCC_INLINE int32_t codeResidual(Io& io, TokenRow& row, uint32_t low_bits, uint32_t folded,
-                                uint32_t flip, int32_t truth) {
-  const bool has_sign = !kFold || folded == 0;
+                                uint32_t flip, int32_t truth, Fold fold) {
+  const bool has_sign = !fold || folded == 0;
   uint32_t a = 0;
   uint32_t token = 0;
   if constexpr (Io::kEncoding) {
@@ -177,7 +177,7 @@ MCC_INLINE int32_t codeResidual(Io& io, TokenRow& row, uint32_t low_bits, uint32
   token = io.template token<kState>(row, kPositionSchedule, token);
   uint32_t negative = truth < 0 ? 1 : 0;
   a = codeBelowToken(io, token, low_bits, has_sign, a, negative);
-  if constexpr (kFold) {
+  if (fold) {
     const uint32_t unfolded = a / 2 + (a & 1);
     const uint32_t side = (~a & 1) ^ flip;
     a ^= (a ^ unfolded) & folded;
@@ -188,8 +188,9 @@ MCC_INLINE int32_t codeResidual(Io& io, TokenRow& row, uint32_t low_bits, uint32
 }
 
 /// Decodes the residuals of all components, for an Io with kThreeAtOnce; lane 3 is 0.
-template <bool kFold, class Io>
-MCC_INLINE Lanes<uint32_t> decodeResiduals(Io& io, TokenRow* rows, const ResidualContexts& c) {
+template <class Io, class Fold>
+MCC_INLINE Lanes<uint32_t> decodeResiduals(Io& io, TokenRow* rows, const ResidualContexts& c,
+                                           Fold fold) {
   TokenRow* const row[3] = {rows + c.row[0], rows + c.row[1], rows + c.row[2]};
   uint32_t token[3];
   io.threeTokens(row, kPositionSchedule, token);
@@ -202,7 +203,7 @@ MCC_INLINE Lanes<uint32_t> decodeResiduals(Io& io, TokenRow* rows, const Residua
   for (uint32_t s = 0; s < 3; ++s) {
     base[s] = uint32_t{kTokenBase[token[s]]} << c.low_bits[s];
     bits[s] = kTokenExtraBits[token[s]] + c.low_bits[s];
-    signs[s] = kFold ? ~c.folded[s] & 1 : 1;
+    signs[s] = fold ? ~c.folded[s] & 1 : 1;
   }
   if (!io.threeMagnitudes(base, bits, signs, a, negative)) [[unlikely]] {
     MCC_UNROLL  // else gcc keeps the arrays in memory for this
@@ -213,7 +214,7 @@ MCC_INLINE Lanes<uint32_t> decodeResiduals(Io& io, TokenRow* rows, const Residua
   }
   Lanes<uint32_t> size = {a[0], a[1], a[2], 0};
   Lanes<uint32_t> side = {negative[0], negative[1], negative[2], 0};
-  if constexpr (kFold) {
+  if (fold) {
     const Lanes<uint32_t> folded = loadLanes<uint32_t>(c.folded);
     const Lanes<uint32_t> unfolded = (size >> 1) + (size & 1);
     const Lanes<uint32_t> side_of_folded = (~size & 1) ^ loadLanes<uint32_t>(c.flip);
@@ -235,7 +236,8 @@ MCC_INLINE uint32_t scaleBucket(uint32_t scale) {
 /// A residual alone, in the row of its scale's bucket.
 template <uint32_t kState, class Io>
 MCC_INLINE int32_t codeScaledResidual(Io& io, TokenRow& row, uint32_t bucket, int32_t truth) {
-  return codeResidual<kState, false>(io, row, bucket >= 10 ? bucket / 2 - 5 : 0, 0, 0, truth);
+  return codeResidual<kState>(io, row, bucket >= 10 ? bucket / 2 - 5 : 0, 0, 0, truth,
+                              std::false_type{});
 }
 
 }  // namespace mcc

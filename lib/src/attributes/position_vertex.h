@@ -70,13 +70,11 @@ class VertexCoder {
     }
     codeVertex(io, v, prediction, 0);
   }
-  MCC_INLINE void codeVertex(Io& io, uint32_t v, const Prediction<Wide>& prediction,
+  MCC_SHARED void codeVertex(Io& io, uint32_t v, const Prediction<Wide>& prediction,
                              uint32_t plain) const {
-    if (has(position_mode::kFold)) {
-      codeComponents<true>(io, v, prediction, plain);
-    } else {
-      codeComponents<false>(io, v, prediction, plain);
-    }
+    withChoice(has(position_mode::kFold), [&](auto fold) MCC_INLINE_LAMBDA {
+      codeComponents(io, v, prediction, plain, fold);
+    });
   }
   void codeSeed(Io& io, uint32_t v, const VertexRecord* neighbour);
 
@@ -88,18 +86,19 @@ class VertexCoder {
  private:
   uint32_t compiledModes() const { return kModes == kAnyModes ? p_.modes : kModes; }
 
-  template <bool kFold>
-  void codeComponents(Io& io, uint32_t v, const Prediction<Wide>& prediction, uint32_t plain) const;
+  template <class Fold>
+  void codeComponents(Io& io, uint32_t v, const Prediction<Wide>& prediction, uint32_t plain,
+                      Fold fold) const;
   /// What codeSlots() takes without shear.
   struct NoShift {
     UWide operator()(int, const int32_t*) const { return 0; }
   };
-  template <bool kFold, class Shift>
+  template <class Fold, class Shift>
   void codeSlots(Io& io, uint32_t v, const uint8_t* axis, const uint8_t* slot,
-                 const Lanes<UWide>& q8, const ScaleEstimate& scale, Shift shift) const;
-  template <uint32_t kSlot, bool kFold>
+                 const Lanes<UWide>& q8, const ScaleEstimate& scale, Fold fold, Shift shift) const;
+  template <uint32_t kSlot, class Fold>
   int32_t codeSlot(Io& io, const ResidualContexts& c, uint32_t prediction, int32_t truth,
-                   int32_t* residual) const;
+                   int32_t* residual, Fold fold) const;
   void codeOnPlanes(Io& io, uint32_t v, const Prediction<int32_t>& prediction,
                     uint32_t context) const {
     const int32_t* truth = Io::kEncoding ? truth_ + 3 * size_t{v} : nullptr;
@@ -112,8 +111,9 @@ class VertexCoder {
     return (a->magnitude[1] & kAllAxes) << 6 | (b->magnitude[1] & kAllAxes) << 3 |
            (c->magnitude[1] & kAllAxes);
   }
-  template <bool kFold>
-  void codeRanks(Io& io, uint32_t v, const Lanes<UWide>& q8, const ScaleEstimate& scale) const;
+  template <class Fold>
+  void codeRanks(Io& io, uint32_t v, const Lanes<UWide>& q8, const ScaleEstimate& scale,
+                 Fold fold) const;
 
   MCC_INLINE int32_t truthOf(uint32_t v, uint32_t axis) const {
     return Io::kEncoding ? truth_[3 * size_t{v} + axis] : 0;
@@ -152,15 +152,15 @@ class VertexCoder {
 inline constexpr uint8_t kFileOrder[4] = {0, 1, 2, 3};
 
 template <class Io, class Wide, uint32_t kModes>
-template <bool kFold>
+template <class Fold>
 MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeComponents(Io& io, uint32_t v,
                                                               const Prediction<Wide>& prediction,
-                                                              uint32_t plain) const {
+                                                              uint32_t plain, Fold fold) const {
   if (!has(position_mode::kShear)) {
     const ScaleEstimate scale =
         estimateScale<UWide>(scale_[plain], prediction.magnitudes, prediction.spread);
-    if (has(position_mode::kPalette)) return codeRanks<kFold>(io, v, prediction.q8, scale);
-    return codeSlots<kFold>(io, v, kFileOrder, kFileOrder, prediction.q8, scale, NoShift{});
+    if (has(position_mode::kPalette)) return codeRanks(io, v, prediction.q8, scale, fold);
+    return codeSlots(io, v, kFileOrder, kFileOrder, prediction.q8, scale, fold, NoShift{});
   }
   const Shear shear = makeShear(prediction.normal);
   const auto inOrder = [&](const Lanes<UWide>& x) MCC_INLINE_LAMBDA {
@@ -179,70 +179,72 @@ MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeComponents(Io& io, uint32_t v
     const int64_t sum = s == 1 ? wrappingMultiply(shear.c10, deviation(0))
                                : wrappingAdd(wrappingMultiply(shear.c20, deviation(0)),
                                              wrappingMultiply(shear.c21, deviation(1)));
-    return static_cast<UWide>(kFold ? ((sum >> 12) + 128) & ~int64_t{255} : sum >> 12);
+    return static_cast<UWide>(fold ? ((sum >> 12) + 128) & ~int64_t{255} : sum >> 12);
   };
-  codeSlots<kFold>(io, v, shear.axis, shear.slot, q8, scale, shift);
+  codeSlots(io, v, shear.axis, shear.slot, q8, scale, fold, shift);
 }
 
 /// Components by slot: `axis` of each and back; `shift(s, q)` moves the prediction of slot s > 0 by what the slots
 /// before turned out to be.
 template <class Io, class Wide, uint32_t kModes>
-template <bool kFold, class Shift>
+template <class Fold, class Shift>
 MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeSlots(Io& io, uint32_t v, const uint8_t* axis,
                                                          const uint8_t* slot,
                                                          const Lanes<UWide>& q8,
-                                                         const ScaleEstimate& scale,
+                                                         const ScaleEstimate& scale, Fold fold,
                                                          Shift shift) const {
   const Lanes<UWide> rounded = q8 + 128;
   ResidualContexts c;
-  findContexts<kFold>(scale, convertLanes<uint32_t>(rounded), has(position_mode::kSplit), c);
+  findContexts(scale, convertLanes<uint32_t>(rounded), has(position_mode::kSplit), fold, c);
   const auto prediction = [&](UWide q8_rounded) {
     return static_cast<uint32_t>(static_cast<Wide>(q8_rounded) >> 8);
   };
   int32_t q[3];
   int32_t residual[3];
   if constexpr (requires { Io::kThreeAtOnce; }) {
-    const Lanes<uint32_t> residuals = decodeResiduals<kFold>(io, rows_, c);
-    if constexpr (std::is_same_v<Shift, NoShift> && std::is_same_v<Wide, int32_t>) {
-      return store(v, (Lanes<uint32_t>)((Lanes<int32_t>)rounded >> 8) + residuals, residuals);
+    if (io.threeAtOnce()) {
+      const Lanes<uint32_t> residuals = decodeResiduals(io, rows_, c, fold);
+      if constexpr (std::is_same_v<Shift, NoShift> && std::is_same_v<Wide, int32_t>) {
+        return store(v, (Lanes<uint32_t>)((Lanes<int32_t>)rounded >> 8) + residuals, residuals);
+      }
+      const auto known = [&](int s, UWide q8_rounded) MCC_INLINE_LAMBDA {
+        residual[s] = static_cast<int32_t>(residuals[s]);
+        q[s] = static_cast<int32_t>(prediction(q8_rounded) + residuals[s]);
+      };
+      known(0, rounded[0]);
+      known(1, rounded[1] + shift(1, q));
+      known(2, rounded[2] + shift(2, q));
+      const Lanes<uint32_t> by_axis = {static_cast<uint32_t>(q[slot[0]]),
+                                       static_cast<uint32_t>(q[slot[1]]),
+                                       static_cast<uint32_t>(q[slot[2]]), 0};
+      return store(v, by_axis, residuals);
     }
-    const auto known = [&](int s, UWide q8_rounded) MCC_INLINE_LAMBDA {
-      residual[s] = static_cast<int32_t>(residuals[s]);
-      q[s] = static_cast<int32_t>(prediction(q8_rounded) + residuals[s]);
-    };
-    known(0, rounded[0]);
-    known(1, rounded[1] + shift(1, q));
-    known(2, rounded[2] + shift(2, q));
-    const Lanes<uint32_t> by_axis = {static_cast<uint32_t>(q[slot[0]]),
-                                     static_cast<uint32_t>(q[slot[1]]),
-                                     static_cast<uint32_t>(q[slot[2]]), 0};
-    return store(v, by_axis, residuals);
   }
-  q[0] = codeSlot<0, kFold>(io, c, prediction(rounded[0]), truthOf(v, axis[0]), residual);
-  q[1] = codeSlot<1, kFold>(io, c, prediction(rounded[1] + shift(1, q)), truthOf(v, axis[1]),
-                            residual);
-  q[2] = codeSlot<2, kFold>(io, c, prediction(rounded[2] + shift(2, q)), truthOf(v, axis[2]),
-                            residual);
+  q[0] = codeSlot<0>(io, c, prediction(rounded[0]), truthOf(v, axis[0]), residual, fold);
+  q[1] =
+      codeSlot<1>(io, c, prediction(rounded[1] + shift(1, q)), truthOf(v, axis[1]), residual, fold);
+  q[2] =
+      codeSlot<2>(io, c, prediction(rounded[2] + shift(2, q)), truthOf(v, axis[2]), residual, fold);
   store(v, q[slot[0]], q[slot[1]], q[slot[2]], residual);
 }
 
 /// A number near its prediction; `residual` receives the difference.
 template <class Io, class Wide, uint32_t kModes>
-template <uint32_t kSlot, bool kFold>
+template <uint32_t kSlot, class Fold>
 MCC_INLINE int32_t VertexCoder<Io, Wide, kModes>::codeSlot(Io& io, const ResidualContexts& c,
                                                            uint32_t prediction, int32_t truth,
-                                                           int32_t* residual) const {
+                                                           int32_t* residual, Fold fold) const {
   const int32_t target = static_cast<int32_t>(static_cast<uint32_t>(truth) - prediction);
-  residual[kSlot] = codeResidual<kSlot, kFold>(io, rows_[c.row[kSlot]], c.low_bits[kSlot],
-                                               c.folded[kSlot], c.flip[kSlot], target);
+  residual[kSlot] = codeResidual<kSlot>(io, rows_[c.row[kSlot]], c.low_bits[kSlot], c.folded[kSlot],
+                                        c.flip[kSlot], target, fold);
   return static_cast<int32_t>(prediction + static_cast<uint32_t>(residual[kSlot]));
 }
 
 /// The same with palettes, never sheared: where an axis has one, prediction and scale become ranks.
 template <class Io, class Wide, uint32_t kModes>
-template <bool kFold>
+template <class Fold>
 void VertexCoder<Io, Wide, kModes>::codeRanks(Io& io, uint32_t v, const Lanes<UWide>& q8,
-                                              const ScaleEstimate& scale) const {
+                                              const ScaleEstimate& scale, Fold fold) const {
   Wide at[4] = {};
   uint32_t width[4];
   storeLanes<Wide>((Lanes<Wide>)q8, at);
@@ -262,15 +264,15 @@ void VertexCoder<Io, Wide, kModes>::codeRanks(Io& io, uint32_t v, const Lanes<UW
   }
   const Lanes<UWide> rounded = (Lanes<UWide>)loadLanes<Wide>(at) + 128;
   ResidualContexts c;
-  findContexts<kFold>({loadLanes<uint32_t>(width), scale.set}, convertLanes<uint32_t>(rounded),
-                      has(position_mode::kSplit), c);
+  findContexts({loadLanes<uint32_t>(width), scale.set}, convertLanes<uint32_t>(rounded),
+               has(position_mode::kSplit), fold, c);
   const auto prediction = [&](uint32_t s) {
     return static_cast<uint32_t>(static_cast<Wide>(rounded[s]) >> 8);
   };
   int32_t residual[3];
-  int32_t q[3] = {codeSlot<0, kFold>(io, c, prediction(0), truth[0], residual),
-                  codeSlot<1, kFold>(io, c, prediction(1), truth[1], residual),
-                  codeSlot<2, kFold>(io, c, prediction(2), truth[2], residual)};
+  int32_t q[3] = {codeSlot<0>(io, c, prediction(0), truth[0], residual, fold),
+                  codeSlot<1>(io, c, prediction(1), truth[1], residual, fold),
+                  codeSlot<2>(io, c, prediction(2), truth[2], residual, fold)};
   for (uint32_t s = 0; s < 3; ++s) {
     if (p_.palette[s].count != 0) q[s] = p_.palette[s].valueOf(q[s]);
     residual[s] = static_cast<int32_t>(static_cast<uint32_t>(q[s]) - near[s]);
@@ -297,17 +299,13 @@ void VertexCoder<Io, Wide, kModes>::codeSeed(Io& io, uint32_t v, const VertexRec
       return;
     }
   }
-  if (has(position_mode::kPalette)) {
-    if (has(position_mode::kFold)) {
-      codeRanks<true>(io, v, q8, estimate);
+  withChoice(has(position_mode::kFold), [&](auto fold) {
+    if (has(position_mode::kPalette)) {
+      codeRanks(io, v, q8, estimate, fold);
     } else {
-      codeRanks<false>(io, v, q8, estimate);
+      codeSlots(io, v, kFileOrder, kFileOrder, q8, estimate, fold, NoShift{});
     }
-  } else if (has(position_mode::kFold)) {
-    codeSlots<true>(io, v, kFileOrder, kFileOrder, q8, estimate, NoShift{});
-  } else {
-    codeSlots<false>(io, v, kFileOrder, kFileOrder, q8, estimate, NoShift{});
-  }
+  });
   for (int s = 0; s < 3; ++s) {
     scale[s] = (scale[s] + 16 * std::min(r.magnitude[s], 1u << 24)) / 2;
     if (neighbour != nullptr) continue;

@@ -13,6 +13,7 @@
 #define MCC_ATTRIBUTES_POSITIONS_H_
 
 #include <cstdint>
+#include <type_traits>
 
 #include "attributes/position_growth.h"
 #include "attributes/position_parameters.h"
@@ -75,7 +76,7 @@ class PositionCoder {
 
    private:
     typename Io::Burst io_;
-    const VertexCoder<typename Io::Burst, Wide, kModes> vertex_;
+    const VertexCoder<std::remove_reference_t<typename Io::Burst>, Wide, kModes> vertex_;
     const FaceView faces_;
     const VertexRecord* const records_;
   };

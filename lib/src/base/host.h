@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cfloat>
+#include <type_traits>
 
 namespace mcc {
 
@@ -33,5 +34,28 @@ static_assert(FLT_EVAL_METHOD == 0, "build with SSE2 or an equivalent, not with 
 #define MCC_PREFETCH(address)
 #define MCC_UNROLL
 #endif
+
+namespace mcc {
+
+/// Where the size of the code counts (WebAssembly), what is compiled for every choice elsewhere is compiled once.
+#if defined(MCC_COMPACT)
+inline constexpr bool kCompact = true;
+#define MCC_SHARED MCC_OUT_OF_LINE
+#else
+inline constexpr bool kCompact = false;
+#define MCC_SHARED MCC_INLINE
+#endif
+
+/// Calls `function` with `choice`: as a constant, for which it is compiled apart, unless the code is compact.
+template <class Function>
+MCC_INLINE auto withChoice(bool choice, const Function& function) {
+  if constexpr (kCompact) {
+    return function(choice);
+  } else {
+    return choice ? function(std::true_type{}) : function(std::false_type{});
+  }
+}
+
+}  // namespace mcc
 
 #endif  // MCC_BASE_HOST_H_

@@ -75,6 +75,26 @@ class RangeDecoder {
     renormalise();
   }
 
+  /// Tokens and raw bits of payloads without streams of their own.
+  uint32_t token(TokenRow& row, const TokenSchedule& schedule) {
+    const uint32_t slot = peek(kTokenBits);
+    uint32_t start = 0;
+    uint32_t frequency = 0;
+    const uint32_t symbol = row.findAndAdapt(slot, schedule, start, frequency);
+    consume(start, frequency, kTokenBits);
+    return symbol;
+  }
+  uint32_t raw(uint32_t bits) {
+    uint32_t value = 0;
+    for (uint32_t done = 0; done < bits; done += 16) {
+      const uint32_t count = bits - done < 16 ? bits - done : 16;
+      const uint32_t part = peek(count);
+      consume(part, 1, count);
+      value |= part << done;
+    }
+    return value;
+  }
+
   /// All bytes were used and not more than the padding zeros besides.
   bool finished() const { return next_ >= bytes_.size() && next_ <= bytes_.size() + 8; }
   bool overrun() const { return next_ > bytes_.size() + 8; }
@@ -122,9 +142,9 @@ class RansDecoder {
   }
 
   /// Unchecked: hasWords(1) holds.
-  template <uint32_t kState, bool kUnchecked = false>
-  MCC_INLINE uint32_t token(TokenRow& row, const TokenSchedule& schedule) {
-    uint32_t x = state_[kState];
+  template <bool kUnchecked = false>
+  MCC_INLINE uint32_t token(uint32_t state, TokenRow& row, const TokenSchedule& schedule) {
+    uint32_t x = state_[state];
     const uint32_t slot = x & (kTokenOne - 1);
     uint32_t start = 0;
     uint32_t frequency = 0;
@@ -139,7 +159,7 @@ class RansDecoder {
     } else if (x < kRansLow) {
       x = x << 16 | nextWord();
     }
-    state_[kState] = x;
+    state_[state] = x;
     return symbol;
   }
 
@@ -257,6 +277,20 @@ class RawBitsDecoder {
   uint64_t next_bit_ = 0;
 };
 
+/// Checks that every stream was used up exactly; those that are null are none of the payload. [A.3.8]
+inline Status checkFinished(bool overrun, const RangeDecoder& codes, const RansDecoder* tokens,
+                            const RawBitsDecoder* raw) {
+  if (overrun) return fail(Error::kTruncated, "a stream ends before its last symbol");
+  if (!codes.finished()) return fail(Error::kTrailingBytes, "the code stream has bytes left over");
+  if (tokens != nullptr && !tokens->finished()) {
+    return fail(Error::kTrailingBytes, "the token stream does not end where its last symbol does");
+  }
+  if (raw != nullptr && !raw->finished()) {
+    return fail(Error::kTrailingBytes, "the raw bits do not end where the last of them does");
+  }
+  return {};
+}
+
 /// Inner loops that code a vertex after another do so through an Io::Burst: taken from the Io, given back before
 /// anything else uses that. This one is the Io itself.
 template <class Io>
@@ -290,6 +324,7 @@ class DecoderBurst {
   static constexpr bool kEncoding = false;
   static constexpr bool kThreeAtOnce =
       true;  ///< has threeTokens() and threeMagnitudes(); others lack this
+  static constexpr bool threeAtOnce() { return true; }  ///< whether they may be called
   explicit DecoderBurst(const DecoderIo<false>& io);
   void take(const DecoderIo<false>& io);
   void giveBack(DecoderIo<false>& io) const;
@@ -301,7 +336,7 @@ class DecoderBurst {
 
   template <uint32_t kState>
   MCC_INLINE uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t = 0) {
-    return tokens_.token<kState, true>(row, schedule);
+    return tokens_.token<true>(kState, row, schedule);
   }
   uint32_t raw(uint32_t bits, uint32_t = 0) { return raw_.read(bits); }
   MCC_INLINE uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t,
@@ -345,27 +380,15 @@ class DecoderIo {
   template <uint32_t kState>
   MCC_INLINE uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t = 0) {
     if constexpr (kSingle) {
-      const uint32_t slot = codes_.peek(kTokenBits);
-      uint32_t start = 0;
-      uint32_t frequency = 0;
-      const uint32_t symbol = row.findAndAdapt(slot, schedule, start, frequency);
-      codes_.consume(start, frequency, kTokenBits);
-      return symbol;
+      return codes_.token(row, schedule);
     } else {
-      return tokens_.template token<kState>(row, schedule);
+      return tokens_.token(kState, row, schedule);
     }
   }
 
   MCC_INLINE uint32_t raw(uint32_t bits, uint32_t = 0) {
     if constexpr (kSingle) {
-      uint32_t value = 0;
-      for (uint32_t done = 0; done < bits; done += 16) {
-        const uint32_t count = bits - done < 16 ? bits - done : 16;
-        const uint32_t part = codes_.peek(count);
-        codes_.consume(part, 1, count);
-        value |= part << done;
-      }
-      return value;
+      return codes_.raw(bits);
     } else {
       return raw_.read(bits);
     }
@@ -392,19 +415,12 @@ class DecoderIo {
     }
   }
 
-  /// Checks that every stream was used up exactly. [A.3.8]
   Status finish() const {
-    if (overrun()) return fail(Error::kTruncated, "a stream ends before its last symbol");
-    if (!codes_.finished())
-      return fail(Error::kTrailingBytes, "the code stream has bytes left over");
-    if constexpr (!kSingle) {
-      if (!tokens_.finished()) {
-        return fail(Error::kTrailingBytes,
-                    "the token stream does not end where its last symbol does");
-      }
-      if (!raw_.finished()) return fail(Error::kTrailingBytes, "the raw bits do not end where the last of them does");
+    if constexpr (kSingle) {
+      return checkFinished(overrun(), codes_, nullptr, nullptr);
+    } else {
+      return checkFinished(overrun(), codes_, &tokens_, &raw_);
     }
-    return {};
   }
 
  private:

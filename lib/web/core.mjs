@@ -1,0 +1,148 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Decodes payloads with a compiled WebAssembly module. No loading here, so that workers need nothing else.
+import { checkClaims } from './claims.mjs';
+import { MccError } from './error.mjs';
+
+/** Kinds of errors by number, as the specification names them (A.1.4), and those of the decoder itself. */
+const CODES = [
+  'Ok', 'Truncated', 'BadMagic', 'UnsupportedVersion', 'BadChecksum', 'BadHeader', 'BadConnectivity', 'BadStitch',
+  'BadAttribute', 'TrailingBytes', 'Limit', 'OutOfMemory', 'BadArgument', 'Cancelled',
+];
+const LIMITS = ['maxVertices', 'maxTriangles', 'maxAttributes', 'maxPieces', 'maxElements', 'maxOutputBytes'];
+
+/** Array types by the component types of the payload's header. */
+const COMPONENT_TYPES = [
+  [5120, Int8Array], [5121, Uint8Array], [5122, Int16Array], [5123, Uint16Array], [5125, Uint32Array],
+  [5126, Float32Array],
+];
+
+/** An instance that has grown beyond this is given up as soon as nobody waits for it: its memory cannot shrink. */
+const KEPT_BYTES = 64 << 20;
+
+export class Decoder {
+  #module;
+  #instance = null;
+  #pending = 0;
+
+  constructor(module) {
+    this.#module = module;
+  }
+
+  async decode(bytes, options) {
+    ++this.#pending;
+    try {
+      this.#instance ??= await WebAssembly.instantiate(this.#module);
+      return this.decodeSync(bytes, options);
+    } finally {
+      --this.#pending;
+      this.#giveBack();
+    }
+  }
+
+  decodeSync(bytes, options = {}) {
+    this.#instance ??= new WebAssembly.Instance(this.#module);
+    const exports = this.#instance.exports;
+    try {
+      return decodeWith(exports, bytes, options);
+    } catch (error) {
+      if (error instanceof MccError) throw error;
+      this.#instance = null; // after a trap nothing is known of its memory
+      throw new MccError(`the decoder failed (${error.message}); there may be too little memory`, 'Trap');
+    } finally {
+      this.#giveBack();
+    }
+  }
+
+  #giveBack() {
+    if (this.#pending === 0 && this.#instance?.exports.memory.buffer.byteLength > KEPT_BYTES) this.#instance = null;
+  }
+}
+
+function decodeWith(exports, bytes, { limits = {}, indexType = 'auto', claims }) {
+  if (!(bytes instanceof Uint8Array)) throw new MccError('the payload must be a Uint8Array', 'BadArgument');
+  if (!['auto', 'uint16', 'uint32'].includes(indexType)) {
+    throw new MccError(`indexType '${indexType}' is none of auto, uint16, uint32`, 'BadArgument');
+  }
+  const address = exports.allocate(bytes.length);
+  if (address === 0) throw new MccError('no memory for the payload', 'OutOfMemory');
+  let closes = true;
+  try {
+    new Uint8Array(exports.memory.buffer, address, bytes.length).set(bytes);
+    check(exports, exports.open(address, bytes.length, ...LIMITS.map((name) => limits[name] ?? Infinity)));
+    const info = describe(exports);
+    if (claims !== undefined) checkClaims(info, claims);
+    if (indexType === 'uint16' && info.pieces.some((piece) => piece.wedgeCount > 0xffff)) {
+      throw new MccError('a piece has too many vertices for 16-bit indices', 'BadArgument');
+    }
+    check(exports, exports.decode(indexType === 'uint32' ? 0 : 1));
+    takeOutputs(exports, info);
+    return info;
+  } catch (error) {
+    closes = error instanceof MccError;
+    throw error;
+  } finally {
+    if (closes) exports.close(address);
+  }
+}
+
+/** Throws the reader's error, if `number` is one. */
+function check(exports, number) {
+  if (number === 0) return;
+  const bytes = new Uint8Array(exports.memory.buffer);
+  const begin = exports.what();
+  let message = new TextDecoder().decode(bytes.slice(begin, bytes.indexOf(0, begin)));
+  const offset = exports.offset();
+  if (offset >= 0) message += ` (byte ${offset} of the payload)`;
+  throw new MccError(message, CODES[number] ?? 'Unknown');
+}
+
+/** The header: what DecodedPayload has, without the arrays. Words as in src/decoder.cpp. */
+function describe(exports) {
+  const words = new Uint32Array(exports.memory.buffer, exports.table());
+  let at = 0;
+  const list = (count, read) => Array.from({ length: count }, read);
+  const pieces = list(words[at++], () => {
+    const [wedgeCount, vertexCount, attributeCount, partCount] = words.subarray(at, (at += 4));
+    const attributes = list(attributeCount, () => {
+      const [semantic, set, type, normalized, componentCount, morphTarget] = words.subarray(at, (at += 7));
+      const componentType = COMPONENT_TYPES[type][0];
+      return { semantic, set, morphTarget, componentType, componentCount, normalized: normalized === 1 };
+    });
+    const parts = list(partCount, () => {
+      const triangleCount = words[at];
+      at += 3;
+      return { triangleCount };
+    });
+    return { wedgeCount, vertexCount, attributes, parts };
+  });
+  return { pieces };
+}
+
+/** Copies the outputs behind the addresses that are in the table by now. */
+function takeOutputs(exports, info) {
+  const buffer = exports.memory.buffer;
+  const words = new Uint32Array(buffer, exports.table());
+  let at = 1;
+  for (const piece of info.pieces) {
+    at += 4;
+    for (const attribute of piece.attributes) {
+      const ArrayType = COMPONENT_TYPES[words[at + 2]][1];
+      attribute.array = new ArrayType(buffer, words[at + 6], piece.wedgeCount * attribute.componentCount).slice();
+      at += 7;
+    }
+    for (const part of piece.parts) {
+      const ArrayType = words[at + 1] === 2 ? Uint16Array : Uint32Array;
+      part.indices = new ArrayType(buffer, words[at + 2], 3 * part.triangleCount).slice();
+      at += 3;
+    }
+  }
+}
+
+/** The buffers of a DecodedPayload, for postMessage(). */
+export function buffersOf({ pieces }) {
+  return pieces.flatMap(({ attributes, parts }) => [
+    ...attributes.map(({ array }) => array.buffer),
+    ...parts.map(({ indices }) => indices.buffer),
+  ]);
+}

@@ -1,0 +1,4 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+export * from './decoder.mjs';
+export { EXTENSION_NAME } from './document.mjs';
+export { unpackGlb, type UnpackOptions } from './unpack.mjs';

@@ -1,0 +1,210 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// A GLB without the extension, for loaders that do not know it.
+import { fail } from './claims.mjs';
+import { decodePayload } from './decoder.mjs';
+import { COMPONENT_COUNTS, elementsOf, EXTENSION_NAME, extensionUses, payloadsOf } from './document.mjs';
+
+const MAGIC = 0x46546c67;
+const JSON_CHUNK = 0x4e4f534a;
+const BIN_CHUNK = 0x004e4942;
+const ARRAY_BUFFER = 34962;
+const ELEMENT_ARRAY_BUFFER = 34963;
+const INDEX_ARRAYS = { 5121: Uint8Array, 5123: Uint16Array, 5125: Uint32Array };
+const ROWS = { MAT2: 2, MAT3: 3, MAT4: 4 };
+
+/**
+ * @param {Uint8Array} bytes  a GLB
+ * @param {{ decode?: typeof decodePayload, limits?: object }} [options]  `decode`: that of a pool, for instance
+ * @returns {Promise<Uint8Array>}  a GLB without the extension; `bytes` themselves when they do not use it
+ */
+export async function unpackGlb(bytes, { decode = decodePayload, limits } = {}) {
+  const { json, chunks } = readGlb(bytes);
+  const payloads = payloadsOf(json);
+  if (payloads.length === 0) return bytes;
+  const bin = chunks.find(({ type }) => type === BIN_CHUNK)?.data ?? new Uint8Array(0);
+  const decoded = await Promise.all(payloads.map(({ bufferView, claims }) => (
+    decode(payloadBytes(json, bin, bufferView), { claims, limits }))));
+  for (const { primitive } of extensionUses(json)) removeMember(primitive, 'extensions', EXTENSION_NAME);
+  for (const list of ['extensionsUsed', 'extensionsRequired']) {
+    json[list] = json[list]?.filter((name) => name !== EXTENSION_NAME);
+    if (!json[list]?.length) delete json[list];
+  }
+  const newBin = new Bin(json, bin, payloads);
+  payloads.forEach(({ targets }, i) => {
+    for (const target of targets) newBin.fill(json.accessors[target.accessor], elementsOf(decoded[i], target), target);
+  });
+  const others = chunks.filter(({ type }) => type !== BIN_CHUNK);
+  return writeGlb(json, [{ type: BIN_CHUNK, data: newBin.finish() }, ...others]);
+}
+
+/** Its JSON and its other chunks. */
+export function readGlb(bytes) {
+  if (!(bytes instanceof Uint8Array)) fail('', 'the GLB must be a Uint8Array');
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  if (bytes.length < 20 || view.getUint32(0, true) !== MAGIC) fail('byte 0', 'this is no GLB file');
+  if (view.getUint32(4, true) !== 2) fail('byte 4', 'only version 2 (glTF 2.0) can be read');
+  const length = view.getUint32(8, true);
+  if (length > bytes.length) fail('byte 8', `the header says ${length} bytes but the file has ${bytes.length}: it is truncated`);
+  const chunks = [];
+  for (let at = 12; at + 8 <= length;) {
+    const size = view.getUint32(at, true);
+    if (size > length - at - 8) fail(`byte ${at}`, `the chunk of ${size} bytes runs past the end of the file`);
+    chunks.push({ type: view.getUint32(at + 4, true), data: bytes.subarray(at + 8, at + 8 + size) });
+    at += 8 + size;
+  }
+  const first = chunks.shift();
+  if (first?.type !== JSON_CHUNK) fail('byte 12', 'the first chunk of a GLB must be its JSON');
+  try {
+    return { json: JSON.parse(new TextDecoder().decode(first.data)), chunks };
+  } catch (error) {
+    return fail('byte 20', `the JSON cannot be read (${error.message})`);
+  }
+}
+
+function payloadBytes(json, bin, number) {
+  const { buffer, byteOffset = 0, byteLength } = json.bufferViews[number];
+  const path = `/bufferViews/${number}`;
+  if (buffer !== 0 || json.buffers?.[0]?.uri !== undefined) fail(`${path}/buffer`, 'the payload is not in the GLB');
+  if (!(byteOffset >= 0 && byteLength > 0 && byteOffset + byteLength <= bin.length)) {
+    fail(path, 'reaches beyond its buffer');
+  }
+  return bin.slice(byteOffset, byteOffset + byteLength);
+}
+
+function removeMember(object, key, member) {
+  delete object[key][member];
+  if (Object.keys(object[key]).length === 0) delete object[key];
+}
+
+/** Whether `test` holds for a member of `value`, at any depth. */
+function someMember(value, test) {
+  if (typeof value !== 'object' || value === null) return false;
+  return Object.entries(value).some(([key, member]) => test(key, member) || someMember(member, test));
+}
+
+/** The BIN chunk with decoded elements instead of payloads. Buffer views keep their numbers, which unknown extensions may
+ * refer to; new elements take the place of views that are no longer needed, or come behind. */
+class Bin {
+  constructor(json, bin, payloads) {
+    this.json = json;
+    this.parts = [];
+    this.length = 0;
+    const filled = payloads.flatMap(({ targets }) => targets.map(({ accessor }) => json.accessors[accessor]));
+    const fallbackViews = filled.flatMap(({ bufferView }) => bufferView ?? []);
+    for (const accessor of filled) {
+      for (const key of ['bufferView', 'byteOffset', 'sparse']) delete accessor[key];
+    }
+    const isUsed = (number) => someMember(json, (key, member) => key === 'bufferView' && member === number);
+    const unused = new Set([...payloads.map(({ bufferView }) => bufferView), ...fallbackViews]);
+    this.free = [...unused].filter((number) => !isUsed(number)).sort((a, b) => b - a);
+    this.#keepOld(bin);
+  }
+
+  /** The bytes that views still refer to. All of them if something else may refer to a buffer. */
+  #keepOld(bin) {
+    const views = this.json.bufferViews.filter((view, number) => view.buffer === 0 && !this.free.includes(number));
+    const refersToBuffers = (extensions) => someMember(extensions, (key) => key === 'buffer');
+    if (this.json.bufferViews.some(({ extensions }) => refersToBuffers(extensions)) || refersToBuffers(this.json.extensions)) {
+      this.#add(bin);
+      return;
+    }
+    views.sort((a, b) => (a.byteOffset ?? 0) - (b.byteOffset ?? 0));
+    let end = 0; // of the last range that is kept, in the old chunk
+    let moved = 0;
+    for (const view of views) {
+      const begin = view.byteOffset ?? 0;
+      const behind = begin + view.byteLength;
+      if (begin >= end) {
+        this.#align(8);
+        const aligned = begin - (begin % 8);
+        moved = this.length - aligned;
+        end = aligned;
+      }
+      if (behind > end) {
+        this.#add(bin.subarray(end, behind));
+        end = behind;
+      }
+      view.byteOffset = begin + moved;
+    }
+  }
+
+  /** Elements of an accessor, tight in `array`, as a buffer view. */
+  fill(accessor, array, { attribute }) {
+    const isIndex = attribute === undefined;
+    const { bytes, stride } = isIndex ? indexBytes(accessor, array) : elementBytes(accessor, array);
+    const number = this.free.pop() ?? this.json.bufferViews.length;
+    this.#align(4);
+    this.json.bufferViews[number] = {
+      buffer: 0, byteOffset: this.length, byteLength: bytes.length,
+      ...(stride === undefined ? {} : { byteStride: stride }), target: isIndex ? ELEMENT_ARRAY_BUFFER : ARRAY_BUFFER,
+    };
+    this.#add(bytes);
+    accessor.bufferView = number;
+  }
+
+  finish() {
+    const { bufferViews, buffers } = this.json;
+    // What is left over: gone where nothing has a higher number, else empty.
+    for (const number of this.free) {
+      if (number === bufferViews.length - 1) bufferViews.pop();
+      else bufferViews[number] = { buffer: 0, byteOffset: 0, byteLength: 1 };
+    }
+    while (buffers.length > 1 && !someMember(this.json, (key, member) => key === 'buffer' && member === buffers.length - 1)) {
+      buffers.pop(); // that of a fallback
+    }
+    buffers[0].byteLength = this.length;
+    const bin = new Uint8Array(this.length);
+    for (const { at, bytes } of this.parts) bin.set(bytes, at);
+    return bin;
+  }
+
+  #align(size) {
+    this.length = Math.ceil(this.length / size) * size;
+  }
+
+  #add(bytes) {
+    this.parts.push({ at: this.length, bytes });
+    this.length += bytes.length;
+  }
+}
+
+const asBytes = ({ buffer, byteOffset, byteLength }) => new Uint8Array(buffer, byteOffset, byteLength);
+
+function indexBytes({ componentType }, indices) {
+  return { bytes: asBytes(INDEX_ARRAYS[componentType].from(indices)) };
+}
+
+/** Elements of vertex attributes begin at multiples of four bytes, and so do the columns of matrices. */
+function elementBytes({ type, count }, array) {
+  const components = COMPONENT_COUNTS[type];
+  const size = array.BYTES_PER_ELEMENT;
+  const rows = ROWS[type] ?? components;
+  const columnBytes = Math.ceil((rows * size) / 4) * 4;
+  const stride = (components / rows) * columnBytes;
+  const tight = asBytes(array);
+  if (stride === components * size) return { bytes: tight };
+  const bytes = new Uint8Array(count * stride);
+  const columns = (count * components) / rows;
+  for (let i = 0; i < columns; ++i) bytes.set(tight.subarray(i * rows * size, (i + 1) * rows * size), i * columnBytes);
+  return { bytes, stride };
+}
+
+function writeGlb(json, chunks) {
+  const text = new TextEncoder().encode(JSON.stringify(json));
+  const all = [{ type: JSON_CHUNK, data: text, padding: 0x20 }, ...chunks.filter(({ data }) => data.length > 0)];
+  const padded = ({ data }) => Math.ceil(data.length / 4) * 4;
+  const length = all.reduce((sum, chunk) => sum + 8 + padded(chunk), 12);
+  const bytes = new Uint8Array(length);
+  const view = new DataView(bytes.buffer);
+  [MAGIC, 2, length].forEach((word, i) => view.setUint32(4 * i, word, true));
+  let at = 12;
+  for (const chunk of all) {
+    view.setUint32(at, padded(chunk), true);
+    view.setUint32(at + 4, chunk.type, true);
+    bytes.set(chunk.data, at + 8);
+    bytes.fill(chunk.padding ?? 0, at + 8 + chunk.data.length, at + 8 + padded(chunk));
+    at += 8 + padded(chunk);
+  }
+  return bytes;
+}

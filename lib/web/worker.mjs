@@ -1,0 +1,26 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// A worker of a decoder pool. Gets the compiled module, then one payload at a time; buffers are moved both ways.
+import { buffersOf, Decoder } from './core.mjs';
+
+let decoder = null;
+
+async function answer({ module, bytes, options }, post) {
+  if (module !== undefined) {
+    decoder = new Decoder(module);
+    return;
+  }
+  try {
+    const decoded = await decoder.decode(bytes, options);
+    post({ decoded }, buffersOf(decoded));
+  } catch ({ message, code }) {
+    post({ message, code }, []);
+  }
+}
+
+if (typeof self === 'object' && typeof self.postMessage === 'function') {
+  self.onmessage = ({ data }) => answer(data, (message, moved) => self.postMessage(message, moved));
+} else {
+  const { parentPort } = await import(/* @vite-ignore */ /* webpackIgnore: true */ `node:${'worker_threads'}`);
+  parentPort.on('message', (data) => answer(data, (message, moved) => parentPort.postMessage(message, moved)));
+}
