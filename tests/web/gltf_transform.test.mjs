@@ -5,7 +5,8 @@ import { NodeIO } from '@gltf-transform/core';
 import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
 import './support/peers.mjs';
 import * as decoder from '../../lib/web/index.mjs';
-import { assets, bytesOf, compareWithManifest, refusesNegatives } from './support/conformance.mjs';
+import { manifest, readAsset } from './support/conformance.mjs';
+import { compareWithManifest, refusesNegatives } from './support/loaders.mjs';
 
 const { KHRMeshCollapseCompression } = await import('../../lib/web/gltf-transform.mjs');
 
@@ -13,8 +14,8 @@ await decoder.ready;
 const io = new NodeIO().registerExtensions([...ALL_EXTENSIONS, KHRMeshCollapseCompression]).registerDependencies({ 'mcc.decoder': decoder });
 
 test('glTF-Transform reads the elements of the conformance assets', async () => {
-  for (const asset of assets) {
-    const bytes = bytesOf(asset);
+  for (const asset of manifest.assets) {
+    const bytes = readAsset(asset);
     const { json } = await io.binaryToJSON(bytes);
     const document = await io.readBinary(bytes);
     const accessors = document.getRoot().listAccessors();

@@ -2,10 +2,16 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { decodePayload } from '../../lib/web/index.mjs';
 import { MeshCollapsePlugin } from '../../lib/web/three.mjs';
-import { assets, bytesOf, compareWithManifest, refusesNegatives } from './support/conformance.mjs';
+import { readGlb } from '../../lib/web/unpack.mjs';
+import { manifest, readAsset } from './support/conformance.mjs';
+import { compareWithManifest, refusesNegatives } from './support/loaders.mjs';
+import { convert, convertWithFallback, readSample } from './support/program.mjs';
 
-globalThis.self ??= globalThis; // the loader looks for URL there
+// What the loader takes for granted in browsers.
+globalThis.self ??= globalThis;
+globalThis.ProgressEvent ??= Event;
 
 function load(bytes, options) {
   const loader = new GLTFLoader();
@@ -24,10 +30,44 @@ function tightElements({ isInterleavedBufferAttribute, array, data, count, itemS
 }
 
 test('three.js has the elements of the conformance assets in its accessors', async () => {
-  for (const asset of assets) {
-    const { parser } = await load(bytesOf(asset));
+  for (const asset of manifest.assets) {
+    const { parser } = await load(readAsset(asset));
     await compareWithManifest(asset, parser.json, async (accessor) => tightElements(await parser.getDependency('accessor', accessor)));
   }
 });
 
 test('three.js refuses the negative assets', () => refusesNegatives(load));
+
+test('three.js decodes a payload once, with the options of the plugin', async () => {
+  const calls = [];
+  const decode = (payload, options) => {
+    calls.push(options);
+    return decodePayload(payload, options);
+  };
+  const glb = convert(readSample('shared_vertices')); // three primitives with one payload
+  const { scene } = await load(glb, { decode, limits: { maxVertices: 10_000 } });
+  const geometries = scene.getObjectsByProperty('isMesh', true).map(({ geometry }) => geometry);
+  assert.equal(geometries.length, 3);
+  assert.equal(new Set(geometries.map(({ attributes }) => attributes.position)).size, 1, 'they share their vertices');
+  assert.equal(calls.length, 1);
+  await assert.rejects(load(glb, { limits: { maxVertices: 100 } }), { code: 'Limit' });
+});
+
+test('three.js loads what has a fallback without the fallback', async () => {
+  const { glb } = convertWithFallback('torus');
+  const { scene } = await load(glb); // its .bin is nowhere
+  const [{ geometry }] = scene.getObjectsByProperty('isMesh', true);
+  assert.equal(geometry.index.count, 3 * 4096);
+});
+
+test('three.js loads a document again, which stays as it was', async () => {
+  const { json, chunks: [{ data }] } = readGlb(convert(readSample('torus')));
+  json.buffers[0].uri = `data:application/octet-stream;base64,${Buffer.from(data).toString('base64')}`;
+  const copy = structuredClone(json);
+  for (let i = 0; i < 2; ++i) {
+    const loader = new GLTFLoader().register((parser) => new MeshCollapsePlugin(parser));
+    const { scene } = await loader.parseAsync(json, '');
+    assert.equal(scene.getObjectsByProperty('isMesh', true)[0].geometry.index.count, 3 * 4096);
+    assert.deepEqual(json, copy);
+  }
+});

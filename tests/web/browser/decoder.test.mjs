@@ -6,14 +6,13 @@ import { createHash } from 'node:crypto';
 import { after, before, test } from 'node:test';
 import { unpackGlb } from '../../../lib/web/index.mjs';
 import { launchBrowser, openPage } from './support/browser.mjs';
-import { damaged, makeModels } from './support/models.mjs';
+import { makeModels } from './support/models.mjs';
 import { startServer } from './support/server.mjs';
 
 let browser, server, models;
 
 before(async () => {
   models = await makeModels();
-  models.set('damaged', damaged(models.get('textured.mcc')));
   [server, browser] = await Promise.all([startServer(models), launchBrowser()]);
 });
 

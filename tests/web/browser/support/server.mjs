@@ -11,8 +11,8 @@ import { createHash } from 'node:crypto';
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import path from 'node:path';
+import { ENGINES, LIBRARY, PAGES } from '../../support/paths.mjs';
 import { snippetOf } from './readme.mjs';
-import { ENGINES, LIBRARY, PAGES } from './paths.mjs';
 
 const TYPES = { '.mjs': 'text/javascript', '.js': 'text/javascript', '.wasm': 'application/wasm', '.css': 'text/css',
   '.glb': 'model/gltf-binary', '.json': 'application/json' };

@@ -3,18 +3,8 @@
 // The conformance suite for loaders: what its assets must look like in the memory of an engine.
 import assert from 'node:assert/strict';
 import { createHash } from 'node:crypto';
-import { readFileSync } from 'node:fs';
-import path from 'node:path';
-import { fileURLToPath } from 'node:url';
 import { MccError } from '../../../lib/web/index.mjs';
-
-const FOLDER = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../../conformance');
-const { assets, negative } = JSON.parse(readFileSync(path.join(FOLDER, 'manifest.json'), 'utf8'));
-
-export { assets };
-
-/** @returns {Uint8Array} in memory of its own, as loaders like it */
-export const bytesOf = ({ file }) => new Uint8Array(readFileSync(path.join(FOLDER, file)));
+import { manifest, readAsset } from './conformance.mjs';
 
 /**
  * Compares all accessors of the primitives of an asset with the manifest.
@@ -43,8 +33,8 @@ export async function compareWithManifest(asset, json, load) {
  * @param {(bytes: Uint8Array) => Promise<unknown>} load
  */
 export async function refusesNegatives(load) {
-  for (const asset of negative) {
-    await assert.rejects(load(bytesOf(asset)), (error) => {
+  for (const asset of manifest.negative) {
+    await assert.rejects(load(readAsset(asset)), (error) => {
       const { code } = reasonOf(error);
       // What is wrong with a document an engine may notice first.
       const isExpected = asset.kind === 'document' ? !['Load', 'Trap'].includes(code) : code === asset.kind;

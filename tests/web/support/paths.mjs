@@ -4,9 +4,8 @@ import { fileURLToPath } from 'node:url';
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 
-export const ROOT = path.resolve(here, '../../../..');
+export const ROOT = path.resolve(here, '../../..');
 export const LIBRARY = path.join(ROOT, 'lib/web');
 export const SAMPLES = path.join(ROOT, 'samples');
 export const ENGINES = path.join(ROOT, 'tests/web/node_modules');
-export const PAGES = path.resolve(here, '../pages');
-export const CLI = process.env.MCC_CLI ?? path.join(ROOT, 'build/release/tools/gltf-mcc');
+export const PAGES = path.resolve(here, '../browser/pages');
