@@ -402,7 +402,7 @@ Status decodeAll(const PayloadHeader& header, const PayloadInfo& info,
 }
 
 /// What the largest piece takes at a time, about.
-uint64_t expectedBytes(const PayloadHeader& header) {
+[[maybe_unused]] uint64_t expectedBytes(const PayloadHeader& header) {
   uint64_t most = 0;
   for (size_t i = 0; i < header.pieces.size(); ++i) {
     const PieceHeader& p = header.pieces[i];
@@ -469,14 +469,16 @@ const PayloadInfo& Payload::info() const { return state_ == nullptr ? kEmptyInfo
 Status Payload::decode(std::span<const PieceTarget> targets, const DecodeOptions& options) const {
   if (state_ == nullptr) return fail(Error::kBadArgument, "no payload is open");
   MCC_TRY(checkTargets(state_->info, targets));
-  const uint64_t expected_bytes = expectedBytes(state_->header);
-  if (options.allocator.allocate != nullptr || !WorkingMemory::pays(expected_bytes)) {
-    return decodeAll(state_->header, state_->info, targets, options);
+  if constexpr (!kCompact) {  // else there are no huge pages
+    const uint64_t expected_bytes = expectedBytes(state_->header);
+    if (options.allocator.allocate == nullptr && WorkingMemory::pays(expected_bytes)) {
+      WorkingMemory memory(expected_bytes);
+      DecodeOptions with_memory = options;
+      with_memory.allocator = memory.allocator();
+      return decodeAll(state_->header, state_->info, targets, with_memory);
+    }
   }
-  WorkingMemory memory(expected_bytes);
-  DecodeOptions with_memory = options;
-  with_memory.allocator = memory.allocator();
-  return decodeAll(state_->header, state_->info, targets, with_memory);
+  return decodeAll(state_->header, state_->info, targets, options);
 }
 
 }  // namespace mcc

@@ -87,6 +87,7 @@ class DecoderPool {
       () => {
         if (slot.job === null) return; // disposed of
         const { bytes, options } = slot.job;
+        slot.worker.ref?.(); // Node: only a job keeps the program alive
         slot.worker.postMessage({ bytes, options }, [bytes.buffer]);
       },
       (error) => this.#finish(slot, 'reject', error),
@@ -96,6 +97,7 @@ class DecoderPool {
   #finish(slot, how, value) {
     const { job } = slot;
     slot.job = null;
+    slot.worker?.unref?.();
     job?.[how](value);
     this.#next();
   }
@@ -129,7 +131,6 @@ async function createWorker(onMessage, onError) {
   const worker = new threads.Worker(new URL('./worker.mjs', import.meta.url));
   worker.on('message', onMessage);
   worker.on('error', onError);
-  worker.unref(); // a pool that is idle keeps no program alive
   return worker;
 }
 

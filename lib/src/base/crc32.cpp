@@ -27,11 +27,16 @@ struct SliceTables {
     }
   }
 };
+#if !defined(MCC_COMPACT)
 constexpr SliceTables kTables;
+#endif
 
 }  // namespace
 
 uint32_t crc32(std::span<const uint8_t> bytes, uint32_t crc) {
+#if defined(MCC_COMPACT)
+  const SliceTables kTables;  // 8 KiB that no file compresses, made in some microseconds
+#endif
   crc = ~crc;
   const uint8_t* p = bytes.data();
   size_t rest = bytes.size();

@@ -1,0 +1,212 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+import assert from 'node:assert/strict';
+import { after, before, describe, test } from 'node:test';
+import { createDecoderPool, decodePayload, decodePayloadSync, init, MccError, ready } from '../../lib/web/decoder.mjs';
+import { elementsOf, payloadsOf } from '../../lib/web/document.mjs';
+import { readGlb, unpackGlb } from '../../lib/web/unpack.mjs';
+import { DECODERS, manifest, payloadOf, readAsset, wasm, whatDiffers } from './support/conformance.mjs';
+
+const assetNamed = (part) => manifest.assets.find(({ file }) => file.includes(part));
+const somePayload = () => payloadOf(readAsset(assetNamed('skinned') ?? manifest.assets[20]));
+
+/** The negative assets that are a payload's fault, with its error's number. */
+const damaged = manifest.negative.filter(({ error }) => error !== 0);
+
+async function failureOf(promise) {
+  try {
+    await promise;
+  } catch (error) {
+    return error;
+  }
+  return assert.fail('nothing was wrong');
+}
+
+for (const name of DECODERS) {
+  describe(name, () => {
+    before(() => init({ bytes: wasm(name) }));
+    after(() => init());
+
+    test('imports nothing', async () => {
+      assert.deepEqual(WebAssembly.Module.imports(await WebAssembly.compile(wasm(name))), []);
+    });
+
+    for (const asset of manifest.assets) {
+      test(asset.file, async () => assert.equal(whatDiffers(await unpackGlb(readAsset(asset)), asset), ''));
+    }
+
+    for (const asset of manifest.negative) {
+      test(asset.file, async () => {
+        const error = await failureOf(unpackGlb(readAsset(asset)));
+        assert.ok(error instanceof MccError, error.stack);
+        assert.ok(error.message.length > 10, error.message);
+        assert.notEqual(error.code, 'Trap');
+      });
+    }
+
+    test('a thousand mutations leave it usable', async () => {
+      const payload = somePayload();
+      const good = await decodePayload(payload);
+      let seed = 1;
+      const random = (below) => {
+        seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0;
+        return Math.floor((seed / 2 ** 32) * below);
+      };
+      for (let i = 0; i < 1000; ++i) {
+        const mutated = payload.slice(0, i % 10 === 0 ? random(payload.length) : payload.length);
+        for (let k = 0; k <= i % 3; ++k) if (mutated.length !== 0) mutated[random(mutated.length)] ^= 1 + random(255);
+        // The checksum is left as it was, or made to fit, so that all of the decoder sees damage.
+        if (i % 2 === 1 && mutated.length > 8) {
+          new DataView(mutated.buffer).setUint32(4, crc32([...mutated.subarray(0, 4), ...mutated.subarray(8)]), true);
+        }
+        await decodePayload(mutated, { limits: { maxOutputBytes: 1 << 24 } }).catch((error) => {
+          assert.ok(error instanceof MccError, error.stack);
+          assert.notEqual(error.code, 'Trap', error.message);
+        });
+      }
+      assert.deepEqual(await decodePayload(payload), good);
+    });
+  });
+}
+
+function crc32(bytes) {
+  let crc = -1;
+  for (const byte of bytes) {
+    crc ^= byte;
+    for (let i = 0; i < 8; ++i) crc = (crc >>> 1) ^ (0xedb88320 & -(crc & 1));
+  }
+  return ~crc >>> 0;
+}
+
+test('the error is the reader\'s own', async () => {
+  const asset = manifest.negative.find(({ file }) => file.includes('damaged_checksum'));
+  const error = await failureOf(decodePayload(payloadOf(readAsset(asset))));
+  assert.equal(error.code, 'BadChecksum');
+  assert.match(error.message, /checksum/);
+});
+
+test('every kind of damage has its code', async () => {
+  for (const asset of damaged) {
+    const error = await failureOf(unpackGlb(readAsset(asset)));
+    assert.equal(error.code, asset.kind, asset.file);
+  }
+});
+
+test('decodePayloadSync() once it is ready', async () => {
+  await init();
+  await ready;
+  assert.deepEqual(decodePayloadSync(somePayload()), await decodePayload(somePayload()));
+});
+
+test('the arrays own their memory and have the types of the header', async () => {
+  const { pieces } = await decodePayload(somePayload());
+  for (const { wedgeCount, attributes, parts } of pieces) {
+    for (const { array, componentCount } of attributes) {
+      assert.equal(array.length, wedgeCount * componentCount);
+      assert.equal(array.byteLength, array.buffer.byteLength);
+    }
+    for (const { indices, triangleCount } of parts) {
+      assert.equal(indices.length, 3 * triangleCount);
+      assert.ok(indices instanceof Uint16Array);
+      assert.ok(indices.every((index) => index < wedgeCount));
+    }
+  }
+});
+
+test('index types', async () => {
+  const wide = await decodePayload(somePayload(), { indexType: 'uint32' });
+  const short = await decodePayload(somePayload(), { indexType: 'uint16' });
+  assert.ok(wide.pieces[0].parts[0].indices instanceof Uint32Array);
+  assert.deepEqual([...wide.pieces[0].parts[0].indices], [...short.pieces[0].parts[0].indices]);
+  assert.equal((await failureOf(decodePayload(somePayload(), { indexType: 'uint8' }))).code, 'BadArgument');
+});
+
+test('limits', async () => {
+  const payload = somePayload();
+  const { pieces } = await decodePayload(payload);
+  const triangles = pieces.flatMap(({ parts }) => parts).reduce((sum, { triangleCount }) => sum + triangleCount, 0);
+  await decodePayload(payload, { limits: { maxTriangles: triangles } });
+  for (const limits of [{ maxTriangles: triangles - 1 }, { maxVertices: 1 }, { maxAttributes: 0 }, { maxPieces: 0 },
+    { maxElements: 1 }, { maxOutputBytes: 1 }]) {
+    assert.equal((await failureOf(decodePayload(payload, { limits }))).code, 'Limit', JSON.stringify(limits));
+    assert.equal((await failureOf(unpackGlb(readAsset(manifest.assets[20]), { limits }))).code, 'Limit');
+  }
+});
+
+test('other arguments than bytes', async () => {
+  for (const bytes of [undefined, 'payload', [1, 2], new ArrayBuffer(8)]) {
+    assert.equal((await failureOf(decodePayload(bytes))).code, 'BadArgument');
+  }
+  assert.equal((await failureOf(decodePayload(new Uint8Array(0)))).code, 'BadMagic');
+});
+
+test('a module that cannot be loaded', async () => {
+  const error = await failureOf(init({ wasmUrl: new URL('no_such.wasm', import.meta.url) }));
+  assert.equal(error.code, 'Load');
+  assert.match(error.message, /no_such\.wasm/);
+  await init(); // and again from where it is
+  await decodePayload(somePayload());
+});
+
+describe('pool', () => {
+  const pool = createDecoderPool({ workers: 2 });
+  after(() => pool.dispose());
+
+  test('decodes the suite', async () => {
+    await Promise.all(manifest.assets.map(async (asset) => {
+      assert.equal(whatDiffers(await unpackGlb(readAsset(asset), { decode: pool.decodePayload }), asset), '', asset.file);
+    }));
+  });
+
+  test('rejects damage and goes on', async () => {
+    const all = damaged.slice(0, 40).map((asset) => failureOf(unpackGlb(readAsset(asset), { decode: pool.decodePayload })));
+    for (const error of await Promise.all(all)) assert.ok(error instanceof MccError && error.message.length > 10);
+    await pool.decodePayload(somePayload());
+  });
+
+  test('moves or copies the buffer', async () => {
+    const [moved, kept] = [somePayload(), somePayload()];
+    assert.deepEqual(await pool.decodePayload(moved, { transfer: true }), await pool.decodePayload(kept));
+    assert.equal(moved.length, 0);
+    assert.notEqual(kept.length, 0);
+  });
+
+  test('after dispose()', async () => {
+    const other = createDecoderPool({ workers: 1 });
+    const pending = [other.decodePayload(somePayload()), other.decodePayload(somePayload())];
+    other.dispose();
+    for (const promise of [...pending, other.decodePayload(somePayload())]) {
+      assert.equal((await failureOf(promise)).code, 'Disposed');
+    }
+  });
+});
+
+describe('documents', () => {
+  test('every accessor is a target once', () => {
+    for (const asset of manifest.assets) {
+      const { json } = readGlb(readAsset(asset));
+      const accessors = payloadsOf(json).flatMap(({ targets }) => targets.map(({ accessor }) => accessor));
+      assert.equal(new Set(accessors).size, accessors.length);
+    }
+  });
+
+  test('targets name the arrays', async () => {
+    const asset = readAsset(manifest.assets[20]);
+    const { json } = readGlb(asset);
+    const [{ targets }] = payloadsOf(json);
+    const decoded = await decodePayload(payloadOf(asset));
+    for (const target of targets) {
+      assert.equal(elementsOf(decoded, target).length % json.accessors[target.accessor].count, 0);
+    }
+  });
+
+  test('a file without the extension comes back as it is', async () => {
+    const plain = await unpackGlb(readAsset(manifest.assets[20]));
+    assert.equal(await unpackGlb(plain), plain);
+  });
+
+  test('no GLB', async () => {
+    for (const bytes of [new Uint8Array(0), new Uint8Array(100), readAsset(manifest.assets[20]).slice(0, 200)]) {
+      assert.equal((await failureOf(unpackGlb(bytes))).code, 'Document');
+    }
+  });
+});
