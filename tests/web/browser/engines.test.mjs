@@ -84,6 +84,16 @@ async function failsWithoutLibrary(engine, name, references) {
   await page.close();
 }
 
+test('where workers cannot start, plugins decode on the thread of the page', async () => {
+  const { page, violations } = await open({ page: 'three' }, '?noworkers');
+  const picture = await draw(page, 'shared.mcc');
+  assert.equal(page.workers().length, 0);
+  assert.ok(violations().length > 0, 'the policy is in force');
+  const [plain, source] = [await draw(page, 'shared.plain'), await draw(page, 'shared')];
+  assert.deepEqual(problemsOf('shared', { picture, plain, source }), []);
+  await page.close();
+});
+
 async function saveScreenshot(engine, { bytes }) {
   const folder = process.env.MCC_SCREENSHOTS;
   if (folder) await writeFile(path.join(folder, `${engine}.png`), bytes);

@@ -3,7 +3,8 @@
 // A static server for the browser tests. Every page is sent with a Content-Security-Policy, and engines come from node_modules by
 // import maps, without a bundler.
 //
-//   /pages/NAME.html        NAME.mjs of tests/web/browser/pages, with an import map; ?without replaces the library by nothing
+//   /pages/NAME.html        NAME.mjs of tests/web/browser/pages, with an import map; ?without replaces the library by nothing,
+//                           ?noworkers forbids workers, ?strict is for pages without an import map
 //   /models/NAME/model.glb  a model of the test
 //   /snippets/NAME.mjs      the code under "### NAME" in the README of lib/web
 //   /lib/…, /engines/…      lib/web and node_modules
@@ -33,7 +34,8 @@ const LIBRARY_IMPORTS = {
 const NO_LIBRARY = Object.fromEntries(Object.keys(LIBRARY_IMPORTS).map((name) => [name, '/pages/without.mjs']));
 
 /** What an application has to allow; engines add blob: for images, and model-viewer for its model. */
-export const STRICT_POLICY = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'";
+const POLICY = { 'default-src': "'self'", 'script-src': "'self' 'wasm-unsafe-eval'", 'worker-src': "'self'" };
+const POLICY_OF_ENGINES = { 'img-src': "'self' blob: data:", 'connect-src': "'self' blob:", 'style-src': "'self' 'unsafe-inline'" };
 
 /**
  * @param {Map<string, Uint8Array>} models by name; may grow later
@@ -85,20 +87,23 @@ function content(body, extension) {
 }
 
 function page(name, url) {
-  const strict = url.searchParams.has('strict');
-  const library = url.searchParams.has('without') ? NO_LIBRARY : LIBRARY_IMPORTS;
-  const map = JSON.stringify({ imports: { ...ENGINE_IMPORTS, ...library } });
+  const has = (parameter) => url.searchParams.has(parameter);
+  const map = JSON.stringify({ imports: { ...ENGINE_IMPORTS, ...(has('without') ? NO_LIBRARY : LIBRARY_IMPORTS) } });
   const hash = createHash('sha256').update(map).digest('base64');
-  const policy = strict ? STRICT_POLICY
-    : `${STRICT_POLICY.replace("'wasm-unsafe-eval'", `'wasm-unsafe-eval' 'sha256-${hash}'`)}; `
-      + "img-src 'self' blob: data:; connect-src 'self' blob:; style-src 'self' 'unsafe-inline'";
+  const policy = {
+    ...POLICY,
+    ...(has('strict') ? {} : { ...POLICY_OF_ENGINES, 'script-src': `${POLICY['script-src']} 'sha256-${hash}'` }),
+    ...(has('noworkers') ? { 'worker-src': "'none'" } : {}),
+  };
   const body = `<!doctype html>
 <html lang="en">
 <meta charset="utf-8">
 <title>${name}</title>
-${strict ? '' : `<script type="importmap">${map}</script>`}
+${has('strict') ? '' : `<script type="importmap">${map}</script>`}
 <link rel="stylesheet" href="/pages/page.css">
 <script type="module" src="/pages/${name}.mjs"></script>
 `;
-  return { body, headers: { 'Content-Type': 'text/html', 'Content-Security-Policy': policy } };
+  return { body, headers: { 'Content-Type': 'text/html', 'Content-Security-Policy': textOf(policy) } };
 }
+
+const textOf = (policy) => Object.entries(policy).map(([directive, sources]) => `${directive} ${sources}`).join('; ');
