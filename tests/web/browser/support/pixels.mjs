@@ -3,11 +3,13 @@ import { PNG } from 'pngjs';
 
 /** @param {string} url data: URL of a PNG */
 export function readPicture(url) {
-  const bytes = Buffer.from(url.slice(url.indexOf(',') + 1), 'base64');
-  return { bytes, ...pixelsOf(PNG.sync.read(bytes)) };
+  return PNG.sync.read(Buffer.from(url.slice(url.indexOf(',') + 1), 'base64'));
 }
 
-const pixelsOf = ({ width, height, data }) => ({ width, height, data });
+/** A small PNG, without alpha. */
+export function writePicture({ width, height, data }) {
+  return PNG.sync.write(Object.assign(new PNG({ width, height }), { data }), { colorType: 2, deflateLevel: 9 });
+}
 
 /** Fraction of the pixels that differ by more than `tolerance` of 255 in a channel. */
 export function differenceOf(a, b, tolerance = 8) {
