@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 import { Extension, type Document, type ReaderContext, type WriterContext } from '@gltf-transform/core';
-import type { EncodeOptions, EncodeReport } from './encoder.mjs';
+import type { EncodeOptions, EncodeResult } from './encoder.mjs';
 
 /** Reads and writes the extension, with the dependencies 'mcc.decoder' and, for writing, 'mcc.encoder'. */
 export class KHRMeshCollapseCompression extends Extension {
@@ -9,7 +9,7 @@ export class KHRMeshCollapseCompression extends Extension {
   /** Takes effect when the document is written. */
   setEncoderOptions(options: EncodeOptions): this;
   /** Sizes and measured errors of the last write; undefined before. */
-  getReport(): EncodeReport | undefined;
+  getReport(): EncodeResult['report'] | undefined;
   read(context: ReaderContext): this;
   write(context: WriterContext): this;
 }

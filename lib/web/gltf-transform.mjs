@@ -7,8 +7,8 @@ import { BIN_CHUNK, readGlb, writeGlb } from './unpack.mjs';
  * Reads and writes KHR_mesh_collapse_compression with glTF-Transform.
  *
  *     const io = new NodeIO().registerExtensions([KHRMeshCollapseCompression]).registerDependencies({
- *       'mcc.decoder': decoder,  // after `await ready`: the module gltf-mcc
- *       'mcc.encoder': encoder,  // after `await ready`: the module gltf-mcc/encoder; only for writing
+ *       'mcc.decoder': decoder,  // the module gltf-mcc, after `await decoder.ready`
+ *       'mcc.encoder': encoder,  // to write: the module gltf-mcc/encoder, after `await encoder.initEncoder()`
  *     });
  *
  * A document that was read has its geometry in ordinary accessors. While it has this extension, it is compressed again when it is

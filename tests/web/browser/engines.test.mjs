@@ -17,6 +17,7 @@ const ENGINES = [
   { page: 'babylon', models: ALL, hasWorkers: true, without: /Required extension .* is not available/ },
   { page: 'playcanvas', models: ['textured', 'skinned', 'morphed', 'materials', 'integers'], hasWorkers: false, without: /only 0.00 %/ },
   { page: 'model_viewer', models: ['textured', 'materials'], hasWorkers: false, without: /only 0.00 %/ },
+  { page: 'cesium', query: 'eval', models: ['textured', 'materials'], hasWorkers: false, without: /Unsupported glTF Extension/ },
 ];
 const SCREENSHOT = 'materials';
 
@@ -38,8 +39,8 @@ after(async () => {
   await server?.close();
 });
 
-const open = ({ page }, query = '') =>
-  openPage(browser, `${server.origin}/pages/${page}.html${query}`, () => globalThis.draw !== undefined);
+const open = ({ page, query = '' }, more = '') =>
+  openPage(browser, `${server.origin}/pages/${page}.html?${query}&${more}`, () => globalThis.draw !== undefined);
 
 const draw = async (page, model) => readPicture(await page.evaluate((name) => globalThis.draw(name), model));
 
@@ -78,14 +79,14 @@ for (const engine of ENGINES) {
 
 /** The check must fail where the library is missing: what is drawn then, or why nothing is. */
 async function failsWithoutLibrary(engine, name, references) {
-  const { page } = await open(engine, '?without');
+  const { page } = await open(engine, 'without');
   const problems = await draw(page, `${name}.mcc`).then((picture) => problemsOf(name, { picture, ...references }), String);
   assert.match(String(problems), engine.without);
   await page.close();
 }
 
 test('where workers cannot start, plugins decode on the thread of the page', async () => {
-  const { page, violations } = await open({ page: 'three' }, '?noworkers');
+  const { page, violations } = await open({ page: 'three' }, 'noworkers');
   const picture = await draw(page, 'shared.mcc');
   assert.equal(page.workers().length, 0);
   assert.ok(violations().length > 0, 'the policy is in force');

@@ -4,7 +4,7 @@
 // import maps, without a bundler.
 //
 //   /pages/NAME.html        NAME.mjs of tests/web/browser/pages, with an import map; ?without replaces the library by nothing,
-//                           ?noworkers forbids workers, ?strict is for pages without an import map
+//                           ?eval allows it, ?noworkers forbids workers, ?strict is for pages without an import map
 //   /models/NAME/model.glb  a model of the test
 //   /snippets/NAME.mjs      the code under "### NAME" in the README of lib/web
 //   /lib/…, /engines/…      lib/web and node_modules
@@ -23,6 +23,7 @@ const ENGINE_IMPORTS = {
   'three/addons/': '/engines/three/examples/jsm/',
   '@babylonjs/core/': '/engines/@babylonjs/core/',
   '@babylonjs/loaders/': '/engines/@babylonjs/loaders/',
+  'cesium': '/engines/cesium/Build/Cesium/index.js',
   'playcanvas': '/engines/playcanvas/build/playcanvas.mjs',
   '@google/model-viewer': '/engines/@google/model-viewer/dist/model-viewer.min.js',
 };
@@ -90,9 +91,10 @@ function page(name, url) {
   const has = (parameter) => url.searchParams.has(parameter);
   const map = JSON.stringify({ imports: { ...ENGINE_IMPORTS, ...(has('without') ? NO_LIBRARY : LIBRARY_IMPORTS) } });
   const hash = createHash('sha256').update(map).digest('base64');
+  const scripts = `${POLICY['script-src']} 'sha256-${hash}'${has('eval') ? " 'unsafe-eval'" : ''}`;
   const policy = {
     ...POLICY,
-    ...(has('strict') ? {} : { ...POLICY_OF_ENGINES, 'script-src': `${POLICY['script-src']} 'sha256-${hash}'` }),
+    ...(has('strict') ? {} : { ...POLICY_OF_ENGINES, 'script-src': scripts }),
     ...(has('noworkers') ? { 'worker-src': "'none'" } : {}),
   };
   const body = `<!doctype html>
