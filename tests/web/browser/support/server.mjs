@@ -13,7 +13,7 @@ import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import path from 'node:path';
 import { ENGINES, LIBRARY, PAGES } from '../../support/paths.mjs';
-import { snippetOf } from './readme.mjs';
+import { snippetOf } from '../../support/readme.mjs';
 
 const TYPES = { '.mjs': 'text/javascript', '.js': 'text/javascript', '.wasm': 'application/wasm', '.css': 'text/css',
   '.glb': 'model/gltf-binary', '.json': 'application/json' };

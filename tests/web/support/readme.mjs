@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 import { readFile } from 'node:fs/promises';
 import path from 'node:path';
-import { LIBRARY } from '../../support/paths.mjs';
+import { LIBRARY } from './paths.mjs';
 
 /**
  * The first JavaScript block below "### heading" in the README of lib/web: what users copy is what the tests run.
