@@ -36,9 +36,8 @@ inline double exactAngle(double cross_length, double dot_product) {
   return dot_product < 0 ? 3.141592653589793 - acute : acute;
 }
 
-/// Adds the weighted normals of all faces to their wedges' sums (3 per wedge). `positions`: 3 floats per wedge. [B.4.7]
-template <ExactWeight kWeight>
-void addExactFaces(const WedgeMesh& wedges, const float* positions, double* sums) {
+MCC_SHARED void addExactNormalsOfWeight(ExactWeight exact_weight, const WedgeMesh& wedges,
+                                        const float* positions, double* sums) {
   for (uint32_t f = 0; f < wedges.face_count; ++f) {
     const uint32_t* corner = wedges.faces.words + size_t{f} * kFaceWords;
     double p[3][3];
@@ -54,14 +53,14 @@ void addExactFaces(const WedgeMesh& wedges, const float* positions, double* sums
     double normal[3];
     cross(side[0], side[1], normal);
     double weight[3] = {1, 1, 1};
-    if constexpr (kWeight != ExactWeight::kArea) {
+    if (exact_weight != ExactWeight::kArea) {
       const double square = dot(normal, normal);
       if (!(square > 1e-290)) continue;
       const double length = std::sqrt(square);
       const double inverse = 1.0 / length;
-      if constexpr (kWeight == ExactWeight::kEqual) {
+      if (exact_weight == ExactWeight::kEqual) {
         for (double& w : weight) w = inverse;
-      } else if constexpr (kWeight == ExactWeight::kAngle) {
+      } else if (exact_weight == ExactWeight::kAngle) {
         const double at_0 = exactAngle(length, -dot(side[0], side[2]));
         const double at_1 = exactAngle(length, -dot(side[1], side[0]));
         weight[0] = at_0 * inverse;
@@ -78,6 +77,22 @@ void addExactFaces(const WedgeMesh& wedges, const float* positions, double* sums
       double* sum = sums + 3 * size_t{corner[k]};
       for (uint32_t s = 0; s < 3; ++s) sum[s] += weight[k] * normal[s];
     }
+  }
+}
+
+/// Adds the weighted normals of all faces to their wedges' sums (3 per wedge). `positions`: 3 floats per wedge. [B.4.7]
+inline void addExactFaces(ExactWeight weight, const WedgeMesh& wedges, const float* positions,
+                          double* sums) {
+  if constexpr (kCompact) return addExactNormalsOfWeight(weight, wedges, positions, sums);
+  switch (weight) {
+    case ExactWeight::kArea:
+      return addExactNormalsOfWeight(ExactWeight::kArea, wedges, positions, sums);
+    case ExactWeight::kAngle:
+      return addExactNormalsOfWeight(ExactWeight::kAngle, wedges, positions, sums);
+    case ExactWeight::kSine:
+      return addExactNormalsOfWeight(ExactWeight::kSine, wedges, positions, sums);
+    case ExactWeight::kEqual:
+      return addExactNormalsOfWeight(ExactWeight::kEqual, wedges, positions, sums);
   }
 }
 
@@ -104,16 +119,7 @@ class ExactNormalCoder {
   void run(const float* positions) {
     std::fill(sums_, sums_ + 3 * size_t{wedges_.count}, 0.0);
     std::fill(errors_, errors_ + wedges_.count, VectorError{0, kNotYet});
-    switch (weight_) {
-      case ExactWeight::kArea: addExactFaces<ExactWeight::kArea>(wedges_, positions, sums_); break;
-      case ExactWeight::kAngle:
-        addExactFaces<ExactWeight::kAngle>(wedges_, positions, sums_);
-        break;
-      case ExactWeight::kSine: addExactFaces<ExactWeight::kSine>(wedges_, positions, sums_); break;
-      case ExactWeight::kEqual:
-        addExactFaces<ExactWeight::kEqual>(wedges_, positions, sums_);
-        break;
-    }
+    addExactFaces(weight_, wedges_, positions, sums_);
     for (uint32_t i = 0; i < wedges_.count; ++i) {
       const uint32_t w = i < wedges_.surface_count ? wedges_.wedgeAt(i) : i;
       if (groups_.isFirst(w)) codeGroup(w);

@@ -111,13 +111,7 @@ struct MovedVectors {
   Status findDirections(const WedgeMesh& wedges, const float* from, NormalWeight weight,
                         Array<float>& to) {
     if (!to.assign(4 * size_t{wedges.count}, 0.0f)) return noMemory();
-    switch (weight) {
-      case NormalWeight::kArea: addFaceNormals<NormalWeight::kArea>(wedges, from, to.data()); break;
-      case NormalWeight::kAngle:
-        addFaceNormals<NormalWeight::kAngle>(wedges, from, to.data());
-        break;
-      case NormalWeight::kSine: addFaceNormals<NormalWeight::kSine>(wedges, from, to.data()); break;
-    }
+    addFaceNormals(weight, wedges, from, to.data());
     for (uint32_t w = 0; w < wedges.count; ++w) {
       const uint32_t first = smooth_first_[w];
       if (first == w) continue;

@@ -38,21 +38,20 @@ struct NormalModels {
   }
 };
 
-/// Adds the weighted normal of every face to its three wedges' sums (4 floats each). [B.4.2]
-template <NormalWeight kWeight>
-void addFaceNormals(const WedgeMesh& wedges, const float* positions, float* sums) {
+MCC_SHARED void addNormalsOfWeight(NormalWeight normal_weight, const WedgeMesh& wedges,
+                                   const float* positions, float* sums) {
   forFourFaces(wedges.faces, wedges.face_count, [=](const uint32_t* words, uint32_t count) {
     const FourFaces faces(words, count, positions);
     const Float4 one = allLanes(1.0f);
     const Float4 nn = dotProduct(faces.normal, faces.normal);
     const Mask4 is_face = nn > allLanes(0.0f);  // then all sides are longer than 0
     Float4 weight[3] = {one, one, one};
-    if constexpr (kWeight == NormalWeight::kAngle) {
+    if (normal_weight == NormalWeight::kAngle) {
       const Float4 length = squareRoot(nn);
       const Float4 inverse = select(is_face, one / length, allLanes(0.0f));
       faces.cornerAngles(length, weight);
       for (Float4& w : weight) w = w * inverse;
-    } else if constexpr (kWeight == NormalWeight::kSine) {
+    } else if (normal_weight == NormalWeight::kSine) {
       Float4 e2[3];
       for (int s = 0; s < 3; ++s) e2[s] = faces.e1[s] - faces.e0[s];
       const Float4 q0 = dotProduct(faces.e0, faces.e0);
@@ -67,6 +66,20 @@ void addFaceNormals(const WedgeMesh& wedges, const float* positions, float* sums
     transpose(rows[0], rows[1], rows[2], rows[3]);
     CornerSums(faces, count, sums).add(rows, weight, nullptr);
   });
+}
+
+/// Adds the weighted normal of every face to its three wedges' sums (4 floats each). [B.4.2]
+inline void addFaceNormals(NormalWeight weight, const WedgeMesh& wedges, const float* positions,
+                           float* sums) {
+  if constexpr (kCompact) return addNormalsOfWeight(weight, wedges, positions, sums);
+  switch (weight) {
+    case NormalWeight::kArea:
+      return addNormalsOfWeight(NormalWeight::kArea, wedges, positions, sums);
+    case NormalWeight::kAngle:
+      return addNormalsOfWeight(NormalWeight::kAngle, wedges, positions, sums);
+    case NormalWeight::kSine:
+      return addNormalsOfWeight(NormalWeight::kSine, wedges, positions, sums);
+  }
 }
 
 /// Sum of the coordinates' absolute values.
@@ -220,17 +233,7 @@ class NormalCoder {
   void run(const float* positions) {
     std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
     std::fill(sums_, sums_ + 4 * size_t{wedges_.count}, 0.0f);
-    switch (weight_) {
-      case NormalWeight::kArea:
-        addFaceNormals<NormalWeight::kArea>(wedges_, positions, sums_);
-        break;
-      case NormalWeight::kAngle:
-        addFaceNormals<NormalWeight::kAngle>(wedges_, positions, sums_);
-        break;
-      case NormalWeight::kSine:
-        addFaceNormals<NormalWeight::kSine>(wedges_, positions, sums_);
-        break;
-    }
+    addFaceNormals(weight_, wedges_, positions, sums_);
     for (uint32_t i = 0; i < wedges_.surfaceEnd(); ++i) {
       const uint32_t w = wedges_.wedgeAt(i);
       wedges_.prefetch(i, sums_, 4);

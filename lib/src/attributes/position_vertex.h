@@ -27,6 +27,9 @@ inline constexpr uint32_t kCompiledModes = position_mode::kWeights | position_mo
 inline constexpr uint32_t kTokensOfVertex = 3;
 inline constexpr uint32_t kTokensWithPlanes = 8;
 
+inline constexpr uint8_t kFileOrder[4] = {0, 1, 2, 3};
+inline constexpr Shear kNoShear = {kFileOrder, kFileOrder, 0, 0, 0};
+
 template <class Io, class Wide, uint32_t kModes>
 class VertexCoder {
  public:
@@ -89,13 +92,39 @@ class VertexCoder {
   template <class Fold>
   void codeComponents(Io& io, uint32_t v, const Prediction<Wide>& prediction, uint32_t plain,
                       Fold fold) const;
-  /// What codeSlots() takes without shear.
-  struct NoShift {
-    UWide operator()(int, const int32_t*) const { return 0; }
+  /// By how much the slots before move the prediction of a slot: nothing without shear.
+  template <class Fold, class Shears>
+  struct Shift {
+    Shears shears;
+    Fold fold;
+    Shear shear;
+    Lanes<UWide> q8;
+
+    /// Deviations are from the unrounded, unsheared prediction; with fold the shift keeps its fraction.
+    MCC_INLINE UWide operator()(int s, const int32_t* q) const {
+      if (!shears) return 0;
+      const auto deviation = [&](int k) MCC_INLINE_LAMBDA {
+        return static_cast<Wide>((static_cast<UWide>(q[k]) << 8) - q8[k]);
+      };
+      const int64_t sum = s == 1 ? wrappingMultiply(shear.c10, deviation(0))
+                                 : wrappingAdd(wrappingMultiply(shear.c20, deviation(0)),
+                                               wrappingMultiply(shear.c21, deviation(1)));
+      return static_cast<UWide>(fold ? ((sum >> 12) + 128) & ~int64_t{255} : sum >> 12);
+    }
   };
-  template <class Fold, class Shift>
-  void codeSlots(Io& io, uint32_t v, const uint8_t* axis, const uint8_t* slot,
-                 const Lanes<UWide>& q8, const ScaleEstimate& scale, Fold fold, Shift shift) const;
+  /// Without shear.
+  template <class Fold>
+  MCC_INLINE void codeInFileOrder(Io& io, uint32_t v, const Lanes<UWide>& q8,
+                                  const ScaleEstimate& scale, Fold fold) const {
+    if constexpr (kCompact) {
+      codeSlots(io, v, q8, scale, Shift<bool, bool>{false, fold, kNoShear, q8});
+    } else {
+      codeSlots(io, v, q8, scale, Shift<Fold, std::false_type>{{}, fold, kNoShear, {}});
+    }
+  }
+  template <class Fold, class Shears>
+  void codeSlots(Io& io, uint32_t v, const Lanes<UWide>& q8, const ScaleEstimate& scale,
+                 const Shift<Fold, Shears>& shift) const;
   template <uint32_t kSlot, class Fold>
   int32_t codeSlot(Io& io, const ResidualContexts& c, uint32_t prediction, int32_t truth,
                    int32_t* residual, Fold fold) const;
@@ -149,8 +178,6 @@ class VertexCoder {
   uint32_t seed_scale_[2][3] = {};
 };
 
-inline constexpr uint8_t kFileOrder[4] = {0, 1, 2, 3};
-
 template <class Io, class Wide, uint32_t kModes>
 template <class Fold>
 MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeComponents(Io& io, uint32_t v,
@@ -160,7 +187,7 @@ MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeComponents(Io& io, uint32_t v
     const ScaleEstimate scale =
         estimateScale<UWide>(scale_[plain], prediction.magnitudes, prediction.spread);
     if (has(position_mode::kPalette)) return codeRanks(io, v, prediction.q8, scale, fold);
-    return codeSlots(io, v, kFileOrder, kFileOrder, prediction.q8, scale, fold, NoShift{});
+    return codeInFileOrder(io, v, prediction.q8, scale, fold);
   }
   const Shear shear = makeShear(prediction.normal);
   const auto inOrder = [&](const Lanes<UWide>& x) MCC_INLINE_LAMBDA {
@@ -171,28 +198,22 @@ MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeComponents(Io& io, uint32_t v
   const ScaleEstimate scale =
       estimateScale<UWide>(scale_[plain], prediction.magnitudes, inOrder(prediction.spread));
   const Lanes<UWide> q8 = inOrder(prediction.q8);
-  // Deviations from the unrounded, unsheared prediction; with fold the shift keeps its fraction.
-  const auto shift = [&](int s, const int32_t* q) MCC_INLINE_LAMBDA {
-    const auto deviation = [&](int k) {
-      return static_cast<Wide>((static_cast<UWide>(q[k]) << 8) - q8[k]);
-    };
-    const int64_t sum = s == 1 ? wrappingMultiply(shear.c10, deviation(0))
-                               : wrappingAdd(wrappingMultiply(shear.c20, deviation(0)),
-                                             wrappingMultiply(shear.c21, deviation(1)));
-    return static_cast<UWide>(fold ? ((sum >> 12) + 128) & ~int64_t{255} : sum >> 12);
-  };
-  codeSlots(io, v, shear.axis, shear.slot, q8, scale, fold, shift);
+  if constexpr (kCompact) {
+    codeSlots(io, v, q8, scale, Shift<bool, bool>{true, fold, shear, q8});
+  } else {
+    codeSlots(io, v, q8, scale, Shift<Fold, std::true_type>{{}, fold, shear, q8});
+  }
 }
 
-/// Components by slot: `axis` of each and back; `shift(s, q)` moves the prediction of slot s > 0 by what the slots
-/// before turned out to be.
+/// Components by slot, in the order that the shear says.
 template <class Io, class Wide, uint32_t kModes>
-template <class Fold, class Shift>
-MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeSlots(Io& io, uint32_t v, const uint8_t* axis,
-                                                         const uint8_t* slot,
-                                                         const Lanes<UWide>& q8,
-                                                         const ScaleEstimate& scale, Fold fold,
-                                                         Shift shift) const {
+template <class Fold, class Shears>
+MCC_SHARED void VertexCoder<Io, Wide, kModes>::codeSlots(Io& io, uint32_t v, const Lanes<UWide>& q8,
+                                                         const ScaleEstimate& scale,
+                                                         const Shift<Fold, Shears>& shift) const {
+  const Fold fold = shift.fold;
+  const uint8_t* axis = shift.shear.axis;
+  const uint8_t* slot = shift.shear.slot;
   const Lanes<UWide> rounded = q8 + 128;
   ResidualContexts c;
   findContexts(scale, convertLanes<uint32_t>(rounded), has(position_mode::kSplit), fold, c);
@@ -204,8 +225,9 @@ MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeSlots(Io& io, uint32_t v, con
   if constexpr (requires { Io::kThreeAtOnce; }) {
     if (io.threeAtOnce()) {
       const Lanes<uint32_t> residuals = decodeResiduals(io, rows_, c, fold);
-      if constexpr (std::is_same_v<Shift, NoShift> && std::is_same_v<Wide, int32_t>) {
-        return store(v, (Lanes<uint32_t>)((Lanes<int32_t>)rounded >> 8) + residuals, residuals);
+      if constexpr (std::is_same_v<Wide, int32_t>) {
+        if (!shift.shears)
+          return store(v, (Lanes<uint32_t>)((Lanes<int32_t>)rounded >> 8) + residuals, residuals);
       }
       const auto known = [&](int s, UWide q8_rounded) MCC_INLINE_LAMBDA {
         residual[s] = static_cast<int32_t>(residuals[s]);
@@ -231,7 +253,7 @@ MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeSlots(Io& io, uint32_t v, con
 /// A number near its prediction; `residual` receives the difference.
 template <class Io, class Wide, uint32_t kModes>
 template <uint32_t kSlot, class Fold>
-MCC_INLINE int32_t VertexCoder<Io, Wide, kModes>::codeSlot(Io& io, const ResidualContexts& c,
+MCC_SHARED int32_t VertexCoder<Io, Wide, kModes>::codeSlot(Io& io, const ResidualContexts& c,
                                                            uint32_t prediction, int32_t truth,
                                                            int32_t* residual, Fold fold) const {
   const int32_t target = static_cast<int32_t>(static_cast<uint32_t>(truth) - prediction);
@@ -303,7 +325,7 @@ void VertexCoder<Io, Wide, kModes>::codeSeed(Io& io, uint32_t v, const VertexRec
     if (has(position_mode::kPalette)) {
       codeRanks(io, v, q8, estimate, fold);
     } else {
-      codeSlots(io, v, kFileOrder, kFileOrder, q8, estimate, fold, NoShift{});
+      codeInFileOrder(io, v, q8, estimate, fold);
     }
   });
   for (int s = 0; s < 3; ++s) {

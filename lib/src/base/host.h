@@ -40,7 +40,7 @@ namespace mcc {
 /// Where the size of the code counts (WebAssembly), what is compiled for every choice elsewhere is compiled once.
 #if defined(MCC_COMPACT)
 inline constexpr bool kCompact = true;
-#define MCC_SHARED MCC_OUT_OF_LINE
+#define MCC_SHARED inline MCC_OUT_OF_LINE
 #else
 inline constexpr bool kCompact = false;
 #define MCC_SHARED MCC_INLINE
