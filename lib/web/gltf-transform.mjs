@@ -73,16 +73,18 @@ export class KHRMeshCollapseCompression extends Extension {
     return this;
   }
 
-  // The document is complete here, but for what extensions with later names add to its objects. So objects stay the same ones.
+  // The document is complete here, but for what extensions with later names add to its objects.
   write(context) {
     const { json, resources } = context.jsonDoc;
     removeName(json, EXTENSION_NAME);
     if (!this.#encoder) throw new Error(`[${EXTENSION_NAME}] Please install the dependency "mcc.encoder".`);
-    const stubs = addStubs(this.document, context);
+    const unwritten = unwrittenExtensions(this.document, context);
+    // They may depend on orders, which the encoder keeps where it sees their names.
+    for (const { extensionName, definitionOf } of unwritten) (definitionOf().extensions ??= {})[extensionName] = {};
     const { glb, report } = this.#encoder.encodeGlbSync(packGlb(json, resources), this.#encoderOptions);
     this.#report = report;
     takeOver(context.jsonDoc, readGlb(glb));
-    for (const removeStub of stubs) removeStub();
+    for (const { extensionName, definitionOf } of unwritten) delete definitionOf().extensions[extensionName];
     return this;
   }
 }
@@ -104,18 +106,14 @@ function removeName(json, name) {
   for (const list of ['extensionsUsed', 'extensionsRequired']) json[list] = json[list]?.filter((other) => other !== name);
 }
 
-// Extensions of meshes that are written later than this one may depend on orders; the encoder has to see their names.
-function addStubs(document, context) {
-  const { json } = context.jsonDoc;
+// Of meshes and primitives, those that are written later than this one: { extensionName, definitionOf }.
+function unwrittenExtensions(document, { jsonDoc: { json }, meshIndexMap }) {
   return document.getRoot().listMeshes().flatMap((mesh) => {
-    const definition = json.meshes[context.meshIndexMap.get(mesh)];
-    const pairs = mesh.listPrimitives().map((primitive, i) => [primitive, () => definition.primitives[i]]);
-    return [[mesh, () => definition], ...pairs].flatMap(([property, find]) => property.listExtensions()
-      .filter(({ extensionName }) => find().extensions?.[extensionName] === undefined)
-      .map(({ extensionName }) => {
-        find().extensions = { ...find().extensions, [extensionName]: {} };
-        return () => delete find().extensions[extensionName];
-      }));
+    const meshOf = () => json.meshes[meshIndexMap.get(mesh)];
+    const owners = [[mesh, meshOf], ...mesh.listPrimitives().map((primitive, i) => [primitive, () => meshOf().primitives[i]])];
+    return owners.flatMap(([property, definitionOf]) => property.listExtensions()
+      .filter(({ extensionName }) => definitionOf().extensions?.[extensionName] === undefined)
+      .map(({ extensionName }) => ({ extensionName, definitionOf })));
   });
 }
 
@@ -144,21 +142,10 @@ function takeOver({ json, resources }, encoded) {
   const [first, ...others] = json.buffers ?? [];
   for (const { uri = GLB_BUFFER } of others) delete resources[uri];
   if (first) resources[first.uri ?? GLB_BUFFER] = bin;
-  const buffers = first ? [{ ...first, byteLength: encoded.json.buffers[0].byteLength }] : undefined;
-  assignInPlace(json, { ...encoded.json, buffers });
-}
-
-const isContainer = (value) => typeof value === 'object' && value !== null;
-
-// Makes `target` equal to `source`; objects and arrays that both have stay the same ones.
-function assignInPlace(target, source) {
-  if (Array.isArray(target)) target.length = source.length;
-  for (const key of Object.keys(target)) {
-    if (source[key] === undefined) delete target[key];
-  }
-  for (const [key, value] of Object.entries(source)) {
-    if (JSON.stringify(value) === JSON.stringify(target[key])) continue; // extras belong to the document, too
-    if (isContainer(value) && isContainer(target[key])) assignInPlace(target[key], value);
-    else target[key] = value;
+  const buffers = first ? [{ ...first, byteLength: encoded.json.buffers[0].byteLength }] : [];
+  // Extensions with later names still write into objects they have kept, like those of textures: what is equal stays the same one.
+  const complete = { ...encoded.json, buffers };
+  for (const key of new Set([...Object.keys(json), ...Object.keys(complete)])) {
+    if (JSON.stringify(json[key]) !== JSON.stringify(complete[key])) json[key] = complete[key];
   }
 }
