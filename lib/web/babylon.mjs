@@ -18,23 +18,25 @@ export function registerMeshCollapse(options) {
 class MeshCollapseExtension {
   name = EXTENSION_NAME;
   enabled = true;
+  #loader;
+  #options;
   #views;
 
   constructor(loader, options) {
-    this.loader = loader;
-    this.options = options;
+    this.#loader = loader;
+    this.#options = options;
   }
 
   dispose() {
-    this.loader = undefined;
+    this.#loader = this.#views = undefined;
   }
 
   // Called by the loader when it has numbered the objects of the document and loaded nothing yet.
   onLoading() {
-    const { loader } = this;
+    const loader = this.#loader;
     const { gltf } = loader;
     const fetchPayload = (bufferView) => loader.loadBufferViewAsync(`/bufferViews/${bufferView}`, gltf.bufferViews[bufferView]);
-    this.#views = new PayloadViews(gltf, fetchPayload, this.options);
+    this.#views = new PayloadViews(gltf, fetchPayload, this.#options);
     gltf.accessors = this.#views.accessors;
     gltf.bufferViews = this.#views.bufferViews;
     gltf.bufferViews.forEach((view, index) => { view.index = index; });
@@ -42,6 +44,6 @@ class MeshCollapseExtension {
 
   // Called by the loader for every buffer view; null leaves it to others.
   loadBufferViewAsync(context, bufferView) {
-    return this.#views.load(bufferView.index) ?? null;
+    return this.#views?.load(bufferView.index) ?? null;
   }
 }

@@ -11,6 +11,8 @@ import { PayloadViews } from './views.mjs';
  */
 export class MeshCollapsePlugin {
   name = EXTENSION_NAME;
+  #parser;
+  #options;
   #views;
 
   /**
@@ -18,15 +20,15 @@ export class MeshCollapsePlugin {
    * @param {import('./unpack.mjs').UnpackOptions} [options] decode: by default in workers that all loaders of a page share
    */
   constructor(parser, options) {
-    this.parser = parser;
-    this.options = options;
+    this.#parser = parser;
+    this.#options = options;
   }
 
   // Called by the loader before anything is loaded. Other loads may use the same JSON: it is replaced, not changed.
   async beforeRoot() {
-    const { parser } = this;
+    const parser = this.#parser;
     const fetchPayload = async (bufferView) => new Uint8Array(await parser.getDependency('bufferView', bufferView));
-    this.#views = new PayloadViews(parser.json, fetchPayload, this.options);
+    this.#views = new PayloadViews(parser.json, fetchPayload, this.#options);
     const { accessors, bufferViews } = this.#views;
     parser.json = { ...parser.json, accessors, bufferViews };
   }
