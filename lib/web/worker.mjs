@@ -21,6 +21,8 @@ async function answer({ module, bytes, options }, post) {
 if (typeof self === 'object' && typeof self.postMessage === 'function') {
   self.onmessage = ({ data }) => answer(data, (message, moved) => self.postMessage(message, moved));
 } else {
-  const { parentPort } = await import(/* @vite-ignore */ /* webpackIgnore: true */ `node:${'worker_threads'}`);
-  parentPort.on('message', (data) => answer(data, (message, moved) => parentPort.postMessage(message, moved)));
+  // Bundlers make scripts of workers, which have no top-level await.
+  import(/* @vite-ignore */ /* webpackIgnore: true */ `node:${'worker_threads'}`).then(({ parentPort }) => {
+    parentPort.on('message', (data) => answer(data, (message, moved) => parentPort.postMessage(message, moved)));
+  });
 }

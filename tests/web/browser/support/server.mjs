@@ -8,6 +8,7 @@
 //   /models/NAME/model.glb  a model of the test
 //   /snippets/NAME.mjs      the code under "### NAME" in the README of lib/web
 //   /lib/…, /engines/…      lib/web and node_modules
+//   /bundle/…               what a bundler has made
 import { createHash } from 'node:crypto';
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
@@ -15,7 +16,7 @@ import path from 'node:path';
 import { ENGINES, LIBRARY, PAGES } from '../../support/paths.mjs';
 import { snippetOf } from '../../support/readme.mjs';
 
-const TYPES = { '.mjs': 'text/javascript', '.js': 'text/javascript', '.wasm': 'application/wasm', '.css': 'text/css',
+const TYPES = { '.html': 'text/html', '.mjs': 'text/javascript', '.js': 'text/javascript', '.wasm': 'application/wasm', '.css': 'text/css',
   '.glb': 'model/gltf-binary', '.json': 'application/json' };
 
 const ENGINE_IMPORTS = {
@@ -39,14 +40,15 @@ const POLICY = { 'default-src': "'self'", 'script-src': "'self' 'wasm-unsafe-eva
 const POLICY_OF_ENGINES = { 'img-src': "'self' blob: data:", 'connect-src': "'self' blob:", 'style-src': "'self' 'unsafe-inline'" };
 
 /**
- * @param {Map<string, Uint8Array>} models by name; may grow later
+ * @param {Map<string, Uint8Array>} models by name
+ * @param {string} [bundle] a folder
  * @returns {Promise<{ origin: string, missing: string[], close(): Promise<void> }>} missing: requests that found nothing
  */
-export async function startServer(models) {
+export async function startServer(models, bundle) {
   const missing = [];
   const server = createServer((request, response) => {
     const url = new URL(request.url, 'http://localhost');
-    answer(url, models).then(({ body, headers }) => response.writeHead(200, headers).end(body), () => {
+    answer(url, models, bundle).then(({ body, headers }) => response.writeHead(200, headers).end(body), () => {
       if (url.pathname !== '/favicon.ico') missing.push(url.pathname);
       response.writeHead(404).end();
     });
@@ -59,13 +61,14 @@ export async function startServer(models) {
   return { origin: `http://127.0.0.1:${server.address().port}`, missing, close };
 }
 
-async function answer(url, models) {
+async function answer(url, models, bundle) {
   const [, folder, ...rest] = decodeURIComponent(url.pathname).split('/');
   const name = rest.join('/');
   const file = (root) => readInside(root, name);
   switch (folder) {
     case 'lib': return file(LIBRARY);
     case 'engines': return file(ENGINES);
+    case 'bundle': return withPolicy(await readInside(bundle, name), { ...POLICY, ...POLICY_OF_ENGINES });
     case 'models': return content(models.get(rest[0]) ?? missingModel(rest[0]), '.glb');
     case 'snippets': return content(await snippetOf(name.replace(/\.mjs$/, '')), '.mjs');
     case 'pages': return name.endsWith('.html') ? page(name.replace(/\.html$/, ''), url) : file(PAGES);
@@ -105,7 +108,9 @@ ${has('strict') ? '' : `<script type="importmap">${map}</script>`}
 <link rel="stylesheet" href="/pages/page.css">
 <script type="module" src="/pages/${name}.mjs"></script>
 `;
-  return { body, headers: { 'Content-Type': 'text/html', 'Content-Security-Policy': textOf(policy) } };
+  return withPolicy(content(body, '.html'), policy);
 }
+
+const withPolicy = ({ body, headers }, policy) => ({ body, headers: { ...headers, 'Content-Security-Policy': textOf(policy) } });
 
 const textOf = (policy) => Object.entries(policy).map(([directive, sources]) => `${directive} ${sources}`).join('; ');
