@@ -5,8 +5,8 @@ import { EXTENSION_NAME } from './document.mjs';
 import { PayloadViews } from './views.mjs';
 
 /**
- * From now on Babylon.js loads KHR_mesh_collapse_compression. A payload that is damaged, or does not fit the document, rejects the
- * load with a message that says why. May be called again, with other options.
+ * From now on Babylon.js loads KHR_mesh_collapse_compression. A payload that is damaged, or does not fit the document, rejects
+ * the load with a message that says why. May be called again, with other options.
  *
  * @param {import('./unpack.mjs').UnpackOptions} [options] decode: by default in workers that all loaders of a page share
  */

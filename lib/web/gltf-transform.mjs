@@ -143,7 +143,7 @@ function takeOver({ json, resources }, encoded) {
   for (const { uri = GLB_BUFFER } of others) delete resources[uri];
   if (first) resources[first.uri ?? GLB_BUFFER] = bin;
   const buffers = first ? [{ ...first, byteLength: encoded.json.buffers[0].byteLength }] : [];
-  // Extensions with later names still write into objects they have kept, like those of textures: what is equal stays the same one.
+  // Extensions with later names still write into objects they have kept, like those of textures: what is equal stays.
   const complete = { ...encoded.json, buffers };
   for (const key of new Set([...Object.keys(json), ...Object.keys(complete)])) {
     if (JSON.stringify(json[key]) !== JSON.stringify(complete[key])) json[key] = complete[key];

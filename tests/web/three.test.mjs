@@ -32,7 +32,8 @@ function tightElements({ isInterleavedBufferAttribute, array, data, count, itemS
 test('three.js has the elements of the conformance assets in its accessors', async () => {
   for (const asset of manifest.assets) {
     const { parser } = await load(readAsset(asset));
-    await compareWithManifest(asset, parser.json, async (accessor) => tightElements(await parser.getDependency('accessor', accessor)));
+    const elementsOf = async (accessor) => tightElements(await parser.getDependency('accessor', accessor));
+    await compareWithManifest(asset, parser.json, elementsOf);
   }
 });
 

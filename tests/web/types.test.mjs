@@ -7,6 +7,7 @@ import { ENGINES, ROOT } from './support/paths.mjs';
 
 test('the types fit the code that applications write', () => {
   const compiler = path.join(ENGINES, 'typescript/bin/tsc');
-  const { stdout, status } = spawnSync(process.execPath, [compiler, '-p', path.join(ROOT, 'tests/web/types')], { encoding: 'utf8' });
+  const project = path.join(ROOT, 'tests/web/types');
+  const { stdout, status } = spawnSync(process.execPath, [compiler, '-p', project], { encoding: 'utf8' });
   assert.equal(status, 0, stdout);
 });

@@ -28,7 +28,8 @@ async function bundle(folder) {
     { find: /^three\/addons\//, replacement: path.join(ENGINES, 'three/examples/jsm/') },
     { find: /^three$/, replacement: path.join(ENGINES, 'three/build/three.module.js') },
   ];
-  await build({ root: folder, base: '/bundle/', logLevel: 'warn', resolve: { alias }, build: { target: 'es2022', chunkSizeWarningLimit: 2000 } });
+  const options = { target: 'es2022', chunkSizeWarningLimit: 2000 };
+  await build({ root: folder, base: '/bundle/', logLevel: 'warn', resolve: { alias }, build: options });
   const output = path.join(folder, 'dist');
   writeFileSync(path.join(output, 'model.glb'), convert(readSample('torus')));
   return output;
@@ -43,7 +44,8 @@ test('a bundle loads models, in workers, under a Content-Security-Policy', async
   context.after(() => browser.close());
 
   const { page, violations } = await openPage(browser, `${server.origin}/bundle/index.html`, () => globalThis.isLoaded);
-  const counts = await page.evaluate(() => globalThis.scene.getObjectsByProperty('isMesh', true).map(({ geometry }) => geometry.index.count));
+  const counts = await page.evaluate(() => (
+    globalThis.scene.getObjectsByProperty('isMesh', true).map(({ geometry }) => geometry.index.count)));
   assert.deepEqual(counts, [3 * 4096]);
   assert.ok(page.workers().length > 0);
   assert.deepEqual([violations(), server.missing], [[], []]);

@@ -23,7 +23,8 @@ after(async () => {
 
 test('a page with a strict Content-Security-Policy decodes on its thread and in workers', async () => {
   const names = [...models.keys()].filter((name) => name.endsWith('.mcc'));
-  const { page, violations } = await openPage(browser, `${server.origin}/pages/decoder.html?strict`, () => globalThis.unpack !== undefined);
+  const url = `${server.origin}/pages/decoder.html?strict`;
+  const { page, violations } = await openPage(browser, url, () => globalThis.unpack !== undefined);
   const { size, here, inWorkers } = await page.evaluate((list) => globalThis.unpack(list, 2), [...names, 'damaged', ...names]);
   assert.equal(size, 2);
   assert.deepEqual(inWorkers, here, 'workers and this thread yield the same');

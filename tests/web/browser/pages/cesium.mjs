@@ -25,7 +25,8 @@ globalThis.draw = async (name) => {
 function placeCamera({ center, radius }) {
   const [x, y, z] = TOWARDS_CAMERA;
   const towards = Cartesian3.normalize(new Cartesian3(z, x, y), new Cartesian3()); // the engine turns y up into z up
-  const destination = Cartesian3.add(center, Cartesian3.multiplyByScalar(towards, DISTANCE * radius, new Cartesian3()), new Cartesian3());
+  const offset = Cartesian3.multiplyByScalar(towards, DISTANCE * radius, new Cartesian3());
+  const destination = Cartesian3.add(center, offset, new Cartesian3());
   const direction = Cartesian3.negate(towards, new Cartesian3());
   const right = Cartesian3.normalize(Cartesian3.cross(direction, Cartesian3.UNIT_Z, new Cartesian3()), new Cartesian3());
   scene.camera.setView({ destination, orientation: { direction, up: Cartesian3.cross(right, direction, new Cartesian3()) } });

@@ -15,8 +15,8 @@ export function launchBrowser() {
 }
 
 /**
- * Opens a page whose module has set globalThis.draw or globalThis.run. Violations of the Content-Security-Policy and what the page
- * says on its console are collected.
+ * Opens a page and waits for its module; `isReady` runs in the page. What the page says on its console is collected, violations of
+ * its Content-Security-Policy among it.
  */
 export async function openPage(browser, url, isReady) {
   const page = await browser.newPage({ viewport: { width: 400, height: 300 } });

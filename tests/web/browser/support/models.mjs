@@ -19,8 +19,8 @@ const MODELS = {
 };
 
 /**
- * @returns {Promise<Map<string, Uint8Array>>} for each model NAME the source NAME, the compressed NAME.mcc, and NAME.plain, which is
- *   NAME.mcc as the program decodes it; and a "damaged" one
+ * @returns {Promise<Map<string, Uint8Array>>} for each model NAME the source NAME, the compressed NAME.mcc, and NAME.plain, which
+ *   is NAME.mcc as the program decodes it; and a "damaged" one
  */
 export async function makeModels() {
   const models = new Map();

@@ -16,8 +16,10 @@ import path from 'node:path';
 import { ENGINES, LIBRARY, PAGES } from '../../support/paths.mjs';
 import { snippetOf } from '../../support/readme.mjs';
 
-const TYPES = { '.html': 'text/html', '.mjs': 'text/javascript', '.js': 'text/javascript', '.wasm': 'application/wasm', '.css': 'text/css',
-  '.glb': 'model/gltf-binary', '.json': 'application/json' };
+const TYPES = {
+  '.html': 'text/html', '.mjs': 'text/javascript', '.js': 'text/javascript', '.wasm': 'application/wasm', '.css': 'text/css',
+  '.glb': 'model/gltf-binary', '.json': 'application/json',
+};
 
 const ENGINE_IMPORTS = {
   'three': '/engines/three/build/three.module.js',
@@ -37,7 +39,9 @@ const NO_LIBRARY = Object.fromEntries(Object.keys(LIBRARY_IMPORTS).map((name) =>
 
 /** What an application has to allow; engines add blob: for images, and model-viewer for its model. */
 const POLICY = { 'default-src': "'self'", 'script-src': "'self' 'wasm-unsafe-eval'", 'worker-src': "'self'" };
-const POLICY_OF_ENGINES = { 'img-src': "'self' blob: data:", 'connect-src': "'self' blob:", 'style-src': "'self' 'unsafe-inline'" };
+const POLICY_OF_ENGINES = {
+  'img-src': "'self' blob: data:", 'connect-src': "'self' blob:", 'style-src': "'self' 'unsafe-inline'",
+};
 
 /**
  * @param {Map<string, Uint8Array>} models by name
