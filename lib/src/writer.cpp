@@ -18,6 +18,7 @@
 #include "attributes/enc_prices.h"
 #include "attributes/enc_quantize.h"
 #include "attributes/enc_variation.h"
+#include "base/enc_exceptions.h"
 #include "base/enc_jobs.h"
 #include "connectivity/enc_collapse.h"
 #include "container/enc_payload.h"
@@ -442,7 +443,7 @@ class StageRunner {
   Status recordPositions(RecordedPositions& recorded) {
     PositionRecording& recording = recorded.recording;
     PositionCandidate& candidate = recorded.candidate;
-    if (!recorded.records.resize(plan_.positions.size() / 3)) throw std::bad_alloc();
+    if (!recorded.records.resize(plan_.positions.size() / 3)) throwBadAlloc();
     MCC_TRY(recording.record(piece_.mesh, piece_.groups, recorded.records.data(),
                              plan_.header.isolated_count, plan_.positions.data()));
     PositionParameters parameters;
@@ -515,7 +516,7 @@ class StageRunner {
       piece_.wedge_group.clear();
       piece_.sequence.clear();
       for (const uint32_t h : sequence) {
-        if (!piece_.sequence.push_back(h)) throw std::bad_alloc();
+        if (!piece_.sequence.push_back(h)) throwBadAlloc();
       }
       std::copy(words.begin(), words.end(), piece_.mesh.words.data());
     }
@@ -563,7 +564,7 @@ class StageRunner {
     if (learned_ == index) return;
     learned_ = index;
     const uint32_t stride = piece_.codedComponentsOf(index);
-    if (!values_.resize(size_t{plan_.header.wedge_count} * stride)) throw std::bad_alloc();
+    if (!values_.resize(size_t{plan_.header.wedge_count} * stride)) throwBadAlloc();
     learnValues(plan_, index, 0, stride, values_);
     const uint32_t count = plan_.header.attribute_count;
     if (methodOf(infos_.data(), count, index) != AttributeMethod::kSkin) return;
@@ -576,7 +577,7 @@ class StageRunner {
     return infos;
   }
   void learnOrders() {
-    if (!piece_.listTriangles()) throw std::bad_alloc();
+    if (!piece_.listTriangles()) throwBadAlloc();
     if (plan_.header.has(piece_flag::kTriangleOrder)) learnTriangleOrder(plan_, piece_.triangles);
     plan_.wedge_order.resize(plan_.wedge_source.size());
     for (uint32_t w = 0; w < plan_.wedge_source.size(); ++w) {
@@ -617,7 +618,7 @@ std::vector<uint32_t> codingOrder(const Plan& plan) {
 
 std::unique_ptr<PayloadModels> makeModels(uint32_t context_set) {
   auto models = std::make_unique<PayloadModels>(Allocator{});
-  if (!models->mc.init(context_set)) throw std::bad_alloc();
+  if (!models->mc.init(context_set)) throwBadAlloc();
   return models;
 }
 
@@ -671,7 +672,7 @@ Status contextSetCost(const std::vector<Connectivity>& pieces, uint32_t set, uin
   std::vector<uint32_t> source_of_vertex;
   std::vector<uint32_t> source_gate;
   for (const Connectivity& piece : pieces) {
-    if (!mesh.words.resize(size_t{piece.counts.face_count} * kFaceWords)) throw std::bad_alloc();
+    if (!mesh.words.resize(size_t{piece.counts.face_count} * kFaceWords)) throwBadAlloc();
     node_map.resize(piece.record->node_count);
     source_of_vertex.resize(piece.counts.vertex_count);
     source_gate.resize(piece.counts.face_count);
@@ -908,13 +909,13 @@ Status codeAll(std::vector<Plan>& plans, uint32_t context_set, bool single, Enco
     plan.header.first_attribute = static_cast<uint32_t>(header.attributes.size());
     plan.header.first_part = static_cast<uint32_t>(header.parts.size());
     for (const QuantizedAttribute& a : plan.attributes) {
-      if (!header.attributes.push_back(a.info)) throw std::bad_alloc();
+      if (!header.attributes.push_back(a.info)) throwBadAlloc();
     }
     for (const PartView& part : plan.view->parts) {
       if (!header.parts.push_back({static_cast<uint32_t>(part.indices.size() / 3)}))
-        throw std::bad_alloc();
+        throwBadAlloc();
     }
-    if (!header.pieces.push_back(plan.header)) throw std::bad_alloc();
+    if (!header.pieces.push_back(plan.header)) throwBadAlloc();
 
     PieceResult piece;
     piece.source_wedge = plan.wedge_source;
@@ -976,10 +977,10 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeOptions& opti
 }  // namespace
 
 Status encode(std::span<const PieceView> pieces, const EncodeOptions& options,
-              EncodeResult& result) try {
-  return encodePieces(pieces, options, result);
-} catch (const std::bad_alloc&) {
-  return fail(Error::kOutOfMemory, "no memory for the encoder");
+              EncodeResult& result) {
+  return catchBadAlloc(
+      [&]() { return encodePieces(pieces, options, result); },
+      []() { return fail(Error::kOutOfMemory, "no memory for the encoder"); });
 }
 
 }  // namespace mcc

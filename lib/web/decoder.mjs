@@ -3,6 +3,7 @@
 // Decodes payloads of KHR_mesh_collapse_compression: here, or in workers.
 import { Decoder } from './core.mjs';
 import { MccError } from './error.mjs';
+import { compileModule, importOfNode } from './load.mjs';
 
 export { MccError };
 
@@ -147,32 +148,9 @@ function load() {
   return loading;
 }
 
-async function compile({ module, bytes, wasmUrl, simdWasmUrl }) {
-  if (module !== undefined) return module;
-  if (bytes !== undefined) return WebAssembly.compile(bytes);
+function compile(where) {
   const hasSimd = WebAssembly.validate(new Uint8Array(VECTORS));
-  const url = hasSimd ? simdWasmUrl ?? wasmUrl ?? new URL('./wasm/mcc_decoder_simd.wasm', import.meta.url)
-    : wasmUrl ?? new URL('./wasm/mcc_decoder.wasm', import.meta.url);
-  try {
-    return await compileFrom(new URL(url, import.meta.url));
-  } catch (error) {
-    throw new MccError(`cannot load the decoder from ${url}: ${error.message}`, 'Load');
-  }
+  const url = hasSimd ? where.simdWasmUrl ?? where.wasmUrl ?? new URL('./wasm/mcc_decoder_simd.wasm', import.meta.url)
+    : where.wasmUrl ?? new URL('./wasm/mcc_decoder.wasm', import.meta.url);
+  return compileModule(where, url);
 }
-
-async function compileFrom(url) {
-  if (url.protocol === 'file:') {
-    const { readFile } = await importOfNode('fs/promises');
-    return WebAssembly.compile(await readFile(url));
-  }
-  const response = await fetch(url);
-  if (!response.ok) throw new Error(`status ${response.status}`);
-  const isWasm = response.headers.get('Content-Type')?.startsWith('application/wasm');
-  return isWasm ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
-}
-
-/** Bundlers leave this alone; it is never called in browsers. */
-function importOfNode(name) {
-  return import(/* @vite-ignore */ /* webpackIgnore: true */ `node:${name}`);
-}
-

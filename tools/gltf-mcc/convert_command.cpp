@@ -69,7 +69,7 @@ int ConvertCommand::runMany() const {
   options.done_name = "converted";
   options.copied_why = "nothing becomes smaller";
   options.details_name = "conversion";
-  options.settings = optionsJson(convert);
+  options.settings = gltf::optionsJson(convert);
   options.make = [this](const std::string& file, const std::filesystem::path& to,
                         uint32_t thread_count, BatchResult& result) {
     gltf::ConvertOptions of_file = convert;

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "gltf/report_json.h"
+
 namespace mcc::tool {
 namespace {
 
@@ -92,7 +94,7 @@ Table streamTable(const Totals& totals, Format format) {
     table.addRow({attribute.name, bytes(attribute.coded_bits),
                   perVertex(attribute.coded_bits, attribute.vertex_count),
                   perVertex(attribute.coded_bits, totals.vertex_count),
-                  codingName(attribute.coding, attribute.bits),
+                  gltf::codingName(attribute.coding, attribute.bits),
                   errorText(attribute, attribute.max_error),
                   errorText(attribute, attribute.promised_error)});
   }
@@ -158,96 +160,7 @@ std::string notesText(const gltf::ConvertReport& report, bool is_verbose) {
   return text;
 }
 
-Json attributeJson(const gltf::AttributeReport& attribute) {
-  Json json = {{"name", attribute.name},
-               {"coding", codingName(attribute.coding, 0)},
-               {"bits", attribute.bits},
-               {"components", attribute.component_count},
-               {"vertices", attribute.vertex_count},
-               {"coded_bytes", attribute.coded_bits / 8},
-               {"error_unit", attribute.is_angle ? "degrees" : "accessor units"},
-               {"promised_error", attribute.promised_error},
-               {"max_error", attribute.max_error}};
-  if (attribute.promised_distance > 0) {
-    json["promised_distance"] = attribute.promised_distance;
-    json["max_distance"] = attribute.max_distance;
-  }
-  if (attribute.is_angle) json["median_error"] = attribute.median_error;
-  return json;
-}
-
-Json payloadJson(const gltf::PayloadReport& payload) {
-  Json streams = Json::object();
-  for (const auto& stream : payload.streams) streams[stream.name] = stream.bits / 8;
-  Json attributes = Json::array();
-  for (const auto& attribute : payload.attributes) attributes.push_back(attributeJson(attribute));
-  return {{"mesh", payload.mesh},
-          {"bytes", payload.payload_bytes},
-          {"freed_bytes", payload.freed_bytes},
-          {"pieces", payload.piece_count},
-          {"vertices", payload.wedge_count},
-          {"positions", payload.vertex_count},
-          {"triangles", payload.triangle_count},
-          {"components", payload.component_count},
-          {"holes", payload.hole_count},
-          {"cut_copies", payload.cut_copy_count},
-          {"leftover_triangles", payload.leftover_triangle_count},
-          {"stream_bytes", streams},
-          {"attributes", attributes}};
-}
-
-Json primitiveJson(const gltf::PrimitiveReport& primitive) {
-  Json json = {{"mesh", primitive.mesh},
-               {"primitive", primitive.primitive},
-               {"compressed", primitive.compressed}};
-  if (primitive.compressed) {
-    json["payload"] = primitive.payload;
-    json["triangles"] = primitive.triangle_count;
-    json["vertices"] = primitive.wedge_count;
-  }
-  if (!primitive.note.empty()) json["note"] = primitive.note;
-  return json;
-}
-
 }  // namespace
-
-Json optionsJson(const gltf::ConvertOptions& options) {
-  static constexpr const char* kGrids[] = {"mesh", "scene", "primitive"};
-  Json lattice;
-  if (options.position_lattice) {
-    const Lattice& l = *options.position_lattice;
-    lattice = {l.origin[0], l.origin[1], l.origin[2], l.step};
-  }
-  return {{"lossless", options.lossless},
-          {"max_position_error", options.max_position_error},
-          {"is_error_relative", options.is_error_relative},
-          {"position_lattice", lattice},
-          {"indices_only", options.indices_only},
-          {"fallback", options.fallback},
-          {"keep_vertex_order", options.keep_vertex_order},
-          {"keep_triangle_order", options.keep_triangle_order},
-          {"grid", kGrids[static_cast<size_t>(options.grid)]},
-          {"quantize_position", options.bits.position},
-          {"quantize_normal", options.bits.normal},
-          {"quantize_texcoord", options.bits.texcoord},
-          {"quantize_color", options.bits.color},
-          {"quantize_tangent", options.bits.tangent},
-          {"quantize_weight", options.bits.weight}};
-}
-
-std::string codingName(AttributeCoding coding, uint32_t bits) {
-  std::string name;
-  switch (coding) {
-    case AttributeCoding::kLattice: name = "lattice"; break;
-    case AttributeCoding::kInteger: return "integer";
-    case AttributeCoding::kExactFloat: return "exact float";
-    case AttributeCoding::kGrid: return "exact grid";
-    case AttributeCoding::kOctahedral: name = "octahedral"; break;
-    case AttributeCoding::kTangentAngle: name = "angle"; break;
-    case AttributeCoding::kAlias: return "alias";
-  }
-  return bits == 0 ? name : fmt::format("{} {}", name, bits);
-}
 
 std::string sizeChange(uint64_t input_bytes, uint64_t output_bytes) {
   const double percent =
@@ -282,26 +195,10 @@ std::string reportText(const Converted& converted, const CommonOptions& options)
 
 Json reportJson(const Converted& converted, const gltf::ConvertOptions& options,
                 const Json& comparison) {
-  const gltf::ConvertReport& report = converted.report;
-  Json payloads = Json::array();
-  for (const auto& payload : report.payloads) payloads.push_back(payloadJson(payload));
-  Json primitives = Json::array();
-  for (const auto& primitive : report.primitives) primitives.push_back(primitiveJson(primitive));
   Json json = {{"tool", std::string("gltf-mcc ") + MCC_VERSION},
                {"input", converted.input},
-               {"output", converted.output},
-               {"options", optionsJson(options)},
-               {"input_bytes", report.input_bytes},
-               {"output_bytes", report.output_bytes},
-               {"fallback_bytes", report.fallback_bytes},
-               {"copied", report.copied},
-               {"checked", report.checked},
-               {"encode_seconds", report.encode_seconds},
-               {"decode_seconds", report.decode_seconds},
-               {"check_seconds", report.check_seconds},
-               {"payloads", payloads},
-               {"primitives", primitives},
-               {"notes", report.notes}};
+               {"output", converted.output}};
+  json.update(gltf::reportJson(converted.report, options));
   if (!converted.sizes.empty()) json["files"] = wholeSizesJson(converted.sizes);
   if (!comparison.is_null()) json["comparison"] = comparison;
   return json;

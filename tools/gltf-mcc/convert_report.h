@@ -26,9 +26,6 @@ std::string reportText(const Converted& converted, const CommonOptions& options)
 nlohmann::ordered_json reportJson(const Converted& converted, const gltf::ConvertOptions& options,
                                   const nlohmann::ordered_json& comparison);
 
-/// What decides on the bytes of the output.
-nlohmann::ordered_json optionsJson(const gltf::ConvertOptions& options);
-
 /// Indented text of a report.
 std::string printReport(const nlohmann::ordered_json& json);
 
@@ -40,9 +37,6 @@ gltf::Result checkWritable(const std::string& path);
 
 /// Writes a text file.
 gltf::Result writeText(const std::string& path, const std::string& text);
-
-/// "lattice 14", "exact", … of an attribute.
-std::string codingName(AttributeCoding coding, uint32_t bits);
 
 }  // namespace mcc::tool
 

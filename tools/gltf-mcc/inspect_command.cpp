@@ -77,7 +77,7 @@ Table attributeTable(const gltf::InspectReport& report, Format format) {
         table.addRow({std::to_string(payload.buffer_view), std::to_string(i),
                       count(piece.triangle_count, format), count(piece.wedge_count, format),
                       std::to_string(piece.part_count), piece.attribute_names[k],
-                      attributeText(attribute), codingName(attribute.coding, attribute.bits),
+                      attributeText(attribute), gltf::codingName(attribute.coding, attribute.bits),
                       has_lattice ? fmt::format("{:.6g}", attribute.lattice.step) : ""});
       }
     }
@@ -142,7 +142,7 @@ Json pieceJson(const gltf::InspectPiece& piece) {
     const AttributeInfo& attribute = piece.attributes[k];
     Json json = {{"name", piece.attribute_names[k]},
                  {"type", attributeText(attribute)},
-                 {"coding", codingName(attribute.coding, 0)},
+                 {"coding", gltf::codingName(attribute.coding, 0)},
                  {"bits", attribute.bits},
                  {"predictor", attribute.predictor}};
     if (attribute.coding == AttributeCoding::kLattice) {

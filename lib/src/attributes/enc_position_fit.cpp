@@ -9,6 +9,7 @@
 
 #include "attributes/enc_prices.h"
 #include "attributes/position_vertex.h"
+#include "base/enc_exceptions.h"
 #include "entropy/enc_coder.h"
 
 namespace mcc {
@@ -135,7 +136,7 @@ class Trials {
       const VertexRecord* from = pieces_[i].recording->records();
       const size_t count = pieces_[i].recording->visits().size();
       Array<VertexRecord>& records = scratch->records.emplace_back(Allocator{});
-      if (!records.resize(count)) throw std::bad_alloc();
+      if (!records.resize(count)) throwBadAlloc();
       if (samples_[i].looked_at.empty()) std::copy(from, from + count, records.data());
       for (const uint32_t v : samples_[i].looked_at) records[v] = from[v];
     }

@@ -5,9 +5,9 @@
 #define MCC_BASE_ENC_JOBS_H_
 
 #include <cstddef>
-#include <exception>
 #include <vector>
 
+#include "base/enc_exceptions.h"
 #include "mcc/status.h"
 #include "mcc/writer.h"
 
@@ -27,17 +27,9 @@ class Jobs {
       for (size_t i = 0; i < count; ++i) job(i);
       return;
     }
-    std::vector<std::exception_ptr> thrown(count);
-    hook_(count, [&](size_t i) noexcept {
-      try {
-        job(i);
-      } catch (...) {
-        thrown[i] = std::current_exception();
-      }
-    });
-    for (const std::exception_ptr& exception : thrown) {
-      if (exception) std::rethrow_exception(exception);
-    }
+    std::vector<Thrown> thrown(count);
+    hook_(count, [&](size_t i) noexcept { thrown[i].run([&]() { job(i); }); });
+    for (const Thrown& of_job : thrown) of_job.rethrow();
   }
 
   /// The same for jobs that return a Status: that of the lowest job that failed.

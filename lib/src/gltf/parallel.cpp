@@ -5,10 +5,15 @@
 #include <atomic>
 #include <exception>
 #include <new>
-#include <thread>
 #include <vector>
 
+#if defined(__cpp_exceptions)
+#include <thread>
+#endif
+
 namespace mcc::gltf {
+
+#if defined(__cpp_exceptions)
 
 Result guarded(const std::function<Result()>& function) {
   try {
@@ -42,6 +47,16 @@ void runAll(size_t count, ThreadBudget& budget, const std::function<void(size_t)
   work();
   for (std::thread& thread : threads) thread.join();
 }
+
+#else  // WebAssembly, which has no threads either
+
+Result guarded(const std::function<Result()>& function) { return function(); }
+
+void runAll(size_t count, ThreadBudget&, const std::function<void(size_t)>& job) {
+  for (size_t i = 0; i < count; ++i) job(i);
+}
+
+#endif
 
 Result runParallel(size_t count, ThreadBudget& budget, const std::function<Result(size_t)>& job) {
   std::vector<Result> results(count);

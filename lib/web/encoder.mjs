@@ -1,0 +1,96 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Compresses GLBs. The same code as the command line tool, so that the same options give the same bytes.
+import { MccError } from './error.mjs';
+import { compileModule } from './load.mjs';
+
+const GRIDS = ['mesh', 'scene', 'primitive'];
+/** Bits by attribute: default, least besides 0 (every bit), most. */
+const BITS = {
+  positionBits: [14, 1, 24], normalBits: [10, 2, 16], texcoordBits: [12, 1, 24], colorBits: [8, 1, 24],
+  tangentBits: [12, 2, 16], weightBits: [12, 1, 24],
+};
+const FLAGS = ['lossless', 'indicesOnly', 'keepVertexOrder', 'keepTriangleOrder', 'maxErrorRelative', 'allowLarger'];
+const OTHERS = ['grid', 'maxError', 'effort', 'lattice', 'fallback'];
+
+let source = {};
+let loading = null;
+
+/** Where the module is, or what; see init() of decoder.mjs. */
+export function initEncoder(options = {}) {
+  source = options;
+  loading = null;
+  return load().then(() => {});
+}
+
+/**
+ * @param {Uint8Array} bytes  a GLB, or a .gltf with its buffers in data URIs
+ * @param {object} [options]  see EncodeOptions in encoder.d.mts
+ * @returns {Promise<{ glb: Uint8Array, report: object }>}
+ */
+export async function encodeGlb(bytes, options = {}) {
+  if (!(bytes instanceof Uint8Array)) throw new MccError('the GLB must be a Uint8Array', 'BadArgument');
+  checkOptions(options);
+  const module = await load();
+  // An instance of its own: its memory goes with it.
+  const { exports } = await WebAssembly.instantiate(module);
+  const began = performance.now();
+  try {
+    exports._initialize?.();
+    setOptions(exports, options);
+    const address = exports.allocate(bytes.length);
+    if (address === 0) throw new RangeError('there is not enough memory');
+    new Uint8Array(exports.memory.buffer, address, bytes.length).set(bytes);
+    const ok = exports.convert(address, bytes.length) === 1;
+    const text = new TextDecoder().decode(new Uint8Array(exports.memory.buffer, exports.text(), exports.textBytes()));
+    if (!ok) throw new MccError(text, 'Encode');
+    const glb = new Uint8Array(exports.memory.buffer, exports.glb(), exports.glbBytes()).slice();
+    // The module has no clock, which would tell encoding from checking.
+    const { encode_seconds, decode_seconds, check_seconds, ...report } = JSON.parse(text);
+    return { glb, report: { ...report, seconds: (performance.now() - began) / 1000 } };
+  } catch (error) {
+    if (error instanceof MccError) throw error;
+    throw new MccError(`the encoder failed (${error.message}); there may be too little memory`, 'Trap');
+  }
+}
+
+function load() {
+  loading ??= compileModule(source, source.wasmUrl ?? new URL('./wasm/mcc_encoder.wasm', import.meta.url))
+    .catch((error) => {
+      loading = null; // the next call tries again
+      throw error;
+    });
+  return loading;
+}
+
+function checkOptions(options) {
+  const require = (condition, message) => {
+    if (!condition) throw new MccError(message, 'BadArgument');
+  };
+  for (const [name, value] of Object.entries(options)) {
+    if (value === undefined) continue;
+    require(name in BITS || FLAGS.includes(name) || OTHERS.includes(name), `there is no option '${name}'`);
+    if (FLAGS.includes(name)) require(typeof value === 'boolean', `${name} must be true or false`);
+    if (!(name in BITS)) continue;
+    const [, least, most] = BITS[name];
+    require(Number.isInteger(value) && (value === 0 || (value >= least && value <= most)),
+      `${name} must be 0 (every bit) or ${least} to ${most}`);
+  }
+  const { grid = 'mesh', maxError, effort = 1, lattice, fallback = false } = options;
+  require(GRIDS.includes(grid), `grid '${grid}' is none of ${GRIDS.join(', ')}`);
+  require(maxError === undefined || (Number.isFinite(maxError) && maxError > 0), 'maxError must be a number above 0');
+  require([0, 1, 2].includes(effort), 'effort must be 0, 1 or 2');
+  require(lattice === undefined || (lattice.length === 4 && lattice.every(Number.isFinite) && lattice[3] > 0),
+    'lattice must be four numbers: x, y, z of a point and the step');
+  require(!fallback, 'a fallback is a second file, which the command line tool writes');
+}
+
+function setOptions(exports, options) {
+  const { grid = 'mesh', maxError, effort = 1, lattice } = options;
+  const flag = (name) => (options[name] ? 1 : 0);
+  exports.setBits(...Object.entries(BITS).map(([name, [standard]]) => options[name] ?? standard));
+  exports.setModes(flag('lossless'), flag('indicesOnly'), GRIDS.indexOf(grid), flag('keepVertexOrder'),
+    flag('keepTriangleOrder'), effort, flag('allowLarger'));
+  if (maxError !== undefined) exports.setMaxError(maxError, flag('maxErrorRelative'));
+  if (lattice !== undefined) exports.setLattice(...lattice);
+}

@@ -1,0 +1,76 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// What the WebAssembly encoder exports; encoder.mjs is the only caller. One conversion per instance:
+//
+//   allocate() bytes for the GLB, fill them; bit for bit the options by their setters; convert(); take the outputs.
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "gltf/report_json.h"
+#include "mcc/gltf.h"
+
+#define MCC_EXPORT(name) extern "C" __attribute__((export_name(name), used))
+
+namespace {
+
+using mcc::gltf::ConvertOptions;
+
+ConvertOptions options;
+std::vector<uint8_t> glb;
+std::string text;  // the report, or what is wrong
+
+}  // namespace
+
+MCC_EXPORT("allocate") void* mccAllocate(size_t bytes) { return std::malloc(bytes); }
+
+/// In the order of encoder.mjs, which checked the values.
+MCC_EXPORT("setBits")
+void mccSetBits(uint32_t position, uint32_t normal, uint32_t texcoord, uint32_t color,
+                uint32_t tangent, uint32_t weight) {
+  const auto bits = [](uint32_t value) { return static_cast<uint8_t>(value); };
+  options.bits = {bits(position), bits(normal),  bits(texcoord),
+                  bits(color),    bits(tangent), bits(weight)};
+}
+
+MCC_EXPORT("setModes")
+void mccSetModes(uint32_t lossless, uint32_t indices_only, uint32_t grid,
+                 uint32_t keep_vertex_order, uint32_t keep_triangle_order, uint32_t effort,
+                 uint32_t allow_larger) {
+  options.lossless = lossless != 0;
+  options.indices_only = indices_only != 0;
+  options.grid = static_cast<mcc::gltf::Grid>(grid);
+  options.keep_vertex_order = keep_vertex_order != 0;
+  options.keep_triangle_order = keep_triangle_order != 0;
+  options.effort = static_cast<uint8_t>(effort);
+  options.allow_larger = allow_larger != 0;
+}
+
+MCC_EXPORT("setMaxError") void mccSetMaxError(double error, uint32_t is_relative) {
+  options.max_position_error = error;
+  options.is_error_relative = is_relative != 0;
+}
+
+MCC_EXPORT("setLattice") void mccSetLattice(float x, float y, float z, float step) {
+  options.position_lattice = mcc::Lattice{{x, y, z, 0}, step};
+}
+
+/// Whether it went well: text() is the report then, else what is wrong.
+MCC_EXPORT("convert") uint32_t mccConvert(const uint8_t* bytes, size_t size) {
+  mcc::gltf::ConvertReport report;
+  const mcc::gltf::Result result = mcc::gltf::convertGlb({bytes, size}, options, glb, report);
+  if (!result.ok()) {
+    text = result.message();
+    return 0;
+  }
+  text = mcc::gltf::reportJson(report, options)
+             .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return 1;
+}
+
+MCC_EXPORT("text") const char* mccText() { return text.data(); }
+MCC_EXPORT("textBytes") size_t mccTextBytes() { return text.size(); }
+MCC_EXPORT("glb") const uint8_t* mccGlb() { return glb.data(); }
+MCC_EXPORT("glbBytes") size_t mccGlbBytes() { return glb.size(); }

@@ -1,0 +1,61 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// What the glTF layer needs of a system, where there is none: files that cannot be read or written, a clock that stands.
+#include <wasi/api.h>
+#include <ctime>
+
+#include "gltf/destination.h"
+#include "gltf/file_io.h"
+#include "gltf/result.h"
+
+namespace mcc::gltf {
+namespace {
+
+constexpr char kNoFiles[] = "there are no files here";
+
+}  // namespace
+
+Result readFile(const std::filesystem::path& path, std::vector<uint8_t>&) {
+  return error(path.string(), kNoFiles);
+}
+FileReader readerOf(const std::filesystem::path&) { return nullptr; }
+Result inFile(const std::filesystem::path&, Result result) { return result; }
+std::filesystem::path folderOf(const std::filesystem::path&) { return {}; }
+
+ReplacementFile::ReplacementFile(std::filesystem::path destination, TemporaryFiles* temporaries)
+    : temporaries_(temporaries), destination_(std::move(destination)) {}
+ReplacementFile::~ReplacementFile() = default;
+
+Destination::Destination(std::filesystem::path main, TemporaryFiles* temporaries)
+    : temporaries_(temporaries), main_(std::move(main)) {}
+Destination::~Destination() = default;
+Result Destination::check(bool) { return error("", kNoFiles); }
+Result Destination::checkSource(const std::filesystem::path&, const Json&) const {
+  return error("", kNoFiles);
+}
+bool Destination::isBeside(const std::filesystem::path&) const { return false; }
+Result Destination::write(const Package&) { return error("", kNoFiles); }
+Result Destination::readBack(std::vector<uint8_t>&) const { return error("", kNoFiles); }
+FileReader Destination::reader() const { return nullptr; }
+Result Destination::commit() { return error("", kNoFiles); }
+std::vector<std::filesystem::path> Destination::files() const { return {}; }
+
+}  // namespace mcc::gltf
+
+// Of the C library, which would import them from the host.
+
+/// Reports have no times; who calls the module can measure them.
+extern "C" int clock_gettime(clockid_t, struct timespec* time) {
+  *time = {};
+  return 0;
+}
+/// The last words of abort(), which the host hears of anyway.
+extern "C" __wasi_errno_t __wasi_fd_write(__wasi_fd_t, const __wasi_ciovec_t*, size_t,
+                                          __wasi_size_t*) {
+  return __WASI_ERRNO_BADF;
+}
+extern "C" __wasi_errno_t __wasi_fd_seek(__wasi_fd_t, __wasi_filedelta_t, __wasi_whence_t,
+                                         __wasi_filesize_t*) {
+  return __WASI_ERRNO_BADF;
+}
+extern "C" __wasi_errno_t __wasi_fd_close(__wasi_fd_t) { return __WASI_ERRNO_BADF; }

@@ -1,0 +1,96 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+import assert from 'node:assert/strict';
+import { execFile } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, describe, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { promisify } from 'node:util';
+import { encodeGlb, initEncoder } from '../../lib/web/encoder.mjs';
+import { MccError } from '../../lib/web/error.mjs';
+import { readGlb, unpackGlb } from '../../lib/web/unpack.mjs';
+import { wasm } from './support/conformance.mjs';
+
+const fileOf = (name) => fileURLToPath(new URL(`../../samples/${name}.glb`, import.meta.url));
+const sample = (name) => new Uint8Array(readFileSync(fileOf(name)));
+/** What tools/test --web has built. */
+const tool = process.env.MCC_TOOL ?? fileURLToPath(new URL('../../build/release/tools/gltf-mcc', import.meta.url));
+const folder = mkdtempSync(join(tmpdir(), 'encoder-'));
+after(() => rmSync(folder, { recursive: true }));
+
+/** Options of the module and of the tool that mean the same. */
+const CASES = [
+  ['torus', {}, []],
+  ['textured', {}, []],
+  ['skinned', {}, []],
+  ['morphed', {}, []],
+  ['two_materials', {}, []],
+  ['quantized', {}, []],
+  ['modes', {}, []],
+  ['moebius', {}, []],
+  ['textured', { lossless: true }, ['--lossless']],
+  ['textured', { positionBits: 11, normalBits: 8, texcoordBits: 10 },
+    ['--quantize-position', '11', '--quantize-normal', '8', '--quantize-texcoord', '10']],
+  ['sphere', { maxError: 0.001 }, ['--max-error', '0.001']],
+  ['sphere', { maxError: 0.0005, maxErrorRelative: true }, ['--max-error-relative', '0.0005']],
+  ['two_materials', { keepVertexOrder: true, keepTriangleOrder: true }, ['--keep-order', 'both']],
+  ['skinned', { indicesOnly: true }, ['--indices-only']],
+  ['two_materials', { grid: 'primitive' }, ['--grid', 'primitive']],
+];
+
+/** Measured angles depend on the C library's arc tangent. */
+const rounded = (value) => JSON.parse(JSON.stringify(value ?? null, (key, x) => (typeof x === 'number' ? Number(x.toPrecision(12)) : x)));
+
+describe('the same bytes as the tool', { skip: existsSync(tool) ? false : 'build/release/tools/gltf-mcc is not built' }, () => {
+  for (const [name, options, args] of CASES) {
+    test(`${name} ${args.join(' ')}`, async () => {
+      const output = join(folder, 'out.glb');
+      const json = join(folder, 'report.json');
+      rmSync(json, { force: true });
+      await promisify(execFile)(tool, ['convert', ...args, '--report', json, fileOf(name), output]);
+      const { glb, report } = await encodeGlb(sample(name), options);
+      assert.deepEqual(Buffer.from(glb), readFileSync(output));
+      const expected = JSON.parse(readFileSync(json, 'utf8'));
+      for (const key of Object.keys(report)) if (key !== 'seconds') assert.deepEqual(rounded(report[key]), rounded(expected[key]), key);
+      assert.ok(report.seconds > 0);
+    });
+  }
+});
+
+test('there and back', async () => {
+  const { glb, report } = await encodeGlb(sample('textured'));
+  assert.ok(report.checked && !report.copied);
+  assert.ok(glb.length < sample('textured').length);
+  const { json } = readGlb(await unpackGlb(glb));
+  assert.equal(json.extensionsUsed?.includes('KHR_mesh_collapse_compression') ?? false, false);
+  assert.equal(json.meshes.length, readGlb(sample('textured')).json.meshes.length);
+});
+
+test('imports nothing', async () => {
+  assert.deepEqual(WebAssembly.Module.imports(await WebAssembly.compile(wasm('mcc_encoder'))), []);
+});
+
+test('what is wrong is said', async () => {
+  const codeOf = async (...args) => encodeGlb(...args).then(() => 'none', (error) => {
+    assert.ok(error instanceof MccError, error.stack);
+    assert.ok(error.message.length > 10);
+    return error.code;
+  });
+  for (const options of [{ positionBits: 25 }, { normalBits: 1 }, { positionBits: '14' }, { grid: 'world' }, { maxError: 0 },
+    { positionbits: 14 }, { lossless: 1 }, { effort: 3 }, { lattice: [0, 0, 0, 0] }, { fallback: true }]) {
+    assert.equal(await codeOf(sample('torus'), options), 'BadArgument', JSON.stringify(options));
+  }
+  assert.equal(await codeOf('torus.glb'), 'BadArgument');
+  assert.equal(await codeOf(new Uint8Array(10)), 'Encode');
+  assert.equal(await codeOf(sample('torus').slice(0, 500)), 'Encode');
+  const mutated = sample('torus');
+  mutated.fill(0x78, 30, 60);
+  assert.equal(await codeOf(mutated), 'Encode');
+});
+
+test('from its bytes', async () => {
+  await initEncoder({ bytes: wasm('mcc_encoder') });
+  await encodeGlb(sample('torus'));
+  await initEncoder();
+});
