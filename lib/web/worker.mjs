@@ -2,6 +2,7 @@
 //
 // A worker of a decoder pool. Gets the compiled module, then one payload at a time; buffers are moved both ways.
 import { buffersOf, Decoder } from './core.mjs';
+import { importOfNode } from './load.mjs';
 
 let decoder = null;
 
@@ -21,8 +22,8 @@ async function answer({ module, bytes, options }, post) {
 if (typeof self === 'object' && typeof self.postMessage === 'function') {
   self.onmessage = ({ data }) => answer(data, (message, moved) => self.postMessage(message, moved));
 } else {
-  // Bundlers make scripts of workers, which have no top-level await.
-  import(/* @vite-ignore */ /* webpackIgnore: true */ `node:${'worker_threads'}`).then(({ parentPort }) => {
+  // No await at the top level, which bundlers' usual format for workers has not. Messages wait for the listener.
+  importOfNode('worker_threads').then(({ parentPort }) => {
     parentPort.on('message', (data) => answer(data, (message, moved) => parentPort.postMessage(message, moved)));
   });
 }
