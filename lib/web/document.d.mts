@@ -22,8 +22,8 @@ export interface Payload {
 /** The payloads of a glTF document, each once. Throws an MccError where the document violates the specification. */
 export function payloadsOf(json: object): Payload[];
 
-/** The array that fills the accessor of a target. */
-export function elementsOf(decoded: DecodedPayload, target: Target): TypedArray;
+/** The array that fills the accessor of a target: tight, and in the component type of the accessor. */
+export function elementsOf(decoded: DecodedPayload, target: Target, accessor: { componentType: number }): TypedArray;
 
 /** All primitives with the extension. */
 export function extensionUses(json: object): { extension: any; primitive: any; path: string }[];

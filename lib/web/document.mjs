@@ -9,7 +9,7 @@ export const EXTENSION_NAME = 'KHR_mesh_collapse_compression';
 const TRIANGLES = 4;
 const FLOAT = 5126;
 const CUSTOM = 7;
-const INDEX_BYTES = { 5121: 1, 5123: 2, 5125: 4 };
+const INDEX_ARRAYS = { 5121: Uint8Array, 5123: Uint16Array, 5125: Uint32Array };
 export const COMPONENT_COUNTS = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 };
 /** What an attribute means, by name and accessor type; else it is custom. */
 const SEMANTICS = [
@@ -53,9 +53,12 @@ export function payloadsOf(json) {
   return [...payloads.values()];
 }
 
-/** The array of a DecodedPayload that fills the accessor of a target. */
-export function elementsOf({ pieces }, { piece, attribute, part }) {
-  return attribute === undefined ? pieces[piece].parts[part].indices : pieces[piece].attributes[attribute].array;
+/** The array of a DecodedPayload that fills the accessor of a target, tight, in the type of the accessor. */
+export function elementsOf({ pieces }, { piece, attribute, part }, { componentType }) {
+  if (attribute !== undefined) return pieces[piece].attributes[attribute].array;
+  const { indices } = pieces[piece].parts[part];
+  const IndexArray = INDEX_ARRAYS[componentType];
+  return indices instanceof IndexArray ? indices : IndexArray.from(indices);
 }
 
 /** @returns {object[]}  { extension, primitive, path } of all primitives with the extension */
@@ -121,7 +124,7 @@ function accessorOf(json, number, path) {
 
 function readIndices(json, number, path) {
   const { accessor, ...indices } = accessorOf(json, number, path);
-  const size = INDEX_BYTES[accessor.componentType];
+  const size = INDEX_ARRAYS[accessor.componentType]?.BYTES_PER_ELEMENT;
   if (accessor.type !== 'SCALAR' || size === undefined || accessor.normalized) {
     fail(indices.path, 'indices must be SCALAR of an unsigned type');
   }

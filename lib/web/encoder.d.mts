@@ -59,3 +59,6 @@ export function initEncoder(options?: Omit<InitOptions, 'simdWasmUrl'>): Promise
 
 /** Compresses a GLB, decodes the result and compares it with the source. Safe for untrusted bytes. */
 export function encodeGlb(bytes: Uint8Array, options?: EncodeOptions): Promise<EncodeResult>;
+
+/** The same, once the encoder is loaded: after `await initEncoder()`. */
+export function encodeGlbSync(bytes: Uint8Array, options?: EncodeOptions): EncodeResult;

@@ -15,6 +15,7 @@ const OTHERS = ['grid', 'maxError', 'effort', 'lattice', 'fallback'];
 
 let source = {};
 let loading = null;
+let compiled = null;
 
 /** Where the module is, or what; see init() of decoder.mjs. */
 export function initEncoder(options = {}) {
@@ -29,11 +30,20 @@ export function initEncoder(options = {}) {
  * @returns {Promise<{ glb: Uint8Array, report: object }>}
  */
 export async function encodeGlb(bytes, options = {}) {
-  if (!(bytes instanceof Uint8Array)) throw new MccError('the GLB must be a Uint8Array', 'BadArgument');
-  checkOptions(options);
+  checkArguments(bytes, options);
   const module = await load();
-  // An instance of its own: its memory goes with it.
-  const { exports } = await WebAssembly.instantiate(module);
+  return encode(await WebAssembly.instantiate(module), bytes, options);
+}
+
+/** The same, once the encoder is loaded; see initEncoder(). */
+export function encodeGlbSync(bytes, options = {}) {
+  checkArguments(bytes, options);
+  if (compiled === null) throw new MccError('the encoder is not loaded yet: await initEncoder() first', 'Load');
+  return encode(new WebAssembly.Instance(compiled), bytes, options);
+}
+
+/** With an instance of its own: its memory goes with it. */
+function encode({ exports }, bytes, options) {
   const began = performance.now();
   try {
     exports._initialize?.();
@@ -55,12 +65,20 @@ export async function encodeGlb(bytes, options = {}) {
 }
 
 function load() {
-  loading ??= compileModule(source, source.wasmUrl ?? new URL('./wasm/mcc_encoder.wasm', import.meta.url))
-    .catch((error) => {
-      loading = null; // the next call tries again
-      throw error;
-    });
+  const from = source;
+  loading ??= compileModule(from, from.wasmUrl ?? new URL('./wasm/mcc_encoder.wasm', import.meta.url)).then((module) => {
+    if (from === source) compiled = module;
+    return module;
+  }, (error) => {
+    loading = null; // the next call tries again
+    throw error;
+  });
   return loading;
+}
+
+function checkArguments(bytes, options) {
+  if (!(bytes instanceof Uint8Array)) throw new MccError('the GLB must be a Uint8Array', 'BadArgument');
+  checkOptions(options);
 }
 
 function checkOptions(options) {

@@ -7,10 +7,9 @@ import { COMPONENT_COUNTS, elementsOf, EXTENSION_NAME, extensionUses, payloadsOf
 
 const MAGIC = 0x46546c67;
 const JSON_CHUNK = 0x4e4f534a;
-const BIN_CHUNK = 0x004e4942;
+export const BIN_CHUNK = 0x004e4942;
 const ARRAY_BUFFER = 34962;
 const ELEMENT_ARRAY_BUFFER = 34963;
-const INDEX_ARRAYS = { 5121: Uint8Array, 5123: Uint16Array, 5125: Uint32Array };
 const ROWS = { MAT2: 2, MAT3: 3, MAT4: 4 };
 
 /**
@@ -32,7 +31,10 @@ export async function unpackGlb(bytes, { decode = decodePayload, limits } = {}) 
   }
   const newBin = new Bin(json, bin, payloads);
   payloads.forEach(({ targets }, i) => {
-    for (const target of targets) newBin.fill(json.accessors[target.accessor], elementsOf(decoded[i], target), target);
+    for (const target of targets) {
+      const accessor = json.accessors[target.accessor];
+      newBin.fill(accessor, elementsOf(decoded[i], target, accessor), target);
+    }
   });
   const others = chunks.filter(({ type }) => type !== BIN_CHUNK);
   return writeGlb(json, [{ type: BIN_CHUNK, data: newBin.finish() }, ...others]);
@@ -132,7 +134,7 @@ class Bin {
   /** Elements of an accessor, tight in `array`, as a buffer view. */
   fill(accessor, array, { attribute }) {
     const isIndex = attribute === undefined;
-    const { bytes, stride } = isIndex ? indexBytes(accessor, array) : elementBytes(accessor, array);
+    const { bytes, stride } = isIndex ? { bytes: asBytes(array) } : elementBytes(accessor, array);
     const number = this.free.pop() ?? this.json.bufferViews.length;
     this.#align(4);
     this.json.bufferViews[number] = {
@@ -171,10 +173,6 @@ class Bin {
 
 const asBytes = ({ buffer, byteOffset, byteLength }) => new Uint8Array(buffer, byteOffset, byteLength);
 
-function indexBytes({ componentType }, indices) {
-  return { bytes: asBytes(INDEX_ARRAYS[componentType].from(indices)) };
-}
-
 /** Elements of vertex attributes begin at multiples of four bytes, and so do the columns of matrices. */
 function elementBytes({ type, count }, array) {
   const components = COMPONENT_COUNTS[type];
@@ -190,7 +188,8 @@ function elementBytes({ type, count }, array) {
   return { bytes, stride };
 }
 
-function writeGlb(json, chunks) {
+/** A GLB of a document and chunks { type, data }; those without data are left out. */
+export function writeGlb(json, chunks) {
   const text = new TextEncoder().encode(JSON.stringify(json));
   const all = [{ type: JSON_CHUNK, data: text, padding: 0x20 }, ...chunks.filter(({ data }) => data.length > 0)];
   const padded = ({ data }) => Math.ceil(data.length / 4) * 4;

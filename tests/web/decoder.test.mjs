@@ -195,7 +195,8 @@ describe('documents', () => {
     const [{ targets }] = payloadsOf(json);
     const decoded = await decodePayload(payloadOf(asset));
     for (const target of targets) {
-      assert.equal(elementsOf(decoded, target).length % json.accessors[target.accessor].count, 0);
+      const accessor = json.accessors[target.accessor];
+      assert.equal(elementsOf(decoded, target, accessor).length % accessor.count, 0);
     }
   });
 

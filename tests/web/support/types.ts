@@ -14,7 +14,7 @@ async function use(glb: Uint8Array, json: object): Promise<number> {
   let count = plain.length + name.length + pool.size;
   for (const { targets, claims } of payloadsOf(json)) {
     const decoded: DecodedPayload = await decodePayload(glb, { claims, indexType: 'uint16' });
-    for (const target of targets) count += elementsOf(decoded, target).length;
+    for (const target of targets) count += elementsOf(decoded, target, { componentType: 5126 }).length;
   }
   const { report } = await encodeGlb(glb, { positionBits: 12, grid: 'scene' });
   pool.dispose();

@@ -1,0 +1,49 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+import { registerGLTFExtension, unregisterGLTFExtension }
+  from '@babylonjs/loaders/glTF/2.0/glTFLoaderExtensionRegistry.js';
+import { EXTENSION_NAME } from './document.mjs';
+import { PayloadViews } from './views.mjs';
+
+/**
+ * From now on Babylon.js loads KHR_mesh_collapse_compression. A payload that is damaged, or does not fit the document, rejects
+ * the load with a message that says why. May be called again, with other options.
+ *
+ * @param {import('./unpack.mjs').UnpackOptions} [options] decode: by default in workers that all loaders of a page share
+ */
+export function registerMeshCollapse(options) {
+  unregisterGLTFExtension(EXTENSION_NAME);
+  registerGLTFExtension(EXTENSION_NAME, true, (loader) => new MeshCollapseExtension(loader, options));
+}
+
+class MeshCollapseExtension {
+  name = EXTENSION_NAME;
+  enabled = true;
+  #loader;
+  #options;
+  #views;
+
+  constructor(loader, options) {
+    this.#loader = loader;
+    this.#options = options;
+  }
+
+  dispose() {
+    this.#loader = this.#views = undefined;
+  }
+
+  // Called by the loader when it has numbered the objects of the document and loaded nothing yet.
+  onLoading() {
+    const loader = this.#loader;
+    const { gltf } = loader;
+    const fetchPayload = (bufferView) => loader.loadBufferViewAsync(`/bufferViews/${bufferView}`, gltf.bufferViews[bufferView]);
+    this.#views = new PayloadViews(gltf, fetchPayload, this.#options);
+    gltf.accessors = this.#views.accessors;
+    gltf.bufferViews = this.#views.bufferViews;
+    gltf.bufferViews.forEach((view, index) => { view.index = index; });
+  }
+
+  // Called by the loader for every buffer view; null leaves it to others.
+  loadBufferViewAsync(context, bufferView) {
+    return this.#views?.load(bufferView.index) ?? null;
+  }
+}

@@ -1,0 +1,18 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+import { Extension, type Document, type ReaderContext, type WriterContext } from '@gltf-transform/core';
+import type { EncodeOptions, EncodeResult } from './encoder.mjs';
+
+/** Reads and writes the extension, with the dependencies 'mcc.decoder' and, for writing, 'mcc.encoder'. */
+export class KHRMeshCollapseCompression extends Extension {
+  static readonly EXTENSION_NAME: 'KHR_mesh_collapse_compression';
+  readonly extensionName: 'KHR_mesh_collapse_compression';
+  /** Takes effect when the document is written. */
+  setEncoderOptions(options: EncodeOptions): this;
+  /** Sizes and measured errors of the last write; undefined before. */
+  getReport(): EncodeResult['report'] | undefined;
+  read(context: ReaderContext): this;
+  write(context: WriterContext): this;
+}
+
+/** A transform: the document will be compressed when it is written. */
+export function meshCollapse(options?: EncodeOptions): (document: Document) => void;

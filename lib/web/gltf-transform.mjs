@@ -1,0 +1,151 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+import { Extension, GLB_BUFFER, PropertyType } from '@gltf-transform/core';
+import { EXTENSION_NAME, elementsOf, payloadsOf } from './document.mjs';
+import { BIN_CHUNK, readGlb, writeGlb } from './unpack.mjs';
+
+/**
+ * Reads and writes KHR_mesh_collapse_compression with glTF-Transform.
+ *
+ *     const io = new NodeIO().registerExtensions([KHRMeshCollapseCompression]).registerDependencies({
+ *       'mcc.decoder': decoder,  // the module gltf-mcc, after `await decoder.ready`
+ *       'mcc.encoder': encoder,  // to write: the module gltf-mcc/encoder, after `await encoder.initEncoder()`
+ *     });
+ *
+ * A document that was read has its geometry in ordinary accessors. While it has this extension, it is compressed again when it is
+ * written; `extension.dispose()` ends that. What is written is what the program gltf-mcc makes of the document with the same
+ * options; it is decoded and compared before it is handed out.
+ */
+export class KHRMeshCollapseCompression extends Extension {
+  static EXTENSION_NAME = EXTENSION_NAME;
+  extensionName = EXTENSION_NAME;
+  prereadTypes = [PropertyType.PRIMITIVE];
+  readDependencies = ['mcc.decoder'];
+  writeDependencies = ['mcc.encoder'];
+  #decoder;
+  #encoder;
+  #encoderOptions = {};
+  #report;
+
+  install(key, dependency) {
+    if (key === 'mcc.decoder') this.#decoder = dependency;
+    if (key === 'mcc.encoder') this.#encoder = dependency;
+    return this;
+  }
+
+  /**
+   * Takes effect when the document is written.
+   * @param {import('./encoder.mjs').EncodeOptions} options
+   */
+  setEncoderOptions(options) {
+    this.#encoderOptions = { ...options };
+    return this;
+  }
+
+  /** Sizes and measured errors of the last write; undefined before. */
+  getReport() {
+    return this.#report;
+  }
+
+  preread(context) {
+    if (!this.#decoder) {
+      if (!this.isRequired()) return this; // there is a fallback
+      throw new Error(`[${EXTENSION_NAME}] Please install the dependency "mcc.decoder".`);
+    }
+    for (const { bufferView, targets, claims } of payloadsOf(context.jsonDoc.json)) {
+      const decoded = this.#decoder.decodePayloadSync(context.bufferViews[bufferView], { claims });
+      for (const target of targets) this.#fill(context, target, decoded, bufferView);
+    }
+    return this;
+  }
+
+  #fill(context, target, decoded, payloadView) {
+    const definition = context.jsonDoc.json.accessors[target.accessor];
+    context.accessors[target.accessor]
+      .setArray(elementsOf(decoded, target, definition))
+      .setBuffer(context.bufferViewBuffers[payloadView]);
+  }
+
+  // Buffers of a fallback are empty now, and a GLB may have one buffer only.
+  read() {
+    for (const buffer of this.document.getRoot().listBuffers()) {
+      if (buffer.listParents().every(({ propertyType }) => propertyType === PropertyType.ROOT)) buffer.dispose();
+    }
+    return this;
+  }
+
+  // The document is complete here, but for what extensions with later names add to its objects.
+  write(context) {
+    const { json, resources } = context.jsonDoc;
+    removeName(json, EXTENSION_NAME);
+    if (!this.#encoder) throw new Error(`[${EXTENSION_NAME}] Please install the dependency "mcc.encoder".`);
+    const unwritten = unwrittenExtensions(this.document, context);
+    // They may depend on orders, which the encoder keeps where it sees their names.
+    for (const { extensionName, definitionOf } of unwritten) (definitionOf().extensions ??= {})[extensionName] = {};
+    const { glb, report } = this.#encoder.encodeGlbSync(packGlb(json, resources), this.#encoderOptions);
+    this.#report = report;
+    takeOver(context.jsonDoc, readGlb(glb));
+    for (const { extensionName, definitionOf } of unwritten) delete definitionOf().extensions[extensionName];
+    return this;
+  }
+}
+
+/**
+ * A transform: the document will be compressed when it is written.
+ *
+ *     await document.transform(weld(), prune(), meshCollapse({ positionBits: 12 }));
+ *
+ * @param {import('./encoder.mjs').EncodeOptions} [options]
+ */
+export function meshCollapse(options = {}) {
+  return (document) => {
+    document.createExtension(KHRMeshCollapseCompression).setRequired(true).setEncoderOptions(options);
+  };
+}
+
+function removeName(json, name) {
+  for (const list of ['extensionsUsed', 'extensionsRequired']) json[list] = json[list]?.filter((other) => other !== name);
+}
+
+// Of meshes and primitives, those that are written later than this one: { extensionName, definitionOf }.
+function unwrittenExtensions(document, { jsonDoc: { json }, meshIndexMap }) {
+  return document.getRoot().listMeshes().flatMap((mesh) => {
+    const meshOf = () => json.meshes[meshIndexMap.get(mesh)];
+    const owners = [[mesh, meshOf], ...mesh.listPrimitives().map((primitive, i) => [primitive, () => meshOf().primitives[i]])];
+    return owners.flatMap(([property, definitionOf]) => property.listExtensions()
+      .filter(({ extensionName }) => definitionOf().extensions?.[extensionName] === undefined)
+      .map(({ extensionName }) => ({ extensionName, definitionOf })));
+  });
+}
+
+// A GLB of the document, all of its buffers in one. Images that are files stay so.
+function packGlb(json, resources) {
+  const buffers = (json.buffers ?? []).map(({ uri = GLB_BUFFER }) => resources[uri] ?? new Uint8Array(0));
+  const offsets = [];
+  let byteLength = 0;
+  for (const { length } of buffers) {
+    offsets.push(byteLength);
+    byteLength += Math.ceil(length / 8) * 8;
+  }
+  const bin = new Uint8Array(byteLength);
+  buffers.forEach((bytes, i) => bin.set(bytes, offsets[i]));
+  const bufferViews = json.bufferViews?.map(
+    ({ byteOffset = 0, ...view }) => ({ ...view, buffer: 0, byteOffset: byteOffset + offsets[view.buffer] }));
+  const complete = { ...json, bufferViews, buffers: byteLength > 0 ? [{ byteLength }] : [] };
+  // Empty lists, which glTF does not have, are removed from what is written when all extensions have seen it.
+  const isEmpty = (value) => typeof value === 'object' && Object.keys(value).length === 0;
+  const members = Object.entries(complete).filter(([, value]) => value !== undefined && !isEmpty(value));
+  return writeGlb(Object.fromEntries(members), [{ type: BIN_CHUNK, data: bin }]);
+}
+
+function takeOver({ json, resources }, encoded) {
+  const bin = encoded.chunks.find(({ type }) => type === BIN_CHUNK)?.data;
+  const [first, ...others] = json.buffers ?? [];
+  for (const { uri = GLB_BUFFER } of others) delete resources[uri];
+  if (first) resources[first.uri ?? GLB_BUFFER] = bin;
+  const buffers = first ? [{ ...first, byteLength: encoded.json.buffers[0].byteLength }] : [];
+  // Extensions with later names still write into objects they have kept, like those of textures: what is equal stays.
+  const complete = { ...encoded.json, buffers };
+  for (const key of new Set([...Object.keys(json), ...Object.keys(complete)])) {
+    if (JSON.stringify(json[key]) !== JSON.stringify(complete[key])) json[key] = complete[key];
+  }
+}

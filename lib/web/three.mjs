@@ -1,0 +1,40 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+import { EXTENSION_NAME } from './document.mjs';
+import { PayloadViews } from './views.mjs';
+
+/**
+ * Loads KHR_mesh_collapse_compression with GLTFLoader of three.js:
+ *
+ *     loader.register((parser) => new MeshCollapsePlugin(parser));
+ *
+ * A payload that is damaged, or does not fit the document, rejects the load with a message that says why.
+ */
+export class MeshCollapsePlugin {
+  name = EXTENSION_NAME;
+  #parser;
+  #options;
+  #views;
+
+  /**
+   * @param {import('three/addons/loaders/GLTFLoader.js').GLTFParser} parser
+   * @param {import('./unpack.mjs').UnpackOptions} [options] decode: by default in workers that all loaders of a page share
+   */
+  constructor(parser, options) {
+    this.#parser = parser;
+    this.#options = options;
+  }
+
+  // Called by the loader before anything is loaded. Other loads may use the same JSON: it is replaced, not changed.
+  async beforeRoot() {
+    const parser = this.#parser;
+    const fetchPayload = async (bufferView) => new Uint8Array(await parser.getDependency('bufferView', bufferView));
+    this.#views = new PayloadViews(parser.json, fetchPayload, this.#options);
+    const { accessors, bufferViews } = this.#views;
+    parser.json = { ...parser.json, accessors, bufferViews };
+  }
+
+  // Called by the loader for every buffer view; null leaves it to others.
+  loadBufferView(index) {
+    return this.#views.load(index)?.then(({ buffer }) => buffer) ?? null;
+  }
+}

@@ -1,0 +1,33 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+import { existsSync } from 'node:fs';
+import { chromium } from 'playwright-core';
+
+const CHROMIUM = process.env.MCC_CHROMIUM ?? '/usr/bin/chromium';
+
+/** Debian's Chromium without a window; WebGL is drawn by the CPU. */
+export function launchBrowser() {
+  if (!existsSync(CHROMIUM)) throw new Error(`${CHROMIUM} is missing; install chromium or name it in MCC_CHROMIUM`);
+  return chromium.launch({
+    executablePath: CHROMIUM,
+    args: ['--no-sandbox', '--disable-quic', '--disable-background-networking', '--disable-component-update', '--disable-sync',
+      '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+  });
+}
+
+/**
+ * Opens a page and waits for its module; `isReady` runs in the page. What the page says on its console is collected, violations of
+ * its Content-Security-Policy among it.
+ */
+export async function openPage(browser, url, isReady) {
+  const page = await browser.newPage({ viewport: { width: 400, height: 300 } });
+  const messages = [];
+  page.on('console', (message) => messages.push(`${message.type()}: ${message.text()}`));
+  page.on('pageerror', (error) => messages.push(`error: ${error.message}`));
+  await page.goto(url);
+  try {
+    await page.waitForFunction(isReady, undefined, { timeout: 60_000 });
+  } catch (error) {
+    throw new Error(`${url} did not get ready: ${messages.join('\n')}`, { cause: error });
+  }
+  return { page, messages, violations: () => messages.filter((text) => text.includes('Content Security Policy')) };
+}

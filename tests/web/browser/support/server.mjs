@@ -1,0 +1,120 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// A static server for the browser tests. Every page is sent with a Content-Security-Policy, and engines come from node_modules by
+// import maps, without a bundler.
+//
+//   /pages/NAME.html        NAME.mjs of tests/web/browser/pages, with an import map; ?without replaces the library by nothing,
+//                           ?eval allows it, ?noworkers forbids workers, ?strict is for pages without an import map
+//   /models/NAME/model.glb  a model of the test
+//   /snippets/NAME.mjs      the code under "### NAME" in the README of lib/web
+//   /lib/…, /engines/…      lib/web and node_modules
+//   /bundle/…               what a bundler has made
+import { createHash } from 'node:crypto';
+import { readFile } from 'node:fs/promises';
+import { createServer } from 'node:http';
+import path from 'node:path';
+import { ENGINES, LIBRARY, PAGES } from '../../support/paths.mjs';
+import { snippetOf } from '../../support/readme.mjs';
+
+const TYPES = {
+  '.html': 'text/html', '.mjs': 'text/javascript', '.js': 'text/javascript', '.wasm': 'application/wasm', '.css': 'text/css',
+  '.glb': 'model/gltf-binary', '.json': 'application/json',
+};
+
+const ENGINE_IMPORTS = {
+  'three': '/engines/three/build/three.module.js',
+  'three/addons/': '/engines/three/examples/jsm/',
+  '@babylonjs/core/': '/engines/@babylonjs/core/',
+  '@babylonjs/loaders/': '/engines/@babylonjs/loaders/',
+  'cesium': '/engines/cesium/Build/Cesium/index.js',
+  'playcanvas': '/engines/playcanvas/build/playcanvas.mjs',
+  '@google/model-viewer': '/engines/@google/model-viewer/dist/model-viewer.min.js',
+};
+const LIBRARY_IMPORTS = {
+  'gltf-mcc': '/lib/index.mjs',
+  'gltf-mcc/three': '/lib/three.mjs',
+  'gltf-mcc/babylon': '/lib/babylon.mjs',
+};
+const NO_LIBRARY = Object.fromEntries(Object.keys(LIBRARY_IMPORTS).map((name) => [name, '/pages/without.mjs']));
+
+/** What an application has to allow; engines add blob: for images, and model-viewer for its model. */
+const POLICY = { 'default-src': "'self'", 'script-src': "'self' 'wasm-unsafe-eval'", 'worker-src': "'self'" };
+const POLICY_OF_ENGINES = {
+  'img-src': "'self' blob: data:", 'connect-src': "'self' blob:", 'style-src': "'self' 'unsafe-inline'",
+};
+
+/**
+ * @param {Map<string, Uint8Array>} models by name
+ * @param {string} [bundle] a folder
+ * @returns {Promise<{ origin: string, missing: string[], close(): Promise<void> }>} missing: requests that found nothing
+ */
+export async function startServer(models, bundle) {
+  const missing = [];
+  const server = createServer((request, response) => {
+    const url = new URL(request.url, 'http://localhost');
+    answer(url, models, bundle).then(({ body, headers }) => response.writeHead(200, headers).end(body), () => {
+      if (url.pathname !== '/favicon.ico') missing.push(url.pathname);
+      response.writeHead(404).end();
+    });
+  });
+  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  const close = () => new Promise((resolve) => {
+    server.closeAllConnections?.();
+    server.close(resolve);
+  });
+  return { origin: `http://127.0.0.1:${server.address().port}`, missing, close };
+}
+
+async function answer(url, models, bundle) {
+  const [, folder, ...rest] = decodeURIComponent(url.pathname).split('/');
+  const name = rest.join('/');
+  const file = (root) => readInside(root, name);
+  switch (folder) {
+    case 'lib': return file(LIBRARY);
+    case 'engines': return file(ENGINES);
+    case 'bundle': return withPolicy(await readInside(bundle, name), { ...POLICY, ...POLICY_OF_ENGINES });
+    case 'models': return content(models.get(rest[0]) ?? missingModel(rest[0]), '.glb');
+    case 'snippets': return content(await snippetOf(name.replace(/\.mjs$/, '')), '.mjs');
+    case 'pages': return name.endsWith('.html') ? page(name.replace(/\.html$/, ''), url) : file(PAGES);
+    default: throw new Error(`no such folder: ${folder}`);
+  }
+}
+
+function missingModel(name) {
+  throw new Error(`no such model: ${name}`);
+}
+
+async function readInside(root, name) {
+  const full = path.join(root, name);
+  if (!full.startsWith(root + path.sep)) throw new Error('outside');
+  return content(await readFile(full), path.extname(full));
+}
+
+function content(body, extension) {
+  return { body, headers: { 'Content-Type': TYPES[extension] ?? 'application/octet-stream', 'Cache-Control': 'max-age=600' } };
+}
+
+function page(name, url) {
+  const has = (parameter) => url.searchParams.has(parameter);
+  const map = JSON.stringify({ imports: { ...ENGINE_IMPORTS, ...(has('without') ? NO_LIBRARY : LIBRARY_IMPORTS) } });
+  const hash = createHash('sha256').update(map).digest('base64');
+  const scripts = `${POLICY['script-src']} 'sha256-${hash}'${has('eval') ? " 'unsafe-eval'" : ''}`;
+  const policy = {
+    ...POLICY,
+    ...(has('strict') ? {} : { ...POLICY_OF_ENGINES, 'script-src': scripts }),
+    ...(has('noworkers') ? { 'worker-src': "'none'" } : {}),
+  };
+  const body = `<!doctype html>
+<html lang="en">
+<meta charset="utf-8">
+<title>${name}</title>
+${has('strict') ? '' : `<script type="importmap">${map}</script>`}
+<link rel="stylesheet" href="/pages/page.css">
+<script type="module" src="/pages/${name}.mjs"></script>
+`;
+  return withPolicy(content(body, '.html'), policy);
+}
+
+const withPolicy = ({ body, headers }, policy) => ({ body, headers: { ...headers, 'Content-Security-Policy': textOf(policy) } });
+
+const textOf = (policy) => Object.entries(policy).map(([directive, sources]) => `${directive} ${sources}`).join('; ');

@@ -1,0 +1,37 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The program gltf-mcc, for models to test with.
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { ROOT, SAMPLES } from './paths.mjs';
+
+const PROGRAM = process.env.MCC_PROGRAM ?? path.join(ROOT, 'build/release/tools/gltf-mcc');
+
+export const readSample = (name) => new Uint8Array(readFileSync(path.join(SAMPLES, `${name}.glb`)));
+
+export const convert = (glb, options = []) => inMemory(['convert', '--compare', 'none', ...options], glb);
+export const decode = (glb) => inMemory(['decode'], glb);
+
+/** A sample with its fallback, whose buffer is a file of its own: { glb, fallback, fallbackName }. */
+export function convertWithFallback(name) {
+  const folder = mkdtempSync(path.join(os.tmpdir(), 'gltf-mcc-'));
+  try {
+    run(['convert', '--compare', 'none', '--fallback', path.join(SAMPLES, `${name}.glb`), path.join(folder, 'model.glb')]);
+    const read = (file) => new Uint8Array(readFileSync(path.join(folder, file)));
+    return { glb: read('model.glb'), fallback: read('model.fallback.bin'), fallbackName: 'model.fallback.bin' };
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+}
+
+// In memory of its own, as loaders like it.
+const inMemory = (args, glb) => new Uint8Array(run([...args, '-', '-'], glb));
+
+function run([command, ...args], input) {
+  if (!existsSync(PROGRAM)) {
+    throw new Error(`${PROGRAM} is missing: tools/build release gltf-mcc, or name the program in MCC_PROGRAM`);
+  }
+  return execFileSync(PROGRAM, [command, '--quiet', ...args], { input, maxBuffer: 1 << 28 });
+}

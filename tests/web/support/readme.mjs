@@ -1,0 +1,16 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+import { readFile } from 'node:fs/promises';
+import path from 'node:path';
+import { LIBRARY } from './paths.mjs';
+
+/**
+ * The first JavaScript block below "### heading" in the README of lib/web: what users copy is what the tests run.
+ * @param {string} heading
+ */
+export async function snippetOf(heading) {
+  const text = await readFile(path.join(LIBRARY, 'README.md'), 'utf8');
+  const section = text.split(/^(?=##+ )/m).find((part) => part.startsWith(`### ${heading}\n`));
+  const code = section?.match(/^```js\n(.*?)^```$/ms)?.[1];
+  if (code === undefined) throw new Error(`lib/web/README.md: no code below "### ${heading}"`);
+  return code;
+}

@@ -1,0 +1,33 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Compiled only: the types of the plugins, as applications use them.
+import { NodeIO, type Document } from '@gltf-transform/core';
+import { createDecoderPool } from '../../../lib/web/index.mjs';
+import { registerMeshCollapse } from '../../../lib/web/babylon.mjs';
+import { KHRMeshCollapseCompression, meshCollapse } from '../../../lib/web/gltf-transform.mjs';
+import { MeshCollapsePlugin } from '../../../lib/web/three.mjs';
+
+// What @types/three says of plugins of GLTFLoader.
+interface GLTFLoaderPlugin {
+  readonly name: string;
+  beforeRoot?: (() => Promise<void> | null) | undefined;
+  loadBufferView?: ((bufferViewIndex: number) => Promise<ArrayBuffer> | null) | undefined;
+}
+
+const pool = createDecoderPool({ workers: 2 });
+export const plugin = (parser: object): GLTFLoaderPlugin =>
+  new MeshCollapsePlugin(parser, { decode: pool.decodePayload, limits: { maxVertices: 1e6 } });
+
+registerMeshCollapse();
+registerMeshCollapse({ decode: pool.decodePayload });
+
+const io = new NodeIO().registerExtensions([KHRMeshCollapseCompression]);
+export async function write(document: Document): Promise<number> {
+  await document.transform(meshCollapse({ positionBits: 12, keepTriangleOrder: true }));
+  const extension: KHRMeshCollapseCompression = document.createExtension(KHRMeshCollapseCompression)
+    .setRequired(true).setEncoderOptions({ lossless: true });
+  await io.writeBinary(document);
+  return extension.getReport()?.output_bytes ?? 0;
+}
+// @ts-expect-error there is no such option
+meshCollapse({ bits: 12 });
