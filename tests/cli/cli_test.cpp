@@ -276,7 +276,7 @@ TEST_F(Cli, WrongUsageSaysWhatIsWrong) {
   expectSays("convert in.glb out.glb --max-error -1", "--max-error: -1 is not greater than 0");
   expectSays("convert in.glb out.glb --max-error-relative x", "--max-error-relative: x is not");
   expectSays("convert in.glb out.obj", "convert: out.obj: only .glb and .gltf files are written");
-  expectSays("convert in.glb out.glb --frobnicate", "The following argument was not expected: ");
+  expectSays("convert in.glb out.glb --frobnicate", "convert: there is no option --frobnicate");
   EXPECT_EQ(run("convert in.glb out.vrm").status, 0);
 }
 
@@ -289,7 +289,7 @@ TEST_F(Cli, HelpAndVersion) {
   }
   const Outcome version = run("--version");
   EXPECT_EQ(version.status, 0);
-  EXPECT_NE(version.out.find('.'), std::string::npos);
+  EXPECT_EQ(version.out.rfind("gltf-mcc ", 0), 0u);
 }
 
 TEST_F(Cli, BadInput) {

@@ -114,6 +114,13 @@ TEST_F(Tree, SaysWhatCannotBeDrawn) {
   expectSays("empty.gltf x.svg", 1, "empty.gltf: there are no meshes in it");
 }
 
+TEST_F(Tree, OfTheReadmeIsUpToDate) {
+  const std::string figure = "extension-spec/KHR_mesh_collapse_compression/figures/mc_tree.svg";
+  EXPECT_TRUE(contentOf(fs::path(MCC_SOURCE_DIR) / figure) ==
+              draw(samplePath("torus.glb") + " --size 520"))
+      << "gltf-mcc tree samples/torus.glb " << figure << " --size 520";
+}
+
 /// Every kind of primitive has a picture or says why not; none ends the program.
 TEST_F(Tree, OfEverySample) {
   for (const auto& entry : fs::directory_iterator(MCC_SAMPLES_DIR)) {

@@ -45,7 +45,7 @@ int TreeCommand::run() {
   }
   if (!result.ok()) return reportFailure(result, input, "");
   if (isStandardStream(output)) return printOut(svg);
-  result = gltf::writeFile(output, {svg.begin(), svg.end()}, &temporaryFiles());
+  result = gltf::writeFile(output, std::vector<uint8_t>(svg.begin(), svg.end()), &temporaryFiles());
   if (!result.ok()) return reportFailure(result, input, output);
   if (common.is_quiet) return kDone;
   return printOut(fmt::format("{} -> {}: mc-tree of {} edges on {} triangles, {}\n", input, output,

@@ -9,128 +9,17 @@
 #include <numeric>
 
 #include "projection.h"
+#include "svg.h"
 #include "table.h"
+#include "tree_legend.h"
 
 namespace mcc::tool {
 namespace {
 
-/// Children of every vertex, in the order of the edges to them.
-struct Children {
-  std::vector<uint32_t> first;  ///< of a vertex, in `edges`; one more at the end
-  std::vector<uint32_t> edges;
-
-  explicit Children(const gltf::McTree& tree) : first(tree.positions.size() / 3 + 1, 0) {
-    for (const gltf::McTree::Edge& edge : tree.edges) ++first[edge.parent + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    edges.resize(tree.edges.size());
-    std::vector<uint32_t> fill(first.begin(), first.end() - 1);
-    for (uint32_t e = 0; e < tree.edges.size(); ++e) edges[fill[tree.edges[e].parent]++] = e;
-  }
-};
-
-class Brancher {
- public:
-  explicit Brancher(const gltf::McTree& tree)
-      : tree_(tree), children_(tree), is_done_(tree.edges.size(), false) {}
-
-  std::vector<Branch> run() {
-    std::vector<bool> is_child(children_.first.size(), false);
-    for (const gltf::McTree::Edge& edge : tree_.edges) is_child[edge.child] = true;
-    // Roots first; then what only cycles lead to.
-    for (const bool from_roots : {true, false}) {
-      for (uint32_t e = 0; e < tree_.edges.size(); ++e) {
-        if (is_done_[e] || (from_roots && is_child[tree_.edges[e].parent])) continue;
-        follow(lastOpenEdge(tree_.edges[e].parent), 0);
-        drainForks();
-      }
-    }
-    return std::move(branches_);
-  }
-
- private:
-  uint32_t lastOpenEdge(uint32_t vertex) const {
-    for (uint32_t i = children_.first[vertex + 1]; i-- != children_.first[vertex];) {
-      if (!is_done_[children_.edges[i]]) return children_.edges[i];
-    }
-    return kNone;
-  }
-
-  /// A branch along the last edges, from one of them on; notes where others fork off.
-  void follow(uint32_t edge, uint32_t depth) {
-    Branch branch;
-    branch.depth = depth;
-    branch.vertices.push_back(tree_.edges[edge].parent);
-    for (; edge != kNone; edge = lastOpenEdge(tree_.edges[edge].child)) {
-      is_done_[edge] = true;
-      if (lastOpenEdge(tree_.edges[edge].parent) != kNone) {
-        forks_.push_back({tree_.edges[edge].parent, depth + 1});
-      }
-      branch.order.push_back(edge);
-      branch.vertices.push_back(tree_.edges[edge].child);
-    }
-    branch.order.push_back(branch.order.back());
-    branches_.push_back(std::move(branch));
-  }
-
-  void drainForks() {
-    while (!forks_.empty()) {
-      const Fork fork = forks_.back();
-      forks_.pop_back();
-      const uint32_t edge = lastOpenEdge(fork.vertex);
-      if (edge != kNone) follow(edge, fork.depth);
-    }
-  }
-
-  struct Fork {
-    uint32_t vertex;
-    uint32_t depth;
-  };
-  const gltf::McTree& tree_;
-  const Children children_;
-  std::vector<bool> is_done_;
-  std::vector<Fork> forks_;
-  std::vector<Branch> branches_;
-};
-
-// --- colours ---------------------------------------------------------------------------------------
-
-struct Color {
-  double red;
-  double green;
-  double blue;
-};
-
-std::string nameOf(const Color& color) {
-  const auto byte = [](double value) {
-    return static_cast<int>(std::clamp(value, 0., 255.) + 0.5);
-  };
-  return fmt::format("#{:02x}{:02x}{:02x}", byte(color.red), byte(color.green), byte(color.blue));
-}
-
-Color between(const Color& a, const Color& b, double share) {
-  return {a.red + (b.red - a.red) * share, a.green + (b.green - a.green) * share,
-          a.blue + (b.blue - a.blue) * share};
-}
-
-constexpr Color kTrunkFirst = {27, 20, 100};
-constexpr Color kTrunkMiddle = {18, 102, 168};
-constexpr Color kTrunkLast = {20, 158, 150};
-constexpr Color kBranches[] = {{229, 106, 19}, {200, 30, 90}, {130, 40, 150}};  // by depth
-constexpr Color kFront[] = {{196, 200, 212}, {246, 246, 249}};                  // dark, light
+constexpr Color kFront[] = {{196, 200, 212}, {246, 246, 249}};  // dark, light
 constexpr Color kBack[] = {{206, 198, 188}, {240, 235, 228}};
 constexpr uint32_t kShades = 12;
 constexpr uint32_t kTrunkColors = 48;
-
-Color trunkColor(double share) {
-  return share < 0.5 ? between(kTrunkFirst, kTrunkMiddle, 2 * share)
-                     : between(kTrunkMiddle, kTrunkLast, 2 * share - 1);
-}
-
-Color branchColor(uint32_t depth) {
-  return kBranches[std::min<size_t>(depth, std::size(kBranches)) - 1];
-}
-
-// --- the drawing -----------------------------------------------------------------------------------
 
 /// Vertices at the places where triangles are seen.
 std::vector<bool> onSeenTriangles(const gltf::McTree& tree, const DepthBuffer& depth) {
@@ -157,40 +46,6 @@ std::vector<bool> onSeenTriangles(const gltf::McTree& tree, const DepthBuffer& d
   return is_on;
 }
 
-/// One decimal, none where it is 0.
-std::string number(double value) {
-  const auto tenths = static_cast<int64_t>(std::floor(value * 10 + 0.5));
-  if (tenths % 10 == 0) return std::to_string(tenths / 10);
-  const char* sign = tenths < 0 ? "-" : "";
-  return fmt::format("{}{}.{}", sign, std::abs(tenths) / 10, std::abs(tenths) % 10);
-}
-
-std::string place(double x, double y) { return number(x) + " " + number(y); }
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '<') {
-      result += "&lt;";
-    } else if (c == '&') {
-      result += "&amp;";
-    } else if (c == '>') {
-      result += "&gt;";
-    } else if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) {
-      result += c;
-    }
-  }
-  return result;
-}
-
-/// About what a text takes in a usual sans-serif, in its size.
-double lengthOf(const std::string& text) {
-  const std::string narrow = "fijlrt,.:;|'()- ";
-  double length = 0;
-  for (const char c : text) length += narrow.find(c) == std::string::npos ? 0.6 : 0.36;
-  return length;
-}
-
 class Drawing {
  public:
   Drawing(const gltf::McTree& tree, const DrawingOptions& options)
@@ -203,16 +58,22 @@ class Drawing {
         is_on_seen_(onSeenTriangles(tree, depth_)),
         line_(lineWidth()) {}
 
-  std::string text();
+  std::string text() const;
 
  private:
+  struct Line {
+    uint32_t depth;
+    std::string color;
+    std::string path;
+  };
+
   const PagePoint& point(uint32_t vertex) const { return page_.points[vertex]; }
   double lineWidth() const;
   std::string surface() const;
+  std::vector<Line> lines() const;
   std::string trees() const;
   std::string pathOf(const Branch& branch, size_t first, size_t last) const;
   std::string markers() const;
-  std::string legend();
   bool isSeen(uint32_t vertex) const;
   bool hasRoomForMarkers() const { return line_ > 0.0016 * width_; }
 
@@ -224,7 +85,6 @@ class Drawing {
   const DepthBuffer depth_;
   const std::vector<bool> is_on_seen_;
   const double line_;  ///< width of the trunk
-  double height_ = 0;
 };
 
 /// Lines are thinner where edges are short.
@@ -316,12 +176,7 @@ std::string Drawing::pathOf(const Branch& branch, size_t first, size_t last) con
   return path;
 }
 
-std::string Drawing::trees() const {
-  struct Line {
-    uint32_t depth;
-    std::string color;
-    std::string path;
-  };
+std::vector<Drawing::Line> Drawing::lines() const {
   std::vector<Line> lines;
   const auto add = [&](uint32_t depth, const Color& color, const Branch& branch, size_t first,
                        size_t last) {
@@ -351,13 +206,19 @@ std::string Drawing::trees() const {
   }
   std::stable_sort(lines.begin(), lines.end(),
                    [](const Line& a, const Line& b) { return a.depth < b.depth; });
-  std::string out =
+  return lines;
+}
+
+/// All lines in white first, somewhat wider, so that they stand out from the surface.
+std::string Drawing::trees() const {
+  const std::vector<Line> all = lines();
+  std::string out = fmt::format(
       "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n"
-      "<g stroke=\"#fff\" stroke-opacity=\"0.75\" stroke-width=\"" +
-      fmt::format("{:.2f}", 1.9 * line_) + "\">\n";
-  for (const Line& line : lines) out += "<path d=\"" + line.path + "\"/>\n";
+      "<g stroke=\"#fff\" stroke-opacity=\"0.75\" stroke-width=\"{:.2f}\">\n",
+      1.9 * line_);
+  for (const Line& line : all) out += "<path d=\"" + line.path + "\"/>\n";
   out += "</g>\n";
-  for (const Line& line : lines) {
+  for (const Line& line : all) {
     out += fmt::format("<path stroke=\"{}\" stroke-width=\"{:.2f}\" d=\"{}\"/>\n", line.color,
                        line.depth == 0 ? line_ : 0.85 * line_, line.path);
   }
@@ -395,91 +256,27 @@ std::string Drawing::markers() const {
   return out;
 }
 
-/// Below the picture; its items wrap.
-std::string Drawing::legend() {
-  const double size = std::clamp(0.0175 * width_, 9., 22.);
-  const double step = 1.7 * size;
-  const double left = 0.04 * width_;
-  double x = left;
-  double y = page_.height + size;
-  std::string out;
-  const auto room = [&](const std::string& text, double sign) {
-    const double length = sign + size * lengthOf(text) + 1.6 * size;
-    if (x > left && x + length > width_ - left + 1.6 * size) {
-      x = left;
-      y += step;
-    }
-    return length;
-  };
-  const auto add = [&](const std::string& drawing, double sign, const std::string& text) {
-    const double length = room(text, sign);
-    out += fmt::format("<g transform=\"translate({})\">{}<text x=\"{}\" y=\"{}\">{}</text></g>\n",
-                       place(x, y), drawing, number(sign), number(0.35 * size), escaped(text));
-    x += length;
-  };
-  const auto line = [&](const std::string& color, double length) {
-    return fmt::format(
-        "<path d=\"M0 0H{}\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\"/>",
-        number(length), color, number(0.28 * size));
-  };
-  size_t branch_count = 0;
-  size_t root_count = 0;
-  size_t deepest = 0;
-  for (const Branch& branch : branches_) {
-    ++(branch.depth == 0 ? root_count : branch_count);
-    deepest = std::max<size_t>(deepest, branch.depth);
-  }
-  out += fmt::format("<g font-family=\"sans-serif\" font-size=\"{}\" fill=\"#333a48\">\n",
-                     number(size));
-  std::string title = options_.title + (options_.title.empty() ? "" : ": ");
-  title += fmt::format("mc-tree of {} edges, {} branches", grouped(tree_.edges.size()),
-                       grouped(branch_count));
-  out += fmt::format("<text x=\"{}\" y=\"{}\" font-weight=\"bold\">{}</text>\n", number(left),
-                     number(y + 0.35 * size), escaped(title));
-  y += step;
-  const auto circle = [&](const std::string& fill, const std::string& more) {
-    return fmt::format("<circle r=\"{0}\" cx=\"{0}\" fill=\"{1}\"{2}/>", number(0.4 * size), fill,
-                       more);
-  };
-  const std::string color = nameOf(kBranches[0]);
-  add(circle(nameOf(kTrunkFirst), ""), 1.2 * size,
-      root_count == 1 ? "mc-vertex" : "mc-vertex, or behind a hole");
-  add(line("url(#trunk)", 5 * size), 5.6 * size, "trunk, first to last contraction");
-  if (branch_count != 0) add(line(color, 1.6 * size), 2.2 * size, "branch");
-  if (deepest > 1) add(line(nameOf(kBranches[1]), 1.6 * size), 2.2 * size, "in a branch");
-  if (deepest > 2) add(line(nameOf(kBranches[2]), 1.6 * size), 2.2 * size, "deeper");
-  if (branch_count != 0 && hasRoomForMarkers()) {
-    const std::string ring =
-        fmt::format(" stroke=\"{}\" stroke-width=\"{}\"", color, number(0.16 * size));
-    add(circle("#fff", ring), 1.2 * size, "S");
-    add(circle(color, ""), 1.2 * size, "E");
-  }
-  height_ = y + step;
-  return out + "</g>\n";
-}
-
-std::string Drawing::text() {
-  const std::string below = legend();
+std::string Drawing::text() const {
+  Legend legend(width_, page_.height);
+  const auto branch_count = std::count_if(branches_.begin(), branches_.end(),
+                                          [](const Branch& branch) { return branch.depth != 0; });
+  legend.addTitle(fmt::format(
+      "{}mc-tree of {} edges, {} branches", options_.title.empty() ? "" : options_.title + ": ",
+      grouped(tree_.edges.size()), grouped(static_cast<uint64_t>(branch_count))));
+  legend.addItems(branches_, hasRoomForMarkers());
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
       "viewBox=\"0 0 {0} {1}\">\n",
-      number(width_), number(height_));
-  out += "<title>" + escaped(options_.title) + ", mc-tree</title>\n";
+      number(width_), number(legend.bottom() + 0.03 * width_));
   out +=
-      "<!-- Made by: gltf-mcc tree -->\n<defs><linearGradient id=\"trunk\" "
-      "gradientUnits=\"userSpaceOnUse\" x2=\"" +
-      number(5 * std::clamp(0.0175 * width_, 9., 22.)) + "\">";
-  for (const double share : {0., 0.5, 1.}) {
-    out += fmt::format("<stop offset=\"{}\" stop-color=\"{}\"/>", share, nameOf(trunkColor(share)));
-  }
-  out += "</linearGradient></defs>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
+      "<title>" + escaped(options_.title) + ", mc-tree</title>\n<!-- Made by: gltf-mcc tree -->\n";
+  out += "<defs>" + legend.definition() + "</defs>\n";
+  out += "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
   out += fmt::format("<g transform=\"translate({} 0)\">\n", number((width_ - page_.width) / 2));
-  return out + surface() + trees() + markers() + "</g>\n" + below + "</svg>\n";
+  return out + surface() + trees() + markers() + "</g>\n" + legend.text() + "</svg>\n";
 }
 
 }  // namespace
-
-std::vector<Branch> branchesOf(const gltf::McTree& tree) { return Brancher(tree).run(); }
 
 std::string drawTree(const gltf::McTree& tree, const DrawingOptions& options) {
   return Drawing(tree, options).text();
