@@ -92,10 +92,12 @@ class PieceCoder {
     mesh.vertex_count = 0;
     const McCounts counts{header_.operation_count, header_.vertex_count, header_.dummy_count,
                           header_.face_count, header_.has(piece_flag::kHandles)};
-    McMachine<Io> machine(io_, models_.mc, counts, allocator_, mesh, truth.connectivity, histogram_,
-                          has_mc_edges_ ? &mc_edges : nullptr);
+    const McWatch watch{histogram_, has_mc_edges_ ? &mc_edges : nullptr};
+    const bool is_watched = watch.histogram != nullptr || watch.edges != nullptr;
+    McMachine<Io> machine(io_, models_.mc, counts, allocator_, mesh, truth.connectivity,
+                          is_watched ? &watch : nullptr);
     MCC_TRY(machine.run());
-    return has_mc_edges_ ? cornersOfMcEdges() : Status{};
+    return kTellsMcEdges && has_mc_edges_ ? cornersOfMcEdges() : Status{};
   }
 
   Status codeStitch(const PieceTruth& truth) {

@@ -414,7 +414,8 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
   if (header.attribute_count != 0)
     storePositions(piece, info.attributes[0], info.wedge_count, target.attributes[0]);
   MCC_TRY(storeTriangles(piece, info.parts, target.parts, allocator));
-  if (options.mc_edge != nullptr) MCC_TRY(tellMcEdges(piece, piece_index, options));
+  if (kTellsMcEdges && options.mc_edge != nullptr)
+    MCC_TRY(tellMcEdges(piece, piece_index, options));
   MCC_TRY(progress.advance(header.wedge_count));
   Array<int32_t> values(allocator);
   MCC_TRY(piece.prepareAttributes());

@@ -62,3 +62,9 @@ export function encodeGlb(bytes: Uint8Array, options?: EncodeOptions): Promise<E
 
 /** The same, once the encoder is loaded: after `await initEncoder()`. */
 export function encodeGlbSync(bytes: Uint8Array, options?: EncodeOptions): EncodeResult;
+
+/**
+ * The edges along which the mesh of a payload was contracted, by piece: two vertices each, numbered as in the indices, the last
+ * contraction first. For those who draw it.
+ */
+export function mcEdges(payload: Uint8Array): Promise<Uint32Array[]>;

@@ -42,15 +42,41 @@ export function encodeGlbSync(bytes, options = {}) {
   return encode(new WebAssembly.Instance(compiled), bytes, options);
 }
 
-/** With an instance of its own: its memory goes with it. */
-function encode({ exports }, bytes, options) {
+/**
+ * The edges along which the mesh of a payload was contracted, for those who draw it.
+ *
+ * @param {Uint8Array} payload
+ * @returns {Promise<Uint32Array[]>}  by piece: two vertices per edge, the last contraction first
+ */
+export async function mcEdges(payload) {
+  if (!(payload instanceof Uint8Array)) throw new MccError('the payload must be a Uint8Array', 'BadArgument');
+  const instance = await WebAssembly.instantiate(await load());
+  return withBytes(instance, payload, (exports, address) => {
+    if (exports.findEdges(address, payload.length) !== 1) {
+      const message = new Uint8Array(exports.memory.buffer).subarray(exports.edgesError());
+      throw new MccError(new TextDecoder().decode(message.slice(0, message.indexOf(0))), 'Decode');
+    }
+    const words = new Uint32Array(exports.memory.buffer, exports.edges(), exports.edgesWords());
+    return edgesByPiece(words, exports.edgesPieces());
+  });
+}
+
+/** `words`: piece and two vertices of each edge, by rising piece. */
+function edgesByPiece(words, pieceCount) {
+  const counts = new Uint32Array(pieceCount);
+  for (let i = 0; i < words.length; i += 3) ++counts[words[i]];
+  let at = 0;
+  return Array.from(counts, (count) => {
+    const edges = new Uint32Array(2 * count);
+    for (let i = 0; i < edges.length; i += 2, at += 3) edges.set(words.subarray(at + 1, at + 3), i);
+    return edges;
+  });
+}
+
+function encode(instance, bytes, options) {
   const began = performance.now();
-  try {
-    exports._initialize?.();
+  return withBytes(instance, bytes, (exports, address) => {
     setOptions(exports, options);
-    const address = exports.allocate(bytes.length);
-    if (address === 0) throw new RangeError('there is not enough memory');
-    new Uint8Array(exports.memory.buffer, address, bytes.length).set(bytes);
     const ok = exports.convert(address, bytes.length) === 1;
     const text = new TextDecoder().decode(new Uint8Array(exports.memory.buffer, exports.text(), exports.textBytes()));
     if (!ok) throw new MccError(text, 'Encode');
@@ -58,6 +84,17 @@ function encode({ exports }, bytes, options) {
     // The module has no clock, which would tell encoding from checking.
     const { encode_seconds, decode_seconds, check_seconds, ...report } = JSON.parse(text);
     return { glb, report: { ...report, seconds: (performance.now() - began) / 1000 } };
+  });
+}
+
+/** `work` with `bytes` in the memory of an instance of its own, which goes with it. */
+function withBytes({ exports }, bytes, work) {
+  try {
+    exports._initialize?.();
+    const address = exports.allocate(bytes.length);
+    if (address === 0) throw new RangeError('there is not enough memory');
+    new Uint8Array(exports.memory.buffer, address, bytes.length).set(bytes);
+    return work(exports, address);
   } catch (error) {
     if (error instanceof MccError) throw error;
     throw new MccError(`the encoder failed (${error.message}); there may be too little memory`, 'Trap');

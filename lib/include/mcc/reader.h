@@ -148,7 +148,7 @@ struct DecodeOptions {
   CodeHistogram* histogram = nullptr;  ///< filled when not null
   /// Called behind every piece for its mc-edges, in decoding order: the writer contracted along them in the opposite one.
   /// `vertex` was made, or met again, at its edge to `from`; both are a wedge of their vertex, numbered as in the indices.
-  /// Edges to dummies are left out.
+  /// Edges to dummies are left out. Compiled with MCC_COMPACT the reader tells none.
   void (*mc_edge)(void* user, uint32_t piece, uint32_t vertex, uint32_t from) = nullptr;
   void* mc_edge_user = nullptr;
   /// Called behind the stages of every piece with the bits they read, right to a few bits; `attribute` is its number in the

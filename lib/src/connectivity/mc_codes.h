@@ -136,10 +136,39 @@ inline bool McModels::init(uint32_t set) {
          special.assign(8 * specialContextFactor(set), BitModel{});
 }
 
+#if defined(MCC_COMPACT)
+inline constexpr bool kTellsMcEdges = false;
+#else
+inline constexpr bool kTellsMcEdges = true;
+#endif
+
 /// An mc-edge: `vertex` came to the edge's other end, `from`.
 struct McEdge {
   uint32_t vertex;
   uint32_t from;
+};
+
+/// What a caller wants to know about the operations; null: nothing.
+struct McWatch {
+  CodeHistogram* histogram = nullptr;
+  Array<McEdge>* edges = nullptr;
+
+  void count(uint64_t CodeHistogram::*field) const {
+    if (histogram != nullptr) ++(histogram->*field);
+  }
+  void countDegree(uint32_t degree) const {
+    if (histogram != nullptr) ++histogram->degree[std::min(degree, 255u)];
+  }
+  /// An operation adds two edges at most, besides that of the last component's end.
+  [[nodiscard]] bool reserve(uint32_t operation_count) const {
+    return !kTellsMcEdges || edges == nullptr || edges->reserve(2 * size_t{operation_count} + 1);
+  }
+  void noteEdge(uint32_t vertex, uint32_t from) const {
+    if constexpr (kTellsMcEdges) {
+      if (edges != nullptr && vertex != kDummyVertex && from != kDummyVertex)
+        (void)edges->push_back(McEdge{vertex, from});
+    }
+  }
 };
 
 // --- the machine -----------------------------------------------------------------------------------
@@ -173,8 +202,7 @@ template <class Io>
 class McMachine {
  public:
   McMachine(Io& io, McModels& models, const McCounts& counts, const Allocator& allocator,
-            FaceMesh& mesh, const McTruth& truth, CodeHistogram* histogram,
-            Array<McEdge>* edges = nullptr)
+            FaceMesh& mesh, const McTruth& truth, const McWatch* watch)
       : io_(io),
         models_(models),
         counts_(counts),
@@ -182,8 +210,7 @@ class McMachine {
         stack_(allocator),
         mesh_(mesh),
         truth_(truth),
-        histogram_(histogram),
-        edges_(edges) {}
+        watch_(watch) {}
 
   /// Runs all operations; fills `mesh`, whose words have been sized for counts.face_count. [A.4.2]
   Status run();
@@ -244,18 +271,16 @@ class McMachine {
   Status joinHandle(const McOperation* op, uint32_t handle_node);
   Status finishComponent();
   void count(uint64_t CodeHistogram::*field) {
-    if (histogram_ != nullptr) [[unlikely]]
-      ++(histogram_->*field);
+    if (watch_ != nullptr) [[unlikely]]
+      watch_->count(field);
   }
   void countDegree(uint32_t degree) {
-    if (histogram_ != nullptr) [[unlikely]]
-      ++histogram_->degree[std::min(degree, 255u)];
+    if (watch_ != nullptr) [[unlikely]]
+      watch_->countDegree(degree);
   }
-
-  /// An operation adds two edges at most, and the last one that of finishComponent(): `edges` has room.
   void noteEdge(uint32_t vertex, uint32_t from) {
-    if (edges_ != nullptr && vertex != kDummyVertex && from != kDummyVertex) [[unlikely]]
-      (void)edges_->push_back(McEdge{vertex, from});
+    if (watch_ != nullptr) [[unlikely]]
+      watch_->noteEdge(vertex, from);
   }
 
   static void addDegree(McNode& node, uint32_t edges) {
@@ -269,8 +294,7 @@ class McMachine {
   DigonStack stack_;
   FaceMesh& mesh_;
   const McTruth truth_;
-  CodeHistogram* histogram_;
-  Array<McEdge>* edges_;
+  const McWatch* watch_;
 
   uint32_t top_ = kNone;
   uint32_t free_ = kNone;  ///< closed nodes to be used again, linked by `next`
@@ -293,7 +317,7 @@ Status McMachine<Io>::run() {
   if (!nodes_.reserve(counts_.has_handles ? expected : std::min<uint64_t>(expected, 1u << 10))) {
     return fail(Error::kOutOfMemory, "no memory for the connectivity decoder");
   }
-  if (edges_ != nullptr && !edges_->reserve(2 * size_t{counts_.operation_count} + 1)) {
+  if (watch_ != nullptr && !watch_->reserve(counts_.operation_count)) {
     return fail(Error::kOutOfMemory, "no memory for the mc-edges");
   }
   for (uint32_t i = 0; operation_ < counts_.operation_count; ++i) {
@@ -622,7 +646,10 @@ MCC_INLINE Status McMachine<Io>::endRun(const McOperation* op, uint32_t vertex, 
   uint32_t node = 0;
   MCC_TRY(newNode(vertex, fan.taken + 1, node));
   if constexpr (Io::kEncoding) truth_.node_of_collapse_node[op->node_a] = node;
-  noteEdge(vertex, nodes_[top_].vertex);
+  if (watch_ != nullptr) [[unlikely]] {
+    watch_->noteEdge(vertex, nodes_[top_].vertex);
+    watch_->countDegree(fan.taken + 3);
+  }
   addDegree(nodes_[top_], 1);
   addDegree(nodes_[q], 1);
   nodes_[top_].next = node;
@@ -632,7 +659,6 @@ MCC_INLINE Status McMachine<Io>::endRun(const McOperation* op, uint32_t vertex, 
   top_ = node;
   ++age_;
   remember(std::min(fan.taken, 4u));
-  countDegree(fan.taken + 3);
   return {};
 }
 

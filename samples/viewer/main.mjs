@@ -1,0 +1,378 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The page: files come in, options change, results are shown.
+import { element } from './element.mjs';
+import { showStreams, showSummary, streamsOf, sum, summaryOf } from './figures.mjs';
+import { formatCount, formatPercent, formatSmall } from './format.mjs';
+import { checkDocument, FileError, MAX_FILE_BYTES, readGlb } from './glb.mjs';
+import { Job } from './jobs.mjs';
+import { Options } from './options.mjs';
+import { ERROR_RAMP, ORDER_RAMP } from './ramps.mjs';
+import { LinkedViews } from './views.mjs';
+
+const SAMPLES = ['textured', 'torus', 'genus3', 'sheet_with_holes', 'two_materials', 'skinned', 'morphed', 'moebius', 'non_manifold',
+  'quantized'];
+const EXAMPLES = ['textured', 'torus', 'sheet_with_holes', 'two_materials'];
+/** Encoding takes a thousand bytes of memory per triangle, and seconds per million. */
+const MAX_TRIANGLES = 4_000_000;
+
+const $ = (id) => document.getElementById(id);
+const titleOf = (sample) => sample.replaceAll('_', ' ');
+
+class Page {
+  constructor() {
+    this.options = new Options($('options'), () => this.compress());
+    this.listen();
+  }
+
+  listen() {
+    const choose = () => $('file').click();
+    $('open').onclick = $('drop-open').onclick = choose;
+    $('file').onchange = () => this.openFile($('file').files[0]);
+    for (const name of SAMPLES) $('sample').append(element('option', { value: name }, titleOf(name)));
+    $('sample').onchange = () => $('sample').value !== '' && this.openSample($('sample').value);
+    for (const name of EXAMPLES) {
+      $('chips').append(element('li', {}, element('button', { type: 'button', onclick: () => this.openSample(name) }, titleOf(name))));
+    }
+    for (const mode of ['wireframe', 'heat', 'tree']) $(mode).onclick = () => this.toggle(mode);
+    $('reset').onclick = () => this.views.frame();
+    $('cancel').onclick = () => this.cancel();
+    $('download').onclick = () => this.download();
+    document.addEventListener('keydown', (event) => this.onKey(event));
+    this.listenForDrops();
+  }
+
+  listenForDrops() {
+    const mark = (on) => document.body.classList.toggle('dragging', on);
+    document.addEventListener('dragover', (event) => {
+      event.preventDefault();
+      mark(true);
+    });
+    document.addEventListener('dragleave', (event) => event.relatedTarget === null && mark(false));
+    document.addEventListener('drop', (event) => {
+      event.preventDefault();
+      mark(false);
+      if (event.dataTransfer.files.length !== 0) this.openFile(event.dataTransfer.files[0]);
+    });
+  }
+
+  onKey(event) {
+    if (event.key === 'Escape' && this.isBusy) this.cancel();
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches('input, select')) return;
+    const mode = { w: 'wireframe', e: 'heat', c: 'tree' }[event.key.toLowerCase()];
+    if (mode !== undefined && !$('work').hidden && !$(mode).disabled) this.toggle(mode);
+  }
+
+  // ---- files
+
+  async openSample(name) {
+    await this.open(`${name}.glb`, async () => {
+      const response = await fetch(`vendor/samples/${name}.glb`);
+      if (!response.ok) throw new FileError(`The sample ${name}.glb is not there.`);
+      return response.arrayBuffer();
+    });
+  }
+
+  async openFile(file) {
+    $('file').value = '';
+    $('sample').value = '';
+    await this.open(file.name, () => {
+      if (file.size > MAX_FILE_BYTES) {
+        const mebibytes = (bytes) => `${formatCount(bytes / 2 ** 20)} MiB`;
+        throw new FileError(`The file has ${mebibytes(file.size)}; this page takes ${mebibytes(MAX_FILE_BYTES)} at most. `
+          + 'The command line takes larger ones: gltf-mcc convert model.glb small.glb');
+      }
+      return file.arrayBuffer();
+    });
+  }
+
+  /** A file that cannot be shown leaves what is shown as it is. */
+  async open(name, read) {
+    this.say('error', '');
+    try {
+      const bytes = new Uint8Array(await read());
+      const { json } = readGlb(bytes);
+      checkDocument(json);
+      checkSize(json);
+      this.file = { name, bytes };
+    } catch (error) {
+      this.say('error', `${name}: ${error instanceof FileError ? error.message : `The file is damaged (${error.message}).`}`);
+      return;
+    }
+    this.isNew = true;
+    this.views?.clear();
+    this.compress();
+  }
+
+  showWork() {
+    const hadFocus = $('drop').contains(document.activeElement);
+    $('drop').hidden = true;
+    $('work').hidden = false;
+    $('actions').hidden = false;
+    $('file-name').hidden = false;
+    $('file-name').textContent = this.file.name;
+    if (this.views !== undefined) return;
+    this.views = new LinkedViews({ original: $('original'), compressed: $('compressed') });
+    if (hadFocus) $('original').focus({ preventScroll: true });
+  }
+
+  // ---- work
+
+  get isBusy() {
+    return this.job?.isRunning || this.dracoJob?.isRunning;
+  }
+
+  compress() {
+    if (this.file === undefined) return;
+    this.stop();
+    this.say('error', '');
+    this.say('notice', '');
+    try {
+      this.showWork();
+    } catch (error) {
+      this.fail(`This browser draws no WebGL, which the viewer needs (${error.message}).`);
+      return;
+    }
+    this.result = { sourceBytes: this.file.bytes.length };
+    $('waiting').textContent = this.isNew ? 'Compressing…' : '';
+    $('work').classList.add('busy');
+    this.enable(false);
+    this.progress('Reading', undefined);
+    // Answers to a run that was stopped may still be on their way.
+    const run = this.run = {};
+    const request = { bytes: this.file.bytes, options: this.options.value };
+    this.job = new Job('./work/compressor.mjs', request, (message) => run === this.run && this.onMessage(message, run));
+  }
+
+  async onMessage(message, run) {
+    const { result } = this;
+    try {
+      switch (message.name) {
+        case 'stage': this.progress(message.text, undefined); break;
+        case 'source': await this.onSource(message); break;
+        case 'compressed': await this.onCompressed(message); break;
+        case 'timing': result.timing = message; break;
+        case 'errors': this.onErrors(message); break;
+        case 'tree': this.onTree(message); break;
+        case 'done': this.compareWithDraco(run); break;
+        case 'error': this.fail(message.message); break;
+      }
+      if (run === this.run && result.glb !== undefined) this.showFigures();
+    } catch (error) {
+      if (run === this.run) this.fail(error.message);
+    }
+  }
+
+  // A picture takes its time to load; what comes later waits for it, and is left out when another run has begun.
+  async inOrder(step) {
+    const { run } = this;
+    this.picture = (this.picture ?? Promise.resolve()).catch(() => {}).then(() => run === this.run && step());
+    await this.picture;
+  }
+
+  async onSource({ bytes, isCompressed }) {
+    this.source = bytes;
+    this.options.showUsed(readGlb(bytes).json);
+    $('original-size').textContent = `${formatCount(this.file.bytes.length)} bytes`;
+    if (isCompressed) this.say('notice', 'This file was compressed with mesh collapse already; the original is what it decodes to.');
+    if (!this.isNew) return;
+    this.isNew = false;
+    await this.inOrder(() => this.views.showOriginal(bytes));
+  }
+
+  async onCompressed({ glb, report, bytes }) {
+    Object.assign(this.result, { glb, report });
+    $('compressed-size').textContent = `${formatCount(glb.length)} bytes, ${formatPercent(glb.length / this.file.bytes.length)}`;
+    $('download').disabled = false;
+    if (report.copied) this.say('notice', 'Compression gains nothing here: the result is the source.');
+    await this.inOrder(() => this.views.showCompressed(bytes));
+    $('waiting').textContent = '';
+  }
+
+  onErrors(message) {
+    this.result.errors = message;
+    this.inOrder(() => {
+      this.views.setErrors(message);
+      $('heat').disabled = false;
+      this.showLegend();
+    });
+  }
+
+  onTree({ primitives }) {
+    this.result.tree = primitives;
+    this.inOrder(() => {
+      this.views.setTree(primitives);
+      $('tree').disabled = sum(primitives.map(({ edges }) => edges), 'length') === 0;
+      this.showLegend();
+    });
+  }
+
+  compareWithDraco(run) {
+    $('work').classList.remove('busy');
+    const { bits, lossless } = this.options;
+    this.progress('Compressing with Draco for comparison', undefined);
+    this.dracoJob = new Job('./work/draco.mjs', { bytes: this.source, bits, lossless }, (message) => {
+      if (run !== this.run) return;
+      if (message.name === 'progress') this.progress('Compressing with Draco for comparison', message.done);
+      if (message.name === 'done') this.result.draco = message;
+      if (message.name === 'error') this.result.dracoError = message.message;
+      if (message.name === 'progress') return;
+      this.showFigures();
+      this.progress('');
+      this.announce();
+    });
+  }
+
+  announce() {
+    const { glb, sourceBytes } = this.result;
+    $('status').textContent = `${this.file.name}: ${formatCount(sourceBytes)} bytes became ${formatCount(glb.length)}.`;
+  }
+
+  stop() {
+    this.job?.stop();
+    this.dracoJob?.stop();
+    this.run = undefined;
+  }
+
+  cancel() {
+    const hadResult = this.result?.glb !== undefined;
+    this.stop();
+    this.progress('');
+    $('work').classList.remove('busy');
+    $('waiting').textContent = hadResult ? '' : 'Cancelled';
+    this.say('notice', hadResult ? 'Cancelled; some figures are missing.' : 'Cancelled. Change an option to compress again.');
+  }
+
+  fail(text) {
+    this.stop();
+    this.progress('');
+    $('work').classList.remove('busy');
+    $('waiting').textContent = '';
+    this.say('error', `${this.file.name}: ${text}`);
+  }
+
+  // ---- what is seen
+
+  /** @param {'error' | 'notice'} kind */
+  say(kind, text) {
+    $(kind).textContent = text;
+    $(kind).hidden = text === '';
+    if (kind === 'notice') $('status').textContent = text;
+  }
+
+  /** @param {string} text empty: nothing is under way @param {number} [done] from 0 to 1, if that is known */
+  progress(text, done) {
+    $('progress').hidden = text === '';
+    this.showElapsed(text);
+    $('progress-text').textContent = text === '' ? '' : `${text}…`;
+    if (text !== '') $('status').textContent = `${text}…`;
+    if (done === undefined) $('progress-bar').removeAttribute('value');
+    else $('progress-bar').value = done;
+  }
+
+  /** Seconds since a text was shown first, not told to screen readers. */
+  showElapsed(text) {
+    if (text === this.stageText) return;
+    clearInterval(this.clock);
+    this.stageText = text;
+    $('progress-time').textContent = '';
+    if (text === '') return;
+    const begin = performance.now();
+    this.clock = setInterval(() => {
+      $('progress-time').textContent = `${Math.round((performance.now() - begin) / 1000)} s`;
+    }, 1000);
+  }
+
+  enable(on) {
+    for (const id of ['download', 'heat', 'tree']) $(id).disabled = !on;
+  }
+
+  /** Errors and order are painted on the same surface: one at a time. */
+  toggle(mode) {
+    const on = !this.views.modes[mode];
+    const modes = { [mode]: on };
+    if (on && mode === 'heat') modes.tree = false;
+    if (on && mode === 'tree') modes.heat = false;
+    this.views.setModes(modes);
+    for (const id of ['wireframe', 'heat', 'tree']) $(id).setAttribute('aria-pressed', String(this.views.modes[id]));
+    this.showLegend();
+  }
+
+  showLegend() {
+    const { modes } = this.views;
+    const { errors, tree } = this.result;
+    let legend;
+    if (modes.heat && errors !== undefined) legend = errorLegend(errors);
+    if (modes.tree && tree !== undefined) legend = orderLegend(tree);
+    $('legend').hidden = legend === undefined;
+    if (legend === undefined) return;
+    $('legend-title').textContent = legend.title;
+    $('legend-bar').style.background = legend.ramp.gradient;
+    $('legend-low').textContent = legend.low;
+    $('legend-high').textContent = legend.high;
+  }
+
+  showFigures() {
+    const { report, draco, dracoError, errors } = this.result;
+    showSummary($('summary'), summaryOf(this.result));
+    showStreams($('streams'), streamsOf(report), sum(report.payloads, 'bytes'), draco);
+    $('remarks').textContent = remarks({ report, draco, dracoError, errors, options: this.options }).join(' ');
+  }
+
+  download() {
+    const url = URL.createObjectURL(new Blob([this.result.glb], { type: 'model/gltf-binary' }));
+    element('a', { href: url, download: this.file.name.replace(/(\.glb)?$/i, '.mcc.glb') }).click();
+    setTimeout(() => URL.revokeObjectURL(url), 60_000);
+  }
+}
+
+function checkSize({ meshes = [], accessors = [] }) {
+  const counts = meshes.flatMap(({ primitives = [] }) => primitives).map(({ indices }) => accessors[indices]?.count ?? 0);
+  const corners = counts.reduce((a, b) => a + b, 0);
+  if (corners / 3 <= MAX_TRIANGLES) return;
+  throw new FileError(`The file has ${formatCount(corners / 3)} triangles; this page takes ${formatCount(MAX_TRIANGLES)} at most. `
+    + 'The command line takes more: gltf-mcc convert model.glb small.glb');
+}
+
+const errorLegend = ({ most, side }) => ({
+  title: 'Distance to the original',
+  ramp: ERROR_RAMP,
+  low: '0',
+  high: most === 0 ? '0: exact' : `${formatSmall(most)} units = ${formatSmall(most / side)} of the box`,
+});
+
+const orderLegend = (tree) => ({
+  title: `Edges in the order of their contraction`,
+  ramp: ORDER_RAMP,
+  low: 'first',
+  high: `last of ${formatCount(sum(tree.map(({ edges }) => edges), 'length') / 2)}`,
+});
+
+function remarks({ report, draco, dracoError, errors, options }) {
+  const all = draco === undefined ? [] : dracoRemarks(draco, report, options);
+  if (dracoError !== undefined) all.push(`No comparison with Draco: ${dracoError}.`);
+  const ours = streamsOf(report);
+  if (ours.has('JOINTS_0') && ours.get('WEIGHTS_0') === 0) all.push('Mesh collapse codes weights with their joints.');
+  if (errors?.missed > 0) all.push(`${formatCount(errors.missed)} vertices of the source have no decoded one as near as promised.`);
+  const kept = report.primitives.filter(({ compressed }) => !compressed);
+  if (kept.length !== 0 && !report.copied) {
+    const why = kept[0].note ? ` (${kept[0].note})` : '';
+    all.push(`${kept.length} of ${report.primitives.length} primitives stay as they were${why}.`);
+  }
+  return all;
+}
+
+function dracoRemarks(draco, report, { lossless, value: { keepVertexOrder, keepTriangleOrder } }) {
+  const all = [`Draco ${draco.version} at speed 0, its smallest, ${lossless ? 'not quantised' : 'at the same bits'};`,
+    'its seams are counted with the attributes that have them.'];
+  if ([...draco.streams.keys()].some((name) => name.startsWith('target'))) {
+    all.push('It has no coding for morph targets: those are counted as they are.');
+  }
+  if (keepVertexOrder || keepTriangleOrder) all.push('It does not keep the order.');
+  const dropped = sum(report.payloads, 'triangles') - draco.triangles;
+  if (dropped > 0) all.push(`It drops ${formatCount(dropped)} triangles.`);
+  all.push('Times are the shortest of several runs on this device, all payloads, one thread.');
+  return all;
+}
+
+new Page();

@@ -1,0 +1,50 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// node samples/viewer/setup.mjs: gathers in samples/viewer/vendor/ what the page loads, so that any static server can serve
+// samples/viewer as it is. Bare imports of three.js become relative ones: an inline import map would need its hash in the
+// Content-Security-Policy.
+import { cp, mkdir, readdir, readFile, rm, writeFile } from 'node:fs/promises';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+const root = path.resolve(here, '../..');
+const packages = path.join(root, 'tests/web/node_modules');
+
+const THREE = ['build/three.module.js', 'build/three.core.js', 'examples/jsm/controls/OrbitControls.js',
+  'examples/jsm/loaders/GLTFLoader.js', 'examples/jsm/utils/BufferGeometryUtils.js', 'examples/jsm/utils/SkeletonUtils.js'];
+// Each ends by offering a variable to CommonJS and AMD.
+const DRACO = { 'draco_encoder_gltf_nodejs.js': 'DracoEncoderModule', 'draco_decoder_gltf_nodejs.js': 'DracoDecoderModule' };
+
+/** @param {string} folder where to; replaced */
+export async function gather(folder = path.join(here, 'vendor')) {
+  await rm(folder, { recursive: true, force: true });
+  const put = async (name, content) => {
+    const target = path.join(folder, name);
+    await mkdir(path.dirname(target), { recursive: true });
+    await writeFile(target, content);
+  };
+  for (const name of THREE) await put(`three/${name}`, await withoutBareImport(name));
+  for (const [name, variable] of Object.entries(DRACO)) {
+    const source = await readFile(path.join(packages, 'draco3dgltf', name), 'utf8');
+    await put(`draco/${name.replace('_gltf_nodejs.js', '.mjs')}`, `${source}\nexport default ${variable};\n`);
+  }
+  for (const name of ['draco_encoder.wasm', 'draco_decoder_gltf.wasm']) {
+    await put(`draco/${name}`, await readFile(path.join(packages, 'draco3dgltf', name)));
+  }
+  const { version } = JSON.parse(await readFile(path.join(packages, 'draco3dgltf/package.json'), 'utf8'));
+  await put('draco/version.mjs', `export const DRACO_VERSION = '${version}';\n`);
+  await cp(path.join(root, 'lib/web'), path.join(folder, 'gltf-mcc'), { recursive: true, filter: (source) => !source.endsWith('/src') });
+  const samples = path.join(root, 'samples');
+  for (const name of await readdir(samples)) {
+    if (name.endsWith('.glb')) await put(`samples/${name}`, await readFile(path.join(samples, name)));
+  }
+}
+
+async function withoutBareImport(name) {
+  const source = await readFile(path.join(packages, 'three', name), 'utf8');
+  const up = path.posix.relative(path.posix.dirname(name), 'build/three.module.js');
+  return source.replace(/^(import .* from |\} from )'three';$/gm, `$1'${up}';`);
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) await gather();

@@ -1,0 +1,299 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Two pictures of a model, the original and what compression made of it, seen by one camera.
+import { BackSide, Box3, BoxGeometry, BufferAttribute, BufferGeometry, Color, DirectionalLight, HemisphereLight, LineBasicMaterial,
+  LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, MeshStandardMaterial, PerspectiveCamera, PMREMGenerator, Scene, Sphere,
+  Spherical, SphereGeometry, Vector3, WebGLRenderer } from './vendor/three/build/three.module.js';
+import { OrbitControls } from './vendor/three/examples/jsm/controls/OrbitControls.js';
+import { GLTFLoader } from './vendor/three/examples/jsm/loaders/GLTFLoader.js';
+import { ERROR_RAMP, ORDER_RAMP } from './ramps.mjs';
+
+const STEP_RADIANS = Math.PI / 24;
+const ZOOM = 1.15;
+// Behind what is drawn on them.
+const BEHIND = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
+
+/** A picture and what is in it. */
+class View {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.scene = new Scene();
+    this.scene.environmentIntensity = 0.5;
+    this.sun = new DirectionalLight(0xffffff, 2);
+    this.scene.add(this.sun, this.sun.target, new HemisphereLight(0xffffff, 0x8a93a3, 1));
+    this.meshes = [];
+    this.lines = [];
+  }
+
+  /** @param {Uint8Array} glb */
+  async load(glb) {
+    const { scene, parser } = await new GLTFLoader().parseAsync(glb.slice().buffer, '');
+    this.clear();
+    this.model = scene;
+    this.scene.add(scene);
+    scene.updateMatrixWorld(true);
+    scene.traverse((object) => {
+      if (object.isMesh) this.meshes.push(new Surface(object, parser.associations.get(object)));
+    });
+    // Metal shows what is around it, and nothing else.
+    if (this.meshes.some(({ own }) => own.metalness > 0.1)) this.scene.environment ??= surroundings(this.renderer);
+  }
+
+  clear() {
+    this.setTree(undefined);
+    for (const surface of this.meshes) surface.dispose();
+    this.meshes = [];
+    if (this.model !== undefined) this.scene.remove(this.model);
+    this.model = undefined;
+  }
+
+  /** @param {{ mesh: number, primitive: number, edges: Uint32Array }[] | undefined} primitives edges: pairs of vertices in their order */
+  setTree(primitives) {
+    for (const line of this.lines) {
+      line.removeFromParent();
+      line.geometry.dispose();
+      line.material.dispose();
+    }
+    this.lines = [];
+    for (const { mesh, primitive, edges } of primitives ?? []) {
+      const surfaces = this.meshes.filter((surface) => surface.isOf(mesh, primitive));
+      for (const surface of surfaces) this.lines.push(surface.drawEdges(edges));
+    }
+  }
+
+  resize() {
+    const { clientWidth, clientHeight } = this.canvas;
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    return clientWidth / Math.max(clientHeight, 1);
+  }
+
+  render(camera, target) {
+    this.sun.position.copy(camera.position).addScaledVector(camera.up, 0.4 * camera.position.distanceTo(target));
+    this.sun.target.position.copy(target);
+    this.renderer.render(this.scene, camera);
+  }
+}
+
+/** A mesh of the model and how it is painted. */
+class Surface {
+  constructor(object, place) {
+    this.object = object;
+    this.place = place;
+    this.colors = object.geometry.getAttribute('color');
+    this.own = isPlain(object.material) ? paper(object.geometry) : object.material;
+    Object.assign(this.own, BEHIND);
+    this.wire = new MeshBasicMaterial({ color: 0x0b1220, wireframe: true, transparent: true, opacity: 0.45, depthWrite: false });
+    this.dark = new MeshLambertMaterial({ color: 0x262b36, ...BEHIND, side: this.own.side });
+    this.heat = new MeshLambertMaterial({ vertexColors: true, ...BEHIND, side: this.own.side, flatShading: this.own.flatShading });
+  }
+
+  isOf(mesh, primitive) {
+    return this.place?.meshes === mesh && (this.place.primitives ?? 0) === primitive;
+  }
+
+  paint({ wireframe, heat, tree }) {
+    const { object, colors } = this;
+    const { geometry } = object;
+    const base = heat ? this.heat : tree ? this.dark : this.own;
+    // The model's own vertex colours make way.
+    const wanted = heat ? this.heatColors : colors;
+    if (wanted !== undefined) geometry.setAttribute('color', wanted);
+    else geometry.deleteAttribute('color');
+    geometry.clearGroups();
+    object.material = base;
+    if (!wireframe) return;
+    geometry.addGroup(0, Infinity, 0);
+    geometry.addGroup(0, Infinity, 1);
+    object.material = [base, this.wire];
+  }
+
+  /** @param {Float32Array} errors by vertex */
+  setErrors(errors, most) {
+    const scale = most === 0 ? 0 : 1 / most;
+    this.heatColors = new BufferAttribute(ERROR_RAMP.colorsOf(errors.length, (i) => scale * errors[i]), 3);
+  }
+
+  drawEdges(edges) {
+    const points = new Float32Array(3 * edges.length);
+    const point = new Vector3();
+    for (let i = 0; i < edges.length; ++i) this.object.getVertexPosition(edges[i], point).toArray(points, 3 * i);
+    const last = Math.max(edges.length / 2 - 1, 1);
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(points, 3));
+    // Contractions run against decoding.
+    geometry.setAttribute('color', new BufferAttribute(ORDER_RAMP.colorsOf(edges.length, (i) => 1 - (i >> 1) / last), 3));
+    const lines = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true, toneMapped: false }));
+    lines.frustumCulled = false;
+    this.object.add(lines);
+    return lines;
+  }
+
+  dispose() {
+    const { object } = this;
+    object.geometry.dispose();
+    for (const material of [this.own, this.wire, this.dark, this.heat]) {
+      for (const value of Object.values(material)) if (value?.isTexture) value.dispose();
+      material.dispose();
+    }
+    object.skeleton?.dispose();
+  }
+}
+
+// What GLTFLoader gives primitives without a material is a mirror by glTF's defaults.
+const isPlain = (material) => material.name === '' && material.metalness === 1 && material.roughness === 1 && material.map === null;
+
+const paper = (geometry) => new MeshStandardMaterial({ color: 0xa9b3c4, roughness: 0.8, metalness: 0,
+  flatShading: geometry.getAttribute('normal') === undefined, vertexColors: geometry.getAttribute('color') !== undefined });
+
+/** A room of soft light. */
+function surroundings(renderer) {
+  const room = new Scene();
+  room.add(new Mesh(new SphereGeometry(10, 16, 8), new MeshBasicMaterial({ color: 0x9aa3b2, side: BackSide })));
+  for (const [x, y, z, width, light] of [[0, 8, 0, 7, 9], [7, 2, 4, 4, 4], [-7, 1, 4, 4, 2.5], [0, -8, 0, 9, 0.4]]) {
+    const lamp = new Mesh(new BoxGeometry(width, 0.5, width), new MeshBasicMaterial({ color: new Color(light, light, light) }));
+    lamp.position.set(x, y, z);
+    lamp.lookAt(0, 0, 0);
+    lamp.rotateX(Math.PI / 2);
+    room.add(lamp);
+  }
+  const generator = new PMREMGenerator(renderer);
+  const { texture } = generator.fromScene(room, 0.04);
+  generator.dispose();
+  return texture;
+}
+
+export class LinkedViews {
+  /** @param {{ original: HTMLCanvasElement, compressed: HTMLCanvasElement }} canvases */
+  constructor({ original, compressed }) {
+    this.original = new View(original);
+    this.compressed = new View(compressed);
+    this.views = [this.original, this.compressed];
+    this.camera = new PerspectiveCamera(35, 1, 0.01, 100);
+    this.target = new Vector3();
+    this.modes = { wireframe: false, heat: false, tree: false };
+    this.controls = this.views.map(({ canvas }) => this.listen(canvas));
+    const observer = new ResizeObserver(() => this.resize());
+    for (const { canvas } of this.views) observer.observe(canvas);
+  }
+
+  // Both controls turn the same camera around the same point.
+  listen(canvas) {
+    const controls = new OrbitControls(this.camera, canvas);
+    controls.target = this.target;
+    canvas.style.touchAction = 'pan-y'; // a phone's page scrolls by its pictures, too
+    controls.addEventListener('change', () => this.draw());
+    canvas.addEventListener('keydown', (event) => this.onKey(event));
+    return controls;
+  }
+
+  onKey(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const moves = {
+      ArrowLeft: () => this.turn(-STEP_RADIANS, 0), ArrowRight: () => this.turn(STEP_RADIANS, 0),
+      ArrowUp: () => this.turn(0, -STEP_RADIANS), ArrowDown: () => this.turn(0, STEP_RADIANS),
+      '+': () => this.zoom(1 / ZOOM), '=': () => this.zoom(1 / ZOOM), '-': () => this.zoom(ZOOM),
+      Home: () => this.frame(),
+    };
+    if (moves[event.key] === undefined) return;
+    event.preventDefault();
+    moves[event.key]();
+    this.draw();
+  }
+
+  turn(right, down) {
+    const offset = this.camera.position.clone().sub(this.target);
+    const spherical = new Spherical().setFromVector3(offset);
+    spherical.theta -= right;
+    spherical.phi += down;
+    this.camera.position.setFromSpherical(spherical.makeSafe()).add(this.target);
+    this.camera.lookAt(this.target);
+  }
+
+  zoom(factor) {
+    this.camera.position.sub(this.target).multiplyScalar(factor).add(this.target);
+  }
+
+  /** Shows a model; the first one moves the camera. */
+  async showOriginal(glb) {
+    await this.original.load(glb);
+    this.compressed.clear();
+    this.frame();
+    this.paint();
+  }
+
+  async showCompressed(glb) {
+    this.tree = undefined; // that of another payload
+    await this.compressed.load(glb);
+    this.paint();
+  }
+
+  clear() {
+    for (const view of this.views) view.clear();
+    this.draw();
+  }
+
+  /** @param {{ primitives: { mesh: number, primitive: number, errors: Float32Array }[], most: number }} measured */
+  setErrors({ primitives, most }) {
+    for (const { mesh, primitive, errors } of primitives) {
+      for (const surface of this.compressed.meshes) if (surface.isOf(mesh, primitive)) surface.setErrors(errors, most);
+    }
+    this.paint();
+  }
+
+  setTree(primitives) {
+    this.tree = primitives;
+    this.paint();
+  }
+
+  /** @param {{ wireframe?: boolean, heat?: boolean, tree?: boolean }} modes */
+  setModes(modes) {
+    Object.assign(this.modes, modes);
+    this.paint();
+  }
+
+  paint() {
+    const { wireframe, heat, tree } = this.modes;
+    for (const surface of this.original.meshes) surface.paint({ wireframe });
+    for (const surface of this.compressed.meshes) {
+      const isHeat = heat && surface.heatColors !== undefined;
+      const isTree = tree && this.tree !== undefined;
+      surface.paint({ wireframe: wireframe && !isTree, heat: isHeat, tree: isTree });
+    }
+    const drawn = this.compressed.lines.length !== 0;
+    if (drawn && !(tree && this.tree === this.drawnTree)) this.compressed.setTree(undefined);
+    if (tree && this.compressed.lines.length === 0) this.compressed.setTree(this.tree);
+    this.drawnTree = this.tree;
+    this.draw();
+  }
+
+  /** The whole model, from its front and a little from above. */
+  frame() {
+    const box = new Box3().setFromObject(this.original.model);
+    const { center, radius } = box.getBoundingSphere(new Sphere());
+    const size = radius > 0 ? radius : 1;
+    this.target.copy(radius > 0 ? center : new Vector3());
+    const half = Math.atan(Math.tan(this.camera.fov * Math.PI / 360) * Math.min(this.camera.aspect, 1));
+    this.camera.position.set(0.5, 0.45, 1).setLength(0.9 * size / Math.sin(half)).add(this.target);
+    this.camera.near = size / 200;
+    this.camera.far = size * 100;
+    this.camera.updateProjectionMatrix();
+    this.camera.lookAt(this.target);
+    this.draw();
+  }
+
+  resize() {
+    for (const view of this.views) this.camera.aspect = view.resize();
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  /** With the next frame. */
+  draw() {
+    this.request ??= requestAnimationFrame(() => {
+      this.request = undefined;
+      for (const view of this.views) view.render(this.camera, this.target);
+    });
+  }
+}

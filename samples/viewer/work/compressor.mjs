@@ -1,0 +1,133 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Everything of gltf-mcc that takes time. A worker: gets { bytes, options } of encodeGlb; posts { name: 'stage', text } before each
+// step, and behind it what it yields:
+//   source      { bytes, counts }             the file without the extension, if it had it
+//   compressed  { glb, report, bytes }        the result, and what a loader makes of it
+//   timing      { decodeMilliseconds }
+//   errors      { primitives, most, mean, side, missed }
+//   tree        { primitives }
+//   done        {}
+// or error { message }.
+import { checkDocument, FileError, readGlb, readNumbers, trianglePrimitivesOf } from '../glb.mjs';
+import { boxOf, measureErrors } from '../errors.mjs';
+import { EXTENSION_NAME } from '../vendor/gltf-mcc/document.mjs';
+import { decodePayloadSync, MccError, ready } from '../vendor/gltf-mcc/decoder.mjs';
+import { encodeGlb, mcEdges } from '../vendor/gltf-mcc/encoder.mjs';
+import { unpackGlb } from '../vendor/gltf-mcc/unpack.mjs';
+import { bestTime } from './timing.mjs';
+
+const post = (name, content = {}, moved = []) => postMessage({ name, ...content }, moved);
+const stage = (text) => post('stage', { text });
+const extensionOf = ({ definition }) => definition.extensions?.[EXTENSION_NAME];
+
+function viewOf({ json, bin }, index) {
+  const { byteOffset = 0, byteLength } = json.bufferViews[index];
+  return bin.slice(byteOffset, byteOffset + byteLength);
+}
+
+/** The source as ordinary glTF. */
+async function openSource(bytes) {
+  stage('Reading');
+  const { json } = readGlb(bytes);
+  checkDocument(json);
+  const isCompressed = json.extensionsUsed?.includes(EXTENSION_NAME) ?? false;
+  const plain = isCompressed ? await unpackGlb(bytes) : bytes;
+  const gltf = readGlb(plain);
+  const primitives = trianglePrimitivesOf(gltf.json);
+  const positions = new Set(primitives.map(({ definition }) => definition.attributes.POSITION));
+  const vertices = [...positions].reduce((sum, index) => sum + gltf.json.accessors[index].count, 0);
+  post('source', { bytes: plain, isCompressed, primitives: primitives.length, vertices });
+  return { plain, gltf };
+}
+
+/** Payloads by buffer view. */
+function payloadsOf(gltf) {
+  const views = new Set(trianglePrimitivesOf(gltf.json).map(extensionOf).filter(Boolean).map(({ bufferView }) => bufferView));
+  return new Map([...views].map((view) => [view, viewOf(gltf, view)]));
+}
+
+async function timeDecoding(payloads) {
+  stage('Timing the decoder');
+  await ready;
+  const decodeMilliseconds = bestTime(() => {
+    for (const payload of payloads) decodePayloadSync(payload);
+  });
+  post('timing', { decodeMilliseconds });
+}
+
+/** What the report promises for the positions of a primitive; 0 where they are exact. */
+function promisedError(report, { mesh, primitive }) {
+  const entry = report.primitives.find((candidate) => candidate.mesh === mesh && candidate.primitive === primitive);
+  const payload = report.payloads[entry?.payload ?? -1];
+  return payload?.attributes.find(({ name }) => name === 'POSITION')?.promised_error ?? 0;
+}
+
+function measure(source, decoded, report) {
+  stage('Measuring errors');
+  const byAccessor = new Map();
+  const all = { most: 0, sum: 0, count: 0, side: 0, missed: 0 };
+  const primitives = trianglePrimitivesOf(decoded.json).map(({ mesh, primitive, definition }) => {
+    const index = definition.attributes.POSITION;
+    if (!byAccessor.has(index)) {
+      const original = readNumbers(source, source.json.meshes[mesh].primitives[primitive].attributes.POSITION);
+      const promised = promisedError(report, { mesh, primitive });
+      byAccessor.set(index, measureAccessor(original, readNumbers(decoded, index), promised, all));
+    }
+    return { mesh, primitive, errors: byAccessor.get(index) };
+  });
+  post('errors', { primitives, most: all.most, mean: all.count === 0 ? 0 : all.sum / all.count, side: all.side, missed: all.missed },
+    [...byAccessor.values()].map(({ buffer }) => buffer));
+}
+
+function measureAccessor(source, decoded, promised, all) {
+  const { errors, missed } = measureErrors(source, decoded, promised);
+  for (const error of errors) {
+    all.most = Math.max(all.most, error);
+    all.sum += error;
+  }
+  all.count += errors.length;
+  all.side = Math.max(all.side, boxOf(source).side);
+  all.missed += missed;
+  return errors;
+}
+
+/** Edges go to the first primitive of their piece: others share its vertices. */
+async function readTree(compressed, payloads) {
+  stage('Reading the collapse order');
+  const trees = new Map();
+  for (const [view, payload] of payloads) trees.set(view, await mcEdges(payload));
+  const seen = new Set();
+  const primitives = trianglePrimitivesOf(compressed.json).flatMap((entry) => {
+    const { bufferView, piece = 0 } = extensionOf(entry) ?? {};
+    const key = `${bufferView} ${piece}`;
+    if (bufferView === undefined || seen.has(key)) return [];
+    seen.add(key);
+    return [{ mesh: entry.mesh, primitive: entry.primitive, edges: trees.get(bufferView)[piece] }];
+  });
+  post('tree', { primitives }, primitives.map(({ edges }) => edges.buffer));
+}
+
+async function run({ bytes, options }) {
+  const source = await openSource(bytes);
+  stage('Compressing');
+  const { glb, report } = await encodeGlb(source.plain, options);
+  const compressed = readGlb(glb);
+  stage('Decoding the result');
+  const decodedBytes = await unpackGlb(glb);
+  post('compressed', { glb, report, bytes: decodedBytes });
+  const payloads = payloadsOf(compressed);
+  await timeDecoding([...payloads.values()]);
+  measure(source.gltf, readGlb(decodedBytes), report);
+  await readTree(compressed, payloads);
+  post('done');
+}
+
+onmessage = async ({ data }) => {
+  try {
+    await run(data);
+  } catch (error) {
+    const isKnown = error instanceof FileError || error instanceof MccError;
+    post('error', { message: isKnown ? error.message : `The file cannot be worked on (${error.message}).` });
+  }
+};

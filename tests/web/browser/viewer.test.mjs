@@ -1,0 +1,362 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// samples/viewer: files come in, are compressed and compared, go out; what cannot be shown gets a message. MCC_SCREENSHOTS=FOLDER
+// saves a picture of the page.
+import assert from 'node:assert/strict';
+import { readFile, writeFile } from 'node:fs/promises';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { PNG } from 'pngjs';
+import { payloadsOf } from '../../../lib/web/document.mjs';
+import { readGlb } from '../../../lib/web/unpack.mjs';
+import { serve } from '../../../samples/viewer/serve.mjs';
+import { gather } from '../../../samples/viewer/setup.mjs';
+import { convert, decode, readSample } from '../support/program.mjs';
+import { launchBrowser, openPage } from './support/browser.mjs';
+import { coverageOf, differenceOf } from './support/pixels.mjs';
+
+const DESKTOP = { width: 1000, height: 640 };
+const PHONE = { width: 360, height: 740 };
+/** Quantization moves edges by parts of a pixel. */
+const MAX_DIFFERENCE_FROM_SOURCE = 0.02;
+const MIN_COVERAGE = 0.1;
+/** What an overlay changes at least. */
+const MIN_CHANGE = 0.05;
+/** Lines on a dark surface that takes a tenth of the picture. */
+const MIN_LINES = 0.02;
+
+let browser, server;
+
+before(async () => {
+  await gather();
+  [server, browser] = await Promise.all([serve(0), launchBrowser()]);
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.close();
+});
+
+async function openViewer(viewport = DESKTOP) {
+  const isReady = () => document.querySelector('#chips button') !== null;
+  const { page, messages, violations } = await openPage(browser, server.address, isReady);
+  await page.setViewportSize(viewport);
+  const problems = () => messages.filter((text) => /^error|^warning/.test(text));
+  return { page, violations, problems };
+}
+
+/** As a user's file manager drops it; until the page has taken it or says why not. */
+async function drop(page, name, bytes, claimedSize) {
+  await page.evaluate(dropInPage, [name, Buffer.from(bytes).toString('base64'), claimedSize]);
+  const begins = ([id, name]) => document.getElementById(id).textContent.startsWith(name);
+  await Promise.any(['file-name', 'error'].map((id) => page.waitForFunction(begins, [id, name], { timeout: 30_000 })));
+}
+
+function dropInPage([name, base64, size]) {
+  const file = new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name);
+  const dataTransfer = new DataTransfer();
+  dataTransfer.items.add(file);
+  if (size !== undefined) Object.defineProperty(dataTransfer, 'files', { value: [Object.defineProperty(file, 'size', { value: size })] });
+  document.querySelector('main').dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true }));
+}
+
+/** Until all figures are there. */
+async function settle(page) {
+  await page.waitForFunction(() => {
+    const isHidden = (id) => document.getElementById(id).hidden;
+    return !isHidden('error') || (isHidden('progress') && document.querySelector('#streams tfoot .ratio')?.textContent !== '');
+  }, undefined, { timeout: 60_000 });
+  assert.equal(await textOf(page, 'error'), '');
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+}
+
+const textOf = (page, id) => page.textContent(`#${id}`);
+const isShown = (page, id) => page.locator(`#${id}`).isVisible();
+
+async function picturesOf(page) {
+  const picture = async (id) => PNG.sync.read(await page.locator(`#${id}`).screenshot());
+  return { original: await picture('original'), compressed: await picture('compressed') };
+}
+
+async function click(page, id) {
+  await page.click(`#${id}`);
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+}
+
+test('a dropped GLB is compressed, shown beside its source and compared with Draco', async () => {
+  const { page, violations, problems } = await openViewer();
+  const source = readSample('textured');
+  await drop(page, 'dropped.glb', source);
+  await settle(page);
+  const { original, compressed } = await picturesOf(page);
+  assert.ok(coverageOf(original) >= MIN_COVERAGE, `only ${coverageOf(original)} of the pixels are not background`);
+  assert.ok(coverageOf(compressed) >= MIN_COVERAGE);
+  assert.ok(differenceOf(original, compressed) <= MAX_DIFFERENCE_FROM_SOURCE, `${differenceOf(original, compressed)} differ`);
+
+  const expected = convert(source);
+  assert.equal(await textOf(page, 'file-name'), 'dropped.glb');
+  assert.match(await textOf(page, 'compressed-size'), new RegExp(`^${expected.length.toLocaleString('en-US')} bytes`));
+  const rows = await page.$$eval('#streams tbody tr', (list) => list.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  const names = rows.map(([name]) => name);
+  for (const name of ['connectivity', 'seams', 'POSITION', 'NORMAL', 'TANGENT', 'TEXCOORD_0', 'header']) assert.ok(names.includes(name), name);
+  const numberOf = (text) => Number(text.replaceAll(',', ''));
+  const [ours, theirs] = await page.$$eval('#streams tfoot .number', (list) => list.map(({ textContent }) => textContent));
+  const { byteLength } = readGlb(expected).json.bufferViews[payloadsOf(readGlb(expected).json)[0].bufferView];
+  assert.equal(numberOf(ours), byteLength);
+  assert.ok(numberOf(theirs) > numberOf(ours), `Draco ${theirs}`);
+  const sumOf = (column) => rows.reduce((sum, row) => sum + (numberOf(row[column]) || 0), 0);
+  assert.ok(Math.abs(sumOf(1) - numberOf(ours)) <= rows.length, 'the streams are not all bytes');
+  assert.equal(sumOf(2), numberOf(theirs));
+  assert.match(await textOf(page, 'summary'), /Decoding[\d.]+ m?sDraco [\d.]+ m?s/);
+
+  // Linked cameras: dragging one turns both.
+  const box = await page.locator('#compressed').boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width / 2 + 80, box.y + box.height / 2, { steps: 3 });
+  await page.mouse.up();
+  const turned = await picturesOf(page);
+  assert.ok(differenceOf(turned.original, original) > MIN_CHANGE);
+  assert.ok(differenceOf(turned.original, turned.compressed) <= MAX_DIFFERENCE_FROM_SOURCE);
+  await click(page, 'reset');
+  assert.equal(differenceOf((await picturesOf(page)).original, original), 0);
+  assert.deepEqual(violations(), []);
+  assert.deepEqual(problems(), []);
+  await page.close();
+});
+
+test('wireframe, error heat map and collapse order are drawn', async () => {
+  const { page } = await openViewer();
+  await page.click('#chips button:has-text("sheet")');
+  await settle(page);
+  const plain = await picturesOf(page);
+
+  await click(page, 'wireframe');
+  const wire = await picturesOf(page);
+  assert.ok(differenceOf(wire.original, plain.original) > MIN_CHANGE);
+  assert.ok(differenceOf(wire.compressed, plain.compressed) > MIN_CHANGE);
+  await click(page, 'wireframe');
+
+  await click(page, 'heat');
+  const heat = await picturesOf(page);
+  assert.equal(differenceOf(heat.original, plain.original), 0);
+  assert.ok(differenceOf(heat.compressed, plain.compressed) > MIN_CHANGE);
+  assert.match(await textOf(page, 'legend-title'), /Distance/);
+  await checkLargestError(page, readSample('sheet_with_holes'));
+
+  await click(page, 'tree');
+  assert.equal(await page.getAttribute('#heat', 'aria-pressed'), 'false');
+  const tree = await picturesOf(page);
+  assert.equal(differenceOf(tree.original, plain.original), 0);
+  assert.ok(differenceOf(tree.compressed, heat.compressed) > MIN_CHANGE);
+  assert.ok(saturatedPixels(tree.compressed) > MIN_LINES, 'no coloured lines');
+  // A tree has an edge less than vertices; divides add a few, holes take a few.
+  const edges = Number((await textOf(page, 'legend-high')).match(/last of ([\d,]+)/)[1].replaceAll(',', ''));
+  assert.ok(edges > 1728 * 0.8 && edges < 1728 * 1.2, `${edges} edges`);
+
+  // The order of a payload is not drawn on another one's vertices.
+  await page.check('[name=keepVertexOrder]');
+  await settle(page);
+  const kept = await picturesOf(page);
+  assert.ok(saturatedPixels(kept.compressed) > MIN_LINES);
+  assert.ok(differenceOf(kept.compressed, tree.compressed) <= MAX_DIFFERENCE_FROM_SOURCE);
+
+  await click(page, 'tree');
+  assert.equal(differenceOf((await picturesOf(page)).compressed, plain.compressed), 0);
+  assert.equal(await isShown(page, 'legend'), false);
+  await page.close();
+});
+
+/** The largest distance that the page tells, against all pairs of vertices. */
+async function checkLargestError(page, source) {
+  const positions = (glb) => {
+    const { json, chunks: [{ data }] } = readGlb(glb);
+    const { bufferView, byteOffset = 0, count } = json.accessors[json.meshes[0].primitives[0].attributes.POSITION];
+    const begin = (json.bufferViews[bufferView].byteOffset ?? 0) + byteOffset;
+    return new Float32Array(data.slice(begin, begin + 12 * count).buffer);
+  };
+  const [before, afterwards] = [positions(source), positions(decode(convert(source)))];
+  let most = 0;
+  for (let i = 0; i < before.length; i += 3) {
+    let least = Infinity;
+    for (let j = 0; j < afterwards.length; j += 3) {
+      least = Math.min(least, Math.hypot(before[i] - afterwards[j], before[i + 1] - afterwards[j + 1], before[i + 2] - afterwards[j + 2]));
+    }
+    most = Math.max(most, least);
+  }
+  const told = Number((await textOf(page, 'legend-high')).match(/^([\d.e-]+) units/)[1]);
+  assert.ok(Math.abs(told - most) <= 0.005 * most, `${told} told, ${most} measured`);
+}
+
+function saturatedPixels({ width, height, data }) {
+  let count = 0;
+  for (let i = 0; i < 4 * width * height; i += 4) {
+    if (Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 100) ++count;
+  }
+  return count / (width * height);
+}
+
+test('its picture for the README', { skip: process.env.MCC_SCREENSHOTS === undefined && 'MCC_SCREENSHOTS is not set' }, async () => {
+  const { page } = await openViewer({ width: 1000, height: 590 });
+  await drop(page, 'genus3.glb', readSample('genus3'));
+  await settle(page);
+  await click(page, 'tree');
+  const picture = PNG.sync.write(PNG.sync.read(await page.screenshot()), { colorType: 2, deflateLevel: 9 });
+  await writeFile(path.join(process.env.MCC_SCREENSHOTS, 'viewer.png'), picture);
+  await page.close();
+});
+
+test('the download is what the program writes with the same options', async () => {
+  const { page } = await openViewer();
+  const source = readSample('two_materials');
+  await drop(page, 'vase.glb', source);
+  await settle(page);
+  assert.deepEqual(await downloaded(page), { name: 'vase.mcc.glb', bytes: Buffer.from(convert(source)) });
+
+  await page.check('[name=keepVertexOrder]');
+  await page.check('[name=keepTriangleOrder]');
+  await page.check('[name=lossless]');
+  await settle(page);
+  const { bytes } = await downloaded(page);
+  assert.deepEqual(bytes, Buffer.from(convert(source, ['--lossless', '--keep-order', 'both'])));
+  assert.match(await textOf(page, 'summary'), /Largest error0every position is exact/);
+
+  // What was compressed already is opened, too.
+  await drop(page, 'again.glb', bytes);
+  await settle(page);
+  assert.match(await textOf(page, 'notice'), /compressed with mesh collapse already/);
+  assert.ok(coverageOf((await picturesOf(page)).original) >= MIN_COVERAGE);
+  decode((await downloaded(page)).bytes);
+  await page.close();
+});
+
+async function downloaded(page) {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#download')]);
+  return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
+}
+
+function glbOf(json) {
+  const text = Buffer.from(JSON.stringify({ asset: { version: '2.0' }, ...json }));
+  const chunk = Buffer.concat([text, Buffer.alloc((4 - text.length % 4) % 4, ' ')]);
+  const header = Buffer.alloc(20);
+  [0x46546c67, 2, 20 + chunk.length, chunk.length, 0x4e4f534a].forEach((word, i) => header.writeUInt32LE(word, 4 * i));
+  return Buffer.concat([header, chunk]);
+}
+
+const triangles = (count) => ({
+  meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
+  accessors: [{ componentType: 5126, type: 'VEC3', count: 3 }, { componentType: 5125, type: 'SCALAR', count: 3 * count }],
+});
+
+/** The last byte of its payload is another one. */
+function damagedFile() {
+  const bytes = convert(readSample('torus'));
+  const { json, chunks: [{ data }] } = readGlb(bytes);
+  const { byteOffset = 0, byteLength } = json.bufferViews[payloadsOf(json)[0].bufferView];
+  data[byteOffset + byteLength - 1] ^= 1;
+  return bytes;
+}
+
+const BAD_FILES = [
+  ['note.txt', () => Buffer.from('no model'), /not a GLB/],
+  ['empty.glb', () => Buffer.alloc(0), /is empty/],
+  ['model.gltf', () => Buffer.from('{ "asset": { "version": "2.0" } }'), /is a \.gltf.*gltf-mcc convert/],
+  ['half.glb', () => readSample('torus').subarray(0, 40_000), /cut off: .* 74,844 bytes, but 40,000/],
+  ['json.glb', () => Buffer.from(readSample('torus')).fill('?', 20, 30), /JSON cannot be read/],
+  ['points.glb', () => glbOf({}), /no triangles/],
+  ['parts.glb', () => glbOf({ ...triangles(1), buffers: [{ byteLength: 9, uri: 'parts.bin' }] }), /refers to another one, “parts\.bin”/],
+  ['draco.glb', () => glbOf({ ...triangles(1), extensionsUsed: ['KHR_draco_mesh_compression'] }), /compressed with Draco.*gltf-mcc convert/],
+  ['ktx.glb', () => glbOf({ ...triangles(1), extensionsRequired: ['KHR_texture_basisu'] }), /textures .* are KTX2/],
+  ['odd.glb', () => glbOf({ meshes: 7 }), /is damaged \(/],
+  ['many.glb', () => glbOf(triangles(5_000_000)), /has 5,000,000 triangles; this page takes 4,000,000/],
+  ['wrong.glb', () => glbOf(triangles(1)), /wrong\.glb: ./],
+  ['damaged.glb', damagedFile, /damaged\.glb: .*checksum/i],
+];
+
+test('what cannot be shown gets a message near the drop zone, and the next file works', async () => {
+  const { page } = await openViewer();
+  assert.equal(await page.getAttribute('#error', 'role'), 'alert');
+  for (const [name, make, expected] of BAD_FILES) {
+    await drop(page, name, make());
+    await page.waitForSelector('#error:not([hidden])');
+    assert.match(await textOf(page, 'error'), expected, name);
+    assert.equal(await isShown(page, 'progress'), false, name);
+  }
+  await drop(page, 'large.glb', Buffer.from('glTF'), 300 * 2 ** 20);
+  assert.match(await textOf(page, 'error'), /has 300 MiB; this page takes 256 MiB/);
+
+  await drop(page, 'good.glb', readSample('moebius'));
+  await settle(page);
+  assert.equal(await isShown(page, 'error'), false);
+  assert.ok(coverageOf((await picturesOf(page)).compressed) >= MIN_COVERAGE);
+  // It stays when the next one is bad.
+  await drop(page, 'note.txt', Buffer.from('no model'));
+  assert.equal(await textOf(page, 'file-name'), 'good.glb');
+  assert.ok(coverageOf((await picturesOf(page)).compressed) >= MIN_COVERAGE);
+  await page.close();
+});
+
+test('a phone shows everything without scrolling sideways', async () => {
+  const { page } = await openViewer(PHONE);
+  const width = () => page.evaluate(() => document.documentElement.scrollWidth);
+  assert.equal(await width(), PHONE.width);
+  await page.click('#chips button:has-text("textured")');
+  await settle(page);
+  assert.equal(await width(), PHONE.width);
+  const boxOf = (id) => page.locator(`#${id}`).boundingBox();
+  const [original, compressed, heat] = [await boxOf('original'), await boxOf('compressed'), await boxOf('heat')];
+  assert.ok(compressed.y >= original.y + original.height, 'the pictures are not one below the other');
+  assert.ok(compressed.y + compressed.height <= PHONE.height, 'the second picture is below the fold');
+  assert.ok(heat.y + heat.height <= PHONE.height && heat.height >= 44, 'the toolbar is out of reach');
+  const { original: picture } = await picturesOf(page);
+  assert.ok(coverageOf(picture) >= MIN_COVERAGE);
+
+  const ground = () => page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
+  const light = await ground();
+  await page.emulateMedia({ colorScheme: 'dark', reducedMotion: 'reduce' });
+  assert.notEqual(await ground(), light);
+  assert.equal(await page.evaluate(() => getComputedStyle(document.getElementById('heat')).transitionDuration), '0s');
+  await page.close();
+});
+
+test('the keyboard reaches everything', async () => {
+  const { page } = await openViewer();
+  const focused = () => page.evaluate(() => document.activeElement.id || document.activeElement.textContent.trim());
+  const press = async (...keys) => {
+    for (const key of keys) await page.keyboard.press(key);
+    return focused();
+  };
+  assert.equal(await press('Tab', 'Tab'), 'drop-open');
+  assert.notEqual(await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle), 'none');
+  assert.equal(await press('Tab', 'Tab'), 'torus');
+  await press('Enter');
+  await settle(page);
+  assert.equal(await focused(), 'original', 'the focus is lost with the button');
+  const before = await picturesOf(page);
+  await press('ArrowUp', 'ArrowUp', '-');
+  assert.equal(await press('Tab', 'Tab'), 'wireframe'); // the focus frames a picture
+  const turned = await picturesOf(page);
+  assert.ok(differenceOf(turned.compressed, before.compressed) > MIN_CHANGE);
+  assert.ok(differenceOf(turned.original, turned.compressed) <= MAX_DIFFERENCE_FROM_SOURCE);
+  await press('Space');
+  assert.equal(await page.getAttribute('#wireframe', 'aria-pressed'), 'true');
+  await press('e');
+  assert.equal(await page.getAttribute('#heat', 'aria-pressed'), 'true');
+
+  const size = await textOf(page, 'compressed-size');
+  assert.equal(await press('Tab', 'Tab', 'Tab', 'Tab'), 'positionBits');
+  await press('ArrowLeft');
+  await settle(page);
+  assert.equal(await page.inputValue('#positionBits'), '13');
+  assert.notEqual(await textOf(page, 'compressed-size'), size);
+  assert.match(await textOf(page, 'status'), /torus\.glb: 74,844 bytes became/);
+
+  // Esc ends what is under way, and the next change begins anew.
+  await press('ArrowLeft', 'Escape');
+  assert.match(await textOf(page, 'notice'), /Cancelled/);
+  assert.equal(await isShown(page, 'progress'), false);
+  await press('ArrowLeft');
+  await settle(page);
+  assert.equal(await isShown(page, 'notice'), false);
+  await page.close();
+});
