@@ -14,6 +14,7 @@
 #include "convert_comparison.h"
 #include "convert_report.h"
 #include "gltf/package.h"
+#include "gltf/report_json.h"
 #include "help.h"
 #include "in_out.h"
 #include "interrupt.h"
