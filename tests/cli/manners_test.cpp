@@ -170,7 +170,8 @@ TEST_F(Manners, FilesGetSuggestions) {
              "./toruss.glb: there is no such file; did you mean ./torus.glb?");
   expectSays("inspect violin.glb", "violin.glb: there is no such file");
   fs::create_directory(folder_.path() / "folder");
-  expectSays("convert torus.glb folder", "folder: is a folder; -o folder writes into it");
+  expectSays("convert torus.glb folder",
+             "folder: is a folder; name the file to write, or write into it with -o folder");
   expectUsageError("convert torus.glb small",
                    "convert: small: has no extension; name it small.glb or small.gltf");
   EXPECT_EQ(run("convert torus.glb /dev/null").err.find("extension"), std::string::npos);
@@ -178,6 +179,7 @@ TEST_F(Manners, FilesGetSuggestions) {
 
 TEST_F(Manners, ColoursOnATerminalOnly) {
   const std::string escape = "\033[";
+  const std::string bold = "\033[1m";
   for (const char* arguments : {"--help", "convert --help", "inspect torus.glb", "frobnicate"}) {
     const ToolResult plain = run(arguments);
     EXPECT_EQ((plain.out + plain.err).find('\033'), std::string::npos) << arguments;
@@ -198,11 +200,11 @@ TEST_F(Manners, ColoursOnATerminalOnly) {
                 arguments + "\" /dev/null")
         .out;
   };
-  EXPECT_NE(onTerminal("", "inspect small.glb").find(escape), std::string::npos);
-  EXPECT_EQ(onTerminal("export NO_COLOR=1", "inspect small.glb").find(escape), std::string::npos);
-  EXPECT_EQ(onTerminal("export TERM=dumb", "inspect small.glb").find(escape), std::string::npos);
-  EXPECT_EQ(onTerminal("", "inspect small.glb --color never").find(escape), std::string::npos);
-  EXPECT_NE(onTerminal("export NO_COLOR=", "inspect small.glb").find(escape), std::string::npos);
+  EXPECT_NE(onTerminal("", "inspect small.glb").find(bold), std::string::npos);
+  EXPECT_EQ(onTerminal("export NO_COLOR=1", "inspect small.glb").find(bold), std::string::npos);
+  EXPECT_EQ(onTerminal("export TERM=dumb", "inspect small.glb").find(bold), std::string::npos);
+  EXPECT_EQ(onTerminal("", "inspect small.glb --color never").find(bold), std::string::npos);
+  EXPECT_NE(onTerminal("export NO_COLOR=", "inspect small.glb").find(bold), std::string::npos);
 }
 
 TEST_F(Manners, AsciiWhereTheLocaleHasNoMore) {
@@ -233,7 +235,7 @@ TEST_F(Manners, ManPageHasEveryCommandAndOption) {
   const ToolResult formatted = runCommand(folder_, "groff -man -Tascii -ww -rLL=100n gltf-mcc.1");
   EXPECT_EQ(formatted.status, 0);
   EXPECT_EQ(formatted.err, "");
-  EXPECT_NE(formatted.out.find("EXIT STATUS"), std::string::npos);
+  EXPECT_NE(formatted.out.find("Wrong usage."), std::string::npos);
 }
 
 TEST_F(Manners, BashCompletesEverythingThatHelpLists) {

@@ -46,10 +46,10 @@ TEST_F(ReportSchema, DescribesConversions) {
     expectValid("convert " + samplePath(std::string(name) + ".glb") + " out.glb");
   }
   const std::string torus = "convert " + samplePath("torus.glb") + " out.glb ";
-  expectValid(torus + "--compare none --lossless");
-  expectValid(torus + "--compare none --max-error 0.001 --fallback");
-  expectValid(torus + "--compare none --lattice 0,0,0,0.001 --keep-order both");
-  expectValid(torus + "--compare none --indices-only");
+  expectValid(torus + "--lossless");
+  expectValid(torus + "--max-error 0.001 --fallback");
+  expectValid(torus + "--lattice 0,0,0,0.001 --keep-order both");
+  expectValid(torus + "--indices-only");
   store("triangle.gltf", R"({"asset": {"version": "2.0"}})");
   expectValid("convert triangle.gltf small.gltf");  // copied
 }
@@ -63,10 +63,10 @@ TEST_F(ReportSchema, DescribesBatches) {
 }
 
 TEST_F(ReportSchema, RefusesOtherMembers) {
-  ASSERT_EQ(runTool(folder_, "convert " + samplePath("torus.glb") +
-                                 " out.glb --compare none -q --report report.json")
-                .status,
-            0);
+  ASSERT_EQ(
+      runTool(folder_, "convert " + samplePath("torus.glb") + " out.glb -q --report report.json")
+          .status,
+      0);
   std::string text = contentOf(folder_.path() / "report.json");
   text.insert(text.find("\"copied\""), "\"surprise\": 1, ");
   store("report.json", text);

@@ -297,7 +297,8 @@ void addHelpCommand(CLI::App& app, int& status) {
       throw CLI::ValidationError(
           "help", "there is no command " + *name + didYouMean(*name, namesOf(commandsOf(app))));
     }
-    status = printOut(wanted->help());
+    // CLI11's help() of the program is that of the command at work.
+    status = printOut(wanted->get_formatter()->make_help(wanted, "", CLI::AppFormatMode::Normal));
   });
 }
 

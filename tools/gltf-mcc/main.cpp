@@ -61,7 +61,7 @@ int reportFailure(const gltf::Result& result, const std::string& input, const st
   if (!isStandardStream(input) && !fs::exists(input, code)) {
     advised.what += didYouMeanFile(input);
   } else if (fs::is_directory(output, code)) {
-    advised.what += "; -o " + output + " writes into it";
+    advised.what += ", or write into it with -o " + output;
   }
   return reportFailure(advised);
 }

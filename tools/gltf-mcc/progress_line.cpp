@@ -18,10 +18,12 @@ void ProgressLine::show(const std::string& text) const {
   if (!is_shown_) return;
   const std::string_view fitting = cutToWidth(text, columnsOfErrors() - 1);
   fmt::print(stderr, "\r\033[K{}", fitting);
+  has_text_ = true;
 }
 
 void ProgressLine::clear() const {
-  if (is_shown_) std::fputs("\r\033[K", stderr);
+  if (has_text_) std::fputs("\r\033[K", stderr);
+  has_text_ = false;
 }
 
 WorkProgress::WorkProgress(bool is_quiet, std::string task)

@@ -22,7 +22,8 @@ class ProgressLine {
   void clear() const;
 
  private:
-  bool is_shown_;
+  const bool is_shown_;
+  mutable bool has_text_ = false;  ///< on the terminal
 };
 
 /// A ProgressLine for one task, from its second second on: how long it takes and, when told, how far it is.

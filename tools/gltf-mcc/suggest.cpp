@@ -33,7 +33,7 @@ size_t distanceOf(std::string_view a, std::string_view b) {
 
 std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates) {
   constexpr size_t kPrefix = 3;  // letters that make a beginning
-  const size_t limit = word.size() < 3 ? 1 : std::max<size_t>(2, word.size() / 3);
+  const size_t limit = word.size() < 5 ? 1 : std::max<size_t>(2, word.size() / 3);
   std::string best;
   size_t least = limit + 1;
   for (const std::string& candidate : candidates) {
