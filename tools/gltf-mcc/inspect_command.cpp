@@ -7,6 +7,7 @@
 #include "bars.h"
 #include "commands.h"
 #include "convert_report.h"
+#include "gltf/report_json.h"
 #include "help.h"
 #include "progress_line.h"
 
