@@ -71,6 +71,7 @@ class CompactIo {
 
   /// Inner loops have nothing of their own.
   using Burst = CompactIo&;
+  using CodesBurst = CompactIo&;
   void take(const CompactIo&) {}
   void giveBack(const CompactIo&) {}
   bool hasRoom(uint32_t) const { return true; }
