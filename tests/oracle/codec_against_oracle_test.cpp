@@ -149,7 +149,8 @@ CodeHistogram codedAndDecoded(const ClosedMesh& mesh, const McRecord& record,
     McModels models{Allocator{}};
     EXPECT_TRUE(models.init(context_set));
     EXPECT_TRUE(faces.words.resize(size_t{counts.face_count} * kFaceWords));
-    McMachine machine(io, models, counts, Allocator{}, faces, truth, &histogram);
+    const McWatch watch{&histogram, nullptr};
+    McMachine machine(io, models, counts, Allocator{}, faces, truth, &watch);
     const Status status = machine.run();
     EXPECT_TRUE(status.ok()) << status.what;
     return status.ok();

@@ -119,8 +119,9 @@ Observed observe(uint64_t seed, const McCounts& claims, uint32_t context_set) {
   io.watch(&models.dummy_twig, 1);
   io.watch(&models.dummy_finish, 1);
   CodeHistogram histogram;
+  const McWatch watch{&histogram, nullptr};
   const Status status =
-      McMachine<RandomIo>(io, models, claims, {}, mesh, McTruth{}, &histogram).run();
+      McMachine<RandomIo>(io, models, claims, {}, mesh, McTruth{}, &watch).run();
   // Every answer is one of an operation, or closes a node of which operations make two at most; handles take some more.
   if (io.used() > 200 * (uint64_t{claims.operation_count} + 10)) observed.failure = "too much work";
   if (status.ok()) observed.failure = "fulfils impossible claims";

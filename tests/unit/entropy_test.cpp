@@ -399,9 +399,7 @@ RansDecoder decodeTokens(std::span<const uint8_t> bytes, std::vector<uint8_t>& s
   for (TokenRow& row : rows) row.setUniform();
   for (size_t i = 0; i < symbols.size(); ++i) {
     TokenRow& row = rows[i % kRows];
-    const uint32_t symbol = i % 3 == 0   ? decoder.token<0>(row, kAttributeSchedule)
-                            : i % 3 == 1 ? decoder.token<1>(row, kAttributeSchedule)
-                                         : decoder.token<2>(row, kAttributeSchedule);
+    const uint32_t symbol = decoder.token(static_cast<uint32_t>(i % 3), row, kAttributeSchedule);
     symbols[i] = static_cast<uint8_t>(symbol);
   }
   return decoder;
