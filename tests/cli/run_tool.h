@@ -31,7 +31,7 @@ inline std::string contentOf(const std::filesystem::path& path) {
 /// Runs a command of the shell in a folder.
 inline ToolResult runCommand(const ScratchFolder& folder, const std::string& command) {
   const std::string line =
-      "cd '" + folder.path().string() + "' && " + command + " >.stdout 2>.stderr </dev/null";
+      "cd '" + folder.path().string() + "' && { " + command + "; } >.stdout 2>.stderr </dev/null";
   const int code = std::system(line.c_str());
   return {WIFEXITED(code) ? WEXITSTATUS(code) : -1, contentOf(folder.path() / ".stdout"),
           contentOf(folder.path() / ".stderr")};

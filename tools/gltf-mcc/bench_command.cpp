@@ -121,10 +121,9 @@ void addBench(CLI::App& app, int& status) {
       ->add_option("--apart", state->apart,
                    "Letters of the categories that the means of all files leave out")
       ->type_name("LETTERS");
-  command->add_flag(
-      "--load", state->with_load,
-      "Also load whole files with tinygltf: ours with our adapter, Draco's with its own\n"
-      "decoder; and decode with two threads");
+  command->add_flag("--load", state->with_load,
+                    "Also load whole files with tinygltf (ours by our adapter)\n"
+                    "and decode with two threads");
   command->add_option("--sizes", state->sizes, "Measure nothing, write our bytes per stream here")
       ->type_name("FILE")
       ->group("");  // for tests/results
