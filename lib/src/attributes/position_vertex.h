@@ -294,10 +294,15 @@ void VertexCoder<Io, Wide, kModes>::codeRanks(Io& io, uint32_t v, const Lanes<UW
   };
   int32_t residual[3];
   int32_t q[3];
+  bool is_done = false;
   if constexpr (requires { Io::kThreeAtOnce; }) {
-    const Lanes<uint32_t> residuals = decodeResiduals(io, rows_, c, fold);
-    for (uint32_t s = 0; s < 3; ++s) q[s] = static_cast<int32_t>(prediction(s) + residuals[s]);
-  } else {
+    if (io.threeAtOnce()) {
+      const Lanes<uint32_t> residuals = decodeResiduals(io, rows_, c, fold);
+      for (uint32_t s = 0; s < 3; ++s) q[s] = static_cast<int32_t>(prediction(s) + residuals[s]);
+      is_done = true;
+    }
+  }
+  if (!is_done) {
     q[0] = codeSlot<0>(io, c, prediction(0), truth[0], residual, fold);
     q[1] = codeSlot<1>(io, c, prediction(1), truth[1], residual, fold);
     q[2] = codeSlot<2>(io, c, prediction(2), truth[2], residual, fold);
