@@ -29,6 +29,7 @@
 #include "support/mesh_compare.h"
 #include "support/mesh_generators.h"
 #include "support/paper_oracle.h"
+#include "writer_truth.h"
 
 namespace mcc::test {
 namespace {
@@ -159,16 +160,7 @@ CodeHistogram codedAndDecoded(const ClosedMesh& mesh, const McRecord& record,
   std::vector<uint32_t> node_map(record.node_count);
   std::vector<uint32_t> source_of_vertex(mesh.real_vertex_count);
   std::vector<uint32_t> source_gate(mesh.real_face_count);
-  McTruth truth;
-  truth.operations = record.operations.data();
-  truth.handles = record.handles.data();
-  truth.components = record.components.data();
-  truth.component_count = static_cast<uint32_t>(record.components.size());
-  truth.gates = record.gates.data();
-  truth.vertex_is_dummy = record.vertex_is_dummy.data();
-  truth.node_of_collapse_node = node_map.data();
-  truth.source_of_vertex = source_of_vertex.data();
-  truth.source_gate_of_face = source_gate.data();
+  const McTruth truth = connectivityTruth(record, {node_map, source_of_vertex, source_gate});
   EncoderIo encoder(false);
   FaceMesh encoded{Allocator{}};
   CodeHistogram encoder_counts;

@@ -1,6 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "unit/surface.h"
 
+#include "writer_truth.h"
+
 #include <algorithm>
 
 namespace mcc::test {
@@ -27,17 +29,7 @@ PieceHeader Surface::header() const {
 }
 
 McTruth Surface::truth() {
-  McTruth truth;
-  truth.operations = record_.operations.data();
-  truth.handles = record_.handles.data();
-  truth.components = record_.components.data();
-  truth.component_count = static_cast<uint32_t>(record_.components.size());
-  truth.gates = record_.gates.data();
-  truth.vertex_is_dummy = record_.vertex_is_dummy.data();
-  truth.node_of_collapse_node = node_map_.data();
-  truth.source_of_vertex = source_of_vertex_.data();
-  truth.source_gate_of_face = source_gate_.data();
-  return truth;
+  return connectivityTruth(record_, {node_map_, source_of_vertex_, source_gate_});
 }
 
 std::vector<uint32_t> Surface::classOfVertex() const {

@@ -5,11 +5,10 @@
 import assert from 'node:assert/strict';
 import { writeFile } from 'node:fs/promises';
 import path from 'node:path';
-import { after, before, test } from 'node:test';
-import { launchBrowser, openPage } from './support/browser.mjs';
-import { makeModels } from './support/models.mjs';
+import { test } from 'node:test';
+import { openPage } from './support/browser.mjs';
 import { coverageOf, differenceOf, readPicture, writePicture } from './support/pixels.mjs';
-import { startServer } from './support/server.mjs';
+import { useSite } from './support/site.mjs';
 
 const ALL = ['textured', 'skinned', 'morphed', 'materials', 'shared', 'integers', 'ordinary', 'lossless', 'instances'];
 const WITH_SKINS_AND_TARGETS = ['textured', 'skinned', 'morphed', 'materials', 'integers'];
@@ -28,20 +27,10 @@ const MAX_DIFFERENCE_FROM_PLAIN = 0.001;
 const MAX_DIFFERENCE_FROM_SOURCE = 0.02;
 const MIN_COVERAGE = 0.1;
 
-let browser, server, models;
-
-before(async () => {
-  models = await makeModels();
-  [server, browser] = await Promise.all([startServer(models), launchBrowser()]);
-});
-
-after(async () => {
-  await browser?.close();
-  await server?.close();
-});
+const site = useSite();
 
 const open = ({ page, query = '' }, more = '') =>
-  openPage(browser, `${server.origin}/pages/${page}.html?${query}&${more}`, () => globalThis.draw !== undefined);
+  openPage(site.browser, `${site.server.origin}/pages/${page}.html?${query}&${more}`, () => globalThis.draw !== undefined);
 
 const draw = async (page, model) => readPicture(await page.evaluate((name) => globalThis.draw(name), model));
 
