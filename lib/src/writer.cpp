@@ -106,8 +106,9 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeOptions& opti
   EncodeResult single;
   MCC_TRY(codeAll(plans, context_set, true, single));
   const double single_bytes = static_cast<double>(single.payload.size());
-  const bool pays = single_bytes + surcharge(single_bytes, price_ns::kSingleCoder) <
-                    static_cast<double>(result.payload.size());
+  const bool pays =
+      single_bytes + TimePrice(options.prefer).surcharge(single_bytes, price_ns::kSingleCoder) <
+      static_cast<double>(result.payload.size());
   if (variation.active() ? variation.coin() : pays) {
     single.notes = std::move(result.notes);
     result = std::move(single);

@@ -75,10 +75,10 @@ using Runners = std::vector<std::unique_ptr<StageRunner<CostIo>>>;
 
 /// One choice for all pieces, since they share tables and models. Consumes the recordings.
 PositionParameters choosePositions(std::vector<RecordedPositions> recorded, double surface_bits,
-                                   uint8_t effort, const Jobs& jobs) {
+                                   const EncodeOptions& options, const Jobs& jobs) {
   std::vector<PositionCandidate> candidates;
   for (const RecordedPositions& piece : recorded) candidates.push_back(piece.candidate);
-  return choosePositionParameters(candidates, surface_bits, effort, jobs);
+  return choosePositionParameters(candidates, surface_bits, options.effort, options.prefer, jobs);
 }
 
 /// Floats on a grid may be coded as floats as well: the values of a plan are the same.
@@ -97,7 +97,8 @@ std::vector<AttributeInfo> exactAlternatives(const AttributeInfo& info) {
 /// attribute shares its models.
 /// `wedge_share`: what the payload takes so far, per wedge, in the units of costs.
 Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& runner,
-                             PayloadModels& models, double wedge_share, bool goes_on) {
+                             PayloadModels& models, double wedge_share, const TimePrice& price,
+                             bool goes_on) {
   AttributeInfo& info = plan.attributes[index].info;
   const std::vector<AttributeInfo> alternatives = exactAlternatives(info);
   const uint32_t part = std::max(kTrialWedges, plan.header.wedge_count / kTrialShare);
@@ -127,8 +128,8 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
       MCC_TRY(runner.tryAttribute(index, sample, cost));
       if (info.format.morph_target == 0) {  // deltas take time only where something moves
         const double tried = std::min(sample, plan.header.wedge_count);
-        cost +=
-            static_cast<uint64_t>(surcharge(tried * wedge_share, timeOf(method, info.predictor)));
+        cost += static_cast<uint64_t>(
+            price.surcharge(tried * wedge_share, timeOf(method, info.predictor)));
       }
       search.report(cost);
       if (!models.attributes.copyFrom(before)) throwBadAlloc();
@@ -144,7 +145,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
 /// Creases and the methods of all attributes but positions, which are the same however they are coded. `io` has counted the
 /// surfaces.
 Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& models,
-                     const CostIo& io) {
+                     const CostIo& io, const TimePrice& price) {
   const bool only_positions = std::all_of(plans.begin(), plans.end(), [](const Plan& plan) {
     return plan.attributes.size() == 1 && !plan.header.has(piece_flag::kSeams);
   });
@@ -166,13 +167,15 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& 
         goes_on |= plans[i].attributes[order[later]].info.format.semantic ==
                    plans[i].attributes[order[k]].info.format.semantic;
       }
-      MCC_TRY(chooseAttributeMethod(plans[i], order[k], *runners[i], models, wedge_share, goes_on));
+      MCC_TRY(chooseAttributeMethod(plans[i], order[k], *runners[i], models, wedge_share, price,
+                                    goes_on));
     }
   }
   return {};
 }
 
-Status choosePredictors(std::vector<Plan>& plans, uint8_t effort, const Jobs& jobs) {
+Status choosePredictors(std::vector<Plan>& plans, const EncodeOptions& options, const Jobs& jobs) {
+  const TimePrice price(options.prefer);
   auto models = makeModels(0);  // none of these choices depends on the context set
   CostIo io;
   Runners runners;
@@ -181,14 +184,14 @@ Status choosePredictors(std::vector<Plan>& plans, uint8_t effort, const Jobs& jo
     MCC_TRY(runners.back()->codeSurface(nullptr));
   }
   const double surface_bits = static_cast<double>(io.cost()) / kCostOne;
-  if (plans[0].attributes.empty()) return chooseMethods(plans, runners, *models, io);
+  if (plans[0].attributes.empty()) return chooseMethods(plans, runners, *models, io, price);
   std::vector<RecordedPositions> recorded(plans.size());
   MCC_TRY(jobs.tryAll(plans.size(),
                       [&](size_t i) { return runners[i]->recordPositions(recorded[i]); }));
   PositionParameters chosen;
   MCC_TRY(jobs.tryAll(2, [&](size_t i) -> Status {
-    if (i == 1) return chooseMethods(plans, runners, *models, io);
-    chosen = choosePositions(std::move(recorded), surface_bits, effort, jobs);
+    if (i == 1) return chooseMethods(plans, runners, *models, io, price);
+    chosen = choosePositions(std::move(recorded), surface_bits, options, jobs);
     return {};
   }));
   for (Plan& plan : plans) {
@@ -235,7 +238,7 @@ Status chooseAll(std::vector<Plan>& plans, const EncodeOptions& options, const J
   }
   context_set = options.context_set;
   return jobs.tryAll(2, [&](size_t i) -> Status {
-    if (i == 0) return choosePredictors(plans, options.effort, jobs);
+    if (i == 0) return choosePredictors(plans, options, jobs);
     const bool is_given = context_set < kContextSetCount;
     return is_given ? Status{} : chooseContextSet(connectivity, jobs, context_set);
   });

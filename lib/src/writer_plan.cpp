@@ -43,6 +43,21 @@ Status checkPiece(const PieceView& piece) {
   return {};
 }
 
+/// Joints are coded as golomb(), which ends at 2^32 - 2. [A.3.5]
+Status checkJoints(const Plan& plan) {
+  std::vector<AttributeInfo> infos;
+  for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
+  const uint32_t count = static_cast<uint32_t>(infos.size());
+  for (uint32_t i = 0; i < count; ++i) {
+    if (methodOf(infos.data(), count, i) != AttributeMethod::kSkin) continue;
+    const std::vector<int32_t>& joints = plan.attributes[i].values;
+    if (std::find(joints.begin(), joints.end(), -1) != joints.end()) {
+      return fail(Error::kBadArgument, "JOINTS with WEIGHTS cannot be -1 or 2^32 - 1");
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_edge) {
@@ -111,6 +126,7 @@ Status preparePiece(const PieceView& view, const EncodeOptions& options, const J
     plan.classes = weldPositions(view.attributes[0], view.wedge_count,
                                  isExact(plan.attributes[0].info.coding));
   });
+  MCC_TRY(checkJoints(plan));
   PieceHeader& h = plan.header;
   h.wedge_count = view.wedge_count;
   h.isolated_count = static_cast<uint32_t>(plan.triangles.isolated.size());

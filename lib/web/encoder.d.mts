@@ -31,6 +31,8 @@ export interface EncodeOptions {
   indicesOnly?: boolean;
   /** 0 fast to 2 thorough. Default 1. */
   effort?: 0 | 1 | 2;
+  /** Payloads that are smaller, or faster to decode. Default 'balanced'. */
+  prefer?: 'balanced' | 'size' | 'speed';
   /** Compress also where that makes the file larger. */
   allowLarger?: boolean;
   fallback?: false;

@@ -5,13 +5,14 @@ import { MccError } from './error.mjs';
 import { compileModule } from './load.mjs';
 
 const GRIDS = ['mesh', 'scene', 'primitive'];
+const PREFERENCES = ['balanced', 'size', 'speed'];
 /** Bits by attribute: default, least besides 0 (every bit), most. */
 const BITS = {
   positionBits: [14, 1, 24], normalBits: [10, 2, 16], texcoordBits: [12, 1, 24], colorBits: [8, 1, 24],
   tangentBits: [12, 2, 16], weightBits: [12, 1, 24],
 };
 const FLAGS = ['lossless', 'indicesOnly', 'keepVertexOrder', 'keepTriangleOrder', 'maxErrorRelative', 'allowLarger'];
-const OTHERS = ['grid', 'maxError', 'effort', 'lattice', 'fallback'];
+const OTHERS = ['grid', 'maxError', 'effort', 'prefer', 'lattice', 'fallback'];
 
 let source = {};
 let loading = null;
@@ -131,21 +132,22 @@ function checkOptions(options) {
     require(Number.isInteger(value) && (value === 0 || (value >= least && value <= most)),
       `${name} must be 0 (every bit) or ${least} to ${most}`);
   }
-  const { grid = 'mesh', maxError, effort = 1, lattice, fallback = false } = options;
+  const { grid = 'mesh', maxError, effort = 1, prefer = 'balanced', lattice, fallback = false } = options;
   require(GRIDS.includes(grid), `grid '${grid}' is none of ${GRIDS.join(', ')}`);
   require(maxError === undefined || (Number.isFinite(maxError) && maxError > 0), 'maxError must be a number above 0');
   require([0, 1, 2].includes(effort), 'effort must be 0, 1 or 2');
+  require(PREFERENCES.includes(prefer), `prefer '${prefer}' is none of ${PREFERENCES.join(', ')}`);
   require(lattice === undefined || (lattice.length === 4 && lattice.every(Number.isFinite) && lattice[3] > 0),
     'lattice must be four numbers: x, y, z of a point and the step');
   require(!fallback, 'a fallback is a second file, which the command line tool writes');
 }
 
 function setOptions(exports, options) {
-  const { grid = 'mesh', maxError, effort = 1, lattice } = options;
+  const { grid = 'mesh', maxError, effort = 1, prefer = 'balanced', lattice } = options;
   const flag = (name) => (options[name] ? 1 : 0);
   exports.setBits(...Object.entries(BITS).map(([name, [standard]]) => options[name] ?? standard));
   exports.setModes(flag('lossless'), flag('indicesOnly'), GRIDS.indexOf(grid), flag('keepVertexOrder'),
-    flag('keepTriangleOrder'), effort, flag('allowLarger'));
+    flag('keepTriangleOrder'), effort, PREFERENCES.indexOf(prefer), flag('allowLarger'));
   if (maxError !== undefined) exports.setMaxError(maxError, flag('maxErrorRelative'));
   if (lattice !== undefined) exports.setLattice(...lattice);
 }

@@ -235,6 +235,12 @@ static void test_encoder_refuses(void) {
   mcc_encode_options_init(&options, sizeof options);
   options.effort = 3;
   EXPECT(encode_sheet(&options, &encoding).error == MCC_ERROR_BAD_ARGUMENT);
+  mcc_encode_options_init(&options, sizeof options);
+  options.prefer = MCC_PREFER_SPEED + 1;
+  EXPECT(encode_sheet(&options, &encoding).error == MCC_ERROR_BAD_ARGUMENT);
+  options.prefer = MCC_PREFER_SPEED;
+  EXPECT(encode_sheet(&options, &encoding).error == MCC_OK);
+  mcc_encoding_release(encoding);
   EXPECT(mcc_encode(NULL, 1, NULL, &encoding).error == MCC_ERROR_BAD_ARGUMENT);
   mcc_encoding_release(NULL);
 }
@@ -257,6 +263,9 @@ static void test_documents(const char* path) {
   options.normal_bits = 1;
   EXPECT(mcc_convert_glb(glb, glb_bytes, &options, &small).error == MCC_ERROR_BAD_ARGUMENT);
   options.normal_bits = 8;
+  options.prefer = MCC_PREFER_SPEED + 1;
+  EXPECT(mcc_convert_glb(glb, glb_bytes, &options, &small).error == MCC_ERROR_BAD_ARGUMENT);
+  options.prefer = MCC_PREFER_SIZE;
   EXPECT(mcc_convert_glb(glb, glb_bytes, &options, &small).error == MCC_OK);
   EXPECT(strcmp(mcc_document_message(small), "") == 0);
   bytes = mcc_document_bytes(small, &small_bytes);

@@ -246,14 +246,27 @@ TEST_F(Cli, QuantizationIsApplied) {
   EXPECT_EQ(bits("--lossless"), (Bits{{"POSITION", 0}, {"NORMAL", 0}, {"TEXCOORD_0", 0}}));
 }
 
+TEST_F(Cli, PreferenceIsApplied) {
+  const auto bytes = [&](const std::string& preference) {
+    const Outcome result = run("convert in.glb out.glb --format json --prefer " + preference);
+    EXPECT_EQ(result.status, 0) << result.err;
+    Json report;
+    EXPECT_TRUE(parseJson(asBytes(result.out), report).ok());
+    EXPECT_EQ(report["options"]["prefer"], preference);
+    return report["output_bytes"].get<int64_t>();
+  };
+  EXPECT_LE(bytes("size"), bytes("balanced"));
+  EXPECT_LE(bytes("balanced"), bytes("speed"));
+}
+
 TEST_F(Cli, WrongUsageIsStatusTwo) {
   for (const char* arguments :
        {"", "frobnicate", "convert", "convert in.glb", "convert in.glb out.glb more.glb",
         "convert in.glb out.glb --frobnicate", "convert in.glb out.glb --quantize-position 25",
         "convert in.glb out.glb --quantize-position x",
         "convert in.glb out.glb --quantize-normal 1", "convert in.glb out.glb --grid world",
-        "convert in.glb out.glb --format xml", "convert in.glb out.glb -j 0", "decode in.glb",
-        "inspect"}) {
+        "convert in.glb out.glb --prefer beauty", "convert in.glb out.glb --format xml",
+        "convert in.glb out.glb -j 0", "decode in.glb", "inspect"}) {
     const Outcome result = run(arguments);
     EXPECT_EQ(result.status, 2) << arguments << "\n" << result.err;
     EXPECT_EQ(result.err.rfind("gltf-mcc: ", 0), 0u) << result.err;

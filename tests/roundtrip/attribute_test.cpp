@@ -675,6 +675,25 @@ TEST(Attributes, StridedSources) {
   EXPECT_EQ(strided.encoded.payload, tight.encoded.payload);
 }
 
+/// Codes of joints end below it.
+TEST(Attributes, JointsOfAllOnesAreRefused) {
+  const TestMesh mesh = torus(4, 4);
+  const std::vector<uint8_t> weights(size_t{4} * mesh.vertexCount(), 63);
+  for (const uint32_t joint : {~1u, ~0u}) {
+    std::vector<uint32_t> joints(size_t{4} * mesh.vertexCount(), 3);
+    joints[9] = joint;
+    MeshPiece piece(mesh);
+    piece.add(formatOf(Semantic::kJoints, ComponentType::kUint32, 4), joints.data());
+    piece.add(formatOf(Semantic::kWeights, ComponentType::kUint8, 4, true), weights.data());
+    const RoundTrip result = roundTrip(piece.view());
+    if (joint == ~0u) {
+      EXPECT_NE(result.failure.find("cannot be -1"), std::string::npos) << result.failure;
+    } else {
+      EXPECT_EQ(result.failure, "");
+    }
+  }
+}
+
 TEST(Attributes, WrongArgumentsAreRefused) {
   const TestMesh mesh = torus(4, 4);
   const MeshPiece piece(mesh);

@@ -37,6 +37,7 @@ const CASES = [
   ['two_materials', { keepVertexOrder: true, keepTriangleOrder: true }, ['--keep-order', 'both']],
   ['skinned', { indicesOnly: true }, ['--indices-only']],
   ['two_materials', { grid: 'primitive' }, ['--grid', 'primitive']],
+  ['sphere', { prefer: 'speed' }, ['--prefer', 'speed']],
 ];
 
 /** Measured angles depend on the C library's arc tangent. */
@@ -78,7 +79,7 @@ test('what is wrong is said', async () => {
     return error.code;
   });
   for (const options of [{ positionBits: 25 }, { normalBits: 1 }, { positionBits: '14' }, { grid: 'world' }, { maxError: 0 },
-    { positionbits: 14 }, { lossless: 1 }, { effort: 3 }, { lattice: [0, 0, 0, 0] }, { fallback: true }]) {
+    { positionbits: 14 }, { lossless: 1 }, { effort: 3 }, { prefer: 'beauty' }, { lattice: [0, 0, 0, 0] }, { fallback: true }]) {
     assert.equal(await codeOf(sample('torus'), options), 'BadArgument', JSON.stringify(options));
   }
   assert.equal(await codeOf('torus.glb'), 'BadArgument');

@@ -40,7 +40,7 @@ void addColorOption(CLI::App& command);
 void addFormatOption(CLI::App& command, CommonOptions& options);
 void addVerbosityOptions(CLI::App& command, CommonOptions& options);
 
-/// Bits, --lossless and --grid.
+/// Bits, --lossless, --grid and --prefer.
 void addQuantization(CLI::App& command, gltf::ConvertOptions& options);
 
 /// Prints "gltf-mcc: FILE: where: what" on standard error; returns kFailed.

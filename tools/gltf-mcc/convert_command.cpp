@@ -252,6 +252,14 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
                   "What shares a grid of positions: no cracks inside [mesh]")
       ->transform(CLI::CheckedTransformer(grids, CLI::ignore_case).description(""))
       ->type_name("mesh|scene|primitive");
+  const std::map<std::string, Preference> preferences = {{"balanced", Preference::kBalanced},
+                                                         {"size", Preference::kSize},
+                                                         {"speed", Preference::kSpeed}};
+  command
+      .add_option("--prefer", options.prefer,
+                  "Where bytes cost time to decode: fewer bytes, or less time [balanced]")
+      ->transform(CLI::CheckedTransformer(preferences, CLI::ignore_case).description(""))
+      ->type_name("size|balanced|speed");
 }
 
 void addKeepOrder(CLI::App& command, gltf::ConvertOptions& options) {

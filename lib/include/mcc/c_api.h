@@ -246,6 +246,9 @@ typedef struct mcc_piece_view {
   size_t part_count;
 } mcc_piece_view;
 
+/** What choices between bytes and the time of decoding go by, see mcc::Preference. */
+enum { MCC_PREFER_BALANCED = 0, MCC_PREFER_SIZE = 1, MCC_PREFER_SPEED = 2 };
+
 /** How mcc_encode() encodes. */
 typedef struct mcc_encode_options {
   size_t struct_bytes;
@@ -253,6 +256,7 @@ typedef struct mcc_encode_options {
   uint32_t
       keep_triangle_order; /**< 1: decoded triangles come in order, each with its own first corner */
   uint32_t effort;         /**< 0 fast, 1, 2 small */
+  uint32_t prefer;         /**< MCC_PREFER_… */
 } mcc_encode_options;
 
 /** Fills in `struct_bytes`, which is sizeof(mcc_encode_options) of the caller, and the defaults. */
@@ -305,6 +309,7 @@ typedef struct mcc_convert_options {
   uint32_t effort;              /**< 0 fast, 1, 2 small */
   uint32_t thread_count;        /**< the result does not depend on it */
   const mcc_lattice* position_lattice; /**< lattice of all positions, for tiles; null: none */
+  uint32_t prefer;                     /**< MCC_PREFER_… */
 } mcc_convert_options;
 
 /** Fills in `struct_bytes`, which is sizeof(mcc_convert_options) of the caller, and the defaults. */

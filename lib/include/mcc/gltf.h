@@ -115,8 +115,9 @@ struct ConvertOptions {
   bool fallback = false;
   /// Threads that work at the same time, on several payloads or on the trials of one; the result does not depend on it.
   uint32_t thread_count = 1;
-  uint8_t effort = 1;        ///< see EncodeOptions::effort
-  ForeignDecoders decoders;  ///< for sources that are compressed already
+  uint8_t effort = 1;                         ///< see EncodeOptions::effort
+  Preference prefer = Preference::kBalanced;  ///< payloads that are smaller, or faster to decode
+  ForeignDecoders decoders;                   ///< for sources that are compressed already
   /// Called now and then with what is being done, for people who wait, and the share of its triangles that is behind it,
   /// or -1. One call at a time, on any of the threads; throws nothing. May be null.
   std::function<void(const char* stage, double share)> progress;

@@ -81,6 +81,13 @@ struct Lattice {
 /// Index types of the output of decode().
 enum class IndexType : uint8_t { kUint8 = 1, kUint16 = 2, kUint32 = 4 };  // value = bytes
 
+/// What a writer's choices between bytes and the time of decoding go by.
+enum class Preference : uint8_t {
+  kBalanced = 0,  ///< 4 ns per vertex must save 1 % of a payload
+  kSize = 1,      ///< the fewest bytes, however long they take to decode
+  kSpeed = 2,     ///< each ns per vertex must save 1 %
+};
+
 }  // namespace mcc
 
 #endif  // MCC_TYPES_H_

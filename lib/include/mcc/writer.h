@@ -64,6 +64,8 @@ struct EncodeOptions {
   bool keep_vertex_order = false;
   /// Effort: 0 fast (few trials) .. 2 (all trials). The bytes depend on it, exactness does not.
   uint8_t effort = 1;
+  /// Smaller, or faster to decode. Exactness does not depend on it.
+  Preference prefer = Preference::kBalanced;
   /// Threads for the trials of the writer, which starts none itself; empty: it runs on the caller's alone. The bytes do not
   /// depend on it. Takes up to half the memory of a piece more for each job at a time.
   RunJobs run_jobs;
@@ -106,7 +108,7 @@ struct EncodeResult {
 
 /// Compresses pieces into one payload; they share adaptive models.
 /// Errors: kBadArgument (an index >= wedge_count, no POSITION, bits out of range, null data, further attributes with
-/// indices_only),
+/// indices_only, JOINTS_n of 4 components with WEIGHTS_n that hold -1 or 2^32 - 1),
 /// kLimit (more than 2^28 triangles or wedges), kOutOfMemory. Deterministic: the same input gives the
 /// same bytes on every machine. Time O(n log n) in triangles and wedges.
 /// Inverse: Payload::decode(). Tests: tests/roundtrip/.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -476,10 +477,11 @@ void fitScale(Trials& trials, const Jobs& jobs, PositionParameters& p) {
 class Chooser {
  public:
   Chooser(std::span<const PositionCandidate> pieces, double surface_bits, uint8_t effort,
-          const Jobs& jobs)
+          Preference prefer, const Jobs& jobs)
       : pieces_(pieces),
         jobs_(jobs),
         surface_bits_(surface_bits),
+        price_(prefer),
         effort_(std::min<uint8_t>(effort, 2)),
         trials_(pieces, kTrialVertices[effort_]) {}
 
@@ -543,7 +545,7 @@ class Chooser {
   /// Bits of connectivity and positions, more for what takes time.
   double costOf(const PositionParameters& p) {
     const double bits = surface_bits_ + trials_.cost(p);
-    return bits + surcharge(bits, timeOf(p));
+    return bits + price_.surcharge(bits, timeOf(p));
   }
 
   /// A mode for the leaders: taken if the best with it is cheaper than the best without.
@@ -601,6 +603,7 @@ class Chooser {
   std::span<const PositionCandidate> pieces_;
   const Jobs& jobs_;
   const double surface_bits_;
+  const TimePrice price_;
   uint8_t effort_;
   Trials trials_;
   std::vector<Ranked> ranked_;
@@ -664,6 +667,8 @@ void DistinctCoordinates::find(std::span<const int32_t> truth, bool is_exact) {
     // Searching a large palette misses the cache at every step: it must pay.
     const size_t limit = is_exact && vertices < kLargePalette ? 3 * vertices / 4 : vertices / 2;
     if (values.size() > std::min<size_t>(limit, kMaxPalette)) values.clear();
+    // A palette cannot begin with the least of all numbers (a NaN that keeps its bits), which is no signedGolomb(). [A.3.5]
+    if (!values.empty() && values[0] == std::numeric_limits<int32_t>::min()) values.clear();
     if (values.empty()) continue;
     const PaletteIndex index(values.data(), static_cast<uint32_t>(values.size()));
     shift[s] = index.shift;
@@ -674,8 +679,9 @@ void DistinctCoordinates::find(std::span<const int32_t> truth, bool is_exact) {
 }
 
 PositionParameters choosePositionParameters(std::span<const PositionCandidate> pieces,
-                                            double surface_bits, uint8_t effort, const Jobs& jobs) {
-  return Chooser(pieces, surface_bits, effort, jobs).run();
+                                            double surface_bits, uint8_t effort, Preference prefer,
+                                            const Jobs& jobs) {
+  return Chooser(pieces, surface_bits, effort, prefer, jobs).run();
 }
 
 }  // namespace mcc

@@ -40,9 +40,11 @@ struct DistinctCoordinates {
 
 /// Tries the predictors and modes on the pieces, or on an even sample of their vertices if they have many, and returns
 /// the cheapest combination with its tables. What takes time in the decoder has to be worth it, see enc_prices.h:
-/// `surface_bits` is what the connectivity takes. `effort` as in EncodeOptions. Deterministic on every machine.
+/// `surface_bits` is what the connectivity takes. `effort` and `prefer` as in EncodeOptions. Deterministic on every
+/// machine.
 PositionParameters choosePositionParameters(std::span<const PositionCandidate> pieces,
-                                            double surface_bits, uint8_t effort, const Jobs& jobs);
+                                            double surface_bits, uint8_t effort, Preference prefer,
+                                            const Jobs& jobs);
 
 /// Least-squares weights of the predictor on these pieces. `robust` weighs residuals by the inverse of their square,
 /// else by the inverse of their size. Also used by tools/train.

@@ -1,19 +1,20 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // What choices of the encoder cost the decoder. A choice that takes t ns per vertex longer must make the payload smaller
-// by t / 4 percent; a choice between some bytes and some time is thereby the same everywhere.
+// by t / 4 percent, unless the caller prefers otherwise; a choice between some bytes and some time is thereby the same
+// everywhere.
 //
 // The times are those of a release build with gcc 12 on a Zen 4, rounded: they rank the choices, on any machine.
 #ifndef MCC_ATTRIBUTES_ENC_PRICES_H_
 #define MCC_ATTRIBUTES_ENC_PRICES_H_
 
+#include <limits>
+
 #include "attributes/position_parameters.h"
+#include "mcc/types.h"
 #include "mesh/attribute_method.h"
 
 namespace mcc {
-
-/// As many nanoseconds per vertex are worth the whole payload.
-inline constexpr double kTimeOfPayload_ns = 400;
 
 namespace price_ns {
 inline constexpr double kWeights = 13;  ///< more than the average of the tips
@@ -48,8 +49,20 @@ inline double timeOf(AttributeMethod method, uint8_t predictor) {
   return blends ? price_ns::kBlend : 0;
 }
 
-/// What is added to a payload of so many bits for choices that take so long.
-inline double surcharge(double bits, double ns) { return bits * ns / kTimeOfPayload_ns; }
+/// What time is worth.
+class TimePrice {
+ public:
+  explicit TimePrice(Preference prefer)
+      : payload_ns_(prefer == Preference::kSpeed  ? 100
+                    : prefer == Preference::kSize ? std::numeric_limits<double>::infinity()
+                                                  : 400) {}
+
+  /// What is added to a payload of so many bits for choices that take so long.
+  double surcharge(double bits, double ns) const { return bits * ns / payload_ns_; }
+
+ private:
+  const double payload_ns_;  ///< as many nanoseconds per vertex are worth the whole payload
+};
 
 }  // namespace mcc
 

@@ -54,8 +54,8 @@ Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
   MCC_TRY(readBits(options.tangent_bits, true, out.bits.tangent));
   MCC_TRY(readBits(options.weight_bits, false, out.bits.weight));
   if (options.grid > MCC_GRID_PRIMITIVE || options.effort > 2 ||
-      !(options.max_position_error >= 0)) {
-    return fail(Error::kBadArgument, "grid, effort or max_position_error is out of range");
+      options.prefer > MCC_PREFER_SPEED || !(options.max_position_error >= 0)) {
+    return fail(Error::kBadArgument, "grid, effort, prefer or max_position_error is out of range");
   }
   out.lossless = options.lossless != 0;
   out.grid = static_cast<Grid>(options.grid);
@@ -65,6 +65,7 @@ Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
   out.keep_vertex_order = options.keep_vertex_order != 0;
   out.keep_triangle_order = options.keep_triangle_order != 0;
   out.effort = static_cast<uint8_t>(options.effort);
+  out.prefer = static_cast<Preference>(options.prefer);
   out.thread_count = options.thread_count;
   if (options.position_lattice != nullptr) {
     Lattice& lattice = out.position_lattice.emplace();

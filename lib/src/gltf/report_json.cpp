@@ -63,6 +63,7 @@ Json primitiveJson(const PrimitiveReport& primitive) {
 
 Json optionsJson(const ConvertOptions& options) {
   static constexpr const char* kGrids[] = {"mesh", "scene", "primitive"};
+  static constexpr const char* kPreferences[] = {"balanced", "size", "speed"};
   Json lattice;
   if (options.position_lattice) {
     const Lattice& l = *options.position_lattice;
@@ -77,6 +78,7 @@ Json optionsJson(const ConvertOptions& options) {
           {"keep_vertex_order", options.keep_vertex_order},
           {"keep_triangle_order", options.keep_triangle_order},
           {"grid", kGrids[static_cast<size_t>(options.grid)]},
+          {"prefer", kPreferences[static_cast<size_t>(options.prefer)]},
           {"quantize_position", options.bits.position},
           {"quantize_normal", options.bits.normal},
           {"quantize_texcoord", options.bits.texcoord},
