@@ -152,6 +152,44 @@ TEST(Convert, KeepsEverythingElse) {
   EXPECT_NE(text.find("0.10000000000000000555"), std::string::npos);
 }
 
+/// glTF forbids empty lists; files have them all the same, and lose those of extensions when something is compressed.
+TEST(Convert, EmptyListsOfExtensionsGo) {
+  const auto convertWith = [](const std::vector<const char*>& lists) {
+    Builder builder;
+    builder.addMesh({Sheet(20).addTo(builder)});
+    for (const char* list : lists) builder.json[list] = Json::array();
+    return roundTrip(builder);
+  };
+  for (const auto& lists : std::vector<std::vector<const char*>>{
+           {"extensionsUsed"}, {"extensionsRequired"}, {"extensionsUsed", "extensionsRequired"}}) {
+    const RoundTrip trip = convertWith(lists);
+    ASSERT_EQ(trip.error, "");
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+      EXPECT_EQ(jsonOf(trip.converted)[list], Json::array({kExtensionName}));
+      EXPECT_FALSE(jsonOf(trip.decoded).contains(list));
+    }
+  }
+  const RoundTrip others = convertWith(
+      {"animations", "cameras", "images", "materials", "samplers", "skins", "textures"});
+  ASSERT_EQ(others.error, "");
+  EXPECT_TRUE(isCompressed(jsonOf(others.converted), 0, 0));
+  EXPECT_EQ(jsonOf(others.decoded)["images"], Json::array()) << "what is no list of ours stays";
+}
+
+/// One of the lists is empty, the other has a name that stays.
+TEST(Convert, AnEmptyListBesideOneWithNames) {
+  Builder builder;
+  builder.addMesh({Sheet(20).addTo(builder)});
+  builder.json["extensionsUsed"] = {"KHR_materials_unlit"};
+  builder.json["extensionsRequired"] = Json::array();
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_EQ(jsonOf(trip.converted)["extensionsUsed"],
+            Json::array({"KHR_materials_unlit", kExtensionName}));
+  EXPECT_EQ(jsonOf(trip.decoded)["extensionsUsed"], Json::array({"KHR_materials_unlit"}));
+  EXPECT_FALSE(jsonOf(trip.decoded).contains("extensionsRequired"));
+}
+
 TEST(Convert, KnownExtensionsLetViewsBeRenumbered) {
   Builder builder = strangeDocument();
   builder.json["extensionsUsed"] = {"KHR_materials_unlit", "KHR_texture_transform"};
