@@ -403,17 +403,17 @@ Json meansJson(const Means& means) {
 
 /// Empty cells where nothing was loaded; decoding by threads is ours alone.
 void addLoadCells(const bench::LoadFigures& load, Codec id, std::vector<std::string>& cells) {
-  const auto addSeconds = [&](double seconds) { cells.push_back(fmt::format("{:.6g}", seconds)); };
+  const auto add = [&](double seconds) { cells.push_back(fmt::format("{:.6g}", seconds)); };
   if (!load.is_measured) return;
   switch (id) {
     case Codec::kMcc:
-      addSeconds(load.mcc);
+      add(load.mcc);
       cells.push_back(std::to_string(load.payload_count));
-      addSeconds(load.decode_1);
-      addSeconds(load.decode_2);
+      add(load.decode_1);
+      add(load.decode_2);
       break;
-    case Codec::kDraco0: addSeconds(load.draco_0); break;
-    case Codec::kDraco5: addSeconds(load.draco_5); break;
+    case Codec::kDraco0: add(load.draco_0); break;
+    case Codec::kDraco5: add(load.draco_5); break;
     case Codec::kDraco3:
     case Codec::kMeshopt: break;
   }
