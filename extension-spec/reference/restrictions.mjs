@@ -76,7 +76,6 @@ export function checkPrimitive(json, primitive) {
 
 function checkView(view) {
 	require(view !== undefined, 'the buffer view does not exist');
-	require(view.byteStride === undefined && view.target === undefined, 'the buffer view has byteStride or target');
 	for (const name of ['EXT_meshopt_compression', 'KHR_meshopt_compression']) {
 		require(view.extensions?.[name] === undefined, `the buffer view has ${name}`);
 	}

@@ -22,6 +22,9 @@ function(mcc_shared_library name static alias file)
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>)
   set_target_properties(${name} PROPERTIES OUTPUT_NAME ${file} EXPORT_NAME ${alias}
                         LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION} SOVERSION ${mcc_soversion})
+  # They find each other wherever they lie together; a program that uses one of them names no other.
+  set_target_properties(${name} PROPERTIES BUILD_WITH_INSTALL_RPATH ON
+                        INSTALL_RPATH $<IF:$<BOOL:${APPLE}>,@loader_path,$ORIGIN>)
   if(UNIX AND NOT APPLE)
     set(script ${mcc_package_dir}/exports.map)
     target_link_options(${name} PRIVATE LINKER:--version-script=${script} LINKER:--as-needed

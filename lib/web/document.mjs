@@ -107,9 +107,6 @@ function readUse(json, { extension, primitive, path: primitivePath }) {
 function readView(json, { bufferView }, path) {
   const view = json.bufferViews?.[numberOf(bufferView, `${path}/bufferView`)];
   if (view === undefined) fail(`${path}/bufferView`, `there is no bufferView ${bufferView}`);
-  if (view.byteStride !== undefined || view.target !== undefined) {
-    fail(`/bufferViews/${bufferView}`, 'the view of a payload must have no byteStride and no target');
-  }
   for (const name of ['EXT_meshopt_compression', 'KHR_meshopt_compression']) {
     if (view.extensions?.[name] !== undefined) fail(`${path}/bufferView`, `bufferView ${bufferView} is coded with ${name}`);
   }

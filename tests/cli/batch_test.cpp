@@ -316,7 +316,9 @@ class Streams : public Batch {};
 
 TEST_F(Streams, StandInForFiles) {
   ASSERT_EQ(run("convert in/textured.glb small.glb").status, 0);
-  ASSERT_EQ(run("decode small.glb back.glb").status, 0);
+  const ToolResult decoded = run("decode small.glb back.glb");
+  ASSERT_EQ(decoded.status, 0);
+  EXPECT_NE(decoded.out.find("\n1 primitive of 1 payload decoded: "), std::string::npos);
 #ifdef MCC_TOOL_GLTF_MCC
   const std::string tool = std::string("'") + MCC_TOOL_GLTF_MCC + "' ";
   for (const std::string& command :
@@ -338,6 +340,11 @@ TEST_F(Streams, StandInForFiles) {
   EXPECT_EQ(bad.out, "");
   EXPECT_EQ(bad.err,
             "gltf-mcc: standard input: byte 0: this is no glTF file: neither a GLB nor JSON\n");
+  const ToolResult inspect = runCommand(folder_, "( " + tool + "inspect - < small.glb )");
+  EXPECT_EQ(inspect.status, 0) << inspect.err;
+  EXPECT_EQ("small.glb" + inspect.out.substr(std::min<size_t>(1, inspect.out.size())),
+            run("inspect small.glb").out);
+  EXPECT_EQ(runCommand(folder_, "( echo nothing | " + tool + "inspect - )").err, bad.err);
   // Nobody reads: an error, not silence.
   const ToolResult full =
       runCommand(folder_, "( " + tool + "convert in/textured.glb - > /dev/full )");

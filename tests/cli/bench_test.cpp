@@ -3,7 +3,9 @@
 // The benchmark command: consistent figures, formats, exit status. No time is judged. And the sizes
 // of the samples, so that a change of size shows in review.
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "cli/run_tool.h"
 
@@ -68,6 +70,65 @@ TEST(Bench, LoadsWholeFilesWhenAsked) {
   }
   EXPECT_NE(runTool(folder, "bench --load " + sample).out.find("load with tinygltf"),
             std::string::npos);
+}
+
+/// The cells of a line of CSV without quotes.
+std::vector<std::string> cellsOf(const std::string& line) {
+  std::vector<std::string> cells(1);
+  for (const char c : line) {
+    if (c == ',') {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+/// The rows of a table as CSV, by codec and column.
+std::map<std::string, std::map<std::string, std::string>> rowsByCodec(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> header = cellsOf(line);
+  std::map<std::string, std::map<std::string, std::string>> rows;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> cells = cellsOf(line);
+    EXPECT_EQ(cells.size(), header.size()) << line;
+    if (cells.size() != header.size()) continue;
+    for (size_t c = 0; c < cells.size(); ++c) rows[cells[2]][header[c]] = cells[c];
+  }
+  return rows;
+}
+
+TEST(Bench, TablesForProgramsHaveTheLoads) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  const std::string sample = samplePath("two_materials.glb");
+  const auto is_positive = [](const std::string& cell) {
+    return !cell.empty() && std::stod(cell) > 0;
+  };
+  auto without = rowsByCodec(runTool(folder, "bench --format csv " + sample).out);
+  ASSERT_EQ(without.size(), 5u);
+  const ToolResult result = runTool(folder, "bench --load --format csv " + sample);
+  if (result.err.find("this build has no tinygltf") != std::string::npos)
+    GTEST_SKIP() << result.err;
+  ASSERT_EQ(result.status, 0) << result.err;
+  auto rows = rowsByCodec(result.out);
+  ASSERT_EQ(rows.size(), 5u);
+  for (const auto& [codec, row] : rows) {
+    SCOPED_TRACE(codec);
+    const bool is_loaded = codec == "mcc" || codec == "draco_0" || codec == "draco_5";
+    ASSERT_EQ(row.count("load_cpu_seconds"), 1u);
+    EXPECT_EQ(is_positive(row.at("load_cpu_seconds")), is_loaded);
+    for (const char* column : {"decode_wall_seconds_1_thread", "decode_wall_seconds_2_threads"}) {
+      ASSERT_EQ(row.count(column), 1u);
+      EXPECT_EQ(is_positive(row.at(column)), codec == "mcc") << column;
+    }
+    EXPECT_EQ(row.at("payloads"), codec == "mcc" ? "1" : "");
+    EXPECT_EQ(row.size(), without[codec].size()) << "the columns are the same without --load";
+    EXPECT_EQ(without[codec]["load_cpu_seconds"], "");
+  }
 }
 
 TEST(Bench, CategoriesComeFromTheNames) {

@@ -115,6 +115,7 @@ TEST_F(Manners, EveryCommandHasHelpWithExamples) {
     EXPECT_NE(help.out.find("Usage: gltf-mcc " + command), std::string::npos) << help.out;
     EXPECT_NE(help.out.find("\nExamples:\n  gltf-mcc " + command), std::string::npos) << help.out;
     EXPECT_EQ(options(command).count("--help"), 1u) << help.out;
+    EXPECT_EQ(help.out.find("\n\n\n"), std::string::npos) << help.out;
     EXPECT_EQ(run("help " + command).out, help.out);
     for (size_t at = 0; at < help.out.size(); at = help.out.find('\n', at) + 1) {
       EXPECT_LE(help.out.find('\n', at) - at, 110u) << help.out.substr(at, 120);

@@ -69,7 +69,7 @@ TEST(ValidateCommand, GoldenJson) {
   const ToolResult good = runTool(folder, "validate good.glb");
   EXPECT_EQ(good.status, 0);
   EXPECT_EQ(good.out,
-            "good.glb: valid; 1 of 1 primitives compressed, in 1 payloads: 2 triangles, 4 "
+            "good.glb: valid; 1 of 1 primitives compressed, in 1 payload: 2 triangles, 4 "
             "vertices\n");
 }
 

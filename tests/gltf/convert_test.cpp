@@ -10,6 +10,7 @@
 #include <set>
 
 #include "gltf/check_json.h"
+#include "gltf/references.h"
 #include "gltf/round_trip.h"
 
 namespace mcc::gltf::test {
@@ -152,6 +153,44 @@ TEST(Convert, KeepsEverythingElse) {
   EXPECT_NE(text.find("0.10000000000000000555"), std::string::npos);
 }
 
+/// glTF forbids empty lists; files have them all the same, and lose those of extensions when something is compressed.
+TEST(Convert, EmptyListsOfExtensionsGo) {
+  const auto convertWith = [](const std::vector<const char*>& lists) {
+    Builder builder;
+    builder.addMesh({Sheet(20).addTo(builder)});
+    for (const char* list : lists) builder.json[list] = Json::array();
+    return roundTrip(builder);
+  };
+  for (const auto& lists : std::vector<std::vector<const char*>>{
+           {"extensionsUsed"}, {"extensionsRequired"}, {"extensionsUsed", "extensionsRequired"}}) {
+    const RoundTrip trip = convertWith(lists);
+    ASSERT_EQ(trip.error, "");
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+      EXPECT_EQ(jsonOf(trip.converted)[list], Json::array({kExtensionName}));
+      EXPECT_FALSE(jsonOf(trip.decoded).contains(list));
+    }
+  }
+  const RoundTrip others = convertWith(
+      {"animations", "cameras", "images", "materials", "samplers", "skins", "textures"});
+  ASSERT_EQ(others.error, "");
+  EXPECT_TRUE(isCompressed(jsonOf(others.converted), 0, 0));
+  EXPECT_EQ(jsonOf(others.decoded)["images"], Json::array()) << "what is no list of ours stays";
+}
+
+/// One of the lists is empty, the other has a name that stays.
+TEST(Convert, AnEmptyListBesideOneWithNames) {
+  Builder builder;
+  builder.addMesh({Sheet(20).addTo(builder)});
+  builder.json["extensionsUsed"] = {"KHR_materials_unlit"};
+  builder.json["extensionsRequired"] = Json::array();
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_EQ(jsonOf(trip.converted)["extensionsUsed"],
+            Json::array({"KHR_materials_unlit", kExtensionName}));
+  EXPECT_EQ(jsonOf(trip.decoded)["extensionsUsed"], Json::array({"KHR_materials_unlit"}));
+  EXPECT_FALSE(jsonOf(trip.decoded).contains("extensionsRequired"));
+}
+
 TEST(Convert, KnownExtensionsLetViewsBeRenumbered) {
   Builder builder = strangeDocument();
   builder.json["extensionsUsed"] = {"KHR_materials_unlit", "KHR_texture_transform"};
@@ -180,6 +219,85 @@ TEST(Convert, UnknownExtensionsKeepTheNumbersOfViews) {
     const BufferView& view = document.views[table];
     EXPECT_EQ(view.length, 5u);
     EXPECT_EQ(document.buffers[0][view.offset + 4], 7);
+  }
+}
+
+/// Views that nothing refers to.
+size_t unusedViews(const std::vector<uint8_t>& file) {
+  Json json = jsonOf(file);
+  std::set<uint64_t> used;
+  visitViewReferences(json, [&](Json& number, uint32_t) { used.insert(number.get<uint64_t>()); });
+  return json["bufferViews"].size() - used.size();
+}
+
+/// Numbers in front of one that must stay are held by views without a use; decoding gives them to the accessors again.
+TEST(Convert, DecodingLeavesNoViewsThatOnlyHoldNumbers) {
+  for (const bool is_image_last : {false, true}) {
+    SCOPED_TRACE(is_image_last);
+    Builder builder;
+    if (!is_image_last) builder.addView({0x89, 'P', 'N', 'G', 1, 2, 3});
+    builder.addMesh({Sheet(20).addTo(builder)});
+    builder.bin.resize(builder.bin.size() + 4);  // then the first view does not begin at byte 0
+    if (is_image_last) builder.addView({0x89, 'P', 'N', 'G', 1, 2, 3});
+    const size_t image = is_image_last ? 4 : 0;
+    builder.json["images"] = {{{"bufferView", image}, {"mimeType", "image/png"}}};
+    builder.json["extensionsUsed"] = {"ACME_tables"};
+    builder.json["extensions"]["ACME_tables"] = Json::object();
+    const RoundTrip trip = roundTrip(builder);
+    ASSERT_EQ(trip.error, "");
+    ASSERT_TRUE(isCompressed(jsonOf(trip.converted), 0, 0));
+    EXPECT_EQ(unusedViews(trip.converted), is_image_last ? 3u : 0u) << "none behind the last";
+    EXPECT_EQ(unusedViews(trip.decoded), 0u);
+    EXPECT_EQ(jsonOf(trip.decoded)["bufferViews"].size(), 5u);
+    EXPECT_EQ(jsonOf(trip.decoded)["images"][0]["bufferView"], image);
+    // A file that is compressed already does not lose what holds numbers, nor gets more of it.
+    const RoundTrip again = roundTrip(trip.converted);
+    ASSERT_EQ(again.error, "");
+    EXPECT_EQ(unusedViews(again.decoded), 0u);
+  }
+}
+
+/// A part of a document was compressed before; what held its numbers is used for the rest.
+TEST(Convert, NumbersThatAreFreeAreTakenByTheNextConversion) {
+  Builder builder;
+  builder.addMesh({Sheet(20).addTo(builder)});
+  const uint32_t image = builder.addView({0x89, 'P', 'N', 'G', 1, 2, 3});
+  builder.json["images"] = {{{"bufferView", image}, {"mimeType", "image/png"}}};
+  builder.json["extensionsUsed"] = {"ACME_tables"};
+  builder.json["extensions"]["ACME_tables"] = Json::object();
+  const RoundTrip first = roundTrip(builder);
+  ASSERT_EQ(first.error, "");
+  ASSERT_EQ(unusedViews(first.converted), 3u);
+  Builder second;
+  GlbFile glb;
+  ASSERT_TRUE(readGlb(first.converted, glb).ok());
+  second.json = jsonOf(first.converted);
+  second.bin.assign(glb.bin.begin(), glb.bin.end());
+  second.addMesh({Sheet(24, 0.2f).addTo(second)});
+  const RoundTrip trip = roundTrip(second);
+  ASSERT_EQ(trip.error, "");
+  ASSERT_TRUE(isCompressed(jsonOf(trip.converted), 1, 0));
+  EXPECT_EQ(unusedViews(trip.converted), 2u);
+  EXPECT_EQ(jsonOf(trip.converted)["bufferViews"].size(), 5u);
+  EXPECT_EQ(jsonOf(trip.converted)["images"][0]["bufferView"], image);
+  EXPECT_EQ(unusedViews(trip.decoded), 0u);
+}
+
+/// A view of one byte that nothing refers to, as far as we know, is somebody's, unless the byte begins another view.
+TEST(Convert, AViewOfOneByteMayBeInUse) {
+  Builder builder;
+  builder.addMesh({Sheet(20).addTo(builder)});
+  const uint32_t byte = builder.addView({42});
+  builder.json["extensionsUsed"] = {"ACME_tables"};
+  builder.json["extensions"]["ACME_tables"] = {{"values", byte}};
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  for (const auto* file : {&trip.converted, &trip.decoded}) {
+    Document document;
+    ASSERT_TRUE(loadDocument(*file, nullptr, document).ok());
+    ASSERT_GT(document.views.size(), byte);
+    EXPECT_EQ(document.views[byte].length, 1u);
+    EXPECT_EQ(document.buffers[0][document.views[byte].offset], 42);
   }
 }
 

@@ -47,6 +47,12 @@ TEST_F(DecodeErrors, UnchangedIsFine) {
   EXPECT_EQ(errorAfter([](Json&, Json&) {}), "");
 }
 
+/// validate() names them; a loader loses nothing by them.
+TEST_F(DecodeErrors, StrideAndTargetOfThePayloadsViewAreIgnored) {
+  EXPECT_EQ(errorAfter([](Json& j, Json&) { j["bufferViews"][0]["byteStride"] = 4; }), "");
+  EXPECT_EQ(errorAfter([](Json& j, Json&) { j["bufferViews"][0]["target"] = 34962; }), "");
+}
+
 TEST_F(DecodeErrors, BufferView) {
   const std::string path = std::string(kPath) + "/bufferView: ";
   EXPECT_EQ(errorAfter([](Json&, Json& e) { e["bufferView"] = 9; }),

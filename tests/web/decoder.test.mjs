@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
+import { checkPrimitive, compressedPrimitives } from '../../extension-spec/reference/restrictions.mjs';
 import { createDecoderPool, decodePayload, decodePayloadSync, init, MccError, ready } from '../../lib/web/decoder.mjs';
 import { elementsOf, payloadsOf } from '../../lib/web/document.mjs';
 import { readGlb, unpackGlb } from '../../lib/web/unpack.mjs';
@@ -76,6 +77,14 @@ function crc32(bytes) {
   }
   return ~crc >>> 0;
 }
+
+test('byteStride and target of a payload\'s view are ignored', () => {
+  const { json } = readGlb(readAsset(manifest.assets[0]));
+  const payloads = payloadsOf(json);
+  Object.assign(json.bufferViews[payloads[0].bufferView], { byteStride: 4, target: 34962 });
+  assert.deepEqual(payloadsOf(json), payloads);
+  for (const primitive of compressedPrimitives(json)) checkPrimitive(json, primitive);
+});
 
 test('the error is the reader\'s own', async () => {
   const asset = manifest.negative.find(({ file }) => file.includes('damaged_checksum'));

@@ -25,7 +25,7 @@ namespace mcc::tool {
 std::string benchText(const std::vector<bench::FileFigures>& files, const std::string& apart,
                       Format format);
 
-/// One row per file and codec; bytes per stream.
+/// One row per file and codec; bytes per stream. Cells without a figure are empty, so the columns are always the same.
 std::string benchCsv(const std::vector<bench::FileFigures>& files);
 
 /// Everything.

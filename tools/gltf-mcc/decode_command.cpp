@@ -70,10 +70,11 @@ int DecodeCommand::runOne() const {
   if (common.is_quiet || sink.isStandardOutput()) return kDone;
   std::string text = fmt::format("{} -> {}: {} -> {} bytes\n", input, files.output,
                                  grouped(report.input_bytes), grouped(report.output_bytes));
-  text +=
-      fmt::format("{} primitives of {} payloads decoded: {} triangles, {} vertices, {:.0f} ms\n",
-                  report.primitive_count, report.payload_count, grouped(report.triangle_count),
-                  grouped(report.wedge_count), 1000 * report.decode_seconds);
+  text += fmt::format("{} of {} decoded: {} triangles, {} vertices, {:.0f} ms\n",
+                      counted(report.primitive_count, "primitive", "primitives"),
+                      counted(report.payload_count, "payload", "payloads"),
+                      grouped(report.triangle_count), grouped(report.wedge_count),
+                      1000 * report.decode_seconds);
   for (const std::string& note : report.notes) text += "note: " + note + "\n";
   return printOut(text);
 }

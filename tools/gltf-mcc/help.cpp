@@ -45,7 +45,10 @@ HelpFormatter::HelpFormatter(CommandHelp help) : help_(std::move(help)) { column
 
 std::string HelpFormatter::make_help(const CLI::App* app, std::string name,
                                      CLI::AppFormatMode mode) const {
-  return inLocale(CLI::Formatter::make_help(app, std::move(name), mode));
+  std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
+  // Options that are hidden leave a line without anything.
+  for (size_t at = 0; (at = text.find("\n\n\n", at)) != std::string::npos;) text.erase(at, 1);
+  return inLocale(std::move(text));
 }
 
 /// Without what CLI11 says of the number of commands.

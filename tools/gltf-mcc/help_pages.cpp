@@ -308,8 +308,8 @@ void addCompletion(CLI::App& app, int& status) {
   command->add_option("SHELL", *shell, "Which")->type_name("")->required();
   setHelp(*command, "completion bash|zsh",
           "For this session: source <(gltf-mcc completion bash), in zsh behind compinit.\n"
-          "For good, save it as ~/.local/share/bash-completion/completions/gltf-mcc, or as\n"
-          "_gltf-mcc in a folder of zsh's fpath.",
+          "For good, save it as gltf-mcc in ~/.local/share/bash-completion/completions, which may\n"
+          "have to be made, or as _gltf-mcc in a folder of zsh's fpath.",
           "completion bash > ~/.local/share/bash-completion/completions/gltf-mcc");
   command->callback([&app, &status, shell]() {
     if (*shell != "bash" && *shell != "zsh") {

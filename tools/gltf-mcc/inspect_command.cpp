@@ -7,9 +7,11 @@
 #include "bars.h"
 #include "commands.h"
 #include "convert_report.h"
+#include "gltf/file_io.h"
 #include "gltf/report_json.h"
 #include "help.h"
 #include "progress_line.h"
+#include "standard_streams.h"
 
 namespace mcc::tool {
 namespace {
@@ -36,10 +38,6 @@ std::string joined(const std::vector<std::string>& texts) {
   std::string all;
   for (const std::string& text : texts) all += (all.empty() ? "" : " ") + text;
   return all;
-}
-
-std::string counted(uint64_t number, const char* one, const char* many) {
-  return grouped(number) + " " + (number == 1 ? one : many);
 }
 
 std::string attributeText(const AttributeInfo& attribute) {
@@ -280,10 +278,14 @@ struct InspectCommand {
 
   int run() const {
     gltf::InspectReport report;
-    gltf::Result outcome;
-    {
+    StreamSource stream;
+    gltf::Result outcome = stream.open(input);
+    if (outcome.ok()) {
       const WorkProgress progress(false, "reading " + input);
-      outcome = gltf::inspectFile(input, true, report);
+      const gltf::Source source = stream.source();
+      outcome = source.bytes
+                    ? gltf::inFile(source.path, gltf::inspectGlb(*source.bytes, true, report))
+                    : gltf::inspectFile(input, true, report);
     }
     if (!outcome.ok()) return reportFailure(outcome, input, "");
     if (common.format == Format::kJson) return printOut(inspectJson(input, report));
@@ -323,13 +325,14 @@ void addInspect(CLI::App& app, int& status) {
                     "Count the codes: S, E, M and the degrees of vertices");
   addFormatOption(*command, state->common);
   addColorOption(*command);
-  setHelp(*command, "inspect [OPTIONS] IN",
-          "IN is a .glb or .gltf file. Of each payload are shown its streams with their bytes, and "
-          "its\n"
-          "attributes: how each is coded, the step of its grid, how far a value may be from the\n"
-          "source, and what the writer chose to predict it, in the words of the specification.",
-          "inspect small.glb\n"
-          "inspect small.glb --codes --format md");
+  setHelp(
+      *command, "inspect [OPTIONS] IN",
+      "IN is a .glb or .gltf file, or - for standard input. Of each payload are shown its\n"
+      "streams with their bytes, and its attributes: how each is coded, the step of its grid,\n"
+      "how far a value may be from the source, and what the writer chose to predict it, in the\n"
+      "words of the specification.",
+      "inspect small.glb\n"
+      "inspect small.glb --codes --format md");
   command->callback([state, &status]() { status = state->run(); });
 }
 

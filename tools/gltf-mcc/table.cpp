@@ -104,6 +104,10 @@ std::string grouped(uint64_t number) {
   return digits;
 }
 
+std::string counted(uint64_t number, const char* one, const char* many) {
+  return grouped(number) + " " + (number == 1 ? one : many);
+}
+
 std::string count(uint64_t number, Format format) {
   const bool is_for_people = format == Format::kPretty || format == Format::kMarkdown;
   return is_for_people ? grouped(number) : std::to_string(number);

@@ -42,6 +42,9 @@ std::string grouped(uint64_t number);
 /// The same without separators where a program reads it.
 std::string count(uint64_t number, Format format);
 
+/// "1 mesh", "1,234 meshes".
+std::string counted(uint64_t number, const char* one, const char* many);
+
 }  // namespace mcc::tool
 
 #endif  // MCC_TOOL_TABLE_H_

@@ -137,10 +137,10 @@ struct ValidateCommand {
     if (common.is_quiet && report.isValid()) return "";
     std::string text = fmt::format("{}: {}", file.file, countsText(report));
     if (!common.is_quiet) {
-      text += fmt::format(
-          "; {} of {} primitives compressed, in {} payloads: {} triangles, {} vertices",
-          report.compressed_primitive_count, report.primitive_count, report.payload_count,
-          grouped(report.triangle_count), grouped(report.wedge_count));
+      text += fmt::format("; {} of {} primitives compressed, in {}: {} triangles, {} vertices",
+                          report.compressed_primitive_count, report.primitive_count,
+                          counted(report.payload_count, "payload", "payloads"),
+                          grouped(report.triangle_count), grouped(report.wedge_count));
     }
     Table table({"severity", "code", "pointer", "message"}, {1, 2, 3});
     for (const gltf::ValidationIssue& issue : report.issues) {

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "gltf/accessors.h"
+#include "gltf/rebuild.h"
 #include "gltf/references.h"
 
 namespace mcc::gltf {
@@ -150,8 +151,10 @@ Result compareImages(const Document& source, const Document& decoded) {
 /// had already are decoded.
 Result compareViews(const Document& source, const Document& decoded,
                     const std::set<uint32_t>& touched) {
-  if (!findForeignReferences(source.json).keep_numbers) return {};
-  std::vector<bool> is_freed(source.views.size(), false);
+  const ForeignReferences foreign = findForeignReferences(source.json);
+  if (!foreign.keep_numbers) return {};
+  std::vector<bool> is_freed;
+  for (const ViewUse use : viewUses(source, foreign)) is_freed.push_back(use == ViewUse::kFree);
   std::vector<ExtensionUse> own;
   MCC_GLTF_TRY(findExtensionUses(source, own));
   for (const ExtensionUse& use : own) is_freed[use.view] = true;

@@ -20,6 +20,27 @@ ByteRange viewRange(const Document& document, uint32_t view) {
   return {from.buffer, from.offset, from.offset + from.length};
 }
 
+using Visit = std::function<void(uint32_t view, uint32_t accessor)>;
+
+void visitOldViews(const Document& document, Json& json, const Visit& visit) {
+  visitViewReferences(json, [&](Json& number, uint32_t accessor) {
+    uint64_t view = 0;
+    if (asUnsigned(number, view) && view < document.views.size()) {
+      visit(static_cast<uint32_t>(view), accessor);
+    }
+  });
+}
+
+bool isOneByte(const Json& view) {
+  uint64_t length = 0;
+  const Json* member = findMember(view, "byteLength");
+  if (member == nullptr || !asUnsigned(*member, length) || length != 1) return false;
+  for (const char* key : {"byteStride", "target", "extensions"}) {
+    if (findMember(view, key) != nullptr) return false;
+  }
+  return true;
+}
+
 class Rebuilder {
  public:
   Rebuilder(const Document& document, const ForeignReferences& foreign,
@@ -44,30 +65,18 @@ class Rebuilder {
   }
 
  private:
-  using Visit = std::function<void(uint32_t view, uint32_t accessor)>;
-
-  void visitOldViews(Json& json, const Visit& visit) const {
-    visitViewReferences(json, [&](Json& number, uint32_t accessor) {
-      uint64_t view = 0;
-      if (asUnsigned(number, view) && view < document_.views.size()) {
-        visit(static_cast<uint32_t>(view), accessor);
-      }
-    });
-  }
-
   void keepWhole(uint32_t view) {
     is_whole_[view] = true;
     ranges_[view].push_back(viewRange(document_, view));
   }
 
   void findLiveViews() {
-    std::vector<bool> was_used(document_.views.size(), false);
-    Json source = document_.json;
-    visitOldViews(source, [&](uint32_t view, uint32_t) { was_used[view] = true; });
-    for (uint32_t view = 0; view < was_used.size(); ++view) {
-      if (!was_used[view] || foreign_.views.count(view) != 0) keepWhole(view);
+    const std::vector<ViewUse> uses = viewUses(document_, foreign_);
+    for (uint32_t view = 0; view < uses.size(); ++view) {
+      const bool stays_free = uses[view] == ViewUse::kFree && new_views_.empty();
+      if (uses[view] == ViewUse::kUnknown || stays_free) keepWhole(view);
     }
-    visitOldViews(json_, [&](uint32_t view, uint32_t accessor) {
+    visitOldViews(document_, json_, [&](uint32_t view, uint32_t accessor) {
       const bool is_old = accessor < document_.accessors.size();
       if (!is_old || foreign_.keep_numbers || document_.views[view].isCoded() ||
           !document_.accessors[accessor].is_known_type ||
@@ -179,6 +188,12 @@ class Rebuilder {
     for (size_t k = 0; k < new_views_.size(); ++k) {
       numbers_[old_count + k] = k < free_numbers.size() ? free_numbers[k] : view_count_++;
     }
+    // What is left of them at the end holds no number but its own.
+    for (size_t k = free_numbers.size(); k > new_views_.size(); --k) {
+      if (free_numbers[k - 1] + 1 != view_count_) break;
+      numbers_[free_numbers[k - 1]] = kNone;
+      --view_count_;
+    }
     visitViewReferences(json_, [&](Json& number, uint32_t) {
       uint64_t view = 0;
       if (asUnsigned(number, view) && view < numbers_.size()) number = numbers_[view];
@@ -202,6 +217,7 @@ class Rebuilder {
 
   void writeViews() {
     const size_t old_count = document_.views.size();
+    const uint64_t first_new = new_views_.empty() ? 0 : alignedEnd();
     std::vector<Json> views(view_count_);
     for (uint32_t view = 0; view < old_count; ++view) {
       if (numbers_[view] == kNone) continue;
@@ -218,11 +234,11 @@ class Rebuilder {
         } else {
           setCodedRange(json, coding, offset, length);
         }
-      } else {  // a number that must stay in use
+      } else {  // a number that must stay in use; see ViewUse::kFree
         eraseViewExtensions(json);
         json.erase("byteStride");
         json.erase("target");
-        setRange(json, 0, 1);
+        setRange(json, first_new, 1);
       }
     }
     for (size_t k = 0; k < new_views_.size(); ++k) {
@@ -235,8 +251,10 @@ class Rebuilder {
     }
   }
 
+  size_t alignedEnd() const { return (bin_.size() + 3) & ~size_t{3}; }
+
   Json appendView(NewView& view) {
-    bin_.resize((bin_.size() + 3) & ~size_t{3}, 0);
+    bin_.resize(alignedEnd(), 0);
     Json json = {{"buffer", 0}, {"byteOffset", bin_.size()}, {"byteLength", view.bytes.size()}};
     if (view.stride_bytes != 0) json["byteStride"] = view.stride_bytes;
     if (view.target != 0) json["target"] = view.target;
@@ -299,6 +317,29 @@ class Rebuilder {
 };
 
 }  // namespace
+
+std::vector<ViewUse> viewUses(const Document& document, const ForeignReferences& foreign) {
+  std::vector<ViewUse> uses(document.views.size(), ViewUse::kUnknown);
+  Json source = document.json;
+  visitOldViews(document, source,
+                [&](uint32_t view, uint32_t) { uses[view] = ViewUse::kReferred; });
+  std::set<std::pair<uint32_t, uint64_t>> begins;
+  for (uint32_t view = 0; view < uses.size(); ++view) {
+    const BufferView& range = document.views[view];
+    if (uses[view] == ViewUse::kReferred) begins.emplace(range.buffer, range.offset);
+  }
+  const Json& views = arrayOf(document.json, "bufferViews");
+  for (uint32_t view = 0; view < uses.size(); ++view) {
+    const BufferView& range = document.views[view];
+    if (foreign.views.count(view) != 0) {
+      uses[view] = ViewUse::kUnknown;
+    } else if (uses[view] == ViewUse::kUnknown && isOneByte(views[view]) &&
+               begins.count({range.buffer, range.offset}) != 0) {
+      uses[view] = ViewUse::kFree;
+    }
+  }
+  return uses;
+}
 
 std::vector<ByteRange> accessorRanges(const Document& document, uint32_t index, bool whole_views) {
   const Accessor& accessor = document.accessors[index];

@@ -19,6 +19,17 @@ struct ByteRange {
   uint64_t end = 0;
 };
 
+/// Who needs a buffer view of a document.
+enum class ViewUse : uint8_t {
+  kReferred,  ///< the places that glTF and the extensions on our list have, and nothing else
+  kUnknown,   ///< something we do not understand, at least possibly: its bytes are kept
+  /// Nobody: it holds a number that was freed in front of others which must stay, with the first byte of another view. As no
+  /// one else makes such views, the number is free again.
+  kFree,
+};
+
+std::vector<ViewUse> viewUses(const Document& document, const ForeignReferences& foreign);
+
 /// Source bytes an accessor needs: its elements, or its whole buffer views when `whole_views`.
 std::vector<ByteRange> accessorRanges(const Document& document, uint32_t accessor,
                                       bool whole_views);
@@ -36,7 +47,8 @@ struct NewView {
 ///            still have a bufferView nothing about the bytes was edited.
 /// new_views  consumed.
 /// On return `json` has the final numbers and offsets, `bin` the bytes of its one buffer. A view no
-/// one referred to in the source is kept. View numbers do not change when foreign.keep_numbers.
+/// one referred to in the source is kept, unless it is free. View numbers do not change when
+/// foreign.keep_numbers: new views take the free ones, then those behind the end.
 Result rebuildBuffers(const Document& document, const ForeignReferences& foreign,
                       std::vector<NewView>& new_views, Json& json, std::vector<uint8_t>& bin);
 

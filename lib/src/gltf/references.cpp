@@ -241,8 +241,7 @@ void removeExtensionName(Json& root, const char* list, const char* name) {
   for (const Json& other : *found) {
     if (other != name) others.push_back(other);
   }
-  if (others.size() == found->size()) return;
-  if (others.empty()) {
+  if (others.empty()) {  // also where it was so before, which glTF forbids
     root.erase(list);
   } else {
     *found = std::move(others);
