@@ -257,7 +257,7 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
                                                          {"speed", Preference::kSpeed}};
   command
       .add_option("--prefer", options.prefer,
-                  "Where bytes cost time to decode: fewer bytes, or less time [balanced]")
+                  "Fewer bytes, or less time to decode [balanced]")
       ->transform(CLI::CheckedTransformer(preferences, CLI::ignore_case).description(""))
       ->type_name("size|balanced|speed");
 }
