@@ -21,6 +21,7 @@
 #include "attributes/leftovers.h"
 #include "attributes/positions.h"
 #include "attributes/seams.h"
+#include "base/decodes.h"
 #include "base/lazy.h"
 #include "connectivity/mc_codes.h"
 #include "connectivity/order.h"
@@ -135,7 +136,8 @@ class PieceCoder {
     sequence.clear();
     if (needsSequence() && !sequence.resize(groups.count)) return noMemory();
     MCC_TRY(runPositions(parameters, truth));
-    if (attributes_[0].coding == AttributeCoding::kGrid) MCC_TRY(codePositionTails(truth));
+    if (decodes::kExactFloats && attributes_[0].coding == AttributeCoding::kGrid)
+      MCC_TRY(codePositionTails(truth));
     return {};
   }
 
@@ -329,7 +331,6 @@ class PieceCoder {
     return mc_edges.resize(count) ? Status{} : noMemory();
   }
 
-  static constexpr uint8_t kNarrowBits = 17;         ///< Q8 predictions fit 32 bits up to here
   static constexpr uint8_t kExactPositionBits = 26;  ///< scale the seeds of exact floats start with
 
   /// What the reader gives its caller; what is not finite counts as 0.
@@ -352,7 +353,8 @@ class PieceCoder {
 
   /// The compiled combination of modes that fits.
   Status runPositions(const PositionParameters& parameters, const PieceTruth& truth) {
-    if (parameters.bits > kNarrowBits) return runPositions<int64_t, kAnyModes>(parameters, truth);
+    if (decodes::kExactFloats && parameters.bits > kNarrowPositionBits)
+      return runPositions<int64_t, kAnyModes>(parameters, truth);
     if constexpr (Io::kFast) {
       constexpr uint32_t kWeighted = position_mode::kWeights;
       constexpr uint32_t kSelecting = position_mode::kWeights | position_mode::kSelect;
@@ -421,8 +423,8 @@ class PieceCoder {
     if (!group_positions_.empty()) return {};
     const uint32_t count = static_cast<uint32_t>(records.size());
     const auto position = [this](uint32_t group) { return records[group].q; };
-    return attributes_[0].coding == AttributeCoding::kExactFloat ||
-                   attributes_[0].coding == AttributeCoding::kGrid
+    return decodes::kExactFloats && (attributes_[0].coding == AttributeCoding::kExactFloat ||
+                                     attributes_[0].coding == AttributeCoding::kGrid)
                ? floatPredictionPositions(count, position, group_positions_)
                : latticePredictionPositions(count, position, group_positions_);
   }

@@ -9,6 +9,7 @@
 
 #include "attributes/dequantize.h"
 #include "attributes/octahedral.h"
+#include "base/decodes.h"
 #include "base/memory.h"
 #include "base/working_memory.h"
 #include "container/payload_header.h"
@@ -35,12 +36,34 @@ const PayloadInfo kEmptyInfo{};
 struct WedgeAt {
   const uint32_t* order;  ///< null: as decoded
 
-  size_t operator()(uint32_t place) const { return order == nullptr ? place : order[place]; }
+  size_t operator()(uint32_t place) const {
+    return !decodes::kOrders || order == nullptr ? place : order[place];
+  }
 };
 template <class Io>
 WedgeAt wedgeAt(const PieceCoder<Io>& piece) {
   return {piece.wedge_order.empty() ? nullptr : piece.wedge_order.data()};
 }
+
+/// Where the integers of an element are, for all attributes alike: compact code stores them all through this.
+struct ElementAt {
+  const int32_t* values;
+  size_t stride;
+  WedgeAt wedge_at;
+  const uint32_t* group = nullptr;  ///< by wedge; null: what is not isolated is numbered alike
+  uint32_t isolated_first = ~uint32_t{0};  ///< wedges from here on come behind the groups
+  uint32_t group_count = 0;
+
+  const int32_t* operator()(uint32_t place) const {
+    size_t at = wedge_at(place);
+    if (at >= isolated_first) {
+      at = at - isolated_first + group_count;
+    } else if (group != nullptr) {
+      at = group[at];
+    }
+    return values + at * stride;
+  }
+};
 
 /// Unit vectors from grid points, four at a time; `has_sign`: a fourth component is -1 or 1.
 template <class Load>
@@ -87,6 +110,7 @@ void storeElements(const AttributeInfo& info, uint32_t wedge_count, const Attrib
       return;
     case AttributeCoding::kExactFloat:
     case AttributeCoding::kGrid:  // as ordered floats by now
+      if (!decodes::kExactFloats) return;
       for (uint32_t w = 0; w < wedge_count; ++w, to += stride) {
         const int32_t* q = load(w);
         for (uint32_t c = 0; c < components; ++c) {
@@ -149,12 +173,16 @@ void storeAttribute(const PieceCoder<Io>& piece, const PieceInfo& info, uint32_t
     const bool is_alias = info.attributes[i].coding == AttributeCoding::kAlias &&
                           info.attributes[i].alias_of == index;
     if (targets[i].data == nullptr || (i != index && !is_alias)) continue;
-    if (a.coding == AttributeCoding::kTangentAngle) {
+    if (decodes::kTangents && a.coding == AttributeCoding::kTangentAngle) {
       storeTangents(a, values, piece.tangentNormalInfo(), piece.tangentNormals(), info.wedge_count,
                     wedge_at, targets[i]);
     } else {
-      storeElements(a, info.wedge_count, targets[i],
-                    [=](uint32_t place) { return values + wedge_at(place) * value_stride; });
+      if constexpr (kCompact) {
+        storeElements(a, info.wedge_count, targets[i], ElementAt{values, value_stride, wedge_at});
+      } else {
+        storeElements(a, info.wedge_count, targets[i],
+                      [=](uint32_t place) { return values + wedge_at(place) * value_stride; });
+      }
     }
   }
 }
@@ -163,7 +191,12 @@ template <class Io>
 void storePositions(const PieceCoder<Io>& piece, const AttributeInfo& info, uint32_t wedge_count,
                     const AttributeTarget& target) {
   const VertexRecord* records = piece.records.data();
-  if (piece.wedge_group.empty() && piece.wedge_order.empty()) {
+  if constexpr (kCompact) {
+    storeElements(info, wedge_count, target,
+                  ElementAt{records->q, sizeof(VertexRecord) / sizeof(int32_t), wedgeAt(piece),
+                            piece.wedge_group.empty() ? nullptr : piece.wedge_group.data(),
+                            piece.wedges.isolated_first, piece.groups.count});
+  } else if (piece.wedge_group.empty() && piece.wedge_order.empty()) {
     storeElements(info, wedge_count, target, [=](uint32_t w) { return records[w].q; });
   } else {
     storeElements(info, wedge_count, target,
@@ -251,7 +284,8 @@ Status storeOrderedTriangles(const PieceCoder<Io>& piece, std::span<const PartIn
 template <class Io>
 Status storeTriangles(PieceCoder<Io>& piece, std::span<const PartInfo> infos,
                       std::span<const PartTarget> targets, const Allocator& allocator) {
-  if (piece.triangles.count() != 0) return storeOrderedTriangles(piece, infos, targets, allocator);
+  if (decodes::kOrders && piece.triangles.count() != 0)
+    return storeOrderedTriangles(piece, infos, targets, allocator);
   const bool many = targets.size() > 1;
   if (!many && piece.copies.empty() && piece.list.empty()) {
     void* to = targets[0].indices;
@@ -279,7 +313,8 @@ Status storeTriangles(PieceCoder<Io>& piece, std::span<const PartInfo> infos,
   return checkPartCounts(infos, fill);
 }
 
-Status checkTargets(const PayloadInfo& info, std::span<const PieceTarget> targets) {
+[[maybe_unused]] Status checkTargets(const PayloadInfo& info,
+                                     std::span<const PieceTarget> targets) {
   if (targets.size() != info.pieces.size()) {
     return fail(Error::kBadArgument, "the number of targets is not that of the pieces");
   }
@@ -309,7 +344,7 @@ Status checkTargets(const PayloadInfo& info, std::span<const PieceTarget> target
 class Progress {
  public:
   Progress(const DecodeOptions& options, const PayloadHeader& header) : options_(options) {
-    if (options.progress == nullptr) return;
+    if (kCompact || options.progress == nullptr) return;
     for (size_t i = 0; i < header.pieces.size(); ++i) {
       const PieceHeader& p = header.pieces[i];
       all_ += p.triangleCount() + p.vertex_count + p.wedge_count;
@@ -325,7 +360,7 @@ class Progress {
 
   /// An error if the caller asks to stop.
   Status advance(uint64_t elements) {
-    if (options_.progress == nullptr) return {};
+    if (kCompact || options_.progress == nullptr) return {};
     done_ += elements;
     const double share = all_ == 0 ? 1 : static_cast<double>(done_) / static_cast<double>(all_);
     if (options_.progress(options_.progress_user, share)) return {};
@@ -346,7 +381,7 @@ class StageBits {
       : io_(io), piece_(piece), options_(options), last_(now()) {}
 
   void tell(DecodeStage stage, uint32_t attribute = 0) {
-    if (options_.stage_bits == nullptr) return;
+    if (kCompact || options_.stage_bits == nullptr) return;
     const uint64_t bits = now();
     // To a bit: a stage that reads nothing may seem to give some back.
     const uint64_t spent = bits > last_ ? bits - last_ : 0;
@@ -379,7 +414,7 @@ Status decodeAttribute(PieceCoder<Io>& piece, const PieceInfo& info, uint32_t in
   MCC_TRY(piece.codeAttribute(index, values));
   const uint32_t stride = piece.codedComponentsOf(index);
   storeAttribute(piece, info, index, values.data(), stride, target.attributes);
-  if (method != AttributeMethod::kSkin) return {};
+  if (!decodes::kSkins || method != AttributeMethod::kSkin) return {};
   storeAttribute(piece, info, skinPartner(all, count, index), values.data() + kSkinSlots, stride,
                  target.attributes);
   return {};
@@ -452,6 +487,8 @@ Status decodePieces(Io& io, const PayloadHeader& header, const PayloadInfo& info
 
 Status decodeAll(const PayloadHeader& header, const PayloadInfo& info,
                  std::span<const PieceTarget> targets, const DecodeOptions& options) {
+  AdaptationTable::prepare();
+  InitialRowTable::prepare();
   const auto decode = [&](auto&& io) { return decodePieces(io, header, info, targets, options); };
 #if defined(MCC_COMPACT)
   return decode(CompactIo(header.codes, header.tokens, header.raw, header.singleCoder()));
@@ -530,10 +567,10 @@ const PayloadInfo& Payload::info() const { return state_ == nullptr ? kEmptyInfo
 
 Status Payload::decode(std::span<const PieceTarget> targets, const DecodeOptions& options) const {
   if (state_ == nullptr) return fail(Error::kBadArgument, "no payload is open");
-  MCC_TRY(checkTargets(state_->info, targets));
+  if constexpr (!kCompact) MCC_TRY(checkTargets(state_->info, targets));  // else they are our own
   if constexpr (!kCompact) {  // else there are no huge pages
     const uint64_t expected_bytes = expectedBytes(state_->header);
-    if (options.allocator.allocate == nullptr && WorkingMemory::pays(expected_bytes)) {
+    if (isHeap(options.allocator) && WorkingMemory::pays(expected_bytes)) {
       WorkingMemory memory(expected_bytes);
       DecodeOptions with_memory = options;
       with_memory.allocator = memory.allocator();

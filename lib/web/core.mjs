@@ -4,11 +4,21 @@
 import { checkClaims } from './claims.mjs';
 import { MccError } from './error.mjs';
 
-/** Kinds of errors by number, as the specification names them (A.1.4), and those of the decoder itself. */
-const CODES = [
-  'Ok', 'Truncated', 'BadMagic', 'UnsupportedVersion', 'BadChecksum', 'BadHeader', 'BadConnectivity', 'BadStitch',
-  'BadAttribute', 'TrailingBytes', 'Limit', 'OutOfMemory', 'BadArgument', 'Cancelled',
-];
+/** Kinds of errors by number, as the specification names them (A.1.4), and what a payload has then. */
+const ERRORS = {
+  1: ['Truncated', 'ends inside a field or a stream'],
+  2: ['BadMagic', 'is no mesh collapse payload'],
+  3: ['UnsupportedVersion', 'is of a major version that this decoder does not know'],
+  4: ['BadChecksum', 'is damaged: its checksum does not match'],
+  5: ['BadHeader', 'has a malformed header'],
+  6: ['BadConnectivity', 'has malformed connectivity'],
+  7: ['BadStitch', 'has malformed stitching'],
+  8: ['BadAttribute', 'has a malformed attribute'],
+  9: ['TrailingBytes', 'has bytes left over behind a stream'],
+  10: ['Limit', 'has more than the limits allow'],
+  11: ['OutOfMemory', 'needs more memory than there is'],
+  255: ['NotInCore', 'needs the whole decoder'], // see base/decodes.h
+};
 const LIMITS = ['maxVertices', 'maxTriangles', 'maxAttributes', 'maxPieces', 'maxElements', 'maxOutputBytes'];
 
 /** Array types by the component types of the payload's header. */
@@ -69,13 +79,13 @@ function decodeWith(exports, bytes, { limits = {}, indexType = 'auto', claims })
   let closes = true;
   try {
     new Uint8Array(exports.memory.buffer, address, bytes.length).set(bytes);
-    check(exports, exports.open(address, bytes.length, ...LIMITS.map((name) => limits[name] ?? Infinity)));
+    check(exports.open(address, bytes.length, ...LIMITS.map((name) => limits[name] ?? Infinity)));
     const info = describe(exports);
     if (claims !== undefined) checkClaims(info, claims);
     if (indexType === 'uint16' && info.pieces.some((piece) => piece.wedgeCount > 0xffff)) {
       throw new MccError('a piece has too many vertices for 16-bit indices', 'BadArgument');
     }
-    check(exports, exports.decode(indexType === 'uint32' ? 0 : 1));
+    check(exports.decode(indexType === 'uint32' ? 0 : 1));
     takeOutputs(exports, info);
     return info;
   } catch (error) {
@@ -87,14 +97,10 @@ function decodeWith(exports, bytes, { limits = {}, indexType = 'auto', claims })
 }
 
 /** Throws the reader's error, if `number` is one. */
-function check(exports, number) {
+function check(number) {
   if (number === 0) return;
-  const bytes = new Uint8Array(exports.memory.buffer);
-  const begin = exports.what();
-  let message = new TextDecoder().decode(bytes.slice(begin, bytes.indexOf(0, begin)));
-  const offset = exports.offset();
-  if (offset >= 0) message += ` (byte ${offset} of the payload)`;
-  throw new MccError(message, CODES[number] ?? 'Unknown');
+  const [code, what] = ERRORS[number];
+  throw new MccError(`the payload ${what}`, code);
 }
 
 /** The header: what DecodedPayload has, without the arrays. Words as in src/decoder.cpp. */

@@ -14,30 +14,65 @@ const VECTORS = [
   10, 23, 1, 21, 0, 253, 12, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 26, 11, // v128.const, drop, end
 ];
 
-let source = {};
-let loading = null;
-let decoder = null;
+/** The modules of a place and the decoders made of them. The core is smaller and has what most payloads need. */
+class Source {
+  #modules = {};
+
+  constructor(where) {
+    this.where = where;
+  }
+
+  core() {
+    const { module, bytes, coreUrl, simdCoreUrl, wasmUrl, simdWasmUrl } = this.where;
+    const isWhole = (module ?? bytes ?? wasmUrl ?? simdWasmUrl) !== undefined;
+    return (coreUrl ?? simdCoreUrl) === undefined && isWhole ? this.whole() : this.#load('coreDecoder', urlOfCore);
+  }
+
+  whole() {
+    return this.#load('decoder', urlOfWhole);
+  }
+
+  /** The compiled module; the decoder is there then. */
+  #load(name, urlOf) {
+    this.#modules[name] ??= compileModule(this.where, urlOf(this.where)).then((module) => {
+      this[name] = new Decoder(module);
+      return module;
+    }, (error) => {
+      delete this.#modules[name]; // the next call tries again
+      throw error;
+    });
+    return this.#modules[name];
+  }
+}
+
+let source = new Source({});
 
 /** Loads the decoder. Without a call the first decodePayload() does, from beside this module. */
 export function init(options = {}) {
-  source = options;
-  loading = null;
-  return load();
+  source = new Source(options);
+  return source.core();
 }
 
-/** Resolves when the decoder is loaded, which awaiting it begins. */
+/** Resolves when the decoder is loaded as a whole, which awaiting it begins. */
 export const ready = {
-  then: (fulfilled, rejected) => load().then(() => {}).then(fulfilled, rejected),
+  then: (fulfilled, rejected) => source.whole().then(() => {}).then(fulfilled, rejected),
 };
 
 export async function decodePayload(bytes, options) {
-  await load();
-  return decoder.decode(bytes, options);
+  const from = source;
+  if (from.decoder === undefined) await from.core();
+  try {
+    return await (from.decoder ?? from.coreDecoder).decode(bytes, options);
+  } catch (error) {
+    if (error.code !== 'NotInCore') throw error;
+    await from.whole();
+    return from.decoder.decode(bytes, options);
+  }
 }
 
 export function decodePayloadSync(bytes, options) {
-  if (decoder === null) throw new MccError('the decoder is not loaded yet: await ready first', 'Load');
-  return decoder.decodeSync(bytes, options);
+  if (source.decoder === undefined) throw new MccError('the decoder is not loaded yet: await ready first', 'Load');
+  return source.decoder.decodeSync(bytes, options);
 }
 
 /** Decodes in workers, several payloads at a time. */
@@ -47,14 +82,16 @@ export function createDecoderPool(options = {}) {
 }
 
 class DecoderPool {
+  #source;
   #workers;
   #waiting = [];
   #disposed = false;
 
   constructor(size, where) {
     this.size = size;
-    // One copy of the module for all; without options that of decodePayload().
-    const module = Object.keys(where).length === 0 ? load() : compile(where);
+    // One copy of the modules for all; without options those of decodePayload().
+    this.#source = Object.keys(where).length === 0 ? source : new Source(where);
+    const module = this.#source.core();
     module.catch(() => {}); // whoever waits for a worker gets to know
     this.#workers = Array.from({ length: size }, () => ({ job: null, worker: null, started: null }));
     this.start = (slot) => (slot.started ??= module.then((compiled) => this.#start(slot, compiled)));
@@ -106,8 +143,14 @@ class DecoderPool {
   async #start(slot, module) {
     slot.worker = await createWorker(
       ({ decoded, message, code }) => {
-        if (decoded !== undefined) this.#finish(slot, 'resolve', decoded);
-        else this.#finish(slot, 'reject', new MccError(message, code));
+        if (decoded !== undefined) {
+          this.#finish(slot, 'resolve', decoded);
+        } else if (code === 'NotInCore') { // the worker keeps the payload and waits
+          this.#source.whole().then((whole) => slot.worker.postMessage({ module: whole }),
+            (error) => this.#finish(slot, 'reject', error));
+        } else {
+          this.#finish(slot, 'reject', new MccError(message, code));
+        }
       },
       (error) => {
         slot.worker?.terminate();
@@ -135,22 +178,14 @@ async function createWorker(onMessage, onError) {
   return worker;
 }
 
-/** The compiled module; `decoder` is there then. */
-function load() {
-  const from = source;
-  loading ??= compile(from).then((module) => {
-    if (from === source) decoder = new Decoder(module);
-    return module;
-  }, (error) => {
-    loading = null; // the next call tries again
-    throw error;
-  });
-  return loading;
+const hasSimd = () => WebAssembly.validate(new Uint8Array(VECTORS));
+
+function urlOfCore({ coreUrl, simdCoreUrl }) {
+  return hasSimd() ? simdCoreUrl ?? coreUrl ?? new URL('./wasm/mcc_decoder_core_simd.wasm', import.meta.url)
+    : coreUrl ?? new URL('./wasm/mcc_decoder_core.wasm', import.meta.url);
 }
 
-function compile(where) {
-  const hasSimd = WebAssembly.validate(new Uint8Array(VECTORS));
-  const url = hasSimd ? where.simdWasmUrl ?? where.wasmUrl ?? new URL('./wasm/mcc_decoder_simd.wasm', import.meta.url)
-    : where.wasmUrl ?? new URL('./wasm/mcc_decoder.wasm', import.meta.url);
-  return compileModule(where, url);
+function urlOfWhole({ wasmUrl, simdWasmUrl }) {
+  return hasSimd() ? simdWasmUrl ?? wasmUrl ?? new URL('./wasm/mcc_decoder_simd.wasm', import.meta.url)
+    : wasmUrl ?? new URL('./wasm/mcc_decoder.wasm', import.meta.url);
 }

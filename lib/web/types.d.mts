@@ -60,6 +60,10 @@ export interface InitOptions {
   /** Where the module is, with and without SIMD; both by default beside decoder.mjs, in wasm/. */
   wasmUrl?: string | URL;
   simdWasmUrl?: string | URL;
+  /** Where its core is, likewise: a smaller module, which has what most payloads need. Without one it is not used, unless
+   * the others are where they are by default. */
+  coreUrl?: string | URL;
+  simdCoreUrl?: string | URL;
   /** Or what it is: compiled already, or its bytes. */
   module?: WebAssembly.Module;
   bytes?: BufferSource;
@@ -87,4 +91,4 @@ export interface DecoderPool {
 export type ErrorCode =
   | 'Truncated' | 'BadMagic' | 'UnsupportedVersion' | 'BadChecksum' | 'BadHeader' | 'BadConnectivity' | 'BadStitch'
   | 'BadAttribute' | 'TrailingBytes' | 'Limit' | 'OutOfMemory' | 'BadArgument'
-  | 'Document' | 'Load' | 'Trap' | 'Disposed' | 'Encode';
+  | 'NotInCore' | 'Document' | 'Load' | 'Trap' | 'Disposed' | 'Encode';

@@ -1,20 +1,25 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// A worker of a decoder pool. Gets the compiled module, then one payload at a time; buffers are moved both ways.
+// A worker of a decoder pool. Gets the compiled module, then one payload at a time; buffers are moved both ways. A payload
+// that needs more than the core of the decoder waits here for the whole one.
 import { buffersOf, Decoder } from './core.mjs';
 import { importOfNode } from './load.mjs';
 
 let decoder = null;
+let waiting = null;
 
 async function answer({ module, bytes, options }, post) {
   if (module !== undefined) {
     decoder = new Decoder(module);
-    return;
+    if (waiting === null) return;
+    ({ bytes, options } = waiting);
   }
+  waiting = null;
   try {
     const decoded = await decoder.decode(bytes, options);
     post({ decoded }, buffersOf(decoded));
   } catch ({ message, code }) {
+    if (code === 'NotInCore') waiting = { bytes, options };
     post({ message, code }, []);
   }
 }

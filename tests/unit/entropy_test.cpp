@@ -303,8 +303,8 @@ TEST(TokenRow, StaysValidUnderEverySequence) {
 }
 
 TEST(TokenRow, TabledRowsAreValid) {
-  for (const TokenRow& row : kInitialTokenRows.plain) expectRow(row);
-  for (const TokenRow& row : kInitialTokenRows.folded) expectRow(row);
+  for (const TokenRow& row : InitialRowTable::table.plain) expectRow(row);
+  for (const TokenRow& row : InitialRowTable::table.folded) expectRow(row);
 }
 
 TEST(TokenRow, FindsTheSymbolOfEverySlot) {
@@ -565,7 +565,7 @@ struct Mixture {
 
   bool sameModels(const Mixture& other) const {
     for (int i = 0; i < 3; ++i) {
-      if (models.bit[i].state != other.models.bit[i].state) return false;
+      if (models.bit[i].state() != other.models.bit[i].state()) return false;
       if (std::memcmp(models.row[i].c, other.models.row[i].c, sizeof models.row[i].c) != 0)
         return false;
     }

@@ -22,9 +22,9 @@ async function failureOf(promise) {
   return assert.fail('nothing was wrong');
 }
 
-for (const name of DECODERS) {
+for (const [name, where] of Object.entries(DECODERS)) {
   describe(name, () => {
-    before(() => init({ bytes: wasm(name) }));
+    before(() => init(where));
     after(() => init());
 
     test('imports nothing', async () => {
@@ -119,6 +119,29 @@ test('the arrays own their memory and have the types of the header', async () =>
       assert.ok(indices.every((index) => index < wedgeCount));
     }
   }
+});
+
+test('a payload that is not for the core loads the whole decoder, once', async () => {
+  const { coreUrl, wasmUrl } = DECODERS.mcc_decoder_core_simd;
+  const exact = payloadOf(readAsset(assetNamed('exact')));
+  await init({ bytes: wasm('mcc_decoder_core_simd') });
+  assert.equal((await failureOf(decodePayload(exact))).code, 'NotInCore');
+  await init({ coreUrl, wasmUrl: new URL('no_such.wasm', import.meta.url) });
+  await decodePayload(payloadOf(readAsset(assetNamed('006_tetrahedron'))));
+  assert.equal((await failureOf(decodePayload(exact))).code, 'Load');
+  assert.throws(() => decodePayloadSync(exact), { code: 'Load' });
+  await init({ coreUrl, wasmUrl });
+  await decodePayload(exact);
+  assert.deepEqual(decodePayloadSync(exact), await decodePayload(exact));
+  const pool = createDecoderPool({ workers: 1, coreUrl, wasmUrl });
+  assert.deepEqual(await Promise.all([exact, somePayload(), exact].map((bytes) => pool.decodePayload(bytes))),
+    await Promise.all([exact, somePayload(), exact].map((bytes) => decodePayload(bytes))));
+  pool.dispose();
+  const lost = createDecoderPool({ workers: 1, coreUrl, wasmUrl: new URL('no_such.wasm', import.meta.url) });
+  assert.equal((await failureOf(lost.decodePayload(exact))).code, 'Load');
+  await lost.decodePayload(payloadOf(readAsset(assetNamed('006_tetrahedron'))));
+  lost.dispose();
+  await init();
 });
 
 test('index types', async () => {

@@ -48,7 +48,7 @@ describe('package', () => {
     for (const file of ['README.md', 'LICENSE', 'index.mjs', 'index.d.mts', 'worker.mjs']) assert.ok(files.includes(file), file);
     assert.deepEqual(files.filter((file) => !/^(README\.md|LICENSE|package\.json|wasm|[\w-]+\.(mjs|d\.mts))$/.test(file)), []);
     assert.deepEqual(readdirSync(join(installed, 'wasm')).sort(),
-      ['mcc_decoder.wasm', 'mcc_decoder_simd.wasm', 'mcc_encoder.wasm']);
+      ['mcc_decoder.wasm', 'mcc_decoder_core.wasm', 'mcc_decoder_core_simd.wasm', 'mcc_decoder_simd.wasm', 'mcc_encoder.wasm']);
   });
 
   test('every export is there', () => {
@@ -75,7 +75,8 @@ describe('package', () => {
     `);
     await build({ root: project, logLevel: 'warn', build: { outDir: 'dist' } });
     const assets = readdirSync(join(project, 'dist/assets'));
-    for (const pattern of [/^mcc_decoder_simd-.*\.wasm$/, /^mcc_decoder-.*\.wasm$/, /^worker-.*\.js$/, /^index-.*\.js$/]) {
+    for (const pattern of [/^mcc_decoder_simd-.*\.wasm$/, /^mcc_decoder-.*\.wasm$/,
+      /^mcc_decoder_core_simd-.*\.wasm$/, /^mcc_decoder_core-.*\.wasm$/, /^worker-.*\.js$/, /^index-.*\.js$/]) {
       assert.ok(assets.some((name) => pattern.test(name)), `${pattern} is not in ${assets}`);
     }
     assert.ok(!assets.some((name) => /encoder/.test(name)), 'the encoder is bundled, though nobody asks for it');
@@ -111,22 +112,29 @@ describe('package', () => {
       params: { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_LGWIN]: 24 },
     }).length;
     mkdirSync(join(project, 'src'), { recursive: true });
-    writeFileSync(join(project, 'src/least.js'), "export { decodePayload, unpackGlb } from 'gltf-mcc';");
-    const { output: [{ code }] } = await build({
-      root: project, logLevel: 'warn',
-      build: { write: false, minify: 'esbuild', modulePreload: false,
-        rollupOptions: { input: join(project, 'src/least.js'), preserveEntrySignatures: 'strict' } },
-    });
-    const script = brotli(Buffer.from(code));
+    // For browsers that have what the modules need: not one of these is without ES2022.
+    const scriptBytes = async (names) => {
+      writeFileSync(join(project, 'src/least.js'), `export { ${names} } from 'gltf-mcc';`);
+      const { output: [{ code }] } = await build({
+        root: project, logLevel: 'warn',
+        build: { write: false, minify: 'esbuild', target: 'es2022', modulePreload: false,
+          rollupOptions: { input: join(project, 'src/least.js'), preserveEntrySignatures: 'strict' } },
+      });
+      return brotli(Buffer.from(code));
+    };
+    console.log(`decodePayload(), minified, after brotli: ${await scriptBytes('decodePayload')} bytes`);
+    const script = await scriptBytes('decodePayload, unpackGlb');
     console.log(`decodePayload() and unpackGlb(), minified, after brotli: ${script} bytes`);
-    for (const name of ['mcc_decoder', 'mcc_decoder_simd', 'mcc_encoder']) {
+    for (const name of ['mcc_decoder_core_simd', 'mcc_decoder_core', 'mcc_decoder_simd', 'mcc_decoder', 'mcc_encoder']) {
       const module = readFileSync(join(installed, `wasm/${name}.wasm`));
       const compressed = brotli(module);
       console.log(`${name}.wasm: ${module.length} bytes, after brotli ${compressed}, with the script ${compressed + script}`);
-      if (name !== 'mcc_encoder') assert.ok(compressed + script <= LARGEST_BYTES, `${name} has grown`);
+      assert.ok(compressed + script <= (LARGEST_BYTES[name] ?? Infinity), `${name} has grown`);
     }
   });
 });
 
-/** Of one decoder and the script, after brotli: what they take today. The aim is 25,000. */
-const LARGEST_BYTES = 79_000;
+/** Of one decoder and the script, after brotli: what they take today. The aim is 25,000 for the core. */
+const LARGEST_BYTES = {
+  mcc_decoder_core_simd: 41_000, mcc_decoder_core: 44_000, mcc_decoder_simd: 59_000, mcc_decoder: 64_000,
+};

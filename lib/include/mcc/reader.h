@@ -16,11 +16,16 @@ namespace mcc {
 
 /// Where the reader takes memory from. Null members mean malloc and free. `allocate` returns memory aligned as malloc's;
 /// `release` gets the size it was asked for. Called on the threads of open(), decode() and of the Payload's destructor.
+/// Compiled with MCC_COMPACT the reader has malloc and free alone.
+#if defined(MCC_COMPACT)
+struct Allocator {};
+#else
 struct Allocator {
   void* (*allocate)(void* user, size_t bytes) = nullptr;  ///< may return null: kOutOfMemory
   void (*release)(void* user, void* memory, size_t bytes) = nullptr;
   void* user = nullptr;
 };
+#endif
 
 /// Bounds that hold before anything is allocated. The format's own bounds hold besides.
 struct Limits {

@@ -6,8 +6,14 @@
 
 namespace mcc {
 
+#if defined(MCC_COMPACT)
+using ErrorNumber = uint32_t;  // which compilers need not clip after every call
+#else
+using ErrorNumber = uint8_t;
+#endif
+
 /// What went wrong. Stable numbers: they are part of the C API and of the conformance suite. [A.1.4]
-enum class Error : uint8_t {
+enum class Error : ErrorNumber {
   kOk = 0,
   kTruncated = 1,           ///< the payload ends inside a field or a stream
   kBadMagic = 2,            ///< the bytes are no mesh collapse payload
@@ -23,6 +29,18 @@ enum class Error : uint8_t {
   kBadArgument = 12,  ///< the caller's arguments contradict each other (our API, not the file)
   kCancelled = 13,    ///< the caller's progress callback asked to stop
 };
+
+#if defined(MCC_COMPACT)
+
+/// Where the size of the code counts (the WebAssembly decoder) a status is its error alone, in a register.
+struct [[nodiscard]] Status {
+  Error error = Error::kOk;
+
+  constexpr bool ok() const { return error == Error::kOk; }
+};
+constexpr Status fail(Error error, const char*, uint64_t = 0) { return Status{error}; }
+
+#else
 
 /// Result of every fallible call. Cheap to copy; owns nothing. `what` is a string literal in plain English ("" when ok);
 /// `offset_bytes` is the place in the payload when one is known, else kNoOffset.
@@ -42,6 +60,8 @@ struct [[nodiscard]] Status {
 constexpr Status fail(Error error, const char* what, uint64_t offset_bytes = Status::kNoOffset) {
   return Status{error, what, offset_bytes};
 }
+
+#endif
 
 }  // namespace mcc
 

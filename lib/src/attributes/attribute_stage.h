@@ -19,6 +19,7 @@
 #include "attributes/texcoords.h"
 #include "attributes/values.h"
 #include "attributes/wedges.h"
+#include "base/decodes.h"
 #include "base/lazy.h"
 #include "mesh/attribute_method.h"
 
@@ -106,7 +107,7 @@ class AttributeStage {
         moved_before_(allocator),
         moved_(allocator) {
     for (uint32_t i = 1; i < attribute_count; ++i) {
-      has_tangents_ |= codingPhase(attributes[i]) == 1;
+      has_tangents_ |= decodes::kTangents && codingPhase(attributes[i]) == 1;
       const uint8_t bits = deltaBits(i);
       has_bends_ |= (bits & value_method::kBends) != 0;
       has_units_ |= (bits & value_method::kUnits) != 0;
@@ -129,35 +130,41 @@ class AttributeStage {
       MCC_TRY(EqualityCoder<Io>(io_, *models, wedges, values.data(), components).run(groups_));
     }
     const GridPart grid = gridPart(index, method, components);
-    if (grid.info != nullptr) MCC_TRY(enterGrid(grid, values.data()));
+    if (decodes::kExactFloats && grid.info != nullptr) MCC_TRY(enterGrid(grid, values.data()));
     switch (method) {
       case AttributeMethod::kNormal: MCC_TRY(codeNormals(info, values.data())); break;
-      case AttributeMethod::kExactNormal: MCC_TRY(codeExactNormals(info, values.data())); break;
-      case AttributeMethod::kExactTangent: MCC_TRY(codeExactTangents(info, values.data())); break;
-      case AttributeMethod::kExactValues: MCC_TRY(codeExactValues(info, values.data())); break;
       case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(info, values.data())); break;
-      case AttributeMethod::kTangent: MCC_TRY(codeTangents(info, values.data())); break;
-      case AttributeMethod::kTangentPoint: MCC_TRY(codeTangentPoints(info, values.data())); break;
-      case AttributeMethod::kSkin: MCC_TRY(codeSkin(index, values.data())); break;
+      case AttributeMethod::kTangent:
+        if (decodes::kTangents) MCC_TRY(codeTangents(info, values.data()));
+        break;
+      case AttributeMethod::kSkin:
+        if (decodes::kSkins) MCC_TRY(codeSkin(index, values.data()));
+        break;
       case AttributeMethod::kWithAnother: break;
       case AttributeMethod::kValues: MCC_TRY(codeValues(info, components, values.data())); break;
+      default:
+        if (decodes::kExactFloats || decodes::kTangentPoints)
+          MCC_TRY(codeRare(method, info, values.data()));
+        break;
     }
-    if (grid.info != nullptr) MCC_TRY(leaveGrid(grid, values.data()));
+    if (decodes::kExactFloats && grid.info != nullptr) MCC_TRY(leaveGrid(grid, values.data()));
     if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside an attribute");
     return keepForOthers(index, values);
   }
 
   /// Keeps what tangents and morph targets will be predicted from.
   Status keepForOthers(uint32_t index, const Array<int32_t>& values) {
-    if (has_units_ && index == baseTangentOf(attributes_, count_))
+    if (decodes::kMorphTargets && has_units_ && index == baseTangentOf(attributes_, count_))
       MCC_TRY(keepTangents(index, values.data()));
-    if (attributes_[index].format.morph_target != 0) return keepDeltas(index, values.data());
+    if (decodes::kMorphTargets && attributes_[index].format.morph_target != 0)
+      return keepDeltas(index, values.data());
+    if (!decodes::kTangents && !decodes::kMorphTargets) return {};
     if (!has_tangents_ && !has_bends_ && !has_units_) return {};
     if (index == normal_) {
       if (!normals.resize(values.size())) return noMemory();
       std::copy(values.data(), values.data() + values.size(), normals.data());
     }
-    if (index == exact_normal_) {
+    if (decodes::kExactFloats && index == exact_normal_) {
       if (!exact_normals_.resize(values.size())) return noMemory();
       std::copy(values.data(), values.data() + values.size(), exact_normals_.data());
     }
@@ -170,6 +177,7 @@ class AttributeStage {
 
   /// Whether an attribute is predicted from positions that are not rounded.
   bool needsExactPositions() const {
+    if (!decodes::kExactFloats && !decodes::kMorphTargets) return false;
     if (has_bends_) return true;
     for (uint32_t i = 1; i < count_; ++i) {
       const AttributeMethod method = methodOf(attributes_, count_, i);
@@ -203,7 +211,7 @@ class AttributeStage {
     const bool is_skin = method == AttributeMethod::kSkin;
     const AttributeInfo& info =
         attributes_[is_skin ? skinPartner(attributes_, count_, index) : index];
-    if (info.coding != AttributeCoding::kGrid) return {};
+    if (!decodes::kExactFloats || info.coding != AttributeCoding::kGrid) return {};
     return {&info, is_skin ? kSkinSlots : 0, info.format.component_count, components};
   }
 
@@ -244,7 +252,8 @@ class AttributeStage {
 
   /// The bits of deltas that need something of others; of the encoder, all that are possible.
   uint8_t deltaBits(uint32_t index) const {
-    if (methodOf(attributes_, count_, index) != AttributeMethod::kValues ||
+    if (!decodes::kMorphTargets ||
+        methodOf(attributes_, count_, index) != AttributeMethod::kValues ||
         attributes_[index].format.morph_target == 0) {
       return 0;
     }
@@ -320,13 +329,13 @@ class AttributeStage {
   }
 
   Status codeValues(const AttributeInfo& info, uint32_t components, int32_t* values) {
-    const bool is_target = info.format.morph_target != 0;
-    const bool has_ids = !is_target && (info.predictor & value_method::kIds) != 0;
+    const bool is_target = decodes::kMorphTargets && info.format.morph_target != 0;
+    const bool has_ids = decodes::kIds && !is_target && (info.predictor & value_method::kIds) != 0;
     if (has_ids && !ids_.start()) return noMemory();
     const bool bends = is_target && (info.predictor & value_method::kBends) != 0;
     if (bends) MCC_TRY(findBends(info));
     UnitDeltas units;
-    const bool has_units = (info.predictor & value_method::kUnits) != 0;
+    const bool has_units = decodes::kMorphTargets && (info.predictor & value_method::kUnits) != 0;
     if (has_units) {
       const bool is_normal = info.format.semantic == Semantic::kNormal;
       if (is_normal) MCC_TRY(listNormals());
@@ -337,7 +346,8 @@ class AttributeStage {
     }
     if (bends && Io::kEncoding) exchangeBends(false, values);
     if (is_target) MCC_TRY(enterTarget(info.format.morph_target));
-    const bool blends = (info.predictor & value_method::kPredictorMask) == value_method::kBlend;
+    const bool blends =
+        decodes::kBlends && (info.predictor & value_method::kPredictorMask) == value_method::kBlend;
     if (blends && !floats_.resize(ValueBlend::kErrorFloats * size_t{wedges.count}))
       return noMemory();
     ValueModels* const models = models_.valuesOf(info).get(allocator_);
@@ -360,6 +370,17 @@ class AttributeStage {
     std::copy(moved_.data(), moved_.data() + wedges.count, moved_before_.data());
     target_ = target;
     return {};
+  }
+
+  /// What the decoder's core is without.
+  Status codeRare(AttributeMethod method, const AttributeInfo& info, int32_t* values) {
+    switch (method) {
+      case AttributeMethod::kExactNormal: return codeExactNormals(info, values);
+      case AttributeMethod::kExactTangent: return codeExactTangents(info, values);
+      case AttributeMethod::kExactValues: return codeExactValues(info, values);
+      case AttributeMethod::kTangentPoint: return codeTangentPoints(info, values);
+      default: return {};
+    }
   }
 
   Status codeNormals(const AttributeInfo& info, int32_t* values) {

@@ -36,7 +36,7 @@ struct ExactValueModels {
     if (is_ready) return;
     is_ready = true;
     for (auto& component : row) {
-      std::copy_n(kInitialTokenRows.plain, kScaleBuckets, component);
+      std::copy_n(InitialRowTable::table.plain, kScaleBuckets, component);
     }
   }
 };

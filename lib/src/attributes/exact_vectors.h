@@ -90,7 +90,7 @@ struct VectorModels {
     is_ready = true;
     std::fill(std::begin(memory.entry), std::end(memory.entry), VectorMemory::Entry{});
     for (auto& component : row) {
-      std::copy_n(kInitialTokenRows.plain, kScaleBuckets, component);
+      std::copy_n(InitialRowTable::table.plain, kScaleBuckets, component);
     }
   }
 };

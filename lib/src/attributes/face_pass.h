@@ -18,7 +18,7 @@ MCC_INLINE Real dotProduct(const Real* a, const Real* b) {
 
 /// Angle of the vector (x, y), y >= 0, in 0..pi, by a polynomial. [B.4.3]
 template <class Real>
-MCC_INLINE Real cornerAngle(Real y, Real x) {
+MCC_SHARED Real cornerAngle(Real y, Real x) {
   const Real ax = magnitude(x);
   const Real t = lower(ax, y) / (higher(ax, y) + constant<Real>(1e-30f));
   const Real s = t * t;
@@ -37,7 +37,7 @@ struct FourFaces {
   Float4 normal[3];  ///< their cross product
 
   /// `positions`: 4 floats per vertex, the last one 0.
-  MCC_INLINE FourFaces(const uint32_t* words, uint32_t count, const float* positions) {
+  MCC_SHARED FourFaces(const uint32_t* words, uint32_t count, const float* positions) {
     Float4 rows0[4];
     Float4 rows1[4];
     for (uint32_t i = 0; i < 4; ++i) {
@@ -74,6 +74,7 @@ class CornerSums {
 
   /// `rows`: the vector of each face; `fixed`: added besides, without a weight.
   MCC_INLINE void add(const Float4* rows, const Float4* weight, const Float4* fixed) const {
+    if constexpr (kCompact) return addFaces(rows, weight, fixed);
     addFace<0>(rows, weight, fixed);
     if (count_ > 1) addFace<1>(rows, weight, fixed);
     if (count_ > 2) addFace<2>(rows, weight, fixed);
@@ -86,6 +87,13 @@ class CornerSums {
     addCorner(faces_.corner[kFace][0], rows[kFace] * broadcast<kFace>(weight[0]), fixed, kFace);
     addCorner(faces_.corner[kFace][1], rows[kFace] * broadcast<kFace>(weight[1]), fixed, kFace);
     addCorner(faces_.corner[kFace][2], rows[kFace] * broadcast<kFace>(weight[2]), fixed, kFace);
+  }
+  void addFaces(const Float4* rows, const Float4* weight, const Float4* fixed) const {
+    for (uint32_t f = 0; f < count_; ++f) {
+      const int face = static_cast<int>(f);
+      for (int k = 0; k < 3; ++k)
+        addCorner(faces_.corner[f][k], rows[f] * allLanes(weight[k][face]), fixed, face);
+    }
   }
   MCC_INLINE void addCorner(uint32_t vertex, Float4 row, const Float4* fixed, int face) const {
     float* sum = sums_ + 4 * size_t{vertex};

@@ -310,7 +310,7 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
 }
 
 template <class Io>
-MCC_INLINE void NormalCoder<Io>::codePoint(uint32_t w, const OctahedralFrame& frame,
+MCC_SHARED void NormalCoder<Io>::codePoint(uint32_t w, const OctahedralFrame& frame,
                                            uint32_t context) {
   codeGridPoint(io_, models_.row, frame, centre_, std::min(context, kNoNeighbours),
                 values_ + 2 * size_t{w}, lengths_[w], last_);  // kNotCoded makes it long

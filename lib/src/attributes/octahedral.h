@@ -46,7 +46,7 @@ inline void octahedralToUnit(int32_t s, int32_t t, int32_t centre, float* unit) 
 }
 
 /// Unit vectors of four grid points.
-MCC_INLINE void octahedralToUnit(const int32_t* const* points, int32_t centre, Float4* unit) {
+MCC_SHARED void octahedralToUnit(const int32_t* const* points, int32_t centre, Float4* unit) {
   const Float4 middle = allLanes(static_cast<float>(centre));
   const Float4 s = fourFloats(points[0][0], points[1][0], points[2][0], points[3][0]);
   const Float4 t = fourFloats(points[0][1], points[1][1], points[2][1], points[3][1]);

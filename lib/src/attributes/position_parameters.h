@@ -9,6 +9,7 @@
 #include "attributes/position_palette.h"
 #include "attributes/position_planes.h"
 #include "attributes/position_tables.h"
+#include "base/decodes.h"
 #include "entropy/numbers.h"
 #include "mcc/status.h"
 
@@ -32,6 +33,8 @@ inline constexpr uint32_t kFold = 1u << 3;
 inline constexpr uint32_t kSplit = 1u << 4;
 inline constexpr uint32_t kPalette = 1u << 5;
 inline constexpr uint32_t kPlanes = 1u << 6;  ///< without shear, fold, split and palette
+inline constexpr uint32_t kDecoded =
+    ~((decodes::kPalettes ? 0 : kPalette) | (decodes::kPlanes ? 0 : kPlanes));
 }  // namespace position_mode
 
 struct PositionParameters {
@@ -44,7 +47,7 @@ struct PositionParameters {
   AxisPalette palette[3];              ///< only with kPalette; borrowed
   const GridPlanes* planes = nullptr;  ///< only with kPlanes; borrowed
 
-  bool has(uint32_t mode) const { return (modes & mode) != 0; }
+  bool has(uint32_t mode) const { return (modes & mode & position_mode::kDecoded) != 0; }
   bool fitted() const {
     return predictor == PositionPredictor::kFitted ||
            predictor == PositionPredictor::kFittedSelecting;

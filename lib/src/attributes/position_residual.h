@@ -12,6 +12,7 @@
 #include "attributes/position_parameters.h"
 #include "attributes/position_planes.h"
 #include "attributes/position_tables.h"
+#include "base/decodes.h"
 #include "base/host.h"
 #include "base/lanes.h"
 #include "entropy/models.h"
@@ -36,7 +37,7 @@ struct PositionRows {
   void prepare(uint32_t modes) {
     const bool fold = (modes & (position_mode::kFold | position_mode::kPlanes)) != 0;
     const bool split = (modes & position_mode::kSplit) != 0;
-    if ((modes & position_mode::kPlanes) != 0 && !has_planes) {
+    if (decodes::kPlanes && (modes & position_mode::kPlanes) != 0 && !has_planes) {
       planes.setUniform();
       has_planes = true;
     }
@@ -45,12 +46,12 @@ struct PositionRows {
       if (set != 0 && !split && !has_split) break;
       TokenRow* rows = row[0] + set * kRowsPerSet;
       if (!old_set) {
-        std::copy_n(kInitialTokenRows.plain, kScaleBuckets, rows);
+        std::copy_n(InitialRowTable::table.plain, kScaleBuckets, rows);
         copyToComponents(set * kRowsPerSet, kScaleBuckets);
       }
       if ((fold || has_folded) && !(old_set && has_folded)) {
         constexpr uint32_t kFoldedRows = kFractionClasses * kFoldBuckets;
-        std::copy_n(kInitialTokenRows.folded, kFoldedRows, rows + kScaleBuckets);
+        std::copy_n(InitialRowTable::table.folded, kFoldedRows, rows + kScaleBuckets);
         copyToComponents(set * kRowsPerSet + kScaleBuckets, kFoldedRows);
       }
     }
@@ -141,7 +142,7 @@ MCC_INLINE void findContexts(const ScaleEstimate& scale, const Lanes<uint32_t>& 
 
 /// What follows the token of a magnitude: raw bits and a sign.
 template <class Io>
-MCC_INLINE uint32_t codeBelowToken(Io& io, uint32_t token, uint32_t low_bits, bool has_sign,
+MCC_SHARED uint32_t codeBelowToken(Io& io, uint32_t token, uint32_t low_bits, bool has_sign,
                                    uint32_t truth, uint32_t& negative) {
   if (token != kTokenEscape) [[likely]] {
     const uint32_t base = uint32_t{kTokenBase[token]} << low_bits;
@@ -185,6 +186,14 @@ MCC_INLINE int32_t codeResidual(Io& io, TokenRow& row, uint32_t low_bits, uint32
   return static_cast<int32_t>((a ^ mask) - mask);
 }
 
+MCC_INLINE TokenSpans::Span tokenSpan(uint32_t low_bits, uint32_t token) {
+  if constexpr (kCompact) {
+    return {uint32_t{kTokenBase[token]} << low_bits, kTokenExtraBits[token] + low_bits};
+  } else {
+    return kTokenSpans.of[low_bits][token];
+  }
+}
+
 /// Decodes the residuals of all components, for an Io with kThreeAtOnce; lane 3 is 0.
 template <class Io, class Fold>
 MCC_INLINE Lanes<uint32_t> decodeResiduals(Io& io, TokenRow* rows, const ResidualContexts& c,
@@ -199,7 +208,7 @@ MCC_INLINE Lanes<uint32_t> decodeResiduals(Io& io, TokenRow* rows, const Residua
   uint32_t negative[3];
   MCC_UNROLL
   for (uint32_t s = 0; s < 3; ++s) {
-    const TokenSpans::Span& span = kTokenSpans.of[row[s]->low_bits][token[s]];
+    const TokenSpans::Span span = tokenSpan(row[s]->low_bits, token[s]);
     base[s] = span.base;
     bits[s] = span.bits;
     signs[s] = fold ? ~c.folded[s] & 1 : 1;

@@ -210,7 +210,7 @@ constexpr void makeFoldedRow(uint32_t fraction_class, uint32_t bucket, TokenRow&
 inline constexpr uint32_t kFoldBuckets = 10;
 inline constexpr uint32_t kFractionClasses = 4;
 
-/// Made by the compiler, since they would take longer than a small mesh.
+/// Made by the compiler mostly, since they take longer than a small mesh.
 struct InitialTokenRows {
   TokenRow plain[kScaleBuckets];
   TokenRow folded[kFractionClasses * kFoldBuckets];
@@ -223,7 +223,7 @@ constexpr InitialTokenRows makeInitialTokenRows() {
   }
   return rows;
 }
-inline constexpr InitialTokenRows kInitialTokenRows = makeInitialTokenRows();
+using InitialRowTable = ConstantTable<makeInitialTokenRows>;
 
 }  // namespace mcc
 

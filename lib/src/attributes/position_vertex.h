@@ -125,9 +125,11 @@ class VertexCoder {
   template <class Fold, class Shears>
   void codeSlots(Io& io, uint32_t v, const Lanes<UWide>& q8, const ScaleEstimate& scale,
                  const Shift<Fold, Shears>& shift) const;
-  template <uint32_t kSlot, class Fold>
-  int32_t codeSlot(Io& io, const ResidualContexts& c, uint32_t prediction, int32_t truth,
-                   int32_t* residual, Fold fold) const;
+  template <uint32_t kState, class Fold>
+  int32_t codeSlot(Io& io, uint32_t slot, const ResidualContexts& c, uint32_t prediction,
+                   int32_t truth, int32_t* residual, Fold fold) const;
+  /// Compact code comes to codeSlot() with the one coder only, which has no states.
+  static constexpr uint32_t stateOf(uint32_t slot) { return kCompact ? 0 : slot; }
   void codeOnPlanes(Io& io, uint32_t v, const Prediction<int32_t>& prediction,
                     uint32_t context) const {
     const int32_t* truth = Io::kEncoding ? truth_ + 3 * size_t{v} : nullptr;
@@ -242,25 +244,27 @@ MCC_SHARED void VertexCoder<Io, Wide, kModes>::codeSlots(Io& io, uint32_t v, con
       return store(v, by_axis, residuals);
     }
   }
-  q[0] = codeSlot<0>(io, c, prediction(rounded[0]), truthOf(v, axis[0]), residual, fold);
-  q[1] =
-      codeSlot<1>(io, c, prediction(rounded[1] + shift(1, q)), truthOf(v, axis[1]), residual, fold);
-  q[2] =
-      codeSlot<2>(io, c, prediction(rounded[2] + shift(2, q)), truthOf(v, axis[2]), residual, fold);
+  q[0] =
+      codeSlot<stateOf(0)>(io, 0, c, prediction(rounded[0]), truthOf(v, axis[0]), residual, fold);
+  q[1] = codeSlot<stateOf(1)>(io, 1, c, prediction(rounded[1] + shift(1, q)), truthOf(v, axis[1]),
+                              residual, fold);
+  q[2] = codeSlot<stateOf(2)>(io, 2, c, prediction(rounded[2] + shift(2, q)), truthOf(v, axis[2]),
+                              residual, fold);
   store(v, q[slot[0]], q[slot[1]], q[slot[2]], residual);
 }
 
 /// A number near its prediction; `residual` receives the difference.
 template <class Io, class Wide, uint32_t kModes>
-template <uint32_t kSlot, class Fold>
-MCC_SHARED int32_t VertexCoder<Io, Wide, kModes>::codeSlot(Io& io, const ResidualContexts& c,
+template <uint32_t kState, class Fold>
+MCC_SHARED int32_t VertexCoder<Io, Wide, kModes>::codeSlot(Io& io, uint32_t slot,
+                                                           const ResidualContexts& c,
                                                            uint32_t prediction, int32_t truth,
                                                            int32_t* residual, Fold fold) const {
   const int32_t target = static_cast<int32_t>(static_cast<uint32_t>(truth) - prediction);
-  TokenRow& row = rows_[c.row[kSlot]];
-  residual[kSlot] =
-      codeResidual<kSlot>(io, row, row.low_bits, c.folded[kSlot], c.flip[kSlot], target, fold);
-  return static_cast<int32_t>(prediction + static_cast<uint32_t>(residual[kSlot]));
+  TokenRow& row = rows_[c.row[slot]];
+  residual[slot] =
+      codeResidual<kState>(io, row, row.low_bits, c.folded[slot], c.flip[slot], target, fold);
+  return static_cast<int32_t>(prediction + static_cast<uint32_t>(residual[slot]));
 }
 
 /// The same with palettes, never sheared: where an axis has one, prediction and scale become ranks.
@@ -303,9 +307,9 @@ void VertexCoder<Io, Wide, kModes>::codeRanks(Io& io, uint32_t v, const Lanes<UW
     }
   }
   if (!is_done) {
-    q[0] = codeSlot<0>(io, c, prediction(0), truth[0], residual, fold);
-    q[1] = codeSlot<1>(io, c, prediction(1), truth[1], residual, fold);
-    q[2] = codeSlot<2>(io, c, prediction(2), truth[2], residual, fold);
+    q[0] = codeSlot<stateOf(0)>(io, 0, c, prediction(0), truth[0], residual, fold);
+    q[1] = codeSlot<stateOf(1)>(io, 1, c, prediction(1), truth[1], residual, fold);
+    q[2] = codeSlot<stateOf(2)>(io, 2, c, prediction(2), truth[2], residual, fold);
   }
   for (uint32_t s = 0; s < 3; ++s) {
     if (p_.palette[s].count != 0) q[s] = p_.palette[s].valueOf(q[s]);

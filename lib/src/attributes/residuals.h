@@ -48,21 +48,27 @@ MCC_INLINE uint32_t codeBelowLength(Io& io, uint32_t length, int32_t truth, uint
   return leading | (bits & (leading - 1));
 }
 
-/// Layout 0: the token is the bit length of |residual|. `seen`: contextLength() of the residual, known earlier.
-template <uint32_t kState, class Io>
-MCC_INLINE int32_t codeByLength(Io& io, TokenRow& row, int32_t truth, uint32_t& seen) {
-  uint32_t length = static_cast<uint32_t>(std::bit_width(absoluteOf(truth)));
-  const uint32_t token =
-      io.template token<kState>(row, kAttributeSchedule, std::min(length, kTokenEscapeLength));
+/// What follows a token of layout 0.
+template <class Io>
+MCC_SHARED int32_t codeBehindLength(Io& io, uint32_t token, int32_t truth, uint32_t& seen) {
+  uint32_t length = token;
   seen = std::min(token, kLongestContext);
   if (token == kTokenEscapeLength) [[unlikely]] {
-    length = codeLongLength(io, kTokenEscapeLength, length);
-  } else {
-    length = token;
+    length = codeLongLength(io, kTokenEscapeLength,
+                            static_cast<uint32_t>(std::bit_width(absoluteOf(truth))));
   }
   uint32_t negative = 0;
   const uint32_t absolute = codeBelowLength(io, length, truth, negative);
   return static_cast<int32_t>((absolute ^ negative) - negative);
+}
+
+/// Layout 0: the token is the bit length of |residual|. `seen`: contextLength() of the residual, known earlier.
+template <uint32_t kState, class Io>
+MCC_INLINE int32_t codeByLength(Io& io, TokenRow& row, int32_t truth, uint32_t& seen) {
+  const uint32_t length = static_cast<uint32_t>(std::bit_width(absoluteOf(truth)));
+  const uint32_t token =
+      io.template token<kState>(row, kAttributeSchedule, std::min(length, kTokenEscapeLength));
+  return codeBehindLength(io, token, truth, seen);
 }
 
 /// What the tokens of layout 1 stand for.
@@ -75,28 +81,36 @@ inline constexpr SmallSignedToken kSmallSignedTokens[16] = {
     {0, 0, 0}, {0, 1, 1}, {0, -1, 1}, {0, 2, 2}, {0, -2, 2}, {0, 3, 2}, {0, -3, 2},  {3, 0, 3},
     {4, 0, 4}, {5, 0, 5}, {6, 0, 6},  {7, 0, 7}, {8, 0, 8},  {9, 0, 9}, {10, 0, 10}, {11, 0, 10}};
 
-/// Layout 1: tokens 0..6 are 0, 1, -1, 2, -2, 3, -3; from 7 on the bit length, 3 and more.
-template <uint32_t kState, class Io>
-MCC_INLINE int32_t codeSmallSigned(Io& io, TokenRow& row, int32_t truth, uint32_t& seen) {
-  constexpr uint32_t kFirstLength = 7;  // token of length 3
+inline constexpr uint32_t kFirstLengthToken = 7;  ///< of length 3
+
+/// What follows a token of layout 1.
+template <class Io>
+MCC_SHARED int32_t codeBehindSmall(Io& io, uint32_t token, int32_t truth, uint32_t& seen) {
   constexpr uint32_t kEscapedLength = 11;
-  const uint32_t absolute = absoluteOf(truth);
-  const uint32_t true_length = static_cast<uint32_t>(std::bit_width(absolute));
-  uint32_t token = 0;
-  if constexpr (Io::kEncoding) {
-    token = absolute < 4 ? 2 * absolute - (truth > 0 ? 1 : 0)
-                         : std::min(true_length + (kFirstLength - 3), kTokenEscapeLength);
-  }
-  token = io.template token<kState>(row, kAttributeSchedule, token);
   const SmallSignedToken& t = kSmallSignedTokens[token];
   seen = t.in_context;
   uint32_t length = t.length;
   if (token == kTokenEscapeLength) [[unlikely]] {
-    length = codeLongLength(io, kEscapedLength, true_length);
+    length = codeLongLength(io, kEscapedLength,
+                            static_cast<uint32_t>(std::bit_width(absoluteOf(truth))));
   }
   uint32_t negative = 0;
   const uint32_t large = codeBelowLength(io, length, truth, negative);
   return static_cast<int32_t>((large ^ negative) - negative) + t.value;
+}
+
+/// Layout 1: tokens 0..6 are 0, 1, -1, 2, -2, 3, -3; from 7 on the bit length, 3 and more.
+template <uint32_t kState, class Io>
+MCC_INLINE int32_t codeSmallSigned(Io& io, TokenRow& row, int32_t truth, uint32_t& seen) {
+  uint32_t token = 0;
+  if constexpr (Io::kEncoding) {
+    const uint32_t absolute = absoluteOf(truth);
+    const uint32_t length = static_cast<uint32_t>(std::bit_width(absolute));
+    token = absolute < 4 ? 2 * absolute - (truth > 0 ? 1 : 0)
+                         : std::min(length + (kFirstLengthToken - 3), kTokenEscapeLength);
+  }
+  token = io.template token<kState>(row, kAttributeSchedule, token);
+  return codeBehindSmall(io, token, truth, seen);
 }
 
 }  // namespace mcc

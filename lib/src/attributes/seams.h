@@ -171,8 +171,9 @@ Status SeamCoder<Io>::collectFan(uint32_t start) {
   for (h = faces_.rotateCw(start); h != kNone; h = faces_.rotateCw(h)) {
     if (!add(h)) return fail(Error::kOutOfMemory, "no memory for wedges");
   }
-  std::reverse(fan_.data() + behind, fan_.data() + fan_.size());
-  std::rotate(fan_.data(), fan_.data() + behind, fan_.data() + fan_.size());
+  // What was met clockwise, backwards, comes in front of the others.
+  std::reverse(fan_.data(), fan_.data() + fan_.size());
+  std::reverse(fan_.data() + fan_.size() - behind, fan_.data() + fan_.size());
   return {};
 }
 

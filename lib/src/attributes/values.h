@@ -18,6 +18,7 @@
 #include "attributes/unit_deltas.h"
 #include "attributes/value_blend.h"
 #include "attributes/wedges.h"
+#include "base/decodes.h"
 #include "entropy/models.h"
 #include "mesh/attribute_method.h"
 
@@ -93,6 +94,8 @@ class ValueCoder {
 
   int32_t* at(uint32_t w) const { return values_ + size_t{w} * components_; }
   bool coded(uint32_t w) const { return lengths_[w] != kNotCoded; }
+  bool isDelta() const { return decodes::kMorphTargets && moved_ != nullptr; }
+  bool blends() const { return decodes::kBlends && blends_; }
   bool isZero(uint32_t w) const {
     for (uint32_t c = 0; c < components_; ++c) {
       if (at(w)[c] != 0) return false;
@@ -245,8 +248,8 @@ bool ValueCoder<Io>::codeFlags(uint32_t w) {
                                        : (n_is_zero ? 1u : 0u) + (p_ == kNone  ? n_is_zero
                                                                   : isZero(p_) ? 1u
                                                                                : 0u);
-    const uint32_t moved = moved_ == nullptr || (moved_before_[w] & moved_bit_) == 0 ? 0 : 1;
-    const uint32_t position_moved = moved_ == nullptr ? 0 : moved_[w] & 1;
+    const uint32_t moved = !isDelta() || (moved_before_[w] & moved_bit_) == 0 ? 0 : 1;
+    const uint32_t position_moved = !isDelta() ? 0 : moved_[w] & 1;
     const bool zero =
         io_.bit(models_.zero[zeros][moved][position_moved], Io::kEncoding && isZero(w));
     if (zero) {
@@ -274,14 +277,14 @@ void ValueCoder<Io>::codeResiduals(uint32_t w, bool blended) {
     const uint32_t other = p_ != kNone ? p_ : n_;
     context = std::min((lengths_[n_] + lengths_[other] + 1u) / 2, kLongestContext);
   }
-  if (units_ != nullptr) {
+  if (decodes::kMorphTargets && units_ != nullptr) {
     const uint32_t alike[3] = {context, context, context};
     return codeUnitResiduals(w, blended ? contexts_ : alike);
   }
   int32_t* value = at(w);
   uint32_t longest = 0;
   for (uint32_t c = 0; c < components_; ++c) {
-    if (blended) context = contexts_[c];
+    if (decodes::kBlends && blended) context = contexts_[c];
     TokenRow& row = models_.row[std::min(c, 3u)][context];
     const uint32_t length = codeComponent(c, row, predicted_[c], value[c]);
     longest = std::max(longest, length);
@@ -312,30 +315,30 @@ void ValueCoder<Io>::codeGroup(uint32_t w) {
   findNeighbours(w);
   if ((may_repeat_ || may_vanish_) && codeFlags(w)) {
     lengths_[w] = 0;
-    if (blends_) blend_.pass(w);
-  } else if (ids_ != nullptr) {
+    if (blends()) blend_.pass(w);
+  } else if (decodes::kIds && ids_ != nullptr) {
     const uint32_t beside = n_ != kNone ? n_ : last_;
     *at(w) = ids_->code(io_, *id_models_, beside == kNone ? 0 : *at(beside), *at(w));
     lengths_[w] = 0;
-  } else if (blends_ && entry_ != kNone && p_ != kNone) {
+  } else if (blends() && entry_ != kNone && p_ != kNone) {
     blend_.predict(w, predicted_, contexts_);
     codeResiduals(w, true);
     blend_.learn(w);
   } else {
     predict(w);
     codeResiduals(w, false);
-    if (blends_) blend_.pass(w);
+    if (blends()) blend_.pass(w);
   }
   last_ = w;
   uint8_t moved = 0;
-  if (moved_ != nullptr && !isZero(w)) moved = moved_bit_;
+  if (isDelta() && !isZero(w)) moved = moved_bit_;
   for (uint32_t m = w; m != kNone; m = groups_.nextOf(m)) {
     if (m != w) {
       copy(m, w);
-      if (blends_) blend_.copy(m, w);
+      if (blends()) blend_.copy(m, w);
     }
     lengths_[m] = lengths_[w];
-    if (moved_ != nullptr) moved_[m] = static_cast<uint8_t>((moved_[m] & ~moved_bit_) | moved);
+    if (isDelta()) moved_[m] = static_cast<uint8_t>((moved_[m] & ~moved_bit_) | moved);
   }
 }
 

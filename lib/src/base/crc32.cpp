@@ -3,11 +3,14 @@
 
 #include <cstddef>
 
+#include "base/host.h"
+
 namespace mcc {
 namespace {
 
 constexpr uint32_t kPolynomial = 0xedb88320u;
 constexpr size_t kSlices = 8;
+constexpr size_t kUsedSlices = kCompact ? 1 : kSlices;  ///< compact code goes byte by byte
 
 constexpr uint32_t crcOfByte(uint32_t crc) {
   for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (kPolynomial & (~(crc & 1) + 1));
@@ -19,7 +22,7 @@ struct SliceTables {
 
   constexpr SliceTables() : entry{} {
     for (uint32_t i = 0; i < 256; ++i) entry[0][i] = crcOfByte(i);
-    for (size_t slice = 1; slice < kSlices; ++slice) {
+    for (size_t slice = 1; slice < kUsedSlices; ++slice) {
       for (uint32_t i = 0; i < 256; ++i) {
         const uint32_t previous = entry[slice - 1][i];
         entry[slice][i] = (previous >> 8) ^ entry[0][previous & 0xff];
@@ -35,12 +38,12 @@ constexpr SliceTables kTables;
 
 uint32_t crc32(std::span<const uint8_t> bytes, uint32_t crc) {
 #if defined(MCC_COMPACT)
-  const SliceTables kTables;  // 8 KiB that no file compresses, made in some microseconds
+  const SliceTables kTables;  // bytes that no file compresses, made in some microseconds
 #endif
   crc = ~crc;
   const uint8_t* p = bytes.data();
   size_t rest = bytes.size();
-  for (; rest >= kSlices; rest -= kSlices, p += kSlices) {
+  for (; kUsedSlices == kSlices && rest >= kSlices; rest -= kSlices, p += kSlices) {
     const uint32_t low =
         crc ^ (uint32_t{p[0]} | uint32_t{p[1]} << 8 | uint32_t{p[2]} << 16 | uint32_t{p[3]} << 24);
     crc = kTables.entry[7][low & 0xff] ^ kTables.entry[6][(low >> 8) & 0xff] ^

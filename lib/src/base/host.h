@@ -22,7 +22,9 @@ static_assert(FLT_EVAL_METHOD == 0, "build with SSE2 or an equivalent, not with 
 #define MCC_INLINE_LAMBDA __attribute__((always_inline))
 #define MCC_OUT_OF_LINE __attribute__((noinline))
 #define MCC_PREFETCH(address) __builtin_prefetch(address)
-#if defined(__clang__)
+#if defined(MCC_COMPACT)
+#define MCC_UNROLL
+#elif defined(__clang__)
 #define MCC_UNROLL _Pragma("unroll")
 #else
 #define MCC_UNROLL _Pragma("GCC unroll 4")
@@ -45,6 +47,23 @@ inline constexpr bool kCompact = true;
 inline constexpr bool kCompact = false;
 #define MCC_SHARED MCC_INLINE
 #endif
+
+/// A table of constants: made by the compiler; in compact code, where it would be data, by prepare(), before all that looks
+/// at it.
+template <auto kMake>
+struct ConstantTable {
+#if defined(MCC_COMPACT)
+  static inline bool is_prepared = false;
+  static inline decltype(kMake()) table;
+  static void prepare() {
+    if (!is_prepared) table = kMake();
+    is_prepared = true;
+  }
+#else
+  static constexpr auto table = kMake();
+  static void prepare() {}
+#endif
+};
 
 /// Calls `function` with `choice`: as a constant, for which it is compiled apart, unless the code is compact.
 template <class Function>

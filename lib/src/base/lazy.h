@@ -47,7 +47,7 @@ class Lazy {
 
  private:
   T* made_ = nullptr;
-  Allocator allocator_;
+  [[no_unique_address]] Allocator allocator_;
 };
 
 /// The same for arrays of them.

@@ -10,9 +10,18 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/host.h"
 #include "mcc/reader.h"
 
 namespace mcc {
+
+#if defined(MCC_COMPACT)
+
+inline void* allocateBytes(const Allocator&, size_t bytes) { return std::malloc(bytes); }
+inline void releaseBytes(const Allocator&, void* memory, size_t) { std::free(memory); }
+inline bool isHeap(const Allocator&) { return true; }
+
+#else
 
 inline void* allocateBytes(const Allocator& allocator, size_t bytes) {
   return allocator.allocate != nullptr ? allocator.allocate(allocator.user, bytes)
@@ -26,6 +35,21 @@ inline void releaseBytes(const Allocator& allocator, void* memory, size_t bytes)
   } else if (allocator.allocate == nullptr) {
     std::free(memory);
   }
+}
+inline bool isHeap(const Allocator& allocator) { return allocator.allocate == nullptr; }
+
+#endif
+
+/// Memory for `count` elements of `bytes` each, with the first `used` of what was in `old`, which is released; null without
+/// memory, and nothing has happened.
+MCC_SHARED void* moveElements(const Allocator& allocator, void* old, size_t used, size_t old_count,
+                              size_t count, size_t bytes) {
+  if (count > SIZE_MAX / bytes) return nullptr;
+  void* memory = allocateBytes(allocator, count * bytes);
+  if (memory == nullptr) return nullptr;
+  if (used != 0) std::memcpy(memory, old, used * bytes);
+  releaseBytes(allocator, old, old_count * bytes);
+  return memory;
 }
 
 /// Array of trivially copyable elements in memory of an Allocator. Every growing call returns false when
@@ -64,12 +88,9 @@ class Array {
 
   [[nodiscard]] bool reserve(size_t capacity) {
     if (capacity <= capacity_) return true;
-    if (capacity > SIZE_MAX / sizeof(T)) return false;
-    T* data = static_cast<T*>(allocateBytes(allocator_, capacity * sizeof(T)));
+    void* data = moveElements(allocator_, data_, size_, capacity_, capacity, sizeof(T));
     if (data == nullptr) return false;
-    if (size_ != 0) std::memcpy(static_cast<void*>(data), data_, size_ * sizeof(T));
-    releaseBytes(allocator_, data_, capacity_ * sizeof(T));
-    data_ = data;
+    data_ = static_cast<T*>(data);
     capacity_ = capacity;
     return true;
   }
@@ -106,7 +127,7 @@ class Array {
   T* data_ = nullptr;
   size_t size_ = 0;
   size_t capacity_ = 0;
-  Allocator allocator_;
+  [[no_unique_address]] Allocator allocator_;
 };
 
 }  // namespace mcc

@@ -260,6 +260,10 @@ class McMachine {
   Status newVertex(bool dummy, uint32_t source, uint32_t& vertex);
   Status endRun(const McOperation* op, uint32_t vertex, uint32_t q, const Fan& fan);
   bool takeGate(uint32_t vertex, uint32_t node, Fan& fan, uint32_t source_gate);
+  /// The same outside of the inner loop.
+  MCC_SHARED bool takeOther(uint32_t vertex, uint32_t node, Fan& fan, uint32_t source_gate) {
+    return takeGate(vertex, node, fan, source_gate);
+  }
   static Status tooManyTriangles() {
     return fail(Error::kBadConnectivity, "the codes yield more triangles than the header claims");
   }
@@ -270,16 +274,17 @@ class McMachine {
   Status joinStart();
   Status joinHandle(const McOperation* op, uint32_t handle_node);
   Status finishComponent();
+  bool isWatched() const { return !kCompact && watch_ != nullptr; }
   void count(uint64_t CodeHistogram::*field) {
-    if (watch_ != nullptr) [[unlikely]]
+    if (isWatched()) [[unlikely]]
       watch_->count(field);
   }
   void countDegree(uint32_t degree) {
-    if (watch_ != nullptr) [[unlikely]]
+    if (isWatched()) [[unlikely]]
       watch_->countDegree(degree);
   }
   void noteEdge(uint32_t vertex, uint32_t from) {
-    if (watch_ != nullptr) [[unlikely]]
+    if (isWatched()) [[unlikely]]
       watch_->noteEdge(vertex, from);
   }
 
@@ -317,7 +322,7 @@ Status McMachine<Io>::run() {
   if (!nodes_.reserve(counts_.has_handles ? expected : std::min<uint64_t>(expected, 1u << 10))) {
     return fail(Error::kOutOfMemory, "no memory for the connectivity decoder");
   }
-  if (watch_ != nullptr && !watch_->reserve(counts_.operation_count)) {
+  if (isWatched() && !watch_->reserve(counts_.operation_count)) {
     return fail(Error::kOutOfMemory, "no memory for the mc-edges");
   }
   for (uint32_t i = 0; operation_ < counts_.operation_count; ++i) {
@@ -592,7 +597,7 @@ Status McMachine<Io>::expandSpur(const McOperation* op, uint32_t vertex) {
 /// The degree of an EXPAND, gate by gate: "close the next vertex too?". Where the decoder spends its time: everything
 /// it needs is local, and each node is read once. [A.4.5]
 template <class Io>
-MCC_INLINE Status McMachine<Io>::codeRun(CodesBurst& codes, const McOperation* op,
+MCC_SHARED Status McMachine<Io>::codeRun(CodesBurst& codes, const McOperation* op,
                                          uint32_t vertex) {
   const RunContext context = runContext();
   const McNode* const nodes = nodes_.data();
@@ -628,7 +633,7 @@ Status McMachine<Io>::codeDummyRun(const McOperation* op) {
   uint32_t q = top_;
   Fan fan;
   do {
-    (void)takeGate(kDummyVertex, q, fan, 0);  // emits nothing
+    (void)takeOther(kDummyVertex, q, fan, 0);  // emits nothing
     before = q;
     q = nodes_[q].next;
   } while (fan.taken < degree && q != top_);
@@ -641,12 +646,12 @@ Status McMachine<Io>::codeDummyRun(const McOperation* op) {
 
 /// The new vertex takes the place of the closed ones: top -> node -> q.
 template <class Io>
-MCC_INLINE Status McMachine<Io>::endRun(const McOperation* op, uint32_t vertex, uint32_t q,
+MCC_SHARED Status McMachine<Io>::endRun(const McOperation* op, uint32_t vertex, uint32_t q,
                                         const Fan& fan) {
   uint32_t node = 0;
   MCC_TRY(newNode(vertex, fan.taken + 1, node));
   if constexpr (Io::kEncoding) truth_.node_of_collapse_node[op->node_a] = node;
-  if (watch_ != nullptr) [[unlikely]] {
+  if (isWatched()) [[unlikely]] {
     watch_->noteEdge(vertex, nodes_[top_].vertex);
     watch_->countDegree(fan.taken + 3);
   }
@@ -665,7 +670,7 @@ MCC_INLINE Status McMachine<Io>::endRun(const McOperation* op, uint32_t vertex, 
 // --- lists -----------------------------------------------------------------------------------------
 
 template <class Io>
-MCC_INLINE Status McMachine<Io>::newNode(uint32_t vertex, uint32_t degree, uint32_t& node) {
+MCC_SHARED Status McMachine<Io>::newNode(uint32_t vertex, uint32_t degree, uint32_t& node) {
   const uint16_t clamped = static_cast<uint16_t>(std::min(degree, 0xffffu));
   if (free_ != kNone) [[likely]] {
     node = free_;
@@ -743,7 +748,7 @@ MCC_INLINE bool McMachine<Io>::takeGate(uint32_t vertex, uint32_t node, Fan& fan
 /// ends where it began. Only handles can refer to other nodes than those of the digon at work, so only then closed nodes
 /// need a mark; without them they are used again.
 template <class Io>
-MCC_INLINE void McMachine<Io>::closeNodes(uint32_t first, uint32_t last) {
+MCC_SHARED void McMachine<Io>::closeNodes(uint32_t first, uint32_t last) {
   if (!counts_.has_handles) {
     nodes_[last].next = free_;
     free_ = first;
@@ -852,8 +857,8 @@ Status McMachine<Io>::finishComponent() {
   uint32_t q = top_;
   Fan fan;
   do {
-    if (!takeGate(vertex, q, fan,
-                  Io::kEncoding ? truth_.gates[component->first_gate + fan.taken] : 0)) {
+    if (!takeOther(vertex, q, fan,
+                   Io::kEncoding ? truth_.gates[component->first_gate + fan.taken] : 0)) {
       return tooManyTriangles();
     }
     before = q;

@@ -64,12 +64,12 @@ template <class Io>
 bool codeMixed(Io& io, BitModel& a, BitModel& b, bool truth) {
   constexpr uint32_t kCountMask = 1023;
   constexpr uint32_t kWeightLimit = 8;
-  const uint32_t weight_a = std::min((a.state & kCountMask) + 1, kWeightLimit);
-  const uint32_t weight_b = std::min((b.state & kCountMask) + 1, kWeightLimit);
+  const uint32_t weight_a = std::min((a.state() & kCountMask) + 1, kWeightLimit);
+  const uint32_t weight_b = std::min((b.state() & kCountMask) + 1, kWeightLimit);
   BitModel mixed;
-  mixed.state =
+  mixed.set(
       (a.zeroProbability() * weight_a + b.zeroProbability() * weight_b) / (weight_a + weight_b)
-      << 10;
+      << 10);
   const bool bit = io.bit(mixed, truth);
   a.update(bit);
   b.update(bit);

@@ -42,6 +42,19 @@ Status parseGrid(ByteReader& in, AttributeInfo& a) {
   return {};
 }
 
+/// Whether the reader is compiled with what an attribute needs, as far as its format and coding tell.
+bool isDecoded(const AttributeInfo& a) {
+  const bool is_exact =
+      a.coding == AttributeCoding::kExactFloat || a.coding == AttributeCoding::kGrid;
+  const Semantic semantic = a.format.semantic;
+  return (decodes::kExactFloats || !is_exact) &&
+         (decodes::kMorphTargets || a.format.morph_target == 0) &&
+         (decodes::kTangents || semantic != Semantic::kTangent) &&
+         (decodes::kTangentPoints || semantic != Semantic::kTangent ||
+          a.coding != AttributeCoding::kOctahedral) &&
+         (decodes::kSkins || (semantic != Semantic::kJoints && semantic != Semantic::kWeights));
+}
+
 /// [A.2.4]
 Status parseAttribute(ByteReader& in, AttributeInfo& a) {
   const size_t at = in.offset();
@@ -74,6 +87,7 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
     return fail(Error::kBadHeader, "an attribute has an unknown coding", at);
   }
   a.coding = static_cast<AttributeCoding>(shape >> 4);
+  if (!kWhole && !isDecoded(a)) return fail(kNotInCore, "the core lacks a coding", at);
   const bool is_float = a.format.component_type == ComponentType::kFloat32;
   if (a.coding != AttributeCoding::kAlias && is_float == (a.coding == AttributeCoding::kInteger)) {
     return fail(Error::kBadHeader, "an attribute's coding does not fit its component type", at);
@@ -108,12 +122,32 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
     }
   }
   if (a.coding == AttributeCoding::kAlias) MCC_TRY(in.readVarint(a.alias_of));
-  if (a.coding == AttributeCoding::kGrid) MCC_TRY(parseGrid(in, a));
+  if (decodes::kExactFloats && a.coding == AttributeCoding::kGrid) MCC_TRY(parseGrid(in, a));
   return {};
+}
+
+/// Whether it is compiled with the predictor of attribute `index` of a piece.
+bool isPredicted(const AttributeInfo* all, uint32_t count, uint32_t index) {
+  const AttributeInfo& a = all[index];
+  if (index == 0) {
+    const uint32_t bits = a.coding == AttributeCoding::kLattice
+                              ? a.bits
+                              : 8 * componentBytes(a.format.component_type);
+    const uint32_t kind = a.predictor & position_flag::kKindMask;
+    return (decodes::kExactFloats || bits <= kNarrowPositionBits) &&
+           (decodes::kPalettes || kind != position_flag::kPalette) &&
+           (decodes::kPlanes || kind != position_flag::kPlanes);
+  }
+  if (methodOf(all, count, index) != AttributeMethod::kValues) return true;
+  return (decodes::kIds || (a.predictor & value_method::kIds) == 0) &&
+         (decodes::kBlends || (a.predictor & value_method::kPredictorMask) != value_method::kBlend);
 }
 
 /// Aliases are of earlier attributes that are none and not the position, tangents have normals, predictors are known.
 Status checkReferences(const AttributeInfo* all, uint32_t count, size_t at) {
+  for (uint32_t i = 0; !kWhole && i < count; ++i) {
+    if (!isPredicted(all, count, i)) return fail(kNotInCore, "the core lacks a predictor", at);
+  }
   for (uint32_t i = 1; i < count; ++i) {
     if (all[i].coding == AttributeCoding::kAlias) {
       const uint32_t source = all[i].alias_of;
@@ -216,6 +250,8 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, T
   if (piece.has(piece_flag::kInteriorCopies) && !piece.has(piece_flag::kCopies)) {
     return fail(Error::kBadHeader, "a piece without copies has interior ones", at);
   }
+  if (!kWhole && (piece.flags & ~piece_flag::kDecoded) != 0)
+    return fail(kNotInCore, "the core lacks what a piece has", at);
   uint32_t zigzagged = 0;
   MCC_TRY(in.readVarint(piece.vertex_count));
   MCC_TRY(in.readVarint(piece.face_count));

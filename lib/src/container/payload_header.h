@@ -8,6 +8,7 @@
 #include <span>
 
 #include "base/bytes.h"
+#include "base/decodes.h"
 #include "base/memory.h"
 #include "mcc/reader.h"
 #include "mcc/status.h"
@@ -48,6 +49,11 @@ inline constexpr uint32_t kCreases = 1u << 12;
 inline constexpr uint32_t kTriangleOrder = 1u << 13;
 inline constexpr uint32_t kVertexOrder = 1u << 14;
 inline constexpr uint32_t kAll = 0x7fff;
+/// Those of pieces that are decoded.
+inline constexpr uint32_t kDecoded =
+    kAll & ~((decodes::kStitching ? 0 : kCopies | kInteriorCopies) |
+             (decodes::kLeftovers ? 0 : kDuplicates | kListed | kEdgeDegenerates) |
+             (decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder));
 }  // namespace piece_flag
 
 /// AttributeInfo::predictor of a position: which predictor in the low bits, then one of four kinds of
@@ -65,6 +71,9 @@ inline constexpr uint8_t kFold = 1u << 6;
 inline constexpr uint8_t kSplit = 1u << 7;
 }  // namespace position_flag
 
+/// Positions of up to so many bits are predicted in 32 bits: with a fraction of 8 bits.
+inline constexpr uint32_t kNarrowPositionBits = 17;
+
 struct PieceHeader {
   uint32_t flags = 0;
   uint32_t vertex_count = 0;  ///< umbrellas, i.e. vertices of the cut mesh
@@ -81,7 +90,7 @@ struct PieceHeader {
   uint32_t first_attribute = 0;
   uint32_t attribute_count = 0;
 
-  bool has(uint32_t flag) const { return (flags & flag) != 0; }
+  bool has(uint32_t flag) const { return (flags & flag & piece_flag::kDecoded) != 0; }
   uint64_t triangleCount() const {
     return uint64_t{face_count} + duplicate_count + edge_degenerate_count + listed_count;
   }

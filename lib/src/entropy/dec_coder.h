@@ -226,6 +226,13 @@ constexpr RawMasks makeRawMasks() {
   return masks;
 }
 inline constexpr RawMasks kRawMasks = makeRawMasks();
+MCC_INLINE uint32_t maskBelow(uint32_t bit) {
+  if constexpr (kCompact) {
+    return static_cast<uint32_t>((uint64_t{1} << bit) - 1);
+  } else {
+    return kRawMasks.below[bit];
+  }
+}
 
 /// Plain bits, least significant first.                                                   [A.3.4]
 class RawBitsDecoder {
@@ -273,7 +280,7 @@ class RawBitsDecoder {
         loadU64(bytes_.data() + static_cast<size_t>(next_bit_ >> 3)) >> (next_bit_ & 7);
     MCC_UNROLL
     for (uint32_t s = 0; s < 3; ++s) {
-      const uint32_t value = base[s] + (static_cast<uint32_t>(window) & kRawMasks.below[bits[s]]);
+      const uint32_t value = base[s] + (static_cast<uint32_t>(window) & maskBelow(bits[s]));
       const uint32_t has_sign = uint32_t{value != 0} & signs[s];
       window >>= bits[s];
       values[s] = value;

@@ -38,21 +38,26 @@ constexpr AdaptationRates makeAdaptationRates() {
   }
   return rates;
 }
-inline constexpr AdaptationRates kAdaptationRates = makeAdaptationRates();
+using AdaptationTable = ConstantTable<makeAdaptationRates>;
 
-/// Probability that the next bit is 0, in 22 bits, above a count of outcomes in 10 bits.
+/// Probability that the next bit is 0, in 22 bits, above a count of outcomes in 10 bits. Compact code keeps the difference
+/// to the first state: models are made by clearing memory then.
 struct BitModel {
-  uint32_t state = (kProbabilityOne / 2) << 10;
+  static constexpr uint32_t kFirst = (kProbabilityOne / 2) << 10;
+  static constexpr uint32_t kKeptFrom = kCompact ? kFirst : 0;
+  uint32_t kept = kFirst ^ kKeptFrom;
 
-  uint32_t zeroProbability() const { return state >> 10; }
+  uint32_t state() const { return kept ^ kKeptFrom; }
+  void set(uint32_t state) { kept = state ^ kKeptFrom; }
+  uint32_t zeroProbability() const { return state() >> 10; }
 
   MCC_INLINE void update(bool bit) {
-    const uint32_t count = state & 1023;
-    const uint32_t p = state >> 10;
-    const uint64_t rate = kAdaptationRates.of_count[count];
+    const uint32_t count = state() & 1023;
+    const uint32_t p = state() >> 10;
+    const uint64_t rate = AdaptationTable::table.of_count[count];
     const uint32_t next = bit ? p - static_cast<uint32_t>((p * rate) >> 16)
                               : p + static_cast<uint32_t>(((kProbabilityOne - p) * rate) >> 16);
-    state = next << 10 | (count + (count < kBitCountLimit ? 1 : 0));
+    set(next << 10 | (count + (count < kBitCountLimit ? 1 : 0)));
   }
 };
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "base/decodes.h"
 #include "mcc/reader.h"
 
 namespace mcc {
@@ -154,13 +155,14 @@ constexpr AttributeMethod methodOf(const AttributeInfo* attributes, uint32_t cou
   const AttributeInfo& a = attributes[index];
   switch (a.coding) {
     case AttributeCoding::kOctahedral:
-      return a.format.semantic == Semantic::kTangent ? AttributeMethod::kTangentPoint
-                                                     : AttributeMethod::kNormal;
+      return decodes::kTangentPoints && a.format.semantic == Semantic::kTangent
+                 ? AttributeMethod::kTangentPoint
+                 : AttributeMethod::kNormal;
     case AttributeCoding::kTangentAngle: return AttributeMethod::kTangent;
     case AttributeCoding::kAlias: return AttributeMethod::kWithAnother;
     default: break;
   }
-  if (skinPartner(attributes, count, index) != kNone) {
+  if (decodes::kSkins && skinPartner(attributes, count, index) != kNone) {
     const bool is_joints = a.format.semantic == Semantic::kJoints;
     return is_joints ? AttributeMethod::kSkin : AttributeMethod::kWithAnother;
   }
@@ -168,6 +170,7 @@ constexpr AttributeMethod methodOf(const AttributeInfo* attributes, uint32_t cou
       a.format.component_count == 2 && a.coding != AttributeCoding::kExactFloat) {
     return AttributeMethod::kTexcoord;
   }
+  if (!decodes::kExactFloats) return AttributeMethod::kValues;
   if (a.coding == AttributeCoding::kExactFloat && a.format.semantic == Semantic::kNormal &&
       a.format.morph_target == 0 && a.format.component_count == 3) {
     return AttributeMethod::kExactNormal;
@@ -261,7 +264,8 @@ constexpr uint8_t knownValueBits(const AttributeInfo* attributes, uint32_t count
   if (a.format.morph_target == 0 && a.format.component_count == 1) {
     return kAlways | value_method::kIds;
   }
-  if (a.format.morph_target == 0 || !areVectors(a) || !has_step) return kAlways;
+  if (!decodes::kMorphTargets || a.format.morph_target == 0 || !areVectors(a) || !has_step)
+    return kAlways;
   const auto vectorsBefore = [=](Semantic semantic) {
     const uint32_t i = deltasBefore(attributes, index, semantic);
     return i != kNone && areVectors(attributes[i]);
@@ -290,13 +294,15 @@ constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count,
       return (bits & ~0x0f) == 0 && (bits & normal_method::kWeightMask) != 3 &&
              (bits & normal_method::kBlendMask) != normal_method::kBlendMask;
     case AttributeMethod::kExactNormal:
-      return (bits & ~0x3f) == 0 &&
+      return decodes::kExactFloats && (bits & ~0x3f) == 0 &&
              (bits & exact_normal_method::kBlendMask) != exact_normal_method::kBlendMask;
     case AttributeMethod::kExactTangent:
-      return (bits & ~0x0f) == 0 && ((bits & exact_tangent_method::kPerpendicular) == 0 ||
-                                     exactNormalOf(attributes, count) != kNone);
+      return decodes::kExactFloats && (bits & ~0x0f) == 0 &&
+             ((bits & exact_tangent_method::kPerpendicular) == 0 ||
+              exactNormalOf(attributes, count) != kNone);
     case AttributeMethod::kExactValues:
-      return (bits & ~0x07) == 0 && (bits & exact_value_method::kPredictorMask) < 3;
+      return decodes::kExactFloats && (bits & ~0x07) == 0 &&
+             (bits & exact_value_method::kPredictorMask) < 3;
     case AttributeMethod::kTangent: return bits == 0;
     case AttributeMethod::kTangentPoint:
       return bits == 0 ||

@@ -38,7 +38,6 @@ struct Session {
   Array<PartTarget> parts;
   Array<PieceTarget> pieces;
   Array<uint8_t> outputs;
-  Status status;
 
   Status open(std::span<const uint8_t> bytes, const Limits& limits) {
     MCC_TRY(payload.open(bytes, limits));
@@ -147,10 +146,7 @@ struct Session {
 
 Session session;
 
-uint32_t keep(const Status& status) {
-  session.status = status;
-  return static_cast<uint32_t>(status.error);
-}
+uint32_t numberOf(Status status) { return static_cast<uint32_t>(status.error); }
 
 }  // namespace
 }  // namespace mcc
@@ -173,21 +169,14 @@ uint32_t mccOpen(const uint8_t* bytes, size_t size, double max_vertices, double 
       static_cast<uint32_t>(std::min<uint64_t>(limits.max_pieces, limitOf(max_pieces)));
   limits.max_elements = limitOf(max_elements);
   limits.max_output_bytes = limitOf(max_output_bytes);
-  return keep(session.open({bytes, size}, limits));
+  return numberOf(session.open({bytes, size}, limits));
 }
 
 MCC_EXPORT("table") const uint32_t* mccTable() { return session.table.data(); }
 
 /// `short_indices`: 16 bits where they suffice. The error's number.
 MCC_EXPORT("decode") uint32_t mccDecode(uint32_t short_indices) {
-  return keep(session.decode(short_indices != 0 ? IndexType::kUint16 : IndexType::kUint32));
-}
-
-/// A string that ends with a zero; the byte of the payload, or -1.
-MCC_EXPORT("what") const char* mccWhat() { return session.status.what; }
-MCC_EXPORT("offset") double mccOffset() {
-  const uint64_t offset = session.status.offset_bytes;
-  return offset == Status::kNoOffset ? -1 : static_cast<double>(offset);
+  return numberOf(session.decode(short_indices != 0 ? IndexType::kUint16 : IndexType::kUint32));
 }
 
 /// Releases the payload, `bytes` of it too, and its outputs.

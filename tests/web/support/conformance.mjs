@@ -23,5 +23,15 @@ export function payloadOf(glb) {
   return chunks[0].data.slice(byteOffset, byteOffset + byteLength);
 }
 
-export const wasm = (name) => readFileSync(new URL(`../../../lib/web/wasm/${name}.wasm`, import.meta.url));
-export const DECODERS = ['mcc_decoder', 'mcc_decoder_simd'];
+const wasmUrl = (name) => new URL(`../../../lib/web/wasm/${name}.wasm`, import.meta.url);
+export const wasm = (name) => readFileSync(wasmUrl(name));
+
+/** Ways to load the decoder, by what is tested: options of init(). */
+export const DECODERS = {
+  mcc_decoder: { wasmUrl: wasmUrl('mcc_decoder'), simdWasmUrl: wasmUrl('mcc_decoder') },
+  mcc_decoder_simd: { wasmUrl: wasmUrl('mcc_decoder_simd') },
+  mcc_decoder_core: {
+    coreUrl: wasmUrl('mcc_decoder_core'), simdCoreUrl: wasmUrl('mcc_decoder_core'), wasmUrl: wasmUrl('mcc_decoder'),
+  },
+  mcc_decoder_core_simd: { coreUrl: wasmUrl('mcc_decoder_core_simd'), wasmUrl: wasmUrl('mcc_decoder_simd') },
+};

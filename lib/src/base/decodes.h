@@ -1,0 +1,39 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// What the reader is compiled with. All of the format; but the core of the decoder for the web (lib/web), compiled with
+// MCC_CORE, has what most files need and refuses the others with kNotInCore, before anything is decoded: the whole decoder
+// takes them. Code for what the core lacks is behind these constants, and container/payload_header.cpp refuses it.
+#ifndef MCC_BASE_DECODES_H_
+#define MCC_BASE_DECODES_H_
+
+#include "mcc/status.h"
+
+namespace mcc {
+
+#if defined(MCC_CORE)
+inline constexpr bool kWhole = false;
+#else
+inline constexpr bool kWhole = true;
+#endif
+
+namespace decodes {
+inline constexpr bool kStitching = true;      ///< vertices that were cut
+inline constexpr bool kLeftovers = true;      ///< duplicate, degenerate and listed triangles
+inline constexpr bool kPalettes = true;       ///< of positions
+inline constexpr bool kTangents = true;       ///< as angles around the normals
+inline constexpr bool kSkins = true;          ///< JOINTS and WEIGHTS
+inline constexpr bool kOrders = kWhole;       ///< of triangles and vertices, if they are kept
+inline constexpr bool kExactFloats = kWhole;  ///< grids too, and positions above 17 bits
+inline constexpr bool kPlanes = kWhole;       ///< of positions
+inline constexpr bool kTangentPoints = kWhole;
+inline constexpr bool kMorphTargets = kWhole;
+inline constexpr bool kBlends = kWhole;  ///< of values, see attributes/value_blend.h
+inline constexpr bool kIds = kWhole;
+}  // namespace decodes
+
+/// The payload is not damaged, so that this is none of the errors of the specification.
+inline constexpr Error kNotInCore = static_cast<Error>(255);
+
+}  // namespace mcc
+
+#endif  // MCC_BASE_DECODES_H_
