@@ -110,6 +110,17 @@ TEST(Exact, EverySemanticOnEveryGrid) {
   }
 }
 
+/// The largest numbers of a coarse lattice, rounded up.
+TEST(Exact, WhatWouldRoundToInfinity) {
+  TestMesh mesh = grid(8, 6);
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    mesh.positions[i] = i % 3 == 0 ? -3.0e38f : i % 3 == 1 ? 3.39e38f : 0.0f;
+  }
+  for (uint8_t bits = 1; bits <= 6; ++bits) {
+    EXPECT_EQ(roundTrip(MeshPiece(mesh, {bits, 0, 0}).view()).failure, "") << int{bits};
+  }
+}
+
 /// The bits of such a NaN are the least number there is. It begins the list of the few values of each axis.
 TEST(Exact, NanOfAllOnes) {
   TestMesh mesh = grid(24, 20);

@@ -153,14 +153,24 @@ class Quantizer {
         const double q = std::floor((x - double{lattice.origin[c]}) / double{lattice.step} + 0.5);
         if (std::fabs(q) > double{1 << 28}) {
           notes.push_back(name() + " reaches beyond the given lattice: kept exact");
-          result_.info.lattice = Lattice{};
-          result_.info.bits = 0;
-          return copyExactly();
+          return copyInstead();
+        }
+        if (!std::isfinite(
+                latticeValue(static_cast<int32_t>(q), lattice.step, lattice.origin[c]))) {
+          notes.push_back(name() + " would round to infinity: kept exact");
+          return copyInstead();
         }
         result_.values[size_t{w} * components_ + c] = static_cast<int32_t>(q);
       }
     }
     return std::move(result_);
+  }
+
+  /// Exactly, where a lattice does not serve.
+  QuantizedAttribute copyInstead() {
+    result_.info.lattice = Lattice{};
+    result_.info.bits = 0;
+    return copyExactly();
   }
 
   /// Deltas: through 0, so that what does not move stays; else from the corner of the bounding box.
