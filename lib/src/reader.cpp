@@ -414,7 +414,7 @@ Status decodeAttribute(PieceCoder<Io>& piece, const PieceInfo& info, uint32_t in
   MCC_TRY(piece.codeAttribute(index, values));
   const uint32_t stride = piece.codedComponentsOf(index);
   storeAttribute(piece, info, index, values.data(), stride, target.attributes);
-  if (!decodes::kSkins || method != AttributeMethod::kSkin) return {};
+  if (!decodes::kSkins || method != AttributeMethod::kSkin || info.wedge_count == 0) return {};
   storeAttribute(piece, info, skinPartner(all, count, index), values.data() + kSkinSlots, stride,
                  target.attributes);
   return {};
