@@ -22,7 +22,8 @@ void fill(FedAttribute& a, uint32_t wedge_count, ByteFeed& feed) {
   a.bytes.resize(size_t{wedge_count} * elementBytes(a.format));
   const uint32_t step = componentBytes(a.format.component_type);
   for (size_t i = 0; i < a.bytes.size(); i += step) {
-    const uint32_t value = feed.byte();
+    uint32_t value = feed.byte();
+    if (a.format.semantic == Semantic::kJoints) value &= 0x7f;  // all ones are refused
     if (a.format.component_type == ComponentType::kFloat32) {
       float number = static_cast<float>(static_cast<int8_t>(value)) / 32;
       if (value == 0x7f) {
