@@ -64,7 +64,7 @@ function dropInPage([name, base64, size]) {
 async function settle(page) {
   await page.waitForFunction(() => {
     const isHidden = (id) => document.getElementById(id).hidden;
-    return !isHidden('error') || (isHidden('progress') && document.querySelector('#streams tfoot .ratio')?.textContent !== '');
+    return !isHidden('error') || (!isHidden('work') && isHidden('progress') && document.querySelector('#streams tfoot .ratio')?.textContent !== '');
   }, undefined, { timeout: 60_000 });
   assert.equal(await textOf(page, 'error'), '');
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
