@@ -173,7 +173,7 @@ void storeAttribute(const PieceCoder<Io>& piece, const PieceInfo& info, uint32_t
     const bool is_alias = info.attributes[i].coding == AttributeCoding::kAlias &&
                           info.attributes[i].alias_of == index;
     if (targets[i].data == nullptr || (i != index && !is_alias)) continue;
-    if (decodes::kTangents && a.coding == AttributeCoding::kTangentAngle) {
+    if (a.coding == AttributeCoding::kTangentAngle) {
       storeTangents(a, values, piece.tangentNormalInfo(), piece.tangentNormals(), info.wedge_count,
                     wedge_at, targets[i]);
     } else {
@@ -414,7 +414,7 @@ Status decodeAttribute(PieceCoder<Io>& piece, const PieceInfo& info, uint32_t in
   MCC_TRY(piece.codeAttribute(index, values));
   const uint32_t stride = piece.codedComponentsOf(index);
   storeAttribute(piece, info, index, values.data(), stride, target.attributes);
-  if (!decodes::kSkins || method != AttributeMethod::kSkin || info.wedge_count == 0) return {};
+  if (method != AttributeMethod::kSkin || info.wedge_count == 0) return {};
   storeAttribute(piece, info, skinPartner(all, count, index), values.data() + kSkinSlots, stride,
                  target.attributes);
   return {};

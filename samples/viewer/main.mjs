@@ -141,7 +141,7 @@ class Page {
     // Answers to a run that was stopped may still be on their way.
     const run = this.run = {};
     const request = { bytes: this.file.bytes, options: this.options.value };
-    this.job = new Job('./work/compressor.mjs', request, (message) => run === this.run && this.onMessage(message, run));
+    this.job = new Job('./workers/compressor.mjs', request, (message) => run === this.run && this.onMessage(message, run));
   }
 
   async onMessage(message, run) {
@@ -211,7 +211,7 @@ class Page {
     $('work').classList.remove('busy');
     const { bits, lossless } = this.options;
     this.progress('Compressing with Draco for comparison', undefined);
-    this.dracoJob = new Job('./work/draco.mjs', { bytes: this.source, bits, lossless }, (message) => {
+    this.dracoJob = new Job('./workers/draco.mjs', { bytes: this.source, bits, lossless }, (message) => {
       if (run !== this.run) return;
       if (message.name === 'progress') this.progress('Compressing with Draco for comparison', message.done);
       if (message.name === 'done') this.result.draco = message;

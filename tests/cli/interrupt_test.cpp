@@ -35,18 +35,10 @@ class Interrupt : public testing::Test {
   pid_t start(const std::vector<std::string>& arguments, void (*before)() = nullptr) const {
     const pid_t child = fork();
     if (child != 0) return child;
-#ifdef MCC_TOOL_GLTF_MCC
-    std::vector<char*> words;
-    std::string program = MCC_TOOL_GLTF_MCC;
-    words.push_back(program.data());
-    for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
-    words.push_back(nullptr);
     if (before != nullptr) before();
     const int nowhere = open("/dev/null", O_RDWR);
     for (const int stream : {0, 1, 2}) dup2(nowhere, stream);
-    if (chdir(folder_.path().c_str()) == 0) execv(program.c_str(), words.data());
-#endif
-    _exit(127);
+    becomeTool(folder_, arguments);
   }
 
   /// Number of the signal that ended the process; 0 when it ended by itself, with `status`.

@@ -115,20 +115,11 @@ class WaitingTool {
     EXPECT_EQ(mkfifo(path("buffer.bin").c_str(), 0600), 0);
   }
 
-  [[noreturn]] void run([[maybe_unused]] const std::vector<std::string>& arguments,
-                        [[maybe_unused]] int errors) const {
-#ifdef MCC_TOOL_GLTF_MCC
-    std::vector<char*> words;
-    std::string program = MCC_TOOL_GLTF_MCC;
-    words.push_back(program.data());
-    for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
-    words.push_back(nullptr);
+  [[noreturn]] void run(const std::vector<std::string>& arguments, int errors) const {
     dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
     dup2(open(path("stdout").c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
     dup2(errors, STDERR_FILENO);
-    if (chdir(folder_.path().c_str()) == 0) execv(program.c_str(), words.data());
-#endif
-    _exit(127);
+    becomeTool(folder_, arguments);
   }
 
   bool hasEnded() const {

@@ -6,12 +6,14 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include "support/scratch_folder.h"
 
@@ -44,6 +46,19 @@ inline ToolResult runTool(const ScratchFolder& folder, const std::string& argume
 #else
   return {};
 #endif
+}
+
+/// Makes the calling process the tool, in a folder; arguments are as they are. Status 127 where it cannot be.
+[[noreturn]] inline void becomeTool([[maybe_unused]] const ScratchFolder& folder,
+                                    [[maybe_unused]] const std::vector<std::string>& arguments) {
+#ifdef MCC_TOOL_GLTF_MCC
+  std::string program = MCC_TOOL_GLTF_MCC;
+  std::vector<char*> words = {program.data()};
+  for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  if (chdir(folder.path().c_str()) == 0) execv(program.c_str(), words.data());
+#endif
+  _exit(127);
 }
 
 inline std::string samplePath(const std::string& name) {

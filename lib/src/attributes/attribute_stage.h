@@ -107,7 +107,7 @@ class AttributeStage {
         moved_before_(allocator),
         moved_(allocator) {
     for (uint32_t i = 1; i < attribute_count; ++i) {
-      has_tangents_ |= decodes::kTangents && codingPhase(attributes[i]) == 1;
+      has_tangents_ |= codingPhase(attributes[i]) == 1;
       const uint8_t bits = deltaBits(i);
       has_bends_ |= (bits & value_method::kBends) != 0;
       has_units_ |= (bits & value_method::kUnits) != 0;
@@ -134,12 +134,8 @@ class AttributeStage {
     switch (method) {
       case AttributeMethod::kNormal: MCC_TRY(codeNormals(info, values.data())); break;
       case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(info, values.data())); break;
-      case AttributeMethod::kTangent:
-        if (decodes::kTangents) MCC_TRY(codeTangents(info, values.data()));
-        break;
-      case AttributeMethod::kSkin:
-        if (decodes::kSkins) MCC_TRY(codeSkin(index, values.data()));
-        break;
+      case AttributeMethod::kTangent: MCC_TRY(codeTangents(info, values.data())); break;
+      case AttributeMethod::kSkin: MCC_TRY(codeSkin(index, values.data())); break;
       case AttributeMethod::kWithAnother: break;
       case AttributeMethod::kValues: MCC_TRY(codeValues(info, components, values.data())); break;
       default:
@@ -158,7 +154,6 @@ class AttributeStage {
       MCC_TRY(keepTangents(index, values.data()));
     if (decodes::kMorphTargets && attributes_[index].format.morph_target != 0)
       return keepDeltas(index, values.data());
-    if (!decodes::kTangents && !decodes::kMorphTargets) return {};
     if (!has_tangents_ && !has_bends_ && !has_units_) return {};
     if (index == normal_) {
       if (!normals.resize(values.size())) return noMemory();

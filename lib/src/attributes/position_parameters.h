@@ -33,8 +33,7 @@ inline constexpr uint32_t kFold = 1u << 3;
 inline constexpr uint32_t kSplit = 1u << 4;
 inline constexpr uint32_t kPalette = 1u << 5;
 inline constexpr uint32_t kPlanes = 1u << 6;  ///< without shear, fold, split and palette
-inline constexpr uint32_t kDecoded =
-    ~((decodes::kPalettes ? 0 : kPalette) | (decodes::kPlanes ? 0 : kPlanes));
+inline constexpr uint32_t kDecoded = ~(decodes::kPlanes ? 0 : kPlanes);
 }  // namespace position_mode
 
 struct PositionParameters {

@@ -17,11 +17,6 @@ inline constexpr bool kWhole = true;
 #endif
 
 namespace decodes {
-inline constexpr bool kStitching = true;      ///< vertices that were cut
-inline constexpr bool kLeftovers = true;      ///< duplicate, degenerate and listed triangles
-inline constexpr bool kPalettes = true;       ///< of positions
-inline constexpr bool kTangents = true;       ///< as angles around the normals
-inline constexpr bool kSkins = true;          ///< JOINTS and WEIGHTS
 inline constexpr bool kOrders = kWhole;       ///< of triangles and vertices, if they are kept
 inline constexpr bool kExactFloats = kWhole;  ///< grids too, and positions above 17 bits
 inline constexpr bool kPlanes = kWhole;       ///< of positions

@@ -136,11 +136,7 @@ inline bool McModels::init(uint32_t set) {
          special.assign(8 * specialContextFactor(set), BitModel{});
 }
 
-#if defined(MCC_COMPACT)
-inline constexpr bool kTellsMcEdges = false;
-#else
-inline constexpr bool kTellsMcEdges = true;
-#endif
+inline constexpr bool kTellsMcEdges = !kCompact;
 
 /// An mc-edge: `vertex` came to the edge's other end, `from`.
 struct McEdge {

@@ -46,13 +46,10 @@ Status parseGrid(ByteReader& in, AttributeInfo& a) {
 bool isDecoded(const AttributeInfo& a) {
   const bool is_exact =
       a.coding == AttributeCoding::kExactFloat || a.coding == AttributeCoding::kGrid;
-  const Semantic semantic = a.format.semantic;
   return (decodes::kExactFloats || !is_exact) &&
          (decodes::kMorphTargets || a.format.morph_target == 0) &&
-         (decodes::kTangents || semantic != Semantic::kTangent) &&
-         (decodes::kTangentPoints || semantic != Semantic::kTangent ||
-          a.coding != AttributeCoding::kOctahedral) &&
-         (decodes::kSkins || (semantic != Semantic::kJoints && semantic != Semantic::kWeights));
+         (decodes::kTangentPoints || a.format.semantic != Semantic::kTangent ||
+          a.coding != AttributeCoding::kOctahedral);
 }
 
 /// [A.2.4]
@@ -135,7 +132,6 @@ bool isPredicted(const AttributeInfo* all, uint32_t count, uint32_t index) {
                               : 8 * componentBytes(a.format.component_type);
     const uint32_t kind = a.predictor & position_flag::kKindMask;
     return (decodes::kExactFloats || bits <= kNarrowPositionBits) &&
-           (decodes::kPalettes || kind != position_flag::kPalette) &&
            (decodes::kPlanes || kind != position_flag::kPlanes);
   }
   if (methodOf(all, count, index) != AttributeMethod::kValues) return true;

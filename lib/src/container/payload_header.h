@@ -50,10 +50,7 @@ inline constexpr uint32_t kTriangleOrder = 1u << 13;
 inline constexpr uint32_t kVertexOrder = 1u << 14;
 inline constexpr uint32_t kAll = 0x7fff;
 /// Those of pieces that are decoded.
-inline constexpr uint32_t kDecoded =
-    kAll & ~((decodes::kStitching ? 0 : kCopies | kInteriorCopies) |
-             (decodes::kLeftovers ? 0 : kDuplicates | kListed | kEdgeDegenerates) |
-             (decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder));
+inline constexpr uint32_t kDecoded = kAll & ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder);
 }  // namespace piece_flag
 
 /// AttributeInfo::predictor of a position: which predictor in the low bits, then one of four kinds of

@@ -162,7 +162,7 @@ constexpr AttributeMethod methodOf(const AttributeInfo* attributes, uint32_t cou
     case AttributeCoding::kAlias: return AttributeMethod::kWithAnother;
     default: break;
   }
-  if (decodes::kSkins && skinPartner(attributes, count, index) != kNone) {
+  if (skinPartner(attributes, count, index) != kNone) {
     const bool is_joints = a.format.semantic == Semantic::kJoints;
     return is_joints ? AttributeMethod::kSkin : AttributeMethod::kWithAnother;
   }

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <span>
 
-#include "base/decodes.h"
 #include "base/host.h"
 #include "base/memory.h"
 
@@ -30,7 +29,7 @@ struct Groups {
   Array<uint32_t>
       umbrellas;  ///< a half-edge leaving the group in each of its umbrellas, by vertex number
 
-  bool hasCopies() const { return decodes::kStitching && !listed.empty(); }
+  bool hasCopies() const { return !listed.empty(); }
   /// Only with copies. Nothing for a group of one vertex that is not listed.
   MCC_INLINE std::span<const uint32_t> umbrellasOf(uint32_t group) const {
     const Listed& l = listed[group / 64];
