@@ -335,9 +335,9 @@ void gatherRows(const PositionCandidate& piece, PositionPredictor predictor, uin
     } else if (visit.kind == static_cast<uint32_t>(Kind::kAny)) {
       AnyFan fan;
       recording.any(recording.records(), visit, fan);
-      UWide spread[3];
+      Lanes<UWide> spread{};
       Lanes<float> normal{};
-      const AnyFeatures<Wide> f = anyFeatures<Wide>(fan, degree, spread, normal);
+      const AnyFeatures<UWide> f = anyFeatures<Wide>(fan, degree, spread, normal);
       row.predictor_class = f.predictor_class;
       if (f.predictor_class == kClassNoTip) continue;
       for (int s = 0; s < 3; ++s) {

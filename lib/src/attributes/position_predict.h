@@ -252,42 +252,51 @@ MCC_INLINE void findNormal(const PlainFan& f, Prediction<int32_t>& out) {
   out.disagreement = std::fabs(d[0] + d[1] + d[2]);
 }
 
-/// Everything but the plain fan: the mean of the tips, or of the neighbours without any, and features. [B.2.4]
+/// Mean of `count` positions whose sum this is, in Q8.
 template <class Wide>
+MCC_INLINE Lanes<std::make_unsigned_t<Wide>> meanOf(const Lanes<std::make_unsigned_t<Wide>>& sum,
+                                                    uint32_t count) {
+  Lanes<std::make_unsigned_t<Wide>> mean{};
+  MCC_UNROLL
+  for (int s = 0; s < 3; ++s) {
+    mean[s] = static_cast<std::make_unsigned_t<Wide>>(static_cast<Wide>(256 * sum[s]) /
+                                                      static_cast<Wide>(count));
+  }
+  return mean;
+}
+
+/// Everything but the plain fan: the mean of the tips, or of the neighbours without any, and features. [B.2.4]
+template <class UWide>
 struct AnyFeatures {
-  using UWide = std::make_unsigned_t<Wide>;
   uint32_t predictor_class;
   int32_t degree_term;  ///< this and the following only with one tip
   int32_t degree_sum;
   int32_t degree_skew;
-  UWide base[3];
-  UWide mean[3];  ///< of the neighbours minus base, in 1/2
-  UWide tip[3];
-  UWide edge[3];
+  Lanes<UWide> base;
+  Lanes<UWide> mean;  ///< of the neighbours minus base, in 1/2
+  Lanes<UWide> tip;
+  Lanes<UWide> edge;
 };
 
 template <class Wide>
-AnyFeatures<Wide> anyFeatures(const AnyFan& fan, uint32_t degree,
-                              std::make_unsigned_t<Wide>* spread, Lanes<float>& normal) {
+AnyFeatures<std::make_unsigned_t<Wide>> anyFeatures(const AnyFan& fan, uint32_t degree,
+                                                    Lanes<std::make_unsigned_t<Wide>>& spread,
+                                                    Lanes<float>& normal) {
   using UWide = std::make_unsigned_t<Wide>;
-  AnyFeatures<Wide> r{};
-  UWide neighbour_sum[3] = {};
-  UWide tip_sum[3] = {};
-  UWide tip[2][3] = {};
+  AnyFeatures<UWide> r{};
+  Lanes<UWide> neighbour_sum{};
+  Lanes<UWide> tip_sum{};
+  Lanes<UWide> tip[2] = {};
   uint32_t tip_count = 0;
   uint32_t last_tip = 0;
-  for (uint32_t i = 0; i < fan.neighbour_count; ++i) {
-    for (int s = 0; s < 3; ++s) neighbour_sum[s] += static_cast<UWide>(fan.n[i]->q[s]);
-  }
+  for (uint32_t i = 0; i < fan.neighbour_count; ++i) neighbour_sum += coordinates<UWide>(fan.n[i]);
   for (uint32_t i = 0; i < fan.face_count; ++i) {
     if (fan.o[i] == nullptr) continue;
     last_tip = i;
-    for (int s = 0; s < 3; ++s) {
-      const UWide t = static_cast<UWide>(fan.n[i]->q[s]) + static_cast<UWide>(fan.n[i + 1]->q[s]) -
-                      static_cast<UWide>(fan.o[i]->q[s]);
-      tip_sum[s] += t;
-      if (tip_count < 2) tip[tip_count][s] = t;
-    }
+    const Lanes<UWide> t = coordinates<UWide>(fan.n[i]) + coordinates<UWide>(fan.n[i + 1]) -
+                           coordinates<UWide>(fan.o[i]);
+    tip_sum += t;
+    if (tip_count < 2) tip[tip_count] = t;
     normal += tipNormal<Wide>(fan.n[i], fan.n[i + 1], fan.o[i]);
     ++tip_count;
   }
@@ -295,31 +304,24 @@ AnyFeatures<Wide> anyFeatures(const AnyFan& fan, uint32_t degree,
   if (fan.closed && tip_count != 0) {
     r.predictor_class = tip_count < 4 ? kClassClosedFewTips : kClassClosedManyTips;
   }
-  for (int s = 0; s < 3; ++s) {
-    const Wide mean =
-        static_cast<Wide>(256 * neighbour_sum[s]) / static_cast<Wide>(fan.neighbour_count);
-    r.base[s] = static_cast<UWide>(mean);
-    if (tip_count == 0) continue;
-    r.base[s] =
-        static_cast<UWide>(static_cast<Wide>(256 * tip_sum[s]) / static_cast<Wide>(tip_count));
-    r.mean[s] = static_cast<UWide>(static_cast<Wide>(static_cast<UWide>(mean) - r.base[s]) >> 7);
-    if (tip_count < 2) continue;
-    const UWide difference = tip[0][s] - tip[1][s];
-    spread[s] = static_cast<Wide>(difference) < 0 ? UWide{0} - difference : difference;
+  r.base = meanOf<Wide>(neighbour_sum, fan.neighbour_count);
+  if (tip_count != 0) {
+    const Lanes<UWide> mean = r.base;
+    r.base = meanOf<Wide>(tip_sum, tip_count);
+    r.mean = (Lanes<UWide>)((Lanes<Wide>)(mean - r.base) >> 7);
   }
+  if (tip_count >= 2) spread = absoluteLanes<UWide>(tip[0] - tip[1]);
   if (r.predictor_class != kClassOneTip) return r;
-  const VertexRecord& a = *fan.n[last_tip];
-  const VertexRecord& b = *fan.n[last_tip + 1];
+  const VertexRecord* a = fan.n[last_tip];
+  const VertexRecord* b = fan.n[last_tip + 1];
   r.degree_term = static_cast<int32_t>(std::min(12u, degree)) - 6;
-  const int32_t degree_a = static_cast<int32_t>(a.degree());
-  const int32_t degree_b = static_cast<int32_t>(b.degree());
+  const int32_t degree_a = static_cast<int32_t>(a->degree());
+  const int32_t degree_b = static_cast<int32_t>(b->degree());
   r.degree_sum = std::clamp(degree_a + degree_b - 12, -12, 12);
   r.degree_skew = std::clamp(degree_a - degree_b, -12, 12);
-  for (int s = 0; s < 3; ++s) {
-    r.tip[s] = static_cast<UWide>(a.q[s]) + static_cast<UWide>(b.q[s]) -
-               2 * static_cast<UWide>(fan.o[last_tip]->q[s]);
-    r.edge[s] = 2 * (static_cast<UWide>(a.q[s]) - static_cast<UWide>(b.q[s]));
-  }
+  const Lanes<UWide> o = coordinates<UWide>(fan.o[last_tip]);
+  r.tip = coordinates<UWide>(a) + coordinates<UWide>(b) - 2 * o;
+  r.edge = 2 * (coordinates<UWide>(a) - coordinates<UWide>(b));
   return r;
 }
 
@@ -327,23 +329,20 @@ template <class Wide>
 void predictAny(const PositionParameters& p, const AnyFan& fan, uint32_t degree,
                 Prediction<Wide>& out) {
   using UWide = std::make_unsigned_t<Wide>;
-  UWide spread[4] = {};
+  out.spread = Lanes<UWide>{};
+  out.magnitudes = Lanes<UWide>{};
   Lanes<float> normal{};
-  const AnyFeatures<Wide> v = anyFeatures<Wide>(fan, degree, spread, normal);
+  const AnyFeatures<UWide> v = anyFeatures<Wide>(fan, degree, out.spread, normal);
   const int16_t* w = p.weights.w[v.predictor_class];
-  const UWide w_mean = static_cast<UWide>(w[1]);
-  const UWide w_tip = static_cast<UWide>(w[0] + w[2] * v.degree_term + w[4] * v.degree_sum);
-  const UWide w_edge = static_cast<UWide>(w[3] * v.degree_skew);
-  UWide q8[4] = {};
-  UWide magnitudes[4] = {};
-  for (int s = 0; s < 3; ++s) {
-    q8[s] = v.base[s] + w_mean * v.mean[s] + w_tip * v.tip[s] + w_edge * v.edge[s];
-    for (uint32_t i = 0; i < fan.neighbour_count; ++i) magnitudes[s] += fan.n[i]->magnitude[s];
-    if (fan.neighbour_count != 3) magnitudes[s] = magnitudes[s] * 3 / fan.neighbour_count;
+  const auto weight = [](int32_t x) { return static_cast<UWide>(static_cast<Wide>(x)); };
+  out.q8 = v.base + v.mean * weight(w[1]) +
+           v.tip * weight(w[0] + w[2] * v.degree_term + w[4] * v.degree_sum) +
+           v.edge * weight(w[3] * v.degree_skew);
+  for (uint32_t i = 0; i < fan.neighbour_count; ++i) out.magnitudes += magnitudes<UWide>(fan.n[i]);
+  if (fan.neighbour_count != 3) {
+    MCC_UNROLL
+    for (int s = 0; s < 3; ++s) out.magnitudes[s] = out.magnitudes[s] * 3 / fan.neighbour_count;
   }
-  out.q8 = loadLanes<UWide>(q8);
-  out.spread = loadLanes<UWide>(spread);
-  out.magnitudes = loadLanes<UWide>(magnitudes);
   out.normal = rotateComponents(normal);
   out.disagreement = 0;
 }

@@ -22,9 +22,7 @@ static_assert(FLT_EVAL_METHOD == 0, "build with SSE2 or an equivalent, not with 
 #define MCC_INLINE_LAMBDA __attribute__((always_inline))
 #define MCC_OUT_OF_LINE __attribute__((noinline))
 #define MCC_PREFETCH(address) __builtin_prefetch(address)
-#if defined(MCC_COMPACT)
-#define MCC_UNROLL
-#elif defined(__clang__)
+#if defined(__clang__)
 #define MCC_UNROLL _Pragma("unroll")
 #else
 #define MCC_UNROLL _Pragma("GCC unroll 4")

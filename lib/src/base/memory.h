@@ -67,7 +67,7 @@ class Array {
     swap(other);
     return *this;
   }
-  ~Array() { reset(); }
+  MCC_SHARED ~Array() { reset(); }
 
   T* data() { return data_; }
   const T* data() const { return data_; }
