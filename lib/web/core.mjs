@@ -4,21 +4,23 @@
 import { checkClaims } from './claims.mjs';
 import { MccError } from './error.mjs';
 
-/** Kinds of errors by number, as the specification names them (A.1.4), and what a payload has then. */
-const ERRORS = {
-  1: ['Truncated', 'ends inside a field or a stream'],
-  2: ['BadMagic', 'is no mesh collapse payload'],
-  3: ['UnsupportedVersion', 'is of a major version that this decoder does not know'],
-  4: ['BadChecksum', 'is damaged: its checksum does not match'],
-  5: ['BadHeader', 'has a malformed header'],
-  6: ['BadConnectivity', 'has malformed connectivity'],
-  7: ['BadStitch', 'has malformed stitching'],
-  8: ['BadAttribute', 'has a malformed attribute'],
-  9: ['TrailingBytes', 'has bytes left over behind a stream'],
-  10: ['Limit', 'has more than the limits allow'],
-  11: ['OutOfMemory', 'needs more memory than there is'],
-  255: ['NotInCore', 'needs the whole decoder'], // see base/decodes.h
-};
+/** Kinds of errors by number - 1, as the specification names them (A.1.4), and what is wrong with a payload then. */
+const ERRORS = [
+  ['Truncated', 'ends inside a field or a stream'],
+  ['BadMagic', 'is no mesh collapse payload'],
+  ['UnsupportedVersion', 'is of a major version that this decoder does not know'],
+  ['BadChecksum', 'is damaged: its checksum does not match'],
+  ['BadHeader', 'has a malformed header'],
+  ['BadConnectivity', 'has malformed connectivity'],
+  ['BadStitch', 'has malformed stitching'],
+  ['BadAttribute', 'has a malformed attribute'],
+  ['TrailingBytes', 'has bytes left over behind a stream'],
+  ['Limit', 'has more than the limits allow'],
+  ['OutOfMemory', 'needs more memory than there is'],
+];
+const OUT_OF_MEMORY = ERRORS.length;
+/** Of the core alone, number 255, see base/decodes.h. */
+const NOT_IN_CORE = ['NotInCore', 'needs the whole decoder'];
 const LIMITS = ['maxVertices', 'maxTriangles', 'maxAttributes', 'maxPieces', 'maxElements', 'maxOutputBytes'];
 
 /** Array types by the component types of the payload's header. */
@@ -27,31 +29,33 @@ const COMPONENT_TYPES = [
   [5126, Float32Array],
 ];
 
-/** An instance that has grown beyond this is given up as soon as nobody waits for it: its memory cannot shrink. */
+/** An instance that has grown beyond this is given up after a while without work: its memory cannot shrink. Not at once, since
+ * large payloads come one after another, and fresh memory takes up to a third of the time. */
 const KEPT_BYTES = 64 << 20;
+const KEPT_MILLISECONDS = 1000;
 
 export class Decoder {
-  #module;
   #instance = null;
   #pending = 0;
+  #timer = null;
 
   constructor(module) {
-    this.#module = module;
+    this.module = module;
   }
 
   async decode(bytes, options) {
     ++this.#pending;
     try {
-      this.#instance ??= await WebAssembly.instantiate(this.#module);
+      this.#instance ??= await WebAssembly.instantiate(this.module);
       return this.decodeSync(bytes, options);
     } finally {
       --this.#pending;
-      this.#giveBack();
+      this.#giveBackLater();
     }
   }
 
   decodeSync(bytes, options = {}) {
-    this.#instance ??= new WebAssembly.Instance(this.#module);
+    this.#instance ??= new WebAssembly.Instance(this.module);
     const exports = this.#instance.exports;
     try {
       return decodeWith(exports, bytes, options);
@@ -60,12 +64,16 @@ export class Decoder {
       this.#instance = null; // after a trap nothing is known of its memory
       throw new MccError(`the decoder failed (${error.message}); there may be too little memory`, 'Trap');
     } finally {
-      this.#giveBack();
+      this.#giveBackLater();
     }
   }
 
-  #giveBack() {
-    if (this.#pending === 0 && this.#instance?.exports.memory.buffer.byteLength > KEPT_BYTES) this.#instance = null;
+  #giveBackLater() {
+    clearTimeout(this.#timer);
+    if (this.#pending === 0 && this.#instance?.exports.memory.buffer.byteLength > KEPT_BYTES) {
+      this.#timer = setTimeout(() => { this.#instance = null; }, KEPT_MILLISECONDS);
+      this.#timer.unref?.(); // Node: it keeps no program alive
+    }
   }
 }
 
@@ -75,7 +83,7 @@ function decodeWith(exports, bytes, { limits = {}, indexType = 'auto', claims })
     throw new MccError(`indexType '${indexType}' is none of auto, uint16, uint32`, 'BadArgument');
   }
   const address = exports.allocate(bytes.length);
-  if (address === 0) throw new MccError('no memory for the payload', 'OutOfMemory');
+  if (address === 0) check(OUT_OF_MEMORY);
   let closes = true;
   try {
     new Uint8Array(exports.memory.buffer, address, bytes.length).set(bytes);
@@ -99,7 +107,7 @@ function decodeWith(exports, bytes, { limits = {}, indexType = 'auto', claims })
 /** Throws the reader's error, if `number` is one. */
 function check(number) {
   if (number === 0) return;
-  const [code, what] = ERRORS[number];
+  const [code, what] = ERRORS[number - 1] ?? NOT_IN_CORE;
   throw new MccError(`the payload ${what}`, code);
 }
 

@@ -10,13 +10,13 @@ export { MccError };
 /** A module whose only function uses a vector; what cannot compile it has no SIMD. */
 const VECTORS = [
   0, 97, 115, 109, 1, 0, 0, 0, // header
-  1, 4, 1, 96, 0, 0, 3, 2, 1, 0, // a function without parameters or results
-  10, 23, 1, 21, 0, 253, 12, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 26, 11, // v128.const, drop, end
+  1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, // a function without parameters that returns a vector
+  10, 8, 1, 6, 0, 65, 0, 253, 15, 11, // i32.const 0, i8x16.splat, end
 ];
 
-/** The modules of a place and the decoders made of them. The core is smaller and has what most payloads need. */
+/** The decoders made of the modules of a place. The core is smaller and faster, and has what most payloads need. */
 class Source {
-  #modules = {};
+  #loading = {};
 
   constructor(where) {
     this.where = where;
@@ -32,25 +32,27 @@ class Source {
     return this.#load('decoder', urlOfWhole);
   }
 
-  /** The compiled module; the decoder is there then. */
+  /** What to begin with: the core, unless the document tells that the payload needs the whole decoder, or only that is there. */
+  first(options) {
+    const hasMorphTargets = options?.claims?.some(({ attributes }) => attributes.some(({ morphTarget }) => morphTarget));
+    return hasMorphTargets || (this.decoder && !this.coreDecoder) ? this.whole() : this.core();
+  }
+
   #load(name, urlOf) {
-    this.#modules[name] ??= compileModule(this.where, urlOf(this.where)).then((module) => {
-      this[name] = new Decoder(module);
-      return module;
-    }, (error) => {
-      delete this.#modules[name]; // the next call tries again
+    this.#loading[name] ??= compileModule(this.where, urlOf(this.where)).then((module) => (this[name] = new Decoder(module)), (error) => {
+      delete this.#loading[name]; // the next call tries again
       throw error;
     });
-    return this.#modules[name];
+    return this.#loading[name];
   }
 }
 
 let source = new Source({});
 
 /** Loads the decoder. Without a call the first decodePayload() does, from beside this module. */
-export function init(options = {}) {
+export async function init(options = {}) {
   source = new Source(options);
-  return source.core();
+  await source.core();
 }
 
 /** Resolves when the decoder is loaded as a whole, which awaiting it begins. */
@@ -60,13 +62,11 @@ export const ready = {
 
 export async function decodePayload(bytes, options) {
   const from = source;
-  if (from.decoder === undefined) await from.core();
   try {
-    return await (from.decoder ?? from.coreDecoder).decode(bytes, options);
+    return await (await from.first(options)).decode(bytes, options);
   } catch (error) {
     if (error.code !== 'NotInCore') throw error;
-    await from.whole();
-    return from.decoder.decode(bytes, options);
+    return (await from.whole()).decode(bytes, options);
   }
 }
 
@@ -91,10 +91,7 @@ class DecoderPool {
     this.size = size;
     // One copy of the modules for all; without options those of decodePayload().
     this.#source = Object.keys(where).length === 0 ? source : new Source(where);
-    const module = this.#source.core();
-    module.catch(() => {}); // whoever waits for a worker gets to know
     this.#workers = Array.from({ length: size }, () => ({ job: null, worker: null, started: null }));
-    this.start = (slot) => (slot.started ??= module.then((compiled) => this.#start(slot, compiled)));
   }
 
   /** Bound, so that it can be handed on: unpackGlb(bytes, { decode: pool.decodePayload }). */
@@ -121,14 +118,18 @@ class DecoderPool {
     const slot = this.#workers.find(({ job }) => job === null);
     if (slot === undefined || this.#waiting.length === 0) return;
     slot.job = this.#waiting.shift();
-    this.start(slot).then(
+    slot.started ??= this.#source.first(slot.job.options).then(({ module }) => this.#start(slot, module));
+    slot.started.then(
       () => {
         if (slot.job === null) return; // disposed of
         const { bytes, options } = slot.job;
         slot.worker.ref?.(); // Node: only a job keeps the program alive
         slot.worker.postMessage({ bytes, options }, [bytes.buffer]);
       },
-      (error) => this.#finish(slot, 'reject', error),
+      (error) => {
+        slot.started = null; // the next payload tries again
+        this.#finish(slot, 'reject', error);
+      },
     );
   }
 
@@ -142,11 +143,11 @@ class DecoderPool {
 
   async #start(slot, module) {
     slot.worker = await createWorker(
-      ({ decoded, message, code }) => {
+      ({ decoded, needsWhole, message, code }) => {
         if (decoded !== undefined) {
           this.#finish(slot, 'resolve', decoded);
-        } else if (code === 'NotInCore') { // the worker keeps the payload and waits
-          this.#source.whole().then((whole) => slot.worker.postMessage({ module: whole }),
+        } else if (needsWhole) { // the worker keeps the payload and waits
+          this.#source.whole().then(({ module: whole }) => slot.worker.postMessage({ module: whole }),
             (error) => this.#finish(slot, 'reject', error));
         } else {
           this.#finish(slot, 'reject', new MccError(message, code));

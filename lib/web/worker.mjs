@@ -1,26 +1,30 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // A worker of a decoder pool. Gets the compiled module, then one payload at a time; buffers are moved both ways. A payload
-// that needs more than the core of the decoder waits here for the whole one.
+// that needs more than the core of the decoder waits here for the whole one, which from then on takes what the core does not.
 import { buffersOf, Decoder } from './core.mjs';
 import { importOfNode } from './load.mjs';
 
-let decoder = null;
+const decoders = [];
 let waiting = null;
 
 async function answer({ module, bytes, options }, post) {
   if (module !== undefined) {
-    decoder = new Decoder(module);
+    decoders.push(new Decoder(module));
     if (waiting === null) return;
     ({ bytes, options } = waiting);
   }
   waiting = null;
   try {
-    const decoded = await decoder.decode(bytes, options);
+    const decoded = await decoders[0].decode(bytes, options).catch((error) => {
+      if (error.code !== 'NotInCore' || decoders.length === 1) throw error;
+      return decoders[1].decode(bytes, options);
+    });
     post({ decoded }, buffersOf(decoded));
   } catch ({ message, code }) {
-    if (code === 'NotInCore') waiting = { bytes, options };
-    post({ message, code }, []);
+    const needsWhole = code === 'NotInCore' && decoders.length === 1;
+    if (needsWhole) waiting = { bytes, options };
+    post({ needsWhole, message, code }, []);
   }
 }
 

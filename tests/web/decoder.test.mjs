@@ -1,5 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
+import { createServer } from 'node:http';
 import { after, before, describe, test } from 'node:test';
 import { checkPrimitive, compressedPrimitives } from '../../extension-spec/reference/restrictions.mjs';
 import { createDecoderPool, decodePayload, decodePayloadSync, init, MccError, ready } from '../../lib/web/decoder.mjs';
@@ -141,7 +142,38 @@ test('a payload that is not for the core loads the whole decoder, once', async (
   assert.equal((await failureOf(lost.decodePayload(exact))).code, 'Load');
   await lost.decodePayload(payloadOf(readAsset(assetNamed('006_tetrahedron'))));
   lost.dispose();
+  const coreAlone = createDecoderPool({ workers: 1, bytes: wasm('mcc_decoder_core_simd') });
+  assert.equal((await failureOf(coreAlone.decodePayload(exact))).code, 'NotInCore');
+  coreAlone.dispose();
   await init();
+});
+
+test('the document tells that morph targets need the whole decoder', async () => {
+  const where = { coreUrl: new URL('no_such.wasm', import.meta.url), wasmUrl: DECODERS.mcc_decoder_core_simd.wasmUrl };
+  const morphed = readAsset(manifest.assets.find((asset) => payloadsOf(readGlb(readAsset(asset)).json).some(({ claims }) => (
+    claims.some(({ attributes }) => attributes.some(({ morphTarget }) => morphTarget !== 0))))));
+  const expected = await unpackGlb(morphed);
+  await failureOf(init(where));
+  assert.deepEqual(await unpackGlb(morphed), expected);
+  const pool = createDecoderPool({ workers: 1, ...where });
+  assert.deepEqual(await unpackGlb(morphed, { decode: pool.decodePayload }), expected);
+  pool.dispose();
+  await init();
+});
+
+test('a pool whose first load fails tries again', async () => {
+  let requests = 0;
+  const server = createServer((request, response) => {
+    response.statusCode = ++requests === 1 ? 503 : 200;
+    response.end(wasm('mcc_decoder'));
+  });
+  await new Promise((resolve) => { server.listen(0, '127.0.0.1', resolve); });
+  const pool = createDecoderPool({ workers: 1, wasmUrl: `http://127.0.0.1:${server.address().port}` });
+  assert.match((await failureOf(pool.decodePayload(somePayload()))).message, /503/);
+  assert.deepEqual(await pool.decodePayload(somePayload()), await decodePayload(somePayload()));
+  pool.dispose();
+  server.closeAllConnections();
+  server.close();
 });
 
 test('index types', async () => {

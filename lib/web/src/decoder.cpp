@@ -25,9 +25,10 @@ constexpr uint32_t kAttributeWords = 7;
 constexpr uint32_t kPartWords = 3;
 constexpr uint64_t kAlignmentBytes = 8;
 
-/// Above all numbers that doubles hold exactly, a limit is none.
-uint64_t limitOf(double number) {
-  return number < 9007199254740992.0 ? static_cast<uint64_t>(number) : ~uint64_t{0};
+/// Infinity is the largest number, and none is 0.
+uint64_t limitOf(double number) { return __builtin_wasm_trunc_saturate_u_i64_f64(number); }
+uint32_t shortLimitOf(double number) {
+  return static_cast<uint32_t>(__builtin_wasm_trunc_saturate_u_i32_f64(number));
 }
 
 /// The payload that is open, and what belongs to it.
@@ -163,10 +164,8 @@ uint32_t mccOpen(const uint8_t* bytes, size_t size, double max_vertices, double 
   Limits limits;
   limits.max_vertices = std::min(limits.max_vertices, limitOf(max_vertices));
   limits.max_triangles = std::min(limits.max_triangles, limitOf(max_triangles));
-  limits.max_attributes =
-      static_cast<uint32_t>(std::min<uint64_t>(limits.max_attributes, limitOf(max_attributes)));
-  limits.max_pieces =
-      static_cast<uint32_t>(std::min<uint64_t>(limits.max_pieces, limitOf(max_pieces)));
+  limits.max_attributes = std::min(limits.max_attributes, shortLimitOf(max_attributes));
+  limits.max_pieces = std::min(limits.max_pieces, shortLimitOf(max_pieces));
   limits.max_elements = limitOf(max_elements);
   limits.max_output_bytes = limitOf(max_output_bytes);
   return numberOf(session.open({bytes, size}, limits));
