@@ -282,7 +282,7 @@ std::string runWithTerminal(const ScratchFolder& folder, const std::string& argu
   if (terminal < 0 || ::grantpt(terminal) != 0 || ::unlockpt(terminal) != 0) return "";
   const std::string command = "cd '" + folder.path().string() + "' && '" + MCC_TOOL_GLTF_MCC +
                               "' " + arguments + " >.stdout 2>'" + ::ptsname(terminal) + "'";
-  const int other_end = ::open(::ptsname(terminal), O_RDWR | O_NOCTTY);  // so that reading waits
+  const int other_end = ::open(::ptsname(terminal), O_RDWR | O_NOCTTY);  // keeps what was sent
   const pid_t child = ::fork();
   if (child == 0) {
     ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
@@ -291,11 +291,11 @@ std::string runWithTerminal(const ScratchFolder& folder, const std::string& argu
   int code = 0;
   ::waitpid(child, &code, 0);
   EXPECT_EQ(code, 0);
-  std::string text(1 << 16, '\0');
-  ::fcntl(terminal, F_SETFL, O_NONBLOCK);
-  const ssize_t count = ::read(terminal, text.data(), text.size());
-  text.resize(count > 0 ? static_cast<size_t>(count) : 0);
-  ::close(other_end);
+  ::close(other_end);  // now reading ends behind what was sent, which may take its time
+  std::string text;
+  char part[4096];
+  for (ssize_t count; (count = ::read(terminal, part, sizeof part)) > 0;)
+    text.append(part, static_cast<size_t>(count));
   ::close(terminal);
   return text;
 #else
