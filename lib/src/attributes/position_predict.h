@@ -178,6 +178,12 @@ MCC_INLINE PlainFeatures<UWide> plainFeatures(const PlainFan& f, const Beyond& b
   return r;
 }
 
+/// A weight, or a product of one, as a factor of features: with its sign.
+template <class Wide>
+MCC_INLINE std::make_unsigned_t<Wide> weightOf(int32_t weight) {
+  return static_cast<std::make_unsigned_t<Wide>>(static_cast<Wide>(weight));
+}
+
 /// Weighted features of a plain fan, to be added to the average of the tips.
 template <class Wide>
 MCC_INLINE Lanes<std::make_unsigned_t<Wide>> weightPlainFeatures(const PositionParameters& p,
@@ -187,12 +193,12 @@ MCC_INLINE Lanes<std::make_unsigned_t<Wide>> weightPlainFeatures(const PositionP
   const PlainClass c = classifyPlain<Wide>(p.predictor, select, f, b, degree);
   const int16_t* w = p.weights.w[c.predictor_class];
   const PlainFeatures<UWide> v = plainFeatures<UWide>(f, b, select);
-  const auto weight = [](int32_t x) { return static_cast<UWide>(static_cast<Wide>(x)); };
-  Lanes<UWide> sum = v.f0 * weight(w[0] + w[4] * c.degree_sum) + v.f1 * weight(w[1]) +
-                     v.fy * weight(w[2]) + v.fd * weight(w[3] * c.degree_skew);
+  Lanes<UWide> sum = v.f0 * weightOf<Wide>(w[0] + w[4] * c.degree_sum) +
+                     v.f1 * weightOf<Wide>(w[1]) + v.fy * weightOf<Wide>(w[2]) +
+                     v.fd * weightOf<Wide>(w[3] * c.degree_skew);
   if (select) {
-    sum += v.tips * weight(c.better * w[5]) + v.x * weight(c.better * w[6]) +
-           v.y * weight(c.better * w[7]);
+    sum += v.tips * weightOf<Wide>(c.better * w[5]) + v.x * weightOf<Wide>(c.better * w[6]) +
+           v.y * weightOf<Wide>(c.better * w[7]);
   }
   return sum;
 }
@@ -334,10 +340,9 @@ void predictAny(const PositionParameters& p, const AnyFan& fan, uint32_t degree,
   Lanes<float> normal{};
   const AnyFeatures<UWide> v = anyFeatures<Wide>(fan, degree, out.spread, normal);
   const int16_t* w = p.weights.w[v.predictor_class];
-  const auto weight = [](int32_t x) { return static_cast<UWide>(static_cast<Wide>(x)); };
-  out.q8 = v.base + v.mean * weight(w[1]) +
-           v.tip * weight(w[0] + w[2] * v.degree_term + w[4] * v.degree_sum) +
-           v.edge * weight(w[3] * v.degree_skew);
+  out.q8 = v.base + v.mean * weightOf<Wide>(w[1]) +
+           v.tip * weightOf<Wide>(w[0] + w[2] * v.degree_term + w[4] * v.degree_sum) +
+           v.edge * weightOf<Wide>(w[3] * v.degree_skew);
   for (uint32_t i = 0; i < fan.neighbour_count; ++i) out.magnitudes += magnitudes<UWide>(fan.n[i]);
   if (fan.neighbour_count != 3) {
     MCC_UNROLL

@@ -25,7 +25,7 @@ constexpr uint32_t kAttributeWords = 7;
 constexpr uint32_t kPartWords = 3;
 constexpr uint64_t kAlignmentBytes = 8;
 
-/// Infinity is the largest number, and none is 0.
+/// Infinity is the largest number; what is none is 0, so that a mistake limits too much rather than nothing.
 uint64_t limitOf(double number) { return __builtin_wasm_trunc_saturate_u_i64_f64(number); }
 uint32_t shortLimitOf(double number) {
   return static_cast<uint32_t>(__builtin_wasm_trunc_saturate_u_i32_f64(number));
