@@ -1,9 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// node validate.mjs PATH_OF_GLTF_VALIDATOR LIST: LIST has three lines per model, the source, the
+// node validate.mjs PATH_OF_GLTF_VALIDATOR LIST [--odd]: LIST has three lines per model, the source, the
 // converted and the decoded file. Prints errors, warnings, infos and hints the source does not have; the
 // exit status is 1 when there is one.
 import fs from 'node:fs';
+import path from 'node:path';
 import { createRequire } from 'node:module';
 
 const require = createRequire(import.meta.url);
@@ -14,29 +15,44 @@ const severities = ['error', 'warning', 'info', 'hint'];
 // when they are lists. Animations that others coded stay so after decoding.
 const expected = new Set(['ACCESSOR_JOINTS_USED_ZERO_WEIGHT', 'ACCESSOR_INDEX_TRIANGLE_DEGENERATE', 'UNSUPPORTED_EXTENSION']);
 // To a reader without the extension payloads look unused, and so do buffer views that hold a number for unknown extensions.
+const codings = ['EXT_meshopt_compression', 'KHR_draco_mesh_compression'];
+// With --odd, of documents that have everything wrong already: values that are wrong in one accessor of the source are so in
+// two where primitives no longer share it, and so are its extras; vectors near ones that are not of unit length are off by
+// rounding; data URIs that a .gltf may have are in a GLB.
+const isOdd = process.argv[4] === '--odd';
+const ofValues = /^ACCESSOR_(INVALID_FLOAT|NON_CLAMPED|INVALID_SIGN|VECTOR3_NON_UNIT|WEIGHTS_.*|JOINTS_.*)$/;
+const mayRepeat = key => ofValues.test(key.split(' ')[1]) || key === 'info NON_OBJECT_EXTRAS';
 const expectedOfConverted = new Set([...expected, 'UNUSED_OBJECT']);
 
-/** Number of messages per "severity code". */
-async function countMessages(path) {
-  const report = await validator.validateBytes(new Uint8Array(fs.readFileSync(path)),
-                                               { maxIssues: 0 });
+/** Number of messages per "severity code", and of those that say that values are coded by others. */
+async function countMessages(file) {
+  const readBeside = async uri => new Uint8Array(fs.readFileSync(path.join(path.dirname(file), decodeURIComponent(uri))));
+  const report = await validator.validateBytes(new Uint8Array(fs.readFileSync(file)),
+                                               { maxIssues: 0, externalResourceFunction: readBeside });
   const counts = new Map();
   for (const { severity, code } of report.issues.messages) {
     const key = `${severities[severity]} ${code}`;
     counts.set(key, (counts.get(key) ?? 0) + 1);
   }
+  const used = report.info?.extensionsUsed ?? [];
+  counts.isCoded = codings.some(name => used.includes(name));
   return counts;
 }
 
 let failures = 0;
 for (let i = 0; i < lines.length; i += 3) {
   const source = await countMessages(lines[i]);
-  for (const path of [lines[i + 1], lines[i + 2]]) {
-    for (const [key, count] of await countMessages(path)) {
+  for (const file of [lines[i + 1], lines[i + 2]]) {
+    for (const [key, count] of await countMessages(file)) {
       if (count <= (source.get(key) ?? 0)) continue;
       const code = key.split(' ')[1];
-      if ((path === lines[i + 1] ? expectedOfConverted : expected).has(code)) continue;
-      console.log(`${path}: ${key}: ${count}, in the source ${source.get(key) ?? 0}`);
+      if (isOdd && mayRepeat(key) && source.has(key)) continue;
+      if (isOdd && (code === 'URI_GLB' || code === 'DATA_URI_GLB')) continue;
+      if (source.isCoded && ofValues.test(code)) continue;  // they cannot be seen in the source
+      // Buffer views keep their numbers for the sake of extensions that are not known.
+      if (code === 'UNUSED_OBJECT' && source.has('info UNSUPPORTED_EXTENSION')) continue;
+      if ((file === lines[i + 1] ? expectedOfConverted : expected).has(code)) continue;
+      console.log(`${file}: ${key}: ${count}, in the source ${source.get(key) ?? 0}`);
       failures += 1;
     }
   }

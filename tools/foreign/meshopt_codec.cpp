@@ -449,6 +449,40 @@ Outcome decodeMeshoptView(std::span<const uint8_t> bytes, uint64_t count, uint32
   });
 }
 
+Outcome encodeMeshoptView(std::span<const uint8_t> elements, uint64_t count, uint32_t stride,
+                          const std::string& mode, std::vector<uint8_t>& bytes) {
+  const bool is_vertices = mode == "ATTRIBUTES";
+  const bool is_triangles = mode == "TRIANGLES";
+  const bool stride_fits = is_vertices ? stride != 0 && stride % 4 == 0 && stride <= kMaxStrideBytes
+                                       : stride == 2 || stride == 4;
+  if (!stride_fits || (!is_vertices && !is_triangles && mode != "INDICES") ||
+      (is_triangles && count % 3 != 0) || count == 0 || elements.size() / stride < count) {
+    return failure("has a mode, stride or count that cannot be coded");
+  }
+  return guarded([&]() -> Outcome {
+    if (is_vertices) {
+      bytes.resize(meshopt_encodeVertexBufferBound(count, stride));
+      bytes.resize(
+          meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), elements.data(), count, stride));
+      return {};
+    }
+    std::vector<uint32_t> indices(count);
+    uint32_t vertex_count = 0;
+    for (size_t i = 0; i < count; ++i) {
+      std::memcpy(&indices[i], elements.data() + i * stride, stride);
+      vertex_count = std::max(vertex_count, indices[i] + 1);
+    }
+    if (is_triangles) {
+      bytes.resize(meshopt_encodeIndexBufferBound(count, vertex_count));
+      bytes.resize(meshopt_encodeIndexBuffer(bytes.data(), bytes.size(), indices.data(), count));
+    } else {
+      bytes.resize(meshopt_encodeIndexSequenceBound(count, vertex_count));
+      bytes.resize(meshopt_encodeIndexSequence(bytes.data(), bytes.size(), indices.data(), count));
+    }
+    return {};
+  });
+}
+
 Outcome measureMeshoptErrors(const PieceView& piece, const MeshoptEncoded& layout,
                              const DecodedMesh& decoded, std::vector<AttributeError>& errors) {
   errors.assign(layout.streams.size(), {});

@@ -84,6 +84,12 @@ Outcome decodeMeshoptView(std::span<const uint8_t> bytes, uint64_t count, uint32
                           const std::string& mode, const std::string& filter,
                           std::vector<uint8_t>& elements);
 
+/// Encodes `count` elements of `stride` bytes as EXT_meshopt_compression stores them in a buffer view, without a filter. The
+/// mode is ATTRIBUTES (a stride of up to 256 bytes, a multiple of 4), TRIANGLES (of 2 or 4; may rotate triangles) or INDICES (of 2 or 4).
+/// Fails on anything else. Deterministic. Inverse: decodeMeshoptView().
+Outcome encodeMeshoptView(std::span<const uint8_t> elements, uint64_t count, uint32_t stride,
+                          const std::string& mode, std::vector<uint8_t>& bytes);
+
 /// Errors per stream of `layout`, from a decode of it, over all wedges that were not dropped.
 Outcome measureMeshoptErrors(const PieceView& piece, const MeshoptEncoded& layout,
                              const DecodedMesh& decoded, std::vector<AttributeError>& errors);

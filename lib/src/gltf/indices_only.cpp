@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/indices_only.h"
 
+#include <set>
 #include <utility>
 
 #include "gltf/compress.h"
@@ -70,9 +71,10 @@ AttributeView weldingView(const PiecePlan& piece) {
 void reorderAttributes(const Document& document, const PiecePlan& piece,
                        const std::vector<uint32_t>& source_wedge, Json& json,
                        std::vector<NewView>& views) {
+  std::set<uint32_t> reordered;  // one accessor may be several attributes
   for (const AttributePlan& attribute : piece.ordinary) {
     const Accessor& accessor = document.accessors[attribute.accessor];
-    if (accessor.view == kNone) continue;
+    if (accessor.view == kNone || !reordered.insert(attribute.accessor).second) continue;
     std::vector<uint8_t> tight;
     for (const uint32_t wedge : source_wedge) {
       const auto element = attribute.source.element(wedge);

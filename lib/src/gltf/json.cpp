@@ -68,6 +68,8 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
                    const nlohmann::detail::exception& exception) override {
     std::string what = exception.what();
     if (const size_t colon = what.rfind(": "); colon != std::string::npos) what.erase(0, colon + 2);
+    // "[json.exception.out_of_range.406] number overflow parsing '1e400'"
+    if (const size_t name = what.rfind("] "); what.starts_with("[json.")) what.erase(0, name + 2);
     result_ = error("JSON byte " + std::to_string(position), "the JSON is damaged (" + what + ")");
     return false;
   }

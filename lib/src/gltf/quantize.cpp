@@ -63,6 +63,15 @@ struct Extent {
     return largest;
   }
 
+  /// Largest magnitude of a value.
+  double farthest() const {
+    double largest = 0;
+    for (uint32_t c = 0; c < component_count; ++c) {
+      largest = std::max({largest, std::abs(double{min[c]}), std::abs(double{max[c]})});
+    }
+    return largest;
+  }
+
   /// Largest side of the box without the outer percent of the values on either end.
   double innerSize() {
     double largest = 0;
@@ -115,12 +124,8 @@ bool fitBox(const Extent& extent, uint8_t bits, Lattice& lattice) {
 /// or 24 bits have no such lattice.
 bool fitDistance(const Extent& extent, double distance, Lattice& lattice, uint8_t& bits) {
   lattice = {};
-  double largest = 0;
-  for (uint32_t c = 0; c < extent.component_count; ++c) {
-    lattice.origin[c] = extent.min[c];
-    largest = std::max({largest, std::abs(double{extent.min[c]}), std::abs(double{extent.max[c]})});
-  }
-  const double rounding = std::ldexp(1.02 * (extent.size() + 2 * largest), -24);
+  std::copy_n(extent.min, extent.component_count, lattice.origin);
+  const double rounding = std::ldexp(1.02 * (extent.size() + 2 * extent.farthest()), -24);
   const double per_component =
       distance / std::sqrt(static_cast<double>(extent.component_count)) - rounding;
   if (!(per_component > 0)) return false;
@@ -370,7 +375,10 @@ class Quantizer {
                attribute.format.semantic == Semantic::kTangent) {
       step = static_cast<float>(2.0 / points);
     }
-    if (step == 0) step = static_cast<float>(extent.size() == 0 ? 1.0 : extent.size() / points);
+    if (step == 0) {
+      const double range = extent.size() == 0 ? extent.farthest() : extent.size();
+      step = static_cast<float>(range == 0 ? 1.0 : range / points);
+    }
     Lattice lattice;
     uint8_t needed_bits = 0;
     if (fitAroundZero(extent, step, lattice, needed_bits)) {

@@ -1,0 +1,61 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// glTF read by plain code of its own, so that comparisons share nothing with the library but the JSON parser.
+#ifndef MCC_TESTS_DOCUMENTS_PLAIN_READER_H_
+#define MCC_TESTS_DOCUMENTS_PLAIN_READER_H_
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "documents/random_document.h"
+#include "gltf/json.h"
+
+namespace mcc::gltf::test {
+
+/// The elements of an accessor without padding, sparse values applied.
+struct Elements {
+  std::string type;
+  uint64_t component_type = 0;
+  bool is_normalized = false;
+  uint32_t component_count = 0;
+  std::vector<std::string> values;
+
+  bool sameFormat(const Elements& other) const {
+    return type == other.type && component_type == other.component_type &&
+           is_normalized == other.is_normalized;
+  }
+};
+
+/// A document whose buffers were found, and what other codecs hold of it decoded.
+class PlainDocument {
+ public:
+  Json json;
+
+  /// An empty string, or why it cannot be read.
+  std::string load(const Files& files, const std::string& main);
+
+  /// Throws std::runtime_error when the accessor is damaged.
+  Elements elements(uint64_t accessor) const;
+  Bytes viewBytes(uint64_t view) const;
+  /// Bytes of an image, wherever it is.
+  Bytes imageBytes(uint64_t image) const;
+
+ private:
+  Bytes fetch(const std::string& uri) const;
+  void decodeMeshes();
+
+  Files files_;
+  std::vector<Bytes> buffers_;
+  std::map<uint64_t, Bytes> decoded_;  ///< tight elements of accessors that Draco holds
+};
+
+/// The member, or null where there is none.
+const Json& memberOf(const Json& object, const char* key);
+/// The number however it is spelt, or `otherwise` where there is none.
+uint64_t numberOf(const Json& object, const char* key, uint64_t otherwise);
+uint64_t numberOf(const Json& value);
+
+}  // namespace mcc::gltf::test
+
+#endif  // MCC_TESTS_DOCUMENTS_PLAIN_READER_H_

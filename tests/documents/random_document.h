@@ -1,0 +1,47 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Random glTF documents with whatever the files of users have: every container, layout, type and kind of geometry, odd JSON.
+#ifndef MCC_TESTS_DOCUMENTS_RANDOM_DOCUMENT_H_
+#define MCC_TESTS_DOCUMENTS_RANDOM_DOCUMENT_H_
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mcc/gltf.h"
+
+namespace mcc::gltf::test {
+
+using Bytes = std::vector<uint8_t>;
+/// Files by their names.
+using Files = std::map<std::string, Bytes>;
+
+/// A document and how to convert it.
+struct RandomDocument {
+  Files files;
+  std::string main;  ///< the name of the .glb or .gltf in `files`
+  /// Something in it may be refused with a sentence: it contradicts itself, though in a way people's files do.
+  bool may_be_refused = false;
+  /// Unknown extensions name them: they keep their numbers and bytes.
+  std::vector<uint32_t> kept_views;
+  std::vector<uint32_t> kept_accessors;
+  ConvertOptions options;
+  bool writes_gltf = false;  ///< the output is a .gltf, else a .glb
+  bool to_memory = false;    ///< the output is a GLB in memory; else a file
+};
+
+/// The same seed makes the same document. Deterministic on every machine.
+RandomDocument randomDocument(uint64_t seed);
+
+/// What went wrong with a file on its way: a byte changed, bytes lost, a number of the JSON replaced, and the like.
+/// Deterministic in its arguments.
+void damage(uint64_t seed, RandomDocument& document);
+void damageGlb(uint64_t seed, Bytes& glb);
+
+/// The options in words, for messages.
+std::string describe(const ConvertOptions& options);
+
+}  // namespace mcc::gltf::test
+
+#endif  // MCC_TESTS_DOCUMENTS_RANDOM_DOCUMENT_H_
