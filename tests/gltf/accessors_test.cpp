@@ -115,7 +115,8 @@ TEST_F(Accessors, MatrixColumnsArePadded) {
   uint32_t stride = 1;
   const std::vector<uint8_t> packed = packElements(std::vector<uint8_t>{1, 2, 3, 4, 5, 6, 7, 8, 9},
                                                    document_.accessors[0], true, stride);
-  EXPECT_EQ(stride, 0u);
+  EXPECT_EQ(stride,
+            12u);  // without the padding of the last column elements would be 11 bytes apart
   EXPECT_EQ(packed, (std::vector<uint8_t>{1, 2, 3, 0, 4, 5, 6, 0, 7, 8, 9, 0}));
 }
 

@@ -104,6 +104,15 @@ TEST_F(Check, NoticesACoarserGridThanPlanned) {
             std::string::npos);
 }
 
+TEST_F(Check, NoticesWrongBounds) {
+  Json json = compressed_.json;
+  json["accessors"][0]["max"][1] = 17;
+  EXPECT_NE(verdict(json, compressed_.bin).find("component 1 is 17"), std::string::npos);
+  json = compressed_.json;
+  json["accessors"][3]["min"] = {1};
+  EXPECT_NE(verdict(json, compressed_.bin).find("component 0 is 1"), std::string::npos);
+}
+
 TEST_F(Check, NoticesAWrongPermutation) {
   std::vector<uint32_t>& source_of = compressed_.payloads[0].result.pieces[0].source_wedge;
   std::swap(source_of[3], source_of[4]);

@@ -226,7 +226,8 @@ TEST(Convert, UnknownExtensionsKeepTheNumbersOfViews) {
 size_t unusedViews(const std::vector<uint8_t>& file) {
   Json json = jsonOf(file);
   std::set<uint64_t> used;
-  visitViewReferences(json, [&](Json& number, uint32_t) { used.insert(number.get<uint64_t>()); });
+  visitViewReferences(json,
+                      [&](const Json& number, uint32_t) { used.insert(number.get<uint64_t>()); });
   return json["bufferViews"].size() - used.size();
 }
 
@@ -1036,7 +1037,7 @@ TEST(ConvertErrors, WrongKinds) {
             std::string::npos);
   EXPECT_NE(with([](Json& j) { j["meshes"][0] = nullptr; }), "");
   EXPECT_NE(with([](Json& j) { j["meshes"][0]["primitives"][0] = 1; }), "");
-  EXPECT_NE(with([](Json& j) { j["meshes"][0]["primitives"][0]["mode"] = 9; }), "");
+  EXPECT_NE(with([](Json& j) { j["meshes"][0]["primitives"][0]["mode"] = -1; }), "");
   EXPECT_NE(with([](Json& j) { j["meshes"][0]["primitives"][0]["attributes"] = 1; }), "");
   EXPECT_NE(with([](Json& j) { j["meshes"][0]["primitives"][0]["targets"] = 1; }), "");
   EXPECT_NE(with([](Json& j) { j["meshes"][0]["primitives"][0]["extensions"] = 1; }), "");
@@ -1062,6 +1063,16 @@ TEST(ConvertErrors, WhatCannotBeCodedIsLeftAlone) {
   EXPECT_NE(noteOf([](Json& j) { j["accessors"][3]["count"] = 2399; }).find("no triangles"),
             std::string::npos);
   EXPECT_NE(noteOf([](Json& j) { j["accessors"][1]["componentType"] = 5130; }).find("unknown type"),
+            std::string::npos);
+  EXPECT_NE(noteOf([](Json& j) { j["meshes"][0]["primitives"][0]["mode"] = 9; }).find("mode 9"),
+            std::string::npos);
+  EXPECT_NE(noteOf([](Json& j) { j["accessors"][3]["normalized"] = true; }).find("is normalized"),
+            std::string::npos);
+  EXPECT_NE(noteOf([](Json& j) {
+              j["accessors"].push_back(
+                  {{"componentType", 5123}, {"count", 30000000}, {"type", "SCALAR"}});
+              j["meshes"][0]["primitives"][0]["indices"] = 4;
+            }).find("no bytes in the file"),
             std::string::npos);
 }
 

@@ -112,7 +112,7 @@ void expectKept(const Json& a, const Json& b, const std::string& path) {
     for (size_t i = 0; i < a.size(); ++i) expectKept(a[i], b[i], at(path, i));
   } else if (a.is_object()) {
     for (const auto& [key, value] : a.items()) {
-      const Json* other = findMember(b, key.c_str());
+      const Json* other = findMember(b, key);
       if (mayDiffer(at(path, key))) continue;
       ASSERT_NE(other, nullptr) << at(path, key);
       expectKept(value, *other, at(path, key));

@@ -44,6 +44,28 @@ TEST(GltfJson, ErrorsNameTheByte) {
   EXPECT_NE(reprinted("{\"a\":\"\xff\"}").find("error: JSON byte"), std::string::npos);
 }
 
+TEST(GltfJson, RepeatedKeysAreAnErrorExceptInExtras) {
+  const std::string kept =
+      R"({"extras":{"a":1,"a":2,"n":[{"b":1,"b":[]}]},"z":{"extras":{"":0,"":0}}})";
+  EXPECT_EQ(reprinted(kept), kept);
+  EXPECT_EQ(reprinted(R"({"a":[{},{"b/c":1,"x":{"extras":{}},"b/c":1}]})"),
+            "error: /a/1/b~1c: the key appears twice in one object, which glTF forbids");
+  EXPECT_NE(reprinted(R"({"extras":{},"a":1,"a":2})"), R"({"extras":{},"a":1,"a":2})");
+  EXPECT_NE(reprinted(R"({"extras":1,"extras":2})"), R"({"extras":1,"extras":2})");
+}
+
+TEST(GltfJson, KeysAreWholeTexts) {
+  Json json;
+  ASSERT_TRUE(parseJson(asBytes(R"({"a\u0000b":1,"a\u0000c":2,"b":3,"a":4})"), json).ok());
+  const MemberIndex index(json);
+  for (const auto& [key, value] : json.items()) {
+    EXPECT_EQ(findMember(json, key), &value);
+    EXPECT_EQ(index.find(key), &value);
+  }
+  EXPECT_EQ(index.find("c"), nullptr);
+  EXPECT_EQ(MemberIndex(nullptr).find("a"), nullptr);
+}
+
 TEST(GltfJson, DeepNestingIsAnError) {
   const std::string deep(100000, '[');
   EXPECT_NE(reprinted(deep).find("nested deeper"), std::string::npos);

@@ -174,7 +174,7 @@ std::vector<uint8_t> packElements(std::span<const uint8_t> tight, const Accessor
   const uint32_t tight_bytes = accessor.tightBytes();
   const uint32_t tight_column = accessor.rows * componentBytes(accessor.component_type);
   const uint32_t stride = is_vertex_attribute ? (element + 3) & ~3u : element;
-  stride_bytes = stride == element ? 0 : stride;
+  stride_bytes = stride == tight_bytes ? 0 : stride;
   std::vector<uint8_t> packed(accessor.count * stride);
   for (uint64_t i = 0; i < accessor.count; ++i) {
     for (uint32_t column = 0; column < accessor.columns; ++column) {

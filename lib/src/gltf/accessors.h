@@ -51,8 +51,8 @@ std::string describeType(const Accessor& accessor);
 double componentValue(const uint8_t* bytes, ComponentType type);
 
 /// Copies tight elements into the layout of a buffer: columns of matrices padded, elements of
-/// vertex attributes at multiples of four. `stride_bytes` becomes 0 when that is the plain element
-/// size.
+/// vertex attributes at multiples of four. `stride_bytes` becomes 0 when elements are as far apart as they
+/// are long; padding inside of them counts as a distance, for the last column of a matrix is not padded everywhere.
 std::vector<uint8_t> packElements(std::span<const uint8_t> tight, const Accessor& accessor,
                                   bool is_vertex_attribute, uint32_t& stride_bytes);
 

@@ -39,29 +39,46 @@ class Checker {
     coded_ = std::move(decompressed.coded_attributes);
     std::vector<ExtensionUse> uses;
     MCC_GLTF_TRY(findExtensionUses(compressed, uses));
-    MCC_GLTF_TRY(failed(
-        adoptDocument(std::move(decompressed.json), std::move(decompressed.bin), decoded_), ""));
+    if (decompressed.payload_count == 0) {  // the source in the other container
+      decoded_ = std::move(compressed);
+    } else {
+      MCC_GLTF_TRY(failed(
+          adoptDocument(std::move(decompressed.json), std::move(decompressed.bin), decoded_), ""));
+    }
     MCC_GLTF_TRY(failed(decodeViews(decoders, decoded_), ""));
     for (const EncodedPayload& payload : payloads_) MCC_GLTF_TRY(checkPayload(payload));
     MCC_GLTF_TRY(failed(checkUses(uses), ""));
-    MCC_GLTF_TRY(failed(checkFallback(compressed, uses), ""));
+    if (!uses.empty()) MCC_GLTF_TRY(failed(checkFallback(compressed, uses), ""));
     return failed(compareRest(source_, decoded_, uses, reordered_), "");
   }
 
  private:
   /// The written file compresses the primitives of the plan and no others.
   Result checkUses(const std::vector<ExtensionUse>& uses) const {
-    std::set<std::pair<uint32_t, uint32_t>> found;
+    std::set<PrimitiveRef> found;
     for (const ExtensionUse& use : uses) {
-      const Json& primitive = source_.json["meshes"][use.mesh]["primitives"][use.primitive];
-      const Json* extensions = findMember(primitive, "extensions");
-      const bool was_compressed =
-          extensions != nullptr && findMember(*extensions, kExtensionName) != nullptr;
-      if (!was_compressed) found.emplace(use.mesh, use.primitive);
+      const PrimitiveRef ref = {use.mesh, use.primitive};
+      if (extensionOf(primitiveOf(source_, ref), kExtensionName) == nullptr) found.insert(ref);
     }
     if (found != planned_) {
       return error("", "the compressed primitives are not those that were meant");
     }
+    return {};
+  }
+
+  /// `min` and `max`, where the decoded document has them and JSON can say them, are those of its elements.
+  Result checkBounds(uint32_t index, const AccessorData& elements) const {
+    const Json& json = decoded_.json["accessors"][index];
+    const Json* min = findMember(json, "min");
+    const Json* max = findMember(json, "max");
+    if ((min == nullptr && max == nullptr) || elements.count == 0) return {};
+    const ComponentType type = decoded_.accessors[index].component_type;
+    const Bounds bounds = boundsOf(elements, type);
+    if (!bounds.is_finite) return {};
+    const std::string in_min = min == nullptr ? "" : boundsDifference(*min, bounds.min, type);
+    const std::string in_max = max == nullptr ? "" : boundsDifference(*max, bounds.max, type);
+    if (!in_min.empty()) return error(at("/accessors", index) + "/min", in_min);
+    if (!in_max.empty()) return error(at("/accessors", index) + "/max", in_max);
     return {};
   }
 
@@ -91,6 +108,7 @@ class Checker {
   Result checkPayload(const EncodedPayload& payload) {
     result_.attributes.emplace_back();
     angles_.clear();
+    report_of_.clear();
     for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
       const PiecePlan& piece = payload.plan.pieces[i];
       const std::string where = piece.parts[0].users[0].path();
@@ -138,7 +156,7 @@ class Checker {
   }
 
   const Json& primitiveOf(const Document& document, const PrimitiveRef& ref) const {
-    return document.json["meshes"][ref.mesh]["primitives"][ref.primitive];
+    return primitiveAt(document.json, ref);
   }
 
   /// The accessor of an attribute of a decoded primitive.
@@ -148,7 +166,7 @@ class Checker {
     const Json* map = attribute.target == kNone ? findMember(primitive, "attributes")
                                                 : &arrayOf(primitive, "targets")[attribute.target];
     uint64_t index = 0;
-    const Json* number = map == nullptr ? nullptr : findMember(*map, attribute.name.c_str());
+    const Json* number = map == nullptr ? nullptr : findMember(*map, attribute.name);
     if (number == nullptr || !asUnsigned(*number, index) || index >= decoded_.accessors.size()) {
       return error("", attribute.label() + " is missing");
     }
@@ -157,12 +175,10 @@ class Checker {
   }
 
   AttributeReport& reportOf(const AttributePlan& attribute) {
-    for (AttributeReport& report : result_.attributes.back()) {
-      if (report.name == attribute.label()) return report;
-    }
-    result_.attributes.back().emplace_back();
-    result_.attributes.back().back().name = attribute.label();
-    return result_.attributes.back().back();
+    std::vector<AttributeReport>& reports = result_.attributes.back();
+    const auto [found, is_new] = report_of_.try_emplace(attribute.label(), reports.size());
+    if (is_new) reports.emplace_back().name = found->first;
+    return reports[found->second];
   }
 
   static uint8_t normalBits(const PiecePlan& piece) {
@@ -190,6 +206,7 @@ class Checker {
     AccessorData decoded_values;
     MCC_GLTF_TRY(readAccessor(source_, attribute.accessor, source_values));
     MCC_GLTF_TRY(readAccessor(decoded_, index, decoded_values));
+    MCC_GLTF_TRY(checkBounds(index, decoded_values));
     Promise promise;
     MCC_GLTF_TRY(promiseOf(attribute, coded->second, normalBits(piece), promise));
     AttributeReport& report = reportOf(attribute);
@@ -228,7 +245,10 @@ class Checker {
     if (number == nullptr || !asUnsigned(*number, index) || index >= decoded_.accessors.size()) {
       return error("", "the indices are missing");
     }
-    return readIndices(decoded_, static_cast<uint32_t>(index), indices);
+    MCC_GLTF_TRY(readIndices(decoded_, static_cast<uint32_t>(index), indices));
+    AccessorData elements;
+    MCC_GLTF_TRY(readAccessor(decoded_, static_cast<uint32_t>(index), elements));
+    return checkBounds(static_cast<uint32_t>(index), elements);
   }
 
   /// The source's triangles, read again and not taken from the plan.
@@ -251,7 +271,7 @@ class Checker {
   Result checkPart(const PayloadPlan& payload, const PiecePlan& piece, const PartPlan& part,
                    std::span<const uint32_t> source_of) {
     for (const PrimitiveRef& user : part.users) {
-      planned_.emplace(user.mesh, user.primitive);
+      planned_.insert(user);
       MCC_GLTF_TRY(checkSharing(piece, part, user));
     }
     std::vector<uint32_t> indices;
@@ -303,11 +323,13 @@ class Checker {
 
   /// Numbers of accessors, however each is spelt, under the same names.
   static bool equalNumbers(const Json& a, const Json& b) {
-    if (a.is_object() || a.is_array()) {
+    if (a.is_structured()) {
       if (a.type() != b.type() || a.size() != b.size()) return false;
-      for (const auto& [key, value] : a.items()) {
-        const Json* other = a.is_array() ? &b[std::stoul(key)] : findMember(b, key.c_str());
-        if (other == nullptr || !equalNumbers(value, *other)) return false;
+      const MemberIndex in_b(b);
+      size_t i = 0;
+      for (auto value = a.begin(); value != a.end(); ++value, ++i) {
+        const Json* other = a.is_array() ? &b[i] : in_b.find(value.key());
+        if (other == nullptr || !equalNumbers(*value, *other)) return false;
       }
       return true;
     }
@@ -322,8 +344,9 @@ class Checker {
   Document decoded_;
   CodedAttributes coded_;
   std::map<std::string, std::vector<float>> angles_;
+  std::map<std::string, size_t> report_of_;  ///< of this payload, by label
   std::set<uint32_t> reordered_;  ///< accessors beside payloads, compared in another order
-  std::set<std::pair<uint32_t, uint32_t>> planned_;
+  std::set<PrimitiveRef> planned_;
 };
 
 }  // namespace

@@ -11,6 +11,17 @@
 namespace mcc::gltf {
 namespace {
 
+using Member = std::pair<const std::string, Json>;
+
+/// The members of an object in the order of their keys, those with the same key in the order of the object.
+std::vector<const Member*> sortedMembers(const Json& object) {
+  std::vector<const Member*> members;
+  for (const Member& member : object.get_ref<const Json::object_t&>()) members.push_back(&member);
+  std::stable_sort(members.begin(), members.end(),
+                   [](const Member* a, const Member* b) { return a->first < b->first; });
+  return members;
+}
+
 /// Whether two values differ, and where. `path` is extended up to the difference.
 bool differs(const Json& a, const Json& b, std::string& path) {
   if (!a.is_structured() || a.type() != b.type()) return !(a == b);
@@ -18,16 +29,19 @@ bool differs(const Json& a, const Json& b, std::string& path) {
   const size_t length = path.size();
   if (a.is_array()) {
     for (size_t i = 0; i < a.size(); ++i) {
-      path = at(path, i);
+      path += "/" + std::to_string(i);
       if (differs(a[i], b[i], path)) return true;
       path.resize(length);
     }
     return false;
   }
-  for (const auto& [key, value] : a.items()) {
-    path = at(path, key);
-    const Json* other = findMember(b, key.c_str());
-    if (other == nullptr || differs(value, *other, path)) return true;
+  const std::vector<const Member*> in_a = sortedMembers(a);
+  const std::vector<const Member*> in_b = sortedMembers(b);
+  for (size_t i = 0; i < in_a.size(); ++i) {
+    path = at(path, in_a[i]->first);
+    if (in_a[i]->first != in_b[i]->first || differs(in_a[i]->second, in_b[i]->second, path)) {
+      return true;
+    }
     path.resize(length);
   }
   return false;
@@ -57,7 +71,7 @@ Json withoutGeometry(const Document& document, const std::vector<ExtensionUse>& 
     removeExtensionName(json, list, kMeshExtension);
     removeExtensionName(json, list, kExtensionName);
   }
-  visitViewReferences(json, [](Json& number, uint32_t) { number = 0; });
+  editViewReferences(json, [](Json& number, uint32_t) { number = 0; });
   for (const ExtensionUse& use : uses) {
     eraseGeometry(json["meshes"][use.mesh]["primitives"][use.primitive]);
   }

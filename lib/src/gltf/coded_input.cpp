@@ -23,27 +23,13 @@ Result inPlace(Result result, const std::string& where) {
 
 template <typename Visit>
 void visitTrianglePrimitives(const Document& document, const Visit& visit) {
-  const Json& meshes = arrayOf(document.json, "meshes");
-  for (uint32_t mesh = 0; mesh < meshes.size(); ++mesh) {
-    const Json& primitives = arrayOf(meshes[mesh], "primitives");
-    for (uint32_t i = 0; i < primitives.size(); ++i) {
-      uint64_t mode = 4;
-      const Json* number = findMember(primitives[i], "mode");
-      if (number == nullptr || (asUnsigned(*number, mode) && mode >= 4)) {
-        visit(primitives[i], primitivePath(mesh, i));
-      }
+  visitPrimitives(document.json, [&](const PrimitiveRef& ref, const Json& primitive) {
+    uint64_t mode = 4;
+    const Json* number = findMember(primitive, "mode");
+    if (number == nullptr || (asUnsigned(*number, mode) && mode >= 4)) {
+      visit(primitive, ref.path());
     }
-  }
-}
-
-void markAccessor(const Json& number, std::vector<bool>& is_used) {
-  uint64_t accessor = 0;
-  if (asUnsigned(number, accessor) && accessor < is_used.size()) is_used[accessor] = true;
-}
-
-void markAccessors(const Json* map, std::vector<bool>& is_used) {
-  if (map == nullptr || !map->is_object()) return;
-  for (const Json& number : *map) markAccessor(number, is_used);
+  });
 }
 
 Result decodeView(const ForeignDecoders& decoders, uint32_t number, Document& document) {
@@ -96,7 +82,7 @@ class MeshReader {
   }
 
  private:
-  Result accessorOf(const Json* map, const char* name, const std::string& path,
+  Result accessorOf(const Json* map, const std::string& name, const std::string& path,
                     uint32_t& accessor) const {
     uint64_t index = 0;
     const Json* number = map == nullptr ? nullptr : findMember(*map, name);
@@ -124,10 +110,10 @@ class MeshReader {
     for (const auto& [name, value] : ids->items()) {
       CodedMesh::Attribute attribute;
       uint64_t id = 0;
-      MCC_GLTF_TRY(readUnsigned(*ids, name.c_str(), coded.path + "/attributes", kNone, id));
+      MCC_GLTF_TRY(readUnsigned(*ids, name, coded.path + "/attributes", kNone, id));
       uint32_t accessor = 0;
-      MCC_GLTF_TRY(accessorOf(findMember(primitive, "attributes"), name.c_str(),
-                              path + "/attributes", accessor));
+      MCC_GLTF_TRY(
+          accessorOf(findMember(primitive, "attributes"), name, path + "/attributes", accessor));
       attribute.id = static_cast<uint32_t>(id);
       attribute.component_type = document_.accessors[accessor].component_type;
       attribute.component_count = document_.accessors[accessor].componentCount();
@@ -238,9 +224,9 @@ Result decodeViews(const ForeignDecoders& decoders, Document& document) {
   if (!decoders.view) return {};
   std::vector<bool> is_used(document.accessors.size(), false);
   visitTrianglePrimitives(document, [&](const Json& primitive, const std::string&) {
-    markAccessors(findMember(primitive, "attributes"), is_used);
-    for (const Json& target : arrayOf(primitive, "targets")) markAccessors(&target, is_used);
-    if (const Json* indices = findMember(primitive, "indices")) markAccessor(*indices, is_used);
+    visitAccessorNumbers(primitive, [&](uint64_t accessor) {
+      if (accessor < is_used.size()) is_used[accessor] = true;
+    });
   });
   for (size_t i = 0; i < is_used.size(); ++i) {
     if (!is_used[i]) continue;

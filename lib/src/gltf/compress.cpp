@@ -2,6 +2,7 @@
 #include "gltf/compress.h"
 
 #include <algorithm>
+#include <set>
 
 #include "gltf/indices_only.h"
 #include "gltf/quantize.h"
@@ -10,32 +11,10 @@
 namespace mcc::gltf {
 namespace {
 
-Json numbersOf(const std::vector<double>& values, ComponentType type) {
-  Json numbers = Json::array();
-  for (const double value : values) {
-    if (type == ComponentType::kFloat32) {
-      numbers.push_back(value);
-    } else {
-      numbers.push_back(static_cast<int64_t>(value));
-    }
-  }
-  return numbers;
-}
-
 void removeBytes(Json& accessor) {
   accessor.erase("bufferView");
   accessor.erase("byteOffset");
   accessor.erase("sparse");
-}
-
-void setBounds(Json& accessor, const Bounds& bounds, ComponentType type, bool is_required) {
-  if (bounds.min.empty()) return;
-  if (is_required || findMember(accessor, "min") != nullptr) {
-    accessor["min"] = numbersOf(bounds.min, type);
-  }
-  if (is_required || findMember(accessor, "max") != nullptr) {
-    accessor["max"] = numbersOf(bounds.max, type);
-  }
 }
 
 /// Index type of new accessors for `vertex_count` vertices; the largest value is the restart value.
@@ -74,9 +53,10 @@ class Applier {
       }
     }
     // A fallback takes the requirement back.
+    const bool uses_mesh_extension = usesMeshExtension();
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
       addExtensionName(compressed_.json, list, kExtensionName);
-      if (!usesMeshExtension()) removeExtensionName(compressed_.json, list, kMeshExtension);
+      if (!uses_mesh_extension) removeExtensionName(compressed_.json, list, kMeshExtension);
     }
     return views;
   }
@@ -91,11 +71,13 @@ class Applier {
       const uint32_t index = take(attribute.accessor, where + ": " + attribute.label());
       Json& accessor = compressed_.json["accessors"][index];
       const bool is_position = attribute.name == "POSITION";
-      setBounds(accessor, payload.bounds[number][k], attribute.format.component_type, is_position);
+      setBounds(payload.bounds[number].attributes[k], attribute.format.component_type, is_position,
+                accessor);
       accessors.push_back(index);
     }
     for (size_t k = 0; k < piece.parts.size(); ++k) {
-      const uint32_t indices = takeIndices(piece.parts[k], piece.wedge_count);
+      const uint32_t indices =
+          takeIndices(piece.parts[k], payload.bounds[number].parts[k], piece.wedge_count);
       for (const PrimitiveRef& user : piece.parts[k].users) {
         Json& primitive = compressed_.json["meshes"][user.mesh]["primitives"][user.primitive];
         setAccessors(piece, accessors, primitive);
@@ -108,23 +90,21 @@ class Applier {
   }
 
   bool usesMeshExtension() const {
-    for (const Json& mesh : arrayOf(compressed_.json, "meshes")) {
-      for (const Json& primitive : arrayOf(mesh, "primitives")) {
-        const Json* extensions = findMember(primitive, "extensions");
-        if (extensions != nullptr && findMember(*extensions, kMeshExtension) != nullptr)
-          return true;
-      }
-    }
-    return false;
+    bool is_used = false;
+    visitPrimitives(compressed_.json, [&](const PrimitiveRef&, const Json& primitive) {
+      is_used |= extensionOf(primitive, kMeshExtension) != nullptr;
+    });
+    return is_used;
   }
 
   static void setAccessors(const PiecePlan& piece, const std::vector<uint32_t>& accessors,
                            Json& primitive) {
     for (size_t k = 0; k < accessors.size(); ++k) {
       const AttributePlan& attribute = piece.attributes[k];
+      if (accessors[k] == attribute.accessor) continue;
       Json& map = attribute.target == kNone ? primitive["attributes"]
                                             : primitive["targets"][attribute.target];
-      if (accessors[k] != attribute.accessor) map[attribute.name] = accessors[k];
+      map[attribute.name] = accessors[k];
     }
   }
 
@@ -144,7 +124,7 @@ class Applier {
     return index;
   }
 
-  uint32_t takeIndices(const PartPlan& part, uint32_t wedge_count) {
+  uint32_t takeIndices(const PartPlan& part, const Bounds& bounds, uint32_t wedge_count) {
     Json& accessors = compressed_.json["accessors"];
     uint32_t index = 0;
     if (part.indices_accessor == kNone) {
@@ -160,11 +140,7 @@ class Applier {
         indexTypeFits(document_.accessors[part.indices_accessor].component_type, wedge_count);
     if (!fits) accessor["componentType"] = gl_type;
     accessor["count"] = part.triangles.size();
-    Bounds bounds;
-    const auto [low, high] = std::minmax_element(part.triangles.begin(), part.triangles.end());
-    bounds.min = {static_cast<double>(*low)};
-    bounds.max = {static_cast<double>(*high)};
-    setBounds(accessor, bounds, ComponentType::kUint32, false);
+    setBounds(bounds, ComponentType::kUint32, false, accessor);
     return index;
   }
 
@@ -173,20 +149,10 @@ class Applier {
   std::vector<bool> is_taken_;  ///< source accessors that must not be changed (again)
 };
 
-void mark(const Json& map, std::vector<bool>& is_used) {
-  if (!map.is_object()) return;
-  for (const Json& value : map) {
-    uint64_t index = 0;
-    if (asUnsigned(value, index) && index < is_used.size()) is_used[index] = true;
-  }
-}
-
 void sortByPlace(std::vector<LeftAlone>& left_alone) {
-  std::stable_sort(left_alone.begin(), left_alone.end(),
-                   [](const LeftAlone& a, const LeftAlone& b) {
-                     return std::pair(a.primitive.mesh, a.primitive.primitive) <
-                            std::pair(b.primitive.mesh, b.primitive.primitive);
-                   });
+  std::stable_sort(
+      left_alone.begin(), left_alone.end(),
+      [](const LeftAlone& a, const LeftAlone& b) { return a.primitive < b.primitive; });
 }
 
 }  // namespace
@@ -200,34 +166,34 @@ std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignRef
 
 std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignReferences& foreign,
                                       const std::vector<const PayloadPlan*>& payloads) {
-  std::vector<std::vector<bool>> is_compressed;
-  for (const Json& mesh : arrayOf(document.json, "meshes")) {
-    is_compressed.emplace_back(arrayOf(mesh, "primitives").size(), false);
+  std::vector<bool> is_used = accessorsOutsidePayloads(document, foreign, payloads);
+  for (const PayloadPlan* payload : payloads) {
+    for (const PiecePlan& piece : payload->pieces) {
+      for (const AttributePlan& attribute : piece.ordinary) is_used[attribute.accessor] = true;
+    }
   }
+  return is_used;
+}
+
+std::vector<bool> accessorsOutsidePayloads(const Document& document,
+                                           const ForeignReferences& foreign,
+                                           const std::vector<const PayloadPlan*>& payloads) {
+  std::set<PrimitiveRef> compressed;
   for (const PayloadPlan* payload : payloads) {
     for (const PiecePlan& piece : payload->pieces) {
       for (const PartPlan& part : piece.parts) {
-        for (const PrimitiveRef& user : part.users) is_compressed[user.mesh][user.primitive] = true;
+        compressed.insert(part.users.begin(), part.users.end());
       }
     }
   }
   std::vector<bool> is_used;
   markAccessorsOutsideMeshes(document, foreign, is_used);
-  const Json& meshes = arrayOf(document.json, "meshes");
-  for (size_t m = 0; m < meshes.size(); ++m) {
-    const Json& primitives = arrayOf(meshes[m], "primitives");
-    for (size_t p = 0; p < primitives.size(); ++p) {
-      if (is_compressed[m][p]) continue;
-      const Json* attributes = findMember(primitives[p], "attributes");
-      if (attributes != nullptr) mark(*attributes, is_used);
-      for (const Json& target : arrayOf(primitives[p], "targets")) mark(target, is_used);
-      uint64_t index = 0;
-      const Json* indices = findMember(primitives[p], "indices");
-      if (indices != nullptr && asUnsigned(*indices, index) && index < is_used.size()) {
-        is_used[index] = true;
-      }
-    }
-  }
+  visitPrimitives(document.json, [&](const PrimitiveRef& ref, const Json& primitive) {
+    if (compressed.contains(ref)) return;
+    visitAccessorNumbers(primitive, [&](uint64_t accessor) {
+      if (accessor < is_used.size()) is_used[accessor] = true;
+    });
+  });
   return is_used;
 }
 
@@ -262,6 +228,7 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
   if (!options.allow_larger) {
     MCC_GLTF_TRY(dropTinyPieces(document, foreign, options, plans, compressed.left_alone));
   }
+  splitPayloads(plans);
   MCC_GLTF_TRY(
       encodePayloads(options, std::move(plans), compressed.payloads, compressed.left_alone));
   countFreedBytes(document, foreign, compressed.payloads);

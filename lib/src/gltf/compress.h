@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "gltf/bounds.h"
 #include "gltf/plan.h"
 #include "gltf/references.h"
 #include "mcc/gltf.h"
@@ -12,18 +13,16 @@
 
 namespace mcc::gltf {
 
-/// Smallest and largest value of each component of an attribute; no entries when one is no number.
-struct Bounds {
-  std::vector<double> min;
-  std::vector<double> max;
-};
-
 /// A payload plan after encoding.
 struct EncodedPayload {
   PayloadPlan plan;
   EncodeResult result;
-  /// Bounds of the decoded data, per piece and attribute.
-  std::vector<std::vector<Bounds>> bounds;
+  /// Bounds of the decoded data, per piece.
+  struct PieceBounds {
+    std::vector<Bounds> attributes;
+    std::vector<Bounds> parts;  ///< of the indices
+  };
+  std::vector<PieceBounds> bounds;
   uint64_t payload_bytes = 0;
   uint64_t freed_bytes = 0;
 };
@@ -65,6 +64,10 @@ void dropLosers(const Document& document, const ForeignReferences& foreign,
                 std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone);
 
 /// Accessors used by anything but the primitives of `payloads`.
+std::vector<bool> accessorsOutsidePayloads(const Document& document,
+                                           const ForeignReferences& foreign,
+                                           const std::vector<const PayloadPlan*>& payloads);
+/// The same and those that stay beside the payloads: what payloads must not take and do not free.
 std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignReferences& foreign,
                                       const std::vector<const PayloadPlan*>& payloads);
 std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignReferences& foreign,

@@ -305,12 +305,6 @@ Result embedImage(const FileReader& read_file, size_t index, Document& document)
 
 }  // namespace
 
-const Json& arrayOf(const Json& root, const char* key) {
-  static const Json kEmpty = Json::array();
-  const Json* member = findMember(root, key);
-  return member != nullptr && member->is_array() ? *member : kEmpty;
-}
-
 Result parseAccessor(const Document& document, const Json& json, const std::string& path,
                      Accessor& accessor) {
   accessor = {};

@@ -105,9 +105,6 @@ Result embedImages(const FileReader& read_file, Document& document);
 /// bytes.
 Result adoptDocument(Json json, std::vector<uint8_t> bin, Document& document);
 
-/// Array of the root object, or an empty array.
-const Json& arrayOf(const Json& root, const char* key);
-
 /// Parses one accessor; its views must be in `document.views`. Errors carry the path /accessors/N.
 Result parseAccessor(const Document& document, const Json& json, const std::string& path,
                      Accessor& accessor);

@@ -1,6 +1,4 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-#include <cmath>
-#include <limits>
 #include <mutex>
 
 #include "gltf/compress.h"
@@ -66,6 +64,10 @@ void leaveAlone(const PiecePlan& piece, const std::string& note,
   }
 }
 
+std::string refusal(const Status& status) {
+  return "the codec refuses it (" + toResult(status, "").what + "); left as it was";
+}
+
 /// Removes the pieces the codec refuses.
 void removeRefusedPieces(const EncodeOptions& options, PayloadPlan& plan,
                          std::vector<LeftAlone>& left_alone) {
@@ -76,8 +78,7 @@ void removeRefusedPieces(const EncodeOptions& options, PayloadPlan& plan,
     if (status.ok()) {
       accepted.push_back(std::move(piece));
     } else {
-      leaveAlone(piece, "the codec refuses it (" + toResult(status, "").what + "); left as it was",
-                 left_alone);
+      leaveAlone(piece, refusal(status), left_alone);
     }
   }
   plan.pieces = std::move(accepted);
@@ -89,40 +90,31 @@ Status encodePlan(const EncodeOptions& options, const PayloadPlan& plan, EncodeR
   return encodePieces(pieces, options, result);
 }
 
-Bounds boundsOf(const std::vector<uint8_t>& tight, const AttributeFormat& format) {
-  Bounds bounds;
-  const uint32_t step = componentBytes(format.component_type);
-  bounds.min.assign(format.component_count, std::numeric_limits<double>::infinity());
-  bounds.max.assign(format.component_count, -std::numeric_limits<double>::infinity());
-  uint32_t component = 0;
-  for (size_t offset = 0; offset < tight.size(); offset += step) {
-    const double value = componentValue(tight.data() + offset, format.component_type);
-    if (!std::isfinite(value)) return {};
-    bounds.min[component] = std::min(bounds.min[component], value);
-    bounds.max[component] = std::max(bounds.max[component], value);
-    if (++component == format.component_count) component = 0;
-  }
-  return bounds;
-}
-
 /// Decodes what was just encoded: the bounds of accessors are those of the decoded values.
-Result measure(EncodedPayload& payload) {
-  const std::string where = at("/meshes", payload.plan.mesh);
+Status measure(EncodedPayload& payload) {
   DecodedPayload decoded;
-  Result result = decodePayload(payload.result.payload, where, decoded);
-  if (!result.ok()) {
-    result.what = "the payload does not decode again: " + result.what + "; please report this";
-    return result;
-  }
+  Status status = decoded.payload.open(payload.result.payload);
+  if (status.ok()) status = decodePieces(decoded);
+  if (!status.ok()) return status;
   for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
     const std::vector<AttributePlan>& attributes = payload.plan.pieces[i].attributes;
-    payload.bounds.emplace_back();
+    EncodedPayload::PieceBounds& bounds = payload.bounds.emplace_back();
     for (size_t k = 0; k < attributes.size(); ++k) {
-      payload.bounds.back().push_back(
-          boundsOf(decoded.pieces[i].attributes[k], attributes[k].format));
+      bounds.attributes.push_back(boundsOf(decoded.pieces[i].attributes[k],
+                                           attributes[k].format.component_type,
+                                           attributes[k].format.component_count));
+    }
+    for (const std::vector<uint32_t>& part : decoded.pieces[i].parts) {
+      bounds.parts.push_back(boundsOf(std::span<const uint32_t>(part)));
     }
   }
   return {};
+}
+
+void leaveAllAlone(const std::string& note, EncodedPayload& payload,
+                   std::vector<LeftAlone>& left_alone) {
+  for (const PiecePlan& piece : payload.plan.pieces) leaveAlone(piece, note, left_alone);
+  payload = {};
 }
 
 Result encodeOne(const EncodeOptions& options, EncodedPayload& payload,
@@ -131,11 +123,23 @@ Result encodeOne(const EncodeOptions& options, EncodedPayload& payload,
     removeRefusedPieces(options, payload.plan, left_alone);
     payload.result = {};
     if (payload.plan.pieces.empty()) return {};
-    MCC_GLTF_TRY(toResult(encodePlan(options, payload.plan, payload.result),
-                          at("/meshes", payload.plan.mesh)));
+    const Status status = encodePlan(options, payload.plan, payload.result);
+    if (!status.ok()) {  // it takes each of them, but not all
+      leaveAllAlone(refusal(status), payload, left_alone);
+      return {};
+    }
   }
   payload.payload_bytes = payload.result.payload.size();
-  return measure(payload);
+  const Status status = measure(payload);
+  if (status.error == Error::kLimit) {  // readers would refuse it
+    leaveAllAlone(refusal(status), payload, left_alone);
+    return {};
+  }
+  Result result = toResult(status, at("/meshes", payload.plan.mesh));
+  if (!result.ok()) {
+    result.what = "the payload does not decode again: " + result.what + "; please report this";
+  }
+  return result;
 }
 
 /// Tells how much of the payloads' triangles is encoded.

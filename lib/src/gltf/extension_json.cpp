@@ -1,12 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-//
-// Reading and checking the extension objects of primitives.
+#include "gltf/extension_json.h"
+
 #include <map>
-#include <set>
 #include <tuple>
 
 #include "gltf/accessors.h"
-#include "gltf/decompress.h"
 #include "gltf/plan.h"
 #include "gltf/references.h"
 
@@ -15,13 +13,13 @@ namespace {
 
 constexpr uint64_t kMaxNumber = 0xffffffffu;
 
-/// The accessor that a member names; false, with an issue, when it names none.
-bool readAccessorNumber(const Document& document, const Json& object, const char* key,
-                        const std::string& path, Rule rule, Issues& issues, uint32_t& accessor) {
+/// The accessor whose number is at `path`; false, with an issue, when there is none.
+bool readAccessorNumber(const Document& document, const Json& number, const std::string& path,
+                        Rule rule, Issues& issues, uint32_t& accessor) {
   uint64_t index = 0;
-  if (!issues.passes(rule, readUnsigned(object, key, path, kMaxNumber, index))) return false;
+  if (!issues.passes(rule, readUnsigned(number, path, kMaxNumber, index))) return false;
   if (index >= document.accessors.size()) {
-    issues.add(Rule::kReference, at(path, key), "there is no accessor " + std::to_string(index));
+    issues.add(Rule::kReference, path, "there is no accessor " + std::to_string(index));
     return false;
   }
   accessor = static_cast<uint32_t>(index);
@@ -33,18 +31,20 @@ void readMap(const Document& document, const Json& ids, const std::string& path,
              const Json* accessors, const std::string& accessors_path, uint32_t target,
              Issues& issues, ExtensionUse& use) {
   if (!ids.is_object()) return issues.add(Rule::kSchema, path, "must be an object");
-  for (const auto& [name, ignored] : ids.items()) {
+  const MemberIndex own(accessors);
+  for (const auto& [name, id] : ids.items()) {
     ExtensionUse::AttributeUse attribute;
     attribute.name = name;
     attribute.target = target;
     attribute.path = at(path, name);
-    const bool has_id = issues.passes(
-        Rule::kSchema, readUnsigned(ids, name.c_str(), path, kMaxNumber, attribute.id));
-    if (accessors == nullptr || findMember(*accessors, name.c_str()) == nullptr) {
+    const bool has_id =
+        issues.passes(Rule::kSchema, readUnsigned(id, attribute.path, kMaxNumber, attribute.id));
+    const Json* number = own.find(name);
+    if (number == nullptr) {
       issues.add(Rule::kAttributeName, attribute.path,
                  "the primitive has no attribute of this name");
-    } else if (readAccessorNumber(document, *accessors, name.c_str(), accessors_path,
-                                  Rule::kReference, issues, attribute.accessor) &&
+    } else if (readAccessorNumber(document, *number, at(accessors_path, name), Rule::kReference,
+                                  issues, attribute.accessor) &&
                has_id) {
       use.attributes.push_back(std::move(attribute));
     }
@@ -113,8 +113,12 @@ void readExtension(const Document& document, const Json& extension, const Json& 
     issues.add(Rule::kMode, primitive_path + "/mode",
                "must be 4 (triangles) in a compressed primitive");
   }
-  readAccessorNumber(document, primitive, "indices", primitive_path, Rule::kIndices, issues,
-                     use.indices_accessor);
+  if (const Json* indices = findMember(primitive, "indices"); indices != nullptr) {
+    readAccessorNumber(document, *indices, primitive_path + "/indices", Rule::kIndices, issues,
+                       use.indices_accessor);
+  } else {
+    issues.add(Rule::kIndices, primitive_path, "\"indices\" is missing");
+  }
   if (const Json* ids = findMember(extension, "attributes"); ids != nullptr) {
     readMap(document, *ids, use.path + "/attributes", findMember(primitive, "attributes"),
             primitive_path + "/attributes", kNone, issues, use);
@@ -122,11 +126,17 @@ void readExtension(const Document& document, const Json& extension, const Json& 
   readTargets(document, extension, primitive, issues, use);
 }
 
-/// What an extension object, if there is one, names of a morph target.
-const Json* targetOf(const Json* extension, uint32_t target) {
+/// What an extension object, if there is one, names of the attributes or of a morph target.
+const Json* codedMap(const Json* extension, uint32_t target) {
   if (extension == nullptr) return nullptr;
+  if (target == kNone) return findMember(*extension, "attributes");
   const Json& targets = arrayOf(*extension, "targets");
   return target < targets.size() ? &targets[target] : nullptr;
+}
+
+/// JSON path of the attributes or of a morph target of a primitive.
+std::string mapPath(const std::string& primitive_path, uint32_t target) {
+  return target == kNone ? primitive_path + "/attributes" : at(primitive_path + "/targets", target);
 }
 
 /// Finds accessors that have two sources, or that something refers to besides what is filled from there.
@@ -136,13 +146,9 @@ class Sharing {
 
   void check(const std::vector<ExtensionUse>& uses) {
     for (const ExtensionUse& use : uses) claimAll(use);
-    const Json& meshes = arrayOf(document_.json, "meshes");
-    for (uint32_t m = 0; m < meshes.size(); ++m) {
-      const Json& primitives = arrayOf(meshes[m], "primitives");
-      for (uint32_t p = 0; p < primitives.size(); ++p) {
-        noteOrdinary(primitives[p], primitivePath(m, p));
-      }
-    }
+    visitPrimitives(document_.json, [&](const PrimitiveRef& ref, const Json& primitive) {
+      noteOrdinary(primitive, ref.path());
+    });
     std::vector<bool> is_used;
     markAccessorsOutsideMeshes(document_, ForeignReferences{}, is_used);
     for (const auto& [accessor, ignored] : origins_) {
@@ -174,27 +180,15 @@ class Sharing {
 
   /// What a primitive refers to and no payload fills.
   void noteOrdinary(const Json& primitive, const std::string& path) {
-    const Json* extensions = findMember(primitive, "extensions");
-    const Json* ours = extensions == nullptr ? nullptr : findMember(*extensions, kExtensionName);
-    if (const Json* indices = findMember(primitive, "indices");
-        indices != nullptr && ours == nullptr) {
-      note(*indices, path + "/indices");
-    }
-    noteMap(findMember(primitive, "attributes"),
-            ours == nullptr ? nullptr : findMember(*ours, "attributes"), path + "/attributes");
-    const Json& targets = arrayOf(primitive, "targets");
-    for (uint32_t i = 0; i < targets.size(); ++i) {
-      noteMap(&targets[i], targetOf(ours, i), at(path + "/targets", i));
-    }
-  }
-
-  void noteMap(const Json* attributes, const Json* coded, const std::string& path) {
-    if (attributes == nullptr || !attributes->is_object()) return;
-    for (const auto& [name, accessor] : attributes->items()) {
-      if (coded == nullptr || findMember(*coded, name.c_str()) == nullptr) {
-        note(accessor, at(path, name));
+    const Json* ours = extensionOf(primitive, kExtensionName);
+    const Json* indices = findMember(primitive, "indices");
+    if (indices != nullptr && ours == nullptr) note(*indices, path + "/indices");
+    visitAttributeMaps(primitive, [&](const Json& map, uint32_t target) {
+      const MemberIndex coded(codedMap(ours, target));
+      for (const auto& [name, accessor] : map.items()) {
+        if (coded.find(name) == nullptr) note(accessor, at(mapPath(path, target), name));
       }
-    }
+    });
   }
 
   void note(const Json& accessor, const std::string& path) {
@@ -281,37 +275,27 @@ void checkIndices(const Document& document, const ExtensionUse& use, const Piece
   }
 }
 
-/// Attributes beside the payload. Accessors that it fills are checked where they are named.
-void checkCounts(const Document& document, const Json& attributes, const Json* coded,
-                 const std::string& path, uint32_t wedge_count, Issues& issues) {
-  for (const auto& [name, value] : attributes.items()) {
-    uint64_t index = 0;
-    const bool is_coded = coded != nullptr && findMember(*coded, name.c_str()) != nullptr;
-    if (is_coded || (asUnsigned(value, index) && index < document.accessors.size() &&
-                     document.accessors[index].count == wedge_count)) {
-      continue;
-    }
-    issues.add(
-        Rule::kCount, at(path, name),
-        "the accessor has not the " + std::to_string(wedge_count) + " elements of the payload");
-  }
-}
-
-/// Attributes beside the payload must have as many elements, those of morph targets too.
+/// Attributes beside the payload must have as many elements, those of morph targets too. Accessors that it fills are
+/// checked where they are named.
 void checkOrdinaryAttributes(const Document& document, const ExtensionUse& use,
                              const PieceInfo& piece, Issues& issues) {
-  const Json& primitive = document.json["meshes"][use.mesh]["primitives"][use.primitive];
-  const Json& extension = primitive["extensions"][kExtensionName];
+  const Json& primitive = primitiveAt(document.json, {use.mesh, use.primitive});
+  const Json* extension = extensionOf(primitive, kExtensionName);
   const std::string path = primitivePath(use.mesh, use.primitive);
-  if (const Json* attributes = findMember(primitive, "attributes"); attributes != nullptr) {
-    checkCounts(document, *attributes, findMember(extension, "attributes"), path + "/attributes",
-                piece.wedge_count, issues);
-  }
-  const Json& targets = arrayOf(primitive, "targets");
-  for (uint32_t i = 0; i < targets.size(); ++i) {
-    checkCounts(document, targets[i], targetOf(&extension, i), at(path + "/targets", i),
-                piece.wedge_count, issues);
-  }
+  visitAttributeMaps(primitive, [&](const Json& map, uint32_t target) {
+    const MemberIndex coded(codedMap(extension, target));
+    for (const auto& [name, value] : map.items()) {
+      uint64_t index = 0;
+      if (coded.find(name) != nullptr) continue;
+      if (asUnsigned(value, index) && index < document.accessors.size() &&
+          document.accessors[index].count == piece.wedge_count) {
+        continue;
+      }
+      issues.add(Rule::kCount, at(mapPath(path, target), name),
+                 "the accessor has not the " + std::to_string(piece.wedge_count) +
+                     " elements of the payload");
+    }
+  });
 }
 
 void checkPart(const ExtensionUse& use, const PieceInfo& piece, Issues& issues) {
@@ -330,20 +314,15 @@ void checkPart(const ExtensionUse& use, const PieceInfo& piece, Issues& issues) 
 
 void findExtensionUses(const Document& document, Issues& issues, std::vector<ExtensionUse>& uses) {
   uses.clear();
-  const Json& meshes = arrayOf(document.json, "meshes");
-  for (uint32_t m = 0; m < meshes.size(); ++m) {
-    const Json& primitives = arrayOf(meshes[m], "primitives");
-    for (uint32_t p = 0; p < primitives.size(); ++p) {
-      const Json* extensions = findMember(primitives[p], "extensions");
-      const Json* ours = extensions == nullptr ? nullptr : findMember(*extensions, kExtensionName);
-      if (ours == nullptr) continue;
-      ExtensionUse use;
-      use.mesh = m;
-      use.primitive = p;
-      readExtension(document, *ours, primitives[p], issues, use);
-      uses.push_back(std::move(use));
-    }
-  }
+  visitPrimitives(document.json, [&](const PrimitiveRef& ref, const Json& primitive) {
+    const Json* extension = extensionOf(primitive, kExtensionName);
+    if (extension == nullptr) return;
+    ExtensionUse use;
+    use.mesh = ref.mesh;
+    use.primitive = ref.primitive;
+    readExtension(document, *extension, primitive, issues, use);
+    uses.push_back(std::move(use));
+  });
   if (!uses.empty()) Sharing(document, issues).check(uses);
 }
 

@@ -10,35 +10,14 @@ namespace mcc::gltf {
 namespace {
 
 /// The accessors that payloads fill, by what the extension objects of the primitives name.
-void collectCompressed(const Json& ids, const Json& accessors, std::set<uint64_t>& compressed) {
-  if (!ids.is_object()) return;
-  for (const auto& [name, ignored] : ids.items()) {
-    uint64_t index = 0;
-    const Json* accessor = findMember(accessors, name.c_str());
-    if (accessor != nullptr && asUnsigned(*accessor, index)) compressed.insert(index);
-  }
-}
-
 std::set<uint64_t> compressedAccessors(const Json& root) {
   std::set<uint64_t> compressed;
-  for (const Json& mesh : arrayOf(root, "meshes")) {
-    for (const Json& primitive : arrayOf(mesh, "primitives")) {
-      const Json* extensions = findMember(primitive, "extensions");
-      const Json* ours = extensions == nullptr ? nullptr : findMember(*extensions, kExtensionName);
-      if (ours == nullptr) continue;
-      uint64_t index = 0;
-      const Json* indices = findMember(primitive, "indices");
-      if (indices != nullptr && asUnsigned(*indices, index)) compressed.insert(index);
-      const Json* ids = findMember(*ours, "attributes");
-      const Json* attributes = findMember(primitive, "attributes");
-      if (ids != nullptr && attributes != nullptr) collectCompressed(*ids, *attributes, compressed);
-      const Json& target_ids = arrayOf(*ours, "targets");
-      const Json& targets = arrayOf(primitive, "targets");
-      for (size_t i = 0; i < std::min(target_ids.size(), targets.size()); ++i) {
-        collectCompressed(target_ids[i], targets[i], compressed);
-      }
-    }
-  }
+  visitPrimitives(root, [&](const PrimitiveRef&, const Json& primitive) {
+    const Json* extension = extensionOf(primitive, kExtensionName);
+    if (extension == nullptr) return;
+    visitFilledAccessors(primitive, *extension,
+                         [&](uint64_t accessor) { compressed.insert(accessor); });
+  });
   return compressed;
 }
 
@@ -88,7 +67,7 @@ bool removeFallback(size_t number, Json& json) {
   if (findForeignReferences(json).keep_numbers) return false;
   const std::set<uint64_t> compressed = compressedAccessors(json);
   bool is_needed = false;
-  visitViewReferences(json, [&](Json& reference, uint32_t accessor) {
+  visitViewReferences(json, [&](const Json& reference, uint32_t accessor) {
     uint64_t view = 0;
     const bool is_lost = !asUnsigned(reference, view) || view >= view_count;
     is_needed |= is_lost && compressed.count(accessor) == 0;

@@ -1,6 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/indices_only.h"
 
+#include <algorithm>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -16,16 +18,14 @@ std::vector<bool> sharedAccessors(const Document& document, const ForeignReferen
                                   const std::vector<PayloadPlan>& payloads) {
   std::vector<const PayloadPlan*> all;
   for (const PayloadPlan& payload : payloads) all.push_back(&payload);
-  std::vector<bool> is_shared = accessorsInOtherUse(document, foreign, all);
-  std::vector<bool> is_used(is_shared.size(), false);
+  std::vector<bool> is_shared = accessorsOutsidePayloads(document, foreign, all);
+  std::vector<const PiecePlan*> user(is_shared.size(), nullptr);  ///< the first one
   for (const PayloadPlan& payload : payloads) {
     for (const PiecePlan& piece : payload.pieces) {
-      std::vector<bool> is_own(is_shared.size(), false);
-      for (const AttributePlan& attribute : piece.ordinary) is_own[attribute.accessor] = true;
-      for (size_t i = 0; i < is_own.size(); ++i) {
-        if (!is_own[i]) continue;
-        if (is_used[i]) is_shared[i] = true;
-        is_used[i] = true;
+      for (const AttributePlan& attribute : piece.ordinary) {
+        const PiecePlan*& first = user[attribute.accessor];
+        if (first == nullptr) first = &piece;
+        if (first != &piece) is_shared[attribute.accessor] = true;
       }
     }
   }
@@ -44,7 +44,11 @@ void planIndicesOnly(const Document& document, const ForeignReferences& foreign,
                      std::vector<PayloadPlan>& payloads) {
   for (PayloadPlan& payload : payloads) {
     payload.indices_only = true;
-    for (PiecePlan& piece : payload.pieces) piece.ordinary = std::exchange(piece.attributes, {});
+    for (PiecePlan& piece : payload.pieces) {
+      std::vector<AttributePlan> all = std::exchange(piece.attributes, {});
+      std::move(piece.ordinary.begin(), piece.ordinary.end(), std::back_inserter(all));
+      piece.ordinary = std::move(all);
+    }
   }
   const std::vector<bool> is_shared = sharedAccessors(document, foreign, payloads);
   for (PayloadPlan& payload : payloads) {

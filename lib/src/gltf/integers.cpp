@@ -15,12 +15,12 @@ constexpr int64_t kLastPoint = 65535;
 constexpr int64_t kLastDelta = 32767;
 
 /// Extensions of a node that mean the same when its mesh moves to a child.
-constexpr std::string_view kNodeExtensions[] = {"KHR_lights_punctual",
-                                                "KHR_node_hoverability",
-                                                "KHR_node_selectability",
-                                                "KHR_node_visibility",
-                                                "KHR_xmp",
-                                                "KHR_xmp_json_ld"};
+constexpr std::string_view kMovableNodeExtensions[] = {"KHR_lights_punctual",
+                                                       "KHR_node_hoverability",
+                                                       "KHR_node_selectability",
+                                                       "KHR_node_visibility",
+                                                       "KHR_xmp",
+                                                       "KHR_xmp_json_ld"};
 
 void visitMember(const Json& map, const char* key, std::vector<uint32_t>& accessors) {
   uint64_t index = 0;
@@ -150,8 +150,9 @@ class PositionStore {
     if (const Json* extensions = findMember(node, "extensions")) {
       if (!extensions->is_object()) return "has no proper extensions";
       for (const auto& [name, value] : extensions->items()) {
-        const bool is_harmless = std::find(std::begin(kNodeExtensions), std::end(kNodeExtensions),
-                                           name) != std::end(kNodeExtensions);
+        const bool is_harmless =
+            std::find(std::begin(kMovableNodeExtensions), std::end(kMovableNodeExtensions), name) !=
+            std::end(kMovableNodeExtensions);
         if (!is_harmless) return "has the extension " + name;
       }
     }

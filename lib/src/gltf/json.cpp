@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
@@ -56,7 +57,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   bool binary(binary_t&) override { return false; }  // not JSON text
   bool start_object(std::size_t) override { return open(Json::object()); }
   bool start_array(std::size_t) override { return open(Json::array()); }
-  bool end_object() override { return close(); }
+  bool end_object() override { return checkKeys() && close(); }
   bool end_array() override { return close(); }
 
   bool key(string_t& value) override {
@@ -105,11 +106,39 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
                                   std::to_string(kMaxJsonDepth) + " levels");
       return false;
     }
+    const bool is_extras = !open_.empty() && open_.back()->is_object() && key_ == "extras";
     open_.push_back(add(std::move(value)));
+    if (is_extras && extras_depth_ == 0) extras_depth_ = open_.size();
     return true;
   }
 
+  /// No key is repeated in the object that ends.
+  bool checkKeys() {
+    const auto& members = open_.back()->get_ref<const Json::object_t&>();
+    if (extras_depth_ != 0 || members.size() < 2) return true;
+    std::vector<std::string_view> keys;
+    for (const auto& [key, value] : members) keys.push_back(key);
+    std::sort(keys.begin(), keys.end());
+    const auto repeated = std::adjacent_find(keys.begin(), keys.end());
+    if (repeated == keys.end()) return true;
+    result_ = error(at(pathOfOpen(), std::string(*repeated)),
+                    "the key appears twice in one object, which glTF forbids");
+    return false;
+  }
+
+  /// JSON path of the innermost object or array that is open.
+  std::string pathOfOpen() const {
+    std::string path;
+    for (size_t i = 0; i + 1 < open_.size(); ++i) {
+      const Json& parent = *open_[i];
+      path = parent.is_array() ? at(path, parent.size() - 1)
+                               : at(path, parent.get_ref<const Json::object_t&>().back().first);
+    }
+    return path;
+  }
+
   bool close() {
+    if (extras_depth_ == open_.size()) extras_depth_ = 0;
     open_.pop_back();
     return true;
   }
@@ -117,6 +146,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   NumberScanner numbers_;
   Json& root_;
   std::vector<Json*> open_;
+  size_t extras_depth_ = 0;  ///< of the outermost `extras` that is open; 0: none is
   std::string key_;
   Result result_;
 };
@@ -175,10 +205,38 @@ std::string printJson(const Json& json) {
   return out;
 }
 
-const Json* findMember(const Json& json, const char* key) {
+const Json* findMember(const Json& json, std::string_view key) {
   if (!json.is_object()) return nullptr;
-  const auto found = json.find(key);
-  return found == json.end() ? nullptr : &*found;
+  for (const auto& [name, value] : json.get_ref<const Json::object_t&>()) {
+    if (name == key) return &value;
+  }
+  return nullptr;
+}
+
+const Json& arrayOf(const Json& object, std::string_view key) {
+  static const Json kEmpty = Json::array();
+  const Json* member = findMember(object, key);
+  return member != nullptr && member->is_array() ? *member : kEmpty;
+}
+
+MemberIndex::MemberIndex(const Json& object) {
+  if (!object.is_object()) return;
+  members_.reserve(object.size());
+  for (const auto& [name, value] : object.get_ref<const Json::object_t&>()) {
+    members_.emplace_back(name, &value);
+  }
+  std::stable_sort(members_.begin(), members_.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+}
+
+MemberIndex::MemberIndex(const Json* object)
+    : MemberIndex(object == nullptr ? static_cast<const Json&>(Json()) : *object) {}
+
+const Json* MemberIndex::find(std::string_view key) const {
+  const auto found = std::lower_bound(
+      members_.begin(), members_.end(), key,
+      [](const auto& member, std::string_view name) { return member.first < name; });
+  return found == members_.end() || found->first != key ? nullptr : found->second;
 }
 
 bool asUnsigned(const Json& json, uint64_t& value) {
@@ -206,21 +264,20 @@ bool asNumber(const Json& json, double& value) {
   return true;
 }
 
-Result readUnsigned(const Json& object, const char* key, const std::string& path, uint64_t max,
-                    uint64_t& value) {
-  const Json* member = findMember(object, key);
-  if (member == nullptr) return error(path, std::string("\"") + key + "\" is missing");
-  if (!asUnsigned(*member, value)) {
-    return error(at(path, key), "must be a whole number that is not negative");
-  }
-  if (value > max) {
-    return error(at(path, key),
-                 std::to_string(value) + " is too large (at most " + std::to_string(max) + ")");
-  }
-  return {};
+Result readUnsigned(const Json& json, const std::string& path, uint64_t max, uint64_t& value) {
+  if (!asUnsigned(json, value)) return error(path, "must be a whole number that is not negative");
+  if (value <= max) return {};
+  return error(path, std::to_string(value) + " is too large (at most " + std::to_string(max) + ")");
 }
 
-Result readOptionalUnsigned(const Json& object, const char* key, const std::string& path,
+Result readUnsigned(const Json& object, std::string_view key, const std::string& path, uint64_t max,
+                    uint64_t& value) {
+  const Json* member = findMember(object, key);
+  if (member == nullptr) return error(path, "\"" + std::string(key) + "\" is missing");
+  return readUnsigned(*member, at(path, std::string(key)), max, value);
+}
+
+Result readOptionalUnsigned(const Json& object, std::string_view key, const std::string& path,
                             uint64_t max, uint64_t& value) {
   if (findMember(object, key) == nullptr) return {};
   return readUnsigned(object, key, path, max, value);

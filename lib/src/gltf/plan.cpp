@@ -2,6 +2,7 @@
 #include "gltf/plan.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <string_view>
@@ -23,38 +24,47 @@ class Planner {
 
   Result run() {
     findFilledAccessors();
-    const Json& meshes = arrayOf(document_.json, "meshes");
-    for (uint32_t mesh = 0; mesh < meshes.size(); ++mesh) {
-      const Json& primitives = arrayOf(meshes[mesh], "primitives");
-      const std::string mesh_part = orderDependentPart(meshes[mesh]);
-      for (uint32_t primitive = 0; primitive < primitives.size(); ++primitive) {
-        const PrimitiveRef ref = {mesh, primitive};
-        std::string note;
-        if (!primitives[primitive].is_object()) return error(ref.path(), "must be an object");
-        MCC_GLTF_TRY(planPrimitive(ref, primitives[primitive], mesh_part, note));
-        if (!note.empty()) left_alone_.push_back({ref, note});
-      }
-    }
-    return {};
+    Result result;
+    std::string mesh_part;
+    visitPrimitives(document_.json, [&](const PrimitiveRef& ref, const Json& primitive) {
+      if (!result.ok()) return;
+      if (ref.primitive == 0) mesh_part = orderDependentPart(document_.json["meshes"][ref.mesh]);
+      std::string note;
+      result = planPrimitive(ref, primitive, mesh_part, note);
+      if (!note.empty()) left_alone_.push_back({ref, note});
+    });
+    return result;
   }
 
  private:
-  /// Place of a piece or part in the plan.
-  struct PieceRef {
-    size_t payload;
-    size_t piece;
+  /// An index accessor and a mode with the attributes of one piece.
+  struct KnownPart {
+    std::string note;   ///< why it cannot be coded
+    PartPlan plan;      ///< until the first primitive uses it
+    size_t number = 0;  ///< in the piece, from then on
+    bool is_used = false;
+  };
+
+  /// A piece in the plan and its parts, by index accessor and mode.
+  struct KnownPiece {
+    bool is_used = false;  ///< by a part that is; only then the place in the plan is known
+    size_t payload = 0;
+    size_t number = 0;
+    std::map<std::pair<uint32_t, uint64_t>, KnownPart> parts;
   };
 
   Result planPrimitive(const PrimitiveRef& ref, const Json& json, const std::string& mesh_part,
                        std::string& note) {
+    if (!json.is_object()) return error(ref.path(), "must be an object");
     uint64_t mode = 4;
-    MCC_GLTF_TRY(readOptionalUnsigned(json, "mode", ref.path(), 6, mode));
+    MCC_GLTF_TRY(readOptionalUnsigned(json, "mode", ref.path(), kNone, mode));
     if (mode < 4) return checkReferences(ref, json);
     const Json* extensions = findMember(json, "extensions");
     if (extensions != nullptr && !extensions->is_object()) {
       return error(ref.path() + "/extensions", "must be an object");
     }
-    note = extensionNote(json, mesh_part);
+    note = mode > 6 ? "has the mode " + std::to_string(mode) + ", which is unknown; left as it was"
+                    : extensionNote(json, mesh_part);
     if (!note.empty()) return {};
     const std::string own_part = orderDependentPart(json);
     const std::string& unknown = own_part.empty() ? mesh_part : own_part;
@@ -66,55 +76,42 @@ class Planner {
     if (!note.empty()) return {};
     piece.wedge_count =
         static_cast<uint32_t>(document_.accessors[piece.attributes[0].accessor].count);
+    uint32_t indices = kNone;
+    MCC_GLTF_TRY(readIndicesNumber(ref, json, indices));
 
-    PartPlan part;
-    part.mode = mode;
-    MCC_GLTF_TRY(collectTriangles(ref, json, piece.wedge_count, part, note));
-    if (!note.empty()) return {};
-    if (!unknown.empty() && (mode != 4 || part.indices_accessor == kNone)) {
+    KnownPiece& known = pieces_[pieceKey(piece)];
+    const auto [found, is_new] = known.parts.try_emplace({indices, mode});
+    KnownPart& part = found->second;
+    if (is_new) {
+      part.plan.indices_accessor = indices;
+      part.plan.mode = mode;
+      MCC_GLTF_TRY(collectTriangles(ref, piece.wedge_count, part.plan, part.note));
+    }
+    note = part.note;
+    if (note.empty() && !unknown.empty() && (mode != 4 || indices == kNone)) {
       note = "has " + unknown +
              ", which may depend on its not being an indexed triangle list; left as it was";
-      return {};
     }
-    part.users.push_back(ref);
-    return addPart(ref, !unknown.empty(), std::move(piece), std::move(part));
+    return note.empty() ? addUser(ref, !unknown.empty(), std::move(piece), known, part) : Result{};
   }
 
   static std::string extensionNote(const Json& json, const std::string& mesh_part) {
     if (mesh_part == "EXT_mesh_manifold") {  // its indices and those of the primitives share bytes
       return "belongs to a mesh with EXT_mesh_manifold; left as it was";
     }
-    const Json* extensions = findMember(json, "extensions");
-    if (extensions != nullptr && findMember(*extensions, kExtensionName) != nullptr) {
-      return "is compressed already";
-    }
-    return "";
+    return extensionOf(json, kExtensionName) == nullptr ? "" : "is compressed already";
   }
 
   /// Marks the accessors that payloads of the source fill.
   void findFilledAccessors() {
     is_filled_.assign(document_.accessors.size(), false);
-    const auto mark = [&](const Json& number) {
-      uint64_t accessor = 0;
-      if (asUnsigned(number, accessor) && accessor < is_filled_.size()) is_filled_[accessor] = true;
-    };
-    const auto markAll = [&](const Json* map) {
-      if (map == nullptr || !map->is_object()) return;
-      for (const Json& number : *map) mark(number);
-    };
-    for (const Json& mesh : arrayOf(document_.json, "meshes")) {
-      for (const Json& primitive : arrayOf(mesh, "primitives")) {
-        const Json* extensions = findMember(primitive, "extensions");
-        const Json* ours =
-            extensions == nullptr ? nullptr : findMember(*extensions, kExtensionName);
-        if (ours == nullptr) continue;
-        if (const Json* indices = findMember(primitive, "indices")) mark(*indices);
-        if (findMember(*ours, "attributes") != nullptr)
-          markAll(findMember(primitive, "attributes"));
-        if (findMember(*ours, "targets") == nullptr) continue;
-        for (const Json& target : arrayOf(primitive, "targets")) markAll(&target);
-      }
-    }
+    visitPrimitives(document_.json, [&](const PrimitiveRef&, const Json& primitive) {
+      const Json* extension = extensionOf(primitive, kExtensionName);
+      if (extension == nullptr) return;
+      visitFilledAccessors(primitive, *extension, [&](uint64_t accessor) {
+        if (accessor < is_filled_.size()) is_filled_[accessor] = true;
+      });
+    });
   }
 
   /// Why an accessor cannot be read, or may mean something else than what can be read.
@@ -143,12 +140,15 @@ class Planner {
     const Json* indices = findMember(json, "indices");
     if (indices != nullptr && asUnsigned(*indices, accessor) &&
         accessor < document_.accessors.size()) {
-      const std::string reason = unreadableNote(static_cast<uint32_t>(accessor));
+      std::string reason = unreadableNote(static_cast<uint32_t>(accessor));
+      const Accessor& claimed = document_.accessors[accessor];
+      if (reason.empty() && claimed.normalized) reason = "is normalized, as no indices are";
+      if (reason.empty() && claimed.view == kNone && claimed.count > kMaxZeroCount) {
+        reason = "is large and has no bytes in the file";
+      }
       if (!reason.empty()) return "its index accessor " + reason + "; left as it was";
     }
-    const Json* extensions = findMember(json, "extensions");
-    const Json* coded = extensions == nullptr ? nullptr : findMember(*extensions, kMeshExtension);
-    if (coded == nullptr) return "";
+    if (extensionOf(json, kMeshExtension) == nullptr) return "";
     const bool is_decoded = indices != nullptr && accessor < document_.accessors.size() &&
                             document_.accessors[accessor].decoded != kNone;
     return is_decoded ? ""
@@ -168,7 +168,12 @@ class Planner {
   Result checkReferences(const PrimitiveRef& ref, const Json& json) const {
     PiecePlan ignored;
     MCC_GLTF_TRY(collectAttributes(ref, json, ignored));
-    uint32_t accessor = 0;
+    uint32_t accessor = kNone;
+    return readIndicesNumber(ref, json, accessor);
+  }
+
+  /// Leaves `accessor` alone when there are no indices.
+  Result readIndicesNumber(const PrimitiveRef& ref, const Json& json, uint32_t& accessor) const {
     const Json* indices = findMember(json, "indices");
     if (indices == nullptr) return {};
     return readAccessorIndex(*indices, ref.path() + "/indices", accessor);
@@ -195,7 +200,6 @@ class Planner {
     if (const Json* targets = findMember(json, "targets"); targets != nullptr) {
       const std::string path = ref.path() + "/targets";
       if (!targets->is_array()) return error(path, "must be an array");
-      if (targets->size() > kMaxTargets) return error(path, "there are too many morph targets");
       piece.target_count = static_cast<uint32_t>(targets->size());
       for (uint32_t i = 0; i < targets->size(); ++i) {
         MCC_GLTF_TRY(collectMap((*targets)[i], at(path, i), i, piece));
@@ -207,6 +211,10 @@ class Planner {
 
   /// Why the attributes cannot be coded; empty when they can.
   std::string attributeNote(const PiecePlan& piece) const {
+    if (piece.target_count > kMaxTargets) {
+      return "has " + std::to_string(piece.target_count) + " morph targets, more than the " +
+             std::to_string(kMaxTargets) + " of a payload; left as it was";
+    }
     if (piece.attributes.empty() || piece.attributes[0].format.semantic != Semantic::kPosition ||
         piece.attributes[0].target != kNone) {
       return "has no POSITION of three components; left as it was";
@@ -231,10 +239,9 @@ class Planner {
     return "";
   }
 
-  Result collectTriangles(const PrimitiveRef& ref, const Json& json, uint32_t wedge_count,
-                          PartPlan& part, std::string& note) const {
-    if (const Json* indices = findMember(json, "indices"); indices != nullptr) {
-      MCC_GLTF_TRY(readAccessorIndex(*indices, ref.path() + "/indices", part.indices_accessor));
+  Result collectTriangles(const PrimitiveRef& ref, uint32_t wedge_count, PartPlan& part,
+                          std::string& note) const {
+    if (part.indices_accessor != kNone) {
       MCC_GLTF_TRY(readIndices(document_, part.indices_accessor, part.triangles));
     } else {
       part.triangles.resize(wedge_count);
@@ -274,35 +281,47 @@ class Planner {
     return payloads_.size() - 1;
   }
 
-  Result addPart(const PrimitiveRef& ref, bool keep_orders, PiecePlan&& piece, PartPlan&& part) {
-    const std::string key = pieceKey(piece);
-    const auto [found, is_new] = pieces_.try_emplace(key);
-    if (is_new) {
-      for (AttributePlan& attribute : piece.attributes) {
-        MCC_GLTF_TRY(readAccessor(document_, attribute.accessor, attribute.source));
+  Result addUser(const PrimitiveRef& ref, bool keep_orders, PiecePlan&& piece, KnownPiece& known,
+                 KnownPart& part) {
+    if (!known.is_used) {
+      keepBesidePayload(piece);
+      for (auto* attributes : {&piece.attributes, &piece.ordinary}) {
+        for (AttributePlan& attribute : *attributes) {
+          MCC_GLTF_TRY(readAccessor(document_, attribute.accessor, attribute.source));
+        }
       }
-      const size_t payload = payloadOf(ref.mesh);
-      found->second = {payload, payloads_[payload].pieces.size()};
-      payloads_[payload].pieces.push_back(std::move(piece));
+      known.is_used = true;
+      known.payload = payloadOf(ref.mesh);
+      known.number = payloads_[known.payload].pieces.size();
+      payloads_[known.payload].pieces.push_back(std::move(piece));
     }
-    PayloadPlan& payload = payloads_[found->second.payload];
+    PayloadPlan& payload = payloads_[known.payload];
     payload.keep_vertex_order |= keep_orders;
     payload.keep_triangle_order |= keep_orders;
-    PiecePlan& target = payload.pieces[found->second.piece];
-    for (PartPlan& other : target.parts) {
-      if (other.indices_accessor == part.indices_accessor && other.mode == part.mode) {
-        other.users.push_back(ref);
-        return {};
-      }
+    std::vector<PartPlan>& parts = payload.pieces[known.number].parts;
+    if (!part.is_used) {
+      part.is_used = true;
+      part.number = parts.size();
+      parts.push_back(std::move(part.plan));
     }
-    target.parts.push_back(std::move(part));
+    parts[part.number].users.push_back(ref);
     return {};
+  }
+
+  /// What is more than all readers accept in a payload stays beside it.
+  static void keepBesidePayload(PiecePlan& piece) {
+    constexpr size_t kMaxAttributes = Limits{}.max_attributes;
+    if (piece.attributes.size() <= kMaxAttributes) return;
+    const auto first = piece.attributes.begin() + kMaxAttributes;
+    piece.ordinary.assign(std::make_move_iterator(first),
+                          std::make_move_iterator(piece.attributes.end()));
+    piece.attributes.erase(first, piece.attributes.end());
   }
 
   const Document& document_;
   std::vector<PayloadPlan>& payloads_;
   std::vector<LeftAlone>& left_alone_;
-  std::map<std::string, PieceRef> pieces_;
+  std::map<std::string, KnownPiece> pieces_;
   std::vector<bool> is_filled_;  ///< accessors that are compressed already
 };
 
@@ -327,6 +346,55 @@ bool comesBefore(const AttributePlan& a, const AttributePlan& b) {
                     attribute.format.set_index, attribute.name);
   };
   return key(a) < key(b);
+}
+
+namespace {
+
+/// What the limits of readers count in a payload.
+struct PayloadCounts {
+  uint64_t attributes = 0;
+  uint64_t pieces = 0;
+  uint64_t wedges = 0;
+  uint64_t triangles = 0;
+
+  void add(const PiecePlan& piece) {
+    attributes += piece.attributes.size();
+    ++pieces;
+    wedges += piece.wedge_count;
+    for (const PartPlan& part : piece.parts) triangles += part.triangles.size() / 3;
+  }
+  bool isAccepted() const {
+    constexpr Limits kLimits;
+    return attributes <= kLimits.max_attributes && pieces <= kLimits.max_pieces &&
+           wedges <= kLimits.max_vertices && triangles <= kLimits.max_triangles;
+  }
+};
+
+}  // namespace
+
+void splitPayloads(std::vector<PayloadPlan>& payloads) {
+  std::vector<PayloadPlan> split;
+  for (PayloadPlan& payload : payloads) {
+    PayloadCounts counts;
+    bool is_open = false;
+    for (PiecePlan& piece : payload.pieces) {
+      counts.add(piece);
+      if (!is_open || !counts.isAccepted()) {
+        counts = {};
+        counts.add(piece);
+        PayloadPlan& next = split.emplace_back();
+        next.mesh = payload.mesh;
+        next.keep_vertex_order = payload.keep_vertex_order;
+        next.keep_triangle_order = payload.keep_triangle_order;
+        next.indices_only = payload.indices_only;
+      }
+      is_open = true;
+      // Attributes on either side of a payload must agree on the order.
+      split.back().keep_vertex_order |= !payload.indices_only && !piece.ordinary.empty();
+      split.back().pieces.push_back(std::move(piece));
+    }
+  }
+  payloads = std::move(split);
 }
 
 Result planPayloads(const Document& document, std::vector<PayloadPlan>& payloads,

@@ -10,17 +10,11 @@
 
 #include "gltf/accessors.h"
 #include "gltf/document.h"
+#include "gltf/primitives.h"
 #include "mcc/gltf.h"
 #include "mcc/writer.h"
 
 namespace mcc::gltf {
-
-struct PrimitiveRef {
-  uint32_t mesh = 0;
-  uint32_t primitive = 0;
-
-  std::string path() const { return primitivePath(mesh, primitive); }
-};
 
 /// One attribute of a piece: an entry of a primitive's `attributes` or of one of its `targets`.
 struct AttributePlan {
@@ -53,13 +47,16 @@ struct PartPlan {
 struct PiecePlan {
   uint32_t wedge_count = 0;
   uint32_t target_count = 0;
-  std::vector<AttributePlan> attributes;  ///< in payload order; none with indices_only
-  std::vector<AttributePlan>
-      ordinary;  ///< with indices_only: those that stay accessors, POSITION first
+  /// In payload order; none with indices_only.
+  std::vector<AttributePlan> attributes;
+  /// Those that stay accessors beside the payload, in the same order: all with indices_only, else what is more than a payload
+  /// can hold.
+  std::vector<AttributePlan> ordinary;
   std::vector<PartPlan> parts;
 };
 
-/// What one mesh puts into one buffer view. A piece that several meshes use belongs to the first.
+/// What one mesh puts into one buffer view. A piece that several meshes use belongs to the first. A mesh has one payload until
+/// splitPayloads() makes several of it, which follow each other.
 struct PayloadPlan {
   uint32_t mesh = 0;
   bool keep_vertex_order = false;
@@ -86,9 +83,13 @@ bool comesBefore(const AttributePlan& a, const AttributePlan& b);
 
 /// Collects the triangle primitives of all meshes. Points and lines are left alone without a note.
 /// Errors: the document contradicts itself (an index out of range, an accessor that does not
-/// exist).
+/// exist). Takes time in proportion to the document and what its pieces and parts hold.
 Result planPayloads(const Document& document, std::vector<PayloadPlan>& payloads,
                     std::vector<LeftAlone>& left_alone);
+
+/// Divides the payloads that hold more than all readers accept, by their default Limits. What the pieces of a mesh have in
+/// common, as their lattice, must have been chosen before.
+void splitPayloads(std::vector<PayloadPlan>& payloads);
 
 }  // namespace mcc::gltf
 

@@ -20,10 +20,10 @@ ByteRange viewRange(const Document& document, uint32_t view) {
   return {from.buffer, from.offset, from.offset + from.length};
 }
 
-using Visit = std::function<void(uint32_t view, uint32_t accessor)>;
-
-void visitOldViews(const Document& document, Json& json, const Visit& visit) {
-  visitViewReferences(json, [&](Json& number, uint32_t accessor) {
+/// Calls visit(uint32_t view, uint32_t accessor) for the references of `json` to views of the document.
+template <typename Visit>
+void visitOldViews(const Document& document, const Json& json, const Visit& visit) {
+  visitViewReferences(json, [&](const Json& number, uint32_t accessor) {
     uint64_t view = 0;
     if (asUnsigned(number, view) && view < document.views.size()) {
       visit(static_cast<uint32_t>(view), accessor);
@@ -55,6 +55,7 @@ class Rebuilder {
 
   Result run() {
     findLiveViews();
+    findKeptRanges();
     layOutBlocks();
     copyBlocks();
     moveAccessors();
@@ -76,7 +77,9 @@ class Rebuilder {
       const bool stays_free = uses[view] == ViewUse::kFree && new_views_.empty();
       if (uses[view] == ViewUse::kUnknown || stays_free) keepWhole(view);
     }
+    std::vector<bool> is_referred(document_.views.size(), false);
     visitOldViews(document_, json_, [&](uint32_t view, uint32_t accessor) {
+      is_referred[view] = true;
       const bool is_old = accessor < document_.accessors.size();
       if (!is_old || foreign_.keep_numbers || document_.views[view].isCoded() ||
           !document_.accessors[accessor].is_known_type ||
@@ -91,6 +94,10 @@ class Rebuilder {
         if (is_inside) ranges_[view].push_back(range);
       }
     });
+    // What refers to none of its bytes, as a sparse accessor of 0 elements, still needs the view.
+    for (uint32_t view = 0; view < ranges_.size(); ++view) {
+      if (is_referred[view] && ranges_[view].empty()) keepWhole(view);
+    }
   }
 
   void layOutBlocks() {
@@ -139,14 +146,18 @@ class Rebuilder {
     return block.target + (offset - block.source.begin);
   }
 
-  /// What is kept of a view, in source bytes.
-  ByteRange keptRange(uint32_t view) const {
-    ByteRange kept = ranges_[view].front();
-    for (const ByteRange& range : ranges_[view]) {
-      kept.begin = std::min(kept.begin, range.begin);
-      kept.end = std::max(kept.end, range.end);
+  /// What is kept of each view, in source bytes: the hull of its ranges.
+  void findKeptRanges() {
+    kept_.resize(ranges_.size());
+    for (size_t view = 0; view < ranges_.size(); ++view) {
+      if (ranges_[view].empty()) continue;
+      ByteRange& kept = kept_[view];
+      kept = ranges_[view].front();
+      for (const ByteRange& range : ranges_[view]) {
+        kept.begin = std::min(kept.begin, range.begin);
+        kept.end = std::max(kept.end, range.end);
+      }
     }
-    return kept;
   }
 
   void moveOffset(Json& object, uint64_t old_offset) {
@@ -156,7 +167,7 @@ class Rebuilder {
       return;
     }
     const BufferView& from = document_.views[view];
-    const uint64_t begin = keptRange(static_cast<uint32_t>(view)).begin;
+    const uint64_t begin = kept_[view].begin;
     const uint64_t offset =
         moved(from.buffer, from.offset + old_offset) - moved(from.buffer, begin);
     if (offset != old_offset) object["byteOffset"] = offset;
@@ -194,7 +205,7 @@ class Rebuilder {
       numbers_[free_numbers[k - 1]] = kNone;
       --view_count_;
     }
-    visitViewReferences(json_, [&](Json& number, uint32_t) {
+    editViewReferences(json_, [&](Json& number, uint32_t) {
       uint64_t view = 0;
       if (asUnsigned(number, view) && view < numbers_.size()) number = numbers_[view];
     });
@@ -224,7 +235,7 @@ class Rebuilder {
       Json& json = views[numbers_[view]];
       json = json_["bufferViews"][view];
       if (!ranges_[view].empty()) {
-        const ByteRange kept = keptRange(view);
+        const ByteRange kept = kept_[view];
         const uint64_t offset = moved(kept.buffer, kept.begin);
         const uint64_t length =
             kept.end == kept.begin ? 0 : moved(kept.buffer, kept.end - 1) + 1 - offset;
@@ -308,6 +319,7 @@ class Rebuilder {
   Json& json_;
   std::vector<uint8_t>& bin_;
   std::vector<std::vector<ByteRange>> ranges_;  ///< per old view: what is kept of it
+  std::vector<ByteRange> kept_;                 ///< per old view
   std::vector<bool> is_whole_;
   std::vector<Block> blocks_;      ///< ascending in buffer and begin
   std::vector<uint32_t> numbers_;  ///< final numbers of old and new views
@@ -320,8 +332,7 @@ class Rebuilder {
 
 std::vector<ViewUse> viewUses(const Document& document, const ForeignReferences& foreign) {
   std::vector<ViewUse> uses(document.views.size(), ViewUse::kUnknown);
-  Json source = document.json;
-  visitOldViews(document, source,
+  visitOldViews(document, document.json,
                 [&](uint32_t view, uint32_t) { uses[view] = ViewUse::kReferred; });
   std::set<std::pair<uint32_t, uint64_t>> begins;
   for (uint32_t view = 0; view < uses.size(); ++view) {

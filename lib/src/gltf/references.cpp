@@ -49,7 +49,7 @@ constexpr std::string_view kOrderFreeExtensions[] = {
     "KHR_xmp", "KHR_xmp_json_ld"};
 
 /// Extensions on our list that name nodes for the sake of their meshes.
-constexpr std::string_view kNodeExtensions[] = {
+constexpr std::string_view kNodeReferringExtensions[] = {
     "KHR_animation_pointer", "MSFT_lod",        "VRM",
     "VRMC_node_constraint",  "VRMC_springBone", "VRMC_vrm"};
 
@@ -144,16 +144,43 @@ void walkKnown(const Json& json, ForeignReferences& foreign) {
   }
 }
 
-/// The member as something that can be changed, or null.
-Json* member(Json* json, const char* key) {
-  if (json == nullptr || !json->is_object()) return nullptr;
-  const auto found = json->find(key);
-  return found == json->end() ? nullptr : &*found;
+/// The member of an object that may be absent; `J` is Json or const Json.
+template <typename J>
+J* member(J* json, std::string_view key) {
+  return json == nullptr ? nullptr : const_cast<J*>(findMember(*json, key));
 }
 
-void visitMember(Json* object, const char* key, uint32_t accessor,
-                 const std::function<void(Json&, uint32_t)>& visit) {
-  if (Json* number = member(object, key); number != nullptr) visit(*number, accessor);
+template <typename J, typename Visit>
+void visitMember(J* object, const char* key, uint32_t accessor, const Visit& visit) {
+  if (J* number = member(object, key); number != nullptr) visit(*number, accessor);
+}
+
+/// Elements of an array that may be absent; none of anything else.
+template <typename J, typename Visit>
+void visitElements(J* array, const Visit& visit) {
+  if (array == nullptr || !array->is_array()) return;
+  for (J& element : *array) visit(element);
+}
+
+template <typename J, typename Visit>
+void visitViewReferencesOf(J& root, const Visit& visit) {
+  uint32_t number = 0;
+  visitElements(member(&root, "accessors"), [&](J& accessor) {
+    visitMember(&accessor, "bufferView", number, visit);
+    J* sparse = member(&accessor, "sparse");
+    visitMember(member(sparse, "indices"), "bufferView", number, visit);
+    visitMember(member(sparse, "values"), "bufferView", number, visit);
+    ++number;
+  });
+  visitElements(member(&root, "images"),
+                [&](J& image) { visitMember(&image, "bufferView", kNone, visit); });
+  visitElements(member(&root, "meshes"), [&](J& mesh) {
+    visitElements(member(&mesh, "primitives"), [&](J& primitive) {
+      J* extensions = member(&primitive, "extensions");
+      visitMember(member(extensions, kExtensionName), "bufferView", kNone, visit);
+      visitMember(member(extensions, kMeshExtension), "bufferView", kNone, visit);
+    });
+  });
 }
 
 void mark(const Json* json, std::vector<bool>& is_used) {
@@ -179,30 +206,13 @@ ForeignReferences findForeignReferences(const Json& root) {
   return foreign;
 }
 
-void visitViewReferences(Json& root, const std::function<void(Json&, uint32_t)>& visit) {
-  if (Json* accessors = member(&root, "accessors"); accessors != nullptr) {
-    for (uint32_t i = 0; i < accessors->size(); ++i) {
-      Json* accessor = &(*accessors)[i];
-      visitMember(accessor, "bufferView", i, visit);
-      Json* sparse = member(accessor, "sparse");
-      visitMember(member(sparse, "indices"), "bufferView", i, visit);
-      visitMember(member(sparse, "values"), "bufferView", i, visit);
-    }
-  }
-  if (Json* images = member(&root, "images"); images != nullptr) {
-    for (Json& image : *images) visitMember(&image, "bufferView", kNone, visit);
-  }
-  Json* meshes = member(&root, "meshes");
-  if (meshes == nullptr) return;
-  for (Json& mesh : *meshes) {
-    Json* primitives = member(&mesh, "primitives");
-    if (primitives == nullptr || !primitives->is_array()) continue;
-    for (Json& primitive : *primitives) {
-      Json* extensions = member(&primitive, "extensions");
-      visitMember(member(extensions, kExtensionName), "bufferView", kNone, visit);
-      visitMember(member(extensions, kMeshExtension), "bufferView", kNone, visit);
-    }
-  }
+void visitViewReferences(const Json& root,
+                         const std::function<void(const Json&, uint32_t)>& visit) {
+  visitViewReferencesOf(root, visit);
+}
+
+void editViewReferences(Json& root, const std::function<void(Json&, uint32_t)>& visit) {
+  visitViewReferencesOf(root, visit);
 }
 
 std::string orderDependentPart(const Json& mesh_or_primitive) {
@@ -251,7 +261,7 @@ void removeExtensionName(Json& root, const char* list, const char* name) {
 std::string nodeDependentExtension(const Json& root, const ForeignReferences& foreign) {
   if (!foreign.extension.empty()) return foreign.extension;
   for (const Json& name : arrayOf(root, "extensionsUsed")) {
-    for (const std::string_view listed : kNodeExtensions) {
+    for (const std::string_view listed : kNodeReferringExtensions) {
       if (name == listed) return name.get<std::string>();
     }
   }

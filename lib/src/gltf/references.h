@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "gltf/document.h"
+#include "gltf/primitives.h"
 
 namespace mcc::gltf {
 
@@ -31,8 +32,11 @@ ForeignReferences findForeignReferences(const Json& root);
 
 /// Calls `visit` with every number of a buffer view in the places glTF 2.0 and the extensions on
 /// our list have them. `accessor` is the accessor the reference belongs to, or kNone.
-void visitViewReferences(Json& root,
-                         const std::function<void(Json& number, uint32_t accessor)>& visit);
+void visitViewReferences(const Json& root,
+                         const std::function<void(const Json& number, uint32_t accessor)>& visit);
+/// The same for a visitor that changes the numbers.
+void editViewReferences(Json& root,
+                        const std::function<void(Json& number, uint32_t accessor)>& visit);
 
 /// What of a mesh or primitive depends on the order of vertices or triangles as far as we know: the first extension that is
 /// not on our list, a key of its extras that looks like it ("drawRange"), or an empty string.

@@ -2,7 +2,6 @@
 //
 // All that is wrong with the compressed parts of a file.
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -10,6 +9,7 @@
 
 #include "container/payload_header.h"
 #include "gltf/accessors.h"
+#include "gltf/bounds.h"
 #include "gltf/decompress.h"
 #include "gltf/file_io.h"
 #include "gltf/issues.h"
@@ -20,43 +20,6 @@
 
 namespace mcc::gltf {
 namespace {
-
-/// Lowest and highest value of each component; NaN is neither. Infinite where there is no number.
-struct Range {
-  std::vector<double> low, high;
-
-  Range(std::span<const uint8_t> tight, ComponentType type, uint32_t component_count)
-      : low(component_count, std::numeric_limits<double>::infinity()),
-        high(component_count, -std::numeric_limits<double>::infinity()) {
-    const uint32_t bytes = componentBytes(type);
-    for (size_t i = 0; i < tight.size() / bytes; ++i) {
-      const double value = componentValue(&tight[i * bytes], type);
-      double& least = low[i % component_count];
-      double& most = high[i % component_count];
-      if (value < least) least = value;
-      if (value > most) most = value;
-    }
-  }
-};
-
-/// Where an array of bounds differs from the decoded ones; empty: nowhere. What JSON cannot say need not be there.
-std::string boundsDifference(const Json& declared, const std::vector<double>& decoded,
-                             ComponentType type) {
-  if (!declared.is_array() || declared.size() != decoded.size()) {
-    return "must be an array of " + std::to_string(decoded.size()) + " numbers";
-  }
-  for (size_t i = 0; i < decoded.size(); ++i) {
-    double value = 0;
-    if (!std::isfinite(decoded[i])) continue;
-    if (!asNumber(declared[i], value)) return "must be an array of numbers";
-    if (type == ComponentType::kFloat32) value = static_cast<float>(value);
-    if (value != decoded[i]) {
-      return "component " + std::to_string(i) + " is " + printJson(declared[i]) +
-             ", of the decoded elements it is " + printJson(Json(decoded[i]));
-    }
-  }
-  return "";
-}
 
 bool hasElements(const Json& accessor) {
   return findMember(accessor, "bufferView") != nullptr ||
@@ -167,8 +130,7 @@ class Validator {
   /// Images, accessors and other primitives must not take a payload for theirs.
   void checkOtherViewUses(const std::map<uint32_t, std::vector<const ExtensionUse*>>& by_view) {
     std::map<uint32_t, size_t> counts;
-    Json json = document_.json;
-    visitViewReferences(json, [&](Json& reference, uint32_t) {
+    visitViewReferences(document_.json, [&](const Json& reference, uint32_t) {
       uint64_t view = 0;
       if (asUnsigned(reference, view) && view < document_.views.size()) {
         ++counts[static_cast<uint32_t>(view)];
@@ -278,9 +240,9 @@ class Validator {
       issues_.add(Rule::kBounds, path, "POSITION needs min and max");
     }
     if (min != nullptr || max != nullptr) {
-      const Range range(tight, accessor.component_type, accessor.componentCount());
-      checkBounds(min, range.low, accessor.component_type, path + "/min");
-      checkBounds(max, range.high, accessor.component_type, path + "/max");
+      const Bounds bounds = boundsOf(tight, accessor.component_type, accessor.componentCount());
+      checkBounds(min, bounds.min, accessor.component_type, path + "/min");
+      checkBounds(max, bounds.max, accessor.component_type, path + "/max");
     }
     if (hasElements(json)) checkFallback(number, tight);
   }
@@ -345,9 +307,7 @@ void describe(const Json& json, ValidationReport& report) {
   report.generator = assetText("generator");
   report.extensions_used = textsOf(arrayOf(json, "extensionsUsed"));
   report.extensions_required = textsOf(arrayOf(json, "extensionsRequired"));
-  for (const Json& mesh : arrayOf(json, "meshes")) {
-    report.primitive_count += static_cast<uint32_t>(arrayOf(mesh, "primitives").size());
-  }
+  visitPrimitives(json, [&](const PrimitiveRef&, const Json&) { ++report.primitive_count; });
 }
 
 void validateBytes(std::span<const uint8_t> bytes, const FileReader& read_file,

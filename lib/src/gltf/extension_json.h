@@ -1,0 +1,55 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Reading and checking the extension objects of primitives.
+#ifndef MCC_GLTF_EXTENSION_JSON_H_
+#define MCC_GLTF_EXTENSION_JSON_H_
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gltf/document.h"
+#include "gltf/issues.h"
+#include "mcc/reader.h"
+
+namespace mcc::gltf {
+
+/// Our extension on one primitive, checked against the document but not yet against the payload. What is wrong in the
+/// document is kNone, or left out of `attributes`.
+struct ExtensionUse {
+  uint32_t mesh = 0;
+  uint32_t primitive = 0;
+  uint32_t view = kNone;
+  uint64_t piece = 0;
+  uint64_t part = 0;
+  bool has_numbers = true;  ///< false: `piece` or `part` is wrong
+  uint32_t indices_accessor = kNone;
+  struct AttributeUse {
+    std::string name;
+    uint32_t target = kNone;  ///< morph target, kNone: the base mesh
+    uint64_t id = 0;          ///< attribute of the piece
+    uint32_t accessor = 0;
+    std::string path;  ///< of the id in the JSON
+  };
+  std::vector<AttributeUse> attributes;
+  std::string path;  ///< of the extension object
+};
+
+/// Finds and checks the extension objects of all primitives, and who else refers to the accessors they fill. The second
+/// form ends with the first issue.
+void findExtensionUses(const Document& document, Issues& issues, std::vector<ExtensionUse>& uses);
+Result findExtensionUses(const Document& document, std::vector<ExtensionUse>& uses);
+
+/// Bytes of the buffer view that holds a payload.
+std::span<const uint8_t> payloadBytes(const Document& document, uint32_t view);
+
+/// Checks an extension object with `has_numbers` against the pieces of its payload: numbers, counts, types, semantics.
+void checkAgainstPayload(const Document& document, const ExtensionUse& use, const PayloadInfo& info,
+                         Issues& issues);
+Result checkAgainstPayload(const Document& document, const ExtensionUse& use,
+                           const PayloadInfo& info);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_EXTENSION_JSON_H_
