@@ -3,9 +3,11 @@
 // Never larger: which payloads pay for themselves.
 #include <algorithm>
 #include <map>
-#include <set>
+#include <numeric>
 #include <string>
+#include <string_view>
 #include <tuple>
+#include <unordered_map>
 
 #include "gltf/compress.h"
 #include "gltf/parallel.h"
@@ -37,11 +39,13 @@ uint64_t costOf(const EncodedPayload& payload) {
   return cost;
 }
 
-/// Counts source bytes by who needs them. A byte is freed when only payloads need it: each of those
+/// Counts source bytes by who needs them. A byte is freed when only owners need it: each of those
 /// frees it as long as the others stay.
 class ByteOwners {
  public:
   static constexpr size_t kSomebodyElse = ~size_t{0};
+
+  explicit ByteOwners(size_t owner_count) : freed_(owner_count, 0), segments_of_(owner_count) {}
 
   void add(const std::vector<ByteRange>& ranges, size_t owner) {
     for (const ByteRange& range : ranges) {
@@ -51,24 +55,38 @@ class ByteOwners {
     }
   }
 
-  /// Fills in freed bytes per payload; returns those of all together.
-  uint64_t count(std::vector<uint64_t>& freed) {
+  /// After all were added.
+  void count() {
     std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
       return std::tie(a.buffer, a.offset, a.is_begin) < std::tie(b.buffer, b.offset, b.is_begin);
     });
     std::map<size_t, uint32_t> open;  // owner -> open ranges
-    uint64_t total = 0;
     for (size_t i = 0; i < edges_.size(); ++i) {
       const Edge& edge = edges_[i];
       uint32_t& count_of = open[edge.owner];
       count_of += edge.is_begin ? 1 : ~0u;
       if (count_of == 0) open.erase(edge.owner);
       if (open.empty() || open.count(kSomebodyElse) != 0) continue;
-      const uint64_t bytes = edges_[i + 1].offset - edge.offset;  // an open range has an end
-      total += bytes;
-      for (const auto& [owner, ignored] : open) freed[owner] += bytes;
+      addSegment(edges_[i + 1].offset - edge.offset, open);  // an open range has an end
     }
-    return total;
+  }
+
+  const std::vector<uint64_t>& freed() const { return freed_; }
+  /// Bytes that all owners that have not left free together.
+  uint64_t total() const { return total_; }
+
+  /// The owner needs its bytes again. Adds those that free less for it to `losers`.
+  void leave(size_t owner, std::vector<size_t>& losers) {
+    for (const size_t number : segments_of_[owner]) {
+      Segment& segment = segments_[number];
+      if (segment.bytes == 0) continue;
+      for (const size_t other : segment.owners) {
+        freed_[other] -= segment.bytes;
+        if (other != owner) losers.push_back(other);
+      }
+      total_ -= segment.bytes;
+      segment.bytes = 0;
+    }
   }
 
  private:
@@ -78,7 +96,30 @@ class ByteOwners {
     bool is_begin;
     size_t owner;
   };
+
+  /// A run of bytes with the same owners; 0 bytes when one of them has left.
+  struct Segment {
+    uint64_t bytes;
+    std::vector<size_t> owners;
+  };
+
+  void addSegment(uint64_t bytes, const std::map<size_t, uint32_t>& open) {
+    if (bytes == 0) return;
+    Segment segment = {bytes, {}};
+    for (const auto& [owner, ignored] : open) {
+      segment.owners.push_back(owner);
+      segments_of_[owner].push_back(segments_.size());
+      freed_[owner] += bytes;
+    }
+    total_ += bytes;
+    segments_.push_back(std::move(segment));
+  }
+
   std::vector<Edge> edges_;
+  std::vector<Segment> segments_;
+  std::vector<uint64_t> freed_;
+  std::vector<std::vector<size_t>> segments_of_;  ///< by owner
+  uint64_t total_ = 0;
 };
 
 template <typename Visit>
@@ -94,12 +135,12 @@ struct OwnedPiece {
   size_t owner;
 };
 
-/// Fills in the source bytes each owner's pieces free; returns those of all together.
-uint64_t countFreed(const Document& document, const ForeignReferences& foreign,
+/// Who owns the bytes that pieces free.
+ByteOwners ownersOf(const Document& document, const ForeignReferences& foreign,
                     const std::vector<bool>& in_other_use, const std::vector<OwnedPiece>& pieces,
-                    std::vector<uint64_t>& freed) {
+                    size_t owner_count) {
   std::vector<bool> is_ours(document.accessors.size(), false);
-  ByteOwners owners;
+  ByteOwners owners(owner_count);
   for (const OwnedPiece& owned : pieces) {
     visitAccessors(*owned.piece, [&](uint32_t accessor) {
       if (in_other_use[accessor]) return;
@@ -119,28 +160,40 @@ uint64_t countFreed(const Document& document, const ForeignReferences& foreign,
     owners.add({{range.buffer, range.offset, range.offset + range.length}},
                ByteOwners::kSomebodyElse);
   }
-  return owners.count(freed);
+  owners.count();
+  return owners;
 }
 
-/// Whether a piece has a position that another piece of the plan has, too: left as it was it would part from that one.
-bool touchesAnother(const PayloadPlan& plan, const PiecePlan& piece) {
-  const auto positionsOf = [](const PiecePlan& of) -> const AccessorData& {
-    return (of.attributes.empty() ? of.ordinary : of.attributes)[0].source;
-  };
-  const auto textOf = [](std::span<const uint8_t> bytes) {
-    return std::string(bytes.begin(), bytes.end());
-  };
-  std::set<std::string> own;
-  const AccessorData& positions = positionsOf(piece);
-  for (uint64_t i = 0; i < positions.count; ++i) own.insert(textOf(positions.element(i)));
-  for (const PiecePlan& other : plan.pieces) {
-    if (&other == &piece) continue;
-    const AccessorData& others = positionsOf(other);
-    for (uint64_t i = 0; i < others.count; ++i) {
-      if (own.count(textOf(others.element(i))) != 0) return true;
+const AccessorData& positionsOf(const PiecePlan& piece) {
+  return (piece.attributes.empty() ? piece.ordinary : piece.attributes)[0].source;
+}
+
+std::string_view textOf(std::span<const uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// Which of some pieces of a plan have a position that another piece of it has, too: left as they were they would part
+/// from that one.
+std::vector<bool> touchingPieces(const PayloadPlan& plan, const std::vector<bool>& is_asked) {
+  std::vector<bool> touches(plan.pieces.size(), false);
+  if (std::find(is_asked.begin(), is_asked.end(), true) == is_asked.end()) return touches;
+  std::unordered_map<std::string_view, size_t> owner_of;  // a piece that was asked for, by position
+  // Those that share a position are marked when the second of them comes.
+  for (const bool are_asked : {true, false}) {
+    for (size_t k = 0; k < plan.pieces.size(); ++k) {
+      if (is_asked[k] != are_asked) continue;
+      const AccessorData& positions = positionsOf(plan.pieces[k]);
+      for (uint64_t i = 0; i < positions.count; ++i) {
+        const std::string_view position = textOf(positions.element(i));
+        const auto owner =
+            are_asked ? owner_of.try_emplace(position, k).first : owner_of.find(position);
+        if (owner == owner_of.end() || owner->second == k) continue;
+        touches[owner->second] = true;
+        touches[k] = true;
+      }
     }
   }
-  return false;
+  return touches;
 }
 
 /// cost   "payload 20 bytes"
@@ -153,19 +206,95 @@ void leaveAlone(const PiecePlan& piece, const std::string& cost, uint64_t freed_
   }
 }
 
+/// Finds the payloads that are not smaller than the bytes they free. Those of one mesh, which was divided, stay or go
+/// together: their positions may meet.
+class LoserSearch {
+ public:
+  LoserSearch(const Document& document, const ForeignReferences& foreign,
+              const std::vector<EncodedPayload>& payloads)
+      : payloads_(payloads), owners_(group(document, foreign)) {}
+
+  /// Whether each payload loses.
+  std::vector<bool> run(std::vector<LeftAlone>& left_alone) {
+    std::vector<size_t> asked(groups_.size());
+    std::iota(asked.begin(), asked.end(), size_t{0});
+    // What losers need again may make others lose.
+    while (!asked.empty()) {
+      std::vector<size_t> losers;
+      for (const size_t number : asked) {
+        if (!groups_[number].is_lost && groups_[number].cost >= owners_.freed()[number]) {
+          losers.push_back(number);
+          groups_[number].is_lost = true;
+        }
+      }
+      for (const size_t number : losers) leaveGroupAlone(number, left_alone);
+      asked.clear();
+      for (const size_t number : losers) owners_.leave(number, asked);
+    }
+    uint64_t total_cost = 0;
+    for (const Group& group : groups_) total_cost += group.is_lost ? 0 : group.cost;
+    // Payloads that share accessors may each gain by the same bytes and still lose together.
+    const bool all_lose = total_cost >= owners_.total();
+    for (size_t number = 0; all_lose && number < groups_.size(); ++number) {
+      if (groups_[number].is_lost) continue;
+      groups_[number].is_lost = true;
+      leaveGroupAlone(number, left_alone);
+    }
+    std::vector<bool> is_lost;
+    for (const size_t number : group_of_) is_lost.push_back(groups_[number].is_lost);
+    return is_lost;
+  }
+
+ private:
+  /// The payloads of a mesh.
+  struct Group {
+    std::vector<size_t> payloads;
+    uint64_t cost = 0;
+    bool is_lost = false;
+  };
+
+  ByteOwners group(const Document& document, const ForeignReferences& foreign) {
+    std::vector<OwnedPiece> pieces;
+    for (size_t i = 0; i < payloads_.size(); ++i) {
+      const PayloadPlan& plan = payloads_[i].plan;
+      if (i == 0 || payloads_[i - 1].plan.mesh != plan.mesh) groups_.emplace_back();
+      groups_.back().payloads.push_back(i);
+      groups_.back().cost += costOf(payloads_[i]);
+      group_of_.push_back(groups_.size() - 1);
+      for (const PiecePlan& piece : plan.pieces) pieces.push_back({&piece, group_of_.back()});
+    }
+    return ownersOf(document, foreign, accessorsInOtherUse(document, foreign, payloads_), pieces,
+                    groups_.size());
+  }
+
+  void leaveGroupAlone(size_t number, std::vector<LeftAlone>& left_alone) const {
+    uint64_t bytes = 0;
+    for (const size_t i : groups_[number].payloads) bytes += payloads_[i].result.payload.size();
+    for (const size_t i : groups_[number].payloads) {
+      for (const PiecePlan& piece : payloads_[i].plan.pieces) {
+        leaveAlone(piece, "payload " + std::to_string(bytes) + " bytes", owners_.freed()[number],
+                   left_alone);
+      }
+    }
+  }
+
+  const std::vector<EncodedPayload>& payloads_;
+  std::vector<Group> groups_;
+  std::vector<size_t> group_of_;  ///< by payload
+  ByteOwners owners_;
+};
+
 }  // namespace
 
-uint64_t countFreedBytes(const Document& document, const ForeignReferences& foreign,
-                         std::vector<EncodedPayload>& payloads) {
+void countFreedBytes(const Document& document, const ForeignReferences& foreign,
+                     std::vector<EncodedPayload>& payloads) {
   std::vector<OwnedPiece> pieces;
   for (size_t i = 0; i < payloads.size(); ++i) {
     for (const PiecePlan& piece : payloads[i].plan.pieces) pieces.push_back({&piece, i});
   }
-  std::vector<uint64_t> freed(payloads.size(), 0);
-  const uint64_t total = countFreed(
-      document, foreign, accessorsInOtherUse(document, foreign, payloads), pieces, freed);
-  for (size_t i = 0; i < payloads.size(); ++i) payloads[i].freed_bytes = freed[i];
-  return total;
+  const ByteOwners owners = ownersOf(
+      document, foreign, accessorsInOtherUse(document, foreign, payloads), pieces, payloads.size());
+  for (size_t i = 0; i < payloads.size(); ++i) payloads[i].freed_bytes = owners.freed()[i];
 }
 
 Result dropTinyPieces(const Document& document, const ForeignReferences& foreign,
@@ -177,8 +306,9 @@ Result dropTinyPieces(const Document& document, const ForeignReferences& foreign
     all.push_back(&plan);
     for (const PiecePlan& piece : plan.pieces) pieces.push_back({&piece, pieces.size()});
   }
-  std::vector<uint64_t> freed(pieces.size(), 0);
-  countFreed(document, foreign, accessorsInOtherUse(document, foreign, all), pieces, freed);
+  const ByteOwners owners = ownersOf(document, foreign, accessorsInOtherUse(document, foreign, all),
+                                     pieces, pieces.size());
+  const std::vector<uint64_t>& freed = owners.freed();
   std::vector<const PayloadPlan*> plan_of;
   for (const PayloadPlan& plan : plans) plan_of.insert(plan_of.end(), plan.pieces.size(), &plan);
   std::vector<uint64_t> bytes_alone(pieces.size(), 0);
@@ -189,17 +319,23 @@ Result dropTinyPieces(const Document& document, const ForeignReferences& foreign
   }));
   size_t next = 0;
   for (PayloadPlan& plan : plans) {
-    std::vector<bool> is_dropped;
+    std::vector<bool> is_tiny;
+    std::vector<uint64_t> costs;
+    const size_t first = next;
     for (const PiecePlan& piece : plan.pieces) {
       const uint64_t bytes = bytes_alone[next];
-      const uint64_t freed_bytes = freed[next++];
-      const uint64_t cost = jsonCostOf(piece, 1) + bytes - std::min(bytes, kSharedBytes);
-      const bool is_tiny = bytes != 0 && cost >= freed_bytes;
-      is_dropped.push_back(is_tiny && !touchesAnother(plan, piece));
-      if (is_dropped.back()) {
-        leaveAlone(piece, "payload and JSON " + std::to_string(cost) + " bytes", freed_bytes,
-                   left_alone);
-      }
+      costs.push_back(bytes == 0 ? 0
+                                 : jsonCostOf(piece, 1) + bytes - std::min(bytes, kSharedBytes));
+      is_tiny.push_back(bytes != 0 && costs.back() >= freed[next]);
+      ++next;
+    }
+    const std::vector<bool> touches = touchingPieces(plan, is_tiny);
+    std::vector<bool> is_dropped;
+    for (size_t i = 0; i < plan.pieces.size(); ++i) {
+      is_dropped.push_back(is_tiny[i] && !touches[i]);
+      if (!is_dropped.back()) continue;
+      leaveAlone(plan.pieces[i], "payload and JSON " + std::to_string(costs[i]) + " bytes",
+                 freed[first + i], left_alone);
     }
     std::vector<PiecePlan> kept;
     for (size_t i = 0; i < plan.pieces.size(); ++i) {
@@ -213,30 +349,14 @@ Result dropTinyPieces(const Document& document, const ForeignReferences& foreign
 
 void dropLosers(const Document& document, const ForeignReferences& foreign,
                 std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone) {
-  while (!payloads.empty()) {
-    const uint64_t total_freed = countFreedBytes(document, foreign, payloads);
-    uint64_t total_cost = 0;
-    bool some_lose = false;
-    for (const EncodedPayload& payload : payloads) {
-      total_cost += costOf(payload);
-      some_lose |= costOf(payload) >= payload.freed_bytes;
-    }
-    // Payloads that share accessors may each gain by the same bytes and still lose together.
-    const bool all_lose = !some_lose && total_cost >= total_freed;
-    if (!some_lose && !all_lose) return;
-    std::vector<EncodedPayload> winners;
-    for (EncodedPayload& payload : payloads) {
-      if (all_lose || costOf(payload) >= payload.freed_bytes) {
-        for (const PiecePlan& piece : payload.plan.pieces) {
-          leaveAlone(piece, "payload " + std::to_string(payload.result.payload.size()) + " bytes",
-                     payload.freed_bytes, left_alone);
-        }
-      } else {
-        winners.push_back(std::move(payload));
-      }
-    }
-    payloads = std::move(winners);  // count again: the losers still need what they share
+  LoserSearch search(document, foreign, payloads);
+  const std::vector<bool> is_lost = search.run(left_alone);
+  std::vector<EncodedPayload> winners;
+  for (size_t i = 0; i < payloads.size(); ++i) {
+    if (!is_lost[i]) winners.push_back(std::move(payloads[i]));
   }
+  payloads = std::move(winners);
+  countFreedBytes(document, foreign, payloads);
 }
 
 }  // namespace mcc::gltf

@@ -203,13 +203,14 @@ Json extensionJson(uint64_t buffer_view, size_t piece_number, const PiecePlan& p
   if (piece_number != 0) json["piece"] = piece_number;
   if (part_number != 0) json["part"] = part_number;
   if (piece.attributes.empty()) return json;
-  json["attributes"] = Json::object();
+  Json attributes = Json::object();
   std::vector<Json> targets(piece.target_count, Json::object());
   for (size_t id = 0; id < piece.attributes.size(); ++id) {
     const AttributePlan& attribute = piece.attributes[id];
-    Json& map = attribute.target == kNone ? json["attributes"] : targets[attribute.target];
-    map[attribute.name] = id;
+    Json& map = attribute.target == kNone ? attributes : targets[attribute.target];
+    map.get_ref<Json::object_t&>().emplace_back(attribute.name, id);  // no name comes twice
   }
+  json["attributes"] = std::move(attributes);
   if (!targets.empty()) json["targets"] = std::move(targets);
   return json;
 }
@@ -231,8 +232,9 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
   splitPayloads(plans);
   MCC_GLTF_TRY(
       encodePayloads(options, std::move(plans), compressed.payloads, compressed.left_alone));
-  countFreedBytes(document, foreign, compressed.payloads);
-  if (!options.allow_larger) {
+  if (options.allow_larger) {
+    countFreedBytes(document, foreign, compressed.payloads);
+  } else {
     dropLosers(document, foreign, compressed.payloads, compressed.left_alone);
   }
   sortByPlace(compressed.left_alone);

@@ -46,9 +46,9 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
 Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> plans,
                       std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone);
 
-/// Fills in EncodedPayload::freed_bytes; returns the bytes that all payloads free together.
-uint64_t countFreedBytes(const Document& document, const ForeignReferences& foreign,
-                         std::vector<EncodedPayload>& payloads);
+/// Fills in EncodedPayload::freed_bytes.
+void countFreedBytes(const Document& document, const ForeignReferences& foreign,
+                     std::vector<EncodedPayload>& payloads);
 
 /// Bytes of a payload that holds one piece of a plan; 0 when the codec refuses it.
 uint64_t bytesAlone(const ConvertOptions& options, const PayloadPlan& plan, const PiecePlan& piece);
@@ -59,7 +59,8 @@ Result dropTinyPieces(const Document& document, const ForeignReferences& foreign
                       const ConvertOptions& options, std::vector<PayloadPlan>& plans,
                       std::vector<LeftAlone>& left_alone);
 
-/// Drops the payloads that are not smaller than the buffer bytes they free.
+/// Drops the payloads that are not smaller than the buffer bytes they free, those of one mesh together, and counts what the
+/// others free. Takes time in proportion to the document and what its payloads hold, up to a logarithm.
 void dropLosers(const Document& document, const ForeignReferences& foreign,
                 std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone);
 

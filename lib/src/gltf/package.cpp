@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 
 #include "gltf/uri.h"
 
@@ -63,16 +64,17 @@ Result addCopies(const Json& json, bool with_buffers, const FileReader& read_fil
   std::vector<std::pair<std::string, std::string>> uris;
   if (with_buffers) listUris(json, "buffers", uris);
   listUris(json, "images", uris);
+  std::set<std::string> known;
+  for (const SideFile& file : package.beside) {
+    if (file.kind == SideFile::Kind::kCopy) known.insert(file.path);
+  }
   for (const auto& [uri, where] : uris) {
     SideFile file;
     file.kind = SideFile::Kind::kCopy;
     MCC_GLTF_TRY(relativePathOf(uri, where, file.path));
-    const bool is_known =
-        std::any_of(package.beside.begin(), package.beside.end(), [&](const SideFile& other) {
-          return other.kind == SideFile::Kind::kCopy && other.path == file.path;
-        });
-    if (is_known) continue;
+    if (known.contains(file.path)) continue;
     if (const Result read = read_file(file.path, where, file.bytes); read.ok()) {
+      known.insert(file.path);
       package.beside.push_back(std::move(file));
     } else {
       notes.push_back(read.message() + "; it is not copied");

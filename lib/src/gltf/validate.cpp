@@ -45,7 +45,9 @@ class Validator {
     std::map<uint32_t, std::vector<const ExtensionUse*>> by_view;
     for (const ExtensionUse& use : uses_) {
       checkObject(use);
-      if (use.view != kNone) by_view[use.view].push_back(&use);
+      if (use.view == kNone) continue;
+      by_view[use.view].push_back(&use);
+      payload_buffers_.insert(document_.views[use.view].buffer);
     }
     report_.payload_count = static_cast<uint32_t>(by_view.size());
     for (const auto& [view, ignored] : by_view) checkView(view);
@@ -190,14 +192,20 @@ class Validator {
   /// What no primitive names.
   void checkUse(const std::vector<const ExtensionUse*>& users, const PayloadInfo& info,
                 const std::string& where) {
+    struct Used {
+      std::set<uint64_t> parts, attributes;
+    };
+    std::vector<Used> used(info.pieces.size());
+    for (const ExtensionUse* use : users) {
+      if (use->piece >= used.size()) continue;
+      used[use->piece].parts.insert(use->part);
+      for (const auto& attribute : use->attributes) {
+        used[use->piece].attributes.insert(attribute.id);
+      }
+    }
     for (uint32_t p = 0; p < info.pieces.size(); ++p) {
       const std::string piece = "piece " + std::to_string(p) + " of the payload";
-      std::set<uint64_t> parts, attributes;
-      for (const ExtensionUse* use : users) {
-        if (use->piece != p) continue;
-        parts.insert(use->part);
-        for (const auto& attribute : use->attributes) attributes.insert(attribute.id);
-      }
+      const auto& [parts, attributes] = used[p];
       for (uint32_t k = 0; k < info.pieces[p].parts.size(); ++k) {
         if (parts.contains(k) || info.pieces[p].parts[k].triangle_count == 0) continue;
         issues_.add(Rule::kUnusedPart, where,
@@ -270,11 +278,7 @@ class Validator {
       break;
     }
     if (accessor.view == kNone) return;
-    const uint32_t buffer = document_.views[accessor.view].buffer;
-    const bool is_shared = std::any_of(uses_.begin(), uses_.end(), [&](const ExtensionUse& use) {
-      return use.view != kNone && document_.views[use.view].buffer == buffer;
-    });
-    if (!is_shared) return;
+    if (!payload_buffers_.contains(document_.views[accessor.view].buffer)) return;
     issues_.add(Rule::kFallbackBuffer, at("/bufferViews", accessor.view) + "/buffer",
                 "holds a fallback in the buffer of a payload; in one of its own, loaders that know "
                 "the extension need not load it");
@@ -287,6 +291,7 @@ class Validator {
   ValidationReport& report_;
   std::vector<ExtensionUse> uses_;
   std::set<uint32_t> checked_;
+  std::set<uint32_t> payload_buffers_;  ///< that payloads are in
 };
 
 std::vector<std::string> textsOf(const Json& list) {
