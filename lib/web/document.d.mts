@@ -19,7 +19,7 @@ export interface Payload {
   claims: object[];
 }
 
-/** The payloads of a glTF document, each once. Throws an MccError where the document violates the specification. */
+/** The payloads of a glTF document, each once: buffer views of the same bytes hold one. Throws an MccError where the document violates the specification. */
 export function payloadsOf(json: object): Payload[];
 
 /** The array that fills the accessor of a target: tight, and in the component type of the accessor. */

@@ -29,7 +29,8 @@ const SEMANTICS = [
  * @returns {object[]}  { bufferView, targets, claims } by payload, where
  *   targets: [{ accessor, piece, attribute } or { accessor, piece, part }], one per accessor the payload fills: `attribute`
  *            and `part` are numbers of the piece; see elementsOf();
- *   claims:  plain data, to be passed on as decodePayload(bytes, { claims }).
+ *   claims:  plain data, to be passed on as decodePayload(bytes, { claims }); each with the bufferView that it names.
+ * Buffer views of the same bytes hold one payload; `bufferView` is the first of them.
  * @throws MccError with a JSON path, if an extension object violates the specification
  */
 export function payloadsOf(json) {
@@ -38,8 +39,10 @@ export function payloadsOf(json) {
   for (const use of extensionUses(json)) {
     const claim = readUse(json, use);
     const { bufferView } = claim;
-    if (!payloads.has(bufferView)) payloads.set(bufferView, { bufferView, targets: [], claims: [] });
-    const payload = payloads.get(bufferView);
+    const { buffer, byteOffset = 0, byteLength } = json.bufferViews[bufferView];
+    const place = `${buffer} ${byteOffset} ${byteLength}`;
+    if (!payloads.has(place)) payloads.set(place, { bufferView, targets: [], claims: [] });
+    const payload = payloads.get(place);
     payload.claims.push(claim);
     for (const { path, target } of targetsOf(claim)) {
       const source = JSON.stringify([bufferView, target.piece, target.attribute, target.part]);
@@ -59,6 +62,11 @@ export function elementsOf({ pieces }, { piece, attribute, part }, { componentTy
   const { indices } = pieces[piece].parts[part];
   const IndexArray = INDEX_ARRAYS[componentType];
   return indices instanceof IndexArray ? indices : IndexArray.from(indices);
+}
+
+/** Equal for targets of one payload whose accessors get the same bytes. */
+export function originOf({ piece, attribute, part }, { componentType, type }) {
+  return [piece, attribute, part, componentType, type].join();
 }
 
 /** @returns {object[]}  { extension, primitive, path } of all primitives with the extension */
@@ -116,7 +124,8 @@ function readView(json, { bufferView }, path) {
 function accessorOf(json, number, path) {
   const accessor = json.accessors?.[numberOf(number, path)];
   if (accessor === undefined) fail(path, `there is no accessor ${number}`);
-  return { path: `/accessors/${number}`, number, count: accessor.count, accessor };
+  const count = numberOf(accessor.count, `/accessors/${number}/count`);
+  return { path: `/accessors/${number}`, number, count, accessor };
 }
 
 function readIndices(json, number, path) {

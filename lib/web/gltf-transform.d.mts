@@ -2,7 +2,8 @@
 import { Extension, type Document, type ReaderContext, type WriterContext } from '@gltf-transform/core';
 import type { EncodeOptions, EncodeResult } from './encoder.mjs';
 
-/** Reads and writes the extension, with the dependencies 'mcc.decoder' and, for writing, 'mcc.encoder'. */
+/** Reads and writes the extension, with the dependencies 'mcc.decoder' and, for writing, 'mcc.encoder'; 'mcc.limits' may be
+ * FileLimits of what is read. */
 export class KHRMeshCollapseCompression extends Extension {
   static readonly EXTENSION_NAME: 'KHR_mesh_collapse_compression';
   readonly extensionName: 'KHR_mesh_collapse_compression';

@@ -1,5 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 import { Extension, GLB_BUFFER, PropertyType } from '@gltf-transform/core';
+import { Budget, namedBytes } from './budget.mjs';
 import { EXTENSION_NAME, elementsOf, payloadsOf } from './document.mjs';
 import { BIN_CHUNK, readGlb, writeGlb } from './unpack.mjs';
 
@@ -9,6 +10,7 @@ import { BIN_CHUNK, readGlb, writeGlb } from './unpack.mjs';
  *     const io = new NodeIO().registerExtensions([KHRMeshCollapseCompression]).registerDependencies({
  *       'mcc.decoder': decoder,  // the module gltf-mcc, after `await decoder.ready`
  *       'mcc.encoder': encoder,  // to write: the module gltf-mcc/encoder, after `await encoder.initEncoder()`
+ *       'mcc.limits': { maxDecodedBytes: 2 ** 30 },  // of what is read; may be left out
  *     });
  *
  * A document that was read has its geometry in ordinary accessors. While it has this extension, it is compressed again when it is
@@ -19,15 +21,17 @@ export class KHRMeshCollapseCompression extends Extension {
   static EXTENSION_NAME = EXTENSION_NAME;
   extensionName = EXTENSION_NAME;
   prereadTypes = [PropertyType.PRIMITIVE];
-  readDependencies = ['mcc.decoder'];
+  readDependencies = ['mcc.decoder', 'mcc.limits'];
   writeDependencies = ['mcc.encoder'];
   #decoder;
   #encoder;
   #encoderOptions = {};
+  #limits;
   #report;
 
   install(key, dependency) {
     if (key === 'mcc.decoder') this.#decoder = dependency;
+    if (key === 'mcc.limits') this.#limits = dependency;
     if (key === 'mcc.encoder') this.#encoder = dependency;
     return this;
   }
@@ -51,18 +55,29 @@ export class KHRMeshCollapseCompression extends Extension {
       if (!this.isRequired()) return this; // there is a fallback
       throw new Error(`[${EXTENSION_NAME}] Please install the dependency "mcc.decoder".`);
     }
-    for (const { bufferView, targets, claims } of payloadsOf(context.jsonDoc.json)) {
-      const decoded = this.#decoder.decodePayloadSync(context.bufferViews[bufferView], { claims });
-      for (const target of targets) this.#fill(context, target, decoded, bufferView);
+    const payloads = payloadsOf(context.jsonDoc.json);
+    const fileBytes = Object.values(context.jsonDoc.resources).reduce((sum, { byteLength }) => sum + byteLength, 0);
+    const budget = new Budget(fileBytes, this.#limits);
+    budget.add(payloads.reduce((sum, payload) => sum + namedBytes(payload), 0));
+    for (const payload of payloads) {
+      const { bufferView, targets } = payload;
+      const decoded = budget.decodeSync(this.#decoder.decodePayloadSync, payload, context.bufferViews[bufferView]);
+      const taken = new Set();
+      for (const target of targets) this.#fill(context, target, decoded, bufferView, taken, budget);
     }
     return this;
   }
 
-  #fill(context, target, decoded, payloadView) {
+  // Each accessor has an array of its own, which may be changed.
+  #fill(context, target, decoded, payloadView, taken, budget) {
     const definition = context.jsonDoc.json.accessors[target.accessor];
-    context.accessors[target.accessor]
-      .setArray(elementsOf(decoded, target, definition))
-      .setBuffer(context.bufferViewBuffers[payloadView]);
+    let array = elementsOf(decoded, target, definition);
+    if (taken.has(array)) {
+      budget.add(array.byteLength);
+      array = array.slice();
+    }
+    taken.add(array);
+    context.accessors[target.accessor].setArray(array).setBuffer(context.bufferViewBuffers[payloadView]);
   }
 
   // Buffers of a fallback are empty now, and a GLB may have one buffer only.

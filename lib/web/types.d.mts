@@ -48,6 +48,13 @@ export interface Limits {
   maxOutputBytes?: number;
 }
 
+/** Bounds of each payload of a file, and of all of them together. */
+export interface FileLimits extends Limits {
+  /** What all payloads of a file may decode to, each counted once, with indices of 32 bits. Default: 1024 bytes for each byte of
+   * the file (for loaders: of its payloads), but no less than 256 MiB and no more than 4 GiB. */
+  maxDecodedBytes?: number;
+}
+
 export interface DecodeOptions {
   limits?: Limits;
   /** 'auto', the default: 16 bits for pieces with up to 65535 vertices. */

@@ -1,10 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-import type { DecodedPayload, DecodeOptions, Limits } from './types.mjs';
+import type { DecodedPayload, DecodeOptions, FileLimits } from './types.mjs';
 
 export interface UnpackOptions {
   /** Default: decodePayload(). That of a pool decodes in workers. */
   decode?: (bytes: Uint8Array, options: DecodeOptions) => Promise<DecodedPayload>;
-  limits?: Limits;
+  limits?: FileLimits;
 }
 
 /** A GLB without the extension; `bytes` themselves when no primitive has it. Safe for untrusted bytes. */

@@ -1,9 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // A GLB without the extension, for loaders that do not know it.
+import { Budget, namedBytes } from './budget.mjs';
 import { fail } from './claims.mjs';
 import { decodePayload } from './decoder.mjs';
-import { COMPONENT_COUNTS, elementsOf, EXTENSION_NAME, extensionUses, payloadsOf } from './document.mjs';
+import { COMPONENT_COUNTS, elementsOf, EXTENSION_NAME, extensionUses, originOf, payloadsOf } from './document.mjs';
 
 const MAGIC = 0x46546c67;
 const JSON_CHUNK = 0x4e4f534a;
@@ -14,7 +15,8 @@ const ROWS = { MAT2: 2, MAT3: 3, MAT4: 4 };
 
 /**
  * @param {Uint8Array} bytes  a GLB
- * @param {{ decode?: typeof decodePayload, limits?: object }} [options]  `decode`: that of a pool, for instance
+ * @param {{ decode?: typeof decodePayload, limits?: object }} [options]  `decode`: that of a pool, for instance;
+ *   `limits`: of each payload, and of all
  * @returns {Promise<Uint8Array>}  a GLB without the extension; `bytes` themselves when they do not use it
  */
 export async function unpackGlb(bytes, { decode = decodePayload, limits } = {}) {
@@ -22,22 +24,19 @@ export async function unpackGlb(bytes, { decode = decodePayload, limits } = {}) 
   const payloads = payloadsOf(json);
   if (payloads.length === 0) return bytes;
   const bin = chunks.find(({ type }) => type === BIN_CHUNK)?.data ?? new Uint8Array(0);
-  const decoded = await Promise.all(payloads.map(({ bufferView, claims }) => (
-    decode(payloadBytes(json, bin, bufferView), { claims, limits }))));
+  const budget = new Budget(bytes.length, limits);
+  budget.add(payloads.reduce((sum, payload) => sum + namedBytes(payload), 0));
+  const decoded = await Promise.all(payloads.map((payload) => (
+    budget.decode(decode, payload, payloadBytes(json, bin, payload.bufferView)))));
   for (const { primitive } of extensionUses(json)) removeMember(primitive, 'extensions', EXTENSION_NAME);
   for (const list of ['extensionsUsed', 'extensionsRequired']) {
     json[list] = json[list]?.filter((name) => name !== EXTENSION_NAME);
     if (!json[list]?.length) delete json[list];
   }
   const newBin = new Bin(json, bin, payloads);
-  payloads.forEach(({ targets }, i) => {
-    for (const target of targets) {
-      const accessor = json.accessors[target.accessor];
-      newBin.fill(accessor, elementsOf(decoded[i], target, accessor), target);
-    }
-  });
+  payloads.forEach(({ targets }, i) => newBin.fill(targets, decoded[i]));
   const others = chunks.filter(({ type }) => type !== BIN_CHUNK);
-  return writeGlb(json, [{ type: BIN_CHUNK, data: newBin.finish() }, ...others]);
+  return writeGlb(json, [{ type: BIN_CHUNK, ...newBin.finish() }, ...others]);
 }
 
 /** Its JSON and its other chunks. */
@@ -79,14 +78,21 @@ function removeMember(object, key, member) {
   if (Object.keys(object[key]).length === 0) delete object[key];
 }
 
-/** Whether `test` holds for a member of `value`, at any depth. */
-function someMember(value, test) {
-  if (typeof value !== 'object' || value === null) return false;
-  return Object.entries(value).some(([key, member]) => test(key, member) || someMember(member, test));
+/** The numbers that are members of this name, at any depth. */
+function numbersOf(root, name) {
+  const numbers = new Set();
+  const stack = [root];
+  while (stack.length > 0) {
+    for (const [key, member] of Object.entries(stack.pop() ?? {})) {
+      if (key === name) numbers.add(member);
+      if (typeof member === 'object') stack.push(member);
+    }
+  }
+  return numbers;
 }
 
 /** The BIN chunk with decoded elements instead of payloads. Buffer views keep their numbers, which unknown extensions may
- * refer to; new elements take the place of views that are no longer needed, or come behind. */
+ * refer to; new elements take the place of views that are no longer needed, or come after them. */
 class Bin {
   constructor(json, bin, payloads) {
     this.json = json;
@@ -97,16 +103,17 @@ class Bin {
     for (const accessor of filled) {
       for (const key of ['bufferView', 'byteOffset', 'sparse']) delete accessor[key];
     }
-    const isUsed = (number) => someMember(json, (key, member) => key === 'bufferView' && member === number);
-    const unused = new Set([...payloads.map(({ bufferView }) => bufferView), ...fallbackViews]);
-    this.free = [...unused].filter((number) => !isUsed(number)).sort((a, b) => b - a);
+    const payloadViews = payloads.flatMap(({ claims }) => claims.map(({ bufferView }) => bufferView));
+    const used = numbersOf(json, 'bufferView');
+    this.free = [...new Set([...payloadViews, ...fallbackViews])].filter((number) => !used.has(number)).sort((a, b) => b - a);
     this.#keepOld(bin);
   }
 
   /** The bytes that views still refer to. All of them if something else may refer to a buffer. */
   #keepOld(bin) {
-    const views = this.json.bufferViews.filter((view, number) => view.buffer === 0 && !this.free.includes(number));
-    const refersToBuffers = (extensions) => someMember(extensions, (key) => key === 'buffer');
+    const free = new Set(this.free);
+    const views = this.json.bufferViews.filter((view, number) => view.buffer === 0 && !free.has(number));
+    const refersToBuffers = (extensions) => numbersOf(extensions, 'buffer').size > 0;
     if (this.json.bufferViews.some(({ extensions }) => refersToBuffers(extensions)) || refersToBuffers(this.json.extensions)) {
       this.#add(bin);
       return;
@@ -131,8 +138,25 @@ class Bin {
     }
   }
 
+  /** The elements of a payload's targets as buffer views; one for accessors that get the same. */
+  fill(targets, decoded) {
+    const numbers = new Map();
+    for (const target of targets) {
+      const accessor = this.json.accessors[target.accessor];
+      const origin = originOf(target, accessor);
+      const known = numbers.get(origin);
+      accessor.bufferView = known ?? this.#addView(accessor, elementsOf(decoded, target, accessor), target);
+      numbers.set(origin, accessor.bufferView);
+      // glTF wants it of vertex attributes that share a view.
+      if (known !== undefined && target.attribute !== undefined) {
+        const view = this.json.bufferViews[known];
+        view.byteStride ??= view.byteLength / accessor.count;
+      }
+    }
+  }
+
   /** Elements of an accessor, tight in `array`, as a buffer view. */
-  fill(accessor, array, { attribute }) {
+  #addView(accessor, array, { attribute }) {
     const isIndex = attribute === undefined;
     const { bytes, stride } = isIndex ? { bytes: asBytes(array) } : elementBytes(accessor, array);
     const number = this.free.pop() ?? this.json.bufferViews.length;
@@ -142,7 +166,7 @@ class Bin {
       ...(stride === undefined ? {} : { byteStride: stride }), target: isIndex ? ELEMENT_ARRAY_BUFFER : ARRAY_BUFFER,
     };
     this.#add(bytes);
-    accessor.bufferView = number;
+    return number;
   }
 
   finish() {
@@ -152,13 +176,10 @@ class Bin {
       if (number === bufferViews.length - 1) bufferViews.pop();
       else bufferViews[number] = { buffer: 0, byteOffset: 0, byteLength: 1 };
     }
-    while (buffers.length > 1 && !someMember(this.json, (key, member) => key === 'buffer' && member === buffers.length - 1)) {
-      buffers.pop(); // that of a fallback
-    }
+    const used = numbersOf(this.json, 'buffer');
+    while (buffers.length > 1 && !used.has(buffers.length - 1)) buffers.pop(); // that of a fallback
     buffers[0].byteLength = this.length;
-    const bin = new Uint8Array(this.length);
-    for (const { at, bytes } of this.parts) bin.set(bytes, at);
-    return bin;
+    return { parts: this.parts, length: this.length };
   }
 
   #align(size) {
@@ -188,11 +209,14 @@ function elementBytes({ type, count }, array) {
   return { bytes, stride };
 }
 
-/** A GLB of a document and chunks { type, data }; those without data are left out. */
+/** A GLB of a document and chunks { type, data }, or { type, parts: [{ at, bytes }], length } with zeros between the parts; those
+ * without data are left out. */
 export function writeGlb(json, chunks) {
   const text = new TextEncoder().encode(JSON.stringify(json));
-  const all = [{ type: JSON_CHUNK, data: text, padding: 0x20 }, ...chunks.filter(({ data }) => data.length > 0)];
-  const padded = ({ data }) => Math.ceil(data.length / 4) * 4;
+  const all = [{ type: JSON_CHUNK, data: text, padding: 0x20 }, ...chunks]
+    .map(({ data, parts = [{ at: 0, bytes: data }], length: size = data.length, ...chunk }) => ({ ...chunk, parts, size }))
+    .filter(({ size }) => size > 0);
+  const padded = ({ size }) => Math.ceil(size / 4) * 4;
   const length = all.reduce((sum, chunk) => sum + 8 + padded(chunk), 12);
   const bytes = new Uint8Array(length);
   const view = new DataView(bytes.buffer);
@@ -201,8 +225,8 @@ export function writeGlb(json, chunks) {
   for (const chunk of all) {
     view.setUint32(at, padded(chunk), true);
     view.setUint32(at + 4, chunk.type, true);
-    bytes.set(chunk.data, at + 8);
-    bytes.fill(chunk.padding ?? 0, at + 8 + chunk.data.length, at + 8 + padded(chunk));
+    for (const part of chunk.parts) bytes.set(part.bytes, at + 8 + part.at);
+    bytes.fill(chunk.padding ?? 0, at + 8 + chunk.size, at + 8 + padded(chunk));
     at += 8 + padded(chunk);
   }
   return bytes;

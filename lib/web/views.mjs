@@ -1,8 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // For loaders with a hook for buffer views. Each accessor that a payload fills gets a buffer view of its own, which is not in the
-// file; all that a loader does with an accessor, morph targets and normalized integers included, works on it as on any other.
-import { elementsOf, payloadsOf } from './document.mjs';
+// file, one for those that get the same elements; all that a loader does with an accessor, morph targets and normalized integers included, works on it as on any other.
+import { Budget, namedBytes } from './budget.mjs';
+import { fail } from './claims.mjs';
+import { elementsOf, originOf, payloadsOf } from './document.mjs';
 import { decodeInWorkers } from './workers.mjs';
 
 export class PayloadViews {
@@ -17,20 +19,34 @@ export class PayloadViews {
     /** Those of the document, to be used in their place. Numbers stay; what is new is behind the others. */
     this.accessors = [...(json.accessors ?? [])];
     this.bufferViews = [...(json.bufferViews ?? [])];
-    for (const { bufferView, targets, claims } of payloadsOf(json)) {
+    const budget = new Budget(0, limits); // the size of the file is not known, but that of its payloads
+    const fetchAndDecode = async (payload) => {
+      const { bufferView } = payload;
+      const bytes = await fetchPayload(bufferView);
+      if (bytes.length !== json.bufferViews[bufferView].byteLength) fail(`/bufferViews/${bufferView}`, 'reaches beyond its buffer');
+      budget.addFile(bytes.length);
+      budget.add(namedBytes(payload));
+      return budget.decode(decode, payload, bytes);
+    };
+    for (const payload of payloadsOf(json)) {
       let decoded;
       // A payload is decoded when the first of its accessors is asked for, and once.
-      const decodeOnce = () => (decoded ??= fetchPayload(bufferView).then((bytes) => decode(bytes, { claims, limits })));
-      for (const target of targets) this.#addView(target, decodeOnce);
+      const decodeOnce = () => (decoded ??= fetchAndDecode(payload));
+      const numbers = new Map(); // of added buffer views, by what they hold
+      for (const target of payload.targets) this.#addView(target, decodeOnce, numbers);
     }
   }
 
-  #addView(target, decodeOnce) {
-    const number = this.bufferViews.length;
+  #addView(target, decodeOnce, numbers) {
     const { byteOffset, sparse, ...accessor } = this.accessors[target.accessor];
-    this.accessors[target.accessor] = { ...accessor, bufferView: number };
-    this.bufferViews.push({ buffer: 0, byteLength: 0 });
-    this.#sources.set(number, async () => elementsOf(await decodeOnce(), target, accessor));
+    const origin = originOf(target, accessor);
+    if (!numbers.has(origin)) {
+      const number = this.bufferViews.length;
+      numbers.set(origin, number);
+      this.bufferViews.push({ buffer: 0, byteLength: 0 });
+      this.#sources.set(number, async () => elementsOf(await decodeOnce(), target, accessor));
+    }
+    this.accessors[target.accessor] = { ...accessor, bufferView: numbers.get(origin) };
   }
 
   /**
