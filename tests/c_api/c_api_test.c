@@ -275,6 +275,14 @@ static void test_documents(const char* path) {
   EXPECT(mcc_decode_glb(bytes, small_bytes, &decode_options, &back).error == MCC_OK);
   EXPECT(mcc_document_bytes(back, &back_bytes) != NULL && back_bytes > small_bytes);
   mcc_document_release(back);
+  decode_options.max_decoded_bytes = 1;
+  EXPECT(mcc_decode_glb(bytes, small_bytes, &decode_options, &back).error == MCC_ERROR_DOCUMENT);
+  EXPECT(strstr(mcc_document_message(back), "max_decoded_bytes") != NULL);
+  mcc_document_release(back);
+  mcc_convert_options_init(&options, sizeof options);
+  options.max_decoded_bytes = 1;
+  EXPECT(mcc_convert_glb(bytes, small_bytes, &options, &back).error == MCC_ERROR_DOCUMENT);
+  mcc_document_release(back);
   mcc_document_release(small);
   EXPECT(mcc_decode_glb("no GLB", 6, NULL, &back).error == MCC_ERROR_DOCUMENT);
   EXPECT(mcc_document_bytes(back, &back_bytes) == NULL && strlen(mcc_document_message(back)) > 10);

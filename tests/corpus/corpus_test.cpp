@@ -113,7 +113,7 @@ TEST_F(Corpus, DecodesToIntegers) {
     const fs::path integers = folder_ / ("integers_" + file.filename().string());
     DecodeReport report;
     const Result result =
-        decodeFile(folder_ / file.filename(), integers, report, DecodeTo::kIntegers);
+        decodeFile(folder_ / file.filename(), integers, report, {DecodeTo::kIntegers});
     ASSERT_TRUE(result.ok()) << result.message();
     std::vector<uint8_t> float_bytes, integer_bytes;
     ASSERT_TRUE(readFile(floats, float_bytes).ok());

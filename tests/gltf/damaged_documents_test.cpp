@@ -123,7 +123,7 @@ void tryAll(std::span<const uint8_t> file) {
   DecodeReport decode_report;
   const Result decoded = decodeGlb(file, output, decode_report);
   expectOneLine(decoded);
-  expectOneLine(decodeGlb(file, output, decode_report, DecodeTo::kIntegers));
+  expectOneLine(decodeGlb(file, output, decode_report, {DecodeTo::kIntegers}));
   InspectReport inspect_report;
   expectOneLine(inspectGlb(file, true, inspect_report));
   ValidationReport validation;

@@ -33,7 +33,7 @@ TEST(Glb, WritesWhatItReads) {
   EXPECT_EQ(glb.bin.size(), 8u);  // padded with zeros
   EXPECT_EQ(glb.bin[4], 5);
   EXPECT_EQ(glb.bin[5], 0);
-  EXPECT_EQ(glb.trailing_bytes, 0u);
+  EXPECT_FALSE(glb.has_trailing_bytes);
 }
 
 TEST(Glb, KeepsUnknownChunks) {
@@ -62,7 +62,7 @@ TEST(Glb, TrailingBytesAreCounted) {
   file.push_back(1);
   GlbFile glb;
   ASSERT_TRUE(readGlb(file, glb).ok());
-  EXPECT_EQ(glb.trailing_bytes, 1u);
+  EXPECT_TRUE(glb.has_trailing_bytes);
 }
 
 TEST(Glb, ErrorsNameTheByte) {

@@ -27,7 +27,8 @@ BothDecodes decodeBoth(const Builder& builder, ConvertOptions options = {}) {
   both.trip = roundTrip(builder, options);
   EXPECT_EQ(both.trip.error, "");
   DecodeReport report;
-  const Result result = decodeGlb(both.trip.converted, both.integers, report, DecodeTo::kIntegers);
+  const Result result =
+      decodeGlb(both.trip.converted, both.integers, report, {DecodeTo::kIntegers});
   EXPECT_TRUE(result.ok()) << result.message();
   both.notes = report.notes;
   both.json = jsonOf(both.integers);
@@ -296,7 +297,7 @@ TEST(Integers, MatricesOfOthersStay) {
   ASSERT_EQ(trip.error, "");
   std::vector<uint8_t> integers;
   DecodeReport report;
-  ASSERT_TRUE(decodeGlb(trip.converted, integers, report, DecodeTo::kIntegers).ok());
+  ASSERT_TRUE(decodeGlb(trip.converted, integers, report, {DecodeTo::kIntegers}).ok());
   const Json json = jsonOf(integers);
   EXPECT_NE(json["skins"][0]["inverseBindMatrices"], matrices);
   EXPECT_EQ(json["skins"][1]["inverseBindMatrices"], matrices);

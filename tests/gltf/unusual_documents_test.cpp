@@ -52,6 +52,7 @@ TEST(NothingToCompress, BecomesTheOtherContainer) {
     std::ifstream stream(path("c.glb"), std::ios::binary);
     const std::vector<uint8_t> back{std::istreambuf_iterator<char>(stream), {}};
     EXPECT_EQ(jsonOf(back)["accessors"], jsonOf(glb)["accessors"]);
+    if (builder.bin.empty()) continue;  // no accessors
     EXPECT_EQ(elementsInOrder(back, 0), elementsInOrder(glb, 0));
   }
 }

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <set>
 
 #include "mcc/gltf.h"
@@ -389,6 +390,131 @@ TEST(TinyGltf, RefusesWhatContradictsItself) {
   tinygltf::DecodeOptions options;
   options.limits.max_triangles = 10;
   EXPECT_FALSE(tinygltf::decode(model, options).ok());
+}
+
+TEST(TinyGltf, DecodedBytesAreLimitedForTheWholeModel) {
+  const Model coded = loadCompressed(
+      convertGlb(readFile(std::filesystem::path(MCC_SAMPLES_DIR) / "torus.glb"), {}));
+  constexpr uint64_t kDecodedBytes = 98304;
+  tinygltf::DecodeOptions options;
+  options.max_decoded_bytes = kDecodedBytes - 1;
+  Model model = coded;
+  const std::string what = tinygltf::decode(model, options).what;
+  EXPECT_NE(what.find("ask for 98304 bytes of decoded geometry; the limit is 98303, which "
+                      "max_decoded_bytes raises"),
+            std::string::npos)
+      << what;
+  EXPECT_TRUE(model == coded);
+  options.max_decoded_bytes = kDecodedBytes;
+  EXPECT_TRUE(tinygltf::decode(model, options).ok());
+}
+
+/// A model of n meshes. Each has accessors of its own, and the payload in buffer view viewOf(i), of which there are
+/// `payload_count` with the same content.
+Model multiplied(const Model& coded, int n, size_t payload_count,
+                 const std::function<size_t(size_t)>& viewOf) {
+  Model model = coded;
+  const ::tinygltf::Mesh mesh = coded.meshes[0];
+  auto payload = static_cast<size_t>(
+      mesh.primitives[0].extensions.at(tinygltf::kExtension).Get("bufferView").GetNumberAsInt());
+  const ::tinygltf::BufferView view = coded.bufferViews[payload];
+  const auto begin = coded.buffers[0].data.begin() + static_cast<ptrdiff_t>(view.byteOffset);
+  const Bytes bytes(begin, begin + static_cast<ptrdiff_t>(view.byteLength));
+  model.buffers[0].data.clear();
+  model.bufferViews.clear();
+  model.accessors.clear();
+  model.meshes.clear();
+  for (size_t i = 0; i < payload_count; ++i) {
+    auto& data = model.buffers[0].data;
+    data.resize((data.size() + 3) & ~size_t{3});
+    model.bufferViews.push_back(view);
+    model.bufferViews.back().byteOffset = data.size();
+    data.insert(data.end(), bytes.begin(), bytes.end());
+  }
+  for (int i = 0; i < n; ++i) {
+    const auto offset = static_cast<int>(model.accessors.size());
+    model.accessors.insert(model.accessors.end(), coded.accessors.begin(), coded.accessors.end());
+    ::tinygltf::Primitive primitive = mesh.primitives[0];
+    primitive.indices += offset;
+    for (auto& [name, index] : primitive.attributes) index += offset;
+    auto& extension = primitive.extensions[tinygltf::kExtension].Get<::tinygltf::Value::Object>();
+    extension["bufferView"] = ::tinygltf::Value(static_cast<int>(viewOf(static_cast<size_t>(i))));
+    model.meshes.emplace_back();
+    model.meshes.back().primitives.push_back(primitive);
+  }
+  return model;
+}
+
+Model codedTorus() {
+  return loadCompressed(
+      convertGlb(readFile(std::filesystem::path(MCC_SAMPLES_DIR) / "torus.glb"), {}));
+}
+
+TEST(TinyGltf, APayloadIsDecodedOnceWhoeverNamesItsBytes) {
+  Model one = codedTorus();
+  Model model = multiplied(one, 100, 1, [](size_t i) { return i % 2; });
+  model.bufferViews.push_back(model.bufferViews[0]);
+  ASSERT_EQ(tinygltf::decode(one).what, "");
+  ASSERT_EQ(tinygltf::decode(model).what, "");
+  EXPECT_EQ(model.buffers[0].data, one.buffers[0].data);
+  for (size_t i = 0; i < model.accessors.size(); ++i) {
+    const auto& view = model.bufferViews[static_cast<size_t>(model.accessors[i].bufferView)];
+    const auto& expected =
+        one.bufferViews[static_cast<size_t>(one.accessors[i % one.accessors.size()].bufferView)];
+    EXPECT_EQ(view.byteOffset, expected.byteOffset);
+    EXPECT_EQ(view.byteLength, expected.byteLength);
+    const bool is_attribute = view.target == TINYGLTF_TARGET_ARRAY_BUFFER;
+    EXPECT_EQ(view.byteStride != 0, is_attribute) << "glTF wants it of views that are shared";
+  }
+}
+
+/// A triangle, compressed.
+Model codedTriangle() {
+  Model model;
+  model.asset.version = "2.0";
+  const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const uint16_t indices[] = {0, 1, 2, 0};
+  model.buffers.emplace_back();
+  auto& data = model.buffers[0].data;
+  data.resize(sizeof(positions) + sizeof(indices));
+  std::memcpy(data.data(), positions, sizeof(positions));
+  std::memcpy(data.data() + sizeof(positions), indices, sizeof(indices));
+  for (int i = 0; i < 2; ++i) {
+    ::tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = i == 0 ? 0 : sizeof(positions);
+    view.byteLength = i == 0 ? sizeof(positions) : sizeof(indices);
+    model.bufferViews.push_back(view);
+    ::tinygltf::Accessor accessor;
+    accessor.bufferView = i;
+    accessor.componentType =
+        i == 0 ? TINYGLTF_COMPONENT_TYPE_FLOAT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+    accessor.type = i == 0 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_SCALAR;
+    accessor.count = 3;
+    if (i == 0) accessor.minValues = {0, 0, 0};
+    if (i == 0) accessor.maxValues = {1, 1, 0};
+    model.accessors.push_back(accessor);
+  }
+  ::tinygltf::Primitive primitive;
+  primitive.attributes["POSITION"] = 0;
+  primitive.indices = 1;
+  primitive.mode = TINYGLTF_MODE_TRIANGLES;
+  model.meshes.emplace_back();
+  model.meshes[0].primitives.push_back(primitive);
+  gltf::ConvertOptions options;
+  options.allow_larger = true;
+  EXPECT_EQ(tinygltf::encode(model, options).what, "");
+  return model;
+}
+
+/// Work in proportion to the square of the number would take minutes.
+TEST(TinyGltf, ManyPayloads) {
+  constexpr int kCount = 20000;
+  Model one = codedTriangle();
+  Model model = multiplied(one, kCount, kCount, [](size_t i) { return i; });
+  ASSERT_EQ(tinygltf::decode(one).what, "");
+  ASSERT_EQ(tinygltf::decode(model).what, "");
+  EXPECT_EQ(model.buffers[0].data.size(), kCount * one.buffers[0].data.size());
 }
 
 }  // namespace

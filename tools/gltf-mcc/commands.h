@@ -43,6 +43,9 @@ void addVerbosityOptions(CLI::App& command, CommonOptions& options);
 /// Bits, --lossless, --grid and --prefer.
 void addQuantization(CLI::App& command, gltf::ConvertOptions& options);
 
+/// --max-decoded-bytes, see decodedLimit().
+void addDecodedLimitOption(CLI::App& command, uint64_t& max_decoded_bytes);
+
 /// Prints "gltf-mcc: FILE: where: what" on standard error; returns kFailed.
 int reportFailure(const gltf::Result& result);
 

@@ -255,9 +255,7 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
   const std::map<std::string, Preference> preferences = {{"balanced", Preference::kBalanced},
                                                          {"size", Preference::kSize},
                                                          {"speed", Preference::kSpeed}};
-  command
-      .add_option("--prefer", options.prefer,
-                  "Fewer bytes, or less time to decode [balanced]")
+  command.add_option("--prefer", options.prefer, "Fewer bytes, or less time to decode [balanced]")
       ->transform(CLI::CheckedTransformer(preferences, CLI::ignore_case).description(""))
       ->type_name("size|balanced|speed");
 }
@@ -296,6 +294,7 @@ void addConvert(CLI::App& app, int& status) {
       ->check(CLI::Range(1, 1024).description(""))
       ->type_name("N");
   command->add_flag("--force", state->is_forced, "With -o DIR: convert what is up to date, too");
+  addDecodedLimitOption(*command, state->convert.max_decoded_bytes);
   addVerbosityOptions(*command, state->common);
   addColorOption(*command);
   setHelp(

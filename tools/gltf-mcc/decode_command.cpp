@@ -18,8 +18,7 @@ namespace {
 struct DecodeCommand {
   CommonOptions common;
   InOut files;
-  gltf::DecodeTo decode_to = gltf::DecodeTo::kFloats;
-  uint32_t thread_count = 1;
+  gltf::FileDecodeOptions decoding;
   bool is_forced = false;
 
   int run() {
@@ -37,17 +36,19 @@ int DecodeCommand::runMany() const {
   options.inputs = files.inputs;
   options.folder = files.output;
   options.common = common;
-  options.job_count = thread_count;
+  options.job_count = decoding.thread_count;
   options.is_forced = is_forced;
   options.done_name = "decoded";
   options.copied_why = "nothing in it is compressed";
   options.settings = {
-      {"decode_to", decode_to == gltf::DecodeTo::kIntegers ? "integers" : "floats"}};
+      {"decode_to", decoding.decode_to == gltf::DecodeTo::kIntegers ? "integers" : "floats"}};
   options.make = [this](const std::string& file, const std::filesystem::path& to,
                         uint32_t threads_of_file, BatchResult& result) {
     gltf::DecodeReport done;
-    gltf::Result outcome = gltf::decode({file, {}}, {to, nullptr, &temporaryFiles()}, done,
-                                        decode_to, threads_of_file);
+    gltf::FileDecodeOptions of_file = decoding;
+    of_file.thread_count = threads_of_file;
+    gltf::Result outcome =
+        gltf::decode({file, {}}, {to, nullptr, &temporaryFiles()}, done, of_file);
     result = {done.copied, done.input_bytes, done.output_bytes, done.files, {}};
     return outcome;
   };
@@ -63,7 +64,7 @@ int DecodeCommand::runOne() const {
   gltf::DecodeReport report;
   if (outcome.ok()) {
     const WorkProgress progress(common.is_quiet, "decoding " + input);
-    outcome = gltf::decode(source.source(), sink.sink(), report, decode_to, thread_count);
+    outcome = gltf::decode(source.source(), sink.sink(), report, decoding);
   }
   if (outcome.ok()) outcome = sink.finish();
   if (!outcome.ok()) return reportFailure(outcome, input, files.output);
@@ -87,13 +88,16 @@ void addDecode(CLI::App& app, int& status) {
   state->files.addOptions(*command);
   const std::map<std::string, gltf::DecodeTo> kinds = {{"floats", gltf::DecodeTo::kFloats},
                                                        {"integers", gltf::DecodeTo::kIntegers}};
-  command->add_option("--decode-to", state->decode_to, "What quantised attributes become [floats]")
+  command
+      ->add_option("--decode-to", state->decoding.decode_to,
+                   "What quantised attributes become [floats]")
       ->transform(CLI::CheckedTransformer(kinds, CLI::ignore_case).description(""))
       ->type_name("floats|integers");
-  command->add_option("-j,--jobs", state->thread_count, "Threads to use [1]")
+  command->add_option("-j,--jobs", state->decoding.thread_count, "Threads to use [1]")
       ->check(CLI::Range(1, 1024).description(""))
       ->type_name("N");
   command->add_flag("--force", state->is_forced, "With -o DIR: decode what is up to date, too");
+  addDecodedLimitOption(*command, state->decoding.max_decoded_bytes);
   addVerbosityOptions(*command, state->common);
   addColorOption(*command);
   setHelp(

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <map>
 
 #include "commands.h"
@@ -38,6 +39,15 @@ void addFormatOption(CLI::App& command, CommonOptions& options) {
   command.add_option("--format", options.format, "How tables are printed")
       ->transform(CLI::CheckedTransformer(names, CLI::ignore_case).description(""))
       ->type_name("pretty|md|csv|json");
+}
+
+void addDecodedLimitOption(CLI::App& command, uint64_t& max_decoded_bytes) {
+  command
+      .add_option("--max-decoded-bytes", max_decoded_bytes,
+                  "Refuse files that ask for more decoded geometry [1024 for each byte of the "
+                  "file, at least 268435456, at most 4294967296]")
+      ->check(CLI::Range(uint64_t{1}, std::numeric_limits<uint64_t>::max()).description(""))
+      ->type_name("N");
 }
 
 void addVerbosityOptions(CLI::App& command, CommonOptions& options) {

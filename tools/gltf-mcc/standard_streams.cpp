@@ -3,9 +3,7 @@
 
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 
 #include "gltf/file_io.h"
 #include "interrupt.h"
@@ -13,7 +11,6 @@
 namespace mcc::tool {
 namespace {
 
-constexpr size_t kReadBytes = size_t{1} << 18;
 constexpr char kInputName[] = "standard input";
 constexpr char kOutputName[] = "standard output";
 
@@ -33,19 +30,7 @@ gltf::Result StreamSource::open(const std::string& name) {
   if (isatty(STDIN_FILENO) == 1) {
     return {kInputName, "is a terminal; send a file to it (gltf-mcc … < model.glb)"};
   }
-  bytes_.emplace();
-  size_t size = 0;
-  while (true) {
-    bytes_->resize(size + kReadBytes);
-    const ssize_t count = ::read(STDIN_FILENO, bytes_->data() + size, kReadBytes);
-    if (count > 0) size += static_cast<size_t>(count);
-    if (count < 0 && errno != EINTR) {
-      return {kInputName, std::string("cannot be read: ") + std::strerror(errno)};
-    }
-    if (count == 0) break;
-  }
-  bytes_->resize(size);
-  return {};
+  return gltf::readStream(STDIN_FILENO, kInputName, bytes_.emplace());
 }
 
 gltf::Source StreamSource::source() const {

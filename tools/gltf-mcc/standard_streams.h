@@ -19,7 +19,8 @@ inline bool isStandardStream(const std::string& name) { return name == "-"; }
 /// A file, or standard input when it is called "-".
 class StreamSource {
  public:
-  /// Reads standard input, or a pipe, to its end, if it is that. Errors: it is a terminal; it cannot be read.
+  /// Reads standard input, or a pipe, if it is that, as far as gltf::readStream() says. Errors: it is a terminal; those
+  /// of readStream().
   gltf::Result open(const std::string& name);
   /// Valid as long as this object.
   gltf::Source source() const;

@@ -165,6 +165,7 @@ void addValidate(CLI::App& app, int& status) {
       ->add_option("--max-issues", state->options.max_issues,
                    "List so many issues of a file, 0: all [1000]")
       ->type_name("N");
+  addDecodedLimitOption(*command, state->options.max_decoded_bytes);
   command->add_flag("-q,--quiet", state->common.is_quiet, "Print errors only");
   addFormatOption(*command, state->common);
   addColorOption(*command);

@@ -310,6 +310,7 @@ typedef struct mcc_convert_options {
   uint32_t thread_count;        /**< the result does not depend on it */
   const mcc_lattice* position_lattice; /**< lattice of all positions, for tiles; null: none */
   uint32_t prefer;                     /**< MCC_PREFER_… */
+  uint64_t max_decoded_bytes; /**< of what is compressed; 0: as of mcc_decode_glb_options */
 } mcc_convert_options;
 
 /** Fills in `struct_bytes`, which is sizeof(mcc_convert_options) of the caller, and the defaults. */
@@ -330,6 +331,9 @@ typedef struct mcc_decode_glb_options {
   size_t struct_bytes;
   uint32_t decode_to_integers; /**< 1: quantised attributes stay integers (KHR_mesh_quantization) */
   uint32_t thread_count; /**< payloads decoded at the same time; the result does not depend on it */
+  /** A GLB that asks for more bytes of decoded geometry is refused before memory is taken. 0, the default: 1024 for each of its
+   * bytes, but no less than 256 MiB and no more than 4 GiB. */
+  uint64_t max_decoded_bytes;
 } mcc_decode_glb_options;
 
 /** Fills in `struct_bytes`, which is sizeof(mcc_decode_glb_options) of the caller, and the defaults. */

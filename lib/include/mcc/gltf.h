@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "mcc/decoded_limit.h"
 #include "mcc/export.h"
 #include "mcc/reader.h"
 #include "mcc/types.h"
@@ -118,6 +119,9 @@ struct ConvertOptions {
   uint8_t effort = 1;                         ///< see EncodeOptions::effort
   Preference prefer = Preference::kBalanced;  ///< payloads that are smaller, or faster to decode
   ForeignDecoders decoders;                   ///< for sources that are compressed already
+  /// What the source may decode to, where it is compressed, see decodedLimit(); 0: the default. Accessors without bytes in the
+  /// file may have a 32nd of it together; primitives that would need more stay as they are.
+  uint64_t max_decoded_bytes = 0;
   /// Called now and then with what is being done, for people who wait, and the share of its triangles that is behind it,
   /// or -1. One call at a time, on any of the threads; throws nothing. May be null.
   std::function<void(const char* stage, double share)> progress;
@@ -209,13 +213,21 @@ enum class DecodeTo : uint8_t {
   kIntegers,
 };
 
+/// How decode() decodes.
+struct FileDecodeOptions {
+  DecodeTo decode_to = DecodeTo::kFloats;
+  uint32_t thread_count = 1;  ///< the result does not depend on it
+  /// What the file may decode to, see decodedLimit(); 0: the default. Checked before memory is taken.
+  uint64_t max_decoded_bytes = 0;
+};
+
 /// What decode() did.
 struct DecodeReport {
   FilesInUse files;
   uint64_t input_bytes = 0;
   uint64_t output_bytes = 0;
-  bool copied = false;  ///< nothing was compressed: the output is the input
-  uint32_t payload_count = 0;
+  bool copied = false;         ///< nothing was compressed: the output is the input
+  uint32_t payload_count = 0;  ///< different ones: views of the same bytes hold one
   uint32_t primitive_count = 0;
   uint64_t triangle_count = 0;
   uint64_t wedge_count = 0;
@@ -288,8 +300,9 @@ struct ValidationIssue {
 
 /// Bounds of validate().
 struct ValidateOptions {
-  Limits limits;               ///< of each payload
-  uint32_t max_issues = 1000;  ///< more are counted, but not listed; 0: all are listed
+  Limits limits;                   ///< of each payload
+  uint64_t max_decoded_bytes = 0;  ///< of the file, see decodedLimit(); 0: the default
+  uint32_t max_issues = 1000;      ///< more are counted, but not listed; 0: all are listed
 };
 
 /// What validate() found.
@@ -306,9 +319,9 @@ struct ValidationReport {
   uint64_t input_bytes = 0;
   uint32_t primitive_count = 0;             ///< of the file
   uint32_t compressed_primitive_count = 0;  ///< of these, with the extension
-  uint32_t payload_count = 0;
-  uint64_t triangle_count = 0;  ///< of the payloads that decode
-  uint64_t wedge_count = 0;     ///< the same
+  uint32_t payload_count = 0;               ///< different ones
+  uint64_t triangle_count = 0;              ///< of the payloads that decode
+  uint64_t wedge_count = 0;                 ///< the same
 
   /// Whether there are no errors.
   bool isValid() const { return issue_counts[static_cast<size_t>(Severity::kError)] == 0; }
@@ -342,7 +355,8 @@ struct Sink {
 /// what was there is as it was. Both paths may name the same file. The .bin of a .gltf replaces
 /// another file only when the .gltf that was there referred to it. Images of a .gltf that are files
 /// move into a GLB; beside a .gltf they stay files, and are copied where it lies in another folder.
-/// URIs that are absolute or lead out of the folder of the source are refused.
+/// URIs that are absolute or lead out of the folder of the source are refused, and so are files above 4 GiB. A pipe or a
+/// device as the source is read no farther than the length in a GLB's header.
 ///
 /// On an error the bytes of a sink in memory are unspecified and `report` holds what was known by
 /// then. Safe for untrusted input. Deterministic. Inverse: decode(). Tests: tests/gltf/, tests/cli/.
@@ -356,20 +370,20 @@ MCC_API Result convertFile(const std::filesystem::path& source, const std::files
                            const ConvertOptions& options, ConvertReport& report);
 
 /// Turns compressed primitives into ordinary accessors again; a file without any is copied. Files are
-/// treated as by convert(). `thread_count` payloads are decoded at the same time; the result does not depend on it.
-/// Safe for untrusted input.
+/// treated as by convert(). A payload is decoded once, however many primitives and buffer views name its bytes; accessors of the
+/// same elements share a buffer view. Safe for untrusted input: a file that asks for more than options.max_decoded_bytes is
+/// refused before memory is taken.
 MCC_API Result decode(const Source& source, const Sink& sink, DecodeReport& report,
-                      DecodeTo decode_to = DecodeTo::kFloats, uint32_t thread_count = 1);
+                      const FileDecodeOptions& options = {});
 
 /// decode() from memory to memory, and from file to file.
 MCC_API Result decodeGlb(std::span<const uint8_t> source, std::vector<uint8_t>& output,
-                         DecodeReport& report, DecodeTo decode_to = DecodeTo::kFloats);
+                         DecodeReport& report, const FileDecodeOptions& options = {});
 MCC_API Result decodeFile(const std::filesystem::path& source, const std::filesystem::path& output,
-                          DecodeReport& report, DecodeTo decode_to = DecodeTo::kFloats,
-                          uint32_t thread_count = 1);
+                          DecodeReport& report, const FileDecodeOptions& options = {});
 
 /// Lists the payloads of a file. With `count_codes` they are decoded to count their codes, and the bits of their
-/// streams. Safe for untrusted input.
+/// streams. Safe for untrusted input: that is bounded by decodedLimit()'s default.
 MCC_API Result inspectGlb(std::span<const uint8_t> source, bool count_codes, InspectReport& report);
 MCC_API Result inspectFile(const std::filesystem::path& source, bool count_codes,
                            InspectReport& report);

@@ -38,6 +38,7 @@
 #include <utility>
 #include <vector>
 
+#include "mcc/decoded_limit.h"
 #include "mcc/reader.h"
 
 #if __has_include("mcc/gltf.h")
@@ -64,6 +65,9 @@ struct DecodeOptions {
   uint32_t thread_count = 1;
   /// Bounds of each payload.
   Limits limits;
+  /// What all payloads may decode to, see decodedLimit(), where the file is the model's buffers; 0: the default. Checked before
+  /// memory is taken.
+  uint64_t max_decoded_bytes = 0;
 };
 
 /// Implementation; not for callers.
@@ -163,13 +167,15 @@ struct Place {
   uint64_t count = 0;
   uint32_t stride = 0;
   std::vector<uint8_t> tight;  ///< of matrices with padded columns
+  uint32_t user_count = 0;     ///< accessors
+  int view = -1;               ///< that it becomes
 
   bool isPadded() const { return layout.columns * layout.column_bytes != layout.tightBytes(); }
 };
 
 /// A payload, and all that is decoded of it.
 struct Job {
-  uint32_t view = 0;
+  std::vector<uint32_t> views;  ///< that hold its bytes and are named
   std::string where;
   Payload payload;
   std::map<Filled, Place> places;
@@ -190,6 +196,7 @@ class Decoder {
       }
     }
     if (jobs_.empty()) return;
+    checkDecodedBytes();
     layOut();
     decodeAll();
     store();
@@ -203,27 +210,54 @@ class Decoder {
     if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != -1) {
       fail(path + "/mode", "must be 4 (triangles) in a compressed primitive");
     }
-    Job& job = openPayload(indexOf(extension, "bufferView", where), where);
+    const uint32_t view = indexOf(extension, "bufferView", where);
+    Job& job = *jobs_[openPayload(view, where)];
     const PayloadInfo& info = job.payload.info();
     const uint32_t piece = indexOf(extension, "piece", where, 0);
     if (piece >= info.pieces.size()) fail(where + "/piece", "the payload has no such piece");
     const uint32_t part = indexOf(extension, "part", where, 0);
     if (part >= info.pieces[piece].parts.size())
       fail(where + "/part", "the piece has no such part");
+    view_ = view;
     addIndices(job, info.pieces[piece], {piece, part, true}, primitive.indices, path + "/indices");
     addMap(job, piece, extension, primitive.attributes, 0, where + "/attributes");
     addTargets(job, piece, extension, primitive, where + "/targets");
   }
 
-  Job& openPayload(uint32_t view, const std::string& where) {
+  /// Number of a job. Buffer views of the same bytes hold one payload.
+  size_t openPayload(uint32_t view, const std::string& where) {
     const auto [found, is_new] = by_view_.try_emplace(view, jobs_.size());
-    if (!is_new) return *jobs_[found->second];
-    auto job = std::make_unique<Job>();
-    job->view = view;
-    job->where = where + "/bufferView";
-    check(job->payload.open(bytesOf(view, job->where), options_.limits), job->where);
-    jobs_.push_back(std::move(job));
-    return *jobs_.back();
+    if (!is_new) return found->second;
+    const std::span<const uint8_t> bytes = bytesOf(view, where + "/bufferView");
+    const auto [same, is_other] = by_bytes_.try_emplace({bytes.data(), bytes.size()}, jobs_.size());
+    found->second = same->second;
+    if (is_other) {
+      auto job = std::make_unique<Job>();
+      job->where = where + "/bufferView";
+      check(job->payload.open(bytes, options_.limits), job->where);
+      jobs_.push_back(std::move(job));
+    }
+    jobs_[found->second]->views.push_back(view);
+    return found->second;
+  }
+
+  void checkDecodedBytes() const {
+    uint64_t decoded = 0;
+    for (const auto& job : jobs_) {
+      for (const PieceInfo& piece : job->payload.info().pieces) {
+        for (const AttributeInfo& attribute : piece.attributes) {
+          decoded += uint64_t{piece.wedge_count} * elementBytes(attribute.format);
+        }
+        for (const PartInfo& part : piece.parts) decoded += uint64_t{12} * part.triangle_count;
+      }
+    }
+    uint64_t file_bytes = 0;
+    for (const ::tinygltf::Buffer& buffer : model_.buffers) file_bytes += buffer.data.size();
+    const uint64_t limit = decodedLimit(options_.max_decoded_bytes, file_bytes);
+    if (decoded <= limit) return;
+    fail("/buffers", "their " + std::to_string(file_bytes) + " bytes ask for " +
+                         std::to_string(decoded) + " bytes of decoded geometry; the limit is " +
+                         std::to_string(limit) + ", which max_decoded_bytes raises");
   }
 
   /// tinygltf does not check the ranges of buffer views.
@@ -315,8 +349,8 @@ class Decoder {
       fail(where, "accessor " + std::to_string(number) + " has not the count of the payload, " +
                       std::to_string(count));
     }
-    const auto [claim, is_new] = claims_.try_emplace(number, std::pair(job.view, filled));
-    if (claim->second != std::pair(job.view, filled)) {
+    const auto [claim, is_new] = claims_.try_emplace(number, std::pair(view_, filled));
+    if (claim->second != std::pair(view_, filled)) {
       fail(where, "accessor " + std::to_string(number) + " is filled from two places of payloads");
     }
     Place& place = job.places[filled];
@@ -326,6 +360,7 @@ class Decoder {
     place.layout = layout;
     place.count = count;
     place.stride = stride;
+    place.user_count += is_new ? 1 : 0;
   }
 
   /// Places of all that is decoded, each at a multiple of four.
@@ -402,7 +437,7 @@ class Decoder {
 
   /// From here on nothing fails, so that a model is changed as a whole or not at all.
   void store() {
-    const int buffer = model_.bufferViews[jobs_[0]->view].buffer;
+    const int buffer = model_.bufferViews[jobs_[0]->views[0]].buffer;
     removePayloads();
     auto& data = model_.buffers[static_cast<size_t>(buffer)].data;
     const uint64_t begin = (data.size() + 3) & ~size_t{3};
@@ -413,6 +448,12 @@ class Decoder {
       data.insert(data.end(), bytes_.begin(), bytes_.end());
     }
     for (const auto& job : jobs_) storeJob(*job, buffer, begin);
+    for (const auto& [number, claim] : claims_) {
+      Accessor& accessor = model_.accessors[static_cast<size_t>(number)];
+      accessor.bufferView = jobs_[by_view_.at(claim.first)]->places.at(claim.second).view;
+      accessor.byteOffset = 0;
+      accessor.sparse.isSparse = false;
+    }
     for (::tinygltf::Mesh& mesh : model_.meshes) {
       for (Primitive& primitive : mesh.primitives) primitive.extensions.erase(kExtension);
     }
@@ -421,78 +462,122 @@ class Decoder {
     }
   }
 
-  /// Cuts the bytes of payloads out of their buffers, as long as no other view refers to them. Their views become the first
-  /// of the decoded ones, so that no number changes and none is left over.
+  /// Bytes of a buffer, and the payload that they are to be cut out for, if any.
+  struct Range {
+    int buffer = 0;
+    size_t begin = 0;
+    size_t end = 0;
+    Job* job = nullptr;
+  };
+
+  /// Cuts the bytes of payloads out of their buffers, as long as no other view refers to them. Their views become decoded
+  /// ones, so that no number changes and none is left over.
   void removePayloads() {
     for (const ::tinygltf::BufferView& view : model_.bufferViews) {
       if (!view.extensions.empty()) return;  // may have offsets of their own
     }
+    std::vector<Range> ranges = rangesInUse();
+    std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) {
+      return std::tie(a.buffer, a.begin, a.end) < std::tie(b.buffer, b.begin, b.end);
+    });
+    std::vector<Range> cuts;
+    size_t end = 0;  // of all ranges so far in this buffer
+    for (size_t i = 0; i < ranges.size(); ++i) {
+      const Range& range = ranges[i];
+      if (i == 0 || ranges[i - 1].buffer != range.buffer) end = 0;
+      const bool is_before_next = i + 1 == ranges.size() || ranges[i + 1].buffer != range.buffer ||
+                                  ranges[i + 1].begin >= range.end;
+      if (range.job != nullptr && end <= range.begin && is_before_next) cuts.push_back(range);
+      end = std::max(end, range.end);
+    }
+    removeBytes(cuts);
+  }
+
+  /// Each payload once; of other views all.
+  std::vector<Range> rangesInUse() const {
+    std::vector<Range> ranges;
     for (const auto& job : jobs_) {
-      const ::tinygltf::BufferView cut = model_.bufferViews[job->view];
-      // Whole words, so that what follows keeps its alignment; padding behind them, too.
-      auto& data = model_.buffers[static_cast<size_t>(cut.buffer)].data;
+      const ::tinygltf::BufferView& cut = model_.bufferViews[job->views[0]];
+      // Whole words, so that what follows keeps its alignment; padding after them, too.
+      const auto& data = model_.buffers[static_cast<size_t>(cut.buffer)].data;
       const size_t end = std::min(data.size(), (cut.byteOffset + cut.byteLength + 3) & ~size_t{3});
       const size_t length =
           end == data.size() ? end - cut.byteOffset : (end - cut.byteOffset) & ~size_t{3};
-      if (isAlone(job->view, cut.byteOffset, cut.byteOffset + length)) {
-        removeBytes(cut.buffer, cut.byteOffset, length);
-        model_.bufferViews[job->view].byteLength = 0;
-      }
+      ranges.push_back({cut.buffer, cut.byteOffset, cut.byteOffset + length, job.get()});
     }
-  }
-
-  bool isAlone(uint32_t number, size_t begin, size_t end) const {
     for (size_t i = 0; i < model_.bufferViews.size(); ++i) {
+      if (by_view_.contains(static_cast<uint32_t>(i))) continue;
       const ::tinygltf::BufferView& view = model_.bufferViews[i];
-      if (i != number && view.buffer == model_.bufferViews[number].buffer &&
-          view.byteOffset < end && view.byteOffset + view.byteLength > begin) {
-        return false;
-      }
+      ranges.push_back({view.buffer, view.byteOffset, view.byteOffset + view.byteLength, nullptr});
     }
-    return true;
+    return ranges;
   }
 
-  void removeBytes(int buffer, size_t begin, size_t length) {
-    auto& data = model_.buffers[static_cast<size_t>(buffer)].data;
-    const auto first = data.begin() + static_cast<ptrdiff_t>(begin);
-    data.erase(first, first + static_cast<ptrdiff_t>(length));
+  /// cuts  in the order of buffers and bytes, apart from each other.
+  void removeBytes(const std::vector<Range>& cuts) {
+    std::vector<size_t> removed = {0};  // by the cuts in front
+    for (size_t i = 0; i < cuts.size(); ++i) {
+      const bool is_first = i == 0 || cuts[i - 1].buffer != cuts[i].buffer;
+      removed.push_back((is_first ? 0 : removed.back()) + cuts[i].end - cuts[i].begin);
+      for (const uint32_t view : cuts[i].job->views) model_.bufferViews[view].byteLength = 0;
+    }
+    const auto cutsBefore = [&](int buffer, size_t offset) {
+      const auto above = std::partition_point(cuts.begin(), cuts.end(), [&](const Range& cut) {
+        return std::tie(cut.buffer, cut.begin) < std::tie(buffer, offset);
+      });
+      const auto count = static_cast<size_t>(above - cuts.begin());
+      return count != 0 && cuts[count - 1].buffer == buffer ? removed[count] : 0;
+    };
     for (::tinygltf::BufferView& view : model_.bufferViews) {
-      if (view.buffer == buffer && view.byteOffset > begin) view.byteOffset -= length;
+      view.byteOffset -= cutsBefore(view.buffer, view.byteOffset);
+    }
+    for (size_t i = 0; i < cuts.size();) {
+      auto& data = model_.buffers[static_cast<size_t>(cuts[i].buffer)].data;
+      size_t kept = cuts[i].begin;
+      const int buffer = cuts[i].buffer;
+      for (; i < cuts.size() && cuts[i].buffer == buffer; ++i) {
+        const bool is_last = i + 1 == cuts.size() || cuts[i + 1].buffer != buffer;
+        const size_t next = is_last ? data.size() : cuts[i + 1].begin;
+        std::memmove(data.data() + kept, data.data() + cuts[i].end, next - cuts[i].end);
+        kept += next - cuts[i].end;
+      }
+      data.resize(kept);
     }
   }
 
   void storeJob(Job& job, int buffer, uint64_t begin) {
-    std::map<Filled, int> views;
-    uint32_t free_view = job.view;
-    for (const auto& [filled, place] : job.places) {
+    size_t used_views = 0;
+    for (auto& [filled, place] : job.places) {
       ::tinygltf::BufferView view;
       view.buffer = buffer;
       view.byteOffset = begin + place.offset;
       view.byteLength = place.count * place.stride;
       const bool is_tight = place.stride == place.layout.columns * place.layout.column_bytes;
-      view.byteStride = filled.is_part || is_tight ? 0 : place.stride;
+      // glTF wants the stride of vertex attributes that share a view.
+      const bool has_stride = !filled.is_part && (!is_tight || place.user_count > 1);
+      view.byteStride = has_stride ? place.stride : 0;
       view.target =
           filled.is_part ? TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER : TINYGLTF_TARGET_ARRAY_BUFFER;
-      if (free_view == kNone) {
-        free_view = static_cast<uint32_t>(model_.bufferViews.size());
-        model_.bufferViews.emplace_back();
+      if (used_views < job.views.size()) {
+        place.view = static_cast<int>(job.views[used_views++]);
+        model_.bufferViews[static_cast<size_t>(place.view)] = view;
+      } else {
+        place.view = static_cast<int>(model_.bufferViews.size());
+        model_.bufferViews.push_back(view);
       }
-      model_.bufferViews[free_view] = view;
-      views[filled] = static_cast<int>(std::exchange(free_view, kNone));
     }
-    for (const auto& [number, claim] : claims_) {
-      if (claim.first != job.view) continue;
-      Accessor& accessor = model_.accessors[static_cast<size_t>(number)];
-      accessor.bufferView = views.at(claim.second);
-      accessor.byteOffset = 0;
-      accessor.sparse.isSparse = false;
+    // What is left over has to be a view of something.
+    for (; used_views < job.views.size(); ++used_views) {
+      model_.bufferViews[job.views[used_views]] = model_.bufferViews[job.views[0]];
     }
   }
 
   Model& model_;
   const DecodeOptions& options_;
   std::vector<std::unique_ptr<Job>> jobs_;
-  std::map<uint32_t, size_t> by_view_;
+  std::map<uint32_t, size_t> by_view_;                            ///< jobs
+  std::map<std::pair<const uint8_t*, size_t>, size_t> by_bytes_;  ///< jobs
+  uint32_t view_ = 0;                                             ///< of the primitive at hand
   std::map<int, std::pair<uint32_t, Filled>> claims_;  ///< accessor -> (buffer view, what of it)
   std::vector<unsigned char> bytes_;                   ///< all that is decoded
 };
@@ -637,7 +722,9 @@ inline bool loadCompressed(::tinygltf::TinyGLTF& loader, Model& model, std::stri
 /// Decodes all compressed primitives of a loaded model: accessors get buffer views with plain elements, the extension goes
 /// from primitives, extensionsUsed and extensionsRequired. Bytes of payloads are removed; numbers of buffer views,
 /// accessors and buffers do not change, new buffer views come last. `min` and `max` of accessors fit already.
-/// Errors: the extension or a payload contradicts itself, the model or options.limits; the model is then as it was.
+/// Errors: the extension or a payload contradicts itself, the model or options.limits, or all payloads together are above
+/// options.max_decoded_bytes; the model is then as it was. A payload is decoded once, however many primitives and views name
+/// its bytes; accessors of the same elements share a buffer view.
 /// Safe for untrusted models. May throw std::bad_alloc. A model without the extension stays as it is.
 /// Inverse: encode(). Tests: tests/tinygltf/.
 inline Result decode(::tinygltf::Model& model, const DecodeOptions& options = {}) try {

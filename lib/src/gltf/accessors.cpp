@@ -20,6 +20,12 @@ const uint8_t* viewBytes(const Document& document, uint32_t view, uint64_t offse
   return document.buffers[from.buffer].data() + from.offset + offset;
 }
 
+/// Of an accessor that has no bytes in the file.
+uint64_t maxZeroBytes(const Document& document) {
+  constexpr uint64_t kMost = uint64_t{1} << 28;
+  return std::min(kMost, document.decoded.zeroLimit());
+}
+
 /// Removes the padding of matrix columns.
 void copyTight(const uint8_t* element, const Accessor& accessor, uint8_t* out) {
   const uint32_t tight_column = accessor.rows * componentBytes(accessor.component_type);
@@ -96,9 +102,10 @@ Result readAccessor(const Document& document, uint32_t index, AccessorData& elem
       elements.stride_bytes = stride;
       return {};
     }
-  } else if (accessor.count > kMaxZeroCount) {
+  } else if (accessor.count * elements.element_bytes > maxZeroBytes(document)) {
     return error(path, "has no bufferView but claims " + std::to_string(accessor.count) +
-                           " elements; at most " + std::to_string(kMaxZeroCount) + " are read");
+                           " elements; at most " + std::to_string(maxZeroBytes(document)) +
+                           " bytes of such are read");
   }
   elements.owned.resize(accessor.count * elements.element_bytes);
   for (uint64_t i = 0; source != nullptr && i < accessor.count; ++i) {

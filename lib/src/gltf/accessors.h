@@ -26,15 +26,13 @@ struct AccessorData {
   }
 };
 
-/// Largest count of an accessor that has no bytes in the file.
-inline constexpr uint64_t kMaxZeroCount = uint64_t{1} << 24;
-
 /// Why the elements of an accessor cannot be read: its type is unknown, or its bytes are coded by an extension and were not
 /// decoded. Empty when they can be.
 std::string whyUnreadable(const Document& document, const Accessor& accessor);
 
 /// Reads an accessor: strided, interleaved, sparse, without view, a matrix with padded columns.
-/// Does not copy when the bytes can be used where they are. Errors carry the path /accessors/N.
+/// Does not copy when the bytes can be used where they are. Errors carry the path /accessors/N; one is that there are no
+/// bytes in the file, and more than document.decoded.zeroLimit() are claimed.
 Result readAccessor(const Document& document, uint32_t index, AccessorData& elements);
 
 /// Reads an accessor of indices. Errors: it is no SCALAR of an unsigned integer type.

@@ -36,7 +36,7 @@ mcc_convert_options defaultConvertOptions() {
   return options;
 }
 
-mcc_decode_glb_options defaultDecodeOptions() { return {sizeof(mcc_decode_glb_options), 0, 1}; }
+mcc_decode_glb_options defaultDecodeOptions() { return {sizeof(mcc_decode_glb_options), 0, 1, 0}; }
 
 /// Bits of floats, or of unit vectors.
 Status readBits(uint32_t bits, bool is_unit_vector, uint8_t& out) {
@@ -67,6 +67,7 @@ Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
   out.effort = static_cast<uint8_t>(options.effort);
   out.prefer = static_cast<Preference>(options.prefer);
   out.thread_count = options.thread_count;
+  out.max_decoded_bytes = options.max_decoded_bytes;
   if (options.position_lattice != nullptr) {
     Lattice& lattice = out.position_lattice.emplace();
     std::copy_n(options.position_lattice->origin, 4, lattice.origin);
@@ -134,13 +135,15 @@ mcc_status mcc_decode_glb(const void* glb, size_t byte_count, const mcc_decode_g
     if (document != nullptr) *document = nullptr;
     return mcc::toC(status);
   }
-  const auto decode_to =
-      read.decode_to_integers != 0 ? mcc::gltf::DecodeTo::kIntegers : mcc::gltf::DecodeTo::kFloats;
-  return mcc::gltf::makeDocument(
-      glb, byte_count, document, [&](const mcc::gltf::Source& source, const mcc::gltf::Sink& sink) {
-        mcc::gltf::DecodeReport report;
-        return mcc::gltf::decode(source, sink, report, decode_to, read.thread_count);
-      });
+  mcc::gltf::FileDecodeOptions decode_options;
+  if (read.decode_to_integers != 0) decode_options.decode_to = mcc::gltf::DecodeTo::kIntegers;
+  decode_options.thread_count = read.thread_count;
+  decode_options.max_decoded_bytes = read.max_decoded_bytes;
+  return mcc::gltf::makeDocument(glb, byte_count, document,
+                                 [&](const mcc::gltf::Source& source, const mcc::gltf::Sink& sink) {
+                                   mcc::gltf::DecodeReport report;
+                                   return mcc::gltf::decode(source, sink, report, decode_options);
+                                 });
 }
 
 const uint8_t* mcc_document_bytes(const mcc_document* document, size_t* byte_count) {

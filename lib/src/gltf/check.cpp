@@ -36,6 +36,7 @@ class Checker {
         failed(decompressDocument(compressed, decompressed, DecodeTo::kFloats, thread_count), ""));
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     result_.decode_seconds = time.count();
+    result_.decoded_bytes = decompressed.decoded_bytes;
     coded_ = std::move(decompressed.coded_attributes);
     std::vector<ExtensionUse> uses;
     MCC_GLTF_TRY(findExtensionUses(compressed, uses));

@@ -18,6 +18,7 @@ namespace mcc::gltf {
 struct CheckResult {
   /// Per payload: what was measured, merged by attribute name.
   std::vector<std::vector<AttributeReport>> attributes;
+  uint64_t decoded_bytes = 0;  ///< of all payloads
   double decode_seconds = 0;
 };
 

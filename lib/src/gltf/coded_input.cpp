@@ -41,6 +41,8 @@ Result decodeView(const ForeignDecoders& decoders, uint32_t number, Document& do
     return error(where, std::to_string(view.length) + " bytes cannot hold " +
                             std::to_string(coding.length) + " bytes");
   }
+  document.decoded.add(coding.length);
+  MCC_GLTF_TRY(document.decoded.check());
   const CodedView coded = {payloadBytes(document, number), coding.count, coding.stride, coding.mode,
                            coding.filter};
   std::vector<uint8_t> elements;
@@ -181,6 +183,11 @@ class MeshReader {
       is_known &= !is_new;
     }
     if (is_known) return {};
+    document_.decoded.add(12 * coded.coded.triangle_count);
+    for (const uint32_t accessor : coded.attributes) {
+      document_.decoded.add(coded.coded.vertex_count * document_.accessors[accessor].tightBytes());
+    }
+    MCC_GLTF_TRY(document_.decoded.check());
     DecodedMesh mesh;
     MCC_GLTF_TRY(inPlace(decoders_.mesh(coded.coded, mesh), coded.path));
     if (mesh.indices.size() != 3 * coded.coded.triangle_count ||

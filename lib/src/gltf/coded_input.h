@@ -10,7 +10,8 @@
 namespace mcc::gltf {
 
 /// Decodes the coded buffer views that triangle primitives use, so that accessors on them can be read. Without a decoder
-/// they stay unreadable. Errors: a view is damaged, or coded in a way the decoder does not know.
+/// they stay unreadable. Errors: a view is damaged, or coded in a way the decoder does not know;
+/// document.decoded is above its limit.
 Result decodeViews(const ForeignDecoders& decoders, Document& document);
 
 /// Decodes coded primitives, so that their accessors can be read. Those whose accessors have bytes of their own besides, or

@@ -188,6 +188,7 @@ Result convertInput(const Input& input, const Output& output, const ConvertOptio
   Package& package = conversion.package;
   tell(options, "reading");
   MCC_GLTF_TRY(loadFor(output, input, document, report.files));
+  document.decoded = DecodedBytes(options.max_decoded_bytes, document.source_bytes);
   MCC_GLTF_TRY(decodeViews(options.decoders, document));
   // Attributes beside a payload of triangles would have to be stored anew.
   if (!options.indices_only) MCC_GLTF_TRY(decodeMeshes(options.decoders, document));
@@ -235,6 +236,12 @@ Result checkOutput(const Conversion& conversion, const ConvertOptions& options,
     MCC_GLTF_TRY(checkConversion(conversion.document, payloads, options.decoders, stored, read_file,
                                  options.thread_count, checked));
     report.decode_seconds = checked.decode_seconds;
+    if (checked.decoded_bytes > decodedLimit(0, report.output_bytes)) {
+      report.notes.push_back(
+          "its geometry takes " + std::to_string(checked.decoded_bytes) +
+          " bytes decoded, more than decoders accept of so small a file by default; they need "
+          "max_decoded_bytes (--max-decoded-bytes)");
+    }
     report.check_seconds = watch.seconds() - checked.decode_seconds;
     addPayloads(payloads, std::move(checked), report);
   }
@@ -242,8 +249,8 @@ Result checkOutput(const Conversion& conversion, const ConvertOptions& options,
   return {};
 }
 
-Result decodeInput(const Input& input, const Output& output, DecodeTo decode_to,
-                   uint32_t thread_count, Package& package, DecodeReport& report) {
+Result decodeInput(const Input& input, const Output& output, const FileDecodeOptions& options,
+                   Package& package, DecodeReport& report) {
   report = {};
   const Stopwatch watch;
   Document document;
@@ -251,7 +258,8 @@ Result decodeInput(const Input& input, const Output& output, DecodeTo decode_to,
   report.input_bytes = document.source_bytes;
   report.notes = document.notes;
   Decompressed decompressed;
-  MCC_GLTF_TRY(decompressDocument(document, decompressed, decode_to, thread_count));
+  document.decoded = DecodedBytes(options.max_decoded_bytes, document.source_bytes);
+  MCC_GLTF_TRY(decompressDocument(document, decompressed, options.decode_to, options.thread_count));
   report.notes.insert(report.notes.end(), decompressed.notes.begin(), decompressed.notes.end());
   report.payload_count = decompressed.payload_count;
   report.primitive_count = decompressed.primitive_count;
@@ -303,16 +311,15 @@ Result convert(const Source& source, const Sink& sink, const ConvertOptions& opt
   });
 }
 
-Result decode(const Source& source, const Sink& sink, DecodeReport& report, DecodeTo decode_to,
-              uint32_t thread_count) {
+Result decode(const Source& source, const Sink& sink, DecodeReport& report,
+              const FileDecodeOptions& options) {
   return guarded([&]() -> Result {
     Input input;
     Output output;
     MCC_GLTF_TRY(input.open(source));
     MCC_GLTF_TRY(output.open(sink, false));
     Package package;
-    MCC_GLTF_TRY(
-        inInput(input, decodeInput(input, output, decode_to, thread_count, package, report)));
+    MCC_GLTF_TRY(inInput(input, decodeInput(input, output, options, package, report)));
     MCC_GLTF_TRY(output.write(std::move(package)));
     MCC_GLTF_TRY(output.commit());
     if (output.destination) report.files.output = output.destination->files();
@@ -331,13 +338,13 @@ Result convertFile(const fs::path& source, const fs::path& output, const Convert
 }
 
 Result decodeGlb(std::span<const uint8_t> source, std::vector<uint8_t>& output,
-                 DecodeReport& report, DecodeTo decode_to) {
-  return decode({{}, source}, {{}, &output}, report, decode_to);
+                 DecodeReport& report, const FileDecodeOptions& options) {
+  return decode({{}, source}, {{}, &output}, report, options);
 }
 
 Result decodeFile(const fs::path& source, const fs::path& output, DecodeReport& report,
-                  DecodeTo decode_to, uint32_t thread_count) {
-  return decode({source, {}}, {output, nullptr}, report, decode_to, thread_count);
+                  const FileDecodeOptions& options) {
+  return decode({source, {}}, {output, nullptr}, report, options);
 }
 
 }  // namespace mcc::gltf

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 #include "gltf/accessors.h"
 #include "gltf/integers.h"
@@ -24,94 +25,133 @@ class Decompressor {
         thread_count_(std::max(thread_count, 1u)),
         out_(out) {}
 
-  /// Fills in accessors() and the counts.
+  /// Fills in decoded() and the counts.
   Result decode() {
     MCC_GLTF_TRY(findExtensionUses(document_, uses_));
-    std::map<uint32_t, std::vector<const ExtensionUse*>> by_view;
-    for (const ExtensionUse& use : uses_) by_view[use.view].push_back(&use);
-    const std::vector<View> views(by_view.begin(), by_view.end());
+    const std::vector<PayloadUse> uses = payloadUses(document_, uses_);
+    std::vector<DecodedPayload> payloads(uses.size());
+    for (size_t i = 0; i < uses.size(); ++i) MCC_GLTF_TRY(open(uses[i], payloads[i]));
+    MCC_GLTF_TRY(checkDecodedBytes(uses, payloads));
     // As many at a time as there are threads, so that no more are in memory.
-    for (size_t begin = 0; begin < views.size(); begin += thread_count_) {
-      const size_t count = std::min<size_t>(thread_count_, views.size() - begin);
-      MCC_GLTF_TRY(decodeViews(std::span(views).subspan(begin, count)));
+    for (size_t begin = 0; begin < uses.size(); begin += thread_count_) {
+      const size_t count = std::min<size_t>(thread_count_, uses.size() - begin);
+      MCC_GLTF_TRY(runParallel(count, thread_count_, [&](size_t i) {
+        return decodePieces(whereOf(uses[begin + i]), payloads[begin + i]);
+      }));
+      for (size_t i = begin; i < begin + count; ++i) {
+        store(uses[i], payloads[i]);
+        payloads[i] = {};
+      }
     }
-    out_.payload_count = static_cast<uint32_t>(by_view.size());
+    out_.payload_count = static_cast<uint32_t>(uses.size());
     out_.primitive_count = static_cast<uint32_t>(uses_.size());
     return {};
   }
 
-  std::vector<DecodedAccessor>& accessors() { return accessors_; }
+  DecodedAccessors& decoded() { return decoded_; }
 
   /// After decode(): the document without the extension.
   Result rebuild() {
     if (uses_.empty()) return {};
     out_.json = document_.json;
-    std::vector<NewView> views;
-    for (DecodedAccessor& decoded : accessors_) {
-      Json& accessor = out_.json["accessors"][decoded.index];
+    for (const DecodedAccessors::Filled& filled : decoded_.filled) {
+      Json& accessor = out_.json["accessors"][filled.accessor];
       accessor.erase("byteOffset");
       accessor.erase("sparse");
-      accessor["bufferView"] = document_.views.size() + views.size();
-      views.push_back(std::move(decoded.view));
+      accessor["bufferView"] = document_.views.size() + filled.view;
     }
     for (const ExtensionUse& use : uses_) removeExtension(use);
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
       removeExtensionName(out_.json, list, kExtensionName);
     }
     if (decode_to_ == DecodeTo::kIntegers) {
-      storeIntegers(document_, out_.coded_attributes, out_.json, views, out_.notes);
+      storeIntegers(document_, out_.coded_attributes, out_.json, decoded_.views, out_.notes);
     }
     const ForeignReferences foreign = findForeignReferences(document_.json);
-    return rebuildBuffers(document_, foreign, views, out_.json, out_.bin);
+    return rebuildBuffers(document_, foreign, decoded_.views, out_.json, out_.bin);
   }
 
  private:
-  /// A buffer view with a payload, and the primitives that use it.
-  using View = std::pair<uint32_t, std::vector<const ExtensionUse*>>;
+  /// Where the elements of an accessor come from, and how they are stored: payload, piece, is a part, its number, component
+  /// type, columns.
+  using Origin = std::tuple<uint32_t, uint64_t, bool, uint64_t, ComponentType, uint32_t>;
 
-  Result decodeViews(std::span<const View> views) {
-    std::vector<DecodedPayload> decoded(views.size());
-    for (size_t i = 0; i < views.size(); ++i) MCC_GLTF_TRY(openView(views[i], decoded[i]));
-    MCC_GLTF_TRY(runParallel(views.size(), thread_count_, [&](size_t i) {
-      return decodePieces(whereOf(views[i]), decoded[i]);
-    }));
-    for (size_t i = 0; i < views.size(); ++i) storeView(views[i], decoded[i]);
-    return {};
+  static std::string whereOf(const PayloadUse& use) { return use.users[0]->path + "/bufferView"; }
+
+  Origin originOf(uint32_t payload, const ExtensionUse& use, bool is_part, uint64_t number,
+                  uint32_t accessor) const {
+    const Accessor& target = document_.accessors[accessor];
+    return {payload, use.piece, is_part, number, target.component_type, target.columns};
   }
 
-  static std::string whereOf(const View& view) { return view.second[0]->path + "/bufferView"; }
-
   /// All counts must match the accessors before memory is taken for them.
-  Result openView(const View& view, DecodedPayload& decoded) {
-    const auto& [number, users] = view;
-    MCC_GLTF_TRY(toResult(decoded.payload.open(payloadBytes(document_, number)), whereOf(view)));
-    for (const ExtensionUse* use : users) {
-      MCC_GLTF_TRY(checkAgainstPayload(document_, *use, decoded.payload.info()));
+  Result open(const PayloadUse& use, DecodedPayload& decoded) {
+    MCC_GLTF_TRY(toResult(decoded.payload.open(payloadBytes(document_, use.view)), whereOf(use)));
+    for (const ExtensionUse* user : use.users) {
+      MCC_GLTF_TRY(checkAgainstPayload(document_, *user, decoded.payload.info()));
     }
     return {};
   }
 
-  void storeView(const View& view, DecodedPayload& decoded) {
-    for (const ExtensionUse* use : view.second) {
-      storeAttributes(*use, decoded);
-      storeIndices(*use, decoded);
+  Result checkDecodedBytes(const std::vector<PayloadUse>& uses,
+                           const std::vector<DecodedPayload>& payloads) {
+    DecodedBytes bytes = document_.decoded;
+    for (const DecodedPayload& payload : payloads) {
+      out_.decoded_bytes += outputBytes(payload.payload.info());
+    }
+    bytes.add(out_.decoded_bytes);
+    if (decode_to_ == DecodeTo::kIntegers) addCopies(uses, bytes);
+    return bytes.check();
+  }
+
+  /// Of accessors that get the same elements, each its own: they may become different integers.
+  void addCopies(const std::vector<PayloadUse>& uses, DecodedBytes& bytes) const {
+    std::set<uint32_t> accessors;
+    std::set<Origin> origins;
+    for (const PayloadUse& use : uses) {
+      for (const ExtensionUse* user : use.users) {
+        for (const ExtensionUse::AttributeUse& attribute : user->attributes) {
+          const Accessor& accessor = document_.accessors[attribute.accessor];
+          const Origin origin = originOf(use.view, *user, false, attribute.id, attribute.accessor);
+          const bool is_copy =
+              accessors.insert(attribute.accessor).second && !origins.insert(origin).second;
+          if (is_copy) bytes.add(accessor.count * accessor.elementBytes());
+        }
+      }
+    }
+  }
+
+  void store(const PayloadUse& use, const DecodedPayload& decoded) {
+    for (const ExtensionUse* user : use.users) {
+      storeAttributes(use.view, *user, decoded);
+      storeIndices(use.view, *user, decoded);
     }
     for (const PieceInfo& piece : decoded.payload.info().pieces) {
       out_.wedge_count += piece.wedge_count;
       for (const PartInfo& part : piece.parts) out_.triangle_count += part.triangle_count;
     }
-    decoded.pieces.clear();
   }
 
-  void storeAttributes(const ExtensionUse& use, const DecodedPayload& decoded) {
+  /// Gives an accessor the view that holds its elements already. False: there is none, and it gets a new one.
+  bool share(uint32_t accessor, const Origin& origin) {
+    const auto [found, is_new] = views_.try_emplace(origin, decoded_.views.size());
+    // Integers are made accessor by accessor.
+    if (is_new || decode_to_ == DecodeTo::kIntegers) {
+      decoded_.filled.push_back({accessor, decoded_.views.size()});
+      decoded_.views.emplace_back();
+      return false;
+    }
+    decoded_.filled.push_back({accessor, found->second});
+    NewView& view = decoded_.views[found->second];
+    const uint32_t stride = (document_.accessors[accessor].elementBytes() + 3) & ~3u;
+    // glTF wants it of vertex attributes that share a view.
+    if (view.target == kArrayBuffer) view.stride_bytes = stride;
+    return true;
+  }
+
+  void storeAttributes(uint32_t payload, const ExtensionUse& use, const DecodedPayload& decoded) {
     for (const ExtensionUse::AttributeUse& attribute : use.attributes) {
       if (!stored_.insert(attribute.accessor).second) continue;
-      const Accessor& accessor = document_.accessors[attribute.accessor];
-      NewView view;
-      view.target = kArrayBuffer;
-      view.bytes = packElements(decoded.pieces[use.piece].attributes[attribute.id], accessor, true,
-                                view.stride_bytes);
-      accessors_.push_back({attribute.accessor, std::move(view)});
       const auto& attributes = decoded.payload.info().pieces[use.piece].attributes;
       AttributeInfo info = attributes[attribute.id];
       if (info.coding == AttributeCoding::kAlias) {
@@ -120,19 +160,28 @@ class Decompressor {
         info.format = format;
       }
       out_.coded_attributes.emplace(attribute.accessor, info);
+      const Origin origin = originOf(payload, use, false, attribute.id, attribute.accessor);
+      if (share(attribute.accessor, origin)) continue;
+      NewView& view = decoded_.views.back();
+      view.target = kArrayBuffer;
+      view.bytes = packElements(decoded.pieces[use.piece].attributes[attribute.id],
+                                document_.accessors[attribute.accessor], true, view.stride_bytes);
     }
   }
 
-  void storeIndices(const ExtensionUse& use, const DecodedPayload& decoded) {
+  void storeIndices(uint32_t payload, const ExtensionUse& use, const DecodedPayload& decoded) {
     if (!stored_.insert(use.indices_accessor).second) return;
+    const Origin origin = originOf(payload, use, true, use.part, use.indices_accessor);
+    if (share(use.indices_accessor, origin)) return;
     const uint32_t bytes = componentBytes(document_.accessors[use.indices_accessor].component_type);
-    NewView view;
+    NewView& view = decoded_.views.back();
     view.target = kElementArrayBuffer;
-    for (const uint32_t index : decoded.pieces[use.piece].parts[use.part]) {
+    const std::vector<uint32_t>& indices = decoded.pieces[use.piece].parts[use.part];
+    view.bytes.reserve(bytes * indices.size());
+    for (const uint32_t index : indices) {
       for (uint32_t i = 0; i < bytes; ++i)
         view.bytes.push_back(static_cast<uint8_t>(index >> 8 * i));
     }
-    accessors_.push_back({use.indices_accessor, std::move(view)});
   }
 
   void removeExtension(const ExtensionUse& use) {
@@ -147,16 +196,17 @@ class Decompressor {
   Decompressed& out_;
   std::set<uint32_t> stored_;
   std::vector<ExtensionUse> uses_;
-  std::vector<DecodedAccessor> accessors_;
+  DecodedAccessors decoded_;
+  std::map<Origin, size_t> views_;  ///< indices into decoded_.views
 };
 
 }  // namespace
 
-Result decodeAccessors(const Document& document, std::vector<DecodedAccessor>& accessors) {
+Result decodeAccessors(const Document& document, DecodedAccessors& decoded) {
   Decompressed ignored;
   Decompressor decompressor(document, DecodeTo::kFloats, 1, ignored);
   MCC_GLTF_TRY(decompressor.decode());
-  accessors = std::move(decompressor.accessors());
+  decoded = std::move(decompressor.decoded());
   return {};
 }
 

@@ -17,7 +17,8 @@ namespace mcc::gltf {
 struct Decompressed {
   Json json;
   std::vector<uint8_t> bin;
-  uint32_t payload_count = 0;
+  uint32_t payload_count = 0;  ///< different ones
+  uint64_t decoded_bytes = 0;  ///< see outputBytes()
   uint32_t primitive_count = 0;
   uint64_t triangle_count = 0;
   uint64_t wedge_count = 0;
@@ -25,20 +26,25 @@ struct Decompressed {
   std::vector<std::string> notes;
 };
 
-/// The elements of an accessor that a payload fills.
-struct DecodedAccessor {
-  uint32_t index = 0;
-  NewView view;
+/// The elements of the accessors that payloads fill.
+struct DecodedAccessors {
+  struct Filled {
+    uint32_t accessor = 0;
+    size_t view = 0;  ///< index into `views`; accessors of the same elements share one
+  };
+  std::vector<Filled> filled;
+  std::vector<NewView> views;
 };
 
 /// Decodes all payloads. Errors carry JSON paths. Safe for untrusted documents.
-Result decodeAccessors(const Document& document, std::vector<DecodedAccessor>& accessors);
+Result decodeAccessors(const Document& document, DecodedAccessors& decoded);
 
 /// Replaces all payloads by ordinary accessors and removes the extension from the document. With no
 /// payload in the document `payload_count` is 0 and `json` and `bin` are not filled in.
 /// decode_to     what quantised attributes become; with integers `notes` names what stays float.
 /// thread_count  payloads decoded at the same time; the result does not depend on it.
-/// Errors carry JSON paths. Safe for untrusted documents.
+/// Errors carry JSON paths; one is that document.decoded is above its limit, known before memory is taken. Safe for untrusted
+/// documents.
 Result decompressDocument(const Document& document, Decompressed& decompressed,
                           DecodeTo decode_to = DecodeTo::kFloats, uint32_t thread_count = 1);
 

@@ -1,6 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/document.h"
 
+#include <algorithm>
+#include <map>
 #include <string_view>
 
 #include "gltf/fallback.h"
@@ -102,34 +104,78 @@ Result fetchUri(const std::string& uri, const std::string& where, const FileRead
   return read_file(path, where, bytes);
 }
 
-Result loadBuffer(const Json& json, const std::string& path, const GlbFile* glb, bool is_first,
-                  const FileReader& read_file, Document& document) {
-  uint64_t length = 0;
-  MCC_GLTF_TRY(readUnsigned(json, "byteLength", path, kMaxCount, length));
-  std::span<const uint8_t> bytes;
-  if (isPlaceholder(json)) {  // the views in it are decoded from elsewhere
-    document.buffers.emplace_back();
+/// Loads the buffers; a file that several name is read once.
+class BufferLoader {
+ public:
+  /// `glb` is null for a .gltf.
+  BufferLoader(const GlbFile* glb, const FileReader& read_file, Document& document)
+      : glb_(glb), read_file_(read_file), document_(document) {}
+
+  Result load(const Json& json, uint32_t number) {
+    const std::string path = at("/buffers", number);
+    uint64_t length = 0;
+    MCC_GLTF_TRY(readUnsigned(json, "byteLength", path, kMaxCount, length));
+    if (isPlaceholder(json)) {  // the views in it are decoded from elsewhere
+      document_.buffers.emplace_back();
+      document_.same_buffers.push_back(number);
+      return {};
+    }
+    std::span<const uint8_t> bytes;
+    std::string file;
+    if (findMember(json, "uri") != nullptr) {
+      MCC_GLTF_TRY(fetch(json, path, file, bytes));
+    } else if (number == 0 && glb_ != nullptr && glb_->has_bin) {
+      bytes = glb_->bin;
+    } else {
+      return error(path, "the buffer has neither a URI nor a BIN chunk");
+    }
+    if (length > bytes.size()) {
+      return error(path + "/byteLength", std::to_string(length) + " bytes are announced but only " +
+                                             std::to_string(bytes.size()) + " are there");
+    }
+    document_.buffers.push_back(bytes.first(length));
+    document_.same_buffers.push_back(number);
+    if (!file.empty()) users_[file].push_back(number);
     return {};
   }
-  if (findMember(json, "uri") != nullptr) {
+
+  /// After all were loaded.
+  void findSame() {
+    for (const auto& [file, users] : users_) {
+      const auto isShorter = [&](uint32_t a, uint32_t b) {
+        return document_.buffers[a].size() < document_.buffers[b].size();
+      };
+      const uint32_t longest = *std::max_element(users.begin(), users.end(), isShorter);
+      for (const uint32_t user : users) document_.same_buffers[user] = longest;
+    }
+  }
+
+ private:
+  /// `file` stays empty for a data URI.
+  Result fetch(const Json& json, const std::string& path, std::string& file,
+               std::span<const uint8_t>& bytes) {
     std::string uri;
     MCC_GLTF_TRY(readString(json, "uri", path, uri));
-    document.storage.emplace_back();
-    MCC_GLTF_TRY(fetchUri(uri, path + "/uri", read_file, document.storage.back()));
-    bytes = document.storage.back();
-    if (!isDataUri(uri)) document.source_bytes += bytes.size();
-  } else if (is_first && glb != nullptr && glb->has_bin) {
-    bytes = glb->bin;
-  } else {
-    return error(path, "the buffer has neither a URI nor a BIN chunk");
+    if (!isDataUri(uri)) MCC_GLTF_TRY(relativePathOf(uri, path + "/uri", file));
+    if (const auto known = users_.find(file); known != users_.end()) {
+      bytes = files_[file];
+      return {};
+    }
+    document_.storage.emplace_back();
+    MCC_GLTF_TRY(fetchUri(uri, path + "/uri", read_file_, document_.storage.back()));
+    bytes = document_.storage.back();
+    if (file.empty()) return {};
+    files_[file] = bytes;
+    document_.source_bytes += bytes.size();
+    return {};
   }
-  if (length > bytes.size()) {
-    return error(path + "/byteLength", std::to_string(length) + " bytes are announced but only " +
-                                           std::to_string(bytes.size()) + " are there");
-  }
-  document.buffers.push_back(bytes.first(length));
-  return {};
-}
+
+  const GlbFile* glb_;
+  const FileReader& read_file_;
+  Document& document_;
+  std::map<std::string, std::span<const uint8_t>> files_;  ///< by path
+  std::map<std::string, std::vector<uint32_t>> users_;     ///< buffers, by path
+};
 
 /// Where the bytes of a view are: `json` is the view, or the object that codes it.
 Result parseBytes(const Document& document, const Json& json, const std::string& path,
@@ -148,6 +194,7 @@ Result parseBytes(const Document& document, const Json& json, const std::string&
                            std::to_string(view.offset + view.length) + " are outside buffer " +
                            std::to_string(buffer) + " of " + std::to_string(available) + " bytes");
   }
+  if (!document.same_buffers.empty()) view.buffer = document.same_buffers[buffer];
   return {};
 }
 
@@ -275,30 +322,46 @@ std::string imageTypeOf(std::span<const uint8_t> bytes) {
   return "";
 }
 
-Result embedImage(const FileReader& read_file, size_t index, Document& document) {
+/// A file that images name.
+struct ImageFile {
+  std::span<const uint8_t> bytes;
+  uint32_t view = kNone;  ///< that it became, for all images that name it
+};
+
+void addView(ImageFile& file, Document& document) {
+  const size_t buffer = document.buffers.size();
+  document.source_bytes += file.bytes.size();
+  document.buffers.push_back(file.bytes);
+  document.json["buffers"].push_back({{"byteLength", file.bytes.size()}});
+  document.json["bufferViews"].push_back({{"buffer", buffer}, {"byteLength", file.bytes.size()}});
+  file.view = static_cast<uint32_t>(document.views.size());
+  document.views.push_back({static_cast<uint32_t>(buffer), 0, file.bytes.size(), 0, {}});
+}
+
+Result embedImage(const FileReader& read_file, size_t index,
+                  std::map<std::string, ImageFile>& files, Document& document) {
   const std::string path = at("/images", index);
   Json& image = document.json["images"][index];
   std::string uri;
   MCC_GLTF_TRY(readString(image, "uri", path, uri));
   if (isDataUri(uri)) return {};
-  std::vector<uint8_t> bytes;
-  MCC_GLTF_TRY(fetchUri(uri, path + "/uri", read_file, bytes));
-  const std::string type = imageTypeOf(bytes);
+  std::string name;
+  MCC_GLTF_TRY(relativePathOf(uri, path + "/uri", name));
+  const auto [found, is_new] = files.try_emplace(name);
+  ImageFile& file = found->second;
+  if (is_new) {
+    document.storage.emplace_back();
+    MCC_GLTF_TRY(fetchUri(uri, path + "/uri", read_file, document.storage.back()));
+    file.bytes = document.storage.back();
+  }
+  const std::string type = imageTypeOf(file.bytes);
   if (type.empty() && findMember(image, "mimeType") == nullptr) {
     document.notes.push_back(path + ": of an unknown type; it stays a file of its own");
     return {};
   }
-  const size_t buffer = document.buffers.size();
-  document.source_bytes += bytes.size();
-  document.storage.push_back(std::move(bytes));
-  document.buffers.push_back(document.storage.back());
-  document.json["buffers"].push_back({{"byteLength", document.buffers.back().size()}});
-  document.json["bufferViews"].push_back(
-      {{"buffer", buffer}, {"byteLength", document.buffers.back().size()}});
-  document.views.push_back(
-      {static_cast<uint32_t>(buffer), 0, document.buffers.back().size(), 0, {}});
+  if (file.view == kNone) addView(file, document);
   image.erase("uri");
-  image["bufferView"] = document.views.size() - 1;
+  image["bufferView"] = file.view;
   if (findMember(image, "mimeType") == nullptr) image["mimeType"] = type;
   return {};
 }
@@ -346,14 +409,11 @@ Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file,
   if (document.is_glb) {
     MCC_GLTF_TRY(readGlb(file, glb));
     document.other_chunks = glb.other_chunks;
-    if (glb.trailing_bytes != 0) {
-      document.notes.push_back(std::to_string(glb.trailing_bytes) +
-                               " bytes behind the end of the GLB were ignored");
+    if (glb.has_trailing_bytes) {
+      document.notes.push_back("bytes after the end of the GLB were ignored");
     }
   } else {
-    const size_t first = std::string_view(reinterpret_cast<const char*>(file.data()), file.size())
-                             .find_first_not_of(" \t\r\n\xef\xbb\xbf");
-    if (first == std::string_view::npos || file[first] != '{') {
+    if (!isJsonText(file)) {
       return error("byte 0", "this is no glTF file: neither a GLB nor JSON");
     }
     glb.json = file;
@@ -361,14 +421,15 @@ Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file,
   MCC_GLTF_TRY(parseJson(glb.json, document.json));
   MCC_GLTF_TRY(checkShape(document.json));
   const Json& buffers = arrayOf(document.json, "buffers");
-  for (size_t i = 0; i < buffers.size(); ++i) {
-    const Result loaded = loadBuffer(buffers[i], at("/buffers", i),
-                                     document.is_glb ? &glb : nullptr, i == 0, read_file, document);
+  BufferLoader loader(document.is_glb ? &glb : nullptr, read_file, document);
+  for (uint32_t i = 0; i < buffers.size(); ++i) {
+    const Result loaded = loader.load(buffers[i], i);
     if (loaded.ok()) continue;
     if (!removeFallback(i, document.json)) return loaded;
     document.notes.push_back(loaded.message() + "; this fallback is not needed");
     break;
   }
+  loader.findSame();
   return loadTables(document);
 }
 
@@ -387,10 +448,11 @@ Result adoptDocument(Json json, std::vector<uint8_t> bin, Document& document) {
 
 Result embedImages(const FileReader& read_file, Document& document) {
   if (document.is_glb) return {};
+  std::map<std::string, ImageFile> files;
   const size_t image_count = arrayOf(document.json, "images").size();
   for (size_t i = 0; i < image_count; ++i) {
     if (findMember(document.json["images"][i], "uri") != nullptr) {
-      MCC_GLTF_TRY(embedImage(read_file, i, document));
+      MCC_GLTF_TRY(embedImage(read_file, i, files, document));
     }
   }
   return {};

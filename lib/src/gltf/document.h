@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "gltf/decoded_bytes.h"
 #include "gltf/glb.h"
 #include "gltf/json.h"
 #include "mcc/types.h"
@@ -80,10 +81,15 @@ struct Document {
   Json json;
   bool is_glb = false;
   std::vector<std::span<const uint8_t>> buffers;
+  /// By buffer: the longest of those that are the same file, whose bytes are there once; the number of others is their own.
+  /// Empty: all are different. Views say this number.
+  std::vector<uint32_t> same_buffers;
   std::vector<BufferView> views;
   std::vector<Accessor> accessors;
   std::vector<GlbChunk> other_chunks;
   uint64_t source_bytes = 0;  ///< of the file and the files its buffers came from
+  /// What of it is decoded from other bytes than those of our payloads; without a limit unless one was set after loading.
+  DecodedBytes decoded;
   std::vector<std::string> notes;
   /// Owns the buffers that are not part of the file, and what was decoded.
   std::vector<std::vector<uint8_t>> storage;

@@ -332,6 +332,26 @@ Result findExtensionUses(const Document& document, std::vector<ExtensionUse>& us
   return issues.first();
 }
 
+std::vector<PayloadUse> payloadUses(const Document& document,
+                                    const std::vector<ExtensionUse>& uses) {
+  using Range = std::tuple<uint32_t, uint64_t, uint64_t>;
+  std::map<uint32_t, std::vector<const ExtensionUse*>> by_view;
+  for (const ExtensionUse& use : uses) {
+    if (use.view != kNone) by_view[use.view].push_back(&use);
+  }
+  std::vector<PayloadUse> payloads;
+  std::map<Range, size_t> by_range;
+  for (const auto& [number, users] : by_view) {
+    const BufferView& view = document.views[number];
+    const Range range = {view.buffer, view.offset, view.length};
+    const auto [found, is_new] = by_range.try_emplace(range, payloads.size());
+    if (is_new) payloads.push_back({number, {}});
+    std::vector<const ExtensionUse*>& all = payloads[found->second].users;
+    all.insert(all.end(), users.begin(), users.end());
+  }
+  return payloads;
+}
+
 std::span<const uint8_t> payloadBytes(const Document& document, uint32_t view) {
   const BufferView& range = document.views[view];
   return document.buffers[range.buffer].subspan(range.offset, range.length);

@@ -41,6 +41,17 @@ struct ExtensionUse {
 void findExtensionUses(const Document& document, Issues& issues, std::vector<ExtensionUse>& uses);
 Result findExtensionUses(const Document& document, std::vector<ExtensionUse>& uses);
 
+/// The primitives that use one payload.
+struct PayloadUse {
+  uint32_t view = 0;  ///< that holds it: the first of those with the same bytes
+  std::vector<const ExtensionUse*> users;
+};
+
+/// The payloads of a document in the order of their buffer views. Views of the same bytes hold the same payload. Leaves out
+/// uses without a view. Borrows `uses`.
+std::vector<PayloadUse> payloadUses(const Document& document,
+                                    const std::vector<ExtensionUse>& uses);
+
 /// Bytes of the buffer view that holds a payload.
 std::span<const uint8_t> payloadBytes(const Document& document, uint32_t view);
 

@@ -33,20 +33,27 @@ Result addFallback(const std::vector<uint8_t>& bin, const std::string& uri, Json
                    std::vector<uint8_t>& fallback) {
   Document document;
   MCC_GLTF_TRY(adoptDocument(json, bin, document));
-  std::vector<DecodedAccessor> decoded;
+  DecodedAccessors decoded;
   MCC_GLTF_TRY(decodeAccessors(document, decoded));
   fallback.clear();
-  for (DecodedAccessor& accessor : decoded) {
-    if (document.accessors[accessor.index].view != kNone) continue;  // has a fallback already
+  std::vector<size_t> numbers(decoded.views.size(), kNone);  // of the views in the JSON
+  for (const DecodedAccessors::Filled& filled : decoded.filled) {
+    if (document.accessors[filled.accessor].view != kNone) continue;  // has a fallback already
+    Json& accessor = json["accessors"][filled.accessor];
+    if (numbers[filled.view] != kNone) {
+      accessor["bufferView"] = numbers[filled.view];
+      continue;
+    }
+    const NewView& decoded_view = decoded.views[filled.view];
     fallback.resize((fallback.size() + 3) & ~size_t{3}, 0);
     Json view = {{"buffer", json["buffers"].size()},
                  {"byteOffset", fallback.size()},
-                 {"byteLength", accessor.view.bytes.size()}};
-    if (accessor.view.stride_bytes != 0) view["byteStride"] = accessor.view.stride_bytes;
-    view["target"] = accessor.view.target;
-    fallback.insert(fallback.end(), accessor.view.bytes.begin(), accessor.view.bytes.end());
-    accessor.view.bytes = {};
-    json["accessors"][accessor.index]["bufferView"] = json["bufferViews"].size();
+                 {"byteLength", decoded_view.bytes.size()}};
+    if (decoded_view.stride_bytes != 0) view["byteStride"] = decoded_view.stride_bytes;
+    view["target"] = decoded_view.target;
+    fallback.insert(fallback.end(), decoded_view.bytes.begin(), decoded_view.bytes.end());
+    numbers[filled.view] = json["bufferViews"].size();
+    accessor["bufferView"] = numbers[filled.view];
     json["bufferViews"].push_back(std::move(view));
   }
   json["buffers"].push_back({{"uri", uri}, {"byteLength", fallback.size()}});

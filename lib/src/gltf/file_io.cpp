@@ -4,10 +4,10 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <system_error>
 
 namespace mcc::gltf {
@@ -33,6 +33,38 @@ bool isReadOnly(const fs::path& path) {
   return (permissions & write) == fs::perms::none || ::access(path.c_str(), W_OK) != 0;
 }
 
+Result tooLarge(const std::string& name) {
+  return error(name, "has more than the " + std::to_string(kMaxFileBytes) +
+                         " bytes that a file of glTF can have");
+}
+
+/// How far to read what begins with these bytes; more than there are: on.
+uint64_t wantedBytes(std::span<const uint8_t> bytes) {
+  constexpr size_t kGlbHeaderBytes = 12;
+  constexpr size_t kWhiteSpaceBytes = 65536;  // in front of JSON; nobody writes more
+  if (bytes.size() < kGlbHeaderBytes) return kGlbHeaderBytes;
+  if (isGlb(bytes)) return uint64_t{glbLength(bytes)} + 1;  // whether there are trailing bytes
+  if (isJsonText(bytes.first(std::min(bytes.size(), kWhiteSpaceBytes)))) return kMaxFileBytes + 1;
+  return kWhiteSpaceBytes;
+}
+
+Result readRegularFile(int file, const fs::path& path, std::vector<uint8_t>& bytes) {
+  std::error_code code;
+  const uintmax_t size = fs::file_size(path, code);
+  if (code) return error(path.string(), "cannot be read: " + code.message());
+  if (size > kMaxFileBytes) return tooLarge(path.string());
+  bytes.resize(size);
+  size_t done = 0;
+  while (done < size) {
+    const ssize_t count = ::read(file, bytes.data() + done, size - done);
+    if (count == 0 || (count < 0 && errno != EINTR)) {
+      return error(path.string(), "cannot be read to its end");
+    }
+    done += count > 0 ? static_cast<size_t>(count) : 0;
+  }
+  return {};
+}
+
 }  // namespace
 
 fs::path folderOf(const fs::path& path) {
@@ -45,26 +77,31 @@ Result inFile(const fs::path& path, Result result) {
   return result;
 }
 
+Result readStream(int file, const std::string& name, std::vector<uint8_t>& bytes) {
+  constexpr size_t kReadBytes = size_t{1} << 18;
+  bytes.clear();
+  while (bytes.size() < wantedBytes(bytes)) {
+    const size_t size = bytes.size();
+    bytes.resize(size + kReadBytes);
+    const ssize_t count = ::read(file, bytes.data() + size, kReadBytes);
+    bytes.resize(size + (count > 0 ? static_cast<size_t>(count) : 0));
+    if (count == 0) return {};
+    if (count < 0 && errno != EINTR) return error(name, "cannot be read: " + reasonOf(errno));
+  }
+  return bytes.size() <= kMaxFileBytes ? Result{} : tooLarge(name);
+}
+
 Result readFile(const fs::path& path, std::vector<uint8_t>& bytes) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
   if (!fs::exists(status)) return error(path.string(), "there is no such file");
   if (fs::is_directory(status)) return error(path.string(), "is a folder; name a file in it");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return error(path.string(), "cannot be opened: " + reasonOf(errno));
-  const uintmax_t size = fs::file_size(path, code);
-  bytes.clear();
-  if (!code) {
-    bytes.resize(size);
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    bytes.resize(static_cast<size_t>(stream.gcount()));
-  } else {  // no regular file, but something that can be read
-    bytes.assign(std::istreambuf_iterator<char>(stream), {});
-  }
-  if (stream.bad() || (!code && bytes.size() != size)) {
-    return error(path.string(), "cannot be read to its end");
-  }
-  return {};
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return error(path.string(), "cannot be opened: " + reasonOf(errno));
+  Result result = fs::is_regular_file(status) ? readRegularFile(file, path, bytes)
+                                              : readStream(file, path.string(), bytes);
+  ::close(file);
+  return result;
 }
 
 bool haveSameContent(const fs::path& a, const fs::path& b) {
@@ -75,6 +112,11 @@ bool haveSameContent(const fs::path& a, const fs::path& b) {
 
 FileReader readerOf(const fs::path& folder) {
   return [folder](const std::string& path, const std::string& where, std::vector<uint8_t>& bytes) {
+    std::error_code code;
+    const fs::file_status status = fs::status(folder / path, code);
+    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
+      return error(where, "\"" + path + "\": is not a regular file");
+    }
     Result result = readFile(folder / path, bytes);
     if (!result.ok()) return error(where, "\"" + path + "\": " + result.what);
     return result;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "gltf/document.h"
@@ -12,13 +13,22 @@
 
 namespace mcc::gltf {
 
-/// Reads a whole file. Errors say plainly what is there instead (nothing, a folder, no permission).
+/// Largest file that is read: lengths in a GLB have 32 bits.
+inline constexpr uint64_t kMaxFileBytes = uint64_t{1} << 32;
+
+/// Reads a whole file. What is not a regular file (a pipe, a device) is read as readStream() says.
+/// Errors say plainly what is there instead (nothing, a folder, no permission, more than kMaxFileBytes).
 Result readFile(const std::filesystem::path& path, std::vector<uint8_t>& bytes);
+
+/// Reads a glTF file from an open file that may never end: to its end; of a GLB to the length in its header and what came with
+/// that, so that loadDocument() sees whether bytes follow; of what does not begin as a GLB or JSON only the beginning.
+/// name  for messages. Errors: it cannot be read; it has more than kMaxFileBytes.
+Result readStream(int file, const std::string& name, std::vector<uint8_t>& bytes);
 
 /// Whether two files have the same bytes; false when one cannot be read.
 bool haveSameContent(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// Reads files below a folder, for loadDocument().
+/// Reads regular files below a folder, for loadDocument().
 FileReader readerOf(const std::filesystem::path& folder);
 
 /// Puts the name of the file in front of where in it something is wrong.

@@ -1,6 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/glb.h"
 
+#include <string_view>
+
 namespace mcc::gltf {
 namespace {
 
@@ -32,7 +34,7 @@ Result readHeader(std::span<const uint8_t> file, GlbFile& glb, uint64_t& length)
     return error("byte 4", "GLB version " + std::to_string(version) +
                                "; only version 2 (glTF 2.0) can be read");
   }
-  length = readU32(file, 8);
+  length = glbLength(file);
   if (length > file.size()) {
     return error("byte 8", "the header says " + std::to_string(length) +
                                " bytes but the file has " + std::to_string(file.size()) +
@@ -41,7 +43,7 @@ Result readHeader(std::span<const uint8_t> file, GlbFile& glb, uint64_t& length)
   if (length < kHeaderBytes + kChunkHeaderBytes || length % 4 != 0) {
     return error("byte 8", "the length " + std::to_string(length) + " is no length of a GLB");
   }
-  glb.trailing_bytes = file.size() - length;
+  glb.has_trailing_bytes = file.size() > length;
   return {};
 }
 
@@ -74,6 +76,14 @@ void appendChunk(std::vector<uint8_t>& file, uint32_t type, std::span<const uint
 }  // namespace
 
 bool isGlb(std::span<const uint8_t> file) { return file.size() >= 4 && readU32(file, 0) == kMagic; }
+
+bool isJsonText(std::span<const uint8_t> file) {
+  const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+  const size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+  return first != std::string_view::npos && text[first] == '{';
+}
+
+uint32_t glbLength(std::span<const uint8_t> file) { return readU32(file, 8); }
 
 Result readGlb(std::span<const uint8_t> file, GlbFile& glb) {
   glb = {};

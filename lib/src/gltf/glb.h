@@ -23,11 +23,17 @@ struct GlbFile {
   bool has_bin = false;
   std::span<const uint8_t> bin;
   std::vector<GlbChunk> other_chunks;  ///< of types glTF 2.0 does not define; kept
-  uint64_t trailing_bytes = 0;         ///< behind the length of the header
+  bool has_trailing_bytes = false;     ///< after the length of the header
 };
 
 /// Whether the file starts as a GLB does (and not as JSON).
 bool isGlb(std::span<const uint8_t> file);
+
+/// Whether the file starts as JSON of glTF does: with an object, perhaps after white space or a byte order mark.
+bool isJsonText(std::span<const uint8_t> file);
+
+/// Length that the header of a GLB of at least 12 bytes states.
+uint32_t glbLength(std::span<const uint8_t> file);
 
 /// Splits a file into its chunks; the spans point into `file`. Errors name the byte.
 Result readGlb(std::span<const uint8_t> file, GlbFile& glb);

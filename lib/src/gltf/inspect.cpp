@@ -106,7 +106,7 @@ class StreamCounter {
 
 Result inspectView(const Document& document, uint32_t view,
                    const std::vector<const ExtensionUse*>& users, bool count_codes,
-                   InspectPayload& report) {
+                   DecodedBytes& decoded_bytes, InspectPayload& report) {
   const std::string where = users[0]->path + "/bufferView";
   const std::span<const uint8_t> bytes = payloadBytes(document, view);
   DecodedPayload decoded;
@@ -140,7 +140,10 @@ Result inspectView(const Document& document, uint32_t view,
       piece.details[attribute.id].name = primitiveLabel(attribute);
     }
   }
-  return count_codes ? StreamCounter(report).run(decoded, where) : Result{};
+  if (!count_codes) return {};
+  decoded_bytes.add(outputBytes(info));
+  MCC_GLTF_TRY(decoded_bytes.check());
+  return StreamCounter(report).run(decoded, where);
 }
 
 Result inspectBytes(std::span<const uint8_t> source, const FileReader& read_file, bool count_codes,
@@ -158,11 +161,10 @@ Result inspectBytes(std::span<const uint8_t> source, const FileReader& read_file
   }
   std::vector<ExtensionUse> uses;
   MCC_GLTF_TRY(findExtensionUses(document, uses));
-  std::map<uint32_t, std::vector<const ExtensionUse*>> by_view;
-  for (const ExtensionUse& use : uses) by_view[use.view].push_back(&use);
-  for (const auto& [view, users] : by_view) {
+  DecodedBytes decoded(0, document.source_bytes);
+  for (const auto& [view, users] : payloadUses(document, uses)) {
     report.payloads.emplace_back();
-    MCC_GLTF_TRY(inspectView(document, view, users, count_codes, report.payloads.back()));
+    MCC_GLTF_TRY(inspectView(document, view, users, count_codes, decoded, report.payloads.back()));
   }
   return {};
 }

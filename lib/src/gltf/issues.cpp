@@ -49,6 +49,7 @@ const char* ruleName(Rule rule) {
     case Rule::kFallbackBuffer: return "FALLBACK_IN_SHARED_BUFFER";
     case Rule::kFallbackLoaded: return "FALLBACK_NOT_LOADED";
     case Rule::kPayload: return "PAYLOAD_MALFORMED";
+    case Rule::kDecodedBytes: return "FILE_ABOVE_LIMIT";
     case Rule::kMinorVersion: return "PAYLOAD_MINOR_VERSION_UNKNOWN";
     case Rule::kUnusedAttribute: return "UNUSED_ATTRIBUTE";
     case Rule::kUnusedPart: return "UNUSED_PART";

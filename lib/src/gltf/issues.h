@@ -43,6 +43,7 @@ enum class Rule : uint8_t {
   kFallbackBuffer,     ///< a fallback should be in a buffer of its own
   kFallbackLoaded,     ///< it could not be compared
   kPayload,            ///< the payload is not malformed; the code is that of its Error
+  kDecodedBytes,       ///< no rule: the payloads of the file together are above the caller's limit
   kMinorVersion,       ///< of the payload: newer than this reader
   kUnusedAttribute,    ///< of the payload
   kUnusedPart,         ///< the same, and of pieces

@@ -1,6 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/package.h"
 
+#include <set>
+
 #include <algorithm>
 #include <cctype>
 #include <set>
@@ -94,9 +96,11 @@ std::vector<std::string> filesOf(const Json& json, const char* list) {
   std::vector<std::pair<std::string, std::string>> uris;
   listUris(json, list, uris);
   std::vector<std::string> paths;
+  std::set<std::string> seen;
   for (const auto& [uri, where] : uris) {
     std::string path;
-    if (relativePathOf(uri, where, path).ok()) paths.push_back(path);
+    const bool is_new = relativePathOf(uri, where, path).ok() && seen.insert(path).second;
+    if (is_new) paths.push_back(path);
   }
   return paths;
 }

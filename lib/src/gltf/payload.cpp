@@ -13,6 +13,17 @@ Result toResult(const Status& status, const std::string& where) {
   return error(where, what);
 }
 
+uint64_t outputBytes(const PayloadInfo& info) {
+  uint64_t bytes = 0;
+  for (const PieceInfo& piece : info.pieces) {
+    for (const AttributeInfo& attribute : piece.attributes) {
+      bytes += uint64_t{piece.wedge_count} * elementBytes(attribute.format);
+    }
+    for (const PartInfo& part : piece.parts) bytes += uint64_t{12} * part.triangle_count;
+  }
+  return bytes;
+}
+
 Status decodePieces(DecodedPayload& decoded, const DecodeOptions& options) {
   const std::span<const PieceInfo> infos = decoded.payload.info().pieces;
   std::vector<std::vector<AttributeTarget>> attribute_targets(infos.size());

@@ -23,6 +23,9 @@ struct DecodedPayload {
   std::vector<DecodedPiece> pieces;
 };
 
+/// What all attributes and all indices of an opened payload take, those of 32 bits.
+uint64_t outputBytes(const PayloadInfo& info);
+
 /// A codec status as a result.
 Result toResult(const Status& status, const std::string& where);
 

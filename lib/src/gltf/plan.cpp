@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string_view>
 #include <tuple>
 
@@ -78,6 +79,8 @@ class Planner {
         static_cast<uint32_t>(document_.accessors[piece.attributes[0].accessor].count);
     uint32_t indices = kNone;
     MCC_GLTF_TRY(readIndicesNumber(ref, json, indices));
+    note = zeroNote(piece, indices);
+    if (!note.empty()) return {};
 
     KnownPiece& known = pieces_[pieceKey(piece)];
     const auto [found, is_new] = known.parts.try_emplace({indices, mode});
@@ -143,9 +146,6 @@ class Planner {
       std::string reason = unreadableNote(static_cast<uint32_t>(accessor));
       const Accessor& claimed = document_.accessors[accessor];
       if (reason.empty() && claimed.normalized) reason = "is normalized, as no indices are";
-      if (reason.empty() && claimed.view == kNone && claimed.count > kMaxZeroCount) {
-        reason = "is large and has no bytes in the file";
-      }
       if (!reason.empty()) return "its index accessor " + reason + "; left as it was";
     }
     if (extensionOf(json, kMeshExtension) == nullptr) return "";
@@ -232,10 +232,28 @@ class Planner {
         return "has " + std::to_string(count) + " positions but " + std::to_string(accessor.count) +
                " elements of " + attribute.label() + "; left as it was";
       }
-      if (accessor.view == kNone && accessor.count > kMaxZeroCount) {
-        return attribute.label() + " is large and has no bytes in the file; left as it was";
-      }
     }
+    return "";
+  }
+
+  /// Why accessors without bytes in the file are too large together; empty when they are not, and then they are counted.
+  /// Claimed counts cost a file nothing, and elements of them cost as much as others.
+  std::string zeroNote(const PiecePlan& piece, uint32_t indices) {
+    std::set<uint32_t> accessors;
+    for (const AttributePlan& attribute : piece.attributes) accessors.insert(attribute.accessor);
+    if (indices != kNone) accessors.insert(indices);
+    uint64_t bytes = 0;
+    for (const uint32_t index : accessors) {
+      const Accessor& accessor = document_.accessors[index];
+      const bool is_zero = accessor.view == kNone && accessor.decoded == kNone;
+      if (is_zero && !zeros_.contains(index)) bytes += accessor.count * accessor.tightBytes();
+    }
+    if (bytes > document_.decoded.zeroLimit() - zero_bytes_) {
+      return "has accessors that have no bytes in the file and claim " + std::to_string(bytes) +
+             "; left as it was (max_decoded_bytes, --max-decoded-bytes allow more)";
+    }
+    zero_bytes_ += bytes;
+    zeros_.insert(accessors.begin(), accessors.end());
     return "";
   }
 
@@ -323,6 +341,8 @@ class Planner {
   std::vector<LeftAlone>& left_alone_;
   std::map<std::string, KnownPiece> pieces_;
   std::vector<bool> is_filled_;  ///< accessors that are compressed already
+  std::set<uint32_t> zeros_;     ///< accessors whose zeros were counted, and others
+  uint64_t zero_bytes_ = 0;      ///< of all that is read
 };
 
 }  // namespace

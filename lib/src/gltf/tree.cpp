@@ -176,6 +176,7 @@ Result findTree(std::span<const uint8_t> source, const FileReader& read_file, ui
   tree = {};
   Document document;
   MCC_GLTF_TRY(loadDocument(source, read_file, document));
+  document.decoded = DecodedBytes(0, document.source_bytes);
   MCC_GLTF_TRY(decodeViews(decoders, document));
   MCC_GLTF_TRY(decodeMeshes(decoders, document));
   const Json* json = nullptr;

@@ -34,9 +34,14 @@ bool isListed(const Json& json, const char* list) {
 class Validator {
  public:
   /// json  the document as it is in the file; loading takes out a fallback that is not there.
-  Validator(const Json& json, const Document& document, const Limits& limits, Issues& issues,
-            ValidationReport& report)
-      : json_(json), document_(document), limits_(limits), issues_(issues), report_(report) {}
+  Validator(const Json& json, const Document& document, const ValidateOptions& options,
+            Issues& issues, ValidationReport& report)
+      : json_(json),
+        document_(document),
+        limits_(options.limits),
+        decoded_bytes_(options.max_decoded_bytes, document.source_bytes),
+        issues_(issues),
+        report_(report) {}
 
   void run() {
     findExtensionUses(document_, issues_, uses_);
@@ -49,10 +54,13 @@ class Validator {
       by_view[use.view].push_back(&use);
       payload_buffers_.insert(document_.views[use.view].buffer);
     }
-    report_.payload_count = static_cast<uint32_t>(by_view.size());
     for (const auto& [view, ignored] : by_view) checkView(view);
     checkOtherViewUses(by_view);
-    for (const auto& [view, users] : by_view) checkPayload(view, users);
+    const std::vector<PayloadUse> payloads = payloadUses(document_, uses_);
+    report_.payload_count = static_cast<uint32_t>(payloads.size());
+    for (const auto& [view, users] : payloads) checkPayload(view, users);
+    // Said once; what was below the limit is checked.
+    issues_.passes(Rule::kDecodedBytes, decoded_bytes_.check());
   }
 
  private:
@@ -168,6 +176,8 @@ class Validator {
       checkManifold(*use, info);
     }
     if (!issues_.hasErrors()) checkUse(users, info, where);
+    decoded_bytes_.add(outputBytes(info));
+    if (!decoded_bytes_.check().ok()) return;
     const Status status = decodePieces(decoded);
     if (!status.ok()) return issues_.addPayloadError(status, where);
     for (size_t i = 0; i < info.pieces.size(); ++i) {
@@ -287,6 +297,7 @@ class Validator {
   const Json& json_;
   const Document& document_;
   const Limits& limits_;
+  DecodedBytes decoded_bytes_;
   Issues& issues_;
   ValidationReport& report_;
   std::vector<ExtensionUse> uses_;
@@ -316,7 +327,7 @@ void describe(const Json& json, ValidationReport& report) {
 }
 
 void validateBytes(std::span<const uint8_t> bytes, const FileReader& read_file,
-                   const Limits& limits, Issues& issues, ValidationReport& report) {
+                   const ValidateOptions& options, Issues& issues, ValidationReport& report) {
   report.input_bytes = bytes.size();
   report.is_glb = isGlb(bytes);
   Json json;
@@ -324,7 +335,7 @@ void validateBytes(std::span<const uint8_t> bytes, const FileReader& read_file,
   Document document;
   if (!issues.passes(Rule::kDocument, loadDocument(bytes, read_file, document))) return;
   report.input_bytes = document.source_bytes;
-  Validator(json, document, limits, issues, report).run();
+  Validator(json, document, options, issues, report).run();
 }
 
 /// Where an issue is, if that is a place in the JSON; else the message says it.
@@ -344,8 +355,7 @@ Result validate(const Source& source, const ValidateOptions& options, Validation
     const FileReader read_file = source.bytes ? FileReader() : readerOf(folderOf(source.path));
     Issues issues(options.max_issues == 0 ? std::numeric_limits<size_t>::max()
                                           : options.max_issues);
-    validateBytes(source.bytes ? *source.bytes : storage, read_file, options.limits, issues,
-                  report);
+    validateBytes(source.bytes ? *source.bytes : storage, read_file, options, issues, report);
     for (const Issue& issue : issues.kept()) report.issues.push_back(publicIssue(issue));
     uint64_t total = 0;
     for (size_t i = 0; i < 4; ++i) {
