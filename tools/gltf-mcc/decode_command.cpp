@@ -105,6 +105,8 @@ void addDecode(CLI::App& app, int& status) {
       "IN and OUT are .glb or .gltf files, or - for standard input and output. A .gltf gets its\n"
       "buffer beside it (a.gltf: a.bin). What is not compressed is copied.\n"
       "Integers (KHR_mesh_quantization) take less memory.\n"
+      "A file whose geometry takes more than --max-decoded-bytes decoded is refused before memory\n"
+      "is taken; without the option 256 MiB are always accepted, and 4 GiB at most.\n"
       "With -o DIR every IN becomes a file of the same name in DIR, as with convert.",
       "decode small.glb model.glb\n"
       "decode small.glb model.gltf\n"

@@ -44,8 +44,7 @@ void addFormatOption(CLI::App& command, CommonOptions& options) {
 void addDecodedLimitOption(CLI::App& command, uint64_t& max_decoded_bytes) {
   command
       .add_option("--max-decoded-bytes", max_decoded_bytes,
-                  "Refuse files that ask for more decoded geometry [1024 for each byte of the "
-                  "file, at least 268435456, at most 4294967296]")
+                  "Most bytes that a file may decode to [1024 for each of its own]")
       ->check(CLI::Range(uint64_t{1}, std::numeric_limits<uint64_t>::max()).description(""))
       ->type_name("N");
 }
