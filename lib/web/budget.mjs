@@ -3,31 +3,28 @@
 // What all payloads of a file may decode to, checked before memory is taken.
 import { MccError } from './error.mjs';
 
-const BYTES = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 };
-
-/** As decodedLimit() of the C++ library. */
-const defaultLimit = (fileBytes) => Math.min(2 ** 32, Math.max(2 ** 28, 1024 * fileBytes));
-
 /** Bytes of what the document names of a payload, each attribute and each part once; indices of 32 bits. */
 export function namedBytes({ claims }) {
   const sizes = new Map();
   for (const { piece, part, indices, attributes } of claims) {
     sizes.set(`${piece} part ${part}`, 4 * indices.count);
     for (const { attribute, accessor, componentType, componentCount } of attributes) {
-      sizes.set(`${piece} ${attribute}`, accessor.count * componentCount * BYTES[componentType]);
+      const componentBytes = componentType < 5122 ? 1 : componentType < 5124 ? 2 : 4;
+      sizes.set(`${piece} ${attribute}`, accessor.count * componentCount * componentBytes);
     }
   }
-  return [...sizes.values()].reduce((sum, size) => sum + size, 0);
+  return sum([...sizes.values()]);
 }
 
-const bytesOf = ({ pieces }) => pieces.reduce((sum, { attributes, parts }) => (
-  sum + attributes.reduce((bytes, { array }) => bytes + array.byteLength, 0)
-    + parts.reduce((bytes, { triangleCount }) => bytes + 12 * triangleCount, 0)), 0);
+export const sum = (numbers) => numbers.reduce((total, number) => total + number, 0);
 
+const bytesOf = ({ pieces }) => sum(pieces.flatMap(({ attributes, parts }) => [
+  ...attributes.map(({ array }) => array.byteLength), ...parts.map(({ triangleCount }) => 12 * triangleCount)]));
+
+/** `fileBytes` may grow as more of the file becomes known. */
 export class Budget {
   #limits;
   #max;
-  #fileBytes;
   #total = 0;
 
   /**
@@ -35,65 +32,35 @@ export class Budget {
    * @param {import('./types.mjs').FileLimits} [limits]
    */
   constructor(fileBytes, { maxDecodedBytes, ...limits } = {}) {
-    this.#fileBytes = fileBytes;
-    this.#max = maxDecodedBytes;
+    this.fileBytes = fileBytes;
     this.#limits = limits;
+    this.#max = maxDecodedBytes;
   }
 
-  /** More of the file became known. */
-  addFile(bytes) {
-    this.#fileBytes += bytes;
+  /** As decodedLimit() of the C++ library. */
+  get #limit() {
+    return this.#max ?? Math.min(2 ** 32, Math.max(2 ** 28, 1024 * this.fileBytes));
   }
 
   /** Counts what is going to be decoded, or copied. Throws an MccError if that is too much. */
   add(bytes) {
-    if (!(bytes <= this.#room)) this.#refuse(this.#total + bytes);
-    this.#total += bytes;
-  }
-
-  /** `decode`s a payload, whose namedBytes() were added. What the document does not name of it counts, too. */
-  async decode(decode, payload, bytes) {
-    try {
-      return this.#check(payload, await decode(bytes, this.#optionsOf(payload)));
-    } catch (error) {
-      return this.#explain(error);
+    const total = this.#total + bytes;
+    if (!(total <= this.#limit)) {
+      throw new MccError(`its ${this.fileBytes} bytes decode to ${total}, more than limits.maxDecodedBytes: ${this.#limit}`, 'Limit');
     }
+    this.#total = total;
   }
 
-  decodeSync(decode, payload, bytes) {
-    try {
-      return this.#check(payload, decode(bytes, this.#optionsOf(payload)));
-    } catch (error) {
-      return this.#explain(error);
-    }
-  }
-
-  #optionsOf(payload) {
-    const maxOutputBytes = Math.min(this.#limits.maxOutputBytes ?? Infinity, namedBytes(payload) + this.#room);
+  /** Of decodePayload(), for a payload whose namedBytes() were added: what the document does not name is held against what is
+   * left. */
+  optionsFor(payload) {
+    const maxOutputBytes = Math.min(this.#limits.maxOutputBytes ?? Infinity, namedBytes(payload) + this.#limit - this.#total);
     return { claims: payload.claims, limits: { ...this.#limits, maxOutputBytes } };
   }
 
-  #check(payload, decoded) {
+  /** Counts that, too, and returns `decoded`. */
+  settle(payload, decoded) {
     this.add(Math.max(0, bytesOf(decoded) - namedBytes(payload)));
     return decoded;
-  }
-
-  #explain(error) {
-    const isOfCaller = Object.values(this.#limits).some((limit) => limit !== undefined);
-    if (error.code === 'Limit' && !isOfCaller && !error.message.includes('maxDecodedBytes')) this.#refuse(`more than ${this.#total}`);
-    throw error;
-  }
-
-  get #limit() {
-    return this.#max ?? defaultLimit(this.#fileBytes);
-  }
-
-  get #room() {
-    return this.#limit - this.#total;
-  }
-
-  #refuse(total) {
-    throw new MccError(`its ${this.#fileBytes} bytes ask for ${total} bytes of decoded geometry; the limit is ${this.#limit}, `
-      + 'which limits.maxDecodedBytes raises', 'Limit');
   }
 }

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 import { Extension, GLB_BUFFER, PropertyType } from '@gltf-transform/core';
-import { Budget, namedBytes } from './budget.mjs';
+import { Budget, namedBytes, sum } from './budget.mjs';
 import { EXTENSION_NAME, elementsOf, payloadsOf } from './document.mjs';
 import { BIN_CHUNK, readGlb, writeGlb } from './unpack.mjs';
 
@@ -58,10 +58,11 @@ export class KHRMeshCollapseCompression extends Extension {
     const payloads = payloadsOf(context.jsonDoc.json);
     const fileBytes = Object.values(context.jsonDoc.resources).reduce((sum, { byteLength }) => sum + byteLength, 0);
     const budget = new Budget(fileBytes, this.#limits);
-    budget.add(payloads.reduce((sum, payload) => sum + namedBytes(payload), 0));
+    budget.add(sum(payloads.map(namedBytes)));
     for (const payload of payloads) {
       const { bufferView, targets } = payload;
-      const decoded = budget.decodeSync(this.#decoder.decodePayloadSync, payload, context.bufferViews[bufferView]);
+      const decoded = budget.settle(payload,
+        this.#decoder.decodePayloadSync(context.bufferViews[bufferView], budget.optionsFor(payload)));
       const taken = new Set();
       for (const target of targets) this.#fill(context, target, decoded, bufferView, taken, budget);
     }

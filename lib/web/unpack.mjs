@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // A GLB without the extension, for loaders that do not know it.
-import { Budget, namedBytes } from './budget.mjs';
+import { Budget, namedBytes, sum } from './budget.mjs';
 import { fail } from './claims.mjs';
 import { decodePayload } from './decoder.mjs';
 import { COMPONENT_COUNTS, elementsOf, EXTENSION_NAME, extensionUses, originOf, payloadsOf } from './document.mjs';
@@ -25,9 +25,9 @@ export async function unpackGlb(bytes, { decode = decodePayload, limits } = {}) 
   if (payloads.length === 0) return bytes;
   const bin = chunks.find(({ type }) => type === BIN_CHUNK)?.data ?? new Uint8Array(0);
   const budget = new Budget(bytes.length, limits);
-  budget.add(payloads.reduce((sum, payload) => sum + namedBytes(payload), 0));
-  const decoded = await Promise.all(payloads.map((payload) => (
-    budget.decode(decode, payload, payloadBytes(json, bin, payload.bufferView)))));
+  budget.add(sum(payloads.map(namedBytes)));
+  const decoded = await Promise.all(payloads.map(async (payload) => (
+    budget.settle(payload, await decode(payloadBytes(json, bin, payload.bufferView), budget.optionsFor(payload))))));
   for (const { primitive } of extensionUses(json)) removeMember(primitive, 'extensions', EXTENSION_NAME);
   for (const list of ['extensionsUsed', 'extensionsRequired']) {
     json[list] = json[list]?.filter((name) => name !== EXTENSION_NAME);
@@ -36,7 +36,8 @@ export async function unpackGlb(bytes, { decode = decodePayload, limits } = {}) 
   const newBin = new Bin(json, bin, payloads);
   payloads.forEach(({ targets }, i) => newBin.fill(targets, decoded[i]));
   const others = chunks.filter(({ type }) => type !== BIN_CHUNK);
-  return writeGlb(json, [{ type: BIN_CHUNK, ...newBin.finish() }, ...others]);
+  newBin.finish();
+  return writeGlb(json, [{ type: BIN_CHUNK, data: newBin }, ...others]);
 }
 
 /** Its JSON and its other chunks. */
@@ -144,14 +145,11 @@ class Bin {
     for (const target of targets) {
       const accessor = this.json.accessors[target.accessor];
       const origin = originOf(target, accessor);
-      const known = numbers.get(origin);
-      accessor.bufferView = known ?? this.#addView(accessor, elementsOf(decoded, target, accessor), target);
-      numbers.set(origin, accessor.bufferView);
+      const view = this.json.bufferViews[numbers.get(origin)];
       // glTF wants it of vertex attributes that share a view.
-      if (known !== undefined && target.attribute !== undefined) {
-        const view = this.json.bufferViews[known];
-        view.byteStride ??= view.byteLength / accessor.count;
-      }
+      if (view?.target === ARRAY_BUFFER) view.byteStride = view.byteLength / accessor.count;
+      if (!view) numbers.set(origin, this.#addView(accessor, elementsOf(decoded, target, accessor), target));
+      accessor.bufferView = numbers.get(origin);
     }
   }
 
@@ -179,7 +177,6 @@ class Bin {
     const used = numbersOf(this.json, 'buffer');
     while (buffers.length > 1 && !used.has(buffers.length - 1)) buffers.pop(); // that of a fallback
     buffers[0].byteLength = this.length;
-    return { parts: this.parts, length: this.length };
   }
 
   #align(size) {
@@ -209,14 +206,12 @@ function elementBytes({ type, count }, array) {
   return { bytes, stride };
 }
 
-/** A GLB of a document and chunks { type, data }, or { type, parts: [{ at, bytes }], length } with zeros between the parts; those
- * without data are left out. */
+/** A GLB of a document and chunks { type, data }; those without data are left out. `data` is bytes, or { length, parts } of them:
+ * [{ at, bytes }] with zeros between. */
 export function writeGlb(json, chunks) {
   const text = new TextEncoder().encode(JSON.stringify(json));
-  const all = [{ type: JSON_CHUNK, data: text, padding: 0x20 }, ...chunks]
-    .map(({ data, parts = [{ at: 0, bytes: data }], length: size = data.length, ...chunk }) => ({ ...chunk, parts, size }))
-    .filter(({ size }) => size > 0);
-  const padded = ({ size }) => Math.ceil(size / 4) * 4;
+  const all = [{ type: JSON_CHUNK, data: text, padding: 0x20 }, ...chunks.filter(({ data }) => data.length > 0)];
+  const padded = ({ data }) => Math.ceil(data.length / 4) * 4;
   const length = all.reduce((sum, chunk) => sum + 8 + padded(chunk), 12);
   const bytes = new Uint8Array(length);
   const view = new DataView(bytes.buffer);
@@ -225,8 +220,9 @@ export function writeGlb(json, chunks) {
   for (const chunk of all) {
     view.setUint32(at, padded(chunk), true);
     view.setUint32(at + 4, chunk.type, true);
-    for (const part of chunk.parts) bytes.set(part.bytes, at + 8 + part.at);
-    bytes.fill(chunk.padding ?? 0, at + 8 + chunk.size, at + 8 + padded(chunk));
+    const { data, padding = 0 } = chunk;
+    for (const part of data.parts ?? [{ at: 0, bytes: data }]) bytes.set(part.bytes, at + 8 + part.at);
+    bytes.fill(padding, at + 8 + data.length, at + 8 + padded(chunk));
     at += 8 + padded(chunk);
   }
   return bytes;

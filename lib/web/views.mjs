@@ -24,9 +24,9 @@ export class PayloadViews {
       const { bufferView } = payload;
       const bytes = await fetchPayload(bufferView);
       if (bytes.length !== json.bufferViews[bufferView].byteLength) fail(`/bufferViews/${bufferView}`, 'reaches beyond its buffer');
-      budget.addFile(bytes.length);
+      budget.fileBytes += bytes.length;
       budget.add(namedBytes(payload));
-      return budget.decode(decode, payload, bytes);
+      return budget.settle(payload, await decode(bytes, budget.optionsFor(payload)));
     };
     for (const payload of payloadsOf(json)) {
       let decoded;
