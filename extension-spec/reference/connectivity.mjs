@@ -339,7 +339,7 @@ class Connectivity {
 		const t = (h + streams.signedGolomb(this.models.HANDLE_TOP)) >>> 0;
 		const depth = streams.golomb(this.models.HANDLE_DEPTH);
 		if (t >= nodes.count) badConnectivity('A.4.4', 'a handle with a node that does not exist');
-		if (depth > 65535 || depth > this.stack.length) badConnectivity('A.4.4', 'a handle with a digon that does not exist');
+		if (depth > 255 || depth > this.stack.length) badConnectivity('A.4.4', 'a handle with a digon that does not exist');
 		if (nodes.vertex[t] === CLOSED || nodes.vertex[h] === CLOSED) badConnectivity('A.4.4', 'a handle with a closed node');
 		nodes.swapLinks(this.top, h);
 		this.stack.splice(this.stack.length - depth, 0, t);

@@ -341,12 +341,19 @@ function readStreams(reader, header) {
 	return new ThreeStreams(codes, tokens, reader.take(reader.remaining()));
 }
 
-// [A.2.6] Limits
+// ---- [A.2.6] Limits
+
 function checkElements(pieces, byteLength) {
-	let elements = 0;
-	for (const piece of pieces) {
-		const components = piece.attributes.reduce((sum, a) => sum + a.components, 0);
-		elements += piece.vertexCount + piece.wedgeCount + piece.triangleCount + piece.wedgeCount * components;
-	}
-	if (elements > 4096 * byteLength) fail('Limit', 'A.2.6', 'too many elements for so few bytes');
+	const elements = pieces.reduce((sum, piece) => sum + elementsOf(piece), 0);
+	if (elements > 1024 * byteLength) fail('Limit', 'A.2.6', 'too many elements for so few bytes');
+}
+
+// Exact: every count is below 2^32.
+function elementsOf(piece) {
+	const { operationCount, vertexCount, wedgeCount, triangleCount, attributes, flags } = piece;
+	const components = attributes.reduce((sum, a) => sum + a.components, 0);
+	const searches = (flags.COPIES ? vertexCount : 0) + (flags.TRIANGLE_ORDER ? triangleCount : 0)
+		+ (flags.VERTEX_ORDER ? wedgeCount + triangleCount : 0);
+	return operationCount + vertexCount + wedgeCount + triangleCount + 8 * searches + triangleCount * attributes.length
+		+ wedgeCount * components + 1024 * attributes.length;
 }

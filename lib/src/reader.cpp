@@ -344,18 +344,7 @@ Status storeTriangles(PieceCoder<Io>& piece, std::span<const PartInfo> infos,
 class Progress {
  public:
   Progress(const DecodeOptions& options, const PayloadHeader& header) : options_(options) {
-    if (kCompact || options.progress == nullptr) return;
-    for (size_t i = 0; i < header.pieces.size(); ++i) {
-      const PieceHeader& p = header.pieces[i];
-      all_ += p.triangleCount() + p.vertex_count + p.wedge_count;
-      for (uint32_t a = 0; a < p.attribute_count; ++a) {
-        all_ += componentsOf(p, header.attributes[p.first_attribute + a]);
-      }
-    }
-  }
-
-  static uint64_t componentsOf(const PieceHeader& piece, const AttributeInfo& attribute) {
-    return uint64_t{piece.wedge_count} * attribute.format.component_count;
+    if (!kCompact && options.progress != nullptr) all_ = elementsOf(header);
   }
 
   /// An error if the caller asks to stop.
@@ -431,14 +420,14 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
   const PieceTruth nothing;
   MCC_TRY(piece.codeConnectivity(nothing));
   bits.tell(DecodeStage::kConnectivity);
-  MCC_TRY(progress.advance(header.triangleCount()));
+  MCC_TRY(progress.advance(header.operation_count));
   MCC_TRY(piece.codeStitch(nothing));
   bits.tell(DecodeStage::kStitching);
   MCC_TRY(progress.advance(header.vertex_count));
   MCC_TRY(piece.codePositions(nothing));
   bits.tell(DecodeStage::kPositions);
   if (header.attribute_count != 0) {
-    MCC_TRY(progress.advance(Progress::componentsOf(header, info.attributes[0])));
+    MCC_TRY(progress.advance(attributeElements(header, info.attributes[0].format)));
   }
   MCC_TRY(piece.codeSeams(nothing));
   bits.tell(DecodeStage::kSeams);
@@ -451,7 +440,7 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
   MCC_TRY(storeTriangles(piece, info.parts, target.parts, allocator));
   if (kTellsMcEdges && options.mc_edge != nullptr)
     MCC_TRY(tellMcEdges(piece, piece_index, options));
-  MCC_TRY(progress.advance(header.wedge_count));
+  MCC_TRY(progress.advance(surfaceElements(header) - header.operation_count - header.vertex_count));
   Array<int32_t> values(allocator);
   MCC_TRY(piece.prepareAttributes());
   for (uint32_t phase = 0; phase < kCodingPhases; ++phase) {
@@ -459,7 +448,7 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
       if (codingPhase(info.attributes[a]) != phase) continue;
       MCC_TRY(decodeAttribute(piece, info, a, target, values));
       bits.tell(DecodeStage::kAttribute, a);
-      MCC_TRY(progress.advance(Progress::componentsOf(header, info.attributes[a])));
+      MCC_TRY(progress.advance(attributeElements(header, info.attributes[a].format)));
     }
   }
   return {};

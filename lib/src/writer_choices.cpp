@@ -26,15 +26,6 @@ Status surfaceCost(Plan& plan, uint64_t& cost) {
   return {};
 }
 
-Status checkHandles(const Plan& plan) {
-  for (const McHandle& handle : plan.record.handles) {
-    if (handle.stack_depth > kMaxHandleDepth) {
-      return fail(Error::kLimit, "a piece has more nested handles than the format can state");
-    }
-  }
-  return {};
-}
-
 struct Connectivity {
   const McRecord* record;
   McCounts counts;
@@ -214,11 +205,10 @@ void varyAttributeMethod(Plan& plan, uint32_t index, Variation& variation) {
 
 Status choosePairing(Plan& plan, uint32_t start_half_edge, const Jobs& jobs) {
   prepareConnectivity(plan, EdgePairing::kStack, start_half_edge);
-  MCC_TRY(checkHandles(plan));
   if (!plan.header.has(piece_flag::kCopies)) return {};
   Plan other = plan;
   prepareConnectivity(other, EdgePairing::kCut, start_half_edge);
-  if (other.header.vertex_count == plan.header.vertex_count || !checkHandles(other).ok()) return {};
+  if (other.header.vertex_count == plan.header.vertex_count) return {};
   uint64_t joined = 0;
   uint64_t cut = 0;
   MCC_TRY(jobs.tryAll(

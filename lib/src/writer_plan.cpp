@@ -28,6 +28,11 @@ Status checkPiece(const PieceView& piece) {
       return fail(Error::kBadArgument,
                   "an attribute's format, data, stride or bits are out of range");
     }
+    const uint32_t origins = a.format.morph_target == 0 ? a.format.component_count : 0;
+    if (a.lattice != nullptr && !isValidLattice(*a.lattice, origins)) {
+      return fail(Error::kBadArgument,
+                  "the step of a lattice is not positive and finite, or its origin not finite");
+    }
   }
   uint64_t triangles = 0;
   for (const PartView& part : piece.parts) {
@@ -58,15 +63,42 @@ Status checkJoints(const Plan& plan) {
   return {};
 }
 
-}  // namespace
+/// Halves the components whose handles are too deep. False: there are none.
+bool halveDeepComponents(const Plan& plan, uint32_t max_handle_depth,
+                         std::vector<uint32_t>& region_of_face, uint32_t& region_count) {
+  const ClosedMesh& mesh = plan.cut.mesh;
+  uint32_t last = kNone;  // handles are in the order of their components
+  for (const McHandle& handle : plan.record.handles) {
+    if (handle.stack_depth <= max_handle_depth || handle.component == last) continue;
+    last = handle.component;
+    region_of_face.resize(mesh.real_face_count, 0);
+    halveComponent(mesh, mesh.components[mesh.components.size() - 1 - last], region_count++,
+                   region_of_face);
+  }
+  return last != kNone;
+}
 
-void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_edge) {
+/// The rounds end: a triangle by itself has no handle, and components of two are halved to those.
+void cutAndCollapse(Plan& plan, EdgePairing pairing, uint32_t start_half_edge,
+                    uint32_t max_handle_depth) {
   std::vector<uint32_t> corner_class(plan.triangles.wedges.size());
   for (size_t i = 0; i < corner_class.size(); ++i) {
     corner_class[i] = plan.classes.class_of_wedge[plan.triangles.wedges[i]];
   }
-  plan.cut = cutToManifold(corner_class, plan.classes.class_count, pairing, start_half_edge);
-  plan.record = collapse(plan.cut.mesh);
+  std::vector<uint32_t> region_of_face;
+  uint32_t region_count = 1;
+  do {
+    plan.cut = cutToManifold(corner_class, plan.classes.class_count, pairing, start_half_edge,
+                             region_of_face);
+    plan.record = collapse(plan.cut.mesh);
+  } while (halveDeepComponents(plan, max_handle_depth, region_of_face, region_count));
+}
+
+}  // namespace
+
+void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_edge,
+                         uint32_t max_handle_depth) {
+  cutAndCollapse(plan, pairing, start_half_edge, max_handle_depth);
   const ClosedMesh& mesh = plan.cut.mesh;
   plan.node_map.resize(plan.record.node_count);
   plan.source_of_vertex.resize(mesh.real_vertex_count);

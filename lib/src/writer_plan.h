@@ -65,7 +65,9 @@ Status preparePiece(const PieceView& view, const EncodeOptions& options, const J
                     Plan& plan, std::vector<std::string>& notes);
 
 /// Cuts the surface to a manifold and collapses it; sets what the header says of it. May be called again.
-void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_edge);
+/// `max_handle_depth`: a component with a deeper handle is cut in two until there is none.
+void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_edge,
+                         uint32_t max_handle_depth = kMaxHandleDepth);
 
 /// The attributes but the first in the order in which their phases code them.
 std::vector<uint32_t> codingOrder(const Plan& plan);

@@ -42,7 +42,7 @@ export interface Limits {
   maxTriangles?: number;
   maxAttributes?: number;
   maxPieces?: number;
-  /** Vertices, triangles and components of all attributes together: time and working memory are in proportion. */
+  /** The elements of A.2.6: time and working memory are in proportion. A payload has 1024 for each of its bytes at most. */
   maxElements?: number;
   /** Of all outputs. */
   maxOutputBytes?: number;

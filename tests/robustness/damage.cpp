@@ -179,6 +179,7 @@ Outcome decodeDamaged(std::span<const uint8_t> payload) {
       outcome.failure = "opening takes too much memory";
     if (status.ok() && targetBytes(opened.info()) <= kMaxTargetBytes) {
       outcome.reached_decode = true;
+      outcome.target_bytes = targetBytes(opened.info());
       const PayloadInfo& info = opened.info();
       std::vector<PieceMemory> memory(info.pieces.size());
       std::vector<PieceTarget> targets(info.pieces.size());
@@ -208,6 +209,7 @@ Outcome decodeDamaged(std::span<const uint8_t> payload) {
         outcome.failure = "decoding takes " + std::to_string(counting.peakBytes()) + " bytes";
     }
   }
+  outcome.peak_bytes = counting.peakBytes();
   if (counting.usedBytes() != 0) outcome.failure = "memory is not given back";
   return outcome;
 }

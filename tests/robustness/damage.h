@@ -28,6 +28,8 @@ struct Outcome {
   Error error = Error::kOk;
   bool reached_decode = false;
   uint64_t finished_steps = 0;  ///< calls of DecodeOptions::progress
+  uint64_t peak_bytes = 0;      ///< that the decoder held at a time
+  uint64_t target_bytes = 0;    ///< that its caller took for the outputs
   std::string failure;  ///< "" for an error, or for a shape that is as valid as the reader promises
 };
 

@@ -13,6 +13,7 @@
 #include "piece.h"
 #include "robustness/damage.h"
 #include "robustness/face_check.h"
+#include "robustness/observed_codes.h"
 #include "support/mesh_generators.h"
 
 namespace mcc::test {
@@ -36,17 +37,13 @@ class RandomIo {
 
   RandomIo(uint64_t seed, uint32_t budget) : random_(seed), budget_(budget) { lean(); }
 
-  /// Counts the ones answered for these models.
-  void watch(const BitModel* first, size_t count) { watched_.push_back({first, first + count}); }
-  uint32_t watchedOnes() const { return watched_ones_; }
+  WatchedModels& watched() { return watched_; }
 
   bool bit(BitModel& model, bool = false) {
     step();
     const bool one = random_.chance(percent_);
     model.update(one);
-    for (const Watched& w : watched_) {
-      if (one && &model >= w.begin && &model < w.end) ++watched_ones_;
-    }
+    watched_.see(&model, one);
     return one;
   }
 
@@ -73,11 +70,6 @@ class RandomIo {
   uint64_t used() const { return used_; }
 
  private:
-  struct Watched {
-    const BitModel* begin;
-    const BitModel* end;
-  };
-
   void lean() {
     percent_ = random_.between(random_.chance(30) ? 1 : 20, random_.chance(30) ? 98 : 70);
     left_ = random_.between(3, 60);
@@ -92,52 +84,14 @@ class RandomIo {
   uint64_t used_ = 0;
   uint32_t percent_ = 50;
   uint32_t left_ = 0;
-  std::vector<Watched> watched_;
-  uint32_t watched_ones_ = 0;
+  WatchedModels watched_;
 };
 
-struct Observed {
-  uint32_t vertices = 0;
-  uint32_t faces = 0;
-  uint32_t dummies = 0;
-  bool complete = false;  ///< all operations were taken
-  std::string failure;
-};
-
-/// Runs the machine on claims it cannot fulfil, to learn what the answers of `seed` yield.
-Observed observe(uint64_t seed, const McCounts& claims, uint32_t context_set) {
-  Observed observed;
-  FaceMesh mesh{Allocator{}};
-  McModels models{Allocator{}};
-  if (!mesh.words.assign(size_t{claims.face_count} * kFaceWords, kUntouched) ||
-      !models.init(context_set)) {
-    observed.failure = "no memory";
-    return observed;
-  }
+ObservedCodes observe(uint64_t seed, const McCounts& claims, uint32_t context_set) {
   RandomIo io(seed, 1u << 22);
-  io.watch(models.dummy_end, 2);
-  io.watch(&models.dummy_twig, 1);
-  io.watch(&models.dummy_finish, 1);
-  CodeHistogram histogram;
-  const McWatch watch{&histogram, nullptr};
-  const Status status =
-      McMachine<RandomIo>(io, models, claims, {}, mesh, McTruth{}, &watch).run();
+  ObservedCodes observed = observeCodes(io, claims, context_set);
   // Every answer is one of an operation, or closes a node of which operations make two at most; handles take some more.
   if (io.used() > 200 * (uint64_t{claims.operation_count} + 10)) observed.failure = "too much work";
-  if (status.ok()) observed.failure = "fulfils impossible claims";
-  while (observed.faces < claims.face_count &&
-         mesh.words[size_t{observed.faces} * kFaceWords] != kUntouched) {
-    for (uint32_t k = 0; k < 3; ++k) {
-      observed.vertices =
-          std::max(observed.vertices, mesh.words[size_t{observed.faces} * kFaceWords + k] + 1);
-    }
-    ++observed.faces;
-  }
-  observed.dummies = io.watchedOnes() + static_cast<uint32_t>(histogram.dummy);
-  observed.complete =
-      std::string(status.what) == "the codes do not yield the counts that the header claims";
-  if (observed.failure.empty())
-    observed.failure = checkFaces(mesh.words.data(), observed.faces, observed.vertices);
   return observed;
 }
 
@@ -316,7 +270,7 @@ TEST(Machine, RandomAnswers) {
     claims.has_handles = random.chance(70);
     const uint32_t context_set = random.below(kContextSetCount);
     const uint64_t seed = random.next();
-    const Observed observed = observe(seed, claims, context_set);
+    const ObservedCodes observed = observe(seed, claims, context_set);
     ASSERT_EQ(observed.failure, "") << "run " << i;
     if (!observed.complete || observed.dummies != claims.dummy_count || observed.faces == 0)
       continue;

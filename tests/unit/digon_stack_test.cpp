@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "support/mesh_generators.h"
@@ -20,9 +21,9 @@ void compareWithList(uint64_t seed, uint32_t steps, uint32_t growth) {
   std::vector<uint32_t> list;
   for (uint32_t i = 0; i < steps; ++i) {
     if (list.empty() || random.below(100) < growth) {
-      const uint32_t depth =
-          random.chance(50) ? 0 : random.below(static_cast<uint32_t>(list.size()) + 1);
-      ASSERT_TRUE(depth == 0 && random.chance(50) ? stack.push(i) : stack.insertBelow(depth, i));
+      const uint32_t deepest = std::min(static_cast<uint32_t>(list.size()), kMaxHandleDepth);
+      const uint32_t depth = random.chance(50) ? 0 : random.below(deepest + 1);
+      ASSERT_TRUE(stack.insertBelow(depth, i));
       list.insert(list.end() - depth, i);
     } else {
       ASSERT_EQ(stack.top(), list.back());
@@ -50,7 +51,8 @@ TEST(DigonStack, WithoutMemory) {
     {
       DigonStack stack(memory.allocator());
       uint32_t count = 0;
-      while (count < 5000 && stack.insertBelow(count / 2, count)) ++count;
+      while (count < 5000 && stack.insertBelow(std::min(count / 2, kMaxHandleDepth), count))
+        ++count;
       EXPECT_EQ(stack.size(), count);
       for (; !stack.empty(); stack.pop()) --count;
       EXPECT_EQ(count, 0u);

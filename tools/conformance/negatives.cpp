@@ -356,12 +356,37 @@ class Maker {
     header("dummies above corners", "A.2.2", "More dummies than corners",
            withFlag(piece_flag::kHoles),
            [](HeaderFields& f) { f.set("0.dummies", 3 * f.get("0.faces") + 1); });
-    field("many elements", "A.2.6", Error::kLimit, "More than 4096 elements to a byte",
+    field("many elements", "A.2.6", Error::kLimit, "More than 1024 elements to a byte",
           withFlag(piece_flag::kIsolated), [](HeaderFields& f) {
             const uint32_t more = 1u << 26;
             f.set("0.isolated", f.get("0.isolated") + more);
             f.set("0.wedges", f.get("0.wedges") + 2 * more);
           });
+    // Few duplicates by themselves, too many for what counts each of them again.
+    const auto hasDuplicates = [](const PayloadHeader& h) {
+      return h.pieces[0].has(piece_flag::kDuplicates) && !h.pieces[0].has(piece_flag::kManyParts);
+    };
+    const auto withDuplicates = [](uint64_t times) {
+      return [times](HeaderFields& f) {
+        const uint64_t most = kMaxElementsPerByte * f.payload().size();
+        f.set("0.duplicates", static_cast<uint32_t>(most / times + 1));
+      };
+    };
+    field(
+        "many triangles of attributes", "A.2.6", Error::kLimit,
+        "Triangles times attributes are more than 1024 elements to a byte",
+        [&](const PayloadHeader& h) {
+          return hasDuplicates(h) && h.pieces[0].attribute_count >= 3;
+        },
+        withDuplicates(3));
+    field(
+        "many places of triangles", "A.2.6", Error::kLimit,
+        "Triangles in an order that is kept are more than 1024 elements to a byte",
+        [&](const PayloadHeader& h) {
+          return hasDuplicates(h) && h.pieces[0].has(piece_flag::kTriangleOrder) &&
+                 h.pieces[0].attribute_count < 6;
+        },
+        withDuplicates(kElementsPerSearch));
     field(
         "wedges without seams", "A.2.8", Error::kBadAttribute,
         "A wedge more than groups, without seams",

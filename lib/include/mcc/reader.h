@@ -33,8 +33,8 @@ struct Limits {
   uint64_t max_triangles = uint64_t{1} << 28;  ///< triangles of a payload
   uint32_t max_attributes = 1024;              ///< attributes of a payload, morph targets included
   uint32_t max_pieces = 65536;
-  /// The work: the sum of vertices, wedges, triangles and components of all attributes (the specification's elements).
-  /// Decoding takes time and working memory in proportion.
+  /// The work: the specification's elements (A.2.6), to which time and working memory are in proportion; about 10 for each
+  /// vertex, 5 more for each of its attributes of three components. A payload has 1024 for each of its bytes at most.
   uint64_t max_elements = ~uint64_t{0};
   /// What the caller would take for the outputs: all attributes, and indices of 32 bits.
   uint64_t max_output_bytes = ~uint64_t{0};

@@ -153,6 +153,7 @@ class Collapser {
     handle.node = s;
     handle.top = stack_[place];
     handle.stack_depth = static_cast<uint32_t>(stack_.size() - 1 - place);
+    handle.component = static_cast<uint32_t>(record_.components.size() - 1);
     stack_.erase(stack_.begin() + static_cast<std::ptrdiff_t>(place));
     record_.handles.push_back(handle);
     return static_cast<uint32_t>(record_.handles.size() - 1);

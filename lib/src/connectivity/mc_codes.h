@@ -71,6 +71,7 @@ struct McHandle {
   uint32_t node = 0;         ///< collapse node on the waiting digon
   uint32_t top = 0;          ///< collapse node: top of the waiting digon
   uint32_t stack_depth = 0;  ///< digons above it
+  uint32_t component = 0;    ///< in collapse order
 };
 
 /// mc-vertex of a component and the gates of its last digon.
@@ -462,7 +463,7 @@ Status McMachine<Io>::codeEnd(const McOperation* op, bool first) {
     if (stack_.empty()) finishes = io_.bit(models_.finish, Io::kEncoding && op->finishes);
     if (finishes) {
       MCC_TRY(finishComponent());
-    } else if (!stack_.push(top_)) {
+    } else if (!stack_.insertBelow(0, top_)) {
       return fail(Error::kOutOfMemory, "no memory for the digon stack");
     }
   }

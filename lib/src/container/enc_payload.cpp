@@ -86,22 +86,13 @@ void writePiece(ByteWriter& out, const PayloadHeader& header, size_t index) {
 std::vector<uint8_t> writePayload(const PayloadHeader& header, std::span<const uint8_t> codes,
                                   std::span<const uint8_t> tokens, std::span<const uint8_t> raw) {
   ByteWriter pieces;
-  uint64_t elements = 0;
   if (header.pieces.size() > 1) pieces.writeVarint(static_cast<uint32_t>(header.pieces.size()));
-  for (size_t i = 0; i < header.pieces.size(); ++i) {
-    writePiece(pieces, header, i);
-    const PieceHeader& p = header.pieces[i];
-    elements += p.triangleCount() + p.vertex_count + p.wedge_count;
-    for (uint32_t a = 0; a < p.attribute_count; ++a) {
-      elements +=
-          uint64_t{p.wedge_count} * header.attributes[p.first_attribute + a].format.component_count;
-    }
-  }
+  for (size_t i = 0; i < header.pieces.size(); ++i) writePiece(pieces, header, i);
   if (!header.singleCoder()) {
     pieces.writeVarint(static_cast<uint32_t>(codes.size()));
     pieces.writeVarint(static_cast<uint32_t>(tokens.size()));
   }
-  const uint64_t needed = (elements + kMaxElementsPerByte - 1) / kMaxElementsPerByte;
+  const uint64_t needed = (elementsOf(header) + kMaxElementsPerByte - 1) / kMaxElementsPerByte;
   const uint64_t have =
       kChecksummedFrom + 1 + pieces.size() + codes.size() + tokens.size() + raw.size();
   uint32_t flags = header.flags;

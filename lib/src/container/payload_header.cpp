@@ -227,10 +227,7 @@ struct Totals {
   uint64_t vertices = 0;
   uint64_t wedges = 0;
   uint64_t triangles = 0;
-  uint64_t values = 0;        ///< components of all attributes, for which callers take memory
   uint64_t output_bytes = 0;  ///< what callers take for indices of 32 bits and attributes
-
-  uint64_t elements() const { return vertices + wedges + triangles + values; }
 };
 
 /// [A.2.2]
@@ -300,7 +297,6 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, T
   MCC_TRY(parseAttributes(in, limits, header, piece));
   for (uint32_t i = 0; i < piece.attribute_count; ++i) {
     const AttributeFormat& format = header.attributes[piece.first_attribute + i].format;
-    totals.values += uint64_t{piece.wedge_count} * format.component_count;
     totals.output_bytes += uint64_t{piece.wedge_count} * elementBytes(format);
   }
   if (!header.pieces.push_back(piece)) return fail(Error::kOutOfMemory, "no memory for the header");
@@ -333,6 +329,34 @@ Status parseStreams(ByteReader& in, PayloadHeader& header) {
 }
 
 }  // namespace
+
+uint64_t surfaceElements(const PieceHeader& piece) {
+  const uint64_t triangles = piece.triangleCount();
+  const uint64_t elements =
+      uint64_t{piece.operation_count} + piece.vertex_count + piece.wedge_count + triangles;
+  uint64_t searches = 0;
+  if (piece.has(piece_flag::kCopies)) searches += piece.vertex_count;
+  if (piece.has(piece_flag::kTriangleOrder)) searches += triangles;
+  if (piece.has(piece_flag::kVertexOrder)) searches += piece.wedge_count + triangles;
+  return elements + kElementsPerSearch * searches;
+}
+
+uint64_t attributeElements(const PieceHeader& piece, const AttributeFormat& format) {
+  return kElementsPerAttribute + piece.triangleCount() +
+         uint64_t{piece.wedge_count} * format.component_count;
+}
+
+uint64_t elementsOf(const PayloadHeader& header) {
+  uint64_t elements = 0;
+  for (size_t i = 0; i < header.pieces.size(); ++i) {
+    const PieceHeader& piece = header.pieces[i];
+    elements += surfaceElements(piece);
+    for (uint32_t a = 0; a < piece.attribute_count; ++a) {
+      elements += attributeElements(piece, header.attributes[piece.first_attribute + a].format);
+    }
+  }
+  return elements;
+}
 
 Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, PayloadHeader& header) {
   if (bytes.size() < 3 || std::memcmp(bytes.data(), kMagic, 3) != 0) {
@@ -367,10 +391,11 @@ Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, Payloa
   }
   Totals totals;
   for (uint32_t i = 0; i < piece_count; ++i) MCC_TRY(parsePiece(in, limits, header, totals));
-  if (totals.elements() > kMaxElementsPerByte * bytes.size()) {
+  const uint64_t elements = elementsOf(header);
+  if (elements > kMaxElementsPerByte * bytes.size()) {
     return fail(Error::kLimit, "the payload claims more than its size can hold", 9);
   }
-  if (totals.elements() > limits.max_elements || totals.output_bytes > limits.max_output_bytes) {
+  if (elements > limits.max_elements || totals.output_bytes > limits.max_output_bytes) {
     return fail(Error::kLimit, "the payload is larger than the limit allows", 9);
   }
   return parseStreams(in, header);

@@ -21,8 +21,14 @@ inline constexpr uint8_t kVersionMinor = 0;
 inline constexpr size_t kChecksumOffset = 4;
 inline constexpr size_t kChecksummedFrom = 8;  ///< the checksum covers bytes 0..3 and from here on
 
-/// Bound on work per byte: writers pad a payload to keep it.                                [A.2.6]
-inline constexpr uint64_t kMaxElementsPerByte = 4096;
+/// Bound on the work per byte: writers pad a payload to keep it. Known meshes have below 50 elements per byte, the
+/// triangles of a regular grid alone up to 2200.                                            [A.2.6]
+inline constexpr uint64_t kMaxElementsPerByte = 1024;
+/// What an attribute counts for besides its values: tables of up to 4096 entries begin anew with it.
+inline constexpr uint64_t kElementsPerAttribute = 1024;
+/// What a search among neighbours and recent ones counts for: of each vertex where vertices may share groups, of each
+/// place in an order that is kept.
+inline constexpr uint64_t kElementsPerSearch = 8;
 
 namespace payload_flag {
 inline constexpr uint32_t kSingleCoder = 1u << 0;
@@ -93,6 +99,11 @@ struct PieceHeader {
   }
 };
 
+/// Elements of a piece without its attributes, and of one of its attributes: what decoding takes time and working memory
+/// in proportion to.                                                                        [A.2.6]
+uint64_t surfaceElements(const PieceHeader& piece);
+uint64_t attributeElements(const PieceHeader& piece, const AttributeFormat& format);
+
 struct PayloadHeader {
   explicit PayloadHeader(const Allocator& allocator)
       : pieces(allocator), parts(allocator), attributes(allocator) {}
@@ -110,6 +121,9 @@ struct PayloadHeader {
   bool singleCoder() const { return (flags & payload_flag::kSingleCoder) != 0; }
   uint32_t contextSet() const { return flags >> payload_flag::kContextSetShift; }
 };
+
+/// Of all pieces and their attributes.                                                       [A.2.6]
+uint64_t elementsOf(const PayloadHeader& header);
 
 /// Parses and checks everything before the streams. Allocates in proportion to the bytes only. [A.2.1]
 Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, PayloadHeader& header);

@@ -13,8 +13,9 @@ constexpr uint32_t prevCorner(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 class Cutter {
  public:
-  Cutter(std::span<const uint32_t> corner_class, uint32_t class_count)
-      : corner_class_(corner_class), class_count_(class_count) {}
+  Cutter(std::span<const uint32_t> corner_class, uint32_t class_count,
+         std::span<const uint32_t> region_of_face)
+      : corner_class_(corner_class), class_count_(class_count), region_of_face_(region_of_face) {}
 
   CutResult run(EdgePairing pairing, uint32_t start_half_edge) {
     result_.mesh.real_face_count = static_cast<uint32_t>(corner_class_.size() / 3);
@@ -32,7 +33,11 @@ class Cutter {
            corner_class_[f + 1] == corner_class_[f + 2] || corner_class_[f + 2] == corner_class_[f];
   }
 
-  /// Buckets half-edges by the smaller class of their ends, sorts each bucket by the larger one.
+  uint32_t regionOf(uint32_t h) const {
+    return region_of_face_.empty() ? 0 : region_of_face_[h / 3];
+  }
+
+  /// Buckets half-edges by the smaller class of their ends, sorts each bucket by the larger one and by region.
   void pairHalfEdges(EdgePairing pairing) {
     const uint32_t half_edge_count = static_cast<uint32_t>(corner_class_.size());
     result_.mesh.twin.assign(half_edge_count, kNone);
@@ -44,24 +49,24 @@ class Cutter {
     for (uint32_t c = 0; c < class_count_; ++c) bucket_end[c + 1] += bucket_end[c];
     struct Entry {
       uint32_t larger_class;
+      uint32_t region;
       uint32_t half_edge;
-      bool operator<(const Entry& other) const {
-        return larger_class != other.larger_class ? larger_class < other.larger_class
-                                                  : half_edge < other.half_edge;
+      auto operator<=>(const Entry&) const = default;
+      bool isBeside(const Entry& other) const {
+        return larger_class == other.larger_class && region == other.region;
       }
     };
     std::vector<Entry> entries(half_edge_count);
     std::vector<uint32_t> fill(bucket_end.begin(), bucket_end.end() - 1);
     for (uint32_t h = 0; h < half_edge_count; ++h) {
       entries[fill[smallerClass(h)]++] = {std::max(corner_class_[h], corner_class_[nextCorner(h)]),
-                                          h};
+                                          regionOf(h), h};
     }
     std::vector<uint32_t> open;
     for (uint32_t c = 0; c < class_count_; ++c) {
       std::sort(entries.begin() + bucket_end[c], entries.begin() + bucket_end[c + 1]);
       for (uint32_t i = bucket_end[c], end = i; i < bucket_end[c + 1]; i = end) {
-        while (end < bucket_end[c + 1] && entries[end].larger_class == entries[i].larger_class)
-          ++end;
+        while (end < bucket_end[c + 1] && entries[end].isBeside(entries[i])) ++end;
         if (end - i > 2 && pairing == EdgePairing::kCut) continue;
         open.clear();
         for (uint32_t k = i; k < end; ++k) pairOne(entries[k].half_edge, open);
@@ -178,14 +183,36 @@ class Cutter {
 
   std::span<const uint32_t> corner_class_;
   uint32_t class_count_;
+  std::span<const uint32_t> region_of_face_;
   CutResult result_;
 };
 
 }  // namespace
 
 CutResult cutToManifold(std::span<const uint32_t> corner_class, uint32_t class_count,
-                        EdgePairing pairing, uint32_t start_half_edge) {
-  return Cutter(corner_class, class_count).run(pairing, start_half_edge);
+                        EdgePairing pairing, uint32_t start_half_edge,
+                        std::span<const uint32_t> region_of_face) {
+  return Cutter(corner_class, class_count, region_of_face).run(pairing, start_half_edge);
+}
+
+void halveComponent(const ClosedMesh& mesh, const ClosedMesh::Component& component,
+                    uint32_t new_region, std::span<uint32_t> region_of_face) {
+  std::vector<uint32_t> faces = {component.start_half_edge / 3};  // by distance from the start
+  std::vector<uint32_t> real_faces;
+  std::vector<uint8_t> is_seen(mesh.faceCount(), 0);
+  is_seen[faces[0]] = 1;
+  for (size_t i = 0; i < faces.size(); ++i) {
+    const uint32_t f = faces[i];
+    if (f < mesh.real_face_count) real_faces.push_back(f);
+    for (uint32_t h = 3 * f; h < 3 * f + 3; ++h) {
+      const uint32_t neighbour = mesh.twin[h] / 3;
+      if (is_seen[neighbour] != 0) continue;
+      is_seen[neighbour] = 1;
+      faces.push_back(neighbour);
+    }
+  }
+  for (size_t i = real_faces.size() / 2; i < real_faces.size(); ++i)
+    region_of_face[real_faces[i]] = new_region;
 }
 
 }  // namespace mcc

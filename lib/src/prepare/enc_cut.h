@@ -26,8 +26,14 @@ struct CutResult {
   uint32_t hole_count = 0;
 };
 
+/// `region_of_face`: by triangle, or empty; edges between triangles of different regions are cut.
 CutResult cutToManifold(std::span<const uint32_t> corner_class, uint32_t class_count,
-                        EdgePairing pairing, uint32_t start_half_edge);
+                        EdgePairing pairing, uint32_t start_half_edge,
+                        std::span<const uint32_t> region_of_face = {});
+
+/// Moves one half of the real faces of a component, those far from its start, to a region of their own. O(its faces).
+void halveComponent(const ClosedMesh& mesh, const ClosedMesh::Component& component,
+                    uint32_t new_region, std::span<uint32_t> region_of_face);
 
 }  // namespace mcc
 

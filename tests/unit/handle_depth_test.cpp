@@ -1,0 +1,62 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// [A.4.4] Surfaces whose handles would lie too deep are cut until they do not.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/enc_jobs.h"
+#include "support/mesh_compare.h"
+#include "support/mesh_generators.h"
+#include "writer_plan.h"
+
+namespace mcc::test {
+namespace {
+
+uint32_t deepestOf(const Plan& plan) {
+  uint32_t deepest = 0;
+  for (const McHandle& handle : plan.record.handles)
+    deepest = std::max(deepest, handle.stack_depth);
+  return deepest;
+}
+
+/// Every corner is of its source's class: what was cut can be joined again.
+bool keepsClasses(const Plan& plan) {
+  const ClosedMesh& mesh = plan.cut.mesh;
+  for (size_t c = 0; c < plan.triangles.wedges.size(); ++c) {
+    if (plan.cut.class_of_vertex[mesh.corner_vertex[c]] !=
+        plan.classes.class_of_wedge[plan.triangles.wedges[c]]) {
+      return false;
+    }
+  }
+  return true;
+}
+
+TEST(HandleDepth, SurfacesAreCutUntilItHolds) {
+  const RunJobs in_order;
+  for (const TestMesh& mesh : {mengerSponge(2), plateWithTunnels(40, 1)}) {
+    const MeshPiece piece(mesh);
+    const PieceView view = piece.view();
+    Plan plan;
+    std::vector<std::string> notes;
+    ASSERT_TRUE(preparePiece(view, {}, Jobs(in_order), plan, notes).ok());
+    prepareConnectivity(plan, EdgePairing::kStack, kNone, kNone);
+    const uint32_t deepest = deepestOf(plan);
+    const size_t component_count = plan.cut.mesh.components.size();
+    RecordProperty("deepest_of_" + mesh.name, std::to_string(deepest));
+    ASSERT_GT(deepest, 3u) << mesh.name;
+    for (const uint32_t limit : {0u, 1u, 3u, deepest}) {
+      prepareConnectivity(plan, EdgePairing::kStack, kNone, limit);
+      EXPECT_LE(deepestOf(plan), limit) << mesh.name;
+      EXPECT_TRUE(keepsClasses(plan)) << mesh.name;
+      EXPECT_EQ(plan.cut.mesh.real_face_count, mesh.triangleCount()) << mesh.name;
+      EXPECT_EQ(plan.cut.mesh.components.size() > component_count, limit < deepest) << mesh.name;
+      EXPECT_EQ(plan.header.has(piece_flag::kCopies), limit < deepest) << mesh.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mcc::test
