@@ -126,10 +126,25 @@ bool callProgress(void* user, double done) {
   return progress->function(progress->user, done) != 0;
 }
 
+/// Before the arrays of the targets are read: counts that are not those of the payload may be anything.
+Status checkCounts(std::span<const PieceInfo> pieces, const mcc_piece_target* targets,
+                   size_t target_count) {
+  if (target_count != pieces.size())
+    return fail(Error::kBadArgument, "the number of targets is not that of the pieces");
+  for (size_t i = 0; i < target_count; ++i) {
+    if (targets[i].attribute_count != pieces[i].attributes.size() ||
+        targets[i].part_count != pieces[i].parts.size()) {
+      return fail(Error::kBadArgument, "a target has not the shape of its piece");
+    }
+  }
+  return {};
+}
+
 Status decode(const mcc_payload& payload, const mcc_piece_target* targets, size_t target_count,
               const mcc_decode_options* given) {
   mcc_decode_options options;
   MCC_TRY(readStruct(given, defaultDecodeOptions(), options));
+  MCC_TRY(checkCounts(payload.payload.info().pieces, targets, target_count));
   Targets read(fromC(options.allocator));
   MCC_TRY(read.read(targets, target_count));
   DecodeOptions decode_options;
@@ -162,6 +177,7 @@ Status open(const void* bytes, size_t byte_count, const mcc_open_options* given,
 const char* mcc_version(void) { return MCC_VERSION; }
 
 size_t mcc_status_text(mcc_status status, char* text, size_t text_bytes) {
+  if (text == nullptr) text_bytes = 0;
   const char* what = status.what == nullptr || *status.what == 0 ? "ok" : status.what;
   const int length = status.offset_bytes == MCC_NO_OFFSET
                          ? std::snprintf(text, text_bytes, "%s", what)

@@ -1,6 +1,7 @@
 /* Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
  *
  * The C API from C99: c_api_test GLB. Prints what failed; status 0 when nothing did. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -219,6 +220,8 @@ static void test_damage(const mcc_encoding* encoding) {
   EXPECT(status.error == MCC_ERROR_BAD_CHECKSUM && payload == NULL);
   EXPECT(mcc_status_text(status, NULL, 0) == mcc_status_text(status, text, sizeof text));
   EXPECT(strstr(text, "checksum") != NULL);
+  EXPECT(mcc_status_text(status, NULL, 5) == strlen(text));
+  EXPECT(mcc_status_text(status, text, 1) > 1 && text[0] == 0);
   EXPECT(mcc_payload_open(bytes, 5, NULL, &payload).error == MCC_ERROR_TRUNCATED);
   EXPECT(mcc_payload_open(bytes, byte_count, NULL, NULL).error == MCC_ERROR_BAD_ARGUMENT);
   mcc_payload_close(NULL);
@@ -245,6 +248,69 @@ static void test_encoder_refuses(void) {
   mcc_encoding_release(NULL);
 }
 
+/* Steps and origins that no lattice has. */
+static const float kOdd[] = {0.0f, -1.0f, -0.0f, (float)NAN, (float)INFINITY, (float)-INFINITY};
+enum { kOddCount = sizeof kOdd / sizeof kOdd[0], kOddSteps = kOddCount, kOddOriginsFrom = 3 };
+
+static mcc_status encode_on(const mcc_lattice* lattice, mcc_encoding** encoding) {
+  const mcc_attribute_format position = {MCC_POSITION, 0, MCC_FLOAT32, 3, 0, 0};
+  mcc_attribute_view attribute;
+  const mcc_part_view part = {indices, 3 * kTriangles};
+  const mcc_piece_view piece = {kWedges, &attribute, 1, &part, 1};
+  memset(&attribute, 0, sizeof attribute);
+  attribute.format = position;
+  attribute.data = vertices[0].position;
+  attribute.stride_bytes = sizeof(vertex);
+  attribute.quantization_bits = 14;
+  attribute.lattice = lattice;
+  return mcc_encode(&piece, 1, NULL, encoding);
+}
+
+static void test_lattices(const uint8_t* glb, size_t glb_bytes) {
+  mcc_convert_options options;
+  mcc_encoding* encoding = NULL;
+  mcc_document* document = NULL;
+  mcc_lattice lattice = {{0, 0, 0, 0}, 0.25f};
+  size_t i;
+  EXPECT(encode_on(&lattice, &encoding).error == MCC_OK);
+  mcc_encoding_release(encoding);
+  mcc_convert_options_init(&options, sizeof options);
+  options.position_lattice = &lattice;
+  for (i = 0; i < kOddSteps; ++i) {
+    lattice.step = kOdd[i];
+    EXPECT(encode_on(&lattice, &encoding).error == MCC_ERROR_BAD_ARGUMENT && encoding == NULL);
+    EXPECT(mcc_convert_glb(glb, glb_bytes, &options, &document).error == MCC_ERROR_BAD_ARGUMENT);
+  }
+  lattice.step = 0.25f;
+  for (i = kOddOriginsFrom; i < kOddCount; ++i) {
+    lattice.origin[i % 3] = kOdd[i];
+    EXPECT(encode_on(&lattice, &encoding).error == MCC_ERROR_BAD_ARGUMENT && encoding == NULL);
+    EXPECT(mcc_convert_glb(glb, glb_bytes, &options, &document).error == MCC_ERROR_BAD_ARGUMENT);
+    lattice.origin[i % 3] = 0;
+  }
+}
+
+/* Null pointers, and counts that are not those of the payload: nothing of the arrays is read. */
+static void test_wrong_targets(const mcc_encoding* encoding) {
+  size_t byte_count = 0;
+  const uint8_t* bytes = mcc_encoding_payload(encoding, &byte_count);
+  mcc_payload* payload = NULL;
+  mcc_piece_target target = {NULL, 2, NULL, 1};
+  EXPECT(mcc_payload_open(bytes, byte_count, NULL, &payload).error == MCC_OK);
+  EXPECT(mcc_payload_decode(payload, NULL, 1, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  EXPECT(mcc_payload_decode(payload, &target, 1, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  target.attributes = (const mcc_attribute_target*)(const void*)bytes;
+  target.attribute_count = (size_t)-1;
+  EXPECT(mcc_payload_decode(payload, &target, 1, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  EXPECT(mcc_payload_decode(payload, &target, (size_t)-1, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  EXPECT(mcc_payload_decode(NULL, &target, 1, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  EXPECT(mcc_payload_piece(payload, 0, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  EXPECT(mcc_payload_attribute(payload, 0, 0, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  EXPECT(mcc_payload_part(payload, 0, 0, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  EXPECT(mcc_payload_piece_count(NULL) == 0 && mcc_element_bytes(NULL) == 0);
+  mcc_payload_close(payload);
+}
+
 static void test_documents(const char* path) {
   FILE* file = fopen(path, "rb");
   static uint8_t glb[1 << 20];
@@ -258,6 +324,7 @@ static void test_documents(const char* path) {
   const uint8_t* bytes;
   if (file != NULL) fclose(file);
   EXPECT(glb_bytes != 0);
+  test_lattices(glb, glb_bytes);
   mcc_convert_options_init(&options, sizeof options);
   EXPECT(options.position_bits == 14);
   options.normal_bits = 1;
@@ -299,6 +366,7 @@ int main(int argument_count, char** arguments) {
   test_structures_grow(encoding);
   test_damage(encoding);
   test_encoder_refuses();
+  test_wrong_targets(encoding);
   mcc_encoding_release(encoding);
   test_documents(arguments[1]);
   return failure_count == 0 ? 0 : 1;

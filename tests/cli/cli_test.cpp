@@ -13,10 +13,6 @@
 
 #include "gltf/round_trip.h"
 
-#if !defined(MCC_TOOL_GLTF_MCC) && defined(MCC_TOOL_PATH)
-#define MCC_TOOL_GLTF_MCC MCC_TOOL_PATH
-#endif
-
 namespace mcc::gltf::test {
 namespace {
 
@@ -288,6 +284,11 @@ TEST_F(Cli, WrongUsageSaysWhatIsWrong) {
   expectSays("decode a.glb b.glb c.glb", "decode: several inputs need a folder: -o DIR");
   expectSays("convert in.glb out.glb --max-error -1", "--max-error: -1 is not greater than 0");
   expectSays("convert in.glb out.glb --max-error-relative x", "--max-error-relative: x is not");
+  for (const char* lattice :
+       {"0,0,0,0", "0,0,0,-1", "0,0,0,nan", "0,0,0,inf", "0,nan,0,1", "inf,0,0,1", "0,0,-inf,1"}) {
+    expectSays(std::string("convert in.glb out.glb --lattice ") + lattice,
+               "--lattice: needs finite numbers, and a step that is greater than 0");
+  }
   expectSays("convert in.glb out.obj", "convert: out.obj: only .glb and .gltf files are written");
   expectSays("convert in.glb out.glb --frobnicate", "convert: there is no option --frobnicate");
   EXPECT_EQ(run("convert in.glb out.vrm").status, 0);

@@ -215,8 +215,9 @@ void addPositionPromises(CLI::App& command, gltf::ConvertOptions& options, CLI::
                 Lattice given;
                 std::copy_n(numbers.begin(), 3, given.origin);
                 given.step = numbers[3];
-                if (!(given.step > 0)) {
-                  throw CLI::ValidationError("--lattice", "the step must be greater than 0");
+                if (!isValidLattice(given, 3)) {
+                  throw CLI::ValidationError(
+                      "--lattice", "needs finite numbers, and a step that is greater than 0");
                 }
                 options.position_lattice = given;
               },

@@ -58,7 +58,7 @@ MCC_API const char* mcc_version(void);
 
 /**
  * Writes a status as one line, "the checksum does not match (byte 4)", with its terminating zero, cut to fit.
- * @param text        text_bytes bytes; may be null when text_bytes is 0
+ * @param text        text_bytes bytes; null: nothing is written
  * @return length of the whole line without the zero, as snprintf()
  */
 MCC_API size_t mcc_status_text(mcc_status status, char* text, size_t text_bytes);

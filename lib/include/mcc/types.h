@@ -78,6 +78,16 @@ struct Lattice {
   bool operator==(const Lattice&) const = default;
 };
 
+/// Whether the format can state a lattice: its step is positive and finite, the first `component_count` origins are
+/// finite. Allocates nothing. Tests: tests/unit/.
+constexpr bool isValidLattice(const Lattice& lattice, uint32_t component_count) {
+  constexpr float kLargest = 3.40282347e38f;
+  bool valid = lattice.step > 0 && lattice.step <= kLargest;
+  for (uint32_t c = 0; c < component_count && c < 4; ++c)
+    valid = valid && lattice.origin[c] >= -kLargest && lattice.origin[c] <= kLargest;
+  return valid;
+}
+
 /// Index types of the output of decode().
 enum class IndexType : uint8_t { kUint8 = 1, kUint16 = 2, kUint32 = 4 };  // value = bytes
 

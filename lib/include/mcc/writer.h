@@ -26,7 +26,7 @@ struct AttributeView {
   /// Ignored by integer attributes, which are exact. An attribute with NaN or infinity goes exact.
   uint8_t quantization_bits = 0;
   /// Lattice to use instead of the attribute's own bounding box; null: own box. Borrowed. Deltas of morph targets use its
-  /// step alone: their lattices go through 0.
+  /// step alone: their lattices go through 0. Must be one that isValidLattice().
   const Lattice* lattice = nullptr;
 };
 
@@ -107,7 +107,7 @@ struct EncodeResult {
 };
 
 /// Compresses pieces into one payload; they share adaptive models.
-/// Errors: kBadArgument (an index >= wedge_count, no POSITION, bits out of range, null data, further attributes with
+/// Errors: kBadArgument (an index >= wedge_count, no POSITION, bits or lattice out of range, null data, further attributes with
 /// indices_only, JOINTS_n of 4 components with WEIGHTS_n that hold -1 or 2^32 - 1),
 /// kLimit (more than 2^28 triangles or wedges), kOutOfMemory. Deterministic: the same input gives the
 /// same bytes on every machine. Time O(n log n) in triangles and wedges.

@@ -72,6 +72,10 @@ Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
     Lattice& lattice = out.position_lattice.emplace();
     std::copy_n(options.position_lattice->origin, 4, lattice.origin);
     lattice.step = options.position_lattice->step;
+    if (!isValidLattice(lattice, 3)) {
+      return fail(Error::kBadArgument,
+                  "the step of a lattice is not positive and finite, or its origin not finite");
+    }
   }
   return {};
 }

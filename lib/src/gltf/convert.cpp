@@ -290,6 +290,11 @@ Result inInput(const Input& input, Result result) {
 Result convert(const Source& source, const Sink& sink, const ConvertOptions& options,
                ConvertReport& report) {
   return guarded([&]() -> Result {
+    if (options.position_lattice && !isValidLattice(*options.position_lattice, 3)) {
+      return error("",
+                   "the lattice of positions needs finite numbers, and a step that is greater "
+                   "than 0");
+    }
     Input input;
     Output output;
     MCC_GLTF_TRY(input.open(source));
