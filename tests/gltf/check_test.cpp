@@ -89,11 +89,13 @@ TEST_F(Check, NoticesAFlippedTriangle) {
 }
 
 TEST_F(Check, NoticesAMovedVertex) {
-  const std::string message = verdictOn([](PayloadPlan& plan) {
+  std::vector<float> moved;
+  const std::string message = verdictOn([&](PayloadPlan& plan) {
     AttributePlan& position = plan.pieces[0].attributes[0];
-    position.adjusted.resize(size_t{3} * plan.pieces[0].wedge_count);
-    std::memcpy(position.adjusted.data(), position.source.data, position.adjusted.size() * 4);
-    position.adjusted[30] += 3 * position.lattice.step;
+    moved.resize(size_t{3} * plan.pieces[0].wedge_count);
+    std::memcpy(moved.data(), position.source.data, moved.size() * 4);
+    moved[30] += 3 * position.lattice.step;
+    position.source.data = reinterpret_cast<const uint8_t*>(moved.data());
   });
   EXPECT_NE(message.find("POSITION of decoded vertex"), std::string::npos) << message;
 }

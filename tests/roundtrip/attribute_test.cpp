@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Every kind of attribute comes back: integers and exact floats bit for bit, the others as DESIGN
-// 9.5 says.
+// Every kind of attribute comes back: integers and exact floats bit for bit, the others to the
+// nearest point of their lattice.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -506,6 +506,54 @@ TEST(Attributes, WeightsOfTwoSetsSumToOne) {
   }
 }
 
+/// Tuples that do not sum to 1, not even nearly, are rounded one by one.
+TEST(Attributes, OtherWeightsMoveByHalfAStep) {
+  const TestMesh mesh = torus(16, 12);
+  Random random(9);
+  std::vector<float> weights;
+  for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+    const float a = 0.9995f * random.unit();
+    weights.insert(weights.end(), {a, 0.9995f - a, 0, 0});
+  }
+  MeshPiece piece(mesh);
+  piece.add(formatOf(Semantic::kWeights, ComponentType::kFloat32, 4), weights.data(), 12);
+  const RoundTrip result = roundTrip(piece.view());
+  ASSERT_EQ(result.failure, "");
+  const DecodedAttribute& decoded = result.decoded[0].attributes.back();
+  const std::vector<uint32_t>& source = result.encoded.pieces[0].source_wedge;
+  for (size_t i = 0; i < weights.size(); ++i) {
+    float w = 0;
+    std::memcpy(&w, decoded.bytes.data() + 4 * i, 4);
+    const float from = weights[4 * size_t{source[i / 4]} + i % 4];
+    ASSERT_LE(std::fabs(double{w} - double{from}), 0.5001 / 4095);
+  }
+}
+
+/// A few far values do not cost all others their bits.
+TEST(Attributes, OutliersKeepAnAttributeExact) {
+  const TestMesh mesh = torus(24, 16);
+  std::vector<float> texcoords(size_t{2} * mesh.vertexCount());
+  for (size_t i = 0; i < texcoords.size(); ++i) texcoords[i] = 0.001f * static_cast<float>(i);
+  const auto codingOf = [&](std::vector<std::string>& notes) {
+    MeshPiece piece(mesh);
+    piece.add(formatOf(Semantic::kTexcoord, ComponentType::kFloat32, 2), texcoords.data(), 12);
+    const PieceView view = piece.view();
+    EncodeResult result;
+    EXPECT_TRUE(encode(std::span<const PieceView>(&view, 1), {}, result).ok());
+    notes = result.notes;
+    Payload payload;
+    EXPECT_TRUE(payload.open(result.payload).ok());
+    return payload.info().pieces[0].attributes.back().coding;
+  };
+  std::vector<std::string> notes;
+  EXPECT_EQ(codingOf(notes), AttributeCoding::kLattice);
+  EXPECT_TRUE(notes.empty());
+  texcoords[17] = 1e6f;
+  EXPECT_NE(codingOf(notes), AttributeCoding::kLattice);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("TEXCOORD_0 has outliers"), std::string::npos) << notes[0];
+}
+
 /// Deltas to normals and tangents of the moved surface, and what they cost per moved wedge.
 TEST(Attributes, MorphTargetsOfUnitVectors) {
   const TestMesh mesh = torus(48, 32);
@@ -726,6 +774,33 @@ TEST(Attributes, WrongArgumentsAreRefused) {
   EXPECT_TRUE(refuses(view)) << "positions of two components";
   view.attributes = std::span<const AttributeView>(attributes).subspan(1);
   EXPECT_TRUE(refuses(view)) << "no positions";
+}
+
+TEST(Attributes, LatticesThatAreNoneAreRefused) {
+  const TestMesh mesh = torus(4, 4);
+  const MeshPiece piece(mesh);
+  AttributeView position = piece.view().attributes[0];
+  position.quantization_bits = 14;
+  PieceView view = piece.view();
+  view.attributes = std::span<const AttributeView>(&position, 1);
+  const auto errorOn = [&](const Lattice& lattice) {
+    position.lattice = &lattice;
+    EncodeResult result;
+    return encode(std::span<const PieceView>(&view, 1), {}, result).error;
+  };
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(errorOn({{-2, -2, -2, 0}, 0.125f}), Error::kOk);
+  EXPECT_EQ(errorOn({{-2, -2, -2, kNaN}, 0.125f}), Error::kOk);  // positions have three origins
+  for (const float step : {0.0f, -0.0f, -1.0f, kInfinity, -kInfinity, kNaN})
+    EXPECT_EQ(errorOn({{0, 0, 0, 0}, step}), Error::kBadArgument) << step;
+  for (const float origin : {kInfinity, -kInfinity, kNaN}) {
+    for (uint32_t c = 0; c < 3; ++c) {
+      Lattice lattice{{0, 0, 0, 0}, 0.125f};
+      lattice.origin[c] = origin;
+      EXPECT_EQ(errorOn(lattice), Error::kBadArgument) << origin;
+    }
+  }
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ Outcome encodeOurs(const Geometry& geometry, EncodedFile& encoded) {
   options.effort = geometry.effort;
   for (const PayloadInput& input : geometry.inputs) {
     std::vector<PieceView> views;
-    for (const PieceInput& piece : input.pieces) views.push_back(piece.forUs());
+    for (const PieceInput& piece : input.pieces) views.push_back(piece.view());
     encoded.payloads.emplace_back();
     if (Outcome done = fromStatus(encode(views, options, encoded.payloads.back())); !done.ok())
       return done;
@@ -40,7 +40,7 @@ Outcome encodeOurs(const Geometry& geometry, EncodedFile& encoded) {
 
 Outcome encodeDracoPrimitive(const PrimitiveInput& primitive, Codec codec, EncodedFile& encoded) {
   foreign::DracoInput input;
-  Outcome made = foreign::makeDracoInput(primitive.piece->forOthers(), primitive.part, input);
+  Outcome made = foreign::makeDracoInput(primitive.piece->view(), primitive.part, input);
   if (!made.ok()) return made;
   encoded.draco.emplace_back();
   return foreign::encodeDraco(input, dracoSpeed(codec), encoded.draco.back());
@@ -64,7 +64,7 @@ void addOurStreams(const StreamSizes& sizes, const std::vector<std::string>& lab
 Outcome addDracoStreams(const PrimitiveInput& primitive, Codec codec,
                         const foreign::DracoEncoded& encoded, std::vector<Stream>& streams) {
   foreign::DracoInput input;
-  Outcome done = foreign::makeDracoInput(primitive.piece->forOthers(), primitive.part, input);
+  Outcome done = foreign::makeDracoInput(primitive.piece->view(), primitive.part, input);
   if (!done.ok()) return done;
   foreign::DracoConnectivity alone;
   done = foreign::encodeDracoConnectivity(input, dracoSpeed(codec), alone);
@@ -171,7 +171,7 @@ Outcome addOurErrors(const PayloadInput& input, const EncodeResult& result,
 Outcome addDracoErrors(const PrimitiveInput& primitive, const DecodedUnit& decoded,
                        std::vector<NamedError>& errors, uint64_t& lost_wedges) {
   foreign::DracoInput input;
-  Outcome done = foreign::makeDracoInput(primitive.piece->forOthers(), primitive.part, input);
+  Outcome done = foreign::makeDracoInput(primitive.piece->view(), primitive.part, input);
   if (!done.ok()) return done;
   foreign::DracoErrors measured;
   done = foreign::measureDracoErrors(input, decoded.mesh, measured);
@@ -193,7 +193,7 @@ Outcome addMeshoptErrors(const PrimitiveInput& primitive, const foreign::Meshopt
                          uint64_t& lost_wedges) {
   std::vector<foreign::AttributeError> measured;
   Outcome done =
-      foreign::measureMeshoptErrors(primitive.piece->forOthers(), encoded, decoded.mesh, measured);
+      foreign::measureMeshoptErrors(primitive.piece->view(), encoded, decoded.mesh, measured);
   if (!done.ok()) return done;
   for (size_t i = 0; i < measured.size(); ++i) {
     addError(primitive.piece->labels[encoded.streams[i].piece_attribute], measured[i], errors);
@@ -253,7 +253,7 @@ Outcome encodeFile(const Geometry& geometry, Codec codec, EncodedFile& encoded) 
       done = encodeDracoPrimitive(primitives[i], codec, encoded);
     } else {
       encoded.meshoptimizer.emplace_back();
-      done = foreign::encodeMeshopt(primitives[i].piece->forOthers(), primitives[i].part, {},
+      done = foreign::encodeMeshopt(primitives[i].piece->view(), primitives[i].part, {},
                                     encoded.meshoptimizer.back());
     }
     if (!done.ok()) return inPrimitive(i, done);

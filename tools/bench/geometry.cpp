@@ -94,11 +94,6 @@ PieceInput makePiece(const PiecePlan& plan, bool keep_all) {
     view.quantization_bits = attribute.bits;
     view.lattice = attribute.has_lattice ? &attribute.lattice : nullptr;
     piece.source.push_back(view);
-    if (!attribute.adjusted.empty()) {
-      view.data = attribute.adjusted.data();
-      view.stride_bytes = elementBytes(attribute.format);
-    }
-    piece.coded.push_back(view);
     piece.labels.push_back(attribute.label());
   }
   for (const gltf::PartPlan& part : plan.parts) piece.parts.push_back({part.triangles});

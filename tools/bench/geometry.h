@@ -23,14 +23,12 @@ bool isLeftOut(const AttributeFormat& format);
 /// cannot take is left out here, for all codecs.
 struct PieceInput {
   uint32_t wedge_count = 0;
-  std::vector<AttributeView> coded;   ///< what our writer gets: weights moved to a sum of one
-  std::vector<AttributeView> source;  ///< what the others get, and what errors are measured against
+  std::vector<AttributeView> source;  ///< what codecs get, and what errors are measured against
   std::vector<std::string> labels;    ///< "POSITION", "TEXCOORD_1"
   std::vector<PartView> parts;
   bool has_left_out = false;
 
-  PieceView forUs() const { return {wedge_count, coded, parts}; }
-  PieceView forOthers() const { return {wedge_count, source, parts}; }
+  PieceView view() const { return {wedge_count, source, parts}; }
 };
 
 /// What goes into one of our payloads.

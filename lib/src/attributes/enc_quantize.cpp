@@ -8,6 +8,7 @@
 
 #include "attributes/dequantize.h"
 #include "attributes/enc_exact_grid.h"
+#include "attributes/enc_extent.h"
 #include "attributes/exact_grid.h"
 #include "attributes/normals.h"
 #include "attributes/octahedral.h"
@@ -134,10 +135,16 @@ class Quantizer {
     return std::move(result_);
   }
 
-  /// DESIGN 9.5.
+  /// The point nearest to each component, of two the upper one; the inverse of [A.8.12].
   QuantizedAttribute toLattice(std::vector<std::string>& notes) {
     result_.info.coding = AttributeCoding::kLattice;
     result_.info.bits = std::min<uint8_t>(view_.quantization_bits, 24);
+    if (view_.lattice == nullptr && isRuined()) {
+      notes.push_back(name() + " has outliers that a lattice of " +
+                      std::to_string(result_.info.bits) +
+                      " bits would serve at the cost of all others: kept exact");
+      return copyInstead();
+    }
     Lattice lattice = view_.lattice != nullptr ? *view_.lattice : ownLattice();
     const uint32_t origins = view_.format.morph_target != 0 ? 0 : components_;
     for (uint32_t c = origins; c < 4; ++c) lattice.origin[c] = 0;
@@ -164,6 +171,20 @@ class Quantizer {
       }
     }
     return std::move(result_);
+  }
+
+  /// Deltas and vectors have steps that do not depend on their range.
+  bool isRuined() const {
+    if (view_.format.morph_target != 0 || view_.format.semantic == Semantic::kNormal ||
+        view_.format.semantic == Semantic::kTangent) {
+      return false;
+    }
+    Extent extent(components_);
+    (void)extent.add(count_, [this](uint64_t w, uint32_t c) {  // all are finite
+      return component(static_cast<uint32_t>(w), c);
+    });
+    if (view_.format.semantic == Semantic::kWeights && extent.isInside(0, 1)) return false;
+    return isRuinedByOutliers(extent, result_.info.bits);
   }
 
   /// Exactly, where a lattice does not serve.
@@ -338,37 +359,55 @@ float floatAt(const AttributeView& view, uint32_t wedge, uint32_t c) {
   return value;
 }
 
-/// Weights of all sets on one lattice from 0 to 1, such that tuples that sum to 1 still do: DESIGN 9.
+/// Weights between 0 and 1 go to a lattice with points at both, and where all sets share one, tuples that sum to 1 still
+/// do: the weights of a vertex are rounded together.
 class WeightQuantizer {
  public:
   WeightQuantizer(const PieceView& piece, std::vector<QuantizedAttribute>& all)
-      : piece_(piece), all_(all) {
-    for (size_t i = 1; i < all.size(); ++i) {
-      const AttributeView& view = piece.attributes[i];
-      if (isBase(view.format, Semantic::kWeights) && view.lattice == nullptr &&
-          all[i].info.coding == AttributeCoding::kLattice && inUnitRange(view)) {
-        sets_.push_back(i);
-      }
-    }
-  }
+      : piece_(piece), all_(all) {}
 
   void run() {
-    if (sets_.empty()) return;
-    uint8_t bits = 24;
-    for (const size_t i : sets_) bits = std::min(bits, all_[i].info.bits);
-    total_ = (1 << bits) - 1;
-    for (const size_t i : sets_) {
-      all_[i].info.bits = bits;
-      all_[i].info.lattice = Lattice{};
-      all_[i].info.lattice.step = static_cast<float>(1.0 / total_);
+    useUnitLattices();
+    bool is_shared = true;
+    for (size_t i = 1; i < all_.size(); ++i) {
+      const AttributeInfo& info = all_[i].info;
+      if (!isBase(info.format, Semantic::kWeights)) continue;
+      is_shared &= info.coding == AttributeCoding::kLattice &&
+                   info.lattice == unitLattice(info.bits) &&
+                   (sets_.empty() || info.lattice == all_[sets_[0]].info.lattice);
+      sets_.push_back(i);
     }
-    for (uint32_t w = 0; w < piece_.wedge_count; ++w) quantizeTuple(w);
+    if (sets_.empty() || !is_shared) return;
+    for (uint32_t w = 0; w < piece_.wedge_count; ++w) roundTuple(w);
   }
 
  private:
-  static constexpr double kSumTolerance = 1e-3;
+  /// Of sets that have no lattice of the caller's; they get the fewest bits that one of them asks for.
+  void useUnitLattices() {
+    std::vector<size_t> own;
+    uint8_t bits = 24;
+    for (size_t i = 1; i < all_.size(); ++i) {
+      const AttributeView& view = piece_.attributes[i];
+      if (!isBase(view.format, Semantic::kWeights) || view.lattice != nullptr ||
+          view.quantization_bits == 0 || !isInUnitRange(view)) {
+        continue;
+      }
+      own.push_back(i);
+      bits = std::min(bits, view.quantization_bits);
+    }
+    for (const size_t i : own) {
+      AttributeView view = piece_.attributes[i];
+      const Lattice lattice = unitLattice(bits);
+      view.quantization_bits = bits;
+      view.lattice = &lattice;
+      std::vector<std::string> notes;  // there are none: every value is near a point
+      all_[i] = Quantizer(view, piece_.wedge_count, nullptr, nullptr, 0).run(notes);
+    }
+  }
 
-  bool inUnitRange(const AttributeView& view) const {
+  bool isInUnitRange(const AttributeView& view) const {
+    if (view.format.component_type != ComponentType::kFloat32) return false;
+    if (view.format.component_count > kLatticeComponents) return false;
     for (uint32_t w = 0; w < piece_.wedge_count; ++w) {
       for (uint32_t c = 0; c < view.format.component_count; ++c) {
         const float x = floatAt(view, w, c);
@@ -378,44 +417,30 @@ class WeightQuantizer {
     return true;
   }
 
-  /// Rounds down, then gives what is missing to the components with the largest remainders.
-  void quantizeTuple(uint32_t w) {
-    remainders_.clear();
-    double sum = 0;
-    int32_t given = 0;
+  void roundTuple(uint32_t w) {
+    const double step = double{all_[sets_[0]].info.lattice.step};
+    points_.clear();
+    for (const size_t i : sets_) {
+      const AttributeView& view = piece_.attributes[i];
+      for (uint32_t c = 0; c < view.format.component_count; ++c) {
+        const double point = double{floatAt(view, w, c)} / step;
+        if (point < 0) return;  // on a lattice of the caller's; rounded one by one
+        points_.push_back(point);
+      }
+    }
+    roundTogether(points_, std::round(1 / step));
+    const double* point = points_.data();
     for (const size_t i : sets_) {
       const uint32_t components = piece_.attributes[i].format.component_count;
-      for (uint32_t c = 0; c < components; ++c) {
-        const double x = floatAt(piece_.attributes[i], w, c);
-        int32_t& value = all_[i].values[size_t{w} * components + c];
-        value = static_cast<int32_t>(x * total_);
-        sum += x;
-        given += value;
-        remainders_.push_back({x * total_ - value, &value});
-      }
-    }
-    const bool sums_to_one = std::fabs(sum - 1) <= kSumTolerance;
-    if (sums_to_one) {
-      std::stable_sort(remainders_.begin(), remainders_.end(),
-                       [](const Remainder& a, const Remainder& b) { return a.part > b.part; });
-    }
-    for (const Remainder& r : remainders_) {
-      if (sums_to_one ? given < total_ && r.part > 0 : r.part >= 0.5) {
-        ++*r.value;
-        ++given;
-      }
+      for (uint32_t c = 0; c < components; ++c)
+        all_[i].values[size_t{w} * components + c] = static_cast<int32_t>(*point++);
     }
   }
 
-  struct Remainder {
-    double part;
-    int32_t* value;
-  };
   const PieceView& piece_;
   std::vector<QuantizedAttribute>& all_;
   std::vector<size_t> sets_;
-  std::vector<Remainder> remainders_;
-  int32_t total_ = 0;
+  std::vector<double> points_;
 };
 
 /// The bits of skin_method that hold for a pair of JOINTS and WEIGHTS.

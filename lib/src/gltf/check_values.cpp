@@ -27,7 +27,7 @@ Result promiseLattice(const AttributePlan& plan, const Lattice& lattice, Promise
   promise.kind = Promise::Kind::kLattice;
   promise.step = lattice.step;
   std::copy_n(lattice.origin, 4, promise.origin);
-  promise.half_steps = plan.adjusted.empty() ? 1 : 2;
+  promise.half_steps = plan.is_rounded_with_others ? 2 : 1;
   promise.distance = plan.max_distance;
   if (plan.has_lattice && promise.step > 0 && promise.step <= double{plan.lattice.step}) return {};
   return error("", "the lattice step of " + plan.label() + " is coarser than asked for");

@@ -21,10 +21,6 @@ struct PieceInput {
       view_of.format = attribute.format;
       view_of.data = attribute.source.data;
       view_of.stride_bytes = attribute.source.stride_bytes;
-      if (!attribute.adjusted.empty()) {
-        view_of.data = attribute.adjusted.data();
-        view_of.stride_bytes = elementBytes(attribute.format);
-      }
       view_of.quantization_bits = attribute.bits;
       view_of.lattice = attribute.has_lattice ? &attribute.lattice : nullptr;
       attributes.push_back(view_of);

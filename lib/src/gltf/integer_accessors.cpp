@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "attributes/enc_extent.h"
 #include "gltf/accessors.h"
-#include "gltf/quantize.h"
 
 namespace mcc::gltf {
 namespace {

@@ -27,9 +27,8 @@ struct AttributePlan {
   bool has_lattice = false;  ///< of float attributes with bits; the codec may prefer a finer grid
   Lattice lattice;
   double max_distance = 0;  ///< between source and decoded positions, where promised
-  /// When not empty, what is coded instead of `source`: values moved to lattice points by at most
-  /// one step (weights that must add up to one).
-  std::vector<float> adjusted;
+  /// Weights of a vertex that must add up to one: each may move by a step instead of half of one.
+  bool is_rounded_with_others = false;
 
   /// "POSITION" or "target 2 POSITION".
   std::string label() const;

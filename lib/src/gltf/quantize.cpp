@@ -8,12 +8,12 @@
 #include <limits>
 #include <map>
 
+#include "attributes/enc_extent.h"
+
 namespace mcc::gltf {
 namespace {
 
-constexpr uint32_t kMaxComponents = 4;
 constexpr uint32_t kMaxLatticeBits = 24;
-constexpr size_t kMaxSamples = 65536;
 
 float floatAt(const AttributePlan& attribute, uint64_t element, uint32_t component) {
   float value = 0;
@@ -22,80 +22,12 @@ float floatAt(const AttributePlan& attribute, uint64_t element, uint32_t compone
   return value;
 }
 
-/// Bounding box of float attributes that share a lattice, with samples of their values.
-struct Extent {
-  uint32_t component_count = 0;
-  float min[kMaxComponents];
-  float max[kMaxComponents];
-  std::vector<float> samples[kMaxComponents];
+bool addTo(Extent& extent, const AttributePlan& attribute) {
+  return extent.add(attribute.source.count,
+                    [&](uint64_t i, uint32_t c) { return floatAt(attribute, i, c); });
+}
 
-  explicit Extent(uint32_t components) : component_count(components) {
-    std::fill_n(min, kMaxComponents, std::numeric_limits<float>::infinity());
-    std::fill_n(max, kMaxComponents, -std::numeric_limits<float>::infinity());
-  }
-
-  /// Adds all values; false when one is NaN or infinite (nothing is added then).
-  bool add(const AttributePlan& attribute) {
-    const uint64_t count = attribute.source.count;
-    for (uint64_t i = 0; i < count; ++i) {
-      for (uint32_t c = 0; c < component_count; ++c) {
-        if (!std::isfinite(floatAt(attribute, i, c))) return false;
-      }
-    }
-    const uint64_t sample_step = count / kMaxSamples + 1;
-    for (uint64_t i = 0; i < count; ++i) {
-      for (uint32_t c = 0; c < component_count; ++c) {
-        const float value = floatAt(attribute, i, c) + 0.0f;  // -0 counts as +0
-        min[c] = std::min(min[c], value);
-        max[c] = std::max(max[c], value);
-        if (i % sample_step == 0) samples[c].push_back(value);
-      }
-    }
-    return true;
-  }
-
-  /// Largest side of the box.
-  double size() const {
-    double largest = 0;
-    for (uint32_t c = 0; c < component_count; ++c) {
-      largest = std::max(largest, double{max[c]} - double{min[c]});
-    }
-    return largest;
-  }
-
-  /// Largest magnitude of a value.
-  double farthest() const {
-    double largest = 0;
-    for (uint32_t c = 0; c < component_count; ++c) {
-      largest = std::max({largest, std::abs(double{min[c]}), std::abs(double{max[c]})});
-    }
-    return largest;
-  }
-
-  /// Largest side of the box without the outer percent of the values on either end.
-  double innerSize() {
-    double largest = 0;
-    for (uint32_t c = 0; c < component_count; ++c) {
-      std::vector<float>& values = samples[c];
-      if (values.size() < 16) return size();
-      const auto trimmed = static_cast<ptrdiff_t>(std::max<size_t>(values.size() / 100, 1));
-      std::nth_element(values.begin(), values.begin() + trimmed, values.end());
-      const double low = values[static_cast<size_t>(trimmed)];
-      std::nth_element(values.begin(), values.end() - 1 - trimmed, values.end());
-      largest = std::max(largest, double{*(values.end() - 1 - trimmed)} - low);
-    }
-    return largest;
-  }
-
-  bool isInside(float low, float high) const {
-    for (uint32_t c = 0; c < component_count; ++c) {
-      if (min[c] < low || max[c] > high) return false;
-    }
-    return true;
-  }
-};
-
-/// Lattice points a value may lie on, as the writer will round it. [DESIGN 9.5]
+/// Lattice points a value may lie on, as the writer will round it.
 double latticePoint(float value, float origin, float step) {
   return std::floor((double{value} - double{origin}) / double{step} + 0.5);
 }
@@ -136,13 +68,6 @@ bool fitDistance(const Extent& extent, double distance, Lattice& lattice, uint8_
   return last_point < std::ldexp(1.0, kMaxLatticeBits);
 }
 
-/// The lattice of 0..1 with points at both ends.
-Lattice unitLattice(uint8_t bits) {
-  Lattice lattice;
-  lattice.step = static_cast<float>(1.0 / static_cast<double>((uint64_t{1} << bits) - 1));
-  return lattice;
-}
-
 /// A lattice of a given step through 0, so that unmoved vertices of a morph target stay unmoved. `bits` becomes what the
 /// larger side of it needs; false when that is too much.
 bool fitAroundZero(const Extent& extent, float step, Lattice& lattice, uint8_t& bits) {
@@ -160,12 +85,6 @@ bool fitAroundZero(const Extent& extent, float step, Lattice& lattice, uint8_t& 
   return true;
 }
 
-/// Whether a few far values leave less than half of the bits to the others.
-bool isRuinedByOutliers(Extent& extent, uint8_t bits) {
-  const double size = extent.size();
-  return size > 0 && extent.innerSize() * std::exp2((bits + 1) / 2) < size;
-}
-
 void useLattice(AttributePlan& attribute, const Lattice& lattice, uint8_t bits) {
   attribute.bits = bits;
   attribute.has_lattice = true;
@@ -180,10 +99,10 @@ bool isBasePosition(const AttributePlan& attribute) {
   return attribute.format.semantic == Semantic::kPosition && attribute.target == kNone;
 }
 
-class Quantizer {
+class QuantizationPlanner {
  public:
-  Quantizer(const ConvertOptions& options, std::vector<PayloadPlan>& payloads,
-            std::vector<std::string>& notes)
+  QuantizationPlanner(const ConvertOptions& options, std::vector<PayloadPlan>& payloads,
+                      std::vector<std::string>& notes)
       : options_(options), payloads_(payloads), notes_(notes) {}
 
   void run() {
@@ -192,7 +111,7 @@ class Quantizer {
     for (PayloadPlan& payload : payloads_) {
       for (PiecePlan& piece : payload.pieces) {
         for (AttributePlan& attribute : piece.attributes) planAttribute(piece, attribute);
-        adjustWeights(piece);
+        noteRoundedWeights(piece);
       }
     }
   }
@@ -229,7 +148,7 @@ class Quantizer {
     Extent extent(3);
     std::vector<AttributePlan*> finite;
     for (const Member& member : group) {
-      if (extent.add(*member.attribute)) {
+      if (addTo(extent, *member.attribute)) {
         finite.push_back(member.attribute);
       } else {
         notes_.push_back(where(*member.piece, *member.attribute) +
@@ -310,7 +229,7 @@ class Quantizer {
     if (follows_position && bits == 0) bits = piece.attributes[0].bits;
     if (!isFloat(attribute) || bits == 0 || isBasePosition(attribute)) return;
     Extent extent(attribute.format.component_count);
-    if (!extent.add(attribute)) {
+    if (!addTo(extent, attribute)) {
       notes_.push_back(where(piece, attribute) + " has NaN or infinite values and stays exact");
     } else if (attribute.target != kNone) {
       planMorphDelta(piece, attribute, extent, bits);
@@ -388,29 +307,15 @@ class Quantizer {
     }
   }
 
-  /// Weights of a vertex that add up to one in the source do so on the lattice, too.
-  void adjustWeights(PiecePlan& piece) const {
+  /// The writer rounds the weights of a vertex together if all of them are on one lattice of 0..1.
+  static void noteRoundedWeights(PiecePlan& piece) {
     std::vector<AttributePlan*> sets;
     for (AttributePlan& attribute : piece.attributes) {
       if (attribute.format.semantic != Semantic::kWeights || attribute.target != kNone) continue;
-      const bool is_on_unit =
-          attribute.has_lattice && attribute.lattice == unitLattice(attribute.bits);
-      if (!is_on_unit) return;
+      if (!attribute.has_lattice || attribute.lattice != unitLattice(attribute.bits)) return;
       sets.push_back(&attribute);
     }
-    if (sets.empty()) return;
-    for (AttributePlan* set : sets) set->adjusted.resize(size_t{4} * piece.wedge_count);
-    std::vector<double> points(4 * sets.size());
-    for (uint64_t wedge = 0; wedge < piece.wedge_count; ++wedge) {
-      for (size_t i = 0; i < points.size(); ++i) {
-        points[i] = double{floatAt(*sets[i / 4], wedge, i % 4)} / double{sets[0]->lattice.step};
-      }
-      roundTogether(points, std::round(1 / double{sets[0]->lattice.step}));
-      for (size_t i = 0; i < points.size(); ++i) {
-        sets[i / 4]->adjusted[wedge * 4 + i % 4] =
-            static_cast<float>(points[i]) * sets[0]->lattice.step;
-      }
-    }
+    for (AttributePlan* set : sets) set->is_rounded_with_others = true;
   }
 
   const ConvertOptions& options_;
@@ -420,33 +325,9 @@ class Quantizer {
 
 }  // namespace
 
-void roundTogether(std::vector<double>& points, double total) {
-  double sum = 0;
-  double floor_sum = 0;
-  for (const double point : points) {
-    sum += point;
-    floor_sum += std::floor(point);
-  }
-  if (std::abs(sum - total) > 0.25) {
-    for (double& point : points) point = std::floor(point + 0.5);
-    return;
-  }
-  std::vector<size_t> order;
-  for (size_t i = 0; i < points.size(); ++i) {
-    if (points[i] > std::floor(points[i])) order.push_back(i);
-  }
-  const auto loss = [&](size_t i) { return points[i] - std::floor(points[i]); };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](size_t a, size_t b) { return loss(a) > loss(b); });
-  const size_t missing = static_cast<size_t>(std::max(0.0, total - floor_sum));
-  if (missing > order.size()) order.clear();  // cannot be: the sum is near
-  for (size_t i = 0; i < std::min(missing, order.size()); ++i) points[order[i]] += 1;
-  for (double& point : points) point = std::floor(point);
-}
-
 void planQuantization(const ConvertOptions& options, std::vector<PayloadPlan>& payloads,
                       std::vector<std::string>& notes) {
-  Quantizer(options, payloads, notes).run();
+  QuantizationPlanner(options, payloads, notes).run();
 }
 
 }  // namespace mcc::gltf

@@ -11,15 +11,10 @@
 
 namespace mcc::gltf {
 
-/// Chooses for every float attribute its bits and, but for unit vectors, its lattice; moves weights
-/// that add up to one onto lattice points that still do. Attributes that a lattice would ruin
+/// Chooses for every float attribute its bits and, but for unit vectors, its lattice. Attributes that a lattice would ruin
 /// (NaN, infinity, outliers) get none and stay exact; a note says which.
 void planQuantization(const ConvertOptions& options, std::vector<PayloadPlan>& payloads,
                       std::vector<std::string>& notes);
-
-/// Rounds every number, none of them negative, to a whole one. When their sum is near `total` it becomes `total`: all are
-/// rounded down and those that lost most go up.
-void roundTogether(std::vector<double>& points, double total);
 
 }  // namespace mcc::gltf
 
