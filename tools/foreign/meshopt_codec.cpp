@@ -167,7 +167,7 @@ T loadAs(const uint8_t* place) {
   return value;
 }
 
-/// value = float(float(index * step) + origin), as the lattice of DESIGN's own payloads.
+/// value = float(float(index * step) + origin), as the lattices of the codec's own payloads.
 template <typename T>
 void fromLattice(const uint8_t* stored, const MeshoptStream& stream, uint32_t vertex_count,
                  float* out) {

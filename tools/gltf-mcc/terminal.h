@@ -19,7 +19,6 @@ class Style {
 
   bool isOn() const { return is_on_; }
   std::string bold(std::string_view text) const { return in("1", text); }
-  std::string dim(std::string_view text) const { return in("2", text); }
   std::string error(std::string_view text) const { return in("1;31", text); }
   std::string note(std::string_view text) const { return in("33", text); }
   std::string bar(std::string_view text) const { return in("36", text); }

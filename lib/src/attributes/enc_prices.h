@@ -23,8 +23,7 @@ inline constexpr double kShear = 14;
 inline constexpr double kFold = 10;
 inline constexpr double kSplit = 1;
 inline constexpr double kPalette = 90;  ///< 25 with few distinct values
-/// They take 90. Less is charged: without them isosurfaces come too near the size of Draco's best.
-inline constexpr double kPlanes = 56;
+inline constexpr double kPlanes = 90;
 inline constexpr double kBlend = 50;        ///< of values, more than parallelograms
 inline constexpr double kSingleCoder = 60;  ///< more than three streams; a division per token
 }  // namespace price_ns

@@ -31,7 +31,7 @@ enum class ValuePredictor : uint8_t {
   kBlend = value_method::kBlend,  ///< of several, see value_blend.h; up to 4 components
 };
 
-inline constexpr uint32_t kMaxComponents = 16;
+inline constexpr uint32_t kValueComponents = 16;
 
 struct ValueModels {
   TokenRow row[4][kLengthContexts];  ///< [component, 3 for all further][context]
@@ -157,10 +157,10 @@ class ValueCoder {
   uint32_t entry_ = kNone;  ///< first face the group completes
   uint32_t n_ = kNone;      ///< its corners, or whatever neighbour there is
   uint32_t p_ = kNone;
-  int64_t sum_[kMaxComponents];  ///< of parallelograms
+  int64_t sum_[kValueComponents];  ///< of parallelograms
   uint32_t parallelograms_ = 0;
-  int32_t predicted_[kMaxComponents];
-  uint32_t contexts_[kMaxComponents];
+  int32_t predicted_[kValueComponents];
+  uint32_t contexts_[kValueComponents];
 };
 
 template <class Io>

@@ -193,6 +193,8 @@ namespace normal_method {
 inline constexpr uint8_t kWeightMask = 0x03;  ///< NormalWeight
 inline constexpr uint8_t kBlendShift = 2;     ///< 0 none, 1 half, 2 whole
 inline constexpr uint8_t kBlendMask = 0x0c;
+inline constexpr uint8_t kAll = kWeightMask | kBlendMask;
+inline constexpr uint8_t kWeightCount = 3;
 }  // namespace normal_method
 
 namespace tangent_point_method {
@@ -205,22 +207,28 @@ inline constexpr uint8_t kBlendShift = 2;     ///< 0 none, 1 half, 2 whole
 inline constexpr uint8_t kBlendMask = 0x0c;
 inline constexpr uint8_t kRemembers = 0x10;       ///< by predictions
 inline constexpr uint8_t kRemembersEdges = 0x20;  ///< by the vectors of neighbours
+inline constexpr uint8_t kAll = kWeightMask | kBlendMask | kRemembers | kRemembersEdges;
 }  // namespace exact_normal_method
 
 namespace exact_tangent_method {
 inline constexpr uint8_t kWeightMask = 0x03;  ///< TangentWeight
 inline constexpr uint8_t kPerpendicular = 0x04;
 inline constexpr uint8_t kRemembers = 0x08;
+inline constexpr uint8_t kAll = kWeightMask | kPerpendicular | kRemembers;
 }  // namespace exact_tangent_method
 
 namespace exact_value_method {
 inline constexpr uint8_t kPredictorMask = 0x03;  ///< ExactPredictor
+inline constexpr uint8_t kPredictorCount = 3;
 inline constexpr uint8_t kRemembers = 0x04;
+inline constexpr uint8_t kAll = kPredictorMask | kRemembers;
 }  // namespace exact_value_method
 
 namespace texcoord_method {
 inline constexpr uint8_t kPredictorMask = 0x07;  ///< TexcoordPredictor
+inline constexpr uint8_t kPredictorCount = 5;
 inline constexpr uint8_t kRepeats = 0x08;
+inline constexpr uint8_t kAll = kPredictorMask | kRepeats;
 }  // namespace texcoord_method
 
 namespace value_method {
@@ -291,24 +299,26 @@ constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count,
              ((bits & value_method::kPredictorMask) != value_method::kBlend ||
               a.format.component_count <= value_method::kBlendComponents);
     case AttributeMethod::kNormal:
-      return (bits & ~0x0f) == 0 && (bits & normal_method::kWeightMask) != 3 &&
+      return (bits & ~normal_method::kAll) == 0 &&
+             (bits & normal_method::kWeightMask) < normal_method::kWeightCount &&
              (bits & normal_method::kBlendMask) != normal_method::kBlendMask;
     case AttributeMethod::kExactNormal:
-      return decodes::kExactFloats && (bits & ~0x3f) == 0 &&
+      return decodes::kExactFloats && (bits & ~exact_normal_method::kAll) == 0 &&
              (bits & exact_normal_method::kBlendMask) != exact_normal_method::kBlendMask;
     case AttributeMethod::kExactTangent:
-      return decodes::kExactFloats && (bits & ~0x0f) == 0 &&
+      return decodes::kExactFloats && (bits & ~exact_tangent_method::kAll) == 0 &&
              ((bits & exact_tangent_method::kPerpendicular) == 0 ||
               exactNormalOf(attributes, count) != kNone);
     case AttributeMethod::kExactValues:
-      return decodes::kExactFloats && (bits & ~0x07) == 0 &&
-             (bits & exact_value_method::kPredictorMask) < 3;
+      return decodes::kExactFloats && (bits & ~exact_value_method::kAll) == 0 &&
+             (bits & exact_value_method::kPredictorMask) < exact_value_method::kPredictorCount;
     case AttributeMethod::kTangent: return bits == 0;
     case AttributeMethod::kTangentPoint:
       return bits == 0 ||
              (bits == tangent_point_method::kPerpendicular && hasNormals(attributes, count));
     case AttributeMethod::kTexcoord:
-      return (bits & ~0x0f) == 0 && (bits & texcoord_method::kPredictorMask) < 5;
+      return (bits & ~texcoord_method::kAll) == 0 &&
+             (bits & texcoord_method::kPredictorMask) < texcoord_method::kPredictorCount;
     case AttributeMethod::kSkin:
       return bits <= (skin_method::kIdleJoints | skin_method::kAscending);
     case AttributeMethod::kWithAnother:

@@ -24,7 +24,6 @@ namespace mcc {
 inline constexpr uint32_t kFaceWords = 8;
 inline constexpr uint32_t kFaceWord = 3;
 inline constexpr uint32_t kSeamWord = 7;
-inline constexpr uint32_t kMaxFaces = 1u << 28;
 inline constexpr uint32_t kMaxVertices = 1u << 28;
 
 // Around a face. Without branches, which could not be predicted: -3 after corner 2, +3 before corner 0.

@@ -9,7 +9,7 @@
 
 namespace mcc {
 
-/// Classes of wedges with bit-equal positions, numbered by first occurrence. DESIGN 9.2: -0 equals +0 unless
+/// Classes of wedges with bit-equal positions, numbered by first occurrence. -0 equals +0 unless
 /// `exact`; a position with a NaN is a class of its own. O(n) expected.
 struct PositionClasses {
   std::vector<uint32_t> class_of_wedge;
