@@ -3,10 +3,12 @@
 // The comparison with Draco: consistent numbers, formats, exit status; the Draco file read by
 // others.
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "cli/run_tool.h"
+#include "gltf/gltf_builder.h"
 
 namespace mcc::test {
 namespace {
@@ -229,6 +231,65 @@ TEST(Compare, DracoFileIsReadByOthers) {
       runCommand(folder, std::string("node '") + MCC_SOURCE_DIR + "/tests/cli/read_draco.mjs' '" +
                              modules + "'" + pairs);
   EXPECT_EQ(read.status, 0) << read.out << read.err;
+}
+
+/// What other codecs cannot hold is a line of the report, never the end of the program.
+TEST(Compare, WildValuesEndNothing) {
+  using gltf::test::Builder;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity();
+  const ScratchFolder folder;
+  for (const auto& [first, second] :
+       {std::pair(3e38f, -3e38f), {nan, infinity}, {1e-45f, -1e-45f}}) {
+    for (const char* name : {"POSITION", "NORMAL", "TEXCOORD_0"}) {
+      SCOPED_TRACE(std::to_string(first) + " in " + name);
+      Builder builder;
+      gltf::test::Sheet sheet(12);
+      std::vector<float>& values = name[0] == 'P'   ? sheet.positions
+                                   : name[0] == 'N' ? sheet.normals
+                                                    : sheet.texcoords;
+      for (size_t i = 0; i < values.size() / 2; ++i) values[2 * i] = i % 2 == 0 ? first : second;
+      const auto primitive = sheet.addTo(builder);
+      builder.addMesh({primitive});
+      builder.json["accessors"][0].erase("min");
+      builder.json["accessors"][0].erase("max");
+      const std::vector<uint8_t> file = builder.toGlb();
+      std::ofstream(folder.path() / "in.glb", std::ios::binary)
+          .write(reinterpret_cast<const char*>(file.data()),
+                 static_cast<std::streamsize>(file.size()));
+      for (const char* command :
+           {"convert in.glb out.glb",
+            "convert in.glb out.glb --lossless --compare none --emit-draco draco.glb",
+            "compare in.glb --runs 1", "convert in.glb out.glb --emit-draco draco.glb",
+            "bench in.glb --runs 5"}) {
+        const ToolResult result = runTool(folder, command);
+        EXPECT_TRUE(result.status == 0 || result.status == 1)
+            << command << ": " << result.status << " " << result.err;
+        EXPECT_EQ((result.out + result.err).find("please report"), std::string::npos)
+            << command << result.err;
+      }
+    }
+  }
+}
+
+/// Triangles that Draco drops, all of them.
+TEST(Compare, MeshesThatDracoRefusesAreALine) {
+  using gltf::test::Builder;
+  const ScratchFolder folder;
+  Builder builder;
+  gltf::test::Sheet sheet(12);
+  for (size_t i = 0; i < sheet.indices.size(); i += 3) sheet.indices[i + 1] = sheet.indices[i];
+  builder.addMesh({sheet.addTo(builder)});
+  const std::vector<uint8_t> file = builder.toGlb();
+  std::ofstream(folder.path() / "in.glb", std::ios::binary)
+      .write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
+  EXPECT_EQ(runTool(folder, "convert in.glb out.glb").status, 0);
+  for (const char* command : {"compare in.glb --runs 1", "bench in.glb --runs 5",
+                              "convert in.glb out.glb --emit-draco draco.glb"}) {
+    const ToolResult result = runTool(folder, command);
+    EXPECT_TRUE(result.status == 0 || result.status == 1)
+        << command << ": " << result.status << " " << result.err;
+  }
 }
 
 }  // namespace

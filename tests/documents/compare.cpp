@@ -472,7 +472,8 @@ class Comparison {
   void compareRest() {
     const size_t accessor_count = memberOf(source_.json, "accessors").size();
     for (uint64_t i = 0; i < accessor_count; ++i) {
-      if (compressed_.count(i) != 0) continue;
+      // Of what Draco holds another use sees zeros, as before.
+      if (compressed_.count(i) != 0 || source_.isHeldByDraco(i)) continue;
       Elements source;
       try {
         source = source_.elements(i);
@@ -495,6 +496,7 @@ class Comparison {
       }
     }
     for (const uint32_t accessor : document_.kept_accessors) {
+      if (source_.isHeldByDraco(accessor)) continue;
       require(source_.elements(accessor).values == converted_.elements(accessor).values,
               "/accessors/" + std::to_string(accessor) +
                   ": changed, though something unknown refers to it");
@@ -585,7 +587,7 @@ class Comparison {
       const double delta_step =
           is_base || bits.position == 0 ? 0 : std::max(own.side(), 1.0) / stepsOf(bits.position);
       const double step = std::max(position_step, delta_step);
-      if (step == 0) return bound;
+      if (step == 0 && (bits.position == 0 || !is_base)) return bound;  // else all are one point
       // Decoding rounds twice, in steps from the lattice's origin.
       const double origin = options_.position_lattice ? 2 : 0;
       allow(step / 2 + std::ldexp(positions.largest() + positions.side() + origin, -23));
@@ -604,8 +606,12 @@ class Comparison {
                    other.source.component_type == 5126;
           });
       if (is_base) {
-        bound.radians = std::numbers::pi * std::ldexp(1.0, -bits.tangent) + 0.004 +
-                        (has_lossy_normal ? 4.5 / (std::ldexp(1.0, bits.normal) - 2) : 0);
+        // The angle around a normal of the octahedral grid, or, without one, such a grid of its own.
+        const double own_grid = 4.5 / (std::ldexp(1.0, bits.tangent) - 2);
+        const double around_normal =
+            std::numbers::pi * std::ldexp(1.0, -bits.tangent) + 0.004 +
+            (has_lossy_normal ? 4.5 / (std::ldexp(1.0, bits.normal) - 2) : 0);
+        bound.radians = std::max(own_grid, around_normal);
       }
     } else if (isNamed(attribute.name, "TEXCOORD") && source.type == "VEC2" && bits.texcoord != 0) {
       allow(std::max(own.side(), is_base ? 0 : 1.0) / stepsOf(bits.texcoord) / 2);

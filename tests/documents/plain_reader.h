@@ -37,6 +37,7 @@ class PlainDocument {
 
   /// Throws std::runtime_error when the accessor is damaged.
   Elements elements(uint64_t accessor) const;
+  bool isHeldByDraco(uint64_t accessor) const { return decoded_.count(accessor) != 0; }
   Bytes viewBytes(uint64_t view) const;
   /// Bytes of an image, wherever it is.
   Bytes imageBytes(uint64_t image) const;

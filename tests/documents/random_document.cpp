@@ -35,10 +35,10 @@ uint32_t widthOf(int component_type) {
 }
 
 // What is not mended yet.
-constexpr bool kHasOddKeys = false;                 // NUL in keys, repeated keys
-constexpr bool kHasUnalignedMatrices = false;       // MAT2, MAT3 of components of one and two bytes
-constexpr bool kHasIndexBounds = false;             // min and max of indices
-constexpr bool kChangesContainerOfNothing = false;  // another container where nothing is compressed
+constexpr bool kHasOddKeys = true;                 // NUL in keys, repeated keys
+constexpr bool kHasUnalignedMatrices = true;       // MAT2, MAT3 of components of one and two bytes
+constexpr bool kHasIndexBounds = true;             // min and max of indices
+constexpr bool kChangesContainerOfNothing = true;  // another container where nothing is compressed
 
 /// Elements of an accessor before they have a place.
 struct Column {
@@ -1208,6 +1208,16 @@ class Maker {
 
   // ---- EXT_meshopt_compression ----
 
+  static uint32_t largestWord(const Bytes& bytes) {
+    uint32_t largest = 0;
+    for (size_t i = 0; i + 4 <= bytes.size(); i += 4) {
+      uint32_t word = 0;
+      std::memcpy(&word, &bytes[i], 4);
+      largest = std::max(largest, word);
+    }
+    return largest;
+  }
+
   void codeViews() {
     if (!json_.contains("bufferViews")) return;
     uint64_t placeholder_bytes = 0;
@@ -1224,7 +1234,7 @@ class Maker {
       std::string mode = "ATTRIBUTES";
       uint32_t stride = view.contains("byteStride") ? view["byteStride"].get<uint32_t>() : 4;
       const bool is_index_view = view.contains("target") && view["target"] == 34963;
-      if (is_index_view && length % 4 == 0) mode = "INDICES";
+      if (is_index_view && length % 4 == 0 && largestWord(bytes) < 1u << 24) mode = "INDICES";
       if (length % stride != 0) continue;
       Bytes coded;
       if (!foreign::encodeMeshoptView(bytes, length / stride, stride, mode, coded).ok()) continue;

@@ -450,6 +450,36 @@ TEST(DracoCodec, NanKeepsAnAttributeExact) {
   EXPECT_EQ(errors.attributes[0].undefined_count, 0u);
 }
 
+/// Draco subtracts, divides and converts to integers in float32, and its predictors take the results as indices' neighbours.
+TEST(DracoCodec, RangesBeyondFloatStayExact) {
+  const Model plain = makeGrid(6, Bits{});
+  for (size_t attribute = 0; attribute < plain.attributes.size(); ++attribute) {
+    for (const float far : {3e38f, 2e38f}) {
+      for (const bool has_lattice : {false, true}) {
+        Model model = makeGrid(6, Bits{});
+        if (model.attributes[attribute].format.component_type != ComponentType::kFloat32) continue;
+        const float ends[2] = {far, -far};
+        const size_t stride = model.attributes[attribute].stride_bytes;
+        for (size_t i = 0; i < 10; ++i)
+          std::memcpy(&model.columns[attribute][stride * i], &ends[i % 2], 4);
+        Lattice lattice;
+        std::fill_n(lattice.origin, 4, -far);
+        lattice.step = static_cast<float>(2.0 * double{far} / 4095);
+        if (has_lattice) model.attributes[attribute].lattice = &lattice;
+        for (const int speed : {0, 3, 5, 10}) {
+          const DracoInput input = inputOf(model);
+          DracoEncoded encoded;
+          ASSERT_EQ(encodeDraco(input, speed, encoded).message, "");
+          DecodedMesh decoded;
+          ASSERT_EQ(decodeDraco(encoded.bytes, decoded).message, "");
+          DracoErrors errors;
+          ASSERT_EQ(measureDracoErrors(input, decoded, errors).message, "");
+        }
+      }
+    }
+  }
+}
+
 TEST(DracoCodec, DamagedBytesAreAnError) {
   Model model = makeGrid(6, Bits{});
   DracoEncoded encoded;

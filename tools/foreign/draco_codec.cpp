@@ -99,6 +99,22 @@ bool allFinite(const AttributeView& view, uint32_t wedge_count) {
   return true;
 }
 
+/// Whether Draco's float32 arithmetic can put every value on the lattice: it subtracts the origin, divides by the step and
+/// converts to int32 without a look at what comes of it.
+bool canBeQuantised(const DracoAttribute& attribute, uint32_t wedge_count) {
+  constexpr float kLargestPoint = 0x1p30f;
+  const AttributeView& view = attribute.view;
+  if (!std::isfinite(attribute.range) || !(attribute.range > 0)) return false;
+  for (uint32_t wedge = 0; wedge < wedge_count; ++wedge) {
+    for (uint32_t c = 0; c < view.format.component_count; ++c) {
+      const auto value = static_cast<float>(readComponent(view, wedge, c));
+      const float point = (value - attribute.lattice.origin[c]) / attribute.lattice.step;
+      if (!(std::abs(point) <= kLargestPoint)) return false;
+    }
+  }
+  return true;
+}
+
 /// Bytes of the parameters that follow the values of an attribute: part of the header in our
 /// tables, since they do not grow with the mesh.
 size_t parameterBytes(const DracoAttribute& attribute) {
@@ -363,6 +379,7 @@ Outcome makeDracoInput(const PieceView& piece, size_t part, DracoInput& input) {
         const double last_index = static_cast<double>((uint64_t{1} << view.quantization_bits) - 1);
         attribute.range =
             static_cast<float>(static_cast<double>(attribute.lattice.step) * last_index);
+        if (!canBeQuantised(attribute, piece.wedge_count)) attribute.quantization_bits = 0;
       }
     }
     const bool is_position = view.format.semantic == Semantic::kPosition;

@@ -50,7 +50,7 @@ struct DracoInput {
 /// Describes one part of a piece to Draco. POSITION, NORMAL, COLOR and TEX_COORD keep their types,
 /// all else is GENERIC, integer normals too; integers are exact; floats with quantization_bits > 0 get our lattice as
 /// explicit quantisation (origin and range), so that bits mean the same on both sides; normals get
-/// octahedral bits. Attributes with NaN or infinity stay exact.
+/// octahedral bits. Attributes with NaN, infinity or a range beyond float32 stay exact.
 /// Fails without POSITION, without triangles, on an index beyond the wedges and on bits Draco has
 /// not. The piece's arrays must outlive `input`.
 Outcome makeDracoInput(const PieceView& piece, size_t part, DracoInput& input);
