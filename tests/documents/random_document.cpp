@@ -34,12 +34,6 @@ uint32_t widthOf(int component_type) {
   return component_type <= kUnsignedShort ? 2 : 4;
 }
 
-// What is not mended yet.
-constexpr bool kHasOddKeys = true;                 // NUL in keys, repeated keys
-constexpr bool kHasUnalignedMatrices = true;       // MAT2, MAT3 of components of one and two bytes
-constexpr bool kHasIndexBounds = true;             // min and max of indices
-constexpr bool kChangesContainerOfNothing = true;  // another container where nothing is compressed
-
 /// Elements of an accessor before they have a place.
 struct Column {
   std::string type = "VEC3";
@@ -350,9 +344,7 @@ class Maker {
   }
 
   uint32_t addAccessor(const Column& column, Json accessor, bool with_bounds) {
-    const bool may_have_bounds = kHasIndexBounds || column.is_for_vertices ||
-                                 column.type != "SCALAR" || column.component_type == kFloat;
-    if ((with_bounds || chance(10)) && may_have_bounds) addBounds(column, accessor);
+    if (with_bounds || chance(10)) addBounds(column, accessor);
     json_["accessors"].push_back(std::move(accessor));
     columns_.push_back(column);
     return static_cast<uint32_t>(columns_.size() - 1);
@@ -733,7 +725,6 @@ class Maker {
       const int type = kComponentTypes[below(6)];
       const bool is_normalized = type < kUnsignedInt && chance(30);
       const char* shape = kTypes[below(7)];
-      if (!kHasUnalignedMatrices && shape[0] == 'M') shape = "SCALAR";
       static const char* const kNames[] = {"_X", "_FEATURE_ID_0", "_TEMPERATURE", "_a b",
                                            "_\u00fc"};
       attributes.push_back(
@@ -747,9 +738,8 @@ class Maker {
     if (chance(3)) {  // a name that promises another type
       static const char* const kNames[] = {"NORMAL",  "TANGENT",  "TEXCOORD_0",
                                            "COLOR_0", "JOINTS_0", "WEIGHTS_0"};
-      attributes.push_back(
-          {kNames[below(6)], values(kTypes[below(kHasUnalignedMatrices ? 7 : 4)],
-                                    kComponentTypes[below(6)], false, count, mesh.positions)});
+      attributes.push_back({kNames[below(6)], values(kTypes[below(7)], kComponentTypes[below(6)],
+                                                     false, count, mesh.positions)});
     }
   }
 
@@ -1140,10 +1130,9 @@ class Maker {
         auto& members = object.get_ref<Json::object_t&>();
         for (uint32_t n = below(5); n > 0; --n) {
           const std::string key = kKeys[below(8)];
-          if (key.size() == 3 && !kHasOddKeys) continue;
           const bool is_there = object.contains(key);
-          if (!is_there || (kHasOddKeys && is_odd_ && chance(50)))
-            members.emplace_back(key, strange(depth - 1));
+          if (is_there && !is_in_extras_) continue;  // refused elsewhere
+          if (!is_there || (is_odd_ && chance(50))) members.emplace_back(key, strange(depth - 1));
         }
         return object;
       }
@@ -1152,7 +1141,9 @@ class Maker {
 
   void addExtras(Json& object) {
     if (!object.is_object() || object.contains("extras")) return;
+    is_in_extras_ = true;
     object["extras"] = strange(3);
+    is_in_extras_ = false;
     if (chance(2)) {
       Json deep = 1;
       for (int i = 0; i < 200; ++i) deep = Json::array({deep});
@@ -1359,10 +1350,6 @@ class Maker {
     options.thread_count = chance(90) ? 1 : 2;
     document_.to_memory = document_.files.size() == 1 && chance(60);
     document_.writes_gltf = !document_.to_memory && chance(50);
-    if (!kChangesContainerOfNothing) {
-      document_.writes_gltf = document_.main == "in.gltf";
-      document_.to_memory = document_.to_memory && !document_.writes_gltf;
-    }
     options.fallback = !document_.to_memory && chance(8);
   }
 
@@ -1386,6 +1373,7 @@ class Maker {
   bool codes_views_ = false;
   bool codes_meshes_ = false;
   bool has_skin_ = false;
+  bool is_in_extras_ = false;
   bool has_image_files_ = false;
 };
 

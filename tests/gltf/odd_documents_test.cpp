@@ -3,9 +3,12 @@
 // Documents that tests/documents came upon.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "gltf/file_io.h"
 #include "gltf/round_trip.h"
+#include "support/scratch_folder.h"
 
 namespace mcc::gltf::test {
 namespace {
@@ -58,6 +61,25 @@ TEST(OddDocuments, OneAccessorForTwoAttributesIsReorderedOnce) {
   // POSITION, NORMAL, TEXCOORD_0 and the payload or the indices.
   EXPECT_EQ(jsonOf(trip.converted)["bufferViews"].size(), 4u);
   EXPECT_EQ(jsonOf(trip.decoded)["bufferViews"].size(), 4u);
+}
+
+TEST(OddDocuments, ImagesWithoutAnyBufferMoveIntoAGlb) {
+  const mcc::test::ScratchFolder folder;
+  const std::string json =
+      R"({"asset":{"version":"2.0"},"images":[{"uri":"a.png"}],"textures":[{"source":0}]})";
+  const std::vector<uint8_t> image = {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a, 1, 2};
+  ASSERT_TRUE(writeFile(folder.path() / "in.gltf", asBytes(json)).ok());
+  ASSERT_TRUE(writeFile(folder.path() / "a.png", image).ok());
+  ConvertReport report;
+  const std::filesystem::path path = folder.path() / "out.glb";
+  ASSERT_EQ(convertFile(folder.path() / "in.gltf", path, {}, report).message(), "");
+  std::vector<uint8_t> file;
+  ASSERT_TRUE(readFile(path, file).ok());
+  GlbFile glb;
+  ASSERT_TRUE(readGlb(file, glb).ok());
+  ASSERT_GE(glb.bin.size(), image.size());
+  EXPECT_TRUE(std::equal(image.begin(), image.end(), glb.bin.begin()));
+  EXPECT_EQ(jsonOf(file)["images"][0]["bufferView"], 0);
 }
 
 }  // namespace

@@ -341,7 +341,7 @@ void addView(ImageFile& file, Document& document) {
 Result embedImage(const FileReader& read_file, size_t index,
                   std::map<std::string, ImageFile>& files, Document& document) {
   const std::string path = at("/images", index);
-  Json& image = document.json["images"][index];
+  const Json& image = document.json["images"][index];
   std::string uri;
   MCC_GLTF_TRY(readString(image, "uri", path, uri));
   if (isDataUri(uri)) return {};
@@ -360,9 +360,11 @@ Result embedImage(const FileReader& read_file, size_t index,
     return {};
   }
   if (file.view == kNone) addView(file, document);
-  image.erase("uri");
-  image["bufferView"] = file.view;
-  if (findMember(image, "mimeType") == nullptr) image["mimeType"] = type;
+  // The root may have got new members, which moves all of them.
+  Json& moved = document.json["images"][index];
+  moved.erase("uri");
+  moved["bufferView"] = file.view;
+  if (findMember(moved, "mimeType") == nullptr) moved["mimeType"] = type;
   return {};
 }
 
