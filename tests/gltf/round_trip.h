@@ -61,7 +61,8 @@ inline std::vector<std::string> elementsInOrder(const std::vector<uint8_t>& file
   Document document;
   std::vector<std::string> elements;
   AccessorData data;
-  if (!loadDocument(file, nullptr, document).ok() || !readAccessor(document, accessor, data).ok()) {
+  if (!loadDocument(file, nullptr, document).ok() || accessor >= document.accessors.size() ||
+      !readAccessor(document, accessor, data).ok()) {
     return elements;
   }
   for (uint64_t i = 0; i < data.count; ++i) {
