@@ -254,7 +254,21 @@ std::string whyNone(const std::vector<Attribute>& attributes, size_t d) {
     while (s < attribute.source.values.size() && !isWithin(attribute, s, d)) ++s;
     if (s == attribute.source.values.size()) return "none has its " + describe(attribute, d, d);
   }
-  return "each attribute is there, but not together";
+  // The source vertex with the fewest others.
+  size_t best = 0;
+  size_t fewest = attributes.size();
+  for (size_t s = 0; s < attributes[0].source.values.size(); ++s) {
+    const auto others = static_cast<size_t>(
+        std::count_if(attributes.begin(), attributes.end(),
+                      [&](const Attribute& attribute) { return !isWithin(attribute, s, d); }));
+    if (others < fewest) fewest = others, best = s;
+  }
+  for (const Attribute& attribute : attributes) {
+    if (!isWithin(attribute, best, d))
+      return "nearest is vertex " + std::to_string(best) + ", but for " +
+             describe(attribute, best, d);
+  }
+  return "one has them all, but is not found by its exact ones";
 }
 
 /// Source vertices that one decoded vertex may stand for are one class: with distinct vertices each is its own, and the
@@ -640,7 +654,7 @@ class Comparison {
     }
     if (bound.distance == 0) bound.value = std::min(bound.value, value);
     bound.radians = std::min(bound.radians, radians * (1 + 1e-6));
-    bound.is_exact = bound.value == 0 && bound.radians == 0;
+    bound.is_exact = value == 0 && radians == 0;
   }
 
   void comparePrimitive(size_t mesh, size_t i) try {
