@@ -24,6 +24,7 @@ void scale(StreamSizes& sizes, double by) {
     *bits *= by;
   }
   for (double& bits : sizes.attribute_bits) bits *= by;
+  for (double& bits : sizes.piece_position_bits) bits *= by;
 }
 
 Status codeAll(std::vector<Plan>& plans, uint32_t context_set, bool single, EncodeResult& result) {
@@ -38,7 +39,9 @@ Status codeAll(std::vector<Plan>& plans, uint32_t context_set, bool single, Enco
     StageRunner<EncoderIo> runner(io, *models, plan, header.attributes.size());
     result.sizes.attribute_bits.resize(header.attributes.size() + plan.attributes.size(), 0);
     MCC_TRY(runner.codeSurface(&result.sizes));
+    const double bits_before = result.sizes.position_bits;
     MCC_TRY(runner.codePositions(&result.sizes));
+    result.sizes.piece_position_bits.push_back(result.sizes.position_bits - bits_before);
     MCC_TRY(runner.codeSeams(&result.sizes));
     MCC_TRY(runner.codeOrders(&result.sizes));
     MCC_TRY(runner.prepareAttributes());

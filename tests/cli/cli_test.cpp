@@ -2,32 +2,22 @@
 //
 // The command line tool as a user calls it: exit status, messages, what is written and what is not.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
 
+#include "cli/run_tool.h"
 #include "gltf/round_trip.h"
 
 namespace mcc::gltf::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Outcome {
-  int status = -1;
-  std::string out;
-  std::string err;
-};
-
-std::string contentOf(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
+using mcc::test::contentOf;
+using Outcome = mcc::test::ToolResult;
 
 void store(const fs::path& path, const std::string& content) {
   std::ofstream(path, std::ios::binary) << content;
@@ -43,9 +33,6 @@ class Cli : public testing::Test {
 #ifndef MCC_TOOL_GLTF_MCC
     GTEST_SKIP() << "the tool is not part of this build";
 #endif
-    std::string pattern = (fs::temp_directory_path() / "gltf-mcc-test-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
     Builder builder;
     builder.addMesh({Sheet(20).addTo(builder)});
     const std::vector<uint8_t> file = builder.toGlb();
@@ -54,29 +41,14 @@ class Cli : public testing::Test {
   }
 
   void TearDown() override {
-    if (folder_.empty()) return;
     std::error_code ignored;
     for (const auto& entry : fs::recursive_directory_iterator(folder_, ignored)) {
       fs::permissions(entry.path(), fs::perms::owner_all, fs::perm_options::add, ignored);
     }
-    fs::remove_all(folder_, ignored);
   }
 
-  /// Runs the tool in the test's folder; arguments are shell words.
   Outcome run(const std::string& arguments) const {
-#ifdef MCC_TOOL_GLTF_MCC
-    const std::string tool = MCC_TOOL_GLTF_MCC;
-#else
-    const std::string tool;
-#endif
-    const std::string command = "cd '" + folder_.string() + "' && '" + tool + "' " + arguments +
-                                " >.stdout 2>.stderr </dev/null";
-    const int code = std::system(command.c_str());
-    Outcome outcome;
-    outcome.status = WIFEXITED(code) ? WEXITSTATUS(code) : -1;
-    outcome.out = contentOf(folder_ / ".stdout");
-    outcome.err = contentOf(folder_ / ".stderr");
-    return outcome;
+    return mcc::test::runTool(scratch_, arguments);
   }
 
   /// Names in the test's folder, without those of run().
@@ -102,7 +74,8 @@ class Cli : public testing::Test {
     EXPECT_EQ(names(), before) << arguments;
   }
 
-  fs::path folder_;
+  mcc::test::ScratchFolder scratch_;
+  const fs::path folder_ = scratch_.path();
   std::string sheet_;
 };
 

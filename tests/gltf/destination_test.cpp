@@ -1,10 +1,15 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/destination.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <fstream>
 #include <map>
+#include <thread>
 
 #include "gltf/gltf_builder.h"
 #include "support/scratch_folder.h"
@@ -153,6 +158,152 @@ TEST_F(DestinationTest, AFileThatAppearsIsNotReplaced) {
   EXPECT_EQ(everything().at("a.bin"), "precious");
   EXPECT_EQ(everything().count("a.gltf"), 0u);
   EXPECT_EQ(everything().count("a.fallback.bin"), 0u);
+}
+
+/// A .gltf with its buffer, each of which tells whose it is.
+Package pairOf(const std::string& writer) {
+  Package package;
+  const std::string main = R"({"buffers":[{"uri":"a.bin"}],"extras":")" + writer + "\"}";
+  package.main.assign(main.begin(), main.end());
+  package.beside = {{SideFile::Kind::kBuffer, "a.bin", {writer.begin(), writer.end()}}};
+  return package;
+}
+
+/// Whoever is last: both files are his. Nobody is told that all is well and has half a pair.
+TEST_F(DestinationTest, APairIsAlwaysOneWriters) {
+  constexpr int kRounds = 150;
+  constexpr int kWriters = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    std::atomic<int> ready{0};
+    std::vector<std::string> messages(kWriters);
+    std::vector<std::thread> threads;
+    for (int i = 0; i < kWriters; ++i) {
+      threads.emplace_back([&, i]() {
+        Destination destination(path("a.gltf"));
+        Result result = destination.check(false);
+        if (result.ok()) result = destination.write(pairOf("writer " + std::to_string(i)));
+        ++ready;
+        while (ready < kWriters) std::this_thread::yield();
+        if (result.ok()) result = destination.commit();
+        messages[static_cast<size_t>(i)] = result.message();
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+    for (const std::string& message : messages) ASSERT_EQ(message, "") << round;
+    const auto files = everything();
+    ASSERT_EQ(files.size(), 2u) << round;
+    ASSERT_NE(files.at("a.gltf").find('"' + files.at("a.bin") + '"'), std::string::npos)
+        << round << ": " << files.at("a.gltf") << " beside " << files.at("a.bin");
+    if (round % 3 == 0) {
+      fs::remove(path("a.gltf"));
+      fs::remove(path("a.bin"));
+    }
+  }
+}
+
+/// Where folders cannot be locked, a pair that another program has broken is found out.
+TEST_F(DestinationTest, ABrokenPairIsFoundOut) {
+  Destination first(path("a.gltf"));
+  ASSERT_TRUE(first.check(false).ok());
+  ASSERT_TRUE(first.write(pairOf("first")).ok());
+  ASSERT_EQ(first.commit().message(), "");
+  EXPECT_EQ(first.checkTogether().message(), "");
+  ASSERT_TRUE(writeFile(path("a.bin"), asBytes("second")).ok());
+  EXPECT_NE(first.checkTogether().message().find("may not belong together"), std::string::npos);
+  // The whole pair of another is well.
+  ASSERT_TRUE(writeFile(path("a.gltf"), pairOf("second").main).ok());
+  EXPECT_EQ(first.checkTogether().message(), "");
+}
+
+mode_t modeOf(const fs::path& file) {
+  struct stat status = {};
+  return ::stat(file.c_str(), &status) == 0 ? status.st_mode & 07777 : 0;
+}
+
+TEST_F(DestinationTest, PermissionsStay) {
+  for (const mode_t mode : {0600, 0640, 0644, 0666, 0700}) {
+    store("a.gltf", R"({"buffers":[{"uri":"a.bin"}]})");
+    store("a.bin", "older");
+    ASSERT_EQ(::chmod(path("a.gltf").c_str(), mode), 0);
+    ASSERT_EQ(::chmod(path("a.bin").c_str(), mode), 0);
+    Destination destination(path("a.gltf"));
+    ASSERT_EQ(destination.check(false).message(), "");
+    ASSERT_EQ(destination.write(pairOf("new")).message(), "");
+    ASSERT_EQ(destination.commit().message(), "");
+    EXPECT_EQ(everything().at("a.bin"), "new");
+    EXPECT_EQ(modeOf(path("a.gltf")), mode);
+    EXPECT_EQ(modeOf(path("a.bin")), mode);
+  }
+}
+
+TEST_F(DestinationTest, OwnersStay) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root may give files away";
+  store("a.glb", "older");
+  ASSERT_EQ(::chown(path("a.glb").c_str(), 1234, 2345), 0);
+  ASSERT_EQ(writeFile(path("a.glb"), asBytes("new")).message(), "");
+  struct stat status = {};
+  ASSERT_EQ(::stat(path("a.glb").c_str(), &status), 0);
+  EXPECT_EQ(status.st_uid, 1234u);
+  EXPECT_EQ(status.st_gid, 2345u);
+}
+
+TEST_F(DestinationTest, LinksStay) {
+  fs::create_directory(path("elsewhere"));
+  store("elsewhere/model.glb", "older");
+  fs::create_symlink("elsewhere/model.glb", path("link.glb"));
+  fs::create_symlink("link.glb", path("link2.glb"));
+  fs::create_symlink("elsewhere/new.glb", path("dangling.glb"));
+  ASSERT_EQ(writeFile(path("link2.glb"), asBytes("new")).message(), "");
+  ASSERT_EQ(writeFile(path("dangling.glb"), asBytes("first")).message(), "");
+  for (const char* name : {"link.glb", "link2.glb", "dangling.glb"}) {
+    EXPECT_TRUE(fs::is_symlink(path(name))) << name;
+  }
+  EXPECT_EQ(everything().at("elsewhere/model.glb"), "new");
+  EXPECT_EQ(everything().at("elsewhere/new.glb"), "first");
+  EXPECT_EQ(everything().size(), 6u);  // nothing beside them
+  fs::create_symlink("round.glb", path("round.glb"));
+  EXPECT_NE(writeFile(path("round.glb"), asBytes("")).message(), "");
+}
+
+TEST_F(DestinationTest, StreamsAreWrittenTo) {
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  EXPECT_TRUE(isStream(path("pipe")));
+  EXPECT_FALSE(isStream(path("none")));
+  const int reader = ::open(path("pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_EQ(writeFile(path("pipe"), asBytes("through")).message(), "");
+  char text[16] = {};
+  EXPECT_EQ(::read(reader, text, sizeof text), 7);
+  EXPECT_STREQ(text, "through");
+  ::close(reader);
+  EXPECT_TRUE(fs::is_fifo(path("pipe")));
+  EXPECT_NE(Destination(path("pipe")).check(false).message().find("a device or a pipe"),
+            std::string::npos);
+  fs::remove(path("pipe"));
+  // An open stream goes on where it is.
+  store("log", "begin ");
+  const int log = ::open(path("log").c_str(), O_WRONLY | O_APPEND);
+  fs::create_symlink("/dev/fd/" + std::to_string(log), path("stream"));
+  ASSERT_EQ(writeFile(path("stream"), asBytes("end")).message(), "");
+  ::close(log);
+  EXPECT_EQ(everything().at("log"), "begin end");
+  EXPECT_EQ(writeFile("/dev/full", asBytes("x")).message(),
+            "/dev/full: cannot be written: No space left on device");
+}
+
+TEST_F(DestinationTest, FilesAreKnownWhateverTheirNames) {
+  store("a", "");
+  fs::create_directory(path("d"));
+  fs::create_symlink("..", path("d/up"));
+  fs::create_symlink("a", path("link"));
+  fs::create_hard_link(path("a"), path("hard"));
+  for (const char* name : {"./a", "link", "hard", "d/../a", "d/up/a"}) {
+    EXPECT_TRUE(isSameFile(path("a"), path(name))) << name;
+  }
+  EXPECT_TRUE(isSameFile(path("new"), path("d/up/new")));
+  EXPECT_FALSE(isSameFile(path("new"), path("d/new")));
+  EXPECT_FALSE(isSameFile(path("a"), path("d/a")));
+  EXPECT_FALSE(isSameFile(path("none/a"), path("none/a")));  // cannot be written anyway
+  EXPECT_FALSE(isSameFile("/dev/null", "/dev/null"));
 }
 
 }  // namespace

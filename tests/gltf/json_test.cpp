@@ -66,6 +66,26 @@ TEST(GltfJson, KeysAreWholeTexts) {
   EXPECT_EQ(MemberIndex(nullptr).find("a"), nullptr);
 }
 
+/// The parser quotes what it read last, in which ": " may stand as well as what a terminal obeys.
+TEST(GltfJson, ErrorsAreWhole) {
+  const std::string text = reprinted("{\"a: b\" \"c: d\"}");
+  EXPECT_NE(text.find("the JSON is damaged (syntax error while parsing object separator - "
+                      "unexpected string literal; last read: '\"a: b\" \"c: d\"'; expected ':')"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(reprinted("[1e999]").find("(number overflow parsing '1e999')"), std::string::npos)
+      << reprinted("[1e999]");
+  for (const std::string escape : {"\033[31m",
+                                   "\xc2\x9b"
+                                   "31m",
+                                   "\x7f"}) {
+    const std::string error = reprinted("{\"" + escape + "\" 1}");
+    EXPECT_NE(error.find("error: JSON byte"), std::string::npos);
+    EXPECT_EQ(error.find(escape), std::string::npos) << error;
+  }
+  EXPECT_LT(reprinted("{\"" + std::string(100000, 'x') + "\" 1}").size(), 500u);
+}
+
 TEST(GltfJson, DeepNestingIsAnError) {
   const std::string deep(100000, '[');
   EXPECT_NE(reprinted(deep).find("nested deeper"), std::string::npos);

@@ -12,9 +12,11 @@
 
 #include "batch_record.h"
 #include "convert_report.h"
+#include "file_roles.h"
 #include "gltf/file_io.h"
 #include "gltf/package.h"
 #include "gltf/parallel.h"
+#include "gltf/printable.h"
 #include "progress_line.h"
 
 namespace mcc::tool {
@@ -45,6 +47,7 @@ class Batch {
 
  private:
   gltf::Result listFiles();
+  gltf::Result checkRoles() const;
   gltf::Result makeFolder() const;
   void makeAll();
   void makeOne(BatchFile& file);
@@ -53,6 +56,7 @@ class Batch {
   std::string nameOf(Outcome outcome) const;
   void keepRecord(bool is_last);
   void showProgress() const;
+  void printNote(const std::string& text) const;
   std::string lineOf(const BatchFile& file) const;
   std::string summaryText() const;
   std::string fileTable() const;
@@ -94,7 +98,10 @@ gltf::Result Batch::listFiles() {
     std::error_code code;
     file.size = fs::file_size(input, code);
     if (code) file.size = 0;  // said when it is its turn
-    if (fs::equivalent(input, outputOf(file), code)) {
+    if (file.name == BatchRecord::pathIn({}).string()) {
+      return {input, "its output would be the record of the folder; rename it"};
+    }
+    if (gltf::isSameFile(input, outputOf(file))) {
       return {input, "would be replaced by its output; choose another folder with -o"};
     }
     for (const std::string& name : namesOf(file.name, options_.with_fallback)) {
@@ -106,7 +113,25 @@ gltf::Result Batch::listFiles() {
     }
     files_.push_back(std::move(file));
   }
-  return {};
+  return checkRoles();
+}
+
+/// Links may make files the same whose names differ.
+gltf::Result Batch::checkRoles() const {
+  FileRoles roles;
+  for (const BatchFile& file : files_) {
+    roles.read(file.input, "an input");
+    const bool has_files = fs::path(file.input).extension() == ".gltf";
+    if (has_files && !options_.report.empty()) roles.readBeside(file.input, options_.folder);
+  }
+  gltf::Result apart =
+      roles.write(BatchRecord::pathIn(options_.folder), "the record of the folder");
+  for (size_t i = 0; i < files_.size() && apart.ok(); ++i) {
+    apart = roles.write(outputOf(files_[i]), "the output of " + files_[i].input);
+    roles.replaceBeside(outputOf(files_[i]), options_.with_fallback);
+  }
+  if (apart.ok() && !options_.report.empty()) apart = roles.write(options_.report, "--report");
+  return apart;
 }
 
 std::string Batch::nameOf(Outcome outcome) const {
@@ -131,6 +156,10 @@ gltf::Result Batch::makeFolder() const {
   return {name, "the folder cannot be created: " + code.message()};
 }
 
+void Batch::printNote(const std::string& text) const {
+  if (!options_.common.is_quiet) fmt::print(stderr, "gltf-mcc: note: {}\n", gltf::printable(text));
+}
+
 void Batch::showProgress() const {
   constexpr size_t kBarWidth = 24;
   const size_t filled = files_.empty() ? kBarWidth : kBarWidth * done_ / files_.size();
@@ -139,7 +168,8 @@ void Batch::showProgress() const {
 }
 
 std::string Batch::lineOf(const BatchFile& file) const {
-  const std::string start = fmt::format("[{}/{}] {}: ", done_, files_.size(), file.input);
+  const std::string start =
+      fmt::format("[{}/{}] {}: ", done_, files_.size(), gltf::printable(file.input));
   switch (file.outcome) {
     case Outcome::kDone: return start + sizeChange(file.input_bytes, file.output_bytes) + "\n";
     case Outcome::kCopied: return start + "copied, " + options_.copied_why + "\n";
@@ -156,8 +186,7 @@ void Batch::keepRecord(bool is_last) {
   recorded_ = now;
   const gltf::Result written = record_->write();
   if (is_last && !written.ok()) {
-    fmt::print(stderr, "gltf-mcc: note: {}; the next run will make everything again\n",
-               written.message());
+    printNote(written.message() + "; the next run will make everything again");
   }
 }
 
@@ -290,7 +319,7 @@ Json Batch::reportOf() const {
                   {"output", outputOf(file).string()},
                   {"outcome", nameOf(file.outcome)}};
     if (file.outcome == Outcome::kFailed) {
-      entry["message"] = file.failure.message();
+      entry["message"] = gltf::printable(file.failure.message());
     } else {
       entry["input_bytes"] = file.input_bytes;
       entry["output_bytes"] = file.output_bytes;
@@ -306,7 +335,7 @@ Json Batch::reportOf() const {
 int Batch::printResults() const {
   int status = has_output_failed_ ? kFailed : kDone;
   if (!options_.report.empty()) {
-    const gltf::Result written = writeText(options_.report, printReport(reportOf()));
+    const gltf::Result written = writeReport(options_.report, printReport(reportOf()));
     if (!written.ok()) status = reportFailure(written);
   }
   if (!options_.common.is_quiet) {
@@ -328,10 +357,11 @@ int Batch::run() {
     reportFailure(ready);
     return kUsage;
   }
-  if (!options_.report.empty()) ready = checkWritable(options_.report);
+  if (!options_.report.empty()) ready = checkReport(options_.report);
   if (ready.ok()) ready = makeFolder();
   if (!ready.ok()) return reportFailure(ready);
   record_ = std::make_unique<BatchRecord>(options_.folder, options_.settings);
+  if (!record_->note().ok()) printNote(record_->note().message());
   makeAll();
   keepRecord(true);
   return printResults();

@@ -39,24 +39,52 @@ bool areUnchanged(const Json& stamps) {
 
 }  // namespace
 
-BatchRecord::BatchRecord(fs::path folder, const nlohmann::ordered_json& settings)
-    : path_(std::move(folder) / kFileName),
+fs::path BatchRecord::pathIn(const fs::path& folder) { return folder / kFileName; }
+
+BatchRecord::BatchRecord(const fs::path& folder, const nlohmann::ordered_json& settings)
+    : path_(pathIn(folder)),
       maker_(std::string(MCC_VERSION) + " " + settings.dump()),
-      files_(Json::object()) {
+      files_(Json::object()),
+      note_(read()) {
+  if (!note_.ok()) note_.what += "; it is ignored, and everything is made again";
+}
+
+gltf::Result BatchRecord::read() {
+  constexpr uintmax_t kMostBytes = uintmax_t{1} << 26;
+  constexpr int kMostLevels = 5;  // of objects and arrays in a record
+  std::error_code code;
+  const fs::file_status status = fs::symlink_status(path_, code);
+  if (!fs::exists(status)) return {};
+  is_file_ = fs::is_regular_file(status);
+  if (!is_file_) return {path_.string(), "is not a file, as the record of this folder would be"};
+  if (fs::file_size(path_, code) > kMostBytes) return {path_.string(), "is too large for a record"};
   std::vector<uint8_t> bytes;
-  if (!gltf::readFile(path_, bytes).ok()) return;
-  Json json = Json::parse(bytes, nullptr, false);
-  if (json.is_object() && json.contains("files") && json["files"].is_object()) {
-    files_ = std::move(json["files"]);
-  }
+  gltf::Result result = gltf::readFile(path_, bytes);
+  if (!result.ok()) return result;
+  bool is_deep = false;
+  const auto look = [&](int depth, Json::parse_event_t, const Json&) {
+    is_deep |= depth > kMostLevels;
+    return !is_deep;
+  };
+  Json json = Json::parse(bytes, look, false);
+  const bool is_record =
+      !is_deep && json.is_object() && json.contains("files") && json["files"].is_object();
+  if (!is_record) return {path_.string(), "is not a record of this program"};
+  files_ = std::move(json["files"]);
+  return {};
 }
 
 bool BatchRecord::isUpToDate(const std::string& output_name, const fs::path& input) const {
   try {
     const auto found = files_.find(output_name);
-    return found != files_.end() && found->at("maker") == maker_ &&
-           found->at("input").at(0) == stampOf(input) && areUnchanged(found->at("input")) &&
-           areUnchanged(found->at("output")) && found->at("bytes").at(1).is_number_unsigned();
+    if (found == files_.end() || found->at("maker") != maker_) return false;
+    const Json& inputs = found->at("input");
+    const Json& outputs = found->at("output");
+    const Json& bytes = found->at("bytes");
+    return inputs.at(0) == stampOf(input) &&
+           outputs.at(0) == stampOf(path_.parent_path() / output_name) && areUnchanged(inputs) &&
+           areUnchanged(outputs) && bytes.at(0).is_number_unsigned() &&
+           bytes.at(1).is_number_unsigned();
   } catch (const Json::exception&) {
     return false;  // damaged
   }
@@ -80,6 +108,7 @@ void BatchRecord::add(const std::string& output_name, const BatchResult& made,
 void BatchRecord::remove(const std::string& output_name) { files_.erase(output_name); }
 
 gltf::Result BatchRecord::write() const {
+  if (!is_file_) return {};
   const Json json = {{"tool", std::string("gltf-mcc ") + MCC_VERSION}, {"files", files_}};
   const std::string text = json.dump(1, ' ', true, Json::error_handler_t::replace) + "\n";
   return gltf::writeFile(path_, {reinterpret_cast<const uint8_t*>(text.data()), text.size()},

@@ -10,6 +10,7 @@
 #include "bench_report.h"
 #include "commands.h"
 #include "convert_report.h"
+#include "file_roles.h"
 #include "foreign/decoders.h"
 #include "gltf/file_io.h"
 #include "help.h"
@@ -73,6 +74,13 @@ gltf::Result BenchCommand::measure(size_t number, const ProgressLine& line,
 
 /// A file that fails does not stop the others.
 int BenchCommand::run() const {
+  FileRoles roles;
+  for (const std::string& input : inputs) roles.read(input);
+  const gltf::Result clash = sizes.empty() ? gltf::Result{} : roles.write(sizes, "--sizes");
+  if (!clash.ok()) {
+    reportFailure(clash);
+    return kUsage;
+  }
   int status = kDone;
   std::vector<bench::FileFigures> files;
   {
@@ -90,7 +98,7 @@ int BenchCommand::run() const {
   }
   if (files.empty()) return status;
   if (!sizes.empty()) {
-    const gltf::Result written = writeText(sizes, sizesCsv(files));
+    const gltf::Result written = writeReport(sizes, sizesCsv(files));
     return written.ok() ? status : reportFailure(written);
   }
   std::string text;

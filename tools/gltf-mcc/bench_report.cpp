@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "comparison_report.h"
+#include "convert_report.h"
+#include "gltf/printable.h"
 
 namespace mcc::tool {
 namespace {
@@ -379,7 +381,8 @@ Json fileJson(const FileFigures& figures) {
         {"decode_wall_seconds", {{"threads_1", load.decode_1}, {"threads_2", load.decode_2}}},
         {"payloads", load.payload_count}};
   }
-  json["notes"] = figures.notes;
+  json["notes"] = Json::array();
+  for (const std::string& note : figures.notes) json["notes"].push_back(gltf::printable(note));
   return json;
 }
 
@@ -508,7 +511,7 @@ std::string benchJson(const std::vector<FileFigures>& files, const std::string& 
                      {"timed_from_triangles", kTimedTriangles},
                      {"files", std::move(list)},
                      {"geometric_means", std::move(means)}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return printReport(json);
 }
 
 std::string sizesCsv(const std::vector<FileFigures>& files) {

@@ -11,8 +11,11 @@
 
 #include "bench/emit_draco.h"
 #include "comparison_report.h"
+#include "convert_report.h"
+#include "file_roles.h"
 #include "foreign/decoders.h"
 #include "gltf/file_io.h"
+#include "gltf/printable.h"
 #include "help.h"
 #include "interrupt.h"
 #include "progress_line.h"
@@ -35,10 +38,10 @@ struct CompareCommand {
 };
 
 std::string titleOf(const std::string& input, const bench::FileFigures& figures) {
-  return fmt::format("{}: {} triangles, {} vertices, {} positions in {} {}\n", input,
-                     grouped(figures.triangle_count), grouped(figures.wedge_count),
-                     grouped(figures.vertex_count), figures.primitive_count,
-                     figures.primitive_count == 1 ? "primitive" : "primitives");
+  return fmt::format(
+      "{}: {} triangles, {} vertices, {} positions in {} {}\n", gltf::printable(input),
+      grouped(figures.triangle_count), grouped(figures.wedge_count), grouped(figures.vertex_count),
+      figures.primitive_count, figures.primitive_count == 1 ? "primitive" : "primitives");
 }
 
 std::string CompareCommand::jsonOf(const std::vector<bench::FileFigures>& files) const {
@@ -49,7 +52,7 @@ std::string CompareCommand::jsonOf(const std::vector<bench::FileFigures>& files)
     list.push_back(std::move(file));
   }
   const Json json = {{"tool", std::string("gltf-mcc ") + MCC_VERSION}, {"files", std::move(list)}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return printReport(json);
 }
 
 gltf::Result CompareCommand::compare(const std::string& input, bench::FileFigures& figures) const {
@@ -83,7 +86,7 @@ int CompareCommand::run() const {
     if (is_table && !common.is_quiet) {
       std::string text = (files.empty() ? "" : "\n") + titleOf(input, figures) + "\n" +
                          comparisonText(figures, common.format);
-      for (const std::string& note : figures.notes) text += "note: " + note + "\n";
+      for (const std::string& note : figures.notes) text += "note: " + gltf::printable(note) + "\n";
       if (printOut(text) != kDone) return kFailed;
     }
     files.push_back(std::move(figures));
@@ -158,6 +161,19 @@ void addCompare(CLI::App& app, int& status) {
   command->callback([state, &status]() {
     if (!state->draco_output.empty() && state->inputs.size() != 1) {
       throw CLI::ValidationError("--emit-draco", "takes one input");
+    }
+    FileRoles roles;
+    for (const std::string& input : state->inputs) {
+      roles.read(input);
+      if (!state->draco_output.empty()) roles.readBeside(input, gltf::folderOf(input));
+    }
+    if (!state->draco_output.empty()) {
+      const gltf::Result apart = roles.write(state->draco_output, "--emit-draco");
+      if (!apart.ok()) {
+        reportFailure(apart);
+        status = kUsage;
+        return;
+      }
     }
     status = state->run();
   });

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gltf/printable.h"
+
 namespace mcc::tool {
 namespace {
 
@@ -306,7 +308,8 @@ Json comparisonJson(const FileFigures& figures) {
   }
   if (figures.has_left_out) json["left_out"] = leftOutJson(figures);
   json["versions"] = {{"draco", foreign::dracoVersion()}};
-  json["notes"] = figures.notes;
+  json["notes"] = Json::array();
+  for (const std::string& note : figures.notes) json["notes"].push_back(gltf::printable(note));
   return json;
 }
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -13,6 +12,8 @@
 #include "commands.h"
 #include "convert_comparison.h"
 #include "convert_report.h"
+#include "file_roles.h"
+#include "gltf/file_io.h"
 #include "gltf/package.h"
 #include "gltf/report_json.h"
 #include "help.h"
@@ -41,6 +42,7 @@ struct ConvertCommand {
  private:
   int runMany() const;
   int runOne() const;
+  gltf::Result checkNames() const;
   gltf::Result convertOne(Converted& converted, ConvertComparison& compared) const;
 };
 
@@ -51,6 +53,9 @@ bool isGltf(const std::string& name) {
 
 int ConvertCommand::run() {
   files.sort("convert");
+  if (isStandardStream(report)) {
+    throw CLI::ValidationError("--report", "takes the name of a file; --format json prints it");
+  }
   return files.is_batch ? runMany() : runOne();
 }
 
@@ -139,28 +144,41 @@ gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison&
   return {};
 }
 
+/// No output is another's file, and none but OUT an input.
+gltf::Result ConvertCommand::checkNames() const {
+  const std::string& input = files.inputs[0];
+  const std::string& draco = comparison.draco_output;
+  if (report.empty() && draco.empty()) return {};
+  FileRoles roles;
+  roles.read(input);
+  roles.readBeside(input, gltf::folderOf(files.output));
+  roles.replace(files.output);
+  roles.replaceBeside(files.output, convert.fallback);
+  gltf::Result apart;
+  if (!draco.empty()) apart = roles.write(draco, "--emit-draco");
+  if (apart.ok() && !report.empty()) apart = roles.write(report, "--report");
+  return apart;
+}
+
 int ConvertCommand::runOne() const {
-  // Before any work is done: a conversion whose report cannot be written is a failure.
-  const bool report_is_new = !report.empty() && !std::filesystem::exists(report);
-  if (report_is_new) temporaryFiles().add(report);
-  if (!report.empty()) {
-    const gltf::Result writable = checkWritable(report);
-    if (!writable.ok()) return reportFailure(writable);
+  const gltf::Result apart = checkNames();
+  if (!apart.ok()) {
+    reportFailure(apart);
+    return kUsage;
   }
+  // Before any work is done: a conversion whose report cannot be written is a failure.
+  const gltf::Result writable = report.empty() ? gltf::Result{} : checkReport(report);
+  if (!writable.ok()) return reportFailure(writable);
   Converted converted{files.inputs[0], files.output, {}, {}};
   ConvertComparison compared = comparison;
   const gltf::Result outcome = convertOne(converted, compared);
-  if (!outcome.ok()) {
-    if (report_is_new) std::remove(report.c_str());
-    return reportFailure(outcome, converted.input, converted.output);
-  }
+  if (!outcome.ok()) return reportFailure(outcome, converted.input, converted.output);
   const auto json = reportJson(converted, convert, compared.json);
   if (!report.empty()) {
-    if (report_is_new) temporaryFiles().forget(report);
-    const gltf::Result written = writeText(report, printReport(json));
+    const gltf::Result written = writeReport(report, printReport(json));
     if (!written.ok()) return reportFailure(written);
   }
-  if (common.is_quiet || isStandardStream(files.output)) return kDone;
+  if (common.is_quiet || isStandardOutput(files.output)) return kDone;
   if (common.format == Format::kJson) return printOut(printReport(json));
   const std::string text = reportText(converted, common);
   const bool has_more = !compared.text.empty() && common.format != Format::kCsv;

@@ -13,6 +13,7 @@
 #include "comparison_report.h"
 #include "gltf/file_io.h"
 #include "gltf/glb.h"
+#include "gltf/printable.h"
 #include "interrupt.h"
 
 namespace mcc::tool {
@@ -50,10 +51,11 @@ gltf::Result ConvertComparison::begin(const gltf::Source& input, const std::stri
     text += "note: not compared with Draco: the input is replaced\n";
   }
   if (!result.ok() || draco_output.empty()) return result;
-  result = gltf::ReplacementFile(draco_output).check();
+  result = gltf::checkWritable(draco_output);
   std::vector<std::string> notes;
   if (result.ok()) result = bench::emitDraco(input.path, source, convert, draco, notes);
-  for (const std::string& note : notes) text += "note: " + draco_output + ": " + note + "\n";
+  for (const std::string& note : notes)
+    text += "note: " + gltf::printable(draco_output + ": " + note) + "\n";
   return result;
 }
 
@@ -104,7 +106,7 @@ gltf::Result ConvertComparison::compare(const gltf::Source& input,
   const gltf::Result compared = compareWithDraco(input.path.string(), source, convert,
                                                  is_compressed, kRuns, common.is_quiet, figures);
   if (!compared.ok()) {
-    text += "note: not compared with Draco: " + compared.message() + "\n";
+    text += "note: not compared with Draco: " + gltf::printable(compared.message()) + "\n";
     return {};
   }
   json = comparisonJson(figures);

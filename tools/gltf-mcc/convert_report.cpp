@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "gltf/file_io.h"
+#include "gltf/printable.h"
 #include "gltf/report_json.h"
+#include "interrupt.h"
 
 namespace mcc::tool {
 namespace {
@@ -121,7 +121,8 @@ std::string summaryText(const Converted& converted, const Totals& totals) {
   const double in = static_cast<double>(report.input_bytes);
   const double out = static_cast<double>(report.output_bytes);
   std::string text =
-      fmt::format("{} -> {}: {}, ratio {:.2f}\n", converted.input, converted.output,
+      fmt::format("{} -> {}: {}, ratio {:.2f}\n", gltf::printable(converted.input),
+                  gltf::printable(converted.output),
                   sizeChange(report.input_bytes, report.output_bytes), out == 0 ? 0 : in / out);
   if (report.copied) return text;
   if (report.fallback_bytes != 0) {
@@ -142,7 +143,8 @@ std::string summaryText(const Converted& converted, const Totals& totals) {
   for (const auto& attribute : totals.attributes) {
     if (attribute.promised_distance == 0) continue;
     text += fmt::format("no {} is farther than {:.6g} from its source (promised {:.6g})\n",
-                        attribute.name, attribute.max_distance, attribute.promised_distance);
+                        gltf::printable(attribute.name), attribute.max_distance,
+                        attribute.promised_distance);
   }
   return text;
 }
@@ -205,20 +207,24 @@ Json reportJson(const Converted& converted, const gltf::ConvertOptions& options,
 }
 
 std::string printReport(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  // In ASCII: characters that a terminal obeys are escaped in names, too.
+  return json.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
-gltf::Result checkWritable(const std::string& path) {
-  if (std::ofstream(path, std::ios::binary | std::ios::app)) return {};
-  return {path, fmt::format("the report cannot be written: {}", std::strerror(errno))};
+namespace {
+
+gltf::Result ofReport(gltf::Result result) {
+  if (!result.ok()) result.what = "the report cannot be written: " + result.what;
+  return result;
 }
 
-gltf::Result writeText(const std::string& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (stream) return {};
-  return {path, fmt::format("the report cannot be written: {}", std::strerror(errno))};
+}  // namespace
+
+gltf::Result checkReport(const std::string& path) { return ofReport(gltf::checkWritable(path)); }
+
+gltf::Result writeReport(const std::string& path, const std::string& text) {
+  return ofReport(gltf::writeFile(
+      path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()}, &temporaryFiles()));
 }
 
 }  // namespace mcc::tool

@@ -32,11 +32,11 @@ std::string printReport(const nlohmann::ordered_json& json);
 /// "1,838,104 -> 171,656 bytes (9.3 %)".
 std::string sizeChange(uint64_t input_bytes, uint64_t output_bytes);
 
-/// Whether a file can be written; an empty one is left when there was none.
-gltf::Result checkWritable(const std::string& path);
+/// Whether a report can be written, before any work is done for it.
+gltf::Result checkReport(const std::string& path);
 
-/// Writes a text file.
-gltf::Result writeText(const std::string& path, const std::string& text);
+/// Writes a report, in the place of an older one when all of it is there.
+gltf::Result writeReport(const std::string& path, const std::string& text);
 
 }  // namespace mcc::tool
 

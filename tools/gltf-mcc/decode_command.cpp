@@ -6,6 +6,7 @@
 
 #include "batch.h"
 #include "commands.h"
+#include "gltf/printable.h"
 #include "help.h"
 #include "in_out.h"
 #include "interrupt.h"
@@ -69,8 +70,9 @@ int DecodeCommand::runOne() const {
   if (outcome.ok()) outcome = sink.finish();
   if (!outcome.ok()) return reportFailure(outcome, input, files.output);
   if (common.is_quiet || sink.isStandardOutput()) return kDone;
-  std::string text = fmt::format("{} -> {}: {} -> {} bytes\n", input, files.output,
-                                 grouped(report.input_bytes), grouped(report.output_bytes));
+  std::string text = fmt::format("{} -> {}: {} -> {} bytes\n", gltf::printable(input),
+                                 gltf::printable(files.output), grouped(report.input_bytes),
+                                 grouped(report.output_bytes));
   text += fmt::format("{} of {} decoded: {} triangles, {} vertices, {:.0f} ms\n",
                       counted(report.primitive_count, "primitive", "primitives"),
                       counted(report.payload_count, "payload", "payloads"),

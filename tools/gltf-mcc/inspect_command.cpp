@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "convert_report.h"
 #include "gltf/file_io.h"
+#include "gltf/printable.h"
 #include "gltf/report_json.h"
 #include "help.h"
 #include "progress_line.h"
@@ -112,8 +113,8 @@ Table streamTable(const gltf::InspectReport& report, Format format) {
   const auto add = [&](const std::string& name, double bits, const std::string& bar) {
     table.addRow({name, count(static_cast<uint64_t>(bits / 8 + 0.5), format),
                   all == 0 ? "" : fmt::format("{:.1f} %", 100 * bits / all),
-                  vertices == 0 ? "" : fmt::format("{:.3f}", bits / static_cast<double>(vertices)),
-                  bar});
+                  vertices == 0 ? "" : fmt::format("{:.3f}", bits / static_cast<double>(vertices))},
+                 bar);
   };
   for (const gltf::StreamReport& stream : streams) {
     add(stream.name, stream.bits, has_bars ? barOf(most == 0 ? 0 : stream.bits / most) : "");
@@ -268,7 +269,7 @@ std::string inspectJson(const std::string& input, const gltf::InspectReport& rep
                      {"primitives", report.primitive_count},
                      {"extensionsUsed", report.extensions_used},
                      {"payloads", payloads}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return printReport(json);
 }
 
 struct InspectCommand {
@@ -298,11 +299,11 @@ struct InspectCommand {
   }
 
   std::string text(const gltf::InspectReport& report) const {
-    std::string out =
-        fmt::format("{}: {} bytes, {}, {}; extensions: {}\n", input, grouped(report.input_bytes),
-                    counted(report.mesh_count, "mesh", "meshes"),
-                    counted(report.primitive_count, "primitive", "primitives"),
-                    report.extensions_used.empty() ? "none" : joined(report.extensions_used));
+    std::string out = fmt::format(
+        "{}: {} bytes, {}, {}; extensions: {}\n", gltf::printable(input),
+        grouped(report.input_bytes), counted(report.mesh_count, "mesh", "meshes"),
+        counted(report.primitive_count, "primitive", "primitives"),
+        report.extensions_used.empty() ? "none" : gltf::printable(joined(report.extensions_used)));
     if (report.payloads.empty()) {
       return out + "nothing in it is compressed with " + gltf::kExtensionName + "\n";
     }

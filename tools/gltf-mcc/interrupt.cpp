@@ -5,11 +5,48 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <chrono>
 #include <system_error>
 #include <thread>
 
 namespace mcc::tool {
 namespace {
+
+/// The thread that waits for signals.
+pthread_t waiting_thread;
+
+/// Those that end a program from outside. SIGKILL and SIGSTOP cannot be caught.
+constexpr int kEndings[] = {
+    SIGHUP,    SIGINT, SIGQUIT, SIGTERM, SIGALRM, SIGUSR1, SIGUSR2, SIGVTALRM, SIGPROF, SIGXCPU,
+#ifdef SIGPOLL
+    SIGPOLL,
+#endif
+#ifdef SIGPWR
+    SIGPWR,
+#endif
+#ifdef SIGSTKFLT
+    SIGSTKFLT,
+#endif
+};
+
+/// Those that a thread causes by what it does, which cannot go on then.
+constexpr int kFaults[] = {SIGPIPE, SIGXFSZ, SIGSEGV, SIGBUS, SIGFPE,
+                           SIGILL,  SIGABRT, SIGSYS,  SIGTRAP};
+
+bool isFault(int number) {
+  for (const int fault : kFaults) {
+    if (fault == number) return true;
+  }
+  return false;
+}
+
+/// False also when a sanitizer or a profiler handles it, or the program was started to ignore it.
+bool hasDefaultAction(int number) {
+  struct sigaction now = {};
+  return sigaction(number, nullptr, &now) == 0 && (now.sa_flags & SA_SIGINFO) == 0 &&
+         now.sa_handler == SIG_DFL;
+}
 
 void endBy(int signal_number) {
   ::signal(signal_number, SIG_DFL);
@@ -21,6 +58,24 @@ void endBy(int signal_number) {
   ::_exit(128 + signal_number);
 }
 
+/// On the thread that caused the signal: leaves the rest to the other one, and goes no further. A handler may do no more.
+extern "C" void passOn(int number) {
+  pthread_kill(waiting_thread, number);
+  while (true) ::pause();
+}
+
+/// Waits for one of the signals, removes the temporary files, and ends the process by that signal.
+void waitAndEnd(const sigset_t& set, gltf::TemporaryFiles& files) {
+  constexpr std::chrono::seconds kPatience(1);
+  int number = 0;
+  while (sigwait(&set, &number) != 0) {
+  }
+  // The thread of a fault may hold the lock, for ever; all others give it back soon.
+  const gltf::TemporaryFiles::Lock held =
+      isFault(number) ? files.removeAllWithin(kPatience) : files.removeAll();
+  endBy(number);
+}
+
 }  // namespace
 
 gltf::TemporaryFiles& temporaryFiles() {
@@ -30,28 +85,45 @@ gltf::TemporaryFiles& temporaryFiles() {
 }
 
 void removeTemporariesOnSignals() {
-  sigset_t set;
-  sigemptyset(&set);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
-    struct sigaction before = {};
-    const bool is_ignored =
-        sigaction(number, nullptr, &before) == 0 && before.sa_handler == SIG_IGN;
-    if (!is_ignored) sigaddset(&set, number);
+  sigset_t endings;  // blocked in all threads
+  sigset_t all;      // and those that the waiting one is told of
+  sigemptyset(&endings);
+  for (const int number : kEndings) {
+    if (hasDefaultAction(number)) sigaddset(&endings, number);
+  }
+#ifdef SIGRTMIN
+  for (int number = SIGRTMIN; number <= SIGRTMAX; ++number) {
+    if (hasDefaultAction(number)) sigaddset(&endings, number);
+  }
+#endif
+  all = endings;
+  for (const int number : kFaults) {
+    if (hasDefaultAction(number)) sigaddset(&all, number);
   }
   gltf::TemporaryFiles& files = temporaryFiles();
-  // Blocked here and in all threads to come, but for the one that waits for them: what it does there would not be
-  // allowed in a handler.
-  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  // The waiting thread starts with everything blocked, this one and all to come with the endings: what is done about a
+  // signal would not be allowed in a handler.
+  pthread_sigmask(SIG_BLOCK, &all, nullptr);
   try {
-    std::thread([set, &files]() {
-      int number = 0;
-      if (sigwait(&set, &number) != 0) return;
-      const gltf::TemporaryFiles::Lock held = files.removeAll();
-      endBy(number);
-    }).detach();
+    std::thread waiting([all, &files]() { waitAndEnd(all, files); });
+    waiting_thread = waiting.native_handle();
+    waiting.detach();
   } catch (const std::system_error&) {  // without the thread they end the process as ever
-    pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+    pthread_sigmask(SIG_UNBLOCK, &all, nullptr);
+    return;
   }
+  struct sigaction action = {};
+  action.sa_handler = passOn;
+  sigfillset(&action.sa_mask);
+  for (const int number : kFaults) {
+    if (sigismember(&all, number) == 1) sigaction(number, &action, nullptr);
+  }
+  sigset_t faults = all;
+  for (const int number : kEndings) sigdelset(&faults, number);
+#ifdef SIGRTMIN
+  for (int number = SIGRTMIN; number <= SIGRTMAX; ++number) sigdelset(&faults, number);
+#endif
+  pthread_sigmask(SIG_UNBLOCK, &faults, nullptr);
 }
 
 }  // namespace mcc::tool

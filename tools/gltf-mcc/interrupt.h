@@ -11,8 +11,10 @@ namespace mcc::tool {
 /// Those of this process: removed when a signal ends it.
 gltf::TemporaryFiles& temporaryFiles();
 
-/// From here on SIGINT, SIGTERM and SIGHUP remove the temporary files before they end the process. Called once, before
-/// there are other threads. A signal that the program was started to ignore stays ignored.
+/// From here on every signal that ends a program and can be caught removes the temporary files before it ends the process,
+/// which still ends by that signal: those from outside (SIGINT, SIGTERM, SIGUSR1 …) and those that the program causes
+/// (SIGPIPE, SIGXFSZ, SIGSEGV …). Called once, before there are other threads. A signal that the program was started to
+/// ignore stays ignored.
 void removeTemporariesOnSignals();
 
 }  // namespace mcc::tool

@@ -11,6 +11,7 @@
 
 #include "commands.h"
 #include "container/payload_header.h"
+#include "gltf/printable.h"
 #include "help.h"
 #include "help_pages.h"
 #include "interrupt.h"
@@ -55,10 +56,7 @@ void addVerbosityOptions(CLI::App& command, CommonOptions& options) {
 }
 
 int reportFailure(const gltf::Result& result) {
-  std::string line = result.message();
-  for (char& c : line) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';  // names come from the file
-  }
+  const std::string line = gltf::printable(result.message());  // names come from the file
   fmt::print(stderr, "{} {}\n", styleOfErrors().error("gltf-mcc:"), line);
   return kFailed;
 }
@@ -144,7 +142,7 @@ int main(int argc, char** argv) {
     mcc::tool::setColorMode(mcc::tool::colorModeOf(argc, argv));
     return mcc::tool::run(argc, argv);
   } catch (const std::exception& exception) {
-    std::fprintf(stderr, "gltf-mcc: %s\n", exception.what());
+    std::fprintf(stderr, "gltf-mcc: %s\n", mcc::gltf::printable(exception.what()).c_str());
     return mcc::tool::kFailed;
   }
 }

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include "gltf/printable.h"
 #include "terminal.h"
 
 namespace mcc::tool {
@@ -16,7 +17,8 @@ ProgressLine::ProgressLine(bool is_quiet) : is_shown_(!is_quiet && isatty(STDERR
 
 void ProgressLine::show(const std::string& text) const {
   if (!is_shown_) return;
-  const std::string_view fitting = cutToWidth(text, columnsOfErrors() - 1);
+  const std::string clean = gltf::printable(text);
+  const std::string_view fitting = cutToWidth(clean, columnsOfErrors() - 1);
   fmt::print(stderr, "\r\033[K{}", fitting);
   has_text_ = true;
 }

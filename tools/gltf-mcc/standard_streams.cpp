@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "gltf/file_io.h"
+#include "gltf/package.h"
 #include "interrupt.h"
 
 namespace mcc::tool {
@@ -44,26 +45,40 @@ FileContents StreamSource::contents(const std::vector<std::filesystem::path>& fi
   return bytes_ ? FileContents{*bytes_} : readFiles(files);
 }
 
+bool isStandardOutput(const std::string& name) {
+  return isStandardStream(name) || gltf::openStreamOf(name) == STDOUT_FILENO;
+}
+
 gltf::Result StreamSink::open(const std::string& name) {
   name_ = name;
-  is_standard_output_ = isStandardStream(name);
+  is_standard_output_ = tool::isStandardOutput(name);
+  is_stream_ = is_standard_output_ || gltf::isStream(name);
   if (is_standard_output_ && isatty(STDOUT_FILENO) == 1) {
     return {kOutputName, "is a terminal, and a GLB is no text; send it to a file (… > small.glb)"};
+  }
+  gltf::Container container;
+  const bool is_gltf =
+      gltf::containerOf(std::filesystem::path(name).filename().string(), container).ok() &&
+      container.is_gltf;
+  if (is_stream_ && is_gltf) {
+    return {name,
+            "is a device or a pipe, and a .gltf has its buffer in a file beside it; name a file"};
   }
   return {};
 }
 
 gltf::Sink StreamSink::sink() {
-  if (is_standard_output_) return {kOutputName, &bytes_};
+  if (is_stream_) return {is_standard_output_ ? kOutputName : name_, &bytes_};
   return {name_, nullptr, &temporaryFiles()};
 }
 
 FileContents StreamSink::contents(const std::vector<std::filesystem::path>& files) const {
-  return is_standard_output_ ? FileContents{bytes_} : readFiles(files);
+  return is_stream_ ? FileContents{bytes_} : readFiles(files);
 }
 
 gltf::Result StreamSink::finish() const {
-  if (!is_standard_output_) return {};
+  if (!is_stream_) return {};
+  if (!is_standard_output_) return gltf::writeStream(name_, bytes_);
   const bool is_written = std::fwrite(bytes_.data(), 1, bytes_.size(), stdout) == bytes_.size();
   if (is_written && std::fflush(stdout) == 0) return {};
   return {kOutputName, "cannot be written"};

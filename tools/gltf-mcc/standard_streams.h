@@ -16,6 +16,9 @@ namespace mcc::tool {
 
 inline bool isStandardStream(const std::string& name) { return name == "-"; }
 
+/// Whether an output of this name is standard output: "-", /dev/stdout, or a link to that.
+bool isStandardOutput(const std::string& name);
+
 /// A file, or standard input when it is called "-".
 class StreamSource {
  public:
@@ -32,15 +35,15 @@ class StreamSource {
   std::optional<std::vector<uint8_t>> bytes_;
 };
 
-/// A file, or standard output when it is called "-".
+/// A file, standard output when it is called "-", or a device or a pipe.
 class StreamSink {
  public:
-  /// Errors: standard output is a terminal.
+  /// Errors: standard output is a terminal; what is no file is to become a .gltf, which has its buffer beside it.
   gltf::Result open(const std::string& name);
   gltf::Sink sink();  ///< its temporary files are cleared away on interrupts
   /// What was received, or the contents of these files when it is no stream.
   FileContents contents(const std::vector<std::filesystem::path>& files) const;
-  /// Sends what was received to standard output, if it is that.
+  /// Sends what was received on, if it is no file.
   gltf::Result finish() const;
   bool isStandardOutput() const { return is_standard_output_; }
 
@@ -48,6 +51,7 @@ class StreamSink {
   std::string name_;
   std::vector<uint8_t> bytes_;
   bool is_standard_output_ = false;
+  bool is_stream_ = false;  ///< standard output or another
 };
 
 }  // namespace mcc::tool

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "gltf/printable.h"
 #include "terminal.h"
 
 namespace mcc::tool {
@@ -22,6 +23,13 @@ std::string csvCell(const std::string& text) {
   return quoted + "\"";
 }
 
+/// A '|' would end the cell.
+std::string markdownCell(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+  return escaped;
+}
+
 void trimRight(std::string& text) { text.erase(text.find_last_not_of(' ') + 1); }
 
 }  // namespace
@@ -31,11 +39,21 @@ bool Table::isText(size_t column) const {
          std::find(text_columns_.begin(), text_columns_.end(), column) != text_columns_.end();
 }
 
+void Table::addRow(std::vector<std::string> cells, const std::string& bar) {
+  for (std::string& cell : cells) cell = gltf::printable(cell);
+  if (!bar.empty()) cells.push_back(bar);
+  rows_.push_back(std::move(cells));
+}
+
 std::string Table::printAligned(bool is_markdown) const {
+  const auto cellOf = [&](const std::vector<std::string>& row, size_t c) {
+    if (c >= row.size()) return std::string();
+    return is_markdown ? markdownCell(row[c]) : row[c];
+  };
   std::vector<size_t> widths(header_.size(), 0);
   const auto measure = [&](const std::vector<std::string>& row) {
     for (size_t c = 0; c < std::min(row.size(), widths.size()); ++c) {
-      widths[c] = std::max(widths[c], widthOf(row[c]));
+      widths[c] = std::max(widths[c], widthOf(cellOf(row, c)));
     }
   };
   measure(header_);
@@ -45,7 +63,7 @@ std::string Table::printAligned(bool is_markdown) const {
   const auto addLine = [&](const std::vector<std::string>& row) {
     std::string line = is_markdown ? "|" : "";
     for (size_t c = 0; c < widths.size(); ++c) {
-      const std::string cell = padded(c < row.size() ? row[c] : "", widths[c], isText(c));
+      const std::string cell = padded(cellOf(row, c), widths[c], isText(c));
       line += is_markdown ? " " + cell + " |" : (c == 0 ? "" : "  ") + cell;
     }
     trimRight(line);

@@ -19,7 +19,8 @@ class Table {
   explicit Table(std::vector<std::string> header, std::vector<size_t> text_columns = {})
       : header_(std::move(header)), text_columns_(std::move(text_columns)) {}
 
-  void addRow(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+  /// Cells are made printable: names in them come from files. `bar`, which may be coloured, is a last cell as it is.
+  void addRow(std::vector<std::string> cells, const std::string& bar = "");
   void addRule() { rows_.push_back({""}); }
   bool empty() const { return rows_.empty(); }
 

@@ -6,7 +6,9 @@
 
 #include "commands.h"
 #include "convert_report.h"
+#include "file_roles.h"
 #include "gltf/file_io.h"
+#include "gltf/printable.h"
 #include "help.h"
 #include "interrupt.h"
 #include "progress_line.h"
@@ -33,7 +35,15 @@ struct TreeCommand {
 };
 
 int TreeCommand::run() {
-  drawing.title = input == "-" ? "" : std::filesystem::path(input).filename().string();
+  FileRoles roles;
+  roles.read(input);
+  const gltf::Result apart = roles.write(output, "OUT");
+  if (!apart.ok()) {
+    reportFailure(apart);
+    return kUsage;
+  }
+  drawing.title =
+      input == "-" ? "" : gltf::printable(std::filesystem::path(input).filename().string());
   gltf::McTree tree;
   StreamSource source;
   gltf::Result result = source.open(input);
@@ -44,11 +54,12 @@ int TreeCommand::run() {
     if (result.ok()) svg = drawTree(tree, drawing);
   }
   if (!result.ok()) return reportFailure(result, input, "");
-  if (isStandardStream(output)) return printOut(svg);
+  if (isStandardOutput(output)) return printOut(svg);
   result = gltf::writeFile(output, std::vector<uint8_t>(svg.begin(), svg.end()), &temporaryFiles());
   if (!result.ok()) return reportFailure(result, input, output);
   if (common.is_quiet) return kDone;
-  return printOut(fmt::format("{} -> {}: mc-tree of {} edges on {} triangles, {}\n", input, output,
+  return printOut(fmt::format("{} -> {}: mc-tree of {} edges on {} triangles, {}\n",
+                              gltf::printable(input), gltf::printable(output),
                               grouped(tree.edges.size()), grouped(tree.indices.size() / 3),
                               tree.is_of_payload ? "that of its payload" : "as convert makes it"));
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "gltf/printable.h"
 #include "help.h"
 #include "suggest.h"
 #include "terminal.h"
@@ -100,8 +101,8 @@ std::string usageErrorText(const CLI::App& app, const CLI::Error& failure, int a
       chosen.empty() ? "gltf-mcc --help" : "gltf-mcc " + chosen[0]->get_name() + " --help";
   const std::string reason =
       chosen.empty() ? withoutCommand(app, argc, argv) : reasonOf(app, *chosen[0], failure);
-  return inLocale(
-      fmt::format("{} {}\nRun \"{}\".\n", styleOfErrors().error("gltf-mcc:"), reason, help));
+  return inLocale(fmt::format("{} {}\nRun \"{}\".\n", styleOfErrors().error("gltf-mcc:"),
+                              gltf::printable(reason), help));
 }
 
 }  // namespace mcc::tool

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "convert_report.h"
+#include "gltf/printable.h"
 #include "help.h"
 #include "standard_streams.h"
 
@@ -35,14 +37,6 @@ std::string countsText(const gltf::ValidationReport& report) {
                         is_plural ? "s" : "");
   }
   return text.empty() ? "valid" : text;
-}
-
-/// Texts come from the file.
-std::string printable(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
-  return text;
 }
 
 /// In the form of the reports of Khronos' glTF validator.
@@ -107,7 +101,7 @@ struct ValidateCommand {
       Json all = Json::array();
       for (const FileReport& file : reports) all.push_back(reportJson(file));
       const Json& shown = files.size() == 1 && !all.empty() ? all[0] : all;
-      return shown.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+      return printReport(shown);
     }
     for (const FileReport& file : reports) {
       const std::string block = pretty(file);
@@ -135,7 +129,7 @@ struct ValidateCommand {
   std::string pretty(const FileReport& file) const {
     const gltf::ValidationReport& report = file.report;
     if (common.is_quiet && report.isValid()) return "";
-    std::string text = fmt::format("{}: {}", file.file, countsText(report));
+    std::string text = fmt::format("{}: {}", gltf::printable(file.file), countsText(report));
     if (!common.is_quiet) {
       text += fmt::format("; {} of {} primitives compressed, in {}: {} triangles, {} vertices",
                           report.compressed_primitive_count, report.primitive_count,
@@ -145,8 +139,8 @@ struct ValidateCommand {
     Table table({"severity", "code", "pointer", "message"}, {1, 2, 3});
     for (const gltf::ValidationIssue& issue : report.issues) {
       if (!isShown(issue)) continue;
-      table.addRow({kSeverities[static_cast<size_t>(issue.severity)], issue.code,
-                    printable(issue.pointer), printable(issue.message)});
+      table.addRow({kSeverities[static_cast<size_t>(issue.severity)], issue.code, issue.pointer,
+                    issue.message});
     }
     if (table.empty()) return text + "\n";
     text += "\n\n" + table.print(common.format);

@@ -166,7 +166,8 @@ struct PayloadReport {
   uint64_t leftover_triangle_count = 0;
   uint32_t piece_count = 0;
   std::vector<StreamReport> streams;
-  std::vector<AttributeReport> attributes;  ///< merged by name over the pieces
+  /// Pieces are merged where name, coding and bits are the same.
+  std::vector<AttributeReport> attributes;
 };
 
 /// What became of a primitive.
@@ -335,7 +336,6 @@ struct Source {
   std::optional<std::span<const uint8_t>> bytes;
 };
 
-/// Names of temporary files: gltf/temporary_files.h of the sources.
 class TemporaryFiles;  // gltf/temporary_files.h, for programs that are ended by signals
 
 /// Where a document goes to.

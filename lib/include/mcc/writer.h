@@ -85,6 +85,7 @@ struct StreamSizes {
   double order_bits = 0;  ///< of vertices and triangles, where kept
   std::vector<double>
       attribute_bits;  ///< per attribute of the payload, in piece order; position included as 0
+  std::vector<double> piece_position_bits;  ///< position_bits of each piece
 };
 
 /// What became of a piece.

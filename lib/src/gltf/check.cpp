@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <set>
+#include <tuple>
 
 #include "gltf/accessors.h"
 #include "gltf/check_json.h"
@@ -108,8 +110,9 @@ class Checker {
 
   Result checkPayload(const EncodedPayload& payload) {
     result_.attributes.emplace_back();
+    result_.rows.emplace_back();
     angles_.clear();
-    report_of_.clear();
+    row_of_.clear();
     for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
       const PiecePlan& piece = payload.plan.pieces[i];
       const std::string where = piece.parts[0].users[0].path();
@@ -127,8 +130,9 @@ class Checker {
         MCC_GLTF_TRY(failed(checkPart(payload.plan, piece, part, source_of), part.users[0].path()));
       }
     }
-    for (AttributeReport& report : result_.attributes.back()) {
-      std::vector<float>& angles = angles_[report.name];
+    for (size_t row = 0; row < angles_.size(); ++row) {
+      std::vector<float>& angles = angles_[row];
+      AttributeReport& report = result_.attributes.back()[row];
       if (angles.empty()) continue;
       const auto middle = angles.begin() + static_cast<ptrdiff_t>(angles.size() / 2);
       std::nth_element(angles.begin(), middle, angles.end());
@@ -175,11 +179,22 @@ class Checker {
     return {};
   }
 
-  AttributeReport& reportOf(const AttributePlan& attribute) {
+  /// Pieces whose codings differ have rows of their own: the bound of one does not hold for the other.
+  size_t rowOf(const AttributePlan& attribute, AttributeCoding coding, uint8_t bits) {
     std::vector<AttributeReport>& reports = result_.attributes.back();
-    const auto [found, is_new] = report_of_.try_emplace(attribute.label(), reports.size());
-    if (is_new) reports.emplace_back().name = found->first;
-    return reports[found->second];
+    const auto [found, is_new] =
+        row_of_.try_emplace({attribute.label(), coding, bits}, reports.size());
+    const size_t row = found->second;
+    if (is_new) {
+      AttributeReport& report = reports.emplace_back();
+      report.name = attribute.label();
+      report.coding = coding;
+      report.bits = bits;
+      report.component_count = attribute.format.component_count;
+      angles_.emplace_back();
+    }
+    result_.rows.back().push_back(row);
+    return row;
   }
 
   static uint8_t normalBits(const PiecePlan& piece) {
@@ -210,13 +225,12 @@ class Checker {
     MCC_GLTF_TRY(checkBounds(index, decoded_values));
     Promise promise;
     MCC_GLTF_TRY(promiseOf(attribute, coded->second, normalBits(piece), promise));
-    AttributeReport& report = reportOf(attribute);
-    report.coding = coded->second.coding;
-    report.bits = promise.kind == Promise::Kind::kExact ? uint8_t{0} : attribute.bits;
-    report.component_count = attribute.format.component_count;
+    const uint8_t bits = promise.kind == Promise::Kind::kExact ? uint8_t{0} : attribute.bits;
+    const size_t row = rowOf(attribute, coded->second.coding, bits);
+    AttributeReport& report = result_.attributes.back()[row];
     report.vertex_count += piece.wedge_count;
     return compareValues(source_values, decoded_values, source_of, attribute.format, promise,
-                         report, angles_[report.name]);
+                         report, angles_[row]);
   }
 
   /// An attribute beside the payload: every bit, at its vertex.
@@ -344,8 +358,8 @@ class Checker {
   CheckResult& result_;
   Document decoded_;
   CodedAttributes coded_;
-  std::map<std::string, std::vector<float>> angles_;
-  std::map<std::string, size_t> report_of_;  ///< of this payload, by label
+  std::vector<std::vector<float>> angles_;  ///< per row of the payload's reports
+  std::map<std::tuple<std::string, AttributeCoding, uint8_t>, size_t> row_of_;  ///< of this payload
   std::set<uint32_t> reordered_;  ///< accessors beside payloads, compared in another order
   std::set<PrimitiveRef> planned_;
 };

@@ -16,8 +16,10 @@
 namespace mcc::gltf {
 
 struct CheckResult {
-  /// Per payload: what was measured, merged by attribute name.
+  /// Per payload: what was measured, merged where name, coding and bits are the same.
   std::vector<std::vector<AttributeReport>> attributes;
+  /// Per payload: which of these each attribute of each piece went into, in the order of the plan.
+  std::vector<std::vector<size_t>> rows;
   uint64_t decoded_bytes = 0;  ///< of all payloads
   double decode_seconds = 0;
 };

@@ -11,7 +11,9 @@
 #include "gltf/decompress.h"
 #include "gltf/destination.h"
 #include "gltf/fallback.h"
+#include "gltf/folder_lock.h"
 #include "gltf/parallel.h"
+#include "gltf/printable.h"
 #include "gltf/rebuild.h"
 #include "gltf/uri.h"
 #include "mcc/gltf.h"
@@ -37,7 +39,8 @@ struct Input {
   fs::path path;  ///< only a name in memory
   std::vector<uint8_t> owned;
   std::span<const uint8_t> bytes;
-  FileReader read_file;  ///< null in memory
+  FileReader read_file;                 ///< null in memory
+  std::unique_ptr<FolderLock> reading;  ///< until all files are read
 
   Result open(const Source& source) {
     path = source.path;
@@ -45,6 +48,8 @@ struct Input {
       bytes = *source.bytes;
       return {};
     }
+    // A pair that is being replaced is read whole before or whole after that.
+    reading = lockToRead(path);
     MCC_GLTF_TRY(readFile(path, owned));
     bytes = owned;
     read_file = readerOf(path.parent_path());
@@ -81,7 +86,7 @@ struct Output {
 };
 
 /// Loads the source for an output. Image files move into the buffers of a GLB.
-Result loadFor(const Output& output, const Input& input, Document& document, FilesInUse& files) {
+Result loadFor(const Output& output, Input& input, Document& document, FilesInUse& files) {
   MCC_GLTF_TRY(loadDocument(input.bytes, input.read_file, document));
   if (input.isFile()) {
     files.input = {input.path};
@@ -98,7 +103,9 @@ Result loadFor(const Output& output, const Input& input, Document& document, Fil
       MCC_GLTF_TRY(output.destination->checkSource(input.path, document.json));
     }
   }
-  return output.container.is_gltf ? Result{} : embedImages(input.read_file, document);
+  if (!output.container.is_gltf) MCC_GLTF_TRY(embedImages(input.read_file, document));
+  input.reading.reset();
+  return {};
 }
 
 /// The files that the JSON still names have to be where the output looks for them.
@@ -106,7 +113,8 @@ Result addFilesBeside(const Json& json, bool with_buffers, const Input& input, c
                       Package& package, std::vector<std::string>& notes) {
   if (input.isFile() && output.destination) {
     if (output.destination->isBeside(input.path)) return {};
-    return addCopies(json, with_buffers, input.read_file, package, notes);
+    const CopyReaders readers = {input.read_file, readerInside(input.path.parent_path())};
+    return addCopies(json, with_buffers, readers, package, notes);
   }
   for (const std::string& path : filesBeside(json)) {
     notes.push_back("\"" + path + "\" stays a file of its own; put it beside the output");
@@ -130,7 +138,9 @@ Result packageDocument(const Document& document, Json json, std::vector<uint8_t>
 Result packageSource(const Document& document, const Input& input, const Output& output,
                      Package& package, std::vector<std::string>& notes, bool& is_copy) {
   package = {};
-  is_copy = document.is_glb != output.container.is_gltf;
+  const bool moves = output.destination && !output.destination->isBeside(input.path);
+  is_copy = document.is_glb != output.container.is_gltf &&
+            (!input.isFile() || !moves || canCopyBuffers(document.json));
   if (is_copy) {
     package.main.assign(input.bytes.begin(), input.bytes.end());
     Json json = document.json;
@@ -179,7 +189,7 @@ void tell(const ConvertOptions& options, const char* stage) {
   if (options.progress) options.progress(stage, -1);
 }
 
-Result convertInput(const Input& input, const Output& output, const ConvertOptions& options,
+Result convertInput(Input& input, const Output& output, const ConvertOptions& options,
                     Conversion& conversion, ConvertReport& report) {
   report = {};
   const Stopwatch watch;
@@ -249,7 +259,7 @@ Result checkOutput(const Conversion& conversion, const ConvertOptions& options,
   return {};
 }
 
-Result decodeInput(const Input& input, const Output& output, const FileDecodeOptions& options,
+Result decodeInput(Input& input, const Output& output, const FileDecodeOptions& options,
                    Package& package, DecodeReport& report) {
   report = {};
   const Stopwatch watch;
@@ -280,6 +290,11 @@ Result decodeInput(const Input& input, const Output& output, const FileDecodeOpt
   return {};
 }
 
+/// Names in it come from the file, and it goes to terminals.
+void cleanNotes(std::vector<std::string>& notes) {
+  for (std::string& note : notes) note = printable(note);
+}
+
 /// In memory there is no name to put in front.
 Result inInput(const Input& input, Result result) {
   return input.path.empty() ? result : inFile(input.path, std::move(result));
@@ -289,7 +304,7 @@ Result inInput(const Input& input, Result result) {
 
 Result convert(const Source& source, const Sink& sink, const ConvertOptions& options,
                ConvertReport& report) {
-  return guarded([&]() -> Result {
+  const Result result = guarded([&]() -> Result {
     if (options.position_lattice && !isValidLattice(*options.position_lattice, 3)) {
       return error("",
                    "the lattice of positions needs finite numbers, and a step that is greater "
@@ -314,11 +329,16 @@ Result convert(const Source& source, const Sink& sink, const ConvertOptions& opt
     if (output.destination) report.files.output = output.destination->files();
     return {};
   });
+  cleanNotes(report.notes);
+  for (PrimitiveReport& primitive : report.primitives) {
+    primitive.note = printable(primitive.note);
+  }
+  return result;
 }
 
 Result decode(const Source& source, const Sink& sink, DecodeReport& report,
               const FileDecodeOptions& options) {
-  return guarded([&]() -> Result {
+  const Result result = guarded([&]() -> Result {
     Input input;
     Output output;
     MCC_GLTF_TRY(input.open(source));
@@ -330,6 +350,8 @@ Result decode(const Source& source, const Sink& sink, DecodeReport& report,
     if (output.destination) report.files.output = output.destination->files();
     return {};
   });
+  cleanNotes(report.notes);
+  return result;
 }
 
 Result convertGlb(std::span<const uint8_t> source, const ConvertOptions& options,

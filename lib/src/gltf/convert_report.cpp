@@ -33,19 +33,20 @@ void addCounts(const EncodedPayload& payload, PayloadReport& report) {
   }
 }
 
-/// Adds the coded bits to the measured attributes.
-void addAttributeBits(const EncodedPayload& payload, std::vector<AttributeReport>& attributes) {
-  std::map<std::string, double> bits;
+/// Adds the coded bits to the measured attributes. `rows` as in CheckResult.
+void addAttributeBits(const EncodedPayload& payload, const std::vector<size_t>& rows,
+                      std::vector<AttributeReport>& attributes) {
+  const StreamSizes& sizes = payload.result.sizes;
   size_t next = 0;
-  for (const PiecePlan& piece : payload.plan.pieces) {
-    for (const AttributePlan& attribute : piece.attributes) {
-      const auto& attribute_bits = payload.result.sizes.attribute_bits;
-      if (next < attribute_bits.size()) bits[attribute.label()] += attribute_bits[next];
-      ++next;
+  for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
+    for (const AttributePlan& attribute : payload.plan.pieces[i].attributes) {
+      double bits = next < sizes.attribute_bits.size() ? sizes.attribute_bits[next] : 0;
+      const bool is_position = attribute.format.semantic == Semantic::kPosition &&
+                               attribute.target == kNone && i < sizes.piece_position_bits.size();
+      if (is_position) bits += sizes.piece_position_bits[i];
+      attributes[rows[next++]].coded_bits += bits;
     }
   }
-  bits["POSITION"] += payload.result.sizes.position_bits;
-  for (AttributeReport& attribute : attributes) attribute.coded_bits = bits[attribute.name];
 }
 
 }  // namespace
@@ -86,7 +87,7 @@ void addPayloads(const std::vector<EncodedPayload>& payloads, CheckResult checke
     addCounts(payloads[i], payload);
     addStreams(payloads[i].result.sizes, payload);
     payload.attributes = std::move(checked.attributes[i]);
-    addAttributeBits(payloads[i], payload.attributes);
+    addAttributeBits(payloads[i], checked.rows[i], payload.attributes);
     report.payloads.push_back(std::move(payload));
   }
 }

@@ -2,8 +2,10 @@
 #include "gltf/destination.h"
 
 #include <algorithm>
+#include <optional>
 #include <system_error>
 
+#include "gltf/folder_lock.h"
 #include "gltf/uri.h"
 
 namespace mcc::gltf {
@@ -14,11 +16,6 @@ namespace fs = std::filesystem;
 /// "./a//b" -> "a/b".
 std::string normalized(const std::string& path) {
   return fs::path(path).lexically_normal().generic_string();
-}
-
-bool isSameFile(const fs::path& a, const fs::path& b) {
-  std::error_code ignored;
-  return fs::equivalent(a, b, ignored);
 }
 
 /// Whether the file at `main` is a document that refers to a file beside it.
@@ -95,11 +92,15 @@ Result Destination::checkSource(const fs::path& source, const Json& json) const 
                                           "\" is part of the input and would be replaced; choose "
                                           "another name or folder");
   };
+  const std::vector<std::string> of_source = filesBeside(json);
+  for (const std::string& beside : of_source) {
+    if (isSameFile(main_path_, folderOf(source) / beside)) return refuse(main_path_);
+  }
   for (const std::string& name : ownNames()) {
     const fs::path path = folder_ / name;
     if (isSameFile(path, source)) return refuse(path);
     if (is_in_place) continue;
-    for (const std::string& beside : filesBeside(json)) {
+    for (const std::string& beside : of_source) {
       if (isSameFile(path, folderOf(source) / beside)) return refuse(path);
     }
   }
@@ -150,6 +151,7 @@ Result Destination::writeCopy(const SideFile& copy) {
 
 Result Destination::writeSide(const SideFile& side) {
   const std::string name = normalized(side.path);
+  MCC_GLTF_TRY(ReplacementFile(folder_ / name).check());
   std::error_code ignored;
   const bool is_new = !fs::exists(fs::symlink_status(folder_ / name, ignored));
   sides_.push_back(std::unique_ptr<Side>(
@@ -180,26 +182,45 @@ FileReader Destination::reader() const {
   };
 }
 
+/// Where nothing was when the work began, a conversion to the same name may have been faster: its whole set of files is
+/// replaced by ours.
+Result Destination::commitSide(Side& side) {
+  if (!side.is_new) return side.file.commitForNow();
+  Result result = side.file.commitNew();
+  return !result.ok() && refersTo(main_path_, side.name) ? side.file.commitForNow() : result;
+}
+
 Result Destination::commit() {
+  // Before the lock of the temporary files, which an interrupt waits for.
+  std::optional<FolderLock> alone;
+  if (!sides_.empty()) alone.emplace(folder_, FolderLock::Kind::kAlone);
   const TemporaryFiles::Lock held = lockOf(temporaries_);
   Result result;
   size_t done = 0;
   while (done < sides_.size() && result.ok()) {
-    Side& side = *sides_[done];
-    result = side.is_new ? side.file.commitNew() : side.file.commitForNow();
+    result = commitSide(*sides_[done]);
     if (result.ok()) ++done;
   }
   if (result.ok()) result = main_.commit();
-  if (result.ok()) {
-    for (const auto& side : sides_) side->file.keep();
-    for (const fs::path& folder : new_folders_) {
-      if (temporaries_ != nullptr) temporaries_->forget(folder);
-    }
-    new_folders_.clear();
-    return {};
+  if (!result.ok()) {
+    while (done-- != 0) sides_[done]->file.undo();
+    return result;
   }
-  while (done-- != 0) sides_[done]->file.undo();
-  return result;
+  for (const auto& side : sides_) side->file.keep();
+  for (const fs::path& folder : new_folders_) {
+    if (temporaries_ != nullptr) temporaries_->forget(folder);
+  }
+  new_folders_.clear();
+  return checkTogether();
+}
+
+Result Destination::checkTogether() const {
+  const bool is_ours = std::all_of(sides_.begin(), sides_.end(),
+                                   [](const auto& side) { return side->file.isInPlace(); });
+  if (is_ours || !main_.isInPlace()) return {};
+  return error(main_path_.string(),
+               "another program wrote the same files at the same time, and they "
+               "may not belong together; write them again");
 }
 
 std::vector<fs::path> Destination::files() const {

@@ -39,8 +39,12 @@ class Destination {
   /// Reads the temporary main file again; reader() those beside it.
   Result readBack(std::vector<uint8_t>& main) const;
   FileReader reader() const;
-  /// Gives all files their names, the main one last. On an error everything is as it was.
+  /// Gives all files their names, the main one last. On an error everything is as it was. Of several programs that write
+  /// to one name at the same time the last has all of its files there, since each locks the folder meanwhile. Where a
+  /// folder cannot be locked, checkTogether() tells.
   Result commit();
+  /// After commit(): fails when the main file is ours and one beside it is not, for another program has replaced it.
+  Result checkTogether() const;
   /// The main file and its buffer, after write().
   std::vector<std::filesystem::path> files() const;
 
@@ -56,6 +60,7 @@ class Destination {
   Result checkOwner(const std::string& name) const;
   Result writeCopy(const SideFile& copy);
   Result writeSide(const SideFile& side);
+  Result commitSide(Side& side);
   Result createFolders(const std::filesystem::path& folder);
 
   TemporaryFiles* temporaries_;

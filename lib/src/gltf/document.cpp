@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "gltf/fallback.h"
+#include "gltf/image_type.h"
 #include "gltf/references.h"
 #include "gltf/uri.h"
 
@@ -309,19 +310,6 @@ Result loadTables(Document& document) {
   return {};
 }
 
-/// Media type of an image by its first bytes; empty when unknown.
-std::string imageTypeOf(std::span<const uint8_t> bytes) {
-  const std::string_view head(reinterpret_cast<const char*>(bytes.data()),
-                              std::min<size_t>(bytes.size(), 12));
-  if (head.starts_with("\x89PNG")) return "image/png";
-  if (head.starts_with("\xff\xd8\xff")) return "image/jpeg";
-  if (head.starts_with("\xabKTX 20")) return "image/ktx2";
-  if (head.starts_with("RIFF") && head.substr(8).starts_with("WEBP")) return "image/webp";
-  if (head.starts_with("DDS ")) return "image/vnd-ms.dds";
-  if (head.size() == 12 && head.substr(4, 8) == "ftypavif") return "image/avif";
-  return "";
-}
-
 /// A file that images name.
 struct ImageFile {
   std::span<const uint8_t> bytes;
@@ -355,8 +343,8 @@ Result embedImage(const FileReader& read_file, size_t index,
     file.bytes = document.storage.back();
   }
   const std::string type = imageTypeOf(file.bytes);
-  if (type.empty() && findMember(image, "mimeType") == nullptr) {
-    document.notes.push_back(path + ": of an unknown type; it stays a file of its own");
+  if (type.empty()) {
+    document.notes.push_back(path + ": is not an image that is known; it stays a file of its own");
     return {};
   }
   if (file.view == kNone) addView(file, document);

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "gltf/printable.h"
+
 namespace mcc::gltf {
 namespace {
 
@@ -41,6 +43,18 @@ class NumberScanner {
   std::string_view rest_;
 };
 
+/// What nlohmann's parser says, without "[json.exception.parse_error.101] parse error at line 1, column 2: ". The rest
+/// may quote the text, in which anything may stand.
+std::string reasonOf(std::string what) {
+  const auto drop = [&](std::string_view begin, std::string_view end) {
+    const size_t found = what.starts_with(begin) ? what.find(end) : std::string::npos;
+    if (found != std::string::npos) what.erase(0, found + end.size());
+  };
+  drop("[json.exception.", "] ");
+  drop("parse error", ": ");
+  return what;
+}
+
 /// Builds the document from the events of nlohmann's parser.
 class DocumentBuilder : public nlohmann::json_sax<Json> {
  public:
@@ -67,11 +81,10 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
 
   bool parse_error(std::size_t position, const std::string&,
                    const nlohmann::detail::exception& exception) override {
-    std::string what = exception.what();
-    if (const size_t colon = what.rfind(": "); colon != std::string::npos) what.erase(0, colon + 2);
-    // "[json.exception.out_of_range.406] number overflow parsing '1e400'"
-    if (const size_t name = what.rfind("] "); what.starts_with("[json.")) what.erase(0, name + 2);
-    result_ = error("JSON byte " + std::to_string(position), "the JSON is damaged (" + what + ")");
+    constexpr size_t kMostBytes = 300;  // it may quote a string of any length
+    const std::string reason = shortened(reasonOf(exception.what()), kMostBytes);
+    result_ = error("JSON byte " + std::to_string(position),
+                    "the JSON is damaged (" + printable(reason) + ")");
     return false;
   }
 

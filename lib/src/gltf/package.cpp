@@ -7,6 +7,7 @@
 #include <cctype>
 #include <set>
 
+#include "gltf/image_type.h"
 #include "gltf/uri.h"
 
 namespace mcc::gltf {
@@ -23,6 +24,24 @@ void listUris(const Json& json, const char* list,
   }
 }
 
+/// In lower case, with its dot.
+std::string extensionOf(const std::string& file_name) {
+  const size_t dot = file_name.find_last_of("./");
+  if (dot == std::string::npos || file_name[dot] == '/') return "";
+  std::string extension = file_name.substr(dot);
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+Result readCopy(bool is_image, const FileReader& read_file, const std::string& where,
+                SideFile& file) {
+  const std::string name = "\"" + file.path + "\"";
+  if (!isVisiblePath(file.path)) return error(where, name + " is the name of a hidden file");
+  MCC_GLTF_TRY(read_file(file.path, where, file.bytes));
+  if (!is_image || !imageTypeOf(file.bytes).empty()) return {};
+  return error(where, name + " is not an image that is known");
+}
+
 }  // namespace
 
 uint64_t Package::documentBytes() const {
@@ -37,9 +56,7 @@ Result containerOf(const std::string& file_name, Container& container) {
   container = {};
   const size_t dot = file_name.rfind('.');
   const std::string stem = dot == 0 ? file_name : file_name.substr(0, dot);
-  std::string extension = dot == std::string::npos ? "" : file_name.substr(dot);
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  container.is_gltf = extension == ".gltf";
+  container.is_gltf = extensionOf(file_name) == ".gltf";
   if (container.is_gltf) container.buffer_name = stem + ".bin";
   container.fallback_name = stem + ".fallback.bin";
   if (container.is_gltf && !isUsableName(container.buffer_name)) {
@@ -61,28 +78,37 @@ Result writePackage(const Container& container, Json json, std::vector<uint8_t> 
   return {};
 }
 
-Result addCopies(const Json& json, bool with_buffers, const FileReader& read_file, Package& package,
+Result addCopies(const Json& json, bool with_buffers, const CopyReaders& readers, Package& package,
                  std::vector<std::string>& notes) {
   std::vector<std::pair<std::string, std::string>> uris;
   if (with_buffers) listUris(json, "buffers", uris);
+  const size_t buffer_count = uris.size();
   listUris(json, "images", uris);
   std::set<std::string> known;
-  for (const SideFile& file : package.beside) {
-    if (file.kind == SideFile::Kind::kCopy) known.insert(file.path);
-  }
-  for (const auto& [uri, where] : uris) {
+  for (size_t i = 0; i < uris.size(); ++i) {
+    const auto& [uri, where] = uris[i];
+    const bool is_image = i >= buffer_count;
     SideFile file;
     file.kind = SideFile::Kind::kCopy;
     MCC_GLTF_TRY(relativePathOf(uri, where, file.path));
-    if (known.contains(file.path)) continue;
-    if (const Result read = read_file(file.path, where, file.bytes); read.ok()) {
-      known.insert(file.path);
+    if (!known.insert(file.path).second) continue;
+    const Result read = readCopy(is_image, is_image ? readers.image : readers.buffer, where, file);
+    if (read.ok()) {
       package.beside.push_back(std::move(file));
     } else {
       notes.push_back(read.message() + "; it is not copied");
     }
   }
   return {};
+}
+
+bool canCopyBuffers(const Json& json) {
+  const std::vector<std::string> paths = filesOf(json, "buffers");
+  return std::all_of(paths.begin(), paths.end(), [](const std::string& path) {
+    const std::string extension = extensionOf(path);
+    return isVisiblePath(path) &&
+           (extension == ".bin" || extension == ".glbin" || extension == ".glbuf");
+  });
 }
 
 Result readJson(std::span<const uint8_t> file, Json& json) {

@@ -50,10 +50,21 @@ Result containerOf(const std::string& file_name, Container& container);
 Result writePackage(const Container& container, Json json, std::vector<uint8_t> bin,
                     const std::vector<GlbChunk>& other_chunks, Package& package);
 
-/// Adds the files beside the source that the JSON names: those of images, of buffers, or both. One
-/// that cannot be read is noted; a URI that relativePathOf() refuses is an error.
-Result addCopies(const Json& json, bool with_buffers, const FileReader& read_file, Package& package,
+/// How files beside a source are fetched to be copied.
+struct CopyReaders {
+  FileReader buffer;
+  FileReader image;  ///< fails for what lies outside of the folder of the source
+};
+
+/// Adds the files beside the source that the JSON names: those of images, of buffers, or both. Whoever made the source
+/// chose the names and the contents, so only what is an image by its first bytes is copied as one, and nothing that is
+/// hidden. What is not copied is noted; a URI that relativePathOf() refuses is an error.
+Result addCopies(const Json& json, bool with_buffers, const CopyReaders& readers, Package& package,
                  std::vector<std::string>& notes);
+
+/// Whether all files of the buffers may be copied under their names: none is hidden, and each is called like a buffer
+/// (.bin, .glbin, .glbuf).
+bool canCopyBuffers(const Json& json);
 
 /// The JSON of a GLB or .gltf.
 Result readJson(std::span<const uint8_t> file, Json& json);

@@ -7,6 +7,8 @@
 #include <new>
 #include <vector>
 
+#include "gltf/printable.h"
+
 #if defined(__cpp_exceptions)
 #include <thread>
 #endif
@@ -17,7 +19,7 @@ namespace mcc::gltf {
 
 Result guarded(const std::function<Result()>& function) {
   try {
-    return function();
+    return printable(function());
   } catch (const std::bad_alloc&) {
     return error("", "there is not enough memory");
   } catch (const std::exception& exception) {
@@ -50,7 +52,7 @@ void runAll(size_t count, ThreadBudget& budget, const std::function<void(size_t)
 
 #else  // WebAssembly, which has no threads either
 
-Result guarded(const std::function<Result()>& function) { return function(); }
+Result guarded(const std::function<Result()>& function) { return printable(function()); }
 
 void runAll(size_t count, ThreadBudget&, const std::function<void(size_t)>& job) {
   for (size_t i = 0; i < count; ++i) job(i);

@@ -40,7 +40,7 @@ Result runParallel(size_t count, ThreadBudget& budget, const std::function<Resul
 /// The same on up to `thread_count` threads.
 Result runParallel(size_t count, uint32_t thread_count, const std::function<Result(size_t)>& job);
 
-/// Runs a function; an exception that leaves it (out of memory) becomes an error.
+/// Runs a function; an exception that leaves it (out of memory) becomes an error. What is said is printable().
 Result guarded(const std::function<Result()>& function);
 
 }  // namespace mcc::gltf

@@ -19,13 +19,23 @@ void TemporaryFiles::forget(const std::filesystem::path& path) {
 
 TemporaryFiles::Lock TemporaryFiles::removeAll() {
   Lock held = lock();
+  removeThem();
+  return held;
+}
+
+TemporaryFiles::Lock TemporaryFiles::removeAllWithin(std::chrono::milliseconds patience) {
+  Lock held(mutex_, patience);
+  if (held.owns_lock()) removeThem();
+  return held;
+}
+
+void TemporaryFiles::removeThem() {
   std::error_code ignored;
   // Folders were added before the files in them.
   for (auto path = paths_.rbegin(); path != paths_.rend(); ++path) {
     std::filesystem::remove(*path, ignored);
   }
   paths_.clear();
-  return held;
 }
 
 }  // namespace mcc::gltf

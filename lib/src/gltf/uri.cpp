@@ -1,9 +1,12 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/uri.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <string_view>
+
+#include "gltf/printable.h"
 
 namespace mcc::gltf {
 namespace {
@@ -98,13 +101,7 @@ bool climbsOut(const std::string& path) {
   return false;
 }
 
-std::string quoted(const std::string& uri) {
-  std::string text = uri.substr(0, 80);
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
-  return "\"" + text + (uri.size() > 80 ? "…\"" : "\"");
-}
+std::string quoted(const std::string& uri) { return "\"" + printable(shortened(uri, 80)) + "\""; }
 
 }  // namespace
 
@@ -152,6 +149,16 @@ Result relativePathOf(const std::string& uri, const std::string& where, std::str
                             " leaves the folder of the model and is refused" + advice);
   }
   return {};
+}
+
+bool isVisiblePath(const std::string& path) {
+  for (size_t begin = 0; begin < path.size();) {
+    const size_t end = std::min(path.find('/', begin), path.size());
+    const std::string_view part = std::string_view(path).substr(begin, end - begin);
+    if (part.starts_with('.') && part != "." && part != "..") return false;
+    begin = end + 1;
+  }
+  return true;
 }
 
 std::string uriOf(const std::string& name) {

@@ -20,6 +20,9 @@ Result decodeDataUri(const std::string& uri, const std::string& where, std::vect
 /// characters; percent encoding is resolved before the test.
 Result relativePathOf(const std::string& uri, const std::string& where, std::string& path);
 
+/// Whether no part of a relative path begins with a dot, as names of hidden files and folders do.
+bool isVisiblePath(const std::string& path);
+
 /// The URI of a file beside the model, percent-encoded; relativePathOf() leads back to the file.
 std::string uriOf(const std::string& name);
 

@@ -16,6 +16,7 @@
 #include "gltf/package.h"
 #include "gltf/parallel.h"
 #include "gltf/payload.h"
+#include "gltf/printable.h"
 #include "gltf/references.h"
 
 namespace mcc::gltf {
@@ -341,8 +342,8 @@ void validateBytes(std::span<const uint8_t> bytes, const FileReader& read_file,
 /// Where an issue is, if that is a place in the JSON; else the message says it.
 ValidationIssue publicIssue(const Issue& issue) {
   const bool has_pointer = issue.what.where.starts_with('/');
-  return {issue.severity, issue.code, has_pointer ? issue.what.what : issue.what.message(),
-          has_pointer ? issue.what.where : ""};
+  const std::string message = has_pointer ? issue.what.what : issue.what.message();
+  return {issue.severity, issue.code, printable(message), has_pointer ? issue.what.where : ""};
 }
 
 }  // namespace

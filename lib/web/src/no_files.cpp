@@ -6,6 +6,7 @@
 
 #include "gltf/destination.h"
 #include "gltf/file_io.h"
+#include "gltf/folder_lock.h"
 #include "gltf/result.h"
 
 namespace mcc::gltf {
@@ -19,8 +20,12 @@ Result readFile(const std::filesystem::path& path, std::vector<uint8_t>&) {
   return error(path.string(), kNoFiles);
 }
 FileReader readerOf(const std::filesystem::path&) { return nullptr; }
+FileReader readerInside(const std::filesystem::path&) { return nullptr; }
 Result inFile(const std::filesystem::path&, Result result) { return result; }
 std::filesystem::path folderOf(const std::filesystem::path&) { return {}; }
+
+FolderLock::~FolderLock() = default;
+std::unique_ptr<FolderLock> lockToRead(const std::filesystem::path&) { return nullptr; }
 
 ReplacementFile::ReplacementFile(std::filesystem::path destination, TemporaryFiles* temporaries)
     : temporaries_(temporaries), destination_(std::move(destination)) {}

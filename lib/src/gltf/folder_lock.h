@@ -1,0 +1,40 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Files that belong together change their names together.
+#ifndef MCC_GLTF_FOLDER_LOCK_H_
+#define MCC_GLTF_FOLDER_LOCK_H_
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+namespace mcc::gltf {
+
+/// An advisory lock on a folder itself, which leaves no file there: among programs and threads that take it, either
+/// one has it alone or several share it. The system releases it when the process ends, however it ends.
+///
+/// It is held for the time of a few renames or of reading a document, so who waits does so briefly. A folder that
+/// another program keeps locked for its own purposes, or whose file system has no such locks, does not stop us: after
+/// two seconds the work goes on without the lock. Writers therefore check in the end that their files are in place.
+class FolderLock {
+ public:
+  enum class Kind : uint8_t { kShared, kAlone };
+
+  FolderLock(const std::filesystem::path& folder, Kind kind);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+  bool isHeld() const { return is_held_; }
+
+ private:
+  int folder_ = -1;
+  bool is_held_ = false;
+};
+
+/// Shares the lock of the folder of a .gltf, which has other files. Null for other files, which are one each.
+std::unique_ptr<FolderLock> lockToRead(const std::filesystem::path& document);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_FOLDER_LOCK_H_

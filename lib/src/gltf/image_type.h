@@ -1,0 +1,17 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#ifndef MCC_GLTF_IMAGE_TYPE_H_
+#define MCC_GLTF_IMAGE_TYPE_H_
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace mcc::gltf {
+
+/// Media type of an image by its first bytes: those of glTF and of its extensions for textures (PNG, JPEG, KTX 2, WebP,
+/// AVIF, DDS, Basis). Empty for everything else. What a file says of itself in its JSON or its name does not count.
+std::string imageTypeOf(std::span<const uint8_t> bytes);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_IMAGE_TYPE_H_

@@ -1,0 +1,60 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "file_roles.h"
+
+#include "gltf/file_io.h"
+#include "gltf/package.h"
+#include "standard_streams.h"
+
+namespace mcc::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "-" as an output is standard output.
+std::string keyOfOutput(const fs::path& path) {
+  return gltf::fileKey(isStandardStream(path.string()) ? fs::path("/dev/stdout") : path);
+}
+
+}  // namespace
+
+void FileRoles::read(const fs::path& path, const std::string& role) {
+  if (isStandardStream(path.string())) return;
+  const std::string key = gltf::fileKey(path);
+  if (!key.empty()) roles_.emplace(key, role);
+}
+
+void FileRoles::readBeside(const fs::path& model, const fs::path& output_folder) {
+  if (isStandardStream(model.string()) || gltf::isStream(model)) return;
+  std::vector<uint8_t> bytes;
+  gltf::Json json;
+  if (!gltf::readFile(model, bytes).ok() || !gltf::readJson(bytes, json).ok()) return;
+  for (const std::string& path : gltf::filesBeside(json)) {
+    read(gltf::folderOf(model) / path, "a file of the input");
+    read(output_folder / path, "a copy of a file of the input");
+  }
+}
+
+void FileRoles::replace(const fs::path& path, const std::string& role) {
+  const std::string key = keyOfOutput(path);
+  if (!key.empty()) roles_[key] = role;
+}
+
+gltf::Result FileRoles::write(const fs::path& path, const std::string& role) {
+  const std::string key = keyOfOutput(path);
+  if (key.empty()) return {};
+  const auto [found, is_new] = roles_.emplace(key, role);
+  if (is_new) return {};
+  return {path.string(), "is " + found->second + "; choose another name for " + role};
+}
+
+void FileRoles::replaceBeside(const fs::path& output, bool with_fallback) {
+  gltf::Container container;
+  const bool has_files = !isStandardStream(output.string()) && !gltf::isStream(output) &&
+                         gltf::containerOf(output.filename().string(), container).ok();
+  if (!has_files) return;
+  const fs::path folder = gltf::folderOf(output);
+  if (container.is_gltf) replace(folder / container.buffer_name, "the buffer of the output");
+  if (with_fallback) replace(folder / container.fallback_name, "the fallback of the output");
+}
+
+}  // namespace mcc::tool
