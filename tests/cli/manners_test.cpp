@@ -175,7 +175,8 @@ TEST_F(Manners, FilesGetSuggestions) {
              "folder: is a folder; name the file to write, or write into it with -o folder");
   expectUsageError("convert torus.glb small",
                    "convert: small: has no extension; name it small.glb or small.gltf");
-  EXPECT_EQ(run("convert torus.glb /dev/null").err.find("extension"), std::string::npos);
+  std::ofstream(folder_.path() / "model") << "older";
+  EXPECT_EQ(run("convert torus.glb model").status, 0);  // what exists may be anything
 }
 
 TEST_F(Manners, ColoursOnATerminalOnly) {

@@ -68,9 +68,9 @@ TEST(GltfJson, KeysAreWholeTexts) {
 
 /// The parser quotes what it read last, in which ": " may stand as well as what a terminal obeys.
 TEST(GltfJson, ErrorsAreWhole) {
-  const std::string text = reprinted("{\"a: b\" \"c: d\"}");
-  EXPECT_NE(text.find("the JSON is damaged (syntax error while parsing object separator - "
-                      "unexpected string literal; last read: '\"a: b\" \"c: d\"'; expected ':')"),
+  const std::string text = reprinted("{\"a: b");
+  EXPECT_NE(text.find("the JSON is damaged (syntax error while parsing object key - invalid string: "
+                      "missing closing quote; last read: '\"a: b'"),
             std::string::npos)
       << text;
   EXPECT_NE(reprinted("[1e999]").find("(number overflow parsing '1e999')"), std::string::npos)
@@ -79,11 +79,11 @@ TEST(GltfJson, ErrorsAreWhole) {
                                    "\xc2\x9b"
                                    "31m",
                                    "\x7f"}) {
-    const std::string error = reprinted("{\"" + escape + "\" 1}");
+    const std::string error = reprinted("{\"" + escape);
     EXPECT_NE(error.find("error: JSON byte"), std::string::npos);
     EXPECT_EQ(error.find(escape), std::string::npos) << error;
   }
-  EXPECT_LT(reprinted("{\"" + std::string(100000, 'x') + "\" 1}").size(), 500u);
+  EXPECT_LT(reprinted("{\"" + std::string(100000, 'x')).size(), 500u);
 }
 
 TEST(GltfJson, DeepNestingIsAnError) {
