@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "gltf/file_io.h"
+#include "gltf/made_up_codecs.h"
 #include "gltf/round_trip.h"
 #include "support/scratch_folder.h"
 
@@ -61,6 +62,37 @@ TEST(OddDocuments, OneAccessorForTwoAttributesIsReorderedOnce) {
   // POSITION, NORMAL, TEXCOORD_0 and the payload or the indices.
   EXPECT_EQ(jsonOf(trip.converted)["bufferViews"].size(), 4u);
   EXPECT_EQ(jsonOf(trip.decoded)["bufferViews"].size(), 4u);
+}
+
+/// What is left of its users after the conversion draws lines; its values are still compared.
+TEST(OddDocuments, SparseValuesInCodedViewsAreSharedWithLines) {
+  Builder builder;
+  const Sheet sheet(12);
+  Json primitive = sheet.addTo(builder);
+  std::vector<uint16_t> numbers;
+  for (uint16_t i = 0; i < sheet.count(); ++i) numbers.push_back(i);
+  while (numbers.size() % 2 != 0) numbers.push_back(0);
+  const uint32_t indices = builder.addView(bytesOf(numbers));
+  const uint32_t values = builder.addView(bytesOf(sheet.positions));
+  primitive["attributes"]["POSITION"] = builder.addAccessor(
+      {{"componentType", kFloat},
+       {"count", sheet.count()},
+       {"type", "VEC3"},
+       {"min", builder.json["accessors"][0]["min"]},
+       {"max", builder.json["accessors"][0]["max"]},
+       {"sparse",
+        {{"count", sheet.count()},
+         {"indices", {{"bufferView", indices}, {"componentType", kUnsignedShort}}},
+         {"values", {{"bufferView", values}}}}}});
+  Json lines = primitive;
+  lines["mode"] = 1;
+  builder.addMesh({primitive, lines});
+  codeViews(builder, {indices, values});
+  ConvertOptions options = withDecoders();
+  options.allow_larger = true;
+  const RoundTrip trip = roundTrip(fileOf(builder), options);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_TRUE(isCompressed(jsonOf(trip.converted), 0, 0));
 }
 
 TEST(OddDocuments, ImagesWithoutAnyBufferMoveIntoAGlb) {

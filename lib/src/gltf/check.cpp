@@ -48,7 +48,7 @@ class Checker {
       MCC_GLTF_TRY(failed(
           adoptDocument(std::move(decompressed.json), std::move(decompressed.bin), decoded_), ""));
     }
-    MCC_GLTF_TRY(failed(decodeViews(decoders, decoded_), ""));
+    MCC_GLTF_TRY(failed(decodeViews(decoders, decoded_, &source_), ""));
     for (const EncodedPayload& payload : payloads_) MCC_GLTF_TRY(checkPayload(payload));
     MCC_GLTF_TRY(failed(checkUses(uses), ""));
     if (!uses.empty()) MCC_GLTF_TRY(failed(checkFallback(compressed, uses), ""));

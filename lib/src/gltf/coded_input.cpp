@@ -227,14 +227,16 @@ class MeshReader {
 
 }  // namespace
 
-Result decodeViews(const ForeignDecoders& decoders, Document& document) {
+Result decodeViews(const ForeignDecoders& decoders, Document& document, const Document* source) {
   if (!decoders.view) return {};
   std::vector<bool> is_used(document.accessors.size(), false);
-  visitTrianglePrimitives(document, [&](const Json& primitive, const std::string&) {
+  const auto markUsed = [&](const Json& primitive, const std::string&) {
     visitAccessorNumbers(primitive, [&](uint64_t accessor) {
       if (accessor < is_used.size()) is_used[accessor] = true;
     });
-  });
+  };
+  visitTrianglePrimitives(document, markUsed);
+  if (source != nullptr) visitTrianglePrimitives(*source, markUsed);
   for (size_t i = 0; i < is_used.size(); ++i) {
     if (!is_used[i]) continue;
     const Accessor& accessor = document.accessors[i];
