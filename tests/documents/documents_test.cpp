@@ -131,12 +131,14 @@ class Way {
 
   Result decodeFrom(const fs::path& path, const Bytes& bytes, const RandomDocument& document,
                     const fs::path& folder, DecodeTo to, Files& files) {
+    FileDecodeOptions options;
+    options.decode_to = to;
     files.clear();
     fs::remove_all(folder);
     fs::create_directories(folder);
     if (document.to_memory)
-      return decode({path.filename(), bytes}, {{}, &files[converted_name]}, decode_report, to);
-    const Result result = decode({path, {}}, {folder / converted_name}, decode_report, to);
+      return decode({path.filename(), bytes}, {{}, &files[converted_name]}, decode_report, options);
+    const Result result = decode({path, {}}, {folder / converted_name}, decode_report, options);
     files = filesIn(folder);
     return result;
   }
