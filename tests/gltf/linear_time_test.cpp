@@ -147,5 +147,43 @@ TEST(LinearTime, TinyPrimitivesBesideALargeOne) {
   for (uint32_t i = 2; i <= 1000; ++i) EXPECT_FALSE(isCompressed(json, 0, i)) << i;
 }
 
+/// Decoding to integers gives every node a child, skins of their own and other targets of animations.
+TEST(LinearTime, NodesOfAnAnimatedMeshBecomeIntegers) {
+  constexpr uint32_t kCount = 20000;
+  Builder builder;
+  const Sheet sheet(20);
+  Json primitive = sheet.addTo(builder);
+  primitive["targets"] = {{{"POSITION", builder.addPositions(sheet.positions)}}};
+  builder.addMesh({primitive});
+  Json nodes = Json::array();
+  Json channels = Json::array();
+  Json scene = Json::array();
+  for (uint32_t i = 0; i < kCount; ++i) {
+    nodes.push_back({{"mesh", 0}});
+    channels.push_back({{"sampler", 0}, {"target", {{"node", i}, {"path", "weights"}}}});
+    scene.push_back(i);
+  }
+  builder.json["nodes"] = std::move(nodes);
+  builder.json["scenes"] = {{{"nodes", std::move(scene)}}};
+  const Json sampler = {{"input", builder.addFloats({0, 1}, 1)},
+                        {"output", builder.addFloats({0, 1}, 1)}};
+  builder.json["animations"] = {{{"channels", std::move(channels)}, {"samplers", {sampler}}}};
+  ConvertOptions options;
+  options.allow_larger = true;
+  std::vector<uint8_t> converted;
+  ConvertReport converted_report;
+  ASSERT_TRUE(convertGlb(builder.toGlb(), options, converted, converted_report).ok());
+  std::vector<uint8_t> integers;
+  DecodeReport report;
+  ASSERT_TRUE(decodeGlb(converted, integers, report, {DecodeTo::kIntegers}).ok());
+  const Json json = jsonOf(integers);
+  ASSERT_EQ(json["nodes"].size(), 2 * kCount);
+  for (uint32_t i = 0; i < kCount; ++i) {
+    const Json& node = json["animations"][0]["channels"][i]["target"]["node"];
+    ASSERT_EQ(json["nodes"][i]["children"][0], node);
+    ASSERT_EQ(json["nodes"][node.get<size_t>()]["mesh"], 0);
+  }
+}
+
 }  // namespace
 }  // namespace mcc::gltf::test

@@ -2,6 +2,7 @@
 #include "gltf/integers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -48,19 +49,26 @@ class PositionStore {
         accessors_(accessors),
         json_(json),
         views_(views),
-        notes_(notes) {}
+        notes_(notes),
+        node_extension_(nodeDependentExtension(source.json, foreign)) {}
 
   bool run() {
     collectMeshes();
     for (size_t mesh = 0; mesh < meshes_.size(); ++mesh) chooseMesh(mesh);
     dropSharers();
     for (const MeshPlan& mesh : meshes_) storeMesh(mesh);
+    moveWeightChannels();
     moveSkins();
     const auto is_chosen = [](const MeshPlan& mesh) { return mesh.is_chosen; };
     return std::any_of(meshes_.begin(), meshes_.end(), is_chosen);
   }
 
  private:
+  struct SkinnedNode {
+    uint32_t node;
+    Lattice lattice;
+  };
+
   void collectMeshes() {
     for (const Json& mesh : arrayOf(json_, "meshes")) {
       MeshPlan& plan = meshes_.emplace_back();
@@ -98,23 +106,23 @@ class PositionStore {
   }
 
   /// Why the positions of a mesh stay float; empty when they need not. Finds their lattice.
-  std::string obstacle(MeshPlan& mesh) const {
-    const std::string extension = nodeDependentExtension(source_.json, foreign_);
-    if (!extension.empty()) return "the extension " + extension + " may refer to its nodes";
+  std::string obstacle(MeshPlan& mesh) {
+    if (!node_extension_.empty()) {
+      return "the extension " + node_extension_ + " may refer to its nodes";
+    }
     for (const uint32_t accessor : mesh.positions) {
       if (!isOnLattice(accessor)) return "not all of its primitives are on a lattice";
       const Lattice& lattice = accessors_.coding(accessor)->lattice;
       if (accessor == mesh.positions[0]) mesh.lattice = lattice;
       if (lattice != mesh.lattice) return "its primitives are on different lattices";
-      if (!fits(accessor, mesh.lattice.origin, mesh.lattice.step, 0, kLastPoint)) {
+      if (!pointsFit(accessor, mesh.lattice)) {
         return "its lattice has more than 16 bits";
       }
     }
     for (const uint32_t accessor : mesh.deltas) {
-      constexpr float kZero[3] = {0, 0, 0};
       const bool has_same_step =
           isOnLattice(accessor) && accessors_.coding(accessor)->lattice.step == mesh.lattice.step;
-      if (!has_same_step || !fits(accessor, kZero, mesh.lattice.step, -kLastDelta, kLastDelta)) {
+      if (!has_same_step || !deltasFit(accessor, mesh.lattice.step)) {
         return "a morph target is not on its lattice";
       }
     }
@@ -124,6 +132,19 @@ class PositionStore {
       if (!reason.empty()) return at("/nodes", node) + " " + reason;
     }
     return "";
+  }
+
+  /// fits() looks at every value, so each accessor is asked once, however many primitives share it.
+  bool pointsFit(uint32_t accessor, const Lattice& lattice) {
+    const auto [found, is_new] = points_fit_.try_emplace(accessor, false);
+    if (is_new) found->second = fits(accessor, lattice.origin, lattice.step, 0, kLastPoint);
+    return found->second;
+  }
+  bool deltasFit(uint32_t accessor, float step) {
+    constexpr float kZero[3] = {0, 0, 0};
+    const auto [found, is_new] = deltas_fit_.try_emplace(accessor, false);
+    if (is_new) found->second = fits(accessor, kZero, step, -kLastDelta, kLastDelta);
+    return found->second;
   }
 
   /// Point of the lattice, and how far the value is from it in steps.
@@ -146,7 +167,7 @@ class PositionStore {
     return true;
   }
 
-  std::string nodeObstacle(const Json& node) const {
+  std::string nodeObstacle(const Json& node) {
     if (const Json* extensions = findMember(node, "extensions")) {
       if (!extensions->is_object()) return "has no proper extensions";
       for (const auto& [name, value] : extensions->items()) {
@@ -159,34 +180,48 @@ class PositionStore {
     const Json* children = findMember(node, "children");
     if (children != nullptr && !children->is_array()) return "has no proper children";
     const Json* skin = findMember(node, "skin");
-    return skin == nullptr || inverseBindMatrices(*skin) ? ""
-                                                         : "has a skin without proper matrices";
+    return skin == nullptr || hasMatrices(*skin) ? "" : "has a skin without proper matrices";
+  }
+
+  /// Many nodes may have one skin.
+  bool hasMatrices(const Json& skin_number) {
+    uint64_t skin = 0;
+    if (!asUnsigned(skin_number, skin)) return false;
+    const auto [found, is_new] = has_matrices_.try_emplace(skin, false);
+    if (is_new) found->second = inverseBindMatrices(skin_number).has_value();
+    return found->second;
   }
 
   /// Meshes that share accessors become integers together or not at all.
   void dropSharers() {
-    std::set<uint32_t> kept_float;
-    const auto keepFloat = [&](const MeshPlan& mesh) {
-      kept_float.insert(mesh.positions.begin(), mesh.positions.end());
-      kept_float.insert(mesh.deltas.begin(), mesh.deltas.end());
-    };
-    const auto isKept = [&](uint32_t accessor) { return kept_float.count(accessor) != 0; };
-    for (const MeshPlan& mesh : meshes_) {
-      if (!mesh.is_chosen) keepFloat(mesh);
+    std::map<uint32_t, std::vector<size_t>> meshes_with;  // by accessor
+    std::vector<size_t> float_meshes;                     // whose sharers are not dropped yet
+    for (size_t number = 0; number < meshes_.size(); ++number) {
+      const MeshPlan& mesh = meshes_[number];
+      for (const uint32_t accessor : mesh.positions) meshes_with[accessor].push_back(number);
+      for (const uint32_t accessor : mesh.deltas) meshes_with[accessor].push_back(number);
+      if (!mesh.is_chosen) float_meshes.push_back(number);
     }
-    for (bool is_stable = false; !is_stable;) {
-      is_stable = true;
-      for (size_t number = 0; number < meshes_.size(); ++number) {
-        MeshPlan& mesh = meshes_[number];
-        const bool shares = std::any_of(mesh.positions.begin(), mesh.positions.end(), isKept) ||
-                            std::any_of(mesh.deltas.begin(), mesh.deltas.end(), isKept);
-        if (!mesh.is_chosen || !shares) continue;
-        mesh.is_chosen = false;
-        keepFloat(mesh);
-        is_stable = false;
-        notes_.push_back(at("/meshes", number) +
-                         ": shares positions with a mesh whose positions stay float");
+    std::set<size_t> dropped;
+    const auto dropUsersOf = [&](uint32_t accessor) {
+      std::vector<size_t> users;
+      users.swap(meshes_with[accessor]);  // each accessor is gone through once
+      for (const size_t number : users) {
+        if (!meshes_[number].is_chosen) continue;
+        meshes_[number].is_chosen = false;
+        dropped.insert(number);
+        float_meshes.push_back(number);
       }
+    };
+    while (!float_meshes.empty()) {
+      const MeshPlan& mesh = meshes_[float_meshes.back()];
+      float_meshes.pop_back();
+      for (const uint32_t accessor : mesh.positions) dropUsersOf(accessor);
+      for (const uint32_t accessor : mesh.deltas) dropUsersOf(accessor);
+    }
+    for (const size_t number : dropped) {
+      notes_.push_back(at("/meshes", number) +
+                       ": shares positions with a mesh whose positions stay float");
     }
   }
 
@@ -233,17 +268,23 @@ class PositionStore {
     node.erase("weights");
     node["children"].push_back(child_number);
     json_["nodes"].push_back(std::move(child));
-    if (json_.find("animations") == json_.end()) return;
+    child_of_node_[number] = child_number;
+  }
+
+  /// Animations of the weights of morph targets follow the mesh to its new node.
+  void moveWeightChannels() {
+    if (child_of_node_.empty() || json_.find("animations") == json_.end()) return;
     for (Json& animation : json_["animations"]) {
       if (arrayOf(animation, "channels").empty()) continue;
       for (Json& channel : animation["channels"]) {
-        uint64_t target = 0;
-        const Json* old = findMember(channel, "target");
-        const Json* path = old == nullptr ? nullptr : findMember(*old, "path");
-        const Json* target_node = old == nullptr ? nullptr : findMember(*old, "node");
-        const bool is_ours = path != nullptr && *path == "weights" && target_node != nullptr &&
-                             asUnsigned(*target_node, target) && target == number;
-        if (is_ours) channel["target"]["node"] = child_number;
+        uint64_t node = 0;
+        const Json* target = findMember(channel, "target");
+        const Json* path = target == nullptr ? nullptr : findMember(*target, "path");
+        const Json* number = target == nullptr ? nullptr : findMember(*target, "node");
+        if (path == nullptr || *path != "weights" || number == nullptr) continue;
+        if (!asUnsigned(*number, node)) continue;
+        const auto moved = child_of_node_.find(node);
+        if (moved != child_of_node_.end()) channel["target"]["node"] = moved->second;
       }
     }
   }
@@ -292,32 +333,44 @@ class PositionStore {
     }
   }
 
-  struct SkinnedNode {
-    uint32_t node;
-    Lattice lattice;
-  };
-
   /// Nodes of a skin with the same lattice get a skin of their own; the last of them the skin itself when nobody else has it.
   void moveSkins() {
-    for (auto& [skin, nodes] : skinned_) {
-      size_t user_count = 0;
-      for (const Json& node : arrayOf(json_, "nodes")) {
-        uint64_t number = 0;
-        const Json* other = findMember(node, "skin");
-        user_count += other != nullptr && asUnsigned(*other, number) && number == skin ? 1 : 0;
-      }
-      while (!nodes.empty()) {
-        const Lattice lattice = nodes.back().lattice;
-        const auto is_other = [&](const SkinnedNode& node) { return node.lattice != lattice; };
-        const auto same = std::stable_partition(nodes.begin(), nodes.end(), is_other);
-        const auto same_count = static_cast<size_t>(nodes.end() - same);
-        const uint64_t folded = foldedSkin(skin, lattice, same_count == user_count);
-        for (auto node = same; node != nodes.end(); ++node)
-          json_["nodes"][node->node]["skin"] = folded;
-        user_count -= same_count;
-        nodes.erase(same, nodes.end());
+    if (skinned_.empty()) return;
+    std::map<uint64_t, size_t> user_counts = countMembers("nodes", "skin");
+    matrix_users_ = countMembers("skins", "inverseBindMatrices");
+    for (const auto& [skin, nodes] : skinned_) {
+      size_t& user_count = user_counts[skin];
+      for (const std::vector<SkinnedNode>& group : byLattice(nodes)) {
+        const uint64_t folded = foldedSkin(skin, group[0].lattice, group.size() == user_count);
+        for (const SkinnedNode& node : group) json_["nodes"][node.node]["skin"] = folded;
+        user_count -= group.size();
       }
     }
+  }
+
+  /// How often each number occurs as this member of the elements of an array.
+  std::map<uint64_t, size_t> countMembers(const char* array, const char* key) const {
+    std::map<uint64_t, size_t> counts;
+    for (const Json& element : arrayOf(json_, array)) {
+      uint64_t number = 0;
+      const Json* member = findMember(element, key);
+      if (member != nullptr && asUnsigned(*member, number)) ++counts[number];
+    }
+    return counts;
+  }
+
+  /// Groups of nodes with equal lattices; the group of the last node first.
+  static std::vector<std::vector<SkinnedNode>> byLattice(const std::vector<SkinnedNode>& nodes) {
+    std::map<std::array<float, 4>, size_t> group_of;
+    std::vector<std::vector<SkinnedNode>> groups;
+    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
+      const float* origin = node->lattice.origin;
+      const std::array<float, 4> key = {node->lattice.step, origin[0], origin[1], origin[2]};
+      const auto [found, is_new] = group_of.try_emplace(key, groups.size());
+      if (is_new) groups.emplace_back();
+      groups[found->second].push_back(*node);
+    }
+    return groups;
   }
 
   /// Whether the matrices of a skin belong to it alone.
@@ -325,13 +378,9 @@ class PositionStore {
     uint64_t accessor = 0;
     const Json* number = findMember(skin, "inverseBindMatrices");
     if (number == nullptr || !asUnsigned(*number, accessor)) return false;
-    size_t user_count = 0;
-    for (const Json& other : arrayOf(json_, "skins")) {
-      uint64_t of_other = 0;
-      number = findMember(other, "inverseBindMatrices");
-      if (number != nullptr && asUnsigned(*number, of_other)) user_count += of_other == accessor;
-    }
-    return user_count == 1 && foreign_.accessors.count(accessor) == 0;
+    const auto users = matrix_users_.find(accessor);
+    return users != matrix_users_.end() && users->second == 1 &&
+           foreign_.accessors.count(accessor) == 0;
   }
 
   /// Number of a skin whose matrices take lattice points.
@@ -343,6 +392,9 @@ class PositionStore {
     if (in_place && hasOwnMatrices(skin)) {
       asUnsigned(skin["inverseBindMatrices"], accessor);
     } else {
+      uint64_t left = 0;
+      const Json* old = findMember(skin, "inverseBindMatrices");
+      if (in_place && old != nullptr && asUnsigned(*old, left)) --matrix_users_[left];
       json_["accessors"].push_back({{"componentType", 5126}, {"type", "MAT4"}});
     }
     skin["inverseBindMatrices"] = accessor;
@@ -368,8 +420,14 @@ class PositionStore {
   Json& json_;
   std::vector<NewView>& views_;
   std::vector<std::string>& notes_;
+  const std::string node_extension_;  ///< one that may refer to nodes, or empty
   std::vector<MeshPlan> meshes_;
+  std::map<uint32_t, bool> points_fit_;    ///< by accessor
+  std::map<uint32_t, bool> deltas_fit_;    ///< by accessor
+  std::map<uint64_t, bool> has_matrices_;  ///< by skin
+  std::map<uint64_t, uint64_t> child_of_node_;
   std::map<uint64_t, std::vector<SkinnedNode>> skinned_;  ///< by skin
+  std::map<uint64_t, size_t> matrix_users_;               ///< skins by accessor of matrices
 };
 
 }  // namespace
