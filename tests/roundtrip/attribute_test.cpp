@@ -788,7 +788,6 @@ TEST(Attributes, LatticesThatAreNoneAreRefused) {
     EncodeResult result;
     return encode(std::span<const PieceView>(&view, 1), {}, result).error;
   };
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(errorOn({{-2, -2, -2, 0}, 0.125f}), Error::kOk);
   EXPECT_EQ(errorOn({{-2, -2, -2, kNaN}, 0.125f}), Error::kOk);  // positions have three origins
