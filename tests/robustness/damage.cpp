@@ -83,9 +83,10 @@ std::string checkShape(const PayloadInfo& info, const std::vector<PieceMemory>& 
     }
     for (size_t a = 0; a < piece.attributes.size(); ++a) {
       if (piece.attributes[a].coding != AttributeCoding::kOctahedral) continue;
+      const size_t stride = elementBytes(piece.attributes[a].format);  // tangents have a sign
       for (size_t w = 0; w < piece.wedge_count; ++w) {
         float n[3];
-        std::memcpy(n, &memory[p].attributes[a][12 * w], 12);
+        std::memcpy(n, &memory[p].attributes[a][stride * w], 12);
         const double square = double{n[0]} * n[0] + double{n[1]} * n[1] + double{n[2]} * n[2];
         if (!(std::fabs(square - 1) < 1e-3)) return "a normal is not of unit length";
       }

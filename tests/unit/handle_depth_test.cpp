@@ -58,5 +58,23 @@ TEST(HandleDepth, SurfacesAreCutUntilItHolds) {
   }
 }
 
+/// The plate's deepest handle is three digons less deep than it has tunnels.
+TEST(HandleDepth, OnlyWhatIsTooDeepIsCut) {
+  const RunJobs in_order;
+  for (const uint32_t deepest : {kMaxHandleDepth, kMaxHandleDepth + 1}) {
+    const TestMesh mesh = plateWithTunnels(deepest + 3, 1);
+    const MeshPiece piece(mesh);
+    const PieceView view = piece.view();
+    Plan plan;
+    std::vector<std::string> notes;
+    ASSERT_TRUE(preparePiece(view, {}, Jobs(in_order), plan, notes).ok());
+    prepareConnectivity(plan, EdgePairing::kStack, kNone, kNone);
+    ASSERT_EQ(deepestOf(plan), deepest);
+    prepareConnectivity(plan, EdgePairing::kStack, kNone);
+    EXPECT_LE(deepestOf(plan), kMaxHandleDepth);
+    EXPECT_EQ(plan.header.has(piece_flag::kCopies), deepest > kMaxHandleDepth);
+  }
+}
+
 }  // namespace
 }  // namespace mcc::test

@@ -7,11 +7,15 @@
 #include <map>
 #include <stdexcept>
 
+#include "connectivity/enc_collapse.h"
+#include "container/enc_payload.h"
 #include "container/payload_header.h"
+#include "entropy/enc_coder.h"
 #include "gltf/glb.h"
 #include "header_fields.h"
 #include "mcc/gltf.h"
 #include "mesh/attribute_method.h"
+#include "sources.h"
 #include "support/mesh_generators.h"
 
 namespace mcc::conformance {
@@ -76,6 +80,7 @@ class Maker {
     methods();
     positionPredictors();
     streams();
+    deepHandle();
     contradictions();
     searched();
     documents();
@@ -775,6 +780,64 @@ class Maker {
             f.set("0.0.bits", 12);
             for (uint8_t& byte : f.bytes("raw")) byte = 0;
           });
+  }
+
+  /// The surface of the asset that is cut for it, whole. The encoder refuses what it has just written.
+  void deepHandle() {
+    const Asset asset = encodeSource(addedSources().back());
+    const ClosedMesh mesh = closedMesh(test::plateWithTunnels(kTooManyTunnels, 1));
+    const McRecord record = collapse(mesh);
+    PayloadHeader header = headerOf(asset.payload);
+    PieceHeader& piece = header.pieces[0];
+    piece.flags &= ~(piece_flag::kCopies | piece_flag::kInteriorCopies | piece_flag::kHoles |
+                     piece_flag::kSeams | piece_flag::kCreases | piece_flag::kMerges);
+    piece.vertex_count = mesh.real_vertex_count;
+    piece.operation_count = static_cast<uint32_t>(record.operations.size());
+    piece.dummy_count = 0;
+    EncoderIo io(header.singleCoder());
+    (void)encodeCodes(io, header, mesh, record);
+    const EncoderIo::Streams streams = io.finish();
+    add("deep handle", "A.4.4", Error::kBadConnectivity, "A handle puts a digon below 256 others",
+        asset, writePayload(header, streams.codes, streams.tokens, streams.raw));
+  }
+  /// Of a closed manifold without holes.
+  static ClosedMesh closedMesh(const test::TestMesh& mesh) {
+    ClosedMesh closed;
+    closed.corner_vertex = mesh.indices;
+    closed.real_face_count = mesh.triangleCount();
+    closed.real_vertex_count = mesh.vertexCount();
+    closed.components = {{0, true}};
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> half_edge;
+    const auto head = [&](uint32_t h) { return mesh.indices[h % 3 == 2 ? h - 2 : h + 1]; };
+    for (uint32_t h = 0; h < mesh.indices.size(); ++h) half_edge[{mesh.indices[h], head(h)}] = h;
+    for (uint32_t h = 0; h < mesh.indices.size(); ++h)
+      closed.twin.push_back(half_edge.at({head(h), mesh.indices[h]}));
+    return closed;
+  }
+  static Status encodeCodes(EncoderIo& io, const PayloadHeader& header, const ClosedMesh& mesh,
+                            const McRecord& record) {
+    const PieceHeader& piece = header.pieces[0];
+    std::vector<uint32_t> nodes(record.node_count);
+    std::vector<uint32_t> vertices(piece.vertex_count);
+    std::vector<uint32_t> gates(piece.face_count);
+    McTruth truth;
+    truth.operations = record.operations.data();
+    truth.handles = record.handles.data();
+    truth.components = record.components.data();
+    truth.component_count = static_cast<uint32_t>(record.components.size());
+    truth.gates = record.gates.data();
+    truth.vertex_is_dummy = record.vertex_is_dummy.data();
+    truth.node_of_collapse_node = nodes.data();
+    truth.source_of_vertex = vertices.data();
+    truth.source_gate_of_face = gates.data();
+    McModels models{Allocator{}};
+    FaceMesh faces{Allocator{}};
+    if (!models.init(header.contextSet()) ||
+        !faces.words.resize(size_t{mesh.real_face_count} * kFaceWords)) {
+      throw std::bad_alloc();
+    }
+    const McCounts counts{piece.operation_count, piece.vertex_count, 0, piece.face_count, true};
+    return McMachine<EncoderIo>(io, models, counts, {}, faces, truth, nullptr).run();
   }
 
   /// What only damaged streams show: for each message the smallest payload a search finds.

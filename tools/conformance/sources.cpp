@@ -836,9 +836,12 @@ Source positionsAbove3e38(uint8_t normal_bits) {
 }  // namespace
 
 std::vector<Source> addedSources() {
-  return {single("many_digons", "Hundreds of digons wait, and handles put others far below them",
-                 plateWithTunnels(620, 1), [](SourceBuilder& b) { b.positions(10); }),
-          skinOfTinyWeights(), positionsAbove3e38(0), positionsAbove3e38(9)};
+  const auto positions = [](SourceBuilder& b) { b.positions(10); };
+  return {single("many_digons", "Hundreds of digons wait, and handles put others below 255 of them",
+                 plateWithTunnels(258, 1), positions),
+          skinOfTinyWeights(), positionsAbove3e38(0), positionsAbove3e38(9),
+          single("cut_handles", "A handle would put a digon below 256 others: the surface is cut",
+                 plateWithTunnels(kTooManyTunnels, 1), positions)};
 }
 
 std::vector<Source> chosenSources() {

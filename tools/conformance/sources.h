@@ -11,6 +11,9 @@
 
 namespace mcc::conformance {
 
+/// A plate with so many tunnels has a handle that puts a digon below 256 others, one more than may be.
+inline constexpr uint32_t kTooManyTunnels = 259;
+
 /// Sources that show one thing each; all become assets.
 std::vector<Source> chosenSources();
 
