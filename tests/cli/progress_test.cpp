@@ -35,7 +35,7 @@ class Deadline {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// The tool in a folder of its own with waiting.gltf, whose buffer it must wait for.
+/// The tool in a folder of its own with waiting.glb, a pipe whose bytes it must wait for.
 class WaitingTool {
  public:
   enum class Errors : uint8_t { kTerminal, kPipe };
@@ -66,12 +66,12 @@ class WaitingTool {
   WaitingTool(const WaitingTool&) = delete;
   WaitingTool& operator=(const WaitingTool&) = delete;
 
-  /// Until the buffer is being read, and no later than when the program ends.
-  bool waitsForBuffer() {
+  /// Until the input is being read, and no later than when the program ends.
+  bool waitsForInput() {
     const Deadline deadline;
     while (!deadline.isOver() && !hasEnded()) {
-      buffer_ = open(path("buffer.bin").c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
-      if (buffer_ >= 0) return true;  // there is a reader
+      input_ = open(path("waiting.glb").c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+      if (input_ >= 0) return true;  // there is a reader
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return false;
@@ -88,10 +88,10 @@ class WaitingTool {
 
   /// Gives it what it waits for; returns its exit status and reads the rest of what it shows.
   int finish() {
-    fcntl(buffer_, F_SETFL, 0);
+    fcntl(input_, F_SETFL, 0);
     const bool is_written =
-        write(buffer_, bytes_.data(), bytes_.size()) == static_cast<ssize_t>(bytes_.size());
-    close(buffer_);
+        write(input_, bytes_.data(), bytes_.size()) == static_cast<ssize_t>(bytes_.size());
+    close(input_);
     EXPECT_TRUE(is_written);
     const Deadline deadline;
     while (!deadline.isOver() && readSome()) {
@@ -109,10 +109,8 @@ class WaitingTool {
   void writeDocument() {
     gltf::test::Builder builder;
     builder.addMesh({gltf::test::Sheet(12).addTo(builder)});
-    bytes_ = builder.bin;
-    builder.json["buffers"] = {{{"byteLength", bytes_.size()}, {"uri", "buffer.bin"}}};
-    std::ofstream(path("waiting.gltf")) << gltf::printJson(builder.json);
-    EXPECT_EQ(mkfifo(path("buffer.bin").c_str(), 0600), 0);
+    bytes_ = builder.toGlb();
+    EXPECT_EQ(mkfifo(path("waiting.glb").c_str(), 0600), 0);
   }
 
   [[noreturn]] void run(const std::vector<std::string>& arguments, int errors) const {
@@ -143,7 +141,7 @@ class WaitingTool {
   std::string shown_;
   pid_t child_ = -1;
   int errors_ = -1;
-  int buffer_ = -1;
+  int input_ = -1;
 };
 
 using Errors = WaitingTool::Errors;
@@ -155,9 +153,9 @@ struct Work {
 
 /// All commands that show how long they take.
 std::vector<Work> longWork() {
-  return {{{"convert", "waiting.gltf", "-"}, "waiting.gltf: reading"},
-          {{"decode", "waiting.gltf", "out.glb"}, "decoding waiting.gltf"},
-          {{"inspect", "waiting.gltf"}, "reading waiting.gltf"}};
+  return {{{"convert", "waiting.glb", "-"}, "waiting.glb: reading"},
+          {{"decode", "waiting.glb", "out.glb"}, "decoding waiting.glb"},
+          {{"inspect", "waiting.glb"}, "reading waiting.glb"}};
 }
 
 class Progress : public testing::Test {
@@ -174,7 +172,7 @@ TEST_F(Progress, IsShownOnATerminal) {
   for (const Work& work : longWork()) {
     SCOPED_TRACE(work.shown);
     WaitingTool tool(work.arguments, Errors::kTerminal);
-    ASSERT_TRUE(tool.waitsForBuffer());
+    ASSERT_TRUE(tool.waitsForInput());
     std::string lines = "^(\r\033\\[K";
     lines += work.shown;
     lines += ", [1-9][0-9]* s){2}";
@@ -190,14 +188,14 @@ TEST_F(Progress, IsForTerminalsAloneAndNotForQuietOnes) {
   for (const Work& work : longWork()) {
     SCOPED_TRACE(work.shown);
     WaitingTool no_terminal(work.arguments, Errors::kPipe);
-    ASSERT_TRUE(no_terminal.waitsForBuffer());
+    ASSERT_TRUE(no_terminal.waitsForInput());
     std::vector<std::string> arguments = work.arguments;
     const bool has_quiet = arguments[0] != "inspect";
     if (has_quiet) arguments.push_back("--quiet");
     WaitingTool quiet(arguments, has_quiet ? Errors::kTerminal : Errors::kPipe);
-    ASSERT_TRUE(quiet.waitsForBuffer());
+    ASSERT_TRUE(quiet.waitsForInput());
     WaitingTool tool(work.arguments, Errors::kTerminal);
-    ASSERT_TRUE(tool.waitsForBuffer());
+    ASSERT_TRUE(tool.waitsForInput());
     EXPECT_TRUE(tool.shows(std::regex(" s\r"))) << "once, and once more";
     EXPECT_EQ(tool.finish(), 0);
     EXPECT_EQ(no_terminal.finish(), 0);
@@ -210,14 +208,14 @@ TEST_F(Progress, IsForTerminalsAloneAndNotForQuietOnes) {
 /// Of many files the bar is there from the first one on that is done, however long it takes.
 TEST_F(Progress, OfManyFilesIsABar) {
   const std::string sample = std::string(MCC_SAMPLES_DIR) + "/torus.glb";
-  const std::vector<std::string> arguments = {"convert", "-o", "out", sample, "waiting.gltf"};
+  const std::vector<std::string> arguments = {"convert", "-o", "out", sample, "waiting.glb"};
   WaitingTool tool(arguments, Errors::kTerminal);
-  ASSERT_TRUE(tool.waitsForBuffer());
+  ASSERT_TRUE(tool.waitsForInput());
   EXPECT_TRUE(tool.shows(std::regex("\r\033\\[K\\[#+-+\\] 1 of 2 files"))) << tool.shown();
   EXPECT_EQ(tool.finish(), 0);
   EXPECT_TRUE(tool.shown().ends_with("\r\033[K")) << tool.shown();
   WaitingTool no_terminal(arguments, Errors::kPipe);
-  ASSERT_TRUE(no_terminal.waitsForBuffer());
+  ASSERT_TRUE(no_terminal.waitsForInput());
   EXPECT_EQ(no_terminal.finish(), 0);
   EXPECT_EQ(no_terminal.shown(), "");
 }
