@@ -103,7 +103,12 @@ bool isReplaced(const std::string& input, const std::string& output) {
 gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison& compared) const {
   StreamSource source;
   StreamSink sink;
-  gltf::Result result = source.open(converted.input);
+  gltf::Result result;
+  {
+    WorkProgress progress(common.is_quiet, converted.input);
+    progress.tell("reading", -1);
+    result = source.open(converted.input);  // a pipe may take its time
+  }
   if (result.ok()) result = sink.open(converted.output);
   if (!result.ok()) return result;
   CommonOptions shown = common;

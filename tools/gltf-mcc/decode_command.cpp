@@ -60,12 +60,13 @@ int DecodeCommand::runOne() const {
   const std::string& input = files.inputs[0];
   StreamSource source;
   StreamSink sink;
-  gltf::Result outcome = source.open(input);
-  if (outcome.ok()) outcome = sink.open(files.output);
   gltf::DecodeReport report;
-  if (outcome.ok()) {
+  gltf::Result outcome;
+  {
     const WorkProgress progress(common.is_quiet, "decoding " + input);
-    outcome = gltf::decode(source.source(), sink.sink(), report, decoding);
+    outcome = source.open(input);  // a pipe may take its time
+    if (outcome.ok()) outcome = sink.open(files.output);
+    if (outcome.ok()) outcome = gltf::decode(source.source(), sink.sink(), report, decoding);
   }
   if (outcome.ok()) outcome = sink.finish();
   if (!outcome.ok()) return reportFailure(outcome, input, files.output);

@@ -277,16 +277,19 @@ struct InspectCommand {
   std::string input;
   bool show_codes = false;
 
+  gltf::Result inspect(const gltf::Source& source, gltf::InspectReport& report) const {
+    if (!source.bytes) return gltf::inspectFile(input, true, report);
+    return gltf::inFile(source.path, gltf::inspectGlb(*source.bytes, true, report));
+  }
+
   int run() const {
     gltf::InspectReport report;
     StreamSource stream;
-    gltf::Result outcome = stream.open(input);
-    if (outcome.ok()) {
+    gltf::Result outcome;
+    {
       const WorkProgress progress(false, "reading " + input);
-      const gltf::Source source = stream.source();
-      outcome = source.bytes
-                    ? gltf::inFile(source.path, gltf::inspectGlb(*source.bytes, true, report))
-                    : gltf::inspectFile(input, true, report);
+      outcome = stream.open(input);  // a pipe may take its time
+      if (outcome.ok()) outcome = inspect(stream.source(), report);
     }
     if (!outcome.ok()) return reportFailure(outcome, input, "");
     if (common.format == Format::kJson) return printOut(inspectJson(input, report));
