@@ -34,7 +34,7 @@ function(mcc_shared_library name static alias file)
 endfunction()
 
 # Public headers by the library that a program needs to link for them.
-set(mcc_headers_reader export.h status.h types.h reader.h c_api.h tinygltf.h)
+set(mcc_headers_reader export.h status.h types.h reader.h c_api.h decoded_limit.h tinygltf.h)
 set(mcc_headers_writer writer.h)
 set(mcc_headers_gltf gltf.h)
 
