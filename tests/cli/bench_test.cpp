@@ -52,6 +52,18 @@ TEST(Bench, FiguresAreConsistent) {
   EXPECT_EQ(json["geometric_means"][0]["files"], 2);
 }
 
+TEST(Bench, MeasuresWhatIsPreferred) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  const auto bytes = [&](const std::string& preference) {
+    const ToolResult result = runTool(folder, "bench --format json --prefer " + preference + " " +
+                                                  samplePath("genus3.glb"));
+    EXPECT_EQ(result.status, 0) << result.err;
+    return Json::parse(result.out)["files"][0]["codecs"]["mcc"]["bytes"].get<uint64_t>();
+  };
+  EXPECT_LT(bytes("size"), bytes("speed"));
+}
+
 TEST(Bench, LoadsWholeFilesWhenAsked) {
   MCC_REQUIRE_COMPARISON();
   const ScratchFolder folder;

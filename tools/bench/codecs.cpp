@@ -28,6 +28,7 @@ Outcome fromStatus(const Status& status) {
 Outcome encodeOurs(const Geometry& geometry, EncodedFile& encoded) {
   EncodeOptions options;
   options.effort = geometry.effort;
+  options.prefer = geometry.prefer;
   for (const PayloadInput& input : geometry.inputs) {
     std::vector<PieceView> views;
     for (const PieceInput& piece : input.pieces) views.push_back(piece.view());
