@@ -11,6 +11,7 @@
 #include "base/enc_exceptions.h"
 #include "container/enc_payload.h"
 #include "writer_choices.h"
+#include "writer_settings.h"
 #include "writer_stages.h"
 
 namespace mcc {
@@ -83,7 +84,7 @@ Status codeAll(std::vector<Plan>& plans, uint32_t context_set, bool single, Enco
   return {};
 }
 
-Status encodePieces(std::span<const PieceView> pieces, const EncodeOptions& options,
+Status encodePieces(std::span<const PieceView> pieces, const EncodeSettings& options,
                     EncodeResult& result) {
   if (pieces.empty()) return fail(Error::kBadArgument, "there is nothing to encode");
   result = EncodeResult{};
@@ -105,7 +106,8 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeOptions& opti
   MCC_TRY(variation.active() ? varyAll(plans, options, variation, context_set)
                              : chooseAll(plans, options, jobs, context_set));
   MCC_TRY(codeAll(plans, context_set, false, result));
-  if (vertices > kSingleCoderVertices) return {};
+  const bool tries_single = !options.without.has(Feature::kSingleCoder);
+  if (vertices > kSingleCoderVertices || !tries_single) return {};
   EncodeResult single;
   MCC_TRY(codeAll(plans, context_set, true, single));
   const double single_bytes = static_cast<double>(single.payload.size());
@@ -121,10 +123,15 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeOptions& opti
 
 }  // namespace
 
+Status encodeWith(std::span<const PieceView> pieces, const EncodeSettings& settings,
+                  EncodeResult& result) {
+  return catchBadAlloc([&]() { return encodePieces(pieces, settings, result); },
+                       []() { return fail(Error::kOutOfMemory, "no memory for the encoder"); });
+}
+
 Status encode(std::span<const PieceView> pieces, const EncodeOptions& options,
               EncodeResult& result) {
-  return catchBadAlloc([&]() { return encodePieces(pieces, options, result); },
-                       []() { return fail(Error::kOutOfMemory, "no memory for the encoder"); });
+  return encodeWith(pieces, EncodeSettings{options, {}}, result);
 }
 
 }  // namespace mcc

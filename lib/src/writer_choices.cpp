@@ -66,16 +66,18 @@ using Runners = std::vector<std::unique_ptr<StageRunner<CostIo>>>;
 
 /// One choice for all pieces, since they share tables and models. Consumes the recordings.
 PositionParameters choosePositions(std::vector<RecordedPositions> recorded, double surface_bits,
-                                   const EncodeOptions& options, const Jobs& jobs) {
+                                   const EncodeSettings& options, const Jobs& jobs) {
   std::vector<PositionCandidate> candidates;
   for (const RecordedPositions& piece : recorded) candidates.push_back(piece.candidate);
-  return choosePositionParameters(candidates, surface_bits, options.effort, options.prefer, jobs);
+  return choosePositionParameters(candidates, surface_bits, options, jobs);
 }
 
 /// Floats on a grid may be coded as floats as well: the values of a plan are the same.
-std::vector<AttributeInfo> exactAlternatives(const AttributeInfo& info) {
+std::vector<AttributeInfo> exactAlternatives(const AttributeInfo& info, const FeatureSet& without) {
   std::vector<AttributeInfo> all = {info};
-  if (info.coding == AttributeCoding::kGrid && info.format.morph_target == 0) {
+  const bool may_be_plain =
+      info.format.semantic != Semantic::kNormal || !without.has(Feature::kExactNormals);
+  if (info.coding == AttributeCoding::kGrid && info.format.morph_target == 0 && may_be_plain) {
     AttributeInfo plain;
     plain.format = info.format;
     plain.coding = AttributeCoding::kExactFloat;
@@ -89,9 +91,9 @@ std::vector<AttributeInfo> exactAlternatives(const AttributeInfo& info) {
 /// `wedge_share`: what the payload takes so far, per wedge, in the units of costs.
 Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& runner,
                              PayloadModels& models, double wedge_share, const TimePrice& price,
-                             bool goes_on) {
+                             const FeatureSet& without, bool goes_on) {
   AttributeInfo& info = plan.attributes[index].info;
-  const std::vector<AttributeInfo> alternatives = exactAlternatives(info);
+  const std::vector<AttributeInfo> alternatives = exactAlternatives(info, without);
   const uint32_t part = std::max(kTrialWedges, plan.header.wedge_count / kTrialShare);
   // What lies below a grid is always coded for all wedges. A part of the ids may be all alike.
   const bool may_be_ids =
@@ -108,7 +110,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
     const AttributeMethod method = methodOf(infos.data(), plan.header.attribute_count, index);
     if (method == AttributeMethod::kWithAnother) return {};
     PredictorSearch search(infos.data(), plan.header.attribute_count, index,
-                           plan.header.has(piece_flag::kSeams));
+                           plan.header.has(piece_flag::kSeams), without);
     if (alternatives.size() == 1 && search.isSettled()) {
       best.predictor = search.best();
       break;
@@ -136,7 +138,8 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
 /// Creases and the methods of all attributes but positions, which are the same however they are coded. `io` has counted the
 /// surfaces.
 Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& models,
-                     const CostIo& io, const TimePrice& price) {
+                     const CostIo& io, const EncodeSettings& options) {
+  const TimePrice price(options.prefer);
   const bool only_positions = std::all_of(plans.begin(), plans.end(), [](const Plan& plan) {
     return plan.attributes.size() == 1 && !plan.header.has(piece_flag::kSeams);
   });
@@ -148,7 +151,7 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& 
   }
   const double wedge_share = static_cast<double>(io.cost()) / wedges;
   for (size_t i = 0; i < plans.size(); ++i) {
-    MCC_TRY(runners[i]->chooseCreases(models));
+    if (!options.without.has(Feature::kCreases)) MCC_TRY(runners[i]->chooseCreases(models));
     MCC_TRY(runners[i]->codeSeams(nullptr));
     MCC_TRY(runners[i]->prepareAttributes());
     const std::vector<uint32_t> order = codingOrder(plans[i]);
@@ -159,14 +162,13 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& 
                    plans[i].attributes[order[k]].info.format.semantic;
       }
       MCC_TRY(chooseAttributeMethod(plans[i], order[k], *runners[i], models, wedge_share, price,
-                                    goes_on));
+                                    options.without, goes_on));
     }
   }
   return {};
 }
 
-Status choosePredictors(std::vector<Plan>& plans, const EncodeOptions& options, const Jobs& jobs) {
-  const TimePrice price(options.prefer);
+Status choosePredictors(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs) {
   auto models = makeModels(0);  // none of these choices depends on the context set
   CostIo io;
   Runners runners;
@@ -175,13 +177,13 @@ Status choosePredictors(std::vector<Plan>& plans, const EncodeOptions& options, 
     MCC_TRY(runners.back()->codeSurface(nullptr));
   }
   const double surface_bits = static_cast<double>(io.cost()) / kCostOne;
-  if (plans[0].attributes.empty()) return chooseMethods(plans, runners, *models, io, price);
+  if (plans[0].attributes.empty()) return chooseMethods(plans, runners, *models, io, options);
   std::vector<RecordedPositions> recorded(plans.size());
   MCC_TRY(jobs.tryAll(plans.size(),
                       [&](size_t i) { return runners[i]->recordPositions(recorded[i]); }));
   PositionParameters chosen;
   MCC_TRY(jobs.tryAll(2, [&](size_t i) -> Status {
-    if (i == 1) return chooseMethods(plans, runners, *models, io, price);
+    if (i == 1) return chooseMethods(plans, runners, *models, io, options);
     chosen = choosePositions(std::move(recorded), surface_bits, options, jobs);
     return {};
   }));
@@ -196,7 +198,7 @@ Status choosePredictors(std::vector<Plan>& plans, const EncodeOptions& options, 
 void varyAttributeMethod(Plan& plan, uint32_t index, Variation& variation) {
   std::vector<AttributeInfo> infos;
   for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
-  infos[index] = variation.oneOf(exactAlternatives(infos[index]));
+  infos[index] = variation.oneOf(exactAlternatives(infos[index], {}));
   variation.predictors(infos, index);
   for (size_t i = 0; i < infos.size(); ++i) plan.attributes[i].info = infos[i];
 }
@@ -217,7 +219,7 @@ Status choosePairing(Plan& plan, uint32_t start_half_edge, const Jobs& jobs) {
   return {};
 }
 
-Status chooseAll(std::vector<Plan>& plans, const EncodeOptions& options, const Jobs& jobs,
+Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs,
                  uint32_t& context_set) {
   std::vector<Connectivity> connectivity;
   for (const Plan& plan : plans) {
@@ -226,7 +228,7 @@ Status chooseAll(std::vector<Plan>& plans, const EncodeOptions& options, const J
                             {h.operation_count, h.vertex_count, h.dummy_count, h.face_count,
                              h.has(piece_flag::kHandles)}});
   }
-  context_set = options.context_set;
+  context_set = options.without.has(Feature::kContextSets) ? 0 : options.context_set;
   return jobs.tryAll(2, [&](size_t i) -> Status {
     if (i == 0) return choosePredictors(plans, options, jobs);
     const bool is_given = context_set < kContextSetCount;
@@ -234,7 +236,7 @@ Status chooseAll(std::vector<Plan>& plans, const EncodeOptions& options, const J
   });
 }
 
-Status varyAll(std::vector<Plan>& plans, const EncodeOptions& options, Variation& variation,
+Status varyAll(std::vector<Plan>& plans, const EncodeSettings& options, Variation& variation,
                uint32_t& context_set) {
   context_set = options.context_set;
   if (context_set >= kContextSetCount) context_set = variation.below(kContextSetCount);

@@ -15,11 +15,11 @@ namespace mcc {
 Status choosePairing(Plan& plan, uint32_t start_half_edge, const Jobs& jobs);
 
 /// The context set, predictors and methods, once the surface of every piece is settled.
-Status chooseAll(std::vector<Plan>& plans, const EncodeOptions& options, const Jobs& jobs,
+Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs,
                  uint32_t& context_set);
 
 /// Instead of chooseAll(), for tests: choices at random.
-Status varyAll(std::vector<Plan>& plans, const EncodeOptions& options, Variation& variation,
+Status varyAll(std::vector<Plan>& plans, const EncodeSettings& options, Variation& variation,
                uint32_t& context_set);
 
 }  // namespace mcc

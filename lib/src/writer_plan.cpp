@@ -143,7 +143,7 @@ void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_ed
   if (h.has(piece_flag::kSeams) && run_count > surface_wedges) h.flags |= piece_flag::kMerges;
 }
 
-Status preparePiece(const PieceView& view, const EncodeOptions& options, const Jobs& jobs,
+Status preparePiece(const PieceView& view, const EncodeSettings& options, const Jobs& jobs,
                     Plan& plan, std::vector<std::string>& notes) {
   MCC_TRY(checkPiece(view));
   if (options.indices_only && view.attributes.size() != 1)
@@ -154,7 +154,7 @@ Status preparePiece(const PieceView& view, const EncodeOptions& options, const J
       plan.triangles = sortTriangles(view.parts, view.wedge_count);
       return;
     }
-    plan.attributes = quantizeAttributes(view, notes);
+    plan.attributes = quantizeAttributes(view, options.without, notes);
     plan.classes = weldPositions(view.attributes[0], view.wedge_count,
                                  isExact(plan.attributes[0].info.coding));
   });

@@ -11,6 +11,7 @@
 #include "attributes/enc_position_fit.h"
 #include "attributes/enc_position_planes.h"
 #include "attributes/enc_quantize.h"
+#include "base/enc_features.h"
 #include "base/enc_jobs.h"
 #include "connectivity/enc_collapse.h"
 #include "mcc/writer.h"
@@ -61,7 +62,7 @@ constexpr uint32_t nextCorner(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
 constexpr uint32_t prevCorner(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 /// Checks the piece, quantises and welds it, and sorts its triangles.
-Status preparePiece(const PieceView& view, const EncodeOptions& options, const Jobs& jobs,
+Status preparePiece(const PieceView& view, const EncodeSettings& options, const Jobs& jobs,
                     Plan& plan, std::vector<std::string>& notes);
 
 /// Cuts the surface to a manifold and collapses it; sets what the header says of it. May be called again.

@@ -64,6 +64,46 @@ TEST(Bench, MeasuresWhatIsPreferred) {
   EXPECT_LT(bytes("size"), bytes("speed"));
 }
 
+/// Every feature that can be switched off is one that the encoder chooses somewhere.
+TEST(Bench, WithoutAFeatureTheBytesOfSomeSampleChange) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  std::map<std::string, bool> is_seen;
+  for (const std::string how : {"", "--lossless "}) {
+    std::string inputs;
+    for (const char* name : {"modes", "morphed", "sheet_with_holes", "shared_vertices", "skinned",
+                             "textured", "two_materials"}) {
+      inputs += " " + samplePath(std::string(name) + ".glb");
+    }
+    const ToolResult result =
+        runTool(folder, "bench --runs 5 --without all --format json " + how + inputs);
+    ASSERT_EQ(result.status, 0) << result.err;
+    for (const Json& file : Json::parse(result.out)) {
+      for (const Json& row : file["ablations"]) {
+        is_seen[row["without"]] |= row["bytes"] != file["bytes"];
+        EXPECT_EQ(row.contains("decode_seconds"), row.contains("decode_seconds_with"));
+      }
+    }
+  }
+  // The samples are too regular for sheared residuals, and none is an isosurface or has equal attributes.
+  const std::map<std::string, bool> in_other_files = {
+      {"aliases", true}, {"planes", true}, {"shear", true}};
+  EXPECT_GT(is_seen.size(), 10u);
+  for (const auto& [name, seen] : is_seen) {
+    EXPECT_NE(seen, in_other_files.count(name) != 0) << name;
+  }
+}
+
+TEST(Bench, WithoutAnUnknownFeatureNamesThoseThereAre) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  const ToolResult result =
+      runTool(folder, "bench --without fold,palette+nothing " + samplePath("torus.glb"));
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("there is no \"nothing\""), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("palette"), std::string::npos) << result.err;
+}
+
 TEST(Bench, LoadsWholeFilesWhenAsked) {
   MCC_REQUIRE_COMPARISON();
   const ScratchFolder folder;

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "bench/measure.h"
+#include "bench/measure_without.h"
 #include "bench_report.h"
 #include "commands.h"
 #include "convert_report.h"
@@ -15,6 +16,7 @@
 #include "gltf/file_io.h"
 #include "help.h"
 #include "progress_line.h"
+#include "without_report.h"
 
 namespace mcc::tool {
 namespace {
@@ -30,24 +32,37 @@ struct BenchCommand {
   std::string apart;
   uint32_t run_count = 5;
   bool with_load = false;
+  std::string without;  ///< measure this alone
 
   int run() const;
+  int runWithout() const;
+  gltf::Result load(const std::string& input, bench::Geometry& geometry) const;
   gltf::Result measure(size_t number, const ProgressLine& line, bench::FileFigures& figures) const;
 };
+
+std::string nameOf(const std::string& input) {
+  return std::filesystem::path(input).stem().string();
+}
+
+gltf::Result BenchCommand::load(const std::string& input, bench::Geometry& geometry) const {
+  std::vector<uint8_t> file;
+  gltf::Result loaded = gltf::readFile(input, file);
+  if (!loaded.ok()) return loaded;
+  loaded = bench::loadGeometry(input, std::move(file), convert, nullptr, geometry);
+  if (!loaded.ok()) return loaded;
+  if (geometry.inputs.empty()) return {input, "has no triangles to measure"};
+  return {};
+}
 
 gltf::Result BenchCommand::measure(size_t number, const ProgressLine& line,
                                    bench::FileFigures& figures) const {
   const std::string& input = inputs[number];
-  const std::string name = std::filesystem::path(input).stem().string();
+  const std::string name = nameOf(input);
   const std::string place = fmt::format("[{}/{}] ", number + 1, inputs.size());
   line.show(place + name);
-  std::vector<uint8_t> file;
-  gltf::Result loaded = gltf::readFile(input, file);
-  if (!loaded.ok()) return loaded;
   bench::Geometry geometry;
-  loaded = bench::loadGeometry(input, std::move(file), convert, nullptr, geometry);
+  gltf::Result loaded = load(input, geometry);
   if (!loaded.ok()) return loaded;
-  if (geometry.inputs.empty()) return {input, "has no triangles to measure"};
   if (!sizes.empty()) {
     figures.name = name;
     for (const gltf::EncodedPayload& payload : geometry.payloads) {
@@ -81,6 +96,7 @@ int BenchCommand::run() const {
     reportFailure(clash);
     return kUsage;
   }
+  if (!without.empty()) return runWithout();
   int status = kDone;
   std::vector<bench::FileFigures> files;
   {
@@ -111,6 +127,35 @@ int BenchCommand::run() const {
   return printOut(text) == kDone ? status : kFailed;
 }
 
+int BenchCommand::runWithout() const {
+  std::vector<bench::Ablation> ablations;
+  if (const std::string wrong = bench::parseAblations(without, ablations); !wrong.empty()) {
+    return reportFailure(
+        {"--without", "there is no \"" + wrong + "\"; there are " + bench::featureNames()});
+  }
+  int status = kDone;
+  std::vector<bench::WithoutFigures> files;
+  const ProgressLine line(common.is_quiet);
+  for (size_t i = 0; i < inputs.size(); ++i) {
+    const std::string place = fmt::format("[{}/{}] ", i + 1, inputs.size());
+    const auto tell = [&](const std::string& text) { line.show(place + text); };
+    bench::Geometry geometry;
+    gltf::Result result = load(inputs[i], geometry);
+    if (result.ok()) {
+      const bench::Outcome measured = bench::measureWithout(nameOf(inputs[i]), geometry, ablations,
+                                                            run_count, tell, files.emplace_back());
+      if (!measured.ok()) {
+        files.pop_back();
+        result = {inputs[i], measured.message};
+      }
+    }
+    line.clear();
+    if (!result.ok()) status = reportFailure(result);
+  }
+  if (files.empty()) return status;
+  return printOut(withoutReport(ablations, files, common.format)) == kDone ? status : kFailed;
+}
+
 }  // namespace
 
 void addBench(CLI::App& app, int& status) {
@@ -132,6 +177,12 @@ void addBench(CLI::App& app, int& status) {
   command->add_flag("--load", state->with_load,
                     "Also load whole files with tinygltf (ours by our adapter)\n"
                     "and decode with two threads");
+  command
+      ->add_option("--without", state->without,
+                   "Measure what choices of our encoder gain: bytes and decoding\n"
+                   "time without each of them (a,b), without several together\n"
+                   "(a+b), or without each one in turn (all)")
+      ->type_name("FEATURES");
   command->add_option("--sizes", state->sizes, "Measure nothing, write our bytes per stream here")
       ->type_name("FILE")
       ->group("");  // for tests/results

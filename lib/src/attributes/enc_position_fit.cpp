@@ -476,24 +476,25 @@ void fitScale(Trials& trials, const Jobs& jobs, PositionParameters& p) {
 
 class Chooser {
  public:
-  Chooser(std::span<const PositionCandidate> pieces, double surface_bits, uint8_t effort,
-          Preference prefer, const Jobs& jobs)
+  Chooser(std::span<const PositionCandidate> pieces, double surface_bits,
+          const EncodeSettings& settings, const Jobs& jobs)
       : pieces_(pieces),
         jobs_(jobs),
         surface_bits_(surface_bits),
-        price_(prefer),
-        effort_(std::min<uint8_t>(effort, 2)),
+        price_(settings.prefer),
+        without_(settings.without),
+        effort_(std::min<uint8_t>(settings.effort, 2)),
         trials_(pieces, kTrialVertices[effort_]) {}
 
   PositionParameters run() {
     tryPredictors();
-    if (anyPalette()) tryMode(position_mode::kPalette);
-    if (anyPlanes()) tryMode(position_mode::kPlanes);
+    if (anyPalette()) tryMode(position_mode::kPalette, Feature::kPalette);
+    if (anyPlanes()) tryMode(position_mode::kPlanes, Feature::kPlanes);
     if (best_.has(position_mode::kPlanes)) return best_;
-    if (!best_.has(position_mode::kPalette)) tryMode(position_mode::kShear);
-    tryMode(position_mode::kFold);
-    tryMode(position_mode::kSplit);
-    tryOwnScale();
+    if (!best_.has(position_mode::kPalette)) tryMode(position_mode::kShear, Feature::kShear);
+    tryMode(position_mode::kFold, Feature::kFold);
+    tryMode(position_mode::kSplit, Feature::kSplit);
+    if (!without_.has(Feature::kOwnScale)) tryOwnScale();
     return best_;
   }
 
@@ -510,8 +511,11 @@ class Chooser {
       PositionParameters& p = ranked_[i].parameters;
       p.predictor = static_cast<PositionPredictor>(i);
       setUniversalTables(p);
-      if (p.fitted()) p.weights = fitWeights(pieces_, p.predictor, true, kFitVertices[effort_]);
-      ranked_[i].cost = costOf(p);
+      if (p.fitted()) {
+        p.weights = fitWeights(pieces_, p.predictor, true, kFitVertices[effort_], without_);
+      }
+      const bool is_used = i == 0 || !without_.has(Feature::kWeights);
+      ranked_[i].cost = is_used ? costOf(p) : std::numeric_limits<double>::infinity();
     });
     const Ranked average = ranked_[0];
     std::sort(ranked_.begin(), ranked_.end(),
@@ -549,7 +553,8 @@ class Chooser {
   }
 
   /// A mode for the leaders: taken if the best with it is cheaper than the best without.
-  void tryMode(uint32_t mode) {
+  void tryMode(uint32_t mode, Feature feature) {
+    if (without_.has(feature)) return;
     Ranked best{best_, best_cost_};
     bool better = false;
     std::vector<Ranked> with(ranked_.size());
@@ -604,6 +609,7 @@ class Chooser {
   const Jobs& jobs_;
   const double surface_bits_;
   const TimePrice price_;
+  const FeatureSet without_;
   uint8_t effort_;
   Trials trials_;
   std::vector<Ranked> ranked_;
@@ -611,10 +617,20 @@ class Chooser {
   double best_cost_ = 0;
 };
 
+/// Feature i of the classes [begin, end) weighs nothing.
+void dropFeature(std::vector<FitRow>& rows, uint32_t begin, size_t i, PredictorWeights& weights,
+                 uint32_t end = kPredictorClasses) {
+  for (uint32_t c = begin; c < end; ++c) weights.w[c][i] = 0;
+  for (FitRow& row : rows) {
+    if (row.predictor_class < begin || row.predictor_class >= end) continue;
+    for (auto& feature : row.feature) feature[i] = 0;
+  }
+}
+
 }  // namespace
 
 PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, PositionPredictor predictor,
-                            bool robust, uint32_t max_vertices) {
+                            bool robust, uint32_t max_vertices, const FeatureSet& without) {
   uint64_t all = 0;
   for (const PositionCandidate& piece : pieces) all += piece.recording->visits().size();
   const uint32_t stride = static_cast<uint32_t>(all / max_vertices + 1);
@@ -627,6 +643,11 @@ PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, PositionP
     }
   }
   PredictorWeights weights = kUniversalWeights;
+  if (without.has(Feature::kBeyondWeights)) dropFeature(rows, kClassFan, 2, weights);
+  if (without.has(Feature::kDegreeWeights)) {
+    for (const size_t i : {3, 4}) dropFeature(rows, 0, i, weights);
+    dropFeature(rows, 0, 2, weights, kClassFan);
+  }
   for (uint32_t c = 1; c < kPredictorClasses; ++c) {
     if (c >= kClassSelect && predictor != PositionPredictor::kFittedSelecting) break;
     fitClass(rows, c, robust, weights.w[c]);
@@ -679,9 +700,9 @@ void DistinctCoordinates::find(std::span<const int32_t> truth, bool is_exact) {
 }
 
 PositionParameters choosePositionParameters(std::span<const PositionCandidate> pieces,
-                                            double surface_bits, uint8_t effort, Preference prefer,
+                                            double surface_bits, const EncodeSettings& settings,
                                             const Jobs& jobs) {
-  return Chooser(pieces, surface_bits, effort, prefer, jobs).run();
+  return Chooser(pieces, surface_bits, settings, jobs).run();
 }
 
 }  // namespace mcc

@@ -10,6 +10,7 @@
 
 #include "attributes/enc_position_recording.h"
 #include "attributes/position_parameters.h"
+#include "base/enc_features.h"
 #include "base/enc_jobs.h"
 
 namespace mcc {
@@ -40,16 +41,16 @@ struct DistinctCoordinates {
 
 /// Tries the predictors and modes on the pieces, or on an even sample of their vertices if they have many, and returns
 /// the cheapest combination with its tables. What takes time in the decoder has to be worth it, see enc_prices.h:
-/// `surface_bits` is what the connectivity takes. `effort` and `prefer` as in EncodeOptions. Deterministic on every
+/// `surface_bits` is what the connectivity takes. Deterministic on every
 /// machine.
 PositionParameters choosePositionParameters(std::span<const PositionCandidate> pieces,
-                                            double surface_bits, uint8_t effort, Preference prefer,
+                                            double surface_bits, const EncodeSettings& settings,
                                             const Jobs& jobs);
 
 /// Least-squares weights of the predictor on these pieces. `robust` weighs residuals by the inverse of their square,
 /// else by the inverse of their size. Also used by tools/train.
 PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, PositionPredictor predictor,
-                            bool robust, uint32_t max_vertices);
+                            bool robust, uint32_t max_vertices, const FeatureSet& without = {});
 
 }  // namespace mcc
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/enc_features.h"
 #include "mesh/attribute_method.h"
 
 namespace mcc {
@@ -14,10 +15,12 @@ namespace mcc {
 /// Coordinate descent: each step varies one field of the byte and keeps the best value so far.
 class PredictorSearch {
  public:
-  /// Of attribute `index` of a piece.
-  PredictorSearch(const AttributeInfo* attributes, uint32_t count, uint32_t index, bool has_seams) {
+  /// Of attribute `index` of a piece, without some features.
+  PredictorSearch(const AttributeInfo* attributes, uint32_t count, uint32_t index, bool has_seams,
+                  const FeatureSet& without) {
     const AttributeInfo& info = attributes[index];
     const bool is_target = info.format.morph_target != 0;
+    has_seams = has_seams && !without.has(Feature::kEqualities);
     switch (methodOf(attributes, count, index)) {
       case AttributeMethod::kNormal:
         best_ = has_seams ? 1 | kHasEqualities : 1;
@@ -90,6 +93,7 @@ class PredictorSearch {
         break;
     }
     if (has_seams && best_ >= kHasEqualities) steps_.push_back({kHasEqualities, {0}});
+    drop(methodOf(attributes, count, index), without);
   }
 
   /// Whether there is nothing to choose.
@@ -118,6 +122,27 @@ class PredictorSearch {
     uint8_t mask;
     std::vector<uint8_t> values;
   };
+
+  /// The steps of a feature that is switched off go; its bits are as without it.
+  void drop(AttributeMethod method, const FeatureSet& without) {
+    const auto dropStep = [&](Feature feature, AttributeMethod of, uint8_t mask, uint8_t value) {
+      if (method != of || !without.has(feature)) return;
+      best_ = static_cast<uint8_t>((best_ & ~mask) | value);
+      std::erase_if(steps_, [mask](const Step& step) { return step.mask == mask; });
+      if (steps_.empty()) steps_.push_back({0, {0}});
+    };
+    using enum AttributeMethod;
+    dropStep(Feature::kNormalWeights, kNormal, normal_method::kWeightMask, 1);
+    dropStep(Feature::kNormalBlend, kNormal, normal_method::kBlendMask, 0);
+    dropStep(Feature::kNormalBlend, kExactNormal, exact_normal_method::kBlendMask, 0);
+    dropStep(Feature::kTexcoordHinge, kTexcoord, texcoord_method::kPredictorMask, 0);
+    dropStep(Feature::kSameFlags, kValues, value_method::kSameFlags, 0);
+    dropStep(Feature::kZeroFlags, kValues, value_method::kZeroFlags, 0);
+    dropStep(Feature::kMemory, kExactNormal, exact_normal_method::kRemembers, 0);
+    dropStep(Feature::kMemory, kExactNormal, exact_normal_method::kRemembersEdges, 0);
+    dropStep(Feature::kMemory, kExactTangent, exact_tangent_method::kRemembers, 0);
+    dropStep(Feature::kMemory, kExactValues, exact_value_method::kRemembers, 0);
+  }
 
   std::vector<Step> steps_;
   size_t step_ = 0;

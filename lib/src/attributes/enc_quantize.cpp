@@ -24,15 +24,19 @@ constexpr double kPerpendicularTolerance =
 
 class Quantizer {
  public:
-  /// `normal_view`, `normal`: of tangents, or null. `delta_step`: of the lattice of a morph target, or 0.
-  Quantizer(const AttributeView& view, uint32_t wedge_count, const AttributeView* normal_view,
-            const QuantizedAttribute* normal, float delta_step)
+  Quantizer(const AttributeView& view, uint32_t wedge_count, const FeatureSet& without)
       : view_(view),
         count_(wedge_count),
         components_(view.format.component_count),
-        normal_view_(normal_view),
-        normal_(normal),
-        delta_step_(delta_step) {}
+        without_(without) {}
+
+  /// The normals that tangents are perpendicular to, and what became of them. Borrowed.
+  void setNormals(const AttributeView& view, const QuantizedAttribute& normal) {
+    normal_view_ = &view;
+    normal_ = &normal;
+  }
+  /// The lattice step of a morph target, or 0.
+  void setDeltaStep(float step) { delta_step_ = step; }
 
   QuantizedAttribute run(std::vector<std::string>& notes) {
     result_.info.format = view_.format;
@@ -131,7 +135,7 @@ class Quantizer {
             orderedFromBits(std::bit_cast<uint32_t>(component(w, c)));
       }
     }
-    findExactGrid(result_.values, result_.info);
+    if (!without_.has(Feature::kExactGrids)) findExactGrid(result_.values, result_.info);
     return std::move(result_);
   }
 
@@ -342,9 +346,10 @@ class Quantizer {
   const AttributeView& view_;
   const uint32_t count_;
   const uint32_t components_;
-  const AttributeView* const normal_view_;
-  const QuantizedAttribute* const normal_;
-  const float delta_step_;
+  const FeatureSet without_;
+  const AttributeView* normal_view_ = nullptr;
+  const QuantizedAttribute* normal_ = nullptr;
+  float delta_step_ = 0;
   QuantizedAttribute result_;
 };
 
@@ -509,9 +514,19 @@ void findAliases(std::vector<QuantizedAttribute>& all) {
   }
 }
 
+/// Joints and weights become custom attributes, which go their ways each by itself.
+void hideSkin(std::vector<QuantizedAttribute>& all) {
+  for (QuantizedAttribute& a : all) {
+    Semantic& semantic = a.info.format.semantic;
+    if (semantic == Semantic::kJoints || semantic == Semantic::kWeights)
+      semantic = Semantic::kCustom;
+  }
+}
+
 }  // namespace
 
 std::vector<QuantizedAttribute> quantizeAttributes(const PieceView& piece,
+                                                   const FeatureSet& without,
                                                    std::vector<std::string>& notes) {
   const size_t count = piece.attributes.size();
   std::vector<QuantizedAttribute> all(count);
@@ -519,25 +534,29 @@ std::vector<QuantizedAttribute> quantizeAttributes(const PieceView& piece,
   for (size_t i = count; i-- != 0;) {
     const AttributeView& view = piece.attributes[i];
     if (isBase(view.format, Semantic::kTangent) || view.format.morph_target != 0) continue;
-    all[i] = Quantizer(view, piece.wedge_count, nullptr, nullptr, 0).run(notes);
+    all[i] = Quantizer(view, piece.wedge_count, without).run(notes);
     if (all[i].info.coding == AttributeCoding::kOctahedral) normal = i;
   }
   // Tangents last: they need to know what became of the normals.
   for (size_t i = 0; i < count; ++i) {
     const AttributeView& view = piece.attributes[i];
     if (!isBase(view.format, Semantic::kTangent)) continue;
-    const bool has_normal = normal != count;
-    all[i] = Quantizer(view, piece.wedge_count, has_normal ? &piece.attributes[normal] : nullptr,
-                       has_normal ? &all[normal] : nullptr, 0)
-                 .run(notes);
+    Quantizer quantizer(view, piece.wedge_count, without);
+    if (normal != count && !without.has(Feature::kTangentAngle)) {
+      quantizer.setNormals(piece.attributes[normal], all[normal]);
+    }
+    all[i] = quantizer.run(notes);
   }
   for (size_t i = 0; i < count; ++i) {
     const AttributeView& view = piece.attributes[i];
     if (view.format.morph_target == 0) continue;
-    all[i] = Quantizer(view, piece.wedge_count, nullptr, nullptr, deltaStep(view, all)).run(notes);
+    Quantizer quantizer(view, piece.wedge_count, without);
+    quantizer.setDeltaStep(deltaStep(view, all));
+    all[i] = quantizer.run(notes);
   }
   WeightQuantizer(piece, all).run();
-  findAliases(all);
+  if (!without.has(Feature::kAliases)) findAliases(all);
+  if (without.has(Feature::kSkin)) hideSkin(all);
   std::vector<AttributeInfo> infos;
   for (const QuantizedAttribute& a : all) infos.push_back(a.info);
   for (uint32_t i = 1; i < count; ++i) {

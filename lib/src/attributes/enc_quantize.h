@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/enc_features.h"
 #include "mcc/reader.h"
 #include "mcc/writer.h"
 
@@ -19,8 +20,9 @@ struct QuantizedAttribute {
 };
 
 /// Chooses the coding of every attribute of a piece and converts all wedges. What the requested bits would ruin goes
-/// exact, with a line in `notes`. The values of an alias are empty.
+/// exact, with a line in `notes`. The values of an alias are empty. `without`: see enc_features.h.
 std::vector<QuantizedAttribute> quantizeAttributes(const PieceView& piece,
+                                                   const FeatureSet& without,
                                                    std::vector<std::string>& notes);
 
 }  // namespace mcc

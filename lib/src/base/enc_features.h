@@ -1,0 +1,97 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The choices of the encoder by name, so that each can be switched off and its gain measured (`gltf-mcc bench --without`).
+#ifndef MCC_BASE_ENC_FEATURES_H_
+#define MCC_BASE_ENC_FEATURES_H_
+
+#include <cstdint>
+#include <string_view>
+
+#include "mcc/writer.h"
+
+namespace mcc {
+
+/// A choice of the format that the encoder can do without.
+enum class Feature : uint8_t {
+  kContextSets,
+  kSingleCoder,
+  kPalette,
+  kPlanes,
+  kShear,
+  kFold,
+  kSplit,
+  kOwnScale,
+  kWeights,
+  kBeyondWeights,
+  kDegreeWeights,
+  kCreases,
+  kEqualities,
+  kNormalWeights,
+  kNormalBlend,
+  kTexcoordHinge,
+  kTangentAngle,
+  kSameFlags,
+  kZeroFlags,
+  kSkin,
+  kAliases,
+  kExactNormals,
+  kExactGrids,
+  kMemory,
+};
+
+struct FeatureInfo {
+  Feature feature;
+  std::string_view name;
+  std::string_view section;  ///< of the specification
+  std::string_view without;  ///< what the encoder does instead
+};
+
+inline constexpr FeatureInfo kFeatures[] = {
+    {Feature::kContextSets, "context-sets", "A.4", "the first set of contexts always"},
+    {Feature::kSingleCoder, "single-coder", "A.3.8", "three streams always"},
+    {Feature::kPalette, "palette", "B.2", "coordinates, not ranks among the distinct ones"},
+    {Feature::kPlanes, "planes", "B.2.9", "coordinates, not numbers of planes"},
+    {Feature::kShear, "shear", "B.2", "components in file order"},
+    {Feature::kFold, "fold", "B.2", "residuals keep the sign"},
+    {Feature::kSplit, "split", "B.2", "one table of rows"},
+    {Feature::kOwnScale, "own-scale", "B.2", "the specification's coefficients of scale"},
+    {Feature::kWeights, "weights", "B.2", "the mean of the tips"},
+    {Feature::kBeyondWeights, "beyond", "B.2", "no vertices beyond the fan"},
+    {Feature::kDegreeWeights, "degrees", "B.2", "no weights of degrees"},
+    {Feature::kCreases, "creases", "A.7", "seams without regard to angles"},
+    {Feature::kEqualities, "equalities", "A.8", "every wedge has a value of its own"},
+    {Feature::kNormalWeights, "normal-weights", "B.4", "faces weigh by their angles"},
+    {Feature::kNormalBlend, "normal-blend", "B.4", "no mean with the neighbours' normals"},
+    {Feature::kTexcoordHinge, "texcoord-hinge", "B.5", "parallelograms over the longest edge"},
+    {Feature::kTangentAngle, "tangent-angle", "A.8", "tangents as points of the octahedron"},
+    {Feature::kSameFlags, "same", "A.8.4", "no flag for values equal to a neighbour's"},
+    {Feature::kZeroFlags, "zero", "A.8.4", "no flag for values of 0"},
+    {Feature::kSkin, "skin", "A.8", "joints and weights as any other values"},
+    {Feature::kAliases, "aliases", "A.2.4", "equal attributes coded each by itself"},
+    {Feature::kExactNormals, "exact-normals", "A.8", "exact normals as values on a grid"},
+    {Feature::kExactGrids, "exact-grids", "A.2.5", "exact floats as ordered integers"},
+    {Feature::kMemory, "memory", "A.8", "exact vectors remember nothing"},
+};
+
+/// A set of features.
+class FeatureSet {
+ public:
+  constexpr FeatureSet() = default;
+  constexpr void add(Feature feature) { bits_ |= bitOf(feature); }
+  constexpr bool has(Feature feature) const { return (bits_ & bitOf(feature)) != 0; }
+
+ private:
+  static constexpr uint64_t bitOf(Feature feature) {
+    return uint64_t{1} << static_cast<uint32_t>(feature);
+  }
+  uint64_t bits_ = 0;
+};
+
+/// What the writer works by: the caller's options, and what measurements and tests take from it.
+struct EncodeSettings : EncodeOptions {
+  FeatureSet without;
+};
+
+}  // namespace mcc
+
+#endif  // MCC_BASE_ENC_FEATURES_H_

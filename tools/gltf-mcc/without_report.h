@@ -1,0 +1,27 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#ifndef MCC_TOOL_WITHOUT_REPORT_H_
+#define MCC_TOOL_WITHOUT_REPORT_H_
+
+#if defined(MCC_HAS_FOREIGN)
+
+#include <string>
+#include <vector>
+
+#include "bench/measure_without.h"
+#include "table.h"
+
+namespace mcc::tool {
+
+/// What `bench --without` prints: a row per ablation; as CSV and JSON a row per file and ablation.
+///
+/// growth    geometric mean over all files of the bytes without / with, in percent more
+/// seen in   files whose bytes differ
+/// decode    geometric mean over those of the time without / with, in percent more
+std::string withoutReport(const std::vector<bench::Ablation>& ablations,
+                          const std::vector<bench::WithoutFigures>& files, Format format);
+
+}  // namespace mcc::tool
+
+#endif  // MCC_HAS_FOREIGN
+
+#endif  // MCC_TOOL_WITHOUT_REPORT_H_
