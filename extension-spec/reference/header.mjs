@@ -36,10 +36,12 @@ export function readHeader(bytes) {
 // [A.2.1]
 function readMagicVersionChecksum(reader) {
 	const { bytes } = reader;
-	if (bytes.length < 3 || bytes[0] !== 0x4d || bytes[1] !== 0x43 || bytes[2] !== 0x43) fail('BadMagic', 'A.2.1', 'no "MCC"');
+	const magic = String.fromCharCode(...bytes.subarray(0, 3));
+	if (magic === 'MCC') fail('UnsupportedVersion', 'A.2.1', 'the withdrawn version 1.0');
+	if (magic !== 'KMC') fail('BadMagic', 'A.2.1', 'no "KMC"');
 	reader.take(3);
 	const version = reader.u8();
-	if (version >> 4 !== 1) fail('UnsupportedVersion', 'A.2.1', `major version ${version >> 4}`);
+	if (version !== 0x09) fail('UnsupportedVersion', 'A.2.1', `version ${version >> 4}.${version & 15}`);
 	const checksum = reader.u32();
 	if (crc32(bytes.subarray(0, 4), bytes.subarray(8)) !== checksum) fail('BadChecksum', 'A.2.1', 'the checksum does not match');
 }

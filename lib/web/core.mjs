@@ -7,8 +7,8 @@ import { MccError } from './error.mjs';
 /** Kinds of errors by number - 1, as the specification names them (A.1.4), and what is wrong with a payload then. */
 const ERRORS = [
   ['Truncated', 'ends inside a field or a stream'],
-  ['BadMagic', 'is no mesh collapse payload'],
-  ['UnsupportedVersion', 'is of a major version that this decoder does not know'],
+  ['BadMagic', 'is not a mesh collapse payload'],
+  ['UnsupportedVersion', 'is of a version of the format that this decoder does not know: compress its source again'],
   ['BadChecksum', 'is damaged: its checksum does not match'],
   ['BadHeader', 'has a malformed header'],
   ['BadConnectivity', 'has malformed connectivity'],

@@ -262,9 +262,9 @@ TEST(Container, ChecksumCoversEveryBit) {
     std::vector<uint8_t> damaged = payload;
     damaged[bit / 8] = static_cast<uint8_t>(damaged[bit / 8] ^ 1u << bit % 8);
     const Error error = parseError(damaged);
-    const Error expected = bit < 24                ? Error::kBadMagic
-                           : bit >= 28 && bit < 32 ? Error::kUnsupportedVersion
-                                                   : Error::kBadChecksum;
+    const Error expected = bit < 24   ? Error::kBadMagic
+                           : bit < 32 ? Error::kUnsupportedVersion
+                                      : Error::kBadChecksum;
     EXPECT_EQ(error, expected) << "bit " << bit;
   }
 }
@@ -276,9 +276,20 @@ TEST(Container, Versions) {
     repairChecksum(payload);
     PayloadHeader parsed{Allocator{}};
     const Error error = parsePayload(payload, {}, parsed).error;
-    EXPECT_EQ(error, version >> 4 == kVersionMajor ? Error::kOk : Error::kUnsupportedVersion);
-    EXPECT_TRUE(error != Error::kOk || parsed.version_minor == (version & 15));
+    EXPECT_EQ(error, version == 0x09 ? Error::kOk : Error::kUnsupportedVersion);
+    EXPECT_TRUE(error != Error::kOk || parsed.version_minor == 9);
   }
+}
+
+TEST(Container, TheWithdrawnFormatIsNamed) {
+  std::vector<uint8_t> payload = simpleDraft().write();
+  std::copy_n(kWithdrawnMagic, 3, payload.begin());
+  payload[3] = 0x10;
+  repairChecksum(payload);
+  PayloadHeader parsed{Allocator{}};
+  const Status status = parsePayload(payload, {}, parsed);
+  EXPECT_EQ(status.error, Error::kUnsupportedVersion);
+  EXPECT_NE(std::string(status.what).find("withdrawn"), std::string::npos) << status.what;
 }
 
 TEST(Container, ReservedBits) {

@@ -31,7 +31,7 @@ QuantizedAttribute quantizedAlone(const AttributeView& view, uint32_t wedge_coun
   attributes[0].quantization_bits = 1;
   if (view.format.semantic == Semantic::kPosition) attributes.clear();
   attributes.push_back(view);
-  return quantizeAttributes({wedge_count, attributes, {}}, notes).back();
+  return quantizeAttributes({wedge_count, attributes, {}}, {}, notes).back();
 }
 
 struct Quantized {

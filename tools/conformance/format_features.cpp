@@ -30,7 +30,6 @@ class Listing {
     add(text("context set", header_.contextSet()), {"A.4.2", "A.4.5"});
     if ((header_.flags & payload_flag::kPadded) != 0) add("PADDED", {"A.2.5", "A.2.6"});
     if ((header_.flags & payload_flag::kManyPieces) != 0) add("MANY_PIECES", {"A.2.1", "A.3.6"});
-    if (header_.version_minor != 0) add(text("minor version", header_.version_minor), {"A.2.1"});
     for (size_t i = 0; i < header_.pieces.size(); ++i) addPiece(header_.pieces[i]);
     return std::move(features_);
   }

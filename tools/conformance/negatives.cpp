@@ -215,7 +215,7 @@ class Maker {
       return bytes;
     };
     add("two bytes", "A.2.1", Error::kBadMagic, "Two bytes", asset, cutTo(2));
-    add("other magic", "A.2.1", Error::kBadMagic, "The magic is MCD", asset, with(2, 'D', true));
+    add("other magic", "A.2.1", Error::kBadMagic, "The magic is KMD", asset, with(2, 'D', true));
     add("ends behind magic", "A.2.1", Error::kTruncated, "The payload ends behind the magic", asset,
         cutTo(3));
     add("ends in checksum", "A.2.1", Error::kTruncated, "The payload ends inside the checksum",
@@ -224,14 +224,20 @@ class Maker {
         cutTo(8));
     add("ends in header", "A.2.2", Error::kTruncated, "The payload ends inside the piece", asset,
         cutTo(11));
-    add("major version 0", "A.2.1", Error::kUnsupportedVersion, "The major version is 0", asset,
-        with(3, 0x01, true));
-    add("major version 2", "A.2.1", Error::kUnsupportedVersion, "The major version is 2", asset,
-        with(3, 0x20, true));
+    add("draft 0 8", "A.2.1", Error::kUnsupportedVersion, "The version is 0.8", asset,
+        with(3, 0x08, true));
+    add("version 1 0", "A.2.1", Error::kUnsupportedVersion, "The version is 1.0", asset,
+        with(3, 0x10, true));
+    Bytes withdrawn = asset.payload;
+    std::copy_n(kWithdrawnMagic, 3, withdrawn.begin());
+    withdrawn[3] = 0x10;
+    repairChecksum(withdrawn);
+    add("withdrawn magic", "A.2.1", Error::kUnsupportedVersion, "The withdrawn format 1.0", asset,
+        withdrawn);
     add("damaged stream", "A.2.1", Error::kBadChecksum, "A bit of the streams is flipped", asset,
         with(asset.payload.size() - 1, asset.payload.back() ^ 1, false));
-    add("damaged version", "A.2.1", Error::kBadChecksum,
-        "The minor version differs, which the checksum covers", asset, with(3, 0x11, false));
+    add("damaged flags", "A.2.1", Error::kBadChecksum,
+        "The flags differ, which the checksum covers", asset, with(8, asset.payload[8] ^ 4, false));
     add("damaged checksum", "A.1.3", Error::kBadChecksum, "A bit of the checksum is flipped", asset,
         with(4, asset.payload[4] ^ 0x80, false));
     Bytes longer = asset.payload;

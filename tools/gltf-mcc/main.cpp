@@ -83,8 +83,8 @@ namespace {
 
 std::string versionText() {
   std::string text = fmt::format("gltf-mcc {}\n", MCC_VERSION);
-  text += fmt::format("{}: writes format {}.{}, reads {}.x\n", gltf::kExtensionName, kVersionMajor,
-                      kVersionMinor, kVersionMajor);
+  text += fmt::format("{}: writes and reads format {}.{}, a draft\n", gltf::kExtensionName,
+                      kVersionMajor, kVersionMinor);
 #if defined(MCC_HAS_FOREIGN)
   text += "reads KHR_draco_mesh_compression, EXT_meshopt_compression, KHR_meshopt_compression";
 #else

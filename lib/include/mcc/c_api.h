@@ -28,7 +28,7 @@ extern "C" {
 enum {
   MCC_OK = 0,
   MCC_ERROR_TRUNCATED = 1,           /**< the payload ends inside a field or a stream */
-  MCC_ERROR_BAD_MAGIC = 2,           /**< the bytes are no mesh collapse payload */
+  MCC_ERROR_BAD_MAGIC = 2,           /**< the bytes are not a mesh collapse payload */
   MCC_ERROR_UNSUPPORTED_VERSION = 3, /**< a major version this reader does not know */
   MCC_ERROR_BAD_CHECKSUM = 4,        /**< the CRC-32 does not match: the payload is damaged */
   MCC_ERROR_BAD_HEADER = 5,          /**< a header field has a value the format does not assign */

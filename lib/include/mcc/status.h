@@ -16,8 +16,8 @@ using ErrorNumber = uint8_t;
 enum class Error : ErrorNumber {
   kOk = 0,
   kTruncated = 1,           ///< the payload ends inside a field or a stream
-  kBadMagic = 2,            ///< the bytes are no mesh collapse payload
-  kUnsupportedVersion = 3,  ///< a major version this reader does not know
+  kBadMagic = 2,            ///< the bytes are not a mesh collapse payload
+  kUnsupportedVersion = 3,  ///< a version of the format this reader does not know
   kBadChecksum = 4,         ///< the CRC-32 does not match: the payload is damaged
   kBadHeader = 5,           ///< a header field has a value the format does not assign
   kBadConnectivity = 6,     ///< an operation that no mesh collapse code can contain here

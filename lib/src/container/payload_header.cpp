@@ -359,8 +359,12 @@ uint64_t elementsOf(const PayloadHeader& header) {
 }
 
 Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, PayloadHeader& header) {
+  if (bytes.size() >= 3 && std::memcmp(bytes.data(), kWithdrawnMagic, 3) == 0) {
+    return fail(Error::kUnsupportedVersion,
+                "the payload is of the withdrawn format 1.0: compress its source again", 0);
+  }
   if (bytes.size() < 3 || std::memcmp(bytes.data(), kMagic, 3) != 0) {
-    return fail(Error::kBadMagic, "the bytes are no mesh collapse payload", 0);
+    return fail(Error::kBadMagic, "the bytes are not a mesh collapse payload", 0);
   }
   ByteReader in(bytes);
   std::span<const uint8_t> magic;
@@ -368,9 +372,9 @@ Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, Payloa
   uint32_t checksum = 0;
   MCC_TRY(in.readBytes(3, magic));
   MCC_TRY(in.readU8(version));
-  if (version >> 4 != kVersionMajor) {
+  if (version != (kVersionMajor << 4 | kVersionMinor)) {
     return fail(Error::kUnsupportedVersion,
-                "the payload is of a major version this reader does not know", 3);
+                "the payload is of a version this reader does not know (it knows the draft 0.9)", 3);
   }
   header.version_minor = version & 15;
   MCC_TRY(in.readU32(checksum));

@@ -15,9 +15,11 @@
 
 namespace mcc {
 
-inline constexpr uint8_t kMagic[3] = {'M', 'C', 'C'};
-inline constexpr uint8_t kVersionMajor = 1;
-inline constexpr uint8_t kVersionMinor = 0;
+inline constexpr uint8_t kMagic[3] = {'K', 'M', 'C'};
+inline constexpr uint8_t kWithdrawnMagic[3] = {'M', 'C', 'C'};  ///< of the first format
+/// A draft (major version 0) has nothing in common with other versions.
+inline constexpr uint8_t kVersionMajor = 0;
+inline constexpr uint8_t kVersionMinor = 9;
 inline constexpr size_t kChecksumOffset = 4;
 inline constexpr size_t kChecksummedFrom = 8;  ///< the checksum covers bytes 0..3 and from here on
 
