@@ -45,7 +45,7 @@ foreign::Outcome encodeWithout(const std::vector<std::vector<PieceInput>>& paylo
                                const EncodeSettings& settings, EncodedFile& encoded) {
   for (const std::vector<PieceInput>& pieces : payloads) {
     std::vector<PieceView> views;
-    for (const PieceInput& piece : pieces) views.push_back(piece.forUs());
+    for (const PieceInput& piece : pieces) views.push_back(piece.view());
     encoded.payloads.emplace_back();
     const Status status = encodeWith(views, settings, encoded.payloads.back());
     if (!status.ok()) return foreign::failure(status.what);

@@ -406,7 +406,7 @@ class WeightQuantizer {
       view.quantization_bits = bits;
       view.lattice = &lattice;
       std::vector<std::string> notes;  // there are none: every value is near a point
-      all_[i] = Quantizer(view, piece_.wedge_count, nullptr, nullptr, 0).run(notes);
+      all_[i] = Quantizer(view, piece_.wedge_count, FeatureSet{}).run(notes);
     }
   }
 
