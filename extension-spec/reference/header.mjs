@@ -175,13 +175,14 @@ function checkPosition(position) {
 	checkPositionPredictor(position);
 }
 
-// [A.2.7] Predictor byte of positions
+// [A.6.2] Predictor byte of positions
 function checkPositionPredictor(position) {
 	const byte = position.predictor;
-	if ((byte & 7) > 4) badHeader('A.2.7', `predictor ${byte & 7} of positions`);
-	const planes = ((byte >> 3) & 3) === 3;
-	if (!planes) return;
-	if (byte >> 5 !== 0 || position.coding !== LATTICE || position.bits > 17) badHeader('A.2.7', 'planes are not allowed here');
+	const kind = byte & 28;
+	if ((kind & (kind - 1)) !== 0) badHeader('A.6.2', 'more than one of shear, palette and planes');
+	if ((byte & 3) === 2) badHeader('A.6.2', 'tip selection without weights');
+	if (kind !== 16) return;
+	if (byte >> 5 !== 0 || position.coding !== LATTICE || position.bits > 17) badHeader('A.6.2', 'planes are not allowed here');
 }
 
 // ---- [A.2.4] Header of an attribute

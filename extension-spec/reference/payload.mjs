@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// A payload and its stages: A.2.8 of the specification.
+// A payload and its stages: A.2.7 of the specification.
 
 import { AttributeModels, decodeAttributes } from './attributes.mjs';
 import { fail } from './bytes.mjs';
@@ -46,7 +46,7 @@ export class Payload {
 	}
 }
 
-// [A.2.8] The stages of a piece
+// [A.2.7] The stages of a piece
 function decodePiece(streams, models, piece) {
 	const connectivity = decodeConnectivity(streams, models.connectivity, piece);
 	const groups = piece.flags.COPIES ? stitch(streams, models.stitching, piece, connectivity) : { surface: connectivity };
@@ -75,9 +75,9 @@ function seamStage(streams, models, piece, { surface, umbrellas }, { sequence, s
 	return { ...result, crease };
 }
 
-// [A.2.8] Without seams wedge g is group g.
+// [A.2.7] Without seams wedge g is group g.
 function groupsAsWedges(piece, surface, sequence, groupCount) {
-	if (groupCount !== piece.wedgeCount - piece.isolatedCount) fail('BadAttribute', 'A.2.8', 'groups and wedges differ in number');
+	if (groupCount !== piece.wedgeCount - piece.isolatedCount) fail('BadAttribute', 'A.2.7', 'groups and wedges differ in number');
 	const starts = new Int32Array(groupCount);
 	for (const h of sequence) starts[surface.tail(h)] = h;
 	return { surface, starts, groupOf: Int32Array.from({ length: groupCount }, (_, g) => g) };

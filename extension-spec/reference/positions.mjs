@@ -9,13 +9,10 @@ import { NONE } from './mesh.mjs';
 import { BYTES_OF_TYPE, EXACT_FLOAT, GRID, INTEGER } from './names.mjs';
 import { PaletteModels, readPalettes } from './palettes.mjs';
 import { Planes, PlanesModels } from './planes.mjs';
-import { AVERAGE, axesByNormal, FITTED, FITTED_SELECTING, Prediction, SELECTING, selectingWeights, toI32, UNIVERSAL,
-	universalWeights, Wide, zeroWeights } from './prediction.mjs';
+import { axesByNormal, Prediction, toI32, universalWeights, Wide, zeroWeights } from './prediction.mjs';
 import { Region } from './region.mjs';
 import { PositionRows, readFoldedResidual, readScaledResidual } from './residuals.mjs';
 import { f } from './vectors.mjs';
-
-const SHEAR = 1, PALETTE = 2, PLANES = 3;
 
 // [B.2.5] The coefficients U[weighted][shear][plain fan][slot]
 const U = [
@@ -41,7 +38,7 @@ export class PositionModels {
 		this.palettes = new PaletteModels();
 		this.planes = new PlanesModels();
 		this.below = new TailModels();
-		this.weights = universalWeights();
+		this.weights = zeroWeights();
 		this.weightsWereRead = false;
 		this.selectingWeightsWereRead = false;
 		this.changes = models([2, 3, 3], () => 0);
@@ -53,12 +50,16 @@ export class PositionModels {
 
 // The predictor byte
 function parameters(byte) {
+	const bit = (i) => ((byte >> i) & 1) === 1;
 	return {
-		predictor: byte & 7,
-		kind: (byte >> 3) & 3,
-		ownScale: (byte & 32) !== 0,
-		fold: (byte & 64) !== 0,
-		split: (byte & 128) !== 0,
+		weighted: bit(0),
+		select: bit(1),
+		shear: bit(2),
+		palette: bit(3),
+		planes: bit(4),
+		fold: bit(5),
+		ownScale: bit(6),
+		split: bit(7),
 	};
 }
 
@@ -69,28 +70,27 @@ function bitsOfCoordinates(attribute) {
 	return Math.min(attribute.bits, 26);
 }
 
-function readTables(streams, m, { predictor, ownScale }, coefficients) {
-	if (predictor === FITTED || predictor === FITTED_SELECTING) {
+function readTables(streams, m, { weighted, select, ownScale }, coefficients) {
+	if (weighted) {
 		if (!m.weightsWereRead) {
-			for (let c = 0; c <= 15; ++c) readWeights(streams, m, c, 5, m.WEIGHT);
+			for (let c = 0; c <= 12; ++c) readWeights(streams, m, c, m.WEIGHT);
 			m.weightsWereRead = true;
 		}
-		if (predictor === FITTED_SELECTING && !m.selectingWeightsWereRead) {
-			for (let c = 16; c <= 24; ++c) readWeights(streams, m, c, 8, m.SELECTING_WEIGHT);
+		if (select && !m.selectingWeightsWereRead) {
+			for (let c = 13; c <= 21; ++c) readWeights(streams, m, c, m.SELECTING_WEIGHT);
 			m.selectingWeightsWereRead = true;
 		}
 	}
 	return ownScale ? changedCoefficients(streams, m, coefficients) : coefficients;
 }
 
-function readWeights(streams, m, c, count, model) {
+function readWeights(streams, m, c, model) {
 	if (!streams.bit(m.PRESENT)) return;
-	const universal = universalWeights();
-	for (let i = 0; i < count; ++i) {
-		const w = universal[c][i] + streams.signedGolomb(model);
+	m.weights[c] = universalWeights()[c].map((universal) => {
+		const w = universal + streams.signedGolomb(model);
 		if (w < -1023 || w > 1023) fail('BadAttribute', 'A.6.2', 'a weight out of range');
-		m.weights[c][i] = w;
-	}
+		return w;
+	});
 }
 
 function changedCoefficients(streams, m, coefficients) {
@@ -102,15 +102,6 @@ function changedCoefficients(streams, m, coefficients) {
 		if (scale < 0 || scale > COEFFICIENT_LIMIT[i]) fail('BadAttribute', 'A.6.2', 'a coefficient out of range');
 		return scale;
 	})));
-}
-
-function weightsOf(predictor, m) {
-	switch (predictor) {
-	case AVERAGE: return zeroWeights();
-	case UNIVERSAL: return universalWeights();
-	case SELECTING: return selectingWeights();
-	default: return m.weights;
-	}
 }
 
 // ---- [B.2.1] What is kept of a vertex: groups, and isolated vertices behind them
@@ -155,12 +146,12 @@ class Positions {
 	}
 
 	prepare(surface) {
-		const { streams, models: m, predictor } = this;
-		const weighted = predictor === UNIVERSAL || predictor === FITTED || predictor === FITTED_SELECTING ? 1 : 0;
-		this.coefficients = readTables(streams, m, this, U[weighted][this.kind === SHEAR ? 1 : 0]);
-		this.prediction = new Prediction(surface, this.region, this.records, this.wide, predictor, weightsOf(predictor, m));
-		if (this.kind === PALETTE) this.palettes = readPalettes(streams, m.palettes, this.records.count);
-		if (this.kind === PLANES) this.planes = new Planes(streams, m.planes, m.rows, this.records);
+		const { streams, models: m } = this;
+		this.coefficients = readTables(streams, m, this, U[this.weighted ? 1 : 0][this.shear ? 1 : 0]);
+		const weights = this.weighted ? m.weights : zeroWeights();
+		this.prediction = new Prediction(surface, this.region, this.records, this.wide, this.select, weights);
+		if (this.palette) this.palettes = readPalettes(streams, m.palettes, this.records.count);
+		if (this.planes) this.plane = new Planes(streams, m.planes, m.rows, this.records);
 	}
 
 	decode() {
@@ -180,19 +171,19 @@ class Positions {
 
 	codeFan(fan) {
 		const predicted = this.prediction.predict(fan);
-		if (this.kind === PLANES) {
-			this.planes.codeFan(fan, predicted, this.prediction.normal(fan));
+		if (this.planes) {
+			this.plane.codeFan(fan, predicted, this.prediction.normal(fan));
 			return;
 		}
 		const slots = this.scalesAndSets(fan, predicted);
-		if (this.kind === PALETTE) this.codePalette(fan.v, predicted.q8, slots);
-		else if (this.kind === SHEAR) this.codeSheared(fan, predicted, slots);
+		if (this.palette) this.codePalette(fan.v, predicted.q8, slots);
+		else if (this.shear) this.codeSheared(fan, predicted, slots);
 		else this.codePlain(fan.v, predicted.q8, slots);
 	}
 
 	// The order of the components by slot, and [B.2.5] the scale and set of each slot.
 	scalesAndSets(fan, predicted) {
-		const normal = this.kind === SHEAR ? this.prediction.normal(fan) : [0, 0, 0];
+		const normal = this.shear ? this.prediction.normal(fan) : [0, 0, 0];
 		const axis = axesByNormal(normal);
 		const coefficients = this.coefficients[fan.plain ? 1 : 0];
 		return { normal, axis, ...this.scalesOf(coefficients, predicted.magnitudes, axis.map((s) => predicted.spread[s])) };
@@ -272,12 +263,12 @@ class Positions {
 		const { seeds, records, wide } = this;
 		const from = neighbour === NONE ? seeds.last : [...records.q.subarray(3 * neighbour, 3 * neighbour + 3)];
 		const q8 = from.map((x) => wide.wrap(BigInt(x) << 8n));
-		if (this.kind === PLANES) {
-			this.planes.codeSeed(v, q8);
+		if (this.planes) {
+			this.plane.codeSeed(v, q8);
 		} else {
 			const scales = neighbour === NONE ? seeds.far : seeds.near;
 			const slots = { scale: scales.map((x) => Math.min(x, 2 ** 26)), set: [0, 0, 0] };
-			if (this.kind === PALETTE) this.codePalette(v, q8, slots);
+			if (this.palette) this.codePalette(v, q8, slots);
 			else this.codePlain(v, q8, slots);
 			this.learnSeed(v, scales);
 		}
@@ -294,7 +285,7 @@ class Positions {
 		const { seeds, records } = this;
 		for (let s = 0; s < 3; ++s) {
 			seeds.last[s] = records.q[3 * v + s];
-			if (this.kind !== PLANES) records.magnitude[3 * v + s] = Math.floor(seeds.near[s] / 16);
+			if (!this.planes) records.magnitude[3 * v + s] = Math.floor(seeds.near[s] / 16);
 		}
 	}
 }

@@ -5,11 +5,6 @@
 import { next, NONE, prev } from './mesh.mjs';
 import { add32, cross32, f } from './vectors.mjs';
 
-// [A.6.2] Predictors
-export const AVERAGE = 0, UNIVERSAL = 1, FITTED = 2, FITTED_SELECTING = 3, SELECTING = 4;
-
-const usesSelectingClasses = (predictor) => predictor === FITTED_SELECTING || predictor === SELECTING;
-
 // [A.6.2] Integers of 32 or of 64 bits, as BigInt.
 export class Wide {
 	constructor(bits) {
@@ -32,17 +27,14 @@ export class Wide {
 
 export const toI32 = (x) => Number(BigInt.asIntN(32, x));
 
-// [B.2.2] Universal weights: w[0] .. w[4] of classes 0 .. 15
+// [A.6.2] Universal weights of the classes
 const UNIVERSAL_WEIGHTS = [
-	[0, 0, 0, 0, 0],
-	[-6, 5, 17, -15, 1],
-	[0, 37, 0, 0, 0],
-	[0, 23, 0, 0, 0],
-	[0, 26, 0, 0, 0],
-	[0, 84, 0, 0, 0],
-	[0, 78, 0, 0, 0],
-	[0, 0, 0, 0, 0],
-	[0, 0, 0, 0, 0],
+	[5],
+	[37],
+	[23],
+	[26],
+	[84],
+	[78],
 	[0, 0, 0, 0, 0],
 	[98, -97, -4, -2, -4],
 	[71, -53, -5, -4, -4],
@@ -50,42 +42,23 @@ const UNIVERSAL_WEIGHTS = [
 	[34, 13, -8, -9, -4],
 	[20, 35, -9, -10, -4],
 	[3, 60, -15, -11, -5],
+	...Array.from({ length: 9 }, () => new Array(8).fill(0)),
 ];
 
-export function zeroWeights() {
-	return Array.from({ length: 25 }, () => new Array(8).fill(0));
-}
-
-export function universalWeights() {
-	const weights = zeroWeights();
-	UNIVERSAL_WEIGHTS.forEach((line, c) => line.forEach((w, i) => { weights[c][i] = w; }));
-	return weights;
-}
-
-// [B.2.2] Selecting weights
-export function selectingWeights() {
-	const weights = zeroWeights();
-	for (let preference = 0; preference <= 2; ++preference) {
-		for (let third = 0; third <= 2; ++third) {
-			const w = weights[16 + 3 * preference + third];
-			if (third === 2) w[0] = 128;
-			else w[5] = 64 * preference;
-		}
-	}
-	return weights;
-}
+export const universalWeights = () => UNIVERSAL_WEIGHTS.map((w) => [...w]);
+export const zeroWeights = () => UNIVERSAL_WEIGHTS.map((w) => w.map(() => 0));
 
 const clampDegrees = (x) => Math.min(Math.max(x, -12), 12);
 const xyz = [0, 1, 2];
 
 // Predictions of one piece. `records` holds what B.2.1 keeps of the groups.
 export class Prediction {
-	constructor(surface, region, records, wide, predictor, weights) {
+	constructor(surface, region, records, wide, select, weights) {
 		this.surface = surface;
 		this.region = region;
 		this.records = records;
 		this.wide = wide;
-		this.predictor = predictor;
+		this.select = select;
 		this.weights = weights;
 	}
 
@@ -135,7 +108,6 @@ export class Prediction {
 
 	plainComponent({ n0, n1, n2, o0, o1, xa, xb, ua, ub, d0, d1 }, [, g0, , g2], { w, better }) {
 		let q8 = (d0 + d1 + 2n * n1) << 7n;
-		if (this.predictor === AVERAGE) return q8;
 		const sum = clampDegrees(g0 + g2 - 12);
 		const skew = clampDegrees(g0 - g2);
 		const f1 = n0 + n2 - 2n * n1;
@@ -150,10 +122,9 @@ export class Prediction {
 
 	// The weights of the class of a plain fan, and better.
 	plainWeights(around, [g, , g1]) {
-		const select = usesSelectingClasses(this.predictor) && around[0].xa !== NONE && around[0].xb !== NONE && g1 >= 6
-			&& (g === 6 || this.predictor === SELECTING);
+		const select = this.select && around[0].xa !== NONE && around[0].xb !== NONE && g1 >= 6 && g === 6;
 		if (select) return this.selectedWeights(around);
-		return { w: this.weights[6 + Math.min(Math.max(g, 3), 9)], better: 0 };
+		return { w: this.weights[3 + Math.min(Math.max(g, 3), 9)], better: 0 };
 	}
 
 	selectedWeights(around) {
@@ -168,7 +139,7 @@ export class Prediction {
 			+ Number(high > wide.unsigned(3n * low + 2n));
 		const third = Number(e2 <= wide.unsigned(2n * low)) + Number(wide.unsigned(2n * e2) <= low);
 		const better = Number(e0 < e1) - Number(e0 > e1);
-		return { w: this.weights[16 + 3 * preference + third], better };
+		return { w: this.weights[13 + 3 * preference + third], better };
 	}
 
 	thirdError({ ya, yb }, e2) {
@@ -184,15 +155,14 @@ export class Prediction {
 		const ring = ringOfNeighbours(fan);
 		const indices = fan.tips.flatMap((o, i) => (o === NONE ? [] : [i])); // of the tips
 		const T = indices.length;
-		const w = this.weights[classOfOtherFan(T, fan.closed)];
+		const w = T === 0 ? 0 : this.weights[classOfOtherFan(T, fan.closed)][0];
 		const q8 = [];
 		const spread = [];
 		for (const s of xyz) {
 			const n = this.on(s, ring);
 			const o = this.on(s, fan.tips);
 			const tips = indices.map((i) => n[i] + n[i + 1] - o[i]);
-			const most = this.otherComponent(this.on(s, fan.neighbours), tips, w);
-			q8.push(wide.wrap(most + this.oneTip(fan, ring, indices, n, o, w)));
+			q8.push(wide.wrap(this.otherComponent(this.on(s, fan.neighbours), tips, w)));
 			spread.push(T >= 2 ? wide.abs(tips[0] - tips[1]) : 0n);
 		}
 		const magnitudes = xyz.map((k) => this.otherMagnitude(fan, k));
@@ -206,20 +176,7 @@ export class Prediction {
 		if (tips.length === 0) return mean;
 		const base = meanOf(tips);
 		const m2 = wide.wrap(mean - base) >> 7n;
-		return base + m2 * BigInt(w[1]);
-	}
-
-	// What class 1 adds.
-	oneTip(fan, ring, indices, n, o, w) {
-		if (indices.length !== 1 || fan.closed) return 0n;
-		const { degree } = this.records;
-		const [i] = indices;
-		const [g, ga, gb] = [degree[fan.v], degree[ring[i]], degree[ring[i + 1]]];
-		const [a, b] = [n[i], n[i + 1]];
-		const e = Math.min(12, g) - 6;
-		const sum = clampDegrees(ga + gb - 12);
-		const skew = clampDegrees(ga - gb);
-		return (a + b - 2n * o[i]) * BigInt(w[0] + w[2] * e + w[4] * sum) + 2n * (a - b) * BigInt(w[3] * skew);
+		return base + m2 * BigInt(w);
 	}
 
 	otherMagnitude(fan, k) {
@@ -252,8 +209,8 @@ function ringOfNeighbours(fan) {
 }
 
 function classOfOtherFan(T, closed) {
-	if (closed && T !== 0) return T < 4 ? 5 : 6;
-	return Math.min(T, 4);
+	if (closed) return T < 4 ? 4 : 5;
+	return Math.min(T, 4) - 1;
 }
 
 // [B.2.3] The axes by |normal|, ascending, lower axes first among equals

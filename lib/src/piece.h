@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The stages of one piece, in payload order, for reader and writer alike: [A.2.8]
+// The stages of one piece, in payload order, for reader and writer alike: [A.2.7]
 //
 //   codeConnectivity   mesh collapse codes -> faces, twins                         connectivity/mc_codes.h   [A.4]
 //   codeStitch         which cut vertices share a position -> groups              connectivity/stitch.h     [A.5]
@@ -246,27 +246,7 @@ class PieceCoder {
                               ? 8 * componentBytes(info.format.component_type)
                               : kExactPositionBits;
     p.bits = static_cast<uint8_t>(std::min<uint32_t>(bits, kExactPositionBits));
-    p.predictor = static_cast<PositionPredictor>(info.predictor & position_flag::kPredictorMask);
-    p.own_scale = (info.predictor & position_flag::kOwnScale) != 0;
-    const uint32_t kind = info.predictor & position_flag::kKindMask;
-    p.modes = 0;
-    if (kind == position_flag::kShear) p.modes |= position_mode::kShear;
-    if (kind == position_flag::kPalette) p.modes |= position_mode::kPalette;
-    if (kind == position_flag::kPlanes) p.modes |= position_mode::kPlanes;
-    if ((info.predictor & position_flag::kFold) != 0) p.modes |= position_mode::kFold;
-    if ((info.predictor & position_flag::kSplit) != 0) p.modes |= position_mode::kSplit;
-  }
-
-  /// Inverse of describePositions() for AttributeInfo::predictor.
-  static uint8_t positionFlags(const PositionParameters& p) {
-    uint32_t flags = static_cast<uint32_t>(p.predictor);
-    if (p.own_scale) flags |= position_flag::kOwnScale;
-    if (p.has(position_mode::kShear)) flags |= position_flag::kShear;
-    if (p.has(position_mode::kFold)) flags |= position_flag::kFold;
-    if (p.has(position_mode::kSplit)) flags |= position_flag::kSplit;
-    if (p.has(position_mode::kPalette)) flags |= position_flag::kPalette;
-    if (p.has(position_mode::kPlanes)) flags |= position_flag::kPlanes;
-    return static_cast<uint8_t>(flags);
+    p.modes = info.predictor;
   }
 
   /// Codes attribute `index` (not 0) into `values`: codedComponents() per wedge.
@@ -371,8 +351,8 @@ class PieceCoder {
         case kSelecting | kShear:
           return runPositions<int32_t, kSelecting | kShear>(parameters, truth);
         case kPalette: return runPositions<int32_t, kPalette>(parameters, truth);
-        case kSelecting | kPalette:
-          return runPositions<int32_t, kSelecting | kPalette>(parameters, truth);
+        case kWeighted | kPalette:
+          return runPositions<int32_t, kWeighted | kPalette>(parameters, truth);
         case kPlanes: return runPositions<int32_t, kPlanes>(parameters, truth);
         case kWeighted | kPlanes:
           return runPositions<int32_t, kWeighted | kPlanes>(parameters, truth);

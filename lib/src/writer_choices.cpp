@@ -189,7 +189,7 @@ Status choosePredictors(std::vector<Plan>& plans, const EncodeSettings& options,
   }));
   for (Plan& plan : plans) {
     plan.positions_as = chosen;
-    plan.attributes[0].info.predictor = PieceCoder<CostIo>::positionFlags(chosen);
+    plan.attributes[0].info.predictor = chosen.modes;
   }
   return {};
 }
@@ -258,7 +258,7 @@ Status varyAll(std::vector<Plan>& plans, const EncodeSettings& options, Variatio
   for (size_t i = 0; i < plans.size(); ++i) {
     Plan& plan = plans[i];
     plan.positions_as = positions;
-    plan.attributes[0].info.predictor = PieceCoder<CostIo>::positionFlags(positions);
+    plan.attributes[0].info.predictor = positions.modes;
     if (plan.header.has(piece_flag::kSeams) && variation.coin())
       plan.header.flags ^= piece_flag::kCreases;
     for (const uint32_t a : codingOrder(plan)) varyAttributeMethod(plan, a, variation);

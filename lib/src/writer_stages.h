@@ -65,7 +65,7 @@ class StageRunner {
     plan_.coordinates.find(plan_.positions, isExact(plan_.attributes[0].info.coding));
     for (uint32_t s = 0; s < 3; ++s) candidate.palettes[s] = plan_.coordinates.palette(s);
     const AttributeInfo& info = plan_.attributes[0].info;
-    if (info.coding == AttributeCoding::kLattice && info.bits <= position_flag::kMaxBitsOfPlanes &&
+    if (info.coding == AttributeCoding::kLattice && info.bits <= position_mode::kMaxBitsOfPlanes &&
         findPlanes(plan_.positions, plan_.planes)) {
       candidate.planes = plan_.planes;
     }

@@ -127,13 +127,11 @@ AttributeInfo drawPosition(Random& random) {
     info.coding = AttributeCoding::kGrid;
     drawGrid(info, random);
   }
-  const bool has_planes = info.coding == AttributeCoding::kLattice && random.chance(25);
-  info.predictor = static_cast<uint8_t>(random.below(position_flag::kPredictorCount) |
-                                        random.below(3) << 3 | random.below(8) << 5);
-  if (has_planes) {
-    info.predictor =
-        static_cast<uint8_t>(random.below(position_flag::kPredictorCount) | position_flag::kPlanes);
-  }
+  do {
+    info.predictor = static_cast<uint8_t>(random.below(256));
+  } while (
+      !position_mode::areKnown(info.predictor) ||
+      ((info.predictor & position_mode::kPlanes) != 0 && info.coding != AttributeCoding::kLattice));
   return info;
 }
 

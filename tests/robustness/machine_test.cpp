@@ -112,12 +112,9 @@ class RandomPiece {
     attributes_[0].bits = static_cast<uint8_t>(random.between(1, 24));
     if (random.chance(20)) attributes_[0].coding = AttributeCoding::kExactFloat;
     if (random.chance(30)) grid(attributes_[0], random);
-    attributes_[0].predictor = static_cast<uint8_t>(random.below(position_flag::kPredictorCount) |
-                                                    (random.chance(50) ? 0 : random.below(256)));
-    if ((attributes_[0].predictor & position_flag::kPredictorMask) >=
-        position_flag::kPredictorCount) {
-      attributes_[0].predictor = 0;
-    }
+    do {
+      attributes_[0].predictor = static_cast<uint8_t>(random.below(256));
+    } while (!position_mode::areKnown(attributes_[0].predictor));
     const auto attribute = [&](uint32_t i, Semantic semantic, AttributeCoding coding,
                                uint8_t components, ComponentType type = ComponentType::kFloat32) {
       attributes_[i].format.semantic = semantic;

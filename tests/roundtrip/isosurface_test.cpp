@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "container/payload_header.h"
+#include "mesh/attribute_method.h"
 #include "support/mesh_compare.h"
 #include "support/mesh_generators.h"
 
@@ -23,8 +24,7 @@ double blobs(double x, double y, double z) {
 bool hasPlanes(const EncodeResult& result) {
   PayloadHeader header{Allocator{}};
   EXPECT_TRUE(parsePayload(result.payload, Limits{}, header).ok());
-  const uint8_t kind = header.attributes[0].predictor & position_flag::kKindMask;
-  return kind == position_flag::kPlanes;
+  return (header.attributes[0].predictor & position_mode::kPlanes) != 0;
 }
 
 /// The same surface where no plane is.

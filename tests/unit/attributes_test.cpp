@@ -124,8 +124,14 @@ enum class Values : uint8_t { kRandom, kSmooth, kAnyInteger, kJumps, kPlanes };
 
 /// Choices of the encoder that need nothing besides.
 std::vector<uint8_t> positionPredictors() {
-  using namespace position_flag;
-  return {0, 1, 4, kFold, 1 | kShear, 1 | kFold | kSplit, 4 | kFold | kSplit | kShear};
+  using namespace position_mode;
+  return {0,
+          kWeights,
+          kWeights | kSelect,
+          kFold,
+          kWeights | kShear,
+          kWeights | kFold | kSplit,
+          kWeights | kSelect | kFold | kSplit | kShear};
 }
 
 const AxisPlanes kSomePlanes[3] = {{0, 5 * AxisPlanes::kOne},
@@ -199,8 +205,9 @@ void expectPositions(const TestMesh& mesh, uint8_t bits, uint8_t predictor, Valu
 TEST(Positions, PlanesHoldAnyValuesOfTheLattice) {
   for (const TestMesh& mesh : surfaces()) {
     for (const uint8_t bits : {uint8_t{1}, uint8_t{4}, uint8_t{9}, uint8_t{17}}) {
-      for (const uint32_t predictor : {0u, 1u, 4u}) {
-        const auto with_planes = static_cast<uint8_t>(predictor | position_flag::kPlanes);
+      using namespace position_mode;
+      for (const uint8_t with_planes :
+           {kPlanes, uint8_t{kPlanes | kWeights}, uint8_t{kPlanes | kWeights | kSelect}}) {
         for (const Values kind : {Values::kPlanes, Values::kRandom, Values::kSmooth}) {
           expectPositions<true>(mesh, bits, with_planes, kind, 2);
           expectPositions<false>(mesh, bits, with_planes, kind, 3);

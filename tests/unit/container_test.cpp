@@ -486,15 +486,16 @@ TEST(Container, PlanesNeedACoarseLattice) {
       AttributeInfo& a = d.pieces[0].attributes[0];
       a.bits = bits;
       a.coding = coding;
-      a.predictor = static_cast<uint8_t>(position_flag::kPlanes | flags);
+      a.predictor = static_cast<uint8_t>(position_mode::kPlanes | flags);
     });
   };
-  EXPECT_EQ(errorOf(17, AttributeCoding::kLattice, 4), Error::kOk);
+  constexpr uint8_t kBoth = position_mode::kWeights | position_mode::kSelect;
+  EXPECT_EQ(errorOf(17, AttributeCoding::kLattice, kBoth), Error::kOk);
   EXPECT_EQ(errorOf(18, AttributeCoding::kLattice, 0), Error::kBadHeader);
   EXPECT_EQ(errorOf(0, AttributeCoding::kExactFloat, 0), Error::kBadHeader);
-  EXPECT_EQ(errorOf(14, AttributeCoding::kLattice, position_flag::kFold), Error::kBadHeader);
-  EXPECT_EQ(errorOf(14, AttributeCoding::kLattice, position_flag::kSplit), Error::kBadHeader);
-  EXPECT_EQ(errorOf(14, AttributeCoding::kLattice, position_flag::kOwnScale), Error::kBadHeader);
+  EXPECT_EQ(errorOf(14, AttributeCoding::kLattice, position_mode::kFold), Error::kBadHeader);
+  EXPECT_EQ(errorOf(14, AttributeCoding::kLattice, position_mode::kSplit), Error::kBadHeader);
+  EXPECT_EQ(errorOf(14, AttributeCoding::kLattice, position_mode::kOwnScale), Error::kBadHeader);
 }
 
 TEST(Container, PositionComesFirst) {

@@ -2,6 +2,7 @@
 #include "format_features.h"
 
 #include <algorithm>
+#include <bit>
 #include <stdexcept>
 
 #include "container/payload_header.h"
@@ -24,7 +25,7 @@ class Listing {
   Features run() {
     // What no payload is without.
     add("payload", {"A.1.1", "A.1.2", "A.1.3", "A.1.5", "A.1.6", "A.2.1", "A.2.2", "A.2.3", "A.2.5",
-                    "A.2.6", "A.2.8", "A.3.1", "A.3.2", "A.3.6", "A.3.8"});
+                    "A.2.6", "A.2.7", "A.3.1", "A.3.2", "A.3.6", "A.3.8"});
     add(header_.singleCoder() ? "single coder" : "three streams",
         header_.singleCoder() ? Sections{"A.3.7"} : Sections{"A.3.3", "A.3.4"});
     add(text("context set", header_.contextSet()), {"A.4.2", "A.4.5"});
@@ -137,19 +138,20 @@ class Listing {
 
   void addPosition(const AttributeInfo& a, const PieceHeader& piece) {
     addCoding(a);
-    const uint32_t predictor = a.predictor & position_flag::kPredictorMask;
-    const uint32_t kind = (a.predictor & position_flag::kKindMask) >> 3;
+    const uint32_t kind = std::bit_width(uint32_t{a.predictor} & position_mode::kKinds) / 2;
     static const char* const kKinds[] = {"plain", "sheared", "palette", "planes"};
     static const Sections kKindSections[] = {
         {"B.2.2", "B.2.4", "B.2.5", "B.2.6"}, {"B.2.3"}, {"B.2.8"}, {"B.2.9"}};
     Sections sections = kKindSections[kind];
-    sections.insert({"A.6", "A.6.1", "A.6.2", "A.6.3", "A.2.7", "B.1.1", "B.1.2", "B.1.3", "B.2.1",
-                     "B.2.2", "B.2.4", "B.2.5", "B.2.6", "B.2.7", "A.3.3"});
-    const std::string name = text("position predictor", predictor) + " " + kKinds[kind];
+    sections.insert({"A.6", "A.6.1", "A.6.2", "A.6.3", "B.1.1", "B.1.2", "B.1.3", "B.2.1", "B.2.2",
+                     "B.2.4", "B.2.5", "B.2.6", "B.2.7", "A.3.3"});
+    const std::string name = std::string("positions ") + kKinds[kind];
     add(name, sections);
-    for (const auto& [bit, flag] :
-         {std::pair{position_flag::kOwnScale, " OWN_SCALE"},
-          std::pair{position_flag::kFold, " FOLD"}, std::pair{position_flag::kSplit, " SPLIT"}}) {
+    for (const auto& [bit, flag] : {std::pair{position_mode::kWeights, " with weights"},
+                                    std::pair{position_mode::kSelect, " with tip selection"},
+                                    std::pair{position_mode::kOwnScale, " with own scale"},
+                                    std::pair{position_mode::kFold, " with fold"},
+                                    std::pair{position_mode::kSplit, " with split"}}) {
       if ((a.predictor & bit) != 0) add(name + flag, sections);
     }
     const uint32_t bits = a.coding == AttributeCoding::kInteger

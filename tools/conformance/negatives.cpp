@@ -143,6 +143,10 @@ class Maker {
   void field(const std::string& name, const std::string& section, Error error,
              const std::string& shows, const Wanted& wanted,
              const std::function<void(HeaderFields&)>& change) {
+    if (std::none_of(headers_.begin(), headers_.end(), wanted)) {
+      problems_ += name + ": there is no asset to damage\n";
+      return;
+    }
     const Asset& asset = base(wanted);
     HeaderFields fields(asset.payload);
     change(fields);
@@ -197,7 +201,9 @@ class Maker {
            h.attributes[0].coding == AttributeCoding::kLattice && h.pieces[0].vertex_count >= 4;
   }
   static bool threeStreams(const PayloadHeader& h) {
-    return any(h) && !h.singleCoder() && h.raw.size() > 2;
+    return h.pieces.size() == 1 && h.pieces[0].attribute_count >= 1 &&
+           h.attributes[0].coding == AttributeCoding::kLattice && !h.singleCoder() &&
+           h.raw.size() > 2;
   }
 
   void frames() {
@@ -399,7 +405,7 @@ class Maker {
         },
         withDuplicates(kElementsPerSearch));
     field(
-        "wedges without seams", "A.2.8", Error::kBadAttribute,
+        "wedges without seams", "A.2.7", Error::kBadAttribute,
         "A wedge more than groups, without seams",
         [](const PayloadHeader& h) {
           return any(h) && !h.pieces[0].has(piece_flag::kSeams | piece_flag::kIsolated) &&
@@ -681,28 +687,32 @@ class Maker {
   }
 
   void positionPredictors() {
-    for (const uint32_t predictor : {5u, 7u}) {
-      header("predictor " + std::to_string(predictor), "A.2.7",
-             "A predictor of positions that is not assigned", any,
+    using namespace position_mode;
+    for (const int predictor :
+         {kShear | kPalette, kShear | kPlanes, kPalette | kPlanes, int{kKinds}}) {
+      header("predictor " + std::to_string(predictor), "A.6.2",
+             "More than one of shear, palette and planes", any,
              [=](HeaderFields& f) { f.set("0.0.predictor", predictor); });
     }
-    for (const uint32_t bit : {0x20u, 0x40u, 0x80u}) {
-      header("planes with bit " + std::to_string(bit), "A.2.7",
+    header("selection without weights", "A.6.2", "Tip selection without weights", any,
+           [](HeaderFields& f) { f.set("0.0.predictor", kSelect); });
+    for (const uint32_t bit : {kFold, kOwnScale, kSplit}) {
+      header("planes with bit " + std::to_string(bit), "A.6.2",
              "Planes with a flag they cannot have", any,
-             [=](HeaderFields& f) { f.set("0.0.predictor", 3 << 3 | bit); });
+             [=](HeaderFields& f) { f.set("0.0.predictor", kPlanes | bit); });
     }
-    header("planes of 18 bits", "A.2.7", "Planes of a lattice with more than 17 bits", any,
+    header("planes of 18 bits", "A.6.2", "Planes of a lattice with more than 17 bits", any,
            [](HeaderFields& f) {
-             f.set("0.0.predictor", 3 << 3);
+             f.set("0.0.predictor", kPlanes);
              f.set("0.0.bits", 18);
            });
     header(
-        "planes of integers", "A.2.7", "Planes of positions that are not on a lattice",
+        "planes of integers", "A.6.2", "Planes of positions that are not on a lattice",
         [](const PayloadHeader& h) {
           return h.pieces.size() == 1 && h.pieces[0].attribute_count == 1 &&
                  h.attributes[0].coding != AttributeCoding::kLattice;
         },
-        [](HeaderFields& f) { f.set("0.0.predictor", 3 << 3); });
+        [](HeaderFields& f) { f.set("0.0.predictor", kPlanes); });
   }
 
   void streams() {
@@ -782,7 +792,7 @@ class Maker {
         [](HeaderFields& f) { f.set("0.degenerates", f.get("0.degenerates") + 1); });
     field("planes without a step", "B.2.9", Error::kBadAttribute, "Planes with a step of 0",
           threeStreams, [](HeaderFields& f) {
-            f.set("0.0.predictor", 3 << 3);
+            f.set("0.0.predictor", position_mode::kPlanes);
             f.set("0.0.bits", 12);
             for (uint8_t& byte : f.bytes("raw")) byte = 0;
           });

@@ -89,13 +89,13 @@ bool fitOf(const PayloadHeader& header, PredictorWeights& weights,
     return false;
   }
   const PositionCandidate candidate{&recording, truth.data(), header.attributes[0].bits, {}};
-  weights = fitWeights({&candidate, 1}, PositionPredictor::kFitted, false, ~0u);
+  weights = fitWeights({&candidate, 1}, false, false, ~0u, {});
   for (const PositionRecording::Visit& visit : recording.visits()) {
     const uint32_t degree = recording.records()[visit.vertex].degree();
     if (visit.kind == static_cast<uint32_t>(PositionRecording::Kind::kPlain)) {
-      ++vertices[kClassFan + std::clamp<uint32_t>(degree, 3, 9)];
+      ++vertices[kClassPlain - kLeastDegree + std::clamp(degree, kLeastDegree, kMostDegree)];
     } else if (visit.kind == static_cast<uint32_t>(PositionRecording::Kind::kAny)) {
-      for (uint32_t c = 1; c <= kClassFan; ++c) ++vertices[c];
+      for (uint32_t c = 0; c < kClassPlain; ++c) ++vertices[c];
     }
   }
   return true;
@@ -105,7 +105,7 @@ bool fitOf(const PayloadHeader& header, PredictorWeights& weights,
 
 int main(int argc, char** argv) {
   constexpr uint32_t kEnough = 100;  // vertices of a class in a mesh
-  std::vector<int16_t> samples[kPredictorClasses][kBasicWeights];
+  std::vector<int16_t> samples[kPredictorClasses][kMostWeights];
   for (int i = 1; i < argc; ++i) {
     for (const Mesh& mesh : loadMeshes(argv[i])) {
       for (const uint8_t bits : {uint8_t{11}, uint8_t{14}}) {
@@ -129,7 +129,7 @@ int main(int argc, char** argv) {
         }
         for (uint32_t c = 0; c < kPredictorClasses; ++c) {
           if (vertices[c] < kEnough) continue;
-          for (uint32_t k = 0; k < kBasicWeights; ++k) samples[c][k].push_back(weights.w[c][k]);
+          for (uint32_t k = 0; k < weightCount(c); ++k) samples[c][k].push_back(weights.w[c][k]);
         }
       }
     }
@@ -137,7 +137,7 @@ int main(int argc, char** argv) {
   std::printf("inline constexpr PredictorWeights kUniversalWeights{{\n");
   for (uint32_t c = 0; c < kClassSelect; ++c) {
     std::printf("    {");
-    for (uint32_t k = 0; k < kBasicWeights; ++k) {
+    for (uint32_t k = 0; k < weightCount(c); ++k) {
       std::vector<int16_t>& s = samples[c][k];
       std::sort(s.begin(), s.end());
       std::printf("%s%d", k == 0 ? "" : ", ", s.empty() ? 0 : s[s.size() / 2]);

@@ -2,6 +2,7 @@
 #include "attributes/enc_position_fit.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -22,7 +23,23 @@ constexpr uint8_t kNarrowBits = 17;
 constexpr size_t kLargePalette = 1u << 16;                 ///< vertices
 constexpr uint32_t kRunLength = 1024;                      ///< of consecutive vertices in a sample
 constexpr uint32_t kTrialVertices[] = {4000, 12000, ~0u};  ///< by effort
+constexpr double kManyParts = 8;                           ///< that a sample stands for
 constexpr uint32_t kFitVertices[] = {3000, 20000, 32000};
+
+uint64_t visitCount(std::span<const PositionCandidate> pieces) {
+  uint64_t count = 0;
+  for (const PositionCandidate& piece : pieces) count += piece.recording->visits().size();
+  return count;
+}
+
+PredictorWeights trainedWeights(const FeatureSet& without) {
+  PredictorWeights weights = kUniversalWeights;
+  for (auto& w : weights.w) {
+    if (without.has(Feature::kBeyondWeights)) w[2] = 0;
+    if (without.has(Feature::kDegreeWeights)) w[3] = w[4] = 0;
+  }
+  return weights;
+}
 
 // --- sampling ---------------------------------------------------------------------------------------
 
@@ -90,7 +107,7 @@ class SilentIo {
 class Trials {
  public:
   Trials(std::span<const PositionCandidate> pieces, uint32_t max_vertices) : pieces_(pieces) {
-    for (const PositionCandidate& piece : pieces) all_ += piece.recording->visits().size();
+    all_ = visitCount(pieces);
     for (const PositionCandidate& piece : pieces) {
       samples_.push_back(takeSample(*piece.recording, max_vertices, all_));
       counted_ += samples_.back().counted;
@@ -100,11 +117,22 @@ class Trials {
   /// Expected cost of all positions and their tables, in bits.
   double cost(const PositionParameters& p) {
     CostIo io;
-    replayAll(io, p, [](uint32_t, const auto&, const VertexRecord&) {});
-    const double scale =
+    const double parts =
         counted_ == 0 ? 1 : static_cast<double>(all_) / static_cast<double>(counted_);
-    return static_cast<double>(io.cost()) / kCostOne * scale + tableBits(p) +
-           (p.has(position_mode::kPalette) ? paletteBits() : 0) +
+    // Models learn once: the parts that are not in the sample cost what it costs the second time.
+    const uint32_t passes = parts > kManyParts ? 2 : 1;
+    uint64_t spent = 0;
+    uint64_t last_pass = 0;
+    replayAll(
+        io, p, passes, [](uint32_t, const auto&, const VertexRecord&) {},
+        [&] {
+          last_pass = io.cost() - spent;
+          spent = io.cost();
+        });
+    return (static_cast<double>(spent - last_pass) +
+            static_cast<double>(last_pass) * (passes == 1 ? parts : parts - 1)) /
+               kCostOne +
+           tableBits(p) + (p.has(position_mode::kPalette) ? paletteBits() : 0) +
            (p.has(position_mode::kPlanes) ? planeBits() : 0);
   }
 
@@ -112,7 +140,7 @@ class Trials {
   template <class Use>
   void observe(const PositionParameters& p, Use use) {
     SilentIo io;
-    replayAll(io, p, use);
+    replayAll(io, p, 1, use, [] {});
   }
 
  private:
@@ -144,25 +172,32 @@ class Trials {
     return scratch;
   }
 
-  template <class Io, class Use>
-  void replayAll(Io& io, const PositionParameters& p, Use use) {
+  /// Calls end_pass() after each pass over the sample; the models stay.
+  template <class Io, class Use, class EndPass>
+  void replayAll(Io& io, const PositionParameters& p, uint32_t passes, Use use, EndPass end_pass) {
     std::unique_ptr<Scratch> scratch = takeScratch();
     *scratch->rows = PositionRows();
     scratch->rows->prepare(p.modes);
-    for (size_t i = 0; i < pieces_.size(); ++i) {
-      PositionParameters of_piece = p;
-      of_piece.bits = pieces_[i].bits;
-      std::copy(pieces_[i].palettes, pieces_[i].palettes + 3, of_piece.palette);
-      const GridPlanes planes = planesOf(pieces_[i]);
-      of_piece.planes = &planes;
-      if (of_piece.bits > kNarrowBits) {
-        replay<int64_t>(io, of_piece, i, *scratch, use);
-      } else {
-        replay<int32_t>(io, of_piece, i, *scratch, use);
-      }
+    for (uint32_t pass = 0; pass < passes; ++pass) {
+      for (size_t i = 0; i < pieces_.size(); ++i) replayPiece(io, p, i, *scratch, use);
+      end_pass();
     }
     const std::lock_guard lock(mutex_);
     free_.push_back(std::move(scratch));
+  }
+
+  template <class Io, class Use>
+  void replayPiece(Io& io, const PositionParameters& p, size_t piece, Scratch& scratch, Use use) {
+    PositionParameters of_piece = p;
+    of_piece.bits = pieces_[piece].bits;
+    std::copy(pieces_[piece].palettes, pieces_[piece].palettes + 3, of_piece.palette);
+    const GridPlanes planes = planesOf(pieces_[piece]);
+    of_piece.planes = &planes;
+    if (of_piece.bits > kNarrowBits) {
+      replay<int64_t>(io, of_piece, piece, scratch, use);
+    } else {
+      replay<int32_t>(io, of_piece, piece, scratch, use);
+    }
   }
 
   static double tableBits(const PositionParameters& p) {
@@ -239,8 +274,8 @@ class Trials {
 
 /// Normal equations of up to 8 unknowns; + - * / only, in one fixed order.
 struct NormalEquations {
-  double matrix[kWeights][kWeights] = {};
-  double right[kWeights] = {};
+  double matrix[kMostWeights][kMostWeights] = {};
+  double right[kMostWeights] = {};
   double count = 0;
 
   void add(const double* x, double y, double weight, uint32_t n) {
@@ -253,7 +288,7 @@ struct NormalEquations {
 
   /// Gaussian elimination of the symmetric matrix; unknowns that nothing depends on become 0.
   void solve(uint32_t n, double ridge, double* solution) const {
-    double a[kWeights][kWeights + 1];
+    double a[kMostWeights][kMostWeights + 1];
     for (uint32_t i = 0; i < n; ++i) {
       for (uint32_t k = 0; k < n; ++k) a[i][k] = i >= k ? matrix[i][k] : matrix[k][i];
       a[i][n] = right[i];
@@ -283,7 +318,7 @@ struct FitRow {
   uint32_t predictor_class;
   float length;
   float target[3];
-  float feature[3][kWeights];
+  float feature[3][kMostWeights];
 };
 
 template <class UWide>
@@ -293,11 +328,10 @@ float stepsOf(UWide value, double unit) {
 }
 
 template <class Wide>
-void gatherRows(const PositionCandidate& piece, PositionPredictor predictor, uint32_t stride,
+void gatherRows(const PositionCandidate& piece, bool select, uint32_t stride,
                 std::vector<FitRow>& rows) {
   using UWide = std::make_unsigned_t<Wide>;
   const PositionRecording& recording = *piece.recording;
-  const bool select = predictor == PositionPredictor::kFittedSelecting;
   // Steps of random length, `stride` on average: even ones would see only some columns of a grid.
   uint32_t random = 1;
   const auto step = [&] {
@@ -307,14 +341,14 @@ void gatherRows(const PositionCandidate& piece, PositionPredictor predictor, uin
   for (size_t i = step() - 1; i < recording.visits().size(); i += step()) {
     const PositionRecording::Visit& visit = recording.visits()[i];
     const uint32_t v = visit.vertex;
-    const uint32_t degree = recording.records()[v].degree();
     FitRow row{};
     UWide base[3];
     if (visit.kind == static_cast<uint32_t>(Kind::kPlain)) {
       PlainFan fan;
       Beyond beyond;
       recording.plain(recording.records(), visit, fan, beyond);
-      const PlainClass c = classifyPlain<Wide>(predictor, select, fan, beyond, degree);
+      const uint32_t degree = recording.records()[v].degree();
+      const PlainClass c = classifyPlain<Wide>(select, fan, beyond, degree);
       row.predictor_class = c.predictor_class;
       const PlainFeatures<UWide> f = plainFeatures<UWide>(fan, beyond, select);
       const float better = static_cast<float>(c.better);
@@ -337,17 +371,11 @@ void gatherRows(const PositionCandidate& piece, PositionPredictor predictor, uin
       recording.any(recording.records(), visit, fan);
       Lanes<UWide> spread{};
       Lanes<float> normal{};
-      const AnyFeatures<UWide> f = anyFeatures<Wide>(fan, degree, spread, normal);
+      const AnyFeatures<UWide> f = anyFeatures<Wide>(fan, spread, normal);
       row.predictor_class = f.predictor_class;
-      if (f.predictor_class == kClassNoTip) continue;
       for (int s = 0; s < 3; ++s) {
         base[s] = f.base[s];
-        const float tip = stepsOf<UWide>(f.tip[s], 0.5);
-        row.feature[s][0] = tip;
-        row.feature[s][1] = stepsOf<UWide>(f.mean[s], 0.5);
-        row.feature[s][2] = tip * static_cast<float>(f.degree_term);
-        row.feature[s][3] = stepsOf<UWide>(f.edge[s], 0.5) * static_cast<float>(f.degree_skew);
-        row.feature[s][4] = tip * static_cast<float>(f.degree_sum);
+        row.feature[s][0] = stepsOf<UWide>(f.mean[s], 0.5);
         row.length += std::fabs(stepsOf<UWide>(f.mean[s], 1));
       }
     } else {
@@ -361,24 +389,36 @@ void gatherRows(const PositionCandidate& piece, PositionPredictor predictor, uin
   }
 }
 
-/// Re-weighted least squares of one class around the universal weights.
-void fitClass(const std::vector<FitRow>& rows, uint32_t predictor_class, bool robust, int16_t* w) {
+/// About log2(x) for x >= 1, by the bits of a float: alike on every machine.
+double roughLog2(float x) {
+  return static_cast<double>(std::bit_cast<uint32_t>(x)) * (1.0 / (1 << 23)) - 127;
+}
+
+/// About the bits that the residuals of a class take with these weights.
+double residualBits(const std::vector<FitRow>& rows, const int16_t* w, uint32_t n) {
+  double bits = 0;
+  for (const FitRow& row : rows) {
+    for (const auto& feature : row.feature) {
+      float predicted = 0;
+      for (uint32_t i = 0; i < n; ++i) predicted += feature[i] * (1.0f / 128) * w[i];
+      const float residual = std::fabs(row.target[&feature - row.feature] - predicted);
+      bits += roughLog2(1 + 2 * std::floor(residual + 0.5f));
+    }
+  }
+  return bits;
+}
+
+/// Re-weighted least squares of one class around the weights `w`. False with too few vertices.
+bool fitClass(const std::vector<FitRow>& rows, uint32_t n, bool robust, int16_t* w) {
   constexpr uint32_t kRounds = 4;
   constexpr double kOne = 128;
-  const uint32_t n = predictor_class >= kClassSelect ? kWeights
-                     : predictor_class > kClassFan || predictor_class == kClassOneTip
-                         ? kBasicWeights
-                         : 2;
-  double solution[kWeights] = {};
-  double start[kWeights] = {};
-  uint32_t count = 0;
+  if (rows.size() < 2 * n) return false;
+  double solution[kMostWeights] = {};
+  double start[kMostWeights] = {};
   for (uint32_t i = 0; i < n; ++i) solution[i] = start[i] = w[i] / kOne;
   for (uint32_t round = 0; round < kRounds; ++round) {
     NormalEquations equations;
-    count = 0;
     for (const FitRow& row : rows) {
-      if (row.predictor_class != predictor_class) continue;
-      ++count;
       double residual[3];
       double size = 0;
       for (int s = 0; s < 3; ++s) {
@@ -395,19 +435,38 @@ void fitClass(const std::vector<FitRow>& rows, uint32_t predictor_class, bool ro
       const double near = size + 0.02 * length + (robust ? 1.0 : 0.5);
       const double weight = robust ? 1 / (near * near) : 1 / ((length + 1) * near);
       for (int s = 0; s < 3; ++s) {
-        double x[kWeights];
+        double x[kMostWeights];
         for (uint32_t i = 0; i < n; ++i) x[i] = double{row.feature[s][i]};
         equations.add(x, residual[s], weight, n);
       }
     }
-    if (count < 2 * n) return;
-    double change[kWeights] = {};
-    equations.solve(n, 1e-3 + 3.0 / count, change);
+    double change[kMostWeights] = {};
+    equations.solve(n, 1e-3 + 3.0 / static_cast<double>(rows.size()), change);
     for (uint32_t i = 0; i < n; ++i) solution[i] = start[i] + change[i];
   }
   for (uint32_t i = 0; i < n; ++i) {
     w[i] = static_cast<int16_t>(std::clamp(std::floor(solution[i] * kOne + 0.5), -255.0, 255.0));
   }
+  return true;
+}
+
+/// The best of no weights, of the trained ones and of fitted ones. A row stands for `stride` vertices.
+void chooseWeights(const std::vector<FitRow>& rows, uint32_t predictor_class, double stride,
+                   bool robust, int16_t* w) {
+  constexpr double kBitsOfWeight = 9;
+  const uint32_t n = weightCount(predictor_class);
+  int16_t fitted[kMostWeights];
+  std::copy_n(w, kMostWeights, fitted);
+  double best = residualBits(rows, w, n) * stride + 1.5 * n;
+  if (fitClass(rows, n, robust, fitted)) {
+    const double bits = residualBits(rows, fitted, n) * stride + kBitsOfWeight * n;
+    if (bits < best) {
+      best = bits;
+      std::copy_n(fitted, kMostWeights, w);
+    }
+  }
+  constexpr int16_t kNone[kMostWeights] = {};
+  if (residualBits(rows, kNone, n) * stride <= best) std::copy_n(kNone, kMostWeights, w);
 }
 
 /// What the scale of a component followed from, and how large its residual was.
@@ -469,7 +528,7 @@ void fitScale(Trials& trials, const Jobs& jobs, PositionParameters& p) {
     }
   });
   jobs.run(6, [&](size_t i) { fitCoefficients(rows[i / 3][i % 3], p.scale[i / 3][i % 3].c); });
-  p.own_scale = true;
+  p.modes |= position_mode::kOwnScale;
 }
 
 // --- choice -----------------------------------------------------------------------------------------
@@ -483,61 +542,125 @@ class Chooser {
         surface_bits_(surface_bits),
         price_(settings.prefer),
         without_(settings.without),
+        palette_values_(paletteValues(pieces)),
         effort_(std::min<uint8_t>(settings.effort, 2)),
         trials_(pieces, kTrialVertices[effort_]) {}
 
   PositionParameters run() {
     tryPredictors();
-    if (anyPalette()) tryMode(position_mode::kPalette, Feature::kPalette);
-    if (anyPlanes()) tryMode(position_mode::kPlanes, Feature::kPlanes);
-    if (best_.has(position_mode::kPlanes)) return best_;
-    if (!best_.has(position_mode::kPalette)) tryMode(position_mode::kShear, Feature::kShear);
+    tryKinds();
     tryMode(position_mode::kFold, Feature::kFold);
     tryMode(position_mode::kSplit, Feature::kSplit);
-    if (!without_.has(Feature::kOwnScale)) tryOwnScale();
-    return best_;
+    tryOwnScale();
+    return race_[0].parameters;
   }
 
  private:
-  struct Ranked {
+  struct Candidate {
     PositionParameters parameters;
     double cost;
   };
 
-  /// All predictors; the best ones stay in the race for the modes.
+  /// Plain averages and weights, fitted without and with tip selection; the trained ones where trials cost little.
   void tryPredictors() {
-    ranked_.resize(kPositionPredictors);
-    jobs_.run(kPositionPredictors, [&](size_t i) {
-      PositionParameters& p = ranked_[i].parameters;
-      p.predictor = static_cast<PositionPredictor>(i);
-      setUniversalTables(p);
-      if (p.fitted()) {
-        p.weights = fitWeights(pieces_, p.predictor, true, kFitVertices[effort_], without_);
-      }
-      const bool is_used = i == 0 || !without_.has(Feature::kWeights);
-      ranked_[i].cost = is_used ? costOf(p) : std::numeric_limits<double>::infinity();
-    });
-    const Ranked average = ranked_[0];
-    std::sort(ranked_.begin(), ranked_.end(),
-              [](const Ranked& a, const Ranked& b) { return a.cost < b.cost; });
-    best_ = ranked_[0].parameters;
-    best_cost_ = ranked_[0].cost;
-    ranked_.resize(kRace);
-    // On scans the average gains more by the modes than what wins without them by a little.
-    if (average.parameters.predictor != ranked_[0].parameters.predictor &&
-        average.parameters.predictor != ranked_[1].parameters.predictor) {
-      ranked_.push_back(average);
+    using namespace position_mode;
+    struct Predictor {
+      uint8_t modes;
+      bool is_fitted;
+    };
+    std::vector<Predictor> predictors = {{0, false}};
+    if (!without_.has(Feature::kWeights)) {
+      predictors.push_back({kWeights, true});
+      if (!without_.has(Feature::kTipSelection)) predictors.push_back({kWeights | kSelect, true});
+      if (visitCount(pieces_) <= kTrialVertices[0]) predictors.push_back({kWeights, false});
     }
-    while (ranked_.back().cost > kOutOfRace * best_cost_) ranked_.pop_back();
+    race_.resize(predictors.size());
+    jobs_.run(race_.size(), [&](size_t i) {
+      PositionParameters& p = race_[i].parameters;
+      p.modes = predictors[i].modes;
+      setUniversalScale(p);
+      if (predictors[i].is_fitted) {
+        p.weights = fitWeights(pieces_, p.has(kSelect), true, kFitVertices[effort_], without_);
+      } else if (p.has(kWeights)) {
+        p.weights = trainedWeights(without_);
+      }
+      race_[i].cost = costOf(p);
+    });
+    sortRace(race_.size());
   }
 
-  bool anyPalette() const {
-    for (const PositionCandidate& piece : pieces_) {
-      for (const AxisPalette& palette : piece.palettes) {
-        if (palette.count != 0) return true;
-      }
+  /// Palette, planes and shear exclude each other. Which predictor is best differs from one to the next.
+  void tryKinds() {
+    std::vector<uint8_t> kinds;
+    const auto offer = [&](bool may, uint8_t kind, Feature feature) {
+      if (may && !without_.has(feature)) kinds.push_back(kind);
+    };
+    offer(palette_values_ > 0, position_mode::kPalette, Feature::kPalette);
+    offer(anyPlanes(), position_mode::kPlanes, Feature::kPlanes);
+    offer(true, position_mode::kShear, Feature::kShear);
+    const std::vector<Candidate> plain = race_;
+    for (const uint8_t kind : kinds) {
+      std::vector<Candidate> with(plain.size());
+      const auto tryWith = [&](size_t i) {
+        with[i] = {withMode(plain[i].parameters, kind), 0};
+        with[i].cost = costOf(with[i].parameters);
+      };
+      // Whether shear pays is a matter of the surface, not of the predictor.
+      tryWith(0);
+      if (kind == position_mode::kShear && with[0].cost >= plain[0].cost) continue;
+      jobs_.run(with.size() - 1, [&](size_t i) { tryWith(i + 1); });
+      race_.insert(race_.end(), with.begin(), with.end());
     }
-    return false;
+    sortRace(kRace);
+  }
+
+  /// A mode that goes with the others.
+  void tryMode(uint8_t mode, Feature feature) {
+    if (without_.has(feature)) return;
+    std::vector<Candidate> with = race_;
+    jobs_.run(with.size(), [&](size_t i) {
+      PositionParameters& p = with[i].parameters;
+      p = withMode(p, mode);
+      with[i].cost = position_mode::areKnown(p.modes) ? costOf(p) : kNever;
+    });
+    race_.insert(race_.end(), with.begin(), with.end());
+    sortRace(kRace);
+  }
+
+  void tryOwnScale() {
+    if (without_.has(Feature::kOwnScale)) return;
+    sortRace(kFinal);
+    for (size_t i = race_.size(); i-- != 0;) {
+      PositionParameters p = race_[i].parameters;
+      if (p.has(position_mode::kPlanes)) continue;
+      fitScale(trials_, jobs_, p);
+      race_.push_back({p, costOf(p)});
+    }
+    sortRace(1);
+  }
+
+  static PositionParameters withMode(PositionParameters p, uint8_t mode) {
+    p.modes |= mode;
+    setUniversalScale(p);
+    return p;
+  }
+
+  /// The best come first, and no more than `limit` stay.
+  void sortRace(size_t limit) {
+    std::stable_sort(race_.begin(), race_.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+    if (race_.size() > limit) race_.resize(limit);
+    while (race_.back().cost > kOutOfRace * race_[0].cost) race_.pop_back();
+  }
+
+  /// Values of all palettes, per vertex.
+  static double paletteValues(std::span<const PositionCandidate> pieces) {
+    uint64_t values = 0;
+    for (const PositionCandidate& piece : pieces) {
+      for (const AxisPalette& palette : piece.palettes) values += palette.count;
+    }
+    return static_cast<double>(values) /
+           static_cast<double>(std::max<uint64_t>(visitCount(pieces), 1));
   }
 
   /// Pieces share the choice: all must have them.
@@ -549,108 +672,49 @@ class Chooser {
   /// Bits of connectivity and positions, more for what takes time.
   double costOf(const PositionParameters& p) {
     const double bits = surface_bits_ + trials_.cost(p);
-    return bits + price_.surcharge(bits, timeOf(p));
+    return bits + price_.surcharge(bits, timeOf(p, palette_values_));
   }
 
-  /// A mode for the leaders: taken if the best with it is cheaper than the best without.
-  void tryMode(uint32_t mode, Feature feature) {
-    if (without_.has(feature)) return;
-    Ranked best{best_, best_cost_};
-    bool better = false;
-    std::vector<Ranked> with(ranked_.size());
-    const auto tryWith = [&](size_t i) {
-      PositionParameters& p = with[i].parameters;
-      p = ranked_[i].parameters;
-      p.modes |= mode;
-      if (mode == position_mode::kPlanes) p.modes &= ~position_mode::kPalette;
-      if (mode == position_mode::kShear) {
-        const PredictorWeights weights = p.weights;
-        setUniversalTables(p);
-        p.weights = weights;
-      }
-      with[i].cost = costOf(p);
-    };
-    // Whether shear pays is a matter of the surface, not of the predictor: the first that loses by it ends its trials.
-    const bool is_shear = mode == position_mode::kShear;
-    const auto loses = [&](size_t i) { return is_shear && with[i].cost >= ranked_[i].cost; };
-    if (is_shear) tryWith(0);
-    if (loses(0)) return;
-    const size_t first = is_shear ? 1 : 0;
-    jobs_.run(with.size() - first, [&](size_t i) { tryWith(first + i); });
-    for (size_t i = 0; i < with.size(); ++i) {
-      if (loses(i)) {
-        with.resize(i + 1);
-        break;
-      }
-      if (with[i].cost >= best.cost) continue;
-      best = with[i];
-      better = true;
-    }
-    if (!better) return;
-    best_ = best.parameters;
-    best_cost_ = best.cost;
-    ranked_ = std::move(with);
-  }
-
-  void tryOwnScale() {
-    PositionParameters p = best_;
-    fitScale(trials_, jobs_, p);
-    const double cost = costOf(p);
-    if (cost < best_cost_) {
-      best_ = p;
-      best_cost_ = cost;
-    }
-  }
-
-  static constexpr size_t kRace = 2;
-  static constexpr double kOutOfRace = 1.04;
+  static constexpr size_t kRace = 3;
+  static constexpr size_t kFinal = 2;
+  static constexpr double kOutOfRace = 1.25;
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
 
   std::span<const PositionCandidate> pieces_;
   const Jobs& jobs_;
   const double surface_bits_;
   const TimePrice price_;
   const FeatureSet without_;
+  const double palette_values_;
   uint8_t effort_;
   Trials trials_;
-  std::vector<Ranked> ranked_;
-  PositionParameters best_;
-  double best_cost_ = 0;
+  std::vector<Candidate> race_;
 };
-
-/// Feature i of the classes [begin, end) weighs nothing.
-void dropFeature(std::vector<FitRow>& rows, uint32_t begin, size_t i, PredictorWeights& weights,
-                 uint32_t end = kPredictorClasses) {
-  for (uint32_t c = begin; c < end; ++c) weights.w[c][i] = 0;
-  for (FitRow& row : rows) {
-    if (row.predictor_class < begin || row.predictor_class >= end) continue;
-    for (auto& feature : row.feature) feature[i] = 0;
-  }
-}
 
 }  // namespace
 
-PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, PositionPredictor predictor,
-                            bool robust, uint32_t max_vertices, const FeatureSet& without) {
-  uint64_t all = 0;
-  for (const PositionCandidate& piece : pieces) all += piece.recording->visits().size();
-  const uint32_t stride = static_cast<uint32_t>(all / max_vertices + 1);
+PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, bool select, bool robust,
+                            uint32_t max_vertices, const FeatureSet& without) {
+  const uint32_t stride = static_cast<uint32_t>(visitCount(pieces) / max_vertices + 1);
   std::vector<FitRow> rows;
   for (const PositionCandidate& piece : pieces) {
     if (piece.bits > kNarrowBits) {
-      gatherRows<int64_t>(piece, predictor, stride, rows);
+      gatherRows<int64_t>(piece, select, stride, rows);
     } else {
-      gatherRows<int32_t>(piece, predictor, stride, rows);
+      gatherRows<int32_t>(piece, select, stride, rows);
     }
   }
-  PredictorWeights weights = kUniversalWeights;
-  if (without.has(Feature::kBeyondWeights)) dropFeature(rows, kClassFan, 2, weights);
-  if (without.has(Feature::kDegreeWeights)) {
-    for (const size_t i : {3, 4}) dropFeature(rows, 0, i, weights);
-    dropFeature(rows, 0, 2, weights, kClassFan);
+  std::vector<FitRow> rows_of[kPredictorClasses];
+  for (FitRow& row : rows) {
+    for (auto& feature : row.feature) {
+      if (without.has(Feature::kBeyondWeights)) feature[2] = 0;
+      if (without.has(Feature::kDegreeWeights)) feature[3] = feature[4] = 0;
+    }
+    rows_of[row.predictor_class].push_back(row);
   }
-  for (uint32_t c = 1; c < kPredictorClasses; ++c) {
-    if (c >= kClassSelect && predictor != PositionPredictor::kFittedSelecting) break;
-    fitClass(rows, c, robust, weights.w[c]);
+  PredictorWeights weights = trainedWeights(without);
+  for (uint32_t c = 0; c < kPredictorClasses; ++c) {
+    chooseWeights(rows_of[c], c, stride, robust, weights.w[c]);
   }
   return weights;
 }

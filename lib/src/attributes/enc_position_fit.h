@@ -47,10 +47,11 @@ PositionParameters choosePositionParameters(std::span<const PositionCandidate> p
                                             double surface_bits, const EncodeSettings& settings,
                                             const Jobs& jobs);
 
-/// Least-squares weights of the predictor on these pieces. `robust` weighs residuals by the inverse of their square,
-/// else by the inverse of their size. Also used by tools/train.
-PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, PositionPredictor predictor,
-                            bool robust, uint32_t max_vertices, const FeatureSet& without = {});
+/// For each class of predictors none, the trained weights or those of least squares on these pieces, by what their
+/// residuals take. `robust` weighs residuals by the inverse of their square, else by the inverse of their size. Also used
+/// by tools/train.
+PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, bool select, bool robust,
+                            uint32_t max_vertices, const FeatureSet& without);
 
 }  // namespace mcc
 

@@ -37,22 +37,16 @@ class Variation {
   }
 
   PositionParameters positions(std::span<const PositionCandidate> pieces) {
-    PositionParameters p;
-    p.predictor = static_cast<PositionPredictor>(below(kPositionPredictors));
     const bool planes =
         std::all_of(pieces.begin(), pieces.end(),
                     [](const PositionCandidate& piece) { return piece.planes != nullptr; });
-    const uint32_t kinds[] = {0, position_mode::kShear, position_mode::kPalette,
-                              position_mode::kPlanes};
-    p.modes = kinds[below(planes ? 4 : 3)];
-    if (!p.has(position_mode::kPlanes)) {
-      if (coin()) p.modes |= position_mode::kFold;
-      if (coin()) p.modes |= position_mode::kSplit;
-      p.own_scale = coin();
-    }
-    setUniversalTables(p);
-    if (p.fitted()) varyWeights(p);
-    if (p.own_scale) varyScale(p);
+    PositionParameters p;
+    do {
+      p.modes = static_cast<uint8_t>(below(256));
+    } while (!position_mode::areKnown(p.modes) || (p.has(position_mode::kPlanes) && !planes));
+    setUniversalScale(p);
+    if (p.has(position_mode::kWeights)) varyWeights(p);
+    if (p.has(position_mode::kOwnScale)) varyScale(p);
     return p;
   }
 
@@ -78,12 +72,11 @@ class Variation {
 
  private:
   void varyWeights(PositionParameters& p) {
-    const uint32_t classes =
-        p.predictor == PositionPredictor::kFittedSelecting ? kPredictorClasses : kClassSelect;
+    const uint32_t classes = p.has(position_mode::kSelect) ? kPredictorClasses : kClassSelect;
+    p.weights = kUniversalWeights;
     for (uint32_t c = 0; c < classes; ++c) {
       if (below(4) == 0) continue;
-      const uint32_t count = c >= kClassSelect ? kWeights : kBasicWeights;
-      for (uint32_t i = 0; i < count; ++i) {
+      for (uint32_t i = 0; i < weightCount(c); ++i) {
         const int32_t far = static_cast<int32_t>(below(33)) - 16;
         p.weights.w[c][i] = static_cast<int16_t>(p.weights.w[c][i] + far);
       }

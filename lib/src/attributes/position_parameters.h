@@ -9,60 +9,26 @@
 #include "attributes/position_palette.h"
 #include "attributes/position_planes.h"
 #include "attributes/position_tables.h"
-#include "base/decodes.h"
 #include "entropy/numbers.h"
 #include "mcc/status.h"
+#include "mesh/attribute_method.h"
 
 namespace mcc {
 
-enum class PositionPredictor : uint8_t {
-  kAverage = 0,          ///< of the tips
-  kUniversal = 1,        ///< trained weights
-  kFitted = 2,           ///< weights in the payload
-  kFittedSelecting = 3,  ///< the same, with classes of tip selection at vertices of degree 6
-  kSelecting = 4,        ///< the best tip, without weights
-};
-inline constexpr uint8_t kPositionPredictors = 5;
-
-/// Bits of PositionParameters::modes. Off, they cost the coder nothing.
-namespace position_mode {
-inline constexpr uint32_t kWeights = 1u << 0;
-inline constexpr uint32_t kSelect = 1u << 1;
-inline constexpr uint32_t kShear = 1u << 2;
-inline constexpr uint32_t kFold = 1u << 3;
-inline constexpr uint32_t kSplit = 1u << 4;
-inline constexpr uint32_t kPalette = 1u << 5;
-inline constexpr uint32_t kPlanes = 1u << 6;  ///< without shear, fold, split and palette
-inline constexpr uint32_t kDecoded = ~(decodes::kPlanes ? 0 : kPlanes);
-}  // namespace position_mode
-
 struct PositionParameters {
-  PositionPredictor predictor = PositionPredictor::kAverage;
-  uint32_t modes = 0;
-  bool own_scale = false;
+  uint8_t modes = 0;  ///< bits of position_mode
   uint8_t bits = 14;  ///< of the lattice; seeds start from its middle
-  PredictorWeights weights = kAverageWeights;
+  PredictorWeights weights = {};
   ScaleCoefficients scale[2][3] = {};  ///< [plain fan][component]
   AxisPalette palette[3];              ///< only with kPalette; borrowed
   const GridPlanes* planes = nullptr;  ///< only with kPlanes; borrowed
 
   bool has(uint32_t mode) const { return (modes & mode & position_mode::kDecoded) != 0; }
-  bool fitted() const {
-    return predictor == PositionPredictor::kFitted ||
-           predictor == PositionPredictor::kFittedSelecting;
-  }
 };
 
-/// Tables and modes that follow from the predictor; fitted ones replace them.
-inline void setUniversalTables(PositionParameters& p) {
-  p.modes &= ~(position_mode::kWeights | position_mode::kSelect);
-  if (p.predictor != PositionPredictor::kAverage) p.modes |= position_mode::kWeights;
-  if (p.predictor >= PositionPredictor::kFittedSelecting) p.modes |= position_mode::kSelect;
-  p.weights = p.predictor == PositionPredictor::kAverage     ? kAverageWeights
-              : p.predictor == PositionPredictor::kSelecting ? kSelectingWeights
-                                                             : kUniversalWeights;
-  const uint32_t weighted =
-      p.has(position_mode::kWeights) && p.predictor != PositionPredictor::kSelecting ? 1 : 0;
+/// The coefficients of the scale that follow from the modes; the payload's may replace them.
+inline void setUniversalScale(PositionParameters& p) {
+  const uint32_t weighted = p.has(position_mode::kWeights) ? 1 : 0;
   const uint32_t shear = p.has(position_mode::kShear) ? 1 : 0;
   for (uint32_t fan = 0; fan < 2; ++fan) {
     for (uint32_t s = 0; s < 3; ++s) p.scale[fan][s] = kUniversalScale[weighted][shear][fan][s];
@@ -74,7 +40,7 @@ struct PositionTables {
   bool has_weights = false;
   bool has_selecting = false;
   bool has_scale = false;
-  PredictorWeights weights = kUniversalWeights;
+  PredictorWeights weights = {};
   int32_t scale_change[2][3][3] = {};  ///< added to the universal coefficients
   BitModel present;
   GolombModel weight;
@@ -86,18 +52,16 @@ struct PositionTables {
 inline constexpr int32_t kMaxWeight = 1023;
 inline constexpr int32_t kMaxCoefficient[3] = {4095, 4095, 65535};
 
-/// Weights of classes [begin, end) as differences to the universal ones.
+/// Weights of classes [begin, end): all 0, or differences to the universal ones.
 template <class Io>
 Status codeWeights(Io& io, PositionTables& t, const PredictorWeights& truth, uint32_t begin,
                    uint32_t end) {
-  const uint32_t count = begin >= kClassSelect ? kWeights : kBasicWeights;
   GolombModel& model = begin >= kClassSelect ? t.selecting_weight : t.weight;
   for (uint32_t c = begin; c < end; ++c) {
-    bool differs = false;
-    for (uint32_t i = 0; Io::kEncoding && i < count; ++i) {
-      differs = differs || truth.w[c][i] != kUniversalWeights.w[c][i];
-    }
-    if (!io.bit(t.present, differs)) continue;
+    const uint32_t count = weightCount(c);
+    bool any = false;
+    for (uint32_t i = 0; Io::kEncoding && i < count; ++i) any = any || truth.w[c][i] != 0;
+    if (!io.bit(t.present, any)) continue;
     for (uint32_t i = 0; i < count; ++i) {
       const int32_t from = kUniversalWeights.w[c][i];
       const int64_t w = int64_t{from} + codeSignedGolomb(io, model, truth.w[c][i] - from);
@@ -134,8 +98,8 @@ Status codeScale(Io& io, PositionTables& t, const PositionParameters& universal,
 template <class Io>
 Status codePositionTables(Io& io, PositionTables& t, PositionParameters& p) {
   const PositionParameters truth = p;
-  setUniversalTables(p);
-  if (p.fitted()) {
+  setUniversalScale(p);
+  if (p.has(position_mode::kWeights)) {
     if (!t.has_weights) MCC_TRY(codeWeights(io, t, truth.weights, 0, kClassSelect));
     t.has_weights = true;
     if (p.has(position_mode::kSelect)) {
@@ -146,7 +110,7 @@ Status codePositionTables(Io& io, PositionTables& t, PositionParameters& p) {
     }
     p.weights = t.weights;
   }
-  if (!p.own_scale) return {};
+  if (!p.has(position_mode::kOwnScale)) return {};
   if (!t.has_scale) MCC_TRY(codeScale(io, t, p, truth.scale));
   t.has_scale = true;
   for (uint32_t fan = 0; fan < 2; ++fan) {

@@ -127,17 +127,17 @@ struct PlainClass {
 };
 
 template <class Wide>
-MCC_INLINE PlainClass classifyPlain(PositionPredictor predictor, bool select, const PlainFan& f,
-                                    const Beyond& b, uint32_t degree) {
+MCC_INLINE PlainClass classifyPlain(bool select, const PlainFan& f, const Beyond& b,
+                                    uint32_t degree) {
   PlainClass c;
-  c.predictor_class = kClassFan + std::clamp<uint32_t>(degree, 3, 9);
+  c.predictor_class = kClassPlain - kLeastDegree + std::clamp(degree, kLeastDegree, kMostDegree);
   const int32_t degree0 = static_cast<int32_t>(f.n0->degree());
   const int32_t degree2 = static_cast<int32_t>(f.n2->degree());
   c.degree_sum = std::clamp(degree0 + degree2 - 12, -12, 12);
   c.degree_skew = std::clamp(degree0 - degree2, -12, 12);
   c.better = 0;
   if (!select) return c;
-  if (b.has_x & ((degree == 6) | (predictor == PositionPredictor::kSelecting))) {
+  if (b.has_x & (degree == 6)) {
     const TipSelection selection = selectTip<Wide>(f, b);
     c.predictor_class = selection.predictor_class;
     c.better = selection.better;
@@ -190,7 +190,7 @@ MCC_INLINE Lanes<std::make_unsigned_t<Wide>> weightPlainFeatures(const PositionP
                                                                  const PlainFan& f, const Beyond& b,
                                                                  uint32_t degree, bool select) {
   using UWide = std::make_unsigned_t<Wide>;
-  const PlainClass c = classifyPlain<Wide>(p.predictor, select, f, b, degree);
+  const PlainClass c = classifyPlain<Wide>(select, f, b, degree);
   const int16_t* w = p.weights.w[c.predictor_class];
   const PlainFeatures<UWide> v = plainFeatures<UWide>(f, b, select);
   Lanes<UWide> sum = v.f0 * weightOf<Wide>(w[0] + w[4] * c.degree_sum) +
@@ -271,21 +271,16 @@ MCC_INLINE Lanes<std::make_unsigned_t<Wide>> meanOf(const Lanes<std::make_unsign
   return mean;
 }
 
-/// Everything but the plain fan: the mean of the tips, or of the neighbours without any, and features. [B.2.4]
+/// Everything but the plain fan: the mean of the tips, or of the neighbours without any, and a feature. [B.2.4]
 template <class UWide>
 struct AnyFeatures {
   uint32_t predictor_class;
-  int32_t degree_term;  ///< this and the following only with one tip
-  int32_t degree_sum;
-  int32_t degree_skew;
   Lanes<UWide> base;
-  Lanes<UWide> mean;  ///< of the neighbours minus base, in 1/2
-  Lanes<UWide> tip;
-  Lanes<UWide> edge;
+  Lanes<UWide> mean;  ///< of the neighbours minus base, in 1/2; 0 without tips, whatever the class
 };
 
 template <class Wide>
-AnyFeatures<std::make_unsigned_t<Wide>> anyFeatures(const AnyFan& fan, uint32_t degree,
+AnyFeatures<std::make_unsigned_t<Wide>> anyFeatures(const AnyFan& fan,
                                                     Lanes<std::make_unsigned_t<Wide>>& spread,
                                                     Lanes<float>& normal) {
   using UWide = std::make_unsigned_t<Wide>;
@@ -294,11 +289,9 @@ AnyFeatures<std::make_unsigned_t<Wide>> anyFeatures(const AnyFan& fan, uint32_t 
   Lanes<UWide> tip_sum{};
   Lanes<UWide> tip[2] = {};
   uint32_t tip_count = 0;
-  uint32_t last_tip = 0;
   for (uint32_t i = 0; i < fan.neighbour_count; ++i) neighbour_sum += coordinates<UWide>(fan.n[i]);
   for (uint32_t i = 0; i < fan.face_count; ++i) {
     if (fan.o[i] == nullptr) continue;
-    last_tip = i;
     const Lanes<UWide> t = coordinates<UWide>(fan.n[i]) + coordinates<UWide>(fan.n[i + 1]) -
                            coordinates<UWide>(fan.o[i]);
     tip_sum += t;
@@ -306,43 +299,26 @@ AnyFeatures<std::make_unsigned_t<Wide>> anyFeatures(const AnyFan& fan, uint32_t 
     normal += tipNormal<Wide>(fan.n[i], fan.n[i + 1], fan.o[i]);
     ++tip_count;
   }
-  r.predictor_class = std::min(tip_count, 4u);
-  if (fan.closed && tip_count != 0) {
-    r.predictor_class = tip_count < 4 ? kClassClosedFewTips : kClassClosedManyTips;
-  }
   r.base = meanOf<Wide>(neighbour_sum, fan.neighbour_count);
-  if (tip_count != 0) {
-    const Lanes<UWide> mean = r.base;
-    r.base = meanOf<Wide>(tip_sum, tip_count);
-    r.mean = (Lanes<UWide>)((Lanes<Wide>)(mean - r.base) >> 7);
-  }
+  if (tip_count == 0) return r;
+  r.predictor_class = !fan.closed     ? std::min(tip_count, 4u) - 1
+                      : tip_count < 4 ? kClassClosedFewTips
+                                      : kClassClosedManyTips;
+  const Lanes<UWide> mean = r.base;
+  r.base = meanOf<Wide>(tip_sum, tip_count);
+  r.mean = (Lanes<UWide>)((Lanes<Wide>)(mean - r.base) >> 7);
   if (tip_count >= 2) spread = absoluteLanes<UWide>(tip[0] - tip[1]);
-  if (r.predictor_class != kClassOneTip) return r;
-  const VertexRecord* a = fan.n[last_tip];
-  const VertexRecord* b = fan.n[last_tip + 1];
-  r.degree_term = static_cast<int32_t>(std::min(12u, degree)) - 6;
-  const int32_t degree_a = static_cast<int32_t>(a->degree());
-  const int32_t degree_b = static_cast<int32_t>(b->degree());
-  r.degree_sum = std::clamp(degree_a + degree_b - 12, -12, 12);
-  r.degree_skew = std::clamp(degree_a - degree_b, -12, 12);
-  const Lanes<UWide> o = coordinates<UWide>(fan.o[last_tip]);
-  r.tip = coordinates<UWide>(a) + coordinates<UWide>(b) - 2 * o;
-  r.edge = 2 * (coordinates<UWide>(a) - coordinates<UWide>(b));
   return r;
 }
 
 template <class Wide>
-void predictAny(const PositionParameters& p, const AnyFan& fan, uint32_t degree,
-                Prediction<Wide>& out) {
+void predictAny(const PositionParameters& p, const AnyFan& fan, Prediction<Wide>& out) {
   using UWide = std::make_unsigned_t<Wide>;
   out.spread = Lanes<UWide>{};
   out.magnitudes = Lanes<UWide>{};
   Lanes<float> normal{};
-  const AnyFeatures<UWide> v = anyFeatures<Wide>(fan, degree, out.spread, normal);
-  const int16_t* w = p.weights.w[v.predictor_class];
-  out.q8 = v.base + v.mean * weightOf<Wide>(w[1]) +
-           v.tip * weightOf<Wide>(w[0] + w[2] * v.degree_term + w[4] * v.degree_sum) +
-           v.edge * weightOf<Wide>(w[3] * v.degree_skew);
+  const AnyFeatures<UWide> v = anyFeatures<Wide>(fan, out.spread, normal);
+  out.q8 = v.base + v.mean * weightOf<Wide>(p.weights.w[v.predictor_class][0]);
   for (uint32_t i = 0; i < fan.neighbour_count; ++i) out.magnitudes += magnitudes<UWide>(fan.n[i]);
   if (fan.neighbour_count != 3) {
     MCC_UNROLL

@@ -10,36 +10,36 @@
 
 namespace mcc {
 
-/// Predictor classes by what is known around a vertex. Classes 9..15 are plain fans, by the vertex' degree; classes
-/// 16..24 plain fans by how well the three kinds of parallelograms did one step back (tip selection).
-inline constexpr uint32_t kClassNoTip = 0;
-inline constexpr uint32_t kClassOneTip = 1;
-inline constexpr uint32_t kClassClosedFewTips = 5;
-inline constexpr uint32_t kClassClosedManyTips = 6;
-inline constexpr uint32_t kClassFan = 6;  ///< + clamped degree 3..9
-inline constexpr uint32_t kClassSelect = 16;
-inline constexpr uint32_t kPredictorClasses = 25;
-inline constexpr uint32_t kBasicWeights = 5;
-inline constexpr uint32_t kWeights = 8;
+/// Predictor classes by what is known around a vertex. Classes 0..5 are fans that are not plain, by their tips; classes
+/// 6..12 plain fans, by the vertex' degree; classes 13..21 plain fans by how well the three kinds of parallelograms did
+/// one step back (tip selection).
+inline constexpr uint32_t kClassClosedFewTips = 4;
+inline constexpr uint32_t kClassClosedManyTips = 5;
+inline constexpr uint32_t kClassPlain = 6;
+inline constexpr uint32_t kLeastDegree = 3;  ///< that has a class
+inline constexpr uint32_t kMostDegree = 9;
+inline constexpr uint32_t kClassSelect = 13;
+inline constexpr uint32_t kPredictorClasses = 22;
+inline constexpr uint32_t kMostWeights = 8;
 
-/// Weights in units of 1/128 of the features f0, f1, f3, f4, f5, and of three more with tip selection;
-/// kClassOneTip has the degree of v in place of f3.                                         [B.2.2]
+/// How many weights a class has.
+constexpr uint32_t weightCount(uint32_t predictor_class) {
+  return predictor_class < kClassPlain ? 1 : predictor_class < kClassSelect ? 5 : kMostWeights;
+}
+
+/// Weights in units of 1/128: for a plain fan of the features f0, f1, fy, fd and of f0 by degrees, and of three more with
+/// tip selection; for another of the mean of the neighbours.                                 [B.2.2, B.2.4]
 struct PredictorWeights {
-  int16_t w[kPredictorClasses][kWeights];
+  int16_t w[kPredictorClasses][kMostWeights];
 };
 
-inline constexpr PredictorWeights kAverageWeights{};
-
 inline constexpr PredictorWeights kUniversalWeights{{
-    {0, 0, 0, 0, 0},
-    {-6, 5, 17, -15, 1},
-    {0, 37, 0, 0, 0},
-    {0, 23, 0, 0, 0},
-    {0, 26, 0, 0, 0},
-    {0, 84, 0, 0, 0},
-    {0, 78, 0, 0, 0},
-    {0, 0, 0, 0, 0},
-    {0, 0, 0, 0, 0},
+    {5},
+    {37},
+    {23},
+    {26},
+    {84},
+    {78},
     {0, 0, 0, 0, 0},
     {98, -97, -4, -2, -4},
     {71, -53, -5, -4, -4},
@@ -48,23 +48,6 @@ inline constexpr PredictorWeights kUniversalWeights{{
     {20, 35, -9, -10, -4},
     {3, 60, -15, -11, -5},
 }};
-
-/// Fixed tip selection: the parallelogram that did clearly best one step back, else the average.
-constexpr PredictorWeights makeSelectingWeights() {
-  PredictorWeights weights{};
-  for (uint32_t preference = 0; preference < 3; ++preference) {
-    for (uint32_t third = 0; third < 3; ++third) {
-      int16_t* w = weights.w[kClassSelect + 3 * preference + third];
-      if (third == 2) {
-        w[0] = 128;  // n0 + n2 - n1
-      } else {
-        w[5] = static_cast<int16_t>(64 * preference);
-      }
-    }
-  }
-  return weights;
-}
-inline constexpr PredictorWeights kSelectingWeights = makeSelectingWeights();
 
 /// Scale of a residual from neighbours' residuals, spread of the tips and a constant, in 1/64.
 struct ScaleCoefficients {

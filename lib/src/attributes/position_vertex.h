@@ -63,7 +63,7 @@ class VertexCoder {
     codeVertex(io, v, prediction, 1);
   }
   void codeAny(Io& io, uint32_t v, const AnyFan& fan, Prediction<Wide>& prediction) const {
-    predictAny<Wide>(p_, fan, records_[v].degree(), prediction);
+    predictAny<Wide>(p_, fan, prediction);
     if constexpr (std::is_same_v<Wide, int32_t>) {
       if (has(position_mode::kPlanes)) {
         const uint32_t last = fan.neighbour_count - 1;

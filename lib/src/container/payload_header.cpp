@@ -130,9 +130,8 @@ bool isPredicted(const AttributeInfo* all, uint32_t count, uint32_t index) {
     const uint32_t bits = a.coding == AttributeCoding::kLattice
                               ? a.bits
                               : 8 * componentBytes(a.format.component_type);
-    const uint32_t kind = a.predictor & position_flag::kKindMask;
     return (decodes::kExactFloats || bits <= kNarrowPositionBits) &&
-           (decodes::kPlanes || kind != position_flag::kPlanes);
+           (a.predictor & ~position_mode::kDecoded) == 0;
   }
   if (methodOf(all, count, index) != AttributeMethod::kValues) return true;
   return (decodes::kIds || (a.predictor & value_method::kIds) == 0) &&
@@ -201,13 +200,12 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
        position.coding != AttributeCoding::kGrid)) {
     return fail(Error::kBadHeader, "the first attribute of a piece is not its position", at);
   }
-  if ((position.predictor & position_flag::kPredictorMask) >= position_flag::kPredictorCount) {
+  if (!position_mode::areKnown(position.predictor)) {
     return fail(Error::kBadHeader, "the positions have an unknown predictor", at);
   }
-  if ((position.predictor & position_flag::kKindMask) == position_flag::kPlanes &&
-      (position.predictor > (position_flag::kKindMask | position_flag::kPredictorMask) ||
-       position.coding != AttributeCoding::kLattice ||
-       position.bits > position_flag::kMaxBitsOfPlanes)) {
+  if ((position.predictor & position_mode::kPlanes) != 0 &&
+      (position.coding != AttributeCoding::kLattice ||
+       position.bits > position_mode::kMaxBitsOfPlanes)) {
     return fail(Error::kBadHeader, "these positions cannot have planes", at);
   }
   return {};
@@ -374,7 +372,8 @@ Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, Payloa
   MCC_TRY(in.readU8(version));
   if (version != (kVersionMajor << 4 | kVersionMinor)) {
     return fail(Error::kUnsupportedVersion,
-                "the payload is of a version this reader does not know (it knows the draft 0.9)", 3);
+                "the payload is of a version this reader does not know (it knows the draft 0.9)",
+                3);
   }
   header.version_minor = version & 15;
   MCC_TRY(in.readU32(checksum));

@@ -61,21 +61,6 @@ inline constexpr uint32_t kAll = 0x7fff;
 inline constexpr uint32_t kDecoded = kAll & ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder);
 }  // namespace piece_flag
 
-/// AttributeInfo::predictor of a position: which predictor in the low bits, then one of four kinds of
-/// residuals, then flags, which positions with planes do not have.                          [A.2.7]
-namespace position_flag {
-inline constexpr uint8_t kPredictorMask = 7;  ///< PositionPredictor
-inline constexpr uint8_t kPredictorCount = 5;
-inline constexpr uint8_t kKindMask = 3u << 3;  ///< 0: plain
-inline constexpr uint8_t kShear = 1u << 3;
-inline constexpr uint8_t kPalette = 2u << 3;
-inline constexpr uint8_t kPlanes = 3u << 3;
-inline constexpr uint8_t kMaxBitsOfPlanes = 17;  ///< of the lattice
-inline constexpr uint8_t kOwnScale = 1u << 5;
-inline constexpr uint8_t kFold = 1u << 6;
-inline constexpr uint8_t kSplit = 1u << 7;
-}  // namespace position_flag
-
 /// Positions of up to so many bits are predicted in 32 bits: with a fraction of 8 bits.
 inline constexpr uint32_t kNarrowPositionBits = 17;
 

@@ -36,12 +36,14 @@ class Words {
 
 std::string nameOfPosition(uint8_t bits) {
   return Words(bits)
-      .number(position_flag::kPredictorMask, 0,
-              {"average", "universal", "fitted", "fitted selecting", "selecting"})
-      .number(position_flag::kKindMask, 3, {"", "sheared", "palette", "planes"})
-      .bit(position_flag::kOwnScale, "own scale")
-      .bit(position_flag::kFold, "fold")
-      .bit(position_flag::kSplit, "split")
+      .bit(position_mode::kWeights, "weights")
+      .bit(position_mode::kSelect, "tip selection")
+      .bit(position_mode::kShear, "shear")
+      .bit(position_mode::kPalette, "palette")
+      .bit(position_mode::kPlanes, "planes")
+      .bit(position_mode::kFold, "fold")
+      .bit(position_mode::kOwnScale, "own scale")
+      .bit(position_mode::kSplit, "split")
       .text();
 }
 

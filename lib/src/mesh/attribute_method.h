@@ -189,6 +189,28 @@ constexpr AttributeMethod methodOf(const AttributeInfo* attributes, uint32_t cou
 /// Bits of `predictor` of every method: consecutive wedges of a vertex may share a value.
 inline constexpr uint8_t kHasEqualities = 0x80;
 
+/// AttributeInfo::predictor of a position: what its coder does. What is off costs the coder nothing. [A.6.2]
+namespace position_mode {
+inline constexpr uint8_t kWeights = 1u << 0;  ///< of features, from the payload
+inline constexpr uint8_t kSelect = 1u << 1;   ///< classes of tip selection; needs kWeights
+inline constexpr uint8_t kShear = 1u << 2;    ///< of shear, palette and planes there is one at most
+inline constexpr uint8_t kPalette = 1u << 3;
+inline constexpr uint8_t kPlanes = 1u << 4;  ///< without the following
+inline constexpr uint8_t kFold = 1u << 5;
+inline constexpr uint8_t kOwnScale = 1u << 6;
+inline constexpr uint8_t kSplit = 1u << 7;
+inline constexpr uint8_t kKinds = kShear | kPalette | kPlanes;
+inline constexpr uint8_t kDecoded = static_cast<uint8_t>(~(decodes::kPlanes ? 0 : kPlanes));
+inline constexpr uint8_t kMaxBitsOfPlanes = 17;  ///< of the lattice
+
+constexpr bool areKnown(uint32_t modes) {
+  const uint32_t kinds = modes & kKinds;
+  if ((kinds & (kinds - 1)) != 0) return false;
+  if ((modes & kSelect) != 0 && (modes & kWeights) == 0) return false;
+  return kinds != kPlanes || (modes & ~uint32_t{kWeights | kSelect | kPlanes}) == 0;
+}
+}  // namespace position_mode
+
 namespace normal_method {
 inline constexpr uint8_t kWeightMask = 0x03;  ///< NormalWeight
 inline constexpr uint8_t kBlendShift = 2;     ///< 0 none, 1 half, 2 whole
