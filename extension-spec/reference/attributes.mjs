@@ -2,21 +2,20 @@
 
 // The attributes of a piece: A.8 of the specification.
 
-import { elementsOf, vectorOf } from './components.mjs';
+import { elementsOf } from './components.mjs';
 import { models } from './entropy.mjs';
 import { decodeExactNormals, ExactNormalModels } from './exactnormals.mjs';
 import { decodeExactTangents, ExactTangentModels } from './exacttangents.mjs';
-import { decodeExactValues, ExactValueModels } from './exactvalues.mjs';
 import { finite } from './floats.mjs';
 import { BelowGrid, TailModels } from './grids.mjs';
-import { ALIAS, EXACT_FLOAT, GRID, TANGENT } from './names.mjs';
+import { ALIAS, GRID, TANGENT } from './names.mjs';
 import { decodeNormals, NormalModels } from './normals.mjs';
 import { centreOf, unitVector } from './octahedral.mjs';
 import { decodeSkins, SkinModels } from './skins.mjs';
 import { AttributeState } from './state.mjs';
 import { chartCoordinates, decodeTangentAngles, decodeTangentPoints, TangentModels } from './tangents.mjs';
 import { decodeTexcoords, TexcoordModels } from './texcoords.mjs';
-import { decodeValues, Moved, ValueModels } from './values.mjs';
+import { decodeValues, ValueModels } from './values.mjs';
 import { EqualityModels, readBundles, Wedges } from './wedges.mjs';
 
 export class AttributeModels {
@@ -29,7 +28,6 @@ export class AttributeModels {
 		this.skins = new SkinModels();
 		this.exactNormals = new ExactNormalModels();
 		this.exactTangents = new ExactTangentModels();
-		this.exactValues = new ExactValueModels();
 		this.tails = models([8, 2], () => new TailModels());
 	}
 }
@@ -42,7 +40,6 @@ class Context {
 		this.attributes = piece.attributes;
 		this.wedges = wedges;
 		this.states = new Map(); // by attribute
-		this.moved = new Moved(wedges.count);
 	}
 
 	begin(attribute, bundleOf) {
@@ -77,29 +74,17 @@ class Context {
 		return this.perWedge((w) => unitVector(C, state.value(w)));
 	}
 
-	// [B.8] The unit normals G, or undefined
+	// [A.8.7] The normals that tangent points are perpendicular to, or undefined
 	unitNormals() {
 		const state = this.exactNormalState();
 		if (state === undefined) return this.octahedralNormals();
 		return this.perWedge((w) => [...state.value(w)].map(finite));
 	}
-
-	// [B.8.2] The base tangents without their signs
-	baseTangents() {
-		const { baseTangent } = this.attributes;
-		const state = this.stateOf(baseTangent);
-		if (baseTangent.coding === EXACT_FLOAT || baseTangent.coding === GRID) {
-			return this.perWedge((w) => [...state.value(w)].slice(0, 3).map(finite));
-		}
-		const normals = this.octahedralNormals();
-		return this.perWedge((w) => vectorOf(state, w, normals).slice(0, 3));
-	}
 }
 
 // [A.8.1] Order of the attributes
 function phaseOf(attribute) {
-	if (attribute.target !== 0) return 2;
-	return attribute.semantic === TANGENT ? 1 : 0;
+	return attribute.semantic === TANGENT && attribute.target === 0 ? 1 : 0;
 }
 
 const DECODERS = {
@@ -109,13 +94,12 @@ const DECODERS = {
 	'texture coordinate': decodeTexcoords,
 	'exact normal': decodeExactNormals,
 	'exact tangent': decodeExactTangents,
-	'exact values': decodeExactValues,
 	values: decodeValues,
 };
 
 // [A.8.1] An attribute is read in three steps.
 function decodeAttribute(context, attribute) {
-	if (attribute.method === 'with another') return;
+	if (attribute.method === 'alias' || attribute.method === 'skin weights') return;
 	const bundleOf = readBundles(context.streams, context.models.equalities, context.wedges, attribute);
 	const state = context.begin(attribute, bundleOf);
 	if (attribute.method === 'skin') {
@@ -128,7 +112,7 @@ function decodeAttribute(context, attribute) {
 	readBelowGrid(context, state);
 }
 
-// [A.8.13] A wedge that is not the first of its bundle gets the floats of the first.
+// [A.8.12] A wedge that is not the first of its bundle gets the floats of the first.
 function readBelowGrid({ streams, models: { tails } }, state) {
 	const { attribute, wedges, bundleOf } = state;
 	if (attribute.coding !== GRID) return;
@@ -155,7 +139,7 @@ export function decodeAttributes(streams, attributeModels, stages) {
 	if (attributes.length === 0) return [];
 	const context = new Context(streams, attributeModels, stages.piece, new Wedges(stages));
 	positionState(context, attributes[0]);
-	for (const phase of [0, 1, 2]) {
+	for (const phase of [0, 1]) {
 		for (const attribute of attributes.slice(1)) {
 			if (phaseOf(attribute) === phase) decodeAttribute(context, attribute);
 		}

@@ -2,35 +2,34 @@
 
 // Exact normals: A.8.9 of the specification.
 
-import { models } from './entropy.mjs';
-import { bounded, makeUnit, meanError, noError, vectorOf, VectorModels, VectorReader } from './exactvectors.mjs';
+import { bounded, makeUnit, meanError, noError, vectorOf, VectorReader, vectorRows } from './exactvectors.mjs';
+import { orderedOfBits } from './floats.mjs';
 import { exactFaceNormalSums } from './faces.mjs';
-import { EdgeMemory, magnitudeBits, withSignOf } from './memories.mjs';
+import { magnitudeBits, Memory, memoryModels, predictionKey } from './memories.mjs';
 import { next, NONE } from './mesh.mjs';
 import { add64, scale64, sub64 } from './vectors.mjs';
 import { bundles } from './wedges.mjs';
 
 export class ExactNormalModels {
 	constructor() {
-		this.vectors = new VectorModels();
-		this.BESIDE = models([2, 4]);
+		this.ROW = vectorRows();
+		this.KNOWN = memoryModels();
 	}
 }
 
-const PARTS = [0, 0.25, 0.5]; // of the blends none, half, whole
+// The float with the magnitude of i, with a minus where the predicted component is negative.
+const withSignOf = (i, predicted) => orderedOfBits((magnitudeBits(i) | (predicted < 0 ? 0x80000000 : 0)) >>> 0);
 
 class ExactNormals {
 	constructor(context, state) {
 		const byte = state.attribute.predictor;
 		const { wedges } = state;
-		this.streams = context.streams;
-		this.BESIDE = context.models.exactNormals.BESIDE;
+		const { ROW, KNOWN } = context.models.exactNormals;
 		this.state = state;
 		this.wedges = wedges;
-		this.part = PARTS[(byte >> 2) & 3];
-		this.reader = new VectorReader(context.streams, context.models.exactNormals.vectors, (byte & 16) !== 0);
-		this.edges = byte & 32 ? new EdgeMemory(state, magnitudeBits) : undefined;
-		this.edgeHistory = 0;
+		this.blend = (byte & 4) !== 0;
+		this.reader = new VectorReader(context.streams, ROW);
+		this.memory = byte & 8 ? new Memory(context.streams, KNOWN, state, magnitudeBits) : undefined;
 		this.S = exactFaceNormalSums(wedges.surface, wedges.count, wedges.exactPositions, byte & 3);
 		this.E = new Array(wedges.count);
 		this.last = [0, 0, 0];
@@ -43,15 +42,17 @@ class ExactNormals {
 
 	bundle(bundle) {
 		const direction = this.direction(bundle.members);
-		const { value } = this.read(bundle, direction);
+		const predicted = this.predict(bundle, direction);
+		const value = this.known(bundle, predicted) ?? this.reader.read(predicted, this.error);
 		this.last = vectorOf(value).map(bounded);
-		const S = sub64(this.last, direction);
+		const missed = sub64(this.last, direction);
 		for (const w of bundle.members) {
-			this.S[w] = S;
+			this.S[w] = missed;
 			this.E[w] = { ...this.error };
-			this.state.finish({ members: [w] }, value, 0);
-			this.edges?.learnFaces(w);
 		}
+		this.state.finish(bundle, value, 0);
+		this.memory?.learn(keyOfPrediction(predicted), bundle.first);
+		this.memory?.learnFaces(bundle.members);
 		makeUnit(this.last);
 	}
 
@@ -61,35 +62,35 @@ class ExactNormals {
 		return makeUnit(direction) ? direction : [...this.last];
 	}
 
-	// this.error becomes that of the bundle.
-	read(bundle, direction) {
-		const { n, p } = bundle;
-		let predicted = [...direction];
-		if (bundle.hasEntry && this.state.isCoded(n) && this.state.isCoded(p)) {
-			this.error = meanError(this.E[n], this.E[p]);
-			if (this.part !== 0) {
-				predicted = add64(direction, scale64(add64(this.S[n], this.S[p]), this.part));
-				makeUnit(predicted);
-			}
-			const value = this.edges && this.askEdges(bundle, predicted);
-			if (value !== undefined) return { value };
-		}
-		return { value: this.reader.read(predicted, this.error) };
+	hasNeighbours({ hasEntry, n, p }) {
+		return hasEntry && this.state.isCoded(n) && this.state.isCoded(p);
 	}
 
-	askEdges(bundle, predicted) {
-		const { surface } = this.wedges;
-		const behind = surface.across(next(bundle.halfEdges[0]));
-		const o = behind === NONE ? bundle.first : surface.tail(behind);
-		const candidates = this.edges.at(this.edges.key(bundle.n, bundle.p)).filter((k) => k !== o);
-		for (let asked = 0; asked < candidates.length; ++asked) {
-			const hit = this.streams.bit(this.BESIDE[asked][this.edgeHistory]);
-			this.edgeHistory = (2 * this.edgeHistory + hit) & 3;
-			if (hit) return this.state.value(candidates[asked]).map((x, s) => withSignOf(magnitudeBits(x), predicted[s]));
+	// this.error becomes that expected.
+	predict(bundle, direction) {
+		if (!this.hasNeighbours(bundle)) return direction;
+		const { n, p } = bundle;
+		this.error = meanError(this.E[n], this.E[p]);
+		if (!this.blend) return direction;
+		const predicted = add64(direction, scale64(add64(this.S[n], this.S[p]), 0.5));
+		makeUnit(predicted);
+		return predicted;
+	}
+
+	known(bundle, predicted) {
+		if (this.memory === undefined) return undefined;
+		this.memory.begin();
+		let k = this.memory.ask(keyOfPrediction(predicted), NONE);
+		if (k === NONE && this.hasNeighbours(bundle)) {
+			const behind = this.wedges.surface.across(next(bundle.halfEdges[0]));
+			const o = behind === NONE ? NONE : this.wedges.surface.tail(behind);
+			k = this.memory.ask(this.memory.edgeKey(bundle.n, bundle.p), this.state.isCoded(o) ? o : NONE);
 		}
-		return undefined;
+		return k === NONE ? undefined : this.state.value(k).map((x, s) => withSignOf(x, predicted[s]));
 	}
 }
+
+const keyOfPrediction = (predicted) => predictionKey(predicted.map((x) => Math.trunc(Math.abs(x) * 4096 + 0.5)));
 
 export function decodeExactNormals(context, state) {
 	new ExactNormals(context, state).decode();

@@ -3,17 +3,16 @@
 // Exact tangents: A.8.10 of the specification. What they are predicted from: B.6.7.
 
 import { models } from './entropy.mjs';
-import { flatten, makeUnit, meanError, noError, vectorOf, VectorModels, VectorReader } from './exactvectors.mjs';
-import { exactAngle } from './faces.mjs';
+import { flatten, makeUnit, meanError, noError, vectorOf, VectorReader, vectorRows } from './exactvectors.mjs';
 import { ordered, orderedOfBits } from './floats.mjs';
-import { add64, cross64, dot64, scale64, sub64 } from './vectors.mjs';
+import { add64 } from './vectors.mjs';
 import { bundles } from './wedges.mjs';
 
 const xyz = [0, 1, 2];
 
 export class ExactTangentModels {
 	constructor() {
-		this.vectors = new VectorModels();
+		this.ROW = vectorRows();
 		this.NEGATIVE = models([3]);
 		this.ODD = models([]);
 	}
@@ -21,44 +20,28 @@ export class ExactTangentModels {
 
 // ---- [B.6.7] Exact sums of face tangents
 
-const ANGLE = 0, CHART = 1, EQUAL = 3; // weights; 2 is area
-
-function exactFaceTangentSums(wedges, chart, normals, weight) {
+function exactFaceTangentSums(wedges, chart) {
 	const { surface, exactPositions } = wedges;
 	const T = Array.from({ length: wedges.count }, () => [0, 0, 0, 0]);
 	if (chart === undefined) return T;
 	for (let h = 0; h < surface.halfEdgeCount; h += 3) {
 		const corners = [h, h + 1, h + 2].map((g) => surface.tail(g));
-		const points = corners.map((w) => exactPositions[w]);
-		const tangent = exactFaceTangent(points, corners.map((w) => chart[w]), weight);
+		const tangent = exactFaceTangent(corners.map((w) => exactPositions[w]), corners.map((w) => chart[w]));
 		if (tangent === undefined) continue;
-		corners.forEach((w, k) => {
-			const d = weight === ANGLE ? weightedByAngle(tangent.t, normals[w], points, k) : tangent.t;
-			T[w] = [...add64(T[w], d), T[w][3] + tangent.side];
-		});
+		for (const w of corners) T[w] = [...add64(T[w], tangent.t), T[w][3] + tangent.side];
 	}
 	return T;
 }
 
-function exactFaceTangent([p0, p1, p2], [c0, c1, c2], weight) {
+function exactFaceTangent([p0, p1, p2], [c0, c1, c2]) {
 	const v0 = c1[1] - c0[1];
 	const v1 = c2[1] - c0[1];
 	const determinant = (c1[0] - c0[0]) * v1 - (c2[0] - c0[0]) * v0;
 	if (!(Math.abs(determinant) > 1e-60)) return undefined;
 	const side = determinant < 0 ? -1 : 1;
 	const t = xyz.map((s) => side * ((p1[s] - p0[s]) * v1 - (p2[s] - p0[s]) * v0));
-	if (weight === CHART) return { t: t.map((x) => x / Math.abs(determinant)), side };
-	if (weight === EQUAL) makeUnit(t);
+	makeUnit(t);
 	return { t, side };
-}
-
-function weightedByAngle(t, N, points, k) {
-	const d = flatten(N, t);
-	makeUnit(d);
-	const [a, b] = [1, 2].map((i) => flatten(N, sub64(points[(k + i) % 3], points[k])));
-	const x = makeUnit(a) && makeUnit(b) ? cross64(a, b) : [0, 0, 0];
-	const y = exactAngle(Math.sqrt(dot64(x, x)), dot64(a, b));
-	return scale64(d, y > 0 ? y : 0);
 }
 
 // ---- [A.8.10] Exact tangents
@@ -71,10 +54,10 @@ class ExactTangents {
 		this.models = context.models.exactTangents;
 		this.state = state;
 		this.wedges = wedges;
-		this.perpendicular = (byte & 4) !== 0;
-		this.reader = new VectorReader(context.streams, this.models.vectors, (byte & 8) !== 0);
+		this.perpendicular = (byte & 1) !== 0;
+		this.reader = new VectorReader(context.streams, this.models.ROW);
 		this.normals = unitExactNormals(context, wedges);
-		this.T = exactFaceTangentSums(wedges, context.chart(), this.normals, byte & 3);
+		this.T = exactFaceTangentSums(wedges, context.chart());
 		this.E = Array.from({ length: wedges.count }, noError);
 		this.last = [0, 0, 0];
 		this.error = noError();

@@ -4,22 +4,13 @@
 
 import { models } from './entropy.mjs';
 import { finite, ordered, ulp } from './floats.mjs';
-import { VectorMemory, withSignOf } from './memories.mjs';
 import { readScaledResidual, scaledRows } from './residuals.mjs';
 import { cross64, dot64, f } from './vectors.mjs';
 
 const xyz = [0, 1, 2];
 
-export const rowsOfSlots = (count) => models([count], scaledRows);
-
-// By what the vectors are: normals or tangents.
-export class VectorModels {
-	constructor() {
-		this.ROW = rowsOfSlots(3);
-		this.KNOWN = models([4, 4]);
-		this.memory = new VectorMemory();
-	}
-}
+// ROW, by what the vectors are: normals or tangents
+export const vectorRows = () => models([3], scaledRows);
 
 // ---- [B.7.1] Vectors: makeUnit changes v and says whether it could; flatten returns the part of v beside N.
 
@@ -41,7 +32,7 @@ export const bounded = (x) => (Math.abs(x) < 4 ? x : 0);
 
 export const meanError = (a, b) => ({ size: f(f(a.size + b.size) / 2), places: f(f(a.places + b.places) / 2) });
 
-// The value of a component and what its residual amounts to: [A.8.11] and [B.7.2]
+// The value of a component and what its residual amounts to: [B.7.2]
 export function readComponent(streams, state, rowsByBucket, predicted, expected) {
 	const from = ordered(f(predicted));
 	const size = ulp(from);
@@ -58,41 +49,22 @@ export const noError = () => ({ size: 0, places: 0 });
 // ---- [B.7.2] Exact vectors
 
 export class VectorReader {
-	constructor(streams, m, remembers) {
+	constructor(streams, ROW) {
 		this.streams = streams;
-		this.models = m;
-		this.remembers = remembers;
-		this.history = 0; // of the memory
+		this.ROW = ROW;
 	}
 
 	// The three components; error is that expected and becomes that of this vector.
 	read(predicted, error, N) {
-		const known = this.remembers ? this.known(predicted) : undefined;
-		if (known !== undefined) {
-			error.size = f(error.size * 0.5);
-			return known;
-		}
 		const value = new Int32Array(3);
 		if (N !== undefined) this.inPlane(value, predicted, error, N);
 		else this.components(value, predicted, error);
-		if (this.remembers) this.models.memory.learn(predicted, value);
 		return value;
-	}
-
-	// [B.7.3]
-	known(predicted) {
-		const entry = this.models.memory.entry(predicted);
-		if (entry.confidence === 0) return undefined;
-		const hit = this.streams.bit(this.models.KNOWN[entry.confidence][this.history]);
-		this.history = (2 * this.history + hit) & 3;
-		if (!hit) return undefined;
-		entry.confidence = Math.min(entry.confidence + 1, 3);
-		return Int32Array.from(entry.magnitudes, (magnitude, s) => withSignOf(magnitude, predicted[s]));
 	}
 
 	// Reads value[s] and returns m.
 	component(value, s, slot, predicted, expected) {
-		const { value: x, missed } = readComponent(this.streams, slot, this.models.ROW[slot], predicted, expected);
+		const { value: x, missed } = readComponent(this.streams, slot, this.ROW[slot], predicted, expected);
 		value[s] = x;
 		return missed < 2 ? missed : 2;
 	}

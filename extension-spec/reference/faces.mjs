@@ -8,7 +8,7 @@ import { INTEGER, LATTICE } from './names.mjs';
 import { add32, add64, cross32, cross64, dot32, dot64, f, max, min, scale32, scale64, sqrt32, sub32, sub64 } from './vectors.mjs';
 
 // The weight of faces: bits 0..1 of the predictor byte of normals (A.8.5, A.8.9)
-export const AREA = 0, ANGLE = 1, SINE = 2, EQUAL = 3;
+const AREA = 0, ANGLE = 1; // 2 is sine
 
 const vectorsOf = (list) => Array.from({ length: list.length / 3 }, (_, i) => [list[3 * i], list[3 * i + 1], list[3 * i + 2]]);
 
@@ -28,7 +28,7 @@ function rangeOfIntegers(list) {
 }
 
 // Of floats that are finite.
-export function rangeOfFloats(list) {
+function rangeOfFloats(list) {
 	const reach = largestDifference(list);
 	const E = exponent64(reach);
 	const scale = E === undefined ? 1 : 2 ** (21 - E);
@@ -55,7 +55,7 @@ function exactCoordinate(attribute, q, s) {
 	return attribute.coding === INTEGER ? f(q) : finite(q);
 }
 
-// [A.8.12] The float of a lattice
+// [A.8.11] The float of a lattice
 export const latticeFloat = (attribute, q, c) => f(f(f(q) * attribute.step) + attribute.origin[c]);
 
 // ---- [B.4.3] Angles at corners
@@ -71,7 +71,7 @@ function cornerAngle(y, x) {
 	return r;
 }
 
-export function exactAngle(c, d) {
+function exactAngle(c, d) {
 	const h = Math.sqrt(c * c + d * d);
 	const t = c / (h + Math.abs(d));
 	const u = t / (1 + Math.sqrt(1 + t * t));
@@ -118,8 +118,7 @@ function faceWeights(weight, e0, e1, normal) {
 	}
 	const e2 = sub32(e1, e0);
 	const [q0, q1, q2] = [e0, e1, e2].map((e) => dot32(e, e));
-	const i = nn > 0 ? f(1 / f(f(q0 * q1) * q2)) : 0;
-	return [f(i * q2), f(i * q1), f(i * q0)];
+	return [[q0, q1], [q0, q2], [q1, q2]].map(([a, b]) => (nn > 0 ? f(1 / f(a * b)) : 0));
 }
 
 // ---- [B.4.7] Exact sums of face normals
@@ -145,7 +144,6 @@ function exactFaceWeights(weight, sides, normal) {
 	if (!(square > 1e-290)) return undefined;
 	const length = Math.sqrt(square);
 	const i = 1 / length;
-	if (weight === EQUAL) return [i, i, i];
 	if (weight === ANGLE) {
 		const a0 = exactAngle(length, -dot64(sides[0], sides[2]));
 		const a1 = exactAngle(length, -dot64(sides[1], sides[0]));

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Exact grids and what is below them: A.8.13 of the specification.
+// Exact grids and what is below them: A.8.12 of the specification.
 
 import { width } from './bytes.mjs';
 import { models } from './entropy.mjs';
@@ -17,14 +17,12 @@ export class TailModels {
 	}
 }
 
-const isBinary = (grid) => grid >= 32;
-const exponentOf = (grid) => grid - 32 - 149; // e
+const isBinary = (grid) => grid >= 10;
+const exponentOf = (grid) => grid - 10 - 149; // e
 
 // The number of steps per unit.
-export function scaleOfGrid(grid) {
-	if (grid < 10) return Number(10n ** BigInt(grid));
-	if (grid < 25) return 2 ** (grid - 8) - 1;
-	return 2 ** -exponentOf(grid);
+function scaleOfGrid(grid) {
+	return isBinary(grid) ? 2 ** -exponentOf(grid) : Number(10n ** BigInt(grid));
 }
 
 // Reads the floats of one attribute of a piece.

@@ -264,30 +264,22 @@ function readGrid(reader, attribute) {
 	const byte = reader.u8();
 	attribute.bits = byte & 31;
 	attribute.tails = byte >> 5;
-	attribute.grid = reader.varint();
+	attribute.grid = reader.u8();
 	const { bits, tails, grid } = attribute;
 	if (bits < 1 || bits > 27 || tails > 2) badHeader('A.2.4', 'bits or tails of a grid');
-	if (!(grid <= 24 || (grid >= 32 && grid <= 277))) badHeader('A.2.4', `grid ${grid}`);
-	if (tails !== 0 && grid < 32) badHeader('A.2.4', 'tails of a decimal grid');
+	if (tails !== 0 && grid < 10) badHeader('A.2.4', 'tails of a decimal grid');
 }
 
 // ---- [A.2.4] Relations between the attributes of a piece
 
-// Sets octahedralNormal, exactNormal, baseTangent and chart (A.8.1) of the list; partner, positionDeltas and normalDeltas
-// of attributes.
+// Sets octahedralNormal, exactNormal and chart (A.8.1) of the list; partner of attributes.
 function findRelations(attributes) {
 	const base = (a) => a.target === 0;
 	attributes.octahedralNormal = attributes.find((a) => base(a) && a.coding === OCTAHEDRAL && a.semantic !== TANGENT);
 	attributes.exactNormal = attributes.find((a) => base(a) && a.semantic === NORMAL && a.components === 3
 		&& (a.coding === EXACT_FLOAT || a.coding === GRID));
-	attributes.baseTangent = attributes.find((a) => base(a) && a.semantic === TANGENT && a.components === 4
-		&& [EXACT_FLOAT, OCTAHEDRAL, TANGENT_ANGLE, GRID].includes(a.coding));
 	attributes.chart = attributes.find((a) => base(a) && a.semantic === TEXCOORD && a.components === 2 && a.coding !== ALIAS);
 	findPartners(attributes);
-	attributes.forEach((a) => {
-		a.positionDeltas = deltasBefore(a, attributes, POSITION);
-		a.normalDeltas = deltasBefore(a, attributes, NORMAL);
-	});
 }
 
 function findPartners(attributes) {
@@ -304,14 +296,6 @@ function findPartners(attributes) {
 	}
 }
 
-// The last attribute before a with this semantic and a morph target, if that is the morph target of a.
-function deltasBefore(a, attributes, semantic) {
-	if (a.target === 0) return undefined;
-	const before = attributes.slice(0, a.number).filter((b) => b.semantic === semantic && b.target !== 0);
-	const last = before[before.length - 1];
-	return last !== undefined && last.target === a.target ? last : undefined;
-}
-
 // [A.2.4] The checks of each attribute i >= 1 after all headers of the piece.
 function checkAttribute(attribute, attributes) {
 	if (attribute.coding === ALIAS) checkAlias(attribute, attributes);
@@ -319,7 +303,7 @@ function checkAttribute(attribute, attributes) {
 		badHeader('A.2.4', 'a tangent angle without an octahedral normal');
 	}
 	attribute.method = methodOf(attribute);
-	if (!predictorIsValid(attribute, attributes)) badHeader('A.2.4', `predictor byte of attribute ${attribute.number}`);
+	if (!predictorIsValid(attribute)) badHeader('A.2.4', `predictor byte of attribute ${attribute.number}`);
 }
 
 function checkAlias(attribute, attributes) {

@@ -8,8 +8,6 @@ import { centreOf, fold, Frame, NO_NEIGHBOUR, readPoint } from './octahedral.mjs
 import { bundles } from './wedges.mjs';
 import { add32, f, length1, scale32, sub32 } from './vectors.mjs';
 
-const PARTS = [0, 0.25, 0.5]; // of the blends none, half, whole
-
 export class NormalModels {
 	constructor() {
 		this.ROW = rows([2, 12]);
@@ -24,7 +22,7 @@ class Normals {
 		this.ROW = context.models.normals.ROW;
 		this.state = state;
 		this.C = centreOf(state.attribute.bits);
-		this.part = PARTS[(byte >> 2) & 3];
+		this.blend = (byte & 4) !== 0;
 		this.S = faceNormalSums(wedges.surface, wedges.count, wedges.positions, byte & 3);
 		this.last = [0, 0];
 	}
@@ -39,13 +37,13 @@ class Normals {
 		const { point, L } = readPoint(this.streams, this.ROW, frame, context);
 		this.last = point;
 		this.state.finish(bundle, point.map((x) => x + this.C), L);
-		if (this.part !== 0) this.learn(bundle.members, direction);
+		if (this.blend) this.learn(bundle.members, direction);
 	}
 
 	direction(members) {
 		let direction = this.S[members[0]];
 		for (const w of members.slice(1)) direction = add32(direction, this.S[w]);
-		if (this.part === 0) return direction;
+		if (!this.blend) return direction;
 		const length = length1(direction);
 		return scale32(direction, length > f(1e-30) ? f(1 / length) : 0);
 	}
@@ -57,7 +55,7 @@ class Normals {
 		let context = NO_NEIGHBOUR;
 		if (bundle.hasEntry) {
 			context = state.meanLength(bundle, 11);
-			if (this.part !== 0) used = add32(direction, scale32(add32(S[bundle.n], S[bundle.p]), this.part));
+			if (this.blend) used = add32(direction, scale32(add32(S[bundle.n], S[bundle.p]), 0.25));
 		}
 		const frame = length1(used) > f(1e-30) ? Frame.ofDirection(C, used) : Frame.around(C, this.last);
 		return { frame, context };

@@ -161,7 +161,7 @@ class Positions {
 		return { sequence, positions: this.records.q };
 	}
 
-	// [A.8.13]
+	// [A.8.12]
 	readBelowGrid() {
 		const below = new BelowGrid(this.streams, this.attribute, this.models.below);
 		this.records.q = this.records.q.map((q, i) => below.read(q, i % 3));

@@ -39,10 +39,8 @@ class Skins {
 		this.state = state; // of the joints
 		this.weightState = weightState;
 		this.wedges = state.wedges;
-		this.idleJoints = (state.attribute.predictor & 1) !== 0;
-		this.ascending = (state.attribute.predictor & 2) !== 0;
 		this.sums = weightState.attribute.predictor;
-		this.unitSum = unitSum(weightState.attribute);
+		this.unitSum = unitSum(weightState.attribute) ?? 0;
 	}
 
 	bit(model) {
@@ -120,7 +118,7 @@ class Skins {
 				entry.weight += weights[k] * u;
 			}
 		}
-		return entries.sort(this.ascending ? (a, b) => a.joint - b.joint : (a, b) => b.weight - a.weight);
+		return entries.sort((a, b) => b.weight - a.weight);
 	}
 
 	readJoints(neighbours) {
@@ -130,7 +128,6 @@ class Skins {
 		const typical = Math.trunc(entries.map(({ weight }) => weight).reduce(add, 0) / (8 * Math.max(uses, 1)));
 		const m = this.typicalWeightCount(neighbours);
 		const result = { joint: [0, 0, 0, 0], expected: [0, 0, 0, 0], weightless: [0, 0, 0, 0] };
-		let previous = -1;
 		for (const k of slots) {
 			const before = k > 0 ? result.weightless[k - 1] : 0;
 			result.weightless[k] = this.bit(this.models.WEIGHTLESS[k][m][before]);
@@ -138,10 +135,9 @@ class Skins {
 				result.joint[k] = this.readIdleJoint(neighbours, k);
 				continue;
 			}
-			const entry = this.readRank(entries, k, previous, uses, N === 0 ? undefined : neighbours[0]);
+			const entry = this.readRank(entries, k, uses, N === 0 ? undefined : neighbours[0]);
 			result.expected[k] = entry !== undefined ? Math.trunc(entry.weight / entry.count) : typical;
-			result.joint[k] = entry !== undefined ? entry.joint : this.readJoint(previous);
-			previous = result.joint[k];
+			result.joint[k] = entry !== undefined ? entry.joint : this.readJoint();
 		}
 		return result;
 	}
@@ -154,14 +150,14 @@ class Skins {
 	}
 
 	readIdleJoint(neighbours, k) {
-		if (!this.idleJoints || this.bit(this.models.IDLE[0])) return 0;
+		if (this.bit(this.models.IDLE[0])) return 0;
 		if (neighbours.length !== 0 && this.bit(this.models.IDLE[1])) return neighbours[0].joints[k];
-		return this.streams.golomb(this.models.JOINT) | 0;
+		return this.readJoint();
 	}
 
 	// The entry whose joint slot k has, if it is one of the first six that are left.
-	readRank(entries, k, previous, uses, neighbour) {
-		const left = entries.filter((entry) => !entry.taken && !(this.ascending && entry.joint <= previous));
+	readRank(entries, k, uses, neighbour) {
+		const left = entries.filter((entry) => !entry.taken);
 		for (let r = 0; r < Math.min(left.length, 6); ++r) {
 			const entry = left[r];
 			const kind = neighbour.joints[k] === entry.joint ? 0 : entry.count === uses ? 1 : 2;
@@ -173,8 +169,8 @@ class Skins {
 		return undefined;
 	}
 
-	readJoint(previous) {
-		return (this.streams.golomb(this.models.JOINT) + (this.ascending ? previous + 1 : 0)) | 0;
+	readJoint() {
+		return this.streams.golomb(this.models.JOINT) | 0;
 	}
 
 	readWeights(neighbours, { expected, weightless }) {
@@ -209,7 +205,7 @@ class Skins {
 
 	readSum() {
 		if (this.sums === 1) return this.unitSum;
-		return this.sums === 2 && this.bit(this.models.HAS_SUM) ? this.unitSum : 0;
+		return this.sums === 2 && this.unitSum !== 0 && this.bit(this.models.HAS_SUM) ? this.unitSum : 0;
 	}
 }
 

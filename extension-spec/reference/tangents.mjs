@@ -192,7 +192,7 @@ class TangentPoints extends Tangents {
 		super(context, state, context.models.tangents.points);
 		this.C = centreOf(state.attribute.bits);
 		this.last = [0, 0];
-		this.normals = state.attribute.predictor & 1 ? context.unitNormals() : undefined; // if perpendicular
+		this.normals = context.unitNormals();
 	}
 
 	bundle(bundle) {

@@ -2,20 +2,19 @@
 
 // Texture coordinates: A.8.6 of the specification. Their prediction: B.5.
 
-import { width } from './bytes.mjs';
 import { models, rows } from './entropy.mjs';
 import { following, readByLength } from './lengths.mjs';
+import { Memory, memoryModels } from './memories.mjs';
 import { next, NONE, prev } from './mesh.mjs';
 import { bundles } from './wedges.mjs';
 import { dot32, f, max, round32, sqrt32, sub32 } from './vectors.mjs';
 
-const DIAGONAL = 0, SIMILARITY = 2, MIXED = 4;
 const NO_NEIGHBOUR = 11; // the context
 
 // By whether the set index is 0.
 export class TexcoordModels {
 	constructor() {
-		this.sets = models([2], () => ({ ROW: rows([2, 12]), REPEATS: models([4, 4]) }));
+		this.sets = models([2], () => ({ ROW: rows([2, 12]), KNOWN: memoryModels() }));
 	}
 
 	of(attribute) {
@@ -34,8 +33,8 @@ class Texcoords {
 		this.models = context.models.texcoords.of(state.attribute);
 		this.state = state;
 		this.wedges = state.wedges;
-		this.predictor = byte & 7;
-		this.repeats = byte & 8 ? new Memory() : undefined;
+		this.hinge = (byte & 1) !== 0;
+		this.memory = byte & 2 ? new Memory(context.streams, this.models.KNOWN, state, (x) => x >>> 0) : undefined;
 		this.side = 1;
 		this.last = [0, 0];
 	}
@@ -46,12 +45,26 @@ class Texcoords {
 
 	bundle(bundle) {
 		const faces = this.faces(bundle);
-		const { predicted, context } = faces.length !== 0 ? this.fromFaces(bundle, faces) : this.withoutFaces(bundle);
-		const { pair, L } = this.readPair(context);
-		const value = predicted.map((x, k) => (x + pair[k]) | 0);
+		const { value, L } = this.known(faces) ?? this.coded(bundle, faces);
 		this.last = value;
 		this.state.finish(bundle, value, L);
-		if (faces.length !== 0 && this.predictor >= SIMILARITY) this.learnSide(faces[0], value);
+		if (faces.length !== 0 && this.hinge) this.learnSide(faces[0], value);
+		this.memory?.learnFaces(bundle.members);
+	}
+
+	coded(bundle, faces) {
+		const { predicted, context } = faces.length !== 0 ? this.fromFaces(bundle, faces) : this.withoutFaces(bundle);
+		const { pair, L } = this.readResiduals(context);
+		return { value: predicted.map((x, k) => (x + pair[k]) | 0), L };
+	}
+
+	// What the memory knows, if a flag says so.
+	known(faces) {
+		if (this.memory === undefined || faces.length === 0) return undefined;
+		const { n, p, o } = faces[0];
+		this.memory.begin();
+		const k = this.memory.ask(this.memory.edgeKey(n, p), o === n ? NONE : o);
+		return k === NONE ? undefined : { value: [...this.state.value(k)], L: this.state.meanLength({ n, p }, 10) };
 	}
 
 	// [B.5.1] Faces
@@ -71,7 +84,7 @@ class Texcoords {
 
 	fromFaces(bundle, faces) {
 		const { n, p } = faces[0];
-		const delta = this.predictor >= SIMILARITY ? this.unfolded(bundle.first, faces) : this.parallelograms(faces);
+		const delta = this.hinge ? this.unfolded(bundle.first, faces) : this.diagonal(faces);
 		const predicted = [...this.state.value(n)].map((x, k) => (x + change(delta[k])) | 0);
 		return { predicted, context: this.state.meanLength({ n, p }, 10) };
 	}
@@ -92,22 +105,6 @@ class Texcoords {
 		return NONE;
 	}
 
-	readPair(context) {
-		const repeated = this.repeats && this.readRepeated();
-		const { pair, L } = repeated ?? this.readResiduals(context);
-		this.repeats?.learn(pair);
-		return { pair, L };
-	}
-
-	readRepeated() {
-		const { residual: guess, confidence } = this.repeats.guess();
-		if (confidence === 0) return undefined;
-		const hit = this.streams.bit(this.models.REPEATS[confidence][this.repeats.history]);
-		this.repeats.history = (2 * this.repeats.history + hit) & 3;
-		if (!hit) return undefined;
-		return { pair: guess, L: Math.max(...guess.map((r) => Math.min(width(Math.abs(r)), 10))) };
-	}
-
 	readResiduals(context) {
 		const first = readByLength(this.streams, 0, this.models.ROW[0][context]);
 		const secondContext = context === NO_NEIGHBOUR ? NO_NEIGHBOUR : following(context, first.length);
@@ -115,7 +112,7 @@ class Texcoords {
 		return { pair: [first.residual, second.residual], L: Math.max(first.length, second.length) };
 	}
 
-	// ---- [B.5.2] Similarity, hinge, mixed
+	// ---- [B.5.2] Hinge
 
 	unfolded(v, faces) {
 		const R = faces.map((face) => this.faceTerm(v, face, this.state.value(faces[0].n)));
@@ -132,13 +129,7 @@ class Texcoords {
 		const [e, d, g] = [p, v, o].map((w) => sub32(positions[w], positions[n]));
 		const base = difference(un, origin);
 		const ee = dot32(e, e);
-		const R = ee > 0 ? this.unfoldedTerm(e, d, g, base, difference(up, un), difference(uo, un)) : [0, 0, 0];
-		if (this.predictor !== MIXED) return R;
-		const half = dot32(g, g) > 0 && ee > 0 ? 0.5 : 0;
-		const du = difference(up, un);
-		const dou = difference(uo, un);
-		const term = base.map((x, k) => f(half * f(f(x + du[k]) - dou[k])));
-		return [f(R[0] + term[0]), f(R[1] + term[1]), f(R[2] + half)];
+		return ee > 0 ? this.unfoldedTerm(e, d, g, base, difference(up, un), difference(uo, un)) : [0, 0, 0];
 	}
 
 	// e, d, g: p, v and o relative to n; (du, dv) and (ou, ov): p and o relative to n in the chart
@@ -152,7 +143,7 @@ class Texcoords {
 		const heightO = f(dot32(g, g) - f(so * eg));
 		let away = this.similarity([du, dv], [ou, ov], f(height * inverse));
 		let weight = 0.25;
-		if (this.predictor !== SIMILARITY && height < f(36 * heightO)) {
+		if (height < f(36 * heightO)) {
 			const ratio2 = f(height / heightO);
 			const ratio = sqrt32(ratio2);
 			away = [f(ratio * f(f(so * du) - ou)), f(ratio * f(f(so * dv) - ov))];
@@ -181,52 +172,20 @@ class Texcoords {
 		else if (turn < 0) this.side = -1;
 	}
 
-	// ---- [B.5.3] Parallelograms, diagonal
+	// ---- [B.5.3] Diagonal
 
-	parallelograms(faces) {
+	diagonal(faces) {
 		const value = (w) => this.state.value(w);
-		let sum = [0, 0];
-		let count = 0;
+		let delta = [0, 0];
 		let longest = -1;
 		for (const { n, p, o } of faces) {
 			if (o === n) continue;
-			if (this.predictor === DIAGONAL) {
-				const l = this.wedges.squaredDistance(n, p);
-				if (!(l > longest)) continue;
-				longest = l;
-				sum = [0, 0];
-				count = 0;
-			}
-			sum = add(sum, add(difference(value(n), value(faces[0].n)), difference(value(p), value(o))));
-			++count;
+			const l = this.wedges.squaredDistance(n, p);
+			if (!(l > longest)) continue;
+			longest = l;
+			delta = add(difference(value(n), value(faces[0].n)), difference(value(p), value(o)));
 		}
-		return count > 1 ? sum.map((x) => f(x / count)) : sum;
-	}
-}
-
-// ---- [B.5.4] Memory of residuals
-
-class Memory {
-	constructor() {
-		this.entries = Array.from({ length: 1024 }, () => ({ residual: [0, 0], confidence: 0 }));
-		this.key = 0;
-		this.before = 0;
-		this.history = 0;
-	}
-
-	guess() {
-		return this.entries[this.key];
-	}
-
-	learn(r) {
-		const { residual, confidence } = this.guess();
-		const same = residual[0] === r[0] && residual[1] === r[1];
-		this.entries[this.key] = same
-			? { residual, confidence: Math.min(confidence + 1, 3) }
-			: { residual: r, confidence: confidence > 1 ? 1 : 0 };
-		const latest = (Math.imul(r[0], 0x9e3779b1) + Math.imul(r[1], 0x85ebca6b)) >>> 0;
-		this.key = (Math.imul(latest, 0xc2b2ae35) ^ Math.imul(this.before, 0x27d4eb2f)) >>> 22;
-		this.before = latest;
+		return delta;
 	}
 }
 

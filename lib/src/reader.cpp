@@ -85,7 +85,7 @@ void storeNormals(int32_t centre, bool has_sign, uint32_t wedge_count,
   }
 }
 
-/// Copies coded integers to the caller's elements; `load(i)` points to the integers of element i. [A.8.12]
+/// Copies coded integers to the caller's elements; `load(i)` points to the integers of element i. [A.8.11]
 template <class Load>
 void storeElements(const AttributeInfo& info, uint32_t wedge_count, const AttributeTarget& target,
                    Load load) {
@@ -399,7 +399,7 @@ Status decodeAttribute(PieceCoder<Io>& piece, const PieceInfo& info, uint32_t in
   const AttributeInfo* all = info.attributes.data();
   const uint32_t count = static_cast<uint32_t>(info.attributes.size());
   const AttributeMethod method = methodOf(all, count, index);
-  if (method == AttributeMethod::kWithAnother) return {};
+  if (isWithAnother(method)) return {};
   MCC_TRY(piece.codeAttribute(index, values));
   const uint32_t stride = piece.codedComponentsOf(index);
   storeAttribute(piece, info, index, values.data(), stride, target.attributes);

@@ -72,11 +72,12 @@ PositionParameters choosePositions(std::vector<RecordedPositions> recorded, doub
   return choosePositionParameters(candidates, surface_bits, options, jobs);
 }
 
-/// Floats on a grid may be coded as floats as well: the values of a plan are the same.
+/// Unit vectors on a grid may be coded as floats as well: the values of a plan are the same.
 std::vector<AttributeInfo> exactAlternatives(const AttributeInfo& info, const FeatureSet& without) {
   std::vector<AttributeInfo> all = {info};
   const bool may_be_plain =
-      info.format.semantic != Semantic::kNormal || !without.has(Feature::kExactNormals);
+      info.format.semantic == Semantic::kTangent ||
+      (info.format.semantic == Semantic::kNormal && !without.has(Feature::kExactNormals));
   if (info.coding == AttributeCoding::kGrid && info.format.morph_target == 0 && may_be_plain) {
     AttributeInfo plain;
     plain.format = info.format;
@@ -95,10 +96,8 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
   AttributeInfo& info = plan.attributes[index].info;
   const std::vector<AttributeInfo> alternatives = exactAlternatives(info, without);
   const uint32_t part = std::max(kTrialWedges, plan.header.wedge_count / kTrialShare);
-  // What lies below a grid is always coded for all wedges. A part of the ids may be all alike.
-  const bool may_be_ids =
-      info.format.component_count == 1 && info.format.semantic == Semantic::kCustom;
-  const uint32_t sample = alternatives.size() > 1 || may_be_ids ? kNone : part;
+  // What lies below a grid is always coded for all wedges.
+  const uint32_t sample = alternatives.size() > 1 ? kNone : part;
   AttributeModels before;
   if (!before.copyFrom(models.attributes)) throwBadAlloc();
   AttributeInfo best = info;
@@ -108,9 +107,8 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
     std::vector<AttributeInfo> infos;
     for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
     const AttributeMethod method = methodOf(infos.data(), plan.header.attribute_count, index);
-    if (method == AttributeMethod::kWithAnother) return {};
-    PredictorSearch search(infos.data(), plan.header.attribute_count, index,
-                           plan.header.has(piece_flag::kSeams), without);
+    if (isWithAnother(method)) return {};
+    PredictorSearch search(method, plan.header.has(piece_flag::kSeams), without);
     if (alternatives.size() == 1 && search.isSettled()) {
       best.predictor = search.best();
       break;
@@ -119,11 +117,9 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
       uint64_t cost = 0;
       info.predictor = candidate.predictor = search.candidate();
       MCC_TRY(runner.tryAttribute(index, sample, cost));
-      if (info.format.morph_target == 0) {  // deltas take time only where something moves
-        const double tried = std::min(sample, plan.header.wedge_count);
-        cost += static_cast<uint64_t>(
-            price.surcharge(tried * wedge_share, timeOf(method, info.predictor)));
-      }
+      const double tried = std::min(sample, plan.header.wedge_count);
+      cost += static_cast<uint64_t>(
+          price.surcharge(tried * wedge_share, timeOf(method, info.predictor)));
       search.report(cost);
       if (!models.attributes.copyFrom(before)) throwBadAlloc();
       if (cost >= best_cost) continue;

@@ -166,8 +166,7 @@ class StageRunner {
 
  private:
   bool isCodedWithAnother(uint32_t index) const {
-    return methodOf(infos_.data(), plan_.header.attribute_count, index) ==
-           AttributeMethod::kWithAnother;
+    return isWithAnother(methodOf(infos_.data(), plan_.header.attribute_count, index));
   }
 
   /// Fills values_, which coding leaves as they are.

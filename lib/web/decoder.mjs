@@ -32,10 +32,9 @@ class Source {
     return this.#load('decoder', urlOfWhole);
   }
 
-  /** What to begin with: the core, unless the document tells that the payload needs the whole decoder, or only that is there. */
-  first(options) {
-    const hasMorphTargets = options?.claims?.some(({ attributes }) => attributes.some(({ morphTarget }) => morphTarget));
-    return hasMorphTargets || (this.decoder && !this.coreDecoder) ? this.whole() : this.core();
+  /** What to begin with: the core, unless only the whole decoder is there. */
+  first() {
+    return this.decoder && !this.coreDecoder ? this.whole() : this.core();
   }
 
   #load(name, urlOf) {
@@ -63,7 +62,7 @@ export const ready = {
 export async function decodePayload(bytes, options) {
   const from = source;
   try {
-    return await (await from.first(options)).decode(bytes, options);
+    return await (await from.first()).decode(bytes, options);
   } catch (error) {
     if (error.code !== 'NotInCore') throw error;
     return (await from.whole()).decode(bytes, options);

@@ -43,8 +43,8 @@ const char* nameOf(AttributeMethod method) {
     case AttributeMethod::kSkin: return "skin";
     case AttributeMethod::kExactNormal: return "exact normal";
     case AttributeMethod::kExactTangent: return "exact tangent";
-    case AttributeMethod::kExactValues: return "exact values";
-    case AttributeMethod::kWithAnother: return "with another";
+    case AttributeMethod::kSkinWeights: return "skin weights";
+    case AttributeMethod::kAlias: return "alias";
   }
   return "";
 }

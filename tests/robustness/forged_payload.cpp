@@ -114,8 +114,8 @@ void drawGrid(AttributeInfo& info, Random& random) {
   info.bits = static_cast<uint8_t>(random.between(1, kGridBits + 1));
   info.tails = static_cast<uint8_t>(random.below(3));
   do {
-    info.grid = static_cast<uint16_t>(random.below(kGridCount));
-  } while (!isKnownGrid(info.grid) || (info.tails != 0 && !isBinaryGrid(info.grid)));
+    info.grid = static_cast<uint8_t>(random.below(kGridCount));
+  } while (info.tails != 0 && !isBinaryGrid(info.grid));
 }
 
 AttributeInfo drawPosition(Random& random) {

@@ -12,6 +12,7 @@
 #include <set>
 #include <vector>
 
+#include "attributes/enc_predictor_search.h"
 #include "support/mesh_generators.h"
 #include "unit/surface.h"
 
@@ -342,14 +343,13 @@ double codeAttributes(const TestMesh& mesh, const std::vector<AttributeInfo>& in
 TEST(Values, EveryMethodOnAllKindsOfSurfaces) {
   for (const TestMesh& mesh : surfaces()) {
     for (uint8_t components : {uint8_t{1}, uint8_t{2}, uint8_t{3}, uint8_t{4}, uint8_t{7}}) {
-      for (uint32_t predictor = 0; predictor < 0x80; ++predictor) {
-        const AttributeInfo info = valuesInfo(components, static_cast<uint8_t>(predictor));
-        const AttributeInfo infos[2] = {positionInfo(16), info};
-        if (!isKnownPredictor(infos, 2, 1)) continue;
+      for (uint32_t predictor = 0; predictor < 8; ++predictor) {
+        const bool is_smooth = predictor >= 4;
+        const AttributeInfo info = valuesInfo(components, static_cast<uint8_t>(predictor % 4));
         SCOPED_TRACE(mesh.name + ", predictor " + std::to_string(predictor));
         Random random(predictor);
         codeAttributes<false>(mesh, {info}, 3, [&](uint32_t, uint32_t, const int32_t* q) {
-          if (predictor % 2 == 0) return q[0] + q[1] / 8;
+          if (is_smooth) return q[0] + q[1] / 8;
           const int32_t any = static_cast<int32_t>(random.next() >> 32);
           return random.chance(20) ? any : random.chance(50) ? 0 : any >> 24;
         });
@@ -358,110 +358,105 @@ TEST(Values, EveryMethodOnAllKindsOfSurfaces) {
   }
 }
 
-/// Colours that bend along one axis only: which candidate does well differs from component to component.
-TEST(Values, ABlendFollowsWhatDoesWell) {
-  const TestMesh mesh = grid(60, 60);
+// ---- Memory of values -----------------------------------------------------------------------------
+
+/// Two copies of a grid, the second one farther along x.
+TestMesh twoGrids(float apart) {
+  TestMesh mesh = grid(9, 7);
+  const TestMesh other = mesh;
+  const uint32_t count = static_cast<uint32_t>(mesh.positions.size() / 3);
+  for (size_t i = 0; i < other.positions.size(); ++i)
+    mesh.positions.push_back(other.positions[i] + (i % 3 == 0 ? apart : 0.0f));
+  for (const uint32_t index : other.indices) mesh.indices.push_back(index + count);
+  return mesh;
+}
+
+/// A number below 2^bits that both copies have at the same place.
+uint32_t atPlace(const int32_t* q, uint32_t i, uint32_t bits) {
+  const uint32_t place = static_cast<uint32_t>(q[0] % 30000) * 65599u + static_cast<uint32_t>(q[1]);
+  return ((place * 0x9e3779b1u ^ i * 0x85ebca6bu) * 0xc2b2ae35u) >> (32 - bits);
+}
+
+TEST(Memory, ChartsThatAreUsedTwiceCostAFlag) {
+  AttributeInfo info = valuesInfo(2, 0);
+  info.format.semantic = Semantic::kTexcoord;
   const auto value = [](uint32_t, uint32_t i, const int32_t* q) {
-    const double x = (i % 2 == 0 ? q[0] : q[1]) * 0.004;
-    const double y = (i % 2 == 0 ? q[1] : q[0]) * 0.0001;
-    return static_cast<int32_t>(std::lround(127.5 + 127.5 * std::sin(x * x + y)));
+    return static_cast<int32_t>(atPlace(q, i % 2, 16));
   };
-  const double diagonal = codeAttributes<true>(mesh, {valuesInfo(4, 2)}, 0, value);
-  const double blend = codeAttributes<true>(mesh, {valuesInfo(4, value_method::kBlend)}, 0, value);
-  EXPECT_LT(blend, 0.88 * diagonal);
+  for (const uint8_t predictor : {uint8_t{0}, texcoord_method::kHinge}) {
+    info.predictor = predictor;
+    const double without = codeAttributes<true>(twoGrids(30), {info}, 2, value);
+    info.predictor = static_cast<uint8_t>(predictor | texcoord_method::kRemembers);
+    EXPECT_LT(codeAttributes<true>(twoGrids(30), {info}, 2, value), 0.7 * without);
+    codeAttributes<false>(twoGrids(30), {info}, 0, value);
+  }
 }
 
-TEST(Values, BlendsHaveFourComponentsAtMost) {
-  const AttributeInfo infos[3] = {positionInfo(16), valuesInfo(4, value_method::kBlend),
-                                  valuesInfo(5, value_method::kBlend)};
-  EXPECT_TRUE(isKnownPredictor(infos, 3, 1));
-  EXPECT_FALSE(isKnownPredictor(infos, 3, 2));
-}
-
-// ---- Deltas of unit vectors ---------------------------------------------------------------------
-
-AttributeInfo vectorInfo(Semantic semantic, AttributeCoding coding, uint8_t components,
-                         uint16_t target, uint8_t predictor) {
+TEST(Memory, NormalsOfPartsThatRepeatCostAFlag) {
   AttributeInfo info;
-  info.format.semantic = semantic;
-  info.format.component_count = components;
-  info.format.morph_target = target;
-  info.coding = coding;
-  info.bits = 10;
-  info.predictor = predictor;
-  info.lattice.step = 1.0f / 512;
-  info.grid = coding == AttributeCoding::kGrid ? 3 : 0;  // thousandths
-  return info;
+  info.format.semantic = Semantic::kNormal;
+  info.format.component_count = 3;
+  info.coding = AttributeCoding::kExactFloat;
+  TestMesh mesh = twoGrids(30);  // steep: no component of a normal is negative, as none of the values
+  for (size_t i = 0; i < mesh.positions.size(); i += 3) {
+    mesh.positions[i + 2] -= 2 * (mesh.positions[i] + mesh.positions[i + 1]);
+  }
+  const auto value = [](uint32_t, uint32_t i, const int32_t* q) {
+    return orderedFromFloat(static_cast<float>(atPlace(q, i % 3, 20)) * 0x1p-21f);
+  };
+  const double without = codeAttributes<true>(mesh, {info}, 2, value);
+  info.predictor = exact_normal_method::kRemembers;
+  EXPECT_LT(codeAttributes<true>(mesh, {info}, 2, value), 0.65 * without);
 }
 
-/// Normals, tangents and a morph target of them.
-std::vector<AttributeInfo> morphInfos(AttributeCoding coding, uint8_t predictor) {
-  const uint8_t bends = static_cast<uint8_t>(predictor & ~value_method::kUnits);
-  const uint8_t units = static_cast<uint8_t>(predictor & ~value_method::kBends);
-  return {vectorInfo(Semantic::kNormal, AttributeCoding::kOctahedral, 3, 0, 0),
-          vectorInfo(Semantic::kTangent, AttributeCoding::kTangentAngle, 4, 0, 0),
-          vectorInfo(Semantic::kPosition, coding, 3, 1, 0),
-          vectorInfo(Semantic::kNormal, coding, 3, 1, bends),
-          vectorInfo(Semantic::kNormal, coding, 3, 1, predictor),
-          vectorInfo(Semantic::kTangent, coding, 3, 1, units)};
-}
-
-/// What the bits promise need not be true.
-TEST(Deltas, AnyValuesWithAnyBits) {
+TEST(Memory, OnAllKindsOfSurfaces) {
   for (const TestMesh& mesh : surfaces()) {
-    for (const AttributeCoding coding : {AttributeCoding::kLattice, AttributeCoding::kGrid}) {
-      for (uint32_t bits = 0; bits < 16; ++bits) {
-        SCOPED_TRACE(mesh.name + ", bits " + std::to_string(bits));
-        const std::vector<AttributeInfo> infos =
-            morphInfos(coding, static_cast<uint8_t>((bits >> 2) << 5 | (bits & 3)));
-        Random random(bits);
-        codeAttributes<false>(mesh, infos, 2, [&](uint32_t a, uint32_t i, const int32_t*) {
-          if (a == 1) return static_cast<int32_t>(random.between(100, 900));
-          if (a == 2)
-            return static_cast<int32_t>(i % 2 == 0 ? random.below(1024) : random.below(2));
-          // Of grids: ordered floats of thousandths, see attributes/exact_grid.h.
-          const int32_t q = static_cast<int32_t>(random.below(2001)) - 1000;
-          if (coding == AttributeCoding::kLattice) return random.chance(30) ? 0 : q * (1 << a);
-          return orderedFromFloat(ExactGrid(3).valueOf(random.chance(30) ? 0 : q));
-        });
+    SCOPED_TRACE(mesh.name);
+    AttributeInfo chart = valuesInfo(2, texcoord_method::kHinge | texcoord_method::kRemembers);
+    chart.format.semantic = Semantic::kTexcoord;
+    AttributeInfo normal;
+    normal.format.semantic = Semantic::kNormal;
+    normal.format.component_count = 3;
+    normal.coding = AttributeCoding::kExactFloat;
+    normal.predictor = exact_normal_method::kRemembers;
+    Random random(1);
+    codeAttributes<false>(mesh, {chart, normal}, 2, [&](uint32_t a, uint32_t, const int32_t*) {
+      const int32_t few = static_cast<int32_t>(random.below(3));
+      return a == 1 ? few : orderedFromFloat(static_cast<float>(few - 1));
+    });
+  }
+}
+
+// ---- The table of predictor bytes -----------------------------------------------------------------
+
+/// Field by field, the search finds what is best where fields do not depend on each other, and asks for valid bytes only.
+TEST(Predictors, TheSearchFindsTheBest) {
+  Random random(5);
+  for (uint32_t m = 0; m < kAttributeMethods; ++m) {
+    const AttributeMethod method = static_cast<AttributeMethod>(m);
+    if (isWithAnother(method)) continue;
+    for (uint32_t round = 0; round < 50; ++round) {
+      uint64_t costs[256];
+      for (uint64_t& cost : costs) cost = random.below(1000);
+      const auto costOf = [&](uint8_t predictor) {
+        uint64_t sum = (predictor & kHasEqualities) != 0 ? costs[0] : costs[1];
+        for (const PredictorField& field : fieldsOf(method))
+          sum += costs[(field.mask * 16u + field.valueOf(predictor)) & 255];
+        return sum;
+      };
+      PredictorSearch search(method, true, {});
+      while (!search.done()) {
+        ASSERT_TRUE(isValidPredictor(method, search.candidate()));
+        search.report(costOf(search.candidate()));
       }
+      uint64_t best = ~uint64_t{0};
+      for (uint32_t p = 0; p < 256; ++p) {
+        const uint8_t predictor = static_cast<uint8_t>(p);
+        if (isValidPredictor(method, predictor)) best = std::min(best, costOf(predictor));
+      }
+      EXPECT_EQ(costOf(search.best()), best) << m;
     }
   }
-}
-
-TEST(Deltas, BitsNeedWhatTheyReferTo) {
-  std::vector<AttributeInfo> infos = morphInfos(AttributeCoding::kLattice, 0x60);
-  const auto isKnown = [&](uint32_t index) {
-    return isKnownPredictor(infos.data(), static_cast<uint32_t>(infos.size()), index);
-  };
-  for (uint32_t i = 0; i < infos.size(); ++i) EXPECT_TRUE(isKnown(i)) << i;
-  const auto refuses = [&](uint32_t index, uint32_t changed, auto change) {
-    const AttributeInfo before = infos[changed];
-    change(infos[changed]);
-    EXPECT_FALSE(isKnown(index)) << index << " beside a changed " << changed;
-    infos[changed] = before;
-  };
-  const auto toAlias = [](AttributeInfo& a) { a.coding = AttributeCoding::kAlias; };
-  const auto toOther = [](AttributeInfo& a) { a.format.morph_target = 2; };
-  const auto toPoints = [](AttributeInfo& a) { a.coding = AttributeCoding::kOctahedral; };
-  const auto toBase = [](AttributeInfo& a) { a.format.morph_target = 0; };
-  for (const uint32_t normal : {3u, 4u}) {
-    refuses(normal, 2, toAlias);
-    refuses(normal, 2, toOther);
-    refuses(normal, 2, toPoints);
-    refuses(normal, 2, toBase);
-    refuses(normal, normal, toBase);
-    refuses(normal, normal, toOther);
-    refuses(normal, normal, [](AttributeInfo& a) { a.format.component_count = 4; });
-    refuses(normal, normal, [](AttributeInfo& a) { a.coding = AttributeCoding::kExactFloat; });
-  }
-  refuses(4, 0, [](AttributeInfo& a) { a.coding = AttributeCoding::kLattice; });
-  refuses(5, 0, [](AttributeInfo& a) { a.coding = AttributeCoding::kLattice; });
-  refuses(5, 1, toAlias);
-  refuses(5, 1, [](AttributeInfo& a) { a.coding = AttributeCoding::kLattice; });
-  refuses(5, 4, toAlias);
-  refuses(5, 4, toOther);
-  refuses(5, 5, [](AttributeInfo& a) { a.predictor = value_method::kBends; });
 }
 
 // ---- Seams --------------------------------------------------------------------------------------

@@ -55,9 +55,8 @@ AttributeInfo anyAttribute(Random& random) {
     a.coding = AttributeCoding::kGrid;
     a.format.component_count = static_cast<uint8_t>(random.between(1, kGridComponents));
     a.bits = static_cast<uint8_t>(random.between(1, kGridBits + 1));
-    a.grid = static_cast<uint16_t>(random.below(kGridFractionEnd));
-    if (random.chance(50)) {
-      a.grid = static_cast<uint16_t>(random.between(kGridBinary, kGridCount - 1));
+    a.grid = static_cast<uint8_t>(random.below(kGridCount));
+    if (isBinaryGrid(a.grid)) {
       a.tails = static_cast<uint8_t>(random.below(3));
     }
   } else if (random.chance(30)) {
@@ -421,24 +420,14 @@ TEST(Container, AttributesThatAreNone) {
         a.format.component_count = 4;
         a.format.morph_target = 1;
       },
-      [](AttributeInfo& a) {  // perpendicular to no normals
-        a.coding = AttributeCoding::kOctahedral;
-        a.bits = 10;
-        a.format.semantic = Semantic::kTangent;
-        a.format.component_count = 4;
-        a.predictor = tangent_point_method::kPerpendicular;
-      },
-      [](AttributeInfo& a) {  // a blend of nine components
+      [](AttributeInfo& a) {  // a bit that values do not have
         a.coding = AttributeCoding::kExactFloat;
-        a.format.component_count = 9;
-        a.predictor = value_method::kBlend;
+        a.predictor = 4;
       },
       [](AttributeInfo& a) { setGrid(a, 0, 0, 3); },
       [](AttributeInfo& a) { setGrid(a, kGridBits + 2, 0, 3); },
       [](AttributeInfo& a) { setGrid(a, 10, 1, 3); },
       [](AttributeInfo& a) { setGrid(a, 10, 3, kGridBinary); },
-      [](AttributeInfo& a) { setGrid(a, 10, 0, kGridFractionEnd); },
-      [](AttributeInfo& a) { setGrid(a, 10, 0, kGridCount); },
       [](AttributeInfo& a) {
         setGrid(a, 10, 0, 3);
         a.format.component_count = 9;

@@ -85,19 +85,6 @@ TEST(ExactGrid, BinaryFractionsAreFound) {
   }
 }
 
-TEST(ExactGrid, FractionsOfIntegersAreFound) {
-  for (const uint32_t bits : {8u, 10u, 12u, 16u}) {
-    const double all = std::ldexp(1.0, static_cast<int>(bits)) - 1;
-    std::vector<float> values;
-    for (uint32_t i = 0; i <= static_cast<uint32_t>(all); i += 3) {
-      values.push_back(static_cast<float>(i / all));
-    }
-    const AttributeInfo info = found(values);
-    EXPECT_EQ(info.grid, kGridFraction + bits - 2);
-    expectExact(values, info);
-  }
-}
-
 TEST(ExactGrid, WhateverIsFiniteHasTails) {
   Random random(3);
   for (const int32_t reach : {120, 40, 3}) {

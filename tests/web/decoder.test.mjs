@@ -148,19 +148,6 @@ test('a payload that is not for the core loads the whole decoder, once', async (
   await init();
 });
 
-test('the document tells that morph targets need the whole decoder', async () => {
-  const where = { coreUrl: new URL('no_such.wasm', import.meta.url), wasmUrl: DECODERS.mcc_decoder_core_simd.wasmUrl };
-  const morphed = readAsset(manifest.assets.find((asset) => payloadsOf(readGlb(readAsset(asset)).json).some(({ claims }) => (
-    claims.some(({ attributes }) => attributes.some(({ morphTarget }) => morphTarget !== 0))))));
-  const expected = await unpackGlb(morphed);
-  await failureOf(init(where));
-  assert.deepEqual(await unpackGlb(morphed), expected);
-  const pool = createDecoderPool({ workers: 1, ...where });
-  assert.deepEqual(await unpackGlb(morphed, { decode: pool.decodePayload }), expected);
-  pool.dispose();
-  await init();
-});
-
 test('a pool whose first load fails tries again', async () => {
   let requests = 0;
   const server = createServer((request, response) => {

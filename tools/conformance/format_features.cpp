@@ -111,9 +111,9 @@ class Listing {
     static const char* const kCodings[] = {"lattice",       "integer", "exact float", "octahedral",
                                            "tangent angle", "alias",   "grid"};
     const std::string coding = kCodings[static_cast<size_t>(a.coding)];
-    add("coding " + coding, {"A.2.4", "A.8.12"});
+    add("coding " + coding, {"A.2.4", "A.8.11"});
     switch (a.coding) {
-      case AttributeCoding::kLattice: add(text("lattice bits", a.bits), {"A.2.4", "A.8.12"}); break;
+      case AttributeCoding::kLattice: add(text("lattice bits", a.bits), {"A.2.4", "A.8.11"}); break;
       case AttributeCoding::kOctahedral:
         add(text("octahedral bits", a.bits), {"A.2.4", "B.4.1"});
         break;
@@ -121,8 +121,8 @@ class Listing {
         add(text("tangent angle bits", a.bits), {"A.2.4", "B.6.3"});
         break;
       case AttributeCoding::kGrid:
-        add(text("grid", a.grid), {"A.2.4", "A.8.13"});
-        add(text("tails", a.tails) + (&a == all_ ? " of positions" : ""), {"A.8.13"});
+        add(text("grid", a.grid), {"A.2.4", "A.8.12"});
+        add(text("tails", a.tails) + (&a == all_ ? " of positions" : ""), {"A.8.12"});
         break;
       default: break;
     }
@@ -132,7 +132,7 @@ class Listing {
     add(text("components", a.format.component_count), {"A.2.4"});
     if (a.format.set_index != 0) add("set other than 0", {"A.2.4"});
     if (a.format.set_index == 255) add("set 255", {"A.2.4"});
-    if (a.format.morph_target != 0) add("morph target", {"A.2.4", "A.8.14"});
+    if (a.format.morph_target != 0) add("morph target", {"A.2.4", "A.8.11"});
     if (a.format.morph_target == 65535) add("morph target 65535", {"A.2.4"});
   }
 
@@ -192,19 +192,18 @@ class Listing {
     const bool chart = chartOfTangents(all_, count_) != kNone;
     switch (methodOf(all_, count_, index)) {
       case AttributeMethod::kNormal:
-        addMethod("normal", a.predictor, 0x0f,
+        addMethod("normal", a.predictor, 0x07,
                   {"A.8.5", "A.8.1", "A.8.2", "B.4.1", "B.4.2", "B.4.4", "B.4.5", "B.4.6"});
         if ((a.predictor & 3) == 1) add("normal by angles", {"B.4.3"});
         if (exact_positions) add("normals of exact positions", {"B.4.6"});
         break;
       case AttributeMethod::kTexcoord: {
         Sections sections = {"A.8.6", "A.8.1", "A.8.2", "B.5.1"};
-        const uint32_t predictor = a.predictor & texcoord_method::kPredictorMask;
-        sections.insert(predictor >= 2 ? "B.5.2" : "B.5.3");
-        if ((a.predictor & texcoord_method::kRepeats) != 0) sections.insert("B.5.4");
-        addMethod("texture coordinate", a.predictor, 0x0f, sections);
+        sections.insert((a.predictor & texcoord_method::kHinge) != 0 ? "B.5.2" : "B.5.3");
+        if ((a.predictor & texcoord_method::kRemembers) != 0) sections.insert("B.7.3");
+        addMethod("texture coordinate", a.predictor, 0x03, sections);
         if (a.coding == AttributeCoding::kGrid)
-          add("texture coordinate on a grid", {"A.8.6", "A.8.13"});
+          add("texture coordinate on a grid", {"A.8.6", "A.8.12"});
         break;
       }
       case AttributeMethod::kTangent:
@@ -214,11 +213,11 @@ class Listing {
       case AttributeMethod::kTangentPoint:
         addMethod(std::string("tangent point") + (exact_normal ? ", exact normal" : "") +
                       (chart ? "" : ", no chart"),
-                  a.predictor, 0x01, {"A.8.7", "B.6.4", "B.6.6", "B.4.4", "B.4.5"});
+                  a.predictor, 0, {"A.8.7", "B.6.4", "B.6.6", "B.4.4", "B.4.5"});
         break;
       case AttributeMethod::kSkin: {
         const AttributeInfo& weights = all_[skinPartner(all_, count_, index)];
-        addMethod("skin", a.predictor, 0x03, {"A.8.8", "A.8.1", "A.8.2"});
+        addMethod("skin", a.predictor, 0, {"A.8.8", "A.8.1", "A.8.2"});
         add(text("weights, predictor", weights.predictor) +
                 (weights.coding == AttributeCoding::kInteger   ? " integer"
                  : weights.coding == AttributeCoding::kLattice ? " lattice"
@@ -227,71 +226,34 @@ class Listing {
         break;
       }
       case AttributeMethod::kExactNormal:
-        addMethod("exact normal", a.predictor, 0x0f, {"A.8.9", "B.4.7", "B.7.1", "B.7.2"});
+        addMethod("exact normal", a.predictor, 0x07, {"A.8.9", "B.4.7", "B.7.1", "B.7.2"});
         if ((a.predictor & exact_normal_method::kRemembers) != 0)
           add("exact normal remembers", {"B.7.3"});
-        if ((a.predictor & exact_normal_method::kRemembersEdges) != 0)
-          add("exact normal remembers edges", {"B.7.4"});
         break;
       case AttributeMethod::kExactTangent:
         addMethod(std::string("exact tangent") + (exact_normal ? "" : " without exact normal") +
                       (chart ? "" : ", no chart"),
-                  a.predictor, 0x07, {"A.8.10", "B.6.7", "B.7.1", "B.7.2", "B.6.5"});
-        if ((a.predictor & exact_tangent_method::kRemembers) != 0)
-          add("exact tangent remembers", {"B.7.3"});
+                  a.predictor, 0, {"A.8.10", "B.6.7", "B.7.1", "B.7.2", "B.6.5"});
         break;
-      case AttributeMethod::kExactValues:
-        addMethod("exact values", a.predictor, 0x07, {"A.8.11", "B.7.1", "B.7.5"});
-        if ((a.predictor & exact_value_method::kRemembers) != 0)
-          add("exact values remember", {"B.7.4"});
-        break;
-      case AttributeMethod::kWithAnother: break;
+      case AttributeMethod::kSkinWeights:
+      case AttributeMethod::kAlias: break;
       case AttributeMethod::kValues: addValues(index); break;
     }
   }
 
-  /// Bends weight faces as the normals do.
-  void addBends() {
-    const uint32_t exact = exactNormalOf(all_, count_);
-    const uint32_t normal = exact != kNone ? exact : normalOfTangents(all_, count_);
-    if (normal == kNone) return add("bends without normals", {"B.8.1"});
-    const AttributeMethod method = methodOf(all_, count_, normal);
-    const char* const name = method == AttributeMethod::kNormal ? "bends, octahedral normals by"
-                             : method == AttributeMethod::kExactNormal
-                                 ? "bends, exact normals by"
-                                 : "bends, normals on a grid by";
-    add(text(name, all_[normal].predictor & 3), {"B.8.1"});
-  }
-
   void addValues(uint32_t index) {
     const AttributeInfo& a = all_[index];
-    const bool is_target = a.format.morph_target != 0;
-    Sections sections = {"A.8.4", "A.8.1", "A.8.2", "B.3.1"};
-    if ((a.predictor & value_method::kPredictorMask) == value_method::kBlend)
-      sections.insert("B.3.2");
     std::string method = "values";
-    if (is_target) {
-      sections.insert("A.8.14");
+    if (a.format.morph_target != 0) {
       static const char* const kNames[] = {" of POSITION deltas", " of NORMAL deltas",
                                            " of TANGENT deltas"};
       method += a.format.semantic <= Semantic::kTangent
                     ? kNames[static_cast<size_t>(a.format.semantic)]
                     : " of other deltas";
-      const bool has_bends =
-          a.format.semantic == Semantic::kNormal && (a.predictor & value_method::kBends) != 0;
-      if (has_bends) {
-        sections.insert("B.8.1");
-        addBends();
-      }
-      if ((a.predictor & value_method::kUnits) != 0) sections.insert("B.8.2");
-    } else if ((a.predictor & value_method::kIds) != 0) {
-      method = "ids";
-      sections.insert("B.3.3");
     }
     if (a.coding == AttributeCoding::kGrid) method += " on a grid";
-    addMethod(method, a.predictor, 0x03, sections);
-    if ((a.predictor & value_method::kPredictorMask) == value_method::kBlend)
-      add(text("blend of components", a.format.component_count), {"B.3.2"});
+    if (a.coding == AttributeCoding::kExactFloat) method += " of floats";
+    addMethod(method, a.predictor, 0x03, {"A.8.4", "A.8.1", "A.8.2", "B.3"});
   }
 
   const PayloadHeader& header_;

@@ -82,7 +82,7 @@ void HeaderFields::takeAttribute(const std::string& prefix) {
     case AttributeCoding::kAlias: takeVarint(prefix + "alias"); break;
     case AttributeCoding::kGrid:
       take(prefix + "grid bits", 1);
-      takeVarint(prefix + "grid");
+      take(prefix + "grid", 1);
       break;
     default: break;
   }

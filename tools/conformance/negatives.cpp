@@ -544,10 +544,6 @@ class Maker {
           f.insertBefore(k + "origin 0", k + "origin 4", {0, 0, 0, 0});
         });
     const auto grid = coded(AttributeCoding::kGrid);
-    for (const uint32_t number : {25u, 31u, 278u, 65536u}) {
-      other("grid " + std::to_string(number), "A grid that is not assigned", grid,
-            [=](HeaderFields& f, const std::string& k) { f.set(k + "grid", number); });
-    }
     other("grid of 0 bits", "A grid of 0 bits", grid,
           [](HeaderFields& f, const std::string& k) { f.set(k + "grid bits", 0); });
     other("grid of 28 bits", "A grid of 28 bits", grid,
@@ -600,14 +596,15 @@ class Maker {
       std::vector<uint8_t> predictors;
     };
     const Method all[] = {
-        {AttributeMethod::kTangentPoint, "tangent point", {2, 0x40}},
-        {AttributeMethod::kNormal, "normal", {3, 0x0c, 0x10}},
+        {AttributeMethod::kTangentPoint, "tangent point", {1, 0x40}},
+        {AttributeMethod::kNormal, "normal", {3, 0x08}},
         {AttributeMethod::kTangent, "tangent", {1}},
-        {AttributeMethod::kSkin, "skin", {4, 0x40}},
-        {AttributeMethod::kTexcoord, "texture coordinate", {5, 7, 0x10}},
-        {AttributeMethod::kExactNormal, "exact normal", {0x0c, 0x40}},
-        {AttributeMethod::kExactTangent, "exact tangent", {0x10}},
-        {AttributeMethod::kExactValues, "exact values", {3, 8}},
+        {AttributeMethod::kSkin, "skin", {1, 0x40}},
+        {AttributeMethod::kSkinWeights, "skin weights", {3, 4, 0x80}},
+        {AttributeMethod::kTexcoord, "texture coordinate", {4, 0x40}},
+        {AttributeMethod::kExactNormal, "exact normal", {3, 0x10}},
+        {AttributeMethod::kExactTangent, "exact tangent", {2}},
+        {AttributeMethod::kValues, "values", {4, 0x40}},
     };
     for (const Method& m : all) {
       const auto number = [&](const PayloadHeader& h) {
@@ -619,58 +616,6 @@ class Maker {
       };
       predictorsOf(m.name, m.predictors, number);
     }
-    predictorsOf("weights", {3, 0x80}, [](const PayloadHeader& h) {
-      if (h.pieces.size() != 1) return kNone;
-      for (uint32_t i = 1; i < h.pieces[0].attribute_count; ++i) {
-        const bool is_weights = h.attributes[i].format.semantic == Semantic::kWeights;
-        if (is_weights && skinPartner(h.attributes.data(), h.pieces[0].attribute_count, i) != kNone)
-          return i;
-      }
-      return kNone;
-    });
-    predictorsOf("exact weights", {1, 2}, [](const PayloadHeader& h) {
-      if (h.pieces.size() != 1) return kNone;
-      for (uint32_t i = 1; i < h.pieces[0].attribute_count; ++i) {
-        const AttributeInfo& a = h.attributes[i];
-        if (a.format.semantic == Semantic::kWeights && unitSum(a) == 0 &&
-            skinPartner(h.attributes.data(), h.pieces[0].attribute_count, i) != kNone) {
-          return i;
-        }
-      }
-      return kNone;
-    });
-    predictorsOf("exact tangent without exact normal", {4}, [](const PayloadHeader& h) {
-      if (h.pieces.size() != 1 ||
-          exactNormalOf(h.attributes.data(), h.pieces[0].attribute_count) != kNone) {
-        return kNone;
-      }
-      for (uint32_t i = 1; i < h.pieces[0].attribute_count; ++i) {
-        if (methodOf(h.attributes.data(), h.pieces[0].attribute_count, i) ==
-            AttributeMethod::kExactTangent) {
-          return i;
-        }
-      }
-      return kNone;
-    });
-    const auto valuesWith = [](uint32_t components, bool is_target) {
-      return [=](const PayloadHeader& h) {
-        if (h.pieces.size() != 1) return kNone;
-        for (uint32_t i = 1; i < h.pieces[0].attribute_count; ++i) {
-          const AttributeFormat& f = h.attributes[i].format;
-          if (methodOf(h.attributes.data(), h.pieces[0].attribute_count, i) ==
-                  AttributeMethod::kValues &&
-              f.component_count == components && (f.morph_target != 0) == is_target &&
-              f.semantic != Semantic::kNormal && f.semantic != Semantic::kTangent) {
-            return i;
-          }
-        }
-        return kNone;
-      };
-    };
-    predictorsOf("values of three", {0x20, 0x40}, valuesWith(3, false));
-    predictorsOf("values of nine", {3}, valuesWith(9, false));
-    predictorsOf("position deltas", {0x20, 0x40}, valuesWith(3, true));
-    predictorsOf("values of one", {0x40}, valuesWith(1, false));
   }
 
   void predictorsOf(const std::string& name, const std::vector<uint8_t>& predictors,

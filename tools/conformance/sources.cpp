@@ -602,24 +602,23 @@ void smallSources(std::vector<Source>& all) {
                        }));
 }
 
-/// Exact grids: every decimal and fractional one, binary ones from end to end.
+/// Exact grids: every decimal one, binary ones from end to end.
 void gridSources(std::vector<Source>& all) {
-  for (uint32_t first = 0; first < 24; first += 8) {
-    all.push_back(single(
-        "grids_" + std::to_string(first), "Decimal grids, fractional grids and binary ones",
-        withNormals(torus(7, 6)), [first](SourceBuilder& b) {
-          b.positions(10);
-          for (uint32_t i = first; i < first + 8; ++i) {
-            const double scale =
-                i < 9 ? std::pow(10.0, i) : std::ldexp(1.0, static_cast<int>(i) - 7) - 1;
-            b.floats("_GRID_" + std::to_string(i), kBase, "SCALAR", 0,
-                     [scale](const Place& at, uint32_t) {
-                       const double x =
-                           double{at.position(0)} * 0.03 + static_cast<double>(at.wedge) * 0.001;
-                       return static_cast<float>(std::floor(x * scale + 0.5) / scale);
-                     });
-          }
-        }));
+  for (uint32_t first = 0; first < 10; first += 5) {
+    all.push_back(single("grids_" + std::to_string(first), "Decimal grids",
+                         withNormals(torus(7, 6)), [first](SourceBuilder& b) {
+                           b.positions(10);
+                           for (uint32_t i = first; i < first + 5; ++i) {
+                             const double scale = std::pow(10.0, i);
+                             b.floats(
+                                 "_GRID_" + std::to_string(i), kBase, "SCALAR", 0,
+                                 [scale](const Place& at, uint32_t) {
+                                   const double x = double{at.position(0)} * 0.03 +
+                                                    static_cast<double>(at.wedge) * 0.001;
+                                   return static_cast<float>(std::floor(x * scale + 0.5) / scale);
+                                 });
+                           }
+                         }));
   }
   all.push_back(single("grids_binary", "Binary grids with steps of 2^-149 to 2^96",
                        withNormals(torus(7, 6)), [](SourceBuilder& b) {
@@ -859,6 +858,10 @@ std::vector<Source> chosenSources() {
   }
   crowdedSources(all);
   largerSources(all);
+  all.push_back(single("ordered_duplicates", "Triangles that occur twice, in an order that is kept",
+                       withIndexDuplicates(grid(24, 20), 5, 40),
+                       [](SourceBuilder& b) { b.positions(10); }));
+  all.back().options.keep_triangle_order = true;
   return all;
 }
 

@@ -69,7 +69,7 @@ struct AttributeInfo {
   Lattice lattice;        ///< of kLattice
   uint8_t predictor = 0;  ///< the coding's own choice, see the specification
   uint32_t alias_of = 0;  ///< of kAlias
-  uint16_t grid = 0;      ///< of kGrid: its steps
+  uint8_t grid = 0;       ///< of kGrid: its steps
   uint8_t tails = 0;  ///< of kGrid: whether values have bits below them, and how those are coded
 };
 

@@ -10,13 +10,12 @@
 #include "attributes/exact_normals.h"
 #include "attributes/exact_tails.h"
 #include "attributes/exact_tangents.h"
-#include "attributes/exact_values.h"
-#include "attributes/moved.h"
 #include "attributes/normals.h"
 #include "attributes/skin.h"
 #include "attributes/tangent_points.h"
 #include "attributes/tangents.h"
 #include "attributes/texcoords.h"
+#include "attributes/value_memory.h"
 #include "attributes/values.h"
 #include "attributes/wedges.h"
 #include "base/decodes.h"
@@ -32,13 +31,11 @@ struct AttributeModels {
   Lazy<TexcoordModels> texcoords[2];  ///< [further set]
   Lazy<TangentModels> tangents;
   Lazy<TangentPointModels> tangent_points;
-  Lazy<SkinModels> skins[2];  ///< [further set]
-  Lazy<IdModels> ids;
+  Lazy<SkinModels> skins[2];          ///< [further set]
   Lazy<ValueModels> values[8][2][2];  ///< [semantic][further set][morph target]
   Lazy<VectorModels> exact_normals;
   Lazy<ExactTangentModels> exact_tangents;
-  Lazy<ExactValueModels> exact_values[8];  ///< [semantic]
-  Lazy<TailModels> tails[8][2];            ///< [semantic][morph target]
+  Lazy<TailModels> tails[8][2];  ///< [semantic][morph target]
 
   Lazy<EqualityModels>& equalitiesOf(const AttributeInfo& a) {
     return equalities[static_cast<uint32_t>(a.format.semantic)];
@@ -56,9 +53,8 @@ struct AttributeModels {
     return copyLazy(equalities, o.equalities) && copyLazy(normals, o.normals) &&
            copyLazy(texcoords, o.texcoords) && copyLazy(tangents, o.tangents) &&
            copyLazy(tangent_points, o.tangent_points) && copyLazy(skins, o.skins) &&
-           copyLazy(ids, o.ids) && copyLazy(values, o.values) &&
-           copyLazy(exact_normals, o.exact_normals) && copyLazy(exact_tangents, o.exact_tangents) &&
-           copyLazy(exact_values, o.exact_values) && copyLazy(tails, o.tails);
+           copyLazy(values, o.values) && copyLazy(exact_normals, o.exact_normals) &&
+           copyLazy(exact_tangents, o.exact_tangents) && copyLazy(tails, o.tails);
   }
 };
 
@@ -96,21 +92,13 @@ class AttributeStage {
         floats_(allocator),
         doubles_(allocator),
         errors_(allocator),
-        edges_(allocator),
         chart_coordinates_(allocator),
         exact_normals_(allocator),
         unit_normals_(allocator),
-        moved_vectors_(allocator),
-        ids_(allocator),
         memory_(allocator),
-        lengths_(allocator),
-        moved_before_(allocator),
-        moved_(allocator) {
+        lengths_(allocator) {
     for (uint32_t i = 1; i < attribute_count; ++i) {
       has_tangents_ |= codingPhase(attributes[i]) == 1;
-      const uint8_t bits = deltaBits(i);
-      has_bends_ |= (bits & value_method::kBends) != 0;
-      has_units_ |= (bits & value_method::kUnits) != 0;
     }
   }
 
@@ -118,7 +106,7 @@ class AttributeStage {
   Status code(uint32_t index, Array<int32_t>& values) {
     const AttributeInfo& info = attributes_[index];
     const AttributeMethod method = methodOf(attributes_, count_, index);
-    if (method == AttributeMethod::kWithAnother) return {};
+    if (isWithAnother(method)) return {};
     const uint32_t components = codedComponents(attributes_, count_, index);
     if (!values.resize(size_t{wedges.count} * components) || !lengths_.resize(wedges.count)) {
       return noMemory();
@@ -136,8 +124,7 @@ class AttributeStage {
       case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(info, values.data())); break;
       case AttributeMethod::kTangent: MCC_TRY(codeTangents(info, values.data())); break;
       case AttributeMethod::kSkin: MCC_TRY(codeSkin(index, values.data())); break;
-      case AttributeMethod::kWithAnother: break;
-      case AttributeMethod::kValues: MCC_TRY(codeValues(info, components, values.data())); break;
+      case AttributeMethod::kValues: MCC_TRY(codeValues(info, values.data())); break;
       default:
         if (decodes::kExactFloats || decodes::kTangentPoints)
           MCC_TRY(codeRare(method, info, values.data()));
@@ -148,13 +135,9 @@ class AttributeStage {
     return keepForOthers(index, values);
   }
 
-  /// Keeps what tangents and morph targets will be predicted from.
+  /// Keeps what tangents will be predicted from.
   Status keepForOthers(uint32_t index, const Array<int32_t>& values) {
-    if (decodes::kMorphTargets && has_units_ && index == baseTangentOf(attributes_, count_))
-      MCC_TRY(keepTangents(index, values.data()));
-    if (decodes::kMorphTargets && attributes_[index].format.morph_target != 0)
-      return keepDeltas(index, values.data());
-    if (!has_tangents_ && !has_bends_ && !has_units_) return {};
+    if (!has_tangents_) return {};
     if (index == normal_) {
       if (!normals.resize(values.size())) return noMemory();
       std::copy(values.data(), values.data() + values.size(), normals.data());
@@ -163,7 +146,7 @@ class AttributeStage {
       if (!exact_normals_.resize(values.size())) return noMemory();
       std::copy(values.data(), values.data() + values.size(), exact_normals_.data());
     }
-    if (index == chart_ && has_tangents_) {
+    if (index == chart_) {
       if (!chart_coordinates_.resize(values.size())) return noMemory();
       chartCoordinates(attributes_[index], values.data(), values.size(), chart_coordinates_.data());
     }
@@ -172,13 +155,12 @@ class AttributeStage {
 
   /// Whether an attribute is predicted from positions that are not rounded.
   bool needsExactPositions() const {
-    if (!decodes::kExactFloats && !decodes::kMorphTargets) return false;
-    if (has_bends_) return true;
+    if (!decodes::kExactFloats) return false;
     for (uint32_t i = 1; i < count_; ++i) {
       const AttributeMethod method = methodOf(attributes_, count_, i);
-      if (method == AttributeMethod::kExactNormal || method == AttributeMethod::kExactTangent ||
-          method == AttributeMethod::kExactValues)
+      if (method == AttributeMethod::kExactNormal || method == AttributeMethod::kExactTangent) {
         return true;
+      }
       if (Io::kEncoding && attributes_[i].coding == AttributeCoding::kGrid) return true;  // perhaps
     }
     return false;
@@ -245,125 +227,11 @@ class AttributeStage {
     return {};
   }
 
-  /// The bits of deltas that need something of others; of the encoder, all that are possible.
-  uint8_t deltaBits(uint32_t index) const {
-    if (!decodes::kMorphTargets ||
-        methodOf(attributes_, count_, index) != AttributeMethod::kValues ||
-        attributes_[index].format.morph_target == 0) {
-      return 0;
-    }
-    return Io::kEncoding ? knownValueBits(attributes_, count_, index)
-                         : attributes_[index].predictor;
-  }
-
-  /// Base tangents as vectors.
-  Status keepTangents(uint32_t index, const int32_t* values) {
-    if (!moved_vectors_.tangents.resize(3 * size_t{wedges.count})) return noMemory();
-    const AttributeInfo& info = attributes_[index];
-    for (size_t w = 0; w < wedges.count; ++w) {
-      float* tangent = &moved_vectors_.tangents[3 * w];
-      if (info.coding == AttributeCoding::kTangentAngle) {
-        float normal[3];
-        octahedralToUnit(normals[2 * w], normals[2 * w + 1], octahedralCentre(normalInfo().bits),
-                         normal);
-        tangentFromAngle(normal, values[2 * w], info.bits, tangent);
-      } else if (info.coding == AttributeCoding::kOctahedral) {
-        const int32_t* point = values + kTangentPointWords * w;
-        octahedralToUnit(point[0], point[1], octahedralCentre(info.bits), tangent);
-      } else {
-        for (size_t s = 0; s < 3; ++s)
-          tangent[s] = static_cast<float>(finiteValue(values[4 * w + s]));
-      }
-    }
-    return {};
-  }
-
-  /// Moved positions for the normals of the target, moved normals for its tangents.
-  Status keepDeltas(uint32_t index, const int32_t* values) {
-    const AttributeInfo& info = attributes_[index];
-    if (!areVectors(info)) return {};
-    if (info.format.semantic == Semantic::kPosition && has_bends_)
-      return moved_vectors_.keepPositions(wedges.count, exact_positions.data(), info, values);
-    if (info.format.semantic != Semantic::kNormal || !has_units_ ||
-        baseTangentOf(attributes_, count_) == kNone || !hasNormals(attributes_, count_)) {
-      return {};
-    }
-    MCC_TRY(listNormals());
-    return moved_vectors_.keepNormals(wedges.count, unit_normals_.data(), info, values);
-  }
-
-  /// See unit_deltas.h.
-  Status findBends(const AttributeInfo& info) {
-    const bool has_normals = hasNormals(attributes_, count_);
-    if (has_normals) MCC_TRY(listNormals());
-    NormalWeight weight = NormalWeight::kAngle;  // or what the mesh's own normals have
-    if (has_normals) {
-      const uint32_t own = exact_normal_ != kNone ? exact_normal_ : normal_;
-      const AttributeMethod method = methodOf(attributes_, count_, own);
-      const uint8_t bits = attributes_[own].predictor & normal_method::kWeightMask;
-      if ((method == AttributeMethod::kNormal || method == AttributeMethod::kExactNormal) &&
-          bits < 3) {
-        weight = static_cast<NormalWeight>(bits);
-      }
-    }
-    return moved_vectors_.findBends(wedges, positions.data(),
-                                    has_normals ? unit_normals_.data() : nullptr, weight,
-                                    deltaStep(info));
-  }
-
-  /// Takes what the faces tell from the integers of the wedges, or adds it.
-  void exchangeBends(bool adds, int32_t* values) const {
-    for (uint32_t w = 0; w < wedges.count; ++w) {
-      const int32_t* bend = &moved_vectors_.bends[3 * size_t{groups_.firstOf(w)}];
-      for (size_t c = 0; c < 3; ++c) {
-        const uint32_t value = static_cast<uint32_t>(values[3 * size_t{w} + c]);
-        const uint32_t b = static_cast<uint32_t>(bend[c]);
-        values[3 * size_t{w} + c] = static_cast<int32_t>(adds ? value + b : value - b);
-      }
-    }
-  }
-
-  Status codeValues(const AttributeInfo& info, uint32_t components, int32_t* values) {
-    const bool is_target = decodes::kMorphTargets && info.format.morph_target != 0;
-    const bool has_ids = decodes::kIds && !is_target && (info.predictor & value_method::kIds) != 0;
-    if (has_ids && !ids_.start()) return noMemory();
-    const bool bends = is_target && (info.predictor & value_method::kBends) != 0;
-    if (bends) MCC_TRY(findBends(info));
-    UnitDeltas units;
-    const bool has_units = decodes::kMorphTargets && (info.predictor & value_method::kUnits) != 0;
-    if (has_units) {
-      const bool is_normal = info.format.semantic == Semantic::kNormal;
-      if (is_normal) MCC_TRY(listNormals());
-      units.base = is_normal ? unit_normals_.data() : moved_vectors_.tangents.data();
-      if (!is_normal) units.normals = moved_vectors_.normals.data();
-      if (bends) units.bends = moved_vectors_.bends.data();
-      units.step = deltaStep(info);
-    }
-    if (bends && Io::kEncoding) exchangeBends(false, values);
-    if (is_target) MCC_TRY(enterTarget(info.format.morph_target));
-    const bool blends =
-        decodes::kBlends && (info.predictor & value_method::kPredictorMask) == value_method::kBlend;
-    if (blends && !floats_.resize(ValueBlend::kErrorFloats * size_t{wedges.count}))
-      return noMemory();
+  Status codeValues(const AttributeInfo& info, int32_t* values) {
     ValueModels* const models = models_.valuesOf(info).get(allocator_);
-    IdModels* const id_models = has_ids ? models_.ids.get(allocator_) : nullptr;
-    if (models == nullptr || (has_ids && id_models == nullptr)) return noMemory();
-    ValueCoder<Io>(io_, *models, wedges, groups_, info, components, positions.data(),
-                   has_units ? &units : nullptr, has_ids ? &ids_ : nullptr, id_models, values,
-                   lengths_.data(), floats_.data(), is_target ? moved_before_.data() : nullptr,
-                   is_target ? moved_.data() : nullptr)
+    if (models == nullptr) return noMemory();
+    ValueCoder<Io>(io_, *models, wedges, groups_, info, positions.data(), values, lengths_.data())
         .run();
-    if (bends) exchangeBends(true, values);
-    return {};
-  }
-
-  /// What was noted of the last target becomes what is known of the one before.
-  Status enterTarget(uint32_t target) {
-    if (target == target_) return {};
-    if (moved_.empty() && !moved_.assign(wedges.count, 0)) return noMemory();
-    if (!moved_before_.resize(wedges.count)) return noMemory();
-    std::copy(moved_.data(), moved_.data() + wedges.count, moved_before_.data());
-    target_ = target;
     return {};
   }
 
@@ -372,7 +240,6 @@ class AttributeStage {
     switch (method) {
       case AttributeMethod::kExactNormal: return codeExactNormals(info, values);
       case AttributeMethod::kExactTangent: return codeExactTangents(info, values);
-      case AttributeMethod::kExactValues: return codeExactValues(info, values);
       case AttributeMethod::kTangentPoint: return codeTangentPoints(info, values);
       default: return {};
     }
@@ -390,14 +257,14 @@ class AttributeStage {
   Status codeExactNormals(const AttributeInfo& info, int32_t* values) {
     if (!doubles_.resize(3 * size_t{wedges.count}) || !errors_.resize(wedges.count))
       return noMemory();
-    const bool remembers = (info.predictor & exact_normal_method::kRemembersEdges) != 0;
-    if (remembers && !edges_.prepare(wedges.face_count)) return noMemory();
+    const bool remembers = (info.predictor & exact_normal_method::kRemembers) != 0;
+    if (remembers && !memory_.start(wedges, values, 3, true)) return noMemory();
     VectorModels* const models = models_.exact_normals.get(allocator_);
     if (models == nullptr) return noMemory();
     ExactNormalCoder<Io>(io_, *models, wedges, groups_, info, values, doubles_.data(),
-                         errors_.data(), remembers ? &edges_ : nullptr)
+                         errors_.data(), remembers ? &memory_ : nullptr)
         .run(exact_positions.data());
-    edges_.clear();
+    memory_.clear();
     return {};
   }
 
@@ -416,29 +283,16 @@ class AttributeStage {
     return {};
   }
 
-  Status codeExactValues(const AttributeInfo& info, int32_t* values) {
-    const bool remembers = (info.predictor & exact_value_method::kRemembers) != 0;
-    if (!floats_.resize(wedges.count) || (remembers && !edges_.prepare(wedges.face_count)))
-      return noMemory();
-    ExactValueModels* const models =
-        models_.exact_values[static_cast<uint32_t>(info.format.semantic)].get(allocator_);
-    if (models == nullptr) return noMemory();
-    ExactValueCoder<Io>(io_, *models, wedges, groups_, info, exact_positions.data(), values,
-                        floats_.data(), remembers ? &edges_ : nullptr)
-        .run();
-    edges_.clear();
-    return {};
-  }
-
   Status codeTexcoords(const AttributeInfo& info, int32_t* values) {
-    const bool repeats = (info.predictor & texcoord_method::kRepeats) != 0;
-    if (repeats && !memory_.assign(ResidualMemory::kEntries, {})) return noMemory();
+    const bool remembers = (info.predictor & texcoord_method::kRemembers) != 0;
+    if (remembers && !memory_.start(wedges, values, 2, false)) return noMemory();
     TexcoordModels* const models =
         models_.texcoords[info.format.set_index != 0 ? 1 : 0].get(allocator_);
     if (models == nullptr) return noMemory();
     TexcoordCoder<Io>(io_, *models, wedges, groups_, info, positions.data(), values,
-                      lengths_.data(), repeats ? memory_.data() : nullptr)
+                      lengths_.data(), remembers ? &memory_ : nullptr)
         .run();
+    memory_.clear();
     return {};
   }
 
@@ -463,7 +317,7 @@ class AttributeStage {
 
   Status codeTangentPoints(const AttributeInfo& info, int32_t* values) {
     MCC_TRY(sumFaceTangents());
-    const bool projects = (info.predictor & tangent_point_method::kPerpendicular) != 0;
+    const bool projects = hasNormals(attributes_, count_);
     if (projects) MCC_TRY(listNormals());
     TangentPointModels* const models = models_.tangent_points.get(allocator_);
     if (models == nullptr) return noMemory();
@@ -474,7 +328,7 @@ class AttributeStage {
     return {};
   }
 
-  /// Normals as vectors: what tangents on a grid may be perpendicular to, what morph targets move.
+  /// Normals as vectors: what tangents on a grid are perpendicular to.
   Status listNormals() {
     if (!unit_normals_.empty()) return {};
     if (!unit_normals_.resize(3 * size_t{wedges.count})) return noMemory();
@@ -494,11 +348,11 @@ class AttributeStage {
   Status codeSkin(uint32_t index, int32_t* values) {
     const AttributeInfo& joints = attributes_[index];
     const AttributeInfo& weights = attributes_[skinPartner(attributes_, count_, index)];
-    const int32_t sum = weights.predictor != 0 ? unitSum(weights) : 0;
-    const bool sums_vary = weights.predictor == skin_method::kUsualSum;
+    const SkinSums sums = static_cast<SkinSums>(weights.predictor);
+    const int32_t sum = sums != SkinSums::kUnknown ? unitSum(weights) : 0;
     SkinModels* const models = models_.skins[joints.format.set_index != 0 ? 1 : 0].get(allocator_);
     if (models == nullptr) return noMemory();
-    SkinCoder<Io>(io_, *models, wedges, groups_, sum, sums_vary, joints.predictor, values,
+    SkinCoder<Io>(io_, *models, wedges, groups_, sum, sums == SkinSums::kUsual, values,
                   lengths_.data())
         .run();
     return {};
@@ -518,19 +372,11 @@ class AttributeStage {
   Array<float> floats_;
   Array<double> doubles_;
   Array<VectorError> errors_;
-  EdgeMemory edges_;
   Array<float> chart_coordinates_;  ///< 2 per wedge, only with tangents
   Array<int32_t> exact_normals_;    ///< 3 ordered floats per wedge, only with tangents
   Array<float> unit_normals_;       ///< 3 per wedge, see listNormals()
-  MovedVectors moved_vectors_;
-  IdMemory ids_;
-  bool has_bends_ = false;
-  bool has_units_ = false;
-  Array<ResidualMemory::Entry> memory_;
+  ValueMemory memory_;
   Array<uint8_t> lengths_;
-  Array<uint8_t> moved_before_;  ///< see attributes/values.h; only with morph targets
-  Array<uint8_t> moved_;
-  uint32_t target_ = 0;  ///< that `moved_` is about
 };
 
 }  // namespace mcc

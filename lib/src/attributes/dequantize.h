@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// From coded integers to the components of accessors.                                        [A.8.12]
+// From coded integers to the components of accessors.                                        [A.8.11]
 #ifndef MCC_ATTRIBUTES_DEQUANTIZE_H_
 #define MCC_ATTRIBUTES_DEQUANTIZE_H_
 

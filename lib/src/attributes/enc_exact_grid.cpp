@@ -64,7 +64,7 @@ bool isOn(const ExactGrid& grid, std::span<const int32_t> ordered, float largest
 
 void setGrid(uint32_t grid, GridTails tails, float largest, AttributeInfo& info) {
   info.coding = AttributeCoding::kGrid;
-  info.grid = static_cast<uint16_t>(grid);
+  info.grid = static_cast<uint8_t>(grid);
   info.tails = static_cast<uint8_t>(tails);
   const uint32_t reach = static_cast<uint32_t>(double{largest} * ExactGrid(grid).scale() + 0.5);
   info.bits = static_cast<uint8_t>(std::bit_width(reach) + 1);
@@ -104,7 +104,7 @@ bool findExactGrid(std::span<const int32_t> ordered, AttributeInfo& info) {
     best = -e.lowest_bit;
     setGrid(e.lowest_bit == 0 ? 0 : binaryGrid(e.lowest_bit), GridTails::kNoTails, largest, info);
   }
-  for (uint32_t grid = 0; grid < kGridFractionEnd; ++grid) {
+  for (uint32_t grid = 0; grid < kGridBinary; ++grid) {
     const ExactGrid candidate(grid);
     if (std::log2(candidate.scale()) >= best || !isOn(candidate, ordered, largest)) continue;
     best = std::log2(candidate.scale());

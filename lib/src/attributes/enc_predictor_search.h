@@ -7,148 +7,82 @@
 #include <cstdint>
 #include <vector>
 
+#include "attributes/normals.h"
 #include "base/enc_features.h"
 #include "mesh/attribute_method.h"
 
 namespace mcc {
 
-/// Coordinate descent: each step varies one field of the byte and keeps the best value so far.
+/// Coordinate descent: field after field of the method's byte, the best value of each is kept.
 class PredictorSearch {
  public:
-  /// Of attribute `index` of a piece, without some features.
-  PredictorSearch(const AttributeInfo* attributes, uint32_t count, uint32_t index, bool has_seams,
-                  const FeatureSet& without) {
-    const AttributeInfo& info = attributes[index];
-    const bool is_target = info.format.morph_target != 0;
-    has_seams = has_seams && !without.has(Feature::kEqualities);
-    switch (methodOf(attributes, count, index)) {
-      case AttributeMethod::kNormal:
-        best_ = has_seams ? 1 | kHasEqualities : 1;
-        steps_ = {{normal_method::kWeightMask, {1, 0, 2}},
-                  {normal_method::kBlendMask,
-                   {1 << normal_method::kBlendShift, 2 << normal_method::kBlendShift}}};
-        break;
-      case AttributeMethod::kExactNormal:
-        best_ = has_seams ? kHasEqualities : 0;
-        steps_ = {{exact_normal_method::kWeightMask, {0, 1, 2, 3}},
-                  {exact_normal_method::kRemembers, {exact_normal_method::kRemembers}},
-                  {exact_normal_method::kRemembersEdges, {exact_normal_method::kRemembersEdges}},
-                  {exact_normal_method::kBlendMask,
-                   {1 << exact_normal_method::kBlendShift, 2 << exact_normal_method::kBlendShift}}};
-        break;
-      case AttributeMethod::kExactTangent:
-        best_ = has_seams ? kHasEqualities : 0;
-        steps_ = {{exact_tangent_method::kWeightMask, {0, 1, 2, 3}},
-                  {exact_tangent_method::kRemembers, {exact_tangent_method::kRemembers}}};
-        if (exactNormalOf(attributes, count) != kNone) {
-          best_ |= exact_tangent_method::kPerpendicular;
-          steps_.push_back({exact_tangent_method::kPerpendicular, {0}});
-        }
-        break;
-      case AttributeMethod::kExactValues:
-        best_ = has_seams ? kHasEqualities : 0;
-        steps_ = {{exact_value_method::kPredictorMask, {0, 1, 2}},
-                  {exact_value_method::kRemembers, {exact_value_method::kRemembers}}};
-        break;
-      case AttributeMethod::kTexcoord:
-        best_ = has_seams ? kHasEqualities : 0;
-        steps_ = {{texcoord_method::kPredictorMask, {0, 1, 3, 2, 4}},
-                  {texcoord_method::kRepeats, {texcoord_method::kRepeats}}};
-        break;
-      case AttributeMethod::kTangent:
-        best_ = has_seams ? kHasEqualities : 0;
-        steps_ = {{0, {0}}};
-        break;
-      case AttributeMethod::kTangentPoint:
-        best_ = has_seams ? kHasEqualities : 0;
-        steps_ = {{0, {0}}};
-        if (hasNormals(attributes, count)) {
-          steps_[0] = {tangent_point_method::kPerpendicular,
-                       {tangent_point_method::kPerpendicular, 0}};
-        }
-        break;
-      case AttributeMethod::kSkin:
-        best_ = static_cast<uint8_t>(info.predictor | (has_seams ? kHasEqualities : 0));
-        steps_ = {{0, {0}}};
-        break;
-      case AttributeMethod::kWithAnother: break;
-      case AttributeMethod::kValues:
-        best_ = static_cast<uint8_t>((has_seams ? kHasEqualities : 0) |
-                                     (is_target ? value_method::kZeroFlags : 0));
-        steps_ = {{value_method::kPredictorMask, {0, 1, 2}},
-                  {value_method::kSameFlags, {value_method::kSameFlags}},
-                  {value_method::kSmallTokens, {value_method::kSmallTokens}}};
-        if (info.format.component_count <= value_method::kBlendComponents) {
-          steps_[0].values.push_back(value_method::kBlend);
-        }
-        if ((knownValueBits(attributes, count, index) & value_method::kIds) != 0 && !is_target) {
-          steps_.push_back({value_method::kIds | value_method::kSameFlags,
-                            {value_method::kIds, value_method::kIds | value_method::kSameFlags}});
-        }
-        if (is_target) steps_.push_back({value_method::kZeroFlags, {0}});
-        for (const uint8_t bit : {value_method::kBends, value_method::kUnits}) {
-          if (is_target && (knownValueBits(attributes, count, index) & bit) != 0)
-            steps_.insert(steps_.begin(), {bit, {0, bit}});
-        }
-        break;
+  /// Without some features, whose fields stay as they are at first.
+  PredictorSearch(AttributeMethod method, bool has_seams, const FeatureSet& without) {
+    if (method == AttributeMethod::kNormal || method == AttributeMethod::kExactNormal) {
+      best_ = static_cast<uint8_t>(NormalWeight::kAngle);
     }
-    if (has_seams && best_ >= kHasEqualities) steps_.push_back({kHasEqualities, {0}});
-    drop(methodOf(attributes, count, index), without);
+    for (const PredictorField& field : fieldsOf(method)) {
+      if (isOff(method, field.mask, without)) continue;
+      for (uint32_t value = 0; value < field.value_count; ++value) {
+        steps_.push_back({field.mask, field.with(0, value)});
+      }
+    }
+    if (!has_seams || without.has(Feature::kEqualities)) return;
+    best_ |= kHasEqualities;
+    steps_.push_back({kHasEqualities, 0});
   }
 
   /// Whether there is nothing to choose.
-  bool isSettled() const {
-    return steps_.empty() || (steps_.size() == 1 && steps_[0].values.size() == 1);
-  }
-  bool done() const { return step_ == steps_.size(); }
-  uint8_t candidate() const {
-    const Step& step = steps_[step_];
-    return static_cast<uint8_t>((best_ & ~step.mask) | step.values[value_]);
-  }
+  bool isSettled() const { return steps_.empty(); }
+  bool done() const { return has_first_ && step_ == steps_.size(); }
+  uint8_t candidate() const { return has_first_ ? changed() : best_; }
   void report(uint64_t cost) {
     if (cost < best_cost_) {
+      best_ = candidate();
       best_cost_ = cost;
-      found_ = candidate();
     }
-    if (++value_ != steps_[step_].values.size()) return;
-    value_ = 0;
-    ++step_;
-    best_ = found_;
+    if (has_first_) ++step_;
+    has_first_ = true;
+    while (!done() && changed() == best_) ++step_;
   }
   uint8_t best() const { return best_; }
 
  private:
   struct Step {
     uint8_t mask;
-    std::vector<uint8_t> values;
+    uint8_t bits;
   };
 
-  /// The steps of a feature that is switched off go; its bits are as without it.
-  void drop(AttributeMethod method, const FeatureSet& without) {
-    const auto dropStep = [&](Feature feature, AttributeMethod of, uint8_t mask, uint8_t value) {
-      if (method != of || !without.has(feature)) return;
-      best_ = static_cast<uint8_t>((best_ & ~mask) | value);
-      std::erase_if(steps_, [mask](const Step& step) { return step.mask == mask; });
-      if (steps_.empty()) steps_.push_back({0, {0}});
+  static bool isOff(AttributeMethod method, uint8_t mask, const FeatureSet& without) {
+    const auto has = [&](Feature feature, uint8_t field) {
+      return without.has(feature) && mask == field;
     };
-    using enum AttributeMethod;
-    dropStep(Feature::kNormalWeights, kNormal, normal_method::kWeightMask, 1);
-    dropStep(Feature::kNormalBlend, kNormal, normal_method::kBlendMask, 0);
-    dropStep(Feature::kNormalBlend, kExactNormal, exact_normal_method::kBlendMask, 0);
-    dropStep(Feature::kTexcoordHinge, kTexcoord, texcoord_method::kPredictorMask, 0);
-    dropStep(Feature::kSameFlags, kValues, value_method::kSameFlags, 0);
-    dropStep(Feature::kZeroFlags, kValues, value_method::kZeroFlags, 0);
-    dropStep(Feature::kMemory, kExactNormal, exact_normal_method::kRemembers, 0);
-    dropStep(Feature::kMemory, kExactNormal, exact_normal_method::kRemembersEdges, 0);
-    dropStep(Feature::kMemory, kExactTangent, exact_tangent_method::kRemembers, 0);
-    dropStep(Feature::kMemory, kExactValues, exact_value_method::kRemembers, 0);
+    switch (method) {
+      case AttributeMethod::kValues:
+        return has(Feature::kSameFlags, value_method::kSameFlags) ||
+               has(Feature::kZeroFlags, value_method::kZeroFlags);
+      case AttributeMethod::kTexcoord:
+        return has(Feature::kTexcoordHinge, texcoord_method::kHinge) ||
+               has(Feature::kMemory, texcoord_method::kRemembers);
+      case AttributeMethod::kNormal:
+      case AttributeMethod::kExactNormal:
+        return has(Feature::kNormalWeights, normal_method::kWeightMask) ||
+               has(Feature::kNormalBlend, normal_method::kBlend) ||
+               (method == AttributeMethod::kExactNormal &&
+                has(Feature::kMemory, exact_normal_method::kRemembers));
+      case AttributeMethod::kExactTangent:
+        return has(Feature::kPerpendicular, exact_tangent_method::kPerpendicular);
+      default: return false;
+    }
+  }
+  uint8_t changed() const {
+    return static_cast<uint8_t>((best_ & ~steps_[step_].mask) | steps_[step_].bits);
   }
 
   std::vector<Step> steps_;
   size_t step_ = 0;
-  size_t value_ = 0;
-  uint8_t best_ = 0;  ///< of the steps done
-  uint8_t found_ = 0;
+  bool has_first_ = false;
+  uint8_t best_ = 0;
   uint64_t best_cost_ = ~uint64_t{0};
 };
 

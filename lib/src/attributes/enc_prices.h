@@ -23,7 +23,7 @@ inline constexpr double kSplit = 1;
 inline constexpr double kPalette = 50;       ///< with few distinct values
 inline constexpr double kPaletteValue = 40;  ///< more for each distinct value per vertex
 inline constexpr double kPlanes = 90;
-inline constexpr double kBlend = 50;        ///< of values, more than parallelograms
+inline constexpr double kMemory = 25;       ///< of texture coordinates
 inline constexpr double kSingleCoder = 60;  ///< more than three streams; a division per token
 }  // namespace price_ns
 
@@ -45,9 +45,9 @@ inline double timeOf(const PositionParameters& p, double palette_values) {
 
 /// The same for an attribute's header byte `predictor`, more than its fastest method takes.
 inline double timeOf(AttributeMethod method, uint8_t predictor) {
-  const bool blends = method == AttributeMethod::kValues &&
-                      (predictor & value_method::kPredictorMask) == value_method::kBlend;
-  return blends ? price_ns::kBlend : 0;
+  const bool remembers = method == AttributeMethod::kTexcoord &&
+                         (predictor & texcoord_method::kRemembers) != 0;
+  return remembers ? price_ns::kMemory : 0;
 }
 
 /// What time is worth.

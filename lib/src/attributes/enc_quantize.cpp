@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #include "attributes/dequantize.h"
 #include "attributes/enc_exact_grid.h"
@@ -448,30 +449,18 @@ class WeightQuantizer {
   std::vector<double> points_;
 };
 
-/// The bits of skin_method that hold for a pair of JOINTS and WEIGHTS.
-void describeSkin(uint32_t wedge_count, QuantizedAttribute& joints, QuantizedAttribute& weights) {
+/// What the weights of tuples sum to.
+SkinSums sumsOf(uint32_t wedge_count, const QuantizedAttribute& weights) {
   const int32_t unit = unitSum(weights.info);
-  const bool on_grid = weights.info.coding == AttributeCoding::kGrid;
+  if (unit == 0) return SkinSums::kUnknown;
   uint32_t unit_sums = 0;
-  bool ascending = true;
   for (uint32_t w = 0; w < wedge_count; ++w) {
-    int64_t sum = 0;
-    int32_t previous = -1;
-    for (size_t k = 4 * size_t{w}; k < 4 * size_t{w} + 4; ++k) {
-      const int32_t weight =
-          on_grid ? gridInteger(weights.info, weights.values[k]) : weights.values[k];
-      sum += weight;
-      if (weight == 0 && joints.values[k] != 0) joints.info.predictor |= skin_method::kIdleJoints;
-      if (weight == 0) continue;
-      ascending &= joints.values[k] > previous;
-      previous = joints.values[k];
-    }
-    unit_sums += sum == unit ? 1 : 0;
+    const int32_t* tuple = &weights.values[4 * size_t{w}];
+    unit_sums += std::accumulate(tuple, tuple + 4, int64_t{0}) == unit ? 1 : 0;
   }
-  if (ascending) joints.info.predictor |= skin_method::kAscending;
-  if (unit == 0 || 2 * unit_sums < wedge_count) return;
-  weights.info.predictor |=
-      unit_sums == wedge_count ? skin_method::kUnitSum : skin_method::kUsualSum;
+  return unit_sums == wedge_count      ? SkinSums::kUnit
+         : 2 * unit_sums < wedge_count ? SkinSums::kUnknown
+                                       : SkinSums::kUsual;
 }
 
 /// Lattice step of a morph target: that of what it moves; of directions, the precision of unit vectors; 0: own range.
@@ -562,7 +551,8 @@ std::vector<QuantizedAttribute> quantizeAttributes(const PieceView& piece,
   for (uint32_t i = 1; i < count; ++i) {
     const uint32_t number = static_cast<uint32_t>(count);
     if (methodOf(infos.data(), number, i) != AttributeMethod::kSkin) continue;
-    describeSkin(piece.wedge_count, all[i], all[skinPartner(infos.data(), number, i)]);
+    QuantizedAttribute& weights = all[skinPartner(infos.data(), number, i)];
+    weights.info.predictor = static_cast<uint8_t>(sumsOf(piece.wedge_count, weights));
   }
   return all;
 }

@@ -55,19 +55,15 @@ class Variation {
     const uint32_t count = static_cast<uint32_t>(infos.size());
     AttributeInfo& info = infos[index];
     const AttributeMethod method = methodOf(infos.data(), count, index);
-    if (method == AttributeMethod::kWithAnother) return;
-    if (method == AttributeMethod::kSkin) {
-      // What the bits say of the tuples may be left unsaid.
-      if (coin()) info.predictor |= skin_method::kIdleJoints;
-      if (coin()) info.predictor &= static_cast<uint8_t>(~skin_method::kAscending);
-      if (coin()) info.predictor |= kHasEqualities;
+    if (isWithAnother(method)) return;
+    if (method == AttributeMethod::kSkin) {  // what holds of the sums may be left unsaid
       uint8_t& sums = infos[skinPartner(infos.data(), count, index)].predictor;
-      if (sums != 0 && coin()) sums = coin() ? skin_method::kUsualSum : 0;
-      return;
+      if (sums != 0 && coin())
+        sums = static_cast<uint8_t>(coin() ? SkinSums::kUsual : SkinSums::kUnknown);
     }
     do {
       info.predictor = static_cast<uint8_t>(below(256));
-    } while (!isKnownPredictor(infos.data(), count, index));
+    } while (!isValidPredictor(method, info.predictor));
   }
 
  private:

@@ -2,7 +2,7 @@
 //
 // Exact float32 values on a grid through 0: most files come from numbers with a few decimals, or from computations whose
 // results lie far above the precision of their smallest values. Coded are the grid's integers, like those of a lattice;
-// grids of binary fractions may leave bits below their step, the tails.                      [A.8.13]
+// grids of binary fractions may leave bits below their step, the tails.                      [A.8.12]
 #ifndef MCC_ATTRIBUTES_EXACT_GRID_H_
 #define MCC_ATTRIBUTES_EXACT_GRID_H_
 
@@ -26,10 +26,8 @@ class ExactGrid {
     if (isBinaryGrid(grid)) {
       exponent_ = static_cast<int32_t>(grid - kGridBinary) + kSmallestExponent;
       scale_ = powerOfTwo(-exponent_);
-    } else if (grid < kGridFraction) {
-      for (uint32_t i = 0; i < grid; ++i) scale_ *= 10;
     } else {
-      scale_ = static_cast<double>((uint32_t{4} << (grid - kGridFraction)) - 1);
+      for (uint32_t i = 0; i < grid; ++i) scale_ *= 10;
     }
   }
 

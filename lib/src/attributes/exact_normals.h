@@ -5,24 +5,18 @@
 #ifndef MCC_ATTRIBUTES_EXACT_NORMALS_H_
 #define MCC_ATTRIBUTES_EXACT_NORMALS_H_
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "attributes/edge_memory.h"
 #include "attributes/exact_vectors.h"
+#include "attributes/normals.h"
+#include "attributes/value_memory.h"
 #include "attributes/wedges.h"
 #include "mcc/reader.h"
 #include "mesh/attribute_method.h"
 
 namespace mcc {
-
-/// Weight of a face's unit normal at a corner.
-enum class ExactWeight : uint8_t {
-  kArea = 0,
-  kAngle = 1,
-  kSine = 2,  ///< see NormalWeight
-  kEqual = 3,
-};
 
 /// Angle between two vectors by the length of their cross product and their dot product. [B.4.3]
 inline double exactAngle(double cross_length, double dot_product) {
@@ -36,7 +30,7 @@ inline double exactAngle(double cross_length, double dot_product) {
   return dot_product < 0 ? 3.141592653589793 - acute : acute;
 }
 
-MCC_SHARED void addExactNormalsOfWeight(ExactWeight exact_weight, const WedgeMesh& wedges,
+MCC_SHARED void addExactNormalsOfWeight(NormalWeight normal_weight, const WedgeMesh& wedges,
                                         const float* positions, double* sums) {
   for (uint32_t f = 0; f < wedges.face_count; ++f) {
     const uint32_t* corner = wedges.faces.words + size_t{f} * kFaceWords;
@@ -53,14 +47,12 @@ MCC_SHARED void addExactNormalsOfWeight(ExactWeight exact_weight, const WedgeMes
     double normal[3];
     cross(side[0], side[1], normal);
     double weight[3] = {1, 1, 1};
-    if (exact_weight != ExactWeight::kArea) {
+    if (normal_weight != NormalWeight::kArea) {
       const double square = dot(normal, normal);
       if (!(square > 1e-290)) continue;
       const double length = std::sqrt(square);
       const double inverse = 1.0 / length;
-      if (exact_weight == ExactWeight::kEqual) {
-        for (double& w : weight) w = inverse;
-      } else if (exact_weight == ExactWeight::kAngle) {
+      if (normal_weight == NormalWeight::kAngle) {
         const double at_0 = exactAngle(length, -dot(side[0], side[2]));
         const double at_1 = exactAngle(length, -dot(side[1], side[0]));
         weight[0] = at_0 * inverse;
@@ -81,37 +73,35 @@ MCC_SHARED void addExactNormalsOfWeight(ExactWeight exact_weight, const WedgeMes
 }
 
 /// Adds the weighted normals of all faces to their wedges' sums (3 per wedge). `positions`: 3 floats per wedge. [B.4.7]
-inline void addExactFaces(ExactWeight weight, const WedgeMesh& wedges, const float* positions,
+inline void addExactFaces(NormalWeight weight, const WedgeMesh& wedges, const float* positions,
                           double* sums) {
   if constexpr (kCompact) return addExactNormalsOfWeight(weight, wedges, positions, sums);
   switch (weight) {
-    case ExactWeight::kArea:
-      return addExactNormalsOfWeight(ExactWeight::kArea, wedges, positions, sums);
-    case ExactWeight::kAngle:
-      return addExactNormalsOfWeight(ExactWeight::kAngle, wedges, positions, sums);
-    case ExactWeight::kSine:
-      return addExactNormalsOfWeight(ExactWeight::kSine, wedges, positions, sums);
-    case ExactWeight::kEqual:
-      return addExactNormalsOfWeight(ExactWeight::kEqual, wedges, positions, sums);
+    case NormalWeight::kArea:
+      return addExactNormalsOfWeight(NormalWeight::kArea, wedges, positions, sums);
+    case NormalWeight::kAngle:
+      return addExactNormalsOfWeight(NormalWeight::kAngle, wedges, positions, sums);
+    case NormalWeight::kSine:
+      return addExactNormalsOfWeight(NormalWeight::kSine, wedges, positions, sums);
   }
 }
 
 template <class Io>
 class ExactNormalCoder {
  public:
-  /// Work space: `sums` 3 per wedge, `errors` one per wedge. `values`: three ordered floats per wedge.
+  /// Work space: `sums` 3 per wedge, `errors` one per wedge. `values`: three ordered floats per wedge. `memory`: started with
+  /// `values`, ignoring signs, since mirrored parts are alike; or null.
   ExactNormalCoder(Io& io, VectorModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
                    const AttributeInfo& info, int32_t* values, double* sums, VectorError* errors,
-                   EdgeMemory* edges)
+                   ValueMemory* memory)
       : io_(io),
         models_(models),
-        edges_(edges),
-        coder_(io, models, (info.predictor & exact_normal_method::kRemembers) != 0),
+        memory_(memory),
+        coder_(io, models),
         wedges_(wedges),
         groups_(groups),
-        weight_(static_cast<ExactWeight>(info.predictor & exact_normal_method::kWeightMask)),
-        blend_((info.predictor & exact_normal_method::kBlendMask) >>
-               exact_normal_method::kBlendShift),
+        weight_(static_cast<NormalWeight>(info.predictor & normal_method::kWeightMask)),
+        blends_((info.predictor & normal_method::kBlend) != 0),
         values_(values),
         sums_(sums),
         errors_(errors) {}
@@ -130,37 +120,22 @@ class ExactNormalCoder {
   double* sum(uint32_t w) { return sums_ + 3 * size_t{w}; }
   void codeGroup(uint32_t w);
 
-  /// Without signs: mirrored parts are alike.
-  uint64_t hashOf(uint32_t w) const {
-    uint64_t h = 0x243f6a8885a308d3u;
-    for (uint32_t s = 0; s < 3; ++s) {
-      const uint32_t bits = bitsFromOrdered(values_[3 * size_t{w} + s]) & 0x7fffffffu;
-      h = (h ^ bits) * 0x9e3779b97f4a7c15u;
-      h ^= h >> 29;
-    }
-    return h;
-  }
-  uint64_t keyOf(uint32_t a, uint32_t b) const {
-    const uint64_t h = (hashOf(a) + hashOf(b)) * 0xbf58476d1ce4e5b9u;
-    return h ^ (h >> 32);
-  }
   bool codeKnown(uint32_t w, uint32_t entry, const double* predicted);
-  void learnFaces(uint32_t w);
+  static uint64_t predictionKey(const ValueMemory& memory, const double* predicted);
 
-  static constexpr uint32_t kFaceLimit = 16;
+  static constexpr double kBlendPart = 0.5;  ///< of what both neighbours' predictions missed
   static constexpr float kNotYet = -1;
 
   bool coded(uint32_t w) const { return errors_[w].places >= 0; }
 
   Io& io_;
   VectorModels& models_;
-  EdgeMemory* const edges_;  ///< prepared, or null
-  uint32_t history_ = 0;
+  ValueMemory* const memory_;
   VectorCoder<Io> coder_;
   const WedgeMesh& wedges_;
   const EqualGroups& groups_;
-  const ExactWeight weight_;
-  const uint32_t blend_;
+  const NormalWeight weight_;
+  const bool blends_;
   int32_t* const values_;
   double* const sums_;  ///< of faces; once a wedge is coded: what its prediction missed
   VectorError* const errors_;
@@ -191,14 +166,13 @@ void ExactNormalCoder<Io>::codeGroup(uint32_t w) {
     const uint32_t p = wedges_.faces.vertex(prevHalfEdge(entry));
     error.size = (errors_[n].size + errors_[p].size) / 2;
     error.places = (errors_[n].places + errors_[p].places) / 2;
-    if (blend_ != 0) {
-      const double part = blend_ == 1 ? 0.25 : 0.5;
-      for (int s = 0; s < 3; ++s) predicted[s] += part * (sum(n)[s] + sum(p)[s]);
+    if (blends_) {
+      for (int s = 0; s < 3; ++s) predicted[s] += kBlendPart * (sum(n)[s] + sum(p)[s]);
       makeUnit(predicted);
     }
   }
   int32_t* value = values_ + 3 * size_t{w};
-  if (edges_ == nullptr || entry == kNone || !codeKnown(w, entry, predicted)) {
+  if (memory_ == nullptr || !codeKnown(w, entry, predicted)) {
     coder_.code(predicted, nullptr, error, value);
   }
   last_error_ = error;
@@ -213,52 +187,54 @@ void ExactNormalCoder<Io>::codeGroup(uint32_t w) {
     std::copy_n(value, 3, values_ + 3 * size_t{m});
     std::copy_n(missed, 3, sum(m));
     errors_[m] = error;
-    if (edges_ != nullptr) learnFaces(m);
+  }
+  if (memory_ == nullptr) return;
+  memory_->learn(predictionKey(*memory_, predicted), w);
+  for (uint32_t m = w; m != kNone; m = groups_.nextOf(m)) {
+    memory_->learnFaces(m, [this](uint32_t x) { return coded(x); });
   }
 }
 
-/// Whether the vector is, but for signs, one that stood beside those of the entry face before.
+/// Of a prediction, without signs, in steps of 2^-12.
+template <class Io>
+uint64_t ExactNormalCoder<Io>::predictionKey(const ValueMemory& memory, const double* predicted) {
+  uint32_t rounded[3];
+  for (int s = 0; s < 3; ++s) {
+    rounded[s] = static_cast<uint32_t>(std::fabs(predicted[s]) * 4096 + 0.5);
+  }
+  return memory.predictionKey(rounded);
+}
+
+/// Whether the vector is, but for signs, one that was predicted like this before, or stood beside those of the entry
+/// face. It is then in place, with the signs of the prediction.
 template <class Io>
 bool ExactNormalCoder<Io>::codeKnown(uint32_t w, uint32_t entry, const double* predicted) {
-  const FaceView& faces = wedges_.faces;
-  const uint32_t t = faces.twin(nextHalfEdge(entry));
-  const uint32_t o = t == kNone ? w : faces.vertex(prevHalfEdge(t));
-  const EdgeMemory::Known known =
-      edges_->at(keyOf(faces.vertex(nextHalfEdge(entry)), faces.vertex(prevHalfEdge(entry))));
   int32_t* value = values_ + 3 * size_t{w};
-  uint32_t asked = 0;
-  for (const uint32_t k : known.wedge) {
-    if (k == kNone || k == o) continue;
-    int32_t candidate[3];
+  const auto withSigns = [=, this](uint32_t k, int32_t* to) {
     for (uint32_t s = 0; s < 3; ++s) {
       const uint32_t bits = bitsFromOrdered(values_[3 * size_t{k} + s]) & 0x7fffffffu;
-      candidate[s] = orderedFromBits(bits | (predicted[s] < 0 ? 0x80000000u : 0u));
+      to[s] = orderedFromBits(bits | (predicted[s] < 0 ? 0x80000000u : 0u));
     }
-    const bool equal = std::equal(candidate, candidate + 3, value);
-    const bool hit = io_.bit(models_.beside[asked][history_], Io::kEncoding && equal);
-    history_ = (history_ << 1 | (hit ? 1u : 0u)) & 3;
-    if (hit) {
-      std::copy_n(candidate, 3, value);
-      return true;
-    }
-    asked = 1;
+  };
+  const auto isValue = [=](uint32_t k) {
+    int32_t candidate[3];
+    withSigns(k, candidate);
+    return std::equal(candidate, candidate + 3, value);
+  };
+  memory_->begin();
+  uint32_t k =
+      memory_->ask(io_, models_.memory, predictionKey(*memory_, predicted), kNone, isValue);
+  if (k == kNone && entry != kNone) {
+    const FaceView& faces = wedges_.faces;
+    const uint32_t across = nextHalfEdge(entry);
+    const uint32_t t = faces.twin(across);
+    const uint32_t o = t == kNone ? kNone : faces.vertex(prevHalfEdge(t));
+    k = memory_->ask(io_, models_.memory,
+                     memory_->edgeKey(faces.vertex(across), faces.vertex(prevHalfEdge(entry))),
+                     o != kNone && coded(o) ? o : kNone, isValue);
   }
-  return false;
-}
-
-template <class Io>
-void ExactNormalCoder<Io>::learnFaces(uint32_t w) {
-  if (w >= wedges_.surface_count) return;
-  uint32_t faces = 0;
-  for (uint32_t h = wedges_.firstCompleted(w); h != kNone && faces < kFaceLimit;
-       h = wedges_.nextCompleted(h), ++faces) {
-    const uint32_t n = wedges_.faces.vertex(nextHalfEdge(h));
-    const uint32_t p = wedges_.faces.vertex(prevHalfEdge(h));
-    if (!coded(n) || !coded(p)) continue;
-    edges_->learn(keyOf(n, p), w);
-    edges_->learn(keyOf(w, n), p);
-    edges_->learn(keyOf(w, p), n);
-  }
+  if (k != kNone) withSigns(k, value);
+  return k != kNone;
 }
 
 }  // namespace mcc

@@ -7,20 +7,11 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "attributes/exact_normals.h"
 #include "attributes/exact_vectors.h"
 #include "attributes/wedges.h"
 #include "mesh/attribute_method.h"
 
 namespace mcc {
-
-/// How the directions in which u grows are weighted at a corner.
-enum class TangentWeight : uint8_t {
-  kAngle = 0,  ///< unit vectors in the normal's plane, by the angle in that plane (Mikkelsen 2008)
-  kChart = 1,  ///< by how fast u grows (Lengyel 2001)
-  kArea = 2,   ///< by the area in the chart times that
-  kEqual = 3,
-};
 
 struct ExactTangentModels {
   VectorModels vectors;
@@ -47,9 +38,10 @@ inline void projectAlong(const double* unit, double* v) {
   for (int s = 0; s < 3; ++s) v[s] -= along * unit[s];
 }
 
-/// Adds to the three wedges of a face (4 sums each) the weighted direction and the orientation of the chart. [B.6.7]
-inline void addExactTangent(const WedgeMesh& wedges, const TangentSources& from,
-                            TangentWeight weight, uint32_t face, double* sums) {
+/// Adds to the three wedges of a face (4 sums each) the direction in which u grows, of length 1, and the orientation of
+/// the chart. [B.6.7]
+inline void addExactTangent(const WedgeMesh& wedges, const TangentSources& from, uint32_t face,
+                            double* sums) {
   const uint32_t* corner = wedges.faces.words + size_t{face} * kFaceWords;
   double p[3][3];
   double uv[3][2];
@@ -70,33 +62,10 @@ inline void addExactTangent(const WedgeMesh& wedges, const TangentSources& from,
   for (int s = 0; s < 3; ++s) {
     along[s] = side * ((p[1][s] - p[0][s]) * v1 - (p[2][s] - p[0][s]) * v0);
   }
-  if (weight == TangentWeight::kChart) {
-    for (double& x : along) x /= std::fabs(determinant);
-  } else if (weight == TangentWeight::kEqual) {
-    makeUnit(along);
-  }
+  makeUnit(along);
   for (uint32_t k = 0; k < 3; ++k) {
     double* sum = sums + 4 * size_t{corner[k]};
-    double direction[3] = {along[0], along[1], along[2]};
-    if (weight == TangentWeight::kAngle) {
-      double normal[3];
-      unitNormalOf(from, corner[k], normal);
-      projectAlong(normal, direction);
-      makeUnit(direction);
-      double a[3];
-      double b[3];
-      for (int s = 0; s < 3; ++s) {
-        a[s] = p[(k + 1) % 3][s] - p[k][s];
-        b[s] = p[(k + 2) % 3][s] - p[k][s];
-      }
-      projectAlong(normal, a);
-      projectAlong(normal, b);
-      double across[3] = {0, 0, 0};
-      if (makeUnit(a) && makeUnit(b)) cross(a, b, across);
-      const double angle = exactAngle(std::sqrt(dot(across, across)), dot(a, b));
-      for (double& x : direction) x *= angle > 0 ? angle : 0.0;
-    }
-    for (uint32_t s = 0; s < 3; ++s) sum[s] += direction[s];
+    for (uint32_t s = 0; s < 3; ++s) sum[s] += along[s];
     sum[3] += side;
   }
 }
@@ -110,10 +79,9 @@ class ExactTangentCoder {
                     const TangentSources& from, int32_t* values, double* sums, VectorError* errors)
       : io_(io),
         models_(models),
-        coder_(io, models.vectors, (info.predictor & exact_tangent_method::kRemembers) != 0),
+        coder_(io, models.vectors),
         wedges_(wedges),
         groups_(groups),
-        weight_(static_cast<TangentWeight>(info.predictor & exact_tangent_method::kWeightMask)),
         perpendicular_((info.predictor & exact_tangent_method::kPerpendicular) != 0),
         from_(from),
         values_(values),
@@ -124,7 +92,7 @@ class ExactTangentCoder {
     std::fill(sums_, sums_ + 4 * size_t{wedges_.count}, 0.0);
     std::fill(errors_, errors_ + wedges_.count, VectorError{});
     for (uint32_t f = 0; from_.chart != nullptr && f < wedges_.face_count; ++f) {
-      addExactTangent(wedges_, from_, weight_, f, sums_);
+      addExactTangent(wedges_, from_, f, sums_);
     }
     for (uint32_t i = 0; i < wedges_.count; ++i) {
       const uint32_t w = i < wedges_.surface_count ? wedges_.wedgeAt(i) : i;
@@ -141,7 +109,6 @@ class ExactTangentCoder {
   VectorCoder<Io> coder_;
   const WedgeMesh& wedges_;
   const EqualGroups& groups_;
-  const TangentWeight weight_;
   const bool perpendicular_;
   const TangentSources from_;
   int32_t* const values_;

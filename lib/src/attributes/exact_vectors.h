@@ -9,11 +9,11 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 
 #include "attributes/dequantize.h"
 #include "attributes/exact_grid.h"
 #include "attributes/position_residual.h"
+#include "attributes/value_memory.h"
 #include "entropy/models.h"
 
 namespace mcc {
@@ -56,31 +56,9 @@ struct VectorError {
   float places = 0;  ///< of the others, in units of their last places
 };
 
-/// Vectors by rounded predictions: parts that repeat, shifted or mirrored, have repeated vectors. [B.7.3]
-struct VectorMemory {
-  static constexpr uint32_t kEntryBits = 12;
-  struct Entry {
-    uint32_t magnitude[3];  ///< bits of the components without their signs
-    uint32_t confidence;    ///< 0: never seen; 1..3
-  };
-  Entry entry[1u << kEntryBits];
-
-  Entry& of(const double* predicted) {
-    uint32_t hash = 0;
-    for (int s = 0; s < 3; ++s) {
-      const double absolute = predicted[s] < 0 ? -predicted[s] : predicted[s];
-      hash = (hash ^ static_cast<uint32_t>(absolute * 4096 + 0.5)) * 0x9e3779b1u;
-      hash ^= hash >> 15;
-    }
-    return entry[(hash * 0x85ebca6bu) >> (32 - kEntryBits)];
-  }
-};
-
 struct VectorModels {
   TokenRow row[3][kScaleBuckets];  ///< [component as coded]
-  BitModel known[4][4];            ///< [confidence][last two outcomes]
-  BitModel beside[2][4];           ///< [first or second candidate][last two outcomes]
-  VectorMemory memory;
+  MemoryModels memory;
 
   bool is_ready = false;
 
@@ -88,7 +66,6 @@ struct VectorModels {
   void prepare() {
     if (is_ready) return;
     is_ready = true;
-    std::fill(std::begin(memory.entry), std::end(memory.entry), VectorMemory::Entry{});
     for (auto& component : row) {
       std::copy_n(InitialRowTable::table.plain, kScaleBuckets, component);
     }
@@ -98,45 +75,19 @@ struct VectorModels {
 template <class Io>
 class VectorCoder {
  public:
-  VectorCoder(Io& io, VectorModels& models, bool remembers)
-      : io_(io), models_(models), remembers_(remembers) {
-    models_.prepare();
-  }
+  VectorCoder(Io& io, VectorModels& models) : io_(io), models_(models) { models_.prepare(); }
 
   /// `predicted`: of length 1 or 0. `value`: three ordered floats. `error`: expected, then that of this vector. `normal`:
   /// unit vector that the prediction is, and the vector may be, perpendicular to; or null.
   void code(const double* predicted, const double* normal, VectorError& error, int32_t* value) {
-    VectorMemory::Entry* entry = remembers_ ? &models_.memory.of(predicted) : nullptr;
-    if (entry != nullptr && codeKnown(predicted, *entry, value)) {
-      error.size *= 0.5f;
-      return;
-    }
     if (normal != nullptr) {
       codeInPlane(predicted, normal, error, value);
     } else {
       codeComponents(predicted, error, value);
     }
-    if (entry == nullptr) return;
-    for (int s = 0; s < 3; ++s) entry->magnitude[s] = bitsFromOrdered(value[s]) & 0x7fffffffu;
-    entry->confidence = 1;
   }
 
  private:
-  bool codeKnown(const double* predicted, VectorMemory::Entry& entry, int32_t* value) {
-    if (entry.confidence == 0) return false;
-    int32_t known[3];
-    for (int s = 0; s < 3; ++s) {
-      known[s] = orderedFromBits(entry.magnitude[s] | (predicted[s] < 0 ? 0x80000000u : 0u));
-    }
-    const bool equal = known[0] == value[0] && known[1] == value[1] && known[2] == value[2];
-    const bool hit = io_.bit(models_.known[entry.confidence][history_], Io::kEncoding && equal);
-    history_ = (history_ << 1 | (hit ? 1u : 0u)) & 3;
-    if (!hit) return false;
-    for (int s = 0; s < 3; ++s) value[s] = known[s];
-    entry.confidence += entry.confidence < 3 ? 1 : 0;
-    return true;
-  }
-
   void codeComponents(const double* predicted, VectorError& error, int32_t* value) {
     uint32_t longest = 0;
     for (uint32_t s = 1; s < 3; ++s) {
@@ -213,8 +164,6 @@ class VectorCoder {
 
   Io& io_;
   VectorModels& models_;
-  const bool remembers_;
-  uint32_t history_ = 0;
 };
 
 }  // namespace mcc

@@ -57,10 +57,11 @@ MCC_SHARED void addNormalsOfWeight(NormalWeight normal_weight, const WedgeMesh& 
       const Float4 q0 = dotProduct(faces.e0, faces.e0);
       const Float4 q1 = dotProduct(faces.e1, faces.e1);
       const Float4 q2 = dotProduct(e2, e2);
-      const Float4 inverse = select(is_face, one / (q0 * q1 * q2), allLanes(0.0f));
-      weight[0] = inverse * q2;
-      weight[1] = inverse * q1;
-      weight[2] = inverse * q0;
+      // No product of three, which overflows where faces are as long as the mesh.
+      const Float4 zero = allLanes(0.0f);
+      weight[0] = select(is_face, one / (q0 * q1), zero);
+      weight[1] = select(is_face, one / (q0 * q2), zero);
+      weight[2] = select(is_face, one / (q1 * q2), zero);
     }
     Float4 rows[4] = {faces.normal[0], faces.normal[1], faces.normal[2], allLanes(0.0f)};
     transpose(rows[0], rows[1], rows[2], rows[3]);
@@ -222,8 +223,7 @@ class NormalCoder {
         wedges_(wedges),
         groups_(groups),
         weight_(static_cast<NormalWeight>(info.predictor & normal_method::kWeightMask)),
-        blend_((info.predictor & normal_method::kBlendMask) >> normal_method::kBlendShift),
-        part_(blend_ == 1 ? 0.25f : 0.5f),
+        blends_((info.predictor & normal_method::kBlend) != 0),
         centre_(octahedralCentre(info.bits)),
         scale_(1.0f / static_cast<float>(centre_)),
         values_(values),
@@ -244,6 +244,8 @@ class NormalCoder {
   }
 
  private:
+  static constexpr float kBlendPart = 0.25f;  ///< of what both neighbours' predictions missed
+
   float* sum(uint32_t w) { return sums_ + 4 * size_t{w}; }
 
   void codeGroup(uint32_t w);
@@ -254,8 +256,7 @@ class NormalCoder {
   const WedgeMesh& wedges_;
   const EqualGroups& groups_;
   const NormalWeight weight_;
-  const uint32_t blend_;
-  const float part_;  ///< of what both neighbours' predictions missed
+  const bool blends_;
   const int32_t centre_;
   const float scale_;
   int32_t* const values_;
@@ -275,7 +276,7 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
   float length = manhattanLength(direction);
   uint32_t context = kNoNeighbours;
   float used[3] = {direction[0], direction[1], direction[2]};
-  if (blend_ != 0) {
+  if (blends_) {
     const float inverse = length > kShortest ? 1.0f / length : 0.0f;
     for (int s = 0; s < 3; ++s) used[s] = direction[s] = direction[s] * inverse;
   }
@@ -283,11 +284,11 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
     const uint32_t n = wedges_.faces.vertex(nextHalfEdge(entry));
     const uint32_t p = wedges_.faces.vertex(prevHalfEdge(entry));
     context = (lengths_[n] + lengths_[p] + 1u) / 2;
-    if (blend_ != 0) {
-      for (int s = 0; s < 3; ++s) used[s] = direction[s] + part_ * (sum(n)[s] + sum(p)[s]);
+    if (blends_) {
+      for (int s = 0; s < 3; ++s) used[s] = direction[s] + kBlendPart * (sum(n)[s] + sum(p)[s]);
     }
   }
-  if (blend_ != 0) length = manhattanLength(used);
+  if (blends_) length = manhattanLength(used);
   if (length > kShortest) [[likely]] {
     int32_t inside[2];
     projectToGrid(used, length, centre_, inside);
@@ -295,7 +296,7 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
   } else {
     codePoint(w, OctahedralFrame::around(last_, centre_), context);
   }
-  if (blend_ != 0) {
+  if (blends_) {
     float missed[4] = {0, 0, 0, 0};
     foldToOctahedron(static_cast<float>(last_[0]) * scale_, static_cast<float>(last_[1]) * scale_,
                      missed);
@@ -305,7 +306,7 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
     values_[2 * size_t{m}] = values_[2 * size_t{w}];
     values_[2 * size_t{m} + 1] = values_[2 * size_t{w} + 1];
     lengths_[m] = lengths_[w];
-    if (blend_ != 0) std::copy(sum(w), sum(w) + 3, sum(m));
+    if (blends_) std::copy(sum(w), sum(w) + 3, sum(m));
   }
 }
 

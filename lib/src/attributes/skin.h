@@ -44,18 +44,15 @@ struct SkinModels {
 template <class Io>
 class SkinCoder {
  public:
-  /// `sum`: of the weights of every tuple (of most, if `sums_vary`), or 0. `joint_bits`: skin_method's of JOINTS.
-  /// `lengths`: work space, a byte per wedge.
+  /// `sum`: of the weights of every tuple (of most, if `sums_vary`), or 0. `lengths`: work space, a byte per wedge.
   SkinCoder(Io& io, SkinModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
-            int32_t sum, bool sums_vary, uint8_t joint_bits, int32_t* values, uint8_t* lengths)
+            int32_t sum, bool sums_vary, int32_t* values, uint8_t* lengths)
       : io_(io),
         models_(models),
         wedges_(wedges),
         groups_(groups),
         usual_sum_(sum),
         sums_vary_(sums_vary),
-        idle_joints_((joint_bits & skin_method::kIdleJoints) != 0),
-        ascending_((joint_bits & skin_method::kAscending) != 0),
         values_(values),
         lengths_(lengths) {}
 
@@ -95,9 +92,6 @@ class SkinCoder {
     return std::memcmp(tuple(a), tuple(b), 4 * kSkinWords) == 0;
   }
 
-  bool goesBefore(const Candidate& a, const Candidate& b) const {
-    return ascending_ ? a.joint < b.joint : a.weight > b.weight;
-  }
   void collectNeighbours(uint32_t w);
   void addNeighbour(uint32_t w);
   void collectCandidates();
@@ -106,7 +100,7 @@ class SkinCoder {
   void codeTuple(uint32_t w);
   uint32_t codeJoints(int32_t* t, int64_t* expected);
   void codeWeights(uint32_t w, uint32_t used, const int64_t* expected);
-  int32_t codeJoint(uint32_t slot, int32_t previous, int32_t truth, int64_t& weight);
+  int32_t codeJoint(uint32_t slot, int32_t truth, int64_t& weight);
   int32_t codeIdleJoint(uint32_t slot, int32_t truth);
   int32_t codeWeight(uint32_t slot, uint32_t context, uint32_t predicted, int32_t truth,
                      uint32_t& longest);
@@ -117,8 +111,6 @@ class SkinCoder {
   const EqualGroups& groups_;
   const int32_t usual_sum_;
   const bool sums_vary_;
-  const bool idle_joints_;
-  const bool ascending_;
   int32_t* const values_;
   uint8_t* const lengths_;
   uint32_t last_ = kNone;
@@ -182,7 +174,7 @@ bool SkinCoder<Io>::codeSame(uint32_t w) {
   return false;
 }
 
-/// The neighbours' joints with weight, in ascending order or the heaviest first.
+/// The neighbours' joints with weight, the heaviest first.
 template <class Io>
 void SkinCoder<Io>::collectCandidates() {
   candidate_count_ = 0;
@@ -205,7 +197,7 @@ void SkinCoder<Io>::collectCandidates() {
   for (uint32_t i = 1; i < candidate_count_; ++i) {
     const Candidate c = candidates_[i];
     uint32_t k = i;
-    for (; k != 0 && goesBefore(c, candidates_[k - 1]); --k) candidates_[k] = candidates_[k - 1];
+    for (; k != 0 && c.weight > candidates_[k - 1].weight; --k) candidates_[k] = candidates_[k - 1];
     candidates_[k] = c;
   }
   typical_ /= kTypicalShare * int64_t{std::max(uses_, 1u)};
@@ -242,18 +234,16 @@ uint32_t SkinCoder<Io>::codeJoints(int32_t* t, int64_t* expected) {
   }
   if (neighbour_count_ != 0) influences = (influences + neighbour_count_ / 2) / neighbour_count_;
   uint32_t used = 0;
-  int32_t previous = -1;
   for (uint32_t k = 0; k < kSkinSlots; ++k) {
     const bool idle_before = k != 0 && (used >> (k - 1)) == 0;
     BitModel& model = models_.weightless[k][influences][idle_before ? 1 : 0];
     expected[k] = 0;
     if (io_.bit(model, Io::kEncoding && t[kSkinSlots + k] == 0)) {
-      t[k] = idle_joints_ ? codeIdleJoint(k, t[k]) : 0;
+      t[k] = codeIdleJoint(k, t[k]);
       continue;
     }
     used |= 1u << k;
-    t[k] = codeJoint(k, previous, t[k], expected[k]);
-    previous = t[k];
+    t[k] = codeJoint(k, t[k], expected[k]);
   }
   return used;
 }
@@ -298,11 +288,11 @@ void SkinCoder<Io>::codeWeights(uint32_t w, uint32_t used, const int64_t* expect
 
 /// `weight`: what the neighbours give the joint.
 template <class Io>
-int32_t SkinCoder<Io>::codeJoint(uint32_t slot, int32_t previous, int32_t truth, int64_t& weight) {
+int32_t SkinCoder<Io>::codeJoint(uint32_t slot, int32_t truth, int64_t& weight) {
   uint32_t rank = 0;
   for (uint32_t i = 0; i < candidate_count_ && rank < kRanks; ++i) {
     Candidate& c = candidates_[i];
-    if (c.taken || (ascending_ && c.joint <= previous)) continue;
+    if (c.taken) continue;
     const bool here = tuple(neighbours_[0])[slot] == c.joint;
     const uint32_t kind = here ? 0 : c.count == uses_ ? 1 : 2;
     if (io_.bit(models_.rank[slot][rank][kind], Io::kEncoding && c.joint == truth)) {
@@ -313,9 +303,7 @@ int32_t SkinCoder<Io>::codeJoint(uint32_t slot, int32_t previous, int32_t truth,
     ++rank;
   }
   weight = typical_;
-  const uint32_t from = ascending_ ? static_cast<uint32_t>(previous) + 1 : 0;
-  return static_cast<int32_t>(from +
-                              codeGolomb(io_, models_.joint, static_cast<uint32_t>(truth) - from));
+  return static_cast<int32_t>(codeGolomb(io_, models_.joint, static_cast<uint32_t>(truth)));
 }
 
 template <class Io>

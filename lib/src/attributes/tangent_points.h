@@ -4,7 +4,7 @@
 // are not perpendicular to them.                                                             [A.8.7, B.6.6]
 //
 // Prediction: the direction in which u grows around the group, as for angles (tangents.h); without one, the mean of the
-// neighbours' tangents. Optionally projected on the plane of the wedge's normal, if the piece has normals of any kind.
+// neighbours' tangents. Projected on the plane of the wedge's normal, if the piece has normals of any kind.
 #ifndef MCC_ATTRIBUTES_TANGENT_POINTS_H_
 #define MCC_ATTRIBUTES_TANGENT_POINTS_H_
 
@@ -41,8 +41,8 @@ inline void projectOnPlane(const float* normal, float* v) {
 template <class Io>
 class TangentPointCoder {
  public:
-  /// `sums`: 4 floats per wedge, from addFaceTangents(), overwritten. `normals`: 3 floats per wedge, or null: predictions
-  /// are not projected. `lengths`: work space, a byte per wedge.
+  /// `sums`: 4 floats per wedge, from addFaceTangents(), overwritten. `normals`: 3 floats per wedge, or null if the
+  /// piece has none. `lengths`: work space, a byte per wedge.
   TangentPointCoder(Io& io, TangentPointModels& models, const WedgeMesh& wedges,
                     const EqualGroups& groups, const AttributeInfo& info, const float* normals,
                     float* sums, int32_t* values, uint8_t* lengths)

@@ -4,12 +4,12 @@
 //
 //        o            The wedge v completes the face v, n, p. If the face across n-p is in the same chart and
 //       / \           known, it predicts v by
-//      n - p            parallelogram  u_n + u_p - u_o
-//       \ /             hinge          its affine map from space to the chart, unfolded over the edge n-p
-//        v              similarity     a map of the triangle v, n, p that keeps its shape, on the side away from o
+//      n - p            diagonal  the parallelogram u_n + u_p - u_o over the longest of the edges n-p (exact on grids)
+//       \ /             hinge     its affine map from space to the chart, unfolded over the edge n-p; without o, a map
+//        v                        of the triangle v, n, p that keeps its shape. The weighted mean over all faces.
 //
-// The prediction is the weighted mean over all faces the group of equal wedges completes. Optionally residuals that
-// followed the same two residuals before are tried first (instances, regular grids).
+// Optionally, third corners of faces are remembered by the values at the other two: charts that are used twice, mirrored
+// ones too, cost a flag per vertex.
 #ifndef MCC_ATTRIBUTES_TEXCOORDS_H_
 #define MCC_ATTRIBUTES_TEXCOORDS_H_
 
@@ -19,65 +19,21 @@
 
 #include "attributes/face_pass.h"
 #include "attributes/residuals.h"
+#include "attributes/value_memory.h"
 #include "attributes/wedges.h"
 #include "mesh/attribute_method.h"
 
 namespace mcc {
 
-enum class TexcoordPredictor : uint8_t {
-  kDiagonal = 0,        ///< the parallelogram over the longest of the edges n-p (exact on grids)
-  kParallelograms = 1,  ///< mean of all parallelograms
-  kSimilarity = 2,
-  kHinge = 3,
-  kMixed = 4,  ///< mean of hinge and parallelogram
-};
-
 struct TexcoordModels {
   TokenRow row[2][kLengthContexts];
-  BitModel repeats[4][4];  ///< [confidence][last two outcomes]
+  MemoryModels memory;
 
   TexcoordModels() {
     for (auto& component : row) {
       for (TokenRow& r : component) r.setUniform();
     }
   }
-};
-
-/// Residual pairs by the two pairs before them. [B.5.4]
-class ResidualMemory {
- public:
-  struct Entry {
-    int32_t residual[2];
-    uint32_t confidence;  ///< 0..3
-  };
-
-  static constexpr uint32_t kEntries = 1024;
-
-  /// `entries`: kEntries zeros, or null for a memory that is never asked.
-  explicit ResidualMemory(Entry* entries) : entries_(entries) {}
-
-  const Entry& guess() const { return entries_[key_]; }
-  uint32_t history() const { return history_; }
-  void noteOutcome(bool hit) { history_ = (history_ << 1 | (hit ? 1u : 0u)) & 3; }
-
-  void learn(const int32_t* residual) {
-    Entry& e = entries_[key_];
-    if (e.residual[0] == residual[0] && e.residual[1] == residual[1]) {
-      e.confidence += e.confidence < 3 ? 1 : 0;
-    } else {
-      e = Entry{{residual[0], residual[1]}, e.confidence > 1 ? 1u : 0u};
-    }
-    const uint32_t latest = static_cast<uint32_t>(residual[0]) * 0x9e3779b1u +
-                            static_cast<uint32_t>(residual[1]) * 0x85ebca6bu;
-    key_ = ((latest * 0xc2b2ae35u) ^ (before_ * 0x27d4eb2fu)) >> 22;
-    before_ = latest;
-  }
-
- private:
-  Entry* const entries_;
-  uint32_t key_ = 0;
-  uint32_t before_ = 0;
-  uint32_t history_ = 0;
 };
 
 /// Difference of two coordinates as a float; the subtraction wraps.
@@ -90,20 +46,18 @@ inline float coordinateDifference(int32_t a, int32_t b) {
 template <class Io>
 class TexcoordCoder {
  public:
-  /// Work space: `lengths` a byte per wedge; `memory` ResidualMemory::kEntries entries or null.
+  /// Work space: `lengths`, a byte per wedge. `memory`: started with `values`, or null.
   TexcoordCoder(Io& io, TexcoordModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
                 const AttributeInfo& info, const float* positions, int32_t* values,
-                uint8_t* lengths, ResidualMemory::Entry* memory)
+                uint8_t* lengths, ValueMemory* memory)
       : io_(io),
         models_(models),
         wedges_(wedges),
         groups_(groups),
-        predictor_(
-            static_cast<TexcoordPredictor>(info.predictor & texcoord_method::kPredictorMask)),
+        is_hinge_((info.predictor & texcoord_method::kHinge) != 0),
         positions_(positions),
         values_(values),
         lengths_(lengths),
-        repeats_(memory != nullptr),
         memory_(memory) {}
 
   void run() {
@@ -141,8 +95,10 @@ class TexcoordCoder {
 
   void codeGroup(uint32_t w);
   Faces completedFaces(uint32_t w) const;
-  Prediction predictByParallelograms(const Faces& faces) const;
-  Prediction predictByGeometry(uint32_t v, const Faces& faces) const;
+  Prediction predictByDiagonal(const Faces& faces) const;
+  Prediction predictByHinge(uint32_t v, const Faces& faces) const;
+  bool codeKnown(uint32_t w, const Faces& faces);
+  void predictFrom(uint32_t w, const Faces& faces, int32_t* predicted) const;
   void learnSide(uint32_t w, uint32_t n, uint32_t p);
   uint32_t codedNeighbour(uint32_t w) const;
   void codePair(uint32_t w, const int32_t* predicted, uint32_t context);
@@ -151,12 +107,11 @@ class TexcoordCoder {
   TexcoordModels& models_;
   const WedgeMesh& wedges_;
   const EqualGroups& groups_;
-  const TexcoordPredictor predictor_;
+  const bool is_hinge_;
   const float* const positions_;
   int32_t* const values_;
   uint8_t* const lengths_;
-  const bool repeats_;
-  ResidualMemory memory_;
+  ValueMemory* const memory_;
   float side_ = 1;  ///< of the chart a face's tip lies on: 1 left of its edge, as in the last face
   int32_t last_[2] = {};
 };
@@ -186,39 +141,30 @@ MCC_INLINE typename TexcoordCoder<Io>::Faces TexcoordCoder<Io>::completedFaces(u
   return faces;
 }
 
-/// Their mean, or the one over the longest edge. [B.5.3]
+/// [B.5.3]
 template <class Io>
-typename TexcoordCoder<Io>::Prediction TexcoordCoder<Io>::predictByParallelograms(
+typename TexcoordCoder<Io>::Prediction TexcoordCoder<Io>::predictByDiagonal(
     const Faces& faces) const {
-  Prediction sum;
-  float count = 0;
+  Prediction prediction;
   float longest = -1;
   const int32_t* origin = at(faces.n[0]);
   for (uint32_t i = 0; i < faces.count; ++i) {
     if (faces.o[i] == faces.n[i]) continue;
-    if (predictor_ == TexcoordPredictor::kDiagonal) {
-      const float length = squaredDistance(positions_, faces.n[i], faces.p[i]);
-      if (length <= longest) continue;
-      longest = length;
-      sum = Prediction{};
-      count = 0;
-    }
+    const float length = squaredDistance(positions_, faces.n[i], faces.p[i]);
+    if (length <= longest) continue;
+    longest = length;
     for (int c = 0; c < 2; ++c) {
-      sum.u[c] += coordinateDifference(at(faces.n[i])[c], origin[c]) +
-                  coordinateDifference(at(faces.p[i])[c], at(faces.o[i])[c]);
+      prediction.u[c] = coordinateDifference(at(faces.n[i])[c], origin[c]) +
+                        coordinateDifference(at(faces.p[i])[c], at(faces.o[i])[c]);
     }
-    count += 1;
   }
-  if (count > 1) {
-    for (float& u : sum.u) u /= count;
-  }
-  return sum;
+  return prediction;
 }
 
 /// All faces at once, a lane each. [B.5.2]
 template <class Io>
-typename TexcoordCoder<Io>::Prediction TexcoordCoder<Io>::predictByGeometry(
-    uint32_t v, const Faces& faces) const {
+typename TexcoordCoder<Io>::Prediction TexcoordCoder<Io>::predictByHinge(uint32_t v,
+                                                                         const Faces& faces) const {
   Float4 e[4];  // rows, then columns: from n to p, to v, to o
   Float4 d[4];
   Float4 f[4];
@@ -266,26 +212,17 @@ typename TexcoordCoder<Io>::Prediction TexcoordCoder<Io>::predictByGeometry(
   Float4 across_u = zero - k * dv;
   Float4 across_v = k * du;
   Float4 weight = allLanes(0.25f);
-  if (predictor_ != TexcoordPredictor::kSimilarity) {
-    const Mask4 unfolds = height < allLanes(kSteepest) * height_o;  // never when o is n
-    const Float4 ratio2 = height / height_o;
-    const Float4 ratio = squareRoot(ratio2);
-    across_u = select(unfolds, ratio * (so * du - ou), across_u);
-    across_v = select(unfolds, ratio * (so * dv - ov), across_v);
-    weight = select(unfolds, one / (one + ratio2), weight);
-  }
+  const Mask4 unfolds = height < allLanes(kSteepest) * height_o;  // never when o is n
+  const Float4 ratio2 = height / height_o;
+  const Float4 ratio = squareRoot(ratio2);
+  across_u = select(unfolds, ratio * (so * du - ou), across_u);
+  across_v = select(unfolds, ratio * (so * dv - ov), across_v);
+  weight = select(unfolds, one / (one + ratio2), weight);
   const Float4 count = allLanes(static_cast<float>(faces.count));
   const Mask4 is_face = (ee > zero) & (Float4{0.0f, 1.0f, 2.0f, 3.0f} < count);
   weight = select(is_face, weight, zero);
   Float4 rows[4] = {select(is_face, weight * (x + s * du + across_u), zero),
                     select(is_face, weight * (y + s * dv + across_v), zero), weight, zero};
-  if (predictor_ == TexcoordPredictor::kMixed) {
-    const Mask4 has_o = (dotProduct(f, f) > zero) & is_face;
-    const Float4 half = select(has_o, allLanes(0.5f), zero);
-    rows[0] = rows[0] + half * (x + du - ou);
-    rows[1] = rows[1] + half * (y + dv - ov);
-    rows[2] = rows[2] + half;
-  }
   transpose(rows[0], rows[1], rows[2], rows[3]);
   const Float4 sum = (rows[0] + rows[1]) + (rows[2] + rows[3]);
   Prediction prediction;
@@ -297,32 +234,56 @@ typename TexcoordCoder<Io>::Prediction TexcoordCoder<Io>::predictByGeometry(
   return prediction;
 }
 
+/// Adds what the faces predict to the value of the first one's n.
+template <class Io>
+void TexcoordCoder<Io>::predictFrom(uint32_t w, const Faces& faces, int32_t* predicted) const {
+  const Prediction prediction = is_hinge_ ? predictByHinge(w, faces) : predictByDiagonal(faces);
+  for (int c = 0; c < 2; ++c) {
+    const float delta = prediction.u[c];
+    if (!(std::fabs(delta) < 1e9f)) continue;  // wild values, NaN
+    const int32_t step = static_cast<int32_t>(delta + std::copysign(0.5f, delta));
+    predicted[c] =
+        static_cast<int32_t>(static_cast<uint32_t>(predicted[c]) + static_cast<uint32_t>(step));
+  }
+}
+
+/// Whether the value is one that stood beside those of the first face before; it is then in place.
+template <class Io>
+bool TexcoordCoder<Io>::codeKnown(uint32_t w, const Faces& faces) {
+  const uint32_t o = faces.o[0] == faces.n[0] ? kNone : faces.o[0];
+  memory_->begin();
+  const uint32_t k = memory_->ask(
+      io_, models_.memory, memory_->edgeKey(faces.n[0], faces.p[0]), o,
+      [=, this](uint32_t other) { return std::equal(at(other), at(other) + 2, at(w)); });
+  if (k == kNone) return false;
+  storePair(values_ + 2 * size_t{w}, at(k));
+  std::copy(at(w), at(w) + 2, last_);
+  return true;
+}
+
 template <class Io>
 void TexcoordCoder<Io>::codeGroup(uint32_t w) {
   const Faces faces = completedFaces(w);
   const bool has_faces = faces.count != 0;
   const uint32_t n = has_faces ? faces.n[0] : codedNeighbour(w);
   uint32_t context = n == kNone ? kNoNeighbours : kOneNeighbour;
-  int32_t predicted[2] = {last_[0], last_[1]};
-  if (n != kNone) std::copy(at(n), at(n) + 2, predicted);
-  if (has_faces) {
-    context = std::min((lengths_[n] + lengths_[faces.p[0]] + 1u) / 2, kOneNeighbour);
-    const Prediction prediction = predictor_ < TexcoordPredictor::kSimilarity
-                                      ? predictByParallelograms(faces)
-                                      : predictByGeometry(w, faces);
-    for (int c = 0; c < 2; ++c) {
-      const float delta = prediction.u[c];
-      if (!(std::fabs(delta) < 1e9f)) continue;  // wild values, NaN
-      const int32_t step = static_cast<int32_t>(delta + std::copysign(0.5f, delta));
-      predicted[c] =
-          static_cast<int32_t>(static_cast<uint32_t>(predicted[c]) + static_cast<uint32_t>(step));
-    }
+  if (has_faces) context = std::min((lengths_[n] + lengths_[faces.p[0]] + 1u) / 2, kOneNeighbour);
+  if (memory_ != nullptr && has_faces && codeKnown(w, faces)) {
+    lengths_[w] = static_cast<uint8_t>(context);
+  } else {
+    int32_t predicted[2] = {last_[0], last_[1]};
+    if (n != kNone) std::copy(at(n), at(n) + 2, predicted);
+    if (has_faces) predictFrom(w, faces, predicted);
+    codePair(w, predicted, context);
   }
-  codePair(w, predicted, context);
-  if (has_faces && predictor_ >= TexcoordPredictor::kSimilarity) learnSide(w, n, faces.p[0]);
+  if (has_faces && is_hinge_) learnSide(w, n, faces.p[0]);
   for (uint32_t m = groups_.nextOf(w); m != kNone; m = groups_.nextOf(m)) {
     storePair(values_ + 2 * size_t{m}, at(w));
     lengths_[m] = lengths_[w];
+  }
+  if (memory_ == nullptr) return;
+  for (uint32_t m = w; m != kNone; m = groups_.nextOf(m)) {
+    memory_->learnFaces(m, [this](uint32_t x) { return coded(x); });
   }
 }
 
@@ -360,30 +321,12 @@ void TexcoordCoder<Io>::codePair(uint32_t w, const int32_t* predicted, uint32_t 
                                          static_cast<uint32_t>(predicted[c]));
     }
   }
-  bool hit = false;
-  uint32_t longest = 0;
-  if (repeats_ && memory_.guess().confidence != 0) {
-    const ResidualMemory::Entry& guess = memory_.guess();
-    hit = io_.bit(
-        models_.repeats[guess.confidence][memory_.history()],
-        Io::kEncoding && residual[0] == guess.residual[0] && residual[1] == guess.residual[1]);
-    memory_.noteOutcome(hit);
-    if (hit) {
-      residual[0] = guess.residual[0];
-      residual[1] = guess.residual[1];
-      longest = std::max(contextLength(residual[0]), contextLength(residual[1]));
-    }
-  }
-  if (!hit) {
-    uint32_t length = 0;
-    uint32_t second_length = 0;
-    residual[0] = codeByLength<0>(io_, models_.row[0][context], residual[0], length);
-    const uint32_t second = context == kNoNeighbours ? context : (context + length + 1) / 2;
-    residual[1] = codeByLength<1>(io_, models_.row[1][second], residual[1], second_length);
-    longest = std::max(length, second_length);
-  }
-  if (repeats_) memory_.learn(residual);
-  lengths_[w] = static_cast<uint8_t>(longest);
+  uint32_t length = 0;
+  uint32_t second_length = 0;
+  residual[0] = codeByLength<0>(io_, models_.row[0][context], residual[0], length);
+  const uint32_t second = context == kNoNeighbours ? context : (context + length + 1) / 2;
+  residual[1] = codeByLength<1>(io_, models_.row[1][second], residual[1], second_length);
+  lengths_[w] = static_cast<uint8_t>(std::max(length, second_length));
   for (int c = 0; c < 2; ++c) {
     last_[c] = static_cast<int32_t>(static_cast<uint32_t>(predicted[c]) +
                                     static_cast<uint32_t>(residual[c]));

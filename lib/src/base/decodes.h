@@ -21,9 +21,6 @@ inline constexpr bool kOrders = kWhole;       ///< of triangles and vertices, if
 inline constexpr bool kExactFloats = kWhole;  ///< grids too, and positions above 17 bits
 inline constexpr bool kPlanes = kWhole;       ///< of positions
 inline constexpr bool kTangentPoints = kWhole;
-inline constexpr bool kMorphTargets = kWhole;
-inline constexpr bool kBlends = kWhole;  ///< of values, see attributes/value_blend.h
-inline constexpr bool kIds = kWhole;
 }  // namespace decodes
 
 /// The payload is not damaged, so that this is none of the errors of the specification.

@@ -31,6 +31,7 @@ enum class Feature : uint8_t {
   kNormalBlend,
   kTexcoordHinge,
   kTangentAngle,
+  kPerpendicular,
   kSameFlags,
   kZeroFlags,
   kSkin,
@@ -66,13 +67,14 @@ inline constexpr FeatureInfo kFeatures[] = {
     {Feature::kNormalBlend, "normal-blend", "B.4", "no mean with the neighbours' normals"},
     {Feature::kTexcoordHinge, "texcoord-hinge", "B.5", "parallelograms over the longest edge"},
     {Feature::kTangentAngle, "tangent-angle", "A.8", "tangents as points of the octahedron"},
+    {Feature::kPerpendicular, "perpendicular", "A.8.10", "exact tangents by two components"},
     {Feature::kSameFlags, "same", "A.8.4", "no flag for values equal to a neighbour's"},
     {Feature::kZeroFlags, "zero", "A.8.4", "no flag for values of 0"},
     {Feature::kSkin, "skin", "A.8", "joints and weights as any other values"},
     {Feature::kAliases, "aliases", "A.2.4", "equal attributes coded each by itself"},
     {Feature::kExactNormals, "exact-normals", "A.8", "exact normals as values on a grid"},
     {Feature::kExactGrids, "exact-grids", "A.2.5", "exact floats as ordered integers"},
-    {Feature::kMemory, "memory", "A.8", "exact vectors remember nothing"},
+    {Feature::kMemory, "memory", "B.7.3", "charts and exact normals remember nothing"},
 };
 
 /// A set of features.

@@ -30,7 +30,7 @@ void writeAttribute(ByteWriter& out, const AttributeInfo& a) {
     out.writeU8(a.bits);
   } else if (a.coding == AttributeCoding::kGrid) {
     out.writeU8(static_cast<uint8_t>(a.bits | a.tails << 5));
-    out.writeVarint(a.grid);
+    out.writeU8(a.grid);
   } else if (a.coding == AttributeCoding::kAlias) {
     out.writeVarint(a.alias_of);
   }

@@ -28,14 +28,13 @@ bool isBasePosition(const AttributeInfo& a) {
 Status parseGrid(ByteReader& in, AttributeInfo& a) {
   const size_t at = in.offset();
   uint8_t shape = 0;
-  uint32_t grid = 0;
+  uint8_t grid = 0;
   MCC_TRY(in.readU8(shape));
-  MCC_TRY(in.readVarint(grid));
+  MCC_TRY(in.readU8(grid));
   a.bits = shape & 31;
   a.tails = shape >> 5;
-  a.grid = static_cast<uint16_t>(grid);
-  if (a.bits == 0 || a.bits > kGridBits + 1 || !isKnownGrid(grid) ||
-      a.format.component_count > kGridComponents ||
+  a.grid = grid;
+  if (a.bits == 0 || a.bits > kGridBits + 1 || a.format.component_count > kGridComponents ||
       a.tails > static_cast<uint8_t>(GridTails::kCached) || (a.tails != 0 && !isBinaryGrid(grid))) {
     return fail(Error::kBadHeader, "an attribute's grid is malformed", at);
   }
@@ -47,7 +46,6 @@ bool isDecoded(const AttributeInfo& a) {
   const bool is_exact =
       a.coding == AttributeCoding::kExactFloat || a.coding == AttributeCoding::kGrid;
   return (decodes::kExactFloats || !is_exact) &&
-         (decodes::kMorphTargets || a.format.morph_target == 0) &&
          (decodes::kTangentPoints || a.format.semantic != Semantic::kTangent ||
           a.coding != AttributeCoding::kOctahedral);
 }
@@ -123,26 +121,17 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
   return {};
 }
 
-/// Whether it is compiled with the predictor of attribute `index` of a piece.
-bool isPredicted(const AttributeInfo* all, uint32_t count, uint32_t index) {
-  const AttributeInfo& a = all[index];
-  if (index == 0) {
-    const uint32_t bits = a.coding == AttributeCoding::kLattice
-                              ? a.bits
-                              : 8 * componentBytes(a.format.component_type);
-    return (decodes::kExactFloats || bits <= kNarrowPositionBits) &&
-           (a.predictor & ~position_mode::kDecoded) == 0;
-  }
-  if (methodOf(all, count, index) != AttributeMethod::kValues) return true;
-  return (decodes::kIds || (a.predictor & value_method::kIds) == 0) &&
-         (decodes::kBlends || (a.predictor & value_method::kPredictorMask) != value_method::kBlend);
+/// Whether it is compiled with what the predictor of positions needs.
+bool isPredicted(const AttributeInfo& a) {
+  const uint32_t bits =
+      a.coding == AttributeCoding::kLattice ? a.bits : 8 * componentBytes(a.format.component_type);
+  return (decodes::kExactFloats || bits <= kNarrowPositionBits) &&
+         (a.predictor & ~position_mode::kDecoded) == 0;
 }
 
 /// Aliases are of earlier attributes that are none and not the position, tangents have normals, predictors are known.
 Status checkReferences(const AttributeInfo* all, uint32_t count, size_t at) {
-  for (uint32_t i = 0; !kWhole && i < count; ++i) {
-    if (!isPredicted(all, count, i)) return fail(kNotInCore, "the core lacks a predictor", at);
-  }
+  if (!kWhole && !isPredicted(all[0])) return fail(kNotInCore, "the core lacks a predictor", at);
   for (uint32_t i = 1; i < count; ++i) {
     if (all[i].coding == AttributeCoding::kAlias) {
       const uint32_t source = all[i].alias_of;

@@ -4,6 +4,7 @@
 #ifndef MCC_MESH_ATTRIBUTE_METHOD_H_
 #define MCC_MESH_ATTRIBUTE_METHOD_H_
 
+#include <bit>
 #include <cstdint>
 
 #include "base/decodes.h"
@@ -11,14 +12,12 @@
 
 namespace mcc {
 
-/// AttributeInfo::grid: below kGridFraction 10^grid steps per unit, below kGridFractionEnd 2^(grid - 8) - 1 steps (what
-/// integers of 2..16 bits count for as fractions), from kGridBinary steps of 2^(grid - kGridBinary - 149).
-inline constexpr uint32_t kGridFraction = 10;
-inline constexpr uint32_t kGridFractionEnd = 25;
-inline constexpr uint32_t kGridBinary = 32;
+/// AttributeInfo::grid: below kGridBinary 10^grid steps per unit, from there steps of 2^(grid - kGridBinary - 149).
+inline constexpr uint32_t kGridBinary = 10;
 inline constexpr int32_t kSmallestExponent = -149;  ///< of float32
 inline constexpr int32_t kGridExponents = 246;      ///< up to 2^96: no integer overflows
 inline constexpr uint32_t kGridCount = kGridBinary + kGridExponents;
+static_assert(kGridCount == 256);  // the header has a byte for it
 inline constexpr uint32_t kGridComponents = 4;
 inline constexpr uint32_t kGridBits = 26;  ///< of a grid's integers, without their sign
 
@@ -30,9 +29,6 @@ enum class GridTails : uint8_t {
 };
 
 constexpr bool isBinaryGrid(uint32_t grid) { return grid >= kGridBinary; }
-constexpr bool isKnownGrid(uint32_t grid) {
-  return grid < kGridFractionEnd || (isBinaryGrid(grid) && grid < kGridCount);
-}
 
 /// The coder follows from what the header says; there is no field for it.
 enum class AttributeMethod : uint8_t {
@@ -44,9 +40,15 @@ enum class AttributeMethod : uint8_t {
   kSkin,          ///< attributes/skin.h: JOINTS_n with its WEIGHTS_n
   kExactNormal,   ///< attributes/exact_normals.h
   kExactTangent,  ///< attributes/exact_tangents.h
-  kExactValues,   ///< attributes/exact_values.h
-  kWithAnother,   ///< coded with another attribute: WEIGHTS_n with its JOINTS_n, aliases
+  kSkinWeights,   ///< WEIGHTS_n that is coded with its JOINTS_n
+  kAlias,         ///< equal to another attribute, nothing is coded
 };
+inline constexpr uint32_t kAttributeMethods = 10;
+
+/// Whether an attribute is not coded by itself.
+constexpr bool isWithAnother(AttributeMethod method) {
+  return method >= AttributeMethod::kSkinWeights;
+}
 
 /// The attribute of a piece that gives tangents their plane: the first NORMAL on the octahedral grid; or kNone.
 constexpr uint32_t normalOfTangents(const AttributeInfo* attributes, uint32_t count) {
@@ -78,37 +80,6 @@ constexpr bool hasNormals(const AttributeInfo* attributes, uint32_t count) {
   return exactNormalOf(attributes, count) != kNone || normalOfTangents(attributes, count) != kNone;
 }
 
-/// The attribute of a piece that deltas of tangents move: the first TANGENT of unit vectors; or kNone.
-constexpr uint32_t baseTangentOf(const AttributeInfo* attributes, uint32_t count) {
-  for (uint32_t i = 0; i < count; ++i) {
-    const AttributeInfo& a = attributes[i];
-    if (a.format.semantic == Semantic::kTangent && a.format.morph_target == 0 &&
-        a.format.component_count == 4 && a.coding != AttributeCoding::kLattice &&
-        a.coding != AttributeCoding::kInteger && a.coding != AttributeCoding::kAlias) {
-      return i;
-    }
-  }
-  return kNone;
-}
-
-/// Deltas of a semantic in the morph target of attribute `index`, if they are the last ones before it; or kNone.
-constexpr uint32_t deltasBefore(const AttributeInfo* attributes, uint32_t index,
-                                Semantic semantic) {
-  for (uint32_t i = index; i-- != 0;) {
-    const AttributeFormat& f = attributes[i].format;
-    if (f.semantic != semantic || f.morph_target == 0) continue;
-    return f.morph_target == attributes[index].format.morph_target ? i : kNone;
-  }
-  return kNone;
-}
-
-/// Whether deltas are three floats that others can be predicted from.
-constexpr bool areVectors(const AttributeInfo& a) {
-  return a.format.component_count == 3 &&
-         (a.coding == AttributeCoding::kLattice || a.coding == AttributeCoding::kExactFloat ||
-          a.coding == AttributeCoding::kGrid);
-}
-
 /// The attribute of a piece that gives tangents their direction: the first TEXCOORD; or kNone.
 constexpr uint32_t chartOfTangents(const AttributeInfo* attributes, uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) {
@@ -120,11 +91,10 @@ constexpr uint32_t chartOfTangents(const AttributeInfo* attributes, uint32_t cou
   return kNone;
 }
 
-/// Attributes are coded in the order of their phases, within a phase in that of the header. [A.8.1]
-inline constexpr uint32_t kCodingPhases = 3;
+/// Attributes are coded in the order of their phases (tangents after what they are predicted from), within a phase in that of the header. [A.8.1]
+inline constexpr uint32_t kCodingPhases = 2;
 constexpr uint32_t codingPhase(const AttributeInfo& a) {
-  if (a.format.morph_target != 0) return 2;                // behind what is moved
-  return a.format.semantic == Semantic::kTangent ? 1 : 0;  // behind normals and charts
+  return a.format.semantic == Semantic::kTangent && a.format.morph_target == 0 ? 1 : 0;
 }
 
 /// JOINTS_n and WEIGHTS_n of four components are coded as one: the other attribute of the pair, or kNone.
@@ -159,34 +129,30 @@ constexpr AttributeMethod methodOf(const AttributeInfo* attributes, uint32_t cou
                  ? AttributeMethod::kTangentPoint
                  : AttributeMethod::kNormal;
     case AttributeCoding::kTangentAngle: return AttributeMethod::kTangent;
-    case AttributeCoding::kAlias: return AttributeMethod::kWithAnother;
+    case AttributeCoding::kAlias: return AttributeMethod::kAlias;
     default: break;
   }
   if (skinPartner(attributes, count, index) != kNone) {
     const bool is_joints = a.format.semantic == Semantic::kJoints;
-    return is_joints ? AttributeMethod::kSkin : AttributeMethod::kWithAnother;
+    return is_joints ? AttributeMethod::kSkin : AttributeMethod::kSkinWeights;
   }
-  if (a.format.semantic == Semantic::kTexcoord && a.format.morph_target == 0 &&
-      a.format.component_count == 2 && a.coding != AttributeCoding::kExactFloat) {
+  if (a.format.morph_target != 0) return AttributeMethod::kValues;
+  if (a.format.semantic == Semantic::kTexcoord && a.format.component_count == 2) {
     return AttributeMethod::kTexcoord;
   }
-  if (!decodes::kExactFloats) return AttributeMethod::kValues;
-  if (a.coding == AttributeCoding::kExactFloat && a.format.semantic == Semantic::kNormal &&
-      a.format.morph_target == 0 && a.format.component_count == 3) {
+  if (!decodes::kExactFloats || a.coding != AttributeCoding::kExactFloat) {
+    return AttributeMethod::kValues;
+  }
+  if (a.format.semantic == Semantic::kNormal && a.format.component_count == 3) {
     return AttributeMethod::kExactNormal;
   }
-  if (a.coding == AttributeCoding::kExactFloat && a.format.semantic == Semantic::kTangent &&
-      a.format.morph_target == 0 && a.format.component_count == 4) {
+  if (a.format.semantic == Semantic::kTangent && a.format.component_count == 4) {
     return AttributeMethod::kExactTangent;
-  }
-  if (a.coding == AttributeCoding::kExactFloat && a.format.morph_target == 0 &&
-      a.format.component_count <= 4) {
-    return AttributeMethod::kExactValues;
   }
   return AttributeMethod::kValues;
 }
 
-/// Bits of `predictor` of every method: consecutive wedges of a vertex may share a value.
+/// Bit of `predictor` of every method that codes an attribute by itself: consecutive wedges of a vertex may share a value.
 inline constexpr uint8_t kHasEqualities = 0x80;
 
 /// AttributeInfo::predictor of a position: what its coder does. What is off costs the coder nothing. [A.6.2]
@@ -211,69 +177,122 @@ constexpr bool areKnown(uint32_t modes) {
 }
 }  // namespace position_mode
 
-namespace normal_method {
+namespace normal_method {                     // exact ones too
 inline constexpr uint8_t kWeightMask = 0x03;  ///< NormalWeight
-inline constexpr uint8_t kBlendShift = 2;     ///< 0 none, 1 half, 2 whole
-inline constexpr uint8_t kBlendMask = 0x0c;
-inline constexpr uint8_t kAll = kWeightMask | kBlendMask;
-inline constexpr uint8_t kWeightCount = 3;
+inline constexpr uint8_t kBlend = 0x04;       ///< with what the neighbours' predictions missed
 }  // namespace normal_method
 
-namespace tangent_point_method {
-inline constexpr uint8_t kPerpendicular = 0x01;  ///< to the normals, see hasNormals()
-}  // namespace tangent_point_method
-
 namespace exact_normal_method {
-inline constexpr uint8_t kWeightMask = 0x03;  ///< ExactWeight
-inline constexpr uint8_t kBlendShift = 2;     ///< 0 none, 1 half, 2 whole
-inline constexpr uint8_t kBlendMask = 0x0c;
-inline constexpr uint8_t kRemembers = 0x10;       ///< by predictions
-inline constexpr uint8_t kRemembersEdges = 0x20;  ///< by the vectors of neighbours
-inline constexpr uint8_t kAll = kWeightMask | kBlendMask | kRemembers | kRemembersEdges;
+inline constexpr uint8_t kRemembers = 0x08;
 }  // namespace exact_normal_method
 
 namespace exact_tangent_method {
-inline constexpr uint8_t kWeightMask = 0x03;  ///< TangentWeight
-inline constexpr uint8_t kPerpendicular = 0x04;
-inline constexpr uint8_t kRemembers = 0x08;
-inline constexpr uint8_t kAll = kWeightMask | kPerpendicular | kRemembers;
+inline constexpr uint8_t kPerpendicular = 0x01;  ///< to the exact normal
 }  // namespace exact_tangent_method
 
-namespace exact_value_method {
-inline constexpr uint8_t kPredictorMask = 0x03;  ///< ExactPredictor
-inline constexpr uint8_t kPredictorCount = 3;
-inline constexpr uint8_t kRemembers = 0x04;
-inline constexpr uint8_t kAll = kPredictorMask | kRemembers;
-}  // namespace exact_value_method
-
 namespace texcoord_method {
-inline constexpr uint8_t kPredictorMask = 0x07;  ///< TexcoordPredictor
-inline constexpr uint8_t kPredictorCount = 5;
-inline constexpr uint8_t kRepeats = 0x08;
-inline constexpr uint8_t kAll = kPredictorMask | kRepeats;
+inline constexpr uint8_t kHinge = 0x01;  ///< else the diagonal
+inline constexpr uint8_t kRemembers = 0x02;
 }  // namespace texcoord_method
 
 namespace value_method {
-inline constexpr uint8_t kPredictorMask = 0x03;  ///< ValuePredictor
-inline constexpr uint8_t kSameFlags = 0x04;
-inline constexpr uint8_t kZeroFlags = 0x08;
-inline constexpr uint8_t kSmallTokens = 0x10;
-inline constexpr uint8_t kIds =
-    0x20;  ///< of one component of the mesh itself, see attributes/ids.h
-inline constexpr uint8_t kBends = 0x20;          ///< of deltas, see attributes/unit_deltas.h
-inline constexpr uint8_t kUnits = 0x40;          ///< of deltas, the same
-inline constexpr uint8_t kBlend = 3;             ///< ValuePredictor::kBlend
-inline constexpr uint32_t kBlendComponents = 4;  ///< that it can have
+inline constexpr uint8_t kSameFlags = 0x01;
+inline constexpr uint8_t kZeroFlags = 0x02;
 }  // namespace value_method
 
-namespace skin_method {
-inline constexpr uint8_t kIdleJoints =
-    0x01;  ///< of JOINTS: slots of weight 0 may have any joint, else 0
-inline constexpr uint8_t kAscending =
-    0x02;  ///< of JOINTS: those with weight ascend from slot to slot
-inline constexpr uint8_t kUnitSum = 0x01;   ///< of WEIGHTS: every tuple sums to unitSum()
-inline constexpr uint8_t kUsualSum = 0x02;  ///< of WEIGHTS: most do
-}  // namespace skin_method
+/// Of WEIGHTS with their JOINTS, see unitSum().
+enum class SkinSums : uint8_t {
+  kUnknown = 0,
+  kUnit = 1,   ///< every tuple sums to it
+  kUsual = 2,  ///< most do
+};
+
+/// A field of the byte `predictor`.
+struct PredictorField {
+  uint8_t mask;
+  uint8_t value_count;   ///< 0 .. value_count - 1 are valid
+  const char* words[3];  ///< what `inspect` calls each, "" nothing
+
+  constexpr uint8_t shift() const { return static_cast<uint8_t>(std::countr_zero(mask)); }
+  constexpr uint32_t valueOf(uint8_t predictor) const {
+    return static_cast<uint32_t>(predictor & mask) >> shift();
+  }
+  constexpr uint8_t with(uint8_t predictor, uint32_t value) const {
+    return static_cast<uint8_t>((predictor & ~mask) | (value << shift()));
+  }
+};
+
+/// What a method has in the byte `predictor`: the one table of it. [A.2.4]
+struct PredictorFields {
+  const char* name;  ///< what `inspect` calls the method itself, "" nothing
+  uint8_t count;
+  PredictorField field[3];
+
+  constexpr const PredictorField* begin() const { return field; }
+  constexpr const PredictorField* end() const { return field + count; }
+};
+
+constexpr PredictorFields fieldsOf(AttributeMethod method) {
+  constexpr PredictorField kWeight = {normal_method::kWeightMask, 3, {"area", "angle", "sine"}};
+  constexpr PredictorField kBlend = {normal_method::kBlend, 2, {"", "blend"}};
+  switch (method) {
+    case AttributeMethod::kValues:
+      return {"diagonal",
+              2,
+              {{value_method::kZeroFlags, 2, {"", "zero flags"}},
+               {value_method::kSameFlags, 2, {"", "same flags"}}}};
+    case AttributeMethod::kNormal: return {"", 2, {kWeight, kBlend}};
+    case AttributeMethod::kTexcoord:
+      return {"",
+              2,
+              {{texcoord_method::kHinge, 2, {"diagonal", "hinge"}},
+               {texcoord_method::kRemembers, 2, {"", "remembers"}}}};
+    case AttributeMethod::kExactNormal:
+      return {"", 3, {kWeight, {exact_normal_method::kRemembers, 2, {"", "remembers"}}, kBlend}};
+    case AttributeMethod::kExactTangent:
+      return {"chart", 1, {{exact_tangent_method::kPerpendicular, 2, {"", "perpendicular"}}}};
+    case AttributeMethod::kSkinWeights:
+      return {"with joints", 1, {{0x03, 3, {"", "unit sum", "usual sum"}}}};
+    case AttributeMethod::kTangent:
+    case AttributeMethod::kTangentPoint: return {"chart", 0, {}};
+    case AttributeMethod::kSkin: return {"skin", 0, {}};
+    case AttributeMethod::kAlias: break;
+  }
+  return {"", 0, {}};
+}
+
+constexpr bool isValidPredictor(AttributeMethod method, uint8_t predictor) {
+  uint32_t rest = predictor;
+  if (!isWithAnother(method)) rest &= ~uint32_t{kHasEqualities};
+  for (const PredictorField& field : fieldsOf(method)) {
+    if (field.valueOf(predictor) >= field.value_count) return false;
+    rest &= ~uint32_t{field.mask};
+  }
+  return rest == 0;
+}
+
+/// The same from a table of bits, without the words.
+struct ValidPredictors {
+  uint8_t bytes[kAttributeMethods][32] = {};
+
+  constexpr ValidPredictors() {
+    for (uint32_t m = 0; m < kAttributeMethods; ++m) {
+      for (uint32_t p = 0; p < 256; ++p) {
+        const bool valid =
+            isValidPredictor(static_cast<AttributeMethod>(m), static_cast<uint8_t>(p));
+        bytes[m][p / 8] = static_cast<uint8_t>(bytes[m][p / 8] | (valid ? 1u << p % 8 : 0u));
+      }
+    }
+  }
+};
+inline constexpr ValidPredictors kValidPredictors;
+
+/// Whether the byte `predictor` of attribute `index`, which is not the position, is valid.
+constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count, uint32_t index) {
+  const uint8_t p = attributes[index].predictor;
+  const uint32_t method = static_cast<uint32_t>(methodOf(attributes, count, index));
+  return (kValidPredictors.bytes[method][p / 8] >> p % 8 & 1) != 0;
+}
 
 /// What the coded weights of a tuple sum to when they stand for 1; 0 when nothing does.
 constexpr int32_t unitSum(const AttributeInfo& weights) {
@@ -283,73 +302,6 @@ constexpr int32_t unitSum(const AttributeInfo& weights) {
   if (weights.format.component_type == ComponentType::kUint8) return 0xff;
   if (weights.format.component_type == ComponentType::kUint16) return 0xffff;
   return 0;
-}
-
-/// The bits of value_method that attribute `index` may have besides the predictor's and kHasEqualities.
-constexpr uint8_t knownValueBits(const AttributeInfo* attributes, uint32_t count, uint32_t index) {
-  constexpr uint8_t kAlways =
-      value_method::kSameFlags | value_method::kZeroFlags | value_method::kSmallTokens;
-  const AttributeInfo& a = attributes[index];
-  const bool has_step = a.coding == AttributeCoding::kLattice || a.coding == AttributeCoding::kGrid;
-  if (a.format.morph_target == 0 && a.format.component_count == 1) {
-    return kAlways | value_method::kIds;
-  }
-  if (!decodes::kMorphTargets || a.format.morph_target == 0 || !areVectors(a) || !has_step)
-    return kAlways;
-  const auto vectorsBefore = [=](Semantic semantic) {
-    const uint32_t i = deltasBefore(attributes, index, semantic);
-    return i != kNone && areVectors(attributes[i]);
-  };
-  uint8_t bits = kAlways;
-  if (a.format.semantic == Semantic::kNormal) {
-    if (vectorsBefore(Semantic::kPosition)) bits |= value_method::kBends;
-    if (hasNormals(attributes, count)) bits |= value_method::kUnits;
-  } else if (a.format.semantic == Semantic::kTangent && hasNormals(attributes, count) &&
-             baseTangentOf(attributes, count) != kNone && vectorsBefore(Semantic::kNormal)) {
-    bits |= value_method::kUnits;
-  }
-  return bits;
-}
-
-constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count, uint32_t index) {
-  const AttributeInfo& a = attributes[index];
-  const uint8_t bits = a.predictor & static_cast<uint8_t>(~kHasEqualities);
-  switch (methodOf(attributes, count, index)) {
-    case AttributeMethod::kValues:
-      return (bits & ~(value_method::kPredictorMask | knownValueBits(attributes, count, index))) ==
-                 0 &&
-             ((bits & value_method::kPredictorMask) != value_method::kBlend ||
-              a.format.component_count <= value_method::kBlendComponents);
-    case AttributeMethod::kNormal:
-      return (bits & ~normal_method::kAll) == 0 &&
-             (bits & normal_method::kWeightMask) < normal_method::kWeightCount &&
-             (bits & normal_method::kBlendMask) != normal_method::kBlendMask;
-    case AttributeMethod::kExactNormal:
-      return decodes::kExactFloats && (bits & ~exact_normal_method::kAll) == 0 &&
-             (bits & exact_normal_method::kBlendMask) != exact_normal_method::kBlendMask;
-    case AttributeMethod::kExactTangent:
-      return decodes::kExactFloats && (bits & ~exact_tangent_method::kAll) == 0 &&
-             ((bits & exact_tangent_method::kPerpendicular) == 0 ||
-              exactNormalOf(attributes, count) != kNone);
-    case AttributeMethod::kExactValues:
-      return decodes::kExactFloats && (bits & ~exact_value_method::kAll) == 0 &&
-             (bits & exact_value_method::kPredictorMask) < exact_value_method::kPredictorCount;
-    case AttributeMethod::kTangent: return bits == 0;
-    case AttributeMethod::kTangentPoint:
-      return bits == 0 ||
-             (bits == tangent_point_method::kPerpendicular && hasNormals(attributes, count));
-    case AttributeMethod::kTexcoord:
-      return (bits & ~texcoord_method::kAll) == 0 &&
-             (bits & texcoord_method::kPredictorMask) < texcoord_method::kPredictorCount;
-    case AttributeMethod::kSkin:
-      return bits <= (skin_method::kIdleJoints | skin_method::kAscending);
-    case AttributeMethod::kWithAnother:
-      if (a.coding == AttributeCoding::kAlias) return a.predictor == 0;
-      return a.predictor == 0 ||
-             ((a.predictor == skin_method::kUnitSum || a.predictor == skin_method::kUsualSum) &&
-              unitSum(a) != 0);
-  }
-  return false;
 }
 
 }  // namespace mcc
