@@ -131,8 +131,8 @@ std::vector<uint8_t> positionPredictors() {
           kWeights | kSelect,
           kFold,
           kWeights | kShear,
-          kWeights | kFold | kSplit,
-          kWeights | kSelect | kFold | kSplit | kShear};
+          kWeights | kFold,
+          kWeights | kSelect | kFold | kShear};
 }
 
 const AxisPlanes kSomePlanes[3] = {{0, 5 * AxisPlanes::kOne},

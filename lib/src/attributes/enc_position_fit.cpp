@@ -550,7 +550,6 @@ class Chooser {
     tryPredictors();
     tryKinds();
     tryMode(position_mode::kFold, Feature::kFold);
-    tryMode(position_mode::kSplit, Feature::kSplit);
     tryOwnScale();
     return race_[0].parameters;
   }

@@ -43,7 +43,6 @@ std::string nameOfPosition(uint8_t bits) {
       .bit(position_mode::kPlanes, "planes")
       .bit(position_mode::kFold, "fold")
       .bit(position_mode::kOwnScale, "own scale")
-      .bit(position_mode::kSplit, "split")
       .text();
 }
 

@@ -164,14 +164,14 @@ inline constexpr uint8_t kPalette = 1u << 3;
 inline constexpr uint8_t kPlanes = 1u << 4;  ///< without the following
 inline constexpr uint8_t kFold = 1u << 5;
 inline constexpr uint8_t kOwnScale = 1u << 6;
-inline constexpr uint8_t kSplit = 1u << 7;
+inline constexpr uint8_t kReserved = 1u << 7;
 inline constexpr uint8_t kKinds = kShear | kPalette | kPlanes;
 inline constexpr uint8_t kDecoded = static_cast<uint8_t>(~(decodes::kPlanes ? 0 : kPlanes));
 inline constexpr uint8_t kMaxBitsOfPlanes = 17;  ///< of the lattice
 
 constexpr bool areKnown(uint32_t modes) {
   const uint32_t kinds = modes & kKinds;
-  if ((kinds & (kinds - 1)) != 0) return false;
+  if ((modes & kReserved) != 0 || (kinds & (kinds - 1)) != 0) return false;
   if ((modes & kSelect) != 0 && (modes & kWeights) == 0) return false;
   return kinds != kPlanes || (modes & ~uint32_t{kWeights | kSelect | kPlanes}) == 0;
 }
