@@ -24,7 +24,7 @@ export function methodOf(a) {
 const WEIGHT = [3, 2], EQUALITIES = [128, 1];
 const bit = (mask) => [mask, 1];
 const FIELDS = {
-	values: [bit(1), bit(2), EQUALITIES],
+	values: [bit(1), EQUALITIES],
 	normal: [WEIGHT, bit(4), EQUALITIES],
 	'texture coordinate': [bit(1), bit(2), EQUALITIES],
 	tangent: [EQUALITIES],

@@ -15,10 +15,10 @@ const slots = [0, 1, 2, 3];
 export class SkinModels {
 	constructor() {
 		this.sets = models([2], () => ({
-			SAME: models([3, 4]),
-			WEIGHTLESS: models([4, 5, 2]),
+			SAME: models([4, 4]),
+			WEIGHTLESS: models([4, 5]),
 			RANK: models([4, 6, 3]),
-			IDLE: models([2]),
+			IDLE: models([]),
 			HAS_SUM: models([]),
 			JOINT: golombs([]),
 			WEIGHT: rows([3, 12]),
@@ -89,7 +89,7 @@ class Skins {
 	}
 
 	sameTuple(neighbours) {
-		for (let i = 0; i < Math.min(neighbours.length, 3); ++i) {
+		for (let i = 0; i < neighbours.length; ++i) {
 			const { joints, weights, shared } = neighbours[i];
 			if (this.bit(this.models.SAME[i][Math.min(shared, 3)])) return { joints, weights, L: 0 };
 		}
@@ -118,7 +118,7 @@ class Skins {
 				entry.weight += weights[k] * u;
 			}
 		}
-		return entries.sort((a, b) => b.weight - a.weight);
+		return entries;
 	}
 
 	readJoints(neighbours) {
@@ -129,10 +129,9 @@ class Skins {
 		const m = this.typicalWeightCount(neighbours);
 		const result = { joint: [0, 0, 0, 0], expected: [0, 0, 0, 0], weightless: [0, 0, 0, 0] };
 		for (const k of slots) {
-			const before = k > 0 ? result.weightless[k - 1] : 0;
-			result.weightless[k] = this.bit(this.models.WEIGHTLESS[k][m][before]);
+			result.weightless[k] = this.bit(this.models.WEIGHTLESS[k][m]);
 			if (result.weightless[k]) {
-				result.joint[k] = this.readIdleJoint(neighbours, k);
+				result.joint[k] = this.bit(this.models.IDLE) ? 0 : this.readJoint();
 				continue;
 			}
 			const entry = this.readRank(entries, k, uses, N === 0 ? undefined : neighbours[0]);
@@ -147,12 +146,6 @@ class Skins {
 		if (N === 0) return 0;
 		const m = neighbours.map(({ weights }) => weights.filter((x) => x !== 0).length).reduce(add, 0);
 		return Math.floor((m + (N >> 1)) / N);
-	}
-
-	readIdleJoint(neighbours, k) {
-		if (this.bit(this.models.IDLE[0])) return 0;
-		if (neighbours.length !== 0 && this.bit(this.models.IDLE[1])) return neighbours[0].joints[k];
-		return this.readJoint();
 	}
 
 	// The entry whose joint slot k has, if it is one of the first six that are left.
@@ -179,20 +172,17 @@ class Skins {
 		const weights = [0, 0, 0, 0];
 		const lastSlot = weightless.lastIndexOf(0);
 		let rest = sum;
-		let expectedRest = expected.reduce(add, 0);
 		let longest = 0;
 		for (const k of slots.filter((slot) => !weightless[slot])) {
 			if (sum !== 0 && k === lastSlot) {
 				weights[k] = rest | 0;
 				continue;
 			}
-			const predicted = sum !== 0 ? share(rest, expected[k], expectedRest) : expected[k];
 			const c = k === 0 || context === NO_NEIGHBOUR ? context : Math.floor((context + longest + 1) / 2);
 			const { residual, length } = readByLength(this.streams, 0, this.models.WEIGHT[Math.min(k, 2)][c]);
-			weights[k] = (predicted + residual) | 0;
+			weights[k] = (expected[k] + residual) | 0;
 			longest = Math.max(longest, length);
 			rest -= weights[k];
-			expectedRest -= expected[k];
 		}
 		return { weights, L: longest };
 	}
@@ -207,11 +197,6 @@ class Skins {
 		if (this.sums === 1) return this.unitSum;
 		return this.sums === 2 && this.unitSum !== 0 && this.bit(this.models.HAS_SUM) ? this.unitSum : 0;
 	}
-}
-
-function share(rest, expected, expectedRest) {
-	if (!(expectedRest > 0 && expected >= 0 && expected <= expectedRest)) return expected;
-	return Math.trunc(rest * (expected / expectedRest));
 }
 
 export function decodeSkins(context, state, weightState) {

@@ -28,8 +28,7 @@ class Values {
 		this.state = state;
 		this.wedges = state.wedges;
 		this.models = context.models.values.of(attribute);
-		this.same = (byte & 1) !== 0;
-		this.zero = (byte & 2) !== 0;
+		this.hasFlags = (byte & 1) !== 0;
 	}
 
 	decode() {
@@ -73,11 +72,9 @@ class Values {
 
 	// The value that a flag tells, if one does.
 	flagged({ n, p }) {
-		if (this.zero && this.streams.bit(this.zeroModel(n, p))) {
-			return { value: new Int32Array(this.state.components), L: 0 };
-		}
-		if (!this.same || n === NONE) return undefined;
-		return this.flaggedSame(n, p);
+		if (!this.hasFlags) return undefined;
+		if (this.streams.bit(this.zeroModel(n, p))) return { value: new Int32Array(this.state.components), L: 0 };
+		return n === NONE ? undefined : this.flaggedSame(n, p);
 	}
 
 	zeroModel(n, p) {
@@ -90,7 +87,7 @@ class Values {
 		const { SAME } = this.models;
 		const k = p === NONE ? 2 : Number(this.areEqual(n, p));
 		const valueOf = (w) => ({ value: state.value(w).slice(), L: 0 });
-		if (!(this.zero && this.isZero(n)) && streams.bit(SAME[0][k])) return valueOf(n);
+		if (!this.isZero(n) && streams.bit(SAME[0][k])) return valueOf(n);
 		if (k === 0 && streams.bit(SAME[1][0])) return valueOf(p);
 		return undefined;
 	}

@@ -454,7 +454,7 @@ TEST(Attributes, IdsOfStripes) {
   const auto& attributes = result.decoded[0].attributes;
   const std::vector<double>& bits = result.encoded.sizes.attribute_bits;
   for (size_t i = attributes.size() - 2; i < attributes.size(); ++i) {
-    EXPECT_NE(attributes[i].info.predictor & value_method::kSameFlags, 0) << i;
+    EXPECT_NE(attributes[i].info.predictor & value_method::kFlags, 0) << i;
     RecordProperty("bytes_" + std::to_string(i), std::to_string(bits[i] / 8));
     EXPECT_LT(bits[i] / 8, 500) << i;
   }

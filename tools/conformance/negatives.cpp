@@ -604,7 +604,7 @@ class Maker {
         {AttributeMethod::kTexcoord, "texture coordinate", {4, 0x40}},
         {AttributeMethod::kExactNormal, "exact normal", {3, 0x10}},
         {AttributeMethod::kExactTangent, "exact tangent", {2}},
-        {AttributeMethod::kValues, "values", {4, 0x40}},
+        {AttributeMethod::kValues, "values", {2, 0x40}},
     };
     for (const Method& m : all) {
       const auto number = [&](const PayloadHeader& h) {

@@ -59,8 +59,7 @@ class PredictorSearch {
     };
     switch (method) {
       case AttributeMethod::kValues:
-        return has(Feature::kSameFlags, value_method::kSameFlags) ||
-               has(Feature::kZeroFlags, value_method::kZeroFlags);
+        return has(Feature::kValueFlags, value_method::kFlags);
       case AttributeMethod::kTexcoord:
         return has(Feature::kTexcoordHinge, texcoord_method::kHinge) ||
                has(Feature::kMemory, texcoord_method::kRemembers);

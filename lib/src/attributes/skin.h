@@ -20,15 +20,14 @@
 namespace mcc {
 
 inline constexpr uint32_t kSkinSlots = 4;
+inline constexpr uint32_t kSkinNeighbours = 4;
 inline constexpr uint32_t kSkinWords = 2 * kSkinSlots;  ///< joints, then weights
 
 struct SkinModels {
-  BitModel same[3][4];  ///< [which neighbour][how many neighbours share its tuple]
-  BitModel weightless[kSkinSlots][5]
-                     [2];  ///< [slot][neighbours' influences][slot before weightless]
-  BitModel rank[kSkinSlots][6]
-               [3];        ///< [slot][rank][neighbours with it: the first in this slot; all; some]
-  BitModel idle_joint[2];  ///< of a weightless slot: 0; the neighbour's
+  BitModel same[kSkinNeighbours][4];  ///< [which one][how many more share its tuple]
+  BitModel weightless[kSkinSlots][5];  ///< [slot][neighbours' influences]
+  BitModel rank[kSkinSlots][6][3];     ///< [slot][rank][the first neighbour's here; of all; of some]
+  BitModel idle_joint;                 ///< of a weightless slot: 0
   BitModel has_sum;
   GolombModel joint;
   TokenRow weight[3][kLengthContexts];  ///< [slot][context]
@@ -71,8 +70,7 @@ class SkinCoder {
   }
 
  private:
-  static constexpr uint32_t kNeighbours = 4;
-  static constexpr uint32_t kCandidates = kNeighbours * kSkinSlots;
+  static constexpr uint32_t kCandidates = kSkinNeighbours * kSkinSlots;
   static constexpr uint32_t kRanks = 6;  ///< asked for before the joint is spelled out
 
   static constexpr int64_t kTypicalShare = 8;
@@ -101,7 +99,7 @@ class SkinCoder {
   uint32_t codeJoints(int32_t* t, int64_t* expected);
   void codeWeights(uint32_t w, uint32_t used, const int64_t* expected);
   int32_t codeJoint(uint32_t slot, int32_t truth, int64_t& weight);
-  int32_t codeIdleJoint(uint32_t slot, int32_t truth);
+  int32_t codeIdleJoint(int32_t truth);
   int32_t codeWeight(uint32_t slot, uint32_t context, uint32_t predicted, int32_t truth,
                      uint32_t& longest);
 
@@ -115,8 +113,8 @@ class SkinCoder {
   uint8_t* const lengths_;
   uint32_t last_ = kNone;
 
-  uint32_t neighbours_[kNeighbours];  ///< coded ones with different tuples
-  uint32_t shared_[kNeighbours];      ///< further neighbours with the same tuple
+  uint32_t neighbours_[kSkinNeighbours];  ///< coded ones with different tuples
+  uint32_t shared_[kSkinNeighbours];      ///< further neighbours with the same tuple
   uint32_t neighbour_count_ = 0;
   Candidate candidates_[kCandidates];
   uint32_t candidate_count_ = 0;
@@ -133,7 +131,7 @@ void SkinCoder<Io>::addNeighbour(uint32_t w) {
       return;
     }
   }
-  if (neighbour_count_ == kNeighbours) return;
+  if (neighbour_count_ == kSkinNeighbours) return;
   shared_[neighbour_count_] = 0;
   neighbours_[neighbour_count_++] = w;
 }
@@ -163,7 +161,7 @@ void SkinCoder<Io>::collectNeighbours(uint32_t w) {
 
 template <class Io>
 bool SkinCoder<Io>::codeSame(uint32_t w) {
-  for (uint32_t i = 0; i < std::min(neighbour_count_, 3u); ++i) {
+  for (uint32_t i = 0; i < neighbour_count_; ++i) {
     BitModel& model = models_.same[i][std::min(shared_[i], 3u)];
     if (io_.bit(model, Io::kEncoding && sameTuple(neighbours_[i], w))) {
       copyTuple(w, neighbours_[i]);
@@ -174,7 +172,7 @@ bool SkinCoder<Io>::codeSame(uint32_t w) {
   return false;
 }
 
-/// The neighbours' joints with weight, the heaviest first.
+/// The neighbours' joints with weight, in the order they are met.
 template <class Io>
 void SkinCoder<Io>::collectCandidates() {
   candidate_count_ = 0;
@@ -193,12 +191,6 @@ void SkinCoder<Io>::collectCandidates() {
       candidates_[c].weight += int64_t{t[kSkinSlots + k]} * uses;
       typical_ += int64_t{t[kSkinSlots + k]} * uses;
     }
-  }
-  for (uint32_t i = 1; i < candidate_count_; ++i) {
-    const Candidate c = candidates_[i];
-    uint32_t k = i;
-    for (; k != 0 && c.weight > candidates_[k - 1].weight; --k) candidates_[k] = candidates_[k - 1];
-    candidates_[k] = c;
   }
   typical_ /= kTypicalShare * int64_t{std::max(uses_, 1u)};
 }
@@ -235,11 +227,10 @@ uint32_t SkinCoder<Io>::codeJoints(int32_t* t, int64_t* expected) {
   if (neighbour_count_ != 0) influences = (influences + neighbour_count_ / 2) / neighbour_count_;
   uint32_t used = 0;
   for (uint32_t k = 0; k < kSkinSlots; ++k) {
-    const bool idle_before = k != 0 && (used >> (k - 1)) == 0;
-    BitModel& model = models_.weightless[k][influences][idle_before ? 1 : 0];
+    BitModel& model = models_.weightless[k][influences];
     expected[k] = 0;
     if (io_.bit(model, Io::kEncoding && t[kSkinSlots + k] == 0)) {
-      t[k] = codeIdleJoint(k, t[k]);
+      t[k] = codeIdleJoint(t[k]);
       continue;
     }
     used |= 1u << k;
@@ -248,7 +239,7 @@ uint32_t SkinCoder<Io>::codeJoints(int32_t* t, int64_t* expected) {
   return used;
 }
 
-/// Each weight against its share of what is left; the last one is what is left, if the sum is known.
+/// Each weight against what the neighbours give its joint; the last one is what is left, if the sum is known.
 template <class Io>
 void SkinCoder<Io>::codeWeights(uint32_t w, uint32_t used, const int64_t* expected) {
   uint32_t context = kNoNeighbours;
@@ -260,8 +251,6 @@ void SkinCoder<Io>::codeWeights(uint32_t w, uint32_t used, const int64_t* expect
   int32_t* weights = tuple(w) + kSkinSlots;
   const int32_t sum = codeSum(weights);
   int64_t rest = sum;
-  int64_t expected_rest = 0;
-  for (uint32_t k = 0; k < kSkinSlots; ++k) expected_rest += expected[k];
   uint32_t longest = 0;
   for (uint32_t k = 0; k < kSkinSlots; ++k) {
     if ((used >> k & 1) == 0) {
@@ -273,15 +262,8 @@ void SkinCoder<Io>::codeWeights(uint32_t w, uint32_t used, const int64_t* expect
       weights[k] = static_cast<int32_t>(static_cast<uint32_t>(rest));
       continue;
     }
-    int64_t predicted = expected[k];
-    if (sum != 0 && expected_rest > 0 && expected[k] >= 0 && expected[k] <= expected_rest) {
-      predicted =
-          static_cast<int64_t>(static_cast<double>(rest) * (static_cast<double>(expected[k]) /
-                                                            static_cast<double>(expected_rest)));
-    }
-    weights[k] = codeWeight(k, context, static_cast<uint32_t>(predicted), weights[k], longest);
+    weights[k] = codeWeight(k, context, static_cast<uint32_t>(expected[k]), weights[k], longest);
     rest -= weights[k];
-    expected_rest -= expected[k];
   }
   lengths_[w] = static_cast<uint8_t>(longest);
 }
@@ -307,12 +289,8 @@ int32_t SkinCoder<Io>::codeJoint(uint32_t slot, int32_t truth, int64_t& weight) 
 }
 
 template <class Io>
-int32_t SkinCoder<Io>::codeIdleJoint(uint32_t slot, int32_t truth) {
-  if (io_.bit(models_.idle_joint[0], Io::kEncoding && truth == 0)) return 0;
-  if (neighbour_count_ != 0) {
-    const int32_t joint = tuple(neighbours_[0])[slot];
-    if (io_.bit(models_.idle_joint[1], Io::kEncoding && truth == joint)) return joint;
-  }
+int32_t SkinCoder<Io>::codeIdleJoint(int32_t truth) {
+  if (io_.bit(models_.idle_joint, Io::kEncoding && truth == 0)) return 0;
   return static_cast<int32_t>(codeGolomb(io_, models_.joint, static_cast<uint32_t>(truth)));
 }
 

@@ -45,8 +45,7 @@ class ValueCoder {
         wedges_(wedges),
         groups_(groups),
         components_(info.format.component_count),
-        may_repeat_((info.predictor & value_method::kSameFlags) != 0),
-        may_vanish_((info.predictor & value_method::kZeroFlags) != 0),
+        has_flags_((info.predictor & value_method::kFlags) != 0),
         positions_(positions),
         values_(values),
         lengths_(lengths) {}
@@ -98,8 +97,7 @@ class ValueCoder {
   const WedgeMesh& wedges_;
   const EqualGroups& groups_;
   const uint32_t components_;
-  const bool may_repeat_;
-  const bool may_vanish_;
+  const bool has_flags_;
   const float* const positions_;
   int32_t* const values_;
   uint8_t* const lengths_;
@@ -187,20 +185,14 @@ void ValueCoder<Io>::predict(uint32_t w) {
 /// Whether a flag tells the value; it is then in place.
 template <class Io>
 bool ValueCoder<Io>::codeFlags(uint32_t w) {
-  bool n_is_zero = false;
-  if (may_vanish_) {
-    n_is_zero = n_ != kNone && isZero(n_);
-    const uint32_t zeros = n_ == kNone ? 3u
-                                       : (n_is_zero ? 1u : 0u) + (p_ == kNone  ? n_is_zero
-                                                                  : isZero(p_) ? 1u
-                                                                               : 0u);
-    const bool zero = io_.bit(models_.zero[zeros], Io::kEncoding && isZero(w));
-    if (zero) {
-      std::fill(at(w), at(w) + components_, 0);
-      return true;
-    }
+  const bool n_is_zero = n_ != kNone && isZero(n_);
+  const bool p_is_zero = p_ != kNone ? isZero(p_) : n_is_zero;
+  const uint32_t zeros = n_ == kNone ? 3u : (n_is_zero ? 1u : 0u) + (p_is_zero ? 1u : 0u);
+  if (io_.bit(models_.zero[zeros], Io::kEncoding && isZero(w))) {
+    std::fill(at(w), at(w) + components_, 0);
+    return true;
   }
-  if (!may_repeat_ || n_ == kNone) return false;
+  if (n_ == kNone) return false;
   const uint32_t kind = p_ == kNone ? 2 : isEqual(n_, p_) ? 1 : 0;
   if (!n_is_zero && io_.bit(models_.same[0][kind], Io::kEncoding && isEqual(n_, w))) {
     copy(w, n_);
@@ -235,7 +227,7 @@ void ValueCoder<Io>::codeResiduals(uint32_t w) {
 template <class Io>
 void ValueCoder<Io>::codeGroup(uint32_t w) {
   findNeighbours(w);
-  if ((may_repeat_ || may_vanish_) && codeFlags(w)) {
+  if (has_flags_ && codeFlags(w)) {
     lengths_[w] = 0;
   } else {
     predict(w);

@@ -196,8 +196,7 @@ inline constexpr uint8_t kRemembers = 0x02;
 }  // namespace texcoord_method
 
 namespace value_method {
-inline constexpr uint8_t kSameFlags = 0x01;
-inline constexpr uint8_t kZeroFlags = 0x02;
+inline constexpr uint8_t kFlags = 0x01;  ///< for values that are 0 or a neighbour's
 }  // namespace value_method
 
 /// Of WEIGHTS with their JOINTS, see unitSum().
@@ -237,10 +236,7 @@ constexpr PredictorFields fieldsOf(AttributeMethod method) {
   constexpr PredictorField kBlend = {normal_method::kBlend, 2, {"", "blend"}};
   switch (method) {
     case AttributeMethod::kValues:
-      return {"diagonal",
-              2,
-              {{value_method::kZeroFlags, 2, {"", "zero flags"}},
-               {value_method::kSameFlags, 2, {"", "same flags"}}}};
+      return {"diagonal", 1, {{value_method::kFlags, 2, {"", "flags"}}}};
     case AttributeMethod::kNormal: return {"", 2, {kWeight, kBlend}};
     case AttributeMethod::kTexcoord:
       return {"",
