@@ -187,8 +187,7 @@ class Positions {
 		const { wide } = this;
 		return coefficients.map((c, k) => {
 			const [c0, c1, c2] = c.map(BigInt);
-			const scale = Number(wide.unsigned(c0 * magnitudes[k] + c1 * spread[k] + c2) >> 6n);
-			return wide.bits === 64 ? Math.min(scale, 2 ** 26) : scale;
+			return Math.min(Number(wide.unsigned(c0 * magnitudes[k] + c1 * spread[k] + c2) >> 6n), 2 ** 26);
 		});
 	}
 

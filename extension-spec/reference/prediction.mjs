@@ -137,15 +137,14 @@ export class Prediction {
 		const high = e0 < e1 ? e1 : e0;
 		const preference = Number(wide.unsigned(2n * high) > wide.unsigned(3n * low + 2n))
 			+ Number(high > wide.unsigned(3n * low + 2n));
-		const third = Number(e2 <= wide.unsigned(2n * low)) + Number(wide.unsigned(2n * e2) <= low);
+		const hasThird = around[0].ya !== NONE || around[0].yb !== NONE;
+		const third = hasThird ? Number(e2 <= wide.unsigned(2n * low)) + Number(wide.unsigned(2n * e2) <= low) : 0;
 		const better = Number(e0 < e1) - Number(e0 > e1);
 		return { w: this.weights[13 + 3 * preference + third], better };
 	}
 
 	thirdError({ ya, yb }, e2) {
-		if (ya !== NONE && yb !== NONE) return this.wide.unsigned(e2 + 1n) >> 1n;
-		if (ya === NONE && yb === NONE) return e2 | (this.wide.bits === 64 ? 1n << 60n : 1n << 28n);
-		return e2;
+		return ya !== NONE && yb !== NONE ? this.wide.unsigned(e2 + 1n) >> 1n : e2;
 	}
 
 	// ---- [B.2.4] Prediction of any other fan

@@ -361,7 +361,7 @@ void setGrid(AttributeInfo& a, uint32_t bits, uint32_t tails, uint32_t grid) {
   a.coding = AttributeCoding::kGrid;
   a.bits = static_cast<uint8_t>(bits);
   a.tails = static_cast<uint8_t>(tails);
-  a.grid = static_cast<uint16_t>(grid);
+  a.grid = static_cast<uint8_t>(grid);
 }
 
 TEST(Container, AttributesThatAreNone) {

@@ -108,12 +108,11 @@ MCC_INLINE TipSelection selectTip(const PlainFan& f, const Beyond& b) {
       absoluteLanes<UWide>(stepBeyond<UWide>(b.yb, f.n2, f.o1, n1, b.has_yb)));
   const uint32_t both = (b.has_ya & b.has_yb) ? 1 : 0;
   error2 = (error2 + both) >> both;
-  // Without both there is nothing to trust: far above what lattices reach.
-  error2 |= static_cast<UWide>(!b.has_ya & !b.has_yb) << (8 * sizeof(UWide) - 4);
   const UWide low = std::min(error0, error1);
   const UWide high = std::max(error0, error1);
   const uint32_t preference = uint32_t{2 * high > 3 * low + 2} + uint32_t{high > 3 * low + 2};
-  const uint32_t third = uint32_t{error2 <= 2 * low} + uint32_t{2 * error2 <= low};
+  const uint32_t has_third = (b.has_ya | b.has_yb) ? 1 : 0;
+  const uint32_t third = has_third * (uint32_t{error2 <= 2 * low} + uint32_t{2 * error2 <= low});
   return {kClassSelect + 3 * preference + third,
           static_cast<int32_t>(error0 < error1) - static_cast<int32_t>(error0 > error1)};
 }
