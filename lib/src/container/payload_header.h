@@ -58,7 +58,9 @@ inline constexpr uint32_t kTriangleOrder = 1u << 13;
 inline constexpr uint32_t kVertexOrder = 1u << 14;
 inline constexpr uint32_t kAll = 0x7fff;
 /// Those of pieces that are decoded.
-inline constexpr uint32_t kDecoded = kAll & ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder);
+inline constexpr uint32_t kDecoded = kAll &
+                                     ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder) &
+                                     ~(decodes::kDoubles ? 0 : kDuplicates | kEdgeDegenerates);
 }  // namespace piece_flag
 
 /// Positions of up to so many bits are predicted in 32 bits: with a fraction of 8 bits.
