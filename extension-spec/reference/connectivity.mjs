@@ -30,13 +30,12 @@ export class ConnectivityModels {
 		this.KIND_END = models([4]);
 		this.KIND_HANDLE = models([]);
 		this.FINISH = models([]);
-		this.LONE = models([2]);
 		this.JOINED_SPUR = models([2]);
 		this.DUMMY_END = models([2]);
 		this.DUMMY_TWIG = models([]);
 		this.DUMMY_FINISH = models([]);
-		this.SPECIAL = models([contextSet === 4 ? 8 * 625 : 8 * 49]);
-		this.RUN = models([[128, 1024, 6272, 32768, 80000][contextSet]]);
+		this.SPECIAL = models([8 * (contextSet === 1 ? 625 : 49)]);
+		this.RUN = models([128 * (contextSet === 1 ? 625 : 1)]);
 		this.DUMMY_DEGREE = golombs([]);
 		this.HANDLE_NODE = golombs([]);
 		this.HANDLE_TOP = golombs([]);
@@ -121,7 +120,6 @@ class Connectivity {
 		this.last = 6;
 		this.before = 6;
 		this.pattern = 0;
-		this.lone = 0;
 	}
 
 	bit(model) {
@@ -247,7 +245,7 @@ class Connectivity {
 
 	specialContext() {
 		const degree = Math.min(this.nodes.degree(this.top), 7);
-		return this.contextSet === 4 ? 625 * degree + this.pattern : 49 * degree + this.recent();
+		return this.contextSet === 1 ? 625 * degree + this.pattern : 49 * degree + this.recent();
 	}
 
 	twig() {
@@ -269,17 +267,6 @@ class Connectivity {
 			if (this.stack.length === 0 && this.bit(this.models.FINISH)) this.finish();
 			else this.stack.push(this.top);
 		}
-		if (this.top === NONE && this.dummiesAreLeft() && this.operations < this.piece.operationCount) {
-			this.lone = this.bit(this.models.LONE[this.lone]);
-			if (this.lone === 1) {
-				this.loneTriangle();
-				return;
-			}
-		}
-		this.newDigon();
-	}
-
-	newDigon() {
 		const { nodes } = this;
 		const v = [0, 1].map((i) => this.newDummyOrVertex(this.models.DUMMY_END[i]));
 		const a = nodes.make(v[0], 1);
@@ -291,15 +278,6 @@ class Connectivity {
 		this.top = a;
 		this.age = 0;
 		this.remember(6);
-	}
-
-	loneTriangle() {
-		const f = this.newFace(0, 0, 0);
-		this.tails[3 * f + 1] = this.newVertex();
-		this.tails[3 * f + 2] = this.newVertex();
-		this.tails[3 * f] = this.newVertex();
-		++this.operations;
-		++this.dummies;
 	}
 
 	// ---- [A.4.4] EXPAND that joins
@@ -377,14 +355,7 @@ class Connectivity {
 	runContext(position, q) {
 		const { nodes } = this;
 		const base = 32 * (Math.min(position, 4) - 1) + 2 * Math.min(nodes.degree(q), 15) + nodes.shared[q];
-		const degreeBehind = nodes.degree(nodes.next[q]);
-		switch (this.contextSet) {
-		case 0: return base;
-		case 1: return 8 * base + Math.min(degreeBehind, 7);
-		case 2: return 49 * base + this.recent();
-		case 3: return 256 * base + Math.min(nodes.degree(this.top), 15) + 16 * Math.min(degreeBehind, 15);
-		default: return 625 * base + this.pattern;
-		}
+		return this.contextSet === 1 ? 128 * this.pattern + base : base;
 	}
 
 	dummyRun() {

@@ -2,7 +2,7 @@
 
 // Entropy coding: A.3 of the specification.
 
-import { fail, unzigzag } from './bytes.mjs';
+import { fail, unzigzag, width } from './bytes.mjs';
 
 const MASK_64 = (1n << 64n) - 1n;
 
@@ -254,6 +254,15 @@ class TreeModel {
 
 export const golombs = (dimensions) => models(dimensions, () => new GolombModel());
 export const trees = (bits, dimensions) => models(dimensions, () => new TreeModel(bits));
+
+// [A.3.5]
+export function uniform(streams, n) {
+	const bits = width(n) - 1;
+	const shorts = 2 ** (bits + 1) - n;
+	const value = streams.raw(bits);
+	if (value < shorts) return value;
+	return 2 * value + streams.raw(1) - shorts;
+}
 
 export class ThreeStreams extends Decoder {
 	constructor(codes, tokens, rawBytes) {

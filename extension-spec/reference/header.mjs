@@ -14,9 +14,9 @@ export const LIMITS = { vertices: 2 ** 24, wedges: 2 ** 24, triangles: 2 ** 24, 
 // [A.2.4] Those of accessors: SCALAR to VEC4 and matrices
 const COMPONENT_COUNTS = [1, 2, 3, 4, 9, 16];
 
-// [A.2.2] Flags of a piece, by bit
-const PIECE_FLAGS = ['SEAMS', 'MANY_PARTS', 'SAME_ATTRIBUTES', 'HOLES', 'HANDLES', 'COPIES', 'INTERIOR_COPIES', 'MERGES',
-	'ISOLATED', 'DUPLICATES', 'LISTED', 'EDGE_DEGENERATES', 'CREASES', 'TRIANGLE_ORDER', 'VERTEX_ORDER'];
+// [A.2.2] Flags of a piece, by bit; bits 7 and 8 are a number
+const PIECE_FLAGS = ['SEAMS', 'MANY_PARTS', 'SAME_ATTRIBUTES', 'HOLES', 'HANDLES', 'CREASES', 'ISOLATED', '', '', 'LISTED',
+	'TRIANGLE_ORDER', 'VERTEX_ORDER'];
 
 function badHeader(section, message) {
 	fail('BadHeader', section, message);
@@ -49,9 +49,8 @@ function readMagicVersionChecksum(reader) {
 // [A.2.1]
 function readPayloadFlags(reader) {
 	const flags = reader.u8();
-	if (flags >> 6 !== 0) badHeader('A.2.1', 'a reserved flag is set');
-	const contextSet = (flags >> 3) & 7;
-	if (contextSet > 4) badHeader('A.2.1', `context set ${contextSet}`);
+	if (flags >> 4 !== 0) badHeader('A.2.1', 'a reserved flag is set');
+	const contextSet = (flags >> 3) & 1;
 	const pieceCount = flags & 2 ? reader.varint() : 1;
 	if (flags & 2 && pieceCount < 2) badHeader('A.2.1', `a stated count of ${pieceCount} pieces`);
 	if (pieceCount > LIMITS.pieces) fail('Limit', 'A.2.1', `${pieceCount} pieces`);
@@ -85,9 +84,12 @@ function readPieceFlags(reader) {
 	if (bits >>> PIECE_FLAGS.length !== 0) badHeader('A.2.2', 'a reserved flag of a piece is set');
 	const flags = {};
 	PIECE_FLAGS.forEach((name, i) => { flags[name] = ((bits >>> i) & 1) === 1; });
+	const surface = (bits >>> 7) & 3;
+	flags.COPIES = surface === 1 || surface === 2;
+	flags.INTERIOR_COPIES = surface === 2;
+	flags.PIVOTS = surface === 3;
 	if (flags.CREASES && !flags.SEAMS) badHeader('A.2.2', 'CREASES without SEAMS');
-	if (flags.MERGES && !flags.SEAMS) badHeader('A.2.2', 'MERGES without SEAMS');
-	if (flags.INTERIOR_COPIES && !flags.COPIES) badHeader('A.2.2', 'INTERIOR_COPIES without COPIES');
+	if (flags.PIVOTS && (flags.HOLES || flags.HANDLES)) badHeader('A.2.2', 'PIVOTS with HOLES or HANDLES');
 	return flags;
 }
 
@@ -95,17 +97,14 @@ function readPieceFlags(reader) {
 function readCounts(reader, flags) {
 	const vertexCount = reader.varint();
 	const faceCount = reader.varint();
-	const operationCount = (vertexCount + reader.zigzag()) >>> 0;
+	const operationCount = flags.PIVOTS ? 0 : (vertexCount + reader.zigzag()) >>> 0;
 	const wedgeCount = (vertexCount + reader.zigzag()) >>> 0;
 	const dummyCount = flags.HOLES ? readAtLeast(reader, 1) : 0;
 	const isolatedCount = flags.ISOLATED ? readAtLeast(reader, 1) : 0;
-	const duplicateCount = flags.DUPLICATES ? readAtLeast(reader, 1) : 0;
-	const edgeDegenerateCount = flags.EDGE_DEGENERATES ? readAtLeast(reader, 1) : 0;
 	const listedCount = flags.LISTED ? readAtLeast(reader, 1) : 0;
 	const partCount = flags.MANY_PARTS ? readAtLeast(reader, 2) : 1;
-	const triangleCount = faceCount + duplicateCount + edgeDegenerateCount + listedCount;
-	return { vertexCount, faceCount, operationCount, wedgeCount, dummyCount, isolatedCount, duplicateCount,
-		edgeDegenerateCount, listedCount, partCount, triangleCount };
+	const triangleCount = faceCount + listedCount;
+	return { vertexCount, faceCount, operationCount, wedgeCount, dummyCount, isolatedCount, listedCount, partCount, triangleCount };
 }
 
 // [A.2.2] A count that is not what it is without its flag
@@ -338,10 +337,10 @@ function checkElements(pieces, byteLength) {
 
 // Exact: every count is below 2^32.
 function elementsOf(piece) {
-	const { operationCount, vertexCount, wedgeCount, triangleCount, attributes, flags } = piece;
+	const { operationCount, vertexCount, faceCount, wedgeCount, isolatedCount, triangleCount, attributes, flags } = piece;
 	const components = attributes.reduce((sum, a) => sum + a.components, 0);
-	const searches = (flags.COPIES ? vertexCount : 0) + (flags.TRIANGLE_ORDER ? triangleCount : 0)
-		+ (flags.VERTEX_ORDER ? wedgeCount + triangleCount : 0);
+	const searches = (flags.COPIES ? vertexCount : 0) + (flags.PIVOTS ? faceCount : 0) + isolatedCount
+		+ (flags.TRIANGLE_ORDER ? triangleCount : 0) + (flags.VERTEX_ORDER ? wedgeCount + triangleCount : 0);
 	return operationCount + vertexCount + wedgeCount + triangleCount + 8 * searches + triangleCount * attributes.length
 		+ wedgeCount * components + 1024 * attributes.length;
 }

@@ -2,8 +2,8 @@
 
 // Orders of the triangles and of the wedges: A.10 of the specification.
 
-import { fail, width } from './bytes.mjs';
-import { models, trees } from './entropy.mjs';
+import { fail } from './bytes.mjs';
+import { models, trees, uniform } from './entropy.mjs';
 import { corner, face, next, NONE, prev } from './mesh.mjs';
 
 const NEAR = 0, FAR = 1, NEXT = 2, ANY = 3;
@@ -26,16 +26,7 @@ export class OrderModels {
 	}
 }
 
-// [A.10.1] Even choice
-function uniform(streams, n) {
-	const bits = width(n) - 1;
-	const shorts = 2 ** (bits + 1) - n;
-	const value = streams.raw(bits);
-	if (value < shorts) return value;
-	return 2 * value + streams.raw(1) - shorts;
-}
-
-// [A.10.2] Sequences. `lists` is near and far: [element, note], latest first.
+// [A.10.1] Sequences. `lists` is near and far: [element, note], latest first.
 class Sequence {
 	constructor(streams, modelSet, elementCount) {
 		this.streams = streams;
@@ -132,16 +123,16 @@ class Sequence {
 	ranked(w) {
 		const list = this.lists[this.way];
 		const rank = this.streams.tree(this.models.RANK[this.way][this.class[this.way]][w === this.way ? 1 : 0]);
-		if (rank >= list.length) fail('BadAttribute', 'A.10.2', 'a rank beyond its list');
+		if (rank >= list.length) fail('BadAttribute', 'A.10.1', 'a rank beyond its list');
 		this.class[this.way] = rank < 2 ? rank : rank < 4 ? 2 : 3;
 		return list[rank];
 	}
 }
 
-// [A.10.3] Order of the triangles: for each part a list of triangles, each of which has its wedges from the corner it begins with.
-export function decodeTriangleOrder(streams, m, piece, surface, { table, first }) {
+// [A.10.2] Order of the triangles: for each part a list of triangles, each of which has its wedges from the corner it begins with.
+export function decodeTriangleOrder(streams, m, piece, surface, table) {
 	const sequence = new Sequence(streams, m.triangles, table.length);
-	const touch = new TriangleTouch(sequence, piece, surface, table, first);
+	const touch = new TriangleTouch(sequence, surface);
 	let turn = 0;
 	return partition(piece, table).map((expected) => {
 		sequence.expect(expected);
@@ -163,30 +154,24 @@ function readTurn(streams, [IS_TURNED, IS_TWO]) {
 const rotated = (wedges, begin) => [0, 1, 2].map((k) => wedges[(begin + k) % 3]);
 
 class TriangleTouch {
-	constructor(sequence, piece, surface, table, first) {
+	constructor(sequence, surface) {
 		this.sequence = sequence;
-		this.duplicates = piece.flags.DUPLICATES;
 		this.surface = surface;
-		this.table = table;
-		this.first = first; // tri(f)
 	}
 
 	around(x, begin) {
-		const { sequence, table, first } = this;
-		const hasNext = x + 1 < table.length;
-		if (this.duplicates && hasNext && table[x + 1].face === NONE) sequence.touchNear(x + 1, begin);
-		const f = table[x].face;
-		if (f === NONE) return;
+		const { sequence, surface } = this;
+		if (x >= surface.faceCount) return;
 		for (let i = 0; i < 3; ++i) {
-			const t = this.surface.twin(3 * f + (begin + i) % 3);
-			if (t === NONE || !sequence.isOpen(first[face(t)])) continue;
-			for (const s of [next(t), prev(t)]) this.far(this.surface.twin(s));
-			sequence.touchNear(first[face(t)], corner(t));
+			const t = surface.twin(3 * x + (begin + i) % 3);
+			if (t === NONE || !sequence.isOpen(face(t))) continue;
+			for (const s of [next(t), prev(t)]) this.far(surface.twin(s));
+			sequence.touchNear(face(t), corner(t));
 		}
 	}
 
 	far(y) {
-		if (y !== NONE) this.sequence.touchFar(this.first[face(y)], corner(y));
+		if (y !== NONE) this.sequence.touchFar(face(y), corner(y));
 	}
 }
 
@@ -197,20 +182,20 @@ function partition(piece, table) {
 	return lists;
 }
 
-// [A.10.5] Without TRIANGLE_ORDER
-export function trianglesOfParts(piece, { table }) {
+// [A.10.4] Without TRIANGLE_ORDER
+export function trianglesOfParts(piece, table) {
 	return partition(piece, table).map((list) => list.map((x) => table[x].wedges));
 }
 
-// [A.10.5]
+// [A.10.4]
 export function checkParts(piece, parts) {
 	if (parts.some((list, i) => list.length !== piece.partSizes[i])) {
-		fail('BadAttribute', 'A.10.5', 'a part has another number of triangles than its header says');
+		fail('BadAttribute', 'A.10.4', 'a part has another number of triangles than its header says');
 	}
 }
 
-// [A.10.4] Order of the wedges: the wedge at every place. `parts` are ordered triangles, or undefined.
-export function decodeWedgeOrder(streams, m, piece, { table }, parts) {
+// [A.10.3] Order of the wedges: the wedge at every place. `parts` are ordered triangles, or undefined.
+export function decodeWedgeOrder(streams, m, piece, table, parts) {
 	const sequence = new Sequence(streams, m.wedges, piece.wedgeCount);
 	const expected = expectedWedges(piece, parts);
 	const corners = cornersOfWedges(piece, table);

@@ -8,6 +8,7 @@ import { ConnectivityModels, decodeConnectivity } from './connectivity.mjs';
 import { predictionPositions } from './faces.mjs';
 import { readHeader } from './header.mjs';
 import { checkParts, decodeTriangleOrder, decodeWedgeOrder, OrderModels, trianglesOfParts } from './orders.mjs';
+import { decodePivots, PivotModels } from './pivots.mjs';
 import { decodePositions, PositionModels } from './positions.mjs';
 import { orderOfFirstCorners } from './region.mjs';
 import { decodeSeams, findCreases, SeamModels } from './seams.mjs';
@@ -18,6 +19,7 @@ import { decodeTriangles, TriangleModels } from './triangles.mjs';
 class Models {
 	constructor(contextSet) {
 		this.connectivity = new ConnectivityModels(contextSet);
+		this.pivots = new PivotModels();
 		this.stitching = new StitchModels();
 		this.positions = new PositionModels();
 		this.seams = new SeamModels();
@@ -48,8 +50,7 @@ export class Payload {
 
 // [A.2.7] The stages of a piece
 function decodePiece(streams, models, piece) {
-	const connectivity = decodeConnectivity(streams, models.connectivity, piece);
-	const groups = piece.flags.COPIES ? stitch(streams, models.stitching, piece, connectivity) : { surface: connectivity };
+	const groups = surfaceStages(streams, models, piece);
 	const groupCount = groups.umbrellas?.length ?? piece.vertexCount;
 	const positions = positionStage(streams, models, piece, groups, groupCount);
 	const wedges = piece.flags.SEAMS
@@ -61,17 +62,25 @@ function decodePiece(streams, models, piece) {
 	return { parts: placed(parts, order), elements: elements.map((list) => reordered(list, order)) };
 }
 
+// [A.4], [A.5]: the surface with groups at its corners; with pivots all half-edges that leave each, with copies the umbrellas.
+function surfaceStages(streams, models, piece) {
+	if (piece.flags.PIVOTS) return decodePivots(streams, models.pivots, piece);
+	const surface = decodeConnectivity(streams, models.connectivity, piece);
+	return piece.flags.COPIES ? stitch(streams, models.stitching, piece, surface) : { surface };
+}
+
 // [A.6]
-function positionStage(streams, models, piece, { surface, umbrellas }, groupCount) {
+function positionStage(streams, models, piece, groups, groupCount) {
+	const { surface } = groups;
 	if (piece.attributes.length === 0) return { sequence: orderOfFirstCorners(surface, groupCount) };
-	const result = decodePositions(streams, models.positions, piece, surface, umbrellas, groupCount);
+	const result = decodePositions(streams, models.positions, piece, groups, groupCount);
 	return { ...result, seen: predictionPositions(piece.attributes[0], result.positions) };
 }
 
 // [A.7]
-function seamStage(streams, models, piece, { surface, umbrellas }, { sequence, seen }) {
+function seamStage(streams, models, piece, { surface, umbrellas, corners }, { sequence, seen }) {
 	const crease = piece.flags.CREASES ? findCreases(surface, seen) : new Uint8Array(surface.halfEdgeCount);
-	const result = decodeSeams(streams, models.seams, piece, surface, umbrellas, sequence, crease);
+	const result = decodeSeams(streams, models.seams, piece, surface, umbrellas ?? corners, sequence, crease);
 	return { ...result, crease };
 }
 
@@ -93,7 +102,7 @@ function orderStage(streams, models, piece, surface, triangles) {
 	return { parts: ordered ?? parts, order };
 }
 
-// [A.10.5] Triangles with the places of their wedges
+// [A.10.4] Triangles with the places of their wedges
 function placed(parts, order) {
 	if (order === undefined) return parts;
 	const place = new Uint32Array(order.length);
@@ -101,7 +110,7 @@ function placed(parts, order) {
 	return parts.map((triangles) => triangles.map((wedges) => wedges.map((w) => place[w])));
 }
 
-// [A.10.5] Elements, an array of bytes for each wedge, in their order
+// [A.10.4] Elements, an array of bytes for each wedge, in their order
 function reordered(elements, order) {
 	return order === undefined ? elements : order.map((w) => elements[w]);
 }

@@ -5,6 +5,7 @@
 import { fail } from './bytes.mjs';
 import { golombs, models } from './entropy.mjs';
 import { BelowGrid, TailModels } from './grids.mjs';
+import { decodeIsolated, IsolatedModels } from './isolated.mjs';
 import { NONE } from './mesh.mjs';
 import { BYTES_OF_TYPE, EXACT_FLOAT, GRID, INTEGER } from './names.mjs';
 import { PaletteModels, readPalettes } from './palettes.mjs';
@@ -37,6 +38,7 @@ export class PositionModels {
 		this.rows = new PositionRows();
 		this.palettes = new PaletteModels();
 		this.planes = new PlanesModels();
+		this.isolated = new IsolatedModels();
 		this.below = new TailModels();
 		this.weights = zeroWeights();
 		this.weightsWereRead = false;
@@ -129,7 +131,8 @@ function degreesOf(surface, groupCount) {
 // ---- The stage
 
 class Positions {
-	constructor(streams, m, piece, surface, umbrellas, groupCount) {
+	constructor(streams, m, piece, groups, groupCount) {
+		const { surface } = groups;
 		const attribute = piece.attributes[0];
 		this.streams = streams;
 		this.models = m;
@@ -139,23 +142,23 @@ class Positions {
 		this.wide = new Wide(this.P <= 17 ? 32 : 64);
 		this.groupCount = groupCount;
 		this.records = new Records(surface, groupCount, groupCount + piece.isolatedCount);
-		this.region = new Region(surface, groupCount, piece.flags.COPIES ? umbrellas : undefined, this);
+		this.region = new Region(surface, groupCount, groups, this);
 		this.seeds = newSeeds(this.P);
-		this.prepare(surface);
+		this.prepare(surface, groupCount);
 	}
 
-	prepare(surface) {
+	prepare(surface, groupCount) {
 		const { streams, models: m } = this;
 		this.coefficients = readTables(streams, m, this, U[this.weighted ? 1 : 0][this.shear ? 1 : 0]);
 		const weights = this.weighted ? m.weights : zeroWeights();
 		this.prediction = new Prediction(surface, this.region, this.records, this.wide, this.select, weights);
-		if (this.palette) this.palettes = readPalettes(streams, m.palettes, this.records.count);
+		if (this.palette) this.palettes = readPalettes(streams, m.palettes, groupCount);
 		if (this.planes) this.plane = new Planes(streams, m.planes, m.rows, this.records);
 	}
 
 	decode() {
 		const sequence = this.region.order();
-		for (let v = this.groupCount; v < this.records.count; ++v) this.codeSeed(v, NONE);
+		this.records.q.set(decodeIsolated(this.streams, this.models.isolated, this.records.count - this.groupCount), 3 * this.groupCount);
 		if (this.attribute.coding === GRID) this.readBelowGrid();
 		return { sequence, positions: this.records.q };
 	}
@@ -300,6 +303,6 @@ function shearOf(normal, axis) {
 }
 
 // The positions of all groups and isolated wedges, and the half-edges by which the groups were entered, in their order.
-export function decodePositions(streams, m, piece, surface, umbrellas, groupCount) {
-	return new Positions(streams, m, piece, surface, umbrellas, groupCount).decode();
+export function decodePositions(streams, m, piece, groups, groupCount) {
+	return new Positions(streams, m, piece, groups, groupCount).decode();
 }

@@ -21,10 +21,11 @@ export function orderOfFirstCorners(surface, groupCount) {
 // The region of known groups. `coder` has two functions, which read the position of a group: codeSeed(v, neighbour) and
 // codeFan(fan).
 export class Region {
-	constructor(surface, groupCount, umbrellas, coder) {
+	constructor(surface, groupCount, { umbrellas, corners }, coder) {
 		this.surface = surface;
 		this.groupCount = groupCount;
 		this.umbrellas = umbrellas; // none in a piece without copies
+		this.corners = corners; // in a piece with pivots
 		this.coder = coder;
 		this.state = new Uint8Array(groupCount);
 		this.queues = [undefined, newQueue(), newQueue(), newQueue()];
@@ -127,13 +128,17 @@ export class Region {
 	}
 
 	pushRing(h0) {
-		for (const h of this.ringOf(h0)) {
-			const nextIsKnown = this.tailIsKnown(next(h));
-			if (nextIsKnown !== this.tailIsKnown(prev(h))) this.push(nextIsKnown ? prev(h) : next(h));
-		}
+		for (const h of this.ringOf(h0)) this.pushFace(h);
+	}
+
+	pushFace(h) {
+		const nextIsKnown = this.tailIsKnown(next(h));
+		if (nextIsKnown !== this.tailIsKnown(prev(h))) this.push(nextIsKnown ? prev(h) : next(h));
 	}
 
 	pushOthers(h) {
+		const corners = this.corners?.[this.surface.tail(h)] ?? [];
+		if (corners.length > 1) corners.forEach((g) => this.pushFace(g));
 		if (this.umbrellas === undefined) return;
 		const others = this.umbrellas[this.surface.tail(h)];
 		if (others.length < 2) return;

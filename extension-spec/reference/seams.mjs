@@ -44,9 +44,8 @@ class Seams {
 	constructor(streams, modelSet, piece, surface, umbrellas, crease) {
 		this.streams = streams;
 		this.models = modelSet;
-		this.merges = piece.flags.MERGES;
 		this.surface = surface;
-		this.umbrellas = piece.flags.COPIES ? umbrellas : undefined;
+		this.umbrellas = umbrellas;
 		this.crease = crease;
 		this.end = new Uint8Array(surface.halfEdgeCount);
 		this.wedgeOf = new Int32Array(surface.halfEdgeCount).fill(NONE); // of corners
@@ -146,10 +145,8 @@ class Seams {
 	// ---- [A.7.3] Wedges
 
 	wedge(x, a, b, isFirst) {
-		if (this.merges) {
-			const earlier = this.mergedWedge(a, b, isFirst);
-			if (earlier !== NONE) return earlier;
-		}
+		const earlier = this.mergedWedge(a, b, isFirst);
+		if (earlier !== NONE) return earlier;
 		if (this.starts.length === this.limit) fail('BadAttribute', 'A.7.3', 'too many wedges');
 		this.starts.push(x);
 		this.groups.push(this.group);

@@ -3,6 +3,7 @@
 // The stages of one piece, in payload order, for reader and writer alike: [A.2.7]
 //
 //   codeConnectivity   mesh collapse codes -> faces, twins                         connectivity/mc_codes.h   [A.4]
+//                      or faces vertex by vertex                                  connectivity/pivots.h     [A.4.7]
 //   codeStitch         which cut vertices share a position -> groups              connectivity/stitch.h     [A.5]
 //   codePositions      traversal, positions of groups and of isolated vertices    attributes/positions.h    [A.6]
 //   codeSeams          corners -> wedges                                          attributes/seams.h        [A.7]
@@ -18,6 +19,7 @@
 
 #include "attributes/attribute_stage.h"
 #include "attributes/exact_tails.h"
+#include "attributes/isolated.h"
 #include "attributes/leftovers.h"
 #include "attributes/positions.h"
 #include "attributes/seams.h"
@@ -25,6 +27,7 @@
 #include "base/lazy.h"
 #include "connectivity/mc_codes.h"
 #include "connectivity/order.h"
+#include "connectivity/pivots.h"
 #include "connectivity/stitch.h"
 #include "container/payload_header.h"
 
@@ -35,8 +38,10 @@ struct PayloadModels {
   explicit PayloadModels(const Allocator& allocator) : mc(allocator) {}
 
   McModels mc;
+  Lazy<PivotModels> pivots;
   Lazy<StitchModels> stitch;
   PositionModels positions;
+  IsolatedModels isolated;
   TailModels position_tails;
   SeamModels seams;
   LeftoverModels leftovers;
@@ -47,6 +52,7 @@ struct PayloadModels {
 /// What the writer knows about a piece, stage by stage; all null when reading.
 struct PieceTruth {
   McTruth connectivity;
+  const PivotFace* pivot_faces = nullptr;     ///< if the piece has pivots
   const uint32_t* class_of_vertex = nullptr;  ///< by decoded vertex
   uint32_t class_count = 0;
   const int32_t* positions = nullptr;  ///< 3 per group, isolated vertices behind
@@ -72,7 +78,6 @@ class PieceCoder {
         records(allocator),
         sequence(allocator),
         wedge_group(allocator),
-        copies(allocator),
         list(allocator),
         triangles(allocator),
         triangle_order(allocator),
@@ -91,6 +96,15 @@ class PieceCoder {
     if (!mesh.words.resize(size_t{header_.face_count} * kFaceWords)) return noMemory();
     mesh.face_count = 0;
     mesh.vertex_count = 0;
+    if (header_.hasPivots()) {
+      PivotModels* const models = models_.pivots.get(allocator_);
+      if (models == nullptr) return noMemory();
+      if (has_mc_edges_ && !mc_edges.reserve(header_.vertex_count)) return noMemory();
+      PivotCoder<Io> coder(io_, *models, mesh, header_.face_count, allocator_, truth.pivot_faces,
+                           has_mc_edges_ ? &mc_edges : nullptr);
+      MCC_TRY(coder.run(header_.vertex_count));
+      return kTellsMcEdges && has_mc_edges_ ? cornersOfMcEdges() : Status{};
+    }
     const McCounts counts{header_.operation_count, header_.vertex_count, header_.dummy_count,
                           header_.face_count, header_.has(piece_flag::kHandles)};
     const McWatch watch{histogram_, has_mc_edges_ ? &mc_edges : nullptr};
@@ -103,11 +117,12 @@ class PieceCoder {
 
   Status codeStitch(const PieceTruth& truth) {
     groups.count = mesh.vertex_count;
-    if (!header_.has(piece_flag::kCopies)) return {};
+    if (header_.hasPivots()) return listCorners(mesh, groups);
+    if (!header_.hasCopies()) return {};
     StitchModels* const models = models_.stitch.get(allocator_);
     if (models == nullptr) return noMemory();
     Stitcher<Io> stitcher(io_, *models, mesh, allocator_, truth.class_of_vertex);
-    return stitcher.run(header_.has(piece_flag::kInteriorCopies), truth.class_count, groups);
+    return stitcher.run(header_.surface() == SurfaceCoding::kCopies, truth.class_count, groups);
   }
 
   /// `fitted`, in the writer, has the fitted tables the position's flags ask for.
@@ -119,8 +134,7 @@ class PieceCoder {
     MCC_TRY(codePositionTables(io_, models_.positions.tables, parameters));
     PositionPalettes palettes(allocator_);
     if (parameters.has(position_mode::kPalette)) {
-      MCC_TRY(palettes.code(io_, models_.positions.tables.palettes, truth.palettes,
-                            static_cast<uint32_t>(records.size())));
+      MCC_TRY(palettes.code(io_, models_.positions.tables.palettes, truth.palettes, groups.count));
       for (uint32_t s = 0; s < 3; ++s) parameters.palette[s] = palettes.axis(s);
     }
     AxisPlanes planes[3];
@@ -136,6 +150,12 @@ class PieceCoder {
     sequence.clear();
     if (needsSequence() && !sequence.resize(groups.count)) return noMemory();
     MCC_TRY(runPositions(parameters, truth));
+    if (header_.isolated_count != 0) {
+      const int32_t* const known =
+          Io::kEncoding ? truth.positions + 3 * size_t{groups.count} : nullptr;
+      IsolatedCoder<Io> isolated(io_, models_.isolated);
+      MCC_TRY(isolated.run(header_.isolated_count, records.data() + groups.count, known));
+    }
     if (decodes::kExactFloats && attributes_[0].coding == AttributeCoding::kGrid)
       MCC_TRY(codePositionTails(truth));
     return {};
@@ -148,8 +168,8 @@ class PieceCoder {
     if (header_.has(piece_flag::kSeams)) {
       if (header_.has(piece_flag::kCreases)) MCC_TRY(findCreases());
       Array<uint32_t> starts(allocator_);
-      SeamCoder<Io> coder(io_, models_.seams, mesh, groups, header_.has(piece_flag::kMerges),
-                          surface_wedges, allocator_, truth.corner_source);
+      SeamCoder<Io> coder(io_, models_.seams, mesh, groups, surface_wedges, allocator_,
+                          truth.corner_source);
       MCC_TRY(coder.run(sequence, starts, wedge_group));
       sequence.swap(starts);
     }
@@ -165,19 +185,9 @@ class PieceCoder {
   Status codeLeftovers(const PieceTruth& truth) {
     MCC_TRY(codeParts(io_, models_.leftovers, mesh.view(), mesh.face_count, header_.part_count,
                       truth.leftovers));
-    if (header_.has(piece_flag::kDuplicates)) {
-      MCC_TRY(codeDuplicates(io_, models_.leftovers, mesh.view(), mesh.face_count,
-                             header_.duplicate_count, truth.leftovers, copies));
-    }
-    if (header_.has(piece_flag::kEdgeDegenerates)) {
-      EdgeDegenerateCoder<Io> coder(io_, models_.leftovers, mesh.view(), mesh.face_count,
-                                    allocator_, truth.leftovers);
-      MCC_TRY(
-          coder.run(header_.wedge_count, header_.part_count, header_.edge_degenerate_count, list));
-    }
     if (!header_.has(piece_flag::kListed)) return {};
-    return codeList(io_, models_.leftovers, header_.wedge_count, header_.part_count,
-                    header_.listed_count, truth.leftovers, list);
+    return codeList(io_, models_.leftovers, mesh.view(), mesh.face_count, header_.wedge_count,
+                    header_.part_count, header_.listed_count, truth.leftovers, list);
   }
 
   Status codeOrders(const PieceTruth& truth) {
@@ -198,10 +208,8 @@ class PieceCoder {
   [[nodiscard]] bool listTriangles() {
     const uint64_t count = header_.triangleCount();
     const bool many = header_.part_count > 1;
-    if (!triangles.wedges.resize(3 * count) || !triangles.part.resize(many ? count : 0) ||
-        !triangles.first_of_face.resize(copies.empty() ? 0 : mesh.face_count)) {
+    if (!triangles.wedges.resize(3 * count) || !triangles.part.resize(many ? count : 0))
       return false;
-    }
     uint32_t next = 0;
     const auto add = [&](const uint32_t* corners, uint32_t part) {
       for (uint32_t k = 0; k < 3; ++k) triangles.wedges[3 * size_t{next} + k] = corners[k];
@@ -210,9 +218,7 @@ class PieceCoder {
     };
     for (uint32_t f = 0; f < mesh.face_count; ++f) {
       const uint32_t* face = mesh.words.data() + size_t{f} * kFaceWords;
-      if (!copies.empty()) triangles.first_of_face[f] = next;
-      const uint32_t times = copies.empty() ? 1 : copies[f] + 1;
-      for (uint32_t i = 0; i < times; ++i) add(face, face[kFaceWord]);
+      add(face, face[kFaceWord]);
     }
     for (size_t i = 0; i < list.size(); ++i) add(list[i].wedge, list[i].part);
     return true;
@@ -288,7 +294,6 @@ class PieceCoder {
       sequence;  ///< a half-edge per group, after codeSeams() per wedge, in coding order
   Array<uint32_t> wedge_group;  ///< only with seams
   WedgeSequence wedges;
-  Array<uint32_t> copies;  ///< further copies of each face, only with duplicates
   Array<ListedTriangle> list;
   TriangleTable triangles;         ///< only if an order is kept
   Array<uint32_t> triangle_order;  ///< see TriangleOrderCoder; empty if not kept
@@ -380,7 +385,7 @@ class PieceCoder {
   Status runPositions(const PositionParameters& parameters, const PieceTruth& truth) {
     return PositionCoder<Io, Wide, kModes>(io_, models_.positions, parameters, mesh, groups,
                                            records.data(), allocator_, truth.positions)
-        .run(needsSequence() ? sequence.data() : nullptr, header_.isolated_count);
+        .run(needsSequence() ? sequence.data() : nullptr);
   }
 
   /// Without positions: the groups in the order of the faces.

@@ -280,14 +280,14 @@ Status storeOrderedTriangles(const PieceCoder<Io>& piece, std::span<const PartIn
   return checkPartCounts(infos, fill);
 }
 
-/// Faces in decoding order, each with its duplicates, then the other triangles; split into parts. [A.10.5]
+/// Faces in decoding order, then the listed triangles; split into parts. [A.10.4]
 template <class Io>
 Status storeTriangles(PieceCoder<Io>& piece, std::span<const PartInfo> infos,
                       std::span<const PartTarget> targets, const Allocator& allocator) {
   if (decodes::kOrders && piece.triangles.count() != 0)
     return storeOrderedTriangles(piece, infos, targets, allocator);
   const bool many = targets.size() > 1;
-  if (!many && piece.copies.empty() && piece.list.empty()) {
+  if (!many && piece.list.empty()) {
     void* to = targets[0].indices;
     if (to == nullptr) return {};
     switch (targets[0].index_type) {
@@ -306,8 +306,7 @@ Status storeTriangles(PieceCoder<Io>& piece, std::span<const PartInfo> infos,
   };
   for (uint32_t f = 0; f < piece.mesh.face_count; ++f) {
     const uint32_t* face = piece.mesh.words.data() + size_t{f} * kFaceWords;
-    const uint32_t count = 1 + (piece.copies.empty() ? 0 : piece.copies[f]);
-    for (uint32_t i = 0; i < count; ++i) store(many ? face[kFaceWord] : 0, face);
+    store(many ? face[kFaceWord] : 0, face);
   }
   for (size_t i = 0; i < piece.list.size(); ++i) store(piece.list[i].part, piece.list[i].wedge);
   return checkPartCounts(infos, fill);

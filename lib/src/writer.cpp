@@ -93,7 +93,10 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeSettings& opt
   std::vector<std::vector<std::string>> notes(pieces.size());
   const auto prepare = [&](size_t i) -> Status {
     MCC_TRY(preparePiece(pieces[i], options, jobs, plans[i], notes[i]));
-    return choosePairing(plans[i], i == 0 ? options.start_half_edge : kNone, jobs);
+    Variation variation(options.variation == 0 ? 0 : options.variation + 1 + i);
+    return chooseSurface(plans[i], i == 0 ? options.start_half_edge : kNone, options.without,
+                         variation.active() ? &variation : nullptr, TimePrice(options.prefer),
+                         jobs);
   };
   MCC_TRY(jobs.tryAll(pieces.size(), prepare));
   uint64_t vertices = 0;

@@ -16,6 +16,7 @@ namespace {
 
 constexpr uint32_t kTrialWedges = 4000;  ///< an attribute's candidates are tried on so many wedges,
 constexpr uint32_t kTrialShare = 6;      ///< or on this part of all
+constexpr double kExpectedPositionBits = 15;  ///< per vertex, where surfaces are weighed
 
 Status surfaceCost(Plan& plan, uint64_t& cost) {
   CostIo io;
@@ -201,17 +202,31 @@ void varyAttributeMethod(Plan& plan, uint32_t index, Variation& variation) {
 
 }  // namespace
 
-Status choosePairing(Plan& plan, uint32_t start_half_edge, const Jobs& jobs) {
-  prepareConnectivity(plan, EdgePairing::kStack, start_half_edge);
-  if (!plan.header.has(piece_flag::kCopies)) return {};
+Status chooseSurface(Plan& plan, uint32_t start_half_edge, const FeatureSet& without,
+                     Variation* variation, const TimePrice& price, const Jobs& jobs) {
+  prepareConnectivity(plan, start_half_edge);
+  if (!plan.header.hasCopies() || without.has(Feature::kPivots) || !allowsPivots(plan)) return {};
   Plan other = plan;
-  prepareConnectivity(other, EdgePairing::kCut, start_half_edge);
-  if (other.header.vertex_count == plan.header.vertex_count) return {};
-  uint64_t joined = 0;
+  preparePivots(other);
+  if (variation != nullptr) {
+    if (variation->coin()) plan = std::move(other);
+    return {};
+  }
+  // Few copies: seams and predictions are better off with the umbrellas that the cut leaves.
+  if (plan.header.vertex_count < 2 * other.header.vertex_count) return {};
   uint64_t cut = 0;
+  uint64_t pivots = 0;
   MCC_TRY(jobs.tryAll(
-      2, [&](size_t i) { return i == 0 ? surfaceCost(plan, joined) : surfaceCost(other, cut); }));
-  if (cut < joined) plan = std::move(other);
+      2, [&](size_t i) { return i == 0 ? surfaceCost(plan, cut) : surfaceCost(other, pivots); }));
+  // Times as shares of what positions and the rest take per vertex.
+  const double vertices = std::max(other.header.vertex_count, 1u);
+  const double copies = plan.header.vertex_count - vertices;
+  const double payload = static_cast<double>(pivots) + vertices * kExpectedPositionBits * kCostOne;
+  const auto costOfTime = [&](double ns) { return price.surcharge(payload, ns / vertices); };
+  const double cut_cost = static_cast<double>(cut) + costOfTime(copies * price_ns::kCopy);
+  const double pivots_cost =
+      static_cast<double>(pivots) + costOfTime(plan.header.face_count * price_ns::kPivotFace);
+  if (pivots_cost < cut_cost) plan = std::move(other);
   return {};
 }
 
@@ -220,6 +235,7 @@ Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const 
   std::vector<Connectivity> connectivity;
   for (const Plan& plan : plans) {
     const PieceHeader& h = plan.header;
+    if (h.hasPivots()) continue;
     connectivity.push_back({&plan.record,
                             {h.operation_count, h.vertex_count, h.dummy_count, h.face_count,
                              h.has(piece_flag::kHandles)}});

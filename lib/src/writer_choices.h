@@ -6,13 +6,15 @@
 
 #include <vector>
 
+#include "attributes/enc_prices.h"
 #include "attributes/enc_variation.h"
 #include "writer_plan.h"
 
 namespace mcc {
 
-/// Edges with more than two faces: joined in file order or cut apart, whichever is smaller.
-Status choosePairing(Plan& plan, uint32_t start_half_edge, const Jobs& jobs);
+/// What is not a manifold: cut and stitched, or listed vertex by vertex. `variation` not null: one of them at random.
+Status chooseSurface(Plan& plan, uint32_t start_half_edge, const FeatureSet& without,
+                     Variation* variation, const TimePrice& price, const Jobs& jobs);
 
 /// The context set, predictors and methods, once the surface of every piece is settled.
 Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs,

@@ -4,6 +4,9 @@
 #include "writer_plan.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "attributes/enc_isolated.h"
 
 namespace mcc {
 namespace {
@@ -78,27 +81,62 @@ bool halveDeepComponents(const Plan& plan, uint32_t max_handle_depth,
   return last != kNone;
 }
 
-/// The rounds end: a triangle by itself has no handle, and components of two are halved to those.
-void cutAndCollapse(Plan& plan, EdgePairing pairing, uint32_t start_half_edge,
-                    uint32_t max_handle_depth) {
+std::vector<uint32_t> classesOfCorners(const Plan& plan) {
   std::vector<uint32_t> corner_class(plan.triangles.wedges.size());
-  for (size_t i = 0; i < corner_class.size(); ++i) {
+  for (size_t i = 0; i < corner_class.size(); ++i)
     corner_class[i] = plan.classes.class_of_wedge[plan.triangles.wedges[i]];
+  return corner_class;
+}
+
+SurfaceCoding surfaceOf(const ClosedMesh& mesh, std::span<const uint32_t> class_of_vertex,
+                        uint32_t class_count) {
+  std::vector<uint8_t> umbrellas(class_count, 0);
+  for (const uint32_t c : class_of_vertex)
+    umbrellas[c] = static_cast<uint8_t>(std::min(2, umbrellas[c] + 1));
+  std::vector<uint8_t> on_boundary(mesh.real_vertex_count, 0);
+  for (uint32_t h = 0; h < 3 * mesh.real_face_count; ++h) {
+    if (mesh.twin[h] / 3 >= mesh.real_face_count) on_boundary[mesh.corner_vertex[h]] = 1;
   }
+  SurfaceCoding surface = SurfaceCoding::kManifold;
+  for (uint32_t v = 0; v < mesh.real_vertex_count; ++v) {
+    if (umbrellas[class_of_vertex[v]] < 2) continue;
+    if (on_boundary[v] == 0) return SurfaceCoding::kCopies;
+    surface = SurfaceCoding::kBoundaryCopies;
+  }
+  return surface;
+}
+
+/// The rounds end: a triangle by itself has no handle, and components of two are halved to those.
+void cutAndCollapse(Plan& plan, uint32_t start_half_edge, uint32_t max_handle_depth) {
+  const std::vector<uint32_t> corner_class = classesOfCorners(plan);
   std::vector<uint32_t> region_of_face;
   uint32_t region_count = 1;
   do {
-    plan.cut = cutToManifold(corner_class, plan.classes.class_count, pairing, start_half_edge,
-                             region_of_face);
+    plan.cut =
+        cutToManifold(corner_class, plan.classes.class_count, start_half_edge, region_of_face);
     plan.record = collapse(plan.cut.mesh);
   } while (halveDeepComponents(plan, max_handle_depth, region_of_face, region_count));
 }
 
+/// Into the order in which their positions are coded.
+void sortIsolated(Plan& plan) {
+  std::vector<uint32_t>& isolated = plan.triangles.isolated;
+  if (isolated.empty() || plan.attributes.empty()) return;
+  const QuantizedAttribute& position = plan.attributes[0];
+  std::vector<int32_t> positions;
+  for (const uint32_t wedge : isolated) {
+    for (size_t s = 0; s < 3; ++s)
+      positions.push_back(codedPosition(position.info, position.values[3 * size_t{wedge} + s]));
+  }
+  std::vector<uint32_t> sorted;
+  for (const uint32_t i : isolatedOrder(positions)) sorted.push_back(isolated[i]);
+  isolated = std::move(sorted);
+}
+
 }  // namespace
 
-void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_edge,
-                         uint32_t max_handle_depth) {
-  cutAndCollapse(plan, pairing, start_half_edge, max_handle_depth);
+void prepareConnectivity(Plan& plan, uint32_t start_half_edge, uint32_t max_handle_depth) {
+  cutAndCollapse(plan, start_half_edge, max_handle_depth);
   const ClosedMesh& mesh = plan.cut.mesh;
   plan.node_map.resize(plan.record.node_count);
   plan.source_of_vertex.resize(mesh.real_vertex_count);
@@ -109,38 +147,28 @@ void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_ed
   h.face_count = mesh.real_face_count;
   h.operation_count = static_cast<uint32_t>(plan.record.operations.size());
   h.dummy_count = mesh.dummy_count;
-  h.flags &= ~(piece_flag::kHoles | piece_flag::kHandles | piece_flag::kCopies |
-               piece_flag::kInteriorCopies | piece_flag::kMerges);
   if (mesh.dummy_count != 0) h.flags |= piece_flag::kHoles;
   if (!plan.record.handles.empty()) h.flags |= piece_flag::kHandles;
+  h.setSurface(surfaceOf(mesh, plan.cut.class_of_vertex, plan.classes.class_count));
+}
 
-  std::vector<uint8_t> on_boundary(mesh.real_vertex_count, 0);
-  std::vector<uint8_t> has_run_start(mesh.real_vertex_count, 0);
-  uint32_t run_count = 0;
-  for (uint32_t c = 0; c < 3 * mesh.real_face_count; ++c) {
-    const uint32_t t = mesh.twin[c];
-    const bool boundary = t / 3 >= mesh.real_face_count;
-    if (boundary) {
-      on_boundary[mesh.corner_vertex[c]] = 1;
-    } else if (plan.triangles.wedges[nextCorner(t)] == plan.triangles.wedges[c]) {
-      continue;
-    }
-    has_run_start[mesh.corner_vertex[c]] = 1;
-    ++run_count;
+void preparePivots(Plan& plan) {
+  plan.pivots = listByPivots(classesOfCorners(plan), plan.classes.class_count);
+  plan.class_of_vertex = plan.pivots.class_of_vertex;
+  plan.source_gate = plan.pivots.source_gate;
+  PieceHeader& h = plan.header;
+  h.vertex_count = static_cast<uint32_t>(plan.class_of_vertex.size());
+  h.operation_count = h.dummy_count = 0;
+  h.flags &= ~(piece_flag::kHoles | piece_flag::kHandles);
+  h.setSurface(SurfaceCoding::kPivots);
+}
+
+bool allowsPivots(const Plan& plan) {
+  const std::vector<uint32_t> c = classesOfCorners(plan);
+  for (size_t i = 0; i < c.size(); i += 3) {
+    if (c[i] == c[i + 1] || c[i + 1] == c[i + 2] || c[i + 2] == c[i]) return false;
   }
-  std::vector<uint8_t> umbrellas(plan.classes.class_count, 0);
-  for (uint32_t v = 0; v < mesh.real_vertex_count; ++v) {
-    uint8_t& n = umbrellas[plan.cut.class_of_vertex[v]];
-    n = static_cast<uint8_t>(std::min(2, n + 1));
-    run_count += has_run_start[v] == 0 ? 1 : 0;
-  }
-  for (uint32_t v = 0; v < mesh.real_vertex_count; ++v) {
-    if (umbrellas[plan.cut.class_of_vertex[v]] < 2) continue;
-    h.flags |= piece_flag::kCopies;
-    if (on_boundary[v] == 0) h.flags |= piece_flag::kInteriorCopies;
-  }
-  const uint32_t surface_wedges = h.wedge_count - h.isolated_count;
-  if (h.has(piece_flag::kSeams) && run_count > surface_wedges) h.flags |= piece_flag::kMerges;
+  return true;
 }
 
 Status preparePiece(const PieceView& view, const EncodeSettings& options, const Jobs& jobs,
@@ -162,17 +190,17 @@ Status preparePiece(const PieceView& view, const EncodeSettings& options, const 
   PieceHeader& h = plan.header;
   h.wedge_count = view.wedge_count;
   h.isolated_count = static_cast<uint32_t>(plan.triangles.isolated.size());
-  h.duplicate_count = plan.triangles.duplicate_count;
-  h.listed_count = static_cast<uint32_t>(plan.triangles.listed.size());
+  h.listed_count =
+      static_cast<uint32_t>(plan.triangles.listed.size() + plan.triangles.duplicates.size());
   h.part_count = static_cast<uint32_t>(view.parts.size());
   if (options.indices_only) plan.attributes.clear();
   h.attribute_count = static_cast<uint32_t>(plan.attributes.size());
   if (h.isolated_count != 0) h.flags |= piece_flag::kIsolated;
-  if (h.duplicate_count != 0) h.flags |= piece_flag::kDuplicates;
   if (h.listed_count != 0) h.flags |= piece_flag::kListed;
   if (h.part_count > 1) h.flags |= piece_flag::kManyParts;
   if (options.keep_triangle_order) h.flags |= piece_flag::kTriangleOrder;
   if (options.keep_vertex_order) h.flags |= piece_flag::kVertexOrder;
+  sortIsolated(plan);
   std::vector<uint32_t> wedge_of_class(plan.classes.class_count, kNone);
   for (const uint32_t w : plan.triangles.wedges) {
     uint32_t& first = wedge_of_class[plan.classes.class_of_wedge[w]];

@@ -14,6 +14,7 @@
 #include "base/enc_features.h"
 #include "base/enc_jobs.h"
 #include "connectivity/enc_collapse.h"
+#include "connectivity/enc_pivots.h"
 #include "mcc/writer.h"
 #include "piece.h"
 #include "prepare/enc_cut.h"
@@ -32,6 +33,7 @@ struct Plan {
   SortedTriangles triangles;
   CutResult cut;
   McRecord record;
+  PivotRecord pivots;  ///< instead of the two before, if the header has pivots
 
   // Filled while the stages run; the same in every run.
   std::vector<uint32_t> node_map;
@@ -46,9 +48,6 @@ struct Plan {
   PositionParameters positions_as;  ///< chosen, with fitted tables
   std::vector<uint32_t> wedge_source;
   std::vector<uint32_t> part_of_face;
-  std::vector<uint32_t> duplicates_of_face;
-  std::vector<uint32_t> degenerates_of_edge;
-  std::vector<uint32_t> degenerate_parts;
   std::vector<ListedTriangle> list;
   std::vector<uint32_t> triangle_order;
   std::vector<uint32_t> wedge_order;
@@ -56,6 +55,11 @@ struct Plan {
 
 inline bool isExact(AttributeCoding coding) {
   return coding == AttributeCoding::kExactFloat || coding == AttributeCoding::kGrid;
+}
+
+/// What positions are coded by: integers of their grid, if they are on one.
+inline int32_t codedPosition(const AttributeInfo& info, int32_t value) {
+  return info.coding == AttributeCoding::kGrid ? gridInteger(info, value) : value;
 }
 
 constexpr uint32_t nextCorner(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
@@ -67,8 +71,14 @@ Status preparePiece(const PieceView& view, const EncodeSettings& options, const 
 
 /// Cuts the surface to a manifold and collapses it; sets what the header says of it. May be called again.
 /// `max_handle_depth`: a component with a deeper handle is cut in two until there is none.
-void prepareConnectivity(Plan& plan, EdgePairing pairing, uint32_t start_half_edge,
+void prepareConnectivity(Plan& plan, uint32_t start_half_edge,
                          uint32_t max_handle_depth = kMaxHandleDepth);
+
+/// Instead: lists the faces vertex by vertex. The surface must have no face with two corners in one place.
+void preparePivots(Plan& plan);
+
+/// Whether no face has two corners in one place.
+bool allowsPivots(const Plan& plan);
 
 /// The attributes but the first in the order in which their phases code them.
 std::vector<uint32_t> codingOrder(const Plan& plan);

@@ -36,6 +36,7 @@ class StageRunner {
   Status codeSurface(StreamSizes* sizes) {
     truth_.connectivity = connectivityTruth(
         plan_.record, {plan_.node_map, plan_.source_of_vertex, plan_.source_gate});
+    truth_.pivot_faces = plan_.pivots.faces.data();
     MCC_TRY(piece_.codeConnectivity(truth_));
     account(sizes, &StreamSizes::connectivity_bits);
     learnVertices(plan_);
@@ -54,19 +55,21 @@ class StageRunner {
   Status recordPositions(RecordedPositions& recorded) {
     PositionRecording& recording = recorded.recording;
     PositionCandidate& candidate = recorded.candidate;
-    if (!recorded.records.resize(plan_.positions.size() / 3)) throwBadAlloc();
+    const uint32_t group_count = piece_.groups.count;
+    const std::span<const int32_t> positions(plan_.positions.data(), 3 * size_t{group_count});
+    if (!recorded.records.resize(group_count)) throwBadAlloc();
     MCC_TRY(recording.record(piece_.mesh, piece_.groups, recorded.records.data(),
-                             plan_.header.isolated_count, plan_.positions.data()));
+                             plan_.positions.data()));
     PositionParameters parameters;
     PieceCoder<Io>::describePositions(plan_.attributes[0].info, parameters);
     candidate.recording = &recording;
     candidate.truth = plan_.positions.data();
     candidate.bits = parameters.bits;
-    plan_.coordinates.find(plan_.positions, isExact(plan_.attributes[0].info.coding));
+    plan_.coordinates.find(positions, isExact(plan_.attributes[0].info.coding));
     for (uint32_t s = 0; s < 3; ++s) candidate.palettes[s] = plan_.coordinates.palette(s);
     const AttributeInfo& info = plan_.attributes[0].info;
     if (info.coding == AttributeCoding::kLattice && info.bits <= position_mode::kMaxBitsOfPlanes &&
-        findPlanes(plan_.positions, plan_.planes)) {
+        findPlanes(positions, plan_.planes)) {
       candidate.planes = plan_.planes;
     }
     return {};
@@ -89,9 +92,7 @@ class StageRunner {
     MCC_TRY(piece_.codeSeams(truth_));
     account(sizes, &StreamSizes::seam_bits);
     learnWedges(plan_, piece_.mesh);
-    truth_.leftovers = {plan_.part_of_face.data(), plan_.duplicates_of_face.data(),
-                        plan_.degenerates_of_edge.data(), plan_.degenerate_parts.data(),
-                        plan_.list.data()};
+    truth_.leftovers = {plan_.part_of_face.data(), plan_.list.data()};
     MCC_TRY(piece_.codeLeftovers(truth_));
     account(sizes, &StreamSizes::leftover_bits);
     return {};

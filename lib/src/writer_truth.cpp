@@ -26,9 +26,11 @@ McTruth connectivityTruth(const McRecord& r, const SurfaceLearned& learned) {
 }
 
 void learnVertices(Plan& plan) {
-  plan.class_of_vertex.resize(plan.source_of_vertex.size());
-  for (size_t v = 0; v < plan.class_of_vertex.size(); ++v) {
-    plan.class_of_vertex[v] = plan.cut.class_of_vertex[plan.source_of_vertex[v]];
+  if (!plan.header.hasPivots()) {
+    plan.class_of_vertex.resize(plan.source_of_vertex.size());
+    for (size_t v = 0; v < plan.class_of_vertex.size(); ++v) {
+      plan.class_of_vertex[v] = plan.cut.class_of_vertex[plan.source_of_vertex[v]];
+    }
   }
   plan.corner_source.resize(3 * plan.source_gate.size());
   for (size_t f = 0; f < plan.source_gate.size(); ++f) {
@@ -58,73 +60,64 @@ void learnPositions(Plan& plan, const FaceMesh& mesh, const Groups& groups) {
   const AttributeInfo& info = plan.attributes[0].info;
   if (info.coding != AttributeCoding::kGrid) return;
   plan.exact_positions = plan.positions;
-  for (int32_t& value : plan.positions) value = gridInteger(info, value);
+  for (int32_t& value : plan.positions) value = codedPosition(info, value);
 }
 
 namespace {
 
-/// Triangles with a doubled wedge are listed where faces are so many more: decoding asks every edge for the others, which
-/// takes as long as an eighth of all.
-constexpr size_t kFacesPerListed = 32;
-
-/// Sorts the triangles with a doubled wedge into those along an edge of a face and the others.
+/// The triangles beside the surface: each refers to the first face that it may refer to.
 void learnListed(Plan& plan, FaceMesh& mesh, const std::vector<uint32_t>& wedge_of_source) {
-  struct EdgeTriangle {
+  plan.list.clear();
+  std::vector<uint32_t> face_of_source(plan.source_gate.size());
+  for (uint32_t f = 0; f < mesh.face_count; ++f) face_of_source[plan.source_gate[f] / 3] = f;
+  const FaceView faces = mesh.view();
+  for (const uint32_t source : plan.triangles.duplicates) {
+    ListedTriangle t{
+        {}, plan.triangles.part[source], listed_shape::kFaceAgain, face_of_source[source]};
+    placeOnFace(faces, t);
+    plan.list.push_back(t);
+  }
+  struct Degenerate {
     uint64_t edge;  ///< doubled wedge, single wedge
     uint32_t part;
-    bool operator<(const EdgeTriangle& o) const {
+    uint32_t shape;
+    uint32_t face;
+    bool operator<(const Degenerate& o) const {
       return edge != o.edge ? edge < o.edge : part < o.part;
     }
   };
-  std::vector<EdgeTriangle> waiting;
-  plan.list.clear();
+  std::vector<Degenerate> degenerates;
   for (const SortedTriangles::Listed& t : plan.triangles.listed) {
-    uint32_t w[3];
+    uint64_t w[3];
     for (int k = 0; k < 3; ++k) w[k] = wedge_of_source[t.wedge[k]];
-    if (w[0] == w[1] && w[1] == w[2]) {
-      plan.list.push_back({{w[0], w[1], w[2]}, t.part});
-      continue;
-    }
     const int single = w[0] == w[1] ? 2 : (w[1] == w[2] ? 0 : 1);
-    waiting.push_back({uint64_t{w[(single + 1) % 3]} << 32 | w[single], t.part});
+    degenerates.push_back(
+        {w[(single + 1) % 3] << 32 | w[single], t.part, listed_shape::kAny, kNone});
   }
-  std::sort(waiting.begin(), waiting.end());
-  std::vector<uint8_t> taken(waiting.size(), 0);
-  plan.degenerates_of_edge.assign(waiting.empty() ? 0 : 6 * size_t{mesh.face_count}, 0);
-  plan.degenerate_parts.clear();
-  const FaceView faces = mesh.view();
-  const bool asks = kFacesPerListed * waiting.size() > mesh.face_count;
-  for (uint32_t f = 0; f < mesh.face_count && asks; ++f) {
-    for (uint32_t k = 0; k < 3; ++k) {
-      const uint32_t h = f * kFaceWords + k;
-      if (!EdgeDegenerateCoder<CostIo>::asksAt(faces, h)) continue;
-      const uint64_t a = faces.vertex(h);
-      const uint64_t b = faces.vertex(nextHalfEdge(h));
-      for (const uint32_t side : {0u, 1u}) {
-        const uint64_t edge = side == 0 ? a << 32 | b : b << 32 | a;
-        auto it = std::lower_bound(waiting.begin(), waiting.end(), EdgeTriangle{edge, 0});
-        for (; it != waiting.end() && it->edge == edge; ++it) {
-          uint8_t& is_taken = taken[static_cast<size_t>(it - waiting.begin())];
-          if (is_taken != 0) break;
-          is_taken = 1;
-          ++plan.degenerates_of_edge[2 * (3 * size_t{f} + k) + side];
-          plan.degenerate_parts.push_back(it->part);
-        }
+  std::sort(degenerates.begin(), degenerates.end());
+  for (uint32_t h = 0; h < 3 * mesh.face_count && !degenerates.empty(); ++h) {
+    ListedTriangle t{{}, 0, 0, h / 3};
+    for (const uint32_t side : {0u, 1u}) {
+      t.shape = listed_shape::kOnEdge + 2 * (h % 3) + side;
+      placeOnFace(faces, t);
+      const uint64_t edge = uint64_t{t.wedge[0]} << 32 | t.wedge[2];
+      auto it = std::lower_bound(degenerates.begin(), degenerates.end(), Degenerate{edge, 0, 0, 0});
+      for (; it != degenerates.end() && it->edge == edge && it->face == kNone; ++it) {
+        it->shape = t.shape;
+        it->face = t.face;
       }
     }
   }
-  for (size_t i = 0; i < waiting.size(); ++i) {
-    if (taken[i] != 0) continue;
-    const uint32_t doubled = static_cast<uint32_t>(waiting[i].edge >> 32);
+  for (const Degenerate& d : degenerates) {
+    const uint32_t doubled = static_cast<uint32_t>(d.edge >> 32);
     plan.list.push_back(
-        {{doubled, doubled, static_cast<uint32_t>(waiting[i].edge)}, waiting[i].part});
+        {{doubled, doubled, static_cast<uint32_t>(d.edge)}, d.part, d.shape, d.face});
   }
-  PieceHeader& header = plan.header;
-  header.edge_degenerate_count = static_cast<uint32_t>(plan.degenerate_parts.size());
-  header.listed_count = static_cast<uint32_t>(plan.list.size());
-  header.flags &= ~(piece_flag::kEdgeDegenerates | piece_flag::kListed);
-  if (header.edge_degenerate_count != 0) header.flags |= piece_flag::kEdgeDegenerates;
-  if (header.listed_count != 0) header.flags |= piece_flag::kListed;
+  std::sort(plan.list.begin(), plan.list.end(),
+            [](const ListedTriangle& a, const ListedTriangle& b) {
+              return std::tie(a.face, a.shape, a.part, a.wedge[0], a.wedge[2]) <
+                     std::tie(b.face, b.shape, b.part, b.wedge[0], b.wedge[2]);
+            });
 }
 
 }  // namespace
@@ -144,10 +137,8 @@ void learnWedges(Plan& plan, FaceMesh& mesh) {
   std::vector<uint32_t> wedge_of_source(plan.header.wedge_count);
   for (uint32_t w = 0; w < plan.header.wedge_count; ++w) wedge_of_source[plan.wedge_source[w]] = w;
   plan.part_of_face.resize(mesh.face_count);
-  plan.duplicates_of_face.resize(mesh.face_count);
   for (uint32_t f = 0; f < mesh.face_count; ++f) {
     plan.part_of_face[f] = plan.triangles.part[plan.source_gate[f] / 3];
-    plan.duplicates_of_face[f] = plan.triangles.duplicates[plan.source_gate[f] / 3];
   }
   learnListed(plan, mesh, wedge_of_source);
 }

@@ -29,6 +29,8 @@ export interface EncodeOptions {
   keepTriangleOrder?: boolean;
   /** Compresses the triangles alone. */
   indicesOnly?: boolean;
+  /** Leaves out vertices that no triangle uses. */
+  dropUnused?: boolean;
   /** 0 fast to 2 thorough. Default 1. */
   effort?: 0 | 1 | 2;
   /** Payloads that are smaller, or faster to decode. Default 'balanced'. */

@@ -11,7 +11,8 @@ const BITS = {
   positionBits: [14, 1, 24], normalBits: [10, 2, 16], texcoordBits: [12, 1, 24], colorBits: [8, 1, 24],
   tangentBits: [12, 2, 16], weightBits: [12, 1, 24],
 };
-const FLAGS = ['lossless', 'indicesOnly', 'keepVertexOrder', 'keepTriangleOrder', 'maxErrorRelative', 'allowLarger'];
+const FLAGS = ['lossless', 'indicesOnly', 'keepVertexOrder', 'keepTriangleOrder', 'maxErrorRelative', 'allowLarger',
+  'dropUnused'];
 const OTHERS = ['grid', 'maxError', 'effort', 'prefer', 'lattice', 'fallback'];
 
 let source = {};
@@ -147,7 +148,7 @@ function setOptions(exports, options) {
   const flag = (name) => (options[name] ? 1 : 0);
   exports.setBits(...Object.entries(BITS).map(([name, [standard]]) => options[name] ?? standard));
   exports.setModes(flag('lossless'), flag('indicesOnly'), GRIDS.indexOf(grid), flag('keepVertexOrder'),
-    flag('keepTriangleOrder'), effort, PREFERENCES.indexOf(prefer), flag('allowLarger'));
+    flag('keepTriangleOrder'), effort, PREFERENCES.indexOf(prefer), flag('allowLarger'), flag('dropUnused'));
   if (maxError !== undefined) exports.setMaxError(maxError, flag('maxErrorRelative'));
   if (lattice !== undefined) exports.setLattice(...lattice);
 }

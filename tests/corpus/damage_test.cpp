@@ -53,16 +53,14 @@ const char* nameOf(AttributeMethod method) {
 using Step = std::vector<std::string>;
 
 void addSteps(const PieceHeader& piece, const AttributeInfo* attributes, std::vector<Step>& steps) {
-  steps.push_back({"connectivity"});
+  steps.push_back({piece.hasPivots() ? "pivots" : "connectivity"});
   Step stitching;
-  if (piece.has(piece_flag::kCopies)) stitching.push_back("stitching");
+  if (piece.hasCopies()) stitching.push_back("stitching");
   steps.push_back(stitching);
   if (piece.attribute_count != 0) steps.push_back({"positions"});
   Step triangles;
   if (piece.has(piece_flag::kSeams)) triangles.push_back("seams");
-  const uint32_t further =
-      piece_flag::kDuplicates | piece_flag::kListed | piece_flag::kEdgeDegenerates;
-  if (piece.has(further)) triangles.push_back("further triangles");
+  if (piece.has(piece_flag::kListed)) triangles.push_back("further triangles");
   if (piece.part_count > 1) triangles.push_back("parts");
   if (piece.has(piece_flag::kTriangleOrder)) triangles.push_back("order of triangles");
   if (piece.has(piece_flag::kVertexOrder)) triangles.push_back("order of vertices");

@@ -381,6 +381,67 @@ TEST(Convert, IndicesOnlyLeavesSharedAttributes) {
   }
 }
 
+/// Vertices 0, 2, 4, … of the sheet are in use, with every attribute.
+TEST(Convert, UnusedVerticesAreNotedAndDropped) {
+  const Sheet sheet(30);
+  Sheet sparse = sheet;
+  const auto spread = [](std::vector<float>& values, size_t components, size_t count) {
+    std::vector<float> all;
+    for (size_t v = 0; v < count; ++v) {
+      for (int copy = 0; copy < 2; ++copy)
+        all.insert(all.end(), values.begin() + static_cast<std::ptrdiff_t>(v * components),
+                   values.begin() + static_cast<std::ptrdiff_t>((v + 1) * components));
+    }
+    values = all;
+  };
+  const size_t count = sheet.positions.size() / 3;
+  spread(sparse.positions, 3, count);
+  spread(sparse.normals, 3, count);
+  spread(sparse.texcoords, 2, count);
+  for (auto& index : sparse.indices) index = static_cast<uint16_t>(2 * index);
+  Builder builder;
+  builder.addMesh({sparse.addTo(builder)});
+  Builder dense;
+  dense.addMesh({sheet.addTo(dense)});
+  const std::string number = std::to_string(count) + " vertices";
+  const RoundTrip kept = roundTrip(builder);
+  ASSERT_EQ(kept.error, "");
+  EXPECT_TRUE(hasNote(kept.report, "no triangle uses " + number + "; --drop-unused"));
+  EXPECT_EQ(jsonOf(kept.decoded)["accessors"][0]["count"], 2 * count);
+
+  ConvertOptions options;
+  options.drop_unused = true;
+  const RoundTrip dropped = roundTrip(builder, options);
+  ASSERT_EQ(dropped.error, "");
+  EXPECT_TRUE(hasNote(dropped.report, number + "; left out"));
+  const RoundTrip expected = roundTrip(dense);
+  for (const uint32_t accessor : {0u, 1u, 2u, 3u})
+    EXPECT_EQ(elementsInOrder(dropped.decoded, accessor),
+              elementsInOrder(expected.decoded, accessor));
+  EXPECT_LT(dropped.converted.size(), kept.converted.size());
+
+  options.keep_vertex_order = options.keep_triangle_order = true;
+  const RoundTrip ordered = roundTrip(builder, options);
+  ASSERT_EQ(ordered.error, "");
+  EXPECT_EQ(elementsInOrder(ordered.decoded, 3), elementsInOrder(dense.toGlb(), 3));
+}
+
+/// What an unknown extension may refer to by number stays.
+TEST(Convert, VerticesWithANumberAreNotDropped) {
+  Builder builder;
+  Sheet sheet(30);
+  sheet.indices.resize(sheet.indices.size() / 2);
+  Json primitive = sheet.addTo(builder);
+  primitive["extensions"]["EXT_that_counts_vertices"] = Json::object();
+  builder.addMesh({primitive});
+  ConvertOptions options;
+  options.drop_unused = true;
+  const RoundTrip trip = roundTrip(builder, options);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_TRUE(hasNote(trip.report, "not all can be left out"));
+  EXPECT_EQ(elementsInOrder(trip.decoded, 3), elementsInOrder(trip.source, 3));
+}
+
 /// Distances measured without the library's check, at a place where floats are coarse.
 TEST(Convert, NoPositionIsFartherThanPromised) {
   for (const float offset : {0.0f, 1000.0f, -30000.0f}) {

@@ -249,7 +249,7 @@ class Comparison {
     for (const auto& t : mesh_.triangles) {
       corner_class.insert(corner_class.end(), t.begin(), t.end());
     }
-    return cutToManifold(corner_class, mesh_.vertex_count, EdgePairing::kStack, start);
+    return cutToManifold(corner_class, mesh_.vertex_count, start);
   }
 
   ClosedMesh codecMeshAt(uint32_t start) const {
@@ -639,9 +639,9 @@ TEST_P(CorpusAgainstOracle, SameCodes) {
   if (!loadCorners(GetParam(), corner_class, class_count)) {
     GTEST_SKIP() << "no " << GetParam() << ".glb in MCC_CORPUS_DIR";
   }
-  const ClosedMesh mesh = cutToManifold(corner_class, class_count, EdgePairing::kStack, kNone).mesh;
+  const ClosedMesh mesh = cutToManifold(corner_class, class_count, kNone).mesh;
   const McRecord record = collapse(mesh);
-  const CodeHistogram counts = codedAndDecoded(mesh, record, 2);
+  const CodeHistogram counts = codedAndDecoded(mesh, record, 1);
   CodeHistogram oracle_counts;
   std::vector<uint32_t> index_of(record.vertex_is_dummy.size(), kNone);
   std::span<const McOperation> rest = record.operations;

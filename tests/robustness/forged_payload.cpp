@@ -202,18 +202,16 @@ void drawFlags(Draft& draft, Random& random) {
     if (random.chance(percent)) flags |= flag;
   };
   perhaps(30, piece_flag::kHandles);
-  perhaps(30, piece_flag::kCopies);
-  if (draft.header.has(piece_flag::kCopies)) perhaps(70, piece_flag::kInteriorCopies);
+  constexpr SurfaceCoding kSurfaces[] = {SurfaceCoding::kBoundaryCopies, SurfaceCoding::kCopies,
+                                         SurfaceCoding::kPivots};
+  if (random.chance(40)) draft.header.setSurface(kSurfaces[random.below(3)]);
+  if (draft.header.hasPivots()) flags &= ~piece_flag::kHandles;
   perhaps(40, piece_flag::kSeams);
-  if (draft.header.has(piece_flag::kSeams)) {
-    perhaps(50, piece_flag::kMerges);
-    if (!draft.attributes.empty()) perhaps(50, piece_flag::kCreases);
-  }
+  if (draft.header.has(piece_flag::kSeams) && !draft.attributes.empty())
+    perhaps(50, piece_flag::kCreases);
   perhaps(20, piece_flag::kTriangleOrder);
   perhaps(20, piece_flag::kVertexOrder);
-  perhaps(3, piece_flag::kDuplicates);
-  perhaps(3, piece_flag::kEdgeDegenerates);
-  perhaps(3, piece_flag::kListed);
+  perhaps(10, piece_flag::kListed);
   perhaps(10, piece_flag::kIsolated);
   draft.context_set = random.below(kContextSetCount);
   draft.single = random.chance(40);
@@ -255,8 +253,15 @@ class Forger {
  private:
   uint64_t budgetBits() const { return max_bytes_ * 8 / 3; }
 
-  /// Counts that fit the answers.
+  /// Counts that fit the answers; with pivots any, which fit as far as they go.
   bool claimCounts() {
+    PieceHeader& h = draft_.header;
+    if (h.hasPivots()) {
+      h.vertex_count = operations_ / 8 + 1;
+      h.face_count = h.vertex_count * (1 + share_ / 16);
+      claimWedges();
+      return true;
+    }
     McCounts claims;
     claims.operation_count = operations_;
     claims.vertex_count = 4 * operations_ + 8;
@@ -268,21 +273,23 @@ class Forger {
     if (!observed.failure.empty() || !observed.complete || observed.faces == 0 ||
         observed.faces > kMaxElementsPerByte * max_bytes_)
       return false;
-    PieceHeader& h = draft_.header;
     h.operation_count = operations_;
     h.vertex_count = observed.vertices;
     h.face_count = observed.faces;
     h.dummy_count = observed.dummies;
     if (observed.dummies != 0) h.flags |= piece_flag::kHoles;
+    claimWedges();
+    return true;
+  }
+
+  void claimWedges() {
+    PieceHeader& h = draft_.header;
     const auto some = [&](uint32_t flag) {
-      return h.has(flag) ? 1 + observed.faces / 100 * share_ : 0;
+      return h.has(flag) ? 1 + h.face_count / 100 * share_ : 0;
     };
-    h.duplicate_count = some(piece_flag::kDuplicates);
-    h.edge_degenerate_count = some(piece_flag::kEdgeDegenerates);
     h.listed_count = some(piece_flag::kListed);
     h.isolated_count = some(piece_flag::kIsolated);
-    h.wedge_count = 3 * observed.faces + h.isolated_count;
-    return true;
+    h.wedge_count = 3 * h.face_count + h.isolated_count;
   }
 
   /// Through all stages, as far as they go: an error is for the reader to find, after all that work.

@@ -158,9 +158,9 @@ std::vector<NamedPayload> makePayloads() {
   list.add(tetrahedron());
   list.add(looseTriangles(1), kExactBits);
   list.add(icosphere(1), kExactBits, contextSet(1));
-  list.add(torus(9, 7), {}, contextSet(2));
-  list.add(plateWithTunnels(3, 2), {}, contextSet(3));
-  list.add(sheetWithHoles(4, 1), {}, contextSet(4));
+  list.add(torus(9, 7), {}, contextSet(0));
+  list.add(plateWithTunnels(3, 2), {}, contextSet(1));
+  list.add(sheetWithHoles(4, 1), {}, contextSet(1));
   list.add(generated(5, 4, 6, 7), {});
   list.add(mengerSponge(1), {}, contextSet(0));
   list.add(book(4, 3, 2));
@@ -169,6 +169,7 @@ std::vector<NamedPayload> makePayloads() {
   list.add(randomVoxels(3, 4, 50));
   list.add(moebius(12, 2));
   list.add(pinchedSpheres(3));
+  list.add(tetrahedralSoup(2));
   list.add(doubled(icosphere(0)));
   list.add(chartGrid(8, 8, 3));
   list.add(withRandomWedges(torus(7, 5), 4, 3));

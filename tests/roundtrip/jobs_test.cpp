@@ -109,7 +109,7 @@ TEST(JobsOfTheWriter, AreOffered) {
   };
   EncodeResult result;
   ASSERT_TRUE(encode({&view, 1}, options, result).ok());
-  EXPECT_GT(offered, 20u);
+  EXPECT_GT(offered, 12u);
 }
 
 }  // namespace

@@ -880,37 +880,106 @@ TestMesh randomVoxels(uint64_t seed, uint32_t n, uint32_t percent) {
   return mesh;
 }
 
-TestMesh tetrahedralSoup(uint32_t n) {
+namespace {
+
+/// The corners of n^3 cells: corner c of a cell is one step along the axes of its bits (x, y, z).
+TestMesh latticePoints(uint32_t n) {
   TestMesh mesh;
-  mesh.name = call("tetrahedralSoup", {n});
   for (uint32_t z = 0; z <= n; ++z) {
     for (uint32_t y = 0; y <= n; ++y) {
       for (uint32_t x = 0; x <= n; ++x) addVertex(mesh, x, y, z);
     }
   }
-  // The six ways to walk the axes one after the other from corner 0 to corner 7 of a cube (bits: x,
-  // y, z).
-  constexpr uint32_t kPaths[6][2] = {{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}};
+  return mesh;
+}
+
+/// Calls visit(corners) for every cell, x first.
+template <class Visit>
+void forCells(uint32_t n, Visit visit) {
   for (uint32_t z = 0; z < n; ++z) {
     for (uint32_t y = 0; y < n; ++y) {
       for (uint32_t x = 0; x < n; ++x) {
-        const auto at = [=](uint32_t corner) {
-          return ((z + (corner >> 2)) * (n + 1) + y + (corner >> 1 & 1)) * (n + 1) + x +
-                 (corner & 1);
-        };
-        for (const auto& path : kPaths) {
-          const uint32_t a = at(0);
-          const uint32_t b = at(path[0]);
-          const uint32_t c = at(path[1]);
-          const uint32_t d = at(7);
-          addTriangle(mesh, a, c, b);
-          addTriangle(mesh, a, b, d);
-          addTriangle(mesh, b, c, d);
-          addTriangle(mesh, a, d, c);
-        }
+        uint32_t corners[8];
+        for (uint32_t c = 0; c < 8; ++c)
+          corners[c] = ((z + (c >> 2)) * (n + 1) + y + (c >> 1 & 1)) * (n + 1) + x + (c & 1);
+        visit(corners);
       }
     }
   }
+}
+
+/// Calls visit(a, b, c, d) for the six tetrahedra of every cell: the six ways to walk the axes one after the other from
+/// corner 0 to corner 7.
+template <class Visit>
+void forTetrahedra(uint32_t n, Visit visit) {
+  constexpr uint32_t kPaths[6][2] = {{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}};
+  forCells(n, [&](const uint32_t* corners) {
+    for (const auto& path : kPaths)
+      visit(corners[0], corners[path[0]], corners[path[1]], corners[7]);
+  });
+}
+
+void addWall(TestMesh& mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
+  addTriangle(mesh, a, b, c);
+  addTriangle(mesh, a, c, d);
+}
+
+}  // namespace
+
+TestMesh tetrahedralSoup(uint32_t n) {
+  TestMesh mesh = latticePoints(n);
+  mesh.name = call("tetrahedralSoup", {n});
+  forTetrahedra(n, [&mesh](uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
+    addTriangle(mesh, a, c, b);
+    addTriangle(mesh, a, b, d);
+    addTriangle(mesh, b, c, d);
+    addTriangle(mesh, a, d, c);
+  });
+  return mesh;
+}
+
+TestMesh tetrahedraAsQuads(uint64_t seed, uint32_t n) {
+  TestMesh mesh = latticePoints(n);
+  mesh.name = call("tetrahedraAsQuads", {seed, n});
+  Random random(seed);
+  forTetrahedra(n, [&](uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
+    uint32_t quad[4] = {a, b, c, d};
+    for (uint32_t i = 3; i != 0; --i) std::swap(quad[i], quad[random.below(i + 1)]);
+    addWall(mesh, quad[0], quad[1], quad[2], quad[3]);
+  });
+  return mesh;
+}
+
+TestMesh stackedCubes(uint64_t seed, uint32_t n, uint32_t percent) {
+  TestMesh mesh = latticePoints(n);
+  mesh.name = call("stackedCubes", {seed, n, percent});
+  Random random(seed);
+  forCells(n, [&](const uint32_t* c) {
+    if (!random.chance(percent)) return;
+    addWall(mesh, c[0], c[2], c[3], c[1]);
+    addWall(mesh, c[4], c[5], c[7], c[6]);
+    addWall(mesh, c[0], c[1], c[5], c[4]);
+    addWall(mesh, c[1], c[3], c[7], c[5]);
+    addWall(mesh, c[3], c[2], c[6], c[7]);
+    addWall(mesh, c[2], c[0], c[4], c[6]);
+  });
+  return mesh;
+}
+
+TestMesh cellWalls(uint32_t n) {
+  TestMesh mesh = latticePoints(n);
+  mesh.name = call("cellWalls", {n});
+  uint32_t cell = 0;
+  forCells(n, [&](const uint32_t* c) {
+    const bool is_last[3] = {cell % n == n - 1, cell / n % n == n - 1, cell / n / n == n - 1};
+    ++cell;
+    addWall(mesh, c[0], c[1], c[3], c[2]);
+    addWall(mesh, c[0], c[4], c[5], c[1]);
+    addWall(mesh, c[0], c[2], c[6], c[4]);
+    if (is_last[0]) addWall(mesh, c[1], c[3], c[7], c[5]);
+    if (is_last[1]) addWall(mesh, c[2], c[6], c[7], c[3]);
+    if (is_last[2]) addWall(mesh, c[4], c[5], c[7], c[6]);
+  });
   return mesh;
 }
 
@@ -1396,6 +1465,10 @@ std::vector<TestMesh> smallZoo() {
                                randomVoxels(4, 7, 15),
                                tetrahedralSoup(1),
                                tetrahedralSoup(3),
+                               tetrahedraAsQuads(1, 3),
+                               stackedCubes(1, 3, 100),
+                               stackedCubes(2, 5, 50),
+                               cellWalls(3),
                                generated(11, 2, 3, 4)};
   for (uint32_t genus = 0; genus <= 5; ++genus)
     zoo.push_back(plateWithTunnels(genus, 1 + genus % 3));

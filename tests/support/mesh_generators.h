@@ -143,6 +143,13 @@ TestMesh fins(uint32_t n);
 TestMesh randomVoxels(uint64_t seed, uint32_t n, uint32_t percent);
 /// n^3 cubes of six tetrahedra, all four faces of each: inner triangles come twice, once per side.
 TestMesh tetrahedralSoup(uint32_t n);
+/// The same tetrahedra, two faces of each, with their corners in random order: what remains of a file that lists
+/// tetrahedra as quads.
+TestMesh tetrahedraAsQuads(uint64_t seed, uint32_t n);
+/// Every cell of an n^3 box with probability `percent`, all twelve triangles of each: inner ones come twice.
+TestMesh stackedCubes(uint64_t seed, uint32_t n, uint32_t percent);
+/// The walls between the cells of an n^3 box and around it, once each.
+TestMesh cellWalls(uint32_t n);
 
 struct SoupOptions {
   uint32_t degenerate_percent = 0;       ///< (a,a,b) in any rotation, one in eight (a,a,a)

@@ -12,6 +12,7 @@
 #include <set>
 #include <vector>
 
+#include "attributes/enc_isolated.h"
 #include "attributes/enc_predictor_search.h"
 #include "support/mesh_generators.h"
 #include "unit/surface.h"
@@ -181,6 +182,11 @@ void expectPositions(const TestMesh& mesh, uint8_t bits, uint8_t predictor, Valu
         if (i % 3 == 0) setNearPlanes(random, bits, &positions[i]);
     }
   }
+  const std::vector<int32_t> isolated(positions.end() - 3 * int64_t{isolated_count},
+                                      positions.end());
+  auto next = positions.end() - 3 * int64_t{isolated_count};
+  for (const uint32_t i : isolatedOrder(isolated))
+    next = std::copy_n(&isolated[3 * size_t{i}], 3, next);
   pair.truth.positions = positions.data();
   pair.truth.planes = kSomePlanes;
   ASSERT_TRUE(pair.writer().piece.codePositions(pair.truth).ok());
@@ -509,7 +515,7 @@ void expectSeams(const TestMesh& mesh, uint32_t percent, uint32_t most, uint32_t
   }
   const uint32_t surface_wedges =
       static_cast<uint32_t>(std::set<uint32_t>(source.begin(), source.end()).size());
-  pair.header().flags |= piece_flag::kSeams | (most == 0 ? 0 : piece_flag::kMerges);
+  pair.header().flags |= piece_flag::kSeams;
   pair.header().wedge_count = surface_wedges + isolated_count;
   const std::vector<int32_t> positions(3 * (size_t{pair.groupCount()} + isolated_count), 0);
   pair.truth.positions = positions.data();
@@ -588,39 +594,40 @@ TEST(Seams, OtherCountsAreErrors) {
   }
 }
 
-// ---- Parts, duplicates, listed triangles ----------------------------------------------------------
+// ---- Parts and listed triangles -------------------------------------------------------------------
 
 struct Leftovers {
   std::vector<uint32_t> parts;
-  std::vector<uint32_t> duplicates;
   std::vector<ListedTriangle> list;
 
-  LeftoverTruth truth() const {
-    LeftoverTruth truth;
-    truth.part_of_face = parts.data();
-    truth.duplicates_of_face = duplicates.data();
-    truth.list = list.data();
-    return truth;
-  }
+  LeftoverTruth truth() const { return {parts.data(), list.data()}; }
 };
 
-Leftovers randomLeftovers(uint32_t face_count, uint32_t wedge_count, uint32_t part_count,
-                          uint32_t listed_count, uint32_t duplicate_percent, Random& random) {
+/// Listed triangles of every shape; those that refer to faces ascend.
+Leftovers randomLeftovers(const FaceView& faces, uint32_t face_count, uint32_t wedge_count,
+                          uint32_t part_count, uint32_t listed_count, Random& random) {
   Leftovers leftovers;
   uint32_t part = 0;
   for (uint32_t f = 0; f < face_count; ++f) {
     if (random.chance(20)) part = random.below(part_count);
     leftovers.parts.push_back(part);
-    leftovers.duplicates.push_back(
-        random.chance(duplicate_percent) ? random.between(1, random.chance(90) ? 2 : 300) : 0);
   }
+  uint32_t face = 0;
   for (uint32_t i = 0; i < listed_count; ++i) {
-    const uint32_t a = random.below(wedge_count);
-    leftovers.list.push_back({{a, random.below(wedge_count), a}, random.below(part_count)});
+    ListedTriangle t{{}, random.below(part_count), random.below(8), face};
+    if (t.shape == listed_shape::kAny) {
+      for (uint32_t& wedge : t.wedge) wedge = random.below(wedge_count);
+    } else {
+      face += random.chance(50) ? 0 : random.below((face_count - face) / 2 + 1);
+      t.face = face;
+      placeOnFace(faces, t);
+    }
+    leftovers.list.push_back(t);
   }
   if (listed_count > 1) {
-    leftovers.list[0] = {{wedge_count - 1, 0, wedge_count - 1}, part_count - 1};
-    leftovers.list[1] = {{0, wedge_count - 1, 0}, 0};
+    leftovers.list[0] = {
+        {wedge_count - 1, 0, wedge_count - 1}, part_count - 1, listed_shape::kAny, 0};
+    leftovers.list[1] = {{0, wedge_count - 1, 0}, 0, listed_shape::kAny, 0};
   }
   return leftovers;
 }
@@ -630,36 +637,27 @@ template <bool kSingle>
 void writeLeftovers(Pair<kSingle>& pair, const Leftovers& leftovers, uint32_t part_count) {
   PieceHeader& header = pair.header();
   header.part_count = part_count;
-  header.duplicate_count =
-      std::accumulate(leftovers.duplicates.begin(), leftovers.duplicates.end(), 0u);
   header.listed_count = static_cast<uint32_t>(leftovers.list.size());
   if (part_count > 1) header.flags |= piece_flag::kManyParts;
-  if (header.duplicate_count != 0) header.flags |= piece_flag::kDuplicates;
   if (header.listed_count != 0) header.flags |= piece_flag::kListed;
   pair.truth.leftovers = leftovers.truth();
   ASSERT_TRUE(pair.writer().piece.codeLeftovers(pair.truth).ok());
 }
 
 template <bool kSingle>
-void expectLeftovers(const TestMesh& mesh, uint32_t part_count, uint32_t listed_count,
-                     uint32_t duplicate_percent) {
+void expectLeftovers(const TestMesh& mesh, uint32_t part_count, uint32_t listed_count) {
   SCOPED_TRACE(mesh.name + ", " + std::to_string(part_count) + " parts");
   Pair<kSingle> pair(mesh, positionInfo(10), 2);
   Random random(part_count + listed_count);
-  const Leftovers leftovers = randomLeftovers(pair.faceCount(), pair.header().wedge_count,
-                                              part_count, listed_count, duplicate_percent, random);
+  const Leftovers leftovers = randomLeftovers(
+      pair.faces(), pair.faceCount(), pair.header().wedge_count, part_count, listed_count, random);
   writeLeftovers(pair, leftovers, part_count);
   auto& reader = pair.reader();
   const Status status = reader.piece.codeLeftovers(PieceTruth{});
   ASSERT_TRUE(status.ok()) << status.what;
   ASSERT_TRUE(pair.decoder().finish().ok());
-  for (uint32_t f = 0; f < pair.faceCount(); ++f) {
-    if (part_count > 1) {
-      ASSERT_EQ(reader.piece.mesh.words[size_t{f} * kFaceWords + kFaceWord], leftovers.parts[f]);
-    }
-    const uint32_t copies = reader.piece.copies.empty() ? 0 : reader.piece.copies[f];
-    ASSERT_EQ(copies, leftovers.duplicates[f]);
-  }
+  for (uint32_t f = 0; f < pair.faceCount() && part_count > 1; ++f)
+    ASSERT_EQ(reader.piece.mesh.words[size_t{f} * kFaceWords + kFaceWord], leftovers.parts[f]);
   ASSERT_EQ(reader.piece.list.size(), leftovers.list.size());
   for (size_t i = 0; i < leftovers.list.size(); ++i) {
     ASSERT_EQ(reader.piece.list[i].part, leftovers.list[i].part);
@@ -668,37 +666,44 @@ void expectLeftovers(const TestMesh& mesh, uint32_t part_count, uint32_t listed_
   }
 }
 
-TEST(Leftovers, PartsDuplicatesAndListedTriangles) {
+TEST(Leftovers, PartsAndListedTriangles) {
   for (const TestMesh& mesh : {grid(9, 7), torus(6, 5), looseTriangles(20), book(4, 4, 3)}) {
     for (const uint32_t part_count : {1u, 2u, 3u, 50u}) {
-      for (const uint32_t listed_count : {0u, 1u, 40u}) {
-        for (const uint32_t percent : {0u, 10u, 100u}) {
-          expectLeftovers<true>(mesh, part_count, listed_count, percent);
-          expectLeftovers<false>(mesh, part_count, listed_count, percent);
-        }
+      for (const uint32_t listed_count : {0u, 1u, 40u, 400u}) {
+        expectLeftovers<true>(mesh, part_count, listed_count);
+        expectLeftovers<false>(mesh, part_count, listed_count);
       }
     }
   }
+}
+
+/// Every face twice costs next to nothing.
+TEST(Leftovers, FacesAgainAreNearlyFree) {
+  Pair<true> pair(torus(30, 20), positionInfo(10));
+  Leftovers leftovers;
+  leftovers.parts.assign(pair.faceCount(), 0);
+  for (uint32_t f = 0; f < pair.faceCount(); ++f) {
+    leftovers.list.push_back({{}, 0, listed_shape::kFaceAgain, f});
+    placeOnFace(pair.faces(), leftovers.list.back());
+  }
+  const uint64_t before = pair.encoder().cost();
+  writeLeftovers(pair, leftovers, 1);
+  EXPECT_LT(pair.encoder().cost() - before, pair.faceCount() * uint64_t{kCostOne} / 8);
 }
 
 TEST(Leftovers, OtherClaimsAreErrors) {
   Pair<true> pair(grid(5, 5), positionInfo(10));
   Random random(3);
   const Leftovers leftovers =
-      randomLeftovers(pair.faceCount(), pair.header().wedge_count, 3, 20, 30, random);
+      randomLeftovers(pair.faces(), pair.faceCount(), pair.header().wedge_count, 3, 60, random);
   writeLeftovers(pair, leftovers, 3);
   (void)pair.reader();
   const auto decode = [&](const PieceHeader& header) {
     return pair.readerOf(header).piece.codeLeftovers(PieceTruth{}).error;
   };
   EXPECT_EQ(decode(pair.header()), Error::kOk);
-  for (const uint32_t wrong : {0u, 1u, pair.header().duplicate_count - 1}) {
-    PieceHeader header = pair.header();
-    header.duplicate_count = wrong;
-    EXPECT_EQ(decode(header), Error::kBadAttribute) << wrong;
-  }
   PieceHeader header = pair.header();
-  header.duplicate_count += 100000;
+  header.listed_count += 100000;
   EXPECT_NE(decode(header), Error::kOk);
   header = pair.header();
   header.wedge_count -= 1;  // the first listed triangle has the last wedge

@@ -124,31 +124,29 @@ Draft simpleDraft() {
 Draft anyDraft(uint64_t seed) {
   Random random(seed);
   Draft draft;
-  draft.flags = random.below(5) << payload_flag::kContextSetShift;
+  draft.flags = random.below(2) << payload_flag::kContextSetShift;
   if (random.chance(50)) draft.flags |= payload_flag::kSingleCoder;
   draft.pieces.resize(random.chance(50) ? 1 : random.between(2, 5));
   const uint32_t limit = random.chance(50) ? 200 : 20000000;
   for (Draft::Piece& piece : draft.pieces) {
     PieceHeader& h = piece.header;
     const auto sometimes = [&](uint32_t flag) { return random.chance(50) ? flag : 0; };
-    for (const uint32_t flag :
-         {piece_flag::kManyParts, piece_flag::kHoles, piece_flag::kHandles, piece_flag::kIsolated,
-          piece_flag::kDuplicates, piece_flag::kEdgeDegenerates, piece_flag::kListed}) {
+    for (const uint32_t flag : {piece_flag::kManyParts, piece_flag::kHoles, piece_flag::kHandles,
+                                piece_flag::kIsolated, piece_flag::kListed, piece_flag::kSeams}) {
       h.flags |= sometimes(flag);
     }
-    if (random.chance(50)) h.flags |= piece_flag::kSeams | sometimes(piece_flag::kMerges);
-    if (random.chance(50)) h.flags |= piece_flag::kCopies | sometimes(piece_flag::kInteriorCopies);
+    h.setSurface(static_cast<SurfaceCoding>(random.below(4)));
+    if (h.hasPivots()) h.flags &= ~(piece_flag::kHoles | piece_flag::kHandles);
     h.face_count = anyCount(random, limit) + 1;
     h.vertex_count = 1 + random.below(std::min(3 * h.face_count, 100000000u));
-    h.operation_count = random.below(std::min(h.vertex_count + 4 * h.face_count, 200000000u) + 1);
+    if (!h.hasPivots())
+      h.operation_count = random.below(std::min(h.vertex_count + 4 * h.face_count, 200000000u) + 1);
     h.wedge_count = random.below(std::min(3 * h.face_count, 100000000u));
     if (h.has(piece_flag::kHoles)) h.dummy_count = 1 + random.below(3 * h.face_count);
     if (h.has(piece_flag::kIsolated)) {
       h.isolated_count = 1 + anyCount(random, limit);
       h.wedge_count += h.isolated_count;
     }
-    if (h.has(piece_flag::kDuplicates)) h.duplicate_count = 1 + anyCount(random, limit);
-    if (h.has(piece_flag::kEdgeDegenerates)) h.edge_degenerate_count = 1 + anyCount(random, limit);
     if (h.has(piece_flag::kListed)) h.listed_count = 1 + anyCount(random, limit);
     uint32_t rest = static_cast<uint32_t>(h.triangleCount());
     piece.part_triangles.clear();
@@ -218,8 +216,6 @@ TEST(Container, EveryFieldComesBack) {
       EXPECT_EQ(h.dummy_count, written.header.dummy_count);
       EXPECT_EQ(h.wedge_count, written.header.wedge_count);
       EXPECT_EQ(h.isolated_count, written.header.isolated_count);
-      EXPECT_EQ(h.duplicate_count, written.header.duplicate_count);
-      EXPECT_EQ(h.edge_degenerate_count, written.header.edge_degenerate_count);
       EXPECT_EQ(h.listed_count, written.header.listed_count);
       ASSERT_EQ(h.part_count, written.part_triangles.size());
       for (uint32_t i = 0; i < h.part_count; ++i)
@@ -293,8 +289,7 @@ TEST(Container, TheWithdrawnFormatIsNamed) {
 
 TEST(Container, ReservedBits) {
   for (uint32_t flags = 0; flags < 256; ++flags) {
-    const bool known =
-        (flags & ~payload_flag::kAll) == 0 && flags >> payload_flag::kContextSetShift <= 4;
+    const bool known = (flags & ~payload_flag::kAll) == 0;
     std::vector<uint8_t> payload = simpleDraft().write();
     payload[kChecksummedFrom] = static_cast<uint8_t>(flags);
     repairChecksum(payload);
@@ -345,12 +340,18 @@ TEST(Container, CountsThatContradictEachOther) {
       [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kManyParts; },
       [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kHoles; },
       [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kIsolated; },
-      [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kDuplicates; },
-      [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kEdgeDegenerates; },
       [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kListed; },
       [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kCreases; },
-      [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kMerges; },
-      [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kInteriorCopies; },
+      // What is not cut has neither.
+      [](Draft& d) {
+        d.pieces[0].header.setSurface(SurfaceCoding::kPivots);
+        d.pieces[0].header.flags |= piece_flag::kHandles;
+      },
+      [](Draft& d) {
+        d.pieces[0].header.setSurface(SurfaceCoding::kPivots);
+        d.pieces[0].header.flags |= piece_flag::kHoles;
+        d.pieces[0].header.dummy_count = 1;
+      },
   };
   EXPECT_EQ(errorAfter([](Draft&) {}), Error::kOk);
   for (size_t i = 0; i < changes.size(); ++i)
@@ -525,12 +526,11 @@ TEST(Container, EqualAttributesAreWrittenOnce) {
 TEST(Container, LimitsOfTheCaller) {
   const auto big = [](Draft& d) {
     PieceHeader& h = d.pieces[0].header;
-    h.flags |= piece_flag::kDuplicates | piece_flag::kListed;
+    h.flags |= piece_flag::kListed;
     h.vertex_count = 100;
     h.face_count = 200;
     h.wedge_count = 150;
-    h.duplicate_count = 20;
-    h.listed_count = 10;
+    h.listed_count = 30;
     d.pieces[0].part_triangles = {230};
     d.pieces[0].attributes.push_back(position());
     d.pieces[0].attributes.push_back(position());
@@ -588,8 +588,8 @@ TEST(Container, LimitsOfTheFormat) {
     return errorAfter(
         [=](Draft& d) {
           PieceHeader& h = d.pieces[0].header;
-          h.flags |= piece_flag::kDuplicates | piece_flag::kListed;
-          h.duplicate_count = h.listed_count = 1;
+          h.flags |= piece_flag::kListed;
+          h.listed_count = 1;
           h.*field = value;
           d.pieces[0].part_triangles = {static_cast<uint32_t>(d.pieces[0].header.triangleCount())};
         },
@@ -599,7 +599,7 @@ TEST(Container, LimitsOfTheFormat) {
   EXPECT_EQ(with(&PieceHeader::wedge_count, ~0u), Error::kLimit);
   EXPECT_EQ(with(&PieceHeader::vertex_count, 1u << 28), Error::kLimit);
   EXPECT_EQ(with(&PieceHeader::face_count, 1u << 28), Error::kLimit);
-  EXPECT_EQ(with(&PieceHeader::duplicate_count, (1u << 28) - 5), Error::kLimit);
+  EXPECT_EQ(with(&PieceHeader::listed_count, (1u << 28) - 4), Error::kLimit);
   EXPECT_EQ(with(&PieceHeader::listed_count, ~0u), Error::kLimit);
 }
 
@@ -687,6 +687,8 @@ TEST(Container, Elements) {
     PieceHeader& h = draft.pieces[0].header;
     h.flags |= flags;
     h.wedge_count = 6;
+    if (h.hasPivots()) h.operation_count = 0;
+    if (h.has(piece_flag::kIsolated)) h.isolated_count = 2;
     AttributeInfo color;
     color.format.semantic = Semantic::kColor;
     color.format.component_count = 4;
@@ -703,7 +705,13 @@ TEST(Container, Elements) {
   const uint64_t plain = 2 + 4 + 6 + 4 + 2 * 4 + 6 * (3 + 4) + 2 * 1024;
   EXPECT_EQ(elements(0, 0), plain);
   EXPECT_EQ(elements(0, 70), 71 * plain);  // equal attributes are stated once
-  EXPECT_EQ(elements(piece_flag::kCopies, 0), plain + 8 * 4);
+  const auto surface = [](SurfaceCoding coding) {
+    return static_cast<uint32_t>(coding) << piece_flag::kSurfaceShift;
+  };
+  EXPECT_EQ(elements(surface(SurfaceCoding::kBoundaryCopies), 0), plain + 8 * 4);
+  EXPECT_EQ(elements(surface(SurfaceCoding::kCopies), 0), plain + 8 * 4);
+  EXPECT_EQ(elements(surface(SurfaceCoding::kPivots), 0), plain - 2 + 8 * 4);
+  EXPECT_EQ(elements(piece_flag::kIsolated, 0), plain + 8 * 2);
   EXPECT_EQ(elements(piece_flag::kTriangleOrder, 0), plain + 8 * 4);
   EXPECT_EQ(elements(piece_flag::kVertexOrder, 0), plain + 8 * (6 + 4));
 }
@@ -713,7 +721,8 @@ TEST(Container, FacesOfAttributesAreBounded) {
   Draft draft = simpleDraft();
   draft.flags = payload_flag::kSingleCoder;
   PieceHeader& h = draft.pieces[0].header;
-  h.flags |= piece_flag::kHandles | piece_flag::kCopies | piece_flag::kInteriorCopies;
+  h.flags |= piece_flag::kHandles;
+  h.setSurface(SurfaceCoding::kCopies);
   h.vertex_count = h.operation_count = 200000;
   h.face_count = 400000;
   h.wedge_count = 4;

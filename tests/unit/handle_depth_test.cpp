@@ -42,18 +42,18 @@ TEST(HandleDepth, SurfacesAreCutUntilItHolds) {
     Plan plan;
     std::vector<std::string> notes;
     ASSERT_TRUE(preparePiece(view, {}, Jobs(in_order), plan, notes).ok());
-    prepareConnectivity(plan, EdgePairing::kStack, kNone, kNone);
+    prepareConnectivity(plan, kNone, kNone);
     const uint32_t deepest = deepestOf(plan);
     const size_t component_count = plan.cut.mesh.components.size();
     RecordProperty("deepest_of_" + mesh.name, std::to_string(deepest));
     ASSERT_GT(deepest, 3u) << mesh.name;
     for (const uint32_t limit : {0u, 1u, 3u, deepest}) {
-      prepareConnectivity(plan, EdgePairing::kStack, kNone, limit);
+      prepareConnectivity(plan, kNone, limit);
       EXPECT_LE(deepestOf(plan), limit) << mesh.name;
       EXPECT_TRUE(keepsClasses(plan)) << mesh.name;
       EXPECT_EQ(plan.cut.mesh.real_face_count, mesh.triangleCount()) << mesh.name;
       EXPECT_EQ(plan.cut.mesh.components.size() > component_count, limit < deepest) << mesh.name;
-      EXPECT_EQ(plan.header.has(piece_flag::kCopies), limit < deepest) << mesh.name;
+      EXPECT_EQ(plan.header.hasCopies(), limit < deepest) << mesh.name;
     }
   }
 }
@@ -68,11 +68,11 @@ TEST(HandleDepth, OnlyWhatIsTooDeepIsCut) {
     Plan plan;
     std::vector<std::string> notes;
     ASSERT_TRUE(preparePiece(view, {}, Jobs(in_order), plan, notes).ok());
-    prepareConnectivity(plan, EdgePairing::kStack, kNone, kNone);
+    prepareConnectivity(plan, kNone, kNone);
     ASSERT_EQ(deepestOf(plan), deepest);
-    prepareConnectivity(plan, EdgePairing::kStack, kNone);
+    prepareConnectivity(plan, kNone);
     EXPECT_LE(deepestOf(plan), kMaxHandleDepth);
-    EXPECT_EQ(plan.header.has(piece_flag::kCopies), deepest > kMaxHandleDepth);
+    EXPECT_EQ(plan.header.hasCopies(), deepest > kMaxHandleDepth);
   }
 }
 

@@ -56,9 +56,7 @@ void expectGroups(const FaceMesh& mesh, const Groups& groups, const std::vector<
 template <bool kSingle>
 void expectStitched(Surface& surface, bool interior, std::vector<uint32_t> classes = {}) {
   PieceHeader header = surface.header();
-  header.flags |= piece_flag::kCopies;
-  header.flags &= ~piece_flag::kInteriorCopies;
-  if (interior) header.flags |= piece_flag::kInteriorCopies;
+  header.setSurface(interior ? SurfaceCoding::kCopies : SurfaceCoding::kBoundaryCopies);
   EncoderIo encoder(kSingle);
   Stages<EncoderIo> writer(encoder, header, {positionInfo(10)});
   PieceTruth truth;
@@ -88,19 +86,17 @@ TEST(Stitch, WhatTheCutMadeApart) {
        {moebius(9, 2), kleinBottle(6, 5), bowTies(4, 5, 3), bowTies(40, 2, 2), pinchedSpheres(5),
         book(7, 6, 3), fins(7), randomVoxels(3, 6, 50), mengerSponge(2), tetrahedralSoup(3),
         withFlippedTriangles(torus(9, 7), 1, 40)}) {
-    for (const EdgePairing pairing : {EdgePairing::kStack, EdgePairing::kCut}) {
-      SCOPED_TRACE(mesh.name);
-      Surface surface(mesh, pairing);
-      if (!surface.hasCopies()) continue;
-      expectStitched<true>(surface, true);
-      expectStitched<false>(surface, true);
-    }
+    SCOPED_TRACE(mesh.name);
+    Surface surface(mesh);
+    if (!surface.hasCopies()) continue;
+    expectStitched<true>(surface, true);
+    expectStitched<false>(surface, true);
   }
 }
 
 TEST(Stitch, BoundariesAlone) {
-  // All copies of a book lie on boundaries once its spine is cut.
-  Surface surface(book(5, 6, 3), EdgePairing::kCut);
+  // The spine of a book of three pages: two of them stay joined, the third is cut off.
+  Surface surface(book(3, 6, 3));
   ASSERT_TRUE(surface.hasCopies());
   expectStitched<true>(surface, false);
   expectStitched<false>(surface, false);
@@ -125,7 +121,7 @@ TEST(Stitch, AnyPartitionOfTheVertices) {
 double bitsPerCopy(const TestMesh& mesh) {
   Surface surface(mesh);
   PieceHeader header = surface.header();
-  header.flags |= piece_flag::kCopies | piece_flag::kInteriorCopies;
+  header.setSurface(SurfaceCoding::kCopies);
   CostIo io;
   Stages<CostIo> stages(io, header, {positionInfo(10)});
   PieceTruth truth;
@@ -147,7 +143,7 @@ TEST(Stitch, BitsPerCopy) {
 }
 
 TEST(Stitch, DamageIsAnError) {
-  Surface surface(book(7, 6, 3), EdgePairing::kCut);
+  Surface surface(book(7, 6, 3));
   EncoderIo encoder(true);
   Stages<EncoderIo> writer(encoder, surface.header(), {positionInfo(10)});
   PieceTruth truth;

@@ -7,9 +7,9 @@
 
 namespace mcc::test {
 
-Surface::Surface(const TestMesh& mesh, EdgePairing pairing, uint32_t start_half_edge)
+Surface::Surface(const TestMesh& mesh, uint32_t start_half_edge)
     : class_count_(mesh.vertexCount()),
-      cut_(cutToManifold(mesh.indices, mesh.vertexCount(), pairing, start_half_edge)),
+      cut_(cutToManifold(mesh.indices, mesh.vertexCount(), start_half_edge)),
       record_(collapse(cut_.mesh)),
       node_map_(record_.node_count),
       source_of_vertex_(cut_.mesh.real_vertex_count),
@@ -23,7 +23,7 @@ PieceHeader Surface::header() const {
   h.dummy_count = cut_.mesh.dummy_count;
   if (h.dummy_count != 0) h.flags |= piece_flag::kHoles;
   if (!record_.handles.empty()) h.flags |= piece_flag::kHandles;
-  if (hasCopies()) h.flags |= piece_flag::kCopies | piece_flag::kInteriorCopies;
+  if (hasCopies()) h.setSurface(SurfaceCoding::kCopies);
   h.wedge_count = h.vertex_count;
   return h;
 }

@@ -24,8 +24,7 @@ namespace mcc::test {
 /// A collapsed mesh. Vertices are welded by index, not by position.
 class Surface {
  public:
-  explicit Surface(const TestMesh& mesh, EdgePairing pairing = EdgePairing::kStack,
-                   uint32_t start_half_edge = kNone);
+  explicit Surface(const TestMesh& mesh, uint32_t start_half_edge = kNone);
 
   /// Flags of connectivity alone.
   PieceHeader header() const;

@@ -43,16 +43,31 @@ class Listing {
   /// The flags whose stages look at what this one's stage does.
   static uint32_t meetsOf(uint32_t flag) {
     switch (flag) {
-      case piece_flag::kSeams: return piece_flag::kCopies | piece_flag::kInteriorCopies;
-      case piece_flag::kMerges: return piece_flag::kCopies;
       case piece_flag::kManyParts:
-        return piece_flag::kDuplicates | piece_flag::kEdgeDegenerates | piece_flag::kListed |
-               piece_flag::kTriangleOrder | piece_flag::kVertexOrder;
-      case piece_flag::kTriangleOrder:
-        return piece_flag::kVertexOrder | piece_flag::kDuplicates | piece_flag::kListed;
+        return piece_flag::kListed | piece_flag::kTriangleOrder | piece_flag::kVertexOrder;
+      case piece_flag::kTriangleOrder: return piece_flag::kVertexOrder | piece_flag::kListed;
       case piece_flag::kVertexOrder: return piece_flag::kIsolated;
       default: return 0;
     }
+  }
+
+  void addSurface(const PieceHeader& piece) {
+    struct Surface {
+      const char* name;
+      Sections sections;
+    };
+    static const Surface kSurfaces[] = {
+        {"MANIFOLD", {"A.4"}},
+        {"COPIES", {"A.5", "A.5.1", "A.5.2", "A.5.3", "A.5.4", "A.3.5"}},
+        {"INTERIOR_COPIES", {"A.5", "A.5.1", "A.5.2", "A.5.3", "A.5.4"}},
+        {"PIVOTS", {"A.4.7"}},
+    };
+    const Surface& surface = kSurfaces[static_cast<size_t>(piece.surface())];
+    add(surface.name, surface.sections);
+    if (piece.surface() == SurfaceCoding::kManifold || !piece.has(piece_flag::kSeams)) return;
+    Sections both = surface.sections;
+    both.insert({"A.7.1", "A.7.2", "A.7.3"});
+    add(std::string(surface.name) + " and SEAMS", both);
   }
 
   void addPiece(const PieceHeader& piece) {
@@ -67,16 +82,11 @@ class Listing {
         {piece_flag::kSameAttributes, "SAME_ATTRIBUTES", {"A.2.3"}},
         {piece_flag::kHoles, "HOLES", {"A.4.6"}},
         {piece_flag::kHandles, "HANDLES", {"A.4.4"}},
-        {piece_flag::kCopies, "COPIES", {"A.5", "A.5.1", "A.5.2", "A.5.3", "A.5.4", "A.3.5"}},
-        {piece_flag::kInteriorCopies, "INTERIOR_COPIES", {"A.5.1", "A.5.2", "A.5.4"}},
-        {piece_flag::kMerges, "MERGES", {"A.7.3"}},
-        {piece_flag::kIsolated, "ISOLATED", {"A.2.2"}},
-        {piece_flag::kDuplicates, "DUPLICATES", {"A.9.2"}},
-        {piece_flag::kListed, "LISTED", {"A.9.4"}},
-        {piece_flag::kEdgeDegenerates, "EDGE_DEGENERATES", {"A.9.3"}},
+        {piece_flag::kIsolated, "ISOLATED", {"A.2.2", "A.6.4"}},
+        {piece_flag::kListed, "LISTED", {"A.9.2"}},
         {piece_flag::kCreases, "CREASES", {"A.7.4"}},
-        {piece_flag::kTriangleOrder, "TRIANGLE_ORDER", {"A.10.1", "A.10.2", "A.10.3"}},
-        {piece_flag::kVertexOrder, "VERTEX_ORDER", {"A.10.1", "A.10.2", "A.10.4"}},
+        {piece_flag::kTriangleOrder, "TRIANGLE_ORDER", {"A.3.5", "A.10.1", "A.10.2"}},
+        {piece_flag::kVertexOrder, "VERTEX_ORDER", {"A.3.5", "A.10.1", "A.10.3"}},
     };
     for (const Flag& flag : kFlags) {
       if (!piece.has(flag.bit)) continue;
@@ -89,6 +99,7 @@ class Listing {
         add(std::string(flag.name) + " and " + other.name, both);
       }
     }
+    addSurface(piece);
     if (piece.face_count == 0) add("empty piece", {"A.2.2"});
     if (piece.part_count > 1) {
       for (uint32_t i = 0; i < piece.part_count; ++i) {
@@ -160,8 +171,8 @@ class Listing {
     static const char* const kCodings[] = {"lattice", "integer", "exact", "", "", "", "grid"};
     const std::string coding = kCodings[static_cast<size_t>(a.coding)];
     add("positions " + coding + (bits > 17 ? " wide " : " ") + kKinds[kind], sections);
-    if (piece.isolated_count != 0) add(std::string("isolated wedges, ") + kKinds[kind], {"B.2.7"});
-    if (piece.has(piece_flag::kCopies)) add(std::string("copies, ") + kKinds[kind], {"A.6.1"});
+    if (piece.isolated_count != 0) add(std::string("isolated wedges, ") + kKinds[kind], {"A.6.4"});
+    if (piece.hasCopies()) add(std::string("copies, ") + kKinds[kind], {"A.6.1"});
     if (piece.has(piece_flag::kCreases)) add("creases, positions " + coding, {"A.7.4", "B.4.6"});
   }
 

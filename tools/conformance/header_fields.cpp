@@ -42,15 +42,15 @@ HeaderFields::HeaderFields(std::span<const uint8_t> payload)
 
 void HeaderFields::takePiece(const std::string& prefix) {
   const uint32_t flags = takeVarint(prefix + "flags");
-  for (const char* const name : {"vertices", "faces", "operations", "wedges"})
-    takeVarint(prefix + name);
+  const bool has_pivots = (flags & piece_flag::kSurfaceMask) == piece_flag::kSurfaceMask;
+  for (const char* const name : {"vertices", "faces", "operations", "wedges"}) {
+    if (!has_pivots || std::string_view(name) != "operations") takeVarint(prefix + name);
+  }
   const auto takeIf = [&](uint32_t flag, const char* name) {
     return (flags & flag) != 0 ? takeVarint(prefix + name) : 0;
   };
   takeIf(piece_flag::kHoles, "dummies");
   takeIf(piece_flag::kIsolated, "isolated");
-  takeIf(piece_flag::kDuplicates, "duplicates");
-  takeIf(piece_flag::kEdgeDegenerates, "degenerates");
   takeIf(piece_flag::kListed, "listed");
   const uint32_t parts = takeIf(piece_flag::kManyParts, "parts");
   for (uint32_t i = 0; i < parts; ++i) takeVarint(prefix + "part " + std::to_string(i));

@@ -781,7 +781,7 @@ void largerSources(std::vector<Source>& all) {
       {"stacks", combOfStacks(14, 12)},
   };
   for (const Larger& larger : surfaces) {
-    for (uint32_t set = 0; set < 5; ++set) {
+    for (uint32_t set = 0; set < 2; ++set) {
       Source source =
           single(std::string(larger.name) + "_contexts_" + std::to_string(set),
                  "A few hundred triangles or more, context set " + std::to_string(set), larger.mesh,

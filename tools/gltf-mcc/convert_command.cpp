@@ -287,6 +287,8 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
 void addKeepOrder(CLI::App& command, gltf::ConvertOptions& options) {
   command.add_flag("--indices-only", options.indices_only,
                    "Compress the triangles alone, keep the attributes as they are");
+  command.add_flag("--drop-unused", options.drop_unused,
+                   "Leave out vertices that no triangle uses");
   command
       .add_option_function<std::string>(
           "--keep-order",

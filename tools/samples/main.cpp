@@ -1,12 +1,15 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // generate-samples DIR writes the sample models into DIR and prints the table of samples/README.md.
+// generate-samples --soups DIR writes meshes whose edges have many faces instead: `gltf-mcc bench DIR/*.glb`.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <set>
+#include <span>
+#include <string_view>
 
 #include "models.h"
 
@@ -39,11 +42,11 @@ Counts countOf(const Json& json) {
   return counts;
 }
 
-int run(const std::filesystem::path& folder) {
+int run(const std::filesystem::path& folder, std::span<const Model> models) {
   std::cout << "| file | shows | vertices | triangles | bytes |\n|---|---|---:|---:|---:|\n";
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
-  for (const Model& model : allModels()) {
+  for (const Model& model : models) {
     GlbBuilder glb = model.build();
     const std::vector<uint8_t> bytes = glb.finish();
     const std::filesystem::path path = folder / model.file;
@@ -65,12 +68,15 @@ int run(const std::filesystem::path& folder) {
 }  // namespace mcc::samples
 
 int main(int argc, char** argv) {
-  if (argc != 2 || argv[1][0] == '-') {
-    std::fputs("usage: generate-samples DIR\n", stderr);
+  const bool soups = argc == 3 && std::string_view(argv[1]) == "--soups";
+  const char* const folder = soups ? argv[2] : argv[1];
+  if (argc != (soups ? 3 : 2) || folder[0] == '-') {
+    std::fputs("usage: generate-samples [--soups] DIR\n", stderr);
     return 2;
   }
   try {
-    return mcc::samples::run(argv[1]);
+    return mcc::samples::run(folder,
+                             soups ? mcc::samples::soupModels() : mcc::samples::allModels());
   } catch (const std::exception& exception) {
     std::fprintf(stderr, "generate-samples: %s\n", exception.what());
     return 1;

@@ -13,7 +13,13 @@
 namespace mcc::samples {
 namespace {
 
+using test::cellWalls;
+using test::jittered;
+using test::shuffled;
+using test::stackedCubes;
 using test::TestMesh;
+using test::tetrahedraAsQuads;
+using test::tetrahedralSoup;
 using test::turn;
 
 struct Vec3 {
@@ -715,8 +721,29 @@ constexpr Model kModels[] = {
      modes},
 };
 
+GlbBuilder soupModel(const TestMesh& mesh) { return single(mesh.name, mesh, 0.6f, 0.6f, 0.6f); }
+
+constexpr Model kSoups[] = {
+    {"soup_tetrahedra.glb", "tetrahedra, four faces each",
+     [] { return soupModel(tetrahedralSoup(12)); }},
+    {"soup_tetrahedra_jittered.glb", "the same, moved and shuffled",
+     [] { return soupModel(shuffled(jittered(tetrahedralSoup(12), 1, 0.25f), 2)); }},
+    {"soup_quads.glb", "tetrahedra as quads: 96,000 triangles on 9,261 vertices",
+     [] { return soupModel(tetrahedraAsQuads(1, 20)); }},
+    {"soup_quads_jittered.glb", "the same, moved",
+     [] { return soupModel(jittered(tetrahedraAsQuads(1, 20), 2, 0.25f)); }},
+    {"soup_cubes.glb", "stacked cubes", [] { return soupModel(stackedCubes(1, 20, 100)); }},
+    {"soup_cubes_half.glb", "every other cube", [] { return soupModel(stackedCubes(1, 20, 50)); }},
+    {"soup_cubes_jittered.glb", "every other cube, moved and shuffled",
+     [] { return soupModel(shuffled(jittered(stackedCubes(3, 20, 50), 4, 0.2f), 5)); }},
+    {"soup_cells.glb", "walls of cells, moved",
+     [] { return soupModel(jittered(cellWalls(20), 1, 0.2f)); }},
+};
+
 }  // namespace
 
 std::span<const Model> allModels() { return kModels; }
+
+std::span<const Model> soupModels() { return kSoups; }
 
 }  // namespace mcc::samples

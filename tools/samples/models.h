@@ -18,6 +18,9 @@ struct Model {
 
 std::span<const Model> allModels();
 
+/// Meshes whose edges have many faces, for `bench`: they are large and not kept.
+std::span<const Model> soupModels();
+
 }  // namespace mcc::samples
 
 #endif  // MCC_TOOLS_SAMPLES_MODELS_H_

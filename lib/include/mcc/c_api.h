@@ -311,6 +311,7 @@ typedef struct mcc_convert_options {
   const mcc_lattice* position_lattice; /**< lattice of all positions, for tiles; null: none */
   uint32_t prefer;                     /**< MCC_PREFER_… */
   uint64_t max_decoded_bytes; /**< of what is compressed; 0: as of mcc_decode_glb_options */
+  uint32_t drop_unused;       /**< 1: vertices that no triangle uses are left out */
 } mcc_convert_options;
 
 /** Fills in `struct_bytes`, which is sizeof(mcc_convert_options) of the caller, and the defaults. */

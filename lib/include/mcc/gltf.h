@@ -106,6 +106,8 @@ struct ConvertOptions {
   /// Compresses the triangles alone. Attributes stay accessors with every bit, in the order of the payload; where others
   /// refer to them they stay untouched and the payload holds the order.
   bool indices_only = false;
+  /// Leaves out vertices that no triangle uses, where nothing can refer to them. Not with indices_only.
+  bool drop_unused = false;
   Grid grid = Grid::kMesh;
   /// Vertices, triangles (with each one's first corner) come back in the source's order. Always so where a mesh or
   /// primitive has an extension this library does not know, which may refer to them by number.

@@ -53,7 +53,7 @@ struct EncodeOptions {
   /// Half-edge (3 * triangle + corner) the first component's collapse starts at; kNone: the encoder chooses.
   /// A test hook.
   uint32_t start_half_edge = kNone;
-  /// Not normally set: forces one of the connectivity context sets.
+  /// Not normally set: forces one of the two connectivity context sets.
   uint32_t context_set = kNone;
   /// The payload holds no attributes, only the triangles. The caller reorders its attributes by source_wedge, or keeps the
   /// vertex order. Each PieceView has POSITION alone, which is used to find equal positions.

@@ -26,20 +26,15 @@ class PositionRecording {
   static constexpr uint32_t kNoNeighbour = (1u << 30) - 1;
 
   /// Walks the mesh; fills `truth` positions (3 per record) into `records`, which are borrowed.
-  Status record(FaceMesh& mesh, const Groups& groups, VertexRecord* records,
-                uint32_t isolated_count, const int32_t* truth) {
+  Status record(FaceMesh& mesh, const Groups& groups, VertexRecord* records, const int32_t* truth) {
     records_ = records;
     visits_.clear();
-    visits_.reserve(size_t{groups.count} + isolated_count);
+    visits_.reserve(groups.count);
     plain_.clear();
     any_.clear();
     RegionGrowth growth(mesh, groups, records, true, Allocator{});
     faces_ = growth.faces();
     MCC_TRY(growth.run(*this, nullptr));
-    for (uint32_t i = 0; i < isolated_count; ++i) {
-      records[groups.count + i] = VertexRecord{};
-      seed(groups.count + i, nullptr);
-    }
     for (const Visit& visit : visits_) {
       const int32_t* q = truth + 3 * size_t{visit.vertex};
       std::copy(q, q + 3, records_[visit.vertex].q);

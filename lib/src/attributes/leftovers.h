@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Triangles beside the surface: exact duplicates of faces, degenerate triangles, and the parts all belong to.   [A.9]
+// Triangles beside the surface: exact duplicates of faces, degenerate ones; and the parts all belong to.   [A.9]
 #ifndef MCC_ATTRIBUTES_LEFTOVERS_H_
 #define MCC_ATTRIBUTES_LEFTOVERS_H_
 
@@ -17,25 +17,23 @@ namespace mcc {
 struct LeftoverModels {
   BitModel same_part[4];
   GolombModel part;
-  BitModel duplicate[4][4]
-                    [2];  ///< [earlier neighbours][how many of them are duplicates][previous face]
-  BitModel more_duplicates;
-  BitModel degenerate[2][3][2][2][2];  ///< see EdgeDegenerateCoder
-  BitModel more_degenerates;
+  TreeModel<3> list_shape[8];  ///< [of the triangle before]
+  GolombModel list_gap[2];     ///< [0: faces again, 1: on edges]
   GolombModel list_wedge[3];
+  GolombModel list_part;
 };
 
+/// A triangle that is not of the surface.
 struct ListedTriangle {
   uint32_t wedge[3];
   uint32_t part;
+  uint32_t shape;  ///< listed_shape
+  uint32_t face;   ///< that the shape refers to
 };
 
 /// Encoder's knowledge; null when decoding.
 struct LeftoverTruth {
   const uint32_t* part_of_face = nullptr;
-  const uint32_t* duplicates_of_face = nullptr;
-  const uint32_t* degenerates_of_edge = nullptr;  ///< two counts per half-edge 3f+k
-  const uint32_t* degenerate_parts = nullptr;     ///< in coding order
   const ListedTriangle* list = nullptr;
 };
 
@@ -67,168 +65,64 @@ Status codeParts(Io& io, LeftoverModels& models, const FaceView& faces, uint32_t
   return {};
 }
 
-/// Number of further copies of each face. [A.9.2]
-template <class Io>
-Status codeDuplicates(Io& io, LeftoverModels& models, const FaceView& faces, uint32_t face_count,
-                      uint32_t limit, const LeftoverTruth& truth, Array<uint32_t>& copies) {
-  if (!copies.resize(face_count)) return fail(Error::kOutOfMemory, "no memory for duplicates");
-  uint32_t total = 0;
-  uint32_t previous = 0;
-  for (uint32_t f = 0; f < face_count; ++f) {
-    uint32_t earlier = 0;
-    uint32_t duplicated = 0;
-    for (uint32_t h = f * kFaceWords; h < f * kFaceWords + 3; ++h) {
-      const uint32_t t = faces.twin(h);
-      if (t == kNone || faceOf(t) >= f) continue;
-      ++earlier;
-      duplicated += copies[faceOf(t)] != 0 ? 1 : 0;
-    }
-    uint32_t target = 0;
-    if constexpr (Io::kEncoding) target = truth.duplicates_of_face[f];
-    uint32_t count = io.bit(models.duplicate[earlier][duplicated][previous], target != 0) ? 1 : 0;
-    while (count != 0 && total + count < limit && io.bit(models.more_duplicates, target > count))
-      ++count;
-    copies[f] = count;
-    total += count;
-    previous = count != 0 ? 1 : 0;
-    if (total > limit || ((f & 0xfff) == 0 && io.overrun())) {
-      return fail(Error::kBadAttribute, "more duplicate triangles than the header claims");
-    }
+/// What a listed triangle is: a face again; (a, a, b) for the ends a, b of a half-edge of the face, or (b, b, a); or any.
+namespace listed_shape {
+inline constexpr uint32_t kFaceAgain = 0;
+inline constexpr uint32_t kOnEdge = 1;  ///< 1 + 2 * half-edge, one more for (b, b, a)
+inline constexpr uint32_t kAny = 7;
+}  // namespace listed_shape
+
+/// The wedges of a triangle whose shape refers to a face.
+inline void placeOnFace(const FaceView& faces, ListedTriangle& t) {
+  const uint32_t base = t.face * kFaceWords;
+  if (t.shape == listed_shape::kFaceAgain) {
+    for (uint32_t k = 0; k < 3; ++k) t.wedge[k] = faces.vertex(base + k);
+    return;
   }
-  if (total != limit)
-    return fail(Error::kBadAttribute, "fewer duplicate triangles than the header claims");
-  return {};
+  const uint32_t h = base + (t.shape - listed_shape::kOnEdge) / 2;
+  const bool reversed = (t.shape - listed_shape::kOnEdge) % 2 != 0;
+  t.wedge[0] = t.wedge[1] = faces.vertex(reversed ? nextHalfEdge(h) : h);
+  t.wedge[2] = faces.vertex(reversed ? h : nextHalfEdge(h));
 }
 
-/// Triangles (a, a, b) whose wedges a and b are the ends of a face's edge: two counts per edge, for (a, a, b) and
-/// (b, b, a). An edge is asked at its first half-edge, and at the second one, too, if the wedges differ there. [A.9.3]
+/// Triangles one by one; what refers to faces ascends by their numbers. [A.9.2]
 template <class Io>
-class EdgeDegenerateCoder {
- public:
-  EdgeDegenerateCoder(Io& io, LeftoverModels& models, const FaceView& faces, uint32_t face_count,
-                      const Allocator& allocator, const LeftoverTruth& truth)
-      : io_(io),
-        models_(models),
-        faces_(faces),
-        face_count_(face_count),
-        truth_(truth),
-        roles_(allocator) {}
-
-  /// Appends `limit` triangles to `list`.
-  Status run(uint32_t wedge_count, uint32_t part_count, uint32_t limit,
-             Array<ListedTriangle>& list) {
-    if (!roles_.assign(wedge_count, Roles{}) || !list.reserve(list.size() + limit))
-      return noMemory();
-    uint32_t total = 0;
-    for (uint32_t f = 0; f < face_count_; ++f) {
-      for (uint32_t k = 0; k < 3; ++k) {
-        const uint32_t h = f * kFaceWords + k;
-        if (!asksAt(faces_, h)) continue;
-        const uint32_t* of_edge =
-            Io::kEncoding ? truth_.degenerates_of_edge + 2 * (3 * size_t{f} + k) : nullptr;
-        uint32_t first = 0;
-        for (uint32_t side = 0; side < 2; ++side) {
-          const uint32_t a = faces_.vertex(side == 0 ? h : nextHalfEdge(h));
-          const uint32_t b = faces_.vertex(side == 0 ? nextHalfEdge(h) : h);
-          const uint32_t count =
-              codeCount(side, a, b, first, Io::kEncoding ? of_edge[side] : 0, limit - total);
-          total += count;
-          if (count > limit || total > limit) return tooMany();
-          for (uint32_t i = 0; i < count; ++i) {
-            if (!list.push_back({{a, a, b}, faces_.words[f * kFaceWords + kFaceWord]}))
-              return noMemory();
-          }
-          first = count != 0 ? 1 : 0;
-        }
-      }
-      if ((f & 0xfff) == 0 && io_.overrun()) return tooMany();
-    }
-    if (total != limit)
-      return fail(Error::kBadAttribute, "fewer degenerate triangles than the header claims");
-    return codePartsOf(part_count, limit, list);
-  }
-
-  static bool asksAt(const FaceView& faces, uint32_t h) {
-    const uint32_t t = faces.twin(h);
-    return t == kNone || t > h || faces.vertex(t) != faces.vertex(nextHalfEdge(h)) ||
-           faces.vertex(nextHalfEdge(t)) != faces.vertex(h);
-  }
-
- private:
-  /// What a wedge has been in degenerate triangles so far, saturating.
-  struct Roles {
-    uint8_t doubled = 0;
-    uint8_t single = 0;
-  };
-
-  static Status noMemory() {
-    return fail(Error::kOutOfMemory, "no memory for degenerate triangles");
-  }
-  static Status tooMany() {
-    return fail(Error::kBadAttribute, "more degenerate triangles than the header claims");
-  }
-
-  uint32_t codeCount(uint32_t side, uint32_t a, uint32_t b, uint32_t first, uint32_t truth,
-                     uint32_t left) {
-    BitModel& model =
-        models_.degenerate[side][roles_[a].doubled][roles_[b].single][roles_[a].single][first];
-    uint32_t count = io_.bit(model, truth != 0) ? 1 : 0;
-    while (count != 0 && count < left && io_.bit(models_.more_degenerates, truth > count)) ++count;
-    if (count != 0) {
-      roles_[a].doubled = static_cast<uint8_t>(std::min(2, roles_[a].doubled + 1));
-      roles_[b].single = 1;
-    }
-    return count;
-  }
-
-  /// The part is mostly that of the face.
-  Status codePartsOf(uint32_t part_count, uint32_t limit, Array<ListedTriangle>& list) {
-    for (size_t i = list.size() - limit; part_count > 1 && i < list.size(); ++i) {
-      uint32_t part = 0;
-      if constexpr (Io::kEncoding) part = truth_.degenerate_parts[i - (list.size() - limit)];
-      const uint32_t guess = list[i].part;
-      const uint32_t distance = codeGolomb(
-          io_, models_.part, Io::kEncoding ? (part + part_count - guess) % part_count : 0);
-      if (distance >= part_count) return fail(Error::kBadAttribute, "a triangle is in no part");
-      list[i].part = (guess + distance) % part_count;
-    }
-    return {};
-  }
-
-  Io& io_;
-  LeftoverModels& models_;
-  const FaceView faces_;
-  const uint32_t face_count_;
-  const LeftoverTruth& truth_;
-  Array<Roles> roles_;
-};
-
-/// Triangles one by one: first corner against the last triangle's, the others against the first. [A.9.4]
-template <class Io>
-Status codeList(Io& io, LeftoverModels& models, uint32_t wedge_count, uint32_t part_count,
-                uint32_t count, const LeftoverTruth& truth, Array<ListedTriangle>& list) {
-  if (!list.reserve(list.size() + size_t{count}))
-    return fail(Error::kOutOfMemory, "no memory for listed triangles");
-  uint32_t last = 0;
+Status codeList(Io& io, LeftoverModels& models, const FaceView& faces, uint32_t face_count,
+                uint32_t wedge_count, uint32_t part_count, uint32_t count,
+                const LeftoverTruth& truth, Array<ListedTriangle>& list) {
+  if (!list.reserve(count)) return fail(Error::kOutOfMemory, "no memory for listed triangles");
+  ListedTriangle t{};
   for (uint32_t i = 0; i < count; ++i) {
-    ListedTriangle t{};
-    if constexpr (Io::kEncoding) t = truth.list[i];
-    for (int k = 0; k < 3; ++k) {
-      const uint32_t from = k == 0 ? last : t.wedge[0];
+    const ListedTriangle last = t;
+    const ListedTriangle* known = Io::kEncoding ? truth.list + i : &t;
+    t.shape = codeTree<Io, 3>(io, models.list_shape[last.shape], known->shape);
+    uint32_t guess = last.part;
+    if (t.shape != listed_shape::kAny) {
+      const uint32_t gap =
+          codeGolomb(io, models.list_gap[t.shape == 0 ? 0 : 1], known->face - last.face);
+      if (uint64_t{last.face} + gap >= face_count)
+        return fail(Error::kBadAttribute, "a listed triangle refers to a face that is not there");
+      t.face = last.face + gap;
+      placeOnFace(faces, t);
+      guess = faces.words[t.face * kFaceWords + kFaceWord];
+    }
+    for (uint32_t k = 0; k < 3 && t.shape == listed_shape::kAny; ++k) {
+      const uint32_t from = k == 0 ? last.wedge[0] : t.wedge[0];
       const int32_t difference =
-          codeSignedGolomb(io, models.list_wedge[k], static_cast<int32_t>(t.wedge[k] - from));
+          codeSignedGolomb(io, models.list_wedge[k], static_cast<int32_t>(known->wedge[k] - from));
       t.wedge[k] = from + static_cast<uint32_t>(difference);
-      if (t.wedge[k] >= wedge_count) {
+      if (t.wedge[k] >= wedge_count)
         return fail(Error::kBadAttribute, "a listed triangle refers to a vertex that is not there");
-      }
     }
-    if (part_count > 1) t.part = codeGolomb(io, models.part, t.part);
-    if (t.part >= part_count) return fail(Error::kBadAttribute, "a triangle is in no part");
-    last = t.wedge[0];
-    if (!list.push_back(t)) return fail(Error::kOutOfMemory, "no memory for listed triangles");
-    if ((i & 0xff) == 0 && io.overrun()) {
+    if (part_count > 1) {
+      const uint32_t distance =
+          codeGolomb(io, models.list_part, (known->part + part_count - guess) % part_count);
+      if (distance >= part_count) return fail(Error::kBadAttribute, "a triangle is in no part");
+      t.part = (guess + distance) % part_count;
+    }
+    (void)list.push_back(t);  // reserved above
+    if ((i & 0xff) == 0 && io.overrun())
       return fail(Error::kTruncated, "the code stream ends inside the list of triangles");
-    }
   }
   return {};
 }

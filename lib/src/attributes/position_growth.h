@@ -129,6 +129,7 @@ class RegionGrowth {
     if (!queue_[score - 1].push(half_edge)) [[unlikely]]
       no_memory_ = true;
   }
+  void pushFace(uint32_t h);
   void pushRing(uint32_t start);
   void pushOtherUmbrellas(uint32_t v, uint32_t entry);
   bool ringContains(uint32_t start, uint32_t half_edge) const;
@@ -352,16 +353,21 @@ inline void RegionGrowth::walkFan(uint32_t half_edge, AnyFan& fan) {
   fan.n[fan.face_count] = &recordAt(prevHalfEdge(h[end - 1]));
 }
 
+/// Queues the face of `h`, whose vertex is known, if it has one unknown corner.
+inline void RegionGrowth::pushFace(uint32_t h) {
+  const uint32_t a = nextHalfEdge(h);
+  const uint32_t b = prevHalfEdge(h);
+  const bool a_known = known(faces_.vertex(a));
+  const bool b_known = known(faces_.vertex(b));
+  if (a_known != b_known) push(a_known ? b : a);
+}
+
 /// Queues every face around `start` with one unknown corner.
 inline void RegionGrowth::pushRing(uint32_t start) {
   uint32_t h = start;
   bool ccw = true;
   for (;;) {
-    const uint32_t a = nextHalfEdge(h);
-    const uint32_t b = prevHalfEdge(h);
-    const bool a_known = known(faces_.vertex(a));
-    const bool b_known = known(faces_.vertex(b));
-    if (a_known != b_known) push(a_known ? b : a);
+    pushFace(h);
     h = ccw ? faces_.rotateCcw(h) : faces_.rotateCw(h);
     if (h == start) return;
     if (h == kNone) {
@@ -378,6 +384,10 @@ inline void RegionGrowth::pushOtherUmbrellas(uint32_t v, uint32_t entry) {
   if (!groups_.hasCopies()) return;
   const std::span<const uint32_t> umbrellas = groups_.umbrellasOf(v);
   if (umbrellas.size() < 2) return;
+  if (groups_.has_corners) {
+    for (const uint32_t h : umbrellas) pushFace(h);
+    return;
+  }
   for (const uint32_t start : umbrellas) {
     if (!ringContains(start, entry)) pushRing(start);
   }

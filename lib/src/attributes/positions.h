@@ -38,20 +38,11 @@ class PositionCoder {
         truth_(truth),
         vertex_(models.rows, parameters, records, truth),
         growth_(mesh, groups, records, parameters.has(position_mode::kWeights), allocator),
-        group_count_(groups.count),
         records_(records) {}
 
-  /// Codes all groups of vertices, then the isolated ones. `records` has an entry for each; `order`, if not null,
-  /// has room for the groups, see RegionGrowth. `truth` has 3 coordinates per record (encoder).
-  Status run(uint32_t* order, uint32_t isolated_count) {
-    MCC_TRY(growth_.run(*this, order));
-    for (uint32_t i = 0; i < isolated_count; ++i) {
-      records_[group_count_ + i] = VertexRecord{};
-      seed(group_count_ + i, nullptr);
-      if ((i & 0xfff) == 0) MCC_TRY(check());
-    }
-    return {};
-  }
+  /// Codes all groups of vertices. `records` has an entry for each; `order`, if not null, has room for the groups, see
+  /// RegionGrowth. `truth` has 3 coordinates per record (encoder).
+  Status run(uint32_t* order) { return growth_.run(*this, order); }
 
   // --- visitor of RegionGrowth ---
 
@@ -113,7 +104,6 @@ class PositionCoder {
   const int32_t* const truth_;
   VertexCoder<Io, Wide, kModes> vertex_;
   RegionGrowth growth_;
-  const uint32_t group_count_;
   VertexRecord* const records_;
 };
 

@@ -43,14 +43,13 @@ template <class Io>
 class SeamCoder {
  public:
   /// `group_order`: a half-edge per group in coding order. `corner_source` (encoder): source wedge by 3f+k.
-  SeamCoder(Io& io, SeamModels& models, FaceMesh& mesh, const Groups& groups, bool has_merges,
-            uint32_t wedge_limit, const Allocator& allocator, const uint32_t* corner_source)
+  SeamCoder(Io& io, SeamModels& models, FaceMesh& mesh, const Groups& groups, uint32_t wedge_limit,
+            const Allocator& allocator, const uint32_t* corner_source)
       : io_(io),
         models_(models),
         faces_(mesh.view()),
         face_count_(mesh.face_count),
         groups_(groups),
-        has_merges_(has_merges),
         wedge_limit_(wedge_limit),
         corner_source_(corner_source),
         fan_(allocator),
@@ -102,7 +101,6 @@ class SeamCoder {
   const FaceView faces_;
   const uint32_t face_count_;
   const Groups& groups_;
-  const bool has_merges_;
   const uint32_t wedge_limit_;
   const uint32_t* corner_source_;
   Array<uint32_t> fan_;              ///< half-edges leaving the vertex, counterclockwise
@@ -266,7 +264,7 @@ Status SeamCoder<Io>::codeWedge(uint32_t first, uint32_t excluded_a, uint32_t ex
   if (excluded_a < excluded_b) std::swap(excluded_a, excluded_b);
   if (excluded_a == kNone) std::swap(excluded_a, excluded_b);
   const uint32_t excluded_count = (excluded_a != kNone ? 1u : 0u) + (excluded_b != kNone ? 1u : 0u);
-  const uint32_t candidates = has_merges_ ? wedge_count_ - group_begin_ - excluded_count : 0;
+  const uint32_t candidates = wedge_count_ - group_begin_ - excluded_count;
   bool merged = false;
   uint32_t rank = 0;
   if constexpr (Io::kEncoding) {
@@ -296,7 +294,7 @@ Status SeamCoder<Io>::codeWedge(uint32_t first, uint32_t excluded_a, uint32_t ex
   }
   wedge = wedge_count_++;
   bool ok = wedge_start.push_back(first) && wedge_group.push_back(group);
-  if constexpr (Io::kEncoding) ok = ok && (!has_merges_ || noteSource(source(first), wedge));
+  if constexpr (Io::kEncoding) ok = ok && noteSource(source(first), wedge);
   return ok ? Status{} : fail(Error::kOutOfMemory, "no memory for wedges");
 }
 

@@ -36,7 +36,7 @@
 
 namespace mcc {
 
-inline constexpr uint32_t kContextSetCount = 5;
+inline constexpr uint32_t kContextSetCount = 2;
 
 /// Vertex of all dummies: the apex of the cone over a hole. Triangles with it are not emitted.
 inline constexpr uint32_t kDummyVertex = kMaxVertices;
@@ -99,7 +99,6 @@ struct McModels {
   BitModel kind_end[4];
   BitModel kind_handle;
   BitModel finish;
-  BitModel lone_triangle[2];
   BitModel joined_spur[2];
   BitModel dummy_end[2];
   BitModel dummy_twig;
@@ -117,19 +116,13 @@ struct McModels {
 
 inline constexpr uint32_t kRunContexts = 4 * 16 * 2;  ///< position, degree, shared
 inline constexpr uint32_t kPatternClasses =
-    5;  ///< context set 4: class of one of the last four operations
+    5;  ///< context set 1: class of one of the last four operations
 inline constexpr uint32_t kPatterns = 625;
 
-constexpr uint32_t runContextFactor(uint32_t set) {
-  switch (set) {
-    case 1: return 8;
-    case 2: return kClassCount * kClassCount;
-    case 3: return 16 * 16;
-    case 4: return kPatterns;
-    default: return 1;
-  }
+constexpr uint32_t runContextFactor(uint32_t set) { return set == 1 ? kPatterns : 1; }
+constexpr uint32_t specialContextFactor(uint32_t set) {
+  return set == 1 ? kPatterns : kClassCount * kClassCount;
 }
-constexpr uint32_t specialContextFactor(uint32_t set) { return set == 4 ? kPatterns : 49; }
 
 inline bool McModels::init(uint32_t set) {
   context_set = set;
@@ -221,19 +214,11 @@ class McMachine {
     uint32_t taken = 0;           ///< gates
   };
 
-  /// Context of a run's decisions: [position][degree][shared] x one of the context sets.
-  struct RunContext {
-    uint32_t factor;
-    uint32_t constant;
-    uint32_t next_limit;  ///< degree of the next node, clamped to this, times next_factor
-    uint32_t next_factor;
-
-    MCC_INLINE uint32_t of(uint32_t position, const McNode& node, const McNode& next) const {
-      const uint32_t base =
-          (std::min(position, 4u) - 1) * 32 + std::min<uint32_t>(node.degree, 15) * 2 + node.shared;
-      return base * factor + constant + std::min<uint32_t>(next.degree, next_limit) * next_factor;
-    }
-  };
+  /// Context of a run's decisions: [pattern, in context set 1][position][degree][shared].
+  static MCC_INLINE uint32_t runContext(uint32_t position, const McNode& node) {
+    return (std::min(position, 4u) - 1) * 32 + std::min<uint32_t>(node.degree, 15) * 2 +
+           node.shared;
+  }
 
   using CodesBurst = typename Io::CodesBurst;
 
@@ -241,13 +226,10 @@ class McMachine {
   Status codeOperation(const McOperation* op);
   Status codeSpecial(const McOperation* op);
   Status codeEnd(const McOperation* op, bool first);
-  bool isLoneTriangle(const McOperation* op) const;
-  Status addLoneTriangle(const McOperation* op);
   Status codeExpand(const McOperation* op, McJoin join);
   Status codeRun(CodesBurst& codes, const McOperation* op, uint32_t vertex);
   Status codeDummyRun(const McOperation* op);
   Status expandSpur(const McOperation* op, uint32_t vertex);
-  RunContext runContext() const;
   uint32_t specialContext() const;
   bool codeStartFlag(CodesBurst& codes, const McOperation* op);
   void remember(uint32_t operation_class);
@@ -305,11 +287,10 @@ class McMachine {
   uint32_t face_count_ = 0;
   uint32_t component_ = 0;
   uint32_t operation_ = 0;  ///< operations begun
-  bool after_lone_triangle_ = false;
   uint32_t age_ = 0;  ///< operations since the last END
   uint32_t last_class_ = kClassEnd;
   uint32_t class_before_ = kClassEnd;
-  uint32_t pattern_ = 0;  ///< last four operations, context set 4
+  uint32_t pattern_ = 0;  ///< last four operations, context set 1
 };
 
 template <class Io>
@@ -347,19 +328,8 @@ Status McMachine<Io>::run() {
 template <class Io>
 MCC_INLINE uint32_t McMachine<Io>::specialContext() const {
   const uint32_t degree = std::min<uint32_t>(nodes_[top_].degree, 7);
-  if (models_.context_set == 4) return degree * kPatterns + pattern_;
-  return degree * 49 + last_class_ * kClassCount + class_before_;
-}
-
-template <class Io>
-MCC_INLINE typename McMachine<Io>::RunContext McMachine<Io>::runContext() const {
-  switch (models_.context_set) {
-    case 1: return {8, 0, 7, 1};
-    case 2: return {49, last_class_ * kClassCount + class_before_, 0, 0};
-    case 3: return {256, std::min<uint32_t>(nodes_[top_].degree, 15), 15, 16};
-    case 4: return {kPatterns, pattern_, 0, 0};
-    default: return {1, 0, 0, 0};
-  }
+  if (models_.context_set == 1) return degree * kPatterns + pattern_;
+  return (degree * kClassCount + last_class_) * kClassCount + class_before_;
 }
 
 template <class Io>
@@ -467,12 +437,6 @@ Status McMachine<Io>::codeEnd(const McOperation* op, bool first) {
       return fail(Error::kOutOfMemory, "no memory for the digon stack");
     }
   }
-  // A triangle alone needs a dummy, and the operation that takes it.
-  if (top_ == kNone && dummy_count_ < counts_.dummy_count && operation_ < counts_.operation_count) {
-    BitModel& model = models_.lone_triangle[after_lone_triangle_ ? 1 : 0];
-    after_lone_triangle_ = io_.bit(model, Io::kEncoding && isLoneTriangle(op));
-    if (after_lone_triangle_) return addLoneTriangle(op);
-  }
   uint32_t vertex[2] = {};
   for (int i = 0; i < 2; ++i) {
     const uint32_t source = Io::kEncoding ? (i == 0 ? op->vertex_a : op->vertex_b) : 0;
@@ -498,43 +462,6 @@ Status McMachine<Io>::codeEnd(const McOperation* op, bool first) {
   age_ = 0;
   remember(kClassEnd);
   count(&CodeHistogram::end);
-  return {};
-}
-
-/// Encoder only. Is the component that begins with `op` (END) a triangle: EXPAND of degree 4, then a dummy?
-template <class Io>
-bool McMachine<Io>::isLoneTriangle(const McOperation* op) const {
-  const McOperation& expand = op[-1];  // `operation_` tells that there is one
-  const bool ends =
-      operation_ + 1 == counts_.operation_count || (op[-2].kind == McKind::kEnd && op[-2].finishes);
-  const uint32_t apex = truth_.components[truth_.component_count - 1 - component_].vertex;
-  return ends && expand.kind == McKind::kExpand && expand.join == McJoin::kSimple &&
-         expand.degree == 1 && truth_.vertex_is_dummy[apex] != 0 &&
-         truth_.vertex_is_dummy[op->vertex_a] == 0 && truth_.vertex_is_dummy[op->vertex_b] == 0 &&
-         truth_.vertex_is_dummy[expand.vertex_a] == 0;
-}
-
-/// A component of one triangle, END and EXPAND and the finish at once: soups consist of them. [A.4.3]
-template <class Io>
-Status McMachine<Io>::addLoneTriangle(const McOperation* op) {
-  if (face_count_ == counts_.face_count) return tooManyTriangles();
-  if constexpr (Io::kEncoding) {
-    truth_.source_gate_of_face[face_count_] = truth_.gates[op[-1].first_gate];
-  }
-  uint32_t* face = mesh_.words.data() + size_t{face_count_++} * kFaceWords;
-  MCC_TRY(newVertex(false, Io::kEncoding ? op->vertex_a : 0, face[1]));
-  MCC_TRY(newVertex(false, Io::kEncoding ? op->vertex_b : 0, face[2]));
-  MCC_TRY(newVertex(false, Io::kEncoding ? op[-1].vertex_a : 0, face[0]));
-  noteEdge(face[1], face[2]);
-  noteEdge(face[0], face[1]);
-  face[kFaceWord] = 0;
-  face[4] = face[5] = face[6] = kNone;
-  face[kSeamWord] = 0;
-  ++operation_;
-  ++dummy_count_;
-  ++component_;
-  count(&CodeHistogram::end);
-  countDegree(4);
   return {};
 }
 
@@ -596,9 +523,9 @@ Status McMachine<Io>::expandSpur(const McOperation* op, uint32_t vertex) {
 template <class Io>
 MCC_SHARED Status McMachine<Io>::codeRun(CodesBurst& codes, const McOperation* op,
                                          uint32_t vertex) {
-  const RunContext context = runContext();
   const McNode* const nodes = nodes_.data();
-  BitModel* const models = models_.run.data();
+  BitModel* const models =
+      models_.run.data() + (models_.context_set == 1 ? size_t{pattern_} * kRunContexts : 0);
   const uint32_t top = top_;
   const uint32_t first_closed = nodes[top].next;
   uint32_t before = top;
@@ -611,9 +538,8 @@ MCC_SHARED Status McMachine<Io>::codeRun(CodesBurst& codes, const McOperation* o
     before = q;
     q = nodes[q].next;
     if (q == top) break;
-    const McNode& n = nodes[q];
-    const uint32_t index = context.of(fan.taken, n, nodes[n.next]);
-    if (!codes.bit(models[index], Io::kEncoding && fan.taken < op->degree)) break;
+    BitModel& model = models[runContext(fan.taken, nodes[q])];
+    if (!codes.bit(model, Io::kEncoding && fan.taken < op->degree)) break;
   }
   codes.giveBack(io_);
   if (before != top) closeNodes(first_closed, before);

@@ -11,7 +11,6 @@
 #ifndef MCC_CONNECTIVITY_ORDER_H_
 #define MCC_CONNECTIVITY_ORDER_H_
 
-#include <bit>
 #include <cstdint>
 
 #include "base/memory.h"
@@ -38,18 +37,6 @@ struct OrderModels {
   SequenceModels wedges;
   BitModel corner[4][3][2];  ///< [way][last corner][second decision]
 };
-
-/// One of `count` equally likely values. [A.10.1]
-template <class Io>
-uint32_t codeUniform(Io& io, uint32_t count, uint32_t truth) {
-  const uint32_t bits = static_cast<uint32_t>(std::bit_width(count)) - 1;
-  const uint32_t shorts =
-      static_cast<uint32_t>((uint64_t{2} << bits) - count);  // values with `bits` bits
-  const bool is_short = Io::kEncoding && truth < shorts;
-  const uint32_t head = io.raw(bits, is_short ? truth : (truth + shorts) >> 1);
-  if (head < shorts) return head;
-  return 2 * head + io.raw(1, (truth + shorts) & 1) - shorts;
-}
 
 /// The elements touched last, latest first.
 class RecentElements {
@@ -152,7 +139,7 @@ struct Found {
   Way way = Way::kAny;
 };
 
-/// Chooses elements one by one. [A.10.2]
+/// Chooses elements one by one. [A.10.1]
 template <class Io>
 class SequenceCoder {
  public:
@@ -223,20 +210,14 @@ class SequenceCoder {
   Way last_way_ = Way::kAny;
 };
 
-/// Triangles of a piece in the order in which the reader would hand them out: every face followed by its copies, then
-/// the listed ones.
+/// Triangles of a piece in the order in which the reader would hand them out: the faces, then the listed ones.
 struct TriangleTable {
-  explicit TriangleTable(const Allocator& allocator)
-      : wedges(allocator), part(allocator), first_of_face(allocator) {}
+  explicit TriangleTable(const Allocator& allocator) : wedges(allocator), part(allocator) {}
 
-  Array<uint32_t> wedges;         ///< 3 per triangle
-  Array<uint32_t> part;           ///< only with several parts
-  Array<uint32_t> first_of_face;  ///< only with copies
+  Array<uint32_t> wedges;  ///< 3 per triangle
+  Array<uint32_t> part;    ///< only with several parts
 
   uint32_t count() const { return static_cast<uint32_t>(wedges.size() / 3); }
-  uint32_t ofFace(uint32_t face) const {
-    return first_of_face.empty() ? face : first_of_face[face];
-  }
   uint32_t partOf(uint32_t triangle) const { return part.empty() ? 0 : part[triangle]; }
 };
 
@@ -245,7 +226,7 @@ constexpr uint32_t orderedTriangle(uint32_t triangle, uint32_t corner) {
   return 4 * triangle + corner;
 }
 
-/// Order of the triangles within each part. Of `faces` only twins are read. [A.10.3]
+/// Order of the triangles within each part. Of `faces` only twins are read. [A.10.2]
 template <class Io>
 class TriangleOrderCoder {
  public:
@@ -257,7 +238,6 @@ class TriangleOrderCoder {
         face_count_(face_count),
         table_(table),
         allocator_(allocator),
-        face_of_(allocator),
         by_part_(allocator),
         open_(allocator) {}
 
@@ -294,10 +274,6 @@ class TriangleOrderCoder {
   [[nodiscard]] bool sortByPart(uint32_t part_count) {
     const uint32_t count = table_.count();
     if (!by_part_.resize(count)) return false;
-    if (!table_.first_of_face.empty()) {
-      if (!face_of_.assign(count, kNone)) return false;
-      for (uint32_t f = 0; f < face_count_; ++f) face_of_[table_.first_of_face[f]] = f;
-    }
     if (part_count < 2) {
       for (uint32_t t = 0; t < count; ++t) by_part_[t] = t;
       return true;
@@ -321,19 +297,15 @@ class TriangleOrderCoder {
   /// Triangles across the edges are near, those across their edges far; from the first corner on, so that what is
   /// across the last edge ends up in front.
   void touchNeighbours(uint32_t triangle, uint32_t corner) {
-    const uint32_t face = table_.first_of_face.empty() ? triangle : face_of_[triangle];
-    const bool has_copy = !table_.first_of_face.empty() && triangle + 1 < table_.count() &&
-                          face_of_[triangle + 1] == kNone;
-    if (has_copy) open_.touchNear(triangle + 1, corner);
-    if (face >= face_count_) return;
+    if (triangle >= face_count_) return;
     for (uint32_t i = 0; i < 3; ++i) {
-      const uint32_t twin = faces_.twin(face * kFaceWords + (corner + i) % 3);
-      if (twin == kNone || !open_.isOpen(table_.ofFace(faceOf(twin)))) continue;
+      const uint32_t twin = faces_.twin(triangle * kFaceWords + (corner + i) % 3);
+      if (twin == kNone || !open_.isOpen(faceOf(twin))) continue;
       for (const uint32_t beyond : {nextHalfEdge(twin), prevHalfEdge(twin)}) {
         const uint32_t t = faces_.twin(beyond);
-        if (t != kNone) open_.touchFar(table_.ofFace(faceOf(t)), t % kFaceWords);
+        if (t != kNone) open_.touchFar(faceOf(t), t % kFaceWords);
       }
-      open_.touchNear(table_.ofFace(faceOf(twin)), twin % kFaceWords);
+      open_.touchNear(faceOf(twin), twin % kFaceWords);
     }
   }
 
@@ -343,13 +315,12 @@ class TriangleOrderCoder {
   const uint32_t face_count_;
   const TriangleTable& table_;
   const Allocator allocator_;
-  Array<uint32_t> face_of_;  ///< by triangle, kNone if it is no face; only with copies
   Array<uint32_t> by_part_;  ///< triangles, part after part
   OpenElements open_;
   uint32_t last_corner_ = 0;
 };
 
-/// Order of the wedges. [A.10.4]
+/// Order of the wedges. [A.10.3]
 template <class Io>
 class WedgeOrderCoder {
  public:

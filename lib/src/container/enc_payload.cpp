@@ -61,12 +61,11 @@ void writePiece(ByteWriter& out, const PayloadHeader& header, size_t index) {
   out.writeVarint(piece.flags | (same ? piece_flag::kSameAttributes : 0));
   out.writeVarint(piece.vertex_count);
   out.writeVarint(piece.face_count);
-  out.writeVarint(zigzag(static_cast<int32_t>(piece.operation_count - piece.vertex_count)));
+  if (!piece.hasPivots())
+    out.writeVarint(zigzag(static_cast<int32_t>(piece.operation_count - piece.vertex_count)));
   out.writeVarint(zigzag(static_cast<int32_t>(piece.wedge_count - piece.vertex_count)));
   if (piece.has(piece_flag::kHoles)) out.writeVarint(piece.dummy_count);
   if (piece.has(piece_flag::kIsolated)) out.writeVarint(piece.isolated_count);
-  if (piece.has(piece_flag::kDuplicates)) out.writeVarint(piece.duplicate_count);
-  if (piece.has(piece_flag::kEdgeDegenerates)) out.writeVarint(piece.edge_degenerate_count);
   if (piece.has(piece_flag::kListed)) out.writeVarint(piece.listed_count);
   if (piece.has(piece_flag::kManyParts)) {
     out.writeVarint(piece.part_count);

@@ -10,7 +10,6 @@
 namespace mcc {
 namespace {
 
-constexpr uint32_t kMaxContextSet = 4;
 constexpr uint32_t kMaxLatticeBits = 24;
 
 bool isFinitePositive(float value) {
@@ -224,26 +223,24 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, T
   MCC_TRY(in.readVarint(piece.flags));
   if ((piece.flags & ~piece_flag::kAll) != 0)
     return fail(Error::kBadHeader, "reserved bits are set", at);
-  if (piece.has(piece_flag::kCreases | piece_flag::kMerges) && !piece.has(piece_flag::kSeams)) {
-    return fail(Error::kBadHeader, "a piece without seams has creases or merges", at);
-  }
-  if (piece.has(piece_flag::kInteriorCopies) && !piece.has(piece_flag::kCopies)) {
-    return fail(Error::kBadHeader, "a piece without copies has interior ones", at);
-  }
-  if (!kWhole && (piece.flags & ~piece_flag::kDecoded) != 0)
+  if (piece.has(piece_flag::kCreases) && !piece.has(piece_flag::kSeams))
+    return fail(Error::kBadHeader, "a piece without seams has creases", at);
+  const bool has_pivots = piece.surface() == SurfaceCoding::kPivots;
+  if (has_pivots && piece.has(piece_flag::kHoles | piece_flag::kHandles))
+    return fail(Error::kBadHeader, "a piece that is not cut has holes or handles", at);
+  if (!kWhole && ((piece.flags & ~piece_flag::kDecoded) != 0 || has_pivots))
     return fail(kNotInCore, "the core lacks what a piece has", at);
   uint32_t zigzagged = 0;
   MCC_TRY(in.readVarint(piece.vertex_count));
   MCC_TRY(in.readVarint(piece.face_count));
-  MCC_TRY(in.readVarint(zigzagged));
-  piece.operation_count = piece.vertex_count + static_cast<uint32_t>(unzigzag(zigzagged));
+  if (!has_pivots) {
+    MCC_TRY(in.readVarint(zigzagged));
+    piece.operation_count = piece.vertex_count + static_cast<uint32_t>(unzigzag(zigzagged));
+  }
   MCC_TRY(in.readVarint(zigzagged));
   piece.wedge_count = piece.vertex_count + static_cast<uint32_t>(unzigzag(zigzagged));
   MCC_TRY(parseFlaggedCount(in, piece.has(piece_flag::kHoles), 1, piece.dummy_count));
   MCC_TRY(parseFlaggedCount(in, piece.has(piece_flag::kIsolated), 1, piece.isolated_count));
-  MCC_TRY(parseFlaggedCount(in, piece.has(piece_flag::kDuplicates), 1, piece.duplicate_count));
-  MCC_TRY(parseFlaggedCount(in, piece.has(piece_flag::kEdgeDegenerates), 1,
-                            piece.edge_degenerate_count));
   MCC_TRY(parseFlaggedCount(in, piece.has(piece_flag::kListed), 1, piece.listed_count));
   MCC_TRY(parseFlaggedCount(in, piece.has(piece_flag::kManyParts), 2, piece.part_count));
   const uint64_t triangles = piece.triangleCount();
@@ -322,7 +319,9 @@ uint64_t surfaceElements(const PieceHeader& piece) {
   const uint64_t elements =
       uint64_t{piece.operation_count} + piece.vertex_count + piece.wedge_count + triangles;
   uint64_t searches = 0;
-  if (piece.has(piece_flag::kCopies)) searches += piece.vertex_count;
+  if (piece.hasCopies()) searches += piece.vertex_count;
+  if (piece.hasPivots()) searches += piece.face_count;
+  searches += piece.isolated_count;
   if (piece.has(piece_flag::kTriangleOrder)) searches += triangles;
   if (piece.has(piece_flag::kVertexOrder)) searches += piece.wedge_count + triangles;
   return elements + kElementsPerSearch * searches;
@@ -373,7 +372,7 @@ Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, Payloa
   uint8_t flags = 0;
   MCC_TRY(in.readU8(flags));
   header.flags = flags;
-  if ((header.flags & ~payload_flag::kAll) != 0 || header.contextSet() > kMaxContextSet) {
+  if ((header.flags & ~payload_flag::kAll) != 0) {
     return fail(Error::kBadHeader, "reserved bits are set", 8);
   }
   uint32_t piece_count = 1;

@@ -29,15 +29,15 @@ inline constexpr uint64_t kMaxElementsPerByte = 1024;
 /// What an attribute counts for besides its values: tables of up to 4096 entries begin anew with it.
 inline constexpr uint64_t kElementsPerAttribute = 1024;
 /// What a search among neighbours and recent ones counts for: of each vertex where vertices may share groups, of each
-/// place in an order that is kept.
+/// face of a pivot, of each isolated position, of each place in an order that is kept.
 inline constexpr uint64_t kElementsPerSearch = 8;
 
 namespace payload_flag {
 inline constexpr uint32_t kSingleCoder = 1u << 0;
 inline constexpr uint32_t kManyPieces = 1u << 1;
 inline constexpr uint32_t kPadded = 1u << 2;
-inline constexpr uint32_t kContextSetShift = 3;  ///< three bits
-inline constexpr uint32_t kAll = 0x3f;
+inline constexpr uint32_t kContextSetShift = 3;  ///< one bit
+inline constexpr uint32_t kAll = 0xf;
 }  // namespace payload_flag
 
 namespace piece_flag {
@@ -46,17 +46,15 @@ inline constexpr uint32_t kManyParts = 1u << 1;
 inline constexpr uint32_t kSameAttributes = 1u << 2;
 inline constexpr uint32_t kHoles = 1u << 3;
 inline constexpr uint32_t kHandles = 1u << 4;
-inline constexpr uint32_t kCopies = 1u << 5;
-inline constexpr uint32_t kInteriorCopies = 1u << 6;
-inline constexpr uint32_t kMerges = 1u << 7;
-inline constexpr uint32_t kIsolated = 1u << 8;
-inline constexpr uint32_t kDuplicates = 1u << 9;
-inline constexpr uint32_t kListed = 1u << 10;
-inline constexpr uint32_t kEdgeDegenerates = 1u << 11;
-inline constexpr uint32_t kCreases = 1u << 12;
-inline constexpr uint32_t kTriangleOrder = 1u << 13;
-inline constexpr uint32_t kVertexOrder = 1u << 14;
-inline constexpr uint32_t kAll = 0x7fff;
+// What most pieces have is in one byte.
+inline constexpr uint32_t kCreases = 1u << 5;
+inline constexpr uint32_t kIsolated = 1u << 6;
+inline constexpr uint32_t kSurfaceShift = 7;
+inline constexpr uint32_t kSurfaceMask = 3u << kSurfaceShift;  ///< SurfaceCoding
+inline constexpr uint32_t kListed = 1u << 9;
+inline constexpr uint32_t kTriangleOrder = 1u << 10;
+inline constexpr uint32_t kVertexOrder = 1u << 11;
+inline constexpr uint32_t kAll = 0xfff;
 /// Those of pieces that are decoded.
 inline constexpr uint32_t kDecoded = kAll &
                                      ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder) &
@@ -66,16 +64,22 @@ inline constexpr uint32_t kDecoded = kAll &
 /// Positions of up to so many bits are predicted in 32 bits: with a fraction of 8 bits.
 inline constexpr uint32_t kNarrowPositionBits = 17;
 
+/// How the vertices of a surface that may not be a manifold are coded.
+enum class SurfaceCoding : uint8_t {
+  kManifold,        ///< every umbrella is a vertex of its own
+  kBoundaryCopies,  ///< cut to a manifold and stitched; copies lie on boundaries alone
+  kCopies,          ///< the same, copies anywhere
+  kPivots,          ///< not cut: faces vertex by vertex
+};
+
 struct PieceHeader {
   uint32_t flags = 0;
-  uint32_t vertex_count = 0;  ///< umbrellas, i.e. vertices of the cut mesh
+  uint32_t vertex_count = 0;  ///< of the cut mesh, that is umbrellas; with pivots groups
   uint32_t face_count = 0;
   uint32_t operation_count = 0;
   uint32_t dummy_count = 0;
   uint32_t wedge_count = 0;  ///< isolated ones included
   uint32_t isolated_count = 0;
-  uint32_t duplicate_count = 0;
-  uint32_t edge_degenerate_count = 0;
   uint32_t listed_count = 0;
   uint32_t first_part = 0;
   uint32_t part_count = 1;
@@ -83,8 +87,18 @@ struct PieceHeader {
   uint32_t attribute_count = 0;
 
   bool has(uint32_t flag) const { return (flags & flag & piece_flag::kDecoded) != 0; }
-  uint64_t triangleCount() const {
-    return uint64_t{face_count} + duplicate_count + edge_degenerate_count + listed_count;
+  uint64_t triangleCount() const { return uint64_t{face_count} + listed_count; }
+  SurfaceCoding surface() const {
+    return static_cast<SurfaceCoding>((flags & piece_flag::kSurfaceMask) >>
+                                      piece_flag::kSurfaceShift);
+  }
+  void setSurface(SurfaceCoding coding) {
+    flags = (flags & ~piece_flag::kSurfaceMask) | static_cast<uint32_t>(coding)
+                                                      << piece_flag::kSurfaceShift;
+  }
+  bool hasPivots() const { return decodes::kPivots && surface() == SurfaceCoding::kPivots; }
+  bool hasCopies() const {
+    return surface() == SurfaceCoding::kBoundaryCopies || surface() == SurfaceCoding::kCopies;
   }
 };
 

@@ -357,6 +357,10 @@ class CodesDecoderBurst {
   MCC_INLINE void giveBack(DecoderIo<kSingle>& io) const {
     io.codes_ = codes_;
   }
+  template <bool kSingle>
+  MCC_INLINE void take(const DecoderIo<kSingle>& io) {
+    codes_ = io.codes_;
+  }
 
   MCC_INLINE bool bit(BitModel& model, bool = false) { return codes_.bit(model); }
 

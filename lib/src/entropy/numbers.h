@@ -63,6 +63,18 @@ uint32_t codeTree(Io& io, TreeModel<kBits>& model, uint32_t truth) {
   return node - (1u << kBits);
 }
 
+/// One of `count` equally likely values. [A.3.5]
+template <class Io>
+uint32_t codeUniform(Io& io, uint32_t count, uint32_t truth) {
+  const uint32_t bits = static_cast<uint32_t>(std::bit_width(count)) - 1;
+  const uint32_t shorts =
+      static_cast<uint32_t>((uint64_t{2} << bits) - count);  // values with `bits` bits
+  const bool is_short = Io::kEncoding && truth < shorts;
+  const uint32_t head = io.raw(bits, is_short ? truth : (truth + shorts) >> 1);
+  if (head < shorts) return head;
+  return 2 * head + io.raw(1, (truth + shorts) & 1) - shorts;
+}
+
 }  // namespace mcc
 
 #endif  // MCC_ENTROPY_NUMBERS_H_

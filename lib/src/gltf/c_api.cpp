@@ -62,6 +62,7 @@ Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
   out.max_position_error = options.max_position_error;
   out.is_error_relative = options.is_error_relative != 0;
   out.indices_only = options.indices_only != 0;
+  out.drop_unused = options.drop_unused != 0;
   out.keep_vertex_order = options.keep_vertex_order != 0;
   out.keep_triangle_order = options.keep_triangle_order != 0;
   out.effort = static_cast<uint8_t>(options.effort);

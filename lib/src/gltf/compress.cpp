@@ -7,6 +7,7 @@
 #include "gltf/indices_only.h"
 #include "gltf/quantize.h"
 #include "gltf/rebuild.h"
+#include "gltf/unused.h"
 
 namespace mcc::gltf {
 namespace {
@@ -71,6 +72,7 @@ class Applier {
       const uint32_t index = take(attribute.accessor, where + ": " + attribute.label());
       Json& accessor = compressed_.json["accessors"][index];
       const bool is_position = attribute.name == "POSITION";
+      accessor["count"] = piece.wedge_count;
       setBounds(payload.bounds[number].attributes[k], attribute.format.component_type, is_position,
                 accessor);
       accessors.push_back(index);
@@ -224,6 +226,7 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
   if (options.indices_only) {
     planIndicesOnly(document, foreign, plans);
   } else {
+    planUnused(options, plans, compressed.notes);
     planQuantization(options, plans, compressed.notes);
   }
   if (!options.allow_larger) {

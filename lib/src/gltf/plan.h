@@ -45,6 +45,7 @@ struct PartPlan {
 /// Primitives with identical attributes and targets.
 struct PiecePlan {
   uint32_t wedge_count = 0;
+  std::vector<uint32_t> kept;  ///< vertices of the source, if others were dropped
   uint32_t target_count = 0;
   /// In payload order; none with indices_only.
   std::vector<AttributePlan> attributes;

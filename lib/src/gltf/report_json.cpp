@@ -74,6 +74,7 @@ Json optionsJson(const ConvertOptions& options) {
           {"is_error_relative", options.is_error_relative},
           {"position_lattice", lattice},
           {"indices_only", options.indices_only},
+          {"drop_unused", options.drop_unused},
           {"fallback", options.fallback},
           {"keep_vertex_order", options.keep_vertex_order},
           {"keep_triangle_order", options.keep_triangle_order},

@@ -29,6 +29,9 @@ struct Groups {
   Array<uint32_t>
       umbrellas;  ///< a half-edge leaving the group in each of its umbrellas, by vertex number
 
+  bool has_corners =
+      false;  ///< every group lists all half-edges that leave it, not one per umbrella
+
   bool hasCopies() const { return !listed.empty(); }
   /// Only with copies. Nothing for a group of one vertex that is not listed.
   MCC_INLINE std::span<const uint32_t> umbrellasOf(uint32_t group) const {

@@ -17,9 +17,9 @@ class Cutter {
          std::span<const uint32_t> region_of_face)
       : corner_class_(corner_class), class_count_(class_count), region_of_face_(region_of_face) {}
 
-  CutResult run(EdgePairing pairing, uint32_t start_half_edge) {
+  CutResult run(uint32_t start_half_edge) {
     result_.mesh.real_face_count = static_cast<uint32_t>(corner_class_.size() / 3);
-    pairHalfEdges(pairing);
+    pairHalfEdges();
     makeVertices();
     coneHoles();
     findComponents(start_half_edge);
@@ -38,7 +38,7 @@ class Cutter {
   }
 
   /// Buckets half-edges by the smaller class of their ends, sorts each bucket by the larger one and by region.
-  void pairHalfEdges(EdgePairing pairing) {
+  void pairHalfEdges() {
     const uint32_t half_edge_count = static_cast<uint32_t>(corner_class_.size());
     result_.mesh.twin.assign(half_edge_count, kNone);
     std::vector<uint32_t> bucket_end(size_t{class_count_} + 1, 0);
@@ -67,7 +67,6 @@ class Cutter {
       std::sort(entries.begin() + bucket_end[c], entries.begin() + bucket_end[c + 1]);
       for (uint32_t i = bucket_end[c], end = i; i < bucket_end[c + 1]; i = end) {
         while (end < bucket_end[c + 1] && entries[end].isBeside(entries[i])) ++end;
-        if (end - i > 2 && pairing == EdgePairing::kCut) continue;
         open.clear();
         for (uint32_t k = i; k < end; ++k) pairOne(entries[k].half_edge, open);
       }
@@ -190,9 +189,8 @@ class Cutter {
 }  // namespace
 
 CutResult cutToManifold(std::span<const uint32_t> corner_class, uint32_t class_count,
-                        EdgePairing pairing, uint32_t start_half_edge,
-                        std::span<const uint32_t> region_of_face) {
-  return Cutter(corner_class, class_count, region_of_face).run(pairing, start_half_edge);
+                        uint32_t start_half_edge, std::span<const uint32_t> region_of_face) {
+  return Cutter(corner_class, class_count, region_of_face).run(start_half_edge);
 }
 
 void halveComponent(const ClosedMesh& mesh, const ClosedMesh::Component& component,

@@ -10,13 +10,8 @@
 
 namespace mcc {
 
-/// What happens at an edge with more than two faces.
-enum class EdgePairing : uint8_t {
-  kStack,  ///< neighbours in file order of opposite direction stay joined
-  kCut,    ///< all its faces are cut apart
-};
-
-/// Cuts triangles into oriented manifold pieces: joins half-edges of opposite direction, makes one vertex per
+/// Cuts triangles into oriented manifold pieces: joins half-edges of opposite direction, at edges with more than
+/// two faces neighbours in file order, makes one vertex per
 /// umbrella, cones every hole to a dummy. `corner_class` has 3 position classes per triangle; triangles with two
 /// corners of one class are left loose. Every boundary, non-manifold edge and inconsistent orientation ends up as
 /// a boundary of the result. O(n log n).
@@ -28,8 +23,7 @@ struct CutResult {
 
 /// `region_of_face`: by triangle, or empty; edges between triangles of different regions are cut.
 CutResult cutToManifold(std::span<const uint32_t> corner_class, uint32_t class_count,
-                        EdgePairing pairing, uint32_t start_half_edge,
-                        std::span<const uint32_t> region_of_face = {});
+                        uint32_t start_half_edge, std::span<const uint32_t> region_of_face = {});
 
 /// Moves one half of the real faces of a component, those far from its start, to a region of their own. O(its faces).
 void halveComponent(const ClosedMesh& mesh, const ClosedMesh::Component& component,

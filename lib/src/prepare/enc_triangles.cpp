@@ -52,14 +52,12 @@ SortedTriangles sortTriangles(std::span<const PartView> parts, uint32_t wedge_co
         slot = (slot + 1) & (table_size - 1);
       }
       if (table[slot] != kNone) {
-        ++result.duplicates[table[slot]];
-        ++result.duplicate_count;
+        result.duplicates.push_back(table[slot]);
         continue;
       }
       table[slot] = static_cast<uint32_t>(result.part.size());
       result.wedges.insert(result.wedges.end(), w, w + 3);
       result.part.push_back(p);
-      result.duplicates.push_back(0);
       for (int k = 0; k < 3; ++k) used[w[k]] = 1;
     }
   }

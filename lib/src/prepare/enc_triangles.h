@@ -16,8 +16,7 @@ struct SortedTriangles {
       wedges;  ///< 3 per proper triangle: three different wedges, each triple once per part
   std::vector<uint32_t> part;  ///< per proper triangle
   std::vector<uint32_t>
-      duplicates;  ///< per proper triangle: further copies (same wedges up to rotation, same part)
-  uint32_t duplicate_count = 0;
+      duplicates;  ///< a proper triangle each: same wedges up to rotation, same part
   struct Listed {
     uint32_t wedge[3];
     uint32_t part;
