@@ -18,7 +18,6 @@ inline constexpr bool kWhole = true;
 
 namespace decodes {
 inline constexpr bool kOrders = kWhole;       ///< of triangles and vertices, if they are kept
-inline constexpr bool kDoubles = kWhole;      ///< triangles twice, or degenerate along an edge
 inline constexpr bool kExactFloats = kWhole;  ///< grids too, and positions above 17 bits
 inline constexpr bool kPivots = kWhole;       ///< faces vertex by vertex
 inline constexpr bool kPlanes = kWhole;       ///< of positions

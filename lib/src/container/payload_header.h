@@ -56,9 +56,7 @@ inline constexpr uint32_t kTriangleOrder = 1u << 10;
 inline constexpr uint32_t kVertexOrder = 1u << 11;
 inline constexpr uint32_t kAll = 0xfff;
 /// Those of pieces that are decoded.
-inline constexpr uint32_t kDecoded = kAll &
-                                     ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder) &
-                                     ~(decodes::kDoubles ? 0 : kDuplicates | kEdgeDegenerates);
+inline constexpr uint32_t kDecoded = kAll & ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder);
 }  // namespace piece_flag
 
 /// Positions of up to so many bits are predicted in 32 bits: with a fraction of 8 bits.
