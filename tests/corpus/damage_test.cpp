@@ -167,7 +167,11 @@ class Reached {
       const size_t count = is_through ? steps[i].size() : std::min<size_t>(steps[i].size(), 1);
       reached.insert(steps[i].begin(), steps[i].begin() + static_cast<std::ptrdiff_t>(count));
     }
-    for (const std::string& decoder : reached) ++counts_[decoder];
+    // Damage of a header may ask for a decoder that no payload of the corpus comes to.
+    for (const std::string& decoder : reached) {
+      const auto count = counts_.find(decoder);
+      if (count != counts_.end()) ++count->second;
+    }
   }
 
   const std::map<std::string, uint64_t>& counts() const { return counts_; }

@@ -149,7 +149,9 @@ class Listing {
 
   void addPosition(const AttributeInfo& a, const PieceHeader& piece) {
     addCoding(a);
-    const uint32_t kind = std::bit_width(uint32_t{a.predictor} & position_mode::kKinds) / 2;
+    static_assert(position_mode::kKinds == 7 * position_mode::kShear);
+    const uint32_t kinds = (a.predictor & position_mode::kKinds) / position_mode::kShear;
+    const uint32_t kind = static_cast<uint32_t>(std::bit_width(kinds));
     static const char* const kKinds[] = {"plain", "sheared", "palette", "planes"};
     static const Sections kKindSections[] = {
         {"B.2.2", "B.2.4", "B.2.5", "B.2.6"}, {"B.2.3"}, {"B.2.8"}, {"B.2.9"}};

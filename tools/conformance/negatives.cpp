@@ -629,8 +629,8 @@ class Maker {
              "More than one of shear, palette and planes", any,
              [=](HeaderFields& f) { f.set("0.0.predictor", predictor); });
     }
-    header("reserved bit of positions", "A.6.2", "The reserved bit of the positions' predictor", any,
-           [](HeaderFields& f) { f.set("0.0.predictor", kReserved); });
+    header("reserved bit of positions", "A.6.2", "The reserved bit of the positions' predictor",
+           any, [](HeaderFields& f) { f.set("0.0.predictor", kReserved); });
     header("selection without weights", "A.6.2", "Tip selection without weights", any,
            [](HeaderFields& f) { f.set("0.0.predictor", kSelect); });
     for (const uint32_t bit : {kFold, kOwnScale}) {
@@ -830,22 +830,30 @@ class Maker {
     };
     std::map<std::string, Found> found;
     test::Random random(1);
-    for (size_t i = 0; i < assets_.size(); ++i) {
-      if (assets_[i].payload.size() > kSearchedBytes) continue;
+    const auto search = [&](const Asset& asset, size_t header_bytes) {
       for (uint32_t round = 0; round < kRounds; ++round) {
-        Bytes payload = assets_[i].payload;
-        const size_t first = headers_[i].header_bytes;
-        if (first >= payload.size()) break;
+        Bytes payload = asset.payload;
+        if (header_bytes >= payload.size()) break;
         for (uint32_t change = random.between(1, 3); change != 0; --change) {
-          const size_t at = first + random.below(static_cast<uint32_t>(payload.size() - first));
-          payload[at] = static_cast<uint8_t>(random.below(256));
+          const uint32_t range = static_cast<uint32_t>(payload.size() - header_bytes);
+          payload[header_bytes + random.below(range)] = static_cast<uint8_t>(random.below(256));
         }
         repairChecksum(payload);
         const Status status = decode(payload);
         if (status.ok()) continue;
         Found& best = found[status.what];
         if (best.asset != nullptr && best.payload.size() <= payload.size()) continue;
-        best = {&assets_[i], std::move(payload), status.error};
+        best = {&asset, std::move(payload), status.error};
+      }
+    };
+    const auto isComplete = [&] {
+      return std::all_of(std::begin(kMessages), std::end(kMessages),
+                         [&](const Message& message) { return found.count(message.what) != 0; });
+    };
+    for (uint32_t search_count = 0; search_count < kSearches && !isComplete(); ++search_count) {
+      for (size_t i = 0; i < assets_.size(); ++i) {
+        if (assets_[i].payload.size() <= kSearchedBytes)
+          search(assets_[i], headers_[i].header_bytes);
       }
     }
     for (const Message& message : kMessages) {
@@ -1073,7 +1081,8 @@ class Maker {
   }
 
   static constexpr size_t kSearchedBytes = 700;
-  static constexpr uint32_t kRounds = 2000;
+  static constexpr uint32_t kRounds = 1000;  ///< of each asset, in each search
+  static constexpr uint32_t kSearches = 20;  ///< at most: until each message was found
 
   std::span<const Asset> assets_;
   std::vector<PayloadHeader> headers_;

@@ -764,6 +764,15 @@ void crowdedSources(std::vector<Source>& all) {
   }
 }
 
+/// A chain of bipyramids, each with a pole of the next: vertices of many triangles, inside of two surfaces.
+TestMesh poles() {
+  std::vector<TestMesh> all;
+  for (uint32_t i = 0; i < 8; ++i) {
+    all.push_back(translated(bipyramid(13 + i), 0, 0, 2 * static_cast<float>(i)));
+  }
+  return unionOf(all, "poles");
+}
+
 /// Larger surfaces: contexts and tables that small ones do not reach.
 void largerSources(std::vector<Source>& all) {
   struct Larger {
@@ -779,6 +788,11 @@ void largerSources(std::vector<Source>& all) {
                          "copies")},
       {"isosurface", gyroid(12)},
       {"stacks", combOfStacks(14, 12)},
+      // Most ways to find a vertex again need a surface with many copies that is cut, not listed by its vertices.
+      {"voxels", randomVoxels(6, 7, 45)},
+      {"turned", withFlippedTriangles(icosphere(3), 5, 30)},
+      {"turned_sheet", withFlippedTriangles(grid(20, 20), 5, 8)},
+      {"poles", poles()},
   };
   for (const Larger& larger : surfaces) {
     for (uint32_t set = 0; set < 2; ++set) {

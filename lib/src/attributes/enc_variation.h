@@ -40,10 +40,15 @@ class Variation {
     const bool planes =
         std::all_of(pieces.begin(), pieces.end(),
                     [](const PositionCandidate& piece) { return piece.planes != nullptr; });
+    using namespace position_mode;
+    // The kind first: planes go with so few of the other modes that they would hardly ever occur.
+    const uint8_t kinds[] = {0, kShear, kPalette, kPlanes};
+    const uint8_t kind = kinds[below(planes ? 4 : 3)];
+    const uint8_t others = kind == kPlanes ? kWithPlanes : static_cast<uint8_t>(~kKinds);
     PositionParameters p;
     do {
-      p.modes = static_cast<uint8_t>(below(256));
-    } while (!position_mode::areKnown(p.modes) || (p.has(position_mode::kPlanes) && !planes));
+      p.modes = kind | (static_cast<uint8_t>(below(256)) & others);
+    } while (!areKnown(p.modes));
     setUniversalScale(p);
     if (p.has(position_mode::kWeights)) varyWeights(p);
     if (p.has(position_mode::kOwnScale)) varyScale(p);
