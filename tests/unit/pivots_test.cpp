@@ -156,7 +156,9 @@ TEST(Pivots, DamageIsAnError) {
     DecoderIo<true> decoder(bytes, {}, {});
     Stages<DecoderIo<true>> reader(decoder, claims, {positionInfo(10)});
     const Status status = reader.piece.codeConnectivity(PieceTruth{});
-    if (status.ok()) EXPECT_EQ(checkFaceMesh(reader.piece.mesh, claims.vertex_count), "");
+    if (status.ok()) {
+      EXPECT_EQ(checkFaceMesh(reader.piece.mesh, claims.vertex_count), "");
+    }
     return status.ok() ? decoder.finish() : status;
   };
   EXPECT_TRUE(decode(codes, header).ok());
