@@ -43,8 +43,8 @@ const char* nameOf(AttributeMethod method) {
     case AttributeMethod::kSkin: return "skin";
     case AttributeMethod::kExactNormal: return "exact normal";
     case AttributeMethod::kExactTangent: return "exact tangent";
-    case AttributeMethod::kSkinWeights: return "skin weights";
-    case AttributeMethod::kAlias: return "alias";
+    case AttributeMethod::kSkinWeights:
+    case AttributeMethod::kAlias: break;
   }
   return "";
 }
@@ -68,7 +68,9 @@ void addSteps(const PieceHeader& piece, const AttributeInfo* attributes, std::ve
   for (uint32_t phase = 0; phase < kCodingPhases; ++phase) {
     for (uint32_t a = 1; a < piece.attribute_count; ++a) {
       if (codingPhase(attributes[a]) != phase) continue;
-      steps.push_back({nameOf(methodOf(attributes, piece.attribute_count, a))});
+      const AttributeMethod method = methodOf(attributes, piece.attribute_count, a);
+      // An attribute that comes with another has a step, but no decoder.
+      steps.push_back(isWithAnother(method) ? Step{} : Step{nameOf(method)});
     }
   }
 }
