@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/unused.h"
 
-#include <algorithm>
+#include <cstring>
 
 namespace mcc::gltf {
 namespace {
@@ -28,9 +28,10 @@ void keepVertices(std::vector<uint32_t> kept, PiecePlan& piece) {
   for (AttributePlan& attribute : piece.attributes) {
     AccessorData& source = attribute.source;
     std::vector<uint8_t> elements(kept.size() * source.element_bytes);
-    for (size_t i = 0; i < kept.size(); ++i)
-      std::ranges::copy(source.element(kept[i]),
-                        elements.begin() + static_cast<std::ptrdiff_t>(i * source.element_bytes));
+    for (size_t i = 0; i < kept.size(); ++i) {
+      std::memcpy(elements.data() + i * source.element_bytes, source.element(kept[i]).data(),
+                  source.element_bytes);
+    }
     source.owned = std::move(elements);
     source.data = source.owned.data();
     source.stride_bytes = source.element_bytes;
