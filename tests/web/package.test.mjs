@@ -15,7 +15,7 @@ import { build } from 'vite';
 const run = promisify(execFile);
 const here = fileURLToPath(new URL('.', import.meta.url));
 const packageFolder = fileURLToPath(new URL('../../lib/web', import.meta.url));
-const asset = fileURLToPath(new URL('../conformance/assets/006_tetrahedron.glb', import.meta.url));
+const asset = fileURLToPath(new URL('../conformance/assets/005_tetrahedron.glb', import.meta.url));
 const project = mkdtempSync(join(tmpdir(), 'gltf-mcc-project-'));
 const installed = join(project, 'node_modules', 'gltf-mcc');
 after(() => rmSync(project, { recursive: true }));
