@@ -179,7 +179,6 @@ function checkPositionPredictor(position) {
 	const byte = position.predictor;
 	const kind = byte & 28;
 	if ((kind & (kind - 1)) !== 0) badHeader('A.6.2', 'more than one of shear, palette and planes');
-	if (byte >> 7 !== 0) badHeader('A.6.2', 'the reserved bit of the predictor of positions');
 	if ((byte & 3) === 2) badHeader('A.6.2', 'tip selection without weights');
 	if (kind !== 16) return;
 	if (byte >> 5 !== 0 || position.coding !== LATTICE || position.bits > 17) badHeader('A.6.2', 'planes are not allowed here');

@@ -179,7 +179,7 @@ class Vertex {
 	readNumber(slot, x, scale) {
 		const r = Math.trunc(f(clamp(x, -(2 ** 22), 2 ** 22) * 256)) + 128;
 		const u = scale > 0 ? Math.trunc(min(scale, 2 ** 22)) : 0;
-		return ((r >> 8) + readFoldedResidual(this.streams, this.planes.rows, slot, u, r)) | 0;
+		return ((r >> 8) + readFoldedResidual(this.streams, this.planes.rows, slot, 0, u, r)) | 0;
 	}
 
 	readDiagonal(axes, diagonal) {

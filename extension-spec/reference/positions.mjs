@@ -61,6 +61,7 @@ function parameters(byte) {
 		planes: bit(4),
 		fold: bit(5),
 		ownScale: bit(6),
+		split: bit(7),
 	};
 }
 
@@ -177,45 +178,57 @@ class Positions {
 			this.plane.codeFan(fan, predicted, this.prediction.normal(fan));
 			return;
 		}
-		const normal = this.shear ? this.prediction.normal(fan) : [0, 0, 0];
-		const axis = axesByNormal(normal);
-		const scale = this.scalesOf(this.coefficients[fan.plain ? 1 : 0], predicted.magnitudes, axis.map((s) => predicted.spread[s]));
-		if (this.palette) this.codePalette(fan.v, predicted.q8, scale);
-		else if (this.shear) this.codeSheared(fan, predicted, normal, axis, scale);
-		else this.codePlain(fan.v, predicted.q8, scale);
+		const slots = this.scalesAndSets(fan, predicted);
+		if (this.palette) this.codePalette(fan.v, predicted.q8, slots);
+		else if (this.shear) this.codeSheared(fan, predicted, slots);
+		else this.codePlain(fan.v, predicted.q8, slots);
 	}
 
-	// [B.2.5] The scale of each slot
+	// The order of the components by slot, and [B.2.5] the scale and set of each slot.
+	scalesAndSets(fan, predicted) {
+		const normal = this.shear ? this.prediction.normal(fan) : [0, 0, 0];
+		const axis = axesByNormal(normal);
+		const coefficients = this.coefficients[fan.plain ? 1 : 0];
+		return { normal, axis, ...this.scalesOf(coefficients, predicted.magnitudes, axis.map((s) => predicted.spread[s])) };
+	}
+
+	// [B.2.5]
 	scalesOf(coefficients, magnitudes, spread) {
 		const { wide } = this;
-		return coefficients.map((c, k) => {
-			const [c0, c1, c2] = c.map(BigInt);
-			return Math.min(Number(wide.unsigned(c0 * magnitudes[k] + c1 * spread[k] + c2) >> 6n), 2 ** 26);
-		});
+		const scale = [];
+		const set = [];
+		for (let k = 0; k < 3; ++k) {
+			const [c0, c1, c2] = coefficients[k].map(BigInt);
+			const N = wide.unsigned(c0 * magnitudes[k]);
+			const S = wide.unsigned(c1 * spread[k]);
+			scale.push(Math.min(Number(wide.unsigned(N + S + c2) >> 6n), 2 ** 26));
+			set.push(this.split ? Number(S >> 2n > N >> 1n) + 2 * Number(N >> 2n > S >> 1n) : 0);
+		}
+		return { scale, set };
 	}
 
 	// [B.2.5] r: q8 + 128
-	readResidual(slot, scale, r) {
+	readResidual(slot, set, scale, r) {
 		const { rows } = this.models;
-		if (this.fold) return readFoldedResidual(this.streams, rows, slot, scale, r);
-		return readScaledResidual(this.streams, slot, rows.ROW[slot], scale);
+		if (this.fold) return readFoldedResidual(this.streams, rows, slot, set, scale, r);
+		return readScaledResidual(this.streams, slot, rows.ROW[slot][set], scale);
 	}
 
 	// The coordinate of slot k, which is component s: r is q8 + 128, `shift` what normal shear adds.
-	codeComponent(v, s, k, r, shift, scale) {
+	codeComponent(v, s, k, r, shift, scale, set) {
 		const { records, wide } = this;
-		const residual = this.readResidual(k, scale, r);
+		const residual = this.readResidual(k, set, scale, r);
 		const predicted = toI32(wide.wrap(r + shift) >> 8n);
 		records.q[3 * v + s] = predicted + residual;
 		records.magnitude[3 * v + k] = Math.abs(residual);
 	}
 
-	codePlain(v, q8, scale) {
-		for (let s = 0; s < 3; ++s) this.codeComponent(v, s, s, this.wide.wrap(q8[s] + 128n), 0n, scale[s]);
+	codePlain(v, q8, { scale, set }) {
+		for (let s = 0; s < 3; ++s) this.codeComponent(v, s, s, this.wide.wrap(q8[s] + 128n), 0n, scale[s], set[s]);
 	}
 
 	// [B.2.3] Normal shear
-	codeSheared(fan, predicted, normal, axis, scale) {
+	codeSheared(fan, predicted, { normal, axis, scale, set }) {
 		const { wide, records } = this;
 		const { c10, c20, c21 } = shearOf(normal, axis);
 		const q8 = axis.map((s) => predicted.q8[s]);
@@ -227,19 +240,19 @@ class Positions {
 		];
 		for (let k = 0; k < 3; ++k) {
 			const shift = this.fold ? BigInt.asIntN(64, shifts[k]() + 128n) & ~255n : shifts[k]();
-			this.codeComponent(fan.v, axis[k], k, wide.wrap(q8[k] + 128n), shift, scale[k]);
+			this.codeComponent(fan.v, axis[k], k, wide.wrap(q8[k] + 128n), shift, scale[k], set[k]);
 		}
 	}
 
 	// [B.2.8] A vertex with palettes
-	codePalette(v, q8, scale) {
+	codePalette(v, q8, { scale, set }) {
 		const { records, wide } = this;
 		for (let s = 0; s < 3; ++s) {
 			const palette = this.palettes[s];
 			const from = toI32(wide.wrap(q8[s] + 128n) >> 8n);
 			const ranked = palette === undefined ? { q8: q8[s], scale: scale[s] } : palette.ranked(q8[s], scale[s]);
 			const r = wide.wrap(ranked.q8 + 128n);
-			const rank = (toI32(r >> 8n) + this.readResidual(s, ranked.scale, r)) | 0;
+			const rank = (toI32(r >> 8n) + this.readResidual(s, set[s], ranked.scale, r)) | 0;
 			const q = palette === undefined ? rank : palette.valueOf(rank);
 			records.q[3 * v + s] = q;
 			records.magnitude[3 * v + s] = Math.abs((q - from) | 0);
@@ -256,9 +269,9 @@ class Positions {
 			this.plane.codeSeed(v, q8);
 		} else {
 			const scales = neighbour === NONE ? seeds.far : seeds.near;
-			const scale = scales.map((x) => Math.min(x, 2 ** 26));
-			if (this.palette) this.codePalette(v, q8, scale);
-			else this.codePlain(v, q8, scale);
+			const slots = { scale: scales.map((x) => Math.min(x, 2 ** 26)), set: [0, 0, 0] };
+			if (this.palette) this.codePalette(v, q8, slots);
+			else this.codePlain(v, q8, slots);
 			this.learnSeed(v, scales);
 		}
 		if (neighbour === NONE) this.noteLast(v);

@@ -99,11 +99,11 @@ function foldedRows(fractionClass) {
 	return Array.from({ length: FOLDED_BUCKETS }, (_, bucket) => makeFoldedRow(fractionClass, bucket));
 }
 
-// [B.2.5] ROW[slot][bucket] and FOLDED[slot][fraction class][bucket] of positions
+// [B.2.5] ROW[slot][set][bucket] and FOLDED[slot][set][fraction class][bucket] of positions
 export class PositionRows {
 	constructor() {
-		this.ROW = models([3], scaledRows);
-		this.FOLDED = models([3], () => [0, 1, 2, 3].map(foldedRows));
+		this.ROW = models([3, 3], scaledRows);
+		this.FOLDED = models([3, 3], () => [0, 1, 2, 3].map(foldedRows));
 	}
 }
 
@@ -148,10 +148,10 @@ function lowBits(bucket) {
 }
 
 // [B.2.5] A residual that is folded if its bucket is small. r: the prediction in units of 1/256, with 128 added.
-export function readFoldedResidual(streams, rows, slot, scale, r) {
+export function readFoldedResidual(streams, rows, slot, set, scale, r) {
 	const bucket = bucketOf(scale);
-	if (bucket >= FOLDED_BUCKETS) return readResidual(streams, slot, rows.ROW[slot][bucket], lowBits(bucket));
+	if (bucket >= FOLDED_BUCKETS) return readResidual(streams, slot, rows.ROW[slot][set][bucket], lowBits(bucket));
 	const fraction = Number(BigInt(r) & 255n) - 128;
 	const fractionClass = Math.min(Math.abs(fraction) >> 5, 3);
-	return readResidual(streams, slot, rows.FOLDED[slot][fractionClass][bucket], 0, fraction < 0 ? 1 : 0);
+	return readResidual(streams, slot, rows.FOLDED[slot][set][fractionClass][bucket], 0, fraction < 0 ? 1 : 0);
 }

@@ -132,8 +132,8 @@ std::vector<uint8_t> positionPredictors() {
           kWeights | kSelect,
           kFold,
           kWeights | kShear,
-          kWeights | kFold,
-          kWeights | kSelect | kFold | kShear};
+          kWeights | kFold | kSplit,
+          kWeights | kSelect | kFold | kSplit | kShear};
 }
 
 const AxisPlanes kSomePlanes[3] = {{0, 5 * AxisPlanes::kOne},

@@ -484,7 +484,7 @@ TEST(Container, PlanesNeedACoarseLattice) {
   EXPECT_EQ(errorOf(18, AttributeCoding::kLattice, 0), Error::kBadHeader);
   EXPECT_EQ(errorOf(0, AttributeCoding::kExactFloat, 0), Error::kBadHeader);
   EXPECT_EQ(errorOf(14, AttributeCoding::kLattice, position_mode::kFold), Error::kBadHeader);
-  EXPECT_EQ(errorOf(14, AttributeCoding::kLattice, position_mode::kReserved), Error::kBadHeader);
+  EXPECT_EQ(errorOf(14, AttributeCoding::kLattice, position_mode::kSplit), Error::kBadHeader);
   EXPECT_EQ(errorOf(14, AttributeCoding::kLattice, position_mode::kOwnScale), Error::kBadHeader);
 }
 

@@ -163,7 +163,8 @@ class Listing {
     for (const auto& [bit, flag] : {std::pair{position_mode::kWeights, " with weights"},
                                     std::pair{position_mode::kSelect, " with tip selection"},
                                     std::pair{position_mode::kOwnScale, " with own scale"},
-                                    std::pair{position_mode::kFold, " with fold"}}) {
+                                    std::pair{position_mode::kFold, " with fold"},
+                                    std::pair{position_mode::kSplit, " with split"}}) {
       if ((a.predictor & bit) != 0) add(name + flag, sections);
     }
     const uint32_t bits = a.coding == AttributeCoding::kInteger

@@ -629,11 +629,9 @@ class Maker {
              "More than one of shear, palette and planes", any,
              [=](HeaderFields& f) { f.set("0.0.predictor", predictor); });
     }
-    header("reserved bit of positions", "A.6.2", "The reserved bit of the positions' predictor",
-           any, [](HeaderFields& f) { f.set("0.0.predictor", kReserved); });
     header("selection without weights", "A.6.2", "Tip selection without weights", any,
            [](HeaderFields& f) { f.set("0.0.predictor", kSelect); });
-    for (const uint32_t bit : {kFold, kOwnScale}) {
+    for (const uint32_t bit : {kFold, kOwnScale, kSplit}) {
       header("planes with bit " + std::to_string(bit), "A.6.2",
              "Planes with a flag they cannot have", any,
              [=](HeaderFields& f) { f.set("0.0.predictor", kPlanes | bit); });

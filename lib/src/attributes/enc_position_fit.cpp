@@ -550,6 +550,7 @@ class Chooser {
     tryPredictors();
     tryKinds();
     tryMode(position_mode::kFold, Feature::kFold);
+    tryMode(position_mode::kSplit, Feature::kSplit);
     tryOwnScale();
     return race_[0].parameters;
   }

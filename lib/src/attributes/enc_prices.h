@@ -19,6 +19,7 @@ inline constexpr double kWeights = 13;  ///< more than the average of the tips
 inline constexpr double kSelect = 25;   ///< more than weights
 inline constexpr double kShear = 14;
 inline constexpr double kFold = 10;
+inline constexpr double kSplit = 1;
 inline constexpr double kPalette = 50;       ///< with few distinct values
 inline constexpr double kPaletteValue = 40;  ///< more for each distinct value per vertex
 inline constexpr double kPlanes = 90;
@@ -37,6 +38,7 @@ inline double timeOf(const PositionParameters& p, double palette_values) {
   if (p.has(position_mode::kSelect)) ns += price_ns::kSelect;
   if (p.has(position_mode::kShear)) ns += price_ns::kShear;
   if (p.has(position_mode::kFold)) ns += price_ns::kFold;
+  if (p.has(position_mode::kSplit)) ns += price_ns::kSplit;
   if (p.has(position_mode::kPalette)) {
     ns += price_ns::kPalette + price_ns::kPaletteValue * palette_values;
   }

@@ -240,8 +240,8 @@ MCC_INLINE int32_t PlaneVertexCoder<Io>::codeNumber(float prediction, float scal
   const uint32_t rounded = static_cast<uint32_t>(q8) + 128;
   const uint32_t s = static_cast<uint32_t>(std::clamp(scale, 0.0f, kLargestScale));
   ResidualContexts c;
-  findContexts(Lanes<uint32_t>{s, s, s, 0},
-               Lanes<uint32_t>{rounded, rounded, rounded, 0}, std::true_type{}, c);
+  findContexts(ScaleEstimate{Lanes<uint32_t>{s, s, s, 0}, Lanes<uint32_t>{}},
+               Lanes<uint32_t>{rounded, rounded, rounded, 0}, false, std::true_type{}, c);
   const uint32_t from = static_cast<uint32_t>(static_cast<int32_t>(rounded) >> 8);
   const int32_t target = static_cast<int32_t>(static_cast<uint32_t>(truth) - from);
   TokenRow& row = rows_[c.row[kSlot]];

@@ -19,32 +19,52 @@
 
 namespace mcc {
 
-/// Rows of one component: 40 buckets, then the folded ones by fraction class.
-inline constexpr uint32_t kFoldedRows = kFractionClasses * kFoldBuckets;
-inline constexpr uint32_t kRowsOfComponent = kScaleBuckets + kFoldedRows;
+/// Rows of one component: 40 buckets, then the folded ones by fraction class; all of it three times, by which term of
+/// the scale dominates (only with position_mode::kSplit).
+inline constexpr uint32_t kRowsPerSet = kScaleBuckets + kFractionClasses * kFoldBuckets;
+inline constexpr uint32_t kRowSets = 3;
 
 /// Rows start when a piece first needs their kind.
 struct PositionRows {
-  TokenRow row[3][kRowsOfComponent];
+  TokenRow row[3][kRowSets * kRowsPerSet];
   PlaneModels planes;
   bool has_planes = false;
   bool has_basic = false;
   bool has_folded = false;
+  bool has_split = false;
 
   /// For these position_mode bits.
   void prepare(uint32_t modes) {
     const bool fold = (modes & (position_mode::kFold | position_mode::kPlanes)) != 0;
+    const bool split = (modes & position_mode::kSplit) != 0;
     if (decodes::kPlanes && (modes & position_mode::kPlanes) != 0 && !has_planes) {
       planes.setUniform();
       has_planes = true;
     }
-    for (TokenRow* const rows : row) {
-      if (!has_basic) std::copy_n(InitialRowTable::table.plain, kScaleBuckets, rows);
-      if (!fold || has_folded) continue;
-      std::copy_n(InitialRowTable::table.folded, kFoldedRows, rows + kScaleBuckets);
+    for (uint32_t set = 0; set < kRowSets; ++set) {
+      const bool old_set = set == 0 ? has_basic : has_split;
+      if (set != 0 && !split && !has_split) break;
+      TokenRow* rows = row[0] + set * kRowsPerSet;
+      if (!old_set) {
+        std::copy_n(InitialRowTable::table.plain, kScaleBuckets, rows);
+        copyToComponents(set * kRowsPerSet, kScaleBuckets);
+      }
+      if ((fold || has_folded) && !(old_set && has_folded)) {
+        constexpr uint32_t kFoldedRows = kFractionClasses * kFoldBuckets;
+        std::copy_n(InitialRowTable::table.folded, kFoldedRows, rows + kScaleBuckets);
+        copyToComponents(set * kRowsPerSet + kScaleBuckets, kFoldedRows);
+      }
     }
     has_basic = true;
     has_folded = has_folded || fold;
+    has_split = has_split || split;
+  }
+
+ private:
+  void copyToComponents(uint32_t begin, uint32_t count) {
+    for (uint32_t s = 1; s < 3; ++s) {
+      for (uint32_t i = begin; i < begin + count; ++i) row[s][i] = row[0][i];
+    }
   }
 };
 
@@ -61,15 +81,27 @@ struct ScaleLanes {
         constant{c[0].c[2], c[1].c[2], c[2].c[2], 0} {}
 };
 
+/// Scale in 1/16 of a lattice step, and which of its two terms is more than twice the other.
+struct ScaleEstimate {
+  Lanes<uint32_t> scale;  ///< at most kScaleLimit
+  Lanes<uint32_t> set;    ///< 1: spread, 2: neighbours, 0: neither; only with split
+};
 inline constexpr uint32_t kScaleLimit = 1u << 26;
 
-/// Scale in 1/16 of a lattice step, at most kScaleLimit.
 template <class UWide>
-MCC_INLINE Lanes<uint32_t> estimateScale(const ScaleLanes<UWide>& c, const Lanes<UWide>& magnitudes,
-                                         const Lanes<UWide>& spread) {
-  Lanes<UWide> scale = (c.neighbours * magnitudes + c.spread * spread + c.constant) >> 6;
+MCC_INLINE ScaleEstimate estimateScale(const ScaleLanes<UWide>& c, const Lanes<UWide>& magnitudes,
+                                       const Lanes<UWide>& spread, bool split) {
+  using Signed = Lanes<std::make_signed_t<UWide>>;
+  const Lanes<UWide> of_neighbours = c.neighbours * magnitudes;
+  const Lanes<UWide> of_spread = c.spread * spread;
+  Lanes<UWide> scale = (of_neighbours + of_spread + c.constant) >> 6;
   if (sizeof(UWide) > 4) scale = minimumLanes<UWide>(scale, kScaleLimit);
-  return convertLanes<uint32_t>(scale);
+  if (!split) return {convertLanes<uint32_t>(scale), Lanes<uint32_t>{}};
+  // Halved, since comparisons are signed.
+  const Signed by_spread = (Signed)(of_spread >> 2) > (Signed)(of_neighbours >> 1);
+  const Signed by_neighbours = (Signed)(of_neighbours >> 2) > (Signed)(of_spread >> 1);
+  return {convertLanes<uint32_t>(scale),
+          convertLanes<uint32_t>((by_spread & 1) | (by_neighbours & 2))};
 }
 
 /// Half-octave buckets of scales, 0 .. kScaleBuckets-1: the exponent and the highest fraction bit of scale + 1 as a
@@ -90,10 +122,12 @@ struct ResidualContexts {
 
 /// `rounded` is the prediction in Q8 plus one half.
 template <class Fold>
-MCC_INLINE void findContexts(const Lanes<uint32_t>& scale, const Lanes<uint32_t>& rounded, Fold fold,
-                             ResidualContexts& out) {
-  const Lanes<uint32_t> bucket = scaleBuckets(scale);
-  Lanes<uint32_t> row = bucket + Lanes<uint32_t>{0, kRowsOfComponent, 2 * kRowsOfComponent, 0};
+MCC_INLINE void findContexts(const ScaleEstimate& scale, const Lanes<uint32_t>& rounded, bool split,
+                             Fold fold, ResidualContexts& out) {
+  constexpr uint32_t kRows = kRowSets * kRowsPerSet;
+  const Lanes<uint32_t> bucket = scaleBuckets(scale.scale);
+  Lanes<uint32_t> row = bucket + Lanes<uint32_t>{0, kRows, 2 * kRows, 0};
+  if (split) row += scale.set * kRowsPerSet;
   if (fold) {
     const Lanes<uint32_t> fraction = (rounded & 255) - 128;
     const Lanes<uint32_t> folded = (Lanes<uint32_t>)(bucket < kFoldBuckets);

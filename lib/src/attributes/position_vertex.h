@@ -115,7 +115,7 @@ class VertexCoder {
   /// Without shear.
   template <class Fold>
   MCC_INLINE void codeInFileOrder(Io& io, uint32_t v, const Lanes<UWide>& q8,
-                                  const Lanes<uint32_t>& scale, Fold fold) const {
+                                  const ScaleEstimate& scale, Fold fold) const {
     if constexpr (kCompact) {
       codeSlots(io, v, q8, scale, Shift<bool, bool>{false, fold, kNoShear, q8});
     } else {
@@ -123,7 +123,7 @@ class VertexCoder {
     }
   }
   template <class Fold, class Shears>
-  void codeSlots(Io& io, uint32_t v, const Lanes<UWide>& q8, const Lanes<uint32_t>& scale,
+  void codeSlots(Io& io, uint32_t v, const Lanes<UWide>& q8, const ScaleEstimate& scale,
                  const Shift<Fold, Shears>& shift) const;
   template <uint32_t kState, class Fold>
   int32_t codeSlot(Io& io, uint32_t slot, const ResidualContexts& c, uint32_t prediction,
@@ -143,7 +143,7 @@ class VertexCoder {
            (c->magnitude[1] & kAllAxes);
   }
   template <class Fold>
-  void codeRanks(Io& io, uint32_t v, const Lanes<UWide>& q8, const Lanes<uint32_t>& scale,
+  void codeRanks(Io& io, uint32_t v, const Lanes<UWide>& q8, const ScaleEstimate& scale,
                  Fold fold) const;
 
   MCC_INLINE int32_t truthOf(uint32_t v, uint32_t axis) const {
@@ -186,8 +186,8 @@ MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeComponents(Io& io, uint32_t v
                                                               const Prediction<Wide>& prediction,
                                                               uint32_t plain, Fold fold) const {
   if (!has(position_mode::kShear)) {
-    const Lanes<uint32_t> scale =
-        estimateScale<UWide>(scale_[plain], prediction.magnitudes, prediction.spread);
+    const ScaleEstimate scale = estimateScale<UWide>(scale_[plain], prediction.magnitudes,
+                                                     prediction.spread, has(position_mode::kSplit));
     if (has(position_mode::kPalette)) return codeRanks(io, v, prediction.q8, scale, fold);
     return codeInFileOrder(io, v, prediction.q8, scale, fold);
   }
@@ -197,8 +197,8 @@ MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeComponents(Io& io, uint32_t v
     storeLanes<UWide>(x, by_axis);
     return Lanes<UWide>{by_axis[shear.axis[0]], by_axis[shear.axis[1]], by_axis[shear.axis[2]], 0};
   };
-  const Lanes<uint32_t> scale =
-      estimateScale<UWide>(scale_[plain], prediction.magnitudes, inOrder(prediction.spread));
+  const ScaleEstimate scale = estimateScale<UWide>(
+      scale_[plain], prediction.magnitudes, inOrder(prediction.spread), has(position_mode::kSplit));
   const Lanes<UWide> q8 = inOrder(prediction.q8);
   if constexpr (kCompact) {
     codeSlots(io, v, q8, scale, Shift<bool, bool>{true, fold, shear, q8});
@@ -211,14 +211,14 @@ MCC_INLINE void VertexCoder<Io, Wide, kModes>::codeComponents(Io& io, uint32_t v
 template <class Io, class Wide, uint32_t kModes>
 template <class Fold, class Shears>
 MCC_SHARED void VertexCoder<Io, Wide, kModes>::codeSlots(Io& io, uint32_t v, const Lanes<UWide>& q8,
-                                                         const Lanes<uint32_t>& scale,
+                                                         const ScaleEstimate& scale,
                                                          const Shift<Fold, Shears>& shift) const {
   const Fold fold = shift.fold;
   const uint8_t* axis = shift.shear.axis;
   const uint8_t* slot = shift.shear.slot;
   const Lanes<UWide> rounded = q8 + 128;
   ResidualContexts c;
-  findContexts(scale, convertLanes<uint32_t>(rounded), fold, c);
+  findContexts(scale, convertLanes<uint32_t>(rounded), has(position_mode::kSplit), fold, c);
   const auto prediction = [&](UWide q8_rounded) {
     return static_cast<uint32_t>(static_cast<Wide>(q8_rounded) >> 8);
   };
@@ -271,11 +271,11 @@ MCC_SHARED int32_t VertexCoder<Io, Wide, kModes>::codeSlot(Io& io, uint32_t slot
 template <class Io, class Wide, uint32_t kModes>
 template <class Fold>
 void VertexCoder<Io, Wide, kModes>::codeRanks(Io& io, uint32_t v, const Lanes<UWide>& q8,
-                                              const Lanes<uint32_t>& scale, Fold fold) const {
+                                              const ScaleEstimate& scale, Fold fold) const {
   Wide at[4] = {};
   uint32_t width[4];
   storeLanes<Wide>((Lanes<Wide>)q8, at);
-  storeLanes<uint32_t>(scale, width);
+  storeLanes<uint32_t>(scale.scale, width);
   uint32_t near[3];
   int32_t truth[3];
   for (uint32_t s = 0; s < 3; ++s) {
@@ -291,7 +291,8 @@ void VertexCoder<Io, Wide, kModes>::codeRanks(Io& io, uint32_t v, const Lanes<UW
   }
   const Lanes<UWide> rounded = (Lanes<UWide>)loadLanes<Wide>(at) + 128;
   ResidualContexts c;
-  findContexts(loadLanes<uint32_t>(width), convertLanes<uint32_t>(rounded), fold, c);
+  findContexts({loadLanes<uint32_t>(width), scale.set}, convertLanes<uint32_t>(rounded),
+               has(position_mode::kSplit), fold, c);
   const auto prediction = [&](uint32_t s) {
     return static_cast<uint32_t>(static_cast<Wide>(rounded[s]) >> 8);
   };
@@ -326,7 +327,7 @@ void VertexCoder<Io, Wide, kModes>::codeSeed(Io& io, uint32_t v, const VertexRec
   const Lanes<UWide> q8 = {static_cast<UWide>(from[0]) << 8, static_cast<UWide>(from[1]) << 8,
                            static_cast<UWide>(from[2]) << 8, 0};
   const Lanes<uint32_t> scales = {scale[0], scale[1], scale[2], 0};
-  const Lanes<uint32_t> estimate = minimumLanes<uint32_t>(scales, kScaleLimit);
+  const ScaleEstimate estimate{minimumLanes<uint32_t>(scales, kScaleLimit), {}};
   if constexpr (std::is_same_v<Wide, int32_t>) {
     if (has(position_mode::kPlanes)) {
       Prediction<int32_t> prediction{};

@@ -43,6 +43,7 @@ std::string nameOfPosition(uint8_t bits) {
       .bit(position_mode::kPlanes, "planes")
       .bit(position_mode::kFold, "fold")
       .bit(position_mode::kOwnScale, "own scale")
+      .bit(position_mode::kSplit, "split")
       .text();
 }
 

@@ -164,7 +164,7 @@ inline constexpr uint8_t kPalette = 1u << 3;
 inline constexpr uint8_t kPlanes = 1u << 4;  ///< without the following
 inline constexpr uint8_t kFold = 1u << 5;
 inline constexpr uint8_t kOwnScale = 1u << 6;
-inline constexpr uint8_t kReserved = 1u << 7;
+inline constexpr uint8_t kSplit = 1u << 7;
 inline constexpr uint8_t kKinds = kShear | kPalette | kPlanes;
 inline constexpr uint8_t kWithPlanes = kWeights | kSelect;  ///< what planes may have beside them
 inline constexpr uint8_t kDecoded = static_cast<uint8_t>(~(decodes::kPlanes ? 0 : kPlanes));
@@ -172,7 +172,7 @@ inline constexpr uint8_t kMaxBitsOfPlanes = 17;  ///< of the lattice
 
 constexpr bool areKnown(uint32_t modes) {
   const uint32_t kinds = modes & kKinds;
-  if ((modes & kReserved) != 0 || (kinds & (kinds - 1)) != 0) return false;
+  if ((kinds & (kinds - 1)) != 0) return false;
   if ((modes & kSelect) != 0 && (modes & kWeights) == 0) return false;
   return kinds != kPlanes || (modes & ~uint32_t{kPlanes | kWithPlanes}) == 0;
 }
