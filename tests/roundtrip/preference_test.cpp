@@ -10,7 +10,7 @@
 namespace mcc::test {
 namespace {
 
-/// Of small surfaces, where one coder for all streams saves bytes and takes longer, and others.
+/// Bytes of small surfaces, where one coder for all streams saves bytes and takes longer, and of others.
 size_t bytesOf(Preference prefer) {
   EncodeOptions options;
   options.prefer = prefer;

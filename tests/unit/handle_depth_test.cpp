@@ -34,15 +34,24 @@ bool keepsClasses(const Plan& plan) {
   return true;
 }
 
-TEST(HandleDepth, SurfacesAreCutUntilItHolds) {
-  const RunJobs in_order;
-  for (const TestMesh& mesh : {mengerSponge(2), plateWithTunnels(40, 1)}) {
-    const MeshPiece piece(mesh);
-    const PieceView view = piece.view();
-    Plan plan;
+/// A mesh and its plan, where handles may be as deep as they are.
+struct Uncut {
+  explicit Uncut(const TestMesh& mesh) : piece(mesh), view(piece.view()) {
+    const RunJobs in_order;
     std::vector<std::string> notes;
-    ASSERT_TRUE(preparePiece(view, {}, Jobs(in_order), plan, notes).ok());
+    EXPECT_TRUE(preparePiece(view, {}, Jobs(in_order), plan, notes).ok());
     prepareConnectivity(plan, kNone, kNone);
+  }
+
+  const MeshPiece piece;
+  const PieceView view;
+  Plan plan;
+};
+
+TEST(HandleDepth, SurfacesAreCutUntilItHolds) {
+  for (const TestMesh& mesh : {mengerSponge(2), plateWithTunnels(40, 1)}) {
+    Uncut uncut(mesh);
+    Plan& plan = uncut.plan;
     const uint32_t deepest = deepestOf(plan);
     const size_t component_count = plan.cut.mesh.components.size();
     RecordProperty("deepest_of_" + mesh.name, std::to_string(deepest));
@@ -60,15 +69,10 @@ TEST(HandleDepth, SurfacesAreCutUntilItHolds) {
 
 /// The plate's deepest handle is three digons less deep than it has tunnels.
 TEST(HandleDepth, OnlyWhatIsTooDeepIsCut) {
-  const RunJobs in_order;
   for (const uint32_t deepest : {kMaxHandleDepth, kMaxHandleDepth + 1}) {
     const TestMesh mesh = plateWithTunnels(deepest + 3, 1);
-    const MeshPiece piece(mesh);
-    const PieceView view = piece.view();
-    Plan plan;
-    std::vector<std::string> notes;
-    ASSERT_TRUE(preparePiece(view, {}, Jobs(in_order), plan, notes).ok());
-    prepareConnectivity(plan, kNone, kNone);
+    Uncut uncut(mesh);
+    Plan& plan = uncut.plan;
     ASSERT_EQ(deepestOf(plan), deepest);
     prepareConnectivity(plan, kNone);
     EXPECT_LE(deepestOf(plan), kMaxHandleDepth);

@@ -60,6 +60,12 @@ void expectCorners(const FaceMesh& mesh, const Groups& groups) {
   ASSERT_EQ(count, 3 * size_t{mesh.face_count});
 }
 
+PieceTruth truthOf(const PivotRecord& record) {
+  PieceTruth truth;
+  truth.pivot_faces = record.faces.data();
+  return truth;
+}
+
 /// Bits per face.
 template <bool kSingle>
 double expectPivots(const TestMesh& mesh) {
@@ -68,9 +74,7 @@ double expectPivots(const TestMesh& mesh) {
   const PieceHeader header = headerOf(record);
   EncoderIo encoder(kSingle);
   Stages<EncoderIo> writer(encoder, header, {positionInfo(10)});
-  PieceTruth truth;
-  truth.pivot_faces = record.faces.data();
-  EXPECT_TRUE(writer.piece.codeConnectivity(truth).ok());
+  EXPECT_TRUE(writer.piece.codeConnectivity(truthOf(record)).ok());
   EXPECT_EQ(checkFaceMesh(writer.piece.mesh, header.vertex_count), "");
   EXPECT_EQ(sortedFaces(writer.piece.mesh, record.class_of_vertex), sortedFaces(mesh));
   for (uint32_t f = 0; f < header.face_count; ++f) {
@@ -148,9 +152,7 @@ TEST(Pivots, DamageIsAnError) {
   const PieceHeader header = headerOf(record);
   EncoderIo encoder(true);
   Stages<EncoderIo> writer(encoder, header, {positionInfo(10)});
-  PieceTruth truth;
-  truth.pivot_faces = record.faces.data();
-  ASSERT_TRUE(writer.piece.codeConnectivity(truth).ok());
+  ASSERT_TRUE(writer.piece.codeConnectivity(truthOf(record)).ok());
   const std::vector<uint8_t> codes = encoder.finish().codes;
   const auto decode = [](const std::vector<uint8_t>& bytes, const PieceHeader& claims) {
     DecoderIo<true> decoder(bytes, {}, {});

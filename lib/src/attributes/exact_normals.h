@@ -195,7 +195,7 @@ void ExactNormalCoder<Io>::codeGroup(uint32_t w) {
   }
 }
 
-/// Of a prediction, without signs, in steps of 2^-12.
+/// The key of a prediction: its components without signs, in steps of 2^-12.
 template <class Io>
 uint64_t ExactNormalCoder<Io>::predictionKey(const ValueMemory& memory, const double* predicted) {
   uint32_t rounded[3];

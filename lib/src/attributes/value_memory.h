@@ -39,7 +39,7 @@ class ValueMemory {
 
   /// Alike for both directions of the edge.
   uint64_t edgeKey(uint32_t a, uint32_t b) const { return keyOf(hashOf(a) + hashOf(b)); }
-  /// Of integers that stand for a prediction.
+  /// The key of a prediction that integers stand for.
   uint64_t predictionKey(const uint32_t* integers) const { return keyOf(hashOf(integers)); }
 
   /// To be called before the first ask() about a wedge.

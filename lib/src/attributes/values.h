@@ -133,8 +133,8 @@ void ValueCoder<Io>::findNeighbours(uint32_t w) {
   if (n_ == kNone) std::swap(n_, p_);
 }
 
-/// Of the first faces that the group of w completes, the half-edge across which a parallelogram has the longest
-/// diagonal; or kNone. [B.3]
+/// The half-edge across which a parallelogram has the longest diagonal, among the first faces that the group of w
+/// completes; or kNone. [B.3]
 template <class Io>
 uint32_t ValueCoder<Io>::diagonalFace(uint32_t w) const {
   const FaceView& view = wedges_.faces;

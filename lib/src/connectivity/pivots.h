@@ -184,7 +184,7 @@ Status PivotCoder<Io>::meetKnownFaces(uint32_t p) {
   return {};
 }
 
-/// The new faces with the spoke `row` and one behind it.
+/// The new faces with the spoke `row` and one after it.
 template <class Io>
 MCC_INLINE Status PivotCoder<Io>::codeRow(CodesBurst& codes, uint32_t p, uint32_t row,
                                           bool begins_fan) {
