@@ -532,6 +532,7 @@ Status Payload::open(std::span<const uint8_t> bytes, const Limits& limits,
     PieceInfo info;
     info.wedge_count = p.wedge_count;
     info.vertex_count = p.vertex_count;
+    info.surface = p.surface();
     info.attributes = {header.attributes.data() + p.first_attribute, p.attribute_count};
     info.parts = {header.parts.data() + p.first_part, p.part_count};
     info.keeps_vertex_order = p.has(piece_flag::kVertexOrder);

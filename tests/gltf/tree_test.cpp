@@ -3,6 +3,7 @@
 // mcTree(): of a payload and of plain triangles; and what inspect works out of a payload.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -165,6 +166,44 @@ TEST(InspectStreams, SumUpToThePayload) {
       }
     }
   }
+}
+
+/// All faces of n^3 boxes: a wall between two is there twice.
+Sheet stackedBoxes(uint16_t n) {
+  Sheet boxes(0);
+  boxes.positions.clear();
+  const auto side = static_cast<uint16_t>(n + 1);
+  for (uint16_t v = 0; v < side * side * side; ++v) {
+    const uint16_t at[] = {static_cast<uint16_t>(v % side), static_cast<uint16_t>(v / side % side),
+                           static_cast<uint16_t>(v / side / side)};
+    boxes.positions.insert(boxes.positions.end(), std::begin(at), std::end(at));
+    if (*std::max_element(at, at + 3) == n) continue;
+    const uint16_t step[] = {1, side, static_cast<uint16_t>(side * side)};
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const uint16_t a = step[(axis + 1) % 3];
+      const uint16_t b = step[(axis + 2) % 3];
+      for (const uint16_t up : {uint16_t{0}, step[axis]}) {
+        const auto p = [&](int corner) { return static_cast<uint16_t>(v + up + corner); };
+        boxes.indices.insert(boxes.indices.end(), {p(0), p(a), p(a + b), p(0), p(a + b), p(b)});
+      }
+    }
+  }
+  boxes.normals.assign(boxes.positions.size(), 0.57735f);
+  boxes.texcoords.assign(boxes.positions.size() / 3 * 2, 0);
+  return boxes;
+}
+
+TEST(InspectDetails, TheSurfaceSaysHowItIsCoded) {
+  const auto surfaceOf = [](const std::vector<uint8_t>& source) {
+    InspectReport report;
+    EXPECT_TRUE(inspectGlb(compressed(source, {}), false, report).ok());
+    return report.payloads.at(0).pieces.at(0).surface;
+  };
+  Builder builder;
+  builder.addMesh({stackedBoxes(8).addTo(builder)});
+  EXPECT_EQ(surfaceOf(builder.toGlb()), SurfaceCoding::kPivots);
+  EXPECT_EQ(surfaceOf(sample("torus.glb")), SurfaceCoding::kManifold);
+  EXPECT_EQ(surfaceOf(sample("moebius.glb")), SurfaceCoding::kBoundaryCopies);
 }
 
 TEST(InspectDetails, BoundsHoldAndPredictorsHaveNames) {

@@ -138,10 +138,16 @@ std::string originText(const AttributeInfo& info) {
   return text;
 }
 
+std::string surfaceName(SurfaceCoding surface) {
+  static constexpr const char* kNames[] = {"manifold", "cut at boundaries", "cut",
+                                           "vertex by vertex"};
+  return kNames[static_cast<size_t>(surface)];
+}
+
 Table attributeTable(const gltf::InspectReport& report, Format format) {
-  Table table({"bufferView", "piece", "triangles", "vertices", "parts", "attribute", "type",
-               "coding", "step", "error bound", "origin", "predictor"},
-              {5, 6, 7, 10, 11});
+  Table table({"bufferView", "piece", "triangles", "vertices", "parts", "surface", "attribute",
+               "type", "coding", "step", "error bound", "origin", "predictor"},
+              {5, 6, 7, 8, 11, 12});
   for (const auto& payload : report.payloads) {
     for (size_t i = 0; i < payload.pieces.size(); ++i) {
       const gltf::InspectPiece& piece = payload.pieces[i];
@@ -153,8 +159,8 @@ Table attributeTable(const gltf::InspectReport& report, Format format) {
                                        : gltf::codingName(attribute.coding, attribute.bits);
         table.addRow({std::to_string(payload.buffer_view), std::to_string(i),
                       count(piece.triangle_count, format), count(piece.wedge_count, format),
-                      std::to_string(piece.part_count), piece.details[k].name,
-                      attributeText(attribute), coding,
+                      std::to_string(piece.part_count), surfaceName(piece.surface),
+                      piece.details[k].name, attributeText(attribute), coding,
                       has_lattice ? fmt::format("{:.6g}", attribute.lattice.step) : "",
                       boundText(piece.details[k]), has_lattice ? originText(attribute) : "",
                       piece.details[k].predictor});
@@ -235,11 +241,9 @@ Json pieceJson(const gltf::InspectPiece& piece) {
     }
     attributes.push_back(std::move(json));
   }
-  return {{"vertices", piece.wedge_count},
-          {"positions", piece.vertex_count},
-          {"triangles", piece.triangle_count},
-          {"parts", piece.part_count},
-          {"attributes", attributes}};
+  return {{"vertices", piece.wedge_count},         {"positions", piece.vertex_count},
+          {"triangles", piece.triangle_count},     {"parts", piece.part_count},
+          {"surface", surfaceName(piece.surface)}, {"attributes", attributes}};
 }
 
 std::string inspectJson(const std::string& input, const gltf::InspectReport& report) {

@@ -255,6 +255,7 @@ struct InspectPiece {
   uint32_t vertex_count = 0;
   uint64_t triangle_count = 0;
   uint32_t part_count = 0;
+  SurfaceCoding surface = SurfaceCoding::kManifold;
   std::vector<AttributeInfo> attributes;
   std::vector<std::string>
       attribute_names;                    ///< as in the JSON; "(unused)" when no primitive names it

@@ -73,14 +73,24 @@ struct AttributeInfo {
   uint8_t tails = 0;  ///< of kGrid: whether values have bits below them, and how those are coded
 };
 
+/// How the surface of a piece is coded.                                                      [A.2.2]
+enum class SurfaceCoding : uint8_t {
+  kManifold,        ///< every umbrella is a vertex of its own
+  kBoundaryCopies,  ///< cut to a manifold and stitched; copies lie on boundaries alone
+  kCopies,          ///< the same, copies anywhere
+  kPivots,          ///< not cut: faces vertex by vertex
+};
+
 /// A set of wedges (vertices of glTF) with attributes and parts.
 struct PieceInfo {
-  uint32_t wedge_count = 0;                   ///< glTF vertices, i.e. accessor.count
-  uint32_t vertex_count = 0;                  ///< topological vertices before re-stitching
+  uint32_t wedge_count = 0;   ///< glTF vertices, i.e. accessor.count
+  uint32_t vertex_count = 0;  ///< topological vertices before re-stitching
+  SurfaceCoding surface = SurfaceCoding::kManifold;
   std::span<const AttributeInfo> attributes;  ///< none: the payload has the triangles alone
   std::span<const PartInfo> parts;
-  bool keeps_vertex_order = false;    ///< wedges are numbered as in the source
-  bool keeps_triangle_order = false;  ///< triangles, with each one's first corner, come as in the source
+  bool keeps_vertex_order = false;  ///< wedges are numbered as in the source
+  bool keeps_triangle_order =
+      false;  ///< triangles, with each one's first corner, come as in the source
 };
 
 /// What a glTF attribute is to this codec: its name decides semantic and set, as far as the type fits.         [A.2.4]

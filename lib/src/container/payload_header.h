@@ -62,14 +62,6 @@ inline constexpr uint32_t kDecoded = kAll & ~(decodes::kOrders ? 0 : kTriangleOr
 /// Positions of up to so many bits are predicted in 32 bits: with a fraction of 8 bits.
 inline constexpr uint32_t kNarrowPositionBits = 17;
 
-/// How the vertices of a surface that may not be a manifold are coded.
-enum class SurfaceCoding : uint8_t {
-  kManifold,        ///< every umbrella is a vertex of its own
-  kBoundaryCopies,  ///< cut to a manifold and stitched; copies lie on boundaries alone
-  kCopies,          ///< the same, copies anywhere
-  kPivots,          ///< not cut: faces vertex by vertex
-};
-
 struct PieceHeader {
   uint32_t flags = 0;
   uint32_t vertex_count = 0;  ///< of the cut mesh, that is umbrellas; with pivots groups

@@ -126,6 +126,7 @@ Result inspectView(const Document& document, uint32_t view,
     InspectPiece row;
     row.wedge_count = piece.wedge_count;
     row.vertex_count = piece.vertex_count;
+    row.surface = piece.surface;
     row.part_count = static_cast<uint32_t>(piece.parts.size());
     for (const PartInfo& part : piece.parts) row.triangle_count += part.triangle_count;
     describeAttributes(piece, row);
