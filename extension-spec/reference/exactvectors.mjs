@@ -37,8 +37,7 @@ export function readComponent(streams, state, rowsByBucket, predicted, expected)
 	const from = ordered(f(predicted));
 	const size = ulp(from);
 	const scale = 16 * expected / size;
-	const u = scale < 2e9 ? Math.trunc(scale) : 2000000000;
-	const residual = readScaledResidual(streams, state, rowsByBucket, u);
+	const residual = readScaledResidual(streams, state, rowsByBucket, f(scale < 2e9 ? scale : 2e9));
 	return { value: (from + residual) | 0, missed: Math.abs(residual * size) };
 }
 

@@ -4,6 +4,7 @@
 
 import { fail } from './bytes.mjs';
 import { golombs, models } from './entropy.mjs';
+import { f } from './vectors.mjs';
 
 export class PaletteModels {
 	constructor() {
@@ -104,9 +105,11 @@ class Palette {
 	}
 
 	// Prediction and scale, in ranks.
-	ranked(q8, scale) {
-		const reach = 16n * BigInt(scale);
-		return { q8: this.rank(q8), scale: Number((this.rough(q8 + reach) - this.rough(q8 - reach)) >> 5n) };
+	ranked({ step, fraction }, scale) {
+		const x = BigInt(256 * step + fraction);
+		const reach = BigInt(Math.trunc(16 * scale));
+		const ranks = f(Number(this.rough(x + reach) - this.rough(x - reach)));
+		return { at: { step: 0, fraction: Number(this.rank(x)) }, scale: ranks / 32 };
 	}
 
 	// What was decoded is a rank.

@@ -4,7 +4,7 @@
 
 import { fail } from './bytes.mjs';
 import { POSITIONS, Row, rows } from './entropy.mjs';
-import { axesByNormal } from './prediction.mjs';
+import { axesByNormal, floatOf } from './prediction.mjs';
 import { readFoldedResidual, readResidual } from './residuals.mjs';
 import { clamp, dot32, f, max, min, sqrt32 } from './vectors.mjs';
 
@@ -62,12 +62,12 @@ export class Planes {
 		const { neighbours } = fan;
 		const N = neighbours.length;
 		const [A, B, C] = [0, N >> 1, N - 1].map((i) => this.records.magnitude[3 * neighbours[i] + 1] & 7);
-		const difference = predicted.difference ?? [0, 0, 0];
-		this.code(fan.v, 64 * A + 8 * B + C, { ...predicted, difference, normal });
+		const between = predicted.between ?? [0, 0, 0];
+		this.code(fan.v, 64 * A + 8 * B + C, { ...predicted, between, normal });
 	}
 
-	codeSeed(v, q8) {
-		this.code(v, 512, { q8, normal: [0, 0, 0], spread: [0, 0, 0], magnitudes: [0, 0, 0], difference: [0, 0, 0] });
+	codeSeed(v, at) {
+		this.code(v, 512, { at, normal: [0, 0, 0], spread: [0, 0, 0], magnitudes: [0, 0, 0], between: [0, 0, 0] });
 	}
 
 	code(v, context, fanState) {
@@ -85,19 +85,19 @@ export class Planes {
 
 // The state of one vertex, and its code.
 class Vertex {
-	constructor(planes, { q8, normal, spread, magnitudes, difference }) {
+	constructor(planes, { at, normal, spread, magnitudes, between }) {
 		this.planes = planes;
 		this.streams = planes.streams;
 		this.models = planes.models;
-		this.predicted = q8.map((x) => f(f(Number(x)) / 256));
-		this.spread = spread.map((x) => f(Number(BigInt.asIntN(32, BigInt(x)))));
+		this.predicted = at.map(floatOf);
+		this.spread = spread;
 		const size = sqrt32(dot32(normal, normal));
 		const unit = size > 0 ? f(1 / size) : 0;
 		this.normal = normal.map((x) => f(x * unit));
 		this.left = 0;
 		for (const s of xyz) this.left = f(this.left + this.square(s));
-		const disagreement = Math.abs(dot32(difference.map((x) => f(Number(x))), normal));
-		const [m0, , m2] = magnitudes.map((x) => f(Number(x)));
+		const disagreement = Math.abs(dot32(between.map(f), normal));
+		const [m0, , m2] = magnitudes;
 		this.reachAcross = f(f(f(m0 * 0.25) + f(f(disagreement * unit) * 2)) + 16);
 		this.reachAlong = f(f(m2 * 0.25) + 16);
 		this.distance = 0;
@@ -178,7 +178,7 @@ class Vertex {
 
 	readNumber(slot, x, scale) {
 		const r = Math.trunc(f(clamp(x, -(2 ** 22), 2 ** 22) * 256)) + 128;
-		const u = scale > 0 ? Math.trunc(min(scale, 2 ** 22)) : 0;
+		const u = scale > 0 ? min(scale, 2 ** 22) : 0;
 		return ((r >> 8) + readFoldedResidual(this.streams, this.planes.rows, slot, 0, u, r)) | 0;
 	}
 

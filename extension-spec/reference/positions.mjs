@@ -10,7 +10,7 @@ import { NONE } from './mesh.mjs';
 import { BYTES_OF_TYPE, EXACT_FLOAT, GRID, INTEGER } from './names.mjs';
 import { PaletteModels, readPalettes } from './palettes.mjs';
 import { Planes, PlanesModels } from './planes.mjs';
-import { axesByNormal, Prediction, toI32, universalWeights, Wide, zeroWeights } from './prediction.mjs';
+import { axesByNormal, movement, Prediction, universalWeights, zeroWeights } from './prediction.mjs';
 import { Region } from './region.mjs';
 import { PositionRows, readFoldedResidual, readScaledResidual } from './residuals.mjs';
 import { f } from './vectors.mjs';
@@ -26,7 +26,7 @@ const U = [
 		[[[169, 13, 1818], [160, 16, 1786], [157, 14, 1446]], [[113, 102, 1386], [108, 107, 1378], [123, 58, 1121]]],
 	],
 ];
-const COEFFICIENT_LIMIT = [4095, 4095, 65535];
+const COEFFICIENT_LIMIT = 65535;
 
 // What belongs to the payload: models, fitted weights and changes of coefficients.
 export class PositionModels {
@@ -101,7 +101,7 @@ function changedCoefficients(streams, m, coefficients) {
 	return coefficients.map((ofFan, fan) => ofFan.map((ofSlot, slot) => ofSlot.map((u, i) => {
 		if (mustRead) m.changes[fan][slot][i] = streams.signedGolomb(m.COEFFICIENT[i]);
 		const scale = u + m.changes[fan][slot][i];
-		if (scale < 0 || scale > COEFFICIENT_LIMIT[i]) fail('BadAttribute', 'A.6.2', 'a coefficient out of range');
+		if (scale < 0 || scale > COEFFICIENT_LIMIT) fail('BadAttribute', 'A.6.2', 'a coefficient out of range');
 		return scale;
 	})));
 }
@@ -140,7 +140,6 @@ class Positions {
 		Object.assign(this, parameters(attribute.predictor));
 		this.attribute = attribute;
 		this.P = bitsOfCoordinates(attribute);
-		this.wide = new Wide(this.P <= 17 ? 32 : 64);
 		this.groupCount = groupCount;
 		this.records = new Records(surface, groupCount, groupCount + piece.isolatedCount);
 		this.region = new Region(surface, groupCount, groups, this);
@@ -152,7 +151,7 @@ class Positions {
 		const { streams, models: m } = this;
 		this.coefficients = readTables(streams, m, this, U[this.weighted ? 1 : 0][this.shear ? 1 : 0]);
 		const weights = this.weighted ? m.weights : zeroWeights();
-		this.prediction = new Prediction(surface, this.region, this.records, this.wide, this.select, weights);
+		this.prediction = new Prediction(surface, this.region, this.records, this.select, weights);
 		if (this.palette) this.palettes = readPalettes(streams, m.palettes, groupCount);
 		if (this.planes) this.plane = new Planes(streams, m.planes, m.rows, this.records);
 	}
@@ -179,9 +178,9 @@ class Positions {
 			return;
 		}
 		const slots = this.scalesAndSets(fan, predicted);
-		if (this.palette) this.codePalette(fan.v, predicted.q8, slots);
+		if (this.palette) this.codePalette(fan.v, predicted.at, slots);
 		else if (this.shear) this.codeSheared(fan, predicted, slots);
-		else this.codePlain(fan.v, predicted.q8, slots);
+		else this.codePlain(fan.v, predicted.at, slots);
 	}
 
 	// The order of the components by slot, and [B.2.5] the scale and set of each slot.
@@ -194,65 +193,63 @@ class Positions {
 
 	// [B.2.5]
 	scalesOf(coefficients, magnitudes, spread) {
-		const { wide } = this;
 		const scale = [];
 		const set = [];
 		for (let k = 0; k < 3; ++k) {
-			const [c0, c1, c2] = coefficients[k].map(BigInt);
-			const N = wide.unsigned(c0 * magnitudes[k]);
-			const S = wide.unsigned(c1 * spread[k]);
-			scale.push(Math.min(Number(wide.unsigned(N + S + c2) >> 6n), 2 ** 26));
-			set.push(this.split ? Number(S >> 2n > N >> 1n) + 2 * Number(N >> 2n > S >> 1n) : 0);
+			const [c0, c1, c2] = coefficients[k].map((c) => c / 64);
+			const N = f(c0 * magnitudes[k]);
+			const S = f(c1 * spread[k]);
+			scale.push(f(f(N + S) + c2));
+			set.push(this.split ? Number(S > 2 * N) + 2 * Number(N > 2 * S) : 0);
 		}
 		return { scale, set };
 	}
 
-	// [B.2.5] r: q8 + 128
-	readResidual(slot, set, scale, r) {
+	// [B.2.5] `fraction` is that of the prediction.
+	readResidual(slot, set, scale, fraction) {
 		const { rows } = this.models;
-		if (this.fold) return readFoldedResidual(this.streams, rows, slot, set, scale, r);
+		if (this.fold) return readFoldedResidual(this.streams, rows, slot, set, scale, fraction + 128);
 		return readScaledResidual(this.streams, slot, rows.ROW[slot][set], scale);
 	}
 
-	// The coordinate of slot k, which is component s: r is q8 + 128, `shift` what normal shear adds.
-	codeComponent(v, s, k, r, shift, scale, set) {
-		const { records, wide } = this;
-		const residual = this.readResidual(k, set, scale, r);
-		const predicted = toI32(wide.wrap(r + shift) >> 8n);
-		records.q[3 * v + s] = predicted + residual;
+	// The coordinate of slot k, which is component s; `shift` is what normal shear adds.
+	codeComponent(v, s, k, { step, fraction }, shift, scale, set) {
+		const { records } = this;
+		const residual = this.readResidual(k, set, scale, fraction);
+		records.q[3 * v + s] = step + ((fraction + 128 + shift) >> 8) + residual;
 		records.magnitude[3 * v + k] = Math.abs(residual);
 	}
 
-	codePlain(v, q8, { scale, set }) {
-		for (let s = 0; s < 3; ++s) this.codeComponent(v, s, s, this.wide.wrap(q8[s] + 128n), 0n, scale[s], set[s]);
+	codePlain(v, at, { scale, set }) {
+		for (let s = 0; s < 3; ++s) this.codeComponent(v, s, s, at[s], 0, scale[s], set[s]);
 	}
 
 	// [B.2.3] Normal shear
 	codeSheared(fan, predicted, { normal, axis, scale, set }) {
-		const { wide, records } = this;
+		const { q } = this.records;
 		const { c10, c20, c21 } = shearOf(normal, axis);
-		const q8 = axis.map((s) => predicted.q8[s]);
-		const deviation = (k) => wide.wrap((BigInt(records.q[3 * fan.v + axis[k]]) << 8n) - q8[k]);
+		const at = axis.map((s) => predicted.at[s]);
+		const deviation = (k) => f(f((q[3 * fan.v + axis[k]] - at[k].step) | 0) - f(f(at[k].fraction) / 256));
 		const shifts = [
-			() => 0n,
-			() => BigInt.asIntN(64, c10 * deviation(0)) >> 12n,
-			() => BigInt.asIntN(64, c20 * deviation(0) + c21 * deviation(1)) >> 12n,
+			() => 0,
+			() => movement(f(c10 * deviation(0))),
+			() => movement(f(f(c20 * deviation(0)) + f(c21 * deviation(1)))),
 		];
 		for (let k = 0; k < 3; ++k) {
-			const shift = this.fold ? BigInt.asIntN(64, shifts[k]() + 128n) & ~255n : shifts[k]();
-			this.codeComponent(fan.v, axis[k], k, wide.wrap(q8[k] + 128n), shift, scale[k], set[k]);
+			const shift = this.fold ? (shifts[k]() + 128) & ~255 : shifts[k]();
+			this.codeComponent(fan.v, axis[k], k, at[k], shift, scale[k], set[k]);
 		}
 	}
 
 	// [B.2.8] A vertex with palettes
-	codePalette(v, q8, { scale, set }) {
-		const { records, wide } = this;
+	codePalette(v, at, { scale, set }) {
+		const { records } = this;
 		for (let s = 0; s < 3; ++s) {
 			const palette = this.palettes[s];
-			const from = toI32(wide.wrap(q8[s] + 128n) >> 8n);
-			const ranked = palette === undefined ? { q8: q8[s], scale: scale[s] } : palette.ranked(q8[s], scale[s]);
-			const r = wide.wrap(ranked.q8 + 128n);
-			const rank = (toI32(r >> 8n) + this.readResidual(s, set[s], ranked.scale, r)) | 0;
+			const from = at[s].step + ((at[s].fraction + 128) >> 8);
+			const ranked = palette === undefined ? { at: at[s], scale: scale[s] } : palette.ranked(at[s], scale[s]);
+			const { step, fraction } = ranked.at;
+			const rank = (step + ((fraction + 128) >> 8) + this.readResidual(s, set[s], ranked.scale, fraction)) | 0;
 			const q = palette === undefined ? rank : palette.valueOf(rank);
 			records.q[3 * v + s] = q;
 			records.magnitude[3 * v + s] = Math.abs((q - from) | 0);
@@ -262,16 +259,16 @@ class Positions {
 	// ---- [B.2.7] Seeds
 
 	codeSeed(v, neighbour) {
-		const { seeds, records, wide } = this;
+		const { seeds, records } = this;
 		const from = neighbour === NONE ? seeds.last : [...records.q.subarray(3 * neighbour, 3 * neighbour + 3)];
-		const q8 = from.map((x) => wide.wrap(BigInt(x) << 8n));
+		const at = from.map((step) => ({ step, fraction: 0 }));
 		if (this.planes) {
-			this.plane.codeSeed(v, q8);
+			this.plane.codeSeed(v, at);
 		} else {
 			const scales = neighbour === NONE ? seeds.far : seeds.near;
-			const slots = { scale: scales.map((x) => Math.min(x, 2 ** 26)), set: [0, 0, 0] };
-			if (this.palette) this.codePalette(v, q8, slots);
-			else this.codePlain(v, q8, slots);
+			const slots = { scale: scales.map(f), set: [0, 0, 0] };
+			if (this.palette) this.codePalette(v, at, slots);
+			else this.codePlain(v, at, slots);
 			this.learnSeed(v, scales);
 		}
 		if (neighbour === NONE) this.noteLast(v);
@@ -307,12 +304,7 @@ function shearOf(normal, axis) {
 	const inverse = f(1 / (largest === 0 ? 1 : largest));
 	const t0 = f(normal[axis[0]] * inverse);
 	const t1 = f(normal[axis[1]] * inverse);
-	const integer = (x) => BigInt(-Math.trunc(x));
-	return {
-		c20: integer(f(t0 * 4096)),
-		c21: integer(f(t1 * 4096)),
-		c10: integer(f(f(f(t0 * t1) / f(f(t1 * t1) + 1)) * 4096)),
-	};
+	return { c20: -256 * t0, c21: -256 * t1, c10: -256 * f(f(t0 * t1) / f(f(t1 * t1) + 1)) };
 }
 
 // The positions of all groups and isolated wedges, and the half-edges by which the groups were entered, in their order.

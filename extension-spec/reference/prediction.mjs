@@ -3,29 +3,7 @@
 // Prediction of positions from a fan: B.2.2, B.2.3 and B.2.4 of the specification, and the weights of A.6.2.
 
 import { next, NONE, prev } from './mesh.mjs';
-import { add32, cross32, f } from './vectors.mjs';
-
-// [A.6.2] Integers of 32 or of 64 bits, as BigInt.
-export class Wide {
-	constructor(bits) {
-		this.bits = bits;
-	}
-
-	wrap(x) {
-		return BigInt.asIntN(this.bits, x);
-	}
-
-	unsigned(x) {
-		return BigInt.asUintN(this.bits, x);
-	}
-
-	abs(x) {
-		const wrapped = this.wrap(x);
-		return this.unsigned(wrapped < 0n ? -wrapped : wrapped);
-	}
-}
-
-export const toI32 = (x) => Number(BigInt.asIntN(32, x));
+import { add32, clamp, cross32, f } from './vectors.mjs';
 
 // [A.6.2] Universal weights of the classes
 const UNIVERSAL_WEIGHTS = [
@@ -48,46 +26,59 @@ const UNIVERSAL_WEIGHTS = [
 export const universalWeights = () => UNIVERSAL_WEIGHTS.map((w) => [...w]);
 export const zeroWeights = () => UNIVERSAL_WEIGHTS.map((w) => w.map(() => 0));
 
-const clampDegrees = (x) => Math.min(Math.max(x, -12), 12);
+const clampDegrees = (x) => clamp(x, -12, 12);
 const xyz = [0, 1, 2];
+
+// [B.2.1] float(x) of an i32, whose sums wrap
+const float = (x) => f(x | 0);
+const sumOf = (list) => list.reduce((a, b) => a + b, 0);
+const sum32 = (list) => list.reduce((a, b) => f(a + b), 0);
+
+// [B.2.1] A movement in 1/256 of a step
+export const movement = (x) => Math.trunc(clamp(x, -(2 ** 29), 2 ** 29));
+
+// [B.2.1] A fine point as a float, in steps
+export const floatOf = ({ step, fraction }) => f(float(step) + f(float(fraction) / 256));
 
 // Predictions of one piece. `records` holds what B.2.1 keeps of the groups.
 export class Prediction {
-	constructor(surface, region, records, wide, select, weights) {
+	constructor(surface, region, records, select, weights) {
 		this.surface = surface;
 		this.region = region;
 		this.records = records;
-		this.wide = wide;
 		this.select = select;
 		this.weights = weights;
 	}
 
-	// q8, spread and magnitudes of a fan, by component, as BigInt; for a plain fan d0 - d1, too.
+	// By component the fine point `at`, spread and magnitudes of a fan; for a plain fan `between`, too.
 	predict(fan) {
 		return fan.plain ? this.plainFan(fan) : this.otherFan(fan);
 	}
 
-	// The coordinates of vertices on axis s.
+	// The coordinates of vertices on axis s, undefined where there is none.
 	on(s, vertices) {
-		return vertices.map((v) => (v === NONE ? NONE : BigInt(this.records.q[3 * v + s])));
+		return vertices.map((v) => (v === NONE ? undefined : this.records.q[3 * v + s]));
 	}
 
-	magnitude(v, k) {
-		return BigInt(this.records.magnitude[3 * v + k]);
+	// |float(sum)| of the magnitudes of the neighbours
+	magnitudes(fan) {
+		const { magnitude } = this.records;
+		return xyz.map((k) => Math.abs(float(sumOf(fan.neighbours.map((n) => magnitude[3 * n + k])))));
 	}
 
 	// ---- [B.2.2] Prediction of a plain fan
 
 	plainFan(fan) {
-		const { wide, records } = this;
 		const around = this.aroundPlainFan(fan);
-		const degrees = [fan.v, ...fan.neighbours].map((v) => records.degree[v]);
+		const degrees = [fan.v, ...fan.neighbours].map((v) => this.records.degree[v]);
 		const w = this.plainWeights(around, degrees);
-		const q8 = xyz.map((s) => wide.wrap(this.plainComponent(around[s], degrees, w)));
-		const difference = xyz.map((s) => wide.wrap(around[s].d0 - around[s].d1));
-		const spread = difference.map((x) => wide.abs(x));
-		const magnitudes = xyz.map((k) => wide.unsigned(fan.neighbours.reduce((m, n) => m + this.magnitude(n, k), 0n)));
-		return { q8, spread, difference, magnitudes };
+		const between = around.map(({ d0, d1 }) => (d1 - d0) | 0);
+		const at = around.map(({ n1, d0, ...rest }, s) => ({
+			step: (d0 + n1 + (between[s] >> 1)) | 0,
+			fraction: 128 * (between[s] & 1) + movement(weightedFeatures({ n1, d0, ...rest }, degrees, w)),
+		}));
+		const spread = between.map((x) => Math.abs(f(x)));
+		return { at, spread, between, magnitudes: this.magnitudes(fan) };
 	}
 
 	// The coordinates around the fan and the vertices beyond, by component.
@@ -100,89 +91,57 @@ export class Prediction {
 			const [n0, n1, n2] = this.on(s, fan.neighbours);
 			const [o0, o1] = this.on(s, fan.tips);
 			const [ya, yb, xa, xb] = this.on(s, beyond);
-			const ua = ya === NONE ? 0n : ya - n0 - o0 + n1;
-			const ub = yb === NONE ? 0n : yb - n2 - o1 + n1;
+			const ua = ya === undefined ? 0 : ya - n0 - o0 + n1;
+			const ub = yb === undefined ? 0 : yb - n2 - o1 + n1;
 			return { n0, n1, n2, o0, o1, ya, yb, xa, xb, ua, ub, d0: n0 - o0, d1: n2 - o1 };
 		});
 	}
 
-	plainComponent({ n0, n1, n2, o0, o1, xa, xb, ua, ub, d0, d1 }, [, g0, , g2], { w, better }) {
-		let q8 = (d0 + d1 + 2n * n1) << 7n;
-		const sum = clampDegrees(g0 + g2 - 12);
-		const skew = clampDegrees(g0 - g2);
-		const f1 = n0 + n2 - 2n * n1;
-		const f0 = f1 + o0 + o1 - 2n * n1;
-		q8 += f0 * BigInt(w[0] + w[4] * sum) + f1 * BigInt(w[1]);
-		q8 += 2n * (ua + ub) * BigInt(w[2]) + 2n * (n0 - n2) * BigInt(w[3] * skew);
-		if (better === 0) return q8;
-		q8 += (n0 - n2 + o1 - o0) * BigInt(better * w[5]);
-		q8 += ((o0 - xa - n0) - (o1 - xb - n2)) * BigInt(better * w[6]);
-		return q8 + (ua - ub) * BigInt(better * w[7]);
-	}
-
 	// The weights of the class of a plain fan, and better.
 	plainWeights(around, [g, , g1]) {
-		const select = this.select && around[0].xa !== NONE && around[0].xb !== NONE && g1 >= 6 && g === 6;
+		const select = this.select && around[0].xa !== undefined && around[0].xb !== undefined && g1 >= 6 && g === 6;
 		if (select) return this.selectedWeights(around);
-		return { w: this.weights[3 + Math.min(Math.max(g, 3), 9)], better: 0 };
+		return { w: this.weights[3 + clamp(g, 3, 9)], better: 0 };
 	}
 
 	selectedWeights(around) {
-		const { wide } = this;
-		const total = (term) => wide.unsigned(around.reduce((sum, a) => sum + term(a), 0n));
-		const e1 = total(({ n0, n1, o0, xa }) => wide.abs(n1 + o0 - xa - n0));
-		const e0 = total(({ n1, n2, o1, xb }) => wide.abs(n1 + o1 - xb - n2));
-		const e2 = this.thirdError(around[0], total(({ ua, ub }) => wide.abs(ua) + wide.abs(ub)));
-		const low = e0 < e1 ? e0 : e1;
-		const high = e0 < e1 ? e1 : e0;
-		const preference = Number(wide.unsigned(2n * high) > wide.unsigned(3n * low + 2n))
-			+ Number(high > wide.unsigned(3n * low + 2n));
-		const hasThird = around[0].ya !== NONE || around[0].yb !== NONE;
-		const third = hasThird ? Number(e2 <= wide.unsigned(2n * low)) + Number(wide.unsigned(2n * e2) <= low) : 0;
-		const better = Number(e0 < e1) - Number(e0 > e1);
-		return { w: this.weights[13 + 3 * preference + third], better };
-	}
-
-	thirdError({ ya, yb }, e2) {
-		return ya !== NONE && yb !== NONE ? this.wide.unsigned(e2 + 1n) >> 1n : e2;
+		const total = (term) => sum32(around.map(term));
+		const size = (x) => Math.abs(float(x));
+		const e1 = total(({ n0, n1, o0, xa }) => size(n1 + o0 - xa - n0));
+		const e0 = total(({ n1, n2, o1, xb }) => size(n1 + o1 - xb - n2));
+		const [hasYa, hasYb] = [around[0].ya !== undefined, around[0].yb !== undefined];
+		const e2 = total(({ ua, ub }) => f(size(ua) + size(ub))) * (hasYa && hasYb ? 0.5 : 1);
+		const low = Math.min(e0, e1);
+		const high = Math.max(e0, e1);
+		const limit = f(f(3 * low) + 2);
+		const preference = Number(2 * high > limit) + Number(high > limit);
+		const third = hasYa || hasYb ? Number(e2 <= 2 * low) + Number(2 * e2 <= low) : 0;
+		return { w: this.weights[13 + 3 * preference + third], better: Number(e0 < e1) - Number(e0 > e1) };
 	}
 
 	// ---- [B.2.4] Prediction of any other fan
 
 	otherFan(fan) {
-		const { wide } = this;
 		const ring = ringOfNeighbours(fan);
 		const indices = fan.tips.flatMap((o, i) => (o === NONE ? [] : [i])); // of the tips
 		const T = indices.length;
-		const w = T === 0 ? 0 : this.weights[classOfOtherFan(T, fan.closed)][0];
-		const q8 = [];
+		const w = this.weights[classOfOtherFan(T, fan.closed)][0];
+		const N = fan.neighbours.length;
+		const at = [];
 		const spread = [];
 		for (const s of xyz) {
 			const n = this.on(s, ring);
 			const o = this.on(s, fan.tips);
-			const tips = indices.map((i) => n[i] + n[i + 1] - o[i]);
-			q8.push(wide.wrap(this.otherComponent(this.on(s, fan.neighbours), tips, w)));
-			spread.push(T >= 2 ? wide.abs(tips[0] - tips[1]) : 0n);
+			const tips = indices.map((i) => (n[i] + n[i + 1] - o[i]) | 0);
+			const step = T === 0 ? n[0] : tips[0];
+			const meanOf = (list) => f(float(sumOf(list.map((x) => x - step))) / list.length);
+			const mean = meanOf(this.on(s, fan.neighbours));
+			const tip = T === 0 ? mean : meanOf(tips);
+			at.push({ step, fraction: movement(f(256 * tip + f(f(mean - tip) * 2 * w))) });
+			spread.push(T >= 2 ? Math.abs(float(tips[1] - tips[0])) : 0);
 		}
-		const magnitudes = xyz.map((k) => this.otherMagnitude(fan, k));
-		return { q8, spread, magnitudes };
-	}
-
-	otherComponent(neighbours, tips, w) {
-		const { wide } = this;
-		const meanOf = (list) => wide.wrap(256n * list.reduce((a, b) => a + b, 0n)) / BigInt(list.length);
-		const mean = meanOf(neighbours);
-		if (tips.length === 0) return mean;
-		const base = meanOf(tips);
-		const m2 = wide.wrap(mean - base) >> 7n;
-		return base + m2 * BigInt(w);
-	}
-
-	otherMagnitude(fan, k) {
-		const { wide } = this;
-		const N = fan.neighbours.length;
-		const total = wide.unsigned(fan.neighbours.reduce((m, n) => m + this.magnitude(n, k), 0n));
-		return N === 3 ? total : wide.unsigned(total * 3n) / BigInt(N);
+		const magnitudes = this.magnitudes(fan).map((m) => f(m * f(3 / N)));
+		return { at, spread, magnitudes };
 	}
 
 	// ---- [B.2.3] The normal of a fan
@@ -190,7 +149,6 @@ export class Prediction {
 	normal(fan) {
 		const ring = ringOfNeighbours(fan);
 		const coordinates = xyz.map((s) => ({ n: this.on(s, ring), o: this.on(s, fan.tips) }));
-		const float = (x) => f(Number(this.wide.wrap(x)));
 		let normal = [0, 0, 0];
 		fan.tips.forEach((tip, i) => {
 			if (tip === NONE) return;
@@ -202,6 +160,23 @@ export class Prediction {
 	}
 }
 
+// By how much the weights move the prediction of a plain fan from the middle of its tips, in 1/256 of a step.
+function weightedFeatures({ n0, n1, n2, o0, o1, xa, xb, ua, ub }, [, g0, , g2], { w, better }) {
+	const f1 = n0 + n2 - 2 * n1;
+	const terms = [
+		[f1 + o0 + o1 - 2 * n1, w[0] + w[4] * clampDegrees(g0 + g2 - 12)],
+		[f1, w[1]],
+		[2 * (ua + ub), w[2]],
+		[2 * (n0 - n2), w[3] * clampDegrees(g0 - g2)],
+	];
+	if (better !== 0) {
+		terms.push([n0 - n2 + o1 - o0, better * w[5]]);
+		terms.push([o0 - xa - n0 - (o1 - xb - n2), better * w[6]]);
+		terms.push([ua - ub, better * w[7]]);
+	}
+	return sum32(terms.map(([feature, weight]) => f(float(feature) * weight)));
+}
+
 // n[0] .. n[m], where n[m] is n[0] if the fan is closed.
 function ringOfNeighbours(fan) {
 	return fan.closed ? [...fan.neighbours, fan.neighbours[0]] : fan.neighbours;
@@ -209,7 +184,7 @@ function ringOfNeighbours(fan) {
 
 function classOfOtherFan(T, closed) {
 	if (closed) return T < 4 ? 4 : 5;
-	return Math.min(T, 4) - 1;
+	return clamp(T, 1, 4) - 1;
 }
 
 // [B.2.3] The axes by |normal|, ascending, lower axes first among equals

@@ -2,8 +2,9 @@
 
 // Residuals whose row follows from an expected scale: B.2.5 and B.2.6 of the specification.
 
-import { width } from './bytes.mjs';
+import { bitsOfFloat } from './bytes.mjs';
 import { models, POSITIONS, Row } from './entropy.mjs';
+import { f } from './vectors.mjs';
 
 const BASE = [0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 24, 32, 48, 64];
 const EXTRA = [0, 0, 0, 0, 0, 0, 0, 0, 2, 2, 3, 3, 4, 4, 6];
@@ -109,9 +110,7 @@ export class PositionRows {
 
 // [B.2.5]
 function bucketOf(scale) {
-	const k = width(scale + 1) - 1;
-	const b = k === 0 ? 0 : Math.floor((scale + 1) / 2 ** (k - 1)) % 2;
-	return Math.min(39, 2 * k + b);
+	return Math.min(39, (bitsOfFloat(f(scale + 1)) >>> 22) - 254);
 }
 
 // [B.2.5] The residual, of a row with `low` low bits. `flip` is given for folded residuals only.
@@ -151,7 +150,7 @@ function lowBits(bucket) {
 export function readFoldedResidual(streams, rows, slot, set, scale, r) {
 	const bucket = bucketOf(scale);
 	if (bucket >= FOLDED_BUCKETS) return readResidual(streams, slot, rows.ROW[slot][set][bucket], lowBits(bucket));
-	const fraction = Number(BigInt(r) & 255n) - 128;
+	const fraction = (r & 255) - 128;
 	const fractionClass = Math.min(Math.abs(fraction) >> 5, 3);
 	return readResidual(streams, slot, rows.FOLDED[slot][set][fractionClass][bucket], 0, fraction < 0 ? 1 : 0);
 }

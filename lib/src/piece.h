@@ -338,8 +338,6 @@ class PieceCoder {
 
   /// The compiled combination of modes that fits.
   Status runPositions(const PositionParameters& parameters, const PieceTruth& truth) {
-    if (decodes::kExactFloats && parameters.bits > kNarrowPositionBits)
-      return runPositions<int64_t, kAnyModes>(parameters, truth);
     if constexpr (Io::kFast) {
       constexpr uint32_t kWeighted = position_mode::kWeights;
       constexpr uint32_t kSelecting = position_mode::kWeights | position_mode::kSelect;
@@ -347,24 +345,20 @@ class PieceCoder {
       constexpr uint32_t kPalette = position_mode::kPalette;
       constexpr uint32_t kPlanes = position_mode::kPlanes;
       switch (parameters.modes & kCompiledModes) {
-        case 0: return runPositions<int32_t, 0>(parameters, truth);
-        case kWeighted: return runPositions<int32_t, kWeighted>(parameters, truth);
-        case kSelecting: return runPositions<int32_t, kSelecting>(parameters, truth);
-        case kShear: return runPositions<int32_t, kShear>(parameters, truth);
-        case kWeighted | kShear:
-          return runPositions<int32_t, kWeighted | kShear>(parameters, truth);
-        case kSelecting | kShear:
-          return runPositions<int32_t, kSelecting | kShear>(parameters, truth);
-        case kPalette: return runPositions<int32_t, kPalette>(parameters, truth);
-        case kWeighted | kPalette:
-          return runPositions<int32_t, kWeighted | kPalette>(parameters, truth);
-        case kPlanes: return runPositions<int32_t, kPlanes>(parameters, truth);
-        case kWeighted | kPlanes:
-          return runPositions<int32_t, kWeighted | kPlanes>(parameters, truth);
+        case 0: return runPositions<0>(parameters, truth);
+        case kWeighted: return runPositions<kWeighted>(parameters, truth);
+        case kSelecting: return runPositions<kSelecting>(parameters, truth);
+        case kShear: return runPositions<kShear>(parameters, truth);
+        case kWeighted | kShear: return runPositions<kWeighted | kShear>(parameters, truth);
+        case kSelecting | kShear: return runPositions<kSelecting | kShear>(parameters, truth);
+        case kPalette: return runPositions<kPalette>(parameters, truth);
+        case kWeighted | kPalette: return runPositions<kWeighted | kPalette>(parameters, truth);
+        case kPlanes: return runPositions<kPlanes>(parameters, truth);
+        case kWeighted | kPlanes: return runPositions<kWeighted | kPlanes>(parameters, truth);
         default: break;
       }
     }
-    return runPositions<int32_t, kAnyModes>(parameters, truth);
+    return runPositions<kAnyModes>(parameters, truth);
   }
 
   /// The records then hold ordered floats.
@@ -381,10 +375,10 @@ class PieceCoder {
     return {};
   }
 
-  template <class Wide, uint32_t kModes>
+  template <uint32_t kModes>
   Status runPositions(const PositionParameters& parameters, const PieceTruth& truth) {
-    return PositionCoder<Io, Wide, kModes>(io_, models_.positions, parameters, mesh, groups,
-                                           records.data(), allocator_, truth.positions)
+    return PositionCoder<Io, kModes>(io_, models_.positions, parameters, mesh, groups,
+                                     records.data(), allocator_, truth.positions)
         .run(needsSequence() ? sequence.data() : nullptr);
   }
 

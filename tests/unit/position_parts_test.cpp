@@ -32,12 +32,85 @@ TEST(PositionParts, ScaleBucketsAreHalfOctaves) {
     return std::min(2 * k + ((2 * y >> k) & 1), kScaleBuckets - 1);
   };
   for (uint32_t scale = 0; scale < 1'000'000; scale += 3) {
-    const Lanes<uint32_t> buckets = scaleBuckets(Lanes<uint32_t>{scale, scale + 1, scale + 2, 0});
-    for (uint32_t i = 0; i < 3; ++i) ASSERT_EQ(buckets[i], expected(scale + i));
+    const Lanes<float> scales = floatsOf(Lanes<uint32_t>{scale, scale + 1, scale + 2, 0});
+    const Lanes<uint32_t> buckets = scaleBuckets(scales);
+    for (uint32_t i = 0; i < 3; ++i) {
+      ASSERT_EQ(buckets[i], expected(scale + i));
+      ASSERT_EQ(scaleBucket(scales[i]), buckets[i]);
+    }
   }
-  const Lanes<uint32_t> last =
-      scaleBuckets(Lanes<uint32_t>{kScaleLimit, kScaleLimit - 1, 1u << 24, 0});
+  const Lanes<uint32_t> last = scaleBuckets(Lanes<float>{1 << 24, 0x1p43f, 0x1p127f, 0});
   for (uint32_t i = 0; i < 3; ++i) EXPECT_EQ(last[i], kScaleBuckets - 1);
+}
+
+/// A plain fan of these coordinates on all axes: n0, n1, n2, o0, o1, ya, yb, xa, xb.
+struct PlainCase {
+  VertexRecord records[9] = {};
+  PlainFan fan;
+  Beyond beyond;
+
+  explicit PlainCase(const int32_t* q) {
+    for (uint32_t i = 0; i < 9; ++i) {
+      std::fill_n(records[i].q, 3, q[i]);
+      std::fill_n(records[i].magnitude, 3, 0x80000000u >> i);
+      records[i].magnitude[3] = 6 + i;
+    }
+    const VertexRecord* r = records;
+    fan = {r, r + 1, r + 2, r + 3, r + 4, kNone, kNone};
+    beyond = {r + 5, r + 6, r + 7, r + 8, true, true, true};
+  }
+};
+
+TEST(PositionParts, PredictionsMoveWithTheirFan) {
+  PositionParameters p;
+  p.modes = position_mode::kWeights | position_mode::kSelect | position_mode::kShear;
+  p.weights = kUniversalWeights;
+  std::mt19937 random(3);
+  for (int round = 0; round < 1000; ++round) {
+    int32_t q[9];
+    for (int32_t& x : q) x = static_cast<int32_t>(random() >> (random() % 32));
+    const uint32_t by = static_cast<uint32_t>(random());
+    Prediction before;
+    Prediction after;
+    const PlainCase still(q);
+    for (int32_t& x : q) x = static_cast<int32_t>(static_cast<uint32_t>(x) + by);
+    const PlainCase moved(q);
+    for (const uint32_t degree : {3u, 6u, 9u}) {
+      predictPlain(p, still.fan, &still.beyond, degree, p.modes, before);
+      predictPlain(p, moved.fan, &moved.beyond, degree, p.modes, after);
+      for (int s = 0; s < 3; ++s) {
+        EXPECT_EQ(before.at.step[s] + by, after.at.step[s]);
+        EXPECT_EQ(before.at.fraction[s], after.at.fraction[s]);
+        EXPECT_EQ(before.spread[s], after.spread[s]);
+        EXPECT_GE(after.magnitudes[s], 0);
+      }
+    }
+  }
+}
+
+TEST(PositionParts, NoCoordinatesMoveAPredictionTooFar) {
+  PositionParameters p;
+  p.modes = position_mode::kWeights | position_mode::kSelect;
+  for (auto& w : p.weights.w) std::fill_n(w, kMostWeights, static_cast<int16_t>(kMaxWeight));
+  for (uint32_t signs = 0; signs < 1u << 9; ++signs) {
+    int32_t q[9];
+    for (uint32_t i = 0; i < 9; ++i) q[i] = (signs >> i & 1) != 0 ? INT32_MAX : INT32_MIN;
+    const PlainCase far(q);
+    Prediction prediction;
+    predictPlain(p, far.fan, &far.beyond, 6, p.modes, prediction);
+    AnyFan any = {};
+    any.face_count = 2;
+    any.neighbour_count = 3;
+    for (uint32_t i = 0; i < 3; ++i) any.n[i] = far.records + i;
+    for (uint32_t i = 0; i < 2; ++i) any.o[i] = far.records + 3 + i;
+    Prediction of_any;
+    predictAny(p, any, of_any);
+    for (int s = 0; s < 3; ++s) {
+      EXPECT_LE(std::abs(static_cast<int32_t>(prediction.at.fraction[s])), (1 << 29) + 128);
+      EXPECT_LE(std::abs(static_cast<int32_t>(of_any.at.fraction[s])), 1 << 29);
+      EXPECT_GE(of_any.magnitudes[s], 0);
+    }
+  }
 }
 
 TEST(PositionParts, ShearCodesComponentsByGrowingNormal) {
@@ -49,7 +122,7 @@ TEST(PositionParts, ShearCodesComponentsByGrowingNormal) {
     for (uint32_t s = 0; s < 3; ++s) EXPECT_EQ(shear.slot[shear.axis[s]], s);
     EXPECT_LE(std::abs(n[shear.axis[0]]), std::abs(n[shear.axis[1]]));
     EXPECT_LE(std::abs(n[shear.axis[1]]), std::abs(n[shear.axis[2]]));
-    for (const int32_t c : {shear.c10, shear.c20, shear.c21}) EXPECT_LE(std::abs(c), 4096);
+    for (const float c : {shear.c10, shear.c20, shear.c21}) EXPECT_LE(std::abs(c), 256);
   }
 }
 

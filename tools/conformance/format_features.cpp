@@ -167,13 +167,9 @@ class Listing {
                                     std::pair{position_mode::kSplit, " with split"}}) {
       if ((a.predictor & bit) != 0) add(name + flag, sections);
     }
-    const uint32_t bits = a.coding == AttributeCoding::kInteger
-                              ? 8 * componentBytes(a.format.component_type)
-                          : a.coding == AttributeCoding::kExactFloat ? 26
-                                                                     : a.bits;
     static const char* const kCodings[] = {"lattice", "integer", "exact", "", "", "", "grid"};
     const std::string coding = kCodings[static_cast<size_t>(a.coding)];
-    add("positions " + coding + (bits > 17 ? " wide " : " ") + kKinds[kind], sections);
+    add("positions " + coding + " " + kKinds[kind], sections);
     if (piece.isolated_count != 0) add(std::string("isolated wedges, ") + kKinds[kind], {"A.6.4"});
     if (piece.hasCopies()) add(std::string("copies, ") + kKinds[kind], {"A.6.1"});
     if (piece.has(piece_flag::kCreases)) add("creases, positions " + coding, {"A.7.4", "B.4.6"});

@@ -19,7 +19,6 @@ namespace {
 
 using Kind = PositionRecording::Kind;
 
-constexpr uint8_t kNarrowBits = 17;
 constexpr size_t kLargePalette = 1u << 16;                 ///< vertices
 constexpr uint32_t kRunLength = 1024;                      ///< of consecutive vertices in a sample
 constexpr uint32_t kTrialVertices[] = {4000, 12000, ~0u};  ///< by effort
@@ -124,7 +123,7 @@ class Trials {
     uint64_t spent = 0;
     uint64_t last_pass = 0;
     replayAll(
-        io, p, passes, [](uint32_t, const auto&, const VertexRecord&) {},
+        io, p, passes, [](uint32_t, const Prediction&, const VertexRecord&) {},
         [&] {
           last_pass = io.cost() - spent;
           spent = io.cost();
@@ -193,11 +192,7 @@ class Trials {
     std::copy(pieces_[piece].palettes, pieces_[piece].palettes + 3, of_piece.palette);
     const GridPlanes planes = planesOf(pieces_[piece]);
     of_piece.planes = &planes;
-    if (of_piece.bits > kNarrowBits) {
-      replay<int64_t>(io, of_piece, piece, scratch, use);
-    } else {
-      replay<int32_t>(io, of_piece, piece, scratch, use);
-    }
+    replay(io, of_piece, piece, scratch, use);
   }
 
   static double tableBits(const PositionParameters& p) {
@@ -224,14 +219,14 @@ class Trials {
     return GridPlanes(piece.planes != nullptr ? piece.planes : none);
   }
 
-  template <class Wide, class Io, class Use>
+  template <class Io, class Use>
   void replay(Io& io, const PositionParameters& p, size_t piece, Scratch& scratch, Use use) const {
     const PositionRecording& recording = *pieces_[piece].recording;
     VertexRecord* records = scratch.records[piece].data();
     PositionRows& rows = *scratch.rows;
     SilentIo silent;
-    VertexCoder<Io, Wide, kAnyModes> coder(rows, p, records, pieces_[piece].truth);
-    VertexCoder<SilentIo, Wide, kAnyModes> silent_coder(rows, p, records, pieces_[piece].truth);
+    VertexCoder<Io, kAnyModes> coder(rows, p, records, pieces_[piece].truth);
+    VertexCoder<SilentIo, kAnyModes> silent_coder(rows, p, records, pieces_[piece].truth);
     for (const Sample::Entry& entry : samples_[piece].entries) {
       const PositionRecording::Visit& visit = recording.visits()[entry.visit];
       const uint32_t v = visit.vertex;
@@ -240,7 +235,7 @@ class Trials {
         continue;
       }
       const bool plain = visit.kind == static_cast<uint32_t>(Kind::kPlain);
-      const auto code = [&](const auto& with, auto& into, Prediction<Wide>& prediction) {
+      const auto code = [&](const auto& with, auto& into, Prediction& prediction) {
         if (plain) {
           PlainFan fan;
           Beyond beyond;
@@ -252,7 +247,7 @@ class Trials {
           with.codeAny(into, v, fan, prediction);
         }
       };
-      Prediction<Wide> prediction;
+      Prediction prediction;
       if (!entry.counted) {
         code(silent_coder, silent, prediction);
         continue;
@@ -321,16 +316,8 @@ struct FitRow {
   float feature[3][kMostWeights];
 };
 
-template <class UWide>
-float stepsOf(UWide value, double unit) {
-  return static_cast<float>(static_cast<double>(static_cast<std::make_signed_t<UWide>>(value)) *
-                            unit);
-}
-
-template <class Wide>
 void gatherRows(const PositionCandidate& piece, bool select, uint32_t stride,
                 std::vector<FitRow>& rows) {
-  using UWide = std::make_unsigned_t<Wide>;
   const PositionRecording& recording = *piece.recording;
   // Steps of random length, `stride` on average: even ones would see only some columns of a grid.
   uint32_t random = 1;
@@ -342,48 +329,50 @@ void gatherRows(const PositionCandidate& piece, bool select, uint32_t stride,
     const PositionRecording::Visit& visit = recording.visits()[i];
     const uint32_t v = visit.vertex;
     FitRow row{};
-    UWide base[3];
+    FinePoint at;  ///< the average of the tips
     if (visit.kind == static_cast<uint32_t>(Kind::kPlain)) {
       PlainFan fan;
       Beyond beyond;
       recording.plain(recording.records(), visit, fan, beyond);
       const uint32_t degree = recording.records()[v].degree();
-      const PlainClass c = classifyPlain<Wide>(select, fan, beyond, degree);
+      const PlainClass c = classifyPlain(select, fan, beyond, degree);
       row.predictor_class = c.predictor_class;
-      const PlainFeatures<UWide> f = plainFeatures<UWide>(fan, beyond, select);
+      const PlainFeatures f = plainFeatures(fan, beyond, select);
+      const float skew = static_cast<float>(c.degree_skew);
       const float better = static_cast<float>(c.better);
+      at = middleOfTips(fan);
       for (int s = 0; s < 3; ++s) {
-        const UWide n1 = static_cast<UWide>(fan.n1->q[s]);
-        base[s] = 128 * (2 * n1 + 2 * f.f1[s] - f.f0[s]);  // the average of the tips
-        const float f0 = stepsOf<UWide>(f.f0[s], 0.5);
-        row.feature[s][0] = f0;
-        row.feature[s][1] = stepsOf<UWide>(f.f1[s], 0.5);
-        row.feature[s][2] = stepsOf<UWide>(f.fy[s], 0.5);
-        row.feature[s][3] = stepsOf<UWide>(f.fd[s], 0.5) * static_cast<float>(c.degree_skew);
-        row.feature[s][4] = f0 * static_cast<float>(c.degree_sum);
-        row.feature[s][5] = stepsOf<UWide>(f.tips[s], 0.5) * better;
-        row.feature[s][6] = stepsOf<UWide>(f.x[s], 0.5) * better;
-        row.feature[s][7] = stepsOf<UWide>(f.y[s], 0.5) * better;
-        row.length += std::fabs(stepsOf<UWide>(f.f1[s], 1));
+        const float features[kMostWeights] = {f.f0[s],
+                                              f.f1[s],
+                                              f.fy[s],
+                                              f.fd[s] * skew,
+                                              f.f0[s] * static_cast<float>(c.degree_sum),
+                                              f.tips[s] * better,
+                                              f.x[s] * better,
+                                              f.y[s] * better};
+        for (uint32_t k = 0; k < kMostWeights; ++k) row.feature[s][k] = 0.5f * features[k];
+        row.length += std::fabs(f.f1[s]);
       }
     } else if (visit.kind == static_cast<uint32_t>(Kind::kAny)) {
       AnyFan fan;
       recording.any(recording.records(), visit, fan);
-      Lanes<UWide> spread{};
+      Lanes<float> spread{};
       Lanes<float> normal{};
-      const AnyFeatures<UWide> f = anyFeatures<Wide>(fan, spread, normal);
+      const AnyFeatures f = anyFeatures(fan, spread, normal);
       row.predictor_class = f.predictor_class;
+      at = {f.from, fractionOf(256 * f.tips)};
       for (int s = 0; s < 3; ++s) {
-        base[s] = f.base[s];
-        row.feature[s][0] = stepsOf<UWide>(f.mean[s], 0.5);
-        row.length += std::fabs(stepsOf<UWide>(f.mean[s], 1));
+        row.feature[s][0] = f.mean[s];
+        row.length += std::fabs(2 * f.mean[s]);
       }
     } else {
       continue;
     }
+    const Lanes<float> rest = at.rest();
     for (int s = 0; s < 3; ++s) {
-      const UWide truth = static_cast<UWide>(piece.truth[3 * size_t{v} + static_cast<size_t>(s)]);
-      row.target[s] = stepsOf<UWide>((truth << 8) - base[s], 1.0 / 256);
+      const uint32_t truth =
+          static_cast<uint32_t>(piece.truth[3 * size_t{v} + static_cast<size_t>(s)]);
+      row.target[s] = static_cast<float>(static_cast<int32_t>(truth - at.step[s])) - rest[s];
     }
     rows.push_back(row);
   }
@@ -511,19 +500,18 @@ void fitCoefficients(const std::vector<ScaleRow>& rows, uint16_t* coefficients) 
   }
   for (uint32_t i = 0; i < 3; ++i) {
     coefficients[i] = static_cast<uint16_t>(
-        std::clamp(std::floor(c[i] * 64 + 0.5), 0.0, static_cast<double>(kMaxCoefficient[i])));
+        std::clamp(std::floor(c[i] * 64 + 0.5), 0.0, static_cast<double>(kMaxCoefficient)));
   }
 }
 
 /// Scale coefficients of plain and other fans, per component.
 void fitScale(Trials& trials, const Jobs& jobs, PositionParameters& p) {
   std::vector<ScaleRow> rows[2][3];
-  trials.observe(p, [&](uint32_t plain, const auto& prediction, const VertexRecord& r) {
+  trials.observe(p, [&](uint32_t plain, const Prediction& prediction, const VertexRecord& r) {
     const uint8_t* axis =
         p.has(position_mode::kShear) ? makeShear(prediction.normal).axis : kFileOrder;
     for (uint32_t s = 0; s < 3; ++s) {
-      rows[plain][s].push_back({static_cast<float>(prediction.magnitudes[s]),
-                                static_cast<float>(prediction.spread[axis[s]]),
+      rows[plain][s].push_back({prediction.magnitudes[s], prediction.spread[axis[s]],
                                 static_cast<float>(r.magnitude[s])});
     }
   });
@@ -698,11 +686,7 @@ PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, bool sele
   const uint32_t stride = static_cast<uint32_t>(visitCount(pieces) / max_vertices + 1);
   std::vector<FitRow> rows;
   for (const PositionCandidate& piece : pieces) {
-    if (piece.bits > kNarrowBits) {
-      gatherRows<int64_t>(piece, select, stride, rows);
-    } else {
-      gatherRows<int32_t>(piece, select, stride, rows);
-    }
+    gatherRows(piece, select, stride, rows);
   }
   std::vector<FitRow> rows_of[kPredictorClasses];
   for (FitRow& row : rows) {

@@ -90,7 +90,7 @@ class Variation {
         for (uint32_t i = 0; i < 3; ++i) {
           const int32_t from = scale.c[i];
           const int32_t to = from + static_cast<int32_t>(below(81)) - 40;
-          scale.c[i] = static_cast<uint16_t>(std::clamp(to, 0, kMaxCoefficient[i]));
+          scale.c[i] = static_cast<uint16_t>(std::clamp(to, 0, kMaxCoefficient));
         }
       }
     }

@@ -152,7 +152,7 @@ class VectorCoder {
     const int32_t from = orderedFromFloat(static_cast<float>(predicted));
     const double place = lastPlaceOf(from);
     const double scale = 16.0 * expected / place;
-    const uint32_t bucket = scaleBucket(scale < 2e9 ? static_cast<uint32_t>(scale) : 2000000000u);
+    const uint32_t bucket = scaleBucket(static_cast<float>(scale < 2e9 ? scale : 2e9));
     const uint32_t target = static_cast<uint32_t>(value) - static_cast<uint32_t>(from);
     const int32_t residual = codeScaledResidual<kSlot>(io_, models_.row[kSlot][bucket], bucket,
                                                        static_cast<int32_t>(target));

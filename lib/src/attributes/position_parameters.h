@@ -50,7 +50,7 @@ struct PositionTables {
 };
 
 inline constexpr int32_t kMaxWeight = 1023;
-inline constexpr int32_t kMaxCoefficient[3] = {4095, 4095, 65535};
+inline constexpr int32_t kMaxCoefficient = 65535;
 
 /// Weights of classes [begin, end): all 0, or differences to the universal ones.
 template <class Io>
@@ -83,7 +83,7 @@ Status codeScale(Io& io, PositionTables& t, const PositionParameters& universal,
         const int32_t from = universal.scale[fan][s].c[i];
         const int32_t target = Io::kEncoding ? truth[fan][s].c[i] - from : 0;
         const int64_t change = codeSignedGolomb(io, t.coefficient[i], target);
-        if (from + change < 0 || from + change > kMaxCoefficient[i]) {
+        if (from + change < 0 || from + change > kMaxCoefficient) {
           return fail(Error::kBadAttribute, "a scale of the positions is out of range");
         }
         t.scale_change[fan][s][i] = static_cast<int32_t>(change);
@@ -117,7 +117,7 @@ Status codePositionTables(Io& io, PositionTables& t, PositionParameters& p) {
     for (uint32_t s = 0; s < 3; ++s) {
       for (uint32_t i = 0; i < 3; ++i) {
         const int32_t c = p.scale[fan][s].c[i] + t.scale_change[fan][s][i];
-        if (c < 0 || c > kMaxCoefficient[i]) {
+        if (c < 0 || c > kMaxCoefficient) {
           return fail(Error::kBadAttribute, "a scale of the positions is out of range");
         }
         p.scale[fan][s].c[i] = static_cast<uint16_t>(c);

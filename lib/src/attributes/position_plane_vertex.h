@@ -24,23 +24,20 @@ class PlaneVertexCoder {
  public:
   /// `truth` has the three coordinates (encoder).
   PlaneVertexCoder(Io& io, TokenRow* rows, PlaneModels& models, const GridPlanes& grid,
-                   const Prediction<int32_t>& prediction, const int32_t* truth)
+                   const Prediction& prediction, const int32_t* truth)
       : io_(io), rows_(rows), models_(models), grid_(grid), truth_(truth) {
-    float at[4];
-    storeLanes<float>(convertLanes<float>((Lanes<int32_t>)prediction.q8), at);
+    storeLanes<float>(floatsOf(prediction.at.step) + prediction.at.rest(), predicted_);
     storeLanes<float>(prediction.normal, normal_);
-    storeLanes<float>(convertLanes<float>((Lanes<int32_t>)prediction.spread), spread_);
+    storeLanes<float>(prediction.spread, spread_);
     const float size =
         std::sqrt(normal_[0] * normal_[0] + normal_[1] * normal_[1] + normal_[2] * normal_[2]);
     const float unit = size > 0 ? 1 / size : 0;
     for (int s = 0; s < 3; ++s) {
-      predicted_[s] = at[s] * (1.0f / 256);
       normal_[s] *= unit;
       squared_left_ += normal_[s] * normal_[s];
     }
-    across_ = static_cast<float>(prediction.magnitudes[0]) * 0.25f +
-              prediction.disagreement * unit * 2 + 16;
-    along_ = static_cast<float>(prediction.magnitudes[2]) * 0.25f + 16;
+    across_ = prediction.magnitudes[0] * 0.25f + prediction.disagreement * unit * 2 + 16;
+    along_ = prediction.magnitudes[2] * 0.25f + 16;
   }
 
   /// Codes the vertex into `record`.
@@ -100,7 +97,7 @@ class PlaneVertexCoder {
   PlaneModels& models_;
   const GridPlanes& grid_;
   const int32_t* const truth_;
-  float predicted_[3];
+  float predicted_[4];
   float normal_[4];
   float spread_[4];
   float across_;            ///< expected distance from the tangent plane, in 1/16, as scales are
@@ -238,9 +235,9 @@ MCC_INLINE int32_t PlaneVertexCoder<Io>::codeNumber(float prediction, float scal
   constexpr float kFarthest = 1 << 22;  // in Q8 and rounded it fits
   const int32_t q8 = static_cast<int32_t>(std::clamp(prediction, -kFarthest, kFarthest) * 256);
   const uint32_t rounded = static_cast<uint32_t>(q8) + 128;
-  const uint32_t s = static_cast<uint32_t>(std::clamp(scale, 0.0f, kLargestScale));
+  const float s = std::clamp(scale, 0.0f, kLargestScale);
   ResidualContexts c;
-  findContexts(ScaleEstimate{Lanes<uint32_t>{s, s, s, 0}, Lanes<uint32_t>{}},
+  findContexts(ScaleEstimate{Lanes<float>{s, s, s, 0}, Lanes<uint32_t>{}},
                Lanes<uint32_t>{rounded, rounded, rounded, 0}, false, std::true_type{}, c);
   const uint32_t from = static_cast<uint32_t>(static_cast<int32_t>(rounded) >> 8);
   const int32_t target = static_cast<int32_t>(static_cast<uint32_t>(truth) - from);

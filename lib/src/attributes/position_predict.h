@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Prediction of a vertex from its fan, in fixed point with 8 fraction bits (Q8).             [B.2.2]
+// Prediction of a vertex from its fan.                                                       [B.2.2]
 //
 //          xa      xb           tips t0 = n0 + n1 - o0 and t1 = n1 + n2 - o1 (parallelograms) are averaged;
 //          /\      /\           weights by class add features of the fan, of the degrees around it and of
@@ -10,7 +10,8 @@
 //            \    /
 //               v
 //
-// `Wide` is int32_t up to 17 bits of the lattice, int64_t above; arithmetic wraps.
+// Sums and differences of coordinates are integers that wrap; what is weighted is float, so that coordinates of any
+// width and whatever a payload claims have the same definition.
 #ifndef MCC_ATTRIBUTES_POSITION_PREDICT_H_
 #define MCC_ATTRIBUTES_POSITION_PREDICT_H_
 
@@ -18,7 +19,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <type_traits>
 
 #include "attributes/position_growth.h"
 #include "attributes/position_parameters.h"
@@ -27,14 +27,40 @@
 
 namespace mcc {
 
+/// Coordinates, their differences and sums are i32 that wrap; in lanes they are unsigned.
+MCC_INLINE Lanes<float> floatsOf(const Lanes<uint32_t>& x) {
+  return convertLanes<float>((Lanes<int32_t>)x);
+}
+MCC_INLINE Lanes<float> absoluteFloats(const Lanes<float>& x) {
+  return (Lanes<float>)((Lanes<uint32_t>)x & 0x7fffffffu);
+}
+
+/// A point between those of the lattice: step + fraction / 256, where a fraction may be more than a step.
+struct FinePoint {
+  Lanes<uint32_t> step;
+  Lanes<uint32_t> fraction;
+
+  /// Of the fraction, in steps.
+  MCC_INLINE Lanes<float> rest() const { return floatsOf(fraction) * (1.0f / 256); }
+};
+
+/// No movement is farther, in 1/256 of a step: two of them fit in a fraction.
+inline constexpr float kFarthestMove = 1 << 29;
+MCC_INLINE float boundMove(float x) {
+  const float below = x < kFarthestMove ? x : kFarthestMove;
+  return below > -kFarthestMove ? below : -kFarthestMove;
+}
+MCC_INLINE Lanes<uint32_t> fractionOf(const Lanes<float>& x) {
+  const Lanes<float> most = {kFarthestMove, kFarthestMove, kFarthestMove, kFarthestMove};
+  const Lanes<float> below = x < most ? x : most;
+  return (Lanes<uint32_t>)convertLanes<int32_t>(below > -most ? below : -most);
+}
+
 /// What the coder needs to know about a vertex before its residuals, by component.
-template <class Wide>
 struct Prediction {
-  using Coordinate = Wide;
-  using UWide = std::make_unsigned_t<Wide>;
-  Lanes<UWide> q8;
-  Lanes<UWide> spread;      ///< disagreement of the first two tips
-  Lanes<UWide> magnitudes;  ///< of three neighbours' residuals, by component as coded
+  FinePoint at;
+  Lanes<float> spread;      ///< disagreement of the first two tips
+  Lanes<float> magnitudes;  ///< of three neighbours' residuals, by component as coded
   Lanes<float> normal;      ///< sum over the tips; only with shear and planes
   float disagreement;       ///< of the first two tips along the normal; only with planes
 };
@@ -80,36 +106,27 @@ struct TipSelection {
   int32_t better;  ///< +1: t0, -1: t1, 0: a tie
 };
 
-template <class UWide>
-MCC_INLINE UWide sumOfComponents(const Lanes<UWide>& x) {
-  return x[0] + x[1] + x[2];
-}
+MCC_INLINE float sumOfComponents(const Lanes<float>& x) { return x[0] + x[1] + x[2]; }
 
 /// ya or yb against the parallelogram next to it.
-template <class UWide>
-MCC_INLINE Lanes<UWide> stepBeyond(const VertexRecord* y, const VertexRecord* n,
-                                   const VertexRecord* o, const Lanes<UWide>& n1, bool has) {
-  return (coordinates<UWide>(y) - coordinates<UWide>(n) - coordinates<UWide>(o) + n1) &
-         (UWide{0} - static_cast<UWide>(has));
+MCC_INLINE Lanes<uint32_t> stepBeyond(const VertexRecord* y, const VertexRecord* n,
+                                      const VertexRecord* o, const Lanes<uint32_t>& n1, bool has) {
+  return (coordinates(y) - coordinates(n) - coordinates(o) + n1) & (0u - uint32_t{has});
 }
 
-template <class Wide>
 MCC_INLINE TipSelection selectTip(const PlainFan& f, const Beyond& b) {
-  using UWide = std::make_unsigned_t<Wide>;
-  const Lanes<UWide> n1 = coordinates<UWide>(f.n1);
-  const Lanes<UWide> behind_t1 =
-      n1 + coordinates<UWide>(f.o0) - coordinates<UWide>(b.xa) - coordinates<UWide>(f.n0);
-  const Lanes<UWide> behind_t0 =
-      n1 + coordinates<UWide>(f.o1) - coordinates<UWide>(b.xb) - coordinates<UWide>(f.n2);
-  const UWide error1 = sumOfComponents<UWide>(absoluteLanes<UWide>(behind_t1));
-  const UWide error0 = sumOfComponents<UWide>(absoluteLanes<UWide>(behind_t0));
-  UWide error2 = sumOfComponents<UWide>(
-      absoluteLanes<UWide>(stepBeyond<UWide>(b.ya, f.n0, f.o0, n1, b.has_ya)) +
-      absoluteLanes<UWide>(stepBeyond<UWide>(b.yb, f.n2, f.o1, n1, b.has_yb)));
-  const uint32_t both = (b.has_ya & b.has_yb) ? 1 : 0;
-  error2 = (error2 + both) >> both;
-  const UWide low = std::min(error0, error1);
-  const UWide high = std::max(error0, error1);
+  const Lanes<uint32_t> n1 = coordinates(f.n1);
+  const auto sizeOf = [](const Lanes<uint32_t>& x)
+                          MCC_INLINE_LAMBDA { return absoluteFloats(floatsOf(x)); };
+  const float error1 =
+      sumOfComponents(sizeOf(n1 + coordinates(f.o0) - coordinates(b.xa) - coordinates(f.n0)));
+  const float error0 =
+      sumOfComponents(sizeOf(n1 + coordinates(f.o1) - coordinates(b.xb) - coordinates(f.n2)));
+  float error2 = sumOfComponents(sizeOf(stepBeyond(b.ya, f.n0, f.o0, n1, b.has_ya)) +
+                                 sizeOf(stepBeyond(b.yb, f.n2, f.o1, n1, b.has_yb)));
+  if (b.has_ya & b.has_yb) error2 *= 0.5f;
+  const float low = std::min(error0, error1);
+  const float high = std::max(error0, error1);
   const uint32_t preference = uint32_t{2 * high > 3 * low + 2} + uint32_t{high > 3 * low + 2};
   const uint32_t has_third = (b.has_ya | b.has_yb) ? 1 : 0;
   const uint32_t third = has_third * (uint32_t{error2 <= 2 * low} + uint32_t{2 * error2 <= low});
@@ -125,7 +142,6 @@ struct PlainClass {
   int32_t better;  ///< see TipSelection
 };
 
-template <class Wide>
 MCC_INLINE PlainClass classifyPlain(bool select, const PlainFan& f, const Beyond& b,
                                     uint32_t degree) {
   PlainClass c;
@@ -137,7 +153,7 @@ MCC_INLINE PlainClass classifyPlain(bool select, const PlainFan& f, const Beyond
   c.better = 0;
   if (!select) return c;
   if (b.has_x & (degree == 6)) {
-    const TipSelection selection = selectTip<Wide>(f, b);
+    const TipSelection selection = selectTip(f, b);
     c.predictor_class = selection.predictor_class;
     c.better = selection.better;
   }
@@ -145,59 +161,50 @@ MCC_INLINE PlainClass classifyPlain(bool select, const PlainFan& f, const Beyond
 }
 
 /// Features of a plain fan.
-template <class UWide>
 struct PlainFeatures {
-  Lanes<UWide> f0;    ///< fan against tips
-  Lanes<UWide> f1;    ///< ends of the fan against its middle
-  Lanes<UWide> fy;    ///< ya, yb against their parallelograms
-  Lanes<UWide> fd;    ///< from one end to the other
-  Lanes<UWide> tips;  ///< t0 - t1; this and the next two only where a tip was selected
-  Lanes<UWide> x;
-  Lanes<UWide> y;
+  Lanes<float> f0;    ///< fan against tips
+  Lanes<float> f1;    ///< ends of the fan against its middle
+  Lanes<float> fy;    ///< ya, yb against their parallelograms
+  Lanes<float> fd;    ///< from one end to the other
+  Lanes<float> tips;  ///< t0 - t1; this and the next two only where a tip was selected
+  Lanes<float> x;
+  Lanes<float> y;
 };
 
-template <class UWide>
-MCC_INLINE PlainFeatures<UWide> plainFeatures(const PlainFan& f, const Beyond& b, bool select) {
-  PlainFeatures<UWide> r{};
-  const Lanes<UWide> n0 = coordinates<UWide>(f.n0);
-  const Lanes<UWide> n1 = coordinates<UWide>(f.n1);
-  const Lanes<UWide> n2 = coordinates<UWide>(f.n2);
-  const Lanes<UWide> o0 = coordinates<UWide>(f.o0);
-  const Lanes<UWide> o1 = coordinates<UWide>(f.o1);
-  const Lanes<UWide> ya = stepBeyond<UWide>(b.ya, f.n0, f.o0, n1, b.has_ya);
-  const Lanes<UWide> yb = stepBeyond<UWide>(b.yb, f.n2, f.o1, n1, b.has_yb);
-  r.f1 = n0 + n2 - 2 * n1;
-  r.f0 = r.f1 + o0 + o1 - 2 * n1;
-  r.fy = 2 * (ya + yb);
-  r.fd = 2 * (n0 - n2);
+MCC_INLINE PlainFeatures plainFeatures(const PlainFan& f, const Beyond& b, bool select) {
+  PlainFeatures r{};
+  const Lanes<uint32_t> n0 = coordinates(f.n0);
+  const Lanes<uint32_t> n1 = coordinates(f.n1);
+  const Lanes<uint32_t> n2 = coordinates(f.n2);
+  const Lanes<uint32_t> o0 = coordinates(f.o0);
+  const Lanes<uint32_t> o1 = coordinates(f.o1);
+  const Lanes<uint32_t> ya = stepBeyond(b.ya, f.n0, f.o0, n1, b.has_ya);
+  const Lanes<uint32_t> yb = stepBeyond(b.yb, f.n2, f.o1, n1, b.has_yb);
+  const Lanes<uint32_t> ends = n0 + n2 - 2 * n1;
+  r.f0 = floatsOf(ends + o0 + o1 - 2 * n1);
+  r.f1 = floatsOf(ends);
+  r.fy = floatsOf(2 * (ya + yb));
+  r.fd = floatsOf(2 * (n0 - n2));
   if (!select) return r;
-  r.tips = n0 - n2 + o1 - o0;
-  r.x = (o0 - coordinates<UWide>(b.xa) - n0) - (o1 - coordinates<UWide>(b.xb) - n2);
-  r.y = ya - yb;
+  r.tips = floatsOf(n0 - n2 + o1 - o0);
+  r.x = floatsOf((o0 - coordinates(b.xa) - n0) - (o1 - coordinates(b.xb) - n2));
+  r.y = floatsOf(ya - yb);
   return r;
 }
 
-/// A weight, or a product of one, as a factor of features: with its sign.
-template <class Wide>
-MCC_INLINE std::make_unsigned_t<Wide> weightOf(int32_t weight) {
-  return static_cast<std::make_unsigned_t<Wide>>(static_cast<Wide>(weight));
-}
-
-/// Weighted features of a plain fan, to be added to the average of the tips.
-template <class Wide>
-MCC_INLINE Lanes<std::make_unsigned_t<Wide>> weightPlainFeatures(const PositionParameters& p,
-                                                                 const PlainFan& f, const Beyond& b,
-                                                                 uint32_t degree, bool select) {
-  using UWide = std::make_unsigned_t<Wide>;
-  const PlainClass c = classifyPlain<Wide>(select, f, b, degree);
+/// Weighted features of a plain fan, to be added to the average of the tips, in 1/256 of a step.
+MCC_INLINE Lanes<float> weightPlainFeatures(const PositionParameters& p, const PlainFan& f,
+                                            const Beyond& b, uint32_t degree, bool select) {
+  const PlainClass c = classifyPlain(select, f, b, degree);
   const int16_t* w = p.weights.w[c.predictor_class];
-  const PlainFeatures<UWide> v = plainFeatures<UWide>(f, b, select);
-  Lanes<UWide> sum = v.f0 * weightOf<Wide>(w[0] + w[4] * c.degree_sum) +
-                     v.f1 * weightOf<Wide>(w[1]) + v.fy * weightOf<Wide>(w[2]) +
-                     v.fd * weightOf<Wide>(w[3] * c.degree_skew);
+  const PlainFeatures v = plainFeatures(f, b, select);
+  const auto weight = [](int32_t x) MCC_INLINE_LAMBDA { return static_cast<float>(x); };
+  Lanes<float> sum = v.f0 * weight(w[0] + w[4] * c.degree_sum) + v.f1 * weight(w[1]) +
+                     v.fy * weight(w[2]) + v.fd * weight(w[3] * c.degree_skew);
   if (select) {
-    sum += v.tips * weightOf<Wide>(c.better * w[5]) + v.x * weightOf<Wide>(c.better * w[6]) +
-           v.y * weightOf<Wide>(c.better * w[7]);
+    sum += v.tips * weight(c.better * w[5]);
+    sum += v.x * weight(c.better * w[6]);
+    sum += v.y * weight(c.better * w[7]);
   }
   return sum;
 }
@@ -211,127 +218,100 @@ MCC_INLINE Lanes<float> rotateComponents(const Lanes<float>& x) {  // y z x
 }
 
 /// Normal of a tip's triangle (a, b, o), its components in the order z x y.                     [B.2.3]
-template <class Wide>
 MCC_INLINE Lanes<float> tipNormal(const VertexRecord* a, const VertexRecord* b,
                                   const VertexRecord* o) {
-  using UWide = std::make_unsigned_t<Wide>;
-  const auto edge = [&](const VertexRecord* to) MCC_INLINE_LAMBDA {
-    return convertLanes<float>((Lanes<Wide>)(coordinates<UWide>(to) - coordinates<UWide>(b)));
-  };
-  const Lanes<float> u = edge(a);
-  const Lanes<float> w = edge(o);
+  const Lanes<float> u = floatsOf(coordinates(a) - coordinates(b));
+  const Lanes<float> w = floatsOf(coordinates(o) - coordinates(b));
   return u * rotateComponents(w) - rotateComponents(u) * w;
+}
+MCC_INLINE Lanes<float> plainNormal(const PlainFan& f) {
+  return rotateComponents(tipNormal(f.n0, f.n1, f.o0) + tipNormal(f.n1, f.n2, f.o1));
+}
+
+/// From the first tip of a plain fan to the second.
+MCC_INLINE Lanes<uint32_t> betweenTips(const PlainFan& f) {
+  return coordinates(f.n2) - coordinates(f.o1) - (coordinates(f.n0) - coordinates(f.o0));
+}
+/// Halfway between them.
+MCC_INLINE FinePoint middleOfTips(const PlainFan& f) {
+  const Lanes<uint32_t> between = betweenTips(f);
+  return {coordinates(f.n0) - coordinates(f.o0) + coordinates(f.n1) +
+              (Lanes<uint32_t>)((Lanes<int32_t>)between >> 1),
+          (between & 1) << 7};
 }
 
 /// `beyond` may be null without weights.
-template <class Wide>
 MCC_INLINE void predictPlain(const PositionParameters& p, const PlainFan& f, const Beyond* beyond,
-                             uint32_t degree, uint32_t modes, Prediction<Wide>& out) {
-  using UWide = std::make_unsigned_t<Wide>;
-  const Lanes<UWide> n0 = coordinates<UWide>(f.n0);
-  const Lanes<UWide> n1 = coordinates<UWide>(f.n1);
-  const Lanes<UWide> n2 = coordinates<UWide>(f.n2);
-  const Lanes<UWide> o0 = coordinates<UWide>(f.o0);
-  const Lanes<UWide> o1 = coordinates<UWide>(f.o1);
-  const Lanes<UWide> d0 = n0 - o0;
-  const Lanes<UWide> d1 = n2 - o1;
-  out.q8 = (d0 + d1 + n1 + n1) << 7;
-  out.spread = absoluteLanes<UWide>(d0 - d1);
-  out.magnitudes = magnitudes<UWide>(f.n0) + magnitudes<UWide>(f.n1) + magnitudes<UWide>(f.n2);
+                             uint32_t degree, uint32_t modes, Prediction& out) {
+  out.at = middleOfTips(f);
+  out.spread = absoluteFloats(floatsOf(betweenTips(f)));
+  out.magnitudes = absoluteFloats(floatsOf(magnitudes(f.n0) + magnitudes(f.n1) + magnitudes(f.n2)));
   if ((modes & position_mode::kWeights) != 0) {
-    out.q8 +=
-        weightPlainFeatures<Wide>(p, f, *beyond, degree, (modes & position_mode::kSelect) != 0);
+    const bool select = (modes & position_mode::kSelect) != 0;
+    out.at.fraction += fractionOf(weightPlainFeatures(p, f, *beyond, degree, select));
   }
-  if ((modes & position_mode::kShear) == 0) return;
-  out.normal =
-      rotateComponents(tipNormal<Wide>(f.n0, f.n1, f.o0) + tipNormal<Wide>(f.n1, f.n2, f.o1));
+  if ((modes & position_mode::kShear) != 0) out.normal = plainNormal(f);
 }
 
 /// What planes need besides.
-MCC_INLINE void findNormal(const PlainFan& f, Prediction<int32_t>& out) {
-  out.normal =
-      rotateComponents(tipNormal<int32_t>(f.n0, f.n1, f.o0) + tipNormal<int32_t>(f.n1, f.n2, f.o1));
-  const Lanes<uint32_t> between_tips = coordinates<uint32_t>(f.n0) - coordinates<uint32_t>(f.o0) -
-                                       coordinates<uint32_t>(f.n2) + coordinates<uint32_t>(f.o1);
-  const Lanes<float> d = convertLanes<float>((Lanes<int32_t>)between_tips) * out.normal;
+MCC_INLINE void findNormal(const PlainFan& f, Prediction& out) {
+  out.normal = plainNormal(f);
+  const Lanes<float> d = floatsOf(betweenTips(f)) * out.normal;
   out.disagreement = std::fabs(d[0] + d[1] + d[2]);
 }
 
-/// Mean of `count` positions whose sum this is, in Q8.
-template <class Wide>
-MCC_INLINE Lanes<std::make_unsigned_t<Wide>> meanOf(const Lanes<std::make_unsigned_t<Wide>>& sum,
-                                                    uint32_t count) {
-  Lanes<std::make_unsigned_t<Wide>> mean{};
-  MCC_UNROLL
-  for (int s = 0; s < 3; ++s) {
-    mean[s] = static_cast<std::make_unsigned_t<Wide>>(static_cast<Wide>(256 * sum[s]) /
-                                                      static_cast<Wide>(count));
-  }
-  return mean;
-}
-
-/// Everything but the plain fan: the mean of the tips, or of the neighbours without any, and a feature. [B.2.4]
-template <class UWide>
+/// Everything but the plain fan, relative to its first tip, or to its first neighbour without any.         [B.2.4]
 struct AnyFeatures {
   uint32_t predictor_class;
-  Lanes<UWide> base;
-  Lanes<UWide> mean;  ///< of the neighbours minus base, in 1/2; 0 without tips, whatever the class
+  Lanes<uint32_t> from;
+  Lanes<float> tips;  ///< their mean; without tips, that of the neighbours
+  Lanes<float> mean;  ///< of the neighbours minus that of the tips
 };
 
-template <class Wide>
-AnyFeatures<std::make_unsigned_t<Wide>> anyFeatures(const AnyFan& fan,
-                                                    Lanes<std::make_unsigned_t<Wide>>& spread,
-                                                    Lanes<float>& normal) {
-  using UWide = std::make_unsigned_t<Wide>;
-  AnyFeatures<UWide> r{};
-  Lanes<UWide> neighbour_sum{};
-  Lanes<UWide> tip_sum{};
-  Lanes<UWide> tip[2] = {};
+MCC_INLINE Lanes<float> meanOf(const Lanes<uint32_t>& sum, uint32_t count) {
+  return floatsOf(sum) / static_cast<float>(count);
+}
+
+inline AnyFeatures anyFeatures(const AnyFan& fan, Lanes<float>& spread, Lanes<float>& normal) {
+  AnyFeatures r{};
+  Lanes<uint32_t> neighbour_sum{};
+  Lanes<uint32_t> tip_sum{};  // from the first tip
+  Lanes<uint32_t> second{};
   uint32_t tip_count = 0;
-  for (uint32_t i = 0; i < fan.neighbour_count; ++i) neighbour_sum += coordinates<UWide>(fan.n[i]);
+  for (uint32_t i = 0; i < fan.neighbour_count; ++i) neighbour_sum += coordinates(fan.n[i]);
   for (uint32_t i = 0; i < fan.face_count; ++i) {
     if (fan.o[i] == nullptr) continue;
-    const Lanes<UWide> t = coordinates<UWide>(fan.n[i]) + coordinates<UWide>(fan.n[i + 1]) -
-                           coordinates<UWide>(fan.o[i]);
-    tip_sum += t;
-    if (tip_count < 2) tip[tip_count] = t;
-    normal += tipNormal<Wide>(fan.n[i], fan.n[i + 1], fan.o[i]);
+    const Lanes<uint32_t> t =
+        coordinates(fan.n[i]) + coordinates(fan.n[i + 1]) - coordinates(fan.o[i]);
+    if (tip_count == 0) r.from = t;
+    if (tip_count == 1) second = t - r.from;
+    tip_sum += t - r.from;
+    normal += tipNormal(fan.n[i], fan.n[i + 1], fan.o[i]);
     ++tip_count;
   }
-  r.base = meanOf<Wide>(neighbour_sum, fan.neighbour_count);
-  if (tip_count == 0) return r;
-  r.predictor_class = !fan.closed     ? std::min(tip_count, 4u) - 1
+  if (tip_count == 0) r.from = coordinates(fan.n[0]);
+  const Lanes<float> mean =
+      meanOf(neighbour_sum - r.from * fan.neighbour_count, fan.neighbour_count);
+  r.tips = tip_count == 0 ? mean : meanOf(tip_sum, tip_count);
+  r.mean = mean - r.tips;
+  r.predictor_class = !fan.closed     ? std::clamp(tip_count, 1u, 4u) - 1
                       : tip_count < 4 ? kClassClosedFewTips
                                       : kClassClosedManyTips;
-  const Lanes<UWide> mean = r.base;
-  r.base = meanOf<Wide>(tip_sum, tip_count);
-  r.mean = (Lanes<UWide>)((Lanes<Wide>)(mean - r.base) >> 7);
-  if (tip_count >= 2) spread = absoluteLanes<UWide>(tip[0] - tip[1]);
+  spread = absoluteFloats(floatsOf(second));
   return r;
 }
 
-template <class Wide>
-void predictAny(const PositionParameters& p, const AnyFan& fan, Prediction<Wide>& out) {
-  using UWide = std::make_unsigned_t<Wide>;
-  out.spread = Lanes<UWide>{};
-  out.magnitudes = Lanes<UWide>{};
+inline void predictAny(const PositionParameters& p, const AnyFan& fan, Prediction& out) {
+  out.spread = Lanes<float>{};
   Lanes<float> normal{};
-  const AnyFeatures<UWide> v = anyFeatures<Wide>(fan, out.spread, normal);
-  out.q8 = v.base + v.mean * weightOf<Wide>(p.weights.w[v.predictor_class][0]);
-  for (uint32_t i = 0; i < fan.neighbour_count; ++i) out.magnitudes += magnitudes<UWide>(fan.n[i]);
-  if (fan.neighbour_count != 3) {
-    MCC_UNROLL
-    for (int s = 0; s < 3; ++s) out.magnitudes[s] = out.magnitudes[s] * 3 / fan.neighbour_count;
-  }
+  const AnyFeatures v = anyFeatures(fan, out.spread, normal);
+  const float weight = static_cast<float>(2 * p.weights.w[v.predictor_class][0]);
+  out.at = {v.from, fractionOf(256 * v.tips + v.mean * weight)};
+  Lanes<uint32_t> sum{};
+  for (uint32_t i = 0; i < fan.neighbour_count; ++i) sum += magnitudes(fan.n[i]);
+  out.magnitudes = absoluteFloats(floatsOf(sum)) * (3.0f / static_cast<float>(fan.neighbour_count));
   out.normal = rotateComponents(normal);
   out.disagreement = 0;
-}
-
-inline int64_t wrappingMultiply(int64_t a, int64_t b) {
-  return static_cast<int64_t>(static_cast<uint64_t>(a) * static_cast<uint64_t>(b));
-}
-inline int64_t wrappingAdd(int64_t a, int64_t b) {
-  return static_cast<int64_t>(static_cast<uint64_t>(a) + static_cast<uint64_t>(b));
 }
 
 /// Normal shear: components are coded in the order of growing |normal|; what the first ones turn out to be moves the
@@ -339,9 +319,9 @@ inline int64_t wrappingAdd(int64_t a, int64_t b) {
 struct Shear {
   const uint8_t* axis;  ///< by slot; three
   const uint8_t* slot;  ///< by axis
-  int32_t c10;          ///< in 1/4096
-  int32_t c20;
-  int32_t c21;
+  float c10;            ///< in 1/256 of a step for each step
+  float c20;
+  float c21;
 };
 
 struct ComponentOrder {
@@ -369,9 +349,9 @@ MCC_INLINE Shear makeShear(const Lanes<float>& normal) {
   const float inverse = 1.0f / (largest == 0 ? 1.0f : largest);
   const float t0 = n[shear.axis[0]] * inverse;
   const float t1 = n[shear.axis[1]] * inverse;
-  shear.c20 = -static_cast<int32_t>(t0 * 4096.0f);
-  shear.c21 = -static_cast<int32_t>(t1 * 4096.0f);
-  shear.c10 = -static_cast<int32_t>(t0 * t1 / (t1 * t1 + 1.0f) * 4096.0f);
+  shear.c20 = -256.0f * t0;
+  shear.c21 = -256.0f * t1;
+  shear.c10 = -256.0f * (t0 * t1 / (t1 * t1 + 1.0f));
   return shear;
 }
 

@@ -27,14 +27,11 @@ struct VertexRecord {
 };
 static_assert(sizeof(VertexRecord) == 32);
 
-template <class UWide>
-MCC_INLINE Lanes<UWide> coordinates(const VertexRecord* r) {
-  using Signed = std::make_signed_t<UWide>;
-  return (Lanes<UWide>)loadLanes<Signed>(r->q);
+MCC_INLINE Lanes<uint32_t> coordinates(const VertexRecord* r) {
+  return (Lanes<uint32_t>)loadLanes<int32_t>(r->q);
 }
-template <class UWide>
-MCC_INLINE Lanes<UWide> magnitudes(const VertexRecord* r) {
-  return loadLanes<UWide>(r->magnitude);
+MCC_INLINE Lanes<uint32_t> magnitudes(const VertexRecord* r) {
+  return loadLanes<uint32_t>(r->magnitude);
 }
 
 }  // namespace mcc

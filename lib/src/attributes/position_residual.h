@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <type_traits>
 
 #include "attributes/position_parameters.h"
 #include "attributes/position_planes.h"
@@ -69,47 +68,46 @@ struct PositionRows {
 };
 
 /// Coefficients of the scale by component, of one kind of fan.
-template <class UWide>
 struct ScaleLanes {
-  Lanes<UWide> neighbours;
-  Lanes<UWide> spread;
-  Lanes<UWide> constant;
+  Lanes<float> neighbours;
+  Lanes<float> spread;
+  Lanes<float> constant;
 
   explicit ScaleLanes(const ScaleCoefficients* c)
-      : neighbours{c[0].c[0], c[1].c[0], c[2].c[0], 0},
-        spread{c[0].c[1], c[1].c[1], c[2].c[1], 0},
-        constant{c[0].c[2], c[1].c[2], c[2].c[2], 0} {}
+      : neighbours(coefficients(c, 0)), spread(coefficients(c, 1)), constant(coefficients(c, 2)) {}
+
+ private:
+  static Lanes<float> coefficients(const ScaleCoefficients* c, uint32_t i) {
+    const auto of = [&](uint32_t s) { return static_cast<float>(c[s].c[i]) * (1.0f / 64); };
+    return Lanes<float>{of(0), of(1), of(2), 0};
+  }
 };
 
-/// Scale in 1/16 of a lattice step, and which of its two terms is more than twice the other.
+/// Scale in 1/16 of a lattice step, not negative, and which of its two terms is more than twice the other.
 struct ScaleEstimate {
-  Lanes<uint32_t> scale;  ///< at most kScaleLimit
-  Lanes<uint32_t> set;    ///< 1: spread, 2: neighbours, 0: neither; only with split
+  Lanes<float> scale;
+  Lanes<uint32_t> set;  ///< 1: spread, 2: neighbours, 0: neither; only with split
 };
-inline constexpr uint32_t kScaleLimit = 1u << 26;
 
-template <class UWide>
-MCC_INLINE ScaleEstimate estimateScale(const ScaleLanes<UWide>& c, const Lanes<UWide>& magnitudes,
-                                       const Lanes<UWide>& spread, bool split) {
-  using Signed = Lanes<std::make_signed_t<UWide>>;
-  const Lanes<UWide> of_neighbours = c.neighbours * magnitudes;
-  const Lanes<UWide> of_spread = c.spread * spread;
-  Lanes<UWide> scale = (of_neighbours + of_spread + c.constant) >> 6;
-  if (sizeof(UWide) > 4) scale = minimumLanes<UWide>(scale, kScaleLimit);
-  if (!split) return {convertLanes<uint32_t>(scale), Lanes<uint32_t>{}};
-  // Halved, since comparisons are signed.
-  const Signed by_spread = (Signed)(of_spread >> 2) > (Signed)(of_neighbours >> 1);
-  const Signed by_neighbours = (Signed)(of_neighbours >> 2) > (Signed)(of_spread >> 1);
-  return {convertLanes<uint32_t>(scale),
-          convertLanes<uint32_t>((by_spread & 1) | (by_neighbours & 2))};
+MCC_INLINE ScaleEstimate estimateScale(const ScaleLanes& c, const Lanes<float>& magnitudes,
+                                       const Lanes<float>& spread, bool split) {
+  const Lanes<float> of_neighbours = c.neighbours * magnitudes;
+  const Lanes<float> of_spread = c.spread * spread;
+  const Lanes<float> scale = of_neighbours + of_spread + c.constant;
+  if (!split) return {scale, Lanes<uint32_t>{}};
+  const Lanes<int32_t> by_spread = of_spread > 2 * of_neighbours;
+  const Lanes<int32_t> by_neighbours = of_neighbours > 2 * of_spread;
+  return {scale, (Lanes<uint32_t>)((by_spread & 1) | (by_neighbours & 2))};
 }
 
-/// Half-octave buckets of scales, 0 .. kScaleBuckets-1: the exponent and the highest fraction bit of scale + 1 as a
-/// float. Below the last bucket the conversion is exact.
-MCC_INLINE Lanes<uint32_t> scaleBuckets(const Lanes<uint32_t>& scale) {
-  const Lanes<float> y = convertLanes<float>((Lanes<int32_t>)(scale + 1));
-  const Lanes<uint32_t> bucket = ((Lanes<uint32_t>)y >> 22) - 2 * 127;
-  return minimumLanes<uint32_t>(bucket, kScaleBuckets - 1);
+/// Half-octave buckets of scales, 0 .. kScaleBuckets-1: the exponent and the highest fraction bit of scale + 1.
+MCC_INLINE Lanes<uint32_t> scaleBuckets(const Lanes<float>& scale) {
+  const Lanes<uint32_t> bucket = ((Lanes<uint32_t>)(scale + 1.0f) >> 22) - 2 * 127;
+  return minimumLanes(bucket, kScaleBuckets - 1);
+}
+/// The same of one scale.
+MCC_INLINE uint32_t scaleBucket(float scale) {
+  return std::min((std::bit_cast<uint32_t>(scale + 1.0f) >> 22) - 2 * 127, kScaleBuckets - 1);
 }
 
 /// How the residuals of a vertex are coded, by component.
@@ -120,7 +118,7 @@ struct ResidualContexts {
   uint32_t flip[4];    ///< 1: the prediction was rounded up
 };
 
-/// `rounded` is the prediction in Q8 plus one half.
+/// `rounded` is the fraction of the prediction plus one half.
 template <class Fold>
 MCC_INLINE void findContexts(const ScaleEstimate& scale, const Lanes<uint32_t>& rounded, bool split,
                              Fold fold, ResidualContexts& out) {
@@ -132,7 +130,7 @@ MCC_INLINE void findContexts(const ScaleEstimate& scale, const Lanes<uint32_t>& 
     const Lanes<uint32_t> fraction = (rounded & 255) - 128;
     const Lanes<uint32_t> folded = (Lanes<uint32_t>)(bucket < kFoldBuckets);
     const Lanes<uint32_t> fraction_class =
-        minimumLanes<uint32_t>(absoluteLanes<uint32_t>(fraction) >> 5, kFractionClasses - 1);
+        minimumLanes(absoluteLanes(fraction) >> 5, kFractionClasses - 1);
     row += folded & (fraction_class * kFoldBuckets + kScaleBuckets);
     storeLanes<uint32_t>(folded, out.folded);
     storeLanes<uint32_t>(fraction >> 31, out.flip);
@@ -231,14 +229,6 @@ MCC_INLINE Lanes<uint32_t> decodeResiduals(Io& io, TokenRow* rows, const Residua
   }
   const Lanes<uint32_t> mask = 0u - side;
   return (size ^ mask) - mask;
-}
-
-/// The same of one scale: half-octave bucket, 0 .. kScaleBuckets-1.
-MCC_INLINE uint32_t scaleBucket(uint32_t scale) {
-  const uint32_t y = scale + 1;
-  const uint32_t k = static_cast<uint32_t>(std::bit_width(y)) - 1;
-  const uint32_t bucket = 2 * k + ((2 * y >> k) & 1);
-  return std::min(bucket, kScaleBuckets - 1);
 }
 
 /// A residual alone, in the row of its scale's bucket.

@@ -26,7 +26,7 @@ struct PositionModels {
   PositionTables tables;
 };
 
-template <class Io, class Wide, uint32_t kModes>
+template <class Io, uint32_t kModes>
 class PositionCoder {
  public:
   PositionCoder(Io& io, PositionModels& models, const PositionParameters& parameters,
@@ -67,7 +67,7 @@ class PositionCoder {
 
    private:
     typename Io::Burst io_;
-    const VertexCoder<std::remove_reference_t<typename Io::Burst>, Wide, kModes> vertex_;
+    const VertexCoder<std::remove_reference_t<typename Io::Burst>, kModes> vertex_;
     const FaceView faces_;
     const VertexRecord* const records_;
   };
@@ -76,7 +76,7 @@ class PositionCoder {
     codePlain(vertex_, io_, growth_.faces(), records_, v, fan);
   }
   MCC_OUT_OF_LINE void fan(uint32_t v, const AnyFan& fan) {
-    Prediction<Wide> prediction;
+    Prediction prediction;
     vertex_.codeAny(io_, v, fan, prediction);
   }
   void seed(uint32_t v, const VertexRecord* neighbour) { vertex_.codeSeed(io_, v, neighbour); }
@@ -87,10 +87,10 @@ class PositionCoder {
 
  private:
   template <class AnyIo>
-  MCC_INLINE static void codePlain(const VertexCoder<AnyIo, Wide, kModes>& vertex, AnyIo& io,
+  MCC_INLINE static void codePlain(const VertexCoder<AnyIo, kModes>& vertex, AnyIo& io,
                                    const FaceView& faces, const VertexRecord* records, uint32_t v,
                                    const PlainFan& fan) {
-    Prediction<Wide> prediction;
+    Prediction prediction;
     if (!vertex.has(position_mode::kWeights)) {
       return vertex.codePlain(io, v, fan, nullptr, prediction);
     }
@@ -102,7 +102,7 @@ class PositionCoder {
   PositionRows& rows_;
   const PositionParameters& parameters_;
   const int32_t* const truth_;
-  VertexCoder<Io, Wide, kModes> vertex_;
+  VertexCoder<Io, kModes> vertex_;
   RegionGrowth growth_;
   VertexRecord* const records_;
 };

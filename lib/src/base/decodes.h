@@ -18,7 +18,7 @@ inline constexpr bool kWhole = true;
 
 namespace decodes {
 inline constexpr bool kOrders = kWhole;       ///< of triangles and vertices, if they are kept
-inline constexpr bool kExactFloats = kWhole;  ///< grids too, and positions above 17 bits
+inline constexpr bool kExactFloats = kWhole;  ///< grids too
 inline constexpr bool kPivots = kWhole;       ///< faces vertex by vertex
 inline constexpr bool kPlanes = kWhole;       ///< of positions
 inline constexpr bool kTangentPoints = kWhole;

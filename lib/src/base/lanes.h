@@ -15,9 +15,6 @@
 #error "lanes need the vector types of gcc and clang"
 #endif
 
-// Calls with vectors of 64-bit numbers would depend on the target. There are none: all that takes them is inlined.
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace mcc {
 
 template <class T>
@@ -33,14 +30,6 @@ struct LanesOf<int32_t> {
 template <>
 struct LanesOf<uint32_t> {
   using Type = uint32_t __attribute__((vector_size(16)));
-};
-template <>
-struct LanesOf<int64_t> {
-  using Type = int64_t __attribute__((vector_size(32)));
-};
-template <>
-struct LanesOf<uint64_t> {
-  using Type = uint64_t __attribute__((vector_size(32)));
 };
 template <>
 struct LanesOf<float> {
@@ -67,17 +56,14 @@ MCC_INLINE Lanes<To> convertLanes(const From& lanes) {
 }
 
 /// |x| of numbers taken as signed; the smallest stays.
-template <class UWide>
-MCC_INLINE Lanes<UWide> absoluteLanes(const Lanes<UWide>& x) {
-  const Lanes<UWide> negative = (Lanes<UWide>)((Lanes<std::make_signed_t<UWide>>)x < 0);
+MCC_INLINE Lanes<uint32_t> absoluteLanes(const Lanes<uint32_t>& x) {
+  const Lanes<uint32_t> negative = (Lanes<uint32_t>)((Lanes<int32_t>)x < 0);
   return (x ^ negative) - negative;
 }
 
-/// Of unsigned numbers below 2^31 (2^63).
-template <class UWide>
-MCC_INLINE Lanes<UWide> minimumLanes(const Lanes<UWide>& x, UWide limit) {
-  using Signed = std::make_signed_t<UWide>;
-  const Lanes<UWide> below = (Lanes<UWide>)((Lanes<Signed>)x < static_cast<Signed>(limit));
+/// Of unsigned numbers below 2^31.
+MCC_INLINE Lanes<uint32_t> minimumLanes(const Lanes<uint32_t>& x, uint32_t limit) {
+  const Lanes<uint32_t> below = (Lanes<uint32_t>)((Lanes<int32_t>)x < static_cast<int32_t>(limit));
   return (x & below) | (~below & limit);
 }
 

@@ -120,17 +120,10 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
   return {};
 }
 
-/// Whether it is compiled with what the predictor of positions needs.
-bool isPredicted(const AttributeInfo& a) {
-  const uint32_t bits =
-      a.coding == AttributeCoding::kLattice ? a.bits : 8 * componentBytes(a.format.component_type);
-  return (decodes::kExactFloats || bits <= kNarrowPositionBits) &&
-         (a.predictor & ~position_mode::kDecoded) == 0;
-}
-
 /// Aliases are of earlier attributes that are none and not the position, tangents have normals, predictors are known.
 Status checkReferences(const AttributeInfo* all, uint32_t count, size_t at) {
-  if (!kWhole && !isPredicted(all[0])) return fail(kNotInCore, "the core lacks a predictor", at);
+  if ((all[0].predictor & ~position_mode::kDecoded) != 0)
+    return fail(kNotInCore, "the core lacks a predictor", at);
   for (uint32_t i = 1; i < count; ++i) {
     if (all[i].coding == AttributeCoding::kAlias) {
       const uint32_t source = all[i].alias_of;

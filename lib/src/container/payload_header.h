@@ -59,9 +59,6 @@ inline constexpr uint32_t kAll = 0xfff;
 inline constexpr uint32_t kDecoded = kAll & ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder);
 }  // namespace piece_flag
 
-/// Positions of up to so many bits are predicted in 32 bits: with a fraction of 8 bits.
-inline constexpr uint32_t kNarrowPositionBits = 17;
-
 struct PieceHeader {
   uint32_t flags = 0;
   uint32_t vertex_count = 0;  ///< of the cut mesh, that is umbrellas; with pivots groups
