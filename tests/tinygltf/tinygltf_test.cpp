@@ -361,8 +361,8 @@ TEST(TinyGltf, RefusesWhatContradictsItself) {
   };
   using ::tinygltf::Value;
   refused("no such buffer view", [&](Model&, auto& p) { set(p, "bufferView", Value(1000)); });
-  refused("is no index", [&](Model&, auto& p) { set(p, "bufferView", Value(-1)); });
-  refused("is no index", [&](Model&, auto& p) { set(p, "piece", Value(std::string("1"))); });
+  refused("is not an index", [&](Model&, auto& p) { set(p, "bufferView", Value(-1)); });
+  refused("is not an index", [&](Model&, auto& p) { set(p, "piece", Value(std::string("1"))); });
   refused("no such piece", [&](Model&, auto& p) { set(p, "piece", Value(7)); });
   refused("no such part", [&](Model&, auto& p) { set(p, "part", Value(7)); });
   refused("must be an object", [&](Model&, auto& p) { set(p, "attributes", Value(7)); });
@@ -375,7 +375,7 @@ TEST(TinyGltf, RefusesWhatContradictsItself) {
   refused("unsigned type", [](Model& m, auto& p) {
     m.accessors[size_t(p.indices)].componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
   });
-  refused("has not the type", [](Model& m, auto& p) {
+  refused("does not have the type", [](Model& m, auto& p) {
     m.accessors[size_t(p.attributes.at("NORMAL"))].type = TINYGLTF_TYPE_VEC4;
   });
   refused("the type is unknown",

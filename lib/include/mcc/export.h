@@ -2,9 +2,11 @@
 #ifndef MCC_EXPORT_H_
 #define MCC_EXPORT_H_
 
-/** Marks what the shared libraries export. Everything else is compiled hidden: internals may change in every release.
- * On Windows whoever links the static libraries defines MCC_STATIC, and who compiles a DLL of the sources MCC_BUILDING;
- * the targets of the CMake package do so. */
+/**
+ * Marks what the shared libraries export. Everything else is compiled as hidden, so that internals
+ * may change in every release. On Windows, define MCC_STATIC to link the static libraries and
+ * MCC_BUILDING to compile the sources into a DLL; the targets of the CMake package do so.
+ */
 #if defined(_WIN32)
 #if defined(MCC_BUILDING)
 #define MCC_API __declspec(dllexport)

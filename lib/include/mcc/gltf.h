@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// glTF 2.0 files in, glTF 2.0 files out: KHR_mesh_collapse_compression put on and taken off.
+// Adds KHR_mesh_collapse_compression to glTF 2.0 files, and removes it again.
 // No exception leaves these functions; they use no globals and may run in parallel.
 #ifndef MCC_GLTF_H_
 #define MCC_GLTF_H_
@@ -23,28 +23,28 @@ namespace mcc::gltf {
 /// The key of the extension objects.
 inline constexpr char kExtensionName[] = "KHR_mesh_collapse_compression";
 
-/// Result of every fallible call: `what` is empty when all went well.
+/// Result of every fallible call: `what` is empty on success.
 struct [[nodiscard]] Result {
   std::string where;  ///< JSON path ("/meshes/0/primitives/2"), "byte 20", a file name, or empty
   std::string what;   ///< what is wrong and, where that helps, what to do; one line, no full stop
 
-  /// Whether all went well.
+  /// Whether the call succeeded.
   bool ok() const { return what.empty(); }
   /// "where: what", or only one of them when the other is empty.
   MCC_API std::string message() const;
 };
 
-/// Which primitives share one lattice of positions. Primitives that share one cannot crack apart.
+/// Which primitives share one lattice of positions. No cracks can open between those that do.
 enum class Grid : uint8_t {
   kMesh,       ///< all primitives of a mesh
   kScene,      ///< all primitives of the file (in mesh coordinates)
-  kPrimitive,  ///< every piece has its own
+  kPrimitive,  ///< every piece has its own lattice
 };
 
 /// Bits per component of float attributes; 0 keeps every bit. Integer attributes, joints and
 /// custom attributes are always exact.
 struct QuantizationBits {
-  uint8_t position = 14;  ///< 0..24; also the grid of POSITION morph deltas
+  uint8_t position = 14;  ///< 0..24; also the lattice of POSITION morph deltas
   uint8_t normal = 10;    ///< 0 or 2..16, octahedral
   uint8_t texcoord = 12;  ///< 0..24
   uint8_t color = 8;      ///< 0..24
@@ -52,7 +52,8 @@ struct QuantizationBits {
   uint8_t weight = 12;    ///< 0..24
 };
 
-/// A buffer view that EXT_meshopt_compression or KHR_meshopt_compression codes, as its extension object describes it.
+/// A buffer view compressed by EXT_meshopt_compression or KHR_meshopt_compression, as its extension
+/// object describes it.
 struct CodedView {
   std::span<const uint8_t> bytes;
   uint64_t count = 0;  ///< elements of `stride_bytes` each; at most 256 bytes per coded byte
@@ -61,9 +62,9 @@ struct CodedView {
   std::string filter;  ///< "NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL" or another
 };
 
-/// A primitive that KHR_draco_mesh_compression codes, and what its accessors claim.
+/// A primitive compressed by KHR_draco_mesh_compression, and what its accessors claim.
 struct CodedMesh {
-  /// An attribute by its number in the coded data.
+  /// An attribute, named by its unique id in the Draco data.
   struct Attribute {
     uint32_t id = 0;
     ComponentType component_type = ComponentType::kFloat32;
@@ -71,22 +72,24 @@ struct CodedMesh {
   };
   std::span<const uint8_t> bytes;
   uint64_t vertex_count = 0;
-  uint64_t triangle_count = 0;  ///< at most 4096 per coded byte, as vertices
+  uint64_t triangle_count = 0;  ///< at most 4096 per coded byte; so is vertex_count
   std::vector<Attribute> attributes;
 };
 
-/// What a ForeignDecoders::mesh makes of a CodedMesh.
+/// What ForeignDecoders::mesh returns for a CodedMesh.
 struct DecodedMesh {
   std::vector<uint32_t> indices;                 ///< 3 * triangle_count, each below vertex_count
-  std::vector<std::vector<uint8_t>> attributes;  ///< as in CodedMesh: vertex_count tight elements
+  std::vector<std::vector<uint8_t>> attributes;  ///< as in CodedMesh: vertex_count packed elements
 };
 
-/// Decoders of what other projects' codecs made. They get untrusted bytes, throw nothing, and may be called in parallel.
-/// Where one is null, such views and primitives stay as they are.
+/// Decoders of other projects' codecs, for sources that those compressed. They get untrusted bytes,
+/// must not throw, and may be called in parallel. Where a function is null, the views or primitives
+/// it would decode stay as they are.
 struct ForeignDecoders {
-  /// `elements` becomes count * stride_bytes bytes.
+  /// Decodes a buffer view: `elements` becomes count * stride_bytes bytes.
   std::function<Result(const CodedView& view, std::vector<uint8_t>& elements)> view;
-  /// An error also when the counts or types are not those claimed; known before memory is taken for them, where possible.
+  /// Decodes a primitive. Must also fail when the counts or types differ from those claimed, if
+  /// possible before it takes memory for them.
   std::function<Result(const CodedMesh& coded, DecodedMesh& mesh)> mesh;
 };
 
@@ -94,58 +97,66 @@ struct ForeignDecoders {
 struct ConvertOptions {
   QuantizationBits bits;
   bool lossless = false;  ///< every float keeps every bit; `bits` is ignored
-  /// When not 0: no decoded POSITION (and no delta of a morph target's) is farther from its source than this, as the
-  /// distance of two points in the coordinates of the mesh; `bits.position` is ignored. Checked on the written file.
+  /// When not 0: no decoded POSITION, and no POSITION delta of a morph target, is farther from its
+  /// source than this distance in the coordinates of the mesh; `bits.position` is ignored. The
+  /// written file is checked for it.
   double max_position_error = 0;
-  bool is_error_relative =
-      false;  ///< max_position_error is a fraction of the largest side of the box of what shares
-              ///< the lattice
-  /// When not null: the lattice of every float POSITION, for tiles that are converted apart; `grid`, `bits.position` and
-  /// max_position_error are ignored.
+  /// max_position_error is a fraction of the largest side of the bounding box of all primitives
+  /// that share the lattice.
+  bool is_error_relative = false;
+  /// When set: the lattice of every float POSITION, so that tiles converted separately fit
+  /// together; `grid`, `bits.position` and max_position_error are ignored.
   std::optional<Lattice> position_lattice;
-  /// Compresses the triangles alone. Attributes stay accessors with every bit, in the order of the payload; where others
-  /// refer to them they stay untouched and the payload holds the order.
+  /// Compresses only the triangles. Attributes stay accessors and keep every bit, in the order of
+  /// the payload. Where something else refers to them they stay untouched, and the payload holds
+  /// the order.
   bool indices_only = false;
-  /// Leaves out vertices that no triangle uses, where nothing can refer to them. Not with indices_only.
+  /// Leaves out vertices that no triangle uses, where nothing can refer to them. Cannot be combined
+  /// with indices_only.
   bool drop_unused = false;
   Grid grid = Grid::kMesh;
-  /// Vertices, triangles (with each one's first corner) come back in the source's order. Always so where a mesh or
-  /// primitive has an extension this library does not know, which may refer to them by number.
+  /// Vertices, or triangles with the first corner of each, come back in the source's order. This is
+  /// always so where a mesh or primitive has an extension this library does not know, which may
+  /// refer to them by number.
   bool keep_vertex_order = false;
   bool keep_triangle_order = false;
-  /// Keeps the decoded geometry uncompressed in a second file beside the output, NAME.fallback.bin, for loaders that do
-  /// not know the extension, which is then not required.
+  /// Also writes the decoded geometry, uncompressed, to a second file next to the output,
+  /// NAME.fallback.bin, for loaders that do not know the extension. The extension is then used but
+  /// not required.
   bool fallback = false;
-  /// Threads that work at the same time, on several payloads or on the trials of one; the result does not depend on it.
+  /// Threads that work at the same time, on several payloads or on the trials of one. The result
+  /// does not depend on it.
   uint32_t thread_count = 1;
   uint8_t effort = 1;                         ///< see EncodeOptions::effort
-  Preference prefer = Preference::kBalanced;  ///< payloads that are smaller, or faster to decode
-  ForeignDecoders decoders;                   ///< for sources that are compressed already
-  /// What the source may decode to, where it is compressed, see decodedLimit(); 0: the default. Accessors without bytes in the
-  /// file may have a 32nd of it together; primitives that would need more stay as they are.
+  Preference prefer = Preference::kBalanced;  ///< smaller payloads, or ones faster to decode
+  ForeignDecoders decoders;                   ///< for sources that other codecs compressed
+  /// How much a compressed source may decode to, see decodedLimit(); 0: the default. All accessors
+  /// that have no bytes in the file may take a 32nd of it together; primitives that would need more
+  /// stay as they are.
   uint64_t max_decoded_bytes = 0;
-  /// Called now and then with what is being done, for people who wait, and the share of its triangles that is behind it,
-  /// or -1. One call at a time, on any of the threads; throws nothing. May be null.
+  /// Called from time to time to report progress to a user: the current stage, and the share of its
+  /// triangles that is done, or -1 when unknown. There is one call at a time, on any of the
+  /// threads. Must not throw. May be empty.
   std::function<void(const char* stage, double share)> progress;
-  /// Compress also where that makes the file larger. For tests of the file layer.
+  /// Compresses even where that makes the file larger. For tests of the file layer.
   bool allow_larger = false;
 };
 
-/// How one attribute fared. Errors are in units of the accessor (normalised integers: of the stored
-/// integer), in degrees for unit vectors.
+/// How accurately one attribute was coded. Errors are in degrees for unit vectors, else in units of
+/// the accessor (for normalised integers those of the stored integer).
 struct AttributeReport {
   std::string name;  ///< "POSITION", "TEXCOORD_1", "target 0 NORMAL"
   AttributeCoding coding = AttributeCoding::kExactFloat;
-  uint8_t bits = 0;  ///< of the lattice, octahedron or angle; 0: exact
+  uint8_t bits = 0;  ///< of the lattice, octahedral grid or angle; 0: exact
   uint32_t component_count = 0;
   uint32_t vertex_count = 0;
-  double coded_bits = 0;         ///< bits in the payload; of POSITION the positions themselves
+  double coded_bits = 0;         ///< bits in the payload; for POSITION only the base positions
   bool is_angle = false;         ///< errors are in degrees
   double promised_error = 0;     ///< no value is farther from its source than this
   double max_error = 0;          ///< measured on the file that was written
-  double median_error = 0;       ///< measured, only of angles
-  double promised_distance = 0;  ///< of positions under max_position_error, else 0
-  double max_distance = 0;       ///< measured, where promised
+  double median_error = 0;       ///< measured, for angles only
+  double promised_distance = 0;  ///< for positions under max_position_error, else 0
+  double max_distance = 0;       ///< measured where a distance was promised
 };
 
 /// Bits of one stream of a payload.
@@ -158,7 +169,7 @@ struct StreamReport {
 struct PayloadReport {
   uint32_t mesh = 0;  ///< the first mesh it belongs to
   uint64_t payload_bytes = 0;
-  uint64_t freed_bytes = 0;   ///< buffer bytes the payload makes unnecessary
+  uint64_t freed_bytes = 0;   ///< buffer bytes that the payload replaces
   uint64_t wedge_count = 0;   ///< glTF vertices
   uint64_t vertex_count = 0;  ///< topological vertices (distinct positions)
   uint64_t triangle_count = 0;
@@ -168,7 +179,7 @@ struct PayloadReport {
   uint64_t leftover_triangle_count = 0;
   uint32_t piece_count = 0;
   std::vector<StreamReport> streams;
-  /// Pieces are merged where name, coding and bits are the same.
+  /// Attributes of several pieces are merged where name, coding and bits are the same.
   std::vector<AttributeReport> attributes;
 };
 
@@ -180,23 +191,23 @@ struct PrimitiveReport {
   uint32_t payload = kNone;  ///< index into ConvertReport::payloads
   uint64_t triangle_count = 0;
   uint64_t wedge_count = 0;
-  std::string note;  ///< why it was left as it was
+  std::string note;  ///< why it was left uncompressed; empty when it was compressed
 };
 
-/// Files of a conversion; none where it went from or to memory.
+/// The files of a conversion. A list is empty where the document came from memory or went to it.
 struct FilesInUse {
-  std::vector<std::filesystem::path> input;        ///< those of input_bytes, the main one first
-  std::vector<std::filesystem::path> other_input;  ///< images that stay files
-  std::vector<std::filesystem::path> output;       ///< those of output_bytes, the main one first
+  std::vector<std::filesystem::path> input;        ///< counted in input_bytes, the main one first
+  std::vector<std::filesystem::path> other_input;  ///< images that stay separate files
+  std::vector<std::filesystem::path> output;       ///< counted in output_bytes, the main one first
 };
 
 /// What convert() did.
 struct ConvertReport {
   uint64_t input_bytes = 0;     ///< with all buffers
   uint64_t output_bytes = 0;    ///< with all buffers, without the fallback
-  uint64_t fallback_bytes = 0;  ///< of the second file
+  uint64_t fallback_bytes = 0;  ///< size of the fallback file
   FilesInUse files;
-  bool copied = false;   ///< nothing was gained: the output is the input
+  bool copied = false;   ///< compression gained nothing, so the output is the input
   bool checked = false;  ///< the output was decoded and compared with the source
   double encode_seconds = 0;
   double decode_seconds = 0;
@@ -208,11 +219,12 @@ struct ConvertReport {
 
 /// What quantised attributes become when a file is decoded.
 enum class DecodeTo : uint8_t {
-  kFloats,  ///< what the source had
-  /// Integers with KHR_mesh_quantization, for the memory of graphics cards. Positions are points of their lattice, which goes
-  /// into a new child node per node with a mesh, or into the inverse bind matrices of a skin. Values move by float rounding
-  /// at most, others than positions by half a step of a type whose steps are not coarser than those of the coded grid.
-  /// What cannot become integer stays float, with a note.
+  kFloats,  ///< floats, as in the source
+  /// Integers with KHR_mesh_quantization, which take less memory on graphics cards. Positions
+  /// become points of their lattice; the lattice goes into a new child node of each node with a
+  /// mesh, or into the inverse bind matrices of a skin. Positions move by float rounding at most.
+  /// Other values move by at most half a step of an integer type whose steps are not coarser than
+  /// those of the coded grid. What cannot become integer stays float, with a note.
   kIntegers,
 };
 
@@ -220,7 +232,8 @@ enum class DecodeTo : uint8_t {
 struct FileDecodeOptions {
   DecodeTo decode_to = DecodeTo::kFloats;
   uint32_t thread_count = 1;  ///< the result does not depend on it
-  /// What the file may decode to, see decodedLimit(); 0: the default. Checked before memory is taken.
+  /// How much the file may decode to, see decodedLimit(); 0: the default. Checked before memory is
+  /// taken.
   uint64_t max_decoded_bytes = 0;
 };
 
@@ -229,8 +242,8 @@ struct DecodeReport {
   FilesInUse files;
   uint64_t input_bytes = 0;
   uint64_t output_bytes = 0;
-  bool copied = false;         ///< nothing was compressed: the output is the input
-  uint32_t payload_count = 0;  ///< different ones: views of the same bytes hold one
+  bool copied = false;         ///< nothing was compressed, so the output is the input
+  uint32_t payload_count = 0;  ///< distinct payloads: views of the same bytes hold one
   uint32_t primitive_count = 0;
   uint64_t triangle_count = 0;
   uint64_t wedge_count = 0;
@@ -238,13 +251,13 @@ struct DecodeReport {
   std::vector<std::string> notes;
 };
 
-/// What the payload says of an attribute, worked out.
+/// Facts about an attribute that are derived from the payload.
 struct InspectAttribute {
   std::string name;       ///< as in the JSON; "(unused)" when no primitive names it
-  std::string predictor;  ///< the writer's choice in the specification's words: "fitted, sheared"
-  double coded_bits = 0;  ///< in the payload, right to a few; when codes are counted
-  /// No component is farther from its source than this, but for float32 rounding, where the writer is this library's: it
-  /// chooses the nearest point of the grid. 0: exact.
+  std::string predictor;  ///< the writer's choice, in the specification's words: "fitted, sheared"
+  double coded_bits = 0;  ///< bits in the payload, to within a few; only when codes are counted
+  /// No component is farther from its source than this, apart from float32 rounding, if this
+  /// library wrote the payload: its writer chooses the nearest point of the grid. 0: exact.
   double error_bound = 0;
   bool is_angle = false;  ///< error_bound is in degrees
 };
@@ -277,8 +290,9 @@ struct InspectPayload {
   bool single_coder = false;
   uint32_t context_set = 0;
   bool has_codes = false;
-  CodeHistogram codes;  ///< when asked for
-  /// Likewise: those of ConvertReport that are no attributes; with InspectAttribute::coded_bits they sum up to the payload.
+  CodeHistogram codes;  ///< only when codes are counted
+  /// Also only when codes are counted: the streams of ConvertReport that are not attributes.
+  /// Together with InspectAttribute::coded_bits they add up to the payload.
   std::vector<StreamReport> streams;
 };
 
@@ -294,38 +308,38 @@ struct InspectReport {
 /// Numbered as in the reports of Khronos' glTF validator.
 enum class Severity : uint8_t { kError = 0, kWarning = 1, kInfo = 2, kHint = 3 };
 
-/// One thing that is wrong with a file, or worth saying.
+/// One finding of validate(): an error, or something worth knowing.
 struct ValidationIssue {
   Severity severity = Severity::kError;
   std::string code;     ///< "COUNT_MISMATCH"; README lists them
   std::string message;  ///< one line, no full stop
-  std::string pointer;  ///< RFC 6901, into the JSON; empty where the issue has no place there
+  std::string pointer;  ///< JSON pointer (RFC 6901); empty where the issue has no place in the JSON
 };
 
 /// Bounds of validate().
 struct ValidateOptions {
   Limits limits;                   ///< of each payload
   uint64_t max_decoded_bytes = 0;  ///< of the file, see decodedLimit(); 0: the default
-  uint32_t max_issues = 1000;      ///< more are counted, but not listed; 0: all are listed
+  uint32_t max_issues = 1000;      ///< further issues are counted but not listed; 0: all are listed
 };
 
 /// What validate() found.
 struct ValidationReport {
   std::vector<ValidationIssue> issues;  ///< in the order they were found
-  uint64_t issue_counts[4] = {};        ///< by severity; of all, listed or not
-  bool is_truncated = false;            ///< some are not listed
-  // What the file is, as far as it could be loaded.
+  uint64_t issue_counts[4] = {};        ///< by severity; all issues, listed or not
+  bool is_truncated = false;            ///< some issues are not listed
+  // Facts about the file, as far as it could be loaded.
   bool is_glb = false;
   std::string version;    ///< of glTF
-  std::string generator;  ///< as the file says
+  std::string generator;  ///< as stated in the file
   std::vector<std::string> extensions_used;
   std::vector<std::string> extensions_required;
   uint64_t input_bytes = 0;
-  uint32_t primitive_count = 0;             ///< of the file
-  uint32_t compressed_primitive_count = 0;  ///< of these, with the extension
-  uint32_t payload_count = 0;               ///< different ones
-  uint64_t triangle_count = 0;              ///< of the payloads that decode
-  uint64_t wedge_count = 0;                 ///< the same
+  uint32_t primitive_count = 0;             ///< all primitives of the file
+  uint32_t compressed_primitive_count = 0;  ///< primitives with the extension
+  uint32_t payload_count = 0;               ///< distinct payloads
+  uint64_t triangle_count = 0;              ///< in the payloads that decode
+  uint64_t wedge_count = 0;                 ///< in the payloads that decode
 
   /// Whether there are no errors.
   bool isValid() const { return issue_counts[static_cast<size_t>(Severity::kError)] == 0; }
@@ -333,88 +347,98 @@ struct ValidationReport {
 
 /// Where a document comes from.
 struct Source {
-  std::filesystem::path path;  ///< of a .glb or .gltf; its buffers and images lie beside it
-  /// Instead of the file when it is in memory; `path` is then only its name in messages. A .gltf needs
-  /// its buffers in data URIs. Borrowed.
+  std::filesystem::path path;  ///< a .glb or .gltf file, next to its buffers and images
+  /// The document itself when it is in memory; `path` is then only its name in messages. A .gltf in
+  /// memory needs its buffers in data URIs. Borrowed.
   std::optional<std::span<const uint8_t>> bytes;
 };
 
-class TemporaryFiles;  // gltf/temporary_files.h, for programs that are ended by signals
+/// A list of the temporary files being written, for programs that may be ended by a signal.
+class TemporaryFiles;  // gltf/temporary_files.h
 
 /// Where a document goes to.
 struct Sink {
-  /// NAME.gltf gets its buffer beside it, in NAME.bin; any other name is that of a GLB.
+  /// NAME.gltf gets its buffer next to it, in NAME.bin; any other name is that of a GLB.
   std::filesystem::path path;
-  std::vector<uint8_t>* bytes = nullptr;  ///< when not null: receives a GLB, no file is written
-  TemporaryFiles* temporaries = nullptr;  ///< when not null: is told of them. Borrowed
+  std::vector<uint8_t>* bytes = nullptr;  ///< when not null: receives a GLB, and no file is written
+  TemporaryFiles* temporaries = nullptr;  ///< when not null: lists the temporary files. Borrowed
 };
 
-/// Compresses the triangle primitives of a glTF file. Everything that is not geometry is kept as it
-/// was. When compressing gains nothing the source is copied byte for byte, unless the container is
-/// another. Geometry that other codecs compressed is decoded by options.decoders and compressed again.
-/// The output is decoded and compared with the source before the call returns.
+/// Compresses the triangle primitives of a glTF file. Everything except mesh geometry is preserved
+/// unchanged. When compression gains nothing, the source is copied byte for byte, unless source and
+/// sink differ in their container (GLB or .gltf). Geometry that other codecs compressed is decoded
+/// by options.decoders and compressed again. The output is decoded and compared with the source
+/// before the call returns.
 ///
-/// Files are written under temporary names, read back, checked, and renamed together: on an error
-/// what was there is as it was. Both paths may name the same file. The .bin of a .gltf replaces
-/// another file only when the .gltf that was there referred to it. Images of a .gltf that are files
-/// move into a GLB; beside a .gltf they stay files, and are copied where it lies in another folder.
-/// URIs that are absolute or lead out of the folder of the source are refused, and so are files above 4 GiB. A pipe or a
-/// device as the source is read no farther than the length in a GLB's header.
+/// Files are written under temporary names, read back, checked, and renamed together: after an
+/// error, existing files are as they were. Both paths may name the same file. The .bin of a .gltf
+/// replaces another file only when the .gltf that was there referred to it. Images of a .gltf that
+/// are separate files move into a GLB; when the output is a .gltf they stay files, and are copied
+/// where it lies in another folder. Absolute URIs, URIs that lead out of the folder of the source,
+/// and files above 4 GiB are refused. A pipe or a device as the source is read no farther than the
+/// length in a GLB's header.
 ///
-/// On an error the bytes of a sink in memory are unspecified and `report` holds what was known by
-/// then. Safe for untrusted input. Deterministic. Inverse: decode(). Tests: tests/gltf/, tests/cli/.
+/// After an error the bytes of a sink in memory are unspecified, and `report` holds what was known
+/// when it occurred. Safe for untrusted input. Deterministic. Inverse: decode().
+/// Tests: tests/gltf/, tests/cli/.
 MCC_API Result convert(const Source& source, const Sink& sink, const ConvertOptions& options,
                        ConvertReport& report);
 
-/// convert() from memory to memory, and from file to file.
+/// Like convert(), from memory to memory, and from file to file.
 MCC_API Result convertGlb(std::span<const uint8_t> source, const ConvertOptions& options,
                           std::vector<uint8_t>& output, ConvertReport& report);
 MCC_API Result convertFile(const std::filesystem::path& source, const std::filesystem::path& output,
                            const ConvertOptions& options, ConvertReport& report);
 
-/// Turns compressed primitives into ordinary accessors again; a file without any is copied. Files are
-/// treated as by convert(). A payload is decoded once, however many primitives and buffer views name its bytes; accessors of the
-/// same elements share a buffer view. Safe for untrusted input: a file that asks for more than options.max_decoded_bytes is
-/// refused before memory is taken.
+/// Turns compressed primitives into ordinary accessors again; a file without any is copied. Files
+/// are treated as by convert(). A payload is decoded once, however many primitives and buffer views
+/// name its bytes; accessors of the same elements share a buffer view. Safe for untrusted input: a
+/// file that asks for more than options.max_decoded_bytes is refused before memory is taken.
+/// Inverse: convert(). Tests: tests/gltf/, tests/cli/.
 MCC_API Result decode(const Source& source, const Sink& sink, DecodeReport& report,
                       const FileDecodeOptions& options = {});
 
-/// decode() from memory to memory, and from file to file.
+/// Like decode(), from memory to memory, and from file to file.
 MCC_API Result decodeGlb(std::span<const uint8_t> source, std::vector<uint8_t>& output,
                          DecodeReport& report, const FileDecodeOptions& options = {});
 MCC_API Result decodeFile(const std::filesystem::path& source, const std::filesystem::path& output,
                           DecodeReport& report, const FileDecodeOptions& options = {});
 
-/// Lists the payloads of a file. With `count_codes` they are decoded to count their codes, and the bits of their
-/// streams. Safe for untrusted input: that is bounded by decodedLimit()'s default.
+/// Lists the payloads of a file. With `count_codes` the payloads are also decoded, to count their
+/// codes and the bits of their streams. Safe for untrusted input: decoding is bounded by the
+/// default of decodedLimit().
 MCC_API Result inspectGlb(std::span<const uint8_t> source, bool count_codes, InspectReport& report);
 MCC_API Result inspectFile(const std::filesystem::path& source, bool count_codes,
                            InspectReport& report);
 
-/// Checks a file against every rule of the extension for loaders and writers: the extension objects, the accessors they
-/// fill, the lists of extensions, fallbacks, and the payloads, which are decoded. Goes on behind an issue wherever that is
-/// possible. Whether the rest of the file is good glTF is another validator's affair, except that it can be loaded.
-/// Errors: the file cannot be read. Whatever is wrong inside is in `report`.
-/// Safe for untrusted input. Deterministic. Tests: tests/gltf/validate_test.cpp, tests/cli/validate_test.cpp.
+/// Checks a file against every rule of the extension for loaders and writers: the extension
+/// objects, the accessors they fill, the lists of extensions, fallbacks, and the payloads, which
+/// are decoded. Continues after an issue wherever that is possible. It does not check whether the
+/// rest of the file is valid glTF, except that it can be loaded; use a general glTF validator for
+/// that.
+/// Errors: the file cannot be read. Everything that is wrong inside the file goes to `report`.
+/// Safe for untrusted input. Deterministic. Tests: tests/gltf/validate_test.cpp,
+/// tests/cli/validate_test.cpp.
 MCC_API Result validate(const Source& source, const ValidateOptions& options,
                         ValidationReport& report);
 
-/// The edges along which a surface was contracted.
+/// The tree of the edges along which a surface was contracted.
 struct McTree {
-  /// `parent` was contracted before `child`, or is the mc-vertex.
+  /// One contracted edge. `parent` is the mc-vertex, or was contracted before `child`.
   struct Edge {
     uint32_t parent = 0;
     uint32_t child = 0;
   };
   std::vector<float> positions;   ///< 3 per vertex
   std::vector<uint32_t> indices;  ///< 3 per triangle
-  std::vector<Edge> edges;     ///< in the order of the contractions; those to dummies are left out
-  bool is_of_payload = false;  ///< else of one made for the purpose, as convert() would
+  std::vector<Edge> edges;        ///< in the order of the contractions, without those to dummies
+  bool is_of_payload = false;     ///< false: the source was compressed in memory to get a tree
 };
 
-/// The mc-tree of a primitive: that of the payload's piece, with all triangles of that piece, where the primitive is
-/// compressed. Errors: there is no such primitive; it has no triangles, or cannot be read. Safe for untrusted input.
-/// Deterministic. Tests: tests/gltf/tree_test.cpp.
+/// Returns the mc-tree of a primitive. Where the primitive is compressed, this is the tree of the
+/// payload's piece, with all triangles of that piece. Otherwise the primitive is compressed in
+/// memory as convert() would. Errors: there is no such primitive; it has no triangles, or cannot be
+/// read. Safe for untrusted input. Deterministic. Tests: tests/gltf/tree_test.cpp.
 MCC_API Result mcTree(const Source& source, uint32_t mesh, uint32_t primitive,
                       const ForeignDecoders& decoders, McTree& tree);
 

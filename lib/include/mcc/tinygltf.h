@@ -1,20 +1,25 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// KHR_mesh_collapse_compression for programs that load and save with tinygltf. Include <tiny_gltf.h> as the program does
-// elsewhere; this header has functions only, which call what the program links.
+// KHR_mesh_collapse_compression for programs that load and save with tinygltf. Include
+// <tiny_gltf.h> first, in the same way as the rest of the program; this header has only functions,
+// which call the libraries the program links.
 //
 //   load(), decode()  need gltf-mcc::reader
 //   encode()          needs gltf-mcc::gltf; it is left out where only the reader is installed
 //
-// Traps of tinygltf, as of 2.7, where it is used with this extension or any other:
-// - It refuses primitives whose indices have no buffer view, as all compressed ones do: "accessor[0] invalid bufferView".
-//   load() works around that. tinygltf of 2024 and later loads them, and decode() is all it takes.
-// - A .glb whose second buffer has no URI is refused, as EXT_meshopt_compression's placeholder has none.
-// - Saving drops extensions of accessors and buffer views, objects that are empty, and integers beyond 32 bits.
-// - Saving as .glb stores buffer 0 in the file and all others as base64, a third larger: decode() and encode() leave
-//   geometry in the buffer that had it, encode() merges all into one.
-// - With TINYGLTF_ENABLE_DRACO it decodes Draco's primitives itself and leaves "KHR_draco_mesh_compression" in
-//   extensionsRequired.
+// Limitations of tinygltf, as of 2.7, that concern this extension and others:
+// - It refuses primitives whose indices have no buffer view, as all compressed ones do:
+//   "accessor[0] invalid bufferView". load() works around that. Versions of 2024 and later load
+//   such primitives, and decode() is enough.
+// - It refuses a .glb whose second buffer has no URI, as is the case for the placeholder of
+//   EXT_meshopt_compression.
+// - Saving drops extensions of accessors and buffer views, empty objects, and integers beyond 32
+//   bits.
+// - Saving as .glb stores buffer 0 in the file and all others as base64, which is a third larger.
+//   decode() therefore leaves geometry in the buffer that had it, and encode() merges all buffers
+//   into one.
+// - With TINYGLTF_ENABLE_DRACO it decodes Draco's primitives itself and leaves
+//   "KHR_draco_mesh_compression" in extensionsRequired.
 #ifndef MCC_TINYGLTF_H_
 #define MCC_TINYGLTF_H_
 
@@ -51,7 +56,8 @@ namespace mcc::tinygltf {
 /// The extension's key in Primitive::extensions.
 inline constexpr char kExtension[] = "KHR_mesh_collapse_compression";
 
-/// Result of decode() and encode(): `what` is empty when all went well, else "/meshes/0/primitives/1: what is wrong".
+/// Result of decode() and encode(): `what` is empty on success, else it reads like
+/// "/meshes/0/primitives/1: what is wrong".
 struct [[nodiscard]] Result {
   std::string what;
 
@@ -59,14 +65,14 @@ struct [[nodiscard]] Result {
   bool ok() const { return what.empty(); }
 };
 
-/// How to decode.
+/// Options of decode().
 struct DecodeOptions {
   /// Payloads decoded at the same time; the result does not depend on it.
   uint32_t thread_count = 1;
   /// Bounds of each payload.
   Limits limits;
-  /// What all payloads may decode to, see decodedLimit(), where the file is the model's buffers; 0: the default. Checked before
-  /// memory is taken.
+  /// How much all payloads together may decode to, see decodedLimit(), which takes the model's
+  /// buffers as the file; 0: the default. Checked before memory is taken.
   uint64_t max_decoded_bytes = 0;
 };
 
@@ -95,7 +101,8 @@ inline void check(const Status& status, const std::string& where) {
   fail(where, what);
 }
 
-/// A number that is an index, or `absent` when there is none of this name.
+/// Reads an index. Returns `absent` when there is no such member, unless that is kNone: then it
+/// must be there.
 inline uint32_t indexOf(const Value& object, const char* key, const std::string& where,
                         uint32_t absent = kNone) {
   if (!object.Has(key)) {
@@ -103,11 +110,11 @@ inline uint32_t indexOf(const Value& object, const char* key, const std::string&
     return absent;
   }
   const Value& value = object.Get(key);
-  if (!value.IsInt() || value.GetNumberAsInt() < 0) fail(where + "/" + key, "is no index");
+  if (!value.IsInt() || value.GetNumberAsInt() < 0) fail(where + "/" + key, "is not an index");
   return static_cast<uint32_t>(value.GetNumberAsInt());
 }
 
-/// Type of an accessor as the codec has it, and how it lies in a buffer.
+/// The type of an accessor in the codec's terms, and how its elements lie in a buffer.
 struct Layout {
   AttributeFormat format;  ///< type and count only
   uint32_t columns = 1;
@@ -160,22 +167,22 @@ struct Filled {
   auto operator<=>(const Filled&) const = default;
 };
 
-/// What is decoded for a Filled, and where it goes in the new bytes.
+/// Where the decoded elements of a Filled go in the new bytes.
 struct Place {
   Layout layout;
   uint64_t offset = 0;
   uint64_t count = 0;
   uint32_t stride = 0;
-  std::vector<uint8_t> tight;  ///< of matrices with padded columns
-  uint32_t user_count = 0;     ///< accessors
-  int view = -1;               ///< that it becomes
+  std::vector<uint8_t> tight;  ///< the elements of matrices before their columns are padded
+  uint32_t user_count = 0;     ///< number of accessors that refer to it
+  int view = -1;               ///< the buffer view it becomes
 
   bool isPadded() const { return layout.columns * layout.column_bytes != layout.tightBytes(); }
 };
 
-/// A payload, and all that is decoded of it.
+/// A payload, and everything that is decoded from it.
 struct Job {
-  std::vector<uint32_t> views;  ///< that hold its bytes and are named
+  std::vector<uint32_t> views;  ///< all referenced buffer views that hold its bytes
   std::string where;
   Payload payload;
   std::map<Filled, Place> places;
@@ -206,7 +213,7 @@ class Decoder {
   void addPrimitive(const Primitive& primitive, const Value& extension, const std::string& path) {
     const std::string where = path + "/extensions/" + kExtension;
     if (!extension.IsObject()) fail(where, "must be an object");
-    // tinygltf has -1 where the JSON has no mode.
+    // tinygltf stores -1 where the JSON has no mode.
     if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != -1) {
       fail(path + "/mode", "must be 4 (triangles) in a compressed primitive");
     }
@@ -224,7 +231,7 @@ class Decoder {
     addTargets(job, piece, extension, primitive, where + "/targets");
   }
 
-  /// Number of a job. Buffer views of the same bytes hold one payload.
+  /// Returns the number of the job of a buffer view. Buffer views of the same bytes share one job.
   size_t openPayload(uint32_t view, const std::string& where) {
     const auto [found, is_new] = by_view_.try_emplace(view, jobs_.size());
     if (!is_new) return found->second;
@@ -289,7 +296,7 @@ class Decoder {
                              : layout.format.component_type == ComponentType::kUint16 ? 0xffff
                              : layout.format.component_type == ComponentType::kUint32 ? 0xffffffff
                                                                                       : 0;
-    // The largest value of a type is no index: it restarts strips.
+    // The largest value of a type is not a valid index: it restarts strips.
     if (layout.format.component_count != 1 || accessor.normalized || piece.wedge_count > largest) {
       fail(where, "the accessor must be SCALAR of an unsigned type that holds all indices");
     }
@@ -337,8 +344,9 @@ class Decoder {
     const AttributeFormat named = namedFormat(name, layout.format, layout.columns > 1);
     const bool is_position = target == 0 && name == "POSITION";
     if (piece.attributes[filled.id].format != named || (is_position && filled.id != 0)) {
-      fail(where, "accessor " + std::to_string(number) + " has not the type of the payload's " +
-                      "attribute " + std::to_string(filled.id));
+      fail(where, "accessor " + std::to_string(number) +
+                      " does not have the type of the payload's " + "attribute " +
+                      std::to_string(filled.id));
     }
     addPlace(job, filled, number, layout, piece.wedge_count, layout.elementBytesPadded(), where);
   }
@@ -346,7 +354,7 @@ class Decoder {
   void addPlace(Job& job, const Filled& filled, int number, const Layout& layout, uint64_t count,
                 uint32_t stride, const std::string& where) {
     if (accessorOf(number, where).count != count) {
-      fail(where, "accessor " + std::to_string(number) + " has not the count of the payload, " +
+      fail(where, "accessor " + std::to_string(number) + " does not have the payload's count, " +
                       std::to_string(count));
     }
     const auto [claim, is_new] = claims_.try_emplace(number, std::pair(view_, filled));
@@ -354,7 +362,7 @@ class Decoder {
       fail(where, "accessor " + std::to_string(number) + " is filled from two places of payloads");
     }
     Place& place = job.places[filled];
-    // Accessors of one part may differ in type; each then has a view of its own type.
+    // A part is written once, so all its accessors must have types of the same size.
     if (place.count != 0 && place.stride != stride)
       fail(where, "two types of accessors for one part");
     place.layout = layout;
@@ -363,7 +371,7 @@ class Decoder {
     place.user_count += is_new ? 1 : 0;
   }
 
-  /// Places of all that is decoded, each at a multiple of four.
+  /// Assigns offsets to everything that is decoded, each a multiple of four.
   void layOut() {
     uint64_t end = 0;
     for (const auto& job : jobs_) {
@@ -386,14 +394,14 @@ class Decoder {
     const size_t count = std::min<size_t>(options_.thread_count, jobs_.size());
     try {
       while (threads.size() + 1 < count) threads.emplace_back(work);
-    } catch (const std::system_error&) {  // as many as the system gives
+    } catch (const std::system_error&) {  // continue with the threads there are
     }
     work();
     for (std::thread& thread : threads) thread.join();
     for (size_t i = 0; i < jobs_.size(); ++i) check(statuses[i], jobs_[i]->where);
   }
 
-  /// On any thread, so that nothing may be thrown.
+  /// Decodes one payload. Must not throw, since it may run on any thread.
   Status decodeJob(Job& job) try {
     const std::span<const PieceInfo> infos = job.payload.info().pieces;
     std::vector<std::vector<AttributeTarget>> attributes(infos.size());
@@ -435,7 +443,7 @@ class Decoder {
     }
   }
 
-  /// From here on nothing fails, so that a model is changed as a whole or not at all.
+  /// Changes the model. Nothing fails from here on, so a model is changed as a whole or not at all.
   void store() {
     const int buffer = model_.bufferViews[jobs_[0]->views[0]].buffer;
     removePayloads();
@@ -462,7 +470,7 @@ class Decoder {
     }
   }
 
-  /// Bytes of a buffer, and the payload that they are to be cut out for, if any.
+  /// A range of bytes in a buffer. If `job` is not null, the range is its payload, to be cut out.
   struct Range {
     int buffer = 0;
     size_t begin = 0;
@@ -470,18 +478,18 @@ class Decoder {
     Job* job = nullptr;
   };
 
-  /// Cuts the bytes of payloads out of their buffers, as long as no other view refers to them. Their views become decoded
-  /// ones, so that no number changes and none is left over.
+  /// Cuts the bytes of payloads out of their buffers where no other view refers to them. Their
+  /// views become views of decoded elements, so that no number changes and no view is left over.
   void removePayloads() {
     for (const ::tinygltf::BufferView& view : model_.bufferViews) {
-      if (!view.extensions.empty()) return;  // may have offsets of their own
+      if (!view.extensions.empty()) return;  // an extension may have offsets of its own
     }
     std::vector<Range> ranges = rangesInUse();
     std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) {
       return std::tie(a.buffer, a.begin, a.end) < std::tie(b.buffer, b.begin, b.end);
     });
     std::vector<Range> cuts;
-    size_t end = 0;  // of all ranges so far in this buffer
+    size_t end = 0;  // the largest end of the ranges so far in this buffer
     for (size_t i = 0; i < ranges.size(); ++i) {
       const Range& range = ranges[i];
       if (i == 0 || ranges[i - 1].buffer != range.buffer) end = 0;
@@ -493,12 +501,13 @@ class Decoder {
     removeBytes(cuts);
   }
 
-  /// Each payload once; of other views all.
+  /// Lists each payload once, and all other views.
   std::vector<Range> rangesInUse() const {
     std::vector<Range> ranges;
     for (const auto& job : jobs_) {
       const ::tinygltf::BufferView& cut = model_.bufferViews[job->views[0]];
-      // Whole words, so that what follows keeps its alignment; padding after them, too.
+      // Cuts are whole words, so that what follows keeps its alignment, and include padding after a
+      // payload.
       const auto& data = model_.buffers[static_cast<size_t>(cut.buffer)].data;
       const size_t end = std::min(data.size(), (cut.byteOffset + cut.byteLength + 3) & ~size_t{3});
       const size_t length =
@@ -513,9 +522,10 @@ class Decoder {
     return ranges;
   }
 
-  /// cuts  in the order of buffers and bytes, apart from each other.
+  /// Removes bytes from buffers. `cuts` are in the order of buffers and offsets, and do not
+  /// overlap.
   void removeBytes(const std::vector<Range>& cuts) {
-    std::vector<size_t> removed = {0};  // by the cuts in front
+    std::vector<size_t> removed = {0};  // bytes removed by the cuts before this one
     for (size_t i = 0; i < cuts.size(); ++i) {
       const bool is_first = i == 0 || cuts[i - 1].buffer != cuts[i].buffer;
       removed.push_back((is_first ? 0 : removed.back()) + cuts[i].end - cuts[i].begin);
@@ -553,7 +563,7 @@ class Decoder {
       view.byteOffset = begin + place.offset;
       view.byteLength = place.count * place.stride;
       const bool is_tight = place.stride == place.layout.columns * place.layout.column_bytes;
-      // glTF wants the stride of vertex attributes that share a view.
+      // glTF requires a stride where several vertex attributes share a view.
       const bool has_stride = !filled.is_part && (!is_tight || place.user_count > 1);
       view.byteStride = has_stride ? place.stride : 0;
       view.target =
@@ -566,7 +576,7 @@ class Decoder {
         model_.bufferViews.push_back(view);
       }
     }
-    // What is left over has to be a view of something.
+    // A view that is left over must still be valid, so it repeats the first one.
     for (; used_views < job.views.size(); ++used_views) {
       model_.bufferViews[job.views[used_views]] = model_.bufferViews[job.views[0]];
     }
@@ -575,20 +585,20 @@ class Decoder {
   Model& model_;
   const DecodeOptions& options_;
   std::vector<std::unique_ptr<Job>> jobs_;
-  std::map<uint32_t, size_t> by_view_;                            ///< jobs
-  std::map<std::pair<const uint8_t*, size_t>, size_t> by_bytes_;  ///< jobs
-  uint32_t view_ = 0;                                             ///< of the primitive at hand
-  std::map<int, std::pair<uint32_t, Filled>> claims_;  ///< accessor -> (buffer view, what of it)
-  std::vector<unsigned char> bytes_;                   ///< all that is decoded
+  std::map<uint32_t, size_t> by_view_;                            ///< buffer view -> job
+  std::map<std::pair<const uint8_t*, size_t>, size_t> by_bytes_;  ///< bytes -> job
+  uint32_t view_ = 0;  ///< the buffer view of the current primitive's payload
+  std::map<int, std::pair<uint32_t, Filled>> claims_;  ///< accessor -> (buffer view, what fills it)
+  std::vector<unsigned char> bytes_;                   ///< everything that is decoded
 };
 
-/// What makeLoadable() put into a file.
+/// What makeLoadable() inserted into a file.
 struct Dummy {
-  int view = -1;  ///< number of the buffer view; -1: nothing was put in
+  int view = -1;  ///< number of the inserted buffer view; -1: nothing was inserted
 };
 
-/// Finds places in the JSON of a glTF file without reading more of it than that takes. Of text that is no JSON it finds
-/// wrong ones, or none; tinygltf refuses such text in any case.
+/// Finds places in the JSON of a glTF file without parsing all of it. In text that is not JSON the
+/// places are wrong or missing; this does no harm, because tinygltf refuses such text in any case.
 class JsonPlaces {
  public:
   explicit JsonPlaces(const std::string& json) {
@@ -604,7 +614,7 @@ class JsonPlaces {
     }
   }
 
-  std::vector<size_t> accessors_without_view;  ///< behind their opening brace
+  std::vector<size_t> accessors_without_view;  ///< offsets just after their opening braces
   size_t views_end = std::string::npos;        ///< the closing bracket of bufferViews
   int view_count = 0;
 
@@ -637,12 +647,12 @@ class JsonPlaces {
   }
 
   int depth_ = 0;
-  std::string key_;  ///< of the member of the root object
+  std::string key_;  ///< the current member of the root object
   size_t element_ = 0;
   bool has_view_ = false;
 };
 
-/// Gives accessors without buffer view a dummy one, which restore() takes away after loading.
+/// Gives accessors without a buffer view a dummy one, which restore() removes after loading.
 inline Dummy makeLoadable(std::string& json) {
   const JsonPlaces places(json);
   if (places.accessors_without_view.empty() || places.view_count == 0 ||
@@ -666,7 +676,7 @@ inline Dummy makeLoadable(std::string& json) {
 
 inline void restore(const Dummy& dummy, Model& model) {
   if (dummy.view < 0) return;
-  // With TINYGLTF_ENABLE_DRACO views of what was decoded come behind it, and it stays.
+  // With TINYGLTF_ENABLE_DRACO, views of what it decoded come after the dummy, which then stays.
   const auto number = static_cast<size_t>(dummy.view);
   if (model.bufferViews.size() == number + 1) model.bufferViews.pop_back();
   for (Accessor& accessor : model.accessors) {
@@ -674,7 +684,7 @@ inline void restore(const Dummy& dummy, Model& model) {
   }
 }
 
-/// tinygltf has 32 bits for sizes; a dummy must fit, too.
+/// tinygltf stores sizes in 32 bits. The margin leaves room for the dummy.
 inline constexpr size_t kMaxFileBytes = UINT_MAX - (size_t{1} << 20);
 
 inline uint32_t readU32(const std::string& bytes, size_t at) {
@@ -689,7 +699,7 @@ inline void writeU32(std::string& bytes, size_t at, size_t value) {
   for (size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(value >> 8 * i & 0xff);
 }
 
-/// Loads a GLB or the JSON of a .gltf, with what is compressed still compressed.
+/// Loads a GLB or the JSON of a .gltf, and leaves compressed primitives compressed.
 inline bool loadCompressed(::tinygltf::TinyGLTF& loader, Model& model, std::string* error,
                            std::string* warning, std::string file, const std::string& base_dir) {
   constexpr size_t kHeaderBytes = 20;  // of the file and of its first chunk
@@ -719,14 +729,16 @@ inline bool loadCompressed(::tinygltf::TinyGLTF& loader, Model& model, std::stri
 
 }  // namespace detail
 
-/// Decodes all compressed primitives of a loaded model: accessors get buffer views with plain elements, the extension goes
-/// from primitives, extensionsUsed and extensionsRequired. Bytes of payloads are removed; numbers of buffer views,
-/// accessors and buffers do not change, new buffer views come last. `min` and `max` of accessors fit already.
-/// Errors: the extension or a payload contradicts itself, the model or options.limits, or all payloads together are above
-/// options.max_decoded_bytes; the model is then as it was. A payload is decoded once, however many primitives and views name
-/// its bytes; accessors of the same elements share a buffer view.
-/// Safe for untrusted models. May throw std::bad_alloc. A model without the extension stays as it is.
-/// Inverse: encode(). Tests: tests/tinygltf/.
+/// Decodes all compressed primitives of a loaded model: accessors get buffer views with plain
+/// elements, and the extension is removed from primitives, extensionsUsed and extensionsRequired.
+/// The bytes of payloads are removed. Numbers of buffer views, accessors and buffers do not change;
+/// new buffer views are appended. `min` and `max` of accessors are left as they are, since they
+/// describe the decoded values already. A payload is decoded once, however many primitives and
+/// views name its bytes; accessors of the same elements share a buffer view. A model without the
+/// extension stays as it is.
+/// Errors: the extension or a payload contradicts itself, the model or options.limits, or all
+/// payloads together exceed options.max_decoded_bytes; the model is then as it was.
+/// Safe for untrusted models. May throw std::bad_alloc. Inverse: encode(). Tests: tests/tinygltf/.
 inline Result decode(::tinygltf::Model& model, const DecodeOptions& options = {}) try {
   detail::Decoder(model, options).run();
   return {};
@@ -734,8 +746,9 @@ inline Result decode(::tinygltf::Model& model, const DecodeOptions& options = {}
   return {failure.what};
 }
 
-/// Loads the bytes of a .glb or .gltf and decodes them: in place of loader.LoadBinaryFromMemory() and
-/// LoadASCIIFromString(). `base_dir` has the buffers and images of a .gltf. As load() otherwise.
+/// Loads the bytes of a .glb or .gltf and decodes them. Use it instead of
+/// loader.LoadBinaryFromMemory() and LoadASCIIFromString(). `base_dir` is the folder of the buffers
+/// and images of a .gltf. Otherwise like load().
 inline bool loadFromMemory(::tinygltf::TinyGLTF& loader, ::tinygltf::Model* model,
                            std::string* error, std::string* warning,
                            std::span<const unsigned char> file, const std::string& base_dir = "",
@@ -745,7 +758,7 @@ inline bool loadFromMemory(::tinygltf::TinyGLTF& loader, ::tinygltf::Model* mode
   if (error == nullptr) error = &own_error;
   if (warning == nullptr) warning = &own_warning;
   if (file.size() > detail::kMaxFileBytes) {
-    *error += "tinygltf loads no files of 4 GB";
+    *error += "tinygltf cannot load files of 4 GB or more";
     return false;
   }
   if (!detail::loadCompressed(loader, *model, error, warning, std::string(file.begin(), file.end()),
@@ -757,9 +770,10 @@ inline bool loadFromMemory(::tinygltf::TinyGLTF& loader, ::tinygltf::Model* mode
   return result.ok();
 }
 
-/// Loads a .glb or .gltf and decodes it: in place of loader.LoadBinaryFromFile() and LoadASCIIFromFile(), with their
-/// arguments. Needed where tinygltf refuses what decode() would decode, see above; works with every version.
-/// `error` and `warning` may be null. Safe as far as tinygltf is. Tests: tests/tinygltf/.
+/// Loads a .glb or .gltf and decodes it. Use it instead of loader.LoadBinaryFromFile() and
+/// LoadASCIIFromFile(), with their arguments. It works with every version of tinygltf, and is
+/// needed with those that refuse compressed primitives, see the top of this file. `error` and
+/// `warning` may be null. As safe for untrusted input as tinygltf is. Tests: tests/tinygltf/.
 inline bool load(::tinygltf::TinyGLTF& loader, ::tinygltf::Model* model, std::string* error,
                  std::string* warning, const std::string& path, const DecodeOptions& options = {}) {
   std::ifstream stream(path, std::ios::binary);
@@ -777,7 +791,8 @@ inline bool load(::tinygltf::TinyGLTF& loader, ::tinygltf::Model* model, std::st
 
 namespace detail {
 
-/// A copy of all but the pixels of images and of what refers to them, whose one buffer has the bytes of all.
+/// Returns a copy of everything that refers to buffers or geometry, without the pixels of images.
+/// All buffers are merged into one.
 inline Model geometryOf(const Model& model, std::vector<size_t>& images) {
   Model geometry;
   geometry.accessors = model.accessors;
@@ -795,14 +810,14 @@ inline Model geometryOf(const Model& model, std::vector<size_t>& images) {
   geometry.extras = model.extras;
   geometry.asset = model.asset;
   for (const ::tinygltf::Animation& animation : model.animations) {
-    // Others would be saved as "animations": null.
+    // An animation without channels would be saved as "animations": null.
     if (!animation.channels.empty()) geometry.animations.push_back(animation);
   }
   for (size_t i = 0; i < model.images.size(); ++i) {
     if (model.images[i].bufferView < 0) continue;
     ::tinygltf::Image image;
     image.bufferView = model.images[i].bufferView;
-    image.mimeType = "image/png";  // of no effect
+    image.mimeType = "image/png";  // required by tinygltf, but never used
     geometry.images.push_back(image);
     images.push_back(i);
   }
@@ -827,7 +842,8 @@ inline Model geometryOf(const Model& model, std::vector<size_t>& images) {
   return geometry;
 }
 
-/// tinygltf saves bounds of integers as int. Returns which accessors have larger ones; they are left out.
+/// Removes bounds of integer accessors that do not fit an int, since tinygltf saves them as int.
+/// Returns for each accessor whether its bounds were removed.
 inline std::vector<bool> removeLargeBounds(Model& geometry) {
   std::vector<bool> is_removed;
   for (Accessor& accessor : geometry.accessors) {
@@ -847,14 +863,14 @@ inline bool keepNoImage(::tinygltf::Image*, const int, std::string*, std::string
   return true;
 }
 
-/// Takes over what compressing changed.
+/// Copies what compression changed into the model.
 inline void takeOver(Model&& coded, const std::vector<size_t>& images,
                      const std::vector<bool>& has_large_bounds, Model& model) {
   const size_t old_count = model.accessors.size();
   model.accessors.resize(coded.accessors.size());
   for (size_t i = 0; i < coded.accessors.size(); ++i) {
     Accessor& from = coded.accessors[i];
-    if (i < old_count) {  // what tinygltf does not save stays
+    if (i < old_count) {  // keep what tinygltf does not save
       Accessor& to = model.accessors[i];
       if (has_large_bounds[i])
         std::tie(from.minValues, from.maxValues) = std::tie(to.minValues, to.maxValues);
@@ -873,7 +889,7 @@ inline void takeOver(Model&& coded, const std::vector<size_t>& images,
       to.targets = std::move(from.targets);
       to.indices = from.indices;
       to.mode = from.mode;
-      // Those with numbers of buffer views, which may have changed.
+      // These extensions hold numbers of buffer views, which may have changed.
       for (const char* name : {kExtension, "KHR_draco_mesh_compression"}) {
         const auto extension = from.extensions.find(name);
         if (extension != from.extensions.end()) to.extensions[name] = extension->second;
@@ -919,12 +935,14 @@ inline Result encode(Model& model, const gltf::ConvertOptions& options,
 
 }  // namespace detail
 
-/// Compresses the triangle primitives of a model before it is saved, with what gltf-mcc::gltf does to files: the same
-/// choices, the same payloads, decoded and compared with the source. All buffers become one. Where nothing is gained the
-/// model stays as it is, which report.copied tells. Images keep their pixels, numbers of nodes, meshes, accessors, images and
-/// buffer views of unknown extensions stay.
-/// options.fallback and options.decoders have no effect.
-/// Errors: the model is no valid glTF, or has extensions on buffer views; it is then as it was. May throw std::bad_alloc.
+/// Compresses the triangle primitives of a model before it is saved. Choices and payloads are the
+/// same as for files in gltf-mcc::gltf, and the result is decoded and compared with the source in
+/// the same way. All buffers become one. Where compression gains nothing the model stays as it is,
+/// and report.copied is set. Images keep their pixels; nodes, meshes, accessors, images and the
+/// buffer views of unknown extensions keep their numbers. options.fallback and options.decoders
+/// have no effect.
+/// Errors: the model is not valid glTF, or has extensions on buffer views; it is then as it was.
+/// May throw std::bad_alloc.
 /// Inverse: decode(). Tests: tests/tinygltf/.
 inline Result encode(::tinygltf::Model& model, const gltf::ConvertOptions& options,
                      gltf::ConvertReport& report) try {
@@ -936,7 +954,7 @@ inline Result encode(::tinygltf::Model& model, const gltf::ConvertOptions& optio
   return {failure.what};
 }
 
-/// The same without a report.
+/// Like encode() above, without a report.
 inline Result encode(::tinygltf::Model& model, const gltf::ConvertOptions& options = {}) {
   gltf::ConvertReport report;
   return encode(model, options, report);

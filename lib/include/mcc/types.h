@@ -7,7 +7,7 @@
 
 namespace mcc {
 
-/// No index.
+/// Stands for "no index", and for "not set".
 inline constexpr uint32_t kNone = 0xffffffffu;
 
 /// Component types of glTF 2.0 accessors, in the order of their GL enumerants.
@@ -33,7 +33,8 @@ constexpr uint32_t componentBytes(ComponentType type) {
   return 0;
 }
 
-/// What an attribute means; decides its predictor, never its exactness.
+/// What an attribute means. It decides how the attribute is predicted, but never whether it is
+/// exact.
 enum class Semantic : uint8_t {
   kPosition = 0,
   kNormal = 1,
@@ -59,17 +60,19 @@ struct AttributeFormat {
   bool operator==(const AttributeFormat&) const = default;
 };
 
-/// Scalars, vectors and matrices of glTF: 1 to 4, 9 or 16 components.
+/// Whether an attribute may have this many components: 1 to 4, 9 or 16, as glTF's scalars, vectors
+/// and matrices do.
 constexpr bool isComponentCount(uint32_t count) {
   return (count >= 1 && count <= 4) || count == 9 || count == 16;
 }
 
-/// Bytes of one tight element.
+/// Bytes of one element with its components tightly packed.
 constexpr uint32_t elementBytes(const AttributeFormat& format) {
   return componentBytes(format.component_type) * format.component_count;
 }
 
-/// Regular grid of a quantised float attribute: value = float(float(q * step) + origin), in the units of the accessor.
+/// Regular grid of a quantised float attribute: value = float(float(q * step) + origin), in the
+/// units of the accessor.
 struct Lattice {
   float origin[4] = {0, 0, 0, 0};
   float step = 0;
@@ -78,8 +81,8 @@ struct Lattice {
   bool operator==(const Lattice&) const = default;
 };
 
-/// Whether the format can state a lattice: its step is positive and finite, the first `component_count` origins are
-/// finite. Allocates nothing. Tests: tests/unit/.
+/// Whether the format can represent a lattice: its step is positive and finite, and the first
+/// `component_count` origins are finite. Allocates nothing. Tests: tests/unit/.
 constexpr bool isValidLattice(const Lattice& lattice, uint32_t component_count) {
   constexpr float kLargest = 3.40282347e38f;
   bool valid = lattice.step > 0 && lattice.step <= kLargest;
@@ -89,9 +92,14 @@ constexpr bool isValidLattice(const Lattice& lattice, uint32_t component_count) 
 }
 
 /// Index types of the output of decode().
-enum class IndexType : uint8_t { kUint8 = 1, kUint16 = 2, kUint32 = 4 };  // value = bytes
+enum class IndexType : uint8_t {
+  kUint8 = 1,
+  kUint16 = 2,
+  kUint32 = 4
+};  // the value is the size in bytes
 
-/// What a writer's choices between bytes and the time of decoding go by.
+/// How a writer weighs fewer bytes against faster decoding: a slower method is taken only when it
+/// saves enough.
 enum class Preference : uint8_t {
   kBalanced = 0,  ///< 4 ns per vertex must save 1 % of a payload
   kSize = 1,      ///< 15 ns per vertex must save 1 %
