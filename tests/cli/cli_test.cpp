@@ -251,7 +251,7 @@ TEST_F(Cli, WrongUsageSaysWhatIsWrong) {
     EXPECT_LT(result.err.size(), 250u) << result.err;
   };
   expectSays("", "name a command: convert, decode, inspect");
-  expectSays("frobnicate in.glb", "\"frobnicate\" is no command; there are convert, ");
+  expectSays("frobnicate in.glb", "\"frobnicate\" is not a command; the commands are convert, ");
   expectSays("convert in.glb", "convert: OUT is missing");
   expectSays("decode in.glb", "decode: OUT is missing");
   expectSays("decode a.glb b.glb c.glb", "decode: several inputs need a folder: -o DIR");

@@ -151,10 +151,10 @@ TEST_F(Manners, WrongWordsGetSuggestions) {
                    "convert: there is no option --frobnicate");
   expectUsageError("convert torus.glb s.glb -z", "convert: there is no option -z");
   expectUsageError("convert torus.glb s.glb --grid scen",
-                   "--grid: scen is none of mesh, scene, primitive; did you mean scene?");
+                   "--grid: scen is not one of mesh, scene, primitive; did you mean scene?");
   expectUsageError("inspect torus.glb --format xml",
-                   "--format: xml is none of pretty, md, csv, json");
-  expectUsageError("completion fish", "completion: knows bash and zsh, not fish");
+                   "--format: xml is not one of pretty, md, csv, json");
+  expectUsageError("completion fish", "completion: supports bash and zsh, not fish");
   EXPECT_NE(run("convert torus.glb s.glb --grid=x").err.find("Run \"gltf-mcc convert --help\"."),
             std::string::npos);
 }

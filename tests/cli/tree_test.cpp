@@ -105,7 +105,7 @@ TEST_F(Tree, SaysWhatCannotBeDrawn) {
   expectSays("none.glb x.svg", 1, "none.glb: there is no such file");
   expectSays(torus + " x.svg --mesh 7", 1, "torus.glb: there is no mesh 7; the last is 0");
   expectSays(torus + " x.svg --primitive 3", 1, "/meshes/0: there is no primitive 3; there are 1");
-  expectSays(torus + " x.svg --view 0,0,0", 2, "--view: 0,0,0 is no direction");
+  expectSays(torus + " x.svg --view 0,0,0", 2, "--view: 0,0,0 is not a direction");
   expectSays(torus + " x.svg --view 1,2", 2, "--view");
   expectSays(torus + " none/x.svg", 1, "none");
   expectSays(torus, 2, "OUT");

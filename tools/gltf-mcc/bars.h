@@ -6,8 +6,9 @@
 
 namespace mcc::tool {
 
-/// A bar for standard output, in blocks of eighths of a column or, where the locale has no such characters, in ASCII.
-/// share: 0 to 1 of the longest one.
+/// Returns a bar for standard output, in blocks of eighths of a column, or in ASCII where the
+/// locale has no such characters.
+/// share  length of the bar, as a fraction from 0 to 1 of the longest one.
 std::string barOf(double share);
 
 }  // namespace mcc::tool

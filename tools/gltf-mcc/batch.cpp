@@ -30,13 +30,13 @@ constexpr size_t kOutcomeCount = 4;
 
 struct BatchFile {
   std::string input;
-  std::string name;  ///< of the output in the folder
+  std::string name;  ///< name of the output in the folder
   uint64_t size = 0;
   Outcome outcome = Outcome::kFailed;
   gltf::Result failure;
   uint64_t input_bytes = 0;
   uint64_t output_bytes = 0;
-  Json report;  ///< when one is written
+  Json report;  ///< only when --report was given
 };
 
 class Batch {
@@ -63,7 +63,7 @@ class Batch {
   Json reportOf() const;
   int printResults() const;
   fs::path outputOf(const BatchFile& file) const { return options_.folder / file.name; }
-  /// Lines are for people; the other formats are one table.
+  /// Only the pretty format has a line per file; the other formats print one table at the end.
   bool printsLines() const {
     return !options_.common.is_quiet && options_.common.format == Format::kPretty;
   }
@@ -73,12 +73,12 @@ class Batch {
   std::unique_ptr<BatchRecord> record_;
   std::chrono::steady_clock::time_point recorded_;
   ProgressLine line_;
-  std::mutex mutex_;  ///< over record_, done_, line_ and standard output
+  std::mutex mutex_;  ///< guards record_, done_, line_ and standard output
   size_t done_ = 0;
   bool has_output_failed_ = false;
 };
 
-/// The files an output consists of.
+/// Returns the names of all files an output consists of.
 std::vector<std::string> namesOf(const std::string& name, bool with_fallback) {
   std::vector<std::string> names = {name};
   gltf::Container container;
@@ -97,7 +97,7 @@ gltf::Result Batch::listFiles() {
     if (file.name.empty()) return {input, "is a folder; name the files in it"};
     std::error_code code;
     file.size = fs::file_size(input, code);
-    if (code) file.size = 0;  // said when it is its turn
+    if (code) file.size = 0;  // opening the file will report the error
     if (file.name == BatchRecord::pathIn({}).string()) {
       return {input, "its output would be the record of the folder; rename it"};
     }
@@ -116,7 +116,7 @@ gltf::Result Batch::listFiles() {
   return checkRoles();
 }
 
-/// Links may make files the same whose names differ.
+/// Checks that no output replaces an input or another output, even through links with other names.
 gltf::Result Batch::checkRoles() const {
   FileRoles roles;
   for (const BatchFile& file : files_) {
@@ -190,7 +190,7 @@ void Batch::keepRecord(bool is_last) {
   }
 }
 
-/// Those made for it, whether they turned out to be needed or not, and copies of the others.
+/// Returns all files of an output: those that are always made or may be, and copies of the others.
 std::vector<fs::path> Batch::outputsOf(const BatchFile& file, const BatchResult& made) const {
   std::vector<fs::path> paths;
   for (const std::string& name : namesOf(file.name, options_.with_fallback)) {
@@ -239,7 +239,8 @@ void Batch::makeOne(BatchFile& file) {
   finishOne(file, made);
 }
 
-/// Large files first: they take longest, and N of them at a time are the most memory there will be.
+/// Starts with the largest files, because they take longest. The first N files at a time are then
+/// also the most memory that is ever needed.
 void Batch::makeAll() {
   std::vector<size_t> order(files_.size());
   std::iota(order.begin(), order.end(), size_t{0});
@@ -254,7 +255,7 @@ void Batch::makeAll() {
           return {};
         });
         if (!done.ok()) file.failure = {file.input, done.what};
-        return {};  // one failure does not stop the rest
+        return {};  // a file that fails does not stop the others
       });
   for (BatchFile& file : files_) {
     const bool is_unsaid = file.outcome == Outcome::kFailed && file.failure.ok();
@@ -299,7 +300,7 @@ std::string Batch::summaryText() const {
   return "\n" + table.print(Format::kPretty);
 }
 
-/// One row per file, in the order they were named.
+/// One row per file, in the order of the command line.
 std::string Batch::fileTable() const {
   Table table({"file", "outcome", "bytes in", "bytes out", "ratio"}, {1});
   const Format format = options_.common.format;

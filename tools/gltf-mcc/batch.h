@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// `convert -o DIR` and `decode -o DIR`: many files into one folder.
+// Implements `convert -o DIR` and `decode -o DIR`, which write many files into one folder.
 #ifndef MCC_TOOL_BATCH_H_
 #define MCC_TOOL_BATCH_H_
 
@@ -15,7 +15,7 @@
 
 namespace mcc::tool {
 
-/// What became of a file.
+/// The result of making one output.
 struct BatchResult {
   bool copied = false;  ///< the output is the input
   uint64_t input_bytes = 0;
@@ -26,25 +26,26 @@ struct BatchResult {
 
 struct BatchOptions {
   std::vector<std::string> inputs;
-  std::filesystem::path folder;  ///< made when its parent exists
-  std::string report;            ///< JSON file; empty: none
+  std::filesystem::path folder;  ///< created if necessary; its parent must exist
+  std::string report;            ///< path of the JSON report; empty: none is written
   CommonOptions common;
   uint32_t job_count = 1;  ///< files at the same time; the results do not depend on it
-  bool is_forced = false;  ///< does again what is up to date
+  bool is_forced = false;  ///< also makes outputs that are up to date
   bool with_fallback = false;
-  std::string done_name;            ///< "converted", in tables
-  std::string copied_why;           ///< "nothing becomes smaller", in the line of a copy
-  std::string details_name;         ///< of BatchResult::details in the report
-  nlohmann::ordered_json settings;  ///< all that decides on the bytes of the outputs
-  /// Makes one file of another on so many threads. Called in parallel.
+  std::string done_name;            ///< name of the outcome in tables, "converted"
+  std::string copied_why;           ///< why a file was copied, "nothing becomes smaller"
+  std::string details_name;         ///< key of BatchResult::details in the report
+  nlohmann::ordered_json settings;  ///< all options that the bytes of the outputs depend on
+  /// Makes one output from one input with the given number of threads. Called in parallel.
   std::function<gltf::Result(const std::string& input, const std::filesystem::path& output,
                              uint32_t thread_count, BatchResult& result)>
       make;
 };
 
-/// Makes of every file one of the same name in the folder; prints a line for each, a summary, and what
-/// failed. Returns an exit status: kFailed when a file failed, the others are made all the same;
-/// kUsage, and nothing is done, when two files would have the same output.
+/// Makes an output of the same name in the folder for every input. Prints a line for each, a
+/// summary, and the failures. Returns an exit status: kFailed when a file failed, in which case the
+/// others are made all the same; kUsage, with nothing done, when two inputs would have the same
+/// output.
 int runBatch(const BatchOptions& options);
 
 }  // namespace mcc::tool

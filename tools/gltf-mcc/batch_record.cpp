@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 
 constexpr char kFileName[] = ".gltf-mcc.json";
 
-/// Path, size and time of a file; size -1 when it is not there.
+/// Returns path, size and time of a file; the size is -1 when it does not exist.
 Json stampOf(const fs::path& path) {
   std::error_code code;
   const fs::path absolute = fs::absolute(path, code).lexically_normal();

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What the files in a folder were made of: the file .gltf-mcc.json in it.
+// The record of what the files in a folder were made from, kept there as .gltf-mcc.json.
 #ifndef MCC_TOOL_BATCH_RECORD_H_
 #define MCC_TOOL_BATCH_RECORD_H_
 
@@ -14,39 +14,40 @@
 
 namespace mcc::tool {
 
-/// An output is up to date when it was made by this version with these options, and neither it nor
-/// any file of its input has another size or time than then. Contents are not compared.
+/// An output is up to date when this version made it with these options, and neither the output nor
+/// any file of its input has changed its size or time since. Contents are not compared.
 class BatchRecord {
  public:
-  /// The file of a folder that holds its record.
+  /// Returns the path of the record of a folder.
   static std::filesystem::path pathIn(const std::filesystem::path& folder);
 
-  /// `settings` as in BatchOptions. Reads the record of a folder. One that is absent counts as empty; so does one that is
-  /// damaged, huge, deeply nested or no file at all, with a note. Somebody else may have written it.
+  /// Reads the record of a folder. `settings` are those of BatchOptions. A record that is absent
+  /// counts as empty. So does one that is damaged, huge, deeply nested or not a file, with a note,
+  /// since other programs may have written it.
   BatchRecord(const std::filesystem::path& folder, const nlohmann::ordered_json& settings);
 
-  /// Why the record was not used; ok when there was none or it was.
+  /// Says why the record was not used; ok when it was used or there was none.
   const gltf::Result& note() const { return note_; }
 
   bool isUpToDate(const std::string& output_name, const std::filesystem::path& input) const;
-  /// Bytes before and after, of a file that is up to date.
+  /// Returns the bytes of input and output of a file that is up to date.
   std::pair<uint64_t, uint64_t> sizesOf(const std::string& output_name) const;
 
-  /// outputs  all files that belong to the output.
+  /// Records an output. `outputs` are all files that belong to it.
   void add(const std::string& output_name, const BatchResult& made,
            const std::vector<std::filesystem::path>& outputs);
   void remove(const std::string& output_name);
-  /// Where the record is no file, it is left alone.
+  /// Writes the record, unless something that is not a file has its name.
   gltf::Result write() const;
 
  private:
   gltf::Result read();
 
   std::filesystem::path path_;
-  std::string maker_;  ///< version and options
+  std::string maker_;  ///< version and options, as one string
   nlohmann::json files_;
-  bool is_file_ = true;  ///< or nothing yet
-  gltf::Result note_;    ///< of read(), which sets the two before
+  bool is_file_ = true;  ///< false when something other than a file has the record's name
+  gltf::Result note_;    ///< result of read(), which sets files_ and is_file_, so it comes last
 };
 
 }  // namespace mcc::tool

@@ -21,18 +21,18 @@
 namespace mcc::tool {
 namespace {
 
-/// Encoding is repeated for so long, per codec and file.
+/// How long encoding is repeated, per codec and file.
 constexpr double kEncodeSeconds = 2;
 
 struct BenchCommand {
   CommonOptions common;
   gltf::ConvertOptions convert;
   std::vector<std::string> inputs;
-  std::string sizes;  ///< write only this file, measure nothing
+  std::string sizes;  ///< when not empty: only this file is written and nothing is measured
   std::string apart;
   uint32_t run_count = 5;
   bool with_load = false;
-  std::string without;  ///< measure this alone
+  std::string without;  ///< when not empty: only this is measured
 
   int run() const;
   int runWithout() const;
@@ -79,7 +79,7 @@ gltf::Result BenchCommand::measure(size_t number, const ProgressLine& line,
   bench::Outcome measured = bench::measureFile(name, geometry, options, figures);
   if (measured.ok() && with_load) {
     line.show(place + name + ": load");
-    std::vector<uint8_t> again;  // the geometry has taken the first
+    std::vector<uint8_t> again;  // the geometry has taken the first copy
     loaded = gltf::readFile(input, again);
     if (!loaded.ok()) return loaded;
     measured = bench::measureLoad(input, again, convert, run_count, figures.load);
@@ -87,7 +87,7 @@ gltf::Result BenchCommand::measure(size_t number, const ProgressLine& line,
   return measured.ok() ? gltf::Result{} : gltf::Result{input, measured.message};
 }
 
-/// A file that fails does not stop the others.
+/// Runs all files; one that fails does not stop the others.
 int BenchCommand::run() const {
   FileRoles roles;
   for (const std::string& input : inputs) roles.read(input);
@@ -160,30 +160,30 @@ int BenchCommand::runWithout() const {
 
 void addBench(CLI::App& app, int& status) {
   CLI::App* command =
-      app.add_subcommand("bench", "Measure sizes and speed beside Draco and meshoptimizer");
+      app.add_subcommand("bench", "Compare sizes and speed with Draco and meshoptimizer");
   auto state = std::make_shared<BenchCommand>();
   state->convert.decoders = foreign::foreignDecoders();
   command->add_option("IN", state->inputs, "The .glb or .gltf files to read")
       ->required()
       ->type_name("");
   addQuantization(*command, state->convert);
-  command->add_option("--runs", state->run_count, "Decode so many times, the least time counts [5]")
+  command->add_option("--runs", state->run_count, "Decode N times and take the least time [5]")
       ->check(CLI::Range(5, 1000).description(""))
       ->type_name("N");
   command
       ->add_option("--apart", state->apart,
-                   "Letters of the categories that the means of all files leave out")
+                   "Categories, by their letters, to leave out of the means")
       ->type_name("LETTERS");
   command->add_flag("--load", state->with_load,
-                    "Also load whole files with tinygltf (ours by our adapter)\n"
-                    "and decode with two threads");
+                    "Also load whole files with tinygltf (ours through our\n"
+                    "adapter) and decode with two threads");
   command
       ->add_option("--without", state->without,
-                   "Measure what choices of our encoder gain: bytes and decoding\n"
+                   "Measure what the encoder's choices gain: bytes and decoding\n"
                    "time without each of them (a,b), without several together\n"
                    "(a+b), or without each one in turn (all)")
       ->type_name("FEATURES");
-  command->add_option("--sizes", state->sizes, "Measure nothing, write our bytes per stream here")
+  command->add_option("--sizes", state->sizes, "Only write our bytes per stream to this file")
       ->type_name("FILE")
       ->group("");  // for tests/results
   addFormatOption(*command, state->common);
@@ -191,10 +191,9 @@ void addBench(CLI::App& app, int& status) {
   addColorOption(*command);
   setHelp(
       *command, "bench [OPTIONS] IN…",
-      "All codecs get the same grids and run in turns on one thread of one process; the least CPU\n"
-      "time of at least N runs counts, from payloads in memory to new float and index arrays.\n"
-      "Encoding, which takes long, is repeated for two seconds per codec and file, N times at "
-      "most.\n"
+      "All codecs get the same grids and run in turn on one thread of one process. Times are the\n"
+      "least CPU time of at least N runs, from payloads in memory to new float and index arrays.\n"
+      "Encoding takes longer; it is repeated for two seconds per codec and file, at most N times.\n"
       "The category of a file is the letter before '_' in names like a_bunny.glb.",
       "bench --format md models/*.glb > table.md");
   command->callback([state, &status]() { status = state->run(); });

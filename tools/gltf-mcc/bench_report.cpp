@@ -22,10 +22,10 @@ using bench::CodecFigures;
 using bench::FileFigures;
 using Json = nlohmann::ordered_json;
 
-/// Means of times are over files with at least so many triangles.
+/// Means of times are taken over files with at least this many triangles.
 constexpr uint64_t kTimedTriangles = 5000;
 
-/// Streams as the tables group them.
+/// Streams that share a column in the tables.
 struct StreamGroup {
   const char* name;
   std::vector<std::string> prefixes;
@@ -65,7 +65,7 @@ double nanoseconds(const FileFigures& figures, double seconds) {
   return perVertex(figures, 1e9 * seconds);
 }
 
-/// Million triangles of the source per second.
+/// Returns million triangles of the source per second.
 double megaTriangles(const FileFigures& figures, double seconds) {
   return seconds <= 0 ? 0 : 1e-6 * static_cast<double>(figures.triangle_count) / seconds;
 }
@@ -74,7 +74,7 @@ double bytesOf(const CodecFigures& codec) { return static_cast<double>(codec.byt
 
 using Cell = std::function<std::string(const CodecFigures&)>;
 
-/// One cell per codec, "-" where it has no figures.
+/// Adds one cell per codec, "-" where it has no figures.
 void addCells(const FileFigures& figures, const Cell& cell, std::vector<std::string>& cells) {
   for (const Codec codec : bench::kAllCodecs) {
     cells.push_back(figures.of(codec).ok() ? cell(figures.of(codec)) : "-");
@@ -87,7 +87,7 @@ std::vector<std::string> headerOf(const std::string& first) {
   return header;
 }
 
-/// other / ours, or nothing.
+/// Returns the other codec's time divided by ours, or "-" where one is missing.
 std::string quotient(const FileFigures& figures, Codec other, bool of_decode) {
   const CodecFigures& ours = figures.of(Codec::kMcc);
   const CodecFigures& theirs = figures.of(other);
@@ -126,7 +126,7 @@ Table sizeTable(const std::vector<FileFigures>& files, Format format) {
   return table;
 }
 
-/// Ours and Draco's best, one row each; groups that are empty in all files are left out.
+/// One row for ours and one for Draco's best; groups that are empty in all files are left out.
 Table streamTable(const std::vector<FileFigures>& files) {
   const auto codecs = [](const FileFigures& figures) {
     std::vector<Codec> list = {Codec::kMcc};
@@ -215,7 +215,7 @@ Table orderTable(const std::vector<FileFigures>& files) {
   return table;
 }
 
-/// Only of files that were loaded.
+/// Has rows only for files that were loaded.
 Table loadTable(const std::vector<FileFigures>& files) {
   Table table({"load with tinygltf, ms", "mcc", "draco 0", "draco 5", "draco 0/mcc", "draco 5/mcc",
                "payloads", "decode, wall ms, 1 thread", "2 threads"});
@@ -231,14 +231,14 @@ Table loadTable(const std::vector<FileFigures>& files) {
   return table;
 }
 
-/// Means of one category.
+/// Geometric means over the files of one category.
 struct Means {
   std::string category;
   size_t file_count = 0;
   size_t timed_count = 0;
-  double to_best = 0;  ///< bytes
+  double to_best = 0;  ///< our bytes divided by those of Draco's best
   std::array<double, bench::kCodecCount> to_codec = {};
-  std::array<double, bench::kCodecCount> decode = {};  ///< time of the codec / ours
+  std::array<double, bench::kCodecCount> decode = {};  ///< time of the codec divided by ours
   std::array<double, bench::kCodecCount> encode = {};
 };
 
@@ -404,7 +404,7 @@ Json meansJson(const Means& means) {
   return json;
 }
 
-/// Empty cells where nothing was loaded; decoding by threads is ours alone.
+/// Adds the cells of loading, empty where nothing was loaded; only our codec decodes with threads.
 void addLoadCells(const bench::LoadFigures& load, Codec id, std::vector<std::string>& cells) {
   const auto add = [&](double seconds) { cells.push_back(fmt::format("{:.6g}", seconds)); };
   if (!load.is_measured) return;

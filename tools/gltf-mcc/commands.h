@@ -10,19 +10,20 @@
 
 namespace mcc::tool {
 
-/// Exit status of the tool.
+/// Exit statuses of the tool.
 inline constexpr int kDone = 0;
 inline constexpr int kFailed = 1;  ///< the input is bad or the check failed; nothing was written
 inline constexpr int kUsage = 2;
 
-/// What the commands have in common.
+/// Options that all commands have in common.
 struct CommonOptions {
   Format format = Format::kPretty;
   bool is_quiet = false;
   bool is_verbose = false;
 };
 
-/// Each adds a subcommand to the app; when the user chose it, `status` becomes the exit status.
+/// Each of these adds a subcommand to the app; when the user chose it, `status` becomes the exit
+/// status.
 void addConvert(CLI::App& app, int& status);
 void addDecode(CLI::App& app, int& status);
 void addInspect(CLI::App& app, int& status);
@@ -33,27 +34,27 @@ void addCompare(CLI::App& app, int& status);
 void addBench(CLI::App& app, int& status);
 #endif
 
-/// --color, which colorModeOf() reads.
+/// Adds --color, which colorModeOf() reads.
 void addColorOption(CLI::App& command);
 
-/// Options of CommonOptions.
+/// These add the options that set CommonOptions.
 void addFormatOption(CLI::App& command, CommonOptions& options);
 void addVerbosityOptions(CLI::App& command, CommonOptions& options);
 
-/// Bits, --lossless, --grid and --prefer.
+/// Adds the options for bits, --lossless, --grid and --prefer.
 void addQuantization(CLI::App& command, gltf::ConvertOptions& options);
 
-/// --max-decoded-bytes, see decodedLimit().
+/// Adds --max-decoded-bytes, see decodedLimit().
 void addDecodedLimitOption(CLI::App& command, uint64_t& max_decoded_bytes);
 
 /// Prints "gltf-mcc: FILE: where: what" on standard error; returns kFailed.
 int reportFailure(const gltf::Result& result);
 
-/// The same of work on one file, with what to do where that is known: names of files like an input that does not exist,
-/// how to write into a folder.
+/// Like the above, for work on one file. Adds advice where there is some: similar names of files
+/// when the input does not exist, and how to write into a folder.
 int reportFailure(const gltf::Result& result, const std::string& input, const std::string& output);
 
-/// Prints on standard output; returns kFailed when that fails.
+/// Prints on standard output; returns kFailed when that does not work.
 int printOut(const std::string& text);
 
 }  // namespace mcc::tool

@@ -71,7 +71,7 @@ gltf::Result CompareCommand::compare(const std::string& input, bench::FileFigure
   return result;
 }
 
-/// A file that fails does not stop the others.
+/// Compares all files; one that fails does not stop the others.
 int CompareCommand::run() const {
   int status = kDone;
   const bool is_table = common.format == Format::kPretty || common.format == Format::kMarkdown;
@@ -135,7 +135,7 @@ void addCompare(CLI::App& app, int& status) {
       ->required()
       ->type_name("");
   addQuantization(*command, state->convert);
-  command->add_option("--runs", state->run_count, "Decode so many times, the least time counts [3]")
+  command->add_option("--runs", state->run_count, "Decode N times and take the least time [3]")
       ->check(CLI::Range(1, 1000).description(""))
       ->type_name("N");
   command
@@ -147,15 +147,12 @@ void addCompare(CLI::App& app, int& status) {
   addColorOption(*command);
   setHelp(
       *command, "compare [OPTIONS] IN…",
-      "Draco gets the same grids as we, at speeds 0 (smallest), 3 and 5 (glTF-Transform's\n"
-      "default). \"best\" is the smaller of its speeds 0 and 5. Its connectivity is measured "
-      "alone,\n"
-      "on the mesh welded by position; \"seams\" is what its triangles take more in the file. "
-      "Morph\n"
-      "targets, which it has not, are left out on both sides and listed below. Times are CPU "
-      "times\n"
-      "in one process, from payloads in memory to float and index arrays, the least of several\n"
-      "runs.",
+      "Draco gets the same grids as our codec, at speeds 0 (smallest), 3 and 5 (glTF-Transform's\n"
+      "default). \"best\" is the smaller of speeds 0 and 5. Draco's connectivity is measured on\n"
+      "its own, on the mesh welded by position; \"seams\" is what its triangles take beyond that\n"
+      "in the file. Draco does not support morph targets, so they are left out on both sides and\n"
+      "listed below. Times are CPU times in one process, from payloads in memory to float and\n"
+      "index arrays, the least of several runs.",
       "compare model.glb\n"
       "compare --quantize-position 12 --format md a.glb b.glb");
   command->callback([state, &status]() {

@@ -20,18 +20,18 @@ using Json = nlohmann::ordered_json;
 
 constexpr Codec kColumns[] = {Codec::kMcc, Codec::kDraco0, Codec::kDraco3, Codec::kDraco5};
 
-/// One row of a comparison before it becomes text.
+/// One row of a comparison, before it is formatted.
 struct Row {
   std::string name;
   std::string unit;
   double values[std::size(kColumns)] = {};
   bool is_known[std::size(kColumns)] = {};
-  double ratio = 0;  ///< ours / Draco's best; 0: none
+  double ratio = 0;  ///< ours / Draco's best; 0: not shown
 };
 
 double bytesOf(double bits) { return bits / 8; }
 
-/// The streams of all codecs; those that are empty everywhere are left out.
+/// Returns the streams of all codecs, without those that are empty everywhere.
 std::vector<std::string> streamNames(const FileFigures& figures) {
   std::vector<std::string> names;
   for (const Codec codec : kColumns) {
@@ -143,7 +143,7 @@ const bench::NamedError* findError(const CodecFigures& codec, const std::string&
   return nullptr;
 }
 
-/// Draco's errors do not depend on its speed.
+/// Shows the errors of one Draco speed, since they do not depend on the speed.
 Table errorTable(const FileFigures& figures) {
   Table table({"error of", "mcc max", "mcc median", "draco max", "draco median", "unit"}, {5});
   const CodecFigures& draco = figures.of(bench::bestDraco(figures));

@@ -13,41 +13,42 @@
 
 namespace mcc::tool {
 
-/// The tables of a comparison with Draco: bytes per stream and in all, counts, times; errors.
+/// Returns the tables of a comparison with Draco: bytes per stream and in total, counts, times,
+/// errors.
 std::string comparisonText(const bench::FileFigures& figures, Format format);
 
-/// One row per file and the geometric mean of the ratios. Empty for a single file.
+/// Returns one row per file and the geometric mean of the ratios; empty for a single file.
 std::string comparisonSummary(const std::vector<bench::FileFigures>& files, Format format);
 
-/// Header and rows of one CSV table for all files: file, row, unit, a column per codec, mcc/best.
+/// Returns one CSV table for all files: file, row, unit, a column per codec, mcc/best.
 std::string comparisonCsv(const std::vector<bench::FileFigures>& files);
 
-/// The same as JSON, also "comparison" in the report of `convert`:
+/// Returns the comparison as JSON, which is also "comparison" in the report of `convert`:
 ///   triangles, vertices, positions, primitives: of the source. `vertices` are glTF's.
-///   best           "draco_0" or "draco_5", the smaller over the file; absent when Draco failed
-///   ratio_to_best  our bytes / its bytes
-///   streams        [{name, mcc, draco_0, draco_3, draco_5, ratio_to_best}], bytes. "connectivity"
-///                  of Draco is measured alone, on the mesh welded by position; "seams" is what
-///                  its triangles take more in the file. They add up to `bytes`.
+///   best           "draco_0" or "draco_5", the smaller for the file; absent when Draco failed
+///   ratio_to_best  our bytes divided by those of the best
+///   streams        [{name, mcc, draco_0, draco_3, draco_5, ratio_to_best}], bytes. Draco's
+///                  "connectivity" is measured on its own, on the mesh welded by position; "seams"
+///                  is what its triangles take beyond that in the file. They add up to `bytes`.
 ///   codecs         {mcc, draco_0, draco_3, draco_5}: {failure} or {bytes, triangles, vertices,
 ///                  lost_vertices, encode_seconds, decode_seconds, errors: [{name, unit, max,
 ///                  median}]}
 ///     triangles, vertices  after decoding, as the codec counts
-///     lost_vertices        in use by triangles of the source, by none of the decoded ones
+///     lost_vertices        used by triangles of the source, but not by any decoded triangle
 ///     encode_seconds       CPU time from accessors to payloads in memory
-///     decode_seconds       from there to final float and index arrays; least of several runs in
-///                          one process, both
+///     decode_seconds       CPU time from payloads to final float and index arrays; both times are
+///                          the least of several runs in one process
 ///     errors               against the source; unit "degrees" or "accessor units"
-///   left_out       when the file has what Draco cannot take (morph targets): {bytes_with, streams:
-///                  [{name, mcc}]}. `codecs` are without on both sides.
+///   left_out       only when the file has morph targets, which Draco does not support:
+///                  {bytes_with, streams: [{name, mcc}]}. `codecs` leaves them out on both sides.
 ///   versions       {draco}
 ///   notes          what was not compared, and why
 nlohmann::ordered_json comparisonJson(const bench::FileFigures& figures);
 
-/// Order of streams in tables: triangles first, attributes as they come, header last.
+/// Returns the order of streams in tables: triangles first, attributes in their order, header last.
 int streamRank(const std::string& name);
 
-/// Geometric mean; 0 of nothing.
+/// Returns the geometric mean, or 0 for no values.
 double geometricMean(const std::vector<double>& values);
 
 }  // namespace mcc::tool

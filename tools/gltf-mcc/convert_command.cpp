@@ -107,7 +107,7 @@ gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison&
   {
     WorkProgress progress(common.is_quiet, converted.input);
     progress.tell("reading", -1);
-    result = source.open(converted.input);  // a pipe may take its time
+    result = source.open(converted.input);  // may have to wait for a pipe
   }
   if (result.ok()) result = sink.open(converted.output);
   if (!result.ok()) return result;
@@ -149,7 +149,7 @@ gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison&
   return {};
 }
 
-/// No output is another's file, and none but OUT an input.
+/// Checks that no output is also another file of the command, and that only OUT may be an input.
 gltf::Result ConvertCommand::checkNames() const {
   const std::string& input = files.inputs[0];
   const std::string& draco = comparison.draco_output;
@@ -171,7 +171,8 @@ int ConvertCommand::runOne() const {
     reportFailure(apart);
     return kUsage;
   }
-  // Before any work is done: a conversion whose report cannot be written is a failure.
+  // Checked before any work is done, because a conversion whose report cannot be written has
+  // failed.
   const gltf::Result writable = report.empty() ? gltf::Result{} : checkReport(report);
   if (!writable.ok()) return reportFailure(writable);
   Converted converted{files.inputs[0], files.output, {}, {}};
@@ -197,7 +198,7 @@ void addBits(CLI::App& command, const std::string& name, uint8_t& bits, int low,
     if (is_number && (number == 0 || (number >= low && number <= high))) return "";
     return fmt::format("{} is not 0 or {} to {}", text, low, high);
   };
-  // Parsed as a number: a uint8_t would be taken for a character.
+  // The option is parsed as an int, because CLI11 would read a uint8_t as a character.
   command
       .add_option_function<int>(
           "--quantize-" + name, [&bits](const int& number) { bits = static_cast<uint8_t>(number); },
@@ -206,7 +207,7 @@ void addBits(CLI::App& command, const std::string& name, uint8_t& bits, int low,
       ->type_name("N");
 }
 
-/// --max-error, --max-error-relative, --lattice: each instead of --quantize-position.
+/// Adds --max-error, --max-error-relative and --lattice, which each replace --quantize-position.
 void addPositionPromises(CLI::App& command, gltf::ConvertOptions& options, CLI::Option* lossless) {
   const auto addError = [&](const std::string& name, bool is_relative, const std::string& help) {
     return command
@@ -229,7 +230,7 @@ void addPositionPromises(CLI::App& command, gltf::ConvertOptions& options, CLI::
   CLI::Option* absolute =
       addError("--max-error", false, "No position moves farther than X, in units of the model");
   CLI::Option* relative =
-      addError("--max-error-relative", true, "The same, X times the longest side of the box");
+      addError("--max-error-relative", true, "The same, X is a fraction of the longest side");
   CLI::Option* lattice =
       command
           .add_option_function<std::vector<float>>(
@@ -272,8 +273,7 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
                                                    {"scene", gltf::Grid::kScene},
                                                    {"primitive", gltf::Grid::kPrimitive}};
   command
-      .add_option("--grid", options.grid,
-                  "What shares a grid of positions: no cracks inside [mesh]")
+      .add_option("--grid", options.grid, "What shares a grid of positions, without cracks [mesh]")
       ->transform(CLI::CheckedTransformer(grids, CLI::ignore_case).description(""))
       ->type_name("mesh|scene|primitive");
   const std::map<std::string, Preference> preferences = {{"balanced", Preference::kBalanced},
@@ -286,7 +286,7 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
 
 void addKeepOrder(CLI::App& command, gltf::ConvertOptions& options) {
   command.add_flag("--indices-only", options.indices_only,
-                   "Compress the triangles alone, keep the attributes as they are");
+                   "Compress only the triangles, keep the attributes as they are");
   command.add_flag("--drop-unused", options.drop_unused,
                    "Leave out vertices that no triangle uses");
   command
@@ -296,7 +296,7 @@ void addKeepOrder(CLI::App& command, gltf::ConvertOptions& options) {
             options.keep_vertex_order = what != "triangles";
             options.keep_triangle_order = what != "vertices";
           },
-          "Bring back the order of vertices, triangles or both")
+          "Keep the order of vertices, triangles or both")
       ->check(CLI::IsMember({"vertices", "triangles", "both"}).description(""))
       ->type_name("vertices|triangles|both");
 }
@@ -311,7 +311,7 @@ void addConvert(CLI::App& app, int& status) {
   addQuantization(*command, state->convert);
   addKeepOrder(*command, state->convert);
   command->add_flag("--fallback", state->convert.fallback,
-                    "Keep the geometry uncompressed, too, in OUT.fallback.bin");
+                    "Also keep the geometry uncompressed, in OUT.fallback.bin");
   command->add_option("--report", state->report, "Write all figures to this JSON file")
       ->type_name("FILE");
   state->comparison.addOptions(*command);
@@ -319,22 +319,20 @@ void addConvert(CLI::App& app, int& status) {
   command->add_option("-j,--jobs", state->convert.thread_count, "Threads to use [1]")
       ->check(CLI::Range(1, 1024).description(""))
       ->type_name("N");
-  command->add_flag("--force", state->is_forced, "With -o DIR: convert what is up to date, too");
+  command->add_flag("--force", state->is_forced, "With -o DIR: also convert what is up to date");
   addDecodedLimitOption(*command, state->convert.max_decoded_bytes);
   addVerbosityOptions(*command, state->common);
   addColorOption(*command);
   setHelp(
       *command, "convert [OPTIONS] IN OUT\nconvert [OPTIONS] -o DIR IN…",
       "IN and OUT are .glb or .gltf files, or - for standard input and output. A .gltf gets its\n"
-      "buffer beside it (a.gltf: a.bin); images that are files stay files there, and move into a "
-      ".glb.\n"
-      "The result is decoded and compared with the source before it takes its place; sizes and\n"
-      "measured errors are printed. One of --quantize-position, --max-error, "
-      "--max-error-relative,\n"
-      "--lattice and --lossless decides on positions.\n"
-      "IN may be compressed with Draco or meshoptimizer already.\n"
-      "With -o DIR every IN becomes a file of the same name in DIR. What was made there before\n"
-      "with the same options, from files that have not changed since, is left as it is.",
+      "buffer next to it (a.gltf: a.bin). Images in separate files stay separate, but move into a\n"
+      ".glb. The result is decoded and compared with the source before it replaces OUT; sizes and\n"
+      "measured errors are printed. Positions are set by one of --quantize-position, --max-error,\n"
+      "--max-error-relative, --lattice and --lossless.\n"
+      "IN may already be compressed with Draco or meshoptimizer.\n"
+      "With -o DIR every IN becomes a file of the same name in DIR. Files that were made there\n"
+      "before, with the same options and from files that have not changed since, are left alone.",
       "convert model.glb small.glb\n"
       "convert scene.gltf small.glb --quantize-position 12 --report sizes.json\n"
       "convert scan.glb exact.glb --lossless\n"

@@ -21,18 +21,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Above this many triangles a comparison has to be asked for.
+/// Files with more triangles than this are compared only when the user asks for it.
 constexpr uint64_t kComparedTriangles = 2'000'000;
 constexpr uint32_t kRuns = 3;
 
 }  // namespace
 
 void ConvertComparison::addOptions(CLI::App& command) {
-  command.add_option("--compare", mode, "Show what Draco makes of it [draco up to 2M triangles]")
+  command.add_option("--compare", mode, "Compare with Draco [draco up to 2M triangles]")
       ->check(CLI::IsMember({"draco", "none"}).description(""))
       ->type_name("draco|none");
   command
-      .add_option("--emit-draco", draco_output, "Write IN with Draco, speed 0, to this .glb, too")
+      .add_option("--emit-draco", draco_output, "Also write IN with Draco, speed 0, to this .glb")
       ->type_name("OUT2");
 }
 
@@ -47,7 +47,7 @@ gltf::Result ConvertComparison::begin(const gltf::Source& input, const std::stri
   }
   std::error_code ignored;
   if (result.ok() && !gltf::isGlb(source) && fs::equivalent(input.path, output, ignored)) {
-    mode = "none";  // its buffer may be replaced, too
+    mode = "none";  // the buffer of the input may be replaced, too
     text += "note: not compared with Draco: the input is replaced\n";
   }
   if (!result.ok() || draco_output.empty()) return result;
@@ -77,7 +77,7 @@ gltf::Result ConvertComparison::finish(const gltf::Source& input,
   const bool is_seen = is_reported || !common.is_quiet;
   if (mode == "none" || !is_seen || compressed.empty()) return {};
   if (mode.empty() && triangle_count > kComparedTriangles) {
-    text += fmt::format("note: not compared with Draco above {} triangles; --compare draco does\n",
+    text += fmt::format("note: not compared with Draco above {} triangles; use --compare draco\n",
                         grouped(kComparedTriangles));
     return {};
   }
@@ -88,7 +88,7 @@ gltf::Result ConvertComparison::finish(const gltf::Source& input,
     if (!is_made) return std::nullopt;
     return measureWhole("draco", {std::move(draco)});
   });
-  // CSV is one table, and `compare` prints the other.
+  // With --format csv only one table is printed; `compare` prints the other one.
   const bool is_csv = common.format == Format::kCsv && !is_reported;
   const gltf::Result result = is_csv ? gltf::Result{} : compare(input, convert, common, compressed);
   draco_size = size.get();

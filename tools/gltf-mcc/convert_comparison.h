@@ -15,23 +15,24 @@
 
 namespace mcc::tool {
 
-/// `--compare` and `--emit-draco` of `convert`. In a build without other codecs there are no such
-/// options and nothing is compared.
+/// The options `--compare` and `--emit-draco` of `convert`. A build without other codecs does not
+/// have them and compares nothing.
 struct ConvertComparison {
   std::string mode;             ///< "draco" or "none"; empty: Draco, unless the file is large
-  std::string draco_output;     ///< empty: none
-  std::vector<uint8_t> source;  ///< the input before it is replaced, if it is
-  std::vector<uint8_t> draco;   ///< the Draco file
-  std::string text;             ///< tables
+  std::string draco_output;     ///< path of the Draco file; empty: none is written
+  std::vector<uint8_t> source;  ///< a copy of the input when the output replaces it
+  std::vector<uint8_t> draco;   ///< the bytes of the Draco file
+  std::string text;             ///< tables and notes to print
   nlohmann::ordered_json json;  ///< see comparisonJson(); null when nothing was compared
-  std::optional<WholeSize> draco_size;  ///< when something was compared
+  std::optional<WholeSize> draco_size;  ///< only when something was compared
 
   void addOptions(CLI::App& command);
-  /// Before the conversion: reads the source, makes the Draco file, sees whether it can be written.
+  /// Called before the conversion: reads the source, makes the Draco file, and checks that it can
+  /// be written.
   gltf::Result begin(const gltf::Source& input, const std::string& output,
                      const gltf::ConvertOptions& convert);
-  /// After it: writes the Draco file; compares the primitives that were compressed, unless nobody
-  /// sees it.
+  /// Called after the conversion: writes the Draco file, and compares the primitives that were
+  /// compressed, unless the result would not be shown or reported.
   gltf::Result finish(const gltf::Source& input, const gltf::ConvertOptions& convert,
                       const gltf::ConvertReport& report, const CommonOptions& common,
                       bool is_reported);

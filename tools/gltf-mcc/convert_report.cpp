@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// All payloads of a file added up.
+/// Sums over all payloads of a file.
 struct Totals {
   uint64_t payload_bytes = 0;
   uint64_t wedge_count = 0;
@@ -126,7 +126,7 @@ std::string summaryText(const Converted& converted, const Totals& totals) {
                   sizeChange(report.input_bytes, report.output_bytes), out == 0 ? 0 : in / out);
   if (report.copied) return text;
   if (report.fallback_bytes != 0) {
-    text += fmt::format("fallback beside it: {} bytes\n", grouped(report.fallback_bytes));
+    text += fmt::format("fallback file: {} bytes\n", grouped(report.fallback_bytes));
   }
   text += fmt::format(
       "{} of {} primitives compressed into {} {} of {} bytes; {} triangles and {} vertices "
@@ -207,7 +207,7 @@ Json reportJson(const Converted& converted, const gltf::ConvertOptions& options,
 }
 
 std::string printReport(const Json& json) {
-  // In ASCII: characters that a terminal obeys are escaped in names, too.
+  // Pure ASCII, so that control characters in names cannot reach a terminal.
   return json.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 

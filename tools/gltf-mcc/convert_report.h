@@ -11,31 +11,31 @@
 
 namespace mcc::tool {
 
-/// A conversion with what was measured of it.
+/// A conversion and what was measured about it.
 struct Converted {
   std::string input;
   std::string output;
   gltf::ConvertReport report;
-  std::vector<WholeSize> sizes;  ///< of whole files; empty when not measured
+  std::vector<WholeSize> sizes;  ///< sizes of whole files; empty when not measured
 };
 
-/// The tables of `convert`.
+/// Returns the tables of `convert`.
 std::string reportText(const Converted& converted, const CommonOptions& options);
 
-/// Everything that is known about a conversion. `comparison` is left out when it is null.
+/// Returns everything known about a conversion. `comparison` is left out when it is null.
 nlohmann::ordered_json reportJson(const Converted& converted, const gltf::ConvertOptions& options,
                                   const nlohmann::ordered_json& comparison);
 
-/// Indented text of a report.
+/// Returns the indented text of a report.
 std::string printReport(const nlohmann::ordered_json& json);
 
-/// "1,838,104 -> 171,656 bytes (9.3 %)".
+/// Returns text like "1,838,104 -> 171,656 bytes (9.3 %)".
 std::string sizeChange(uint64_t input_bytes, uint64_t output_bytes);
 
-/// Whether a report can be written, before any work is done for it.
+/// Checks whether a report can be written, before any work is done for it.
 gltf::Result checkReport(const std::string& path);
 
-/// Writes a report, in the place of an older one when all of it is there.
+/// Writes a report. It replaces an older one only when it is complete.
 gltf::Result writeReport(const std::string& path, const std::string& text);
 
 }  // namespace mcc::tool

@@ -64,7 +64,7 @@ int DecodeCommand::runOne() const {
   gltf::Result outcome;
   {
     const WorkProgress progress(common.is_quiet, "decoding " + input);
-    outcome = source.open(input);  // a pipe may take its time
+    outcome = source.open(input);  // may have to wait for a pipe
     if (outcome.ok()) outcome = sink.open(files.output);
     if (outcome.ok()) outcome = gltf::decode(source.source(), sink.sink(), report, decoding);
   }
@@ -99,17 +99,17 @@ void addDecode(CLI::App& app, int& status) {
   command->add_option("-j,--jobs", state->decoding.thread_count, "Threads to use [1]")
       ->check(CLI::Range(1, 1024).description(""))
       ->type_name("N");
-  command->add_flag("--force", state->is_forced, "With -o DIR: decode what is up to date, too");
+  command->add_flag("--force", state->is_forced, "With -o DIR: also decode what is up to date");
   addDecodedLimitOption(*command, state->decoding.max_decoded_bytes);
   addVerbosityOptions(*command, state->common);
   addColorOption(*command);
   setHelp(
       *command, "decode [OPTIONS] IN OUT\ndecode [OPTIONS] -o DIR IN…",
       "IN and OUT are .glb or .gltf files, or - for standard input and output. A .gltf gets its\n"
-      "buffer beside it (a.gltf: a.bin). What is not compressed is copied.\n"
+      "buffer next to it (a.gltf: a.bin). What is not compressed is copied.\n"
       "Integers (KHR_mesh_quantization) take less memory.\n"
-      "A file whose geometry takes more than --max-decoded-bytes decoded is refused before memory\n"
-      "is taken; without the option 256 MiB are always accepted, and 4 GiB at most.\n"
+      "A file whose geometry decodes to more than --max-decoded-bytes is refused before memory is\n"
+      "taken. Without the option 256 MiB are always accepted, and more than 4 GiB never.\n"
       "With -o DIR every IN becomes a file of the same name in DIR, as with convert.",
       "decode small.glb model.glb\n"
       "decode small.glb model.gltf\n"

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "-" as an output is standard output.
+/// Returns the key of an output; "-" is standard output.
 std::string keyOfOutput(const fs::path& path) {
   return gltf::fileKey(isStandardStream(path.string()) ? fs::path("/dev/stdout") : path);
 }

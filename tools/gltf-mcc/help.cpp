@@ -9,7 +9,7 @@
 namespace mcc::tool {
 namespace {
 
-/// Every line of a text behind a prefix; the first line behind `first`.
+/// Puts a prefix before every line of a text, and `first` before the first line.
 std::string indented(const std::string& text, const std::string& first, const std::string& prefix) {
   std::string result = first;
   for (const char c : text) {
@@ -33,7 +33,8 @@ std::vector<std::string> splitAt(const std::string& text, char separator) {
   return parts;
 }
 
-/// The value of "--grid mesh|scene" is one of these words, that of "-o FILE|DIR" is not.
+/// Whether the value of an option is one of a set of words, as in "--grid mesh|scene", and not a
+/// placeholder, as in "-o FILE|DIR".
 bool isChoice(const std::string& value) {
   return value.find('|') != std::string::npos &&
          std::none_of(value.begin(), value.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
@@ -46,12 +47,12 @@ HelpFormatter::HelpFormatter(CommandHelp help) : help_(std::move(help)) { column
 std::string HelpFormatter::make_help(const CLI::App* app, std::string name,
                                      CLI::AppFormatMode mode) const {
   std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
-  // Options that are hidden leave a line without anything.
+  // Hidden options leave an empty line behind.
   for (size_t at = 0; (at = text.find("\n\n\n", at)) != std::string::npos;) text.erase(at, 1);
   return inLocale(std::move(text));
 }
 
-/// Without what CLI11 says of the number of commands.
+/// Leaves out what CLI11 says about the number of commands.
 std::string HelpFormatter::make_description(const CLI::App* app) const {
   return app->get_description() + "\n\n";
 }
@@ -75,7 +76,7 @@ std::string HelpFormatter::make_subcommands(const CLI::App* app, CLI::AppFormatM
   return text;
 }
 
-/// They are in the usage, and explained by the description.
+/// Positional arguments are shown in the usage and explained in the description.
 std::string HelpFormatter::make_positionals(const CLI::App*) const { return ""; }
 
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {

@@ -8,14 +8,15 @@
 
 namespace mcc::tool {
 
-/// What --help and the man page say of a command besides its options. Lines end with '\n' but the last.
+/// What --help and the man page say about a command, apart from its options. Every line but the
+/// last ends with '\n'.
 struct CommandHelp {
-  std::string usage;     ///< what follows "gltf-mcc", a line for each way to call the command
+  std::string usage;     ///< what follows "gltf-mcc", one line for each way to call the command
   std::string text;      ///< between the options and the examples; may be empty
-  std::string examples;  ///< what follows "gltf-mcc", a line each
+  std::string examples;  ///< what follows "gltf-mcc", one line each
 };
 
-/// Help that says how a command is called and what an option takes, and no more.
+/// Formats help: how a command is called, and what its options take.
 class HelpFormatter : public CLI::Formatter {
  public:
   explicit HelpFormatter(CommandHelp help);
@@ -37,26 +38,27 @@ class HelpFormatter : public CLI::Formatter {
   CommandHelp help_;
 };
 
-/// Sets the usage lines and the examples of a command; `text` comes between the options and them.
+/// Sets the usage lines and the examples of a command; `text` is printed between the options and
+/// the examples.
 void setHelp(CLI::App& command, const std::string& usage, const std::string& text,
              const std::string& examples);
 
-/// What setHelp() got.
+/// Returns what setHelp() set.
 const CommandHelp& helpOf(const CLI::App& command);
 
-/// The commands that --help lists, in its order.
+/// Returns the commands that --help lists, in its order.
 std::vector<const CLI::App*> commandsOf(const CLI::App& app);
 
 /// An option as --help lists it.
 struct OptionHelp {
   std::vector<std::string> names;    ///< "-o", "--output"
-  std::string value;                 ///< "FILE|DIR"; empty: it takes none
-  std::vector<std::string> choices;  ///< the words it takes, where these are all
+  std::string value;                 ///< "FILE|DIR"; empty: the option takes no value
+  std::vector<std::string> choices;  ///< the words it accepts, if it accepts only these
   bool takes_file = false;
   std::string description;
 };
 
-/// Those of the command that --help lists, in its order.
+/// Returns the options that --help lists for the command, in its order.
 std::vector<OptionHelp> optionsOf(const CLI::App& command);
 
 }  // namespace mcc::tool

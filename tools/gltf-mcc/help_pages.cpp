@@ -32,7 +32,7 @@ std::vector<std::string> namesOf(const std::vector<const CLI::App*>& commands) {
   return names;
 }
 
-/// Words that are the whole of what a command takes besides options.
+/// Returns the words a command accepts as its argument, if it accepts only these.
 std::vector<std::string> wordsOf(const CLI::App& app, const std::string& command) {
   if (command == "help") return namesOf(commandsOf(app));
   if (command == "completion") return {"bash", "zsh"};
@@ -45,9 +45,9 @@ std::string replaced(const std::string& text, char from, const std::string& to) 
   return result;
 }
 
-// --- man page --------------------------------------------------------------------------------------
+// --- man page ----------------------------------------------------------------
 
-/// A line of text in roff: hyphens are minus signs, and nothing is taken for a request.
+/// Escapes a line of text for roff: hyphens become minus signs, and no line can be a request.
 std::string roff(const std::string& text) {
   std::string line = replaced(replaced(text, '\\', "\\e"), '-', "\\-");
   for (size_t at = line.find("…"); at != std::string::npos; at = line.find("…")) {
@@ -62,7 +62,7 @@ std::string roffLines(const std::string& text, const std::string& prefix) {
   return lines;
 }
 
-/// Each line for itself, as it is.
+/// Keeps the line breaks of a text.
 std::string roffAsTyped(const std::string& text) {
   return ".PP\n.nf\n.RS 4\n" + roffLines(text, "gltf-mcc ") + ".RE\n.fi\n";
 }
@@ -91,21 +91,23 @@ constexpr char kManEnd[] =
 Done.
 .TP
 \fB1\fR
-The input is bad, or a check failed; no output was written or replaced. Of several inputs the others are done all the same.
+The input is bad, or a check failed; no output was written or replaced.
+With several inputs, one that fails does not stop the others.
 .TP
 \fB2\fR
 Wrong usage.
 .SH ENVIRONMENT
 .TP
 \fBNO_COLOR\fR
-If it is set and not empty, there are no colours, unless \-\-color asks for them.
+If it is set and not empty, colours are off, unless \-\-color asks for them.
 .TP
 \fBLC_ALL\fR, \fBLC_CTYPE\fR, \fBLANG\fR
-The first that is set says whether bars and signs may use characters beyond ASCII.
+The first of these that is set determines whether bars and symbols may use characters beyond ASCII.
 .SH FILES
 .TP
 \fIDIR\fR/.gltf\-mcc.json
-What convert and decode made with \-o \fIDIR\fR, and of what, so that only what has changed is made again.
+Records what convert and decode wrote with \-o \fIDIR\fR and from which files,
+so that only outputs whose inputs have changed are made again.
 )";
 
 }  // namespace
@@ -115,7 +117,7 @@ std::string manPage(const CLI::App& app) {
       ".\\\" Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0\n"
       ".\\\" Made by: gltf-mcc man\n";
   text += fmt::format(".TH GLTF\\-MCC 1 \"\" \"gltf\\-mcc {}\" \"User Commands\"\n", MCC_VERSION);
-  text += ".SH NAME\ngltf\\-mcc \\- make the meshes of glTF files small\n.SH SYNOPSIS\n.nf\n";
+  text += ".SH NAME\ngltf\\-mcc \\- compress the meshes of glTF files\n.SH SYNOPSIS\n.nf\n";
   for (const CLI::App* command : commandsOf(app)) {
     for (const std::string& line : linesOf(helpOf(*command).usage)) {
       text += "\\fBgltf\\-mcc\\fR " + roff(line) + "\n";
@@ -127,7 +129,7 @@ std::string manPage(const CLI::App& app) {
   return text + kManEnd;
 }
 
-// --- bash ------------------------------------------------------------------------------------------
+// --- bash --------------------------------------------------------------------
 
 namespace {
 
@@ -140,12 +142,12 @@ std::string bashCase(const std::string& command, const OptionHelp& option) {
   return text;
 }
 
-/// What a command offers behind options that take a value.
+/// Lists what bash offers after the options of a command that take a value.
 std::string bashValues(const CLI::App& command, const std::string& prefix) {
   std::string text;
   for (const OptionHelp& option : optionsOf(command)) {
     if (option.value.empty()) continue;
-    std::string offer;  // nothing for numbers
+    std::string offer;  // empty for numbers
     if (!option.choices.empty()) offer = "offer '" + joined(option.choices, " ") + "'; ";
     if (option.takes_file) offer = "offer_files; ";
     text += fmt::format("    {}) {}return ;;\n", bashCase(prefix, option), offer);
@@ -210,11 +212,11 @@ std::string bashCompletion(const CLI::App& app) {
   return text + "    *) offer_models ;;\n  esac\n}\ncomplete -F _gltf_mcc gltf-mcc\n";
 }
 
-// --- zsh -------------------------------------------------------------------------------------------
+// --- zsh ---------------------------------------------------------------------
 
 namespace {
 
-/// Inside of '…[…]' of _arguments.
+/// Escapes text for use inside '…[…]' of _arguments.
 std::string zshText(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -279,7 +281,7 @@ std::string zshCompletion(const CLI::App& app) {
          "else\n  compdef _gltf_mcc gltf-mcc\nfi\n";
 }
 
-// --- commands --------------------------------------------------------------------------------------
+// --- commands ----------------------------------------------------------------
 
 namespace {
 
@@ -297,29 +299,29 @@ void addHelpCommand(CLI::App& app, int& status) {
       throw CLI::ValidationError(
           "help", "there is no command " + *name + didYouMean(*name, namesOf(commandsOf(app))));
     }
-    // CLI11's help() of the program is that of the command at work.
+    // CLI11's help() of the app would print the help of the command that runs, `help` itself.
     status = printOut(wanted->get_formatter()->make_help(wanted, "", CLI::AppFormatMode::Normal));
   });
 }
 
 void addCompletion(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("completion", "Print what completes command lines");
+  CLI::App* command = app.add_subcommand("completion", "Print a completion script for a shell");
   auto shell = std::make_shared<std::string>();
   command->add_option("SHELL", *shell, "Which")->type_name("")->required();
   setHelp(*command, "completion bash|zsh",
-          "For this session: source <(gltf-mcc completion bash), in zsh behind compinit.\n"
-          "For good, save it as gltf-mcc in ~/.local/share/bash-completion/completions, which may\n"
-          "have to be made, or as _gltf-mcc in a folder of zsh's fpath.",
+          "For this session: source <(gltf-mcc completion bash), in zsh after compinit.\n"
+          "To keep it, save it as gltf-mcc in ~/.local/share/bash-completion/completions, which\n"
+          "you may have to create, or as _gltf-mcc in a folder of zsh's fpath.",
           "completion bash > ~/.local/share/bash-completion/completions/gltf-mcc");
   command->callback([&app, &status, shell]() {
     if (*shell != "bash" && *shell != "zsh") {
-      throw CLI::ValidationError("completion", "knows bash and zsh, not " + *shell);
+      throw CLI::ValidationError("completion", "supports bash and zsh, not " + *shell);
     }
     status = printOut(*shell == "bash" ? bashCompletion(app) : zshCompletion(app));
   });
 }
 
-/// Not in the help: the page is installed.
+/// Adds the hidden command `man`; users read the installed page instead.
 void addMan(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("man", "Print the man page");
   command->group("");

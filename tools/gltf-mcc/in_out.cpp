@@ -10,14 +10,14 @@ namespace mcc::tool {
 
 void InOut::addOptions(CLI::App& command) {
   command.add_option("FILES", inputs, "IN and OUT");
-  command.add_option("-i,--input", input, "The same as IN")->type_name("FILE");
-  command.add_option("-o,--output", output, "The same as OUT, or the folder for many IN")
+  command.add_option("-i,--input", input, "Same as IN")->type_name("FILE");
+  command.add_option("-o,--output", output, "Same as OUT, or the folder for several IN")
       ->type_name("FILE|DIR");
 }
 
 void InOut::sort(const std::string& command) {
   if (!input.empty()) inputs.insert(inputs.begin(), input);
-  const bool may_be_folder = !output.empty();  // and not OUT, which must be a file
+  const bool may_be_folder = !output.empty();  // given by -o; OUT must be a file
   if (output.empty() && inputs.size() > 2) {
     throw CLI::ValidationError(command, "several inputs need a folder: -o DIR IN…");
   }
@@ -28,14 +28,14 @@ void InOut::sort(const std::string& command) {
   if (inputs.empty() || output.empty()) {
     throw CLI::ValidationError(command, inputs.empty() ? "IN is missing" : "OUT is missing");
   }
-  // Any other name may be a GLB's (.vrm), but these promise something else.
+  // A GLB may have any other extension (.vrm), but these belong to other formats.
   const std::string extension = std::filesystem::path(output).extension().string();
   for (const char* other : {".obj", ".ply", ".stl", ".fbx", ".dae", ".usdz", ".drc"}) {
     if (extension != other) continue;
     throw CLI::ValidationError(command, output + ": only .glb and .gltf files are written");
   }
   std::error_code ignored;
-  // Nothing opens a model without an extension. What exists may be a device, or is a folder.
+  // No program would open a model without an extension. An existing path may be a device or folder.
   if (extension.empty() && !may_be_folder && !isStandardStream(output) && !output.ends_with('/') &&
       !std::filesystem::exists(output, ignored)) {
     throw CLI::ValidationError(

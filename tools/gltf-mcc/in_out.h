@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// "IN OUT" and "-o DIR IN…" on the command line.
+// Parses "IN OUT" and "-o DIR IN…" on the command line.
 #ifndef MCC_TOOL_IN_OUT_H_
 #define MCC_TOOL_IN_OUT_H_
 
@@ -11,14 +11,15 @@
 namespace mcc::tool {
 
 struct InOut {
-  std::vector<std::string> inputs;  ///< as they stand on the command line, until sort()
-  std::string input;                ///< of -i
-  std::string output;               ///< of -o, until sort()
+  std::vector<std::string> inputs;  ///< IN and OUT as on the command line; inputs after sort()
+  std::string input;                ///< the value of -i
+  std::string output;               ///< the value of -o; the output after sort()
   bool is_batch = false;            ///< `output` is a folder
 
   void addOptions(CLI::App& command);
-  /// Tells inputs from the output. -o names a folder by a slash, because it is one, or because there are several
-  /// inputs. Throws what the parser reports as wrong usage.
+  /// Separates the inputs from the output. The value of -o is a folder if it ends with a slash, if
+  /// a folder of that name exists, or if there are several inputs. Throws CLI::ValidationError,
+  /// which is reported as wrong usage.
   void sort(const std::string& command);
 };
 

@@ -73,7 +73,7 @@ Table payloadTable(const gltf::InspectReport& report, Format format) {
   return table;
 }
 
-/// Streams and attributes of all payloads, by name, in bits.
+/// Sums up the streams and attributes of all payloads by name, in bits.
 std::vector<gltf::StreamReport> streamsOf(const gltf::InspectReport& report) {
   std::vector<gltf::StreamReport> streams;
   const auto add = [&](const std::string& name, double bits) {
@@ -170,7 +170,7 @@ Table attributeTable(const gltf::InspectReport& report, Format format) {
   return table;
 }
 
-/// The columns of the paper's table 1: how often each code occurs.
+/// Counts how often each code occurs, in the columns of the paper's table 1.
 Table codeTable(const gltf::InspectReport& report, Format format) {
   uint32_t last_degree = 8;
   for (const auto& payload : report.payloads) {
@@ -178,7 +178,7 @@ Table codeTable(const gltf::InspectReport& report, Format format) {
       if (payload.codes.degree[d] != 0) last_degree = d;
     }
   }
-  last_degree = std::min(last_degree, 12u);  // the rest in one column
+  last_degree = std::min(last_degree, 12u);  // higher degrees share one column
   std::vector<std::string> header = {"bufferView", "vertices", "triangles", "S", "E", "M", "holes"};
   for (uint32_t d = 2; d <= last_degree; ++d) header.push_back(std::to_string(d));
   header.push_back(fmt::format(">{}", last_degree));
@@ -293,7 +293,7 @@ struct InspectCommand {
     gltf::Result outcome;
     {
       const WorkProgress progress(false, "reading " + input);
-      outcome = stream.open(input);  // a pipe may take its time
+      outcome = stream.open(input);  // may have to wait for a pipe
       if (outcome.ok()) outcome = inspect(stream.source(), report);
     }
     if (!outcome.ok()) return reportFailure(outcome, input, "");
@@ -327,19 +327,17 @@ struct InspectCommand {
 void addInspect(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("inspect", "List what the payloads of a file hold");
   auto state = std::make_shared<InspectCommand>();
-  command->add_option("-i,--input,IN", state->input, "The same as IN")
-      ->required()
-      ->type_name("FILE");
+  command->add_option("-i,--input,IN", state->input, "Same as IN")->required()->type_name("FILE");
   command->add_flag("--codes", state->show_codes,
                     "Count the codes: S, E, M and the degrees of vertices");
   addFormatOption(*command, state->common);
   addColorOption(*command);
   setHelp(
       *command, "inspect [OPTIONS] IN",
-      "IN is a .glb or .gltf file, or - for standard input. Of each payload are shown its\n"
-      "streams with their bytes, and its attributes: how each is coded, the step of its grid,\n"
-      "how far a value may be from the source, and what the writer chose to predict it, in the\n"
-      "words of the specification.",
+      "IN is a .glb or .gltf file, or - for standard input. For each payload, its streams are\n"
+      "listed with their bytes, and its attributes: how each is coded, the step of its grid, how\n"
+      "far a value may be from the source, and how the writer chose to predict it, in the words\n"
+      "of the specification.",
       "inspect small.glb\n"
       "inspect small.glb --codes --format md");
   command->callback([state, &status]() { status = state->run(); });

@@ -16,7 +16,7 @@ namespace {
 /// The thread that waits for signals.
 pthread_t waiting_thread;
 
-/// Those that end a program from outside. SIGKILL and SIGSTOP cannot be caught.
+/// Signals that end a program from outside. SIGKILL and SIGSTOP cannot be caught.
 constexpr int kEndings[] = {
     SIGHUP,    SIGINT, SIGQUIT, SIGTERM, SIGALRM, SIGUSR1, SIGUSR2, SIGVTALRM, SIGPROF, SIGXCPU,
 #ifdef SIGPOLL
@@ -30,7 +30,7 @@ constexpr int kEndings[] = {
 #endif
 };
 
-/// Those that a thread causes by what it does, which cannot go on then.
+/// Signals that a thread causes by its own action, after which it cannot continue.
 constexpr int kFaults[] = {SIGPIPE, SIGXFSZ, SIGSEGV, SIGBUS, SIGFPE,
                            SIGILL,  SIGABRT, SIGSYS,  SIGTRAP};
 
@@ -41,7 +41,8 @@ bool isFault(int number) {
   return false;
 }
 
-/// False also when a sanitizer or a profiler handles it, or the program was started to ignore it.
+/// Also false when a sanitizer or profiler handles the signal, or when the program was started with
+/// the signal ignored.
 bool hasDefaultAction(int number) {
   struct sigaction now = {};
   return sigaction(number, nullptr, &now) == 0 && (now.sa_flags & SA_SIGINFO) == 0 &&
@@ -54,11 +55,12 @@ void endBy(int signal_number) {
   sigemptyset(&set);
   sigaddset(&set, signal_number);
   ::kill(::getpid(), signal_number);
-  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);  // taken here: every other thread blocks it
+  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);  // delivered here, since all others block it
   ::_exit(128 + signal_number);
 }
 
-/// On the thread that caused the signal: leaves the rest to the other one, and goes no further. A handler may do no more.
+/// Runs on the thread that caused the signal. It passes the signal on to the waiting thread and
+/// stops here, because a signal handler may do no more.
 extern "C" void passOn(int number) {
   pthread_kill(waiting_thread, number);
   while (true) ::pause();
@@ -70,7 +72,7 @@ void waitAndEnd(const sigset_t& set, gltf::TemporaryFiles& files) {
   int number = 0;
   while (sigwait(&set, &number) != 0) {
   }
-  // The thread of a fault may hold the lock, for ever; all others give it back soon.
+  // After a fault the thread may hold the lock for ever; after other signals it is released soon.
   const gltf::TemporaryFiles::Lock held =
       isFault(number) ? files.removeAllWithin(kPatience) : files.removeAll();
   endBy(number);
@@ -79,14 +81,14 @@ void waitAndEnd(const sigset_t& set, gltf::TemporaryFiles& files) {
 }  // namespace
 
 gltf::TemporaryFiles& temporaryFiles() {
-  // Never destroyed: the thread below may still wait when main() has returned.
+  // Never destroyed, because the thread below may still be waiting after main() has returned.
   static auto* const files = new gltf::TemporaryFiles();
   return *files;
 }
 
 void removeTemporariesOnSignals() {
-  sigset_t endings;  // blocked in all threads
-  sigset_t all;      // and those that the waiting one is told of
+  sigset_t endings;  // signals that are blocked in all threads
+  sigset_t all;      // `endings` and the faults, which the waiting thread receives
   sigemptyset(&endings);
   for (const int number : kEndings) {
     if (hasDefaultAction(number)) sigaddset(&endings, number);
@@ -101,14 +103,14 @@ void removeTemporariesOnSignals() {
     if (hasDefaultAction(number)) sigaddset(&all, number);
   }
   gltf::TemporaryFiles& files = temporaryFiles();
-  // The waiting thread starts with everything blocked, this one and all to come with the endings: what is done about a
-  // signal would not be allowed in a handler.
+  // The waiting thread starts with all these signals blocked; this thread and all later ones block
+  // only the endings. A thread waits because a signal handler would not be allowed to remove files.
   pthread_sigmask(SIG_BLOCK, &all, nullptr);
   try {
     std::thread waiting([all, &files]() { waitAndEnd(all, files); });
     waiting_thread = waiting.native_handle();
     waiting.detach();
-  } catch (const std::system_error&) {  // without the thread they end the process as ever
+  } catch (const std::system_error&) {  // without the thread, signals end the process as usual
     pthread_sigmask(SIG_UNBLOCK, &all, nullptr);
     return;
   }

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// gltf-mcc: compresses glTF files with KHR_mesh_collapse_compression and takes them apart again.
+// gltf-mcc: compresses glTF files with KHR_mesh_collapse_compression, and decompresses them.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -23,11 +23,10 @@
 namespace mcc::tool {
 
 void addColorOption(CLI::App& command) {
-  // Its value is known already, see main().
+  // main() has read its value already, so the callback does nothing.
   command
       .add_option_function<std::string>(
-          "--color", [](const std::string&) {},
-          "Colours: on a terminal, or always, or never [auto]")
+          "--color", [](const std::string&) {}, "Colours: on a terminal, always, or never [auto]")
       ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
       ->type_name("auto|always|never");
 }
@@ -45,7 +44,7 @@ void addFormatOption(CLI::App& command, CommonOptions& options) {
 void addDecodedLimitOption(CLI::App& command, uint64_t& max_decoded_bytes) {
   command
       .add_option("--max-decoded-bytes", max_decoded_bytes,
-                  "Most bytes that a file may decode to [1024 for each of its own]")
+                  "Most bytes that a file may decode to [1024 per byte of the file]")
       ->check(CLI::Range(uint64_t{1}, std::numeric_limits<uint64_t>::max()).description(""))
       ->type_name("N");
 }
@@ -56,7 +55,7 @@ void addVerbosityOptions(CLI::App& command, CommonOptions& options) {
 }
 
 int reportFailure(const gltf::Result& result) {
-  const std::string line = gltf::printable(result.message());  // names come from the file
+  const std::string line = gltf::printable(result.message());  // may contain names from the file
   fmt::print(stderr, "{} {}\n", styleOfErrors().error("gltf-mcc:"), line);
   return kFailed;
 }
@@ -116,9 +115,9 @@ int run(int argc, char** argv) {
   addHelpCommands(app, status);
   setHelp(
       app, "COMMAND …",
-      "gltf-mcc COMMAND --help says more.\n"
+      "Run gltf-mcc COMMAND --help for details.\n"
       "Exit status: 0 done; 1 the input is bad or the check failed, nothing was written; 2 wrong\n"
-      "usage. NO_COLOR in the environment does without colours.",
+      "usage. Set NO_COLOR in the environment to turn colours off.",
       "convert model.glb small.glb\n"
       "convert -j 4 -o small models/*.glb\n"
       "decode small.glb model.glb\n"

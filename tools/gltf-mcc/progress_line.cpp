@@ -33,7 +33,7 @@ WorkProgress::WorkProgress(bool is_quiet, std::string task)
   if (!line_.isShown()) return;
   try {
     watcher_ = std::thread([this]() { watch(); });
-  } catch (const std::system_error&) {  // then there is no line
+  } catch (const std::system_error&) {  // without the thread, no progress is shown
   }
 }
 

@@ -9,7 +9,7 @@
 
 namespace mcc::tool {
 
-/// One line on standard error that says what is going on; nothing where that is no terminal.
+/// One line of progress on standard error. Does nothing where that is not a terminal.
 class ProgressLine {
  public:
   explicit ProgressLine(bool is_quiet);
@@ -23,18 +23,20 @@ class ProgressLine {
 
  private:
   const bool is_shown_;
-  mutable bool has_text_ = false;  ///< on the terminal
+  mutable bool has_text_ = false;  ///< whether the terminal shows text
 };
 
-/// A ProgressLine for one task, from its second second on: how long it takes and, when told, how far it is.
+/// Shows a ProgressLine for one task after its first second: the time it has taken and, when known,
+/// its share of the work.
 class WorkProgress {
  public:
   WorkProgress(bool is_quiet, std::string task);
-  ~WorkProgress();  ///< the line goes
+  ~WorkProgress();  ///< clears the line
   WorkProgress(const WorkProgress&) = delete;
   WorkProgress& operator=(const WorkProgress&) = delete;
 
-  /// From any thread. share: 0 to 1 of the whole; less than 0: not known.
+  /// Sets what is shown. May be called from any thread. `share` is 0 to 1, or less than 0 when it
+  /// is not known.
   void tell(const std::string& stage, double share);
 
  private:
@@ -42,12 +44,12 @@ class WorkProgress {
 
   const ProgressLine line_;
   const std::string task_;
-  std::mutex mutex_;  ///< over all below
+  std::mutex mutex_;  ///< guards all members below
   std::condition_variable ending_;
   std::string stage_;
   double share_ = -1;
   bool is_ending_ = false;
-  std::thread watcher_;  ///< only where the line is shown
+  std::thread watcher_;  ///< started only when the line is shown
 };
 
 }  // namespace mcc::tool

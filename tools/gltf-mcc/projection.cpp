@@ -34,7 +34,7 @@ constexpr float kNothing = -std::numeric_limits<float>::infinity();
 Page projectMesh(std::span<const float> positions, std::span<const uint32_t> indices,
                  const double* view, double width, double margin) {
   const Vector eye = unit({view[0], view[1], view[2]});
-  // Straight from above or below, north is up.
+  // When looking straight up or down, north is at the top of the page.
   const Vector up = std::abs(eye.y) < 0.9999 ? Vector{0, 1, 0} : Vector{0, 0, eye.y > 0 ? -1. : 1.};
   const Vector right = unit(cross(up, eye));
   const Vector down = cross(right, eye);
@@ -71,8 +71,8 @@ Page projectMesh(std::span<const float> positions, std::span<const uint32_t> ind
 }
 
 Lighting lightingOf(const PagePoint& a, const PagePoint& b, const PagePoint& c) {
-  const Vector light = unit({-0.45, -0.65, 1});  // from above on the left; y is down
-  // Right-handed with y down: the front of a triangle turns its normal away from the eye.
+  const Vector light = unit({-0.45, -0.65, 1});  // from the upper left; y points down
+  // Because y points down, the cross product of a triangle's front points away from the eye.
   Vector normal = unit(cross({b.x - a.x, b.y - a.y, b.z - a.z}, {c.x - a.x, c.y - a.y, c.z - a.z}));
   const bool is_front = normal.z <= 0;
   if (is_front) normal = {-normal.x, -normal.y, -normal.z};
@@ -110,7 +110,7 @@ void DepthBuffer::draw(const Page& page, const uint32_t* corners, uint32_t trian
       const double x = static_cast<double>(column) / kScale;
       const double y = static_cast<double>(row) / kScale;
       double share[3];
-      for (int k = 0; k < 3; ++k) {  // barycentric
+      for (int k = 0; k < 3; ++k) {  // barycentric coordinates
         const PagePoint& a = *p[(k + 1) % 3];
         const PagePoint& b = *p[(k + 2) % 3];
         share[k] = ((b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x)) / area;
@@ -130,7 +130,7 @@ float DepthBuffer::at(int64_t column, int64_t row) const {
   return depth_[static_cast<size_t>(row * columns_ + column)];
 }
 
-/// The farthest of the places around counts, as the surface may be steep there.
+/// Compares with the farthest of the places around, since the surface may be steep there.
 bool DepthBuffer::sees(double x, double y, double z) const {
   const auto column = static_cast<int64_t>(x * kScale);
   const auto row = static_cast<int64_t>(y * kScale);

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// A mesh as it is seen from afar: places on a page, and what is hidden behind what.
+// Projects a mesh as it is seen from far away: places on a page, and what hides what.
 #ifndef MCC_TOOL_PROJECTION_H_
 #define MCC_TOOL_PROJECTION_H_
 
@@ -10,7 +10,7 @@
 
 namespace mcc::tool {
 
-/// On the page: x to the right, y down, in pixels; z towards the eye.
+/// A point on the page: x to the right, y down, in pixels; z towards the eye.
 struct PagePoint {
   double x = 0;
   double y = 0;
@@ -24,25 +24,26 @@ struct Page {
   double height = 0;
 };
 
-/// Fits the points that triangles use into `width` pixels, or into as many of height, with a margin.
+/// Projects the points that triangles use so that they fit into `width` pixels, or into as many
+/// pixels of height, with a margin.
 Page projectMesh(std::span<const float> positions, std::span<const uint32_t> indices,
                  const double* view, double width, double margin);
 
-/// How much light a triangle gets, 0 to 1, and whether its front is seen.
+/// How much light a triangle gets, 0 to 1, and whether its front side is visible.
 struct Lighting {
   double shade = 0;
   bool is_front = true;
 };
 Lighting lightingOf(const PagePoint& a, const PagePoint& b, const PagePoint& c);
 
-/// Which triangle is seen at each place of a page, in half pixels.
+/// Which triangle is visible at each place of a page, in half pixels.
 class DepthBuffer {
  public:
   DepthBuffer(const Page& page, std::span<const uint32_t> indices);
 
-  /// Whether any of a triangle is seen.
+  /// Whether any part of a triangle is visible.
   bool sees(uint32_t triangle) const { return is_seen_[triangle]; }
-  /// Whether a point of the surface is seen: nothing is clearly in front of it.
+  /// Whether a point of the surface is visible: nothing is clearly in front of it.
   bool sees(double x, double y, double z) const;
 
  private:

@@ -21,7 +21,7 @@ gltf::Result StreamSource::open(const std::string& name) {
   name_ = name;
   std::error_code ignored;
   if (!isStandardStream(name)) {
-    // What is there only once: a pipe, or <(command) of a shell.
+    // Pipes, such as <(command) of a shell, can be read only once.
     const std::filesystem::file_type type = std::filesystem::status(name, ignored).type();
     const bool is_read_once =
         type == std::filesystem::file_type::fifo || type == std::filesystem::file_type::character;
@@ -29,7 +29,7 @@ gltf::Result StreamSource::open(const std::string& name) {
   }
   name_ = kInputName;
   if (isatty(STDIN_FILENO) == 1) {
-    return {kInputName, "is a terminal; send a file to it (gltf-mcc … < model.glb)"};
+    return {kInputName, "is a terminal; redirect a file to it (gltf-mcc … < model.glb)"};
   }
   return gltf::readStream(STDIN_FILENO, kInputName, bytes_.emplace());
 }
@@ -54,7 +54,8 @@ gltf::Result StreamSink::open(const std::string& name) {
   is_standard_output_ = tool::isStandardOutput(name);
   is_stream_ = is_standard_output_ || gltf::isStream(name);
   if (is_standard_output_ && isatty(STDOUT_FILENO) == 1) {
-    return {kOutputName, "is a terminal, and a GLB is no text; send it to a file (… > small.glb)"};
+    return {kOutputName,
+            "is a terminal, and a GLB is binary; redirect it to a file (… > small.glb)"};
   }
   gltf::Container container;
   const bool is_gltf =
@@ -62,7 +63,7 @@ gltf::Result StreamSink::open(const std::string& name) {
       container.is_gltf;
   if (is_stream_ && is_gltf) {
     return {name,
-            "is a device or a pipe, and a .gltf has its buffer in a file beside it; name a file"};
+            "is a device or a pipe, and a .gltf has its buffer in a file next to it; name a file"};
   }
   return {};
 }

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// "-" in the place of a file.
+// Handles "-" in place of a file.
 #ifndef MCC_TOOL_STANDARD_STREAMS_H_
 #define MCC_TOOL_STANDARD_STREAMS_H_
 
@@ -16,18 +16,18 @@ namespace mcc::tool {
 
 inline bool isStandardStream(const std::string& name) { return name == "-"; }
 
-/// Whether an output of this name is standard output: "-", /dev/stdout, or a link to that.
+/// Whether an output of this name is standard output: "-", /dev/stdout, or a link to it.
 bool isStandardOutput(const std::string& name);
 
-/// A file, or standard input when it is called "-".
+/// An input file, or standard input when its name is "-".
 class StreamSource {
  public:
-  /// Reads standard input, or a pipe, if it is that, as far as gltf::readStream() says. Errors: it is a terminal; those
-  /// of readStream().
+  /// Opens the source. Standard input and pipes are read into memory, as far as gltf::readStream()
+  /// says. Errors: standard input is a terminal; those of readStream().
   gltf::Result open(const std::string& name);
   /// Valid as long as this object.
   gltf::Source source() const;
-  /// What was read, or the contents of these files when it is no stream.
+  /// Returns what was read from a stream, or else the contents of `files`.
   FileContents contents(const std::vector<std::filesystem::path>& files) const;
 
  private:
@@ -35,15 +35,16 @@ class StreamSource {
   std::optional<std::vector<uint8_t>> bytes_;
 };
 
-/// A file, standard output when it is called "-", or a device or a pipe.
+/// An output: a file, standard output when its name is "-", or a device or pipe.
 class StreamSink {
  public:
-  /// Errors: standard output is a terminal; what is no file is to become a .gltf, which has its buffer beside it.
+  /// Opens the sink. Errors: standard output is a terminal; a .gltf would go to something that is
+  /// not a file, although it needs its buffer next to it.
   gltf::Result open(const std::string& name);
-  gltf::Sink sink();  ///< its temporary files are cleared away on interrupts
-  /// What was received, or the contents of these files when it is no stream.
+  gltf::Sink sink();  ///< its temporary files are removed when a signal ends the program
+  /// Returns what a stream received, or else the contents of `files`.
   FileContents contents(const std::vector<std::filesystem::path>& files) const;
-  /// Sends what was received on, if it is no file.
+  /// Writes what was received to the stream. Does nothing for a file.
   gltf::Result finish() const;
   bool isStandardOutput() const { return is_standard_output_; }
 
@@ -51,7 +52,7 @@ class StreamSink {
   std::string name_;
   std::vector<uint8_t> bytes_;
   bool is_standard_output_ = false;
-  bool is_stream_ = false;  ///< standard output or another
+  bool is_stream_ = false;  ///< standard output, a device or a pipe
 };
 
 }  // namespace mcc::tool

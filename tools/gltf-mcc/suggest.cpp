@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Letters to change, add, remove or exchange with their neighbour.
+/// Returns how many letters have to be changed, added, removed, or exchanged with their neighbour.
 size_t distanceOf(std::string_view a, std::string_view b) {
   std::vector<size_t> before_last(b.size() + 1);
   std::vector<size_t> last(b.size() + 1);
@@ -32,7 +32,7 @@ size_t distanceOf(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates) {
-  constexpr size_t kPrefix = 3;  // letters that make a beginning
+  constexpr size_t kPrefix = 3;  // letters from which on a prefix counts
   const size_t limit = word.size() < 5 ? 1 : std::max<size_t>(2, word.size() / 3);
   std::string best;
   size_t least = limit + 1;
@@ -54,7 +54,7 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& ca
 }
 
 std::string didYouMeanFile(const std::string& path) {
-  constexpr size_t kMostFiles = 10000;  // of a folder that are looked at
+  constexpr size_t kMostFiles = 10000;  // files of a folder that are considered
   const fs::path wanted(path);
   std::error_code code;
   for (const char* extension : {".glb", ".gltf"}) {

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// "Did you mean …?"
+// Suggests words: "Did you mean …?"
 #ifndef MCC_TOOL_SUGGEST_H_
 #define MCC_TOOL_SUGGEST_H_
 
@@ -10,15 +10,16 @@
 
 namespace mcc::tool {
 
-/// What a mistyped word may have been meant to be: the candidate that differs by the fewest letters (changed, missing,
-/// too many, or two of them exchanged), if those are few, or begins with the word; or empty.
+/// Returns what a mistyped word may have been meant to be, or an empty string. This is the
+/// candidate that differs from it by the fewest letters (changed, missing, added, or two of them
+/// exchanged) if those are few, or else one that begins with the word.
 std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates);
 
-/// "; did you mean WORD?", or empty when nothing is near.
+/// Returns "; did you mean WORD?", or an empty string when no candidate is similar.
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
 
-/// The same for a file that does not exist: among the files of its folder, above all one of the same name with an
-/// extension of glTF.
+/// Like didYouMean(), for a file that does not exist. Looks among the files of its folder, and
+/// prefers one of the same name with an extension of glTF.
 std::string didYouMeanFile(const std::string& path);
 
 }  // namespace mcc::tool

@@ -12,22 +12,22 @@ struct Color {
   double blue;
 };
 
-/// "#rrggbb".
+/// Returns a colour as "#rrggbb".
 std::string nameOf(const Color& color);
 
-/// `share` of the way from one to the other.
+/// Returns the colour at `share` of the way from `a` to `b`.
 Color between(const Color& a, const Color& b, double share);
 
-/// A number with one decimal, with none where that is 0.
+/// Formats a number with one decimal, or with none where that is 0.
 std::string number(double value);
 
-/// "X Y".
+/// Formats a point as "X Y".
 std::string place(double x, double y);
 
-/// Text for an element, without control characters.
+/// Escapes text for an element, and removes control characters.
 std::string escaped(const std::string& text);
 
-/// About what a text takes in a usual sans-serif of size 1.
+/// Estimates the width of a text in a common sans-serif font of size 1.
 double lengthOf(const std::string& text);
 
 }  // namespace mcc::tool

@@ -23,7 +23,7 @@ std::string csvCell(const std::string& text) {
   return quoted + "\"";
 }
 
-/// A '|' would end the cell.
+/// Escapes '|', which would end the cell.
 std::string markdownCell(const std::string& text) {
   std::string escaped;
   for (const char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);

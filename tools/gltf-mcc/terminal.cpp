@@ -11,7 +11,7 @@
 namespace mcc::tool {
 namespace {
 
-ColorMode color_mode = ColorMode::kAuto;  // of the process, see setColorMode()
+ColorMode color_mode = ColorMode::kAuto;  // for the whole process, see setColorMode()
 
 const char* environment(const char* name) {
   const char* value = std::getenv(name);
@@ -64,7 +64,7 @@ Style styleOfOutput() { return styleOf(STDOUT_FILENO); }
 Style styleOfErrors() { return styleOf(STDERR_FILENO); }
 
 bool hasUtf8() {
-  for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {  // the first that is set decides
+  for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {  // the first that is set applies
     std::string value = environment(name);
     if (value.empty()) continue;
     for (char& c : value) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;

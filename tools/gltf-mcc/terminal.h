@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What the terminal can show: colours, characters beyond ASCII, width.
+// What the terminal can show: colours, characters beyond ASCII, and its width.
 #ifndef MCC_TOOL_TERMINAL_H_
 #define MCC_TOOL_TERMINAL_H_
 
@@ -12,7 +12,7 @@ namespace mcc::tool {
 
 enum class ColorMode : uint8_t { kAuto, kAlways, kNever };
 
-/// Wraps text in escape sequences, or leaves it as it is.
+/// Wraps text in escape sequences when it is on, and leaves it unchanged otherwise.
 class Style {
  public:
   explicit Style(bool is_on) : is_on_(is_on) {}
@@ -29,11 +29,12 @@ class Style {
   bool is_on_;
 };
 
-/// Set once, before there are other threads. kAuto, the default: colours on a terminal, unless NO_COLOR is set or TERM
-/// is "dumb".
+/// Sets whether output is coloured. Must be called before other threads are started. kAuto, the
+/// default, uses colours on a terminal, unless NO_COLOR is set or TERM is "dumb".
 void setColorMode(ColorMode mode);
 
-/// The last --color on a command line, known before that is parsed: help and errors of usage have colours, too.
+/// Returns the last --color on a command line. It is read before parsing, so that help and usage
+/// errors have the right colours, too.
 ColorMode colorModeOf(int argc, const char* const* argv);
 
 Style styleOfOutput();
@@ -42,16 +43,18 @@ Style styleOfErrors();
 /// Whether the locale of the environment has UTF-8 characters.
 bool hasUtf8();
 
-/// The text itself where the locale has UTF-8, else with ASCII for the few other characters that the tool prints.
+/// Returns the text unchanged where the locale has UTF-8; otherwise replaces the few non-ASCII
+/// characters that the tool prints.
 std::string inLocale(std::string text);
 
-/// Columns that a UTF-8 text takes: one per code point, none for the escape sequences of a Style.
+/// Returns how many columns a UTF-8 text takes: one per code point, none for the escape sequences
+/// of a Style.
 size_t widthOf(std::string_view text);
 
-/// As much of a UTF-8 text without escape sequences as fits into so many columns.
+/// Returns as much of a UTF-8 text without escape sequences as fits into this many columns.
 std::string_view cutToWidth(std::string_view text, size_t column_count);
 
-/// Of the terminal on standard error; 80 where there is none.
+/// Returns the width of the terminal on standard error, or 80 where there is none.
 size_t columnsOfErrors();
 
 }  // namespace mcc::tool

@@ -6,9 +6,9 @@
 namespace mcc::tool {
 namespace {
 
-/// Children of every vertex, in the order of the edges to them.
+/// The edges to the children of every vertex, in the order of the tree's edges.
 struct Children {
-  std::vector<uint32_t> first;  ///< of a vertex, in `edges`; one more at the end
+  std::vector<uint32_t> first;  ///< where each vertex's edges start in `edges`; one entry more
   std::vector<uint32_t> edges;
 
   explicit Children(const gltf::McTree& tree) : first(tree.positions.size() / 3 + 1, 0) {
@@ -28,7 +28,7 @@ class Brancher {
   std::vector<Branch> run() {
     std::vector<bool> is_child(children_.first.size(), false);
     for (const gltf::McTree::Edge& edge : tree_.edges) is_child[edge.child] = true;
-    // Roots first; then what only cycles lead to.
+    // Start at the roots; what is left after that can be reached only through cycles.
     for (const bool from_roots : {true, false}) {
       for (uint32_t e = 0; e < tree_.edges.size(); ++e) {
         if (is_done_[e] || (from_roots && is_child[tree_.edges[e].parent])) continue;
@@ -47,7 +47,7 @@ class Brancher {
     return kNone;
   }
 
-  /// A branch along the last edges, from one of them on; notes where others fork off.
+  /// Follows the last edges from `edge` on, which makes a branch, and notes where others fork off.
   void follow(uint32_t edge, uint32_t depth) {
     Branch branch;
     branch.depth = depth;

@@ -58,10 +58,10 @@ int TreeCommand::run() {
   result = gltf::writeFile(output, std::vector<uint8_t>(svg.begin(), svg.end()), &temporaryFiles());
   if (!result.ok()) return reportFailure(result, input, output);
   if (common.is_quiet) return kDone;
-  return printOut(fmt::format("{} -> {}: mc-tree of {} edges on {} triangles, {}\n",
-                              gltf::printable(input), gltf::printable(output),
-                              grouped(tree.edges.size()), grouped(tree.indices.size() / 3),
-                              tree.is_of_payload ? "that of its payload" : "as convert makes it"));
+  return printOut(fmt::format(
+      "{} -> {}: mc-tree of {} edges on {} triangles, {}\n", gltf::printable(input),
+      gltf::printable(output), grouped(tree.edges.size()), grouped(tree.indices.size() / 3),
+      tree.is_of_payload ? "taken from its payload" : "as convert would make it"));
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ void addTree(CLI::App& app, int& status) {
           [state](const std::vector<double>& numbers) {
             std::copy_n(numbers.begin(), 3, state->drawing.view);
             if (numbers[0] != 0 || numbers[1] != 0 || numbers[2] != 0) return;
-            throw CLI::ValidationError("--view", "0,0,0 is no direction");
+            throw CLI::ValidationError("--view", "0,0,0 is not a direction");
           },
           "Where to look from; +Y is up [0.45,0.35,1]")
       ->expected(3)
@@ -98,9 +98,9 @@ void addTree(CLI::App& app, int& status) {
       *command, "tree [OPTIONS] IN OUT",
       "IN is a .glb or .gltf file, compressed or not, or - for standard input; OUT is an SVG, or\n"
       "- for standard output. The edges along which the surface was contracted are drawn on it\n"
-      "as far as they are seen: the trunk from the mc-vertex on, and the branches between S and\n"
-      "E. Edges across holes are left out. Of a compressed file it is the tree that the file\n"
-      "has, of all primitives that share a piece; of any other that which convert would make.",
+      "where they are visible: the trunk that starts at the mc-vertex, and the branches between S\n"
+      "and E. Edges across holes are left out. A compressed file is drawn with the tree of its\n"
+      "payload, for all primitives that share a piece; any other with the one convert would make.",
       "tree model.glb tree.svg\n"
       "tree small.glb tree.svg --mesh 2 --view 1,0,0\n"
       "tree model.glb - --size 400 > small.svg");

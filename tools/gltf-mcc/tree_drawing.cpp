@@ -21,14 +21,15 @@ constexpr Color kBack[] = {{206, 198, 188}, {240, 235, 228}};
 constexpr uint32_t kShades = 12;
 constexpr uint32_t kTrunkColors = 48;
 
-/// Vertices at the places where triangles are seen.
+/// Returns for every vertex whether it lies on a visible triangle, or at the same place as one that
+/// does.
 std::vector<bool> onSeenTriangles(const gltf::McTree& tree, const DepthBuffer& depth) {
   const size_t count = tree.positions.size() / 3;
   std::vector<bool> is_on(count, false);
   for (size_t i = 0; i < tree.indices.size(); ++i) {
     if (depth.sees(static_cast<uint32_t>(i / 3))) is_on[tree.indices[i]] = true;
   }
-  // Vertices at one place, which seams tell apart, are in a row.
+  // Sort the vertices by position, so that copies of one place, which seams create, are adjacent.
   std::vector<uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0u);
   const auto compare = [&](uint32_t a, uint32_t b) {
@@ -87,7 +88,7 @@ class Drawing {
   const double line_;  ///< width of the trunk
 };
 
-/// Lines are thinner where edges are short.
+/// Returns the width of lines, which are thinner where edges are short.
 double Drawing::lineWidth() const {
   double sum = 0;
   uint64_t count = 0;
@@ -102,7 +103,7 @@ double Drawing::lineWidth() const {
   return std::clamp(0.22 * mean, 0.0007 * width_, 0.0042 * width_);
 }
 
-/// From the back to the front; what is hidden is left out.
+/// Draws the triangles from back to front, without hidden ones.
 std::string Drawing::surface() const {
   struct Face {
     double z;
@@ -140,11 +141,11 @@ std::string Drawing::surface() const {
   return out + (open.empty() ? "" : "\"/>\n") + "</g>\n";
 }
 
-/// The seen parts of the edges first … last - 1 of a branch.
+/// Returns the visible parts of the edges first … last - 1 of a branch.
 std::string Drawing::pathOf(const Branch& branch, size_t first, size_t last) const {
-  constexpr double kSample = 1.5;  // pixels
+  constexpr double kSample = 1.5;  // distance of samples in pixels
   std::string path;
-  bool is_down = false;  // the pen
+  bool is_down = false;  // whether the pen is down
   for (size_t i = first; i < last; ++i) {
     const PagePoint& a = point(branch.vertices[i]);
     const PagePoint& b = point(branch.vertices[i + 1]);
@@ -209,7 +210,7 @@ std::vector<Drawing::Line> Drawing::lines() const {
   return lines;
 }
 
-/// All lines in white first, somewhat wider, so that they stand out from the surface.
+/// Draws all lines first in white and somewhat wider, so that they stand out from the surface.
 std::string Drawing::trees() const {
   const std::vector<Line> all = lines();
   std::string out = fmt::format(
@@ -230,7 +231,7 @@ bool Drawing::isSeen(uint32_t vertex) const {
   return is_on_seen_[vertex] && p.is_finite && depth_.sees(p.x, p.y, p.z);
 }
 
-/// Where branches start and end, if there is room, and the roots.
+/// Draws markers where branches start and end, if there is room, and at the roots.
 std::string Drawing::markers() const {
   std::string out;
   const auto circle = [&](uint32_t vertex, double radius, const std::string& style) {

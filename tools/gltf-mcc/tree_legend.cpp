@@ -6,8 +6,8 @@
 namespace mcc::tool {
 namespace {
 
-constexpr double kTrunkLength = 5;  // of its item's line, in sizes of the font
-constexpr double kLine = 1.7;       // from one to the next
+constexpr double kTrunkLength = 5;  // length of the trunk's line in the legend, in font sizes
+constexpr double kLine = 1.7;       // distance of two lines of text, in font sizes
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void Legend::addItems(std::span<const Branch> branches, bool has_markers) {
   }
   const std::string color = nameOf(kBranches[0]);
   add(circle(nameOf(kTrunkFirst), ""), 1.2 * size_,
-      root_count == 1 ? "mc-vertex" : "mc-vertex, or behind a hole");
+      root_count == 1 ? "mc-vertex" : "mc-vertex, or across a hole");
   add(line("url(#trunk)", kTrunkLength * size_), (kTrunkLength + 0.6) * size_,
       "trunk, first to last contraction");
   constexpr const char* kNames[] = {"branch", "in a branch", "deeper"};

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The colours of a drawn mc-tree, and what is said of them.
+// The colours of a drawn mc-tree, and its legend.
 #ifndef MCC_TOOL_TREE_LEGEND_H_
 #define MCC_TOOL_TREE_LEGEND_H_
 
@@ -21,27 +21,28 @@ inline constexpr Color kTrunkMiddle = {18, 102, 168};
 inline constexpr Color kTrunkLast = {20, 158, 150};
 inline constexpr Color kBranches[] = {{229, 106, 19}, {200, 30, 90}, {130, 40, 150}};  // by depth
 
-/// share: 0 at the first contraction, 1 at the last.
+/// Returns the colour of the trunk. `share` is 0 at the first contraction, and 1 at the last.
 inline Color trunkColor(double share) {
   return share < 0.5 ? between(kTrunkFirst, kTrunkMiddle, 2 * share)
                      : between(kTrunkMiddle, kTrunkLast, 2 * share - 1);
 }
 
-/// depth: 1 or more.
+/// Returns the colour of branches. `depth` must be at least 1.
 inline Color branchColor(uint32_t depth) {
   return kBranches[std::min<size_t>(depth, std::size(kBranches)) - 1];
 }
 
-/// A title and a legend in an SVG, whose items wrap.
+/// A title and a legend in an SVG. Items wrap to the next line where they do not fit.
 class Legend {
  public:
   Legend(double width, double top);
 
   void addTitle(const std::string& text);
-  /// has_markers: branches have a ring where they start and a dot where they end.
+  /// Adds the items. `has_markers` says that branches have a ring where they start and a dot where
+  /// they end.
   void addItems(std::span<const Branch> branches, bool has_markers);
 
-  /// The gradient that the trunk's item refers to.
+  /// Returns the gradient that the trunk's item refers to.
   std::string definition() const;
   std::string text() const;
   double bottom() const { return y_; }
@@ -52,7 +53,7 @@ class Legend {
   std::string circle(const std::string& fill, const std::string& more) const;
 
   const double width_;
-  const double size_;  ///< of the font
+  const double size_;  ///< font size
   const double left_;
   double x_;
   double y_;

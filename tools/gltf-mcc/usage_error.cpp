@@ -28,7 +28,7 @@ std::vector<std::string> optionNames(const CLI::App& command) {
   return names;
 }
 
-/// "there is no option --colour; did you mean --color?"
+/// Returns text like "there is no option --colour; did you mean --color?".
 std::string noOption(const CLI::App& command, const std::string& word) {
   const std::string name = word.substr(0, word.find('='));
   const bool is_long = name.starts_with("--");
@@ -44,7 +44,7 @@ std::string withoutCommand(const CLI::App& app, int argc, const char* const* arg
     if (word.starts_with('-')) {
       const std::string name = word.substr(0, word.find('='));
       if (std::find(own.begin(), own.end(), name) == own.end()) return noOption(app, word);
-      if (name == word && name == "--color") ++i;  // the only one with a value
+      if (name == word && name == "--color") ++i;  // the only global option with a value
       continue;
     }
     const std::string extension = std::filesystem::path(word).extension().string();
@@ -52,12 +52,13 @@ std::string withoutCommand(const CLI::App& app, int argc, const char* const* arg
       return fmt::format("name a command before {}: {}", word, listed(names));
     }
     const std::string nearest = didYouMean(word, names);
-    return fmt::format("\"{}\" is no command; there are {}{}", word, listed(names), nearest);
+    return fmt::format("\"{}\" is not a command; the commands are {}{}", word, listed(names),
+                       nearest);
   }
   return "name a command: " + listed(names);
 }
 
-/// What was left over. CLI11 has it in no certain order.
+/// Returns a message about the words that are left over. CLI11 keeps them in no particular order.
 std::string leftOver(const CLI::App& app, const CLI::App& command) {
   const std::vector<std::string> words = app.remaining(true);
   for (const char* dash : {"--", "-"}) {
@@ -68,7 +69,8 @@ std::string leftOver(const CLI::App& app, const CLI::App& command) {
   return fmt::format("{}: does not know what to do with {}", command.get_name(), listed(words));
 }
 
-/// CLI11 lists numbers behind the words; empty where the failure is another.
+/// Returns a message about a word that an option does not accept, or an empty string when that is
+/// not the failure. CLI11's own message also lists the numbers of the words.
 std::string unknownWord(const CLI::App& command, const CLI::Error& failure) {
   const std::string what = failure.what();
   for (const OptionHelp& option : optionsOf(command)) {
@@ -77,7 +79,7 @@ std::string unknownWord(const CLI::App& command, const CLI::Error& failure) {
     const CLI::Option* given = command.get_option_no_throw(name);
     if (given == nullptr || given->results().empty()) return "";
     const std::string& word = given->results().back();
-    return fmt::format("{}: {} is none of {}{}", name, word, listed(option.choices),
+    return fmt::format("{}: {} is not one of {}{}", name, word, listed(option.choices),
                        didYouMean(word, option.choices));
   }
   return "";

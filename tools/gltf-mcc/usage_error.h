@@ -7,8 +7,8 @@
 
 namespace mcc::tool {
 
-/// What to print when the command line was not understood: what is wrong, what may have been meant, and which help to
-/// read. `app` is the whole program, as it is after parsing.
+/// Returns what to print when the command line was not understood: what is wrong, what may have
+/// been meant, and which help to read. `app` is the whole program after parsing.
 std::string usageErrorText(const CLI::App& app, const CLI::Error& failure, int argc,
                            const char* const* argv);
 

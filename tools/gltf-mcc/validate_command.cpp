@@ -26,7 +26,7 @@ uint64_t countOf(const gltf::ValidationReport& report, gltf::Severity severity) 
   return report.issue_counts[static_cast<size_t>(severity)];
 }
 
-/// "1 error, 2 warnings", without what there is none of.
+/// Returns text like "1 error, 2 warnings", without severities that did not occur.
 std::string countsText(const gltf::ValidationReport& report) {
   std::string text;
   for (size_t i = 0; i < std::size(kSeverities); ++i) {
@@ -39,7 +39,7 @@ std::string countsText(const gltf::ValidationReport& report) {
   return text.empty() ? "valid" : text;
 }
 
-/// In the form of the reports of Khronos' glTF validator.
+/// Returns a report in the format of Khronos' glTF validator.
 Json reportJson(const FileReport& file) {
   const gltf::ValidationReport& report = file.report;
   Json messages = Json::array();
@@ -157,7 +157,7 @@ void addValidate(CLI::App& app, int& status) {
   command->add_option("FILES", state->files, "The files")->required()->type_name("FILE");
   command
       ->add_option("--max-issues", state->options.max_issues,
-                   "List so many issues of a file, 0: all [1000]")
+                   "List at most N issues of a file, 0: all [1000]")
       ->type_name("N");
   addDecodedLimitOption(*command, state->options.max_decoded_bytes);
   command->add_flag("-q,--quiet", state->common.is_quiet, "Print errors only");
@@ -165,13 +165,11 @@ void addValidate(CLI::App& app, int& status) {
   addColorOption(*command);
   setHelp(
       *command, "validate [OPTIONS] FILE…",
-      "FILE is a .glb or .gltf file, or - for standard input. Checked is all that\n"
-      "KHR_mesh_collapse_compression asks for: extension objects, the accessors they fill, lists "
-      "of\n"
-      "extensions, fallbacks, and payloads, which are decoded. For the rest of a file there is\n"
-      "Khronos' glTF validator, whose reports JSON has the form of: an object, of several FILEs "
-      "an\n"
-      "array of them.\n"
+      "FILE is a .glb or .gltf file, or - for standard input. Everything that\n"
+      "KHR_mesh_collapse_compression requires is checked: extension objects, the accessors they\n"
+      "fill, lists of extensions, fallbacks, and payloads, which are decoded. For the rest of a\n"
+      "file, use Khronos' glTF validator. --format json prints reports in its format: one object,\n"
+      "or an array of them for several FILEs.\n"
       "Exit status: 0 no errors (warnings do not count); 1 errors; 2 wrong usage.",
       "validate small.glb\n"
       "validate --format json small.glb\n"

@@ -16,7 +16,7 @@ using bench::AblationFigures;
 using bench::WithoutFigures;
 using Json = nlohmann::ordered_json;
 
-/// A geometric mean of quotients.
+/// Accumulates a geometric mean of quotients.
 struct Mean {
   double logarithms = 0;
   uint64_t count = 0;

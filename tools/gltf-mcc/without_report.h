@@ -12,11 +12,12 @@
 
 namespace mcc::tool {
 
-/// What `bench --without` prints: a row per ablation; as CSV and JSON a row per file and ablation.
+/// Returns what `bench --without` prints: a row per ablation, or as CSV and JSON a row per file and
+/// ablation.
 ///
-/// growth    geometric mean over all files of the bytes without / with, in percent more
-/// seen in   files whose bytes differ
-/// decode    geometric mean over those of the time without / with, in percent more
+/// growth    geometric mean over all files of the bytes without / with, as an increase in percent
+/// seen in   number of files whose bytes differ
+/// decode    geometric mean over those files of the time without / with, as an increase in percent
 std::string withoutReport(const std::vector<bench::Ablation>& ablations,
                           const std::vector<bench::WithoutFigures>& files, Format format);
 

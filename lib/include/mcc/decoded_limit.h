@@ -7,11 +7,11 @@
 namespace mcc {
 
 /// Returns how many bytes of decoded geometry a file may ask for: those of all its payloads, each
-/// counted once, with all attributes and indices of 32 bits. Larger files are refused before memory
-/// is taken.
+/// counted once, with all attributes and indices of 32 bits. A file that asks for more is
+/// refused before memory is taken.
 /// max_decoded_bytes  the caller's own limit. 0 means the default: 1024 for each byte of the file,
-/// but at least 256 MiB and at most 4 GiB. Real models take 20 to 45 bytes for each byte, smooth
-/// synthetic surfaces 320, a flat grid up to 10,000.
+///                    but at least 256 MiB and at most 4 GiB. Real models take 20 to 45 bytes for
+///                    each byte, smooth synthetic surfaces 320, a flat grid up to 10,000.
 /// file_bytes         the size of the file with all its buffers.
 constexpr uint64_t decodedLimit(uint64_t max_decoded_bytes, uint64_t file_bytes) {
   constexpr uint64_t kAlways = uint64_t{1} << 28;

@@ -204,7 +204,7 @@ class Payload {
   /// kLimit, kOutOfMemory; the Payload is then empty. Safe for untrusted input. Time and memory are
   /// O(bytes).
   /// allocator  provides the memory of the parsed header, a few bytes per piece, part and
-  /// attribute.
+  ///            attribute.
   /// Tests: tests/unit/, tests/robustness/.
   MCC_API Status open(std::span<const uint8_t> bytes, const Limits& limits = {},
                       const Allocator& allocator = {});
