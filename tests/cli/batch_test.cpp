@@ -339,7 +339,7 @@ TEST_F(Streams, StandInForFiles) {
   EXPECT_EQ(bad.status, 1);
   EXPECT_EQ(bad.out, "");
   EXPECT_EQ(bad.err,
-            "gltf-mcc: standard input: byte 0: this is no glTF file: neither a GLB nor JSON\n");
+            "gltf-mcc: standard input: byte 0: this is not a glTF file: neither a GLB nor JSON\n");
   const ToolResult inspect = runCommand(folder_, "( " + tool + "inspect - < small.glb )");
   EXPECT_EQ(inspect.status, 0) << inspect.err;
   EXPECT_EQ("small.glb" + inspect.out.substr(std::min<size_t>(1, inspect.out.size())),

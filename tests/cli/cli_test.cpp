@@ -292,7 +292,7 @@ TEST_F(Cli, BadInput) {
     expectFailure(command + "none.glb out.glb", "none.glb: there is no such file");
     expectFailure(command + "folder out.glb", "folder: is a folder");
     expectFailure(command + "empty.glb out.glb", "empty.glb: the file is empty");
-    expectFailure(command + "text.glb out.glb", "text.glb: byte 0: this is no glTF file");
+    expectFailure(command + "text.glb out.glb", "text.glb: byte 0: this is not a glTF file");
     expectFailure(command + "short.glb out.glb", "short.glb: byte 8: ");
     expectFailure(command + "stub.glb out.glb", "stub.glb: byte 9: ");
     expectFailure(command + "damaged.glb out.glb", "damaged.glb: JSON byte ");
@@ -335,7 +335,7 @@ TEST_F(Cli, BadDestination) {
   expectFailure("convert in.glb locked/out.glb",
                 "locked/out.glb: the folder \"locked\" is read-only");
   expectFailure("convert in.glb kept.glb", "kept.glb: the file exists and is read-only");
-  expectFailure("convert in.glb in.glb/out.glb", "is no folder");
+  expectFailure("convert in.glb in.glb/out.glb", "is not a folder");
   expectFailure("convert in.glb out.glb --report none/r.json", "none/r.json: the report cannot be");
   EXPECT_EQ(contentOf(folder_ / "kept.glb"), "precious");
 }

@@ -33,7 +33,7 @@ TEST_F(CliLimits, EndlessInput) {
     const ToolResult result = runTool(folder_, arguments);
     EXPECT_EQ(result.status, 1) << arguments;
     const std::string text = result.out + result.err;
-    EXPECT_NE(text.find("this is no glTF file"), std::string::npos) << arguments << text;
+    EXPECT_NE(text.find("this is not a glTF file"), std::string::npos) << arguments << text;
   }
   EXPECT_FALSE(fs::exists(folder_.path() / "out.glb"));
 }

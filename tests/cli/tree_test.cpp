@@ -110,7 +110,7 @@ TEST_F(Tree, SaysWhatCannotBeDrawn) {
   expectSays(torus + " none/x.svg", 1, "none");
   expectSays(torus, 2, "OUT");
   std::ofstream(folder_.path() / "empty.gltf") << R"({"asset": {"version": "2.0"}})";
-  expectSays("empty.gltf x.svg", 1, "empty.gltf: there are no meshes in it");
+  expectSays("empty.gltf x.svg", 1, "empty.gltf: the file has no meshes");
 }
 
 TEST_F(Tree, OfTheReadmeIsUpToDate) {

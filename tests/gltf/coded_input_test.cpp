@@ -232,7 +232,7 @@ TEST(CodedMeshes, StayWithANoteWhereTheyMust) {
             std::string::npos);
   EXPECT_NE(noteOf([](Builder& b) { b.json["meshes"][0]["primitives"][0]["mode"] = 5; }, false,
                    withDecoders())
-                .find("no triangle list"),
+                .find("not a triangle list"),
             std::string::npos);
   EXPECT_NE(noteOf([](Builder& b) { b.json["accessors"][3]["count"] = 3'000'000'000u; }, false,
                    withDecoders())
@@ -255,11 +255,11 @@ TEST(CodedMeshes, DamageIsAnErrorWithAPath) {
     return j["meshes"][0]["primitives"][0]["extensions"][kMeshName];
   };
   EXPECT_EQ(errorOf([&](Json& j) { extension(j)["bufferView"] = 99; }),
-            path + "/bufferView: there is no proper bufferView 99");
+            path + "/bufferView: bufferView 99 does not exist or is itself compressed");
   EXPECT_EQ(errorOf([&](Json& j) { extension(j)["attributes"]["COLOR_0"] = 1; }),
             "/meshes/0/primitives/0/attributes/COLOR_0: must be the number of an accessor");
   EXPECT_EQ(errorOf([&](Json& j) { extension(j).erase("attributes"); }),
-            path + ": \"attributes\" is missing or no object");
+            path + ": \"attributes\" is missing or not an object");
   // Too few positions for the indices.
   EXPECT_EQ(errorOf([](Json& j) {
               for (size_t i = 0; i < 3; ++i) j["accessors"][i]["count"] = 9;

@@ -91,7 +91,7 @@ TEST_F(DecodeErrors, AttributeIds) {
   EXPECT_NE(errorAfter([](Json&, Json& e) {  // the same type, another meaning
               e["attributes"]["NORMAL"] = e["attributes"]["POSITION"];
             })
-                .find("of the payload is no"),
+                .find("of the payload is not "),
             std::string::npos);
   EXPECT_NE(errorAfter([](Json&, Json& e) {  // a morph target is no base attribute
               e["targets"][0]["POSITION"] = 0;
@@ -158,7 +158,7 @@ TEST_F(DecodeErrors, OrdinaryAttributesHaveAsManyElements) {
   };
   for (const bool in_target : {false, true}) {
     EXPECT_EQ(with(169, in_target), "");
-    EXPECT_NE(with(168, in_target).find("/_EXTRA: the accessor has not the 169 elements"),
+    EXPECT_NE(with(168, in_target).find("/_EXTRA: the accessor does not have the payload's 169 elements"),
               std::string::npos);
   }
 }

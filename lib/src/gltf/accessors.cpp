@@ -20,7 +20,7 @@ const uint8_t* viewBytes(const Document& document, uint32_t view, uint64_t offse
   return document.buffers[from.buffer].data() + from.offset + offset;
 }
 
-/// Of an accessor that has no bytes in the file.
+/// Returns the most bytes that an accessor may claim which has no bytes in the file.
 uint64_t maxZeroBytes(const Document& document) {
   constexpr uint64_t kMost = uint64_t{1} << 28;
   return std::min(kMost, document.decoded.zeroLimit());
@@ -105,7 +105,7 @@ Result readAccessor(const Document& document, uint32_t index, AccessorData& elem
   } else if (accessor.count * elements.element_bytes > maxZeroBytes(document)) {
     return error(path, "has no bufferView but claims " + std::to_string(accessor.count) +
                            " elements; at most " + std::to_string(maxZeroBytes(document)) +
-                           " bytes of such are read");
+                           " bytes of such elements are read");
   }
   elements.owned.resize(accessor.count * elements.element_bytes);
   for (uint64_t i = 0; source != nullptr && i < accessor.count; ++i) {

@@ -75,8 +75,8 @@ std::string boundsDifference(const Json& declared, const std::vector<double>& de
     if (!asNumber(declared[i], value)) return "must be an array of numbers";
     if (type == ComponentType::kFloat32) value = static_cast<float>(value);
     if (value != decoded[i]) {
-      return "component " + std::to_string(i) + " is " + printJson(declared[i]) +
-             ", of the decoded elements it is " + printJson(Json(decoded[i]));
+      return "component " + std::to_string(i) + " is " + printJson(declared[i]) + ", but " +
+             printJson(Json(decoded[i])) + " for the decoded elements";
     }
   }
   return "";

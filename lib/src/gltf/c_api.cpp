@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The part of the C API that works on documents.
+// Implements the part of the C API that works on documents.
 #include "mcc/c_api.h"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ mcc_convert_options defaultConvertOptions() {
 
 mcc_decode_glb_options defaultDecodeOptions() { return {sizeof(mcc_decode_glb_options), 0, 1, 0}; }
 
-/// Bits of floats, or of unit vectors.
+/// Reads a number of bits, for floats or for unit vectors.
 Status readBits(uint32_t bits, bool is_unit_vector, uint8_t& out) {
   const bool fits = is_unit_vector ? bits == 0 || (bits >= 2 && bits <= 16) : bits <= 24;
   if (!fits) return fail(Error::kBadArgument, "a number of bits is out of range");
@@ -81,7 +81,7 @@ Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
   return {};
 }
 
-/// Runs a conversion of `glb` into a new document, which has a message in any case.
+/// Runs a conversion of `glb` into a new document. The document gets a message in any case.
 mcc_status makeDocument(const void* glb, size_t byte_count, mcc_document** document,
                         const std::function<Result(Source, Sink)>& convert) try {
   if (document == nullptr) return badArgument("document is null");

@@ -42,7 +42,7 @@ class Checker {
     coded_ = std::move(decompressed.coded_attributes);
     std::vector<ExtensionUse> uses;
     MCC_GLTF_TRY(findExtensionUses(compressed, uses));
-    if (decompressed.payload_count == 0) {  // the source in the other container
+    if (decompressed.payload_count == 0) {  // the source was stored in the other container
       decoded_ = std::move(compressed);
     } else {
       MCC_GLTF_TRY(failed(
@@ -56,7 +56,7 @@ class Checker {
   }
 
  private:
-  /// The written file compresses the primitives of the plan and no others.
+  /// Checks that the written file compresses the primitives of the plan and no others.
   Result checkUses(const std::vector<ExtensionUse>& uses) const {
     std::set<PrimitiveRef> found;
     for (const ExtensionUse& use : uses) {
@@ -64,12 +64,13 @@ class Checker {
       if (extensionOf(primitiveOf(source_, ref), kExtensionName) == nullptr) found.insert(ref);
     }
     if (found != planned_) {
-      return error("", "the compressed primitives are not those that were meant");
+      return error("", "the compressed primitives are not those that were planned");
     }
     return {};
   }
 
-  /// `min` and `max`, where the decoded document has them and JSON can say them, are those of its elements.
+  /// Checks that `min` and `max` are those of the elements, where the decoded document has them and
+  /// JSON can represent them.
   Result checkBounds(uint32_t index, const AccessorData& elements) const {
     const Json& json = decoded_.json["accessors"][index];
     const Json* min = findMember(json, "min");
@@ -85,7 +86,7 @@ class Checker {
     return {};
   }
 
-  /// Compressed accessors that have bytes of their own have those of the payload.
+  /// Checks that compressed accessors which have bytes of their own hold the same as the payload.
   Result checkFallback(const Document& compressed, const std::vector<ExtensionUse>& uses) const {
     std::set<uint32_t> accessors;
     for (const ExtensionUse& use : uses) {
@@ -101,7 +102,7 @@ class Checker {
       for (uint64_t i = 0; i < decoded.count; ++i) {
         const auto element = fallback.element(i);
         if (!std::equal(element.begin(), element.end(), decoded.element(i).begin())) {
-          return error(at("/accessors", index), "the fallback is not what the payload holds");
+          return error(at("/accessors", index), "the fallback differs from the payload");
         }
       }
     }
@@ -119,7 +120,7 @@ class Checker {
       std::vector<uint32_t> source_of = payload.result.pieces[i].source_wedge;
       MCC_GLTF_TRY(failed(checkBijection(source_of, piece.wedge_count), where));
       if (payload.plan.keep_vertex_order) MCC_GLTF_TRY(failed(checkIdentity(source_of), where));
-      // That the triangles are the same then shows that nothing was dropped which they use.
+      // If the triangles are then the same, no vertex that they use was dropped.
       for (uint32_t& wedge : source_of) {
         if (!piece.kept.empty()) wedge = piece.kept[wedge];
       }
@@ -150,7 +151,7 @@ class Checker {
     std::vector<bool> is_seen(wedge_count, false);
     for (const uint32_t wedge : source_of) {
       if (wedge >= wedge_count || is_seen[wedge]) {
-        return error("", "the vertex permutation is no permutation");
+        return error("", "the vertex permutation is not a permutation");
       }
       is_seen[wedge] = true;
     }
@@ -168,7 +169,7 @@ class Checker {
     return primitiveAt(document.json, ref);
   }
 
-  /// The accessor of an attribute of a decoded primitive.
+  /// Finds the accessor of an attribute of a decoded primitive.
   Result decodedAccessor(const PrimitiveRef& ref, const AttributePlan& attribute,
                          uint32_t& accessor) const {
     const Json& primitive = primitiveOf(decoded_, ref);
@@ -183,7 +184,8 @@ class Checker {
     return {};
   }
 
-  /// Pieces whose codings differ have rows of their own: the bound of one does not hold for the other.
+  /// Returns the row of an attribute. Pieces whose codings differ have separate rows, because the
+  /// bound of one does not hold for the other.
   size_t rowOf(const AttributePlan& attribute, AttributeCoding coding, uint8_t bits) {
     std::vector<AttributeReport>& reports = result_.attributes.back();
     const auto [found, is_new] =
@@ -236,7 +238,7 @@ class Checker {
                          report, angles_[row]);
   }
 
-  /// An attribute beside the payload: every bit, at its vertex.
+  /// Checks an attribute that stays next to the payload: every bit must be at its vertex.
   Result checkOrdinary(const PiecePlan& piece, const AttributePlan& attribute,
                        std::span<const uint32_t> source_of) const {
     uint32_t index = 0;
@@ -269,7 +271,7 @@ class Checker {
     return checkBounds(static_cast<uint32_t>(index), elements);
   }
 
-  /// The source's triangles, read again and not taken from the plan.
+  /// Reads the source's triangles again, instead of taking them from the plan.
   Result sourceTriangles(const PrimitiveRef& ref, uint32_t wedge_count,
                          std::vector<uint32_t>& indices) const {
     const Json& primitive = primitiveOf(source_, ref);
@@ -318,7 +320,8 @@ class Checker {
     return {};
   }
 
-  /// All users of a part refer to the accessors of the first, in the result as in the source.
+  /// Checks that all users of a part refer to the accessors of the first, in the result as in the
+  /// source.
   Result checkSharing(const PiecePlan& piece, const PartPlan& part,
                       const PrimitiveRef& user) const {
     for (const Document* document : {&source_, static_cast<const Document*>(&decoded_)}) {
@@ -342,7 +345,7 @@ class Checker {
     return equalNumbers(*in_a, *in_b);
   }
 
-  /// Numbers of accessors, however each is spelt, under the same names.
+  /// Compares numbers of accessors under the same names, however each is spelt.
   static bool equalNumbers(const Json& a, const Json& b) {
     if (a.is_structured()) {
       if (a.type() != b.type() || a.size() != b.size()) return false;
@@ -364,9 +367,10 @@ class Checker {
   CheckResult& result_;
   Document decoded_;
   CodedAttributes coded_;
-  std::vector<std::vector<float>> angles_;  ///< per row of the payload's reports
-  std::map<std::tuple<std::string, AttributeCoding, uint8_t>, size_t> row_of_;  ///< of this payload
-  std::set<uint32_t> reordered_;  ///< accessors beside payloads, compared in another order
+  std::vector<std::vector<float>> angles_;  ///< per row of the current payload's reports
+  /// Rows of the current payload.
+  std::map<std::tuple<std::string, AttributeCoding, uint8_t>, size_t> row_of_;
+  std::set<uint32_t> reordered_;  ///< accessors next to payloads, compared in another order
   std::set<PrimitiveRef> planned_;
 };
 

@@ -13,7 +13,8 @@ namespace {
 
 using Member = std::pair<const std::string, Json>;
 
-/// The members of an object in the order of their keys, those with the same key in the order of the object.
+/// Returns the members of an object sorted by key; those with the same key stay in the order of the
+/// object.
 std::vector<const Member*> sortedMembers(const Json& object) {
   std::vector<const Member*> members;
   for (const Member& member : object.get_ref<const Json::object_t&>()) members.push_back(&member);
@@ -22,7 +23,7 @@ std::vector<const Member*> sortedMembers(const Json& object) {
   return members;
 }
 
-/// Whether two values differ, and where. `path` is extended up to the difference.
+/// Whether two values differ. `path` is extended to the place of the difference.
 bool differs(const Json& a, const Json& b, std::string& path) {
   if (!a.is_structured() || a.type() != b.type()) return !(a == b);
   if (a.size() != b.size()) return true;
@@ -60,8 +61,9 @@ void eraseGeometry(Json& primitive) {
   if (extensions->empty()) primitive.erase("extensions");
 }
 
-/// The document without what conversion may change: numbers and places of buffer views, and the
-/// compressed geometry itself. Accessors behind `accessor_count` are ours.
+/// Returns the document without what a conversion may change: numbers and places of buffer views,
+/// and the compressed geometry itself. Accessors from `accessor_count` on are ours and are left
+/// out.
 Json withoutGeometry(const Document& document, const std::vector<ExtensionUse>& uses,
                      const std::set<uint32_t>& touched, size_t accessor_count) {
   Json json = document.json;
@@ -106,7 +108,7 @@ bool sameBytes(std::span<const uint8_t> a, std::span<const uint8_t> b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
-/// A view another codec holds is as it was.
+/// Checks that a view which another codec compressed is as it was.
 Result compareCoding(const Document& source, uint32_t source_view, const Document& decoded,
                      uint32_t decoded_view) {
   const std::string path = at("/bufferViews", source_view);
@@ -129,7 +131,7 @@ Result compareAccessor(const Document& source, const Document& decoded, uint32_t
   if (source.accessors[index].view == kNone && source.accessors[index].sparse.count == 0) return {};
   AccessorData a;
   AccessorData b;
-  if (!readAccessor(source, index, a).ok()) return {};  // as unreadable as it was
+  if (!readAccessor(source, index, a).ok()) return {};  // unreadable in the source, too
   MCC_GLTF_TRY(readAccessor(decoded, index, b));
   if (a.count != b.count || a.element_bytes != b.element_bytes) {
     return error(path, "has another size");
@@ -149,7 +151,7 @@ Result compareImages(const Document& source, const Document& decoded) {
     if (number == nullptr) continue;
     uint64_t old_view = 0;
     uint64_t new_view = 0;
-    // A reference to nothing is as wrong as it was.
+    // A number of a view that does not exist was already wrong in the source.
     if (!asUnsigned(*number, old_view) || old_view >= source.views.size()) continue;
     const Json* new_number = findMember(arrayOf(decoded.json, "images")[i], "bufferView");
     const bool is_valid = new_number != nullptr && asUnsigned(*new_number, new_view) &&
@@ -161,8 +163,8 @@ Result compareImages(const Document& source, const Document& decoded) {
   return {};
 }
 
-/// Where numbers stay, every view that compressed accessors alone did not use is as it was; payloads that the source
-/// had already are decoded.
+/// Where views keep their numbers, checks that every view is unchanged, except those that only
+/// compressed accessors used and payloads of the source, which are decoded.
 Result compareViews(const Document& source, const Document& decoded,
                     const std::set<uint32_t>& touched) {
   const ForeignReferences foreign = findForeignReferences(source.json);

@@ -11,15 +11,15 @@
 
 namespace mcc::gltf {
 
-/// Whether two values are equal; members may come in another order.
+/// Whether two values are equal. Members of objects may come in any order.
 bool equalJson(const Json& a, const Json& b);
 
-/// JSON path of the first difference, or an empty string. The root itself is "/".
+/// Returns the JSON path of the first difference, or an empty string. The root itself is "/".
 std::string firstDifference(const Json& a, const Json& b);
 
-/// Compares what no compressed primitive of `uses` has to do with: the JSON, the bytes of the other
-/// accessors and of the images, and, where nothing was renumbered, all views. The bytes of `reordered` accessors are
-/// compared elsewhere.
+/// Compares everything that does not belong to the compressed primitives in `uses`: the JSON, the
+/// bytes of the other accessors and of the images, and, where no views were renumbered, all views.
+/// The bytes of `reordered` accessors are compared elsewhere.
 Result compareRest(const Document& source, const Document& decoded,
                    const std::vector<ExtensionUse>& uses, const std::set<uint32_t>& reordered);
 

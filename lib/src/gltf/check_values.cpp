@@ -49,8 +49,8 @@ void readComponents(std::span<const uint8_t> element, ComponentType type, double
 }
 
 struct Deviation {
-  double off = 0;      ///< of the worst component, or the angle
-  double allowed = 0;  ///< of the component that is allowed most
+  double off = 0;      ///< deviation of the worst component, or the angle
+  double allowed = 0;  ///< the largest deviation that is allowed for any component
   bool is_within = true;
 };
 
@@ -70,7 +70,7 @@ Deviation latticeDeviation(const double* source, const double* decoded, uint32_t
   for (uint32_t c = 0; c < component_count; ++c) {
     const double off = std::abs(source[c] - decoded[c]);
     const double allowed = latticeBound(promise, c % 4, decoded[c]);
-    if (!(off <= allowed)) deviation.is_within = false;  // NaN, too
+    if (!(off <= allowed)) deviation.is_within = false;  // true for NaN, too
     deviation.off = std::max(deviation.off, off);
     deviation.allowed = std::max(deviation.allowed, allowed);
   }
@@ -103,15 +103,15 @@ Result compareExact(const AccessorData& source, const AccessorData& decoded,
 
 }  // namespace
 
-/// 2^bits - 1 points per axis: half a cell in both axes moves a point of the octahedron by sqrt(6) halves,
-/// where its faces are 1/sqrt(3) from the centre.
+/// There are 2^bits - 1 points per axis. Half a cell along both axes moves a point of the
+/// octahedron by sqrt(6) half cells, and its faces are 1/sqrt(3) from the centre.
 double octahedralBound(uint32_t bits) {
   const double half_cell = 1.0 / static_cast<double>((uint64_t{1} << bits) - 2);
   return std::sqrt(18.0) * half_cell * (1 + half_cell) + 1e-6;
 }
 
-/// Half a step of the angle; the plane it lies in is off by the normal's bound, and the source's
-/// tangents need not be quite perpendicular to their normals.
+/// Half a step of the angle, plus the normal's bound, by which the plane of the angle is off, plus
+/// a margin for source tangents that are not quite perpendicular to their normals.
 double tangentBound(uint32_t bits, uint32_t normal_bits) {
   constexpr double kPerpendicular = 0.0025;
   return std::numbers::pi / static_cast<double>(uint64_t{1} << bits) + kPerpendicular +
@@ -119,8 +119,8 @@ double tangentBound(uint32_t bits, uint32_t normal_bits) {
 }
 
 double latticeBound(const Promise& promise, uint32_t component, double decoded) {
-  // |fl(q * step) - q * step| and |fl(sum) - sum| are at most 2^-24 of the result; the writer's
-  // quotient is in binary64, so that it may miss the middle between two points by very little.
+  // |fl(q * step) - q * step| and |fl(sum) - sum| are at most 2^-24 of the result. The writer
+  // computes its quotient in binary64, so it may miss the middle between two points by very little.
   const double scaled = std::abs(decoded - promise.origin[component]);
   const double rounding = std::ldexp(1.01 * (scaled + std::abs(decoded)), -24);
   return promise.half_steps * promise.step / 2 * (1 + 1e-7) + rounding + 1e-44;

@@ -16,38 +16,39 @@ namespace mcc::gltf {
 struct Promise {
   enum class Kind : uint8_t { kExact, kLattice, kAngle };
   Kind kind = Kind::kExact;
-  double step = 0;        ///< of kLattice: the lattice step
-  double half_steps = 1;  ///< of kLattice: 1 for rounding, 2 for weights moved to a sum of one
+  double step = 0;        ///< for kLattice: the lattice step
+  double half_steps = 1;  ///< for kLattice: 1 for rounding, 2 for weights moved to a sum of one
   double origin[4] = {0, 0, 0, 0};
-  double radians = 0;   ///< of kAngle
-  double distance = 0;  ///< of positions: between two points; 0: none promised
+  double radians = 0;   ///< for kAngle
+  double distance = 0;  ///< for positions: between two points; 0: none promised
 };
 
-/// Largest angle, in radians, between a unit vector and the nearest point of an octahedral grid, and between a tangent
-/// and its coded angle around a normal of such a grid.
+/// Returns the largest angle, in radians, between a unit vector and the nearest point of an
+/// octahedral grid, and between a tangent and its coded angle around a normal on such a grid.
 double octahedralBound(uint32_t bits);
 double tangentBound(uint32_t bits, uint32_t normal_bits);
 
-/// What the plan asked for, given what the payload says it did. Fails when that is coarser.
-/// normal_bits   of the NORMAL of the piece: angles of tangents are angles around it.
+/// Finds the promise that follows from the plan and from how the payload codes the attribute. Fails
+/// when the coding is coarser than planned.
+/// normal_bits  the bits of the piece's NORMAL, since the angles of tangents are angles around it.
 Result promiseOf(const AttributePlan& plan, const AttributeInfo& coded, uint8_t normal_bits,
                  Promise& promise);
 
-/// Largest deviation of a decoded value that the promise allows, by lattice rounding and the two
-/// float32 roundings of decoding.
+/// Returns the largest deviation of a decoded value that the promise allows, from lattice rounding
+/// and the two float32 roundings of decoding.
 double latticeBound(const Promise& promise, uint32_t component, double decoded);
 
-/// Compares decoded elements with source elements: decoded i belongs to source_of[i].
-/// Fills in promised_error, max_error and is_angle of `report`, adds angles to `angles`.
+/// Compares decoded elements with source elements: decoded element i belongs to source_of[i]. Sets
+/// promised_error, max_error and is_angle of `report`, and adds angles to `angles`.
 Result compareValues(const AccessorData& source, const AccessorData& decoded,
                      std::span<const uint32_t> source_of, const AttributeFormat& format,
                      const Promise& promise, AttributeReport& report, std::vector<float>& angles);
 
 using Triangle = std::array<uint32_t, 3>;
 
-/// Triangles rotated to begin with their smallest vertex (of equal ones, to the smallest sequence)
-/// and sorted; equal lists are equal multisets of oriented triangles. Vertex v becomes source_of[v]
-/// when that is not empty.
+/// Rotates triangles to begin with their smallest vertex (or to the smallest sequence, if vertices
+/// are equal) and sorts them, so that equal lists are equal multisets of oriented triangles. Vertex
+/// v is replaced by source_of[v], unless that is empty.
 std::vector<Triangle> canonicalTriangles(std::span<const uint32_t> indices,
                                          std::span<const uint32_t> source_of);
 

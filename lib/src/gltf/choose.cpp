@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Never larger: which payloads pay for themselves.
+// Makes sure that files never become larger: decides which payloads save more than they cost.
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -17,10 +17,10 @@ namespace mcc::gltf {
 namespace {
 
 constexpr uint64_t kViewJsonBytes = 48;      // {"buffer":0,"byteOffset":…,"byteLength":…}
-constexpr uint64_t kSmallPieceBytes = 2048;  // larger ones gain for certain
-constexpr uint64_t kSharedBytes = 24;        // of a payload: what its pieces have in common
+constexpr uint64_t kSmallPieceBytes = 2048;  // larger pieces always save bytes
+constexpr uint64_t kSharedBytes = 24;        // bytes of a payload that its pieces share
 
-/// Bytes of JSON that a piece adds to the file.
+/// Returns the bytes of JSON that a piece adds to the file.
 uint64_t jsonCostOf(const PiecePlan& piece, size_t number) {
   uint64_t cost = 0;
   for (size_t part = 0; part < piece.parts.size(); ++part) {
@@ -30,7 +30,7 @@ uint64_t jsonCostOf(const PiecePlan& piece, size_t number) {
   return cost;
 }
 
-/// Bytes a payload adds to the file.
+/// Returns the bytes that a payload adds to the file.
 uint64_t costOf(const EncodedPayload& payload) {
   uint64_t cost = ((payload.result.payload.size() + 3) & ~uint64_t{3}) + kViewJsonBytes;
   for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
@@ -39,8 +39,8 @@ uint64_t costOf(const EncodedPayload& payload) {
   return cost;
 }
 
-/// Counts source bytes by who needs them. A byte is freed when only owners need it: each of those
-/// frees it as long as the others stay.
+/// Counts source bytes by who needs them. A byte is freed when only owners need it. Each of these
+/// owners frees it only as long as the others stay.
 class ByteOwners {
  public:
   static constexpr size_t kSomebodyElse = ~size_t{0};
@@ -55,7 +55,7 @@ class ByteOwners {
     }
   }
 
-  /// After all were added.
+  /// Counts the bytes, after all ranges were added.
   void count() {
     std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
       return std::tie(a.buffer, a.offset, a.is_begin) < std::tie(b.buffer, b.offset, b.is_begin);
@@ -67,15 +67,17 @@ class ByteOwners {
       count_of += edge.is_begin ? 1 : ~0u;
       if (count_of == 0) open.erase(edge.owner);
       if (open.empty() || open.count(kSomebodyElse) != 0) continue;
-      addSegment(edges_[i + 1].offset - edge.offset, open);  // an open range has an end
+      addSegment(edges_[i + 1].offset - edge.offset,
+                 open);  // a range is open, so i is not last
     }
   }
 
   const std::vector<uint64_t>& freed() const { return freed_; }
-  /// Bytes that all owners that have not left free together.
+  /// Returns the bytes that the owners which have not left free together.
   uint64_t total() const { return total_; }
 
-  /// The owner needs its bytes again. Adds those that free less for it to `losers`.
+  /// Records that an owner needs its bytes again. Adds the owners that free less because of this to
+  /// `losers`.
   void leave(size_t owner, std::vector<size_t>& losers) {
     for (const size_t number : segments_of_[owner]) {
       Segment& segment = segments_[number];
@@ -97,7 +99,7 @@ class ByteOwners {
     size_t owner;
   };
 
-  /// A run of bytes with the same owners; 0 bytes when one of them has left.
+  /// A run of bytes with the same owners. `bytes` is 0 when one of them has left.
   struct Segment {
     uint64_t bytes;
     std::vector<size_t> owners;
@@ -135,7 +137,7 @@ struct OwnedPiece {
   size_t owner;
 };
 
-/// Who owns the bytes that pieces free.
+/// Finds the owners of the bytes that pieces free.
 ByteOwners ownersOf(const Document& document, const ForeignReferences& foreign,
                     const std::vector<bool>& in_other_use, const std::vector<OwnedPiece>& pieces,
                     size_t owner_count) {
@@ -172,13 +174,14 @@ std::string_view textOf(std::span<const uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Which of some pieces of a plan have a position that another piece of it has, too: left as they were they would part
-/// from that one.
+/// Finds the pieces among those asked for that have a position in common with another piece of the
+/// plan, and marks both. Such a piece cannot stay uncompressed alone, because the surfaces would
+/// come apart.
 std::vector<bool> touchingPieces(const PayloadPlan& plan, const std::vector<bool>& is_asked) {
   std::vector<bool> touches(plan.pieces.size(), false);
   if (std::find(is_asked.begin(), is_asked.end(), true) == is_asked.end()) return touches;
-  std::unordered_map<std::string_view, size_t> owner_of;  // a piece that was asked for, by position
-  // Those that share a position are marked when the second of them comes.
+  std::unordered_map<std::string_view, size_t> owner_of;  // position -> a piece that was asked for
+  // Pieces that share a position are marked when the second of them is visited.
   for (const bool are_asked : {true, false}) {
     for (size_t k = 0; k < plan.pieces.size(); ++k) {
       if (is_asked[k] != are_asked) continue;
@@ -196,7 +199,7 @@ std::vector<bool> touchingPieces(const PayloadPlan& plan, const std::vector<bool
   return touches;
 }
 
-/// cost   "payload 20 bytes"
+/// Leaves the primitives of a piece as they were. `cost` describes the loss: "payload 20 bytes".
 void leaveAlone(const PiecePlan& piece, const std::string& cost, uint64_t freed_bytes,
                 std::vector<LeftAlone>& left_alone) {
   const std::string note = "would not become smaller (" + cost + ", buffers " +
@@ -206,19 +209,19 @@ void leaveAlone(const PiecePlan& piece, const std::string& cost, uint64_t freed_
   }
 }
 
-/// Finds the payloads that are not smaller than the bytes they free. Those of one mesh, which was divided, stay or go
-/// together: their positions may meet.
+/// Finds the payloads that cost at least as many bytes as they free. The payloads of one mesh that
+/// was divided stay or go together, because their positions may meet.
 class LoserSearch {
  public:
   LoserSearch(const Document& document, const ForeignReferences& foreign,
               const std::vector<EncodedPayload>& payloads)
       : payloads_(payloads), owners_(group(document, foreign)) {}
 
-  /// Whether each payload loses.
+  /// Returns for each payload whether it loses.
   std::vector<bool> run(std::vector<LeftAlone>& left_alone) {
     std::vector<size_t> asked(groups_.size());
     std::iota(asked.begin(), asked.end(), size_t{0});
-    // What losers need again may make others lose.
+    // Bytes that losers need again may turn others into losers.
     while (!asked.empty()) {
       std::vector<size_t> losers;
       for (const size_t number : asked) {
@@ -233,7 +236,7 @@ class LoserSearch {
     }
     uint64_t total_cost = 0;
     for (const Group& group : groups_) total_cost += group.is_lost ? 0 : group.cost;
-    // Payloads that share accessors may each gain by the same bytes and still lose together.
+    // Payloads that share accessors may each gain by the same bytes, and still lose together.
     const bool all_lose = total_cost >= owners_.total();
     for (size_t number = 0; all_lose && number < groups_.size(); ++number) {
       if (groups_[number].is_lost) continue;
@@ -280,7 +283,7 @@ class LoserSearch {
 
   const std::vector<EncodedPayload>& payloads_;
   std::vector<Group> groups_;
-  std::vector<size_t> group_of_;  ///< by payload
+  std::vector<size_t> group_of_;  ///< group of each payload
   ByteOwners owners_;
 };
 

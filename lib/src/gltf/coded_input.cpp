@@ -11,9 +11,9 @@
 namespace mcc::gltf {
 namespace {
 
-/// Codecs of views make at most 64 bytes of one; what claims far more is damaged.
+/// Codecs of views expand one byte to at most 64; a view that claims far more is damaged.
 constexpr uint64_t kMaxViewExpansion = 256;
-/// As in payloads of ours.
+/// The same bound as for our payloads.
 constexpr uint64_t kMaxMeshExpansion = 4096;
 
 Result inPlace(Result result, const std::string& where) {
@@ -53,12 +53,12 @@ Result decodeView(const ForeignDecoders& decoders, uint32_t number, Document& do
   return {};
 }
 
-/// One coded primitive while it is decoded.
+/// One coded primitive while it is being decoded.
 struct CodedPrimitive {
-  std::string path;  ///< of the extension object
+  std::string path;  ///< JSON path of the extension object
   uint32_t view = 0;
-  uint32_t indices = 0;              ///< accessors
-  std::vector<uint32_t> attributes;  ///< accessors
+  uint32_t indices = 0;              ///< accessor number
+  std::vector<uint32_t> attributes;  ///< accessor numbers
   CodedMesh coded;
 };
 
@@ -100,14 +100,14 @@ class MeshReader {
     uint64_t view = 0;
     MCC_GLTF_TRY(readUnsigned(extension, "bufferView", coded.path, kNone, view));
     if (view >= document_.views.size() || document_.views[view].isCoded()) {
-      return error(coded.path + "/bufferView",
-                   "there is no proper bufferView " + std::to_string(view));
+      return error(coded.path + "/bufferView", "bufferView " + std::to_string(view) +
+                                                   " does not exist or is itself compressed");
     }
     coded.view = static_cast<uint32_t>(view);
     MCC_GLTF_TRY(accessorOf(&primitive, "indices", path, coded.indices));
     const Json* ids = findMember(extension, "attributes");
     if (ids == nullptr || !ids->is_object()) {
-      return error(coded.path, "\"attributes\" is missing or no object");
+      return error(coded.path, "\"attributes\" is missing or not an object");
     }
     for (const auto& [name, value] : ids->items()) {
       CodedMesh::Attribute attribute;
@@ -130,12 +130,12 @@ class MeshReader {
     return claimed.view != kNone || claimed.sparse.count != 0;
   }
 
-  /// Why a primitive is not decoded; empty when it is to be. Completes the claims.
+  /// Returns why a primitive is not decoded; empty when it can be. Completes the claims.
   std::string obstacle(const Json& primitive, CodedPrimitive& coded) const {
     uint64_t mode = 4;
     const Json* number = findMember(primitive, "mode");
     if (number != nullptr && (!asUnsigned(*number, mode) || mode != 4)) {
-      return "is compressed but no triangle list";
+      return "is compressed but not a triangle list";
     }
     std::vector<uint32_t> all = coded.attributes;
     all.push_back(coded.indices);
@@ -222,7 +222,7 @@ class MeshReader {
 
   const ForeignDecoders& decoders_;
   Document& document_;
-  std::map<uint32_t, Origin> origins_;  ///< by accessor
+  std::map<uint32_t, Origin> origins_;  ///< origin of each accessor
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Geometry that other codecs compressed: decoded next to the document, whose JSON stays as it is.
+// Decodes geometry that other codecs compressed. It is kept next to the document, whose JSON stays
+// as it is.
 #ifndef MCC_GLTF_CODED_INPUT_H_
 #define MCC_GLTF_CODED_INPUT_H_
 
@@ -9,15 +10,17 @@
 
 namespace mcc::gltf {
 
-/// Decodes the coded buffer views that triangle primitives use, so that accessors on them can be read, and those that the
-/// triangle primitives of `source` use, when it is not null: a document with the same accessors. Without a decoder
-/// they stay unreadable. Errors: a view is damaged, or coded in a way the decoder does not know;
-/// document.decoded is above its limit.
+/// Decodes the coded buffer views that triangle primitives use, so that accessors on them can be
+/// read. If `source` is not null, it must be a document with the same accessors; the views that its
+/// triangle primitives use are decoded as well. Without a decoder the views stay unreadable.
+/// Errors: a view is damaged, or coded in a way the decoder does not know; document.decoded is
+/// above its limit.
 Result decodeViews(const ForeignDecoders& decoders, Document& document,
                    const Document* source = nullptr);
 
-/// Decodes coded primitives, so that their accessors can be read. Those whose accessors have bytes of their own besides, or
-/// contradict each other or what was decoded, stay as they are; Document::notes says why.
+/// Decodes coded primitives, so that their accessors can be read. A primitive stays as it is when
+/// its accessors also have bytes of their own, or contradict each other or the decoded mesh;
+/// Document::notes says why.
 Result decodeMeshes(const ForeignDecoders& decoders, Document& document);
 
 }  // namespace mcc::gltf

@@ -9,7 +9,7 @@
 namespace mcc::gltf {
 namespace {
 
-/// A word for a number, and words for bits that are set.
+/// Collects words: one for a number, and one for each bit that is set.
 class Words {
  public:
   explicit Words(uint8_t bits) : bits_(bits) {}

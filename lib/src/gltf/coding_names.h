@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// How attributes are coded, in words.
+// Names for the ways attributes are coded.
 #ifndef MCC_GLTF_CODING_NAMES_H_
 #define MCC_GLTF_CODING_NAMES_H_
 
@@ -11,8 +11,8 @@
 
 namespace mcc::gltf {
 
-/// What the predictor byte of attribute `index` of a piece says: "fitted, sheared", in the specification's words. Empty for
-/// an alias.
+/// Describes the predictor byte of attribute `index` of a piece in the specification's words:
+/// "fitted, sheared". Empty for an alias.
 std::string predictorName(const AttributeInfo* attributes, uint32_t count, uint32_t index);
 
 }  // namespace mcc::gltf

@@ -30,7 +30,7 @@ bool indexTypeFits(ComponentType type, uint32_t vertex_count) {
   }
 }
 
-/// Writes the payloads into the JSON.
+/// Writes the payloads into the JSON of the document.
 class Applier {
  public:
   Applier(const Document& document, const ForeignReferences& foreign, Compressed& compressed)
@@ -53,7 +53,7 @@ class Applier {
                           compressed_.json, views);
       }
     }
-    // A fallback takes the requirement back.
+    // addFallback() removes the requirement again.
     const bool uses_mesh_extension = usesMeshExtension();
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
       addExtensionName(compressed_.json, list, kExtensionName);
@@ -110,7 +110,7 @@ class Applier {
     }
   }
 
-  /// The accessor to compress: the source's own, or a clone of one that somebody else needs.
+  /// Returns the accessor to compress: the source's own, or a clone if something else needs it.
   uint32_t take(uint32_t source, const std::string& where) {
     Json& accessors = compressed_.json["accessors"];
     uint32_t index = source;
@@ -148,7 +148,7 @@ class Applier {
 
   const Document& document_;
   Compressed& compressed_;
-  std::vector<bool> is_taken_;  ///< source accessors that must not be changed (again)
+  std::vector<bool> is_taken_;  ///< source accessors that must not be changed (any more)
 };
 
 void sortByPlace(std::vector<LeftAlone>& left_alone) {
@@ -210,7 +210,7 @@ Json extensionJson(uint64_t buffer_view, size_t piece_number, const PiecePlan& p
   for (size_t id = 0; id < piece.attributes.size(); ++id) {
     const AttributePlan& attribute = piece.attributes[id];
     Json& map = attribute.target == kNone ? attributes : targets[attribute.target];
-    map.get_ref<Json::object_t&>().emplace_back(attribute.name, id);  // no name comes twice
+    map.get_ref<Json::object_t&>().emplace_back(attribute.name, id);  // names are unique
   }
   json["attributes"] = std::move(attributes);
   if (!targets.empty()) json["targets"] = std::move(targets);

@@ -13,11 +13,11 @@
 
 namespace mcc::gltf {
 
-/// A payload plan after encoding.
+/// A payload plan and the payload it became.
 struct EncodedPayload {
   PayloadPlan plan;
   EncodeResult result;
-  /// Bounds of the decoded data, per piece.
+  /// Bounds of the decoded data, for each piece.
   struct PieceBounds {
     std::vector<Bounds> attributes;
     std::vector<Bounds> parts;  ///< of the indices
@@ -31,50 +31,55 @@ struct EncodedPayload {
 struct Compressed {
   Json json;
   std::vector<uint8_t> bin;
-  std::vector<EncodedPayload> payloads;  ///< those that are in the document
+  std::vector<EncodedPayload> payloads;  ///< the payloads that are in the document
   std::vector<LeftAlone> left_alone;
   std::vector<std::string> notes;
 };
 
-/// Compresses what gains by it. With no payloads in the result `json` and `bin` are not filled in.
-/// Errors: the document contradicts itself. What the codec refuses is left alone.
+/// Compresses every primitive for which that saves bytes. If there is no payload in the result,
+/// `json` and `bin` are not set. Primitives that the codec refuses are left alone. Errors: the
+/// document contradicts itself.
 Result compressDocument(const Document& document, const ConvertOptions& options,
                         Compressed& compressed);
 
-/// Encodes the planned payloads and decodes each at once. Pieces the codec refuses go to
-/// `left_alone`.
+/// Encodes the planned payloads, and decodes each of them right away. Pieces that the codec refuses
+/// go to `left_alone`.
 Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> plans,
                       std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone);
 
-/// Fills in EncodedPayload::freed_bytes.
+/// Sets EncodedPayload::freed_bytes.
 void countFreedBytes(const Document& document, const ForeignReferences& foreign,
                      std::vector<EncodedPayload>& payloads);
 
-/// Bytes of a payload that holds one piece of a plan; 0 when the codec refuses it.
+/// Returns the bytes of a payload that holds only one piece of a plan, or 0 when the codec refuses
+/// it.
 uint64_t bytesAlone(const ConvertOptions& options, const PayloadPlan& plan, const PiecePlan& piece);
 
-/// Drops small pieces that are not smaller than the buffer bytes they free: with others in a payload they would hide behind
-/// those. One with a position in common with others of its mesh stays: no crack may open. Error: no memory.
+/// Drops small pieces that cost at least as many bytes as they free. Inside a payload with larger
+/// pieces, such a loss would not be noticed. A piece that has a position in common with another
+/// piece of its mesh stays, so that no crack can open. Error: no memory.
 Result dropTinyPieces(const Document& document, const ForeignReferences& foreign,
                       const ConvertOptions& options, std::vector<PayloadPlan>& plans,
                       std::vector<LeftAlone>& left_alone);
 
-/// Drops the payloads that are not smaller than the buffer bytes they free, those of one mesh together, and counts what the
-/// others free. Takes time in proportion to the document and what its payloads hold, up to a logarithm.
+/// Drops the payloads that cost at least as many bytes as they free, treating those of one mesh
+/// together, and counts what the others free. Takes time proportional to the document and the
+/// contents of its payloads, up to a logarithm.
 void dropLosers(const Document& document, const ForeignReferences& foreign,
                 std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone);
 
-/// Accessors used by anything but the primitives of `payloads`.
+/// Marks accessors that something other than the primitives of `payloads` uses.
 std::vector<bool> accessorsOutsidePayloads(const Document& document,
                                            const ForeignReferences& foreign,
                                            const std::vector<const PayloadPlan*>& payloads);
-/// The same and those that stay beside the payloads: what payloads must not take and do not free.
+/// The same, and also marks attributes that stay accessors next to the payloads: payloads must not
+/// take these accessors, and do not free their bytes.
 std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignReferences& foreign,
                                       const std::vector<const PayloadPlan*>& payloads);
 std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignReferences& foreign,
                                       const std::vector<EncodedPayload>& payloads);
 
-/// The extension object of a primitive that uses a part of a piece.
+/// Returns the extension object of a primitive that uses a part of a piece.
 Json extensionJson(uint64_t buffer_view, size_t piece_number, const PiecePlan& piece,
                    size_t part_number);
 

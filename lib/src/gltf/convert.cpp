@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The public functions: load, compress or decompress, write, check.
+// Implements the public functions: load, compress or decompress, write, check.
 #include <chrono>
 #include <memory>
 
@@ -34,13 +34,13 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// A source with what is needed to read it.
+/// A source and what is needed to read it.
 struct Input {
-  fs::path path;  ///< only a name in memory
+  fs::path path;  ///< for a source in memory only a name
   std::vector<uint8_t> owned;
   std::span<const uint8_t> bytes;
-  FileReader read_file;                 ///< null in memory
-  std::unique_ptr<FolderLock> reading;  ///< until all files are read
+  FileReader read_file;                 ///< null for a source in memory
+  std::unique_ptr<FolderLock> reading;  ///< held until all files are read
 
   Result open(const Source& source) {
     path = source.path;
@@ -48,7 +48,7 @@ struct Input {
       bytes = *source.bytes;
       return {};
     }
-    // A pair that is being replaced is read whole before or whole after that.
+    // A .gltf and its buffer that are being replaced are read either before or after that.
     reading = lockToRead(path);
     MCC_GLTF_TRY(readFile(path, owned));
     bytes = owned;
@@ -58,10 +58,10 @@ struct Input {
   bool isFile() const { return read_file != nullptr; }
 };
 
-/// Where the result goes: a file with others beside it, or memory.
+/// Where the result goes: to a file with others next to it, or to memory.
 struct Output {
   std::vector<uint8_t>* bytes = nullptr;
-  std::unique_ptr<Destination> destination;  ///< null in memory
+  std::unique_ptr<Destination> destination;  ///< null for an output in memory
   Container container;
 
   Result open(const Sink& sink, bool with_fallback) {
@@ -85,7 +85,7 @@ struct Output {
   Result commit() { return destination ? destination->commit() : Result{}; }
 };
 
-/// Loads the source for an output. Image files move into the buffers of a GLB.
+/// Loads the source for an output. For a GLB, image files move into its buffers.
 Result loadFor(const Output& output, Input& input, Document& document, FilesInUse& files) {
   MCC_GLTF_TRY(loadDocument(input.bytes, input.read_file, document));
   if (input.isFile()) {
@@ -108,7 +108,8 @@ Result loadFor(const Output& output, Input& input, Document& document, FilesInUs
   return {};
 }
 
-/// The files that the JSON still names have to be where the output looks for them.
+/// Adds the files that the JSON still names, which must be where a loader of the output looks for
+/// them.
 Result addFilesBeside(const Json& json, bool with_buffers, const Input& input, const Output& output,
                       Package& package, std::vector<std::string>& notes) {
   if (input.isFile() && output.destination) {
@@ -117,12 +118,12 @@ Result addFilesBeside(const Json& json, bool with_buffers, const Input& input, c
     return addCopies(json, with_buffers, readers, package, notes);
   }
   for (const std::string& path : filesBeside(json)) {
-    notes.push_back("\"" + path + "\" stays a file of its own; put it beside the output");
+    notes.push_back("\"" + path + "\" stays a separate file; put it next to the output");
   }
   return {};
 }
 
-/// Stores an edited document; its other files come along.
+/// Stores an edited document and adds its other files.
 Result packageDocument(const Document& document, Json json, std::vector<uint8_t> bin,
                        const Input& input, const Output& output, Package& package,
                        std::vector<std::string>& notes) {
@@ -134,7 +135,8 @@ Result packageDocument(const Document& document, Json json, std::vector<uint8_t>
                       package);
 }
 
-/// Nothing was compressed or decompressed: the source itself, or as it is in the other container.
+/// Used when nothing was compressed or decompressed: stores the source itself, or its contents in
+/// the other container.
 Result packageSource(const Document& document, const Input& input, const Output& output,
                      Package& package, std::vector<std::string>& notes, bool& is_copy) {
   package = {};
@@ -154,13 +156,13 @@ Result packageSource(const Document& document, const Input& input, const Output&
   return packageDocument(document, std::move(json), std::move(bin), input, output, package, notes);
 }
 
-/// What is compressed already must decode: it is part of what the check compares.
+/// Checks that existing payloads decode, because the check compares what they hold.
 Result checkOldPayloads(const Document& document) {
   Decompressed ignored;
   return decompressDocument(document, ignored);
 }
 
-/// One conversion of a loaded document; the check comes later, on the bytes that were stored.
+/// One conversion of a loaded document. The check comes later, on the bytes that were stored.
 struct Conversion {
   Document document;
   Compressed compressed;
@@ -200,7 +202,7 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
   MCC_GLTF_TRY(loadFor(output, input, document, report.files));
   document.decoded = DecodedBytes(options.max_decoded_bytes, document.source_bytes);
   MCC_GLTF_TRY(decodeViews(options.decoders, document));
-  // Attributes beside a payload of triangles would have to be stored anew.
+  // With indices_only, decoded attributes would have to be stored again next to the payload.
   if (!options.indices_only) MCC_GLTF_TRY(decodeMeshes(options.decoders, document));
   report.input_bytes = document.source_bytes;
   report.notes = document.notes;
@@ -248,8 +250,8 @@ Result checkOutput(const Conversion& conversion, const ConvertOptions& options,
     report.decode_seconds = checked.decode_seconds;
     if (checked.decoded_bytes > decodedLimit(0, report.output_bytes)) {
       report.notes.push_back(
-          "its geometry takes " + std::to_string(checked.decoded_bytes) +
-          " bytes decoded, more than decoders accept of so small a file by default; they need "
+          "its geometry decodes to " + std::to_string(checked.decoded_bytes) +
+          " bytes, more than decoders accept by default for a file this small; they need a larger "
           "max_decoded_bytes (--max-decoded-bytes)");
     }
     report.check_seconds = watch.seconds() - checked.decode_seconds;
@@ -290,12 +292,12 @@ Result decodeInput(Input& input, const Output& output, const FileDecodeOptions& 
   return {};
 }
 
-/// Names in it come from the file, and it goes to terminals.
+/// Makes notes printable, since names in them come from the file and they go to terminals.
 void cleanNotes(std::vector<std::string>& notes) {
   for (std::string& note : notes) note = printable(note);
 }
 
-/// In memory there is no name to put in front.
+/// Adds the name of the input to a result. A source in memory may have no name.
 Result inInput(const Input& input, Result result) {
   return input.path.empty() ? result : inFile(input.path, std::move(result));
 }

@@ -33,7 +33,7 @@ void addCounts(const EncodedPayload& payload, PayloadReport& report) {
   }
 }
 
-/// Adds the coded bits to the measured attributes. `rows` as in CheckResult.
+/// Adds the coded bits to the measured attributes. `rows` are those of CheckResult.
 void addAttributeBits(const EncodedPayload& payload, const std::vector<size_t>& rows,
                       std::vector<AttributeReport>& attributes) {
   const StreamSizes& sizes = payload.result.sizes;

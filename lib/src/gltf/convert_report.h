@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What is said about a conversion.
+// Builds the report of a conversion.
 #ifndef MCC_GLTF_CONVERT_REPORT_H_
 #define MCC_GLTF_CONVERT_REPORT_H_
 
@@ -11,10 +11,10 @@
 
 namespace mcc::gltf {
 
-/// Lists all primitives of the document and adds notes on those that were left alone.
+/// Lists all primitives of the document, and adds notes on those that were left alone.
 void addPrimitives(const Document& document, const Compressed& compressed, ConvertReport& report);
 
-/// Adds the payloads with what the check measured.
+/// Adds the payloads with the results of the check.
 void addPayloads(const std::vector<EncodedPayload>& payloads, CheckResult checked,
                  ConvertReport& report);
 

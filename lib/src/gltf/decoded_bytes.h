@@ -8,21 +8,23 @@
 
 namespace mcc::gltf {
 
-/// What decoding a document takes, added up before memory is taken for it.
+/// Adds up the bytes that decoding a document takes, before memory is taken for them.
 class DecodedBytes {
  public:
-  /// No limit.
+  /// Counts without a limit.
   DecodedBytes() = default;
-  /// max_decoded_bytes, file_bytes  as decodedLimit() takes them.
+  /// Sets the limit from max_decoded_bytes and file_bytes, see decodedLimit().
   DecodedBytes(uint64_t max_decoded_bytes, uint64_t file_bytes);
 
-  /// Counts without a check; saturates.
+  /// Adds to the sum without a check. The sum saturates.
   void add(uint64_t bytes);
-  /// Errors: more than the limit. They say how much, and what raises the limit.
+  /// Fails when the sum is above the limit. The message states both and says how to raise the
+  /// limit.
   Result check() const;
 
   uint64_t total() const { return total_; }
-  /// What accessors without bytes in the file may take of the limit. They cost a file nothing at all.
+  /// Returns how much of the limit accessors may take that have no bytes in the file. They need a
+  /// bound of their own, because a file can claim them at no cost.
   uint64_t zeroLimit() const { return limit_ / 32; }
 
  private:

@@ -25,14 +25,14 @@ class Decompressor {
         thread_count_(std::max(thread_count, 1u)),
         out_(out) {}
 
-  /// Fills in decoded() and the counts.
+  /// Sets decoded() and the counts.
   Result decode() {
     MCC_GLTF_TRY(findExtensionUses(document_, uses_));
     const std::vector<PayloadUse> uses = payloadUses(document_, uses_);
     std::vector<DecodedPayload> payloads(uses.size());
     for (size_t i = 0; i < uses.size(); ++i) MCC_GLTF_TRY(open(uses[i], payloads[i]));
     MCC_GLTF_TRY(checkDecodedBytes(uses, payloads));
-    // As many at a time as there are threads, so that no more are in memory.
+    // Decodes as many payloads at a time as there are threads, to limit the memory in use.
     for (size_t begin = 0; begin < uses.size(); begin += thread_count_) {
       const size_t count = std::min<size_t>(thread_count_, uses.size() - begin);
       MCC_GLTF_TRY(runParallel(count, thread_count_, [&](size_t i) {
@@ -50,7 +50,7 @@ class Decompressor {
 
   DecodedAccessors& decoded() { return decoded_; }
 
-  /// After decode(): the document without the extension.
+  /// Removes the extension from the document, after decode().
   Result rebuild() {
     if (uses_.empty()) return {};
     out_.json = document_.json;
@@ -72,8 +72,8 @@ class Decompressor {
   }
 
  private:
-  /// Where the elements of an accessor come from, and how they are stored: payload, piece, is a part, its number, component
-  /// type, columns.
+  /// Where the elements of an accessor come from, and how they are stored: payload, piece, whether
+  /// it is a part, its number, component type, columns.
   using Origin = std::tuple<uint32_t, uint64_t, bool, uint64_t, ComponentType, uint32_t>;
 
   static std::string whereOf(const PayloadUse& use) { return use.users[0]->path + "/bufferView"; }
@@ -84,7 +84,7 @@ class Decompressor {
     return {payload, use.piece, is_part, number, target.component_type, target.columns};
   }
 
-  /// All counts must match the accessors before memory is taken for them.
+  /// Opens a payload. All counts must match the accessors before memory is taken for them.
   Result open(const PayloadUse& use, DecodedPayload& decoded) {
     MCC_GLTF_TRY(toResult(decoded.payload.open(payloadBytes(document_, use.view)), whereOf(use)));
     for (const ExtensionUse* user : use.users) {
@@ -104,7 +104,8 @@ class Decompressor {
     return bytes.check();
   }
 
-  /// Of accessors that get the same elements, each its own: they may become different integers.
+  /// Adds the bytes of accessors that get the same elements as another one. With integers each
+  /// needs its own copy, because they may become different integers.
   void addCopies(const std::vector<PayloadUse>& uses, DecodedBytes& bytes) const {
     std::set<uint32_t> accessors;
     std::set<Origin> origins;
@@ -132,10 +133,11 @@ class Decompressor {
     }
   }
 
-  /// Gives an accessor the view that holds its elements already. False: there is none, and it gets a new one.
+  /// Gives an accessor a view that already holds its elements. Returns false if there is none, and
+  /// the accessor gets a new one.
   bool share(uint32_t accessor, const Origin& origin) {
     const auto [found, is_new] = views_.try_emplace(origin, decoded_.views.size());
-    // Integers are made accessor by accessor.
+    // Integers are made for each accessor separately.
     if (is_new || decode_to_ == DecodeTo::kIntegers) {
       decoded_.filled.push_back({accessor, decoded_.views.size()});
       decoded_.views.emplace_back();
@@ -144,7 +146,7 @@ class Decompressor {
     decoded_.filled.push_back({accessor, found->second});
     NewView& view = decoded_.views[found->second];
     const uint32_t stride = (document_.accessors[accessor].elementBytes() + 3) & ~3u;
-    // glTF wants it of vertex attributes that share a view.
+    // glTF requires a stride where several vertex attributes share a view.
     if (view.target == kArrayBuffer) view.stride_bytes = stride;
     return true;
   }

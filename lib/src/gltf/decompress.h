@@ -17,7 +17,7 @@ namespace mcc::gltf {
 struct Decompressed {
   Json json;
   std::vector<uint8_t> bin;
-  uint32_t payload_count = 0;  ///< different ones
+  uint32_t payload_count = 0;  ///< distinct payloads
   uint64_t decoded_bytes = 0;  ///< see outputBytes()
   uint32_t primitive_count = 0;
   uint64_t triangle_count = 0;
@@ -39,12 +39,12 @@ struct DecodedAccessors {
 /// Decodes all payloads. Errors carry JSON paths. Safe for untrusted documents.
 Result decodeAccessors(const Document& document, DecodedAccessors& decoded);
 
-/// Replaces all payloads by ordinary accessors and removes the extension from the document. With no
-/// payload in the document `payload_count` is 0 and `json` and `bin` are not filled in.
-/// decode_to     what quantised attributes become; with integers `notes` names what stays float.
-/// thread_count  payloads decoded at the same time; the result does not depend on it.
-/// Errors carry JSON paths; one is that document.decoded is above its limit, known before memory is taken. Safe for untrusted
-/// documents.
+/// Replaces all payloads by ordinary accessors and removes the extension from the document. If
+/// there is no payload in the document, `payload_count` is 0, and `json` and `bin` are not set.
+/// decode_to     what quantised attributes become; with integers, `notes` names what stays float.
+/// thread_count  the number of payloads decoded at the same time; the result does not depend on it.
+/// Errors carry JSON paths. It is an error when document.decoded is above its limit, which is
+/// checked before memory is taken. Safe for untrusted documents.
 Result decompressDocument(const Document& document, Decompressed& decompressed,
                           DecodeTo decode_to = DecodeTo::kFloats, uint32_t thread_count = 1);
 

@@ -13,12 +13,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "./a//b" -> "a/b".
+/// Normalises a path: "./a//b" becomes "a/b".
 std::string normalized(const std::string& path) {
   return fs::path(path).lexically_normal().generic_string();
 }
 
-/// Whether the file at `main` is a document that refers to a file beside it.
+/// Whether the file at `main` is a document that refers to the file `name` next to it.
 bool refersTo(const fs::path& main, const std::string& name) {
   std::vector<uint8_t> bytes;
   if (!readFile(main, bytes).ok()) return false;
@@ -49,7 +49,7 @@ Destination::~Destination() {
   sides_.clear();
   std::error_code ignored;
   for (auto folder = new_folders_.rbegin(); folder != new_folders_.rend(); ++folder) {
-    fs::remove(*folder, ignored);  // those that something was put into stay
+    fs::remove(*folder, ignored);  // fails if something was put into it, so that it stays
     if (temporaries_ != nullptr) temporaries_->forget(*folder);
   }
 }
@@ -120,7 +120,7 @@ Result Destination::createFolders(const fs::path& folder) {
   }
   for (auto path = missing.rbegin(); path != missing.rend(); ++path) {
     const TemporaryFiles::Lock held = lockOf(temporaries_);
-    // Another thread may have been faster.
+    // Another thread may have created it in the meantime.
     if (fs::create_directory(*path, code)) {
       new_folders_.push_back(*path);
       if (temporaries_ != nullptr) temporaries_->add(*path);
@@ -130,7 +130,7 @@ Result Destination::createFolders(const fs::path& folder) {
   return {};
 }
 
-/// A copy is made only where there is no equal file.
+/// Writes a copy, unless an equal file is already there.
 Result Destination::writeCopy(const SideFile& copy) {
   const std::string name = normalized(copy.path);
   const fs::path path = folder_ / name;
@@ -141,7 +141,7 @@ Result Destination::writeCopy(const SideFile& copy) {
       name == main_path_.filename().string() ||
       std::any_of(sides_.begin(), sides_.end(), [&](const auto& s) { return s->name == name; });
   if (is_ours || (is_there && !refersTo(main_path_, name))) {
-    return error(main_path_.string(), "a file beside the input has to be copied to \"" +
+    return error(main_path_.string(), "a file next to the input has to be copied to \"" +
                                           path.string() +
                                           "\", which is another file; choose another folder");
   }
@@ -182,8 +182,8 @@ FileReader Destination::reader() const {
   };
 }
 
-/// Where nothing was when the work began, a conversion to the same name may have been faster: its whole set of files is
-/// replaced by ours.
+/// Commits a file next to the main one. Where no file was when the work began, another conversion
+/// to the same name may have finished first; then its whole set of files is replaced by ours.
 Result Destination::commitSide(Side& side) {
   if (!side.is_new) return side.file.commitForNow();
   Result result = side.file.commitNew();
@@ -191,7 +191,8 @@ Result Destination::commitSide(Side& side) {
 }
 
 Result Destination::commit() {
-  // Before the lock of the temporary files, which an interrupt waits for.
+  // Taken before the lock of the temporary files, because the thread that handles signals waits for
+  // that one.
   std::optional<FolderLock> alone;
   if (!sides_.empty()) alone.emplace(folder_, FolderLock::Kind::kAlone);
   const TemporaryFiles::Lock held = lockOf(temporaries_);

@@ -40,19 +40,19 @@ bool componentTypeOf(uint64_t gl_type, ComponentType& type) {
 Result readString(const Json& object, const char* key, const std::string& path, std::string& text) {
   const Json* member = findMember(object, key);
   if (member == nullptr || !member->is_string()) {
-    return error(path, std::string("\"") + key + "\" is missing or no string");
+    return error(path, std::string("\"") + key + "\" is missing or not a string");
   }
   text = member->get<std::string>();
   return {};
 }
 
-/// Checks the shape of the document down to the objects that are read everywhere.
+/// Checks the types of the objects and arrays that are read everywhere.
 Result checkShape(const Json& json) {
-  if (!json.is_object()) return error("JSON", "this is no glTF file: the JSON is no object");
+  if (!json.is_object()) return error("JSON", "this is not a glTF file: the JSON is not an object");
   const Json* asset = findMember(json, "asset");
   const Json* version = asset != nullptr ? findMember(*asset, "version") : nullptr;
   if (version == nullptr || !version->is_string()) {
-    return error("/asset/version", "this is no glTF file: it has no version");
+    return error("/asset/version", "this is not a glTF file: it has no version");
   }
   const std::string number = version->get<std::string>();
   if (!number.starts_with("2.")) {
@@ -74,7 +74,8 @@ Result checkShape(const Json& json) {
   return {};
 }
 
-/// The object by which an extension codes a view, or marks a buffer as one whose bytes need not exist; null: there is none.
+/// Returns the object by which an extension codes a view, or marks a buffer whose bytes need not
+/// exist; null if there is none.
 const Json* codingOf(const Json& view_or_buffer, std::string& extension) {
   const Json* extensions = findMember(view_or_buffer, "extensions");
   if (extensions == nullptr) return nullptr;
@@ -92,7 +93,7 @@ bool isPlaceholder(const Json& buffer) {
   return flag != nullptr && *flag == true;
 }
 
-/// Where a buffer or an image comes from, once its bytes are needed.
+/// Fetches the bytes of a buffer or an image, when they are needed.
 Result fetchUri(const std::string& uri, const std::string& where, const FileReader& read_file,
                 std::vector<uint8_t>& bytes) {
   if (isDataUri(uri)) return decodeDataUri(uri, where, bytes);
@@ -105,7 +106,7 @@ Result fetchUri(const std::string& uri, const std::string& where, const FileRead
   return read_file(path, where, bytes);
 }
 
-/// Loads the buffers; a file that several name is read once.
+/// Loads the buffers. A file that several buffers name is read once.
 class BufferLoader {
  public:
   /// `glb` is null for a .gltf.
@@ -116,7 +117,7 @@ class BufferLoader {
     const std::string path = at("/buffers", number);
     uint64_t length = 0;
     MCC_GLTF_TRY(readUnsigned(json, "byteLength", path, kMaxCount, length));
-    if (isPlaceholder(json)) {  // the views in it are decoded from elsewhere
+    if (isPlaceholder(json)) {  // the views in it are decoded from other buffers
       document_.buffers.emplace_back();
       document_.same_buffers.push_back(number);
       return {};
@@ -140,7 +141,7 @@ class BufferLoader {
     return {};
   }
 
-  /// After all were loaded.
+  /// Finds buffers of the same file, after all were loaded.
   void findSame() {
     for (const auto& [file, users] : users_) {
       const auto isShorter = [&](uint32_t a, uint32_t b) {
@@ -152,7 +153,7 @@ class BufferLoader {
   }
 
  private:
-  /// `file` stays empty for a data URI.
+  /// Fetches the bytes of a buffer. `file` stays empty for a data URI.
   Result fetch(const Json& json, const std::string& path, std::string& file,
                std::span<const uint8_t>& bytes) {
     std::string uri;
@@ -174,11 +175,11 @@ class BufferLoader {
   const GlbFile* glb_;
   const FileReader& read_file_;
   Document& document_;
-  std::map<std::string, std::span<const uint8_t>> files_;  ///< by path
-  std::map<std::string, std::vector<uint32_t>> users_;     ///< buffers, by path
+  std::map<std::string, std::span<const uint8_t>> files_;  ///< bytes by path
+  std::map<std::string, std::vector<uint32_t>> users_;     ///< numbers of buffers by path
 };
 
-/// Where the bytes of a view are: `json` is the view, or the object that codes it.
+/// Parses where the bytes of a view are. `json` is the view, or the object that codes it.
 Result parseBytes(const Document& document, const Json& json, const std::string& path,
                   BufferView& view) {
   uint64_t buffer = 0;
@@ -234,7 +235,7 @@ Result parseView(const Document& document, const Json& json, const std::string& 
 Result checkRange(const Document& document, uint32_t view, uint64_t offset, uint64_t count,
                   uint64_t bytes, uint64_t stride, const std::string& path) {
   if (count == 0) return {};
-  // count < 2^32, stride <= 2^16, offset <= 2^53: nothing wraps.
+  // count < 2^32, stride <= 2^16 and offset <= 2^53, so this cannot wrap.
   const uint64_t end = offset + (count - 1) * stride + bytes;
   const uint64_t available = document.views[view].elementsLength();
   if (end <= available) return {};
@@ -264,7 +265,8 @@ Result parseSparse(const Document& document, const Json& json, const std::string
   uint64_t gl_type = 0;
   MCC_GLTF_TRY(readUnsigned(*indices, "componentType", path + "/indices", kMaxCount, gl_type));
   if (!componentTypeOf(gl_type, sparse.index_type) || (gl_type & 1) == 0) {
-    return error(path + "/indices/componentType", std::to_string(gl_type) + " is no index type");
+    return error(path + "/indices/componentType",
+                 std::to_string(gl_type) + " is not an index type");
   }
   MCC_GLTF_TRY(readViewIndex(document, *indices, path + "/indices", sparse.index_view));
   MCC_GLTF_TRY(readOptionalUnsigned(*indices, "byteOffset", path + "/indices", kMaxCount,
@@ -313,7 +315,7 @@ Result loadTables(Document& document) {
 /// A file that images name.
 struct ImageFile {
   std::span<const uint8_t> bytes;
-  uint32_t view = kNone;  ///< that it became, for all images that name it
+  uint32_t view = kNone;  ///< the view it became, for all images that name it
 };
 
 void addView(ImageFile& file, Document& document) {
@@ -344,11 +346,11 @@ Result embedImage(const FileReader& read_file, size_t index,
   }
   const std::string type = imageTypeOf(file.bytes);
   if (type.empty()) {
-    document.notes.push_back(path + ": is not an image that is known; it stays a file of its own");
+    document.notes.push_back(path + ": is not a known type of image; it stays a separate file");
     return {};
   }
   if (file.view == kNone) addView(file, document);
-  // The root may have got new members, which moves all of them.
+  // The reference from before may be invalid, because the root may have got new members.
   Json& moved = document.json["images"][index];
   moved.erase("uri");
   moved["bufferView"] = file.view;
@@ -404,7 +406,7 @@ Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file,
     }
   } else {
     if (!isJsonText(file)) {
-      return error("byte 0", "this is no glTF file: neither a GLB nor JSON");
+      return error("byte 0", "this is not a glTF file: neither a GLB nor JSON");
     }
     glb.json = file;
   }

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // A loaded glTF file: its JSON as it was, its buffers, and typed tables of the JSON's buffer views
-// and accessors, all of whose ranges were checked.
+// and accessors. The ranges of all views and accessors have been checked.
 #ifndef MCC_GLTF_DOCUMENT_H_
 #define MCC_GLTF_DOCUMENT_H_
 
@@ -20,25 +20,25 @@ namespace mcc::gltf {
 
 /// How an extension codes the elements of a buffer view.
 struct ViewCoding {
-  std::string
-      extension;  ///< "EXT_meshopt_compression" or its successor; empty: the view is not coded
+  /// "EXT_meshopt_compression" or "KHR_meshopt_compression"; empty: the view is not coded.
+  std::string extension;
   std::string mode;
   std::string filter;
   uint64_t count = 0;
   uint32_t stride = 0;
-  uint64_t length = 0;       ///< of the elements
-  uint32_t decoded = kNone;  ///< Document::storage that has them; kNone: not decoded
+  uint64_t length = 0;       ///< bytes of all elements
+  uint32_t decoded = kNone;  ///< index into Document::storage; kNone: not decoded
 };
 
 struct BufferView {
-  uint32_t buffer = 0;  ///< these three say where its bytes are, coded or not
+  uint32_t buffer = 0;  ///< `buffer`, `offset` and `length` locate its bytes, coded or not
   uint64_t offset = 0;
   uint64_t length = 0;
-  uint64_t stride = 0;  ///< 0: tight
+  uint64_t stride = 0;  ///< 0: elements are packed
   ViewCoding coding;
 
   bool isCoded() const { return !coding.extension.empty(); }
-  /// Bytes that accessors may use.
+  /// Number of bytes that accessors may use.
   uint64_t elementsLength() const { return isCoded() ? coding.length : length; }
 };
 
@@ -53,16 +53,17 @@ struct Sparse {
 };
 
 struct Accessor {
-  uint32_t view = kNone;  ///< kNone: zeros, apart from `sparse`
+  uint32_t view = kNone;  ///< kNone: all elements are zero, apart from `sparse`
   uint64_t offset = 0;
   uint64_t count = 0;
   ComponentType component_type = ComponentType::kFloat32;
-  bool is_known_type = true;  ///< false: a type of some extension; nothing else is filled in
+  bool is_known_type = true;  ///< false: a type of some extension; nothing else is set
   uint32_t columns = 1;       ///< above 1: a matrix
   uint32_t rows = 1;          ///< components of a vector or of a matrix column
   bool normalized = false;
   Sparse sparse;
-  /// Of one that an extension of primitives fills: Document::storage with its tight elements, and the view they came from.
+  /// For an accessor that an extension of primitives fills: the index into Document::storage of its
+  /// packed elements, and the view they came from.
   uint32_t decoded = kNone;
   uint32_t decoded_from = kNone;
 
@@ -81,34 +82,36 @@ struct Document {
   Json json;
   bool is_glb = false;
   std::vector<std::span<const uint8_t>> buffers;
-  /// By buffer: the longest of those that are the same file, whose bytes are there once; the number of others is their own.
-  /// Empty: all are different. Views say this number.
+  /// For each buffer, the number of the longest buffer that comes from the same file, which may be
+  /// itself. Buffer views refer to that number, so that the bytes of a file are kept once. Empty:
+  /// no file is used twice.
   std::vector<uint32_t> same_buffers;
   std::vector<BufferView> views;
   std::vector<Accessor> accessors;
   std::vector<GlbChunk> other_chunks;
-  uint64_t source_bytes = 0;  ///< of the file and the files its buffers came from
-  /// What of it is decoded from other bytes than those of our payloads; without a limit unless one was set after loading.
+  uint64_t source_bytes = 0;  ///< size of the file and of the files its buffers came from
+  /// The bytes that were decoded, apart from our own payloads. There is no limit unless one is set
+  /// after loading.
   DecodedBytes decoded;
   std::vector<std::string> notes;
-  /// Owns the buffers that are not part of the file, and what was decoded.
+  /// Owns the buffers that are not part of the file, and everything that was decoded.
   std::vector<std::vector<uint8_t>> storage;
 };
 
-/// Fetches a file by a path that relativePathOf() found harmless.
+/// Fetches a file. The path must be one that relativePathOf() has accepted.
 using FileReader =
     std::function<Result(const std::string& path, const std::string& where, std::vector<uint8_t>&)>;
 
 /// Loads a GLB or the JSON of a .gltf. `file` must outlive the document.
-/// read_file   fetches buffers; null: every buffer must be inside the file.
+/// read_file  fetches buffers; null: every buffer must be inside the file.
 Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file, Document& document);
 
-/// Puts the image files of a .gltf into buffer views, so that a GLB elsewhere still finds them.
-/// Images inside data URIs stay as they are. Does nothing to a GLB.
+/// Moves the image files of a .gltf into buffer views, so that a GLB in another folder still has
+/// them. Images in data URIs stay as they are. Does nothing to a GLB.
 Result embedImages(const FileReader& read_file, Document& document);
 
-/// Makes a document of parts that are already in memory: JSON with at most one buffer and its
-/// bytes.
+/// Makes a document from parts that are already in memory: JSON with at most one buffer, and the
+/// bytes of that buffer.
 Result adoptDocument(Json json, std::vector<uint8_t> bin, Document& document);
 
 /// Parses one accessor; its views must be in `document.views`. Errors carry the path /accessors/N.

@@ -9,7 +9,7 @@
 namespace mcc::gltf {
 namespace {
 
-/// What the codec is given; the views borrow from the plan.
+/// The input of the codec for one piece. The views borrow from the plan.
 struct PieceInput {
   std::vector<AttributeView> attributes;
   std::vector<PartView> parts;
@@ -34,7 +34,7 @@ struct PieceInput {
 Status encodePieces(const std::vector<const PiecePlan*>& plans, const EncodeOptions& options,
                     EncodeResult& result) {
   std::vector<PieceInput> inputs;
-  inputs.reserve(plans.size());  // views point into the elements
+  inputs.reserve(plans.size());  // the views point into the elements, which must not move
   std::vector<PieceView> views;
   for (const PiecePlan* plan : plans) {
     inputs.emplace_back(*plan);
@@ -64,7 +64,7 @@ std::string refusal(const Status& status) {
   return "the codec refuses it (" + toResult(status, "").what + "); left as it was";
 }
 
-/// Removes the pieces the codec refuses.
+/// Removes the pieces that the codec refuses.
 void removeRefusedPieces(const EncodeOptions& options, PayloadPlan& plan,
                          std::vector<LeftAlone>& left_alone) {
   std::vector<PiecePlan> accepted;
@@ -86,7 +86,7 @@ Status encodePlan(const EncodeOptions& options, const PayloadPlan& plan, EncodeR
   return encodePieces(pieces, options, result);
 }
 
-/// Decodes what was just encoded: the bounds of accessors are those of the decoded values.
+/// Decodes what was just encoded, because the bounds of accessors are those of the decoded values.
 Status measure(EncodedPayload& payload) {
   DecodedPayload decoded;
   Status status = decoded.payload.open(payload.result.payload);
@@ -120,7 +120,7 @@ Result encodeOne(const EncodeOptions& options, EncodedPayload& payload,
     payload.result = {};
     if (payload.plan.pieces.empty()) return {};
     const Status status = encodePlan(options, payload.plan, payload.result);
-    if (!status.ok()) {  // it takes each of them, but not all
+    if (!status.ok()) {  // the codec accepts each piece alone, but not all of them together
       leaveAllAlone(refusal(status), payload, left_alone);
       return {};
     }
@@ -133,12 +133,12 @@ Result encodeOne(const EncodeOptions& options, EncodedPayload& payload,
   }
   Result result = toResult(status, at("/meshes", payload.plan.mesh));
   if (!result.ok()) {
-    result.what = "the payload does not decode again: " + result.what + "; please report this";
+    result.what = "the payload cannot be decoded again: " + result.what + "; please report this";
   }
   return result;
 }
 
-/// Tells how much of the payloads' triangles is encoded.
+/// Reports how much of the payloads' triangles is encoded.
 class EncodingProgress {
  public:
   EncodingProgress(const ConvertOptions& options, const std::vector<PayloadPlan>& plans)

@@ -13,7 +13,8 @@ namespace {
 
 constexpr uint64_t kMaxNumber = 0xffffffffu;
 
-/// The accessor whose number is at `path`; false, with an issue, when there is none.
+/// Reads the number of an accessor at `path`. Returns false and adds an issue when it does not
+/// exist.
 bool readAccessorNumber(const Document& document, const Json& number, const std::string& path,
                         Rule rule, Issues& issues, uint32_t& accessor) {
   uint64_t index = 0;
@@ -26,7 +27,7 @@ bool readAccessorNumber(const Document& document, const Json& number, const std:
   return true;
 }
 
-/// Reads one map name -> attribute id; the primitive's own map names the accessors.
+/// Reads one map from names to attribute ids; the primitive's own map names the accessors.
 void readMap(const Document& document, const Json& ids, const std::string& path,
              const Json* accessors, const std::string& accessors_path, uint32_t target,
              Issues& issues, ExtensionUse& use) {
@@ -126,7 +127,8 @@ void readExtension(const Document& document, const Json& extension, const Json& 
   readTargets(document, extension, primitive, issues, use);
 }
 
-/// What an extension object, if there is one, names of the attributes or of a morph target.
+/// Returns the attributes, or those of a morph target, that an extension object names. `extension`
+/// may be null.
 const Json* codedMap(const Json* extension, uint32_t target) {
   if (extension == nullptr) return nullptr;
   if (target == kNone) return findMember(*extension, "attributes");
@@ -134,12 +136,12 @@ const Json* codedMap(const Json* extension, uint32_t target) {
   return target < targets.size() ? &targets[target] : nullptr;
 }
 
-/// JSON path of the attributes or of a morph target of a primitive.
+/// Returns the JSON path of the attributes or of a morph target of a primitive.
 std::string mapPath(const std::string& primitive_path, uint32_t target) {
   return target == kNone ? primitive_path + "/attributes" : at(primitive_path + "/targets", target);
 }
 
-/// Finds accessors that have two sources, or that something refers to besides what is filled from there.
+/// Finds accessors that have two sources, or that something else refers to as well.
 class Sharing {
  public:
   Sharing(const Document& document, Issues& issues) : document_(document), issues_(issues) {}
@@ -178,7 +180,7 @@ class Sharing {
     claim(use.indices_accessor, {use.view, use.piece, true, use.part}, use.path);
   }
 
-  /// What a primitive refers to and no payload fills.
+  /// Notes the accessors that a primitive refers to and no payload fills.
   void noteOrdinary(const Json& primitive, const std::string& path) {
     const Json* ours = extensionOf(primitive, kExtensionName);
     const Json* indices = findMember(primitive, "indices");
@@ -240,7 +242,7 @@ void checkAttribute(const Document& document, const ExtensionUse::AttributeUse& 
   }
   if (coded != named) {
     issues.add(Rule::kSemantic, attribute.path,
-               "attribute " + std::to_string(attribute.id) + " of the payload is no " +
+               "attribute " + std::to_string(attribute.id) + " of the payload is not " +
                    attribute.name + (attribute.target == kNone ? "" : " of this morph target"));
   }
 }
@@ -265,7 +267,7 @@ void checkIndices(const Document& document, const ExtensionUse& use, const Piece
       !is_unsigned) {
     return issues.add(Rule::kIndices, path, "indices must be SCALAR of an unsigned type");
   }
-  // The largest value of a type is no index: it restarts strips.
+  // The largest value of a type is not a valid index: it restarts strips.
   const bool fits = type == ComponentType::kUint32 ||
                     (type == ComponentType::kUint16 && piece.wedge_count <= 0xffff) ||
                     (type == ComponentType::kUint8 && piece.wedge_count <= 0xff);
@@ -275,8 +277,8 @@ void checkIndices(const Document& document, const ExtensionUse& use, const Piece
   }
 }
 
-/// Attributes beside the payload must have as many elements, those of morph targets too. Accessors that it fills are
-/// checked where they are named.
+/// Attributes next to the payload must have as many elements as the piece has vertices, also in
+/// morph targets. Accessors that the payload fills are checked where they are named.
 void checkOrdinaryAttributes(const Document& document, const ExtensionUse& use,
                              const PieceInfo& piece, Issues& issues) {
   const Json& primitive = primitiveAt(document.json, {use.mesh, use.primitive});
@@ -292,8 +294,8 @@ void checkOrdinaryAttributes(const Document& document, const ExtensionUse& use,
         continue;
       }
       issues.add(Rule::kCount, at(mapPath(path, target), name),
-                 "the accessor has not the " + std::to_string(piece.wedge_count) +
-                     " elements of the payload");
+                 "the accessor does not have the payload's " + std::to_string(piece.wedge_count) +
+                     " elements");
     }
   });
 }

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Reading and checking the extension objects of primitives.
+// Reads and checks the extension objects of primitives.
 #ifndef MCC_GLTF_EXTENSION_JSON_H_
 #define MCC_GLTF_EXTENSION_JSON_H_
 
@@ -15,8 +15,8 @@
 
 namespace mcc::gltf {
 
-/// Our extension on one primitive, checked against the document but not yet against the payload. What is wrong in the
-/// document is kNone, or left out of `attributes`.
+/// The use of our extension by one primitive, checked against the document but not yet against the
+/// payload. Numbers that are wrong in the document are kNone, or left out of `attributes`.
 struct ExtensionUse {
   uint32_t mesh = 0;
   uint32_t primitive = 0;
@@ -27,35 +27,36 @@ struct ExtensionUse {
   uint32_t indices_accessor = kNone;
   struct AttributeUse {
     std::string name;
-    uint32_t target = kNone;  ///< morph target, kNone: the base mesh
+    uint32_t target = kNone;  ///< morph target; kNone: the base mesh
     uint64_t id = 0;          ///< attribute of the piece
     uint32_t accessor = 0;
-    std::string path;  ///< of the id in the JSON
+    std::string path;  ///< JSON path of the id
   };
   std::vector<AttributeUse> attributes;
-  std::string path;  ///< of the extension object
+  std::string path;  ///< JSON path of the extension object
 };
 
-/// Finds and checks the extension objects of all primitives, and who else refers to the accessors they fill. The second
-/// form ends with the first issue.
+/// Finds and checks the extension objects of all primitives, and checks who else refers to the
+/// accessors they fill. The second form stops at the first issue.
 void findExtensionUses(const Document& document, Issues& issues, std::vector<ExtensionUse>& uses);
 Result findExtensionUses(const Document& document, std::vector<ExtensionUse>& uses);
 
 /// The primitives that use one payload.
 struct PayloadUse {
-  uint32_t view = 0;  ///< that holds it: the first of those with the same bytes
+  uint32_t view = 0;  ///< the first buffer view with these bytes
   std::vector<const ExtensionUse*> users;
 };
 
-/// The payloads of a document in the order of their buffer views. Views of the same bytes hold the same payload. Leaves out
-/// uses without a view. Borrows `uses`.
+/// Returns the payloads of a document in the order of their buffer views. Views of the same bytes
+/// hold the same payload. Uses without a view are left out. The result borrows `uses`.
 std::vector<PayloadUse> payloadUses(const Document& document,
                                     const std::vector<ExtensionUse>& uses);
 
-/// Bytes of the buffer view that holds a payload.
+/// Returns the bytes of the buffer view that holds a payload.
 std::span<const uint8_t> payloadBytes(const Document& document, uint32_t view);
 
-/// Checks an extension object with `has_numbers` against the pieces of its payload: numbers, counts, types, semantics.
+/// Checks an extension object against the pieces of its payload: numbers, counts, types, semantics.
+/// `has_numbers` of the use must be true.
 void checkAgainstPayload(const Document& document, const ExtensionUse& use, const PayloadInfo& info,
                          Issues& issues);
 Result checkAgainstPayload(const Document& document, const ExtensionUse& use,

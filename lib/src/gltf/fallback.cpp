@@ -9,7 +9,7 @@
 namespace mcc::gltf {
 namespace {
 
-/// The accessors that payloads fill, by what the extension objects of the primitives name.
+/// Returns the accessors that payloads fill, according to the extension objects of the primitives.
 std::set<uint64_t> compressedAccessors(const Json& root) {
   std::set<uint64_t> compressed;
   visitPrimitives(root, [&](const PrimitiveRef&, const Json& primitive) {
@@ -36,9 +36,9 @@ Result addFallback(const std::vector<uint8_t>& bin, const std::string& uri, Json
   DecodedAccessors decoded;
   MCC_GLTF_TRY(decodeAccessors(document, decoded));
   fallback.clear();
-  std::vector<size_t> numbers(decoded.views.size(), kNone);  // of the views in the JSON
+  std::vector<size_t> numbers(decoded.views.size(), kNone);  // numbers of the views in the JSON
   for (const DecodedAccessors::Filled& filled : decoded.filled) {
-    if (document.accessors[filled.accessor].view != kNone) continue;  // has a fallback already
+    if (document.accessors[filled.accessor].view != kNone) continue;  // it already has a fallback
     Json& accessor = json["accessors"][filled.accessor];
     if (numbers[filled.view] != kNone) {
       accessor["bufferView"] = numbers[filled.view];
@@ -63,7 +63,7 @@ Result addFallback(const std::vector<uint8_t>& bin, const std::string& uri, Json
 
 bool removeFallback(size_t number, Json& json) {
   const Json& buffers = arrayOf(json, "buffers");
-  if (number + 1 != buffers.size()) return false;  // others would get new numbers
+  if (number + 1 != buffers.size()) return false;  // the others would get new numbers
   const Json& views = arrayOf(json, "bufferViews");
   size_t view_count = views.size();
   while (view_count != 0 && isAt(views[view_count - 1], "buffer", number)) --view_count;

@@ -20,16 +20,16 @@ namespace fs = std::filesystem;
 
 std::string reasonOf(int number) { return std::strerror(number); }
 
-/// A name beside the destination that no other process or thread of ours uses.
+/// Returns a name in the folder of the destination that no other process or thread of ours uses.
 fs::path temporaryName(const fs::path& destination) {
-  constexpr size_t kLongestName = 200;  // leaves room for the rest below the usual 255 bytes
+  constexpr size_t kLongestName = 200;  // leaves room for the rest within the usual 255 bytes
   static std::atomic<uint32_t> counter{0};
   const std::string name = destination.filename().string().substr(0, kLongestName);
   return destination.parent_path() /
          ("." + name + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(counter++));
 }
 
-/// The number in "/dev/fd/3", 1 of "/dev/stdout", and so on.
+/// Returns the number in "/dev/fd/3", 1 for "/dev/stdout", and so on.
 std::optional<int> descriptorOf(const fs::path& path) {
   const std::string name = path.lexically_normal().string();
   if (name == "/dev/stdin") return STDIN_FILENO;
@@ -68,8 +68,9 @@ FileIdentity identityOf(const fs::path& path) {
   return ::stat(path.c_str(), &file) == 0 ? identityOf(file) : FileIdentity{};
 }
 
-/// Gives a new file the owner, the group and the permissions of an older one. A group that cannot be given gets no more
-/// than all others have, so that nobody can read what was hidden from him.
+/// Gives a new file the owner, the group and the permissions of an older one. If the group cannot
+/// be set, the group gets no more permissions than all other users have, so that nobody can read
+/// what was hidden from them.
 void becomeLike(const struct stat& older, int file) {
   mode_t mode = older.st_mode & 0777;
   const bool has_group = ::fchown(file, older.st_uid, older.st_gid) == 0 ||
@@ -78,7 +79,7 @@ void becomeLike(const struct stat& older, int file) {
   (void)::fchmod(file, mode);  // some file systems have no permissions
 }
 
-/// Returns 0 or the number of the error.
+/// Writes all bytes. Returns 0 or the number of the error.
 int writeAll(int file, std::span<const uint8_t> bytes) {
   while (!bytes.empty()) {
     const ssize_t count = ::write(file, bytes.data(), bytes.size());
@@ -88,7 +89,7 @@ int writeAll(int file, std::span<const uint8_t> bytes) {
   return 0;
 }
 
-/// Without any permission to write, also for a user who needs none.
+/// Whether nobody has permission to write, which also counts for users who would not need it.
 bool isReadOnly(const fs::path& path) {
   std::error_code code;
   const fs::perms write = fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
@@ -101,12 +102,13 @@ Result tooLarge(const std::string& name) {
                          " bytes that a file of glTF can have");
 }
 
-/// How far to read what begins with these bytes; more than there are: on.
+/// Returns how far to read a file that begins with these bytes. More than there are means:
+/// continue.
 uint64_t wantedBytes(std::span<const uint8_t> bytes) {
   constexpr size_t kGlbHeaderBytes = 12;
-  constexpr size_t kWhiteSpaceBytes = 65536;  // in front of JSON; nobody writes more
+  constexpr size_t kWhiteSpaceBytes = 65536;  // before the JSON; more is not accepted
   if (bytes.size() < kGlbHeaderBytes) return kGlbHeaderBytes;
-  if (isGlb(bytes)) return uint64_t{glbLength(bytes)} + 1;  // whether there are trailing bytes
+  if (isGlb(bytes)) return uint64_t{glbLength(bytes)} + 1;  // one more shows trailing bytes
   if (isJsonText(bytes.first(std::min(bytes.size(), kWhiteSpaceBytes)))) return kMaxFileBytes + 1;
   return kWhiteSpaceBytes;
 }
@@ -236,7 +238,7 @@ bool isSameFile(const fs::path& a, const fs::path& b) {
 Result writeStream(const fs::path& path, std::span<const uint8_t> bytes) {
   const fs::path target = withoutLinks(path);
   const std::optional<int> descriptor = descriptorOf(target);
-  // A stream of ours goes on where it is: to open it anew would begin at the start of a file.
+  // Duplicate an open stream instead of opening it again, which would begin at the start of a file.
   const int file = descriptor ? ::fcntl(*descriptor, F_DUPFD_CLOEXEC, 0)
                               : ::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
   if (file < 0) return error(path.string(), "cannot be opened: " + reasonOf(errno));
@@ -284,7 +286,7 @@ Result ReplacementFile::check() const {
     return error(name, "the folder \"" + folder.string() + "\" does not exist; create it first");
   }
   if (!fs::is_directory(folder, code)) {
-    return error(name, "\"" + folder.string() + "\" is no folder");
+    return error(name, "\"" + folder.string() + "\" is not a folder");
   }
   if (isReadOnly(folder)) {
     return error(name, "the folder \"" + folder.string() + "\" is read-only; choose another one");
@@ -295,7 +297,8 @@ Result ReplacementFile::check() const {
   return {};
 }
 
-/// The names of a process that was killed may still be there, and its number may be ours now.
+/// Creates the temporary file. A file of the same name may be left over from a process that was
+/// killed and had the same process id.
 Result ReplacementFile::create(int& file) {
   constexpr int kMostNames = 100;
   struct stat older = {};
@@ -309,7 +312,7 @@ Result ReplacementFile::create(int& file) {
   }
   if (file < 0) {
     const int failure = errno;
-    temporary_.clear();  // it is not ours
+    temporary_.clear();  // a file of that name is not ours
     return error(destination_.string(), "cannot be written: " + reasonOf(failure));
   }
   if (temporaries_ != nullptr) temporaries_->add(temporary_);
@@ -321,7 +324,7 @@ Result ReplacementFile::write(std::span<const uint8_t> bytes) {
   int file = -1;
   MCC_GLTF_TRY(create(file));
   int failure = writeAll(file, bytes);
-  // What is there now goes only when the new bytes are safe.
+  // The file that is there now is replaced only when the new bytes are safely stored.
   std::error_code code;
   if (failure == 0 && fs::exists(target_, code) && ::fsync(file) != 0 && errno == EIO)
     failure = EIO;
@@ -348,7 +351,7 @@ Result ReplacementFile::commitForNow() {
   std::error_code code;
   if (fs::exists(fs::symlink_status(target_, code))) {
     const fs::path backup = temporaryName(target_);
-    // Linked where the file system can, so that the destination is there at every moment.
+    // A hard link, where the file system has them, keeps the destination in place at every moment.
     fs::create_hard_link(target_, backup, code);
     if (code) fs::rename(target_, backup, code);
     if (code) return error(destination_.string(), "cannot be written: " + code.message());
@@ -363,10 +366,10 @@ Result ReplacementFile::commitForNow() {
 Result ReplacementFile::commitNew() {
   if (::link(temporary_.c_str(), target_.c_str()) == 0) {
     is_for_now_ = true;
-    return {};  // the temporary name goes with this object
+    return {};  // the destructor removes the temporary name
   }
   std::error_code code;
-  if (!fs::exists(fs::symlink_status(target_, code))) return commitForNow();  // without links
+  if (!fs::exists(fs::symlink_status(target_, code))) return commitForNow();  // no hard links
   if (haveSameContent(temporary_, target_)) {
     identity_ = identityOf(target_);
     return {};
@@ -382,7 +385,7 @@ void ReplacementFile::undo() {
     fs::remove(target_, ignored);
   } else {
     fs::rename(backup_, target_, ignored);
-    fs::remove(backup_, ignored);  // two links of one file: rename() left both
+    fs::remove(backup_, ignored);  // if both are links of one file, rename() leaves both
     backup_.clear();
   }
 }

@@ -14,107 +14,116 @@
 
 namespace mcc::gltf {
 
-/// Largest file that is read: lengths in a GLB have 32 bits.
+/// The largest file that is read. Lengths in a GLB have 32 bits.
 inline constexpr uint64_t kMaxFileBytes = uint64_t{1} << 32;
 
-/// Reads a whole file. What is not a regular file (a pipe, a device) is read as readStream() says.
-/// Errors say plainly what is there instead (nothing, a folder, no permission, more than kMaxFileBytes).
+/// Reads a whole file. A pipe, a device, or anything else that is not a regular file is read by
+/// readStream(). Errors say what is there instead: nothing, a folder, a file without permission, or
+/// more than kMaxFileBytes.
 Result readFile(const std::filesystem::path& path, std::vector<uint8_t>& bytes);
 
-/// Reads a glTF file from an open file that may never end: to its end; of a GLB to the length in its header and what came with
-/// that, so that loadDocument() sees whether bytes follow; of what does not begin as a GLB or JSON only the beginning.
-/// name  for messages. Errors: it cannot be read; it has more than kMaxFileBytes.
+/// Reads a glTF file from an open file that may never end. JSON is read to its end. A GLB is read
+/// to the length in its header, plus what arrived with that, so that loadDocument() sees whether
+/// more bytes follow. Of anything else only the beginning is read.
+/// name  is used in messages.
+/// Errors: it cannot be read; it has more than kMaxFileBytes.
 Result readStream(int file, const std::string& name, std::vector<uint8_t>& bytes);
 
 /// Whether two files have the same bytes; false when one cannot be read.
 bool haveSameContent(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// Reads regular files below a folder, for loadDocument().
+/// Returns a reader of regular files below a folder, for loadDocument().
 FileReader readerOf(const std::filesystem::path& folder);
 
-/// The same, without those that symbolic links lead to outside of the folder.
+/// The same, but refuses files that symbolic links lead to outside of the folder.
 FileReader readerInside(const std::filesystem::path& folder);
 
-/// Puts the name of the file in front of where in it something is wrong.
+/// Puts the name of a file before the place in it where something is wrong.
 Result inFile(const std::filesystem::path& path, Result result);
 
-/// The folder a path lies in; "." when it names none.
+/// Returns the folder a path lies in; "." when it names none.
 std::filesystem::path folderOf(const std::filesystem::path& path);
 
-/// Tells files apart whatever their names.
+/// Identifies a file independently of its names.
 struct FileIdentity {
   uint64_t device = 0;
-  uint64_t number = 0;  ///< 0: no file
+  uint64_t number = 0;  ///< 0: there is no file
 
   bool operator==(const FileIdentity&) const = default;
 };
 
-/// Whether a name stands for something that bytes are sent to and that is not replaced by a file: a device, a pipe, a
-/// socket, or an open stream of this process (/dev/stdout, /dev/fd/3), also by a symbolic link.
+/// Whether a name stands for something that bytes are sent to, rather than for a file that can be
+/// replaced: a device, a pipe, a socket, or an open stream of this process (/dev/stdout,
+/// /dev/fd/3). Symbolic links are followed.
 bool isStream(const std::filesystem::path& path);
 
-/// The number of the open stream that a name stands for: 1 for /dev/stdout.
+/// Returns the number of the open stream that a name stands for: 1 for /dev/stdout.
 std::optional<int> openStreamOf(const std::filesystem::path& path);
 
-/// Equal for two names of one file, which need not exist yet: it tells the file itself, not its spelling. Empty where
-/// nothing is lost when two write to it (a device), and where it cannot be known (the folder does not exist).
+/// Returns a key that is equal for two names of the same file, which need not exist yet. The key is
+/// empty where nothing is lost when two outputs go to it (a device), and where it cannot be
+/// determined (the folder does not exist).
 std::string fileKey(const std::filesystem::path& path);
 
-/// Whether the keys of two names say that they stand for one file.
+/// Whether two names stand for the same file, by their keys.
 bool isSameFile(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// Sends bytes to what isStream(). Waits for a reader of a named pipe. Errors: it cannot be opened or written.
+/// Sends bytes to something for which isStream() is true. Waits until a named pipe has a reader.
+/// Errors: it cannot be opened or written.
 Result writeStream(const std::filesystem::path& path, std::span<const uint8_t> bytes);
 
-/// A file that takes the place of another only when all is well. Where the destination is a symbolic link, the file that
-/// it leads to is replaced and the link stays. The new file has the permissions of the one it replaces, and its owner and
-/// group as far as the process may give them away.
+/// A file that replaces another one only when everything has succeeded. Where the destination is a
+/// symbolic link, the file that it leads to is replaced and the link stays. The new file gets the
+/// permissions of the one it replaces, and its owner and group if the process may set them.
 class ReplacementFile {
  public:
-  /// `temporaries`, which may be null, is told of the temporary file. Borrowed.
+  /// `temporaries`, which may be null, lists the temporary file while it exists. Borrowed.
   explicit ReplacementFile(std::filesystem::path destination,
                            TemporaryFiles* temporaries = nullptr);
-  /// Removes the temporary file unless it was committed; then no undo() is possible any more.
+  /// Removes the temporary file unless it was committed. After that, undo() is no longer possible.
   ~ReplacementFile();
   ReplacementFile(const ReplacementFile&) = delete;
   ReplacementFile& operator=(const ReplacementFile&) = delete;
 
-  /// Whether the destination could be written, before any work is done for it. What isStream() is refused.
+  /// Checks whether the destination could be written, before any work is done for it. Refuses what
+  /// isStream() is true for.
   Result check() const;
   /// Writes a temporary file in the folder of the destination.
   Result write(std::span<const uint8_t> bytes);
   const std::filesystem::path& destination() const { return destination_; }
   const std::filesystem::path& temporaryPath() const { return temporary_; }
-  /// Renames it to the destination.
+  /// Renames the temporary file to the destination.
   Result commit();
-  /// commit() that undo() can take back.
+  /// Like commit(), but undo() can revert it.
   Result commitForNow();
-  /// The same where nothing is there, or an equal file that may stay; another file is an error.
+  /// Like commitForNow(), for a destination where there was no file. An equal file may have
+  /// appeared, and stays; any other file is an error.
   Result commitNew();
   /// Puts back what was there before commitForNow() or commitNew().
   void undo();
   /// Removes what undo() would need.
   void keep();
-  /// After a commit: whether the destination is still the file that it made of it. False when another program has
-  /// replaced it since.
+  /// After a commit: whether the destination is still the file that the commit put there. False
+  /// when another program has replaced it since.
   bool isInPlace() const;
 
  private:
   Result create(int& file);
 
   TemporaryFiles* temporaries_;
-  std::filesystem::path destination_;  ///< as it was named
-  std::filesystem::path target_;       ///< the same without symbolic links at its end
+  std::filesystem::path destination_;  ///< as the caller named it
+  std::filesystem::path target_;       ///< the same, with symbolic links at its end followed
   std::filesystem::path temporary_;
-  std::filesystem::path backup_;  ///< what was at the target, while undo() is possible
-  FileIdentity identity_;         ///< of the file that was written
+  std::filesystem::path backup_;  ///< the file that was at the target, while undo() is possible
+  FileIdentity identity_;         ///< identity of the file that was written
   bool is_for_now_ = false;
 };
 
-/// Whether writeFile() could write, before any work is done for it.
+/// Checks whether writeFile() could write, before any work is done for it.
 Result checkWritable(const std::filesystem::path& path);
 
-/// Writes a file in the place of another: a temporary one first, then renamed. What isStream() is written to.
+/// Replaces a file: writes a temporary one and renames it. Writes directly to what isStream() is
+/// true for.
 Result writeFile(const std::filesystem::path& path, std::span<const uint8_t> bytes,
                  TemporaryFiles* temporaries = nullptr);
 

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Files that belong together change their names together.
+// Locks a folder, so that files that belong together change their names together.
 #ifndef MCC_GLTF_FOLDER_LOCK_H_
 #define MCC_GLTF_FOLDER_LOCK_H_
 
@@ -10,12 +10,14 @@
 
 namespace mcc::gltf {
 
-/// An advisory lock on a folder itself, which leaves no file there: among programs and threads that take it, either
-/// one has it alone or several share it. The system releases it when the process ends, however it ends.
+/// An advisory lock on a folder itself, which leaves no file there. Among the programs and threads
+/// that take it, either one holds it alone or several share it. The system releases it when the
+/// process ends, in whatever way it ends.
 ///
-/// It is held for the time of a few renames or of reading a document, so who waits does so briefly. A folder that
-/// another program keeps locked for its own purposes, or whose file system has no such locks, does not stop us: after
-/// two seconds the work goes on without the lock. Writers therefore check in the end that their files are in place.
+/// It is held only while a few files are renamed or a document is read, so waiting for it is short.
+/// A folder that another program keeps locked for its own purposes, or whose file system has no
+/// such locks, must not stop us: after two seconds the work continues without the lock. Writers
+/// therefore check at the end that their files are in place.
 class FolderLock {
  public:
   enum class Kind : uint8_t { kShared, kAlone };
@@ -32,7 +34,8 @@ class FolderLock {
   bool is_held_ = false;
 };
 
-/// Shares the lock of the folder of a .gltf, which has other files. Null for other files, which are one each.
+/// Takes a shared lock on the folder of a .gltf, which has other files. Returns null for documents
+/// that are a single file.
 std::unique_ptr<FolderLock> lockToRead(const std::filesystem::path& document);
 
 }  // namespace mcc::gltf

@@ -41,7 +41,7 @@ Result readHeader(std::span<const uint8_t> file, GlbFile& glb, uint64_t& length)
                                ": it is truncated");
   }
   if (length < kHeaderBytes + kChunkHeaderBytes || length % 4 != 0) {
-    return error("byte 8", "the length " + std::to_string(length) + " is no length of a GLB");
+    return error("byte 8", "the length " + std::to_string(length) + " is not valid for a GLB");
   }
   glb.has_trailing_bytes = file.size() > length;
   return {};
@@ -87,7 +87,7 @@ uint32_t glbLength(std::span<const uint8_t> file) { return readU32(file, 8); }
 
 Result readGlb(std::span<const uint8_t> file, GlbFile& glb) {
   glb = {};
-  if (!isGlb(file)) return error("byte 0", "this is no GLB file");
+  if (!isGlb(file)) return error("byte 0", "this is not a GLB file");
   uint64_t length = 0;
   MCC_GLTF_TRY(readHeader(file, glb, length));
   uint64_t offset = kHeaderBytes;
@@ -98,7 +98,7 @@ Result readGlb(std::span<const uint8_t> file, GlbFile& glb) {
     const uint64_t chunk_bytes = readU32(file, offset);
     if (chunk_bytes % 4 != 0) {
       return error(byte(offset),
-                   "the chunk length " + std::to_string(chunk_bytes) + " is no multiple of 4");
+                   "the chunk length " + std::to_string(chunk_bytes) + " is not a multiple of 4");
     }
     if (chunk_bytes > length - offset - kChunkHeaderBytes) {
       return error(byte(offset), "the chunk of " + std::to_string(chunk_bytes) +

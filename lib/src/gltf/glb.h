@@ -22,24 +22,25 @@ struct GlbFile {
   std::span<const uint8_t> json;
   bool has_bin = false;
   std::span<const uint8_t> bin;
-  std::vector<GlbChunk> other_chunks;  ///< of types glTF 2.0 does not define; kept
-  bool has_trailing_bytes = false;     ///< after the length of the header
+  std::vector<GlbChunk> other_chunks;  ///< chunks of types that glTF 2.0 does not define; kept
+  bool has_trailing_bytes = false;     ///< bytes follow after the length in the header
 };
 
 /// Whether the file starts as a GLB does (and not as JSON).
 bool isGlb(std::span<const uint8_t> file);
 
-/// Whether the file starts as JSON of glTF does: with an object, perhaps after white space or a byte order mark.
+/// Whether the file starts like the JSON of a glTF: with an object, perhaps after white space or a
+/// byte order mark.
 bool isJsonText(std::span<const uint8_t> file);
 
-/// Length that the header of a GLB of at least 12 bytes states.
+/// Returns the length in the header of a GLB of at least 12 bytes.
 uint32_t glbLength(std::span<const uint8_t> file);
 
 /// Splits a file into its chunks; the spans point into `file`. Errors name the byte.
 Result readGlb(std::span<const uint8_t> file, GlbFile& glb);
 
-/// Writes a GLB: JSON chunk padded with spaces, BIN chunk (left out when empty) with zeros.
-/// Fails above the 4 GiB a GLB can be.
+/// Writes a GLB. The JSON chunk is padded with spaces and the BIN chunk with zeros; an empty BIN
+/// chunk is left out. Fails above 4 GiB, which a GLB cannot exceed.
 Result writeGlb(const std::string& json, std::span<const uint8_t> bin,
                 std::span<const GlbChunk> other_chunks, std::vector<uint8_t>& file);
 

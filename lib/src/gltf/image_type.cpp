@@ -17,7 +17,7 @@ std::string imageTypeOf(std::span<const uint8_t> bytes) {
   if (head.size() == 12 && (head.substr(4) == "ftypavif" || head.substr(4) == "ftypavis")) {
     return "image/avif";
   }
-  // The signature "sB", the version, and a header of 77 bytes, each in two bytes.
+  // The signature "sB", the version, and the header's size of 77 bytes, each in two bytes.
   if (head.starts_with("sB") && head.size() >= 6 && head[4] == 77 && head[5] == 0) {
     return "image/basis";
   }

@@ -8,8 +8,9 @@
 
 namespace mcc::gltf {
 
-/// Media type of an image by its first bytes: those of glTF and of its extensions for textures (PNG, JPEG, KTX 2, WebP,
-/// AVIF, DDS, Basis). Empty for everything else. What a file says of itself in its JSON or its name does not count.
+/// Returns the media type of an image by its first bytes, for the types of glTF and of its
+/// extensions for textures (PNG, JPEG, KTX 2, WebP, AVIF, DDS, Basis), and an empty string for
+/// everything else. What the JSON or the name of a file says does not count.
 std::string imageTypeOf(std::span<const uint8_t> bytes);
 
 }  // namespace mcc::gltf

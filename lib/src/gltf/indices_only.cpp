@@ -13,13 +13,13 @@ namespace {
 
 constexpr uint32_t kArrayBuffer = 34962;
 
-/// Accessors that more than one piece uses, or a piece and something else.
+/// Marks accessors that more than one piece uses, or a piece and something else.
 std::vector<bool> sharedAccessors(const Document& document, const ForeignReferences& foreign,
                                   const std::vector<PayloadPlan>& payloads) {
   std::vector<const PayloadPlan*> all;
   for (const PayloadPlan& payload : payloads) all.push_back(&payload);
   std::vector<bool> is_shared = accessorsOutsidePayloads(document, foreign, all);
-  std::vector<const PiecePlan*> user(is_shared.size(), nullptr);  ///< the first one
+  std::vector<const PiecePlan*> user(is_shared.size(), nullptr);  // the first user
   for (const PayloadPlan& payload : payloads) {
     for (const PiecePlan& piece : payload.pieces) {
       for (const AttributePlan& attribute : piece.ordinary) {
@@ -32,7 +32,8 @@ std::vector<bool> sharedAccessors(const Document& document, const ForeignReferen
   return is_shared;
 }
 
-/// Sparse and coded ones would grow, and those without a view have no elements to move.
+/// Whether the elements may be stored in another order. Sparse and coded accessors would grow, and
+/// accessors without a view have no elements to move.
 bool canBeReordered(const Document& document, const Accessor& accessor) {
   const bool is_coded = accessor.view != kNone && document.views[accessor.view].isCoded();
   return accessor.sparse.count == 0 && accessor.is_known_type && !is_coded;
@@ -75,7 +76,7 @@ AttributeView weldingView(const PiecePlan& piece) {
 void reorderAttributes(const Document& document, const PiecePlan& piece,
                        const std::vector<uint32_t>& source_wedge, Json& json,
                        std::vector<NewView>& views) {
-  std::set<uint32_t> reordered;  // one accessor may be several attributes
+  std::set<uint32_t> reordered;  // an accessor may serve as several attributes
   for (const AttributePlan& attribute : piece.ordinary) {
     const Accessor& accessor = document.accessors[attribute.accessor];
     if (accessor.view == kNone || !reordered.insert(attribute.accessor).second) continue;

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Payloads with the triangles alone: the attributes stay ordinary accessors.
+// Plans payloads that hold only triangles, while the attributes stay ordinary accessors.
 #ifndef MCC_GLTF_INDICES_ONLY_H_
 #define MCC_GLTF_INDICES_ONLY_H_
 
@@ -13,16 +13,17 @@
 
 namespace mcc::gltf {
 
-/// Moves the attributes of all pieces to PiecePlan::ordinary. They will be reordered, so that the payload need not say
-/// how; where something else refers to one of them the vertex order is kept instead.
+/// Moves the attributes of all pieces to PiecePlan::ordinary. They will be reordered, so that the
+/// payload need not store the order. Where something else refers to one of them, the vertex order
+/// is kept instead.
 void planIndicesOnly(const Document& document, const ForeignReferences& foreign,
                      std::vector<PayloadPlan>& payloads);
 
-/// What the codec is told of the positions of such a piece, to find those that are equal.
+/// Returns the positions of such a piece as the codec gets them, to find those that are equal.
 AttributeView weldingView(const PiecePlan& piece);
 
 /// Gives the ordinary accessors of a piece new views with their elements in decoded order.
-/// json    the edited document; `views` receives what is new.
+/// json  is the edited document; `views` receives the new views.
 void reorderAttributes(const Document& document, const PiecePlan& piece,
                        const std::vector<uint32_t>& source_wedge, Json& json,
                        std::vector<NewView>& views);

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What is inside a compressed file.
+// Lists what is inside a compressed file.
 #include <map>
 #include <numbers>
 
@@ -20,7 +20,7 @@ std::string primitiveLabel(const ExtensionUse::AttributeUse& use) {
   return use.target == kNone ? use.name : "target " + std::to_string(use.target) + " " + use.name;
 }
 
-/// What its coding says of an attribute's errors.
+/// Derives the errors of an attribute from its coding.
 void describeErrors(const AttributeInfo* attributes, uint32_t count, uint32_t index,
                     InspectAttribute& details) {
   constexpr double kDegrees = 180 / std::numbers::pi;
@@ -30,7 +30,7 @@ void describeErrors(const AttributeInfo* attributes, uint32_t count, uint32_t in
     case AttributeCoding::kExactFloat:
     case AttributeCoding::kGrid: return;
     case AttributeCoding::kAlias:
-      return describeErrors(attributes, count, info.alias_of, details);  // which is no alias
+      return describeErrors(attributes, count, info.alias_of, details);  // never an alias itself
     case AttributeCoding::kLattice: {
       const bool is_adjusted = info.format.semantic == Semantic::kWeights;
       details.error_bound = double{info.lattice.step} * (is_adjusted ? 1 : 0.5);
@@ -61,7 +61,7 @@ void describeAttributes(const PieceInfo& piece, InspectPiece& row) {
   }
 }
 
-/// Decodes a payload to count what is in it.
+/// Decodes a payload to count its streams and codes.
 class StreamCounter {
  public:
   explicit StreamCounter(InspectPayload& report) : report_(report) {}

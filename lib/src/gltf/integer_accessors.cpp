@@ -12,12 +12,12 @@
 namespace mcc::gltf {
 namespace {
 
-/// Far larger than the rounding of a unit vector's component, far smaller than any step.
+/// Much larger than the rounding of a unit vector's component, and much smaller than any step.
 constexpr double kSlack = 1e-6;
 
 struct IntegerType {
   ComponentType type;
-  double last;  ///< stands for 1
+  double last;  ///< the integer that stands for 1
 };
 constexpr IntegerType kSigned[] = {{ComponentType::kInt8, 127}, {ComponentType::kInt16, 32767}};
 constexpr IntegerType kUnsigned[] = {{ComponentType::kUint8, 255}, {ComponentType::kUint16, 65535}};
@@ -26,7 +26,7 @@ bool isUnitVector(const AttributeFormat& format) {
   return format.semantic == Semantic::kNormal || format.semantic == Semantic::kTangent;
 }
 
-/// Distance of neighbouring values of the coded grid.
+/// Returns the distance of neighbouring values of the coded grid.
 double codedStep(const AttributeInfo& info) {
   const auto points = static_cast<double>(uint64_t{1} << info.bits);
   switch (info.coding) {
@@ -36,7 +36,8 @@ double codedStep(const AttributeInfo& info) {
   }
 }
 
-/// The smallest type whose steps are not coarser than the coded ones; null: there is none.
+/// Returns the smallest type whose steps are not coarser than the coded ones; null if there is
+/// none.
 const IntegerType* typeFor(const AttributeInfo& info) {
   for (const IntegerType& type : isUnitVector(info.format) ? kSigned : kUnsigned) {
     if (1 / type.last <= codedStep(info) * (1 + kSlack)) return &type;
@@ -44,7 +45,7 @@ const IntegerType* typeFor(const AttributeInfo& info) {
   return nullptr;
 }
 
-/// Why an attribute stays float; empty when it need not.
+/// Returns why an attribute stays float; empty when it can become integer.
 std::string obstacle(const AttributeInfo& info, uint32_t accessor,
                      const IntegerAccessors& accessors) {
   if (typeFor(info) == nullptr) return "has finer steps than 16 bits can hold";
@@ -69,7 +70,7 @@ void storeNormalized(const AttributeInfo& info, uint32_t accessor, IntegerAccess
   accessors.replace(accessor, type.type, true, values);
 }
 
-/// The WEIGHTS of one primitive: tuples that add up to one still do.
+/// Stores the WEIGHTS of one primitive. Tuples that add up to one still do so.
 void storeWeights(const std::vector<uint32_t>& sets, const IntegerType& type,
                   IntegerAccessors& accessors) {
   const uint64_t count = accessors.count(sets[0]);
@@ -87,7 +88,7 @@ void storeWeights(const std::vector<uint32_t>& sets, const IntegerType& type,
   for (size_t k = 0; k < sets.size(); ++k) accessors.replace(sets[k], type.type, true, values[k]);
 }
 
-/// The accessors WEIGHTS_n of every primitive that has some.
+/// Returns the accessors of WEIGHTS_n of every primitive that has some.
 std::set<std::vector<uint32_t>> weightSets(const Json& meshes) {
   std::set<std::vector<uint32_t>> all;
   for (const Json& mesh : meshes) {

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Decoded float accessors that may become integers.
+// Turns decoded float accessors into integers.
 #ifndef MCC_GLTF_INTEGER_ACCESSORS_H_
 #define MCC_GLTF_INTEGER_ACCESSORS_H_
 
@@ -15,26 +15,28 @@
 
 namespace mcc::gltf {
 
-/// How the accessors that were decoded had been coded, by accessor number; no aliases.
+/// How each decoded accessor was coded, by accessor number. Contains no aliases.
 using CodedAttributes = std::map<uint32_t, AttributeInfo>;
 
 /// Reads and replaces the elements of decoded accessors in a document that is not yet rebuilt.
 class IntegerAccessors {
  public:
-  /// json, views   as rebuildBuffers() takes them; both must outlive the object.
+  /// json and views are those of rebuildBuffers(); both must outlive the object.
   IntegerAccessors(const Document& source, const ForeignReferences& foreign,
                    const CodedAttributes& coded, Json& json, std::vector<NewView>& views);
 
-  /// How an accessor was coded when it still holds floats of a grid and all who use it mean the same attribute; else null.
+  /// Returns how an accessor was coded if it still holds floats on a grid and all its users mean
+  /// the same attribute by it; else null.
   const AttributeInfo* coding(uint32_t accessor) const;
 
-  /// "/accessors/3: target POSITION"; of one that has a coding.
+  /// Returns a label such as "/accessors/3: target POSITION". The accessor must have a coding.
   std::string label(uint32_t accessor) const;
   uint64_t count(uint32_t accessor) const { return source_.accessors[accessor].count; }
-  /// Component `index` of all components of all elements.
+  /// Returns component `index`, counted over all components of all elements.
   double value(uint32_t accessor, uint64_t index) const;
 
-  /// Stores other values, three of VEC3 per element and so on; bounds follow. May be done once per accessor.
+  /// Replaces the values, three per element for a VEC3 and so on, and updates the bounds. Must be
+  /// called at most once per accessor.
   void replace(uint32_t accessor, ComponentType type, bool normalized,
                const std::vector<int32_t>& values);
 
@@ -45,13 +47,14 @@ class IntegerAccessors {
   const CodedAttributes& coded_;
   Json& json_;
   std::vector<NewView>& views_;
-  std::map<uint32_t, std::set<std::string>> meanings_;  ///< what primitives use an accessor as
+  std::map<uint32_t, std::set<std::string>> meanings_;  ///< the attributes it is used as
   std::vector<bool> is_used_otherwise_;
   std::set<uint32_t> replaced_;
 };
 
-/// Attributes but positions: normals and tangents become signed, texture coordinates, colours and weights unsigned
-/// normalised integers, where their range allows and no step becomes coarser. True when KHR_mesh_quantization is needed.
+/// Stores attributes other than positions as normalised integers, where their range allows it and
+/// no step becomes coarser. Normals and tangents become signed; texture coordinates, colours and
+/// weights become unsigned. Returns true when KHR_mesh_quantization is needed.
 bool storeIntegerValues(const CodedAttributes& coded, const Json& meshes,
                         IntegerAccessors& accessors, std::vector<std::string>& notes);
 

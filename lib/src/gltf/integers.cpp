@@ -34,7 +34,7 @@ void visitMember(const Json& map, const char* key, std::vector<uint32_t>& access
 struct MeshPlan {
   std::vector<uint32_t> positions;  ///< accessors of POSITION
   std::vector<uint32_t> deltas;     ///< accessors of POSITION of morph targets
-  std::vector<uint32_t> nodes;      ///< that show the mesh
+  std::vector<uint32_t> nodes;      ///< nodes that show the mesh
   Lattice lattice;
   bool is_chosen = false;
 };
@@ -105,7 +105,8 @@ class PositionStore {
     }
   }
 
-  /// Why the positions of a mesh stay float; empty when they need not. Finds their lattice.
+  /// Returns why the positions of a mesh stay float; empty when they can become integers. Finds
+  /// their lattice.
   std::string obstacle(MeshPlan& mesh) {
     if (!node_extension_.empty()) {
       return "the extension " + node_extension_ + " may refer to its nodes";
@@ -134,7 +135,8 @@ class PositionStore {
     return "";
   }
 
-  /// fits() looks at every value, so each accessor is asked once, however many primitives share it.
+  /// fits() looks at every value, so it is called once per accessor, however many primitives share
+  /// it.
   bool pointsFit(uint32_t accessor, const Lattice& lattice) {
     const auto [found, is_new] = points_fit_.try_emplace(accessor, false);
     if (is_new) found->second = fits(accessor, lattice.origin, lattice.step, 0, kLastPoint);
@@ -147,13 +149,14 @@ class PositionStore {
     return found->second;
   }
 
-  /// Point of the lattice, and how far the value is from it in steps.
+  /// Returns the lattice point nearest to a value.
   static int64_t pointOf(double value, double origin, double step) {
     const double point = std::floor((value - origin) / step + 0.5);
     return static_cast<int64_t>(std::clamp(point, -0x1p40, 0x1p40));
   }
 
-  /// Whether all values are points within these bounds. Far from the origin the floats are too coarse to show their point.
+  /// Whether all values are lattice points within these bounds. Far from the origin, floats are too
+  /// coarse to identify their point.
   bool fits(uint32_t accessor, const float* origin, float step, int64_t first, int64_t last) const {
     const uint64_t count = 3 * accessors_.count(accessor);
     for (uint64_t i = 0; i < count; ++i) {
@@ -169,7 +172,7 @@ class PositionStore {
 
   std::string nodeObstacle(const Json& node) {
     if (const Json* extensions = findMember(node, "extensions")) {
-      if (!extensions->is_object()) return "has no proper extensions";
+      if (!extensions->is_object()) return "has malformed extensions";
       for (const auto& [name, value] : extensions->items()) {
         const bool is_harmless =
             std::find(std::begin(kMovableNodeExtensions), std::end(kMovableNodeExtensions), name) !=
@@ -178,12 +181,12 @@ class PositionStore {
       }
     }
     const Json* children = findMember(node, "children");
-    if (children != nullptr && !children->is_array()) return "has no proper children";
+    if (children != nullptr && !children->is_array()) return "has malformed children";
     const Json* skin = findMember(node, "skin");
-    return skin == nullptr || hasMatrices(*skin) ? "" : "has a skin without proper matrices";
+    return skin == nullptr || hasMatrices(*skin) ? "" : "has a skin without valid matrices";
   }
 
-  /// Many nodes may have one skin.
+  /// Looks at each skin once, since many nodes may share it.
   bool hasMatrices(const Json& skin_number) {
     uint64_t skin = 0;
     if (!asUnsigned(skin_number, skin)) return false;
@@ -194,8 +197,8 @@ class PositionStore {
 
   /// Meshes that share accessors become integers together or not at all.
   void dropSharers() {
-    std::map<uint32_t, std::vector<size_t>> meshes_with;  // by accessor
-    std::vector<size_t> float_meshes;                     // whose sharers are not dropped yet
+    std::map<uint32_t, std::vector<size_t>> meshes_with;  // meshes by accessor
+    std::vector<size_t> float_meshes;                     // those still to be visited
     for (size_t number = 0; number < meshes_.size(); ++number) {
       const MeshPlan& mesh = meshes_[number];
       for (const uint32_t accessor : mesh.positions) meshes_with[accessor].push_back(number);
@@ -205,7 +208,7 @@ class PositionStore {
     std::set<size_t> dropped;
     const auto dropUsersOf = [&](uint32_t accessor) {
       std::vector<size_t> users;
-      users.swap(meshes_with[accessor]);  // each accessor is gone through once
+      users.swap(meshes_with[accessor]);  // visit each accessor only once
       for (const size_t number : users) {
         if (!meshes_[number].is_chosen) continue;
         meshes_[number].is_chosen = false;
@@ -226,7 +229,7 @@ class PositionStore {
   }
 
   void storePoints(uint32_t accessor, const Lattice& lattice, bool is_delta) {
-    if (accessors_.coding(accessor) == nullptr) return;  // stored already
+    if (accessors_.coding(accessor) == nullptr) return;  // it was already stored
     std::vector<int32_t> points(3 * accessors_.count(accessor));
     for (uint64_t i = 0; i < points.size(); ++i) {
       const double origin = is_delta ? 0.0 : double{lattice.origin[i % 3]};
@@ -256,7 +259,8 @@ class PositionStore {
     }
   }
 
-  /// The lattice becomes the transform of a new child that has the mesh: what else the node does, and its animations, stay.
+  /// Moves the mesh of a node to a new child whose transform is the lattice. Everything else about
+  /// the node stays, and so do its animations.
   void moveToChild(uint32_t number, const Lattice& lattice) {
     const size_t child_number = json_["nodes"].size();
     Json& node = json_["nodes"][number];
@@ -271,7 +275,7 @@ class PositionStore {
     child_of_node_[number] = child_number;
   }
 
-  /// Animations of the weights of morph targets follow the mesh to its new node.
+  /// Redirects animations of the weights of morph targets to the new node of the mesh.
   void moveWeightChannels() {
     if (child_of_node_.empty() || json_.find("animations") == json_.end()) return;
     for (Json& animation : json_["animations"]) {
@@ -289,7 +293,8 @@ class PositionStore {
     }
   }
 
-  /// The matrices of a skin, identities when it names none; nothing when they are unusable.
+  /// Returns the matrices of a skin, identities when it names none, or nothing when they are
+  /// unusable.
   std::optional<std::vector<float>> inverseBindMatrices(const Json& skin_number) const {
     uint64_t skin = 0;
     const Json& skins = arrayOf(json_, "skins");
@@ -320,7 +325,7 @@ class PositionStore {
     return matrices;
   }
 
-  /// matrix * (translation by the origin) * (scale by the step), columns first.
+  /// Computes matrix * (translation by the origin) * (scale by the step), in column-major order.
   static void fold(const Lattice& lattice, float* matrix) {
     for (size_t row = 0; row < 4; ++row) {
       double moved = double{matrix[12 + row]};
@@ -333,7 +338,8 @@ class PositionStore {
     }
   }
 
-  /// Nodes of a skin with the same lattice get a skin of their own; the last of them the skin itself when nobody else has it.
+  /// Gives the nodes of a skin that have the same lattice a skin of their own. The last such group
+  /// reuses the original skin if no other node uses it.
   void moveSkins() {
     if (skinned_.empty()) return;
     std::map<uint64_t, size_t> user_counts = countMembers("nodes", "skin");
@@ -348,7 +354,7 @@ class PositionStore {
     }
   }
 
-  /// How often each number occurs as this member of the elements of an array.
+  /// Counts how often each number occurs as this member of the elements of an array.
   std::map<uint64_t, size_t> countMembers(const char* array, const char* key) const {
     std::map<uint64_t, size_t> counts;
     for (const Json& element : arrayOf(json_, array)) {
@@ -359,7 +365,7 @@ class PositionStore {
     return counts;
   }
 
-  /// Groups of nodes with equal lattices; the group of the last node first.
+  /// Groups nodes by equal lattices. The group of the last node comes first.
   static std::vector<std::vector<SkinnedNode>> byLattice(const std::vector<SkinnedNode>& nodes) {
     std::map<std::array<float, 4>, size_t> group_of;
     std::vector<std::vector<SkinnedNode>> groups;
@@ -383,7 +389,7 @@ class PositionStore {
            foreign_.accessors.count(accessor) == 0;
   }
 
-  /// Number of a skin whose matrices take lattice points.
+  /// Returns the number of a skin whose matrices apply to lattice points.
   uint64_t foldedSkin(uint64_t number, const Lattice& lattice, bool in_place) {
     std::vector<float> matrices = *inverseBindMatrices(Json(number));
     for (size_t i = 0; i < matrices.size(); i += 16) fold(lattice, &matrices[i]);
@@ -420,14 +426,14 @@ class PositionStore {
   Json& json_;
   std::vector<NewView>& views_;
   std::vector<std::string>& notes_;
-  const std::string node_extension_;  ///< one that may refer to nodes, or empty
+  const std::string node_extension_;  ///< an extension that may refer to nodes, or empty
   std::vector<MeshPlan> meshes_;
   std::map<uint32_t, bool> points_fit_;    ///< by accessor
   std::map<uint32_t, bool> deltas_fit_;    ///< by accessor
   std::map<uint64_t, bool> has_matrices_;  ///< by skin
   std::map<uint64_t, uint64_t> child_of_node_;
   std::map<uint64_t, std::vector<SkinnedNode>> skinned_;  ///< by skin
-  std::map<uint64_t, size_t> matrix_users_;               ///< skins by accessor of matrices
+  std::map<uint64_t, size_t> matrix_users_;  ///< skins by accessor of matrices
 };
 
 }  // namespace

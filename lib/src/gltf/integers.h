@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Decoded documents whose quantised attributes stay integers, with KHR_mesh_quantization.
+// Stores the quantised attributes of decoded documents as integers, with KHR_mesh_quantization.
 #ifndef MCC_GLTF_INTEGERS_H_
 #define MCC_GLTF_INTEGERS_H_
 
@@ -11,10 +11,11 @@
 
 namespace mcc::gltf {
 
-/// Turns decoded float accessors into integers, as far as every value keeps its place up to the rounding of the coded grid.
-/// Positions become lattice points; the lattice goes into new nodes that take over the meshes of theirs, or into the inverse
-/// bind matrices of skins. What cannot become integer stays float, with a note.
-/// json, views   as rebuildBuffers() takes them.
+/// Turns decoded float accessors into integers where every value keeps its place, up to the
+/// rounding of the coded grid. Positions become lattice points. The lattice goes into new nodes
+/// that take over the meshes of their parents, or into the inverse bind matrices of skins. What
+/// cannot become integer stays float, with a note.
+/// json and views are those of rebuildBuffers().
 void storeIntegers(const Document& source, const CodedAttributes& coded, Json& json,
                    std::vector<NewView>& views, std::vector<std::string>& notes);
 

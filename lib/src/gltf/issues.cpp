@@ -71,7 +71,7 @@ const char* payloadErrorName(Error error) {
     case Error::kBadAttribute: return "PAYLOAD_BAD_ATTRIBUTE";
     case Error::kTrailingBytes: return "PAYLOAD_TRAILING_BYTES";
     case Error::kLimit: return "PAYLOAD_ABOVE_LIMIT";
-    default: return ruleName(Rule::kPayload);  // out of memory: no fault of the file
+    default: return ruleName(Rule::kPayload);  // out of memory, which is not the file's fault
   }
 }
 

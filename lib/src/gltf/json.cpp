@@ -12,7 +12,7 @@
 namespace mcc::gltf {
 namespace {
 
-/// Yields the numbers of a JSON text in the order in which a parser reports them.
+/// Yields the numbers of a JSON text in the order in which the parser reports them.
 class NumberScanner {
  public:
   explicit NumberScanner(std::string_view text) : rest_(text) {}
@@ -43,8 +43,8 @@ class NumberScanner {
   std::string_view rest_;
 };
 
-/// What nlohmann's parser says, without "[json.exception.parse_error.101] parse error at line 1, column 2: ". The rest
-/// may quote the text, in which anything may stand.
+/// Returns the message of nlohmann's parser without "[json.exception.parse_error.101] parse error
+/// at line 1, column 2: ". The rest may quote any part of the text.
 std::string reasonOf(std::string what) {
   const auto drop = [&](std::string_view begin, std::string_view end) {
     const size_t found = what.starts_with(begin) ? what.find(end) : std::string::npos;
@@ -68,7 +68,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   bool number_unsigned(number_unsigned_t value) override { return addNumber(value); }
   bool number_float(number_float_t value, const string_t&) override { return addNumber(value); }
   bool string(string_t& value) override { return add(std::move(value)) != nullptr; }
-  bool binary(binary_t&) override { return false; }  // not JSON text
+  bool binary(binary_t&) override { return false; }  // never called for JSON text
   bool start_object(std::size_t) override { return open(Json::object()); }
   bool start_array(std::size_t) override { return open(Json::array()); }
   bool end_object() override { return checkKeys() && close(); }
@@ -81,7 +81,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
 
   bool parse_error(std::size_t position, const std::string&,
                    const nlohmann::detail::exception& exception) override {
-    constexpr size_t kMostBytes = 300;  // it may quote a string of any length
+    constexpr size_t kMostBytes = 300;  // the message may quote a string of any length
     const std::string reason = shortened(reasonOf(exception.what()), kMostBytes);
     result_ = error("JSON byte " + std::to_string(position),
                     "the JSON is damaged (" + printable(reason) + ")");
@@ -99,7 +99,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
       parent.push_back(std::move(value));
       return &parent.back();
     }
-    // Straight into the ordered map's vector: no search, and repeated keys stay as they were.
+    // Append directly to the ordered map's vector, which avoids a search and keeps repeated keys.
     auto& members = parent.get_ref<Json::object_t&>();
     members.emplace_back(std::move(key_), std::move(value));
     return &members.back().second;
@@ -125,7 +125,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
     return true;
   }
 
-  /// No key is repeated in the object that ends.
+  /// Checks that no key is repeated in the object that ends.
   bool checkKeys() {
     const auto& members = open_.back()->get_ref<const Json::object_t&>();
     if (extras_depth_ != 0 || members.size() < 2) return true;
@@ -139,7 +139,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
     return false;
   }
 
-  /// JSON path of the innermost object or array that is open.
+  /// Returns the JSON path of the innermost object or array that is open.
   std::string pathOfOpen() const {
     std::string path;
     for (size_t i = 0; i + 1 < open_.size(); ++i) {
@@ -159,7 +159,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   NumberScanner numbers_;
   Json& root_;
   std::vector<Json*> open_;
-  size_t extras_depth_ = 0;  ///< of the outermost `extras` that is open; 0: none is
+  size_t extras_depth_ = 0;  ///< depth of the outermost open `extras`; 0: none is open
   std::string key_;
   Result result_;
 };

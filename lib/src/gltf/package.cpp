@@ -13,7 +13,8 @@
 namespace mcc::gltf {
 namespace {
 
-/// Relative URIs of one list, with their JSON paths. Data URIs are no files.
+/// Lists the relative URIs in one list, with their JSON paths. Data URIs are left out, since they
+/// are not files.
 void listUris(const Json& json, const char* list,
               std::vector<std::pair<std::string, std::string>>& uris) {
   const Json& items = arrayOf(json, list);
@@ -24,7 +25,7 @@ void listUris(const Json& json, const char* list,
   }
 }
 
-/// In lower case, with its dot.
+/// Returns the extension of a name in lower case, with its dot.
 std::string extensionOf(const std::string& file_name) {
   const size_t dot = file_name.find_last_of("./");
   if (dot == std::string::npos || file_name[dot] == '/') return "";
@@ -39,7 +40,7 @@ Result readCopy(bool is_image, const FileReader& read_file, const std::string& w
   if (!isVisiblePath(file.path)) return error(where, name + " is the name of a hidden file");
   MCC_GLTF_TRY(read_file(file.path, where, file.bytes));
   if (!is_image || !imageTypeOf(file.bytes).empty()) return {};
-  return error(where, name + " is not an image that is known");
+  return error(where, name + " is not a known type of image");
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// A document as the files it is stored in: one GLB, or a .gltf with its buffer beside it; either with
-// a fallback beside it.
+// A document as the files it is stored in: one GLB, or a .gltf with its buffer next to it; either
+// may have a fallback file.
 #ifndef MCC_GLTF_PACKAGE_H_
 #define MCC_GLTF_PACKAGE_H_
 
@@ -14,12 +14,12 @@
 
 namespace mcc::gltf {
 
-/// A file beside the main one, whose JSON names it.
+/// A file next to the main one, whose JSON names it.
 struct SideFile {
   enum class Kind : uint8_t {
-    kBuffer,    ///< of a .gltf; made here
-    kFallback,  ///< made here
-    kCopy,      ///< of a file beside the source
+    kBuffer,    ///< the buffer of a .gltf, made by writePackage()
+    kFallback,  ///< the fallback
+    kCopy,      ///< a copy of a file next to the source
   };
   Kind kind = Kind::kBuffer;
   std::string path;  ///< relative to the main file, with '/'
@@ -30,49 +30,51 @@ struct Package {
   std::vector<uint8_t> main;
   std::vector<SideFile> beside;
 
-  /// Bytes of the document: main file and buffer.
+  /// Returns the bytes of the document: main file and buffer.
   uint64_t documentBytes() const;
 };
 
-/// How a document is stored. The names are those of files beside the main one; see uriOf().
+/// How a document is stored. The names are those of files next to the main one; see uriOf().
 struct Container {
   bool is_gltf = false;
-  std::string buffer_name;    ///< of a .gltf
-  std::string fallback_name;  ///< empty where there can be none
+  std::string buffer_name;    ///< only for a .gltf
+  std::string fallback_name;  ///< empty where there cannot be a fallback
 };
 
-/// The container of a file by its name: x.gltf has x.bin beside it, all others are GLBs. Errors: a
-/// file beside it would have a name that a URI cannot have.
+/// Finds the container of a file by its name: x.gltf has x.bin next to it, all others are GLBs.
+/// Errors: a file next to it would have a name that no URI can express.
 Result containerOf(const std::string& file_name, Container& container);
 
-/// Stores a document whose buffer (number 0; others have a URI already) is `bin`.
-/// Other chunks of a GLB have no place in a .gltf and are left out.
+/// Stores a document whose buffer 0 is `bin`; other buffers must have a URI already. Other chunks
+/// of a GLB cannot be stored in a .gltf and are left out.
 Result writePackage(const Container& container, Json json, std::vector<uint8_t> bin,
                     const std::vector<GlbChunk>& other_chunks, Package& package);
 
-/// How files beside a source are fetched to be copied.
+/// Fetches files next to a source, to copy them.
 struct CopyReaders {
   FileReader buffer;
   FileReader image;  ///< fails for what lies outside of the folder of the source
 };
 
-/// Adds the files beside the source that the JSON names: those of images, of buffers, or both. Whoever made the source
-/// chose the names and the contents, so only what is an image by its first bytes is copied as one, and nothing that is
-/// hidden. What is not copied is noted; a URI that relativePathOf() refuses is an error.
+/// Adds the files next to the source that the JSON names: images, and buffers if `with_buffers`.
+/// The author of the source chose their names and contents, so an image is copied only if its first
+/// bytes are those of an image, and hidden files are never copied. A file that is not copied is
+/// noted. A URI that relativePathOf() refuses is an error.
 Result addCopies(const Json& json, bool with_buffers, const CopyReaders& readers, Package& package,
                  std::vector<std::string>& notes);
 
-/// Whether all files of the buffers may be copied under their names: none is hidden, and each is called like a buffer
-/// (.bin, .glbin, .glbuf).
+/// Whether all files of the buffers may be copied under their names: none is hidden, and each has
+/// the extension of a buffer (.bin, .glbin, .glbuf).
 bool canCopyBuffers(const Json& json);
 
-/// The JSON of a GLB or .gltf.
+/// Reads the JSON of a GLB or .gltf.
 Result readJson(std::span<const uint8_t> file, Json& json);
 
-/// Relative paths of the files of one list, "buffers" or "images". Refused URIs are left out.
+/// Returns the relative paths of the files in one list, "buffers" or "images". Refused URIs are
+/// left out.
 std::vector<std::string> filesOf(const Json& json, const char* list);
 
-/// Those of both lists.
+/// Returns the files in both lists.
 std::vector<std::string> filesBeside(const Json& json);
 
 }  // namespace mcc::gltf

@@ -32,7 +32,8 @@ void runAll(size_t count, ThreadBudget& budget, const std::function<void(size_t)
   const auto work = [&]() {
     for (size_t i = next++; i < count; i = next++) job(i);
   };
-  // A thread's place is free again as soon as it finds nothing more to do: other jobs may be at it still, and use it.
+  // A thread gives its place back as soon as it finds no more jobs: others may still be running,
+  // and can use it.
   const auto workAndLeave = [&]() {
     work();
     budget.giveBack();
@@ -41,7 +42,7 @@ void runAll(size_t count, ThreadBudget& budget, const std::function<void(size_t)
   for (size_t i = 1; i < count && budget.take(); ++i) {
     try {
       threads.emplace_back(workAndLeave);
-    } catch (const std::exception&) {  // the system has no more threads: these are enough
+    } catch (const std::exception&) {  // the system has no more threads; continue with these
       budget.giveBack();
       break;
     }

@@ -11,7 +11,8 @@
 
 namespace mcc::gltf {
 
-/// How many threads work at the same time, in calls inside of calls too. Safe to share between threads.
+/// Limits how many threads work at the same time, including those of nested calls. Safe to share
+/// between threads.
 class ThreadBudget {
  public:
   /// `thread_count` includes the thread that calls; 0 counts as 1.
@@ -29,18 +30,19 @@ class ThreadBudget {
   std::atomic<uint32_t> spare_;
 };
 
-/// Runs job(0) … job(count - 1), which throw nothing, on this thread and on what the budget has to spare at this moment.
-/// Returns when all have ended.
+/// Runs job(0) … job(count - 1), which must not throw, on this thread and on as many others as the
+/// budget has at this moment. Returns when all have ended.
 void runAll(size_t count, ThreadBudget& budget, const std::function<void(size_t)>& job);
 
-/// Runs job(0) … job(count - 1) in the same way. Returns the error of the lowest job that failed; jobs behind it may or
-/// may not have run. Exceptions become errors.
+/// Runs job(0) … job(count - 1) in the same way. Returns the error of the lowest job that failed;
+/// jobs after it may or may not have run. Exceptions become errors.
 Result runParallel(size_t count, ThreadBudget& budget, const std::function<Result(size_t)>& job);
 
-/// The same on up to `thread_count` threads.
+/// Runs them on up to `thread_count` threads.
 Result runParallel(size_t count, uint32_t thread_count, const std::function<Result(size_t)>& job);
 
-/// Runs a function; an exception that leaves it (out of memory) becomes an error. What is said is printable().
+/// Runs a function. An exception that leaves it (out of memory) becomes an error. Messages are made
+/// printable().
 Result guarded(const std::function<Result()>& function);
 
 }  // namespace mcc::gltf

@@ -13,27 +13,28 @@
 namespace mcc::gltf {
 
 struct DecodedPiece {
-  std::vector<std::vector<uint8_t>> attributes;  ///< tight elements, decoded order
+  std::vector<std::vector<uint8_t>> attributes;  ///< packed elements in decoded order
   std::vector<std::vector<uint32_t>> parts;      ///< three wedges per triangle
 };
 
-/// A payload with everything in it decoded.
+/// A payload and everything decoded from it.
 struct DecodedPayload {
   Payload payload;
   std::vector<DecodedPiece> pieces;
 };
 
-/// What all attributes and all indices of an opened payload take, those of 32 bits.
+/// Returns the bytes of all attributes of an opened payload, and of all its indices with 32 bits
+/// each.
 uint64_t outputBytes(const PayloadInfo& info);
 
-/// A codec status as a result.
+/// Converts a codec status to a result.
 Result toResult(const Status& status, const std::string& where);
 
 /// Decodes all pieces of an opened payload.
 Status decodePieces(DecodedPayload& decoded, const DecodeOptions& options = {});
 Result decodePieces(const std::string& where, DecodedPayload& decoded);
 
-/// Opens and decodes. `bytes` must outlive `decoded`.
+/// Opens a payload and decodes all of it. `bytes` must outlive `decoded`.
 Result decodePayload(std::span<const uint8_t> bytes, const std::string& where,
                      DecodedPayload& decoded);
 

@@ -14,7 +14,7 @@
 namespace mcc::gltf {
 namespace {
 
-constexpr uint64_t kMaxVertices = uint64_t{1} << 28;  // of the payload format
+constexpr uint64_t kMaxVertices = uint64_t{1} << 28;  // the limit of the payload format
 constexpr uint64_t kMaxTargets = 4096;
 
 class Planner {
@@ -38,17 +38,17 @@ class Planner {
   }
 
  private:
-  /// An index accessor and a mode with the attributes of one piece.
+  /// A triangle list of a piece, identified by its index accessor and mode.
   struct KnownPart {
     std::string note;   ///< why it cannot be coded
-    PartPlan plan;      ///< until the first primitive uses it
-    size_t number = 0;  ///< in the piece, from then on
+    PartPlan plan;      ///< valid until the first primitive uses it
+    size_t number = 0;  ///< number in the piece, valid from then on
     bool is_used = false;
   };
 
   /// A piece in the plan and its parts, by index accessor and mode.
   struct KnownPiece {
-    bool is_used = false;  ///< by a part that is; only then the place in the plan is known
+    bool is_used = false;  ///< a part of it is used; only then is its place in the plan known
     size_t payload = 0;
     size_t number = 0;
     std::map<std::pair<uint32_t, uint64_t>, KnownPart> parts;
@@ -93,13 +93,13 @@ class Planner {
     note = part.note;
     if (note.empty() && !unknown.empty() && (mode != 4 || indices == kNone)) {
       note = "has " + unknown +
-             ", which may depend on its not being an indexed triangle list; left as it was";
+             ", which may rely on it not being an indexed triangle list; left as it was";
     }
     return note.empty() ? addUser(ref, !unknown.empty(), std::move(piece), known, part) : Result{};
   }
 
   static std::string extensionNote(const Json& json, const std::string& mesh_part) {
-    if (mesh_part == "EXT_mesh_manifold") {  // its indices and those of the primitives share bytes
+    if (mesh_part == "EXT_mesh_manifold") {  // it shares the bytes of the primitives' indices
       return "belongs to a mesh with EXT_mesh_manifold; left as it was";
     }
     return extensionOf(json, kExtensionName) == nullptr ? "" : "is compressed already";
@@ -117,7 +117,7 @@ class Planner {
     });
   }
 
-  /// Why an accessor cannot be read, or may mean something else than what can be read.
+  /// Returns why an accessor cannot be read, or may mean something else than what can be read.
   std::string unreadableNote(uint32_t index) const {
     const Accessor& accessor = document_.accessors[index];
     if (is_filled_[index]) return "is in the payload of another primitive";
@@ -133,7 +133,7 @@ class Planner {
                            : "has the unknown extension " + unknown;
   }
 
-  /// Why accessors of a primitive cannot be read; empty when they can be.
+  /// Returns why accessors of a primitive cannot be read; empty when they can be.
   std::string codedNote(const Json& json, const PiecePlan& piece) const {
     for (const AttributePlan& attribute : piece.attributes) {
       const std::string reason = unreadableNote(attribute.accessor);
@@ -145,7 +145,7 @@ class Planner {
         accessor < document_.accessors.size()) {
       std::string reason = unreadableNote(static_cast<uint32_t>(accessor));
       const Accessor& claimed = document_.accessors[accessor];
-      if (reason.empty() && claimed.normalized) reason = "is normalized, as no indices are";
+      if (reason.empty() && claimed.normalized) reason = "is normalized, which indices cannot be";
       if (!reason.empty()) return "its index accessor " + reason + "; left as it was";
     }
     if (extensionOf(json, kMeshExtension) == nullptr) return "";
@@ -209,7 +209,7 @@ class Planner {
     return {};
   }
 
-  /// Why the attributes cannot be coded; empty when they can.
+  /// Returns why the attributes cannot be coded; empty when they can.
   std::string attributeNote(const PiecePlan& piece) const {
     if (piece.target_count > kMaxTargets) {
       return "has " + std::to_string(piece.target_count) + " morph targets, more than the " +
@@ -236,8 +236,9 @@ class Planner {
     return "";
   }
 
-  /// Why accessors without bytes in the file are too large together; empty when they are not, and then they are counted.
-  /// Claimed counts cost a file nothing, and elements of them cost as much as others.
+  /// Returns why accessors without bytes in the file are too large together. If they are not,
+  /// counts them and returns an empty string. The bound is needed because claimed counts cost a
+  /// file nothing, while their elements cost us as much as any others.
   std::string zeroNote(const PiecePlan& piece, uint32_t indices) {
     std::set<uint32_t> accessors;
     for (const AttributePlan& attribute : piece.attributes) accessors.insert(attribute.accessor);
@@ -290,7 +291,7 @@ class Planner {
     return key;
   }
 
-  /// The payload of a mesh: created when its first piece comes.
+  /// Returns the number of the payload of a mesh, which is created for its first piece.
   size_t payloadOf(uint32_t mesh) {
     if (payloads_.empty() || payloads_.back().mesh != mesh) {
       payloads_.emplace_back();
@@ -326,7 +327,7 @@ class Planner {
     return {};
   }
 
-  /// What is more than all readers accept in a payload stays beside it.
+  /// Keeps attributes next to the payload that are more than all readers accept.
   static void keepBesidePayload(PiecePlan& piece) {
     constexpr size_t kMaxAttributes = Limits{}.max_attributes;
     if (piece.attributes.size() <= kMaxAttributes) return;
@@ -340,9 +341,9 @@ class Planner {
   std::vector<PayloadPlan>& payloads_;
   std::vector<LeftAlone>& left_alone_;
   std::map<std::string, KnownPiece> pieces_;
-  std::vector<bool> is_filled_;  ///< accessors that are compressed already
+  std::vector<bool> is_filled_;  ///< accessors that are already compressed
   std::set<uint32_t> zeros_;     ///< accessors whose zeros were counted, and others
-  uint64_t zero_bytes_ = 0;      ///< of all that is read
+  uint64_t zero_bytes_ = 0;      ///< sum over all accessors that are read
 };
 
 }  // namespace
@@ -409,7 +410,7 @@ void splitPayloads(std::vector<PayloadPlan>& payloads) {
         next.indices_only = payload.indices_only;
       }
       is_open = true;
-      // Attributes on either side of a payload must agree on the order.
+      // Attributes inside the payload and next to it must have the same order.
       split.back().keep_vertex_order |= !payload.indices_only && !piece.ordinary.empty();
       split.back().pieces.push_back(std::move(piece));
     }

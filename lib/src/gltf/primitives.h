@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The walk over the primitives of a document, and over the accessors that a primitive names. What has not the shape that
-// glTF gives it is passed over.
+// Walks over the primitives of a document, and over the accessors that a primitive names. Objects
+// that do not have the shape glTF requires are skipped.
 #ifndef MCC_GLTF_PRIMITIVES_H_
 #define MCC_GLTF_PRIMITIVES_H_
 
@@ -22,13 +22,13 @@ struct PrimitiveRef {
   auto operator<=>(const PrimitiveRef&) const = default;
 };
 
-/// An extension of an object, or null.
+/// Returns an extension of an object, or null.
 inline const Json* extensionOf(const Json& object, std::string_view name) {
   const Json* extensions = findMember(object, "extensions");
   return extensions == nullptr ? nullptr : findMember(*extensions, name);
 }
 
-/// The primitive at a place that visitPrimitives() gave.
+/// Returns the primitive that visitPrimitives() reported.
 inline const Json& primitiveAt(const Json& root, const PrimitiveRef& ref) {
   return (*findMember((*findMember(root, "meshes"))[ref.mesh], "primitives"))[ref.primitive];
 }
@@ -47,7 +47,8 @@ void visitPrimitives(const Json& root, const Visit& visit) {
   }
 }
 
-/// Calls visit(const Json& map, uint32_t target) for `attributes`, whose target is kNone, and for each of `targets`.
+/// Calls visit(const Json& map, uint32_t target) for `attributes`, whose target is kNone, and for
+/// each of `targets`.
 template <typename Visit>
 void visitAttributeMaps(const Json& primitive, const Visit& visit) {
   const Json* attributes = findMember(primitive, "attributes");
@@ -59,7 +60,8 @@ void visitAttributeMaps(const Json& primitive, const Visit& visit) {
   }
 }
 
-/// Calls visit(uint64_t accessor) for each attribute, each of morph targets, and the indices.
+/// Calls visit(uint64_t accessor) for each attribute, including those of morph targets, and for the
+/// indices.
 template <typename Visit>
 void visitAccessorNumbers(const Json& primitive, const Visit& visit) {
   const auto visitNumber = [&](const Json& number) {
@@ -72,8 +74,8 @@ void visitAccessorNumbers(const Json& primitive, const Visit& visit) {
   if (const Json* indices = findMember(primitive, "indices")) visitNumber(*indices);
 }
 
-/// Calls visit(uint64_t accessor) for what the payload of a compressed primitive fills: its indices, and the attributes that
-/// the extension object names.
+/// Calls visit(uint64_t accessor) for the accessors that the payload of a compressed primitive
+/// fills: its indices, and the attributes that the extension object names.
 template <typename Visit>
 void visitFilledAccessors(const Json& primitive, const Json& extension, const Visit& visit) {
   uint64_t accessor = 0;

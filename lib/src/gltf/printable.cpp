@@ -13,7 +13,7 @@ struct Character {
 
 bool isContinuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
 
-/// The character at the beginning of a text that is not empty.
+/// Returns the first character of a text that is not empty.
 Character firstCharacter(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text[0]);
   if (lead < 0x80) return {lead, 1};
@@ -36,7 +36,7 @@ Character firstCharacter(std::string_view text) {
 
 bool isPrintable(uint32_t code) {
   if (code < 0x20 || (code >= 0x7f && code < 0xa0)) return false;
-  if (code == 0x2028 || code == 0x2029) return false;  // separators of lines and paragraphs
+  if (code == 0x2028 || code == 0x2029) return false;  // line and paragraph separators
   const bool turns = code == 0x061c || code == 0x200e || code == 0x200f ||
                      (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
   return !turns;

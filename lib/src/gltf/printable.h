@@ -9,15 +9,16 @@
 
 namespace mcc::gltf {
 
-/// A text that may come from a file or from the name of one, safe for one line of a terminal: control characters
-/// (C0, DEL, C1), line and paragraph separators, marks that turn the direction of writing, and bytes that are not
-/// UTF-8 become '?'. Other characters stay. Linear in the length.
+/// Makes a text that may come from a file, or from a file's name, safe for one line of a terminal:
+/// control characters (C0, DEL, C1), line and paragraph separators, marks that change the direction
+/// of writing, and bytes that are not UTF-8 become '?'. Other characters stay. Linear in the
+/// length.
 std::string printable(std::string_view text);
 
-/// The same for both parts of a result.
+/// Does the same for both parts of a result.
 Result printable(Result result);
 
-/// At most so many bytes of a text, cut between two characters and marked with "…".
+/// Returns at most `max_bytes` bytes of a text, cut between two characters and marked with "…".
 std::string shortened(const std::string& text, size_t max_bytes);
 
 }  // namespace mcc::gltf

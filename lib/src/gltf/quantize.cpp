@@ -27,18 +27,18 @@ bool addTo(Extent& extent, const AttributePlan& attribute) {
                     [&](uint64_t i, uint32_t c) { return floatAt(attribute, i, c); });
 }
 
-/// Lattice points a value may lie on, as the writer will round it.
+/// Returns the lattice point of a value, rounded as the writer will round it.
 double latticePoint(float value, float origin, float step) {
   return std::floor((double{value} - double{origin}) / double{step} + 0.5);
 }
 
-/// step = size / (2^bits - 1), enlarged until every value has a point. False when float32 has no
-/// such step.
+/// Fits a lattice with step = size / (2^bits - 1), enlarged until every value has a point. Returns
+/// false when float32 has no such step.
 bool fitBox(const Extent& extent, uint8_t bits, Lattice& lattice) {
   const double last_point = static_cast<double>((uint64_t{1} << bits) - 1);
   lattice = {};
   const double size = extent.size();
-  constexpr float kAnyStep = 0x1p-24f;  // all values are the origin
+  constexpr float kAnyStep = 0x1p-24f;  // any step will do, since all values are the origin
   lattice.step = size == 0 ? kAnyStep : static_cast<float>(size / last_point);
   if (!std::isnormal(lattice.step)) return false;
   for (uint32_t c = 0; c < extent.component_count; ++c) {
@@ -51,9 +51,10 @@ bool fitBox(const Extent& extent, uint8_t bits, Lattice& lattice) {
   return true;
 }
 
-/// The lattice with the largest step that keeps every point within `distance` of its source: rounding to the lattice and
-/// the two float32 roundings of decoding moves a component by step / 2 + 2^-24 (|scaled| + |decoded|). False when float32
-/// or 24 bits have no such lattice.
+/// Finds the lattice with the largest step that keeps every point within `distance` of its source.
+/// Rounding to the lattice and the two float32 roundings of decoding move a component by at most
+/// step / 2 + 2^-24 (|scaled| + |decoded|). Returns false when float32 or 24 bits allow no such
+/// lattice.
 bool fitDistance(const Extent& extent, double distance, Lattice& lattice, uint8_t& bits) {
   lattice = {};
   std::copy_n(extent.min, extent.component_count, lattice.origin);
@@ -68,8 +69,8 @@ bool fitDistance(const Extent& extent, double distance, Lattice& lattice, uint8_
   return last_point < std::ldexp(1.0, kMaxLatticeBits);
 }
 
-/// A lattice of a given step through 0, so that unmoved vertices of a morph target stay unmoved. `bits` becomes what the
-/// larger side of it needs; false when that is too much.
+/// Fits a lattice of a given step through 0, so that unmoved vertices of a morph target stay
+/// unmoved. `bits` becomes what its larger side needs. Returns false when that is too much.
 bool fitAroundZero(const Extent& extent, float step, Lattice& lattice, uint8_t& bits) {
   if (!std::isnormal(step)) return false;
   constexpr double kLastPoint = (1 << kMaxLatticeBits) - 1;
@@ -189,14 +190,14 @@ class QuantizationPlanner {
     }
     if (isRuinedByOutliers(extent, bits) || !fitBox(extent, bits, lattice)) {
       notes_.push_back(where(*group[0].piece, *group[0].attribute) +
-                       " has outliers that a lattice of " + std::to_string(bits) +
-                       " bits would serve at the cost of all others; it stays exact");
+                       " has outliers for which a lattice of " + std::to_string(bits) +
+                       " bits would be too coarse for all other values; it stays exact");
       return;
     }
     for (AttributePlan* attribute : finite) useLattice(*attribute, lattice, bits);
   }
 
-  /// Largest distance of a value from the lattice's origin along an axis, in steps.
+  /// Returns the largest distance of a value from the lattice's origin along an axis, in steps.
   static double farthestPoint(const Extent& extent, const Lattice& lattice) {
     double farthest = 0;
     for (uint32_t c = 0; c < extent.component_count; ++c) {
@@ -246,19 +247,18 @@ class QuantizationPlanner {
     const bool is_unit_range =
         attribute.format.semantic != Semantic::kTexcoord && extent.isInside(0, 1);
     Lattice lattice;
-    if (is_unit_range) {  // 0 and 1 are points; black stays black and no weight appears from
-                          // nothing
+    if (is_unit_range) {  // 0 and 1 are lattice points: black stays black, and no weight of 0 grows
       useLattice(attribute, unitLattice(bits), bits);
     } else if (isRuinedByOutliers(extent, bits) || !fitBox(extent, bits, lattice)) {
-      notes_.push_back(where(piece, attribute) + " has outliers that a lattice of " +
+      notes_.push_back(where(piece, attribute) + " has outliers for which a lattice of " +
                        std::to_string(bits) +
-                       " bits would serve at the cost of all others; it stays exact");
+                       " bits would be too coarse for all other values; it stays exact");
     } else {
       useLattice(attribute, lattice, bits);
     }
   }
 
-  /// The codec has a grid of its own for unit vectors; the lattice is for vectors that are none.
+  /// The codec has its own grid for unit vectors; the lattice is used for vectors of other lengths.
   void planNormal(const PiecePlan& piece, AttributePlan& attribute, const Extent& extent,
                   uint8_t bits) {
     Lattice lattice;
@@ -269,7 +269,8 @@ class QuantizationPlanner {
     }
   }
 
-  /// A step of a power of two from -1: the signs in w, and 0, stay what they are.
+  /// Uses a step that is a power of two, starting at -1, so that 0 and the signs in w do not
+  /// change.
   void planTangent(const PiecePlan& piece, AttributePlan& attribute, const Extent& extent,
                    uint8_t bits) {
     if (!extent.isInside(-1.01f, 1.01f)) {
@@ -282,8 +283,8 @@ class QuantizationPlanner {
     useLattice(attribute, lattice, bits);
   }
 
-  /// Deltas of positions lie on the steps of the positions, those of unit vectors on steps of the
-  /// interval -1..1; the others use their own range.
+  /// Deltas of positions use the step of the positions, and those of unit vectors a step for the
+  /// interval -1..1. All others use their own range.
   void planMorphDelta(const PiecePlan& piece, AttributePlan& attribute, const Extent& extent,
                       uint8_t bits) {
     const double points = static_cast<double>((uint64_t{1} << bits) - 1);
@@ -307,7 +308,8 @@ class QuantizationPlanner {
     }
   }
 
-  /// The writer rounds the weights of a vertex together if all of them are on one lattice of 0..1.
+  /// The writer rounds the weights of a vertex together if all of them are on one lattice from 0 to
+  /// 1.
   static void noteRoundedWeights(PiecePlan& piece) {
     std::vector<AttributePlan*> sets;
     for (AttributePlan& attribute : piece.attributes) {

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Bits and lattices of the float attributes of a plan.
+// Chooses bits and lattices for the float attributes of a plan.
 #ifndef MCC_GLTF_QUANTIZE_H_
 #define MCC_GLTF_QUANTIZE_H_
 
@@ -11,8 +11,9 @@
 
 namespace mcc::gltf {
 
-/// Chooses for every float attribute its bits and, but for unit vectors, its lattice. Attributes that a lattice would ruin
-/// (NaN, infinity, outliers) get none and stay exact; a note says which.
+/// Chooses the bits of every float attribute and, except for unit vectors, its lattice. Attributes
+/// for which a lattice would be too coarse or impossible (outliers, NaN, infinity) get none and
+/// stay exact, with a note.
 void planQuantization(const ConvertOptions& options, std::vector<PayloadPlan>& payloads,
                       std::vector<std::string>& notes);
 

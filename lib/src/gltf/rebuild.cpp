@@ -20,7 +20,8 @@ ByteRange viewRange(const Document& document, uint32_t view) {
   return {from.buffer, from.offset, from.offset + from.length};
 }
 
-/// Calls visit(uint32_t view, uint32_t accessor) for the references of `json` to views of the document.
+/// Calls visit(uint32_t view, uint32_t accessor) for the references in `json` to views of the
+/// document.
 template <typename Visit>
 void visitOldViews(const Document& document, const Json& json, const Visit& visit) {
   visitViewReferences(json, [&](const Json& number, uint32_t accessor) {
@@ -94,7 +95,8 @@ class Rebuilder {
         if (is_inside) ranges_[view].push_back(range);
       }
     });
-    // What refers to none of its bytes, as a sparse accessor of 0 elements, still needs the view.
+    // An accessor that uses none of its bytes, such as a sparse one of 0 elements, still needs its
+    // view.
     for (uint32_t view = 0; view < ranges_.size(); ++view) {
       if (is_referred[view] && ranges_[view].empty()) keepWhole(view);
     }
@@ -106,7 +108,8 @@ class Rebuilder {
     std::sort(live.begin(), live.end(), [](const ByteRange& a, const ByteRange& b) {
       return std::tie(a.buffer, a.begin, a.end) < std::tie(b.buffer, b.begin, b.end);
     });
-    // Runs closer than the alignment stay together, so that an untouched buffer does not change.
+    // Runs with gaps smaller than the alignment stay together, so that an untouched buffer does not
+    // change.
     const uint64_t alignment = foreign_.keep_numbers ? 8 : 4;
     for (const ByteRange& range : live) {
       Block* last = blocks_.empty() ? nullptr : &blocks_.back();
@@ -134,19 +137,19 @@ class Rebuilder {
     }
   }
 
-  /// New place of a source byte that is kept.
+  /// Returns the new place of a source byte that is kept.
   uint64_t moved(uint32_t buffer, uint64_t offset) const {
     const auto above =
         std::upper_bound(blocks_.begin(), blocks_.end(), std::pair(buffer, offset),
                          [](const auto& key, const Block& block) {
                            return key < std::pair(block.source.buffer, block.source.begin);
                          });
-    if (above == blocks_.begin()) return 0;  // only of empty ranges
+    if (above == blocks_.begin()) return 0;  // happens for empty ranges only
     const Block& block = *(above - 1);
     return block.target + (offset - block.source.begin);
   }
 
-  /// What is kept of each view, in source bytes: the hull of its ranges.
+  /// Finds what is kept of each view, in source bytes: the hull of its ranges.
   void findKeptRanges() {
     kept_.resize(ranges_.size());
     for (size_t view = 0; view < ranges_.size(); ++view) {
@@ -199,7 +202,7 @@ class Rebuilder {
     for (size_t k = 0; k < new_views_.size(); ++k) {
       numbers_[old_count + k] = k < free_numbers.size() ? free_numbers[k] : view_count_++;
     }
-    // What is left of them at the end holds no number but its own.
+    // Free numbers that are left over at the end need not be kept in use.
     for (size_t k = free_numbers.size(); k > new_views_.size(); --k) {
       if (free_numbers[k - 1] + 1 != view_count_) break;
       numbers_[free_numbers[k - 1]] = kNone;
@@ -217,7 +220,7 @@ class Rebuilder {
     view["byteLength"] = length;
   }
 
-  /// A coded view keeps its coded bytes; its own range lies in a buffer without bytes.
+  /// A coded view keeps its coded bytes. Its own range lies in a placeholder buffer without bytes.
   void setCodedRange(Json& view, const ViewCoding& coding, uint64_t offset, uint64_t length) {
     setRange(view["extensions"][coding.extension], offset, length);
     view["buffer"] = 1;
@@ -300,7 +303,8 @@ class Rebuilder {
     if (extensions->empty()) object.erase("extensions");
   }
 
-  /// Lists the extensions of coded views, as required ones, since their bytes are nowhere else; or no longer.
+  /// Lists the extensions of coded views as required, since their bytes exist nowhere else. Removes
+  /// those that are no longer used.
   void nameCodings() {
     for (const char* name : kViewExtensions) {
       for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
@@ -318,14 +322,14 @@ class Rebuilder {
   std::vector<NewView>& new_views_;
   Json& json_;
   std::vector<uint8_t>& bin_;
-  std::vector<std::vector<ByteRange>> ranges_;  ///< per old view: what is kept of it
-  std::vector<ByteRange> kept_;                 ///< per old view
+  std::vector<std::vector<ByteRange>> ranges_;  ///< ranges of each old view that are kept
+  std::vector<ByteRange> kept_;                 ///< the hull of each old view's ranges
   std::vector<bool> is_whole_;
   std::vector<Block> blocks_;      ///< ascending in buffer and begin
   std::vector<uint32_t> numbers_;  ///< final numbers of old and new views
   uint32_t view_count_ = 0;
-  uint64_t placeholder_bytes_ = 0;          ///< of the buffer that coded views claim to be in
-  std::set<std::string> coded_extensions_;  ///< of the views that are still coded
+  uint64_t placeholder_bytes_ = 0;          ///< size of the buffer that coded views claim to be in
+  std::set<std::string> coded_extensions_;  ///< extensions of the views that are still coded
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-//
-// The buffers of a document whose accessors changed: bytes nobody refers to any more are dropped,
-// new buffer views are added, and everything ends up in one buffer, the BIN chunk of a GLB.
+// Rebuilds the buffers of a document whose accessors changed: bytes that nothing refers to any more
+// are dropped, new buffer views are added, and everything ends up in one buffer, the BIN chunk of a
+// GLB.
 #ifndef MCC_GLTF_REBUILD_H_
 #define MCC_GLTF_REBUILD_H_
 
@@ -12,7 +12,7 @@
 
 namespace mcc::gltf {
 
-/// Bytes of one source buffer.
+/// A range of bytes in one source buffer.
 struct ByteRange {
   uint32_t buffer = 0;
   uint64_t begin = 0;
@@ -21,16 +21,18 @@ struct ByteRange {
 
 /// Who needs a buffer view of a document.
 enum class ViewUse : uint8_t {
-  kReferred,  ///< the places that glTF and the extensions on our list have, and nothing else
-  kUnknown,   ///< something we do not understand, at least possibly: its bytes are kept
-  /// Nobody: it holds a number that was freed in front of others which must stay, with the first byte of another view. As no
-  /// one else makes such views, the number is free again.
+  kReferred,  ///< only places that glTF and the extensions on our list define refer to it
+  kUnknown,   ///< something we do not understand may refer to it, so its bytes are kept
+  /// Nothing refers to it. It only keeps a number in use that was freed before others which must
+  /// stay; its one byte belongs to another view. Nobody else makes such views, so the number can be
+  /// used again.
   kFree,
 };
 
 std::vector<ViewUse> viewUses(const Document& document, const ForeignReferences& foreign);
 
-/// Source bytes an accessor needs: its elements, or its whole buffer views when `whole_views`.
+/// Returns the source bytes an accessor needs: its elements, or its whole buffer views if
+/// `whole_views`.
 std::vector<ByteRange> accessorRanges(const Document& document, uint32_t accessor,
                                       bool whole_views);
 
@@ -43,12 +45,13 @@ struct NewView {
 /// Removes what was freed and adds what is new.
 /// document   the source, as it was loaded.
 /// json       the edited document. Buffer views have the numbers of the source; new view k has the
-///            number document.views.size() + k. Accessors keep their numbers; of old ones that
-///            still have a bufferView nothing about the bytes was edited.
+///            number document.views.size() + k. Accessors keep their numbers; if an old one still
+///            has a bufferView, nothing about its bytes was edited.
 /// new_views  consumed.
-/// On return `json` has the final numbers and offsets, `bin` the bytes of its one buffer. A view no
-/// one referred to in the source is kept, unless it is free. View numbers do not change when
-/// foreign.keep_numbers: new views take the free ones, then those behind the end.
+/// On return `json` has the final numbers and offsets, and `bin` the bytes of its one buffer. A
+/// view that nothing referred to in the source is kept, unless it is free. View numbers do not
+/// change when foreign.keep_numbers: new views take the free numbers first, then those after the
+/// end.
 Result rebuildBuffers(const Document& document, const ForeignReferences& foreign,
                       std::vector<NewView>& new_views, Json& json, std::vector<uint8_t>& bin);
 

@@ -7,8 +7,8 @@
 namespace mcc::gltf {
 namespace {
 
-/// Extensions that hold no numbers of buffer views or accessors, apart from those of
-/// visitViewReferences() and markAccessorsOutsideMeshes().
+/// Extensions that hold no numbers of buffer views or accessors, except where visitViewReferences()
+/// and markAccessorsOutsideMeshes() look for them.
 constexpr std::string_view kKnownExtensions[] = {
     "ADOBE_materials_clearcoat_specular",
     "ADOBE_materials_clearcoat_tint",
@@ -43,12 +43,12 @@ constexpr std::string_view kKnownExtensions[] = {
     "VRMC_vrm",
 };
 
-/// Extensions of meshes and primitives that do not care for the order of vertices and triangles.
+/// Extensions of meshes and primitives that do not depend on the order of vertices and triangles.
 constexpr std::string_view kOrderFreeExtensions[] = {
     "KHR_draco_mesh_compression", "KHR_materials_variants", "KHR_mesh_collapse_compression",
     "KHR_xmp", "KHR_xmp_json_ld"};
 
-/// Extensions on our list that name nodes for the sake of their meshes.
+/// Extensions on our list that name nodes because of their meshes.
 constexpr std::string_view kNodeReferringExtensions[] = {
     "KHR_animation_pointer", "MSFT_lod",        "VRM",
     "VRMC_node_constraint",  "VRMC_springBone", "VRMC_vrm"};
@@ -67,11 +67,12 @@ bool containsIgnoringCase(const std::string& text, std::string_view word) {
   return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
 }
 
-/// Words in keys of extras whose numbers may count vertices or triangles.
+/// Words that suggest that a key in extras counts vertices or triangles.
 constexpr std::string_view kOrderWords[] = {"face",  "first",  "group",    "index",   "indices",
                                             "range", "vertex", "vertices", "triangle"};
 
-/// The first key in extras that has such a word and anything but a text, or an empty string.
+/// Returns the first key in extras that has such a word and a value other than text, or an empty
+/// string.
 std::string orderWordOf(const Json& json) {
   if (!json.is_structured()) return "";
   for (const auto& [key, value] : json.items()) {
@@ -104,7 +105,7 @@ void keepNumbersFor(ForeignReferences& foreign, const std::string& extension) {
   if (foreign.extension.empty()) foreign.extension = extension;
 }
 
-/// Walks extras and unknown extensions.
+/// Collects the references in extras and unknown extensions.
 void walkForeign(const Json& json, ForeignReferences& foreign) {
   if (json.is_array()) {
     for (const Json& value : json) walkForeign(value, foreign);
@@ -144,7 +145,7 @@ void walkKnown(const Json& json, ForeignReferences& foreign) {
   }
 }
 
-/// The member of an object that may be absent; `J` is Json or const Json.
+/// Returns the member of an object that may be null. `J` is Json or const Json.
 template <typename J>
 J* member(J* json, std::string_view key) {
   return json == nullptr ? nullptr : const_cast<J*>(findMember(*json, key));
@@ -155,7 +156,7 @@ void visitMember(J* object, const char* key, uint32_t accessor, const Visit& vis
   if (J* number = member(object, key); number != nullptr) visit(*number, accessor);
 }
 
-/// Elements of an array that may be absent; none of anything else.
+/// Visits the elements of an array that may be null. Anything but an array has no elements.
 template <typename J, typename Visit>
 void visitElements(J* array, const Visit& visit) {
   if (array == nullptr || !array->is_array()) return;
@@ -251,7 +252,7 @@ void removeExtensionName(Json& root, const char* list, const char* name) {
   for (const Json& other : *found) {
     if (other != name) others.push_back(other);
   }
-  if (others.empty()) {  // also where it was so before, which glTF forbids
+  if (others.empty()) {  // also when it was empty before, which glTF forbids
     root.erase(list);
   } else {
     *found = std::move(others);

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Reports of conversions as JSON, for the tool and for the web.
+// Writes reports of conversions as JSON, for the tool and for the web.
 #ifndef MCC_GLTF_REPORT_JSON_H_
 #define MCC_GLTF_REPORT_JSON_H_
 
@@ -12,13 +12,13 @@
 
 namespace mcc::gltf {
 
-/// What decides on the bytes of the output.
+/// Returns the options that the bytes of the output depend on.
 nlohmann::ordered_json optionsJson(const ConvertOptions& options);
 
-/// Everything that is known about a conversion.
+/// Returns everything that is known about a conversion.
 nlohmann::ordered_json reportJson(const ConvertReport& report, const ConvertOptions& options);
 
-/// "lattice 14", "exact float", … of an attribute; `bits` 0: without them.
+/// Returns a name such as "lattice 14" or "exact float". With `bits` 0, the bits are left out.
 std::string codingName(AttributeCoding coding, uint32_t bits);
 
 }  // namespace mcc::gltf

@@ -13,7 +13,7 @@ inline Result error(std::string where, std::string what) {
   return Result{std::move(where), std::move(what)};
 }
 
-/// JSON pointer to an element: at("/accessors", 3) is "/accessors/3".
+/// Returns the JSON pointer to an element: at("/accessors", 3) is "/accessors/3".
 inline std::string at(const std::string& path, uint64_t index) {
   return path + "/" + std::to_string(index);
 }
@@ -29,7 +29,7 @@ inline std::string at(const std::string& path, const std::string& key) {
   return path + "/" + escaped;
 }
 
-/// JSON path of a primitive.
+/// Returns the JSON path of a primitive.
 inline std::string primitivePath(uint64_t mesh, uint64_t primitive) {
   return at(at("/meshes", mesh) + "/primitives", primitive);
 }

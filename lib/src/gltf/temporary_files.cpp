@@ -31,7 +31,7 @@ TemporaryFiles::Lock TemporaryFiles::removeAllWithin(std::chrono::milliseconds p
 
 void TemporaryFiles::removeThem() {
   std::error_code ignored;
-  // Folders were added before the files in them.
+  // Folders were added before the files in them, so remove them last.
   for (auto path = paths_.rbegin(); path != paths_.rend(); ++path) {
     std::filesystem::remove(*path, ignored);
   }

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What a process that is ended from outside has to clear away.
+// Lists what has to be removed when a signal ends the process.
 #ifndef MCC_GLTF_TEMPORARY_FILES_H_
 #define MCC_GLTF_TEMPORARY_FILES_H_
 
@@ -11,20 +11,23 @@
 
 namespace mcc::gltf {
 
-/// The temporary files and new folders of the conversions that are going on. Safe to share between threads.
+/// The temporary files and new folders of all conversions in progress. Safe to share between
+/// threads.
 class TemporaryFiles {
  public:
   using Lock = std::unique_lock<std::recursive_timed_mutex>;
 
-  /// Held while a file appears, and while several get their names together: removeAll() sees all of it or nothing.
+  /// Must be held while a file is created, and while several files get their names together, so
+  /// that removeAll() sees either all of it or nothing.
   Lock lock() { return Lock(mutex_); }
   void add(const std::filesystem::path& path);
   void forget(const std::filesystem::path& path);
 
-  /// Removes them all, new folders where they are empty. As long as the lock is held no other file appears and none gets
-  /// its name: keep it until the process ends.
+  /// Removes all files, and folders that are empty. As long as the returned lock is held, no other
+  /// file appears and none gets its name, so keep it until the process ends.
   Lock removeAll();
-  /// The same when a thread has failed, which may hold the lock: without it after so long nothing is removed.
+  /// The same after a thread has failed while it may hold the lock. If the lock cannot be taken
+  /// within `patience`, nothing is removed.
   Lock removeAllWithin(std::chrono::milliseconds patience);
 
  private:
@@ -34,7 +37,7 @@ class TemporaryFiles {
   std::vector<std::filesystem::path> paths_;
 };
 
-/// An empty lock where there are no files to be told of.
+/// Returns the lock of `files`, or an empty lock if that is null.
 inline TemporaryFiles::Lock lockOf(TemporaryFiles* files) {
   return files != nullptr ? files->lock() : TemporaryFiles::Lock();
 }

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The mc-tree of a primitive: of its payload, or of one made for the purpose.
+// Returns the mc-tree of a primitive: that of its payload, or that of a payload made for this
+// purpose.
 #include <algorithm>
 
 #include "gltf/accessors.h"
@@ -15,7 +16,7 @@
 namespace mcc::gltf {
 namespace {
 
-/// Takes the mc-edges of one piece while a payload is decoded, in decoding order.
+/// Collects the mc-edges of one piece in decoding order, while a payload is decoded.
 struct EdgeTaker {
   uint32_t wanted_piece = 0;
   std::vector<McTree::Edge> edges;
@@ -26,8 +27,9 @@ struct EdgeTaker {
   }
 };
 
-/// Decoding runs the collapse backwards. What was contracted first is the parent; only the leaf of a twig comes the other
-/// way round.
+/// Puts the edges into the order of the collapse, which decoding runs backwards. The end that was
+/// contracted first becomes the parent; only edges to the leaf of a twig arrive the other way
+/// round.
 std::vector<McTree::Edge> inCollapseOrder(std::vector<McTree::Edge> edges, size_t vertex_count) {
   std::reverse(edges.begin(), edges.end());
   std::vector<bool> is_met(vertex_count, false);
@@ -47,7 +49,8 @@ Result readPositions(const Document& document, uint64_t accessor_index, const st
   const Accessor& accessor = document.accessors[index];
   AccessorData elements;
   MCC_GLTF_TRY(readAccessor(document, index, elements));
-  if (accessor.componentCount() != 3) return error(where, "POSITION has not three components");
+  if (accessor.componentCount() != 3)
+    return error(where, "POSITION does not have three components");
   const uint32_t bytes = componentBytes(accessor.component_type);
   for (uint64_t i = 0; i < elements.count; ++i) {
     const uint8_t* element = elements.element(i).data();
@@ -59,7 +62,7 @@ Result readPositions(const Document& document, uint64_t accessor_index, const st
   return {};
 }
 
-/// The accessor of a primitive's POSITION.
+/// Finds the accessor of a primitive's POSITION.
 Result positionAccessor(const Json& primitive, const std::string& where, uint64_t& accessor) {
   const Json* attributes = findMember(primitive, "attributes");
   const Json* position = attributes == nullptr ? nullptr : findMember(*attributes, "POSITION");
@@ -69,7 +72,8 @@ Result positionAccessor(const Json& primitive, const std::string& where, uint64_
   return {};
 }
 
-/// Of a primitive with a payload: the tree of its whole piece, which may hold other primitives, too.
+/// Makes the tree of a primitive with a payload. It is the tree of the whole piece, which may hold
+/// other primitives, too.
 Result treeOfPayload(const Document& document, const ExtensionUse& use, const Json& primitive,
                      McTree& tree) {
   const std::string where = use.path + "/bufferView";
@@ -101,14 +105,14 @@ Result treeOfPayload(const Document& document, const ExtensionUse& use, const Js
   MCC_GLTF_TRY(positionAccessor(primitive, use.path, accessor));
   MCC_GLTF_TRY(readPositions(document, accessor, use.path, tree.positions));
   const bool is_whole = tree.positions.size() == size_t{3} * info.wedge_count;
-  return is_whole ? Result{} : error(use.path, "POSITION has not the payload's vertices");
+  return is_whole ? Result{} : error(use.path, "POSITION does not have the payload's vertices");
 }
 
 Result readTriangles(const Document& document, const Json& primitive, const std::string& where,
                      size_t vertex_count, std::vector<uint32_t>& triangles) {
   uint64_t mode = 4;
   MCC_GLTF_TRY(readOptionalUnsigned(primitive, "mode", where, 6, mode));
-  if (mode < 4) return error(where, "has no triangles, but points or lines");
+  if (mode < 4) return error(where, "has points or lines, not triangles");
   if (findMember(primitive, "indices") != nullptr) {
     uint64_t index = 0;
     MCC_GLTF_TRY(readUnsigned(primitive, "indices", where, kNone, index));
@@ -125,7 +129,7 @@ Result readTriangles(const Document& document, const Json& primitive, const std:
   return is_inside ? Result{} : error(at(where, "indices"), "an index is not below the count");
 }
 
-/// Of any other primitive: a payload of its triangles is made and decoded again.
+/// Makes the tree of any other primitive: its triangles are encoded in memory and decoded again.
 Result treeOfTriangles(const Document& document, const Json& primitive, const std::string& where,
                        McTree& tree) {
   uint64_t accessor = 0;
@@ -157,7 +161,7 @@ Result treeOfTriangles(const Document& document, const Json& primitive, const st
 Result findPrimitive(const Document& document, uint32_t mesh, uint32_t primitive,
                      const Json*& json) {
   const Json& meshes = arrayOf(document.json, "meshes");
-  if (meshes.empty()) return error("", "there are no meshes in it");
+  if (meshes.empty()) return error("", "the file has no meshes");
   if (mesh >= meshes.size()) {
     return error("", "there is no mesh " + std::to_string(mesh) + "; the last is " +
                          std::to_string(meshes.size() - 1));

@@ -6,7 +6,7 @@
 namespace mcc::gltf {
 namespace {
 
-/// Vertices that a triangle uses, ascending.
+/// Returns the vertices that a triangle uses, in ascending order.
 std::vector<uint32_t> usedVertices(const PiecePlan& piece) {
   std::vector<bool> is_used(piece.wedge_count, false);
   for (const PartPlan& part : piece.parts) {
@@ -52,7 +52,7 @@ void planUnused(const ConvertOptions& options, std::vector<PayloadPlan>& payload
       std::vector<uint32_t> used = usedVertices(piece);
       if (used.size() == piece.wedge_count) continue;
       unused += piece.wedge_count - used.size();
-      // An extension may refer to vertices by number, and a primitive without vertices is none.
+      // An extension may refer to vertices by number, and a primitive needs at least one vertex.
       if (payload.keep_vertex_order || used.empty()) is_kept = true;
       if (options.drop_unused && !payload.keep_vertex_order && !used.empty())
         keepVertices(std::move(used), piece);

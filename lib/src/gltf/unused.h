@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Vertices that no triangle uses.
+// Finds and drops vertices that no triangle uses.
 #ifndef MCC_GLTF_UNUSED_H_
 #define MCC_GLTF_UNUSED_H_
 
@@ -11,8 +11,9 @@
 
 namespace mcc::gltf {
 
-/// Notes how many vertices of each mesh no triangle uses. With options.drop_unused they are taken out of the pieces, but for
-/// those whose vertices something may refer to by number. Linear in the vertices and triangles.
+/// Notes how many vertices of each mesh no triangle uses. With options.drop_unused they are removed
+/// from the pieces, except where something may refer to vertices by number. Linear in the vertices
+/// and triangles.
 void planUnused(const ConvertOptions& options, std::vector<PayloadPlan>& payloads,
                 std::vector<std::string>& notes);
 

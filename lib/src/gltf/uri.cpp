@@ -58,14 +58,14 @@ bool decodeBase64(const std::string& text, size_t begin, std::vector<uint8_t>& b
       bytes.push_back(static_cast<uint8_t>(bits >> bit_count));
     }
   }
-  if (bit_count == 6) return false;  // one lonely digit
+  if (bit_count == 6) return false;  // a single digit is less than a byte
   for (; i < text.size(); ++i) {
     if (text[i] != '=') return false;
   }
   return true;
 }
 
-/// Whether "name:" starts the text: a URI scheme or a drive letter.
+/// Whether the text starts with "name:", which is a URI scheme or a drive letter.
 bool hasScheme(const std::string& text) {
   for (const char c : text) {
     if (c == ':') return true;
@@ -126,7 +126,7 @@ Result decodeDataUri(const std::string& uri, const std::string& where,
 }
 
 Result relativePathOf(const std::string& uri, const std::string& where, std::string& path) {
-  const std::string advice = "; use a relative URI of a file beside the model";
+  const std::string advice = "; use a relative URI of a file next to the model";
   if (uri.empty()) return error(where, "the URI is empty");
   if (!decodePercent(uri, path)) {
     return error(where, "the percent encoding of " + quoted(uri) + " is damaged");
@@ -134,7 +134,7 @@ Result relativePathOf(const std::string& uri, const std::string& where, std::str
   if (hasControlCharacter(path)) {
     return error(where, "the URI " + quoted(uri) + " has control characters");
   }
-  // Before and after decoding: "%66ile:" must not become a scheme, nor "a:b" a path.
+  // Test before and after decoding: "%66ile:" must not become a scheme, nor "a:b" a path.
   if (hasScheme(uri) || hasScheme(path)) {
     return error(where, "the URI " + quoted(uri) + " is not relative and is refused" + advice);
   }
@@ -164,7 +164,7 @@ bool isVisiblePath(const std::string& path) {
 std::string uriOf(const std::string& name) {
   static constexpr std::string_view kPlain = "-._~!$&'()*+,;=@";
   static constexpr char kHexDigits[] = "0123456789ABCDEF";
-  std::string uri = hasScheme(name) ? "./" : "";  // "a:b.bin" would be of the scheme "a"
+  std::string uri = hasScheme(name) ? "./" : "";  // "a:b.bin" would have the scheme "a"
   for (const char c : name) {
     const auto code = static_cast<unsigned char>(c);
     if (code < 0x80 && (std::isalnum(code) != 0 || kPlain.find(c) != std::string_view::npos)) {
@@ -179,7 +179,7 @@ std::string uriOf(const std::string& name) {
 bool isUsableName(const std::string& name) {
   std::string path;
   if (!relativePathOf(uriOf(name), "", path).ok()) return false;
-  return path == name || path == "./" + name;  // not so when it has a backslash
+  return path == name || path == "./" + name;  // false when the name has a backslash
 }
 
 }  // namespace mcc::gltf

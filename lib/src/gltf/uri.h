@@ -16,17 +16,19 @@ bool isDataUri(const std::string& uri);
 Result decodeDataUri(const std::string& uri, const std::string& where, std::vector<uint8_t>& bytes);
 
 /// Turns a relative URI of a file at or below the model's folder into a relative path with '/'.
-/// Refuses everything else: schemes, absolute paths, drive letters, `..` that climbs out, control
-/// characters; percent encoding is resolved before the test.
+/// Refuses everything else: schemes, absolute paths, drive letters, `..` that leaves the folder,
+/// and control characters. Percent encoding is resolved before the test.
 Result relativePathOf(const std::string& uri, const std::string& where, std::string& path);
 
-/// Whether no part of a relative path begins with a dot, as names of hidden files and folders do.
+/// Whether no part of a relative path begins with a dot, as the names of hidden files and folders
+/// do.
 bool isVisiblePath(const std::string& path);
 
-/// The URI of a file beside the model, percent-encoded; relativePathOf() leads back to the file.
+/// Returns the percent-encoded URI of a file next to the model, from which relativePathOf() returns
+/// the file.
 std::string uriOf(const std::string& name);
 
-/// Whether a file of this name can be named by a URI.
+/// Whether a URI can name a file of this name.
 bool isUsableName(const std::string& name);
 
 }  // namespace mcc::gltf

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// All that is wrong with the compressed parts of a file.
+// Finds everything that is wrong with the compressed parts of a file.
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -34,7 +34,7 @@ bool isListed(const Json& json, const char* list) {
 
 class Validator {
  public:
-  /// json  the document as it is in the file; loading takes out a fallback that is not there.
+  /// `json` is the document as it is in the file; loading removes a fallback that does not exist.
   Validator(const Json& json, const Document& document, const ValidateOptions& options,
             Issues& issues, ValidationReport& report)
       : json_(json),
@@ -60,7 +60,7 @@ class Validator {
     const std::vector<PayloadUse> payloads = payloadUses(document_, uses_);
     report_.payload_count = static_cast<uint32_t>(payloads.size());
     for (const auto& [view, users] : payloads) checkPayload(view, users);
-    // Said once; what was below the limit is checked.
+    // Reported once; payloads below the limit were checked.
     issues_.passes(Rule::kDecodedBytes, decoded_bytes_.check());
   }
 
@@ -71,7 +71,7 @@ class Validator {
     return json_["meshes"][use.mesh]["primitives"][use.primitive];
   }
 
-  /// What the JSON Schema says of properties that decoding does not look at.
+  /// Checks properties by the JSON Schema that decoding does not look at.
   void checkObject(const ExtensionUse& use) {
     const Json& extension = primitiveOf(use)["extensions"][kExtensionName];
     const Json* nested = findMember(extension, "extensions");
@@ -138,7 +138,7 @@ class Validator {
     }
   }
 
-  /// Images, accessors and other primitives must not take a payload for theirs.
+  /// Checks that images, accessors and other primitives do not use the view of a payload.
   void checkOtherViewUses(const std::map<uint32_t, std::vector<const ExtensionUse*>>& by_view) {
     std::map<uint32_t, size_t> counts;
     visitViewReferences(document_.json, [&](const Json& reference, uint32_t) {
@@ -200,7 +200,7 @@ class Validator {
                     std::to_string(use.piece) + " of the payload does not keep");
   }
 
-  /// What no primitive names.
+  /// Reports parts and attributes that no primitive names.
   void checkUse(const std::vector<const ExtensionUse*>& users, const PayloadInfo& info,
                 const std::string& where) {
     struct Used {
@@ -248,7 +248,7 @@ class Validator {
     checkAccessor(use.indices_accessor, indices, false);
   }
 
-  /// tight  the decoded elements.
+  /// Checks an accessor; `tight` has the decoded elements.
   void checkAccessor(uint32_t number, std::span<const uint8_t> tight, bool needs_bounds) {
     const Accessor& accessor = document_.accessors[number];
     const Json& json = json_["accessors"][number];
@@ -285,14 +285,14 @@ class Validator {
       const std::span<const uint8_t> element = elements.element(i);
       if (std::memcmp(element.data(), &tight[i * element.size()], element.size()) == 0) continue;
       issues_.add(Rule::kFallbackElements, path,
-                  "element " + std::to_string(i) + " of the fallback is not the decoded one");
+                  "element " + std::to_string(i) + " of the fallback differs from the decoded one");
       break;
     }
     if (accessor.view == kNone) return;
     if (!payload_buffers_.contains(document_.views[accessor.view].buffer)) return;
     issues_.add(Rule::kFallbackBuffer, at("/bufferViews", accessor.view) + "/buffer",
-                "holds a fallback in the buffer of a payload; in one of its own, loaders that know "
-                "the extension need not load it");
+                "holds a fallback in the same buffer as a payload; if it had its own, loaders that "
+                "know the extension would not have to load it");
   }
 
   const Json& json_;
@@ -303,7 +303,7 @@ class Validator {
   ValidationReport& report_;
   std::vector<ExtensionUse> uses_;
   std::set<uint32_t> checked_;
-  std::set<uint32_t> payload_buffers_;  ///< that payloads are in
+  std::set<uint32_t> payload_buffers_;  ///< buffers that hold payloads
 };
 
 std::vector<std::string> textsOf(const Json& list) {
@@ -339,7 +339,8 @@ void validateBytes(std::span<const uint8_t> bytes, const FileReader& read_file,
   Validator(json, document, options, issues, report).run();
 }
 
-/// Where an issue is, if that is a place in the JSON; else the message says it.
+/// Returns an issue with its place as a pointer, if that is a place in the JSON; otherwise the
+/// message includes it.
 ValidationIssue publicIssue(const Issue& issue) {
   const bool has_pointer = issue.what.where.starts_with('/');
   const std::string message = has_pointer ? issue.what.what : issue.what.message();
