@@ -12,7 +12,7 @@ struct SemanticRule {
   Semantic semantic;
   uint32_t min_components;
   uint32_t max_components;
-  bool has_set;  ///< NAME_n
+  bool has_set;  ///< the name ends with a number, NAME_n
 };
 constexpr SemanticRule kSemanticRules[] = {
     {"POSITION", Semantic::kPosition, 3, 3, false}, {"NORMAL", Semantic::kNormal, 3, 3, false},

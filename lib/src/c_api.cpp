@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The reader's part of the C API. That of the writer is writer_c_api.cpp, that of documents gltf/c_api.cpp.
+// The reader's part of the C API. The writer's part is writer_c_api.cpp, that for documents
+// gltf/c_api.cpp.
 #include "mcc/c_api.h"
 
 #include <cstdio>
@@ -64,7 +65,7 @@ const PieceInfo* pieceOf(const mcc_payload* payload, uint32_t piece) {
   return &payload->payload.info().pieces[piece];
 }
 
-/// The targets of all pieces as the reader wants them, each array in one block of memory.
+/// The targets of all pieces in the form the reader needs, each array in one block of memory.
 class Targets {
  public:
   explicit Targets(const Allocator& allocator)
@@ -88,7 +89,8 @@ class Targets {
   std::span<const PieceTarget> all() const { return {pieces_.data(), pieces_.size()}; }
 
  private:
-  /// The arrays have their final size, so that spans of them hold.
+  /// Adds the targets of a piece. The arrays must have been reserved, so that spans of them stay
+  /// valid.
   Status add(const mcc_piece_target& target) {
     if ((target.attributes == nullptr && target.attribute_count != 0) ||
         (target.parts == nullptr && target.part_count != 0)) {
@@ -126,15 +128,16 @@ bool callProgress(void* user, double done) {
   return progress->function(progress->user, done) != 0;
 }
 
-/// Before the arrays of the targets are read: counts that are not those of the payload may be anything.
+/// Checks the counts before the arrays of the targets are read, since wrong counts could lead
+/// anywhere.
 Status checkCounts(std::span<const PieceInfo> pieces, const mcc_piece_target* targets,
                    size_t target_count) {
   if (target_count != pieces.size())
-    return fail(Error::kBadArgument, "the number of targets is not that of the pieces");
+    return fail(Error::kBadArgument, "the number of targets is not the number of pieces");
   for (size_t i = 0; i < target_count; ++i) {
     if (targets[i].attribute_count != pieces[i].attributes.size() ||
         targets[i].part_count != pieces[i].parts.size()) {
-      return fail(Error::kBadArgument, "a target has not the shape of its piece");
+      return fail(Error::kBadArgument, "a target does not have the shape of its piece");
     }
   }
   return {};

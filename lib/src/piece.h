@@ -2,14 +2,14 @@
 //
 // The stages of one piece, in payload order, for reader and writer alike: [A.2.7]
 //
-//   codeConnectivity   mesh collapse codes -> faces, twins                         connectivity/mc_codes.h   [A.4]
-//                      or faces vertex by vertex                                  connectivity/pivots.h     [A.4.7]
-//   codeStitch         which cut vertices share a position -> groups              connectivity/stitch.h     [A.5]
-//   codePositions      traversal, positions of groups and of isolated vertices    attributes/positions.h    [A.6]
-//   codeSeams          corners -> wedges                                          attributes/seams.h        [A.7]
-//   codeLeftovers      parts, duplicate and degenerate triangles                  attributes/leftovers.h    [A.9]
-//   codeOrders         the source's order of triangles and wedges, if kept        connectivity/order.h      [A.10]
-//   codeAttribute      every further attribute along the same traversal           attributes/values.h       [A.8]
+//   codeConnectivity mesh collapse codes -> faces, twins            connectivity/mc_codes.h [A.4]
+//                    or faces vertex by vertex                      connectivity/pivots.h   [A.4.7]
+//   codeStitch       which cut vertices share a position -> groups  connectivity/stitch.h   [A.5]
+//   codePositions    positions of groups and of isolated vertices   attributes/positions.h  [A.6]
+//   codeSeams        corners -> wedges                              attributes/seams.h      [A.7]
+//   codeLeftovers    parts, duplicate and degenerate triangles      attributes/leftovers.h  [A.9]
+//   codeOrders       the source's order of triangles and wedges     connectivity/order.h    [A.10]
+//   codeAttribute    the other attributes, along the same traversal attributes/values.h     [A.8]
 //
 // The writer runs the same stages with an encoder and with pointers to what it knows (PieceTruth).
 #ifndef MCC_PIECE_H_
@@ -52,15 +52,15 @@ struct PayloadModels {
 /// What the writer knows about a piece, stage by stage; all null when reading.
 struct PieceTruth {
   McTruth connectivity;
-  const PivotFace* pivot_faces = nullptr;     ///< if the piece has pivots
+  const PivotFace* pivot_faces = nullptr;     ///< only if the piece has pivots
   const uint32_t* class_of_vertex = nullptr;  ///< by decoded vertex
   uint32_t class_count = 0;
-  const int32_t* positions = nullptr;  ///< 3 per group, isolated vertices behind
-  const int32_t* exact_positions =
-      nullptr;  ///< the same as ordered floats, if they are on an exact grid
+  const int32_t* positions = nullptr;  ///< 3 per group; isolated vertices follow
+  /// The same as ordered floats, if they are on an exact grid.
+  const int32_t* exact_positions = nullptr;
   const AxisPalette* palettes = nullptr;    ///< 3, if the position has them
   const AxisPlanes* planes = nullptr;       ///< 3, if the position has them
-  const uint32_t* corner_source = nullptr;  ///< source wedge by 3f+k
+  const uint32_t* corner_source = nullptr;  ///< source wedge of corner 3f+k
   LeftoverTruth leftovers;
   const uint32_t* triangle_order = nullptr;  ///< see TriangleOrderCoder
   const uint32_t* wedge_order = nullptr;     ///< wedge by place
@@ -125,7 +125,7 @@ class PieceCoder {
     return stitcher.run(header_.surface() == SurfaceCoding::kCopies, truth.class_count, groups);
   }
 
-  /// `fitted`, in the writer, has the fitted tables the position's flags ask for.
+  /// The writer passes the fitted tables that the position's flags ask for in `fitted`.
   Status codePositions(const PieceTruth& truth, const PositionParameters* fitted = nullptr) {
     if (header_.attribute_count == 0) return needsSequence() ? enterGroups() : Status{};
     if (!records.resize(size_t{groups.count} + header_.isolated_count)) return noMemory();
@@ -204,7 +204,7 @@ class PieceCoder {
     return coder.run(header_.wedge_count, triangle_order, truth.wedge_order, wedge_order);
   }
 
-  /// Fills `triangles`.
+  /// Fills `triangles`. Returns false when memory ran out.
   [[nodiscard]] bool listTriangles() {
     const uint64_t count = header_.triangleCount();
     const bool many = header_.part_count > 1;
@@ -224,7 +224,8 @@ class PieceCoder {
     return true;
   }
 
-  /// Between the stages before and codeAttribute(). Overwrites the faces' parts, gives up the records.
+  /// Must be called after the stages before and before codeAttribute(). Overwrites the faces' parts
+  /// and releases the records.
   Status prepareAttributes() {
     if (header_.attribute_count < 2) return {};
     MCC_TRY(stage_.wedges.build(mesh, wedges.half_edges, wedges.count, header_.wedge_count,
@@ -260,11 +261,11 @@ class PieceCoder {
     return stage_.code(index, values);
   }
 
-  /// The writer's trials: codeAttribute() leaves out all but the first wedges in coding order.
+  /// For the writer's trials: codeAttribute() then codes only the first wedges in coding order.
   void codeFirstWedges(uint32_t count) {
     stage_.wedges.coded_count = std::min(count, stage_.wedges.count);
   }
-  /// The writer: what codeAttribute() would leave behind for other attributes.
+  /// For the writer: keeps what codeAttribute() would leave for other attributes.
   Status keepForOthers(uint32_t index, const Array<int32_t>& values) {
     return stage_.keepForOthers(index, values);
   }
@@ -273,25 +274,26 @@ class PieceCoder {
     return codedComponents(attributes_, header_.attribute_count, index);
   }
 
-  /// Grid points of the normals that tangents refer to, and how they are coded.
+  /// Returns the grid points of the normals that tangents refer to, and how they are coded.
   const int32_t* tangentNormals() const { return stage_.normals.data(); }
   const AttributeInfo& tangentNormalInfo() const { return stage_.normalInfo(); }
 
   bool needsSequence() const {
     return header_.has(piece_flag::kSeams) || header_.attribute_count > 1;
   }
-  /// Group whose record holds the position of a wedge; isolated vertices come behind the groups.
+  /// Returns the group whose record holds the position of a wedge. Isolated vertices come after the
+  /// groups.
   uint32_t groupOf(uint32_t wedge) const {
     if (wedge >= wedges.isolated_first) return groups.count + (wedge - wedges.isolated_first);
     return header_.has(piece_flag::kSeams) ? wedge_group[wedge] : wedge;
   }
 
-  FaceMesh mesh;  ///< corners: vertices, after codeStitch() groups, after codeSeams() wedges
-  Array<McEdge> mc_edges;  ///< if wanted, between half-edges that begin at the vertices
+  FaceMesh mesh;  ///< corners hold vertices, after codeStitch() groups, after codeSeams() wedges
+  Array<McEdge> mc_edges;  ///< only if wanted: between half-edges that begin at the vertices
   Groups groups;
   Array<VertexRecord> records;  ///< by group
-  Array<uint32_t>
-      sequence;  ///< a half-edge per group, after codeSeams() per wedge, in coding order
+  /// A half-edge per group, after codeSeams() per wedge, in coding order.
+  Array<uint32_t> sequence;
   Array<uint32_t> wedge_group;  ///< only with seams
   WedgeSequence wedges;
   Array<ListedTriangle> list;
@@ -300,7 +302,8 @@ class PieceCoder {
   Array<uint32_t> wedge_order;     ///< wedge by place; empty if not kept
 
  private:
-  /// Vertices are renumbered by the next stages, half-edges stay.
+  /// Replaces the vertices of mc-edges by half-edges, because the next stages renumber vertices but
+  /// not half-edges.
   Status cornersOfMcEdges() {
     Array<uint32_t> corner(allocator_);
     if (!corner.assign(mesh.vertex_count, kNone)) return noMemory();
@@ -316,9 +319,10 @@ class PieceCoder {
     return mc_edges.resize(count) ? Status{} : noMemory();
   }
 
-  static constexpr uint8_t kExactPositionBits = 26;  ///< scale the seeds of exact floats start with
+  /// The scale at which the seeds of exact floats start.
+  static constexpr uint8_t kExactPositionBits = 26;
 
-  /// What the reader gives its caller; what is not finite counts as 0.
+  /// Lists the positions as the reader's caller gets them; values that are not finite count as 0.
   Status listExactPositions() {
     if (!stage_.exact_positions.resize(3 * size_t{header_.wedge_count})) return noMemory();
     const AttributeInfo& info = attributes_[0];
@@ -336,7 +340,7 @@ class PieceCoder {
     return {};
   }
 
-  /// The compiled combination of modes that fits.
+  /// Runs the compiled combination of modes that fits.
   Status runPositions(const PositionParameters& parameters, const PieceTruth& truth) {
     if constexpr (Io::kFast) {
       constexpr uint32_t kWeighted = position_mode::kWeights;
@@ -361,7 +365,7 @@ class PieceCoder {
     return runPositions<kAnyModes>(parameters, truth);
   }
 
-  /// The records then hold ordered floats.
+  /// Codes the tails of exact positions. The records then hold ordered floats.
   Status codePositionTails(const PieceTruth& truth) {
     TailCoder<Io> tails(io_, models_.position_tails, attributes_[0], allocator_);
     MCC_TRY(tails.prepare());
@@ -382,7 +386,7 @@ class PieceCoder {
         .run(needsSequence() ? sequence.data() : nullptr);
   }
 
-  /// Without positions: the groups in the order of the faces.
+  /// Used without positions: enters the groups in the order of the faces.
   Status enterGroups() {
     Array<uint8_t> is_entered(allocator_);
     if (!is_entered.assign(groups.count, 0) || !sequence.reserve(groups.count)) return noMemory();
@@ -397,7 +401,8 @@ class PieceCoder {
     return {};
   }
 
-  /// Positions as creases and attributes see them, of groups and of the isolated vertices behind.
+  /// Computes the positions for creases and attributes, of groups and, after them, of isolated
+  /// vertices.
   Status findGroupPositions() {
     if (!group_positions_.empty()) return {};
     const uint32_t count = static_cast<uint32_t>(records.size());

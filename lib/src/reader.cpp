@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Reader: header, then every piece through its stages (piece.h), then floats and indices into the caller's memory.
+// Reader: parses the header, runs every piece through its stages (piece.h), and stores floats and
+// indices in the caller's memory.
 #include "mcc/reader.h"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ namespace {
 
 const PayloadInfo kEmptyInfo{};
 
-/// Which wedge an element of the caller's memory gets.
+/// Which wedge goes to an element of the caller's memory.
 struct WedgeAt {
   const uint32_t* order;  ///< null: as decoded
 
@@ -45,13 +46,14 @@ WedgeAt wedgeAt(const PieceCoder<Io>& piece) {
   return {piece.wedge_order.empty() ? nullptr : piece.wedge_order.data()};
 }
 
-/// Where the integers of an element are, for all attributes alike: compact code stores them all through this.
+/// Where the integers of an element are, for all attributes alike. Compact code stores every
+/// attribute through this.
 struct ElementAt {
   const int32_t* values;
   size_t stride;
   WedgeAt wedge_at;
-  const uint32_t* group = nullptr;  ///< by wedge; null: what is not isolated is numbered alike
-  uint32_t isolated_first = ~uint32_t{0};  ///< wedges from here on come behind the groups
+  const uint32_t* group = nullptr;  ///< by wedge; null: all but isolated wedges equal their group
+  uint32_t isolated_first = ~uint32_t{0};  ///< wedges from here on come after the groups
   uint32_t group_count = 0;
 
   const int32_t* operator()(uint32_t place) const {
@@ -65,7 +67,8 @@ struct ElementAt {
   }
 };
 
-/// Unit vectors from grid points, four at a time; `has_sign`: a fourth component is -1 or 1.
+/// Computes unit vectors from grid points, four at a time. If `has_sign`, a fourth component is -1
+/// or 1.
 template <class Load>
 void storeNormals(int32_t centre, bool has_sign, uint32_t wedge_count,
                   const AttributeTarget& target, Load load) {
@@ -85,7 +88,8 @@ void storeNormals(int32_t centre, bool has_sign, uint32_t wedge_count,
   }
 }
 
-/// Copies coded integers to the caller's elements; `load(i)` points to the integers of element i. [A.8.11]
+/// Copies coded integers to the caller's elements; `load(i)` points to the integers of element i.
+///                                                                                        [A.8.11]
 template <class Load>
 void storeElements(const AttributeInfo& info, uint32_t wedge_count, const AttributeTarget& target,
                    Load load) {
@@ -109,7 +113,7 @@ void storeElements(const AttributeInfo& info, uint32_t wedge_count, const Attrib
       storeNormals(octahedralCentre(info.bits), components == 4, wedge_count, target, load);
       return;
     case AttributeCoding::kExactFloat:
-    case AttributeCoding::kGrid:  // as ordered floats by now
+    case AttributeCoding::kGrid:  // its values are ordered floats at this point
       if (!decodes::kExactFloats) return;
       for (uint32_t w = 0; w < wedge_count; ++w, to += stride) {
         const int32_t* q = load(w);
@@ -131,7 +135,7 @@ void storeElements(const AttributeInfo& info, uint32_t wedge_count, const Attrib
   }
 }
 
-/// Tangents from angles in the planes of their normals. [A.8.7]
+/// Computes tangents from angles in the planes of their normals. [A.8.7]
 void storeTangents(const AttributeInfo& info, const int32_t* values,
                    const AttributeInfo& normal_info, const int32_t* normals, uint32_t wedge_count,
                    WedgeAt wedge_at, const AttributeTarget& target) {
@@ -162,7 +166,8 @@ void storeTangents(const AttributeInfo& info, const int32_t* values,
   }
 }
 
-/// Stores `values`, value_stride per wedge, to attribute `index` and to all that are equal to it.
+/// Stores `values`, value_stride per wedge, in the target of attribute `index` and of all its
+/// aliases.
 template <class Io>
 void storeAttribute(const PieceCoder<Io>& piece, const PieceInfo& info, uint32_t index,
                     const int32_t* values, uint32_t value_stride,
@@ -218,7 +223,7 @@ void storeIndex(const PartTarget& target, size_t at, uint32_t index) {
   }
 }
 
-/// The usual case: one part, no triangles beside the surface.
+/// Stores the triangles in the usual case of one part and no triangles apart from the surface.
 template <class Index>
 void storeFaces(const FaceMesh& mesh, Index* to) {
   const uint32_t* face = mesh.words.data();
@@ -255,7 +260,7 @@ Status checkPartCounts(std::span<const PartInfo> infos, const Array<uint32_t>& c
   return {};
 }
 
-/// Triangles and wedges in the orders that are kept.
+/// Stores triangles and wedges in the orders that are kept.
 template <class Io>
 Status storeOrderedTriangles(const PieceCoder<Io>& piece, std::span<const PartInfo> infos,
                              std::span<const PartTarget> targets, const Allocator& allocator) {
@@ -280,7 +285,7 @@ Status storeOrderedTriangles(const PieceCoder<Io>& piece, std::span<const PartIn
   return checkPartCounts(infos, fill);
 }
 
-/// Faces in decoding order, then the listed triangles; split into parts. [A.10.4]
+/// Stores faces in decoding order, then the listed triangles, split into parts. [A.10.4]
 template <class Io>
 Status storeTriangles(PieceCoder<Io>& piece, std::span<const PartInfo> infos,
                       std::span<const PartTarget> targets, const Allocator& allocator) {
@@ -315,13 +320,13 @@ Status storeTriangles(PieceCoder<Io>& piece, std::span<const PartInfo> infos,
 [[maybe_unused]] Status checkTargets(const PayloadInfo& info,
                                      std::span<const PieceTarget> targets) {
   if (targets.size() != info.pieces.size()) {
-    return fail(Error::kBadArgument, "the number of targets is not that of the pieces");
+    return fail(Error::kBadArgument, "the number of targets is not the number of pieces");
   }
   for (size_t i = 0; i < targets.size(); ++i) {
     const PieceInfo& piece = info.pieces[i];
     if (targets[i].attributes.size() != piece.attributes.size() ||
         targets[i].parts.size() != piece.parts.size()) {
-      return fail(Error::kBadArgument, "a target has not the shape of its piece");
+      return fail(Error::kBadArgument, "a target does not have the shape of its piece");
     }
     for (size_t a = 0; a < piece.attributes.size(); ++a) {
       const AttributeTarget& t = targets[i].attributes[a];
@@ -339,14 +344,14 @@ Status storeTriangles(PieceCoder<Io>& piece, std::span<const PartInfo> infos,
   return {};
 }
 
-/// Tells the caller how many elements [A.2.6] are done.
+/// Reports to the caller how many elements [A.2.6] are done.
 class Progress {
  public:
   Progress(const DecodeOptions& options, const PayloadHeader& header) : options_(options) {
     if (!kCompact && options.progress != nullptr) all_ = elementsOf(header);
   }
 
-  /// An error if the caller asks to stop.
+  /// Returns an error if the caller asks to stop.
   Status advance(uint64_t elements) {
     if (kCompact || options_.progress == nullptr) return {};
     done_ += elements;
@@ -361,7 +366,8 @@ class Progress {
   uint64_t done_ = 0;
 };
 
-/// Tells the caller what the stages of a piece read. A decoder that does not count tells nothing.
+/// Reports to the caller what the stages of a piece read. A decoder that does not count reports
+/// nothing.
 template <class Io>
 class StageBits {
  public:
@@ -371,7 +377,7 @@ class StageBits {
   void tell(DecodeStage stage, uint32_t attribute = 0) {
     if (kCompact || options_.stage_bits == nullptr) return;
     const uint64_t bits = now();
-    // To a bit: a stage that reads nothing may seem to give some back.
+    // Counts are exact to one bit only, so a stage that reads nothing may seem to give some back.
     const uint64_t spent = bits > last_ ? bits - last_ : 0;
     last_ = std::max(last_, bits);
     options_.stage_bits(options_.stage_bits_user, piece_, stage, attribute, spent);
@@ -391,7 +397,8 @@ class StageBits {
   uint64_t last_;
 };
 
-/// Attributes that are coded with another one are stored with that.
+/// Decodes an attribute and stores it. Attributes that are coded with another one are stored with
+/// that one.
 template <class Io>
 Status decodeAttribute(PieceCoder<Io>& piece, const PieceInfo& info, uint32_t index,
                        const PieceTarget& target, Array<int32_t>& values) {
@@ -486,7 +493,7 @@ Status decodeAll(const PayloadHeader& header, const PayloadInfo& info,
 #endif
 }
 
-/// What the largest piece takes at a time, about.
+/// Estimates the memory that the largest piece takes at any time.
 [[maybe_unused]] uint64_t expectedBytes(const PayloadHeader& header) {
   uint64_t most = 0;
   for (size_t i = 0; i < header.pieces.size(); ++i) {
@@ -537,7 +544,7 @@ Status Payload::open(std::span<const uint8_t> bytes, const Limits& limits,
     info.parts = {header.parts.data() + p.first_part, p.part_count};
     info.keeps_vertex_order = p.has(piece_flag::kVertexOrder);
     info.keeps_triangle_order = p.has(piece_flag::kTriangleOrder);
-    (void)state.pieces.push_back(info);  // reserved above
+    (void)state.pieces.push_back(info);  // cannot fail, since memory was reserved above
   }
   state.info.version_major = kVersionMajor;
   state.info.version_minor = header.version_minor;
@@ -556,8 +563,8 @@ const PayloadInfo& Payload::info() const { return state_ == nullptr ? kEmptyInfo
 
 Status Payload::decode(std::span<const PieceTarget> targets, const DecodeOptions& options) const {
   if (state_ == nullptr) return fail(Error::kBadArgument, "no payload is open");
-  if constexpr (!kCompact) MCC_TRY(checkTargets(state_->info, targets));  // else they are our own
-  if constexpr (!kCompact) {  // else there are no huge pages
+  if constexpr (!kCompact) MCC_TRY(checkTargets(state_->info, targets));  // else they are ours
+  if constexpr (!kCompact) {  // compact code has no huge pages
     const uint64_t expected_bytes = expectedBytes(state_->header);
     if (isHeap(options.allocator) && WorkingMemory::pays(expected_bytes)) {
       WorkingMemory memory(expected_bytes);

@@ -22,12 +22,12 @@ mcc_encode_options defaultEncodeOptions() {
   return {sizeof(mcc_encode_options), 0, 0, options.effort, MCC_PREFER_BALANCED};
 }
 
-/// Numbers that do not fit are refused, not cut.
+/// Converts a format. Numbers that do not fit are refused, not truncated.
 Status fromC(const mcc_attribute_format& format, AttributeFormat& out) {
   if (format.semantic > MCC_CUSTOM || format.set_index > 0xff ||
       format.component_type > MCC_FLOAT32 || !isComponentCount(format.component_count) ||
       format.morph_target > 0xffff) {
-    return fail(Error::kBadArgument, "the format of an attribute has a number that means nothing");
+    return fail(Error::kBadArgument, "the format of an attribute has a number out of range");
   }
   out.semantic = static_cast<Semantic>(format.semantic);
   out.set_index = static_cast<uint8_t>(format.set_index);

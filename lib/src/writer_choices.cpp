@@ -1,7 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-//
-// Choices: each is tried on models of its own or from where the payload's are, and the smallest is kept, with a price
-// on what takes the reader time.
+// The writer's choices. Each is tried with models of its own, or with a copy of the payload's. The
+// smallest result is kept, where time of the reader has a price.
 #include "writer_choices.h"
 
 #include <algorithm>
@@ -14,9 +13,10 @@
 namespace mcc {
 namespace {
 
-constexpr uint32_t kTrialWedges = 4000;  ///< an attribute's candidates are tried on so many wedges,
-constexpr uint32_t kTrialShare = 6;      ///< or on this part of all
-constexpr double kExpectedPositionBits = 15;  ///< per vertex, where surfaces are weighed
+/// Candidates for an attribute are tried on this many wedges, or on this fraction of all.
+constexpr uint32_t kTrialWedges = 4000;
+constexpr uint32_t kTrialShare = 6;
+constexpr double kExpectedPositionBits = 15;  ///< per vertex, assumed when surfaces are compared
 
 Status surfaceCost(Plan& plan, uint64_t& cost) {
   CostIo io;
@@ -32,7 +32,7 @@ struct Connectivity {
   McCounts counts;
 };
 
-/// What the connectivity of all pieces costs with a context set.
+/// Counts what the connectivity of all pieces costs with a context set.
 Status contextSetCost(const std::vector<Connectivity>& pieces, uint32_t set, uint64_t& cost) {
   CostIo io;
   auto models = makeModels(set);
@@ -65,7 +65,7 @@ Status chooseContextSet(const std::vector<Connectivity>& pieces, const Jobs& job
 
 using Runners = std::vector<std::unique_ptr<StageRunner<CostIo>>>;
 
-/// One choice for all pieces, since they share tables and models. Consumes the recordings.
+/// Chooses once for all pieces, since they share tables and models. Consumes the recordings.
 PositionParameters choosePositions(std::vector<RecordedPositions> recorded, double surface_bits,
                                    const EncodeSettings& options, const Jobs& jobs) {
   std::vector<PositionCandidate> candidates;
@@ -73,7 +73,8 @@ PositionParameters choosePositions(std::vector<RecordedPositions> recorded, doub
   return choosePositionParameters(candidates, surface_bits, options, jobs);
 }
 
-/// Unit vectors on a grid may be coded as floats as well: the values of a plan are the same.
+/// Lists the ways to code an attribute. Unit vectors on a grid may be coded as floats as well;
+/// their values in a plan are the same.
 std::vector<AttributeInfo> exactAlternatives(const AttributeInfo& info, const FeatureSet& without) {
   std::vector<AttributeInfo> all = {info};
   const bool may_be_plain =
@@ -88,16 +89,18 @@ std::vector<AttributeInfo> exactAlternatives(const AttributeInfo& info, const Fe
   return all;
 }
 
-/// Tries the candidates of one attribute, from where its models are, and goes on with the best. `goes_on`: some later
-/// attribute shares its models.
-/// `wedge_share`: what the payload takes so far, per wedge, in the units of costs.
+/// Tries the candidates of one attribute, starting from the current models, and continues with the
+/// best.
+/// goes_on      says that some later attribute shares its models.
+/// wedge_share  is what the payload takes so far, per wedge, in the units of costs.
 Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& runner,
                              PayloadModels& models, double wedge_share, const TimePrice& price,
                              const FeatureSet& without, bool goes_on) {
   AttributeInfo& info = plan.attributes[index].info;
   const std::vector<AttributeInfo> alternatives = exactAlternatives(info, without);
   const uint32_t part = std::max(kTrialWedges, plan.header.wedge_count / kTrialShare);
-  // What lies below a grid is always coded for all wedges.
+  // What lies below a grid is always coded for all wedges, so a sample would distort the
+  // comparison.
   const uint32_t sample = alternatives.size() > 1 ? kNone : part;
   AttributeModels before;
   if (!before.copyFrom(models.attributes)) throwBadAlloc();
@@ -132,8 +135,8 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
   return goes_on ? runner.codeAttribute(index, nullptr) : runner.passAttribute(index);
 }
 
-/// Creases and the methods of all attributes but positions, which are the same however they are coded. `io` has counted the
-/// surfaces.
+/// Chooses creases and the methods of all attributes but positions; they do not depend on how
+/// positions are coded. `io` has counted the surfaces.
 Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& models,
                      const CostIo& io, const EncodeSettings& options) {
   const TimePrice price(options.prefer);
@@ -166,7 +169,7 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& 
 }
 
 Status choosePredictors(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs) {
-  auto models = makeModels(0);  // none of these choices depends on the context set
+  auto models = makeModels(0);  // these choices do not depend on the context set
   CostIo io;
   Runners runners;
   for (Plan& plan : plans) {
@@ -191,7 +194,7 @@ Status choosePredictors(std::vector<Plan>& plans, const EncodeSettings& options,
   return {};
 }
 
-/// Instead of chooseAttributeMethod().
+/// Chooses at random, instead of chooseAttributeMethod().
 void varyAttributeMethod(Plan& plan, uint32_t index, Variation& variation) {
   std::vector<AttributeInfo> infos;
   for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
@@ -212,13 +215,13 @@ Status chooseSurface(Plan& plan, uint32_t start_half_edge, const FeatureSet& wit
     if (variation->coin()) plan = std::move(other);
     return {};
   }
-  // Few copies: seams and predictions are better off with the umbrellas that the cut leaves.
+  // With few copies, seams and predictions are better with the umbrellas that the cut leaves.
   if (plan.header.vertex_count < 2 * other.header.vertex_count) return {};
   uint64_t cut = 0;
   uint64_t pivots = 0;
   MCC_TRY(jobs.tryAll(
       2, [&](size_t i) { return i == 0 ? surfaceCost(plan, cut) : surfaceCost(other, pivots); }));
-  // Times as shares of what positions and the rest take per vertex.
+  // Times are weighed as shares of what positions and the rest take per vertex.
   const double vertices = std::max(other.header.vertex_count, 1u);
   const double copies = plan.header.vertex_count - vertices;
   const double payload = static_cast<double>(pivots) + vertices * kExpectedPositionBits * kCostOne;

@@ -12,15 +12,16 @@
 
 namespace mcc {
 
-/// What is not a manifold: cut and stitched, or listed vertex by vertex. `variation` not null: one of them at random.
+/// Chooses how to code a surface that is not a manifold: cut and stitched, or listed vertex by
+/// vertex. If `variation` is not null, it chooses one of them at random.
 Status chooseSurface(Plan& plan, uint32_t start_half_edge, const FeatureSet& without,
                      Variation* variation, const TimePrice& price, const Jobs& jobs);
 
-/// The context set, predictors and methods, once the surface of every piece is settled.
+/// Chooses the context set, predictors and methods, after the surface of every piece is settled.
 Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs,
                  uint32_t& context_set);
 
-/// Instead of chooseAll(), for tests: choices at random.
+/// Chooses at random instead of chooseAll(), for tests.
 Status varyAll(std::vector<Plan>& plans, const EncodeSettings& options, Variation& variation,
                uint32_t& context_set);
 

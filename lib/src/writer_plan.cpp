@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Preparation of a piece: quantise, weld, sort, cut, collapse.
+// Prepares a piece: quantises, welds, sorts, cuts and collapses it.
 #include "writer_plan.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ Status checkPiece(const PieceView& piece) {
   uint64_t triangles = 0;
   for (const PartView& part : piece.parts) {
     if (part.indices.size() % 3 != 0)
-      return fail(Error::kBadArgument, "a part's indices are no triangles");
+      return fail(Error::kBadArgument, "a part's number of indices is not a multiple of three");
     triangles += part.indices.size() / 3;
     for (const uint32_t index : part.indices) {
       if (index >= piece.wedge_count)
@@ -51,7 +51,7 @@ Status checkPiece(const PieceView& piece) {
   return {};
 }
 
-/// Joints are coded as golomb(), which ends at 2^32 - 2. [A.3.5]
+/// Joints are coded by golomb(), whose largest value is 2^32 - 2. [A.3.5]
 Status checkJoints(const Plan& plan) {
   std::vector<AttributeInfo> infos;
   for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
@@ -66,7 +66,7 @@ Status checkJoints(const Plan& plan) {
   return {};
 }
 
-/// Halves the components whose handles are too deep. False: there are none.
+/// Halves the components whose handles are too deep. Returns false when there are none.
 bool halveDeepComponents(const Plan& plan, uint32_t max_handle_depth,
                          std::vector<uint32_t>& region_of_face, uint32_t& region_count) {
   const ClosedMesh& mesh = plan.cut.mesh;
@@ -106,7 +106,8 @@ SurfaceCoding surfaceOf(const ClosedMesh& mesh, std::span<const uint32_t> class_
   return surface;
 }
 
-/// The rounds end: a triangle by itself has no handle, and components of two are halved to those.
+/// The loop ends, because a single triangle has no handle, and components of two are halved into
+/// single ones.
 void cutAndCollapse(Plan& plan, uint32_t start_half_edge, uint32_t max_handle_depth) {
   const std::vector<uint32_t> corner_class = classesOfCorners(plan);
   std::vector<uint32_t> region_of_face;
@@ -118,7 +119,7 @@ void cutAndCollapse(Plan& plan, uint32_t start_half_edge, uint32_t max_handle_de
   } while (halveDeepComponents(plan, max_handle_depth, region_of_face, region_count));
 }
 
-/// Into the order in which their positions are coded.
+/// Sorts isolated wedges into the order in which their positions are coded.
 void sortIsolated(Plan& plan) {
   std::vector<uint32_t>& isolated = plan.triangles.isolated;
   if (isolated.empty() || plan.attributes.empty()) return;
@@ -175,7 +176,7 @@ Status preparePiece(const PieceView& view, const EncodeSettings& options, const 
                     Plan& plan, std::vector<std::string>& notes) {
   MCC_TRY(checkPiece(view));
   if (options.indices_only && view.attributes.size() != 1)
-    return fail(Error::kBadArgument, "a piece without attributes has more than its position");
+    return fail(Error::kBadArgument, "a piece has attributes besides POSITION with indices_only");
   plan.view = &view;
   jobs.run(2, [&](size_t i) {
     if (i == 1) {

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// A piece on its way through the writer: what preparation finds, what the stages learn from one another, and what is
-// chosen for them.
+// A piece on its way through the writer: what preparation finds, what stages learn from one
+// another, and what is chosen for them.
 #ifndef MCC_SRC_WRITER_PLAN_H_
 #define MCC_SRC_WRITER_PLAN_H_
 
@@ -28,14 +28,14 @@ struct Plan {
   const PieceView* view = nullptr;
   PieceHeader header;
   std::vector<QuantizedAttribute> attributes;  ///< POSITION first
-  std::vector<uint32_t> source_attribute;      ///< index in view->attributes of each
+  std::vector<uint32_t> source_attribute;      ///< index of each in view->attributes
   PositionClasses classes;
   SortedTriangles triangles;
   CutResult cut;
   McRecord record;
-  PivotRecord pivots;  ///< instead of the two before, if the header has pivots
+  PivotRecord pivots;  ///< instead of `cut` and `record`, if the header has pivots
 
-  // Filled while the stages run; the same in every run.
+  // These are filled while the stages run, and are the same in every run.
   std::vector<uint32_t> node_map;
   std::vector<uint32_t> source_of_vertex;
   std::vector<uint32_t> source_gate;
@@ -45,7 +45,7 @@ struct Plan {
   std::vector<int32_t> exact_positions;  ///< ordered floats, if the positions are on an exact grid
   DistinctCoordinates coordinates;
   AxisPlanes planes[3];
-  PositionParameters positions_as;  ///< chosen, with fitted tables
+  PositionParameters positions_as;  ///< the chosen parameters with fitted tables
   std::vector<uint32_t> wedge_source;
   std::vector<uint32_t> part_of_face;
   std::vector<ListedTriangle> list;
@@ -57,7 +57,7 @@ inline bool isExact(AttributeCoding coding) {
   return coding == AttributeCoding::kExactFloat || coding == AttributeCoding::kGrid;
 }
 
-/// What positions are coded by: integers of their grid, if they are on one.
+/// Returns what a position is coded by: the integer of its grid, if it is on one.
 inline int32_t codedPosition(const AttributeInfo& info, int32_t value) {
   return info.coding == AttributeCoding::kGrid ? gridInteger(info, value) : value;
 }
@@ -69,18 +69,20 @@ constexpr uint32_t prevCorner(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
 Status preparePiece(const PieceView& view, const EncodeSettings& options, const Jobs& jobs,
                     Plan& plan, std::vector<std::string>& notes);
 
-/// Cuts the surface to a manifold and collapses it; sets what the header says of it. May be called again.
-/// `max_handle_depth`: a component with a deeper handle is cut in two until there is none.
+/// Cuts the surface to a manifold and collapses it, and sets the fields of the header that follow.
+/// May be called again. A component with a handle deeper than `max_handle_depth` is cut in two
+/// until there is none.
 void prepareConnectivity(Plan& plan, uint32_t start_half_edge,
                          uint32_t max_handle_depth = kMaxHandleDepth);
 
-/// Instead: lists the faces vertex by vertex. The surface must have no face with two corners in one place.
+/// Lists the faces vertex by vertex, instead of prepareConnectivity(). The surface must not have a
+/// face with two corners in one place.
 void preparePivots(Plan& plan);
 
 /// Whether no face has two corners in one place.
 bool allowsPivots(const Plan& plan);
 
-/// The attributes but the first in the order in which their phases code them.
+/// Returns the attributes except the first, in the order in which their phases code them.
 std::vector<uint32_t> codingOrder(const Plan& plan);
 
 }  // namespace mcc

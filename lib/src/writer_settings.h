@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// encode() with the settings that benchmarks and tests have besides the caller's options.
+// encode() with settings that only benchmarks and tests have, in addition to the caller's options.
 #ifndef MCC_SRC_WRITER_SETTINGS_H_
 #define MCC_SRC_WRITER_SETTINGS_H_
 
@@ -10,7 +10,7 @@
 
 namespace mcc {
 
-/// See encode(). What is switched off changes bytes and never what they decode to.
+/// Like encode(). Features that are switched off change the bytes, but never what they decode to.
 Status encodeWith(std::span<const PieceView> pieces, const EncodeSettings& settings,
                   EncodeResult& result);
 

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The stages of one piece in turn, on a counting coder or on the real one: what trials and output have in common.
+// Runs the stages of one piece in turn, on a counting coder or on the real one. Trials and output
+// share this code.
 #ifndef MCC_SRC_WRITER_STAGES_H_
 #define MCC_SRC_WRITER_STAGES_H_
 
@@ -14,18 +15,19 @@
 
 namespace mcc {
 
-/// The positions of a piece as the trials see them, whatever other stages do meanwhile.
+/// The positions of a piece as the trials see them. They are independent of what other stages do
+/// meanwhile.
 struct RecordedPositions {
   Array<VertexRecord> records;
   PositionRecording recording;
   PositionCandidate candidate;  ///< refers to the recording
 };
 
-/// Runs every stage of one piece; `sizes`, if given, receives what each cost.
+/// Runs every stage of one piece. `sizes`, if given, receives what each stage cost.
 template <class Io>
 class StageRunner {
  public:
-  /// `first_attribute`: number of attributes of the payload before this piece's.
+  /// first_attribute  is the number of attributes of the payload before this piece's.
   StageRunner(Io& io, PayloadModels& models, Plan& plan, size_t first_attribute = 0)
       : io_(io),
         plan_(plan),
@@ -109,7 +111,8 @@ class StageRunner {
 
   Status prepareAttributes() { return piece_.prepareAttributes(); }
 
-  /// The seams without and with creases as contexts; sets the cheaper way. The seams must be coded again.
+  /// Codes the seams without and with creases as contexts, and selects the cheaper way. The seams
+  /// must then be coded again.
   Status chooseCreases(PayloadModels& models) {
     if (!plan_.header.has(piece_flag::kSeams) || plan_.attributes.empty()) return {};
     const std::vector<uint32_t> words(piece_.mesh.words.data(),
@@ -145,7 +148,7 @@ class StageRunner {
     return {};
   }
 
-  /// What codeAttribute() costs for the first wedges; the models adapt.
+  /// Counts what codeAttribute() costs for the first wedges. The models adapt.
   Status tryAttribute(uint32_t index, uint32_t wedges, uint64_t& cost) {
     const uint64_t spent = io_.cost();
     piece_.codeFirstWedges(wedges);
@@ -155,7 +158,7 @@ class StageRunner {
     return status;
   }
 
-  /// Instead of codeAttribute(), when its models are not needed any more.
+  /// Replaces codeAttribute() when its models are not needed any more.
   Status passAttribute(uint32_t index) {
     infos_[index] = plan_.attributes[index].info;
     if (isCodedWithAnother(index)) return {};
@@ -170,7 +173,7 @@ class StageRunner {
     return isWithAnother(methodOf(infos_.data(), plan_.header.attribute_count, index));
   }
 
-  /// Fills values_, which coding leaves as they are.
+  /// Fills values_. Coding does not change them.
   void learnAttribute(uint32_t index) {
     if (learned_ == index) return;
     learned_ = index;
@@ -213,7 +216,7 @@ class StageRunner {
   PieceCoder<Io> piece_;
   PieceTruth truth_;
   Array<int32_t> values_;
-  uint32_t learned_ = kNone;  ///< attribute that values_ are of
+  uint32_t learned_ = kNone;  ///< attribute whose values values_ holds
   uint64_t cost_before_ = io_.cost();
 };
 

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What stages learn from one another.
+// Derives what stages learn from one another.
 #include "writer_truth.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ void learnVertices(Plan& plan) {
   }
   plan.corner_source.resize(3 * plan.source_gate.size());
   for (size_t f = 0; f < plan.source_gate.size(); ++f) {
-    const uint32_t gate = plan.source_gate[f];  // becomes half-edge 1
+    const uint32_t gate = plan.source_gate[f];  // this corner becomes half-edge 1
     plan.corner_source[3 * f] = plan.triangles.wedges[prevCorner(gate)];
     plan.corner_source[3 * f + 1] = plan.triangles.wedges[gate];
     plan.corner_source[3 * f + 2] = plan.triangles.wedges[nextCorner(gate)];
@@ -65,7 +65,7 @@ void learnPositions(Plan& plan, const FaceMesh& mesh, const Groups& groups) {
 
 namespace {
 
-/// The triangles beside the surface: each refers to the first face that it may refer to.
+/// Finds the triangles apart from the surface. Each refers to the first face that it may refer to.
 void learnListed(Plan& plan, FaceMesh& mesh, const std::vector<uint32_t>& wedge_of_source) {
   plan.list.clear();
   std::vector<uint32_t> face_of_source(plan.source_gate.size());
@@ -146,7 +146,7 @@ void learnWedges(Plan& plan, FaceMesh& mesh) {
 void learnTriangleOrder(Plan& plan, const TriangleTable& table) {
   using Wedges = std::array<uint32_t, 3>;
   struct Named {
-    Wedges wedges;  ///< of its turns the smallest
+    Wedges wedges;  ///< the smallest of the triangle's rotations
     uint32_t part;
     uint32_t place;
     bool operator<(const Named& o) const {

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Truth: what each stage needs to know of the source, derived from what the stage before has coded.
+// Truth: what each stage needs to know about the source, derived from what the stages before it
+// have coded.
 #ifndef MCC_SRC_WRITER_TRUTH_H_
 #define MCC_SRC_WRITER_TRUTH_H_
 
@@ -8,7 +9,7 @@
 
 namespace mcc {
 
-/// Where a run of the connectivity puts what it learns.
+/// Where the connectivity stores what it learns.
 struct SurfaceLearned {
   std::vector<uint32_t>& node_map;
   std::vector<uint32_t>& source_of_vertex;
@@ -17,19 +18,22 @@ struct SurfaceLearned {
 
 McTruth connectivityTruth(const McRecord& r, const SurfaceLearned& learned);
 
-/// Classes of the vertices and source wedges of the corners, once the connectivity is coded.
+/// Finds the classes of the vertices and the source wedges of the corners, after the connectivity
+/// is coded.
 void learnVertices(Plan& plan);
 
-/// Positions in the order of the groups, once the vertices are stitched.
+/// Puts the positions into the order of the groups, after the vertices are stitched.
 void learnPositions(Plan& plan, const FaceMesh& mesh, const Groups& groups);
 
-/// Source wedges, parts of faces, duplicates and listed triangles, once the seams are coded.
+/// Finds source wedges, parts of faces, duplicates and listed triangles, after the seams are coded.
 void learnWedges(Plan& plan, FaceMesh& mesh);
 
-/// The source's order of triangles as TriangleOrderCoder names them. Equal triangles are paired in their order.
+/// Describes the source's order of triangles as TriangleOrderCoder does. Equal triangles are paired
+/// in their order.
 void learnTriangleOrder(Plan& plan, const TriangleTable& table);
 
-/// The values of `index` behind those of the attributes coded with it, in `stride` words per wedge.
+/// Copies the values of attribute `index` to `offset`, after those of the attributes coded with it,
+/// in `stride` words per wedge.
 void learnValues(const Plan& plan, uint32_t index, uint32_t offset, uint32_t stride,
                  Array<int32_t>& values);
 

@@ -13,8 +13,8 @@
 
 namespace mcc {
 
-/// Reads fields from the front of a span; every read checks its bound. Offsets in errors count from the
-/// start of the span given to the constructor.
+/// Reads fields from the front of a span. Every read checks its bound. Offsets in errors count from
+/// the start of the span given to the constructor.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const uint8_t> bytes) : bytes_(bytes) {}
@@ -43,7 +43,8 @@ class ByteReader {
     return {};
   }
 
-  /// Varint: seven bits per byte, least significant first, at most 32 bits, no redundant zero byte.
+  /// Reads a varint: seven bits per byte, least significant first, at most 32 bits, no redundant
+  /// zero byte.
   Status readVarint(uint32_t& value) {
     const size_t start = offset_;
     uint32_t result = 0;

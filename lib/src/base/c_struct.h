@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Structures of the C API that grow at their end: the first member, `struct_bytes`, says how much of one the caller knows.
+// Structures of the C API that may grow at their end: their first member, `struct_bytes`, says how
+// much of a structure the caller knows.
 #ifndef MCC_BASE_C_STRUCT_H_
 #define MCC_BASE_C_STRUCT_H_
 
@@ -19,7 +20,7 @@ inline mcc_status toC(const Status& status) {
 
 inline mcc_status badArgument(const char* what) { return toC(fail(Error::kBadArgument, what)); }
 
-/// Writes what the caller's structure has room for.
+/// Writes as much of the defaults as the caller's structure has room for.
 template <class Struct>
 void initStruct(Struct* out, size_t struct_bytes, Struct defaults) {
   if (out == nullptr || struct_bytes < sizeof(defaults.struct_bytes)) return;
@@ -27,7 +28,7 @@ void initStruct(Struct* out, size_t struct_bytes, Struct defaults) {
   std::memcpy(static_cast<void*>(out), &defaults, std::min(struct_bytes, sizeof(Struct)));
 }
 
-/// `given` with `defaults` for what the caller does not know.
+/// Reads `given`, and uses `defaults` for members that the caller does not know.
 template <class Struct>
 Status readStruct(const Struct* given, Struct defaults, Struct& read) {
   read = defaults;

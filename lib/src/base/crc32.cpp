@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint32_t kPolynomial = 0xedb88320u;
 constexpr size_t kSlices = 8;
-constexpr size_t kUsedSlices = kCompact ? 1 : kSlices;  ///< compact code goes byte by byte
+constexpr size_t kUsedSlices = kCompact ? 1 : kSlices;  ///< compact code works byte by byte
 
 constexpr uint32_t crcOfByte(uint32_t crc) {
   for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (kPolynomial & (~(crc & 1) + 1));
@@ -38,7 +38,7 @@ constexpr SliceTables kTables;
 
 uint32_t crc32(std::span<const uint8_t> bytes, uint32_t crc) {
 #if defined(MCC_COMPACT)
-  const SliceTables kTables;  // bytes that no file compresses, made in some microseconds
+  const SliceTables kTables;  // computed in microseconds; stored tables would not compress
 #endif
   crc = ~crc;
   const uint8_t* p = bytes.data();

@@ -7,8 +7,9 @@
 
 namespace mcc {
 
-/// CRC-32 of ISO 3309 (polynomial 0xedb88320 reflected, as in PNG and zlib). To continue over further
-/// bytes pass the previous result as `crc`. No tables are kept between calls.                 [A.1.3]
+/// Returns the CRC-32 of ISO 3309 (polynomial 0xedb88320 reflected, as in PNG and zlib). To
+/// continue over further bytes, pass the previous result as `crc`. No tables are kept between
+/// calls.                 [A.1.3]
 uint32_t crc32(std::span<const uint8_t> bytes, uint32_t crc = 0);
 
 }  // namespace mcc

@@ -1,8 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What the reader is compiled with. All of the format; but the core of the decoder for the web (lib/web), compiled with
-// MCC_CORE, has what most files need and refuses the others with kNotInCore, before anything is decoded: the whole decoder
-// takes them. Code for what the core lacks is behind these constants, and container/payload_header.cpp refuses it.
+// What the reader is compiled with. Normally this is all of the format. The core of the decoder for
+// the web (lib/web), compiled with MCC_CORE, has what most files need. It refuses other files with
+// kNotInCore before anything is decoded, and the whole decoder then takes them. Code that the core
+// lacks is guarded by these constants, and container/payload_header.cpp refuses payloads that need
+// it.
 #ifndef MCC_BASE_DECODES_H_
 #define MCC_BASE_DECODES_H_
 
@@ -17,14 +19,15 @@ inline constexpr bool kWhole = true;
 #endif
 
 namespace decodes {
-inline constexpr bool kOrders = kWhole;       ///< of triangles and vertices, if they are kept
-inline constexpr bool kExactFloats = kWhole;  ///< grids too
-inline constexpr bool kPivots = kWhole;       ///< faces vertex by vertex
-inline constexpr bool kPlanes = kWhole;       ///< of positions
+inline constexpr bool kOrders = kWhole;       ///< kept orders of triangles and vertices
+inline constexpr bool kExactFloats = kWhole;  ///< also exact grids
+inline constexpr bool kPivots = kWhole;       ///< faces coded vertex by vertex
+inline constexpr bool kPlanes = kWhole;       ///< planes of positions
 inline constexpr bool kTangentPoints = kWhole;
 }  // namespace decodes
 
-/// The payload is not damaged, so that this is none of the errors of the specification.
+/// Says that the core cannot decode a payload. The payload is not damaged, so this is not one of
+/// the specification's errors.
 inline constexpr Error kNotInCore = static_cast<Error>(255);
 
 }  // namespace mcc

@@ -9,7 +9,7 @@
 
 namespace mcc {
 
-/// Inverse of ByteReader.
+/// Writes the fields that ByteReader reads.
 class ByteWriter {
  public:
   std::vector<uint8_t>& bytes() { return bytes_; }

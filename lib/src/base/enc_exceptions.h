@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Exceptions of the writer, of which there is one: no memory. Where there are none (WebAssembly), it ends the program, and
-// whoever runs that has to notice.
+// The only exception of the writer is that memory runs out. In builds without exceptions
+// (WebAssembly) this ends the program, and the host has to notice it.
 #ifndef MCC_BASE_ENC_EXCEPTIONS_H_
 #define MCC_BASE_ENC_EXCEPTIONS_H_
 
@@ -19,7 +19,7 @@ namespace mcc {
 #endif
 }
 
-/// What function() returns or, without the memory that takes, what otherwise() does.
+/// Returns what function() returns, or what otherwise() returns when function() runs out of memory.
 template <class Function, class Otherwise>
 auto catchBadAlloc(const Function& function, [[maybe_unused]] const Otherwise& otherwise) {
 #if defined(__cpp_exceptions)
@@ -33,7 +33,7 @@ auto catchBadAlloc(const Function& function, [[maybe_unused]] const Otherwise& o
 #endif
 }
 
-/// What a job threw, to be thrown again elsewhere.
+/// Keeps what a job threw, so that it can be thrown again elsewhere.
 class Thrown {
  public:
   template <class Job>

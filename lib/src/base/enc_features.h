@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The choices of the encoder by name, so that each can be switched off and its gain measured (`gltf-mcc bench --without`).
+// The encoder's choices by name, so that each can be switched off and its gain measured (`gltf-mcc
+// bench --without`).
 #ifndef MCC_BASE_ENC_FEATURES_H_
 #define MCC_BASE_ENC_FEATURES_H_
 
@@ -44,7 +45,7 @@ enum class Feature : uint8_t {
 struct FeatureInfo {
   Feature feature;
   std::string_view name;
-  std::string_view section;  ///< of the specification
+  std::string_view section;  ///< section of the specification
   std::string_view without;  ///< what the encoder does instead
 };
 
@@ -91,7 +92,8 @@ class FeatureSet {
   uint64_t bits_ = 0;
 };
 
-/// What the writer works by: the caller's options, and what measurements and tests take from it.
+/// The settings of the writer: the caller's options, and the features that measurements and tests
+/// switch off.
 struct EncodeSettings : EncodeOptions {
   FeatureSet without;
 };

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Independent jobs of the writer, on the threads its caller offers.
+// Runs independent jobs of the writer on the threads that its caller offers.
 #ifndef MCC_BASE_ENC_JOBS_H_
 #define MCC_BASE_ENC_JOBS_H_
 
@@ -13,14 +13,16 @@
 
 namespace mcc {
 
-/// Jobs may run at the same time, so each writes to a place of its own; what is chosen from their results is chosen
-/// behind them, in their order. That is why the bytes do not depend on the number of threads.
+/// Jobs may run at the same time, so each writes to a place of its own. Choices between their
+/// results are made after all have ended, in the order of the jobs. That is why the bytes do not
+/// depend on the number of threads.
 class Jobs {
  public:
   /// Borrows the hook; an empty one runs the jobs in order.
   explicit Jobs(const RunJobs& hook) : hook_(hook) {}
 
-  /// job(0) … job(count - 1), each void. Returns when all have ended; what the lowest of them threw is thrown again.
+  /// Runs job(0) … job(count - 1), which return void. Returns when all have ended. If jobs threw,
+  /// the exception of the lowest one is thrown again.
   template <class Job>
   void run(size_t count, const Job& job) const {
     if (!hook_ || count < 2) {
@@ -32,7 +34,7 @@ class Jobs {
     for (const Thrown& of_job : thrown) of_job.rethrow();
   }
 
-  /// The same for jobs that return a Status: that of the lowest job that failed.
+  /// Runs jobs that return a Status. Returns that of the lowest job that failed.
   template <class Job>
   Status tryAll(size_t count, const Job& job) const {
     std::vector<Status> statuses(count);

@@ -11,8 +11,8 @@
 
 namespace mcc {
 
-/// Plain data that is made when it is first asked for: a payload needs few of all models, and a small one has neither time
-/// nor memory for the others.
+/// Plain data that is created when it is first needed. A payload needs only few of the models, and
+/// a small payload should not spend time and memory on the others.
 template <class T>
 class Lazy {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -23,7 +23,7 @@ class Lazy {
   Lazy& operator=(const Lazy&) = delete;
   ~Lazy() { releaseBytes(allocator_, made_, sizeof(T)); }
 
-  /// Null without memory. All calls have the same allocator.
+  /// Returns the data, or null when memory ran out. All calls must have the same allocator.
   T* get(const Allocator& allocator) {
     if (made_ != nullptr) return made_;
     allocator_ = allocator;
@@ -32,7 +32,7 @@ class Lazy {
     return made_;
   }
 
-  /// Becomes what `other` is, which has the same allocator. False without memory.
+  /// Copies `other`, which must have the same allocator. Returns false when memory ran out.
   [[nodiscard]] bool copyFrom(const Lazy& other) {
     if (this == &other) return true;
     if (other.made_ == nullptr) {
@@ -50,7 +50,7 @@ class Lazy {
   [[no_unique_address]] Allocator allocator_;
 };
 
-/// The same for arrays of them.
+/// The same for arrays of lazy data.
 template <class T>
 [[nodiscard]] bool copyLazy(Lazy<T>& to, const Lazy<T>& from) {
   return to.copyFrom(from);

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Memory for reader and writer: growable arrays of plain data that report failure instead of throwing.
+// Memory for reader and writer: growable arrays of plain data, which report failure instead of
+// throwing.
 #ifndef MCC_BASE_MEMORY_H_
 #define MCC_BASE_MEMORY_H_
 
@@ -40,8 +41,8 @@ inline bool isHeap(const Allocator& allocator) { return allocator.allocate == nu
 
 #endif
 
-/// Memory for `count` elements of `bytes` each, with the first `used` of what was in `old`, which is released; null without
-/// memory, and nothing has happened.
+/// Allocates `count` elements of `bytes` each and moves the first `used` elements of `old` there;
+/// `old` is released. Returns null when memory ran out; then nothing has changed.
 MCC_SHARED void* moveElements(const Allocator& allocator, void* old, size_t used, size_t old_count,
                               size_t count, size_t bytes) {
   if (count > SIZE_MAX / bytes) return nullptr;
@@ -52,8 +53,8 @@ MCC_SHARED void* moveElements(const Allocator& allocator, void* old, size_t used
   return memory;
 }
 
-/// Array of trivially copyable elements in memory of an Allocator. Every growing call returns false when
-/// the allocator gives none, and leaves the array as it was.
+/// An array of trivially copyable elements in memory of an Allocator. Every call that may grow it
+/// returns false when memory ran out, and then leaves the array as it was.
 template <class T>
 class Array {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -79,7 +80,7 @@ class Array {
   void pop_back() { --size_; }
   void clear() { size_ = 0; }
 
-  /// Gives the memory back.
+  /// Releases the memory.
   void reset() {
     releaseBytes(allocator_, data_, capacity_ * sizeof(T));
     data_ = nullptr;
@@ -95,7 +96,7 @@ class Array {
     return true;
   }
 
-  /// New elements are uninitialised.
+  /// Changes the size. New elements are uninitialised.
   [[nodiscard]] bool resize(size_t size) {
     if (!reserve(size)) return false;
     size_ = size;

@@ -28,7 +28,7 @@ constexpr bool kIsSanitized = false;
 
 constexpr bool kHasHugePages = true;
 
-/// `bytes` is a multiple of kPageBytes, and so is the address.
+/// Maps memory aligned to kPageBytes. `bytes` must be a multiple of kPageBytes.
 void* mapPages(size_t bytes) {
   constexpr size_t kPage = WorkingMemory::kPageBytes;
   void* mapped =
@@ -39,7 +39,7 @@ void* mapPages(size_t bytes) {
   uint8_t* aligned = static_cast<uint8_t*>(mapped) + before;
   if (before != 0) munmap(mapped, before);
   munmap(aligned + bytes, kPage - before);
-  (void)madvise(aligned, bytes, MADV_HUGEPAGE);  // advice: without, it is only slower
+  (void)madvise(aligned, bytes, MADV_HUGEPAGE);  // without huge pages it is only slower
   return aligned;
 }
 void unmapPages(void* memory, size_t bytes) { munmap(memory, bytes); }
@@ -99,7 +99,7 @@ bool WorkingMemory::addRegion(size_t bytes) {
   if (region_count_ == kMaxRegions) return false;
   size_t region_bytes = roundUp(std::max(bytes, next_region_bytes_), kPageBytes);
   void* memory = mapPages(region_bytes);
-  if (memory == nullptr) {  // without foresight
+  if (memory == nullptr) {  // try the smallest region that is enough
     region_bytes = roundUp(bytes, kPageBytes);
     memory = mapPages(region_bytes);
   }
@@ -111,7 +111,7 @@ bool WorkingMemory::addRegion(size_t bytes) {
   return true;
 }
 
-/// Joined with its neighbours in the list, if they touch.
+/// Adds a free block, and joins it with its neighbours in the list if they touch.
 void WorkingMemory::addFree(void* memory, size_t bytes) {
   FreeBlock* before = nullptr;
   FreeBlock* after = free_;

@@ -10,7 +10,8 @@
 
 namespace mcc {
 
-/// Inverse of parsePayload(): `header` without its streams and with kSameAttributes left to this function.
+/// Inverse of parsePayload(). `header` must not contain its streams, and this function sets
+/// kSameAttributes.
 std::vector<uint8_t> writePayload(const PayloadHeader& header, std::span<const uint8_t> codes,
                                   std::span<const uint8_t> tokens, std::span<const uint8_t> raw);
 

@@ -40,7 +40,7 @@ Status parseGrid(ByteReader& in, AttributeInfo& a) {
   return {};
 }
 
-/// Whether the reader is compiled with what an attribute needs, as far as its format and coding tell.
+/// Whether this reader can decode an attribute, as far as its format and coding tell.
 bool isDecoded(const AttributeInfo& a) {
   const bool is_exact =
       a.coding == AttributeCoding::kExactFloat || a.coding == AttributeCoding::kGrid;
@@ -120,7 +120,8 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
   return {};
 }
 
-/// Aliases are of earlier attributes that are none and not the position, tangents have normals, predictors are known.
+/// Checks that aliases refer to earlier attributes that are neither aliases nor the position, that
+/// tangents have normals, and that predictors are known.
 Status checkReferences(const AttributeInfo* all, uint32_t count, size_t at) {
   if ((all[0].predictor & ~position_mode::kDecoded) != 0)
     return fail(kNotInCore, "the core lacks a predictor", at);
@@ -192,21 +193,22 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
   return {};
 }
 
-/// A count behind a flag is what the flag would not say without it. [A.2.2]
+/// Reads a count whose presence a flag announces. It must be at least `least`: smaller counts need
+/// no flag. [A.2.2]
 Status parseFlaggedCount(ByteReader& in, bool is_stated, uint32_t least, uint32_t& count) {
   if (!is_stated) return {};
   const size_t at = in.offset();
   MCC_TRY(in.readVarint(count));
   if (count >= least) return {};
-  return fail(Error::kBadHeader, "a count that needs no statement is stated", at);
+  return fail(Error::kBadHeader, "a count is stated although it is implied", at);
 }
 
-/// Over the pieces so far: limits hold for the payload.
+/// Sums over the pieces so far, because limits apply to the payload.
 struct Totals {
   uint64_t vertices = 0;
   uint64_t wedges = 0;
   uint64_t triangles = 0;
-  uint64_t output_bytes = 0;  ///< what callers take for indices of 32 bits and attributes
+  uint64_t output_bytes = 0;  ///< size of the caller's attributes and indices of 32 bits
 };
 
 /// [A.2.2]
@@ -280,7 +282,7 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, T
   return {};
 }
 
-/// Lengths of all streams but the last, which takes the rest. [A.2.5]
+/// Reads the lengths of all streams but the last, which takes the rest. [A.2.5]
 Status parseStreams(ByteReader& in, PayloadHeader& header) {
   uint32_t codes_bytes = 0;
   uint32_t tokens_bytes = 0;

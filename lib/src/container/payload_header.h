@@ -16,20 +16,23 @@
 namespace mcc {
 
 inline constexpr uint8_t kMagic[3] = {'K', 'M', 'C'};
-inline constexpr uint8_t kWithdrawnMagic[3] = {'M', 'C', 'C'};  ///< of the first format
-/// A draft (major version 0) has nothing in common with other versions.
+inline constexpr uint8_t kWithdrawnMagic[3] = {'M', 'C', 'C'};  ///< the first format
+/// A draft (major version 0) is not compatible with any other version.
 inline constexpr uint8_t kVersionMajor = 0;
 inline constexpr uint8_t kVersionMinor = 9;
 inline constexpr size_t kChecksumOffset = 4;
 inline constexpr size_t kChecksummedFrom = 8;  ///< the checksum covers bytes 0..3 and from here on
 
-/// Bound on the work per byte: writers pad a payload to keep it. Known meshes have below 50 elements per byte, the
-/// triangles of a regular grid alone up to 2200.                                            [A.2.6]
+/// Bounds the work per byte; writers pad a payload to keep it. Known meshes have fewer than 50
+/// elements per byte; only the triangles of a regular grid reach 2200.
+/// [A.2.6]
 inline constexpr uint64_t kMaxElementsPerByte = 1024;
-/// What an attribute counts for besides its values: tables of up to 4096 entries begin anew with it.
+/// The elements that an attribute counts in addition to its values, because its tables of up to
+/// 4096 entries start anew.
 inline constexpr uint64_t kElementsPerAttribute = 1024;
-/// What a search among neighbours and recent ones counts for: of each vertex where vertices may share groups, of each
-/// face of a pivot, of each isolated position, of each place in an order that is kept.
+/// The elements that a search among neighbours and recent ones counts. There is one for each vertex
+/// where vertices may share groups, each face of a pivot, each isolated position, and each place in
+/// a kept order.
 inline constexpr uint64_t kElementsPerSearch = 8;
 
 namespace payload_flag {
@@ -46,7 +49,7 @@ inline constexpr uint32_t kManyParts = 1u << 1;
 inline constexpr uint32_t kSameAttributes = 1u << 2;
 inline constexpr uint32_t kHoles = 1u << 3;
 inline constexpr uint32_t kHandles = 1u << 4;
-// What most pieces have is in one byte.
+// The varint of the flags takes one byte, unless a flag beyond the next two is set.
 inline constexpr uint32_t kCreases = 1u << 5;
 inline constexpr uint32_t kIsolated = 1u << 6;
 inline constexpr uint32_t kSurfaceShift = 7;
@@ -55,17 +58,17 @@ inline constexpr uint32_t kListed = 1u << 9;
 inline constexpr uint32_t kTriangleOrder = 1u << 10;
 inline constexpr uint32_t kVertexOrder = 1u << 11;
 inline constexpr uint32_t kAll = 0xfff;
-/// Those of pieces that are decoded.
+/// The flags of pieces that this reader can decode.
 inline constexpr uint32_t kDecoded = kAll & ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder);
 }  // namespace piece_flag
 
 struct PieceHeader {
   uint32_t flags = 0;
-  uint32_t vertex_count = 0;  ///< of the cut mesh, that is umbrellas; with pivots groups
+  uint32_t vertex_count = 0;  ///< umbrellas of the cut mesh, or groups if the piece has pivots
   uint32_t face_count = 0;
   uint32_t operation_count = 0;
   uint32_t dummy_count = 0;
-  uint32_t wedge_count = 0;  ///< isolated ones included
+  uint32_t wedge_count = 0;  ///< including isolated wedges
   uint32_t isolated_count = 0;
   uint32_t listed_count = 0;
   uint32_t first_part = 0;
@@ -89,8 +92,9 @@ struct PieceHeader {
   }
 };
 
-/// Elements of a piece without its attributes, and of one of its attributes: what decoding takes time and working memory
-/// in proportion to.                                                                        [A.2.6]
+/// Count the elements of a piece without its attributes, and of one of its attributes. Time and
+/// working memory of decoding are proportional to them.
+/// [A.2.6]
 uint64_t surfaceElements(const PieceHeader& piece);
 uint64_t attributeElements(const PieceHeader& piece, const AttributeFormat& format);
 
@@ -112,10 +116,12 @@ struct PayloadHeader {
   uint32_t contextSet() const { return flags >> payload_flag::kContextSetShift; }
 };
 
-/// Of all pieces and their attributes.                                                       [A.2.6]
+/// Counts the elements of all pieces and their attributes.
+/// [A.2.6]
 uint64_t elementsOf(const PayloadHeader& header);
 
-/// Parses and checks everything before the streams. Allocates in proportion to the bytes only. [A.2.1]
+/// Parses and checks everything before the streams. Allocates only in proportion to the bytes.
+/// [A.2.1]
 Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, PayloadHeader& header);
 
 }  // namespace mcc

@@ -2,13 +2,14 @@
 //
 // Entropy decoders.                                                                        [A.3]
 //
-// A payload has three streams: `codes` (binary range coder), `tokens` (three interleaved rANS states) and
-// `raw` (plain bits). A small payload has `codes` alone, and tokens and raw bits go through its range coder.
-// Stage code is written once against the interface of DecoderIo and EncoderIo:
-//   bit(model, truth)            one adaptive binary decision
-//   token<state>(row, schedule, truth)   one of 16 symbols
-//   raw(bits, truth)             up to 32 equiprobable bits
-//   magnitude(base, bits, sign, truth, negative)   base + raw bits, then a sign bit unless zero
+// A payload has three streams: `codes` (binary range coder), `tokens` (three interleaved rANS
+// states) and `raw` (plain bits). A small payload has only `codes`, and tokens and raw bits go
+// through its range coder. Stage code is written once against the interface that DecoderIo and
+// EncoderIo share:
+//   bit(model, truth)            codes one adaptive binary decision
+//   token<state>(row, schedule, truth)   codes one of 16 symbols
+//   raw(bits, truth)             codes up to 32 equiprobable bits
+//   magnitude(base, bits, sign, truth, negative)   codes base + raw bits, and a sign unless zero
 // The decoder ignores `truth` and returns what it read; the encoder codes `truth` and returns it.
 #ifndef MCC_ENTROPY_DEC_CODER_H_
 #define MCC_ENTROPY_DEC_CODER_H_
@@ -25,10 +26,10 @@
 
 namespace mcc {
 
-/// Little-endian loads; the compilers turn the shifts into one load.
+/// Loads in little-endian order, which compilers turn into one instruction. loadU16() copies bytes,
+/// since gcc does not always combine two shifted bytes; hosts are little-endian, see host.h.
 MCC_INLINE uint32_t loadU16(const uint8_t* p) {
-  uint16_t
-      value;  // gcc does not see through two shifted bytes everywhere; hosts are little-endian, see host.h
+  uint16_t value;
   std::memcpy(&value, p, sizeof value);
   return value;
 }
@@ -39,8 +40,9 @@ MCC_INLINE uint64_t loadU64(const uint8_t* p) {
   return uint64_t{loadU32(p)} | uint64_t{loadU32(p + 4)} << 32;
 }
 
-/// Binary range decoder, 64-bit range, 32-bit words. Behind its end the stream continues with zeros, so
-/// that the writer may drop trailing zero bytes.                                          [A.3.2]
+/// Binary range decoder with a 64-bit range and 32-bit words. After its end the stream continues
+/// with zeros, so that the writer may drop trailing zero bytes.
+/// [A.3.2]
 class RangeDecoder {
  public:
   explicit RangeDecoder(std::span<const uint8_t> bytes) : bytes_(bytes) {
@@ -48,7 +50,8 @@ class RangeDecoder {
     code_ |= nextWord();
   }
 
-  /// Branches on the bit, which callers do anyway: the next decision then starts from a predicted range.
+  /// Branches on the bit, as callers do anyway, so that the next decision starts from a predicted
+  /// range.
   MCC_INLINE bool bit(BitModel& model) {
     const uint64_t split = (range_ >> kProbabilityBits) * model.zeroProbability();
     const bool one = code_ >= split;
@@ -63,7 +66,7 @@ class RangeDecoder {
     return one;
   }
 
-  /// Value below 2^bits of a symbol interval; consume() must follow.
+  /// Returns the value below 2^bits that falls into a symbol's interval; consume() must follow.
   uint32_t peek(uint32_t bits) {
     const uint64_t value = code_ / (range_ >> bits);
     const uint64_t last = (uint64_t{1} << bits) - 1;
@@ -76,7 +79,7 @@ class RangeDecoder {
     renormalise();
   }
 
-  /// Tokens and raw bits of payloads without streams of their own.
+  /// Reads the tokens and raw bits of payloads that have no streams for them.
   uint32_t token(TokenRow& row, const TokenSchedule& schedule) {
     const uint32_t slot = peek(kTokenBits);
     uint32_t start = 0;
@@ -96,10 +99,11 @@ class RangeDecoder {
     return value;
   }
 
-  /// All bytes were used and not more than the padding zeros besides.
+  /// Whether all bytes were used, and beyond them at most the zeros that the writer may have
+  /// dropped.
   bool finished() const { return next_ >= bytes_.size() && next_ <= bytes_.size() + 8; }
   bool overrun() const { return next_ > bytes_.size() + 8; }
-  /// Read so far, to a bit.
+  /// Returns the number of bits read so far, to within one bit.
   uint64_t spentBits() const { return 8 * uint64_t{next_} - std::bit_width(range_); }
 
  private:
@@ -115,7 +119,8 @@ class RangeDecoder {
     next_ += 4;
     return word;
   }
-  /// Out of the way, and without `this`: a decoder that is a local variable can live in registers.
+  /// Handles the rare end of the stream out of line. Static, so that a decoder that is a local
+  /// variable can stay in registers.
   MCC_OUT_OF_LINE static uint32_t wordAt(const uint8_t* bytes, size_t size, size_t at) {
     if (at + 4 <= size) return loadU32(bytes + at);
     uint32_t word = 0;
@@ -129,8 +134,9 @@ class RangeDecoder {
   uint64_t code_ = 0;
 };
 
-/// Three interleaved rANS states over one sequence of 16-bit words, which starts with the states' first
-/// values (32 bits each).                                                                 [A.3.3]
+/// Three interleaved rANS states over one sequence of 16-bit words, which begins with the states'
+/// initial values (32 bits each).
+/// [A.3.3]
 class RansDecoder {
  public:
   explicit RansDecoder(std::span<const uint8_t> bytes) : bytes_(bytes) {
@@ -144,7 +150,7 @@ class RansDecoder {
     }
   }
 
-  /// Unchecked: hasWords(1) holds.
+  /// Decodes a token. If kUnchecked, hasWords(1) must hold.
   template <bool kUnchecked = false>
   MCC_INLINE uint32_t token(uint32_t state, TokenRow& row, const TokenSchedule& schedule) {
     uint32_t x = state_[state];
@@ -154,7 +160,7 @@ class RansDecoder {
     const uint32_t symbol = row.findAndAdapt(slot, schedule, start, frequency);
     x = frequency * (x >> kTokenBits) + slot - start;
     if (kUnchecked || hasWords(1)) [[likely]] {
-      // Branch-free: whether a word is due is close to random.
+      // Without a branch, because it is close to random whether a word is due.
       const int64_t due = (int64_t{x} - kRansLow) >> 63;  // -1 or 0
       const uint32_t longer = x << 16 | loadU16(bytes_.data() + next_);
       x ^= (x ^ longer) & static_cast<uint32_t>(due);
@@ -166,7 +172,7 @@ class RansDecoder {
     return symbol;
   }
 
-  /// A token of each state. Unchecked: hasWords(3) holds.
+  /// Decodes one token of each state, without checks: hasWords(3) must hold.
   MCC_INLINE void tokens(TokenRow* const* rows, const TokenSchedule& schedule, uint32_t* symbols) {
     const uint8_t* at = bytes_.data() + next_;
     MCC_UNROLL
@@ -192,7 +198,7 @@ class RansDecoder {
            state_[2] == kRansLow;
   }
   bool overrun() const { return overrun_; }
-  /// Read so far, to three bits.
+  /// Returns the number of bits read so far, to within three bits.
   uint64_t spentBits() const {
     uint64_t bits = 8 * uint64_t{next_};
     for (const uint32_t state : state_) bits -= std::bit_width(state);
@@ -216,7 +222,7 @@ class RansDecoder {
   bool overrun_ = false;
 };
 
-/// All ones below a bit, as a table: shifts by a variable take longer.
+/// A table of masks with all ones below a bit; shifts by a variable take longer.
 struct RawMasks {
   uint32_t below[64];
 };
@@ -234,7 +240,8 @@ MCC_INLINE uint32_t maskBelow(uint32_t bit) {
   }
 }
 
-/// Plain bits, least significant first.                                                   [A.3.4]
+/// Plain bits, least significant bit first.
+/// [A.3.4]
 class RawBitsDecoder {
  public:
   explicit RawBitsDecoder(std::span<const uint8_t> bytes) : bytes_(bytes) {}
@@ -254,8 +261,8 @@ class RawBitsDecoder {
     return static_cast<uint32_t>(window & ((uint64_t{1} << bits) - 1));
   }
 
-  /// base + `bits` raw bits (at most 56 with the sign); a sign bit follows if `sign` and the sum is not zero. Unchecked:
-  /// hasBytes(8) holds.
+  /// Reads base + `bits` raw bits (at most 56 with the sign); a sign bit follows if `sign` is set
+  /// and the sum is not zero. If kUnchecked, hasBytes(8) must hold.
   template <bool kUnchecked = false>
   MCC_INLINE uint32_t readMagnitude(uint32_t base, uint32_t bits, bool sign, uint32_t& negative) {
     const size_t byte = static_cast<size_t>(next_bit_ >> 3);
@@ -272,8 +279,8 @@ class RawBitsDecoder {
     return value;
   }
 
-  /// Three magnitudes and signs (`signs`: 0 or 1) in one look, kThreeMagnitudesBits of bits at most. Unchecked:
-  /// hasBytes(8) holds.
+  /// Reads three magnitudes and signs (`signs` are 0 or 1) from one load, of at most
+  /// kThreeMagnitudesBits bits. Unchecked: hasBytes(8) must hold.
   MCC_INLINE void readThreeMagnitudes(const uint32_t* base, const uint32_t* bits,
                                       const uint32_t* signs, uint32_t* values, uint32_t* negative) {
     uint64_t window =
@@ -292,7 +299,7 @@ class RawBitsDecoder {
   static constexpr uint32_t kThreeMagnitudesBits = 64 - 7 - 3;
 
   MCC_INLINE bool hasBytes(size_t count) const { return (next_bit_ >> 3) + count <= bytes_.size(); }
-  /// Every byte was used, and what is left of the last is zero.
+  /// Whether every byte was used and the rest of the last one is zero.
   bool finished() const {
     if ((next_bit_ + 7) / 8 != bytes_.size()) return false;
     return next_bit_ % 8 == 0 || bytes_.back() >> (next_bit_ % 8) == 0;
@@ -305,7 +312,8 @@ class RawBitsDecoder {
   uint64_t next_bit_ = 0;
 };
 
-/// Checks that every stream was used up exactly; those that are null are none of the payload. [A.3.8]
+/// Checks that every stream was used up exactly. Null pointers stand for streams that the payload
+/// does not have. [A.3.8]
 inline Status checkFinished(bool overrun, const RangeDecoder& codes, const RansDecoder* tokens,
                             const RawBitsDecoder* raw) {
   if (overrun) return fail(Error::kTruncated, "a stream ends before its last symbol");
@@ -319,8 +327,9 @@ inline Status checkFinished(bool overrun, const RangeDecoder& codes, const RansD
   return {};
 }
 
-/// Inner loops that code a vertex after another do so through an Io::Burst: taken from the Io, given back before
-/// anything else uses that. An Io::CodesBurst is the same for binary decisions. This one is the Io itself, for both.
+/// Inner loops that code one vertex after another use an Io::Burst. They take it from the Io, and
+/// give it back before anything else uses the Io. An Io::CodesBurst is the same for binary
+/// decisions. This one is the Io itself, and serves as both.
 template <class Io>
 class SameIo {
  public:
@@ -368,18 +377,19 @@ class CodesDecoderBurst {
   RangeDecoder codes_;
 };
 
-/// Copies of the token and raw decoders, which check their bounds once per vertex.
+/// Copies of the token and raw decoders, whose bounds are checked once per vertex.
 class DecoderBurst {
  public:
   static constexpr bool kEncoding = false;
-  static constexpr bool kThreeAtOnce =
-      true;  ///< has threeTokens() and threeMagnitudes(); others lack this
+  /// This Io has threeTokens() and threeMagnitudes(); others lack this constant.
+  static constexpr bool kThreeAtOnce = true;
   static constexpr bool threeAtOnce() { return true; }  ///< whether they may be called
   explicit DecoderBurst(const DecoderIo<false>& io);
   void take(const DecoderIo<false>& io);
   void giveBack(DecoderIo<false>& io) const;
 
-  /// For so many tokens and their raw bits, 51 each at most, and what loads reach beyond them.
+  /// Whether there is room for this many tokens with at most 51 raw bits each, and for loads that
+  /// reach beyond them.
   MCC_INLINE bool hasRoom(uint32_t tokens) const {
     return tokens_.hasWords(tokens) && raw_.hasBytes(8 + 8 * tokens);
   }
@@ -394,12 +404,13 @@ class DecoderBurst {
     return raw_.readMagnitude<true>(base, bits, sign, negative);
   }
 
-  /// A token of each state.
+  /// Decodes one token of each state.
   MCC_INLINE void threeTokens(TokenRow* const* rows, const TokenSchedule& schedule,
                               uint32_t* symbols) {
     tokens_.tokens(rows, schedule, symbols);
   }
-  /// magnitude() three times; false, and nothing was read, when they have too many bits for one look.
+  /// Decodes three magnitudes. Returns false, and reads nothing, when they have too many bits for
+  /// one load.
   MCC_INLINE bool threeMagnitudes(const uint32_t* base, const uint32_t* bits, const uint32_t* signs,
                                   uint32_t* values, uint32_t* negative) {
     if (bits[0] + bits[1] + bits[2] > RawBitsDecoder::kThreeMagnitudesBits) [[unlikely]]
@@ -413,14 +424,14 @@ class DecoderBurst {
   RawBitsDecoder raw_;
 };
 
-/// The decoder as stage code sees it. kSingle: everything goes through the range coder. [A.3.7]
+/// The decoder as stage code sees it. If kSingle, everything goes through the range coder. [A.3.7]
 template <bool kSingle>
 class DecoderIo {
  public:
   using Burst = std::conditional_t<kSingle, SameIo<DecoderIo>, DecoderBurst>;
   using CodesBurst = CodesDecoderBurst;
   static constexpr bool kEncoding = false;
-  static constexpr bool kFast = !kSingle;  ///< worth compiling inner loops for every choice
+  static constexpr bool kFast = !kSingle;  ///< worth compiling inner loops separately per choice
 
   DecoderIo(std::span<const uint8_t> codes, std::span<const uint8_t> tokens,
             std::span<const uint8_t> raw)
@@ -445,7 +456,7 @@ class DecoderIo {
     }
   }
 
-  /// base + `bits` raw bits, then a sign bit if `sign` and the sum is not zero.
+  /// Reads base + `bits` raw bits, then a sign bit if `sign` is set and the sum is not zero.
   MCC_INLINE uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t,
                                 uint32_t& negative) {
     if constexpr (kSingle) {
@@ -457,7 +468,7 @@ class DecoderIo {
     }
   }
 
-  /// True once more was read than the streams hold: the values since are meaningless.
+  /// Whether more was read than the streams hold. All values since then are meaningless.
   bool overrun() const {
     if constexpr (kSingle) {
       return codes_.overrun();
@@ -466,7 +477,7 @@ class DecoderIo {
     }
   }
 
-  /// Read so far, to a few bits.
+  /// Returns the number of bits read so far, to within a few bits.
   uint64_t spentBits() const {
     if constexpr (kSingle) {
       return codes_.spentBits();

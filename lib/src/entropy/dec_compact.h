@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The decoder of both kinds of payloads as stage code sees it, where the size of the code counts: one type for all, and
-// its functions are called rather than inlined. Same symbols as DecoderIo of dec_coder.h.        [A.3]
+// The decoder of both kinds of payloads as stage code sees it, where code size matters: there is
+// one type for both, and its functions are called rather than inlined. It decodes the same symbols
+// as DecoderIo in dec_coder.h.        [A.3]
 #ifndef MCC_ENTROPY_DEC_COMPACT_H_
 #define MCC_ENTROPY_DEC_COMPACT_H_
 
@@ -33,7 +34,7 @@ class CompactIo {
     return is_single_ ? codes_.raw(bits) : raw_.read(bits);
   }
 
-  /// As DecoderIo::magnitude().
+  /// Like DecoderIo::magnitude().
   MCC_OUT_OF_LINE uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t,
                                      uint32_t& negative) {
     const uint32_t value = base + raw(bits);
@@ -41,16 +42,16 @@ class CompactIo {
     return value;
   }
 
-  /// One coder has each token before its bits.
+  /// False for a single coder, which codes the raw bits of each token right after it.
   bool threeAtOnce() const { return !is_single_; }
-  /// A token of each state. Only if threeAtOnce().
+  /// Decodes one token of each state. Only if threeAtOnce().
   MCC_INLINE void threeTokens(TokenRow* const* rows, const TokenSchedule& schedule,
                               uint32_t* symbols) {
     if (tokens_.hasWords(kRansStateCount)) [[likely]]
       return tokens_.tokens(rows, schedule, symbols);
     for (uint32_t s = 0; s < kRansStateCount; ++s) symbols[s] = tokenOf(s, *rows[s], schedule);
   }
-  /// magnitude() three times, unless they take more than a look; false: nothing was read.
+  /// Decodes three magnitudes. Returns false, and reads nothing, when they take more than one load.
   MCC_INLINE bool threeMagnitudes(const uint32_t* base, const uint32_t* bits, const uint32_t* signs,
                                   uint32_t* values, uint32_t* negative) {
     if (!raw_.hasBytes(8) || bits[0] + bits[1] + bits[2] > RawBitsDecoder::kThreeMagnitudesBits)
@@ -69,7 +70,7 @@ class CompactIo {
                          is_single_ ? nullptr : &raw_);
   }
 
-  /// Inner loops have nothing of their own.
+  /// Inner loops use the Io itself.
   using Burst = CompactIo&;
   using CodesBurst = CompactIo&;
   void take(const CompactIo&) {}

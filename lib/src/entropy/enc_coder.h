@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Entropy encoders: the inverses of dec_coder.h, and a coder that only counts.
+// Entropy encoders: the inverses of dec_coder.h, and a coder that only counts costs.
 #ifndef MCC_ENTROPY_ENC_CODER_H_
 #define MCC_ENTROPY_ENC_CODER_H_
 
@@ -35,13 +35,14 @@ class RangeEncoder {
     renormalise();
   }
 
-  /// Ends the stream with as few bytes as tell the last interval; the coder is then empty.
+  /// Ends the stream with the fewest bytes that identify the final interval. The coder is then
+  /// empty.
   std::vector<uint8_t> finish() {
     // Some multiple of 2^32 lies in [low, low + range), since range >= 2^32.
     const uint64_t rounded = (low_ + 0xffffffffu) & ~uint64_t{0xffffffffu};
     add(rounded - low_);
     emitWord();
-    // The decoder fills up with zeros, and takes at most eight bytes more than there are.
+    // The decoder continues with zeros, and accepts at most eight bytes more than there are.
     for (int i = 0; i < 4 && !bytes_.empty() && bytes_.back() == 0; ++i) bytes_.pop_back();
     return std::move(bytes_);
   }
@@ -80,7 +81,7 @@ class RangeEncoder {
   uint64_t range_ = ~uint64_t{0};
 };
 
-/// Inverse of RansDecoder: records tokens forwards, codes them backwards.
+/// Inverse of RansDecoder. Tokens are recorded forwards and coded backwards.
 class RansEncoder {
  public:
   void token(uint32_t state, uint32_t start, uint32_t frequency) {
@@ -140,7 +141,7 @@ class RawBitsEncoder {
   uint32_t count_ = 0;
 };
 
-/// Spends nothing but a count: for the encoder's trials.
+/// Counts costs and codes nothing: for the encoder's trials.
 class CostIo {
  public:
   using Burst = SameIo<CostIo>;
@@ -174,14 +175,14 @@ class CostIo {
   }
 
   bool overrun() const { return false; }
-  uint64_t cost() const { return cost_; }  ///< in 1/65536 bit
+  uint64_t cost() const { return cost_; }  ///< in units of 1/65536 bit
 
  protected:
   uint64_t cost_ = 0;
 };
 
-/// The encoder as stage code sees it, see dec_coder.h. Codes into three streams or, if `single`, into one;
-/// counts the cost besides.
+/// The encoder as stage code sees it, see dec_coder.h. Codes into three streams or, if `single`,
+/// into one, and also counts the cost.
 class EncoderIo : public CostIo {
  public:
   using Burst = SameIo<EncoderIo>;

@@ -12,7 +12,7 @@ namespace mcc {
 
 inline constexpr uint32_t kCostOne = 1u << 16;  ///< one bit
 
-/// 65536 * log2(1 + i/1024), by repeated squaring.
+/// Computes 65536 * log2(1 + i/1024) by repeated squaring.
 constexpr std::array<uint32_t, 1025> makeLogTable() {
   std::array<uint32_t, 1025> table{};
   for (uint32_t i = 0; i <= 1024; ++i) {
@@ -35,7 +35,8 @@ constexpr std::array<uint32_t, 1025> makeLogTable() {
 }
 inline constexpr std::array<uint32_t, 1025> kLogTable = makeLogTable();
 
-/// Cost of an event of probability `numerator` / 2^bits, in 1/65536 bit. numerator >= 1.
+/// Returns the cost of an event of probability `numerator` / 2^bits, in units of 1/65536 bit.
+/// `numerator` must be at least 1.
 constexpr uint32_t costOf(uint32_t numerator, uint32_t bits) {
   const uint32_t width = static_cast<uint32_t>(std::bit_width(numerator));  // 1..32
   const uint64_t mantissa = (uint64_t{numerator} << 32) >> width;           // [2^31, 2^32)

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Adaptive models of both entropy coders. Reader and writer share every update.            [A.3.1]
+// Adaptive models of both entropy coders. Reader and writer share all their updates.       [A.3.1]
 #ifndef MCC_ENTROPY_MODELS_H_
 #define MCC_ENTROPY_MODELS_H_
 
@@ -19,7 +19,7 @@
 
 namespace mcc {
 
-// --- binary decisions ------------------------------------------------------------------------------
+// --- binary decisions ----------------------------------------------------------
 
 inline constexpr uint32_t kProbabilityBits = 22;
 inline constexpr uint32_t kProbabilityOne = 1u << kProbabilityBits;
@@ -29,7 +29,8 @@ struct AdaptationRates {
   uint16_t of_count[kBitCountLimit + 1];
 };
 
-/// round(65536 / (n + 1.6)): the first outcomes move a probability fast, later ones like a mean.
+/// Computes round(65536 / (n + 1.6)): the first outcomes move a probability fast, later ones like a
+/// mean.
 constexpr AdaptationRates makeAdaptationRates() {
   AdaptationRates rates{};
   for (uint32_t n = 0; n <= kBitCountLimit; ++n) {
@@ -40,8 +41,9 @@ constexpr AdaptationRates makeAdaptationRates() {
 }
 using AdaptationTable = ConstantTable<makeAdaptationRates>;
 
-/// Probability that the next bit is 0, in 22 bits, above a count of outcomes in 10 bits. Compact code keeps the difference
-/// to the first state: models are made by clearing memory then.
+/// The probability that the next bit is 0, in 22 bits, above a count of outcomes in 10 bits.
+/// Compact code stores the difference to the first state, so that clearing memory initialises
+/// models.
 struct BitModel {
   static constexpr uint32_t kFirst = (kProbabilityOne / 2) << 10;
   static constexpr uint32_t kKeptFrom = kCompact ? kFirst : 0;
@@ -61,14 +63,14 @@ struct BitModel {
   }
 };
 
-// --- tokens: rows of 16 symbols --------------------------------------------------------------------
+// --- tokens: rows of 16 symbols ------------------------------------------------
 
-inline constexpr uint32_t kTokenBits = 15;  ///< rows count in units of 2^-15
+inline constexpr uint32_t kTokenBits = 15;  ///< frequencies of a row are in units of 2^-15
 inline constexpr uint32_t kTokenOne = 1u << kTokenBits;
 inline constexpr uint32_t kTokenCount = 16;
-inline constexpr uint32_t kTokenFloor = 4;  ///< units every symbol keeps in the limit
+inline constexpr uint32_t kTokenFloor = 4;  ///< units that every symbol keeps in the limit
 
-/// Adaptation shift by number of uses.
+/// The adaptation shift by the number of uses.
 struct TokenSchedule {
   uint8_t shift[64];
 };
@@ -98,8 +100,9 @@ inline constexpr TokenSchedule kAttributeSchedule =
 struct TokenRow {
   alignas(16) uint16_t c[kTokenCount + 1];
   uint16_t uses;
-  uint16_t
-      low_bits;  ///< of positions: raw bits below the token, at each use of the row; there is room for it
+  /// Only for positions: the number of raw bits below the token, at each use. Stored here because
+  /// there is room.
+  uint16_t low_bits;
 
   void setUniform() {
     for (uint32_t i = 0; i <= kTokenCount; ++i) {
@@ -112,7 +115,8 @@ struct TokenRow {
   uint32_t start(uint32_t symbol) const { return c[symbol]; }
   uint32_t frequency(uint32_t symbol) const { return uint32_t{c[symbol + 1]} - c[symbol]; }
 
-  /// Finds the symbol whose range holds `slot` and adapts; `start` and `frequency` are those before.
+  /// Finds the symbol whose range holds `slot`, and adapts. `start_out` and `frequency_out` are
+  /// those before the adaptation.
   uint32_t findAndAdapt(uint32_t slot, const TokenSchedule& schedule, uint32_t& start_out,
                         uint32_t& frequency_out);
   void adapt(uint32_t symbol, const TokenSchedule& schedule);
@@ -163,7 +167,8 @@ MCC_INLINE uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& s
   const int16x8_t slots = vdupq_n_s16(static_cast<int16_t>(slot));
   const uint16x8_t low_above = vcgtq_s16(low, slots);
   const uint16x8_t high_above = vcgtq_s16(high, slots);
-  // Each entry above counts as -1; those that are not are the first ones, up to the symbol's.
+  // Each entry above the slot counts as -1. The entries that are not above it come first, up to the
+  // symbol's.
   const int32_t above = vaddvq_s16(vreinterpretq_s16_u16(vaddq_u16(low_above, high_above)));
   const uint32_t symbol = static_cast<uint32_t>(static_cast<int32_t>(kTokenCount) + above - 1);
   start_out = c[symbol];
@@ -233,10 +238,10 @@ inline void TokenRow::adapt(uint32_t symbol, const TokenSchedule& schedule) {
   findAndAdapt(c[symbol], schedule, start, frequency);
 }
 
-// --- rANS constants --------------------------------------------------------------------------------
+// --- rANS constants ------------------------------------------------------------
 
 inline constexpr uint32_t kRansStateCount = 3;
-inline constexpr uint32_t kRansLow = 1u << 16;  ///< states live in [2^16, 2^32); 16-bit words
+inline constexpr uint32_t kRansLow = 1u << 16;  ///< states are in [2^16, 2^32); words have 16 bits
 
 }  // namespace mcc
 

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Codes for integers made of binary decisions and tokens.                                  [A.3.5]
+// Codes for integers, made of binary decisions and tokens.                                 [A.3.5]
 #ifndef MCC_ENTROPY_NUMBERS_H_
 #define MCC_ENTROPY_NUMBERS_H_
 
@@ -12,8 +12,8 @@
 
 namespace mcc {
 
-/// Adaptive exponential-Golomb code of 0 .. 2^32-2: the length of value+1 in unary, the first two bits
-/// below its leading one modelled, the rest raw.
+/// Adaptive exponential-Golomb code of 0 .. 2^32-2: the length of value+1 in unary, then the two
+/// bits below its leading one modelled, and the rest raw.
 struct GolombModel {
   BitModel length[32];
   BitModel mantissa[32][3];
@@ -48,7 +48,7 @@ int32_t codeSignedGolomb(Io& io, GolombModel& model, int32_t truth) {
   return unzigzag(codeGolomb(io, model, zigzag(truth)));
 }
 
-/// Adaptive tree over values of kBits bits, most significant first.
+/// Adaptive tree over values of kBits bits, most significant bit first.
 template <uint32_t kBits>
 struct TreeModel {
   BitModel node[1u << kBits];
@@ -63,7 +63,7 @@ uint32_t codeTree(Io& io, TreeModel<kBits>& model, uint32_t truth) {
   return node - (1u << kBits);
 }
 
-/// One of `count` equally likely values. [A.3.5]
+/// Codes one of `count` equally likely values. [A.3.5]
 template <class Io>
 uint32_t codeUniform(Io& io, uint32_t count, uint32_t truth) {
   const uint32_t bits = static_cast<uint32_t>(std::bit_width(count)) - 1;

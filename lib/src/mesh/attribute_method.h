@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Which coder an attribute goes through, and the bits of its header byte `predictor`.        [A.2.4, A.8]
+// Which coder an attribute goes through, and the bits of its header byte `predictor`.      [A.2.4, A.8]
 #ifndef MCC_MESH_ATTRIBUTE_METHOD_H_
 #define MCC_MESH_ATTRIBUTE_METHOD_H_
 
@@ -12,25 +12,27 @@
 
 namespace mcc {
 
-/// AttributeInfo::grid: below kGridBinary 10^grid steps per unit, from there steps of 2^(grid - kGridBinary - 149).
+/// AttributeInfo::grid: values below kGridBinary mean 10^grid steps per unit, all others steps of
+/// 2^(grid - kGridBinary - 149).
 inline constexpr uint32_t kGridBinary = 10;
-inline constexpr int32_t kSmallestExponent = -149;  ///< of float32
-inline constexpr int32_t kGridExponents = 246;      ///< up to 2^96: no integer overflows
+inline constexpr int32_t kSmallestExponent = -149;  ///< the smallest exponent of float32
+inline constexpr int32_t kGridExponents = 246;      ///< up to 2^96, so that no integer overflows
 inline constexpr uint32_t kGridCount = kGridBinary + kGridExponents;
-static_assert(kGridCount == 256);  // the header has a byte for it
+static_assert(kGridCount == 256);  // the header has one byte for it
 inline constexpr uint32_t kGridComponents = 4;
-inline constexpr uint32_t kGridBits = 26;  ///< of a grid's integers, without their sign
+inline constexpr uint32_t kGridBits = 26;  ///< bits of a grid's integers, without their sign
 
 /// AttributeInfo::tails: how the bits below the step are coded.
 enum class GridTails : uint8_t {
   kNoTails = 0,
   kPlain = 1,
-  kCached = 2,  ///< those of equal integers tend to be equal
+  kCached = 2,  ///< from a cache, because the tails of equal integers tend to be equal
 };
 
 constexpr bool isBinaryGrid(uint32_t grid) { return grid >= kGridBinary; }
 
-/// The coder follows from what the header says; there is no field for it.
+/// The coder of an attribute. It follows from the other fields of the header, which has no field
+/// for it.
 enum class AttributeMethod : uint8_t {
   kValues,        ///< attributes/values.h
   kNormal,        ///< attributes/normals.h
@@ -41,7 +43,7 @@ enum class AttributeMethod : uint8_t {
   kExactNormal,   ///< attributes/exact_normals.h
   kExactTangent,  ///< attributes/exact_tangents.h
   kSkinWeights,   ///< WEIGHTS_n that is coded with its JOINTS_n
-  kAlias,         ///< equal to another attribute, nothing is coded
+  kAlias,         ///< equal to another attribute; nothing is coded
 };
 inline constexpr uint32_t kAttributeMethods = 10;
 
@@ -50,7 +52,8 @@ constexpr bool isWithAnother(AttributeMethod method) {
   return method >= AttributeMethod::kSkinWeights;
 }
 
-/// The attribute of a piece that gives tangents their plane: the first NORMAL on the octahedral grid; or kNone.
+/// Returns the attribute of a piece that gives tangents their plane: the first NORMAL on the
+/// octahedral grid, or kNone.
 constexpr uint32_t normalOfTangents(const AttributeInfo* attributes, uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) {
     const AttributeInfo& a = attributes[i];
@@ -62,7 +65,8 @@ constexpr uint32_t normalOfTangents(const AttributeInfo* attributes, uint32_t co
   return kNone;
 }
 
-/// The attribute of a piece that exact tangents are perpendicular to: the first NORMAL with exact floats; or kNone.
+/// Returns the attribute of a piece that exact tangents are perpendicular to: the first NORMAL with
+/// exact floats, or kNone.
 constexpr uint32_t exactNormalOf(const AttributeInfo* attributes, uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) {
     const AttributeInfo& a = attributes[i];
@@ -75,12 +79,13 @@ constexpr uint32_t exactNormalOf(const AttributeInfo* attributes, uint32_t count
   return kNone;
 }
 
-/// Whether tangents on a grid have normals to be perpendicular to: exact ones, or else octahedral ones.
+/// Whether tangents on a grid have normals to be perpendicular to, exact or octahedral ones.
 constexpr bool hasNormals(const AttributeInfo* attributes, uint32_t count) {
   return exactNormalOf(attributes, count) != kNone || normalOfTangents(attributes, count) != kNone;
 }
 
-/// The attribute of a piece that gives tangents their direction: the first TEXCOORD; or kNone.
+/// Returns the attribute of a piece that gives tangents their direction: the first TEXCOORD, or
+/// kNone.
 constexpr uint32_t chartOfTangents(const AttributeInfo* attributes, uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) {
     const AttributeFormat& f = attributes[i].format;
@@ -91,13 +96,15 @@ constexpr uint32_t chartOfTangents(const AttributeInfo* attributes, uint32_t cou
   return kNone;
 }
 
-/// Attributes are coded in the order of their phases (tangents after what they are predicted from), within a phase in that of the header. [A.8.1]
+/// Attributes are coded in the order of their phases, and within a phase in the order of the
+/// header. Tangents come after what they are predicted from. [A.8.1]
 inline constexpr uint32_t kCodingPhases = 2;
 constexpr uint32_t codingPhase(const AttributeInfo& a) {
   return a.format.semantic == Semantic::kTangent && a.format.morph_target == 0 ? 1 : 0;
 }
 
-/// JOINTS_n and WEIGHTS_n of four components are coded as one: the other attribute of the pair, or kNone.
+/// JOINTS_n and WEIGHTS_n of four components are coded together. Returns the other attribute of the
+/// pair, or kNone.
 constexpr uint32_t skinPartner(const AttributeInfo* attributes, uint32_t count, uint32_t index) {
   const auto isHalf = [](const AttributeInfo& a) {
     return a.format.morph_target == 0 && a.format.component_count == 4 &&
@@ -152,23 +159,25 @@ constexpr AttributeMethod methodOf(const AttributeInfo* attributes, uint32_t cou
   return AttributeMethod::kValues;
 }
 
-/// Bit of `predictor` of every method that codes an attribute by itself: consecutive wedges of a vertex may share a value.
+/// A bit of `predictor` in every method that codes an attribute by itself: consecutive wedges of a
+/// vertex may share a value.
 inline constexpr uint8_t kHasEqualities = 0x80;
 
-/// AttributeInfo::predictor of a position: what its coder does. What is off costs the coder nothing. [A.6.2]
+/// AttributeInfo::predictor of a position selects what its coder does. Modes that are off cost the
+/// coder nothing. [A.6.2]
 namespace position_mode {
-inline constexpr uint8_t kWeights = 1u << 0;  ///< of features, from the payload
+inline constexpr uint8_t kWeights = 1u << 0;  ///< weights of features, from the payload
 inline constexpr uint8_t kSelect = 1u << 1;   ///< classes of tip selection; needs kWeights
-inline constexpr uint8_t kShear = 1u << 2;    ///< of shear, palette and planes there is one at most
+inline constexpr uint8_t kShear = 1u << 2;    ///< excludes palette and planes
 inline constexpr uint8_t kPalette = 1u << 3;
-inline constexpr uint8_t kPlanes = 1u << 4;  ///< without the following
+inline constexpr uint8_t kPlanes = 1u << 4;  ///< excludes the modes below
 inline constexpr uint8_t kFold = 1u << 5;
 inline constexpr uint8_t kOwnScale = 1u << 6;
 inline constexpr uint8_t kSplit = 1u << 7;
 inline constexpr uint8_t kKinds = kShear | kPalette | kPlanes;
-inline constexpr uint8_t kWithPlanes = kWeights | kSelect;  ///< what planes may have beside them
+inline constexpr uint8_t kWithPlanes = kWeights | kSelect;  ///< modes that planes may have as well
 inline constexpr uint8_t kDecoded = static_cast<uint8_t>(~(decodes::kPlanes ? 0 : kPlanes));
-inline constexpr uint8_t kMaxBitsOfPlanes = 17;  ///< of the lattice
+inline constexpr uint8_t kMaxBitsOfPlanes = 17;  ///< most bits of the lattice
 
 constexpr bool areKnown(uint32_t modes) {
   const uint32_t kinds = modes & kKinds;
@@ -178,9 +187,9 @@ constexpr bool areKnown(uint32_t modes) {
 }
 }  // namespace position_mode
 
-namespace normal_method {                     // exact ones too
+namespace normal_method {                     // also for exact normals
 inline constexpr uint8_t kWeightMask = 0x03;  ///< NormalWeight
-inline constexpr uint8_t kBlend = 0x04;       ///< with what the neighbours' predictions missed
+inline constexpr uint8_t kBlend = 0x04;  ///< corrects by the errors of the neighbours' predictions
 }  // namespace normal_method
 
 namespace exact_normal_method {
@@ -188,30 +197,30 @@ inline constexpr uint8_t kRemembers = 0x08;
 }  // namespace exact_normal_method
 
 namespace exact_tangent_method {
-inline constexpr uint8_t kPerpendicular = 0x01;  ///< to the exact normal
+inline constexpr uint8_t kPerpendicular = 0x01;  ///< perpendicular to the exact normal
 }  // namespace exact_tangent_method
 
 namespace texcoord_method {
-inline constexpr uint8_t kHinge = 0x01;  ///< else the diagonal
+inline constexpr uint8_t kHinge = 0x01;  ///< otherwise the diagonal
 inline constexpr uint8_t kRemembers = 0x02;
 }  // namespace texcoord_method
 
 namespace value_method {
-inline constexpr uint8_t kFlags = 0x01;  ///< for values that are 0 or a neighbour's
+inline constexpr uint8_t kFlags = 0x01;  ///< flags for values that are 0 or a neighbour's
 }  // namespace value_method
 
-/// Of WEIGHTS with their JOINTS, see unitSum().
+/// What is known about the sums of WEIGHTS that are coded with their JOINTS, see unitSum().
 enum class SkinSums : uint8_t {
   kUnknown = 0,
-  kUnit = 1,   ///< every tuple sums to it
-  kUsual = 2,  ///< most do
+  kUnit = 1,   ///< every tuple sums to the unit
+  kUsual = 2,  ///< most tuples do
 };
 
 /// A field of the byte `predictor`.
 struct PredictorField {
   uint8_t mask;
   uint8_t value_count;   ///< 0 .. value_count - 1 are valid
-  const char* words[3];  ///< what `inspect` calls each, "" nothing
+  const char* words[3];  ///< the words of `inspect` for each value; "" for none
 
   constexpr uint8_t shift() const { return static_cast<uint8_t>(std::countr_zero(mask)); }
   constexpr uint32_t valueOf(uint8_t predictor) const {
@@ -222,9 +231,9 @@ struct PredictorField {
   }
 };
 
-/// What a method has in the byte `predictor`: the one table of it. [A.2.4]
+/// The fields of a method in the byte `predictor`. This is the only table of them. [A.2.4]
 struct PredictorFields {
-  const char* name;  ///< what `inspect` calls the method itself, "" nothing
+  const char* name;  ///< the word of `inspect` for the method itself; "" for none
   uint8_t count;
   PredictorField field[3];
 
@@ -268,7 +277,7 @@ constexpr bool isValidPredictor(AttributeMethod method, uint8_t predictor) {
   return rest == 0;
 }
 
-/// The same from a table of bits, without the words.
+/// The valid bytes from the table above, as a table of bits without the words.
 struct ValidPredictors {
   uint8_t bytes[kAttributeMethods][32] = {};
 
@@ -291,7 +300,7 @@ constexpr bool isKnownPredictor(const AttributeInfo* attributes, uint32_t count,
   return (kValidPredictors.bytes[method][p / 8] >> p % 8 & 1) != 0;
 }
 
-/// What the coded weights of a tuple sum to when they stand for 1; 0 when nothing does.
+/// Returns what the coded weights of a tuple sum to when they represent 1, or 0 when nothing does.
 constexpr int32_t unitSum(const AttributeInfo& weights) {
   if (weights.coding == AttributeCoding::kLattice && weights.bits <= 24) {
     return static_cast<int32_t>((uint32_t{1} << weights.bits) - 1);

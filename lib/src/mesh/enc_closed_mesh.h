@@ -7,17 +7,18 @@
 
 namespace mcc {
 
-/// A closed, oriented manifold: every hole is coned to a dummy vertex. Half-edge 3f+k runs from corner k to
-/// corner k+1 of face f. Every vertex is one umbrella; no face has a vertex twice.
+/// A closed, oriented manifold in which every hole is coned to a dummy vertex. Half-edge 3f+k runs
+/// from corner k to corner k+1 of face f. Every vertex is one umbrella, and no face has a vertex
+/// twice.
 struct ClosedMesh {
-  std::vector<uint32_t> corner_vertex;  ///< 3 per face; cone faces behind the real ones
-  std::vector<uint32_t> twin;           ///< 3 per face, no kNone
+  std::vector<uint32_t> corner_vertex;  ///< 3 per face; cone faces come after the real ones
+  std::vector<uint32_t> twin;           ///< 3 per face, never kNone
   uint32_t real_face_count = 0;
-  uint32_t real_vertex_count = 0;  ///< dummies are numbered behind the real vertices
+  uint32_t real_vertex_count = 0;  ///< dummies are numbered after the real vertices
   uint32_t dummy_count = 0;
 
   struct Component {
-    uint32_t start_half_edge = 0;  ///< from the mc-vertex
+    uint32_t start_half_edge = 0;  ///< leaves the mc-vertex
     bool has_handles = false;
   };
   std::vector<Component> components;

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The decoded mesh: one flat array of face records, made by the connectivity stage and used by all others. [A.1.5]
+// The decoded mesh: one flat array of face records, made by the connectivity stage and used by all
+// others.                                                                                  [A.1.5]
 //
 //                 c2                     half-edge 8f+k runs from corner k to corner k+1 of face f;
 //                /  \                    word 8f+k      vertex of corner k
@@ -9,7 +10,7 @@
 //            c0 ------ c1                word 8f+7      seam states (kSeamWord)
 //                 h0
 //
-// Both halves of a record share a cache line; a half-edge is its own index for both look-ups.
+// Both halves of a record share a cache line, and the half-edge is the index for both look-ups.
 #ifndef MCC_MESH_FACE_MESH_H_
 #define MCC_MESH_FACE_MESH_H_
 
@@ -26,7 +27,8 @@ inline constexpr uint32_t kFaceWord = 3;
 inline constexpr uint32_t kSeamWord = 7;
 inline constexpr uint32_t kMaxVertices = 1u << 28;
 
-// Around a face. Without branches, which could not be predicted: -3 after corner 2, +3 before corner 0.
+// The next and the previous half-edge in a face: -3 after corner 2, +3 before corner 0. They have
+// no branches, since those could not be predicted.
 MCC_INLINE constexpr uint32_t nextHalfEdge(uint32_t h) { return h + 1 - (h & 2) - ((h & 2) >> 1); }
 MCC_INLINE constexpr uint32_t prevHalfEdge(uint32_t h) { return h - 1 + (((h & 3) - 1) >> 30); }
 constexpr uint32_t faceOf(uint32_t h) { return h / kFaceWords; }

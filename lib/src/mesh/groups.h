@@ -11,13 +11,14 @@
 
 namespace mcc {
 
-/// Groups of vertices that share a position, numbered by their first vertex. Without copies every vertex is its own group
-/// and the arrays are empty; with them the groups that have some, or lie on boundaries, are listed with their umbrellas.
+/// Groups of vertices that share a position, numbered by their first vertex. Without copies every
+/// vertex is its own group and the arrays are empty. With copies, the groups that have some or lie
+/// on boundaries are listed with their umbrellas.
 struct Groups {
   explicit Groups(const Allocator& allocator)
       : listed(allocator), umbrella_begin(allocator), umbrellas(allocator) {}
 
-  /// Which of 64 groups are listed, and how many are before them.
+  /// Says which of 64 groups are listed, and how many are listed before them.
   struct Listed {
     uint64_t groups;
     uint32_t before;
@@ -25,15 +26,16 @@ struct Groups {
 
   uint32_t count = 0;
   Array<Listed> listed;
-  Array<uint32_t> umbrella_begin;  ///< by listed group, and one more: offsets into umbrellas
-  Array<uint32_t>
-      umbrellas;  ///< a half-edge leaving the group in each of its umbrellas, by vertex number
+  Array<uint32_t> umbrella_begin;  ///< offsets into umbrellas by listed group, and one more
+  /// A half-edge that leaves the group in each of its umbrellas, by vertex number.
+  Array<uint32_t> umbrellas;
 
-  bool has_corners =
-      false;  ///< every group lists all half-edges that leave it, not one per umbrella
+  /// Every group lists all half-edges that leave it, not one per umbrella.
+  bool has_corners = false;
 
   bool hasCopies() const { return !listed.empty(); }
-  /// Only with copies. Nothing for a group of one vertex that is not listed.
+  /// Returns the umbrellas of a group, or nothing for a group of one vertex that is not listed.
+  /// Only with copies.
   MCC_INLINE std::span<const uint32_t> umbrellasOf(uint32_t group) const {
     const Listed& l = listed[group / 64];
     const uint64_t bit = uint64_t{1} << (group % 64);

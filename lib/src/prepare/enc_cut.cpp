@@ -37,7 +37,8 @@ class Cutter {
     return region_of_face_.empty() ? 0 : region_of_face_[h / 3];
   }
 
-  /// Buckets half-edges by the smaller class of their ends, sorts each bucket by the larger one and by region.
+  /// Buckets half-edges by the smaller class of their ends, and sorts each bucket by the larger one
+  /// and by region.
   void pairHalfEdges() {
     const uint32_t half_edge_count = static_cast<uint32_t>(corner_class_.size());
     result_.mesh.twin.assign(half_edge_count, kNone);
@@ -84,7 +85,7 @@ class Cutter {
     }
   }
 
-  /// One vertex per umbrella, numbered by first corner.
+  /// Makes one vertex per umbrella, numbered by first corner.
   void makeVertices() {
     ClosedMesh& mesh = result_.mesh;
     mesh.corner_vertex.assign(corner_class_.size(), kNone);
@@ -122,7 +123,7 @@ class Cutter {
         const uint32_t end = mesh.corner_vertex[nextCorner(g)];
         mesh.corner_vertex.insert(mesh.corner_vertex.end(), {end, mesh.corner_vertex[g], dummy});
         mesh.twin[g] = cone;
-        // dummy -> end meets end -> dummy of the next cone, the half-edge behind its first
+        // dummy -> end meets end -> dummy of the next cone, which is the half-edge after its first
         mesh.twin.insert(mesh.twin.end(), {g, cone - 1, cone + 4});
         g = boundary_from[end];
       } while (g != h);
@@ -132,7 +133,8 @@ class Cutter {
     result_.hole_count = mesh.dummy_count;
   }
 
-  /// Flood fill; the mc-vertex is the dummy of the largest hole, so that this hole costs nothing.
+  /// Finds components by flood fill. The mc-vertex is the dummy of the largest hole, so that this
+  /// hole costs nothing.
   void findComponents(uint32_t start_half_edge) {
     ClosedMesh& mesh = result_.mesh;
     const uint32_t vertex_count = mesh.real_vertex_count + mesh.dummy_count;
@@ -195,7 +197,7 @@ CutResult cutToManifold(std::span<const uint32_t> corner_class, uint32_t class_c
 
 void halveComponent(const ClosedMesh& mesh, const ClosedMesh::Component& component,
                     uint32_t new_region, std::span<uint32_t> region_of_face) {
-  std::vector<uint32_t> faces = {component.start_half_edge / 3};  // by distance from the start
+  std::vector<uint32_t> faces = {component.start_half_edge / 3};  // sorted by distance from start
   std::vector<uint32_t> real_faces;
   std::vector<uint8_t> is_seen(mesh.faceCount(), 0);
   is_seen[faces[0]] = 1;

@@ -13,7 +13,7 @@ struct Triple {
   bool operator==(const Triple&) const = default;
 };
 
-/// Smallest wedge first, orientation kept.
+/// Rotates a triangle to begin with its smallest wedge; the orientation stays.
 Triple canonical(const uint32_t* w, uint32_t part) {
   if (w[0] < w[1] && w[0] < w[2]) return {{w[0], w[1], w[2]}, part};
   if (w[1] < w[2]) return {{w[1], w[2], w[0]}, part};

@@ -10,22 +10,24 @@
 
 namespace mcc {
 
-/// The triangles of all parts, sorted into those that make the surface and those beside it.
+/// The triangles of all parts, sorted into those that make the surface and those that are coded
+/// apart from it.
 struct SortedTriangles {
-  std::vector<uint32_t>
-      wedges;  ///< 3 per proper triangle: three different wedges, each triple once per part
+  /// 3 per proper triangle: three different wedges, each triple once per part.
+  std::vector<uint32_t> wedges;
   std::vector<uint32_t> part;  ///< per proper triangle
-  std::vector<uint32_t>
-      duplicates;  ///< a proper triangle each: same wedges up to rotation, same part
+  /// Repeats of a proper triangle, which each entry names: the same wedges up to rotation, in the
+  /// same part.
+  std::vector<uint32_t> duplicates;
   struct Listed {
     uint32_t wedge[3];
     uint32_t part;
   };
-  std::vector<Listed> listed;      ///< triangles with a wedge twice
+  std::vector<Listed> listed;      ///< triangles that have a wedge twice
   std::vector<uint32_t> isolated;  ///< wedges in no proper triangle, ascending
 };
 
-/// Linear time, expected.
+/// Sorts the triangles. Takes linear time on average.
 SortedTriangles sortTriangles(std::span<const PartView> parts, uint32_t wedge_count);
 
 }  // namespace mcc

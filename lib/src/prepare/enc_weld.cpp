@@ -41,7 +41,7 @@ PositionClasses weldPositions(const AttributeView& positions, uint32_t wedge_cou
   PositionClasses result;
   result.class_of_wedge.resize(wedge_count);
   const size_t table_size = std::bit_ceil(size_t{wedge_count} * 2 + 1);
-  std::vector<uint32_t> table(table_size, kNone);  // wedge that founded the class
+  std::vector<uint32_t> table(table_size, kNone);  // the first wedge of each class
   for (uint32_t w = 0; w < wedge_count; ++w) {
     bool is_nan = false;
     const Key key = positionKey(positions, w, exact, is_nan);
