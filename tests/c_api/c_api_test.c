@@ -65,7 +65,7 @@ static mcc_status encode_sheet(const mcc_encode_options* options, mcc_encoding**
   return mcc_encode(&piece, 1, options, encoding);
 }
 
-/* Memory that is counted, and that ends. */
+/* An allocator that counts memory and can run out of it. */
 typedef struct purse {
   size_t used;
   size_t most;
@@ -181,7 +181,7 @@ static void test_options(const mcc_encoding* encoding) {
   EXPECT(memory.used == 0);
 }
 
-/* Programs compiled against another version have shorter or longer structures. */
+/* Programs compiled against another version pass shorter or longer structures. */
 static void test_structures_grow(const mcc_encoding* encoding) {
   size_t byte_count = 0;
   const uint8_t* bytes = mcc_encoding_payload(encoding, &byte_count);
@@ -290,7 +290,7 @@ static void test_lattices(const uint8_t* glb, size_t glb_bytes) {
   }
 }
 
-/* Null pointers, and counts that are not those of the payload: nothing of the arrays is read. */
+/* Null pointers, and counts that do not match the payload: the arrays must not be read. */
 static void test_wrong_targets(const mcc_encoding* encoding) {
   size_t byte_count = 0;
   const uint8_t* bytes = mcc_encoding_payload(encoding, &byte_count);

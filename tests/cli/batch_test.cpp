@@ -42,7 +42,7 @@ class Batch : public testing::Test {
     std::ofstream(path(name), std::ios::binary) << content;
   }
 
-  /// Files of a folder with their contents, without the record.
+  /// Returns the files of a folder with their contents, without the record.
   std::map<std::string, std::string> filesOf(const std::string& name) const {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::directory_iterator(path(name))) {
@@ -59,8 +59,9 @@ class Batch : public testing::Test {
     return count;
   }
 
-  /// `command` over the files of `input` writes the same files with each number of jobs, to OUTPUT1,
-  /// OUTPUT2 and so on, reports each file and their sum, and writes the same when a file comes alone.
+  /// Checks that `command` over the files of `input` writes the same files for each number of jobs,
+  /// to OUTPUT1, OUTPUT2 and so on, that it reports each file and their sum, and that it writes the
+  /// same for a file alone.
   void expectSameForAnyJobs(const std::string& command, const std::string& input,
                             const std::string& output, const std::vector<std::string>& job_counts) {
     std::map<std::string, std::string> first;
@@ -90,7 +91,7 @@ TEST_F(Batch, ResultsDoNotDependOnTheThreads) {
   expectSameForAnyJobs("convert", "in", "out", {"1", "2", "4"});
 }
 
-/// Payloads are coded, decoded for the check and compared by several threads.
+/// Payloads are coded, decoded for the check, and compared by several threads.
 TEST_F(Batch, OneFileDoesNotDependOnTheThreads) {
   gltf::test::Builder builder;
   for (const uint32_t size : {20u, 31u, 12u, 25u, 16u}) {
@@ -140,7 +141,7 @@ TEST_F(Batch, OneFailureDoesNotStopTheRest) {
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(filesOf("out").size(), names_.size());
   for (const std::string& name : names_) EXPECT_EQ(filesOf("out").count(name), 1u) << name;
-  // A line per file; the summary; what failed, in the order of the arguments.
+  // Expect a line per file, the summary, and the failures in the order of the arguments.
   for (const std::string& name : names_) {
     EXPECT_EQ(countOf(result.out, "] in/" + name + ": "), 1u) << result.out;
   }
@@ -174,7 +175,7 @@ TEST_F(Batch, WhatIsUpToDateIsLeft) {
   EXPECT_EQ(counted(""), names_.size());
   EXPECT_TRUE(filesOf("out") == before);
 
-  // A source that changed, also to an older one; an output that somebody removed or replaced.
+  // The source changed, also to an older one; the output was removed or replaced.
   fs::last_write_time(path("in/torus.glb"),
                       fs::last_write_time(path("in/torus.glb")) - std::chrono::hours(1));
   EXPECT_EQ(counted(""), 1u);
@@ -184,7 +185,7 @@ TEST_F(Batch, WhatIsUpToDateIsLeft) {
   EXPECT_TRUE(filesOf("out") == before);
   EXPECT_EQ(counted(""), 0u);
 
-  // The record of all that may be gone or damaged.
+  // The record may be missing or damaged.
   store("out/.gltf-mcc.json", R"({"files":{"torus.glb":{"maker":1,"input":[[1]],"output":{}}}})");
   EXPECT_EQ(counted(""), names_.size());
   store("out/.gltf-mcc.json", "[");
@@ -275,14 +276,14 @@ TEST_F(Batch, FormatsAndReport) {
   EXPECT_EQ(quiet.err, "gltf-mcc: in/none.glb: there is no such file\n");
 }
 
-/// Runs the tool with a terminal as standard error; returns what it was sent.
+/// Runs the tool with a terminal as standard error, and returns what the terminal got.
 std::string runWithTerminal(const ScratchFolder& folder, const std::string& arguments) {
 #ifdef MCC_TOOL_GLTF_MCC
   const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
   if (terminal < 0 || ::grantpt(terminal) != 0 || ::unlockpt(terminal) != 0) return "";
   const std::string command = "cd '" + folder.path().string() + "' && '" + MCC_TOOL_GLTF_MCC +
                               "' " + arguments + " >.stdout 2>'" + ::ptsname(terminal) + "'";
-  const int other_end = ::open(::ptsname(terminal), O_RDWR | O_NOCTTY);  // keeps what was sent
+  const int other_end = ::open(::ptsname(terminal), O_RDWR | O_NOCTTY);  // keeps the data alive
   const pid_t child = ::fork();
   if (child == 0) {
     ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
@@ -291,7 +292,7 @@ std::string runWithTerminal(const ScratchFolder& folder, const std::string& argu
   int code = 0;
   ::waitpid(child, &code, 0);
   EXPECT_EQ(code, 0);
-  ::close(other_end);  // now reading ends behind what was sent, which may take its time
+  ::close(other_end);  // reading now ends after the data, which may take a moment to arrive
   std::string text;
   char part[4096];
   for (ssize_t count; (count = ::read(terminal, part, sizeof part)) > 0;)
@@ -345,7 +346,7 @@ TEST_F(Streams, StandInForFiles) {
   EXPECT_EQ("small.glb" + inspect.out.substr(std::min<size_t>(1, inspect.out.size())),
             run("inspect small.glb").out);
   EXPECT_EQ(runCommand(folder_, "( echo nothing | " + tool + "inspect - )").err, bad.err);
-  // Nobody reads: an error, not silence.
+  // Nobody reads the output: this must be reported as an error.
   const ToolResult full =
       runCommand(folder_, "( " + tool + "convert in/textured.glb - > /dev/full )");
   EXPECT_EQ(full.status, 1);
@@ -353,7 +354,7 @@ TEST_F(Streams, StandInForFiles) {
 #endif
 }
 
-/// <(command) of a shell, which can be read once.
+/// A pipe such as <(command) of a shell can be read only once.
 TEST_F(Streams, PipesAreRead) {
 #ifdef MCC_TOOL_GLTF_MCC
   ASSERT_EQ(run("convert -q in/torus.glb out.glb").status, 0);
@@ -400,7 +401,7 @@ TEST_F(Batch, WholeFileSizes) {
   EXPECT_NE(text.find("after brotli 5"), std::string::npos) << text;
   const std::string csv = run("convert in/textured.glb out.glb --format csv").out;
   EXPECT_NE(csv.find("\noutput file after brotli,"), std::string::npos) << csv;
-  // In place, and with files beside it.
+  // Convert in place, and with files next to the model.
   const auto size = fs::file_size(path("in/textured.glb"));
   const Json in_place =
       Json::parse(run("convert in/textured.glb in/textured.glb --format json").out);

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The benchmark command: consistent figures, formats, exit status. No time is judged. And the sizes
-// of the samples, so that a change of size shows in review.
+// The benchmark command: consistent figures, formats, exit status. Times are not judged. Also the
+// sizes of the samples, so that a change of size shows in review.
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -64,7 +64,7 @@ TEST(Bench, MeasuresWhatIsPreferred) {
   EXPECT_LT(bytes("size"), bytes("speed"));
 }
 
-/// Every feature that can be switched off is one that the encoder chooses somewhere.
+/// Every feature that can be switched off is chosen by the encoder somewhere.
 TEST(Bench, WithoutAFeatureTheBytesOfSomeSampleChange) {
   MCC_REQUIRE_COMPARISON();
   const ScratchFolder folder;
@@ -85,8 +85,8 @@ TEST(Bench, WithoutAFeatureTheBytesOfSomeSampleChange) {
       }
     }
   }
-  // The samples are too regular for sheared residuals and for hinges, and none is an isosurface, has exact tangents, equal
-  // attributes or edges of many faces.
+  // The samples are too regular for sheared residuals and hinges, and none of them is an isosurface
+  // or has exact tangents, equal attributes or edges with many faces.
   const std::map<std::string, bool> in_other_files = {{"aliases", true},
                                                       {"perpendicular", true},
                                                       {"pivots", true},
@@ -129,7 +129,7 @@ TEST(Bench, LoadsWholeFilesWhenAsked) {
             std::string::npos);
 }
 
-/// The cells of a line of CSV without quotes.
+/// Returns the cells of a line of CSV without quotes.
 std::vector<std::string> cellsOf(const std::string& line) {
   std::vector<std::string> cells(1);
   for (const char c : line) {
@@ -142,7 +142,7 @@ std::vector<std::string> cellsOf(const std::string& line) {
   return cells;
 }
 
-/// The rows of a table as CSV, by codec and column.
+/// Returns the rows of a table as CSV, by codec and column.
 std::map<std::string, std::map<std::string, std::string>> rowsByCodec(const std::string& csv) {
   std::istringstream lines(csv);
   std::string line;

@@ -51,7 +51,7 @@ class Cli : public testing::Test {
     return mcc::test::runTool(scratch_, arguments);
   }
 
-  /// Names in the test's folder, without those of run().
+  /// Returns the names in the test's folder, without those of run().
   std::set<std::string> names() const {
     std::set<std::string> found;
     for (const auto& entry : fs::directory_iterator(folder_)) {
@@ -113,7 +113,7 @@ TEST_F(Cli, DecodeToIntegers) {
   EXPECT_EQ(run("decode out.glb back.glb --decode-to doubles").status, 2);
 }
 
-/// Eight influences: joints as they were, weights that still add up to one.
+/// Eight influences: joints are unchanged, and weights still add up to one.
 TEST_F(Cli, SkinsOfEightInfluences) {
   Builder builder;
   const Sheet sheet(20);

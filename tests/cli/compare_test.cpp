@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The comparison with Draco: consistent numbers, formats, exit status; the Draco file read by
-// others.
+// The comparison with Draco: consistent numbers, formats and exit status, and a Draco file that
+// others can read.
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 const std::vector<std::string> kCodecs = {"mcc", "draco_0", "draco_3", "draco_5"};
 
-/// What has to hold for the figures of any file.
+/// Checks what must hold for the figures of any file.
 void expectConsistent(const Json& figures) {
   SCOPED_TRACE(figures.value("file", ""));
   for (const std::string& key : kCodecs) {
@@ -123,7 +123,8 @@ TEST(Compare, FormatsAreTables) {
   EXPECT_EQ(runTool(folder, "compare --runs 1 -q " + inputs).out, "");
 }
 
-/// What Draco holds is decoded first: what it took is not given back, so the figures differ from the source's by that.
+/// Geometry in Draco is decoded first. Its bytes are not counted as gained, so the figures differ
+/// from the source's by them.
 TEST(Compare, CompressedInputsAreDecodedFirst) {
   MCC_REQUIRE_COMPARISON();
   const ScratchFolder folder;
@@ -147,7 +148,7 @@ TEST(Compare, CompressedInputsAreDecodedFirst) {
     const ToolResult inspect = runTool(folder, "inspect d.glb");
     EXPECT_EQ(inspect.status, 0) << inspect.err;
     EXPECT_NE(inspect.out.find("KHR_draco_mesh_compression"), std::string::npos);
-    // Draco again, of what it held: convert takes that, too.
+    // Convert the Draco file again, which convert accepts, too.
     const ToolResult converted = runTool(folder, "convert -q --lossless d.glb a.glb");
     ASSERT_EQ(converted.status, 0) << converted.err;
     ASSERT_EQ(runTool(folder, "convert -q --lossless again.glb b.glb").status, 0);
@@ -233,7 +234,7 @@ TEST(Compare, DracoFileIsReadByOthers) {
   EXPECT_EQ(read.status, 0) << read.out << read.err;
 }
 
-/// What other codecs cannot hold is a line of the report, never the end of the program.
+/// What other codecs cannot hold is a line of the report and never ends the program.
 TEST(Compare, WildValuesEndNothing) {
   using gltf::test::Builder;
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -272,7 +273,7 @@ TEST(Compare, WildValuesEndNothing) {
   }
 }
 
-/// Triangles that Draco drops, all of them.
+/// Triangles that Draco drops: here it drops all of them.
 TEST(Compare, MeshesThatDracoRefusesAreALine) {
   using gltf::test::Builder;
   const ScratchFolder folder;

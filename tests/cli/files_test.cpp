@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Names of files as clumsy and hostile people choose them: devices and links, one name for two things, names that a
-// terminal obeys, files that a model wants copied.
+// Awkward and hostile names of files: devices and links, one name in two roles, names with
+// characters that a terminal obeys, and files that a model wants copied.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -43,7 +43,7 @@ class Files : public testing::Test {
     return runCommand(folder_, "( " + command + " )");
   }
 
-  /// Everything in the folder and below, with the contents of files.
+  /// Returns everything in the folder and below, with the contents of files.
   std::map<std::string, std::string> everything() const {
     std::map<std::string, std::string> found;
     for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) {
@@ -54,7 +54,7 @@ class Files : public testing::Test {
     return found;
   }
 
-  /// Expects this exit status, a message, and that nothing changed.
+  /// Expects this exit status and message, and that nothing changed.
   void expectRefused(const std::string& arguments, int status, const std::string& message) const {
     const auto before = everything();
     const ToolResult result = run(arguments);
@@ -81,7 +81,8 @@ class Files : public testing::Test {
 
 constexpr char kPng[] = "\x89PNG\r\n\x1a\n";
 
-/// By links in the test's folder, and to devices made there: a program that is wrong must not ruin those of the system.
+/// Uses links in the test's folder and devices made there, so that a faulty program cannot ruin
+/// those of the system.
 TEST_F(Files, StreamsAreWrittenThrough) {
   fs::create_symlink("/proc/self/fd/1", path("out"));
   fs::create_symlink("/dev/fd/3", path("three"));
@@ -98,7 +99,7 @@ TEST_F(Files, StreamsAreWrittenThrough) {
     EXPECT_EQ(result.err, "") << command;
     EXPECT_TRUE(contentOf(path("a.glb")) == small) << command;
   }
-  // What is there already is not lost.
+  // Existing files must not be lost.
   ASSERT_EQ(shell("{ printf begin; " + tool_ + "convert in.glb out; } > a.glb").status, 0);
   EXPECT_TRUE(contentOf(path("a.glb")) == "begin" + small);
   const ToolResult tree = shell(tool_ + "tree in.glb out | head -c 4");
@@ -111,7 +112,7 @@ TEST_F(Files, StreamsAreWrittenThrough) {
 
 TEST_F(Files, DevicesAreWrittenTo) {
   const auto device = [&](const std::string& name, unsigned minor_number) {
-    if (geteuid() != 0) return "/dev/" + name;  // which nobody but root can replace
+    if (geteuid() != 0) return "/dev/" + name;  // only root could replace it
     const bool is_made = mknod(path(name).c_str(), S_IFCHR | 0666, makedev(1, minor_number)) == 0 &&
                          access(path(name).c_str(), W_OK) == 0 && shell(": > " + name).status == 0;
     return is_made ? name : std::string();
@@ -202,7 +203,7 @@ TEST_F(Files, ARecordThatIsNoneIsIgnoredWithANote) {
   store("d/.gltf-mcc.json", R"({"files":{"in.glb":)" + closed + "}}");
   expectNote("is not a record of this program");
   EXPECT_EQ(run("convert -o d/ in.glb").err, "");                 // written anew
-  fs::resize_file(path("d/.gltf-mcc.json"), uintmax_t{1} << 33);  // of holes
+  fs::resize_file(path("d/.gltf-mcc.json"), uintmax_t{1} << 33);  // a sparse file
   expectNote("is too large for a record");
   fs::remove(path("d/.gltf-mcc.json"));
   ASSERT_EQ(mkfifo(path("d/.gltf-mcc.json").c_str(), 0600), 0);
@@ -215,7 +216,7 @@ TEST_F(Files, ARecordThatIsNoneIsIgnoredWithANote) {
   EXPECT_EQ(contentOf(path("precious")), "text");
 }
 
-/// It names another file than the output, or has no sizes.
+/// A record that names another file than the output, or has no sizes.
 TEST_F(Files, ARecordThatLiesMakesNothingUpToDate) {
   ASSERT_EQ(run("convert -o d/ in.glb -q").status, 0);
   const Json record = Json::parse(contentOf(path("d/.gltf-mcc.json")));
@@ -294,7 +295,7 @@ TEST_F(Files, OnlyImagesAreCopied) {
   }
 }
 
-/// Whatever its JSON says of it.
+/// The type of an image is decided by its bytes, whatever its JSON says.
 TEST_F(Files, OnlyImagesAreEmbedded) {
   storeModel({"run.sh"});
   store("m/run.sh", "secret");
@@ -307,7 +308,7 @@ TEST_F(Files, OnlyImagesAreEmbedded) {
   EXPECT_EQ(contentOf(path("out.glb")).find("secret"), std::string::npos);
 }
 
-/// Nothing is gained by converting these, so that the source is copied with its buffers.
+/// Converting these gains nothing, so the source is copied with its buffers.
 TEST_F(Files, BuffersAreCopiedUnderNamesOfBuffersOnly) {
   const std::string text =
       R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"NAME"}],)"
@@ -341,7 +342,8 @@ bool isClean(const std::string& text) {
          text.find("\xe2\x80\xae") == std::string::npos;
 }
 
-/// In names of files, attributes, extensions, meshes, images, and in damaged JSON.
+/// Control characters in names of files, attributes, extensions, meshes and images, and in damaged
+/// JSON.
 TEST_F(Files, NothingThatATerminalObeysIsPrinted) {
   const std::string evil =
       "\033[31m\xc2\x9b"
@@ -409,7 +411,7 @@ TEST_F(Files, NothingThatATerminalObeysIsPrinted) {
     EXPECT_TRUE(isClean(result.out)) << command << "\n" << result.out;
     EXPECT_TRUE(isClean(result.err)) << command << "\n" << result.err;
   }
-  // Names in JSON are what they were; messages are clean.
+  // Names in the JSON are unchanged, and messages are clean.
   const Json inspected = Json::parse(run("inspect --format json " + out).out);
   EXPECT_EQ(inspected["extensionsUsed"][0], evil);
   ASSERT_EQ(run("convert " + quoted + out + "--report r.json -q").status, 0);
@@ -419,7 +421,7 @@ TEST_F(Files, NothingThatATerminalObeysIsPrinted) {
   EXPECT_EQ(report["input"], name);
 }
 
-/// A name that is as long as names may be leaves no room for a temporary one made of it.
+/// A name of the greatest possible length leaves no room for a temporary name made from it.
 TEST_F(Files, LongNamesAreWritten) {
   const std::string name(250, 'x');
   EXPECT_EQ(run("convert in.glb " + name + ".glb").status, 0);

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// .gltf files with their buffers and images beside them, and fallbacks.
+// .gltf files with their buffers and images next to them, and fallbacks.
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -121,7 +121,8 @@ TEST_F(GltfOutput, ImagesComeAlong) {
   EXPECT_EQ(contentOf(path("o/sub dir/a.png")), "\x89PNG image");
   EXPECT_EQ(jsonAt("o/b.gltf")["images"], jsonAt("m/a.gltf")["images"]);
 
-  // Once more, with another image: it belongs to the output. Beside another output it does not.
+  // Convert again with another image: it may be replaced, because it belongs to the output. Next to
+  // another output it may not.
   store("m/sub dir/a.png", "\x89PNG another");
   expectRefused("convert m/a.gltf o/other.gltf", "which is another file; choose another folder");
   expectDone("convert m/a.gltf o/b.gltf");
@@ -129,7 +130,7 @@ TEST_F(GltfOutput, ImagesComeAlong) {
   expectDone("decode o/b.gltf m/c.gltf");
   EXPECT_EQ(jsonAt("m/c.gltf")["images"], json_["images"]);
 
-  // An image that is missing is none of our business.
+  // A missing image is not our concern.
   fs::remove(path("m/sub dir/a.png"));
   fs::create_directory(path("p"));
   const ToolResult result = run("convert m/a.gltf p/b.gltf");
@@ -157,11 +158,11 @@ TEST_F(GltfOutput, ForeignFilesAreNotReplaced) {
   expectDone("convert in.glb out.gltf");
   expectDone("convert in.glb out.gltf --lossless");
 
-  // The buffer of the input, even when the output of that name refers to it, too.
+  // The buffer of the input must stay, even when the output of that name refers to it, too.
   store("m/b.gltf", R"({"buffers":[{"uri":"mesh.bin","byteLength":8}]})");
   fs::copy_file(path("m/b.gltf"), path("m/mesh.gltf"));
   expectRefused("convert m/a.gltf m/mesh.gltf", "is part of the input and would be replaced");
-  // A model called like our buffer.
+  // A model that has the name of our buffer.
   fs::copy_file(path("in.glb"), path("x.bin"));
   store("x.gltf", R"({"buffers":[{"uri":"x.bin","byteLength":8}]})");
   expectRefused("convert x.bin x.gltf", "is part of the input and would be replaced");
@@ -179,7 +180,7 @@ TEST_F(GltfOutput, InputMayBeOutput) {
   EXPECT_LT(fs::file_size(path("m/a.bin")) * 3, bin_.size());
   const std::string json = contentOf(path("m/a.gltf"));
   const std::string bin = contentOf(path("m/a.bin"));
-  expectDone("convert m/a.gltf m/a.gltf");  // nothing is gained: nothing changes
+  expectDone("convert m/a.gltf m/a.gltf");  // nothing is gained, so nothing changes
   EXPECT_EQ(contentOf(path("m/a.gltf")), json);
   EXPECT_EQ(contentOf(path("m/a.bin")), bin);
   expectDone("decode m/a.gltf m/a.gltf");
@@ -202,7 +203,7 @@ TEST_F(GltfOutput, WhatGainsNothingIsCopiedWithItsFiles) {
 }
 
 TEST_F(GltfOutput, DataUrisAndSeveralBuffersAreRead) {
-  // The second half of the buffer views in another buffer, the first in a data URI.
+  // Move the second half of the buffer views to another buffer, and the first to a data URI.
   Json json = json_;
   json.erase("images");
   uint64_t split = 0;
@@ -275,7 +276,7 @@ TEST_F(GltfOutput, ReplacementLeavesNoTemporaryFiles) {
 
 class Fallback : public GltfOutput {
  protected:
-  /// Loads a file with the files beside it.
+  /// Loads a file with the files next to it.
   Document load(const std::string& name) {
     Document document;
     held_.push_back(contentOf(path(name)));
@@ -285,7 +286,7 @@ class Fallback : public GltfOutput {
     return document;
   }
 
-  std::deque<std::string> held_;  ///< documents borrow from these
+  std::deque<std::string> held_;  ///< texts that documents borrow
 };
 
 TEST_F(Fallback, HoldsWhatThePayloadHolds) {
@@ -299,7 +300,7 @@ TEST_F(Fallback, HoldsWhatThePayloadHolds) {
     ASSERT_EQ(json["buffers"].size(), 2u);
     EXPECT_EQ(json["buffers"][1]["uri"], "out.fallback.bin");
 
-    // Who does not know the extension reads the accessors as they stand.
+    // A loader that does not know the extension reads the accessors as they stand.
     const Document fallback = load(name);
     const Document decoded = load("decoded.glb");
     ASSERT_EQ(fallback.accessors.size(), decoded.accessors.size());
@@ -317,7 +318,7 @@ TEST_F(Fallback, HoldsWhatThePayloadHolds) {
         ASSERT_TRUE(std::equal(x.begin(), x.end(), b.element(k).begin())) << i << " " << k;
       }
     }
-    // Who knows it does not need the second file.
+    // A loader that knows it does not need the second file.
     expectDone("decode " + name + " back.glb");
     EXPECT_EQ(fs::file_size(path("back.glb")), fs::file_size(path("decoded.glb")));
     fs::remove(path("out.fallback.bin"));

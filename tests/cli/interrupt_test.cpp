@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Ctrl-C and its like: the program ends by the signal, and leaves nothing but what was there.
+// Ctrl-C and other signals: the program ends by the signal, and leaves nothing new behind.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -51,7 +51,8 @@ class Interrupt : public testing::Test {
     becomeTool(folder_, arguments);
   }
 
-  /// Number of the signal that ended the process; 0 when it ended by itself, with `status`.
+  /// Returns the number of the signal that ended the process, or 0 when it ended by itself, with
+  /// `status`.
   static int signalOf(pid_t child, int& status) {
     int code = 0;
     waitpid(child, &code, 0);
@@ -59,7 +60,7 @@ class Interrupt : public testing::Test {
     return WIFSIGNALED(code) ? WTERMSIG(code) : 0;
   }
 
-  /// Names of everything in the folder and below.
+  /// Returns the names of everything in the folder and below.
   std::set<std::string> names() const {
     std::set<std::string> found;
     for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) {
@@ -86,14 +87,14 @@ class Interrupt : public testing::Test {
         waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       }
-      kill(child, SIGSTOP);  // it may have been too fast
+      kill(child, SIGSTOP);  // it may have finished already
       was_there = hasTemporary() && contentOf(path("out.glb")) == "older";
       kill(child, signal_number);
       kill(child, SIGCONT);
       int status = 0;
       const int number = signalOf(child, status);
       EXPECT_FALSE(hasTemporary());
-      if (number == 0) {  // it got to its end after all
+      if (number == 0) {  // it finished after all
         was_there = false;
         std::ofstream(path("out.glb")) << "older";
         fs::remove(path("out.fallback.bin"));
@@ -109,7 +110,7 @@ class Interrupt : public testing::Test {
   ScratchFolder folder_;
 };
 
-/// While the input is read from a pipe that nobody writes to.
+/// The signal comes while the input is read from a pipe that nobody writes to.
 TEST_F(Interrupt, EndsBySignalWhileItWaits) {
   ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
   std::vector<int> numbers = {SIGINT,  SIGTERM, SIGHUP,    SIGQUIT, SIGALRM, SIGUSR1,
@@ -134,13 +135,13 @@ TEST_F(Interrupt, WhatIsIgnoredStaysIgnored) {
   const int writer = open(path("pipe").c_str(), O_WRONLY);
   ASSERT_GE(writer, 0);
   kill(child, SIGINT);
-  close(writer);  // an empty file
+  close(writer);  // the tool reads an empty file
   int status = 0;
   EXPECT_EQ(signalOf(child, status), 0);
   EXPECT_EQ(status, 1);
 }
 
-/// While a temporary file is written, which may not become as large as the result.
+/// The signal comes while a temporary file is written, which may not become as large as the result.
 TEST_F(Interrupt, AFileThatIsTooLargeLeavesNothing) {
   std::ofstream(path("out.glb")) << "older";
   const std::string sample = std::string(MCC_SAMPLES_DIR) + "/torus.glb";
@@ -156,7 +157,7 @@ TEST_F(Interrupt, AFileThatIsTooLargeLeavesNothing) {
   EXPECT_EQ(contentOf(path("out.glb")), "older");
 }
 
-/// What `| head` does.
+/// Closes the reading end early, as `| head` does.
 TEST_F(Interrupt, NobodyReadsStandardOutput) {
   const std::string sample = std::string(MCC_SAMPLES_DIR) + "/torus.glb";
   for (const char* command : {"convert", "decode"}) {
@@ -177,7 +178,7 @@ TEST_F(Interrupt, NobodyReadsStandardOutput) {
   EXPECT_EQ(piped.err, "");
 }
 
-/// While the result, which has a temporary name, is checked.
+/// The signal comes while the result, which has a temporary name, is checked.
 TEST_F(Interrupt, TemporaryFilesAreRemoved) {
   gltf::test::Builder builder;
   for (uint32_t i = 0; i < 12; ++i) {

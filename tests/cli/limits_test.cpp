@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Files that never end, and files that ask for more than they may.
+// Files that never end, and files that ask for more than the limits.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -25,7 +25,7 @@ class CliLimits : public testing::Test {
   ScratchFolder folder_;
 };
 
-// Without an end to what is read these would take all memory.
+// Without a bound on reading, these would take all memory.
 TEST_F(CliLimits, EndlessInput) {
   for (const char* arguments :
        {"convert - - < /dev/zero", "decode - - < /dev/zero", "convert /dev/zero out.glb",

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What people meet on a terminal: help, versions, suggestions, colours, the man page, completions.
+// What users meet on a terminal: help, versions, suggestions, colours, the man page, completions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ class Manners : public testing::Test {
 
   std::vector<std::string> commands() const { return wordsBelow(run("--help").out, "Commands"); }
 
-  /// Names of the options of a command ("" for the program's own) in its help.
+  /// Returns the names of the options of a command ("" for the program itself) in its help.
   std::set<std::string> options(const std::string& command) const {
     std::set<std::string> names;
     for (const std::string& words : wordsBelow(run(command + " --help").out, "Options")) {
@@ -76,7 +76,7 @@ class Manners : public testing::Test {
     return names;
   }
 
-  /// What bash offers for the last of these words.
+  /// Returns what bash offers for the last of these words.
   std::set<std::string> offered(const std::vector<std::string>& words) const {
     std::string list;
     for (const std::string& word : words) list += " '" + word + "'";
@@ -176,7 +176,7 @@ TEST_F(Manners, FilesGetSuggestions) {
   expectUsageError("convert torus.glb small",
                    "convert: small: has no extension; name it small.glb or small.gltf");
   std::ofstream(folder_.path() / "model") << "older";
-  EXPECT_EQ(run("convert torus.glb model").status, 0);  // what exists may be anything
+  EXPECT_EQ(run("convert torus.glb model").status, 0);  // an existing path may be anything
 }
 
 TEST_F(Manners, ColoursOnATerminalOnly) {
@@ -275,7 +275,7 @@ TEST_F(Manners, ZshCompletesEverythingThatHelpLists) {
   }
   if (!has("zsh")) GTEST_SKIP() << "no zsh";
   EXPECT_EQ(shell("zsh -f", "\"$tool\" completion zsh > _gltf-mcc && zsh -n _gltf-mcc").err, "");
-  // What the script asks zsh's own functions for.
+  // These are the calls of the script to zsh's own functions.
   const ToolResult asked = shell("zsh -f", R"(
 compdef() { : }
 _arguments() { print -rl -- "$@" }

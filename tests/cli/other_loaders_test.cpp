@@ -32,7 +32,7 @@ bool load(const std::string& path, tinygltf::Model& model, std::string& message)
                                 : loader.LoadASCIIFromFile(&model, &message, &warning, path);
 }
 
-/// The floats of an accessor, as a renderer would send them on.
+/// Returns the floats of an accessor, as a renderer would use them.
 std::vector<float> floatsOf(const tinygltf::Model& model, int index) {
   const tinygltf::Accessor& accessor = model.accessors.at(static_cast<size_t>(index));
   const tinygltf::BufferView& view = model.bufferViews.at(static_cast<size_t>(accessor.bufferView));

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What the tools people use make of a model is an input like any other: glTF-Transform, gltfpack, gltf-pipeline.
+// Models made by common tools are inputs like any other: glTF-Transform, gltfpack, gltf-pipeline.
 #include <gtest/gtest.h>
 
 #include "cli/run_tool.h"
@@ -72,7 +72,7 @@ TEST_P(OtherTools, OutputsAreConverted) {
       pairs += " in/" + name + " ib_" + name;
       validator.add(entry.path(), folder.path() / ("io_" + name), folder.path() / ("ib_" + name));
     }
-    // Where the validator sees what is inside.
+    // Only where the validator understands the contents.
     validator.add(folder.path() / "in/plain" / name, folder.path() / ("out_" + name),
                   folder.path() / ("back_" + name));
   }

@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What a terminal shows of work that takes long, and that nothing else gets to see it. The work lasts until the test
-// has seen what it waits for: the buffer of the document is a pipe, into which the test writes only then.
+// What a terminal shows during long work, and that nothing else gets to see it. The work lasts
+// until the test has seen what it waits for: the buffer of the document is a pipe, into which the
+// test writes only then.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -24,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Much more than what is waited for ever takes; then the test fails.
+/// Much longer than anything the test waits for; after that it fails.
 constexpr std::chrono::seconds kPatience(60);
 
 class Deadline {
@@ -35,7 +36,7 @@ class Deadline {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// The tool in a folder of its own with waiting.glb, a pipe whose bytes it must wait for.
+/// Runs the tool in a folder of its own with waiting.glb, a pipe whose bytes it must wait for.
 class WaitingTool {
  public:
   enum class Errors : uint8_t { kTerminal, kPipe };
@@ -57,7 +58,7 @@ class WaitingTool {
   }
 
   ~WaitingTool() {
-    if (child_ > 0) {  // a test that failed
+    if (child_ > 0) {  // the test failed
       kill(child_, SIGKILL);
       waitpid(child_, nullptr, 0);
     }
@@ -66,7 +67,7 @@ class WaitingTool {
   WaitingTool(const WaitingTool&) = delete;
   WaitingTool& operator=(const WaitingTool&) = delete;
 
-  /// Until the input is being read, and no later than when the program ends.
+  /// Waits until the input is being read, or the program ends.
   bool waitsForInput() {
     const Deadline deadline;
     while (!deadline.isOver() && !hasEnded()) {
@@ -77,7 +78,7 @@ class WaitingTool {
     return false;
   }
 
-  /// Until this occurs in what was shown.
+  /// Waits until this text was shown.
   bool shows(const std::regex& text) {
     const Deadline deadline;
     while (!deadline.isOver() && !std::regex_search(shown_, text)) {
@@ -86,7 +87,7 @@ class WaitingTool {
     return std::regex_search(shown_, text);
   }
 
-  /// Gives it what it waits for; returns its exit status and reads the rest of what it shows.
+  /// Writes what the tool waits for, reads the rest of what it shows, and returns its exit status.
   int finish() {
     fcntl(input_, F_SETFL, 0);
     const bool is_written =
@@ -126,7 +127,7 @@ class WaitingTool {
     return ended.si_pid != 0;
   }
 
-  /// False when the other end is closed. Returns now and then without having read.
+  /// Returns false when the other end is closed. May return without having read anything.
   bool readSome() {
     pollfd ready = {errors_, POLLIN, 0};
     if (poll(&ready, 1, 1000) <= 0) return true;
@@ -148,7 +149,7 @@ using Errors = WaitingTool::Errors;
 
 struct Work {
   std::vector<std::string> arguments;
-  const char* shown;  ///< before the seconds
+  const char* shown;  ///< the text before the seconds
 };
 
 /// All commands that show how long they take.
@@ -167,7 +168,7 @@ class Progress : public testing::Test {
   }
 };
 
-/// The line begins at the left, is replaced by the next one, and is gone in the end.
+/// The line begins at the left, is replaced by the next one, and is cleared at the end.
 TEST_F(Progress, IsShownOnATerminal) {
   for (const Work& work : longWork()) {
     SCOPED_TRACE(work.shown);
@@ -205,7 +206,7 @@ TEST_F(Progress, IsForTerminalsAloneAndNotForQuietOnes) {
   }
 }
 
-/// Of many files the bar is there from the first one on that is done, however long it takes.
+/// With many files the bar is shown from the first finished one on, however long it takes.
 TEST_F(Progress, OfManyFilesIsABar) {
   const std::string sample = std::string(MCC_SAMPLES_DIR) + "/torus.glb";
   const std::vector<std::string> arguments = {"convert", "-o", "out", sample, "waiting.glb"};

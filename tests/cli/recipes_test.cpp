@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The README's recipe for GNU Parallel, word by word, with two workers on this machine and a model that is broken.
+// The README's recipe for GNU Parallel, verbatim, with two workers on this machine and one broken
+// model.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The indented lines of the README from one that begins so, up to an empty line.
+/// Returns the indented lines of the README, from one with this beginning to an empty line.
 std::string snippetOf(const std::string& begin) {
   const std::string readme = contentOf(fs::path(MCC_SOURCE_DIR) / "README.md");
   const size_t at = readme.find("\n    " + begin);

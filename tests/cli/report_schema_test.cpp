@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Reports are what report.schema.json says: every member of them is described there.
+// Checks reports against report.schema.json, which describes every member of them.
 #include <gtest/gtest.h>
 
 #include <filesystem>

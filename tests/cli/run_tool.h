@@ -48,7 +48,8 @@ inline ToolResult runTool(const ScratchFolder& folder, const std::string& argume
 #endif
 }
 
-/// Makes the calling process the tool, in a folder; arguments are as they are. Status 127 where it cannot be.
+/// Replaces the calling process by the tool, in a folder; arguments are passed as they are. Exits
+/// with status 127 on failure.
 [[noreturn]] inline void becomeTool([[maybe_unused]] const ScratchFolder& folder,
                                     [[maybe_unused]] const std::vector<std::string>& arguments) {
 #ifdef MCC_TOOL_GLTF_MCC
@@ -67,7 +68,7 @@ inline std::string samplePath(const std::string& name) {
 
 }  // namespace mcc::test
 
-/// For the commands that need the other codecs.
+/// For the commands that need other codecs.
 #if defined(MCC_TOOL_GLTF_MCC) && defined(MCC_HAS_FOREIGN)
 #define MCC_REQUIRE_COMPARISON() (void)0
 #else

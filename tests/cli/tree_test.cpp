@@ -38,7 +38,7 @@ class Tree : public testing::Test {
     return count;
   }
 
-  /// Numbers of edges and branches as the title says.
+  /// Returns the numbers of edges and branches in the title.
   static std::pair<int, int> countsOf(const std::string& svg) {
     std::smatch found;
     const std::regex title("mc-tree of ([0-9,]+) edges, ([0-9,]+) branches");
@@ -120,7 +120,7 @@ TEST_F(Tree, OfTheReadmeIsUpToDate) {
       << "gltf-mcc tree samples/torus.glb " << figure << " --size 520";
 }
 
-/// Every kind of primitive has a picture or says why not; none ends the program.
+/// Every kind of primitive gets a picture or a reason why not; none ends the program.
 TEST_F(Tree, OfEverySample) {
   for (const auto& entry : fs::directory_iterator(MCC_SAMPLES_DIR)) {
     if (entry.path().extension() != ".glb") continue;

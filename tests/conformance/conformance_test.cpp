@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The reader against the conformance suite; the suite's own program `run` tests whole files.
+// Tests the reader with the conformance suite; the suite's own program `run` tests whole files.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -51,7 +51,7 @@ struct File {
   }
 };
 
-/// How a payload alone fares, in memory of its own size.
+/// Decodes a payload alone, in memory of exactly its size.
 Error errorOf(std::span<const uint8_t> payload, size_t size) {
   const std::vector<uint8_t> copy(payload.begin(),
                                   payload.begin() + static_cast<std::ptrdiff_t>(size));
@@ -62,7 +62,7 @@ void expectHash(const Json& expected, std::span<const uint8_t> bytes, const std:
   EXPECT_EQ(sha256(bytes), expected["sha256"].get<std::string>()) << what;
 }
 
-/// The attributes that an extension object names.
+/// Returns the attributes that an extension object names.
 void expectAttributes(const Json& ids, const Json& expected, const DecodedPiece& piece,
                       const std::string& where) {
   for (const auto& [name, id] : ids.items()) {
@@ -138,7 +138,7 @@ TEST(Conformance, EveryTruncationIsAnError) {
   }
 }
 
-/// The checksum left as it was.
+/// The same with the checksum left as it was.
 TEST(Conformance, TenThousandMutationsAreErrors) {
   std::vector<File> files;
   for (const Json& asset : manifest()["assets"]) files.emplace_back(asset);
@@ -154,7 +154,7 @@ TEST(Conformance, TenThousandMutationsAreErrors) {
   }
 }
 
-/// Every part of the format that an asset can show is shown by one, as far as the sections tell.
+/// Every feature of the format that an asset can show is shown by one, as far as the sections tell.
 TEST(Conformance, SectionsAreCovered) {
   std::set<std::string> covered;
   for (const char* const list : {"assets", "negative"}) {

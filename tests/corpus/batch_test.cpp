@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The corpus as somebody's library of models: one call converts it, another brings it back, whatever lies among them.
+// Uses the corpus as a user's library of models: one call converts it, and another decodes it,
+// whatever the folder contains.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -83,8 +83,9 @@ void compareFiles(const fs::path& source_path, const fs::path& decoded_path, boo
   compareTuples(source, decoded, keeps_order);
 }
 
-/// Lossless: the same number of vertices and the same triangles over bit-equal attributes; with both orders the same bytes
-/// and the same expanded indices. Nothing of the library's own check is used but reading.
+/// Lossless: the number of vertices stays, and so do the triangles over bit-equal attributes; with
+/// both orders kept, also all bytes and the expanded indices. Only reading is shared with the
+/// library's own check.
 void compareLossless(const std::vector<fs::path>& files, const fs::path& folder) {
   for (const bool keeps_order : {false, true}) {
     ConvertOptions options;
@@ -102,7 +103,7 @@ TEST_F(Corpus, Lossless) { compareLossless(models(false), folder_); }
 
 TEST_F(Corpus, LargeModelsLossless) { compareLossless(models(true), folder_); }
 
-/// Integers show what floats show, and the validator has no objection.
+/// Integers show the same as floats, and the validator has no objection.
 TEST_F(Corpus, DecodesToIntegers) {
   const std::vector<fs::path> files = models(false);
   convertAll(files, {}, folder_);
@@ -131,7 +132,8 @@ TEST_F(Corpus, DecodesToIntegers) {
 
 TEST_F(Corpus, LargeModelsConvertAndDecode) { convertAll(models(true), {}, folder_); }
 
-/// Khronos' validator on sources and results: no error or warning the source does not have.
+/// Runs Khronos' validator on sources and results: no error or warning that the source does not
+/// have.
 TEST_F(Corpus, ValidatorFindsNothingNew) {
   const std::string missing = mcc::test::Validator::whyNot();
   if (!missing.empty()) GTEST_SKIP() << missing;

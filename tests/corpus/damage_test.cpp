@@ -1,8 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Damage over the payloads of real models, the checksum made to fit: an error or a valid shape, in memory linear in the
-// counts. Prints how many mutations came to each decoder; the next one is always of a payload that can come to the one
-// that was reached least.
+// Damages the payloads of real models and repairs the checksum: decoding must give an error or a
+// valid shape, in memory linear in the counts. Prints how many mutations reached each decoder. The
+// next mutation always uses a payload that can reach the decoder which was reached least.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,7 +49,7 @@ const char* nameOf(AttributeMethod method) {
   return "";
 }
 
-/// The decoders that come to work between one call of DecodeOptions::progress and the next.
+/// The decoders that run between one call of DecodeOptions::progress and the next.
 using Step = std::vector<std::string>;
 
 void addSteps(const PieceHeader& piece, const AttributeInfo* attributes, std::vector<Step>& steps) {
@@ -69,13 +69,14 @@ void addSteps(const PieceHeader& piece, const AttributeInfo* attributes, std::ve
     for (uint32_t a = 1; a < piece.attribute_count; ++a) {
       if (codingPhase(attributes[a]) != phase) continue;
       const AttributeMethod method = methodOf(attributes, piece.attribute_count, a);
-      // An attribute that comes with another has a step, but no decoder.
+      // An attribute that is coded with another one has a step, but no decoder.
       steps.push_back(isWithAnother(method) ? Step{} : Step{nameOf(method)});
     }
   }
 }
 
-/// The decoders that a payload's header calls for, in their order; empty when the header is refused.
+/// Returns the decoders that a payload's header calls for, in their order; empty when the header is
+/// refused.
 std::vector<Step> stepsOf(std::span<const uint8_t> payload) {
   PayloadHeader header{Allocator{}};
   std::vector<Step> steps;
@@ -157,8 +158,8 @@ class Reached {
     return std::min_element(counts_.begin(), counts_.end(), less)->first;
   }
 
-  /// A decoder was reached when the one before it was through. Where two share a step, the later one may have been
-  /// reached without being counted.
+  /// A decoder counts as reached when the one before it has finished. Where two share a step, the
+  /// later one may have been reached without being counted.
   void add(std::span<const uint8_t> payload, const Outcome& outcome) {
     ++counts_["header"];
     if (!outcome.reached_decode) return;
@@ -169,7 +170,7 @@ class Reached {
       const size_t count = is_through ? steps[i].size() : std::min<size_t>(steps[i].size(), 1);
       reached.insert(steps[i].begin(), steps[i].begin() + static_cast<std::ptrdiff_t>(count));
     }
-    // Damage of a header may ask for a decoder that no payload of the corpus comes to.
+    // Damage to a header may ask for a decoder that no payload of the corpus reaches.
     for (const std::string& decoder : reached) {
       const auto count = counts_.find(decoder);
       if (count != counts_.end()) ++count->second;

@@ -33,7 +33,7 @@ void compareJson(const Json& a, const Json& b, const std::string& path, const Sk
     for (size_t i = 0; i < a.size(); ++i)
       compareJson(a[i], b[i], path + "/" + std::to_string(i), skip);
   } else if (a.is_object()) {
-    // Members in their order, repeated ones too.
+    // Compare members in their order, with repeated ones.
     const auto kept = [&](const Json& object) {
       std::vector<const Json::object_t::value_type*> members;
       for (const auto& member : object.get_ref<const Json::object_t&>()) {
@@ -114,9 +114,9 @@ double stepsOf(int bits) { return std::ldexp(1.0, bits) - 1; }
 /// How far a value may be from its source.
 struct Bound {
   bool is_exact = true;
-  double value = 0;     ///< of a component
-  double radians = 0;   ///< of a unit vector whose deviation is more than `value`; 0: none
-  double distance = 0;  ///< of a position; 0: none
+  double value = 0;     ///< deviation of a component
+  double radians = 0;   ///< angle of a unit vector that is off by more than `value`; 0: not allowed
+  double distance = 0;  ///< distance of a position; 0: not bounded
 };
 
 /// An attribute of a primitive, in the source and decoded.
@@ -154,7 +154,7 @@ bool isWithin(const Attribute& attribute, size_t s, size_t d) {
       continue;
     }
     const double off = std::abs(a - b);
-    // The roundings of decoding to float32.
+    // Allow for the roundings of decoding to float32.
     is_near &= off <= bound.value * (1 + 1e-6) + std::ldexp(std::abs(a) + std::abs(b), -23);
     square += off * off;
   }
@@ -247,14 +247,15 @@ std::string describe(const Attribute& attribute, size_t s, size_t d) {
   return text + bounds;
 }
 
-/// For people: the attributes of a decoded vertex that no source vertex has, or all that some has.
+/// For readers of a failure: the attributes of a decoded vertex that no source vertex has, or all
+/// that some vertex has.
 std::string whyNone(const std::vector<Attribute>& attributes, size_t d) {
   for (const Attribute& attribute : attributes) {
     size_t s = 0;
     while (s < attribute.source.values.size() && !isWithin(attribute, s, d)) ++s;
     if (s == attribute.source.values.size()) return "none has its " + describe(attribute, d, d);
   }
-  // The source vertex with the fewest others.
+  // Find the source vertex that differs in the fewest attributes.
   size_t best = 0;
   size_t fewest = attributes.size();
   for (size_t s = 0; s < attributes[0].source.values.size(); ++s) {
@@ -271,8 +272,9 @@ std::string whyNone(const std::vector<Attribute>& attributes, size_t d) {
   return "one has them all, but is not found by its exact ones";
 }
 
-/// Source vertices that one decoded vertex may stand for are one class: with distinct vertices each is its own, and the
-/// comparison is exact; a difference that is found is one in any case.
+/// Puts source vertices that one decoded vertex may stand for into one class. If all vertices are
+/// distinct, each is its own class and the comparison is exact. A difference that is found is a
+/// real one in any case.
 void compareVertices(const std::vector<Attribute>& attributes, bool keeps_order,
                      std::vector<uint32_t>& class_of_source,
                      std::vector<uint32_t>& class_of_decoded) {
@@ -440,7 +442,8 @@ class Comparison {
     }
   }
 
-  /// Draco's extension goes where the primitive is compressed; an object of extensions that is empty then goes, too.
+  /// Draco's extension is removed where the primitive is compressed, and an object of extensions
+  /// that becomes empty is removed, too.
   void dropEmptyExtensions(Json& json) {
     if (!json.contains("meshes")) return;
     for (size_t mesh = 0; mesh < json["meshes"].size(); ++mesh) {
@@ -486,13 +489,13 @@ class Comparison {
   void compareRest() {
     const size_t accessor_count = memberOf(source_.json, "accessors").size();
     for (uint64_t i = 0; i < accessor_count; ++i) {
-      // Of what Draco holds another use sees zeros, as before.
+      // Another use of what Draco holds sees zeros, as before.
       if (compressed_.count(i) != 0 || source_.isHeldByDraco(i)) continue;
       Elements source;
       try {
         source = source_.elements(i);
       } catch (const std::exception&) {
-        continue;  // as unreadable as it was
+        continue;  // unreadable in the source, too
       }
       require(source.values == decoded_.elements(i).values,
               "/accessors/" + std::to_string(i) + ": an element changed");
@@ -552,8 +555,8 @@ class Comparison {
     return kNone;
   }
 
-  /// The box of all positions that share a lattice with those of a payload, also of primitives that are not compressed in
-  /// the end.
+  /// Returns the box of all positions that share a lattice with those of a payload, including
+  /// primitives that end up uncompressed.
   Box boxOfPayload(uint32_t payload) const {
     std::set<size_t> meshes;
     for (const PrimitiveReport& report : report_.primitives) {
@@ -574,7 +577,7 @@ class Comparison {
     return box;
   }
 
-  /// What the options allow, whatever the report says.
+  /// Returns the deviation that the options allow, whatever the report says.
   Bound askedFor(const Attribute& attribute, const std::vector<Attribute>& all,
                  const Box& positions) const {
     Bound bound;
@@ -597,12 +600,13 @@ class Comparison {
                              : positions.side() / stepsOf(bits.position);
     const bool is_vector = source.type == "VEC3";
     if (attribute.name == "POSITION" && is_vector) {
-      // Of exact positions the deltas may have a lattice of their own.
+      // The deltas of exact positions may have a lattice of their own.
       const double delta_step =
           is_base || bits.position == 0 ? 0 : std::max(own.side(), 1.0) / stepsOf(bits.position);
       const double step = std::max(position_step, delta_step);
-      if (step == 0 && (bits.position == 0 || !is_base)) return bound;  // else all are one point
-      // Decoding rounds twice, in steps from the lattice's origin.
+      if (step == 0 && (bits.position == 0 || !is_base))
+        return bound;  // otherwise all are one point
+      // Decoding rounds twice, relative to the lattice's origin.
       const double origin = options_.position_lattice ? 2 : 0;
       allow(step / 2 + std::ldexp(positions.largest() + positions.side() + origin, -23));
       if (options_.max_position_error > 0 && !options_.position_lattice && is_base)
@@ -620,7 +624,7 @@ class Comparison {
                    other.source.component_type == 5126;
           });
       if (is_base) {
-        // The angle around a normal of the octahedral grid, or, without one, such a grid of its own.
+        // The angle around a normal on the octahedral grid or, without a normal, a grid of its own.
         const double own_grid = 4.5 / (std::ldexp(1.0, bits.tangent) - 2);
         const double around_normal =
             std::numbers::pi * std::ldexp(1.0, -bits.tangent) + 0.004 +
@@ -638,11 +642,11 @@ class Comparison {
     return bound;
   }
 
-  /// The report's promise where that is less.
+  /// Returns the report's promise where that is less.
   void tighten(uint32_t payload, Attribute& attribute) const {
     Bound& bound = attribute.bound;
     if (bound.is_exact || payload >= report_.payloads.size()) return;
-    // A row of several pieces promises what the worst of them does, in units or in degrees.
+    // A row for several pieces promises what the worst of them does, in units or in degrees.
     if (report_.payloads[payload].piece_count > 1) return;
     double value = 0;
     double radians = 0;
@@ -664,7 +668,7 @@ class Comparison {
     std::vector<Attribute> attributes = attributesOf(source, decoded);
     require(!attributes.empty(), "has no attributes");
     const uint32_t payload = payloadOf(mesh, i);
-    const bool was_compressed = payload == kNone;  // by whoever made the source
+    const bool was_compressed = payload == kNone;  // by the author of the source
     const Box positions = was_compressed ? Box{} : boxOfPayload(payload);
     for (Attribute& attribute : attributes) {
       if (was_compressed) continue;

@@ -1,9 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Random documents through convert() and decode(), compared by independent code and looked at by Khronos' validator.
-// MCC_DOCUMENTS is their number (300 when it is not set), MCC_FIRST_SEED the first seed (1). The seed of a failure is in
-// its message: MCC_FIRST_SEED=4711 MCC_DOCUMENTS=1 test_documents. With MCC_DOCUMENTS_LOG each seed is printed before it runs;
-// MCC_DOCUMENTS_KEEP names a folder for the files.
+// Sends random documents through convert() and decode(), and compares them by independent code and
+// by Khronos' validator. MCC_DOCUMENTS is their number (300 by default), MCC_FIRST_SEED the first
+// seed (1). The message of a failure has its seed: MCC_FIRST_SEED=4711 MCC_DOCUMENTS=1
+// test_documents. With MCC_DOCUMENTS_LOG each seed is printed before it runs; MCC_DOCUMENTS_KEEP
+// names a folder for the files.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -45,7 +46,7 @@ struct Seeds {
   }
 };
 
-/// The files of a folder, but for those below it.
+/// Returns the files of a folder, without those in subfolders.
 Files filesIn(const fs::path& folder) {
   Files files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -61,7 +62,7 @@ void writeFiles(const fs::path& folder, const Files& files) {
   for (const auto& [name, bytes] : files) EXPECT_TRUE(writeFile(folder / name, bytes).ok());
 }
 
-/// What people read has one line, and none that is ours to answer for.
+/// A message is one line, and never reports an internal error.
 void expectClean(const std::string& message) {
   for (const char* ours : {"please report", "internal error", "exception"}) {
     EXPECT_EQ(message.find(ours), std::string::npos) << message;
@@ -69,7 +70,7 @@ void expectClean(const std::string& message) {
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 
-/// A document on its way: in memory, or from folder to folder.
+/// A document during a test: in memory, or from folder to folder.
 class Way {
  public:
   explicit Way(const fs::path& folder)
@@ -91,7 +92,7 @@ class Way {
                       decoded);
   }
 
-  /// Decodes what is decoded, converts what is converted.
+  /// Decodes and converts the results again.
   Result decodeAgain(const RandomDocument& document, Files& files) {
     return decodeFrom(back_ / converted_name, decoded[converted_name], document, again_,
                       DecodeTo::kFloats, files);
@@ -157,7 +158,7 @@ void keepForPeople(uint64_t seed, const RandomDocument& document, const Way& way
 
 class Documents : public ::testing::Test {
  protected:
-  /// For the validator: everything in a folder of its own.
+  /// Puts everything into a folder of its own, for the validator.
   fs::path keep(const std::string& name, const Files& files, const std::string& main) {
     writeFiles(folder_.path() / name, files);
     return folder_.path() / name / main;
@@ -175,7 +176,7 @@ void expectEqualDocuments(const RandomDocument& document, const Way& way, const 
       << describe(document.options);
 }
 
-/// What was converted once is so again, or nothing remains to do.
+/// A converted document can be converted again, or there is nothing left to do.
 void expectSameAgain(const RandomDocument& document, Way& way) {
   Files again;
   ASSERT_EQ(way.decodeAgain(document, again).message(), "") << "decoded again";
@@ -249,7 +250,7 @@ TEST_F(Documents, ComeBackAsTheyWere) {
               no_validator.empty() ? "yes" : no_validator.c_str());
 }
 
-/// One line and nothing written, or a document that works.
+/// Either one line and nothing written, or a document that works.
 TEST_F(Documents, DamagedOnesAreRefusedInOneLine) {
   uint64_t refused_count = 0;
   Seeds().forEach("damaged documents", [&](uint64_t seed) {
@@ -275,7 +276,7 @@ TEST_F(Documents, DamagedCompressedOnesAreRefusedInOneLine) {
     RandomDocument document = randomDocument(seed);
     document.options.allow_larger = true;
     Way way(folder_.path());
-    if (!way.convertDocument(document).ok()) return;  // a failure of the test above
+    if (!way.convertDocument(document).ok()) return;  // the test above reports this
     for (uint64_t k = 0; k < 3; ++k) {
       const Bytes undamaged = way.converted[way.converted_name];
       damageGlb(3 * seed + k, way.converted[way.converted_name]);

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// glTF read by plain code of its own, so that comparisons share nothing with the library but the JSON parser.
+// Reads glTF by separate, plain code, so that comparisons share nothing with the library except the
+// JSON parser.
 #ifndef MCC_TESTS_DOCUMENTS_PLAIN_READER_H_
 #define MCC_TESTS_DOCUMENTS_PLAIN_READER_H_
 
@@ -27,19 +28,19 @@ struct Elements {
   }
 };
 
-/// A document whose buffers were found, and what other codecs hold of it decoded.
+/// A document whose buffers were found, with what other codecs hold in it decoded.
 class PlainDocument {
  public:
   Json json;
 
-  /// An empty string, or why it cannot be read.
+  /// Returns an empty string, or why the document cannot be read.
   std::string load(const Files& files, const std::string& main);
 
   /// Throws std::runtime_error when the accessor is damaged.
   Elements elements(uint64_t accessor) const;
   bool isHeldByDraco(uint64_t accessor) const { return decoded_.count(accessor) != 0; }
   Bytes viewBytes(uint64_t view) const;
-  /// Bytes of an image, wherever it is.
+  /// Returns the bytes of an image, wherever they are.
   Bytes imageBytes(uint64_t image) const;
 
  private:
@@ -48,12 +49,12 @@ class PlainDocument {
 
   Files files_;
   std::vector<Bytes> buffers_;
-  std::map<uint64_t, Bytes> decoded_;  ///< tight elements of accessors that Draco holds
+  std::map<uint64_t, Bytes> decoded_;  ///< packed elements of accessors that Draco holds
 };
 
-/// The member, or null where there is none.
+/// Returns the member, or null where there is none.
 const Json& memberOf(const Json& object, const char* key);
-/// The number however it is spelt, or `otherwise` where there is none.
+/// Returns the number, however it is spelt, or `otherwise` where there is none.
 uint64_t numberOf(const Json& object, const char* key, uint64_t otherwise);
 uint64_t numberOf(const Json& value);
 

@@ -34,7 +34,7 @@ uint32_t widthOf(int component_type) {
   return component_type <= kUnsignedShort ? 2 : 4;
 }
 
-/// Elements of an accessor before they have a place.
+/// Elements of an accessor before they are placed.
 struct Column {
   std::string type = "VEC3";
   int component_type = kFloat;
@@ -52,7 +52,7 @@ struct Column {
     return columns() == 1 ? bytes : (bytes + 3) / 4 * 4;
   }
   uint32_t elementBytes() const { return columns() * columnBytes(); }
-  /// An element as a buffer has it.
+  /// Returns an element in the layout of a buffer.
   Bytes element(uint32_t i) const {
     Bytes bytes(elementBytes(), 0);
     const uint32_t tight_column = rows() * widthOf(component_type);
@@ -131,7 +131,7 @@ const std::vector<TestMesh>& zoo() {
   return kZoo;
 }
 
-// ---- JSON as people's tools spell it -----------------------------------------------------------
+// ---- JSON as other tools spell it --------------------------------------------------
 
 class Printer {
  public:
@@ -157,7 +157,7 @@ class Printer {
     for (size_t i = 0; i < plain.size(); ++i) {
       const char c = plain[i];
       const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-      if (c == '\\') {  // an escape stays whole
+      if (c == '\\') {  // do not split an escape
         out_ += c;
         out_ += plain[++i];
         for (int k = 0; plain[i] == 'u' && k < 4; ++k)
@@ -369,7 +369,7 @@ class Maker {
     return bytes;
   }
 
-  /// A view of its own, tight or strided.
+  /// Places elements in a view of their own, packed or strided.
   void putAlone(const Column& column, Json& accessor) {
     uint32_t stride = strideOf(column);
     const bool may_stride = column.is_for_vertices && stride <= 252;
@@ -400,7 +400,7 @@ class Maker {
     }
   }
 
-  /// In a view that others are in, too.
+  /// Places elements in a view that others use, too.
   bool putBeside(const Column& column, Json& accessor) {
     if (column.is_for_vertices || shared_view_ == kNone) return false;
     Json& view = json_["bufferViews"][shared_view_];
@@ -566,7 +566,7 @@ class Maker {
     return kValues[below(13)];
   }
 
-  /// Values as files have them; `base` are positions to depend on.
+  /// Makes values like those in real files; `base` are positions they may depend on.
   Column values(const std::string& type, int component_type, bool is_normalized, uint32_t count,
                 const std::vector<float>& base) {
     Column column = {type, component_type, is_normalized, count, {}, true};
@@ -851,7 +851,7 @@ class Maker {
     if (columns_[accessor].count == count) map[kNames[below(4)]] = accessor;
   }
 
-  /// A primitive that shares something with one that is there.
+  /// Adds a primitive that shares something with an existing one.
   Json sharingPrimitive(TestMesh& mesh) {
     const Known& known = known_[below(static_cast<uint32_t>(known_.size()))];
     mesh = known.mesh;
@@ -969,7 +969,7 @@ class Maker {
     json_["meshes"].push_back(mesh);
   }
 
-  // ---- what is beside geometry ----
+  // ---- what is not geometry ----
 
   size_t sizeOf(const char* key) const { return json_.contains(key) ? json_[key].size() : 0; }
 
@@ -1377,7 +1377,7 @@ class Maker {
   bool has_image_files_ = false;
 };
 
-/// Another number in the place of one of a JSON text.
+/// Replaces one number of a JSON text by another one.
 void replaceNumber(Random& random, Bytes& bytes) {
   std::vector<std::pair<size_t, size_t>> numbers;
   bool is_text = false;
@@ -1439,7 +1439,7 @@ void damageBytes(Random& random, Bytes& bytes) {
   }
 }
 
-/// The JSON of a GLB is damaged with its length kept right, so that the damage is seen.
+/// Damages the JSON of a GLB and keeps its length right, so that loaders get to see the damage.
 void damageJsonOf(Random& random, Bytes& file) {
   GlbFile glb;
   const bool is_glb = isGlb(file);

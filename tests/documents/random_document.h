@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Random glTF documents with whatever the files of users have: every container, layout, type and kind of geometry, odd JSON.
+// Random glTF documents with everything that users' files have: all containers, layouts, types and
+// kinds of geometry, and odd JSON.
 #ifndef MCC_TESTS_DOCUMENTS_RANDOM_DOCUMENT_H_
 #define MCC_TESTS_DOCUMENTS_RANDOM_DOCUMENT_H_
 
@@ -21,7 +22,8 @@ using Files = std::map<std::string, Bytes>;
 struct RandomDocument {
   Files files;
   std::string main;  ///< the name of the .glb or .gltf in `files`
-  /// Something in it may be refused with a sentence: it contradicts itself, though in a way people's files do.
+  /// Something in it may be refused with a message: it contradicts itself, in a way that users'
+  /// files do.
   bool may_be_refused = false;
   /// Unknown extensions name them: they keep their numbers and bytes.
   std::vector<uint32_t> kept_views;
@@ -34,12 +36,12 @@ struct RandomDocument {
 /// The same seed makes the same document. Deterministic on every machine.
 RandomDocument randomDocument(uint64_t seed);
 
-/// What went wrong with a file on its way: a byte changed, bytes lost, a number of the JSON replaced, and the like.
-/// Deterministic in its arguments.
+/// Damages a file as transport or tools may: a byte changes, bytes are lost, a number of the JSON
+/// is replaced, and the like. Deterministic in its arguments.
 void damage(uint64_t seed, RandomDocument& document);
 void damageGlb(uint64_t seed, Bytes& glb);
 
-/// The options in words, for messages.
+/// Describes the options for messages.
 std::string describe(const ConvertOptions& options);
 
 }  // namespace mcc::gltf::test

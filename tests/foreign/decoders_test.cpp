@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Draco and meshoptimizer as decoders of glTF files: what they give, and what they refuse.
+// Draco and meshoptimizer as decoders of glTF files: what they return, and what they refuse.
 #if defined(MCC_HAS_FOREIGN)
 
 #include <gtest/gtest.h>
@@ -114,7 +114,7 @@ TEST_F(Draco, DamagedBytesAreErrors) {
       EXPECT_NE(errorOf(claim_), "") << length;
     }
   }
-  // Counts of four thousand million, refused before anything is taken for them.
+  // Counts of about four billion are refused before memory is taken.
   std::vector<uint8_t> bytes = encoded_[0].bytes;
   const std::vector<uint8_t> huge = {0xff, 0xff, 0xff, 0xff, 0x0f};
   std::copy(huge.begin(), huge.end(), bytes.begin() + 12);

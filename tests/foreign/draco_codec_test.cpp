@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The other projects' codecs as we measure them: bytes known from elsewhere, errors, damaged input.
+// Other projects' codecs as we measure them: known bytes, errors, damaged input.
 #if defined(MCC_HAS_FOREIGN)
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@
 namespace mcc::foreign {
 namespace {
 
-/// A primitive of a GLB, read by nothing of this project.
+/// A primitive of a GLB, read without code of this project.
 struct Model {
   uint32_t wedge_count = 0;
   std::vector<uint32_t> indices;
@@ -196,7 +196,7 @@ size_t sumOf(const DracoStreams& streams) {
   return sum;
 }
 
-/// What Draco 1.5.7's own encoder wrapper writes at 14/10/12/8/12 bits, measured apart from this
+/// What Draco 1.5.7's own encoder writes at 14/10/12/8/12 bits, measured independently of this
 /// project.
 struct Anchor {
   const char* file;
@@ -314,7 +314,7 @@ TEST(DracoCodec, DecodesOnTheLatticeItWasGiven) {
   }
 }
 
-/// Models of a millimetre far from the origin: Draco's own setter would round the lattice to 1e-6.
+/// Models of a millimetre, far from the origin: Draco's own setter would round the lattice to 1e-6.
 TEST(DracoCodec, LatticeOfSmallModelsIsNotRounded) {
   Model model = makeGrid(12, Bits{});
   auto* positions = reinterpret_cast<float*>(model.columns[1].data());
@@ -450,7 +450,8 @@ TEST(DracoCodec, NanKeepsAnAttributeExact) {
   EXPECT_EQ(errors.attributes[0].undefined_count, 0u);
 }
 
-/// Draco subtracts, divides and converts to integers in float32, and its predictors take the results as indices' neighbours.
+/// Draco subtracts, divides and converts to integers in float32, so its predictors see values that
+/// may be off by one.
 TEST(DracoCodec, RangesBeyondFloatStayExact) {
   const Model plain = makeGrid(6, Bits{});
   for (size_t attribute = 0; attribute < plain.attributes.size(); ++attribute) {

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Decisions out of the bytes of a fuzzer, and what a target does when it finds something.
+// Makes decisions from the bytes of a fuzzer, and reports what a target finds.
 #ifndef MCC_TESTS_FUZZ_BYTE_FEED_H_
 #define MCC_TESTS_FUZZ_BYTE_FEED_H_
 
@@ -10,19 +10,19 @@
 #include <span>
 #include <string>
 
-/// The one function of a target; always returns 0. Does not keep `data`.
+/// The entry point of a target; always returns 0. Does not keep `data`.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
 
 namespace mcc::test {
 
-/// A find: the process ends, and the fuzzer keeps the input.
+/// Reports a finding: the process ends, and the fuzzer keeps the input.
 inline void require(bool holds, const std::string& what) {
   if (holds) return;
   std::fprintf(stderr, "found: %s\n", what.c_str());
   std::abort();
 }
 
-/// Takes bytes from the front; zeros behind the end.
+/// Takes bytes from the front; returns zeros after the end.
 class ByteFeed {
  public:
   ByteFeed(const uint8_t* data, size_t size) : bytes_(data, size) {}

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The bits of the input are the answers to the decisions of mesh collapse codes: what is expanded is a surface, whatever
-// they are. The first bytes are the header's claims.
+// The bits of the input are the answers to the decisions of mesh collapse codes. Whatever they are,
+// what is expanded must be a surface. The first bytes are the claims of the header.
 #include "connectivity/mc_codes.h"
 #include "connectivity/stitch.h"
 #include "entropy/dec_coder.h"

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Any sequence of reads on any three streams, or on one: values stay in their ranges, models stay valid, and the ends are
-// noticed.
+// Any sequence of reads on any three streams, or on one: values stay in their ranges, models stay
+// valid, and the ends of streams are detected.
 #include <array>
 #include <vector>
 
@@ -68,7 +68,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const auto script = feed.take(feed.u16());
   const auto codes = feed.take(feed.u16());
   const auto tokens = feed.take(feed.u16());
-  // Copies of their own sizes, so that the sanitizer sees every read beyond them.
+  // Copies of exactly their sizes, so that the sanitizer sees every read beyond them.
   const std::vector<uint8_t> a(codes.begin(), codes.end());
   const std::vector<uint8_t> b(tokens.begin(), tokens.end());
   const auto rest = feed.rest();

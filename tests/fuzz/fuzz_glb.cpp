@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Any bytes as a GLB, or any bytes as the JSON and the buffer of one: decode, inspect, validate and convert end with a file or with a
-// message. Payloads in buffer views get the right checksum. What decodes decodes again after another compression.
+// Any bytes as a GLB, or as the JSON and the buffer of one: decode, inspect, validate and convert
+// must end with a file or with a message. Payloads in buffer views get the right checksum. What can
+// be decoded must be decodable again after another compression.
 #include <algorithm>
 #include <cstring>
 #include <string>

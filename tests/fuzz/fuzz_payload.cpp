@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Any bytes as a payload. Magic, version and checksum are put right, so that they keep nothing from the rest.
+// Any bytes as a payload. Magic, version and checksum are repaired, so that decoding gets past
+// them.
 #include <algorithm>
 #include <vector>
 

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Bytes to a mesh, to a payload, to a mesh: the same one. Few distinct positions, so that everything touches everything.
+// Turns bytes into a mesh, a payload and a mesh again, which must be the same. There are few
+// distinct positions, so that many faces touch.
 #include <cstring>
 #include <vector>
 
@@ -17,7 +18,8 @@ struct FedAttribute {
   uint8_t bits = 0;
 };
 
-/// Values out of a few, so that predictors have something to find; now and then any bits at all.
+/// Takes most values from a small set, so that predictors find something, and sometimes any bits at
+/// all.
 void fill(FedAttribute& a, uint32_t wedge_count, ByteFeed& feed) {
   a.bytes.resize(size_t{wedge_count} * elementBytes(a.format));
   const uint32_t step = componentBytes(a.format.component_type);
@@ -97,7 +99,8 @@ void runRoundTrip(ByteFeed& feed) {
   options.keep_triangle_order = (flags & 4) != 0;
   options.keep_vertex_order = (flags & 8) != 0;
   options.effort = (flags & 16) != 0 ? 1 : 0;
-  if (flags >> 5 < 4) options.context_set = flags >> 5 & 1;  // else all are tried, which takes long
+  if (flags >> 5 < 4)
+    options.context_set = flags >> 5 & 1;  // otherwise all are tried, which is slow
   const RoundTrip result = roundTrip(piece, options);
   require(result.failure.empty(), result.failure);
 }

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// write-fuzz-seeds DIR: inputs for every target to begin with, into DIR/TARGET/. The same ones each time.
+// write-fuzz-seeds DIR: writes initial inputs for every target to DIR/TARGET/. They are the same
+// each time.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Every kind of accessor glTF 2.0 and KHR_mesh_quantization have, through the writer and back, and past the validator.
+// Sends every kind of accessor of glTF 2.0 and KHR_mesh_quantization through writer, reader and
+// validator.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +21,7 @@ constexpr Layout kLayouts[] = {Layout::kTight,  Layout::kStrided,         Layout
                                Layout::kSparse, Layout::kSparseOverZeros, Layout::kZeros};
 
 struct Kind {
-  std::string name;  ///< of the attribute
+  std::string name;  ///< name of the attribute
   int type = kFloat;
   bool normalized = false;
   uint32_t components = 3;
@@ -42,8 +43,8 @@ double lastOf(int type) {
   }
 }
 
-/// Values from 0 to 1 (normals: of unit length, weights: with the sum 1) as the kind stores them, elements padded to four
-/// bytes.
+/// Returns values from 0 to 1 (normals of unit length, weights with the sum 1) as the kind stores
+/// them, with elements padded to four bytes.
 std::vector<uint8_t> store(const std::vector<float>& values, const Kind& kind) {
   const uint32_t bytes = bytesOfType(kind.type);
   std::vector<uint8_t> stored;
@@ -179,7 +180,7 @@ class Maker {
   }
 };
 
-/// Converts losslessly and as usual, decodes, and compares.
+/// Converts losslessly and with default options, decodes, and compares.
 class AccessorKinds : public testing::Test {
  protected:
   void check(const std::string& name, const Maker& maker) {

@@ -10,7 +10,7 @@ namespace {
 
 class Accessors : public testing::Test {
  protected:
-  /// Loads the builder's file; the message of what went wrong.
+  /// Loads the builder's file, and returns the message of the failure.
   std::string load() {
     file_ = builder_.toGlb();
     return loadDocument(file_, nullptr, document_).message();
@@ -149,7 +149,7 @@ TEST_F(Accessors, RangesAreChecked) {
   EXPECT_NE(with("bufferView", 1), "");
   EXPECT_NE(with("bufferView", "0"), "");
   EXPECT_NE(with("type", 3), "");
-  EXPECT_EQ(with("type", "VEC9"), "");  // some extension's: not ours to judge
+  EXPECT_EQ(with("type", "VEC9"), "");  // may belong to some extension, so we do not judge it
 }
 
 TEST_F(Accessors, ViewsAreChecked) {

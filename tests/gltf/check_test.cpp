@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The check of `convert` must notice what is wrong: here the wrong thing is compressed on purpose.
+// The check of `convert` must notice errors: here the wrong data is compressed on purpose.
 #include "gltf/check.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class Check : public testing::Test {
     ASSERT_EQ(compressed_.payloads.size(), 1u);
   }
 
-  /// The check's verdict on a file that was compressed from something else than the source.
+  /// Returns the check's verdict on a file that was compressed from other data than the source.
   std::string verdictOn(const std::function<void(PayloadPlan&)>& sabotage) {
     std::vector<PayloadPlan> plans;
     std::vector<LeftAlone> left_alone;

@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Sources that other codecs compressed. The codecs here are made up: views have their bits inverted, meshes are a list of
-// their arrays. Those of others are tested in tests/foreign and tests/cli.
+// Sources that other codecs compressed. The codecs here are made up: views have their bits
+// inverted, and meshes are lists of their arrays. Real ones are tested in tests/foreign and
+// tests/cli.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -66,7 +67,8 @@ TEST(CodedViews, OthersStayCoded) {
   }
 }
 
-/// Triangles alone: the attributes stay in their coded views, the payload has the order.
+/// With only triangles compressed, the attributes stay in their coded views and the payload has the
+/// order.
 TEST(CodedViews, IndicesOnlyWorksBesideThem) {
   Json sheet;
   Builder builder = plainDocument(sheet);
@@ -88,7 +90,7 @@ TEST(CodedViews, IndicesOnlyWorksBesideThem) {
   }
 }
 
-/// The fallback is a third buffer then, behind the one that views of others claim to be in.
+/// The fallback is then a third buffer, after the one that coded views claim to be in.
 TEST(CodedViews, StayCodedBesideAFallback) {
   Json sheet;
   Builder builder = plainDocument(sheet);
@@ -114,13 +116,14 @@ TEST(CodedViews, StayCodedBesideAFallback) {
     EXPECT_EQ(document.json["buffers"][1]["extensions"][kViewName]["fallback"], true);
     EXPECT_EQ(document.json["buffers"][2]["uri"], "a.fallback.bin");
     EXPECT_TRUE(isCompressed(document.json, 0, 0));
-    for (const auto& [label, accessor] : sheet["attributes"].items()) {  // readable without us
+    for (const auto& [label, accessor] :
+         sheet["attributes"].items()) {  // readable without the extension
       const BufferView& view = document.views[document.accessors[accessor].view];
       EXPECT_FALSE(view.isCoded()) << label;
       EXPECT_EQ(view.buffer, 2u) << label;
     }
     EXPECT_TRUE(document.views[document.accessors[4].view].isCoded());
-    // With the fallback and without it the same is decoded.
+    // The decoded result is the same with and without the fallback.
     std::vector<uint8_t> decoded[2];
     for (std::vector<uint8_t>& bytes : decoded) {
       DecodeReport decode_report;

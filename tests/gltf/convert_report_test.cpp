@@ -17,8 +17,8 @@ const AttributeReport* find(const PayloadReport& payload, const std::string& nam
   return nullptr;
 }
 
-/// Two pieces of a payload, of which one has texture coordinates that no lattice holds: what is true of one is not said of
-/// the other.
+/// Two pieces of a payload, one of which has texture coordinates that no lattice can hold: the
+/// report must not mix them up.
 TEST(ConvertReport, PiecesCodedDifferentlyHaveRowsOfTheirOwn) {
   Builder builder;
   Sheet coarse(12);
@@ -43,7 +43,7 @@ TEST(ConvertReport, PiecesCodedDifferentlyHaveRowsOfTheirOwn) {
   EXPECT_EQ(bit_by_bit->vertex_count, exact.count());
   EXPECT_EQ(bit_by_bit->promised_error, 0);
   EXPECT_EQ(bit_by_bit->max_error, 0);
-  // The bits of each are its own: with the streams they are those of the payload.
+  // The bits of all attributes and streams add up to the payload.
   double bits = 0;
   for (const StreamReport& stream : payload.streams) bits += stream.bits;
   for (const AttributeReport& attribute : payload.attributes) {

@@ -46,7 +46,7 @@ TEST(Convert, SheetBecomesSmallerAndComesBack) {
 TEST(Convert, BoundsAreThoseOfTheDecodedData) {
   Builder builder;
   builder.addMesh({Sheet(20, 0.1234567f).addTo(builder)});
-  builder.json["accessors"][1]["min"] = {-1, -1, -1};  // kept, and made right
+  builder.json["accessors"][1]["min"] = {-1, -1, -1};  // kept, and corrected
   const RoundTrip trip = roundTrip(builder);
   ASSERT_EQ(trip.error, "");
   const Json json = jsonOf(trip.decoded);
@@ -106,7 +106,7 @@ TEST(Convert, AnOutlierMakesAnAttributeExactWithANote) {
   EXPECT_EQ(elementsOf(trip.source, 2), elementsOf(trip.decoded, 2));
 }
 
-/// A document full of things we do not know.
+/// A document full of things that we do not know.
 Builder strangeDocument() {
   Builder builder;
   builder.addMesh({Sheet(20).addTo(builder)});
@@ -153,7 +153,8 @@ TEST(Convert, KeepsEverythingElse) {
   EXPECT_NE(text.find("0.10000000000000000555"), std::string::npos);
 }
 
-/// glTF forbids empty lists; files have them all the same, and lose those of extensions when something is compressed.
+/// glTF forbids empty lists, but files have them. Empty lists of extensions are removed when
+/// something is compressed.
 TEST(Convert, EmptyListsOfExtensionsGo) {
   const auto convertWith = [](const std::vector<const char*>& lists) {
     Builder builder;
@@ -231,7 +232,8 @@ size_t unusedViews(const std::vector<uint8_t>& file) {
   return json["bufferViews"].size() - used.size();
 }
 
-/// Numbers in front of one that must stay are held by views without a use; decoding gives them to the accessors again.
+/// Unused views keep the numbers in use before one that must stay. Decoding gives them to the
+/// accessors again.
 TEST(Convert, DecodingLeavesNoViewsThatOnlyHoldNumbers) {
   for (const bool is_image_last : {false, true}) {
     SCOPED_TRACE(is_image_last);
@@ -251,14 +253,15 @@ TEST(Convert, DecodingLeavesNoViewsThatOnlyHoldNumbers) {
     EXPECT_EQ(unusedViews(trip.decoded), 0u);
     EXPECT_EQ(jsonOf(trip.decoded)["bufferViews"].size(), 5u);
     EXPECT_EQ(jsonOf(trip.decoded)["images"][0]["bufferView"], image);
-    // A file that is compressed already does not lose what holds numbers, nor gets more of it.
+    // Converting a compressed file again neither removes nor adds such views.
     const RoundTrip again = roundTrip(trip.converted);
     ASSERT_EQ(again.error, "");
     EXPECT_EQ(unusedViews(again.decoded), 0u);
   }
 }
 
-/// A part of a document was compressed before; what held its numbers is used for the rest.
+/// Part of a document was already compressed; the views that kept its numbers are used for the
+/// rest.
 TEST(Convert, NumbersThatAreFreeAreTakenByTheNextConversion) {
   Builder builder;
   builder.addMesh({Sheet(20).addTo(builder)});
@@ -284,7 +287,8 @@ TEST(Convert, NumbersThatAreFreeAreTakenByTheNextConversion) {
   EXPECT_EQ(unusedViews(trip.decoded), 0u);
 }
 
-/// A view of one byte that nothing refers to, as far as we know, is somebody's, unless the byte begins another view.
+/// A view of one byte that nothing refers to may still have a user, unless the byte begins another
+/// view.
 TEST(Convert, AViewOfOneByteMayBeInUse) {
   Builder builder;
   builder.addMesh({Sheet(20).addTo(builder)});
@@ -312,7 +316,8 @@ TEST(Convert, AccessorsNamedByUnknownExtensionsStayReadable) {
   EXPECT_EQ(elementsOf(trip.source, 0), elementsOf(trip.converted, 0));
 }
 
-/// The decoded indices and positions in the source's order, and the same bits where exact.
+/// Compares decoded indices and positions in the source's order; exact values must have the same
+/// bits.
 TEST(Convert, OrdersAreKeptOnRequest) {
   Builder builder;
   const Json sheet = Sheet(20).addTo(builder);
@@ -362,7 +367,7 @@ TEST(Convert, IndicesOnlyMovesTheAttributes) {
   EXPECT_GT(trip.converted.size(), moved_bytes);
 }
 
-/// An accessor in other hands stays as it is, and the payload tells the order.
+/// An accessor that something else uses stays as it is, and the payload stores the order.
 TEST(Convert, IndicesOnlyLeavesSharedAttributes) {
   Builder builder;
   const Json sheet = Sheet(30).addTo(builder);
@@ -442,7 +447,7 @@ TEST(Convert, VerticesWithANumberAreNotDropped) {
   EXPECT_EQ(elementsInOrder(trip.decoded, 3), elementsInOrder(trip.source, 3));
 }
 
-/// Distances measured without the library's check, at a place where floats are coarse.
+/// Measures distances without the library's check, at a place where floats are coarse.
 TEST(Convert, NoPositionIsFartherThanPromised) {
   for (const float offset : {0.0f, 1000.0f, -30000.0f}) {
     Builder builder;
@@ -489,7 +494,7 @@ TEST(Convert, ARelativeErrorIsOfTheLongestSide) {
   EXPECT_GT(position.max_distance, 0.1);
 }
 
-/// Two tiles with a border in common, converted apart.
+/// Two tiles with a common border, converted separately.
 TEST(Convert, AGivenLatticeMakesTilesMeet) {
   ConvertOptions options;
   options.keep_vertex_order = true;
@@ -611,7 +616,8 @@ TEST(Convert, PrimitivesOfAMeshShareTheirGrid) {
   EXPECT_EQ(common, 21u);
 }
 
-/// The border of two sheets, bit by bit, where they share a grid: in a mesh, in a scene, with a promised error.
+/// The border of two sheets is bit-identical where they share a grid: in a mesh, in a scene, with a
+/// promised error.
 TEST(Convert, BordersMeetWhereTheGridIsShared) {
   const auto commonPoints = [](bool in_one_mesh, const ConvertOptions& options) {
     Builder builder;
@@ -648,7 +654,8 @@ TEST(Convert, BordersMeetWhereTheGridIsShared) {
   EXPECT_LT(commonPoints(true, options), 21u);
 }
 
-/// What would ruin the grid of an attribute makes it exact; the others stay on theirs.
+/// Values for which a lattice would be too coarse make their attribute exact; the others keep
+/// theirs.
 TEST(Convert, OutliersAndNoNumbersMakeAnAttributeExact) {
   const float infinity = std::numeric_limits<float>::infinity();
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -884,7 +891,8 @@ TEST(Convert, TinyMeshesBesideLargeOnesStayAndKeepTheirBytes) {
   EXPECT_EQ(elementsOf(trip.source, 0), elementsOf(trip.converted, 0));
 }
 
-/// Never larger per primitive: a tiny one does not hide behind the gain of a large one in the same mesh.
+/// Files never grow per primitive: the loss of a tiny one is not hidden by the gain of a large one
+/// in the same mesh.
 TEST(Convert, TinyPrimitivesOfALargeMeshStayAsTheyWere) {
   Builder builder;
   Sheet apart(1);
@@ -900,7 +908,7 @@ TEST(Convert, TinyPrimitivesOfALargeMeshStayAsTheyWere) {
 }
 
 TEST(Convert, OneViewForAllIsTrimmed) {
-  // As many exporters write: all accessors one behind the other in one view.
+  // As many exporters do: all accessors one after the other in one view.
   Builder builder;
   builder.addMesh({Sheet(1).addTo(builder)});
   builder.addMesh({Sheet(24).addTo(builder)});
@@ -940,7 +948,7 @@ TEST(Convert, InterleavedAttributes) {
   ASSERT_EQ(trip.error, "");
   EXPECT_EQ(jsonOf(trip.converted)["bufferViews"].size(), 1u);
 
-  // With the texture coordinates in use elsewhere the vertices stay, and stay readable.
+  // If something else uses the texture coordinates, the vertices stay and are readable.
   const Json points = {{"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}}}, {"mode", 0}};
   builder.addMesh({points});
   trip = roundTrip(builder, evenIfLarger());
@@ -1014,7 +1022,7 @@ TEST(Convert, ConvertingAgainChangesNothing) {
 }
 
 TEST(Convert, SecondRoundIsStable) {
-  // Decoded data lie on the lattice: compressing them again loses nothing more.
+  // Decoded data lie on the lattice, so compressing them again loses nothing more.
   Builder builder;
   builder.addMesh({Sheet(24, 0.123f).addTo(builder)});
   const RoundTrip first = roundTrip(builder);

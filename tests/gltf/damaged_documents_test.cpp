@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Documents with a value changed at random: they convert, decode and are inspected, or they are refused
+// Changes values of documents at random: they must convert, decode and be inspected, or be refused
 // with one line. Meant to run with the sanitizers.
 #include <gtest/gtest.h>
 

@@ -26,7 +26,8 @@ class DecodeErrors : public testing::Test {
     ASSERT_EQ(convertGlb(builder.toGlb(), options, file_, report).message(), "");
   }
 
-  /// What decoding says after a change of the JSON. `change` gets the document and the extension.
+  /// Returns the message of decoding after a change of the JSON. `change` gets the document and the
+  /// extension.
   std::string errorAfter(const std::function<void(Json&, Json&)>& change) {
     GlbFile glb;
     Json json;
@@ -47,7 +48,7 @@ TEST_F(DecodeErrors, UnchangedIsFine) {
   EXPECT_EQ(errorAfter([](Json&, Json&) {}), "");
 }
 
-/// validate() names them; a loader loses nothing by them.
+/// validate() reports them; a loader loses nothing by them.
 TEST_F(DecodeErrors, StrideAndTargetOfThePayloadsViewAreIgnored) {
   EXPECT_EQ(errorAfter([](Json& j, Json&) { j["bufferViews"][0]["byteStride"] = 4; }), "");
   EXPECT_EQ(errorAfter([](Json& j, Json&) { j["bufferViews"][0]["target"] = 34962; }), "");
@@ -93,7 +94,7 @@ TEST_F(DecodeErrors, AttributeIds) {
             })
                 .find("of the payload is not "),
             std::string::npos);
-  EXPECT_NE(errorAfter([](Json&, Json& e) {  // a morph target is no base attribute
+  EXPECT_NE(errorAfter([](Json&, Json& e) {  // a morph target is not a base attribute
               e["targets"][0]["POSITION"] = 0;
             })
                 .find("/targets/0/POSITION"),
@@ -172,7 +173,7 @@ TEST_F(DecodeErrors, TwoCompressions) {
       std::string(kPath) + ": the primitive is compressed with KHR_draco_mesh_compression, too");
 }
 
-/// A byte has the indices 0 to 254; 255 is none.
+/// A byte holds the indices 0 to 254; 255 is not a valid index.
 TEST_F(DecodeErrors, IndexTypesHoldTheNumberOfVertices) {
   for (const uint32_t vertex_count : {225u, 256u}) {
     Builder builder;

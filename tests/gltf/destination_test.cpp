@@ -28,7 +28,7 @@ class DestinationTest : public testing::Test {
     std::ofstream(path(name), std::ios::binary) << content;
   }
 
-  /// All files, and folders as "name/", with their contents.
+  /// Returns all files with their contents, and folders as "name/".
   std::map<std::string, std::string> everything() const {
     std::map<std::string, std::string> found;
     for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) {
@@ -63,7 +63,7 @@ class DestinationTest : public testing::Test {
 
 TEST_F(DestinationTest, WritesAllFiles) {
   for (const std::string content : {"1", "2"}) {
-    // The second time the image belongs to nobody: the JSON does not name it.
+    // The second time nothing owns the image, because the JSON does not name it.
     fs::remove_all(path("new"));
     Destination destination(path("a.gltf"));
     ASSERT_EQ(destination.check(true).message(), "");
@@ -95,7 +95,7 @@ TEST_F(DestinationTest, LeavesNothingWithoutCommit) {
   EXPECT_TRUE(everything().empty());
 }
 
-/// What a program does that is ended in the middle of it.
+/// Does what a program does that a signal ends in the middle of its work.
 TEST_F(DestinationTest, TemporariesAreKnown) {
   TemporaryFiles temporaries;
   {
@@ -111,7 +111,7 @@ TEST_F(DestinationTest, TemporariesAreKnown) {
     ASSERT_TRUE(destination.check(true).ok());
     ASSERT_TRUE(destination.write(package(content)).ok());
     ASSERT_EQ(destination.commit().message(), "");
-    (void)temporaries.removeAll();  // what has its name stays; nothing else is left
+    (void)temporaries.removeAll();  // finished files stay; nothing else is left
     const auto files = everything();
     EXPECT_EQ(files.size(), 6u) << content;
     EXPECT_EQ(files.at("a.bin"), "buffer " + content);
@@ -160,7 +160,7 @@ TEST_F(DestinationTest, AFileThatAppearsIsNotReplaced) {
   EXPECT_EQ(everything().count("a.fallback.bin"), 0u);
 }
 
-/// A .gltf with its buffer, each of which tells whose it is.
+/// A .gltf with its buffer, each of which says who wrote it.
 Package pairOf(const std::string& writer) {
   Package package;
   const std::string main = R"({"buffers":[{"uri":"a.bin"}],"extras":")" + writer + "\"}";
@@ -169,7 +169,8 @@ Package pairOf(const std::string& writer) {
   return package;
 }
 
-/// Whoever is last: both files are his. Nobody is told that all is well and has half a pair.
+/// Both files belong to whoever wrote last. No writer reports success while only half of its pair
+/// is there.
 TEST_F(DestinationTest, APairIsAlwaysOneWriters) {
   constexpr int kRounds = 80;
   constexpr int kWriters = 3;
@@ -201,7 +202,7 @@ TEST_F(DestinationTest, APairIsAlwaysOneWriters) {
   }
 }
 
-/// Where folders cannot be locked, a pair that another program has broken is found out.
+/// Where folders cannot be locked, a pair that another program has broken up is detected.
 TEST_F(DestinationTest, ABrokenPairIsFoundOut) {
   Destination first(path("a.gltf"));
   ASSERT_TRUE(first.check(false).ok());
@@ -210,7 +211,7 @@ TEST_F(DestinationTest, ABrokenPairIsFoundOut) {
   EXPECT_EQ(first.checkTogether().message(), "");
   ASSERT_TRUE(writeFile(path("a.bin"), asBytes("second")).ok());
   EXPECT_NE(first.checkTogether().message().find("may not belong together"), std::string::npos);
-  // The whole pair of another is well.
+  // A complete pair of another program is fine.
   ASSERT_TRUE(writeFile(path("a.gltf"), pairOf("second").main).ok());
   EXPECT_EQ(first.checkTogether().message(), "");
 }
@@ -279,7 +280,7 @@ TEST_F(DestinationTest, StreamsAreWrittenTo) {
   EXPECT_NE(Destination(path("pipe")).check(false).message().find("a device or a pipe"),
             std::string::npos);
   fs::remove(path("pipe"));
-  // An open stream goes on where it is.
+  // An open stream continues at its position.
   store("log", "begin ");
   const int log = ::open(path("log").c_str(), O_WRONLY | O_APPEND);
   fs::create_symlink("/dev/fd/" + std::to_string(log), path("stream"));
@@ -304,7 +305,7 @@ TEST_F(DestinationTest, FilesAreKnownWhateverTheirNames) {
   EXPECT_TRUE(isSameFile(path("new"), path("d/up/new")));
   EXPECT_FALSE(isSameFile(path("new"), path("d/new")));
   EXPECT_FALSE(isSameFile(path("a"), path("d/a")));
-  EXPECT_FALSE(isSameFile(path("none/a"), path("none/a")));  // cannot be written anyway
+  EXPECT_FALSE(isSameFile(path("none/a"), path("none/a")));  // neither can be written
   EXPECT_FALSE(isSameFile("/dev/null", "/dev/null"));
 }
 

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What is no geometry survives: extras and unknown extensions on every object, odd numbers, images, animations, instances.
+// Everything except mesh geometry is preserved: extras and unknown extensions on every object, odd
+// numbers, images, animations, instances.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -91,7 +92,7 @@ void visitObjects(Json& json, const std::string& path,
   }
 }
 
-/// Members in which the file with compressed or decoded geometry may differ from its source.
+/// Members in which a file with compressed or decoded geometry may differ from its source.
 bool mayDiffer(const std::string& path) {
   static const std::set<std::string> kOfAccessors = {"bufferView", "byteOffset", "min", "max"};
   static const std::set<std::string> kOfViews = {"buffer", "byteOffset", "byteLength"};
@@ -103,7 +104,7 @@ bool mayDiffer(const std::string& path) {
          path.ends_with("/indices/bufferView") || path.ends_with("/values/bufferView");
 }
 
-/// Everything of `a` is in `b`.
+/// Checks that everything in `a` is in `b`.
 void expectKept(const Json& a, const Json& b, const std::string& path) {
   if (mayDiffer(path)) return;
   ASSERT_EQ(a.type(), b.type()) << path;
@@ -152,7 +153,7 @@ void expectSurvival(const Builder& builder, bool keeps_views) {
   ASSERT_EQ(trip.error, "");
   ASSERT_TRUE(isCompressed(jsonOf(trip.converted), 0, 0));
   Json source = jsonOf(trip.source);
-  if (!keeps_views) source.erase("bufferViews");  // those of the geometry go
+  if (!keeps_views) source.erase("bufferViews");  // the views of the geometry are removed
   expectKept(source, jsonOf(trip.converted), "");
   Json decoded_source = source;
   expectKept(decoded_source, jsonOf(trip.decoded), "");
@@ -171,7 +172,8 @@ TEST(EverythingElse, ExtrasOnEveryObject) {
   expectSurvival(builder, false);
 }
 
-/// All but on the accessors and views of the geometry, whose meaning it may change.
+/// Expects all of them, except on the accessors and views of the geometry, whose meaning may
+/// change.
 TEST(EverythingElse, UnknownExtensionsOnEveryObject) {
   Builder builder = fullDocument();
   size_t count = 0;
@@ -231,7 +233,7 @@ TEST(EverythingElse, WhatNumbersVerticesKeepsTheOrder) {
   EXPECT_TRUE(keepsOrder([](Json& j) {
     j["extensionsUsed"] = {"EXT_mesh_features"};
     j["meshes"][0]["primitives"][0]["extensions"]["EXT_mesh_features"]["featureIds"] = {
-        {{"featureCount", 441}}};  // the number of a vertex is its id
+        {{"featureCount", 441}}};  // the id of a vertex is its number
   }));
   EXPECT_TRUE(keepsOrder([](Json& j) {
     j["extensionsUsed"] = {"EXT_structural_metadata"};
@@ -240,7 +242,7 @@ TEST(EverythingElse, WhatNumbersVerticesKeepsTheOrder) {
   }));
 }
 
-/// Extensions whose objects count vertices, triangles or indices, as their drafts have them.
+/// Extensions whose objects count vertices, triangles or indices, according to their drafts.
 std::vector<std::pair<const char*, Json>> countingExtensions() {
   return {
       {"EXT_mesh_features", {{"featureIds", {{{"featureCount", 441}}}}}},

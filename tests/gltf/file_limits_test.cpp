@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What a file as a whole may cost: decoded bytes, payloads that many name, zeros, files that never end.
+// What a file as a whole may cost: decoded bytes, payloads that many primitives name, zeros, files
+// that never end.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -14,7 +15,8 @@
 namespace mcc::gltf::test {
 namespace {
 
-// Always 256 MiB, from there on 1024 for each byte, never more than 4 GiB unless the caller says so.
+// The limit is 256 MiB, more above that by 1024 for each byte, and never above 4 GiB unless the
+// caller says so.
 static_assert(decodedLimit(0, 0) == uint64_t{1} << 28);
 static_assert(decodedLimit(0, (uint64_t{1} << 18) + 1) == (uint64_t{1} << 28) + 1024);
 static_assert(decodedLimit(0, uint64_t{1} << 40) == uint64_t{1} << 32);
@@ -39,7 +41,8 @@ std::vector<uint8_t> withJson(std::span<const uint8_t> file, const Json& json) {
   return changed;
 }
 
-/// The primitive n times, each with accessors of its own; every other one names the payload by another view of its bytes.
+/// Repeats the primitive n times with accessors of its own; every other one names the payload by
+/// another view of its bytes.
 std::vector<uint8_t> multiplied(std::span<const uint8_t> file, size_t n) {
   Json json = jsonOf(file);
   const Json accessors = json["accessors"];
@@ -96,7 +99,7 @@ TEST(FileLimits, APayloadIsDecodedOnceWhoeverNamesIt) {
   for (const Json& view : json["bufferViews"]) {
     EXPECT_EQ(view.contains("byteStride"), view["target"] == 34962) << "glTF wants it if shared";
   }
-  // As integers they may differ, so that each has its own.
+  // As integers they may differ, so each accessor has its own.
   ASSERT_EQ(decodeGlb(many, many_decoded, report, {DecodeTo::kIntegers}).message(), "");
 }
 
@@ -242,7 +245,7 @@ TEST(FileLimits, OfAStreamAGlbIsReadToItsEnd) {
   std::vector<uint8_t> sent = file;
   sent.resize(file.size() + 1000);
   ASSERT_EQ(::write(ends[1], sent.data(), sent.size()), static_cast<ssize_t>(sent.size()));
-  // The writer goes on, so that there is no end of the stream; reading on would be an error here.
+  // The writer continues, so the stream has no end; reading on would be an error here.
   std::vector<uint8_t> bytes;
   EXPECT_EQ(readStream(ends[0], "pipe", bytes).message(), "");
   ::close(ends[0]);

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Small glTF documents, built in memory by tests.
+// Builds small glTF documents in memory for tests.
 #ifndef MCC_TESTS_GLTF_GLTF_BUILDER_H_
 #define MCC_TESTS_GLTF_GLTF_BUILDER_H_
 
@@ -35,7 +35,7 @@ class Builder {
   Json json = {{"asset", {{"version", "2.0"}}}};
   std::vector<uint8_t> bin;
 
-  /// Adds a buffer view with these bytes; returns its number.
+  /// Adds a buffer view with these bytes, and returns its number.
   uint32_t addView(const std::vector<uint8_t>& bytes, uint32_t stride = 0) {
     bin.resize((bin.size() + 3) & ~size_t{3}, 0);
     Json view = {{"buffer", 0}, {"byteOffset", bin.size()}, {"byteLength", bytes.size()}};

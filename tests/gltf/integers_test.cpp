@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// decode --decode-to integers: what a renderer shows is what the decoded floats show.
+// decode --decode-to integers: a renderer shows the same as with the decoded floats.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,11 +16,11 @@ namespace {
 struct BothDecodes {
   RoundTrip trip;
   std::vector<uint8_t> integers;
-  Json json;  ///< of `integers`
+  Json json;  ///< the JSON of `integers`
   std::vector<std::string> notes;
 };
 
-/// Converts, decodes both ways and compares what is shown.
+/// Converts, decodes both ways, and compares what is shown.
 BothDecodes decodeBoth(const Builder& builder, ConvertOptions options = {}) {
   BothDecodes both;
   options.allow_larger = true;

@@ -66,7 +66,7 @@ TEST(GltfJson, KeysAreWholeTexts) {
   EXPECT_EQ(MemberIndex(nullptr).find("a"), nullptr);
 }
 
-/// The parser quotes what it read last, in which ": " may stand as well as what a terminal obeys.
+/// The parser quotes what it read last, which may contain ": " and control characters.
 TEST(GltfJson, ErrorsAreWhole) {
   const std::string text = reprinted("{\"a: b");
   EXPECT_NE(text.find("the JSON is damaged (syntax error while parsing object key - invalid string: "

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Documents with very many of one thing. The work on them is linear, up to a logarithm; at these sizes quadratic work would
-// run into the timeout of the test.
+// Documents with very many of one thing. The work on them must be linear, up to a logarithm; at
+// these sizes quadratic work would run into the timeout of the test.
 #include <gtest/gtest.h>
 
 #include "gltf/check_json.h"
@@ -45,8 +45,8 @@ EncodedPayload payloadOver(uint32_t mesh, uint32_t a, uint32_t b, size_t bytes) 
 }
 
 TEST(LinearTime, LosersOfAChainOfPayloads) {
-  // Each frees 600 bytes and costs more than 300, so that it loses as soon as a neighbour does. The last one gains what all
-  // others lose together.
+  // Each frees 600 bytes and costs more than 300, so it loses as soon as a neighbour does. The last
+  // one gains what all others lose together.
   constexpr uint32_t kCount = 30000;
   std::vector<uint32_t> counts(kCount + 1, 300);
   counts.insert(counts.end(), {20000000, 1});

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Made-up codecs in the place of others: views have their bits inverted, meshes are a list of their arrays.
+// Made-up codecs that stand for others: views have their bits inverted, and meshes are lists of
+// their arrays.
 #ifndef MCC_TESTS_GLTF_MADE_UP_CODECS_H_
 #define MCC_TESTS_GLTF_MADE_UP_CODECS_H_
 
@@ -55,7 +56,7 @@ inline ConvertOptions withDecoders() {
   return options;
 }
 
-/// Turns the views of a document into coded ones; the buffer they claim to be in is the second one.
+/// Turns the views of a document into coded ones, which claim to be in the second buffer.
 inline void codeViews(Builder& builder, const std::vector<uint32_t>& views) {
   uint64_t placeholder_bytes = 0;
   for (const uint32_t number : views) {
@@ -85,7 +86,7 @@ inline std::vector<uint8_t> fileOf(const Builder& builder) {
   return result.ok() ? file : std::vector<uint8_t>{};
 }
 
-/// The primitive's attributes and indices move into one coded view.
+/// Moves the primitive's attributes and indices into one coded view.
 inline void codeMesh(Builder& builder, size_t mesh, bool keep_bytes = false) {
   Json& primitive = builder.json["meshes"][mesh]["primitives"][0];
   const std::vector<uint8_t> file = builder.toGlb();

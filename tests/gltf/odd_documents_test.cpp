@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Documents that tests/documents came upon.
+// Documents that tests/documents has found.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,7 +49,7 @@ TEST(OddDocuments, DeltasThatAreAllAlikeKeepTheirBits) {
     ASSERT_LT(std::abs(delta - 0.3f), 0.3f / 4095);
 }
 
-/// Its elements are in the file once.
+/// Its elements are stored once in the file.
 TEST(OddDocuments, OneAccessorForTwoAttributesIsReorderedOnce) {
   Builder builder;
   Json sheet = Sheet(12).addTo(builder);
@@ -64,7 +64,7 @@ TEST(OddDocuments, OneAccessorForTwoAttributesIsReorderedOnce) {
   EXPECT_EQ(jsonOf(trip.decoded)["bufferViews"].size(), 4u);
 }
 
-/// What is left of its users after the conversion draws lines; its values are still compared.
+/// After the conversion its only remaining user draws lines; its values are still compared.
 TEST(OddDocuments, SparseValuesInCodedViewsAreSharedWithLines) {
   Builder builder;
   const Sheet sheet(12);

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Small documents converted and decoded again, and what is in them.
+// Converts and decodes small documents, and reads what is in them.
 #ifndef MCC_TESTS_GLTF_ROUND_TRIP_H_
 #define MCC_TESTS_GLTF_ROUND_TRIP_H_
 
@@ -55,7 +55,7 @@ inline bool hasNote(const ConvertReport& report, const std::string& text) {
   return false;
 }
 
-/// The elements of an accessor as byte strings.
+/// Returns the elements of an accessor as byte strings.
 inline std::vector<std::string> elementsInOrder(const std::vector<uint8_t>& file,
                                                 uint32_t accessor) {
   Document document;

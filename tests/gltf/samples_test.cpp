@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The sample models: never larger, and what shares accessors still does after decoding.
+// The sample models: they never become larger, and what shares accessors still does after decoding.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Where a renderer shows the vertices of a document: morph targets, skins and nodes applied, in binary64.
+// Computes where a renderer shows the vertices of a document, with morph targets, skins and nodes
+// applied, in binary64.
 #ifndef MCC_TESTS_GLTF_SCENE_POSITIONS_H_
 #define MCC_TESTS_GLTF_SCENE_POSITIONS_H_
 
@@ -16,7 +17,7 @@
 
 namespace mcc::gltf::test {
 
-using Matrix = std::array<double, 16>;  // columns first
+using Matrix = std::array<double, 16>;  // column-major
 
 inline Matrix identity() { return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; }
 
@@ -54,8 +55,8 @@ class SceneReader {
 
   bool isOk() const { return is_ok_; }
 
-  /// Per node that shows a mesh, x y z of the vertices of all its primitives. A node without a number below `node_count`
-  /// counts as its parent.
+  /// Returns, for each node that shows a mesh, x y z of the vertices of all its primitives. A node
+  /// whose number is not below `node_count` counts as its parent.
   std::map<uint32_t, std::vector<double>> positions(size_t node_count) const {
     std::map<uint32_t, std::vector<double>> all;
     const Json& nodes = arrayOf(document_.json, "nodes");
@@ -153,7 +154,7 @@ class SceneReader {
     return matrices;
   }
 
-  /// Per vertex the matrix that places it.
+  /// Returns for each vertex the matrix that places it.
   std::vector<Matrix> skinMatrices(const Json& skin, const Json& attributes, size_t count) const {
     const std::vector<Matrix> joints = jointMatrices(skin);
     std::vector<Matrix> matrices(count, Matrix{});
@@ -195,8 +196,9 @@ class SceneReader {
   std::vector<uint32_t> parents_;
 };
 
-/// Largest distance, along an axis, of where the vertices of two documents are, and the largest coordinate. The second may
-/// have more nodes than the first. Negative: they do not show the same vertices.
+/// Returns the largest distance, along an axis, between the vertices of two documents, and the
+/// largest coordinate. The second document may have more nodes than the first. The distance is
+/// negative if they do not show the same vertices.
 struct SceneDifference {
   double off = -1;
   double largest = 0;

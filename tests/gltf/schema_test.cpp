@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The extension objects of what is written here, and of the conformance suite, against the JSON Schema (npm's ajv).
+// Checks extension objects, of files written here and of the conformance suite, against the JSON
+// Schema (npm's ajv).
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 const fs::path kRoot = MCC_SOURCE_DIR;
 
-/// Files of which one sort of extension object is in all.
+/// Files that together have every kind of extension object.
 class SchemaList {
  public:
   explicit SchemaList(fs::path folder) : folder_(std::move(folder)) {}

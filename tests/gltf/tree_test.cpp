@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// mcTree(): of a payload and of plain triangles; and what inspect works out of a payload.
+// mcTree() for a payload and for plain triangles, and what inspect derives from a payload.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ Point pointOf(const McTree& tree, uint32_t vertex) {
           tree.positions[3 * vertex + 2]};
 }
 
-/// Ends of the edges in their order: the same wherever vertices have other numbers.
+/// Returns the ends of the edges in their order, independently of the numbers of vertices.
 std::vector<std::pair<Point, Point>> edgesOf(const McTree& tree) {
   std::vector<std::pair<Point, Point>> edges;
   for (const McTree::Edge& edge : tree.edges) {
@@ -122,7 +122,7 @@ TEST(McTree, SaysWhatIsWrong) {
   EXPECT_EQ(failure(builder, 1, 0), "there is no mesh 1; the last is 0");
 }
 
-/// Damaged payloads are errors, or trees of what they hold.
+/// Damaged payloads give errors, or trees of what they hold.
 TEST(McTree, OfDamagedFiles) {
   const std::vector<uint8_t> good = compressed(sample("torus.glb"), {});
   for (size_t at = 20; at < good.size(); at += 97) {
@@ -168,7 +168,7 @@ TEST(InspectStreams, SumUpToThePayload) {
   }
 }
 
-/// All faces of n^3 boxes: a wall between two is there twice.
+/// All faces of n^3 boxes; a wall between two boxes occurs twice.
 Sheet stackedBoxes(uint16_t n) {
   Sheet boxes(0);
   boxes.positions.clear();

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Bit-equal vertices and triangles of two documents. Nothing of the library's own check is used but reading.
+// Bit-equal vertices and triangles of two documents. Only reading is shared with the library's own
+// check.
 #ifndef MCC_TESTS_GLTF_TUPLES_H_
 #define MCC_TESTS_GLTF_TUPLES_H_
 
@@ -18,7 +19,7 @@
 
 namespace mcc::gltf::test {
 
-/// A triangle primitive: per vertex the bytes of all its attributes, and the expanded triangles.
+/// A triangle primitive: the bytes of all attributes of each vertex, and the expanded triangles.
 struct Primitive {
   std::vector<std::string> tuples;
   std::vector<uint32_t> indices;
@@ -84,8 +85,8 @@ inline void comparePrimitives(const Primitive& source, const Primitive& decoded,
   EXPECT_EQ(numbers.size(), tuple_count) << "vertices the source has not";
 }
 
-/// Every primitive has the same number of vertices and the same triangles over bit-equal attributes; with `keeps_order` the
-/// same bytes and the same expanded indices.
+/// Expects that every primitive has the same number of vertices and the same triangles over
+/// bit-equal attributes and, with `keeps_order`, the same bytes and the same expanded indices.
 inline void compareTuples(const std::vector<uint8_t>& source_file,
                           const std::vector<uint8_t>& decoded_file, bool keeps_order) {
   Document source, decoded;

@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Documents that are valid and odd: nothing in them to compress, more in a mesh than a payload holds, accessors and keys
-// that are used in unusual ways. convert() decodes and compares what it wrote, so that success proves most.
+// Documents that are valid but unusual: nothing in them to compress, more in a mesh than a payload
+// holds, accessors and keys used in unusual ways. convert() decodes and compares what it wrote, so
+// success proves most.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -103,7 +104,7 @@ TEST(ManyAttributes, AMeshOfManyPrimitivesBecomesSeveralPayloadsOnOneLattice) {
   }
 }
 
-/// Sheets with so many morph targets of positions and normals.
+/// Sheets with this many morph targets of positions and normals.
 Json withTargets(Builder& builder, uint32_t n, uint32_t count) {
   const Sheet sheet(n);
   Json primitive = sheet.addTo(builder);
@@ -142,7 +143,7 @@ TEST(ManyAttributes, WhatAPayloadCannotHoldOfAPrimitiveStaysBesideIt) {
     in_payload += map.size();
   }
   EXPECT_EQ(in_payload, 1024u - 3);
-  // The last target, beside the payload, still belongs to its vertices.
+  // The last target, which stays next to the payload, still belongs to its vertices.
   EXPECT_EQ(elementsInOrder(trip.decoded, 4 + 2 * 519), elementsInOrder(trip.source, 4 + 2 * 519));
   options.indices_only = true;
   EXPECT_EQ(roundTrip(builder, options).error, "");

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What validate() finds: everything in the conformance suite's negative assets, nothing in the others and in what is
-// written here, and each rule of documents alone.
+// What validate() finds: everything in the negative assets of the conformance suite, nothing in the
+// others or in files written here, and each rule of documents by itself.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -311,7 +311,7 @@ TEST_F(Validate, UncompressedFilesAreValid) {
   EXPECT_EQ(report.payload_count, 0u);
 }
 
-/// A file whose accessors all have their elements in the BIN chunk, behind the payload.
+/// A file whose accessors all have their elements in the BIN chunk, after the payload.
 class ValidateFallback : public Validate {
  protected:
   void SetUp() override {

@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// payload-digest FILE...: decodes payloads with the reader alone and prints, for each, a CRC-32 of every index and every
-// element, or the error. Built for several machines by tools/check/machines: all must print the same.
+// payload-digest FILE...: decodes payloads using only the reader, and prints for each a CRC-32 of
+// every index and every element, or the error. tools/check/machines builds it for several machines;
+// all must print the same.
 #include <cstdio>
 #include <cstdlib>
 #include <vector>

@@ -40,9 +40,9 @@ using Triangles = std::vector<std::array<uint32_t, 3>>;
 
 // ---- Lists of operations ------------------------------------------------------------------------
 
-/// Operations of the codec as the paper's code words: S flag -> S before its operation, EXPAND of r
-/// -> degree r + 3, TWIG -> S E, END -> E. The end of a component is no code word. index_of: the
-/// oracle's index of each of the codec's vertices.
+/// The operations of the codec as the paper's code words: S flag -> S before its operation, EXPAND
+/// of r -> degree r + 3, TWIG -> S E, END -> E. The end of a component is not a code word. index_of
+/// is the oracle's index of each of the codec's vertices.
 Records inPaperWords(std::span<const McOperation> operations, const McRecord& record,
                      std::span<const uint32_t> index_of) {
   const auto vertex = [&](uint32_t v) {
@@ -68,7 +68,7 @@ size_t firstDifference(const Records& a, const Records& b) {
                              a.begin());
 }
 
-/// "" for equal lists, else the first place where they part.
+/// Returns "" for equal lists, else the first place where they differ.
 std::string difference(const Records& oracle, const Records& codec) {
   if (oracle == codec) return "";
   const size_t place = firstDifference(oracle, codec);
@@ -88,7 +88,7 @@ void addTo(CodeHistogram& counts, const Records& records) {
       case Kind::kHandle: ++counts.handle; break;
       case Kind::kDegree:
         ++counts.degree[std::min(record.code.degree, 255u)];
-        // Behind an S the vertex is one that was there before.
+        // After an S the vertex already exists.
         if (record.vertices[0].dummy && !joined) ++counts.dummy;
     }
     joined = record.code.kind == Kind::kStart;
@@ -225,8 +225,8 @@ class Comparison {
     return counts.start;
   }
 
-  /// Expects the comparison to fail behind the first divide when the oracle goes on with the other
-  /// digon. False when nothing is divided, and the lists are equal.
+  /// Expects the comparison to fail after the first divide when the oracle continues with the other
+  /// digon. Returns false when nothing is divided, and the lists are equal.
   bool expectOtherSideDiffers(uint32_t start) const {
     SCOPED_TRACE("start half-edge " + std::to_string(start));
     const Records other = encodeByPaper(closed_, start, {.side = OracleSide::kOther}).records;
@@ -313,7 +313,8 @@ void expectAllStarts(const OracleMesh& mesh) {
   }
 }
 
-/// Random starts, and one at a dummy where there is a hole. Returns the number of divides.
+/// Compares from random starts, and from one at a dummy where there is a hole. Returns the number
+/// of divides.
 uint64_t expectSomeStarts(const OracleMesh& mesh, Random& random, uint32_t starts) {
   const Comparison comparison(mesh);
   uint64_t divides = 0;

@@ -1,8 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What a payload may cost at most for its bytes, whatever it claims: 600 bytes 0.1 s and 50 MB. The time is bounded by
-// counts here, which are in proportion. MCC_FORGED_PAYLOADS sets the number of payloads, MCC_FORGED_BYTES their size and
-// MCC_FIRST_FORGED the first seed; with MCC_FORGED_TIMES the slowest are printed, and the slowest is written to that file.
+// What a payload may cost at most for its bytes, whatever it claims: 600 bytes may take 0.1 s and
+// 50 MB. Counts that are proportional to time are bounded here instead of time. MCC_FORGED_PAYLOADS
+// sets the number of payloads, MCC_FORGED_BYTES their size and MCC_FIRST_FORGED the first seed.
+// With MCC_FORGED_TIMES the slowest payloads are printed, and the slowest one is written to that
+// file.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +23,7 @@ namespace {
 
 constexpr uint64_t kForged = 150;
 constexpr uint64_t kForgedBytes = 100;
-/// The promise: what a byte may cost. [A.2.6]
+/// The promise: the work per byte is bounded. [A.2.6]
 constexpr uint64_t kElementsPerByte = 1024;
 constexpr uint64_t kMemoryPerByte = 50'000'000 / 600;
 /// Decisions, tokens and raw bits: an element takes a few nanoseconds for each.
@@ -32,7 +34,8 @@ uint64_t fromEnvironment(const char* name, uint64_t otherwise) {
   return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
 }
 
-/// Faces, vertices, wedges and values that the reader walks over, whatever it counts itself.
+/// Counts faces, vertices, wedges and values that the reader walks over, independently of the
+/// reader's own count.
 uint64_t walkedOver(const PayloadInfo& info) {
   uint64_t count = 0;
   for (const PieceInfo& piece : info.pieces) {
@@ -45,7 +48,7 @@ uint64_t walkedOver(const PayloadInfo& info) {
   return count;
 }
 
-/// The slowest payloads, for people.
+/// Prints the slowest payloads for a developer.
 class Slowest {
  public:
   void note(uint64_t seed, const ForgedPayload& forged, const Outcome& outcome, double seconds) {
@@ -111,7 +114,8 @@ TEST(Cost, OfForgedPayloadsIsBoundedByTheirBytes) {
   if (times != nullptr) slowest.print(times);
   std::printf("%llu decoded, %llu near the bound\n", static_cast<unsigned long long>(decoded),
               static_cast<unsigned long long>(near_the_bound));
-  // The payloads are worth something: some are whole, and many come near what they may claim.
+  // Make sure that the payloads are useful: some are whole, and many come close to what they may
+  // claim.
   EXPECT_GT(decoded, count / 20);
   EXPECT_GT(near_the_bound, count / 10);
 }

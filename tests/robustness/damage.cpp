@@ -15,7 +15,8 @@ namespace mcc::test {
 namespace {
 
 constexpr size_t kMaxTargetBytes = size_t{64} << 20;
-/// What the decoder may take besides what is in proportion to the counts: models, and small arrays.
+/// What the decoder may take in addition to what is proportional to the counts: models, and small
+/// arrays.
 constexpr uint64_t kFixedBytes = uint64_t{16} << 20;
 /// ... and per triangle, vertex and wedge, attributes apart.
 constexpr uint64_t kBytesPerElement = 256;
@@ -110,7 +111,7 @@ std::vector<uint8_t> mutated(std::span<const uint8_t> payload, size_t header_byt
                              Random& random) {
   std::vector<uint8_t> bytes(payload.begin(), payload.end());
   const auto size = [&bytes] { return static_cast<uint32_t>(bytes.size()); };
-  // The first bytes are magic and checksum, and reject everything.
+  // Damage to the first bytes, magic and checksum, would always be rejected.
   const auto place = [&](bool in_header) {
     const uint32_t end = in_header ? std::min(static_cast<uint32_t>(header_bytes), size()) : size();
     const uint32_t begin = std::min<uint32_t>(kChecksummedFrom, end - 1);
@@ -168,7 +169,7 @@ Outcome decodeDamaged(std::span<const uint8_t> payload) {
     if (status.error == Error::kBadArgument) outcome.failure = "takes a good argument for a bad";
   };
   CountingAllocator counting;
-  // A copy of its own size, so that the sanitizer sees every read beyond it.
+  // A copy of exactly its size, so that the sanitizer sees every read beyond it.
   const std::vector<uint8_t> bytes(payload.begin(), payload.end());
   {
     Payload opened;

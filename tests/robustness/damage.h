@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Damaging payloads, and decoding what came of it under watch.
+// Damages payloads, and watches how they are decoded.
 #ifndef MCC_TESTS_ROBUSTNESS_DAMAGE_H_
 #define MCC_TESTS_ROBUSTNESS_DAMAGE_H_
 
@@ -19,25 +19,27 @@ namespace mcc::test {
 /// Makes the checksum fit the bytes.
 void repairChecksum(std::vector<uint8_t>& payload);
 
-/// Some damage: flipped bits, other bytes, moved, cut or inserted stretches, other numbers in the header.
-/// `header_bytes` is where the streams begin in the intact payload. The checksum is not repaired.
+/// Damages bytes: flips bits, changes bytes, moves, cuts or inserts stretches, or changes numbers
+/// in the header. `header_bytes` is where the streams begin in the intact payload. The checksum is
+/// not repaired.
 std::vector<uint8_t> mutated(std::span<const uint8_t> payload, size_t header_bytes, Random& random);
 
-/// How decoding ended, and what is wrong with that.
+/// How decoding ended, and what was wrong with it.
 struct Outcome {
   Error error = Error::kOk;
   bool reached_decode = false;
   uint64_t finished_steps = 0;  ///< calls of DecodeOptions::progress
-  uint64_t peak_bytes = 0;      ///< that the decoder held at a time
-  uint64_t target_bytes = 0;    ///< that its caller took for the outputs
-  std::string failure;  ///< "" for an error, or for a shape that is as valid as the reader promises
+  uint64_t peak_bytes = 0;      ///< the most that the decoder held at a time
+  uint64_t target_bytes = 0;    ///< memory that its caller took for the outputs
+  std::string failure;          ///< "" for an error, or for a shape as valid as the reader promises
 };
 
-/// Opens and decodes. Checks: every index below wedge_count; octahedral normals of unit length; an error has a text;
-/// memory linear in the claimed counts; everything given back to the allocator.
+/// Opens and decodes. Checks that every index is below wedge_count, octahedral normals have unit
+/// length, an error has a text, memory is linear in the claimed counts, and everything was returned
+/// to the allocator.
 Outcome decodeDamaged(std::span<const uint8_t> payload);
 
-/// Ends the process with a message when no call of step() has come for a minute: decoding hangs.
+/// Ends the process with a message when step() was not called for a minute, because decoding hangs.
 class Watchdog {
  public:
   Watchdog();

@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Damaged payloads give an error or a valid shape, never anything else. MCC_MUTATIONS sets the number of mutations
-// of a small payload; big ones get fewer. MCC_FIRST_MUTATION moves on to others.
+// Damaged payloads must give an error or a valid shape, never anything else. MCC_MUTATIONS sets the
+// number of mutations of a small payload; big ones get fewer. MCC_FIRST_MUTATION selects other
+// ones.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -46,7 +47,7 @@ TEST(Damage, EveryTruncationIsAnError) {
   for (const NamedPayload& payload : robustnessPayloads()) {
     const size_t step = payload.bytes.size() > kSmallBytes ? 29 : 1;
     for (size_t size = 0; size < payload.bytes.size(); size += step) {
-      // A copy of its own size, so that the sanitizer sees every read beyond it.
+      // A copy of exactly its size, so that the sanitizer sees every read beyond it.
       const std::vector<uint8_t> cut(payload.bytes.begin(),
                                      payload.bytes.begin() + static_cast<std::ptrdiff_t>(size));
       Payload opened;
@@ -88,7 +89,7 @@ TEST(Damage, TruncationsWithAGoodChecksum) {
       EXPECT_EQ(outcome.failure, "") << payload.name << " cut to " << size;
       shapes += outcome.error == Error::kOk ? 1 : 0;
     }
-    // The last words of a stream may be others without notice, not more.
+    // The last words of a stream may change without being noticed, but no others.
     EXPECT_LE(shapes, 32u) << payload.name;
   }
 }
@@ -156,7 +157,7 @@ TEST(Damage, Mutations) {
   for (const auto& [error, times] : errors) {
     RecordProperty("error_" + std::to_string(static_cast<int>(error)), std::to_string(times));
   }
-  // The mutations are worth something: most get past the header, and each stage refuses some.
+  // Make sure that the mutations are useful: most get past the header, and each stage refuses some.
   EXPECT_GT(reached_decode, all / 3);
   for (const Error error : {Error::kTruncated, Error::kBadHeader, Error::kBadConnectivity,
                             Error::kBadAttribute, Error::kTrailingBytes}) {

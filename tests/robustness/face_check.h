@@ -9,7 +9,7 @@
 
 namespace mcc::test {
 
-/// What is promised of the faces of every code, also of one no writer makes.
+/// Checks what is promised of the faces of every code, even of one that no writer makes.
 inline std::string checkFaces(const uint32_t* words, uint32_t face_count, uint32_t vertex_count) {
   const uint32_t end = face_count * kFaceWords;
   for (uint32_t f = 0; f < face_count; ++f) {

@@ -12,8 +12,9 @@
 namespace mcc::test {
 namespace {
 
-/// A decoder whose answers are encoded as they are given. A model is asked the first time: its answer is drawn; from then
-/// on it gives the same one, which soon costs nothing, except for a few that a budget of bits pays.
+/// A decoder whose answers are recorded for encoding. When a model is asked for the first time, its
+/// answer is drawn. From then on it gives the same answer, which soon costs nothing, except for a
+/// few that a budget of bits pays for.
 class ForgingIo {
  public:
   using Burst = SameIo<ForgingIo>;
@@ -54,7 +55,8 @@ class ForgingIo {
   uint32_t raw(uint32_t bits, uint32_t = 0) {
     if (bits == 0) return 0;
     ++symbols_;
-    if (!hasBudget() && last_token_ != nullptr) *last_token_ = 0;  // tokens with bits are too dear
+    if (!hasBudget() && last_token_ != nullptr)
+      *last_token_ = 0;  // tokens with raw bits cost too much
     return encoder_.raw(bits, static_cast<uint32_t>(random_.next() & ((uint64_t{1} << bits) - 1)));
   }
 
@@ -168,7 +170,7 @@ struct Draft {
 };
 
 void drawAttributes(Draft& draft, Random& random) {
-  if (random.chance(10)) return;  // triangles alone
+  if (random.chance(10)) return;  // only triangles
   draft.attributes.push_back(drawPosition(random));
   constexpr uint32_t kMany = sizeof(kKinds) / sizeof(kKinds[0]);
   const uint32_t more = random.below(random.chance(50) ? 3 : 40);
@@ -238,7 +240,7 @@ class Forger {
       if (forged.elements <= most && forged.bytes.size() <= max_bytes_) {
         if (forged.elements > most - most / 8 || attempt > 6) return forged;
       }
-      // Fewer bytes or elements take fewer operations, about in proportion.
+      // Fewer bytes or elements take proportionally fewer operations.
       const double by_elements =
           0.97 * static_cast<double>(most) / static_cast<double>(forged.elements);
       const double factor =
@@ -292,7 +294,8 @@ class Forger {
     h.wedge_count = 3 * h.face_count + h.isolated_count;
   }
 
-  /// Through all stages, as far as they go: an error is for the reader to find, after all that work.
+  /// Runs all stages as far as they go: the reader is meant to find an error only after all that
+  /// work.
   bool code(ForgedPayload& forged) {
     for (int pass = 0; pass < 3; ++pass) {
       ForgingIo io(seed_, budgetBits(), draft_.single);
@@ -308,7 +311,7 @@ class Forger {
     return false;
   }
 
-  /// True: a count was learnt, all has to be coded anew.
+  /// Returns true if a count was learnt, so that everything has to be coded again.
   bool codeStages(ForgingIo& io) {
     PayloadModels models{Allocator{}};
     PieceHeader& h = draft_.header;

@@ -1,8 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Random decisions straight into the stages of the decoder, past the entropy coders: topologies that no writer makes
-// (handles and dummies anywhere), claims in the header that fit them, and every later stage on top.
-// MCC_MACHINE_RUNS sets the number of runs.
+// Feeds random decisions directly to the stages of the decoder, past the entropy coders: topologies
+// that no writer makes (handles and dummies anywhere), claims in the header that fit them, and
+// every later stage on top. MCC_MACHINE_RUNS sets the number of runs.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -27,13 +27,13 @@ uint64_t runsFromEnvironment() {
   return text == nullptr ? kRuns : std::strtoull(text, nullptr, 10);
 }
 
-/// A decoder whose answers are random, with leanings that change now and then.
+/// A decoder whose answers are random, with a bias that changes from time to time.
 class RandomIo {
  public:
   using Burst = SameIo<RandomIo>;
   using CodesBurst = SameIo<RandomIo>;
   static constexpr bool kEncoding = false;
-  static constexpr bool kFast = true;  // the inner loops of the decoder
+  static constexpr bool kFast = true;  // compiles the inner loops of the decoder
 
   RandomIo(uint64_t seed, uint32_t budget) : random_(seed), budget_(budget) { lean(); }
 
@@ -90,7 +90,8 @@ class RandomIo {
 ObservedCodes observe(uint64_t seed, const McCounts& claims, uint32_t context_set) {
   RandomIo io(seed, 1u << 22);
   ObservedCodes observed = observeCodes(io, claims, context_set);
-  // Every answer is one of an operation, or closes a node of which operations make two at most; handles take some more.
+  // Every answer belongs to an operation, or closes a node, of which an operation makes at most
+  // two; handles take some more.
   if (io.used() > 200 * (uint64_t{claims.operation_count} + 10)) observed.failure = "too much work";
   return observed;
 }
@@ -103,7 +104,8 @@ struct Depth {
   uint64_t attributes = 0;
 };
 
-/// All stages on one random topology. Claims that only later answers can settle are learnt in a first pass.
+/// Runs all stages on one random topology. Claims that only later answers can settle are learnt in
+/// a first pass.
 class RandomPiece {
  public:
   RandomPiece(uint64_t seed, const PieceHeader& header, uint32_t context_set)
@@ -175,14 +177,14 @@ class RandomPiece {
   }
 
  private:
-  /// False: claims were learnt, another pass is due.
+  /// Returns false if claims were learnt and another pass is needed.
   bool runOnce(Depth* depth) {
     RandomIo io(seed_, 1u << 22);
     PayloadModels models{Allocator{}};
     if (!models.mc.init(context_set_)) return true;
     PieceCoder<RandomIo> piece(io, models, header_, attributes_.data(), {}, nullptr);
     const PieceTruth nothing;
-    // Fails when the last vertices have no triangle, which the faces do not tell.
+    // Fails when the last vertices have no triangle, which the faces cannot show.
     if (!piece.codeConnectivity(nothing).ok()) return true;
     if (depth != nullptr) ++depth->connectivity;
     if (!piece.codeStitch(nothing).ok()) return depth != nullptr;
@@ -297,12 +299,12 @@ TEST(Machine, RandomAnswers) {
   RecordProperty("positions", std::to_string(depth.positions));
   RecordProperty("seams", std::to_string(depth.seams));
   RecordProperty("attributes", std::to_string(depth.attributes));
-  // The runs are worth something: a part of them reaches the end.
+  // Make sure that the runs are useful: some of them reach the end.
   EXPECT_GT(with_handles, runs / 200);
   EXPECT_GT(depth.attributes, runs / 200);
 }
 
-/// Random answers about faces that are listed by pivots, through all stages.
+/// Gives random answers about faces that are listed by pivots, through all stages.
 TEST(Machine, RandomPivots) {
   const uint64_t runs = runsFromEnvironment();
   Watchdog watchdog;
@@ -325,7 +327,7 @@ TEST(Machine, RandomPivots) {
   EXPECT_GT(depth.attributes, runs / 200);
 }
 
-/// Random bytes as code stream, under any claims.
+/// Uses random bytes as code stream, under any claims.
 TEST(Machine, RandomCodeStreams) {
   const uint64_t runs = runsFromEnvironment();
   Watchdog watchdog;

@@ -1,5 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-//
+// Finds out what random answers to the mesh collapse machine yield, to make claims that fit them.
 // What random answers to the mesh collapse machine yield, for claims that fit them.
 #ifndef MCC_TESTS_ROBUSTNESS_OBSERVED_CODES_H_
 #define MCC_TESTS_ROBUSTNESS_OBSERVED_CODES_H_
@@ -14,7 +14,7 @@
 
 namespace mcc::test {
 
-/// Counts the ones that were answered for some models.
+/// Counts the ones among the answers for some models.
 class WatchedModels {
  public:
   void watch(const BitModel* first, size_t count) { watched_.push_back({first, first + count}); }
@@ -40,8 +40,8 @@ struct ObservedCodes {
   std::string failure;
 };
 
-/// Runs the machine on claims it cannot fulfil, to learn what the answers of `io` yield. `io` has watched(), its
-/// WatchedModels.
+/// Runs the machine on claims it cannot fulfil, to learn what the answers of `io` yield. `io` has
+/// watched(), which returns its WatchedModels.
 template <class Io>
 ObservedCodes observeCodes(Io& io, const McCounts& claims, uint32_t context_set) {
   constexpr uint32_t kUntouched = 0xabababab;

@@ -47,7 +47,7 @@ EncodeOptions keepingOrders(bool vertices, bool triangles) {
   return options;
 }
 
-/// Triangles dealt out to `count` parts in turns, and an empty part behind them.
+/// Deals triangles out to `count` parts in turn, and adds an empty part after them.
 void addParts(PayloadList& list, const TestMesh& mesh, uint32_t count,
               const EncodeOptions& options = {}) {
   std::vector<std::vector<uint32_t>> indices(count + 1);
@@ -126,7 +126,8 @@ void addAttributes(PayloadList& list, const TestMesh& mesh) {
   list.add("attributes on " + mesh.name, {&view, 1});
 }
 
-/// Everything exact: grids with and without tails, computed normals, tangents, values that fit nothing.
+/// Everything is exact: grids with and without tails, computed normals, tangents, and values that
+/// fit nothing.
 void addExact(PayloadList& list, const TestMesh& mesh) {
   MeshPiece piece(mesh, kExactBits);
   std::vector<std::vector<float>> memory;

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Payloads to damage: every stage of the codec and both kinds of container occur in them.
+// Payloads to damage. Every stage of the codec and both kinds of container occur in them.
 #ifndef MCC_TESTS_ROBUSTNESS_PAYLOADS_H_
 #define MCC_TESTS_ROBUSTNESS_PAYLOADS_H_
 

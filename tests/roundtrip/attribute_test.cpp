@@ -164,7 +164,7 @@ TEST(Attributes, IntegersOfEveryFormat) {
           AttributeFormat format = formatOf(semantic, type, components, kept.size() % 2 == 0);
           format.set_index = static_cast<uint8_t>(type);
           kept.push_back(integerValues(mesh, format, shape));
-          piece.add(format, kept.back().data(), 12);  // bits mean nothing to integers
+          piece.add(format, kept.back().data(), 12);  // integers ignore the bits
         }
       }
       EXPECT_EQ(roundTrip(piece.view()).failure, "")
@@ -283,7 +283,7 @@ TEST(Attributes, NormalsAndTangents) {
   }
 }
 
-/// Four components per wedge, with a sign now and then.
+/// Four components per wedge, sometimes with a sign.
 std::vector<float> withSigns(const std::vector<float>& unit) {
   std::vector<float> tangents;
   for (size_t i = 0; i < unit.size(); i += 3) {
@@ -293,7 +293,7 @@ std::vector<float> withSigns(const std::vector<float>& unit) {
   return tangents;
 }
 
-/// How TANGENT is coded beside normals of `normal_bits` (0: exact), or without.
+/// Expects how TANGENT is coded with normals of `normal_bits` (0: exact), or without normals.
 AttributeCoding tangentCoding(TestMesh mesh, const std::vector<float>* normals, uint8_t normal_bits,
                               const std::vector<float>& tangents, uint8_t bits) {
   mesh.normals = normals == nullptr ? std::vector<float>() : *normals;
@@ -341,7 +341,7 @@ TEST(Attributes, TangentsThatAreNone) {
   }
 }
 
-/// Tangents along u cost little on the grid, too; projected on exact normals less.
+/// Tangents along u cost little on the grid, and less when projected on exact normals.
 TEST(Attributes, TangentsOnTheGridFollowTheChart) {
   TestMesh mesh = torus(48, 32);
   mesh.texcoords.clear();
@@ -433,7 +433,7 @@ TEST(Attributes, MorphTargets) {
   }
 }
 
-/// Scrambled names of stripes of a sheet: most vertices are named as their neighbours.
+/// Scrambled names of the stripes of a sheet: most vertices have the name of their neighbours.
 TEST(Attributes, IdsOfStripes) {
   const TestMesh mesh = grid(80, 80);
   std::vector<uint16_t> ids;
@@ -490,7 +490,7 @@ TEST(Attributes, WeightsOfTwoSetsSumToOne) {
       ASSERT_EQ(result.failure, "") << mesh.name << ", bits " << int{bits};
       if (bits == 0) continue;
       const auto& decoded = result.decoded[0].attributes;
-      const size_t last = decoded.size() - 1;  // WEIGHTS_1, behind WEIGHTS_0 and JOINTS_1
+      const size_t last = decoded.size() - 1;  // WEIGHTS_1, after WEIGHTS_0 and JOINTS_1
       for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
         double points = 0;
         for (const size_t a : {last - 2, last}) {
@@ -507,7 +507,7 @@ TEST(Attributes, WeightsOfTwoSetsSumToOne) {
   }
 }
 
-/// Tuples that do not sum to 1, not even nearly, are rounded one by one.
+/// Tuples whose sum is not even close to 1 are rounded one by one.
 TEST(Attributes, OtherWeightsMoveByHalfAStep) {
   const TestMesh mesh = torus(16, 12);
   Random random(9);
@@ -530,7 +530,7 @@ TEST(Attributes, OtherWeightsMoveByHalfAStep) {
   }
 }
 
-/// A few far values do not cost all others their bits.
+/// A few far values do not cost all other values their precision.
 TEST(Attributes, OutliersKeepAnAttributeExact) {
   const TestMesh mesh = torus(24, 16);
   std::vector<float> texcoords(size_t{2} * mesh.vertexCount());
@@ -649,7 +649,7 @@ TEST(Attributes, MorphTargetsOfColorsAndCharts) {
   }
 }
 
-/// Deltas with NaN and infinity go exact, whatever the bits.
+/// Deltas with NaN and infinity are coded exactly, whatever the bits.
 TEST(Attributes, MorphTargetsWithOddFloats) {
   for (const TestMesh& carrier : carriers()) {
     TestMesh mesh = carrier;
@@ -724,7 +724,7 @@ TEST(Attributes, StridedSources) {
   EXPECT_EQ(strided.encoded.payload, tight.encoded.payload);
 }
 
-/// Codes of joints end below it.
+/// The codes of joints end below this value.
 TEST(Attributes, JointsOfAllOnesAreRefused) {
   const TestMesh mesh = torus(4, 4);
   const std::vector<uint8_t> weights(size_t{4} * mesh.vertexCount(), 63);

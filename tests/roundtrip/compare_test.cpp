@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The comparison of the round-trip tests finds what it is there to find.
+// Checks that the comparison of the round-trip tests finds differences.
 #include <gtest/gtest.h>
 
 #include <cmath>

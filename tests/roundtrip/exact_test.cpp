@@ -1,5 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-//
+// Exact floats of every semantic come back bit for bit, whether they are on a grid or not.
 // Exact floats of every semantic come back bit for bit, whatever grid they are on or not.
 #include <gtest/gtest.h>
 
@@ -130,7 +130,7 @@ TEST(Exact, NanOfAllOnes) {
   EXPECT_EQ(roundTrip(MeshPiece(mesh, kExactBits).view()).failure, "");
 }
 
-/// Unit normals as programs compute them, tangents beside them, charts used twice.
+/// Unit normals as programs compute them, with tangents, and charts that are used twice.
 TEST(Exact, ComputedNormalsAndTangents) {
   for (TestMesh mesh : {withNormals(torus(16, 10)), withNormals(chartGrid(12, 10, 4)),
                         withNormals(doubled(torus(9, 7))), withNormals(randomSoup(4))}) {
@@ -150,7 +150,7 @@ TEST(Exact, ComputedNormalsAndTangents) {
     MeshPiece piece(mesh, kExactBits);
     piece.add(formatOf(Semantic::kTangent, 4), tangents.data());
     EXPECT_EQ(roundTrip(piece.view()).failure, "") << mesh.name;
-    // Exact beside a lattice.
+    // Exact values next to a lattice.
     MeshPiece mixed(mesh, {14, 0, 12});
     mixed.add(formatOf(Semantic::kTangent, 4), tangents.data());
     EXPECT_EQ(roundTrip(mixed.view()).failure, "") << mesh.name;

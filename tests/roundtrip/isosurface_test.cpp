@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Surfaces whose vertices lie on the edges of a grid: its planes are found and pay, and what is coded comes back.
+// Surfaces whose vertices lie on the edges of a grid: its planes are found and save bytes, and what
+// is coded comes back.
 #include <gtest/gtest.h>
 
 #include "container/payload_header.h"
@@ -27,7 +28,7 @@ bool hasPlanes(const EncodeResult& result) {
   return (header.attributes[0].predictor & position_mode::kPlanes) != 0;
 }
 
-/// The same surface where no plane is.
+/// The same surface, moved off all planes.
 TestMesh turned(TestMesh mesh) {
   for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
     float* p = &mesh.positions[size_t{3} * v];

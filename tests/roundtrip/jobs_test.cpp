@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The writer's trials on threads of its caller: the bytes do not depend on how many there are, or on who comes first.
+// The writer's trials on the caller's threads: the bytes depend neither on their number nor on who
+// finishes first.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -51,7 +52,7 @@ TEST(JobsOfTheWriter, MakeTheSameBytesInAnyOrder) {
 }
 
 TEST(JobsOfTheWriter, MakeTheSameBytesOfSampledMeshes) {
-  // Above 12,000 vertices the trials see a part of them.
+  // Above 12,000 vertices the trials use only a part of them.
   const TestMesh meshes[] = {
       jittered(icosphere(6), 1, 0.002f), withNormals(torus(200, 100)), book(40, 30, 20),
       voxelSurface(40, 40, 40, [](auto x, auto y, auto z) { return (x * y + z) % 3 != 0; })};

@@ -73,7 +73,7 @@ void expectTree(const TestMesh& mesh, const EncodeOptions& options, uint32_t com
   std::set<uint32_t> roots;
   for (uint32_t v = 0; v < mesh.vertexCount(); ++v) roots.insert(rootOf(parents, v));
   EXPECT_EQ(roots.size(), components);
-  // A divide meets a vertex again, nothing else adds edges beyond those of a tree.
+  // A divide meets a vertex again; nothing else adds edges beyond those of a tree.
   if (result.histogram.dummy == 0 && result.histogram.handle == 0) {
     EXPECT_LE(told.size(), mesh.vertexCount() - components + result.histogram.start);
   }

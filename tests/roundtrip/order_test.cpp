@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Kept orders come back exactly, whatever the triangles are like, at the cost they may have.
+// Kept orders come back exactly, whatever the triangles are, and cost no more than they may.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -108,7 +108,7 @@ TEST(Order, IndicesOnly) {
   }
 }
 
-/// No order can be told in fewer bits than log2(n!) on average.
+/// No order can be stored in fewer bits than log2(n!) on average.
 TEST(Order, RandomOrderCostsWhatItMust) {
   TestMesh mesh = shuffled(icosphere(5), 7);  // 10,242 vertices
   const double n = mesh.vertexCount();
@@ -116,7 +116,7 @@ TEST(Order, RandomOrderCostsWhatItMust) {
   EXPECT_LT(orderBits(mesh, keeping(true, false)), 1.03 * least);
 }
 
-/// Vertices numbered by first use need only their triangles' order.
+/// If vertices are numbered by first use, only the order of the triangles has to be stored.
 TEST(Order, FirstUseIsFree) {
   TestMesh mesh = shuffled(icosphere(4), 3);
   std::vector<uint32_t> place(mesh.vertexCount(), kNone);

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What callers prefer changes what the writer chooses, and nothing that is decoded.
+// The caller's preference changes what the writer chooses, but nothing that is decoded.
 #include <gtest/gtest.h>
 
 #include "attributes/enc_prices.h"
@@ -10,7 +10,8 @@
 namespace mcc::test {
 namespace {
 
-/// Bytes of small surfaces, where one coder for all streams saves bytes and takes longer, and of others.
+/// Returns the bytes of small surfaces, for which one coder for all streams saves bytes and takes
+/// longer, and of others.
 size_t bytesOf(Preference prefer) {
   EncodeOptions options;
   options.prefer = prefer;

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Whatever the triangles are like, the same ones come back, on the same wedges. The environment
-// variable MCC_SOUPS sets the number of random soups.
+// Whatever the triangles are, the same ones come back, on the same wedges. The environment variable
+// MCC_SOUPS sets the number of random soups.
 #include <gtest/gtest.h>
 
 #include <array>

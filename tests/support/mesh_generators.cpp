@@ -908,8 +908,8 @@ void forCells(uint32_t n, Visit visit) {
   }
 }
 
-/// Calls visit(a, b, c, d) for the six tetrahedra of every cell: the six ways to walk the axes one after the other from
-/// corner 0 to corner 7.
+/// Calls visit(a, b, c, d) for the six tetrahedra of every cell, which are the six ways to walk the
+/// axes one after the other from corner 0 to corner 7.
 template <class Visit>
 void forTetrahedra(uint32_t n, Visit visit) {
   constexpr uint32_t kPaths[6][2] = {{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}};

@@ -56,7 +56,7 @@ CosSin turn(double turns);
 
 // ---- Measuring ----------------------------------------------------------------------------------
 
-/// What a triangle list is as a surface, judged by indices alone (positions are not welded).
+/// Properties of a triangle list as a surface, judged by indices only (positions are not welded).
 struct MeshTopology {
   uint32_t used_vertices = 0;
   uint32_t unused_vertices = 0;
@@ -68,8 +68,8 @@ struct MeshTopology {
   uint32_t non_manifold_vertices = 0;  ///< more than one fan (faces connected over their edges)
   uint32_t max_degree = 0;             ///< faces at one vertex
   bool orientable = false;      ///< of a manifold: some orientation of its faces is consistent
-  uint32_t boundary_loops = 0;  ///< of a manifold
-  uint32_t genus = 0;           ///< of an orientable manifold: handles of all components
+  uint32_t boundary_loops = 0;  ///< only for a manifold
+  uint32_t genus = 0;           ///< only for an orientable manifold: handles of all components
 
   bool manifold() const {
     return degenerate_triangles == 0 && crowded_edges == 0 && non_manifold_vertices == 0;
@@ -209,8 +209,8 @@ TestMesh withEqualTuples(TestMesh mesh, uint64_t seed);
 /// One wedge per corner, the face normal as normal: flat shading.
 TestMesh flatShaded(const TestMesh& mesh);
 
-/// Every generator above on small arguments: one mesh or more of each kind, also those of seams and
-/// soups.
+/// Runs every generator above with small arguments: one mesh or more of each kind, including those
+/// of seams and soups.
 std::vector<TestMesh> smallZoo();
 
 }  // namespace mcc::test

@@ -19,7 +19,7 @@
 //
 //   In the closed mesh xn is the neighbour of m that follows p clockwise. It is nevertheless the
 //   paper's "next edge counterclockwise around the mc-vertex" (4.1): the loop takes the place of
-//   the mc-edge, first counter-clockwise from the outer face, and behind it comes p -> xn.
+//   the mc-edge, first counter-clockwise from the outer face, and after it comes p -> xn.
 //   In this reading 4.4 is the inverse of 4.1 as both are written.
 //
 // What the paper leaves open, and the reading taken here
@@ -139,7 +139,7 @@ struct OracleRecord {
 /// "5(v12)", "5(v12*)" for a dummy, "S", "E(v1 v2)", "M(0 4)".
 std::string toString(const OracleRecord& record);
 
-/// All that the decoder gets.
+/// Everything that the decoder gets.
 struct OracleStacks {
   std::vector<OracleCode> codes;       ///< bottom first, that is, in encoding order
   std::vector<OracleVertex> vertices;  ///< the mc-vertex is at the bottom

@@ -38,8 +38,9 @@ class Validator {
         write(name + "_decoded", decoded));
   }
 
-  /// True when no file has an error, warning, info or hint that its source has not, but for what is expected of the
-  /// extension; prints those. Sources that are full of errors are `odd`: then more of the same is expected.
+  /// Returns true when no file has an error, warning, info or hint that its source does not have,
+  /// except for those the extension is expected to cause; prints all others. Sources that are full
+  /// of errors are `odd`: then more of the same are expected.
   bool run(bool odd = false) const {
     const std::string command = std::string("node '") + MCC_SOURCE_DIR +
                                 "/tests/support/validate.mjs' '" + module().string() + "' '" +

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The adapter for tinygltf beside the functions that work on files, with the system's tinygltf.
+// Compares the adapter for tinygltf with the functions that work on files, with the system's
+// tinygltf.
 #include <gtest/gtest.h>
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wshadow"
@@ -49,7 +50,7 @@ void writeFile(const std::filesystem::path& path, const Bytes& bytes) {
              static_cast<std::streamsize>(bytes.size()));
 }
 
-/// What tinygltf itself makes of a file.
+/// Returns what tinygltf itself makes of a file.
 Model loadPlain(const Bytes& glb) {
   ::tinygltf::TinyGLTF loader = makeLoader();
   Model model;
@@ -81,7 +82,7 @@ Bytes convertGlb(const Bytes& glb, const gltf::ConvertOptions& options) {
   return output;
 }
 
-/// The elements of an accessor, one after the other.
+/// Returns the elements of an accessor, one after the other.
 Bytes elementsOf(const Model& model, int index) {
   const ::tinygltf::Accessor& accessor = model.accessors.at(static_cast<size_t>(index));
   if (accessor.bufferView < 0) return {};
@@ -173,7 +174,7 @@ std::set<Bytes> payloadsOf(const Model& model) {
   return payloads;
 }
 
-/// Every way through the adapter, beside the functions for files.
+/// Compares every way through the adapter with the functions for files.
 void compareWithFiles(const Bytes& source, const gltf::ConvertOptions& options) {
   const Bytes coded = convertGlb(source, options);
   Bytes decoded;
@@ -278,7 +279,8 @@ TEST(TinyGltf, DecodesFilesWithAFallback) {
   expectSameModel(fallback, model);
 }
 
-/// Files are saved with the model's own writer, and what cannot be told apart there is not lost either.
+/// Files are saved with the model's own writer, and what tinygltf cannot tell apart is not lost
+/// either.
 TEST(TinyGltf, SavesWhatItEncoded) {
   const ScratchFolder folder;
   const Bytes source = readFile(std::filesystem::path(MCC_SAMPLES_DIR) / "textured.glb");
@@ -301,7 +303,7 @@ TEST(TinyGltf, SavesWhatItEncoded) {
   EXPECT_EQ(decode_report.payload_count, 1u);
 }
 
-/// What is compressed already keeps its payload, whose buffer view has another number then.
+/// A payload that already exists stays as it is; only its buffer view gets another number.
 TEST(TinyGltf, EncodesAPartOfAModel) {
   const Bytes source = readFile(std::filesystem::path(MCC_SAMPLES_DIR) / "two_materials.glb");
   const Model coded = loadCompressed(convertGlb(source, {}));
@@ -507,7 +509,7 @@ Model codedTriangle() {
   return model;
 }
 
-/// Work in proportion to the square of the number would take minutes.
+/// Work proportional to the square of the number would take minutes.
 TEST(TinyGltf, ManyPayloads) {
   constexpr int kCount = 20000;
   Model one = codedTriangle();

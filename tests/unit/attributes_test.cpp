@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The stages behind connectivity, on values made up at random: positions, seams, and triangles beside the surface.
+// The stages after connectivity, on random values: positions, seams, and triangles apart from the
+// surface.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +21,8 @@
 namespace mcc::test {
 namespace {
 
-/// Meshes that take the traversal everywhere: closed, open, of one triangle, with copies, of high degree.
+/// Meshes that lead the traversal everywhere: closed, open, of one triangle, with copies, of high
+/// degree.
 std::vector<TestMesh> surfaces() {
   return {tetrahedron(),
           looseTriangles(5),
@@ -38,7 +40,7 @@ std::vector<TestMesh> surfaces() {
           combOfStacks(5, 6)};
 }
 
-/// Both sides up to the positions. What is made up goes into `truth` between the stages.
+/// Runs both sides up to the positions. Made-up values go into `truth` between the stages.
 template <bool kSingle>
 class Pair {
  public:
@@ -86,7 +88,7 @@ class Pair {
     streams_ = encoder_.finish();
     return readerOf(writer_.header);
   }
-  /// Again, with other claims.
+  /// The same with other claims.
   Stages<DecoderIo<kSingle>>& readerOf(const PieceHeader& header) {
     decoder_ = std::make_unique<DecoderIo<kSingle>>(streams_.codes, streams_.tokens, streams_.raw);
     reader_ = std::make_unique<Stages<DecoderIo<kSingle>>>(*decoder_, header, writer_.attributes);
@@ -124,7 +126,7 @@ class Pair {
 
 enum class Values : uint8_t { kRandom, kSmooth, kAnyInteger, kJumps, kPlanes };
 
-/// Choices of the encoder that need nothing besides.
+/// Choices of the encoder that need nothing else.
 std::vector<uint8_t> positionPredictors() {
   using namespace position_mode;
   return {0,
@@ -140,7 +142,7 @@ const AxisPlanes kSomePlanes[3] = {{0, 5 * AxisPlanes::kOne},
                                    {7 * AxisPlanes::kOne / 3, 31 * AxisPlanes::kOne / 4},
                                    {AxisPlanes::kMinStep - 1, AxisPlanes::kMinStep}};
 
-/// On planes, on diagonals or anywhere, as on no isosurface in the world.
+/// On planes, on diagonals or anywhere, unlike any real isosurface.
 void setNearPlanes(Random& random, uint8_t bits, int32_t* q) {
   const int32_t end = 1 << bits;
   const int32_t t = static_cast<int32_t>(random.below(8));
@@ -175,7 +177,7 @@ void expectPositions(const TestMesh& mesh, uint8_t bits, uint8_t predictor, Valu
         if (random.chance(10)) positions[i] = std::numeric_limits<int32_t>::min();
         if (random.chance(10)) positions[i] = std::numeric_limits<int32_t>::max();
         break;
-      case Values::kJumps:  // as far as it goes, where nobody expects it
+      case Values::kJumps:  // as far as possible, where nobody expects it
         positions[i] = random.chance(97) ? 0 : std::numeric_limits<int32_t>::min();
         break;
       case Values::kPlanes:
@@ -199,7 +201,7 @@ void expectPositions(const TestMesh& mesh, uint8_t bits, uint8_t predictor, Valu
     for (size_t s = 0; s < 3; ++s)
       ASSERT_EQ(reader.piece.records[g].q[s], positions[3 * g + s]) << "group " << g;
   }
-  // The traversal enters each group once, by a half-edge of its own, alike on both sides.
+  // The traversal enters each group once, by a half-edge of its own, in the same way on both sides.
   const auto& sequence = reader.piece.sequence;
   ASSERT_EQ(sequence.size(), pair.groupCount());
   std::set<uint32_t> entered;
@@ -435,7 +437,8 @@ TEST(Memory, OnAllKindsOfSurfaces) {
 
 // ---- The table of predictor bytes -----------------------------------------------------------------
 
-/// Field by field, the search finds what is best where fields do not depend on each other, and asks for valid bytes only.
+/// Field by field, the search finds the best byte if fields do not depend on each other, and it
+/// tries only valid bytes.
 TEST(Predictors, TheSearchFindsTheBest) {
   Random random(5);
   for (uint32_t m = 0; m < kAttributeMethods; ++m) {
@@ -490,7 +493,8 @@ std::vector<uint32_t> cutWedges(const FaceView& faces, uint32_t face_count, uint
   return wedges;
 }
 
-/// ... one of up to `most` wedges per group, corner by corner: runs come again, also in other umbrellas.
+/// The same with one of up to `most` wedges per group, chosen per corner: runs come again, also in
+/// other umbrellas.
 std::vector<uint32_t> scatteredWedges(const FaceView& faces, uint32_t face_count, uint32_t most,
                                       Random& random) {
   std::vector<uint32_t> wedges;
@@ -677,7 +681,7 @@ TEST(Leftovers, PartsAndListedTriangles) {
   }
 }
 
-/// Every face twice costs next to nothing.
+/// Repeating every face costs almost nothing.
 TEST(Leftovers, FacesAgainAreNearlyFree) {
   Pair<true> pair(torus(30, 20), positionInfo(10));
   Leftovers leftovers;

@@ -291,7 +291,7 @@ TEST(WorkingMemory, WhatWasReleasedIsJoinedAndUsedAgain) {
 TEST(WorkingMemory, RefusesWhatNoMachineHas) {
   WorkingMemory memory(std::numeric_limits<uint64_t>::max());
   EXPECT_EQ(memory.allocate(std::numeric_limits<size_t>::max() - 10), nullptr);
-  void* block = memory.allocate(100000);  // expected too much, but this much there is
+  void* block = memory.allocate(100000);  // more was expected than there is, but this much is there
   ASSERT_NE(block, nullptr);
   memory.release(block, 100000);
 }

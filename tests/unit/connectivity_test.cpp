@@ -21,13 +21,13 @@ struct Coded {
   uint64_t cost = 0;
 };
 
-/// Every face and every twin of what was decoded, looked up in the mesh that went in.
+/// Looks up every face and every twin that was decoded in the source mesh.
 void expectSame(const Surface& surface, const FaceMesh& decoded) {
   const ClosedMesh& source = surface.cut().mesh;
   ASSERT_EQ(decoded.face_count, source.real_face_count);
   ASSERT_EQ(decoded.vertex_count, source.real_vertex_count);
   ASSERT_EQ(checkFaceMesh(decoded, source.real_vertex_count), "");
-  // Half-edge 8f+1 is the source's gate, 8f+2 the one behind it, 8f the one before it.
+  // Half-edge 8f+1 is the source's gate, 8f+2 the one after it, 8f the one before it.
   std::vector<uint32_t> decoded_of(3 * source.real_face_count, kNone);
   for (uint32_t f = 0; f < decoded.face_count; ++f) {
     uint32_t h = surface.sourceGate()[f];
@@ -97,8 +97,8 @@ TEST(Connectivity, Spheres) {
                                bipyramid(3), bipyramid(50), randomStacked(1, 200), deepStack(300),
                                combOfStacks(7, 9), flipped(icosphere(2), 3, 2000)}) {
     const Coded coded = expectConnectivity(mesh);
-    // An operation takes a vertex away, down to the last triangle's three. A divide takes none, but leaves two parts to
-    // end.
+    // An operation removes a vertex, down to the last triangle's three. A divide removes none, but
+    // leaves two parts to be ended.
     const CodeHistogram& h = coded.histogram;
     EXPECT_EQ(contractions(h) + h.start, mesh.vertexCount() - 3) << mesh.name;
     EXPECT_EQ(h.end, h.start + 1) << mesh.name;
@@ -149,7 +149,7 @@ TEST(Connectivity, HolesAndComponents) {
 }
 
 TEST(Connectivity, TrianglesAloneAreNearlyFree) {
-  // Alone, before and behind other components, and next to triangles that are not alone.
+  // Alone, before and after other components, and next to triangles that are not alone.
   const Coded loose = expectConnectivity(looseTriangles(1000));
   EXPECT_LT(loose.cost, 100 * uint64_t{kCostOne});
   EXPECT_EQ(loose.histogram.end, 1000u);
@@ -188,7 +188,7 @@ TEST(Connectivity, SoupsOfManyHandles) {
 }
 
 TEST(Connectivity, WorkIsLinear) {
-  // Operations and gates, not clocks: a gate is looked at once when it is coded.
+  // Count operations and gates instead of time: a gate is looked at once when it is coded.
   for (const TestMesh& mesh : {icosphere(4), combOfStacks(40, 40), flipped(icosphere(4), 7, 20000),
                                bipyramid(3000), sheetWithHoles(20, 4), torus(50, 40)}) {
     const Surface surface(mesh);

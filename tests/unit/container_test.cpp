@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Header and streams: every field comes back, and what no writer makes is refused.
+// Header and streams: every field comes back, and headers that no writer makes are refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -77,7 +77,7 @@ AttributeInfo anyAttribute(Random& random) {
   return a;
 }
 
-/// A payload in the making.
+/// A payload under construction.
 struct Draft {
   struct Piece {
     PieceHeader header;
@@ -336,13 +336,13 @@ TEST(Container, CountsThatContradictEachOther) {
         d.pieces[0].part_triangles = {5, ~0u};  // their sum is right modulo 2^32
       },
       [](Draft& d) { d.pieces[0].header.wedge_count = 13; },  // more than corners
-      // Flags that say nothing, or nothing without another one.
+      // Flags that are redundant, or that require another one.
       [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kManyParts; },
       [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kHoles; },
       [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kIsolated; },
       [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kListed; },
       [](Draft& d) { d.pieces[0].header.flags |= piece_flag::kCreases; },
-      // What is not cut has neither.
+      // A piece that is not cut has neither of them.
       [](Draft& d) {
         d.pieces[0].header.setSurface(SurfaceCoding::kPivots);
         d.pieces[0].header.flags |= piece_flag::kHandles;
@@ -467,7 +467,7 @@ TEST(Container, TangentsNeedNormalsOfTheBaseMesh) {
     });
   };
   EXPECT_EQ(errorWithNormals(0), Error::kOk);
-  EXPECT_EQ(errorWithNormals(1), Error::kBadHeader);  // decoded behind the tangents
+  EXPECT_EQ(errorWithNormals(1), Error::kBadHeader);  // it would be decoded after the tangents
 }
 
 TEST(Container, PlanesNeedACoarseLattice) {
@@ -567,7 +567,7 @@ TEST(Container, LimitsOfTheCaller) {
   EXPECT_EQ(errorAfter(big, limits), Error::kLimit);
 }
 
-/// They are limits of a payload, not of each of its pieces.
+/// The limits apply to a payload, not to each of its pieces.
 TEST(Container, LimitsHoldForAllPiecesTogether) {
   const auto three = [](Draft& d) { d.pieces.assign(3, simpleDraft().pieces[0]); };
   Limits limits;
@@ -614,10 +614,10 @@ TEST(Container, NoPiecesAndOnePiece) {
   }
 }
 
-/// Neither is a set of 0 of the base mesh, nor padding of no bytes.
+/// A set of 0 of the base mesh is not stated, nor is padding of no bytes.
 TEST(Container, WhatNeedsNoStatement) {
   std::vector<uint8_t> payload = simpleDraft().write();
-  const size_t kind = kChecksummedFrom + 1 + 1 + 4 + 1;  // behind flags, counts, attribute count
+  const size_t kind = kChecksummedFrom + 1 + 1 + 4 + 1;  // after flags, counts, attribute count
   std::vector<uint8_t> more = payload;
   more[kind] |= 0x80;
   more.insert(more.begin() + kind + 2, 2, 0);
@@ -649,7 +649,7 @@ std::vector<uint8_t> withoutPadding(std::vector<uint8_t> payload) {
   return payload;
 }
 
-/// A payload holds a byte per 1024 elements at least, if need be of zeros.
+/// A payload has at least one byte per 1024 elements, padded with zeros if necessary.
 TEST(Container, Padding) {
   const auto claim = [](uint32_t faces) {
     Draft draft = simpleDraft();
@@ -716,7 +716,8 @@ TEST(Container, Elements) {
   EXPECT_EQ(elements(piece_flag::kVertexOrder, 0), plain + 8 * (6 + 4));
 }
 
-/// Handles and copies make any number of faces on four wedges for almost no bits; every attribute walks over them.
+/// Handles and copies make any number of faces on four wedges for almost no bits, and every
+/// attribute walks over them.
 TEST(Container, FacesOfAttributesAreBounded) {
   Draft draft = simpleDraft();
   draft.flags = payload_flag::kSingleCoder;
@@ -738,7 +739,7 @@ TEST(Container, FacesOfAttributesAreBounded) {
   EXPECT_EQ(parseError(withoutPadding(payload)), Error::kLimit);
 }
 
-/// The callers of the reader take memory for what attributes claim: a short payload must not claim much.
+/// Callers of the reader allocate what attributes claim, so a short payload must not claim much.
 TEST(Container, ClaimsOfAttributesAreBounded) {
   Draft draft = simpleDraft();
   draft.flags = payload_flag::kSingleCoder;

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The token row as it is compiled for machines without SIMD.
+// The token row as compiled for machines without SIMD.
 #ifndef MCC_TESTS_UNIT_ENTROPY_SCALAR_H_
 #define MCC_TESTS_UNIT_ENTROPY_SCALAR_H_
 

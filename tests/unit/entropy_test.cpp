@@ -168,8 +168,9 @@ void expectSymbols(std::span<const uint8_t> bytes, const std::vector<Symbol>& sy
   EXPECT_TRUE(decoder.finished());
 }
 
-/// Symbols that keep the middle of the number line inside the interval, so that all words behind the first are held
-/// back by a possible carry; the last symbol lies above (a carry through all of them) or below.
+/// Returns symbols that keep the middle of the number line inside the interval, so that all words
+/// after the first are held back by a possible carry; the last symbol lies above (a carry through
+/// all of them) or below.
 std::vector<Symbol> straddlingSymbols(uint32_t count, bool carry) {
   std::vector<Symbol> symbols;
   uint64_t range = ~uint64_t{0};

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Search for the grid of exact floats, and its arithmetic.
+// The search for the grid of exact floats, and its arithmetic.
 #include <gtest/gtest.h>
 
 #include <bit>

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// An allocator that keeps books and can run dry.
+// An allocator that checks what it gets back, and can run out of memory.
 #ifndef MCC_TESTS_UNIT_FAILING_ALLOCATOR_H_
 #define MCC_TESTS_UNIT_FAILING_ALLOCATOR_H_
 
@@ -36,7 +36,7 @@ class FailingAllocator {
 
   uint64_t allocations() const { return allocations_; }
   size_t liveBlocks() const { return live_.size(); }
-  /// Whether each block came back once, with the size it was asked for.
+  /// Whether each block came back once, with its size.
   bool booksBalance() const { return books_balance_; }
 
  private:

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The generators make what they promise: other tests rely on it.
+// Checks what the generators promise, because other tests rely on it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -262,8 +262,8 @@ TEST(Generators, SameArgumentsSameBits) {
     for (const uint32_t v : first[i].indices) ASSERT_LT(v, first[i].vertexCount()) << first[i].name;
   }
   EXPECT_EQ(names.size(), first.size()) << "two meshes of one name";
-  // The same on every compiler and platform. Whoever changes the zoo on purpose puts the new number
-  // here.
+  // The hash is the same for every compiler and platform. After an intended change of the zoo, put
+  // the new number here.
   EXPECT_EQ(all, 278442443620685855u);
 }
 

@@ -22,7 +22,7 @@ uint32_t deepestOf(const Plan& plan) {
   return deepest;
 }
 
-/// Every corner is of its source's class: what was cut can be joined again.
+/// Every corner has the class of its source, so that what was cut can be joined again.
 bool keepsClasses(const Plan& plan) {
   const ClosedMesh& mesh = plan.cut.mesh;
   for (size_t c = 0; c < plan.triangles.wedges.size(); ++c) {

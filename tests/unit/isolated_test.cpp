@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Positions of isolated wedges: any set of any coordinates comes back, in the order that needs no bits.
+// Positions of isolated wedges: any set of any coordinates comes back, in an order that takes no
+// bits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace {
 
 using Position = std::array<int32_t, 3>;
 
-/// Bits.
+/// Returns the cost in bits.
 template <bool kSingle>
 double expectSet(const std::vector<Position>& any_order) {
   std::vector<int32_t> coordinates;
@@ -81,7 +82,7 @@ TEST(Isolated, SetsComeBack) {
   }
 }
 
-/// n! orders are one: log2(n) - 1.4 bits of each position are not said.
+/// All n! orders are equivalent, so log2(n) - 1.4 bits of each position need not be stored.
 TEST(Isolated, OrderCostsNothing) {
   EXPECT_LT(expectSet<false>(randomSet(1, 1000, 12)), 1000 * 28.3);
   EXPECT_LT(expectSet<false>(randomSet(2, 30000, 14)), 30000 * 29.4);

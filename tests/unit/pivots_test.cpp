@@ -135,7 +135,8 @@ TEST(Pivots, BitsPerFace) {
   EXPECT_LT(expectPivots<true>(cellWalls(12)), 3.3);
 }
 
-/// A vertex of any degree is looked at once per face: with a look per pair this takes minutes.
+/// A vertex of any degree is looked at once per face; with one look per pair this would take
+/// minutes.
 TEST(Pivots, HighDegreesTakeLinearTime) {
   expectPivots<false>(bipyramid(200000));
   expectPivots<false>(openFan(400000));

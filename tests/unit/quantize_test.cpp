@@ -21,7 +21,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// One attribute; behind a position if it is none.
+/// One attribute; it follows a position if it is not a position itself.
 QuantizedAttribute quantizedAlone(const AttributeView& view, uint32_t wedge_count,
                                   std::vector<std::string>& notes) {
   const std::vector<float> origin(3 * size_t{wedge_count}, 0);
@@ -58,7 +58,7 @@ bool isExact(AttributeCoding coding) {
   return coding == AttributeCoding::kExactFloat || coding == AttributeCoding::kGrid;
 }
 
-/// Every component as the reader will give it back.
+/// Returns every component as the reader will return it.
 float decoded(const QuantizedAttribute& a, size_t i) {
   if (isExact(a.info.coding)) return std::bit_cast<float>(bitsFromOrdered(a.values[i]));
   return latticeValue(a.values[i], a.info.lattice.step, a.info.lattice.origin[i % a.components]);
@@ -166,7 +166,7 @@ TEST(Quantize, GivenLattice) {
   ASSERT_EQ(q.attribute.info.coding, AttributeCoding::kLattice);
   EXPECT_TRUE(q.attribute.info.lattice == lattice);
   EXPECT_EQ(q.attribute.values, (std::vector<int32_t>{0, 0, 0, 0, 2, 400, -196, -4, -1}));
-  // Out of reach: better exact than wrong.
+  // Values that are out of reach are better exact than wrong.
   const std::vector<float> far = {0, 0, 0, 1e9f, 0, 0};
   const Quantized exact = quantized(far, 3, 8, Semantic::kPosition, &lattice);
   expectExact(exact, far);

@@ -238,7 +238,7 @@ TEST(Reader, ProgressAndCancelling) {
     Calls some;
     some.allowed = allowed;
     EXPECT_EQ(decode(some, memory), Error::kCancelled);
-    EXPECT_EQ(some.done.size(), allowed + 1);  // nobody asks again
+    EXPECT_EQ(some.done.size(), allowed + 1);  // it is not called again
     EXPECT_EQ(memory.liveBlocks(), 0u);
   }
 }

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Which vertices of the cut mesh are one: any partition into classes comes back.
+// Stitching: any partition of the vertices of the cut mesh into classes comes back.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -95,7 +95,7 @@ TEST(Stitch, WhatTheCutMadeApart) {
 }
 
 TEST(Stitch, BoundariesAlone) {
-  // The spine of a book of three pages: two of them stay joined, the third is cut off.
+  // The spine of a book with three pages: two of them stay joined, the third is cut off.
   Surface surface(book(3, 6, 3));
   ASSERT_TRUE(surface.hasCopies());
   expectStitched<true>(surface, false);
@@ -117,7 +117,7 @@ TEST(Stitch, AnyPartitionOfTheVertices) {
   }
 }
 
-/// Bits of a copy, flags included.
+/// Returns the bits of a copy, flags included.
 double bitsPerCopy(const TestMesh& mesh) {
   Surface surface(mesh);
   PieceHeader header = surface.header();

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// A mesh on its way through the stages of piece.h, one stage at a time: what each stage needs to know is made up by
-// the test that uses it.
+// Runs a mesh through the stages of piece.h, one stage at a time. The test that uses it makes up
+// what each stage needs to know.
 #ifndef MCC_TESTS_UNIT_SURFACE_H_
 #define MCC_TESTS_UNIT_SURFACE_H_
 
@@ -28,7 +28,7 @@ class Surface {
 
   /// Flags of connectivity alone.
   PieceHeader header() const;
-  /// Borrows this; the machine writes into it.
+  /// Returns the truth for the machine, which writes into this object. Borrows it.
   McTruth truth();
 
   const CutResult& cut() const { return cut_; }
@@ -78,7 +78,8 @@ struct Stages {
 /// POSITION on a lattice of `bits` bits.
 AttributeInfo positionInfo(uint8_t bits);
 
-/// Whether twins are mutual, have each other's ends, and vertices are below `vertex_count`; "" if so.
+/// Checks that twins are mutual and have each other's ends, and that vertices are below
+/// `vertex_count`. Returns "" if so.
 std::string checkFaceMesh(const FaceMesh& mesh, uint32_t vertex_count);
 
 }  // namespace mcc::test

@@ -44,7 +44,7 @@ void check(const gltf::Result& result, const std::string& name) {
   if (!result.ok()) throw std::runtime_error(name + ": " + result.message());
 }
 
-/// Least type that holds `wedge_count` indices; its largest value is none.
+/// Returns the smallest type that holds `wedge_count` indices; its largest value is not an index.
 ComponentType indexType(uint32_t wedge_count) {
   if (wedge_count <= 0xff) return ComponentType::kUint8;
   return wedge_count <= 0xffff ? ComponentType::kUint16 : ComponentType::kUint32;
@@ -218,7 +218,7 @@ std::vector<std::vector<AttributeView>> viewsOf(const Source& source) {
   return views;
 }
 
-/// Attributes that the payload does not hold, put in the decoded order.
+/// Attributes that the payload does not hold, in the decoded order.
 std::vector<NamedAttribute> reordered(const SourcePiece& piece, const PieceResult& result) {
   std::vector<NamedAttribute> all = piece.attributes;
   for (NamedAttribute& a : all) {
@@ -268,7 +268,7 @@ Asset encodeSource(const Source& source) {
       names.coded = source.pieces[i].attributes;
       for (NamedAttribute& a : names.coded) {
         a.bytes.clear();
-        // Targets that no primitive of a small document can have stay unnamed.
+        // Targets that no primitive of a small document can have are left unnamed.
         if (a.target != kNone && a.target >= 16) a.name.clear();
       }
     }

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// From sources to payloads to GLB files with what a decoder has to find in them.
+// Turns sources into payloads and GLB files, with what a decoder has to find in them.
 #ifndef MCC_TOOLS_CONFORMANCE_ASSET_H_
 #define MCC_TOOLS_CONFORMANCE_ASSET_H_
 
@@ -74,7 +74,7 @@ std::vector<uint8_t> makeGlb(const Asset& asset);
 /// The member "primitives" of the manifest: counts and hashes of what decodes.
 Json expectedOf(const Asset& asset);
 
-/// A GLB with one mesh; `bin` starts with the payload. Of tests for documents.
+/// Makes a GLB with one mesh, for tests of documents; `bin` starts with the payload.
 std::vector<uint8_t> glbOf(const Json& json, std::span<const uint8_t> bin);
 
 }  // namespace mcc::conformance

@@ -23,7 +23,7 @@ class Listing {
   explicit Listing(const PayloadHeader& header) : header_(header) {}
 
   Features run() {
-    // What no payload is without.
+    // Every payload has these.
     add("payload", {"A.1.1", "A.1.2", "A.1.3", "A.1.5", "A.1.6", "A.2.1", "A.2.2", "A.2.3", "A.2.5",
                     "A.2.6", "A.2.7", "A.3.1", "A.3.2", "A.3.6", "A.3.8"});
     add(header_.singleCoder() ? "single coder" : "three streams",
@@ -175,7 +175,8 @@ class Listing {
     if (piece.has(piece_flag::kCreases)) add("creases, positions " + coding, {"A.7.4", "B.4.6"});
   }
 
-  /// A method with these bits of its predictor together and each of the others apart.
+  /// Looks for a method with these bits of its predictor together, and with each of the others
+  /// separately.
   void addMethod(const std::string& method, uint8_t predictor, uint8_t together,
                  const Sections& sections) {
     add(text((method + ", predictor").c_str(), predictor & together), sections);

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// A payload as a list of named fields, to be changed into anything.                          [A.2]
+// A payload as a list of named fields, each of which can be changed.                          [A.2]
 #ifndef MCC_TOOLS_CONFORMANCE_HEADER_FIELDS_H_
 #define MCC_TOOLS_CONFORMANCE_HEADER_FIELDS_H_
 
@@ -18,22 +18,23 @@ void repairChecksum(Bytes& payload);
 
 class HeaderFields {
  public:
-  /// Of a payload that is valid. Names: "flags", "piece count"; of piece i "i.flags", "i.vertices", "i.faces",
-  /// "i.operations", "i.wedges", "i.dummies", "i.isolated", "i.duplicates", "i.degenerates", "i.listed", "i.parts",
-  /// "i.part k", "i.attributes"; of its attribute k "i.k.kind", "i.k.shape", "i.k.set", "i.k.target", "i.k.predictor",
-  /// "i.k.bits", "i.k.step", "i.k.origin c", "i.k.alias", "i.k.grid bits", "i.k.grid"; "codes bytes", "tokens bytes",
+  /// Parses a valid payload. Names are "flags", "piece count"; for piece i "i.flags", "i.vertices",
+  /// "i.faces", "i.operations", "i.wedges", "i.dummies", "i.isolated", "i.duplicates",
+  /// "i.degenerates", "i.listed", "i.parts", "i.part k", "i.attributes"; for its attribute k
+  /// "i.k.kind", "i.k.shape", "i.k.set", "i.k.target", "i.k.predictor", "i.k.bits", "i.k.step",
+  /// "i.k.origin c", "i.k.alias", "i.k.grid bits", "i.k.grid"; "codes bytes", "tokens bytes",
   /// "padding bytes", "padding", "codes", "tokens", "raw".
   explicit HeaderFields(std::span<const uint8_t> payload);
 
   bool has(const std::string& name) const;
   uint32_t get(const std::string& name) const;
   Bytes& bytes(const std::string& name);
-  /// As a varint or, where the field is of fixed size, as that.
+  /// Sets a field, as a varint or in the field's fixed size.
   void set(const std::string& name, uint32_t value);
   void insertBefore(const std::string& name, const std::string& added, const Bytes& bytes);
   void erase(const std::string& name);
 
-  /// With a checksum that fits.
+  /// Returns the payload with a checksum that fits.
   Bytes payload() const;
 
  private:

@@ -21,7 +21,7 @@
 namespace mcc::conformance {
 namespace {
 
-/// How a payload fares; what it decodes to is dropped.
+/// Returns how a payload fares; the decoded values are dropped.
 Status decode(std::span<const uint8_t> bytes) {
   Payload payload;
   Limits limits;
@@ -93,7 +93,7 @@ class Maker {
  private:
   using Wanted = std::function<bool(const PayloadHeader&)>;
 
-  /// The smallest asset of this kind.
+  /// Returns the smallest asset of this kind.
   const Asset& base(const Wanted& wanted) const {
     const Asset* best = nullptr;
     for (size_t i = 0; i < assets_.size(); ++i) {
@@ -107,7 +107,7 @@ class Maker {
   static bool hasFlag(const PayloadHeader& h, uint32_t flag) {
     return h.pieces.size() == 1 && h.pieces[0].has(flag);
   }
-  /// The number of an attribute of the first piece for which `wanted` holds, or kNone.
+  /// Returns the number of an attribute of the first piece for which `wanted` holds, or kNone.
   static uint32_t attributeWith(const PayloadHeader& h,
                                 const std::function<bool(const AttributeInfo&)>& wanted) {
     if (h.pieces.size() != 1) return kNone;
@@ -157,7 +157,8 @@ class Maker {
     field(name, section, Error::kBadHeader, shows, wanted, change);
   }
 
-  /// The document claims what the payload's header does, so that the payload is what is refused.
+  /// Makes the document claim what the payload's header does, so that the payload is what is
+  /// refused.
   static void claimCounts(const Bytes& payload, Json& json) {
     PayloadHeader header{Allocator{}};
     if (!parsePayload(payload, {}, header).ok()) return;
@@ -371,7 +372,7 @@ class Maker {
             f.set("0.isolated", f.get("0.isolated") + more);
             f.set("0.wedges", f.get("0.wedges") + 2 * more);
           });
-    // Few listed triangles by themselves, too many for what counts each of them again.
+    // Few listed triangles by themselves, but too many for what counts each of them again.
     const auto hasList = [](const PayloadHeader& h) {
       return h.pieces[0].has(piece_flag::kListed) && !h.pieces[0].has(piece_flag::kManyParts);
     };
@@ -715,7 +716,7 @@ class Maker {
         [](HeaderFields& f) { f.bytes("raw").back() |= 0x80; });
   }
 
-  /// Streams that fit no longer because the header changed.
+  /// Streams that do not fit any more because the header changed.
   void contradictions() {
     field("planes without a step", "B.2.9", Error::kBadAttribute, "Planes with a step of 0",
           threeStreams, [](HeaderFields& f) {
@@ -725,7 +726,8 @@ class Maker {
           });
   }
 
-  /// The surface of the asset that is cut for it, whole. The encoder refuses what it has just written.
+  /// The whole surface of the asset that is normally cut. The encoder refuses what it has just
+  /// written.
   void deepHandle() {
     const Asset asset = encodeSource(addedSources().back());
     const ClosedMesh mesh = closedMesh(test::plateWithTunnels(kTooManyTunnels, 1));
@@ -783,7 +785,8 @@ class Maker {
     return McMachine<EncoderIo>(io, models, counts, {}, faces, truth, nullptr).run();
   }
 
-  /// What only damaged streams show: for each message the smallest payload a search finds.
+  /// Errors that only damaged streams show: the smallest payload that a search finds for each
+  /// message.
   void searched() {
     struct Message {
       const char* what;
@@ -868,7 +871,8 @@ class Maker {
 
   // ---- Documents ---------------------------------------------------------------------------------
 
-  /// A change of an asset's JSON. `change` gets the document, its first primitive and that one's extension object.
+  /// Changes an asset's JSON. `change` gets the document, its first primitive and that one's
+  /// extension object.
   void document(const std::string& name, const std::string& shows, const Asset& asset,
                 const std::function<void(Json& json, Json& primitive, Json& extension)>& change) {
     const std::vector<uint8_t> file = makeGlb(asset);
@@ -1013,7 +1017,7 @@ class Maker {
              });
   }
 
-  /// Accessors that a payload fills, and something else refers to.
+  /// Accessors that a payload fills and something else refers to.
   void sharedAccessors() {
     const Asset& plain = base([](const PayloadHeader& h) {
       return attributeWith(h, [](const AttributeInfo& a) {

@@ -16,12 +16,13 @@ namespace mcc::conformance {
 struct Negative {
   std::string name;
   std::string shows;    ///< one sentence
-  std::string section;  ///< of the specification
+  std::string section;  ///< section of the specification
   uint32_t error = 0;   ///< A.1.4; 0: the document is wrong, not the payload
   std::vector<uint8_t> glb;
 };
 
-/// Made of valid assets; throws if one of them decodes, or fails for another reason than it should.
+/// Makes negative files from valid assets. Throws if one of them decodes, or fails for another
+/// reason than it should.
 std::vector<Negative> makeNegatives(std::span<const Asset> assets);
 
 }  // namespace mcc::conformance

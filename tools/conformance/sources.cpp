@@ -125,7 +125,7 @@ const std::vector<TestMesh>& surfaces() {
 
 constexpr uint32_t kBase = kNone;
 
-/// Where on its surface a wedge is: what values are made of.
+/// Where on its surface a wedge is. Values are computed from it.
 struct Place {
   const TestMesh& mesh;
   uint32_t wedge;
@@ -227,7 +227,7 @@ class SourceBuilder {
     });
   }
 
-  /// `beside`: perpendicular to the normals.
+  /// With `beside`, tangents are perpendicular to the normals.
   void tangents(uint8_t bits, bool beside, Floats kind = Floats::kAny) {
     const uint32_t digits = random_.below(6);
     NamedAttribute a = makeAttribute("TANGENT", kBase, "VEC4", ComponentType::kFloat32);
@@ -401,7 +401,7 @@ class SourceBuilder {
     }
   }
 
-  /// Triangles dealt out to parts in turns, and an empty part behind them.
+  /// Deals triangles out to parts in turn, and adds an empty part after them.
   void split(uint32_t count) {
     std::vector<std::vector<uint32_t>> parts(count + 1);
     for (uint32_t t = 0; t < mesh_.triangleCount(); ++t) {
@@ -648,7 +648,7 @@ void gridSources(std::vector<Source>& all) {
   }
 }
 
-/// Values at which formulas change: guards that no model of anything reaches.
+/// Values at which formulas change: guards that no real model reaches.
 void extremeSources(std::vector<Source>& all) {
   const auto spread = [](const Place& at, uint32_t c) {
     return static_cast<float>((at.wedge * 37 + c * 11) % 101);
@@ -697,7 +697,7 @@ void extremeSources(std::vector<Source>& all) {
   }
   TestMesh instances = chartGrid(12, 12, 2);
   for (size_t i = 0; i < instances.texcoords.size(); ++i) {
-    // Every chart the same, of large steps.
+    // Every chart is the same, with large steps.
     const auto place = static_cast<uint32_t>(i % 18);
     instances.texcoords[i] = static_cast<float>(place * place * 7 % 19) / 19.0f;
   }
@@ -764,7 +764,8 @@ void crowdedSources(std::vector<Source>& all) {
   }
 }
 
-/// A chain of bipyramids, each with a pole of the next: vertices of many triangles, inside of two surfaces.
+/// A chain of bipyramids, each sharing a pole with the next: vertices of many triangles, inside two
+/// surfaces.
 TestMesh poles() {
   std::vector<TestMesh> all;
   for (uint32_t i = 0; i < 8; ++i) {
@@ -788,7 +789,8 @@ void largerSources(std::vector<Source>& all) {
                          "copies")},
       {"isosurface", gyroid(12)},
       {"stacks", combOfStacks(14, 12)},
-      // Most ways to find a vertex again need a surface with many copies that is cut, not listed by its vertices.
+      // Most ways to find a vertex again need a surface with many copies that is cut, not listed by
+      // vertices.
       {"voxels", randomVoxels(6, 7, 45)},
       {"turned", withFlippedTriangles(icosphere(3), 5, 30)},
       {"turned_sheet", withFlippedTriangles(grid(20, 20), 5, 8)},
@@ -807,7 +809,8 @@ void largerSources(std::vector<Source>& all) {
   }
 }
 
-/// In a part of the grid most vertices have a weight of 1 alone; whole weights among them expect a sum of 1.
+/// In one part of the grid most vertices have only a weight of 1. Whole weights among the others
+/// lead to an expected sum of 1.
 Source skinOfTinyWeights() {
   return single(
       "tiny_weights", "Weights whose expected sum is 1", withNormals(grid(14, 14)),

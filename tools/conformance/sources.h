@@ -11,13 +11,14 @@
 
 namespace mcc::conformance {
 
-/// A plate with so many tunnels has a handle that puts a digon below 256 others, one more than may be.
+/// A plate with this many tunnels has a handle that puts a digon below 256 others, one more than is
+/// allowed.
 inline constexpr uint32_t kTooManyTunnels = 259;
 
 /// Sources that show one thing each; all become assets.
 std::vector<Source> chosenSources();
 
-/// The same, of assets that came later: nothing that was there before depends on them.
+/// Sources of assets that came later; nothing that was there before depends on them.
 std::vector<Source> addedSources();
 
 /// A random source: surface, attributes, options. The same for the same seed on every machine.

@@ -19,7 +19,7 @@ namespace mcc::conformance {
 namespace {
 
 constexpr uint64_t kCandidates = 2500;
-constexpr uint32_t kTimes = 2;  ///< every feature is in so many assets, if there are candidates
+constexpr uint32_t kTimes = 2;  ///< every feature is in this many assets, if there are candidates
 constexpr size_t kAssetBytes = 24000;
 
 struct Candidate {
@@ -74,7 +74,7 @@ void addVariants(std::vector<Asset>& assets) {
   assets.push_back(padded);
 }
 
-/// Takes candidates until every feature was met kTimes, small ones that show much first.
+/// Takes candidates until every feature was met kTimes, preferring small ones that show much.
 std::vector<Candidate> choose(std::vector<Candidate> candidates,
                               std::map<std::string, uint32_t> met) {
   std::vector<Candidate> chosen;
@@ -138,7 +138,7 @@ void addSources(std::vector<Candidate>& all) {
   }
 }
 
-/// Puts numbers in front of the names.
+/// Puts numbers before the names.
 void numberNames(std::vector<Candidate>& all) {
   uint32_t number = 0;
   for (Candidate& candidate : all) {
@@ -173,7 +173,7 @@ std::vector<uint8_t> contentOf(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The manifest that is there, with what `made` has besides. Its lines stay, as their files do.
+/// Returns the existing manifest with the additions in `made`. Its lines stay, as their files do.
 std::vector<uint8_t> extended(const std::vector<uint8_t>& there, const std::vector<uint8_t>& made) {
   if (there.empty()) return made;
   Json manifest, more;
@@ -210,7 +210,7 @@ Json sectionsOf(const Negative& negative) {
 
 Suite makeSuite() {
   std::vector<Candidate> candidates = makeCandidates();
-  std::vector<Asset> assets;  // of which negative ones are made
+  std::vector<Asset> assets;  // from which negative ones are made
   for (const Candidate& candidate : candidates) assets.push_back(candidate.asset);
   addSources(candidates);
   numberNames(candidates);

@@ -16,7 +16,7 @@ using Suite = std::map<std::string, std::vector<uint8_t>>;
 /// Everything that is generated. Prints a summary.
 Suite makeSuite();
 
-/// Exit statuses. writeSuite() adds what is not there, checkSuite() prints what differs.
+/// Return exit statuses. writeSuite() adds what is missing, checkSuite() prints what differs.
 int writeSuite(const Suite& suite, const std::filesystem::path& folder);
 int checkSuite(const Suite& suite, const std::filesystem::path& folder);
 

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// documents IN OUT: a program that knows of the document layer alone.
+// documents IN OUT: a program that uses only the document layer.
 #include "mcc/gltf.h"
 
 int main(int argument_count, char** arguments) {
