@@ -331,7 +331,8 @@ TEST_F(AccessorKinds, IndicesAndModes) {
   }
 }
 
-/// One accessor of a triangle primitive and of points, of lines, of a morph target, of an animation.
+/// One accessor of a triangle primitive and of points, of lines, of a morph target, of an
+/// animation.
 TEST_F(AccessorKinds, InOtherUse) {
   Maker maker;
   Builder& builder = maker.builder;

@@ -261,7 +261,7 @@ TEST_F(DestinationTest, LinksStay) {
   }
   EXPECT_EQ(everything().at("elsewhere/model.glb"), "new");
   EXPECT_EQ(everything().at("elsewhere/new.glb"), "first");
-  EXPECT_EQ(everything().size(), 6u);  // nothing beside them
+  EXPECT_EQ(everything().size(), 6u);  // nothing else
   fs::create_symlink("round.glb", path("round.glb"));
   EXPECT_NE(writeFile(path("round.glb"), asBytes("")).message(), "");
 }

@@ -331,7 +331,7 @@ TEST(Integers, WhatCannotMoveStaysFloat) {
   EXPECT_NE(noteOf([](Builder& b) { b.json["nodes"][0].erase("mesh"); }).find("no node shows it"),
             std::string::npos);
   EXPECT_NE(
-      noteOf([](Builder& b) {  // points beside them that are no part of a payload
+      noteOf([](Builder& b) {  // points that use them, too, and are not in a payload
         Json points = {{"attributes", {{"POSITION", b.addPositions({0, 0, 0})}}}, {"mode", 0}};
         b.json["meshes"][0]["primitives"].push_back(points);
       })

@@ -147,7 +147,8 @@ TEST(LinearTime, TinyPrimitivesBesideALargeOne) {
   for (uint32_t i = 2; i <= 1000; ++i) EXPECT_FALSE(isCompressed(json, 0, i)) << i;
 }
 
-/// Decoding to integers gives every node a child, skins of their own and other targets of animations.
+/// Decoding to integers gives every node a child, skins of their own and other targets of
+/// animations.
 TEST(LinearTime, NodesOfAnAnimatedMeshBecomeIntegers) {
   constexpr uint32_t kCount = 20000;
   Builder builder;

@@ -121,7 +121,8 @@ TEST(Exact, WhatWouldRoundToInfinity) {
   }
 }
 
-/// The bits of such a NaN are the least number there is. It begins the list of the few values of each axis.
+/// The bits of such a NaN are the least number there is. It begins the list of the few values of
+/// each axis.
 TEST(Exact, NanOfAllOnes) {
   TestMesh mesh = grid(24, 20);
   for (size_t i = 0; i < mesh.positions.size(); i += 31) {

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// DecodeOptions::mc_edge: the edges along which a mesh was contracted are edges of it and join all of its vertices.
+// DecodeOptions::mc_edge: the edges along which a mesh was contracted are edges of it and join all
+// of its vertices.
 #include <gtest/gtest.h>
 
 #include <numeric>

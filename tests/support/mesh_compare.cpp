@@ -99,7 +99,8 @@ std::string compareLatticeItself(const AttributeView& source, uint32_t wedge_cou
     }
     extent = std::max(extent, high - low);
   }
-  // Deltas of morph targets are on the grid of what they are added to; all weights of a model on one.
+  // Deltas of morph targets are on the grid of what they are added to; all weights of a model on
+  // one.
   if (source.format.morph_target != 0 || source.format.semantic == Semantic::kWeights) return {};
   const double step = extent / (std::ldexp(1.0, source.quantization_bits) - 1);
   if (extent > 0 && static_cast<double>(info.lattice.step) > step * (1 + 1e-6)) {

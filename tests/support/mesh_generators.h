@@ -105,8 +105,8 @@ TestMesh mengerSponge(uint32_t level);
 /// where no two filled cells meet in an edge or a corner alone.
 TestMesh voxelSurface(uint32_t nx, uint32_t ny, uint32_t nz,
                       const std::function<bool(uint32_t, uint32_t, uint32_t)>& filled);
-/// Marching tetrahedra of field(x, y, z) = 0 on n^3 cells over [-1, 1]^3: vertices on edges and diagonals of the cells.
-/// May touch itself where the field is that fine.
+/// Marching tetrahedra of field(x, y, z) = 0 on n^3 cells over [-1, 1]^3: vertices on edges and
+/// diagonals of the cells. May touch itself where the field is that fine.
 TestMesh isosurface(uint32_t n, const std::function<double(double, double, double)>& field);
 
 // ---- Surfaces with boundaries -------------------------------------------------------------------
@@ -143,10 +143,11 @@ TestMesh fins(uint32_t n);
 TestMesh randomVoxels(uint64_t seed, uint32_t n, uint32_t percent);
 /// n^3 cubes of six tetrahedra, all four faces of each: inner triangles come twice, once per side.
 TestMesh tetrahedralSoup(uint32_t n);
-/// The same tetrahedra, two faces of each, with their corners in random order: what remains of a file that lists
-/// tetrahedra as quads.
+/// The same tetrahedra, two faces of each, with their corners in random order: what remains of a
+/// file that lists tetrahedra as quads.
 TestMesh tetrahedraAsQuads(uint64_t seed, uint32_t n);
-/// Every cell of an n^3 box with probability `percent`, all twelve triangles of each: inner ones come twice.
+/// Every cell of an n^3 box with probability `percent`, all twelve triangles of each: inner ones
+/// come twice.
 TestMesh stackedCubes(uint64_t seed, uint32_t n, uint32_t percent);
 /// The walls between the cells of an n^3 box and around it, once each.
 TestMesh cellWalls(uint32_t n);

@@ -308,7 +308,7 @@ TEST(TinyGltf, EncodesAPartOfAModel) {
   const Bytes source = readFile(std::filesystem::path(MCC_SAMPLES_DIR) / "two_materials.glb");
   const Model coded = loadCompressed(convertGlb(source, {}));
   Model model = loadPlain(source);
-  // A second mesh, plain, behind the compressed one.
+  // A second, uncompressed mesh after the compressed one.
   Model both = coded;
   const auto view_count = static_cast<int>(both.bufferViews.size());
   const auto accessor_count = static_cast<int>(both.accessors.size());
@@ -411,8 +411,8 @@ TEST(TinyGltf, DecodedBytesAreLimitedForTheWholeModel) {
   EXPECT_TRUE(tinygltf::decode(model, options).ok());
 }
 
-/// A model of n meshes. Each has accessors of its own, and the payload in buffer view viewOf(i), of which there are
-/// `payload_count` with the same content.
+/// A model of n meshes. Each has accessors of its own, and the payload in buffer view viewOf(i), of
+/// which there are `payload_count` with the same content.
 Model multiplied(const Model& coded, int n, size_t payload_count,
                  const std::function<size_t(size_t)>& viewOf) {
   Model model = coded;

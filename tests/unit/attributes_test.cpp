@@ -297,7 +297,7 @@ TEST(Positions, AStreamThatEndsIsAnError) {
   }
 }
 
-// ---- Values ---------------------------------------------------------------------------------------
+// ---- Values -------------------------------------------------------------------------------------
 
 AttributeInfo valuesInfo(uint8_t components, uint8_t predictor) {
   AttributeInfo info;
@@ -366,7 +366,7 @@ TEST(Values, EveryMethodOnAllKindsOfSurfaces) {
   }
 }
 
-// ---- Memory of values -----------------------------------------------------------------------------
+// ---- Memory of values ---------------------------------------------------------------------------
 
 /// Two copies of a grid, the second one farther along x.
 TestMesh twoGrids(float apart) {
@@ -405,7 +405,8 @@ TEST(Memory, NormalsOfPartsThatRepeatCostAFlag) {
   info.format.semantic = Semantic::kNormal;
   info.format.component_count = 3;
   info.coding = AttributeCoding::kExactFloat;
-  TestMesh mesh = twoGrids(30);  // steep: no component of a normal is negative, as none of the values
+  // Steep, so that no component of a normal is negative, like the values.
+  TestMesh mesh = twoGrids(30);
   for (size_t i = 0; i < mesh.positions.size(); i += 3) {
     mesh.positions[i + 2] -= 2 * (mesh.positions[i] + mesh.positions[i + 1]);
   }
@@ -435,7 +436,7 @@ TEST(Memory, OnAllKindsOfSurfaces) {
   }
 }
 
-// ---- The table of predictor bytes -----------------------------------------------------------------
+// ---- The table of predictor bytes ---------------------------------------------------------------
 
 /// Field by field, the search finds the best byte if fields do not depend on each other, and it
 /// tries only valid bytes.
@@ -598,7 +599,7 @@ TEST(Seams, OtherCountsAreErrors) {
   }
 }
 
-// ---- Parts and listed triangles -------------------------------------------------------------------
+// ---- Parts and listed triangles -----------------------------------------------------------------
 
 struct Leftovers {
   std::vector<uint32_t> parts;

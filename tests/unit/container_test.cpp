@@ -553,7 +553,8 @@ TEST(Container, LimitsOfTheCaller) {
   limits.max_pieces = 2;
   EXPECT_EQ(errorAfter(big, limits), Error::kOk);
 
-  // Operations, vertices, wedges, triangles, those of three attributes, components: of the first piece, then of the other.
+  // Operations, vertices, wedges, triangles, those of three attributes, components: of the first
+  // piece, then of the other.
   limits = {};
   limits.max_elements = 2 + 100 + 150 + 230 + 3 * (1024 + 230) + 9 * 150;
   limits.max_elements += 2 + 4 + 4 + 4 + (1024 + 4) + 3 * 4;

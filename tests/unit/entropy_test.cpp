@@ -432,7 +432,8 @@ TEST(Rans, ShortLongAndOtherStreamsAreNoticed) {
     stream.resize(stream.size() + more);
     EXPECT_FALSE(decodeTokens(stream, symbols).finished()) << more;
   }
-  // The states end where they began only for the right bytes: one changed bit is seen nearly always.
+  // The states end where they began only for the right bytes: one changed bit is seen nearly
+  // always.
   uint32_t unseen = 0;
   for (size_t bit = 0; bit < 8 * coded.bytes.size(); ++bit) {
     std::vector<uint8_t> stream = coded.bytes;

@@ -140,7 +140,8 @@ TEST(Pivots, BitsPerFace) {
 TEST(Pivots, HighDegreesTakeLinearTime) {
   expectPivots<false>(bipyramid(200000));
   expectPivots<false>(openFan(400000));
-  // Every triangle of the last vertices has the same two others, so that all spokes but the last are passed over.
+  // Every triangle of the last vertices has the same two others, so that all spokes but the last
+  // are passed over.
   TestMesh mesh = openFan(60000);
   const uint32_t last = mesh.vertexCount() - 1;
   for (uint32_t v = 1; v + 1 < last; ++v) mesh.indices.insert(mesh.indices.end(), {0, v, last});

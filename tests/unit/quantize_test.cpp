@@ -277,8 +277,8 @@ TEST(Octahedral, AngleIsBounded) {
       octahedralToUnit(s, t, centre, unit);
       worst = std::max(worst, angleBetween(unit, &normals[3 * i]));
     }
-    // Half the diagonal of a cell, stretched by 3 at most where the octahedron is nearest to the centre; and what
-    // float32 cannot hold.
+    // Half the diagonal of a cell, stretched by 3 at most where the octahedron is nearest to the
+    // centre; and what float32 cannot hold.
     EXPECT_LE(worst, 3 * std::sqrt(0.5) / centre + 2e-7) << int{bits};
     EXPECT_LT(worst, before);
     before = worst;

@@ -36,7 +36,8 @@ void expectGroups(const FaceMesh& mesh, const Groups& groups, const std::vector<
   }
   ASSERT_EQ(groups.count, group_of_class.size());
   ASSERT_TRUE(groups.hasCopies());
-  // The umbrellas of a listed group: one half-edge leaving it per vertex. Where there are copies, all vertices are in one.
+  // The umbrellas of a listed group: one half-edge leaving it per vertex. Where there are copies,
+  // all vertices are in one.
   std::set<uint32_t> stitched;
   for (uint32_t g = 0; g < groups.count; ++g) {
     for (const uint32_t h : groups.umbrellasOf(g)) {

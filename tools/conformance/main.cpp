@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// generate-conformance FOLDER adds what is new to assets/, negative/ and manifest.json of the conformance suite in FOLDER.
-// generate-conformance --check FOLDER compares what it would write with what is there.
+// generate-conformance FOLDER adds what is new to assets/, negative/ and manifest.json of the
+// conformance suite in FOLDER. generate-conformance --check FOLDER compares what it would write
+// with what is there.
 #include <cstdio>
 #include <cstring>
 #include <exception>

@@ -58,7 +58,8 @@ std::string slug(const std::string& text) {
   return out;
 }
 
-/// Gives an attribute the flag MORE, with this set and morph target. `attribute` is the prefix of its fields.
+/// Gives an attribute the flag MORE, with this set and morph target. `attribute` is the prefix of
+/// its fields.
 void stateMore(HeaderFields& fields, const std::string& attribute, uint8_t set,
                const Bytes& target) {
   fields.set(attribute + "kind", fields.get(attribute + "kind") | 0x80);
@@ -869,7 +870,7 @@ class Maker {
     }
   }
 
-  // ---- Documents ---------------------------------------------------------------------------------
+  // ---- Documents --------------------------------------------------------------------------------
 
   /// Changes an asset's JSON. `change` gets the document, its first primitive and that one's
   /// extension object.

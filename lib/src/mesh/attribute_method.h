@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Which coder an attribute goes through, and the bits of its header byte `predictor`.      [A.2.4, A.8]
+// Which coder an attribute goes through, and the bits of its header byte `predictor`.  [A.2.4, A.8]
 #ifndef MCC_MESH_ATTRIBUTE_METHOD_H_
 #define MCC_MESH_ATTRIBUTE_METHOD_H_
 
