@@ -150,7 +150,7 @@ struct AttributeReport {
   uint8_t bits = 0;  ///< of the lattice, octahedral grid or angle; 0: exact
   uint32_t component_count = 0;
   uint32_t vertex_count = 0;
-  double coded_bits = 0;         ///< bits in the payload; for POSITION only the base positions
+  double coded_bits = 0;         ///< bits in the payload; for POSITION without the triangles
   bool is_angle = false;         ///< errors are in degrees
   double promised_error = 0;     ///< no value is farther from its source than this
   double max_error = 0;          ///< measured on the file that was written
