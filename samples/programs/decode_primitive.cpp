@@ -27,7 +27,7 @@ int main(int argument_count, char** arguments) {
     return 1;
   }
 
-  // A target per attribute: those of no interest stay null, and are dropped.
+  // One target per attribute; those that are not needed stay null, and are dropped.
   const mcc::PieceInfo& piece = payload.info().pieces[0];
   std::vector<Vertex> vertices(piece.wedge_count);
   std::vector<mcc::AttributeTarget> attributes(piece.attributes.size());
@@ -39,7 +39,8 @@ int main(int argument_count, char** arguments) {
     attributes[i].stride_bytes = sizeof(Vertex);
   }
 
-  // A part is the triangle list of one primitive. 16 bits suffice for 65,536 vertices; decode() checks that.
+  // A part is the triangle list of one primitive. 16 bits are enough for 65,536 vertices; decode()
+  // checks that.
   std::vector<uint16_t> indices(size_t{3} * piece.parts[0].triangle_count);
   std::vector<mcc::PartTarget> parts(piece.parts.size());
   parts[0] = {indices.data(), mcc::IndexType::kUint16};

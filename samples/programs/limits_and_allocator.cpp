@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// limits_and_allocator IN.mcc: how a program that gets files from strangers bounds what they may cost.
+// limits_and_allocator IN.mcc: how a program that reads untrusted files bounds what they may cost.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -9,7 +9,7 @@
 
 #include "mcc/reader.h"
 
-/// An allocator that gives no more than a budget, and knows how much was in use at most.
+/// An allocator that gives no more than a budget, and records the most that was in use.
 struct Budget {
   size_t left = 0;
   size_t in_use = 0;
@@ -37,7 +37,8 @@ int main(int argument_count, char** arguments) {
   const std::vector<char> file{std::istreambuf_iterator<char>(stream), {}};
   const std::span bytes(reinterpret_cast<const uint8_t*>(file.data()), file.size());
 
-  // Limits hold before anything is allocated: a file that claims more is refused by its header alone.
+  // Limits are checked before anything is allocated: a file that claims more is refused by its
+  // header.
   mcc::Limits limits;
   limits.max_vertices = 1000000;
   limits.max_triangles = 2000000;

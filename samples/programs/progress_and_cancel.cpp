@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// progress_and_cancel IN.mcc [PERCENT]: decodes a payload, tells how far it is, and stops at PERCENT.
+// progress_and_cancel IN.mcc [PERCENT]: decodes a payload, reports progress, and stops at PERCENT.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -14,7 +14,7 @@ struct Task {
   int call_count = 0;
 };
 
-/// Called on the thread that decodes, behind every stage. False ends decode() with kCancelled.
+/// Called on the decoding thread after every stage. Returning false ends decode() with kCancelled.
 bool tell(void* user, double done) {
   Task& task = *static_cast<Task*>(user);
   ++task.call_count;
@@ -35,7 +35,7 @@ int main(int argument_count, char** arguments) {
     std::fprintf(stderr, "%s\n", status.what);
     return 1;
   }
-  // Targets of nothing: everything is decoded and dropped.
+  // The targets are null, so everything is decoded and dropped.
   std::vector<std::vector<mcc::AttributeTarget>> attributes;
   std::vector<std::vector<mcc::PartTarget>> parts;
   std::vector<mcc::PieceTarget> targets;
@@ -51,7 +51,7 @@ int main(int argument_count, char** arguments) {
   status = payload.decode(targets, options);
   if (status.error == mcc::Error::kCancelled) {
     std::printf("stopped after %d calls\n", task.call_count);
-    return 0;  // the memory decode() took is given back, the targets hold anything
+    return 0;  // decode() has released its memory; the targets hold unspecified bytes
   }
   std::printf("%s\n", status.ok() ? "decoded" : status.what);
   return status.ok() ? 0 : 1;

@@ -59,7 +59,7 @@ void addExtensionName(const char* list, Json& root) {
 /// Writes encoded parts into the JSON of a document.
 class Emitter {
  public:
-  /// is_taken  accessors somebody else needs.
+  /// is_taken  marks accessors that something else needs.
   Emitter(const gltf::Document& document, std::vector<bool> is_taken)
       : document_(document), json_(document.json), is_taken_(std::move(is_taken)) {}
 
@@ -98,7 +98,7 @@ class Emitter {
   }
 
  private:
-  /// The accessor itself for the first who wants it, else a clone; without bytes.
+  /// Returns the accessor itself for the first user, else a clone; both without bytes.
   uint32_t take(uint32_t source) {
     Json& accessors = json_["accessors"];
     uint32_t index = source;

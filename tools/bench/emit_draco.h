@@ -17,7 +17,7 @@ namespace mcc::bench {
 /// triangle primitive gets a buffer view and accessors of its own; one with morph targets is coded
 /// sequentially, so that the deltas, which stay ordinary accessors, keep their order. Primitives
 /// that Draco cannot code stay as they are, with a note.
-/// source  names the file in messages; the buffers of a .gltf lie beside it.
+/// source  names the file in messages; the buffers of a .gltf are next to it.
 /// file    its bytes.
 /// output  a GLB.
 /// Errors: the document contradicts itself. Tests: tests/cli/compare_test.cpp.

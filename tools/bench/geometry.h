@@ -59,11 +59,12 @@ struct Geometry {
 using PrimitiveFilter = std::function<bool(uint32_t mesh, uint32_t primitive)>;
 
 /// Quantises and encodes a file as `convert` does, but keeps payloads that gain nothing.
-/// path    names the file in messages; the buffers of a .gltf lie beside it.
+/// path    names the file in messages; the buffers of a .gltf are next to it.
 /// file    its bytes, see gltf::readFile().
 /// wanted  null: all triangle primitives. A primitive counts once however often it is used; those
 ///         with the same attributes share a piece, those with the same indices too are one.
-/// Errors: as convertFile(). A file without triangle primitives is none: `inputs` is empty then.
+/// Errors: as convertFile(). A file without triangle primitives is not an error; `inputs` is then
+/// empty.
 gltf::Result loadGeometry(const std::filesystem::path& path, std::vector<uint8_t> file,
                           const gltf::ConvertOptions& options, const PrimitiveFilter& wanted,
                           Geometry& geometry);

@@ -11,7 +11,7 @@
 namespace mcc::bench {
 namespace {
 
-/// Small files are decoded more often than asked for, until this much time was spent per codec.
+/// Small files are decoded more often than requested, until this much time was spent per codec.
 constexpr double kDecodeSeconds = .05;
 constexpr uint32_t kMaxDecodeRuns = 200;
 
@@ -106,7 +106,7 @@ class FileMeasurer {
     return seconds;  // the arrays are freed after the clock was read
   }
 
-  /// Everything that is not timed.
+  /// Does everything that is not timed.
   Outcome examine(Codec codec) {
     CodecFigures& figures = figures_.codecs[indexOf(codec)];
     const EncodedFile& encoded = encoded_[indexOf(codec)];

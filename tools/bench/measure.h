@@ -50,14 +50,14 @@ struct CodecFigures {
 };
 
 struct FileFigures {
-  std::string name;  ///< of the file, without folder and extension
+  std::string name;  ///< name of the file, without folder and extension
   uint64_t triangle_count = 0;
   uint64_t wedge_count = 0;   ///< glTF vertices
   uint64_t vertex_count = 0;  ///< distinct positions
   uint64_t primitive_count = 0;
   std::array<CodecFigures, kCodecCount> codecs;
-  /// With morph targets and whatever else Draco cannot take, ours alone; the figures above are
-  /// without.
+  /// Our bytes with morph targets and everything else Draco does not support; the figures above are
+  /// without them.
   bool has_left_out = false;
   uint64_t full_bytes = 0;
   std::vector<Stream> full_streams;

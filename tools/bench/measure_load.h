@@ -23,7 +23,7 @@ struct LoadFigures {
   uint64_t payload_count = 0;  ///< what two threads can share
 };
 
-/// Makes our file and Draco's of a model and loads them in turns.
+/// Makes our file and Draco's from a model, and loads them in turn.
 foreign::Outcome measureLoad(const std::filesystem::path& path, std::span<const uint8_t> file,
                              const gltf::ConvertOptions& options, uint32_t run_count,
                              LoadFigures& figures);

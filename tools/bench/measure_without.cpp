@@ -11,7 +11,7 @@
 namespace mcc::bench {
 namespace {
 
-/// Adds the features of "fold+shear"; false, with `wrong`, when a name is unknown.
+/// Adds the features of "fold+shear". Returns false and sets `wrong` when a name is unknown.
 bool parseTogether(std::string_view text, Ablation& ablation, std::string& wrong) {
   ablation.name = text;
   while (true) {

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What the choices of our encoder gain: a file's bytes and decoding time with all of them and without some.
+// Measures what the choices of our encoder gain: a file's bytes and decoding time with all of them
+// and without some.
 #ifndef MCC_TOOLS_BENCH_MEASURE_WITHOUT_H_
 #define MCC_TOOLS_BENCH_MEASURE_WITHOUT_H_
 
@@ -22,8 +23,8 @@ struct Ablation {
   FeatureSet without;
 };
 
-/// Reads "palette,fold+shear" (two ablations, the second of two features) or "all" (one for every feature). Returns the
-/// first name that is no feature's, or an empty text.
+/// Reads "palette,fold+shear" (two ablations, the second of two features) or "all" (one for every
+/// feature). Returns the first name that is not a feature, or an empty text.
 std::string parseAblations(std::string_view text, std::vector<Ablation>& ablations);
 
 /// Names of all features, separated by commas.

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Draco behind plain structs: what it makes of a primitive, at our quantisation and measured as
-// ours.
+// Draco with plain structs: what it makes of a primitive, at our quantisation and measured like our
+// codec.
 #ifndef MCC_TOOLS_FOREIGN_DRACO_CODEC_H_
 #define MCC_TOOLS_FOREIGN_DRACO_CODEC_H_
 
@@ -48,7 +48,8 @@ struct DracoInput {
 };
 
 /// Describes one part of a piece to Draco. POSITION, NORMAL, COLOR and TEX_COORD keep their types,
-/// all else is GENERIC, integer normals too; integers are exact; floats with quantization_bits > 0 get our lattice as
+/// everything else is GENERIC, including integer normals; integers are exact; floats with
+/// quantization_bits > 0 get our lattice as
 /// explicit quantisation (origin and range), so that bits mean the same on both sides; normals get
 /// octahedral bits. Attributes with NaN, infinity or a range beyond float32 stay exact.
 /// Fails without POSITION, without triangles, on an index beyond the wedges and on bits Draco has
@@ -90,9 +91,8 @@ Outcome encodeDracoConnectivity(const DracoInput& input, int speed,
                                 DracoConnectivity& connectivity);
 
 /// Decodes to final arrays. Touches nothing but `bytes` and memory it allocates, keeps no state.
-/// Fails on anything that is no triangle mesh, with Draco's own message. Draco checks the bytes,
-/// but bounds neither time nor memory: do not give it a file from a stranger without a limit
-/// around.
+/// Fails on anything that is not a triangle mesh, with Draco's own message. Draco checks the bytes,
+/// but bounds neither time nor memory: do not give it untrusted files without an outer limit.
 Outcome decodeDraco(std::span<const uint8_t> bytes, DecodedMesh& mesh);
 
 /// What a Draco mesh says of itself before its data.
@@ -102,7 +102,8 @@ struct DracoCounts {
       0;  ///< edgebreaker: before seams split vertices; the decoded ones are not fewer
 };
 
-/// Reads the counts alone; takes no memory for what they claim. Fails on anything that is no triangle mesh.
+/// Reads only the counts, and takes no memory for what they claim. Fails on anything that is not a
+/// triangle mesh.
 Outcome readDracoCounts(std::span<const uint8_t> bytes, DracoCounts& counts);
 
 /// Decodes the triangles and stops before the attributes. Edgebreaker only.

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// meshoptimizer's codec with zstd behind plain structs: what `gltfpack -c` or `-cc` makes of a
+// meshoptimizer's codec and zstd with plain structs: what `gltfpack -c` or `-cc` makes of a
 // primitive at our quantisation.
 #ifndef MCC_TOOLS_FOREIGN_MESHOPT_CODEC_H_
 #define MCC_TOOLS_FOREIGN_MESHOPT_CODEC_H_
@@ -31,7 +31,7 @@ enum class MeshoptStorage : uint8_t {
   kRaw,         ///< the accessor's own values, elements padded to 4 bytes
   kLattice,     ///< unsigned lattice indices of 1, 2 or 4 bytes
   kSigned,      ///< normals and tangents: signed fractions of `bits` bits in 1 or 2 bytes
-  kOctahedral,  ///< the same behind meshoptimizer's octahedral filter
+  kOctahedral,  ///< the same after meshoptimizer's octahedral filter
 };
 
 /// Description of a stream; in a file it is the JSON's part, so it counts no bytes.
