@@ -105,7 +105,7 @@ TEST_F(Files, StreamsAreWrittenThrough) {
   const ToolResult tree = shell(tool_ + "tree in.glb out | head -c 4");
   EXPECT_EQ(tree.out, "<svg");
   ASSERT_EQ(mkfifo(path("pipe.gltf").c_str(), 0600), 0);
-  expectRefused("convert in.glb pipe.gltf", 1, "a .gltf has its buffer in a file beside it");
+  expectRefused("convert in.glb pipe.gltf", 1, "a .gltf has its buffer in a file next to it");
   expectRefused("convert in.glb pipe.gltf --fallback", 1, "a .gltf has its buffer");
   EXPECT_TRUE(fs::is_fifo(path("pipe.gltf")));
 }
@@ -286,7 +286,7 @@ TEST_F(Files, OnlyImagesAreCopied) {
     EXPECT_EQ(copied.size(), images.size()) << command;
     for (const std::string word :
          {"\".bashrc\" is the name of a hidden file; it is not copied",
-          "\"run.sh\" is not an image", "\"link.png\" is a symbolic link out of the folder",
+          "\"run.sh\" is not a known type of image", "\"link.png\" is a symbolic link out of the folder",
           "\"folder/b.png\" is a symbolic link"}) {
       EXPECT_NE(result.out.find(word), std::string::npos) << word << "\n" << result.out;
     }
@@ -304,7 +304,7 @@ TEST_F(Files, OnlyImagesAreEmbedded) {
   store("m/a.gltf", json.dump());
   const ToolResult result = run("convert m/a.gltf out.glb");
   EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.out.find("/images/0: is not an image"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("/images/0: is not a known type of image"), std::string::npos) << result.out;
   EXPECT_EQ(contentOf(path("out.glb")).find("secret"), std::string::npos);
 }
 

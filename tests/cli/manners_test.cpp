@@ -195,7 +195,7 @@ TEST_F(Manners, ColoursOnATerminalOnly) {
   EXPECT_EQ(run("inspect small.glb --color always --format csv").out.find(escape),
             std::string::npos);
   expectUsageError("inspect small.glb --color sometimes",
-                   "--color: sometimes is none of auto, always, never");
+                   "--color: sometimes is not one of auto, always, never");
   if (!has("script")) GTEST_SKIP() << "no script(1), which makes a terminal";
   const auto onTerminal = [&](const std::string& setting, const std::string& arguments) {
     return bash("export TERM=xterm; unset NO_COLOR; " + setting + "\nscript -qec \"'$tool' " +

@@ -301,7 +301,7 @@ TEST(EverythingElse, WhatCountsTheIndicesOfAStripLeavesItAlone) {
         ASSERT_EQ(trip.error, "");
         EXPECT_FALSE(isCompressed(jsonOf(trip.converted), 0, 0));
         EXPECT_TRUE(isCompressed(jsonOf(trip.converted), 1, 0));
-        EXPECT_TRUE(hasNote(trip.report, std::string("has ") + name + ", which may depend on"));
+        EXPECT_TRUE(hasNote(trip.report, std::string("has ") + name + ", which may rely on"));
       }
     }
   }
