@@ -3,44 +3,42 @@
 // Positions on and between planes: B.2.9 of the specification. All floats are binary32.
 
 import { fail } from './bytes.mjs';
-import { POSITIONS, Row, rows } from './entropy.mjs';
-import { axesByNormal, floatOf } from './prediction.mjs';
-import { readFoldedResidual, readResidual } from './residuals.mjs';
-import { clamp, dot32, f, max, min, sqrt32 } from './vectors.mjs';
+import { POSITIONS, rows } from './entropy.mjs';
+import { axesByNormal, movement } from './prediction.mjs';
+import { readByFraction, readFoldedResidual } from './residuals.mjs';
+import { dot32, f, min, sqrt32 } from './vectors.mjs';
 
 const xyz = [0, 1, 2];
+const TINY = f(1e-30);
+
+// The kinds: axes between planes; of those that lie on a diagonal, the axes on which it counts downwards.
+const KINDS = [
+	...[1, 2, 3, 4, 5, 6, 7].map((axes) => ({ axes })),
+	{ axes: 3, down: 0 }, { axes: 3, down: 2 }, { axes: 5, down: 0 }, { axes: 5, down: 4 }, { axes: 6, down: 0 }, { axes: 6, down: 4 },
+	{ axes: 7, down: 0 }, { axes: 7, down: 2 }, { axes: 7, down: 4 },
+];
 
 export class PlanesModels {
 	constructor() {
-		this.BETWEEN = rows([513]);
-		this.DIAGONAL = rows([8]);
-		this.PLANE = rows([2, 4, 4]);
-		this.REST = new Row();
+		this.KIND = rows([513]);
+		this.REST = rows([4]);
 	}
 }
 
-function floorOf(x) {
-	const y = x > -(2 ** 20) ? (x < 2 ** 20 ? x : 2 ** 20) : -(2 ** 20);
-	const i = Math.trunc(y);
-	return i - (i > y ? 1 : 0);
-}
-
-const direction = (d, first, s) => (s !== first && ((d - 1) >> (s - 1)) & 1 ? -1 : 1);
-
-// One axis: its planes in units of 2^-32 of a lattice step, and as floats O, D and I.
+// One axis: its planes in units of 2^-32 of a lattice step, and as floats O (Q8), D and I.
 class Axis {
 	constructor(streams) {
 		this.step = readNumberOf49Bits(streams);
 		this.origin = readNumberOf49Bits(streams);
 		if (this.step < 1n << 34n || this.origin >= this.step) fail('BadAttribute', 'B.2.9', 'step or origin of planes');
-		this.O = f(f(Number(this.origin)) / 2 ** 32);
+		this.O = f(f(Number(this.origin)) / 2 ** 24);
 		this.D = f(f(Number(this.step)) / 2 ** 32);
 		this.I = f(1 / this.D);
 	}
 
-	coordinate(p) {
-		const position = BigInt.asIntN(64, this.origin + (1n << 31n) + BigInt(p) * this.step);
-		return Number(BigInt.asIntN(32, position >> 32n));
+	q8(p) {
+		const position = BigInt.asIntN(64, this.origin + BigInt(p) * this.step);
+		return Number(BigInt.asIntN(32, position >> 24n));
 	}
 }
 
@@ -56,160 +54,128 @@ export class Planes {
 		this.rows = positionRows;
 		this.records = records;
 		this.axes = xyz.map(() => new Axis(streams));
+		this.kinds = KINDS.map((kind) => this.complete(kind));
+	}
+
+	// Slopes of diagonals, and the axes that move: those whose coordinates are coded
+	complete({ axes, down }) {
+		const between = xyz.filter((s) => (axes >> s) & 1);
+		const first = between[0];
+		const slope = xyz.map((s) => {
+			if (down === undefined || s === first || !between.includes(s)) return 0;
+			const steep = f(this.axes[s].D * this.axes[first].I);
+			return (down >> s) & 1 ? -steep : steep;
+		});
+		return { axes, slope, first, moving: down === undefined ? between : [first] };
 	}
 
 	codeFan(fan, predicted, normal) {
 		const { neighbours } = fan;
 		const N = neighbours.length;
 		const [A, B, C] = [0, N >> 1, N - 1].map((i) => this.records.magnitude[3 * neighbours[i] + 1] & 7);
-		const between = predicted.between ?? [0, 0, 0];
-		this.code(fan.v, 64 * A + 8 * B + C, { ...predicted, between, normal });
+		this.code(fan.v, 64 * A + 8 * B + C, { ...predicted, normal });
 	}
 
 	codeSeed(v, at) {
-		this.code(v, 512, { at, normal: [0, 0, 0], spread: [0, 0, 0], magnitudes: [0, 0, 0], between: [0, 0, 0] });
+		this.code(v, 512, { at, normal: [0, 0, 0], spread: [0, 0, 0], magnitudes: [0, 0, 0] });
 	}
 
 	code(v, context, fanState) {
-		const vertex = new Vertex(this, fanState);
-		vertex.read(context);
+		const kind = this.kinds[this.streams.token(0, this.models.KIND[context], POSITIONS)];
+		const vertex = new Vertex(this, kind, fanState);
+		vertex.read();
 		this.records.q.set(vertex.q, 3 * v);
 		this.records.magnitude.set(vertex.magnitudes(), 3 * v);
-	}
-
-	alongDiagonal(first, s, t) {
-		const ratio = f(this.axes[s].D * this.axes[first].I);
-		return floorOf(f(f(f(t) * ratio) + 0.5));
 	}
 }
 
 // The state of one vertex, and its code.
 class Vertex {
-	constructor(planes, { at, normal, spread, magnitudes, between }) {
-		this.planes = planes;
-		this.streams = planes.streams;
-		this.models = planes.models;
-		this.predicted = at.map(floatOf);
+	constructor(planes, kind, { at, normal, spread, magnitudes }) {
+		Object.assign(this, { planes, kind, streams: planes.streams });
+		this.q8 = at.map(({ step, fraction }) => ((step << 8) + fraction) | 0);
 		this.spread = spread;
-		const size = sqrt32(dot32(normal, normal));
-		const unit = size > 0 ? f(1 / size) : 0;
-		this.normal = normal.map((x) => f(x * unit));
-		this.left = 0;
-		for (const s of xyz) this.left = f(this.left + this.square(s));
-		const disagreement = Math.abs(dot32(between.map(f), normal));
+		this.normal = normal.map((x) => x / 2 ** 32);
+		const squared = dot32(this.normal, this.normal);
+		this.size = sqrt32(squared);
 		const [m0, , m2] = magnitudes;
-		this.reachAcross = f(f(f(m0 * 0.25) + f(f(disagreement * unit) * 2)) + 16);
+		this.reachAcross = f(f(m0 * 0.25) + 16);
 		this.reachAlong = f(f(m2 * 0.25) + 16);
-		this.distance = 0;
 		this.q = new Int32Array(3);
+		this.alignToDiagonal();
+		this.order = axesByNormal(this.normal).filter((s) => kind.moving.includes(s));
+		this.slopes = this.slopesOfOrder(f(squared / 64 + TINY));
 	}
 
-	square(s) {
-		return f(this.normal[s] * this.normal[s]);
+	alignToDiagonal() {
+		const { slope, first } = this.kind;
+		const q8 = this.q8.map(f);
+		const off = f(q8[first] - this.planes.axes[first].O);
+		this.at = xyz.map((s) => f(q8[s] - f(slope[s] * off)));
+		this.normal[first] = f(this.normal[first] + dot32(slope, this.normal));
 	}
 
-	slope(s) {
-		return f(this.normal[s] / f(this.left + f(0.1)));
+	// By how much each coordinate moves for each step away from the tangent plane.
+	slopesOfOrder(doubt) {
+		const slopes = [];
+		let left = doubt;
+		for (const s of [...this.order].reverse()) {
+			left = f(left + f(this.normal[s] * this.normal[s]));
+			slopes.unshift(f(this.normal[s] / left));
+		}
+		return slopes;
 	}
 
-	learn(s, x) {
-		this.q[s] = x;
-		this.left = f(this.left - this.square(s));
-		this.distance = f(this.distance + f(this.normal[s] * f(f(this.q[s]) - this.predicted[s])));
-	}
-
-	// predicted[s] - distance * slope
-	moved(s, slope) {
-		return f(this.predicted[s] - f(this.distance * slope));
+	isMoving(s) {
+		return this.kind.moving.includes(s);
 	}
 
 	// ---- Its code
 
-	read(context) {
-		this.between = this.streams.token(0, this.models.BETWEEN[context], POSITIONS) & 7;
-		const axes = xyz.filter((s) => (this.between >> s) & 1);
-		const diagonal = axes.length > 1 ? this.readDiagonalNumber() : 0;
+	read() {
+		const value = xyz.map((s) => this.readValue(s));
+		const base = xyz.map((s) => this.planes.axes[s].q8(value[s]));
+		const off = xyz.map((s) => (this.isMoving(s) ? 0 : f((base[s] - movement(this.at[s])) | 0)));
+		this.distance = dot32(off, this.normal);
+		for (const s of xyz) this.q[s] = (base[s] + 128) >> 8;
+		this.order.forEach((s, i) => this.place(s, value[s], this.slopes[i]));
 		for (const s of xyz) {
-			if (!axes.includes(s)) this.readOnPlane(s);
+			if (this.kind.slope[s] !== 0) this.q[s] = this.readOnDiagonal(s, base[s]);
 		}
-		if (diagonal !== 0) this.readDiagonal(axes, diagonal);
-		else this.readCoordinates(axes);
 	}
 
-	readDiagonalNumber() {
-		const diagonal = this.streams.token(1, this.models.DIAGONAL[this.between], POSITIONS);
-		return diagonal >= 5 ? 0 : diagonal;
-	}
-
-	readOnPlane(s) {
+	readValue(s) {
 		const axis = this.planes.axes[s];
-		const x = f(f(this.moved(s, this.slope(s)) - axis.O) * axis.I);
-		this.learn(s, axis.coordinate(this.readPlane(s, f(x + 0.5), 0)));
+		const x = this.isMoving(s) ? this.at[s] : f(f(this.at[s] - axis.O) * axis.I);
+		const r = movement(x) + 128;
+		const set = this.isMoving(s) ? 0 : 1;
+		return ((r >> 8) + readFoldedResidual(this.streams, this.planes.rows, s, set, this.width(s, axis), r)) | 0;
+	}
+
+	width(s, axis) {
+		if (s === this.order.at(-1)) return f(f(this.reachAcross * Math.abs(this.slopes.at(-1))) * this.size);
+		if (this.isMoving(s)) return f(f(this.spread[s] * 2) + this.reachAlong);
+		return f(f(f(this.spread[s] * 8) + f(this.reachAlong * 0.5)) * axis.I);
+	}
+
+	// A coordinate, moved as the tangent plane says.
+	place(s, value, slope) {
+		const shift = movement(f(-slope * this.distance));
+		this.q[s] = value + ((shift + 128) >> 8);
+		const off = f(((this.q[s] << 8) - movement(this.at[s])) | 0);
+		this.distance = f(this.distance + f(this.normal[s] * off));
+	}
+
+	readOnDiagonal(s, base) {
+		const { slope, first } = this.kind;
+		const along = f(slope[s] * f(f(this.q[first]) * 256 - this.planes.axes[first].O));
+		const r = (base + movement(along) + 128) | 0;
+		return (r >> 8) + readByFraction(this.streams, s, this.planes.models.REST, r);
 	}
 
 	magnitudes() {
-		let sum = 0;
-		for (const s of xyz) sum = f(sum + Math.abs(f(f(this.q[s]) - this.predicted[s])));
-		const across = Math.trunc(min(f(16 * Math.abs(this.distance)), 2 ** 22));
-		return [across, this.between, Math.trunc(min(f(8 * sum), 2 ** 22))];
-	}
-
-	readPlane(s, x, kind) {
-		const near = floorOf(x);
-		const off = f(f(x - near) - 0.5);
-		const y = f(f(this.spread[s] + f(this.reachAlong / 16)) * this.planes.axes[s].I);
-		const j = Number(y >= 0.25) + Number(y >= 0.5) + Number(y >= 0.75);
-		const k = Math.trunc(min(f(Math.abs(off) * 8), 3));
-		return (near + readResidual(this.streams, 2, this.models.PLANE[kind][j][k], 0, off < 0 ? 1 : 0)) | 0;
-	}
-
-	readCoordinates(axes) {
-		const order = axesByNormal(this.normal).filter((s) => axes.includes(s));
-		order.forEach((s, i) => {
-			const slope = this.slope(s);
-			const others = max(f(this.left - this.square(s)), 0);
-			const freedom = f(others / f(f(others + this.square(s)) + f(1e-6)));
-			const x = this.moved(s, slope);
-			const alongScale = f(freedom * f(this.reachAlong + f(2 * this.spread[s])));
-			const scale = f(f(this.reachAcross * Math.abs(slope)) + alongScale);
-			this.learn(s, this.readNumber(order.length - 1 - i, x, scale));
-		});
-	}
-
-	readNumber(slot, x, scale) {
-		const r = Math.trunc(f(clamp(x, -(2 ** 22), 2 ** 22) * 256)) + 128;
-		const u = scale > 0 ? min(scale, 2 ** 22) : 0;
-		return ((r >> 8) + readFoldedResidual(this.streams, this.planes.rows, slot, 0, u, r)) | 0;
-	}
-
-	readDiagonal(axes, diagonal) {
-		const first = axes[0];
-		const dir = xyz.map((s) => direction(diagonal, first, s));
-		const base = [0, 0, 0];
-		let height = -this.distance;
-		let rise = 0;
-		for (const s of axes) {
-			const axis = this.planes.axes[s];
-			const p = (this.readPlane(s, f(f(this.predicted[s] - axis.O) * axis.I), 1) + (dir[s] < 0 ? 1 : 0)) | 0;
-			base[s] = axis.coordinate(p);
-			height = f(height + f(this.normal[s] * f(this.predicted[s] - f(base[s]))));
-			rise = f(rise + f(f(this.normal[s] * dir[s]) * axis.D));
-		}
-		const moved = this.readMove(first, height, f(rise * this.planes.axes[first].I));
-		for (const s of axes) {
-			const x = s === first ? moved : dir[s] * this.planes.alongDiagonal(first, s, moved) + this.readRest();
-			this.learn(s, base[s] + x);
-		}
-	}
-
-	readMove(first, height, rise) {
-		const { D } = this.planes.axes[first];
-		const steep = max(Math.abs(rise), 1 / 64);
-		const t = steep > 1 / 64 ? clamp(f(height / rise), 0, D) : f(D / 2);
-		return this.readNumber(0, t, min(f(this.reachAcross / steep), f(4 * D)));
-	}
-
-	readRest() {
-		return readResidual(this.streams, 1, this.models.REST, 0, 0);
+		const across = Math.trunc(min(f(Math.abs(this.distance) * f(1 / f(16 * this.size + TINY))), 2 ** 22));
+		const moved = xyz.map((s) => Math.abs(((this.q[s] << 8) - this.q8[s]) | 0) >>> 5);
+		return [across, this.kind.axes, Math.min(moved[0] + moved[1] + moved[2], 2 ** 22)];
 	}
 }

@@ -37,9 +37,6 @@ const sum32 = (list) => list.reduce((a, b) => f(a + b), 0);
 // [B.2.1] A movement in 1/256 of a step
 export const movement = (x) => Math.trunc(clamp(x, -(2 ** 29), 2 ** 29));
 
-// [B.2.1] A fine point as a float, in steps
-export const floatOf = ({ step, fraction }) => f(float(step) + f(float(fraction) / 256));
-
 // Predictions of one piece. `records` holds what B.2.1 keeps of the groups.
 export class Prediction {
 	constructor(surface, region, records, select, weights) {
@@ -50,7 +47,7 @@ export class Prediction {
 		this.weights = weights;
 	}
 
-	// By component the fine point `at`, spread and magnitudes of a fan; for a plain fan `between`, too.
+	// By component the fine point `at`, spread and magnitudes of a fan.
 	predict(fan) {
 		return fan.plain ? this.plainFan(fan) : this.otherFan(fan);
 	}
@@ -78,7 +75,7 @@ export class Prediction {
 			fraction: 128 * (between[s] & 1) + movement(weightedFeatures({ n1, d0, ...rest }, degrees, w)),
 		}));
 		const spread = between.map((x) => Math.abs(f(x)));
-		return { at, spread, between, magnitudes: this.magnitudes(fan) };
+		return { at, spread, magnitudes: this.magnitudes(fan) };
 	}
 
 	// The coordinates around the fan and the vertices beyond, by component.

@@ -150,7 +150,11 @@ function lowBits(bucket) {
 export function readFoldedResidual(streams, rows, slot, set, scale, r) {
 	const bucket = bucketOf(scale);
 	if (bucket >= FOLDED_BUCKETS) return readResidual(streams, slot, rows.ROW[slot][set][bucket], lowBits(bucket));
+	return readByFraction(streams, slot, rows.FOLDED[slot][set].map((ofClass) => ofClass[bucket]), r);
+}
+
+// A folded residual, of the row of the fraction class.
+export function readByFraction(streams, state, rows, r) {
 	const fraction = (r & 255) - 128;
-	const fractionClass = Math.min(Math.abs(fraction) >> 5, 3);
-	return readResidual(streams, slot, rows.FOLDED[slot][set][fractionClass][bucket], 0, fraction < 0 ? 1 : 0);
+	return readResidual(streams, state, rows[Math.min(Math.abs(fraction) >> 5, 3)], 0, fraction < 0 ? 1 : 0);
 }

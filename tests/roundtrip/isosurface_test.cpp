@@ -51,7 +51,7 @@ TEST(Isosurface, PlanesOfTheGridAreUsed) {
       const RoundTrip off_grid = roundTrip(MeshPiece(turned(mesh), {bits, 0, 0}).view());
       ASSERT_EQ(off_grid.failure, "");
       EXPECT_FALSE(hasPlanes(off_grid.encoded));
-      EXPECT_LT(on_grid.encoded.sizes.position_bits, 0.75 * off_grid.encoded.sizes.position_bits);
+      EXPECT_LT(on_grid.encoded.sizes.position_bits, 0.5 * off_grid.encoded.sizes.position_bits);
     }
   }
 }

@@ -4,8 +4,10 @@
 // surfaces are in roundtrip/isosurface_test.cpp.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "attributes/enc_position_planes.h"
@@ -35,13 +37,26 @@ TEST(PositionPlanes, BelowIsTheInverseOfAt) {
   }
 }
 
-TEST(PositionPlanes, FloorsComeToTheEnds) {
-  EXPECT_EQ(floorOf(0.0f), 0);
-  EXPECT_EQ(floorOf(2.75f), 2);
-  EXPECT_EQ(floorOf(-0.25f), -1);
-  EXPECT_EQ(floorOf(-3.0f), -3);
-  EXPECT_EQ(floorOf(3e38f), 1 << 20);
-  EXPECT_EQ(floorOf(-3e38f), -(1 << 20));
+/// Lines of diagonals go on with the same slope in each cell that they enter, and are as many as planes.
+TEST(PositionPlanes, KindsAreAllDifferent) {
+  const AxisPlanes planes[3] = {planesAt(1, 8), planesAt(0, 16), planesAt(3, 32)};
+  const GridPlanes grid(planes);
+  std::set<std::vector<float>> kinds;
+  for (const GridPlanes::Frame& frame : grid.frame) {
+    EXPECT_EQ(frame.between & frame.moving, frame.moving);
+    EXPECT_EQ(std::popcount(frame.moving), frame.moving_count);
+    EXPECT_NE(frame.moving & 1u << frame.first, 0);
+    EXPECT_EQ(frame.rests, frame.between & ~frame.moving);
+    for (uint32_t s = 0; s < 3; ++s) {
+      const float slope =
+          static_cast<float>(planes[s].step) / static_cast<float>(planes[frame.first].step);
+      EXPECT_EQ(std::fabs(frame.slope[s]), (frame.rests >> s & 1) != 0 ? slope : 0);
+      EXPECT_EQ(frame.on_planes[s], (frame.moving >> s & 1) != 0 ? 0u : ~0u);
+    }
+    kinds.insert({static_cast<float>(frame.between), static_cast<float>(frame.moving),
+                  frame.slope[1], frame.slope[2]});
+  }
+  EXPECT_EQ(kinds.size(), size_t{kTokenCount});
 }
 
 /// Vertices on the edges of a grid: two coordinates are those of planes.

@@ -22,7 +22,7 @@ inline constexpr double kFold = 10;
 inline constexpr double kSplit = 1;
 inline constexpr double kPalette = 50;       ///< with few distinct values
 inline constexpr double kPaletteValue = 40;  ///< more for each distinct value per vertex
-inline constexpr double kPlanes = 90;
+inline constexpr double kPlanes = 45;
 inline constexpr double kMemory = 25;       ///< of texture coordinates
 /// Per copy that is stitched, and per face that is listed by pivots more than by the collapse.
 inline constexpr double kCopy = 250;

@@ -3,17 +3,16 @@
 // Planes: evenly spaced coordinates that many vertices share. Isosurfaces (marching cubes, marching tetrahedra) have
 // their vertices on the edges, faces or diagonals of the cells of a grid.                    [B.2.9]
 //
-// Of each vertex the payload tells
-//   - on which axes it lies between planes; on the others the number of its plane is coded;
-//   - where that is more than one axis, whether it moves along a diagonal: all of them then have the same distance t
-//     from their planes, and the cells are coded;
-//   - what is left, t or coordinates, from where the tangent plane through the prediction meets what is known.
+// The kind of a vertex tells on which axes it lies between planes, and whether it moves there along a diagonal: then
+// the number of its line is coded on all of these axes but the first.
 #ifndef MCC_ATTRIBUTES_POSITION_PLANES_H_
 #define MCC_ATTRIBUTES_POSITION_PLANES_H_
 
+#include <bit>
 #include <cstdint>
 
 #include "base/host.h"
+#include "base/lanes.h"
 #include "entropy/models.h"
 #include "mcc/status.h"
 
@@ -30,11 +29,15 @@ struct AxisPlanes {
   int64_t origin = 0;  ///< of plane 0, 0 <= origin < step
   int64_t step = kMinStep;
 
-  /// Lattice coordinate of a plane; wraps.
-  MCC_INLINE int32_t at(int32_t plane) const {
+  /// Lattice coordinate of a plane in Q8; wraps.
+  MCC_INLINE int32_t q8At(int32_t plane) const {
     const uint64_t distance = static_cast<uint64_t>(int64_t{plane}) * static_cast<uint64_t>(step);
-    const uint64_t sum = static_cast<uint64_t>(origin + kOne / 2) + distance;
-    return static_cast<int32_t>(static_cast<int64_t>(sum) >> 32);
+    return static_cast<int32_t>(static_cast<int64_t>(static_cast<uint64_t>(origin) + distance) >>
+                                24);
+  }
+  /// The lattice coordinate that vertices on a plane have.
+  int32_t at(int32_t plane) const {
+    return static_cast<int32_t>(static_cast<uint32_t>(q8At(plane)) + 128) >> 8;
   }
   /// The last plane whose coordinate is at most q, which is a coordinate of a lattice.
   int32_t below(int32_t q) const {
@@ -61,76 +64,71 @@ Status codePlanes(Io& io, AxisPlanes& planes) {
   return {};
 }
 
-/// Rounds down; values far beyond any plane come to +-2^20.
-MCC_INLINE int32_t floorOf(float x) {
-  constexpr int32_t kReach = 1 << 20;
-  const float low = -static_cast<float>(kReach);
-  const float inside = x > low ? (x < -low ? x : -low) : low;
-  const int32_t truncated = static_cast<int32_t>(inside);
-  return truncated - (static_cast<float>(truncated) > inside ? 1 : 0);
-}
+/// Axes have bits 0, 1, 2. A diagonal counts upwards on its first axis.
+struct VertexKind {
+  uint8_t between;   ///< axes on which the vertex lies between planes
+  uint8_t diagonal;  ///< the same, or 0 for none
+  uint8_t down;      ///< axes of the diagonal on which it counts downwards
+};
+inline constexpr VertexKind kVertexKinds[kTokenCount] = {
+    {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {5, 0, 0}, {6, 0, 0}, {7, 0, 0}, {3, 3, 0},
+    {3, 3, 2}, {5, 5, 0}, {5, 5, 4}, {6, 6, 0}, {6, 6, 4}, {7, 7, 0}, {7, 7, 2}, {7, 7, 4}};
 
-/// The planes of the three axes, ready to be used.
+/// The planes of the three axes, and what follows from them for each kind of vertex.
 struct GridPlanes {
+  struct Frame {
+    Lanes<float> slope{};         ///< of a diagonal, while it moves by 1 on its first axis; or 0
+    Lanes<uint32_t> on_planes{};  ///< all ones where a rank is coded: of planes, or lines
+    uint8_t between;
+    uint8_t first;  ///< of these
+    uint8_t moving;
+    uint8_t moving_count;
+    uint8_t rests;  ///< axes of a diagonal that do not move by themselves
+  };
+
   AxisPlanes axis[3];
-  float origin[3];
-  float step[3];
-  float inverse_step[3];
+  Lanes<float> origin{};  ///< in Q8
+  Lanes<float> inverse_step{};
+  Frame frame[kTokenCount];
 
   explicit GridPlanes(const AxisPlanes* planes) {
+    float step[3];
     for (int s = 0; s < 3; ++s) {
       axis[s] = planes[s];
-      origin[s] = inSteps(planes[s].origin);
-      step[s] = inSteps(planes[s].step);
+      origin[s] = static_cast<float>(planes[s].origin) / (1 << 24);
+      step[s] = static_cast<float>(planes[s].step) / static_cast<float>(AxisPlanes::kOne);
       inverse_step[s] = 1 / step[s];
     }
-  }
-  /// How far a diagonal moves on axis `s` while it moves by `t` on axis `first`.
-  MCC_INLINE int32_t along(uint32_t first, uint32_t s, int32_t t) const {
-    return floorOf(static_cast<float>(t) * (step[s] * inverse_step[first]) + 0.5f);
-  }
-
- private:
-  static float inSteps(int64_t number) {
-    return static_cast<float>(number) / static_cast<float>(AxisPlanes::kOne);
+    for (uint32_t k = 0; k < kTokenCount; ++k) {
+      const VertexKind& kind = kVertexKinds[k];
+      const uint32_t first = static_cast<uint32_t>(std::countr_zero(uint32_t{kind.between}));
+      Frame& f = frame[k];
+      f.between = kind.between;
+      f.first = static_cast<uint8_t>(first);
+      f.moving = kind.diagonal != 0 ? static_cast<uint8_t>(1u << first) : kind.between;
+      f.moving_count = static_cast<uint8_t>(std::popcount(f.moving));
+      f.rests = static_cast<uint8_t>(kind.between & ~f.moving);
+      for (uint32_t s = 0; s < 3; ++s) {
+        f.on_planes[s] = (f.moving >> s & 1) != 0 ? 0 : ~0u;
+        if ((f.rests >> s & 1) != 0) {
+          f.slope[s] = (kind.down >> s & 1) != 0 ? -step[s] * inverse_step[first]
+                                                 : step[s] * inverse_step[first];
+        }
+      }
+    }
   }
 };
 
-// A set of axes has bit s for axis s.
-inline constexpr uint32_t kAllAxes = 7;
-constexpr bool hasAxis(uint32_t axes, uint32_t s) { return (axes >> s & 1) != 0; }
-constexpr bool hasSeveralAxes(uint32_t axes) { return (axes & (axes - 1)) != 0; }
-
-/// Diagonals a vertex may move along, 0: none. All count upwards on their first axis; bits 0 and 1 of d - 1 tell that d
-/// counts downwards on axes 1 and 2.
-inline constexpr uint32_t kDiagonals = 5;
-constexpr int32_t directionOf(uint32_t diagonal, uint32_t first, uint32_t s) {
-  return s != first && ((diagonal - 1) >> (s - 1) & 1) != 0 ? -1 : 1;
-}
-/// Further coordinates of a diagonal may be so far off.
-inline constexpr int32_t kMaxDiagonalRest = 2;
-
 struct PlaneModels {
   static constexpr uint32_t kNoFan = 8 * 8 * 8;
-  static constexpr uint32_t kSpreads = 4;
   static constexpr uint32_t kFractions = 4;
 
-  TokenRow between[kNoFan + 1];     ///< on which axes; by those of three neighbours
-  TokenRow diagonal[kAllAxes + 1];  ///< by axes
-  TokenRow plane
-      [2][kSpreads]
-      [kFractions];  ///< [cell of a diagonal][spread][how far the prediction is from the middle]
-  TokenRow rest;     ///< see kMaxDiagonalRest
+  TokenRow kind[kNoFan + 1];  ///< by the axes of three neighbours
+  TokenRow rest[kFractions];  ///< of diagonals, by the fraction of what is expected
 
   void setUniform() {
-    for (TokenRow& row : between) row.setUniform();
-    for (TokenRow& row : diagonal) row.setUniform();
-    for (auto& kind : plane) {
-      for (auto& spread : kind) {
-        for (TokenRow& row : spread) row.setUniform();
-      }
-    }
-    rest.setUniform();
+    for (TokenRow& row : kind) row.setUniform();
+    for (TokenRow& row : rest) row.setUniform();
   }
 };
 

@@ -62,7 +62,6 @@ struct Prediction {
   Lanes<float> spread;      ///< disagreement of the first two tips
   Lanes<float> magnitudes;  ///< of three neighbours' residuals, by component as coded
   Lanes<float> normal;      ///< sum over the tips; only with shear and planes
-  float disagreement;       ///< of the first two tips along the normal; only with planes
 };
 
 /// Vertices behind the plain fan; missing ones point to some other vertex and have a zero mask.
@@ -250,14 +249,7 @@ MCC_INLINE void predictPlain(const PositionParameters& p, const PlainFan& f, con
     const bool select = (modes & position_mode::kSelect) != 0;
     out.at.fraction += fractionOf(weightPlainFeatures(p, f, *beyond, degree, select));
   }
-  if ((modes & position_mode::kShear) != 0) out.normal = plainNormal(f);
-}
-
-/// What planes need besides.
-MCC_INLINE void findNormal(const PlainFan& f, Prediction& out) {
-  out.normal = plainNormal(f);
-  const Lanes<float> d = floatsOf(betweenTips(f)) * out.normal;
-  out.disagreement = std::fabs(d[0] + d[1] + d[2]);
+  if ((modes & (position_mode::kShear | position_mode::kPlanes)) != 0) out.normal = plainNormal(f);
 }
 
 /// Everything but the plain fan, relative to its first tip, or to its first neighbour without any.         [B.2.4]
@@ -311,7 +303,6 @@ inline void predictAny(const PositionParameters& p, const AnyFan& fan, Predictio
   for (uint32_t i = 0; i < fan.neighbour_count; ++i) sum += magnitudes(fan.n[i]);
   out.magnitudes = absoluteFloats(floatsOf(sum)) * (3.0f / static_cast<float>(fan.neighbour_count));
   out.normal = rotateComponents(normal);
-  out.disagreement = 0;
 }
 
 /// Normal shear: components are coded in the order of growing |normal|; what the first ones turn out to be moves the
@@ -334,16 +325,22 @@ inline constexpr ComponentOrder kComponentOrders[8] = {
     {{0, 2, 1}, {0, 2, 1}}, {{0, 1, 2}, {0, 1, 2}}, {{2, 0, 1}, {1, 2, 0}}, {{2, 1, 0}, {2, 1, 0}},
 };
 
+/// Index into kComponentOrders.
+MCC_INLINE uint32_t normalOrder(const float* normal) {
+  uint32_t size[3];  // bits of |n|, which are ordered like |n|
+  MCC_UNROLL
+  for (int s = 0; s < 3; ++s) size[s] = std::bit_cast<uint32_t>(normal[s]) & 0x7fffffffu;
+  return uint32_t{size[0] > size[1]} | uint32_t{size[0] > size[2]} << 1 |
+         uint32_t{size[1] > size[2]} << 2;
+}
+
 MCC_INLINE Shear makeShear(const Lanes<float>& normal) {
   float n[4];
-  uint32_t size[4];  // bits of |n|, which are ordered like |n|
   storeLanes<float>(normal, n);
-  storeLanes<uint32_t>((Lanes<uint32_t>)normal & 0x7fffffffu, size);
-  const uint32_t order = uint32_t{size[0] > size[1]} | uint32_t{size[0] > size[2]} << 1 |
-                         uint32_t{size[1] > size[2]} << 2;
+  const ComponentOrder& order = kComponentOrders[normalOrder(n)];
   Shear shear;
-  shear.axis = kComponentOrders[order].axis;
-  shear.slot = kComponentOrders[order].slot;
+  shear.axis = order.axis;
+  shear.slot = order.slot;
   // The largest component is 0 only if all are: nothing is moved then.
   const float largest = n[shear.axis[2]];
   const float inverse = 1.0f / (largest == 0 ? 1.0f : largest);

@@ -19,7 +19,7 @@
 namespace mcc {
 
 /// Rows of one component: 40 buckets, then the folded ones by fraction class; all of it three times, by which term of
-/// the scale dominates (only with position_mode::kSplit).
+/// the scale dominates (only with position_mode::kSplit), or twice, the second time for ranks of planes.
 inline constexpr uint32_t kRowsPerSet = kScaleBuckets + kFractionClasses * kFoldBuckets;
 inline constexpr uint32_t kRowSets = 3;
 
@@ -35,7 +35,7 @@ struct PositionRows {
   /// For these position_mode bits.
   void prepare(uint32_t modes) {
     const bool fold = (modes & (position_mode::kFold | position_mode::kPlanes)) != 0;
-    const bool split = (modes & position_mode::kSplit) != 0;
+    const bool split = (modes & (position_mode::kSplit | position_mode::kPlanes)) != 0;
     if (decodes::kPlanes && (modes & position_mode::kPlanes) != 0 && !has_planes) {
       planes.setUniform();
       has_planes = true;
@@ -229,6 +229,33 @@ MCC_INLINE Lanes<uint32_t> decodeResiduals(Io& io, TokenRow* rows, const Residua
   }
   const Lanes<uint32_t> mask = 0u - side;
   return (size ^ mask) - mask;
+}
+
+/// The residuals of all components, whose rows are known before any of them; `truth` has three (encoder). Lane 3 is 0.
+template <class Io, class Fold>
+MCC_INLINE Lanes<uint32_t> codeResiduals(Io& io, TokenRow* rows, const ResidualContexts& c,
+                                         const int32_t* truth, Fold fold) {
+  if constexpr (requires { Io::kThreeAtOnce; }) {
+    if (io.threeAtOnce()) return decodeResiduals(io, rows, c, fold);
+  }
+  const auto code = [&](auto state, uint32_t s) MCC_INLINE_LAMBDA {
+    TokenRow& row = rows[c.row[s]];
+    const uint32_t folded = fold ? c.folded[s] : 0;
+    const uint32_t flip = fold ? c.flip[s] : 0;
+    return static_cast<uint32_t>(codeResidual<state>(io, row, row.low_bits, folded, flip,
+                                                     Io::kEncoding ? truth[s] : 0, fold));
+  };
+  using State = std::integral_constant<uint32_t, 0>;
+  if constexpr (kCompact) {  // one coder without states comes here
+    Lanes<uint32_t> residuals{};
+    for (uint32_t s = 0; s < 3; ++s) residuals[s] = code(State{}, s);
+    return residuals;
+  } else {
+    const uint32_t x = code(State{}, 0);
+    const uint32_t y = code(std::integral_constant<uint32_t, 1>{}, 1);
+    const uint32_t z = code(std::integral_constant<uint32_t, 2>{}, 2);
+    return Lanes<uint32_t>{x, y, z, 0};
+  }
 }
 
 /// A residual alone, in the row of its scale's bucket.

@@ -25,7 +25,7 @@ inline constexpr uint32_t kCompiledModes = position_mode::kWeights | position_mo
                                            position_mode::kPlanes;
 /// What a vertex may take from the streams; with planes.
 inline constexpr uint32_t kTokensOfVertex = 3;
-inline constexpr uint32_t kTokensWithPlanes = 8;
+inline constexpr uint32_t kTokensWithPlanes = 6;
 
 inline constexpr uint8_t kFileOrder[4] = {0, 1, 2, 3};
 inline constexpr Shear kNoShear = {kFileOrder, kFileOrder, 0, 0, 0};
@@ -53,7 +53,6 @@ class VertexCoder {
                             Prediction& prediction) const {
     predictPlain(p_, fan, beyond, records_[v].degree(), compiledModes(), prediction);
     if (has(position_mode::kPlanes)) {
-      findNormal(fan, prediction);
       return codeOnPlanes(io, v, prediction, axesAround(fan.n0, fan.n1, fan.n2));
     }
     codeVertex(io, v, prediction, 1);
@@ -134,8 +133,7 @@ class VertexCoder {
   /// The axes on which three neighbours lie between planes.
   MCC_INLINE static uint32_t axesAround(const VertexRecord* a, const VertexRecord* b,
                                         const VertexRecord* c) {
-    return (a->magnitude[1] & kAllAxes) << 6 | (b->magnitude[1] & kAllAxes) << 3 |
-           (c->magnitude[1] & kAllAxes);
+    return (a->magnitude[1] & 7) << 6 | (b->magnitude[1] & 7) << 3 | (c->magnitude[1] & 7);
   }
   template <class Fold>
   void codeRanks(Io& io, uint32_t v, const FinePoint& at, const ScaleEstimate& scale,
@@ -285,24 +283,14 @@ void VertexCoder<Io, kModes>::codeRanks(Io& io, uint32_t v, const FinePoint& at,
   const Lanes<uint32_t> rounded = loadLanes<uint32_t>(fraction) + 128;
   ResidualContexts c;
   findContexts({loadLanes<float>(width), scale.set}, rounded, has(position_mode::kSplit), fold, c);
-  const auto prediction = [&](uint32_t s) {
-    return step[s] + static_cast<uint32_t>(static_cast<int32_t>(rounded[s]) >> 8);
-  };
+  const Lanes<uint32_t> expected =
+      loadLanes<uint32_t>(step) + (Lanes<uint32_t>)((Lanes<int32_t>)rounded >> 8);
+  for (uint32_t s = 0; s < 3; ++s)
+    truth[s] = static_cast<int32_t>(static_cast<uint32_t>(truth[s]) - expected[s]);
+  const Lanes<uint32_t> known = expected + codeResiduals(io, rows_, c, truth, fold);
   int32_t residual[3];
-  int32_t q[3];
-  bool is_done = false;
-  if constexpr (requires { Io::kThreeAtOnce; }) {
-    if (io.threeAtOnce()) {
-      const Lanes<uint32_t> residuals = decodeResiduals(io, rows_, c, fold);
-      for (uint32_t s = 0; s < 3; ++s) q[s] = static_cast<int32_t>(prediction(s) + residuals[s]);
-      is_done = true;
-    }
-  }
-  if (!is_done) {
-    q[0] = codeSlot<stateOf(0)>(io, 0, c, prediction(0), truth[0], residual, fold);
-    q[1] = codeSlot<stateOf(1)>(io, 1, c, prediction(1), truth[1], residual, fold);
-    q[2] = codeSlot<stateOf(2)>(io, 2, c, prediction(2), truth[2], residual, fold);
-  }
+  int32_t q[3] = {static_cast<int32_t>(known[0]), static_cast<int32_t>(known[1]),
+                  static_cast<int32_t>(known[2])};
   for (uint32_t s = 0; s < 3; ++s) {
     if (p_.palette[s].count != 0) q[s] = p_.palette[s].valueOf(q[s]);
     residual[s] = static_cast<int32_t>(static_cast<uint32_t>(q[s]) - near[s]);
