@@ -8,7 +8,7 @@ const MASK_64 = (1n << 64n) - 1n;
 
 // ---- [A.3.1] Adaptive models
 
-export class BinaryModel {
+class BinaryModel {
 	constructor() {
 		this.p = 2 ** 21; // probability of the outcome 0 in units of 2^-22
 		this.n = 0;
@@ -20,7 +20,7 @@ function rate(n) {
 	return Math.floor((655360 + d) / (2 * d));
 }
 
-export function update(model, outcome) {
+function update(model, outcome) {
 	if (outcome === 1) model.p -= Math.floor(model.p * rate(model.n) / 65536);
 	else model.p += Math.floor((2 ** 22 - model.p) * rate(model.n) / 65536);
 	model.n = Math.min(model.n + 1, 255);

@@ -58,8 +58,8 @@ class Listing {
     };
     static const Surface kSurfaces[] = {
         {"MANIFOLD", {"A.4"}},
-        {"COPIES", {"A.5", "A.5.1", "A.5.2", "A.5.3", "A.5.4", "A.3.5"}},
-        {"INTERIOR_COPIES", {"A.5", "A.5.1", "A.5.2", "A.5.3", "A.5.4"}},
+        {"COPIES", {"A.5", "A.5.1", "A.5.2", "A.5.3", "A.3.5"}},
+        {"INTERIOR_COPIES", {"A.5", "A.5.1", "A.5.2", "A.5.3"}},
         {"PIVOTS", {"A.4.7"}},
     };
     const Surface& surface = kSurfaces[static_cast<size_t>(piece.surface())];

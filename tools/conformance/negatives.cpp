@@ -807,7 +807,7 @@ class Maker {
         {"a handle refers to a digon that is not there", "A.4.4"},
         {"a dummy vertex takes more edges than its digon has", "A.4.5"},
         {"a component ends while digons wait on the stack", "A.4.6"},
-        {"a copy refers to a group that is not there", "A.5.4"},
+        {"a copy refers to a group that is not there", "A.5.3"},
         {"a vertex has no triangle", "A.6.1"},
         {"a weight of the positions is out of range", "A.6.2"},
         {"a scale of the positions is out of range", "A.6.2"},
