@@ -135,6 +135,8 @@ struct PayloadInfo {
 
 /// Where one attribute of a piece goes. When `data` is null, the attribute is decoded, since others
 /// may need it, and dropped.
+/// Numbers are stored in the host's byte order; a big-endian host swaps them before they go into a
+/// glTF buffer.
 struct AttributeTarget {
   void* data = nullptr;     ///< wedge_count elements of the attribute's component type and count
   size_t stride_bytes = 0;  ///< at least elementBytes(format)

@@ -28,10 +28,24 @@ constexpr uint32_t bitsFromOrdered(int32_t ordered) {
   return ordered < 0 ? ~(u ^ 0x80000000u) : u;
 }
 
-/// Stores an integer component; the value is taken modulo the width of the type.
+/// Where the low `bytes` bytes of a uint32_t begin in the memory of this host.
+constexpr uint32_t lowBytesOffset(uint32_t bytes) {
+  return std::endian::native == std::endian::little ? 0 : 4 - bytes;
+}
+
+/// Stores an integer component, in the host's byte order like every number in the caller's arrays;
+/// the value is taken modulo the width of the type.
 inline void storeInteger(uint8_t* to, ComponentType type, int32_t value) {
-  const uint32_t u = static_cast<uint32_t>(value);
-  std::memcpy(to, &u, componentBytes(type));  // little-endian hosts
+  const uint32_t bytes = componentBytes(type);
+  std::memcpy(to, reinterpret_cast<const uint8_t*>(&value) + lowBytesOffset(bytes), bytes);
+}
+
+/// The bits of a component in the host's byte order, of a type of at most 32 bits; those above are 0.
+inline uint32_t loadBits(const uint8_t* from, ComponentType type) {
+  const uint32_t bytes = componentBytes(type);
+  uint32_t value = 0;
+  std::memcpy(reinterpret_cast<uint8_t*>(&value) + lowBytesOffset(bytes), from, bytes);
+  return value;
 }
 
 inline void storeFloat(uint8_t* to, float value) { std::memcpy(to, &value, sizeof value); }

@@ -86,7 +86,7 @@ class PlaneVertexCoder {
   template <class Number>
   static Lanes<Number> select(const Lanes<uint32_t>& mask, const Lanes<Number>& yes,
                               const Lanes<Number>& no) {
-    return (Lanes<Number>)(((Lanes<uint32_t>)yes & mask) | ((Lanes<uint32_t>)no & ~mask));
+    return lanesAs<Number>((lanesAs<uint32_t>(yes) & mask) | (lanesAs<uint32_t>(no) & ~mask));
   }
 
   /// Coordinates become those where the vertex' line begins: along a diagonal, the others move with the first.
@@ -127,10 +127,10 @@ class PlaneVertexCoder {
     const Lanes<uint32_t> rounded = select<uint32_t>(on_planes, rank, expected_) + 128;
     ResidualContexts c;
     findContexts({width, on_planes & 1}, rounded, true, std::true_type{}, c);
-    const Lanes<uint32_t> near = (Lanes<uint32_t>)((Lanes<int32_t>)rounded >> 8);
+    const Lanes<uint32_t> near = lanesAs<uint32_t>(lanesAs<int32_t>(rounded) >> 8);
     int32_t target[3] = {};
-    if constexpr (Io::kEncoding) findTargets((Lanes<int32_t>)near, target);
-    return (Lanes<int32_t>)(near + codeResiduals(io_, rows_, c, target, std::true_type{}));
+    if constexpr (Io::kEncoding) findTargets(lanesAs<int32_t>(near), target);
+    return lanesAs<int32_t>(near + codeResiduals(io_, rows_, c, target, std::true_type{}));
   }
 
   MCC_INLINE void place(const Lanes<int32_t>& number) {
@@ -143,7 +143,7 @@ class PlaneVertexCoder {
     }
     const Lanes<int32_t> moved = {q_[0], q_[1], q_[2], 0};
     storeLanes<int32_t>(
-        select<int32_t>(frame_->on_planes, (Lanes<int32_t>)(base + 128) >> 8, moved), q_);
+        select<int32_t>(frame_->on_planes, lanesAs<int32_t>(base + 128) >> 8, moved), q_);
   }
   /// The planes or lines of ranks in q_, and how far the tangent plane is from where they and the prediction meet.
   MCC_INLINE Lanes<uint32_t> placeRanks() {
@@ -195,7 +195,7 @@ class PlaneVertexCoder {
 
   MCC_INLINE void store(VertexRecord& record) const {
     const Lanes<int32_t> q = {q_[0], q_[1], q_[2], kKnown};
-    const Lanes<uint32_t> off = absoluteLanes(((Lanes<uint32_t>)q << 8) - q8_) >> 5;
+    const Lanes<uint32_t> off = absoluteLanes((lanesAs<uint32_t>(q) << 8) - q8_) >> 5;
     const float across = std::fabs(distance_) * (1 / (16 * size_ + kTiny));
     const Lanes<uint32_t> magnitudes = {
         wrapped(static_cast<int32_t>(std::min(across, kLargestScale))), frame_->between,

@@ -29,10 +29,10 @@ namespace mcc {
 
 /// Coordinates, their differences and sums are i32 that wrap; in lanes they are unsigned.
 MCC_INLINE Lanes<float> floatsOf(const Lanes<uint32_t>& x) {
-  return convertLanes<float>((Lanes<int32_t>)x);
+  return convertLanes<float>(lanesAs<int32_t>(x));
 }
 MCC_INLINE Lanes<float> absoluteFloats(const Lanes<float>& x) {
-  return (Lanes<float>)((Lanes<uint32_t>)x & 0x7fffffffu);
+  return lanesAs<float>(lanesAs<uint32_t>(x) & 0x7fffffffu);
 }
 
 /// A point between those of the lattice: step + fraction / 256, where a fraction may be more than a step.
@@ -52,8 +52,8 @@ MCC_INLINE float boundMove(float x) {
 }
 MCC_INLINE Lanes<uint32_t> fractionOf(const Lanes<float>& x) {
   const Lanes<float> most = {kFarthestMove, kFarthestMove, kFarthestMove, kFarthestMove};
-  const Lanes<float> below = x < most ? x : most;
-  return (Lanes<uint32_t>)convertLanes<int32_t>(below > -most ? below : -most);
+  const Lanes<float> below = chooseLanes<float>(x < most, x, most);
+  return lanesAs<uint32_t>(convertLanes<int32_t>(chooseLanes<float>(below > -most, below, -most)));
 }
 
 /// What the coder needs to know about a vertex before its residuals, by component.
@@ -209,11 +209,7 @@ MCC_INLINE Lanes<float> weightPlainFeatures(const PositionParameters& p, const P
 }
 
 MCC_INLINE Lanes<float> rotateComponents(const Lanes<float>& x) {  // y z x
-#if defined(__clang__)
-  return __builtin_shufflevector(x, x, 1, 2, 0, 3);
-#else
-  return __builtin_shuffle(x, Lanes<int32_t>{1, 2, 0, 3});
-#endif
+  return shuffleLanes<float, 1, 2, 0, 3>(x, x);
 }
 
 /// Normal of a tip's triangle (a, b, o), its components in the order z x y.                     [B.2.3]
@@ -235,7 +231,7 @@ MCC_INLINE Lanes<uint32_t> betweenTips(const PlainFan& f) {
 MCC_INLINE FinePoint middleOfTips(const PlainFan& f) {
   const Lanes<uint32_t> between = betweenTips(f);
   return {coordinates(f.n0) - coordinates(f.o0) + coordinates(f.n1) +
-              (Lanes<uint32_t>)((Lanes<int32_t>)between >> 1),
+              lanesAs<uint32_t>(lanesAs<int32_t>(between) >> 1),
           (between & 1) << 7};
 }
 

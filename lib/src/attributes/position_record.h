@@ -28,7 +28,7 @@ struct VertexRecord {
 static_assert(sizeof(VertexRecord) == 32);
 
 MCC_INLINE Lanes<uint32_t> coordinates(const VertexRecord* r) {
-  return (Lanes<uint32_t>)loadLanes<int32_t>(r->q);
+  return lanesAs<uint32_t>(loadLanes<int32_t>(r->q));
 }
 MCC_INLINE Lanes<uint32_t> magnitudes(const VertexRecord* r) {
   return loadLanes<uint32_t>(r->magnitude);

@@ -97,12 +97,12 @@ MCC_INLINE ScaleEstimate estimateScale(const ScaleLanes& c, const Lanes<float>& 
   if (!split) return {scale, Lanes<uint32_t>{}};
   const Lanes<int32_t> by_spread = of_spread > 2 * of_neighbours;
   const Lanes<int32_t> by_neighbours = of_neighbours > 2 * of_spread;
-  return {scale, (Lanes<uint32_t>)((by_spread & 1) | (by_neighbours & 2))};
+  return {scale, lanesAs<uint32_t>((by_spread & 1) | (by_neighbours & 2))};
 }
 
 /// Half-octave buckets of scales, 0 .. kScaleBuckets-1: the exponent and the highest fraction bit of scale + 1.
 MCC_INLINE Lanes<uint32_t> scaleBuckets(const Lanes<float>& scale) {
-  const Lanes<uint32_t> bucket = ((Lanes<uint32_t>)(scale + 1.0f) >> 22) - 2 * 127;
+  const Lanes<uint32_t> bucket = (lanesAs<uint32_t>(scale + 1.0f) >> 22) - 2 * 127;
   return minimumLanes(bucket, kScaleBuckets - 1);
 }
 /// The same of one scale.
@@ -128,7 +128,7 @@ MCC_INLINE void findContexts(const ScaleEstimate& scale, const Lanes<uint32_t>& 
   if (split) row += scale.set * kRowsPerSet;
   if (fold) {
     const Lanes<uint32_t> fraction = (rounded & 255) - 128;
-    const Lanes<uint32_t> folded = (Lanes<uint32_t>)(bucket < kFoldBuckets);
+    const Lanes<uint32_t> folded = lanesAs<uint32_t>(bucket < kFoldBuckets);
     const Lanes<uint32_t> fraction_class =
         minimumLanes(absoluteLanes(fraction) >> 5, kFractionClasses - 1);
     row += folded & (fraction_class * kFoldBuckets + kScaleBuckets);

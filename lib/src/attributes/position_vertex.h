@@ -219,7 +219,7 @@ MCC_SHARED void VertexCoder<Io, kModes>::codeSlots(Io& io, uint32_t v, const Sca
     if (io.threeAtOnce()) {
       const Lanes<uint32_t> residuals = decodeResiduals(io, rows_, c, fold);
       if (!shift.shears) {
-        const Lanes<uint32_t> steps = (Lanes<uint32_t>)((Lanes<int32_t>)rounded >> 8);
+        const Lanes<uint32_t> steps = lanesAs<uint32_t>(lanesAs<int32_t>(rounded) >> 8);
         return store(v, shift.at.step + steps + residuals, residuals);
       }
       q[0] = static_cast<int32_t>(prediction(0, 0) + residuals[0]);
@@ -249,7 +249,8 @@ MCC_SHARED int32_t VertexCoder<Io, kModes>::codeSlot(Io& io, uint32_t slot,
   const int32_t target = static_cast<int32_t>(static_cast<uint32_t>(truth) - prediction);
   TokenRow& row = rows_[c.row[slot]];
   residual[slot] =
-      codeResidual<kState>(io, row, row.low_bits, c.folded[slot], c.flip[slot], target, fold);
+      codeResidual<kState>(io, row, row.low_bits, fold ? c.folded[slot] : 0,
+                           fold ? c.flip[slot] : 0, target, fold);
   return static_cast<int32_t>(prediction + static_cast<uint32_t>(residual[slot]));
 }
 
@@ -284,7 +285,7 @@ void VertexCoder<Io, kModes>::codeRanks(Io& io, uint32_t v, const FinePoint& at,
   ResidualContexts c;
   findContexts({loadLanes<float>(width), scale.set}, rounded, has(position_mode::kSplit), fold, c);
   const Lanes<uint32_t> expected =
-      loadLanes<uint32_t>(step) + (Lanes<uint32_t>)((Lanes<int32_t>)rounded >> 8);
+      loadLanes<uint32_t>(step) + lanesAs<uint32_t>(lanesAs<int32_t>(rounded) >> 8);
   for (uint32_t s = 0; s < 3; ++s)
     truth[s] = static_cast<int32_t>(static_cast<uint32_t>(truth[s]) - expected[s]);
   const Lanes<uint32_t> known = expected + codeResiduals(io, rows_, c, truth, fold);

@@ -2,22 +2,51 @@
 #ifndef MCC_BASE_HOST_H_
 #define MCC_BASE_HOST_H_
 
-#include <bit>
 #include <cfloat>
 #include <type_traits>
 
+// With MCC_PORTABLE nothing is used that the standard does not have: no vector types, no vector
+// instructions and no builtins. It is meant for compilers other than gcc and clang, and for testing
+// with those that such a build computes the same.
+#if !defined(MCC_PORTABLE) && !defined(__GNUC__)
+#define MCC_PORTABLE 1
+#endif
+
+// The vector instructions of the target, of which at most one is defined.
+#if defined(MCC_PORTABLE)
+#elif defined(__SSE2__)
+#define MCC_SSE2 1
+#include <emmintrin.h>
+#elif defined(__ARM_NEON) && defined(__aarch64__)
+#define MCC_NEON 1
+#include <arm_neon.h>
+#elif defined(__wasm_simd128__)
+#define MCC_WASM_SIMD 1
+#include <wasm_simd128.h>
+#endif
+
 namespace mcc {
 
-// glTF buffers are little-endian and so are all hosts this is built for; accessors are filled by memcpy.
-static_assert(std::endian::native == std::endian::little, "big-endian hosts are not supported");
 // The decoded bytes are the same everywhere only if float32 is rounded after every operation.
-static_assert(FLT_EVAL_METHOD == 0, "build with SSE2 or an equivalent, not with x87 arithmetic");
+static_assert(FLT_EVAL_METHOD == 0,
+              "x87 arithmetic rounds differently: compile for x86 with -msse2 -mfpmath=sse");
 
 }  // namespace mcc
 
-/// For the few functions of inner loops that compilers would rather call, for what must not be inlined there, and for
-/// loops over the three components, which gcc keeps as loops at -O2.
-#if defined(__GNUC__)
+/// For the few functions of inner loops that compilers would rather call, for what must not be
+/// inlined there, and for loops over the three components, which gcc keeps as loops at -O2.
+#if defined(MCC_PORTABLE)
+#if defined(_MSC_VER)
+#define MCC_INLINE __forceinline
+#define MCC_OUT_OF_LINE __declspec(noinline)
+#else
+#define MCC_INLINE inline
+#define MCC_OUT_OF_LINE
+#endif
+#define MCC_INLINE_LAMBDA
+#define MCC_PREFETCH(address) static_cast<void>(address)
+#define MCC_UNROLL
+#else
 #define MCC_INLINE inline __attribute__((always_inline))
 #define MCC_INLINE_LAMBDA __attribute__((always_inline))
 #define MCC_OUT_OF_LINE __attribute__((noinline))
@@ -27,12 +56,6 @@ static_assert(FLT_EVAL_METHOD == 0, "build with SSE2 or an equivalent, not with 
 #else
 #define MCC_UNROLL _Pragma("GCC unroll 4")
 #endif
-#else
-#define MCC_INLINE inline
-#define MCC_INLINE_LAMBDA
-#define MCC_OUT_OF_LINE
-#define MCC_PREFETCH(address)
-#define MCC_UNROLL
 #endif
 
 namespace mcc {

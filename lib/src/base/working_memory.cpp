@@ -6,6 +6,8 @@
 
 #if defined(__linux__)
 #include <sys/mman.h>
+#elif defined(_WIN32)
+#include <malloc.h>
 #endif
 
 namespace mcc {
@@ -48,8 +50,13 @@ void unmapPages(void* memory, size_t bytes) { munmap(memory, bytes); }
 
 constexpr bool kHasHugePages = false;
 
+#if defined(_WIN32)
+void* mapPages(size_t bytes) { return _aligned_malloc(bytes, kLineBytes); }
+void unmapPages(void* memory, size_t) { _aligned_free(memory); }
+#else
 void* mapPages(size_t bytes) { return std::aligned_alloc(kLineBytes, bytes); }
 void unmapPages(void* memory, size_t) { std::free(memory); }
+#endif
 
 #endif
 

@@ -27,11 +27,15 @@
 namespace mcc {
 
 /// Loads in little-endian order, which compilers turn into one instruction. loadU16() copies bytes,
-/// since gcc does not always combine two shifted bytes; hosts are little-endian, see host.h.
+/// since gcc does not always combine two shifted bytes.
 MCC_INLINE uint32_t loadU16(const uint8_t* p) {
-  uint16_t value;
-  std::memcpy(&value, p, sizeof value);
-  return value;
+  if constexpr (std::endian::native == std::endian::little) {
+    uint16_t value;
+    std::memcpy(&value, p, sizeof value);
+    return value;
+  } else {
+    return uint32_t{p[0]} | uint32_t{p[1]} << 8;
+  }
 }
 MCC_INLINE uint32_t loadU32(const uint8_t* p) {
   return uint32_t{p[0]} | uint32_t{p[1]} << 8 | uint32_t{p[2]} << 16 | uint32_t{p[3]} << 24;

@@ -9,14 +9,6 @@
 
 #include "base/host.h"
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#elif defined(__ARM_NEON) && defined(__aarch64__)
-#include <arm_neon.h>
-#elif defined(__wasm_simd128__)
-#include <wasm_simd128.h>
-#endif
-
 namespace mcc {
 
 // --- binary decisions ----------------------------------------------------------
@@ -129,7 +121,7 @@ struct TokenRow {
   }
 };
 
-#if defined(__SSE2__)
+#if defined(MCC_SSE2)
 
 MCC_INLINE uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& schedule,
                                            uint32_t& start_out, uint32_t& frequency_out) {
@@ -156,7 +148,7 @@ MCC_INLINE uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& s
   return symbol;
 }
 
-#elif defined(__ARM_NEON) && defined(__aarch64__)
+#elif defined(MCC_NEON)
 
 MCC_INLINE uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& schedule,
                                            uint32_t& start_out, uint32_t& frequency_out) {
@@ -187,7 +179,7 @@ MCC_INLINE uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& s
   return symbol;
 }
 
-#elif defined(__wasm_simd128__)
+#elif defined(MCC_WASM_SIMD)
 
 MCC_INLINE uint32_t TokenRow::findAndAdapt(uint32_t slot, const TokenSchedule& schedule,
                                            uint32_t& start_out, uint32_t& frequency_out) {

@@ -6,6 +6,11 @@
 #include <cstring>
 
 namespace mcc::gltf {
+
+// glTF buffers are little-endian, and accessors are filled by memcpy. Reader and writer work on either.
+static_assert(std::endian::native == std::endian::little,
+              "documents need a little-endian host; build with MCC_READER_ONLY");
+
 namespace {
 
 uint32_t readLittleEndian(const uint8_t* bytes, uint32_t byte_count) {
