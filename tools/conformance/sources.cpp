@@ -791,7 +791,7 @@ void largerSources(std::vector<Source>& all) {
       {"stacks", combOfStacks(14, 12)},
       // Most ways to find a vertex again need a surface with many copies that is cut, not listed by
       // vertices.
-      {"voxels", randomVoxels(6, 7, 45)},
+      {"voxels", randomVoxels(6, 10, 45)},
       {"turned", withFlippedTriangles(icosphere(3), 5, 30)},
       {"turned_sheet", withFlippedTriangles(grid(20, 20), 5, 8)},
       {"poles", poles()},
@@ -835,6 +835,32 @@ Source skinOfTinyWeights() {
       });
 }
 
+/// An isosurface whose vertices were moved within the cells of its grid: each is on or between any planes, or on any
+/// diagonal.
+TestMesh strewnOnCells() {
+  constexpr uint32_t kCells = 12;
+  constexpr float kCell = 2.0f / kCells;
+  TestMesh mesh = gyroid(kCells);
+  Random random(5);
+  const auto anyPart = [&] { return static_cast<float>(random.between(1, 99)) * 0.01f; };
+  for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+    const uint32_t axes = random.between(0, 7);
+    const uint32_t downwards = random.below(8);
+    const bool is_on_diagonal = random.chance(60);
+    const float t = anyPart();
+    for (uint32_t s = 0; s < 3; ++s) {
+      float& x = mesh.positions[3 * size_t{v} + s];
+      float offset = 0;
+      if ((axes >> s & 1) != 0) {
+        offset = anyPart();
+        if (is_on_diagonal) offset = (downwards >> s & 1) != 0 ? 1 - t : t;
+      }
+      x = (std::floor((x + 1) / kCell) + offset) * kCell - 1;
+    }
+  }
+  return mesh;
+}
+
 /// Coordinates a little above the largest that directions of faces are computed with.
 Source positionsAbove3e38(uint8_t normal_bits) {
   const std::string kind = normal_bits == 0 ? "exact" : "octahedral";
@@ -856,6 +882,8 @@ std::vector<Source> addedSources() {
   return {single("many_digons", "Hundreds of digons wait, and handles put others below 255 of them",
                  plateWithTunnels(258, 1), positions),
           skinOfTinyWeights(), positionsAbove3e38(0), positionsAbove3e38(9),
+          single("strewn_on_cells", "Vertices on every kind of diagonal and between any planes",
+                 strewnOnCells(), [](SourceBuilder& b) { b.positions(14); }),
           single("cut_handles", "A handle would put a digon below 256 others: the surface is cut",
                  plateWithTunnels(kTooManyTunnels, 1), positions)};
 }
