@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 import { Extension, GLB_BUFFER, PropertyType } from '@gltf-transform/core';
 import { Budget, namedBytes, sum } from './budget.mjs';
+import { fail } from './claims.mjs';
 import { EXTENSION_NAME, elementsOf, payloadsOf } from './document.mjs';
 import { BIN_CHUNK, readGlb, writeGlb } from './unpack.mjs';
 
@@ -61,8 +62,12 @@ export class KHRMeshCollapseCompression extends Extension {
     budget.add(sum(payloads.map(namedBytes)));
     for (const payload of payloads) {
       const { bufferView, targets } = payload;
-      const decoded = budget.settle(payload,
-        this.#decoder.decodePayloadSync(context.bufferViews[bufferView], budget.optionsFor(payload)));
+      const bytes = context.bufferViews[bufferView];
+      // glTF-Transform cuts a view that is longer than its buffer.
+      if (bytes.byteLength !== context.jsonDoc.json.bufferViews[bufferView].byteLength) {
+        fail(`/bufferViews/${bufferView}`, 'reaches beyond its buffer');
+      }
+      const decoded = budget.settle(payload, this.#decoder.decodePayloadSync(bytes, budget.optionsFor(payload)));
       const taken = new Set();
       for (const target of targets) this.#fill(context, target, decoded, bufferView, taken, budget);
     }
