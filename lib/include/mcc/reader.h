@@ -76,7 +76,7 @@ struct AttributeInfo {
   uint8_t predictor = 0;  ///< the predictor byte, whose meaning depends on the coding [A.8]
   uint32_t alias_of = 0;  ///< of kAlias
   uint8_t grid = 0;       ///< of kGrid: the byte that gives its steps
-  /// Of kGrid: whether values have bits below the steps of the grid, and how those are coded.
+  /// With kGrid, whether values have bits below the steps of the grid, and how those are coded.
   uint8_t tails = 0;
 };
 

@@ -40,7 +40,7 @@ struct FinePoint {
   Lanes<uint32_t> step;
   Lanes<uint32_t> fraction;
 
-  /// Of the fraction, in steps.
+  /// The fraction in steps.
   MCC_INLINE Lanes<float> rest() const { return floatsOf(fraction) * (1.0f / 256); }
 };
 
