@@ -54,7 +54,7 @@ class Palette {
 
 	cellBits() {
 		let g = 0n;
-		while ((this.extent + 1n) >> g > 2n * BigInt(this.n)) ++g;
+		while ((this.extent + 1n) >> g > 4n * BigInt(this.n)) ++g;
 		return g;
 	}
 
@@ -62,11 +62,6 @@ class Palette {
 		const low = 256n * this.first;
 		const high = low + 256n * this.extent;
 		return (x < low ? low : x > high ? high : x) - low;
-	}
-
-	inverse(i) {
-		if (i === this.n - 1) return 0n;
-		return (1n << 31n) / BigInt(this.values[i + 1] - this.values[i]);
 	}
 
 	// The last index i with V[i] - V[0] <= x
@@ -81,23 +76,18 @@ class Palette {
 		return low;
 	}
 
-	rankBehind(i, d) {
-		const from = 256n * (BigInt(this.values[i]) - this.first);
-		return 256n * BigInt(i) + (((d - from) * this.inverse(i)) >> 31n);
-	}
-
-	rank(x) {
-		const d = this.distance(x);
-		return this.rankBehind(this.indexOf(d >> 8n), d);
-	}
-
+	// The rank where cell j begins.
 	cell(j) {
 		const at = j << this.g;
 		const x = at < this.extent ? at : this.extent;
-		return this.rankBehind(this.indexOf(x), 256n * x);
+		const i = this.indexOf(x);
+		if (i === this.n - 1) return 256n * BigInt(i);
+		const from = BigInt(this.values[i]) - this.first;
+		const gap = BigInt(this.values[i + 1] - this.values[i]);
+		return 256n * BigInt(i) + (256n * (x - from)) / gap;
 	}
 
-	rough(x) {
+	rank(x) {
 		const d = this.distance(x);
 		const j = (d >> 8n) >> this.g;
 		const rest = d - (j << (this.g + 8n));
@@ -108,7 +98,7 @@ class Palette {
 	ranked({ step, fraction }, scale) {
 		const x = BigInt(256 * step + fraction);
 		const reach = BigInt(Math.trunc(16 * scale));
-		const ranks = f(Number(this.rough(x + reach) - this.rough(x - reach)));
+		const ranks = f(Number(this.rank(x + reach) - this.rank(x - reach)));
 		return { at: { step: 0, fraction: Number(this.rank(x)) }, scale: ranks / 32 };
 	}
 

@@ -129,45 +129,49 @@ TEST(PositionParts, ShearCodesComponentsByGrowingNormal) {
 struct IndexedPalette {
   std::vector<int32_t> values;
   std::vector<uint32_t> cells;
-  std::vector<uint32_t> inverse;
   AxisPalette palette;
 
   explicit IndexedPalette(std::vector<int32_t> sorted) : values(std::move(sorted)) {
-    const PaletteIndex index(values.data(), static_cast<uint32_t>(values.size()));
+    const PaletteCells index(values.data(), static_cast<uint32_t>(values.size()));
     cells.resize(index.cell_count);
-    inverse.resize(values.size());
-    index.fill(cells.data(), inverse.data());
-    palette = {values.data(), index.count, inverse.data(), cells.data(), index.shift};
+    index.fill(cells.data());
+    palette = {values.data(), index.count, cells.data(), index.shift};
+  }
+
+  /// Q8 rank of a coordinate within the palette, linear between its values: what cells begin with.
+  int64_t linearRank(int64_t x) const {
+    const auto next = std::upper_bound(values.begin(), values.end(), x);
+    const int64_t rank = 256 * (next - values.begin() - 1);
+    return next == values.end() ? rank : rank + 256 * (x - next[-1]) / (int64_t{*next} - next[-1]);
   }
 };
 
 void checkRanks(const IndexedPalette& indexed) {
   const AxisPalette& palette = indexed.palette;
+  const int64_t first = palette.values[0];
+  const int64_t end = palette.values[palette.count - 1];
   const int64_t last = 256 * (int64_t{palette.count} - 1);
   for (uint32_t i = 0; i < palette.count; ++i) {
-    EXPECT_EQ(palette.rankOf(int64_t{palette.values[i]} * 256), int64_t{i} * 256);
     EXPECT_EQ(palette.valueOf(static_cast<int32_t>(i)), palette.values[i]);
     EXPECT_EQ(palette.countUpTo(palette.values[i]), i + 1);
   }
   for (const int64_t far : {int64_t{1} << 20, int64_t{1} << 41}) {
-    EXPECT_EQ(palette.rankOf(int64_t{palette.values[0]} * 256 - far), 0);
-    EXPECT_EQ(palette.rankOf(int64_t{palette.values[palette.count - 1]} * 256 + far), last);
-    EXPECT_LE(palette.roughRankOf(int64_t{palette.values[palette.count - 1]} * 256 + far), last);
+    EXPECT_EQ(palette.rankOf(first * 256 - far), 0);
+    EXPECT_EQ(palette.rankOf(end * 256 + far), palette.rankOf(end * 256));
   }
-  const int64_t first = int64_t{palette.values[0]} * 256 - 300;
-  const int64_t end = int64_t{palette.values[palette.count - 1]} * 256 + 300;
+  for (int64_t x = first, cell = 0; x <= end; x += int64_t{1} << palette.shift, ++cell) {
+    ASSERT_EQ(palette.rankOf(256 * x), indexed.linearRank(x)) << cell;
+  }
   int64_t before = 0;
-  int64_t rough_before = 0;
   for (int64_t i = 0; i <= 5000; ++i) {
-    const int64_t x = first + (end - first) / 5000 * i;
-    EXPECT_GE(palette.rankOf(x), before);
-    EXPECT_GE(palette.roughRankOf(x), rough_before);
-    before = palette.rankOf(x);
-    rough_before = palette.roughRankOf(x);
+    const int64_t rank = palette.rankOf(first * 256 - 300 + (256 * (end - first) + 600) / 5000 * i);
+    EXPECT_GE(rank, before);
+    EXPECT_LE(rank, last);
+    before = rank;
   }
 }
 
-TEST(PositionParts, PaletteRanksGrowAndAreExactAtValues) {
+TEST(PositionParts, PaletteRanksGrowAndAreExactWhereCellsBegin) {
   checkRanks(IndexedPalette({7}));
   checkRanks(IndexedPalette({-5, -4, -3, 1000, 1001, 1003, 20000}));
   checkRanks(IndexedPalette({INT32_MIN, -1, 0, 1, INT32_MAX}));

@@ -739,11 +739,10 @@ void DistinctCoordinates::find(std::span<const int32_t> truth, bool is_exact) {
     // A palette cannot begin with the least of all numbers (a NaN that keeps its bits), which is no signedGolomb(). [A.3.5]
     if (!values.empty() && values[0] == std::numeric_limits<int32_t>::min()) values.clear();
     if (values.empty()) continue;
-    const PaletteIndex index(values.data(), static_cast<uint32_t>(values.size()));
+    const PaletteCells index(values.data(), static_cast<uint32_t>(values.size()));
     shift[s] = index.shift;
     cells[s].resize(index.cell_count);
-    inverse[s].resize(values.size());
-    index.fill(cells[s].data(), inverse[s].data());
+    index.fill(cells[s].data());
   }
 }
 

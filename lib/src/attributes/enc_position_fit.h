@@ -27,15 +27,13 @@ struct PositionCandidate {
 /// Sorted distinct coordinates of each axis, empty where there are too many for a palette to be of use.
 struct DistinctCoordinates {
   std::vector<int32_t> axis[3];
-  std::vector<uint32_t> inverse[3];
   std::vector<uint32_t> cells[3];
   uint32_t shift[3] = {};
 
   /// `is_exact`: the coordinates are floats that keep every bit, for which even a large palette may pay.
   void find(std::span<const int32_t> truth, bool is_exact);
   AxisPalette palette(uint32_t s) const {
-    return {axis[s].data(), static_cast<uint32_t>(axis[s].size()), inverse[s].data(),
-            cells[s].data(), shift[s]};
+    return {axis[s].data(), static_cast<uint32_t>(axis[s].size()), cells[s].data(), shift[s]};
   }
 };
 

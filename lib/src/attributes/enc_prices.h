@@ -20,10 +20,10 @@ inline constexpr double kSelect = 25;   ///< more than weights
 inline constexpr double kShear = 14;
 inline constexpr double kFold = 10;
 inline constexpr double kSplit = 1;
-inline constexpr double kPalette = 50;       ///< with few distinct values
+inline constexpr double kPalette = 40;       ///< with few distinct values
 inline constexpr double kPaletteValue = 40;  ///< more for each distinct value per vertex
 inline constexpr double kPlanes = 45;
-inline constexpr double kMemory = 25;       ///< of texture coordinates
+inline constexpr double kMemory = 25;  ///< of texture coordinates
 /// Per copy that is stitched, and per face that is listed by pivots more than by the collapse.
 inline constexpr double kCopy = 250;
 inline constexpr double kPivotFace = 40;
@@ -48,8 +48,8 @@ inline double timeOf(const PositionParameters& p, double palette_values) {
 
 /// The same for an attribute's header byte `predictor`, more than its fastest method takes.
 inline double timeOf(AttributeMethod method, uint8_t predictor) {
-  const bool remembers = method == AttributeMethod::kTexcoord &&
-                         (predictor & texcoord_method::kRemembers) != 0;
+  const bool remembers =
+      method == AttributeMethod::kTexcoord && (predictor & texcoord_method::kRemembers) != 0;
   return remembers ? price_ns::kMemory : 0;
 }
 

@@ -17,11 +17,10 @@ namespace mcc {
 
 inline constexpr uint32_t kMaxPalette = 1u << 23;  ///< so that Q8 ranks have 31 bits
 
-/// Sorted distinct values of one axis and what finds them; none: the axis is coded without a palette.
+/// Sorted distinct values of one axis and what finds ranks among them; none: the axis is coded without a palette.
 struct AxisPalette {
   const int32_t* values = nullptr;
   uint32_t count = 0;
-  const uint32_t* inverse = nullptr;  ///< of the gap behind each value but the last, 2^31 / gap
   /// Cell i covers distances [i << shift, (i + 1) << shift) from the first value; cells[i] is the Q8 rank where it begins.
   const uint32_t* cells = nullptr;
   uint32_t shift = 0;
@@ -31,43 +30,15 @@ struct AxisPalette {
     return static_cast<uint32_t>(std::upper_bound(values, values + count, x) - values);
   }
 
-  /// Distance of a Q8 coordinate from the first value, brought into the range of the palette.
-  MCC_INLINE uint64_t distanceOf(int64_t q8) const {
+  /// Rank of a Q8 coordinate, in Q8 as well: linear within cells, constant beyond the first and the last value.
+  MCC_INLINE int64_t rankOf(int64_t q8) const {
     const int64_t first = int64_t{values[0]} * 256;
     const int64_t last = int64_t{values[count - 1]} * 256;
-    return static_cast<uint64_t>(std::clamp(q8, first, last) - first);
-  }
-
-  /// Rank of a Q8 coordinate, in Q8 as well: linear between the values, constant beyond them.
-  MCC_INLINE int64_t rankOf(int64_t q8) const {
-    const uint64_t distance = distanceOf(q8);
-    const int64_t x = values[0] + static_cast<int64_t>(distance >> 8);
-    const uint64_t cell = distance >> 8 >> shift;
-    uint32_t low = cells[cell] >> 8;
-    uint32_t length = (cells[cell + 1] >> 8) - low;
-    while (length != 0) {  // values[low] <= x; the last such is at most `length` further
-      const uint32_t half = (length + 1) / 2;
-      const bool right = values[low + half] <= x;
-      low += right ? half : 0;
-      length = right ? length - half : half - 1;
-    }
-    return rankBehind(low, distance);
-  }
-
-  /// The same, linear within cells: all a scale needs.
-  MCC_INLINE int64_t roughRankOf(int64_t q8) const {
-    const uint64_t distance = distanceOf(q8);
+    const uint64_t distance = static_cast<uint64_t>(std::clamp(q8, first, last) - first);
     const uint64_t cell = distance >> 8 >> shift;
     const uint64_t rest = distance - (cell << shift << 8);
     const uint64_t inside = cells[cell + 1] - cells[cell];
     return int64_t{cells[cell]} + static_cast<int64_t>((inside * rest) >> (shift + 8));
-  }
-
-  /// Rank at a distance from the first value of which value `low` is the last.
-  MCC_INLINE int64_t rankBehind(uint32_t low, uint64_t distance) const {
-    const uint64_t above =
-        distance - (static_cast<uint64_t>(int64_t{values[low]} - values[0]) << 8);
-    return int64_t{low} * 256 + static_cast<int64_t>((above * inverse[low]) >> 31);
   }
 
   /// Value of a rank, which a stream may claim beyond the ends.
@@ -76,32 +47,33 @@ struct AxisPalette {
   }
 };
 
-/// What AxisPalette needs besides its values: about two cells for each.
-struct PaletteIndex {
+/// The cells of a palette: four to eight for each value, so that few have more than one.
+struct PaletteCells {
   const int32_t* values;
   uint32_t count;  ///< at least 1
   uint32_t shift = 0;
   uint32_t cell_count = 0;  ///< one more than there are cells
 
-  PaletteIndex(const int32_t* sorted, uint32_t value_count) : values(sorted), count(value_count) {
-    const uint64_t range = static_cast<uint64_t>(int64_t{values[count - 1]} - values[0]) + 1;
-    while (range >> shift > 2 * uint64_t{count}) ++shift;
+  PaletteCells(const int32_t* sorted, uint32_t value_count) : values(sorted), count(value_count) {
+    const uint64_t range = distanceOf(count - 1) + 1;
+    while (range >> shift > 4 * uint64_t{count}) ++shift;
     cell_count = static_cast<uint32_t>(range >> shift) + 2;
   }
-  void fill(uint32_t* cells, uint32_t* inverse) const {
-    for (uint32_t i = 0; i + 1 < count; ++i) {
-      const uint64_t gap = static_cast<uint64_t>(int64_t{values[i + 1]} - values[i]);
-      inverse[i] = static_cast<uint32_t>((uint64_t{1} << 31) / gap);
-    }
-    inverse[count - 1] = 0;
-    const AxisPalette palette{values, count, inverse, cells, shift};
-    const uint64_t last = static_cast<uint64_t>(int64_t{values[count - 1]} - values[0]);
+
+  uint64_t distanceOf(uint32_t i) const {
+    return static_cast<uint64_t>(int64_t{values[i]} - values[0]);
+  }
+
+  /// The rank where a cell begins is linear between the values around it.
+  void fill(uint32_t* cells) const {
     uint32_t low = 0;
     for (uint32_t cell = 0; cell < cell_count; ++cell) {
-      const uint64_t from = std::min(uint64_t{cell} << shift, last);
-      while (low + 1 < count && static_cast<uint64_t>(int64_t{values[low + 1]} - values[0]) <= from)
-        ++low;
-      cells[cell] = static_cast<uint32_t>(palette.rankBehind(low, from << 8));
+      const uint64_t from = std::min(uint64_t{cell} << shift, distanceOf(count - 1));
+      while (low + 1 < count && distanceOf(low + 1) <= from) ++low;
+      const uint64_t above = (from - distanceOf(low)) << 8;
+      cells[cell] = low << 8;
+      if (above != 0)
+        cells[cell] += static_cast<uint32_t>(above / (distanceOf(low + 1) - distanceOf(low)));
     }
   }
 };
@@ -120,14 +92,12 @@ class PositionPalettes {
  public:
   explicit PositionPalettes(const Allocator& allocator)
       : values_{Array<int32_t>(allocator), Array<int32_t>(allocator), Array<int32_t>(allocator)},
-        inverse_{Array<uint32_t>(allocator), Array<uint32_t>(allocator),
-                 Array<uint32_t>(allocator)},
         cells_{Array<uint32_t>(allocator), Array<uint32_t>(allocator), Array<uint32_t>(allocator)} {
   }
 
   AxisPalette axis(uint32_t s) const {
-    return {values_[s].data(), static_cast<uint32_t>(values_[s].size()), inverse_[s].data(),
-            cells_[s].data(), shift_[s]};
+    return {values_[s].data(), static_cast<uint32_t>(values_[s].size()), cells_[s].data(),
+            shift_[s]};
   }
 
   /// Codes the palettes; `truth` has three (encoder). No palette has more values than `limit`.
@@ -175,15 +145,14 @@ class PositionPalettes {
   }
 
   bool index(uint32_t s) {
-    const PaletteIndex index(values_[s].data(), static_cast<uint32_t>(values_[s].size()));
-    shift_[s] = index.shift;
-    if (!cells_[s].resize(index.cell_count) || !inverse_[s].resize(values_[s].size())) return false;
-    index.fill(cells_[s].data(), inverse_[s].data());
+    const PaletteCells cells(values_[s].data(), static_cast<uint32_t>(values_[s].size()));
+    shift_[s] = cells.shift;
+    if (!cells_[s].resize(cells.cell_count)) return false;
+    cells.fill(cells_[s].data());
     return true;
   }
 
   Array<int32_t> values_[3];
-  Array<uint32_t> inverse_[3];
   Array<uint32_t> cells_[3];
   uint32_t shift_[3] = {};
 };

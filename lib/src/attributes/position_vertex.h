@@ -276,7 +276,7 @@ void VertexCoder<Io, kModes>::codeRanks(Io& io, uint32_t v, const FinePoint& at,
     const int64_t q8 =
         int64_t{256} * static_cast<int32_t>(step[s]) + static_cast<int32_t>(fraction[s]);
     const int64_t reach = static_cast<int64_t>(16 * width[s]);
-    const int64_t ranks = palette.roughRankOf(q8 + reach) - palette.roughRankOf(q8 - reach);
+    const int64_t ranks = palette.rankOf(q8 + reach) - palette.rankOf(q8 - reach);
     step[s] = 0;
     fraction[s] = static_cast<uint32_t>(palette.rankOf(q8));
     width[s] = static_cast<float>(ranks) * (1.0f / 32);
