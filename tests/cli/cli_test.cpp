@@ -17,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using mcc::test::contentOf;
+using mcc::test::samplePath;
 using Outcome = mcc::test::ToolResult;
 
 void store(const fs::path& path, const std::string& content) {
@@ -217,15 +218,17 @@ TEST_F(Cli, QuantizationIsApplied) {
 
 TEST_F(Cli, PreferenceIsApplied) {
   const auto bytes = [&](const std::string& preference) {
-    const Outcome result = run("convert in.glb out.glb --format json --prefer " + preference);
+    const Outcome result = run("convert " + samplePath("genus3.glb") +
+                               " out.glb --format json --prefer " + preference);
     EXPECT_EQ(result.status, 0) << result.err;
     Json report;
     EXPECT_TRUE(parseJson(asBytes(result.out), report).ok());
     EXPECT_EQ(report["options"]["prefer"], preference);
     return report["output_bytes"].get<int64_t>();
   };
-  EXPECT_LE(bytes("size"), bytes("balanced"));
-  EXPECT_LE(bytes("balanced"), bytes("speed"));
+  // Choices are made by estimates, which decide wrongly by a few bytes on the smallest meshes.
+  EXPECT_LT(bytes("size"), bytes("balanced"));
+  EXPECT_LT(bytes("balanced"), bytes("speed"));
 }
 
 TEST_F(Cli, WrongUsageIsStatusTwo) {
