@@ -9,8 +9,8 @@
 #include <set>
 
 #include "cli/run_tool.h"
-#include "gltf/accessors.h"
-#include "gltf/file_io.h"
+#include "gltf/document/accessors.h"
+#include "gltf/files/file_io.h"
 #include "gltf/gltf_builder.h"
 
 namespace mcc::gltf::test {

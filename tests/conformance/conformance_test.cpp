@@ -7,8 +7,8 @@
 #include <iterator>
 #include <set>
 
-#include "gltf/glb.h"
-#include "gltf/json.h"
+#include "gltf/document/glb.h"
+#include "gltf/document/json.h"
 #include "mcc/gltf.h"
 #include "mcc/reader.h"
 #include "robustness/damage.h"

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "gltf/file_io.h"
+#include "gltf/files/file_io.h"
 #include "gltf/scene_positions.h"
 #include "gltf/tuples.h"
 #include "mcc/gltf.h"

@@ -13,8 +13,8 @@
 #include <set>
 
 #include "container/payload_header.h"
-#include "gltf/decompress.h"
-#include "gltf/file_io.h"
+#include "gltf/decompress/decompress.h"
+#include "gltf/files/file_io.h"
 #include "mcc/gltf.h"
 #include "mesh/attribute_method.h"
 #include "robustness/damage.h"

@@ -14,7 +14,7 @@
 
 #include "documents/compare.h"
 #include "foreign/decoders.h"
-#include "gltf/file_io.h"
+#include "gltf/files/file_io.h"
 #include "support/scratch_folder.h"
 #include "support/validator.h"
 

@@ -9,8 +9,8 @@
 
 #include "foreign/draco_codec.h"
 #include "foreign/meshopt_codec.h"
-#include "gltf/glb.h"
-#include "gltf/json.h"
+#include "gltf/document/glb.h"
+#include "gltf/document/json.h"
 #include "support/mesh_generators.h"
 
 namespace mcc::gltf::test {

@@ -4,7 +4,7 @@
 // what is expanded must be a surface. The first bytes are the claims of the header.
 #include "connectivity/mc_codes.h"
 #include "connectivity/stitch.h"
-#include "entropy/dec_coder.h"
+#include "entropy/decoder.h"
 #include "fuzz/byte_feed.h"
 #include "robustness/face_check.h"
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "entropy/dec_coder.h"
+#include "entropy/decoder.h"
 #include "entropy/numbers.h"
 #include "fuzz/byte_feed.h"
 #include "mcc/types.h"

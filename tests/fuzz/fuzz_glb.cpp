@@ -10,8 +10,8 @@
 
 #include "container/payload_header.h"
 #include "fuzz/byte_feed.h"
-#include "gltf/glb.h"
-#include "gltf/json.h"
+#include "gltf/document/glb.h"
+#include "gltf/document/json.h"
 #include "mcc/gltf.h"
 #include "robustness/damage.h"
 

@@ -11,7 +11,7 @@
 
 #include "container/payload_header.h"
 #include "fuzz/byte_feed.h"
-#include "gltf/glb.h"
+#include "gltf/document/glb.h"
 #include "mcc/gltf.h"
 #include "robustness/payloads.h"
 #include "support/mesh_generators.h"

@@ -1,16 +1,16 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // The check of `convert` must notice errors: here the wrong data is compressed on purpose.
-#include "gltf/check.h"
+#include "gltf/check/check.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "gltf/check_values.h"
+#include "gltf/check/check_values.h"
+#include "gltf/compress/quantize.h"
+#include "gltf/document/rebuild.h"
 #include "gltf/gltf_builder.h"
-#include "gltf/quantize.h"
-#include "gltf/rebuild.h"
 
 namespace mcc::gltf::test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-#include "gltf/file_io.h"
+#include "gltf/files/file_io.h"
 #include "gltf/made_up_codecs.h"
 #include "support/scratch_folder.h"
 

@@ -1,5 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-#include "gltf/convert_report.h"
+#include "gltf/api/convert_report.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 
 #include <set>
 
-#include "gltf/check_json.h"
-#include "gltf/references.h"
+#include "gltf/check/check_json.h"
+#include "gltf/document/references.h"
 #include "gltf/round_trip.h"
 
 namespace mcc::gltf::test {

@@ -1,5 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-#include "gltf/destination.h"
+#include "gltf/files/destination.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "gltf/check_json.h"
+#include "gltf/check/check_json.h"
 #include "gltf/round_trip.h"
 #include "support/scratch_folder.h"
 #include "support/validator.h"

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "gltf/glb.h"
-#include "gltf/json.h"
+#include "gltf/document/glb.h"
+#include "gltf/document/json.h"
 
 namespace mcc::gltf::test {
 

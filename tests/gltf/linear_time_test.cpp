@@ -4,9 +4,9 @@
 // these sizes quadratic work would run into the timeout of the test.
 #include <gtest/gtest.h>
 
-#include "gltf/check_json.h"
-#include "gltf/compress.h"
-#include "gltf/rebuild.h"
+#include "gltf/check/check_json.h"
+#include "gltf/compress/compress.h"
+#include "gltf/document/rebuild.h"
 #include "gltf/round_trip.h"
 
 namespace mcc::gltf::test {

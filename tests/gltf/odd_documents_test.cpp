@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gltf/file_io.h"
+#include "gltf/files/file_io.h"
 #include "gltf/made_up_codecs.h"
 #include "gltf/round_trip.h"
 #include "support/scratch_folder.h"

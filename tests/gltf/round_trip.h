@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf/accessors.h"
+#include "gltf/document/accessors.h"
 #include "gltf/gltf_builder.h"
 #include "mcc/gltf.h"
 

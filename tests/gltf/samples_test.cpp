@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <map>
 
-#include "gltf/file_io.h"
+#include "gltf/files/file_io.h"
 #include "gltf/round_trip.h"
 #include "gltf/tuples.h"
 

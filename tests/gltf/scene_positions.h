@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "gltf/accessors.h"
-#include "gltf/json.h"
+#include "gltf/document/accessors.h"
+#include "gltf/document/json.h"
 
 namespace mcc::gltf::test {
 

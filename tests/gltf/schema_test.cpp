@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "gltf/file_io.h"
+#include "gltf/files/file_io.h"
 #include "gltf/round_trip.h"
 #include "support/scratch_folder.h"
 

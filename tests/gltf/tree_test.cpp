@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <set>
 
-#include "gltf/file_io.h"
+#include "gltf/files/file_io.h"
 #include "gltf/round_trip.h"
 
 namespace mcc::gltf::test {

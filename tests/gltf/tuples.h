@@ -14,8 +14,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "gltf/accessors.h"
-#include "gltf/json.h"
+#include "gltf/document/accessors.h"
+#include "gltf/document/json.h"
 
 namespace mcc::gltf::test {
 

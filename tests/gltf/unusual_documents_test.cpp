@@ -7,8 +7,8 @@
 
 #include <fstream>
 
-#include "gltf/decompress.h"
-#include "gltf/payload.h"
+#include "gltf/base/payload.h"
+#include "gltf/decompress/decompress.h"
 #include "gltf/round_trip.h"
 #include "support/scratch_folder.h"
 

@@ -19,17 +19,17 @@
 
 #include "connectivity/enc_collapse.h"
 #include "connectivity/mc_codes.h"
-#include "entropy/dec_coder.h"
+#include "entropy/decoder.h"
 #include "entropy/enc_coder.h"
-#include "gltf/accessors.h"
-#include "gltf/document.h"
+#include "gltf/document/accessors.h"
+#include "gltf/document/document.h"
 #include "prepare/enc_cut.h"
 #include "prepare/enc_triangles.h"
 #include "prepare/enc_weld.h"
 #include "support/mesh_compare.h"
 #include "support/mesh_generators.h"
 #include "support/paper_oracle.h"
-#include "writer_truth.h"
+#include "writer/truth.h"
 
 namespace mcc::test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "container/enc_payload.h"
 #include "entropy/enc_coder.h"
-#include "piece.h"
+#include "reader/piece.h"
 #include "robustness/observed_codes.h"
 #include "support/mesh_generators.h"
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "entropy/dec_coder.h"
-#include "piece.h"
+#include "entropy/decoder.h"
+#include "reader/piece.h"
 #include "robustness/damage.h"
 #include "robustness/face_check.h"
 #include "robustness/observed_codes.h"

@@ -3,7 +3,7 @@
 // The caller's preference changes what the writer chooses, but nothing that is decoded.
 #include <gtest/gtest.h>
 
-#include "attributes/enc_prices.h"
+#include "positions/enc_prices.h"
 #include "support/mesh_compare.h"
 #include "support/mesh_generators.h"
 

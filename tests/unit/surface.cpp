@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "unit/surface.h"
 
-#include "writer_truth.h"
+#include "writer/truth.h"
 
 #include <algorithm>
 

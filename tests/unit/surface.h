@@ -13,10 +13,10 @@
 #include "mcc/types.h"
 
 #include "connectivity/enc_collapse.h"
-#include "entropy/dec_coder.h"
+#include "entropy/decoder.h"
 #include "entropy/enc_coder.h"
-#include "piece.h"
 #include "prepare/enc_cut.h"
+#include "reader/piece.h"
 #include "support/mesh_generators.h"
 
 namespace mcc::test {

@@ -6,11 +6,11 @@
 
 #include "bench/geometry.h"
 #include "foreign/draco_codec.h"
-#include "gltf/coded_input.h"
-#include "gltf/file_io.h"
-#include "gltf/parallel.h"
-#include "gltf/quantize.h"
-#include "gltf/rebuild.h"
+#include "gltf/base/parallel.h"
+#include "gltf/compress/quantize.h"
+#include "gltf/decompress/coded_input.h"
+#include "gltf/document/rebuild.h"
+#include "gltf/files/file_io.h"
 
 namespace mcc::bench {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "gltf/coded_input.h"
-#include "gltf/file_io.h"
-#include "gltf/parallel.h"
-#include "gltf/quantize.h"
+#include "gltf/base/parallel.h"
+#include "gltf/compress/quantize.h"
+#include "gltf/decompress/coded_input.h"
+#include "gltf/files/file_io.h"
 
 namespace mcc::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <exception>
 
 #include "bench/memory_count.h"
-#include "gltf/parallel.h"
+#include "gltf/base/parallel.h"
 
 namespace mcc::bench {
 namespace {

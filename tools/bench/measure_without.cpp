@@ -6,7 +6,7 @@
 
 #include "bench/codecs.h"
 #include "bench/measure.h"
-#include "writer_settings.h"
+#include "writer/settings.h"
 
 namespace mcc::bench {
 namespace {

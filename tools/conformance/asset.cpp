@@ -7,10 +7,10 @@
 #include <map>
 #include <stdexcept>
 
-#include "gltf/accessors.h"
-#include "gltf/glb.h"
-#include "gltf/payload.h"
-#include "gltf/plan.h"
+#include "gltf/base/payload.h"
+#include "gltf/compress/plan.h"
+#include "gltf/document/accessors.h"
+#include "gltf/document/glb.h"
 #include "support/mesh_compare.h"
 #include "support/sha256.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf/json.h"
+#include "gltf/document/json.h"
 #include "mcc/reader.h"
 #include "mcc/writer.h"
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "container/payload_header.h"
-#include "gltf/payload.h"
+#include "gltf/base/payload.h"
 #include "mesh/attribute_method.h"
 
 namespace mcc::conformance {

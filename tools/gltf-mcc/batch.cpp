@@ -13,10 +13,10 @@
 #include "batch_record.h"
 #include "convert_report.h"
 #include "file_roles.h"
-#include "gltf/file_io.h"
-#include "gltf/package.h"
-#include "gltf/parallel.h"
-#include "gltf/printable.h"
+#include "gltf/base/parallel.h"
+#include "gltf/base/printable.h"
+#include "gltf/document/package.h"
+#include "gltf/files/file_io.h"
 #include "progress_line.h"
 
 namespace mcc::tool {

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "gltf/file_io.h"
+#include "gltf/files/file_io.h"
 #include "interrupt.h"
 
 namespace mcc::tool {

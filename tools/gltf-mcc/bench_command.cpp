@@ -13,7 +13,7 @@
 #include "convert_report.h"
 #include "file_roles.h"
 #include "foreign/decoders.h"
-#include "gltf/file_io.h"
+#include "gltf/files/file_io.h"
 #include "help.h"
 #include "progress_line.h"
 #include "without_report.h"

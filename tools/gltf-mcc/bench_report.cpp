@@ -12,7 +12,7 @@
 
 #include "comparison_report.h"
 #include "convert_report.h"
-#include "gltf/printable.h"
+#include "gltf/base/printable.h"
 
 namespace mcc::tool {
 namespace {

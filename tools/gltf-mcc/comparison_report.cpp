@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gltf/printable.h"
+#include "gltf/base/printable.h"
 
 namespace mcc::tool {
 namespace {

@@ -11,9 +11,9 @@
 #include "bench/emit_draco.h"
 #include "compare_command.h"
 #include "comparison_report.h"
-#include "gltf/file_io.h"
-#include "gltf/glb.h"
-#include "gltf/printable.h"
+#include "gltf/base/printable.h"
+#include "gltf/document/glb.h"
+#include "gltf/files/file_io.h"
 #include "interrupt.h"
 
 namespace mcc::tool {

@@ -5,9 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "gltf/file_io.h"
-#include "gltf/printable.h"
-#include "gltf/report_json.h"
+#include "gltf/base/printable.h"
+#include "gltf/files/file_io.h"
+#include "gltf/inspect/report_json.h"
 #include "interrupt.h"
 
 namespace mcc::tool {

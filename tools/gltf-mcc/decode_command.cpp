@@ -6,7 +6,7 @@
 
 #include "batch.h"
 #include "commands.h"
-#include "gltf/printable.h"
+#include "gltf/base/printable.h"
 #include "help.h"
 #include "in_out.h"
 #include "interrupt.h"

@@ -1,8 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "file_roles.h"
 
-#include "gltf/file_io.h"
-#include "gltf/package.h"
+#include "gltf/document/package.h"
+#include "gltf/files/file_io.h"
 #include "standard_streams.h"
 
 namespace mcc::tool {

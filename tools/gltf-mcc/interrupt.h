@@ -4,7 +4,7 @@
 #ifndef MCC_TOOL_INTERRUPT_H_
 #define MCC_TOOL_INTERRUPT_H_
 
-#include "gltf/temporary_files.h"
+#include "gltf/files/temporary_files.h"
 
 namespace mcc::tool {
 

@@ -11,7 +11,7 @@
 
 #include "commands.h"
 #include "container/payload_header.h"
-#include "gltf/printable.h"
+#include "gltf/base/printable.h"
 #include "help.h"
 #include "help_pages.h"
 #include "interrupt.h"

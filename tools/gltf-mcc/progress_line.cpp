@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <system_error>
 
-#include "gltf/printable.h"
+#include "gltf/base/printable.h"
 #include "terminal.h"
 
 namespace mcc::tool {

@@ -5,8 +5,8 @@
 
 #include <cstdio>
 
-#include "gltf/file_io.h"
-#include "gltf/package.h"
+#include "gltf/document/package.h"
+#include "gltf/files/file_io.h"
 #include "interrupt.h"
 
 namespace mcc::tool {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "gltf/printable.h"
+#include "gltf/base/printable.h"
 #include "terminal.h"
 
 namespace mcc::tool {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "gltf/printable.h"
+#include "gltf/base/printable.h"
 #include "help.h"
 #include "suggest.h"
 #include "terminal.h"

@@ -6,7 +6,7 @@
 
 #include "commands.h"
 #include "convert_report.h"
-#include "gltf/printable.h"
+#include "gltf/base/printable.h"
 #include "help.h"
 #include "standard_streams.h"
 

@@ -8,8 +8,8 @@
 #if defined(MCC_HAS_FOREIGN)
 #include "foreign/brotli_codec.h"
 #endif
-#include "gltf/file_io.h"
-#include "gltf/package.h"
+#include "gltf/document/package.h"
+#include "gltf/files/file_io.h"
 
 namespace mcc::tool {
 bool canMeasureWhole() {

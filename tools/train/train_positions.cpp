@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // train-positions MESH.glb..: refits the universal weights of the position predictor (kUniversalWeights in
-// lib/src/attributes/position_tables.h) and prints the table. Each mesh is fitted at 11 and 14 bits; an entry of the
+// lib/src/positions/tables.h) and prints the table. Each mesh is fitted at 11 and 14 bits; an entry of the
 // table is the median over the meshes that have enough vertices of the class. See tools/train/run.
 #include <nlohmann/json.hpp>
 
@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "attributes/enc_position_fit.h"
-#include "entropy/dec_coder.h"
+#include "entropy/decoder.h"
 #include "mcc/writer.h"
-#include "piece.h"
+#include "positions/enc_fit.h"
+#include "reader/piece.h"
 
 namespace {
 

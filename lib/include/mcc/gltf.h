@@ -354,7 +354,7 @@ struct Source {
 };
 
 /// A list of the temporary files being written, for programs that may be ended by a signal.
-class TemporaryFiles;  // gltf/temporary_files.h
+class TemporaryFiles;  // gltf/files/temporary_files.h
 
 /// Where a document goes to.
 struct Sink {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "entropy/dec_coder.h"
+#include "entropy/decoder.h"
 #include "entropy/enc_cost.h"
 #include "entropy/models.h"
 

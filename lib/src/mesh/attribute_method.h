@@ -34,14 +34,14 @@ constexpr bool isBinaryGrid(uint32_t grid) { return grid >= kGridBinary; }
 /// The coder of an attribute. It follows from the other fields of the header, which has no field
 /// for it.
 enum class AttributeMethod : uint8_t {
-  kValues,        ///< attributes/values.h
-  kNormal,        ///< attributes/normals.h
-  kTexcoord,      ///< attributes/texcoords.h
-  kTangent,       ///< attributes/tangents.h
-  kTangentPoint,  ///< attributes/tangent_points.h
-  kSkin,          ///< attributes/skin.h: JOINTS_n with its WEIGHTS_n
-  kExactNormal,   ///< attributes/exact_normals.h
-  kExactTangent,  ///< attributes/exact_tangents.h
+  kValues,        ///< values/values.h
+  kNormal,        ///< vectors/normals.h
+  kTexcoord,      ///< values/texcoords.h
+  kTangent,       ///< vectors/tangents.h
+  kTangentPoint,  ///< vectors/tangent_points.h
+  kSkin,          ///< values/skin.h: JOINTS_n with its WEIGHTS_n
+  kExactNormal,   ///< exact/normals.h
+  kExactTangent,  ///< exact/tangents.h
   kSkinWeights,   ///< WEIGHTS_n that is coded with its JOINTS_n
   kAlias,         ///< equal to another attribute; nothing is coded
 };

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf/report_json.h"
+#include "gltf/inspect/report_json.h"
 #include "mcc/gltf.h"
 
 #define MCC_EXPORT(name) extern "C" __attribute__((export_name(name), used))

@@ -4,10 +4,10 @@
 #include <wasi/api.h>
 #include <ctime>
 
-#include "gltf/destination.h"
-#include "gltf/file_io.h"
-#include "gltf/folder_lock.h"
-#include "gltf/result.h"
+#include "gltf/base/result.h"
+#include "gltf/files/destination.h"
+#include "gltf/files/file_io.h"
+#include "gltf/files/folder_lock.h"
 
 namespace mcc::gltf {
 namespace {

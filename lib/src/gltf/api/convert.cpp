@@ -1,0 +1,379 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Implements the public functions: load, compress or decompress, write, check.
+#include <chrono>
+#include <memory>
+
+#include "gltf/api/convert_report.h"
+#include "gltf/base/parallel.h"
+#include "gltf/base/printable.h"
+#include "gltf/check/check.h"
+#include "gltf/compress/compress.h"
+#include "gltf/decompress/add_fallback.h"
+#include "gltf/decompress/coded_input.h"
+#include "gltf/decompress/decompress.h"
+#include "gltf/document/rebuild.h"
+#include "gltf/document/uri.h"
+#include "gltf/files/destination.h"
+#include "gltf/files/folder_lock.h"
+#include "mcc/gltf.h"
+
+namespace mcc::gltf {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start_;
+    return time.count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// A source and what is needed to read it.
+struct Input {
+  fs::path path;  ///< for a source in memory only a name
+  std::vector<uint8_t> owned;
+  std::span<const uint8_t> bytes;
+  FileReader read_file;                 ///< null for a source in memory
+  std::unique_ptr<FolderLock> reading;  ///< held until all files are read
+
+  Result open(const Source& source) {
+    path = source.path;
+    if (source.bytes) {
+      bytes = *source.bytes;
+      return {};
+    }
+    // A .gltf and its buffer that are being replaced are read either before or after that.
+    reading = lockToRead(path);
+    MCC_GLTF_TRY(readFile(path, owned));
+    bytes = owned;
+    read_file = readerOf(path.parent_path());
+    return {};
+  }
+  bool isFile() const { return read_file != nullptr; }
+};
+
+/// Where the result goes: to a file with others next to it, or to memory.
+struct Output {
+  std::vector<uint8_t>* bytes = nullptr;
+  std::unique_ptr<Destination> destination;  ///< null for an output in memory
+  Container container;
+
+  Result open(const Sink& sink, bool with_fallback) {
+    bytes = sink.bytes;
+    if (bytes != nullptr && with_fallback) {
+      return error("", "a fallback is a second file; name a file for the output");
+    }
+    if (bytes != nullptr) return {};
+    destination = std::make_unique<Destination>(sink.path, sink.temporaries);
+    MCC_GLTF_TRY(destination->check(with_fallback));
+    container = destination->container();
+    return {};
+  }
+
+  Result write(Package package) {
+    if (destination) return destination->write(package);
+    *bytes = std::move(package.main);
+    return {};
+  }
+
+  Result commit() { return destination ? destination->commit() : Result{}; }
+};
+
+/// Loads the source for an output. For a GLB, image files move into its buffers.
+Result loadFor(const Output& output, Input& input, Document& document, FilesInUse& files) {
+  MCC_GLTF_TRY(loadDocument(input.bytes, input.read_file, document));
+  if (input.isFile()) {
+    files.input = {input.path};
+    files.other_input.clear();
+    const fs::path folder = folderOf(input.path);
+    const bool embeds = !document.is_glb && !output.container.is_gltf;
+    for (const std::string& path : filesOf(document.json, "buffers")) {
+      files.input.push_back(folder / path);
+    }
+    for (const std::string& path : filesOf(document.json, "images")) {
+      (embeds ? files.input : files.other_input).push_back(folder / path);
+    }
+    if (output.destination) {
+      MCC_GLTF_TRY(output.destination->checkSource(input.path, document.json));
+    }
+  }
+  if (!output.container.is_gltf) MCC_GLTF_TRY(embedImages(input.read_file, document));
+  input.reading.reset();
+  return {};
+}
+
+/// Adds the files that the JSON still names, which must be where a loader of the output looks for
+/// them.
+Result addFilesBeside(const Json& json, bool with_buffers, const Input& input, const Output& output,
+                      Package& package, std::vector<std::string>& notes) {
+  if (input.isFile() && output.destination) {
+    if (output.destination->isBeside(input.path)) return {};
+    const CopyReaders readers = {input.read_file, readerInside(input.path.parent_path())};
+    return addCopies(json, with_buffers, readers, package, notes);
+  }
+  for (const std::string& path : filesBeside(json)) {
+    notes.push_back("\"" + path + "\" stays a separate file; put it next to the output");
+  }
+  return {};
+}
+
+/// Stores an edited document and adds its other files.
+Result packageDocument(const Document& document, Json json, std::vector<uint8_t> bin,
+                       const Input& input, const Output& output, Package& package,
+                       std::vector<std::string>& notes) {
+  MCC_GLTF_TRY(addFilesBeside(json, false, input, output, package, notes));
+  if (output.container.is_gltf && !document.other_chunks.empty()) {
+    notes.push_back("the GLB has chunks that a .gltf cannot hold; they are left out");
+  }
+  return writePackage(output.container, std::move(json), std::move(bin), document.other_chunks,
+                      package);
+}
+
+/// Used when nothing was compressed or decompressed: stores the source itself, or its contents in
+/// the other container.
+Result packageSource(const Document& document, const Input& input, const Output& output,
+                     Package& package, std::vector<std::string>& notes, bool& is_copy) {
+  package = {};
+  const bool moves = output.destination && !output.destination->isBeside(input.path);
+  is_copy = document.is_glb != output.container.is_gltf &&
+            (!input.isFile() || !moves || canCopyBuffers(document.json));
+  if (is_copy) {
+    package.main.assign(input.bytes.begin(), input.bytes.end());
+    Json json = document.json;
+    return addFilesBeside(json, true, input, output, package, notes);
+  }
+  Json json = document.json;
+  std::vector<uint8_t> bin;
+  std::vector<NewView> no_views;
+  const ForeignReferences foreign = findForeignReferences(document.json);
+  MCC_GLTF_TRY(rebuildBuffers(document, foreign, no_views, json, bin));
+  return packageDocument(document, std::move(json), std::move(bin), input, output, package, notes);
+}
+
+/// Checks that existing payloads decode, because the check compares what they hold.
+Result checkOldPayloads(const Document& document) {
+  Decompressed ignored;
+  return decompressDocument(document, ignored);
+}
+
+/// One conversion of a loaded document. The check comes later, on the bytes that were stored.
+struct Conversion {
+  Document document;
+  Compressed compressed;
+  Package package;
+};
+
+Result packageFallback(const Container& container, Compressed& compressed, Package& package,
+                       uint64_t& fallback_bytes) {
+  SideFile file;
+  file.kind = SideFile::Kind::kFallback;
+  file.path = container.fallback_name;
+  MCC_GLTF_TRY(addFallback(compressed.bin, uriOf(file.path), compressed.json, file.bytes));
+  fallback_bytes = file.bytes.size();
+  package.beside.push_back(std::move(file));
+  return {};
+}
+
+void forgetPayloads(ConvertReport& report) {
+  for (PrimitiveReport& primitive : report.primitives) {
+    primitive.compressed = false;
+    primitive.payload = kNone;
+  }
+}
+
+void tell(const ConvertOptions& options, const char* stage) {
+  if (options.progress) options.progress(stage, -1);
+}
+
+Result convertInput(Input& input, const Output& output, const ConvertOptions& options,
+                    Conversion& conversion, ConvertReport& report) {
+  report = {};
+  const Stopwatch watch;
+  Document& document = conversion.document;
+  Compressed& compressed = conversion.compressed;
+  Package& package = conversion.package;
+  tell(options, "reading");
+  MCC_GLTF_TRY(loadFor(output, input, document, report.files));
+  document.decoded = DecodedBytes(options.max_decoded_bytes, document.source_bytes);
+  MCC_GLTF_TRY(decodeViews(options.decoders, document));
+  // With indices_only, decoded attributes would have to be stored again next to the payload.
+  if (!options.indices_only) MCC_GLTF_TRY(decodeMeshes(options.decoders, document));
+  report.input_bytes = document.source_bytes;
+  report.notes = document.notes;
+  MCC_GLTF_TRY(checkOldPayloads(document));
+  tell(options, "encoding");
+  MCC_GLTF_TRY(compressDocument(document, options, compressed));
+  report.notes.insert(report.notes.end(), compressed.notes.begin(), compressed.notes.end());
+  addPrimitives(document, compressed, report);
+  if (!compressed.payloads.empty()) {
+    if (options.fallback) {
+      MCC_GLTF_TRY(packageFallback(output.container, compressed, package, report.fallback_bytes));
+    }
+    MCC_GLTF_TRY(packageDocument(document, std::move(compressed.json), std::move(compressed.bin),
+                                 input, output, package, report.notes));
+    compressed.json = {};
+    compressed.bin = {};
+  }
+  const bool is_larger = document.is_glb != output.container.is_gltf && !options.allow_larger &&
+                         package.documentBytes() >= document.source_bytes;
+  if (compressed.payloads.empty() || is_larger) {
+    compressed.payloads.clear();
+    MCC_GLTF_TRY(packageSource(document, input, output, package, report.notes, report.copied));
+    forgetPayloads(report);
+    report.fallback_bytes = 0;
+    if (report.copied) {
+      report.notes.push_back("nothing becomes smaller; the output is a copy of the input");
+    }
+  }
+  report.encode_seconds = watch.seconds();
+  report.output_bytes = report.copied ? document.source_bytes : package.documentBytes();
+  return {};
+}
+
+/// Checks the stored output and completes the report.
+Result checkOutput(const Conversion& conversion, const ConvertOptions& options,
+                   std::span<const uint8_t> stored, const FileReader& read_file,
+                   ConvertReport& report) {
+  if (!report.copied) {
+    const Stopwatch watch;
+    tell(options, "checking");
+    CheckResult checked;
+    const std::vector<EncodedPayload>& payloads = conversion.compressed.payloads;
+    MCC_GLTF_TRY(checkConversion(conversion.document, payloads, options.decoders, stored, read_file,
+                                 options.thread_count, checked));
+    report.decode_seconds = checked.decode_seconds;
+    if (checked.decoded_bytes > decodedLimit(0, report.output_bytes)) {
+      report.notes.push_back(
+          "its geometry decodes to " + std::to_string(checked.decoded_bytes) +
+          " bytes, more than decoders accept by default for a file this small; they need a larger "
+          "max_decoded_bytes (--max-decoded-bytes)");
+    }
+    report.check_seconds = watch.seconds() - checked.decode_seconds;
+    addPayloads(payloads, std::move(checked), report);
+  }
+  report.checked = true;
+  return {};
+}
+
+Result decodeInput(Input& input, const Output& output, const FileDecodeOptions& options,
+                   Package& package, DecodeReport& report) {
+  report = {};
+  const Stopwatch watch;
+  Document document;
+  MCC_GLTF_TRY(loadFor(output, input, document, report.files));
+  report.input_bytes = document.source_bytes;
+  report.notes = document.notes;
+  Decompressed decompressed;
+  document.decoded = DecodedBytes(options.max_decoded_bytes, document.source_bytes);
+  MCC_GLTF_TRY(decompressDocument(document, decompressed, options.decode_to, options.thread_count));
+  report.notes.insert(report.notes.end(), decompressed.notes.begin(), decompressed.notes.end());
+  report.payload_count = decompressed.payload_count;
+  report.primitive_count = decompressed.primitive_count;
+  report.triangle_count = decompressed.triangle_count;
+  report.wedge_count = decompressed.wedge_count;
+  if (decompressed.payload_count != 0) {
+    MCC_GLTF_TRY(packageDocument(document, std::move(decompressed.json),
+                                 std::move(decompressed.bin), input, output, package,
+                                 report.notes));
+  } else {
+    MCC_GLTF_TRY(packageSource(document, input, output, package, report.notes, report.copied));
+    if (report.copied) {
+      report.notes.push_back("nothing in it is compressed; the output is a copy of the input");
+    }
+  }
+  report.decode_seconds = watch.seconds();
+  report.output_bytes = report.copied ? document.source_bytes : package.documentBytes();
+  return {};
+}
+
+/// Makes notes printable, since names in them come from the file and they go to terminals.
+void cleanNotes(std::vector<std::string>& notes) {
+  for (std::string& note : notes) note = printable(note);
+}
+
+/// Adds the name of the input to a result. A source in memory may have no name.
+Result inInput(const Input& input, Result result) {
+  return input.path.empty() ? result : inFile(input.path, std::move(result));
+}
+
+}  // namespace
+
+Result convert(const Source& source, const Sink& sink, const ConvertOptions& options,
+               ConvertReport& report) {
+  const Result result = guarded([&]() -> Result {
+    if (options.position_lattice && !isValidLattice(*options.position_lattice, 3)) {
+      return error("",
+                   "the lattice of positions needs finite numbers, and a step that is greater "
+                   "than 0");
+    }
+    Input input;
+    Output output;
+    MCC_GLTF_TRY(input.open(source));
+    MCC_GLTF_TRY(output.open(sink, options.fallback));
+    Conversion conversion;
+    MCC_GLTF_TRY(inInput(input, convertInput(input, output, options, conversion, report)));
+    MCC_GLTF_TRY(output.write(std::move(conversion.package)));
+    std::vector<uint8_t> stored;
+    FileReader read_file;
+    if (output.destination) {
+      MCC_GLTF_TRY(output.destination->readBack(stored));
+      read_file = output.destination->reader();
+    }
+    const std::span<const uint8_t> written = output.destination ? stored : *output.bytes;
+    MCC_GLTF_TRY(inInput(input, checkOutput(conversion, options, written, read_file, report)));
+    MCC_GLTF_TRY(output.commit());
+    if (output.destination) report.files.output = output.destination->files();
+    return {};
+  });
+  cleanNotes(report.notes);
+  for (PrimitiveReport& primitive : report.primitives) {
+    primitive.note = printable(primitive.note);
+  }
+  return result;
+}
+
+Result decode(const Source& source, const Sink& sink, DecodeReport& report,
+              const FileDecodeOptions& options) {
+  const Result result = guarded([&]() -> Result {
+    Input input;
+    Output output;
+    MCC_GLTF_TRY(input.open(source));
+    MCC_GLTF_TRY(output.open(sink, false));
+    Package package;
+    MCC_GLTF_TRY(inInput(input, decodeInput(input, output, options, package, report)));
+    MCC_GLTF_TRY(output.write(std::move(package)));
+    MCC_GLTF_TRY(output.commit());
+    if (output.destination) report.files.output = output.destination->files();
+    return {};
+  });
+  cleanNotes(report.notes);
+  return result;
+}
+
+Result convertGlb(std::span<const uint8_t> source, const ConvertOptions& options,
+                  std::vector<uint8_t>& output, ConvertReport& report) {
+  return convert({{}, source}, {{}, &output}, options, report);
+}
+
+Result convertFile(const fs::path& source, const fs::path& output, const ConvertOptions& options,
+                   ConvertReport& report) {
+  return convert({source, {}}, {output, nullptr}, options, report);
+}
+
+Result decodeGlb(std::span<const uint8_t> source, std::vector<uint8_t>& output,
+                 DecodeReport& report, const FileDecodeOptions& options) {
+  return decode({{}, source}, {{}, &output}, report, options);
+}
+
+Result decodeFile(const fs::path& source, const fs::path& output, DecodeReport& report,
+                  const FileDecodeOptions& options) {
+  return decode({source, {}}, {output, nullptr}, report, options);
+}
+
+}  // namespace mcc::gltf

@@ -1,0 +1,95 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/api/convert_report.h"
+
+#include <map>
+
+namespace mcc::gltf {
+namespace {
+
+void addStreams(const StreamSizes& sizes, PayloadReport& report) {
+  report.streams = {{"connectivity", sizes.connectivity_bits},
+                    {"stitching", sizes.stitch_bits},
+                    {"leftovers", sizes.leftover_bits},
+                    {"seams", sizes.seam_bits},
+                    {"order", sizes.order_bits},
+                    {"header", sizes.header_bits}};
+}
+
+void addCounts(const EncodedPayload& payload, PayloadReport& report) {
+  report.mesh = payload.plan.mesh;
+  report.payload_bytes = payload.payload_bytes;
+  report.freed_bytes = payload.freed_bytes;
+  report.piece_count = static_cast<uint32_t>(payload.plan.pieces.size());
+  for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
+    const PiecePlan& piece = payload.plan.pieces[i];
+    const PieceResult& result = payload.result.pieces[i];
+    report.wedge_count += piece.wedge_count;
+    report.vertex_count += result.topological_vertex_count;
+    report.component_count += result.component_count;
+    report.hole_count += result.hole_count;
+    report.cut_copy_count += result.cut_copy_count;
+    report.leftover_triangle_count += result.leftover_triangle_count;
+    for (const PartPlan& part : piece.parts) report.triangle_count += part.triangles.size() / 3;
+  }
+}
+
+/// Adds the coded bits to the measured attributes. `rows` are those of CheckResult.
+void addAttributeBits(const EncodedPayload& payload, const std::vector<size_t>& rows,
+                      std::vector<AttributeReport>& attributes) {
+  const StreamSizes& sizes = payload.result.sizes;
+  size_t next = 0;
+  for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
+    for (const AttributePlan& attribute : payload.plan.pieces[i].attributes) {
+      double bits = next < sizes.attribute_bits.size() ? sizes.attribute_bits[next] : 0;
+      const bool is_position = attribute.format.semantic == Semantic::kPosition &&
+                               attribute.target == kNone && i < sizes.piece_position_bits.size();
+      if (is_position) bits += sizes.piece_position_bits[i];
+      attributes[rows[next++]].coded_bits += bits;
+    }
+  }
+}
+
+}  // namespace
+
+void addPrimitives(const Document& document, const Compressed& compressed, ConvertReport& report) {
+  std::map<std::pair<uint32_t, uint32_t>, PrimitiveReport> known;
+  for (uint32_t i = 0; i < compressed.payloads.size(); ++i) {
+    for (const PiecePlan& piece : compressed.payloads[i].plan.pieces) {
+      for (const PartPlan& part : piece.parts) {
+        for (const PrimitiveRef& user : part.users) {
+          known[{user.mesh, user.primitive}] = {
+              user.mesh, user.primitive, true, i, part.triangles.size() / 3, piece.wedge_count, ""};
+        }
+      }
+    }
+  }
+  for (const LeftAlone& left : compressed.left_alone) {
+    PrimitiveReport& primitive = known[{left.primitive.mesh, left.primitive.primitive}];
+    primitive.note = left.note;
+    report.notes.push_back(left.primitive.path() + ": " + left.note);
+  }
+  const Json& meshes = arrayOf(document.json, "meshes");
+  for (uint32_t m = 0; m < meshes.size(); ++m) {
+    const size_t count = arrayOf(meshes[m], "primitives").size();
+    for (uint32_t p = 0; p < count; ++p) {
+      PrimitiveReport primitive = known[{m, p}];
+      primitive.mesh = m;
+      primitive.primitive = p;
+      report.primitives.push_back(primitive);
+    }
+  }
+}
+
+void addPayloads(const std::vector<EncodedPayload>& payloads, CheckResult checked,
+                 ConvertReport& report) {
+  for (size_t i = 0; i < payloads.size(); ++i) {
+    PayloadReport payload;
+    addCounts(payloads[i], payload);
+    addStreams(payloads[i].result.sizes, payload);
+    payload.attributes = std::move(checked.attributes[i]);
+    addAttributeBits(payloads[i], checked.rows[i], payload.attributes);
+    report.payloads.push_back(std::move(payload));
+  }
+}
+
+}  // namespace mcc::gltf

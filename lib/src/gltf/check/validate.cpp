@@ -1,0 +1,372 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Finds everything that is wrong with the compressed parts of a file.
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "container/payload_header.h"
+#include "gltf/base/issues.h"
+#include "gltf/base/parallel.h"
+#include "gltf/base/payload.h"
+#include "gltf/base/printable.h"
+#include "gltf/decompress/decompress.h"
+#include "gltf/document/accessors.h"
+#include "gltf/document/bounds.h"
+#include "gltf/document/package.h"
+#include "gltf/document/references.h"
+#include "gltf/files/file_io.h"
+
+namespace mcc::gltf {
+namespace {
+
+bool hasElements(const Json& accessor) {
+  return findMember(accessor, "bufferView") != nullptr ||
+         findMember(accessor, "byteOffset") != nullptr || findMember(accessor, "sparse") != nullptr;
+}
+
+bool isListed(const Json& json, const char* list) {
+  const Json& names = arrayOf(json, list);
+  return std::find(names.begin(), names.end(), kExtensionName) != names.end();
+}
+
+class Validator {
+ public:
+  /// `json` is the document as it is in the file; loading removes a fallback that does not exist.
+  Validator(const Json& json, const Document& document, const ValidateOptions& options,
+            Issues& issues, ValidationReport& report)
+      : json_(json),
+        document_(document),
+        limits_(options.limits),
+        decoded_bytes_(options.max_decoded_bytes, document.source_bytes),
+        issues_(issues),
+        report_(report) {}
+
+  void run() {
+    findExtensionUses(document_, issues_, uses_);
+    report_.compressed_primitive_count = static_cast<uint32_t>(uses_.size());
+    checkLists();
+    std::map<uint32_t, std::vector<const ExtensionUse*>> by_view;
+    for (const ExtensionUse& use : uses_) {
+      checkObject(use);
+      if (use.view == kNone) continue;
+      by_view[use.view].push_back(&use);
+      payload_buffers_.insert(document_.views[use.view].buffer);
+    }
+    for (const auto& [view, ignored] : by_view) checkView(view);
+    checkOtherViewUses(by_view);
+    const std::vector<PayloadUse> payloads = payloadUses(document_, uses_);
+    report_.payload_count = static_cast<uint32_t>(payloads.size());
+    for (const auto& [view, users] : payloads) checkPayload(view, users);
+    // Reported once; payloads below the limit were checked.
+    issues_.passes(Rule::kDecodedBytes, decoded_bytes_.check());
+  }
+
+ private:
+  // ---- The document
+
+  const Json& primitiveOf(const ExtensionUse& use) const {
+    return json_["meshes"][use.mesh]["primitives"][use.primitive];
+  }
+
+  /// Checks properties by the JSON Schema that decoding does not look at.
+  void checkObject(const ExtensionUse& use) {
+    const Json& extension = primitiveOf(use)["extensions"][kExtensionName];
+    const Json* nested = findMember(extension, "extensions");
+    if (nested == nullptr) return;
+    const std::string path = use.path + "/extensions";
+    if (!nested->is_object()) return issues_.add(Rule::kSchema, path, "must be an object");
+    for (const auto& [name, value] : nested->items()) {
+      if (!value.is_object()) issues_.add(Rule::kSchema, at(path, name), "must be an object");
+    }
+  }
+
+  std::set<uint32_t> filledAccessors() const {
+    std::set<uint32_t> filled;
+    for (const ExtensionUse& use : uses_) {
+      if (use.indices_accessor != kNone) filled.insert(use.indices_accessor);
+      for (const auto& attribute : use.attributes) filled.insert(attribute.accessor);
+    }
+    return filled;
+  }
+
+  void checkLists() {
+    const bool is_used = isListed(json_, "extensionsUsed");
+    const bool is_required = isListed(json_, "extensionsRequired");
+    if (uses_.empty()) {
+      if (is_used || is_required) {
+        issues_.add(Rule::kUnusedExtension, is_used ? "/extensionsUsed" : "/extensionsRequired",
+                    std::string(kExtensionName) + " is listed, but no primitive has it");
+      }
+      return;
+    }
+    if (!is_used) {
+      issues_.add(Rule::kListedAsUsed, "/extensionsUsed",
+                  std::string(kExtensionName) + " is not listed");
+    }
+    const std::set<uint32_t> filled = filledAccessors();
+    std::vector<uint32_t> bare;
+    for (const uint32_t accessor : filled) {
+      if (!hasElements(json_["accessors"][accessor])) bare.push_back(accessor);
+    }
+    if (bare.size() == filled.size()) {
+      if (!is_required) {
+        issues_.add(Rule::kListedAsRequired, "/extensionsRequired",
+                    std::string(kExtensionName) +
+                        " is not listed, though there is no fallback for loaders without it");
+      }
+      return;
+    }
+    for (const uint32_t accessor : bare) {
+      issues_.add(Rule::kFallbackForAll, at("/accessors", accessor),
+                  "is filled from a payload and has no fallback, as others of the file do");
+    }
+    if (is_required && bare.empty()) {
+      issues_.add(Rule::kListedAsRequired, "/extensionsRequired",
+                  std::string(kExtensionName) + " is listed, though everything has a fallback");
+    }
+  }
+
+  void checkView(uint32_t view) {
+    const Json& json = document_.json["bufferViews"][view];
+    for (const char* key : {"byteStride", "target"}) {
+      if (findMember(json, key) == nullptr) continue;
+      issues_.add(Rule::kPayloadView, at(at("/bufferViews", view), key),
+                  "must not be defined: the buffer view holds a payload");
+    }
+  }
+
+  /// Checks that images, accessors and other primitives do not use the view of a payload.
+  void checkOtherViewUses(const std::map<uint32_t, std::vector<const ExtensionUse*>>& by_view) {
+    std::map<uint32_t, size_t> counts;
+    visitViewReferences(document_.json, [&](const Json& reference, uint32_t) {
+      uint64_t view = 0;
+      if (asUnsigned(reference, view) && view < document_.views.size()) {
+        ++counts[static_cast<uint32_t>(view)];
+      }
+    });
+    for (const auto& [view, users] : by_view) {
+      if (counts[view] <= users.size()) continue;
+      issues_.add(Rule::kSharedPayloadView, at("/bufferViews", view),
+                  "holds a payload, but something else refers to it, too");
+    }
+  }
+
+  // ---- Payloads
+
+  void checkPayload(uint32_t view, const std::vector<const ExtensionUse*>& users) {
+    const std::string where = users[0]->path + "/bufferView";
+    DecodedPayload decoded;
+    const Status opened = decoded.payload.open(payloadBytes(document_, view), limits_);
+    if (!opened.ok()) return issues_.addPayloadError(opened, where);
+    const PayloadInfo& info = decoded.payload.info();
+    if (info.version_minor > kVersionMinor) {
+      issues_.add(Rule::kMinorVersion, where,
+                  "the payload has version " + std::to_string(info.version_major) + "." +
+                      std::to_string(info.version_minor) + "; what is new in it is not checked");
+    }
+    std::vector<const ExtensionUse*> sound;
+    for (const ExtensionUse* use : users) {
+      if (!use->has_numbers) continue;
+      Issues own(std::numeric_limits<size_t>::max());
+      checkAgainstPayload(document_, *use, info, own);
+      if (!own.hasErrors()) sound.push_back(use);
+      issues_.append(own);
+      checkManifold(*use, info);
+    }
+    if (!issues_.hasErrors()) checkUse(users, info, where);
+    decoded_bytes_.add(outputBytes(info));
+    if (!decoded_bytes_.check().ok()) return;
+    const Status status = decodePieces(decoded);
+    if (!status.ok()) return issues_.addPayloadError(status, where);
+    for (size_t i = 0; i < info.pieces.size(); ++i) {
+      report_.wedge_count += info.pieces[i].wedge_count;
+      for (const PartInfo& part : info.pieces[i].parts)
+        report_.triangle_count += part.triangle_count;
+    }
+    for (const ExtensionUse* use : sound) checkElements(*use, decoded.pieces[use->piece]);
+  }
+
+  void checkManifold(const ExtensionUse& use, const PayloadInfo& info) {
+    const Json* extensions = findMember(json_["meshes"][use.mesh], "extensions");
+    if (extensions == nullptr || findMember(*extensions, "EXT_mesh_manifold") == nullptr) return;
+    if (use.piece >= info.pieces.size()) return;
+    const PieceInfo& piece = info.pieces[use.piece];
+    if (piece.keeps_vertex_order && piece.keeps_triangle_order) return;
+    issues_.add(Rule::kManifold, at("/meshes", use.mesh) + "/extensions/EXT_mesh_manifold",
+                "refers to vertices and triangles by number, whose order piece " +
+                    std::to_string(use.piece) + " of the payload does not keep");
+  }
+
+  /// Reports parts and attributes that no primitive names.
+  void checkUse(const std::vector<const ExtensionUse*>& users, const PayloadInfo& info,
+                const std::string& where) {
+    struct Used {
+      std::set<uint64_t> parts, attributes;
+    };
+    std::vector<Used> used(info.pieces.size());
+    for (const ExtensionUse* use : users) {
+      if (use->piece >= used.size()) continue;
+      used[use->piece].parts.insert(use->part);
+      for (const auto& attribute : use->attributes) {
+        used[use->piece].attributes.insert(attribute.id);
+      }
+    }
+    for (uint32_t p = 0; p < info.pieces.size(); ++p) {
+      const std::string piece = "piece " + std::to_string(p) + " of the payload";
+      const auto& [parts, attributes] = used[p];
+      for (uint32_t k = 0; k < info.pieces[p].parts.size(); ++k) {
+        if (parts.contains(k) || info.pieces[p].parts[k].triangle_count == 0) continue;
+        issues_.add(Rule::kUnusedPart, where,
+                    "no primitive draws part " + std::to_string(k) + " of " + piece);
+      }
+      for (uint32_t k = 0; k < info.pieces[p].attributes.size() && !parts.empty(); ++k) {
+        if (attributes.contains(k)) continue;
+        issues_.add(Rule::kUnusedAttribute, where,
+                    "no primitive names attribute " + std::to_string(k) + " of " + piece);
+      }
+    }
+  }
+
+  // ---- Decoded elements
+
+  void checkElements(const ExtensionUse& use, const DecodedPiece& piece) {
+    for (const ExtensionUse::AttributeUse& attribute : use.attributes) {
+      if (!checked_.insert(attribute.accessor).second) continue;
+      checkAccessor(attribute.accessor, piece.attributes[attribute.id],
+                    attribute.name == "POSITION");
+    }
+    if (use.indices_accessor == kNone || !checked_.insert(use.indices_accessor).second) return;
+    const uint32_t bytes = componentBytes(document_.accessors[use.indices_accessor].component_type);
+    std::vector<uint8_t> indices;
+    indices.reserve(bytes * piece.parts[use.part].size());
+    for (const uint32_t index : piece.parts[use.part]) {
+      for (uint32_t i = 0; i < bytes; ++i) indices.push_back(static_cast<uint8_t>(index >> 8 * i));
+    }
+    checkAccessor(use.indices_accessor, indices, false);
+  }
+
+  /// Checks an accessor; `tight` has the decoded elements.
+  void checkAccessor(uint32_t number, std::span<const uint8_t> tight, bool needs_bounds) {
+    const Accessor& accessor = document_.accessors[number];
+    const Json& json = json_["accessors"][number];
+    const std::string path = at("/accessors", number);
+    const Json* min = findMember(json, "min");
+    const Json* max = findMember(json, "max");
+    if (needs_bounds && (min == nullptr || max == nullptr)) {
+      issues_.add(Rule::kBounds, path, "POSITION needs min and max");
+    }
+    if (min != nullptr || max != nullptr) {
+      const Bounds bounds = boundsOf(tight, accessor.component_type, accessor.componentCount());
+      checkBounds(min, bounds.min, accessor.component_type, path + "/min");
+      checkBounds(max, bounds.max, accessor.component_type, path + "/max");
+    }
+    if (hasElements(json)) checkFallback(number, tight);
+  }
+
+  void checkBounds(const Json* declared, const std::vector<double>& decoded, ComponentType type,
+                   const std::string& path) {
+    if (declared == nullptr) return;
+    const std::string difference = boundsDifference(*declared, decoded, type);
+    if (!difference.empty()) issues_.add(Rule::kBounds, path, difference);
+  }
+
+  void checkFallback(uint32_t number, std::span<const uint8_t> tight) {
+    const Accessor& accessor = document_.accessors[number];
+    const std::string path = at("/accessors", number);
+    AccessorData elements;
+    if (accessor.view == kNone && findMember(json_["accessors"][number], "sparse") == nullptr) {
+      return issues_.add(Rule::kFallbackLoaded, path, "its fallback could not be loaded");
+    }
+    if (!issues_.passes(Rule::kFallbackLoaded, readAccessor(document_, number, elements))) return;
+    for (uint64_t i = 0; i < elements.count; ++i) {
+      const std::span<const uint8_t> element = elements.element(i);
+      if (std::memcmp(element.data(), &tight[i * element.size()], element.size()) == 0) continue;
+      issues_.add(Rule::kFallbackElements, path,
+                  "element " + std::to_string(i) + " of the fallback differs from the decoded one");
+      break;
+    }
+    if (accessor.view == kNone) return;
+    if (!payload_buffers_.contains(document_.views[accessor.view].buffer)) return;
+    issues_.add(Rule::kFallbackBuffer, at("/bufferViews", accessor.view) + "/buffer",
+                "holds a fallback in the same buffer as a payload; if it had its own, loaders that "
+                "know the extension would not have to load it");
+  }
+
+  const Json& json_;
+  const Document& document_;
+  const Limits& limits_;
+  DecodedBytes decoded_bytes_;
+  Issues& issues_;
+  ValidationReport& report_;
+  std::vector<ExtensionUse> uses_;
+  std::set<uint32_t> checked_;
+  std::set<uint32_t> payload_buffers_;  ///< buffers that hold payloads
+};
+
+std::vector<std::string> textsOf(const Json& list) {
+  std::vector<std::string> texts;
+  for (const Json& text : list) {
+    if (text.is_string()) texts.push_back(text.get<std::string>());
+  }
+  return texts;
+}
+
+void describe(const Json& json, ValidationReport& report) {
+  const auto assetText = [&](const char* key) -> std::string {
+    const Json* asset = findMember(json, "asset");
+    const Json* text = asset == nullptr ? nullptr : findMember(*asset, key);
+    return text != nullptr && text->is_string() ? text->get<std::string>() : "";
+  };
+  report.version = assetText("version");
+  report.generator = assetText("generator");
+  report.extensions_used = textsOf(arrayOf(json, "extensionsUsed"));
+  report.extensions_required = textsOf(arrayOf(json, "extensionsRequired"));
+  visitPrimitives(json, [&](const PrimitiveRef&, const Json&) { ++report.primitive_count; });
+}
+
+void validateBytes(std::span<const uint8_t> bytes, const FileReader& read_file,
+                   const ValidateOptions& options, Issues& issues, ValidationReport& report) {
+  report.input_bytes = bytes.size();
+  report.is_glb = isGlb(bytes);
+  Json json;
+  if (readJson(bytes, json).ok()) describe(json, report);
+  Document document;
+  if (!issues.passes(Rule::kDocument, loadDocument(bytes, read_file, document))) return;
+  report.input_bytes = document.source_bytes;
+  Validator(json, document, options, issues, report).run();
+}
+
+/// Returns an issue with its place as a pointer, if that is a place in the JSON; otherwise the
+/// message includes it.
+ValidationIssue publicIssue(const Issue& issue) {
+  const bool has_pointer = issue.what.where.starts_with('/');
+  const std::string message = has_pointer ? issue.what.what : issue.what.message();
+  return {issue.severity, issue.code, printable(message), has_pointer ? issue.what.where : ""};
+}
+
+}  // namespace
+
+Result validate(const Source& source, const ValidateOptions& options, ValidationReport& report) {
+  return guarded([&]() -> Result {
+    report = {};
+    std::vector<uint8_t> storage;
+    if (!source.bytes) MCC_GLTF_TRY(readFile(source.path, storage));
+    const FileReader read_file = source.bytes ? FileReader() : readerOf(folderOf(source.path));
+    Issues issues(options.max_issues == 0 ? std::numeric_limits<size_t>::max()
+                                          : options.max_issues);
+    validateBytes(source.bytes ? *source.bytes : storage, read_file, options, issues, report);
+    for (const Issue& issue : issues.kept()) report.issues.push_back(publicIssue(issue));
+    uint64_t total = 0;
+    for (size_t i = 0; i < 4; ++i) {
+      report.issue_counts[i] = issues.count(static_cast<Severity>(i));
+      total += report.issue_counts[i];
+    }
+    report.is_truncated = total > report.issues.size();
+    return {};
+  });
+}
+
+}  // namespace mcc::gltf

@@ -1,0 +1,254 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/compress/compress.h"
+
+#include <algorithm>
+#include <set>
+
+#include "gltf/compress/indices_only.h"
+#include "gltf/compress/quantize.h"
+#include "gltf/compress/unused.h"
+#include "gltf/document/rebuild.h"
+
+namespace mcc::gltf {
+namespace {
+
+void removeBytes(Json& accessor) {
+  accessor.erase("bufferView");
+  accessor.erase("byteOffset");
+  accessor.erase("sparse");
+}
+
+/// Index type of new accessors for `vertex_count` vertices; the largest value is the restart value.
+uint32_t indexTypeFor(uint32_t vertex_count) { return vertex_count <= 65535 ? 5123 : 5125; }
+
+bool indexTypeFits(ComponentType type, uint32_t vertex_count) {
+  switch (type) {
+    case ComponentType::kUint8: return vertex_count <= 255;
+    case ComponentType::kUint16: return vertex_count <= 65535;
+    case ComponentType::kUint32: return true;
+    default: return false;
+  }
+}
+
+/// Writes the payloads into the JSON of the document.
+class Applier {
+ public:
+  Applier(const Document& document, const ForeignReferences& foreign, Compressed& compressed)
+      : document_(document),
+        compressed_(compressed),
+        is_taken_(accessorsInOtherUse(document, foreign, compressed.payloads)) {}
+
+  std::vector<NewView> run() {
+    compressed_.json = document_.json;
+    std::vector<NewView> views;
+    for (EncodedPayload& payload : compressed_.payloads) {
+      const uint64_t view = document_.views.size() + views.size();
+      NewView new_view;
+      new_view.bytes = std::move(payload.result.payload);
+      views.push_back(std::move(new_view));
+      for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
+        applyPiece(payload, i, view);
+        if (!payload.plan.reorders()) continue;
+        reorderAttributes(document_, payload.plan.pieces[i], payload.result.pieces[i].source_wedge,
+                          compressed_.json, views);
+      }
+    }
+    // addFallback() removes the requirement again.
+    const bool uses_mesh_extension = usesMeshExtension();
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+      addExtensionName(compressed_.json, list, kExtensionName);
+      if (!uses_mesh_extension) removeExtensionName(compressed_.json, list, kMeshExtension);
+    }
+    return views;
+  }
+
+ private:
+  void applyPiece(const EncodedPayload& payload, size_t number, uint64_t view) {
+    const PiecePlan& piece = payload.plan.pieces[number];
+    const std::string where = piece.parts[0].users[0].path();
+    std::vector<uint32_t> accessors;
+    for (size_t k = 0; k < piece.attributes.size(); ++k) {
+      const AttributePlan& attribute = piece.attributes[k];
+      const uint32_t index = take(attribute.accessor, where + ": " + attribute.label());
+      Json& accessor = compressed_.json["accessors"][index];
+      const bool is_position = attribute.name == "POSITION";
+      accessor["count"] = piece.wedge_count;
+      setBounds(payload.bounds[number].attributes[k], attribute.format.component_type, is_position,
+                accessor);
+      accessors.push_back(index);
+    }
+    for (size_t k = 0; k < piece.parts.size(); ++k) {
+      const uint32_t indices =
+          takeIndices(piece.parts[k], payload.bounds[number].parts[k], piece.wedge_count);
+      for (const PrimitiveRef& user : piece.parts[k].users) {
+        Json& primitive = compressed_.json["meshes"][user.mesh]["primitives"][user.primitive];
+        setAccessors(piece, accessors, primitive);
+        primitive["indices"] = indices;
+        if (piece.parts[k].mode != 4) primitive["mode"] = 4;
+        if (primitive.contains("extensions")) primitive["extensions"].erase(kMeshExtension);
+        primitive["extensions"][kExtensionName] = extensionJson(view, number, piece, k);
+      }
+    }
+  }
+
+  bool usesMeshExtension() const {
+    bool is_used = false;
+    visitPrimitives(compressed_.json, [&](const PrimitiveRef&, const Json& primitive) {
+      is_used |= extensionOf(primitive, kMeshExtension) != nullptr;
+    });
+    return is_used;
+  }
+
+  static void setAccessors(const PiecePlan& piece, const std::vector<uint32_t>& accessors,
+                           Json& primitive) {
+    for (size_t k = 0; k < accessors.size(); ++k) {
+      const AttributePlan& attribute = piece.attributes[k];
+      if (accessors[k] == attribute.accessor) continue;
+      Json& map = attribute.target == kNone ? primitive["attributes"]
+                                            : primitive["targets"][attribute.target];
+      map[attribute.name] = accessors[k];
+    }
+  }
+
+  /// Returns the accessor to compress: the source's own, or a clone if something else needs it.
+  uint32_t take(uint32_t source, const std::string& where) {
+    Json& accessors = compressed_.json["accessors"];
+    uint32_t index = source;
+    if (is_taken_[source]) {
+      index = static_cast<uint32_t>(accessors.size());
+      Json clone = document_.json["accessors"][source];
+      accessors.push_back(std::move(clone));
+      compressed_.notes.push_back(where + " shares accessor " + std::to_string(source) +
+                                  " with others and gets its own");
+    }
+    is_taken_[source] = true;
+    removeBytes(accessors[index]);
+    return index;
+  }
+
+  uint32_t takeIndices(const PartPlan& part, const Bounds& bounds, uint32_t wedge_count) {
+    Json& accessors = compressed_.json["accessors"];
+    uint32_t index = 0;
+    if (part.indices_accessor == kNone) {
+      index = static_cast<uint32_t>(accessors.size());
+      accessors.push_back({{"componentType", 0}, {"count", 0}, {"type", "SCALAR"}});
+    } else {
+      index = take(part.indices_accessor, part.users[0].path() + ": indices");
+    }
+    Json& accessor = accessors[index];
+    const uint32_t gl_type = indexTypeFor(wedge_count);
+    const bool fits =
+        part.indices_accessor != kNone &&
+        indexTypeFits(document_.accessors[part.indices_accessor].component_type, wedge_count);
+    if (!fits) accessor["componentType"] = gl_type;
+    accessor["count"] = part.triangles.size();
+    setBounds(bounds, ComponentType::kUint32, false, accessor);
+    return index;
+  }
+
+  const Document& document_;
+  Compressed& compressed_;
+  std::vector<bool> is_taken_;  ///< source accessors that must not be changed (any more)
+};
+
+void sortByPlace(std::vector<LeftAlone>& left_alone) {
+  std::stable_sort(
+      left_alone.begin(), left_alone.end(),
+      [](const LeftAlone& a, const LeftAlone& b) { return a.primitive < b.primitive; });
+}
+
+}  // namespace
+
+std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignReferences& foreign,
+                                      const std::vector<EncodedPayload>& payloads) {
+  std::vector<const PayloadPlan*> plans;
+  for (const EncodedPayload& payload : payloads) plans.push_back(&payload.plan);
+  return accessorsInOtherUse(document, foreign, plans);
+}
+
+std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignReferences& foreign,
+                                      const std::vector<const PayloadPlan*>& payloads) {
+  std::vector<bool> is_used = accessorsOutsidePayloads(document, foreign, payloads);
+  for (const PayloadPlan* payload : payloads) {
+    for (const PiecePlan& piece : payload->pieces) {
+      for (const AttributePlan& attribute : piece.ordinary) is_used[attribute.accessor] = true;
+    }
+  }
+  return is_used;
+}
+
+std::vector<bool> accessorsOutsidePayloads(const Document& document,
+                                           const ForeignReferences& foreign,
+                                           const std::vector<const PayloadPlan*>& payloads) {
+  std::set<PrimitiveRef> compressed;
+  for (const PayloadPlan* payload : payloads) {
+    for (const PiecePlan& piece : payload->pieces) {
+      for (const PartPlan& part : piece.parts) {
+        compressed.insert(part.users.begin(), part.users.end());
+      }
+    }
+  }
+  std::vector<bool> is_used;
+  markAccessorsOutsideMeshes(document, foreign, is_used);
+  visitPrimitives(document.json, [&](const PrimitiveRef& ref, const Json& primitive) {
+    if (compressed.contains(ref)) return;
+    visitAccessorNumbers(primitive, [&](uint64_t accessor) {
+      if (accessor < is_used.size()) is_used[accessor] = true;
+    });
+  });
+  return is_used;
+}
+
+Json extensionJson(uint64_t buffer_view, size_t piece_number, const PiecePlan& piece,
+                   size_t part_number) {
+  Json json = {{"bufferView", buffer_view}};
+  if (piece_number != 0) json["piece"] = piece_number;
+  if (part_number != 0) json["part"] = part_number;
+  if (piece.attributes.empty()) return json;
+  Json attributes = Json::object();
+  std::vector<Json> targets(piece.target_count, Json::object());
+  for (size_t id = 0; id < piece.attributes.size(); ++id) {
+    const AttributePlan& attribute = piece.attributes[id];
+    Json& map = attribute.target == kNone ? attributes : targets[attribute.target];
+    map.get_ref<Json::object_t&>().emplace_back(attribute.name, id);  // names are unique
+  }
+  json["attributes"] = std::move(attributes);
+  if (!targets.empty()) json["targets"] = std::move(targets);
+  return json;
+}
+
+Result compressDocument(const Document& document, const ConvertOptions& options,
+                        Compressed& compressed) {
+  compressed = {};
+  std::vector<PayloadPlan> plans;
+  MCC_GLTF_TRY(planPayloads(document, plans, compressed.left_alone));
+  const ForeignReferences foreign = findForeignReferences(document.json);
+  if (options.indices_only) {
+    planIndicesOnly(document, foreign, plans);
+  } else {
+    planUnused(options, plans, compressed.notes);
+    planQuantization(options, plans, compressed.notes);
+  }
+  if (!options.allow_larger) {
+    MCC_GLTF_TRY(dropTinyPieces(document, foreign, options, plans, compressed.left_alone));
+  }
+  splitPayloads(plans);
+  MCC_GLTF_TRY(
+      encodePayloads(options, std::move(plans), compressed.payloads, compressed.left_alone));
+  if (options.allow_larger) {
+    countFreedBytes(document, foreign, compressed.payloads);
+  } else {
+    dropLosers(document, foreign, compressed.payloads, compressed.left_alone);
+  }
+  sortByPlace(compressed.left_alone);
+  if (compressed.payloads.empty()) return {};
+  for (const EncodedPayload& payload : compressed.payloads) {
+    for (const std::string& note : payload.result.notes) {
+      compressed.notes.push_back(at("/meshes", payload.plan.mesh) + ": " + note);
+    }
+  }
+  std::vector<NewView> views = Applier(document, foreign, compressed).run();
+  return rebuildBuffers(document, foreign, views, compressed.json, compressed.bin);
+}
+
+}  // namespace mcc::gltf

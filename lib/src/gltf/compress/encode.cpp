@@ -1,0 +1,210 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include <mutex>
+
+#include "gltf/base/parallel.h"
+#include "gltf/base/payload.h"
+#include "gltf/compress/compress.h"
+#include "gltf/compress/indices_only.h"
+
+namespace mcc::gltf {
+namespace {
+
+/// The input of the codec for one piece. The views borrow from the plan.
+struct PieceInput {
+  std::vector<AttributeView> attributes;
+  std::vector<PartView> parts;
+  PieceView view;
+
+  explicit PieceInput(const PiecePlan& plan) {
+    for (const AttributePlan& attribute : plan.attributes) {
+      AttributeView view_of;
+      view_of.format = attribute.format;
+      view_of.data = attribute.source.data;
+      view_of.stride_bytes = attribute.source.stride_bytes;
+      view_of.quantization_bits = attribute.bits;
+      view_of.lattice = attribute.has_lattice ? &attribute.lattice : nullptr;
+      attributes.push_back(view_of);
+    }
+    if (plan.attributes.empty()) attributes.push_back(weldingView(plan));
+    for (const PartPlan& part : plan.parts) parts.push_back({part.triangles});
+    view = {plan.wedge_count, attributes, parts};
+  }
+};
+
+Status encodePieces(const std::vector<const PiecePlan*>& plans, const EncodeOptions& options,
+                    EncodeResult& result) {
+  std::vector<PieceInput> inputs;
+  inputs.reserve(plans.size());  // the views point into the elements, which must not move
+  std::vector<PieceView> views;
+  for (const PiecePlan* plan : plans) {
+    inputs.emplace_back(*plan);
+    views.push_back(inputs.back().view);
+  }
+  return encode(views, options, result);
+}
+
+EncodeOptions optionsOf(const ConvertOptions& options, const PayloadPlan& plan) {
+  EncodeOptions encode_options;
+  encode_options.effort = options.effort;
+  encode_options.prefer = options.prefer;
+  encode_options.indices_only = plan.indices_only;
+  encode_options.keep_vertex_order = plan.keep_vertex_order;
+  encode_options.keep_triangle_order = plan.keep_triangle_order;
+  return encode_options;
+}
+
+void leaveAlone(const PiecePlan& piece, const std::string& note,
+                std::vector<LeftAlone>& left_alone) {
+  for (const PartPlan& part : piece.parts) {
+    for (const PrimitiveRef& user : part.users) left_alone.push_back({user, note});
+  }
+}
+
+std::string refusal(const Status& status) {
+  return "the codec refuses it (" + toResult(status, "").what + "); left as it was";
+}
+
+/// Removes the pieces that the codec refuses.
+void removeRefusedPieces(const EncodeOptions& options, PayloadPlan& plan,
+                         std::vector<LeftAlone>& left_alone) {
+  std::vector<PiecePlan> accepted;
+  for (PiecePlan& piece : plan.pieces) {
+    EncodeResult ignored;
+    const Status status = encodePieces({&piece}, options, ignored);
+    if (status.ok()) {
+      accepted.push_back(std::move(piece));
+    } else {
+      leaveAlone(piece, refusal(status), left_alone);
+    }
+  }
+  plan.pieces = std::move(accepted);
+}
+
+Status encodePlan(const EncodeOptions& options, const PayloadPlan& plan, EncodeResult& result) {
+  std::vector<const PiecePlan*> pieces;
+  for (const PiecePlan& piece : plan.pieces) pieces.push_back(&piece);
+  return encodePieces(pieces, options, result);
+}
+
+/// Decodes what was just encoded, because the bounds of accessors are those of the decoded values.
+Status measure(EncodedPayload& payload) {
+  DecodedPayload decoded;
+  Status status = decoded.payload.open(payload.result.payload);
+  if (status.ok()) status = decodePieces(decoded);
+  if (!status.ok()) return status;
+  for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
+    const std::vector<AttributePlan>& attributes = payload.plan.pieces[i].attributes;
+    EncodedPayload::PieceBounds& bounds = payload.bounds.emplace_back();
+    for (size_t k = 0; k < attributes.size(); ++k) {
+      bounds.attributes.push_back(boundsOf(decoded.pieces[i].attributes[k],
+                                           attributes[k].format.component_type,
+                                           attributes[k].format.component_count));
+    }
+    for (const std::vector<uint32_t>& part : decoded.pieces[i].parts) {
+      bounds.parts.push_back(boundsOf(std::span<const uint32_t>(part)));
+    }
+  }
+  return {};
+}
+
+void leaveAllAlone(const std::string& note, EncodedPayload& payload,
+                   std::vector<LeftAlone>& left_alone) {
+  for (const PiecePlan& piece : payload.plan.pieces) leaveAlone(piece, note, left_alone);
+  payload = {};
+}
+
+Result encodeOne(const EncodeOptions& options, EncodedPayload& payload,
+                 std::vector<LeftAlone>& left_alone) {
+  if (!encodePlan(options, payload.plan, payload.result).ok()) {
+    removeRefusedPieces(options, payload.plan, left_alone);
+    payload.result = {};
+    if (payload.plan.pieces.empty()) return {};
+    const Status status = encodePlan(options, payload.plan, payload.result);
+    if (!status.ok()) {  // the codec accepts each piece alone, but not all of them together
+      leaveAllAlone(refusal(status), payload, left_alone);
+      return {};
+    }
+  }
+  payload.payload_bytes = payload.result.payload.size();
+  const Status status = measure(payload);
+  if (status.error == Error::kLimit) {  // readers would refuse it
+    leaveAllAlone(refusal(status), payload, left_alone);
+    return {};
+  }
+  Result result = toResult(status, at("/meshes", payload.plan.mesh));
+  if (!result.ok()) {
+    result.what = "the payload cannot be decoded again: " + result.what + "; please report this";
+  }
+  return result;
+}
+
+/// Reports how much of the payloads' triangles is encoded.
+class EncodingProgress {
+ public:
+  EncodingProgress(const ConvertOptions& options, const std::vector<PayloadPlan>& plans)
+      : options_(options) {
+    for (const PayloadPlan& plan : plans) all_ += trianglesOf(plan);
+  }
+
+  static uint64_t trianglesOf(const PayloadPlan& plan) {
+    uint64_t count = 0;
+    for (const PiecePlan& piece : plan.pieces) {
+      for (const PartPlan& part : piece.parts) count += part.triangles.size() / 3;
+    }
+    return count;
+  }
+
+  void advance(uint64_t triangle_count) {
+    if (!options_.progress || all_ == 0) return;
+    const std::lock_guard lock(mutex_);
+    done_ += triangle_count;
+    options_.progress("encoding", static_cast<double>(done_) / static_cast<double>(all_));
+  }
+
+ private:
+  const ConvertOptions& options_;
+  std::mutex mutex_;
+  uint64_t all_ = 0;
+  uint64_t done_ = 0;
+};
+
+}  // namespace
+
+uint64_t bytesAlone(const ConvertOptions& options, const PayloadPlan& plan,
+                    const PiecePlan& piece) {
+  EncodeResult result;
+  return encodePieces({&piece}, optionsOf(options, plan), result).ok() ? result.payload.size() : 0;
+}
+
+Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> plans,
+                      std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone) {
+  std::vector<EncodedPayload> encoded(plans.size());
+  std::vector<std::vector<LeftAlone>> refused(plans.size());
+  EncodingProgress progress(options, plans);
+  ThreadBudget threads(options.thread_count);
+  RunJobs run_jobs;
+  if (options.thread_count > 1) {
+    run_jobs = [&](size_t count, const std::function<void(size_t)>& job) {
+      runAll(count, threads, job);
+    };
+  }
+  MCC_GLTF_TRY(runParallel(plans.size(), threads, [&](size_t i) {
+    PayloadPlan& plan = encoded[i].plan;
+    plan = std::move(plans[i]);
+    plan.keep_vertex_order |= options.keep_vertex_order;
+    plan.keep_triangle_order |= options.keep_triangle_order;
+    EncodeOptions encode_options = optionsOf(options, plan);
+    encode_options.run_jobs = run_jobs;
+    const uint64_t triangle_count = EncodingProgress::trianglesOf(plan);
+    Result result = encodeOne(encode_options, encoded[i], refused[i]);
+    progress.advance(triangle_count);
+    return result;
+  }));
+  for (size_t i = 0; i < encoded.size(); ++i) {
+    left_alone.insert(left_alone.end(), refused[i].begin(), refused[i].end());
+    if (!encoded[i].plan.pieces.empty()) payloads.push_back(std::move(encoded[i]));
+  }
+  return {};
+}
+
+}  // namespace mcc::gltf

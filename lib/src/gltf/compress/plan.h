@@ -1,0 +1,93 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Decides which primitives are compressed, and which of their data goes into which payload.
+#ifndef MCC_GLTF_COMPRESS_PLAN_H_
+#define MCC_GLTF_COMPRESS_PLAN_H_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gltf/document/accessors.h"
+#include "gltf/document/document.h"
+#include "gltf/document/primitives.h"
+#include "mcc/gltf.h"
+#include "mcc/writer.h"
+
+namespace mcc::gltf {
+
+/// One attribute of a piece: an entry of a primitive's `attributes` or of one of its `targets`.
+struct AttributePlan {
+  std::string name;         ///< "POSITION"
+  uint32_t target = kNone;  ///< morph target it belongs to; kNone: the base mesh
+  uint32_t accessor = 0;    ///< accessor of the source
+  AttributeFormat format;
+  AccessorData source;
+  uint8_t bits = 0;          ///< 0: exact
+  bool has_lattice = false;  ///< for float attributes with bits; the codec may use a finer grid
+  Lattice lattice;
+  double max_distance = 0;  ///< between source and decoded positions, where one was promised
+  /// The weights of a vertex must add up to one, so each may move by a whole step instead of half
+  /// of one.
+  bool is_rounded_with_others = false;
+
+  /// Returns "POSITION" or "target 2 POSITION".
+  std::string label() const;
+};
+
+/// One triangle list. Primitives that have the same attributes, indices and mode share it.
+struct PartPlan {
+  uint32_t indices_accessor = kNone;  ///< accessor of the source
+  uint64_t mode = 4;                  ///< mode in the source
+  std::vector<uint32_t> triangles;    ///< expanded to mode 4
+  std::vector<PrimitiveRef> users;
+};
+
+/// Primitives with identical attributes and targets.
+struct PiecePlan {
+  uint32_t wedge_count = 0;
+  std::vector<uint32_t> kept;  ///< source vertices that are kept, if others were dropped
+  uint32_t target_count = 0;
+  /// In payload order; empty with indices_only.
+  std::vector<AttributePlan> attributes;
+  /// Attributes that stay accessors next to the payload, in the same order: all of them with
+  /// indices_only, else those beyond what a payload can hold.
+  std::vector<AttributePlan> ordinary;
+  std::vector<PartPlan> parts;
+};
+
+/// What one mesh puts into one buffer view. A piece that several meshes use belongs to the first of
+/// them. A mesh has one payload, unless splitPayloads() divides it into several consecutive ones.
+struct PayloadPlan {
+  uint32_t mesh = 0;
+  bool keep_vertex_order = false;
+  bool keep_triangle_order = false;
+  bool indices_only = false;
+
+  /// Whether the accessors of attributes get their elements in another order.
+  bool reorders() const { return indices_only && !keep_vertex_order; }
+  std::vector<PiecePlan> pieces;
+};
+
+/// Says why a primitive stays as it was.
+struct LeftAlone {
+  PrimitiveRef primitive;
+  std::string note;
+};
+
+/// Orders the attributes of a payload: those that others are predicted from come first.
+bool comesBefore(const AttributePlan& a, const AttributePlan& b);
+
+/// Collects the triangle primitives of all meshes. Points and lines are left alone without a note.
+/// Errors: the document contradicts itself (an index out of range, an accessor that does not
+/// exist). Takes time proportional to the document and the contents of its pieces and parts.
+Result planPayloads(const Document& document, std::vector<PayloadPlan>& payloads,
+                    std::vector<LeftAlone>& left_alone);
+
+/// Divides payloads that hold more than every reader accepts by its default Limits. What the pieces
+/// of a mesh share, such as their lattice, must have been chosen before.
+void splitPayloads(std::vector<PayloadPlan>& payloads);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_COMPRESS_PLAN_H_

@@ -1,0 +1,261 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/decompress/coded_input.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "gltf/decompress/decompress.h"
+#include "gltf/document/accessors.h"
+
+namespace mcc::gltf {
+namespace {
+
+/// Codecs of views expand one byte to at most 64; a view that claims far more is damaged.
+constexpr uint64_t kMaxViewExpansion = 256;
+/// The same bound as for our payloads.
+constexpr uint64_t kMaxMeshExpansion = 4096;
+
+Result inPlace(Result result, const std::string& where) {
+  if (!result.ok() && result.where.empty()) result.where = where;
+  return result;
+}
+
+template <typename Visit>
+void visitTrianglePrimitives(const Document& document, const Visit& visit) {
+  visitPrimitives(document.json, [&](const PrimitiveRef& ref, const Json& primitive) {
+    uint64_t mode = 4;
+    const Json* number = findMember(primitive, "mode");
+    if (number == nullptr || (asUnsigned(*number, mode) && mode >= 4)) {
+      visit(primitive, ref.path());
+    }
+  });
+}
+
+Result decodeView(const ForeignDecoders& decoders, uint32_t number, Document& document) {
+  BufferView& view = document.views[number];
+  if (!view.isCoded() || view.coding.decoded != kNone) return {};
+  const ViewCoding& coding = view.coding;
+  const std::string where = at("/bufferViews", number) + "/extensions/" + coding.extension;
+  if (coding.length / kMaxViewExpansion > view.length) {
+    return error(where, std::to_string(view.length) + " bytes cannot hold " +
+                            std::to_string(coding.length) + " bytes");
+  }
+  document.decoded.add(coding.length);
+  MCC_GLTF_TRY(document.decoded.check());
+  const CodedView coded = {payloadBytes(document, number), coding.count, coding.stride, coding.mode,
+                           coding.filter};
+  std::vector<uint8_t> elements;
+  MCC_GLTF_TRY(inPlace(decoders.view(coded, elements), where));
+  if (elements.size() != coding.length) return error(where, "decodes to another size");
+  view.coding.decoded = static_cast<uint32_t>(document.storage.size());
+  document.storage.push_back(std::move(elements));
+  return {};
+}
+
+/// One coded primitive while it is being decoded.
+struct CodedPrimitive {
+  std::string path;  ///< JSON path of the extension object
+  uint32_t view = 0;
+  uint32_t indices = 0;              ///< accessor number
+  std::vector<uint32_t> attributes;  ///< accessor numbers
+  CodedMesh coded;
+};
+
+class MeshReader {
+ public:
+  MeshReader(const ForeignDecoders& decoders, Document& document)
+      : decoders_(decoders), document_(document) {}
+
+  Result read(const Json& primitive, const std::string& path) {
+    const Json* extensions = findMember(primitive, "extensions");
+    const Json* extension =
+        extensions == nullptr ? nullptr : findMember(*extensions, kMeshExtension);
+    if (extension == nullptr) return {};
+    CodedPrimitive coded;
+    coded.path = path + "/extensions/" + kMeshExtension;
+    MCC_GLTF_TRY(parse(primitive, path, *extension, coded));
+    const std::string reason = obstacle(primitive, coded);
+    if (!reason.empty()) {
+      document_.notes.push_back(path + ": " + reason);
+      return {};
+    }
+    return decode(coded);
+  }
+
+ private:
+  Result accessorOf(const Json* map, const std::string& name, const std::string& path,
+                    uint32_t& accessor) const {
+    uint64_t index = 0;
+    const Json* number = map == nullptr ? nullptr : findMember(*map, name);
+    if (number == nullptr || !asUnsigned(*number, index) || index >= document_.accessors.size()) {
+      return error(at(path, name), "must be the number of an accessor");
+    }
+    accessor = static_cast<uint32_t>(index);
+    return {};
+  }
+
+  Result parse(const Json& primitive, const std::string& path, const Json& extension,
+               CodedPrimitive& coded) const {
+    uint64_t view = 0;
+    MCC_GLTF_TRY(readUnsigned(extension, "bufferView", coded.path, kNone, view));
+    if (view >= document_.views.size() || document_.views[view].isCoded()) {
+      return error(coded.path + "/bufferView", "bufferView " + std::to_string(view) +
+                                                   " does not exist or is itself compressed");
+    }
+    coded.view = static_cast<uint32_t>(view);
+    MCC_GLTF_TRY(accessorOf(&primitive, "indices", path, coded.indices));
+    const Json* ids = findMember(extension, "attributes");
+    if (ids == nullptr || !ids->is_object()) {
+      return error(coded.path, "\"attributes\" is missing or not an object");
+    }
+    for (const auto& [name, value] : ids->items()) {
+      CodedMesh::Attribute attribute;
+      uint64_t id = 0;
+      MCC_GLTF_TRY(readUnsigned(*ids, name, coded.path + "/attributes", kNone, id));
+      uint32_t accessor = 0;
+      MCC_GLTF_TRY(
+          accessorOf(findMember(primitive, "attributes"), name, path + "/attributes", accessor));
+      attribute.id = static_cast<uint32_t>(id);
+      attribute.component_type = document_.accessors[accessor].component_type;
+      attribute.component_count = document_.accessors[accessor].componentCount();
+      coded.attributes.push_back(accessor);
+      coded.coded.attributes.push_back(attribute);
+    }
+    return {};
+  }
+
+  bool hasBytes(uint32_t accessor) const {
+    const Accessor& claimed = document_.accessors[accessor];
+    return claimed.view != kNone || claimed.sparse.count != 0;
+  }
+
+  /// Returns why a primitive is not decoded; empty when it can be. Completes the claims.
+  std::string obstacle(const Json& primitive, CodedPrimitive& coded) const {
+    uint64_t mode = 4;
+    const Json* number = findMember(primitive, "mode");
+    if (number != nullptr && (!asUnsigned(*number, mode) || mode != 4)) {
+      return "is compressed but not a triangle list";
+    }
+    std::vector<uint32_t> all = coded.attributes;
+    all.push_back(coded.indices);
+    const auto has_bytes = [&](uint32_t accessor) { return hasBytes(accessor); };
+    if (std::any_of(all.begin(), all.end(), has_bytes)) {
+      return "is compressed, but its accessors have bytes of their own";
+    }
+    const Accessor& indices = document_.accessors[coded.indices];
+    coded.coded.bytes = payloadBytes(document_, coded.view);
+    coded.coded.triangle_count = indices.count / 3;
+    if (!indices.is_known_type || indices.componentCount() != 1 || indices.count % 3 != 0 ||
+        coded.attributes.empty()) {
+      return "is compressed, but its accessors do not describe triangles";
+    }
+    coded.coded.vertex_count = document_.accessors[coded.attributes[0]].count;
+    for (const uint32_t accessor : coded.attributes) {
+      const Accessor& claimed = document_.accessors[accessor];
+      if (!claimed.is_known_type || claimed.columns != 1 ||
+          claimed.count != coded.coded.vertex_count) {
+        return "is compressed, but its accessors have different counts";
+      }
+    }
+    const uint64_t limit = kMaxMeshExpansion * coded.coded.bytes.size();
+    if (coded.coded.vertex_count > limit || coded.coded.triangle_count > limit) {
+      return "is compressed, but claims more vertices or triangles than its bytes can hold";
+    }
+    return "";
+  }
+
+  /// Where the elements of an accessor come from.
+  using Origin = std::tuple<uint32_t, bool, uint32_t>;  // view, is an attribute, id
+
+  Result decode(CodedPrimitive& coded) {
+    bool is_known = true;
+    for (size_t i = 0; i <= coded.attributes.size(); ++i) {
+      const bool is_attribute = i < coded.attributes.size();
+      const uint32_t accessor = is_attribute ? coded.attributes[i] : coded.indices;
+      const Origin origin = {coded.view, is_attribute,
+                             is_attribute ? coded.coded.attributes[i].id : 0};
+      const auto [found, is_new] = origins_.try_emplace(accessor, origin);
+      if (found->second != origin) {
+        return error(coded.path, "accessor " + std::to_string(accessor) +
+                                     " is filled from two different places");
+      }
+      is_known &= !is_new;
+    }
+    if (is_known) return {};
+    document_.decoded.add(12 * coded.coded.triangle_count);
+    for (const uint32_t accessor : coded.attributes) {
+      document_.decoded.add(coded.coded.vertex_count * document_.accessors[accessor].tightBytes());
+    }
+    MCC_GLTF_TRY(document_.decoded.check());
+    DecodedMesh mesh;
+    MCC_GLTF_TRY(inPlace(decoders_.mesh(coded.coded, mesh), coded.path));
+    if (mesh.indices.size() != 3 * coded.coded.triangle_count ||
+        mesh.attributes.size() != coded.attributes.size()) {
+      return error(coded.path, "decodes to other counts than the accessors have");
+    }
+    for (size_t i = 0; i < coded.attributes.size(); ++i) {
+      MCC_GLTF_TRY(store(coded, coded.attributes[i], std::move(mesh.attributes[i])));
+    }
+    std::vector<uint8_t> indices;
+    const uint32_t bytes = document_.accessors[coded.indices].tightBytes();
+    for (const uint32_t index : mesh.indices) {
+      if (index >= coded.coded.vertex_count || uint64_t{index} >> 8 * bytes != 0) {
+        return error(coded.path, "has an index that its accessor cannot hold");
+      }
+      for (uint32_t i = 0; i < bytes; ++i) indices.push_back(static_cast<uint8_t>(index >> 8 * i));
+    }
+    return store(coded, coded.indices, std::move(indices));
+  }
+
+  Result store(const CodedPrimitive& coded, uint32_t number, std::vector<uint8_t> elements) {
+    Accessor& accessor = document_.accessors[number];
+    if (elements.size() != accessor.count * accessor.tightBytes()) {
+      return error(coded.path,
+                   "decodes to another size than accessor " + std::to_string(number) + " has");
+    }
+    accessor.decoded = static_cast<uint32_t>(document_.storage.size());
+    accessor.decoded_from = coded.view;
+    document_.storage.push_back(std::move(elements));
+    return {};
+  }
+
+  const ForeignDecoders& decoders_;
+  Document& document_;
+  std::map<uint32_t, Origin> origins_;  ///< origin of each accessor
+};
+
+}  // namespace
+
+Result decodeViews(const ForeignDecoders& decoders, Document& document, const Document* source) {
+  if (!decoders.view) return {};
+  std::vector<bool> is_used(document.accessors.size(), false);
+  const auto markUsed = [&](const Json& primitive, const std::string&) {
+    visitAccessorNumbers(primitive, [&](uint64_t accessor) {
+      if (accessor < is_used.size()) is_used[accessor] = true;
+    });
+  };
+  visitTrianglePrimitives(document, markUsed);
+  if (source != nullptr) visitTrianglePrimitives(*source, markUsed);
+  for (size_t i = 0; i < is_used.size(); ++i) {
+    if (!is_used[i]) continue;
+    const Accessor& accessor = document.accessors[i];
+    if (accessor.view != kNone) MCC_GLTF_TRY(decodeView(decoders, accessor.view, document));
+    if (accessor.sparse.count == 0) continue;
+    MCC_GLTF_TRY(decodeView(decoders, accessor.sparse.index_view, document));
+    MCC_GLTF_TRY(decodeView(decoders, accessor.sparse.value_view, document));
+  }
+  return {};
+}
+
+Result decodeMeshes(const ForeignDecoders& decoders, Document& document) {
+  if (!decoders.mesh) return {};
+  MeshReader reader(decoders, document);
+  Result result;
+  visitTrianglePrimitives(document, [&](const Json& primitive, const std::string& path) {
+    if (result.ok()) result = reader.read(primitive, path);
+  });
+  return result;
+}
+
+}  // namespace mcc::gltf

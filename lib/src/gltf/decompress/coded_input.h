@@ -1,0 +1,28 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Decodes geometry that other codecs compressed. It is kept next to the document, whose JSON stays
+// as it is.
+#ifndef MCC_GLTF_DECOMPRESS_CODED_INPUT_H_
+#define MCC_GLTF_DECOMPRESS_CODED_INPUT_H_
+
+#include "gltf/document/references.h"
+#include "mcc/gltf.h"
+
+namespace mcc::gltf {
+
+/// Decodes the coded buffer views that triangle primitives use, so that accessors on them can be
+/// read. If `source` is not null, it must be a document with the same accessors; the views that its
+/// triangle primitives use are decoded as well. Without a decoder the views stay unreadable.
+/// Errors: a view is damaged, or coded in a way the decoder does not know; document.decoded is
+/// above its limit.
+Result decodeViews(const ForeignDecoders& decoders, Document& document,
+                   const Document* source = nullptr);
+
+/// Decodes coded primitives, so that their accessors can be read. A primitive stays as it is when
+/// its accessors also have bytes of their own, or contradict each other or the decoded mesh;
+/// Document::notes says why.
+Result decodeMeshes(const ForeignDecoders& decoders, Document& document);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_DECOMPRESS_CODED_INPUT_H_

@@ -1,0 +1,452 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/decompress/integers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+#include "gltf/document/accessors.h"
+
+namespace mcc::gltf {
+namespace {
+
+constexpr int64_t kLastPoint = 65535;
+constexpr int64_t kLastDelta = 32767;
+
+/// Extensions of a node that mean the same when its mesh moves to a child.
+constexpr std::string_view kMovableNodeExtensions[] = {"KHR_lights_punctual",
+                                                       "KHR_node_hoverability",
+                                                       "KHR_node_selectability",
+                                                       "KHR_node_visibility",
+                                                       "KHR_xmp",
+                                                       "KHR_xmp_json_ld"};
+
+void visitMember(const Json& map, const char* key, std::vector<uint32_t>& accessors) {
+  uint64_t index = 0;
+  const Json* value = findMember(map, key);
+  if (value != nullptr && asUnsigned(*value, index))
+    accessors.push_back(static_cast<uint32_t>(index));
+}
+
+/// A mesh whose positions may become points of one lattice.
+struct MeshPlan {
+  std::vector<uint32_t> positions;  ///< accessors of POSITION
+  std::vector<uint32_t> deltas;     ///< accessors of POSITION of morph targets
+  std::vector<uint32_t> nodes;      ///< nodes that show the mesh
+  Lattice lattice;
+  bool is_chosen = false;
+};
+
+class PositionStore {
+ public:
+  PositionStore(const Document& source, const ForeignReferences& foreign,
+                IntegerAccessors& accessors, Json& json, std::vector<NewView>& views,
+                std::vector<std::string>& notes)
+      : source_(source),
+        foreign_(foreign),
+        accessors_(accessors),
+        json_(json),
+        views_(views),
+        notes_(notes),
+        node_extension_(nodeDependentExtension(source.json, foreign)) {}
+
+  bool run() {
+    collectMeshes();
+    for (size_t mesh = 0; mesh < meshes_.size(); ++mesh) chooseMesh(mesh);
+    dropSharers();
+    for (const MeshPlan& mesh : meshes_) storeMesh(mesh);
+    moveWeightChannels();
+    moveSkins();
+    const auto is_chosen = [](const MeshPlan& mesh) { return mesh.is_chosen; };
+    return std::any_of(meshes_.begin(), meshes_.end(), is_chosen);
+  }
+
+ private:
+  struct SkinnedNode {
+    uint32_t node;
+    Lattice lattice;
+  };
+
+  void collectMeshes() {
+    for (const Json& mesh : arrayOf(json_, "meshes")) {
+      MeshPlan& plan = meshes_.emplace_back();
+      for (const Json& primitive : arrayOf(mesh, "primitives")) {
+        const Json* map = findMember(primitive, "attributes");
+        if (map != nullptr) visitMember(*map, "POSITION", plan.positions);
+        for (const Json& target : arrayOf(primitive, "targets")) {
+          visitMember(target, "POSITION", plan.deltas);
+        }
+      }
+    }
+    const Json& nodes = arrayOf(json_, "nodes");
+    for (uint32_t node = 0; node < nodes.size(); ++node) {
+      uint64_t mesh = 0;
+      const Json* number = findMember(nodes[node], "mesh");
+      if (number == nullptr || !asUnsigned(*number, mesh) || mesh >= meshes_.size()) continue;
+      meshes_[mesh].nodes.push_back(node);
+    }
+  }
+
+  bool isOnLattice(uint32_t accessor) const {
+    const AttributeInfo* info = accessors_.coding(accessor);
+    return info != nullptr && info->coding == AttributeCoding::kLattice;
+  }
+
+  void chooseMesh(size_t number) {
+    MeshPlan& mesh = meshes_[number];
+    const auto is_on_lattice = [&](uint32_t accessor) { return isOnLattice(accessor); };
+    if (std::none_of(mesh.positions.begin(), mesh.positions.end(), is_on_lattice)) return;
+    const std::string reason = obstacle(mesh);
+    mesh.is_chosen = reason.empty();
+    if (!mesh.is_chosen) {
+      notes_.push_back(at("/meshes", number) + ": " + reason + "; its positions stay float");
+    }
+  }
+
+  /// Returns why the positions of a mesh stay float; empty when they can become integers. Finds
+  /// their lattice.
+  std::string obstacle(MeshPlan& mesh) {
+    if (!node_extension_.empty()) {
+      return "the extension " + node_extension_ + " may refer to its nodes";
+    }
+    for (const uint32_t accessor : mesh.positions) {
+      if (!isOnLattice(accessor)) return "not all of its primitives are on a lattice";
+      const Lattice& lattice = accessors_.coding(accessor)->lattice;
+      if (accessor == mesh.positions[0]) mesh.lattice = lattice;
+      if (lattice != mesh.lattice) return "its primitives are on different lattices";
+      if (!pointsFit(accessor, mesh.lattice)) {
+        return "its lattice has more than 16 bits";
+      }
+    }
+    for (const uint32_t accessor : mesh.deltas) {
+      const bool has_same_step =
+          isOnLattice(accessor) && accessors_.coding(accessor)->lattice.step == mesh.lattice.step;
+      if (!has_same_step || !deltasFit(accessor, mesh.lattice.step)) {
+        return "a morph target is not on its lattice";
+      }
+    }
+    if (mesh.nodes.empty()) return "no node shows it";
+    for (const uint32_t node : mesh.nodes) {
+      const std::string reason = nodeObstacle(json_["nodes"][node]);
+      if (!reason.empty()) return at("/nodes", node) + " " + reason;
+    }
+    return "";
+  }
+
+  /// fits() looks at every value, so it is called once per accessor, however many primitives share
+  /// it.
+  bool pointsFit(uint32_t accessor, const Lattice& lattice) {
+    const auto [found, is_new] = points_fit_.try_emplace(accessor, false);
+    if (is_new) found->second = fits(accessor, lattice.origin, lattice.step, 0, kLastPoint);
+    return found->second;
+  }
+  bool deltasFit(uint32_t accessor, float step) {
+    constexpr float kZero[3] = {0, 0, 0};
+    const auto [found, is_new] = deltas_fit_.try_emplace(accessor, false);
+    if (is_new) found->second = fits(accessor, kZero, step, -kLastDelta, kLastDelta);
+    return found->second;
+  }
+
+  /// Returns the lattice point nearest to a value.
+  static int64_t pointOf(double value, double origin, double step) {
+    const double point = std::floor((value - origin) / step + 0.5);
+    return static_cast<int64_t>(std::clamp(point, -0x1p40, 0x1p40));
+  }
+
+  /// Whether all values are lattice points within these bounds. Far from the origin, floats are too
+  /// coarse to identify their point.
+  bool fits(uint32_t accessor, const float* origin, float step, int64_t first, int64_t last) const {
+    const uint64_t count = 3 * accessors_.count(accessor);
+    for (uint64_t i = 0; i < count; ++i) {
+      const double value = accessors_.value(accessor, i);
+      const int64_t point = pointOf(value, double{origin[i % 3]}, double{step});
+      if (point < first || point > last) return false;
+      const double off = value - double{origin[i % 3]} - static_cast<double>(point) * double{step};
+      const double rounding = std::ldexp(std::abs(value) + std::abs(double{origin[i % 3]}), -23);
+      if (!(std::abs(off) <= rounding + 0x1p-10 * double{step})) return false;
+    }
+    return true;
+  }
+
+  std::string nodeObstacle(const Json& node) {
+    if (const Json* extensions = findMember(node, "extensions")) {
+      if (!extensions->is_object()) return "has malformed extensions";
+      for (const auto& [name, value] : extensions->items()) {
+        const bool is_harmless =
+            std::find(std::begin(kMovableNodeExtensions), std::end(kMovableNodeExtensions), name) !=
+            std::end(kMovableNodeExtensions);
+        if (!is_harmless) return "has the extension " + name;
+      }
+    }
+    const Json* children = findMember(node, "children");
+    if (children != nullptr && !children->is_array()) return "has malformed children";
+    const Json* skin = findMember(node, "skin");
+    return skin == nullptr || hasMatrices(*skin) ? "" : "has a skin without valid matrices";
+  }
+
+  /// Looks at each skin once, since many nodes may share it.
+  bool hasMatrices(const Json& skin_number) {
+    uint64_t skin = 0;
+    if (!asUnsigned(skin_number, skin)) return false;
+    const auto [found, is_new] = has_matrices_.try_emplace(skin, false);
+    if (is_new) found->second = inverseBindMatrices(skin_number).has_value();
+    return found->second;
+  }
+
+  /// Meshes that share accessors become integers together or not at all.
+  void dropSharers() {
+    std::map<uint32_t, std::vector<size_t>> meshes_with;  // meshes by accessor
+    std::vector<size_t> float_meshes;                     // those still to be visited
+    for (size_t number = 0; number < meshes_.size(); ++number) {
+      const MeshPlan& mesh = meshes_[number];
+      for (const uint32_t accessor : mesh.positions) meshes_with[accessor].push_back(number);
+      for (const uint32_t accessor : mesh.deltas) meshes_with[accessor].push_back(number);
+      if (!mesh.is_chosen) float_meshes.push_back(number);
+    }
+    std::set<size_t> dropped;
+    const auto dropUsersOf = [&](uint32_t accessor) {
+      std::vector<size_t> users;
+      users.swap(meshes_with[accessor]);  // visit each accessor only once
+      for (const size_t number : users) {
+        if (!meshes_[number].is_chosen) continue;
+        meshes_[number].is_chosen = false;
+        dropped.insert(number);
+        float_meshes.push_back(number);
+      }
+    };
+    while (!float_meshes.empty()) {
+      const MeshPlan& mesh = meshes_[float_meshes.back()];
+      float_meshes.pop_back();
+      for (const uint32_t accessor : mesh.positions) dropUsersOf(accessor);
+      for (const uint32_t accessor : mesh.deltas) dropUsersOf(accessor);
+    }
+    for (const size_t number : dropped) {
+      notes_.push_back(at("/meshes", number) +
+                       ": shares positions with a mesh whose positions stay float");
+    }
+  }
+
+  void storePoints(uint32_t accessor, const Lattice& lattice, bool is_delta) {
+    if (accessors_.coding(accessor) == nullptr) return;  // it was already stored
+    std::vector<int32_t> points(3 * accessors_.count(accessor));
+    for (uint64_t i = 0; i < points.size(); ++i) {
+      const double origin = is_delta ? 0.0 : double{lattice.origin[i % 3]};
+      points[i] = static_cast<int32_t>(
+          pointOf(accessors_.value(accessor, i), origin, double{lattice.step}));
+    }
+    const auto [low, high] = std::minmax_element(points.begin(), points.end());
+    const bool is_small = is_delta ? *low >= -127 && *high <= 127 : *high <= 255;
+    accessors_.replace(accessor,
+                       is_delta ? (is_small ? ComponentType::kInt8 : ComponentType::kInt16)
+                                : (is_small ? ComponentType::kUint8 : ComponentType::kUint16),
+                       false, points);
+  }
+
+  void storeMesh(const MeshPlan& mesh) {
+    if (!mesh.is_chosen) return;
+    for (const uint32_t accessor : mesh.positions) storePoints(accessor, mesh.lattice, false);
+    for (const uint32_t accessor : mesh.deltas) storePoints(accessor, mesh.lattice, true);
+    for (const uint32_t node : mesh.nodes) {
+      uint64_t skin = 0;
+      const Json* number = findMember(json_["nodes"][node], "skin");
+      if (number != nullptr && asUnsigned(*number, skin)) {
+        skinned_[skin].push_back({node, mesh.lattice});
+      } else {
+        moveToChild(node, mesh.lattice);
+      }
+    }
+  }
+
+  /// Moves the mesh of a node to a new child whose transform is the lattice. Everything else about
+  /// the node stays, and so do its animations.
+  void moveToChild(uint32_t number, const Lattice& lattice) {
+    const size_t child_number = json_["nodes"].size();
+    Json& node = json_["nodes"][number];
+    Json child = {{"mesh", std::move(node["mesh"])},
+                  {"translation", {lattice.origin[0], lattice.origin[1], lattice.origin[2]}},
+                  {"scale", {lattice.step, lattice.step, lattice.step}}};
+    node.erase("mesh");
+    if (findMember(node, "weights") != nullptr) child["weights"] = std::move(node["weights"]);
+    node.erase("weights");
+    node["children"].push_back(child_number);
+    json_["nodes"].push_back(std::move(child));
+    child_of_node_[number] = child_number;
+  }
+
+  /// Redirects animations of the weights of morph targets to the new node of the mesh.
+  void moveWeightChannels() {
+    if (child_of_node_.empty() || json_.find("animations") == json_.end()) return;
+    for (Json& animation : json_["animations"]) {
+      if (arrayOf(animation, "channels").empty()) continue;
+      for (Json& channel : animation["channels"]) {
+        uint64_t node = 0;
+        const Json* target = findMember(channel, "target");
+        const Json* path = target == nullptr ? nullptr : findMember(*target, "path");
+        const Json* number = target == nullptr ? nullptr : findMember(*target, "node");
+        if (path == nullptr || *path != "weights" || number == nullptr) continue;
+        if (!asUnsigned(*number, node)) continue;
+        const auto moved = child_of_node_.find(node);
+        if (moved != child_of_node_.end()) channel["target"]["node"] = moved->second;
+      }
+    }
+  }
+
+  /// Returns the matrices of a skin, identities when it names none, or nothing when they are
+  /// unusable.
+  std::optional<std::vector<float>> inverseBindMatrices(const Json& skin_number) const {
+    uint64_t skin = 0;
+    const Json& skins = arrayOf(json_, "skins");
+    if (!asUnsigned(skin_number, skin) || skin >= skins.size()) return {};
+    const size_t joint_count = arrayOf(skins[skin], "joints").size();
+    if (joint_count == 0) return {};
+    std::vector<float> matrices(16 * joint_count, 0.0f);
+    const Json* number = findMember(skins[skin], "inverseBindMatrices");
+    if (number == nullptr) {
+      for (size_t i = 0; i < joint_count; ++i) {
+        for (size_t k = 0; k < 4; ++k) matrices[16 * i + 5 * k] = 1;
+      }
+      return matrices;
+    }
+    uint64_t index = 0;
+    if (!asUnsigned(*number, index) || index >= source_.accessors.size()) return {};
+    const Accessor& accessor = source_.accessors[index];
+    const bool is_usable = accessor.is_known_type && accessor.columns == 4 &&
+                           accessor.component_type == ComponentType::kFloat32 &&
+                           accessor.count >= joint_count;
+    AccessorData data;
+    if (!is_usable || !readAccessor(source_, static_cast<uint32_t>(index), data).ok()) return {};
+    for (size_t i = 0; i < matrices.size(); ++i) {
+      const auto element = data.element(i / 16);
+      matrices[i] = static_cast<float>(
+          componentValue(element.data() + 4 * (i % 16), ComponentType::kFloat32));
+    }
+    return matrices;
+  }
+
+  /// Computes matrix * (translation by the origin) * (scale by the step), in column-major order.
+  static void fold(const Lattice& lattice, float* matrix) {
+    for (size_t row = 0; row < 4; ++row) {
+      double moved = double{matrix[12 + row]};
+      for (size_t column = 0; column < 3; ++column) {
+        float& entry = matrix[4 * column + row];
+        moved += double{entry} * double{lattice.origin[column]};
+        entry = static_cast<float>(double{entry} * double{lattice.step});
+      }
+      matrix[12 + row] = static_cast<float>(moved);
+    }
+  }
+
+  /// Gives the nodes of a skin that have the same lattice a skin of their own. The last such group
+  /// reuses the original skin if no other node uses it.
+  void moveSkins() {
+    if (skinned_.empty()) return;
+    std::map<uint64_t, size_t> user_counts = countMembers("nodes", "skin");
+    matrix_users_ = countMembers("skins", "inverseBindMatrices");
+    for (const auto& [skin, nodes] : skinned_) {
+      size_t& user_count = user_counts[skin];
+      for (const std::vector<SkinnedNode>& group : byLattice(nodes)) {
+        const uint64_t folded = foldedSkin(skin, group[0].lattice, group.size() == user_count);
+        for (const SkinnedNode& node : group) json_["nodes"][node.node]["skin"] = folded;
+        user_count -= group.size();
+      }
+    }
+  }
+
+  /// Counts how often each number occurs as this member of the elements of an array.
+  std::map<uint64_t, size_t> countMembers(const char* array, const char* key) const {
+    std::map<uint64_t, size_t> counts;
+    for (const Json& element : arrayOf(json_, array)) {
+      uint64_t number = 0;
+      const Json* member = findMember(element, key);
+      if (member != nullptr && asUnsigned(*member, number)) ++counts[number];
+    }
+    return counts;
+  }
+
+  /// Groups nodes by equal lattices. The group of the last node comes first.
+  static std::vector<std::vector<SkinnedNode>> byLattice(const std::vector<SkinnedNode>& nodes) {
+    std::map<std::array<float, 4>, size_t> group_of;
+    std::vector<std::vector<SkinnedNode>> groups;
+    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
+      const float* origin = node->lattice.origin;
+      const std::array<float, 4> key = {node->lattice.step, origin[0], origin[1], origin[2]};
+      const auto [found, is_new] = group_of.try_emplace(key, groups.size());
+      if (is_new) groups.emplace_back();
+      groups[found->second].push_back(*node);
+    }
+    return groups;
+  }
+
+  /// Whether the matrices of a skin belong to it alone.
+  bool hasOwnMatrices(const Json& skin) const {
+    uint64_t accessor = 0;
+    const Json* number = findMember(skin, "inverseBindMatrices");
+    if (number == nullptr || !asUnsigned(*number, accessor)) return false;
+    const auto users = matrix_users_.find(accessor);
+    return users != matrix_users_.end() && users->second == 1 &&
+           foreign_.accessors.count(accessor) == 0;
+  }
+
+  /// Returns the number of a skin whose matrices apply to lattice points.
+  uint64_t foldedSkin(uint64_t number, const Lattice& lattice, bool in_place) {
+    std::vector<float> matrices = *inverseBindMatrices(Json(number));
+    for (size_t i = 0; i < matrices.size(); i += 16) fold(lattice, &matrices[i]);
+    Json skin = json_["skins"][number];
+    uint64_t accessor = json_["accessors"].size();
+    if (in_place && hasOwnMatrices(skin)) {
+      asUnsigned(skin["inverseBindMatrices"], accessor);
+    } else {
+      uint64_t left = 0;
+      const Json* old = findMember(skin, "inverseBindMatrices");
+      if (in_place && old != nullptr && asUnsigned(*old, left)) --matrix_users_[left];
+      json_["accessors"].push_back({{"componentType", 5126}, {"type", "MAT4"}});
+    }
+    skin["inverseBindMatrices"] = accessor;
+    Json& json = json_["accessors"][accessor];
+    for (const char* key : {"byteOffset", "sparse", "min", "max"}) json.erase(key);
+    json["bufferView"] = source_.views.size() + views_.size();
+    json["count"] = matrices.size() / 16;
+    NewView view;
+    view.bytes.resize(4 * matrices.size());
+    std::memcpy(view.bytes.data(), matrices.data(), view.bytes.size());
+    views_.push_back(std::move(view));
+    if (in_place) {
+      json_["skins"][number] = std::move(skin);
+      return number;
+    }
+    json_["skins"].push_back(std::move(skin));
+    return json_["skins"].size() - 1;
+  }
+
+  const Document& source_;
+  const ForeignReferences& foreign_;
+  IntegerAccessors& accessors_;
+  Json& json_;
+  std::vector<NewView>& views_;
+  std::vector<std::string>& notes_;
+  const std::string node_extension_;  ///< an extension that may refer to nodes, or empty
+  std::vector<MeshPlan> meshes_;
+  std::map<uint32_t, bool> points_fit_;    ///< by accessor
+  std::map<uint32_t, bool> deltas_fit_;    ///< by accessor
+  std::map<uint64_t, bool> has_matrices_;  ///< by skin
+  std::map<uint64_t, uint64_t> child_of_node_;
+  std::map<uint64_t, std::vector<SkinnedNode>> skinned_;  ///< by skin
+  std::map<uint64_t, size_t> matrix_users_;  ///< skins by accessor of matrices
+};
+
+}  // namespace
+
+void storeIntegers(const Document& source, const CodedAttributes& coded, Json& json,
+                   std::vector<NewView>& views, std::vector<std::string>& notes) {
+  const ForeignReferences foreign = findForeignReferences(source.json);
+  IntegerAccessors accessors(source, foreign, coded, json, views);
+  bool needs_extension = PositionStore(source, foreign, accessors, json, views, notes).run();
+  needs_extension |= storeIntegerValues(coded, arrayOf(json, "meshes"), accessors, notes);
+  if (!needs_extension) return;
+  addExtensionName(json, "extensionsUsed", "KHR_mesh_quantization");
+  addExtensionName(json, "extensionsRequired", "KHR_mesh_quantization");
+}
+
+}  // namespace mcc::gltf

@@ -1,0 +1,209 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/document/accessors.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace mcc::gltf {
+
+// glTF buffers are little-endian, and accessors are filled by memcpy. Reader and writer work on either.
+static_assert(std::endian::native == std::endian::little,
+              "documents need a little-endian host; build with MCC_READER_ONLY");
+
+namespace {
+
+uint32_t readLittleEndian(const uint8_t* bytes, uint32_t byte_count) {
+  uint32_t value = 0;
+  for (uint32_t i = 0; i < byte_count; ++i) value |= uint32_t{bytes[i]} << (8 * i);
+  return value;
+}
+
+const uint8_t* viewBytes(const Document& document, uint32_t view, uint64_t offset) {
+  const BufferView& from = document.views[view];
+  if (from.isCoded()) return document.storage[from.coding.decoded].data() + offset;
+  return document.buffers[from.buffer].data() + from.offset + offset;
+}
+
+/// Returns the most bytes that an accessor may claim which has no bytes in the file.
+uint64_t maxZeroBytes(const Document& document) {
+  constexpr uint64_t kMost = uint64_t{1} << 28;
+  return std::min(kMost, document.decoded.zeroLimit());
+}
+
+/// Removes the padding of matrix columns.
+void copyTight(const uint8_t* element, const Accessor& accessor, uint8_t* out) {
+  const uint32_t tight_column = accessor.rows * componentBytes(accessor.component_type);
+  for (uint32_t column = 0; column < accessor.columns; ++column) {
+    std::memcpy(out + column * tight_column, element + column * accessor.columnBytes(),
+                tight_column);
+  }
+}
+
+Result applySparse(const Document& document, const Accessor& accessor, const std::string& path,
+                   std::vector<uint8_t>& tight) {
+  const Sparse& sparse = accessor.sparse;
+  const uint32_t index_bytes = componentBytes(sparse.index_type);
+  const uint8_t* indices = viewBytes(document, sparse.index_view, sparse.index_offset);
+  const uint8_t* values = viewBytes(document, sparse.value_view, sparse.value_offset);
+  for (uint64_t i = 0; i < sparse.count; ++i) {
+    const uint32_t index = readLittleEndian(indices + i * index_bytes, index_bytes);
+    if (index >= accessor.count) {
+      return error(path + "/sparse/indices", "index " + std::to_string(index) +
+                                                 " is outside the accessor of " +
+                                                 std::to_string(accessor.count) + " elements");
+    }
+    copyTight(values + i * accessor.elementBytes(), accessor,
+              tight.data() + uint64_t{index} * accessor.tightBytes());
+  }
+  return {};
+}
+
+bool canBeUsedInPlace(const Accessor& accessor, const uint8_t* bytes, uint64_t stride) {
+  const uint32_t alignment = componentBytes(accessor.component_type);
+  return accessor.sparse.count == 0 && accessor.elementBytes() == accessor.tightBytes() &&
+         std::bit_cast<uintptr_t>(bytes) % alignment == 0 && stride % alignment == 0;
+}
+
+}  // namespace
+
+std::string whyUnreadable(const Document& document, const Accessor& accessor) {
+  if (!accessor.is_known_type) return "the type or component type is unknown";
+  const auto is_sealed = [&](uint32_t view) {
+    return document.views[view].isCoded() && document.views[view].coding.decoded == kNone;
+  };
+  std::vector<uint32_t> views;
+  if (accessor.view != kNone) views.push_back(accessor.view);
+  if (accessor.sparse.count != 0) {
+    views.insert(views.end(), {accessor.sparse.index_view, accessor.sparse.value_view});
+  }
+  const auto sealed = std::find_if(views.begin(), views.end(), is_sealed);
+  if (sealed == views.end()) return "";
+  return "is coded with " + document.views[*sealed].coding.extension +
+         ", which this program cannot read";
+}
+
+Result readAccessor(const Document& document, uint32_t index, AccessorData& elements) {
+  const Accessor& accessor = document.accessors[index];
+  const std::string path = at("/accessors", index);
+  elements = {};
+  const std::string reason = whyUnreadable(document, accessor);
+  if (!reason.empty()) return error(path, reason);
+  elements.count = accessor.count;
+  elements.element_bytes = accessor.tightBytes();
+  elements.stride_bytes = elements.element_bytes;
+  if (accessor.decoded != kNone) {
+    elements.data = document.storage[accessor.decoded].data();
+    return {};
+  }
+  const uint8_t* source = nullptr;
+  uint64_t stride = 0;
+  if (accessor.view != kNone) {
+    const BufferView& view = document.views[accessor.view];
+    source = viewBytes(document, accessor.view, accessor.offset);
+    stride = view.stride != 0 ? view.stride : accessor.elementBytes();
+    if (canBeUsedInPlace(accessor, source, stride)) {
+      elements.data = source;
+      elements.stride_bytes = stride;
+      return {};
+    }
+  } else if (accessor.count * elements.element_bytes > maxZeroBytes(document)) {
+    return error(path, "has no bufferView but claims " + std::to_string(accessor.count) +
+                           " elements; at most " + std::to_string(maxZeroBytes(document)) +
+                           " bytes of such elements are read");
+  }
+  elements.owned.resize(accessor.count * elements.element_bytes);
+  for (uint64_t i = 0; source != nullptr && i < accessor.count; ++i) {
+    copyTight(source + i * stride, accessor, elements.owned.data() + i * elements.element_bytes);
+  }
+  elements.data = elements.owned.data();
+  if (accessor.sparse.count == 0) return {};
+  return applySparse(document, accessor, path, elements.owned);
+}
+
+Result readIndices(const Document& document, uint32_t index, std::vector<uint32_t>& indices) {
+  const Accessor& accessor = document.accessors[index];
+  const ComponentType type = accessor.component_type;
+  const bool is_unsigned = type == ComponentType::kUint8 || type == ComponentType::kUint16 ||
+                           type == ComponentType::kUint32;
+  if (!accessor.is_known_type || accessor.componentCount() != 1 || !is_unsigned) {
+    return error(at("/accessors", index),
+                 "indices must be SCALAR of an unsigned type, not " + describeType(accessor));
+  }
+  AccessorData elements;
+  MCC_GLTF_TRY(readAccessor(document, index, elements));
+  indices.resize(elements.count);
+  for (uint64_t i = 0; i < elements.count; ++i) {
+    indices[i] = readLittleEndian(elements.element(i).data(), elements.element_bytes);
+  }
+  return {};
+}
+
+bool expandTriangles(uint64_t mode, std::vector<uint32_t>& vertices) {
+  const size_t count = vertices.size();
+  if (count < 3 || mode < 4 || mode > 6) return false;
+  if (mode == 4) return count % 3 == 0;
+  std::vector<uint32_t> triangles;
+  triangles.reserve(3 * (count - 2));
+  for (size_t i = 0; i + 2 < count; ++i) {
+    if (mode == 5) {
+      triangles.insert(triangles.end(),
+                       {vertices[i], vertices[i + 1 + i % 2], vertices[i + 2 - i % 2]});
+    } else {
+      triangles.insert(triangles.end(), {vertices[i + 1], vertices[i + 2], vertices[0]});
+    }
+  }
+  vertices = std::move(triangles);
+  return true;
+}
+
+std::string describeType(const Accessor& accessor) {
+  if (!accessor.is_known_type) return "an unknown type";
+  std::string name = "SCALAR";
+  if (accessor.columns > 1) {
+    name = "MAT" + std::to_string(accessor.columns);
+  } else if (accessor.rows > 1) {
+    name = "VEC" + std::to_string(accessor.rows);
+  }
+  static constexpr const char* kNames[] = {"BYTE",           "UNSIGNED_BYTE", "SHORT",
+                                           "UNSIGNED_SHORT", "UNSIGNED_INT",  "FLOAT"};
+  return name + " of " + kNames[static_cast<size_t>(accessor.component_type)];
+}
+
+double componentValue(const uint8_t* bytes, ComponentType type) {
+  const uint32_t raw = readLittleEndian(bytes, componentBytes(type));
+  switch (type) {
+    case ComponentType::kInt8: return static_cast<int8_t>(raw);
+    case ComponentType::kInt16: return static_cast<int16_t>(raw);
+    case ComponentType::kFloat32: return std::bit_cast<float>(raw);
+    default: return raw;
+  }
+}
+
+std::vector<uint8_t> packElements(std::span<const uint8_t> tight, const Accessor& accessor,
+                                  bool is_vertex_attribute, uint32_t& stride_bytes) {
+  const uint32_t element = accessor.elementBytes();
+  const uint32_t tight_bytes = accessor.tightBytes();
+  const uint32_t tight_column = accessor.rows * componentBytes(accessor.component_type);
+  const uint32_t stride = is_vertex_attribute ? (element + 3) & ~3u : element;
+  stride_bytes = stride == tight_bytes ? 0 : stride;
+  std::vector<uint8_t> packed(accessor.count * stride);
+  for (uint64_t i = 0; i < accessor.count; ++i) {
+    for (uint32_t column = 0; column < accessor.columns; ++column) {
+      std::memcpy(packed.data() + i * stride + column * accessor.columnBytes(),
+                  tight.data() + i * tight_bytes + column * tight_column, tight_column);
+    }
+  }
+  return packed;
+}
+
+AttributeFormat formatOf(const std::string& name, uint32_t target, const Accessor& accessor) {
+  AttributeFormat type;
+  type.component_type = accessor.component_type;
+  type.normalized = accessor.normalized;
+  type.component_count = static_cast<uint8_t>(accessor.componentCount());
+  type.morph_target = static_cast<uint16_t>(target == kNone ? 0 : target + 1);
+  return namedFormat(name, type, accessor.columns != 1);
+}
+
+}  // namespace mcc::gltf

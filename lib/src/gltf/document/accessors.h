@@ -1,0 +1,66 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Reads the elements of accessors, however they are stored.
+#ifndef MCC_GLTF_DOCUMENT_ACCESSORS_H_
+#define MCC_GLTF_DOCUMENT_ACCESSORS_H_
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gltf/document/document.h"
+
+namespace mcc::gltf {
+
+/// Elements without padding inside them; `data` points into the document or into `owned`.
+struct AccessorData {
+  const uint8_t* data = nullptr;
+  size_t stride_bytes = 0;
+  uint64_t count = 0;
+  uint32_t element_bytes = 0;
+  std::vector<uint8_t> owned;
+
+  std::span<const uint8_t> element(uint64_t index) const {
+    return {data + index * stride_bytes, element_bytes};
+  }
+};
+
+/// Returns why the elements of an accessor cannot be read: its type is unknown, or its bytes are
+/// coded by an extension and were not decoded. Empty when they can be read.
+std::string whyUnreadable(const Document& document, const Accessor& accessor);
+
+/// Reads an accessor: strided, interleaved, sparse, without a view, or a matrix with padded
+/// columns. Does not copy when the bytes can be used where they are. Errors carry the path
+/// /accessors/N. It is an error when the elements have no bytes in the file and claim more than
+/// document.decoded.zeroLimit().
+Result readAccessor(const Document& document, uint32_t index, AccessorData& elements);
+
+/// Reads an accessor of indices. Errors: it is not SCALAR of an unsigned integer type.
+Result readIndices(const Document& document, uint32_t index, std::vector<uint32_t>& indices);
+
+/// Expands the vertices of a primitive of mode 4 (triangles), 5 (strip) or 6 (fan) to triangles as
+/// glTF 2.0, 3.7.2.1 says. Returns false when `mode` is none of these, or the count does not fit
+/// triangles.
+bool expandTriangles(uint64_t mode, std::vector<uint32_t>& vertices);
+
+/// Returns the type and the component type of an accessor in glTF's words: "VEC3 of FLOAT".
+std::string describeType(const Accessor& accessor);
+
+/// Returns one component as a number.
+double componentValue(const uint8_t* bytes, ComponentType type);
+
+/// Copies packed elements into the layout of a buffer: columns of matrices are padded, and elements
+/// of vertex attributes start at multiples of four. `stride_bytes` becomes 0 when elements follow
+/// each other without gaps. Padding inside a matrix counts as a gap, because not all programs pad
+/// the last column.
+std::vector<uint8_t> packElements(std::span<const uint8_t> tight, const Accessor& accessor,
+                                  bool is_vertex_attribute, uint32_t& stride_bytes);
+
+/// Returns the format of an attribute as the payload describes it. A semantic whose accessor does
+/// not have the type glTF 2.0 gives it becomes a custom one.
+AttributeFormat formatOf(const std::string& name, uint32_t target, const Accessor& accessor);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_DOCUMENT_ACCESSORS_H_

@@ -1,0 +1,453 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/document/document.h"
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+#include "gltf/document/fallback.h"
+#include "gltf/document/image_type.h"
+#include "gltf/document/references.h"
+#include "gltf/document/uri.h"
+
+namespace mcc::gltf {
+namespace {
+
+constexpr uint64_t kMaxCount = uint64_t{1} << 53;
+constexpr uint64_t kMaxAccessorCount = 0xffffffffu;
+constexpr uint64_t kMaxStride = 65536;
+
+struct TypeName {
+  std::string_view name;
+  uint32_t columns;
+  uint32_t rows;
+};
+constexpr TypeName kTypeNames[] = {{"SCALAR", 1, 1}, {"VEC2", 1, 2}, {"VEC3", 1, 3}, {"VEC4", 1, 4},
+                                   {"MAT2", 2, 2},   {"MAT3", 3, 3}, {"MAT4", 4, 4}};
+
+bool componentTypeOf(uint64_t gl_type, ComponentType& type) {
+  switch (gl_type) {
+    case 5120: type = ComponentType::kInt8; return true;
+    case 5121: type = ComponentType::kUint8; return true;
+    case 5122: type = ComponentType::kInt16; return true;
+    case 5123: type = ComponentType::kUint16; return true;
+    case 5125: type = ComponentType::kUint32; return true;
+    case 5126: type = ComponentType::kFloat32; return true;
+    default: return false;
+  }
+}
+
+Result readString(const Json& object, const char* key, const std::string& path, std::string& text) {
+  const Json* member = findMember(object, key);
+  if (member == nullptr || !member->is_string()) {
+    return error(path, std::string("\"") + key + "\" is missing or not a string");
+  }
+  text = member->get<std::string>();
+  return {};
+}
+
+/// Checks the types of the objects and arrays that are read everywhere.
+Result checkShape(const Json& json) {
+  if (!json.is_object()) return error("JSON", "this is not a glTF file: the JSON is not an object");
+  const Json* asset = findMember(json, "asset");
+  const Json* version = asset != nullptr ? findMember(*asset, "version") : nullptr;
+  if (version == nullptr || !version->is_string()) {
+    return error("/asset/version", "this is not a glTF file: it has no version");
+  }
+  const std::string number = version->get<std::string>();
+  if (!number.starts_with("2.")) {
+    return error("/asset/version", "glTF " + number + " is not supported; only glTF 2.0 is");
+  }
+  for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+    const Json* list = findMember(json, key);
+    if (list != nullptr && !list->is_array()) return error(at("", key), "must be an array");
+  }
+  for (const char* key : {"accessors", "animations", "bufferViews", "buffers", "images", "meshes",
+                          "nodes", "skins"}) {
+    const Json* list = findMember(json, key);
+    if (list == nullptr) continue;
+    if (!list->is_array()) return error(at("", key), "must be an array");
+    for (size_t i = 0; i < list->size(); ++i) {
+      if (!(*list)[i].is_object()) return error(at(at("", key), i), "must be an object");
+    }
+  }
+  return {};
+}
+
+/// Returns the object by which an extension codes a view, or marks a buffer whose bytes need not
+/// exist; null if there is none.
+const Json* codingOf(const Json& view_or_buffer, std::string& extension) {
+  const Json* extensions = findMember(view_or_buffer, "extensions");
+  if (extensions == nullptr) return nullptr;
+  for (const char* name : kViewExtensions) {
+    extension = name;
+    if (const Json* coding = findMember(*extensions, name)) return coding;
+  }
+  return nullptr;
+}
+
+bool isPlaceholder(const Json& buffer) {
+  std::string ignored;
+  const Json* coding = codingOf(buffer, ignored);
+  const Json* flag = coding == nullptr ? nullptr : findMember(*coding, "fallback");
+  return flag != nullptr && *flag == true;
+}
+
+/// Fetches the bytes of a buffer or an image, when they are needed.
+Result fetchUri(const std::string& uri, const std::string& where, const FileReader& read_file,
+                std::vector<uint8_t>& bytes) {
+  if (isDataUri(uri)) return decodeDataUri(uri, where, bytes);
+  std::string path;
+  MCC_GLTF_TRY(relativePathOf(uri, where, path));
+  if (!read_file) {
+    return error(where,
+                 "the file \"" + path + "\" is needed; convert from a path, not from memory");
+  }
+  return read_file(path, where, bytes);
+}
+
+/// Loads the buffers. A file that several buffers name is read once.
+class BufferLoader {
+ public:
+  /// `glb` is null for a .gltf.
+  BufferLoader(const GlbFile* glb, const FileReader& read_file, Document& document)
+      : glb_(glb), read_file_(read_file), document_(document) {}
+
+  Result load(const Json& json, uint32_t number) {
+    const std::string path = at("/buffers", number);
+    uint64_t length = 0;
+    MCC_GLTF_TRY(readUnsigned(json, "byteLength", path, kMaxCount, length));
+    if (isPlaceholder(json)) {  // the views in it are decoded from other buffers
+      document_.buffers.emplace_back();
+      document_.same_buffers.push_back(number);
+      return {};
+    }
+    std::span<const uint8_t> bytes;
+    std::string file;
+    if (findMember(json, "uri") != nullptr) {
+      MCC_GLTF_TRY(fetch(json, path, file, bytes));
+    } else if (number == 0 && glb_ != nullptr && glb_->has_bin) {
+      bytes = glb_->bin;
+    } else {
+      return error(path, "the buffer has neither a URI nor a BIN chunk");
+    }
+    if (length > bytes.size()) {
+      return error(path + "/byteLength", std::to_string(length) + " bytes are announced but only " +
+                                             std::to_string(bytes.size()) + " are there");
+    }
+    document_.buffers.push_back(bytes.first(length));
+    document_.same_buffers.push_back(number);
+    if (!file.empty()) users_[file].push_back(number);
+    return {};
+  }
+
+  /// Finds buffers of the same file, after all were loaded.
+  void findSame() {
+    for (const auto& [file, users] : users_) {
+      const auto isShorter = [&](uint32_t a, uint32_t b) {
+        return document_.buffers[a].size() < document_.buffers[b].size();
+      };
+      const uint32_t longest = *std::max_element(users.begin(), users.end(), isShorter);
+      for (const uint32_t user : users) document_.same_buffers[user] = longest;
+    }
+  }
+
+ private:
+  /// Fetches the bytes of a buffer. `file` stays empty for a data URI.
+  Result fetch(const Json& json, const std::string& path, std::string& file,
+               std::span<const uint8_t>& bytes) {
+    std::string uri;
+    MCC_GLTF_TRY(readString(json, "uri", path, uri));
+    if (!isDataUri(uri)) MCC_GLTF_TRY(relativePathOf(uri, path + "/uri", file));
+    if (const auto known = users_.find(file); known != users_.end()) {
+      bytes = files_[file];
+      return {};
+    }
+    document_.storage.emplace_back();
+    MCC_GLTF_TRY(fetchUri(uri, path + "/uri", read_file_, document_.storage.back()));
+    bytes = document_.storage.back();
+    if (file.empty()) return {};
+    files_[file] = bytes;
+    document_.source_bytes += bytes.size();
+    return {};
+  }
+
+  const GlbFile* glb_;
+  const FileReader& read_file_;
+  Document& document_;
+  std::map<std::string, std::span<const uint8_t>> files_;  ///< bytes by path
+  std::map<std::string, std::vector<uint32_t>> users_;     ///< numbers of buffers by path
+};
+
+/// Parses where the bytes of a view are. `json` is the view, or the object that codes it.
+Result parseBytes(const Document& document, const Json& json, const std::string& path,
+                  BufferView& view) {
+  uint64_t buffer = 0;
+  MCC_GLTF_TRY(readUnsigned(json, "buffer", path, kMaxCount, buffer));
+  if (buffer >= document.buffers.size()) {
+    return error(path + "/buffer", "there is no buffer " + std::to_string(buffer));
+  }
+  view.buffer = static_cast<uint32_t>(buffer);
+  MCC_GLTF_TRY(readOptionalUnsigned(json, "byteOffset", path, kMaxCount, view.offset));
+  MCC_GLTF_TRY(readUnsigned(json, "byteLength", path, kMaxCount, view.length));
+  const uint64_t available = document.buffers[buffer].size();
+  if (view.offset > available || view.length > available - view.offset) {
+    return error(path, "bytes " + std::to_string(view.offset) + " to " +
+                           std::to_string(view.offset + view.length) + " are outside buffer " +
+                           std::to_string(buffer) + " of " + std::to_string(available) + " bytes");
+  }
+  if (!document.same_buffers.empty()) view.buffer = document.same_buffers[buffer];
+  return {};
+}
+
+Result parseCoding(const Json& json, const std::string& path, uint64_t length, ViewCoding& coding) {
+  MCC_GLTF_TRY(readUnsigned(json, "count", path, kMaxAccessorCount, coding.count));
+  uint64_t stride = 0;
+  MCC_GLTF_TRY(readUnsigned(json, "byteStride", path, kMaxStride, stride));
+  MCC_GLTF_TRY(readString(json, "mode", path, coding.mode));
+  coding.filter = "NONE";
+  if (findMember(json, "filter") != nullptr) {
+    MCC_GLTF_TRY(readString(json, "filter", path, coding.filter));
+  }
+  coding.stride = static_cast<uint32_t>(stride);
+  coding.length = coding.count * stride;
+  if (coding.length == length) return {};
+  return error(path, "codes " + std::to_string(coding.length) + " bytes, but the view has " +
+                         std::to_string(length));
+}
+
+Result parseView(const Document& document, const Json& json, const std::string& path,
+                 BufferView& view) {
+  MCC_GLTF_TRY(readOptionalUnsigned(json, "byteStride", path, kMaxStride, view.stride));
+  std::string extension;
+  const Json* coded = codingOf(json, extension);
+  if (coded == nullptr) return parseBytes(document, json, path, view);
+  const std::string coded_path = path + "/extensions/" + extension;
+  uint64_t length = 0;
+  MCC_GLTF_TRY(readUnsigned(json, "byteLength", path, kMaxCount, length));
+  MCC_GLTF_TRY(parseBytes(document, *coded, coded_path, view));
+  MCC_GLTF_TRY(parseCoding(*coded, coded_path, length, view.coding));
+  view.coding.extension = extension;
+  return {};
+}
+
+/// Checks that `count` elements of `bytes` each lie inside a view.
+Result checkRange(const Document& document, uint32_t view, uint64_t offset, uint64_t count,
+                  uint64_t bytes, uint64_t stride, const std::string& path) {
+  if (count == 0) return {};
+  // count < 2^32, stride <= 2^16 and offset <= 2^53, so this cannot wrap.
+  const uint64_t end = offset + (count - 1) * stride + bytes;
+  const uint64_t available = document.views[view].elementsLength();
+  if (end <= available) return {};
+  return error(path, "needs " + std::to_string(end) + " bytes of bufferView " +
+                         std::to_string(view) + ", which has " + std::to_string(available));
+}
+
+Result readViewIndex(const Document& document, const Json& json, const std::string& path,
+                     uint32_t& view) {
+  uint64_t index = 0;
+  MCC_GLTF_TRY(readUnsigned(json, "bufferView", path, kMaxCount, index));
+  if (index >= document.views.size()) {
+    return error(path + "/bufferView", "there is no bufferView " + std::to_string(index));
+  }
+  view = static_cast<uint32_t>(index);
+  return {};
+}
+
+Result parseSparse(const Document& document, const Json& json, const std::string& path,
+                   const Accessor& accessor, Sparse& sparse) {
+  uint64_t count = 0;
+  MCC_GLTF_TRY(readUnsigned(json, "count", path, accessor.count, count));
+  const Json* indices = findMember(json, "indices");
+  const Json* values = findMember(json, "values");
+  if (indices == nullptr) return error(path, "\"indices\" is missing");
+  if (values == nullptr) return error(path, "\"values\" is missing");
+  uint64_t gl_type = 0;
+  MCC_GLTF_TRY(readUnsigned(*indices, "componentType", path + "/indices", kMaxCount, gl_type));
+  if (!componentTypeOf(gl_type, sparse.index_type) || (gl_type & 1) == 0) {
+    return error(path + "/indices/componentType",
+                 std::to_string(gl_type) + " is not an index type");
+  }
+  MCC_GLTF_TRY(readViewIndex(document, *indices, path + "/indices", sparse.index_view));
+  MCC_GLTF_TRY(readOptionalUnsigned(*indices, "byteOffset", path + "/indices", kMaxCount,
+                                    sparse.index_offset));
+  MCC_GLTF_TRY(readViewIndex(document, *values, path + "/values", sparse.value_view));
+  MCC_GLTF_TRY(readOptionalUnsigned(*values, "byteOffset", path + "/values", kMaxCount,
+                                    sparse.value_offset));
+  const uint64_t index_bytes = componentBytes(sparse.index_type);
+  MCC_GLTF_TRY(checkRange(document, sparse.index_view, sparse.index_offset, count, index_bytes,
+                          index_bytes, path + "/indices"));
+  MCC_GLTF_TRY(checkRange(document, sparse.value_view, sparse.value_offset, count,
+                          accessor.elementBytes(), accessor.elementBytes(), path + "/values"));
+  sparse.count = count;
+  return {};
+}
+
+Result parseType(const Json& json, const std::string& path, Accessor& accessor) {
+  std::string type;
+  MCC_GLTF_TRY(readString(json, "type", path, type));
+  uint64_t gl_type = 0;
+  MCC_GLTF_TRY(readUnsigned(json, "componentType", path, kMaxCount, gl_type));
+  accessor.is_known_type = false;
+  for (const TypeName& name : kTypeNames) {
+    if (name.name != type) continue;
+    accessor.columns = name.columns;
+    accessor.rows = name.rows;
+    accessor.is_known_type = componentTypeOf(gl_type, accessor.component_type);
+  }
+  return {};
+}
+
+Result loadTables(Document& document) {
+  const Json& views = arrayOf(document.json, "bufferViews");
+  document.views.resize(views.size());
+  for (size_t i = 0; i < views.size(); ++i) {
+    MCC_GLTF_TRY(parseView(document, views[i], at("/bufferViews", i), document.views[i]));
+  }
+  const Json& accessors = arrayOf(document.json, "accessors");
+  document.accessors.resize(accessors.size());
+  for (size_t i = 0; i < accessors.size(); ++i) {
+    MCC_GLTF_TRY(parseAccessor(document, accessors[i], at("/accessors", i), document.accessors[i]));
+  }
+  return {};
+}
+
+/// A file that images name.
+struct ImageFile {
+  std::span<const uint8_t> bytes;
+  uint32_t view = kNone;  ///< the view it became, for all images that name it
+};
+
+void addView(ImageFile& file, Document& document) {
+  const size_t buffer = document.buffers.size();
+  document.source_bytes += file.bytes.size();
+  document.buffers.push_back(file.bytes);
+  document.json["buffers"].push_back({{"byteLength", file.bytes.size()}});
+  document.json["bufferViews"].push_back({{"buffer", buffer}, {"byteLength", file.bytes.size()}});
+  file.view = static_cast<uint32_t>(document.views.size());
+  document.views.push_back({static_cast<uint32_t>(buffer), 0, file.bytes.size(), 0, {}});
+}
+
+Result embedImage(const FileReader& read_file, size_t index,
+                  std::map<std::string, ImageFile>& files, Document& document) {
+  const std::string path = at("/images", index);
+  const Json& image = document.json["images"][index];
+  std::string uri;
+  MCC_GLTF_TRY(readString(image, "uri", path, uri));
+  if (isDataUri(uri)) return {};
+  std::string name;
+  MCC_GLTF_TRY(relativePathOf(uri, path + "/uri", name));
+  const auto [found, is_new] = files.try_emplace(name);
+  ImageFile& file = found->second;
+  if (is_new) {
+    document.storage.emplace_back();
+    MCC_GLTF_TRY(fetchUri(uri, path + "/uri", read_file, document.storage.back()));
+    file.bytes = document.storage.back();
+  }
+  const std::string type = imageTypeOf(file.bytes);
+  if (type.empty()) {
+    document.notes.push_back(path + ": is not a known type of image; it stays a separate file");
+    return {};
+  }
+  if (file.view == kNone) addView(file, document);
+  // The reference from before may be invalid, because the root may have got new members.
+  Json& moved = document.json["images"][index];
+  moved.erase("uri");
+  moved["bufferView"] = file.view;
+  if (findMember(moved, "mimeType") == nullptr) moved["mimeType"] = type;
+  return {};
+}
+
+}  // namespace
+
+Result parseAccessor(const Document& document, const Json& json, const std::string& path,
+                     Accessor& accessor) {
+  accessor = {};
+  MCC_GLTF_TRY(parseType(json, path, accessor));
+  MCC_GLTF_TRY(readUnsigned(json, "count", path, kMaxAccessorCount, accessor.count));
+  if (findMember(json, "bufferView") != nullptr) {
+    MCC_GLTF_TRY(readViewIndex(document, json, path, accessor.view));
+    MCC_GLTF_TRY(readOptionalUnsigned(json, "byteOffset", path, kMaxCount, accessor.offset));
+  }
+  if (!accessor.is_known_type) return {};
+  if (const Json* flag = findMember(json, "normalized"); flag != nullptr) {
+    if (!flag->is_boolean()) return error(path + "/normalized", "must be true or false");
+    accessor.normalized = flag->get<bool>();
+  }
+  if (accessor.view != kNone) {
+    const uint64_t stride = document.views[accessor.view].stride;
+    const uint64_t bytes = accessor.elementBytes();
+    if (stride != 0 && stride < bytes) {
+      return error(path, "elements of " + std::to_string(bytes) + " bytes do not fit the stride " +
+                             std::to_string(stride) + " of bufferView " +
+                             std::to_string(accessor.view));
+    }
+    MCC_GLTF_TRY(checkRange(document, accessor.view, accessor.offset, accessor.count, bytes,
+                            stride == 0 ? bytes : stride, path));
+  }
+  if (const Json* sparse = findMember(json, "sparse"); sparse != nullptr) {
+    MCC_GLTF_TRY(parseSparse(document, *sparse, path + "/sparse", accessor, accessor.sparse));
+  }
+  return {};
+}
+
+Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file,
+                    Document& document) {
+  document = {};
+  document.source_bytes = file.size();
+  if (file.empty()) return error("", "the file is empty");
+  document.is_glb = isGlb(file);
+  GlbFile glb;
+  if (document.is_glb) {
+    MCC_GLTF_TRY(readGlb(file, glb));
+    document.other_chunks = glb.other_chunks;
+    if (glb.has_trailing_bytes) {
+      document.notes.push_back("bytes after the end of the GLB were ignored");
+    }
+  } else {
+    if (!isJsonText(file)) {
+      return error("byte 0", "this is not a glTF file: neither a GLB nor JSON");
+    }
+    glb.json = file;
+  }
+  MCC_GLTF_TRY(parseJson(glb.json, document.json));
+  MCC_GLTF_TRY(checkShape(document.json));
+  const Json& buffers = arrayOf(document.json, "buffers");
+  BufferLoader loader(document.is_glb ? &glb : nullptr, read_file, document);
+  for (uint32_t i = 0; i < buffers.size(); ++i) {
+    const Result loaded = loader.load(buffers[i], i);
+    if (loaded.ok()) continue;
+    if (!removeFallback(i, document.json)) return loaded;
+    document.notes.push_back(loaded.message() + "; this fallback is not needed");
+    break;
+  }
+  loader.findSame();
+  return loadTables(document);
+}
+
+Result adoptDocument(Json json, std::vector<uint8_t> bin, Document& document) {
+  document = {};
+  document.json = std::move(json);
+  document.is_glb = true;
+  document.storage.push_back(std::move(bin));
+  for (const Json& buffer : arrayOf(document.json, "buffers")) {
+    const bool is_first = document.buffers.empty();
+    document.buffers.push_back(is_first && !isPlaceholder(buffer) ? document.storage.back()
+                                                                  : std::span<const uint8_t>());
+  }
+  return loadTables(document);
+}
+
+Result embedImages(const FileReader& read_file, Document& document) {
+  if (document.is_glb) return {};
+  std::map<std::string, ImageFile> files;
+  const size_t image_count = arrayOf(document.json, "images").size();
+  for (size_t i = 0; i < image_count; ++i) {
+    if (findMember(document.json["images"][i], "uri") != nullptr) {
+      MCC_GLTF_TRY(embedImage(read_file, i, files, document));
+    }
+  }
+  return {};
+}
+
+}  // namespace mcc::gltf

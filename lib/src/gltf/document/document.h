@@ -1,0 +1,123 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// A loaded glTF file: its JSON as it was, its buffers, and typed tables of the JSON's buffer views
+// and accessors. The ranges of all views and accessors have been checked.
+#ifndef MCC_GLTF_DOCUMENT_DOCUMENT_H_
+#define MCC_GLTF_DOCUMENT_DOCUMENT_H_
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gltf/base/decoded_bytes.h"
+#include "gltf/document/glb.h"
+#include "gltf/document/json.h"
+#include "mcc/types.h"
+
+namespace mcc::gltf {
+
+/// How an extension codes the elements of a buffer view.
+struct ViewCoding {
+  /// "EXT_meshopt_compression" or "KHR_meshopt_compression"; empty: the view is not coded.
+  std::string extension;
+  std::string mode;
+  std::string filter;
+  uint64_t count = 0;
+  uint32_t stride = 0;
+  uint64_t length = 0;       ///< bytes of all elements
+  uint32_t decoded = kNone;  ///< index into Document::storage; kNone: not decoded
+};
+
+struct BufferView {
+  uint32_t buffer = 0;  ///< `buffer`, `offset` and `length` locate its bytes, coded or not
+  uint64_t offset = 0;
+  uint64_t length = 0;
+  uint64_t stride = 0;  ///< 0: elements are packed
+  ViewCoding coding;
+
+  bool isCoded() const { return !coding.extension.empty(); }
+  /// Number of bytes that accessors may use.
+  uint64_t elementsLength() const { return isCoded() ? coding.length : length; }
+};
+
+/// Values that replace some elements of an accessor.
+struct Sparse {
+  uint64_t count = 0;  ///< 0: the accessor is not sparse
+  uint32_t index_view = 0;
+  uint64_t index_offset = 0;
+  ComponentType index_type = ComponentType::kUint16;
+  uint32_t value_view = 0;
+  uint64_t value_offset = 0;
+};
+
+struct Accessor {
+  uint32_t view = kNone;  ///< kNone: all elements are zero, apart from `sparse`
+  uint64_t offset = 0;
+  uint64_t count = 0;
+  ComponentType component_type = ComponentType::kFloat32;
+  bool is_known_type = true;  ///< false: a type of some extension; nothing else is set
+  uint32_t columns = 1;       ///< above 1: a matrix
+  uint32_t rows = 1;          ///< components of a vector or of a matrix column
+  bool normalized = false;
+  Sparse sparse;
+  /// For an accessor that an extension of primitives fills: the index into Document::storage of its
+  /// packed elements, and the view they came from.
+  uint32_t decoded = kNone;
+  uint32_t decoded_from = kNone;
+
+  uint32_t componentCount() const { return columns * rows; }
+  uint32_t tightBytes() const { return componentCount() * componentBytes(component_type); }
+  /// Bytes between the columns of a matrix: glTF starts each at a multiple of four.
+  uint32_t columnBytes() const {
+    const uint32_t bytes = rows * componentBytes(component_type);
+    return columns == 1 ? bytes : (bytes + 3) & ~3u;
+  }
+  /// Bytes of an element in a buffer.
+  uint32_t elementBytes() const { return columns * columnBytes(); }
+};
+
+struct Document {
+  Json json;
+  bool is_glb = false;
+  std::vector<std::span<const uint8_t>> buffers;
+  /// For each buffer, the number of the longest buffer that comes from the same file, which may be
+  /// itself. Buffer views refer to that number, so that the bytes of a file are kept once. Empty:
+  /// no file is used twice.
+  std::vector<uint32_t> same_buffers;
+  std::vector<BufferView> views;
+  std::vector<Accessor> accessors;
+  std::vector<GlbChunk> other_chunks;
+  uint64_t source_bytes = 0;  ///< size of the file and of the files its buffers came from
+  /// The bytes that were decoded, apart from our own payloads. There is no limit unless one is set
+  /// after loading.
+  DecodedBytes decoded;
+  std::vector<std::string> notes;
+  /// Owns the buffers that are not part of the file, and everything that was decoded.
+  std::vector<std::vector<uint8_t>> storage;
+};
+
+/// Fetches a file. The path must be one that relativePathOf() has accepted.
+using FileReader =
+    std::function<Result(const std::string& path, const std::string& where, std::vector<uint8_t>&)>;
+
+/// Loads a GLB or the JSON of a .gltf. `file` must outlive the document.
+/// read_file  fetches buffers; null: every buffer must be inside the file.
+Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file, Document& document);
+
+/// Moves the image files of a .gltf into buffer views, so that a GLB in another folder still has
+/// them. Images in data URIs stay as they are. Does nothing to a GLB.
+Result embedImages(const FileReader& read_file, Document& document);
+
+/// Makes a document from parts that are already in memory: JSON with at most one buffer, and the
+/// bytes of that buffer.
+Result adoptDocument(Json json, std::vector<uint8_t> bin, Document& document);
+
+/// Parses one accessor; its views must be in `document.views`. Errors carry the path /accessors/N.
+Result parseAccessor(const Document& document, const Json& json, const std::string& path,
+                     Accessor& accessor);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_DOCUMENT_DOCUMENT_H_

@@ -1,0 +1,82 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// A document as the files it is stored in: one GLB, or a .gltf with its buffer next to it; either
+// may have a fallback file.
+#ifndef MCC_GLTF_DOCUMENT_PACKAGE_H_
+#define MCC_GLTF_DOCUMENT_PACKAGE_H_
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gltf/document/document.h"
+
+namespace mcc::gltf {
+
+/// A file next to the main one, whose JSON names it.
+struct SideFile {
+  enum class Kind : uint8_t {
+    kBuffer,    ///< the buffer of a .gltf, made by writePackage()
+    kFallback,  ///< the fallback
+    kCopy,      ///< a copy of a file next to the source
+  };
+  Kind kind = Kind::kBuffer;
+  std::string path;  ///< relative to the main file, with '/'
+  std::vector<uint8_t> bytes;
+};
+
+struct Package {
+  std::vector<uint8_t> main;
+  std::vector<SideFile> beside;
+
+  /// Returns the bytes of the document: main file and buffer.
+  uint64_t documentBytes() const;
+};
+
+/// How a document is stored. The names are those of files next to the main one; see uriOf().
+struct Container {
+  bool is_gltf = false;
+  std::string buffer_name;    ///< only for a .gltf
+  std::string fallback_name;  ///< empty where there cannot be a fallback
+};
+
+/// Finds the container of a file by its name: x.gltf has x.bin next to it, all others are GLBs.
+/// Errors: a file next to it would have a name that no URI can express.
+Result containerOf(const std::string& file_name, Container& container);
+
+/// Stores a document whose buffer 0 is `bin`; other buffers must have a URI already. Other chunks
+/// of a GLB cannot be stored in a .gltf and are left out.
+Result writePackage(const Container& container, Json json, std::vector<uint8_t> bin,
+                    const std::vector<GlbChunk>& other_chunks, Package& package);
+
+/// Fetches files next to a source, to copy them.
+struct CopyReaders {
+  FileReader buffer;
+  FileReader image;  ///< fails for what lies outside of the folder of the source
+};
+
+/// Adds the files next to the source that the JSON names: images, and buffers if `with_buffers`.
+/// The author of the source chose their names and contents, so an image is copied only if its first
+/// bytes are those of an image, and hidden files are never copied. A file that is not copied is
+/// noted. A URI that relativePathOf() refuses is an error.
+Result addCopies(const Json& json, bool with_buffers, const CopyReaders& readers, Package& package,
+                 std::vector<std::string>& notes);
+
+/// Whether all files of the buffers may be copied under their names: none is hidden, and each has
+/// the extension of a buffer (.bin, .glbin, .glbuf).
+bool canCopyBuffers(const Json& json);
+
+/// Reads the JSON of a GLB or .gltf.
+Result readJson(std::span<const uint8_t> file, Json& json);
+
+/// Returns the relative paths of the files in one list, "buffers" or "images". Refused URIs are
+/// left out.
+std::vector<std::string> filesOf(const Json& json, const char* list);
+
+/// Returns the files in both lists.
+std::vector<std::string> filesBeside(const Json& json);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_DOCUMENT_PACKAGE_H_

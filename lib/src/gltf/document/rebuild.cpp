@@ -1,0 +1,390 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/document/rebuild.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <tuple>
+
+namespace mcc::gltf {
+namespace {
+
+/// A run of source bytes that is kept together.
+struct Block {
+  ByteRange source;
+  uint64_t target = 0;  ///< where it begins in the new buffer
+};
+
+ByteRange viewRange(const Document& document, uint32_t view) {
+  const BufferView& from = document.views[view];
+  return {from.buffer, from.offset, from.offset + from.length};
+}
+
+/// Calls visit(uint32_t view, uint32_t accessor) for the references in `json` to views of the
+/// document.
+template <typename Visit>
+void visitOldViews(const Document& document, const Json& json, const Visit& visit) {
+  visitViewReferences(json, [&](const Json& number, uint32_t accessor) {
+    uint64_t view = 0;
+    if (asUnsigned(number, view) && view < document.views.size()) {
+      visit(static_cast<uint32_t>(view), accessor);
+    }
+  });
+}
+
+bool isOneByte(const Json& view) {
+  uint64_t length = 0;
+  const Json* member = findMember(view, "byteLength");
+  if (member == nullptr || !asUnsigned(*member, length) || length != 1) return false;
+  for (const char* key : {"byteStride", "target", "extensions"}) {
+    if (findMember(view, key) != nullptr) return false;
+  }
+  return true;
+}
+
+class Rebuilder {
+ public:
+  Rebuilder(const Document& document, const ForeignReferences& foreign,
+            std::vector<NewView>& new_views, Json& json, std::vector<uint8_t>& bin)
+      : document_(document),
+        foreign_(foreign),
+        new_views_(new_views),
+        json_(json),
+        bin_(bin),
+        ranges_(document.views.size()),
+        is_whole_(document.views.size(), false) {}
+
+  Result run() {
+    findLiveViews();
+    findKeptRanges();
+    layOutBlocks();
+    copyBlocks();
+    moveAccessors();
+    numberViews();
+    writeViews();
+    writeBuffers();
+    return {};
+  }
+
+ private:
+  void keepWhole(uint32_t view) {
+    is_whole_[view] = true;
+    ranges_[view].push_back(viewRange(document_, view));
+  }
+
+  void findLiveViews() {
+    const std::vector<ViewUse> uses = viewUses(document_, foreign_);
+    for (uint32_t view = 0; view < uses.size(); ++view) {
+      const bool stays_free = uses[view] == ViewUse::kFree && new_views_.empty();
+      if (uses[view] == ViewUse::kUnknown || stays_free) keepWhole(view);
+    }
+    std::vector<bool> is_referred(document_.views.size(), false);
+    visitOldViews(document_, json_, [&](uint32_t view, uint32_t accessor) {
+      is_referred[view] = true;
+      const bool is_old = accessor < document_.accessors.size();
+      if (!is_old || foreign_.keep_numbers || document_.views[view].isCoded() ||
+          !document_.accessors[accessor].is_known_type ||
+          document_.accessors[accessor].count == 0) {
+        keepWhole(view);
+        return;
+      }
+      const ByteRange whole = viewRange(document_, view);
+      for (const ByteRange& range : accessorRanges(document_, accessor, false)) {
+        const bool is_inside =
+            range.buffer == whole.buffer && range.begin >= whole.begin && range.end <= whole.end;
+        if (is_inside) ranges_[view].push_back(range);
+      }
+    });
+    // An accessor that uses none of its bytes, such as a sparse one of 0 elements, still needs its
+    // view.
+    for (uint32_t view = 0; view < ranges_.size(); ++view) {
+      if (is_referred[view] && ranges_[view].empty()) keepWhole(view);
+    }
+  }
+
+  void layOutBlocks() {
+    std::vector<ByteRange> live;
+    for (const auto& ranges : ranges_) live.insert(live.end(), ranges.begin(), ranges.end());
+    std::sort(live.begin(), live.end(), [](const ByteRange& a, const ByteRange& b) {
+      return std::tie(a.buffer, a.begin, a.end) < std::tie(b.buffer, b.begin, b.end);
+    });
+    // Runs with gaps smaller than the alignment stay together, so that an untouched buffer does not
+    // change.
+    const uint64_t alignment = foreign_.keep_numbers ? 8 : 4;
+    for (const ByteRange& range : live) {
+      Block* last = blocks_.empty() ? nullptr : &blocks_.back();
+      if (last != nullptr && last->source.buffer == range.buffer &&
+          range.begin < last->source.end + alignment) {
+        last->source.end = std::max(last->source.end, range.end);
+      } else {
+        blocks_.push_back({range, 0});
+      }
+    }
+    uint64_t end = 0;
+    for (Block& block : blocks_) {
+      block.target = end + (block.source.begin - end) % alignment;
+      end = block.target + block.source.end - block.source.begin;
+    }
+    bin_.assign(end, 0);
+  }
+
+  void copyBlocks() {
+    for (const Block& block : blocks_) {
+      const auto bytes = document_.buffers[block.source.buffer];
+      std::copy(bytes.begin() + static_cast<ptrdiff_t>(block.source.begin),
+                bytes.begin() + static_cast<ptrdiff_t>(block.source.end),
+                bin_.begin() + static_cast<ptrdiff_t>(block.target));
+    }
+  }
+
+  /// Returns the new place of a source byte that is kept.
+  uint64_t moved(uint32_t buffer, uint64_t offset) const {
+    const auto above =
+        std::upper_bound(blocks_.begin(), blocks_.end(), std::pair(buffer, offset),
+                         [](const auto& key, const Block& block) {
+                           return key < std::pair(block.source.buffer, block.source.begin);
+                         });
+    if (above == blocks_.begin()) return 0;  // happens for empty ranges only
+    const Block& block = *(above - 1);
+    return block.target + (offset - block.source.begin);
+  }
+
+  /// Finds what is kept of each view, in source bytes: the hull of its ranges.
+  void findKeptRanges() {
+    kept_.resize(ranges_.size());
+    for (size_t view = 0; view < ranges_.size(); ++view) {
+      if (ranges_[view].empty()) continue;
+      ByteRange& kept = kept_[view];
+      kept = ranges_[view].front();
+      for (const ByteRange& range : ranges_[view]) {
+        kept.begin = std::min(kept.begin, range.begin);
+        kept.end = std::max(kept.end, range.end);
+      }
+    }
+  }
+
+  void moveOffset(Json& object, uint64_t old_offset) {
+    uint64_t view = 0;
+    if (findMember(object, "bufferView") == nullptr || !asUnsigned(object["bufferView"], view) ||
+        view >= document_.views.size() || ranges_[view].empty() || is_whole_[view]) {
+      return;
+    }
+    const BufferView& from = document_.views[view];
+    const uint64_t begin = kept_[view].begin;
+    const uint64_t offset =
+        moved(from.buffer, from.offset + old_offset) - moved(from.buffer, begin);
+    if (offset != old_offset) object["byteOffset"] = offset;
+  }
+
+  void moveAccessors() {
+    for (uint32_t i = 0; i < document_.accessors.size(); ++i) {
+      Json& accessor = json_["accessors"][i];
+      moveOffset(accessor, document_.accessors[i].offset);
+      const bool is_sparse = document_.accessors[i].sparse.count != 0;
+      if (!is_sparse || findMember(accessor, "sparse") == nullptr) continue;
+      moveOffset(accessor["sparse"]["indices"], document_.accessors[i].sparse.index_offset);
+      moveOffset(accessor["sparse"]["values"], document_.accessors[i].sparse.value_offset);
+    }
+  }
+
+  void numberViews() {
+    const size_t old_count = document_.views.size();
+    numbers_.assign(old_count + new_views_.size(), kNone);
+    std::vector<uint32_t> free_numbers;
+    for (uint32_t view = 0; view < old_count; ++view) {
+      if (!ranges_[view].empty() && !foreign_.keep_numbers) {
+        numbers_[view] = view_count_++;
+      } else if (foreign_.keep_numbers) {
+        numbers_[view] = view_count_++;
+        if (ranges_[view].empty()) free_numbers.push_back(view);
+      }
+    }
+    for (size_t k = 0; k < new_views_.size(); ++k) {
+      numbers_[old_count + k] = k < free_numbers.size() ? free_numbers[k] : view_count_++;
+    }
+    // Free numbers that are left over at the end need not be kept in use.
+    for (size_t k = free_numbers.size(); k > new_views_.size(); --k) {
+      if (free_numbers[k - 1] + 1 != view_count_) break;
+      numbers_[free_numbers[k - 1]] = kNone;
+      --view_count_;
+    }
+    editViewReferences(json_, [&](Json& number, uint32_t) {
+      uint64_t view = 0;
+      if (asUnsigned(number, view) && view < numbers_.size()) number = numbers_[view];
+    });
+  }
+
+  static void setRange(Json& view, uint64_t offset, uint64_t length) {
+    view["buffer"] = 0;
+    if (offset != 0 || findMember(view, "byteOffset") != nullptr) view["byteOffset"] = offset;
+    view["byteLength"] = length;
+  }
+
+  /// A coded view keeps its coded bytes. Its own range lies in a placeholder buffer without bytes.
+  void setCodedRange(Json& view, const ViewCoding& coding, uint64_t offset, uint64_t length) {
+    setRange(view["extensions"][coding.extension], offset, length);
+    view["buffer"] = 1;
+    view["byteOffset"] = placeholder_bytes_;
+    placeholder_bytes_ += (coding.length + 3) & ~uint64_t{3};
+    coded_extensions_.insert(coding.extension);
+  }
+
+  void writeViews() {
+    const size_t old_count = document_.views.size();
+    const uint64_t first_new = new_views_.empty() ? 0 : alignedEnd();
+    std::vector<Json> views(view_count_);
+    for (uint32_t view = 0; view < old_count; ++view) {
+      if (numbers_[view] == kNone) continue;
+      Json& json = views[numbers_[view]];
+      json = json_["bufferViews"][view];
+      if (!ranges_[view].empty()) {
+        const ByteRange kept = kept_[view];
+        const uint64_t offset = moved(kept.buffer, kept.begin);
+        const uint64_t length =
+            kept.end == kept.begin ? 0 : moved(kept.buffer, kept.end - 1) + 1 - offset;
+        const ViewCoding& coding = document_.views[view].coding;
+        if (coding.extension.empty()) {
+          setRange(json, offset, length);
+        } else {
+          setCodedRange(json, coding, offset, length);
+        }
+      } else {  // a number that must stay in use; see ViewUse::kFree
+        eraseViewExtensions(json);
+        json.erase("byteStride");
+        json.erase("target");
+        setRange(json, first_new, 1);
+      }
+    }
+    for (size_t k = 0; k < new_views_.size(); ++k) {
+      views[numbers_[old_count + k]] = appendView(new_views_[k]);
+    }
+    if (views.empty()) {
+      json_.erase("bufferViews");
+    } else {
+      json_["bufferViews"] = std::move(views);
+    }
+  }
+
+  size_t alignedEnd() const { return (bin_.size() + 3) & ~size_t{3}; }
+
+  Json appendView(NewView& view) {
+    bin_.resize(alignedEnd(), 0);
+    Json json = {{"buffer", 0}, {"byteOffset", bin_.size()}, {"byteLength", view.bytes.size()}};
+    if (view.stride_bytes != 0) json["byteStride"] = view.stride_bytes;
+    if (view.target != 0) json["target"] = view.target;
+    bin_.insert(bin_.end(), view.bytes.begin(), view.bytes.end());
+    view.bytes = {};
+    return json;
+  }
+
+  void writeBuffers() {
+    if (bin_.empty()) {
+      json_.erase("buffers");
+      return;
+    }
+    Json first = document_.buffers.empty() ? Json::object() : json_["buffers"][0];
+    first.erase("uri");
+    eraseViewExtensions(first);
+    first["byteLength"] = bin_.size();
+    json_["buffers"] = Json::array({std::move(first)});
+    nameCodings();
+    if (coded_extensions_.empty()) return;
+    Json placeholder = {{"byteLength", placeholder_bytes_}};
+    for (const std::string& name : coded_extensions_) {
+      placeholder["extensions"][name]["fallback"] = true;
+    }
+    json_["buffers"].push_back(std::move(placeholder));
+  }
+
+  static void eraseViewExtensions(Json& object) {
+    const auto extensions = object.find("extensions");
+    if (extensions == object.end() || !extensions->is_object()) return;
+    for (const char* name : kViewExtensions) extensions->erase(name);
+    if (extensions->empty()) object.erase("extensions");
+  }
+
+  /// Lists the extensions of coded views as required, since their bytes exist nowhere else. Removes
+  /// those that are no longer used.
+  void nameCodings() {
+    for (const char* name : kViewExtensions) {
+      for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+        if (coded_extensions_.count(name) != 0) {
+          addExtensionName(json_, list, name);
+        } else {
+          removeExtensionName(json_, list, name);
+        }
+      }
+    }
+  }
+
+  const Document& document_;
+  const ForeignReferences& foreign_;
+  std::vector<NewView>& new_views_;
+  Json& json_;
+  std::vector<uint8_t>& bin_;
+  std::vector<std::vector<ByteRange>> ranges_;  ///< ranges of each old view that are kept
+  std::vector<ByteRange> kept_;                 ///< the hull of each old view's ranges
+  std::vector<bool> is_whole_;
+  std::vector<Block> blocks_;      ///< ascending in buffer and begin
+  std::vector<uint32_t> numbers_;  ///< final numbers of old and new views
+  uint32_t view_count_ = 0;
+  uint64_t placeholder_bytes_ = 0;          ///< size of the buffer that coded views claim to be in
+  std::set<std::string> coded_extensions_;  ///< extensions of the views that are still coded
+};
+
+}  // namespace
+
+std::vector<ViewUse> viewUses(const Document& document, const ForeignReferences& foreign) {
+  std::vector<ViewUse> uses(document.views.size(), ViewUse::kUnknown);
+  visitOldViews(document, document.json,
+                [&](uint32_t view, uint32_t) { uses[view] = ViewUse::kReferred; });
+  std::set<std::pair<uint32_t, uint64_t>> begins;
+  for (uint32_t view = 0; view < uses.size(); ++view) {
+    const BufferView& range = document.views[view];
+    if (uses[view] == ViewUse::kReferred) begins.emplace(range.buffer, range.offset);
+  }
+  const Json& views = arrayOf(document.json, "bufferViews");
+  for (uint32_t view = 0; view < uses.size(); ++view) {
+    const BufferView& range = document.views[view];
+    if (foreign.views.count(view) != 0) {
+      uses[view] = ViewUse::kUnknown;
+    } else if (uses[view] == ViewUse::kUnknown && isOneByte(views[view]) &&
+               begins.count({range.buffer, range.offset}) != 0) {
+      uses[view] = ViewUse::kFree;
+    }
+  }
+  return uses;
+}
+
+std::vector<ByteRange> accessorRanges(const Document& document, uint32_t index, bool whole_views) {
+  const Accessor& accessor = document.accessors[index];
+  if (accessor.decoded_from != kNone) return {viewRange(document, accessor.decoded_from)};
+  std::vector<ByteRange> ranges;
+  const auto add = [&](uint32_t view, uint64_t offset, uint64_t bytes) {
+    if (whole_views || !accessor.is_known_type || document.views[view].isCoded()) {
+      ranges.push_back(viewRange(document, view));
+    } else if (bytes != 0) {
+      const BufferView& from = document.views[view];
+      ranges.push_back({from.buffer, from.offset + offset, from.offset + offset + bytes});
+    }
+  };
+  const uint64_t element = accessor.elementBytes();
+  if (accessor.view != kNone && accessor.count != 0) {
+    const uint64_t stride = document.views[accessor.view].stride;
+    add(accessor.view, accessor.offset,
+        (accessor.count - 1) * (stride == 0 ? element : stride) + element);
+  }
+  const Sparse& sparse = accessor.sparse;
+  if (sparse.count != 0) {
+    add(sparse.index_view, sparse.index_offset, sparse.count * componentBytes(sparse.index_type));
+    add(sparse.value_view, sparse.value_offset, sparse.count * element);
+  }
+  return ranges;
+}
+
+Result rebuildBuffers(const Document& document, const ForeignReferences& foreign,
+                      std::vector<NewView>& new_views, Json& json, std::vector<uint8_t>& bin) {
+  return Rebuilder(document, foreign, new_views, json, bin).run();
+}
+
+}  // namespace mcc::gltf

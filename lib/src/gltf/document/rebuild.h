@@ -1,0 +1,60 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+// Rebuilds the buffers of a document whose accessors changed: bytes that nothing refers to any more
+// are dropped, new buffer views are added, and everything ends up in one buffer, the BIN chunk of a
+// GLB.
+#ifndef MCC_GLTF_DOCUMENT_REBUILD_H_
+#define MCC_GLTF_DOCUMENT_REBUILD_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "gltf/document/references.h"
+
+namespace mcc::gltf {
+
+/// A range of bytes in one source buffer.
+struct ByteRange {
+  uint32_t buffer = 0;
+  uint64_t begin = 0;
+  uint64_t end = 0;
+};
+
+/// Who needs a buffer view of a document.
+enum class ViewUse : uint8_t {
+  kReferred,  ///< only places that glTF and the extensions on our list define refer to it
+  kUnknown,   ///< something we do not understand may refer to it, so its bytes are kept
+  /// Nothing refers to it. It only keeps a number in use that was freed before others which must
+  /// stay; its one byte belongs to another view. Nobody else makes such views, so the number can be
+  /// used again.
+  kFree,
+};
+
+std::vector<ViewUse> viewUses(const Document& document, const ForeignReferences& foreign);
+
+/// Returns the source bytes an accessor needs: its elements, or its whole buffer views if
+/// `whole_views`.
+std::vector<ByteRange> accessorRanges(const Document& document, uint32_t accessor,
+                                      bool whole_views);
+
+struct NewView {
+  std::vector<uint8_t> bytes;
+  uint32_t stride_bytes = 0;  ///< 0: none is written
+  uint32_t target = 0;        ///< 0: none is written
+};
+
+/// Removes what was freed and adds what is new.
+/// document   the source, as it was loaded.
+/// json       the edited document. Buffer views have the numbers of the source; new view k has the
+///            number document.views.size() + k. Accessors keep their numbers; if an old one still
+///            has a bufferView, nothing about its bytes was edited.
+/// new_views  consumed.
+/// On return `json` has the final numbers and offsets, and `bin` the bytes of its one buffer. A
+/// view that nothing referred to in the source is kept, unless it is free. View numbers do not
+/// change when foreign.keep_numbers: new views take the free numbers first, then those after the
+/// end.
+Result rebuildBuffers(const Document& document, const ForeignReferences& foreign,
+                      std::vector<NewView>& new_views, Json& json, std::vector<uint8_t>& bin);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_DOCUMENT_REBUILD_H_

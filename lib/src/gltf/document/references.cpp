@@ -1,0 +1,295 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/document/references.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace mcc::gltf {
+namespace {
+
+/// Extensions that hold no numbers of buffer views or accessors, except where visitViewReferences()
+/// and markAccessorsOutsideMeshes() look for them.
+constexpr std::string_view kKnownExtensions[] = {
+    "ADOBE_materials_clearcoat_specular",
+    "ADOBE_materials_clearcoat_tint",
+    "ADOBE_materials_thin_transparency",
+    "CESIUM_RTC",
+    "EXT_lights_image_based",
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_avif",
+    "EXT_texture_webp",
+    "KHR_animation_pointer",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_mesh_collapse_compression",
+    "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
+    "KHR_node_hoverability",
+    "KHR_node_selectability",
+    "KHR_node_visibility",
+    "KHR_texture_basisu",
+    "KHR_texture_transform",
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+    "MSFT_lod",
+    "MSFT_packing_normalRoughnessMetallic",
+    "MSFT_packing_occlusionRoughnessMetallic",
+    "MSFT_texture_dds",
+    "VRM",
+    "VRMC_materials_mtoon",
+    "VRMC_node_constraint",
+    "VRMC_springBone",
+    "VRMC_vrm",
+};
+
+/// Extensions of meshes and primitives that do not depend on the order of vertices and triangles.
+constexpr std::string_view kOrderFreeExtensions[] = {
+    "KHR_draco_mesh_compression", "KHR_materials_variants", "KHR_mesh_collapse_compression",
+    "KHR_xmp", "KHR_xmp_json_ld"};
+
+/// Extensions on our list that name nodes because of their meshes.
+constexpr std::string_view kNodeReferringExtensions[] = {
+    "KHR_animation_pointer", "MSFT_lod",        "VRM",
+    "VRMC_node_constraint",  "VRMC_springBone", "VRMC_vrm"};
+
+bool isKnownExtension(std::string_view name) {
+  return name.starts_with("KHR_materials_") ||
+         std::find(std::begin(kKnownExtensions), std::end(kKnownExtensions), name) !=
+             std::end(kKnownExtensions);
+}
+
+bool containsIgnoringCase(const std::string& text, std::string_view word) {
+  const auto same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) ==
+           std::tolower(static_cast<unsigned char>(b));
+  };
+  return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
+}
+
+/// Words that suggest that a key in extras counts vertices or triangles.
+constexpr std::string_view kOrderWords[] = {"face",  "first",  "group",    "index",   "indices",
+                                            "range", "vertex", "vertices", "triangle"};
+
+/// Returns the first key in extras that has such a word and a value other than text, or an empty
+/// string.
+std::string orderWordOf(const Json& json) {
+  if (!json.is_structured()) return "";
+  for (const auto& [key, value] : json.items()) {
+    const bool is_named =
+        json.is_object() && !value.is_string() &&
+        std::any_of(std::begin(kOrderWords), std::end(kOrderWords),
+                    [&name = key](auto word) { return containsIgnoringCase(name, word); });
+    const std::string found = is_named ? key : orderWordOf(value);
+    if (!found.empty()) return found;
+  }
+  return "";
+}
+
+void collectNumbers(const Json& json, std::set<uint64_t>& numbers) {
+  uint64_t number = 0;
+  if (json.is_structured()) {
+    for (const Json& value : json) collectNumbers(value, numbers);
+  } else if (asUnsigned(json, number)) {
+    numbers.insert(number);
+  }
+}
+
+void keepNumbers(ForeignReferences& foreign, const std::string& reason) {
+  if (!foreign.keep_numbers) foreign.reason = reason;
+  foreign.keep_numbers = true;
+}
+
+void keepNumbersFor(ForeignReferences& foreign, const std::string& extension) {
+  keepNumbers(foreign, extension);
+  if (foreign.extension.empty()) foreign.extension = extension;
+}
+
+/// Collects the references in extras and unknown extensions.
+void walkForeign(const Json& json, ForeignReferences& foreign) {
+  if (json.is_array()) {
+    for (const Json& value : json) walkForeign(value, foreign);
+  }
+  if (!json.is_object()) return;
+  for (const auto& [key, value] : json.items()) {
+    if (containsIgnoringCase(key, "bufferView")) {
+      collectNumbers(value, foreign.views);
+      keepNumbers(foreign, "\"" + key + "\"");
+    } else if (containsIgnoringCase(key, "accessor")) {
+      collectNumbers(value, foreign.accessors);
+    }
+    walkForeign(value, foreign);
+  }
+}
+
+void walkKnown(const Json& json, ForeignReferences& foreign) {
+  if (json.is_array()) {
+    for (const Json& value : json) walkKnown(value, foreign);
+  }
+  if (!json.is_object()) return;
+  for (const auto& [key, value] : json.items()) {
+    if (key == "extras") {
+      walkForeign(value, foreign);
+    } else if (key == "extensions" && value.is_object()) {
+      for (const auto& [name, extension] : value.items()) {
+        if (isKnownExtension(name)) {
+          walkKnown(extension, foreign);
+        } else {
+          keepNumbersFor(foreign, name);
+          walkForeign(extension, foreign);
+        }
+      }
+    } else {
+      walkKnown(value, foreign);
+    }
+  }
+}
+
+/// Returns the member of an object that may be null. `J` is Json or const Json.
+template <typename J>
+J* member(J* json, std::string_view key) {
+  return json == nullptr ? nullptr : const_cast<J*>(findMember(*json, key));
+}
+
+template <typename J, typename Visit>
+void visitMember(J* object, const char* key, uint32_t accessor, const Visit& visit) {
+  if (J* number = member(object, key); number != nullptr) visit(*number, accessor);
+}
+
+/// Visits the elements of an array that may be null. Anything but an array has no elements.
+template <typename J, typename Visit>
+void visitElements(J* array, const Visit& visit) {
+  if (array == nullptr || !array->is_array()) return;
+  for (J& element : *array) visit(element);
+}
+
+template <typename J, typename Visit>
+void visitViewReferencesOf(J& root, const Visit& visit) {
+  uint32_t number = 0;
+  visitElements(member(&root, "accessors"), [&](J& accessor) {
+    visitMember(&accessor, "bufferView", number, visit);
+    J* sparse = member(&accessor, "sparse");
+    visitMember(member(sparse, "indices"), "bufferView", number, visit);
+    visitMember(member(sparse, "values"), "bufferView", number, visit);
+    ++number;
+  });
+  visitElements(member(&root, "images"),
+                [&](J& image) { visitMember(&image, "bufferView", kNone, visit); });
+  visitElements(member(&root, "meshes"), [&](J& mesh) {
+    visitElements(member(&mesh, "primitives"), [&](J& primitive) {
+      J* extensions = member(&primitive, "extensions");
+      visitMember(member(extensions, kExtensionName), "bufferView", kNone, visit);
+      visitMember(member(extensions, kMeshExtension), "bufferView", kNone, visit);
+    });
+  });
+}
+
+void mark(const Json* json, std::vector<bool>& is_used) {
+  uint64_t index = 0;
+  if (json != nullptr && asUnsigned(*json, index) && index < is_used.size()) is_used[index] = true;
+}
+
+void markAll(const Json* object, std::vector<bool>& is_used) {
+  if (object == nullptr || !object->is_object()) return;
+  for (const Json& value : *object) mark(&value, is_used);
+}
+
+}  // namespace
+
+ForeignReferences findForeignReferences(const Json& root) {
+  ForeignReferences foreign;
+  walkKnown(root, foreign);
+  for (const Json& name : arrayOf(root, "extensionsUsed")) {
+    if (name.is_string() && !isKnownExtension(name.get<std::string>())) {
+      keepNumbersFor(foreign, name.get<std::string>());
+    }
+  }
+  return foreign;
+}
+
+void visitViewReferences(const Json& root,
+                         const std::function<void(const Json&, uint32_t)>& visit) {
+  visitViewReferencesOf(root, visit);
+}
+
+void editViewReferences(Json& root, const std::function<void(Json&, uint32_t)>& visit) {
+  visitViewReferencesOf(root, visit);
+}
+
+std::string orderDependentPart(const Json& mesh_or_primitive) {
+  if (const Json* extensions = findMember(mesh_or_primitive, "extensions");
+      extensions != nullptr && extensions->is_object()) {
+    for (const auto& [name, value] : extensions->items()) {
+      if (std::find(std::begin(kOrderFreeExtensions), std::end(kOrderFreeExtensions), name) ==
+          std::end(kOrderFreeExtensions)) {
+        return name;
+      }
+    }
+  }
+  const Json* extras = findMember(mesh_or_primitive, "extras");
+  return extras == nullptr ? "" : orderWordOf(*extras);
+}
+
+std::string unknownExtension(const Json& object) {
+  const Json* extensions = findMember(object, "extensions");
+  if (extensions == nullptr || !extensions->is_object()) return "";
+  for (const auto& [name, value] : extensions->items()) {
+    if (!isKnownExtension(name)) return name;
+  }
+  return "";
+}
+
+void addExtensionName(Json& root, const char* list, const char* name) {
+  Json& names = root[list];
+  if (!names.is_array()) names = Json::array();
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+void removeExtensionName(Json& root, const char* list, const char* name) {
+  const auto found = root.find(list);
+  if (found == root.end() || !found->is_array()) return;
+  Json others = Json::array();
+  for (const Json& other : *found) {
+    if (other != name) others.push_back(other);
+  }
+  if (others.empty()) {  // also when it was empty before, which glTF forbids
+    root.erase(list);
+  } else {
+    *found = std::move(others);
+  }
+}
+
+std::string nodeDependentExtension(const Json& root, const ForeignReferences& foreign) {
+  if (!foreign.extension.empty()) return foreign.extension;
+  for (const Json& name : arrayOf(root, "extensionsUsed")) {
+    for (const std::string_view listed : kNodeReferringExtensions) {
+      if (name == listed) return name.get<std::string>();
+    }
+  }
+  return "";
+}
+
+void markAccessorsOutsideMeshes(const Document& document, const ForeignReferences& foreign,
+                                std::vector<bool>& is_used) {
+  is_used.resize(document.accessors.size(), false);
+  for (const uint64_t index : foreign.accessors) {
+    if (index < is_used.size()) is_used[index] = true;
+  }
+  for (const Json& skin : arrayOf(document.json, "skins")) {
+    mark(findMember(skin, "inverseBindMatrices"), is_used);
+  }
+  for (const Json& animation : arrayOf(document.json, "animations")) {
+    for (const Json& sampler : arrayOf(animation, "samplers")) {
+      mark(findMember(sampler, "input"), is_used);
+      mark(findMember(sampler, "output"), is_used);
+    }
+  }
+  for (const Json& node : arrayOf(document.json, "nodes")) {
+    const Json* extensions = findMember(node, "extensions");
+    if (extensions == nullptr) continue;
+    const Json* instancing = findMember(*extensions, "EXT_mesh_gpu_instancing");
+    if (instancing != nullptr) markAll(findMember(*instancing, "attributes"), is_used);
+  }
+}
+
+}  // namespace mcc::gltf

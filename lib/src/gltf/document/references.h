@@ -1,0 +1,70 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+// Finds out what refers to buffer views and accessors, in the document and in parts of it that we
+// do not understand.
+#ifndef MCC_GLTF_DOCUMENT_REFERENCES_H_
+#define MCC_GLTF_DOCUMENT_REFERENCES_H_
+
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gltf/document/document.h"
+#include "gltf/document/primitives.h"
+
+namespace mcc::gltf {
+
+/// References in extras and in extensions that are not on our list. Anything there that looks like
+/// a reference ("bufferView": 3, "myAccessors": [1, 2]) is treated as one.
+struct ForeignReferences {
+  /// There is something we do not understand, so buffer views keep their numbers and all their
+  /// bytes.
+  bool keep_numbers = false;
+  std::string reason;     ///< the first extension or path that made keep_numbers true
+  std::string extension;  ///< the first extension that is not on our list
+  std::set<uint64_t> views;
+  std::set<uint64_t> accessors;
+};
+
+ForeignReferences findForeignReferences(const Json& root);
+
+/// Calls `visit` with every number of a buffer view in the places that glTF 2.0 and the extensions
+/// on our list define. `accessor` is the accessor that the reference belongs to, or kNone.
+void visitViewReferences(const Json& root,
+                         const std::function<void(const Json& number, uint32_t accessor)>& visit);
+/// The same for a visitor that changes the numbers.
+void editViewReferences(Json& root,
+                        const std::function<void(Json& number, uint32_t accessor)>& visit);
+
+/// Returns the part of a mesh or primitive that depends on the order of vertices or triangles, as
+/// far as we know: the first extension that is not on our list, a key of its extras that suggests
+/// it ("drawRange"), or an empty string.
+std::string orderDependentPart(const Json& mesh_or_primitive);
+
+/// Returns the first extension of an object that is not on our list, or an empty string.
+std::string unknownExtension(const Json& object);
+
+/// Returns the first extension of the document that may refer to nodes and expect their meshes
+/// there, or an empty string.
+std::string nodeDependentExtension(const Json& root, const ForeignReferences& foreign);
+
+/// Extensions that code the elements of buffer views.
+inline constexpr const char* kViewExtensions[] = {"EXT_meshopt_compression",
+                                                  "KHR_meshopt_compression"};
+/// The other extension that codes primitives.
+inline constexpr char kMeshExtension[] = "KHR_draco_mesh_compression";
+
+/// Adds a name to a list of extensions, or removes it. A list that becomes empty is removed.
+void addExtensionName(Json& root, const char* list, const char* name);
+void removeExtensionName(Json& root, const char* list, const char* name);
+
+/// Marks accessors that something other than mesh primitives uses: skins, animations, instancing,
+/// foreign references.
+void markAccessorsOutsideMeshes(const Document& document, const ForeignReferences& foreign,
+                                std::vector<bool>& is_used);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_DOCUMENT_REFERENCES_H_

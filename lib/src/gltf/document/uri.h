@@ -1,0 +1,36 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#ifndef MCC_GLTF_DOCUMENT_URI_H_
+#define MCC_GLTF_DOCUMENT_URI_H_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gltf/base/result.h"
+
+namespace mcc::gltf {
+
+bool isDataUri(const std::string& uri);
+
+/// Decodes "data:TYPE;base64,…" (or percent-encoded text without ";base64").
+Result decodeDataUri(const std::string& uri, const std::string& where, std::vector<uint8_t>& bytes);
+
+/// Turns a relative URI of a file at or below the model's folder into a relative path with '/'.
+/// Refuses everything else: schemes, absolute paths, drive letters, `..` that leaves the folder,
+/// and control characters. Percent encoding is resolved before the test.
+Result relativePathOf(const std::string& uri, const std::string& where, std::string& path);
+
+/// Whether no part of a relative path begins with a dot, as the names of hidden files and folders
+/// do.
+bool isVisiblePath(const std::string& path);
+
+/// Returns the percent-encoded URI of a file next to the model, from which relativePathOf() returns
+/// the file.
+std::string uriOf(const std::string& name);
+
+/// Whether a URI can name a file of this name.
+bool isUsableName(const std::string& name);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_DOCUMENT_URI_H_

@@ -1,0 +1,406 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/files/file_io.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+namespace mcc::gltf {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reasonOf(int number) { return std::strerror(number); }
+
+/// Returns a name in the folder of the destination that no other process or thread of ours uses.
+fs::path temporaryName(const fs::path& destination) {
+  constexpr size_t kLongestName = 200;  // leaves room for the rest within the usual 255 bytes
+  static std::atomic<uint32_t> counter{0};
+  const std::string name = destination.filename().string().substr(0, kLongestName);
+  return destination.parent_path() /
+         ("." + name + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(counter++));
+}
+
+/// Returns the number in "/dev/fd/3", 1 for "/dev/stdout", and so on.
+std::optional<int> descriptorOf(const fs::path& path) {
+  const std::string name = path.lexically_normal().string();
+  if (name == "/dev/stdin") return STDIN_FILENO;
+  if (name == "/dev/stdout") return STDOUT_FILENO;
+  if (name == "/dev/stderr") return STDERR_FILENO;
+  const std::string own = "/proc/" + std::to_string(::getpid()) + "/fd/";
+  for (const std::string_view folder :
+       {std::string_view("/dev/fd/"), std::string_view("/proc/self/fd/"), std::string_view(own)}) {
+    if (!name.starts_with(folder)) continue;
+    const std::string digits = name.substr(folder.size());
+    const bool is_number = !digits.empty() && digits.size() < 8 &&
+                           digits.find_first_not_of("0123456789") == std::string::npos;
+    if (is_number) return std::stoi(digits);
+  }
+  return std::nullopt;
+}
+
+/// Follows symbolic links as far as they lead, but not into an open stream.
+fs::path withoutLinks(fs::path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code code;
+  for (int i = 0; i < kMostLinks && !descriptorOf(path); ++i) {
+    const fs::path next = fs::read_symlink(path, code);
+    if (code) break;
+    path = next.is_absolute() ? next : path.parent_path() / next;
+  }
+  return path;
+}
+
+FileIdentity identityOf(const struct stat& file) {
+  return {static_cast<uint64_t>(file.st_dev), static_cast<uint64_t>(file.st_ino)};
+}
+
+FileIdentity identityOf(const fs::path& path) {
+  struct stat file = {};
+  return ::stat(path.c_str(), &file) == 0 ? identityOf(file) : FileIdentity{};
+}
+
+/// Gives a new file the owner, the group and the permissions of an older one. If the group cannot
+/// be set, the group gets no more permissions than all other users have, so that nobody can read
+/// what was hidden from them.
+void becomeLike(const struct stat& older, int file) {
+  mode_t mode = older.st_mode & 0777;
+  const bool has_group = ::fchown(file, older.st_uid, older.st_gid) == 0 ||
+                         ::fchown(file, static_cast<uid_t>(-1), older.st_gid) == 0;
+  if (!has_group) mode = (mode & ~mode_t{070}) | (mode & (mode << 3) & mode_t{070});
+  (void)::fchmod(file, mode);  // some file systems have no permissions
+}
+
+/// Writes all bytes. Returns 0 or the number of the error.
+int writeAll(int file, std::span<const uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(file, bytes.data(), bytes.size());
+    if (count < 0 && errno != EINTR) return errno;
+    if (count > 0) bytes = bytes.subspan(static_cast<size_t>(count));
+  }
+  return 0;
+}
+
+/// Whether nobody has permission to write, which also counts for users who would not need it.
+bool isReadOnly(const fs::path& path) {
+  std::error_code code;
+  const fs::perms write = fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
+  const fs::perms permissions = fs::status(path, code).permissions();
+  return (permissions & write) == fs::perms::none || ::access(path.c_str(), W_OK) != 0;
+}
+
+Result tooLarge(const std::string& name) {
+  return error(name, "has more than the " + std::to_string(kMaxFileBytes) +
+                         " bytes that a file of glTF can have");
+}
+
+/// Returns how far to read a file that begins with these bytes. More than there are means:
+/// continue.
+uint64_t wantedBytes(std::span<const uint8_t> bytes) {
+  constexpr size_t kGlbHeaderBytes = 12;
+  constexpr size_t kWhiteSpaceBytes = 65536;  // before the JSON; more is not accepted
+  if (bytes.size() < kGlbHeaderBytes) return kGlbHeaderBytes;
+  if (isGlb(bytes)) return uint64_t{glbLength(bytes)} + 1;  // one more shows trailing bytes
+  if (isJsonText(bytes.first(std::min(bytes.size(), kWhiteSpaceBytes)))) return kMaxFileBytes + 1;
+  return kWhiteSpaceBytes;
+}
+
+Result readRegularFile(int file, const fs::path& path, std::vector<uint8_t>& bytes) {
+  std::error_code code;
+  const uintmax_t size = fs::file_size(path, code);
+  if (code) return error(path.string(), "cannot be read: " + code.message());
+  if (size > kMaxFileBytes) return tooLarge(path.string());
+  bytes.resize(size);
+  size_t done = 0;
+  while (done < size) {
+    const ssize_t count = ::read(file, bytes.data() + done, size - done);
+    if (count == 0 || (count < 0 && errno != EINTR)) {
+      return error(path.string(), "cannot be read to its end");
+    }
+    done += count > 0 ? static_cast<size_t>(count) : 0;
+  }
+  return {};
+}
+
+}  // namespace
+
+fs::path folderOf(const fs::path& path) {
+  return path.parent_path().empty() ? fs::path(".") : path.parent_path();
+}
+
+Result inFile(const fs::path& path, Result result) {
+  if (result.ok()) return result;
+  result.where = result.where.empty() ? path.string() : path.string() + ": " + result.where;
+  return result;
+}
+
+Result readStream(int file, const std::string& name, std::vector<uint8_t>& bytes) {
+  constexpr size_t kReadBytes = size_t{1} << 18;
+  bytes.clear();
+  while (bytes.size() < wantedBytes(bytes)) {
+    const size_t size = bytes.size();
+    bytes.resize(size + kReadBytes);
+    const ssize_t count = ::read(file, bytes.data() + size, kReadBytes);
+    bytes.resize(size + (count > 0 ? static_cast<size_t>(count) : 0));
+    if (count == 0) return {};
+    if (count < 0 && errno != EINTR) return error(name, "cannot be read: " + reasonOf(errno));
+  }
+  return bytes.size() <= kMaxFileBytes ? Result{} : tooLarge(name);
+}
+
+Result readFile(const fs::path& path, std::vector<uint8_t>& bytes) {
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  if (!fs::exists(status)) return error(path.string(), "there is no such file");
+  if (fs::is_directory(status)) return error(path.string(), "is a folder; name a file in it");
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return error(path.string(), "cannot be opened: " + reasonOf(errno));
+  Result result = fs::is_regular_file(status) ? readRegularFile(file, path, bytes)
+                                              : readStream(file, path.string(), bytes);
+  ::close(file);
+  return result;
+}
+
+bool haveSameContent(const fs::path& a, const fs::path& b) {
+  std::vector<uint8_t> bytes_of_a;
+  std::vector<uint8_t> bytes_of_b;
+  return readFile(a, bytes_of_a).ok() && readFile(b, bytes_of_b).ok() && bytes_of_a == bytes_of_b;
+}
+
+FileReader readerOf(const fs::path& folder) {
+  return [folder](const std::string& path, const std::string& where, std::vector<uint8_t>& bytes) {
+    std::error_code code;
+    const fs::file_status status = fs::status(folder / path, code);
+    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
+      return error(where, "\"" + path + "\": is not a regular file");
+    }
+    Result result = readFile(folder / path, bytes);
+    if (!result.ok()) return error(where, "\"" + path + "\": " + result.what);
+    return result;
+  };
+}
+
+FileReader readerInside(const fs::path& folder) {
+  return [folder](const std::string& path, const std::string& where, std::vector<uint8_t>& bytes) {
+    std::error_code code;
+    const fs::path inside = fs::canonical(folder.empty() ? "." : folder, code);
+    const fs::path file = fs::canonical(folder / path, code);
+    const fs::path relative = file.lexically_relative(inside);
+    if (!code && (relative.empty() || *relative.begin() == "..")) {
+      return error(where, "\"" + path + "\" is a symbolic link out of the folder");
+    }
+    return readerOf(folder)(path, where, bytes);
+  };
+}
+
+bool isStream(const fs::path& path) {
+  const fs::path target = withoutLinks(path);
+  if (descriptorOf(target)) return true;
+  std::error_code code;
+  switch (fs::status(target, code).type()) {
+    case fs::file_type::character:
+    case fs::file_type::block:
+    case fs::file_type::fifo:
+    case fs::file_type::socket: return true;
+    default: return false;
+  }
+}
+
+std::optional<int> openStreamOf(const fs::path& path) { return descriptorOf(withoutLinks(path)); }
+
+std::string fileKey(const fs::path& path) {
+  const auto text = [](const struct stat& file) {
+    return std::to_string(file.st_dev) + ":" + std::to_string(file.st_ino);
+  };
+  const fs::path target = withoutLinks(path);
+  struct stat file = {};
+  const std::optional<int> descriptor = descriptorOf(target);
+  const bool exists =
+      (descriptor ? ::fstat(*descriptor, &file) : ::stat(target.c_str(), &file)) == 0;
+  if (exists) return S_ISCHR(file.st_mode) ? "" : text(file);
+  if (descriptor || ::stat(folderOf(target).c_str(), &file) != 0) return "";
+  return text(file) + "/" + target.filename().string();
+}
+
+bool isSameFile(const fs::path& a, const fs::path& b) {
+  const std::string key = fileKey(a);
+  return !key.empty() && key == fileKey(b);
+}
+
+Result writeStream(const fs::path& path, std::span<const uint8_t> bytes) {
+  const fs::path target = withoutLinks(path);
+  const std::optional<int> descriptor = descriptorOf(target);
+  // Duplicate an open stream instead of opening it again, which would begin at the start of a file.
+  const int file = descriptor ? ::fcntl(*descriptor, F_DUPFD_CLOEXEC, 0)
+                              : ::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  if (file < 0) return error(path.string(), "cannot be opened: " + reasonOf(errno));
+  int failure = writeAll(file, bytes);
+  if (::close(file) != 0 && failure == 0) failure = errno;
+  if (failure == 0) return {};
+  return error(path.string(), "cannot be written: " + reasonOf(failure));
+}
+
+ReplacementFile::ReplacementFile(fs::path destination, TemporaryFiles* temporaries)
+    : temporaries_(temporaries),
+      destination_(std::move(destination)),
+      target_(withoutLinks(destination_)),
+      temporary_(temporaryName(target_)) {}
+
+ReplacementFile::~ReplacementFile() {
+  keep();
+  if (temporary_.empty()) return;
+  std::error_code ignored;
+  fs::remove(temporary_, ignored);
+  if (temporaries_ != nullptr) temporaries_->forget(temporary_);
+}
+
+void ReplacementFile::keep() {
+  std::error_code ignored;
+  if (!backup_.empty()) fs::remove(backup_, ignored);
+  backup_.clear();
+  is_for_now_ = false;
+}
+
+Result ReplacementFile::check() const {
+  std::error_code code;
+  const std::string name = destination_.string();
+  const fs::path folder = folderOf(target_);
+  if (destination_.filename().empty() || fs::is_directory(target_, code)) {
+    return error(name, "is a folder; name the file to write");
+  }
+  if (isStream(target_)) {
+    return error(name, "is a device or a pipe, which cannot be replaced; name a file");
+  }
+  if (fs::is_symlink(fs::symlink_status(target_, code))) {
+    return error(name, "is a symbolic link that leads nowhere; remove it");
+  }
+  if (!fs::exists(folder, code)) {
+    return error(name, "the folder \"" + folder.string() + "\" does not exist; create it first");
+  }
+  if (!fs::is_directory(folder, code)) {
+    return error(name, "\"" + folder.string() + "\" is not a folder");
+  }
+  if (isReadOnly(folder)) {
+    return error(name, "the folder \"" + folder.string() + "\" is read-only; choose another one");
+  }
+  if (fs::exists(target_, code) && isReadOnly(target_)) {
+    return error(name, "the file exists and is read-only; make it writable or choose another name");
+  }
+  return {};
+}
+
+/// Creates the temporary file. A file of the same name may be left over from a process that was
+/// killed and had the same process id.
+Result ReplacementFile::create(int& file) {
+  constexpr int kMostNames = 100;
+  struct stat older = {};
+  const bool replaces = ::stat(target_.c_str(), &older) == 0;
+  const TemporaryFiles::Lock held = lockOf(temporaries_);
+  for (int i = 0; i < kMostNames; ++i) {
+    file =
+        ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, replaces ? 0600 : 0666);
+    if (file >= 0 || errno != EEXIST) break;
+    temporary_ = temporaryName(target_);
+  }
+  if (file < 0) {
+    const int failure = errno;
+    temporary_.clear();  // a file of that name is not ours
+    return error(destination_.string(), "cannot be written: " + reasonOf(failure));
+  }
+  if (temporaries_ != nullptr) temporaries_->add(temporary_);
+  if (replaces) becomeLike(older, file);
+  return {};
+}
+
+Result ReplacementFile::write(std::span<const uint8_t> bytes) {
+  int file = -1;
+  MCC_GLTF_TRY(create(file));
+  int failure = writeAll(file, bytes);
+  // The file that is there now is replaced only when the new bytes are safely stored.
+  std::error_code code;
+  if (failure == 0 && fs::exists(target_, code) && ::fsync(file) != 0 && errno == EIO)
+    failure = EIO;
+  struct stat written = {};
+  if (::fstat(file, &written) == 0) identity_ = identityOf(written);
+  if (::close(file) != 0 && failure == 0) failure = errno;
+  if (failure == 0) return {};
+  return error(destination_.string(), "cannot be written: " + reasonOf(failure));
+}
+
+bool ReplacementFile::isInPlace() const { return identityOf(target_) == identity_; }
+
+Result ReplacementFile::commit() {
+  const TemporaryFiles::Lock held = lockOf(temporaries_);
+  std::error_code code;
+  fs::rename(temporary_, target_, code);
+  if (code) return error(destination_.string(), "cannot be written: " + code.message());
+  if (temporaries_ != nullptr) temporaries_->forget(temporary_);
+  temporary_.clear();
+  return {};
+}
+
+Result ReplacementFile::commitForNow() {
+  std::error_code code;
+  if (fs::exists(fs::symlink_status(target_, code))) {
+    const fs::path backup = temporaryName(target_);
+    // A hard link, where the file system has them, keeps the destination in place at every moment.
+    fs::create_hard_link(target_, backup, code);
+    if (code) fs::rename(target_, backup, code);
+    if (code) return error(destination_.string(), "cannot be written: " + code.message());
+    backup_ = backup;
+  }
+  is_for_now_ = true;
+  Result result = commit();
+  if (!result.ok()) undo();
+  return result;
+}
+
+Result ReplacementFile::commitNew() {
+  if (::link(temporary_.c_str(), target_.c_str()) == 0) {
+    is_for_now_ = true;
+    return {};  // the destructor removes the temporary name
+  }
+  std::error_code code;
+  if (!fs::exists(fs::symlink_status(target_, code))) return commitForNow();  // no hard links
+  if (haveSameContent(temporary_, target_)) {
+    identity_ = identityOf(target_);
+    return {};
+  }
+  return error(destination_.string(), "another file appeared there; choose another folder");
+}
+
+void ReplacementFile::undo() {
+  if (!is_for_now_) return;
+  is_for_now_ = false;
+  std::error_code ignored;
+  if (backup_.empty()) {
+    fs::remove(target_, ignored);
+  } else {
+    fs::rename(backup_, target_, ignored);
+    fs::remove(backup_, ignored);  // if both are links of one file, rename() leaves both
+    backup_.clear();
+  }
+}
+
+Result checkWritable(const fs::path& path) {
+  return isStream(path) ? Result{} : ReplacementFile(path).check();
+}
+
+Result writeFile(const fs::path& path, std::span<const uint8_t> bytes,
+                 TemporaryFiles* temporaries) {
+  if (isStream(path)) return writeStream(path, bytes);
+  ReplacementFile file(path, temporaries);
+  Result result = file.check();
+  if (result.ok()) result = file.write(bytes);
+  return result.ok() ? file.commit() : result;
+}
+
+}  // namespace mcc::gltf

@@ -1,0 +1,132 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#ifndef MCC_GLTF_FILES_FILE_IO_H_
+#define MCC_GLTF_FILES_FILE_IO_H_
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gltf/document/document.h"
+#include "gltf/files/temporary_files.h"
+
+namespace mcc::gltf {
+
+/// The largest file that is read. Lengths in a GLB have 32 bits.
+inline constexpr uint64_t kMaxFileBytes = uint64_t{1} << 32;
+
+/// Reads a whole file. A pipe, a device, or anything else that is not a regular file is read by
+/// readStream(). Errors say what is there instead: nothing, a folder, a file without permission, or
+/// more than kMaxFileBytes.
+Result readFile(const std::filesystem::path& path, std::vector<uint8_t>& bytes);
+
+/// Reads a glTF file from an open file that may never end. JSON is read to its end. A GLB is read
+/// to the length in its header, plus what arrived with that, so that loadDocument() sees whether
+/// more bytes follow. Of anything else only the beginning is read.
+/// name  is used in messages.
+/// Errors: it cannot be read; it has more than kMaxFileBytes.
+Result readStream(int file, const std::string& name, std::vector<uint8_t>& bytes);
+
+/// Whether two files have the same bytes; false when one cannot be read.
+bool haveSameContent(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// Returns a reader of regular files below a folder, for loadDocument().
+FileReader readerOf(const std::filesystem::path& folder);
+
+/// The same, but refuses files that symbolic links lead to outside of the folder.
+FileReader readerInside(const std::filesystem::path& folder);
+
+/// Puts the name of a file before the place in it where something is wrong.
+Result inFile(const std::filesystem::path& path, Result result);
+
+/// Returns the folder a path lies in; "." when it names none.
+std::filesystem::path folderOf(const std::filesystem::path& path);
+
+/// Identifies a file independently of its names.
+struct FileIdentity {
+  uint64_t device = 0;
+  uint64_t number = 0;  ///< 0: there is no file
+
+  bool operator==(const FileIdentity&) const = default;
+};
+
+/// Whether a name stands for something that bytes are sent to, rather than for a file that can be
+/// replaced: a device, a pipe, a socket, or an open stream of this process (/dev/stdout,
+/// /dev/fd/3). Symbolic links are followed.
+bool isStream(const std::filesystem::path& path);
+
+/// Returns the number of the open stream that a name stands for: 1 for /dev/stdout.
+std::optional<int> openStreamOf(const std::filesystem::path& path);
+
+/// Returns a key that is equal for two names of the same file, which need not exist yet. The key is
+/// empty where nothing is lost when two outputs go to it (a device), and where it cannot be
+/// determined (the folder does not exist).
+std::string fileKey(const std::filesystem::path& path);
+
+/// Whether two names stand for the same file, by their keys.
+bool isSameFile(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// Sends bytes to something for which isStream() is true. Waits until a named pipe has a reader.
+/// Errors: it cannot be opened or written.
+Result writeStream(const std::filesystem::path& path, std::span<const uint8_t> bytes);
+
+/// A file that replaces another one only when everything has succeeded. Where the destination is a
+/// symbolic link, the file that it leads to is replaced and the link stays. The new file gets the
+/// permissions of the one it replaces, and its owner and group if the process may set them.
+class ReplacementFile {
+ public:
+  /// `temporaries`, which may be null, lists the temporary file while it exists. Borrowed.
+  explicit ReplacementFile(std::filesystem::path destination,
+                           TemporaryFiles* temporaries = nullptr);
+  /// Removes the temporary file unless it was committed. After that, undo() is no longer possible.
+  ~ReplacementFile();
+  ReplacementFile(const ReplacementFile&) = delete;
+  ReplacementFile& operator=(const ReplacementFile&) = delete;
+
+  /// Checks whether the destination could be written, before any work is done for it. Refuses what
+  /// isStream() is true for.
+  Result check() const;
+  /// Writes a temporary file in the folder of the destination.
+  Result write(std::span<const uint8_t> bytes);
+  const std::filesystem::path& destination() const { return destination_; }
+  const std::filesystem::path& temporaryPath() const { return temporary_; }
+  /// Renames the temporary file to the destination.
+  Result commit();
+  /// Like commit(), but undo() can revert it.
+  Result commitForNow();
+  /// Like commitForNow(), for a destination where there was no file. An equal file may have
+  /// appeared, and stays; any other file is an error.
+  Result commitNew();
+  /// Puts back what was there before commitForNow() or commitNew().
+  void undo();
+  /// Removes what undo() would need.
+  void keep();
+  /// After a commit: whether the destination is still the file that the commit put there. False
+  /// when another program has replaced it since.
+  bool isInPlace() const;
+
+ private:
+  Result create(int& file);
+
+  TemporaryFiles* temporaries_;
+  std::filesystem::path destination_;  ///< as the caller named it
+  std::filesystem::path target_;       ///< the same, with symbolic links at its end followed
+  std::filesystem::path temporary_;
+  std::filesystem::path backup_;  ///< the file that was at the target, while undo() is possible
+  FileIdentity identity_;         ///< identity of the file that was written
+  bool is_for_now_ = false;
+};
+
+/// Checks whether writeFile() could write, before any work is done for it.
+Result checkWritable(const std::filesystem::path& path);
+
+/// Replaces a file: writes a temporary one and renames it. Writes directly to what isStream() is
+/// true for.
+Result writeFile(const std::filesystem::path& path, std::span<const uint8_t> bytes,
+                 TemporaryFiles* temporaries = nullptr);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_FILES_FILE_IO_H_

@@ -1,0 +1,187 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Lists what is inside a compressed file.
+#include <map>
+#include <numbers>
+
+#include "gltf/base/parallel.h"
+#include "gltf/base/payload.h"
+#include "gltf/check/check_values.h"
+#include "gltf/decompress/decompress.h"
+#include "gltf/files/file_io.h"
+#include "gltf/inspect/coding_names.h"
+#include "mcc/gltf.h"
+#include "mesh/attribute_method.h"
+
+namespace mcc::gltf {
+namespace {
+
+std::string primitiveLabel(const ExtensionUse::AttributeUse& use) {
+  return use.target == kNone ? use.name : "target " + std::to_string(use.target) + " " + use.name;
+}
+
+/// Derives the errors of an attribute from its coding.
+void describeErrors(const AttributeInfo* attributes, uint32_t count, uint32_t index,
+                    InspectAttribute& details) {
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  const AttributeInfo& info = attributes[index];
+  switch (info.coding) {
+    case AttributeCoding::kInteger:
+    case AttributeCoding::kExactFloat:
+    case AttributeCoding::kGrid: return;
+    case AttributeCoding::kAlias:
+      return describeErrors(attributes, count, info.alias_of, details);  // never an alias itself
+    case AttributeCoding::kLattice: {
+      const bool is_adjusted = info.format.semantic == Semantic::kWeights;
+      details.error_bound = double{info.lattice.step} * (is_adjusted ? 1 : 0.5);
+      return;
+    }
+    case AttributeCoding::kOctahedral:
+      details.error_bound = octahedralBound(info.bits) * kDegrees;
+      break;
+    case AttributeCoding::kTangentAngle: {
+      const uint32_t normal = normalOfTangents(attributes, count);
+      details.error_bound = tangentBound(info.bits, attributes[normal].bits) * kDegrees;
+      break;
+    }
+  }
+  details.is_angle = true;
+}
+
+void describeAttributes(const PieceInfo& piece, InspectPiece& row) {
+  const auto count = static_cast<uint32_t>(piece.attributes.size());
+  row.attributes.assign(piece.attributes.begin(), piece.attributes.end());
+  row.attribute_names.assign(count, "(unused)");
+  for (uint32_t i = 0; i < count; ++i) {
+    InspectAttribute details;
+    details.name = row.attribute_names[i];
+    details.predictor = predictorName(row.attributes.data(), count, i);
+    describeErrors(row.attributes.data(), count, i, details);
+    row.details.push_back(std::move(details));
+  }
+}
+
+/// Decodes a payload to count its streams and codes.
+class StreamCounter {
+ public:
+  explicit StreamCounter(InspectPayload& report) : report_(report) {}
+
+  Result run(DecodedPayload& decoded, const std::string& where) {
+    DecodeOptions options;
+    options.histogram = &report_.codes;
+    options.stage_bits = [](void* user, uint32_t piece, DecodeStage stage, uint32_t attribute,
+                            uint64_t bits) {
+      static_cast<StreamCounter*>(user)->add(piece, stage, attribute, static_cast<double>(bits));
+    };
+    options.stage_bits_user = this;
+    MCC_GLTF_TRY(toResult(decodePieces(decoded, options), where));
+    report_.has_codes = true;
+    double header = 8 * static_cast<double>(report_.payload_bytes) - coded_bits_;
+    for (size_t i = 0; i < std::size(kNames); ++i) {
+      if (stages_[i] != 0) report_.streams.push_back({kNames[i], stages_[i]});
+    }
+    report_.streams.push_back({"header", header});
+    return {};
+  }
+
+ private:
+  static constexpr const char* kNames[] = {"connectivity", "stitching", "positions",
+                                           "seams",        "leftovers", "order"};
+
+  void add(uint32_t piece, DecodeStage stage, uint32_t attribute, double bits) {
+    coded_bits_ += bits;
+    std::vector<InspectAttribute>& details = report_.pieces[piece].details;
+    const bool is_position = stage == DecodeStage::kPositions && !details.empty();
+    if (is_position || stage == DecodeStage::kAttribute) {
+      details[attribute].coded_bits += bits;
+    } else {
+      stages_[static_cast<size_t>(stage)] += bits;
+    }
+  }
+
+  InspectPayload& report_;
+  double stages_[std::size(kNames)] = {};
+  double coded_bits_ = 0;
+};
+
+Result inspectView(const Document& document, uint32_t view,
+                   const std::vector<const ExtensionUse*>& users, bool count_codes,
+                   DecodedBytes& decoded_bytes, InspectPayload& report) {
+  const std::string where = users[0]->path + "/bufferView";
+  const std::span<const uint8_t> bytes = payloadBytes(document, view);
+  DecodedPayload decoded;
+  MCC_GLTF_TRY(toResult(decoded.payload.open(bytes), where));
+  const PayloadInfo& info = decoded.payload.info();
+  report.buffer_view = view;
+  report.payload_bytes = bytes.size();
+  report.version_major = info.version_major;
+  report.version_minor = info.version_minor;
+  report.header_bytes = info.header_bytes;
+  report.codes_bytes = info.codes_bytes;
+  report.tokens_bytes = info.tokens_bytes;
+  report.raw_bits_bytes = info.raw_bits_bytes;
+  report.single_coder = info.single_coder;
+  report.context_set = info.context_set;
+  for (const PieceInfo& piece : info.pieces) {
+    InspectPiece row;
+    row.wedge_count = piece.wedge_count;
+    row.vertex_count = piece.vertex_count;
+    row.surface = piece.surface;
+    row.part_count = static_cast<uint32_t>(piece.parts.size());
+    for (const PartInfo& part : piece.parts) row.triangle_count += part.triangle_count;
+    describeAttributes(piece, row);
+    report.pieces.push_back(std::move(row));
+  }
+  for (const ExtensionUse* use : users) {
+    MCC_GLTF_TRY(checkAgainstPayload(document, *use, info));
+    report.primitives.push_back(primitivePath(use->mesh, use->primitive));
+    for (const auto& attribute : use->attributes) {
+      InspectPiece& piece = report.pieces[use->piece];
+      piece.attribute_names[attribute.id] = primitiveLabel(attribute);
+      piece.details[attribute.id].name = primitiveLabel(attribute);
+    }
+  }
+  if (!count_codes) return {};
+  decoded_bytes.add(outputBytes(info));
+  MCC_GLTF_TRY(decoded_bytes.check());
+  return StreamCounter(report).run(decoded, where);
+}
+
+Result inspectBytes(std::span<const uint8_t> source, const FileReader& read_file, bool count_codes,
+                    InspectReport& report) {
+  report = {};
+  Document document;
+  MCC_GLTF_TRY(loadDocument(source, read_file, document));
+  report.input_bytes = document.source_bytes;
+  for (const Json& name : arrayOf(document.json, "extensionsUsed")) {
+    if (name.is_string()) report.extensions_used.push_back(name.get<std::string>());
+  }
+  for (const Json& mesh : arrayOf(document.json, "meshes")) {
+    ++report.mesh_count;
+    report.primitive_count += static_cast<uint32_t>(arrayOf(mesh, "primitives").size());
+  }
+  std::vector<ExtensionUse> uses;
+  MCC_GLTF_TRY(findExtensionUses(document, uses));
+  DecodedBytes decoded(0, document.source_bytes);
+  for (const auto& [view, users] : payloadUses(document, uses)) {
+    report.payloads.emplace_back();
+    MCC_GLTF_TRY(inspectView(document, view, users, count_codes, decoded, report.payloads.back()));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result inspectGlb(std::span<const uint8_t> source, bool count_codes, InspectReport& report) {
+  return guarded([&]() { return inspectBytes(source, nullptr, count_codes, report); });
+}
+
+Result inspectFile(const std::filesystem::path& source, bool count_codes, InspectReport& report) {
+  return guarded([&]() -> Result {
+    std::vector<uint8_t> bytes;
+    MCC_GLTF_TRY(readFile(source, bytes));
+    return inFile(source, inspectBytes(bytes, readerOf(source.parent_path()), count_codes, report));
+  });
+}
+
+}  // namespace mcc::gltf

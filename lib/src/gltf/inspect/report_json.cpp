@@ -1,0 +1,124 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/inspect/report_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace mcc::gltf {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json attributeJson(const AttributeReport& attribute) {
+  Json json = {{"name", attribute.name},
+               {"coding", codingName(attribute.coding, 0)},
+               {"bits", attribute.bits},
+               {"components", attribute.component_count},
+               {"vertices", attribute.vertex_count},
+               {"coded_bytes", attribute.coded_bits / 8},
+               {"error_unit", attribute.is_angle ? "degrees" : "accessor units"},
+               {"promised_error", attribute.promised_error},
+               {"max_error", attribute.max_error}};
+  if (attribute.promised_distance > 0) {
+    json["promised_distance"] = attribute.promised_distance;
+    json["max_distance"] = attribute.max_distance;
+  }
+  if (attribute.is_angle) json["median_error"] = attribute.median_error;
+  return json;
+}
+
+Json payloadJson(const PayloadReport& payload) {
+  Json streams = Json::object();
+  for (const auto& stream : payload.streams) streams[stream.name] = stream.bits / 8;
+  Json attributes = Json::array();
+  for (const auto& attribute : payload.attributes) attributes.push_back(attributeJson(attribute));
+  return {{"mesh", payload.mesh},
+          {"bytes", payload.payload_bytes},
+          {"freed_bytes", payload.freed_bytes},
+          {"pieces", payload.piece_count},
+          {"vertices", payload.wedge_count},
+          {"positions", payload.vertex_count},
+          {"triangles", payload.triangle_count},
+          {"components", payload.component_count},
+          {"holes", payload.hole_count},
+          {"cut_copies", payload.cut_copy_count},
+          {"leftover_triangles", payload.leftover_triangle_count},
+          {"stream_bytes", streams},
+          {"attributes", attributes}};
+}
+
+Json primitiveJson(const PrimitiveReport& primitive) {
+  Json json = {{"mesh", primitive.mesh},
+               {"primitive", primitive.primitive},
+               {"compressed", primitive.compressed}};
+  if (primitive.compressed) {
+    json["payload"] = primitive.payload;
+    json["triangles"] = primitive.triangle_count;
+    json["vertices"] = primitive.wedge_count;
+  }
+  if (!primitive.note.empty()) json["note"] = primitive.note;
+  return json;
+}
+
+}  // namespace
+
+Json optionsJson(const ConvertOptions& options) {
+  static constexpr const char* kGrids[] = {"mesh", "scene", "primitive"};
+  static constexpr const char* kPreferences[] = {"balanced", "size", "speed"};
+  Json lattice;
+  if (options.position_lattice) {
+    const Lattice& l = *options.position_lattice;
+    lattice = {l.origin[0], l.origin[1], l.origin[2], l.step};
+  }
+  return {{"lossless", options.lossless},
+          {"max_position_error", options.max_position_error},
+          {"is_error_relative", options.is_error_relative},
+          {"position_lattice", lattice},
+          {"indices_only", options.indices_only},
+          {"drop_unused", options.drop_unused},
+          {"fallback", options.fallback},
+          {"keep_vertex_order", options.keep_vertex_order},
+          {"keep_triangle_order", options.keep_triangle_order},
+          {"grid", kGrids[static_cast<size_t>(options.grid)]},
+          {"prefer", kPreferences[static_cast<size_t>(options.prefer)]},
+          {"quantize_position", options.bits.position},
+          {"quantize_normal", options.bits.normal},
+          {"quantize_texcoord", options.bits.texcoord},
+          {"quantize_color", options.bits.color},
+          {"quantize_tangent", options.bits.tangent},
+          {"quantize_weight", options.bits.weight}};
+}
+
+std::string codingName(AttributeCoding coding, uint32_t bits) {
+  std::string name;
+  switch (coding) {
+    case AttributeCoding::kLattice: name = "lattice"; break;
+    case AttributeCoding::kInteger: return "integer";
+    case AttributeCoding::kExactFloat: return "exact float";
+    case AttributeCoding::kGrid: return "exact grid";
+    case AttributeCoding::kOctahedral: name = "octahedral"; break;
+    case AttributeCoding::kTangentAngle: name = "angle"; break;
+    case AttributeCoding::kAlias: return "alias";
+  }
+  return bits == 0 ? name : name + " " + std::to_string(bits);
+}
+
+Json reportJson(const ConvertReport& report, const ConvertOptions& options) {
+  Json payloads = Json::array();
+  for (const auto& payload : report.payloads) payloads.push_back(payloadJson(payload));
+  Json primitives = Json::array();
+  for (const auto& primitive : report.primitives) primitives.push_back(primitiveJson(primitive));
+  return {{"options", optionsJson(options)},
+          {"input_bytes", report.input_bytes},
+          {"output_bytes", report.output_bytes},
+          {"fallback_bytes", report.fallback_bytes},
+          {"copied", report.copied},
+          {"checked", report.checked},
+          {"encode_seconds", report.encode_seconds},
+          {"decode_seconds", report.decode_seconds},
+          {"check_seconds", report.check_seconds},
+          {"payloads", payloads},
+          {"primitives", primitives},
+          {"notes", report.notes}};
+}
+
+}  // namespace mcc::gltf

@@ -1,0 +1,214 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Returns the mc-tree of a primitive: that of its payload, or that of a payload made for this
+// purpose.
+#include <algorithm>
+
+#include "gltf/base/parallel.h"
+#include "gltf/base/payload.h"
+#include "gltf/decompress/coded_input.h"
+#include "gltf/decompress/decompress.h"
+#include "gltf/document/accessors.h"
+#include "gltf/files/file_io.h"
+#include "mcc/gltf.h"
+#include "mcc/writer.h"
+
+namespace mcc::gltf {
+namespace {
+
+/// Collects the mc-edges of one piece in decoding order, while a payload is decoded.
+struct EdgeTaker {
+  uint32_t wanted_piece = 0;
+  std::vector<McTree::Edge> edges;
+
+  static void take(void* user, uint32_t piece, uint32_t vertex, uint32_t from) {
+    auto& taker = *static_cast<EdgeTaker*>(user);
+    if (piece == taker.wanted_piece) taker.edges.push_back({vertex, from});
+  }
+};
+
+/// Puts the edges into the order of the collapse, which decoding runs backwards. The end that was
+/// contracted first becomes the parent; only edges to the leaf of a twig arrive the other way
+/// round.
+std::vector<McTree::Edge> inCollapseOrder(std::vector<McTree::Edge> edges, size_t vertex_count) {
+  std::reverse(edges.begin(), edges.end());
+  std::vector<bool> is_met(vertex_count, false);
+  for (McTree::Edge& edge : edges) {
+    if (!is_met[edge.parent] && is_met[edge.child]) std::swap(edge.parent, edge.child);
+    is_met[edge.parent] = is_met[edge.child] = true;
+  }
+  return edges;
+}
+
+Result readPositions(const Document& document, uint64_t accessor_index, const std::string& where,
+                     std::vector<float>& positions) {
+  if (accessor_index >= document.accessors.size()) {
+    return error(where, "there is no accessor " + std::to_string(accessor_index));
+  }
+  const uint32_t index = static_cast<uint32_t>(accessor_index);
+  const Accessor& accessor = document.accessors[index];
+  AccessorData elements;
+  MCC_GLTF_TRY(readAccessor(document, index, elements));
+  if (accessor.componentCount() != 3)
+    return error(where, "POSITION does not have three components");
+  const uint32_t bytes = componentBytes(accessor.component_type);
+  for (uint64_t i = 0; i < elements.count; ++i) {
+    const uint8_t* element = elements.element(i).data();
+    for (uint32_t c = 0; c < 3; ++c) {
+      const double value = componentValue(element + c * bytes, accessor.component_type);
+      positions.push_back(static_cast<float>(value));
+    }
+  }
+  return {};
+}
+
+/// Finds the accessor of a primitive's POSITION.
+Result positionAccessor(const Json& primitive, const std::string& where, uint64_t& accessor) {
+  const Json* attributes = findMember(primitive, "attributes");
+  const Json* position = attributes == nullptr ? nullptr : findMember(*attributes, "POSITION");
+  if (position == nullptr || !asUnsigned(*position, accessor)) {
+    return error(where, "has no POSITION");
+  }
+  return {};
+}
+
+/// Makes the tree of a primitive with a payload. It is the tree of the whole piece, which may hold
+/// other primitives, too.
+Result treeOfPayload(const Document& document, const ExtensionUse& use, const Json& primitive,
+                     McTree& tree) {
+  const std::string where = use.path + "/bufferView";
+  DecodedPayload decoded;
+  MCC_GLTF_TRY(toResult(decoded.payload.open(payloadBytes(document, use.view)), where));
+  MCC_GLTF_TRY(checkAgainstPayload(document, use, decoded.payload.info()));
+  EdgeTaker taker;
+  taker.wanted_piece = static_cast<uint32_t>(use.piece);
+  DecodeOptions options;
+  options.mc_edge = EdgeTaker::take;
+  options.mc_edge_user = &taker;
+  MCC_GLTF_TRY(toResult(decodePieces(decoded, options), where));
+  const DecodedPiece& piece = decoded.pieces[use.piece];
+  for (const std::vector<uint32_t>& part : piece.parts) {
+    tree.indices.insert(tree.indices.end(), part.begin(), part.end());
+  }
+  const PieceInfo& info = decoded.payload.info().pieces[use.piece];
+  tree.edges = inCollapseOrder(std::move(taker.edges), info.wedge_count);
+  for (const ExtensionUse::AttributeUse& attribute : use.attributes) {
+    if (attribute.name != "POSITION" || attribute.target != kNone) continue;
+    const std::vector<uint8_t>& bytes = piece.attributes[attribute.id];
+    const ComponentType type = info.attributes[attribute.id].format.component_type;
+    for (size_t at = 0; at < bytes.size(); at += componentBytes(type)) {
+      tree.positions.push_back(static_cast<float>(componentValue(bytes.data() + at, type)));
+    }
+    return {};
+  }
+  uint64_t accessor = 0;
+  MCC_GLTF_TRY(positionAccessor(primitive, use.path, accessor));
+  MCC_GLTF_TRY(readPositions(document, accessor, use.path, tree.positions));
+  const bool is_whole = tree.positions.size() == size_t{3} * info.wedge_count;
+  return is_whole ? Result{} : error(use.path, "POSITION does not have the payload's vertices");
+}
+
+Result readTriangles(const Document& document, const Json& primitive, const std::string& where,
+                     size_t vertex_count, std::vector<uint32_t>& triangles) {
+  uint64_t mode = 4;
+  MCC_GLTF_TRY(readOptionalUnsigned(primitive, "mode", where, 6, mode));
+  if (mode < 4) return error(where, "has points or lines, not triangles");
+  if (findMember(primitive, "indices") != nullptr) {
+    uint64_t index = 0;
+    MCC_GLTF_TRY(readUnsigned(primitive, "indices", where, kNone, index));
+    if (index >= document.accessors.size()) {
+      return error(at(where, "indices"), "there is no accessor " + std::to_string(index));
+    }
+    MCC_GLTF_TRY(readIndices(document, static_cast<uint32_t>(index), triangles));
+  } else {
+    for (uint32_t i = 0; i < vertex_count; ++i) triangles.push_back(i);
+  }
+  if (!expandTriangles(mode, triangles)) return error(where, "its indices make no triangles");
+  const bool is_inside = std::all_of(triangles.begin(), triangles.end(),
+                                     [&](uint32_t index) { return index < vertex_count; });
+  return is_inside ? Result{} : error(at(where, "indices"), "an index is not below the count");
+}
+
+/// Makes the tree of any other primitive: its triangles are encoded in memory and decoded again.
+Result treeOfTriangles(const Document& document, const Json& primitive, const std::string& where,
+                       McTree& tree) {
+  uint64_t accessor = 0;
+  MCC_GLTF_TRY(positionAccessor(primitive, where, accessor));
+  MCC_GLTF_TRY(readPositions(document, accessor, where, tree.positions));
+  std::vector<uint32_t> triangles;
+  const size_t vertex_count = tree.positions.size() / 3;
+  MCC_GLTF_TRY(readTriangles(document, primitive, where, vertex_count, triangles));
+  const AttributeView position{{}, tree.positions.data(), 3 * sizeof(float)};
+  const PartView part{triangles};
+  const PieceView piece{static_cast<uint32_t>(vertex_count), {&position, 1}, {&part, 1}};
+  EncodeOptions encode_options;
+  encode_options.indices_only = true;
+  encode_options.keep_vertex_order = true;
+  EncodeResult encoded;
+  MCC_GLTF_TRY(toResult(encode({&piece, 1}, encode_options, encoded), where));
+  DecodedPayload decoded;
+  MCC_GLTF_TRY(toResult(decoded.payload.open(encoded.payload), where));
+  EdgeTaker taker;
+  DecodeOptions options;
+  options.mc_edge = EdgeTaker::take;
+  options.mc_edge_user = &taker;
+  MCC_GLTF_TRY(toResult(decodePieces(decoded, options), where));
+  tree.edges = inCollapseOrder(std::move(taker.edges), vertex_count);
+  tree.indices = std::move(decoded.pieces[0].parts[0]);
+  return {};
+}
+
+Result findPrimitive(const Document& document, uint32_t mesh, uint32_t primitive,
+                     const Json*& json) {
+  const Json& meshes = arrayOf(document.json, "meshes");
+  if (meshes.empty()) return error("", "the file has no meshes");
+  if (mesh >= meshes.size()) {
+    return error("", "there is no mesh " + std::to_string(mesh) + "; the last is " +
+                         std::to_string(meshes.size() - 1));
+  }
+  const Json& primitives = arrayOf(meshes[mesh], "primitives");
+  if (primitive >= primitives.size()) {
+    return error(at("/meshes", mesh), "there is no primitive " + std::to_string(primitive) +
+                                          "; there are " + std::to_string(primitives.size()));
+  }
+  json = &primitives[primitive];
+  return {};
+}
+
+Result findTree(std::span<const uint8_t> source, const FileReader& read_file, uint32_t mesh,
+                uint32_t primitive, const ForeignDecoders& decoders, McTree& tree) {
+  tree = {};
+  Document document;
+  MCC_GLTF_TRY(loadDocument(source, read_file, document));
+  document.decoded = DecodedBytes(0, document.source_bytes);
+  MCC_GLTF_TRY(decodeViews(decoders, document));
+  MCC_GLTF_TRY(decodeMeshes(decoders, document));
+  const Json* json = nullptr;
+  MCC_GLTF_TRY(findPrimitive(document, mesh, primitive, json));
+  std::vector<ExtensionUse> uses;
+  MCC_GLTF_TRY(findExtensionUses(document, uses));
+  for (const ExtensionUse& use : uses) {
+    if (use.mesh == mesh && use.primitive == primitive) {
+      tree.is_of_payload = true;
+      return treeOfPayload(document, use, *json, tree);
+    }
+  }
+  return treeOfTriangles(document, *json, primitivePath(mesh, primitive), tree);
+}
+
+}  // namespace
+
+Result mcTree(const Source& source, uint32_t mesh, uint32_t primitive,
+              const ForeignDecoders& decoders, McTree& tree) {
+  return guarded([&]() -> Result {
+    if (source.bytes) {
+      return findTree(*source.bytes, nullptr, mesh, primitive, decoders, tree);
+    }
+    std::vector<uint8_t> bytes;
+    MCC_GLTF_TRY(readFile(source.path, bytes));
+    return inFile(source.path, findTree(bytes, readerOf(source.path.parent_path()), mesh, primitive,
+                                        decoders, tree));
+  });
+}
+
+}  // namespace mcc::gltf

@@ -1,0 +1,755 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "positions/enc_fit.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "base/enc_exceptions.h"
+#include "entropy/enc_coder.h"
+#include "positions/enc_prices.h"
+#include "positions/vertex.h"
+
+namespace mcc {
+namespace {
+
+using Kind = PositionRecording::Kind;
+
+constexpr size_t kLargePalette = 1u << 16;                 ///< vertices
+constexpr uint32_t kRunLength = 1024;                      ///< of consecutive vertices in a sample
+constexpr uint32_t kTrialVertices[] = {4000, 12000, ~0u};  ///< by effort
+constexpr double kManyParts = 8;                           ///< that a sample stands for
+constexpr uint32_t kFitVertices[] = {3000, 20000, 32000};
+
+uint64_t visitCount(std::span<const PositionCandidate> pieces) {
+  uint64_t count = 0;
+  for (const PositionCandidate& piece : pieces) count += piece.recording->visits().size();
+  return count;
+}
+
+PredictorWeights trainedWeights(const FeatureSet& without) {
+  PredictorWeights weights = kUniversalWeights;
+  for (auto& w : weights.w) {
+    if (without.has(Feature::kBeyondWeights)) w[2] = 0;
+    if (without.has(Feature::kDegreeWeights)) w[3] = w[4] = 0;
+  }
+  return weights;
+}
+
+// --- sampling ---------------------------------------------------------------------------------------
+
+/// Visits of one piece to replay, in coding order. The cost of those not `counted` does not matter: others need their
+/// residuals.
+struct Sample {
+  struct Entry {
+    uint32_t visit;
+    bool counted;
+  };
+  std::vector<Entry> entries;
+  uint32_t counted = 0;
+  std::vector<uint32_t> looked_at;  ///< vertices whose records a replay reads; empty: all
+};
+
+Sample takeSample(const PositionRecording& recording, uint64_t counted_of_all, uint64_t all) {
+  const std::vector<PositionRecording::Visit>& visits = recording.visits();
+  Sample sample;
+  if (counted_of_all >= all) {
+    for (uint32_t i = 0; i < visits.size(); ++i) sample.entries.push_back({i, true});
+    sample.counted = static_cast<uint32_t>(visits.size());
+    return sample;
+  }
+  // One run in `period`, the middle one.
+  const uint64_t period = (all + counted_of_all - 1) / counted_of_all;
+  const uint32_t run =
+      std::clamp<uint32_t>(static_cast<uint32_t>(visits.size() / period), 1, kRunLength);
+  std::vector<uint8_t> needed(visits.size(), 0);
+  std::vector<uint8_t> counted(visits.size(), 0);
+  for (uint32_t i = 0; i < visits.size(); ++i) {
+    if ((i / run) % period != period / 2) continue;
+    counted[i] = 1;
+    needed[visits[i].vertex] = 1;
+    recording.forNeighbours(visits[i], [&](uint32_t v) { needed[v] = 1; });
+    ++sample.counted;
+  }
+  std::vector<uint8_t>& looked_at = needed;  // from here on 2
+  for (uint32_t i = 0; i < visits.size(); ++i) {
+    if ((needed[visits[i].vertex] & 1) == 0) continue;
+    sample.entries.push_back({i, counted[i] != 0});
+    recording.forAll(visits[i], [&](uint32_t v) { looked_at[v] |= 2; });
+  }
+  if (!looked_at.empty()) looked_at[0] |= 2;  // stands for vertices that are not there
+  for (uint32_t v = 0; v < looked_at.size(); ++v) {
+    if ((looked_at[v] & 2) != 0) sample.looked_at.push_back(v);
+  }
+  return sample;
+}
+
+// --- trials -----------------------------------------------------------------------------------------
+
+/// Spends and counts nothing.
+class SilentIo {
+ public:
+  static constexpr bool kEncoding = true;
+  template <uint32_t kState>
+  uint32_t token(TokenRow&, const TokenSchedule&, uint32_t truth) {
+    return truth;
+  }
+  uint32_t raw(uint32_t, uint32_t truth) { return truth; }
+  uint32_t magnitude(uint32_t, uint32_t, bool, uint32_t truth, uint32_t&) { return truth; }
+};
+
+/// Replays the pieces with one choice or another. Trials may run at the same time.
+class Trials {
+ public:
+  Trials(std::span<const PositionCandidate> pieces, uint32_t max_vertices) : pieces_(pieces) {
+    all_ = visitCount(pieces);
+    for (const PositionCandidate& piece : pieces) {
+      samples_.push_back(takeSample(*piece.recording, max_vertices, all_));
+      counted_ += samples_.back().counted;
+    }
+  }
+
+  /// Expected cost of all positions and their tables, in bits.
+  double cost(const PositionParameters& p) {
+    CostIo io;
+    const double parts =
+        counted_ == 0 ? 1 : static_cast<double>(all_) / static_cast<double>(counted_);
+    // Models learn once: the parts that are not in the sample cost what it costs the second time.
+    const uint32_t passes = parts > kManyParts ? 2 : 1;
+    uint64_t spent = 0;
+    uint64_t last_pass = 0;
+    replayAll(
+        io, p, passes, [](uint32_t, const Prediction&, const VertexRecord&) {},
+        [&] {
+          last_pass = io.cost() - spent;
+          spent = io.cost();
+        });
+    return (static_cast<double>(spent - last_pass) +
+            static_cast<double>(last_pass) * (passes == 1 ? parts : parts - 1)) /
+               kCostOne +
+           tableBits(p) + (p.has(position_mode::kPalette) ? paletteBits() : 0) +
+           (p.has(position_mode::kPlanes) ? planeBits() : 0);
+  }
+
+  /// Calls use(plain, prediction, record) behind every counted vertex that is no seed.
+  template <class Use>
+  void observe(const PositionParameters& p, Use use) {
+    SilentIo io;
+    replayAll(io, p, 1, use, [] {});
+  }
+
+ private:
+  /// What a replay writes to.
+  struct Scratch {
+    std::unique_ptr<PositionRows> rows = std::make_unique<PositionRows>();
+    std::vector<Array<VertexRecord>> records;  ///< by piece; only those looked at are set
+  };
+
+  /// A scratch that no other trial has.
+  std::unique_ptr<Scratch> takeScratch() {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!free_.empty()) {
+        std::unique_ptr<Scratch> scratch = std::move(free_.back());
+        free_.pop_back();
+        return scratch;
+      }
+    }
+    auto scratch = std::make_unique<Scratch>();
+    for (size_t i = 0; i < pieces_.size(); ++i) {
+      const VertexRecord* from = pieces_[i].recording->records();
+      const size_t count = pieces_[i].recording->visits().size();
+      Array<VertexRecord>& records = scratch->records.emplace_back(Allocator{});
+      if (!records.resize(count)) throwBadAlloc();
+      if (samples_[i].looked_at.empty()) std::copy(from, from + count, records.data());
+      for (const uint32_t v : samples_[i].looked_at) records[v] = from[v];
+    }
+    return scratch;
+  }
+
+  /// Calls end_pass() after each pass over the sample; the models stay.
+  template <class Io, class Use, class EndPass>
+  void replayAll(Io& io, const PositionParameters& p, uint32_t passes, Use use, EndPass end_pass) {
+    std::unique_ptr<Scratch> scratch = takeScratch();
+    *scratch->rows = PositionRows();
+    scratch->rows->prepare(p.modes);
+    for (uint32_t pass = 0; pass < passes; ++pass) {
+      for (size_t i = 0; i < pieces_.size(); ++i) replayPiece(io, p, i, *scratch, use);
+      end_pass();
+    }
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(scratch));
+  }
+
+  template <class Io, class Use>
+  void replayPiece(Io& io, const PositionParameters& p, size_t piece, Scratch& scratch, Use use) {
+    PositionParameters of_piece = p;
+    of_piece.bits = pieces_[piece].bits;
+    std::copy(pieces_[piece].palettes, pieces_[piece].palettes + 3, of_piece.palette);
+    const GridPlanes planes = planesOf(pieces_[piece]);
+    of_piece.planes = &planes;
+    replay(io, of_piece, piece, scratch, use);
+  }
+
+  static double tableBits(const PositionParameters& p) {
+    CostIo io;
+    PositionTables tables;
+    PositionParameters copy = p;
+    (void)codePositionTables(io, tables, copy);  // what was fitted is in range
+    return static_cast<double>(io.cost()) / kCostOne;
+  }
+
+  double paletteBits() const {
+    CostIo io;
+    PaletteModels models;
+    for (const PositionCandidate& piece : pieces_) {
+      (void)PositionPalettes(Allocator{}).code(io, models, piece.palettes, ~0u);
+    }
+    return static_cast<double>(io.cost()) / kCostOne;
+  }
+
+  double planeBits() const { return static_cast<double>(pieces_.size()) * 6 * AxisPlanes::kBits; }
+
+  static GridPlanes planesOf(const PositionCandidate& piece) {
+    const AxisPlanes none[3];
+    return GridPlanes(piece.planes != nullptr ? piece.planes : none);
+  }
+
+  template <class Io, class Use>
+  void replay(Io& io, const PositionParameters& p, size_t piece, Scratch& scratch, Use use) const {
+    const PositionRecording& recording = *pieces_[piece].recording;
+    VertexRecord* records = scratch.records[piece].data();
+    PositionRows& rows = *scratch.rows;
+    SilentIo silent;
+    VertexCoder<Io, kAnyModes> coder(rows, p, records, pieces_[piece].truth);
+    VertexCoder<SilentIo, kAnyModes> silent_coder(rows, p, records, pieces_[piece].truth);
+    for (const Sample::Entry& entry : samples_[piece].entries) {
+      const PositionRecording::Visit& visit = recording.visits()[entry.visit];
+      const uint32_t v = visit.vertex;
+      if (visit.kind == static_cast<uint32_t>(Kind::kSeed)) {
+        coder.codeSeed(io, v, recording.seedNeighbour(records, visit));
+        continue;
+      }
+      const bool plain = visit.kind == static_cast<uint32_t>(Kind::kPlain);
+      const auto code = [&](const auto& with, auto& into, Prediction& prediction) {
+        if (plain) {
+          PlainFan fan;
+          Beyond beyond;
+          recording.plain(records, visit, fan, beyond);
+          with.codePlain(into, v, fan, &beyond, prediction);
+        } else {
+          AnyFan fan;
+          recording.any(records, visit, fan);
+          with.codeAny(into, v, fan, prediction);
+        }
+      };
+      Prediction prediction;
+      if (!entry.counted) {
+        code(silent_coder, silent, prediction);
+        continue;
+      }
+      code(coder, io, prediction);
+      use(plain ? 1u : 0u, prediction, records[v]);
+    }
+  }
+
+  std::span<const PositionCandidate> pieces_;
+  std::vector<Sample> samples_;
+  std::mutex mutex_;  ///< over free_
+  std::vector<std::unique_ptr<Scratch>> free_;
+  uint64_t all_ = 0;
+  uint64_t counted_ = 0;
+};
+
+// --- least squares ----------------------------------------------------------------------------------
+
+/// Normal equations of up to 8 unknowns; + - * / only, in one fixed order.
+struct NormalEquations {
+  double matrix[kMostWeights][kMostWeights] = {};
+  double right[kMostWeights] = {};
+  double count = 0;
+
+  void add(const double* x, double y, double weight, uint32_t n) {
+    for (uint32_t i = 0; i < n; ++i) {
+      const double scaled = weight * x[i];
+      for (uint32_t k = 0; k <= i; ++k) matrix[i][k] += scaled * x[k];
+      right[i] += scaled * y;
+    }
+  }
+
+  /// Gaussian elimination of the symmetric matrix; unknowns that nothing depends on become 0.
+  void solve(uint32_t n, double ridge, double* solution) const {
+    double a[kMostWeights][kMostWeights + 1];
+    for (uint32_t i = 0; i < n; ++i) {
+      for (uint32_t k = 0; k < n; ++k) a[i][k] = i >= k ? matrix[i][k] : matrix[k][i];
+      a[i][n] = right[i];
+      a[i][i] += ridge * a[i][i];
+    }
+    for (uint32_t i = 0; i < n; ++i) {
+      if (!(a[i][i] > 1e-9)) {
+        for (uint32_t k = 0; k <= n; ++k) a[i][k] = 0;
+        a[i][i] = 1;
+      }
+      for (uint32_t row = i + 1; row < n; ++row) {
+        const double factor = a[row][i] / a[i][i];
+        for (uint32_t k = i; k <= n; ++k) a[row][k] -= factor * a[i][k];
+      }
+    }
+    for (uint32_t i = n; i-- != 0;) {
+      double sum = a[i][n];
+      for (uint32_t k = i + 1; k < n; ++k) sum -= a[i][k] * solution[k];
+      solution[i] = sum / a[i][i];
+    }
+  }
+};
+
+/// One vertex of a fit: the target in lattice steps, what the average predicts taken off, and the features such that
+/// weights of 1 (128 in the format) add up to it.
+struct FitRow {
+  uint32_t predictor_class;
+  float length;
+  float target[3];
+  float feature[3][kMostWeights];
+};
+
+void gatherRows(const PositionCandidate& piece, bool select, uint32_t stride,
+                std::vector<FitRow>& rows) {
+  const PositionRecording& recording = *piece.recording;
+  // Steps of random length, `stride` on average: even ones would see only some columns of a grid.
+  uint32_t random = 1;
+  const auto step = [&] {
+    random = random * 1664525 + 1013904223;
+    return 1 + (random >> 8) % (2 * stride - 1);
+  };
+  for (size_t i = step() - 1; i < recording.visits().size(); i += step()) {
+    const PositionRecording::Visit& visit = recording.visits()[i];
+    const uint32_t v = visit.vertex;
+    FitRow row{};
+    FinePoint at;  ///< the average of the tips
+    if (visit.kind == static_cast<uint32_t>(Kind::kPlain)) {
+      PlainFan fan;
+      Beyond beyond;
+      recording.plain(recording.records(), visit, fan, beyond);
+      const uint32_t degree = recording.records()[v].degree();
+      const PlainClass c = classifyPlain(select, fan, beyond, degree);
+      row.predictor_class = c.predictor_class;
+      const PlainFeatures f = plainFeatures(fan, beyond, select);
+      const float skew = static_cast<float>(c.degree_skew);
+      const float better = static_cast<float>(c.better);
+      at = middleOfTips(fan);
+      for (int s = 0; s < 3; ++s) {
+        const float features[kMostWeights] = {f.f0[s],
+                                              f.f1[s],
+                                              f.fy[s],
+                                              f.fd[s] * skew,
+                                              f.f0[s] * static_cast<float>(c.degree_sum),
+                                              f.tips[s] * better,
+                                              f.x[s] * better,
+                                              f.y[s] * better};
+        for (uint32_t k = 0; k < kMostWeights; ++k) row.feature[s][k] = 0.5f * features[k];
+        row.length += std::fabs(f.f1[s]);
+      }
+    } else if (visit.kind == static_cast<uint32_t>(Kind::kAny)) {
+      AnyFan fan;
+      recording.any(recording.records(), visit, fan);
+      Lanes<float> spread{};
+      Lanes<float> normal{};
+      const AnyFeatures f = anyFeatures(fan, spread, normal);
+      row.predictor_class = f.predictor_class;
+      at = {f.from, fractionOf(256 * f.tips)};
+      for (int s = 0; s < 3; ++s) {
+        row.feature[s][0] = f.mean[s];
+        row.length += std::fabs(2 * f.mean[s]);
+      }
+    } else {
+      continue;
+    }
+    const Lanes<float> rest = at.rest();
+    for (int s = 0; s < 3; ++s) {
+      const uint32_t truth =
+          static_cast<uint32_t>(piece.truth[3 * size_t{v} + static_cast<size_t>(s)]);
+      row.target[s] = static_cast<float>(static_cast<int32_t>(truth - at.step[s])) - rest[s];
+    }
+    rows.push_back(row);
+  }
+}
+
+/// About log2(x) for x >= 1, by the bits of a float: alike on every machine.
+double roughLog2(float x) {
+  return static_cast<double>(std::bit_cast<uint32_t>(x)) * (1.0 / (1 << 23)) - 127;
+}
+
+/// About the bits that the residuals of a class take with these weights.
+double residualBits(const std::vector<FitRow>& rows, const int16_t* w, uint32_t n) {
+  double bits = 0;
+  for (const FitRow& row : rows) {
+    for (const auto& feature : row.feature) {
+      float predicted = 0;
+      for (uint32_t i = 0; i < n; ++i) predicted += feature[i] * (1.0f / 128) * w[i];
+      const float residual = std::fabs(row.target[&feature - row.feature] - predicted);
+      bits += roughLog2(1 + 2 * std::floor(residual + 0.5f));
+    }
+  }
+  return bits;
+}
+
+/// Re-weighted least squares of one class around the weights `w`. False with too few vertices.
+bool fitClass(const std::vector<FitRow>& rows, uint32_t n, bool robust, int16_t* w) {
+  constexpr uint32_t kRounds = 4;
+  constexpr double kOne = 128;
+  if (rows.size() < 2 * n) return false;
+  double solution[kMostWeights] = {};
+  double start[kMostWeights] = {};
+  for (uint32_t i = 0; i < n; ++i) solution[i] = start[i] = w[i] / kOne;
+  for (uint32_t round = 0; round < kRounds; ++round) {
+    NormalEquations equations;
+    for (const FitRow& row : rows) {
+      double residual[3];
+      double size = 0;
+      for (int s = 0; s < 3; ++s) {
+        double predicted = 0;
+        double universal = 0;
+        for (uint32_t i = 0; i < n; ++i) {
+          predicted += solution[i] * double{row.feature[s][i]};
+          universal += start[i] * double{row.feature[s][i]};
+        }
+        size += std::fabs(double{row.target[s]} - predicted);
+        residual[s] = double{row.target[s]} - universal;
+      }
+      const double length = double{row.length};
+      const double near = size + 0.02 * length + (robust ? 1.0 : 0.5);
+      const double weight = robust ? 1 / (near * near) : 1 / ((length + 1) * near);
+      for (int s = 0; s < 3; ++s) {
+        double x[kMostWeights];
+        for (uint32_t i = 0; i < n; ++i) x[i] = double{row.feature[s][i]};
+        equations.add(x, residual[s], weight, n);
+      }
+    }
+    double change[kMostWeights] = {};
+    equations.solve(n, 1e-3 + 3.0 / static_cast<double>(rows.size()), change);
+    for (uint32_t i = 0; i < n; ++i) solution[i] = start[i] + change[i];
+  }
+  for (uint32_t i = 0; i < n; ++i) {
+    w[i] = static_cast<int16_t>(std::clamp(std::floor(solution[i] * kOne + 0.5), -255.0, 255.0));
+  }
+  return true;
+}
+
+/// The best of no weights, of the trained ones and of fitted ones. A row stands for `stride` vertices.
+void chooseWeights(const std::vector<FitRow>& rows, uint32_t predictor_class, double stride,
+                   bool robust, int16_t* w) {
+  constexpr double kBitsOfWeight = 9;
+  const uint32_t n = weightCount(predictor_class);
+  int16_t fitted[kMostWeights];
+  std::copy_n(w, kMostWeights, fitted);
+  double best = residualBits(rows, w, n) * stride + 1.5 * n;
+  if (fitClass(rows, n, robust, fitted)) {
+    const double bits = residualBits(rows, fitted, n) * stride + kBitsOfWeight * n;
+    if (bits < best) {
+      best = bits;
+      std::copy_n(fitted, kMostWeights, w);
+    }
+  }
+  constexpr int16_t kNone[kMostWeights] = {};
+  if (residualBits(rows, kNone, n) * stride <= best) std::copy_n(kNone, kMostWeights, w);
+}
+
+/// What the scale of a component followed from, and how large its residual was.
+struct ScaleRow {
+  float neighbours;
+  float spread;
+  float size;
+};
+
+/// Non-negative weighted least squares of |residual|.
+void fitCoefficients(const std::vector<ScaleRow>& rows, uint16_t* coefficients) {
+  if (rows.size() < 200) return;
+  double c[3];
+  for (uint32_t i = 0; i < 3; ++i) c[i] = coefficients[i] / 64.0;
+  for (uint32_t round = 0; round < 4; ++round) {
+    NormalEquations equations;
+    for (const ScaleRow& row : rows) {
+      const double x[3] = {double{row.neighbours}, double{row.spread}, 1};
+      const double estimate = c[0] * x[0] + c[1] * x[1] + c[2];
+      const double target = std::min(16 * double{row.size}, 6 * estimate + 16);
+      equations.add(x, target, 1 / ((estimate + 8) * (estimate + 8)), 3);
+    }
+    // Non-negative: what would be negative is left out.
+    bool used[3] = {true, true, true};
+    for (uint32_t attempt = 0; attempt < 3; ++attempt) {
+      NormalEquations reduced = equations;
+      for (uint32_t i = 0; i < 3; ++i) {
+        if (used[i]) continue;
+        for (uint32_t k = 0; k < 3; ++k) reduced.matrix[i][k] = reduced.matrix[k][i] = 0;
+        reduced.right[i] = 0;
+      }
+      reduced.solve(3, 1e-6, c);
+      bool negative = false;
+      for (uint32_t i = 0; i < 3; ++i) {
+        if (c[i] >= 0) continue;
+        used[i] = false;
+        c[i] = 0;
+        negative = true;
+      }
+      if (!negative) break;
+    }
+  }
+  for (uint32_t i = 0; i < 3; ++i) {
+    coefficients[i] = static_cast<uint16_t>(
+        std::clamp(std::floor(c[i] * 64 + 0.5), 0.0, static_cast<double>(kMaxCoefficient)));
+  }
+}
+
+/// Scale coefficients of plain and other fans, per component.
+void fitScale(Trials& trials, const Jobs& jobs, PositionParameters& p) {
+  std::vector<ScaleRow> rows[2][3];
+  trials.observe(p, [&](uint32_t plain, const Prediction& prediction, const VertexRecord& r) {
+    const uint8_t* axis =
+        p.has(position_mode::kShear) ? makeShear(prediction.normal).axis : kFileOrder;
+    for (uint32_t s = 0; s < 3; ++s) {
+      rows[plain][s].push_back({prediction.magnitudes[s], prediction.spread[axis[s]],
+                                static_cast<float>(r.magnitude[s])});
+    }
+  });
+  jobs.run(6, [&](size_t i) { fitCoefficients(rows[i / 3][i % 3], p.scale[i / 3][i % 3].c); });
+  p.modes |= position_mode::kOwnScale;
+}
+
+// --- choice -----------------------------------------------------------------------------------------
+
+class Chooser {
+ public:
+  Chooser(std::span<const PositionCandidate> pieces, double surface_bits,
+          const EncodeSettings& settings, const Jobs& jobs)
+      : pieces_(pieces),
+        jobs_(jobs),
+        surface_bits_(surface_bits),
+        price_(settings.prefer),
+        without_(settings.without),
+        palette_values_(paletteValues(pieces)),
+        effort_(std::min<uint8_t>(settings.effort, 2)),
+        trials_(pieces, kTrialVertices[effort_]) {}
+
+  PositionParameters run() {
+    tryPredictors();
+    tryKinds();
+    tryMode(position_mode::kFold, Feature::kFold);
+    tryMode(position_mode::kSplit, Feature::kSplit);
+    tryOwnScale();
+    return race_[0].parameters;
+  }
+
+ private:
+  struct Candidate {
+    PositionParameters parameters;
+    double cost;
+  };
+
+  /// Plain averages and weights, fitted without and with tip selection; the trained ones where trials cost little.
+  void tryPredictors() {
+    using namespace position_mode;
+    struct Predictor {
+      uint8_t modes;
+      bool is_fitted;
+    };
+    std::vector<Predictor> predictors = {{0, false}};
+    if (!without_.has(Feature::kWeights)) {
+      predictors.push_back({kWeights, true});
+      if (!without_.has(Feature::kTipSelection)) predictors.push_back({kWeights | kSelect, true});
+      if (visitCount(pieces_) <= kTrialVertices[0]) predictors.push_back({kWeights, false});
+    }
+    race_.resize(predictors.size());
+    jobs_.run(race_.size(), [&](size_t i) {
+      PositionParameters& p = race_[i].parameters;
+      p.modes = predictors[i].modes;
+      setUniversalScale(p);
+      if (predictors[i].is_fitted) {
+        p.weights = fitWeights(pieces_, p.has(kSelect), true, kFitVertices[effort_], without_);
+      } else if (p.has(kWeights)) {
+        p.weights = trainedWeights(without_);
+      }
+      race_[i].cost = costOf(p);
+    });
+    sortRace(race_.size());
+  }
+
+  /// Palette, planes and shear exclude each other. Which predictor is best differs from one to the next.
+  void tryKinds() {
+    std::vector<uint8_t> kinds;
+    const auto offer = [&](bool may, uint8_t kind, Feature feature) {
+      if (may && !without_.has(feature)) kinds.push_back(kind);
+    };
+    offer(palette_values_ > 0, position_mode::kPalette, Feature::kPalette);
+    offer(anyPlanes(), position_mode::kPlanes, Feature::kPlanes);
+    offer(true, position_mode::kShear, Feature::kShear);
+    const std::vector<Candidate> plain = race_;
+    for (const uint8_t kind : kinds) {
+      std::vector<Candidate> with(plain.size());
+      const auto tryWith = [&](size_t i) {
+        with[i] = {withMode(plain[i].parameters, kind), 0};
+        with[i].cost = costOf(with[i].parameters);
+      };
+      // Whether shear pays is a matter of the surface, not of the predictor.
+      tryWith(0);
+      if (kind == position_mode::kShear && with[0].cost >= plain[0].cost) continue;
+      jobs_.run(with.size() - 1, [&](size_t i) { tryWith(i + 1); });
+      race_.insert(race_.end(), with.begin(), with.end());
+    }
+    sortRace(kRace);
+  }
+
+  /// A mode that goes with the others.
+  void tryMode(uint8_t mode, Feature feature) {
+    if (without_.has(feature)) return;
+    std::vector<Candidate> with = race_;
+    jobs_.run(with.size(), [&](size_t i) {
+      PositionParameters& p = with[i].parameters;
+      p = withMode(p, mode);
+      with[i].cost = position_mode::areKnown(p.modes) ? costOf(p) : kNever;
+    });
+    race_.insert(race_.end(), with.begin(), with.end());
+    sortRace(kRace);
+  }
+
+  void tryOwnScale() {
+    if (without_.has(Feature::kOwnScale)) return;
+    sortRace(kFinal);
+    for (size_t i = race_.size(); i-- != 0;) {
+      PositionParameters p = race_[i].parameters;
+      if (p.has(position_mode::kPlanes)) continue;
+      fitScale(trials_, jobs_, p);
+      race_.push_back({p, costOf(p)});
+    }
+    sortRace(1);
+  }
+
+  static PositionParameters withMode(PositionParameters p, uint8_t mode) {
+    p.modes |= mode;
+    setUniversalScale(p);
+    return p;
+  }
+
+  /// The best come first, and no more than `limit` stay.
+  void sortRace(size_t limit) {
+    std::stable_sort(race_.begin(), race_.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+    if (race_.size() > limit) race_.resize(limit);
+    while (race_.back().cost > kOutOfRace * race_[0].cost) race_.pop_back();
+  }
+
+  /// Values of all palettes, per vertex.
+  static double paletteValues(std::span<const PositionCandidate> pieces) {
+    uint64_t values = 0;
+    for (const PositionCandidate& piece : pieces) {
+      for (const AxisPalette& palette : piece.palettes) values += palette.count;
+    }
+    return static_cast<double>(values) /
+           static_cast<double>(std::max<uint64_t>(visitCount(pieces), 1));
+  }
+
+  /// Pieces share the choice: all must have them.
+  bool anyPlanes() const {
+    return std::all_of(pieces_.begin(), pieces_.end(),
+                       [](const PositionCandidate& piece) { return piece.planes != nullptr; });
+  }
+
+  /// Bits of connectivity and positions, more for what takes time.
+  double costOf(const PositionParameters& p) {
+    const double bits = surface_bits_ + trials_.cost(p);
+    return bits + price_.surcharge(bits, timeOf(p, palette_values_));
+  }
+
+  static constexpr size_t kRace = 3;
+  static constexpr size_t kFinal = 2;
+  static constexpr double kOutOfRace = 1.25;
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+
+  std::span<const PositionCandidate> pieces_;
+  const Jobs& jobs_;
+  const double surface_bits_;
+  const TimePrice price_;
+  const FeatureSet without_;
+  const double palette_values_;
+  uint8_t effort_;
+  Trials trials_;
+  std::vector<Candidate> race_;
+};
+
+}  // namespace
+
+PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, bool select, bool robust,
+                            uint32_t max_vertices, const FeatureSet& without) {
+  const uint32_t stride = static_cast<uint32_t>(visitCount(pieces) / max_vertices + 1);
+  std::vector<FitRow> rows;
+  for (const PositionCandidate& piece : pieces) {
+    gatherRows(piece, select, stride, rows);
+  }
+  std::vector<FitRow> rows_of[kPredictorClasses];
+  for (FitRow& row : rows) {
+    for (auto& feature : row.feature) {
+      if (without.has(Feature::kBeyondWeights)) feature[2] = 0;
+      if (without.has(Feature::kDegreeWeights)) feature[3] = feature[4] = 0;
+    }
+    rows_of[row.predictor_class].push_back(row);
+  }
+  PredictorWeights weights = trainedWeights(without);
+  for (uint32_t c = 0; c < kPredictorClasses; ++c) {
+    chooseWeights(rows_of[c], c, stride, robust, weights.w[c]);
+  }
+  return weights;
+}
+
+namespace {
+
+/// Sorts and drops repetitions; by marks where the values lie as close as those of lattices do.
+void sortDistinct(std::vector<int32_t>& values) {
+  if (values.empty()) return;
+  const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+  const int64_t first = *lowest;
+  const uint64_t range = static_cast<uint64_t>(*highest - first) + 1;
+  if (range > 8 * uint64_t{values.size()}) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return;
+  }
+  std::vector<uint8_t> marks(range, 0);
+  for (const int32_t value : values) marks[static_cast<size_t>(value - first)] = 1;
+  values.clear();
+  for (size_t i = 0; i < range; ++i) {
+    if (marks[i] != 0) values.push_back(static_cast<int32_t>(first + static_cast<int64_t>(i)));
+  }
+}
+
+}  // namespace
+
+void DistinctCoordinates::find(std::span<const int32_t> truth, bool is_exact) {
+  const size_t vertices = truth.size() / 3;
+  for (uint32_t s = 0; s < 3; ++s) {
+    std::vector<int32_t>& values = axis[s];
+    values.clear();
+    for (size_t i = 0; i < vertices; ++i) values.push_back(truth[3 * i + s]);
+    sortDistinct(values);
+    // Searching a large palette misses the cache at every step: it must pay.
+    const size_t limit = is_exact && vertices < kLargePalette ? 3 * vertices / 4 : vertices / 2;
+    if (values.size() > std::min<size_t>(limit, kMaxPalette)) values.clear();
+    // A palette cannot begin with the least of all numbers (a NaN that keeps its bits), which is no signedGolomb(). [A.3.5]
+    if (!values.empty() && values[0] == std::numeric_limits<int32_t>::min()) values.clear();
+    if (values.empty()) continue;
+    const PaletteCells index(values.data(), static_cast<uint32_t>(values.size()));
+    shift[s] = index.shift;
+    cells[s].resize(index.cell_count);
+    index.fill(cells[s].data());
+  }
+}
+
+PositionParameters choosePositionParameters(std::span<const PositionCandidate> pieces,
+                                            double surface_bits, const EncodeSettings& settings,
+                                            const Jobs& jobs) {
+  return Chooser(pieces, surface_bits, settings, jobs).run();
+}
+
+}  // namespace mcc

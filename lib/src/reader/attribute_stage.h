@@ -1,0 +1,384 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// All attributes of a piece but its positions: what they share, and which coder each goes through. [A.8]
+#ifndef MCC_READER_ATTRIBUTE_STAGE_H_
+#define MCC_READER_ATTRIBUTE_STAGE_H_
+
+#include <cstdint>
+
+#include "base/decodes.h"
+#include "base/lazy.h"
+#include "exact/normals.h"
+#include "exact/tails.h"
+#include "exact/tangents.h"
+#include "mesh/attribute_method.h"
+#include "surface/equality.h"
+#include "surface/wedges.h"
+#include "values/skin.h"
+#include "values/texcoords.h"
+#include "values/value_memory.h"
+#include "values/values.h"
+#include "vectors/normals.h"
+#include "vectors/tangent_points.h"
+#include "vectors/tangents.h"
+
+namespace mcc {
+
+/// Adaptive models of all attributes of a payload. The encoder's trials copy it. [A.3.6]
+struct AttributeModels {
+  Lazy<EqualityModels> equalities[8];  ///< [semantic]
+  Lazy<NormalModels> normals;
+  Lazy<TexcoordModels> texcoords[2];  ///< [further set]
+  Lazy<TangentModels> tangents;
+  Lazy<TangentPointModels> tangent_points;
+  Lazy<SkinModels> skins[2];          ///< [further set]
+  Lazy<ValueModels> values[8][2][2];  ///< [semantic][further set][morph target]
+  Lazy<VectorModels> exact_normals;
+  Lazy<ExactTangentModels> exact_tangents;
+  Lazy<TailModels> tails[8][2];  ///< [semantic][morph target]
+
+  Lazy<EqualityModels>& equalitiesOf(const AttributeInfo& a) {
+    return equalities[static_cast<uint32_t>(a.format.semantic)];
+  }
+  Lazy<TailModels>& tailsOf(const AttributeInfo& a) {
+    return tails[static_cast<uint32_t>(a.format.semantic)][a.format.morph_target != 0 ? 1 : 0];
+  }
+  Lazy<ValueModels>& valuesOf(const AttributeInfo& a) {
+    return values[static_cast<uint32_t>(a.format.semantic)][a.format.set_index != 0 ? 1 : 0]
+                 [a.format.morph_target != 0 ? 1 : 0];
+  }
+
+  /// Becomes what `o` is. False without memory.
+  [[nodiscard]] bool copyFrom(const AttributeModels& o) {
+    return copyLazy(equalities, o.equalities) && copyLazy(normals, o.normals) &&
+           copyLazy(texcoords, o.texcoords) && copyLazy(tangents, o.tangents) &&
+           copyLazy(tangent_points, o.tangent_points) && copyLazy(skins, o.skins) &&
+           copyLazy(values, o.values) && copyLazy(exact_normals, o.exact_normals) &&
+           copyLazy(exact_tangents, o.exact_tangents) && copyLazy(tails, o.tails);
+  }
+};
+
+/// Integers per wedge that an attribute is coded as; JOINTS_n is coded with its WEIGHTS_n behind.
+inline uint32_t codedComponents(const AttributeInfo* attributes, uint32_t count, uint32_t index) {
+  switch (methodOf(attributes, count, index)) {
+    case AttributeMethod::kNormal:
+    case AttributeMethod::kTangent: return 2;
+    case AttributeMethod::kTangentPoint: return kTangentPointWords;
+    case AttributeMethod::kSkin: return kSkinWords;
+    default: return attributes[index].format.component_count;
+  }
+}
+
+template <class Io>
+class AttributeStage {
+ public:
+  /// `attributes` of the piece, its position first.
+  AttributeStage(Io& io, AttributeModels& models, const AttributeInfo* attributes,
+                 uint32_t attribute_count, const Allocator& allocator)
+      : wedges(allocator),
+        positions(allocator),
+        exact_positions(allocator),
+        normals(allocator),
+        io_(io),
+        models_(models),
+        attributes_(attributes),
+        count_(attribute_count),
+        allocator_(allocator),
+        exact_(allocator),
+        normal_(normalOfTangents(attributes, attribute_count)),
+        exact_normal_(exactNormalOf(attributes, attribute_count)),
+        chart_(chartOfTangents(attributes, attribute_count)),
+        groups_(allocator),
+        floats_(allocator),
+        doubles_(allocator),
+        errors_(allocator),
+        chart_coordinates_(allocator),
+        exact_normals_(allocator),
+        unit_normals_(allocator),
+        memory_(allocator),
+        lengths_(allocator) {
+    for (uint32_t i = 1; i < attribute_count; ++i) {
+      has_tangents_ |= codingPhase(attributes[i]) == 1;
+    }
+  }
+
+  /// Codes attribute `index` into `values`, codedComponents() per wedge; the encoder gives them.
+  Status code(uint32_t index, Array<int32_t>& values) {
+    const AttributeInfo& info = attributes_[index];
+    const AttributeMethod method = methodOf(attributes_, count_, index);
+    if (isWithAnother(method)) return {};
+    const uint32_t components = codedComponents(attributes_, count_, index);
+    if (!values.resize(size_t{wedges.count} * components) || !lengths_.resize(wedges.count)) {
+      return noMemory();
+    }
+    groups_.clear();
+    if ((info.predictor & kHasEqualities) != 0 && wedges.hasSeams()) {
+      EqualityModels* const models = models_.equalitiesOf(info).get(allocator_);
+      if (models == nullptr) return noMemory();
+      MCC_TRY(EqualityCoder<Io>(io_, *models, wedges, values.data(), components).run(groups_));
+    }
+    const GridPart grid = gridPart(index, method, components);
+    if (decodes::kExactFloats && grid.info != nullptr) MCC_TRY(enterGrid(grid, values.data()));
+    switch (method) {
+      case AttributeMethod::kNormal: MCC_TRY(codeNormals(info, values.data())); break;
+      case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(info, values.data())); break;
+      case AttributeMethod::kTangent: MCC_TRY(codeTangents(info, values.data())); break;
+      case AttributeMethod::kSkin: MCC_TRY(codeSkin(index, values.data())); break;
+      case AttributeMethod::kValues: MCC_TRY(codeValues(info, values.data())); break;
+      default:
+        if (decodes::kExactFloats || decodes::kTangentPoints)
+          MCC_TRY(codeRare(method, info, values.data()));
+        break;
+    }
+    if (decodes::kExactFloats && grid.info != nullptr) MCC_TRY(leaveGrid(grid, values.data()));
+    if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside an attribute");
+    return keepForOthers(index, values);
+  }
+
+  /// Keeps what tangents will be predicted from.
+  Status keepForOthers(uint32_t index, const Array<int32_t>& values) {
+    if (!has_tangents_) return {};
+    if (index == normal_) {
+      if (!normals.resize(values.size())) return noMemory();
+      std::copy(values.data(), values.data() + values.size(), normals.data());
+    }
+    if (decodes::kExactFloats && index == exact_normal_) {
+      if (!exact_normals_.resize(values.size())) return noMemory();
+      std::copy(values.data(), values.data() + values.size(), exact_normals_.data());
+    }
+    if (index == chart_) {
+      if (!chart_coordinates_.resize(values.size())) return noMemory();
+      chartCoordinates(attributes_[index], values.data(), values.size(), chart_coordinates_.data());
+    }
+    return {};
+  }
+
+  /// Whether an attribute is predicted from positions that are not rounded.
+  bool needsExactPositions() const {
+    if (!decodes::kExactFloats) return false;
+    for (uint32_t i = 1; i < count_; ++i) {
+      const AttributeMethod method = methodOf(attributes_, count_, i);
+      if (method == AttributeMethod::kExactNormal || method == AttributeMethod::kExactTangent) {
+        return true;
+      }
+      if (Io::kEncoding && attributes_[i].coding == AttributeCoding::kGrid) return true;  // perhaps
+    }
+    return false;
+  }
+
+  const AttributeInfo& normalInfo() const { return attributes_[normal_]; }
+
+  WedgeMesh wedges;
+  Array<float>
+      positions;  ///< 4 per wedge, see wedges.h; only when an attribute is predicted from them
+  Array<float> exact_positions;  ///< 3 per wedge, finite; only if needsExactPositions()
+  Array<int32_t> normals;        ///< 2 per wedge, only if others are predicted from them
+
+ private:
+  static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for attributes"); }
+
+  /// Which of the coded values are on an exact grid; `info` null: none.
+  struct GridPart {
+    const AttributeInfo* info = nullptr;
+    uint32_t first = 0;
+    uint32_t count = 0;
+    uint32_t stride = 0;
+  };
+  GridPart gridPart(uint32_t index, AttributeMethod method, uint32_t components) const {
+    const bool is_skin = method == AttributeMethod::kSkin;
+    const AttributeInfo& info =
+        attributes_[is_skin ? skinPartner(attributes_, count_, index) : index];
+    if (!decodes::kExactFloats || info.coding != AttributeCoding::kGrid) return {};
+    return {&info, is_skin ? kSkinSlots : 0, info.format.component_count, components};
+  }
+
+  /// Encoder: from ordered floats to the integers of their grid.
+  Status enterGrid(const GridPart& part, int32_t* values) {
+    if constexpr (Io::kEncoding) {
+      if (!exact_.resize(size_t{wedges.count} * part.count)) return noMemory();
+      for (uint32_t w = 0; w < wedges.count; ++w) {
+        int32_t* value = values + size_t{w} * part.stride + part.first;
+        for (uint32_t c = 0; c < part.count; ++c) {
+          exact_[size_t{w} * part.count + c] = value[c];
+          value[c] = gridInteger(*part.info, value[c]);
+        }
+      }
+    }
+    return {};
+  }
+
+  /// And back, with what is below the grid.
+  Status leaveGrid(const GridPart& part, int32_t* values) {
+    TailModels* const models = models_.tailsOf(*part.info).get(allocator_);
+    if (models == nullptr) return noMemory();
+    TailCoder<Io> tails(io_, *models, *part.info, allocator_);
+    MCC_TRY(tails.prepare());
+    for (uint32_t w = 0; w < wedges.count; ++w) {
+      int32_t* value = values + size_t{w} * part.stride + part.first;
+      const uint32_t first = groups_.firstOf(w);
+      if (first != w) {
+        std::copy_n(values + size_t{first} * part.stride + part.first, part.count, value);
+        continue;
+      }
+      for (uint32_t c = 0; c < part.count; ++c) {
+        value[c] = tails.code(c, value[c], Io::kEncoding ? exact_[size_t{w} * part.count + c] : 0);
+      }
+    }
+    return {};
+  }
+
+  Status codeValues(const AttributeInfo& info, int32_t* values) {
+    ValueModels* const models = models_.valuesOf(info).get(allocator_);
+    if (models == nullptr) return noMemory();
+    ValueCoder<Io>(io_, *models, wedges, groups_, info, positions.data(), values, lengths_.data())
+        .run();
+    return {};
+  }
+
+  /// What the decoder's core is without.
+  Status codeRare(AttributeMethod method, const AttributeInfo& info, int32_t* values) {
+    switch (method) {
+      case AttributeMethod::kExactNormal: return codeExactNormals(info, values);
+      case AttributeMethod::kExactTangent: return codeExactTangents(info, values);
+      case AttributeMethod::kTangentPoint: return codeTangentPoints(info, values);
+      default: return {};
+    }
+  }
+
+  Status codeNormals(const AttributeInfo& info, int32_t* values) {
+    if (!floats_.resize(4 * size_t{wedges.count})) return noMemory();
+    NormalModels* const models = models_.normals.get(allocator_);
+    if (models == nullptr) return noMemory();
+    NormalCoder<Io>(io_, *models, wedges, groups_, info, values, floats_.data(), lengths_.data())
+        .run(positions.data());
+    return {};
+  }
+
+  Status codeExactNormals(const AttributeInfo& info, int32_t* values) {
+    if (!doubles_.resize(3 * size_t{wedges.count}) || !errors_.resize(wedges.count))
+      return noMemory();
+    const bool remembers = (info.predictor & exact_normal_method::kRemembers) != 0;
+    if (remembers && !memory_.start(wedges, values, 3, true)) return noMemory();
+    VectorModels* const models = models_.exact_normals.get(allocator_);
+    if (models == nullptr) return noMemory();
+    ExactNormalCoder<Io>(io_, *models, wedges, groups_, info, values, doubles_.data(),
+                         errors_.data(), remembers ? &memory_ : nullptr)
+        .run(exact_positions.data());
+    memory_.clear();
+    return {};
+  }
+
+  Status codeExactTangents(const AttributeInfo& info, int32_t* values) {
+    if (!doubles_.resize(4 * size_t{wedges.count}) || !errors_.resize(wedges.count))
+      return noMemory();
+    TangentSources from;
+    from.positions = exact_positions.data();
+    if (chart_ != kNone) from.chart = chart_coordinates_.data();
+    if (exact_normal_ != kNone) from.normals = exact_normals_.data();
+    ExactTangentModels* const models = models_.exact_tangents.get(allocator_);
+    if (models == nullptr) return noMemory();
+    ExactTangentCoder<Io>(io_, *models, wedges, groups_, info, from, values, doubles_.data(),
+                          errors_.data())
+        .run();
+    return {};
+  }
+
+  Status codeTexcoords(const AttributeInfo& info, int32_t* values) {
+    const bool remembers = (info.predictor & texcoord_method::kRemembers) != 0;
+    if (remembers && !memory_.start(wedges, values, 2, false)) return noMemory();
+    TexcoordModels* const models =
+        models_.texcoords[info.format.set_index != 0 ? 1 : 0].get(allocator_);
+    if (models == nullptr) return noMemory();
+    TexcoordCoder<Io>(io_, *models, wedges, groups_, info, positions.data(), values,
+                      lengths_.data(), remembers ? &memory_ : nullptr)
+        .run();
+    memory_.clear();
+    return {};
+  }
+
+  /// What the chart says about tangents, into floats_: 4 per wedge.
+  Status sumFaceTangents() {
+    if (!floats_.assign(4 * size_t{wedges.count}, 0.0f)) return noMemory();
+    if (chart_ != kNone) {
+      addFaceTangents(wedges, positions.data(), chart_coordinates_.data(), floats_.data());
+    }
+    return {};
+  }
+
+  Status codeTangents(const AttributeInfo& info, int32_t* values) {
+    MCC_TRY(sumFaceTangents());
+    TangentModels* const models = models_.tangents.get(allocator_);
+    if (models == nullptr) return noMemory();
+    TangentCoder<Io>(io_, *models, wedges, groups_, info, normalInfo(), normals.data(),
+                     floats_.data(), values, lengths_.data())
+        .run();
+    return {};
+  }
+
+  Status codeTangentPoints(const AttributeInfo& info, int32_t* values) {
+    MCC_TRY(sumFaceTangents());
+    const bool projects = hasNormals(attributes_, count_);
+    if (projects) MCC_TRY(listNormals());
+    TangentPointModels* const models = models_.tangent_points.get(allocator_);
+    if (models == nullptr) return noMemory();
+    TangentPointCoder<Io>(io_, *models, wedges, groups_, info,
+                          projects ? unit_normals_.data() : nullptr, floats_.data(), values,
+                          lengths_.data())
+        .run();
+    return {};
+  }
+
+  /// Normals as vectors: what tangents on a grid are perpendicular to.
+  Status listNormals() {
+    if (!unit_normals_.empty()) return {};
+    if (!unit_normals_.resize(3 * size_t{wedges.count})) return noMemory();
+    for (size_t w = 0; w < wedges.count; ++w) {
+      float* normal = &unit_normals_[3 * w];
+      if (exact_normal_ != kNone) {
+        for (size_t s = 0; s < 3; ++s)
+          normal[s] = static_cast<float>(finiteValue(exact_normals_[3 * w + s]));
+      } else {
+        octahedralToUnit(normals[2 * w], normals[2 * w + 1], octahedralCentre(normalInfo().bits),
+                         normal);
+      }
+    }
+    return {};
+  }
+
+  Status codeSkin(uint32_t index, int32_t* values) {
+    const AttributeInfo& joints = attributes_[index];
+    const AttributeInfo& weights = attributes_[skinPartner(attributes_, count_, index)];
+    const SkinSums sums = static_cast<SkinSums>(weights.predictor);
+    const int32_t sum = sums != SkinSums::kUnknown ? unitSum(weights) : 0;
+    SkinModels* const models = models_.skins[joints.format.set_index != 0 ? 1 : 0].get(allocator_);
+    if (models == nullptr) return noMemory();
+    SkinCoder<Io>(io_, *models, wedges, groups_, sum, sums == SkinSums::kUsual, values,
+                  lengths_.data())
+        .run();
+    return {};
+  }
+
+  Io& io_;
+  AttributeModels& models_;
+  const AttributeInfo* const attributes_;
+  const uint32_t count_;
+  const Allocator allocator_;
+  Array<int32_t> exact_;  ///< encoder: ordered floats of what is on a grid
+  const uint32_t normal_;
+  const uint32_t exact_normal_;
+  const uint32_t chart_;
+  bool has_tangents_ = false;
+  EqualGroups groups_;
+  Array<float> floats_;
+  Array<double> doubles_;
+  Array<VectorError> errors_;
+  Array<float> chart_coordinates_;  ///< 2 per wedge, only with tangents
+  Array<int32_t> exact_normals_;    ///< 3 ordered floats per wedge, only with tangents
+  Array<float> unit_normals_;       ///< 3 per wedge, see listNormals()
+  ValueMemory memory_;
+  Array<uint8_t> lengths_;
+};
+
+}  // namespace mcc
+
+#endif  // MCC_READER_ATTRIBUTE_STAGE_H_

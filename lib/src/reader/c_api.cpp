@@ -1,0 +1,267 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The reader's part of the C API. The writer's part is writer_c_api.cpp, that for documents
+// gltf/api/c_api.cpp.
+#include "mcc/c_api.h"
+
+#include <cstdio>
+#include <new>
+#include <utility>
+
+#include "base/c_struct.h"
+#include "base/memory.h"
+#include "mcc/reader.h"
+
+struct mcc_payload {
+  mcc::Payload payload;
+  mcc::Allocator allocator;
+};
+
+namespace mcc {
+namespace {
+
+static_assert(MCC_ERROR_CANCELLED == static_cast<int>(Error::kCancelled));
+static_assert(MCC_CUSTOM == static_cast<int>(Semantic::kCustom));
+static_assert(MCC_FLOAT32 == static_cast<int>(ComponentType::kFloat32));
+static_assert(MCC_NO_OFFSET == Status::kNoOffset);
+
+Allocator fromC(const mcc_allocator& allocator) {
+  return {allocator.allocate, allocator.release, allocator.user};
+}
+
+mcc_attribute_format formatToC(const AttributeFormat& format) {
+  return {static_cast<uint32_t>(format.semantic),
+          format.set_index,
+          static_cast<uint32_t>(format.component_type),
+          format.component_count,
+          format.normalized ? 1u : 0u,
+          format.morph_target};
+}
+
+mcc_open_options defaultOpenOptions() {
+  const Limits limits;
+  return {
+      sizeof(mcc_open_options), limits.max_vertices,   limits.max_triangles, limits.max_elements,
+      limits.max_output_bytes,  limits.max_attributes, limits.max_pieces,    {}};
+}
+
+Limits limitsOf(const mcc_open_options& options) {
+  Limits limits;
+  limits.max_vertices = options.max_vertices;
+  limits.max_triangles = options.max_triangles;
+  limits.max_elements = options.max_elements;
+  limits.max_output_bytes = options.max_output_bytes;
+  limits.max_attributes = options.max_attributes;
+  limits.max_pieces = options.max_pieces;
+  return limits;
+}
+
+mcc_decode_options defaultDecodeOptions() {
+  return {sizeof(mcc_decode_options), {}, nullptr, nullptr};
+}
+
+const PieceInfo* pieceOf(const mcc_payload* payload, uint32_t piece) {
+  if (payload == nullptr || piece >= payload->payload.info().pieces.size()) return nullptr;
+  return &payload->payload.info().pieces[piece];
+}
+
+/// The targets of all pieces in the form the reader needs, each array in one block of memory.
+class Targets {
+ public:
+  explicit Targets(const Allocator& allocator)
+      : pieces_(allocator), attributes_(allocator), parts_(allocator) {}
+
+  Status read(const mcc_piece_target* targets, size_t count) {
+    size_t attribute_count = 0;
+    size_t part_count = 0;
+    for (size_t i = 0; i < count; ++i) {
+      attribute_count += targets[i].attribute_count;
+      part_count += targets[i].part_count;
+    }
+    if (!pieces_.reserve(count) || !attributes_.reserve(attribute_count) ||
+        !parts_.reserve(part_count)) {
+      return fail(Error::kOutOfMemory, "no memory for the targets");
+    }
+    for (size_t i = 0; i < count; ++i) MCC_TRY(add(targets[i]));
+    return {};
+  }
+
+  std::span<const PieceTarget> all() const { return {pieces_.data(), pieces_.size()}; }
+
+ private:
+  /// Adds the targets of a piece. The arrays must have been reserved, so that spans of them stay
+  /// valid.
+  Status add(const mcc_piece_target& target) {
+    if ((target.attributes == nullptr && target.attribute_count != 0) ||
+        (target.parts == nullptr && target.part_count != 0)) {
+      return fail(Error::kBadArgument, "a target is null");
+    }
+    const size_t first_attribute = attributes_.size();
+    for (size_t i = 0; i < target.attribute_count; ++i) {
+      (void)attributes_.push_back({target.attributes[i].data, target.attributes[i].stride_bytes});
+    }
+    const size_t first_part = parts_.size();
+    for (size_t i = 0; i < target.part_count; ++i) {
+      const uint32_t bytes = target.parts[i].index_bytes;
+      if (bytes != 1 && bytes != 2 && bytes != 4) {
+        return fail(Error::kBadArgument, "index_bytes is not 1, 2 or 4");
+      }
+      (void)parts_.push_back({target.parts[i].indices, static_cast<IndexType>(bytes)});
+    }
+    (void)pieces_.push_back({{attributes_.data() + first_attribute, target.attribute_count},
+                             {parts_.data() + first_part, target.part_count}});
+    return {};
+  }
+
+  Array<PieceTarget> pieces_;
+  Array<AttributeTarget> attributes_;
+  Array<PartTarget> parts_;
+};
+
+struct ProgressOfC {
+  int (*function)(void* user, double done);
+  void* user;
+};
+
+bool callProgress(void* user, double done) {
+  const auto* progress = static_cast<const ProgressOfC*>(user);
+  return progress->function(progress->user, done) != 0;
+}
+
+/// Checks the counts before the arrays of the targets are read, since wrong counts could lead
+/// anywhere.
+Status checkCounts(std::span<const PieceInfo> pieces, const mcc_piece_target* targets,
+                   size_t target_count) {
+  if (target_count != pieces.size())
+    return fail(Error::kBadArgument, "the number of targets is not the number of pieces");
+  for (size_t i = 0; i < target_count; ++i) {
+    if (targets[i].attribute_count != pieces[i].attributes.size() ||
+        targets[i].part_count != pieces[i].parts.size()) {
+      return fail(Error::kBadArgument, "a target does not have the shape of its piece");
+    }
+  }
+  return {};
+}
+
+Status decode(const mcc_payload& payload, const mcc_piece_target* targets, size_t target_count,
+              const mcc_decode_options* given) {
+  mcc_decode_options options;
+  MCC_TRY(readStruct(given, defaultDecodeOptions(), options));
+  MCC_TRY(checkCounts(payload.payload.info().pieces, targets, target_count));
+  Targets read(fromC(options.allocator));
+  MCC_TRY(read.read(targets, target_count));
+  DecodeOptions decode_options;
+  decode_options.allocator = fromC(options.allocator);
+  ProgressOfC progress{options.progress, options.progress_user};
+  if (options.progress != nullptr) {
+    decode_options.progress = callProgress;
+    decode_options.progress_user = &progress;
+  }
+  return payload.payload.decode(read.all(), decode_options);
+}
+
+Status open(const void* bytes, size_t byte_count, const mcc_open_options* given,
+            mcc_payload*& opened) {
+  mcc_open_options options;
+  MCC_TRY(readStruct(given, defaultOpenOptions(), options));
+  const Allocator allocator = fromC(options.allocator);
+  Payload payload;
+  MCC_TRY(
+      payload.open({static_cast<const uint8_t*>(bytes), byte_count}, limitsOf(options), allocator));
+  void* memory = allocateBytes(allocator, sizeof(mcc_payload));
+  if (memory == nullptr) return fail(Error::kOutOfMemory, "no memory for the payload object");
+  opened = new (memory) mcc_payload{std::move(payload), allocator};
+  return {};
+}
+
+}  // namespace
+}  // namespace mcc
+
+const char* mcc_version(void) { return MCC_VERSION; }
+
+size_t mcc_status_text(mcc_status status, char* text, size_t text_bytes) {
+  if (text == nullptr) text_bytes = 0;
+  const char* what = status.what == nullptr || *status.what == 0 ? "ok" : status.what;
+  const int length = status.offset_bytes == MCC_NO_OFFSET
+                         ? std::snprintf(text, text_bytes, "%s", what)
+                         : std::snprintf(text, text_bytes, "%s (byte %llu)", what,
+                                         static_cast<unsigned long long>(status.offset_bytes));
+  return length < 0 ? 0 : static_cast<size_t>(length);
+}
+
+size_t mcc_element_bytes(const mcc_attribute_format* format) {
+  if (format == nullptr || format->component_type > MCC_FLOAT32 ||
+      !mcc::isComponentCount(format->component_count)) {
+    return 0;
+  }
+  return mcc::componentBytes(static_cast<mcc::ComponentType>(format->component_type)) *
+         format->component_count;
+}
+
+void mcc_open_options_init(mcc_open_options* options, size_t struct_bytes) {
+  mcc::initStruct(options, struct_bytes, mcc::defaultOpenOptions());
+}
+
+mcc_status mcc_payload_open(const void* bytes, size_t byte_count, const mcc_open_options* options,
+                            mcc_payload** payload) {
+  if (payload == nullptr) return mcc::badArgument("payload is null");
+  *payload = nullptr;
+  if (bytes == nullptr && byte_count != 0) return mcc::badArgument("bytes is null");
+  return mcc::toC(mcc::open(bytes, byte_count, options, *payload));
+}
+
+void mcc_payload_close(mcc_payload* payload) {
+  if (payload == nullptr) return;
+  const mcc::Allocator allocator = payload->allocator;
+  payload->~mcc_payload();
+  mcc::releaseBytes(allocator, payload, sizeof(mcc_payload));
+}
+
+uint32_t mcc_payload_piece_count(const mcc_payload* payload) {
+  return payload == nullptr ? 0 : static_cast<uint32_t>(payload->payload.info().pieces.size());
+}
+
+mcc_status mcc_payload_piece(const mcc_payload* payload, uint32_t piece, mcc_piece_info* info) {
+  const mcc::PieceInfo* found = mcc::pieceOf(payload, piece);
+  if (found == nullptr || info == nullptr) return mcc::badArgument("there is no such piece");
+  *info = {found->wedge_count, found->vertex_count, static_cast<uint32_t>(found->attributes.size()),
+           static_cast<uint32_t>(found->parts.size())};
+  return mcc::toC({});
+}
+
+mcc_status mcc_payload_attribute(const mcc_payload* payload, uint32_t piece, uint32_t attribute,
+                                 mcc_attribute_info* info) {
+  const mcc::PieceInfo* found = mcc::pieceOf(payload, piece);
+  if (found == nullptr || attribute >= found->attributes.size() || info == nullptr) {
+    return mcc::badArgument("there is no such attribute");
+  }
+  const mcc::AttributeInfo& from = found->attributes[attribute];
+  info->format = mcc::formatToC(from.format);
+  info->coding = static_cast<uint32_t>(from.coding);
+  info->bits = from.bits;
+  for (size_t i = 0; i < 4; ++i) info->lattice.origin[i] = from.lattice.origin[i];
+  info->lattice.step = from.lattice.step;
+  return mcc::toC({});
+}
+
+mcc_status mcc_payload_part(const mcc_payload* payload, uint32_t piece, uint32_t part,
+                            uint32_t* triangle_count) {
+  const mcc::PieceInfo* found = mcc::pieceOf(payload, piece);
+  if (found == nullptr || part >= found->parts.size() || triangle_count == nullptr) {
+    return mcc::badArgument("there is no such part");
+  }
+  *triangle_count = found->parts[part].triangle_count;
+  return mcc::toC({});
+}
+
+void mcc_decode_options_init(mcc_decode_options* options, size_t struct_bytes) {
+  mcc::initStruct(options, struct_bytes, mcc::defaultDecodeOptions());
+}
+
+mcc_status mcc_payload_decode(const mcc_payload* payload, const mcc_piece_target* targets,
+                              size_t target_count, const mcc_decode_options* options) {
+  if (payload == nullptr || (targets == nullptr && target_count != 0)) {
+    return mcc::badArgument("payload or targets is null");
+  }
+  return mcc::toC(mcc::decode(*payload, targets, target_count, options));
+}

@@ -1,0 +1,436 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The stages of one piece, in payload order, for reader and writer alike: [A.2.7]
+//
+//   codeConnectivity mesh collapse codes -> faces, twins            connectivity/mc_codes.h [A.4]
+//                    or faces vertex by vertex                      connectivity/pivots.h   [A.4.7]
+//   codeStitch       which cut vertices share a position -> groups  connectivity/stitch.h   [A.5]
+//   codePositions    positions of groups and of isolated vertices   positions/positions.h  [A.6]
+//   codeSeams        corners -> wedges                              surface/seams.h      [A.7]
+//   codeLeftovers    parts, duplicate and degenerate triangles      surface/leftovers.h  [A.9]
+//   codeOrders       the source's order of triangles and wedges     surface/order.h    [A.10]
+//   codeAttribute    the other attributes, along the same traversal values/values.h     [A.8]
+//
+// The writer runs the same stages with an encoder and with pointers to what it knows (PieceTruth).
+#ifndef MCC_READER_PIECE_H_
+#define MCC_READER_PIECE_H_
+
+#include <new>
+
+#include "base/decodes.h"
+#include "base/lazy.h"
+#include "connectivity/mc_codes.h"
+#include "connectivity/pivots.h"
+#include "connectivity/stitch.h"
+#include "container/payload_header.h"
+#include "exact/tails.h"
+#include "positions/isolated.h"
+#include "positions/positions.h"
+#include "reader/attribute_stage.h"
+#include "surface/leftovers.h"
+#include "surface/order.h"
+#include "surface/seams.h"
+
+namespace mcc {
+
+/// Adaptive models of a payload; all its pieces share them.
+struct PayloadModels {
+  explicit PayloadModels(const Allocator& allocator) : mc(allocator) {}
+
+  McModels mc;
+  Lazy<PivotModels> pivots;
+  Lazy<StitchModels> stitch;
+  PositionModels positions;
+  IsolatedModels isolated;
+  TailModels position_tails;
+  SeamModels seams;
+  LeftoverModels leftovers;
+  Lazy<OrderModels> orders;
+  AttributeModels attributes;
+};
+
+/// What the writer knows about a piece, stage by stage; all null when reading.
+struct PieceTruth {
+  McTruth connectivity;
+  const PivotFace* pivot_faces = nullptr;     ///< only if the piece has pivots
+  const uint32_t* class_of_vertex = nullptr;  ///< by decoded vertex
+  uint32_t class_count = 0;
+  const int32_t* positions = nullptr;  ///< 3 per group; isolated vertices follow
+  /// The same as ordered floats, if they are on an exact grid.
+  const int32_t* exact_positions = nullptr;
+  const AxisPalette* palettes = nullptr;    ///< 3, if the position has them
+  const AxisPlanes* planes = nullptr;       ///< 3, if the position has them
+  const uint32_t* corner_source = nullptr;  ///< source wedge of corner 3f+k
+  LeftoverTruth leftovers;
+  const uint32_t* triangle_order = nullptr;  ///< see TriangleOrderCoder
+  const uint32_t* wedge_order = nullptr;     ///< wedge by place
+};
+
+template <class Io>
+class PieceCoder {
+ public:
+  PieceCoder(Io& io, PayloadModels& models, const PieceHeader& header,
+             const AttributeInfo* attributes, const Allocator& allocator,
+             CodeHistogram* histogram = nullptr, bool has_mc_edges = false)
+      : mesh(allocator),
+        mc_edges(allocator),
+        groups(allocator),
+        records(allocator),
+        sequence(allocator),
+        wedge_group(allocator),
+        list(allocator),
+        triangles(allocator),
+        triangle_order(allocator),
+        wedge_order(allocator),
+        io_(io),
+        models_(models),
+        header_(header),
+        attributes_(attributes),
+        allocator_(allocator),
+        stage_(io, models.attributes, attributes, header.attribute_count, allocator),
+        group_positions_(allocator),
+        histogram_(histogram),
+        has_mc_edges_(has_mc_edges) {}
+
+  Status codeConnectivity(const PieceTruth& truth) {
+    if (!mesh.words.resize(size_t{header_.face_count} * kFaceWords)) return noMemory();
+    mesh.face_count = 0;
+    mesh.vertex_count = 0;
+    if (header_.hasPivots()) {
+      PivotModels* const models = models_.pivots.get(allocator_);
+      if (models == nullptr) return noMemory();
+      if (has_mc_edges_ && !mc_edges.reserve(header_.vertex_count)) return noMemory();
+      PivotCoder<Io> coder(io_, *models, mesh, header_.face_count, allocator_, truth.pivot_faces,
+                           has_mc_edges_ ? &mc_edges : nullptr);
+      MCC_TRY(coder.run(header_.vertex_count));
+      return kTellsMcEdges && has_mc_edges_ ? cornersOfMcEdges() : Status{};
+    }
+    const McCounts counts{header_.operation_count, header_.vertex_count, header_.dummy_count,
+                          header_.face_count, header_.has(piece_flag::kHandles)};
+    const McWatch watch{histogram_, has_mc_edges_ ? &mc_edges : nullptr};
+    const bool is_watched = watch.histogram != nullptr || watch.edges != nullptr;
+    McMachine<Io> machine(io_, models_.mc, counts, allocator_, mesh, truth.connectivity,
+                          is_watched ? &watch : nullptr);
+    MCC_TRY(machine.run());
+    return kTellsMcEdges && has_mc_edges_ ? cornersOfMcEdges() : Status{};
+  }
+
+  Status codeStitch(const PieceTruth& truth) {
+    groups.count = mesh.vertex_count;
+    if (header_.hasPivots()) return listCorners(mesh, groups);
+    if (!header_.hasCopies()) return {};
+    StitchModels* const models = models_.stitch.get(allocator_);
+    if (models == nullptr) return noMemory();
+    Stitcher<Io> stitcher(io_, *models, mesh, allocator_, truth.class_of_vertex);
+    return stitcher.run(header_.surface() == SurfaceCoding::kCopies, truth.class_count, groups);
+  }
+
+  /// The writer passes the fitted tables that the position's flags ask for in `fitted`.
+  Status codePositions(const PieceTruth& truth, const PositionParameters* fitted = nullptr) {
+    if (header_.attribute_count == 0) return needsSequence() ? enterGroups() : Status{};
+    if (!records.resize(size_t{groups.count} + header_.isolated_count)) return noMemory();
+    PositionParameters parameters = fitted != nullptr ? *fitted : PositionParameters{};
+    describePositions(attributes_[0], parameters);
+    MCC_TRY(codePositionTables(io_, models_.positions.tables, parameters));
+    PositionPalettes palettes(allocator_);
+    if (parameters.has(position_mode::kPalette)) {
+      MCC_TRY(palettes.code(io_, models_.positions.tables.palettes, truth.palettes, groups.count));
+      for (uint32_t s = 0; s < 3; ++s) parameters.palette[s] = palettes.axis(s);
+    }
+    AxisPlanes planes[3];
+    if (parameters.has(position_mode::kPlanes)) {
+      for (uint32_t s = 0; s < 3; ++s) {
+        if (Io::kEncoding) planes[s] = truth.planes[s];
+        MCC_TRY(codePlanes(io_, planes[s]));
+      }
+    }
+    const GridPlanes grid(planes);
+    parameters.planes = &grid;
+    models_.positions.rows.prepare(parameters.modes);
+    sequence.clear();
+    if (needsSequence() && !sequence.resize(groups.count)) return noMemory();
+    MCC_TRY(runPositions(parameters, truth));
+    if (header_.isolated_count != 0) {
+      const int32_t* const known =
+          Io::kEncoding ? truth.positions + 3 * size_t{groups.count} : nullptr;
+      IsolatedCoder<Io> isolated(io_, models_.isolated);
+      MCC_TRY(isolated.run(header_.isolated_count, records.data() + groups.count, known));
+    }
+    if (decodes::kExactFloats && attributes_[0].coding == AttributeCoding::kGrid)
+      MCC_TRY(codePositionTails(truth));
+    return {};
+  }
+
+  Status codeSeams(const PieceTruth& truth) {
+    const uint32_t surface_wedges = header_.wedge_count - header_.isolated_count;
+    wedges.isolated_count = header_.isolated_count;
+    wedges.isolated_first = surface_wedges;
+    if (header_.has(piece_flag::kSeams)) {
+      if (header_.has(piece_flag::kCreases)) MCC_TRY(findCreases());
+      Array<uint32_t> starts(allocator_);
+      SeamCoder<Io> coder(io_, models_.seams, mesh, groups, surface_wedges, allocator_,
+                          truth.corner_source);
+      MCC_TRY(coder.run(sequence, starts, wedge_group));
+      sequence.swap(starts);
+    }
+    const size_t found = header_.has(piece_flag::kSeams) ? sequence.size() : groups.count;
+    if (found != surface_wedges) {
+      return fail(Error::kBadAttribute, "the seams make fewer wedges than the header claims");
+    }
+    wedges.half_edges = sequence.data();
+    wedges.count = static_cast<uint32_t>(sequence.size());
+    return {};
+  }
+
+  Status codeLeftovers(const PieceTruth& truth) {
+    MCC_TRY(codeParts(io_, models_.leftovers, mesh.view(), mesh.face_count, header_.part_count,
+                      truth.leftovers));
+    if (!header_.has(piece_flag::kListed)) return {};
+    return codeList(io_, models_.leftovers, mesh.view(), mesh.face_count, header_.wedge_count,
+                    header_.part_count, header_.listed_count, truth.leftovers, list);
+  }
+
+  Status codeOrders(const PieceTruth& truth) {
+    if (!header_.has(piece_flag::kTriangleOrder | piece_flag::kVertexOrder)) return {};
+    OrderModels* const models = models_.orders.get(allocator_);
+    if (models == nullptr || !listTriangles()) return noMemory();
+    if (header_.has(piece_flag::kTriangleOrder)) {
+      TriangleOrderCoder<Io> coder(io_, *models, mesh.view(), mesh.face_count, triangles,
+                                   allocator_);
+      MCC_TRY(coder.run(header_.part_count, truth.triangle_order, triangle_order));
+    }
+    if (!header_.has(piece_flag::kVertexOrder)) return {};
+    WedgeOrderCoder<Io> coder(io_, *models, triangles, allocator_);
+    return coder.run(header_.wedge_count, triangle_order, truth.wedge_order, wedge_order);
+  }
+
+  /// Fills `triangles`. Returns false when memory ran out.
+  [[nodiscard]] bool listTriangles() {
+    const uint64_t count = header_.triangleCount();
+    const bool many = header_.part_count > 1;
+    if (!triangles.wedges.resize(3 * count) || !triangles.part.resize(many ? count : 0))
+      return false;
+    uint32_t next = 0;
+    const auto add = [&](const uint32_t* corners, uint32_t part) {
+      for (uint32_t k = 0; k < 3; ++k) triangles.wedges[3 * size_t{next} + k] = corners[k];
+      if (many) triangles.part[next] = part;
+      ++next;
+    };
+    for (uint32_t f = 0; f < mesh.face_count; ++f) {
+      const uint32_t* face = mesh.words.data() + size_t{f} * kFaceWords;
+      add(face, face[kFaceWord]);
+    }
+    for (size_t i = 0; i < list.size(); ++i) add(list[i].wedge, list[i].part);
+    return true;
+  }
+
+  /// Must be called after the stages before and before codeAttribute(). Overwrites the faces' parts
+  /// and releases the records.
+  Status prepareAttributes() {
+    if (header_.attribute_count < 2) return {};
+    MCC_TRY(stage_.wedges.build(mesh, wedges.half_edges, wedges.count, header_.wedge_count,
+                                header_.has(piece_flag::kSeams) ? wedge_group.data() : nullptr));
+    if (stage_.needsExactPositions()) MCC_TRY(listExactPositions());
+    MCC_TRY(findGroupPositions());
+    records.reset();
+    if (!header_.has(piece_flag::kSeams)) {  // wedges are numbered as groups
+      stage_.positions.swap(group_positions_);
+      return {};
+    }
+    if (!stage_.positions.resize(4 * size_t{header_.wedge_count})) return noMemory();
+    for (uint32_t w = 0; w < header_.wedge_count; ++w) {
+      storeFloat4(&stage_.positions[4 * size_t{w}],
+                  loadFloat4(&group_positions_[4 * size_t{groupOf(w)}]));
+    }
+    group_positions_.reset();
+    return {};
+  }
+
+  static void describePositions(const AttributeInfo& info, PositionParameters& p) {
+    const uint32_t bits = info.coding == AttributeCoding::kLattice ? info.bits
+                          : info.coding == AttributeCoding::kGrid  ? info.bits
+                          : info.coding == AttributeCoding::kInteger
+                              ? 8 * componentBytes(info.format.component_type)
+                              : kExactPositionBits;
+    p.bits = static_cast<uint8_t>(std::min<uint32_t>(bits, kExactPositionBits));
+    p.modes = info.predictor;
+  }
+
+  /// Codes attribute `index` (not 0) into `values`: codedComponents() per wedge.
+  Status codeAttribute(uint32_t index, Array<int32_t>& values) {
+    return stage_.code(index, values);
+  }
+
+  /// For the writer's trials: codeAttribute() then codes only the first wedges in coding order.
+  void codeFirstWedges(uint32_t count) {
+    stage_.wedges.coded_count = std::min(count, stage_.wedges.count);
+  }
+  /// For the writer: keeps what codeAttribute() would leave for other attributes.
+  Status keepForOthers(uint32_t index, const Array<int32_t>& values) {
+    return stage_.keepForOthers(index, values);
+  }
+
+  uint32_t codedComponentsOf(uint32_t index) const {
+    return codedComponents(attributes_, header_.attribute_count, index);
+  }
+
+  /// Returns the grid points of the normals that tangents refer to, and how they are coded.
+  const int32_t* tangentNormals() const { return stage_.normals.data(); }
+  const AttributeInfo& tangentNormalInfo() const { return stage_.normalInfo(); }
+
+  bool needsSequence() const {
+    return header_.has(piece_flag::kSeams) || header_.attribute_count > 1;
+  }
+  /// Returns the group whose record holds the position of a wedge. Isolated vertices come after the
+  /// groups.
+  uint32_t groupOf(uint32_t wedge) const {
+    if (wedge >= wedges.isolated_first) return groups.count + (wedge - wedges.isolated_first);
+    return header_.has(piece_flag::kSeams) ? wedge_group[wedge] : wedge;
+  }
+
+  FaceMesh mesh;  ///< corners hold vertices, after codeStitch() groups, after codeSeams() wedges
+  Array<McEdge> mc_edges;  ///< only if wanted: between half-edges that begin at the vertices
+  Groups groups;
+  Array<VertexRecord> records;  ///< by group
+  /// A half-edge per group, after codeSeams() per wedge, in coding order.
+  Array<uint32_t> sequence;
+  Array<uint32_t> wedge_group;  ///< only with seams
+  WedgeSequence wedges;
+  Array<ListedTriangle> list;
+  TriangleTable triangles;         ///< only if an order is kept
+  Array<uint32_t> triangle_order;  ///< see TriangleOrderCoder; empty if not kept
+  Array<uint32_t> wedge_order;     ///< wedge by place; empty if not kept
+
+ private:
+  /// Replaces the vertices of mc-edges by half-edges, because the next stages renumber vertices but
+  /// not half-edges.
+  Status cornersOfMcEdges() {
+    Array<uint32_t> corner(allocator_);
+    if (!corner.assign(mesh.vertex_count, kNone)) return noMemory();
+    for (uint32_t f = 0; f < mesh.face_count; ++f) {
+      for (uint32_t h = f * kFaceWords; h < f * kFaceWords + 3; ++h) corner[mesh.words[h]] = h;
+    }
+    size_t count = 0;
+    for (size_t i = 0; i < mc_edges.size(); ++i) {
+      const McEdge edge{corner[mc_edges[i].vertex], corner[mc_edges[i].from]};
+      // The codes of a bad file may make vertices without a triangle.
+      if (edge.vertex != kNone && edge.from != kNone) mc_edges[count++] = edge;
+    }
+    return mc_edges.resize(count) ? Status{} : noMemory();
+  }
+
+  /// The scale at which the seeds of exact floats start.
+  static constexpr uint8_t kExactPositionBits = 26;
+
+  /// Lists the positions as the reader's caller gets them; values that are not finite count as 0.
+  Status listExactPositions() {
+    if (!stage_.exact_positions.resize(3 * size_t{header_.wedge_count})) return noMemory();
+    const AttributeInfo& info = attributes_[0];
+    for (uint32_t w = 0; w < header_.wedge_count; ++w) {
+      const int32_t* q = records[groupOf(w)].q;
+      float* to = &stage_.exact_positions[3 * size_t{w}];
+      for (uint32_t s = 0; s < 3; ++s) {
+        to[s] = info.coding == AttributeCoding::kLattice
+                    ? latticeValue(q[s], info.lattice.step, info.lattice.origin[s])
+                : info.coding == AttributeCoding::kInteger ? static_cast<float>(q[s])
+                                                           : static_cast<float>(finiteValue(q[s]));
+        if (!(std::fabs(to[s]) <= 3e38f)) to[s] = 0;
+      }
+    }
+    return {};
+  }
+
+  /// Runs the compiled combination of modes that fits.
+  Status runPositions(const PositionParameters& parameters, const PieceTruth& truth) {
+    if constexpr (Io::kFast) {
+      constexpr uint32_t kWeighted = position_mode::kWeights;
+      constexpr uint32_t kSelecting = position_mode::kWeights | position_mode::kSelect;
+      constexpr uint32_t kShear = position_mode::kShear;
+      constexpr uint32_t kPalette = position_mode::kPalette;
+      constexpr uint32_t kPlanes = position_mode::kPlanes;
+      switch (parameters.modes & kCompiledModes) {
+        case 0: return runPositions<0>(parameters, truth);
+        case kWeighted: return runPositions<kWeighted>(parameters, truth);
+        case kSelecting: return runPositions<kSelecting>(parameters, truth);
+        case kShear: return runPositions<kShear>(parameters, truth);
+        case kWeighted | kShear: return runPositions<kWeighted | kShear>(parameters, truth);
+        case kSelecting | kShear: return runPositions<kSelecting | kShear>(parameters, truth);
+        case kPalette: return runPositions<kPalette>(parameters, truth);
+        case kWeighted | kPalette: return runPositions<kWeighted | kPalette>(parameters, truth);
+        case kPlanes: return runPositions<kPlanes>(parameters, truth);
+        case kWeighted | kPlanes: return runPositions<kWeighted | kPlanes>(parameters, truth);
+        default: break;
+      }
+    }
+    return runPositions<kAnyModes>(parameters, truth);
+  }
+
+  /// Codes the tails of exact positions. The records then hold ordered floats.
+  Status codePositionTails(const PieceTruth& truth) {
+    TailCoder<Io> tails(io_, models_.position_tails, attributes_[0], allocator_);
+    MCC_TRY(tails.prepare());
+    for (size_t v = 0; v < records.size(); ++v) {
+      for (uint32_t s = 0; s < 3; ++s) {
+        int32_t& q = records[v].q[s];
+        q = tails.code(s, q, Io::kEncoding ? truth.exact_positions[3 * v + s] : 0);
+      }
+    }
+    if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside the positions");
+    return {};
+  }
+
+  template <uint32_t kModes>
+  Status runPositions(const PositionParameters& parameters, const PieceTruth& truth) {
+    return PositionCoder<Io, kModes>(io_, models_.positions, parameters, mesh, groups,
+                                     records.data(), allocator_, truth.positions)
+        .run(needsSequence() ? sequence.data() : nullptr);
+  }
+
+  /// Used without positions: enters the groups in the order of the faces.
+  Status enterGroups() {
+    Array<uint8_t> is_entered(allocator_);
+    if (!is_entered.assign(groups.count, 0) || !sequence.reserve(groups.count)) return noMemory();
+    for (uint32_t f = 0; f < mesh.face_count; ++f) {
+      for (uint32_t h = f * kFaceWords; h < f * kFaceWords + 3; ++h) {
+        const uint32_t group = mesh.words[h];
+        if (is_entered[group] != 0) continue;
+        is_entered[group] = 1;
+        if (!sequence.push_back(h)) return noMemory();
+      }
+    }
+    return {};
+  }
+
+  /// Computes the positions for creases and attributes, of groups and, after them, of isolated
+  /// vertices.
+  Status findGroupPositions() {
+    if (!group_positions_.empty()) return {};
+    const uint32_t count = static_cast<uint32_t>(records.size());
+    const auto position = [this](uint32_t group) { return records[group].q; };
+    return decodes::kExactFloats && (attributes_[0].coding == AttributeCoding::kExactFloat ||
+                                     attributes_[0].coding == AttributeCoding::kGrid)
+               ? floatPredictionPositions(count, position, group_positions_)
+               : latticePredictionPositions(count, position, group_positions_);
+  }
+
+  Status findCreases() {
+    MCC_TRY(findGroupPositions());
+    return classifyCreases(mesh.view(), mesh.face_count, group_positions_.data(), allocator_);
+  }
+
+  static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for the decoded mesh"); }
+
+  Io& io_;
+  PayloadModels& models_;
+  const PieceHeader& header_;
+  const AttributeInfo* const attributes_;
+  const Allocator allocator_;
+  AttributeStage<Io> stage_;
+  Array<float> group_positions_;  ///< 4 per group, see surface/wedges.h
+  CodeHistogram* const histogram_;
+  const bool has_mc_edges_;
+};
+
+}  // namespace mcc
+
+#endif  // MCC_READER_PIECE_H_

@@ -1,0 +1,132 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Triangles beside the surface: exact duplicates of faces, degenerate ones; and the parts all belong to.   [A.9]
+#ifndef MCC_SURFACE_LEFTOVERS_H_
+#define MCC_SURFACE_LEFTOVERS_H_
+
+#include <algorithm>
+#include <cstdint>
+
+#include "base/memory.h"
+#include "entropy/models.h"
+#include "entropy/numbers.h"
+#include "mesh/face_mesh.h"
+
+namespace mcc {
+
+struct LeftoverModels {
+  BitModel same_part[4];
+  GolombModel part;
+  TreeModel<3> list_shape[8];  ///< [of the triangle before]
+  GolombModel list_gap[2];     ///< [0: faces again, 1: on edges]
+  GolombModel list_wedge[3];
+  GolombModel list_part;
+};
+
+/// A triangle that is not of the surface.
+struct ListedTriangle {
+  uint32_t wedge[3];
+  uint32_t part;
+  uint32_t shape;  ///< listed_shape
+  uint32_t face;   ///< that the shape refers to
+};
+
+/// Encoder's knowledge; null when decoding.
+struct LeftoverTruth {
+  const uint32_t* part_of_face = nullptr;
+  const ListedTriangle* list = nullptr;
+};
+
+/// Part of each face into its kFaceWord. Predicted from the neighbour behind half-edge 1 (decoded before), else from the
+/// face before.                                                                              [A.9.1]
+template <class Io>
+Status codeParts(Io& io, LeftoverModels& models, const FaceView& faces, uint32_t face_count,
+                 uint32_t part_count, const LeftoverTruth& truth) {
+  if (part_count < 2) return {};
+  uint32_t previous = 0;
+  for (uint32_t f = 0; f < face_count; ++f) {
+    const uint32_t entry = faces.twin(f * kFaceWords + 1);
+    const bool has_entry = entry != kNone && faceOf(entry) < f;
+    const uint32_t guess = has_entry ? faces.words[(entry & ~7u) + kFaceWord] : previous;
+    uint32_t part = guess;
+    const bool truth_same = Io::kEncoding && truth.part_of_face[f] == guess;
+    if (!io.bit(models.same_part[(has_entry ? 1 : 0) + (guess == previous ? 2 : 0)], truth_same)) {
+      uint32_t distance = 0;
+      if constexpr (Io::kEncoding) {
+        distance = (truth.part_of_face[f] + part_count - guess) % part_count - 1;
+      }
+      distance = codeGolomb(io, models.part, distance);
+      if (distance >= part_count - 1) return fail(Error::kBadAttribute, "a triangle is in no part");
+      part = (guess + 1 + distance) % part_count;
+    }
+    faces.words[f * kFaceWords + kFaceWord] = part;
+    previous = part;
+  }
+  return {};
+}
+
+/// What a listed triangle is: a face again; (a, a, b) for the ends a, b of a half-edge of the face, or (b, b, a); or any.
+namespace listed_shape {
+inline constexpr uint32_t kFaceAgain = 0;
+inline constexpr uint32_t kOnEdge = 1;  ///< 1 + 2 * half-edge, one more for (b, b, a)
+inline constexpr uint32_t kAny = 7;
+}  // namespace listed_shape
+
+/// The wedges of a triangle whose shape refers to a face.
+inline void placeOnFace(const FaceView& faces, ListedTriangle& t) {
+  const uint32_t base = t.face * kFaceWords;
+  if (t.shape == listed_shape::kFaceAgain) {
+    for (uint32_t k = 0; k < 3; ++k) t.wedge[k] = faces.vertex(base + k);
+    return;
+  }
+  const uint32_t h = base + (t.shape - listed_shape::kOnEdge) / 2;
+  const bool reversed = (t.shape - listed_shape::kOnEdge) % 2 != 0;
+  t.wedge[0] = t.wedge[1] = faces.vertex(reversed ? nextHalfEdge(h) : h);
+  t.wedge[2] = faces.vertex(reversed ? h : nextHalfEdge(h));
+}
+
+/// Triangles one by one; what refers to faces ascends by their numbers. [A.9.2]
+template <class Io>
+Status codeList(Io& io, LeftoverModels& models, const FaceView& faces, uint32_t face_count,
+                uint32_t wedge_count, uint32_t part_count, uint32_t count,
+                const LeftoverTruth& truth, Array<ListedTriangle>& list) {
+  if (!list.reserve(count)) return fail(Error::kOutOfMemory, "no memory for listed triangles");
+  ListedTriangle t{};
+  for (uint32_t i = 0; i < count; ++i) {
+    const ListedTriangle last = t;
+    const ListedTriangle* known = Io::kEncoding ? truth.list + i : &t;
+    t.shape = codeTree<Io, 3>(io, models.list_shape[last.shape], known->shape);
+    uint32_t guess = last.part;
+    if (t.shape != listed_shape::kAny) {
+      const uint32_t gap =
+          codeGolomb(io, models.list_gap[t.shape == 0 ? 0 : 1], known->face - last.face);
+      if (uint64_t{last.face} + gap >= face_count)
+        return fail(Error::kBadAttribute, "a listed triangle refers to a face that is not there");
+      t.face = last.face + gap;
+      placeOnFace(faces, t);
+      guess = faces.words[t.face * kFaceWords + kFaceWord];
+    }
+    for (uint32_t k = 0; k < 3 && t.shape == listed_shape::kAny; ++k) {
+      const uint32_t from = k == 0 ? last.wedge[0] : t.wedge[0];
+      const int32_t difference =
+          codeSignedGolomb(io, models.list_wedge[k], static_cast<int32_t>(known->wedge[k] - from));
+      t.wedge[k] = from + static_cast<uint32_t>(difference);
+      if (t.wedge[k] >= wedge_count)
+        return fail(Error::kBadAttribute, "a listed triangle refers to a vertex that is not there");
+    }
+    if (part_count > 1) {
+      const uint32_t distance =
+          codeGolomb(io, models.list_part, (known->part + part_count - guess) % part_count);
+      if (distance >= part_count) return fail(Error::kBadAttribute, "a triangle is in no part");
+      t.part = (guess + distance) % part_count;
+    }
+    (void)list.push_back(t);  // reserved above
+    if ((i & 0xff) == 0 && io.overrun())
+      return fail(Error::kTruncated, "the code stream ends inside the list of triangles");
+  }
+  return {};
+}
+
+}  // namespace mcc
+
+#endif  // MCC_SURFACE_LEFTOVERS_H_

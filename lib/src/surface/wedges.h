@@ -1,0 +1,237 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// What all attributes of a piece share: the order of the wedges, the faces each wedge completes, positions as the
+// predictions see them, and groups of wedges with equal values.                              [A.8.1]
+#ifndef MCC_SURFACE_WEDGES_H_
+#define MCC_SURFACE_WEDGES_H_
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "base/float4.h"
+#include "base/memory.h"
+#include "mesh/dequantize.h"
+#include "mesh/face_mesh.h"
+
+namespace mcc {
+
+/// Wedges in coding order. Built once per piece, after the seams; keeps links in the faces' kFaceWord.
+class WedgeMesh {
+ public:
+  explicit WedgeMesh(const Allocator& allocator)
+      : faces(FaceView{nullptr}), order_(allocator), rank_(allocator), completed_(allocator) {}
+
+  /// `starts`: a half-edge per wedge in coding order. Wedges behind the surface's are in no face. `numbered`: they
+  /// are numbered in that order. `group_of_wedge` is null without seams.
+  Status build(FaceMesh& mesh, const uint32_t* starts, uint32_t surface_wedges,
+               uint32_t wedge_count, const uint32_t* group_of_wedge);
+
+  uint32_t wedgeAt(uint32_t i) const { return order_.empty() ? i : order_[i]; }
+  uint32_t rankOf(uint32_t wedge) const { return rank_.empty() ? wedge : rank_[wedge]; }
+  /// Half-edges leaving `wedge` in the faces it completes: all other corners have a lower rank.
+  uint32_t firstCompleted(uint32_t wedge) const { return completed_[wedge]; }
+  uint32_t nextCompleted(uint32_t h) const { return faces.words[(h & ~7u) + kFaceWord]; }
+  /// Fetches what coding the wedges a few places behind i will look at; `data`: `stride` elements per wedge.
+  template <class T>
+  MCC_INLINE void prefetch(uint32_t i, const T* data, size_t stride) const {
+    if (i + 2 * kPrefetch >= surface_count) return;
+    const uint32_t far = wedgeAt(i + 2 * kPrefetch);
+    MCC_PREFETCH(&completed_[far]);
+    MCC_PREFETCH(data + stride * far);
+    const uint32_t entry = completed_[wedgeAt(i + kPrefetch)];
+    if (entry != kNone) MCC_PREFETCH(&faces.words[entry]);
+  }
+  /// Whether wedge `w` is on the same vertex as wedge w-1.
+  bool continuesVertex(uint32_t w) const {
+    return group_of_wedge_ != nullptr && w != 0 && w < surface_count &&
+           group_of_wedge_[w] == group_of_wedge_[w - 1];
+  }
+  /// Calls visit(h) with half-edges leaving `wedge` in its first run of faces, until it returns false; at most 16.
+  template <class Visit>
+  void forRun(uint32_t wedge, Visit visit) const;
+  bool hasSeams() const { return group_of_wedge_ != nullptr; }
+  uint32_t startOf(uint32_t i) const { return starts_[i]; }
+
+  FaceView faces;
+  uint32_t face_count = 0;
+  uint32_t surface_count = 0;  ///< wedges in faces
+  uint32_t count = 0;
+  uint32_t coded_count = 0;  ///< in coding order; fewer than all in the writer's trials
+
+  /// Wedges in faces that are coded.
+  uint32_t surfaceEnd() const { return std::min(surface_count, coded_count); }
+
+ private:
+  static constexpr uint32_t kPrefetch = 4;  ///< places ahead
+
+  Array<uint32_t> order_;  ///< empty: wedges are numbered in coding order
+  Array<uint32_t> rank_;
+  Array<uint32_t> completed_;
+  const uint32_t* starts_ = nullptr;
+  const uint32_t* group_of_wedge_ = nullptr;
+};
+
+inline Status WedgeMesh::build(FaceMesh& mesh, const uint32_t* starts, uint32_t surface_wedges,
+                               uint32_t wedge_count, const uint32_t* group_of_wedge) {
+  faces = mesh.view();
+  face_count = mesh.face_count;
+  surface_count = surface_wedges;
+  count = coded_count = wedge_count;
+  starts_ = starts;
+  group_of_wedge_ = group_of_wedge;
+  order_.clear();
+  rank_.clear();
+  if (!completed_.assign(surface_wedges, kNone) ||
+      (group_of_wedge == nullptr &&
+       (!order_.resize(surface_wedges) || !rank_.resize(surface_wedges)))) {
+    return fail(Error::kOutOfMemory, "no memory for attributes");
+  }
+  for (uint32_t i = 0; group_of_wedge == nullptr && i < surface_wedges; ++i) {
+    order_[i] = faces.vertex(starts[i]);
+    rank_[order_[i]] = i;
+  }
+  for (uint32_t f = face_count; f-- != 0;) {  // backwards, so that the lists ascend
+    // No branches: which corner is the last one is close to random.
+    const uint32_t* corner = faces.words + f * kFaceWords;
+    const uint32_t rank0 = rankOf(corner[0]);
+    const uint32_t rank1 = rankOf(corner[1]);
+    const uint32_t rank2 = rankOf(corner[2]);
+    const uint32_t one = rank1 > rank0 ? 1 : 0;
+    const uint32_t two = rank2 > std::max(rank0, rank1) ? 1 : 0;
+    const uint32_t last = f * kFaceWords + ((one & ~two) | two << 1);
+    uint32_t& first = completed_[faces.vertex(last)];
+    faces.words[f * kFaceWords + kFaceWord] = first;
+    first = last;
+  }
+  return {};
+}
+
+template <class Visit>
+void WedgeMesh::forRun(uint32_t wedge, Visit visit) const {
+  const uint32_t start = starts_[rankOf(wedge)];
+  uint32_t budget = 16;
+  uint32_t h = start;
+  do {
+    if (!visit(h) || --budget == 0) return;
+    h = faces.rotateCcw(h);
+  } while (h != kNone && h != start && faces.vertex(h) == wedge);
+  if (h == start) return;
+  for (h = faces.rotateCw(start); h != kNone && faces.vertex(h) == wedge; h = faces.rotateCw(h)) {
+    if (!visit(h) || --budget == 0) return;
+  }
+}
+
+/// Groups of wedges of a vertex that have equal values; each is coded once, at its first wedge.
+struct EqualGroups {
+  explicit EqualGroups(const Allocator& allocator) : first(allocator), next(allocator) {}
+
+  Array<uint32_t> first;  ///< empty: every wedge is its own group
+  Array<uint32_t> next;   ///< of the same group; kNone behind the last
+
+  bool isFirst(uint32_t wedge) const { return first.empty() || first[wedge] == wedge; }
+  uint32_t firstOf(uint32_t wedge) const { return first.empty() ? wedge : first[wedge]; }
+  uint32_t nextOf(uint32_t wedge) const { return next.empty() ? kNone : next[wedge]; }
+  void clear() {
+    first.clear();
+    next.clear();
+  }
+};
+
+/// Adds the sums (4 floats each) of all members of a group to those of its first wedge.
+inline void gatherGroups(const WedgeMesh& wedges, const EqualGroups& groups, float* sums) {
+  if (groups.first.empty()) return;
+  for (uint32_t w = 0; w < wedges.surface_count; ++w) {
+    const uint32_t first = groups.first[w];
+    if (first == w) continue;
+    storeFloat4(sums + 4 * size_t{first},
+                loadFloat4(sums + 4 * size_t{first}) + loadFloat4(sums + 4 * size_t{w}));
+  }
+}
+
+/// Order in which wedges are coded: wedge faces.vertex(half_edges[i]) is the i-th, isolated wedges follow.
+struct WedgeSequence {
+  const uint32_t* half_edges = nullptr;
+  uint32_t count = 0;
+  uint32_t isolated_first = 0;  ///< wedges that are in no triangle are numbered from here
+  uint32_t isolated_count = 0;
+};
+
+/// Between two wedges, of `positions` as below.
+inline float squaredDistance(const float* positions, uint32_t a, uint32_t b) {
+  const float* p = positions + 4 * size_t{a};
+  const float* q = positions + 4 * size_t{b};
+  const float d[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+}
+
+/// Coordinates of predictions are integers of at most this many bits, as floats: products of a few of their
+/// differences neither overflow nor become denormal.                                          [B.4.6]
+inline constexpr uint32_t kPredictionBits = 22;
+
+/// Wedge positions as float32 integers, 4 per wedge, from the coordinates `position(w)` (int32[3]) of any range.
+template <class Position>
+Status latticePredictionPositions(uint32_t count, Position position, Array<float>& out) {
+  if (!out.resize(4 * size_t{count})) return fail(Error::kOutOfMemory, "no memory for attributes");
+  if (count == 0) return {};
+  const int32_t* centre = position(0);
+  uint64_t reach = 0;
+  for (uint32_t w = 0; w < count; ++w) {
+    const int32_t* q = position(w);
+    for (int s = 0; s < 3; ++s) {
+      const int64_t d = int64_t{q[s]} - centre[s];
+      reach |= static_cast<uint64_t>(d < 0 ? -d : d);
+    }
+  }
+  const uint32_t length = static_cast<uint32_t>(std::bit_width(reach));
+  const uint32_t shift = length > kPredictionBits ? length - kPredictionBits : 0;
+  for (uint32_t w = 0; w < count; ++w) {
+    const int32_t* q = position(w);
+    float* p = &out[4 * size_t{w}];
+    for (int s = 0; s < 3; ++s) {
+      p[s] = static_cast<float>(static_cast<int32_t>((int64_t{q[s]} - centre[s]) >> shift));
+    }
+    p[3] = 0;
+  }
+  return {};
+}
+
+/// The same from exact floats (as ordered integers); what is not finite counts as 0.
+template <class Position>
+Status floatPredictionPositions(uint32_t count, Position position, Array<float>& out) {
+  if (!out.resize(4 * size_t{count})) return fail(Error::kOutOfMemory, "no memory for attributes");
+  if (count == 0) return {};
+  const auto valueOf = [](int32_t ordered) {
+    const uint32_t bits = bitsFromOrdered(ordered);
+    return (bits & 0x7f800000u) == 0x7f800000u ? 0.0
+                                               : static_cast<double>(std::bit_cast<float>(bits));
+  };
+  const int32_t* q0 = position(0);
+  const double centre[3] = {valueOf(q0[0]), valueOf(q0[1]), valueOf(q0[2])};
+  double reach = 0;
+  for (uint32_t w = 0; w < count; ++w) {
+    const int32_t* q = position(w);
+    for (int s = 0; s < 3; ++s) {
+      const double d = valueOf(q[s]) - centre[s];
+      const double absolute = d < 0 ? -d : d;
+      reach = absolute > reach ? absolute : reach;
+    }
+  }
+  // A power of two that brings `reach` (below 2^129, not denormal as a double) to 2^22 at most.
+  const uint64_t exponent = std::bit_cast<uint64_t>(reach) >> 52;
+  const uint64_t scale_exponent = exponent == 0 ? 1023 : 2 * 1023 + kPredictionBits - 1 - exponent;
+  const double scale = std::bit_cast<double>(scale_exponent << 52);
+  for (uint32_t w = 0; w < count; ++w) {
+    const int32_t* q = position(w);
+    float* p = &out[4 * size_t{w}];
+    for (int s = 0; s < 3; ++s) {
+      p[s] = static_cast<float>(static_cast<int32_t>((valueOf(q[s]) - centre[s]) * scale));
+    }
+    p[3] = 0;
+  }
+  return {};
+}
+
+}  // namespace mcc
+
+#endif  // MCC_SURFACE_WEDGES_H_

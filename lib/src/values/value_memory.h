@@ -1,0 +1,150 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Values by what stands beside them: in parts and charts that repeat, mirrored ones too, a flag tells a value.   [B.7]
+#ifndef MCC_VALUES_VALUE_MEMORY_H_
+#define MCC_VALUES_VALUE_MEMORY_H_
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "base/memory.h"
+#include "entropy/models.h"
+#include "mesh/dequantize.h"
+#include "surface/wedges.h"
+
+namespace mcc {
+
+struct MemoryModels {
+  BitModel known[4][4];  ///< [candidates asked for before][last two outcomes]
+};
+
+/// Two different values for each key, which is made of the values at an edge or of a prediction. [B.7.3]
+class ValueMemory {
+ public:
+  explicit ValueMemory(const Allocator& allocator) : entries_(allocator) {}
+
+  /// Starts with no values. `values`: `components` per wedge; with `ignores_signs`, floats that differ in sign are equal.
+  [[nodiscard]] bool start(const WedgeMesh& wedges, const int32_t* values, uint32_t components,
+                           bool ignores_signs) {
+    wedges_ = &wedges;
+    values_ = values;
+    components_ = components;
+    ignores_signs_ = ignores_signs;
+    history_ = 0;
+    bits_ = std::min(static_cast<uint32_t>(std::bit_width(wedges.face_count)) + 1, kMostBits);
+    return entries_.assign(size_t{1} << bits_, Entry{0, {kNone, kNone}});
+  }
+  void clear() { entries_.clear(); }
+
+  /// Alike for both directions of the edge.
+  uint64_t edgeKey(uint32_t a, uint32_t b) const { return keyOf(hashOf(a) + hashOf(b)); }
+  /// The key of a prediction that integers stand for.
+  uint64_t predictionKey(const uint32_t* integers) const { return keyOf(hashOf(integers)); }
+
+  /// To be called before the first ask() about a wedge.
+  void begin() { asked_count_ = 0; }
+  /// Asks whether the value is one of those at a key, but not that of `except` (kNone: of none), and not one asked for
+  /// before; `isValue(k)`: the encoder's answer for that of wedge k. Returns k, or kNone.
+  template <class Io, class IsValue>
+  uint32_t ask(Io& io, MemoryModels& models, uint64_t key, uint32_t except, IsValue isValue) {
+    const Entry e = entries_[key >> (64 - bits_)];
+    if (e.check != static_cast<uint32_t>(key)) return kNone;
+    for (const uint32_t k : e.wedge) {
+      if (k == kNone || (except != kNone && isEqual(k, except)) || wasAsked(k)) continue;
+      BitModel& model = models.known[asked_count_][history_];
+      const bool hit = io.bit(model, Io::kEncoding && isValue(k));
+      history_ = (history_ << 1 | (hit ? 1u : 0u)) & 3;
+      if (hit) return k;
+      asked_[asked_count_++] = k;
+    }
+    return kNone;
+  }
+
+  void learn(uint64_t key, uint32_t wedge) {
+    Entry& e = entries_[key >> (64 - bits_)];
+    const uint32_t check = static_cast<uint32_t>(key);
+    const bool is_known = e.check == check;
+    if (!is_known || e.wedge[0] == kNone || !isEqual(wedge, e.wedge[0])) {
+      e.wedge[1] = is_known ? e.wedge[0] : kNone;
+    }
+    e.check = check;
+    e.wedge[0] = wedge;
+  }
+
+  /// The third corners of the faces that wedge w completes; `isCoded(x)`: whether wedge x has its value.
+  template <class IsCoded>
+  void learnFaces(uint32_t w, IsCoded isCoded) {
+    if (w >= wedges_->surface_count) return;
+    uint32_t faces = 0;
+    for (uint32_t h = wedges_->firstCompleted(w); h != kNone && faces < kFaceLimit;
+         h = wedges_->nextCompleted(h), ++faces) {
+      const uint32_t n = wedges_->faces.vertex(nextHalfEdge(h));
+      const uint32_t p = wedges_->faces.vertex(prevHalfEdge(h));
+      if (!isCoded(n) || !isCoded(p)) continue;
+      const uint64_t of_w = hashOf(w);
+      const uint64_t of_n = hashOf(n);
+      const uint64_t of_p = hashOf(p);
+      learn(keyOf(of_n + of_p), w);
+      learn(keyOf(of_w + of_n), p);
+      learn(keyOf(of_w + of_p), n);
+    }
+  }
+
+ private:
+  static constexpr uint32_t kMostBits = 22;
+  static constexpr uint32_t kFaceLimit = 16;
+
+  struct Entry {
+    uint32_t check;
+    uint32_t wedge[2];  ///< the latest first; kNone: none
+  };
+
+  const int32_t* at(uint32_t w) const { return values_ + size_t{w} * components_; }
+  uint32_t seen(int32_t value) const {
+    return ignores_signs_ ? bitsFromOrdered(value) & 0x7fffffffu : static_cast<uint32_t>(value);
+  }
+  bool isEqual(uint32_t a, uint32_t b) const {
+    for (uint32_t c = 0; c < components_; ++c) {
+      if (seen(at(a)[c]) != seen(at(b)[c])) return false;
+    }
+    return true;
+  }
+  bool wasAsked(uint32_t k) const {
+    return std::any_of(asked_, asked_ + asked_count_,
+                       [=, this](uint32_t other) { return isEqual(k, other); });
+  }
+  static uint64_t addToHash(uint64_t h, uint32_t x) {
+    h = (h ^ x) * 0x9e3779b97f4a7c15u;
+    return h ^ (h >> 29);
+  }
+  static constexpr uint64_t kEmptyHash = 0x243f6a8885a308d3u;
+  uint64_t hashOf(uint32_t w) const {
+    uint64_t h = kEmptyHash;
+    for (uint32_t c = 0; c < components_; ++c) h = addToHash(h, seen(at(w)[c]));
+    return h;
+  }
+  uint64_t hashOf(const uint32_t* integers) const {
+    uint64_t h = kEmptyHash;
+    for (uint32_t c = 0; c < components_; ++c) h = addToHash(h, integers[c]);
+    return h;
+  }
+  static uint64_t keyOf(uint64_t hash) {
+    const uint64_t h = hash * 0xbf58476d1ce4e5b9u;
+    return h ^ (h >> 32);
+  }
+
+  Array<Entry> entries_;
+  const WedgeMesh* wedges_ = nullptr;
+  const int32_t* values_ = nullptr;
+  uint32_t components_ = 0;
+  bool ignores_signs_ = false;
+  uint32_t bits_ = 0;
+  uint32_t history_ = 0;
+  uint32_t asked_[4];
+  uint32_t asked_count_ = 0;
+};
+
+}  // namespace mcc
+
+#endif  // MCC_VALUES_VALUE_MEMORY_H_

@@ -1,0 +1,322 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Unit normals on the octahedral grid, predicted from the decoded faces.                     [A.8.5, B.4]
+//
+// Prediction: the weighted sum of the normals of all faces around a group of equal wedges; optionally corrected by what
+// the prediction missed at the two neighbours of the entry face. Residual: both grid points are mapped so that the
+// prediction lies near the centre and in one quadrant, then subtracted modulo the grid (as in Draco's canonicalised
+// transform).
+#ifndef MCC_VECTORS_NORMALS_H_
+#define MCC_VECTORS_NORMALS_H_
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "mesh/attribute_method.h"
+#include "surface/face_pass.h"
+#include "surface/wedges.h"
+#include "values/residuals.h"
+#include "vectors/octahedral.h"
+
+namespace mcc {
+
+/// Weight of a face's normal at a corner.
+enum class NormalWeight : uint8_t {
+  kArea = 0,   ///< area of the face
+  kAngle = 1,  ///< angle at the corner
+  kSine = 2,   ///< area over the squared lengths of the corner's sides (Max 1999)
+};
+
+struct NormalModels {
+  TokenRow row[2][kLengthContexts];
+
+  NormalModels() {
+    for (auto& component : row) {
+      for (TokenRow& r : component) r.setUniform();
+    }
+  }
+};
+
+MCC_SHARED void addNormalsOfWeight(NormalWeight normal_weight, const WedgeMesh& wedges,
+                                   const float* positions, float* sums) {
+  forFourFaces(wedges.faces, wedges.face_count, [=](const uint32_t* words, uint32_t count) {
+    const FourFaces faces(words, count, positions);
+    const Float4 one = allLanes(1.0f);
+    const Float4 nn = dotProduct(faces.normal, faces.normal);
+    const Mask4 is_face = nn > allLanes(0.0f);  // then all sides are longer than 0
+    Float4 weight[3] = {one, one, one};
+    if (normal_weight == NormalWeight::kAngle) {
+      const Float4 length = squareRoot(nn);
+      const Float4 inverse = select(is_face, one / length, allLanes(0.0f));
+      faces.cornerAngles(length, weight);
+      for (Float4& w : weight) w = w * inverse;
+    } else if (normal_weight == NormalWeight::kSine) {
+      Float4 e2[3];
+      for (int s = 0; s < 3; ++s) e2[s] = faces.e1[s] - faces.e0[s];
+      const Float4 q0 = dotProduct(faces.e0, faces.e0);
+      const Float4 q1 = dotProduct(faces.e1, faces.e1);
+      const Float4 q2 = dotProduct(e2, e2);
+      // No product of three, which overflows where faces are as long as the mesh.
+      const Float4 zero = allLanes(0.0f);
+      weight[0] = select(is_face, one / (q0 * q1), zero);
+      weight[1] = select(is_face, one / (q0 * q2), zero);
+      weight[2] = select(is_face, one / (q1 * q2), zero);
+    }
+    Float4 rows[4] = {faces.normal[0], faces.normal[1], faces.normal[2], allLanes(0.0f)};
+    transpose(rows[0], rows[1], rows[2], rows[3]);
+    CornerSums(faces, count, sums).add(rows, weight, nullptr);
+  });
+}
+
+/// Adds the weighted normal of every face to its three wedges' sums (4 floats each). [B.4.2]
+inline void addFaceNormals(NormalWeight weight, const WedgeMesh& wedges, const float* positions,
+                           float* sums) {
+  if constexpr (kCompact) return addNormalsOfWeight(weight, wedges, positions, sums);
+  switch (weight) {
+    case NormalWeight::kArea:
+      return addNormalsOfWeight(NormalWeight::kArea, wedges, positions, sums);
+    case NormalWeight::kAngle:
+      return addNormalsOfWeight(NormalWeight::kAngle, wedges, positions, sums);
+    case NormalWeight::kSine:
+      return addNormalsOfWeight(NormalWeight::kSine, wedges, positions, sums);
+  }
+}
+
+/// Sum of the coordinates' absolute values.
+inline float manhattanLength(const float* v) {
+  return std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]);
+}
+inline constexpr float kShortest = 1e-30f;  ///< shorter vectors have no direction
+
+/// Grid point, relative to the centre, nearest to the projection of a vector along z; `length`: its manhattanLength(),
+/// above kShortest. Vectors with z < 0 are mirrored first. [B.4.4]
+inline void projectToGrid(const float* v, float length, int32_t centre, int32_t* point) {
+  const float scale = static_cast<float>(centre) / length;
+  for (int s = 0; s < 2; ++s) {
+    const float scaled = v[s] * scale;  // rounding errors stay below half a step
+    point[s] = static_cast<int32_t>(scaled + std::copysign(0.5f, scaled));
+  }
+}
+
+/// The residual's frame, chosen by the predicted point; maps grid points to and fro. The cases are equally likely, so
+/// it is all selects and no branches. [B.4.5]
+class OctahedralFrame {
+ public:
+  /// `inside`: the predicted point or, if that is `turned_over`, its image in the diamond.
+  OctahedralFrame(const int32_t* inside, bool turned_over, int32_t centre)
+      : centre_(centre), turned_over_(turned_over), p_{inside[0], inside[1]} {
+    // Quarter turns that bring p to x < 0, y <= 0.
+    const int32_t x = p_[0];
+    const int32_t y = p_[1];
+    const int32_t one = (y > 0) & (x <= 0);
+    const int32_t two = (x > 0) & (y >= 0);
+    const int32_t three = (y < 0) & (x >= 0);
+    cosine_ = 1 - one - 2 * two - three;
+    sine_ = one - three;
+    turn(p_, sine_);
+  }
+
+  static OctahedralFrame around(const int32_t* predicted, int32_t centre) {
+    int32_t inside[2] = {predicted[0], predicted[1]};
+    const bool turned_over = std::abs(inside[0]) + std::abs(inside[1]) > centre;
+    if (turned_over) turnOver(inside, centre);
+    return OctahedralFrame(inside, turned_over, centre);
+  }
+
+  /// Swaps the inside and the outside of the diamond |x| + |y| = centre.
+  static void turnOver(int32_t* p, int32_t centre) {
+    const int32_t x = p[0];
+    const int32_t y = p[1];
+    const bool x_negative = (x < 0) | ((x == 0) & (y < 0));
+    const bool y_negative = (y < 0) | ((y == 0) & (x < 0));
+    const int32_t to_x = centre - std::abs(y);
+    const int32_t to_y = centre - std::abs(x);
+    p[0] = x_negative ? -to_x : to_x;
+    p[1] = y_negative ? -to_y : to_y;
+  }
+
+  void residualOf(const int32_t* point, int32_t* residual) const {
+    int32_t p[2] = {point[0], point[1]};
+    turnOverIf(turned_over_, p);
+    turn(p, sine_);
+    for (int k = 0; k < 2; ++k) residual[k] = wrap(p[k] - p_[k]);
+  }
+
+  /// `residual` may be anything; the point is on the grid.
+  void pointOf(const int32_t* residual, int32_t* point) const {
+    for (int k = 0; k < 2; ++k) {
+      point[k] = wrap(p_[k] + std::clamp(residual[k], -centre_, centre_));
+    }
+    turn(point, -sine_);
+    turnOverIf(turned_over_, point);
+  }
+
+ private:
+  void turn(int32_t* p, int32_t sine) const {
+    const int32_t x = p[0];
+    p[0] = cosine_ * x - sine * p[1];
+    p[1] = sine * x + cosine_ * p[1];
+  }
+  void turnOverIf(bool condition, int32_t* p) const {
+    int32_t q[2] = {p[0], p[1]};
+    turnOver(q, centre_);
+    p[0] = condition ? q[0] : p[0];
+    p[1] = condition ? q[1] : p[1];
+  }
+  int32_t wrap(int32_t value) const {
+    const int32_t size = 2 * centre_ + 1;
+    return value - (value > centre_ ? size : 0) + (value < -centre_ ? size : 0);
+  }
+
+  const int32_t centre_;
+  const bool turned_over_;
+  int32_t p_[2];
+  int32_t cosine_ = 1;
+  int32_t sine_ = 0;
+};
+
+/// One of the up to four grid points that stand for the same direction on the border. Writers store only it.
+inline void canonicalGridPoint(int32_t centre, int32_t* point) {
+  int32_t p[2] = {point[0] - centre, point[1] - centre};
+  if (std::abs(p[0]) != centre && std::abs(p[1]) != centre) return;
+  OctahedralFrame::turnOver(p, centre);
+  OctahedralFrame::turnOver(p, centre);
+  point[0] = p[0] + centre;
+  point[1] = p[1] + centre;
+}
+
+/// Codes a grid point `value` in 0..2*centre; `point`: relative to the centre. `context`: up to kNoNeighbours. [A.8.5]
+template <class Io>
+MCC_INLINE void codeGridPoint(Io& io, TokenRow (&rows)[2][kLengthContexts],
+                              const OctahedralFrame& frame, int32_t centre, uint32_t context,
+                              int32_t* value, uint8_t& longest, int32_t* point) {
+  int32_t residual[2] = {};
+  int32_t p[2] = {};
+  if constexpr (Io::kEncoding) {
+    p[0] = value[0] - centre;
+    p[1] = value[1] - centre;
+    frame.residualOf(p, residual);
+  }
+  uint32_t length = 0;
+  uint32_t second_length = 0;
+  residual[0] = codeSmallSigned<0>(io, rows[0][context], residual[0], length);
+  const uint32_t second = context == kNoNeighbours ? length : (context + length + 1) / 2;
+  residual[1] = codeSmallSigned<1>(io, rows[1][second], residual[1], second_length);
+  longest = static_cast<uint8_t>(std::max(length, second_length));
+  frame.pointOf(residual, p);
+  for (int s = 0; s < 2; ++s) {
+    value[s] = static_cast<int32_t>(static_cast<uint32_t>(p[s]) + static_cast<uint32_t>(centre));
+    point[s] = p[s];
+  }
+}
+
+/// Codes grid points (s, t) in 0..2*centre, two per wedge.
+template <class Io>
+class NormalCoder {
+ public:
+  /// Work space: `sums` 4 floats per wedge, `lengths` a byte per wedge.
+  NormalCoder(Io& io, NormalModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
+              const AttributeInfo& info, int32_t* values, float* sums, uint8_t* lengths)
+      : io_(io),
+        models_(models),
+        wedges_(wedges),
+        groups_(groups),
+        weight_(static_cast<NormalWeight>(info.predictor & normal_method::kWeightMask)),
+        blends_((info.predictor & normal_method::kBlend) != 0),
+        centre_(octahedralCentre(info.bits)),
+        scale_(1.0f / static_cast<float>(centre_)),
+        values_(values),
+        sums_(sums),
+        lengths_(lengths) {}
+
+  void run(const float* positions) {
+    std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
+    std::fill(sums_, sums_ + 4 * size_t{wedges_.count}, 0.0f);
+    addFaceNormals(weight_, wedges_, positions, sums_);
+    for (uint32_t i = 0; i < wedges_.surfaceEnd(); ++i) {
+      const uint32_t w = wedges_.wedgeAt(i);
+      wedges_.prefetch(i, sums_, 4);
+      if (groups_.isFirst(w)) codeGroup(w);
+    }
+    for (uint32_t w = wedges_.surface_count; w < wedges_.coded_count; ++w)
+      codePoint(w, OctahedralFrame::around(last_, centre_), kNoNeighbours);
+  }
+
+ private:
+  static constexpr float kBlendPart = 0.25f;  ///< of what both neighbours' predictions missed
+
+  float* sum(uint32_t w) { return sums_ + 4 * size_t{w}; }
+
+  void codeGroup(uint32_t w);
+  void codePoint(uint32_t w, const OctahedralFrame& frame, uint32_t context);
+
+  Io& io_;
+  NormalModels& models_;
+  const WedgeMesh& wedges_;
+  const EqualGroups& groups_;
+  const NormalWeight weight_;
+  const bool blends_;
+  const int32_t centre_;
+  const float scale_;
+  int32_t* const values_;
+  float* const sums_;  ///< of faces; once a wedge is coded: what its prediction missed, if blending
+  uint8_t* const lengths_;
+  int32_t last_[2] = {};
+};
+
+template <class Io>
+void NormalCoder<Io>::codeGroup(uint32_t w) {
+  float direction[3] = {sum(w)[0], sum(w)[1], sum(w)[2]};
+  uint32_t entry = wedges_.firstCompleted(w);
+  for (uint32_t m = groups_.nextOf(w); m != kNone; m = groups_.nextOf(m)) {
+    for (int s = 0; s < 3; ++s) direction[s] += sum(m)[s];
+    if (entry == kNone) entry = wedges_.firstCompleted(m);
+  }
+  float length = manhattanLength(direction);
+  uint32_t context = kNoNeighbours;
+  float used[3] = {direction[0], direction[1], direction[2]};
+  if (blends_) {
+    const float inverse = length > kShortest ? 1.0f / length : 0.0f;
+    for (int s = 0; s < 3; ++s) used[s] = direction[s] = direction[s] * inverse;
+  }
+  if (entry != kNone) {
+    const uint32_t n = wedges_.faces.vertex(nextHalfEdge(entry));
+    const uint32_t p = wedges_.faces.vertex(prevHalfEdge(entry));
+    context = (lengths_[n] + lengths_[p] + 1u) / 2;
+    if (blends_) {
+      for (int s = 0; s < 3; ++s) used[s] = direction[s] + kBlendPart * (sum(n)[s] + sum(p)[s]);
+    }
+  }
+  if (blends_) length = manhattanLength(used);
+  if (length > kShortest) [[likely]] {
+    int32_t inside[2];
+    projectToGrid(used, length, centre_, inside);
+    codePoint(w, OctahedralFrame(inside, used[2] < 0, centre_), context);
+  } else {
+    codePoint(w, OctahedralFrame::around(last_, centre_), context);
+  }
+  if (blends_) {
+    float missed[4] = {0, 0, 0, 0};
+    foldToOctahedron(static_cast<float>(last_[0]) * scale_, static_cast<float>(last_[1]) * scale_,
+                     missed);
+    for (int s = 0; s < 3; ++s) sum(w)[s] = missed[s] - direction[s];
+  }
+  for (uint32_t m = groups_.nextOf(w); m != kNone; m = groups_.nextOf(m)) {
+    values_[2 * size_t{m}] = values_[2 * size_t{w}];
+    values_[2 * size_t{m} + 1] = values_[2 * size_t{w} + 1];
+    lengths_[m] = lengths_[w];
+    if (blends_) std::copy(sum(w), sum(w) + 3, sum(m));
+  }
+}
+
+template <class Io>
+MCC_SHARED void NormalCoder<Io>::codePoint(uint32_t w, const OctahedralFrame& frame,
+                                           uint32_t context) {
+  codeGridPoint(io_, models_.row, frame, centre_, std::min(context, kNoNeighbours),
+                values_ + 2 * size_t{w}, lengths_[w], last_);  // kNotCoded makes it long
+}
+
+}  // namespace mcc
+
+#endif  // MCC_VECTORS_NORMALS_H_

@@ -1,0 +1,284 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+// The writer's choices. Each is tried with models of its own, or with a copy of the payload's. The
+// smallest result is kept, where time of the reader has a price.
+#include "writer/choices.h"
+
+#include <algorithm>
+
+#include "exact/enc_grid.h"
+#include "positions/enc_prices.h"
+#include "vectors/enc_predictor_search.h"
+#include "writer/stages.h"
+
+namespace mcc {
+namespace {
+
+/// Candidates for an attribute are tried on this many wedges, or on this fraction of all.
+constexpr uint32_t kTrialWedges = 4000;
+constexpr uint32_t kTrialShare = 6;
+constexpr double kExpectedPositionBits = 15;  ///< per vertex, assumed when surfaces are compared
+
+Status surfaceCost(Plan& plan, uint64_t& cost) {
+  CostIo io;
+  auto models = makeModels(0);
+  StageRunner<CostIo> runner(io, *models, plan);
+  MCC_TRY(runner.codeSurface(nullptr));
+  cost = io.cost();
+  return {};
+}
+
+struct Connectivity {
+  const McRecord* record;
+  McCounts counts;
+};
+
+/// Counts what the connectivity of all pieces costs with a context set.
+Status contextSetCost(const std::vector<Connectivity>& pieces, uint32_t set, uint64_t& cost) {
+  CostIo io;
+  auto models = makeModels(set);
+  FaceMesh mesh{Allocator{}};
+  std::vector<uint32_t> node_map;
+  std::vector<uint32_t> source_of_vertex;
+  std::vector<uint32_t> source_gate;
+  for (const Connectivity& piece : pieces) {
+    if (!mesh.words.resize(size_t{piece.counts.face_count} * kFaceWords)) throwBadAlloc();
+    node_map.resize(piece.record->node_count);
+    source_of_vertex.resize(piece.counts.vertex_count);
+    source_gate.resize(piece.counts.face_count);
+    const McTruth truth =
+        connectivityTruth(*piece.record, {node_map, source_of_vertex, source_gate});
+    MCC_TRY(McMachine<CostIo>(io, models->mc, piece.counts, {}, mesh, truth, nullptr).run());
+  }
+  cost = io.cost();
+  return {};
+}
+
+Status chooseContextSet(const std::vector<Connectivity>& pieces, const Jobs& jobs,
+                        uint32_t& best_set) {
+  uint64_t costs[kContextSetCount];
+  MCC_TRY(jobs.tryAll(kContextSetCount, [&](size_t set) {
+    return contextSetCost(pieces, static_cast<uint32_t>(set), costs[set]);
+  }));
+  best_set = static_cast<uint32_t>(std::min_element(costs, std::end(costs)) - costs);
+  return {};
+}
+
+using Runners = std::vector<std::unique_ptr<StageRunner<CostIo>>>;
+
+/// Chooses once for all pieces, since they share tables and models. Consumes the recordings.
+PositionParameters choosePositions(std::vector<RecordedPositions> recorded, double surface_bits,
+                                   const EncodeSettings& options, const Jobs& jobs) {
+  std::vector<PositionCandidate> candidates;
+  for (const RecordedPositions& piece : recorded) candidates.push_back(piece.candidate);
+  return choosePositionParameters(candidates, surface_bits, options, jobs);
+}
+
+/// Lists the ways to code an attribute. Unit vectors on a grid may be coded as floats as well;
+/// their values in a plan are the same.
+std::vector<AttributeInfo> exactAlternatives(const AttributeInfo& info, const FeatureSet& without) {
+  std::vector<AttributeInfo> all = {info};
+  const bool may_be_plain =
+      info.format.semantic == Semantic::kTangent ||
+      (info.format.semantic == Semantic::kNormal && !without.has(Feature::kExactNormals));
+  if (info.coding == AttributeCoding::kGrid && info.format.morph_target == 0 && may_be_plain) {
+    AttributeInfo plain;
+    plain.format = info.format;
+    plain.coding = AttributeCoding::kExactFloat;
+    all.push_back(plain);
+  }
+  return all;
+}
+
+/// Tries the candidates of one attribute, starting from the current models, and continues with the
+/// best.
+/// goes_on      says that some later attribute shares its models.
+/// wedge_share  is what the payload takes so far, per wedge, in the units of costs.
+Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& runner,
+                             PayloadModels& models, double wedge_share, const TimePrice& price,
+                             const FeatureSet& without, bool goes_on) {
+  AttributeInfo& info = plan.attributes[index].info;
+  const std::vector<AttributeInfo> alternatives = exactAlternatives(info, without);
+  const uint32_t part = std::max(kTrialWedges, plan.header.wedge_count / kTrialShare);
+  // What lies below a grid is always coded for all wedges, so a sample would distort the
+  // comparison.
+  const uint32_t sample = alternatives.size() > 1 ? kNone : part;
+  AttributeModels before;
+  if (!before.copyFrom(models.attributes)) throwBadAlloc();
+  AttributeInfo best = info;
+  uint64_t best_cost = ~uint64_t{0};
+  for (AttributeInfo candidate : alternatives) {
+    info = candidate;
+    std::vector<AttributeInfo> infos;
+    for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
+    const AttributeMethod method = methodOf(infos.data(), plan.header.attribute_count, index);
+    if (isWithAnother(method)) return {};
+    PredictorSearch search(method, plan.header.has(piece_flag::kSeams), without);
+    if (alternatives.size() == 1 && search.isSettled()) {
+      best.predictor = search.best();
+      break;
+    }
+    while (!search.done()) {
+      uint64_t cost = 0;
+      info.predictor = candidate.predictor = search.candidate();
+      MCC_TRY(runner.tryAttribute(index, sample, cost));
+      const double tried = std::min(sample, plan.header.wedge_count);
+      cost += static_cast<uint64_t>(
+          price.surcharge(tried * wedge_share, timeOf(method, info.predictor)));
+      search.report(cost);
+      if (!models.attributes.copyFrom(before)) throwBadAlloc();
+      if (cost >= best_cost) continue;
+      best_cost = cost;
+      best = candidate;
+    }
+  }
+  info = best;
+  return goes_on ? runner.codeAttribute(index, nullptr) : runner.passAttribute(index);
+}
+
+/// Chooses creases and the methods of all attributes but positions; they do not depend on how
+/// positions are coded. `io` has counted the surfaces.
+Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& models,
+                     const CostIo& io, const EncodeSettings& options) {
+  const TimePrice price(options.prefer);
+  const bool only_positions = std::all_of(plans.begin(), plans.end(), [](const Plan& plan) {
+    return plan.attributes.size() == 1 && !plan.header.has(piece_flag::kSeams);
+  });
+  if (only_positions) return {};
+  double wedges = 1;
+  for (size_t i = 0; i < plans.size(); ++i) {
+    MCC_TRY(runners[i]->codePositions(nullptr));
+    wedges += plans[i].header.wedge_count;
+  }
+  const double wedge_share = static_cast<double>(io.cost()) / wedges;
+  for (size_t i = 0; i < plans.size(); ++i) {
+    if (!options.without.has(Feature::kCreases)) MCC_TRY(runners[i]->chooseCreases(models));
+    MCC_TRY(runners[i]->codeSeams(nullptr));
+    MCC_TRY(runners[i]->prepareAttributes());
+    const std::vector<uint32_t> order = codingOrder(plans[i]);
+    for (size_t k = 0; k < order.size(); ++k) {
+      bool goes_on = i + 1 < plans.size();
+      for (size_t later = k + 1; later < order.size(); ++later) {
+        goes_on |= plans[i].attributes[order[later]].info.format.semantic ==
+                   plans[i].attributes[order[k]].info.format.semantic;
+      }
+      MCC_TRY(chooseAttributeMethod(plans[i], order[k], *runners[i], models, wedge_share, price,
+                                    options.without, goes_on));
+    }
+  }
+  return {};
+}
+
+Status choosePredictors(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs) {
+  auto models = makeModels(0);  // these choices do not depend on the context set
+  CostIo io;
+  Runners runners;
+  for (Plan& plan : plans) {
+    runners.push_back(std::make_unique<StageRunner<CostIo>>(io, *models, plan));
+    MCC_TRY(runners.back()->codeSurface(nullptr));
+  }
+  const double surface_bits = static_cast<double>(io.cost()) / kCostOne;
+  if (plans[0].attributes.empty()) return chooseMethods(plans, runners, *models, io, options);
+  std::vector<RecordedPositions> recorded(plans.size());
+  MCC_TRY(jobs.tryAll(plans.size(),
+                      [&](size_t i) { return runners[i]->recordPositions(recorded[i]); }));
+  PositionParameters chosen;
+  MCC_TRY(jobs.tryAll(2, [&](size_t i) -> Status {
+    if (i == 1) return chooseMethods(plans, runners, *models, io, options);
+    chosen = choosePositions(std::move(recorded), surface_bits, options, jobs);
+    return {};
+  }));
+  for (Plan& plan : plans) {
+    plan.positions_as = chosen;
+    plan.attributes[0].info.predictor = chosen.modes;
+  }
+  return {};
+}
+
+/// Chooses at random, instead of chooseAttributeMethod().
+void varyAttributeMethod(Plan& plan, uint32_t index, Variation& variation) {
+  std::vector<AttributeInfo> infos;
+  for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
+  infos[index] = variation.oneOf(exactAlternatives(infos[index], {}));
+  variation.predictors(infos, index);
+  for (size_t i = 0; i < infos.size(); ++i) plan.attributes[i].info = infos[i];
+}
+
+}  // namespace
+
+Status chooseSurface(Plan& plan, uint32_t start_half_edge, const FeatureSet& without,
+                     Variation* variation, const TimePrice& price, const Jobs& jobs) {
+  prepareConnectivity(plan, start_half_edge);
+  if (!plan.header.hasCopies() || without.has(Feature::kPivots) || !allowsPivots(plan)) return {};
+  Plan other = plan;
+  preparePivots(other);
+  if (variation != nullptr) {
+    if (variation->coin()) plan = std::move(other);
+    return {};
+  }
+  // With few copies, seams and predictions are better with the umbrellas that the cut leaves.
+  if (plan.header.vertex_count < 2 * other.header.vertex_count) return {};
+  uint64_t cut = 0;
+  uint64_t pivots = 0;
+  MCC_TRY(jobs.tryAll(
+      2, [&](size_t i) { return i == 0 ? surfaceCost(plan, cut) : surfaceCost(other, pivots); }));
+  // Times are weighed as shares of what positions and the rest take per vertex.
+  const double vertices = std::max(other.header.vertex_count, 1u);
+  const double copies = plan.header.vertex_count - vertices;
+  const double payload = static_cast<double>(pivots) + vertices * kExpectedPositionBits * kCostOne;
+  const auto costOfTime = [&](double ns) { return price.surcharge(payload, ns / vertices); };
+  const double cut_cost = static_cast<double>(cut) + costOfTime(copies * price_ns::kCopy);
+  const double pivots_cost =
+      static_cast<double>(pivots) + costOfTime(plan.header.face_count * price_ns::kPivotFace);
+  if (pivots_cost < cut_cost) plan = std::move(other);
+  return {};
+}
+
+Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs,
+                 uint32_t& context_set) {
+  std::vector<Connectivity> connectivity;
+  for (const Plan& plan : plans) {
+    const PieceHeader& h = plan.header;
+    if (h.hasPivots()) continue;
+    connectivity.push_back({&plan.record,
+                            {h.operation_count, h.vertex_count, h.dummy_count, h.face_count,
+                             h.has(piece_flag::kHandles)}});
+  }
+  context_set = options.without.has(Feature::kContextSets) ? 0 : options.context_set;
+  return jobs.tryAll(2, [&](size_t i) -> Status {
+    if (i == 0) return choosePredictors(plans, options, jobs);
+    const bool is_given = context_set < kContextSetCount;
+    return is_given ? Status{} : chooseContextSet(connectivity, jobs, context_set);
+  });
+}
+
+Status varyAll(std::vector<Plan>& plans, const EncodeSettings& options, Variation& variation,
+               uint32_t& context_set) {
+  context_set = options.context_set;
+  if (context_set >= kContextSetCount) context_set = variation.below(kContextSetCount);
+  auto models = makeModels(context_set);
+  CostIo io;
+  Runners runners;
+  for (Plan& plan : plans) {
+    runners.push_back(std::make_unique<StageRunner<CostIo>>(io, *models, plan));
+    MCC_TRY(runners.back()->codeSurface(nullptr));
+  }
+  if (plans[0].attributes.empty()) return {};
+  std::vector<RecordedPositions> recorded(plans.size());
+  std::vector<PositionCandidate> candidates;
+  for (size_t i = 0; i < plans.size(); ++i) {
+    MCC_TRY(runners[i]->recordPositions(recorded[i]));
+    candidates.push_back(recorded[i].candidate);
+  }
+  const PositionParameters positions = variation.positions(candidates);
+  for (size_t i = 0; i < plans.size(); ++i) {
+    Plan& plan = plans[i];
+    plan.positions_as = positions;
+    plan.attributes[0].info.predictor = positions.modes;
+    if (plan.header.has(piece_flag::kSeams) && variation.coin())
+      plan.header.flags ^= piece_flag::kCreases;
+    for (const uint32_t a : codingOrder(plan)) varyAttributeMethod(plan, a, variation);
+  }
+  return {};
+}
+
+}  // namespace mcc

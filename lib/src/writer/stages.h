@@ -1,0 +1,231 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Runs the stages of one piece in turn, on a counting coder or on the real one. Trials and output
+// share this code.
+#ifndef MCC_WRITER_STAGES_H_
+#define MCC_WRITER_STAGES_H_
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "base/enc_exceptions.h"
+#include "entropy/enc_coder.h"
+#include "writer/truth.h"
+
+namespace mcc {
+
+/// The positions of a piece as the trials see them. They are independent of what other stages do
+/// meanwhile.
+struct RecordedPositions {
+  Array<VertexRecord> records;
+  PositionRecording recording;
+  PositionCandidate candidate;  ///< refers to the recording
+};
+
+/// Runs every stage of one piece. `sizes`, if given, receives what each stage cost.
+template <class Io>
+class StageRunner {
+ public:
+  /// first_attribute  is the number of attributes of the payload before this piece's.
+  StageRunner(Io& io, PayloadModels& models, Plan& plan, size_t first_attribute = 0)
+      : io_(io),
+        plan_(plan),
+        first_attribute_(first_attribute),
+        infos_(infosOf(plan)),
+        piece_(io, models, plan.header, infos_.data(), {}) {}
+
+  Status codeSurface(StreamSizes* sizes) {
+    truth_.connectivity = connectivityTruth(
+        plan_.record, {plan_.node_map, plan_.source_of_vertex, plan_.source_gate});
+    truth_.pivot_faces = plan_.pivots.faces.data();
+    MCC_TRY(piece_.codeConnectivity(truth_));
+    account(sizes, &StreamSizes::connectivity_bits);
+    learnVertices(plan_);
+    truth_.class_of_vertex = plan_.class_of_vertex.data();
+    truth_.class_count = plan_.classes.class_count;
+    truth_.corner_source = plan_.corner_source.data();
+    MCC_TRY(piece_.codeStitch(truth_));
+    account(sizes, &StreamSizes::stitch_bits);
+    learnPositions(plan_, piece_.mesh, piece_.groups);
+    truth_.positions = plan_.positions.data();
+    truth_.exact_positions = plan_.exact_positions.data();
+    return {};
+  }
+
+  /// Walks the surface once for the trials; codeSurface() must have run.
+  Status recordPositions(RecordedPositions& recorded) {
+    PositionRecording& recording = recorded.recording;
+    PositionCandidate& candidate = recorded.candidate;
+    const uint32_t group_count = piece_.groups.count;
+    const std::span<const int32_t> positions(plan_.positions.data(), 3 * size_t{group_count});
+    if (!recorded.records.resize(group_count)) throwBadAlloc();
+    MCC_TRY(recording.record(piece_.mesh, piece_.groups, recorded.records.data(),
+                             plan_.positions.data()));
+    PositionParameters parameters;
+    PieceCoder<Io>::describePositions(plan_.attributes[0].info, parameters);
+    candidate.recording = &recording;
+    candidate.truth = plan_.positions.data();
+    candidate.bits = parameters.bits;
+    plan_.coordinates.find(positions, isExact(plan_.attributes[0].info.coding));
+    for (uint32_t s = 0; s < 3; ++s) candidate.palettes[s] = plan_.coordinates.palette(s);
+    const AttributeInfo& info = plan_.attributes[0].info;
+    if (info.coding == AttributeCoding::kLattice && info.bits <= position_mode::kMaxBitsOfPlanes &&
+        findPlanes(positions, plan_.planes)) {
+      candidate.planes = plan_.planes;
+    }
+    return {};
+  }
+
+  Status codePositions(StreamSizes* sizes) {
+    AxisPalette palettes[3];
+    if (!plan_.attributes.empty()) {
+      infos_[0] = plan_.attributes[0].info;
+      for (uint32_t s = 0; s < 3; ++s) palettes[s] = plan_.coordinates.palette(s);
+      truth_.palettes = palettes;
+      truth_.planes = plan_.planes;
+    }
+    MCC_TRY(piece_.codePositions(truth_, &plan_.positions_as));
+    account(sizes, &StreamSizes::position_bits);
+    return {};
+  }
+
+  Status codeSeams(StreamSizes* sizes) {
+    MCC_TRY(piece_.codeSeams(truth_));
+    account(sizes, &StreamSizes::seam_bits);
+    learnWedges(plan_, piece_.mesh);
+    truth_.leftovers = {plan_.part_of_face.data(), plan_.list.data()};
+    MCC_TRY(piece_.codeLeftovers(truth_));
+    account(sizes, &StreamSizes::leftover_bits);
+    return {};
+  }
+
+  Status codeOrders(StreamSizes* sizes) {
+    if (plan_.header.has(piece_flag::kTriangleOrder | piece_flag::kVertexOrder)) {
+      learnOrders();
+      MCC_TRY(piece_.codeOrders(truth_));
+      account(sizes, &StreamSizes::order_bits);
+    }
+    return {};
+  }
+
+  Status prepareAttributes() { return piece_.prepareAttributes(); }
+
+  /// Codes the seams without and with creases as contexts, and selects the cheaper way. The seams
+  /// must then be coded again.
+  Status chooseCreases(PayloadModels& models) {
+    if (!plan_.header.has(piece_flag::kSeams) || plan_.attributes.empty()) return {};
+    const std::vector<uint32_t> words(piece_.mesh.words.data(),
+                                      piece_.mesh.words.data() + piece_.mesh.words.size());
+    const std::vector<uint32_t> sequence(piece_.sequence.data(),
+                                         piece_.sequence.data() + piece_.sequence.size());
+    const SeamModels before = models.seams;
+    uint64_t cost[2] = {};
+    for (const uint32_t with : {0u, 1u}) {
+      plan_.header.flags =
+          (plan_.header.flags & ~piece_flag::kCreases) | (with != 0 ? piece_flag::kCreases : 0);
+      const uint64_t spent = io_.cost();
+      MCC_TRY(piece_.codeSeams(truth_));
+      cost[with] = io_.cost() - spent;
+      models.seams = before;
+      piece_.wedge_group.clear();
+      piece_.sequence.clear();
+      for (const uint32_t h : sequence) {
+        if (!piece_.sequence.push_back(h)) throwBadAlloc();
+      }
+      std::copy(words.begin(), words.end(), piece_.mesh.words.data());
+    }
+    if (cost[0] <= cost[1]) plan_.header.flags &= ~piece_flag::kCreases;
+    return {};
+  }
+
+  Status codeAttribute(uint32_t index, StreamSizes* sizes) {
+    infos_[index] = plan_.attributes[index].info;
+    if (isCodedWithAnother(index)) return {};
+    learnAttribute(index);
+    MCC_TRY(piece_.codeAttribute(index, values_));
+    if (sizes != nullptr) sizes->attribute_bits[first_attribute_ + index] = since();
+    return {};
+  }
+
+  /// Counts what codeAttribute() costs for the first wedges. The models adapt.
+  Status tryAttribute(uint32_t index, uint32_t wedges, uint64_t& cost) {
+    const uint64_t spent = io_.cost();
+    piece_.codeFirstWedges(wedges);
+    const Status status = codeAttribute(index, nullptr);
+    piece_.codeFirstWedges(kNone);
+    cost = io_.cost() - spent;
+    return status;
+  }
+
+  /// Replaces codeAttribute() when its models are not needed any more.
+  Status passAttribute(uint32_t index) {
+    infos_[index] = plan_.attributes[index].info;
+    if (isCodedWithAnother(index)) return {};
+    learnAttribute(index);
+    return piece_.keepForOthers(index, values_);
+  }
+
+  uint32_t groupCount() const { return piece_.groups.count; }
+
+ private:
+  bool isCodedWithAnother(uint32_t index) const {
+    return isWithAnother(methodOf(infos_.data(), plan_.header.attribute_count, index));
+  }
+
+  /// Fills values_. Coding does not change them.
+  void learnAttribute(uint32_t index) {
+    if (learned_ == index) return;
+    learned_ = index;
+    const uint32_t stride = piece_.codedComponentsOf(index);
+    if (!values_.resize(size_t{plan_.header.wedge_count} * stride)) throwBadAlloc();
+    learnValues(plan_, index, 0, stride, values_);
+    const uint32_t count = plan_.header.attribute_count;
+    if (methodOf(infos_.data(), count, index) != AttributeMethod::kSkin) return;
+    learnValues(plan_, skinPartner(infos_.data(), count, index), kSkinSlots, stride, values_);
+  }
+
+  static std::vector<AttributeInfo> infosOf(const Plan& plan) {
+    std::vector<AttributeInfo> infos;
+    for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
+    return infos;
+  }
+  void learnOrders() {
+    if (!piece_.listTriangles()) throwBadAlloc();
+    if (plan_.header.has(piece_flag::kTriangleOrder)) learnTriangleOrder(plan_, piece_.triangles);
+    plan_.wedge_order.resize(plan_.wedge_source.size());
+    for (uint32_t w = 0; w < plan_.wedge_source.size(); ++w) {
+      plan_.wedge_order[plan_.wedge_source[w]] = w;
+    }
+    truth_.triangle_order = plan_.triangle_order.data();
+    truth_.wedge_order = plan_.wedge_order.data();
+  }
+  double since() {
+    const uint64_t before = cost_before_;
+    cost_before_ = io_.cost();
+    return static_cast<double>(cost_before_ - before) / kCostOne;
+  }
+  void account(StreamSizes* sizes, double StreamSizes::*field) {
+    if (sizes != nullptr) sizes->*field += since();
+  }
+
+  Io& io_;
+  Plan& plan_;
+  const size_t first_attribute_;
+  std::vector<AttributeInfo> infos_;
+  PieceCoder<Io> piece_;
+  PieceTruth truth_;
+  Array<int32_t> values_;
+  uint32_t learned_ = kNone;  ///< attribute whose values values_ holds
+  uint64_t cost_before_ = io_.cost();
+};
+
+inline std::unique_ptr<PayloadModels> makeModels(uint32_t context_set) {
+  auto models = std::make_unique<PayloadModels>(Allocator{});
+  if (!models->mc.init(context_set)) throwBadAlloc();
+  return models;
+}
+
+}  // namespace mcc
+
+#endif  // MCC_WRITER_STAGES_H_

@@ -1,0 +1,105 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Choices at random, for tests: what the encoder would seldom choose, decoders must know all the same.
+#ifndef MCC_WRITER_VARIATION_H_
+#define MCC_WRITER_VARIATION_H_
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/attribute_method.h"
+#include "positions/enc_fit.h"
+
+namespace mcc {
+
+/// A sequence of choices (SplitMix64), the same on every machine.
+class Variation {
+ public:
+  /// 0: none, the encoder chooses what is smallest.
+  explicit Variation(uint64_t seed) : state_(seed), active_(seed != 0) {}
+
+  bool active() const { return active_; }
+
+  /// 0 .. bound - 1; bound > 0.
+  uint32_t below(uint32_t bound) {
+    state_ += 0x9e3779b97f4a7c15u;
+    uint64_t x = state_;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return static_cast<uint32_t>((x ^ (x >> 31)) >> 33) % bound;
+  }
+  bool coin() { return below(2) != 0; }
+  template <class T>
+  T oneOf(const std::vector<T>& all) {
+    return all[below(static_cast<uint32_t>(all.size()))];
+  }
+
+  PositionParameters positions(std::span<const PositionCandidate> pieces) {
+    const bool planes =
+        std::all_of(pieces.begin(), pieces.end(),
+                    [](const PositionCandidate& piece) { return piece.planes != nullptr; });
+    using namespace position_mode;
+    // The kind first: planes go with so few of the other modes that they would hardly ever occur.
+    const uint8_t kinds[] = {0, kShear, kPalette, kPlanes};
+    const uint8_t kind = kinds[below(planes ? 4 : 3)];
+    const uint8_t others = kind == kPlanes ? kWithPlanes : static_cast<uint8_t>(~kKinds);
+    PositionParameters p;
+    do {
+      p.modes = kind | (static_cast<uint8_t>(below(256)) & others);
+    } while (!areKnown(p.modes));
+    setUniversalScale(p);
+    if (p.has(position_mode::kWeights)) varyWeights(p);
+    if (p.has(position_mode::kOwnScale)) varyScale(p);
+    return p;
+  }
+
+  /// Sets the predictor of attribute `index` and of its partner to any that hold for their values.
+  void predictors(std::vector<AttributeInfo>& infos, uint32_t index) {
+    const uint32_t count = static_cast<uint32_t>(infos.size());
+    AttributeInfo& info = infos[index];
+    const AttributeMethod method = methodOf(infos.data(), count, index);
+    if (isWithAnother(method)) return;
+    if (method == AttributeMethod::kSkin) {  // what holds of the sums may be left unsaid
+      uint8_t& sums = infos[skinPartner(infos.data(), count, index)].predictor;
+      if (sums != 0 && coin())
+        sums = static_cast<uint8_t>(coin() ? SkinSums::kUsual : SkinSums::kUnknown);
+    }
+    do {
+      info.predictor = static_cast<uint8_t>(below(256));
+    } while (!isValidPredictor(method, info.predictor));
+  }
+
+ private:
+  void varyWeights(PositionParameters& p) {
+    const uint32_t classes = p.has(position_mode::kSelect) ? kPredictorClasses : kClassSelect;
+    p.weights = kUniversalWeights;
+    for (uint32_t c = 0; c < classes; ++c) {
+      if (below(4) == 0) continue;
+      for (uint32_t i = 0; i < weightCount(c); ++i) {
+        const int32_t far = static_cast<int32_t>(below(33)) - 16;
+        p.weights.w[c][i] = static_cast<int16_t>(p.weights.w[c][i] + far);
+      }
+    }
+  }
+
+  void varyScale(PositionParameters& p) {
+    for (auto& fan : p.scale) {
+      for (ScaleCoefficients& scale : fan) {
+        for (uint32_t i = 0; i < 3; ++i) {
+          const int32_t from = scale.c[i];
+          const int32_t to = from + static_cast<int32_t>(below(81)) - 40;
+          scale.c[i] = static_cast<uint16_t>(std::clamp(to, 0, kMaxCoefficient));
+        }
+      }
+    }
+  }
+
+  uint64_t state_;
+  bool active_;
+};
+
+}  // namespace mcc
+
+#endif  // MCC_WRITER_VARIATION_H_
