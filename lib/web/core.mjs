@@ -19,7 +19,7 @@ const ERRORS = [
   ['OutOfMemory', 'needs more memory than there is'],
 ];
 const OUT_OF_MEMORY = ERRORS.length;
-/** Of the core alone, number 255, see base/decodes.h. */
+/** Of the core alone, number 255, see format/decodes.h. */
 const NOT_IN_CORE = ['NotInCore', 'needs the whole decoder'];
 const LIMITS = ['maxVertices', 'maxTriangles', 'maxAttributes', 'maxPieces', 'maxElements', 'maxOutputBytes'];
 

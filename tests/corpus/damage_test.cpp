@@ -13,10 +13,10 @@
 #include <set>
 
 #include "container/payload_header.h"
+#include "format/methods.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/files/file_io.h"
 #include "mcc/gltf.h"
-#include "mesh/attribute_method.h"
 #include "robustness/damage.h"
 
 namespace mcc::test {

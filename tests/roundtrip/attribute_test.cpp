@@ -10,7 +10,7 @@
 #include <limits>
 #include <memory>
 
-#include "mesh/attribute_method.h"
+#include "format/methods.h"
 #include "support/mesh_compare.h"
 #include "support/mesh_generators.h"
 

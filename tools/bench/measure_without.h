@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "base/enc_features.h"
 #include "bench/geometry.h"
 #include "foreign/foreign_mesh.h"
+#include "format/enc_features.h"
 
 namespace mcc::bench {
 

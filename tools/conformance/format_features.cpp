@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "container/payload_header.h"
+#include "format/methods.h"
 #include "gltf/base/payload.h"
-#include "mesh/attribute_method.h"
 
 namespace mcc::conformance {
 namespace {

@@ -11,10 +11,10 @@
 #include "container/enc_payload.h"
 #include "container/payload_header.h"
 #include "entropy/enc_coder.h"
+#include "format/methods.h"
 #include "gltf/document/glb.h"
 #include "header_fields.h"
 #include "mcc/gltf.h"
-#include "mesh/attribute_method.h"
 #include "sources.h"
 #include "support/mesh_generators.h"
 

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "base/crc32.h"
-#include "mesh/attribute_method.h"
+#include "format/methods.h"
 
 namespace mcc {
 namespace {

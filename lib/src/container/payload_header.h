@@ -8,8 +8,8 @@
 #include <span>
 
 #include "base/bytes.h"
-#include "base/decodes.h"
 #include "base/memory.h"
+#include "format/decodes.h"
 #include "mcc/reader.h"
 #include "mcc/status.h"
 

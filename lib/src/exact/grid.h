@@ -9,8 +9,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "format/methods.h"
 #include "mcc/reader.h"
-#include "mesh/attribute_method.h"
 #include "mesh/dequantize.h"
 
 namespace mcc {

@@ -10,8 +10,8 @@
 #include <cstdint>
 
 #include "exact/vectors.h"
+#include "format/methods.h"
 #include "mcc/reader.h"
-#include "mesh/attribute_method.h"
 #include "surface/wedges.h"
 #include "values/value_memory.h"
 #include "vectors/normals.h"

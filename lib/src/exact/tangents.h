@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "exact/vectors.h"
-#include "mesh/attribute_method.h"
+#include "format/methods.h"
 #include "surface/wedges.h"
 
 namespace mcc {

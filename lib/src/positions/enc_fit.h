@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "base/enc_features.h"
 #include "base/enc_jobs.h"
+#include "format/enc_features.h"
 #include "positions/enc_recording.h"
 #include "positions/parameters.h"
 

@@ -8,8 +8,8 @@
 #ifndef MCC_POSITIONS_ENC_PRICES_H_
 #define MCC_POSITIONS_ENC_PRICES_H_
 
+#include "format/methods.h"
 #include "mcc/types.h"
-#include "mesh/attribute_method.h"
 #include "positions/parameters.h"
 
 namespace mcc {

@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include "entropy/numbers.h"
+#include "format/methods.h"
 #include "mcc/status.h"
-#include "mesh/attribute_method.h"
 #include "positions/palette.h"
 #include "positions/planes.h"
 #include "positions/tables.h"

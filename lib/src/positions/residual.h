@@ -8,10 +8,10 @@
 #include <bit>
 #include <cstdint>
 
-#include "base/decodes.h"
 #include "base/host.h"
 #include "base/lanes.h"
 #include "entropy/models.h"
+#include "format/decodes.h"
 #include "positions/parameters.h"
 #include "positions/planes.h"
 #include "positions/tables.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/enc_features.h"
+#include "format/enc_features.h"
 #include "mcc/reader.h"
 #include "mcc/writer.h"
 

@@ -6,12 +6,12 @@
 
 #include <cstdint>
 
-#include "base/decodes.h"
 #include "base/lazy.h"
 #include "exact/normals.h"
 #include "exact/tails.h"
 #include "exact/tangents.h"
-#include "mesh/attribute_method.h"
+#include "format/decodes.h"
+#include "format/methods.h"
 #include "surface/equality.h"
 #include "surface/wedges.h"
 #include "values/skin.h"

@@ -17,13 +17,13 @@
 
 #include <new>
 
-#include "base/decodes.h"
 #include "base/lazy.h"
 #include "connectivity/mc_codes.h"
 #include "connectivity/pivots.h"
 #include "connectivity/stitch.h"
 #include "container/payload_header.h"
 #include "exact/tails.h"
+#include "format/decodes.h"
 #include "positions/isolated.h"
 #include "positions/positions.h"
 #include "reader/attribute_stage.h"

@@ -8,12 +8,12 @@
 #include <new>
 #include <utility>
 
-#include "base/decodes.h"
 #include "base/memory.h"
 #include "base/working_memory.h"
 #include "container/payload_header.h"
 #include "entropy/compact_decoder.h"
 #include "entropy/decoder.h"
+#include "format/decodes.h"
 #include "mesh/dequantize.h"
 #include "reader/piece.h"
 #include "vectors/octahedral.h"

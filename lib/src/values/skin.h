@@ -13,7 +13,7 @@
 #include <cstring>
 
 #include "entropy/numbers.h"
-#include "mesh/attribute_method.h"
+#include "format/methods.h"
 #include "surface/wedges.h"
 #include "values/residuals.h"
 
@@ -24,10 +24,10 @@ inline constexpr uint32_t kSkinNeighbours = 4;
 inline constexpr uint32_t kSkinWords = 2 * kSkinSlots;  ///< joints, then weights
 
 struct SkinModels {
-  BitModel same[kSkinNeighbours][4];  ///< [which one][how many more share its tuple]
+  BitModel same[kSkinNeighbours][4];   ///< [which one][how many more share its tuple]
   BitModel weightless[kSkinSlots][5];  ///< [slot][neighbours' influences]
-  BitModel rank[kSkinSlots][6][3];     ///< [slot][rank][the first neighbour's here; of all; of some]
-  BitModel idle_joint;                 ///< of a weightless slot: 0
+  BitModel rank[kSkinSlots][6][3];  ///< [slot][rank][the first neighbour's here; of all; of some]
+  BitModel idle_joint;              ///< of a weightless slot: 0
   BitModel has_sum;
   GolombModel joint;
   TokenRow weight[3][kLengthContexts];  ///< [slot][context]

@@ -13,7 +13,7 @@
 #include <cstring>
 
 #include "entropy/models.h"
-#include "mesh/attribute_method.h"
+#include "format/methods.h"
 #include "surface/wedges.h"
 #include "values/residuals.h"
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/enc_features.h"
-#include "mesh/attribute_method.h"
+#include "format/enc_features.h"
+#include "format/methods.h"
 #include "vectors/normals.h"
 
 namespace mcc {
@@ -58,8 +58,7 @@ class PredictorSearch {
       return without.has(feature) && mask == field;
     };
     switch (method) {
-      case AttributeMethod::kValues:
-        return has(Feature::kValueFlags, value_method::kFlags);
+      case AttributeMethod::kValues: return has(Feature::kValueFlags, value_method::kFlags);
       case AttributeMethod::kTexcoord:
         return has(Feature::kTexcoordHinge, texcoord_method::kHinge) ||
                has(Feature::kMemory, texcoord_method::kRemembers);

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "mesh/attribute_method.h"
+#include "format/methods.h"
 #include "surface/face_pass.h"
 #include "surface/wedges.h"
 #include "values/residuals.h"

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "base/enc_features.h"
 #include "base/enc_jobs.h"
 #include "connectivity/enc_collapse.h"
 #include "connectivity/enc_pivots.h"
+#include "format/enc_features.h"
 #include "mcc/writer.h"
 #include "positions/enc_fit.h"
 #include "positions/enc_planes.h"

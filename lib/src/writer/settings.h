@@ -6,7 +6,7 @@
 
 #include <span>
 
-#include "base/enc_features.h"
+#include "format/enc_features.h"
 
 namespace mcc {
 

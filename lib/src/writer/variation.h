@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/attribute_method.h"
+#include "format/methods.h"
 #include "positions/enc_fit.h"
 
 namespace mcc {

@@ -4,7 +4,7 @@
 #include <initializer_list>
 
 #include "container/payload_header.h"
-#include "mesh/attribute_method.h"
+#include "format/methods.h"
 
 namespace mcc::gltf {
 namespace {

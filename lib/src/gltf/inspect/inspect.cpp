@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 
+#include "format/methods.h"
 #include "gltf/base/parallel.h"
 #include "gltf/base/payload.h"
 #include "gltf/check/check_values.h"
@@ -11,7 +12,6 @@
 #include "gltf/files/file_io.h"
 #include "gltf/inspect/coding_names.h"
 #include "mcc/gltf.h"
-#include "mesh/attribute_method.h"
 
 namespace mcc::gltf {
 namespace {

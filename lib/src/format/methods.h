@@ -1,13 +1,13 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Which coder an attribute goes through, and the bits of its header byte `predictor`.  [A.2.4, A.8]
-#ifndef MCC_MESH_ATTRIBUTE_METHOD_H_
-#define MCC_MESH_ATTRIBUTE_METHOD_H_
+#ifndef MCC_FORMAT_METHODS_H_
+#define MCC_FORMAT_METHODS_H_
 
 #include <bit>
 #include <cstdint>
 
-#include "base/decodes.h"
+#include "format/decodes.h"
 #include "mcc/reader.h"
 
 namespace mcc {
@@ -312,4 +312,4 @@ constexpr int32_t unitSum(const AttributeInfo& weights) {
 
 }  // namespace mcc
 
-#endif  // MCC_MESH_ATTRIBUTE_METHOD_H_
+#endif  // MCC_FORMAT_METHODS_H_

@@ -2,8 +2,8 @@
 //
 // The encoder's choices by name, so that each can be switched off and its gain measured (`gltf-mcc
 // bench --without`).
-#ifndef MCC_BASE_ENC_FEATURES_H_
-#define MCC_BASE_ENC_FEATURES_H_
+#ifndef MCC_FORMAT_ENC_FEATURES_H_
+#define MCC_FORMAT_ENC_FEATURES_H_
 
 #include <cstdint>
 #include <string_view>
@@ -100,4 +100,4 @@ struct EncodeSettings : EncodeOptions {
 
 }  // namespace mcc
 
-#endif  // MCC_BASE_ENC_FEATURES_H_
+#endif  // MCC_FORMAT_ENC_FEATURES_H_

@@ -5,8 +5,8 @@
 // kNotInCore before anything is decoded, and the whole decoder then takes them. Code that the core
 // lacks is guarded by these constants, and container/payload_header.cpp refuses payloads that need
 // it.
-#ifndef MCC_BASE_DECODES_H_
-#define MCC_BASE_DECODES_H_
+#ifndef MCC_FORMAT_DECODES_H_
+#define MCC_FORMAT_DECODES_H_
 
 #include "mcc/status.h"
 
@@ -32,4 +32,4 @@ inline constexpr Error kNotInCore = static_cast<Error>(255);
 
 }  // namespace mcc
 
-#endif  // MCC_BASE_DECODES_H_
+#endif  // MCC_FORMAT_DECODES_H_
