@@ -13,7 +13,7 @@
 #include <set>
 
 #include "container/payload_header.h"
-#include "format/methods.h"
+#include "format/predictors.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/files/file_io.h"
 #include "mcc/gltf.h"
@@ -32,22 +32,6 @@ constexpr uint64_t kMutations = 16000;
 constexpr uint64_t kAtLeast = kMutations / 16;  ///< for each decoder
 constexpr size_t kFileBytes = 700000;
 constexpr size_t kPayloadBytes = 60000;
-
-const char* nameOf(AttributeMethod method) {
-  switch (method) {
-    case AttributeMethod::kValues: return "values";
-    case AttributeMethod::kNormal: return "normal";
-    case AttributeMethod::kTexcoord: return "texture coordinate";
-    case AttributeMethod::kTangent: return "tangent";
-    case AttributeMethod::kTangentPoint: return "tangent point";
-    case AttributeMethod::kSkin: return "skin";
-    case AttributeMethod::kExactNormal: return "exact normal";
-    case AttributeMethod::kExactTangent: return "exact tangent";
-    case AttributeMethod::kSkinWeights:
-    case AttributeMethod::kAlias: break;
-  }
-  return "";
-}
 
 /// The decoders that run between one call of DecodeOptions::progress and the next.
 using Step = std::vector<std::string>;
@@ -70,7 +54,7 @@ void addSteps(const PieceHeader& piece, const AttributeInfo* attributes, std::ve
       if (codingPhase(attributes[a]) != phase) continue;
       const AttributeMethod method = methodOf(attributes, piece.attribute_count, a);
       // An attribute that is coded with another one has a step, but no decoder.
-      steps.push_back(isWithAnother(method) ? Step{} : Step{nameOf(method)});
+      steps.push_back(isWithAnother(method) ? Step{} : Step{infoOf(method).name});
     }
   }
 }

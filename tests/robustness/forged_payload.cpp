@@ -5,6 +5,7 @@
 
 #include "container/enc_payload.h"
 #include "entropy/enc_coder.h"
+#include "format/predictors.h"
 #include "reader/piece.h"
 #include "robustness/observed_codes.h"
 #include "support/mesh_generators.h"
@@ -132,7 +133,7 @@ AttributeInfo drawPosition(Random& random) {
   do {
     info.predictor = static_cast<uint8_t>(random.below(256));
   } while (
-      !position_mode::areKnown(info.predictor) ||
+      !position_mode::goTogether(info.predictor) ||
       ((info.predictor & position_mode::kPlanes) != 0 && info.coding != AttributeCoding::kLattice));
   return info;
 }
@@ -187,7 +188,9 @@ void drawAttributes(Draft& draft, Random& random) {
     const uint32_t predictor = random.below(256);
     for (uint32_t k = 0; k < 256; ++k) {
       draft.attributes[i].predictor = static_cast<uint8_t>(predictor + k);
-      if (isKnownPredictor(draft.attributes.data(), count, i)) break;
+      if (isKnownPredictor(methodOf(draft.attributes.data(), count, i),
+                           draft.attributes[i].predictor))
+        break;
     }
   }
   for (uint32_t i = 1; i < draft.attributes.size(); ++i) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "entropy/decoder.h"
+#include "format/predictors.h"
 #include "reader/piece.h"
 #include "robustness/damage.h"
 #include "robustness/face_check.h"
@@ -116,7 +117,7 @@ class RandomPiece {
     if (random.chance(30)) grid(attributes_[0], random);
     do {
       attributes_[0].predictor = static_cast<uint8_t>(random.below(256));
-    } while (!position_mode::areKnown(attributes_[0].predictor));
+    } while (!position_mode::goTogether(attributes_[0].predictor));
     const auto attribute = [&](uint32_t i, Semantic semantic, AttributeCoding coding,
                                uint8_t components, ComponentType type = ComponentType::kFloat32) {
       attributes_[i].format.semantic = semantic;
@@ -155,7 +156,7 @@ class RandomPiece {
     for (uint32_t i = 1; i < count; ++i) {
       do {
         attributes_[i].predictor = static_cast<uint8_t>(random.below(256));
-      } while (!isKnownPredictor(attributes_.data(), count, i));
+      } while (!isKnownPredictor(methodOf(attributes_.data(), count, i), attributes_[i].predictor));
     }
     header_.attribute_count = static_cast<uint32_t>(attributes_.size());
   }

@@ -10,7 +10,7 @@
 #include <limits>
 #include <memory>
 
-#include "format/methods.h"
+#include "format/predictors.h"
 #include "support/mesh_compare.h"
 #include "support/mesh_generators.h"
 

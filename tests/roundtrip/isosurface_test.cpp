@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "container/payload_header.h"
-#include "format/methods.h"
+#include "format/predictors.h"
 #include "support/mesh_compare.h"
 #include "support/mesh_generators.h"
 

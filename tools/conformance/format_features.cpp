@@ -2,17 +2,30 @@
 #include "format_features.h"
 
 #include <algorithm>
-#include <bit>
+#include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 #include "container/payload_header.h"
-#include "format/methods.h"
+#include "format/codings.h"
+#include "format/predictors.h"
 #include "gltf/base/payload.h"
 
 namespace mcc::conformance {
 namespace {
 
 using Sections = std::set<std::string>;
+
+/// The sections of a list of the format's tables, which spaces separate.
+Sections sectionsIn(const std::string& list) {
+  std::istringstream in(list);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+/// Both lists of sections together.
+Sections sectionsIn(const std::string& list, const std::string& others) {
+  return sectionsIn(list + " " + others);
+}
 
 std::string text(const char* name, uint64_t number) {
   return std::string(name) + " " + std::to_string(number);
@@ -52,51 +65,22 @@ class Listing {
   }
 
   void addSurface(const PieceHeader& piece) {
-    struct Surface {
-      const char* name;
-      Sections sections;
-    };
-    static const Surface kSurfaces[] = {
-        {"MANIFOLD", {"A.4"}},
-        {"COPIES", {"A.5", "A.5.1", "A.5.2", "A.5.3", "A.3.5"}},
-        {"INTERIOR_COPIES", {"A.5", "A.5.1", "A.5.2", "A.5.3"}},
-        {"PIVOTS", {"A.4.7"}},
-    };
-    const Surface& surface = kSurfaces[static_cast<size_t>(piece.surface())];
-    add(surface.name, surface.sections);
+    const SurfaceInfo& surface = infoOf(piece.surface());
+    add(surface.name, sectionsIn(surface.sections));
     if (piece.surface() == SurfaceCoding::kManifold || !piece.has(piece_flag::kSeams)) return;
-    Sections both = surface.sections;
-    both.insert({"A.7.1", "A.7.2", "A.7.3"});
-    add(std::string(surface.name) + " and SEAMS", both);
+    add(std::string(surface.name) + " and SEAMS",
+        sectionsIn(surface.sections, kPieceFlags[0].sections));
   }
 
   void addPiece(const PieceHeader& piece) {
-    struct Flag {
-      uint32_t bit;
-      const char* name;
-      Sections sections;
-    };
-    static const Flag kFlags[] = {
-        {piece_flag::kSeams, "SEAMS", {"A.7", "A.7.1", "A.7.2", "A.7.3"}},
-        {piece_flag::kManyParts, "MANY_PARTS", {"A.9.1"}},
-        {piece_flag::kSameAttributes, "SAME_ATTRIBUTES", {"A.2.3"}},
-        {piece_flag::kHoles, "HOLES", {"A.4.6"}},
-        {piece_flag::kHandles, "HANDLES", {"A.4.4"}},
-        {piece_flag::kIsolated, "ISOLATED", {"A.2.2", "A.6.4"}},
-        {piece_flag::kListed, "LISTED", {"A.9.2"}},
-        {piece_flag::kCreases, "CREASES", {"A.7.4"}},
-        {piece_flag::kTriangleOrder, "TRIANGLE_ORDER", {"A.3.5", "A.10.1", "A.10.2"}},
-        {piece_flag::kVertexOrder, "VERTEX_ORDER", {"A.3.5", "A.10.1", "A.10.3"}},
-    };
-    for (const Flag& flag : kFlags) {
+    for (const PieceFlagInfo& flag : kPieceFlags) {
       if (!piece.has(flag.bit)) continue;
-      add(flag.name, flag.sections);
+      add(flag.name, sectionsIn(flag.sections));
       const uint32_t meets = meetsOf(flag.bit);
-      for (const Flag& other : kFlags) {
+      for (const PieceFlagInfo& other : kPieceFlags) {
         if ((meets & other.bit) == 0 || !piece.has(other.bit)) continue;
-        Sections both = flag.sections;
-        both.insert(other.sections.begin(), other.sections.end());
-        add(std::string(flag.name) + " and " + other.name, both);
+        add(std::string(flag.name) + " and " + other.name,
+            sectionsIn(flag.sections, other.sections));
       }
     }
     addSurface(piece);
@@ -119,23 +103,13 @@ class Listing {
   }
 
   void addCoding(const AttributeInfo& a) {
-    static const char* const kCodings[] = {"lattice",       "integer", "exact float", "octahedral",
-                                           "tangent angle", "alias",   "grid"};
-    const std::string coding = kCodings[static_cast<size_t>(a.coding)];
-    add("coding " + coding, {"A.2.4", "A.8.11"});
-    switch (a.coding) {
-      case AttributeCoding::kLattice: add(text("lattice bits", a.bits), {"A.2.4", "A.8.11"}); break;
-      case AttributeCoding::kOctahedral:
-        add(text("octahedral bits", a.bits), {"A.2.4", "B.4.1"});
-        break;
-      case AttributeCoding::kTangentAngle:
-        add(text("tangent angle bits", a.bits), {"A.2.4", "B.6.3"});
-        break;
-      case AttributeCoding::kGrid:
-        add(text("grid", a.grid), {"A.2.4", "A.8.12"});
-        add(text("tails", a.tails) + (&a == all_ ? " of positions" : ""), {"A.8.12"});
-        break;
-      default: break;
+    const CodingInfo& coding = infoOf(a.coding);
+    add(std::string("coding ") + coding.name, {"A.2.4", "A.8.11"});
+    if (a.coding == AttributeCoding::kGrid) {
+      add(text("grid", a.grid), sectionsIn(coding.sections));
+      add(text("tails", a.tails) + (&a == all_ ? " of positions" : ""), {"A.8.12"});
+    } else if (a.bits != 0) {
+      add(text((std::string(coding.name) + " bits").c_str(), a.bits), sectionsIn(coding.sections));
     }
     add(text("component type", static_cast<uint64_t>(a.format.component_type)) +
             (a.format.normalized ? " normalized" : ""),
@@ -149,29 +123,25 @@ class Listing {
 
   void addPosition(const AttributeInfo& a, const PieceHeader& piece) {
     addCoding(a);
-    static_assert(position_mode::kKinds == 7 * position_mode::kShear);
-    const uint32_t kinds = (a.predictor & position_mode::kKinds) / position_mode::kShear;
-    const uint32_t kind = static_cast<uint32_t>(std::bit_width(kinds));
-    static const char* const kKinds[] = {"plain", "sheared", "palette", "planes"};
-    static const Sections kKindSections[] = {
-        {"B.2.2", "B.2.4", "B.2.5", "B.2.6"}, {"B.2.3"}, {"B.2.8"}, {"B.2.9"}};
-    Sections sections = kKindSections[kind];
-    sections.insert({"A.6", "A.6.1", "A.6.2", "A.6.3", "B.1.1", "B.1.2", "B.1.3", "B.2.1", "B.2.2",
-                     "B.2.4", "B.2.5", "B.2.6", "B.2.7", "A.3.3"});
-    const std::string name = std::string("positions ") + kKinds[kind];
-    add(name, sections);
-    for (const auto& [bit, flag] : {std::pair{position_mode::kWeights, " with weights"},
-                                    std::pair{position_mode::kSelect, " with tip selection"},
-                                    std::pair{position_mode::kOwnScale, " with own scale"},
-                                    std::pair{position_mode::kFold, " with fold"},
-                                    std::pair{position_mode::kSplit, " with split"}}) {
-      if ((a.predictor & bit) != 0) add(name + flag, sections);
+    const MethodInfo& method = infoOf(AttributeMethod::kPosition);
+    std::string kind = "plain";
+    Sections sections = sectionsIn(method.sections);
+    for (const PredictorField& field : method) {
+      if ((a.predictor & position_mode::kKinds & field.mask) == 0) continue;
+      kind = field.mask == position_mode::kShear ? "sheared" : field.value[1].word;
+      sections.insert(field.value[1].sections);
     }
-    static const char* const kCodings[] = {"lattice", "integer", "exact", "", "", "", "grid"};
-    const std::string coding = kCodings[static_cast<size_t>(a.coding)];
-    add("positions " + coding + " " + kKinds[kind], sections);
-    if (piece.isolated_count != 0) add(std::string("isolated wedges, ") + kKinds[kind], {"A.6.4"});
-    if (piece.hasCopies()) add(std::string("copies, ") + kKinds[kind], {"A.6.1"});
+    const std::string name = std::string(method.name) + " " + kind;
+    add(name, sections);
+    for (const PredictorField& field : method) {
+      if ((a.predictor & ~position_mode::kKinds & field.mask) == 0) continue;
+      add(name + " with " + field.value[1].word, sections);
+    }
+    const std::string coding =
+        isExact(a.coding) && a.coding != AttributeCoding::kGrid ? "exact" : infoOf(a.coding).name;
+    add("positions " + coding + " " + kind, sections);
+    if (piece.isolated_count != 0) add("isolated wedges, " + kind, {"A.6.4"});
+    if (piece.hasCopies()) add("copies, " + kind, {"A.6.1"});
     if (piece.has(piece_flag::kCreases)) add("creases, positions " + coding, {"A.7.4", "B.4.6"});
   }
 

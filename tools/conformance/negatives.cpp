@@ -11,7 +11,7 @@
 #include "container/enc_payload.h"
 #include "container/payload_header.h"
 #include "entropy/enc_coder.h"
-#include "format/methods.h"
+#include "format/predictors.h"
 #include "gltf/document/glb.h"
 #include "header_fields.h"
 #include "mcc/gltf.h"

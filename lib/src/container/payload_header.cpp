@@ -5,12 +5,11 @@
 #include <cstring>
 
 #include "base/crc32.h"
-#include "format/methods.h"
+#include "format/codings.h"
+#include "format/predictors.h"
 
 namespace mcc {
 namespace {
-
-constexpr uint32_t kMaxLatticeBits = 24;
 
 bool isFinitePositive(float value) {
   const uint32_t bits = std::bit_cast<uint32_t>(value);
@@ -38,15 +37,6 @@ Status parseGrid(ByteReader& in, AttributeInfo& a) {
     return fail(Error::kBadHeader, "an attribute's grid is malformed", at);
   }
   return {};
-}
-
-/// Whether this reader can decode an attribute, as far as its format and coding tell.
-bool isDecoded(const AttributeInfo& a) {
-  const bool is_exact =
-      a.coding == AttributeCoding::kExactFloat || a.coding == AttributeCoding::kGrid;
-  return (decodes::kExactFloats || !is_exact) &&
-         (decodes::kTangentPoints || a.format.semantic != Semantic::kTangent ||
-          a.coding != AttributeCoding::kOctahedral);
 }
 
 /// [A.2.4]
@@ -81,7 +71,7 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
     return fail(Error::kBadHeader, "an attribute has an unknown coding", at);
   }
   a.coding = static_cast<AttributeCoding>(shape >> 4);
-  if (!kWhole && !isDecoded(a)) return fail(kNotInCore, "the core lacks a coding", at);
+  if (!isDecoded(a.coding)) return fail(kNotInCore, "the core lacks a coding", at);
   const bool is_float = a.format.component_type == ComponentType::kFloat32;
   if (a.coding != AttributeCoding::kAlias && is_float == (a.coding == AttributeCoding::kInteger)) {
     return fail(Error::kBadHeader, "an attribute's coding does not fit its component type", at);
@@ -89,7 +79,8 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
   MCC_TRY(in.readU8(a.predictor));
   if (a.coding == AttributeCoding::kLattice) {
     MCC_TRY(in.readU8(a.bits));
-    if (a.bits == 0 || a.bits > kMaxLatticeBits || a.format.component_count > 4) {
+    if (a.bits == 0 || a.bits > kMaxLatticeBits ||
+        a.format.component_count > kMaxLatticeComponents) {
       return fail(Error::kBadHeader, "an attribute's lattice is malformed", at);
     }
     MCC_TRY(in.readF32(a.lattice.step));
@@ -103,14 +94,15 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
   } else if (a.coding == AttributeCoding::kOctahedral) {
     MCC_TRY(in.readU8(a.bits));
     const bool is_tangent = a.format.semantic == Semantic::kTangent;
-    if (a.bits < 2 || a.bits > 16 || a.format.component_count != (is_tangent ? 4 : 3) ||
+    if (a.bits < kMinUnitBits || a.bits > kMaxUnitBits ||
+        a.format.component_count != (is_tangent ? 4 : 3) ||
         (is_tangent && a.format.morph_target != 0)) {
       return fail(Error::kBadHeader, "an octahedral attribute is malformed", at);
     }
   }
   if (a.coding == AttributeCoding::kTangentAngle) {
     MCC_TRY(in.readU8(a.bits));
-    if (a.bits < 2 || a.bits > 16 || a.format.component_count != 4 ||
+    if (a.bits < kMinUnitBits || a.bits > kMaxUnitBits || a.format.component_count != 4 ||
         a.format.semantic != Semantic::kTangent || a.format.morph_target != 0) {
       return fail(Error::kBadHeader, "a tangent attribute is malformed", at);
     }
@@ -123,9 +115,7 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
 /// Checks that aliases refer to earlier attributes that are neither aliases nor the position, that
 /// tangents have normals, and that predictors are known.
 Status checkReferences(const AttributeInfo* all, uint32_t count, size_t at) {
-  if ((all[0].predictor & ~position_mode::kDecoded) != 0)
-    return fail(kNotInCore, "the core lacks a predictor", at);
-  for (uint32_t i = 1; i < count; ++i) {
+  for (uint32_t i = 0; i < count; ++i) {
     if (all[i].coding == AttributeCoding::kAlias) {
       const uint32_t source = all[i].alias_of;
       if (source == 0 || source >= i || all[source].coding == AttributeCoding::kAlias ||
@@ -137,9 +127,12 @@ Status checkReferences(const AttributeInfo* all, uint32_t count, size_t at) {
     if (all[i].coding == AttributeCoding::kTangentAngle && normalOfTangents(all, count) == kNone) {
       return fail(Error::kBadHeader, "tangents refer to normals that are not there", at);
     }
-    if (!isKnownPredictor(all, count, i)) {
+    const AttributeMethod method = methodOf(all, count, i);
+    if (!isKnownPredictor(method, all[i].predictor)) {
       return fail(Error::kBadHeader, "an attribute has an unknown predictor", at);
     }
+    if (!isDecoded(method, all[i].predictor))
+      return fail(kNotInCore, "the core lacks a predictor", at);
   }
   return {};
 }
@@ -178,12 +171,9 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
   MCC_TRY(checkReferences(&header.attributes[piece.first_attribute], piece.attribute_count, at));
   const AttributeInfo& position = header.attributes[piece.first_attribute];
   if (!isBasePosition(position) || position.format.component_count != 3 ||
-      (position.coding > AttributeCoding::kExactFloat &&
-       position.coding != AttributeCoding::kGrid)) {
+      (position.coding != AttributeCoding::kLattice &&
+       position.coding != AttributeCoding::kInteger && !isExact(position.coding))) {
     return fail(Error::kBadHeader, "the first attribute of a piece is not its position", at);
-  }
-  if (!position_mode::areKnown(position.predictor)) {
-    return fail(Error::kBadHeader, "the positions have an unknown predictor", at);
   }
   if ((position.predictor & position_mode::kPlanes) != 0 &&
       (position.coding != AttributeCoding::kLattice ||
@@ -223,7 +213,7 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, T
   const bool has_pivots = piece.surface() == SurfaceCoding::kPivots;
   if (has_pivots && piece.has(piece_flag::kHoles | piece_flag::kHandles))
     return fail(Error::kBadHeader, "a piece that is not cut has holes or handles", at);
-  if (!kWhole && ((piece.flags & ~piece_flag::kDecoded) != 0 || has_pivots))
+  if ((piece.flags & ~piece_flag::kDecoded) != 0 || !infoOf(piece.surface()).is_decoded)
     return fail(kNotInCore, "the core lacks what a piece has", at);
   uint32_t zigzagged = 0;
   MCC_TRY(in.readVarint(piece.vertex_count));

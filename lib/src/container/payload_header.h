@@ -9,19 +9,11 @@
 
 #include "base/bytes.h"
 #include "base/memory.h"
-#include "format/decodes.h"
+#include "format/flags.h"
 #include "mcc/reader.h"
 #include "mcc/status.h"
 
 namespace mcc {
-
-inline constexpr uint8_t kMagic[3] = {'K', 'M', 'C'};
-inline constexpr uint8_t kWithdrawnMagic[3] = {'M', 'C', 'C'};  ///< the first format
-/// A draft (major version 0) is not compatible with any other version.
-inline constexpr uint8_t kVersionMajor = 0;
-inline constexpr uint8_t kVersionMinor = 9;
-inline constexpr size_t kChecksumOffset = 4;
-inline constexpr size_t kChecksummedFrom = 8;  ///< the checksum covers bytes 0..3 and from here on
 
 /// Bounds the work per byte; writers pad a payload to keep it. Known meshes have fewer than 50
 /// elements per byte; only the triangles of a regular grid reach 2200.
@@ -34,33 +26,6 @@ inline constexpr uint64_t kElementsPerAttribute = 1024;
 /// where vertices may share groups, each face of a pivot, each isolated position, and each place in
 /// a kept order.
 inline constexpr uint64_t kElementsPerSearch = 8;
-
-namespace payload_flag {
-inline constexpr uint32_t kSingleCoder = 1u << 0;
-inline constexpr uint32_t kManyPieces = 1u << 1;
-inline constexpr uint32_t kPadded = 1u << 2;
-inline constexpr uint32_t kContextSetShift = 3;  ///< one bit
-inline constexpr uint32_t kAll = 0xf;
-}  // namespace payload_flag
-
-namespace piece_flag {
-inline constexpr uint32_t kSeams = 1u << 0;
-inline constexpr uint32_t kManyParts = 1u << 1;
-inline constexpr uint32_t kSameAttributes = 1u << 2;
-inline constexpr uint32_t kHoles = 1u << 3;
-inline constexpr uint32_t kHandles = 1u << 4;
-// The varint of the flags takes one byte, unless a flag beyond the next two is set.
-inline constexpr uint32_t kCreases = 1u << 5;
-inline constexpr uint32_t kIsolated = 1u << 6;
-inline constexpr uint32_t kSurfaceShift = 7;
-inline constexpr uint32_t kSurfaceMask = 3u << kSurfaceShift;  ///< SurfaceCoding
-inline constexpr uint32_t kListed = 1u << 9;
-inline constexpr uint32_t kTriangleOrder = 1u << 10;
-inline constexpr uint32_t kVertexOrder = 1u << 11;
-inline constexpr uint32_t kAll = 0xfff;
-/// The flags of pieces that this reader can decode.
-inline constexpr uint32_t kDecoded = kAll & ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder);
-}  // namespace piece_flag
 
 struct PieceHeader {
   uint32_t flags = 0;

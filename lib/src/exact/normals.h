@@ -10,7 +10,7 @@
 #include <cstdint>
 
 #include "exact/vectors.h"
-#include "format/methods.h"
+#include "format/predictors.h"
 #include "mcc/reader.h"
 #include "surface/wedges.h"
 #include "values/value_memory.h"

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "exact/vectors.h"
-#include "format/methods.h"
+#include "format/predictors.h"
 #include "surface/wedges.h"
 
 namespace mcc {

@@ -11,6 +11,7 @@
 
 #include "base/enc_exceptions.h"
 #include "entropy/enc_coder.h"
+#include "format/predictors.h"
 #include "positions/enc_prices.h"
 #include "positions/vertex.h"
 
@@ -609,7 +610,7 @@ class Chooser {
     jobs_.run(with.size(), [&](size_t i) {
       PositionParameters& p = with[i].parameters;
       p = withMode(p, mode);
-      with[i].cost = position_mode::areKnown(p.modes) ? costOf(p) : kNever;
+      with[i].cost = position_mode::goTogether(p.modes) ? costOf(p) : kNever;
     });
     race_.insert(race_.end(), with.begin(), with.end());
     sortRace(kRace);

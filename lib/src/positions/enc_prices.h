@@ -4,26 +4,19 @@
 // by t / 4 percent, or as many as the caller prefers, see Preference; a choice between some bytes and some time is thereby the same
 // everywhere.
 //
-// The times are those of a release build with gcc 12 on a Zen 4, rounded: they rank the choices, on any machine.
+// The times are those of a release build with gcc 12 on a Zen 4, rounded: they rank the choices, on any machine. Those of
+// predictors are in format/predictors.h.
 #ifndef MCC_POSITIONS_ENC_PRICES_H_
 #define MCC_POSITIONS_ENC_PRICES_H_
 
-#include "format/methods.h"
+#include "format/predictors.h"
 #include "mcc/types.h"
 #include "positions/parameters.h"
 
 namespace mcc {
 
 namespace price_ns {
-inline constexpr double kWeights = 13;  ///< more than the average of the tips
-inline constexpr double kSelect = 25;   ///< more than weights
-inline constexpr double kShear = 14;
-inline constexpr double kFold = 10;
-inline constexpr double kSplit = 1;
-inline constexpr double kPalette = 40;       ///< with few distinct values
-inline constexpr double kPaletteValue = 40;  ///< more for each distinct value per vertex
-inline constexpr double kPlanes = 45;
-inline constexpr double kMemory = 25;  ///< of texture coordinates
+inline constexpr double kPaletteValue = 40;  ///< for each distinct value per vertex
 /// Per copy that is stitched, and per face that is listed by pivots more than by the collapse.
 inline constexpr double kCopy = 250;
 inline constexpr double kPivotFace = 40;
@@ -33,24 +26,8 @@ inline constexpr double kSingleCoder = 60;  ///< more than three streams; a divi
 /// Nanoseconds per vertex, more than the plain average of the tips takes. `palette_values`: distinct coordinates per
 /// vertex, of all axes that have a palette.
 inline double timeOf(const PositionParameters& p, double palette_values) {
-  double ns = 0;
-  if (p.has(position_mode::kWeights)) ns += price_ns::kWeights;
-  if (p.has(position_mode::kSelect)) ns += price_ns::kSelect;
-  if (p.has(position_mode::kShear)) ns += price_ns::kShear;
-  if (p.has(position_mode::kFold)) ns += price_ns::kFold;
-  if (p.has(position_mode::kSplit)) ns += price_ns::kSplit;
-  if (p.has(position_mode::kPalette)) {
-    ns += price_ns::kPalette + price_ns::kPaletteValue * palette_values;
-  }
-  if (p.has(position_mode::kPlanes)) ns += price_ns::kPlanes;
-  return ns;
-}
-
-/// The same for an attribute's header byte `predictor`, more than its fastest method takes.
-inline double timeOf(AttributeMethod method, uint8_t predictor) {
-  const bool remembers =
-      method == AttributeMethod::kTexcoord && (predictor & texcoord_method::kRemembers) != 0;
-  return remembers ? price_ns::kMemory : 0;
+  const double ns = timeOf(AttributeMethod::kPosition, p.modes);
+  return p.has(position_mode::kPalette) ? ns + price_ns::kPaletteValue * palette_values : ns;
 }
 
 /// What time is worth.

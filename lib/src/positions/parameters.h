@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "entropy/numbers.h"
-#include "format/methods.h"
+#include "format/predictors.h"
 #include "mcc/status.h"
 #include "positions/palette.h"
 #include "positions/planes.h"
@@ -23,7 +23,9 @@ struct PositionParameters {
   AxisPalette palette[3];              ///< only with kPalette; borrowed
   const GridPlanes* planes = nullptr;  ///< only with kPlanes; borrowed
 
-  bool has(uint32_t mode) const { return (modes & mode & position_mode::kDecoded) != 0; }
+  bool has(uint32_t mode) const {
+    return (modes & mode & decodedBits(AttributeMethod::kPosition)) != 0;
+  }
 };
 
 /// The coefficients of the scale that follow from the modes; the payload's may replace them.

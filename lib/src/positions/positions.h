@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "format/predictors.h"
 #include "positions/growth.h"
 #include "positions/parameters.h"
 #include "positions/vertex.h"

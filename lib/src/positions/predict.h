@@ -21,6 +21,7 @@
 #include <cstdint>
 
 #include "base/host.h"
+#include "format/predictors.h"
 #include "positions/growth.h"
 #include "positions/parameters.h"
 #include "positions/record.h"

@@ -12,6 +12,7 @@
 #include "base/lanes.h"
 #include "entropy/models.h"
 #include "format/decodes.h"
+#include "format/predictors.h"
 #include "positions/parameters.h"
 #include "positions/planes.h"
 #include "positions/tables.h"

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "base/host.h"
+#include "format/predictors.h"
 #include "positions/parameters.h"
 #include "positions/plane_vertex.h"
 #include "positions/predict.h"
@@ -248,9 +249,8 @@ MCC_SHARED int32_t VertexCoder<Io, kModes>::codeSlot(Io& io, uint32_t slot,
                                                      Fold fold) const {
   const int32_t target = static_cast<int32_t>(static_cast<uint32_t>(truth) - prediction);
   TokenRow& row = rows_[c.row[slot]];
-  residual[slot] =
-      codeResidual<kState>(io, row, row.low_bits, fold ? c.folded[slot] : 0,
-                           fold ? c.flip[slot] : 0, target, fold);
+  residual[slot] = codeResidual<kState>(io, row, row.low_bits, fold ? c.folded[slot] : 0,
+                                        fold ? c.flip[slot] : 0, target, fold);
   return static_cast<int32_t>(prediction + static_cast<uint32_t>(residual[slot]));
 }
 

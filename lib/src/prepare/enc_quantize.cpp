@@ -9,6 +9,7 @@
 
 #include "exact/enc_grid.h"
 #include "exact/grid.h"
+#include "format/predictors.h"
 #include "mesh/dequantize.h"
 #include "values/enc_extent.h"
 #include "vectors/normals.h"
@@ -116,8 +117,7 @@ class Quantizer {
     const uint32_t bytes = componentBytes(view_.format.component_type);
     for (uint32_t w = 0; w < count_; ++w) {
       for (uint32_t c = 0; c < components_; ++c) {
-        const uint32_t raw =
-            loadBits(element(w) + size_t{bytes} * c, view_.format.component_type);
+        const uint32_t raw = loadBits(element(w) + size_t{bytes} * c, view_.format.component_type);
         int32_t value = static_cast<int32_t>(raw);
         if (view_.format.component_type == ComponentType::kInt8) value = static_cast<int8_t>(raw);
         if (view_.format.component_type == ComponentType::kInt16) value = static_cast<int16_t>(raw);

@@ -11,7 +11,7 @@
 #include "exact/tails.h"
 #include "exact/tangents.h"
 #include "format/decodes.h"
-#include "format/methods.h"
+#include "format/predictors.h"
 #include "surface/equality.h"
 #include "surface/wedges.h"
 #include "values/skin.h"

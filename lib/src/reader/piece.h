@@ -24,6 +24,7 @@
 #include "container/payload_header.h"
 #include "exact/tails.h"
 #include "format/decodes.h"
+#include "format/predictors.h"
 #include "positions/isolated.h"
 #include "positions/positions.h"
 #include "reader/attribute_stage.h"
@@ -407,8 +408,7 @@ class PieceCoder {
     if (!group_positions_.empty()) return {};
     const uint32_t count = static_cast<uint32_t>(records.size());
     const auto position = [this](uint32_t group) { return records[group].q; };
-    return decodes::kExactFloats && (attributes_[0].coding == AttributeCoding::kExactFloat ||
-                                     attributes_[0].coding == AttributeCoding::kGrid)
+    return decodes::kExactFloats && isExact(attributes_[0].coding)
                ? floatPredictionPositions(count, position, group_positions_)
                : latticePredictionPositions(count, position, group_positions_);
   }

@@ -13,7 +13,7 @@
 #include <cstring>
 
 #include "entropy/models.h"
-#include "format/methods.h"
+#include "format/predictors.h"
 #include "surface/wedges.h"
 #include "values/residuals.h"
 

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "format/methods.h"
+#include "format/predictors.h"
 #include "surface/face_pass.h"
 #include "surface/wedges.h"
 #include "values/residuals.h"

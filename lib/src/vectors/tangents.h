@@ -162,8 +162,7 @@ inline void addFaceTangents(const WedgeMesh& wedges, const float* positions, con
 /// Texture coordinates as finite floats whose products neither overflow nor become denormal. [B.6.5]
 inline void chartCoordinates(const AttributeInfo& info, const int32_t* values, size_t count,
                              float* chart) {
-  const bool exact =
-      info.coding == AttributeCoding::kExactFloat || info.coding == AttributeCoding::kGrid;
+  const bool exact = isExact(info.coding);
   for (size_t i = 0; i < count; ++i) {
     if (!exact) {
       chart[i] = static_cast<float>(values[i]);

@@ -7,7 +7,7 @@
 
 #include "exact/enc_grid.h"
 #include "positions/enc_prices.h"
-#include "vectors/enc_predictor_search.h"
+#include "writer/predictor_search.h"
 #include "writer/stages.h"
 
 namespace mcc {

@@ -53,10 +53,6 @@ struct Plan {
   std::vector<uint32_t> wedge_order;
 };
 
-inline bool isExact(AttributeCoding coding) {
-  return coding == AttributeCoding::kExactFloat || coding == AttributeCoding::kGrid;
-}
-
 /// Returns what a position is coded by: the integer of its grid, if it is on one.
 inline int32_t codedPosition(const AttributeInfo& info, int32_t value) {
   return info.coding == AttributeCoding::kGrid ? gridInteger(info, value) : value;

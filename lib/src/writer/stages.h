@@ -11,6 +11,7 @@
 
 #include "base/enc_exceptions.h"
 #include "entropy/enc_coder.h"
+#include "format/predictors.h"
 #include "writer/truth.h"
 
 namespace mcc {

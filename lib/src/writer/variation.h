@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "format/methods.h"
+#include "format/predictors.h"
 #include "positions/enc_fit.h"
 
 namespace mcc {
@@ -48,7 +48,7 @@ class Variation {
     PositionParameters p;
     do {
       p.modes = kind | (static_cast<uint8_t>(below(256)) & others);
-    } while (!areKnown(p.modes));
+    } while (!goTogether(p.modes));
     setUniversalScale(p);
     if (p.has(position_mode::kWeights)) varyWeights(p);
     if (p.has(position_mode::kOwnScale)) varyScale(p);

@@ -14,6 +14,7 @@
 #include "container/enc_payload.h"
 #include "container/payload_header.h"
 #include "exact/grid.h"
+#include "format/predictors.h"
 #include "support/mesh_generators.h"
 #include "unit/failing_allocator.h"
 

@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "format/predictors.h"
 #include "positions/palette.h"
 #include "positions/predict.h"
 #include "positions/residual.h"

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "format/codings.h"
 #include "mesh/dequantize.h"
 #include "prepare/enc_quantize.h"
 #include "support/mesh_generators.h"
@@ -52,10 +53,6 @@ Quantized quantized(const std::vector<float>& values, uint8_t components, uint8_
   result.attribute =
       quantizedAlone(view, static_cast<uint32_t>(values.size() / components), result.notes);
   return result;
-}
-
-bool isExact(AttributeCoding coding) {
-  return coding == AttributeCoding::kExactFloat || coding == AttributeCoding::kGrid;
 }
 
 /// Returns every component as the reader will return it.

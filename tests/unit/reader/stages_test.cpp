@@ -13,10 +13,11 @@
 #include <set>
 #include <vector>
 
+#include "format/predictors.h"
 #include "positions/enc_isolated.h"
 #include "support/mesh_generators.h"
 #include "unit/surface.h"
-#include "vectors/enc_predictor_search.h"
+#include "writer/predictor_search.h"
 
 namespace mcc::test {
 namespace {
@@ -442,15 +443,15 @@ TEST(Memory, OnAllKindsOfSurfaces) {
 /// tries only valid bytes.
 TEST(Predictors, TheSearchFindsTheBest) {
   Random random(5);
-  for (uint32_t m = 0; m < kAttributeMethods; ++m) {
-    const AttributeMethod method = static_cast<AttributeMethod>(m);
-    if (isWithAnother(method)) continue;
+  for (const MethodInfo& info : kMethods) {
+    const AttributeMethod method = info.method;
+    if (isWithAnother(method) || method == AttributeMethod::kPosition) continue;
     for (uint32_t round = 0; round < 50; ++round) {
       uint64_t costs[256];
       for (uint64_t& cost : costs) cost = random.below(1000);
       const auto costOf = [&](uint8_t predictor) {
-        uint64_t sum = (predictor & kHasEqualities) != 0 ? costs[0] : costs[1];
-        for (const PredictorField& field : fieldsOf(method))
+        uint64_t sum = 0;
+        for (const PredictorField& field : info)
           sum += costs[(field.mask * 16u + field.valueOf(predictor)) & 255];
         return sum;
       };
@@ -464,7 +465,7 @@ TEST(Predictors, TheSearchFindsTheBest) {
         const uint8_t predictor = static_cast<uint8_t>(p);
         if (isValidPredictor(method, predictor)) best = std::min(best, costOf(predictor));
       }
-      EXPECT_EQ(costOf(search.best()), best) << m;
+      EXPECT_EQ(costOf(search.best()), best) << info.name;
     }
   }
 }

@@ -2,6 +2,7 @@
 #include "gltf/inspect/report_json.h"
 
 #include <nlohmann/json.hpp>
+#include "format/codings.h"
 
 namespace mcc::gltf {
 namespace {
@@ -89,17 +90,11 @@ Json optionsJson(const ConvertOptions& options) {
 }
 
 std::string codingName(AttributeCoding coding, uint32_t bits) {
-  std::string name;
-  switch (coding) {
-    case AttributeCoding::kLattice: name = "lattice"; break;
-    case AttributeCoding::kInteger: return "integer";
-    case AttributeCoding::kExactFloat: return "exact float";
-    case AttributeCoding::kGrid: return "exact grid";
-    case AttributeCoding::kOctahedral: name = "octahedral"; break;
-    case AttributeCoding::kTangentAngle: name = "angle"; break;
-    case AttributeCoding::kAlias: return "alias";
-  }
-  return bits == 0 ? name : name + " " + std::to_string(bits);
+  const std::string name = infoOf(coding).word;
+  const bool has_bits = coding == AttributeCoding::kLattice ||
+                        coding == AttributeCoding::kOctahedral ||
+                        coding == AttributeCoding::kTangentAngle;
+  return has_bits && bits != 0 ? name + " " + std::to_string(bits) : name;
 }
 
 Json reportJson(const ConvertReport& report, const ConvertOptions& options) {

@@ -1,0 +1,73 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// How an attribute's values become integers, and the numbers that the codings share with the
+// header. [A.2.4]
+#ifndef MCC_FORMAT_CODINGS_H_
+#define MCC_FORMAT_CODINGS_H_
+
+#include <cstdint>
+#include <iterator>
+
+#include "format/decodes.h"
+#include "mcc/reader.h"
+
+namespace mcc {
+
+inline constexpr uint32_t kMaxLatticeBits = 24;
+inline constexpr uint32_t kMaxLatticeComponents = 4;
+inline constexpr uint32_t kMinUnitBits = 2;  ///< of octahedral coordinates and tangents' angles
+inline constexpr uint32_t kMaxUnitBits = 16;
+
+/// AttributeInfo::grid: values below kGridBinary mean 10^grid steps per unit, all others steps of
+/// 2^(grid - kGridBinary - 149).
+inline constexpr uint32_t kGridBinary = 10;
+inline constexpr int32_t kSmallestExponent = -149;  ///< the smallest exponent of float32
+inline constexpr int32_t kGridExponents = 246;      ///< up to 2^96, so that no integer overflows
+inline constexpr uint32_t kGridCount = kGridBinary + kGridExponents;
+static_assert(kGridCount == 256);  // the header has one byte for it
+inline constexpr uint32_t kGridComponents = 4;
+inline constexpr uint32_t kGridBits = 26;  ///< bits of a grid's integers, without their sign
+
+/// AttributeInfo::tails: how the bits below the step are coded.
+enum class GridTails : uint8_t {
+  kNoTails = 0,
+  kPlain = 1,
+  kCached = 2,  ///< from a cache, because the tails of equal integers tend to be equal
+};
+
+constexpr bool isBinaryGrid(uint32_t grid) { return grid >= kGridBinary; }
+
+struct CodingInfo {
+  AttributeCoding coding;
+  const char* name;      ///< in the specification and in the conformance suite
+  const char* word;      ///< of `inspect`, which appends the bits of those that have bits
+  const char* sections;  ///< sections of the specification
+  bool is_decoded;       ///< otherwise this decoder, which is the core alone, refuses the coding
+};
+
+/// The codings, in the order of AttributeCoding.
+inline constexpr CodingInfo kCodings[] = {
+    {AttributeCoding::kLattice, "lattice", "lattice", "A.2.4 A.8.11", true},
+    {AttributeCoding::kInteger, "integer", "integer", "A.2.4 A.8.11", true},
+    {AttributeCoding::kExactFloat, "exact float", "exact float", "A.2.4 A.8.11",
+     decodes::kExactFloats},
+    {AttributeCoding::kOctahedral, "octahedral", "octahedral", "A.2.4 B.4.1", true},
+    {AttributeCoding::kTangentAngle, "tangent angle", "angle", "A.2.4 B.6.3", true},
+    {AttributeCoding::kAlias, "alias", "alias", "A.2.4", true},
+    {AttributeCoding::kGrid, "grid", "exact grid", "A.2.4 A.8.12", decodes::kExactFloats},
+};
+
+constexpr const CodingInfo& infoOf(AttributeCoding coding) {
+  return kCodings[static_cast<size_t>(coding)];
+}
+
+constexpr bool isDecoded(AttributeCoding coding) { return kWhole || infoOf(coding).is_decoded; }
+
+/// Whether all bits of a float are kept.
+constexpr bool isExact(AttributeCoding coding) {
+  return coding == AttributeCoding::kExactFloat || coding == AttributeCoding::kGrid;
+}
+
+}  // namespace mcc
+
+#endif  // MCC_FORMAT_CODINGS_H_

@@ -1,0 +1,95 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The encoder's choices by name, so that each can be switched off and its gain measured (`gltf-mcc
+// bench --without`).
+#ifndef MCC_FORMAT_FEATURES_H_
+#define MCC_FORMAT_FEATURES_H_
+
+#include <cstdint>
+#include <string_view>
+
+namespace mcc {
+
+/// A choice of the format that the encoder can do without.
+enum class Feature : uint8_t {
+  kPivots,
+  kContextSets,
+  kSingleCoder,
+  kPalette,
+  kPlanes,
+  kShear,
+  kFold,
+  kSplit,
+  kOwnScale,
+  kWeights,
+  kTipSelection,
+  kBeyondWeights,
+  kDegreeWeights,
+  kCreases,
+  kEqualities,
+  kNormalWeights,
+  kNormalBlend,
+  kTexcoordHinge,
+  kTangentAngle,
+  kPerpendicular,
+  kValueFlags,
+  kSkin,
+  kAliases,
+  kExactNormals,
+  kExactGrids,
+  kMemory,
+};
+
+struct FeatureInfo {
+  Feature feature;
+  std::string_view name;
+  std::string_view section;  ///< section of the specification
+  std::string_view without;  ///< what the encoder does instead
+};
+
+inline constexpr FeatureInfo kFeatures[] = {
+    {Feature::kPivots, "pivots", "A.4.7", "all surfaces are cut to manifolds and stitched"},
+    {Feature::kContextSets, "context-sets", "A.4", "the first set of contexts always"},
+    {Feature::kSingleCoder, "single-coder", "A.3.8", "three streams always"},
+    {Feature::kPalette, "palette", "B.2", "coordinates, not ranks among the distinct ones"},
+    {Feature::kPlanes, "planes", "B.2.9", "coordinates, not numbers of planes"},
+    {Feature::kShear, "shear", "B.2", "components in file order"},
+    {Feature::kFold, "fold", "B.2", "residuals keep the sign"},
+    {Feature::kSplit, "split", "B.2", "one table of rows"},
+    {Feature::kOwnScale, "own-scale", "B.2", "the specification's coefficients of scale"},
+    {Feature::kWeights, "weights", "B.2", "the mean of the tips"},
+    {Feature::kTipSelection, "tip-selection", "B.2", "no classes by how parallelograms did"},
+    {Feature::kBeyondWeights, "beyond", "B.2", "no vertices beyond the fan"},
+    {Feature::kDegreeWeights, "degrees", "B.2", "no weights of degrees"},
+    {Feature::kCreases, "creases", "A.7", "seams without regard to angles"},
+    {Feature::kEqualities, "equalities", "A.8", "every wedge has a value of its own"},
+    {Feature::kNormalWeights, "normal-weights", "B.4", "faces weigh by their angles"},
+    {Feature::kNormalBlend, "normal-blend", "B.4", "no mean with the neighbours' normals"},
+    {Feature::kTexcoordHinge, "texcoord-hinge", "B.5", "parallelograms over the longest edge"},
+    {Feature::kTangentAngle, "tangent-angle", "A.8", "tangents as points of the octahedron"},
+    {Feature::kPerpendicular, "perpendicular", "A.8.10", "exact tangents by two components"},
+    {Feature::kValueFlags, "value-flags", "A.8.4", "no flags for values of 0 or a neighbour's"},
+    {Feature::kSkin, "skin", "A.8", "joints and weights as any other values"},
+    {Feature::kAliases, "aliases", "A.2.4", "equal attributes coded each by itself"},
+    {Feature::kExactNormals, "exact-normals", "A.8", "exact normals as values on a grid"},
+    {Feature::kExactGrids, "exact-grids", "A.2.5", "exact floats as ordered integers"},
+    {Feature::kMemory, "memory", "B.7.3", "charts and exact normals remember nothing"},
+};
+
+/// A set of features.
+class FeatureSet {
+ public:
+  constexpr FeatureSet() = default;
+  constexpr void add(Feature feature) { bits_ |= bitOf(feature); }
+  constexpr bool has(Feature feature) const { return (bits_ & bitOf(feature)) != 0; }
+
+ private:
+  static constexpr uint64_t bitOf(Feature feature) {
+    return uint64_t{1} << static_cast<uint32_t>(feature);
+  }
+  uint64_t bits_ = 0;
+};
+
+}  // namespace mcc
+
+#endif  // MCC_FORMAT_FEATURES_H_
