@@ -13,6 +13,7 @@
 #include "format/predictors.h"
 #include "mcc/reader.h"
 #include "surface/wedges.h"
+#include "values/attribute_job.h"
 #include "values/value_memory.h"
 #include "vectors/normals.h"
 
@@ -89,31 +90,29 @@ inline void addExactFaces(NormalWeight weight, const WedgeMesh& wedges, const fl
 template <class Io>
 class ExactNormalCoder {
  public:
-  /// Work space: `sums` 3 per wedge, `errors` one per wedge. `values`: three ordered floats per wedge. `memory`: started with
-  /// `values`, ignoring signs, since mirrored parts are alike; or null.
-  ExactNormalCoder(Io& io, VectorModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
-                   const AttributeInfo& info, int32_t* values, double* sums, VectorError* errors,
-                   ValueMemory* memory)
-      : io_(io),
+  /// Codes three ordered floats per wedge. `positions` has 3 floats per wedge. `memory` has been
+  /// started with the values and ignores signs, because mirrored parts are alike; it is null if the
+  /// predictor remembers nothing.
+  ExactNormalCoder(const AttributeJob<Io>& job, VectorModels& models, const float* positions,
+                   const VectorWork& work, ValueMemory* memory)
+      : job_(job),
         models_(models),
         memory_(memory),
-        coder_(io, models),
-        wedges_(wedges),
-        groups_(groups),
-        weight_(static_cast<NormalWeight>(info.predictor & normal_method::kWeightMask)),
-        blends_((info.predictor & normal_method::kBlend) != 0),
-        values_(values),
-        sums_(sums),
-        errors_(errors) {}
+        coder_(job.io, models),
+        weight_(static_cast<NormalWeight>(job.info.predictor & normal_method::kWeightMask)),
+        blends_((job.info.predictor & normal_method::kBlend) != 0),
+        positions_(positions),
+        sums_(work.sums),
+        errors_(work.errors) {}
 
-  void run(const float* positions) {
-    std::fill(sums_, sums_ + 3 * size_t{wedges_.count}, 0.0);
-    std::fill(errors_, errors_ + wedges_.count, VectorError{0, kNotYet});
-    addExactFaces(weight_, wedges_, positions, sums_);
-    for (uint32_t i = 0; i < wedges_.count; ++i) {
-      const uint32_t w = i < wedges_.surface_count ? wedges_.wedgeAt(i) : i;
-      if (groups_.isFirst(w)) codeGroup(w);
-    }
+  void run() {
+    std::fill(sums_, sums_ + 3 * size_t{job_.wedges.count}, 0.0);
+    addExactFaces(weight_, job_.wedges, positions_, sums_);
+    forEachGroup<3>(
+        job_, Ahead<double>{sums_, 3}, [this](uint32_t w) { codeGroup(w); },
+        [this](uint32_t w) {
+          if (memory_ != nullptr) memory_->learnGroup(job_, w);
+        });
   }
 
  private:
@@ -124,19 +123,14 @@ class ExactNormalCoder {
   static uint64_t predictionKey(const ValueMemory& memory, const double* predicted);
 
   static constexpr double kBlendPart = 0.5;  ///< of what both neighbours' predictions missed
-  static constexpr float kNotYet = -1;
 
-  bool coded(uint32_t w) const { return errors_[w].places >= 0; }
-
-  Io& io_;
+  const AttributeJob<Io> job_;
   VectorModels& models_;
   ValueMemory* const memory_;
   VectorCoder<Io> coder_;
-  const WedgeMesh& wedges_;
-  const EqualGroups& groups_;
   const NormalWeight weight_;
   const bool blends_;
-  int32_t* const values_;
+  const float* const positions_;
   double* const sums_;  ///< of faces; once a wedge is coded: what its prediction missed
   VectorError* const errors_;
   VectorError last_error_;
@@ -146,24 +140,22 @@ class ExactNormalCoder {
 template <class Io>
 void ExactNormalCoder<Io>::codeGroup(uint32_t w) {
   double direction[3] = {sum(w)[0], sum(w)[1], sum(w)[2]};
-  uint32_t entry = w < wedges_.surface_count ? wedges_.firstCompleted(w) : kNone;
-  for (uint32_t m = groups_.nextOf(w); m != kNone; m = groups_.nextOf(m)) {
+  for (uint32_t m = job_.groups.nextOf(w); m != kNone; m = job_.groups.nextOf(m)) {
     for (int s = 0; s < 3; ++s) direction[s] += sum(m)[s];
-    if (entry == kNone && m < wedges_.surface_count) entry = wedges_.firstCompleted(m);
   }
   if (!makeUnit(direction)) {
     for (int s = 0; s < 3; ++s) direction[s] = last_[s];
   }
   VectorError error = last_error_;
   double predicted[3] = {direction[0], direction[1], direction[2]};
+  uint32_t entry = job_.entryFace(w);
   if (entry != kNone) {
-    const uint32_t n = wedges_.faces.vertex(nextHalfEdge(entry));
-    const uint32_t p = wedges_.faces.vertex(prevHalfEdge(entry));
-    if (!coded(n) || !coded(p)) entry = kNone;  // a face with two corners at one vertex
+    const auto [n, p] = job_.othersOf(entry);
+    if (!job_.isCoded(n) || !job_.isCoded(p))
+      entry = kNone;  // two of its corners are at one vertex
   }
   if (entry != kNone) {
-    const uint32_t n = wedges_.faces.vertex(nextHalfEdge(entry));
-    const uint32_t p = wedges_.faces.vertex(prevHalfEdge(entry));
+    const auto [n, p] = job_.othersOf(entry);
     error.size = (errors_[n].size + errors_[p].size) / 2;
     error.places = (errors_[n].places + errors_[p].places) / 2;
     if (blends_) {
@@ -171,7 +163,7 @@ void ExactNormalCoder<Io>::codeGroup(uint32_t w) {
       makeUnit(predicted);
     }
   }
-  int32_t* value = values_ + 3 * size_t{w};
+  int32_t* value = job_.values + 3 * size_t{w};
   if (memory_ == nullptr || !codeKnown(w, entry, predicted)) {
     coder_.code(predicted, nullptr, error, value);
   }
@@ -183,16 +175,12 @@ void ExactNormalCoder<Io>::codeGroup(uint32_t w) {
     missed[s] = last_[s] - direction[s];
   }
   makeUnit(last_);
-  for (uint32_t m = w; m != kNone; m = groups_.nextOf(m)) {
-    std::copy_n(value, 3, values_ + 3 * size_t{m});
+  for (uint32_t m = w; m != kNone; m = job_.groups.nextOf(m)) {
     std::copy_n(missed, 3, sum(m));
     errors_[m] = error;
   }
-  if (memory_ == nullptr) return;
-  memory_->learn(predictionKey(*memory_, predicted), w);
-  for (uint32_t m = w; m != kNone; m = groups_.nextOf(m)) {
-    memory_->learnFaces(m, [this](uint32_t x) { return coded(x); });
-  }
+  job_.lengths[w] = 0;
+  if (memory_ != nullptr) memory_->learn(predictionKey(*memory_, predicted), w);
 }
 
 /// The key of a prediction: its components without signs, in steps of 2^-12.
@@ -209,10 +197,10 @@ uint64_t ExactNormalCoder<Io>::predictionKey(const ValueMemory& memory, const do
 /// face. It is then in place, with the signs of the prediction.
 template <class Io>
 bool ExactNormalCoder<Io>::codeKnown(uint32_t w, uint32_t entry, const double* predicted) {
-  int32_t* value = values_ + 3 * size_t{w};
+  int32_t* value = job_.values + 3 * size_t{w};
   const auto withSigns = [=, this](uint32_t k, int32_t* to) {
     for (uint32_t s = 0; s < 3; ++s) {
-      const uint32_t bits = bitsFromOrdered(values_[3 * size_t{k} + s]) & 0x7fffffffu;
+      const uint32_t bits = bitsFromOrdered(job_.values[3 * size_t{k} + s]) & 0x7fffffffu;
       to[s] = orderedFromBits(bits | (predicted[s] < 0 ? 0x80000000u : 0u));
     }
   };
@@ -223,15 +211,15 @@ bool ExactNormalCoder<Io>::codeKnown(uint32_t w, uint32_t entry, const double* p
   };
   memory_->begin();
   uint32_t k =
-      memory_->ask(io_, models_.memory, predictionKey(*memory_, predicted), kNone, isValue);
+      memory_->ask(job_.io, models_.memory, predictionKey(*memory_, predicted), kNone, isValue);
   if (k == kNone && entry != kNone) {
-    const FaceView& faces = wedges_.faces;
+    const FaceView& faces = job_.wedges.faces;
     const uint32_t across = nextHalfEdge(entry);
     const uint32_t t = faces.twin(across);
     const uint32_t o = t == kNone ? kNone : faces.vertex(prevHalfEdge(t));
-    k = memory_->ask(io_, models_.memory,
+    k = memory_->ask(job_.io, models_.memory,
                      memory_->edgeKey(faces.vertex(across), faces.vertex(prevHalfEdge(entry))),
-                     o != kNone && coded(o) ? o : kNone, isValue);
+                     o != kNone && job_.isCoded(o) ? o : kNone, isValue);
   }
   if (k != kNone) withSigns(k, value);
   return k != kNone;

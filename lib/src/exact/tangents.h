@@ -10,6 +10,7 @@
 #include "exact/vectors.h"
 #include "format/predictors.h"
 #include "surface/wedges.h"
+#include "values/attribute_job.h"
 
 namespace mcc {
 
@@ -73,45 +74,35 @@ inline void addExactTangent(const WedgeMesh& wedges, const TangentSources& from,
 template <class Io>
 class ExactTangentCoder {
  public:
-  /// Work space: `sums` 4 per wedge, `errors` one per wedge. `values`: four ordered floats per wedge.
-  ExactTangentCoder(Io& io, ExactTangentModels& models, const WedgeMesh& wedges,
-                    const EqualGroups& groups, const AttributeInfo& info,
-                    const TangentSources& from, int32_t* values, double* sums, VectorError* errors)
-      : io_(io),
+  /// Codes four ordered floats per wedge.
+  ExactTangentCoder(const AttributeJob<Io>& job, ExactTangentModels& models,
+                    const TangentSources& from, const VectorWork& work)
+      : job_(job),
         models_(models),
-        coder_(io, models.vectors),
-        wedges_(wedges),
-        groups_(groups),
-        perpendicular_((info.predictor & exact_tangent_method::kPerpendicular) != 0),
+        coder_(job.io, models.vectors),
+        perpendicular_((job.info.predictor & exact_tangent_method::kPerpendicular) != 0),
         from_(from),
-        values_(values),
-        sums_(sums),
-        errors_(errors) {}
+        sums_(work.sums),
+        errors_(work.errors) {}
 
   void run() {
-    std::fill(sums_, sums_ + 4 * size_t{wedges_.count}, 0.0);
-    std::fill(errors_, errors_ + wedges_.count, VectorError{});
-    for (uint32_t f = 0; from_.chart != nullptr && f < wedges_.face_count; ++f) {
-      addExactTangent(wedges_, from_, f, sums_);
+    std::fill(sums_, sums_ + 4 * size_t{job_.wedges.count}, 0.0);
+    std::fill(errors_, errors_ + job_.wedges.count, VectorError{});
+    for (uint32_t f = 0; from_.chart != nullptr && f < job_.wedges.face_count; ++f) {
+      addExactTangent(job_.wedges, from_, f, sums_);
     }
-    for (uint32_t i = 0; i < wedges_.count; ++i) {
-      const uint32_t w = i < wedges_.surface_count ? wedges_.wedgeAt(i) : i;
-      if (groups_.isFirst(w)) codeGroup(w);
-    }
+    forEachGroup<4>(job_, Ahead<double>{sums_, 4}, [this](uint32_t w) { codeGroup(w); });
   }
 
  private:
   void codeGroup(uint32_t w);
   void codeSign(double orientation, int32_t& value);
 
-  Io& io_;
+  const AttributeJob<Io> job_;
   ExactTangentModels& models_;
   VectorCoder<Io> coder_;
-  const WedgeMesh& wedges_;
-  const EqualGroups& groups_;
   const bool perpendicular_;
   const TangentSources from_;
-  int32_t* const values_;
   double* const sums_;
   VectorError* const errors_;
   VectorError last_error_;
@@ -121,15 +112,13 @@ class ExactTangentCoder {
 template <class Io>
 void ExactTangentCoder<Io>::codeGroup(uint32_t w) {
   double sum[4] = {0, 0, 0, 0};
-  uint32_t entry = kNone;
-  for (uint32_t m = w; m != kNone; m = groups_.nextOf(m)) {
+  for (uint32_t m = w; m != kNone; m = job_.groups.nextOf(m)) {
     for (size_t s = 0; s < 4; ++s) sum[s] += sums_[4 * size_t{m} + s];
-    if (entry == kNone && m < wedges_.surface_count) entry = wedges_.firstCompleted(m);
   }
+  const uint32_t entry = job_.entryFace(w);
   VectorError error = last_error_;
   if (entry != kNone) {
-    const uint32_t n = wedges_.faces.vertex(nextHalfEdge(entry));
-    const uint32_t p = wedges_.faces.vertex(prevHalfEdge(entry));
+    const auto [n, p] = job_.othersOf(entry);
     error.size = (errors_[n].size + errors_[p].size) / 2;
     error.places = (errors_[n].places + errors_[p].places) / 2;
   }
@@ -141,16 +130,13 @@ void ExactTangentCoder<Io>::codeGroup(uint32_t w) {
     projectAlong(normal, sum);
     makeUnit(sum);
   }
-  int32_t* value = values_ + 4 * size_t{w};
+  int32_t* value = job_.values + 4 * size_t{w};
   coder_.code(sum, perpendicular_ ? normal : nullptr, error, value);
   codeSign(sum[3], value[3]);
   last_error_ = error;
   for (int s = 0; s < 3; ++s) last_[s] = finiteValue(value[s]);
   makeUnit(last_);
-  for (uint32_t m = w; m != kNone; m = groups_.nextOf(m)) {
-    std::copy_n(value, 4, values_ + 4 * size_t{m});
-    errors_[m] = error;
-  }
+  for (uint32_t m = w; m != kNone; m = job_.groups.nextOf(m)) errors_[m] = error;
 }
 
 template <class Io>
@@ -158,12 +144,12 @@ void ExactTangentCoder<Io>::codeSign(double orientation, int32_t& value) {
   const uint32_t predicted = orientation > 0 ? 1 : orientation < 0 ? 2 : 0;
   const uint32_t bits = bitsFromOrdered(value);
   constexpr uint32_t kOne = 0x3f800000u;
-  if (io_.bit(models_.odd, Io::kEncoding && (bits & 0x7fffffffu) != kOne)) {
-    const uint32_t high = io_.raw(16, bits >> 16);
-    value = orderedFromBits(high << 16 | io_.raw(16, bits & 0xffff));
+  if (job_.io.bit(models_.odd, Io::kEncoding && (bits & 0x7fffffffu) != kOne)) {
+    const uint32_t high = job_.io.raw(16, bits >> 16);
+    value = orderedFromBits(high << 16 | job_.io.raw(16, bits & 0xffff));
     return;
   }
-  const bool negative = io_.bit(models_.negative[predicted], Io::kEncoding && value < 0);
+  const bool negative = job_.io.bit(models_.negative[predicted], Io::kEncoding && value < 0);
   value = orderedFromBits(kOne | (negative ? 0x80000000u : 0u));
 }
 

@@ -56,6 +56,12 @@ struct VectorError {
   float places = 0;  ///< of the others, in units of their last places
 };
 
+/// Work space of the coders of exact vectors.
+struct VectorWork {
+  double* sums;         ///< 3 per wedge for normals, 4 for tangents
+  VectorError* errors;  ///< by wedge
+};
+
 struct VectorModels {
   TokenRow row[3][kScaleBuckets];  ///< [component as coded]
   MemoryModels memory;

@@ -14,6 +14,7 @@
 #include "format/predictors.h"
 #include "surface/equality.h"
 #include "surface/wedges.h"
+#include "values/attribute_job.h"
 #include "values/skin.h"
 #include "values/texcoords.h"
 #include "values/value_memory.h"
@@ -119,15 +120,18 @@ class AttributeStage {
     }
     const GridPart grid = gridPart(index, method, components);
     if (decodes::kExactFloats && grid.info != nullptr) MCC_TRY(enterGrid(grid, values.data()));
+    // Exact vectors are coded for all wedges even in trials.
+    const uint32_t end = isExactVector(method) ? wedges.count : wedges.coded_count;
+    const Job job{io_, info, wedges, groups_, positions.data(), values.data(), lengths_.data(),
+                  end};
     switch (method) {
-      case AttributeMethod::kNormal: MCC_TRY(codeNormals(info, values.data())); break;
-      case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(info, values.data())); break;
-      case AttributeMethod::kTangent: MCC_TRY(codeTangents(info, values.data())); break;
-      case AttributeMethod::kSkin: MCC_TRY(codeSkin(index, values.data())); break;
-      case AttributeMethod::kValues: MCC_TRY(codeValues(info, values.data())); break;
+      case AttributeMethod::kNormal: MCC_TRY(codeNormals(job)); break;
+      case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(job)); break;
+      case AttributeMethod::kTangent: MCC_TRY(codeTangents(job)); break;
+      case AttributeMethod::kSkin: MCC_TRY(codeSkin(job, index)); break;
+      case AttributeMethod::kValues: MCC_TRY(run<ValueCoder>(job, models_.valuesOf(info))); break;
       default:
-        if (decodes::kExactFloats || decodes::kTangentPoints)
-          MCC_TRY(codeRare(method, info, values.data()));
+        if (decodes::kExactFloats || decodes::kTangentPoints) MCC_TRY(codeRare(method, job));
         break;
     }
     if (decodes::kExactFloats && grid.info != nullptr) MCC_TRY(leaveGrid(grid, values.data()));
@@ -158,9 +162,7 @@ class AttributeStage {
     if (!decodes::kExactFloats) return false;
     for (uint32_t i = 1; i < count_; ++i) {
       const AttributeMethod method = methodOf(attributes_, count_, i);
-      if (method == AttributeMethod::kExactNormal || method == AttributeMethod::kExactTangent) {
-        return true;
-      }
+      if (isExactVector(method)) return true;
       if (Io::kEncoding && attributes_[i].coding == AttributeCoding::kGrid) return true;  // perhaps
     }
     return false;
@@ -175,6 +177,8 @@ class AttributeStage {
   Array<int32_t> normals;        ///< 2 per wedge, only if others are predicted from them
 
  private:
+  using Job = AttributeJob<Io>;
+
   static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for attributes"); }
 
   /// Which of the coded values are on an exact grid; `info` null: none.
@@ -227,71 +231,62 @@ class AttributeStage {
     return {};
   }
 
-  Status codeValues(const AttributeInfo& info, int32_t* values) {
-    ValueModels* const models = models_.valuesOf(info).get(allocator_);
+  static bool isExactVector(AttributeMethod method) {
+    return method == AttributeMethod::kExactNormal || method == AttributeMethod::kExactTangent;
+  }
+
+  /// Runs the coder that is made of the job, its models and what else it asks for.
+  template <template <class> class Coder, class Models, class... Others>
+  Status run(const Job& job, Lazy<Models>& lazy, const Others&... others) {
+    Models* const models = lazy.get(allocator_);
     if (models == nullptr) return noMemory();
-    ValueCoder<Io>(io_, *models, wedges, groups_, info, positions.data(), values, lengths_.data())
-        .run();
+    Coder<Io>(job, *models, others...).run();
     return {};
   }
 
   /// What the decoder's core is without.
-  Status codeRare(AttributeMethod method, const AttributeInfo& info, int32_t* values) {
+  Status codeRare(AttributeMethod method, const Job& job) {
     switch (method) {
-      case AttributeMethod::kExactNormal: return codeExactNormals(info, values);
-      case AttributeMethod::kExactTangent: return codeExactTangents(info, values);
-      case AttributeMethod::kTangentPoint: return codeTangentPoints(info, values);
+      case AttributeMethod::kExactNormal: return codeExactNormals(job);
+      case AttributeMethod::kExactTangent: return codeExactTangents(job);
+      case AttributeMethod::kTangentPoint: return codeTangentPoints(job);
       default: return {};
     }
   }
 
-  Status codeNormals(const AttributeInfo& info, int32_t* values) {
+  Status codeNormals(const Job& job) {
     if (!floats_.resize(4 * size_t{wedges.count})) return noMemory();
-    NormalModels* const models = models_.normals.get(allocator_);
-    if (models == nullptr) return noMemory();
-    NormalCoder<Io>(io_, *models, wedges, groups_, info, values, floats_.data(), lengths_.data())
-        .run(positions.data());
-    return {};
+    return run<NormalCoder>(job, models_.normals, floats_.data());
   }
 
-  Status codeExactNormals(const AttributeInfo& info, int32_t* values) {
+  Status codeExactNormals(const Job& job) {
     if (!doubles_.resize(3 * size_t{wedges.count}) || !errors_.resize(wedges.count))
       return noMemory();
-    const bool remembers = (info.predictor & exact_normal_method::kRemembers) != 0;
-    if (remembers && !memory_.start(wedges, values, 3, true)) return noMemory();
-    VectorModels* const models = models_.exact_normals.get(allocator_);
-    if (models == nullptr) return noMemory();
-    ExactNormalCoder<Io>(io_, *models, wedges, groups_, info, values, doubles_.data(),
-                         errors_.data(), remembers ? &memory_ : nullptr)
-        .run(exact_positions.data());
+    const bool remembers = (job.info.predictor & exact_normal_method::kRemembers) != 0;
+    if (remembers && !memory_.start(wedges.face_count, job.values, 3, true)) return noMemory();
+    MCC_TRY(run<ExactNormalCoder>(job, models_.exact_normals, exact_positions.data(),
+                                  VectorWork{doubles_.data(), errors_.data()},
+                                  remembers ? &memory_ : nullptr));
     memory_.clear();
     return {};
   }
 
-  Status codeExactTangents(const AttributeInfo& info, int32_t* values) {
+  Status codeExactTangents(const Job& job) {
     if (!doubles_.resize(4 * size_t{wedges.count}) || !errors_.resize(wedges.count))
       return noMemory();
     TangentSources from;
     from.positions = exact_positions.data();
     if (chart_ != kNone) from.chart = chart_coordinates_.data();
     if (exact_normal_ != kNone) from.normals = exact_normals_.data();
-    ExactTangentModels* const models = models_.exact_tangents.get(allocator_);
-    if (models == nullptr) return noMemory();
-    ExactTangentCoder<Io>(io_, *models, wedges, groups_, info, from, values, doubles_.data(),
-                          errors_.data())
-        .run();
-    return {};
+    return run<ExactTangentCoder>(job, models_.exact_tangents, from,
+                                  VectorWork{doubles_.data(), errors_.data()});
   }
 
-  Status codeTexcoords(const AttributeInfo& info, int32_t* values) {
-    const bool remembers = (info.predictor & texcoord_method::kRemembers) != 0;
-    if (remembers && !memory_.start(wedges, values, 2, false)) return noMemory();
-    TexcoordModels* const models =
-        models_.texcoords[info.format.set_index != 0 ? 1 : 0].get(allocator_);
-    if (models == nullptr) return noMemory();
-    TexcoordCoder<Io>(io_, *models, wedges, groups_, info, positions.data(), values,
-                      lengths_.data(), remembers ? &memory_ : nullptr)
-        .run();
+  Status codeTexcoords(const Job& job) {
+    const bool remembers = (job.info.predictor & texcoord_method::kRemembers) != 0;
+    if (remembers && !memory_.start(wedges.face_count, job.values, 2, false)) return noMemory();
+    MCC_TRY(run<TexcoordCoder>(job, models_.texcoords[job.info.format.set_index != 0 ? 1 : 0],
+                               remembers ? &memory_ : nullptr));
     memory_.clear();
     return {};
   }
@@ -305,27 +300,17 @@ class AttributeStage {
     return {};
   }
 
-  Status codeTangents(const AttributeInfo& info, int32_t* values) {
+  Status codeTangents(const Job& job) {
     MCC_TRY(sumFaceTangents());
-    TangentModels* const models = models_.tangents.get(allocator_);
-    if (models == nullptr) return noMemory();
-    TangentCoder<Io>(io_, *models, wedges, groups_, info, normalInfo(), normals.data(),
-                     floats_.data(), values, lengths_.data())
-        .run();
-    return {};
+    return run<TangentCoder>(job, models_.tangents, normalInfo(), normals.data(), floats_.data());
   }
 
-  Status codeTangentPoints(const AttributeInfo& info, int32_t* values) {
+  Status codeTangentPoints(const Job& job) {
     MCC_TRY(sumFaceTangents());
     const bool projects = hasNormals(attributes_, count_);
     if (projects) MCC_TRY(listNormals());
-    TangentPointModels* const models = models_.tangent_points.get(allocator_);
-    if (models == nullptr) return noMemory();
-    TangentPointCoder<Io>(io_, *models, wedges, groups_, info,
-                          projects ? unit_normals_.data() : nullptr, floats_.data(), values,
-                          lengths_.data())
-        .run();
-    return {};
+    return run<TangentPointCoder>(job, models_.tangent_points,
+                                  projects ? unit_normals_.data() : nullptr, floats_.data());
   }
 
   /// Normals as vectors: what tangents on a grid are perpendicular to.
@@ -345,17 +330,12 @@ class AttributeStage {
     return {};
   }
 
-  Status codeSkin(uint32_t index, int32_t* values) {
-    const AttributeInfo& joints = attributes_[index];
+  Status codeSkin(const Job& job, uint32_t index) {
     const AttributeInfo& weights = attributes_[skinPartner(attributes_, count_, index)];
     const SkinSums sums = static_cast<SkinSums>(weights.predictor);
     const int32_t sum = sums != SkinSums::kUnknown ? unitSum(weights) : 0;
-    SkinModels* const models = models_.skins[joints.format.set_index != 0 ? 1 : 0].get(allocator_);
-    if (models == nullptr) return noMemory();
-    SkinCoder<Io>(io_, *models, wedges, groups_, sum, sums == SkinSums::kUsual, values,
-                  lengths_.data())
-        .run();
-    return {};
+    return run<SkinCoder>(job, models_.skins[job.info.format.set_index != 0 ? 1 : 0], sum,
+                          sums == SkinSums::kUsual);
   }
 
   Io& io_;

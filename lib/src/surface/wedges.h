@@ -59,9 +59,6 @@ class WedgeMesh {
   uint32_t count = 0;
   uint32_t coded_count = 0;  ///< in coding order; fewer than all in the writer's trials
 
-  /// Wedges in faces that are coded.
-  uint32_t surfaceEnd() const { return std::min(surface_count, coded_count); }
-
  private:
   static constexpr uint32_t kPrefetch = 4;  ///< places ahead
 
@@ -82,7 +79,7 @@ inline Status WedgeMesh::build(FaceMesh& mesh, const uint32_t* starts, uint32_t 
   group_of_wedge_ = group_of_wedge;
   order_.clear();
   rank_.clear();
-  if (!completed_.assign(surface_wedges, kNone) ||
+  if (!completed_.assign(wedge_count, kNone) ||
       (group_of_wedge == nullptr &&
        (!order_.resize(surface_wedges) || !rank_.resize(surface_wedges)))) {
     return fail(Error::kOutOfMemory, "no memory for attributes");
@@ -109,6 +106,7 @@ inline Status WedgeMesh::build(FaceMesh& mesh, const uint32_t* starts, uint32_t 
 
 template <class Visit>
 void WedgeMesh::forRun(uint32_t wedge, Visit visit) const {
+  if (wedge >= surface_count) return;
   const uint32_t start = starts_[rankOf(wedge)];
   uint32_t budget = 16;
   uint32_t h = start;

@@ -17,7 +17,6 @@ namespace mcc {
 inline constexpr uint32_t kLengthContexts = 12;
 inline constexpr uint32_t kLongestContext = 10;
 inline constexpr uint32_t kNoNeighbours = 11;
-inline constexpr uint8_t kNotCoded = 0xff;  ///< as a length
 inline constexpr uint32_t kTokenEscapeLength = 15;
 
 constexpr uint32_t absoluteOf(int32_t value) {

@@ -15,6 +15,7 @@
 #include "entropy/numbers.h"
 #include "format/methods.h"
 #include "surface/wedges.h"
+#include "values/attribute_job.h"
 #include "values/residuals.h"
 
 namespace mcc {
@@ -43,35 +44,21 @@ struct SkinModels {
 template <class Io>
 class SkinCoder {
  public:
-  /// `sum`: of the weights of every tuple (of most, if `sums_vary`), or 0. `lengths`: work space, a byte per wedge.
-  SkinCoder(Io& io, SkinModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
-            int32_t sum, bool sums_vary, int32_t* values, uint8_t* lengths)
-      : io_(io),
-        models_(models),
-        wedges_(wedges),
-        groups_(groups),
-        usual_sum_(sum),
-        sums_vary_(sums_vary),
-        values_(values),
-        lengths_(lengths) {}
+  /// `sum` is that of the weights of every tuple (of most, if `sums_vary`), or 0.
+  SkinCoder(const AttributeJob<Io>& job, SkinModels& models, int32_t sum, bool sums_vary)
+      : job_(job), models_(models), usual_sum_(sum), sums_vary_(sums_vary) {}
 
   void run() {
-    std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
-    for (uint32_t i = 0; i < wedges_.coded_count; ++i) {
-      const uint32_t w = i < wedges_.surface_count ? wedges_.wedgeAt(i) : i;
-      if (!groups_.isFirst(w)) continue;
+    forEachGroup<kSkinWords>(job_, Ahead<int32_t>{job_.values, kSkinWords}, [this](uint32_t w) {
       codeTuple(w);
-      for (uint32_t m = groups_.nextOf(w); m != kNone; m = groups_.nextOf(m)) {
-        copyTuple(m, w);
-        lengths_[m] = lengths_[w];
-      }
       last_ = w;
-    }
+    });
   }
 
  private:
   static constexpr uint32_t kCandidates = kSkinNeighbours * kSkinSlots;
-  static constexpr uint32_t kRanks = 6;  ///< asked for before the joint is spelled out
+  static constexpr uint32_t kFaceLimit = 3;  ///< faces looked at
+  static constexpr uint32_t kRanks = 6;      ///< asked for before the joint is spelled out
 
   static constexpr int64_t kTypicalShare = 8;
 
@@ -82,7 +69,7 @@ class SkinCoder {
     bool taken;
   };
 
-  int32_t* tuple(uint32_t w) const { return values_ + kSkinWords * size_t{w}; }
+  int32_t* tuple(uint32_t w) const { return job_.values + kSkinWords * size_t{w}; }
   void copyTuple(uint32_t to, uint32_t from) {
     std::memcpy(tuple(to), tuple(from), 4 * kSkinWords);
   }
@@ -103,14 +90,10 @@ class SkinCoder {
   int32_t codeWeight(uint32_t slot, uint32_t context, uint32_t predicted, int32_t truth,
                      uint32_t& longest);
 
-  Io& io_;
+  const AttributeJob<Io> job_;
   SkinModels& models_;
-  const WedgeMesh& wedges_;
-  const EqualGroups& groups_;
   const int32_t usual_sum_;
   const bool sums_vary_;
-  int32_t* const values_;
-  uint8_t* const lengths_;
   uint32_t last_ = kNone;
 
   uint32_t neighbours_[kSkinNeighbours];  ///< coded ones with different tuples
@@ -124,7 +107,7 @@ class SkinCoder {
 
 template <class Io>
 void SkinCoder<Io>::addNeighbour(uint32_t w) {
-  if (lengths_[w] == kNotCoded) return;
+  if (!job_.isCoded(w)) return;
   for (uint32_t i = 0; i < neighbour_count_; ++i) {
     if (sameTuple(neighbours_[i], w)) {
       ++shared_[i];
@@ -141,18 +124,18 @@ template <class Io>
 void SkinCoder<Io>::collectNeighbours(uint32_t w) {
   neighbour_count_ = 0;
   uint32_t faces = 0;
-  for (uint32_t m = w; m != kNone && faces < 3 && w < wedges_.surface_count;
-       m = groups_.nextOf(m)) {
-    for (uint32_t h = wedges_.firstCompleted(m); h != kNone && faces < 3;
-         h = wedges_.nextCompleted(h), ++faces) {
-      addNeighbour(wedges_.faces.vertex(nextHalfEdge(h)));
-      addNeighbour(wedges_.faces.vertex(prevHalfEdge(h)));
-    }
-  }
-  if (neighbour_count_ == 0 && w < wedges_.surface_count) {
-    wedges_.forRun(w, [this](uint32_t h) {
-      addNeighbour(wedges_.faces.vertex(nextHalfEdge(h)));
-      addNeighbour(wedges_.faces.vertex(prevHalfEdge(h)));
+  const auto addOthers = [this](uint32_t h) {
+    const auto [n, p] = job_.othersOf(h);
+    addNeighbour(n);
+    addNeighbour(p);
+  };
+  job_.forFaces(w, [&](uint32_t h) {
+    addOthers(h);
+    return ++faces < kFaceLimit;
+  });
+  if (neighbour_count_ == 0) {
+    job_.wedges.forRun(w, [&](uint32_t h) {
+      addOthers(h);
       return neighbour_count_ == 0;
     });
   }
@@ -163,9 +146,9 @@ template <class Io>
 bool SkinCoder<Io>::codeSame(uint32_t w) {
   for (uint32_t i = 0; i < neighbour_count_; ++i) {
     BitModel& model = models_.same[i][std::min(shared_[i], 3u)];
-    if (io_.bit(model, Io::kEncoding && sameTuple(neighbours_[i], w))) {
+    if (job_.io.bit(model, Io::kEncoding && sameTuple(neighbours_[i], w))) {
       copyTuple(w, neighbours_[i]);
-      lengths_[w] = 0;
+      job_.lengths[w] = 0;
       return true;
     }
   }
@@ -203,7 +186,7 @@ int32_t SkinCoder<Io>::codeSum(const int32_t* weights) {
   if constexpr (Io::kEncoding) {
     for (uint32_t k = 0; k < kSkinSlots; ++k) truth += weights[k];
   }
-  return io_.bit(models_.has_sum, truth == usual_sum_) ? usual_sum_ : 0;
+  return job_.io.bit(models_.has_sum, truth == usual_sum_) ? usual_sum_ : 0;
 }
 
 template <class Io>
@@ -229,7 +212,7 @@ uint32_t SkinCoder<Io>::codeJoints(int32_t* t, int64_t* expected) {
   for (uint32_t k = 0; k < kSkinSlots; ++k) {
     BitModel& model = models_.weightless[k][influences];
     expected[k] = 0;
-    if (io_.bit(model, Io::kEncoding && t[kSkinSlots + k] == 0)) {
+    if (job_.io.bit(model, Io::kEncoding && t[kSkinSlots + k] == 0)) {
       t[k] = codeIdleJoint(t[k]);
       continue;
     }
@@ -245,7 +228,7 @@ void SkinCoder<Io>::codeWeights(uint32_t w, uint32_t used, const int64_t* expect
   uint32_t context = kNoNeighbours;
   if (neighbour_count_ != 0) {
     uint32_t length = 0;
-    for (uint32_t i = 0; i < neighbour_count_; ++i) length += lengths_[neighbours_[i]];
+    for (uint32_t i = 0; i < neighbour_count_; ++i) length += job_.lengths[neighbours_[i]];
     context = std::min((length + neighbour_count_ / 2) / neighbour_count_, kLongestContext);
   }
   int32_t* weights = tuple(w) + kSkinSlots;
@@ -265,7 +248,7 @@ void SkinCoder<Io>::codeWeights(uint32_t w, uint32_t used, const int64_t* expect
     weights[k] = codeWeight(k, context, static_cast<uint32_t>(expected[k]), weights[k], longest);
     rest -= weights[k];
   }
-  lengths_[w] = static_cast<uint8_t>(longest);
+  job_.lengths[w] = static_cast<uint8_t>(longest);
 }
 
 /// `weight`: what the neighbours give the joint.
@@ -277,7 +260,7 @@ int32_t SkinCoder<Io>::codeJoint(uint32_t slot, int32_t truth, int64_t& weight) 
     if (c.taken) continue;
     const bool here = tuple(neighbours_[0])[slot] == c.joint;
     const uint32_t kind = here ? 0 : c.count == uses_ ? 1 : 2;
-    if (io_.bit(models_.rank[slot][rank][kind], Io::kEncoding && c.joint == truth)) {
+    if (job_.io.bit(models_.rank[slot][rank][kind], Io::kEncoding && c.joint == truth)) {
       c.taken = true;
       weight = c.weight / int64_t{c.count};
       return c.joint;
@@ -285,13 +268,13 @@ int32_t SkinCoder<Io>::codeJoint(uint32_t slot, int32_t truth, int64_t& weight) 
     ++rank;
   }
   weight = typical_;
-  return static_cast<int32_t>(codeGolomb(io_, models_.joint, static_cast<uint32_t>(truth)));
+  return static_cast<int32_t>(codeGolomb(job_.io, models_.joint, static_cast<uint32_t>(truth)));
 }
 
 template <class Io>
 int32_t SkinCoder<Io>::codeIdleJoint(int32_t truth) {
-  if (io_.bit(models_.idle_joint, Io::kEncoding && truth == 0)) return 0;
-  return static_cast<int32_t>(codeGolomb(io_, models_.joint, static_cast<uint32_t>(truth)));
+  if (job_.io.bit(models_.idle_joint, Io::kEncoding && truth == 0)) return 0;
+  return static_cast<int32_t>(codeGolomb(job_.io, models_.joint, static_cast<uint32_t>(truth)));
 }
 
 template <class Io>
@@ -303,7 +286,7 @@ int32_t SkinCoder<Io>::codeWeight(uint32_t slot, uint32_t context, uint32_t pred
   int32_t residual =
       Io::kEncoding ? static_cast<int32_t>(static_cast<uint32_t>(truth) - predicted) : 0;
   uint32_t length = 0;
-  residual = codeByLength<0>(io_, row, residual, length);
+  residual = codeByLength<0>(job_.io, row, residual, length);
   longest = std::max(longest, length);
   return static_cast<int32_t>(predicted + static_cast<uint32_t>(residual));
 }

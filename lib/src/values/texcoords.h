@@ -20,6 +20,7 @@
 #include "format/predictors.h"
 #include "surface/face_pass.h"
 #include "surface/wedges.h"
+#include "values/attribute_job.h"
 #include "values/residuals.h"
 #include "values/value_memory.h"
 
@@ -46,29 +47,19 @@ inline float coordinateDifference(int32_t a, int32_t b) {
 template <class Io>
 class TexcoordCoder {
  public:
-  /// Work space: `lengths`, a byte per wedge. `memory`: started with `values`, or null.
-  TexcoordCoder(Io& io, TexcoordModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
-                const AttributeInfo& info, const float* positions, int32_t* values,
-                uint8_t* lengths, ValueMemory* memory)
-      : io_(io),
+  /// `memory` has been started with the values; it is null if the predictor remembers nothing.
+  TexcoordCoder(const AttributeJob<Io>& job, TexcoordModels& models, ValueMemory* memory)
+      : job_(job),
         models_(models),
-        wedges_(wedges),
-        groups_(groups),
-        is_hinge_((info.predictor & texcoord_method::kHinge) != 0),
-        positions_(positions),
-        values_(values),
-        lengths_(lengths),
+        is_hinge_((job.info.predictor & texcoord_method::kHinge) != 0),
         memory_(memory) {}
 
   void run() {
-    std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
-    for (uint32_t i = 0; i < wedges_.surfaceEnd(); ++i) {
-      const uint32_t w = wedges_.wedgeAt(i);
-      wedges_.prefetch(i, positions_, 4);
-      if (groups_.isFirst(w)) codeGroup(w);
-    }
-    for (uint32_t w = wedges_.surface_count; w < wedges_.coded_count; ++w)
-      codePair(w, last_, kNoNeighbours);
+    forEachGroup<2>(
+        job_, Ahead<float>{job_.positions, 4}, [this](uint32_t w) { codeGroup(w); },
+        [this](uint32_t w) {
+          if (memory_ != nullptr) memory_->learnGroup(job_, w);
+        });
   }
 
  private:
@@ -90,8 +81,7 @@ class TexcoordCoder {
     float u[2] = {0, 0};
   };
 
-  const int32_t* at(uint32_t w) const { return values_ + 2 * size_t{w}; }
-  bool coded(uint32_t w) const { return lengths_[w] != kNotCoded; }
+  const int32_t* at(uint32_t w) const { return job_.values + 2 * size_t{w}; }
 
   void codeGroup(uint32_t w);
   Faces completedFaces(uint32_t w) const;
@@ -103,14 +93,9 @@ class TexcoordCoder {
   uint32_t codedNeighbour(uint32_t w) const;
   void codePair(uint32_t w, const int32_t* predicted, uint32_t context);
 
-  Io& io_;
+  const AttributeJob<Io> job_;
   TexcoordModels& models_;
-  const WedgeMesh& wedges_;
-  const EqualGroups& groups_;
   const bool is_hinge_;
-  const float* const positions_;
-  int32_t* const values_;
-  uint8_t* const lengths_;
   ValueMemory* const memory_;
   float side_ = 1;  ///< of the chart a face's tip lies on: 1 left of its edge, as in the last face
   int32_t last_[2] = {};
@@ -118,26 +103,24 @@ class TexcoordCoder {
 
 template <class Io>
 MCC_INLINE typename TexcoordCoder<Io>::Faces TexcoordCoder<Io>::completedFaces(uint32_t w) const {
-  const FaceView& view = wedges_.faces;
+  const FaceView& view = job_.wedges.faces;
   Faces faces;
-  for (uint32_t m = w; m != kNone; m = groups_.nextOf(m)) {
-    for (uint32_t h = wedges_.firstCompleted(m); h != kNone; h = wedges_.nextCompleted(h)) {
-      if (faces.count == kFaceLimit) return faces;
-      const uint32_t across = nextHalfEdge(h);
-      const uint32_t n = view.vertex(across);
-      const uint32_t p = view.vertex(prevHalfEdge(h));
-      if (!coded(n) || !coded(p)) continue;  // on the same vertex
-      uint32_t o = n;
-      const uint32_t t = view.twin(across);
-      if (t != kNone && view.vertex(t) == p && view.vertex(nextHalfEdge(t)) == n) {
-        const uint32_t behind = view.vertex(prevHalfEdge(t));
-        o = coded(behind) ? behind : n;
-      }
-      faces.n[faces.count] = n;
-      faces.p[faces.count] = p;
-      faces.o[faces.count++] = o;
+  job_.forFaces(w, [&](uint32_t h) MCC_INLINE_LAMBDA {
+    const uint32_t across = nextHalfEdge(h);
+    const uint32_t n = view.vertex(across);
+    const uint32_t p = view.vertex(prevHalfEdge(h));
+    if (!job_.isCoded(n) || !job_.isCoded(p)) return true;  // on the same vertex
+    uint32_t o = n;
+    const uint32_t t = view.twin(across);
+    if (t != kNone && view.vertex(t) == p && view.vertex(nextHalfEdge(t)) == n) {
+      const uint32_t beyond = view.vertex(prevHalfEdge(t));
+      o = job_.isCoded(beyond) ? beyond : n;
     }
-  }
+    faces.n[faces.count] = n;
+    faces.p[faces.count] = p;
+    faces.o[faces.count++] = o;
+    return faces.count < kFaceLimit;
+  });
   return faces;
 }
 
@@ -150,7 +133,7 @@ typename TexcoordCoder<Io>::Prediction TexcoordCoder<Io>::predictByDiagonal(
   const int32_t* origin = at(faces.n[0]);
   for (uint32_t i = 0; i < faces.count; ++i) {
     if (faces.o[i] == faces.n[i]) continue;
-    const float length = squaredDistance(positions_, faces.n[i], faces.p[i]);
+    const float length = squaredDistance(job_.positions, faces.n[i], faces.p[i]);
     if (length <= longest) continue;
     longest = length;
     for (int c = 0; c < 2; ++c) {
@@ -171,13 +154,13 @@ typename TexcoordCoder<Io>::Prediction TexcoordCoder<Io>::predictByHinge(uint32_
   const int32_t* un[4];
   const int32_t* up[4];
   const int32_t* uo[4];
-  const Float4 pv = loadFloat4(positions_ + 4 * size_t{v});
+  const Float4 pv = loadFloat4(job_.positions + 4 * size_t{v});
   for (uint32_t i = 0; i < 4; ++i) {
     const uint32_t k = i < faces.count ? i : 0;
-    const Float4 pn = loadFloat4(positions_ + 4 * size_t{faces.n[k]});
-    e[i] = loadFloat4(positions_ + 4 * size_t{faces.p[k]}) - pn;
+    const Float4 pn = loadFloat4(job_.positions + 4 * size_t{faces.n[k]});
+    e[i] = loadFloat4(job_.positions + 4 * size_t{faces.p[k]}) - pn;
     d[i] = pv - pn;
-    f[i] = loadFloat4(positions_ + 4 * size_t{faces.o[k]}) - pn;
+    f[i] = loadFloat4(job_.positions + 4 * size_t{faces.o[k]}) - pn;
     un[i] = at(faces.n[k]);
     up[i] = at(faces.p[k]);
     uo[i] = at(faces.o[k]);
@@ -253,10 +236,10 @@ bool TexcoordCoder<Io>::codeKnown(uint32_t w, const Faces& faces) {
   const uint32_t o = faces.o[0] == faces.n[0] ? kNone : faces.o[0];
   memory_->begin();
   const uint32_t k = memory_->ask(
-      io_, models_.memory, memory_->edgeKey(faces.n[0], faces.p[0]), o,
+      job_.io, models_.memory, memory_->edgeKey(faces.n[0], faces.p[0]), o,
       [=, this](uint32_t other) { return std::equal(at(other), at(other) + 2, at(w)); });
   if (k == kNone) return false;
-  storePair(values_ + 2 * size_t{w}, at(k));
+  storePair(job_.values + 2 * size_t{w}, at(k));
   std::copy(at(w), at(w) + 2, last_);
   return true;
 }
@@ -267,9 +250,9 @@ void TexcoordCoder<Io>::codeGroup(uint32_t w) {
   const bool has_faces = faces.count != 0;
   const uint32_t n = has_faces ? faces.n[0] : codedNeighbour(w);
   uint32_t context = n == kNone ? kNoNeighbours : kOneNeighbour;
-  if (has_faces) context = std::min((lengths_[n] + lengths_[faces.p[0]] + 1u) / 2, kOneNeighbour);
+  if (has_faces) context = std::min(job_.meanLength(n, faces.p[0]), kOneNeighbour);
   if (memory_ != nullptr && has_faces && codeKnown(w, faces)) {
-    lengths_[w] = static_cast<uint8_t>(context);
+    job_.lengths[w] = static_cast<uint8_t>(context);
   } else {
     int32_t predicted[2] = {last_[0], last_[1]};
     if (n != kNone) std::copy(at(n), at(n) + 2, predicted);
@@ -277,14 +260,6 @@ void TexcoordCoder<Io>::codeGroup(uint32_t w) {
     codePair(w, predicted, context);
   }
   if (has_faces && is_hinge_) learnSide(w, n, faces.p[0]);
-  for (uint32_t m = groups_.nextOf(w); m != kNone; m = groups_.nextOf(m)) {
-    storePair(values_ + 2 * size_t{m}, at(w));
-    lengths_[m] = lengths_[w];
-  }
-  if (memory_ == nullptr) return;
-  for (uint32_t m = w; m != kNone; m = groups_.nextOf(m)) {
-    memory_->learnFaces(m, [this](uint32_t x) { return coded(x); });
-  }
 }
 
 template <class Io>
@@ -301,11 +276,10 @@ void TexcoordCoder<Io>::learnSide(uint32_t w, uint32_t n, uint32_t p) {
 template <class Io>
 uint32_t TexcoordCoder<Io>::codedNeighbour(uint32_t w) const {
   uint32_t found = kNone;
-  wedges_.forRun(w, [&](uint32_t h) {
-    const uint32_t n = wedges_.faces.vertex(nextHalfEdge(h));
-    const uint32_t p = wedges_.faces.vertex(prevHalfEdge(h));
-    if (coded(n)) found = n;
-    if (coded(p)) found = p;
+  job_.wedges.forRun(w, [&](uint32_t h) {
+    const auto [n, p] = job_.othersOf(h);
+    if (job_.isCoded(n)) found = n;
+    if (job_.isCoded(p)) found = p;
     return found == kNone;
   });
   return found;
@@ -313,7 +287,7 @@ uint32_t TexcoordCoder<Io>::codedNeighbour(uint32_t w) const {
 
 template <class Io>
 void TexcoordCoder<Io>::codePair(uint32_t w, const int32_t* predicted, uint32_t context) {
-  int32_t* value = values_ + 2 * size_t{w};
+  int32_t* value = job_.values + 2 * size_t{w};
   int32_t residual[2] = {};
   if constexpr (Io::kEncoding) {
     for (int c = 0; c < 2; ++c) {
@@ -323,10 +297,10 @@ void TexcoordCoder<Io>::codePair(uint32_t w, const int32_t* predicted, uint32_t 
   }
   uint32_t length = 0;
   uint32_t second_length = 0;
-  residual[0] = codeByLength<0>(io_, models_.row[0][context], residual[0], length);
+  residual[0] = codeByLength<0>(job_.io, models_.row[0][context], residual[0], length);
   const uint32_t second = context == kNoNeighbours ? context : (context + length + 1) / 2;
-  residual[1] = codeByLength<1>(io_, models_.row[1][second], residual[1], second_length);
-  lengths_[w] = static_cast<uint8_t>(std::max(length, second_length));
+  residual[1] = codeByLength<1>(job_.io, models_.row[1][second], residual[1], second_length);
+  job_.lengths[w] = static_cast<uint8_t>(std::max(length, second_length));
   for (int c = 0; c < 2; ++c) {
     last_[c] = static_cast<int32_t>(static_cast<uint32_t>(predicted[c]) +
                                     static_cast<uint32_t>(residual[c]));

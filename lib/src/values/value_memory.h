@@ -12,6 +12,7 @@
 #include "entropy/models.h"
 #include "mesh/dequantize.h"
 #include "surface/wedges.h"
+#include "values/attribute_job.h"
 
 namespace mcc {
 
@@ -25,14 +26,13 @@ class ValueMemory {
   explicit ValueMemory(const Allocator& allocator) : entries_(allocator) {}
 
   /// Starts with no values. `values`: `components` per wedge; with `ignores_signs`, floats that differ in sign are equal.
-  [[nodiscard]] bool start(const WedgeMesh& wedges, const int32_t* values, uint32_t components,
+  [[nodiscard]] bool start(uint32_t face_count, const int32_t* values, uint32_t components,
                            bool ignores_signs) {
-    wedges_ = &wedges;
     values_ = values;
     components_ = components;
     ignores_signs_ = ignores_signs;
     history_ = 0;
-    bits_ = std::min(static_cast<uint32_t>(std::bit_width(wedges.face_count)) + 1, kMostBits);
+    bits_ = std::min(static_cast<uint32_t>(std::bit_width(face_count)) + 1, kMostBits);
     return entries_.assign(size_t{1} << bits_, Entry{0, {kNone, kNone}});
   }
   void clear() { entries_.clear(); }
@@ -72,16 +72,23 @@ class ValueMemory {
     e.wedge[0] = wedge;
   }
 
-  /// The third corners of the faces that wedge w completes; `isCoded(x)`: whether wedge x has its value.
-  template <class IsCoded>
-  void learnFaces(uint32_t w, IsCoded isCoded) {
-    if (w >= wedges_->surface_count) return;
+  /// Learns the third corners of the faces that the wedges in the group of w complete.
+  template <class Io>
+  void learnGroup(const AttributeJob<Io>& job, uint32_t w) {
+    for (uint32_t m = w; m != kNone; m = job.groups.nextOf(m)) learnFaces(job, m);
+  }
+
+ private:
+  static constexpr uint32_t kMostBits = 22;
+  static constexpr uint32_t kFaceLimit = 16;
+
+  template <class Io>
+  void learnFaces(const AttributeJob<Io>& job, uint32_t w) {
     uint32_t faces = 0;
-    for (uint32_t h = wedges_->firstCompleted(w); h != kNone && faces < kFaceLimit;
-         h = wedges_->nextCompleted(h), ++faces) {
-      const uint32_t n = wedges_->faces.vertex(nextHalfEdge(h));
-      const uint32_t p = wedges_->faces.vertex(prevHalfEdge(h));
-      if (!isCoded(n) || !isCoded(p)) continue;
+    for (uint32_t h = job.wedges.firstCompleted(w); h != kNone && faces < kFaceLimit;
+         h = job.wedges.nextCompleted(h), ++faces) {
+      const auto [n, p] = job.othersOf(h);
+      if (!job.isCoded(n) || !job.isCoded(p)) continue;
       const uint64_t of_w = hashOf(w);
       const uint64_t of_n = hashOf(n);
       const uint64_t of_p = hashOf(p);
@@ -90,10 +97,6 @@ class ValueMemory {
       learn(keyOf(of_w + of_p), n);
     }
   }
-
- private:
-  static constexpr uint32_t kMostBits = 22;
-  static constexpr uint32_t kFaceLimit = 16;
 
   struct Entry {
     uint32_t check;
@@ -135,7 +138,6 @@ class ValueMemory {
   }
 
   Array<Entry> entries_;
-  const WedgeMesh* wedges_ = nullptr;
   const int32_t* values_ = nullptr;
   uint32_t components_ = 0;
   bool ignores_signs_ = false;

@@ -15,6 +15,7 @@
 #include "entropy/models.h"
 #include "format/predictors.h"
 #include "surface/wedges.h"
+#include "values/attribute_job.h"
 #include "values/residuals.h"
 
 namespace mcc {
@@ -37,33 +38,21 @@ struct ValueModels {
 template <class Io>
 class ValueCoder {
  public:
-  /// Work space: `lengths`, a byte per wedge.
-  ValueCoder(Io& io, ValueModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
-             const AttributeInfo& info, const float* positions, int32_t* values, uint8_t* lengths)
-      : io_(io),
+  ValueCoder(const AttributeJob<Io>& job, ValueModels& models)
+      : job_(job),
         models_(models),
-        wedges_(wedges),
-        groups_(groups),
-        components_(info.format.component_count),
-        has_flags_((info.predictor & value_method::kFlags) != 0),
-        positions_(positions),
-        values_(values),
-        lengths_(lengths) {}
+        components_(job.info.format.component_count),
+        has_flags_((job.info.predictor & value_method::kFlags) != 0) {}
 
   void run() {
-    std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
-    for (uint32_t i = 0; i < wedges_.coded_count; ++i) {
-      const uint32_t w = i < wedges_.surface_count ? wedges_.wedgeAt(i) : i;
-      wedges_.prefetch(i, values_, components_);
-      if (groups_.isFirst(w)) codeGroup(w);
-    }
+    forEachGroup<kAllComponents>(job_, Ahead<int32_t>{job_.values, components_},
+                                 [this](uint32_t w) { codeGroup(w); });
   }
 
  private:
   static constexpr uint32_t kFaceLimit = 8;  ///< faces looked at
 
-  int32_t* at(uint32_t w) const { return values_ + size_t{w} * components_; }
-  bool coded(uint32_t w) const { return lengths_[w] != kNotCoded; }
+  int32_t* at(uint32_t w) const { return job_.values + size_t{w} * components_; }
   bool isZero(uint32_t w) const {
     for (uint32_t c = 0; c < components_; ++c) {
       if (at(w)[c] != 0) return false;
@@ -86,21 +75,16 @@ class ValueCoder {
     const uint32_t p = static_cast<uint32_t>(predicted);
     uint32_t length = 0;
     const int32_t residual = codeByLength<kState>(
-        io_, row, Io::kEncoding ? static_cast<int32_t>(static_cast<uint32_t>(value) - p) : 0,
+        job_.io, row, Io::kEncoding ? static_cast<int32_t>(static_cast<uint32_t>(value) - p) : 0,
         length);
     value = static_cast<int32_t>(p + static_cast<uint32_t>(residual));
     return length;
   }
 
-  Io& io_;
+  const AttributeJob<Io> job_;
   ValueModels& models_;
-  const WedgeMesh& wedges_;
-  const EqualGroups& groups_;
   const uint32_t components_;
   const bool has_flags_;
-  const float* const positions_;
-  int32_t* const values_;
-  uint8_t* const lengths_;
   uint32_t last_ = kNone;
 
   uint32_t entry_ = kNone;  ///< first face the group completes
@@ -112,21 +96,16 @@ class ValueCoder {
 /// [A.8.4]
 template <class Io>
 void ValueCoder<Io>::findNeighbours(uint32_t w) {
-  entry_ = n_ = p_ = kNone;
-  if (w >= wedges_.surface_count) return;
-  for (uint32_t m = w; m != kNone && entry_ == kNone; m = groups_.nextOf(m)) {
-    entry_ = wedges_.firstCompleted(m);
-  }
+  n_ = p_ = kNone;
+  entry_ = job_.entryFace(w);
   if (entry_ != kNone) {
-    n_ = wedges_.faces.vertex(nextHalfEdge(entry_));
-    p_ = wedges_.faces.vertex(prevHalfEdge(entry_));
-    if (!coded(n_)) n_ = kNone;  // no sound mesh has such a face
-    if (!coded(p_)) p_ = kNone;
+    const auto [n, p] = job_.othersOf(entry_);
+    if (job_.isCoded(n)) n_ = n;  // as in every sound mesh
+    if (job_.isCoded(p)) p_ = p;
   } else {
-    wedges_.forRun(w, [this](uint32_t h) {
-      const uint32_t a = wedges_.faces.vertex(nextHalfEdge(h));
-      const uint32_t b = wedges_.faces.vertex(prevHalfEdge(h));
-      n_ = coded(a) ? a : coded(b) ? b : kNone;
+    job_.wedges.forRun(w, [this](uint32_t h) {
+      const auto [a, b] = job_.othersOf(h);
+      n_ = job_.isCoded(a) ? a : job_.isCoded(b) ? b : kNone;
       return n_ == kNone;
     });
   }
@@ -137,24 +116,24 @@ void ValueCoder<Io>::findNeighbours(uint32_t w) {
 /// completes; or kNone. [B.3]
 template <class Io>
 uint32_t ValueCoder<Io>::diagonalFace(uint32_t w) const {
-  const FaceView& view = wedges_.faces;
+  const FaceView& view = job_.wedges.faces;
   uint32_t found = kNone;
   float longest = -1;
   uint32_t faces = 0;
-  for (uint32_t m = w; m != kNone && faces < kFaceLimit; m = groups_.nextOf(m)) {
-    for (uint32_t h = wedges_.firstCompleted(m); h != kNone && faces < kFaceLimit;
-         h = wedges_.nextCompleted(h), ++faces) {
-      const uint32_t n = view.vertex(nextHalfEdge(h));
-      const uint32_t p = view.vertex(prevHalfEdge(h));
-      const uint32_t t = view.twin(nextHalfEdge(h));
-      if (t == kNone || view.vertex(t) != p || view.vertex(nextHalfEdge(t)) != n) continue;
-      if (!coded(n) || !coded(p) || !coded(view.vertex(prevHalfEdge(t)))) continue;
-      const float length = squaredDistance(positions_, n, p);
-      if (length <= longest) continue;
+  job_.forFaces(w, [&](uint32_t h) {
+    const uint32_t n = view.vertex(nextHalfEdge(h));
+    const uint32_t p = view.vertex(prevHalfEdge(h));
+    const uint32_t t = view.twin(nextHalfEdge(h));
+    const bool is_parallelogram = t != kNone && view.vertex(t) == p &&
+                                  view.vertex(nextHalfEdge(t)) == n && job_.isCoded(n) &&
+                                  job_.isCoded(p) && job_.isCoded(view.vertex(prevHalfEdge(t)));
+    const float length = is_parallelogram ? squaredDistance(job_.positions, n, p) : -1;
+    if (length > longest) {
       longest = length;
       found = t;
     }
-  }
+    return ++faces < kFaceLimit;
+  });
   return found;
 }
 
@@ -163,7 +142,7 @@ template <class Io>
 void ValueCoder<Io>::predict(uint32_t w) {
   const uint32_t t = entry_ == kNone ? kNone : diagonalFace(w);
   if (t != kNone) {
-    const FaceView& view = wedges_.faces;
+    const FaceView& view = job_.wedges.faces;
     const int32_t* n = at(view.vertex(nextHalfEdge(t)));
     const int32_t* p = at(view.vertex(t));
     const int32_t* o = at(view.vertex(prevHalfEdge(t)));
@@ -188,17 +167,17 @@ bool ValueCoder<Io>::codeFlags(uint32_t w) {
   const bool n_is_zero = n_ != kNone && isZero(n_);
   const bool p_is_zero = p_ != kNone ? isZero(p_) : n_is_zero;
   const uint32_t zeros = n_ == kNone ? 3u : (n_is_zero ? 1u : 0u) + (p_is_zero ? 1u : 0u);
-  if (io_.bit(models_.zero[zeros], Io::kEncoding && isZero(w))) {
+  if (job_.io.bit(models_.zero[zeros], Io::kEncoding && isZero(w))) {
     std::fill(at(w), at(w) + components_, 0);
     return true;
   }
   if (n_ == kNone) return false;
   const uint32_t kind = p_ == kNone ? 2 : isEqual(n_, p_) ? 1 : 0;
-  if (!n_is_zero && io_.bit(models_.same[0][kind], Io::kEncoding && isEqual(n_, w))) {
+  if (!n_is_zero && job_.io.bit(models_.same[0][kind], Io::kEncoding && isEqual(n_, w))) {
     copy(w, n_);
     return true;
   }
-  if (kind == 0 && io_.bit(models_.same[1][kind], Io::kEncoding && isEqual(p_, w))) {
+  if (kind == 0 && job_.io.bit(models_.same[1][kind], Io::kEncoding && isEqual(p_, w))) {
     copy(w, p_);
     return true;
   }
@@ -210,7 +189,7 @@ void ValueCoder<Io>::codeResiduals(uint32_t w) {
   uint32_t context = kNoNeighbours;
   if (n_ != kNone) {
     const uint32_t other = p_ != kNone ? p_ : n_;
-    context = std::min((lengths_[n_] + lengths_[other] + 1u) / 2, kLongestContext);
+    context = std::min(job_.meanLength(n_, other), kLongestContext);
   }
   uint32_t longest = 0;
   for (uint32_t c = 0; c < components_; ++c) {
@@ -221,23 +200,19 @@ void ValueCoder<Io>::codeResiduals(uint32_t w) {
     longest = std::max(longest, length);
     if (context != kNoNeighbours) context = (context + length + 1) / 2;
   }
-  lengths_[w] = static_cast<uint8_t>(longest);
+  job_.lengths[w] = static_cast<uint8_t>(longest);
 }
 
 template <class Io>
 void ValueCoder<Io>::codeGroup(uint32_t w) {
   findNeighbours(w);
   if (has_flags_ && codeFlags(w)) {
-    lengths_[w] = 0;
+    job_.lengths[w] = 0;
   } else {
     predict(w);
     codeResiduals(w);
   }
   last_ = w;
-  for (uint32_t m = groups_.nextOf(w); m != kNone; m = groups_.nextOf(m)) {
-    copy(m, w);
-    lengths_[m] = lengths_[w];
-  }
 }
 
 }  // namespace mcc

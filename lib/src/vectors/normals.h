@@ -16,6 +16,7 @@
 #include "format/predictors.h"
 #include "surface/face_pass.h"
 #include "surface/wedges.h"
+#include "values/attribute_job.h"
 #include "values/residuals.h"
 #include "vectors/octahedral.h"
 
@@ -215,32 +216,24 @@ MCC_INLINE void codeGridPoint(Io& io, TokenRow (&rows)[2][kLengthContexts],
 template <class Io>
 class NormalCoder {
  public:
-  /// Work space: `sums` 4 floats per wedge, `lengths` a byte per wedge.
-  NormalCoder(Io& io, NormalModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
-              const AttributeInfo& info, int32_t* values, float* sums, uint8_t* lengths)
-      : io_(io),
+  /// `sums` is work space, 4 floats per wedge.
+  NormalCoder(const AttributeJob<Io>& job, NormalModels& models, float* sums)
+      : job_(job),
         models_(models),
-        wedges_(wedges),
-        groups_(groups),
-        weight_(static_cast<NormalWeight>(info.predictor & normal_method::kWeightMask)),
-        blends_((info.predictor & normal_method::kBlend) != 0),
-        centre_(octahedralCentre(info.bits)),
+        weight_(static_cast<NormalWeight>(job.info.predictor & normal_method::kWeightMask)),
+        blends_((job.info.predictor & normal_method::kBlend) != 0),
+        centre_(octahedralCentre(job.info.bits)),
         scale_(1.0f / static_cast<float>(centre_)),
-        values_(values),
-        sums_(sums),
-        lengths_(lengths) {}
+        sums_(sums) {}
 
-  void run(const float* positions) {
-    std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
-    std::fill(sums_, sums_ + 4 * size_t{wedges_.count}, 0.0f);
-    addFaceNormals(weight_, wedges_, positions, sums_);
-    for (uint32_t i = 0; i < wedges_.surfaceEnd(); ++i) {
-      const uint32_t w = wedges_.wedgeAt(i);
-      wedges_.prefetch(i, sums_, 4);
-      if (groups_.isFirst(w)) codeGroup(w);
-    }
-    for (uint32_t w = wedges_.surface_count; w < wedges_.coded_count; ++w)
-      codePoint(w, OctahedralFrame::around(last_, centre_), kNoNeighbours);
+  void run() {
+    std::fill(sums_, sums_ + 4 * size_t{job_.wedges.count}, 0.0f);
+    addFaceNormals(weight_, job_.wedges, job_.positions, sums_);
+    forEachGroup<2>(
+        job_, Ahead<float>{sums_, 4}, [this](uint32_t w) { codeGroup(w); },
+        [this](uint32_t w) {
+          if (blends_) copyMissed(w);
+        });
   }
 
  private:
@@ -249,30 +242,30 @@ class NormalCoder {
   float* sum(uint32_t w) { return sums_ + 4 * size_t{w}; }
 
   void codeGroup(uint32_t w);
+  void copyMissed(uint32_t w) {
+    for (uint32_t m = job_.groups.nextOf(w); m != kNone; m = job_.groups.nextOf(m)) {
+      std::copy_n(sum(w), 3, sum(m));
+    }
+  }
   void codePoint(uint32_t w, const OctahedralFrame& frame, uint32_t context);
 
-  Io& io_;
+  const AttributeJob<Io> job_;
   NormalModels& models_;
-  const WedgeMesh& wedges_;
-  const EqualGroups& groups_;
   const NormalWeight weight_;
   const bool blends_;
   const int32_t centre_;
   const float scale_;
-  int32_t* const values_;
   float* const sums_;  ///< of faces; once a wedge is coded: what its prediction missed, if blending
-  uint8_t* const lengths_;
   int32_t last_[2] = {};
 };
 
 template <class Io>
 void NormalCoder<Io>::codeGroup(uint32_t w) {
   float direction[3] = {sum(w)[0], sum(w)[1], sum(w)[2]};
-  uint32_t entry = wedges_.firstCompleted(w);
-  for (uint32_t m = groups_.nextOf(w); m != kNone; m = groups_.nextOf(m)) {
+  for (uint32_t m = job_.groups.nextOf(w); m != kNone; m = job_.groups.nextOf(m)) {
     for (int s = 0; s < 3; ++s) direction[s] += sum(m)[s];
-    if (entry == kNone) entry = wedges_.firstCompleted(m);
   }
+  const uint32_t entry = job_.entryFace(w);
   float length = manhattanLength(direction);
   uint32_t context = kNoNeighbours;
   float used[3] = {direction[0], direction[1], direction[2]};
@@ -281,9 +274,8 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
     for (int s = 0; s < 3; ++s) used[s] = direction[s] = direction[s] * inverse;
   }
   if (entry != kNone) {
-    const uint32_t n = wedges_.faces.vertex(nextHalfEdge(entry));
-    const uint32_t p = wedges_.faces.vertex(prevHalfEdge(entry));
-    context = (lengths_[n] + lengths_[p] + 1u) / 2;
+    const auto [n, p] = job_.othersOf(entry);
+    context = job_.meanLength(n, p);
     if (blends_) {
       for (int s = 0; s < 3; ++s) used[s] = direction[s] + kBlendPart * (sum(n)[s] + sum(p)[s]);
     }
@@ -302,19 +294,13 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
                      missed);
     for (int s = 0; s < 3; ++s) sum(w)[s] = missed[s] - direction[s];
   }
-  for (uint32_t m = groups_.nextOf(w); m != kNone; m = groups_.nextOf(m)) {
-    values_[2 * size_t{m}] = values_[2 * size_t{w}];
-    values_[2 * size_t{m} + 1] = values_[2 * size_t{w} + 1];
-    lengths_[m] = lengths_[w];
-    if (blends_) std::copy(sum(w), sum(w) + 3, sum(m));
-  }
 }
 
 template <class Io>
 MCC_SHARED void NormalCoder<Io>::codePoint(uint32_t w, const OctahedralFrame& frame,
                                            uint32_t context) {
-  codeGridPoint(io_, models_.row, frame, centre_, std::min(context, kNoNeighbours),
-                values_ + 2 * size_t{w}, lengths_[w], last_);  // kNotCoded makes it long
+  codeGridPoint(job_.io, models_.row, frame, centre_, std::min(context, kNoNeighbours),
+                job_.values + 2 * size_t{w}, job_.lengths[w], last_);  // kNotCoded makes it long
 }
 
 }  // namespace mcc

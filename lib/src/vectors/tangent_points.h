@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "values/attribute_job.h"
 #include "vectors/normals.h"
 #include "vectors/tangents.h"
 
@@ -41,38 +42,28 @@ inline void projectOnPlane(const float* normal, float* v) {
 template <class Io>
 class TangentPointCoder {
  public:
-  /// `sums`: 4 floats per wedge, from addFaceTangents(), overwritten. `normals`: 3 floats per wedge, or null if the
-  /// piece has none. `lengths`: work space, a byte per wedge.
-  TangentPointCoder(Io& io, TangentPointModels& models, const WedgeMesh& wedges,
-                    const EqualGroups& groups, const AttributeInfo& info, const float* normals,
-                    float* sums, int32_t* values, uint8_t* lengths)
-      : io_(io),
+  /// `normals` has 3 floats per wedge; it is null if the piece has no normals. `sums` has 4 floats
+  /// per wedge, from addFaceTangents(), which are overwritten.
+  TangentPointCoder(const AttributeJob<Io>& job, TangentPointModels& models, const float* normals,
+                    float* sums)
+      : job_(job),
         models_(models),
-        wedges_(wedges),
-        groups_(groups),
-        centre_(octahedralCentre(info.bits)),
+        centre_(octahedralCentre(job.info.bits)),
         normals_(normals),
-        sums_(sums),
-        values_(values),
-        lengths_(lengths) {}
+        sums_(sums) {}
 
   void run() {
-    std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
-    gatherGroups(wedges_, groups_, sums_);
-    for (uint32_t i = 0; i < wedges_.surfaceEnd(); ++i) {
-      const uint32_t w = wedges_.wedgeAt(i);
-      if (groups_.isFirst(w)) codeGroup(w);
-    }
-    for (uint32_t w = wedges_.surface_count; w < wedges_.coded_count; ++w)
-      codeTangent(w, OctahedralFrame::around(last_, centre_), 0, kNoNeighbours);
+    gatherGroups(job_.wedges, job_.groups, sums_);
+    forEachGroup<kTangentPointWords>(job_, Ahead<float>{sums_, 4},
+                                     [this](uint32_t w) { codeGroup(w); });
   }
 
  private:
   static constexpr float kShortestSum = 1e-6f;  ///< sums of corners' angles are much longer, or 0
 
-  int32_t* at(uint32_t w) const { return values_ + kTangentPointWords * size_t{w}; }
+  int32_t* at(uint32_t w) const { return job_.values + kTangentPointWords * size_t{w}; }
   void addDecoded(uint32_t w, float* direction) const {
-    if (lengths_[w] == kNotCoded) return;
+    if (!job_.isCoded(w)) return;
     float unit[3];
     octahedralToUnit(at(w)[0], at(w)[1], centre_, unit);
     for (int s = 0; s < 3; ++s) direction[s] += unit[s];
@@ -81,33 +72,25 @@ class TangentPointCoder {
   void codeTangent(uint32_t w, const OctahedralFrame& frame, uint32_t predicted_sign,
                    uint32_t context);
 
-  Io& io_;
+  const AttributeJob<Io> job_;
   TangentPointModels& models_;
-  const WedgeMesh& wedges_;
-  const EqualGroups& groups_;
   const int32_t centre_;
   const float* const normals_;
   float* const sums_;
-  int32_t* const values_;
-  uint8_t* const lengths_;
   int32_t last_[2] = {};
 };
 
 template <class Io>
 void TangentPointCoder<Io>::codeGroup(uint32_t w) {
   const float* sum = sums_ + 4 * size_t{w};
-  uint32_t entry = kNone;
-  for (uint32_t m = w; m != kNone && entry == kNone; m = groups_.nextOf(m)) {
-    entry = wedges_.firstCompleted(m);
-  }
+  const uint32_t entry = job_.entryFace(w);
   float direction[3] = {sum[0], sum[1], sum[2]};
   uint32_t context = kNoNeighbours;
   if (normals_ != nullptr) projectOnPlane(normals_ + 3 * size_t{w}, direction);
   float length = manhattanLength(direction);
   if (entry != kNone) {
-    const uint32_t n = wedges_.faces.vertex(nextHalfEdge(entry));
-    const uint32_t p = wedges_.faces.vertex(prevHalfEdge(entry));
-    context = std::min((lengths_[n] + lengths_[p] + 1u) / 2, kNoNeighbours);  // kNotCoded is long
+    const auto [n, p] = job_.othersOf(entry);
+    context = std::min(job_.meanLength(n, p), kNoNeighbours);
     if (!(length > kShortestSum)) {
       addDecoded(n, direction);
       addDecoded(p, direction);
@@ -123,18 +106,14 @@ void TangentPointCoder<Io>::codeGroup(uint32_t w) {
   } else {
     codeTangent(w, OctahedralFrame::around(last_, centre_), predicted_sign, context);
   }
-  for (uint32_t m = groups_.nextOf(w); m != kNone; m = groups_.nextOf(m)) {
-    std::copy_n(at(w), kTangentPointWords, at(m));
-    lengths_[m] = lengths_[w];
-  }
 }
 
 template <class Io>
 void TangentPointCoder<Io>::codeTangent(uint32_t w, const OctahedralFrame& frame,
                                         uint32_t predicted_sign, uint32_t context) {
   int32_t* value = at(w);
-  codeGridPoint(io_, models_.row, frame, centre_, context, value, lengths_[w], last_);
-  value[2] = io_.bit(models_.negative[predicted_sign], value[2] != 0) ? 1 : 0;
+  codeGridPoint(job_.io, models_.row, frame, centre_, context, value, job_.lengths[w], last_);
+  value[2] = job_.io.bit(models_.negative[predicted_sign], value[2] != 0) ? 1 : 0;
 }
 
 }  // namespace mcc

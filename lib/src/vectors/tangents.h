@@ -13,6 +13,7 @@
 
 #include "mesh/dequantize.h"
 #include "surface/wedges.h"
+#include "values/attribute_job.h"
 #include "values/residuals.h"
 #include "vectors/normals.h"
 #include "vectors/octahedral.h"
@@ -178,33 +179,21 @@ inline void chartCoordinates(const AttributeInfo& info, const int32_t* values, s
 template <class Io>
 class TangentCoder {
  public:
-  /// `normals`: grid points of the wedges' normals, coded as `normal_info` says. `sums`: 4 floats per wedge, from
-  /// addFaceTangents(), overwritten. `lengths`: work space, a byte per wedge.
-  TangentCoder(Io& io, TangentModels& models, const WedgeMesh& wedges, const EqualGroups& groups,
-               const AttributeInfo& info, const AttributeInfo& normal_info, const int32_t* normals,
-               float* sums, int32_t* values, uint8_t* lengths)
-      : io_(io),
+  /// `normals` are the grid points of the wedges' normals, coded as `normal_info` says. `sums` has
+  /// 4 floats per wedge, from addFaceTangents(), which are overwritten.
+  TangentCoder(const AttributeJob<Io>& job, TangentModels& models, const AttributeInfo& normal_info,
+               const int32_t* normals, float* sums)
+      : job_(job),
         models_(models),
-        wedges_(wedges),
-        groups_(groups),
-        bits_(info.bits),
+        bits_(job.info.bits),
         centre_(octahedralCentre(normal_info.bits)),
         normals_(normals),
-        sums_(sums),
-        values_(values),
-        lengths_(lengths) {}
+        sums_(sums) {}
 
   void run() {
-    std::fill(lengths_, lengths_ + wedges_.count, kNotCoded);
-    gatherGroups(wedges_, groups_, sums_);
-    for (uint32_t w = 0; w < wedges_.surface_count; w += 4) predictFour(w);
-    for (uint32_t i = 0; i < wedges_.surfaceEnd(); ++i) {
-      const uint32_t w = wedges_.wedgeAt(i);
-      wedges_.prefetch(i, sums_, 4);
-      if (groups_.isFirst(w)) codeGroup(w);
-    }
-    for (uint32_t w = wedges_.surface_count; w < wedges_.coded_count; ++w)
-      codeTangent(w, last_, 0, kNoNeighbours);
+    gatherGroups(job_.wedges, job_.groups, sums_);
+    for (uint32_t w = 0; w < job_.wedges.surface_count; w += 4) predictFour(w);
+    forEachGroup<2>(job_, Ahead<float>{sums_, 4}, [this](uint32_t w) { codeGroup(w); });
   }
 
  private:
@@ -212,24 +201,20 @@ class TangentCoder {
   void codeGroup(uint32_t w);
   void codeTangent(uint32_t w, int32_t predicted, uint32_t predicted_sign, uint32_t context);
 
-  Io& io_;
+  const AttributeJob<Io> job_;
   TangentModels& models_;
-  const WedgeMesh& wedges_;
-  const EqualGroups& groups_;
   const uint32_t bits_;
   const int32_t centre_;
   const int32_t* const normals_;
   float* const
       sums_;  ///< then: steps of the predicted angle, whether there are any, -, sum of signs
-  int32_t* const values_;
-  uint8_t* const lengths_;
   int32_t last_ = 0;
 };
 
 /// Angles of the sums of wedges w .. w+3 in the planes of their normals.
 template <class Io>
 MCC_INLINE void TangentCoder<Io>::predictFour(uint32_t w) {
-  const uint32_t count = std::min(wedges_.surface_count - w, 4u);
+  const uint32_t count = std::min(job_.wedges.surface_count - w, 4u);
   const int32_t* points[4];
   Float4 rows[4];
   for (uint32_t i = 0; i < 4; ++i) {
@@ -256,45 +241,36 @@ MCC_INLINE void TangentCoder<Io>::predictFour(uint32_t w) {
 template <class Io>
 void TangentCoder<Io>::codeGroup(uint32_t w) {
   const float* sum = sums_ + 4 * size_t{w};
-  uint32_t entry = kNone;
-  for (uint32_t m = w; m != kNone && entry == kNone; m = groups_.nextOf(m)) {
-    entry = wedges_.firstCompleted(m);
-  }
+  const uint32_t entry = job_.entryFace(w);
   int32_t predicted = last_;
   uint32_t context = kNoNeighbours;
   if (entry != kNone) {
-    const uint32_t n = wedges_.faces.vertex(nextHalfEdge(entry));
-    const uint32_t p = wedges_.faces.vertex(prevHalfEdge(entry));
-    context = std::min((lengths_[n] + lengths_[p] + 1u) / 2, kLongestContext);
-    if (lengths_[n] != kNotCoded) predicted = values_[2 * size_t{n}];
+    const auto [n, p] = job_.othersOf(entry);
+    context = std::min(job_.meanLength(n, p), kLongestContext);
+    if (job_.isCoded(n)) predicted = job_.values[2 * size_t{n}];
   }
   if (sum[1] != 0) {
     predicted = static_cast<int32_t>(sum[0] + std::copysign(0.5f, sum[0]));
   }
   codeTangent(w, predicted, sum[3] > 0 ? 1 : sum[3] < 0 ? 2 : 0, context);
-  for (uint32_t m = groups_.nextOf(w); m != kNone; m = groups_.nextOf(m)) {
-    values_[2 * size_t{m}] = values_[2 * size_t{w}];
-    values_[2 * size_t{m} + 1] = values_[2 * size_t{w} + 1];
-    lengths_[m] = lengths_[w];
-  }
 }
 
 template <class Io>
 void TangentCoder<Io>::codeTangent(uint32_t w, int32_t predicted, uint32_t predicted_sign,
                                    uint32_t context) {
-  int32_t* value = values_ + 2 * size_t{w};
+  int32_t* value = job_.values + 2 * size_t{w};
   int32_t residual = 0;
   if constexpr (Io::kEncoding) {  // the difference modulo 2^bits nearest to 0
     const uint32_t difference = static_cast<uint32_t>(value[0]) - static_cast<uint32_t>(predicted);
     residual = static_cast<int32_t>(difference << (32 - bits_)) >> (32 - bits_);
   }
   uint32_t length = 0;
-  residual = codeSmallSigned<0>(io_, models_.row[context], residual, length);
+  residual = codeSmallSigned<0>(job_.io, models_.row[context], residual, length);
   const uint32_t mask = (uint32_t{1} << bits_) - 1;
   value[0] = static_cast<int32_t>(
       (static_cast<uint32_t>(predicted) + static_cast<uint32_t>(residual)) & mask);
-  value[1] = io_.bit(models_.negative[predicted_sign], value[1] != 0) ? 1 : 0;
-  lengths_[w] = static_cast<uint8_t>(length);
+  value[1] = job_.io.bit(models_.negative[predicted_sign], value[1] != 0) ? 1 : 0;
+  job_.lengths[w] = static_cast<uint8_t>(length);
   last_ = value[0];
 }
 
