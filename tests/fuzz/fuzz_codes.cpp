@@ -62,14 +62,14 @@ void runCodes(ByteFeed& feed) {
   require(mesh.words.assign(size_t{claims.face_count} * kFaceWords, kNone), "memory");
   require(models.init((flags >> 1) % kContextSetCount), "memory");
   AnswerIo io(feed);
-  if (!McMachine<AnswerIo>(io, models, claims, {}, mesh, McTruth{}, nullptr).run().ok()) return;
+  if (!McMachine<AnswerIo>(io, models, claims, mesh, McTruth{}).run().ok()) return;
   require(mesh.face_count == claims.face_count && mesh.vertex_count == claims.vertex_count,
           "counts");
   std::string failure = checkFaces(mesh.words.data(), mesh.face_count, mesh.vertex_count);
   require(failure.empty(), failure);
   StitchModels stitch_models;
   Groups groups{Allocator{}};
-  Stitcher<AnswerIo> stitcher(io, stitch_models, mesh, Allocator{}, nullptr);
+  Stitcher<AnswerIo> stitcher(io, stitch_models, mesh, nullptr);
   if (!stitcher.run((flags & 128) != 0, 0, groups).ok()) return;
   require(groups.count <= mesh.vertex_count, "stitching makes vertices");
   failure = checkFaces(mesh.words.data(), mesh.face_count, groups.count);

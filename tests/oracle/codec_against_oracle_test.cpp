@@ -151,8 +151,8 @@ CodeHistogram codedAndDecoded(const ClosedMesh& mesh, const McRecord& record,
     EXPECT_TRUE(models.init(context_set));
     EXPECT_TRUE(faces.words.resize(size_t{counts.face_count} * kFaceWords));
     const McWatch watch{&histogram, nullptr};
-    McMachine machine(io, models, counts, Allocator{}, faces, truth, &watch);
-    const Status status = machine.run();
+    McMachine machine(io, models, counts, faces, truth);
+    const Status status = machine.run(&watch);
     EXPECT_TRUE(status.ok()) << status.what;
     return status.ok();
   };

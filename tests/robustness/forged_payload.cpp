@@ -319,7 +319,7 @@ class Forger {
     PayloadModels models{Allocator{}};
     PieceHeader& h = draft_.header;
     if (!models.mc.init(draft_.context_set)) return false;
-    PieceCoder<ForgingIo> piece(io, models, h, draft_.attributes.data(), {}, nullptr);
+    PieceCoder<ForgingIo> piece(io, models, h, draft_.attributes.data(), {});
     const PieceTruth nothing;
     if (!piece.codeConnectivity(nothing).ok() || !piece.codeStitch(nothing).ok()) return false;
     const auto learnWedges = [&](size_t surface_wedges) {

@@ -183,7 +183,7 @@ class RandomPiece {
     RandomIo io(seed_, 1u << 22);
     PayloadModels models{Allocator{}};
     if (!models.mc.init(context_set_)) return true;
-    PieceCoder<RandomIo> piece(io, models, header_, attributes_.data(), {}, nullptr);
+    PieceCoder<RandomIo> piece(io, models, header_, attributes_.data(), {});
     const PieceTruth nothing;
     // Fails when the last vertices have no triangle, which the faces cannot show.
     if (!piece.codeConnectivity(nothing).ok()) return true;
@@ -353,8 +353,7 @@ TEST(Machine, RandomCodeStreams) {
     ASSERT_TRUE(mesh.words.assign(size_t{claims.face_count} * kFaceWords, kUntouched));
     ASSERT_TRUE(models.init(random.below(kContextSetCount)));
     DecoderIo<true> io(bytes, {}, {});
-    const Status status =
-        McMachine<DecoderIo<true>>(io, models, claims, {}, mesh, McTruth{}, nullptr).run();
+    const Status status = McMachine<DecoderIo<true>>(io, models, claims, mesh, McTruth{}).run();
     if (status.ok()) {
       ASSERT_EQ(checkFaces(mesh.words.data(), mesh.face_count, mesh.vertex_count), "")
           << "run " << i;

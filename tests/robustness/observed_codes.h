@@ -58,7 +58,7 @@ ObservedCodes observeCodes(Io& io, const McCounts& claims, uint32_t context_set)
   io.watched().watch(&models.dummy_finish, 1);
   CodeHistogram histogram;
   const McWatch watch{&histogram, nullptr};
-  const Status status = McMachine<Io>(io, models, claims, {}, mesh, McTruth{}, &watch).run();
+  const Status status = McMachine<Io>(io, models, claims, mesh, McTruth{}).run(&watch);
   if (status.ok()) observed.failure = "fulfils impossible claims";
   while (observed.faces < claims.face_count &&
          mesh.words[size_t{observed.faces} * kFaceWords] != kUntouched) {

@@ -53,11 +53,11 @@ class Surface {
 template <class Io>
 struct Stages {
   Stages(Io& io, const PieceHeader& piece_header, std::vector<AttributeInfo> infos,
-         uint32_t context_set = 0, CodeHistogram* histogram = nullptr)
+         uint32_t context_set = 0)
       : header(withAttributes(piece_header, infos.size())),
         attributes(std::move(infos)),
         models(std::make_unique<PayloadModels>(Allocator{})),
-        piece(io, *models, header, attributes.data(), {}, histogram) {
+        piece(io, *models, header, attributes.data(), {}) {
     ready = models->mc.init(context_set);
   }
   Stages(const Stages&) = delete;

@@ -783,7 +783,7 @@ class Maker {
       throw std::bad_alloc();
     }
     const McCounts counts{piece.operation_count, piece.vertex_count, 0, piece.face_count, true};
-    return McMachine<EncoderIo>(io, models, counts, {}, faces, truth, nullptr).run();
+    return McMachine<EncoderIo>(io, models, counts, faces, truth).run();
   }
 
   /// Errors that only damaged streams show: the smallest payload that a search finds for each

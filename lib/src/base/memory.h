@@ -76,6 +76,7 @@ class Array {
   bool empty() const { return size_ == 0; }
   T& operator[](size_t i) { return data_[i]; }
   const T& operator[](size_t i) const { return data_[i]; }
+  const Allocator& allocator() const { return allocator_; }
   T& back() { return data_[size_ - 1]; }
   void pop_back() { --size_; }
   void clear() { size_ = 0; }

@@ -191,19 +191,17 @@ struct McTruth {
 template <class Io>
 class McMachine {
  public:
-  McMachine(Io& io, McModels& models, const McCounts& counts, const Allocator& allocator,
-            FaceMesh& mesh, const McTruth& truth, const McWatch* watch)
+  McMachine(Io& io, McModels& models, const McCounts& counts, FaceMesh& mesh, const McTruth& truth)
       : io_(io),
         models_(models),
         counts_(counts),
-        nodes_(allocator),
-        stack_(allocator),
+        nodes_(mesh.allocator()),
+        stack_(mesh.allocator()),
         mesh_(mesh),
-        truth_(truth),
-        watch_(watch) {}
+        truth_(truth) {}
 
   /// Runs all operations; fills `mesh`, whose words have been sized for counts.face_count. [A.4.2]
-  Status run();
+  Status run(const McWatch* watch = nullptr);
 
  private:
   /// The fan of triangles that one operation emits.
@@ -278,7 +276,7 @@ class McMachine {
   DigonStack stack_;
   FaceMesh& mesh_;
   const McTruth truth_;
-  const McWatch* watch_;
+  const McWatch* watch_ = nullptr;
 
   uint32_t top_ = kNone;
   uint32_t free_ = kNone;  ///< closed nodes to be used again, linked by `next`
@@ -287,14 +285,15 @@ class McMachine {
   uint32_t face_count_ = 0;
   uint32_t component_ = 0;
   uint32_t operation_ = 0;  ///< operations begun
-  uint32_t age_ = 0;  ///< operations since the last END
+  uint32_t age_ = 0;        ///< operations since the last END
   uint32_t last_class_ = kClassEnd;
   uint32_t class_before_ = kClassEnd;
   uint32_t pattern_ = 0;  ///< last four operations, context set 1
 };
 
 template <class Io>
-Status McMachine<Io>::run() {
+Status McMachine<Io>::run(const McWatch* watch) {
+  watch_ = watch;
   // With handles, which number all nodes, there is about one per vertex, else as many as are open at a time.
   const uint64_t expected = uint64_t{counts_.vertex_count} + counts_.vertex_count / 8;
   if (!nodes_.reserve(counts_.has_handles ? expected : std::min<uint64_t>(expected, 1u << 10))) {

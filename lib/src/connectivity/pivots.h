@@ -57,20 +57,20 @@ struct PivotFace {
 template <class Io>
 class PivotCoder {
  public:
-  /// `mesh` has room for `face_count` faces. `truth`: all faces in coding order, null when decoding. `edges`, if not null,
-  /// has room for as many edges as vertices and gets those by which vertices are met for the first time.
-  PivotCoder(Io& io, PivotModels& models, FaceMesh& mesh, uint32_t face_count,
-             const Allocator& allocator, const PivotFace* truth, Array<McEdge>* edges)
+  /// `truth` has all faces in coding order (encoder). `edges`, if not null, has room for as many
+  /// edges as vertices and gets those by which vertices are met for the first time.
+  PivotCoder(Io& io, PivotModels& models, FaceMesh& mesh, const PivotFace* truth,
+             Array<McEdge>* edges)
       : io_(io),
         models_(models),
         mesh_(mesh),
-        face_limit_(face_count),
-        vertices_(allocator),
-        spokes_(allocator),
+        vertices_(mesh.allocator()),
+        spokes_(mesh.allocator()),
         truth_(truth),
         edges_(edges) {}
 
-  Status run(uint32_t vertex_count);
+  /// Fills `mesh`, which has room for the faces.
+  Status run(uint32_t vertex_count, uint32_t face_count);
 
  private:
   using CodesBurst = typename Io::CodesBurst;
@@ -116,7 +116,7 @@ class PivotCoder {
   Io& io_;
   PivotModels& models_;
   FaceMesh& mesh_;
-  const uint32_t face_limit_;
+  uint32_t face_limit_ = 0;
   Array<Vertex> vertices_;
   Array<Spoke> spokes_;
   const PivotFace* const truth_;
@@ -127,7 +127,8 @@ class PivotCoder {
 };
 
 template <class Io>
-Status PivotCoder<Io>::run(uint32_t vertex_count) {
+Status PivotCoder<Io>::run(uint32_t vertex_count, uint32_t face_count) {
+  face_limit_ = face_count;
   if (!vertices_.assign(vertex_count, Vertex{})) return noMemory();
   for (uint32_t p = 0; p < vertex_count; ++p) {
     MCC_TRY(codePivot(p));

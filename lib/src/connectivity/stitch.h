@@ -42,15 +42,14 @@ struct StitchModels {
 template <class Io>
 class Stitcher {
  public:
-  Stitcher(Io& io, StitchModels& models, FaceMesh& mesh, const Allocator& allocator,
-           const uint32_t* class_of_vertex)
+  Stitcher(Io& io, StitchModels& models, FaceMesh& mesh, const uint32_t* class_of_vertex)
       : io_(io),
         models_(models),
         mesh_(mesh),
         faces_(mesh.view()),
         class_of_vertex_(class_of_vertex),
-        vertices_(allocator),
-        leader_of_class_(allocator) {}
+        vertices_(mesh.allocator()),
+        leader_of_class_(mesh.allocator()) {}
 
   Status run(bool interior_copies, uint32_t class_count, Groups& groups);
 

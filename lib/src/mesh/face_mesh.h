@@ -56,6 +56,8 @@ struct FaceMesh {
   uint32_t vertex_count = 0;
 
   FaceView view() { return FaceView{words.data()}; }
+  /// The stages take their work space from here too.
+  const Allocator& allocator() const { return words.allocator(); }
 };
 
 }  // namespace mcc

@@ -43,14 +43,12 @@ inline constexpr MovingOrders kMovingOrders = makeMovingOrders();
 template <class Io>
 class PlaneVertexCoder {
  public:
-  /// `truth` has the three coordinates (encoder).
   MCC_INLINE PlaneVertexCoder(Io& io, TokenRow* rows, PlaneModels& models, const GridPlanes& grid,
-                              const Prediction& prediction, const int32_t* truth)
+                              const Prediction& prediction)
       : io_(io),
         rows_(rows),
         models_(models),
         grid_(grid),
-        truth_(truth),
         q8_((prediction.at.step << 8) + prediction.at.fraction),
         spread_(prediction.spread),
         normals_(prediction.normal * kNormalUnit),
@@ -62,8 +60,9 @@ class PlaneVertexCoder {
     doubt_ = squared * kDoubt + kTiny;
   }
 
-  /// Codes the vertex into `record`.
-  MCC_INLINE void code(uint32_t context, VertexRecord& record) {
+  /// Codes the vertex into `record`. `truth` has the three coordinates (encoder).
+  MCC_INLINE void code(uint32_t context, const int32_t* truth, VertexRecord& record) {
+    truth_ = truth;
     uint32_t kind = 0;
     if constexpr (Io::kEncoding) kind = findKind();
     kind = io_.template token<0>(models_.kind[context], kPositionSchedule, kind);
@@ -256,7 +255,7 @@ class PlaneVertexCoder {
   TokenRow* const rows_;
   PlaneModels& models_;
   const GridPlanes& grid_;
-  const int32_t* const truth_;
+  const int32_t* truth_ = nullptr;
   const Lanes<uint32_t> q8_;
   const Lanes<float> spread_;
   const Lanes<float> normals_;

@@ -27,22 +27,28 @@ struct PositionModels {
   PositionTables tables;
 };
 
+/// The vertices whose positions are coded.
+struct GroupPositions {
+  const Groups& groups;
+  VertexRecord* records;  ///< by group
+  const int32_t* truth;   ///< 3 coordinates per group (encoder)
+};
+
 template <class Io, uint32_t kModes>
 class PositionCoder {
  public:
   PositionCoder(Io& io, PositionModels& models, const PositionParameters& parameters,
-                FaceMesh& mesh, const Groups& groups, VertexRecord* records,
-                const Allocator& allocator, const int32_t* truth)
+                FaceMesh& mesh, const GroupPositions& vertices)
       : io_(io),
         rows_(models.rows),
         parameters_(parameters),
-        truth_(truth),
-        vertex_(models.rows, parameters, records, truth),
-        growth_(mesh, groups, records, parameters.has(position_mode::kWeights), allocator),
-        records_(records) {}
+        truth_(vertices.truth),
+        vertex_(models.rows, parameters, vertices.records, vertices.truth),
+        growth_(mesh, vertices.groups, vertices.records, parameters.has(position_mode::kWeights),
+                mesh.allocator()),
+        records_(vertices.records) {}
 
-  /// Codes all groups of vertices. `records` has an entry for each; `order`, if not null, has room for the groups, see
-  /// RegionGrowth. `truth` has 3 coordinates per record (encoder).
+  /// Codes all groups of vertices. `order`, if not null, has room for the groups, see RegionGrowth.
   Status run(uint32_t* order) { return growth_.run(*this, order); }
 
   // --- visitor of RegionGrowth ---

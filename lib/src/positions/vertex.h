@@ -128,8 +128,8 @@ class VertexCoder {
   static constexpr uint32_t stateOf(uint32_t slot) { return kCompact ? 0 : slot; }
   void codeOnPlanes(Io& io, uint32_t v, const Prediction& prediction, uint32_t context) const {
     const int32_t* truth = Io::kEncoding ? truth_ + 3 * size_t{v} : nullptr;
-    PlaneVertexCoder<Io>(io, rows_, planes_, *p_.planes, prediction, truth)
-        .code(context, records_[v]);
+    PlaneVertexCoder<Io>(io, rows_, planes_, *p_.planes, prediction)
+        .code(context, truth, records_[v]);
   }
   /// The axes on which three neighbours lie between planes.
   MCC_INLINE static uint32_t axesAround(const VertexRecord* a, const VertexRecord* b,

@@ -71,8 +71,7 @@ template <class Io>
 class PieceCoder {
  public:
   PieceCoder(Io& io, PayloadModels& models, const PieceHeader& header,
-             const AttributeInfo* attributes, const Allocator& allocator,
-             CodeHistogram* histogram = nullptr, bool has_mc_edges = false)
+             const AttributeInfo* attributes, const Allocator& allocator)
       : mesh(allocator),
         mc_edges(allocator),
         groups(allocator),
@@ -89,31 +88,30 @@ class PieceCoder {
         attributes_(attributes),
         allocator_(allocator),
         stage_(io, models.attributes, attributes, header.attribute_count, allocator),
-        group_positions_(allocator),
-        histogram_(histogram),
-        has_mc_edges_(has_mc_edges) {}
+        group_positions_(allocator) {}
 
-  Status codeConnectivity(const PieceTruth& truth) {
+  /// Counts codes in `histogram` if it is not null. Fills mc_edges if `wants_mc_edges`.
+  Status codeConnectivity(const PieceTruth& truth, CodeHistogram* histogram = nullptr,
+                          bool wants_mc_edges = false) {
     if (!mesh.words.resize(size_t{header_.face_count} * kFaceWords)) return noMemory();
     mesh.face_count = 0;
     mesh.vertex_count = 0;
     if (header_.hasPivots()) {
       PivotModels* const models = models_.pivots.get(allocator_);
       if (models == nullptr) return noMemory();
-      if (has_mc_edges_ && !mc_edges.reserve(header_.vertex_count)) return noMemory();
-      PivotCoder<Io> coder(io_, *models, mesh, header_.face_count, allocator_, truth.pivot_faces,
-                           has_mc_edges_ ? &mc_edges : nullptr);
-      MCC_TRY(coder.run(header_.vertex_count));
-      return kTellsMcEdges && has_mc_edges_ ? cornersOfMcEdges() : Status{};
+      if (wants_mc_edges && !mc_edges.reserve(header_.vertex_count)) return noMemory();
+      PivotCoder<Io> coder(io_, *models, mesh, truth.pivot_faces,
+                           wants_mc_edges ? &mc_edges : nullptr);
+      MCC_TRY(coder.run(header_.vertex_count, header_.face_count));
+      return kTellsMcEdges && wants_mc_edges ? cornersOfMcEdges() : Status{};
     }
     const McCounts counts{header_.operation_count, header_.vertex_count, header_.dummy_count,
                           header_.face_count, header_.has(piece_flag::kHandles)};
-    const McWatch watch{histogram_, has_mc_edges_ ? &mc_edges : nullptr};
+    const McWatch watch{histogram, wants_mc_edges ? &mc_edges : nullptr};
     const bool is_watched = watch.histogram != nullptr || watch.edges != nullptr;
-    McMachine<Io> machine(io_, models_.mc, counts, allocator_, mesh, truth.connectivity,
-                          is_watched ? &watch : nullptr);
-    MCC_TRY(machine.run());
-    return kTellsMcEdges && has_mc_edges_ ? cornersOfMcEdges() : Status{};
+    McMachine<Io> machine(io_, models_.mc, counts, mesh, truth.connectivity);
+    MCC_TRY(machine.run(is_watched ? &watch : nullptr));
+    return kTellsMcEdges && wants_mc_edges ? cornersOfMcEdges() : Status{};
   }
 
   Status codeStitch(const PieceTruth& truth) {
@@ -122,7 +120,7 @@ class PieceCoder {
     if (!header_.hasCopies()) return {};
     StitchModels* const models = models_.stitch.get(allocator_);
     if (models == nullptr) return noMemory();
-    Stitcher<Io> stitcher(io_, *models, mesh, allocator_, truth.class_of_vertex);
+    Stitcher<Io> stitcher(io_, *models, mesh, truth.class_of_vertex);
     return stitcher.run(header_.surface() == SurfaceCoding::kCopies, truth.class_count, groups);
   }
 
@@ -169,9 +167,8 @@ class PieceCoder {
     if (header_.has(piece_flag::kSeams)) {
       if (header_.has(piece_flag::kCreases)) MCC_TRY(findCreases());
       Array<uint32_t> starts(allocator_);
-      SeamCoder<Io> coder(io_, models_.seams, mesh, groups, surface_wedges, allocator_,
-                          truth.corner_source);
-      MCC_TRY(coder.run(sequence, starts, wedge_group));
+      SeamCoder<Io> coder(io_, models_.seams, mesh, groups, truth.corner_source);
+      MCC_TRY(coder.run(surface_wedges, sequence, starts, wedge_group));
       sequence.swap(starts);
     }
     const size_t found = header_.has(piece_flag::kSeams) ? sequence.size() : groups.count;
@@ -196,8 +193,7 @@ class PieceCoder {
     OrderModels* const models = models_.orders.get(allocator_);
     if (models == nullptr || !listTriangles()) return noMemory();
     if (header_.has(piece_flag::kTriangleOrder)) {
-      TriangleOrderCoder<Io> coder(io_, *models, mesh.view(), mesh.face_count, triangles,
-                                   allocator_);
+      TriangleOrderCoder<Io> coder(io_, *models, mesh, triangles);
       MCC_TRY(coder.run(header_.part_count, truth.triangle_order, triangle_order));
     }
     if (!header_.has(piece_flag::kVertexOrder)) return {};
@@ -382,8 +378,8 @@ class PieceCoder {
 
   template <uint32_t kModes>
   Status runPositions(const PositionParameters& parameters, const PieceTruth& truth) {
-    return PositionCoder<Io, kModes>(io_, models_.positions, parameters, mesh, groups,
-                                     records.data(), allocator_, truth.positions)
+    const GroupPositions vertices{groups, records.data(), truth.positions};
+    return PositionCoder<Io, kModes>(io_, models_.positions, parameters, mesh, vertices)
         .run(needsSequence() ? sequence.data() : nullptr);
   }
 
@@ -427,8 +423,6 @@ class PieceCoder {
   const Allocator allocator_;
   AttributeStage<Io> stage_;
   Array<float> group_positions_;  ///< 4 per group, see surface/wedges.h
-  CodeHistogram* const histogram_;
-  const bool has_mc_edges_;
 };
 
 }  // namespace mcc

@@ -420,11 +420,10 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
                    const PieceTarget& target, uint32_t piece_index, const DecodeOptions& options,
                    Progress& progress) {
   const Allocator& allocator = options.allocator;
-  PieceCoder<Io> piece(io, models, header, info.attributes.data(), allocator, options.histogram,
-                       options.mc_edge != nullptr);
+  PieceCoder<Io> piece(io, models, header, info.attributes.data(), allocator);
   StageBits<Io> bits(io, piece_index, options);
   const PieceTruth nothing;
-  MCC_TRY(piece.codeConnectivity(nothing));
+  MCC_TRY(piece.codeConnectivity(nothing, options.histogram, options.mc_edge != nullptr));
   bits.tell(DecodeStage::kConnectivity);
   MCC_TRY(progress.advance(header.operation_count));
   MCC_TRY(piece.codeStitch(nothing));

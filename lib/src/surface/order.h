@@ -230,16 +230,15 @@ constexpr uint32_t orderedTriangle(uint32_t triangle, uint32_t corner) {
 template <class Io>
 class TriangleOrderCoder {
  public:
-  TriangleOrderCoder(Io& io, OrderModels& models, const FaceView& faces, uint32_t face_count,
-                     const TriangleTable& table, const Allocator& allocator)
+  TriangleOrderCoder(Io& io, OrderModels& models, FaceMesh& mesh, const TriangleTable& table)
       : io_(io),
         models_(models),
-        faces_(faces),
-        face_count_(face_count),
+        faces_(mesh.view()),
+        face_count_(mesh.face_count),
         table_(table),
-        allocator_(allocator),
-        by_part_(allocator),
-        open_(allocator) {}
+        allocator_(mesh.allocator()),
+        by_part_(mesh.allocator()),
+        open_(mesh.allocator()) {}
 
   /// Fills `order`, orderedTriangle() by place, part after part. `truth`: the same, in the encoder.
   Status run(uint32_t part_count, const uint32_t* truth, Array<uint32_t>& order) {

@@ -42,21 +42,22 @@ inline void setSeamEnd(const FaceView& faces, uint32_t h) {
 template <class Io>
 class SeamCoder {
  public:
-  /// `group_order`: a half-edge per group in coding order. `corner_source` (encoder): source wedge by 3f+k.
-  SeamCoder(Io& io, SeamModels& models, FaceMesh& mesh, const Groups& groups, uint32_t wedge_limit,
-            const Allocator& allocator, const uint32_t* corner_source)
+  /// `corner_source` has the source wedge of corner 3f+k (encoder).
+  SeamCoder(Io& io, SeamModels& models, FaceMesh& mesh, const Groups& groups,
+            const uint32_t* corner_source)
       : io_(io),
         models_(models),
         faces_(mesh.view()),
         face_count_(mesh.face_count),
         groups_(groups),
-        wedge_limit_(wedge_limit),
         corner_source_(corner_source),
-        fan_(allocator),
-        wedge_of_source_(allocator) {}
+        fan_(mesh.allocator()),
+        wedge_of_source_(mesh.allocator()) {}
 
-  /// `wedge_start` receives the clockwise-most half-edge of each wedge's first run, `wedge_group` its group.
-  Status run(const Array<uint32_t>& group_order, Array<uint32_t>& wedge_start,
+  /// `group_order` has a half-edge per group in coding order. `wedge_start` receives the
+  /// clockwise-most half-edge of each wedge's first run, `wedge_group` its group. More than
+  /// `wedge_limit` wedges are an error.
+  Status run(uint32_t wedge_limit, const Array<uint32_t>& group_order, Array<uint32_t>& wedge_start,
              Array<uint32_t>& wedge_group);
 
  private:
@@ -101,7 +102,7 @@ class SeamCoder {
   const FaceView faces_;
   const uint32_t face_count_;
   const Groups& groups_;
-  const uint32_t wedge_limit_;
+  uint32_t wedge_limit_ = 0;
   const uint32_t* corner_source_;
   Array<uint32_t> fan_;              ///< half-edges leaving the vertex, counterclockwise
   Array<uint32_t> wedge_of_source_;  ///< encoder: kNone until it is coded
@@ -113,8 +114,9 @@ class SeamCoder {
 };
 
 template <class Io>
-Status SeamCoder<Io>::run(const Array<uint32_t>& group_order, Array<uint32_t>& wedge_start,
-                          Array<uint32_t>& wedge_group) {
+Status SeamCoder<Io>::run(uint32_t wedge_limit, const Array<uint32_t>& group_order,
+                          Array<uint32_t>& wedge_start, Array<uint32_t>& wedge_group) {
+  wedge_limit_ = wedge_limit;
   if (!wedge_start.reserve(wedge_limit_) || !wedge_group.reserve(wedge_limit_)) {
     return fail(Error::kOutOfMemory, "no memory for wedges");
   }

@@ -47,7 +47,7 @@ Status contextSetCost(const std::vector<Connectivity>& pieces, uint32_t set, uin
     source_gate.resize(piece.counts.face_count);
     const McTruth truth =
         connectivityTruth(*piece.record, {node_map, source_of_vertex, source_gate});
-    MCC_TRY(McMachine<CostIo>(io, models->mc, piece.counts, {}, mesh, truth, nullptr).run());
+    MCC_TRY(McMachine<CostIo>(io, models->mc, piece.counts, mesh, truth).run());
   }
   cost = io.cost();
   return {};

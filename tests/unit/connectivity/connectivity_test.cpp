@@ -64,9 +64,8 @@ Coded expectConnectivity(Surface& surface, uint32_t context_set) {
   coded.codes = streams.codes;
 
   DecoderIo<kSingle> decoder(streams.codes, streams.tokens, streams.raw);
-  Stages<DecoderIo<kSingle>> reader(decoder, surface.header(), {positionInfo(14)}, context_set,
-                                    &coded.histogram);
-  const Status status = reader.piece.codeConnectivity(PieceTruth{});
+  Stages<DecoderIo<kSingle>> reader(decoder, surface.header(), {positionInfo(14)}, context_set);
+  const Status status = reader.piece.codeConnectivity(PieceTruth{}, &coded.histogram);
   EXPECT_TRUE(status.ok()) << status.what;
   if (!status.ok()) return coded;
   EXPECT_TRUE(decoder.finish().ok());
