@@ -4,7 +4,7 @@
 // what is expanded must be a surface. The first bytes are the claims of the header.
 #include "connectivity/mc_codes.h"
 #include "connectivity/stitch.h"
-#include "entropy/decoder.h"
+#include "entropy/decoder_io.h"
 #include "fuzz/byte_feed.h"
 #include "robustness/face_check.h"
 
@@ -48,6 +48,7 @@ class AnswerIo {
   uint32_t left_ = 0;
   bool is_overrun_ = false;
 };
+static_assert(BitIo<AnswerIo>);
 
 void runCodes(ByteFeed& feed) {
   McCounts claims;

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "entropy/decoder.h"
+#include "entropy/decoder_io.h"
 #include "entropy/numbers.h"
 #include "fuzz/byte_feed.h"
 #include "mcc/types.h"

@@ -19,7 +19,7 @@
 
 #include "connectivity/enc_collapse.h"
 #include "connectivity/mc_codes.h"
-#include "entropy/decoder.h"
+#include "entropy/decoder_io.h"
 #include "entropy/enc_coder.h"
 #include "gltf/document/accessors.h"
 #include "gltf/document/document.h"

@@ -84,6 +84,7 @@ class ForgingIo {
   uint32_t odd_tokens_ = 0;  ///< percent of the rows
   uint64_t symbols_ = 0;
 };
+static_assert(SymbolIo<ForgingIo>);
 
 struct Kind {
   Semantic semantic;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "entropy/decoder.h"
+#include "entropy/decoder_io.h"
 #include "format/predictors.h"
 #include "reader/piece.h"
 #include "robustness/damage.h"
@@ -87,6 +87,7 @@ class RandomIo {
   uint32_t left_ = 0;
   WatchedModels watched_;
 };
+static_assert(SymbolIo<RandomIo>);
 
 ObservedCodes observe(uint64_t seed, const McCounts& claims, uint32_t context_set) {
   RandomIo io(seed, 1u << 22);

@@ -13,7 +13,7 @@
 #include "mcc/types.h"
 
 #include "connectivity/enc_collapse.h"
-#include "entropy/decoder.h"
+#include "entropy/decoder_io.h"
 #include "entropy/enc_coder.h"
 #include "prepare/enc_cut.h"
 #include "reader/piece.h"

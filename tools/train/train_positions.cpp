@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "entropy/decoder.h"
+#include "entropy/decoder_io.h"
 #include "mcc/writer.h"
 #include "positions/enc_fit.h"
 #include "reader/piece.h"

@@ -4,13 +4,7 @@
 //
 // A payload has three streams: `codes` (binary range coder), `tokens` (three interleaved rANS
 // states) and `raw` (plain bits). A small payload has only `codes`, and tokens and raw bits go
-// through its range coder. Stage code is written once against the interface that DecoderIo and
-// EncoderIo share:
-//   bit(model, truth)            codes one adaptive binary decision
-//   token<state>(row, schedule, truth)   codes one of 16 symbols
-//   raw(bits, truth)             codes up to 32 equiprobable bits
-//   magnitude(base, bits, sign, truth, negative)   codes base + raw bits, and a sign unless zero
-// The decoder ignores `truth` and returns what it read; the encoder codes `truth` and returns it.
+// through its range coder. decoder_io.h makes one decoder of them.
 #ifndef MCC_ENTROPY_DECODER_H_
 #define MCC_ENTROPY_DECODER_H_
 
@@ -18,7 +12,6 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
-#include <type_traits>
 
 #include "base/host.h"
 #include "entropy/models.h"
@@ -329,194 +322,6 @@ inline Status checkFinished(bool overrun, const RangeDecoder& codes, const RansD
     return fail(Error::kTrailingBytes, "the raw bits do not end where the last of them does");
   }
   return {};
-}
-
-/// Inner loops that code one vertex after another use an Io::Burst. They take it from the Io, and
-/// give it back before anything else uses the Io. An Io::CodesBurst is the same for binary
-/// decisions. This one is the Io itself, and serves as both.
-template <class Io>
-class SameIo {
- public:
-  static constexpr bool kEncoding = Io::kEncoding;
-  explicit SameIo(Io& io) : io_(io) {}
-  void take(Io&) {}
-  void giveBack(Io&) const {}
-  bool hasRoom(uint32_t) const { return true; }
-
-  MCC_INLINE bool bit(BitModel& model, bool truth = false) { return io_.bit(model, truth); }
-  template <uint32_t kState>
-  uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t truth) {
-    return io_.template token<kState>(row, schedule, truth);
-  }
-  uint32_t raw(uint32_t bits, uint32_t truth) { return io_.raw(bits, truth); }
-  uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t truth, uint32_t& negative) {
-    return io_.magnitude(base, bits, sign, truth, negative);
-  }
-
- private:
-  Io& io_;
-};
-
-template <bool kSingle>
-class DecoderIo;
-
-/// A copy of the range decoder.
-class CodesDecoderBurst {
- public:
-  static constexpr bool kEncoding = false;
-  template <bool kSingle>
-  explicit CodesDecoderBurst(const DecoderIo<kSingle>& io) : codes_(io.codes_) {}
-  template <bool kSingle>
-  MCC_INLINE void giveBack(DecoderIo<kSingle>& io) const {
-    io.codes_ = codes_;
-  }
-  template <bool kSingle>
-  MCC_INLINE void take(const DecoderIo<kSingle>& io) {
-    codes_ = io.codes_;
-  }
-
-  MCC_INLINE bool bit(BitModel& model, bool = false) { return codes_.bit(model); }
-
- private:
-  RangeDecoder codes_;
-};
-
-/// Copies of the token and raw decoders, whose bounds are checked once per vertex.
-class DecoderBurst {
- public:
-  static constexpr bool kEncoding = false;
-  /// This Io has threeTokens() and threeMagnitudes(); others lack this constant.
-  static constexpr bool kThreeAtOnce = true;
-  static constexpr bool threeAtOnce() { return true; }  ///< whether they may be called
-  explicit DecoderBurst(const DecoderIo<false>& io);
-  void take(const DecoderIo<false>& io);
-  void giveBack(DecoderIo<false>& io) const;
-
-  /// Whether there is room for this many tokens with at most 51 raw bits each, and for loads that
-  /// reach beyond them.
-  MCC_INLINE bool hasRoom(uint32_t tokens) const {
-    return tokens_.hasWords(tokens) && raw_.hasBytes(8 + 8 * tokens);
-  }
-
-  template <uint32_t kState>
-  MCC_INLINE uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t = 0) {
-    return tokens_.token<true>(kState, row, schedule);
-  }
-  uint32_t raw(uint32_t bits, uint32_t = 0) { return raw_.read(bits); }
-  MCC_INLINE uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t,
-                                uint32_t& negative) {
-    return raw_.readMagnitude<true>(base, bits, sign, negative);
-  }
-
-  /// Decodes one token of each state.
-  MCC_INLINE void threeTokens(TokenRow* const* rows, const TokenSchedule& schedule,
-                              uint32_t* symbols) {
-    tokens_.tokens(rows, schedule, symbols);
-  }
-  /// Decodes three magnitudes. Returns false, and reads nothing, when they have too many bits for
-  /// one load.
-  MCC_INLINE bool threeMagnitudes(const uint32_t* base, const uint32_t* bits, const uint32_t* signs,
-                                  uint32_t* values, uint32_t* negative) {
-    if (bits[0] + bits[1] + bits[2] > RawBitsDecoder::kThreeMagnitudesBits) [[unlikely]]
-      return false;
-    raw_.readThreeMagnitudes(base, bits, signs, values, negative);
-    return true;
-  }
-
- private:
-  RansDecoder tokens_;
-  RawBitsDecoder raw_;
-};
-
-/// The decoder as stage code sees it. If kSingle, everything goes through the range coder. [A.3.7]
-template <bool kSingle>
-class DecoderIo {
- public:
-  using Burst = std::conditional_t<kSingle, SameIo<DecoderIo>, DecoderBurst>;
-  using CodesBurst = CodesDecoderBurst;
-  static constexpr bool kEncoding = false;
-  static constexpr bool kFast = !kSingle;  ///< worth compiling inner loops separately per choice
-
-  DecoderIo(std::span<const uint8_t> codes, std::span<const uint8_t> tokens,
-            std::span<const uint8_t> raw)
-      : codes_(codes), tokens_(tokens), raw_(raw) {}
-
-  MCC_INLINE bool bit(BitModel& model, bool = false) { return codes_.bit(model); }
-
-  template <uint32_t kState>
-  MCC_INLINE uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t = 0) {
-    if constexpr (kSingle) {
-      return codes_.token(row, schedule);
-    } else {
-      return tokens_.token(kState, row, schedule);
-    }
-  }
-
-  MCC_INLINE uint32_t raw(uint32_t bits, uint32_t = 0) {
-    if constexpr (kSingle) {
-      return codes_.raw(bits);
-    } else {
-      return raw_.read(bits);
-    }
-  }
-
-  /// Reads base + `bits` raw bits, then a sign bit if `sign` is set and the sum is not zero.
-  MCC_INLINE uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t,
-                                uint32_t& negative) {
-    if constexpr (kSingle) {
-      const uint32_t value = base + raw(bits);
-      negative = raw(sign && value != 0 ? 1 : 0);
-      return value;
-    } else {
-      return raw_.readMagnitude(base, bits, sign, negative);
-    }
-  }
-
-  /// Whether more was read than the streams hold. All values since then are meaningless.
-  bool overrun() const {
-    if constexpr (kSingle) {
-      return codes_.overrun();
-    } else {
-      return codes_.overrun() || tokens_.overrun() || raw_.overrun();
-    }
-  }
-
-  /// Returns the number of bits read so far, to within a few bits.
-  uint64_t spentBits() const {
-    if constexpr (kSingle) {
-      return codes_.spentBits();
-    } else {
-      return codes_.spentBits() + tokens_.spentBits() + raw_.spentBits();
-    }
-  }
-
-  /// Checks that every stream was used up exactly. [A.3.8]
-  Status finish() const {
-    if constexpr (kSingle) {
-      return checkFinished(overrun(), codes_, nullptr, nullptr);
-    } else {
-      return checkFinished(overrun(), codes_, &tokens_, &raw_);
-    }
-  }
-
- private:
-  struct Absent {
-    explicit Absent(std::span<const uint8_t>) {}
-  };
-  friend class DecoderBurst;
-  friend class CodesDecoderBurst;
-
-  RangeDecoder codes_;
-  [[no_unique_address]] std::conditional_t<kSingle, Absent, RansDecoder> tokens_;
-  [[no_unique_address]] std::conditional_t<kSingle, Absent, RawBitsDecoder> raw_;
-};
-
-inline DecoderBurst::DecoderBurst(const DecoderIo<false>& io)
-    : tokens_(io.tokens_), raw_(io.raw_) {}
-inline void DecoderBurst::take(const DecoderIo<false>& io) { *this = DecoderBurst(io); }
-inline void DecoderBurst::giveBack(DecoderIo<false>& io) const {
-  io.tokens_ = tokens_;
-  io.raw_ = raw_;
 }
 
 }  // namespace mcc

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Entropy encoders: the inverses of dec_coder.h, and a coder that only counts costs.
+// Entropy encoders: the inverses of decoder.h, and a coder that only counts costs.
 #ifndef MCC_ENTROPY_ENC_CODER_H_
 #define MCC_ENTROPY_ENC_CODER_H_
 
@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "entropy/decoder.h"
 #include "entropy/enc_cost.h"
+#include "entropy/io.h"
 #include "entropy/models.h"
 
 namespace mcc {
@@ -181,7 +181,9 @@ class CostIo {
   uint64_t cost_ = 0;
 };
 
-/// The encoder as stage code sees it, see dec_coder.h. Codes into three streams or, if `single`,
+static_assert(SymbolIo<CostIo>);
+
+/// The encoder as stage code sees it, see entropy/io.h. Codes into three streams or, if `single`,
 /// into one, and also counts the cost.
 class EncoderIo : public CostIo {
  public:
@@ -243,6 +245,8 @@ class EncoderIo : public CostIo {
   RansEncoder tokens_;
   RawBitsEncoder raw_;
 };
+
+static_assert(SymbolIo<EncoderIo>);
 
 }  // namespace mcc
 

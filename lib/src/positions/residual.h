@@ -10,6 +10,7 @@
 
 #include "base/host.h"
 #include "base/lanes.h"
+#include "entropy/io.h"
 #include "entropy/models.h"
 #include "format/decodes.h"
 #include "format/predictors.h"
@@ -193,7 +194,7 @@ MCC_INLINE TokenSpans::Span tokenSpan(uint32_t low_bits, uint32_t token) {
   }
 }
 
-/// Decodes the residuals of all components, for an Io with kThreeAtOnce; lane 3 is 0.
+/// Decodes the residuals of all components, for a ThreeAtOnceIo; lane 3 is 0.
 template <class Io, class Fold>
 MCC_INLINE Lanes<uint32_t> decodeResiduals(Io& io, TokenRow* rows, const ResidualContexts& c,
                                            Fold fold) {
@@ -236,7 +237,7 @@ MCC_INLINE Lanes<uint32_t> decodeResiduals(Io& io, TokenRow* rows, const Residua
 template <class Io, class Fold>
 MCC_INLINE Lanes<uint32_t> codeResiduals(Io& io, TokenRow* rows, const ResidualContexts& c,
                                          const int32_t* truth, Fold fold) {
-  if constexpr (requires { Io::kThreeAtOnce; }) {
+  if constexpr (ThreeAtOnceIo<Io>) {
     if (io.threeAtOnce()) return decodeResiduals(io, rows, c, fold);
   }
   const auto code = [&](auto state, uint32_t s) MCC_INLINE_LAMBDA {

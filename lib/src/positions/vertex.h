@@ -216,7 +216,7 @@ MCC_SHARED void VertexCoder<Io, kModes>::codeSlots(Io& io, uint32_t v, const Sca
   };
   int32_t q[3];
   int32_t residual[3];
-  if constexpr (requires { Io::kThreeAtOnce; }) {
+  if constexpr (ThreeAtOnceIo<Io>) {
     if (io.threeAtOnce()) {
       const Lanes<uint32_t> residuals = decodeResiduals(io, rows_, c, fold);
       if (!shift.shears) {

@@ -70,7 +70,7 @@ inline uint32_t codedComponents(const AttributeInfo* attributes, uint32_t count,
   }
 }
 
-template <class Io>
+template <SymbolIo Io>
 class AttributeStage {
  public:
   /// `attributes` of the piece, its position first.

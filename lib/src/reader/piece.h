@@ -67,7 +67,7 @@ struct PieceTruth {
   const uint32_t* wedge_order = nullptr;     ///< wedge by place
 };
 
-template <class Io>
+template <SymbolIo Io>
 class PieceCoder {
  public:
   PieceCoder(Io& io, PayloadModels& models, const PieceHeader& header,

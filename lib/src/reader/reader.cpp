@@ -11,8 +11,7 @@
 #include "base/memory.h"
 #include "base/working_memory.h"
 #include "container/payload_header.h"
-#include "entropy/compact_decoder.h"
-#include "entropy/decoder.h"
+#include "entropy/decoder_io.h"
 #include "format/decodes.h"
 #include "mesh/dequantize.h"
 #include "reader/piece.h"
@@ -366,8 +365,7 @@ class Progress {
   uint64_t done_ = 0;
 };
 
-/// Reports to the caller what the stages of a piece read. A decoder that does not count reports
-/// nothing.
+/// Reports to the caller what the stages of a piece read.
 template <class Io>
 class StageBits {
  public:
@@ -384,12 +382,7 @@ class StageBits {
   }
 
  private:
-  uint64_t now() const {
-    if constexpr (requires { io_.spentBits(); }) {
-      if (options_.stage_bits != nullptr) return io_.spentBits();
-    }
-    return 0;
-  }
+  uint64_t now() const { return kCompact || options_.stage_bits == nullptr ? 0 : io_.spentBits(); }
 
   const Io& io_;
   const uint32_t piece_;
@@ -487,8 +480,8 @@ Status decodeAll(const PayloadHeader& header, const PayloadInfo& info,
 #if defined(MCC_COMPACT)
   return decode(CompactIo(header.codes, header.tokens, header.raw, header.singleCoder()));
 #else
-  if (header.singleCoder()) return decode(DecoderIo<true>(header.codes, {}, {}));
-  return decode(DecoderIo<false>(header.codes, header.tokens, header.raw));
+  if (header.singleCoder()) return decode(CompactIo(header.codes, {}, {}));
+  return decode(StreamsIo(header.codes, header.tokens, header.raw));
 #endif
 }
 

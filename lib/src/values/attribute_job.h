@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "base/host.h"
+#include "entropy/io.h"
 #include "mcc/types.h"
 #include "surface/wedges.h"
 
@@ -24,7 +25,7 @@ struct OtherCorners {
 };
 
 /// One attribute of a piece, as its coder sees it. A job owns nothing, so copies are cheap.
-template <class Io>
+template <SymbolIo Io>
 struct AttributeJob {
   Io& io;
   const AttributeInfo& info;

@@ -9,7 +9,7 @@
 
 #include "mcc/types.h"
 
-#include "entropy/decoder.h"
+#include "entropy/decoder_io.h"
 #include "entropy/enc_coder.h"
 #include "entropy/numbers.h"
 #include "positions/tables.h"

@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "entropy/decoder.h"
+#include "entropy/decoder_io.h"
 #include "entropy/enc_coder.h"
 #include "positions/enc_isolated.h"
 #include "support/mesh_generators.h"

@@ -10,7 +10,7 @@
 #include <set>
 #include <vector>
 
-#include "entropy/decoder.h"
+#include "entropy/decoder_io.h"
 #include "entropy/enc_coder.h"
 #include "positions/enc_planes.h"
 #include "positions/planes.h"
