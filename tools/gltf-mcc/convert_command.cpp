@@ -83,7 +83,7 @@ int ConvertCommand::runMany() const {
     of_file.thread_count = thread_count;
     gltf::ConvertReport done;
     const gltf::Result outcome =
-        gltf::convert({file, {}}, {to, nullptr, &temporaryFiles()}, of_file, done);
+        gltf::convertTo({{to, nullptr}, &temporaryFiles()}, {file, {}}, of_file, done);
     if (!outcome.ok()) return outcome;
     result = {done.copied, done.input_bytes, done.output_bytes, done.files, {}};
     if (!report.empty()) {
@@ -129,7 +129,7 @@ gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison&
     WorkProgress progress(common.is_quiet, converted.input);
     gltf::ConvertOptions watched = convert;
     watched.progress = [&](const char* stage, double share) { progress.tell(stage, share); };
-    result = gltf::convert(source.source(), sink.sink(), watched, converted.report);
+    result = gltf::convertTo(sink.sink(), source.source(), watched, converted.report);
   }
   if (result.ok()) result = sink.finish();
   if (!result.ok()) return result;

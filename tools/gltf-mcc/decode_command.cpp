@@ -49,7 +49,7 @@ int DecodeCommand::runMany() const {
     gltf::FileDecodeOptions of_file = decoding;
     of_file.thread_count = threads_of_file;
     gltf::Result outcome =
-        gltf::decode({file, {}}, {to, nullptr, &temporaryFiles()}, done, of_file);
+        gltf::decodeTo({{to, nullptr}, &temporaryFiles()}, {file, {}}, of_file, done);
     result = {done.copied, done.input_bytes, done.output_bytes, done.files, {}};
     return outcome;
   };
@@ -66,7 +66,7 @@ int DecodeCommand::runOne() const {
     const WorkProgress progress(common.is_quiet, "decoding " + input);
     outcome = source.open(input);  // may have to wait for a pipe
     if (outcome.ok()) outcome = sink.open(files.output);
-    if (outcome.ok()) outcome = gltf::decode(source.source(), sink.sink(), report, decoding);
+    if (outcome.ok()) outcome = gltf::decodeTo(sink.sink(), source.source(), decoding, report);
   }
   if (outcome.ok()) outcome = sink.finish();
   if (!outcome.ok()) return reportFailure(outcome, input, files.output);

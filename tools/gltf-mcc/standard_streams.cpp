@@ -68,9 +68,9 @@ gltf::Result StreamSink::open(const std::string& name) {
   return {};
 }
 
-gltf::Sink StreamSink::sink() {
-  if (is_stream_) return {is_standard_output_ ? kOutputName : name_, &bytes_};
-  return {name_, nullptr, &temporaryFiles()};
+gltf::ListedSink StreamSink::sink() {
+  if (is_stream_) return {{is_standard_output_ ? kOutputName : name_, &bytes_}, nullptr};
+  return {{name_, nullptr}, &temporaryFiles()};
 }
 
 FileContents StreamSink::contents(const std::vector<std::filesystem::path>& files) const {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "mcc/gltf.h"
+#include "gltf/api/convert.h"
 #include "whole_sizes.h"
 
 namespace mcc::tool {
@@ -41,7 +41,7 @@ class StreamSink {
   /// Opens the sink. Errors: standard output is a terminal; a .gltf would go to something that is
   /// not a file, although it needs its buffer next to it.
   gltf::Result open(const std::string& name);
-  gltf::Sink sink();  ///< its temporary files are removed when a signal ends the program
+  gltf::ListedSink sink();  ///< its temporary files are removed when a signal ends the program
   /// Returns what a stream received, or else the contents of `files`.
   FileContents contents(const std::vector<std::filesystem::path>& files) const;
   /// Writes what was received to the stream. Does nothing for a file.

@@ -138,7 +138,7 @@ struct ConvertOptions {
   /// triangles that is done, or -1 when unknown. There is one call at a time, on any of the
   /// threads. Must not throw. May be empty.
   std::function<void(const char* stage, double share)> progress;
-  /// Compresses even where that makes the file larger. For tests of the file layer.
+  /// Compresses even where that makes the file larger.
   bool allow_larger = false;
 };
 
@@ -353,15 +353,11 @@ struct Source {
   std::optional<std::span<const uint8_t>> bytes;
 };
 
-/// A list of the temporary files being written, for programs that may be ended by a signal.
-class TemporaryFiles;  // gltf/files/temporary_files.h
-
 /// Where a document goes to.
 struct Sink {
   /// NAME.gltf gets its buffer next to it, in NAME.bin; any other name is that of a GLB.
   std::filesystem::path path;
   std::vector<uint8_t>* bytes = nullptr;  ///< when not null: receives a GLB, and no file is written
-  TemporaryFiles* temporaries = nullptr;  ///< when not null: lists the temporary files. Borrowed
 };
 
 /// Compresses the triangle primitives of a glTF file. Everything except mesh geometry is preserved

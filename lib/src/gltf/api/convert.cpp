@@ -1,6 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Implements the public functions: load, compress or decompress, write, check.
+#include "gltf/api/convert.h"
+
 #include <chrono>
 #include <memory>
 
@@ -16,7 +18,6 @@
 #include "gltf/document/uri.h"
 #include "gltf/files/destination.h"
 #include "gltf/files/folder_lock.h"
-#include "mcc/gltf.h"
 
 namespace mcc::gltf {
 namespace {
@@ -64,13 +65,14 @@ struct Output {
   std::unique_ptr<Destination> destination;  ///< null for an output in memory
   Container container;
 
-  Result open(const Sink& sink, bool with_fallback) {
+  Result open(const ListedSink& listed, bool with_fallback) {
+    const Sink& sink = listed.sink;
     bytes = sink.bytes;
     if (bytes != nullptr && with_fallback) {
       return error("", "a fallback is a second file; name a file for the output");
     }
     if (bytes != nullptr) return {};
-    destination = std::make_unique<Destination>(sink.path, sink.temporaries);
+    destination = std::make_unique<Destination>(sink.path, listed.temporaries);
     MCC_GLTF_TRY(destination->check(with_fallback));
     container = destination->container();
     return {};
@@ -304,8 +306,8 @@ Result inInput(const Input& input, Result result) {
 
 }  // namespace
 
-Result convert(const Source& source, const Sink& sink, const ConvertOptions& options,
-               ConvertReport& report) {
+Result convertTo(const ListedSink& sink, const Source& source, const ConvertOptions& options,
+                 ConvertReport& report) {
   const Result result = guarded([&]() -> Result {
     if (options.position_lattice && !isValidLattice(*options.position_lattice, 3)) {
       return error("",
@@ -338,8 +340,8 @@ Result convert(const Source& source, const Sink& sink, const ConvertOptions& opt
   return result;
 }
 
-Result decode(const Source& source, const Sink& sink, DecodeReport& report,
-              const FileDecodeOptions& options) {
+Result decodeTo(const ListedSink& sink, const Source& source, const FileDecodeOptions& options,
+                DecodeReport& report) {
   const Result result = guarded([&]() -> Result {
     Input input;
     Output output;
@@ -354,6 +356,16 @@ Result decode(const Source& source, const Sink& sink, DecodeReport& report,
   });
   cleanNotes(report.notes);
   return result;
+}
+
+Result convert(const Source& source, const Sink& sink, const ConvertOptions& options,
+               ConvertReport& report) {
+  return convertTo({sink, nullptr}, source, options, report);
+}
+
+Result decode(const Source& source, const Sink& sink, DecodeReport& report,
+              const FileDecodeOptions& options) {
+  return decodeTo({sink, nullptr}, source, options, report);
 }
 
 Result convertGlb(std::span<const uint8_t> source, const ConvertOptions& options,

@@ -1,0 +1,26 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// convert() and decode() for a program that removes its temporary files when a signal ends it.
+#ifndef MCC_GLTF_API_CONVERT_H_
+#define MCC_GLTF_API_CONVERT_H_
+
+#include "gltf/files/temporary_files.h"
+#include "mcc/gltf.h"
+
+namespace mcc::gltf {
+
+/// A sink that lists its temporary files and new folders while they exist.
+struct ListedSink {
+  Sink sink;
+  TemporaryFiles* temporaries = nullptr;  ///< null: nothing is listed. Borrowed
+};
+
+/// Like convert() and decode(), apart from the list.
+Result convertTo(const ListedSink& sink, const Source& source, const ConvertOptions& options,
+                 ConvertReport& report);
+Result decodeTo(const ListedSink& sink, const Source& source, const FileDecodeOptions& options,
+                DecodeReport& report);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_API_CONVERT_H_
