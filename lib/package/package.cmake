@@ -34,8 +34,9 @@ function(mcc_shared_library name static alias file)
 endfunction()
 
 # Public headers by the library that a program needs to link for them.
-set(mcc_headers_reader export.h status.h types.h reader.h c_api.h decoded_limit.h tinygltf.h)
-set(mcc_headers_writer writer.h)
+set(mcc_headers_reader allocator.h c_api.h decoded_limit.h error.h export.h reader.h status.h
+                       tinygltf.h types.h)
+set(mcc_headers_writer run_jobs.h writer.h)
 set(mcc_headers_gltf gltf.h)
 
 # mcc_install(ALIAS...): these libraries, their headers, CMake package, pkg-config files, and the

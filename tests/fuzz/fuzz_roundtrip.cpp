@@ -95,7 +95,7 @@ void runRoundTrip(ByteFeed& feed) {
   std::vector<PartView> parts;
   for (const std::vector<uint32_t>& part : indices) parts.push_back({part});
   const PieceView piece{wedge_count, views, parts};
-  EncodeOptions options;
+  EncodeSettings options;
   options.keep_triangle_order = (flags & 4) != 0;
   options.keep_vertex_order = (flags & 8) != 0;
   options.effort = (flags & 16) != 0 ? 1 : 0;

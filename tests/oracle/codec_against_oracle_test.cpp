@@ -546,13 +546,13 @@ TEST(CodecAgainstOracle, TheOtherSideAtADivideFails) {
 
 // ---- The writer ---------------------------------------------------------------------------------
 
-/// The hook of EncodeOptions reaches the collapse: a payload has the oracle's counts.
+/// The start that EncodeSettings give reaches the collapse: a payload has the oracle's counts.
 TEST(CodecAgainstOracle, PayloadsHaveTheCountsOfTheOracle) {
   Random random(9);
   for (uint32_t i = 0; i < 20; ++i) {
     const TestMesh mesh = generated(i, 0, i, 1);
     SCOPED_TRACE(mesh.name);
-    EncodeOptions options;
+    EncodeSettings options;
     options.start_half_edge = random.below(static_cast<uint32_t>(mesh.indices.size()));
     const RoundTrip result = roundTrip(MeshPiece(mesh).view(), options);
     ASSERT_EQ(result.failure, "");

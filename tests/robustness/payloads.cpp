@@ -17,13 +17,13 @@ namespace {
 class PayloadList {
  public:
   void add(const std::string& name, std::span<const PieceView> pieces,
-           const EncodeOptions& options = {}) {
+           const EncodeSettings& options = {}) {
     EncodeResult result;
-    const Status status = encode(pieces, options, result);
+    const Status status = encodeWith(pieces, options, result);
     if (!status.ok()) throw std::runtime_error(name + ": " + status.what);
     payloads_.push_back({name, std::move(result.payload)});
   }
-  void add(const TestMesh& mesh, const MeshBits& bits = {}, const EncodeOptions& options = {}) {
+  void add(const TestMesh& mesh, const MeshBits& bits = {}, const EncodeSettings& options = {}) {
     const MeshPiece piece(mesh, bits);
     const PieceView view = piece.view();
     add(mesh.name, {&view, 1}, options);
@@ -34,8 +34,8 @@ class PayloadList {
   std::vector<NamedPayload> payloads_;
 };
 
-EncodeOptions contextSet(uint32_t set) {
-  EncodeOptions options;
+EncodeSettings contextSet(uint32_t set) {
+  EncodeSettings options;
   options.context_set = set;
   return options;
 }

@@ -34,7 +34,7 @@ std::vector<int16_t> integerPositions(const TestMesh& mesh) {
   return values;
 }
 
-RoundTrip roundTripOf(const TestMesh& mesh, Positions positions, const EncodeOptions& options = {},
+RoundTrip roundTripOf(const TestMesh& mesh, Positions positions, const EncodeSettings& options = {},
                       const TargetLayout& layout = {}) {
   MeshBits bits;
   if (positions == Positions::kLattice6) bits = {6, 6, 6};
@@ -59,7 +59,7 @@ RoundTrip roundTripOf(const TestMesh& mesh, Positions positions, const EncodeOpt
 }
 
 void expectExact(const TestMesh& mesh, Positions positions = Positions::kLattice14,
-                 const EncodeOptions& options = {}) {
+                 const EncodeSettings& options = {}) {
   EXPECT_EQ(roundTripOf(mesh, positions, options).failure, "")
       << mesh.name << ", positions " << static_cast<int>(positions);
 }
@@ -167,7 +167,7 @@ TEST(Topology, ManyComponents) {
 TEST(Topology, EveryStartHalfEdge) {
   for (const TestMesh& mesh : {icosphere(0), torus(4, 3), grid(3, 2), plateWithTunnels(2, 1)}) {
     for (uint32_t h = 0; h < mesh.indices.size(); ++h) {
-      EncodeOptions options;
+      EncodeSettings options;
       options.start_half_edge = h;
       expectExact(mesh, Positions::kLattice14, options);
     }
@@ -176,7 +176,7 @@ TEST(Topology, EveryStartHalfEdge) {
 
 TEST(Topology, EveryContextSet) {
   for (uint32_t set = 0; set < 2; ++set) {
-    EncodeOptions options;
+    EncodeSettings options;
     options.context_set = set;
     for (const TestMesh& mesh : {flipped(icosphere(3), 7, 1500), sheetWithHoles(12, 8),
                                  looseTriangles(40), mengerSponge(1), book(4, 9, 3)}) {

@@ -419,10 +419,10 @@ std::string compareOrder(const PieceView& source, const DecodedPiece& decoded,
   return "";
 }
 
-RoundTrip roundTrip(std::span<const PieceView> pieces, const EncodeOptions& options,
+RoundTrip roundTrip(std::span<const PieceView> pieces, const EncodeSettings& settings,
                     const TargetLayout& layout) {
   RoundTrip result;
-  const Status status = encode(pieces, options, result.encoded);
+  const Status status = encodeWith(pieces, settings, result.encoded);
   if (!status.ok()) {
     result.failure = "encode: " + describe(status);
     return result;
@@ -435,11 +435,11 @@ RoundTrip roundTrip(std::span<const PieceView> pieces, const EncodeOptions& opti
   }
   for (size_t p = 0; p < pieces.size(); ++p) {
     PieceView coded = pieces[p];
-    if (options.indices_only) coded.attributes = {};
+    if (settings.indices_only) coded.attributes = {};
     result.failure = comparePiece(coded, result.decoded[p], result.encoded.pieces[p].source_wedge);
     if (result.failure.empty()) {
       result.failure = compareOrder(pieces[p], result.decoded[p],
-                                    result.encoded.pieces[p].source_wedge, options);
+                                    result.encoded.pieces[p].source_wedge, settings);
     }
     if (!result.failure.empty()) {
       if (pieces.size() > 1) result.failure = text("piece ", p, ": ", result.failure);
@@ -449,9 +449,9 @@ RoundTrip roundTrip(std::span<const PieceView> pieces, const EncodeOptions& opti
   return result;
 }
 
-RoundTrip roundTrip(const PieceView& piece, const EncodeOptions& options,
+RoundTrip roundTrip(const PieceView& piece, const EncodeSettings& settings,
                     const TargetLayout& layout) {
-  return roundTrip(std::span<const PieceView>(&piece, 1), options, layout);
+  return roundTrip(std::span<const PieceView>(&piece, 1), settings, layout);
 }
 
 MeshPiece::MeshPiece(const TestMesh& mesh, const MeshBits& bits)

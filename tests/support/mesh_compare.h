@@ -1,8 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Exact comparison of a source mesh with what came back, and the round trip that feeds it. Uses the
-// public headers alone. Every function that returns a string returns "" for success, else what is
-// wrong.
+// public headers, and the settings that only tests have. Every function that returns a string
+// returns "" for success, else what is wrong.
 #ifndef MCC_TESTS_SUPPORT_MESH_COMPARE_H_
 #define MCC_TESTS_SUPPORT_MESH_COMPARE_H_
 
@@ -15,6 +15,7 @@
 #include "mcc/types.h"
 #include "mcc/writer.h"
 #include "support/mesh_generators.h"
+#include "writer/settings.h"
 
 namespace mcc::test {
 
@@ -74,9 +75,9 @@ struct RoundTrip {
 };
 
 /// Encodes, decodes and compares.
-RoundTrip roundTrip(std::span<const PieceView> pieces, const EncodeOptions& options = {},
+RoundTrip roundTrip(std::span<const PieceView> pieces, const EncodeSettings& settings = {},
                     const TargetLayout& layout = {});
-RoundTrip roundTrip(const PieceView& piece, const EncodeOptions& options = {},
+RoundTrip roundTrip(const PieceView& piece, const EncodeSettings& settings = {},
                     const TargetLayout& layout = {});
 
 /// Bits of the float attributes of a MeshPiece; 0 is exact.

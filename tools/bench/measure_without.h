@@ -13,7 +13,7 @@
 
 #include "bench/geometry.h"
 #include "foreign/foreign_mesh.h"
-#include "format/enc_features.h"
+#include "format/features.h"
 
 namespace mcc::bench {
 

@@ -12,7 +12,7 @@
 
 #include "gltf/document/json.h"
 #include "mcc/reader.h"
-#include "mcc/writer.h"
+#include "writer/settings.h"
 
 namespace mcc::conformance {
 
@@ -49,7 +49,7 @@ struct Source {
   std::string name;   ///< of the file, without extension
   std::string shows;  ///< one sentence
   std::vector<SourcePiece> pieces;
-  EncodeOptions options;
+  EncodeSettings options;
 };
 
 /// What a primitive names of a piece.

@@ -9,25 +9,12 @@
 #include <span>
 #include <string_view>
 
+#include "mcc/allocator.h"
 #include "mcc/export.h"
 #include "mcc/status.h"
 #include "mcc/types.h"
 
 namespace mcc {
-
-/// Where the reader takes memory from. When the functions are null, malloc and free are used.
-/// `allocate` must return memory aligned as malloc's is; `release` gets the size that was asked
-/// for. They are called on the threads of open(), decode() and the Payload's destructor. A reader
-/// compiled with MCC_COMPACT always uses malloc and free.
-#if defined(MCC_COMPACT)
-struct Allocator {};
-#else
-struct Allocator {
-  void* (*allocate)(void* user, size_t bytes) = nullptr;  ///< may return null: kOutOfMemory
-  void (*release)(void* user, void* memory, size_t bytes) = nullptr;
-  void* user = nullptr;
-};
-#endif
 
 /// Bounds that are checked before anything is allocated. The format's own bounds apply as well.
 struct Limits {
@@ -177,8 +164,7 @@ struct DecodeOptions {
   /// Called after every piece, once for each of its mc-edges in decoding order; the writer
   /// contracted along them in the opposite order. `vertex` was created, or met again, along its
   /// edge from the vertex `from`. Each of the two is given as one wedge of the vertex, numbered as
-  /// in the indices. Edges to dummies are left out. A reader compiled with MCC_COMPACT never calls
-  /// it.
+  /// in the indices. Edges to dummies are left out.
   void (*mc_edge)(void* user, uint32_t piece, uint32_t vertex, uint32_t from) = nullptr;
   void* mc_edge_user = nullptr;
   /// Called after the stages of every piece with the number of bits they read, correct to within a

@@ -6,12 +6,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "mcc/export.h"
+#include "mcc/run_jobs.h"
 #include "mcc/status.h"
 #include "mcc/types.h"
 
@@ -46,17 +46,8 @@ struct PieceView {
   std::span<const PartView> parts;
 };
 
-/// Calls job(0) … job(count - 1), in any order and possibly at the same time, and returns when all
-/// have ended. Jobs do not throw. Jobs may call the function again, also at the same time.
-using RunJobs = std::function<void(size_t count, const std::function<void(size_t)>& job)>;
-
 /// Options of encode(). The defaults make small payloads and let the writer choose the orders.
 struct EncodeOptions {
-  /// The half-edge (3 * triangle + corner) at which the first component's collapse starts; kNone:
-  /// the encoder chooses. A test hook.
-  uint32_t start_half_edge = kNone;
-  /// Not normally set: forces one of the two connectivity context sets.
-  uint32_t context_set = kNone;
   /// The payload holds only the triangles and no attributes. The caller reorders its attributes by
   /// source_wedge, or sets keep_vertex_order. Each PieceView has only POSITION, which is used to
   /// find equal positions.
@@ -74,9 +65,6 @@ struct EncodeOptions {
   /// everything runs on the caller's thread. The bytes do not depend on it. Each job that runs at
   /// the same time takes up to half the memory of a piece more.
   RunJobs run_jobs;
-  /// Not normally set: every choice is made at random among those the format allows, with this
-  /// seed, instead of for the smallest result. A test hook.
-  uint64_t variation = 0;
 };
 
 /// Bits per stream, as the entropy coders spent them. They add up to the payload's size.

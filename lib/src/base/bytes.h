@@ -9,7 +9,7 @@
 #include <cstring>
 #include <span>
 
-#include "mcc/status.h"
+#include "base/status.h"
 
 namespace mcc {
 

@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "base/status.h"
 #include "mcc/c_api.h"
-#include "mcc/status.h"
 
 namespace mcc {
 
@@ -38,6 +38,18 @@ Status readStruct(const Struct* given, Struct defaults, Struct& read) {
                 "options whose struct_bytes is not set; call their init function");
   }
   std::memcpy(static_cast<void*>(&read), given, std::min(given->struct_bytes, sizeof(Struct)));
+  return {};
+}
+
+/// Fills as much of the caller's structure as it has room for, which its `struct_bytes` says, and
+/// leaves `struct_bytes` as it is.
+template <class Struct>
+Status writeStruct(Struct info, Struct* out) {
+  if (out->struct_bytes < sizeof(out->struct_bytes)) {
+    return fail(Error::kBadArgument, "the struct_bytes of a structure to be filled is not set");
+  }
+  info.struct_bytes = out->struct_bytes;
+  std::memcpy(static_cast<void*>(out), &info, std::min(out->struct_bytes, sizeof(Struct)));
   return {};
 }
 

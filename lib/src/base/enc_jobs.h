@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/enc_exceptions.h"
-#include "mcc/status.h"
-#include "mcc/writer.h"
+#include "base/status.h"
+#include "mcc/run_jobs.h"
 
 namespace mcc {
 

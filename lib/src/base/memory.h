@@ -12,7 +12,8 @@
 #include <utility>
 
 #include "base/host.h"
-#include "mcc/reader.h"
+#include "base/status.h"
+#include "mcc/allocator.h"
 
 namespace mcc {
 

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mcc/reader.h"
+#include "mcc/allocator.h"
 
 namespace mcc {
 

@@ -525,7 +525,7 @@ void fitScale(Trials& trials, const Jobs& jobs, PositionParameters& p) {
 class Chooser {
  public:
   Chooser(std::span<const PositionCandidate> pieces, double surface_bits,
-          const EncodeSettings& settings, const Jobs& jobs)
+          const PositionSettings& settings, const Jobs& jobs)
       : pieces_(pieces),
         jobs_(jobs),
         surface_bits_(surface_bits),
@@ -748,7 +748,7 @@ void DistinctCoordinates::find(std::span<const int32_t> truth, bool is_exact) {
 }
 
 PositionParameters choosePositionParameters(std::span<const PositionCandidate> pieces,
-                                            double surface_bits, const EncodeSettings& settings,
+                                            double surface_bits, const PositionSettings& settings,
                                             const Jobs& jobs) {
   return Chooser(pieces, surface_bits, settings, jobs).run();
 }

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "base/enc_jobs.h"
-#include "format/enc_features.h"
+#include "format/features.h"
+#include "mcc/types.h"
 #include "positions/enc_recording.h"
 #include "positions/parameters.h"
 
@@ -37,12 +38,19 @@ struct DistinctCoordinates {
   }
 };
 
+/// What the choice depends on besides the pieces.
+struct PositionSettings {
+  uint8_t effort = 1;  ///< see EncodeOptions
+  Preference prefer = Preference::kBalanced;
+  FeatureSet without;
+};
+
 /// Tries the predictors and modes on the pieces, or on an even sample of their vertices if they have many, and returns
 /// the cheapest combination with its tables. What takes time in the decoder has to be worth it, see enc_prices.h:
 /// `surface_bits` is what the connectivity takes. Deterministic on every
 /// machine.
 PositionParameters choosePositionParameters(std::span<const PositionCandidate> pieces,
-                                            double surface_bits, const EncodeSettings& settings,
+                                            double surface_bits, const PositionSettings& settings,
                                             const Jobs& jobs);
 
 /// For each class of predictors none, the trained weights or those of least squares on these pieces, by what their

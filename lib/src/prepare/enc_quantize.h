@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "format/enc_features.h"
+#include "format/features.h"
 #include "mcc/reader.h"
 #include "mcc/writer.h"
 
@@ -20,7 +20,7 @@ struct QuantizedAttribute {
 };
 
 /// Chooses the coding of every attribute of a piece and converts all wedges. What the requested bits would ruin goes
-/// exact, with a line in `notes`. The values of an alias are empty. `without`: see enc_features.h.
+/// exact, with a line in `notes`. The values of an alias are empty. `without`: see features.h.
 std::vector<QuantizedAttribute> quantizeAttributes(const PieceView& piece,
                                                    const FeatureSet& without,
                                                    std::vector<std::string>& notes);

@@ -11,8 +11,6 @@
 #include "base/enc_jobs.h"
 #include "connectivity/enc_collapse.h"
 #include "connectivity/enc_pivots.h"
-#include "format/enc_features.h"
-#include "mcc/writer.h"
 #include "positions/enc_fit.h"
 #include "positions/enc_planes.h"
 #include "prepare/enc_cut.h"
@@ -20,6 +18,7 @@
 #include "prepare/enc_triangles.h"
 #include "prepare/enc_weld.h"
 #include "reader/piece.h"
+#include "writer/settings.h"
 
 namespace mcc {
 

@@ -134,7 +134,7 @@ Status encodeWith(std::span<const PieceView> pieces, const EncodeSettings& setti
 
 Status encode(std::span<const PieceView> pieces, const EncodeOptions& options,
               EncodeResult& result) {
-  return encodeWith(pieces, EncodeSettings{options, {}}, result);
+  return encodeWith(pieces, options, result);
 }
 
 }  // namespace mcc

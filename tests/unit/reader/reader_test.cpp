@@ -411,7 +411,7 @@ TEST(Writer, EveryEffortDecodes) {
     EXPECT_EQ(roundTrip(piece.view(), options).failure, "");
   }
   for (uint32_t set = 0; set < 2; ++set) {
-    EncodeOptions options;
+    EncodeSettings options;
     options.context_set = set;
     const RoundTrip result = roundTrip(piece.view(), options);
     EXPECT_EQ(result.failure, "");
