@@ -23,7 +23,7 @@ int main(int argument_count, char** arguments) {
   mcc_status status = mcc_payload_open(bytes, byte_count, NULL, &payload);
   if (status.error != MCC_OK) return failed(status);
 
-  mcc_piece_info piece;
+  mcc_piece_info piece = {.struct_bytes = sizeof piece};
   uint32_t triangle_count = 0;
   mcc_payload_piece(payload, 0, &piece);
   mcc_payload_part(payload, 0, 0, &triangle_count);

@@ -91,8 +91,8 @@ static int stop_at_once(void* user, double done) {
 static vertex decoded[kWedges];
 
 /* Decodes into `decoded` and `target_indices`, which may be null. */
-static mcc_status decode_sheet(const mcc_payload* payload, void* target_indices, uint32_t index_bytes,
-                               const mcc_decode_options* options) {
+static mcc_status decode_sheet(const mcc_payload* payload, void* target_indices,
+                               uint32_t index_bytes, const mcc_decode_options* options) {
   mcc_attribute_target attributes[2];
   mcc_part_target part;
   mcc_piece_target piece;
@@ -124,6 +124,8 @@ static void test_round_trip(const mcc_encoding* encoding) {
   EXPECT(mcc_encoding_source_wedges(encoding, 1, &wedge_count) == NULL && wedge_count == 0);
   EXPECT(mcc_payload_open(bytes, byte_count, NULL, &payload).error == MCC_OK);
   EXPECT(mcc_payload_piece_count(payload) == 1);
+  piece.struct_bytes = sizeof piece;
+  attribute.struct_bytes = sizeof attribute;
   EXPECT(mcc_payload_piece(payload, 0, &piece).error == MCC_OK);
   EXPECT(mcc_payload_piece(payload, 1, &piece).error == MCC_ERROR_BAD_ARGUMENT);
   EXPECT(piece.wedge_count == kWedges && piece.attribute_count == 2 && piece.part_count == 1);
@@ -136,7 +138,8 @@ static void test_round_trip(const mcc_encoding* encoding) {
   EXPECT(mcc_payload_part(payload, 0, 1, &triangle_count).error == MCC_ERROR_BAD_ARGUMENT);
 
   EXPECT(decode_sheet(payload, long_indices, 4, NULL).error == MCC_OK);
-  for (i = 0; i < kWedges; ++i) EXPECT(memcmp(&decoded[i], &vertices[source[i]], sizeof(vertex)) == 0);
+  for (i = 0; i < kWedges; ++i)
+    EXPECT(memcmp(&decoded[i], &vertices[source[i]], sizeof(vertex)) == 0);
   EXPECT(decode_sheet(payload, short_indices, 2, NULL).error == MCC_OK);
   for (i = 0; i < 3 * kTriangles; ++i) EXPECT(short_indices[i] == long_indices[i]);
   EXPECT(decode_sheet(payload, short_indices, 1, NULL).error == MCC_ERROR_BAD_ARGUMENT);
@@ -201,10 +204,80 @@ static void test_structures_grow(const mcc_encoding* encoding) {
   mcc_payload_close(payload);
   mcc_open_options_init((mcc_open_options*)(void*)&shorter, sizeof shorter);
   EXPECT(shorter.struct_bytes == sizeof shorter && shorter.max_vertices == (uint64_t)1 << 28);
-  EXPECT(mcc_payload_open(bytes, byte_count, (mcc_open_options*)(void*)&shorter, &payload).error == MCC_OK);
+  EXPECT(mcc_payload_open(bytes, byte_count, (mcc_open_options*)(void*)&shorter, &payload).error ==
+         MCC_OK);
   mcc_payload_close(payload);
   longer.options.struct_bytes = 0;
-  EXPECT(mcc_payload_open(bytes, byte_count, &longer.options, &payload).error == MCC_ERROR_BAD_ARGUMENT);
+  EXPECT(mcc_payload_open(bytes, byte_count, &longer.options, &payload).error ==
+         MCC_ERROR_BAD_ARGUMENT);
+}
+
+/* Whether all bytes from `from` on are still those that memset() put there. */
+enum { kUntouched = 0xa5 };
+static int is_untouched(const void* memory, size_t from, size_t to) {
+  const uint8_t* bytes = (const uint8_t*)memory;
+  for (; from < to; ++from) {
+    if (bytes[from] != kUntouched) return 0;
+  }
+  return 1;
+}
+
+/* Whether what follows struct_bytes is what the whole structure holds, as far as `to`. */
+static int is_filled(const void* memory, const void* whole, size_t to) {
+  const size_t from = sizeof(size_t);
+  return memcmp((const uint8_t*)memory + from, (const uint8_t*)whole + from, to - from) == 0;
+}
+
+/* Information goes into structures of every length, and nothing beyond it is written. */
+static void test_information_grows(const mcc_encoding* encoding) {
+  size_t byte_count = 0;
+  const uint8_t* bytes = mcc_encoding_payload(encoding, &byte_count);
+  mcc_payload* payload = NULL;
+  mcc_piece_info whole_piece = {sizeof whole_piece, 0, 0, 0, 0};
+  mcc_attribute_info whole_attribute;
+  union {
+    mcc_piece_info info;
+    uint8_t bytes[sizeof(mcc_piece_info) + 16];
+  } piece;
+  union {
+    mcc_attribute_info info;
+    uint8_t bytes[sizeof(mcc_attribute_info) + 16];
+  } attribute;
+  size_t known; /* what the program knows */
+  /* Padding comes after the members. */
+  const size_t members = offsetof(mcc_attribute_info, lattice) + sizeof(mcc_lattice);
+  EXPECT(mcc_payload_open(bytes, byte_count, NULL, &payload).error == MCC_OK);
+  EXPECT(mcc_payload_piece(payload, 0, &whole_piece).error == MCC_OK);
+  EXPECT(whole_piece.struct_bytes == sizeof whole_piece && whole_piece.part_count == 1);
+  for (known = 0; known <= sizeof piece; ++known) {
+    const size_t written = known < sizeof piece.info ? known : sizeof piece.info;
+    const int is_set = known >= sizeof known;
+    memset(&piece, kUntouched, sizeof piece);
+    piece.info.struct_bytes = known;
+    EXPECT(mcc_payload_piece(payload, 0, &piece.info).error ==
+           (is_set ? MCC_OK : MCC_ERROR_BAD_ARGUMENT));
+    EXPECT(piece.info.struct_bytes == known);
+    EXPECT(is_untouched(&piece, is_set ? written : sizeof known, sizeof piece));
+    EXPECT(!is_set || is_filled(&piece, &whole_piece, written));
+  }
+  memset(&whole_attribute, 0, sizeof whole_attribute);
+  whole_attribute.struct_bytes = sizeof whole_attribute;
+  EXPECT(mcc_payload_attribute(payload, 0, 0, &whole_attribute).error == MCC_OK);
+  EXPECT(whole_attribute.struct_bytes == sizeof whole_attribute &&
+         whole_attribute.format.component_count == 3);
+  for (known = 0; known <= sizeof attribute; ++known) {
+    const size_t written = known < sizeof attribute.info ? known : sizeof attribute.info;
+    const int is_set = known >= sizeof known;
+    memset(&attribute, kUntouched, sizeof attribute);
+    attribute.info.struct_bytes = known;
+    EXPECT(mcc_payload_attribute(payload, 0, 0, &attribute.info).error ==
+           (is_set ? MCC_OK : MCC_ERROR_BAD_ARGUMENT));
+    EXPECT(attribute.info.struct_bytes == known);
+    EXPECT(is_untouched(&attribute, is_set ? written : sizeof known, sizeof attribute));
+    EXPECT(!is_set ||
+           is_filled(&attribute, &whole_attribute, written < members ? written : members));
+  }
+  mcc_payload_close(payload);
 }
 
 static void test_damage(const mcc_encoding* encoding) {
@@ -364,6 +437,7 @@ int main(int argument_count, char** arguments) {
   test_round_trip(encoding);
   test_options(encoding);
   test_structures_grow(encoding);
+  test_information_grows(encoding);
   test_damage(encoding);
   test_encoder_refuses();
   test_wrong_targets(encoding);

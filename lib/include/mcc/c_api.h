@@ -8,9 +8,16 @@
  * - Objects (mcc_payload, mcc_encoding, mcc_document) are created by one function and released by
  *   their own release function, which accepts null. They may move between threads, but several
  *   threads may use one at the same time only to read it.
- * - Option structs begin with `struct_bytes`. The init functions set it and fill in the defaults;
- *   members that later versions append keep their defaults for programs compiled earlier. A null
- *   pointer to options means the defaults.
+ * - Structs that later versions may extend at their end begin with `struct_bytes`: how many bytes
+ *   of the struct the program knows, sizeof when it was compiled. The library never reads or writes
+ *   more of it, so that a program and a library of different versions go together. Members that the
+ *   library is too old to know are neither read nor written.
+ *     - Options: the init functions set `struct_bytes` and fill in the defaults. Members that later
+ *       versions append keep their defaults for programs compiled earlier. A null pointer means the
+ *       defaults.
+ *     - Information (mcc_piece_info, mcc_attribute_info): the program sets `struct_bytes` before
+ *       the call that fills the rest; it stays set for the next call.
+ *   Structs without `struct_bytes` never change.
  * - The functions of the writer (mcc_encode…) and of documents (mcc_convert…, mcc_decode_glb,
  *   mcc_document…) are in those libraries; the reader's library has the rest.
  */
@@ -154,6 +161,7 @@ MCC_API void mcc_payload_close(mcc_payload* payload);
  * Counts of one piece: a set of wedges (glTF vertices) with their attributes and triangle lists.
  */
 typedef struct mcc_piece_info {
+  size_t struct_bytes;      /**< sizeof(mcc_piece_info), set by the caller */
   uint32_t wedge_count;     /**< accessor.count of every attribute */
   uint32_t vertex_count;    /**< distinct positions */
   uint32_t attribute_count; /**< 0: the payload has only the triangles */
@@ -162,6 +170,7 @@ typedef struct mcc_piece_info {
 
 /** How an attribute is stored, see mcc::AttributeCoding. */
 typedef struct mcc_attribute_info {
+  size_t struct_bytes; /**< sizeof(mcc_attribute_info), set by the caller */
   mcc_attribute_format format;
   /** 0 lattice, 1 integer, 2 exact float, 3 octahedral, 4 tangent angle, 5 alias, 6 grid */
   uint32_t coding;
@@ -172,12 +181,18 @@ typedef struct mcc_attribute_info {
 
 /** Returns the number of pieces, or 0 for null. */
 MCC_API uint32_t mcc_payload_piece_count(const mcc_payload* payload);
-/** Reads the counts of a piece. @return MCC_ERROR_BAD_ARGUMENT when there is no such piece */
+/**
+ * Reads the counts of a piece.
+ * @param info  its `struct_bytes` must be set
+ * @return MCC_ERROR_BAD_ARGUMENT when there is no such piece or `struct_bytes` is not set
+ */
 MCC_API mcc_status mcc_payload_piece(const mcc_payload* payload, uint32_t piece,
                                      mcc_piece_info* info);
 /**
  * Reads the type and the coding of an attribute.
- * @return MCC_ERROR_BAD_ARGUMENT when there is no such piece or attribute
+ * @param info  its `struct_bytes` must be set
+ * @return MCC_ERROR_BAD_ARGUMENT when there is no such piece or attribute, or `struct_bytes` is not
+ *   set
  */
 MCC_API mcc_status mcc_payload_attribute(const mcc_payload* payload, uint32_t piece,
                                          uint32_t attribute, mcc_attribute_info* info);

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The reader's part of the C API. The writer's part is writer_c_api.cpp, that for documents
+// The reader's part of the C API. The writer's part is writer/c_api.cpp, that for documents
 // gltf/api/c_api.cpp.
 #include "mcc/c_api.h"
 
@@ -224,9 +224,12 @@ uint32_t mcc_payload_piece_count(const mcc_payload* payload) {
 mcc_status mcc_payload_piece(const mcc_payload* payload, uint32_t piece, mcc_piece_info* info) {
   const mcc::PieceInfo* found = mcc::pieceOf(payload, piece);
   if (found == nullptr || info == nullptr) return mcc::badArgument("there is no such piece");
-  *info = {found->wedge_count, found->vertex_count, static_cast<uint32_t>(found->attributes.size()),
-           static_cast<uint32_t>(found->parts.size())};
-  return mcc::toC({});
+  mcc_piece_info filled = {};
+  filled.wedge_count = found->wedge_count;
+  filled.vertex_count = found->vertex_count;
+  filled.attribute_count = static_cast<uint32_t>(found->attributes.size());
+  filled.part_count = static_cast<uint32_t>(found->parts.size());
+  return mcc::toC(mcc::writeStruct(filled, info));
 }
 
 mcc_status mcc_payload_attribute(const mcc_payload* payload, uint32_t piece, uint32_t attribute,
@@ -236,12 +239,13 @@ mcc_status mcc_payload_attribute(const mcc_payload* payload, uint32_t piece, uin
     return mcc::badArgument("there is no such attribute");
   }
   const mcc::AttributeInfo& from = found->attributes[attribute];
-  info->format = mcc::formatToC(from.format);
-  info->coding = static_cast<uint32_t>(from.coding);
-  info->bits = from.bits;
-  for (size_t i = 0; i < 4; ++i) info->lattice.origin[i] = from.lattice.origin[i];
-  info->lattice.step = from.lattice.step;
-  return mcc::toC({});
+  mcc_attribute_info filled = {};
+  filled.format = mcc::formatToC(from.format);
+  filled.coding = static_cast<uint32_t>(from.coding);
+  filled.bits = from.bits;
+  for (size_t i = 0; i < 4; ++i) filled.lattice.origin[i] = from.lattice.origin[i];
+  filled.lattice.step = from.lattice.step;
+  return mcc::toC(mcc::writeStruct(filled, info));
 }
 
 mcc_status mcc_payload_part(const mcc_payload* payload, uint32_t piece, uint32_t part,
