@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "console.h"
 #include "terminal.h"
 
 namespace mcc::tool {

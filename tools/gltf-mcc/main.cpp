@@ -10,6 +10,7 @@
 #include <map>
 
 #include "commands.h"
+#include "console.h"
 #include "container/payload_header.h"
 #include "gltf/base/printable.h"
 #include "help.h"
@@ -95,6 +96,7 @@ std::string versionText() {
 int run(int argc, char** argv) {
   CLI::App app("Compresses the meshes of glTF files with KHR_mesh_collapse_compression.");
   app.name("gltf-mcc");
+  app.allow_windows_style_options(false);  // "/models/a.glb" is a file there, too
   app.set_version_flag("--version", versionText())
       ->description("Print versions of program and format");
   addColorOption(app);
@@ -138,8 +140,13 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     mcc::tool::removeTemporariesOnSignals();
-    mcc::tool::setColorMode(mcc::tool::colorModeOf(argc, argv));
-    return mcc::tool::run(argc, argv);
+    mcc::tool::prepareConsole();
+    std::vector<std::string> words = mcc::tool::commandLine(argc, argv);
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    const int count = static_cast<int>(pointers.size());
+    mcc::tool::setColorMode(mcc::tool::colorModeOf(count, pointers.data()));
+    return mcc::tool::run(count, pointers.data());
   } catch (const std::exception& exception) {
     std::fprintf(stderr, "gltf-mcc: %s\n", mcc::gltf::printable(exception.what()).c_str());
     return mcc::tool::kFailed;

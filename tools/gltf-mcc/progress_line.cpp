@@ -2,18 +2,18 @@
 #include "progress_line.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
 #include <system_error>
 
+#include "console.h"
 #include "gltf/base/printable.h"
 #include "terminal.h"
 
 namespace mcc::tool {
 
-ProgressLine::ProgressLine(bool is_quiet) : is_shown_(!is_quiet && isatty(STDERR_FILENO) == 1) {}
+ProgressLine::ProgressLine(bool is_quiet) : is_shown_(!is_quiet && isTerminal(kStandardErrors)) {}
 
 void ProgressLine::show(const std::string& text) const {
   if (!is_shown_) return;

@@ -1,10 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "standard_streams.h"
 
-#include <unistd.h>
-
 #include <cstdio>
 
+#include "console.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
 #include "interrupt.h"
@@ -28,10 +27,10 @@ gltf::Result StreamSource::open(const std::string& name) {
     return is_read_once ? gltf::readFile(name, bytes_.emplace()) : gltf::Result{};
   }
   name_ = kInputName;
-  if (isatty(STDIN_FILENO) == 1) {
+  if (isTerminal(kStandardInput)) {
     return {kInputName, "is a terminal; redirect a file to it (gltf-mcc … < model.glb)"};
   }
-  return gltf::readStream(STDIN_FILENO, kInputName, bytes_.emplace());
+  return gltf::readStream(kStandardInput, kInputName, bytes_.emplace());
 }
 
 gltf::Source StreamSource::source() const {
@@ -46,14 +45,14 @@ FileContents StreamSource::contents(const std::vector<std::filesystem::path>& fi
 }
 
 bool isStandardOutput(const std::string& name) {
-  return isStandardStream(name) || gltf::openStreamOf(name) == STDOUT_FILENO;
+  return isStandardStream(name) || gltf::openStreamOf(name) == kStandardOutput;
 }
 
 gltf::Result StreamSink::open(const std::string& name) {
   name_ = name;
   is_standard_output_ = tool::isStandardOutput(name);
   is_stream_ = is_standard_output_ || gltf::isStream(name);
-  if (is_standard_output_ && isatty(STDOUT_FILENO) == 1) {
+  if (is_standard_output_ && isTerminal(kStandardOutput)) {
     return {kOutputName,
             "is a terminal, and a GLB is binary; redirect it to a file (… > small.glb)"};
   }

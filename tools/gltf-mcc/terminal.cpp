@@ -1,22 +1,15 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "terminal.h"
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <cstdlib>
-#include <cstring>
 #include <utility>
+
+#include "console.h"
 
 namespace mcc::tool {
 namespace {
 
 ColorMode color_mode = ColorMode::kAuto;  // for the whole process, see setColorMode()
-
-const char* environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? "" : value;
-}
 
 Style styleOf(int stream) {
   switch (color_mode) {
@@ -24,9 +17,9 @@ Style styleOf(int stream) {
     case ColorMode::kNever: return Style(false);
     case ColorMode::kAuto: break;
   }
-  const bool is_wanted = *environment("NO_COLOR") == '\0' && *environment("TERM") != '\0' &&
-                         std::strcmp(environment("TERM"), "dumb") != 0;
-  return Style(is_wanted && isatty(stream) == 1);
+  const char* no_color = std::getenv("NO_COLOR");
+  const bool is_wanted = no_color == nullptr || *no_color == '\0';
+  return Style(is_wanted && isColorTerminal(stream));
 }
 
 bool isContinuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
@@ -60,18 +53,8 @@ ColorMode colorModeOf(int argc, const char* const* argv) {
   return mode;
 }
 
-Style styleOfOutput() { return styleOf(STDOUT_FILENO); }
-Style styleOfErrors() { return styleOf(STDERR_FILENO); }
-
-bool hasUtf8() {
-  for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {  // the first that is set applies
-    std::string value = environment(name);
-    if (value.empty()) continue;
-    for (char& c : value) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return value.find("utf-8") != std::string::npos || value.find("utf8") != std::string::npos;
-  }
-  return false;
-}
+Style styleOfOutput() { return styleOf(kStandardOutput); }
+Style styleOfErrors() { return styleOf(kStandardErrors); }
 
 std::string inLocale(std::string text) {
   if (hasUtf8()) return text;
@@ -105,9 +88,8 @@ std::string_view cutToWidth(std::string_view text, size_t column_count) {
 }
 
 size_t columnsOfErrors() {
-  winsize size = {};
-  const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
-  return is_known ? size.ws_col : 80;
+  const size_t columns = consoleColumns();
+  return columns > 1 ? columns : 80;
 }
 
 }  // namespace mcc::tool

@@ -40,9 +40,6 @@ ColorMode colorModeOf(int argc, const char* const* argv);
 Style styleOfOutput();
 Style styleOfErrors();
 
-/// Whether the locale of the environment has UTF-8 characters.
-bool hasUtf8();
-
 /// Returns the text unchanged where the locale has UTF-8; otherwise replaces the few non-ASCII
 /// characters that the tool prints.
 std::string inLocale(std::string text);

@@ -1,17 +1,14 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/files/file_io.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <optional>
-#include <string_view>
 #include <system_error>
+
+#include "gltf/files/system.h"
 
 namespace mcc::gltf {
 namespace {
@@ -25,33 +22,15 @@ fs::path temporaryName(const fs::path& destination) {
   constexpr size_t kLongestName = 200;  // leaves room for the rest within the usual 255 bytes
   static std::atomic<uint32_t> counter{0};
   const std::string name = destination.filename().string().substr(0, kLongestName);
-  return destination.parent_path() /
-         ("." + name + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(counter++));
-}
-
-/// Returns the number in "/dev/fd/3", 1 for "/dev/stdout", and so on.
-std::optional<int> descriptorOf(const fs::path& path) {
-  const std::string name = path.lexically_normal().string();
-  if (name == "/dev/stdin") return STDIN_FILENO;
-  if (name == "/dev/stdout") return STDOUT_FILENO;
-  if (name == "/dev/stderr") return STDERR_FILENO;
-  const std::string own = "/proc/" + std::to_string(::getpid()) + "/fd/";
-  for (const std::string_view folder :
-       {std::string_view("/dev/fd/"), std::string_view("/proc/self/fd/"), std::string_view(own)}) {
-    if (!name.starts_with(folder)) continue;
-    const std::string digits = name.substr(folder.size());
-    const bool is_number = !digits.empty() && digits.size() < 8 &&
-                           digits.find_first_not_of("0123456789") == std::string::npos;
-    if (is_number) return std::stoi(digits);
-  }
-  return std::nullopt;
+  return destination.parent_path() / ("." + name + ".tmp-" + std::to_string(system::processId()) +
+                                      "-" + std::to_string(counter++));
 }
 
 /// Follows symbolic links as far as they lead, but not into an open stream.
 fs::path withoutLinks(fs::path path) {
   constexpr int kMostLinks = 40;
   std::error_code code;
-  for (int i = 0; i < kMostLinks && !descriptorOf(path); ++i) {
+  for (int i = 0; i < kMostLinks && !system::openStreamNamed(path); ++i) {
     const fs::path next = fs::read_symlink(path, code);
     if (code) break;
     path = next.is_absolute() ? next : path.parent_path() / next;
@@ -59,30 +38,10 @@ fs::path withoutLinks(fs::path path) {
   return path;
 }
 
-FileIdentity identityOf(const struct stat& file) {
-  return {static_cast<uint64_t>(file.st_dev), static_cast<uint64_t>(file.st_ino)};
-}
-
-FileIdentity identityOf(const fs::path& path) {
-  struct stat file = {};
-  return ::stat(path.c_str(), &file) == 0 ? identityOf(file) : FileIdentity{};
-}
-
-/// Gives a new file the owner, the group and the permissions of an older one. If the group cannot
-/// be set, the group gets no more permissions than all other users have, so that nobody can read
-/// what was hidden from them.
-void becomeLike(const struct stat& older, int file) {
-  mode_t mode = older.st_mode & 0777;
-  const bool has_group = ::fchown(file, older.st_uid, older.st_gid) == 0 ||
-                         ::fchown(file, static_cast<uid_t>(-1), older.st_gid) == 0;
-  if (!has_group) mode = (mode & ~mode_t{070}) | (mode & (mode << 3) & mode_t{070});
-  (void)::fchmod(file, mode);  // some file systems have no permissions
-}
-
 /// Writes all bytes. Returns 0 or the number of the error.
 int writeAll(int file, std::span<const uint8_t> bytes) {
   while (!bytes.empty()) {
-    const ssize_t count = ::write(file, bytes.data(), bytes.size());
+    const ptrdiff_t count = system::writeSome(file, bytes.data(), bytes.size());
     if (count < 0 && errno != EINTR) return errno;
     if (count > 0) bytes = bytes.subspan(static_cast<size_t>(count));
   }
@@ -94,7 +53,7 @@ bool isReadOnly(const fs::path& path) {
   std::error_code code;
   const fs::perms write = fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
   const fs::perms permissions = fs::status(path, code).permissions();
-  return (permissions & write) == fs::perms::none || ::access(path.c_str(), W_OK) != 0;
+  return (permissions & write) == fs::perms::none || !system::mayWrite(path);
 }
 
 Result tooLarge(const std::string& name) {
@@ -121,7 +80,7 @@ Result readRegularFile(int file, const fs::path& path, std::vector<uint8_t>& byt
   bytes.resize(size);
   size_t done = 0;
   while (done < size) {
-    const ssize_t count = ::read(file, bytes.data() + done, size - done);
+    const ptrdiff_t count = system::readSome(file, bytes.data() + done, size - done);
     if (count == 0 || (count < 0 && errno != EINTR)) {
       return error(path.string(), "cannot be read to its end");
     }
@@ -148,7 +107,7 @@ Result readStream(int file, const std::string& name, std::vector<uint8_t>& bytes
   while (bytes.size() < wantedBytes(bytes)) {
     const size_t size = bytes.size();
     bytes.resize(size + kReadBytes);
-    const ssize_t count = ::read(file, bytes.data() + size, kReadBytes);
+    const ptrdiff_t count = system::readSome(file, bytes.data() + size, kReadBytes);
     bytes.resize(size + (count > 0 ? static_cast<size_t>(count) : 0));
     if (count == 0) return {};
     if (count < 0 && errno != EINTR) return error(name, "cannot be read: " + reasonOf(errno));
@@ -161,11 +120,11 @@ Result readFile(const fs::path& path, std::vector<uint8_t>& bytes) {
   const fs::file_status status = fs::status(path, code);
   if (!fs::exists(status)) return error(path.string(), "there is no such file");
   if (fs::is_directory(status)) return error(path.string(), "is a folder; name a file in it");
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int file = system::openToRead(path);
   if (file < 0) return error(path.string(), "cannot be opened: " + reasonOf(errno));
   Result result = fs::is_regular_file(status) ? readRegularFile(file, path, bytes)
                                               : readStream(file, path.string(), bytes);
-  ::close(file);
+  system::close(file);
   return result;
 }
 
@@ -203,7 +162,7 @@ FileReader readerInside(const fs::path& folder) {
 
 bool isStream(const fs::path& path) {
   const fs::path target = withoutLinks(path);
-  if (descriptorOf(target)) return true;
+  if (system::openStreamNamed(target)) return true;
   std::error_code code;
   switch (fs::status(target, code).type()) {
     case fs::file_type::character:
@@ -214,20 +173,26 @@ bool isStream(const fs::path& path) {
   }
 }
 
-std::optional<int> openStreamOf(const fs::path& path) { return descriptorOf(withoutLinks(path)); }
+std::optional<int> openStreamOf(const fs::path& path) {
+  return system::openStreamNamed(withoutLinks(path));
+}
 
 std::string fileKey(const fs::path& path) {
-  const auto text = [](const struct stat& file) {
-    return std::to_string(file.st_dev) + ":" + std::to_string(file.st_ino);
+  const auto text = [](const FileIdentity& file) {
+    return std::to_string(file.device) + ":" + std::to_string(file.number);
   };
   const fs::path target = withoutLinks(path);
-  struct stat file = {};
-  const std::optional<int> descriptor = descriptorOf(target);
-  const bool exists =
-      (descriptor ? ::fstat(*descriptor, &file) : ::stat(target.c_str(), &file)) == 0;
-  if (exists) return S_ISCHR(file.st_mode) ? "" : text(file);
-  if (descriptor || ::stat(folderOf(target).c_str(), &file) != 0) return "";
-  return text(file) + "/" + target.filename().string();
+  const std::optional<int> stream = system::openStreamNamed(target);
+  const FileIdentity file = stream ? system::identityOf(*stream) : system::identityOf(target);
+  if (file.number != 0) {
+    std::error_code code;
+    const bool is_device =
+        stream ? system::isCharacterDevice(*stream) : fs::is_character_file(target, code);
+    return is_device ? "" : text(file);
+  }
+  const FileIdentity folder = system::identityOf(folderOf(target));
+  if (stream || folder.number == 0) return "";
+  return text(folder) + "/" + target.filename().string();
 }
 
 bool isSameFile(const fs::path& a, const fs::path& b) {
@@ -237,13 +202,12 @@ bool isSameFile(const fs::path& a, const fs::path& b) {
 
 Result writeStream(const fs::path& path, std::span<const uint8_t> bytes) {
   const fs::path target = withoutLinks(path);
-  const std::optional<int> descriptor = descriptorOf(target);
+  const std::optional<int> stream = system::openStreamNamed(target);
   // Duplicate an open stream instead of opening it again, which would begin at the start of a file.
-  const int file = descriptor ? ::fcntl(*descriptor, F_DUPFD_CLOEXEC, 0)
-                              : ::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  const int file = stream ? system::duplicate(*stream) : system::openToWrite(target);
   if (file < 0) return error(path.string(), "cannot be opened: " + reasonOf(errno));
   int failure = writeAll(file, bytes);
-  if (::close(file) != 0 && failure == 0) failure = errno;
+  if (system::close(file) != 0 && failure == 0) failure = errno;
   if (failure == 0) return {};
   return error(path.string(), "cannot be written: " + reasonOf(failure));
 }
@@ -301,12 +265,11 @@ Result ReplacementFile::check() const {
 /// killed and had the same process id.
 Result ReplacementFile::create(int& file) {
   constexpr int kMostNames = 100;
-  struct stat older = {};
-  const bool replaces = ::stat(target_.c_str(), &older) == 0;
+  std::error_code code;
+  const bool replaces = fs::exists(target_, code);
   const TemporaryFiles::Lock held = lockOf(temporaries_);
   for (int i = 0; i < kMostNames; ++i) {
-    file =
-        ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, replaces ? 0600 : 0666);
+    file = system::createNew(temporary_, replaces);
     if (file >= 0 || errno != EEXIST) break;
     temporary_ = temporaryName(target_);
   }
@@ -316,7 +279,7 @@ Result ReplacementFile::create(int& file) {
     return error(destination_.string(), "cannot be written: " + reasonOf(failure));
   }
   if (temporaries_ != nullptr) temporaries_->add(temporary_);
-  if (replaces) becomeLike(older, file);
+  if (replaces) system::becomeLike(target_, file);
   return {};
 }
 
@@ -326,16 +289,15 @@ Result ReplacementFile::write(std::span<const uint8_t> bytes) {
   int failure = writeAll(file, bytes);
   // The file that is there now is replaced only when the new bytes are safely stored.
   std::error_code code;
-  if (failure == 0 && fs::exists(target_, code) && ::fsync(file) != 0 && errno == EIO)
+  if (failure == 0 && fs::exists(target_, code) && system::flush(file) != 0 && errno == EIO)
     failure = EIO;
-  struct stat written = {};
-  if (::fstat(file, &written) == 0) identity_ = identityOf(written);
-  if (::close(file) != 0 && failure == 0) failure = errno;
+  identity_ = system::identityOf(file);
+  if (system::close(file) != 0 && failure == 0) failure = errno;
   if (failure == 0) return {};
   return error(destination_.string(), "cannot be written: " + reasonOf(failure));
 }
 
-bool ReplacementFile::isInPlace() const { return identityOf(target_) == identity_; }
+bool ReplacementFile::isInPlace() const { return system::identityOf(target_) == identity_; }
 
 Result ReplacementFile::commit() {
   const TemporaryFiles::Lock held = lockOf(temporaries_);
@@ -364,14 +326,15 @@ Result ReplacementFile::commitForNow() {
 }
 
 Result ReplacementFile::commitNew() {
-  if (::link(temporary_.c_str(), target_.c_str()) == 0) {
+  std::error_code code;
+  fs::create_hard_link(temporary_, target_, code);
+  if (!code) {
     is_for_now_ = true;
     return {};  // the destructor removes the temporary name
   }
-  std::error_code code;
   if (!fs::exists(fs::symlink_status(target_, code))) return commitForNow();  // no hard links
   if (haveSameContent(temporary_, target_)) {
-    identity_ = identityOf(target_);
+    identity_ = system::identityOf(target_);
     return {};
   }
   return error(destination_.string(), "another file appeared there; choose another folder");

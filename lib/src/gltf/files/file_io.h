@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gltf/document/document.h"
+#include "gltf/files/system.h"
 #include "gltf/files/temporary_files.h"
 
 namespace mcc::gltf {
@@ -43,14 +44,6 @@ Result inFile(const std::filesystem::path& path, Result result);
 
 /// Returns the folder a path lies in; "." when it names none.
 std::filesystem::path folderOf(const std::filesystem::path& path);
-
-/// Identifies a file independently of its names.
-struct FileIdentity {
-  uint64_t device = 0;
-  uint64_t number = 0;  ///< 0: there is no file
-
-  bool operator==(const FileIdentity&) const = default;
-};
 
 /// Whether a name stands for something that bytes are sent to, rather than for a file that can be
 /// replaced: a device, a pipe, a socket, or an open stream of this process (/dev/stdout,

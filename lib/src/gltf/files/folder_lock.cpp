@@ -1,37 +1,33 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/files/folder_lock.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <thread>
 
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
+#include "gltf/files/system.h"
 
 namespace mcc::gltf {
 
 FolderLock::FolderLock(const std::filesystem::path& folder, Kind kind)
-    : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    : lock_(system::openFolderLock(folder)) {
   using std::chrono::milliseconds;
   constexpr milliseconds kLongestPause(20);
   constexpr milliseconds kPatience(2000);
-  const int operation = (kind == Kind::kAlone ? LOCK_EX : LOCK_SH) | LOCK_NB;
   milliseconds pause(1);
-  for (milliseconds waited(0); folder_ >= 0 && waited < kPatience; waited += pause) {
-    is_held_ = ::flock(folder_, operation) == 0;
-    if (is_held_ || (errno != EWOULDBLOCK && errno != EINTR)) return;
+  for (milliseconds waited(0); lock_ != system::kNoLock && waited < kPatience; waited += pause) {
+    const system::LockOutcome outcome = system::tryFolderLock(lock_, kind == Kind::kShared);
+    is_held_ = outcome == system::LockOutcome::kHeld;
+    if (outcome != system::LockOutcome::kBusy) return;
     std::this_thread::sleep_for(pause);
     pause = std::min(2 * pause, kLongestPause);
   }
 }
 
 FolderLock::~FolderLock() {
-  if (folder_ >= 0) ::close(folder_);
+  if (lock_ != system::kNoLock) system::closeFolderLock(lock_, is_held_);
 }
 
 std::unique_ptr<FolderLock> lockToRead(const std::filesystem::path& document) {

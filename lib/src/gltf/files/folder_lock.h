@@ -30,7 +30,7 @@ class FolderLock {
   bool isHeld() const { return is_held_; }
 
  private:
-  int folder_ = -1;
+  intptr_t lock_;  ///< of the system, see system.h
   bool is_held_ = false;
 };
 

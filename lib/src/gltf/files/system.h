@@ -1,0 +1,70 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// What reading and replacing files needs of the system and the C++ standard library does not have.
+// system_posix.cpp and system_windows.cpp implement it; nothing else in gltf/ depends on the system.
+#ifndef MCC_GLTF_FILES_SYSTEM_H_
+#define MCC_GLTF_FILES_SYSTEM_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace mcc::gltf {
+
+/// Identifies a file independently of its names.
+struct FileIdentity {
+  uint64_t device = 0;
+  uint64_t number = 0;  ///< 0: there is no file
+
+  bool operator==(const FileIdentity&) const = default;
+};
+
+namespace system {
+
+/// Returns a number that no other running process has.
+uint64_t processId();
+
+/// Returns the number of the open stream of this process that a name stands for: 1 for /dev/stdout.
+std::optional<int> openStreamNamed(const std::filesystem::path& path);
+
+// Open files are descriptors of the C library, without any translation of their bytes. They are not
+// inherited by other programs. Functions that return -1 have set errno.
+
+int openToRead(const std::filesystem::path& path);
+/// Opens something that exists and is not replaced, such as a device.
+int openToWrite(const std::filesystem::path& path);
+/// Creates a file; fails with EEXIST if there is one. `only_owner`: no other user may read it.
+int createNew(const std::filesystem::path& path, bool only_owner);
+int duplicate(int file);
+ptrdiff_t readSome(int file, void* to, size_t byte_count);
+ptrdiff_t writeSome(int file, const void* from, size_t byte_count);
+/// Waits until what was written is stored.
+int flush(int file);
+int close(int file);
+
+/// Returns the identity of an open file, or of the file at a path.
+FileIdentity identityOf(int file);
+FileIdentity identityOf(const std::filesystem::path& path);
+bool isCharacterDevice(int file);
+
+/// Whether this process may write a file or into a folder.
+bool mayWrite(const std::filesystem::path& path);
+
+/// Gives a new file the owner, the group and the permissions of an older one, as far as the process
+/// may set them. If the group cannot be set, the group gets no more permissions than all other
+/// users have, so that nobody can read what was hidden from them.
+void becomeLike(const std::filesystem::path& older, int file);
+
+/// An advisory lock on a folder; see FolderLock for what it promises.
+enum class LockOutcome : uint8_t { kHeld, kBusy, kImpossible };
+inline constexpr intptr_t kNoLock = -1;
+intptr_t openFolderLock(const std::filesystem::path& folder);
+/// Does not wait. A shared lock may be exclusive where the system has no shared ones.
+LockOutcome tryFolderLock(intptr_t lock, bool is_shared);
+void closeFolderLock(intptr_t lock, bool is_held);
+
+}  // namespace system
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_FILES_SYSTEM_H_

@@ -1,0 +1,108 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#if !defined(_WIN32)
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <string>
+#include <string_view>
+
+#include "gltf/files/system.h"
+
+namespace mcc::gltf::system {
+namespace {
+
+FileIdentity identityOf(const struct stat& file) {
+  return {static_cast<uint64_t>(file.st_dev), static_cast<uint64_t>(file.st_ino)};
+}
+
+}  // namespace
+
+uint64_t processId() { return static_cast<uint64_t>(::getpid()); }
+
+/// Knows "/dev/fd/3", "/dev/stdout", and so on.
+std::optional<int> openStreamNamed(const std::filesystem::path& path) {
+  const std::string name = path.lexically_normal().string();
+  if (name == "/dev/stdin") return STDIN_FILENO;
+  if (name == "/dev/stdout") return STDOUT_FILENO;
+  if (name == "/dev/stderr") return STDERR_FILENO;
+  const std::string own = "/proc/" + std::to_string(::getpid()) + "/fd/";
+  for (const std::string_view folder :
+       {std::string_view("/dev/fd/"), std::string_view("/proc/self/fd/"), std::string_view(own)}) {
+    if (!name.starts_with(folder)) continue;
+    const std::string digits = name.substr(folder.size());
+    const bool is_number = !digits.empty() && digits.size() < 8 &&
+                           digits.find_first_not_of("0123456789") == std::string::npos;
+    if (is_number) return std::stoi(digits);
+  }
+  return std::nullopt;
+}
+
+int openToRead(const std::filesystem::path& path) {
+  return ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+}
+
+int openToWrite(const std::filesystem::path& path) {
+  return ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+}
+
+int createNew(const std::filesystem::path& path, bool only_owner) {
+  return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, only_owner ? 0600 : 0666);
+}
+
+int duplicate(int file) { return ::fcntl(file, F_DUPFD_CLOEXEC, 0); }
+
+ptrdiff_t readSome(int file, void* to, size_t byte_count) { return ::read(file, to, byte_count); }
+
+ptrdiff_t writeSome(int file, const void* from, size_t byte_count) {
+  return ::write(file, from, byte_count);
+}
+
+int flush(int file) { return ::fsync(file); }
+
+int close(int file) { return ::close(file); }
+
+FileIdentity identityOf(int file) {
+  struct stat facts = {};
+  return ::fstat(file, &facts) == 0 ? identityOf(facts) : FileIdentity{};
+}
+
+FileIdentity identityOf(const std::filesystem::path& path) {
+  struct stat facts = {};
+  return ::stat(path.c_str(), &facts) == 0 ? identityOf(facts) : FileIdentity{};
+}
+
+bool isCharacterDevice(int file) {
+  struct stat facts = {};
+  return ::fstat(file, &facts) == 0 && S_ISCHR(facts.st_mode);
+}
+
+bool mayWrite(const std::filesystem::path& path) { return ::access(path.c_str(), W_OK) == 0; }
+
+void becomeLike(const std::filesystem::path& older, int file) {
+  struct stat facts = {};
+  if (::stat(older.c_str(), &facts) != 0) return;
+  mode_t mode = facts.st_mode & 0777;
+  const bool has_group = ::fchown(file, facts.st_uid, facts.st_gid) == 0 ||
+                         ::fchown(file, static_cast<uid_t>(-1), facts.st_gid) == 0;
+  if (!has_group) mode = (mode & ~mode_t{070}) | (mode & (mode << 3) & mode_t{070});
+  (void)::fchmod(file, mode);  // some file systems have no permissions
+}
+
+intptr_t openFolderLock(const std::filesystem::path& folder) {
+  return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+}
+
+LockOutcome tryFolderLock(intptr_t lock, bool is_shared) {
+  if (::flock(static_cast<int>(lock), (is_shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0)
+    return LockOutcome::kHeld;
+  const bool is_busy = errno == EWOULDBLOCK || errno == EINTR;
+  return is_busy ? LockOutcome::kBusy : LockOutcome::kImpossible;
+}
+
+void closeFolderLock(intptr_t lock, bool) { ::close(static_cast<int>(lock)); }
+
+}  // namespace mcc::gltf::system
+#endif

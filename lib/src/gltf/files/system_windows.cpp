@@ -1,0 +1,124 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#if defined(_WIN32)
+#if !defined(NOMINMAX)
+#define NOMINMAX
+#endif
+#define WIN32_LEAN_AND_MEAN
+#include <fcntl.h>
+#include <io.h>
+#include <share.h>
+#include <sys/stat.h>
+#include <windows.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <climits>
+#include <string>
+
+#include "gltf/files/system.h"
+
+namespace mcc::gltf::system {
+namespace {
+
+constexpr int kBytes = _O_BINARY | _O_NOINHERIT;
+
+int openWide(const std::filesystem::path& path, int flags) {
+  int file = -1;
+  return ::_wsopen_s(&file, path.c_str(), flags | kBytes, _SH_DENYNO, _S_IREAD | _S_IWRITE) == 0
+             ? file
+             : -1;
+}
+
+HANDLE handleOf(int file) { return reinterpret_cast<HANDLE>(::_get_osfhandle(file)); }
+
+FileIdentity identityOfHandle(HANDLE handle) {
+  BY_HANDLE_FILE_INFORMATION facts = {};
+  if (handle == INVALID_HANDLE_VALUE || ::GetFileInformationByHandle(handle, &facts) == 0)
+    return {};
+  return {facts.dwVolumeSerialNumber,
+          uint64_t{facts.nFileIndexHigh} << 32 | uint64_t{facts.nFileIndexLow}};
+}
+
+/// Bytes in one call: the C library takes an unsigned int and returns an int.
+unsigned chunkOf(size_t byte_count) {
+  return static_cast<unsigned>(std::min<size_t>(byte_count, INT_MAX));
+}
+
+}  // namespace
+
+uint64_t processId() { return ::GetCurrentProcessId(); }
+
+/// Open streams have no names here.
+std::optional<int> openStreamNamed(const std::filesystem::path&) { return std::nullopt; }
+
+int openToRead(const std::filesystem::path& path) { return openWide(path, _O_RDONLY); }
+
+int openToWrite(const std::filesystem::path& path) { return openWide(path, _O_WRONLY); }
+
+/// New files inherit who may read them from their folder.
+int createNew(const std::filesystem::path& path, bool) {
+  return openWide(path, _O_WRONLY | _O_CREAT | _O_EXCL);
+}
+
+int duplicate(int file) { return ::_dup(file); }
+
+ptrdiff_t readSome(int file, void* to, size_t byte_count) {
+  return ::_read(file, to, chunkOf(byte_count));
+}
+
+ptrdiff_t writeSome(int file, const void* from, size_t byte_count) {
+  return ::_write(file, from, chunkOf(byte_count));
+}
+
+int flush(int file) { return ::_commit(file); }
+
+int close(int file) { return ::_close(file); }
+
+FileIdentity identityOf(int file) { return identityOfHandle(handleOf(file)); }
+
+FileIdentity identityOf(const std::filesystem::path& path) {
+  constexpr DWORD kShared = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
+  const HANDLE handle = ::CreateFileW(path.c_str(), 0, kShared, nullptr, OPEN_EXISTING,
+                                      FILE_FLAG_BACKUP_SEMANTICS, nullptr);  // also opens folders
+  const FileIdentity identity = identityOfHandle(handle);
+  if (handle != INVALID_HANDLE_VALUE) ::CloseHandle(handle);
+  return identity;
+}
+
+bool isCharacterDevice(int file) { return ::GetFileType(handleOf(file)) == FILE_TYPE_CHAR; }
+
+bool mayWrite(const std::filesystem::path& path) {
+  constexpr int kWrite = 2;
+  return ::_waccess(path.c_str(), kWrite) == 0;
+}
+
+void becomeLike(const std::filesystem::path&, int) {}
+
+/// Folders cannot be locked here, so a mutex is named after the identity of the folder. The system
+/// releases it when its process ends.
+intptr_t openFolderLock(const std::filesystem::path& folder) {
+  const FileIdentity identity = identityOf(folder);
+  if (identity.number == 0) return kNoLock;
+  const std::wstring name = L"Local\\gltf-mcc-" + std::to_wstring(identity.device) + L"-" +
+                            std::to_wstring(identity.number);
+  const HANDLE mutex = ::CreateMutexW(nullptr, FALSE, name.c_str());
+  return mutex == nullptr ? kNoLock : reinterpret_cast<intptr_t>(mutex);
+}
+
+LockOutcome tryFolderLock(intptr_t lock, bool) {
+  switch (::WaitForSingleObject(reinterpret_cast<HANDLE>(lock), 0)) {
+    case WAIT_OBJECT_0:
+    case WAIT_ABANDONED: return LockOutcome::kHeld;
+    case WAIT_TIMEOUT: return LockOutcome::kBusy;
+    default: return LockOutcome::kImpossible;
+  }
+}
+
+void closeFolderLock(intptr_t lock, bool is_held) {
+  const HANDLE mutex = reinterpret_cast<HANDLE>(lock);
+  if (is_held) ::ReleaseMutex(mutex);
+  ::CloseHandle(mutex);
+}
+
+}  // namespace mcc::gltf::system
+#endif
