@@ -16,8 +16,8 @@
 #include "entropy/decoder_io.h"
 #include "entropy/enc_coder.h"
 #include "prepare/enc_cut.h"
-#include "reader/piece.h"
 #include "support/mesh_generators.h"
+#include "writer/instances.h"
 
 namespace mcc::test {
 

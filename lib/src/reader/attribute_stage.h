@@ -104,40 +104,7 @@ class AttributeStage {
   }
 
   /// Codes attribute `index` into `values`, codedComponents() per wedge; the encoder gives them.
-  Status code(uint32_t index, Array<int32_t>& values) {
-    const AttributeInfo& info = attributes_[index];
-    const AttributeMethod method = methodOf(attributes_, count_, index);
-    if (isWithAnother(method)) return {};
-    const uint32_t components = codedComponents(attributes_, count_, index);
-    if (!values.resize(size_t{wedges.count} * components) || !lengths_.resize(wedges.count)) {
-      return noMemory();
-    }
-    groups_.clear();
-    if ((info.predictor & kHasEqualities) != 0 && wedges.hasSeams()) {
-      EqualityModels* const models = models_.equalitiesOf(info).get(allocator_);
-      if (models == nullptr) return noMemory();
-      MCC_TRY(EqualityCoder<Io>(io_, *models, wedges, values.data(), components).run(groups_));
-    }
-    const GridPart grid = gridPart(index, method, components);
-    if (decodes::kExactFloats && grid.info != nullptr) MCC_TRY(enterGrid(grid, values.data()));
-    // Exact vectors are coded for all wedges even in trials.
-    const uint32_t end = isExactVector(method) ? wedges.count : wedges.coded_count;
-    const Job job{io_, info, wedges, groups_, positions.data(), values.data(), lengths_.data(),
-                  end};
-    switch (method) {
-      case AttributeMethod::kNormal: MCC_TRY(codeNormals(job)); break;
-      case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(job)); break;
-      case AttributeMethod::kTangent: MCC_TRY(codeTangents(job)); break;
-      case AttributeMethod::kSkin: MCC_TRY(codeSkin(job, index)); break;
-      case AttributeMethod::kValues: MCC_TRY(run<ValueCoder>(job, models_.valuesOf(info))); break;
-      default:
-        if (decodes::kExactFloats || decodes::kTangentPoints) MCC_TRY(codeRare(method, job));
-        break;
-    }
-    if (decodes::kExactFloats && grid.info != nullptr) MCC_TRY(leaveGrid(grid, values.data()));
-    if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside an attribute");
-    return keepForOthers(index, values);
-  }
+  Status code(uint32_t index, Array<int32_t>& values);
 
   /// Keeps what tangents will be predicted from.
   Status keepForOthers(uint32_t index, const Array<int32_t>& values) {
@@ -358,6 +325,41 @@ class AttributeStage {
   ValueMemory memory_;
   Array<uint8_t> lengths_;
 };
+
+template <SymbolIo Io>
+Status AttributeStage<Io>::code(uint32_t index, Array<int32_t>& values) {
+  const AttributeInfo& info = attributes_[index];
+  const AttributeMethod method = methodOf(attributes_, count_, index);
+  if (isWithAnother(method)) return {};
+  const uint32_t components = codedComponents(attributes_, count_, index);
+  if (!values.resize(size_t{wedges.count} * components) || !lengths_.resize(wedges.count)) {
+    return noMemory();
+  }
+  groups_.clear();
+  if ((info.predictor & kHasEqualities) != 0 && wedges.hasSeams()) {
+    EqualityModels* const models = models_.equalitiesOf(info).get(allocator_);
+    if (models == nullptr) return noMemory();
+    MCC_TRY(EqualityCoder<Io>(io_, *models, wedges, values.data(), components).run(groups_));
+  }
+  const GridPart grid = gridPart(index, method, components);
+  if (decodes::kExactFloats && grid.info != nullptr) MCC_TRY(enterGrid(grid, values.data()));
+  // Exact vectors are coded for all wedges even in trials.
+  const uint32_t end = isExactVector(method) ? wedges.count : wedges.coded_count;
+  const Job job{io_, info, wedges, groups_, positions.data(), values.data(), lengths_.data(), end};
+  switch (method) {
+    case AttributeMethod::kNormal: MCC_TRY(codeNormals(job)); break;
+    case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(job)); break;
+    case AttributeMethod::kTangent: MCC_TRY(codeTangents(job)); break;
+    case AttributeMethod::kSkin: MCC_TRY(codeSkin(job, index)); break;
+    case AttributeMethod::kValues: MCC_TRY(run<ValueCoder>(job, models_.valuesOf(info))); break;
+    default:
+      if (decodes::kExactFloats || decodes::kTangentPoints) MCC_TRY(codeRare(method, job));
+      break;
+  }
+  if (decodes::kExactFloats && grid.info != nullptr) MCC_TRY(leaveGrid(grid, values.data()));
+  if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside an attribute");
+  return keepForOthers(index, values);
+}
 
 }  // namespace mcc
 

@@ -67,6 +67,28 @@ struct PieceTruth {
   const uint32_t* wedge_order = nullptr;     ///< wedge by place
 };
 
+/// The combinations of kCompiledModes for which the inner loop of positions is compiled apart, for
+/// an Io with kFast: those that the encoder often chooses.
+#define MCC_COMPILED_PLAIN_MODES(USE) \
+  USE(0)                              \
+  USE(position_mode::kWeights)        \
+  USE(position_mode::kWeights | position_mode::kSelect)
+#define MCC_COMPILED_SHEAR_MODES(USE)                  \
+  USE(position_mode::kShear)                           \
+  USE(position_mode::kWeights | position_mode::kShear) \
+  USE(position_mode::kWeights | position_mode::kSelect | position_mode::kShear)
+#define MCC_COMPILED_TABLE_MODES(USE)                    \
+  USE(position_mode::kPalette)                           \
+  USE(position_mode::kWeights | position_mode::kPalette) \
+  USE(position_mode::kPlanes)                            \
+  USE(position_mode::kWeights | position_mode::kPlanes)
+#define MCC_COMPILED_MODES(USE) \
+  MCC_COMPILED_PLAIN_MODES(USE) \
+  MCC_COMPILED_SHEAR_MODES(USE) \
+  MCC_COMPILED_TABLE_MODES(USE)
+
+/// Runs the stages of a piece. The stages that take long to compile are defined below; for the
+/// reader's and the writer's Ios they are compiled in files of their own, see instances.h.
 template <SymbolIo Io>
 class PieceCoder {
  public:
@@ -92,114 +114,18 @@ class PieceCoder {
 
   /// Counts codes in `histogram` if it is not null. Fills mc_edges if `wants_mc_edges`.
   Status codeConnectivity(const PieceTruth& truth, CodeHistogram* histogram = nullptr,
-                          bool wants_mc_edges = false) {
-    if (!mesh.words.resize(size_t{header_.face_count} * kFaceWords)) return noMemory();
-    mesh.face_count = 0;
-    mesh.vertex_count = 0;
-    if (header_.hasPivots()) {
-      PivotModels* const models = models_.pivots.get(allocator_);
-      if (models == nullptr) return noMemory();
-      if (wants_mc_edges && !mc_edges.reserve(header_.vertex_count)) return noMemory();
-      PivotCoder<Io> coder(io_, *models, mesh, truth.pivot_faces,
-                           wants_mc_edges ? &mc_edges : nullptr);
-      MCC_TRY(coder.run(header_.vertex_count, header_.face_count));
-      return kTellsMcEdges && wants_mc_edges ? cornersOfMcEdges() : Status{};
-    }
-    const McCounts counts{header_.operation_count, header_.vertex_count, header_.dummy_count,
-                          header_.face_count, header_.has(piece_flag::kHandles)};
-    const McWatch watch{histogram, wants_mc_edges ? &mc_edges : nullptr};
-    const bool is_watched = watch.histogram != nullptr || watch.edges != nullptr;
-    McMachine<Io> machine(io_, models_.mc, counts, mesh, truth.connectivity);
-    MCC_TRY(machine.run(is_watched ? &watch : nullptr));
-    return kTellsMcEdges && wants_mc_edges ? cornersOfMcEdges() : Status{};
-  }
+                          bool wants_mc_edges = false);
 
-  Status codeStitch(const PieceTruth& truth) {
-    groups.count = mesh.vertex_count;
-    if (header_.hasPivots()) return listCorners(mesh, groups);
-    if (!header_.hasCopies()) return {};
-    StitchModels* const models = models_.stitch.get(allocator_);
-    if (models == nullptr) return noMemory();
-    Stitcher<Io> stitcher(io_, *models, mesh, truth.class_of_vertex);
-    return stitcher.run(header_.surface() == SurfaceCoding::kCopies, truth.class_count, groups);
-  }
+  Status codeStitch(const PieceTruth& truth);
 
   /// The writer passes the fitted tables that the position's flags ask for in `fitted`.
-  Status codePositions(const PieceTruth& truth, const PositionParameters* fitted = nullptr) {
-    if (header_.attribute_count == 0) return needsSequence() ? enterGroups() : Status{};
-    if (!records.resize(size_t{groups.count} + header_.isolated_count)) return noMemory();
-    PositionParameters parameters = fitted != nullptr ? *fitted : PositionParameters{};
-    describePositions(attributes_[0], parameters);
-    MCC_TRY(codePositionTables(io_, models_.positions.tables, parameters));
-    PositionPalettes palettes(allocator_);
-    if (parameters.has(position_mode::kPalette)) {
-      MCC_TRY(palettes.code(io_, models_.positions.tables.palettes, truth.palettes, groups.count));
-      for (uint32_t s = 0; s < 3; ++s) parameters.palette[s] = palettes.axis(s);
-    }
-    AxisPlanes planes[3];
-    if (parameters.has(position_mode::kPlanes)) {
-      for (uint32_t s = 0; s < 3; ++s) {
-        if (Io::kEncoding) planes[s] = truth.planes[s];
-        MCC_TRY(codePlanes(io_, planes[s]));
-      }
-    }
-    const GridPlanes grid(planes);
-    parameters.planes = &grid;
-    models_.positions.rows.prepare(parameters.modes);
-    sequence.clear();
-    if (needsSequence() && !sequence.resize(groups.count)) return noMemory();
-    MCC_TRY(runPositions(parameters, truth));
-    if (header_.isolated_count != 0) {
-      const int32_t* const known =
-          Io::kEncoding ? truth.positions + 3 * size_t{groups.count} : nullptr;
-      IsolatedCoder<Io> isolated(io_, models_.isolated);
-      MCC_TRY(isolated.run(header_.isolated_count, records.data() + groups.count, known));
-    }
-    if (decodes::kExactFloats && attributes_[0].coding == AttributeCoding::kGrid)
-      MCC_TRY(codePositionTails(truth));
-    return {};
-  }
+  Status codePositions(const PieceTruth& truth, const PositionParameters* fitted = nullptr);
 
-  Status codeSeams(const PieceTruth& truth) {
-    const uint32_t surface_wedges = header_.wedge_count - header_.isolated_count;
-    wedges.isolated_count = header_.isolated_count;
-    wedges.isolated_first = surface_wedges;
-    if (header_.has(piece_flag::kSeams)) {
-      if (header_.has(piece_flag::kCreases)) MCC_TRY(findCreases());
-      Array<uint32_t> starts(allocator_);
-      SeamCoder<Io> coder(io_, models_.seams, mesh, groups, truth.corner_source);
-      MCC_TRY(coder.run(surface_wedges, sequence, starts, wedge_group));
-      sequence.swap(starts);
-    }
-    const size_t found = header_.has(piece_flag::kSeams) ? sequence.size() : groups.count;
-    if (found != surface_wedges) {
-      return fail(Error::kBadAttribute, "the seams make fewer wedges than the header claims");
-    }
-    wedges.half_edges = sequence.data();
-    wedges.count = static_cast<uint32_t>(sequence.size());
-    return {};
-  }
+  Status codeSeams(const PieceTruth& truth);
 
-  Status codeLeftovers(const PieceTruth& truth) {
-    MCC_TRY(codeParts(io_, models_.leftovers, mesh.view(), mesh.face_count, header_.part_count,
-                      truth.leftovers));
-    if (!header_.has(piece_flag::kListed)) return {};
-    return codeList(io_, models_.leftovers, mesh.view(), mesh.face_count, header_.wedge_count,
-                    header_.part_count, header_.listed_count, truth.leftovers, list);
-  }
+  Status codeLeftovers(const PieceTruth& truth);
 
-  Status codeOrders(const PieceTruth& truth) {
-    if (!header_.has(piece_flag::kTriangleOrder | piece_flag::kVertexOrder)) return {};
-    OrderModels* const models = models_.orders.get(allocator_);
-    if (models == nullptr || !listTriangles()) return noMemory();
-    if (header_.has(piece_flag::kTriangleOrder)) {
-      TriangleOrderCoder<Io> coder(io_, *models, mesh, triangles);
-      MCC_TRY(coder.run(header_.part_count, truth.triangle_order, triangle_order));
-    }
-    if (!header_.has(piece_flag::kVertexOrder)) return {};
-    WedgeOrderCoder<Io> coder(io_, *models, triangles, allocator_);
-    return coder.run(header_.wedge_count, triangle_order, truth.wedge_order, wedge_order);
-  }
+  Status codeOrders(const PieceTruth& truth);
 
   /// Fills `triangles`. Returns false when memory ran out.
   [[nodiscard]] bool listTriangles() {
@@ -223,25 +149,7 @@ class PieceCoder {
 
   /// Must be called after the stages before and before codeAttribute(). Overwrites the faces' parts
   /// and releases the records.
-  Status prepareAttributes() {
-    if (header_.attribute_count < 2) return {};
-    MCC_TRY(stage_.wedges.build(mesh, wedges.half_edges, wedges.count, header_.wedge_count,
-                                header_.has(piece_flag::kSeams) ? wedge_group.data() : nullptr));
-    if (stage_.needsExactPositions()) MCC_TRY(listExactPositions());
-    MCC_TRY(findGroupPositions());
-    records.reset();
-    if (!header_.has(piece_flag::kSeams)) {  // wedges are numbered as groups
-      stage_.positions.swap(group_positions_);
-      return {};
-    }
-    if (!stage_.positions.resize(4 * size_t{header_.wedge_count})) return noMemory();
-    for (uint32_t w = 0; w < header_.wedge_count; ++w) {
-      storeFloat4(&stage_.positions[4 * size_t{w}],
-                  loadFloat4(&group_positions_[4 * size_t{groupOf(w)}]));
-    }
-    group_positions_.reset();
-    return {};
-  }
+  Status prepareAttributes();
 
   static void describePositions(const AttributeInfo& info, PositionParameters& p) {
     const uint32_t bits = info.coding == AttributeCoding::kLattice ? info.bits
@@ -338,50 +246,13 @@ class PieceCoder {
   }
 
   /// Runs the compiled combination of modes that fits.
-  Status runPositions(const PositionParameters& parameters, const PieceTruth& truth) {
-    if constexpr (Io::kFast) {
-      constexpr uint32_t kWeighted = position_mode::kWeights;
-      constexpr uint32_t kSelecting = position_mode::kWeights | position_mode::kSelect;
-      constexpr uint32_t kShear = position_mode::kShear;
-      constexpr uint32_t kPalette = position_mode::kPalette;
-      constexpr uint32_t kPlanes = position_mode::kPlanes;
-      switch (parameters.modes & kCompiledModes) {
-        case 0: return runPositions<0>(parameters, truth);
-        case kWeighted: return runPositions<kWeighted>(parameters, truth);
-        case kSelecting: return runPositions<kSelecting>(parameters, truth);
-        case kShear: return runPositions<kShear>(parameters, truth);
-        case kWeighted | kShear: return runPositions<kWeighted | kShear>(parameters, truth);
-        case kSelecting | kShear: return runPositions<kSelecting | kShear>(parameters, truth);
-        case kPalette: return runPositions<kPalette>(parameters, truth);
-        case kWeighted | kPalette: return runPositions<kWeighted | kPalette>(parameters, truth);
-        case kPlanes: return runPositions<kPlanes>(parameters, truth);
-        case kWeighted | kPlanes: return runPositions<kWeighted | kPlanes>(parameters, truth);
-        default: break;
-      }
-    }
-    return runPositions<kAnyModes>(parameters, truth);
-  }
+  Status runPositions(const PositionParameters& parameters, const PieceTruth& truth);
 
   /// Codes the tails of exact positions. The records then hold ordered floats.
-  Status codePositionTails(const PieceTruth& truth) {
-    TailCoder<Io> tails(io_, models_.position_tails, attributes_[0], allocator_);
-    MCC_TRY(tails.prepare());
-    for (size_t v = 0; v < records.size(); ++v) {
-      for (uint32_t s = 0; s < 3; ++s) {
-        int32_t& q = records[v].q[s];
-        q = tails.code(s, q, Io::kEncoding ? truth.exact_positions[3 * v + s] : 0);
-      }
-    }
-    if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside the positions");
-    return {};
-  }
+  Status codePositionTails(const PieceTruth& truth);
 
   template <uint32_t kModes>
-  Status runPositions(const PositionParameters& parameters, const PieceTruth& truth) {
-    const GroupPositions vertices{groups, records.data(), truth.positions};
-    return PositionCoder<Io, kModes>(io_, models_.positions, parameters, mesh, vertices)
-        .run(needsSequence() ? sequence.data() : nullptr);
-  }
+  Status runModes(const PositionParameters& parameters, const PieceTruth& truth);
 
   /// Used without positions: enters the groups in the order of the faces.
   Status enterGroups() {
@@ -424,6 +295,178 @@ class PieceCoder {
   AttributeStage<Io> stage_;
   Array<float> group_positions_;  ///< 4 per group, see surface/wedges.h
 };
+
+template <SymbolIo Io>
+Status PieceCoder<Io>::codeConnectivity(const PieceTruth& truth, CodeHistogram* histogram,
+                                        bool wants_mc_edges) {
+  if (!mesh.words.resize(size_t{header_.face_count} * kFaceWords)) return noMemory();
+  mesh.face_count = 0;
+  mesh.vertex_count = 0;
+  if (header_.hasPivots()) {
+    PivotModels* const models = models_.pivots.get(allocator_);
+    if (models == nullptr) return noMemory();
+    if (wants_mc_edges && !mc_edges.reserve(header_.vertex_count)) return noMemory();
+    PivotCoder<Io> coder(io_, *models, mesh, truth.pivot_faces,
+                         wants_mc_edges ? &mc_edges : nullptr);
+    MCC_TRY(coder.run(header_.vertex_count, header_.face_count));
+    return kTellsMcEdges && wants_mc_edges ? cornersOfMcEdges() : Status{};
+  }
+  const McCounts counts{header_.operation_count, header_.vertex_count, header_.dummy_count,
+                        header_.face_count, header_.has(piece_flag::kHandles)};
+  const McWatch watch{histogram, wants_mc_edges ? &mc_edges : nullptr};
+  const bool is_watched = watch.histogram != nullptr || watch.edges != nullptr;
+  McMachine<Io> machine(io_, models_.mc, counts, mesh, truth.connectivity);
+  MCC_TRY(machine.run(is_watched ? &watch : nullptr));
+  return kTellsMcEdges && wants_mc_edges ? cornersOfMcEdges() : Status{};
+}
+
+template <SymbolIo Io>
+Status PieceCoder<Io>::codeStitch(const PieceTruth& truth) {
+  groups.count = mesh.vertex_count;
+  if (header_.hasPivots()) return listCorners(mesh, groups);
+  if (!header_.hasCopies()) return {};
+  StitchModels* const models = models_.stitch.get(allocator_);
+  if (models == nullptr) return noMemory();
+  Stitcher<Io> stitcher(io_, *models, mesh, truth.class_of_vertex);
+  return stitcher.run(header_.surface() == SurfaceCoding::kCopies, truth.class_count, groups);
+}
+
+template <SymbolIo Io>
+Status PieceCoder<Io>::codePositions(const PieceTruth& truth, const PositionParameters* fitted) {
+  if (header_.attribute_count == 0) return needsSequence() ? enterGroups() : Status{};
+  if (!records.resize(size_t{groups.count} + header_.isolated_count)) return noMemory();
+  PositionParameters parameters = fitted != nullptr ? *fitted : PositionParameters{};
+  describePositions(attributes_[0], parameters);
+  MCC_TRY(codePositionTables(io_, models_.positions.tables, parameters));
+  PositionPalettes palettes(allocator_);
+  if (parameters.has(position_mode::kPalette)) {
+    MCC_TRY(palettes.code(io_, models_.positions.tables.palettes, truth.palettes, groups.count));
+    for (uint32_t s = 0; s < 3; ++s) parameters.palette[s] = palettes.axis(s);
+  }
+  AxisPlanes planes[3];
+  if (parameters.has(position_mode::kPlanes)) {
+    for (uint32_t s = 0; s < 3; ++s) {
+      if (Io::kEncoding) planes[s] = truth.planes[s];
+      MCC_TRY(codePlanes(io_, planes[s]));
+    }
+  }
+  const GridPlanes grid(planes);
+  parameters.planes = &grid;
+  models_.positions.rows.prepare(parameters.modes);
+  sequence.clear();
+  if (needsSequence() && !sequence.resize(groups.count)) return noMemory();
+  MCC_TRY(runPositions(parameters, truth));
+  if (header_.isolated_count != 0) {
+    const int32_t* const known =
+        Io::kEncoding ? truth.positions + 3 * size_t{groups.count} : nullptr;
+    IsolatedCoder<Io> isolated(io_, models_.isolated);
+    MCC_TRY(isolated.run(header_.isolated_count, records.data() + groups.count, known));
+  }
+  if (decodes::kExactFloats && attributes_[0].coding == AttributeCoding::kGrid)
+    MCC_TRY(codePositionTails(truth));
+  return {};
+}
+
+template <SymbolIo Io>
+Status PieceCoder<Io>::codeSeams(const PieceTruth& truth) {
+  const uint32_t surface_wedges = header_.wedge_count - header_.isolated_count;
+  wedges.isolated_count = header_.isolated_count;
+  wedges.isolated_first = surface_wedges;
+  if (header_.has(piece_flag::kSeams)) {
+    if (header_.has(piece_flag::kCreases)) MCC_TRY(findCreases());
+    Array<uint32_t> starts(allocator_);
+    SeamCoder<Io> coder(io_, models_.seams, mesh, groups, truth.corner_source);
+    MCC_TRY(coder.run(surface_wedges, sequence, starts, wedge_group));
+    sequence.swap(starts);
+  }
+  const size_t found = header_.has(piece_flag::kSeams) ? sequence.size() : groups.count;
+  if (found != surface_wedges) {
+    return fail(Error::kBadAttribute, "the seams make fewer wedges than the header claims");
+  }
+  wedges.half_edges = sequence.data();
+  wedges.count = static_cast<uint32_t>(sequence.size());
+  return {};
+}
+
+template <SymbolIo Io>
+Status PieceCoder<Io>::codeLeftovers(const PieceTruth& truth) {
+  MCC_TRY(codeParts(io_, models_.leftovers, mesh.view(), mesh.face_count, header_.part_count,
+                    truth.leftovers));
+  if (!header_.has(piece_flag::kListed)) return {};
+  return codeList(io_, models_.leftovers, mesh.view(), mesh.face_count, header_.wedge_count,
+                  header_.part_count, header_.listed_count, truth.leftovers, list);
+}
+
+template <SymbolIo Io>
+Status PieceCoder<Io>::codeOrders(const PieceTruth& truth) {
+  if (!header_.has(piece_flag::kTriangleOrder | piece_flag::kVertexOrder)) return {};
+  OrderModels* const models = models_.orders.get(allocator_);
+  if (models == nullptr || !listTriangles()) return noMemory();
+  if (header_.has(piece_flag::kTriangleOrder)) {
+    TriangleOrderCoder<Io> coder(io_, *models, mesh, triangles);
+    MCC_TRY(coder.run(header_.part_count, truth.triangle_order, triangle_order));
+  }
+  if (!header_.has(piece_flag::kVertexOrder)) return {};
+  WedgeOrderCoder<Io> coder(io_, *models, triangles, allocator_);
+  return coder.run(header_.wedge_count, triangle_order, truth.wedge_order, wedge_order);
+}
+
+template <SymbolIo Io>
+Status PieceCoder<Io>::runPositions(const PositionParameters& parameters, const PieceTruth& truth) {
+  if constexpr (Io::kFast) {
+    switch (parameters.modes & kCompiledModes) {
+#define MCC_CASE(modes) \
+  case modes: return runModes<modes>(parameters, truth);
+      MCC_COMPILED_MODES(MCC_CASE)
+#undef MCC_CASE
+      default: break;
+    }
+  }
+  return runModes<kAnyModes>(parameters, truth);
+}
+
+template <SymbolIo Io>
+Status PieceCoder<Io>::prepareAttributes() {
+  if (header_.attribute_count < 2) return {};
+  MCC_TRY(stage_.wedges.build(mesh, wedges.half_edges, wedges.count, header_.wedge_count,
+                              header_.has(piece_flag::kSeams) ? wedge_group.data() : nullptr));
+  if (stage_.needsExactPositions()) MCC_TRY(listExactPositions());
+  MCC_TRY(findGroupPositions());
+  records.reset();
+  if (!header_.has(piece_flag::kSeams)) {  // wedges are numbered as groups
+    stage_.positions.swap(group_positions_);
+    return {};
+  }
+  if (!stage_.positions.resize(4 * size_t{header_.wedge_count})) return noMemory();
+  for (uint32_t w = 0; w < header_.wedge_count; ++w) {
+    storeFloat4(&stage_.positions[4 * size_t{w}],
+                loadFloat4(&group_positions_[4 * size_t{groupOf(w)}]));
+  }
+  group_positions_.reset();
+  return {};
+}
+
+template <SymbolIo Io>
+Status PieceCoder<Io>::codePositionTails(const PieceTruth& truth) {
+  TailCoder<Io> tails(io_, models_.position_tails, attributes_[0], allocator_);
+  MCC_TRY(tails.prepare());
+  for (size_t v = 0; v < records.size(); ++v) {
+    for (uint32_t s = 0; s < 3; ++s) {
+      int32_t& q = records[v].q[s];
+      q = tails.code(s, q, Io::kEncoding ? truth.exact_positions[3 * v + s] : 0);
+    }
+  }
+  if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside the positions");
+  return {};
+}
+
+template <SymbolIo Io>
+template <uint32_t kModes>
+Status PieceCoder<Io>::runModes(const PositionParameters& parameters, const PieceTruth& truth) {
+  const GroupPositions vertices{groups, records.data(), truth.positions};
+  return PositionCoder<Io, kModes>(io_, models_.positions, parameters, mesh, vertices)
+      .run(needsSequence() ? sequence.data() : nullptr);
+}
 
 }  // namespace mcc
 

@@ -14,6 +14,7 @@
 #include "entropy/decoder_io.h"
 #include "format/decodes.h"
 #include "mesh/dequantize.h"
+#include "reader/instances.h"
 #include "reader/piece.h"
 #include "vectors/octahedral.h"
 

@@ -12,6 +12,7 @@
 #include "base/enc_exceptions.h"
 #include "entropy/enc_coder.h"
 #include "format/predictors.h"
+#include "writer/instances.h"
 #include "writer/truth.h"
 
 namespace mcc {

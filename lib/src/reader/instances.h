@@ -1,0 +1,44 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// The stages of a piece that are compiled once per Io, in files of their own: each is called once
+// per piece, so nothing is lost when it is not inlined. Whoever runs stages includes this file, and
+// then compiles none of them. Compact code (the web's decoder) compiles them all with reader.cpp,
+// which makes it smaller.
+#ifndef MCC_READER_INSTANCES_H_
+#define MCC_READER_INSTANCES_H_
+
+#include "entropy/decoder_io.h"
+#include "reader/piece.h"
+
+// PREFIX is `extern` for a declaration, and nothing where the instances are.
+
+#define MCC_MODES_INSTANCE(PREFIX, Io, modes)                                       \
+  PREFIX template Status PieceCoder<Io>::runModes<modes>(const PositionParameters&, \
+                                                         const PieceTruth&);
+#define MCC_ALL_INSTANCES(PREFIX, Io)                                                        \
+  PREFIX template Status PieceCoder<Io>::codeConnectivity(const PieceTruth&, CodeHistogram*, \
+                                                          bool);                             \
+  PREFIX template Status PieceCoder<Io>::codeStitch(const PieceTruth&);                      \
+  PREFIX template Status PieceCoder<Io>::codePositions(const PieceTruth&,                    \
+                                                       const PositionParameters*);           \
+  PREFIX template Status PieceCoder<Io>::codePositionTails(const PieceTruth&);               \
+  MCC_MODES_INSTANCE(PREFIX, Io, kAnyModes)                                                  \
+  PREFIX template Status PieceCoder<Io>::codeSeams(const PieceTruth&);                       \
+  PREFIX template Status PieceCoder<Io>::codeLeftovers(const PieceTruth&);                   \
+  PREFIX template Status PieceCoder<Io>::codeOrders(const PieceTruth&);                      \
+  PREFIX template Status PieceCoder<Io>::prepareAttributes();                                \
+  PREFIX template Status AttributeStage<Io>::code(uint32_t, Array<int32_t>&);
+
+#if !defined(MCC_COMPACT)
+namespace mcc {
+
+MCC_ALL_INSTANCES(extern, StreamsIo)
+MCC_ALL_INSTANCES(extern, CompactIo)
+#define MCC_EXTERN_MODES(modes) MCC_MODES_INSTANCE(extern, StreamsIo, modes)
+MCC_COMPILED_MODES(MCC_EXTERN_MODES)
+#undef MCC_EXTERN_MODES
+
+}  // namespace mcc
+#endif
+
+#endif  // MCC_READER_INSTANCES_H_
