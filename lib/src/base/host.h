@@ -50,7 +50,11 @@ static_assert(FLT_EVAL_METHOD == 0,
 #define MCC_INLINE inline __attribute__((always_inline))
 #define MCC_INLINE_LAMBDA __attribute__((always_inline))
 #define MCC_OUT_OF_LINE __attribute__((noinline))
+#if defined(__wasm__)  // has no such instruction, but would still compute the address
+#define MCC_PREFETCH(address) static_cast<void>(address)
+#else
 #define MCC_PREFETCH(address) __builtin_prefetch(address)
+#endif
 #if defined(__clang__)
 #define MCC_UNROLL _Pragma("unroll")
 #else
