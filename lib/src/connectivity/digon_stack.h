@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The stack of the digons that wait, by their tops.                                  [A.4.1] [A.4.4]
+// The stack of the waiting digons, each represented by its top. [A.4.1] [A.4.4]
 #ifndef MCC_CONNECTIVITY_DIGON_STACK_H_
 #define MCC_CONNECTIVITY_DIGON_STACK_H_
 
@@ -11,8 +11,8 @@
 
 namespace mcc {
 
-/// Digons that a handle may put one below: so many are moved for a handle at most. The writer cuts surfaces that would
-/// need more.
+/// The most digons that a handle may insert a digon below. The limit bounds the work that one
+/// handle causes; the writer cuts surfaces that would exceed it.
 inline constexpr uint32_t kMaxHandleDepth = 255;
 
 class DigonStack {
@@ -24,7 +24,8 @@ class DigonStack {
   uint32_t top() const { return tops_[tops_.size() - 1]; }
   void pop() { tops_.pop_back(); }
 
-  /// Below the topmost `depth` <= size() digons. O(depth). False without memory.
+  /// Inserts `top` below the topmost `depth` digons; `depth` must be at most size(). Returns false
+  /// if there is no memory. O(depth).
   [[nodiscard]] bool insertBelow(uint32_t depth, uint32_t top) {
     if (!tops_.push_back(top)) return false;
     uint32_t* at = &tops_.back() - depth;

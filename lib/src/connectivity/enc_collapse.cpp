@@ -10,8 +10,9 @@ namespace {
 constexpr uint32_t nextCorner(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
 constexpr uint32_t prevCorner(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
-/// Digons as circular lists of nodes, see mc_codes.h. Here gate[i] is the half-edge (a_i -> a_i+1) of the
-/// triangle on the side of the mc-vertex, and its twin is still to be contracted.
+/// Digons as circular lists of nodes, see mc_codes.h. Here gate[i] is the half-edge (a_i -> a_i+1)
+/// of the triangle on the side of the mc-vertex; the triangle of its twin is still to be
+/// contracted.
 class Collapser {
  public:
   explicit Collapser(const ClosedMesh& mesh) : mesh_(mesh), node_of_gate_(mesh.twin.size(), kNone) {
@@ -37,7 +38,7 @@ class Collapser {
     uint32_t next;
     uint32_t prev;
     uint32_t gate;
-    uint32_t digon;  ///< label, valid while track_digons_
+    uint32_t digon;  ///< label of the digon; valid while track_digons_
   };
 
   uint32_t vertexOf(uint32_t node) const { return mesh_.corner_vertex[nodes_[node].gate]; }
@@ -71,7 +72,7 @@ class Collapser {
         record_.operations.push_back(op);
         continue;
       }
-      op.vertex_b = vertexOf(before);  // a trivial digon
+      op.vertex_b = vertexOf(before);  // the digon is trivial
       op.node_b = before;
       op.kind = op.join == McJoin::kStart ? McKind::kTwig : McKind::kEnd;
       const bool waits = !stack_.empty();
@@ -84,7 +85,8 @@ class Collapser {
     }
   }
 
-  /// Opens the mesh along the mc-edge: the link of the mc-vertex, counterclockwise from its end.
+  /// Opens the mesh along the mc-edge. The first digon is the link of the mc-vertex,
+  /// counterclockwise from the edge's end.
   uint32_t makeFirstDigon(uint32_t mc_edge) {
     McComponent component;
     component.vertex = mesh_.corner_vertex[mc_edge];
@@ -106,8 +108,8 @@ class Collapser {
     return first;
   }
 
-  /// Collects the gates that appear when the top's vertex is contracted. Ends on the gate that decides whether
-  /// the digon is complex: returns its node, which is `top` for a simple digon.
+  /// Collects the gates that appear when the top's vertex is contracted. Returns the node of the
+  /// gate that decides whether the digon is complex; for a simple digon that is `top` itself.
   uint32_t rotateFan(uint32_t top, McOperation& op) {
     op.first_gate = static_cast<uint32_t>(record_.gates.size());
     uint32_t g = nodes_[nodes_[top].prev].gate;
@@ -120,8 +122,8 @@ class Collapser {
     }
   }
 
-  /// Divides along the edge mc-vertex -- vertex that `top` and `s` stand for: mc-divide if both are on one digon,
-  /// else the digon of `s` waits on the stack and the two are joined by a handle.
+  /// Divides along the edge mc-vertex -- vertex that `top` and `s` represent: by mc-divide if both
+  /// are on one digon. Otherwise the digon of `s` waits on the stack, and a handle joins the two.
   void divide(uint32_t top, uint32_t s, McOperation& op) {
     const bool same = !track_digons_ || nodes_[top].digon == nodes_[s].digon;
     if (!same) {
@@ -159,7 +161,8 @@ class Collapser {
     return static_cast<uint32_t>(record_.handles.size() - 1);
   }
 
-  /// Walks both digons in step and gives the one that ends first the new label.
+  /// Walks both digons in step and gives the one that ends first the new label, so that the cost is
+  /// that of the shorter digon.
   void relabelShorter(uint32_t a, uint32_t b, uint32_t label) {
     uint32_t x = nodes_[a].next;
     uint32_t y = nodes_[b].next;
@@ -178,13 +181,13 @@ class Collapser {
     } while (x != node);
   }
 
-  /// Removes the top; the node before it becomes the top.
+  /// Removes the top; the node before it becomes the new top.
   uint32_t contract(uint32_t top, McOperation& op) {
     const uint32_t before = nodes_[top].prev;
     const uint32_t after = nodes_[top].next;
     node_of_gate_[nodes_[before].gate] = kNone;
     node_of_gate_[nodes_[top].gate] = kNone;
-    if (op.degree == 0) {  // a spur: the node behind it is a second one of the vertex before it
+    if (op.degree == 0) {  // a spur: the next node is a second node of the vertex before
       op.node_b = after;
       setGate(before, nodes_[after].gate);
       link(before, nodes_[after].next);

@@ -12,7 +12,7 @@
 
 namespace mcc {
 
-/// What the collapse did, in collapse order; McMachine replays it from the back.
+/// What the collapse did, in collapse order; McMachine replays it from the end.
 struct McRecord {
   std::vector<McOperation> operations;
   std::vector<McHandle> handles;
@@ -22,7 +22,8 @@ struct McRecord {
   uint32_t node_count = 0;
 };
 
-/// O(faces) for spheres with holes; with handles O(faces log faces + handles * digons).
+/// Collapses the mesh. O(faces) for spheres with holes; with handles O(faces log faces + handles *
+/// digons).
 McRecord collapse(const ClosedMesh& mesh);
 
 }  // namespace mcc

@@ -11,7 +11,7 @@ namespace {
 constexpr uint32_t nextCorner(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
 constexpr uint32_t prevCorner(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
-/// Goes through the faces as PivotCoder does.
+/// Visits the faces in the order in which PivotCoder codes them.
 class PivotLister {
  public:
   PivotLister(std::span<const uint32_t> corner_class, uint32_t class_count)
@@ -41,16 +41,16 @@ class PivotLister {
   }
 
  private:
-  /// What is known of a position class; `spoke` and `link` are those of one pivot.
+  /// What is known about a position class; `spoke` and `link` are valid for one pivot only.
   struct Class {
     uint32_t number = kNone;
-    uint32_t face = kNone;  ///< in known_, the latest
+    uint32_t face = kNone;  ///< the latest, in known_
     uint32_t pivot = kNone;
     uint32_t spoke = kNone;
-    uint32_t link = kNone;  ///< in links_: new faces with it
+    uint32_t link = kNone;  ///< in links_: new faces with this class
   };
   struct Link {
-    uint32_t item;  ///< the other vertex' class, or the corner at the pivot
+    uint32_t item;  ///< class of the other vertex, or the corner at the pivot
     uint32_t next;
   };
   struct Entry {
@@ -108,7 +108,7 @@ class PivotLister {
     size_t row = 0;
     for (const uint32_t h : corners) {
       for (; row < spokes_.size(); ++row) listRow(static_cast<uint32_t>(row));
-      if (is_done_[h / 3] == 0) addSpoke(corner_class_[nextCorner(h)]);  // another fan
+      if (is_done_[h / 3] == 0) addSpoke(corner_class_[nextCorner(h)]);  // begins another fan
     }
     for (; row < spokes_.size(); ++row) listRow(static_cast<uint32_t>(row));
   }
@@ -138,12 +138,13 @@ class PivotLister {
   }
 
   const std::span<const uint32_t> corner_class_;
-  std::vector<uint32_t> corners_begin_;  ///< by class, in corners_
+  std::vector<uint32_t> corners_begin_;  ///< by class, offsets into corners_
   std::vector<uint32_t> corners_;
   std::vector<Class> classes_;
   std::vector<uint8_t> is_done_;  ///< by source face
-  std::vector<Link> known_;       ///< coded faces by their second vertex: the class of the third
-  std::vector<Link> links_;       ///< faces of the pivot that are not coded, by both other classes
+  /// Coded faces by their second vertex; the item is the class of the third.
+  std::vector<Link> known_;
+  std::vector<Link> links_;  ///< faces of the pivot that are not coded yet, by both other classes
   std::vector<uint32_t> spokes_;  ///< classes
   std::vector<Entry> entries_;
   uint32_t pivot_ = 0;

@@ -18,8 +18,9 @@ struct PivotRecord {
   std::vector<uint32_t> source_gate;  ///< by face: source half-edge 3f+k of its half-edge 1
 };
 
-/// `corner_class`: 3 different position classes per triangle. Vertices are numbered as they are met, from the first triangle
-/// on. O(n log n), for the order of the faces at an edge.
+/// Lists the faces. `corner_class` has 3 different position classes per triangle. Vertices are
+/// numbered as they are met, starting from the first triangle. O(n log n), because the faces at an
+/// edge are sorted.
 PivotRecord listByPivots(std::span<const uint32_t> corner_class, uint32_t class_count);
 
 }  // namespace mcc

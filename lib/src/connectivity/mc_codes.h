@@ -1,26 +1,33 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Mesh Collapse Compression after Isenburg & Snoeyink: the operations in decoding order.     [A.4]
+// Mesh Collapse Compression after Isenburg & Snoeyink: the operations in decoding order. [A.4]
 //
-// State. The digons are circular lists of nodes: the link of the (implicit) mc-vertex, one node per edge
-// mc-vertex -- vertex. `top` is the vertex end of the mc-edge of the digon at work, `stack` holds the tops of the
-// digons that wait. The gate of node i is the edge from its vertex to the vertex of next(i), seen from the
-// side that is not decoded yet.
+// State. The digons are circular lists of nodes: the link of the (implicit) mc-vertex, with one
+// node per edge mc-vertex -- vertex. `top` is the vertex end of the mc-edge of the digon at work,
+// and `stack` holds the tops of the digons that wait. The gate of node i is the edge from its
+// vertex to the vertex of next(i), seen from the side that is not decoded yet.
 //
-//            a3 ---- a2                   EXPAND(v, r): v takes the r gates after top = a0; the r-1 nodes between
-//           /   \   /  \                  a0 and a_r close. mc-expand of degree r+3.
-//         a4 --  mc --  a1   <- gates     SPUR: EXPAND with r = 0: v hangs on the top; the top's vertex has
-//           \   /  \   /                        two nodes from now on. mc-expand of degree 3.
-//            a5 ---- a0 = top             END(v1, v2): trivial digon; the digon at work is pushed (paper: E)
-//                                         START: the digon on the stack is joined: mc-join (paper: S), a property of
-//                                                the operation before it, whose vertex is the stack's top
-//                                         TWIG:  END then START: a spur whose top stays (paper: E, S)
-//                                         HANDLE: like START, but splits the cycle and puts the other part
-//                                                back into the stack (paper: M)
-//                                         finish: the mc-vertex takes all gates (END with an empty stack, last op)
+//       a3 ---- a2
+//      /   \   /  \
+//    a4 --  mc --  a1   <- gates
+//      \   /  \   /
+//       a5 ---- a0 = top
 //
-// Triangles are final as soon as they are emitted, twins are known in the same step: every gate carries the
-// half-edge of the finished triangle behind it, or the gate it is glued to, or kGateBoundary.
+//   EXPAND(v, r)  v takes the r gates after top = a0; the r-1 nodes between a0 and a_r close. This
+//                 is an mc-expand of degree r+3.
+//   SPUR          EXPAND with r = 0: v hangs on the top, whose vertex then has two nodes. It is an
+//                 mc-expand of degree 3.
+//   END(v1, v2)   A trivial digon; the digon at work is pushed (paper: E).
+//   START         The digon on the stack is joined: mc-join (paper: S). It is a property of the
+//                 operation before it, whose vertex is the stack's top.
+//   TWIG          END followed by START: a spur whose top stays (paper: E, S).
+//   HANDLE        Like START, but splits the cycle and puts the other part back into the stack
+//                 (paper: M).
+//   finish        The mc-vertex takes all gates: an END with an empty stack; the last operation.
+//
+// Triangles are final as soon as they are emitted, and their twins are known in the same step:
+// every gate carries the half-edge of the finished triangle across it, or the gate it is glued to,
+// or kGateBoundary.
 #ifndef MCC_CONNECTIVITY_MC_CODES_H_
 #define MCC_CONNECTIVITY_MC_CODES_H_
 
@@ -38,10 +45,11 @@ namespace mcc {
 
 inline constexpr uint32_t kContextSetCount = 2;
 
-/// Vertex of all dummies: the apex of the cone over a hole. Triangles with it are not emitted.
+/// The vertex of all dummies: the apex of the cone over a hole. Triangles with this vertex are not
+/// emitted.
 inline constexpr uint32_t kDummyVertex = kMaxVertices;
 
-/// Claims of the piece header about its connectivity.
+/// What the piece header claims about its connectivity.
 struct McCounts {
   uint32_t operation_count = 0;
   uint32_t vertex_count = 0;
@@ -53,15 +61,15 @@ struct McCounts {
 enum class McKind : uint8_t { kExpand, kTwig, kEnd };
 enum class McJoin : uint8_t { kSimple, kStart, kHandle };
 
-/// One operation as the collapse recorded it; the list is replayed from the back. Encoder only.
+/// One operation as the collapse recorded it; the list is replayed from the end. Encoder only.
 struct McOperation {
   McKind kind = McKind::kExpand;
   McJoin join = McJoin::kSimple;
-  bool finishes = false;  ///< kEnd: a component ends before this operation (in decoding order)
+  bool finishes = false;  ///< kEnd: a component ends before this operation, in decoding order
   uint32_t degree = 0;    ///< kExpand: r
   uint32_t vertex_a = 0;  ///< the removed vertex; kEnd: v1
   uint32_t vertex_b = 0;  ///< kEnd, kTwig: v2
-  uint32_t node_a = 0;    ///< collapse nodes that this operation creates when decoded
+  uint32_t node_a = 0;    ///< the collapse nodes that this operation creates when it is decoded
   uint32_t node_b = 0;
   uint32_t first_gate = 0;  ///< kExpand: index of the first of r gates in McRecord::gates
   uint32_t handle = 0;      ///< kHandle: index in McRecord::handles
@@ -74,16 +82,17 @@ struct McHandle {
   uint32_t component = 0;    ///< in collapse order
 };
 
-/// mc-vertex of a component and the gates of its last digon.
+/// The mc-vertex of a component and the gates of its last digon.
 struct McComponent {
   uint32_t vertex = 0;
-  uint32_t first_gate =
-      0;  ///< as many gates as the last digon has nodes, counterclockwise from its top
+  /// Index of the first gate. There are as many as the last digon has nodes, counterclockwise from
+  /// its top.
+  uint32_t first_gate = 0;
 };
 
-// --- models ----------------------------------------------------------------------------------------
+// --- models --------------------------------------------------------------------------------------
 
-/// Classes of operations in contexts: EXPAND by degree 0..4, TWIG, END.
+/// The classes of operations used as contexts: EXPAND by degree 0..4, TWIG, END.
 inline constexpr uint32_t kClassCount = 7;
 inline constexpr uint32_t kClassTwig = 5;
 inline constexpr uint32_t kClassEnd = 6;
@@ -107,16 +116,16 @@ struct McModels {
   GolombModel handle_node;
   GolombModel handle_top;
   GolombModel handle_depth;
-  Array<BitModel> run;  ///< sized by the context set
+  Array<BitModel> run;  ///< its size depends on the context set
   Array<BitModel> special;
   uint32_t context_set = 0;
 
   [[nodiscard]] bool init(uint32_t set);
 };
 
-inline constexpr uint32_t kRunContexts = 4 * 16 * 2;  ///< position, degree, shared
-inline constexpr uint32_t kPatternClasses =
-    5;  ///< context set 1: class of one of the last four operations
+inline constexpr uint32_t kRunContexts = 4 * 16 * 2;  ///< [position][degree][shared]
+/// Context set 1 distinguishes these classes of each of the last four operations.
+inline constexpr uint32_t kPatternClasses = 5;
 inline constexpr uint32_t kPatterns = 625;
 
 constexpr uint32_t runContextFactor(uint32_t set) { return set == 1 ? kPatterns : 1; }
@@ -132,13 +141,13 @@ inline bool McModels::init(uint32_t set) {
 
 inline constexpr bool kTellsMcEdges = !kCompact;
 
-/// An mc-edge: `vertex` came to the edge's other end, `from`.
+/// An mc-edge: `vertex` was reached from the edge's other end, `from`.
 struct McEdge {
   uint32_t vertex;
   uint32_t from;
 };
 
-/// What a caller wants to know about the operations; null: nothing.
+/// What a caller wants to know about the operations; members may be null.
 struct McWatch {
   CodeHistogram* histogram = nullptr;
   Array<McEdge>* edges = nullptr;
@@ -149,7 +158,8 @@ struct McWatch {
   void countDegree(uint32_t degree) const {
     if (histogram != nullptr) ++histogram->degree[std::min(degree, 255u)];
   }
-  /// An operation adds two edges at most, besides that of the last component's end.
+  /// Reserves room for all edges: at most two per operation, and one for the end of the last
+  /// component.
   [[nodiscard]] bool reserve(uint32_t operation_count) const {
     return !kTellsMcEdges || edges == nullptr || edges->reserve(2 * size_t{operation_count} + 1);
   }
@@ -161,21 +171,21 @@ struct McWatch {
   }
 };
 
-// --- the machine -----------------------------------------------------------------------------------
+// --- the machine ---------------------------------------------------------------------------------
 
 inline constexpr uint32_t kGateFlag = 1u << 31;  ///< gate | kGateFlag: glued to another gate
 inline constexpr uint32_t kGateBoundary = kNone;
-inline constexpr uint32_t kClosedNode = kNone;  ///< vertex of a node that left its digon
+inline constexpr uint32_t kClosedNode = kNone;  ///< vertex of a node that has left its digon
 
 struct McNode {
   uint32_t next;
   uint32_t vertex;
-  uint32_t gate;    ///< half-edge behind the gate, kGateFlag | node, or kGateBoundary
+  uint32_t gate;    ///< half-edge across the gate, kGateFlag | node, or kGateBoundary
   uint16_t degree;  ///< edges of the vertex so far, saturating
   uint16_t shared;  ///< the vertex has another node
 };
 
-/// What the encoder knows and the decoder learns; null pointers when decoding.
+/// What the encoder knows and the decoder learns; the pointers are null when decoding.
 struct McTruth {
   const McOperation* operations = nullptr;  ///< in collapse order
   const McHandle* handles = nullptr;
@@ -200,19 +210,21 @@ class McMachine {
         mesh_(mesh),
         truth_(truth) {}
 
-  /// Runs all operations; fills `mesh`, whose words have been sized for counts.face_count. [A.4.2]
+  /// Runs all operations and fills `mesh`, whose words must have room for counts.face_count faces.
+  /// [A.4.2]
   Status run(const McWatch* watch = nullptr);
 
  private:
   /// The fan of triangles that one operation emits.
   struct Fan {
-    uint32_t first_left =
-        kNone;  ///< half-edge from the new vertex to the first gate, kNone: no triangle there
-    uint32_t last_right = kNone;  ///< half-edge from the last gate back to it
-    uint32_t taken = 0;           ///< gates
+    /// Half-edge from the new vertex to the first gate; kNone if no triangle is there.
+    uint32_t first_left = kNone;
+    uint32_t last_right = kNone;  ///< half-edge from the last gate back to the new vertex
+    uint32_t taken = 0;           ///< number of gates
   };
 
-  /// Context of a run's decisions: [pattern, in context set 1][position][degree][shared].
+  /// Returns the context of a run's decisions: [position][degree][shared]. In context set 1, the
+  /// pattern selects the models first.
   static MCC_INLINE uint32_t runContext(uint32_t position, const McNode& node) {
     return (std::min(position, 4u) - 1) * 32 + std::min<uint32_t>(node.degree, 15) * 2 +
            node.shared;
@@ -237,7 +249,7 @@ class McMachine {
   Status newVertex(bool dummy, uint32_t source, uint32_t& vertex);
   Status endRun(const McOperation* op, uint32_t vertex, uint32_t q, const Fan& fan);
   bool takeGate(uint32_t vertex, uint32_t node, Fan& fan, uint32_t source_gate);
-  /// The same outside of the inner loop.
+  /// Does the same outside the inner loop.
   MCC_SHARED bool takeOther(uint32_t vertex, uint32_t node, Fan& fan, uint32_t source_gate) {
     return takeGate(vertex, node, fan, source_gate);
   }
@@ -279,22 +291,23 @@ class McMachine {
   const McWatch* watch_ = nullptr;
 
   uint32_t top_ = kNone;
-  uint32_t free_ = kNone;  ///< closed nodes to be used again, linked by `next`
+  uint32_t free_ = kNone;  ///< closed nodes that can be used again, linked by `next`
   uint32_t vertex_count_ = 0;
   uint32_t dummy_count_ = 0;
   uint32_t face_count_ = 0;
   uint32_t component_ = 0;
-  uint32_t operation_ = 0;  ///< operations begun
+  uint32_t operation_ = 0;  ///< operations started
   uint32_t age_ = 0;        ///< operations since the last END
   uint32_t last_class_ = kClassEnd;
   uint32_t class_before_ = kClassEnd;
-  uint32_t pattern_ = 0;  ///< last four operations, context set 1
+  uint32_t pattern_ = 0;  ///< the last four operations; context set 1 only
 };
 
 template <class Io>
 Status McMachine<Io>::run(const McWatch* watch) {
   watch_ = watch;
-  // With handles, which number all nodes, there is about one per vertex, else as many as are open at a time.
+  // Handles refer to nodes by number, so with handles no node is reused and there is about one per
+  // vertex. Without handles there are only as many as are open at the same time.
   const uint64_t expected = uint64_t{counts_.vertex_count} + counts_.vertex_count / 8;
   if (!nodes_.reserve(counts_.has_handles ? expected : std::min<uint64_t>(expected, 1u << 10))) {
     return fail(Error::kOutOfMemory, "no memory for the connectivity decoder");
@@ -322,7 +335,7 @@ Status McMachine<Io>::run(const McWatch* watch) {
   return {};
 }
 
-// --- coding ----------------------------------------------------------------------------------------
+// --- coding --------------------------------------------------------------------------------------
 
 template <class Io>
 MCC_INLINE uint32_t McMachine<Io>::specialContext() const {
@@ -366,7 +379,7 @@ MCC_INLINE Status McMachine<Io>::codeOperation(const McOperation* op) {
   return codeSpecial(op);
 }
 
-/// All operations but the EXPAND of a new vertex that takes gates.
+/// Codes all operations except the EXPAND of a new vertex that takes gates.
 template <class Io>
 Status McMachine<Io>::codeSpecial(const McOperation* op) {
   const uint32_t context = std::min<uint32_t>(std::max<uint32_t>(nodes_[top_].degree, 1) - 1, 3);
@@ -424,7 +437,7 @@ Status McMachine<Io>::codeSpecial(const McOperation* op) {
   return codeDummyRun(op);
 }
 
-/// END, with the end of the component before it if the stack is empty. [A.4.3]
+/// Codes an END, preceded by the end of the component if the stack is empty. [A.4.3]
 template <class Io>
 Status McMachine<Io>::codeEnd(const McOperation* op, bool first) {
   if (!first) {
@@ -464,7 +477,7 @@ Status McMachine<Io>::codeEnd(const McOperation* op, bool first) {
   return {};
 }
 
-/// EXPAND joined with another digon: its vertex is not new. [A.4.4]
+/// Codes an EXPAND that is joined with another digon, so that its vertex is not new. [A.4.4]
 template <class Io>
 Status McMachine<Io>::codeExpand(const McOperation* op, McJoin join) {
   uint32_t vertex = 0;
@@ -498,7 +511,7 @@ Status McMachine<Io>::codeExpand(const McOperation* op, McJoin join) {
   return join == McJoin::kStart ? joinStart() : joinHandle(op, handle_node);
 }
 
-/// EXPAND of degree 3: takes no gate. [A.4.5]
+/// Codes an EXPAND of degree 3, which takes no gate. [A.4.5]
 template <class Io>
 Status McMachine<Io>::expandSpur(const McOperation* op, uint32_t vertex) {
   uint32_t tip = 0;
@@ -517,8 +530,9 @@ Status McMachine<Io>::expandSpur(const McOperation* op, uint32_t vertex) {
   return {};
 }
 
-/// The degree of an EXPAND, gate by gate: "close the next vertex too?". Where the decoder spends its time: everything
-/// it needs is local, and each node is read once. [A.4.5]
+/// Codes the degree of an EXPAND, gate by gate: "close the next vertex too?". The decoder spends
+/// most of its time here, so everything this loop needs is local, and each node is read once.
+/// [A.4.5]
 template <class Io>
 MCC_SHARED Status McMachine<Io>::codeRun(CodesBurst& codes, const McOperation* op,
                                          uint32_t vertex) {
@@ -545,7 +559,7 @@ MCC_SHARED Status McMachine<Io>::codeRun(CodesBurst& codes, const McOperation* o
   return endRun(op, vertex, q, fan);
 }
 
-/// A dummy vertex: its degree comes first, as holes have any size. [A.4.5]
+/// Codes a dummy vertex. Its degree comes first, because holes have any size. [A.4.5]
 template <class Io>
 Status McMachine<Io>::codeDummyRun(const McOperation* op) {
   const uint32_t degree = codeGolomb(io_, models_.dummy_degree, Io::kEncoding ? op->degree : 0);
@@ -566,7 +580,7 @@ Status McMachine<Io>::codeDummyRun(const McOperation* op) {
   return endRun(op, kDummyVertex, q, fan);
 }
 
-/// The new vertex takes the place of the closed ones: top -> node -> q.
+/// Puts the new vertex in the place of the closed ones: top -> node -> q.
 template <class Io>
 MCC_SHARED Status McMachine<Io>::endRun(const McOperation* op, uint32_t vertex, uint32_t q,
                                         const Fan& fan) {
@@ -589,7 +603,7 @@ MCC_SHARED Status McMachine<Io>::endRun(const McOperation* op, uint32_t vertex, 
   return {};
 }
 
-// --- lists -----------------------------------------------------------------------------------------
+// --- lists ---------------------------------------------------------------------------------------
 
 template <class Io>
 MCC_SHARED Status McMachine<Io>::newNode(uint32_t vertex, uint32_t degree, uint32_t& node) {
@@ -611,7 +625,7 @@ MCC_SHARED Status McMachine<Io>::newNode(uint32_t vertex, uint32_t degree, uint3
 template <class Io>
 MCC_INLINE Status McMachine<Io>::newVertex(bool dummy, uint32_t source, uint32_t& vertex) {
   if (dummy) {
-    ++dummy_count_;  // callers tested that a dummy is left
+    ++dummy_count_;  // callers have checked that a dummy is left
     vertex = kDummyVertex;
     return {};
   }
@@ -623,8 +637,8 @@ MCC_INLINE Status McMachine<Io>::newVertex(bool dummy, uint32_t source, uint32_t
   return {};
 }
 
-/// Emits triangle (vertex, node's vertex, next node's vertex) behind the gate of `node`, unless it touches a dummy.
-/// False if there are more than the header claims.
+/// Emits the triangle (vertex, node's vertex, next node's vertex) across the gate of `node`, unless
+/// it touches a dummy. Returns false if there are more triangles than the header claims.
 template <class Io>
 MCC_INLINE bool McMachine<Io>::takeGate(uint32_t vertex, uint32_t node, Fan& fan,
                                         uint32_t source_gate) {
@@ -633,7 +647,7 @@ MCC_INLINE bool McMachine<Io>::takeGate(uint32_t vertex, uint32_t node, Fan& fan
   const McNode& n = nodes[node];
   const uint32_t va = n.vertex;
   const uint32_t vb = nodes[n.next].vertex;
-  const uint32_t gate = n.gate;  // only now: the triangle before may have been glued to it
+  const uint32_t gate = n.gate;  // read only now: the triangle before may have been glued to it
   uint32_t left = kNone;
   uint32_t base = kNone;
   if (std::max(vertex, std::max(va, vb)) < kDummyVertex) [[likely]] {
@@ -666,9 +680,10 @@ MCC_INLINE bool McMachine<Io>::takeGate(uint32_t vertex, uint32_t node, Fan& fan
   return true;
 }
 
-/// The nodes from `first` to `last` along `next`. Invariant: `next` permutes the open nodes, so every walk along a digon
-/// ends where it began. Only handles can refer to other nodes than those of the digon at work, so only then closed nodes
-/// need a mark; without them they are used again.
+/// Closes the nodes from `first` to `last` along `next`. Invariant: `next` permutes the open nodes,
+/// so every walk along a digon ends where it began, whatever the stream says. Only a handle can
+/// refer to nodes outside the digon at work. With handles, closed nodes are therefore marked;
+/// without, they are reused.
 template <class Io>
 MCC_SHARED void McMachine<Io>::closeNodes(uint32_t first, uint32_t last) {
   if (!counts_.has_handles) {
@@ -682,7 +697,8 @@ MCC_SHARED void McMachine<Io>::closeNodes(uint32_t first, uint32_t last) {
   }
 }
 
-/// Inserts `tip` (of a new vertex) and `copy` (of the top's vertex) behind the top: top -> tip -> copy.
+/// Inserts `tip` (of a new vertex) and `copy` (of the top's vertex) after the top: top -> tip ->
+/// copy.
 template <class Io>
 Status McMachine<Io>::spur(uint32_t vertex, uint32_t& tip, uint32_t& copy) {
   MCC_TRY(newNode(nodes_[top_].vertex, nodes_[top_].degree + 1u, copy));
@@ -700,7 +716,7 @@ Status McMachine<Io>::spur(uint32_t vertex, uint32_t& tip, uint32_t& copy) {
   return {};
 }
 
-/// The gate glued to the gate of `node`, if any, learns where that gate is now.
+/// If a gate is glued to the gate of `node`, tells it where that gate is now.
 template <class Io>
 void McMachine<Io>::pointBack(uint32_t node) {
   const uint32_t gate = nodes_[node].gate;
@@ -710,7 +726,7 @@ void McMachine<Io>::pointBack(uint32_t node) {
 template <class Io>
 void McMachine<Io>::swapLinks(uint32_t a, uint32_t b) {
   std::swap(nodes_[a].next, nodes_[b].next);
-  if (nodes_[a].gate == (kGateFlag | b)) return;  // glued to each other: still so
+  if (nodes_[a].gate == (kGateFlag | b)) return;  // glued to each other, and they stay so
   std::swap(nodes_[a].gate, nodes_[b].gate);
   pointBack(a);
   pointBack(b);
@@ -720,7 +736,7 @@ template <class Io>
 Status McMachine<Io>::joinStart() {
   const uint32_t s = stack_.top();
   stack_.pop();
-  if (nodes_[s].vertex == kClosedNode) {  // by this very operation
+  if (nodes_[s].vertex == kClosedNode) {  // closed by this very operation
     return fail(Error::kBadConnectivity, "a waiting digon was closed");
   }
   swapLinks(top_, s);
@@ -732,7 +748,7 @@ Status McMachine<Io>::joinStart() {
   return {};
 }
 
-/// Splits the cycle at two nodes of one vertex; the other part waits below `depth` digons.
+/// Splits the cycle at two nodes of one vertex; the other part is inserted below `depth` digons.
 template <class Io>
 Status McMachine<Io>::joinHandle(const McOperation* op, uint32_t handle_node) {
   uint32_t other_top = 0;
@@ -759,7 +775,7 @@ Status McMachine<Io>::joinHandle(const McOperation* op, uint32_t handle_node) {
   return {};
 }
 
-/// The mc-vertex takes all gates of the last digon. [A.4.6]
+/// Ends a component: the mc-vertex takes all gates of the last digon. [A.4.6]
 template <class Io>
 Status McMachine<Io>::finishComponent() {
   if (!stack_.empty()) {

@@ -1,17 +1,21 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Faces vertex by vertex, for meshes whose edges have many faces: cells, stacked boxes, tetrahedra.   [A.4.7]
+// Codes faces vertex by vertex, for meshes whose edges have many faces: cells, stacked boxes,
+// tetrahedra. [A.4.7]
 //
-// Cutting such a mesh into manifolds would make dozens of copies of every vertex. Here a vertex has one number, and in the
-// order of the numbers each vertex is the pivot once. Its faces whose other two vertices come after it are then coded:
+// Cutting such a mesh into manifolds would make dozens of copies of every vertex. Here each vertex
+// keeps a single number, and in the order of the numbers each vertex is the pivot once. The faces
+// that are coded then are those of the pivot whose other two vertices come after it:
 //
-//   spokes   the edges of the pivot to later vertices, in the order in which they are met: first those of the faces
-//            that earlier pivots coded, then what the new faces add
-//   row      per spoke its new faces: is there another one? Which spoke is its other edge at the pivot, or does that
-//            lead to a vertex that is near, new, or anywhere? Which side is up?
+//   spokes   The edges of the pivot to later vertices, in the order in which they are met: first
+//            those of the faces that earlier pivots coded, then what the new faces add.
+//   row      The new faces of one spoke. For each: is there another one? Which spoke is its other
+//            edge at the pivot, or does that edge lead to a vertex that is near, new, or anywhere?
+//            Which side is up?
 //
-// Half-edges along a spoke are joined as they are met. Every face is looked at three times, every spoke once per pivot
-// and, for a face, a bounded number of others, so that the time is linear in the faces whatever the stream says.
+// Half-edges along a spoke are joined as they are met. The time is linear in the faces, whatever
+// the stream says: every face is looked at three times, every spoke once per pivot, and each face
+// looks at a bounded number of other spokes.
 #ifndef MCC_CONNECTIVITY_PIVOTS_H_
 #define MCC_CONNECTIVITY_PIVOTS_H_
 
@@ -28,9 +32,11 @@
 
 namespace mcc {
 
-inline constexpr uint32_t kSpokeFaces = 16;      ///< classes of the number of faces at a spoke
-inline constexpr uint32_t kPivotNearFaces = 16;  ///< looked at for a vertex near that of the row
-inline constexpr uint32_t kPivotAsked = 32;      ///< spokes asked for one by one
+inline constexpr uint32_t kSpokeFaces = 16;  ///< classes of the number of faces at a spoke
+/// Faces searched for a vertex near that of the row.
+inline constexpr uint32_t kPivotNearFaces = 16;
+/// Spokes asked for one by one; the rest are skipped by number.
+inline constexpr uint32_t kPivotAsked = 32;
 
 struct PivotModels {
   BitModel more[kSpokeFaces][3][3];        ///< [faces at the row's spoke][its balance][new ones]
@@ -44,13 +50,13 @@ struct PivotModels {
   GolombModel far;
 };
 
-/// What the encoder knows of a face.
+/// What the encoder knows about a face.
 struct PivotFace {
   uint32_t pivot;
-  uint32_t row;     ///< place of its first spoke
-  uint32_t place;   ///< of its other spoke; kNone if that is met now
+  uint32_t row;     ///< index of its first spoke
+  uint32_t place;   ///< index of its other spoke; kNone if that is met only now
   uint32_t first;   ///< vertex at the end of the first spoke
-  uint32_t second;  ///< vertex at the end of the other
+  uint32_t second;  ///< vertex at the end of the other spoke
   bool turned;      ///< (pivot, second, first) instead of (pivot, first, second)
 };
 
@@ -58,7 +64,7 @@ template <class Io>
 class PivotCoder {
  public:
   /// `truth` has all faces in coding order (encoder). `edges`, if not null, has room for as many
-  /// edges as vertices and gets those by which vertices are met for the first time.
+  /// edges as vertices, and receives the edges by which vertices are met for the first time.
   PivotCoder(Io& io, PivotModels& models, FaceMesh& mesh, const PivotFace* truth,
              Array<McEdge>* edges)
       : io_(io),
@@ -69,23 +75,23 @@ class PivotCoder {
         truth_(truth),
         edges_(edges) {}
 
-  /// Fills `mesh`, which has room for the faces.
+  /// Codes the faces and fills `mesh`, which must have room for them.
   Status run(uint32_t vertex_count, uint32_t face_count);
 
  private:
   using CodesBurst = typename Io::CodesBurst;
 
   struct Vertex {
-    uint32_t face =
-        kNone;  ///< the latest of which it is the second vertex by number; kFaceWord links them
-    uint32_t pivot = kNone;  ///< that `spoke` is of
+    /// The latest face of which it is the second vertex by number; kFaceWord links them.
+    uint32_t face = kNone;
+    uint32_t pivot = kNone;  ///< the pivot for which `spoke` is valid
     uint32_t spoke = 0;
   };
   struct Spoke {
     uint32_t vertex;
     uint32_t face_count;
-    int32_t balance;  ///< half-edges from the pivot less those to it; so many are open
-    uint32_t open;    ///< the latest half-edge that is not joined; its twin is the one before
+    int32_t balance;  ///< half-edges from the pivot minus those to it; this many are open
+    uint32_t open;  ///< the latest half-edge that is not joined; its twin is the open one before it
 
     uint32_t faceClass() const { return std::min(face_count, kSpokeFaces - 1); }
     uint32_t balanceClass() const { return (balance > 0 ? 1u : 0u) + (balance < 0 ? 2u : 0u); }
@@ -101,7 +107,7 @@ class PivotCoder {
   void addFace(uint32_t p, uint32_t first, uint32_t second);
   void join(Spoke& spoke, uint32_t half_edge, int32_t direction);
   void closeSpokes();
-  /// Encoder: whether the next face is of this pivot.
+  /// Returns whether the next face belongs to this pivot (encoder).
   bool isNext(uint32_t p) const {
     return Io::kEncoding && face_count_ != face_limit_ && truth_[face_count_].pivot == p;
   }
@@ -122,8 +128,8 @@ class PivotCoder {
   const PivotFace* const truth_;
   Array<McEdge>* const edges_;
   uint32_t face_count_ = 0;
-  uint32_t known_count_ = 0;   ///< vertices met
-  uint32_t balanced_[3] = {};  ///< spokes of each class of balance
+  uint32_t known_count_ = 0;   ///< number of vertices met
+  uint32_t balanced_[3] = {};  ///< number of spokes of each class of balance
 };
 
 template <class Io>
@@ -142,12 +148,12 @@ Status PivotCoder<Io>::run(uint32_t vertex_count, uint32_t face_count) {
   return {};
 }
 
-/// All faces of which p is the first vertex by number.
+/// Codes all faces of which p is the first vertex by number.
 template <class Io>
 Status PivotCoder<Io>::codePivot(uint32_t p) {
   spokes_.clear();
   balanced_[0] = balanced_[1] = balanced_[2] = 0;
-  const bool is_new = p == known_count_;  // nothing has led to it
+  const bool is_new = p == known_count_;  // no face has led to it
   if (is_new) ++known_count_;
   MCC_TRY(meetKnownFaces(p));
   uint32_t row = 0;
@@ -169,7 +175,8 @@ Status PivotCoder<Io>::codePivot(uint32_t p) {
   return {};
 }
 
-/// Those of which p is the second vertex have one edge that no pivot has looked at.
+/// Meets the coded faces of which p is the second vertex. Each has one edge that no pivot has
+/// looked at yet.
 template <class Io>
 Status PivotCoder<Io>::meetKnownFaces(uint32_t p) {
   for (uint32_t f = vertices_[p].face; f != kNone;) {
@@ -185,7 +192,7 @@ Status PivotCoder<Io>::meetKnownFaces(uint32_t p) {
   return {};
 }
 
-/// The new faces with the spoke `row` and one after it.
+/// Codes the new faces between the spoke `row` and a later one.
 template <class Io>
 MCC_INLINE Status PivotCoder<Io>::codeRow(CodesBurst& codes, uint32_t p, uint32_t row,
                                           bool begins_fan) {
@@ -207,7 +214,7 @@ MCC_INLINE Status PivotCoder<Io>::codeRow(CodesBurst& codes, uint32_t p, uint32_
   return {};
 }
 
-/// Which spoke, from `from` on, where the last one of this row is.
+/// Codes which spoke a face ends at; the search starts at `from`, the last one used in this row.
 template <class Io>
 MCC_INLINE Status PivotCoder<Io>::codeOther(CodesBurst& codes, uint32_t p, uint32_t row,
                                             uint32_t from, uint32_t& place) {
@@ -239,7 +246,8 @@ MCC_INLINE Status PivotCoder<Io>::codeOther(CodesBurst& codes, uint32_t p, uint3
   return {};
 }
 
-/// A vertex that is not on a spoke: first those of the faces in which w is the second.
+/// Codes a vertex that is not on a spoke; the vertices of the faces of which w is the second are
+/// tried first.
 template <class Io>
 Status PivotCoder<Io>::codeNear(uint32_t p, uint32_t w, uint32_t truth, uint32_t& place) {
   uint32_t asked = 0;
@@ -254,7 +262,7 @@ Status PivotCoder<Io>::codeNear(uint32_t p, uint32_t w, uint32_t truth, uint32_t
   return meet(p, truth, place);
 }
 
-/// A vertex that is new, or any.
+/// Codes a vertex that is new, or any that is known.
 template <class Io>
 Status PivotCoder<Io>::meet(uint32_t p, uint32_t truth, uint32_t& place) {
   uint32_t vertex = known_count_;
@@ -281,7 +289,7 @@ MCC_INLINE Status PivotCoder<Io>::addSpoke(uint32_t p, uint32_t vertex, uint32_t
   return spokes_.push_back(Spoke{vertex, 0, 0, kNone}) ? Status{} : noMemory();
 }
 
-/// The face (p, end of `first`, end of `second`).
+/// Adds the face (p, end of `first`, end of `second`).
 template <class Io>
 MCC_INLINE void PivotCoder<Io>::addFace(uint32_t p, uint32_t first, uint32_t second) {
   Spoke& a = spokes_[first];
@@ -299,8 +307,8 @@ MCC_INLINE void PivotCoder<Io>::addFace(uint32_t p, uint32_t first, uint32_t sec
   join(b, base + 2, -1);
 }
 
-/// Joins a half-edge of the spoke with the latest one of the other direction that is open, or leaves it open. Without
-/// branches, which could not be predicted.
+/// Joins a half-edge of the spoke with the latest open one of the other direction, or leaves it
+/// open. It has no branches, because they could not be predicted.
 template <class Io>
 MCC_INLINE void PivotCoder<Io>::join(Spoke& spoke, uint32_t half_edge, int32_t direction) {
   uint32_t* const twins = mesh_.words.data() + 4;
@@ -317,7 +325,7 @@ MCC_INLINE void PivotCoder<Io>::join(Spoke& spoke, uint32_t half_edge, int32_t d
   ++balanced_[spoke.balanceClass()];
 }
 
-/// What is still open is a boundary.
+/// Turns the half-edges that are still open into boundaries.
 template <class Io>
 void PivotCoder<Io>::closeSpokes() {
   uint32_t* const twins = mesh_.words.data() + 4;
@@ -330,7 +338,8 @@ void PivotCoder<Io>::closeSpokes() {
   }
 }
 
-/// Every vertex is a group, and the half-edges that leave it stand for its umbrellas, by their numbers.
+/// Makes every vertex a group. Its umbrellas are represented by all half-edges that leave it, by
+/// their numbers.
 inline Status listCorners(const FaceMesh& mesh, Groups& groups) {
   const uint32_t* const words = mesh.words.data();
   const size_t end = mesh.words.size();

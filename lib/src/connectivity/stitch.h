@@ -1,16 +1,19 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Re-stitching of cut vertices: which decoded vertices share a position.                    [A.5]
+// Re-stitches cut vertices: codes which decoded vertices share a position. [A.5]
 //
-// Cutting a mesh into manifold pieces duplicates vertices. Here every vertex is declared a copy of an earlier one,
-// the leader of its group, or leads a new group. The leader is looked for where it is likely, in this order:
+// Cutting a mesh into manifold pieces duplicates vertices. Here every vertex is declared a copy of
+// an earlier one, the leader of its group, or it leads a new group. The leader is searched for
+// where it is likely to be, in this order:
 //
-//   candidates   if u is glued to u2, a neighbour of u is likely glued to a neighbour of u2: scored, asked one by one
-//   near         vertices a few edges away: holes that touch themselves, edges of four faces, cubes that touch
-//   far          any leader, by its distance from the last one that was far
+//   candidates   If u is glued to u2, a neighbour of u is likely glued to a neighbour of u2. They
+//                are scored, and asked for one by one.
+//   near         Vertices a few edges away, for holes that touch themselves, edges of four faces
+//                and cubes that touch.
+//   far          Any leader, by its distance from the last far leader.
 //
-// After the pass face corners hold group numbers; twins stay those of the cut pieces. Every walk is capped, so the
-// time is linear in the vertices whatever the stream says.
+// After this pass, face corners hold group numbers; twins remain those of the cut pieces. Every
+// walk is capped, so the time is linear in the vertices, whatever the stream says.
 #ifndef MCC_CONNECTIVITY_STITCH_H_
 #define MCC_CONNECTIVITY_STITCH_H_
 
@@ -28,8 +31,8 @@
 
 namespace mcc {
 
-inline constexpr uint32_t kStitchAcrossLimit = 64;  ///< vertices looked at for candidates
-inline constexpr uint32_t kStitchNearLimit = 288;   ///< vertices looked at nearby
+inline constexpr uint32_t kStitchAcrossLimit = 64;  ///< limit of vertices searched for candidates
+inline constexpr uint32_t kStitchNearLimit = 288;   ///< limit of vertices searched nearby
 
 struct StitchModels {
   BitModel copy[2][16];
@@ -55,19 +58,20 @@ class Stitcher {
 
  private:
   struct Vertex {
-    uint32_t start = kNone;        ///< half-edge leaving it; on a boundary the clockwise-most
-    uint32_t leader = kNone;       ///< of its group, once it is done
-    uint32_t next_member = kNone;  ///< of its group: after the leader the latest
-    uint32_t is_glued = 0;         ///< next to a vertex whose group has copies
-    uint32_t seen_by = kNone;      ///< the vertex whose surroundings were searched last
-    uint32_t asked_by = kNone;     ///< of a leader: the last vertex that need not ask for it again
-    uint32_t group = 0;            ///< of a leader: its number, in the end
+    uint32_t start = kNone;        ///< half-edge leaving it; on a boundary, the clockwise-most
+    uint32_t leader = kNone;       ///< of its group; kNone until the vertex is done
+    uint32_t next_member = kNone;  ///< of its group; the leader's is the latest member
+    uint32_t is_glued = 0;         ///< whether it is next to a vertex whose group has copies
+    uint32_t seen_by = kNone;      ///< the last vertex whose surroundings included it
+    uint32_t asked_by = kNone;     ///< for a leader: the last vertex that need not ask for it again
+    uint32_t group = 0;            ///< for a leader: its number, set at the end
   };
   struct Candidate {
     uint32_t leader;
     uint32_t score;
   };
-  /// Boundary half-edge leaving or entering the vertex, or neither.
+  /// Which boundary half-edge an edge of the ring is: one leaving the vertex, one entering it, or
+  /// neither.
   enum class EdgeSide : uint8_t { kInner, kOut, kIn };
 
   Status prepare(uint32_t class_count);
@@ -88,7 +92,7 @@ class Stitcher {
   MCC_INLINE void forRing(uint32_t v, Visit visit) const;
   bool onBoundary(uint32_t v) const { return faces_.twin(vertices_[v].start) == kNone; }
   bool hasCopies(uint32_t leader) const { return vertices_[leader].next_member != kNone; }
-  /// True the first time that the vertex at work asks. `leader` may be kNone.
+  /// Returns true the first time that the vertex at work asks for `leader`, which may be kNone.
   bool claim(uint32_t leader) {
     if (leader == kNone || vertices_[leader].asked_by == now_) return false;
     vertices_[leader].asked_by = now_;
@@ -190,7 +194,8 @@ void Stitcher<Io>::join(uint32_t v, uint32_t leader) {
   vertices_[leader].next_member = v;
 }
 
-/// So that vertices without copies around, that is most, need no look at them. Once per vertex. [A.5.1]
+/// Marks the neighbours, so that most vertices, which have no copies around them, need not search
+/// for candidates. Called once per vertex. [A.5.1]
 template <class Io>
 void Stitcher<Io>::markNeighbours(uint32_t v) {
   forRing(v, [this](uint32_t u, EdgeSide) {
@@ -199,14 +204,14 @@ void Stitcher<Io>::markNeighbours(uint32_t v) {
   });
 }
 
-// --- candidates --------------------------------------------------------------------------------------
+// --- candidates ----------------------------------------------------------------------------------
 
-/// Neighbours of copies of v's neighbours. [A.5.2]
+/// Collects the neighbours of copies of v's neighbours. [A.5.2]
 template <class Io>
 void Stitcher<Io>::collectCandidates(uint32_t v) {
   candidate_count_ = 0;
   if (vertices_[v].is_glued == 0) return;
-  // No face has a vertex twice.
+  // Excludes the neighbours themselves, because no face has a vertex twice.
   forRing(v, [this](uint32_t u, EdgeSide) {
     claim(vertices_[u].leader);
     return true;
@@ -219,7 +224,7 @@ void Stitcher<Io>::collectCandidates(uint32_t v) {
          u2 = vertices_[u2].next_member) {
       if (u2 == u) continue;
       forRing(u2, [this, &work, side](uint32_t w, EdgeSide other) {
-        // v -> u on a boundary meets u2 -> w if the gap between them was cut.
+        // On a boundary, v -> u meets u2 -> w if the gap between them was cut.
         const bool is_gap = side != EdgeSide::kInner && other != EdgeSide::kInner;
         addCandidate(vertices_[w].leader, !is_gap ? 1 : side == other ? 6 : 5);
         return ++work < kStitchAcrossLimit;
@@ -238,7 +243,7 @@ void Stitcher<Io>::addCandidate(uint32_t leader, uint32_t score) {
   candidates_[i].score += score;
 }
 
-// --- coding ------------------------------------------------------------------------------------------
+// --- coding --------------------------------------------------------------------------------------
 
 template <class Io>
 bool Stitcher<Io>::codeCopy(uint32_t v, uint32_t truth) {
@@ -248,7 +253,8 @@ bool Stitcher<Io>::codeCopy(uint32_t v, uint32_t truth) {
                  Io::kEncoding && truth != kNone);
 }
 
-/// One bit per candidate, the highest score first, of equal ones the first. [A.5.3]
+/// Codes one bit per candidate, the highest score first; candidates with equal scores keep their
+/// order. [A.5.3]
 template <class Io>
 bool Stitcher<Io>::codeCandidate(uint32_t truth, uint32_t& leader) {
   for (uint32_t i = 0; i < candidate_count_; ++i) {
@@ -273,7 +279,7 @@ Status Stitcher<Io>::codeReference(uint32_t v, uint32_t truth, uint32_t& leader)
   return is_near ? Status{} : codeFar(truth, leader);
 }
 
-/// Is it near, and if so, one bit per leader, the nearest first.
+/// Codes whether the leader is near, and if so, one bit per leader, the nearest first.
 template <class Io>
 Status Stitcher<Io>::codeNear(uint32_t v, uint32_t truth, bool& is_near, uint32_t& leader) {
   uint32_t count = Io::kEncoding ? collectNear(v) : 0;
@@ -290,8 +296,8 @@ Status Stitcher<Io>::codeNear(uint32_t v, uint32_t truth, bool& is_near, uint32_
   return {};
 }
 
-/// Fills near_ with the leaders of the vertices around v, breadth first, but those that were asked for and the
-/// neighbours'; returns their number.
+/// Fills near_ with the leaders of the vertices around v, breadth first, leaving out the leaders
+/// that were asked for and those of the neighbours. Returns their number.
 template <class Io>
 uint32_t Stitcher<Io>::collectNear(uint32_t v) {
   uint32_t work = 0;
@@ -300,7 +306,7 @@ uint32_t Stitcher<Io>::collectNear(uint32_t v) {
   near_[0] = v;
   vertices_[v].seen_by = v;
   for (uint32_t i = 0; i < vertex_count && work < kStitchNearLimit; ++i) {
-    // Branch-free: whether a vertex was seen is close to random.
+    // Has no branch, because whether a vertex was seen is close to random.
     forRing(near_[i], [&](uint32_t w, EdgeSide) {
       near_[vertex_count] = w;
       vertex_count += vertices_[w].seen_by != v ? 1 : 0;
@@ -326,7 +332,8 @@ Status Stitcher<Io>::codeFar(uint32_t truth, uint32_t& leader) {
   return {};
 }
 
-/// Numbers the groups by their leaders, lists those on boundaries or with copies, and rewrites the corners.
+/// Numbers the groups by their leaders, lists the groups that are on boundaries or have copies, and
+/// rewrites the corners.
 template <class Io>
 Status Stitcher<Io>::listGroups(Groups& groups) {
   if (!groups.listed.assign(size_t{mesh_.vertex_count} / 64 + 1, Groups::Listed{}))

@@ -20,10 +20,10 @@ namespace {
 
 using Kind = PositionRecording::Kind;
 
-constexpr size_t kLargePalette = 1u << 16;                 ///< vertices
-constexpr uint32_t kRunLength = 1024;                      ///< of consecutive vertices in a sample
+constexpr size_t kLargePalette = 1u << 16;  ///< from this many vertices on, a palette is large
+constexpr uint32_t kRunLength = 1024;       ///< consecutive vertices in one run of a sample
 constexpr uint32_t kTrialVertices[] = {4000, 12000, ~0u};  ///< by effort
-constexpr double kManyParts = 8;                           ///< that a sample stands for
+constexpr double kManyParts = 8;  ///< samples of less than 1/8 are replayed twice
 constexpr uint32_t kFitVertices[] = {3000, 20000, 32000};
 
 uint64_t visitCount(std::span<const PositionCandidate> pieces) {
@@ -41,10 +41,10 @@ PredictorWeights trainedWeights(const FeatureSet& without) {
   return weights;
 }
 
-// --- sampling ---------------------------------------------------------------------------------------
+// --- sampling ------------------------------------------------------------------------------------
 
-/// Visits of one piece to replay, in coding order. The cost of those not `counted` does not matter: others need their
-/// residuals.
+/// The visits of one piece that a trial replays, in coding order. Entries that are not `counted`
+/// are replayed only because others need their residuals; their cost is ignored.
 struct Sample {
   struct Entry {
     uint32_t visit;
@@ -52,7 +52,7 @@ struct Sample {
   };
   std::vector<Entry> entries;
   uint32_t counted = 0;
-  std::vector<uint32_t> looked_at;  ///< vertices whose records a replay reads; empty: all
+  std::vector<uint32_t> looked_at;  ///< vertices whose records a replay reads; empty means all
 };
 
 Sample takeSample(const PositionRecording& recording, uint64_t counted_of_all, uint64_t all) {
@@ -63,7 +63,7 @@ Sample takeSample(const PositionRecording& recording, uint64_t counted_of_all, u
     sample.counted = static_cast<uint32_t>(visits.size());
     return sample;
   }
-  // One run in `period`, the middle one.
+  // Counts the middle one of every `period` runs.
   const uint64_t period = (all + counted_of_all - 1) / counted_of_all;
   const uint32_t run =
       std::clamp<uint32_t>(static_cast<uint32_t>(visits.size() / period), 1, kRunLength);
@@ -76,22 +76,23 @@ Sample takeSample(const PositionRecording& recording, uint64_t counted_of_all, u
     recording.forNeighbours(visits[i], [&](uint32_t v) { needed[v] = 1; });
     ++sample.counted;
   }
-  std::vector<uint8_t>& looked_at = needed;  // from here on 2
+  // Bit 1 of the same bytes says that a replay reads the record.
+  std::vector<uint8_t>& looked_at = needed;
   for (uint32_t i = 0; i < visits.size(); ++i) {
     if ((needed[visits[i].vertex] & 1) == 0) continue;
     sample.entries.push_back({i, counted[i] != 0});
     recording.forAll(visits[i], [&](uint32_t v) { looked_at[v] |= 2; });
   }
-  if (!looked_at.empty()) looked_at[0] |= 2;  // stands for vertices that are not there
+  if (!looked_at.empty()) looked_at[0] |= 2;  // record 0 stands in for vertices that do not exist
   for (uint32_t v = 0; v < looked_at.size(); ++v) {
     if ((looked_at[v] & 2) != 0) sample.looked_at.push_back(v);
   }
   return sample;
 }
 
-// --- trials -----------------------------------------------------------------------------------------
+// --- trials --------------------------------------------------------------------------------------
 
-/// Spends and counts nothing.
+/// An Io that neither writes nor counts.
 class SilentIo {
  public:
   static constexpr bool kEncoding = true;
@@ -103,7 +104,7 @@ class SilentIo {
   uint32_t magnitude(uint32_t, uint32_t, bool, uint32_t truth, uint32_t&) { return truth; }
 };
 
-/// Replays the pieces with one choice or another. Trials may run at the same time.
+/// Replays the pieces with different choices. Trials may run at the same time.
 class Trials {
  public:
   Trials(std::span<const PositionCandidate> pieces, uint32_t max_vertices) : pieces_(pieces) {
@@ -114,12 +115,13 @@ class Trials {
     }
   }
 
-  /// Expected cost of all positions and their tables, in bits.
+  /// Returns the expected cost of all positions and their tables, in bits.
   double cost(const PositionParameters& p) {
     CostIo io;
     const double parts =
         counted_ == 0 ? 1 : static_cast<double>(all_) / static_cast<double>(counted_);
-    // Models learn once: the parts that are not in the sample cost what it costs the second time.
+    // The models learn only once, so the parts that are not in the sample are charged the cost of
+    // the second pass.
     const uint32_t passes = parts > kManyParts ? 2 : 1;
     uint64_t spent = 0;
     uint64_t last_pass = 0;
@@ -136,7 +138,7 @@ class Trials {
            (p.has(position_mode::kPlanes) ? planeBits() : 0);
   }
 
-  /// Calls use(plain, prediction, record) behind every counted vertex that is no seed.
+  /// Calls use(plain, prediction, record) after every counted vertex, except seeds.
   template <class Use>
   void observe(const PositionParameters& p, Use use) {
     SilentIo io;
@@ -144,13 +146,14 @@ class Trials {
   }
 
  private:
-  /// What a replay writes to.
+  /// The memory that a replay writes to.
   struct Scratch {
     std::unique_ptr<PositionRows> rows = std::make_unique<PositionRows>();
-    std::vector<Array<VertexRecord>> records;  ///< by piece; only those looked at are set
+    /// By piece; only the records that are looked at are set.
+    std::vector<Array<VertexRecord>> records;
   };
 
-  /// A scratch that no other trial has.
+  /// Returns a scratch that no other trial uses.
   std::unique_ptr<Scratch> takeScratch() {
     {
       const std::lock_guard lock(mutex_);
@@ -200,7 +203,7 @@ class Trials {
     CostIo io;
     PositionTables tables;
     PositionParameters copy = p;
-    (void)codePositionTables(io, tables, copy);  // what was fitted is in range
+    (void)codePositionTables(io, tables, copy);  // fitted tables are in range
     return static_cast<double>(io.cost()) / kCostOne;
   }
 
@@ -260,15 +263,16 @@ class Trials {
 
   std::span<const PositionCandidate> pieces_;
   std::vector<Sample> samples_;
-  std::mutex mutex_;  ///< over free_
+  std::mutex mutex_;  ///< guards free_
   std::vector<std::unique_ptr<Scratch>> free_;
   uint64_t all_ = 0;
   uint64_t counted_ = 0;
 };
 
-// --- least squares ----------------------------------------------------------------------------------
+// --- least squares -------------------------------------------------------------------------------
 
-/// Normal equations of up to 8 unknowns; + - * / only, in one fixed order.
+/// Normal equations of up to 8 unknowns. They use only + - * / in one fixed order, so that every
+/// machine finds the same solution.
 struct NormalEquations {
   double matrix[kMostWeights][kMostWeights] = {};
   double right[kMostWeights] = {};
@@ -282,7 +286,8 @@ struct NormalEquations {
     }
   }
 
-  /// Gaussian elimination of the symmetric matrix; unknowns that nothing depends on become 0.
+  /// Solves the symmetric system by Gaussian elimination. Unknowns that nothing depends on become
+  /// 0.
   void solve(uint32_t n, double ridge, double* solution) const {
     double a[kMostWeights][kMostWeights + 1];
     for (uint32_t i = 0; i < n; ++i) {
@@ -308,8 +313,8 @@ struct NormalEquations {
   }
 };
 
-/// One vertex of a fit: the target in lattice steps, what the average predicts taken off, and the features such that
-/// weights of 1 (128 in the format) add up to it.
+/// One vertex of a fit. The target is in lattice steps, with the prediction of the average
+/// subtracted; the features are scaled such that weights of 1 (128 in the format) add up to it.
 struct FitRow {
   uint32_t predictor_class;
   float length;
@@ -320,7 +325,8 @@ struct FitRow {
 void gatherRows(const PositionCandidate& piece, bool select, uint32_t stride,
                 std::vector<FitRow>& rows) {
   const PositionRecording& recording = *piece.recording;
-  // Steps of random length, `stride` on average: even ones would see only some columns of a grid.
+  // Steps of random length, `stride` on average, because steps of equal length would see only some
+  // columns of a grid.
   uint32_t random = 1;
   const auto step = [&] {
     random = random * 1664525 + 1013904223;
@@ -379,12 +385,12 @@ void gatherRows(const PositionCandidate& piece, bool select, uint32_t stride,
   }
 }
 
-/// About log2(x) for x >= 1, by the bits of a float: alike on every machine.
+/// Returns approximately log2(x) for x >= 1, from the bits of the float: the same on every machine.
 double roughLog2(float x) {
   return static_cast<double>(std::bit_cast<uint32_t>(x)) * (1.0 / (1 << 23)) - 127;
 }
 
-/// About the bits that the residuals of a class take with these weights.
+/// Estimates how many bits the residuals of a class take with these weights.
 double residualBits(const std::vector<FitRow>& rows, const int16_t* w, uint32_t n) {
   double bits = 0;
   for (const FitRow& row : rows) {
@@ -398,7 +404,8 @@ double residualBits(const std::vector<FitRow>& rows, const int16_t* w, uint32_t 
   return bits;
 }
 
-/// Re-weighted least squares of one class around the weights `w`. False with too few vertices.
+/// Fits one class by re-weighted least squares, starting from the weights `w`. Returns false if
+/// there are too few vertices.
 bool fitClass(const std::vector<FitRow>& rows, uint32_t n, bool robust, int16_t* w) {
   constexpr uint32_t kRounds = 4;
   constexpr double kOne = 128;
@@ -440,7 +447,8 @@ bool fitClass(const std::vector<FitRow>& rows, uint32_t n, bool robust, int16_t*
   return true;
 }
 
-/// The best of no weights, of the trained ones and of fitted ones. A row stands for `stride` vertices.
+/// Keeps the best of no weights, the trained weights and fitted weights. Each row stands for
+/// `stride` vertices.
 void chooseWeights(const std::vector<FitRow>& rows, uint32_t predictor_class, double stride,
                    bool robust, int16_t* w) {
   constexpr double kBitsOfWeight = 9;
@@ -459,14 +467,14 @@ void chooseWeights(const std::vector<FitRow>& rows, uint32_t predictor_class, do
   if (residualBits(rows, kNone, n) * stride <= best) std::copy_n(kNone, kMostWeights, w);
 }
 
-/// What the scale of a component followed from, and how large its residual was.
+/// The terms that the scale of a component is computed from, and the size of its residual.
 struct ScaleRow {
   float neighbours;
   float spread;
   float size;
 };
 
-/// Non-negative weighted least squares of |residual|.
+/// Fits |residual| by weighted least squares with non-negative coefficients.
 void fitCoefficients(const std::vector<ScaleRow>& rows, uint16_t* coefficients) {
   if (rows.size() < 200) return;
   double c[3];
@@ -479,7 +487,7 @@ void fitCoefficients(const std::vector<ScaleRow>& rows, uint16_t* coefficients) 
       const double target = std::min(16 * double{row.size}, 6 * estimate + 16);
       equations.add(x, target, 1 / ((estimate + 8) * (estimate + 8)), 3);
     }
-    // Non-negative: what would be negative is left out.
+    // A term whose coefficient would be negative is left out.
     bool used[3] = {true, true, true};
     for (uint32_t attempt = 0; attempt < 3; ++attempt) {
       NormalEquations reduced = equations;
@@ -505,7 +513,7 @@ void fitCoefficients(const std::vector<ScaleRow>& rows, uint16_t* coefficients) 
   }
 }
 
-/// Scale coefficients of plain and other fans, per component.
+/// Fits the scale coefficients of plain and of other fans, per component.
 void fitScale(Trials& trials, const Jobs& jobs, PositionParameters& p) {
   std::vector<ScaleRow> rows[2][3];
   trials.observe(p, [&](uint32_t plain, const Prediction& prediction, const VertexRecord& r) {
@@ -520,7 +528,7 @@ void fitScale(Trials& trials, const Jobs& jobs, PositionParameters& p) {
   p.modes |= position_mode::kOwnScale;
 }
 
-// --- choice -----------------------------------------------------------------------------------------
+// --- choice --------------------------------------------------------------------------------------
 
 class Chooser {
  public:
@@ -550,7 +558,8 @@ class Chooser {
     double cost;
   };
 
-  /// Plain averages and weights, fitted without and with tip selection; the trained ones where trials cost little.
+  /// Tries plain averages and weights, fitted without and with tip selection; in addition the
+  /// trained weights where trials are cheap.
   void tryPredictors() {
     using namespace position_mode;
     struct Predictor {
@@ -578,7 +587,8 @@ class Chooser {
     sortRace(race_.size());
   }
 
-  /// Palette, planes and shear exclude each other. Which predictor is best differs from one to the next.
+  /// Tries palette, planes and shear, which exclude each other. Each is tried with every predictor,
+  /// since the best predictor differs between them.
   void tryKinds() {
     std::vector<uint8_t> kinds;
     const auto offer = [&](bool may, uint8_t kind, Feature feature) {
@@ -594,7 +604,7 @@ class Chooser {
         with[i] = {withMode(plain[i].parameters, kind), 0};
         with[i].cost = costOf(with[i].parameters);
       };
-      // Whether shear pays is a matter of the surface, not of the predictor.
+      // Whether shear pays depends on the surface, not on the predictor.
       tryWith(0);
       if (kind == position_mode::kShear && with[0].cost >= plain[0].cost) continue;
       jobs_.run(with.size() - 1, [&](size_t i) { tryWith(i + 1); });
@@ -603,7 +613,7 @@ class Chooser {
     sortRace(kRace);
   }
 
-  /// A mode that goes with the others.
+  /// Tries a mode that can be combined with the others.
   void tryMode(uint8_t mode, Feature feature) {
     if (without_.has(feature)) return;
     std::vector<Candidate> with = race_;
@@ -634,7 +644,7 @@ class Chooser {
     return p;
   }
 
-  /// The best come first, and no more than `limit` stay.
+  /// Sorts by cost, and keeps at most `limit` candidates.
   void sortRace(size_t limit) {
     std::stable_sort(race_.begin(), race_.end(),
                      [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
@@ -642,7 +652,7 @@ class Chooser {
     while (race_.back().cost > kOutOfRace * race_[0].cost) race_.pop_back();
   }
 
-  /// Values of all palettes, per vertex.
+  /// Returns the number of values in all palettes, per vertex.
   static double paletteValues(std::span<const PositionCandidate> pieces) {
     uint64_t values = 0;
     for (const PositionCandidate& piece : pieces) {
@@ -652,13 +662,14 @@ class Chooser {
            static_cast<double>(std::max<uint64_t>(visitCount(pieces), 1));
   }
 
-  /// Pieces share the choice: all must have them.
+  /// Pieces share the choice, so all of them must have planes.
   bool anyPlanes() const {
     return std::all_of(pieces_.begin(), pieces_.end(),
                        [](const PositionCandidate& piece) { return piece.planes != nullptr; });
   }
 
-  /// Bits of connectivity and positions, more for what takes time.
+  /// Returns the bits of connectivity and positions, plus a surcharge for what takes time to
+  /// decode.
   double costOf(const PositionParameters& p) {
     const double bits = surface_bits_ + trials_.cost(p);
     return bits + price_.surcharge(bits, timeOf(p, palette_values_));
@@ -706,7 +717,8 @@ PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, bool sele
 
 namespace {
 
-/// Sorts and drops repetitions; by marks where the values lie as close as those of lattices do.
+/// Sorts and removes duplicates; uses a bitmap where the values lie as close together as those of a
+/// lattice.
 void sortDistinct(std::vector<int32_t>& values) {
   if (values.empty()) return;
   const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
@@ -734,10 +746,11 @@ void DistinctCoordinates::find(std::span<const int32_t> truth, bool is_exact) {
     values.clear();
     for (size_t i = 0; i < vertices; ++i) values.push_back(truth[3 * i + s]);
     sortDistinct(values);
-    // Searching a large palette misses the cache at every step: it must pay.
+    // Searching a large palette misses the cache at every step, so it must save more.
     const size_t limit = is_exact && vertices < kLargePalette ? 3 * vertices / 4 : vertices / 2;
     if (values.size() > std::min<size_t>(limit, kMaxPalette)) values.clear();
-    // A palette cannot begin with the least of all numbers (a NaN that keeps its bits), which is no signedGolomb(). [A.3.5]
+    // A palette cannot begin with INT32_MIN (a NaN that keeps its bits), because signedGolomb()
+    // cannot code it. [A.3.5]
     if (!values.empty() && values[0] == std::numeric_limits<int32_t>::min()) values.clear();
     if (values.empty()) continue;
     const PaletteCells index(values.data(), static_cast<uint32_t>(values.size()));

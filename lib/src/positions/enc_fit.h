@@ -21,41 +21,43 @@ struct PositionCandidate {
   const PositionRecording* recording = nullptr;
   const int32_t* truth = nullptr;      ///< 3 per record
   uint8_t bits = 0;                    ///< PositionParameters::bits
-  AxisPalette palettes[3];             ///< of axes with few distinct values
-  const AxisPlanes* planes = nullptr;  ///< of the three axes, or null
+  AxisPalette palettes[3];             ///< for axes with few distinct values
+  const AxisPlanes* planes = nullptr;  ///< for the three axes, or null
 };
 
-/// Sorted distinct coordinates of each axis, empty where there are too many for a palette to be of use.
+/// The sorted distinct coordinates of each axis; empty where there are too many for a palette to be
+/// useful.
 struct DistinctCoordinates {
   std::vector<int32_t> axis[3];
   std::vector<uint32_t> cells[3];
   uint32_t shift[3] = {};
 
-  /// `is_exact`: the coordinates are floats that keep every bit, for which even a large palette may pay.
+  /// Finds the distinct coordinates. `is_exact` says that the coordinates are floats that keep
+  /// every bit, for which even a large palette may pay.
   void find(std::span<const int32_t> truth, bool is_exact);
   AxisPalette palette(uint32_t s) const {
     return {axis[s].data(), static_cast<uint32_t>(axis[s].size()), cells[s].data(), shift[s]};
   }
 };
 
-/// What the choice depends on besides the pieces.
+/// What the choice depends on in addition to the pieces.
 struct PositionSettings {
   uint8_t effort = 1;  ///< see EncodeOptions
   Preference prefer = Preference::kBalanced;
   FeatureSet without;
 };
 
-/// Tries the predictors and modes on the pieces, or on an even sample of their vertices if they have many, and returns
-/// the cheapest combination with its tables. What takes time in the decoder has to be worth it, see enc_prices.h:
-/// `surface_bits` is what the connectivity takes. Deterministic on every
-/// machine.
+/// Tries the predictors and modes on the pieces, or on an even sample of their vertices if they
+/// have many, and returns the cheapest combination with its tables. A choice that costs time in the
+/// decoder must be worth it, see enc_prices.h; `surface_bits` is the size of the connectivity.
+/// Deterministic on every machine.
 PositionParameters choosePositionParameters(std::span<const PositionCandidate> pieces,
                                             double surface_bits, const PositionSettings& settings,
                                             const Jobs& jobs);
 
-/// For each class of predictors none, the trained weights or those of least squares on these pieces, by what their
-/// residuals take. `robust` weighs residuals by the inverse of their square, else by the inverse of their size. Also used
-/// by tools/train.
+/// Chooses the weights of each class of predictors: none, the trained ones, or a least-squares fit
+/// to these pieces, whichever gives the smallest residuals. `robust` weighs residuals by the
+/// inverse of their square instead of by the inverse of their size. tools/train uses this too.
 PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, bool select, bool robust,
                             uint32_t max_vertices, const FeatureSet& without);
 

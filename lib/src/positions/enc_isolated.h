@@ -13,7 +13,8 @@
 
 namespace mcc {
 
-/// The order in which IsolatedCoder codes positions, 3 coordinates each; equal ones stay as they are. O(n log n).
+/// Returns the order in which IsolatedCoder codes positions (3 coordinates each). Equal positions
+/// keep their order. O(n log n).
 inline std::vector<uint32_t> isolatedOrder(std::span<const int32_t> positions) {
   constexpr int32_t kMost = std::numeric_limits<int32_t>::max();
   int32_t low[3] = {kMost, kMost, kMost};

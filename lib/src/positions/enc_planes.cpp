@@ -13,7 +13,7 @@ constexpr int32_t kLatticeEnd = 1 << 17;
 constexpr size_t kFewestPeaks = 8;
 constexpr double kSmallestStep = static_cast<double>(AxisPlanes::kMinStep) / AxisPlanes::kOne;
 
-/// Planes while they are searched for: x = origin + k * step, in lattice steps.
+/// A candidate for the planes of an axis: x = origin + k * step, in lattice steps.
 struct Line {
   double origin;
   double step;
@@ -22,7 +22,7 @@ struct Line {
   double error(int32_t x) const { return x - (origin + number(x) * step); }
 };
 
-/// Coordinates that far more vertices have than an even distribution would give them.
+/// Returns the coordinates that far more vertices have than an even distribution would give them.
 std::vector<int32_t> findPeaks(std::span<const int32_t> truth, uint32_t axis) {
   std::vector<uint32_t> counts(kLatticeEnd, 0);
   for (size_t i = axis; i < truth.size(); i += 3) ++counts[static_cast<size_t>(truth[i])];
@@ -36,7 +36,8 @@ std::vector<int32_t> findPeaks(std::span<const int32_t> truth, uint32_t axis) {
   return peaks;
 }
 
-/// Least squares over ever more of the peaks: the farther, the better the step must be known.
+/// Fits a line by least squares to the peaks, from the nearest to the farthest: a peak farther away
+/// can only be numbered once the step is known more exactly.
 std::optional<Line> fitLine(const std::vector<int32_t>& peaks) {
   std::vector<int32_t> gaps;
   for (size_t i = 1; i < peaks.size(); ++i) gaps.push_back(peaks[i] - peaks[i - 1]);
@@ -68,10 +69,10 @@ std::optional<Line> fitLine(const std::vector<int32_t>& peaks) {
   return line.step < kSmallestStep ? std::nullopt : std::optional(line);
 }
 
-/// Moves the line, by as little as it takes, until every peak near it is what it rounds to.
+/// Moves the line as little as possible, until it rounds to every peak near it.
 void roundToPeaks(const std::vector<int32_t>& peaks, Line& line) {
   constexpr uint32_t kRounds = 400;
-  constexpr double kLever = 0.01;  // origin and step change by about the same part of their range
+  constexpr double kLever = 0.01;  // changes origin and step by about the same part of their range
   for (uint32_t round = 0; round < kRounds; ++round) {
     bool moved = false;
     for (const int32_t x : peaks) {
@@ -97,7 +98,8 @@ bool toPlanes(const Line& line, AxisPlanes& planes) {
   return planes.step >= AxisPlanes::kMinStep;
 }
 
-/// At least one coordinate in eight; on marching cubes it is two in three.
+/// Returns whether at least one coordinate in eight lies on a plane. On the output of marching
+/// cubes it is two in three.
 bool holdsMany(std::span<const int32_t> truth, uint32_t axis, const AxisPlanes& planes) {
   size_t hits = 0;
   for (size_t i = axis; i < truth.size(); i += 3) {

@@ -11,8 +11,8 @@
 
 namespace mcc {
 
-/// Planes of the three axes on which a good part of the coordinates (3 per vertex) lie; false if some axis has none.
-/// O(vertices + lattice). Deterministic on every machine.
+/// Finds the planes of the three axes on which a good part of the coordinates (3 per vertex) lie;
+/// returns false if some axis has none. O(vertices + lattice). Deterministic on every machine.
 bool findPlanes(std::span<const int32_t> truth, AxisPlanes* planes);
 
 }  // namespace mcc

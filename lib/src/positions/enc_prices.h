@@ -1,11 +1,11 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What choices of the encoder cost the decoder. A choice that takes t ns per vertex longer must make the payload smaller
-// by t / 4 percent, or as many as the caller prefers, see Preference; a choice between some bytes and some time is thereby the same
-// everywhere.
+// What choices of the encoder cost the decoder. A choice that takes t ns per vertex longer must
+// make the payload smaller by t / 4 percent, or by what the caller's Preference says. This way
+// every choice trades bytes for time at the same rate.
 //
-// The times are those of a release build with gcc 12 on a Zen 4, rounded: they rank the choices, on any machine. Those of
-// predictors are in format/predictors.h.
+// The times are those of a release build with gcc 12 on a Zen 4, rounded. They only have to rank
+// the choices, which they do on any machine. The times of predictors are in format/predictors.h.
 #ifndef MCC_POSITIONS_ENC_PRICES_H_
 #define MCC_POSITIONS_ENC_PRICES_H_
 
@@ -16,21 +16,25 @@
 namespace mcc {
 
 namespace price_ns {
-inline constexpr double kPaletteValue = 40;  ///< for each distinct value per vertex
-/// Per copy that is stitched, and per face that is listed by pivots more than by the collapse.
+/// For each distinct value, divided by the number of vertices.
+inline constexpr double kPaletteValue = 40;
+/// kCopy is charged for each copy that is stitched, kPivotFace for each face that is listed by
+/// pivots instead of collapsed.
 inline constexpr double kCopy = 250;
 inline constexpr double kPivotFace = 40;
-inline constexpr double kSingleCoder = 60;  ///< more than three streams; a division per token
+/// Compared with three streams; a single coder needs a division per token.
+inline constexpr double kSingleCoder = 60;
 }  // namespace price_ns
 
-/// Nanoseconds per vertex, more than the plain average of the tips takes. `palette_values`: distinct coordinates per
-/// vertex, of all axes that have a palette.
+/// Returns how many nanoseconds per vertex the choice takes in addition to the plain average of the
+/// tips. `palette_values` is the number of distinct coordinates per vertex, over all axes that have
+/// a palette.
 inline double timeOf(const PositionParameters& p, double palette_values) {
   const double ns = timeOf(AttributeMethod::kPosition, p.modes);
   return p.has(position_mode::kPalette) ? ns + price_ns::kPaletteValue * palette_values : ns;
 }
 
-/// What time is worth.
+/// The exchange rate between decoding time and bytes.
 class TimePrice {
  public:
   explicit TimePrice(Preference prefer)
@@ -38,11 +42,12 @@ class TimePrice {
                     : prefer == Preference::kSize ? 1500
                                                   : 400) {}
 
-  /// What is added to a payload of so many bits for choices that take so long.
+  /// Returns the bits to add to the cost of a payload of `bits` for choices that take `ns` per
+  /// vertex.
   double surcharge(double bits, double ns) const { return bits * ns / payload_ns_; }
 
  private:
-  const double payload_ns_;  ///< as many nanoseconds per vertex are worth the whole payload
+  const double payload_ns_;  ///< this many nanoseconds per vertex are worth the whole payload
 };
 
 }  // namespace mcc

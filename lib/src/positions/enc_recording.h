@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What a walk over a piece saw around each vertex. The walk does not depend on positions or choices, so the writer does
-// it once and tries the choices on the record.
+// Records what a walk over a piece saw around each vertex. The walk does not depend on positions or
+// choices, so the writer walks once and tries the choices on the record.
 #ifndef MCC_POSITIONS_ENC_RECORDING_H_
 #define MCC_POSITIONS_ENC_RECORDING_H_
 
@@ -20,12 +20,13 @@ class PositionRecording {
   enum class Kind : uint8_t { kPlain, kAny, kSeed };
   struct Visit {
     uint32_t vertex;
-    uint32_t at : 30;  ///< in plain_ or any_; of a seed the neighbour or kNoNeighbour
+    uint32_t at : 30;  ///< index into plain_ or any_; for a seed, the neighbour or kNoNeighbour
     uint32_t kind : 2;
   };
   static constexpr uint32_t kNoNeighbour = (1u << 30) - 1;
 
-  /// Walks the mesh; fills `truth` positions (3 per record) into `records`, which are borrowed.
+  /// Walks the mesh and writes the `truth` positions (3 per record) into `records`, which are
+  /// borrowed.
   Status record(FaceMesh& mesh, const Groups& groups, VertexRecord* records, const int32_t* truth) {
     records_ = records;
     visits_.clear();
@@ -43,10 +44,10 @@ class PositionRecording {
   }
 
   const std::vector<Visit>& visits() const { return visits_; }
-  /// As the walk left them; trials write to copies.
+  /// The records as the walk left them; trials write to copies.
   const VertexRecord* records() const { return records_; }
 
-  /// What was around the vertex of a visit, in `records`, which are records() or a copy.
+  /// Restores what was around the vertex of a visit; `records` are records() or a copy of them.
   void plain(const VertexRecord* records, const Visit& visit, PlainFan& fan, Beyond& beyond) const {
     const RecordedPlain& r = plain_[visit.at];
     fan = {records + r.n[0],
@@ -78,7 +79,8 @@ class PositionRecording {
     return visit.at != kNoNeighbour ? records + visit.at : nullptr;
   }
 
-  /// Calls `use` with every vertex that the visit looks at, its own too; with some more than once.
+  /// Calls `use` with every vertex that the visit looks at, including its own; some vertices may
+  /// occur more than once.
   template <class Use>
   void forAll(const Visit& visit, Use use) const {
     use(visit.vertex);

@@ -1,21 +1,23 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Order of the vertices: a region of known ones grows over the surface.                      [A.6.1]
+// Order of the vertices: a region of known ones grows over the surface. [A.6.1]
 //
-// A vertex comes when most of its faces have both other corners known: three FIFO queues of half-edges, by that
-// number. What is known around it is its fan: the contiguous known neighbours n0, n1, .. on both sides of the face it
-// was queued by. Nine in ten vertices have the plain fan:
+// The next vertex is one with the most faces whose other two corners are known; three FIFO queues
+// of half-edges, one for each such number, find it. The fan of a vertex is what is known around it:
+// the contiguous known neighbours n0, n1, .. on both sides of the face it was queued by. Nine in
+// ten vertices have the plain fan:
 //
 //          o0 --- n1 --- o1
-//           \    /  \    /      n0 n1 n2 known, the vertices behind both ends not,
-//            n0       n2        o0 and o1 known
+//           \    /  \    /      n0, n1, n2, o0 and o1 are known,
+//            n0       n2        the vertices beyond both ends are not
 //              \    /
 //                v
 //
-// The order does not depend on any position, so the writer walks once and tries predictors on what it recorded.
-// A Visitor sees plain fans, other fans and seeds (vertices without a known face), and makes their vertices known. Its
-// Plain part lives in the inner loop, in registers as far as they last; it is closed before and reopened after anything
-// else, a plain fan that it declines too.
+// The order does not depend on any position, so the writer walks once and tries predictors on a
+// recording of the walk. A Visitor is given plain fans, other fans and seeds (vertices without a
+// known face), and must make their vertices known. Its Plain part lives in the inner loop, as far
+// as possible in registers. It is closed before and reopened after every other call, including the
+// call for a plain fan that it declines.
 #ifndef MCC_POSITIONS_GROWTH_H_
 #define MCC_POSITIONS_GROWTH_H_
 
@@ -32,7 +34,8 @@
 
 namespace mcc {
 
-/// Half-edges, first in, first out: a buffer whose entries move to its begin when its end is reached.
+/// A FIFO queue of half-edges. When the end of the buffer is reached, the entries move to its
+/// beginning.
 class HalfEdgeQueue {
  public:
   explicit HalfEdgeQueue(const Allocator& allocator) : buffer_(allocator) {}
@@ -40,14 +43,16 @@ class HalfEdgeQueue {
   [[nodiscard]] bool init() { return buffer_.resize(1024) && makeRoom(); }
   MCC_INLINE bool empty() const { return head_ == tail_; }
   MCC_INLINE uint32_t pop() { return *head_++; }
-  /// False without memory; the queue is meaningless then, but may be used.
+  /// Returns false if there is no memory. The contents of the queue are then meaningless, but it is
+  /// still safe to use.
   [[nodiscard]] MCC_INLINE bool push(uint32_t half_edge) {
-    *tail_++ = half_edge;  // there is room for one always
+    *tail_++ = half_edge;  // there is always room for one entry
     return tail_ != end_ || makeRoom();
   }
 
  private:
-  /// So that the entries, which move to the begin, take half of the buffer at most.
+  /// Moves the entries to the beginning and keeps them to at most half of the buffer, so that each
+  /// entry is moved a constant number of times on average.
   MCC_OUT_OF_LINE bool makeRoom() {
     const size_t count = static_cast<size_t>(tail_ - head_);
     if (count != 0) std::memmove(buffer_.data(), head_, count * sizeof(uint32_t));
@@ -64,7 +69,7 @@ class HalfEdgeQueue {
   Array<uint32_t> buffer_;
 };
 
-/// The plain fan: two faces, three neighbours, both tips known.
+/// A plain fan: two faces, three neighbours, both tips known.
 struct PlainFan {
   const VertexRecord* n0;
   const VertexRecord* n1;
@@ -75,14 +80,15 @@ struct PlainFan {
   uint32_t beyond1;  ///< half-edge n2 -> n1 of the face (n2, n1, o1)
 };
 
-/// Any other fan, at most kFanLimit faces on each side of the entry face.
+/// Any other fan, with at most kFanLimit faces on each side of the entry face.
 struct AnyFan {
   static constexpr uint32_t kFanLimit = 8;
 
-  const VertexRecord* n[2 * kFanLimit + 2];  ///< neighbours, clockwise-most first
-  const VertexRecord* o[2 * kFanLimit + 1];  ///< across from v over n[i], n[i+1]; null when unknown
+  const VertexRecord* n[2 * kFanLimit + 2];  ///< neighbours, starting from the clockwise-most
+  /// Across from v over the edge n[i], n[i+1]; null if unknown.
+  const VertexRecord* o[2 * kFanLimit + 1];
   uint32_t face_count;
-  uint32_t neighbour_count;  ///< face_count, or one more when not closed
+  uint32_t neighbour_count;  ///< face_count, or one more if the fan is not closed
   bool closed;
 };
 
@@ -97,8 +103,8 @@ class RegionGrowth {
         with_degrees_(with_degrees),
         queue_{HalfEdgeQueue(allocator), HalfEdgeQueue(allocator), HalfEdgeQueue(allocator)} {}
 
-  /// Visits every group once. `order`, if not null, has room for all groups and receives the half-edge each was
-  /// entered by, in coding order.
+  /// Visits every group once. `order`, if not null, has room for all groups and receives the
+  /// half-edge that each was entered by, in coding order.
   template <class Visitor>
   Status run(Visitor& visitor, uint32_t* order);
 
@@ -118,8 +124,8 @@ class RegionGrowth {
     if (order_ != nullptr) *order_++ = half_edge;
   }
 
-  /// Queues a vertex that is not known. The faces beside the edges it comes behind are new mostly, and by the second or
-  /// third time it is queued, which is when it comes, they have been fetched.
+  /// Queues an unknown vertex, and prefetches the faces across its edges. A vertex is usually
+  /// visited the second or third time it is queued; by then the faces have arrived.
   MCC_INLINE void push(uint32_t half_edge) {
     int32_t& state = records_[faces_.vertex(half_edge)].q[3];
     const int32_t score = state + (state < kHighestScore ? 1 : 0);
@@ -161,7 +167,7 @@ inline void RegionGrowth::countDegrees() {
   for (uint32_t f = 0; f < face_count_; ++f) {
     const uint32_t h = f * kFaceWords;
     for (uint32_t k = 0; k < 3; ++k) ++records_[faces_.vertex(h + k)].magnitude[3];
-    // Only kNone has the highest bit.
+    // Only kNone has the highest bit set.
     if (((faces_.twin(h) | faces_.twin(h + 1) | faces_.twin(h + 2)) >> 31) == 0) [[likely]]
       continue;
     any_boundary = true;
@@ -193,7 +199,8 @@ Status RegionGrowth::run(Visitor& visitor, uint32_t* order) {
   return {};
 }
 
-/// Visits vertices of the next face that is not known yet until two of its corners are; that queues the third.
+/// Finds the next face with an unknown corner and visits its vertices until two corners are known;
+/// that queues the third.
 template <class Visitor>
 Status RegionGrowth::plantSeed(Visitor& visitor, uint32_t& cursor) {
   for (; cursor < face_count_; ++cursor) {
@@ -201,7 +208,7 @@ Status RegionGrowth::plantSeed(Visitor& visitor, uint32_t& cursor) {
     uint32_t known_corners = 0;
     for (uint32_t k = 0; k < 3; ++k) known_corners += known(faces_.vertex(base + k)) ? 1 : 0;
     if (known_corners == 3) continue;
-    if (known_corners == 2) {  // between two fans: nobody queued it
+    if (known_corners == 2) {  // lies between two fans, so neither queued it
       for (uint32_t k = 0; k < 3; ++k) {
         if (!known(faces_.vertex(base + k))) push(base + k);
       }
@@ -248,7 +255,7 @@ Status RegionGrowth::grow(Visitor& visitor) {
       if (cw_tip != h) [[likely]]
         push(cw_tip);
       if (!plain.visit(v, fan)) [[unlikely]] {
-        const PlainFan copy = fan;  // a pointer to it would keep `fan` in memory
+        const PlainFan copy = fan;  // taking the address of `fan` itself would force it into memory
         plain.close(visitor);
         visitor.plain(v, copy);
         plain.reopen(visitor);
@@ -271,14 +278,16 @@ Status RegionGrowth::grow(Visitor& visitor) {
   }
 }
 
-/// `a` where `mask` has ones, else `b`. Which side of a fan is known is close to random: no branches on it.
+/// Returns `a` where `mask` has ones, else `b`. It has no branch, because which side of a fan is
+/// known is close to random.
 MCC_INLINE uint32_t select(uint32_t mask, uint32_t a, uint32_t b) { return b ^ ((a ^ b) & mask); }
 
-/// Recognises the plain fan around `half_edge`. `ccw_tip` and `cw_tip` are the half-edges of the vertices behind its
-/// ends, `half_edge` itself on a boundary. Queues nothing.
+/// Recognises the plain fan around `half_edge`. `ccw_tip` and `cw_tip` receive the half-edges of
+/// the vertices beyond its ends, or `half_edge` itself at a boundary. Queues nothing.
 MCC_INLINE bool RegionGrowth::plainFan(uint32_t half_edge, PlainFan& fan, uint32_t& ccw_tip,
                                        uint32_t& cw_tip) const {
-  // The half-edge of the vertex across from `h`. Behind a boundary stands the vertex itself, which is not known.
+  // Returns the half-edge of the vertex across from `h`. Across a boundary, the vertex itself
+  // stands in: it is not known, as required.
   const auto across = [&](uint32_t twin) MCC_INLINE_LAMBDA {
     return twin != kNone ? prevHalfEdge(twin) : half_edge;
   };
@@ -288,7 +297,7 @@ MCC_INLINE bool RegionGrowth::plainFan(uint32_t half_edge, PlainFan& fan, uint32
   const uint32_t cw_third = across(cw_twin);
   const bool ccw_known = recordAt(ccw_third).known();
   if (ccw_known == recordAt(cw_third).known()) return false;
-  // The fan's second face is on the known side; what lies behind it is the only end not seen yet.
+  // The fan's second face is on the known side; the vertex beyond it is the only end not seen yet.
   const uint32_t mask = 0u - (ccw_known ? 1u : 0u);
   const uint32_t cw_next = nextHalfEdge(cw_twin);
   const uint32_t h0 = select(mask, half_edge, cw_next);
@@ -308,7 +317,8 @@ MCC_INLINE bool RegionGrowth::plainFan(uint32_t half_edge, PlainFan& fan, uint32
   return (uint32_t{fan.o0->known()} & uint32_t{fan.o1->known()} & uint32_t{!closed}) != 0;
 }
 
-/// The fan of known neighbours on both sides of the entry face; queues the vertices behind its ends.
+/// Collects the known neighbours on both sides of the entry face, and queues the vertices beyond
+/// the ends of the fan.
 inline void RegionGrowth::walkFan(uint32_t half_edge, AnyFan& fan) {
   constexpr uint32_t kLimit = AnyFan::kFanLimit;
   uint32_t h[2 * kLimit + 1];
@@ -353,7 +363,7 @@ inline void RegionGrowth::walkFan(uint32_t half_edge, AnyFan& fan) {
   fan.n[fan.face_count] = &recordAt(prevHalfEdge(h[end - 1]));
 }
 
-/// Queues the face of `h`, whose vertex is known, if it has one unknown corner.
+/// Queues the unknown corner of the face of `h`, whose vertex is known, if it has exactly one.
 inline void RegionGrowth::pushFace(uint32_t h) {
   const uint32_t a = nextHalfEdge(h);
   const uint32_t b = prevHalfEdge(h);
@@ -362,7 +372,7 @@ inline void RegionGrowth::pushFace(uint32_t h) {
   if (a_known != b_known) push(a_known ? b : a);
 }
 
-/// Queues every face around `start` with one unknown corner.
+/// Does the same for every face around `start`.
 inline void RegionGrowth::pushRing(uint32_t start) {
   uint32_t h = start;
   bool ccw = true;
@@ -379,7 +389,8 @@ inline void RegionGrowth::pushRing(uint32_t start) {
   }
 }
 
-/// Faces of a group's other umbrellas: whatever is known through one piece of the surface is known to all.
+/// Queues from the faces of a group's other umbrellas: a position that is known through one piece
+/// of the surface is known to all.
 inline void RegionGrowth::pushOtherUmbrellas(uint32_t v, uint32_t entry) {
   if (!groups_.hasCopies()) return;
   const std::span<const uint32_t> umbrellas = groups_.umbrellasOf(v);

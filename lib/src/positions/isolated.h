@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Positions of the wedges that no triangle uses, as a sorted set: a box is halved until every half holds one of them, or
-// equal ones. What is not said, their order, is worth as many bits as it has.                 [A.6.4]
+// Positions of the wedges that no triangle uses, coded as a sorted set: a box is halved until every
+// half holds one position or equal ones. Since the order of the positions is not coded, the set is
+// cheaper than a list by the bits that the order would take. [A.6.4]
 #ifndef MCC_POSITIONS_ISOLATED_H_
 #define MCC_POSITIONS_ISOLATED_H_
 
@@ -23,8 +24,8 @@ struct IsolatedModels {
   BitModel on_one_side[kHalvedCounts];
 };
 
-/// Whether position `a` comes before `b`: the bit that halves the largest box that holds both decides.
-/// `low`: a corner that is below both.
+/// Returns whether position `a` comes before `b`. The bit that halves the largest box holding both
+/// decides. `low` is a corner below both.
 inline bool comesBefore(const int32_t* a, const int32_t* b, const int32_t* low) {
   uint32_t most = 0;
   bool before = false;
@@ -44,17 +45,17 @@ class IsolatedCoder {
  public:
   IsolatedCoder(Io& io, IsolatedModels& models) : io_(io), models_(models) {}
 
-  /// `truth`: 3 coordinates each, in the order of comesBefore().
+  /// Codes the positions. `truth` has 3 coordinates each, in the order of comesBefore() (encoder).
   Status run(uint32_t count, VertexRecord* records, const int32_t* truth);
 
  private:
   struct Box {
     uint32_t low[3];
-    uint32_t bits[3];  ///< of its sides' lengths
+    uint32_t bits[3];  ///< of the lengths of its sides
     uint32_t count;
   };
 
-  /// All halves of a box that wait, at most one per bit.
+  /// The most halves that can wait at the same time: one per bit.
   static constexpr uint32_t kDepth = 3 * 32 + 1;
 
   void codeBounds(Box& box, const int32_t* truth);
@@ -64,7 +65,7 @@ class IsolatedCoder {
   IsolatedModels& models_;
 };
 
-/// The least coordinates, and the bits of what the others are above them.
+/// Codes the lowest coordinates, and how many bits the others take above them.
 template <class Io>
 void IsolatedCoder<Io>::codeBounds(Box& box, const int32_t* truth) {
   for (uint32_t s = 0; s < 3; ++s) {
@@ -83,7 +84,8 @@ void IsolatedCoder<Io>::codeBounds(Box& box, const int32_t* truth) {
   }
 }
 
-/// How many positions of the box, whose side along `axis` has been halved, are in the lower half.
+/// Codes how many positions of the box, whose side along `axis` has been halved, lie in the lower
+/// half.
 template <class Io>
 uint32_t IsolatedCoder<Io>::codeLowerHalf(const Box& box, uint32_t axis, const int32_t* truth) {
   uint32_t lower = 0;

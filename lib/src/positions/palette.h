@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Palettes: the distinct coordinates of an axis. Where few values repeat (CAD, voxels, low-poly models) predictions and
-// scales are mapped to ranks among them, and residuals are differences of ranks.             [B.2.8]
+// Palettes: the distinct coordinates of an axis. Where few values repeat (CAD, voxels, low-poly
+// models), predictions and scales are mapped to ranks among the values, and residuals are
+// differences of ranks. [B.2.8]
 #ifndef MCC_POSITIONS_PALETTE_H_
 #define MCC_POSITIONS_PALETTE_H_
 
@@ -15,22 +16,25 @@
 
 namespace mcc {
 
-inline constexpr uint32_t kMaxPalette = 1u << 23;  ///< so that Q8 ranks have 31 bits
+inline constexpr uint32_t kMaxPalette = 1u << 23;  ///< bounded so that Q8 ranks fit in 31 bits
 
-/// Sorted distinct values of one axis and what finds ranks among them; none: the axis is coded without a palette.
+/// The sorted distinct values of one axis, with an index that finds ranks among them. An axis
+/// without values is coded without a palette.
 struct AxisPalette {
   const int32_t* values = nullptr;
   uint32_t count = 0;
-  /// Cell i covers distances [i << shift, (i + 1) << shift) from the first value; cells[i] is the Q8 rank where it begins.
+  /// Cell i covers the distances [i << shift, (i + 1) << shift) from the first value; cells[i] is
+  /// the Q8 rank where it begins.
   const uint32_t* cells = nullptr;
   uint32_t shift = 0;
 
-  /// Number of values that are at most x.
+  /// Returns the number of values that are at most x.
   uint32_t countUpTo(int32_t x) const {
     return static_cast<uint32_t>(std::upper_bound(values, values + count, x) - values);
   }
 
-  /// Rank of a Q8 coordinate, in Q8 as well: linear within cells, constant beyond the first and the last value.
+  /// Returns the rank of a Q8 coordinate, also in Q8. It is linear within cells, and constant below
+  /// the first and above the last value.
   MCC_INLINE int64_t rankOf(int64_t q8) const {
     const int64_t first = int64_t{values[0]} * 256;
     const int64_t last = int64_t{values[count - 1]} * 256;
@@ -41,13 +45,15 @@ struct AxisPalette {
     return int64_t{cells[cell]} + static_cast<int64_t>((inside * rest) >> (shift + 8));
   }
 
-  /// Value of a rank, which a stream may claim beyond the ends.
+  /// Returns the value of a rank. The rank is clamped, because a stream may claim one beyond the
+  /// ends.
   MCC_INLINE int32_t valueOf(int32_t rank) const {
     return values[std::clamp<int64_t>(rank, 0, int64_t{count} - 1)];
   }
 };
 
-/// The cells of a palette: four to eight for each value, so that few have more than one.
+/// The cells of a palette: four to eight for each value, so that few cells contain more than one
+/// value.
 struct PaletteCells {
   const int32_t* values;
   uint32_t count;  ///< at least 1
@@ -64,7 +70,7 @@ struct PaletteCells {
     return static_cast<uint64_t>(int64_t{values[i]} - values[0]);
   }
 
-  /// The rank where a cell begins is linear between the values around it.
+  /// Fills in the rank where each cell begins, interpolated linearly between the values around it.
   void fill(uint32_t* cells) const {
     uint32_t low = 0;
     for (uint32_t cell = 0; cell < cell_count; ++cell) {
@@ -82,12 +88,12 @@ struct PaletteModels {
   BitModel present[3];
   GolombModel count;
   GolombModel first;
-  BitModel regular[2];  ///< whether a gap is nearly the one before, by whether that one was
+  BitModel regular[2];  ///< whether a gap is nearly the one before, given whether that one was
   BitModel change[2];
   GolombModel gap;
 };
 
-/// The palettes of a piece and their memory.
+/// Owns the palettes of a piece and their memory.
 class PositionPalettes {
  public:
   explicit PositionPalettes(const Allocator& allocator)
@@ -100,7 +106,8 @@ class PositionPalettes {
             shift_[s]};
   }
 
-  /// Codes the palettes; `truth` has three (encoder). No palette has more values than `limit`.
+  /// Codes the palettes; `truth` has three (encoder). A palette with more values than `limit` is an
+  /// error.
   template <class Io>
   Status code(Io& io, PaletteModels& models, const AxisPalette* truth, uint32_t limit) {
     for (uint32_t s = 0; s < 3; ++s) {

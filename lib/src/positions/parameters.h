@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What the encoder chooses for the positions of a piece, and how fitted tables travel.       [A.6.2]
+// What the encoder chooses for the positions of a piece, and how fitted tables are coded. [A.6.2]
 #ifndef MCC_POSITIONS_PARAMETERS_H_
 #define MCC_POSITIONS_PARAMETERS_H_
 
@@ -17,7 +17,7 @@ namespace mcc {
 
 struct PositionParameters {
   uint8_t modes = 0;  ///< bits of position_mode
-  uint8_t bits = 14;  ///< of the lattice; seeds start from its middle
+  uint8_t bits = 14;  ///< of the lattice; the first seed is predicted at its middle
   PredictorWeights weights = {};
   ScaleCoefficients scale[2][3] = {};  ///< [plain fan][component]
   AxisPalette palette[3];              ///< only with kPalette; borrowed
@@ -28,7 +28,7 @@ struct PositionParameters {
   }
 };
 
-/// The coefficients of the scale that follow from the modes; the payload's may replace them.
+/// Sets the scale coefficients that the modes imply; the payload's tables may change them.
 inline void setUniversalScale(PositionParameters& p) {
   const uint32_t weighted = p.has(position_mode::kWeights) ? 1 : 0;
   const uint32_t shear = p.has(position_mode::kShear) ? 1 : 0;
@@ -37,7 +37,7 @@ inline void setUniversalScale(PositionParameters& p) {
   }
 }
 
-/// Fitted tables of a payload, coded with the first piece that uses them.
+/// The fitted tables of a payload. Each is coded with the first piece that uses it.
 struct PositionTables {
   bool has_weights = false;
   bool has_selecting = false;
@@ -54,7 +54,7 @@ struct PositionTables {
 inline constexpr int32_t kMaxWeight = 1023;
 inline constexpr int32_t kMaxCoefficient = 65535;
 
-/// Weights of classes [begin, end): all 0, or differences to the universal ones.
+/// Codes the weights of the classes [begin, end): all 0, or as differences from the universal ones.
 template <class Io>
 Status codeWeights(Io& io, PositionTables& t, const PredictorWeights& truth, uint32_t begin,
                    uint32_t end) {
@@ -95,8 +95,8 @@ Status codeScale(Io& io, PositionTables& t, const PositionParameters& universal,
   return {};
 }
 
-/// Completes `p` with the payload's fitted tables; reads those that no piece before this one had. In the encoder `p`
-/// holds them.
+/// Completes `p` with the payload's fitted tables, and reads those that no earlier piece had. In
+/// the encoder, `p` already holds them.
 template <class Io>
 Status codePositionTables(Io& io, PositionTables& t, PositionParameters& p) {
   const PositionParameters truth = p;

@@ -1,10 +1,11 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// One vertex of a surface with planes, see positions/planes.h.                               [B.2.9]
+// One vertex of a surface with planes, see positions/planes.h. [B.2.9]
 //
-// Axes on planes have ranks, the others move: they have coordinates. The rows of all three are known before any of
-// them. Then what was known first moves the coordinates, those with the largest normal last, such that the vertex stays
-// near the tangent plane: the shortest such move.
+// On an axis whose coordinate lies on a plane, the number of the plane (its rank) is coded. The
+// other axes move: their coordinates are coded. The rows of all three numbers are known before the
+// first is coded. Once they are known, the coordinates move one by one, those with the largest
+// normal last, by the shortest move that keeps the vertex near the tangent plane.
 #ifndef MCC_POSITIONS_PLANE_VERTEX_H_
 #define MCC_POSITIONS_PLANE_VERTEX_H_
 
@@ -21,7 +22,7 @@
 
 namespace mcc {
 
-/// The axes of each set by growing normal, by normalOrder().
+/// For each set of axes, the axes sorted by growing normal; indexed by normalOrder().
 struct MovingOrders {
   uint8_t axis[8][8][3];
 };
@@ -76,10 +77,12 @@ class PlaneVertexCoder {
 
  private:
   static constexpr float kLargestScale = 1 << 22;
-  static constexpr float kNormalUnit = 1.0f / (uint64_t{1} << 32);  ///< squares of any are finite
-  static constexpr float kDoubt = 1.0f / 64;  ///< how little the normal is trusted
-  static constexpr float kTiny = 1e-30f;      ///< where there is none
-  static constexpr int32_t kMaxRest = 2;      ///< of diagonals the writer chooses
+  /// Keeps the squares of all normals finite.
+  static constexpr float kNormalUnit = 1.0f / (uint64_t{1} << 32);
+  /// How little the normal is trusted; this bounds how far a vertex moves.
+  static constexpr float kDoubt = 1.0f / 64;
+  static constexpr float kTiny = 1e-30f;  ///< avoids a division by 0 where there is no normal
+  static constexpr int32_t kMaxRest = 2;  ///< largest rest that the writer codes
 
   static uint32_t wrapped(int32_t x) { return static_cast<uint32_t>(x); }
   template <class Number>
@@ -88,7 +91,8 @@ class PlaneVertexCoder {
     return lanesAs<Number>((lanesAs<uint32_t>(yes) & mask) | (lanesAs<uint32_t>(no) & ~mask));
   }
 
-  /// Coordinates become those where the vertex' line begins: along a diagonal, the others move with the first.
+  /// Moves the prediction to where the vertex's line begins: on a diagonal, the other coordinates
+  /// move with the first.
   MCC_INLINE void alignToLine() {
     Lanes<float> at = floatsOf(q8_);
     storeLanes<float>(normals_, normal_);
@@ -102,7 +106,7 @@ class PlaneVertexCoder {
     expected_ = fractionOf(at);
   }
 
-  /// The moving axes, and by how much each moves for every step away from the tangent plane.
+  /// Orders the moving axes, and finds how much each moves per step away from the tangent plane.
   MCC_INLINE void orderMoving() {
     order_ = kMovingOrders.axis[frame_->moving][normalOrder(normal_)];
     float left = doubt_;
@@ -113,7 +117,7 @@ class PlaneVertexCoder {
     }
   }
 
-  /// Ranks and unmoved coordinates.
+  /// Codes the ranks and the coordinates before they are moved.
   MCC_INLINE Lanes<int32_t> codeNumbers() {
     const Lanes<uint32_t> on_planes = frame_->on_planes;
     const uint32_t last = frame_->moving_count - 1;
@@ -144,7 +148,8 @@ class PlaneVertexCoder {
     storeLanes<int32_t>(
         select<int32_t>(frame_->on_planes, lanesAs<int32_t>(base + 128) >> 8, moved), q_);
   }
-  /// The planes or lines of ranks in q_, and how far the tangent plane is from where they and the prediction meet.
+  /// Finds the planes or lines of the ranks in q_, and how far they have moved the vertex from the
+  /// tangent plane.
   MCC_INLINE Lanes<uint32_t> placeRanks() {
     const Lanes<uint32_t> base = {wrapped(grid_.axis[0].q8At(q_[0])),
                                   wrapped(grid_.axis[1].q8At(q_[1])),
@@ -158,19 +163,19 @@ class PlaneVertexCoder {
   MCC_INLINE int32_t shift(uint32_t i) const {
     return (static_cast<int32_t>(boundMove(-slope_[i] * distance_)) + 128) >> 8;
   }
-  /// Notes a coordinate that is final.
+  /// Takes a final coordinate into account.
   MCC_INLINE void learn(uint32_t s) {
     const uint32_t off = (wrapped(q_[s]) << 8) - expected_[s];
     distance_ += normal_[s] * static_cast<float>(static_cast<int32_t>(off));
   }
 
-  /// By how much a line that begins at plane 0 of its first axis has moved there, in Q8.
+  /// Returns how far a line that begins at plane 0 of its first axis has moved by there, in Q8.
   MCC_INLINE static int32_t movedTo(const GridPlanes& grid, const GridPlanes::Frame& frame,
                                     uint32_t s, int32_t q) {
     const float along = static_cast<float>(q) * 256 - grid.origin[frame.first];
     return static_cast<int32_t>(boundMove(frame.slope[s] * along));
   }
-  /// Where diagonals meet the lattice.
+  /// Codes where diagonals meet the lattice.
   MCC_INLINE void codeRests() {
     switch (frame_->rests) {
       case 0: break;
@@ -205,7 +210,7 @@ class PlaneVertexCoder {
 
   // --- encoder ---
 
-  /// The line next to the truth.
+  /// Returns the line nearest to the truth.
   int32_t lineOf(const GridPlanes::Frame& frame, uint32_t s) const {
     const int32_t start = truth_[s] * 256 - movedTo(grid_, frame, s, truth_[frame.first]);
     const float rank = (static_cast<float>(start) - grid_.origin[s]) * grid_.inverse_step[s];
@@ -221,7 +226,7 @@ class PlaneVertexCoder {
     for (uint32_t s = 0; s < 3; ++s) {
       if (grid_.axis[s].at(grid_.axis[s].below(truth_[s])) != truth_[s]) between |= 1u << s;
     }
-    uint32_t kind = 0;  // also on planes of all axes
+    uint32_t kind = 0;  // on planes of all axes, if nothing else fits
     for (uint32_t k = 0; k < kTokenCount; ++k) {
       const GridPlanes::Frame& frame = grid_.frame[k];
       bool fits = frame.between == between;
@@ -230,11 +235,11 @@ class PlaneVertexCoder {
       }
       if (!fits) continue;
       kind = k;
-      if (frame.rests != 0) break;  // the first of the diagonals
+      if (frame.rests != 0) break;  // takes the first diagonal that fits
     }
     return kind;
   }
-  /// What codeNumbers() has to code; sets q_ to the truth.
+  /// Finds the numbers that codeNumbers() has to code; sets q_ to the truth.
   void findTargets(const Lanes<int32_t>& near, int32_t* target) {
     for (uint32_t s = 0; s < 3; ++s) {
       q_[s] = (frame_->rests >> s & 1) != 0 ? lineOf(*frame_, s)
@@ -259,18 +264,19 @@ class PlaneVertexCoder {
   const Lanes<uint32_t> q8_;
   const Lanes<float> spread_;
   const Lanes<float> normals_;
-  const float across_;  ///< expected distance from the tangent plane, in 1/16, as scales are
+  const float across_;  ///< expected distance from the tangent plane, in 1/16, like all scales
   const float along_;   ///< expected movement of an axis within the tangent plane
-  float size_;          ///< of the normal
+  float size_;          ///< length of the normal
   float doubt_;
   const GridPlanes::Frame* frame_ = nullptr;
   Lanes<float> at_;  ///< the prediction, where the line begins
   Lanes<uint32_t> expected_;
-  float normal_[4];  ///< for the line
+  float normal_[4];  ///< the normal, adapted to the line
   const uint8_t* order_ = nullptr;
   float slope_[3];
-  float distance_ = 0;  ///< of what is known from the tangent plane, times the normal
-  uint32_t base_[4];    ///< planes and lines, in Q8
+  /// Distance of what is known so far from the tangent plane, times the normal's length.
+  float distance_ = 0;
+  uint32_t base_[4];  ///< positions of planes and lines, in Q8
   int32_t q_[4];
 };
 

@@ -1,10 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Planes: evenly spaced coordinates that many vertices share. Isosurfaces (marching cubes, marching tetrahedra) have
-// their vertices on the edges, faces or diagonals of the cells of a grid.                    [B.2.9]
+// Planes: evenly spaced coordinates that many vertices share. Isosurfaces (marching cubes, marching
+// tetrahedra) have their vertices on the edges, faces or diagonals of the cells of a grid. [B.2.9]
 //
-// The kind of a vertex tells on which axes it lies between planes, and whether it moves there along a diagonal: then
-// the number of its line is coded on all of these axes but the first.
+// The kind of a vertex tells on which axes it lies between planes, and whether it moves along a
+// diagonal there. If so, the number of its line is coded on all of these axes except the first.
 #ifndef MCC_POSITIONS_PLANES_H_
 #define MCC_POSITIONS_PLANES_H_
 
@@ -18,28 +18,29 @@
 
 namespace mcc {
 
-/// Evenly spaced planes across an axis, in 2^-32 lattice steps.
+/// Evenly spaced planes across an axis, in units of 2^-32 lattice steps.
 struct AxisPlanes {
   static constexpr int64_t kOne = int64_t{1} << 32;
-  /// Closer ones would say nothing; no lattice that has planes is wider.
+  /// The smallest distance of planes; closer ones would carry no information. kEndOfSteps is above
+  /// the width of every lattice that has planes.
   static constexpr int64_t kMinStep = 4 * kOne;
   static constexpr int64_t kEndOfSteps = (int64_t{1} << 17) * kOne;
   static constexpr uint32_t kBits = 49;
 
-  int64_t origin = 0;  ///< of plane 0, 0 <= origin < step
+  int64_t origin = 0;  ///< coordinate of plane 0; 0 <= origin < step
   int64_t step = kMinStep;
 
-  /// Lattice coordinate of a plane in Q8; wraps.
+  /// Returns the lattice coordinate of a plane in Q8; wraps.
   MCC_INLINE int32_t q8At(int32_t plane) const {
     const uint64_t distance = static_cast<uint64_t>(int64_t{plane}) * static_cast<uint64_t>(step);
     return static_cast<int32_t>(static_cast<int64_t>(static_cast<uint64_t>(origin) + distance) >>
                                 24);
   }
-  /// The lattice coordinate that vertices on a plane have.
+  /// Returns the lattice coordinate that vertices on a plane have.
   int32_t at(int32_t plane) const {
     return static_cast<int32_t>(static_cast<uint32_t>(q8At(plane)) + 128) >> 8;
   }
-  /// The last plane whose coordinate is at most q, which is a coordinate of a lattice.
+  /// Returns the last plane whose coordinate is at most q; q is a coordinate of a lattice.
   int32_t below(int32_t q) const {
     int32_t plane = static_cast<int32_t>((int64_t{q} * kOne - origin) / step);
     while (at(plane) > q) --plane;
@@ -48,7 +49,7 @@ struct AxisPlanes {
   }
 };
 
-/// Planes travel as they are.
+/// Codes the planes as raw bits.
 template <class Io>
 Status codePlanes(Io& io, AxisPlanes& planes) {
   constexpr uint32_t kHalf = 24;
@@ -64,10 +65,10 @@ Status codePlanes(Io& io, AxisPlanes& planes) {
   return {};
 }
 
-/// Axes have bits 0, 1, 2. A diagonal counts upwards on its first axis.
+/// One kind of vertex. Axis s has bit s. A diagonal counts upwards on its first axis.
 struct VertexKind {
   uint8_t between;   ///< axes on which the vertex lies between planes
-  uint8_t diagonal;  ///< the same, or 0 for none
+  uint8_t diagonal;  ///< the same axes, or 0 if it is not on a diagonal
   uint8_t down;      ///< axes of the diagonal on which it counts downwards
 };
 inline constexpr VertexKind kVertexKinds[kTokenCount] = {
@@ -77,13 +78,13 @@ inline constexpr VertexKind kVertexKinds[kTokenCount] = {
 /// The planes of the three axes, and what follows from them for each kind of vertex.
 struct GridPlanes {
   struct Frame {
-    Lanes<float> slope{};         ///< of a diagonal, while it moves by 1 on its first axis; or 0
-    Lanes<uint32_t> on_planes{};  ///< all ones where a rank is coded: of planes, or lines
+    Lanes<float> slope{};         ///< of a diagonal, per step on its first axis; else 0
+    Lanes<uint32_t> on_planes{};  ///< all ones where a rank (of a plane or line) is coded
     uint8_t between;
-    uint8_t first;  ///< of these
+    uint8_t first;  ///< the first axis of `between`
     uint8_t moving;
     uint8_t moving_count;
-    uint8_t rests;  ///< axes of a diagonal that do not move by themselves
+    uint8_t rests;  ///< axes of a diagonal that follow its first axis
   };
 
   AxisPlanes axis[3];
@@ -123,8 +124,8 @@ struct PlaneModels {
   static constexpr uint32_t kNoFan = 8 * 8 * 8;
   static constexpr uint32_t kFractions = 4;
 
-  TokenRow kind[kNoFan + 1];  ///< by the axes of three neighbours
-  TokenRow rest[kFractions];  ///< of diagonals, by the fraction of what is expected
+  TokenRow kind[kNoFan + 1];  ///< by the axes on which three neighbours lie between planes
+  TokenRow rest[kFractions];  ///< of diagonals, by the fraction of the prediction
 
   void setUniform() {
     for (TokenRow& row : kind) row.setUniform();

@@ -1,11 +1,11 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Positions. Reader and writer run the same code.                                           [A.6, B.2]
+// Codes positions. Reader and writer run the same code. [A.6, B.2]
 //
-//   positions/growth.h      order of the vertices, what is known around each
+//   positions/growth.h      order of the vertices, and what is known around each
 //   positions/predict.h     prediction from the fan, normal shear
 //   positions/residual.h    scale of the residual -> row of token frequencies -> residual
-//   positions/vertex.h      all of that for one vertex
+//   positions/vertex.h      the three steps above for one vertex
 //   positions/parameters.h  the encoder's choices
 //
 // The scale is a linear function of the neighbours' residuals and of the disagreement of the tips.
@@ -53,7 +53,8 @@ class PositionCoder {
 
   // --- visitor of RegionGrowth ---
 
-  /// The inner loop has copies of the decoder's state and of the vertex coder, which no other pointer sees.
+  /// The inner loop works on copies of the decoder's state and of the vertex coder, which no other
+  /// pointer can alias.
   class Plain {
    public:
     explicit Plain(PositionCoder& coder)
@@ -61,7 +62,7 @@ class PositionCoder {
           vertex_(coder.rows_, coder.parameters_, coder.records_, coder.truth_),
           faces_(coder.growth_.faces()),
           records_(coder.records_) {}
-    /// False without room in the streams for any vertex.
+    /// Codes the vertex, or returns false if the streams may not have room for it.
     MCC_INLINE bool visit(uint32_t v, const PlainFan& fan) {
       if (!io_.hasRoom(vertex_.has(position_mode::kPlanes) ? kTokensWithPlanes : kTokensOfVertex))
           [[unlikely]]

@@ -1,17 +1,18 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Prediction of a vertex from its fan.                                                       [B.2.2]
+// Prediction of a vertex from its fan. [B.2.2]
 //
-//          xa      xb           tips t0 = n0 + n1 - o0 and t1 = n1 + n2 - o1 (parallelograms) are averaged;
-//          /\      /\           weights by class add features of the fan, of the degrees around it and of
-//        o0 --- n1 --- o1       ya, yb. With tip selection xa, xb, ya, yb tell how well each kind of
-//  ya   /  \   /  \   /  \  yb  parallelogram did one step back.
-//         n0        n2
+//          xa      xb           The tips t0 = n0 + n1 - o0 and t1 = n1 + n2 - o1 complete
+//          /\      /\           parallelograms; the prediction is their average. Weights by
+//        o0 --- n1 --- o1       class add features of the fan, of the degrees around it and
+//  ya   /  \   /  \   /  \  yb  of ya, yb. With tip selection, xa, xb, ya, yb tell how well
+//         n0        n2          each kind of parallelogram did one step back.
 //            \    /
 //               v
 //
-// Sums and differences of coordinates are integers that wrap; what is weighted is float, so that coordinates of any
-// width and whatever a payload claims have the same definition.
+// Sums and differences of coordinates are integers that wrap, and weighted values are floats. This
+// way the result is defined, and the same everywhere, for coordinates of any width and for whatever
+// a payload claims.
 #ifndef MCC_POSITIONS_PREDICT_H_
 #define MCC_POSITIONS_PREDICT_H_
 
@@ -36,16 +37,18 @@ MCC_INLINE Lanes<float> absoluteFloats(const Lanes<float>& x) {
   return lanesAs<float>(lanesAs<uint32_t>(x) & 0x7fffffffu);
 }
 
-/// A point between those of the lattice: step + fraction / 256, where a fraction may be more than a step.
+/// A point that may lie between those of the lattice: step + fraction / 256. The fraction may be
+/// more than one step.
 struct FinePoint {
   Lanes<uint32_t> step;
   Lanes<uint32_t> fraction;
 
-  /// The fraction in steps.
+  /// Returns the fraction in steps.
   MCC_INLINE Lanes<float> rest() const { return floatsOf(fraction) * (1.0f / 256); }
 };
 
-/// No movement is farther, in 1/256 of a step: two of them fit in a fraction.
+/// The largest movement, in 1/256 of a step. It is bounded so that the sum of two movements fits in
+/// a fraction.
 inline constexpr float kFarthestMove = 1 << 29;
 MCC_INLINE float boundMove(float x) {
   const float below = x < kFarthestMove ? x : kFarthestMove;
@@ -62,10 +65,11 @@ struct Prediction {
   FinePoint at;
   Lanes<float> spread;      ///< disagreement of the first two tips
   Lanes<float> magnitudes;  ///< of three neighbours' residuals, by component as coded
-  Lanes<float> normal;      ///< sum over the tips; only with shear and planes
+  Lanes<float> normal;      ///< sum over the tips; only with shear or planes
 };
 
-/// Vertices behind the plain fan; missing ones point to some other vertex and have a zero mask.
+/// The vertices beyond the plain fan. A missing vertex points to some other vertex; the flag masks
+/// it out.
 struct Beyond {
   const VertexRecord* ya;
   const VertexRecord* yb;
@@ -73,7 +77,7 @@ struct Beyond {
   const VertexRecord* xb;
   bool has_ya;
   bool has_yb;
-  bool has_x;  ///< both, and the ring around n1 has room for them
+  bool has_x;  ///< both xa and xb are known, and the ring around n1 has room for them
 };
 
 MCC_INLINE const VertexRecord* lookAcross(const FaceView& faces, const VertexRecord* records,
@@ -100,7 +104,8 @@ MCC_INLINE Beyond lookBeyond(const FaceView& faces, const VertexRecord* records,
   return b;
 }
 
-/// How the kinds of parallelograms compare one step back: the class, and which of the tips did better.
+/// The result of comparing the kinds of parallelograms one step back: a class, and which of the
+/// tips did better.
 struct TipSelection {
   uint32_t predictor_class;
   int32_t better;  ///< +1: t0, -1: t1, 0: a tie
@@ -108,7 +113,7 @@ struct TipSelection {
 
 MCC_INLINE float sumOfComponents(const Lanes<float>& x) { return x[0] + x[1] + x[2]; }
 
-/// ya or yb against the parallelogram next to it.
+/// Returns the difference of ya or yb from the parallelogram next to it.
 MCC_INLINE Lanes<uint32_t> stepBeyond(const VertexRecord* y, const VertexRecord* n,
                                       const VertexRecord* o, const Lanes<uint32_t>& n1, bool has) {
   return (coordinates(y) - coordinates(n) - coordinates(o) + n1) & (0u - uint32_t{has});
@@ -134,7 +139,8 @@ MCC_INLINE TipSelection selectTip(const PlainFan& f, const Beyond& b) {
           static_cast<int32_t>(error0 < error1) - static_cast<int32_t>(error0 > error1)};
 }
 
-/// Class, and what scales the weights of a plain fan besides the features of a component.
+/// The class of a plain fan, and what scales its weights in addition to the features of a
+/// component.
 struct PlainClass {
   uint32_t predictor_class;
   int32_t degree_sum;
@@ -160,13 +166,13 @@ MCC_INLINE PlainClass classifyPlain(bool select, const PlainFan& f, const Beyond
   return c;
 }
 
-/// Features of a plain fan.
+/// The features of a plain fan.
 struct PlainFeatures {
   Lanes<float> f0;    ///< fan against tips
   Lanes<float> f1;    ///< ends of the fan against its middle
   Lanes<float> fy;    ///< ya, yb against their parallelograms
   Lanes<float> fd;    ///< from one end to the other
-  Lanes<float> tips;  ///< t0 - t1; this and the next two only where a tip was selected
+  Lanes<float> tips;  ///< t0 - t1; this and the next two are set only where a tip was selected
   Lanes<float> x;
   Lanes<float> y;
 };
@@ -192,7 +198,8 @@ MCC_INLINE PlainFeatures plainFeatures(const PlainFan& f, const Beyond& b, bool 
   return r;
 }
 
-/// Weighted features of a plain fan, to be added to the average of the tips, in 1/256 of a step.
+/// Returns the sum of the weighted features of a plain fan, to be added to the average of the tips,
+/// in 1/256 of a step.
 MCC_INLINE Lanes<float> weightPlainFeatures(const PositionParameters& p, const PlainFan& f,
                                             const Beyond& b, uint32_t degree, bool select) {
   const PlainClass c = classifyPlain(select, f, b, degree);
@@ -213,7 +220,8 @@ MCC_INLINE Lanes<float> rotateComponents(const Lanes<float>& x) {  // y z x
   return shuffleLanes<float, 1, 2, 0, 3>(x, x);
 }
 
-/// Normal of a tip's triangle (a, b, o), its components in the order z x y.                     [B.2.3]
+/// Returns the normal of a tip's triangle (a, b, o), with its components in the order z x y.
+/// [B.2.3]
 MCC_INLINE Lanes<float> tipNormal(const VertexRecord* a, const VertexRecord* b,
                                   const VertexRecord* o) {
   const Lanes<float> u = floatsOf(coordinates(a) - coordinates(b));
@@ -224,11 +232,11 @@ MCC_INLINE Lanes<float> plainNormal(const PlainFan& f) {
   return rotateComponents(tipNormal(f.n0, f.n1, f.o0) + tipNormal(f.n1, f.n2, f.o1));
 }
 
-/// From the first tip of a plain fan to the second.
+/// Returns the vector from the first tip of a plain fan to the second.
 MCC_INLINE Lanes<uint32_t> betweenTips(const PlainFan& f) {
   return coordinates(f.n2) - coordinates(f.o1) - (coordinates(f.n0) - coordinates(f.o0));
 }
-/// Halfway between them.
+/// Returns the point halfway between the tips.
 MCC_INLINE FinePoint middleOfTips(const PlainFan& f) {
   const Lanes<uint32_t> between = betweenTips(f);
   return {coordinates(f.n0) - coordinates(f.o0) + coordinates(f.n1) +
@@ -236,7 +244,7 @@ MCC_INLINE FinePoint middleOfTips(const PlainFan& f) {
           (between & 1) << 7};
 }
 
-/// `beyond` may be null without weights.
+/// Predicts from a plain fan. `beyond` may be null if the modes do not include weights.
 MCC_INLINE void predictPlain(const PositionParameters& p, const PlainFan& f, const Beyond* beyond,
                              uint32_t degree, uint32_t modes, Prediction& out) {
   out.at = middleOfTips(f);
@@ -249,12 +257,13 @@ MCC_INLINE void predictPlain(const PositionParameters& p, const PlainFan& f, con
   if ((modes & (position_mode::kShear | position_mode::kPlanes)) != 0) out.normal = plainNormal(f);
 }
 
-/// Everything but the plain fan, relative to its first tip, or to its first neighbour without any.         [B.2.4]
+/// The features of any other fan, relative to its first tip, or to its first neighbour if it has no
+/// tip. [B.2.4]
 struct AnyFeatures {
   uint32_t predictor_class;
   Lanes<uint32_t> from;
-  Lanes<float> tips;  ///< their mean; without tips, that of the neighbours
-  Lanes<float> mean;  ///< of the neighbours minus that of the tips
+  Lanes<float> tips;  ///< mean of the tips, or of the neighbours if there are no tips
+  Lanes<float> mean;  ///< mean of the neighbours minus that of the tips
 };
 
 MCC_INLINE Lanes<float> meanOf(const Lanes<uint32_t>& sum, uint32_t count) {
@@ -264,7 +273,7 @@ MCC_INLINE Lanes<float> meanOf(const Lanes<uint32_t>& sum, uint32_t count) {
 inline AnyFeatures anyFeatures(const AnyFan& fan, Lanes<float>& spread, Lanes<float>& normal) {
   AnyFeatures r{};
   Lanes<uint32_t> neighbour_sum{};
-  Lanes<uint32_t> tip_sum{};  // from the first tip
+  Lanes<uint32_t> tip_sum{};  // relative to the first tip
   Lanes<uint32_t> second{};
   uint32_t tip_count = 0;
   for (uint32_t i = 0; i < fan.neighbour_count; ++i) neighbour_sum += coordinates(fan.n[i]);
@@ -302,12 +311,12 @@ inline void predictAny(const PositionParameters& p, const AnyFan& fan, Predictio
   out.normal = rotateComponents(normal);
 }
 
-/// Normal shear: components are coded in the order of growing |normal|; what the first ones turn out to be moves the
-/// predictions of the later ones along the tangent plane.                                     [B.2.3]
+/// Normal shear: components are coded in the order of growing |normal|. How far the first ones are
+/// from their predictions moves the predictions of the later ones along the tangent plane. [B.2.3]
 struct Shear {
-  const uint8_t* axis;  ///< by slot; three
+  const uint8_t* axis;  ///< by slot; three of them
   const uint8_t* slot;  ///< by axis
-  float c10;            ///< in 1/256 of a step for each step
+  float c10;            ///< in 1/256 of a step per step
   float c20;
   float c21;
 };
@@ -316,15 +325,15 @@ struct ComponentOrder {
   uint8_t axis[4];
   uint8_t slot[4];
 };
-/// By which of 0 > 1, 0 > 2, 1 > 2 hold (bits 0, 1, 2); two of the eight cannot happen.
+/// Indexed by which of 0 > 1, 0 > 2, 1 > 2 hold (bits 0, 1, 2); two of the eight cannot occur.
 inline constexpr ComponentOrder kComponentOrders[8] = {
     {{0, 1, 2}, {0, 1, 2}}, {{1, 0, 2}, {1, 0, 2}}, {{0, 1, 2}, {0, 1, 2}}, {{1, 2, 0}, {2, 0, 1}},
     {{0, 2, 1}, {0, 2, 1}}, {{0, 1, 2}, {0, 1, 2}}, {{2, 0, 1}, {1, 2, 0}}, {{2, 1, 0}, {2, 1, 0}},
 };
 
-/// Index into kComponentOrders.
+/// Returns the index into kComponentOrders.
 MCC_INLINE uint32_t normalOrder(const float* normal) {
-  uint32_t size[3];  // bits of |n|, which are ordered like |n|
+  uint32_t size[3];  // the bits of |n|, which sort like |n|
   MCC_UNROLL
   for (int s = 0; s < 3; ++s) size[s] = std::bit_cast<uint32_t>(normal[s]) & 0x7fffffffu;
   return uint32_t{size[0] > size[1]} | uint32_t{size[0] > size[2]} << 1 |
@@ -338,7 +347,7 @@ MCC_INLINE Shear makeShear(const Lanes<float>& normal) {
   Shear shear;
   shear.axis = order.axis;
   shear.slot = order.slot;
-  // The largest component is 0 only if all are: nothing is moved then.
+  // The largest component is 0 only if all are; in that case nothing is moved.
   const float largest = n[shear.axis[2]];
   const float inverse = 1.0f / (largest == 0 ? 1.0f : largest);
   const float t0 = n[shear.axis[0]] * inverse;

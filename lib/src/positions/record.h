@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// State of a vertex while positions are coded: half a cache line, two vector registers.     [B.2.1]
+// The state of a vertex while positions are coded: half a cache line, two vector registers. [B.2.1]
 #ifndef MCC_POSITIONS_RECORD_H_
 #define MCC_POSITIONS_RECORD_H_
 
@@ -11,8 +11,9 @@
 
 namespace mcc {
 
-/// What VertexRecord::state() is before the vertex is coded: the faces whose other two corners are known, at most
-/// kHighestScore. A single store of all lanes makes coordinates and kKnown visible at once.
+/// Before a vertex is coded, VertexRecord::state() counts the faces whose other two corners are
+/// known, up to kHighestScore. A single store of all lanes makes coordinates and kKnown visible at
+/// once.
 inline constexpr int32_t kHighestScore = 3;
 inline constexpr int32_t kKnown = 4;
 
@@ -22,7 +23,8 @@ struct VertexRecord {
 
   MCC_INLINE int32_t state() const { return q[3]; }
   MCC_INLINE bool known() const { return q[3] == kKnown; }
-  /// Faces; for boundary vertices min(12, 2 * faces). 0 where no predictor asks for it.
+  /// Number of faces; for boundary vertices min(12, 2 * faces). It stays 0 if no predictor asks for
+  /// it.
   MCC_INLINE uint32_t degree() const { return magnitude[3]; }
 };
 static_assert(sizeof(VertexRecord) == 32);

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// From the expected scale of a residual to its row of token frequencies, and the residual's code. [B.2.5]
+// Maps the expected scale of a residual to its row of token frequencies, and codes the residual.
+// [B.2.5]
 #ifndef MCC_POSITIONS_RESIDUAL_H_
 #define MCC_POSITIONS_RESIDUAL_H_
 
@@ -20,12 +21,13 @@
 
 namespace mcc {
 
-/// Rows of one component: 40 buckets, then the folded ones by fraction class; all of it three times, by which term of
-/// the scale dominates (only with position_mode::kSplit), or twice, the second time for ranks of planes.
+/// Rows of one component: 40 buckets, then the folded ones by fraction class. There are three such
+/// sets with position_mode::kSplit, selected by which term of the scale dominates, and two with
+/// planes, the second for ranks.
 inline constexpr uint32_t kRowsPerSet = kScaleBuckets + kFractionClasses * kFoldBuckets;
 inline constexpr uint32_t kRowSets = 3;
 
-/// Rows start when a piece first needs their kind.
+/// The rows of a payload. Rows are initialised when a piece first needs their kind.
 struct PositionRows {
   TokenRow row[3][kRowSets * kRowsPerSet];
   PlaneModels planes;
@@ -34,7 +36,7 @@ struct PositionRows {
   bool has_folded = false;
   bool has_split = false;
 
-  /// For these position_mode bits.
+  /// Initialises the rows that these position_mode bits need.
   void prepare(uint32_t modes) {
     const bool fold = (modes & (position_mode::kFold | position_mode::kPlanes)) != 0;
     const bool split = (modes & (position_mode::kSplit | position_mode::kPlanes)) != 0;
@@ -69,7 +71,7 @@ struct PositionRows {
   }
 };
 
-/// Coefficients of the scale by component, of one kind of fan.
+/// The coefficients of the scale by component, for one kind of fan.
 struct ScaleLanes {
   Lanes<float> neighbours;
   Lanes<float> spread;
@@ -85,10 +87,11 @@ struct ScaleLanes {
   }
 };
 
-/// Scale in 1/16 of a lattice step, not negative, and which of its two terms is more than twice the other.
+/// The scale in 1/16 of a lattice step, not negative, and which of its two terms is more than twice
+/// the other.
 struct ScaleEstimate {
   Lanes<float> scale;
-  Lanes<uint32_t> set;  ///< 1: spread, 2: neighbours, 0: neither; only with split
+  Lanes<uint32_t> set;  ///< 1: spread, 2: neighbours, 0: neither; only with kSplit
 };
 
 MCC_INLINE ScaleEstimate estimateScale(const ScaleLanes& c, const Lanes<float>& magnitudes,
@@ -102,12 +105,13 @@ MCC_INLINE ScaleEstimate estimateScale(const ScaleLanes& c, const Lanes<float>& 
   return {scale, lanesAs<uint32_t>((by_spread & 1) | (by_neighbours & 2))};
 }
 
-/// Half-octave buckets of scales, 0 .. kScaleBuckets-1: the exponent and the highest fraction bit of scale + 1.
+/// Returns the half-octave buckets of scales, 0 .. kScaleBuckets-1: the exponent and the highest
+/// fraction bit of scale + 1.
 MCC_INLINE Lanes<uint32_t> scaleBuckets(const Lanes<float>& scale) {
   const Lanes<uint32_t> bucket = (lanesAs<uint32_t>(scale + 1.0f) >> 22) - 2 * 127;
   return minimumLanes(bucket, kScaleBuckets - 1);
 }
-/// The same of one scale.
+/// Returns the bucket of one scale.
 MCC_INLINE uint32_t scaleBucket(float scale) {
   return std::min((std::bit_cast<uint32_t>(scale + 1.0f) >> 22) - 2 * 127, kScaleBuckets - 1);
 }
@@ -115,12 +119,13 @@ MCC_INLINE uint32_t scaleBucket(float scale) {
 /// How the residuals of a vertex are coded, by component.
 struct ResidualContexts {
   uint32_t row[4];
-  /// Small residuals are numbered outwards from the unrounded prediction: 0, +1, -1, .. or 0, -1, +1, ..
+  /// Small residuals are numbered outwards from the unrounded prediction: 0, +1, -1, .. or 0, -1,
+  /// +1, ..
   uint32_t folded[4];  ///< all ones or 0
-  uint32_t flip[4];    ///< 1: the prediction was rounded up
+  uint32_t flip[4];    ///< 1 if the prediction was rounded up
 };
 
-/// `rounded` is the fraction of the prediction plus one half.
+/// Finds the contexts of all components. `rounded` is the fraction of the prediction plus one half.
 template <class Fold>
 MCC_INLINE void findContexts(const ScaleEstimate& scale, const Lanes<uint32_t>& rounded, bool split,
                              Fold fold, ResidualContexts& out) {
@@ -140,7 +145,7 @@ MCC_INLINE void findContexts(const ScaleEstimate& scale, const Lanes<uint32_t>& 
   storeLanes<uint32_t>(row, out.row);
 }
 
-/// What follows the token of a magnitude: raw bits and a sign.
+/// Codes what follows the token of a magnitude: raw bits and a sign.
 template <class Io>
 MCC_SHARED uint32_t codeBelowToken(Io& io, uint32_t token, uint32_t low_bits, bool has_sign,
                                    uint32_t truth, uint32_t& negative) {
@@ -158,7 +163,8 @@ MCC_SHARED uint32_t codeBelowToken(Io& io, uint32_t token, uint32_t low_bits, bo
   return a;
 }
 
-/// One residual: its magnitude above the bucket's low bits as a token, then raw bits, then a sign unless folded.
+/// Codes one residual: its magnitude above the bucket's low bits as a token, then raw bits, then a
+/// sign unless it is folded.
 template <uint32_t kState, class Io, class Fold>
 MCC_INLINE int32_t codeResidual(Io& io, TokenRow& row, uint32_t low_bits, uint32_t folded,
                                 uint32_t flip, int32_t truth, Fold fold) {
@@ -194,7 +200,7 @@ MCC_INLINE TokenSpans::Span tokenSpan(uint32_t low_bits, uint32_t token) {
   }
 }
 
-/// Decodes the residuals of all components, for a ThreeAtOnceIo; lane 3 is 0.
+/// Decodes the residuals of all components with a ThreeAtOnceIo; lane 3 is 0.
 template <class Io, class Fold>
 MCC_INLINE Lanes<uint32_t> decodeResiduals(Io& io, TokenRow* rows, const ResidualContexts& c,
                                            Fold fold) {
@@ -214,7 +220,7 @@ MCC_INLINE Lanes<uint32_t> decodeResiduals(Io& io, TokenRow* rows, const Residua
     signs[s] = fold ? ~c.folded[s] & 1 : 1;
   }
   if (!io.threeMagnitudes(base, bits, signs, a, negative)) [[unlikely]] {
-    MCC_UNROLL  // else gcc keeps the arrays in memory for this
+    MCC_UNROLL  // else gcc keeps the arrays in memory for this rare case
         for (uint32_t s = 0; s < 3; ++s) {
       negative[s] = 0;
       a[s] = codeBelowToken(io, token[s], row[s]->low_bits, signs[s] != 0, 0, negative[s]);
@@ -233,7 +239,8 @@ MCC_INLINE Lanes<uint32_t> decodeResiduals(Io& io, TokenRow* rows, const Residua
   return (size ^ mask) - mask;
 }
 
-/// The residuals of all components, whose rows are known before any of them; `truth` has three (encoder). Lane 3 is 0.
+/// Codes the residuals of all components. Their rows must be known before the first is coded.
+/// `truth` has three (encoder). Lane 3 is 0.
 template <class Io, class Fold>
 MCC_INLINE Lanes<uint32_t> codeResiduals(Io& io, TokenRow* rows, const ResidualContexts& c,
                                          const int32_t* truth, Fold fold) {
@@ -248,7 +255,7 @@ MCC_INLINE Lanes<uint32_t> codeResiduals(Io& io, TokenRow* rows, const ResidualC
                                                      Io::kEncoding ? truth[s] : 0, fold));
   };
   using State = std::integral_constant<uint32_t, 0>;
-  if constexpr (kCompact) {  // one coder without states comes here
+  if constexpr (kCompact) {  // compact code has one coder only, which has no states
     Lanes<uint32_t> residuals{};
     for (uint32_t s = 0; s < 3; ++s) residuals[s] = code(State{}, s);
     return residuals;
@@ -260,7 +267,7 @@ MCC_INLINE Lanes<uint32_t> codeResiduals(Io& io, TokenRow* rows, const ResidualC
   }
 }
 
-/// A residual alone, in the row of its scale's bucket.
+/// Codes a single residual in the row of its scale's bucket.
 template <uint32_t kState, class Io>
 MCC_INLINE int32_t codeScaledResidual(Io& io, TokenRow& row, uint32_t bucket, int32_t truth) {
   return codeResidual<kState>(io, row, lowBitsOf(bucket), 0, 0, truth, std::false_type{});

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Constants of the position coder; part of the format.                                     [B.2]
+// Constants of the position coder; they are part of the format. [B.2]
 #ifndef MCC_POSITIONS_TABLES_H_
 #define MCC_POSITIONS_TABLES_H_
 
@@ -10,25 +10,26 @@
 
 namespace mcc {
 
-/// Predictor classes by what is known around a vertex. Classes 0..5 are fans that are not plain, by their tips; classes
-/// 6..12 plain fans, by the vertex' degree; classes 13..21 plain fans by how well the three kinds of parallelograms did
-/// one step back (tip selection).
+/// Predictor classes by what is known around a vertex. Classes 0..5 are fans that are not plain, by
+/// their tips; classes 6..12 are plain fans, by the vertex's degree; classes 13..21 are plain fans
+/// by how well the three kinds of parallelograms did one step back (tip selection).
 inline constexpr uint32_t kClassClosedFewTips = 4;
 inline constexpr uint32_t kClassClosedManyTips = 5;
 inline constexpr uint32_t kClassPlain = 6;
-inline constexpr uint32_t kLeastDegree = 3;  ///< that has a class
+inline constexpr uint32_t kLeastDegree = 3;  ///< lower degrees share this class
 inline constexpr uint32_t kMostDegree = 9;
 inline constexpr uint32_t kClassSelect = 13;
 inline constexpr uint32_t kPredictorClasses = 22;
 inline constexpr uint32_t kMostWeights = 8;
 
-/// How many weights a class has.
+/// Returns the number of weights of a class.
 constexpr uint32_t weightCount(uint32_t predictor_class) {
   return predictor_class < kClassPlain ? 1 : predictor_class < kClassSelect ? 5 : kMostWeights;
 }
 
-/// Weights in units of 1/128: for a plain fan of the features f0, f1, fy, fd and of f0 by degrees, and of three more with
-/// tip selection; for another of the mean of the neighbours.                                 [B.2.2, B.2.4]
+/// Weights in units of 1/128. A plain fan has weights of the features f0, f1, fy, fd and of f0 by
+/// degrees, and of three more with tip selection; any other fan has one, of the mean of the
+/// neighbours. [B.2.2, B.2.4]
 struct PredictorWeights {
   int16_t w[kPredictorClasses][kMostWeights];
 };
@@ -49,12 +50,13 @@ inline constexpr PredictorWeights kUniversalWeights{{
     {3, 60, -15, -11, -5},
 }};
 
-/// Scale of a residual from neighbours' residuals, spread of the tips and a constant, in 1/64.
+/// Coefficients of a residual's scale in 1/64: for the neighbours' residuals, the spread of the
+/// tips, and a constant.
 struct ScaleCoefficients {
   uint16_t c[3];
 };
 
-/// [weighted predictor][shear][fan of three][component]
+/// Indexed by [weighted predictor][shear][fan of three][component].
 inline constexpr ScaleCoefficients kUniversalScale[2][2][2][3] = {
     {{{{{196, 12, 1662}}, {{216, 12, 1638}}, {{208, 13, 1749}}},
       {{{138, 182, 1222}}, {{143, 186, 1186}}, {{140, 178, 1299}}}},
@@ -69,7 +71,7 @@ inline constexpr uint32_t kScaleBuckets = 40;
 inline constexpr uint32_t kFirstTabledBucket = 2;
 inline constexpr uint32_t kLastTabledBucket = 22;
 
-/// Initial frequencies of the tokens, per mille, by scale bucket 2..22.
+/// Initial frequencies of the tokens, per mille, for the scale buckets 2..22.
 inline constexpr uint16_t kTokenFrequencies[kLastTabledBucket - kFirstTabledBucket + 1][16] = {
     {902, 97, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
     {795, 193, 7, 2, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0},
@@ -97,8 +99,9 @@ inline constexpr uint16_t kTokenFrequencies[kLastTabledBucket - kFirstTabledBuck
 inline constexpr uint32_t kTokenInitialUses = 6;
 inline constexpr uint32_t kTokenInitialFloor = 8;
 
-/// What stands behind a token: values [base, base + 2^extra), times the scale's low bits. That of the escape is none,
-/// and too many for one look at the raw bits.
+/// What follows a token: it stands for the values [base, base + 2^extra), times the scale's low
+/// bits. The escape has no such range; its 64 is more than one look at the raw bits can hold, so it
+/// always takes the slow path.
 inline constexpr uint8_t kTokenExtraBits[kTokenCount] = {0, 0, 0, 0, 0, 0, 0, 0,
                                                          2, 2, 3, 3, 4, 4, 6, 64};
 inline constexpr uint8_t kTokenBase[kTokenCount] = {0, 1,  2,  3,  4,  5,  6,  7,
@@ -108,7 +111,7 @@ inline constexpr uint32_t kTokenEscape = 15;
 constexpr uint32_t lowBitsOf(uint32_t bucket) { return bucket >= 10 ? bucket / 2 - 5 : 0; }
 inline constexpr uint32_t kMaxLowBits = lowBitsOf(kScaleBuckets - 1);
 
-/// Base and number of raw bits of the tokens of rows with some low bits.
+/// For each number of low bits, the base and the number of raw bits of every token.
 struct TokenSpans {
   struct Span {
     uint32_t base;
@@ -134,7 +137,7 @@ constexpr uint32_t tokenOf(uint32_t z) {
   return token;
 }
 
-/// Row with frequencies in these proportions.
+/// Fills a row with frequencies in these proportions.
 constexpr void setTokenRow(const uint32_t* frequency, TokenRow& row) {
   uint32_t sum = 0;
   for (uint32_t i = 0; i < kTokenCount; ++i) sum += frequency[i];
@@ -148,14 +151,15 @@ constexpr void setTokenRow(const uint32_t* frequency, TokenRow& row) {
   row.uses = kTokenInitialUses;
 }
 
-/// Trained frequencies of a bucket. Beyond the table the rows repeat: tokens are relative to the scale there.
+/// Returns the trained frequencies of a bucket. Beyond the table the last rows repeat, because
+/// tokens are relative to the scale there.
 constexpr const uint16_t* trainedFrequencies(uint32_t bucket) {
   uint32_t b = bucket < kFirstTabledBucket ? kFirstTabledBucket : bucket;
   if (b > kLastTabledBucket) b = kLastTabledBucket - ((b - kLastTabledBucket) & 1);
   return kTokenFrequencies[b - kFirstTabledBucket];
 }
 
-/// Row of a scale bucket before the first symbol.
+/// Fills the row of a scale bucket as it is before the first symbol.
 constexpr void makeTokenRow(uint32_t bucket, TokenRow& row) {
   uint32_t frequency[kTokenCount] = {};
   const uint16_t* trained = trainedFrequencies(bucket);
@@ -164,13 +168,14 @@ constexpr void makeTokenRow(uint32_t bucket, TokenRow& row) {
   row.low_bits = static_cast<uint16_t>(lowBitsOf(bucket));
 }
 
-/// Row of a folded bucket before the first symbol: the trained density of |residual|, taken as symmetric and linear
-/// between integers, moved by the middle of the fraction class, (2k+1)/16.                  [B.2.6]
+/// Fills the row of a folded bucket as it is before the first symbol: the trained density of
+/// |residual|, taken as symmetric and linear between integers, moved by the middle of the fraction
+/// class, (2k+1)/16. [B.2.6]
 constexpr void makeFoldedRow(uint32_t fraction_class, uint32_t bucket, TokenRow& row) {
   constexpr uint32_t kReach = 128;
   constexpr uint32_t kUnit = 64;  // resolution of densities within a token of 64 values
   const uint16_t* trained = trainedFrequencies(bucket);
-  uint32_t density[kReach + 1] = {};  // of +i, and of -i
+  uint32_t density[kReach + 1] = {};  // the density of +i, and equally of -i
   for (uint32_t i = 0; i <= kReach; ++i) {
     const uint32_t token = tokenOf(i);
     density[i] = token == kTokenEscape ? 0 : (trained[token] * kUnit) >> kTokenExtraBits[token];
@@ -193,7 +198,8 @@ constexpr void makeFoldedRow(uint32_t fraction_class, uint32_t bucket, TokenRow&
 inline constexpr uint32_t kFoldBuckets = 10;
 inline constexpr uint32_t kFractionClasses = 4;
 
-/// Made by the compiler mostly, since they take longer than a small mesh.
+/// The initial rows are mostly computed by the compiler, since computing them takes longer than
+/// decoding a small mesh.
 struct InitialTokenRows {
   TokenRow plain[kScaleBuckets];
   TokenRow folded[kFractionClasses * kFoldBuckets];

@@ -1,9 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// One vertex: scales, shear and the residuals of its three components.                       [A.6.3, B.2]
+// Codes one vertex: scales, shear and the residuals of its three components. [A.6.3, B.2]
 //
-// The components do not depend on each other, except with shear, and each has its own entropy coder state. Nothing
-// here knows the mesh, so that the writer can try choices on what it recorded of it.
+// The components do not depend on each other, except with shear, and each has its own entropy coder
+// state. Nothing here knows the mesh, so that the writer can try choices on a recording of it.
 #ifndef MCC_POSITIONS_VERTEX_H_
 #define MCC_POSITIONS_VERTEX_H_
 
@@ -18,13 +18,13 @@
 
 namespace mcc {
 
-/// `kModes` are position_mode bits: those of kCompiledModes are on or off as they say, the others as the parameters
-/// say. kAnyModes leaves all of them to the parameters.
+/// `kModes` are position_mode bits. Those in kCompiledModes are fixed at compile time; the others
+/// are taken from the parameters. kAnyModes takes all of them from the parameters.
 inline constexpr uint32_t kAnyModes = ~0u;
 inline constexpr uint32_t kCompiledModes = position_mode::kWeights | position_mode::kSelect |
                                            position_mode::kShear | position_mode::kPalette |
                                            position_mode::kPlanes;
-/// What a vertex may take from the streams; with planes.
+/// The most tokens that a vertex takes from the streams, without and with planes.
 inline constexpr uint32_t kTokensOfVertex = 3;
 inline constexpr uint32_t kTokensWithPlanes = 6;
 
@@ -49,7 +49,7 @@ class VertexCoder {
     }
   }
 
-  /// `prediction` receives what was expected.
+  /// Codes a vertex with a plain fan. `prediction` receives what was expected.
   MCC_INLINE void codePlain(Io& io, uint32_t v, const PlainFan& fan, const Beyond* beyond,
                             Prediction& prediction) const {
     predictPlain(p_, fan, beyond, records_[v].degree(), compiledModes(), prediction);
@@ -86,16 +86,17 @@ class VertexCoder {
   template <class Fold>
   void codeComponents(Io& io, uint32_t v, const Prediction& prediction, uint32_t plain,
                       Fold fold) const;
-  /// By how much the slots before move the prediction of a slot: nothing without shear.
+  /// Computes how far the slots before move the prediction of a slot; 0 without shear.
   template <class Fold, class Shears>
   struct Shift {
     Shears shears;
     Fold fold;
     Shear shear;
     FinePoint at;
-    Lanes<float> rest;  ///< of `at`
+    Lanes<float> rest;  ///< fraction of `at` in steps
 
-    /// Deviations are from the unrounded, unsheared prediction; with fold the shift keeps its fraction.
+    /// Deviations are from the unrounded, unsheared prediction. With folding, the shift is rounded
+    /// to whole steps, so that the prediction keeps its fraction.
     MCC_INLINE uint32_t operator()(int s, const int32_t* q) const {
       if (!shears) return 0;
       const auto deviation = [&](int k) MCC_INLINE_LAMBDA {
@@ -108,7 +109,7 @@ class VertexCoder {
       return static_cast<uint32_t>(fold ? (shift + 128) & ~255 : shift);
     }
   };
-  /// Without shear.
+  /// Codes the components in the order of the file, without shear.
   template <class Fold>
   MCC_INLINE void codeInFileOrder(Io& io, uint32_t v, const FinePoint& at,
                                   const ScaleEstimate& scale, Fold fold) const {
@@ -124,14 +125,14 @@ class VertexCoder {
   template <uint32_t kState, class Fold>
   int32_t codeSlot(Io& io, uint32_t slot, const ResidualContexts& c, uint32_t prediction,
                    int32_t truth, int32_t* residual, Fold fold) const;
-  /// Compact code comes to codeSlot() with the one coder only, which has no states.
+  /// Compact code calls codeSlot() only with the single coder, which has no states.
   static constexpr uint32_t stateOf(uint32_t slot) { return kCompact ? 0 : slot; }
   void codeOnPlanes(Io& io, uint32_t v, const Prediction& prediction, uint32_t context) const {
     const int32_t* truth = Io::kEncoding ? truth_ + 3 * size_t{v} : nullptr;
     PlaneVertexCoder<Io>(io, rows_, planes_, *p_.planes, prediction)
         .code(context, truth, records_[v]);
   }
-  /// The axes on which three neighbours lie between planes.
+  /// Returns on which axes three neighbours lie between planes, as a context.
   MCC_INLINE static uint32_t axesAround(const VertexRecord* a, const VertexRecord* b,
                                         const VertexRecord* c) {
     return (a->magnitude[1] & 7) << 6 | (b->magnitude[1] & 7) << 3 | (c->magnitude[1] & 7);
@@ -152,7 +153,7 @@ class VertexCoder {
                                        static_cast<uint32_t>(residual[2]), 0};
     store(v, q, residuals);
   }
-  /// `residuals` has 0 in lane 3.
+  /// Stores a vertex; `residuals` must have 0 in lane 3.
   MCC_INLINE void store(uint32_t v, const Lanes<uint32_t>& q,
                         const Lanes<uint32_t>& residuals) const {
     VertexRecord& r = records_[v];
@@ -200,7 +201,7 @@ MCC_INLINE void VertexCoder<Io, kModes>::codeComponents(Io& io, uint32_t v,
   }
 }
 
-/// Components by slot, in the order that the shear says.
+/// Codes the components by slot, in the order that the shear prescribes.
 template <class Io, uint32_t kModes>
 template <class Fold, class Shears>
 MCC_SHARED void VertexCoder<Io, kModes>::codeSlots(Io& io, uint32_t v, const ScaleEstimate& scale,
@@ -240,7 +241,7 @@ MCC_SHARED void VertexCoder<Io, kModes>::codeSlots(Io& io, uint32_t v, const Sca
   store(v, q[slot[0]], q[slot[1]], q[slot[2]], residual);
 }
 
-/// A number near its prediction; `residual` receives the difference.
+/// Codes a number near its prediction; `residual` receives the difference.
 template <class Io, uint32_t kModes>
 template <uint32_t kState, class Fold>
 MCC_SHARED int32_t VertexCoder<Io, kModes>::codeSlot(Io& io, uint32_t slot,
@@ -254,7 +255,8 @@ MCC_SHARED int32_t VertexCoder<Io, kModes>::codeSlot(Io& io, uint32_t slot,
   return static_cast<int32_t>(prediction + static_cast<uint32_t>(residual[slot]));
 }
 
-/// The same with palettes, never sheared: where an axis has one, prediction and scale become ranks.
+/// Codes the components with palettes, never sheared: where an axis has a palette, prediction and
+/// scale become ranks.
 template <class Io, uint32_t kModes>
 template <class Fold>
 void VertexCoder<Io, kModes>::codeRanks(Io& io, uint32_t v, const FinePoint& at,
@@ -299,7 +301,8 @@ void VertexCoder<Io, kModes>::codeRanks(Io& io, uint32_t v, const FinePoint& at,
   store(v, q[0], q[1], q[2], residual);
 }
 
-/// A vertex without a known face around it: a neighbour's position or the last seed's, scale by earlier seeds. [B.2.7]
+/// Codes a vertex without a known face around it: it is predicted from a neighbour or from the last
+/// seed, with a scale that adapts over the seeds. [B.2.7]
 template <class Io, uint32_t kModes>
 void VertexCoder<Io, kModes>::codeSeed(Io& io, uint32_t v, const VertexRecord* neighbour) {
   VertexRecord& r = records_[v];

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// How sharply the faces on both sides of an edge meet: a context of seams.                   [A.7.4]
+// How sharply the faces on both sides of an edge meet; used as a context of seams. [A.7.4]
 #ifndef MCC_SURFACE_CREASES_H_
 #define MCC_SURFACE_CREASES_H_
 
@@ -12,15 +12,17 @@
 
 namespace mcc {
 
-/// Classes of the angle between two faces' normals: 0 flat (or not known) .. 3 sharp.
+/// Classes of the angle between two faces' normals, from 0 (flat or unknown) to 3 (sharp).
 inline constexpr uint32_t kCreaseClasses = 4;
-inline constexpr uint32_t kCreaseShift = 8;  ///< in the kSeamWord of a face; two bits per half-edge
+/// Where the classes begin in a face's kSeamWord; they take two bits per half-edge.
+inline constexpr uint32_t kCreaseShift = 8;
 
 inline uint32_t creaseClass(const FaceView& faces, uint32_t h) {
   return (faces.words[(h & ~7u) + kSeamWord] >> (kCreaseShift + 2 * (h & 3))) & 3;
 }
 
-/// Unit normals of faces (4 floats each) from `positions` (4 floats per vertex); all zeros for a degenerate face.
+/// Computes unit normals of the faces (4 floats each) from `positions` (4 floats per vertex). The
+/// normal of a degenerate face is all zeros.
 inline void faceNormals(const FaceView& faces, uint32_t face_count, const float* positions,
                         float* normals) {
   forFourFaces(faces, face_count, [=](const uint32_t* words, uint32_t count) {
@@ -36,7 +38,7 @@ inline void faceNormals(const FaceView& faces, uint32_t face_count, const float*
   });
 }
 
-/// Writes the class of every half-edge into its face. `positions` as for faceNormals().
+/// Stores the class of every half-edge in its face. `positions` as for faceNormals().
 inline Status classifyCreases(const FaceView& faces, uint32_t face_count, const float* positions,
                               const Allocator& allocator) {
   Array<float> normals(allocator);

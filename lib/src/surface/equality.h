@@ -1,9 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Which wedges of a vertex have the same value of an attribute.                              [A.8.3]
+// Codes which wedges of a vertex have the same value of an attribute. [A.8.3]
 //
-// In coding order, for every wedge but a vertex's first: is it equal to the wedge before? If not, to the first wedge of
-// the vertex (umbrellas are closed, so the last wedge may continue the first)?
+// For every wedge except the first of a vertex, in coding order: is it equal to the wedge before?
+// If not, is it equal to the first wedge of the vertex? (Umbrellas are closed, so the last wedge
+// may continue the first.)
 #ifndef MCC_SURFACE_EQUALITY_H_
 #define MCC_SURFACE_EQUALITY_H_
 
@@ -17,7 +18,7 @@
 namespace mcc {
 
 struct EqualityModels {
-  /// [other end of the seam][answer before at this vertex: none, no, yes][crease]
+  /// [other end of the seam][previous answer at this vertex: none, no, yes][crease]
   BitModel previous[4][3][kCreaseClasses];
   BitModel first[4];  ///< [other end of the seam]
 };
@@ -25,7 +26,7 @@ struct EqualityModels {
 template <class Io>
 class EqualityCoder {
  public:
-  /// `truth`: `components` values per wedge (encoder).
+  /// `truth` has `components` values per wedge (encoder).
   EqualityCoder(Io& io, EqualityModels& models, const WedgeMesh& wedges, const int32_t* truth,
                 uint32_t components)
       : io_(io), models_(models), wedges_(wedges), truth_(truth), components_(components) {}
@@ -35,7 +36,7 @@ class EqualityCoder {
       return fail(Error::kOutOfMemory, "no memory for attributes");
     }
     uint32_t vertex_first = 0;
-    uint32_t last_like_first = 0;  // of the vertex' wedges so far
+    uint32_t last_like_first = 0;  // the last of the vertex's wedges that equals its first
     uint32_t answer_before = 0;
     for (uint32_t w = 0; w < wedges_.count; ++w) {
       groups.first[w] = w;
@@ -67,13 +68,14 @@ class EqualityCoder {
                        4 * size_t{components_}) == 0;
   }
 
-  /// Puts w behind the last wedge of a group so far.
+  /// Appends w to a group, after its last wedge so far.
   void join(EqualGroups& groups, uint32_t last, uint32_t w) const {
     groups.first[w] = groups.first[last];
     groups.next[last] = w;
   }
 
-  /// The wedges on both sides of the seam before w at its other end: 0 not coded yet, 1 one wedge, 2 equal, 3 not.
+  /// Returns how the wedges on both sides of the seam before w relate at its other end: 0 not coded
+  /// yet, 1 the same wedge, 2 equal, 3 different.
   uint32_t otherEnd(const EqualGroups& groups, uint32_t w) const {
     const uint32_t h = wedges_.startOf(w);
     const uint32_t t = wedges_.faces.twin(h);

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Sums over the faces around every wedge, four faces at a time.                              [B.4.2]
+// Sums over the faces around every wedge, computed for four faces at a time. [B.4.2]
 #ifndef MCC_SURFACE_FACE_PASS_H_
 #define MCC_SURFACE_FACE_PASS_H_
 
@@ -16,7 +16,7 @@ MCC_INLINE Real dotProduct(const Real* a, const Real* b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Angle of the vector (x, y), y >= 0, in 0..pi, by a polynomial. [B.4.3]
+/// Returns the angle of the vector (x, y), y >= 0, in 0..pi, by a polynomial. [B.4.3]
 template <class Real>
 MCC_SHARED Real cornerAngle(Real y, Real x) {
   const Real ax = magnitude(x);
@@ -29,14 +29,14 @@ MCC_SHARED Real cornerAngle(Real y, Real x) {
   return select(x < constant<Real>(0.0f), constant<Real>(3.14159274f) - r, r);
 }
 
-/// Faces f .. f+count-1, a lane each; further lanes repeat the first.
+/// The faces f .. f+count-1, one per lane; the remaining lanes repeat the first.
 struct FourFaces {
   const uint32_t* corner[4];
   Float4 e0[3];      ///< from corner 0 to corner 1
   Float4 e1[3];      ///< from corner 0 to corner 2
-  Float4 normal[3];  ///< their cross product
+  Float4 normal[3];  ///< cross product of e0 and e1
 
-  /// `positions`: 4 floats per vertex, the last one 0.
+  /// `positions` has 4 floats per vertex, the last one 0.
   MCC_SHARED FourFaces(const uint32_t* words, uint32_t count, const float* positions) {
     Float4 rows0[4];
     Float4 rows1[4];
@@ -57,7 +57,7 @@ struct FourFaces {
     normal[2] = e0[0] * e1[1] - e0[1] * e1[0];
   }
 
-  /// Angles at the corners; `length`: of the normals.
+  /// Computes the angles at the corners. `length` has the lengths of the normals.
   MCC_INLINE void cornerAngles(Float4 length, Float4* angle) const {
     const Float4 d0 = dotProduct(e0, e1);
     angle[0] = cornerAngle(length, d0);
@@ -66,13 +66,14 @@ struct FourFaces {
   }
 };
 
-/// Adds a vector per face, weighted per corner, to the sums of its corners (4 floats each), face by face.
+/// Adds a vector per face, weighted per corner, to the sums of its corners (4 floats each), face by
+/// face.
 class CornerSums {
  public:
   CornerSums(const FourFaces& faces, uint32_t count, float* sums)
       : faces_(faces), count_(count), sums_(sums) {}
 
-  /// `rows`: the vector of each face; `fixed`: added besides, without a weight.
+  /// `rows` is the vector of each face; `fixed` is added in addition, without a weight.
   MCC_INLINE void add(const Float4* rows, const Float4* weight, const Float4* fixed) const {
     if constexpr (kCompact) return addFaces(rows, weight, fixed);
     addFace<0>(rows, weight, fixed);
@@ -106,7 +107,7 @@ class CornerSums {
   float* const sums_;
 };
 
-/// Calls visit(words, count) for every four faces and the rest.
+/// Calls visit(words, count) for every four faces, and for the remaining ones.
 template <class Visit>
 MCC_INLINE void forFourFaces(const FaceView& faces, uint32_t face_count, Visit visit) {
   for (uint32_t f = 0; f < face_count; f += 4) {

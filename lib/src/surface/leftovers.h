@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Triangles beside the surface: exact duplicates of faces, degenerate ones; and the parts all belong to.   [A.9]
+// Triangles that are not part of the surface: exact duplicates of faces, and degenerate ones; and
+// the parts that all triangles belong to. [A.9]
 #ifndef MCC_SURFACE_LEFTOVERS_H_
 #define MCC_SURFACE_LEFTOVERS_H_
 
@@ -17,28 +18,28 @@ namespace mcc {
 struct LeftoverModels {
   BitModel same_part[4];
   GolombModel part;
-  TreeModel<3> list_shape[8];  ///< [of the triangle before]
+  TreeModel<3> list_shape[8];  ///< [shape of the triangle before]
   GolombModel list_gap[2];     ///< [0: faces again, 1: on edges]
   GolombModel list_wedge[3];
   GolombModel list_part;
 };
 
-/// A triangle that is not of the surface.
+/// A triangle that is not part of the surface.
 struct ListedTriangle {
   uint32_t wedge[3];
   uint32_t part;
   uint32_t shape;  ///< listed_shape
-  uint32_t face;   ///< that the shape refers to
+  uint32_t face;   ///< the face that the shape refers to
 };
 
-/// Encoder's knowledge; null when decoding.
+/// What the encoder knows; the pointers are null when decoding.
 struct LeftoverTruth {
   const uint32_t* part_of_face = nullptr;
   const ListedTriangle* list = nullptr;
 };
 
-/// Part of each face into its kFaceWord. Predicted from the neighbour behind half-edge 1 (decoded before), else from the
-/// face before.                                                                              [A.9.1]
+/// Codes the part of each face into its kFaceWord. It is predicted from the face across half-edge 1
+/// if that was decoded before, else from the previous face. [A.9.1]
 template <class Io>
 Status codeParts(Io& io, LeftoverModels& models, const FaceView& faces, uint32_t face_count,
                  uint32_t part_count, const LeftoverTruth& truth) {
@@ -65,14 +66,15 @@ Status codeParts(Io& io, LeftoverModels& models, const FaceView& faces, uint32_t
   return {};
 }
 
-/// What a listed triangle is: a face again; (a, a, b) for the ends a, b of a half-edge of the face, or (b, b, a); or any.
+/// What a listed triangle is: a copy of a face; (a, a, b) or (b, b, a) for the ends a, b of a
+/// half-edge of a face; or any other.
 namespace listed_shape {
 inline constexpr uint32_t kFaceAgain = 0;
-inline constexpr uint32_t kOnEdge = 1;  ///< 1 + 2 * half-edge, one more for (b, b, a)
+inline constexpr uint32_t kOnEdge = 1;  ///< 1 + 2 * half-edge, plus one for (b, b, a)
 inline constexpr uint32_t kAny = 7;
 }  // namespace listed_shape
 
-/// The wedges of a triangle whose shape refers to a face.
+/// Sets the wedges of a triangle whose shape refers to a face.
 inline void placeOnFace(const FaceView& faces, ListedTriangle& t) {
   const uint32_t base = t.face * kFaceWords;
   if (t.shape == listed_shape::kFaceAgain) {
@@ -85,7 +87,8 @@ inline void placeOnFace(const FaceView& faces, ListedTriangle& t) {
   t.wedge[2] = faces.vertex(reversed ? h : nextHalfEdge(h));
 }
 
-/// Triangles one by one; what refers to faces ascends by their numbers. [A.9.2]
+/// Codes the triangles one by one; those that refer to faces are in ascending order of the faces.
+/// [A.9.2]
 template <class Io>
 Status codeList(Io& io, LeftoverModels& models, const FaceView& faces, uint32_t face_count,
                 uint32_t wedge_count, uint32_t part_count, uint32_t count,

@@ -1,13 +1,15 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The writer's order of triangles and of wedges, where it is kept.                          [A.10]
+// Codes the writer's order of triangles and of wedges, where it is kept. [A.10]
 //
-// Both are sequences over elements that the stages before have made in an order of their own. An element is one of
-//   the next one in a list that both sides know (mostly right where the source was made in that order),
-//   one of those touched last: triangles across the edges of placed ones, wedges that complete faces,
-//   any other that is left, at the cost of choosing among them evenly.
-// Triangles come first, part by part, each with the corner it begins with; the wedges, if their order is kept too,
-// are then expected in the order of their first use.
+// Both are sequences of elements that earlier stages have produced in an order of their own. The
+// next element is one of:
+//   - the next one in a list that both sides know (mostly right if the source was in that order),
+//   - one of the elements touched last: triangles across the edges of placed ones, or wedges that
+//     complete triangles,
+//   - any other that is left; it costs the logarithm of their number.
+// Triangles come first, part by part, each with the corner it begins with. If the order of the
+// wedges is kept too, they are then expected in the order of their first use.
 #ifndef MCC_SURFACE_ORDER_H_
 #define MCC_SURFACE_ORDER_H_
 
@@ -20,16 +22,17 @@
 
 namespace mcc {
 
-inline constexpr uint32_t kRecentCount = 32;  ///< touched elements that a rank can name
+inline constexpr uint32_t kRecentCount = 32;  ///< number of touched elements that a rank can name
 
-/// How an element is found.
+/// The way by which an element is found.
 enum class Way : uint8_t { kNear = 0, kFar = 1, kNext = 2, kAny = 3 };
 
 struct SequenceModels {
-  BitModel is_next[8][4];      ///< [the last three answers][last way]
-  BitModel is_near[2][4][3];   ///< [asked for the next][last way][last near rank]
-  BitModel is_far[2][4];       ///< [asked for the next][last way]
-  TreeModel<5> rank[2][4][2];  ///< [near, far][class of the last rank there][the last way was this]
+  BitModel is_next[8][4];     ///< [the last three answers][last way]
+  BitModel is_near[2][4][3];  ///< [asked for the next][last way][last near rank]
+  BitModel is_far[2][4];      ///< [asked for the next][last way]
+  /// [near, far][class of the last rank there][whether the last way was this one]
+  TreeModel<5> rank[2][4][2];
 };
 
 struct OrderModels {
@@ -38,13 +41,13 @@ struct OrderModels {
   BitModel corner[4][3][2];  ///< [way][last corner][second decision]
 };
 
-/// The elements touched last, latest first.
+/// The elements that were touched last, the latest first.
 class RecentElements {
  public:
   uint32_t count() const { return count_; }
   uint32_t element(uint32_t rank) const { return elements_[rank]; }
   uint32_t note(uint32_t rank) const { return notes_[rank]; }
-  /// count() if it is not among them.
+  /// Returns the rank of an element, or count() if it is not among them.
   uint32_t rankOf(uint32_t element) const {
     uint32_t rank = 0;
     while (rank < count_ && elements_[rank] != element) ++rank;
@@ -78,13 +81,13 @@ class RecentElements {
   uint32_t count_ = 0;
 };
 
-/// The elements not placed yet, in no particular order; among them those touched: near ones, which are likely, and
-/// far ones. An element is in one of the two lists at most.
+/// The elements that are not placed yet, in no particular order. Those that were touched are also
+/// in one of two lists: near ones, which are likely to be next, and far ones.
 class OpenElements {
  public:
   explicit OpenElements(const Allocator& allocator) : open_(allocator), place_(allocator) {}
 
-  /// Room for elements below `count`; none is open.
+  /// Makes room for elements below `count`, none of which is open.
   [[nodiscard]] bool init(uint32_t count) {
     count_ = 0;
     return open_.resize(count) && place_.assign(count, kNone);
@@ -100,7 +103,8 @@ class OpenElements {
   uint32_t placeOf(uint32_t element) const { return place_[element]; }
   const RecentElements& recent(Way way) const { return way == Way::kNear ? near_ : far_; }
 
-  /// `note` is kept with the element; a near one stays near.
+  /// These touch an element if it is open, and keep `note` with it. A far element can become near,
+  /// but a near one stays near.
   void touchNear(uint32_t element, uint32_t note) {
     if (!isOpen(element)) return;
     far_.remove(element);
@@ -135,18 +139,18 @@ class OpenElements {
 
 struct Found {
   uint32_t element = 0;
-  uint32_t note = 0;  ///< of the touch; 0 if it was not touched
+  uint32_t note = 0;  ///< note of the touch; 0 if it was not touched
   Way way = Way::kAny;
 };
 
-/// Chooses elements one by one. [A.10.1]
+/// Codes the choice of elements, one by one. [A.10.1]
 template <class Io>
 class SequenceCoder {
  public:
   SequenceCoder(Io& io, SequenceModels& models, OpenElements& elements)
       : io_(io), models_(models), elements_(elements) {}
 
-  /// `expected` is open. Closes what it finds.
+  /// Codes the next element and closes it. `expected` must be open.
   Found next(uint32_t expected, uint32_t truth) {
     Found found;
     found.way = codeWay(expected, truth);
@@ -163,7 +167,8 @@ class SequenceCoder {
     return found;
   }
 
-  /// Behind the last element: whether there was a place in a list that is not so long.
+  /// Returns an error if any of the elements referred to a place beyond the end of a list. Called
+  /// after the last element.
   Status finish() const {
     if (!is_malformed_) return {};
     return fail(Error::kBadAttribute, "an order refers to an element that is not there");
@@ -210,23 +215,23 @@ class SequenceCoder {
   Way last_way_ = Way::kAny;
 };
 
-/// Triangles of a piece in the order in which the reader would hand them out: the faces, then the listed ones.
+/// The triangles of a piece in the reader's natural order: the faces, then the listed triangles.
 struct TriangleTable {
   explicit TriangleTable(const Allocator& allocator) : wedges(allocator), part(allocator) {}
 
   Array<uint32_t> wedges;  ///< 3 per triangle
-  Array<uint32_t> part;    ///< only with several parts
+  Array<uint32_t> part;    ///< per triangle; only if there are several parts
 
   uint32_t count() const { return static_cast<uint32_t>(wedges.size() / 3); }
   uint32_t partOf(uint32_t triangle) const { return part.empty() ? 0 : part[triangle]; }
 };
 
-/// A triangle and the corner it begins with: 4 * triangle + corner.
+/// Packs a triangle and the corner it begins with into one number: 4 * triangle + corner.
 constexpr uint32_t orderedTriangle(uint32_t triangle, uint32_t corner) {
   return 4 * triangle + corner;
 }
 
-/// Order of the triangles within each part. Of `faces` only twins are read. [A.10.2]
+/// Codes the order of the triangles within each part. Reads only the twins of `faces`. [A.10.2]
 template <class Io>
 class TriangleOrderCoder {
  public:
@@ -240,7 +245,7 @@ class TriangleOrderCoder {
         by_part_(mesh.allocator()),
         open_(mesh.allocator()) {}
 
-  /// Fills `order`, orderedTriangle() by place, part after part. `truth`: the same, in the encoder.
+  /// Fills `order` with orderedTriangle() by place, part after part. `truth` is the same (encoder).
   Status run(uint32_t part_count, const uint32_t* truth, Array<uint32_t>& order) {
     const uint32_t count = table_.count();
     if (!order.resize(count) || !open_.init(count) || !sortByPart(part_count)) return noMemory();
@@ -293,8 +298,8 @@ class TriangleOrderCoder {
     return (found.note + turn) % 3;
   }
 
-  /// Triangles across the edges are near, those across their edges far; from the first corner on, so that what is
-  /// across the last edge ends up in front.
+  /// Triangles across the edges are near, those across their edges are far. They are touched from
+  /// the first corner on, so that the one across the last edge ends up in front.
   void touchNeighbours(uint32_t triangle, uint32_t corner) {
     if (triangle >= face_count_) return;
     for (uint32_t i = 0; i < 3; ++i) {
@@ -319,7 +324,7 @@ class TriangleOrderCoder {
   uint32_t last_corner_ = 0;
 };
 
-/// Order of the wedges. [A.10.3]
+/// Codes the order of the wedges. [A.10.3]
 template <class Io>
 class WedgeOrderCoder {
  public:
@@ -333,7 +338,8 @@ class WedgeOrderCoder {
         expected_(allocator),
         open_(allocator) {}
 
-  /// Fills `order`, the wedge by place. `triangle_order`, if not empty, tells the order of first use.
+  /// Fills `order` with the wedge at each place. `triangle_order`, if not empty, gives the order of
+  /// first use.
   Status run(uint32_t wedge_count, const Array<uint32_t>& triangle_order, const uint32_t* truth,
              Array<uint32_t>& order) {
     if (!order.resize(wedge_count) || !open_.init(wedge_count) || !findCorners(wedge_count) ||
@@ -355,7 +361,7 @@ class WedgeOrderCoder {
   }
 
  private:
-  /// The corners of every wedge.
+  /// Lists the corners of every wedge.
   [[nodiscard]] bool findCorners(uint32_t wedge_count) {
     if (!starts_.assign(size_t{wedge_count} + 2, 0) || !corners_.resize(table_.wedges.size()))
       return false;
@@ -386,7 +392,8 @@ class WedgeOrderCoder {
     open_.add(wedge);
   }
 
-  /// Wedges that would complete a triangle are near, those of triangles with two open corners far.
+  /// Wedges that would complete a triangle are near; those of triangles with two open corners are
+  /// far.
   void touchNeighbours(uint32_t wedge) {
     const uint32_t begin = starts_[wedge];
     const uint32_t end = starts_[wedge + 1];
@@ -406,12 +413,12 @@ class WedgeOrderCoder {
     }
   }
 
-  static constexpr uint32_t kMostTriangles = 32;  ///< of a wedge that are looked at
+  static constexpr uint32_t kMostTriangles = 32;  ///< limit of triangles searched per wedge
 
   Io& io_;
   OrderModels& models_;
   const TriangleTable& table_;
-  Array<uint32_t> starts_;  ///< into corners_, by wedge
+  Array<uint32_t> starts_;  ///< by wedge, offsets into corners_
   Array<uint32_t> corners_;
   Array<uint32_t> expected_;
   OpenElements open_;

@@ -1,11 +1,13 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Seams: the partition of the corners around every vertex into wedges, shared by all attributes.   [A.7]
+// Seams: the partition of the corners around every vertex into wedges, shared by all attributes.
+// [A.7]
 //
-// In traversal order, umbrella by umbrella: does the umbrella have a seam at all; then per edge, whether the corners
-// on its two sides at this vertex are different wedges (the other end of the edge says so for itself, and is a
-// context). A wedge that is not one contiguous run of corners is a run with a merge flag and the number of an
-// earlier wedge of the same group. The pass rewrites face corners from groups to wedges.
+// The umbrellas come in traversal order. For each one: does it have a seam at all? If so, for each
+// edge: are the corners on its two sides, at this vertex, different wedges? The other end of the
+// edge has its own answer, which serves as a context. A wedge that is not one contiguous run of
+// corners is a run with a merge flag and the number of an earlier wedge of the same group. The pass
+// rewrites face corners from groups to wedges.
 #ifndef MCC_SURFACE_SEAMS_H_
 #define MCC_SURFACE_SEAMS_H_
 
@@ -23,15 +25,15 @@
 namespace mcc {
 
 struct SeamModels {
-  /// [seam ends known on the ring][boundary][sharpest crease]
+  /// [number of seam ends known on the ring][boundary][sharpest crease]
   BitModel has_seam[4][2][kCreaseClasses];
-  /// [other end: unknown, no, yes][seam ends so far][boundary][crease]
+  /// [other end: unknown, no, yes][number of seam ends so far][boundary][crease]
   BitModel edge[3][3][2][kCreaseClasses];
   BitModel merge[2][4];  ///< [first run of its umbrella][candidates]
   GolombModel merge_with;
 };
 
-/// A bit per half-edge in a face's kSeamWord: a seam ends here.
+/// Returns the bit of a half-edge in its face's kSeamWord: whether a seam ends here.
 inline uint32_t seamEnd(const FaceView& faces, uint32_t h) {
   return (faces.words[(h & ~7u) + kSeamWord] >> (h & 3)) & 1;
 }
@@ -54,14 +56,14 @@ class SeamCoder {
         fan_(mesh.allocator()),
         wedge_of_source_(mesh.allocator()) {}
 
-  /// `group_order` has a half-edge per group in coding order. `wedge_start` receives the
-  /// clockwise-most half-edge of each wedge's first run, `wedge_group` its group. More than
-  /// `wedge_limit` wedges are an error.
+  /// Codes the seams. `group_order` has a half-edge per group in coding order. `wedge_start`
+  /// receives the clockwise-most half-edge of each wedge's first run, `wedge_group` its group. More
+  /// than `wedge_limit` wedges are an error.
   Status run(uint32_t wedge_limit, const Array<uint32_t>& group_order, Array<uint32_t>& wedge_start,
              Array<uint32_t>& wedge_group);
 
  private:
-  /// Of corners that have become wedges; a corner no umbrella reached is noticed by it.
+  /// Marks corners that have become wedges, and thereby reveals a corner that no umbrella reached.
   static constexpr uint32_t kDone = 1u << 31;
 
   Status codeUmbrella(uint32_t group, uint32_t start, Array<uint32_t>& wedge_start,
@@ -74,7 +76,7 @@ class SeamCoder {
                    uint32_t group, Array<uint32_t>& wedge_start, Array<uint32_t>& wedge_group,
                    uint32_t& wedge);
   uint32_t source(uint32_t h) const { return corner_source_[3 * size_t{faceOf(h)} + (h & 3)]; }
-  /// Encoder: the wedge that a source wedge has become.
+  /// Returns the wedge that a source wedge has become (encoder).
   uint32_t wedgeOf(uint32_t source) const {
     return source < wedge_of_source_.size() ? wedge_of_source_[source] : kNone;
   }
@@ -89,9 +91,10 @@ class SeamCoder {
     wedge_of_source_[source] = wedge;
     return true;
   }
-  /// Whether the edge before fan face i (behind the last one for i == 0) carries a seam end here.
+  /// Returns whether the edge before fan face i (for i == 0, the edge after the last face) has a
+  /// seam end here.
   bool seamBefore(uint32_t i) const { return seamEnd(faces_, fan_[i]) != 0; }
-  /// Index in the fan; i below twice its length.
+  /// Wraps an index of the fan; i must be below twice its length.
   uint32_t around(uint32_t i) const {
     const uint32_t n = static_cast<uint32_t>(fan_.size());
     return i < n ? i : i - n;
@@ -108,8 +111,8 @@ class SeamCoder {
   Array<uint32_t> wedge_of_source_;  ///< encoder: kNone until it is coded
   uint32_t group_begin_ = 0;         ///< first wedge of the group; the others follow it
   bool closed_ = false;
-  uint32_t known_ends_ = 0;  ///< of seams, at the other ends of the fan's edges
-  uint32_t sharpest_ = 0;    ///< crease class of the fan's edges
+  uint32_t known_ends_ = 0;  ///< number of seam ends at the other ends of the fan's edges
+  uint32_t sharpest_ = 0;    ///< highest crease class of the fan's edges
   uint32_t wedge_count_ = 0;
 };
 
@@ -127,7 +130,7 @@ Status SeamCoder<Io>::run(uint32_t wedge_limit, const Array<uint32_t>& group_ord
     MCC_TRY(codeUmbrella(group, entry, wedge_start, wedge_group));
     if (groups_.hasCopies()) {
       for (const uint32_t start : groups_.umbrellasOf(group)) {
-        if ((faces_.vertex(start) & kDone) != 0) continue;  // the entry's umbrella
+        if ((faces_.vertex(start) & kDone) != 0) continue;  // the umbrella of the entry is done
         MCC_TRY(codeUmbrella(group, start, wedge_start, wedge_group));
       }
     }
@@ -146,7 +149,8 @@ Status SeamCoder<Io>::run(uint32_t wedge_limit, const Array<uint32_t>& group_ord
   return {};
 }
 
-/// The umbrella from its clockwise boundary, or once around from `start`; notes the contexts on the way. [A.7.1]
+/// Collects the faces of the umbrella, from its clockwise boundary, or once around from `start`,
+/// and notes the contexts on the way. [A.7.1]
 template <class Io>
 Status SeamCoder<Io>::collectFan(uint32_t start) {
   fan_.clear();
@@ -171,7 +175,7 @@ Status SeamCoder<Io>::collectFan(uint32_t start) {
   for (h = faces_.rotateCw(start); h != kNone; h = faces_.rotateCw(h)) {
     if (!add(h)) return fail(Error::kOutOfMemory, "no memory for wedges");
   }
-  // What was met clockwise, backwards, comes in front of the others.
+  // The faces met clockwise, in reverse, come before the others.
   std::reverse(fan_.data(), fan_.data() + fan_.size());
   std::reverse(fan_.data() + fan_.size() - behind, fan_.data() + fan_.size());
   return {};
@@ -180,7 +184,7 @@ Status SeamCoder<Io>::collectFan(uint32_t start) {
 template <class Io>
 bool SeamCoder<Io>::codeHasSeam() {
   const uint32_t n = static_cast<uint32_t>(fan_.size());
-  if (n < 2) return false;  // a closed umbrella needs two seam ends, another one
+  if (n < 2) return false;  // a closed umbrella needs two seam ends, an open one needs one
   bool any = false;
   if constexpr (Io::kEncoding) {
     for (uint32_t i = 1; i < n; ++i) any |= source(fan_[i]) != source(fan_[0]);
@@ -188,7 +192,8 @@ bool SeamCoder<Io>::codeHasSeam() {
   return io_.bit(models_.has_seam[std::min(known_ends_, 3u)][closed_ ? 0 : 1][sharpest_], any);
 }
 
-/// Bits for edges 1 .. n-1 between fan faces i-1 and i, then for the closing edge 0.           [A.7.2]
+/// Codes bits for the edges 1 .. n-1 between the fan faces i-1 and i, then for the closing edge 0.
+/// [A.7.2]
 template <class Io>
 void SeamCoder<Io>::codeSeamEnds() {
   const uint32_t n = static_cast<uint32_t>(fan_.size());
@@ -198,7 +203,7 @@ void SeamCoder<Io>::codeSeamEnds() {
   uint32_t ends = 0;
   for (uint32_t k = 1; k <= edges; ++k) {
     const uint32_t i = k == n ? 0 : k;
-    bool seam = ends + (edges - k + 1) == needed;  // implied
+    bool seam = ends + (edges - k + 1) == needed;  // implied when every remaining edge is needed
     if (!seam) {
       const uint32_t t = faces_.twin(fan_[i]);
       const uint32_t other = (faces_.vertex(t) & kDone) == 0 ? 0 : 1 + seamEnd(faces_, t);
@@ -227,7 +232,7 @@ Status SeamCoder<Io>::codeUmbrella(uint32_t group, uint32_t start, Array<uint32_
   return {};
 }
 
-/// Runs start behind a seam end; the first may reach back over the closing edge.
+/// Codes the runs. A run starts after a seam end; the first may reach back over the closing edge.
 template <class Io>
 Status SeamCoder<Io>::codeRuns(uint32_t group, Array<uint32_t>& wedge_start,
                                Array<uint32_t>& wedge_group) {
@@ -254,14 +259,15 @@ Status SeamCoder<Io>::codeRuns(uint32_t group, Array<uint32_t>& wedge_start,
   return {};
 }
 
-/// A new wedge, or one of the group's wedges again: its rank counts from the latest back, without the excluded ones, which
-/// are of the group as well or kNone.                                                         [A.7.3]
+/// Codes a run as a new wedge, or as one of the group's wedges again. The rank of the latter counts
+/// back from the latest wedge, skipping the excluded ones, which are wedges of the group or kNone.
+/// [A.7.3]
 template <class Io>
 Status SeamCoder<Io>::codeWedge(uint32_t first, uint32_t excluded_a, uint32_t excluded_b,
                                 bool first_run, uint32_t group, Array<uint32_t>& wedge_start,
                                 Array<uint32_t>& wedge_group, uint32_t& wedge) {
   const uint32_t latest = wedge_count_ - 1;
-  // The excluded ones from the latest back.
+  // Sorts the excluded wedges, the latest first.
   if (excluded_a == excluded_b) excluded_b = kNone;
   if (excluded_a < excluded_b) std::swap(excluded_a, excluded_b);
   if (excluded_a == kNone) std::swap(excluded_a, excluded_b);

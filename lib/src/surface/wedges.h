@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What all attributes of a piece share: the order of the wedges, the faces each wedge completes, positions as the
-// predictions see them, and groups of wedges with equal values.                              [A.8.1]
+// What all attributes of a piece share: the order of the wedges, the faces that each wedge
+// completes, positions as the predictions see them, and groups of wedges with equal values. [A.8.1]
 #ifndef MCC_SURFACE_WEDGES_H_
 #define MCC_SURFACE_WEDGES_H_
 
@@ -16,23 +16,27 @@
 
 namespace mcc {
 
-/// Wedges in coding order. Built once per piece, after the seams; keeps links in the faces' kFaceWord.
+/// The wedges in coding order. Built once per piece, after the seams; keeps links in the faces'
+/// kFaceWord.
 class WedgeMesh {
  public:
   explicit WedgeMesh(const Allocator& allocator)
       : faces(FaceView{nullptr}), order_(allocator), rank_(allocator), completed_(allocator) {}
 
-  /// `starts`: a half-edge per wedge in coding order. Wedges behind the surface's are in no face. `numbered`: they
-  /// are numbered in that order. `group_of_wedge` is null without seams.
+  /// Builds the order. `starts` has a half-edge per wedge in coding order. Wedges from
+  /// `surface_wedges` on are in no face. Without seams, `group_of_wedge` is null and wedges have
+  /// the numbers of their groups; with seams, wedges are numbered in coding order.
   Status build(FaceMesh& mesh, const uint32_t* starts, uint32_t surface_wedges,
                uint32_t wedge_count, const uint32_t* group_of_wedge);
 
   uint32_t wedgeAt(uint32_t i) const { return order_.empty() ? i : order_[i]; }
   uint32_t rankOf(uint32_t wedge) const { return rank_.empty() ? wedge : rank_[wedge]; }
-  /// Half-edges leaving `wedge` in the faces it completes: all other corners have a lower rank.
+  /// The half-edges that leave `wedge` in the faces it completes, those in which all other corners
+  /// have a lower rank.
   uint32_t firstCompleted(uint32_t wedge) const { return completed_[wedge]; }
   uint32_t nextCompleted(uint32_t h) const { return faces.words[(h & ~7u) + kFaceWord]; }
-  /// Fetches what coding the wedges a few places behind i will look at; `data`: `stride` elements per wedge.
+  /// Prefetches what coding the wedges a few places after i will look at. `data` has `stride`
+  /// elements per wedge.
   template <class T>
   MCC_INLINE void prefetch(uint32_t i, const T* data, size_t stride) const {
     if (i + 2 * kPrefetch >= surface_count) return;
@@ -42,12 +46,13 @@ class WedgeMesh {
     const uint32_t entry = completed_[wedgeAt(i + kPrefetch)];
     if (entry != kNone) MCC_PREFETCH(&faces.words[entry]);
   }
-  /// Whether wedge `w` is on the same vertex as wedge w-1.
+  /// Returns whether wedge `w` is on the same vertex as wedge w-1.
   bool continuesVertex(uint32_t w) const {
     return group_of_wedge_ != nullptr && w != 0 && w < surface_count &&
            group_of_wedge_[w] == group_of_wedge_[w - 1];
   }
-  /// Calls visit(h) with half-edges leaving `wedge` in its first run of faces, until it returns false; at most 16.
+  /// Calls visit(h) for the half-edges that leave `wedge` in its first run of faces, until it
+  /// returns false; at most 16 times.
   template <class Visit>
   void forRun(uint32_t wedge, Visit visit) const;
   bool hasSeams() const { return group_of_wedge_ != nullptr; }
@@ -57,12 +62,13 @@ class WedgeMesh {
   uint32_t face_count = 0;
   uint32_t surface_count = 0;  ///< wedges in faces
   uint32_t count = 0;
-  uint32_t coded_count = 0;  ///< in coding order; fewer than all in the writer's trials
+  /// Number of wedges in coding order; lower than `count` in the writer's trials.
+  uint32_t coded_count = 0;
 
  private:
   static constexpr uint32_t kPrefetch = 4;  ///< places ahead
 
-  Array<uint32_t> order_;  ///< empty: wedges are numbered in coding order
+  Array<uint32_t> order_;  ///< empty if wedges are numbered in coding order
   Array<uint32_t> rank_;
   Array<uint32_t> completed_;
   const uint32_t* starts_ = nullptr;
@@ -89,7 +95,7 @@ inline Status WedgeMesh::build(FaceMesh& mesh, const uint32_t* starts, uint32_t 
     rank_[order_[i]] = i;
   }
   for (uint32_t f = face_count; f-- != 0;) {  // backwards, so that the lists ascend
-    // No branches: which corner is the last one is close to random.
+    // No branches, because which corner is the last one is close to random.
     const uint32_t* corner = faces.words + f * kFaceWords;
     const uint32_t rank0 = rankOf(corner[0]);
     const uint32_t rank1 = rankOf(corner[1]);
@@ -120,12 +126,13 @@ void WedgeMesh::forRun(uint32_t wedge, Visit visit) const {
   }
 }
 
-/// Groups of wedges of a vertex that have equal values; each is coded once, at its first wedge.
+/// Groups of wedges of a vertex that have equal values; each group is coded once, at its first
+/// wedge.
 struct EqualGroups {
   explicit EqualGroups(const Allocator& allocator) : first(allocator), next(allocator) {}
 
-  Array<uint32_t> first;  ///< empty: every wedge is its own group
-  Array<uint32_t> next;   ///< of the same group; kNone behind the last
+  Array<uint32_t> first;  ///< of the group; empty if every wedge is its own group
+  Array<uint32_t> next;   ///< of the same group; kNone for the last
 
   bool isFirst(uint32_t wedge) const { return first.empty() || first[wedge] == wedge; }
   uint32_t firstOf(uint32_t wedge) const { return first.empty() ? wedge : first[wedge]; }
@@ -147,15 +154,17 @@ inline void gatherGroups(const WedgeMesh& wedges, const EqualGroups& groups, flo
   }
 }
 
-/// Order in which wedges are coded: wedge faces.vertex(half_edges[i]) is the i-th, isolated wedges follow.
+/// The order in which wedges are coded: wedge faces.vertex(half_edges[i]) is the i-th; isolated
+/// wedges follow.
 struct WedgeSequence {
   const uint32_t* half_edges = nullptr;
   uint32_t count = 0;
-  uint32_t isolated_first = 0;  ///< wedges that are in no triangle are numbered from here
+  /// Number of the first wedge that is in no triangle; the others follow it.
+  uint32_t isolated_first = 0;
   uint32_t isolated_count = 0;
 };
 
-/// Between two wedges, of `positions` as below.
+/// Returns the squared distance of two wedges; `positions` as below.
 inline float squaredDistance(const float* positions, uint32_t a, uint32_t b) {
   const float* p = positions + 4 * size_t{a};
   const float* q = positions + 4 * size_t{b};
@@ -163,11 +172,12 @@ inline float squaredDistance(const float* positions, uint32_t a, uint32_t b) {
   return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
 }
 
-/// Coordinates of predictions are integers of at most this many bits, as floats: products of a few of their
-/// differences neither overflow nor become denormal.                                          [B.4.6]
+/// The coordinates that predictions see are integers of at most this many bits, stored as floats.
+/// Products of a few of their differences therefore neither overflow nor become denormal. [B.4.6]
 inline constexpr uint32_t kPredictionBits = 22;
 
-/// Wedge positions as float32 integers, 4 per wedge, from the coordinates `position(w)` (int32[3]) of any range.
+/// Converts wedge positions to float32 integers, 4 per wedge. `position(w)` returns coordinates
+/// (int32[3]) of any range.
 template <class Position>
 Status latticePredictionPositions(uint32_t count, Position position, Array<float>& out) {
   if (!out.resize(4 * size_t{count})) return fail(Error::kOutOfMemory, "no memory for attributes");
@@ -194,7 +204,8 @@ Status latticePredictionPositions(uint32_t count, Position position, Array<float
   return {};
 }
 
-/// The same from exact floats (as ordered integers); what is not finite counts as 0.
+/// Does the same for exact floats, given as ordered integers; values that are not finite count as
+/// 0.
 template <class Position>
 Status floatPredictionPositions(uint32_t count, Position position, Array<float>& out) {
   if (!out.resize(4 * size_t{count})) return fail(Error::kOutOfMemory, "no memory for attributes");
@@ -215,7 +226,7 @@ Status floatPredictionPositions(uint32_t count, Position position, Array<float>&
       reach = absolute > reach ? absolute : reach;
     }
   }
-  // A power of two that brings `reach` (below 2^129, not denormal as a double) to 2^22 at most.
+  // A power of two that brings `reach` (below 2^129, and not denormal as a double) to at most 2^22.
   const uint64_t exponent = std::bit_cast<uint64_t>(reach) >> 52;
   const uint64_t scale_exponent = exponent == 0 ? 1023 : 2 * 1023 + kPredictionBits - 1 - exponent;
   const double scale = std::bit_cast<double>(scale_exponent << 52);
