@@ -2,7 +2,7 @@
 import type { UnpackOptions } from './unpack.mjs';
 
 /**
- * Registers the extension with the glTF loader of @babylonjs/loaders. May be called again, with other options. `decode` is by
- * default that of workers which all loaders of a page share.
+ * Registers the extension with the glTF loader of @babylonjs/loaders. May be called again with
+ * other options. By default, `decode` uses workers that all loaders of a page share.
  */
 export function registerMeshCollapse(options?: UnpackOptions): void;

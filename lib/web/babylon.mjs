@@ -5,10 +5,12 @@ import { EXTENSION_NAME } from './document.mjs';
 import { PayloadViews } from './views.mjs';
 
 /**
- * From now on Babylon.js loads KHR_mesh_collapse_compression. A payload that is damaged, or does not fit the document, rejects
- * the load with a message that says why. May be called again, with other options.
+ * Makes Babylon.js load KHR_mesh_collapse_compression. A payload that is damaged, or does not fit
+ * the document, rejects the load with a message that says why. May be called again with other
+ * options.
  *
- * @param {import('./unpack.mjs').UnpackOptions} [options] decode: by default in workers that all loaders of a page share
+ * @param {import('./unpack.mjs').UnpackOptions} [options] decode: by default in workers that all
+ * loaders of a page share
  */
 export function registerMeshCollapse(options) {
   unregisterGLTFExtension(EXTENSION_NAME);
@@ -31,7 +33,8 @@ class MeshCollapseExtension {
     this.#loader = this.#views = undefined;
   }
 
-  // Called by the loader when it has numbered the objects of the document and loaded nothing yet.
+  // Called by the loader when it has numbered the objects of the document and has not loaded
+  // anything yet.
   onLoading() {
     const loader = this.#loader;
     const { gltf } = loader;
@@ -42,7 +45,7 @@ class MeshCollapseExtension {
     gltf.bufferViews.forEach((view, index) => { view.index = index; });
   }
 
-  // Called by the loader for every buffer view; null leaves it to others.
+  // Called by the loader for every buffer view; null leaves it to other extensions.
   loadBufferViewAsync(context, bufferView) {
     return this.#views?.load(bufferView.index) ?? null;
   }

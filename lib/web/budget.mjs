@@ -1,9 +1,12 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What all payloads of a file may decode to, checked before memory is taken.
+// Limits what all payloads of a file may decode to. It is checked before memory is allocated.
 import { MccError } from './error.mjs';
 
-/** Bytes of what the document names of a payload, each attribute and each part once; indices of 32 bits. */
+/**
+ * Returns the number of bytes that the document names of a payload: each attribute and each part
+ * once, with 32-bit indices.
+ */
 export function namedBytes({ claims }) {
   const sizes = new Map();
   for (const { piece, part, indices, attributes } of claims) {
@@ -21,7 +24,7 @@ export const sum = (numbers) => numbers.reduce((total, number) => total + number
 const bytesOf = ({ pieces }) => sum(pieces.flatMap(({ attributes, parts }) => [
   ...attributes.map(({ array }) => array.byteLength), ...parts.map(({ triangleCount }) => 12 * triangleCount)]));
 
-/** `fileBytes` may grow as more of the file becomes known. */
+/** What may still be decoded. `fileBytes` may grow while more of the file becomes known. */
 export class Budget {
   #limits;
   #max;
@@ -37,12 +40,14 @@ export class Budget {
     this.#max = maxDecodedBytes;
   }
 
-  /** As decodedLimit() of the C++ library. */
+  /** The same as decodedLimit() of the C++ library. */
   get #limit() {
     return this.#max ?? Math.min(2 ** 32, Math.max(2 ** 28, 1024 * this.fileBytes));
   }
 
-  /** Counts what is going to be decoded, or copied. Throws an MccError if that is too much. */
+  /**
+   * Counts bytes that are about to be decoded or copied. Throws an MccError if they are too many.
+   */
   add(bytes) {
     const total = this.#total + bytes;
     if (!(total <= this.#limit)) {
@@ -51,14 +56,16 @@ export class Budget {
     this.#total = total;
   }
 
-  /** Of decodePayload(), for a payload whose namedBytes() were added: what the document does not name is held against what is
-   * left. */
+  /**
+   * Returns the options of decodePayload() for a payload whose namedBytes() have been added.
+   * Outputs that the document does not name must fit in what is left.
+   */
   optionsFor(payload) {
     const maxOutputBytes = Math.min(this.#limits.maxOutputBytes ?? Infinity, namedBytes(payload) + this.#limit - this.#total);
     return { claims: payload.claims, limits: { ...this.#limits, maxOutputBytes } };
   }
 
-  /** Counts that, too, and returns `decoded`. */
+  /** Counts the outputs that the document does not name, and returns `decoded`. */
   settle(payload, decoded) {
     this.add(Math.max(0, bytesOf(decoded) - namedBytes(payload)));
     return decoded;

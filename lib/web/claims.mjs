@@ -1,13 +1,17 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What a document says about a payload, checked against the payload's header before memory is taken for it.
+// Checks what a document says about a payload against the payload's header, before memory is
+// allocated for it.
 import { MccError } from './error.mjs';
 
 export function fail(path, message) {
   throw new MccError(path === '' ? message : `${path}: ${message}`, 'Document');
 }
 
-/** `info`: a DecodedPayload without arrays. `claims`: of payloadsOf(), plain data. */
+/**
+ * Checks all claims. `info` is a DecodedPayload without arrays; `claims` is plain data from
+ * payloadsOf().
+ */
 export function checkClaims(info, claims) {
   for (const claim of claims) checkPrimitive(info, claim);
 }
@@ -44,6 +48,6 @@ function checkAttribute(piece, claim) {
   }
   checkCount(piece, claim.accessor);
   for (const key of ['componentType', 'componentCount', 'normalized', 'semantic', 'set', 'morphTarget']) {
-    if (coded[key] !== claim[key]) fail(claim.path, `${key} is ${claim[key]}, in the payload ${coded[key]}`);
+    if (coded[key] !== claim[key]) fail(claim.path, `${key} is ${claim[key]}, but ${coded[key]} in the payload`);
   }
 }

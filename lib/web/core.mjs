@@ -1,10 +1,14 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Decodes payloads with a compiled WebAssembly module. No loading here, so that workers need nothing else.
+// Decodes payloads with a compiled WebAssembly module. It does not load anything, so that workers
+// need no other module.
 import { checkClaims } from './claims.mjs';
 import { MccError } from './error.mjs';
 
-/** Kinds of errors by number - 1, as the specification names them (A.1.4), and what is wrong with a payload then. */
+/**
+ * Kinds of errors, indexed by number - 1: the name in the specification (A.1.4), and what is wrong
+ * with the payload.
+ */
 const ERRORS = [
   ['Truncated', 'ends inside a field or a stream'],
   ['BadMagic', 'is not a mesh collapse payload'],
@@ -14,23 +18,26 @@ const ERRORS = [
   ['BadConnectivity', 'has malformed connectivity'],
   ['BadStitch', 'has malformed stitching'],
   ['BadAttribute', 'has a malformed attribute'],
-  ['TrailingBytes', 'has bytes left over behind a stream'],
+  ['TrailingBytes', 'has bytes left over after a stream'],
   ['Limit', 'has more than the limits allow'],
-  ['OutOfMemory', 'needs more memory than there is'],
+  ['OutOfMemory', 'needs more memory than is available'],
 ];
 const OUT_OF_MEMORY = ERRORS.length;
-/** Of the core alone, number 255, see format/decodes.h. */
+/** The error of the core alone, number 255, see format/decodes.h. */
 const NOT_IN_CORE = ['NotInCore', 'needs the whole decoder'];
 const LIMITS = ['maxVertices', 'maxTriangles', 'maxAttributes', 'maxPieces', 'maxElements', 'maxOutputBytes'];
 
-/** Array types by the component types of the payload's header. */
+/** Component types of glTF and array types, by the component type in the payload's header. */
 const COMPONENT_TYPES = [
   [5120, Int8Array], [5121, Uint8Array], [5122, Int16Array], [5123, Uint16Array], [5125, Uint32Array],
   [5126, Float32Array],
 ];
 
-/** An instance that has grown beyond this is given up after a while without work: its memory cannot shrink. Not at once, since
- * large payloads come one after another, and fresh memory takes up to a third of the time. */
+/**
+ * An instance whose memory has grown beyond this is dropped after it has been idle for a while,
+ * because its memory cannot shrink. It is not dropped at once: large payloads often come one after
+ * another, and allocating fresh memory takes up to a third of the time.
+ */
 const KEPT_BYTES = 64 << 20;
 const KEPT_MILLISECONDS = 1000;
 
@@ -61,7 +68,7 @@ export class Decoder {
       return decodeWith(exports, bytes, options);
     } catch (error) {
       if (error instanceof MccError) throw error;
-      this.#instance = null; // after a trap nothing is known of its memory
+      this.#instance = null; // after a trap, its memory may be in any state
       throw new MccError(`the decoder failed (${error.message}); there may be too little memory`, 'Trap');
     } finally {
       this.#giveBackLater();
@@ -72,7 +79,7 @@ export class Decoder {
     clearTimeout(this.#timer);
     if (this.#pending === 0 && this.#instance?.exports.memory.buffer.byteLength > KEPT_BYTES) {
       this.#timer = setTimeout(() => { this.#instance = null; }, KEPT_MILLISECONDS);
-      this.#timer.unref?.(); // Node: it keeps no program alive
+      this.#timer.unref?.(); // Node: the timer must not keep the program alive
     }
   }
 }
@@ -80,7 +87,7 @@ export class Decoder {
 function decodeWith(exports, bytes, { limits = {}, indexType = 'auto', claims }) {
   if (!(bytes instanceof Uint8Array)) throw new MccError('the payload must be a Uint8Array', 'BadArgument');
   if (!['auto', 'uint16', 'uint32'].includes(indexType)) {
-    throw new MccError(`indexType '${indexType}' is none of auto, uint16, uint32`, 'BadArgument');
+    throw new MccError(`indexType is '${indexType}', but must be auto, uint16 or uint32`, 'BadArgument');
   }
   const address = exports.allocate(bytes.length);
   if (address === 0) check(OUT_OF_MEMORY);
@@ -111,7 +118,10 @@ function check(number) {
   throw new MccError(`the payload ${what}`, code);
 }
 
-/** The header: what DecodedPayload has, without the arrays. Words as in src/decoder.cpp. */
+/**
+ * Reads the header: a DecodedPayload without its arrays. The words are described in
+ * src/decoder.cpp.
+ */
 function describe(exports) {
   const words = new Uint32Array(exports.memory.buffer, exports.table());
   let at = 0;
@@ -133,7 +143,7 @@ function describe(exports) {
   return { pieces };
 }
 
-/** Copies the outputs behind the addresses that are in the table by now. */
+/** Copies the outputs from the addresses that decode() has put into the table. */
 function takeOutputs(exports, info) {
   const buffer = exports.memory.buffer;
   const words = new Uint32Array(buffer, exports.table());
@@ -153,7 +163,7 @@ function takeOutputs(exports, info) {
   }
 }
 
-/** The buffers of a DecodedPayload, for postMessage(). */
+/** Returns the buffers of a DecodedPayload, to be transferred by postMessage(). */
 export function buffersOf({ pieces }) {
   return pieces.flatMap(({ attributes, parts }) => [
     ...attributes.map(({ array }) => array.buffer),

@@ -4,16 +4,22 @@ import type { DecodedPayload, DecodeOptions, DecoderPool, InitOptions, PoolOptio
 export type * from './types.mjs';
 export { MccError } from './error.mjs';
 
-/** Loads the decoder. Without a call the first decodePayload() does, from beside this module. */
+/**
+ * Loads the decoder. If it is never called, the first decodePayload() loads the modules next to
+ * this one.
+ */
 export function init(options?: InitOptions): Promise<void>;
 
-/** Resolves when the decoder is loaded as a whole, which awaiting it begins: for decodePayloadSync(). */
+/**
+ * Resolves when the whole decoder is loaded, which decodePayloadSync() needs. Awaiting it starts
+ * the loading.
+ */
 export const ready: PromiseLike<void>;
 
-/** Decodes a payload: the bytes of the extension's buffer view, all of them. Safe for untrusted bytes. */
+/** Decodes a payload: all bytes of the extension's buffer view. Safe for untrusted bytes. */
 export function decodePayload(bytes: Uint8Array, options?: DecodeOptions): Promise<DecodedPayload>;
 
-/** The same, once the decoder is `ready`. */
+/** Like decodePayload(), but only after the decoder is `ready`. */
 export function decodePayloadSync(bytes: Uint8Array, options?: DecodeOptions): DecodedPayload;
 
 /** Decodes in module workers (worker_threads in Node), several payloads at a time. */

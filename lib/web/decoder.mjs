@@ -1,20 +1,23 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Decodes payloads of KHR_mesh_collapse_compression: here, or in workers.
+// Decodes payloads of KHR_mesh_collapse_compression, on this thread or in workers.
 import { Decoder } from './core.mjs';
 import { MccError } from './error.mjs';
 import { compileModule, importOfNode } from './load.mjs';
 
 export { MccError };
 
-/** A module whose only function uses a vector; what cannot compile it has no SIMD. */
+/** A module whose only function uses a vector. An engine without SIMD cannot compile it. */
 const VECTORS = [
   0, 97, 115, 109, 1, 0, 0, 0, // header
   1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, // a function without parameters that returns a vector
   10, 8, 1, 6, 0, 65, 0, 253, 15, 11, // i32.const 0, i8x16.splat, end
 ];
 
-/** The decoders made of the modules of a place. The core is smaller and faster, and has what most payloads need. */
+/**
+ * Loads and keeps the decoders of one place. The core is smaller and faster, and decodes most
+ * payloads.
+ */
 class Source {
   #loading = {};
 
@@ -32,7 +35,7 @@ class Source {
     return this.#load('decoder', urlOfWhole);
   }
 
-  /** What to begin with: the core, unless only the whole decoder is there. */
+  /** The decoder to try first: the core, unless only the whole decoder is loaded. */
   first() {
     return this.decoder && !this.coreDecoder ? this.whole() : this.core();
   }
@@ -48,13 +51,16 @@ class Source {
 
 let source = new Source({});
 
-/** Loads the decoder. Without a call the first decodePayload() does, from beside this module. */
+/**
+ * Loads the decoder. If it is never called, the first decodePayload() loads the modules next to
+ * this one.
+ */
 export async function init(options = {}) {
   source = new Source(options);
   await source.core();
 }
 
-/** Resolves when the decoder is loaded as a whole, which awaiting it begins. */
+/** Resolves when the whole decoder is loaded. Awaiting it starts the loading. */
 export const ready = {
   then: (fulfilled, rejected) => source.whole().then(() => {}).then(fulfilled, rejected),
 };
@@ -74,7 +80,7 @@ export function decodePayloadSync(bytes, options) {
   return source.decoder.decodeSync(bytes, options);
 }
 
-/** Decodes in workers, several payloads at a time. */
+/** Creates a pool that decodes several payloads at a time, in workers. */
 export function createDecoderPool(options = {}) {
   const { workers = Math.max(1, Math.min(4, (globalThis.navigator?.hardwareConcurrency ?? 4) - 1)), ...where } = options;
   return new DecoderPool(workers, where);
@@ -88,15 +94,16 @@ class DecoderPool {
 
   constructor(size, where) {
     this.size = size;
-    // One copy of the modules for all; without options those of decodePayload().
+    // All workers share one copy of the modules; without options, it is that of decodePayload().
     this.#source = Object.keys(where).length === 0 ? source : new Source(where);
     this.#workers = Array.from({ length: size }, () => ({ job: null, worker: null, started: null }));
   }
 
-  /** Bound, so that it can be handed on: unpackGlb(bytes, { decode: pool.decodePayload }). */
+  /** Bound to the pool, so that it can be passed on as the option `decode` of unpackGlb(). */
   decodePayload = (bytes, { transfer = false, ...options } = {}) => new Promise((resolve, reject) => {
     if (this.#disposed) throw new MccError('the pool was disposed of', 'Disposed');
-    // The buffer moves to the worker: the caller's own if that is wanted and nothing else is in it.
+    // The buffer moves to the worker. It is the caller's own if that is wanted and it holds nothing
+    // else.
     const whole = transfer && bytes.byteLength === bytes.buffer.byteLength;
     this.#waiting.push({ bytes: whole ? bytes : bytes.slice(), options, resolve, reject });
     this.#next();
@@ -120,9 +127,9 @@ class DecoderPool {
     slot.started ??= this.#source.first(slot.job.options).then(({ module }) => this.#start(slot, module));
     slot.started.then(
       () => {
-        if (slot.job === null) return; // disposed of
+        if (slot.job === null) return; // the pool was disposed of
         const { bytes, options } = slot.job;
-        slot.worker.ref?.(); // Node: only a job keeps the program alive
+        slot.worker.ref?.(); // Node: only a running job keeps the program alive
         slot.worker.postMessage({ bytes, options }, [bytes.buffer]);
       },
       (error) => {
@@ -163,7 +170,7 @@ class DecoderPool {
   }
 }
 
-/** A worker of browsers, or of Node behind the same calls. */
+/** Creates a worker of the browser, or one of Node with the same interface. */
 async function createWorker(onMessage, onError) {
   if (typeof Worker === 'function') {
     const worker = new Worker(new URL('./worker.mjs', import.meta.url), { type: 'module' });

@@ -19,14 +19,20 @@ export interface Payload {
   claims: object[];
 }
 
-/** The payloads of a glTF document, each once: buffer views of the same bytes hold one. Throws an MccError where the document violates the specification. */
+/**
+ * Lists the payloads of a glTF document, each once: buffer views of the same bytes hold one
+ * payload. Throws an MccError if the document violates the specification.
+ */
 export function payloadsOf(json: object): Payload[];
 
-/** The array that fills the accessor of a target: tight, and in the component type of the accessor. */
+/**
+ * Returns the array that fills the accessor of a target, without padding, in the component type of
+ * the accessor.
+ */
 export function elementsOf(decoded: DecodedPayload, target: Target, accessor: { componentType: number }): TypedArray;
 
-/** All primitives with the extension. */
+/** Lists all primitives with the extension. */
 export function extensionUses(json: object): { extension: any; primitive: any; path: string }[];
 
-/** Components by type of accessor. */
+/** The number of components by accessor type. */
 export const COMPONENT_COUNTS: Record<'SCALAR' | 'VEC2' | 'VEC3' | 'VEC4' | 'MAT2' | 'MAT3' | 'MAT4', number>;

@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The extension objects of a glTF document, for all loaders: which payload fills which accessors. Checks the rules of the
-// specification that need no payload; `claims` has what decodePayload() checks against the payload's header.
+// Reads the extension objects of a glTF document, for all loaders: which payload fills which
+// accessors. Checks the rules of the specification that need no payload; decodePayload() checks
+// `claims` against the payload's header.
 import { fail } from './claims.mjs';
 
 export const EXTENSION_NAME = 'KHR_mesh_collapse_compression';
@@ -11,7 +12,7 @@ const FLOAT = 5126;
 const CUSTOM = 7;
 const INDEX_ARRAYS = { 5121: Uint8Array, 5123: Uint16Array, 5125: Uint32Array };
 export const COMPONENT_COUNTS = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 };
-/** What an attribute means, by name and accessor type; else it is custom. */
+/** The semantic of an attribute, by name and accessor type; all others are custom. */
 const SEMANTICS = [
   [/^POSITION$/, 'VEC3'],
   [/^NORMAL$/, 'VEC3'],
@@ -23,19 +24,20 @@ const SEMANTICS = [
 ];
 
 /**
- * The payloads of a document, each once.
+ * Lists the payloads of a document, each once.
  *
  * @param {object} json  the glTF document
  * @returns {object[]}  { bufferView, targets, claims } by payload, where
- *   targets: [{ accessor, piece, attribute } or { accessor, piece, part }], one per accessor the payload fills: `attribute`
- *            and `part` are numbers of the piece; see elementsOf();
- *   claims:  plain data, to be passed on as decodePayload(bytes, { claims }); each with the bufferView that it names.
+ *   targets: [{ accessor, piece, attribute } or { accessor, piece, part }], one per accessor that
+ *            the payload fills; `attribute` and `part` are numbers within the piece; see elementsOf();
+ *   claims:  plain data, to be passed on as decodePayload(bytes, { claims }); each with the
+ *            bufferView that it names.
  * Buffer views of the same bytes hold one payload; `bufferView` is the first of them.
  * @throws MccError with a JSON path, if an extension object violates the specification
  */
 export function payloadsOf(json) {
   const payloads = new Map();
-  const sources = new Map(); // accessor -> what fills it
+  const sources = new Map(); // what fills each accessor
   for (const use of extensionUses(json)) {
     const claim = readUse(json, use);
     const { bufferView } = claim;
@@ -56,7 +58,10 @@ export function payloadsOf(json) {
   return [...payloads.values()];
 }
 
-/** The array of a DecodedPayload that fills the accessor of a target, tight, in the type of the accessor. */
+/**
+ * Returns the array of a DecodedPayload that fills the accessor of a target, without padding, in
+ * the component type of the accessor.
+ */
 export function elementsOf({ pieces }, { piece, attribute, part }, { componentType }) {
   if (attribute !== undefined) return pieces[piece].attributes[attribute].array;
   const { indices } = pieces[piece].parts[part];
@@ -64,7 +69,7 @@ export function elementsOf({ pieces }, { piece, attribute, part }, { componentTy
   return indices instanceof IndexArray ? indices : IndexArray.from(indices);
 }
 
-/** Equal for targets of one payload whose accessors get the same bytes. */
+/** Returns a string that is equal for targets of one payload whose accessors get the same bytes. */
 export function originOf({ piece, attribute, part }, { componentType, type }) {
   return [piece, attribute, part, componentType, type].join();
 }
@@ -81,7 +86,7 @@ const isObject = (value) => typeof value === 'object' && value !== null && !Arra
 const isNumber = (value) => Number.isInteger(value) && value >= 0 && value < 2 ** 32;
 
 function numberOf(value, path) {
-  if (!isNumber(value)) fail(path, 'must be an integer that is not negative');
+  if (!isNumber(value)) fail(path, 'must be a non-negative integer');
   return value;
 }
 
@@ -89,7 +94,7 @@ function readUse(json, { extension, primitive, path: primitivePath }) {
   const path = `${primitivePath}/extensions/${EXTENSION_NAME}`;
   if (!isObject(extension)) fail(path, 'must be an object');
   if (primitive.extensions.KHR_draco_mesh_compression !== undefined) {
-    fail(path, 'the primitive is compressed with KHR_draco_mesh_compression, too');
+    fail(path, 'the primitive is also compressed with KHR_draco_mesh_compression');
   }
   if ((primitive.mode ?? TRIANGLES) !== TRIANGLES) fail(`${primitivePath}/mode`, 'must be 4 (triangles) in a compressed primitive');
   const claim = {
@@ -137,7 +142,10 @@ function readIndices(json, number, path) {
   return { ...indices, size };
 }
 
-/** Attributes of the primitive or of a morph target: `ids` names those in the payload, the others are ordinary. */
+/**
+ * Reads the attributes of the primitive or of a morph target. `ids` names those in the payload; the
+ * others are ordinary.
+ */
 function readMap(json, ids = {}, path, accessors = {}, accessorsPath, morphTarget, claim) {
   if (morphTarget === 0) [path, accessorsPath] = [`${path}/attributes`, `${accessorsPath}/attributes`];
   if (!isObject(ids)) fail(path, 'must be an object');
@@ -170,7 +178,7 @@ function semanticOf(name, { type, componentType }) {
   return { semantic: CUSTOM, set: crc32(name) & 255 };
 }
 
-/** CRC-32 of a name in UTF-8. */
+/** Returns the CRC-32 of a name in UTF-8. */
 function crc32(name) {
   let crc = -1;
   for (const byte of new TextEncoder().encode(name)) {
@@ -180,7 +188,7 @@ function crc32(name) {
   return ~crc;
 }
 
-/** What a primitive takes from its payload, with where the document says so. */
+/** Returns what a primitive takes from its payload, and where the document says so. */
 function targetsOf({ path, piece, part, indices, attributes }) {
   return [
     { path, target: { accessor: indices.number, piece, part } },
@@ -188,7 +196,10 @@ function targetsOf({ path, piece, part, indices, attributes }) {
   ];
 }
 
-/** Of the accessors that payloads fill: all or none have a fallback, and nothing else refers to them. */
+/**
+ * Checks the accessors that payloads fill: either all or none have a fallback, and nothing else
+ * refers to them.
+ */
 function checkOthers(json, sources) {
   const hasFallback = (number) => {
     const { bufferView, byteOffset, sparse } = json.accessors[number];
@@ -202,11 +213,11 @@ function checkOthers(json, sources) {
     fail('/extensionsRequired', `must list ${EXTENSION_NAME} unless there is a fallback`);
   }
   for (const number of ordinaryReferences(json)) {
-    if (sources.has(number)) fail(`/accessors/${number}`, 'is filled from a payload and used elsewhere, too');
+    if (sources.has(number)) fail(`/accessors/${number}`, 'is filled from a payload, but also used elsewhere');
   }
 }
 
-/** Accessors that anything but a payload's attributes and indices refers to. */
+/** Returns the accessors that anything except a payload's attributes and indices refers to. */
 function ordinaryReferences(json) {
   const numbers = [];
   const unnamed = (accessors = {}, ids = {}) => {

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 import type { InitOptions } from './types.mjs';
 
-/** As in the command line tool. Bits: 0 keeps every bit. */
+/** The options of the command line tool. 0 bits keep every bit. */
 export interface EncodeOptions {
   /** Default 14, up to 24; also the grid of morph targets. */
   positionBits?: number;
@@ -19,9 +19,12 @@ export interface EncodeOptions {
   lossless?: boolean;
   /** No position moves farther than this; positionBits is ignored. */
   maxError?: number;
-  /** maxError is a fraction of the longest side of the box. */
+  /** maxError is a fraction of the longest side of the bounding box. */
   maxErrorRelative?: boolean;
-  /** x, y, z of a point of the grid of positions and its step, for tiles that must fit together. */
+  /**
+   * x, y, z of a point of the grid of positions, and the step of the grid. For tiles that must fit
+   * together.
+   */
   lattice?: [number, number, number, number];
   /** What shares a grid of positions. Default 'mesh'. */
   grid?: 'mesh' | 'scene' | 'primitive';
@@ -35,13 +38,13 @@ export interface EncodeOptions {
   effort?: 0 | 1 | 2;
   /** Payloads that are smaller, or faster to decode. Default 'balanced'. */
   prefer?: 'balanced' | 'size' | 'speed';
-  /** Compress also where that makes the file larger. */
+  /** Compresses even where that makes the file larger. */
   allowLarger?: boolean;
   fallback?: false;
 }
 
 export interface EncodeResult {
-  /** The compressed file; the input itself, copied, where nothing becomes smaller. */
+  /** The compressed file, or a copy of the input if nothing becomes smaller. */
   glb: Uint8Array;
   /** What `gltf-mcc convert --report` writes, as far as it applies, and `seconds`. */
   report: {
@@ -58,17 +61,20 @@ export interface EncodeResult {
   };
 }
 
-/** Where the encoder's module is, or what it is. Without a call encodeGlb() loads it from beside encoder.mjs. */
+/**
+ * Loads the encoder's module. If it is never called, encodeGlb() loads the module next to
+ * encoder.mjs.
+ */
 export function initEncoder(options?: Omit<InitOptions, 'simdWasmUrl'>): Promise<void>;
 
 /** Compresses a GLB, decodes the result and compares it with the source. Safe for untrusted bytes. */
 export function encodeGlb(bytes: Uint8Array, options?: EncodeOptions): Promise<EncodeResult>;
 
-/** The same, once the encoder is loaded: after `await initEncoder()`. */
+/** Like encodeGlb(), but only after `await initEncoder()`. */
 export function encodeGlbSync(bytes: Uint8Array, options?: EncodeOptions): EncodeResult;
 
 /**
- * The edges along which the mesh of a payload was contracted, by piece: two vertices each, numbered as in the indices, the last
- * contraction first. For those who draw it.
+ * Returns the edges along which the mesh of a payload was contracted, for programs that draw it. By
+ * piece: two vertices per edge, numbered as in the indices, the last contraction first.
  */
 export function mcEdges(payload: Uint8Array): Promise<Uint32Array[]>;

@@ -1,12 +1,13 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Compresses GLBs. The same code as the command line tool, so that the same options give the same bytes.
+// Compresses GLBs. It runs the code of the command line tool, so that the same options give the
+// same bytes.
 import { MccError } from './error.mjs';
 import { compileModule } from './load.mjs';
 
 const GRIDS = ['mesh', 'scene', 'primitive'];
 const PREFERENCES = ['balanced', 'size', 'speed'];
-/** Bits by attribute: default, least besides 0 (every bit), most. */
+/** Bits by attribute: default, lowest (except 0, which keeps every bit), highest. */
 const BITS = {
   positionBits: [14, 1, 24], normalBits: [10, 2, 16], texcoordBits: [12, 1, 24], colorBits: [8, 1, 24],
   tangentBits: [12, 2, 16], weightBits: [12, 1, 24],
@@ -19,7 +20,9 @@ let source = {};
 let loading = null;
 let compiled = null;
 
-/** Where the module is, or what; see init() of decoder.mjs. */
+/**
+ * Loads the encoder from the place in `options`, or the module itself; see init() of decoder.mjs.
+ */
 export function initEncoder(options = {}) {
   source = options;
   loading = null;
@@ -37,7 +40,7 @@ export async function encodeGlb(bytes, options = {}) {
   return encode(await WebAssembly.instantiate(module), bytes, options);
 }
 
-/** The same, once the encoder is loaded; see initEncoder(). */
+/** Like encodeGlb(), but only after the encoder is loaded; see initEncoder(). */
 export function encodeGlbSync(bytes, options = {}) {
   checkArguments(bytes, options);
   if (compiled === null) throw new MccError('the encoder is not loaded yet: await initEncoder() first', 'Load');
@@ -45,7 +48,7 @@ export function encodeGlbSync(bytes, options = {}) {
 }
 
 /**
- * The edges along which the mesh of a payload was contracted, for those who draw it.
+ * Returns the edges along which the mesh of a payload was contracted, for programs that draw it.
  *
  * @param {Uint8Array} payload
  * @returns {Promise<Uint32Array[]>}  by piece: two vertices per edge, the last contraction first
@@ -63,7 +66,7 @@ export async function mcEdges(payload) {
   });
 }
 
-/** `words`: piece and two vertices of each edge, by rising piece. */
+/** Splits `words`, the piece and the two vertices of each edge, sorted by piece. */
 function edgesByPiece(words, pieceCount) {
   const counts = new Uint32Array(pieceCount);
   for (let i = 0; i < words.length; i += 3) ++counts[words[i]];
@@ -83,13 +86,13 @@ function encode(instance, bytes, options) {
     const text = new TextDecoder().decode(new Uint8Array(exports.memory.buffer, exports.text(), exports.textBytes()));
     if (!ok) throw new MccError(text, 'Encode');
     const glb = new Uint8Array(exports.memory.buffer, exports.glb(), exports.glbBytes()).slice();
-    // The module has no clock, which would tell encoding from checking.
+    // The module has no clock, so it cannot tell how long encoding and checking took.
     const { encode_seconds, decode_seconds, check_seconds, ...report } = JSON.parse(text);
     return { glb, report: { ...report, seconds: (performance.now() - began) / 1000 } };
   });
 }
 
-/** `work` with `bytes` in the memory of an instance of its own, which goes with it. */
+/** Calls `work` with `bytes` in the memory of an instance that is used only once. */
 function withBytes({ exports }, bytes, work) {
   try {
     exports._initialize?.();
@@ -134,10 +137,10 @@ function checkOptions(options) {
       `${name} must be 0 (every bit) or ${least} to ${most}`);
   }
   const { grid = 'mesh', maxError, effort = 1, prefer = 'balanced', lattice, fallback = false } = options;
-  require(GRIDS.includes(grid), `grid '${grid}' is none of ${GRIDS.join(', ')}`);
+  require(GRIDS.includes(grid), `grid is '${grid}', but must be one of ${GRIDS.join(', ')}`);
   require(maxError === undefined || (Number.isFinite(maxError) && maxError > 0), 'maxError must be a number above 0');
   require([0, 1, 2].includes(effort), 'effort must be 0, 1 or 2');
-  require(PREFERENCES.includes(prefer), `prefer '${prefer}' is none of ${PREFERENCES.join(', ')}`);
+  require(PREFERENCES.includes(prefer), `prefer is '${prefer}', but must be one of ${PREFERENCES.join(', ')}`);
   require(lattice === undefined || (lattice.length === 4 && lattice.every(Number.isFinite) && lattice[3] > 0),
     'lattice must be four numbers: x, y, z of a point and the step');
   require(!fallback, 'a fallback is a second file, which the command line tool writes');

@@ -2,18 +2,20 @@
 import { Extension, type Document, type ReaderContext, type WriterContext } from '@gltf-transform/core';
 import type { EncodeOptions, EncodeResult } from './encoder.mjs';
 
-/** Reads and writes the extension, with the dependencies 'mcc.decoder' and, for writing, 'mcc.encoder'; 'mcc.limits' may be
- * FileLimits of what is read. */
+/**
+ * Reads and writes the extension. It needs the dependency 'mcc.decoder' and, for writing,
+ * 'mcc.encoder'; 'mcc.limits' may be FileLimits for reading.
+ */
 export class KHRMeshCollapseCompression extends Extension {
   static readonly EXTENSION_NAME: 'KHR_mesh_collapse_compression';
   readonly extensionName: 'KHR_mesh_collapse_compression';
-  /** Takes effect when the document is written. */
+  /** Sets the options. They take effect when the document is written. */
   setEncoderOptions(options: EncodeOptions): this;
-  /** Sizes and measured errors of the last write; undefined before. */
+  /** Returns the sizes and measured errors of the last write; undefined before the first. */
   getReport(): EncodeResult['report'] | undefined;
   read(context: ReaderContext): this;
   write(context: WriterContext): this;
 }
 
-/** A transform: the document will be compressed when it is written. */
+/** Returns a transform after which the document is compressed when it is written. */
 export function meshCollapse(options?: EncodeOptions): (document: Document) => void;

@@ -8,15 +8,17 @@ import { BIN_CHUNK, readGlb, writeGlb } from './unpack.mjs';
 /**
  * Reads and writes KHR_mesh_collapse_compression with glTF-Transform.
  *
- *     const io = new NodeIO().registerExtensions([KHRMeshCollapseCompression]).registerDependencies({
+ *     const io = new NodeIO().registerExtensions([KHRMeshCollapseCompression]);
+ *     io.registerDependencies({
  *       'mcc.decoder': decoder,  // the module gltf-mcc, after `await decoder.ready`
- *       'mcc.encoder': encoder,  // to write: the module gltf-mcc/encoder, after `await encoder.initEncoder()`
- *       'mcc.limits': { maxDecodedBytes: 2 ** 30 },  // of what is read; may be left out
+ *       'mcc.encoder': encoder,  // to write: gltf-mcc/encoder, after `await encoder.initEncoder()`
+ *       'mcc.limits': { maxDecodedBytes: 2 ** 30 },  // limits for reading; optional
  *     });
  *
- * A document that was read has its geometry in ordinary accessors. While it has this extension, it is compressed again when it is
- * written; `extension.dispose()` ends that. What is written is what the program gltf-mcc makes of the document with the same
- * options; it is decoded and compared before it is handed out.
+ * After reading, a document has its geometry in ordinary accessors. As long as it has this
+ * extension, it is compressed again when it is written; `extension.dispose()` ends that. The output
+ * is the same as that of the program gltf-mcc for the same document and options. It is decoded and
+ * compared with the document before it is returned.
  */
 export class KHRMeshCollapseCompression extends Extension {
   static EXTENSION_NAME = EXTENSION_NAME;
@@ -38,7 +40,7 @@ export class KHRMeshCollapseCompression extends Extension {
   }
 
   /**
-   * Takes effect when the document is written.
+   * Sets the options. They take effect when the document is written.
    * @param {import('./encoder.mjs').EncodeOptions} options
    */
   setEncoderOptions(options) {
@@ -46,7 +48,7 @@ export class KHRMeshCollapseCompression extends Extension {
     return this;
   }
 
-  /** Sizes and measured errors of the last write; undefined before. */
+  /** Returns the sizes and measured errors of the last write; undefined before the first. */
   getReport() {
     return this.#report;
   }
@@ -63,7 +65,7 @@ export class KHRMeshCollapseCompression extends Extension {
     for (const payload of payloads) {
       const { bufferView, targets } = payload;
       const bytes = context.bufferViews[bufferView];
-      // glTF-Transform cuts a view that is longer than its buffer.
+      // glTF-Transform silently shortens a view that is longer than its buffer.
       if (bytes.byteLength !== context.jsonDoc.json.bufferViews[bufferView].byteLength) {
         fail(`/bufferViews/${bufferView}`, 'reaches beyond its buffer');
       }
@@ -74,7 +76,7 @@ export class KHRMeshCollapseCompression extends Extension {
     return this;
   }
 
-  // Each accessor has an array of its own, which may be changed.
+  // Each accessor gets an array of its own, because callers may change it.
   #fill(context, target, decoded, payloadView, taken, budget) {
     const definition = context.jsonDoc.json.accessors[target.accessor];
     let array = elementsOf(decoded, target, definition);
@@ -86,7 +88,7 @@ export class KHRMeshCollapseCompression extends Extension {
     context.accessors[target.accessor].setArray(array).setBuffer(context.bufferViewBuffers[payloadView]);
   }
 
-  // Buffers of a fallback are empty now, and a GLB may have one buffer only.
+  // The buffers of a fallback are empty now, and a GLB may have only one buffer.
   read() {
     for (const buffer of this.document.getRoot().listBuffers()) {
       if (buffer.listParents().every(({ propertyType }) => propertyType === PropertyType.ROOT)) buffer.dispose();
@@ -94,13 +96,13 @@ export class KHRMeshCollapseCompression extends Extension {
     return this;
   }
 
-  // The document is complete here, but for what extensions with later names add to its objects.
+  // The document is complete here, except for what extensions with later names add to its objects.
   write(context) {
     const { json, resources } = context.jsonDoc;
     removeName(json, EXTENSION_NAME);
     if (!this.#encoder) throw new Error(`[${EXTENSION_NAME}] Please install the dependency "mcc.encoder".`);
     const unwritten = unwrittenExtensions(this.document, context);
-    // They may depend on orders, which the encoder keeps where it sees their names.
+    // These extensions may depend on an order, which the encoder keeps if it sees their names.
     for (const { extensionName, definitionOf } of unwritten) (definitionOf().extensions ??= {})[extensionName] = {};
     const { glb, report } = this.#encoder.encodeGlbSync(packGlb(json, resources), this.#encoderOptions);
     this.#report = report;
@@ -111,7 +113,7 @@ export class KHRMeshCollapseCompression extends Extension {
 }
 
 /**
- * A transform: the document will be compressed when it is written.
+ * Returns a transform after which the document is compressed when it is written.
  *
  *     await document.transform(weld(), prune(), meshCollapse({ positionBits: 12 }));
  *
@@ -127,7 +129,8 @@ function removeName(json, name) {
   for (const list of ['extensionsUsed', 'extensionsRequired']) json[list] = json[list]?.filter((other) => other !== name);
 }
 
-// Of meshes and primitives, those that are written later than this one: { extensionName, definitionOf }.
+// Lists the extensions of meshes and primitives that are written later than this one, as
+// { extensionName, definitionOf }.
 function unwrittenExtensions(document, { jsonDoc: { json }, meshIndexMap }) {
   return document.getRoot().listMeshes().flatMap((mesh) => {
     const meshOf = () => json.meshes[meshIndexMap.get(mesh)];
@@ -138,7 +141,7 @@ function unwrittenExtensions(document, { jsonDoc: { json }, meshIndexMap }) {
   });
 }
 
-// A GLB of the document, all of its buffers in one. Images that are files stay so.
+// Makes a GLB of the document, with all of its buffers in one. Images in files stay in files.
 function packGlb(json, resources) {
   const buffers = (json.buffers ?? []).map(({ uri = GLB_BUFFER }) => resources[uri] ?? new Uint8Array(0));
   const offsets = [];
@@ -152,7 +155,8 @@ function packGlb(json, resources) {
   const bufferViews = json.bufferViews?.map(
     ({ byteOffset = 0, ...view }) => ({ ...view, buffer: 0, byteOffset: byteOffset + offsets[view.buffer] }));
   const complete = { ...json, bufferViews, buffers: byteLength > 0 ? [{ byteLength }] : [] };
-  // Empty lists, which glTF does not have, are removed from what is written when all extensions have seen it.
+  // Empty lists are not valid glTF. They are removed from the output only after all extensions have
+  // seen it.
   const isEmpty = (value) => typeof value === 'object' && Object.keys(value).length === 0;
   const members = Object.entries(complete).filter(([, value]) => value !== undefined && !isEmpty(value));
   return writeGlb(Object.fromEntries(members), [{ type: BIN_CHUNK, data: bin }]);
@@ -164,7 +168,8 @@ function takeOver({ json, resources }, encoded) {
   for (const { uri = GLB_BUFFER } of others) delete resources[uri];
   if (first) resources[first.uri ?? GLB_BUFFER] = bin;
   const buffers = first ? [{ ...first, byteLength: encoded.json.buffers[0].byteLength }] : [];
-  // Extensions with later names still write into objects they have kept, like those of textures: what is equal stays.
+  // Extensions with later names still write into objects that they hold on to, like those of
+  // textures, so equal objects are not replaced.
   const complete = { ...encoded.json, buffers };
   for (const key of new Set([...Object.keys(json), ...Object.keys(complete)])) {
     if (JSON.stringify(json[key]) !== JSON.stringify(complete[key])) json[key] = complete[key];

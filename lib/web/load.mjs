@@ -1,9 +1,11 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Compiles the WebAssembly modules from wherever they are.
+// Compiles WebAssembly modules, wherever they are stored.
 import { MccError } from './error.mjs';
 
-/** `module` or `bytes` if they are given, else what is at `url`. */
+/**
+ * Returns `module`, or compiles `bytes`, if they are given; otherwise compiles the module at `url`.
+ */
 export async function compileModule({ module, bytes }, url) {
   if (module !== undefined) return module;
   if (bytes !== undefined) return WebAssembly.compile(bytes);
@@ -25,7 +27,7 @@ async function compileFrom(url) {
   return isWasm ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
 }
 
-/** Bundlers leave this alone; it is never called in browsers. */
+/** Imports a module of Node. Bundlers must leave this import alone; browsers never call it. */
 export function importOfNode(name) {
   return import(/* @vite-ignore */ /* webpackIgnore: true */ `node:${name}`);
 }

@@ -3,7 +3,7 @@ import type { UnpackOptions } from './unpack.mjs';
 
 /** For GLTFLoader.register((parser) => new MeshCollapsePlugin(parser)). `parser` is a GLTFParser. */
 export class MeshCollapsePlugin {
-  /** `decode` is by default that of workers which all loaders of a page share. */
+  /** By default, `decode` uses workers that all loaders of a page share. */
   constructor(parser: object, options?: UnpackOptions);
   readonly name: 'KHR_mesh_collapse_compression';
   beforeRoot(): Promise<void>;

@@ -7,7 +7,8 @@ import { PayloadViews } from './views.mjs';
  *
  *     loader.register((parser) => new MeshCollapsePlugin(parser));
  *
- * A payload that is damaged, or does not fit the document, rejects the load with a message that says why.
+ * A payload that is damaged, or does not fit the document, rejects the load with a message that
+ * says why.
  */
 export class MeshCollapsePlugin {
   name = EXTENSION_NAME;
@@ -17,14 +18,16 @@ export class MeshCollapsePlugin {
 
   /**
    * @param {import('three/addons/loaders/GLTFLoader.js').GLTFParser} parser
-   * @param {import('./unpack.mjs').UnpackOptions} [options] decode: by default in workers that all loaders of a page share
+   * @param {import('./unpack.mjs').UnpackOptions} [options] decode: by default in workers that all
+   * loaders of a page share
    */
   constructor(parser, options) {
     this.#parser = parser;
     this.#options = options;
   }
 
-  // Called by the loader before anything is loaded. Other loads may use the same JSON: it is replaced, not changed.
+  // Called by the loader before it loads anything. The JSON is replaced, not changed, because other
+  // loads may use it too.
   async beforeRoot() {
     const parser = this.#parser;
     const fetchPayload = async (bufferView) => new Uint8Array(await parser.getDependency('bufferView', bufferView));
@@ -33,7 +36,7 @@ export class MeshCollapsePlugin {
     parser.json = { ...parser.json, accessors, bufferViews };
   }
 
-  // Called by the loader for every buffer view; null leaves it to others.
+  // Called by the loader for every buffer view; null leaves it to other plugins.
   loadBufferView(index) {
     return this.#views.load(index)?.then(({ buffer }) => buffer) ?? null;
   }

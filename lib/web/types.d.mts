@@ -5,7 +5,7 @@ export type TypedArray = Int8Array | Uint8Array | Int16Array | Uint16Array | Uin
 export interface DecodedAttribute {
   /** 0 POSITION, 1 NORMAL, 2 TANGENT, 3 TEXCOORD, 4 COLOR, 5 JOINTS, 6 WEIGHTS, 7 any other. */
   semantic: number;
-  /** n of TEXCOORD_n; of others see the specification. */
+  /** n of TEXCOORD_n; for others see the specification. */
   set: number;
   /** 0: the base mesh; k: morph target k - 1. */
   morphTarget: number;
@@ -26,7 +26,7 @@ export interface DecodedPart {
 export interface DecodedPiece {
   /** Vertices in the sense of glTF: the count of the accessors. */
   wedgeCount: number;
-  /** Distinct ones of the surface. */
+  /** Distinct vertices of the surface. */
   vertexCount: number;
   attributes: DecodedAttribute[];
   parts: DecodedPart[];
@@ -36,22 +36,28 @@ export interface DecodedPayload {
   pieces: DecodedPiece[];
 }
 
-/** Bounds that are checked before memory is taken for a payload. */
+/** Bounds that are checked before memory is allocated for a payload. */
 export interface Limits {
   maxVertices?: number;
   maxTriangles?: number;
   maxAttributes?: number;
   maxPieces?: number;
-  /** The elements of A.2.6: time and working memory are in proportion. A payload has 1024 for each of its bytes at most. */
+  /**
+   * The elements of A.2.6, to which time and working memory are proportional. A payload has at most
+   * 1024 of them for each of its bytes.
+   */
   maxElements?: number;
-  /** Of all outputs. */
+  /** The size of all outputs together. */
   maxOutputBytes?: number;
 }
 
 /** Bounds of each payload of a file, and of all of them together. */
 export interface FileLimits extends Limits {
-  /** What all payloads of a file may decode to, each counted once, with indices of 32 bits. Default: 1024 bytes for each byte of
-   * the file (for loaders: of its payloads), but no less than 256 MiB and no more than 4 GiB. */
+  /**
+   * What all payloads of a file may decode to, each counted once, with 32-bit indices. Default: 1024
+   * bytes for each byte of the file (for loaders: of its payloads), but at least 256 MiB and at most
+   * 4 GiB.
+   */
   maxDecodedBytes?: number;
 }
 
@@ -59,30 +65,35 @@ export interface DecodeOptions {
   limits?: Limits;
   /** 'auto', the default: 16 bits for pieces with up to 65535 vertices. */
   indexType?: 'auto' | 'uint16' | 'uint32';
-  /** What a document says about the payload, of payloadsOf(): checked before memory is taken. */
+  /** What a document says about the payload, from payloadsOf(); checked before memory is allocated. */
   claims?: readonly object[];
 }
 
 export interface InitOptions {
-  /** Where the module is, with and without SIMD; both by default beside decoder.mjs, in wasm/. */
+  /** Where the module is, without and with SIMD. Default: the folder wasm/ next to decoder.mjs. */
   wasmUrl?: string | URL;
   simdWasmUrl?: string | URL;
-  /** Where its core is, likewise: a smaller module, which has what most payloads need. Without one it is not used, unless
-   * the others are where they are by default. */
+  /**
+   * Where its core is, likewise: a smaller module, which suffices for most payloads. If only the
+   * others are given, the core is not used.
+   */
   coreUrl?: string | URL;
   simdCoreUrl?: string | URL;
-  /** Or what it is: compiled already, or its bytes. */
+  /** The module itself, compiled or as bytes, instead of a place. */
   module?: WebAssembly.Module;
   bytes?: BufferSource;
 }
 
 export interface PoolOptions extends InitOptions {
-  /** Default: one less than the processor has cores, 4 at most. They start when they are first needed. */
+  /**
+   * The number of workers. Default: one less than the processor has cores, at most 4. A worker starts
+   * when it is first needed.
+   */
   workers?: number;
 }
 
 export interface PoolDecodeOptions extends DecodeOptions {
-  /** The buffer of `bytes` moves to the worker instead of being copied; it is empty then. */
+  /** Moves the buffer of `bytes` to the worker instead of copying it; afterwards it is empty. */
   transfer?: boolean;
 }
 
@@ -90,7 +101,7 @@ export interface DecoderPool {
   readonly size: number;
   /** Bound to the pool. */
   readonly decodePayload: (bytes: Uint8Array, options?: PoolDecodeOptions) => Promise<DecodedPayload>;
-  /** Ends the workers; what is not decoded yet rejects. */
+  /** Ends the workers; pending calls of decodePayload() reject. */
   dispose(): void;
 }
 

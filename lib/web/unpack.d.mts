@@ -2,10 +2,13 @@
 import type { DecodedPayload, DecodeOptions, FileLimits } from './types.mjs';
 
 export interface UnpackOptions {
-  /** Default: decodePayload(). That of a pool decodes in workers. */
+  /** Default: decodePayload(). The one of a pool decodes in workers. */
   decode?: (bytes: Uint8Array, options: DecodeOptions) => Promise<DecodedPayload>;
   limits?: FileLimits;
 }
 
-/** A GLB without the extension; `bytes` themselves when no primitive has it. Safe for untrusted bytes. */
+/**
+ * Returns a GLB without the extension, or `bytes` themselves if no primitive has it. Safe for
+ * untrusted bytes.
+ */
 export function unpackGlb(bytes: Uint8Array, options?: UnpackOptions): Promise<Uint8Array>;

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// A GLB without the extension, for loaders that do not know it.
+// Turns a GLB into one without the extension, for loaders that do not know it.
 import { Budget, namedBytes, sum } from './budget.mjs';
 import { fail } from './claims.mjs';
 import { decodePayload } from './decoder.mjs';
@@ -14,10 +14,13 @@ const ELEMENT_ARRAY_BUFFER = 34963;
 const ROWS = { MAT2: 2, MAT3: 3, MAT4: 4 };
 
 /**
+ * Decodes all payloads of a GLB.
+ *
  * @param {Uint8Array} bytes  a GLB
- * @param {{ decode?: typeof decodePayload, limits?: object }} [options]  `decode`: that of a pool, for instance;
- *   `limits`: of each payload, and of all
- * @returns {Promise<Uint8Array>}  a GLB without the extension; `bytes` themselves when they do not use it
+ * @param {{ decode?: typeof decodePayload, limits?: object }} [options]  `decode`: for instance
+ * that of a pool; `limits`: of each payload, and of all of them together
+ * @returns {Promise<Uint8Array>}  a GLB without the extension; `bytes` themselves if they do not
+ * use it
  */
 export async function unpackGlb(bytes, { decode = decodePayload, limits } = {}) {
   const { json, chunks } = readGlb(bytes);
@@ -40,11 +43,11 @@ export async function unpackGlb(bytes, { decode = decodePayload, limits } = {}) 
   return writeGlb(json, [{ type: BIN_CHUNK, data: newBin }, ...others]);
 }
 
-/** Its JSON and its other chunks. */
+/** Splits a GLB into its JSON and its other chunks. */
 export function readGlb(bytes) {
   if (!(bytes instanceof Uint8Array)) fail('', 'the GLB must be a Uint8Array');
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  if (bytes.length < 20 || view.getUint32(0, true) !== MAGIC) fail('byte 0', 'this is no GLB file');
+  if (bytes.length < 20 || view.getUint32(0, true) !== MAGIC) fail('byte 0', 'this is not a GLB file');
   if (view.getUint32(4, true) !== 2) fail('byte 4', 'only version 2 (glTF 2.0) can be read');
   const length = view.getUint32(8, true);
   if (length > bytes.length) fail('byte 8', `the header says ${length} bytes but the file has ${bytes.length}: it is truncated`);
@@ -79,7 +82,7 @@ function removeMember(object, key, member) {
   if (Object.keys(object[key]).length === 0) delete object[key];
 }
 
-/** The numbers that are members of this name, at any depth. */
+/** Returns the values of all members of this name, at any depth. */
 function numbersOf(root, name) {
   const numbers = new Set();
   const stack = [root];
@@ -92,8 +95,11 @@ function numbersOf(root, name) {
   return numbers;
 }
 
-/** The BIN chunk with decoded elements instead of payloads. Buffer views keep their numbers, which unknown extensions may
- * refer to; new elements take the place of views that are no longer needed, or come after them. */
+/**
+ * The BIN chunk with decoded elements instead of payloads. Buffer views keep their numbers, because
+ * unknown extensions may refer to them. New elements take the place of views that are no longer
+ * needed, or come after them.
+ */
 class Bin {
   constructor(json, bin, payloads) {
     this.json = json;
@@ -110,7 +116,10 @@ class Bin {
     this.#keepOld(bin);
   }
 
-  /** The bytes that views still refer to. All of them if something else may refer to a buffer. */
+  /**
+   * Keeps the bytes that views still refer to, or all bytes if something else may refer to a
+   * buffer.
+   */
   #keepOld(bin) {
     const free = new Set(this.free);
     const views = this.json.bufferViews.filter((view, number) => view.buffer === 0 && !free.has(number));
@@ -120,7 +129,7 @@ class Bin {
       return;
     }
     views.sort((a, b) => (a.byteOffset ?? 0) - (b.byteOffset ?? 0));
-    let end = 0; // of the last range that is kept, in the old chunk
+    let end = 0; // end of the last range that is kept, in the old chunk
     let moved = 0;
     for (const view of views) {
       const begin = view.byteOffset ?? 0;
@@ -139,21 +148,24 @@ class Bin {
     }
   }
 
-  /** The elements of a payload's targets as buffer views; one for accessors that get the same. */
+  /**
+   * Adds the elements of a payload's targets as buffer views; accessors with the same elements
+   * share one.
+   */
   fill(targets, decoded) {
     const numbers = new Map();
     for (const target of targets) {
       const accessor = this.json.accessors[target.accessor];
       const origin = originOf(target, accessor);
       const view = this.json.bufferViews[numbers.get(origin)];
-      // glTF wants it of vertex attributes that share a view.
+      // glTF requires a stride if several vertex attributes share a view.
       if (view?.target === ARRAY_BUFFER) view.byteStride = view.byteLength / accessor.count;
       if (!view) numbers.set(origin, this.#addView(accessor, elementsOf(decoded, target, accessor), target));
       accessor.bufferView = numbers.get(origin);
     }
   }
 
-  /** Elements of an accessor, tight in `array`, as a buffer view. */
+  /** Adds the elements of an accessor, tightly packed in `array`, as a buffer view. */
   #addView(accessor, array, { attribute }) {
     const isIndex = attribute === undefined;
     const { bytes, stride } = isIndex ? { bytes: asBytes(array) } : elementBytes(accessor, array);
@@ -169,13 +181,15 @@ class Bin {
 
   finish() {
     const { bufferViews, buffers } = this.json;
-    // What is left over: gone where nothing has a higher number, else empty.
+    // A view that is left over is removed if it is the last one; otherwise it becomes empty,
+    // because numbers must stay.
     for (const number of this.free) {
       if (number === bufferViews.length - 1) bufferViews.pop();
       else bufferViews[number] = { buffer: 0, byteOffset: 0, byteLength: 1 };
     }
     const used = numbersOf(this.json, 'buffer');
-    while (buffers.length > 1 && !used.has(buffers.length - 1)) buffers.pop(); // that of a fallback
+    // The buffer of a fallback.
+    while (buffers.length > 1 && !used.has(buffers.length - 1)) buffers.pop();
     buffers[0].byteLength = this.length;
   }
 
@@ -191,7 +205,10 @@ class Bin {
 
 const asBytes = ({ buffer, byteOffset, byteLength }) => new Uint8Array(buffer, byteOffset, byteLength);
 
-/** Elements of vertex attributes begin at multiples of four bytes, and so do the columns of matrices. */
+/**
+ * Pads the elements of vertex attributes to multiples of four bytes, and so the columns of
+ * matrices.
+ */
 function elementBytes({ type, count }, array) {
   const components = COMPONENT_COUNTS[type];
   const size = array.BYTES_PER_ELEMENT;
@@ -206,8 +223,10 @@ function elementBytes({ type, count }, array) {
   return { bytes, stride };
 }
 
-/** A GLB of a document and chunks { type, data }; those without data are left out. `data` is bytes, or { length, parts } of them:
- * [{ at, bytes }] with zeros between. */
+/**
+ * Writes a GLB of a document and of chunks { type, data }; chunks without data are left out. `data`
+ * is bytes, or { length, parts }, where the parts are [{ at, bytes }] with zeros between them.
+ */
 export function writeGlb(json, chunks) {
   const text = new TextEncoder().encode(JSON.stringify(json));
   const all = [{ type: JSON_CHUNK, data: text, padding: 0x20 }, ...chunks.filter(({ data }) => data.length > 0)];

@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// For loaders with a hook for buffer views. Each accessor that a payload fills gets a buffer view of its own, which is not in the
-// file, one for those that get the same elements; all that a loader does with an accessor, morph targets and normalized integers included, works on it as on any other.
+// For loaders with a hook for buffer views. Every accessor that a payload fills gets a new buffer
+// view, which is not in the file; accessors with the same elements share one. Everything a loader
+// does with an accessor, including morph targets and normalized integers, then works as usual.
 import { Budget, namedBytes } from './budget.mjs';
 import { fail } from './claims.mjs';
 import { elementsOf, originOf, payloadsOf } from './document.mjs';
@@ -16,10 +17,14 @@ export class PayloadViews {
    * @param {import('./unpack.mjs').UnpackOptions} [options] decode: by default in workers that all loaders of a page share
    */
   constructor(json, fetchPayload, { decode = decodeInWorkers, limits } = {}) {
-    /** Those of the document, to be used in their place. Numbers stay; what is new is behind the others. */
+    /**
+     * The lists to use in place of the document's. Existing numbers stay; added buffer views come
+     * last.
+     */
     this.accessors = [...(json.accessors ?? [])];
     this.bufferViews = [...(json.bufferViews ?? [])];
-    const budget = new Budget(0, limits); // the size of the file is not known, but that of its payloads
+    // Only the size of its payloads is known, not that of the file.
+    const budget = new Budget(0, limits);
     const fetchAndDecode = async (payload) => {
       const { bufferView } = payload;
       const bytes = await fetchPayload(bufferView);
@@ -30,9 +35,9 @@ export class PayloadViews {
     };
     for (const payload of payloadsOf(json)) {
       let decoded;
-      // A payload is decoded when the first of its accessors is asked for, and once.
+      // A payload is decoded once, when the first of its accessors is requested.
       const decodeOnce = () => (decoded ??= fetchAndDecode(payload));
-      const numbers = new Map(); // of added buffer views, by what they hold
+      const numbers = new Map(); // numbers of added buffer views, by what they hold
       for (const target of payload.targets) this.#addView(target, decodeOnce, numbers);
     }
   }

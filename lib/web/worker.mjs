@@ -1,7 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// A worker of a decoder pool. Gets the compiled module, then one payload at a time; buffers are moved both ways. A payload
-// that needs more than the core of the decoder waits here for the whole one, which from then on takes what the core does not.
+// A worker of a decoder pool. It is sent the compiled module, then one payload at a time; buffers
+// are transferred both ways. If a payload needs more than the core of the decoder, the worker keeps
+// it until it is sent the whole decoder, which from then on decodes everything that the core
+// cannot.
 import { buffersOf, Decoder } from './core.mjs';
 import { importOfNode } from './load.mjs';
 
@@ -31,7 +33,8 @@ async function answer({ module, bytes, options }, post) {
 if (typeof self === 'object' && typeof self.postMessage === 'function') {
   self.onmessage = ({ data }) => answer(data, (message, moved) => self.postMessage(message, moved));
 } else {
-  // No await at the top level, which bundlers' usual format for workers has not. Messages wait for the listener.
+  // Does not use await at the top level, because the usual output format of bundlers for workers
+  // does not allow it. Messages are queued until the listener is there.
   importOfNode('worker_threads').then(({ parentPort }) => {
     parentPort.on('message', (data) => answer(data, (message, moved) => parentPort.postMessage(message, moved)));
   });

@@ -5,8 +5,10 @@ let pool;
 let hasWorkers = typeof Worker !== 'undefined';
 
 /**
- * decodePayload() in workers that all loaders of a page share; they start with the first payload. On this thread where there are
- * none (Node), or where they cannot start: in a page that forbids them, or when this module is from another origin.
+ * Calls decodePayload() in workers that all loaders of a page share; they start with the first
+ * payload.
+ * Where there are no workers (Node), or they cannot start (in a page that forbids them, or if this
+ * module comes from another origin), it decodes on this thread.
  * @type {typeof decodePayload}
  */
 export async function decodeInWorkers(payload, options) {

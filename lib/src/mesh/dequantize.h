@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// From coded integers to the components of accessors.                                        [A.8.11]
+// Converts coded integers to the components of accessors. [A.8.11]
 #ifndef MCC_MESH_DEQUANTIZE_H_
 #define MCC_MESH_DEQUANTIZE_H_
 
@@ -13,13 +13,15 @@
 
 namespace mcc {
 
-/// Value of lattice coordinate q: two roundings to float32, never fused.
+/// Returns the value of lattice coordinate q. It is rounded to float32 twice, never fused, so that
+/// every machine computes the same bits.
 inline float latticeValue(int32_t q, float step, float origin) {
   const float scaled = static_cast<float>(q) * step;
   return scaled + origin;
 }
 
-/// Maps floats to integers in their order, -NaN < -inf < .. < -0 < +0 < .. < +NaN; every bit pattern is kept.
+/// Maps floats to integers that sort like them: -NaN < -inf < .. < -0 < +0 < .. < +NaN. Every bit
+/// pattern is kept.
 constexpr int32_t orderedFromBits(uint32_t bits) {
   return static_cast<int32_t>((bits & 0x80000000u) != 0 ? ~bits ^ 0x80000000u : bits);
 }
@@ -28,19 +30,20 @@ constexpr uint32_t bitsFromOrdered(int32_t ordered) {
   return ordered < 0 ? ~(u ^ 0x80000000u) : u;
 }
 
-/// Where the low `bytes` bytes of a uint32_t begin in the memory of this host.
+/// Returns where the low `bytes` bytes of a uint32_t begin in the memory of this host.
 constexpr uint32_t lowBytesOffset(uint32_t bytes) {
   return std::endian::native == std::endian::little ? 0 : 4 - bytes;
 }
 
-/// Stores an integer component, in the host's byte order like every number in the caller's arrays;
-/// the value is taken modulo the width of the type.
+/// Stores an integer component in the host's byte order, like every number in the caller's arrays.
+/// The value is taken modulo the width of the type.
 inline void storeInteger(uint8_t* to, ComponentType type, int32_t value) {
   const uint32_t bytes = componentBytes(type);
   std::memcpy(to, reinterpret_cast<const uint8_t*>(&value) + lowBytesOffset(bytes), bytes);
 }
 
-/// The bits of a component in the host's byte order, of a type of at most 32 bits; those above are 0.
+/// Returns the bits of a component in the host's byte order. The type has at most 32 bits; the bits
+/// above it are 0.
 inline uint32_t loadBits(const uint8_t* from, ComponentType type) {
   const uint32_t bytes = componentBytes(type);
   uint32_t value = 0;

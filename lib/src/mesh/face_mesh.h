@@ -28,7 +28,7 @@ inline constexpr uint32_t kSeamWord = 7;
 inline constexpr uint32_t kMaxVertices = 1u << 28;
 
 // The next and the previous half-edge in a face: -3 after corner 2, +3 before corner 0. They have
-// no branches, since those could not be predicted.
+// no branches, because those could not be predicted.
 MCC_INLINE constexpr uint32_t nextHalfEdge(uint32_t h) { return h + 1 - (h & 2) - ((h & 2) >> 1); }
 MCC_INLINE constexpr uint32_t prevHalfEdge(uint32_t h) { return h - 1 + (((h & 3) - 1) >> 30); }
 constexpr uint32_t faceOf(uint32_t h) { return h / kFaceWords; }
@@ -56,7 +56,7 @@ struct FaceMesh {
   uint32_t vertex_count = 0;
 
   FaceView view() { return FaceView{words.data()}; }
-  /// The stages take their work space from here too.
+  /// The stages take their work space from this allocator too.
   const Allocator& allocator() const { return words.allocator(); }
 };
 

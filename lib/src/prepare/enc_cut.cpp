@@ -98,8 +98,8 @@ class Cutter {
         mesh.corner_vertex[h] = vertex;
       }
       if (h != kNone) continue;
-      for (h = mesh.twin[corner]; h != kNone;
-           h = mesh.twin[h]) {  // clockwise from the first corner
+      // Clockwise from the first corner.
+      for (h = mesh.twin[corner]; h != kNone; h = mesh.twin[h]) {
         h = nextCorner(h);
         mesh.corner_vertex[h] = vertex;
       }
@@ -118,7 +118,7 @@ class Cutter {
       const uint32_t dummy = mesh.real_vertex_count + mesh.dummy_count++;
       const uint32_t first_cone = static_cast<uint32_t>(mesh.twin.size());
       uint32_t g = h;
-      do {  // cone face (end, start, dummy) per boundary half-edge
+      do {  // makes a cone face (end, start, dummy) for each boundary half-edge
         const uint32_t cone = static_cast<uint32_t>(mesh.twin.size());
         const uint32_t end = mesh.corner_vertex[nextCorner(g)];
         mesh.corner_vertex.insert(mesh.corner_vertex.end(), {end, mesh.corner_vertex[g], dummy});
@@ -133,8 +133,8 @@ class Cutter {
     result_.hole_count = mesh.dummy_count;
   }
 
-  /// Finds components by flood fill. The mc-vertex is the dummy of the largest hole, so that this
-  /// hole costs nothing.
+  /// Finds the components by flood fill. The mc-vertex is the dummy of the largest hole, because
+  /// that makes this hole free.
   void findComponents(uint32_t start_half_edge) {
     ClosedMesh& mesh = result_.mesh;
     const uint32_t vertex_count = mesh.real_vertex_count + mesh.dummy_count;

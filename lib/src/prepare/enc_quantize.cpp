@@ -21,8 +21,8 @@ namespace mcc {
 namespace {
 
 constexpr double kUnitTolerance = 0.01;
-constexpr double kPerpendicularTolerance =
-    0.002;  ///< cosine between tangent and normal, 0.11 degrees
+/// Cosine between tangent and normal; 0.11 degrees.
+constexpr double kPerpendicularTolerance = 0.002;
 
 class Quantizer {
  public:
@@ -32,12 +32,13 @@ class Quantizer {
         components_(view.format.component_count),
         without_(without) {}
 
-  /// The normals that tangents are perpendicular to, and what became of them. Borrowed.
+  /// Sets the normals that the tangents should be perpendicular to, and how they were quantised.
+  /// Both are borrowed.
   void setNormals(const AttributeView& view, const QuantizedAttribute& normal) {
     normal_view_ = &view;
     normal_ = &normal;
   }
-  /// The lattice step of a morph target, or 0.
+  /// Sets the lattice step of a morph target, or 0 for none.
   void setDeltaStep(float step) { delta_step_ = step; }
 
   QuantizedAttribute run(std::vector<std::string>& notes) {
@@ -140,7 +141,7 @@ class Quantizer {
     return std::move(result_);
   }
 
-  /// The point nearest to each component, of two the upper one; the inverse of [A.8.12].
+  /// Rounds each component to the nearest point, ties upwards; the inverse of [A.8.12].
   QuantizedAttribute toLattice(std::vector<std::string>& notes) {
     result_.info.coding = AttributeCoding::kLattice;
     result_.info.bits = std::min<uint8_t>(view_.quantization_bits, 24);
@@ -178,28 +179,30 @@ class Quantizer {
     return std::move(result_);
   }
 
-  /// Deltas and vectors have steps that do not depend on their range.
+  /// Returns whether outliers would ruin the other values. Deltas and vectors have steps that do
+  /// not depend on their range, so it cannot happen to them.
   bool isRuined() const {
     if (view_.format.morph_target != 0 || view_.format.semantic == Semantic::kNormal ||
         view_.format.semantic == Semantic::kTangent) {
       return false;
     }
     Extent extent(components_);
-    (void)extent.add(count_, [this](uint64_t w, uint32_t c) {  // all are finite
+    (void)extent.add(count_, [this](uint64_t w, uint32_t c) {  // all values are finite
       return component(static_cast<uint32_t>(w), c);
     });
     if (view_.format.semantic == Semantic::kWeights && extent.isInside(0, 1)) return false;
     return isRuinedByOutliers(extent, result_.info.bits);
   }
 
-  /// Exactly, where a lattice does not serve.
+  /// Keeps the values exactly, if a lattice does not suit them.
   QuantizedAttribute copyInstead() {
     result_.info.lattice = Lattice{};
     result_.info.bits = 0;
     return copyExactly();
   }
 
-  /// Deltas: through 0, so that what does not move stays; else from the corner of the bounding box.
+  /// Returns a lattice for the values. For deltas it goes through 0, so that vertices that do not
+  /// move stay where they are; otherwise it starts at the corner of the bounding box.
   Lattice ownLattice() const {
     Lattice lattice;
     if (delta_step_ > 0) {
@@ -238,7 +241,7 @@ class Quantizer {
     return std::move(result_);
   }
 
-  /// The best of the four grid points around the projection.
+  /// Finds the best of the four grid points around the projection.
   void nearestGridPoint(const float* n, int32_t* point) const {
     const int32_t centre = octahedralCentre(result_.info.bits);
     const double sum = std::fabs(double{n[0]}) + std::fabs(double{n[1]}) + std::fabs(double{n[2]});
@@ -252,7 +255,8 @@ class Quantizer {
     }
     const int32_t s0 = static_cast<int32_t>(std::floor((x + 1) * centre));
     const int32_t t0 = static_cast<int32_t>(std::floor((y + 1) * centre));
-    // By the distance of unit vectors: their cosine would drown in float32 from 12 bits on.
+    // Compares the distances of unit vectors, because differences of cosines vanish in float32 from
+    // 12 bits on.
     const double length =
         std::sqrt(double{n[0]} * n[0] + double{n[1]} * n[1] + double{n[2]} * n[2]);
     double best = 8;
@@ -282,7 +286,8 @@ class Quantizer {
     return true;
   }
 
-  /// Unit vectors perpendicular to the normals, with a sign of 1 or -1.
+  /// Returns whether all tangents are unit vectors perpendicular to the normals, with a sign of 1
+  /// or -1.
   bool isTangentFrame() const {
     if (!isSignedUnit()) return false;
     for (uint32_t w = 0; w < count_; ++w) {
@@ -316,7 +321,7 @@ class Quantizer {
     return std::move(result_);
   }
 
-  /// The polynomial's angle or one of its neighbours, whichever decodes closest.
+  /// Returns the polynomial's angle or one of its neighbours, whichever decodes closest.
   int32_t nearestAngle(const float* normal, const float* tangent) const {
     const uint32_t bits = result_.info.bits;
     float e1[3];
@@ -365,8 +370,8 @@ float floatAt(const AttributeView& view, uint32_t wedge, uint32_t c) {
   return value;
 }
 
-/// Weights between 0 and 1 go to a lattice with points at both, and where all sets share one, tuples that sum to 1 still
-/// do: the weights of a vertex are rounded together.
+/// Quantises weights between 0 and 1 to a lattice with points at both. Where all sets share one
+/// lattice, the weights of a vertex are rounded together, so that tuples that sum to 1 still do.
 class WeightQuantizer {
  public:
   WeightQuantizer(const PieceView& piece, std::vector<QuantizedAttribute>& all)
@@ -388,7 +393,8 @@ class WeightQuantizer {
   }
 
  private:
-  /// Of sets that have no lattice of the caller's; they get the fewest bits that one of them asks for.
+  /// Gives one lattice to all sets for which the caller did not set one. It has the fewest bits
+  /// that any of them asks for.
   void useUnitLattices() {
     std::vector<size_t> own;
     uint8_t bits = 24;
@@ -406,7 +412,7 @@ class WeightQuantizer {
       const Lattice lattice = unitLattice(bits);
       view.quantization_bits = bits;
       view.lattice = &lattice;
-      std::vector<std::string> notes;  // there are none: every value is near a point
+      std::vector<std::string> notes;  // stays empty: every value is near a point
       all_[i] = Quantizer(view, piece_.wedge_count, FeatureSet{}).run(notes);
     }
   }
@@ -430,7 +436,7 @@ class WeightQuantizer {
       const AttributeView& view = piece_.attributes[i];
       for (uint32_t c = 0; c < view.format.component_count; ++c) {
         const double point = double{floatAt(view, w, c)} / step;
-        if (point < 0) return;  // on a lattice of the caller's; rounded one by one
+        if (point < 0) return;  // on a lattice of the caller; such weights are rounded one by one
         points_.push_back(point);
       }
     }
@@ -449,7 +455,7 @@ class WeightQuantizer {
   std::vector<double> points_;
 };
 
-/// What the weights of tuples sum to.
+/// Returns what the weights of tuples sum to.
 SkinSums sumsOf(uint32_t wedge_count, const QuantizedAttribute& weights) {
   const int32_t unit = unitSum(weights.info);
   if (unit == 0) return SkinSums::kUnknown;
@@ -463,7 +469,8 @@ SkinSums sumsOf(uint32_t wedge_count, const QuantizedAttribute& weights) {
                                        : SkinSums::kUsual;
 }
 
-/// Lattice step of a morph target: that of what it moves; of directions, the precision of unit vectors; 0: own range.
+/// Returns the lattice step of a morph target: that of the base attribute, for directions the
+/// precision of unit vectors, or 0 if the base attribute is not on a lattice.
 float deltaStep(const AttributeView& view, const std::vector<QuantizedAttribute>& all) {
   const AttributeFormat& f = view.format;
   if (f.semantic == Semantic::kNormal || f.semantic == Semantic::kTangent) {
@@ -486,7 +493,7 @@ bool isEqual(const QuantizedAttribute& a, const QuantizedAttribute& b) {
          x.format.component_count == y.format.component_count && a.values == b.values;
 }
 
-/// Attributes equal to an earlier one become its aliases.
+/// Makes attributes that equal an earlier one its aliases.
 void findAliases(std::vector<QuantizedAttribute>& all) {
   for (uint32_t i = 1; i < all.size(); ++i) {
     for (uint32_t source = 1; source < i; ++source) {
@@ -503,7 +510,7 @@ void findAliases(std::vector<QuantizedAttribute>& all) {
   }
 }
 
-/// Joints and weights become custom attributes, which go their ways each by itself.
+/// Turns joints and weights into custom attributes, so that each is coded by itself.
 void hideSkin(std::vector<QuantizedAttribute>& all) {
   for (QuantizedAttribute& a : all) {
     Semantic& semantic = a.info.format.semantic;
@@ -526,7 +533,7 @@ std::vector<QuantizedAttribute> quantizeAttributes(const PieceView& piece,
     all[i] = Quantizer(view, piece.wedge_count, without).run(notes);
     if (all[i].info.coding == AttributeCoding::kOctahedral) normal = i;
   }
-  // Tangents last: they need to know what became of the normals.
+  // Tangents come last, because they need to know how the normals were quantised.
   for (size_t i = 0; i < count; ++i) {
     const AttributeView& view = piece.attributes[i];
     if (!isBase(view.format, Semantic::kTangent)) continue;

@@ -12,15 +12,16 @@
 
 namespace mcc {
 
-/// An attribute as integers: `components` per source wedge, and how the reader turns them back.
+/// An attribute as integers, `components` per source wedge, and how the reader turns them back.
 struct QuantizedAttribute {
   AttributeInfo info;
   uint32_t components = 0;
   std::vector<int32_t> values;
 };
 
-/// Chooses the coding of every attribute of a piece and converts all wedges. What the requested bits would ruin goes
-/// exact, with a line in `notes`. The values of an alias are empty. `without`: see features.h.
+/// Chooses the coding of every attribute of a piece and converts all wedges. An attribute that the
+/// requested bits would ruin is kept exact, with a line in `notes`. The values of an alias are
+/// empty. `without`: see features.h.
 std::vector<QuantizedAttribute> quantizeAttributes(const PieceView& piece,
                                                    const FeatureSet& without,
                                                    std::vector<std::string>& notes);

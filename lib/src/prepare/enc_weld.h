@@ -10,7 +10,7 @@
 namespace mcc {
 
 /// Classes of wedges with bit-equal positions, numbered by first occurrence. -0 equals +0 unless
-/// `exact`; a position with a NaN is a class of its own. O(n) expected.
+/// `exact`; a position with a NaN is a class of its own. Expected time O(n).
 struct PositionClasses {
   std::vector<uint32_t> class_of_wedge;
   uint32_t class_count = 0;

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 // The writer's choices. Each is tried with models of its own, or with a copy of the payload's. The
-// smallest result is kept, where time of the reader has a price.
+// smallest result wins, after the reader's time is added to its size as a surcharge.
 #include "writer/choices.h"
 
 #include <algorithm>
@@ -100,7 +100,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
   AttributeInfo& info = plan.attributes[index].info;
   const std::vector<AttributeInfo> alternatives = exactAlternatives(info, without);
   const uint32_t part = std::max(kTrialWedges, plan.header.wedge_count / kTrialShare);
-  // What lies below a grid is always coded for all wedges, so a sample would distort the
+  // Everything below a grid is always coded for all wedges, so a sample would distort the
   // comparison.
   const uint32_t sample = alternatives.size() > 1 ? kNone : part;
   AttributeModels before;

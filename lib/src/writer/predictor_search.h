@@ -14,7 +14,7 @@ namespace mcc {
 /// Coordinate descent: field after field of the method's byte, the best value of each is kept.
 class PredictorSearch {
  public:
-  /// Without some features, whose fields stay as they are at first.
+  /// Leaves the fields of the features in `without` at their initial values.
   PredictorSearch(AttributeMethod method, bool has_seams, const FeatureSet& without)
       : best_(infoOf(method).start) {
     for (const PredictorField& field : infoOf(method)) {
@@ -24,13 +24,13 @@ class PredictorSearch {
         continue;
       }
       for (uint32_t value = 0; value < field.value_count; ++value) {
-        // What is first has been tried with the best of all fields before.
+        // The first value has been tried already, in the best combination of all fields so far.
         if (value != field.valueOf(best_)) steps_.push_back({field.mask, field.with(0, value)});
       }
     }
   }
 
-  /// Whether there is nothing to choose.
+  /// Returns whether there is nothing to choose.
   bool isSettled() const { return steps_.empty(); }
   bool done() const { return has_first_ && step_ == steps_.size(); }
   uint8_t candidate() const { return has_first_ ? changed() : best_; }

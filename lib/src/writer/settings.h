@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// encode() with settings that only measurements and tests have, in addition to the caller's options.
+// encode() with settings that only measurements and tests have, in addition to the caller's
+// options.
 #ifndef MCC_WRITER_SETTINGS_H_
 #define MCC_WRITER_SETTINGS_H_
 

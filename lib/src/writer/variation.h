@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Choices at random, for tests: what the encoder would seldom choose, decoders must know all the same.
+// Makes random choices, for tests: decoders must handle even what the encoder would seldom choose.
 #ifndef MCC_WRITER_VARIATION_H_
 #define MCC_WRITER_VARIATION_H_
 
@@ -17,12 +17,12 @@ namespace mcc {
 /// A sequence of choices (SplitMix64), the same on every machine.
 class Variation {
  public:
-  /// 0: none, the encoder chooses what is smallest.
+  /// With seed 0 it is inactive, and the encoder chooses the smallest result.
   explicit Variation(uint64_t seed) : state_(seed), active_(seed != 0) {}
 
   bool active() const { return active_; }
 
-  /// 0 .. bound - 1; bound > 0.
+  /// Returns a number in 0 .. bound - 1; bound must be positive.
   uint32_t below(uint32_t bound) {
     state_ += 0x9e3779b97f4a7c15u;
     uint64_t x = state_;
@@ -41,7 +41,8 @@ class Variation {
         std::all_of(pieces.begin(), pieces.end(),
                     [](const PositionCandidate& piece) { return piece.planes != nullptr; });
     using namespace position_mode;
-    // The kind first: planes go with so few of the other modes that they would hardly ever occur.
+    // The kind is chosen first, because planes combine with so few of the other modes that they
+    // would hardly ever occur.
     const uint8_t kinds[] = {0, kShear, kPalette, kPlanes};
     const uint8_t kind = kinds[below(planes ? 4 : 3)];
     const uint8_t others = kind == kPlanes ? kWithPlanes : static_cast<uint8_t>(~kKinds);
@@ -55,13 +56,15 @@ class Variation {
     return p;
   }
 
-  /// Sets the predictor of attribute `index` and of its partner to any that hold for their values.
+  /// Sets the predictor of attribute `index` and of its partner to any that are valid for their
+  /// values.
   void predictors(std::vector<AttributeInfo>& infos, uint32_t index) {
     const uint32_t count = static_cast<uint32_t>(infos.size());
     AttributeInfo& info = infos[index];
     const AttributeMethod method = methodOf(infos.data(), count, index);
     if (isWithAnother(method)) return;
-    if (method == AttributeMethod::kSkin) {  // what holds of the sums may be left unsaid
+    // Omits some of what holds for the sums, which is allowed.
+    if (method == AttributeMethod::kSkin) {
       uint8_t& sums = infos[skinPartner(infos.data(), count, index)].predictor;
       if (sums != 0 && coin())
         sums = static_cast<uint8_t>(coin() ? SkinSums::kUsual : SkinSums::kUnknown);

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Writer: prepares every piece (writer_plan.h), makes the format's choices on a counting coder
-// (writer_choices.h), then runs the stages of piece.h with the real one (writer_stages.h).
+// Writer: prepares every piece (writer/plan.h), makes the format's choices on a counting coder
+// (writer/choices.h), then runs the stages of reader/piece.h with the real one (writer/stages.h).
 #include "mcc/writer.h"
 
 #include <algorithm>
@@ -77,7 +77,8 @@ Status codeAll(std::vector<Plan>& plans, uint32_t context_set, bool single, Enco
   result.payload = writePayload(header, streams.codes, streams.tokens, streams.raw);
   const double stream_bits =
       8.0 * static_cast<double>(streams.codes.size() + streams.tokens.size() + streams.raw.size());
-  // The counted costs are slightly off, which over millions of tokens may exceed the flushes.
+  // The counted costs are slightly off. Over millions of tokens, the error may exceed what flushing
+  // adds to the streams.
   const double spent_bits = std::min(coded_bits, stream_bits);
   if (spent_bits < coded_bits) scale(result.sizes, spent_bits / coded_bits);
   result.sizes.header_bits = 8.0 * static_cast<double>(result.payload.size()) - spent_bits;

@@ -1,14 +1,15 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What the WebAssembly decoder exports; core.mjs is the only caller. An instance decodes one payload at a time:
+// What the WebAssembly decoder exports; core.mjs is the only caller. An instance decodes one
+// payload at a time: allocate() bytes for the payload, fill them, open(), read table(), decode(),
+// copy the outputs, close().
 //
-//   allocate() bytes for the payload, fill them, open(), look at table(), decode(), copy the outputs, close().
-//
-// The table describes the payload in 32-bit words, so that one look tells all:
-//   pieces; of each piece: wedges, vertices, attributes, parts;
-//   of each attribute: semantic, set, component type, normalized, components, morph target, address;
-//   of each part: triangles, bytes of an index, address.
-// Addresses are those of the outputs, from decode() on.
+// The table describes the whole payload in 32-bit words:
+//   number of pieces; for each piece: wedges, vertices, attributes, parts;
+//   for each attribute: semantic, set, component type, normalized, components, morph target,
+//   address;
+//   for each part: triangles, bytes of an index, address.
+// The addresses are those of the outputs; they are valid after decode().
 #include <algorithm>
 #include <cstdlib>
 
@@ -25,13 +26,14 @@ constexpr uint32_t kAttributeWords = 7;
 constexpr uint32_t kPartWords = 3;
 constexpr uint64_t kAlignmentBytes = 8;
 
-/// Infinity is the largest number; what is none is 0, so that a mistake limits too much rather than nothing.
+/// Converts a number of JavaScript. Infinity becomes the largest number, and NaN becomes 0, so that
+/// a mistake limits too much rather than nothing.
 uint64_t limitOf(double number) { return __builtin_wasm_trunc_saturate_u_i64_f64(number); }
 uint32_t shortLimitOf(double number) {
   return static_cast<uint32_t>(__builtin_wasm_trunc_saturate_u_i32_f64(number));
 }
 
-/// The payload that is open, and what belongs to it.
+/// The open payload and everything that belongs to it.
 struct Session {
   Payload payload;
   Array<uint32_t> table;
@@ -93,11 +95,11 @@ struct Session {
     }
   }
 
-  /// The table was reserved as a whole.
+  /// Cannot fail, because the table was reserved as a whole.
   void add(size_t word) { (void)table.push_back(static_cast<uint32_t>(word)); }
 
-  /// One block for all outputs. Indices are `widest_short` where that holds them (the largest value of a type is no
-  /// index in glTF), else 32 bits.
+  /// Places all outputs in one block. Indices have the type `widest_short` if it can hold them,
+  /// else 32 bits. (The largest value of a type is not a valid index in glTF.)
   Status placeOutputs(IndexType widest_short) {
     const uint64_t bytes = layOut(widest_short, nullptr);
     if (bytes > SIZE_MAX || !outputs.resize(static_cast<size_t>(bytes)))
@@ -106,7 +108,8 @@ struct Session {
     return {};
   }
 
-  /// The bytes it takes; `memory` null: only that.
+  /// Returns the number of bytes of all outputs. Assigns their addresses too, unless `memory` is
+  /// null.
   uint64_t layOut(IndexType widest_short, uint8_t* memory) {
     uint64_t bytes = 0;
     const auto place = [&](uint64_t size) {
@@ -156,7 +159,7 @@ using namespace mcc;
 
 MCC_EXPORT("allocate") void* mccAllocate(size_t bytes) { return std::malloc(bytes); }
 
-/// The error's number. Limits as in mcc::Limits.
+/// Returns the error's number. The limits are those of mcc::Limits.
 MCC_EXPORT("open")
 uint32_t mccOpen(const uint8_t* bytes, size_t size, double max_vertices, double max_triangles,
                  double max_attributes, double max_pieces, double max_elements,
@@ -173,12 +176,13 @@ uint32_t mccOpen(const uint8_t* bytes, size_t size, double max_vertices, double 
 
 MCC_EXPORT("table") const uint32_t* mccTable() { return session.table.data(); }
 
-/// `short_indices`: 16 bits where they suffice. The error's number.
+/// Decodes, and returns the error's number. `short_indices` asks for 16-bit indices where they
+/// suffice.
 MCC_EXPORT("decode") uint32_t mccDecode(uint32_t short_indices) {
   return numberOf(session.decode(short_indices != 0 ? IndexType::kUint16 : IndexType::kUint32));
 }
 
-/// Releases the payload, `bytes` of it too, and its outputs.
+/// Releases the payload, including its `bytes`, and its outputs.
 MCC_EXPORT("close") void mccClose(void* bytes) {
   session = Session();
   std::free(bytes);

@@ -1,8 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What the WebAssembly encoder exports; encoder.mjs is the only caller. One conversion per instance:
-//
-//   allocate() bytes for the GLB, fill them; bit for bit the options by their setters; convert(); take the outputs.
+// What the WebAssembly encoder exports; encoder.mjs is the only caller. An instance does one
+// conversion: allocate() bytes for the GLB, fill them, set the options, convert(), take the
+// outputs.
 #include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -20,13 +20,13 @@ using mcc::gltf::ConvertOptions;
 
 ConvertOptions options;
 std::vector<uint8_t> glb;
-std::string text;  // the report, or what is wrong
+std::string text;  // the report, or the error message
 
 }  // namespace
 
 MCC_EXPORT("allocate") void* mccAllocate(size_t bytes) { return std::malloc(bytes); }
 
-/// In the order of encoder.mjs, which checked the values.
+/// Sets the bits, in the order of encoder.mjs, which has checked the values.
 MCC_EXPORT("setBits")
 void mccSetBits(uint32_t position, uint32_t normal, uint32_t texcoord, uint32_t color,
                 uint32_t tangent, uint32_t weight) {
@@ -59,7 +59,8 @@ MCC_EXPORT("setLattice") void mccSetLattice(float x, float y, float z, float ste
   options.position_lattice = mcc::Lattice{{x, y, z, 0}, step};
 }
 
-/// Whether it went well: text() is the report then, else what is wrong.
+/// Returns 1 on success; text() is then the report. On failure it returns 0, and text() is the
+/// error message.
 MCC_EXPORT("convert") uint32_t mccConvert(const uint8_t* bytes, size_t size) {
   mcc::gltf::ConvertReport report;
   const mcc::gltf::Result result = mcc::gltf::convertGlb({bytes, size}, options, glb, report);

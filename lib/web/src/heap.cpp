@@ -1,19 +1,19 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The decoder's heap. It takes few blocks, large ones mostly, so that a list of the free ones will do; that of the C library
-// is ten times the code.
+// The decoder's heap. It holds few blocks, most of them large, so a simple list of free blocks
+// suffices; the C library's allocator would be ten times the code.
 #include <cstddef>
 #include <cstdint>
 
 namespace {
 
-constexpr size_t kUnit = 16;  ///< alignment, and what a block has in front
+constexpr size_t kUnit = 16;  ///< alignment, and the size of a block's header
 constexpr size_t kPage = 65536;
 constexpr size_t kLargest = SIZE_MAX / 2;
 
-/// In front of every block; `next` only of free ones, which are in the order of their addresses.
+/// The header of every block. `next` is used by free blocks only; they are sorted by address.
 struct Block {
-  size_t bytes;  ///< with this
+  size_t bytes;  ///< including this header
   Block* next;
 
   uint8_t* end() { return reinterpret_cast<uint8_t*>(this) + bytes; }
@@ -41,7 +41,7 @@ void insert(Block* block) {
   }
 }
 
-/// A free block at the end of the memory; joined with what is free in front of it.
+/// Adds a free block at the end of the memory. insert() joins it with a free block before it.
 bool grow(size_t bytes) {
   const size_t pages = (bytes + kPage - 1) / kPage;
   const size_t old_pages = __builtin_wasm_memory_grow(0, pages);

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The edges of a payload's collapse, for programs that draw it; encoder.mjs is the only caller.
+// Exports the edges of a payload's collapse to programs that draw it; encoder.mjs is the only
+// caller.
 #include <span>
 #include <vector>
 
@@ -14,7 +15,7 @@ std::vector<uint32_t> edges;
 size_t piece_count = 0;
 mcc::Status status;
 
-/// Decodes for the edges alone: attributes and triangles are dropped.
+/// Decodes for the edges alone; attributes and triangles are dropped.
 mcc::Status collectEdges(std::span<const uint8_t> bytes) {
   mcc::Payload payload;
   MCC_TRY(payload.open(bytes));
@@ -37,7 +38,8 @@ mcc::Status collectEdges(std::span<const uint8_t> bytes) {
 
 }  // namespace
 
-/// Whether it went well: edges() has three words per mc-edge then: piece, vertex, from; pieces rise.
+/// Returns 1 on success; edges() then has three words per mc-edge: piece, vertex, from; sorted by
+/// piece. Returns 0 on failure; edgesError() then tells why.
 MCC_EXPORT("findEdges") uint32_t mccFindEdges(const uint8_t* bytes, size_t size) {
   status = collectEdges({bytes, size});
   return status.ok() ? 1 : 0;
@@ -45,5 +47,5 @@ MCC_EXPORT("findEdges") uint32_t mccFindEdges(const uint8_t* bytes, size_t size)
 MCC_EXPORT("edgesPieces") size_t mccEdgesPieces() { return piece_count; }
 MCC_EXPORT("edges") const uint32_t* mccEdges() { return edges.data(); }
 MCC_EXPORT("edgesWords") size_t mccEdgesWords() { return edges.size(); }
-/// What is wrong; ends with a zero.
+/// Returns the error message, which ends with a zero.
 MCC_EXPORT("edgesError") const char* mccEdgesError() { return status.what; }

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What the glTF layer needs of a system, where there is none: files that cannot be read or written, a clock that stands.
+// Replaces what the glTF layer needs of an operating system, in a module that has none: files
+// cannot be read or written, and the clock stands still.
 #include <wasi/api.h>
 #include <ctime>
 
@@ -12,7 +13,7 @@
 namespace mcc::gltf {
 namespace {
 
-constexpr char kNoFiles[] = "there are no files here";
+constexpr char kNoFiles[] = "this module has no file system";
 
 }  // namespace
 
@@ -47,14 +48,14 @@ std::vector<std::filesystem::path> Destination::files() const { return {}; }
 
 }  // namespace mcc::gltf
 
-// Of the C library, which would import them from the host.
+// The following functions of the C library would otherwise be imported from the host.
 
-/// Reports have no times; who calls the module can measure them.
+/// Reports contain no times; the caller of the module can measure them.
 extern "C" int clock_gettime(clockid_t, struct timespec* time) {
   *time = {};
   return 0;
 }
-/// The last words of abort(), which the host hears of anyway.
+/// Called only for the last words of abort(), which the host notices anyway.
 extern "C" __wasi_errno_t __wasi_fd_write(__wasi_fd_t, const __wasi_ciovec_t*, size_t,
                                           __wasi_size_t*) {
   return __WASI_ERRNO_BADF;

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Stands in for the installed header in the WebAssembly decoder, which has one heap: an allocator
-// takes no memory in the objects that hold one.
+// Replaces the installed header in the WebAssembly decoder, which has one heap. An allocator is an
+// empty struct there, so that objects that hold one do not grow.
 #ifndef MCC_ALLOCATOR_H_
 #define MCC_ALLOCATOR_H_
 

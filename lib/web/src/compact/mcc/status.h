@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Stands in for the installed header in the WebAssembly decoder, whose caller sees only the number
-// of an error: a status is that number, in a register.
+// Replaces the installed header in the WebAssembly decoder, whose caller sees only the number of an
+// error. A status is that number, in a register.
 #ifndef MCC_STATUS_H_
 #define MCC_STATUS_H_
 
