@@ -1,8 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// node tools/check/coverage.mjs BUILD PERCENT: which lines of lib/ were run, of what gcc --coverage left in the folder
-// BUILD. Prints a row per folder, and one for the reader: its own objects alone, so that what only the writer runs of the
-// files they share does not count. The exit status is 1 when the reader's lines are below PERCENT.
+// node tools/check/coverage.mjs BUILD PERCENT: reports which lines of lib/ were run, from what gcc
+// --coverage left in the folder BUILD. Prints a row per folder, and one for the reader. The
+// reader's row counts its own objects alone, so that lines that only the writer runs in shared
+// files do not count. The exit status is 1 if less than PERCENT of the reader's lines were run.
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';

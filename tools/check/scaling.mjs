@@ -1,8 +1,9 @@
 #!/usr/bin/env node
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// tools/check/scaling.mjs PROGRAM [N [KIND...]]: processor time of convert, decode and validate for documents with N, 2 N and 4 N of one
-// thing. What is linear doubles from column to column.
+// tools/check/scaling.mjs PROGRAM [N [KIND...]]: measures the processor time of convert, decode and
+// validate for documents with N, 2 N and 4 N of one thing. Linear time doubles from column to
+// column.
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -49,7 +50,7 @@ class Builder {
 	}
 }
 
-// A bumpy sheet of 2 n² triangles: [positions, indices].
+// Makes a bumpy sheet of 2 n² triangles: [positions, indices].
 function sheet(n, seed = 0) {
 	const positions = [];
 	const indices = [];
@@ -97,7 +98,7 @@ const KINDS = {
 	},
 };
 
-// Processor time of a command, which does not depend on what else runs.
+// Measures the processor time of a command, which does not depend on what else runs.
 function secondsOf(program, words) {
 	try {
 		const script = '"$@" > /dev/null 2>&1 || echo failed; times';

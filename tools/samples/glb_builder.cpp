@@ -51,7 +51,7 @@ uint32_t glEnumerant(ComponentType type) {
   return kFloat;
 }
 
-/// Writes min and max of tight elements.
+/// Writes min and max of tightly packed elements.
 template <typename Number>
 void setBounds(Json& accessor, std::span<const Number> values, uint32_t components) {
   std::vector<Number> low(values.begin(), values.begin() + components);

@@ -21,31 +21,32 @@ class GlbBuilder {
   /// `title` names the scene and its first node.
   explicit GlbBuilder(const std::string& title);
 
-  /// The document; members may be added and changed until finish().
+  /// The document. Members may be added and changed until finish().
   Json& json() { return json_; }
 
-  /// Vertex attributes: `components` (1..4) floats per element; min and max are written.
+  /// Adds vertex attributes: `components` (1..4) floats per element. Writes min and max.
   uint32_t addFloats(std::span<const float> values, uint32_t components);
-  /// As addFloats for anything that is no vertex attribute (animation, inverse bind matrices: 16).
+  /// Like addFloats(), for anything that is not a vertex attribute (animation; inverse bind
+  /// matrices, with 16 components).
   uint32_t addPlainFloats(std::span<const float> values, uint32_t components);
-  /// Integer vertex attributes. Elements are padded to a multiple of four bytes, as glTF demands.
-  /// `values` holds components * count numbers in the range of `type`.
+  /// Adds integer vertex attributes. Elements are padded to a multiple of four bytes, as glTF
+  /// requires. `values` holds components * count numbers in the range of `type`.
   uint32_t addIntegers(std::span<const int32_t> values, uint32_t components, ComponentType type,
                        bool normalized);
-  /// Indices, 16 bits wide when they fit.
+  /// Adds indices, 16 bits wide if they fit.
   uint32_t addIndices(std::span<const uint32_t> indices);
-  /// A VEC3 float accessor that takes `base` and replaces the elements `where` (ascending) by
-  /// `values`.
+  /// Adds a VEC3 float accessor that takes the elements of `base`, and replaces those at `where`
+  /// (ascending) by `values`.
   uint32_t addSparseFloats(uint32_t base_accessor, std::span<const float> base,
                            std::span<const uint32_t> where, std::span<const float> values);
-  /// A material; colour components 0..1, linear.
+  /// Adds a material; colour components are 0..1, linear.
   uint32_t addMaterial(const std::string& name, float red, float green, float blue, float metallic,
                        float roughness, bool double_sided = false);
-  /// An embedded PNG with a texture that repeats nowhere.
+  /// Embeds a PNG and adds a texture that does not repeat.
   uint32_t addTexture(const std::string& name, std::span<const uint8_t> png);
-  /// A mesh; returns its index.
+  /// Adds a mesh and returns its index.
   uint32_t addMesh(const std::string& name, const Json& primitives);
-  /// A node; `in_scene` makes it a root of the scene.
+  /// Adds a node; `in_scene` makes it a root of the scene.
   uint32_t addNode(const Json& node, bool in_scene = true);
 
   std::vector<uint8_t> finish() const;

@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // generate-samples DIR writes the sample models into DIR and prints the table of samples/README.md.
-// generate-samples --soups DIR writes meshes whose edges have many faces instead: `gltf-mcc bench DIR/*.glb`.
+// generate-samples --soups DIR instead writes meshes whose edges have many faces, to be measured by
+// `gltf-mcc bench DIR/*.glb`.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -21,7 +22,8 @@ struct Counts {
   uint64_t triangles = 0;
 };
 
-/// Vertices of all meshes (each POSITION accessor once) and triangles of all primitives.
+/// Counts the vertices of all meshes (each POSITION accessor once) and the triangles of all
+/// primitives.
 Counts countOf(const Json& json) {
   constexpr uint32_t kTriangles = 4;
   Counts counts;

@@ -48,7 +48,7 @@ Vec3 at(const std::vector<float>& values, uint32_t i) {
           double{values[size_t{i} * 3 + 2]}};
 }
 
-/// The two triangles of a quad, counter-clockwise a b c d.
+/// Adds the two triangles of a quad, counter-clockwise a b c d.
 void pushQuad(std::vector<uint32_t>& indices, uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
   for (const uint32_t v : {a, b, c, a, c, d}) indices.push_back(v);
 }
@@ -72,7 +72,7 @@ Json addPrimitive(GlbBuilder& glb, const TestMesh& mesh, uint32_t material) {
   return primitive(attributes, glb.addIndices(mesh.indices), material);
 }
 
-/// A document with one node, one mesh, one primitive.
+/// Makes a document with one node, one mesh and one primitive.
 GlbBuilder single(const std::string& name, const TestMesh& mesh, float red, float green, float blue,
                   bool double_sided = false) {
   GlbBuilder glb(name);
@@ -88,7 +88,7 @@ GlbBuilder sphere() { return single("sphere", test::icosphere(4), 0.05f, 0.45f, 
 
 GlbBuilder torus() { return single("torus", test::torus(64, 32), 0.9f, 0.35f, 0.05f); }
 
-/// One step of Loop's subdivision of a closed mesh.
+/// Does one step of Loop's subdivision of a closed mesh.
 TestMesh loopSubdivided(const TestMesh& mesh) {
   struct Edge {
     uint32_t middle = 0;
@@ -142,7 +142,7 @@ GlbBuilder genus3() {
 
 // ---- Boundaries ---------------------------------------------------------------------------------
 
-/// A waved square with seven round holes.
+/// Makes a waved square with seven round holes.
 TestMesh wavedSheet() {
   constexpr uint32_t kCells = 44;
   constexpr std::array<double, 7> kRadii = {0.24, 0.15, 0.15, 0.15, 0.15, 0.15, 0.15};
@@ -169,7 +169,7 @@ TestMesh wavedSheet() {
       std::vector<uint32_t>& list = inside ? border : kept;
       list.insert(list.end(), corners.begin(), corners.end());
     }
-    for (const uint32_t v : border) {  // what stays of them becomes round
+    for (const uint32_t v : border) {  // moves the vertices of a hole's border onto a circle
       const double d = distance(v);
       if (d < kRadii[hole]) continue;
       places[v].x = centre.x + (places[v].x - centre.x) * kRadii[hole] / d;
@@ -222,7 +222,7 @@ std::vector<uint8_t> colourTexture() {
   return encodePng(kChartsAcross * kChart, kChartsDown * kChart, rgb);
 }
 
-/// Tangent-space normals of a field of round bumps.
+/// Returns the tangent-space normals of a field of round bumps.
 std::vector<uint8_t> normalTexture() {
   constexpr uint32_t kChart = 16;
   constexpr uint32_t kBump = 8;
@@ -233,7 +233,7 @@ std::vector<uint8_t> normalTexture() {
       const double dy = (2.0 * (y % kBump) + 1) / kBump - 1;
       const bool bump = dx * dx + dy * dy < 0.8;
       const Vec3 n =
-          unit({bump ? 0.5 * dx : 0, bump ? -0.5 * dy : 0, 1});  // rows go down, green goes up
+          unit({bump ? 0.5 * dx : 0, bump ? -0.5 * dy : 0, 1});  // rows go down, but green goes up
       for (const double c : {n.x, n.y, n.z}) {
         rgb.push_back(static_cast<uint8_t>(std::floor((c + 1) * 127.5 + 0.5)));
       }
@@ -244,7 +244,7 @@ std::vector<uint8_t> normalTexture() {
 
 GlbBuilder textured() {
   constexpr uint32_t kCells = 16;
-  constexpr double kFlat = 0.55;  // half width of the flat middle of a side
+  constexpr double kFlat = 0.55;  // half the width of the flat middle of a side
   TestMesh mesh;
   std::vector<float> tangents;
   for (uint32_t side = 0; side < 6; ++side) {
@@ -265,7 +265,7 @@ GlbBuilder textured() {
         const double s = 2.0 * i / kCells - 1;
         const double t = 2.0 * j / kCells - 1;
         const Vec3 p =
-            n + u * s + v * t;  // small binary fractions: exact, so sides meet bit for bit
+            n + u * s + v * t;  // small binary fractions are exact, so sides meet bit for bit
         const auto middle = [=](double x) { return std::clamp(x, -kFlat, kFlat); };
         const Vec3 core = {middle(p.x), middle(p.y), middle(p.z)};
         const Vec3 normal = unit(p - core);
@@ -301,8 +301,8 @@ GlbBuilder textured() {
 
 // ---- Several primitives -------------------------------------------------------------------------
 
-/// Rows first..last of a surface of revolution about y; `profile` holds (radius, y). Rows of radius
-/// zero are one vertex. The same row gives the same bits in every call.
+/// Makes the rows first..last of a surface of revolution about y; `profile` holds (radius, y). A
+/// row of radius zero is one vertex. The same row has the same bits in every call.
 TestMesh revolved(std::span<const std::array<double, 2>> profile, size_t first, size_t last,
                   uint32_t segments) {
   TestMesh mesh;
@@ -341,7 +341,7 @@ TestMesh revolved(std::span<const std::array<double, 2>> profile, size_t first, 
 GlbBuilder twoMaterials() {
   // A vase: the foot's centre, up the outer wall, over the rim, down the inner wall to the centre.
   constexpr size_t kRows = 22;
-  constexpr size_t kBorder = 14;  // the row both primitives have
+  constexpr size_t kBorder = 14;  // the row that both primitives have
   const auto radius = [](double y) { return 0.42 + 0.2 * turn(0.1 + 0.45 * y).sin; };
   std::vector<std::array<double, 2>> profile = {{0, 0}, {0.3, 0}};
   for (size_t i = 0; i <= kRows; ++i) {
@@ -378,7 +378,7 @@ GlbBuilder sharedVertices() {
       x += p.x;
       z += p.z;
     }
-    uint32_t sector = 0;  // of six around the axis
+    uint32_t sector = 0;  // one of six around the axis
     for (uint32_t i = 1; i < 6; ++i) {
       const test::CosSin best = turn((sector + 0.5) / 6);
       const test::CosSin candidate = turn((i + 0.5) / 6);
@@ -439,7 +439,8 @@ GlbBuilder skinned() {
     const float second = static_cast<float>(along - joint);
     for (const int32_t j : {joint, second > 0 ? joint + 1 : 0, 0, 0}) joints.push_back(j);
     for (const float w : {1 - second, second, 0.0f, 0.0f}) weights.push_back(w);
-    if (second == 1) joints[joints.size() - 4] = 0;  // a joint of weight zero is joint 0
+    // glTF requires joint 0 where the weight is zero.
+    if (second == 1) joints[joints.size() - 4] = 0;
     const double from_middle = std::clamp((p.y - 1) / 0.45, -1.0, 1.0);
     const double swell = 0.8 * (1 - from_middle * from_middle) * (1 - from_middle * from_middle);
     push(swelling, {p.x * swell, 0, p.z * swell});
@@ -558,7 +559,8 @@ GlbBuilder nonManifold() {
   return glb;
 }
 
-/// A trefoil knot in 16-bit positions, 8-bit normals and colours, 16-bit texture coordinates.
+/// Makes a trefoil knot with 16-bit positions, 8-bit normals and colours, and 16-bit texture
+/// coordinates.
 GlbBuilder quantized() {
   constexpr uint32_t kAlong = 160;
   constexpr uint32_t kAround = 14;

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The sample models: one function each, same bytes on every platform.
+// The sample models. Each is made by one function, with the same bytes on every platform.
 #ifndef MCC_TOOLS_SAMPLES_MODELS_H_
 #define MCC_TOOLS_SAMPLES_MODELS_H_
 
@@ -18,7 +18,8 @@ struct Model {
 
 std::span<const Model> allModels();
 
-/// Meshes whose edges have many faces, for `bench`: they are large and not kept.
+/// Meshes whose edges have many faces, for `bench`. They are too large to be kept in the
+/// repository.
 std::span<const Model> soupModels();
 
 }  // namespace mcc::samples

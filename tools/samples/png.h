@@ -8,8 +8,8 @@
 
 namespace mcc::samples {
 
-/// An 8-bit RGB PNG of width * height * 3 bytes, top row first, in stored (uncompressed) deflate
-/// blocks.
+/// Returns an 8-bit RGB PNG of width * height * 3 bytes, top row first, in stored (uncompressed)
+/// deflate blocks.
 std::vector<uint8_t> encodePng(uint32_t width, uint32_t height, std::span<const uint8_t> rgb);
 
 }  // namespace mcc::samples

@@ -1,8 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// train-positions MESH.glb..: refits the universal weights of the position predictor (kUniversalWeights in
-// lib/src/positions/tables.h) and prints the table. Each mesh is fitted at 11 and 14 bits; an entry of the
-// table is the median over the meshes that have enough vertices of the class. See tools/train/run.
+// train-positions MESH.glb..: fits the universal weights of the position predictor again
+// (kUniversalWeights in lib/src/positions/tables.h) and prints the table. Each mesh is fitted at 11
+// and 14 bits; an entry of the table is the median over the meshes that have enough vertices of the
+// class. See tools/train/run.
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -28,7 +29,8 @@ struct Mesh {
   std::vector<uint32_t> indices;
 };
 
-/// The indexed float triangles of a GLB without external buffers, sparse accessors or strides: enough for training.
+/// Reads the indexed float triangles of a GLB without external buffers, sparse accessors or
+/// strides, which is enough for training.
 std::vector<Mesh> loadMeshes(const char* path) {
   std::ifstream file(path, std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(file)), {});
@@ -104,7 +106,7 @@ bool fitOf(const PayloadHeader& header, PredictorWeights& weights,
 }  // namespace
 
 int main(int argc, char** argv) {
-  constexpr uint32_t kEnough = 100;  // vertices of a class in a mesh
+  constexpr uint32_t kEnough = 100;  // vertices of a class that a mesh must have to count
   std::vector<int16_t> samples[kPredictorClasses][kMostWeights];
   for (int i = 1; i < argc; ++i) {
     for (const Mesh& mesh : loadMeshes(argv[i])) {
