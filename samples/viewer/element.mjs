@@ -1,6 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-/** An element with properties, `class` and `data-…`, `aria-…` attributes, and children; text comes from files and is never HTML. */
+/**
+ * Makes an element with properties, `class`, `data-…` and `aria-…` attributes, and children. Text
+ * comes from files, so it is never treated as HTML.
+ */
 export function element(name, properties = {}, ...children) {
   const made = document.createElement(name);
   for (const [key, value] of Object.entries(properties)) {

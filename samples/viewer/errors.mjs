@@ -1,11 +1,12 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// How far every decoded vertex is from those of the source that became it.
+// Measures how far every decoded vertex is from the source vertices that became it.
 //
-// The file does not say which vertex became which when it does not keep their order. It need not: on a lattice a source vertex
-// goes to the nearest point, which therefore is among the decoded ones, and no decoded vertex is nearer to it.
+// If a file does not keep the order of vertices, it does not say which vertex became which. That is
+// not necessary: on a lattice, a source vertex goes to the nearest point. This point is therefore a
+// decoded vertex, and no other decoded vertex is nearer.
 
-/** Points in cells, in a hash table; points that are equal are entered once. */
+/** Points in the cells of a hash table; equal points are entered once. */
 class PointTable {
   constructor(points, cell) {
     this.points = points;
@@ -14,7 +15,7 @@ class PointTable {
     this.mask = 2 ** Math.ceil(Math.log2(2 * count + 1)) - 1;
     this.first = new Int32Array(this.mask + 1).fill(-1);
     this.next = new Int32Array(count).fill(-1);
-    /** The first point that is equal to a point. */
+    /** For each point, the first one that is equal to it. */
     this.same = Int32Array.from({ length: count }, (_, i) => i);
     for (let i = 0; i < count; ++i) this.enter(i);
   }
@@ -39,12 +40,12 @@ class PointTable {
     this.first[slot] = i;
   }
 
-  /** The point nearest to x, y, z; -1 if none is as near as `reach` along each axis allows. */
+  /** Returns the point nearest to x, y, z, or -1 if none is within `reach` along each axis. */
   nearest(x, y, z, reach) {
     const { points: p, cell } = this;
     const high = [Math.floor((x + reach) / cell), Math.floor((y + reach) / cell), Math.floor((z + reach) / cell)];
     let best = -1;
-    let least = 3 * reach * reach; // cells have others, too
+    let least = 3 * reach * reach; // the cells contain points farther away too
     for (let cx = Math.floor((x - reach) / cell); cx <= high[0]; ++cx) {
       for (let cy = Math.floor((y - reach) / cell); cy <= high[1]; ++cy) {
         for (let cz = Math.floor((z - reach) / cell); cz <= high[2]; ++cz) {
@@ -61,7 +62,7 @@ class PointTable {
   }
 }
 
-/** Corners of the box of points, and its longest side. */
+/** Returns the corners of the bounding box of points, and its longest side. */
 export function boxOf(points) {
   const box = { min: [Infinity, Infinity, Infinity], max: [-Infinity, -Infinity, -Infinity], side: 0 };
   for (let i = 0; i < points.length; ++i) {
@@ -73,15 +74,17 @@ export function boxOf(points) {
 }
 
 /**
+ * Measures the errors.
  * @param {ArrayLike<number>} source positions, 3 per vertex
  * @param {ArrayLike<number>} decoded as `source`, in any order
  * @param {number} promised no coordinate is off by more
- * @returns {{ errors: Float32Array, missed: number }} errors: by decoded vertex, the largest distance of the source vertices that
- *   became it; missed: source vertices without a decoded one as near as promised
+ * @returns {{ errors: Float32Array, missed: number }} errors: for each decoded vertex, the largest
+ * distance of the source vertices that became it; missed: number of source vertices without a
+ * decoded one as near as promised
  */
 export function measureErrors(source, decoded, promised) {
   const side = boxOf(source).side || 1;
-  // Positions are floats: what the bound says may be missed by their rounding.
+  // Positions are floats, so rounding may exceed the bound slightly.
   const reach = promised * 1.001 + side * 2 ** -22;
   const table = new PointTable(decoded, Math.max(4 * reach, side * 1e-6));
   const errors = new Float32Array(decoded.length / 3);

@@ -1,13 +1,13 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Sizes, times and errors as text and tables.
+// Shows sizes, times and errors as text and tables.
 import { element } from './element.mjs';
 import { formatCount, formatMilliseconds, formatPercent, formatSmall } from './format.mjs';
 
 const FIRST = ['connectivity', 'stitching', 'leftovers', 'order', 'seams', 'POSITION'];
 const LAST = ['header'];
 
-/** Bytes by stream of all payloads of a report. */
+/** Returns the bytes of each stream, summed over all payloads of a report. */
 export function streamsOf({ payloads }) {
   const streams = new Map();
   const add = (name, bytes) => streams.set(name, (streams.get(name) ?? 0) + bytes);
@@ -23,7 +23,8 @@ const rank = (name) => (FIRST.includes(name) ? FIRST.indexOf(name) : LAST.includ
 /**
  * @param {HTMLTableElement} table
  * @param {Map<string, number>} ours @param {number} oursTotal
- * @param {{ streams: Map<string, number>, byteLength: number } | undefined} draco not there yet, or not to be had
+ * @param {{ streams: Map<string, number>, byteLength: number } | undefined} draco not there yet, or
+ * not to be had
  */
 export function showStreams(table, ours, oursTotal, draco) {
   const names = [...new Set([...ours.keys(), ...draco?.streams.keys() ?? []])].sort((a, b) => rank(a) - rank(b));
@@ -66,7 +67,7 @@ export function showSummary(list, entries) {
     element('dt', {}, name), element('dd', {}, element('b', { class: 'number' }, figure), element('span', {}, more)))));
 }
 
-/** What is known so far about a compression. */
+/** Lists what is known so far about a compression. */
 export function summaryOf({ sourceBytes, report, glb, timing, errors, draco, dracoError }) {
   const sizes = `${formatCount(sourceBytes)} → ${formatCount(glb.length)}`;
   const entries = [['File', sizes, `bytes, ${formatPercent(glb.length / sourceBytes)}`]];

@@ -1,12 +1,12 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 export { formatCount } from './glb.mjs';
 
-/** "12 %", with a digit behind the point where that matters. */
+/** Returns "12 %", with one decimal if it matters. */
 export function formatPercent(fraction) {
   return `${(100 * fraction).toLocaleString('en-US', { maximumFractionDigits: fraction < 0.1 ? 1 : 0 })} %`;
 }
 
-/** Three digits that count: "0.0000367" is "3.67e-5". */
+/** Returns three significant digits: "0.0000367" is "3.67e-5". */
 export function formatSmall(value) {
   if (value === 0) return '0';
   const size = Math.abs(value);

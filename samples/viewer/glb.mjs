@@ -1,10 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What the viewer has to know of a GLB besides what three.js and gltf-mcc do with it.
+// What the viewer needs to know about a GLB in addition to what three.js and gltf-mcc do with it.
 
 export const MAX_FILE_BYTES = 256 * 2 ** 20;
 
-/** Something about the file that its owner can understand and mend. */
+/** A problem with the file that its owner can understand and fix. */
 export class FileError extends Error {}
 
 const GLB_MAGIC = 0x46546c67, JSON_CHUNK = 0x4e4f534a, BIN_CHUNK = 0x004e4942;
@@ -29,7 +29,7 @@ export function readGlb(bytes) {
   if (version !== 2) throw new FileError(`This is a GLB of version ${version}; only glTF 2.0 can be shown.`);
   const length = view.getUint32(8, true);
   if (length > bytes.length) {
-    throw new FileError(`The file is cut off: it says it has ${formatCount(length)} bytes, but ${formatCount(bytes.length)} are there.`);
+    throw new FileError(`The file is cut off: it should have ${formatCount(length)} bytes, but ${formatCount(bytes.length)} are there.`);
   }
   const gltf = { json: undefined, bin: new Uint8Array(0) };
   for (let at = 12; at + 8 <= length;) {
@@ -49,7 +49,7 @@ function describeOther(bytes) {
   const start = String.fromCharCode(...bytes.subarray(0, 64)).trimStart();
   if (bytes.length === 0) return 'The file is empty.';
   if (start.startsWith('{')) {
-    return 'This is a .gltf, whose buffers and images are other files. Make it one file first: gltf-mcc convert model.gltf model.glb';
+    return 'This is a .gltf, whose buffers and images are in other files. Combine them first: gltf-mcc convert model.gltf model.glb';
   }
   return 'This is not a GLB: a GLB begins with the letters “glTF”.';
 }
@@ -61,31 +61,31 @@ function parseJson(chunk) {
   } catch (error) {
     throw new FileError(`The file is damaged: its JSON cannot be read (${error.message}).`);
   }
-  if (typeof json !== 'object' || json === null || Array.isArray(json)) throw new FileError('The file is damaged: its JSON is no object.');
+  if (typeof json !== 'object' || json === null || Array.isArray(json)) throw new FileError('The file is damaged: its JSON is not an object.');
   return json;
 }
 
-/** Throws what keeps the viewer from working on a document. */
+/** Throws an error if the viewer cannot work on the document. */
 export function checkDocument(json) {
   for (const [name, codec] of Object.entries(FOREIGN)) {
     if (json.extensionsUsed?.includes(name)) {
       throw new FileError(`The meshes of this file are compressed with ${codec} (${name}), which the viewer does not decode. `
-        + 'The command line does: gltf-mcc convert model.glb small.glb');
+        + 'The command line tool does: gltf-mcc convert model.glb small.glb');
     }
   }
   if (json.extensionsRequired?.includes('KHR_texture_basisu')) {
     throw new FileError('The textures of this file are KTX2 (KHR_texture_basisu), which the viewer does not show. '
-      + 'The command line keeps them: gltf-mcc convert model.glb small.glb');
+      + 'The command line tool keeps them: gltf-mcc convert model.glb small.glb');
   }
   const outside = [...json.buffers ?? [], ...json.images ?? []].find(({ uri }) => uri !== undefined && !uri.startsWith('data:'));
   if (outside !== undefined) {
     throw new FileError(`The file refers to another one, “${outside.uri}”, which a page cannot read. `
-      + 'Make it one file first: gltf-mcc convert model.glb whole.glb');
+      + 'Combine them first: gltf-mcc convert model.glb whole.glb');
   }
   if (trianglePrimitivesOf(json).length === 0) throw new FileError('There are no triangles in this file.');
 }
 
-/** All triangle primitives with a position: { mesh, primitive, definition }. */
+/** Lists all triangle primitives with a position: { mesh, primitive, definition }. */
 export function trianglePrimitivesOf(json) {
   const hasTriangles = ({ mode = TRIANGLES, attributes }) => mode >= TRIANGLES && mode <= TRIANGLE_FAN && attributes?.POSITION !== undefined;
   return (json.meshes ?? [])
@@ -94,9 +94,9 @@ export function trianglePrimitivesOf(json) {
 }
 
 /**
- * The components of an accessor, tight, of its own type.
- * @returns {{ array: Int8Array|Uint8Array|Int16Array|Uint16Array|Uint32Array|Float32Array, componentCount: number, normalized: boolean,
- *   componentType: number, count: number }}
+ * Returns the components of an accessor, tightly packed, in its own type.
+ * @returns {{ array: Int8Array|Uint8Array|Int16Array|Uint16Array|Uint32Array|Float32Array,
+ * componentCount: number, normalized: boolean, componentType: number, count: number }}
  */
 export function readAccessor({ json, bin }, index) {
   const { bufferView, byteOffset = 0, componentType, count, type, normalized = false, sparse } = json.accessors[index];
@@ -132,7 +132,10 @@ function copyElements({ json, bin }, viewIndex, byteOffset, array, componentCoun
   }
 }
 
-/** Components as numbers of the model, that is, without the scale of normalized integers. */
+/**
+ * Returns the components as numbers of the model, that is, with normalized integers converted to
+ * fractions.
+ */
 export function readNumbers(gltf, index) {
   const { array, normalized } = readAccessor(gltf, index);
   if (!normalized || array instanceof Float32Array) return array;
@@ -140,7 +143,7 @@ export function readNumbers(gltf, index) {
   return Float32Array.from(array, (value) => Math.max(value / most, -1));
 }
 
-/** The triangles of a primitive, as a list whatever its mode is. */
+/** Returns the triangles of a primitive as a list, whatever its mode is. */
 export function readTriangles(gltf, { indices, mode = TRIANGLES, attributes }) {
   const list = indices === undefined
     ? Uint32Array.from({ length: gltf.json.accessors[attributes.POSITION].count }, (_, i) => i)

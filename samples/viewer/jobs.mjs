@@ -1,9 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Work that takes time, in workers. A worker that is through waits for more, as it has compiled its WebAssembly; one that works at
-// what is no longer wanted is ended.
+// Runs work that takes time in workers. A worker that has finished waits for more work, because it
+// has compiled its WebAssembly. A worker that is still busy with something no longer wanted is
+// ended.
 
-/** One by module, at most. */
+/** Idle workers, at most one per module. */
 const idle = new Map();
 
 function takeWorker(module) {
@@ -16,7 +17,8 @@ export class Job {
   /**
    * @param {string} module of the worker, relative to this one
    * @param {object} request what it gets
-   * @param {(message: { name: string }) => void} onMessage what it says; `error` or `done` comes last
+   * @param {(message: { name: string }) => void} onMessage what it says; `error` or `done` comes
+   * last
    */
   constructor(module, request, onMessage) {
     this.worker = takeWorker(module);

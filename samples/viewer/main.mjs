@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The page: files come in, options change, results are shown.
+// The page: it opens files, reacts to changed options, and shows results.
 import { element } from './element.mjs';
 import { showStreams, showSummary, streamsOf, sum, summaryOf } from './figures.mjs';
 import { formatCount, formatPercent, formatSmall } from './format.mjs';
@@ -13,7 +13,7 @@ import { LinkedViews } from './views.mjs';
 const SAMPLES = ['textured', 'torus', 'genus3', 'sheet_with_holes', 'two_materials', 'skinned', 'morphed', 'moebius', 'non_manifold',
   'quantized'];
 const EXAMPLES = ['textured', 'torus', 'sheet_with_holes', 'two_materials'];
-/** Encoding takes a thousand bytes of memory per triangle, and seconds per million. */
+/** Encoding takes a thousand bytes of memory per triangle, and seconds per million triangles. */
 const MAX_TRIANGLES = 4_000_000;
 
 const $ = (id) => document.getElementById(id);
@@ -68,7 +68,7 @@ class Page {
   async openSample(name) {
     await this.open(`${name}.glb`, async () => {
       const response = await fetch(`vendor/samples/${name}.glb`);
-      if (!response.ok) throw new FileError(`The sample ${name}.glb is not there.`);
+      if (!response.ok) throw new FileError(`There is no sample ${name}.glb.`);
       return response.arrayBuffer();
     });
   }
@@ -80,13 +80,13 @@ class Page {
       if (file.size > MAX_FILE_BYTES) {
         const mebibytes = (bytes) => `${formatCount(bytes / 2 ** 20)} MiB`;
         throw new FileError(`The file has ${mebibytes(file.size)}; this page takes ${mebibytes(MAX_FILE_BYTES)} at most. `
-          + 'The command line takes larger ones: gltf-mcc convert model.glb small.glb');
+          + 'The command line tool takes larger ones: gltf-mcc convert model.glb small.glb');
       }
       return file.arrayBuffer();
     });
   }
 
-  /** A file that cannot be shown leaves what is shown as it is. */
+  /** A file that cannot be shown leaves the current one in place. */
   async open(name, read) {
     this.say('error', '');
     try {
@@ -130,7 +130,7 @@ class Page {
     try {
       this.showWork();
     } catch (error) {
-      this.fail(`This browser draws no WebGL, which the viewer needs (${error.message}).`);
+      this.fail(`The viewer needs WebGL, which this browser does not provide (${error.message}).`);
       return;
     }
     this.result = { sourceBytes: this.file.bytes.length };
@@ -138,7 +138,7 @@ class Page {
     $('work').classList.add('busy');
     this.enable(false);
     this.progress('Reading', undefined);
-    // Answers to a run that was stopped may still be on their way.
+    // Messages from a run that was stopped may still be on their way.
     const run = this.run = {};
     const request = { bytes: this.file.bytes, options: this.options.value };
     this.job = new Job('./workers/compressor.mjs', request, (message) => run === this.run && this.onMessage(message, run));
@@ -163,7 +163,8 @@ class Page {
     }
   }
 
-  // A picture takes its time to load; what comes later waits for it, and is left out when another run has begun.
+  // A picture takes time to load. Later steps wait for it, and are skipped if another run has
+  // begun.
   async inOrder(step) {
     const { run } = this;
     this.picture = (this.picture ?? Promise.resolve()).catch(() => {}).then(() => run === this.run && step());
@@ -174,7 +175,7 @@ class Page {
     this.source = bytes;
     this.options.showUsed(readGlb(bytes).json);
     $('original-size').textContent = `${formatCount(this.file.bytes.length)} bytes`;
-    if (isCompressed) this.say('notice', 'This file was compressed with mesh collapse already; the original is what it decodes to.');
+    if (isCompressed) this.say('notice', 'This file is compressed with mesh collapse already. The original shown here is what it decodes to.');
     if (!this.isNew) return;
     this.isNew = false;
     await this.inOrder(() => this.views.showOriginal(bytes));
@@ -184,7 +185,7 @@ class Page {
     Object.assign(this.result, { glb, report });
     $('compressed-size').textContent = `${formatCount(glb.length)} bytes, ${formatPercent(glb.length / this.file.bytes.length)}`;
     $('download').disabled = false;
-    if (report.copied) this.say('notice', 'Compression gains nothing here: the result is the source.');
+    if (report.copied) this.say('notice', 'Compression would not make this file smaller, so the result is the source.');
     await this.inOrder(() => this.views.showCompressed(bytes));
     $('waiting').textContent = '';
   }
@@ -270,7 +271,7 @@ class Page {
     else $('progress-bar').value = done;
   }
 
-  /** Seconds since a text was shown first, not told to screen readers. */
+  /** Shows the seconds since a text was first shown; they are hidden from screen readers. */
   showElapsed(text) {
     if (text === this.stageText) return;
     clearInterval(this.clock);
@@ -287,7 +288,10 @@ class Page {
     for (const id of ['download', 'heat', 'tree']) $(id).disabled = !on;
   }
 
-  /** Errors and order are painted on the same surface: one at a time. */
+  /**
+   * Errors and collapse order are painted on the same surface, so only one of them is shown at a
+   * time.
+   */
   toggle(mode) {
     const on = !this.views.modes[mode];
     const modes = { [mode]: on };
@@ -331,7 +335,7 @@ function checkSize({ meshes = [], accessors = [] }) {
   const corners = counts.reduce((a, b) => a + b, 0);
   if (corners / 3 <= MAX_TRIANGLES) return;
   throw new FileError(`The file has ${formatCount(corners / 3)} triangles; this page takes ${formatCount(MAX_TRIANGLES)} at most. `
-    + 'The command line takes more: gltf-mcc convert model.glb small.glb');
+    + 'The command line tool takes more: gltf-mcc convert model.glb small.glb');
 }
 
 const errorLegend = ({ most, side }) => ({
@@ -342,7 +346,7 @@ const errorLegend = ({ most, side }) => ({
 });
 
 const orderLegend = (tree) => ({
-  title: `Edges in the order of their contraction`,
+  title: 'Edges in the order of their contraction',
   ramp: ORDER_RAMP,
   low: 'first',
   high: `last of ${formatCount(sum(tree.map(({ edges }) => edges), 'length') / 2)}`,
@@ -353,25 +357,25 @@ function remarks({ report, draco, dracoError, errors, options }) {
   if (dracoError !== undefined) all.push(`No comparison with Draco: ${dracoError}.`);
   const ours = streamsOf(report);
   if (ours.has('JOINTS_0') && ours.get('WEIGHTS_0') === 0) all.push('Mesh collapse codes weights with their joints.');
-  if (errors?.missed > 0) all.push(`${formatCount(errors.missed)} vertices of the source have no decoded one as near as promised.`);
+  if (errors?.missed > 0) all.push(`${formatCount(errors.missed)} vertices of the source have no decoded vertex within the promised distance.`);
   const kept = report.primitives.filter(({ compressed }) => !compressed);
   if (kept.length !== 0 && !report.copied) {
     const why = kept[0].note ? ` (${kept[0].note})` : '';
-    all.push(`${kept.length} of ${report.primitives.length} primitives stay as they were${why}.`);
+    all.push(`${kept.length} of ${report.primitives.length} primitives are left as they were${why}.`);
   }
   return all;
 }
 
 function dracoRemarks(draco, report, { lossless, value: { keepVertexOrder, keepTriangleOrder } }) {
-  const all = [`Draco ${draco.version} at speed 0, its smallest, ${lossless ? 'not quantised' : 'at the same bits'};`,
+  const all = [`Draco ${draco.version} at speed 0, which gives its smallest files, ${lossless ? 'not quantised' : 'with the same bits'};`,
     'its seams are counted with the attributes that have them.'];
   if ([...draco.streams.keys()].some((name) => name.startsWith('target'))) {
-    all.push('It has no coding for morph targets: those are counted as they are.');
+    all.push('Draco has no coding for morph targets; they are counted uncompressed.');
   }
-  if (keepVertexOrder || keepTriangleOrder) all.push('It does not keep the order.');
+  if (keepVertexOrder || keepTriangleOrder) all.push('Draco does not keep the order.');
   const dropped = sum(report.payloads, 'triangles') - draco.triangles;
-  if (dropped > 0) all.push(`It drops ${formatCount(dropped)} triangles.`);
-  all.push('Times are the shortest of several runs on this device, all payloads, one thread.');
+  if (dropped > 0) all.push(`Draco drops ${formatCount(dropped)} triangles.`);
+  all.push('Times are for all payloads on one thread, the shortest of several runs on this device.');
   return all;
 }
 

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The form with what encodeGlb() is asked for.
+// The form with the options of encodeGlb().
 import { element } from './element.mjs';
 import { trianglePrimitivesOf } from './glb.mjs';
 
@@ -34,7 +34,7 @@ export class Options {
     };
   }
 
-  /** Bits matter where a document has such floats; integers stay what they are. */
+  /** Shows the bits of attributes that the document has as floats; integers are never quantised. */
   showUsed(json) {
     const used = new Set(trianglePrimitivesOf(json).flatMap(({ definition: { attributes } }) => Object.entries(attributes))
       .filter(([, index]) => json.accessors[index].componentType === FLOAT)
@@ -51,7 +51,7 @@ export class Options {
     return Object.fromEntries(BITS.map(({ name }) => [name, Number(this.form.elements[name].value)]));
   }
 
-  /** For encodeGlb(). */
+  /** The options for encodeGlb(). */
   get value() {
     const { keepVertexOrder, keepTriangleOrder } = this.form.elements;
     const orders = { keepVertexOrder: keepVertexOrder.checked, keepTriangleOrder: keepTriangleOrder.checked };

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Colours of a scale from 0 to 1; the legends show the same stops.
+// The colours of a scale from 0 to 1. The legends show the same stops.
 import { Color, SRGBColorSpace } from './vendor/three/build/three.module.js';
 
 const SHADES = 1024;
@@ -18,7 +18,10 @@ class Ramp {
     }
   }
 
-  /** Colours of `count` values of `valueAt`, 0 to 1: three components each. */
+  /**
+   * Returns the colours of `count` values of `valueAt`, which are from 0 to 1; three components
+   * each.
+   */
   colorsOf(count, valueAt) {
     const colors = new Float32Array(3 * count);
     for (let i = 0; i < count; ++i) {
@@ -33,7 +36,7 @@ class Ramp {
   }
 }
 
-// Even in lightness, and told apart by all eyes.
+// Lightness grows evenly, and the colours can be told apart with any kind of colour vision.
 export const ERROR_RAMP = new Ramp(['#440154', '#472d7b', '#3b528b', '#2c728e', '#21918c', '#28ae80', '#5ec962', '#addc30', '#fde725']);
 // Bright on a dark surface.
 export const ORDER_RAMP = new Ramp(['#3f6fff', '#1fb6ff', '#2ee6c5', '#a8e84a', '#ffd23f', '#ff8a4c', '#ff5d8f']);

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// node samples/viewer/serve.mjs [PORT]: a static server of samples/viewer for this machine alone; see tools/view.
+// node samples/viewer/serve.mjs [PORT]: serves samples/viewer to this machine only; see tools/view.
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import path from 'node:path';
@@ -12,12 +12,13 @@ const TYPES = { '.html': 'text/html', '.css': 'text/css', '.mjs': 'text/javascri
   '.wasm': 'application/wasm', '.glb': 'model/gltf-binary', '.json': 'application/json' };
 
 /**
- * What the page needs and no more; the page itself asks for the same. blob: is for textures inside of a GLB.
+ * Allows only what the page needs; the page itself declares the same policy. blob: is for textures
+ * inside a GLB.
  */
 export const POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; style-src 'self'; "
   + "img-src 'self' blob: data:; connect-src 'self' blob:; base-uri 'none'; form-action 'none'";
 
-/** @returns {Promise<{ address: string, close(): Promise<void> }>} port 0: any that is free */
+/** @returns {Promise<{ address: string, close(): Promise<void> }>} port 0 means any free port */
 export async function serve(port = 0) {
   const server = createServer(async (request, response) => {
     const file = fileOf(request.url);
@@ -38,7 +39,7 @@ export async function serve(port = 0) {
   return { address: `http://127.0.0.1:${server.address().port}/`, close };
 }
 
-// The URL parser has removed "..".
+// The URL parser has removed "..", so a path cannot leave the folder.
 function fileOf(url) {
   let name = '/';
   try {
@@ -56,7 +57,7 @@ if (process.argv[1] === fileURLToPath(import.meta.url)) {
     console.log(`The viewer is at ${address} (Ctrl-C ends it)`);
   } catch (error) {
     const isTaken = error.code === 'EADDRINUSE';
-    console.error(`tools/view: ${isTaken ? `port ${port} is taken; give another one: tools/view 8081` : error.message}`);
+    console.error(`tools/view: ${isTaken ? `port ${port} is in use; choose another one: tools/view 8081` : error.message}`);
     process.exit(1);
   }
 }

@@ -1,8 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// node samples/viewer/setup.mjs: gathers in samples/viewer/vendor/ what the page loads, so that any static server can serve
-// samples/viewer as it is. Bare imports of three.js become relative ones: an inline import map would need its hash in the
-// Content-Security-Policy.
+// node samples/viewer/setup.mjs: collects in samples/viewer/vendor/ what the page loads, so that
+// any static server can serve samples/viewer as it is. Bare imports of three.js become relative
+// ones, because an inline import map would need its hash in the Content-Security-Policy.
 import { cp, mkdir, readdir, readFile, rm, writeFile } from 'node:fs/promises';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -13,10 +13,10 @@ const packages = path.join(root, 'tests/web/node_modules');
 
 const THREE = ['build/three.module.js', 'build/three.core.js', 'examples/jsm/controls/OrbitControls.js',
   'examples/jsm/loaders/GLTFLoader.js', 'examples/jsm/utils/BufferGeometryUtils.js', 'examples/jsm/utils/SkeletonUtils.js'];
-// Each ends by offering a variable to CommonJS and AMD.
+// Each script ends by offering a variable to CommonJS and AMD.
 const DRACO = { 'draco_encoder_gltf_nodejs.js': 'DracoEncoderModule', 'draco_decoder_gltf_nodejs.js': 'DracoDecoderModule' };
 
-/** @param {string} folder where to; replaced */
+/** @param {string} folder destination; it is replaced */
 export async function gather(folder = path.join(here, 'vendor')) {
   await rm(folder, { recursive: true, force: true });
   const put = async (name, content) => {

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Two pictures of a model, the original and what compression made of it, seen by one camera.
+// Shows two pictures of a model with the same camera: the original, and what compression made of
+// it.
 import { BackSide, Box3, BoxGeometry, BufferAttribute, BufferGeometry, Color, DirectionalLight, HemisphereLight, LineBasicMaterial,
   LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, MeshStandardMaterial, PerspectiveCamera, PMREMGenerator, Scene, Sphere,
   Spherical, SphereGeometry, Vector3, WebGLRenderer } from './vendor/three/build/three.module.js';
@@ -10,10 +11,10 @@ import { ERROR_RAMP, ORDER_RAMP } from './ramps.mjs';
 
 const STEP_RADIANS = Math.PI / 24;
 const ZOOM = 1.15;
-// Behind what is drawn on them.
+// Moves a surface slightly behind the lines that are drawn on it.
 const BEHIND = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
 
-/** A picture and what is in it. */
+/** A picture and its contents. */
 class View {
   constructor(canvas) {
     this.canvas = canvas;
@@ -37,7 +38,7 @@ class View {
     scene.traverse((object) => {
       if (object.isMesh) this.meshes.push(new Surface(object, parser.associations.get(object)));
     });
-    // Metal shows what is around it, and nothing else.
+    // Metal shows only its surroundings.
     if (this.meshes.some(({ own }) => own.metalness > 0.1)) this.scene.environment ??= surroundings(this.renderer);
   }
 
@@ -76,7 +77,7 @@ class View {
   }
 }
 
-/** A mesh of the model and how it is painted. */
+/** A mesh of the model, and how it is painted. */
 class Surface {
   constructor(object, place) {
     this.object = object;
@@ -97,7 +98,7 @@ class Surface {
     const { object, colors } = this;
     const { geometry } = object;
     const base = heat ? this.heat : tree ? this.dark : this.own;
-    // The model's own vertex colours make way.
+    // The model's own vertex colours are replaced.
     const wanted = heat ? this.heatColors : colors;
     if (wanted !== undefined) geometry.setAttribute('color', wanted);
     else geometry.deleteAttribute('color');
@@ -122,7 +123,7 @@ class Surface {
     const last = Math.max(edges.length / 2 - 1, 1);
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(points, 3));
-    // Contractions run against decoding.
+    // Contractions happen in the reverse of decoding order.
     geometry.setAttribute('color', new BufferAttribute(ORDER_RAMP.colorsOf(edges.length, (i) => 1 - (i >> 1) / last), 3));
     const lines = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true, toneMapped: false }));
     lines.frustumCulled = false;
@@ -141,7 +142,7 @@ class Surface {
   }
 }
 
-// What GLTFLoader gives primitives without a material is a mirror by glTF's defaults.
+// By glTF's defaults, primitives without a material are mirrors, and GLTFLoader shows them so.
 const isPlain = (material) => material.name === '' && material.metalness === 1 && material.roughness === 1 && material.map === null;
 
 const paper = (geometry) => new MeshStandardMaterial({ color: 0xa9b3c4, roughness: 0.8, metalness: 0,
@@ -182,7 +183,7 @@ export class LinkedViews {
   listen(canvas) {
     const controls = new OrbitControls(this.camera, canvas);
     controls.target = this.target;
-    canvas.style.touchAction = 'pan-y'; // a phone's page scrolls by its pictures, too
+    canvas.style.touchAction = 'pan-y'; // so that a phone can also scroll the page on its pictures
     controls.addEventListener('change', () => this.draw());
     canvas.addEventListener('keydown', (event) => this.onKey(event));
     return controls;
@@ -215,7 +216,7 @@ export class LinkedViews {
     this.camera.position.sub(this.target).multiplyScalar(factor).add(this.target);
   }
 
-  /** Shows a model; the first one moves the camera. */
+  /** Shows a model. The first model positions the camera. */
   async showOriginal(glb) {
     await this.original.load(glb);
     this.compressed.clear();
@@ -224,7 +225,7 @@ export class LinkedViews {
   }
 
   async showCompressed(glb) {
-    this.tree = undefined; // that of another payload
+    this.tree = undefined; // it belongs to another payload
     await this.compressed.load(glb);
     this.paint();
   }
@@ -268,7 +269,7 @@ export class LinkedViews {
     this.draw();
   }
 
-  /** The whole model, from its front and a little from above. */
+  /** Shows the whole model, from its front and slightly from above. */
   frame() {
     const box = new Box3().setFromObject(this.original.model);
     const { center, radius } = box.getBoundingSphere(new Sphere());
@@ -289,7 +290,7 @@ export class LinkedViews {
     this.draw();
   }
 
-  /** With the next frame. */
+  /** Draws in the next frame. */
   draw() {
     this.request ??= requestAnimationFrame(() => {
       this.request = undefined;

@@ -1,9 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Everything of gltf-mcc that takes time. A worker: gets { bytes, options } of encodeGlb; posts { name: 'stage', text } before each
-// step, and behind it what it yields:
-//   source      { bytes, counts }             the file without the extension, if it had it
-//   compressed  { glb, report, bytes }        the result, and what a loader makes of it
+// Everything in gltf-mcc that takes time. This worker gets { bytes, options } of encodeGlb. It
+// posts { name: 'stage', text } before each step, and after the step its result:
+//   source      { bytes, counts }             the file, decoded if it was compressed
+//   compressed  { glb, report, bytes }        the result, and the same decoded
 //   timing      { decodeMilliseconds }
 //   errors      { primitives, most, mean, side, missed }
 //   tree        { primitives }
@@ -26,7 +26,7 @@ function viewOf({ json, bin }, index) {
   return bin.slice(byteOffset, byteOffset + byteLength);
 }
 
-/** The source as ordinary glTF. */
+/** Opens the source as ordinary glTF. */
 async function openSource(bytes) {
   stage('Reading');
   const { json } = readGlb(bytes);
@@ -41,7 +41,7 @@ async function openSource(bytes) {
   return { plain, gltf };
 }
 
-/** Payloads by buffer view. */
+/** Returns the payloads by buffer view. */
 function payloadsOf(gltf) {
   const views = new Set(trianglePrimitivesOf(gltf.json).map(extensionOf).filter(Boolean).map(({ bufferView }) => bufferView));
   return new Map([...views].map((view) => [view, viewOf(gltf, view)]));
@@ -56,7 +56,10 @@ async function timeDecoding(payloads) {
   post('timing', { decodeMilliseconds });
 }
 
-/** What the report promises for the positions of a primitive; 0 where they are exact. */
+/**
+ * Returns the error bound that the report gives for the positions of a primitive; 0 if they are
+ * exact.
+ */
 function promisedError(report, { mesh, primitive }) {
   const entry = report.primitives.find((candidate) => candidate.mesh === mesh && candidate.primitive === primitive);
   const payload = report.payloads[entry?.payload ?? -1];
@@ -92,7 +95,9 @@ function measureAccessor(source, decoded, promised, all) {
   return errors;
 }
 
-/** Edges go to the first primitive of their piece: others share its vertices. */
+/**
+ * Assigns the edges to the first primitive of their piece; the other primitives share its vertices.
+ */
 async function readTree(compressed, payloads) {
   stage('Reading the collapse order');
   const trees = new Map();
@@ -128,6 +133,6 @@ onmessage = async ({ data }) => {
     await run(data);
   } catch (error) {
     const isKnown = error instanceof FileError || error instanceof MccError;
-    post('error', { message: isKnown ? error.message : `The file cannot be worked on (${error.message}).` });
+    post('error', { message: isKnown ? error.message : `The file cannot be processed (${error.message}).` });
   }
 };

@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What Google's Draco makes of the same primitives at the same bits, at the speed setting that yields the smallest files (0).
-// A worker: gets { bytes, bits, lossless }, posts { name: 'progress', done } and { name: 'done', ... } or { name: 'error', message }.
+// Compresses the same primitives with Google's Draco, with the same bits, at the speed setting that
+// gives the smallest files (0). This worker gets { bytes, bits, lossless }. It posts
+// { name: 'progress', done }, and then { name: 'done', ... } or { name: 'error', message }.
 import DracoDecoderModule from '../vendor/draco/draco_decoder.mjs';
 import DracoEncoderModule from '../vendor/draco/draco_encoder.mjs';
 import { DRACO_VERSION } from '../vendor/draco/version.mjs';
@@ -12,7 +13,7 @@ const SPEED = 0;
 const HEADER_BYTES = 11;
 const FLOAT = 5126;
 
-// Which bits hold for a semantic, and what Draco calls it.
+// Which bits apply to a semantic, and what Draco calls it.
 const SEMANTICS = {
   POSITION: { kind: 'POSITION', bits: 'positionBits' },
   NORMAL: { kind: 'NORMAL', bits: 'normalBits' },
@@ -54,14 +55,15 @@ class Codec {
       if (bits !== 0 && componentType === FLOAT) expert.SetAttributeQuantization(ids[i], bits);
     });
     const data = new encoder.DracoInt8Array();
-    const length = expert.EncodeToDracoBuffer(true, data); // equal values once, as its smallest files have them
+    // Merges equal values, as its smallest files do.
+    const length = expert.EncodeToDracoBuffer(true, data);
     const bytes = Uint8Array.from({ length }, (_, i) => data.GetValue(i));
     for (const made of [data, expert, mesh, builder]) encoder.destroy(made);
     if (length === 0) throw new Error('Draco cannot encode a primitive of this file');
     return bytes;
   }
 
-  /** All triangles and attributes, as a loader takes them out. */
+  /** Returns all triangles and attributes, as a loader takes them out. */
   decode(bytes) {
     const { decoder: module } = this;
     const decoder = new module.Decoder();
@@ -97,8 +99,9 @@ class Codec {
 }
 
 /**
- * Where the attributes begin in a mesh with a POSITION alone: behind the triangles come one attribute decoder for the mesh itself, of
- * a traversal method, with one attribute: POSITION, its type, three components, not normalized, number 0, and its coding.
+ * Finds where the attributes begin in a mesh with only a POSITION. After the triangles comes one
+ * attribute decoder for the mesh itself, of a traversal method, with one attribute: POSITION, its
+ * type, three components, not normalized, number 0, and its coding.
  */
 function attributesBegin(bytes, componentType) {
   const type = { 5120: 1, 5121: 2, 5122: 3, 5123: 4, 5125: 6, 5126: 9 }[componentType];
@@ -109,7 +112,10 @@ function attributesBegin(bytes, componentType) {
   return undefined;
 }
 
-/** Bytes by name of stream; those of an attribute are what the mesh grows by when it gets it, seams included. */
+/**
+ * Measures bytes by name of stream. Those of an attribute are what the mesh grows by when the
+ * attribute is added, including seams.
+ */
 function encodeByStream(codec, primitive, add) {
   const [position, ...others] = primitive.attributes;
   let bytes = codec.encode({ ...primitive, attributes: [position] });
@@ -135,14 +141,14 @@ function readPrimitive(gltf, definition) {
   return { triangles: readTriangles(gltf, definition), attributes };
 }
 
-/** Draco has no coding for morph targets: their bytes as they are. */
+/** Counts the bytes of morph targets as they are, because Draco has no coding for them. */
 function addTargets(gltf, { targets = [] }, add) {
   targets.forEach((target, i) => {
     for (const [name, index] of Object.entries(target)) add(`target ${i} ${name}`, readAccessor(gltf, index).array.byteLength);
   });
 }
 
-/** Compiled once. */
+/** The modules, compiled once. */
 let modules;
 
 async function run({ bytes, bits, lossless }) {
@@ -169,7 +175,7 @@ onmessage = async ({ data }) => {
   try {
     postMessage({ name: 'done', ...await run(data) });
   } catch (error) {
-    modules = undefined; // what has been aborted stays so
+    modules = undefined; // a module that has aborted cannot be used again
     postMessage({ name: 'error', message: error.message });
   }
 };

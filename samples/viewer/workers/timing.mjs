@@ -2,7 +2,10 @@
 
 const LEAST_RUNS = 3, MOST_RUNS = 40, ENOUGH_MILLISECONDS = 800;
 
-/** The shortest of several runs: the first ones compile, and other programs disturb. */
+/**
+ * Returns the shortest of several runs: the first runs compile the code, and other programs
+ * interfere.
+ */
 export function bestTime(run) {
   let best = Infinity;
   const begin = performance.now();
