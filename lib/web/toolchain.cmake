@@ -1,6 +1,6 @@
 # Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #
-# WebAssembly by clang and wasi-libc, without a JavaScript runtime.
+# Builds WebAssembly with clang and wasi-libc, without a JavaScript runtime.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR wasm32)
 find_program(clangxx NAMES clang++-14 clang++ REQUIRED)

@@ -1,7 +1,7 @@
 # Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #
-# The libraries that are headers alone serve every system: those of the host are used for Windows, too. They are linked
-# into a folder of their own, since next to them are the headers of the host's C library.
+# Header-only libraries serve every system, so those of the host are used for Windows too. They are
+# linked into a folder of their own, because the headers of the host's C library are next to them.
 set(headers ${CMAKE_BINARY_DIR}/headers)
 file(MAKE_DIRECTORY ${headers})
 

@@ -56,7 +56,7 @@ PositionParameters choosePositionParameters(std::span<const PositionCandidate> p
                                             const Jobs& jobs);
 
 /// Chooses the weights of each class of predictors: none, the trained ones, or a least-squares fit
-/// to these pieces, whichever gives the smallest residuals. `robust` weighs residuals by the
+/// to these pieces, whichever costs the fewest bits. `robust` weighs residuals by the
 /// inverse of their square instead of by the inverse of their size. tools/train uses this too.
 PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, bool select, bool robust,
                             uint32_t max_vertices, const FeatureSet& without);

@@ -146,16 +146,16 @@ class Quantizer {
     result_.info.coding = AttributeCoding::kLattice;
     result_.info.bits = std::min<uint8_t>(view_.quantization_bits, 24);
     if (view_.lattice == nullptr && isRuined()) {
-      notes.push_back(name() + " has outliers that a lattice of " +
+      notes.push_back(name() + " has outliers, for which a lattice of " +
                       std::to_string(result_.info.bits) +
-                      " bits would serve at the cost of all others: kept exact");
+                      " bits would be too coarse for all other values: kept exact");
       return copyInstead();
     }
     Lattice lattice = view_.lattice != nullptr ? *view_.lattice : ownLattice();
     const uint32_t origins = view_.format.morph_target != 0 ? 0 : components_;
     for (uint32_t c = origins; c < 4; ++c) lattice.origin[c] = 0;
     if (!(lattice.step > 0) || !std::isfinite(lattice.step)) {
-      notes.push_back(name() + " spans a range no lattice covers: kept exact");
+      notes.push_back(name() + " spans a range that no lattice covers: kept exact");
       return copyExactly();
     }
     result_.info.lattice = lattice;

@@ -176,7 +176,8 @@ Status preparePiece(const PieceView& view, const EncodeSettings& options, const 
                     Plan& plan, std::vector<std::string>& notes) {
   MCC_TRY(checkPiece(view));
   if (options.indices_only && view.attributes.size() != 1)
-    return fail(Error::kBadArgument, "a piece has attributes besides POSITION with indices_only");
+    return fail(Error::kBadArgument,
+                "with indices_only, a piece can have no attribute except POSITION");
   plan.view = &view;
   jobs.run(2, [&](size_t i) {
     if (i == 1) {
