@@ -14,6 +14,7 @@
 #include "convert_report.h"
 #include "file_roles.h"
 #include "gltf/base/parallel.h"
+#include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
@@ -62,7 +63,9 @@ class Batch {
   std::string fileTable() const;
   Json reportOf() const;
   int printResults() const;
-  fs::path outputOf(const BatchFile& file) const { return options_.folder / file.name; }
+  fs::path outputOf(const BatchFile& file) const {
+    return options_.folder / gltf::pathOf(file.name);
+  }
   /// Only the pretty format has a line per file; the other formats print one table at the end.
   bool printsLines() const {
     return !options_.common.is_quiet && options_.common.format == Format::kPretty;
@@ -93,23 +96,24 @@ gltf::Result Batch::listFiles() {
   for (const std::string& input : options_.inputs) {
     BatchFile file;
     file.input = input;
-    file.name = fs::path(input).filename().string();
+    file.name = gltf::textOf(gltf::pathOf(input).filename());
     if (file.name.empty()) return {input, "is a folder; name the files in it"};
     std::error_code code;
-    file.size = fs::file_size(input, code);
+    file.size = fs::file_size(gltf::pathOf(input), code);
     if (code) file.size = 0;  // opening the file will report the error
-    if (file.name == BatchRecord::pathIn({}).string()) {
+    if (file.name == gltf::textOf(BatchRecord::pathIn({}))) {
       return {input, "its output would be the record of the folder; rename it"};
     }
-    if (gltf::isSameFile(input, outputOf(file))) {
+    if (gltf::isSameFile(gltf::pathOf(input), outputOf(file))) {
       return {input, "would be replaced by its output; choose another folder with -o"};
     }
     for (const std::string& name : namesOf(file.name, options_.with_fallback)) {
       const auto [found, is_new] = taken.try_emplace(name, input);
       if (is_new) continue;
-      return {input, fmt::format("writes \"{}\", as \"{}\" does; name different folders for "
-                                 "them or rename one",
-                                 (options_.folder / name).string(), found->second)};
+      return {input,
+              fmt::format("writes \"{}\", as \"{}\" does; name different folders for "
+                          "them or rename one",
+                          gltf::textOf(options_.folder / gltf::pathOf(name)), found->second)};
     }
     files_.push_back(std::move(file));
   }
@@ -120,9 +124,10 @@ gltf::Result Batch::listFiles() {
 gltf::Result Batch::checkRoles() const {
   FileRoles roles;
   for (const BatchFile& file : files_) {
-    roles.read(file.input, "an input");
-    const bool has_files = fs::path(file.input).extension() == ".gltf";
-    if (has_files && !options_.report.empty()) roles.readBeside(file.input, options_.folder);
+    const fs::path input = gltf::pathOf(file.input);
+    roles.read(input, "an input");
+    const bool has_files = input.extension() == ".gltf";
+    if (has_files && !options_.report.empty()) roles.readBeside(input, options_.folder);
   }
   gltf::Result apart =
       roles.write(BatchRecord::pathIn(options_.folder), "the record of the folder");
@@ -130,7 +135,8 @@ gltf::Result Batch::checkRoles() const {
     apart = roles.write(outputOf(files_[i]), "the output of " + files_[i].input);
     roles.replaceBeside(outputOf(files_[i]), options_.with_fallback);
   }
-  if (apart.ok() && !options_.report.empty()) apart = roles.write(options_.report, "--report");
+  if (apart.ok() && !options_.report.empty())
+    apart = roles.write(gltf::pathOf(options_.report), "--report");
   return apart;
 }
 
@@ -147,7 +153,7 @@ std::string Batch::nameOf(Outcome outcome) const {
 gltf::Result Batch::makeFolder() const {
   std::error_code code;
   if (fs::is_directory(options_.folder, code)) return {};
-  const std::string name = options_.folder.string();
+  const std::string name = gltf::textOf(options_.folder);
   if (fs::exists(options_.folder, code)) {
     return {name, "is a file; several inputs need a folder"};
   }
@@ -194,9 +200,9 @@ void Batch::keepRecord(bool is_last) {
 std::vector<fs::path> Batch::outputsOf(const BatchFile& file, const BatchResult& made) const {
   std::vector<fs::path> paths;
   for (const std::string& name : namesOf(file.name, options_.with_fallback)) {
-    paths.push_back(options_.folder / name);
+    paths.push_back(options_.folder / gltf::pathOf(name));
   }
-  const fs::path source_folder = gltf::folderOf(file.input);
+  const fs::path source_folder = gltf::folderOf(gltf::pathOf(file.input));
   for (const fs::path& path : made.files.other_input) {
     paths.push_back(options_.folder / path.lexically_relative(source_folder));
   }
@@ -220,7 +226,7 @@ void Batch::makeOne(BatchFile& file) {
   BatchResult made;
   {
     const std::lock_guard lock(mutex_);
-    if (!options_.is_forced && record_->isUpToDate(file.name, file.input)) {
+    if (!options_.is_forced && record_->isUpToDate(file.name, gltf::pathOf(file.input))) {
       file.outcome = Outcome::kUpToDate;
       std::tie(file.input_bytes, file.output_bytes) = record_->sizesOf(file.name);
     }
@@ -317,7 +323,7 @@ Json Batch::reportOf() const {
   Json list = Json::array();
   for (const BatchFile& file : files_) {
     Json entry = {{"input", file.input},
-                  {"output", outputOf(file).string()},
+                  {"output", gltf::textOf(outputOf(file))},
                   {"outcome", nameOf(file.outcome)}};
     if (file.outcome == Outcome::kFailed) {
       entry["message"] = gltf::printable(file.failure.message());

@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "gltf/base/path_text.h"
 #include "gltf/files/file_io.h"
 #include "interrupt.h"
 
@@ -20,8 +21,8 @@ Json stampOf(const fs::path& path) {
   const fs::path absolute = fs::absolute(path, code).lexically_normal();
   const uintmax_t size = fs::file_size(path, code);
   const auto time = fs::last_write_time(path, code);
-  if (code) return {absolute.string(), -1, 0};
-  return {absolute.string(), size, static_cast<int64_t>(time.time_since_epoch().count())};
+  if (code) return {gltf::textOf(absolute), -1, 0};
+  return {gltf::textOf(absolute), size, static_cast<int64_t>(time.time_since_epoch().count())};
 }
 
 Json stampsOf(const std::vector<fs::path>& paths) {
@@ -32,7 +33,7 @@ Json stampsOf(const std::vector<fs::path>& paths) {
 
 bool areUnchanged(const Json& stamps) {
   for (const Json& stamp : stamps) {
-    if (stampOf(stamp.at(0).get<std::string>()) != stamp) return false;
+    if (stampOf(gltf::pathOf(stamp.at(0).get<std::string>())) != stamp) return false;
   }
   return !stamps.empty();
 }
@@ -56,8 +57,10 @@ gltf::Result BatchRecord::read() {
   const fs::file_status status = fs::symlink_status(path_, code);
   if (!fs::exists(status)) return {};
   is_file_ = fs::is_regular_file(status);
-  if (!is_file_) return {path_.string(), "is not a file, as the record of this folder would be"};
-  if (fs::file_size(path_, code) > kMostBytes) return {path_.string(), "is too large for a record"};
+  if (!is_file_)
+    return {gltf::textOf(path_), "is not a file, as the record of this folder would be"};
+  if (fs::file_size(path_, code) > kMostBytes)
+    return {gltf::textOf(path_), "is too large for a record"};
   std::vector<uint8_t> bytes;
   gltf::Result result = gltf::readFile(path_, bytes);
   if (!result.ok()) return result;
@@ -69,7 +72,7 @@ gltf::Result BatchRecord::read() {
   Json json = Json::parse(bytes, look, false);
   const bool is_record =
       !is_deep && json.is_object() && json.contains("files") && json["files"].is_object();
-  if (!is_record) return {path_.string(), "is not a record of this program"};
+  if (!is_record) return {gltf::textOf(path_), "is not a record of this program"};
   files_ = std::move(json["files"]);
   return {};
 }
@@ -82,8 +85,8 @@ bool BatchRecord::isUpToDate(const std::string& output_name, const fs::path& inp
     const Json& outputs = found->at("output");
     const Json& bytes = found->at("bytes");
     return inputs.at(0) == stampOf(input) &&
-           outputs.at(0) == stampOf(path_.parent_path() / output_name) && areUnchanged(inputs) &&
-           areUnchanged(outputs) && bytes.at(0).is_number_unsigned() &&
+           outputs.at(0) == stampOf(path_.parent_path() / gltf::pathOf(output_name)) &&
+           areUnchanged(inputs) && areUnchanged(outputs) && bytes.at(0).is_number_unsigned() &&
            bytes.at(1).is_number_unsigned();
   } catch (const Json::exception&) {
     return false;  // damaged

@@ -13,6 +13,7 @@
 #include "convert_report.h"
 #include "file_roles.h"
 #include "foreign/decoders.h"
+#include "gltf/base/path_text.h"
 #include "gltf/files/file_io.h"
 #include "help.h"
 #include "progress_line.h"
@@ -41,7 +42,7 @@ struct BenchCommand {
 };
 
 std::string nameOf(const std::string& input) {
-  return std::filesystem::path(input).stem().string();
+  return gltf::textOf(gltf::pathOf(input).stem());
 }
 
 gltf::Result BenchCommand::load(const std::string& input, bench::Geometry& geometry) const {

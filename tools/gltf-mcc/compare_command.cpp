@@ -14,6 +14,7 @@
 #include "convert_report.h"
 #include "file_roles.h"
 #include "foreign/decoders.h"
+#include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "gltf/files/file_io.h"
 #include "help.h"
@@ -122,7 +123,7 @@ gltf::Result compareWithDraco(const std::string& input, std::vector<uint8_t> fil
   options.thread_count = convert.thread_count;
   options.with_errors = true;
   options.progress = [&](const std::string& text) { line.show(text); };
-  const std::string name = std::filesystem::path(input).stem().string();
+  const std::string name = gltf::textOf(gltf::pathOf(input).stem());
   const bench::Outcome measured = bench::measureFile(name, geometry, options, figures);
   return measured.ok() ? gltf::Result{} : gltf::Result{input, measured.message};
 }

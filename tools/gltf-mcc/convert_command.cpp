@@ -13,6 +13,7 @@
 #include "convert_comparison.h"
 #include "convert_report.h"
 #include "file_roles.h"
+#include "gltf/base/path_text.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
 #include "gltf/inspect/report_json.h"
@@ -67,7 +68,7 @@ int ConvertCommand::runMany() const {
   }
   BatchOptions options;
   options.inputs = files.inputs;
-  options.folder = files.output;
+  options.folder = gltf::pathOf(files.output);
   options.report = report;
   options.common = common;
   options.job_count = convert.thread_count;
@@ -82,12 +83,12 @@ int ConvertCommand::runMany() const {
     gltf::ConvertOptions of_file = convert;
     of_file.thread_count = thread_count;
     gltf::ConvertReport done;
-    const gltf::Result outcome =
-        gltf::convertTo({{to, nullptr}, &temporaryFiles()}, {file, {}}, of_file, done);
+    const gltf::Result outcome = gltf::convertTo({{to, nullptr}, &temporaryFiles()},
+                                                 {gltf::pathOf(file), {}}, of_file, done);
     if (!outcome.ok()) return outcome;
     result = {done.copied, done.input_bytes, done.output_bytes, done.files, {}};
     if (!report.empty()) {
-      result.details = reportJson({file, to.string(), std::move(done), {}}, of_file, nullptr);
+      result.details = reportJson({file, gltf::textOf(to), std::move(done), {}}, of_file, nullptr);
     }
     return outcome;
   };
@@ -96,7 +97,7 @@ int ConvertCommand::runMany() const {
 
 bool isReplaced(const std::string& input, const std::string& output) {
   std::error_code ignored;
-  return std::filesystem::equivalent(input, output, ignored);
+  return std::filesystem::equivalent(gltf::pathOf(input), gltf::pathOf(output), ignored);
 }
 
 /// Converts, compares, and measures the files.
@@ -120,7 +121,8 @@ gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison&
   };
   std::future<WholeSize> input_size;
   if (is_measured && isReplaced(converted.input, converted.output)) {
-    FileContents contents = readDocumentFiles(converted.input, !isGltf(converted.output));
+    FileContents contents =
+        readDocumentFiles(gltf::pathOf(converted.input), !isGltf(converted.output));
     input_size = measure("input", [held = std::move(contents)]() { return held; });
   }
   result = compared.begin(source.source(), converted.output, convert);
@@ -155,13 +157,14 @@ gltf::Result ConvertCommand::checkNames() const {
   const std::string& draco = comparison.draco_output;
   if (report.empty() && draco.empty()) return {};
   FileRoles roles;
-  roles.read(input);
-  roles.readBeside(input, gltf::folderOf(files.output));
-  roles.replace(files.output);
-  roles.replaceBeside(files.output, convert.fallback);
+  const std::filesystem::path output = gltf::pathOf(files.output);
+  roles.read(gltf::pathOf(input));
+  roles.readBeside(gltf::pathOf(input), gltf::folderOf(output));
+  roles.replace(output);
+  roles.replaceBeside(output, convert.fallback);
   gltf::Result apart;
-  if (!draco.empty()) apart = roles.write(draco, "--emit-draco");
-  if (apart.ok() && !report.empty()) apart = roles.write(report, "--report");
+  if (!draco.empty()) apart = roles.write(gltf::pathOf(draco), "--emit-draco");
+  if (apart.ok() && !report.empty()) apart = roles.write(gltf::pathOf(report), "--report");
   return apart;
 }
 

@@ -11,6 +11,7 @@
 #include "bench/emit_draco.h"
 #include "compare_command.h"
 #include "comparison_report.h"
+#include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "gltf/document/glb.h"
 #include "gltf/files/file_io.h"
@@ -103,7 +104,7 @@ gltf::Result ConvertComparison::compare(const gltf::Source& input,
     return compressed.count({mesh, primitive}) != 0;
   };
   bench::FileFigures figures;
-  const gltf::Result compared = compareWithDraco(input.path.string(), source, convert,
+  const gltf::Result compared = compareWithDraco(gltf::textOf(input.path), source, convert,
                                                  is_compressed, kRuns, common.is_quiet, figures);
   if (!compared.ok()) {
     text += "note: not compared with Draco: " + gltf::printable(compared.message()) + "\n";

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "gltf/files/file_io.h"
 #include "gltf/inspect/report_json.h"
@@ -220,11 +221,14 @@ gltf::Result ofReport(gltf::Result result) {
 
 }  // namespace
 
-gltf::Result checkReport(const std::string& path) { return ofReport(gltf::checkWritable(path)); }
+gltf::Result checkReport(const std::string& path) {
+  return ofReport(gltf::checkWritable(gltf::pathOf(path)));
+}
 
 gltf::Result writeReport(const std::string& path, const std::string& text) {
-  return ofReport(gltf::writeFile(
-      path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()}, &temporaryFiles()));
+  return ofReport(gltf::writeFile(gltf::pathOf(path),
+                                  {reinterpret_cast<const uint8_t*>(text.data()), text.size()},
+                                  &temporaryFiles()));
 }
 
 }  // namespace mcc::tool

@@ -6,6 +6,7 @@
 
 #include "batch.h"
 #include "commands.h"
+#include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "help.h"
 #include "in_out.h"
@@ -35,7 +36,7 @@ struct DecodeCommand {
 int DecodeCommand::runMany() const {
   BatchOptions options;
   options.inputs = files.inputs;
-  options.folder = files.output;
+  options.folder = gltf::pathOf(files.output);
   options.common = common;
   options.job_count = decoding.thread_count;
   options.is_forced = is_forced;
@@ -49,7 +50,7 @@ int DecodeCommand::runMany() const {
     gltf::FileDecodeOptions of_file = decoding;
     of_file.thread_count = threads_of_file;
     gltf::Result outcome =
-        gltf::decodeTo({{to, nullptr}, &temporaryFiles()}, {file, {}}, of_file, done);
+        gltf::decodeTo({{to, nullptr}, &temporaryFiles()}, {gltf::pathOf(file), {}}, of_file, done);
     result = {done.copied, done.input_bytes, done.output_bytes, done.files, {}};
     return outcome;
   };

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "file_roles.h"
 
+#include "gltf/base/path_text.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
 #include "standard_streams.h"
@@ -12,25 +13,25 @@ namespace fs = std::filesystem;
 
 /// Returns the key of an output; "-" is standard output.
 std::string keyOfOutput(const fs::path& path) {
-  return gltf::fileKey(isStandardStream(path.string()) ? fs::path("/dev/stdout") : path);
+  return gltf::fileKey(isStandardStream(gltf::textOf(path)) ? fs::path("/dev/stdout") : path);
 }
 
 }  // namespace
 
 void FileRoles::read(const fs::path& path, const std::string& role) {
-  if (isStandardStream(path.string())) return;
+  if (isStandardStream(gltf::textOf(path))) return;
   const std::string key = gltf::fileKey(path);
   if (!key.empty()) roles_.emplace(key, role);
 }
 
 void FileRoles::readBeside(const fs::path& model, const fs::path& output_folder) {
-  if (isStandardStream(model.string()) || gltf::isStream(model)) return;
+  if (isStandardStream(gltf::textOf(model)) || gltf::isStream(model)) return;
   std::vector<uint8_t> bytes;
   gltf::Json json;
   if (!gltf::readFile(model, bytes).ok() || !gltf::readJson(bytes, json).ok()) return;
   for (const std::string& path : gltf::filesBeside(json)) {
-    read(gltf::folderOf(model) / path, "a file of the input");
-    read(output_folder / path, "a copy of a file of the input");
+    read(gltf::folderOf(model) / gltf::pathOf(path), "a file of the input");
+    read(output_folder / gltf::pathOf(path), "a copy of a file of the input");
   }
 }
 
@@ -44,17 +45,19 @@ gltf::Result FileRoles::write(const fs::path& path, const std::string& role) {
   if (key.empty()) return {};
   const auto [found, is_new] = roles_.emplace(key, role);
   if (is_new) return {};
-  return {path.string(), "is " + found->second + "; choose another name for " + role};
+  return {gltf::textOf(path), "is " + found->second + "; choose another name for " + role};
 }
 
 void FileRoles::replaceBeside(const fs::path& output, bool with_fallback) {
   gltf::Container container;
-  const bool has_files = !isStandardStream(output.string()) && !gltf::isStream(output) &&
-                         gltf::containerOf(output.filename().string(), container).ok();
+  const bool has_files = !isStandardStream(gltf::textOf(output)) && !gltf::isStream(output) &&
+                         gltf::containerOf(gltf::textOf(output.filename()), container).ok();
   if (!has_files) return;
   const fs::path folder = gltf::folderOf(output);
-  if (container.is_gltf) replace(folder / container.buffer_name, "the buffer of the output");
-  if (with_fallback) replace(folder / container.fallback_name, "the fallback of the output");
+  if (container.is_gltf)
+    replace(folder / gltf::pathOf(container.buffer_name), "the buffer of the output");
+  if (with_fallback)
+    replace(folder / gltf::pathOf(container.fallback_name), "the fallback of the output");
 }
 
 }  // namespace mcc::tool

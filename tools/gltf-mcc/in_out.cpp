@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "gltf/base/path_text.h"
 #include "standard_streams.h"
 
 namespace mcc::tool {
@@ -29,7 +30,7 @@ void InOut::sort(const std::string& command) {
     throw CLI::ValidationError(command, inputs.empty() ? "IN is missing" : "OUT is missing");
   }
   // A GLB may have any other extension (.vrm), but these belong to other formats.
-  const std::string extension = std::filesystem::path(output).extension().string();
+  const std::string extension = gltf::textOf(gltf::pathOf(output).extension());
   for (const char* other : {".obj", ".ply", ".stl", ".fbx", ".dae", ".usdz", ".drc"}) {
     if (extension != other) continue;
     throw CLI::ValidationError(command, output + ": only .glb and .gltf files are written");
@@ -37,12 +38,12 @@ void InOut::sort(const std::string& command) {
   std::error_code ignored;
   // No program would open a model without an extension. An existing path may be a device or folder.
   if (extension.empty() && !may_be_folder && !isStandardStream(output) && !output.ends_with('/') &&
-      !std::filesystem::exists(output, ignored)) {
+      !std::filesystem::exists(gltf::pathOf(output), ignored)) {
     throw CLI::ValidationError(
         command, output + ": has no extension; name it " + output + ".glb or " + output + ".gltf");
   }
   is_batch = may_be_folder && (inputs.size() > 1 || output.ends_with('/') ||
-                               std::filesystem::is_directory(output, ignored));
+                               std::filesystem::is_directory(gltf::pathOf(output), ignored));
   if (is_batch && std::any_of(inputs.begin(), inputs.end(), isStandardStream)) {
     throw CLI::ValidationError(command, "standard input cannot be one of several inputs");
   }

@@ -7,6 +7,7 @@
 #include "bars.h"
 #include "commands.h"
 #include "convert_report.h"
+#include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "gltf/files/file_io.h"
 #include "gltf/inspect/report_json.h"
@@ -283,7 +284,7 @@ struct InspectCommand {
   bool show_codes = false;
 
   gltf::Result inspect(const gltf::Source& source, gltf::InspectReport& report) const {
-    if (!source.bytes) return gltf::inspectFile(input, true, report);
+    if (!source.bytes) return gltf::inspectFile(gltf::pathOf(input), true, report);
     return gltf::inFile(source.path, gltf::inspectGlb(*source.bytes, true, report));
   }
 

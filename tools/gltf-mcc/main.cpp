@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "console.h"
 #include "container/payload_header.h"
+#include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "help.h"
 #include "help_pages.h"
@@ -65,9 +66,9 @@ int reportFailure(const gltf::Result& result, const std::string& input, const st
   namespace fs = std::filesystem;
   gltf::Result advised = result;
   std::error_code code;
-  if (!isStandardStream(input) && !fs::exists(input, code)) {
+  if (!isStandardStream(input) && !fs::exists(gltf::pathOf(input), code)) {
     advised.what += didYouMeanFile(input);
-  } else if (fs::is_directory(output, code)) {
+  } else if (fs::is_directory(gltf::pathOf(output), code)) {
     advised.what += ", or write into it with -o " + output;
   }
   return reportFailure(advised);

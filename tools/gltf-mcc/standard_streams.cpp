@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "console.h"
+#include "gltf/base/path_text.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
 #include "interrupt.h"
@@ -21,10 +22,11 @@ gltf::Result StreamSource::open(const std::string& name) {
   std::error_code ignored;
   if (!isStandardStream(name)) {
     // Pipes, such as <(command) of a shell, can be read only once.
-    const std::filesystem::file_type type = std::filesystem::status(name, ignored).type();
+    const std::filesystem::file_type type =
+        std::filesystem::status(gltf::pathOf(name), ignored).type();
     const bool is_read_once =
         type == std::filesystem::file_type::fifo || type == std::filesystem::file_type::character;
-    return is_read_once ? gltf::readFile(name, bytes_.emplace()) : gltf::Result{};
+    return is_read_once ? gltf::readFile(gltf::pathOf(name), bytes_.emplace()) : gltf::Result{};
   }
   name_ = kInputName;
   if (isTerminal(kStandardInput)) {
@@ -35,7 +37,7 @@ gltf::Result StreamSource::open(const std::string& name) {
 
 gltf::Source StreamSource::source() const {
   gltf::Source source;
-  source.path = name_;
+  source.path = gltf::pathOf(name_);
   if (bytes_) source.bytes = *bytes_;
   return source;
 }
@@ -45,20 +47,20 @@ FileContents StreamSource::contents(const std::vector<std::filesystem::path>& fi
 }
 
 bool isStandardOutput(const std::string& name) {
-  return isStandardStream(name) || gltf::openStreamOf(name) == kStandardOutput;
+  return isStandardStream(name) || gltf::openStreamOf(gltf::pathOf(name)) == kStandardOutput;
 }
 
 gltf::Result StreamSink::open(const std::string& name) {
   name_ = name;
   is_standard_output_ = tool::isStandardOutput(name);
-  is_stream_ = is_standard_output_ || gltf::isStream(name);
+  is_stream_ = is_standard_output_ || gltf::isStream(gltf::pathOf(name));
   if (is_standard_output_ && isTerminal(kStandardOutput)) {
     return {kOutputName,
             "is a terminal, and a GLB is binary; redirect it to a file (… > small.glb)"};
   }
   gltf::Container container;
   const bool is_gltf =
-      gltf::containerOf(std::filesystem::path(name).filename().string(), container).ok() &&
+      gltf::containerOf(gltf::textOf(gltf::pathOf(name).filename()), container).ok() &&
       container.is_gltf;
   if (is_stream_ && is_gltf) {
     return {name,
@@ -68,8 +70,9 @@ gltf::Result StreamSink::open(const std::string& name) {
 }
 
 gltf::ListedSink StreamSink::sink() {
-  if (is_stream_) return {{is_standard_output_ ? kOutputName : name_, &bytes_}, nullptr};
-  return {{name_, nullptr}, &temporaryFiles()};
+  if (is_stream_)
+    return {{gltf::pathOf(is_standard_output_ ? kOutputName : name_), &bytes_}, nullptr};
+  return {{gltf::pathOf(name_), nullptr}, &temporaryFiles()};
 }
 
 FileContents StreamSink::contents(const std::vector<std::filesystem::path>& files) const {
@@ -78,7 +81,7 @@ FileContents StreamSink::contents(const std::vector<std::filesystem::path>& file
 
 gltf::Result StreamSink::finish() const {
   if (!is_stream_) return {};
-  if (!is_standard_output_) return gltf::writeStream(name_, bytes_);
+  if (!is_standard_output_) return gltf::writeStream(gltf::pathOf(name_), bytes_);
   const bool is_written = std::fwrite(bytes_.data(), 1, bytes_.size(), stdout) == bytes_.size();
   if (is_written && std::fflush(stdout) == 0) return {};
   return {kOutputName, "cannot be written"};

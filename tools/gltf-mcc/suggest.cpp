@@ -1,6 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "suggest.h"
 
+#include "gltf/base/path_text.h"
+
 #include <algorithm>
 #include <filesystem>
 
@@ -55,27 +57,25 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& ca
 
 std::string didYouMeanFile(const std::string& path) {
   constexpr size_t kMostFiles = 10000;  // files of a folder that are considered
-  const fs::path wanted(path);
+  const fs::path wanted = gltf::pathOf(path);
   std::error_code code;
   for (const char* extension : {".glb", ".gltf"}) {
     const std::string longer = path + extension;
-    if (fs::is_regular_file(longer, code)) return "; did you mean " + longer + "?";
+    if (fs::is_regular_file(gltf::pathOf(longer), code)) return "; did you mean " + longer + "?";
   }
   const fs::path folder = wanted.has_parent_path() ? wanted.parent_path() : fs::path(".");
   std::vector<std::string> names;
   for (fs::directory_iterator entry(folder, code), end; !code && entry != end;
        entry.increment(code)) {
     if (names.size() == kMostFiles) return "";
-    const std::string extension = entry->path().extension().string();
+    const std::string extension = gltf::textOf(entry->path().extension());
     if (extension != ".glb" && extension != ".gltf") continue;
-    names.push_back(entry->path().filename().string());
+    names.push_back(gltf::textOf(entry->path().filename()));
   }
   std::sort(names.begin(), names.end());
-  const std::string nearest = nearestWord(wanted.filename().string(), names);
+  const std::string nearest = nearestWord(gltf::textOf(wanted.filename()), names);
   if (nearest.empty()) return "";
-  return "; did you mean " +
-         (wanted.has_parent_path() ? wanted.parent_path() / nearest : fs::path(nearest)).string() +
-         "?";
+  return "; did you mean " + gltf::textOf(wanted.parent_path() / gltf::pathOf(nearest)) + "?";
 }
 
 }  // namespace mcc::tool

@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "convert_report.h"
 #include "file_roles.h"
+#include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "gltf/files/file_io.h"
 #include "help.h"
@@ -36,14 +37,13 @@ struct TreeCommand {
 
 int TreeCommand::run() {
   FileRoles roles;
-  roles.read(input);
-  const gltf::Result apart = roles.write(output, "OUT");
+  roles.read(gltf::pathOf(input));
+  const gltf::Result apart = roles.write(gltf::pathOf(output), "OUT");
   if (!apart.ok()) {
     reportFailure(apart);
     return kUsage;
   }
-  drawing.title =
-      input == "-" ? "" : gltf::printable(std::filesystem::path(input).filename().string());
+  drawing.title = input == "-" ? "" : gltf::printable(gltf::textOf(gltf::pathOf(input).filename()));
   gltf::McTree tree;
   StreamSource source;
   gltf::Result result = source.open(input);
@@ -55,7 +55,8 @@ int TreeCommand::run() {
   }
   if (!result.ok()) return reportFailure(result, input, "");
   if (isStandardOutput(output)) return printOut(svg);
-  result = gltf::writeFile(output, std::vector<uint8_t>(svg.begin(), svg.end()), &temporaryFiles());
+  result = gltf::writeFile(gltf::pathOf(output), std::vector<uint8_t>(svg.begin(), svg.end()),
+                           &temporaryFiles());
   if (!result.ok()) return reportFailure(result, input, output);
   if (common.is_quiet) return kDone;
   return printOut(fmt::format(

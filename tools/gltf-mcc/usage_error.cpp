@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "help.h"
 #include "suggest.h"
@@ -47,7 +48,7 @@ std::string withoutCommand(const CLI::App& app, int argc, const char* const* arg
       if (name == word && name == "--color") ++i;  // the only global option with a value
       continue;
     }
-    const std::string extension = std::filesystem::path(word).extension().string();
+    const std::string extension = gltf::textOf(gltf::pathOf(word).extension());
     if (extension == ".glb" || extension == ".gltf") {
       return fmt::format("name a command before {}: {}", word, listed(names));
     }

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "convert_report.h"
+#include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "help.h"
 #include "standard_streams.h"

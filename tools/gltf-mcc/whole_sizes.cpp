@@ -8,6 +8,7 @@
 #if defined(MCC_HAS_FOREIGN)
 #include "foreign/brotli_codec.h"
 #endif
+#include "gltf/base/path_text.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
 
@@ -37,7 +38,7 @@ FileContents readDocumentFiles(const std::filesystem::path& main, bool with_imag
   for (const char* list : {"buffers", "images"}) {
     if (!with_images && std::string(list) == "images") continue;
     for (const std::string& path : gltf::filesOf(json, list)) {
-      paths.push_back(gltf::folderOf(main) / path);
+      paths.push_back(gltf::folderOf(main) / gltf::pathOf(path));
     }
   }
   for (std::vector<uint8_t>& file : readFiles(paths)) files.push_back(std::move(file));

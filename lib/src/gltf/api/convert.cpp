@@ -8,6 +8,7 @@
 
 #include "gltf/api/convert_report.h"
 #include "gltf/base/parallel.h"
+#include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "gltf/check/check.h"
 #include "gltf/compress/compress.h"
@@ -96,10 +97,10 @@ Result loadFor(const Output& output, Input& input, Document& document, FilesInUs
     const fs::path folder = folderOf(input.path);
     const bool embeds = !document.is_glb && !output.container.is_gltf;
     for (const std::string& path : filesOf(document.json, "buffers")) {
-      files.input.push_back(folder / path);
+      files.input.push_back(folder / pathOf(path));
     }
     for (const std::string& path : filesOf(document.json, "images")) {
-      (embeds ? files.input : files.other_input).push_back(folder / path);
+      (embeds ? files.input : files.other_input).push_back(folder / pathOf(path));
     }
     if (output.destination) {
       MCC_GLTF_TRY(output.destination->checkSource(input.path, document.json));

@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "gltf/base/parallel.h"
+#include "gltf/base/path_text.h"
 #include "gltf/compress/compress.h"
 #include "gltf/document/rebuild.h"
 

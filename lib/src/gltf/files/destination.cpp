@@ -5,6 +5,7 @@
 #include <optional>
 #include <system_error>
 
+#include "gltf/base/path_text.h"
 #include "gltf/document/uri.h"
 #include "gltf/files/folder_lock.h"
 
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 
 /// Normalises a path: "./a//b" becomes "a/b".
 std::string normalized(const std::string& path) {
-  return fs::path(path).lexically_normal().generic_string();
+  return textOf(pathOf(path).lexically_normal().generic_u8string());
 }
 
 /// Whether the file at `main` is a document that refers to the file `name` next to it.
@@ -62,24 +63,24 @@ std::vector<std::string> Destination::ownNames() const {
 }
 
 Result Destination::checkOwner(const std::string& name) const {
-  const fs::path path = folder_ / name;
+  const fs::path path = folder_ / pathOf(name);
   std::error_code ignored;
   if (!fs::exists(fs::symlink_status(path, ignored)) || refersTo(main_path_, name)) return {};
-  return error(main_path_.string(), "\"" + path.string() +
-                                        "\" would be replaced, which does not belong to it; move "
-                                        "that file or choose another name");
+  return error(textOf(main_path_), "\"" + textOf(path) +
+                                       "\" would be replaced, which does not belong to it; move "
+                                       "that file or choose another name");
 }
 
 Result Destination::check(bool with_fallback) {
   MCC_GLTF_TRY(main_.check());
-  MCC_GLTF_TRY(containerOf(main_path_.filename().string(), container_));
+  MCC_GLTF_TRY(containerOf(textOf(main_path_.filename()), container_));
   with_fallback_ = with_fallback;
   if (with_fallback && !isUsableName(container_.fallback_name)) {
-    return error(main_path_.string(), "no URI can name a file \"" + container_.fallback_name +
-                                          "\"; choose another name");
+    return error(textOf(main_path_), "no URI can name a file \"" + container_.fallback_name +
+                                         "\"; choose another name");
   }
   for (const std::string& name : ownNames()) {
-    MCC_GLTF_TRY(ReplacementFile(folder_ / name).check());
+    MCC_GLTF_TRY(ReplacementFile(folder_ / pathOf(name)).check());
     MCC_GLTF_TRY(checkOwner(name));
   }
   return {};
@@ -88,20 +89,20 @@ Result Destination::check(bool with_fallback) {
 Result Destination::checkSource(const fs::path& source, const Json& json) const {
   const bool is_in_place = isSameFile(source, main_path_);
   const auto refuse = [&](const fs::path& path) {
-    return error(main_path_.string(), "\"" + path.string() +
-                                          "\" is part of the input and would be replaced; choose "
-                                          "another name or folder");
+    return error(textOf(main_path_), "\"" + textOf(path) +
+                                         "\" is part of the input and would be replaced; choose "
+                                         "another name or folder");
   };
   const std::vector<std::string> of_source = filesBeside(json);
   for (const std::string& beside : of_source) {
-    if (isSameFile(main_path_, folderOf(source) / beside)) return refuse(main_path_);
+    if (isSameFile(main_path_, folderOf(source) / pathOf(beside))) return refuse(main_path_);
   }
   for (const std::string& name : ownNames()) {
-    const fs::path path = folder_ / name;
+    const fs::path path = folder_ / pathOf(name);
     if (isSameFile(path, source)) return refuse(path);
     if (is_in_place) continue;
     for (const std::string& beside : of_source) {
-      if (isSameFile(path, folderOf(source) / beside)) return refuse(path);
+      if (isSameFile(path, folderOf(source) / pathOf(beside))) return refuse(path);
     }
   }
   return {};
@@ -133,17 +134,17 @@ Result Destination::createFolders(const fs::path& folder) {
 /// Writes a copy, unless an equal file is already there.
 Result Destination::writeCopy(const SideFile& copy) {
   const std::string name = normalized(copy.path);
-  const fs::path path = folder_ / name;
+  const fs::path path = folder_ / pathOf(name);
   std::error_code ignored;
   const bool is_there = fs::exists(fs::symlink_status(path, ignored));
   if (is_there && hasContent(path, copy.bytes)) return {};
   const bool is_ours =
-      name == main_path_.filename().string() ||
+      name == textOf(main_path_.filename()) ||
       std::any_of(sides_.begin(), sides_.end(), [&](const auto& s) { return s->name == name; });
   if (is_ours || (is_there && !refersTo(main_path_, name))) {
-    return error(main_path_.string(), "a file next to the input has to be copied to \"" +
-                                          path.string() +
-                                          "\", which is another file; choose another folder");
+    return error(textOf(main_path_), "a file next to the input has to be copied to \"" +
+                                         textOf(path) +
+                                         "\", which is another file; choose another folder");
   }
   MCC_GLTF_TRY(createFolders(folderOf(path)));
   return writeSide(copy);
@@ -151,11 +152,11 @@ Result Destination::writeCopy(const SideFile& copy) {
 
 Result Destination::writeSide(const SideFile& side) {
   const std::string name = normalized(side.path);
-  MCC_GLTF_TRY(ReplacementFile(folder_ / name).check());
+  MCC_GLTF_TRY(ReplacementFile(folder_ / pathOf(name)).check());
   std::error_code ignored;
-  const bool is_new = !fs::exists(fs::symlink_status(folder_ / name, ignored));
+  const bool is_new = !fs::exists(fs::symlink_status(folder_ / pathOf(name), ignored));
   sides_.push_back(std::unique_ptr<Side>(
-      new Side{side.kind, is_new, name, ReplacementFile(folder_ / name, temporaries_)}));
+      new Side{side.kind, is_new, name, ReplacementFile(folder_ / pathOf(name), temporaries_)}));
   return sides_.back()->file.write(side.bytes);
 }
 
@@ -219,7 +220,7 @@ Result Destination::checkTogether() const {
   const bool is_ours = std::all_of(sides_.begin(), sides_.end(),
                                    [](const auto& side) { return side->file.isInPlace(); });
   if (is_ours || !main_.isInPlace()) return {};
-  return error(main_path_.string(),
+  return error(textOf(main_path_),
                "another program wrote the same files at the same time, and they "
                "may not belong together; write them again");
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <system_error>
 
+#include "gltf/base/path_text.h"
 #include "gltf/files/system.h"
 
 namespace mcc::gltf {
@@ -21,9 +22,10 @@ std::string reasonOf(int number) { return std::strerror(number); }
 fs::path temporaryName(const fs::path& destination) {
   constexpr size_t kLongestName = 200;  // leaves room for the rest within the usual 255 bytes
   static std::atomic<uint32_t> counter{0};
-  const std::string name = destination.filename().string().substr(0, kLongestName);
-  return destination.parent_path() / ("." + name + ".tmp-" + std::to_string(system::processId()) +
-                                      "-" + std::to_string(counter++));
+  fs::path name(".");
+  name += destination.filename().native().substr(0, kLongestName);
+  name += ".tmp-" + std::to_string(system::processId()) + "-" + std::to_string(counter++);
+  return destination.parent_path() / name;
 }
 
 /// Follows symbolic links as far as they lead, but not into an open stream.
@@ -75,14 +77,14 @@ uint64_t wantedBytes(std::span<const uint8_t> bytes) {
 Result readRegularFile(int file, const fs::path& path, std::vector<uint8_t>& bytes) {
   std::error_code code;
   const uintmax_t size = fs::file_size(path, code);
-  if (code) return error(path.string(), "cannot be read: " + code.message());
-  if (size > kMaxFileBytes) return tooLarge(path.string());
+  if (code) return error(textOf(path), "cannot be read: " + code.message());
+  if (size > kMaxFileBytes) return tooLarge(textOf(path));
   bytes.resize(size);
   size_t done = 0;
   while (done < size) {
     const ptrdiff_t count = system::readSome(file, bytes.data() + done, size - done);
     if (count == 0 || (count < 0 && errno != EINTR)) {
-      return error(path.string(), "cannot be read to its end");
+      return error(textOf(path), "cannot be read to its end");
     }
     done += count > 0 ? static_cast<size_t>(count) : 0;
   }
@@ -97,7 +99,7 @@ fs::path folderOf(const fs::path& path) {
 
 Result inFile(const fs::path& path, Result result) {
   if (result.ok()) return result;
-  result.where = result.where.empty() ? path.string() : path.string() + ": " + result.where;
+  result.where = result.where.empty() ? textOf(path) : textOf(path) + ": " + result.where;
   return result;
 }
 
@@ -118,12 +120,12 @@ Result readStream(int file, const std::string& name, std::vector<uint8_t>& bytes
 Result readFile(const fs::path& path, std::vector<uint8_t>& bytes) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
-  if (!fs::exists(status)) return error(path.string(), "there is no such file");
-  if (fs::is_directory(status)) return error(path.string(), "is a folder; name a file in it");
+  if (!fs::exists(status)) return error(textOf(path), "there is no such file");
+  if (fs::is_directory(status)) return error(textOf(path), "is a folder; name a file in it");
   const int file = system::openToRead(path);
-  if (file < 0) return error(path.string(), "cannot be opened: " + reasonOf(errno));
+  if (file < 0) return error(textOf(path), "cannot be opened: " + reasonOf(errno));
   Result result = fs::is_regular_file(status) ? readRegularFile(file, path, bytes)
-                                              : readStream(file, path.string(), bytes);
+                                              : readStream(file, textOf(path), bytes);
   system::close(file);
   return result;
 }
@@ -137,11 +139,11 @@ bool haveSameContent(const fs::path& a, const fs::path& b) {
 FileReader readerOf(const fs::path& folder) {
   return [folder](const std::string& path, const std::string& where, std::vector<uint8_t>& bytes) {
     std::error_code code;
-    const fs::file_status status = fs::status(folder / path, code);
+    const fs::file_status status = fs::status(folder / pathOf(path), code);
     if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
       return error(where, "\"" + path + "\": is not a regular file");
     }
-    Result result = readFile(folder / path, bytes);
+    Result result = readFile(folder / pathOf(path), bytes);
     if (!result.ok()) return error(where, "\"" + path + "\": " + result.what);
     return result;
   };
@@ -151,7 +153,7 @@ FileReader readerInside(const fs::path& folder) {
   return [folder](const std::string& path, const std::string& where, std::vector<uint8_t>& bytes) {
     std::error_code code;
     const fs::path inside = fs::canonical(folder.empty() ? "." : folder, code);
-    const fs::path file = fs::canonical(folder / path, code);
+    const fs::path file = fs::canonical(folder / pathOf(path), code);
     const fs::path relative = file.lexically_relative(inside);
     if (!code && (relative.empty() || *relative.begin() == "..")) {
       return error(where, "\"" + path + "\" is a symbolic link out of the folder");
@@ -192,7 +194,7 @@ std::string fileKey(const fs::path& path) {
   }
   const FileIdentity folder = system::identityOf(folderOf(target));
   if (stream || folder.number == 0) return "";
-  return text(folder) + "/" + target.filename().string();
+  return text(folder) + "/" + textOf(target.filename());
 }
 
 bool isSameFile(const fs::path& a, const fs::path& b) {
@@ -205,11 +207,11 @@ Result writeStream(const fs::path& path, std::span<const uint8_t> bytes) {
   const std::optional<int> stream = system::openStreamNamed(target);
   // Duplicate an open stream instead of opening it again, which would begin at the start of a file.
   const int file = stream ? system::duplicate(*stream) : system::openToWrite(target);
-  if (file < 0) return error(path.string(), "cannot be opened: " + reasonOf(errno));
+  if (file < 0) return error(textOf(path), "cannot be opened: " + reasonOf(errno));
   int failure = writeAll(file, bytes);
   if (system::close(file) != 0 && failure == 0) failure = errno;
   if (failure == 0) return {};
-  return error(path.string(), "cannot be written: " + reasonOf(failure));
+  return error(textOf(path), "cannot be written: " + reasonOf(failure));
 }
 
 ReplacementFile::ReplacementFile(fs::path destination, TemporaryFiles* temporaries)
@@ -235,7 +237,7 @@ void ReplacementFile::keep() {
 
 Result ReplacementFile::check() const {
   std::error_code code;
-  const std::string name = destination_.string();
+  const std::string name = textOf(destination_);
   const fs::path folder = folderOf(target_);
   if (destination_.filename().empty() || fs::is_directory(target_, code)) {
     return error(name, "is a folder; name the file to write");
@@ -247,13 +249,13 @@ Result ReplacementFile::check() const {
     return error(name, "is a symbolic link that leads nowhere; remove it");
   }
   if (!fs::exists(folder, code)) {
-    return error(name, "the folder \"" + folder.string() + "\" does not exist; create it first");
+    return error(name, "the folder \"" + textOf(folder) + "\" does not exist; create it first");
   }
   if (!fs::is_directory(folder, code)) {
-    return error(name, "\"" + folder.string() + "\" is not a folder");
+    return error(name, "\"" + textOf(folder) + "\" is not a folder");
   }
   if (isReadOnly(folder)) {
-    return error(name, "the folder \"" + folder.string() + "\" is read-only; choose another one");
+    return error(name, "the folder \"" + textOf(folder) + "\" is read-only; choose another one");
   }
   if (fs::exists(target_, code) && isReadOnly(target_)) {
     return error(name, "the file exists and is read-only; make it writable or choose another name");
@@ -276,7 +278,7 @@ Result ReplacementFile::create(int& file) {
   if (file < 0) {
     const int failure = errno;
     temporary_.clear();  // a file of that name is not ours
-    return error(destination_.string(), "cannot be written: " + reasonOf(failure));
+    return error(textOf(destination_), "cannot be written: " + reasonOf(failure));
   }
   if (temporaries_ != nullptr) temporaries_->add(temporary_);
   if (replaces) system::becomeLike(target_, file);
@@ -294,7 +296,7 @@ Result ReplacementFile::write(std::span<const uint8_t> bytes) {
   identity_ = system::identityOf(file);
   if (system::close(file) != 0 && failure == 0) failure = errno;
   if (failure == 0) return {};
-  return error(destination_.string(), "cannot be written: " + reasonOf(failure));
+  return error(textOf(destination_), "cannot be written: " + reasonOf(failure));
 }
 
 bool ReplacementFile::isInPlace() const { return system::identityOf(target_) == identity_; }
@@ -303,7 +305,7 @@ Result ReplacementFile::commit() {
   const TemporaryFiles::Lock held = lockOf(temporaries_);
   std::error_code code;
   fs::rename(temporary_, target_, code);
-  if (code) return error(destination_.string(), "cannot be written: " + code.message());
+  if (code) return error(textOf(destination_), "cannot be written: " + code.message());
   if (temporaries_ != nullptr) temporaries_->forget(temporary_);
   temporary_.clear();
   return {};
@@ -316,7 +318,7 @@ Result ReplacementFile::commitForNow() {
     // A hard link, where the file system has them, keeps the destination in place at every moment.
     fs::create_hard_link(target_, backup, code);
     if (code) fs::rename(target_, backup, code);
-    if (code) return error(destination_.string(), "cannot be written: " + code.message());
+    if (code) return error(textOf(destination_), "cannot be written: " + code.message());
     backup_ = backup;
   }
   is_for_now_ = true;
@@ -337,7 +339,7 @@ Result ReplacementFile::commitNew() {
     identity_ = system::identityOf(target_);
     return {};
   }
-  return error(destination_.string(), "another file appeared there; choose another folder");
+  return error(textOf(destination_), "another file appeared there; choose another folder");
 }
 
 void ReplacementFile::undo() {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <thread>
 
+#include "gltf/base/path_text.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/system.h"
@@ -33,7 +34,7 @@ FolderLock::~FolderLock() {
 std::unique_ptr<FolderLock> lockToRead(const std::filesystem::path& document) {
   Container container;
   const bool has_more =
-      containerOf(document.filename().string(), container).ok() && container.is_gltf;
+      containerOf(textOf(document.filename()), container).ok() && container.is_gltf;
   if (!has_more) return nullptr;
   return std::make_unique<FolderLock>(folderOf(document), FolderLock::Kind::kShared);
 }
