@@ -78,5 +78,21 @@ TEST(Uri, DamagedDataIsAnError) {
   }
 }
 
+/// Names that Windows takes for devices, for streams of other files, or for other names.
+TEST(Uri, PathsOnWindows) {
+  for (const char* path :
+       {"a.bin", "textures/a b.png", "../a", "./a", "a/./b", "CONE", "com", "com10", "lpt.d/x",
+        "nu.l", "Größe ☃.bin", ".hidden", "a..b", "con1", ""}) {
+    EXPECT_TRUE(isPathOnWindows(path)) << path;
+  }
+  for (const char* path :
+       {"NUL",          "nul",  "a/Con",   "aux/b",  "prn.png", "NUL .txt",  "com1",
+        "COM9.bin",     "LPT0", "lpt².x",  "conin$", "CONOUT$", "a b:c",     "C:a",
+        "a.bin::$DATA", "a.",   "b/.. /c", "b/a ",   "...",     "what?.bin", "a*",
+        "<a>",          "a|b",  "a\"b",    "a\\b"}) {
+    EXPECT_FALSE(isPathOnWindows(path)) << path;
+  }
+}
+
 }  // namespace
 }  // namespace mcc::gltf::test

@@ -101,6 +101,20 @@ bool climbsOut(const std::string& path) {
   return false;
 }
 
+/// Whether Windows takes a name for a device: the part before the first dot decides.
+bool isDeviceOnWindows(std::string_view name) {
+  std::string device(name.substr(0, name.find('.')));
+  while (device.ends_with(' ')) device.pop_back();
+  for (char& c : device) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  for (const std::string_view known : {"CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$"}) {
+    if (device == known) return true;
+  }
+  if (!device.starts_with("COM") && !device.starts_with("LPT")) return false;
+  const std::string number = device.substr(3);
+  const bool is_digit = number.size() == 1 && number[0] >= '0' && number[0] <= '9';
+  return is_digit || number == "¹" || number == "²" || number == "³";
+}
+
 std::string quoted(const std::string& uri) { return "\"" + printable(shortened(uri, 80)) + "\""; }
 
 }  // namespace
@@ -157,6 +171,18 @@ bool isVisiblePath(const std::string& path) {
     const std::string_view part = std::string_view(path).substr(begin, end - begin);
     if (part.starts_with('.') && part != "." && part != "..") return false;
     begin = end + 1;
+  }
+  return true;
+}
+
+bool isPathOnWindows(const std::string& path) {
+  for (size_t begin = 0; begin < path.size();) {
+    const size_t end = std::min(path.find('/', begin), path.size());
+    const std::string_view part = std::string_view(path).substr(begin, end - begin);
+    begin = end + 1;
+    if (part.empty() || part == "." || part == "..") continue;
+    if (part.ends_with('.') || part.ends_with(' ') || isDeviceOnWindows(part)) return false;
+    if (part.find_first_of("<>:\"|?*\\") != std::string_view::npos) return false;
   }
   return true;
 }

@@ -24,6 +24,11 @@ Result relativePathOf(const std::string& uri, const std::string& where, std::str
 /// do.
 bool isVisiblePath(const std::string& path);
 
+/// Whether every part of a relative path is the name of a file on Windows. There "NUL", "com1.bin"
+/// and "CON .png" are devices in every folder, "a.bin:b" is a hidden stream of "a.bin", and dots
+/// and spaces at the end of a name are dropped.
+bool isPathOnWindows(const std::string& path);
+
 /// Returns the percent-encoded URI of a file next to the model, from which relativePathOf() returns
 /// the file.
 std::string uriOf(const std::string& name);

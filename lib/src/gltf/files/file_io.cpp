@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "gltf/base/path_text.h"
+#include "gltf/document/uri.h"
 #include "gltf/files/system.h"
 
 namespace mcc::gltf {
@@ -72,6 +73,12 @@ uint64_t wantedBytes(std::span<const uint8_t> bytes) {
   if (isGlb(bytes)) return uint64_t{glbLength(bytes)} + 1;  // one more shows trailing bytes
   if (isJsonText(bytes.first(std::min(bytes.size(), kWhiteSpaceBytes)))) return kMaxFileBytes + 1;
   return kWhiteSpaceBytes;
+}
+
+/// Refuses paths of a document that this system takes for something else than a file.
+Result checkName(const std::string& path, const std::string& where) {
+  if (!system::kIsWindows || isPathOnWindows(path)) return {};
+  return error(where, "\"" + path + "\" cannot be the name of a file on Windows; rename the file");
 }
 
 Result readRegularFile(int file, const fs::path& path, std::vector<uint8_t>& bytes) {
@@ -138,6 +145,7 @@ bool haveSameContent(const fs::path& a, const fs::path& b) {
 
 FileReader readerOf(const fs::path& folder) {
   return [folder](const std::string& path, const std::string& where, std::vector<uint8_t>& bytes) {
+    MCC_GLTF_TRY(checkName(path, where));
     std::error_code code;
     const fs::file_status status = fs::status(folder / pathOf(path), code);
     if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
@@ -151,6 +159,7 @@ FileReader readerOf(const fs::path& folder) {
 
 FileReader readerInside(const fs::path& folder) {
   return [folder](const std::string& path, const std::string& where, std::vector<uint8_t>& bytes) {
+    MCC_GLTF_TRY(checkName(path, where));
     std::error_code code;
     const fs::path inside = fs::canonical(folder.empty() ? "." : folder, code);
     const fs::path file = fs::canonical(folder / pathOf(path), code);
