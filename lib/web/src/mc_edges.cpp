@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/status.h"
 #include "mcc/reader.h"
 
 #define MCC_EXPORT(name) extern "C" __attribute__((export_name(name), used))
