@@ -8,7 +8,6 @@
 #include <cstring>
 #include <numeric>
 
-#include "gltf/base/path_text.h"
 #include "projection.h"
 #include "svg.h"
 #include "table.h"

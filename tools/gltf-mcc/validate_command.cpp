@@ -6,7 +6,6 @@
 
 #include "commands.h"
 #include "convert_report.h"
-#include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "help.h"
 #include "standard_streams.h"
