@@ -145,95 +145,71 @@ class Listing {
     if (piece.has(piece_flag::kCreases)) add("creases, positions " + coding, {"A.7.4", "B.4.6"});
   }
 
-  /// Looks for a method with these bits of its predictor together, and with each of the others
-  /// separately.
-  void addMethod(const std::string& method, uint8_t predictor, uint8_t together,
-                 const Sections& sections) {
-    add(text((method + ", predictor").c_str(), predictor & together), sections);
-    for (uint32_t bit = 1; bit < kHasEqualities; bit *= 2) {
-      if ((predictor & ~together & bit) != 0) add(text((method + ", bit").c_str(), bit), sections);
+  /// A method's name, with what the pieces around it may or may not have.
+  std::string nameOf(const MethodInfo& method, const AttributeInfo& a) const {
+    const std::string name = method.name;
+    const bool exact_normal = exactNormalOf(all_, count_) != kNone;
+    const bool chart = chartOfTangents(all_, count_) != kNone;
+    switch (method.method) {
+      case AttributeMethod::kTangent: return chart ? name : name + " without a chart";
+      case AttributeMethod::kTangentPoint:
+        return name + (exact_normal ? ", exact normal" : "") + (chart ? "" : ", no chart");
+      case AttributeMethod::kExactTangent:
+        return name + (exact_normal ? "" : " without exact normal") + (chart ? "" : ", no chart");
+      case AttributeMethod::kValues: return nameOfValues(a);
+      default: return name;
     }
+  }
+
+  static std::string nameOfValues(const AttributeInfo& a) {
+    std::string name = infoOf(AttributeMethod::kValues).name;
+    if (a.format.morph_target != 0) {
+      static const char* const kNames[] = {" of POSITION deltas", " of NORMAL deltas",
+                                           " of TANGENT deltas"};
+      name += a.format.semantic <= Semantic::kTangent
+                  ? kNames[static_cast<size_t>(a.format.semantic)]
+                  : " of other deltas";
+    }
+    if (a.coding == AttributeCoding::kGrid) name += " on a grid";
+    if (a.coding == AttributeCoding::kExactFloat) name += " of floats";
+    return name;
+  }
+
+  /// Every value of every field, and all together but for what is remembered and equal values.
+  void addPredictor(const MethodInfo& method, const std::string& name, uint8_t predictor) {
+    Sections sections = sectionsIn(method.sections);
+    uint8_t together = 0;
+    for (const PredictorField& field : method) {
+      const PredictorValue& value = field.value[field.valueOf(predictor)];
+      if (field.mask == kHasEqualities) continue;
+      if (field.feature != Feature::kMemory) together |= field.mask;
+      const Sections own = sectionsIn(method.sections, value.sections);
+      add(text((name + ", field " + std::to_string(field.mask)).c_str(), field.valueOf(predictor)),
+          own);
+      sections.insert(own.begin(), own.end());
+    }
+    add(text((name + ", predictor").c_str(), predictor & together), sections);
     if (!seams_) return;
-    if ((predictor & kHasEqualities) != 0) {
-      Sections with = sections;
-      with.insert("A.8.3");
-      add(method + ", equal values", with);
-    } else {
-      add(method + ", seams without equal values", sections);
-    }
+    const bool may_be_equal = (predictor & kHasEqualities) != 0;
+    if (may_be_equal) sections.insert(detail::kEqualities.value[1].sections);
+    add(name + (may_be_equal ? ", equal values" : ", seams without equal values"), sections);
   }
 
   void addAttribute(uint32_t index) {
     const AttributeInfo& a = all_[index];
     addCoding(a);
-    const AttributeInfo& position = all_[0];
-    const bool exact_positions = position.coding != AttributeCoding::kLattice;
-    const bool exact_normal = exactNormalOf(all_, count_) != kNone;
-    const bool chart = chartOfTangents(all_, count_) != kNone;
-    switch (methodOf(all_, count_, index)) {
-      case AttributeMethod::kNormal:
-        addMethod("normal", a.predictor, 0x07,
-                  {"A.8.5", "A.8.1", "A.8.2", "B.4.1", "B.4.2", "B.4.4", "B.4.5", "B.4.6"});
-        if ((a.predictor & 3) == 1) add("normal by angles", {"B.4.3"});
-        if (exact_positions) add("normals of exact positions", {"B.4.6"});
-        break;
-      case AttributeMethod::kTexcoord: {
-        Sections sections = {"A.8.6", "A.8.1", "A.8.2", "B.5.1"};
-        sections.insert((a.predictor & texcoord_method::kHinge) != 0 ? "B.5.2" : "B.5.3");
-        if ((a.predictor & texcoord_method::kRemembers) != 0) sections.insert("B.7.3");
-        addMethod("texture coordinate", a.predictor, 0x03, sections);
-        if (a.coding == AttributeCoding::kGrid)
-          add("texture coordinate on a grid", {"A.8.6", "A.8.12"});
-        break;
-      }
-      case AttributeMethod::kTangent:
-        addMethod(chart ? "tangent angle" : "tangent angle without a chart", a.predictor, 0,
-                  {"A.8.7", "B.6.1", "B.6.2", "B.6.3", "B.6.4", "B.6.5", "B.4.3"});
-        break;
-      case AttributeMethod::kTangentPoint:
-        addMethod(std::string("tangent point") + (exact_normal ? ", exact normal" : "") +
-                      (chart ? "" : ", no chart"),
-                  a.predictor, 0, {"A.8.7", "B.6.4", "B.6.6", "B.4.4", "B.4.5"});
-        break;
-      case AttributeMethod::kSkin: {
-        const AttributeInfo& weights = all_[skinPartner(all_, count_, index)];
-        addMethod("skin", a.predictor, 0, {"A.8.8", "A.8.1", "A.8.2"});
-        add(text("weights, predictor", weights.predictor) +
-                (weights.coding == AttributeCoding::kInteger   ? " integer"
-                 : weights.coding == AttributeCoding::kLattice ? " lattice"
-                                                               : " exact"),
-            {"A.8.8"});
-        break;
-      }
-      case AttributeMethod::kExactNormal:
-        addMethod("exact normal", a.predictor, 0x07, {"A.8.9", "B.4.7", "B.7.1", "B.7.2"});
-        if ((a.predictor & exact_normal_method::kRemembers) != 0)
-          add("exact normal remembers", {"B.7.3"});
-        break;
-      case AttributeMethod::kExactTangent:
-        addMethod(std::string("exact tangent") + (exact_normal ? "" : " without exact normal") +
-                      (chart ? "" : ", no chart"),
-                  a.predictor, 0, {"A.8.10", "B.6.7", "B.7.1", "B.7.2", "B.6.5"});
-        break;
-      case AttributeMethod::kSkinWeights:
-      case AttributeMethod::kAlias: break;
-      case AttributeMethod::kValues: addValues(index); break;
+    const MethodInfo& method = infoOf(methodOf(all_, count_, index));
+    if (method.method == AttributeMethod::kAlias) return;
+    if (isWithAnother(method.method)) {
+      const std::string coding = isExact(a.coding) ? "exact" : infoOf(a.coding).name;
+      add(text("weights, predictor", a.predictor) + " " + coding, sectionsIn(method.sections));
+      return;
     }
-  }
-
-  void addValues(uint32_t index) {
-    const AttributeInfo& a = all_[index];
-    std::string method = "values";
-    if (a.format.morph_target != 0) {
-      static const char* const kNames[] = {" of POSITION deltas", " of NORMAL deltas",
-                                           " of TANGENT deltas"};
-      method += a.format.semantic <= Semantic::kTangent
-                    ? kNames[static_cast<size_t>(a.format.semantic)]
-                    : " of other deltas";
-    }
-    if (a.coding == AttributeCoding::kGrid) method += " on a grid";
-    if (a.coding == AttributeCoding::kExactFloat) method += " of floats";
-    addMethod(method, a.predictor, 0x03, {"A.8.4", "A.8.1", "A.8.2", "B.3"});
+    addPredictor(method, nameOf(method, a), a.predictor);
+    if (method.method == AttributeMethod::kNormal && all_[0].coding != AttributeCoding::kLattice)
+      add("normals of exact positions", {"B.4.6"});
+    if (method.method == AttributeMethod::kTexcoord && a.coding == AttributeCoding::kGrid)
+      add("texture coordinate on a grid", {"A.8.6", "A.8.12"});
   }
 
   const PayloadHeader& header_;

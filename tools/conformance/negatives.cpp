@@ -2,7 +2,6 @@
 #include "negatives.h"
 
 #include <algorithm>
-#include <bit>
 #include <functional>
 #include <map>
 #include <stdexcept>
@@ -580,25 +579,24 @@ class Maker {
           [](HeaderFields& f, const std::string& k) { f.set(k + "predictor", 0x80); });
   }
 
-  /// A predictor byte for each method that no decoder knows.
+  /// Predictor bytes that a method does not have: a value beyond those of a field, and the lowest and
+  /// the highest of the bits that no field has.
+  static std::vector<uint8_t> wrongPredictors(const MethodInfo& method) {
+    std::vector<uint8_t> wrong;
+    uint32_t free_bits = 0xff;
+    for (const PredictorField& field : method) {
+      const uint8_t beyond = field.with(0, field.value_count);
+      if (field.valueOf(beyond) == field.value_count) wrong.push_back(beyond);
+      free_bits &= ~uint32_t{field.mask};
+    }
+    wrong.push_back(static_cast<uint8_t>(free_bits & (0u - free_bits)));
+    wrong.push_back(static_cast<uint8_t>(std::bit_floor(free_bits)));
+    return wrong;
+  }
+
   void methods() {
-    struct Method {
-      AttributeMethod method;
-      const char* name;
-      std::vector<uint8_t> predictors;
-    };
-    const Method all[] = {
-        {AttributeMethod::kTangentPoint, "tangent point", {1, 0x40}},
-        {AttributeMethod::kNormal, "normal", {3, 0x08}},
-        {AttributeMethod::kTangent, "tangent", {1}},
-        {AttributeMethod::kSkin, "skin", {1, 0x40}},
-        {AttributeMethod::kSkinWeights, "skin weights", {3, 4, 0x80}},
-        {AttributeMethod::kTexcoord, "texture coordinate", {4, 0x40}},
-        {AttributeMethod::kExactNormal, "exact normal", {3, 0x10}},
-        {AttributeMethod::kExactTangent, "exact tangent", {2}},
-        {AttributeMethod::kValues, "values", {2, 0x40}},
-    };
-    for (const Method& m : all) {
+    for (const MethodInfo& m : kMethods) {
+      if (m.method == AttributeMethod::kPosition || m.method == AttributeMethod::kAlias) continue;
       const auto number = [&](const PayloadHeader& h) {
         if (h.pieces.size() != 1) return kNone;
         for (uint32_t i = 1; i < h.pieces[0].attribute_count; ++i) {
@@ -606,7 +604,7 @@ class Maker {
         }
         return kNone;
       };
-      predictorsOf(m.name, m.predictors, number);
+      predictorsOf(m.name, wrongPredictors(m), number);
     }
   }
 
