@@ -173,9 +173,9 @@ std::set<std::string> headerValues() {
       values.insert(infoOf(piece.surface()).name);
       for (const PieceFlagInfo& flag : kPieceFlags)
         if (piece.has(flag.bit)) values.insert(flag.name);
-      const AttributeInfo* const all = header.attributes.data() + piece.first_attribute;
+      const AttributeInfos all = header.attributesOf(piece);
       for (uint32_t a = 0; a < piece.attribute_count; ++a) {
-        const MethodInfo& method = infoOf(methodOf(all, piece.attribute_count, a));
+        const MethodInfo& method = infoOf(methodOf(all, a));
         values.insert(std::string("coding ") + infoOf(all[a].coding).name);
         values.insert(method.name);
         for (const PredictorField& field : method)

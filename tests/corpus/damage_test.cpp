@@ -36,7 +36,7 @@ constexpr size_t kPayloadBytes = 60000;
 /// The decoders that run between one call of DecodeOptions::progress and the next.
 using Step = std::vector<std::string>;
 
-void addSteps(const PieceHeader& piece, const AttributeInfo* attributes, std::vector<Step>& steps) {
+void addSteps(const PieceHeader& piece, AttributeInfos attributes, std::vector<Step>& steps) {
   steps.push_back({piece.hasPivots() ? "pivots" : "connectivity"});
   Step stitching;
   if (piece.hasCopies()) stitching.push_back("stitching");
@@ -52,7 +52,7 @@ void addSteps(const PieceHeader& piece, const AttributeInfo* attributes, std::ve
   for (uint32_t phase = 0; phase < kCodingPhases; ++phase) {
     for (uint32_t a = 1; a < piece.attribute_count; ++a) {
       if (codingPhase(attributes[a]) != phase) continue;
-      const AttributeMethod method = methodOf(attributes, piece.attribute_count, a);
+      const AttributeMethod method = methodOf(attributes, a);
       // An attribute that is coded with another one has a step, but no decoder.
       steps.push_back(isWithAnother(method) ? Step{} : Step{infoOf(method).name});
     }
@@ -67,7 +67,7 @@ std::vector<Step> stepsOf(std::span<const uint8_t> payload) {
   if (!parsePayload(payload, {}, header).ok()) return steps;
   for (size_t i = 0; i < header.pieces.size(); ++i) {
     const PieceHeader& piece = header.pieces[i];
-    addSteps(piece, header.attributes.data() + piece.first_attribute, steps);
+    addSteps(piece, header.attributesOf(piece), steps);
   }
   return steps;
 }

@@ -189,14 +189,12 @@ void drawAttributes(Draft& draft, Random& random) {
     const uint32_t predictor = random.below(256);
     for (uint32_t k = 0; k < 256; ++k) {
       draft.attributes[i].predictor = static_cast<uint8_t>(predictor + k);
-      if (isKnownPredictor(methodOf(draft.attributes.data(), count, i),
-                           draft.attributes[i].predictor))
-        break;
+      if (isKnownPredictor(methodOf(draft.attributes, i), draft.attributes[i].predictor)) break;
     }
   }
   for (uint32_t i = 1; i < draft.attributes.size(); ++i) {
     if (draft.attributes[i].coding == AttributeCoding::kTangentAngle &&
-        normalOfTangents(draft.attributes.data(), count) == kNone) {
+        normalOfTangents(draft.attributes) == kNone) {
       draft.attributes.resize(1);
     }
   }
@@ -320,7 +318,7 @@ class Forger {
     PayloadModels models{Allocator{}};
     PieceHeader& h = draft_.header;
     if (!models.mc.init(draft_.context_set)) return false;
-    PieceCoder<ForgingIo> piece(io, models, h, draft_.attributes.data(), {});
+    PieceCoder<ForgingIo> piece(io, models, h, draft_.attributes, {});
     const PieceTruth nothing;
     if (!piece.codeConnectivity(nothing).ok() || !piece.codeStitch(nothing).ok()) return false;
     const auto learnWedges = [&](size_t surface_wedges) {

@@ -157,7 +157,7 @@ class RandomPiece {
     for (uint32_t i = 1; i < count; ++i) {
       do {
         attributes_[i].predictor = static_cast<uint8_t>(random.below(256));
-      } while (!isKnownPredictor(methodOf(attributes_.data(), count, i), attributes_[i].predictor));
+      } while (!isKnownPredictor(methodOf(attributes_, i), attributes_[i].predictor));
     }
     header_.attribute_count = static_cast<uint32_t>(attributes_.size());
   }
@@ -184,7 +184,7 @@ class RandomPiece {
     RandomIo io(seed_, 1u << 22);
     PayloadModels models{Allocator{}};
     if (!models.mc.init(context_set_)) return true;
-    PieceCoder<RandomIo> piece(io, models, header_, attributes_.data(), {});
+    PieceCoder<RandomIo> piece(io, models, header_, attributes_, {});
     const PieceTruth nothing;
     // Fails when the last vertices have no triangle, which the faces cannot show.
     if (!piece.codeConnectivity(nothing).ok()) return true;

@@ -57,7 +57,7 @@ struct Stages {
       : header(withAttributes(piece_header, infos.size())),
         attributes(std::move(infos)),
         models(std::make_unique<PayloadModels>(Allocator{})),
-        piece(io, *models, header, attributes.data(), {}) {
+        piece(io, *models, header, attributes, {}) {
     ready = models->mc.init(context_set);
   }
   Stages(const Stages&) = delete;

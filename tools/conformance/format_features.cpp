@@ -95,11 +95,10 @@ class Listing {
       if (piece.has(piece_flag::kSeams)) add("no attributes, SEAMS", {"A.6", "A.7"});
       return;
     }
-    all_ = &header_.attributes[piece.first_attribute];
-    count_ = piece.attribute_count;
+    all_ = header_.attributesOf(piece);
     seams_ = piece.has(piece_flag::kSeams);
     addPosition(all_[0], piece);
-    for (uint32_t i = 1; i < count_; ++i) addAttribute(i);
+    for (uint32_t i = 1; i < all_.size(); ++i) addAttribute(i);
   }
 
   void addCoding(const AttributeInfo& a) {
@@ -107,7 +106,7 @@ class Listing {
     add(std::string("coding ") + coding.name, {"A.2.4", "A.8.11"});
     if (a.coding == AttributeCoding::kGrid) {
       add(text("grid", a.grid), sectionsIn(coding.sections));
-      add(text("tails", a.tails) + (&a == all_ ? " of positions" : ""), {"A.8.12"});
+      add(text("tails", a.tails) + (&a == all_.data() ? " of positions" : ""), {"A.8.12"});
     } else if (a.bits != 0) {
       add(text((std::string(coding.name) + " bits").c_str(), a.bits), sectionsIn(coding.sections));
     }
@@ -148,8 +147,8 @@ class Listing {
   /// A method's name, with what the pieces around it may or may not have.
   std::string nameOf(const MethodInfo& method, const AttributeInfo& a) const {
     const std::string name = method.name;
-    const bool exact_normal = exactNormalOf(all_, count_) != kNone;
-    const bool chart = chartOfTangents(all_, count_) != kNone;
+    const bool exact_normal = exactNormalOf(all_) != kNone;
+    const bool chart = chartOfTangents(all_) != kNone;
     switch (method.method) {
       case AttributeMethod::kTangent: return chart ? name : name + " without a chart";
       case AttributeMethod::kTangentPoint:
@@ -198,7 +197,7 @@ class Listing {
   void addAttribute(uint32_t index) {
     const AttributeInfo& a = all_[index];
     addCoding(a);
-    const MethodInfo& method = infoOf(methodOf(all_, count_, index));
+    const MethodInfo& method = infoOf(methodOf(all_, index));
     if (method.method == AttributeMethod::kAlias) return;
     if (isWithAnother(method.method)) {
       const std::string coding = isExact(a.coding) ? "exact" : infoOf(a.coding).name;
@@ -213,8 +212,7 @@ class Listing {
   }
 
   const PayloadHeader& header_;
-  const AttributeInfo* all_ = nullptr;
-  uint32_t count_ = 0;
+  AttributeInfos all_;
   bool seams_ = false;
   Features features_;
 };

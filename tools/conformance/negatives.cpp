@@ -600,7 +600,7 @@ class Maker {
       const auto number = [&](const PayloadHeader& h) {
         if (h.pieces.size() != 1) return kNone;
         for (uint32_t i = 1; i < h.pieces[0].attribute_count; ++i) {
-          if (methodOf(h.attributes.data(), h.pieces[0].attribute_count, i) == m.method) return i;
+          if (methodOf(h.attributesOf(h.pieces[0]), i) == m.method) return i;
         }
         return kNone;
       };

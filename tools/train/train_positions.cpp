@@ -73,7 +73,8 @@ bool fitOf(const PayloadHeader& header, PredictorWeights& weights,
   auto models = std::make_unique<PayloadModels>(Allocator{});
   DecoderIo<kSingle> io(header.codes, header.tokens, header.raw);
   if (!models->mc.init(header.contextSet())) return false;
-  PieceCoder<DecoderIo<kSingle>> piece(io, *models, header.pieces[0], header.attributes.data(), {});
+  PieceCoder<DecoderIo<kSingle>> piece(io, *models, header.pieces[0],
+                                       header.attributesOf(header.pieces[0]), {});
   const PieceTruth nothing;
   if (!piece.codeConnectivity(nothing).ok() || !piece.codeStitch(nothing).ok() ||
       !piece.codePositions(nothing).ok()) {

@@ -8,8 +8,8 @@
 // vertex to the vertex of next(i), seen from the side that is not decoded yet.
 //
 //       a3 ---- a2
-//      /   \   /  \
-//    a4 --  mc --  a1   <- gates
+//      /   \   /  \   <- gates
+//    a4 --  mc --  a1
 //      \   /  \   /
 //       a5 ---- a0 = top
 //

@@ -114,8 +114,8 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
 
 /// Checks that aliases refer to earlier attributes that are neither aliases nor the position, that
 /// tangents have normals, and that predictors are known.
-Status checkReferences(const AttributeInfo* all, uint32_t count, size_t at) {
-  for (uint32_t i = 0; i < count; ++i) {
+Status checkReferences(AttributeInfos all, size_t at) {
+  for (uint32_t i = 0; i < all.size(); ++i) {
     if (all[i].coding == AttributeCoding::kAlias) {
       const uint32_t source = all[i].alias_of;
       if (source == 0 || source >= i || all[source].coding == AttributeCoding::kAlias ||
@@ -124,10 +124,10 @@ Status checkReferences(const AttributeInfo* all, uint32_t count, size_t at) {
         return fail(Error::kBadHeader, "an attribute is equal to one it cannot be equal to", at);
       }
     }
-    if (all[i].coding == AttributeCoding::kTangentAngle && normalOfTangents(all, count) == kNone) {
+    if (all[i].coding == AttributeCoding::kTangentAngle && normalOfTangents(all) == kNone) {
       return fail(Error::kBadHeader, "tangents refer to normals that are not there", at);
     }
-    const AttributeMethod method = methodOf(all, count, i);
+    const AttributeMethod method = methodOf(all, i);
     if (!isKnownPredictor(method, all[i].predictor)) {
       return fail(Error::kBadHeader, "an attribute has an unknown predictor", at);
     }
@@ -168,7 +168,7 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
     if (!header.attributes.push_back(a))
       return fail(Error::kOutOfMemory, "no memory for the header");
   }
-  MCC_TRY(checkReferences(&header.attributes[piece.first_attribute], piece.attribute_count, at));
+  MCC_TRY(checkReferences(header.attributesOf(piece), at));
   const AttributeInfo& position = header.attributes[piece.first_attribute];
   if (!isBasePosition(position) || position.format.component_count != 3 ||
       (position.coding != AttributeCoding::kLattice &&

@@ -10,6 +10,7 @@
 #include "base/bytes.h"
 #include "base/memory.h"
 #include "format/flags.h"
+#include "format/methods.h"
 #include "mcc/reader.h"
 #include "mcc/status.h"
 
@@ -78,6 +79,9 @@ struct PayloadHeader {
   std::span<const uint8_t> raw;
 
   bool singleCoder() const { return (flags & payload_flag::kSingleCoder) != 0; }
+  AttributeInfos attributesOf(const PieceHeader& piece) const {
+    return {attributes.data() + piece.first_attribute, piece.attribute_count};
+  }
   uint32_t contextSet() const { return flags >> payload_flag::kContextSetShift; }
 };
 

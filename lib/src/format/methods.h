@@ -5,6 +5,7 @@
 #define MCC_FORMAT_METHODS_H_
 
 #include <cstdint>
+#include <span>
 
 #include "format/codings.h"
 #include "mcc/reader.h"
@@ -28,6 +29,9 @@ enum class AttributeMethod : uint8_t {
 };
 inline constexpr uint32_t kAttributeMethods = 11;
 
+/// The attributes of a piece, its position first.
+using AttributeInfos = std::span<const AttributeInfo>;
+
 /// Whether an attribute is not coded by itself.
 constexpr bool isWithAnother(AttributeMethod method) {
   return method >= AttributeMethod::kSkinWeights;
@@ -35,8 +39,8 @@ constexpr bool isWithAnother(AttributeMethod method) {
 
 /// Returns the attribute of a piece that gives tangents their plane: the first NORMAL on the
 /// octahedral grid, or kNone.
-constexpr uint32_t normalOfTangents(const AttributeInfo* attributes, uint32_t count) {
-  for (uint32_t i = 0; i < count; ++i) {
+constexpr uint32_t normalOfTangents(AttributeInfos attributes) {
+  for (uint32_t i = 0; i < attributes.size(); ++i) {
     const AttributeInfo& a = attributes[i];
     if (a.coding == AttributeCoding::kOctahedral && a.format.semantic != Semantic::kTangent &&
         a.format.morph_target == 0) {
@@ -48,12 +52,11 @@ constexpr uint32_t normalOfTangents(const AttributeInfo* attributes, uint32_t co
 
 /// Returns the attribute of a piece that exact tangents are perpendicular to: the first NORMAL with
 /// exact floats, or kNone.
-constexpr uint32_t exactNormalOf(const AttributeInfo* attributes, uint32_t count) {
-  for (uint32_t i = 0; i < count; ++i) {
+constexpr uint32_t exactNormalOf(AttributeInfos attributes) {
+  for (uint32_t i = 0; i < attributes.size(); ++i) {
     const AttributeInfo& a = attributes[i];
     if (a.format.semantic == Semantic::kNormal && a.format.morph_target == 0 &&
-        a.format.component_count == 3 &&
-        isExact(a.coding)) {
+        a.format.component_count == 3 && isExact(a.coding)) {
       return i;
     }
   }
@@ -61,14 +64,14 @@ constexpr uint32_t exactNormalOf(const AttributeInfo* attributes, uint32_t count
 }
 
 /// Whether tangents on a grid have normals to be perpendicular to, exact or octahedral ones.
-constexpr bool hasNormals(const AttributeInfo* attributes, uint32_t count) {
-  return exactNormalOf(attributes, count) != kNone || normalOfTangents(attributes, count) != kNone;
+constexpr bool hasNormals(AttributeInfos attributes) {
+  return exactNormalOf(attributes) != kNone || normalOfTangents(attributes) != kNone;
 }
 
 /// Returns the attribute of a piece that gives tangents their direction: the first TEXCOORD, or
 /// kNone.
-constexpr uint32_t chartOfTangents(const AttributeInfo* attributes, uint32_t count) {
-  for (uint32_t i = 0; i < count; ++i) {
+constexpr uint32_t chartOfTangents(AttributeInfos attributes) {
+  for (uint32_t i = 0; i < attributes.size(); ++i) {
     const AttributeFormat& f = attributes[i].format;
     if (attributes[i].coding == AttributeCoding::kAlias) continue;
     if (f.semantic == Semantic::kTexcoord && f.morph_target == 0 && f.component_count == 2)
@@ -86,7 +89,7 @@ constexpr uint32_t codingPhase(const AttributeInfo& a) {
 
 /// JOINTS_n and WEIGHTS_n of four components are coded together. Returns the other attribute of the
 /// pair, or kNone.
-constexpr uint32_t skinPartner(const AttributeInfo* attributes, uint32_t count, uint32_t index) {
+constexpr uint32_t skinPartner(AttributeInfos attributes, uint32_t index) {
   const auto isHalf = [](const AttributeInfo& a) {
     return a.format.morph_target == 0 && a.format.component_count == 4 &&
            (a.format.semantic == Semantic::kJoints
@@ -96,7 +99,7 @@ constexpr uint32_t skinPartner(const AttributeInfo* attributes, uint32_t count, 
                        a.coding == AttributeCoding::kGrid));
   };
   const auto firstOf = [=](Semantic semantic, uint8_t set) {
-    for (uint32_t i = 1; i < count; ++i) {
+    for (uint32_t i = 1; i < attributes.size(); ++i) {
       const AttributeFormat& f = attributes[i].format;
       if (f.semantic == semantic && f.set_index == set && isHalf(attributes[i])) return i;
     }
@@ -108,8 +111,7 @@ constexpr uint32_t skinPartner(const AttributeInfo* attributes, uint32_t count, 
   return firstOf(is_joints ? Semantic::kWeights : Semantic::kJoints, f.set_index);
 }
 
-constexpr AttributeMethod methodOf(const AttributeInfo* attributes, uint32_t count,
-                                   uint32_t index) {
+constexpr AttributeMethod methodOf(AttributeInfos attributes, uint32_t index) {
   if (index == 0) return AttributeMethod::kPosition;
   const AttributeInfo& a = attributes[index];
   switch (a.coding) {
@@ -120,7 +122,7 @@ constexpr AttributeMethod methodOf(const AttributeInfo* attributes, uint32_t cou
     case AttributeCoding::kAlias: return AttributeMethod::kAlias;
     default: break;
   }
-  if (skinPartner(attributes, count, index) != kNone) {
+  if (skinPartner(attributes, index) != kNone) {
     const bool is_joints = a.format.semantic == Semantic::kJoints;
     return is_joints ? AttributeMethod::kSkin : AttributeMethod::kSkinWeights;
   }

@@ -96,8 +96,8 @@ struct PredictorField {
   constexpr uint8_t valueOf(uint8_t predictor) const {
     return static_cast<uint8_t>((predictor & mask) >> shift());
   }
-  constexpr uint8_t with(uint8_t predictor, uint32_t value) const {
-    return static_cast<uint8_t>((predictor & ~mask) | (value << shift()));
+  constexpr uint8_t with(uint8_t predictor, uint32_t number) const {
+    return static_cast<uint8_t>((predictor & ~mask) | (number << shift()));
   }
 };
 

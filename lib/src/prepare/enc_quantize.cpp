@@ -86,7 +86,8 @@ class Quantizer {
     std::string text = kNames[static_cast<size_t>(view_.format.semantic)];
     if (view_.format.semantic >= Semantic::kTexcoord &&
         view_.format.semantic <= Semantic::kWeights) {
-      text += "_" + std::to_string(view_.format.set_index);
+      text += '_';
+      text += std::to_string(view_.format.set_index);
     }
     if (view_.format.morph_target != 0) {
       text += " of morph target " + std::to_string(view_.format.morph_target - 1);
@@ -556,9 +557,8 @@ std::vector<QuantizedAttribute> quantizeAttributes(const PieceView& piece,
   std::vector<AttributeInfo> infos;
   for (const QuantizedAttribute& a : all) infos.push_back(a.info);
   for (uint32_t i = 1; i < count; ++i) {
-    const uint32_t number = static_cast<uint32_t>(count);
-    if (methodOf(infos.data(), number, i) != AttributeMethod::kSkin) continue;
-    QuantizedAttribute& weights = all[skinPartner(infos.data(), number, i)];
+    if (methodOf(infos, i) != AttributeMethod::kSkin) continue;
+    QuantizedAttribute& weights = all[skinPartner(infos, i)];
     weights.info.predictor = static_cast<uint8_t>(sumsOf(piece.wedge_count, weights));
   }
   return all;

@@ -60,8 +60,8 @@ struct AttributeModels {
 };
 
 /// Integers per wedge that an attribute is coded as; JOINTS_n is coded with its WEIGHTS_n behind.
-inline uint32_t codedComponents(const AttributeInfo* attributes, uint32_t count, uint32_t index) {
-  switch (methodOf(attributes, count, index)) {
+inline uint32_t codedComponents(AttributeInfos attributes, uint32_t index) {
+  switch (methodOf(attributes, index)) {
     case AttributeMethod::kNormal:
     case AttributeMethod::kTangent: return 2;
     case AttributeMethod::kTangentPoint: return kTangentPointWords;
@@ -73,9 +73,8 @@ inline uint32_t codedComponents(const AttributeInfo* attributes, uint32_t count,
 template <SymbolIo Io>
 class AttributeStage {
  public:
-  /// `attributes` of the piece, its position first.
-  AttributeStage(Io& io, AttributeModels& models, const AttributeInfo* attributes,
-                 uint32_t attribute_count, const Allocator& allocator)
+  AttributeStage(Io& io, AttributeModels& models, AttributeInfos attributes,
+                 const Allocator& allocator)
       : wedges(allocator),
         positions(allocator),
         exact_positions(allocator),
@@ -83,12 +82,11 @@ class AttributeStage {
         io_(io),
         models_(models),
         attributes_(attributes),
-        count_(attribute_count),
         allocator_(allocator),
         exact_(allocator),
-        normal_(normalOfTangents(attributes, attribute_count)),
-        exact_normal_(exactNormalOf(attributes, attribute_count)),
-        chart_(chartOfTangents(attributes, attribute_count)),
+        normal_(normalOfTangents(attributes)),
+        exact_normal_(exactNormalOf(attributes)),
+        chart_(chartOfTangents(attributes)),
         groups_(allocator),
         floats_(allocator),
         doubles_(allocator),
@@ -98,7 +96,7 @@ class AttributeStage {
         unit_normals_(allocator),
         memory_(allocator),
         lengths_(allocator) {
-    for (uint32_t i = 1; i < attribute_count; ++i) {
+    for (uint32_t i = 1; i < attributes.size(); ++i) {
       has_tangents_ |= codingPhase(attributes[i]) == 1;
     }
   }
@@ -127,8 +125,8 @@ class AttributeStage {
   /// Whether an attribute is predicted from positions that are not rounded.
   bool needsExactPositions() const {
     if (!decodes::kExactFloats) return false;
-    for (uint32_t i = 1; i < count_; ++i) {
-      const AttributeMethod method = methodOf(attributes_, count_, i);
+    for (uint32_t i = 1; i < attributes_.size(); ++i) {
+      const AttributeMethod method = methodOf(attributes_, i);
       if (isExactVector(method)) return true;
       if (Io::kEncoding && attributes_[i].coding == AttributeCoding::kGrid) return true;  // perhaps
     }
@@ -157,8 +155,7 @@ class AttributeStage {
   };
   GridPart gridPart(uint32_t index, AttributeMethod method, uint32_t components) const {
     const bool is_skin = method == AttributeMethod::kSkin;
-    const AttributeInfo& info =
-        attributes_[is_skin ? skinPartner(attributes_, count_, index) : index];
+    const AttributeInfo& info = attributes_[is_skin ? skinPartner(attributes_, index) : index];
     if (!decodes::kExactFloats || info.coding != AttributeCoding::kGrid) return {};
     return {&info, is_skin ? kSkinSlots : 0, info.format.component_count, components};
   }
@@ -274,7 +271,7 @@ class AttributeStage {
 
   Status codeTangentPoints(const Job& job) {
     MCC_TRY(sumFaceTangents());
-    const bool projects = hasNormals(attributes_, count_);
+    const bool projects = hasNormals(attributes_);
     if (projects) MCC_TRY(listNormals());
     return run<TangentPointCoder>(job, models_.tangent_points,
                                   projects ? unit_normals_.data() : nullptr, floats_.data());
@@ -298,7 +295,7 @@ class AttributeStage {
   }
 
   Status codeSkin(const Job& job, uint32_t index) {
-    const AttributeInfo& weights = attributes_[skinPartner(attributes_, count_, index)];
+    const AttributeInfo& weights = attributes_[skinPartner(attributes_, index)];
     const SkinSums sums = static_cast<SkinSums>(weights.predictor);
     const int32_t sum = sums != SkinSums::kUnknown ? unitSum(weights) : 0;
     return run<SkinCoder>(job, models_.skins[job.info.format.set_index != 0 ? 1 : 0], sum,
@@ -307,8 +304,7 @@ class AttributeStage {
 
   Io& io_;
   AttributeModels& models_;
-  const AttributeInfo* const attributes_;
-  const uint32_t count_;
+  const AttributeInfos attributes_;
   const Allocator allocator_;
   Array<int32_t> exact_;  ///< encoder: ordered floats of what is on a grid
   const uint32_t normal_;
@@ -329,9 +325,9 @@ class AttributeStage {
 template <SymbolIo Io>
 Status AttributeStage<Io>::code(uint32_t index, Array<int32_t>& values) {
   const AttributeInfo& info = attributes_[index];
-  const AttributeMethod method = methodOf(attributes_, count_, index);
+  const AttributeMethod method = methodOf(attributes_, index);
   if (isWithAnother(method)) return {};
-  const uint32_t components = codedComponents(attributes_, count_, index);
+  const uint32_t components = codedComponents(attributes_, index);
   if (!values.resize(size_t{wedges.count} * components) || !lengths_.resize(wedges.count)) {
     return noMemory();
   }

@@ -92,8 +92,8 @@ struct PieceTruth {
 template <SymbolIo Io>
 class PieceCoder {
  public:
-  PieceCoder(Io& io, PayloadModels& models, const PieceHeader& header,
-             const AttributeInfo* attributes, const Allocator& allocator)
+  PieceCoder(Io& io, PayloadModels& models, const PieceHeader& header, AttributeInfos attributes,
+             const Allocator& allocator)
       : mesh(allocator),
         mc_edges(allocator),
         groups(allocator),
@@ -109,7 +109,7 @@ class PieceCoder {
         header_(header),
         attributes_(attributes),
         allocator_(allocator),
-        stage_(io, models.attributes, attributes, header.attribute_count, allocator),
+        stage_(io, models.attributes, attributes, allocator),
         group_positions_(allocator) {}
 
   /// Counts codes in `histogram` if it is not null. Fills mc_edges if `wants_mc_edges`.
@@ -175,9 +175,7 @@ class PieceCoder {
     return stage_.keepForOthers(index, values);
   }
 
-  uint32_t codedComponentsOf(uint32_t index) const {
-    return codedComponents(attributes_, header_.attribute_count, index);
-  }
+  uint32_t codedComponentsOf(uint32_t index) const { return codedComponents(attributes_, index); }
 
   /// Returns the grid points of the normals that tangents refer to, and how they are coded.
   const int32_t* tangentNormals() const { return stage_.normals.data(); }
@@ -290,7 +288,7 @@ class PieceCoder {
   Io& io_;
   PayloadModels& models_;
   const PieceHeader& header_;
-  const AttributeInfo* const attributes_;
+  const AttributeInfos attributes_;
   const Allocator allocator_;
   AttributeStage<Io> stage_;
   Array<float> group_positions_;  ///< 4 per group, see surface/wedges.h

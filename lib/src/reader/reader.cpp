@@ -396,16 +396,14 @@ class StageBits {
 template <class Io>
 Status decodeAttribute(PieceCoder<Io>& piece, const PieceInfo& info, uint32_t index,
                        const PieceTarget& target, Array<int32_t>& values) {
-  const AttributeInfo* all = info.attributes.data();
-  const uint32_t count = static_cast<uint32_t>(info.attributes.size());
-  const AttributeMethod method = methodOf(all, count, index);
+  const AttributeMethod method = methodOf(info.attributes, index);
   if (isWithAnother(method)) return {};
   MCC_TRY(piece.codeAttribute(index, values));
   const uint32_t stride = piece.codedComponentsOf(index);
   storeAttribute(piece, info, index, values.data(), stride, target.attributes);
   if (method != AttributeMethod::kSkin || info.wedge_count == 0) return {};
-  storeAttribute(piece, info, skinPartner(all, count, index), values.data() + kSkinSlots, stride,
-                 target.attributes);
+  storeAttribute(piece, info, skinPartner(info.attributes, index), values.data() + kSkinSlots,
+                 stride, target.attributes);
   return {};
 }
 
@@ -414,7 +412,7 @@ Status decodePiece(Io& io, PayloadModels& models, const PieceHeader& header, con
                    const PieceTarget& target, uint32_t piece_index, const DecodeOptions& options,
                    Progress& progress) {
   const Allocator& allocator = options.allocator;
-  PieceCoder<Io> piece(io, models, header, info.attributes.data(), allocator);
+  PieceCoder<Io> piece(io, models, header, info.attributes, allocator);
   StageBits<Io> bits(io, piece_index, options);
   const PieceTruth nothing;
   MCC_TRY(piece.codeConnectivity(nothing, options.histogram, options.mc_edge != nullptr));
@@ -533,7 +531,7 @@ Status Payload::open(std::span<const uint8_t> bytes, const Limits& limits,
     info.wedge_count = p.wedge_count;
     info.vertex_count = p.vertex_count;
     info.surface = p.surface();
-    info.attributes = {header.attributes.data() + p.first_attribute, p.attribute_count};
+    info.attributes = header.attributesOf(p);
     info.parts = {header.parts.data() + p.first_part, p.part_count};
     info.keeps_vertex_order = p.has(piece_flag::kVertexOrder);
     info.keeps_triangle_order = p.has(piece_flag::kTriangleOrder);

@@ -111,7 +111,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
     info = candidate;
     std::vector<AttributeInfo> infos;
     for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
-    const AttributeMethod method = methodOf(infos.data(), plan.header.attribute_count, index);
+    const AttributeMethod method = methodOf(infos, index);
     if (isWithAnother(method)) return {};
     PredictorSearch search(method, plan.header.has(piece_flag::kSeams), without);
     if (alternatives.size() == 1 && search.isSettled()) {

@@ -55,9 +55,8 @@ Status checkPiece(const PieceView& piece) {
 Status checkJoints(const Plan& plan) {
   std::vector<AttributeInfo> infos;
   for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
-  const uint32_t count = static_cast<uint32_t>(infos.size());
-  for (uint32_t i = 0; i < count; ++i) {
-    if (methodOf(infos.data(), count, i) != AttributeMethod::kSkin) continue;
+  for (uint32_t i = 0; i < infos.size(); ++i) {
+    if (methodOf(infos, i) != AttributeMethod::kSkin) continue;
     const std::vector<int32_t>& joints = plan.attributes[i].values;
     if (std::find(joints.begin(), joints.end(), -1) != joints.end()) {
       return fail(Error::kBadArgument, "JOINTS with WEIGHTS cannot be -1 or 2^32 - 1");

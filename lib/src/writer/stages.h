@@ -35,7 +35,7 @@ class StageRunner {
         plan_(plan),
         first_attribute_(first_attribute),
         infos_(infosOf(plan)),
-        piece_(io, models, plan.header, infos_.data(), {}) {}
+        piece_(io, models, plan.header, infos_, {}) {}
 
   Status codeSurface(StreamSizes* sizes) {
     truth_.connectivity = connectivityTruth(
@@ -171,9 +171,7 @@ class StageRunner {
   uint32_t groupCount() const { return piece_.groups.count; }
 
  private:
-  bool isCodedWithAnother(uint32_t index) const {
-    return isWithAnother(methodOf(infos_.data(), plan_.header.attribute_count, index));
-  }
+  bool isCodedWithAnother(uint32_t index) const { return isWithAnother(methodOf(infos_, index)); }
 
   /// Fills values_. Coding does not change them.
   void learnAttribute(uint32_t index) {
@@ -182,9 +180,8 @@ class StageRunner {
     const uint32_t stride = piece_.codedComponentsOf(index);
     if (!values_.resize(size_t{plan_.header.wedge_count} * stride)) throwBadAlloc();
     learnValues(plan_, index, 0, stride, values_);
-    const uint32_t count = plan_.header.attribute_count;
-    if (methodOf(infos_.data(), count, index) != AttributeMethod::kSkin) return;
-    learnValues(plan_, skinPartner(infos_.data(), count, index), kSkinSlots, stride, values_);
+    if (methodOf(infos_, index) != AttributeMethod::kSkin) return;
+    learnValues(plan_, skinPartner(infos_, index), kSkinSlots, stride, values_);
   }
 
   static std::vector<AttributeInfo> infosOf(const Plan& plan) {

@@ -59,13 +59,12 @@ class Variation {
   /// Sets the predictor of attribute `index` and of its partner to any that are valid for their
   /// values.
   void predictors(std::vector<AttributeInfo>& infos, uint32_t index) {
-    const uint32_t count = static_cast<uint32_t>(infos.size());
     AttributeInfo& info = infos[index];
-    const AttributeMethod method = methodOf(infos.data(), count, index);
+    const AttributeMethod method = methodOf(infos, index);
     if (isWithAnother(method)) return;
     // Omits some of what holds for the sums, which is allowed.
     if (method == AttributeMethod::kSkin) {
-      uint8_t& sums = infos[skinPartner(infos.data(), count, index)].predictor;
+      uint8_t& sums = infos[skinPartner(infos, index)].predictor;
       if (sums != 0 && coin())
         sums = static_cast<uint8_t>(coin() ? SkinSums::kUsual : SkinSums::kUnknown);
     }

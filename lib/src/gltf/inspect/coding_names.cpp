@@ -4,8 +4,8 @@
 #include "format/predictors.h"
 
 namespace mcc::gltf {
-std::string predictorName(const AttributeInfo* attributes, uint32_t count, uint32_t index) {
-  const MethodInfo& method = infoOf(methodOf(attributes, count, index));
+std::string predictorName(AttributeInfos attributes, uint32_t index) {
+  const MethodInfo& method = infoOf(methodOf(attributes, index));
   std::string name = method.word;
   for (const PredictorField& field : method) {
     const std::string word = field.value[field.valueOf(attributes[index].predictor)].word;

@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <string>
 
-#include "mcc/reader.h"
+#include "format/methods.h"
 
 namespace mcc::gltf {
 
 /// Describes the predictor byte of attribute `index` of a piece in the specification's words:
-/// "fitted, sheared". Empty for an alias.
-std::string predictorName(const AttributeInfo* attributes, uint32_t count, uint32_t index);
+/// "weights, palette". Empty for an alias.
+std::string predictorName(AttributeInfos attributes, uint32_t index);
 
 }  // namespace mcc::gltf
 

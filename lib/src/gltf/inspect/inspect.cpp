@@ -21,8 +21,7 @@ std::string primitiveLabel(const ExtensionUse::AttributeUse& use) {
 }
 
 /// Derives the errors of an attribute from its coding.
-void describeErrors(const AttributeInfo* attributes, uint32_t count, uint32_t index,
-                    InspectAttribute& details) {
+void describeErrors(AttributeInfos attributes, uint32_t index, InspectAttribute& details) {
   constexpr double kDegrees = 180 / std::numbers::pi;
   const AttributeInfo& info = attributes[index];
   switch (info.coding) {
@@ -30,7 +29,7 @@ void describeErrors(const AttributeInfo* attributes, uint32_t count, uint32_t in
     case AttributeCoding::kExactFloat:
     case AttributeCoding::kGrid: return;
     case AttributeCoding::kAlias:
-      return describeErrors(attributes, count, info.alias_of, details);  // never an alias itself
+      return describeErrors(attributes, info.alias_of, details);  // never an alias itself
     case AttributeCoding::kLattice: {
       const bool is_adjusted = info.format.semantic == Semantic::kWeights;
       details.error_bound = double{info.lattice.step} * (is_adjusted ? 1 : 0.5);
@@ -40,7 +39,7 @@ void describeErrors(const AttributeInfo* attributes, uint32_t count, uint32_t in
       details.error_bound = octahedralBound(info.bits) * kDegrees;
       break;
     case AttributeCoding::kTangentAngle: {
-      const uint32_t normal = normalOfTangents(attributes, count);
+      const uint32_t normal = normalOfTangents(attributes);
       details.error_bound = tangentBound(info.bits, attributes[normal].bits) * kDegrees;
       break;
     }
@@ -55,8 +54,8 @@ void describeAttributes(const PieceInfo& piece, InspectPiece& row) {
   for (uint32_t i = 0; i < count; ++i) {
     InspectAttribute details;
     details.name = row.attribute_names[i];
-    details.predictor = predictorName(row.attributes.data(), count, i);
-    describeErrors(row.attributes.data(), count, i, details);
+    details.predictor = predictorName(row.attributes, i);
+    describeErrors(row.attributes, i, details);
     row.details.push_back(std::move(details));
   }
 }
