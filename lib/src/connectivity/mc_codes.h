@@ -232,7 +232,7 @@ class McMachine {
 
   using CodesBurst = typename Io::CodesBurst;
 
-  // Coding of one operation.
+  // These code one operation.
   Status codeOperation(const McOperation* op);
   Status codeSpecial(const McOperation* op);
   Status codeEnd(const McOperation* op, bool first);
@@ -244,7 +244,7 @@ class McMachine {
   bool codeStartFlag(CodesBurst& codes, const McOperation* op);
   void remember(uint32_t operation_class);
 
-  // Changes of the lists.
+  // These change the lists.
   Status newNode(uint32_t vertex, uint32_t degree, uint32_t& node);
   Status newVertex(bool dummy, uint32_t source, uint32_t& vertex);
   Status endRun(const McOperation* op, uint32_t vertex, uint32_t q, const Fan& fan);

@@ -245,7 +245,7 @@ Status RegionGrowth::grow(Visitor& visitor) {
     }
     const uint32_t h = queue_[level].pop();
     const uint32_t v = faces_.vertex(h);
-    if (records_[v].state() != static_cast<int32_t>(level) + 1) continue;  // stale
+    if (records_[v].state() != static_cast<int32_t>(level) + 1) continue;  // queued again since
     PlainFan fan;
     uint32_t ccw_tip = h;
     uint32_t cw_tip = h;

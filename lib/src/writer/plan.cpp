@@ -105,8 +105,9 @@ SurfaceCoding surfaceOf(const ClosedMesh& mesh, std::span<const uint32_t> class_
   return surface;
 }
 
-/// The loop ends, because a single triangle has no handle, and components of two are halved into
-/// single ones.
+/// Cuts and collapses the surface, and halves components until no handle is too deep. The loop
+/// always terminates, because a single triangle has no handle, and components of two are halved
+/// into single ones.
 void cutAndCollapse(Plan& plan, uint32_t start_half_edge, uint32_t max_handle_depth) {
   const std::vector<uint32_t> corner_class = classesOfCorners(plan);
   std::vector<uint32_t> region_of_face;

@@ -74,7 +74,7 @@ void prepareConnectivity(Plan& plan, uint32_t start_half_edge,
 /// face with two corners in one place.
 void preparePivots(Plan& plan);
 
-/// Whether no face has two corners in one place.
+/// Returns whether no face has two corners in one place.
 bool allowsPivots(const Plan& plan);
 
 /// Returns the attributes except the first, in the order in which their phases code them.
