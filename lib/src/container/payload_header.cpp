@@ -213,7 +213,7 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, T
   const bool has_pivots = piece.surface() == SurfaceCoding::kPivots;
   if (has_pivots && piece.has(piece_flag::kHoles | piece_flag::kHandles))
     return fail(Error::kBadHeader, "a piece that is not cut has holes or handles", at);
-  if ((piece.flags & ~piece_flag::kDecoded) != 0 || !infoOf(piece.surface()).is_decoded)
+  if ((piece.flags & ~piece_flag::kDecoded) != 0 || !isDecoded(piece.surface()))
     return fail(kNotInCore, "the core lacks what a piece has", at);
   uint32_t zigzagged = 0;
   MCC_TRY(in.readVarint(piece.vertex_count));

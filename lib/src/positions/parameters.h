@@ -23,9 +23,7 @@ struct PositionParameters {
   AxisPalette palette[3];              ///< only with kPalette; borrowed
   const GridPlanes* planes = nullptr;  ///< only with kPlanes; borrowed
 
-  bool has(uint32_t mode) const {
-    return (modes & mode & decodedBits(AttributeMethod::kPosition)) != 0;
-  }
+  bool has(uint32_t mode) const { return (modes & mode & kDecodedPositionModes) != 0; }
 };
 
 /// Sets the scale coefficients that the modes imply; the payload's tables may change them.
