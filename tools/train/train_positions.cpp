@@ -85,12 +85,8 @@ bool fitOf(const PayloadHeader& header, PredictorWeights& weights,
     truth.insert(truth.end(), piece.records[v].q, piece.records[v].q + 3);
   }
   PositionRecording recording;
-  if (!recording
-           .record(piece.mesh, piece.groups, piece.records.data(), header.pieces[0].isolated_count,
-                   truth.data())
-           .ok()) {
+  if (!recording.record(piece.mesh, piece.groups, piece.records.data(), truth.data()).ok())
     return false;
-  }
   const PositionCandidate candidate{&recording, truth.data(), header.attributes[0].bits, {}};
   weights = fitWeights({&candidate, 1}, false, false, ~0u, {});
   for (const PositionRecording::Visit& visit : recording.visits()) {
