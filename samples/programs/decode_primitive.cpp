@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// decode_primitive IN.mcc: decodes a payload, the content of a buffer view, into arrays as a graphics card wants them:
-// interleaved vertices and 16 bit indices.
+// decode_primitive IN.mcc: decodes a payload, the content of a buffer view, into arrays as a
+// graphics card wants them: interleaved vertices and 16 bit indices.
 #include <cstdio>
 #include <fstream>
 #include <iterator>

@@ -56,8 +56,8 @@ TEST(Bench, MeasuresWhatIsPreferred) {
   MCC_REQUIRE_COMPARISON();
   const ScratchFolder folder;
   const auto bytes = [&](const std::string& preference) {
-    const ToolResult result = runTool(folder, "bench --format json --prefer " + preference + " " +
-                                                  samplePath("genus3.glb"));
+    const ToolResult result = runTool(
+        folder, "bench --format json --prefer " + preference + " " + samplePath("genus3.glb"));
     EXPECT_EQ(result.status, 0) << result.err;
     return Json::parse(result.out)["files"][0]["codecs"]["mcc"]["bytes"].get<uint64_t>();
   };
@@ -87,12 +87,9 @@ TEST(Bench, WithoutAFeatureTheBytesOfSomeSampleChange) {
   }
   // The samples are too regular for sheared residuals and hinges, and none of them is an isosurface
   // or has exact tangents, equal attributes or edges with many faces.
-  const std::map<std::string, bool> in_other_files = {{"aliases", true},
-                                                      {"perpendicular", true},
-                                                      {"pivots", true},
-                                                      {"planes", true},
-                                                      {"shear", true},
-                                                      {"texcoord-hinge", true}};
+  const std::map<std::string, bool> in_other_files = {{"aliases", true}, {"perpendicular", true},
+                                                      {"pivots", true},  {"planes", true},
+                                                      {"shear", true},   {"texcoord-hinge", true}};
   EXPECT_GT(is_seen.size(), 10u);
   for (const auto& [name, seen] : is_seen) {
     EXPECT_NE(seen, in_other_files.count(name) != 0) << name;

@@ -284,10 +284,10 @@ TEST_F(Files, OnlyImagesAreCopied) {
     copied.erase("b.bin");
     copied.erase("mesh.bin");
     EXPECT_EQ(copied.size(), images.size()) << command;
-    for (const std::string word :
-         {"\".bashrc\" is the name of a hidden file; it is not copied",
-          "\"run.sh\" is not a known type of image", "\"link.png\" is a symbolic link out of the folder",
-          "\"folder/b.png\" is a symbolic link"}) {
+    for (const std::string word : {"\".bashrc\" is the name of a hidden file; it is not copied",
+                                   "\"run.sh\" is not a known type of image",
+                                   "\"link.png\" is a symbolic link out of the folder",
+                                   "\"folder/b.png\" is a symbolic link"}) {
       EXPECT_NE(result.out.find(word), std::string::npos) << word << "\n" << result.out;
     }
     fs::remove_all(path("o"));
@@ -304,7 +304,8 @@ TEST_F(Files, OnlyImagesAreEmbedded) {
   store("m/a.gltf", json.dump());
   const ToolResult result = run("convert m/a.gltf out.glb");
   EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.out.find("/images/0: is not a known type of image"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("/images/0: is not a known type of image"), std::string::npos)
+      << result.out;
   EXPECT_EQ(contentOf(path("out.glb")).find("secret"), std::string::npos);
 }
 

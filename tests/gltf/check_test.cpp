@@ -121,7 +121,8 @@ TEST_F(Check, NoticesAWrongPermutation) {
   EXPECT_NE(verdict(compressed_.json, compressed_.bin), "");
   std::swap(source_of[3], source_of[4]);
   source_of[3] = source_of[4];
-  EXPECT_NE(verdict(compressed_.json, compressed_.bin).find("not a permutation"), std::string::npos);
+  EXPECT_NE(verdict(compressed_.json, compressed_.bin).find("not a permutation"),
+            std::string::npos);
 }
 
 TEST_F(Check, NoticesADamagedImage) {

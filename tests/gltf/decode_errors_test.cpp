@@ -159,8 +159,9 @@ TEST_F(DecodeErrors, OrdinaryAttributesHaveAsManyElements) {
   };
   for (const bool in_target : {false, true}) {
     EXPECT_EQ(with(169, in_target), "");
-    EXPECT_NE(with(168, in_target).find("/_EXTRA: the accessor does not have the payload's 169 elements"),
-              std::string::npos);
+    EXPECT_NE(
+        with(168, in_target).find("/_EXTRA: the accessor does not have the payload's 169 elements"),
+        std::string::npos);
   }
 }
 

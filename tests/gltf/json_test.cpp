@@ -69,9 +69,10 @@ TEST(GltfJson, KeysAreWholeTexts) {
 /// The parser quotes what it read last, which may contain ": " and control characters.
 TEST(GltfJson, ErrorsAreWhole) {
   const std::string text = reprinted("{\"a: b");
-  EXPECT_NE(text.find("the JSON is damaged (syntax error while parsing object key - invalid string: "
-                      "missing closing quote; last read: '\"a: b'"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find("the JSON is damaged (syntax error while parsing object key - invalid string: "
+                "missing closing quote; last read: '\"a: b'"),
+      std::string::npos)
       << text;
   EXPECT_NE(reprinted("[1e999]").find("(number overflow parsing '1e999')"), std::string::npos)
       << reprinted("[1e999]");

@@ -113,8 +113,7 @@ TEST(McTree, SaysWhatIsWrong) {
   wild.indices[2] = 1000;
   Json outside = wild.addTo(builder);
   builder.addMesh({points, nowhere, outside});
-  EXPECT_EQ(failure(builder, 0, 0),
-            "/meshes/0/primitives/0: has points or lines, not triangles");
+  EXPECT_EQ(failure(builder, 0, 0), "/meshes/0/primitives/0: has points or lines, not triangles");
   EXPECT_EQ(failure(builder, 0, 1), "/meshes/0/primitives/1: has no POSITION");
   EXPECT_EQ(failure(builder, 0, 2),
             "/meshes/0/primitives/2/indices: an index is not below the count");

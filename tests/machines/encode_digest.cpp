@@ -1,8 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// encode-digest FILE...: decodes payloads, encodes what they hold again, with lattices and exactly, and prints, for each,
-// the CRC-32 of both new payloads or the error. Built for several machines by tools/check/machines: all must print the
-// same.
+// encode-digest FILE...: decodes payloads, encodes what they hold again, with lattices and exactly,
+// and prints, for each, the CRC-32 of both new payloads or the error. Built for several machines by
+// tools/check/machines: all must print the same.
 #include <cstdio>
 #include <vector>
 

@@ -13,8 +13,9 @@
 
 namespace {
 
-/// Goes on from the checksum `before` over numbers of `number_bytes` each. The reader stores them in the host's byte
-/// order; they count as if they were little-endian, so that all machines print the same.
+/// Goes on from the checksum `before` over numbers of `number_bytes` each. The reader stores them
+/// in the host's byte order; they count as if they were little-endian, so that all machines print
+/// the same.
 uint32_t checksumOf(uint32_t before, const void* data, size_t bytes, size_t number_bytes) {
   const uint8_t* begin = static_cast<const uint8_t*>(data);
   if (std::endian::native == std::endian::little) return mcc::crc32({begin, bytes}, before);

@@ -372,8 +372,7 @@ TEST(TinyGltf, RefusesWhatContradictsItself) {
   refused("must be 4", [](Model&, auto& p) { p.mode = TINYGLTF_MODE_POINTS; });
   refused("no such accessor", [](Model&, auto& p) { p.indices = -1; });
   refused("no attribute of this name", [](Model&, auto& p) { p.attributes.erase("NORMAL"); });
-  refused("the payload's count",
-          [](Model& m, auto& p) { ++m.accessors[size_t(p.indices)].count; });
+  refused("the payload's count", [](Model& m, auto& p) { ++m.accessors[size_t(p.indices)].count; });
   refused("unsigned type", [](Model& m, auto& p) {
     m.accessors[size_t(p.indices)].componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
   });

@@ -157,8 +157,7 @@ void encodeParts(int speed, std::vector<gltf::EncodedPayload>& payloads,
       std::vector<foreign::DracoPrimitive> encoded;
       for (size_t i = 0; i < piece.parts.size(); ++i) {
         foreign::DracoPrimitive draco;
-        const foreign::Outcome done =
-            foreign::emitDracoPrimitive(input.view(), i, speed, draco);
+        const foreign::Outcome done = foreign::emitDracoPrimitive(input.view(), i, speed, draco);
         if (done.ok()) {
           kept.push_back(std::move(piece.parts[i]));
           encoded.push_back(std::move(draco));

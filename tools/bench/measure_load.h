@@ -11,8 +11,8 @@
 
 namespace mcc::bench {
 
-/// Loading a whole GLB with tinygltf, the least of all runs: CPU seconds of loads with one thread, and by the clock on the
-/// wall how long decoding takes.
+/// Loading a whole GLB with tinygltf, the least of all runs: CPU seconds of loads with one thread,
+/// and by the clock on the wall how long decoding takes.
 struct LoadFigures {
   bool is_measured = false;
   double mcc = 0;       ///< our file, with our adapter

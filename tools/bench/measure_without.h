@@ -33,7 +33,8 @@ std::string featureNames();
 /// A file with and without the features of one ablation.
 struct AblationFigures {
   uint64_t bytes = 0;
-  /// CPU seconds, the least of several rounds in which both take turns; 0 where the bytes are those with all features.
+  /// CPU seconds, the least of several rounds in which both take turns; 0 where the bytes are those
+  /// with all features.
   double decode_seconds = 0;
   double full_decode_seconds = 0;
 };
@@ -45,8 +46,8 @@ struct WithoutFigures {
   std::vector<AblationFigures> ablations;  ///< in the order of the question
 };
 
-/// Encodes everything of a file, left-out attributes too, once with all features and once per ablation, and decodes
-/// what differs.
+/// Encodes everything of a file, left-out attributes too, once with all features and once per
+/// ablation, and decodes what differs.
 foreign::Outcome measureWithout(const std::string& name, const Geometry& geometry,
                                 const std::vector<Ablation>& ablations, uint32_t run_count,
                                 const std::function<void(const std::string&)>& progress,

@@ -579,8 +579,8 @@ class Maker {
           [](HeaderFields& f, const std::string& k) { f.set(k + "predictor", 0x80); });
   }
 
-  /// Predictor bytes that a method does not have: a value beyond those of a field, and the lowest and
-  /// the highest of the bits that no field has.
+  /// Predictor bytes that a method does not have: a value beyond those of a field, and the lowest
+  /// and the highest of the bits that no field has.
   static std::vector<uint8_t> wrongPredictors(const MethodInfo& method) {
     std::vector<uint8_t> wrong;
     uint32_t free_bits = 0xff;

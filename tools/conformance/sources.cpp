@@ -835,8 +835,8 @@ Source skinOfTinyWeights() {
       });
 }
 
-/// An isosurface whose vertices were moved within the cells of its grid: each is on or between any planes, or on any
-/// diagonal.
+/// An isosurface whose vertices were moved within the cells of its grid: each is on or between any
+/// planes, or on any diagonal.
 TestMesh strewnOnCells() {
   constexpr uint32_t kCells = 12;
   constexpr float kCell = 2.0f / kCells;
@@ -881,7 +881,9 @@ std::vector<Source> addedSources() {
   const auto positions = [](SourceBuilder& b) { b.positions(10); };
   return {single("many_digons", "Hundreds of digons wait, and handles put others below 255 of them",
                  plateWithTunnels(258, 1), positions),
-          skinOfTinyWeights(), positionsAbove3e38(0), positionsAbove3e38(9),
+          skinOfTinyWeights(),
+          positionsAbove3e38(0),
+          positionsAbove3e38(9),
           single("strewn_on_cells", "Vertices on every kind of diagonal and between any planes",
                  strewnOnCells(), [](SourceBuilder& b) { b.positions(14); }),
           single("cut_handles", "A handle would put a digon below 256 others: the surface is cut",

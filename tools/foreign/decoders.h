@@ -6,7 +6,8 @@
 
 namespace mcc::foreign {
 
-/// Draco and meshoptimizer for convertGlb(), as far as the installed versions know what is in the file.
+/// Draco and meshoptimizer for convertGlb(), as far as the installed versions know what is in the
+/// file.
 gltf::ForeignDecoders foreignDecoders();
 
 }  // namespace mcc::foreign

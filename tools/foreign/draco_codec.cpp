@@ -47,8 +47,8 @@ Outcome fromDraco(const draco::Status& status) {
   return status.ok() ? Outcome{} : failure("Draco: " + status.error_msg_string());
 }
 
-/// Below speed 5 Draco predicts NORMAL on an octahedral grid whatever the type, and integer normals come
-/// back as something else.
+/// Below speed 5 Draco predicts NORMAL on an octahedral grid whatever the type, and integer normals
+/// come back as something else.
 draco::GeometryAttribute::Type dracoType(const AttributeFormat& format) {
   if (format.semantic == Semantic::kNormal && format.component_type != ComponentType::kFloat32) {
     return draco::GeometryAttribute::GENERIC;
@@ -99,8 +99,8 @@ bool allFinite(const AttributeView& view, uint32_t wedge_count) {
   return true;
 }
 
-/// Whether Draco's float32 arithmetic can put every value on the lattice: it subtracts the origin, divides by the step and
-/// converts to int32 without a look at what comes of it.
+/// Whether Draco's float32 arithmetic can put every value on the lattice: it subtracts the origin,
+/// divides by the step and converts to int32 without a look at what comes of it.
 bool canBeQuantised(const DracoAttribute& attribute, uint32_t wedge_count) {
   constexpr float kLargestPoint = 0x1p30f;
   const AttributeView& view = attribute.view;

@@ -78,15 +78,17 @@ Outcome decodeMeshopt(const MeshoptEncoded& layout, std::span<const uint8_t> byt
 Outcome decodeMeshoptZstd(const MeshoptEncoded& layout, std::span<const uint8_t> zstd_bytes,
                           DecodedMesh& mesh);
 
-/// Decodes a buffer view of EXT_meshopt_compression, or of KHR_meshopt_compression as far as this version of meshoptimizer
-/// can: `count` elements of `stride` bytes. Safe for untrusted input; the caller bounds the product.
+/// Decodes a buffer view of EXT_meshopt_compression, or of KHR_meshopt_compression as far as this
+/// version of meshoptimizer can: `count` elements of `stride` bytes. Safe for untrusted input; the
+/// caller bounds the product.
 Outcome decodeMeshoptView(std::span<const uint8_t> bytes, uint64_t count, uint32_t stride,
                           const std::string& mode, const std::string& filter,
                           std::vector<uint8_t>& elements);
 
-/// Encodes `count` elements of `stride` bytes as EXT_meshopt_compression stores them in a buffer view, without a filter. The
-/// mode is ATTRIBUTES (a stride of up to 256 bytes, a multiple of 4), TRIANGLES (of 2 or 4; may rotate triangles) or INDICES (of 2 or 4).
-/// Fails on anything else. Deterministic. Inverse: decodeMeshoptView().
+/// Encodes `count` elements of `stride` bytes as EXT_meshopt_compression stores them in a buffer
+/// view, without a filter. The mode is ATTRIBUTES (a stride of up to 256 bytes, a multiple of 4),
+/// TRIANGLES (of 2 or 4; may rotate triangles) or INDICES (of 2 or 4). Fails on anything else.
+/// Deterministic. Inverse: decodeMeshoptView().
 Outcome encodeMeshoptView(std::span<const uint8_t> elements, uint64_t count, uint32_t stride,
                           const std::string& mode, std::vector<uint8_t>& bytes);
 

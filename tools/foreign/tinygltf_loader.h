@@ -16,8 +16,8 @@ struct TinygltfLoad {
   uint64_t vertex_count = 0;  ///< of the POSITION accessors, to see that it is the same model
 };
 
-/// Loads a GLB with tinygltf: one of ours with our adapter, one of Draco's with tinygltf's own Draco path
-/// (TINYGLTF_ENABLE_DRACO). Images are kept as they are. Fails with the loader's words.
+/// Loads a GLB with tinygltf: one of ours with our adapter, one of Draco's with tinygltf's own
+/// Draco path (TINYGLTF_ENABLE_DRACO). Images are kept as they are. Fails with the loader's words.
 /// Tests: tests/cli/bench_test.cpp.
 Outcome loadWithTinygltf(std::span<const uint8_t> glb, uint32_t thread_count, TinygltfLoad& load);
 

@@ -41,9 +41,7 @@ struct BenchCommand {
   gltf::Result measure(size_t number, const ProgressLine& line, bench::FileFigures& figures) const;
 };
 
-std::string nameOf(const std::string& input) {
-  return gltf::textOf(gltf::pathOf(input).stem());
-}
+std::string nameOf(const std::string& input) { return gltf::textOf(gltf::pathOf(input).stem()); }
 
 gltf::Result BenchCommand::load(const std::string& input, bench::Geometry& geometry) const {
   std::vector<uint8_t> file;

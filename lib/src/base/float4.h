@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Four floats at once, each rounded as a float on its own: what is computed with Float4 has the bits of the same formula
-// on floats. Formulas that are needed both ways are templates over float and Float4. [A.1.2]
+// Four floats at once, each rounded as a float on its own: what is computed with Float4 has the
+// bits of the same formula on floats. Formulas that are needed both ways are templates over float
+// and Float4. [A.1.2]
 #ifndef MCC_BASE_FLOAT4_H_
 #define MCC_BASE_FLOAT4_H_
 

@@ -64,7 +64,8 @@ static_assert(FLT_EVAL_METHOD == 0,
 
 namespace mcc {
 
-/// Where the size of the code counts (WebAssembly), what is compiled for every choice elsewhere is compiled once.
+/// Where the size of the code counts (WebAssembly), what is compiled for every choice elsewhere is
+/// compiled once.
 #if defined(MCC_COMPACT)
 inline constexpr bool kCompact = true;
 #define MCC_SHARED inline MCC_OUT_OF_LINE
@@ -73,8 +74,8 @@ inline constexpr bool kCompact = false;
 #define MCC_SHARED MCC_INLINE
 #endif
 
-/// A table of constants: made by the compiler; in compact code, where it would be data, by prepare(), before all that looks
-/// at it.
+/// A table of constants: made by the compiler; in compact code, where it would be data, by
+/// prepare(), before all that looks at it.
 template <auto kMake>
 struct ConstantTable {
 #if defined(MCC_COMPACT)
@@ -90,7 +91,8 @@ struct ConstantTable {
 #endif
 };
 
-/// Calls `function` with `choice`: as a constant, for which it is compiled apart, unless the code is compact.
+/// Calls `function` with `choice`: as a constant, for which it is compiled apart, unless the code
+/// is compact.
 template <class Function>
 MCC_INLINE auto withChoice(bool choice, const Function& function) {
   if constexpr (kCompact) {

@@ -11,8 +11,9 @@
 
 namespace mcc {
 
-/// Sets coding, bits, grid and tails of `info` if the values, as ordered integers, are all finite and fit a grid; returns
-/// whether they do. The grid is the one that leaves the least to code per value.
+/// Sets coding, bits, grid and tails of `info` if the values, as ordered integers, are all finite
+/// and fit a grid; returns whether they do. The grid is the one that leaves the least to code per
+/// value.
 bool findExactGrid(std::span<const int32_t> ordered, AttributeInfo& info);
 
 }  // namespace mcc

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Exact normals, predicted from the decoded faces in binary64: where a program computed them from the same positions,
-// little more is left than its rounding.                                                     [A.8.9]
+// Exact normals, predicted from the decoded faces in binary64: where a program computed them from
+// the same positions, little more is left than its rounding. [A.8.9]
 #ifndef MCC_EXACT_NORMALS_H_
 #define MCC_EXACT_NORMALS_H_
 
@@ -73,7 +73,8 @@ MCC_SHARED void addExactNormalsOfWeight(NormalWeight normal_weight, const WedgeM
   }
 }
 
-/// Adds the weighted normals of all faces to their wedges' sums (3 per wedge). `positions`: 3 floats per wedge. [B.4.7]
+/// Adds the weighted normals of all faces to their wedges' sums (3 per wedge). `positions`: 3
+/// floats per wedge. [B.4.7]
 inline void addExactFaces(NormalWeight weight, const WedgeMesh& wedges, const float* positions,
                           double* sums) {
   if constexpr (kCompact) return addExactNormalsOfWeight(weight, wedges, positions, sums);
@@ -193,8 +194,8 @@ uint64_t ExactNormalCoder<Io>::predictionKey(const ValueMemory& memory, const do
   return memory.predictionKey(rounded);
 }
 
-/// Whether the vector is, but for signs, one that was predicted like this before, or stood beside those of the entry
-/// face. It is then in place, with the signs of the prediction.
+/// Whether the vector is, but for signs, one that was predicted like this before, or stood beside
+/// those of the entry face. It is then in place, with the signs of the prediction.
 template <class Io>
 bool ExactNormalCoder<Io>::codeKnown(uint32_t w, uint32_t entry, const double* predicted) {
   int32_t* value = job_.values + 3 * size_t{w};

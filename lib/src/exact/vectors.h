@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Exact vectors of unit length near a prediction: two components by the distance of their floats, as ordered integers,
-// from the predicted ones, the longest from the other two.                                   [B.7.2]
+// Exact vectors of unit length near a prediction: two components by the distance of their floats,
+// as ordered integers, from the predicted ones, the longest from the other two. [B.7.2]
 #ifndef MCC_EXACT_VECTORS_H_
 #define MCC_EXACT_VECTORS_H_
 
@@ -83,8 +83,9 @@ class VectorCoder {
  public:
   VectorCoder(Io& io, VectorModels& models) : io_(io), models_(models) { models_.prepare(); }
 
-  /// `predicted`: of length 1 or 0. `value`: three ordered floats. `error`: expected, then that of this vector. `normal`:
-  /// unit vector that the prediction is, and the vector may be, perpendicular to; or null.
+  /// `predicted`: of length 1 or 0. `value`: three ordered floats. `error`: expected, then that of
+  /// this vector. `normal`: unit vector that the prediction is, and the vector may be,
+  /// perpendicular to; or null.
   void code(const double* predicted, const double* normal, VectorError& error, int32_t* value) {
     if (normal != nullptr) {
       codeInPlane(predicted, normal, error, value);

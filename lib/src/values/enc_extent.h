@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What a lattice has to cover, and the rounding of weights: the same for documents and for users of the writer.
+// What a lattice has to cover, and the rounding of weights: the same for documents and for users of
+// the writer.
 #ifndef MCC_VALUES_ENC_EXTENT_H_
 #define MCC_VALUES_ENC_EXTENT_H_
 
@@ -24,7 +25,8 @@ struct Extent {
 
   explicit Extent(uint32_t components);
 
-  /// Adds component `at(element, c)` of `count` elements; false when one is NaN or infinite (nothing is added then).
+  /// Adds component `at(element, c)` of `count` elements; false when one is NaN or infinite
+  /// (nothing is added then).
   template <class At>
   bool add(uint64_t count, const At& at) {
     for (uint64_t i = 0; i < count; ++i) {
@@ -43,7 +45,8 @@ struct Extent {
   double size() const;
   /// Largest magnitude of a value.
   double farthest() const;
-  /// Largest side of the box without the outer percent of the values on either end. Reorders the samples.
+  /// Largest side of the box without the outer percent of the values on either end. Reorders the
+  /// samples.
   double innerSize();
   bool isInside(float low, float high) const;
 
@@ -59,8 +62,8 @@ bool isRuinedByOutliers(Extent& extent, uint8_t bits);
 /// The lattice of 0..1 with points at both ends: 0 and 1 stay what they are.
 Lattice unitLattice(uint8_t bits);
 
-/// Rounds every number, none of them negative, to a whole one. When their sum is within a quarter of `total` it becomes
-/// `total`: all are rounded down and those that lost most go up.
+/// Rounds every number, none of them negative, to a whole one. When their sum is within a quarter
+/// of `total` it becomes `total`: all are rounded down and those that lost most go up.
 void roundTogether(std::vector<double>& points, double total);
 
 }  // namespace mcc

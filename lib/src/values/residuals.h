@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Residuals of attributes as tokens and raw bits.                                            [A.8.2]
+// Residuals of attributes as tokens and raw bits. [A.8.2]
 #ifndef MCC_VALUES_RESIDUALS_H_
 #define MCC_VALUES_RESIDUALS_H_
 
@@ -33,8 +33,8 @@ MCC_OUT_OF_LINE uint32_t codeLongLength(Io& io, uint32_t from, uint32_t length) 
   return std::min(from + io.raw(5, length - from), 32u);
 }
 
-/// The bits of a magnitude of `length` bits (0..32) below its leading one, and a sign above them; returns the
-/// magnitude. No branches: lengths are close to random. `negative`: all ones or zero.
+/// The bits of a magnitude of `length` bits (0..32) below its leading one, and a sign above them;
+/// returns the magnitude. No branches: lengths are close to random. `negative`: all ones or zero.
 template <class Io>
 MCC_INLINE uint32_t codeBelowLength(Io& io, uint32_t length, int32_t truth, uint32_t& negative) {
   const uint32_t leading = static_cast<uint32_t>((uint64_t{1} << length) >> 1);
@@ -61,7 +61,8 @@ MCC_SHARED int32_t codeBehindLength(Io& io, uint32_t token, int32_t truth, uint3
   return static_cast<int32_t>((absolute ^ negative) - negative);
 }
 
-/// Layout 0: the token is the bit length of |residual|. `seen`: contextLength() of the residual, known earlier.
+/// Layout 0: the token is the bit length of |residual|. `seen`: contextLength() of the residual,
+/// known earlier.
 template <uint32_t kState, class Io>
 MCC_INLINE int32_t codeByLength(Io& io, TokenRow& row, int32_t truth, uint32_t& seen) {
   const uint32_t length = static_cast<uint32_t>(std::bit_width(absoluteOf(truth)));

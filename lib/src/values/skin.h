@@ -1,10 +1,11 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// JOINTS_n and WEIGHTS_n together: rigid parts repeat their neighbour's tuple, blends share its joints.   [A.8.8]
+// JOINTS_n and WEIGHTS_n together: rigid parts repeat their neighbour's tuple, blends share its
+// joints.   [A.8.8]
 //
-// Per group of equal wedges: is the tuple that of a neighbour? If not, slot by slot: is the weight 0; the joint, by its
-// rank among the neighbours' joints; the weight, against what the neighbours give that joint. When the weights of a tuple
-// have a known sum, the last one follows.
+// Per group of equal wedges: is the tuple that of a neighbour? If not, slot by slot: is the weight
+// 0; the joint, by its rank among the neighbours' joints; the weight, against what the neighbours
+// give that joint. When the weights of a tuple have a known sum, the last one follows.
 #ifndef MCC_VALUES_SKIN_H_
 #define MCC_VALUES_SKIN_H_
 
@@ -199,7 +200,8 @@ void SkinCoder<Io>::codeTuple(uint32_t w) {
   codeWeights(w, used, expected);
 }
 
-/// Which slots have weight (a bit each), and all joints. `expected`: the neighbours' weights of each joint.
+/// Which slots have weight (a bit each), and all joints. `expected`: the neighbours' weights of
+/// each joint.
 template <class Io>
 uint32_t SkinCoder<Io>::codeJoints(int32_t* t, int64_t* expected) {
   uint32_t influences = 0;
@@ -222,7 +224,8 @@ uint32_t SkinCoder<Io>::codeJoints(int32_t* t, int64_t* expected) {
   return used;
 }
 
-/// Each weight against what the neighbours give its joint; the last one is what is left, if the sum is known.
+/// Each weight against what the neighbours give its joint; the last one is what is left, if the sum
+/// is known.
 template <class Io>
 void SkinCoder<Io>::codeWeights(uint32_t w, uint32_t used, const int64_t* expected) {
   uint32_t context = kNoNeighbours;

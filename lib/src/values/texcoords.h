@@ -1,15 +1,18 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Texture coordinates, predicted from the faces a wedge completes and from the decoded positions.     [A.8.6, B.5]
+// Texture coordinates, predicted from the faces a wedge completes and from the decoded positions.
+// [A.8.6, B.5]
 //
-//        o            The wedge v completes the face v, n, p. If the face across n-p is in the same chart and
-//       / \           known, it predicts v by
-//      n - p            diagonal  the parallelogram u_n + u_p - u_o over the longest of the edges n-p (exact on grids)
-//       \ /             hinge     its affine map from space to the chart, unfolded over the edge n-p; without o, a map
-//        v                        of the triangle v, n, p that keeps its shape. The weighted mean over all faces.
+//        o            The wedge v completes the face v, n, p. If the face across n-p is in the same
+//       / \           chart and known, it predicts v by
+//      n - p            diagonal  the parallelogram u_n + u_p - u_o over the longest of the edges
+//       \ /                       n-p (exact on grids), or by
+//        v              hinge     its affine map from space to the chart, unfolded over the edge
+//                                 n-p; without o, a map of the triangle v, n, p that keeps its
+//                                 shape. The weighted mean over all faces is taken.
 //
-// Optionally, third corners of faces are remembered by the values at the other two: charts that are used twice, mirrored
-// ones too, cost a flag per vertex.
+// Optionally, third corners of faces are remembered by the values at the other two: charts that are
+// used twice, mirrored ones too, cost a flag per vertex.
 #ifndef MCC_VALUES_TEXCOORDS_H_
 #define MCC_VALUES_TEXCOORDS_H_
 
@@ -68,7 +71,8 @@ class TexcoordCoder {
   static constexpr float kSteepest =
       36;  ///< square of the largest ratio of heights a hinge unfolds
 
-  /// Completed faces whose other corners are coded; `o` is the corner behind n-p, or n when that is not known. [B.5.1]
+  /// Completed faces whose other corners are coded; `o` is the corner behind n-p, or n when that is
+  /// not known. [B.5.1]
   struct Faces {
     uint32_t count = 0;
     uint32_t n[kFaceLimit];

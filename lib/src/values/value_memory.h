@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Values by what stands beside them: in parts and charts that repeat, mirrored ones too, a flag tells a value.   [B.7]
+// Values by what stands beside them: in parts and charts that repeat, mirrored ones too, a flag
+// tells a value.   [B.7]
 #ifndef MCC_VALUES_VALUE_MEMORY_H_
 #define MCC_VALUES_VALUE_MEMORY_H_
 
@@ -20,12 +21,14 @@ struct MemoryModels {
   BitModel known[4][4];  ///< [candidates asked for before][last two outcomes]
 };
 
-/// Two different values for each key, which is made of the values at an edge or of a prediction. [B.7.3]
+/// Two different values for each key, which is made of the values at an edge or of a prediction.
+/// [B.7.3]
 class ValueMemory {
  public:
   explicit ValueMemory(const Allocator& allocator) : entries_(allocator) {}
 
-  /// Starts with no values. `values`: `components` per wedge; with `ignores_signs`, floats that differ in sign are equal.
+  /// Starts with no values. `values`: `components` per wedge; with `ignores_signs`, floats that
+  /// differ in sign are equal.
   [[nodiscard]] bool start(uint32_t face_count, const int32_t* values, uint32_t components,
                            bool ignores_signs) {
     values_ = values;
@@ -44,8 +47,9 @@ class ValueMemory {
 
   /// To be called before the first ask() about a wedge.
   void begin() { asked_count_ = 0; }
-  /// Asks whether the value is one of those at a key, but not that of `except` (kNone: of none), and not one asked for
-  /// before; `isValue(k)`: the encoder's answer for that of wedge k. Returns k, or kNone.
+  /// Asks whether the value is one of those at a key, but not that of `except` (kNone: of none),
+  /// and not one asked for before; `isValue(k)`: the encoder's answer for that of wedge k. Returns
+  /// k, or kNone.
   template <class Io, class IsValue>
   uint32_t ask(Io& io, MemoryModels& models, uint64_t key, uint32_t except, IsValue isValue) {
     const Entry e = entries_[key >> (64 - bits_)];

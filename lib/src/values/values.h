@@ -1,10 +1,11 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Attributes without a predictor of their own (colours, custom attributes, morph deltas, floats that fit no grid): any
-// number of integer components, by the parallelogram over the longest edge.                  [A.8.4, B.3]
+// Attributes without a predictor of their own (colours, custom attributes, morph deltas, floats
+// that fit no grid): any number of integer components, by the parallelogram over the longest edge.
+// [A.8.4, B.3]
 //
-// Optionally, a flag first tells that all components are 0 (morph deltas), or equal to those of a neighbour (colours of
-// parts, ids, rigid regions).
+// Optionally, a flag first tells that all components are 0 (morph deltas), or equal to those of a
+// neighbour (colours of parts, ids, rigid regions).
 #ifndef MCC_VALUES_VALUES_H_
 #define MCC_VALUES_VALUES_H_
 
@@ -112,8 +113,8 @@ void ValueCoder<Io>::findNeighbours(uint32_t w) {
   if (n_ == kNone) std::swap(n_, p_);
 }
 
-/// The half-edge across which a parallelogram has the longest diagonal, among the first faces that the group of w
-/// completes; or kNone. [B.3]
+/// The half-edge across which a parallelogram has the longest diagonal, among the first faces that
+/// the group of w completes; or kNone. [B.3]
 template <class Io>
 uint32_t ValueCoder<Io>::diagonalFace(uint32_t w) const {
   const FaceView& view = job_.wedges.faces;

@@ -1,11 +1,11 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Unit normals on the octahedral grid, predicted from the decoded faces.                     [A.8.5, B.4]
+// Unit normals on the octahedral grid, predicted from the decoded faces. [A.8.5, B.4]
 //
-// Prediction: the weighted sum of the normals of all faces around a group of equal wedges; optionally corrected by what
-// the prediction missed at the two neighbours of the entry face. Residual: both grid points are mapped so that the
-// prediction lies near the centre and in one quadrant, then subtracted modulo the grid (as in Draco's canonicalised
-// transform).
+// Prediction: the weighted sum of the normals of all faces around a group of equal wedges;
+// optionally corrected by what the prediction missed at the two neighbours of the entry face.
+// Residual: both grid points are mapped so that the prediction lies near the centre and in one
+// quadrant, then subtracted modulo the grid (as in Draco's canonicalised transform).
 #ifndef MCC_VECTORS_NORMALS_H_
 #define MCC_VECTORS_NORMALS_H_
 
@@ -90,8 +90,8 @@ inline float manhattanLength(const float* v) {
 }
 inline constexpr float kShortest = 1e-30f;  ///< shorter vectors have no direction
 
-/// Grid point, relative to the centre, nearest to the projection of a vector along z; `length`: its manhattanLength(),
-/// above kShortest. Vectors with z < 0 are mirrored first. [B.4.4]
+/// Grid point, relative to the centre, nearest to the projection of a vector along z; `length`: its
+/// manhattanLength(), above kShortest. Vectors with z < 0 are mirrored first. [B.4.4]
 inline void projectToGrid(const float* v, float length, int32_t centre, int32_t* point) {
   const float scale = static_cast<float>(centre) / length;
   for (int s = 0; s < 2; ++s) {
@@ -100,8 +100,8 @@ inline void projectToGrid(const float* v, float length, int32_t centre, int32_t*
   }
 }
 
-/// The residual's frame, chosen by the predicted point; maps grid points to and fro. The cases are equally likely, so
-/// it is all selects and no branches. [B.4.5]
+/// The residual's frame, chosen by the predicted point; maps grid points to and fro. The cases are
+/// equally likely, so it is all selects and no branches. [B.4.5]
 class OctahedralFrame {
  public:
   /// `inside`: the predicted point or, if that is `turned_over`, its image in the diamond.
@@ -177,7 +177,8 @@ class OctahedralFrame {
   int32_t sine_ = 0;
 };
 
-/// One of the up to four grid points that stand for the same direction on the border. Writers store only it.
+/// One of the up to four grid points that stand for the same direction on the border. Writers store
+/// only it.
 inline void canonicalGridPoint(int32_t centre, int32_t* point) {
   int32_t p[2] = {point[0] - centre, point[1] - centre};
   if (std::abs(p[0]) != centre && std::abs(p[1]) != centre) return;
@@ -187,7 +188,8 @@ inline void canonicalGridPoint(int32_t centre, int32_t* point) {
   point[1] = p[1] + centre;
 }
 
-/// Codes a grid point `value` in 0..2*centre; `point`: relative to the centre. `context`: up to kNoNeighbours. [A.8.5]
+/// Codes a grid point `value` in 0..2*centre; `point`: relative to the centre. `context`: up to
+/// kNoNeighbours. [A.8.5]
 template <class Io>
 MCC_INLINE void codeGridPoint(Io& io, TokenRow (&rows)[2][kLengthContexts],
                               const OctahedralFrame& frame, int32_t centre, uint32_t context,

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Unit vectors on an octahedral grid, in float32 with one order of operations.               [B.4.1]
+// Unit vectors on an octahedral grid, in float32 with one order of operations. [B.4.1]
 #ifndef MCC_VECTORS_OCTAHEDRAL_H_
 #define MCC_VECTORS_OCTAHEDRAL_H_
 
@@ -15,8 +15,8 @@ constexpr int32_t octahedralCentre(uint32_t bits) {
   return static_cast<int32_t>((uint32_t{1} << (bits - 1)) - 1);
 }
 
-/// The point of the octahedron |x| + |y| + |z| = 1 that is unfolded to (x, y) in -1..1. Outside of that the result is
-/// some finite vector.
+/// The point of the octahedron |x| + |y| + |z| = 1 that is unfolded to (x, y) in -1..1. Outside of
+/// that the result is some finite vector.
 template <class Real>
 MCC_INLINE void foldToOctahedron(Real x, Real y, Real* point) {
   const Real one = constant<Real>(1.0f);

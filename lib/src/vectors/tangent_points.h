@@ -1,10 +1,11 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Tangents as points of an octahedral grid and a sign: those that have no octahedral normals to be perpendicular to, or
-// are not perpendicular to them.                                                             [A.8.7, B.6.6]
+// Tangents as points of an octahedral grid and a sign: those that have no octahedral normals to be
+// perpendicular to, or are not perpendicular to them. [A.8.7, B.6.6]
 //
-// Prediction: the direction in which u grows around the group, as for angles (tangents.h); without one, the mean of the
-// neighbours' tangents. Projected on the plane of the wedge's normal, if the piece has normals of any kind.
+// Prediction: the direction in which u grows around the group, as for angles (tangents.h); without
+// one, the mean of the neighbours' tangents. Projected on the plane of the wedge's normal, if the
+// piece has normals of any kind.
 #ifndef MCC_VECTORS_TANGENT_POINTS_H_
 #define MCC_VECTORS_TANGENT_POINTS_H_
 

@@ -1,9 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Tangents as an angle in the plane of the decoded normal and a sign.                        [A.8.7, B.6]
+// Tangents as an angle in the plane of the decoded normal and a sign. [A.8.7, B.6]
 //
-// Prediction as the tools compute tangents (Mikkelsen 2008): the sum over the faces around a group of equal wedges of
-// the direction in which u grows, weighted by the angle at the corner; the sign from the faces' orientation in the chart.
+// Prediction as the tools compute tangents (Mikkelsen 2008): the sum over the faces around a group
+// of equal wedges of the direction in which u grows, weighted by the angle at the corner; the sign
+// from the faces' orientation in the chart.
 #ifndef MCC_VECTORS_TANGENTS_H_
 #define MCC_VECTORS_TANGENTS_H_
 
@@ -29,7 +30,8 @@ struct TangentModels {
   }
 };
 
-/// Orthonormal vectors beside a unit vector: the first is perpendicular to its smallest component's axis. [B.6.1]
+/// Orthonormal vectors beside a unit vector: the first is perpendicular to its smallest component's
+/// axis. [B.6.1]
 template <class Real>
 MCC_INLINE void tangentFrame(const Real* n, Real* e1, Real* e2) {
   const Real zero = constant<Real>(0.0f);
@@ -79,7 +81,8 @@ struct AngleSteps {
   }
 };
 
-/// Unit vectors of angles in the planes of unit normals; `quarter`, `rest` as in AngleSteps. [B.6.3]
+/// Unit vectors of angles in the planes of unit normals; `quarter`, `rest` as in AngleSteps.
+/// [B.6.3]
 template <class Real>
 MCC_INLINE void tangentFromSteps(const Real* normal, Real quarter, Real rest, uint32_t bits,
                                  Real* tangent) {
@@ -120,8 +123,9 @@ inline void tangentFromAngle(const float* normal, int32_t angle, uint32_t bits, 
                    tangent);
 }
 
-/// Adds to the three wedges of every face (4 floats each) the direction in which u grows, weighted by the angle at the
-/// corner, and the orientation of the chart. `chart` has 2 finite floats per wedge, see chartCoordinates(). [B.6.4]
+/// Adds to the three wedges of every face (4 floats each) the direction in which u grows, weighted
+/// by the angle at the corner, and the orientation of the chart. `chart` has 2 finite floats per
+/// wedge, see chartCoordinates(). [B.6.4]
 inline void addFaceTangents(const WedgeMesh& wedges, const float* positions, const float* chart,
                             float* sums) {
   forFourFaces(wedges.faces, wedges.face_count, [=](const uint32_t* words, uint32_t count) {
@@ -160,7 +164,8 @@ inline void addFaceTangents(const WedgeMesh& wedges, const float* positions, con
   });
 }
 
-/// Texture coordinates as finite floats whose products neither overflow nor become denormal. [B.6.5]
+/// Texture coordinates as finite floats whose products neither overflow nor become denormal.
+/// [B.6.5]
 inline void chartCoordinates(const AttributeInfo& info, const int32_t* values, size_t count,
                              float* chart) {
   const bool exact = isExact(info.coding);

@@ -37,7 +37,8 @@ TEST(PositionPlanes, BelowIsTheInverseOfAt) {
   }
 }
 
-/// Lines of diagonals go on with the same slope in each cell that they enter, and are as many as planes.
+/// Lines of diagonals go on with the same slope in each cell that they enter, and are as many as
+/// planes.
 TEST(PositionPlanes, KindsAreAllDifferent) {
   const AxisPlanes planes[3] = {planesAt(1, 8), planesAt(0, 16), planesAt(3, 32)};
   const GridPlanes grid(planes);

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Names of files as text: UTF-8 in documents, messages and command lines, whatever the system takes.
+// Names of files as text: UTF-8 in documents, messages and command lines, whatever the system
+// takes.
 #ifndef MCC_GLTF_BASE_PATH_TEXT_H_
 #define MCC_GLTF_BASE_PATH_TEXT_H_
 

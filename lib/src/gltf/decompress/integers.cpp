@@ -433,7 +433,7 @@ class PositionStore {
   std::map<uint64_t, bool> has_matrices_;  ///< by skin
   std::map<uint64_t, uint64_t> child_of_node_;
   std::map<uint64_t, std::vector<SkinnedNode>> skinned_;  ///< by skin
-  std::map<uint64_t, size_t> matrix_users_;  ///< skins by accessor of matrices
+  std::map<uint64_t, size_t> matrix_users_;               ///< skins by accessor of matrices
 };
 
 }  // namespace

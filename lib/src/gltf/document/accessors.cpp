@@ -7,7 +7,8 @@
 
 namespace mcc::gltf {
 
-// glTF buffers are little-endian, and accessors are filled by memcpy. Reader and writer work on either.
+// glTF buffers are little-endian, and accessors are filled by memcpy. Reader and writer work on
+// either.
 static_assert(std::endian::native == std::endian::little,
               "documents need a little-endian host; build with MCC_READER_ONLY");
 

@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // What reading and replacing files needs of the system and the C++ standard library does not have.
-// system_posix.cpp and system_windows.cpp implement it; nothing else in gltf/ depends on the system.
+// system_posix.cpp and system_windows.cpp implement it; nothing else in gltf/ depends on the
+// system.
 #ifndef MCC_GLTF_FILES_SYSTEM_H_
 #define MCC_GLTF_FILES_SYSTEM_H_
 
