@@ -65,7 +65,7 @@ export interface EncodeResult {
  * Loads the encoder's module. If it is never called, encodeGlb() loads the module next to
  * encoder.mjs.
  */
-export function initEncoder(options?: Omit<InitOptions, 'simdWasmUrl'>): Promise<void>;
+export function initEncoder(options?: Omit<InitOptions, 'simdWasmUrl' | 'coreUrl' | 'simdCoreUrl'>): Promise<void>;
 
 /** Compresses a GLB, decodes the result and compares it with the source. Safe for untrusted bytes. */
 export function encodeGlb(bytes: Uint8Array, options?: EncodeOptions): Promise<EncodeResult>;

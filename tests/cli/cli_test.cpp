@@ -238,7 +238,8 @@ TEST_F(Cli, WrongUsageIsStatusTwo) {
         "convert in.glb out.glb --quantize-position x",
         "convert in.glb out.glb --quantize-normal 1", "convert in.glb out.glb --grid world",
         "convert in.glb out.glb --prefer beauty", "convert in.glb out.glb --format xml",
-        "convert in.glb out.glb -j 0", "decode in.glb", "inspect"}) {
+        "convert in.glb out.glb -j 0", "convert in.glb out.glb --indices-only --drop-unused",
+        "decode in.glb", "inspect"}) {
     const Outcome result = run(arguments);
     EXPECT_EQ(result.status, 2) << arguments << "\n" << result.err;
     EXPECT_EQ(result.err.rfind("gltf-mcc: ", 0), 0u) << result.err;

@@ -429,6 +429,9 @@ TEST(Convert, UnusedVerticesAreNotedAndDropped) {
   const RoundTrip ordered = roundTrip(builder, options);
   ASSERT_EQ(ordered.error, "");
   EXPECT_EQ(elementsInOrder(ordered.decoded, 3), elementsInOrder(dense.toGlb(), 3));
+
+  options.indices_only = true;
+  EXPECT_NE(roundTrip(builder, options).error.find("only without indices_only"), std::string::npos);
 }
 
 /// What an unknown extension may refer to by number stays.

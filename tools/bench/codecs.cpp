@@ -179,7 +179,7 @@ Outcome addDracoErrors(const PrimitiveInput& primitive, const DecodedUnit& decod
   if (!done.ok()) return done;
   if (measured.unmatched_vertex_count != 0) {
     return foreign::failure(std::to_string(measured.unmatched_vertex_count) +
-                            " decoded vertices are none of the source's");
+                            " decoded vertices are not in the source's");
   }
   lost_wedges += measured.missing_wedge_count;
   for (size_t i = 0; i < input.attributes.size(); ++i) {

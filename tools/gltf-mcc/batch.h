@@ -44,7 +44,7 @@ struct BatchOptions {
 
 /// Makes an output of the same name in the folder for every input. Prints a line for each, a
 /// summary, and the failures. Returns an exit status: kFailed when a file failed, in which case the
-/// others are made all the same; kUsage, with nothing done, when two inputs would have the same
+/// others are still made; kUsage, with nothing done, when two inputs would have the same
 /// output.
 int runBatch(const BatchOptions& options);
 

@@ -166,7 +166,9 @@ void addBench(CLI::App& app, int& status) {
       ->required()
       ->type_name("");
   addQuantization(*command, state->convert);
-  command->add_option("--runs", state->run_count, "Decode N times and take the least time [5]")
+  command
+      ->add_option("--runs", state->run_count,
+                   "Decode at least N times, 5 or more, and take the least time [5]")
       ->check(CLI::Range(5, 1000).description(""))
       ->type_name("N");
   command

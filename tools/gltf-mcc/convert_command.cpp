@@ -288,10 +288,13 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
 }
 
 void addKeepOrder(CLI::App& command, gltf::ConvertOptions& options) {
-  command.add_flag("--indices-only", options.indices_only,
-                   "Compress only the triangles, keep the attributes as they are");
-  command.add_flag("--drop-unused", options.drop_unused,
-                   "Leave out vertices that no triangle uses");
+  CLI::Option* const indices_only =
+      command.add_flag("--indices-only", options.indices_only,
+                       "Compress only the triangles, keep the attributes as they are");
+  command
+      .add_flag("--drop-unused", options.drop_unused,
+                "Leave out vertices that no triangle uses; not with --indices-only")
+      ->excludes(indices_only);
   command
       .add_option_function<std::string>(
           "--keep-order",

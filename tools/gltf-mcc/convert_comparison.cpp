@@ -29,7 +29,7 @@ constexpr uint32_t kRuns = 3;
 }  // namespace
 
 void ConvertComparison::addOptions(CLI::App& command) {
-  command.add_option("--compare", mode, "Compare with Draco [draco up to 2M triangles]")
+  command.add_option("--compare", mode, "Compare with Draco [draco, but none above 2M triangles]")
       ->check(CLI::IsMember({"draco", "none"}).description(""))
       ->type_name("draco|none");
   command

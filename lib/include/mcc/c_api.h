@@ -38,7 +38,7 @@ enum {
   MCC_OK = 0,
   MCC_ERROR_TRUNCATED = 1,           /**< the payload ends inside a field or a stream */
   MCC_ERROR_BAD_MAGIC = 2,           /**< the bytes are not a mesh collapse payload */
-  MCC_ERROR_UNSUPPORTED_VERSION = 3, /**< a major version this reader does not know */
+  MCC_ERROR_UNSUPPORTED_VERSION = 3, /**< a version of the format this reader does not know */
   MCC_ERROR_BAD_CHECKSUM = 4,        /**< the CRC-32 does not match: the payload is damaged */
   MCC_ERROR_BAD_HEADER = 5,          /**< a header field has a value the format does not assign */
   MCC_ERROR_BAD_CONNECTIVITY = 6, /**< an operation that no mesh collapse code can contain here */
@@ -137,7 +137,7 @@ typedef struct mcc_open_options {
   uint64_t max_output_bytes;
   uint32_t max_attributes; /**< default 1024 */
   uint32_t max_pieces;     /**< default 65536 */
-  mcc_allocator allocator; /**< for the payload object itself */
+  mcc_allocator allocator; /**< for the payload object and its parsed header */
 } mcc_open_options;
 
 /** Sets `struct_bytes`, which the caller passes as sizeof(mcc_open_options), and the defaults. */

@@ -311,7 +311,7 @@ enum class Severity : uint8_t { kError = 0, kWarning = 1, kInfo = 2, kHint = 3 }
 /// One finding of validate(): an error, or something worth knowing.
 struct ValidationIssue {
   Severity severity = Severity::kError;
-  std::string code;     ///< "COUNT_MISMATCH"; README lists them
+  std::string code;     ///< "COUNT_MISMATCH"; tools/gltf-mcc/README.md lists them
   std::string message;  ///< one line, no full stop
   std::string pointer;  ///< JSON pointer (RFC 6901); empty where the issue has no place in the JSON
 };

@@ -129,7 +129,9 @@ struct AttributeTarget {
   size_t stride_bytes = 0;  ///< at least elementBytes(format)
 };
 
-/// Where the triangles of one part go: 3 * triangle_count indices of wedges of the piece.
+/// Where the triangles of one part go: 3 * triangle_count indices of wedges of the piece, aligned
+/// for their type, into which wedge_count - 1 must fit. When `indices` is null, the triangles are
+/// decoded and dropped.
 struct PartTarget {
   void* indices = nullptr;
   IndexType index_type = IndexType::kUint32;

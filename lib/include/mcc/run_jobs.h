@@ -8,7 +8,8 @@
 namespace mcc {
 
 /// Calls job(0) … job(count - 1), in any order and possibly at the same time, and returns when all
-/// have ended. Jobs do not throw. Jobs may call the function again, also at the same time.
+/// have ended. It calls every job exactly once, and does not throw. Jobs do not throw. Jobs may
+/// call the function again, also at the same time.
 using RunJobs = std::function<void(size_t count, const std::function<void(size_t)>& job)>;
 
 }  // namespace mcc

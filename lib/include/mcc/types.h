@@ -82,7 +82,7 @@ struct Lattice {
 };
 
 /// Whether the format can represent a lattice: its step is positive and finite, and the first
-/// `component_count` origins are finite. Allocates nothing. Tests: tests/unit/.
+/// `component_count` origins are finite. Allocates nothing.
 constexpr bool isValidLattice(const Lattice& lattice, uint32_t component_count) {
   constexpr float kLargest = 3.40282347e38f;
   bool valid = lattice.step > 0 && lattice.step <= kLargest;

@@ -101,11 +101,12 @@ struct EncodeResult {
 };
 
 /// Compresses pieces into one payload; they share adaptive models.
-/// Errors: kBadArgument (an index that is not below wedge_count, no POSITION, bits or lattice out
-/// of range, null data, attributes besides POSITION with indices_only, JOINTS_n of 4 components
-/// with WEIGHTS_n that hold -1 or 2^32 - 1), kLimit (more than 2^28 triangles or wedges),
-/// kOutOfMemory. Deterministic: the same input gives the same bytes on every machine. Takes time
-/// O(n log n) in triangles and wedges.
+/// Errors: kBadArgument (no pieces, a piece without parts, a part whose number of indices is not a
+/// multiple of 3, an index that is not below wedge_count, no POSITION, bits or lattice out of
+/// range, null data, attributes other than POSITION with indices_only, JOINTS_n of 4 components
+/// with WEIGHTS_n that hold -1 or 2^32 - 1), kLimit (2^28 or more triangles or wedges in a piece),
+/// kOutOfMemory. After an error `result` is unspecified. Deterministic: the same input gives the
+/// same bytes on every machine. Takes time O(n log n) in triangles and wedges.
 MCC_API Status encode(std::span<const PieceView> pieces, const EncodeOptions& options,
                       EncodeResult& result);
 

@@ -72,7 +72,7 @@ MCC_INLINE void transpose(Float4& a, Float4& b, Float4& c, Float4& d) {
   d = shuffleLanes<float, 2, 3, 6, 7>(ab_high, cd_high);
 }
 
-/// Stores a pair at once: loads of pairs stall behind two stores.
+/// Stores a pair at once: loads of pairs stall after two stores.
 MCC_INLINE void storePair(int32_t* to, const int32_t* pair) {
   constexpr int kLow = std::endian::native == std::endian::little ? 0 : 1;
   const uint64_t both =

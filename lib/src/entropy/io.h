@@ -2,7 +2,8 @@
 //
 // What the stages code through. Each stage is written once, as a template over an Io, which is
 //
-//   DecoderIo    the reader's: reads the symbols of a payload             entropy/decoder_io.h
+//   StreamsIo    the reader's: reads the symbols of a payload             entropy/decoder_io.h
+//   CompactIo    the same, where one coder has all symbols or code counts entropy/decoder_io.h
 //   EncoderIo    the writer's: writes them                                entropy/enc_coder.h
 //   CostIo       the writer's trials: counts what they would take         entropy/enc_coder.h
 //

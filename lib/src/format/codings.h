@@ -40,21 +40,22 @@ constexpr bool isBinaryGrid(uint32_t grid) { return grid >= kGridBinary; }
 struct CodingInfo {
   AttributeCoding coding;
   const char* name;      ///< in the specification and in the conformance suite
-  const char* word;      ///< of `inspect`, which appends the bits of those that have bits
+  const char* word;      ///< of `inspect`
   const char* sections;  ///< sections of the specification
+  bool has_bits;         ///< the header states a number of bits, which `inspect` shows
   bool is_decoded;       ///< otherwise this decoder, which is the core alone, refuses the coding
 };
 
 /// The codings, in the order of AttributeCoding.
 inline constexpr CodingInfo kCodings[] = {
-    {AttributeCoding::kLattice, "lattice", "lattice", "A.2.4 A.8.11", true},
-    {AttributeCoding::kInteger, "integer", "integer", "A.2.4 A.8.11", true},
-    {AttributeCoding::kExactFloat, "exact float", "exact float", "A.2.4 A.8.11",
+    {AttributeCoding::kLattice, "lattice", "lattice", "A.2.4 A.8.11", true, true},
+    {AttributeCoding::kInteger, "integer", "integer", "A.2.4 A.8.11", false, true},
+    {AttributeCoding::kExactFloat, "exact float", "exact float", "A.2.4 A.8.11", false,
      decodes::kExactFloats},
-    {AttributeCoding::kOctahedral, "octahedral", "octahedral", "A.2.4 B.4.1", true},
-    {AttributeCoding::kTangentAngle, "tangent angle", "angle", "A.2.4 B.6.3", true},
-    {AttributeCoding::kAlias, "alias", "alias", "A.2.4", true},
-    {AttributeCoding::kGrid, "grid", "exact grid", "A.2.4 A.8.12", decodes::kExactFloats},
+    {AttributeCoding::kOctahedral, "octahedral", "octahedral", "A.2.4 B.4.1", true, true},
+    {AttributeCoding::kTangentAngle, "tangent angle", "angle", "A.2.4 B.6.3", true, true},
+    {AttributeCoding::kAlias, "alias", "alias", "A.2.4", false, true},
+    {AttributeCoding::kGrid, "grid", "exact grid", "A.2.4 A.8.12", false, decodes::kExactFloats},
 };
 
 constexpr const CodingInfo& infoOf(AttributeCoding coding) {

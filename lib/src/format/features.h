@@ -50,7 +50,7 @@ struct FeatureInfo {
 inline constexpr FeatureInfo kFeatures[] = {
     {Feature::kPivots, "pivots", "A.4.7", "all surfaces are cut to manifolds and stitched"},
     {Feature::kContextSets, "context-sets", "A.4", "the first set of contexts always"},
-    {Feature::kSingleCoder, "single-coder", "A.3.8", "three streams always"},
+    {Feature::kSingleCoder, "single-coder", "A.3.7", "three streams always"},
     {Feature::kPalette, "palette", "B.2", "coordinates, not ranks among the distinct ones"},
     {Feature::kPlanes, "planes", "B.2.9", "coordinates, not numbers of planes"},
     {Feature::kShear, "shear", "B.2", "components in file order"},
@@ -69,10 +69,10 @@ inline constexpr FeatureInfo kFeatures[] = {
     {Feature::kTangentAngle, "tangent-angle", "A.8", "tangents as points of the octahedron"},
     {Feature::kPerpendicular, "perpendicular", "A.8.10", "exact tangents by two components"},
     {Feature::kValueFlags, "value-flags", "A.8.4", "no flags for values of 0 or a neighbour's"},
-    {Feature::kSkin, "skin", "A.8", "joints and weights as any other values"},
+    {Feature::kSkin, "skin", "A.8.8", "joints and weights as any other values"},
     {Feature::kAliases, "aliases", "A.2.4", "equal attributes coded each by itself"},
     {Feature::kExactNormals, "exact-normals", "A.8", "exact normals as values on a grid"},
-    {Feature::kExactGrids, "exact-grids", "A.2.5", "exact floats as ordered integers"},
+    {Feature::kExactGrids, "exact-grids", "A.8.12", "exact floats as ordered integers"},
     {Feature::kMemory, "memory", "B.7.3", "charts and exact normals remember nothing"},
 };
 

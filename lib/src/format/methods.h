@@ -144,7 +144,7 @@ constexpr AttributeMethod methodOf(AttributeInfos attributes, uint32_t index) {
 
 /// Returns what the coded weights of a tuple sum to when they represent 1, or 0 when nothing does.
 constexpr int32_t unitSum(const AttributeInfo& weights) {
-  if (weights.coding == AttributeCoding::kLattice && weights.bits <= 24) {
+  if (weights.coding == AttributeCoding::kLattice && weights.bits <= kMaxLatticeBits) {
     return static_cast<int32_t>((uint32_t{1} << weights.bits) - 1);
   }
   if (weights.format.component_type == ComponentType::kUint8) return 0xff;

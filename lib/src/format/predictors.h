@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // The header byte `predictor` of every method. The table in this file is the only list of its bits:
-// which bytes are valid, what the encoder tries and what that costs the decoder, what the core of
+// which bytes are valid, what the encoder tries (for positions see
+// positions/enc_fit.h) and what that costs the decoder, what the core of
 // the web's decoder refuses, the words of `inspect`, and what the conformance suite has to show all
 // follow from it. [A.2.4, A.6.2]
 #ifndef MCC_FORMAT_PREDICTORS_H_
@@ -108,7 +109,7 @@ struct MethodInfo {
   const char* sections;  ///< sections of the specification
   uint8_t start;         ///< the byte that the encoder tries first
   uint8_t field_count;
-  PredictorField field[8];  ///< in the order in which the encoder decides on them
+  PredictorField field[8];  ///< in the order of the encoder's search, but for positions
   bool is_decoded = true;   ///< otherwise this decoder refuses the method
 
   constexpr const PredictorField* begin() const { return field; }

@@ -52,7 +52,7 @@ struct AxisPalette {
   }
 };
 
-/// The cells of a palette: four to eight for each value, so that few cells contain more than one
+/// The cells of a palette: at most four for each value, so that few cells contain more than one
 /// value.
 struct PaletteCells {
   const int32_t* values;

@@ -60,7 +60,7 @@ struct AttributeModels {
   }
 };
 
-/// Integers per wedge that an attribute is coded as; JOINTS_n is coded with its WEIGHTS_n behind.
+/// Integers per wedge that an attribute is coded as; JOINTS_n is coded followed by its WEIGHTS_n.
 inline uint32_t codedComponents(AttributeInfos attributes, uint32_t index) {
   switch (methodOf(attributes, index)) {
     case AttributeMethod::kNormal:

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-// The inner loops that decode positions, compiled for choices with palettes or planes of the
-// encoder.
+// The inner loops that decode positions, compiled for choices of the encoder with palettes
+// or planes.
 #include "reader/instances.h"
 
 #if !defined(MCC_COMPACT)

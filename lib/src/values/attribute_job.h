@@ -18,7 +18,7 @@ namespace mcc {
 
 inline constexpr uint8_t kNotCoded = 0xff;  ///< the length of a wedge that has no value yet
 
-/// The corners of a face besides the one that a half-edge leaves.
+/// The corners of a face other than the one that a half-edge leaves.
 struct OtherCorners {
   uint32_t n;  ///< at the end of the half-edge
   uint32_t p;

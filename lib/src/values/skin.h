@@ -224,8 +224,8 @@ uint32_t SkinCoder<Io>::codeJoints(int32_t* t, int64_t* expected) {
   return used;
 }
 
-/// Each weight against what the neighbours give its joint; the last one is what is left, if the sum
-/// is known.
+/// Codes each weight against what the neighbours give its joint; the last one is what is left, if
+/// the sum is known.
 template <class Io>
 void SkinCoder<Io>::codeWeights(uint32_t w, uint32_t used, const int64_t* expected) {
   uint32_t context = kNoNeighbours;

@@ -71,7 +71,7 @@ class TexcoordCoder {
   static constexpr float kSteepest =
       36;  ///< square of the largest ratio of heights a hinge unfolds
 
-  /// Completed faces whose other corners are coded; `o` is the corner behind n-p, or n when that is
+  /// Completed faces whose other corners are coded; `o` is the corner beyond n-p, or n when that is
   /// not known. [B.5.1]
   struct Faces {
     uint32_t count = 0;

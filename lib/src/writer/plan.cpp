@@ -27,7 +27,7 @@ Status checkPiece(const PieceView& piece) {
   for (const AttributeView& a : piece.attributes) {
     if (!isComponentCount(a.format.component_count) ||
         (a.data == nullptr && piece.wedge_count != 0) || a.stride_bytes < elementBytes(a.format) ||
-        a.quantization_bits > 24) {
+        a.quantization_bits > kMaxLatticeBits) {
       return fail(Error::kBadArgument,
                   "an attribute's format, data, stride or bits are out of range");
     }

@@ -40,7 +40,8 @@ mcc_decode_glb_options defaultDecodeOptions() { return {sizeof(mcc_decode_glb_op
 
 /// Reads a number of bits, for floats or for unit vectors.
 Status readBits(uint32_t bits, bool is_unit_vector, uint8_t& out) {
-  const bool fits = is_unit_vector ? bits == 0 || (bits >= 2 && bits <= 16) : bits <= 24;
+  const bool fits = is_unit_vector ? bits == 0 || (bits >= kMinUnitBits && bits <= kMaxUnitBits)
+                                   : bits <= kMaxLatticeBits;
   if (!fits) return fail(Error::kBadArgument, "a number of bits is out of range");
   out = static_cast<uint8_t>(bits);
   return {};

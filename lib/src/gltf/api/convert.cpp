@@ -315,6 +315,11 @@ Result convertTo(const ListedSink& sink, const Source& source, const ConvertOpti
                    "the lattice of positions needs finite numbers, and a step that is greater "
                    "than 0");
     }
+    if (options.indices_only && options.drop_unused) {
+      return error("",
+                   "attributes that are not compressed keep all their vertices: unused ones can be "
+                   "dropped only without indices_only");
+    }
     Input input;
     Output output;
     MCC_GLTF_TRY(input.open(source));

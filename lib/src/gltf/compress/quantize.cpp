@@ -13,8 +13,6 @@
 namespace mcc::gltf {
 namespace {
 
-constexpr uint32_t kMaxLatticeBits = 24;
-
 float floatAt(const AttributePlan& attribute, uint64_t element, uint32_t component) {
   float value = 0;
   std::memcpy(&value,

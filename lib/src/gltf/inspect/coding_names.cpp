@@ -4,6 +4,7 @@
 #include "format/predictors.h"
 
 namespace mcc::gltf {
+
 std::string predictorName(AttributeInfos attributes, uint32_t index) {
   const MethodInfo& method = infoOf(methodOf(attributes, index));
   std::string name = method.word;

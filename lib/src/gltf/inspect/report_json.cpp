@@ -91,10 +91,7 @@ Json optionsJson(const ConvertOptions& options) {
 
 std::string codingName(AttributeCoding coding, uint32_t bits) {
   const std::string name = infoOf(coding).word;
-  const bool has_bits = coding == AttributeCoding::kLattice ||
-                        coding == AttributeCoding::kOctahedral ||
-                        coding == AttributeCoding::kTangentAngle;
-  return has_bits && bits != 0 ? name + " " + std::to_string(bits) : name;
+  return infoOf(coding).has_bits && bits != 0 ? name + " " + std::to_string(bits) : name;
 }
 
 Json reportJson(const ConvertReport& report, const ConvertOptions& options) {
