@@ -13,6 +13,7 @@ TEST(Printable, KeepsTextsOfAllLanguages) {
         "e",
         "\xe4\xb8\xad\xe6\x96\x87", "\xf0\x9f\x98\x80", "\xc2\xa0", "\xef\xbf\xbd"}) {
     EXPECT_EQ(printable(text), text);
+    EXPECT_TRUE(isUtf8(text)) << text;
   }
 }
 
@@ -30,13 +31,18 @@ TEST(Printable, NothingThatATerminalObeys) {
 }
 
 TEST(Printable, BytesThatAreNotUtf8) {
-  EXPECT_EQ(printable("\x9b"), "?");
-  EXPECT_EQ(printable("\xc0\x9b"), "??");  // overlong
-  EXPECT_EQ(printable("\xe0\x82\x9b"), "???");
-  EXPECT_EQ(printable("\xed\xa0\x80"), "???");       // a surrogate
-  EXPECT_EQ(printable("\xf4\x90\x80\x80"), "????");  // above the last character
-  EXPECT_EQ(printable("\xe4\xb8"), "??");            // cut
-  EXPECT_EQ(printable("\xe4\xb8z"), "??z");
+  const std::pair<const char*, const char*> cases[] = {
+      {"\x9b", "?"},
+      {"\xc0\x9b", "??"},  // overlong
+      {"\xe0\x82\x9b", "???"},
+      {"\xed\xa0\x80", "???"},       // a surrogate
+      {"\xf4\x90\x80\x80", "????"},  // above the last character
+      {"\xe4\xb8", "??"},            // cut
+      {"\xe4\xb8z", "??z"}};
+  for (const auto& [text, clean] : cases) {
+    EXPECT_EQ(printable(text), clean);
+    EXPECT_FALSE(isUtf8(text)) << clean;
+  }
 }
 
 /// Whatever the bytes: the result is printable itself, and not longer.

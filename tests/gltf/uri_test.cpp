@@ -86,10 +86,10 @@ TEST(Uri, PathsOnWindows) {
     EXPECT_TRUE(isPathOnWindows(path)) << path;
   }
   for (const char* path :
-       {"NUL",          "nul",  "a/Con",   "aux/b",  "prn.png", "NUL .txt",  "com1",
-        "COM9.bin",     "LPT0", "lpt².x",  "conin$", "CONOUT$", "a b:c",     "C:a",
-        "a.bin::$DATA", "a.",   "b/.. /c", "b/a ",   "...",     "what?.bin", "a*",
-        "<a>",          "a|b",  "a\"b",    "a\\b"}) {
+       {"NUL",          "nul",  "a/Con",   "aux/b",  "prn.png",  "NUL .txt",  "com1",
+        "COM9.bin",     "LPT0", "lpt².x",  "conin$", "CONOUT$",  "a b:c",     "C:a",
+        "a.bin::$DATA", "a.",   "b/.. /c", "b/a ",   "...",      "what?.bin", "a*",
+        "<a>",          "a|b",  "a\"b",    "a\\b",   "\xff.bin", "a/\xe9",    "b\xe4\xb8"}) {
     EXPECT_FALSE(isPathOnWindows(path)) << path;
   }
 }

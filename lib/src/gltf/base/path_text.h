@@ -12,7 +12,8 @@
 namespace mcc::gltf {
 
 /// Returns the path that a text in UTF-8 names. The constructor of a path would take the text for
-/// one in the code page of the user on Windows.
+/// one in the code page of the user on Windows. There it throws when the text is not UTF-8, which
+/// relativePathOf() makes sure of for names from documents.
 inline std::filesystem::path pathOf(std::string_view text) {
   return std::u8string(text.begin(), text.end());
 }

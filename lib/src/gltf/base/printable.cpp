@@ -66,6 +66,15 @@ Result printable(Result result) {
   return result;
 }
 
+bool isUtf8(std::string_view text) {
+  while (!text.empty()) {
+    const Character first = firstCharacter(text);
+    if (first.byte_count == 0) return false;
+    text.remove_prefix(first.byte_count);
+  }
+  return true;
+}
+
 std::string shortened(const std::string& text, size_t max_bytes) {
   if (text.size() <= max_bytes) return text;
   size_t end = max_bytes;

@@ -18,6 +18,9 @@ std::string printable(std::string_view text);
 /// Does the same for both parts of a result.
 Result printable(Result result);
 
+/// Whether every byte of a text belongs to a character of UTF-8. Linear in the length.
+bool isUtf8(std::string_view text);
+
 /// Returns at most `max_bytes` bytes of a text, cut between two characters and marked with "…".
 std::string shortened(const std::string& text, size_t max_bytes);
 

@@ -148,6 +148,11 @@ Result relativePathOf(const std::string& uri, const std::string& where, std::str
   if (hasControlCharacter(path)) {
     return error(where, "the URI " + quoted(uri) + " has control characters");
   }
+  // No path could be made from such a text, see pathOf().
+  if (kIsWindows && !isUtf8(path)) {
+    return error(where, "the URI " + quoted(uri) +
+                            " is not UTF-8, so no file on Windows can have that name; rename it");
+  }
   // Test before and after decoding: "%66ile:" must not become a scheme, nor "a:b" a path.
   if (hasScheme(uri) || hasScheme(path)) {
     return error(where, "the URI " + quoted(uri) + " is not relative and is refused" + advice);
@@ -176,6 +181,7 @@ bool isVisiblePath(const std::string& path) {
 }
 
 bool isPathOnWindows(const std::string& path) {
+  if (!isUtf8(path)) return false;  // names are made of characters there
   for (size_t begin = 0; begin < path.size();) {
     const size_t end = std::min(path.find('/', begin), path.size());
     const std::string_view part = std::string_view(path).substr(begin, end - begin);

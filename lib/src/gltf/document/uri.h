@@ -17,7 +17,8 @@ Result decodeDataUri(const std::string& uri, const std::string& where, std::vect
 
 /// Turns a relative URI of a file at or below the model's folder into a relative path with '/'.
 /// Refuses everything else: schemes, absolute paths, drive letters, `..` that leaves the folder,
-/// and control characters. Percent encoding is resolved before the test.
+/// control characters, and on Windows bytes that are not UTF-8. Percent encoding is resolved before
+/// the test.
 Result relativePathOf(const std::string& uri, const std::string& where, std::string& path);
 
 /// Whether no part of a relative path begins with a dot, as the names of hidden files and folders
@@ -25,9 +26,16 @@ Result relativePathOf(const std::string& uri, const std::string& where, std::str
 bool isVisiblePath(const std::string& path);
 
 /// Whether every part of a relative path is the name of a file on Windows. There "NUL", "com1.bin"
-/// and "CON .png" are devices in every folder, "a.bin:b" is a hidden stream of "a.bin", and dots
-/// and spaces at the end of a name are dropped.
+/// and "CON .png" are devices in every folder, "a.bin:b" is a hidden stream of "a.bin", dots and
+/// spaces at the end of a name are dropped, and bytes that are not UTF-8 name nothing.
 bool isPathOnWindows(const std::string& path);
+
+/// Whether names of files are those of Windows.
+#if defined(_WIN32)
+inline constexpr bool kIsWindows = true;
+#else
+inline constexpr bool kIsWindows = false;
+#endif
 
 /// Returns the percent-encoded URI of a file next to the model, from which relativePathOf() returns
 /// the file.

@@ -77,7 +77,7 @@ uint64_t wantedBytes(std::span<const uint8_t> bytes) {
 
 /// Refuses paths of a document that this system takes for something else than a file.
 Result checkName(const std::string& path, const std::string& where) {
-  if (!system::kIsWindows || isPathOnWindows(path)) return {};
+  if (!kIsWindows || isPathOnWindows(path)) return {};
   return error(where, "\"" + path + "\" cannot be the name of a file on Windows; rename the file");
 }
 

@@ -23,13 +23,6 @@ struct FileIdentity {
 
 namespace system {
 
-/// Whether names of files are those of Windows, see isPathOnWindows().
-#if defined(_WIN32)
-inline constexpr bool kIsWindows = true;
-#else
-inline constexpr bool kIsWindows = false;
-#endif
-
 /// Returns a number that no other running process has.
 uint64_t processId();
 
