@@ -307,6 +307,43 @@ TEST_F(DestinationTest, FilesAreKnownWhateverTheirNames) {
   EXPECT_FALSE(isSameFile(path("a"), path("d/a")));
   EXPECT_FALSE(isSameFile(path("none/a"), path("none/a")));  // neither can be written
   EXPECT_FALSE(isSameFile("/dev/null", "/dev/null"));
+  // Open streams have keys, too.
+  const int file = ::open(path("a").c_str(), O_RDONLY);
+  EXPECT_EQ(keyOfStream(file), fileKey(path("a")));
+  EXPECT_EQ(fileKey("/dev/fd/" + std::to_string(file)), fileKey(path("a")));
+  ::close(file);
+  int pipe[2] = {-1, -1};
+  ASSERT_EQ(::pipe(pipe), 0);
+  EXPECT_NE(keyOfStream(pipe[0]), "");
+  for (const int end : pipe) ::close(end);
+}
+
+/// Both copies go to one file, so equal ones are written once.
+TEST_F(DestinationTest, OneFileUnderTwoNames) {
+  const auto bytesOf = [](const std::string& text) {
+    return std::vector<uint8_t>(text.begin(), text.end());
+  };
+  const auto copies = [&](const std::string& second) {
+    Package package;
+    package.main = bytesOf("{}");
+    package.beside = {{SideFile::Kind::kCopy, "t/a.png", bytesOf("image")},
+                      {SideFile::Kind::kCopy, "./t//a.png", bytesOf(second)}};
+    return package;
+  };
+  {
+    Destination destination(path("a.gltf"));
+    ASSERT_EQ(destination.check(false).message(), "");
+    EXPECT_NE(destination.write(copies("another")).message().find("which is another file"),
+              std::string::npos);
+  }
+  Destination destination(path("a.gltf"));
+  ASSERT_EQ(destination.check(false).message(), "");
+  ASSERT_EQ(destination.write(copies("image")).message(), "");
+  std::vector<uint8_t> bytes;
+  EXPECT_EQ(destination.reader()("t/../t/a.png", "", bytes).message(), "");
+  EXPECT_EQ(bytes, bytesOf("image"));
+  ASSERT_EQ(destination.commit().message(), "");
+  EXPECT_EQ(everything().at("t/a.png"), "image");
 }
 
 }  // namespace

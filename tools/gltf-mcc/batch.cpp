@@ -18,6 +18,7 @@
 #include "gltf/base/printable.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
+#include "gltf/files/system.h"
 #include "progress_line.h"
 
 namespace mcc::tool {
@@ -92,7 +93,8 @@ std::vector<std::string> namesOf(const std::string& name, bool with_fallback) {
 }
 
 gltf::Result Batch::listFiles() {
-  std::map<std::string, std::string> taken;  // name -> input
+  std::map<std::string, std::string> taken;  // key of the name -> input
+  const std::string record_key = gltf::system::nameKey(BatchRecord::pathIn({}));
   for (const std::string& input : options_.inputs) {
     BatchFile file;
     file.input = input;
@@ -101,14 +103,15 @@ gltf::Result Batch::listFiles() {
     std::error_code code;
     file.size = fs::file_size(gltf::pathOf(input), code);
     if (code) file.size = 0;  // opening the file will report the error
-    if (file.name == gltf::textOf(BatchRecord::pathIn({}))) {
+    if (gltf::system::nameKey(gltf::pathOf(file.name)) == record_key) {
       return {input, "its output would be the record of the folder; rename it"};
     }
     if (gltf::isSameFile(gltf::pathOf(input), outputOf(file))) {
       return {input, "would be replaced by its output; choose another folder with -o"};
     }
     for (const std::string& name : namesOf(file.name, options_.with_fallback)) {
-      const auto [found, is_new] = taken.try_emplace(name, input);
+      const auto [found, is_new] =
+          taken.try_emplace(gltf::system::nameKey(gltf::pathOf(name)), input);
       if (is_new) continue;
       return {input,
               fmt::format("writes \"{}\", as \"{}\" does; name different folders for "

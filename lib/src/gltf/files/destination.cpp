@@ -8,6 +8,7 @@
 #include "gltf/base/path_text.h"
 #include "gltf/document/uri.h"
 #include "gltf/files/folder_lock.h"
+#include "gltf/files/system.h"
 
 namespace mcc::gltf {
 namespace {
@@ -19,15 +20,20 @@ std::string normalized(const std::string& path) {
   return textOf(pathOf(path).lexically_normal().generic_u8string());
 }
 
-/// Whether the file at `main` is a document that refers to the file `name` next to it.
-bool refersTo(const fs::path& main, const std::string& name) {
+/// Returns a key that is equal for all relative paths of one file, links aside.
+std::string keyOfName(const std::string& path) {
+  return system::nameKey(pathOf(path).lexically_normal());
+}
+
+/// Whether the file at `main` is a document that refers to the file with this key next to it.
+bool refersTo(const fs::path& main, const std::string& key) {
   std::vector<uint8_t> bytes;
   if (!readFile(main, bytes).ok()) return false;
   Json json;
   if (!readJson(bytes, json).ok()) return false;
   const std::vector<std::string> paths = filesBeside(json);
   return std::any_of(paths.begin(), paths.end(),
-                     [&](const std::string& path) { return normalized(path) == name; });
+                     [&](const std::string& path) { return keyOfName(path) == key; });
 }
 
 bool hasContent(const fs::path& path, std::span<const uint8_t> content) {
@@ -65,7 +71,8 @@ std::vector<std::string> Destination::ownNames() const {
 Result Destination::checkOwner(const std::string& name) const {
   const fs::path path = folder_ / pathOf(name);
   std::error_code ignored;
-  if (!fs::exists(fs::symlink_status(path, ignored)) || refersTo(main_path_, name)) return {};
+  if (!fs::exists(fs::symlink_status(path, ignored)) || refersTo(main_path_, keyOfName(name)))
+    return {};
   return error(textOf(main_path_), "\"" + textOf(path) +
                                        "\" would be replaced, which does not belong to it; move "
                                        "that file or choose another name");
@@ -126,22 +133,29 @@ Result Destination::createFolders(const fs::path& folder) {
       new_folders_.push_back(*path);
       if (temporaries_ != nullptr) temporaries_->add(*path);
     }
-    if (code) return error(path->string(), "cannot be created: " + code.message());
+    if (code) return error(textOf(*path), "cannot be created: " + code.message());
   }
   return {};
 }
 
-/// Writes a copy, unless an equal file is already there.
+const Destination::Side* Destination::sideOf(const std::string& key) const {
+  const auto found = std::find_if(sides_.begin(), sides_.end(),
+                                  [&](const auto& side) { return side->key == key; });
+  return found == sides_.end() ? nullptr : found->get();
+}
+
+/// Writes a copy, unless an equal file is already there, or will be under another spelling.
 Result Destination::writeCopy(const SideFile& copy) {
   const std::string name = normalized(copy.path);
   const fs::path path = folder_ / pathOf(name);
   std::error_code ignored;
   const bool is_there = fs::exists(fs::symlink_status(path, ignored));
   if (is_there && hasContent(path, copy.bytes)) return {};
-  const bool is_ours =
-      name == textOf(main_path_.filename()) ||
-      std::any_of(sides_.begin(), sides_.end(), [&](const auto& s) { return s->name == name; });
-  if (is_ours || (is_there && !refersTo(main_path_, name))) {
+  const std::string key = keyOfName(name);
+  const Side* side = sideOf(key);
+  if (side != nullptr && hasContent(side->file.temporaryPath(), copy.bytes)) return {};
+  const bool is_ours = side != nullptr || key == keyOfName(textOf(main_path_.filename()));
+  if (is_ours || (is_there && !refersTo(main_path_, key))) {
     return error(textOf(main_path_), "a file next to the input has to be copied to \"" +
                                          textOf(path) +
                                          "\", which is another file; choose another folder");
@@ -155,8 +169,8 @@ Result Destination::writeSide(const SideFile& side) {
   MCC_GLTF_TRY(ReplacementFile(folder_ / pathOf(name)).check());
   std::error_code ignored;
   const bool is_new = !fs::exists(fs::symlink_status(folder_ / pathOf(name), ignored));
-  sides_.push_back(std::unique_ptr<Side>(
-      new Side{side.kind, is_new, name, ReplacementFile(folder_ / pathOf(name), temporaries_)}));
+  sides_.push_back(std::unique_ptr<Side>(new Side{
+      side.kind, is_new, keyOfName(name), ReplacementFile(folder_ / pathOf(name), temporaries_)}));
   return sides_.back()->file.write(side.bytes);
 }
 
@@ -176,9 +190,8 @@ Result Destination::readBack(std::vector<uint8_t>& main) const {
 
 FileReader Destination::reader() const {
   return [this](const std::string& path, const std::string& where, std::vector<uint8_t>& bytes) {
-    for (const auto& side : sides_) {
-      if (side->name == normalized(path)) return readFile(side->file.temporaryPath(), bytes);
-    }
+    const Side* side = sideOf(keyOfName(path));
+    if (side != nullptr) return readFile(side->file.temporaryPath(), bytes);
     return error(where, "\"" + path + "\" was not written");
   };
 }
@@ -188,7 +201,7 @@ FileReader Destination::reader() const {
 Result Destination::commitSide(Side& side) {
   if (!side.is_new) return side.file.commitForNow();
   Result result = side.file.commitNew();
-  return !result.ok() && refersTo(main_path_, side.name) ? side.file.commitForNow() : result;
+  return !result.ok() && refersTo(main_path_, side.key) ? side.file.commitForNow() : result;
 }
 
 Result Destination::commit() {

@@ -56,13 +56,15 @@ class Destination {
  private:
   struct Side {
     SideFile::Kind kind;
-    bool is_new;  ///< no file of this name existed
-    std::string name;
+    bool is_new;      ///< no file of this name existed
+    std::string key;  ///< equal for all spellings of its relative path
     ReplacementFile file;
   };
 
   std::vector<std::string> ownNames() const;
   Result checkOwner(const std::string& name) const;
+  /// Returns the file next to the main one with this key; null if none is written.
+  const Side* sideOf(const std::string& key) const;
   Result writeCopy(const SideFile& copy);
   Result writeSide(const SideFile& side);
   Result commitSide(Side& side);

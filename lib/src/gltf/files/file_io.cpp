@@ -75,6 +75,11 @@ uint64_t wantedBytes(std::span<const uint8_t> bytes) {
   return kWhiteSpaceBytes;
 }
 
+/// Returns a key that begins with a digit, unlike those of files without an identity.
+std::string keyOf(const FileIdentity& file) {
+  return std::to_string(file.device) + ":" + std::to_string(file.number);
+}
+
 /// Refuses paths of a document that this system takes for something else than a file.
 Result checkName(const std::string& path, const std::string& where) {
   if (!kIsWindows || isPathOnWindows(path)) return {};
@@ -188,22 +193,27 @@ std::optional<int> openStreamOf(const fs::path& path) {
   return system::openStreamNamed(withoutLinks(path));
 }
 
+std::string keyOfStream(int stream) {
+  if (system::isCharacterDevice(stream)) return "";
+  const std::optional<FileIdentity> file = system::identityOf(stream);
+  return file ? keyOf(*file) : "stream " + std::to_string(stream);
+}
+
 std::string fileKey(const fs::path& path) {
-  const auto text = [](const FileIdentity& file) {
-    return std::to_string(file.device) + ":" + std::to_string(file.number);
-  };
   const fs::path target = withoutLinks(path);
-  const std::optional<int> stream = system::openStreamNamed(target);
-  const FileIdentity file = stream ? system::identityOf(*stream) : system::identityOf(target);
-  if (file.number != 0) {
-    std::error_code code;
-    const bool is_device =
-        stream ? system::isCharacterDevice(*stream) : fs::is_character_file(target, code);
-    return is_device ? "" : text(file);
+  if (const std::optional<int> stream = system::openStreamNamed(target)) {
+    return keyOfStream(*stream);
   }
-  const FileIdentity folder = system::identityOf(folderOf(target));
-  if (stream || folder.number == 0) return "";
-  return text(folder) + "/" + textOf(target.filename());
+  std::error_code code;
+  if (fs::is_character_file(target, code)) return "";
+  if (const std::optional<FileIdentity> file = system::identityOf(target)) return keyOf(*file);
+  const fs::path folder = folderOf(target);
+  if (const std::optional<FileIdentity> known = system::identityOf(folder)) {
+    return keyOf(*known) + "/" + system::nameKey(target.filename());
+  }
+  if (!fs::exists(folder, code)) return "";
+  const fs::path whole = fs::weakly_canonical(target, code);
+  return code ? "" : system::nameKey(whole);
 }
 
 bool isSameFile(const fs::path& a, const fs::path& b) {
@@ -308,7 +318,9 @@ Result ReplacementFile::write(std::span<const uint8_t> bytes) {
   return error(textOf(destination_), "cannot be written: " + reasonOf(failure));
 }
 
-bool ReplacementFile::isInPlace() const { return system::identityOf(target_) == identity_; }
+bool ReplacementFile::isInPlace() const {
+  return identity_ && system::identityOf(target_) == identity_;
+}
 
 Result ReplacementFile::commit() {
   const TemporaryFiles::Lock held = lockOf(temporaries_);

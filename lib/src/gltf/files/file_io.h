@@ -58,6 +58,9 @@ std::optional<int> openStreamOf(const std::filesystem::path& path);
 /// determined (the folder does not exist).
 std::string fileKey(const std::filesystem::path& path);
 
+/// Returns the same for an open stream of this process.
+std::string keyOfStream(int stream);
+
 /// Whether two names stand for the same file, by their keys.
 bool isSameFile(const std::filesystem::path& a, const std::filesystem::path& b);
 
@@ -96,8 +99,8 @@ class ReplacementFile {
   void undo();
   /// Removes what undo() would need.
   void keep();
-  /// After a commit: whether the destination is still the file that the commit put there. False
-  /// when another program has replaced it since.
+  /// After a commit: whether the destination is known to be still the file that the commit put
+  /// there. False when another program has replaced it since, or where files have no identity.
   bool isInPlace() const;
 
  private:
@@ -108,7 +111,7 @@ class ReplacementFile {
   std::filesystem::path target_;       ///< the same, with symbolic links at its end followed
   std::filesystem::path temporary_;
   std::filesystem::path backup_;  ///< the file that was at the target, while undo() is possible
-  FileIdentity identity_;         ///< identity of the file that was written
+  std::optional<FileIdentity> identity_;  ///< identity of the file that was written
   bool is_for_now_ = false;
 };
 

@@ -10,13 +10,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace mcc::gltf {
 
 /// Identifies a file independently of its names.
 struct FileIdentity {
   uint64_t device = 0;
-  uint64_t number = 0;  ///< 0: there is no file
+  uint64_t number = 0;
 
   bool operator==(const FileIdentity&) const = default;
 };
@@ -44,9 +45,14 @@ ptrdiff_t writeSome(int file, const void* from, size_t byte_count);
 int flush(int file);
 int close(int file);
 
-/// Returns the identity of an open file, or of the file at a path.
-FileIdentity identityOf(int file);
-FileIdentity identityOf(const std::filesystem::path& path);
+/// Returns the identity of an open file, or of the file at a path. Empty if there is no file, or if
+/// its file system does not number files.
+std::optional<FileIdentity> identityOf(int file);
+std::optional<FileIdentity> identityOf(const std::filesystem::path& path);
+
+/// Returns a text that is equal for all spellings of one name: on Windows, upper and lower case are
+/// the same. `name` may have several parts.
+std::string nameKey(const std::filesystem::path& name);
 bool isCharacterDevice(int file);
 
 /// Whether this process may write a file or into a folder.

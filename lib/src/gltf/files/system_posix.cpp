@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "gltf/base/path_text.h"
 #include "gltf/files/system.h"
 
 namespace mcc::gltf::system {
@@ -64,15 +65,19 @@ int flush(int file) { return ::fsync(file); }
 
 int close(int file) { return ::close(file); }
 
-FileIdentity identityOf(int file) {
+std::optional<FileIdentity> identityOf(int file) {
   struct stat facts = {};
-  return ::fstat(file, &facts) == 0 ? identityOf(facts) : FileIdentity{};
+  if (::fstat(file, &facts) != 0) return std::nullopt;
+  return identityOf(facts);
 }
 
-FileIdentity identityOf(const std::filesystem::path& path) {
+std::optional<FileIdentity> identityOf(const std::filesystem::path& path) {
   struct stat facts = {};
-  return ::stat(path.c_str(), &facts) == 0 ? identityOf(facts) : FileIdentity{};
+  if (::stat(path.c_str(), &facts) != 0) return std::nullopt;
+  return identityOf(facts);
 }
+
+std::string nameKey(const std::filesystem::path& name) { return textOf(name); }
 
 bool isCharacterDevice(int file) {
   struct stat facts = {};

@@ -15,6 +15,7 @@
 #include <climits>
 #include <string>
 
+#include "gltf/base/path_text.h"
 #include "gltf/files/system.h"
 
 namespace mcc::gltf::system {
@@ -31,12 +32,14 @@ int openWide(const std::filesystem::path& path, int flags) {
 
 HANDLE handleOf(int file) { return reinterpret_cast<HANDLE>(::_get_osfhandle(file)); }
 
-FileIdentity identityOfHandle(HANDLE handle) {
+/// Some file systems, such as those of a network, number all files 0.
+std::optional<FileIdentity> identityOfHandle(HANDLE handle) {
   BY_HANDLE_FILE_INFORMATION facts = {};
   if (handle == INVALID_HANDLE_VALUE || ::GetFileInformationByHandle(handle, &facts) == 0)
-    return {};
-  return {facts.dwVolumeSerialNumber,
-          uint64_t{facts.nFileIndexHigh} << 32 | uint64_t{facts.nFileIndexLow}};
+    return std::nullopt;
+  const uint64_t number = uint64_t{facts.nFileIndexHigh} << 32 | uint64_t{facts.nFileIndexLow};
+  if (number == 0) return std::nullopt;
+  return FileIdentity{facts.dwVolumeSerialNumber, number};
 }
 
 /// Bytes in one call: the C library takes an unsigned int and returns an int.
@@ -74,15 +77,26 @@ int flush(int file) { return ::_commit(file); }
 
 int close(int file) { return ::_close(file); }
 
-FileIdentity identityOf(int file) { return identityOfHandle(handleOf(file)); }
+std::optional<FileIdentity> identityOf(int file) { return identityOfHandle(handleOf(file)); }
 
-FileIdentity identityOf(const std::filesystem::path& path) {
+std::optional<FileIdentity> identityOf(const std::filesystem::path& path) {
   constexpr DWORD kShared = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
   const HANDLE handle = ::CreateFileW(path.c_str(), 0, kShared, nullptr, OPEN_EXISTING,
                                       FILE_FLAG_BACKUP_SEMANTICS, nullptr);  // also opens folders
-  const FileIdentity identity = identityOfHandle(handle);
+  const std::optional<FileIdentity> identity = identityOfHandle(handle);
   if (handle != INVALID_HANDLE_VALUE) ::CloseHandle(handle);
   return identity;
+}
+
+/// The file system compares names in upper case, too.
+std::string nameKey(const std::filesystem::path& name) {
+  std::wstring key = name.native();
+  const int size = static_cast<int>(key.size());  // of a path: less than 2^15
+  if (size != 0) {
+    ::LCMapStringEx(LOCALE_NAME_INVARIANT, LCMAP_UPPERCASE, name.c_str(), size, key.data(), size,
+                    nullptr, nullptr, 0);
+  }
+  return textOf(key);
 }
 
 bool isCharacterDevice(int file) { return ::GetFileType(handleOf(file)) == FILE_TYPE_CHAR; }
@@ -97,10 +111,10 @@ void becomeLike(const std::filesystem::path&, int) {}
 /// Folders cannot be locked here, so a mutex is named after the identity of the folder. The system
 /// releases it when its process ends.
 intptr_t openFolderLock(const std::filesystem::path& folder) {
-  const FileIdentity identity = identityOf(folder);
-  if (identity.number == 0) return kNoLock;
-  const std::wstring name = L"Local\\gltf-mcc-" + std::to_wstring(identity.device) + L"-" +
-                            std::to_wstring(identity.number);
+  const std::optional<FileIdentity> identity = identityOf(folder);
+  if (!identity) return kNoLock;
+  const std::wstring name = L"Local\\gltf-mcc-" + std::to_wstring(identity->device) + L"-" +
+                            std::to_wstring(identity->number);
   const HANDLE mutex = ::CreateMutexW(nullptr, FALSE, name.c_str());
   return mutex == nullptr ? kNoLock : reinterpret_cast<intptr_t>(mutex);
 }
