@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "file_roles.h"
 
+#include "console.h"
 #include "gltf/base/path_text.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
@@ -13,7 +14,8 @@ namespace fs = std::filesystem;
 
 /// Returns the key of an output; "-" is standard output.
 std::string keyOfOutput(const fs::path& path) {
-  return gltf::fileKey(isStandardStream(gltf::textOf(path)) ? fs::path("/dev/stdout") : path);
+  return isStandardStream(gltf::textOf(path)) ? gltf::keyOfStream(kStandardOutput)
+                                              : gltf::fileKey(path);
 }
 
 }  // namespace
