@@ -51,14 +51,6 @@ int writeAll(int file, std::span<const uint8_t> bytes) {
   return 0;
 }
 
-/// Whether nobody has permission to write, which also counts for users who would not need it.
-bool isReadOnly(const fs::path& path) {
-  std::error_code code;
-  const fs::perms write = fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
-  const fs::perms permissions = fs::status(path, code).permissions();
-  return (permissions & write) == fs::perms::none || !system::mayWrite(path);
-}
-
 Result tooLarge(const std::string& name) {
   return error(name, "has more than the " + std::to_string(kMaxFileBytes) +
                          " bytes that a file of glTF can have");
@@ -273,10 +265,10 @@ Result ReplacementFile::check() const {
   if (!fs::is_directory(folder, code)) {
     return error(name, "\"" + textOf(folder) + "\" is not a folder");
   }
-  if (isReadOnly(folder)) {
+  if (!system::mayWrite(folder)) {
     return error(name, "the folder \"" + textOf(folder) + "\" is read-only; choose another one");
   }
-  if (fs::exists(target_, code) && isReadOnly(target_)) {
+  if (fs::exists(target_, code) && !system::mayWrite(target_)) {
     return error(name, "the file exists and is read-only; make it writable or choose another name");
   }
   return {};

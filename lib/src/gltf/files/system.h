@@ -55,7 +55,8 @@ std::optional<FileIdentity> identityOf(const std::filesystem::path& path);
 std::string nameKey(const std::filesystem::path& name);
 bool isCharacterDevice(int file);
 
-/// Whether this process may write a file or into a folder.
+/// Whether this process may write a file or into a folder, as far as that is known before trying.
+/// False if nobody has permission to, even for users who would not need it.
 bool mayWrite(const std::filesystem::path& path);
 
 /// Gives a new file the owner, the group and the permissions of an older one, as far as the process

@@ -84,7 +84,11 @@ bool isCharacterDevice(int file) {
   return ::fstat(file, &facts) == 0 && S_ISCHR(facts.st_mode);
 }
 
-bool mayWrite(const std::filesystem::path& path) { return ::access(path.c_str(), W_OK) == 0; }
+bool mayWrite(const std::filesystem::path& path) {
+  struct stat facts = {};
+  const bool may_somebody = ::stat(path.c_str(), &facts) != 0 || (facts.st_mode & 0222) != 0;
+  return may_somebody && ::access(path.c_str(), W_OK) == 0;
+}
 
 void becomeLike(const std::filesystem::path& older, int file) {
   struct stat facts = {};

@@ -101,9 +101,11 @@ std::string nameKey(const std::filesystem::path& name) {
 
 bool isCharacterDevice(int file) { return ::GetFileType(handleOf(file)) == FILE_TYPE_CHAR; }
 
+/// The read-only attribute of a folder says nothing about the files in it.
 bool mayWrite(const std::filesystem::path& path) {
   constexpr int kWrite = 2;
-  return ::_waccess(path.c_str(), kWrite) == 0;
+  std::error_code code;
+  return std::filesystem::is_directory(path, code) || ::_waccess(path.c_str(), kWrite) == 0;
 }
 
 void becomeLike(const std::filesystem::path&, int) {}
