@@ -12,7 +12,7 @@ namespace mcc::gltf {
 
 /// An advisory lock on a folder itself, which leaves no file there. Among the programs and threads
 /// that take it, either one holds it alone or several share it. The system releases it when the
-/// process ends, in whatever way it ends.
+/// process ends, in whatever way it ends. The thread that takes it must also release it.
 ///
 /// It is held only while a few files are renamed or a document is read, so waiting for it is short.
 /// A folder that another program keeps locked for its own purposes, or whose file system has no

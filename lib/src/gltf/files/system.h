@@ -38,10 +38,12 @@ int openToRead(const std::filesystem::path& path);
 int openToWrite(const std::filesystem::path& path);
 /// Creates a file; fails with EEXIST if there is one. `only_owner`: no other user may read it.
 int createNew(const std::filesystem::path& path, bool only_owner);
+/// Fails with ENOTSUP where openStreamNamed() knows no names.
 int duplicate(int file);
 ptrdiff_t readSome(int file, void* to, size_t byte_count);
 ptrdiff_t writeSome(int file, const void* from, size_t byte_count);
-/// Waits until what was written is stored.
+/// Waits until what was written is stored. Fails with EIO if that went wrong, and with another
+/// error if the file system cannot tell.
 int flush(int file);
 int close(int file);
 
@@ -64,7 +66,8 @@ bool mayWrite(const std::filesystem::path& path);
 /// users have, so that nobody can read what was hidden from them.
 void becomeLike(const std::filesystem::path& older, int file);
 
-/// An advisory lock on a folder; see FolderLock for what it promises.
+/// An advisory lock on a folder; see FolderLock for what it promises. It belongs to the thread that
+/// took it, which must close it; on Windows that thread may take another lock on the same folder.
 enum class LockOutcome : uint8_t { kHeld, kBusy, kImpossible };
 inline constexpr intptr_t kNoLock = -1;
 intptr_t openFolderLock(const std::filesystem::path& folder);

@@ -22,12 +22,31 @@ namespace mcc::gltf::system {
 namespace {
 
 constexpr int kBytes = _O_BINARY | _O_NOINHERIT;
+constexpr DWORD kSharesAll = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
 
 int openWide(const std::filesystem::path& path, int flags) {
   int file = -1;
-  return ::_wsopen_s(&file, path.c_str(), flags | kBytes, _SH_DENYNO, _S_IREAD | _S_IWRITE) == 0
-             ? file
-             : -1;
+  const errno_t failure =
+      ::_wsopen_s(&file, path.c_str(), flags | kBytes, _SH_DENYNO, _S_IREAD | _S_IWRITE);
+  if (failure == 0) return file;
+  errno = failure;  // which some versions of the C library do not set
+  return -1;
+}
+
+/// Returns the number of the C library for an error of CreateFile().
+int numberOf(DWORD failure) {
+  switch (failure) {
+    case ERROR_FILE_EXISTS:
+    case ERROR_ALREADY_EXISTS: return EEXIST;
+    case ERROR_ACCESS_DENIED:
+    case ERROR_SHARING_VIOLATION: return EACCES;
+    case ERROR_FILE_NOT_FOUND:
+    case ERROR_PATH_NOT_FOUND: return ENOENT;
+    case ERROR_DISK_FULL:
+    case ERROR_HANDLE_DISK_FULL: return ENOSPC;
+    case ERROR_WRITE_PROTECT: return EROFS;
+    default: return EIO;
+  }
 }
 
 HANDLE handleOf(int file) { return reinterpret_cast<HANDLE>(::_get_osfhandle(file)); }
@@ -58,12 +77,26 @@ int openToRead(const std::filesystem::path& path) { return openWide(path, _O_RDO
 
 int openToWrite(const std::filesystem::path& path) { return openWide(path, _O_WRONLY); }
 
-/// New files inherit who may read them from their folder.
+/// New files inherit who may read them from their folder. Sharing the right to delete lets the
+/// thread that handles Ctrl-C remove the file while it is open, which the C library does not offer.
 int createNew(const std::filesystem::path& path, bool) {
-  return openWide(path, _O_WRONLY | _O_CREAT | _O_EXCL);
+  const HANDLE handle = ::CreateFileW(path.c_str(), GENERIC_WRITE, kSharesAll, nullptr, CREATE_NEW,
+                                      FILE_ATTRIBUTE_NORMAL, nullptr);
+  if (handle == INVALID_HANDLE_VALUE) {
+    errno = numberOf(::GetLastError());
+    return -1;
+  }
+  const int file = ::_open_osfhandle(reinterpret_cast<intptr_t>(handle), kBytes);
+  if (file < 0) ::CloseHandle(handle);  // too many files are open; errno is set
+  return file;
 }
 
-int duplicate(int file) { return ::_dup(file); }
+/// Open streams have no names, so nothing calls this. _dup() would make other programs inherit
+/// them.
+int duplicate(int) {
+  errno = ENOTSUP;
+  return -1;
+}
 
 ptrdiff_t readSome(int file, void* to, size_t byte_count) {
   return ::_read(file, to, chunkOf(byte_count));
@@ -73,15 +106,22 @@ ptrdiff_t writeSome(int file, const void* from, size_t byte_count) {
   return ::_write(file, from, chunkOf(byte_count));
 }
 
-int flush(int file) { return ::_commit(file); }
+/// Like fsync(): EINVAL means that the file cannot be flushed, EIO that it failed. _commit()
+/// reports EBADF for both.
+int flush(int file) {
+  if (::FlushFileBuffers(handleOf(file)) != 0) return 0;
+  const DWORD failure = ::GetLastError();
+  const bool is_impossible = failure == ERROR_INVALID_FUNCTION || failure == ERROR_NOT_SUPPORTED;
+  errno = is_impossible ? EINVAL : EIO;
+  return -1;
+}
 
 int close(int file) { return ::_close(file); }
 
 std::optional<FileIdentity> identityOf(int file) { return identityOfHandle(handleOf(file)); }
 
 std::optional<FileIdentity> identityOf(const std::filesystem::path& path) {
-  constexpr DWORD kShared = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-  const HANDLE handle = ::CreateFileW(path.c_str(), 0, kShared, nullptr, OPEN_EXISTING,
+  const HANDLE handle = ::CreateFileW(path.c_str(), 0, kSharesAll, nullptr, OPEN_EXISTING,
                                       FILE_FLAG_BACKUP_SEMANTICS, nullptr);  // also opens folders
   const std::optional<FileIdentity> identity = identityOfHandle(handle);
   if (handle != INVALID_HANDLE_VALUE) ::CloseHandle(handle);
@@ -110,12 +150,13 @@ bool mayWrite(const std::filesystem::path& path) {
 
 void becomeLike(const std::filesystem::path&, int) {}
 
-/// Folders cannot be locked here, so a mutex is named after the identity of the folder. The system
-/// releases it when its process ends.
+/// Folders cannot be locked here, so a mutex is named after the identity of the folder, for all
+/// sessions of the machine. The system releases it when its process ends. A mutex of another user
+/// cannot be opened, and the lock is then impossible.
 intptr_t openFolderLock(const std::filesystem::path& folder) {
   const std::optional<FileIdentity> identity = identityOf(folder);
   if (!identity) return kNoLock;
-  const std::wstring name = L"Local\\gltf-mcc-" + std::to_wstring(identity->device) + L"-" +
+  const std::wstring name = L"Global\\gltf-mcc-" + std::to_wstring(identity->device) + L"-" +
                             std::to_wstring(identity->number);
   const HANDLE mutex = ::CreateMutexW(nullptr, FALSE, name.c_str());
   return mutex == nullptr ? kNoLock : reinterpret_cast<intptr_t>(mutex);
