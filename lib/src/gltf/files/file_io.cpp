@@ -278,11 +278,11 @@ Result ReplacementFile::check() const {
 /// killed and had the same process id.
 Result ReplacementFile::create(int& file) {
   constexpr int kMostNames = 100;
-  std::error_code code;
-  const bool replaces = fs::exists(target_, code);
+  // Asked once: a file that disappears meanwhile must not leave permissions for its owner alone.
+  const std::optional<system::Permissions> older = system::permissionsOf(target_);
   const TemporaryFiles::Lock held = lockOf(temporaries_);
   for (int i = 0; i < kMostNames; ++i) {
-    file = system::createNew(temporary_, replaces);
+    file = system::createNew(temporary_, older.has_value());
     if (file >= 0 || errno != EEXIST) break;
     temporary_ = temporaryName(target_);
   }
@@ -292,7 +292,7 @@ Result ReplacementFile::create(int& file) {
     return error(textOf(destination_), "cannot be written: " + reasonOf(failure));
   }
   if (temporaries_ != nullptr) temporaries_->add(temporary_);
-  if (replaces) system::becomeLike(target_, file);
+  if (older) system::setPermissions(file, *older);
   return {};
 }
 

@@ -61,10 +61,18 @@ bool isCharacterDevice(int file);
 /// False if nobody has permission to, even for users who would not need it.
 bool mayWrite(const std::filesystem::path& path);
 
+/// Who may do what with a file.
+struct Permissions {
+  uint32_t user = 0;
+  uint32_t group = 0;
+  uint32_t mode = 0;
+};
+/// Returns those of a file. Empty if there is none, and where new files get theirs from the folder.
+std::optional<Permissions> permissionsOf(const std::filesystem::path& path);
 /// Gives a new file the owner, the group and the permissions of an older one, as far as the process
 /// may set them. If the group cannot be set, the group gets no more permissions than all other
 /// users have, so that nobody can read what was hidden from them.
-void becomeLike(const std::filesystem::path& older, int file);
+void setPermissions(int file, const Permissions& older);
 
 /// An advisory lock on a folder; see FolderLock for what it promises. It belongs to the thread that
 /// took it, which must close it; on Windows that thread may take another lock on the same folder.

@@ -90,12 +90,16 @@ bool mayWrite(const std::filesystem::path& path) {
   return may_somebody && ::access(path.c_str(), W_OK) == 0;
 }
 
-void becomeLike(const std::filesystem::path& older, int file) {
+std::optional<Permissions> permissionsOf(const std::filesystem::path& path) {
   struct stat facts = {};
-  if (::stat(older.c_str(), &facts) != 0) return;
-  mode_t mode = facts.st_mode & 0777;
-  const bool has_group = ::fchown(file, facts.st_uid, facts.st_gid) == 0 ||
-                         ::fchown(file, static_cast<uid_t>(-1), facts.st_gid) == 0;
+  if (::stat(path.c_str(), &facts) != 0) return std::nullopt;
+  return Permissions{facts.st_uid, facts.st_gid, facts.st_mode & 0777};
+}
+
+void setPermissions(int file, const Permissions& older) {
+  mode_t mode = older.mode;
+  const bool has_group = ::fchown(file, older.user, older.group) == 0 ||
+                         ::fchown(file, static_cast<uid_t>(-1), older.group) == 0;
   if (!has_group) mode = (mode & ~mode_t{070}) | (mode & (mode << 3) & mode_t{070});
   (void)::fchmod(file, mode);  // some file systems have no permissions
 }

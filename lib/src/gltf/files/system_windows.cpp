@@ -148,7 +148,9 @@ bool mayWrite(const std::filesystem::path& path) {
   return std::filesystem::is_directory(path, code) || ::_waccess(path.c_str(), kWrite) == 0;
 }
 
-void becomeLike(const std::filesystem::path&, int) {}
+std::optional<Permissions> permissionsOf(const std::filesystem::path&) { return std::nullopt; }
+
+void setPermissions(int, const Permissions&) {}
 
 /// Folders cannot be locked here, so a mutex is named after the identity of the folder, for all
 /// sessions of the machine. The system releases it when its process ends. A mutex of another user
