@@ -110,6 +110,19 @@ TEST_F(Files, StreamsAreWrittenThrough) {
   EXPECT_TRUE(fs::is_fifo(path("pipe.gltf")));
 }
 
+/// Nobody writes to the pipe, so a program that opened it would wait for ever.
+TEST_F(Files, PipesThatADocumentNamesAreNotOpened) {
+  storeModel({});
+  fs::remove(path("m/mesh.bin"));
+  ASSERT_EQ(mkfifo(path("m/mesh.bin").c_str(), 0600), 0);
+  for (const std::string arguments :
+       {"convert m/a.gltf m/a.gltf", "convert m/a.gltf b.glb", "inspect m/a.gltf"}) {
+    const ToolResult result = shell("timeout 20 " + tool_ + arguments);
+    EXPECT_EQ(result.status, 1) << arguments;
+    EXPECT_NE(result.err.find("is not a regular file"), std::string::npos) << result.err;
+  }
+}
+
 TEST_F(Files, DevicesAreWrittenTo) {
   const auto device = [&](const std::string& name, unsigned minor_number) {
     if (geteuid() != 0) return "/dev/" + name;  // only root could replace it

@@ -34,14 +34,13 @@ FileContents readDocumentFiles(const std::filesystem::path& main, bool with_imag
   FileContents files = readFiles({main});
   gltf::Json json;
   if (files.empty() || !gltf::readJson(files[0], json).ok()) return files;
-  std::vector<std::filesystem::path> paths;
-  for (const char* list : {"buffers", "images"}) {
-    if (!with_images && std::string(list) == "images") continue;
-    for (const std::string& path : gltf::filesOf(json, list)) {
-      paths.push_back(gltf::folderOf(main) / gltf::pathOf(path));
-    }
+  // The document chooses these names, which may be those of pipes and devices.
+  const gltf::FileReader reader = gltf::readerOf(gltf::folderOf(main));
+  for (const std::string& path :
+       with_images ? gltf::filesBeside(json) : gltf::filesOf(json, "buffers")) {
+    std::vector<uint8_t> bytes;
+    if (reader(path, "", bytes).ok()) files.push_back(std::move(bytes));
   }
-  for (std::vector<uint8_t>& file : readFiles(paths)) files.push_back(std::move(file));
   return files;
 }
 

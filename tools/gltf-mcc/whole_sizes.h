@@ -29,7 +29,7 @@ struct WholeSize {
 using FileContents = std::vector<std::vector<uint8_t>>;
 
 /// Reads the files of a document: the main one, its buffers and, if `with_images`, its images.
-/// Files that do not exist are left out.
+/// What does not exist, or is not a regular file, is left out.
 FileContents readDocumentFiles(const std::filesystem::path& main, bool with_images);
 FileContents readFiles(const std::vector<std::filesystem::path>& paths);
 
