@@ -19,6 +19,10 @@ inline constexpr int kStandardErrors = 2;
 /// be called once, before anything is printed.
 void prepareConsole();
 
+/// Undoes what the program has changed of the console, which outlives it. Called by exit(); what
+/// ends the process in another way calls it first, from any thread.
+void restoreConsole();
+
 /// Returns the words of the command line in UTF-8, the name of the program first.
 std::vector<std::string> commandLine(int argc, const char* const* argv);
 

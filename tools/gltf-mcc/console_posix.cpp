@@ -20,6 +20,8 @@ std::string_view environment(const char* name) {
 
 void prepareConsole() {}
 
+void restoreConsole() {}
+
 std::vector<std::string> commandLine(int argc, const char* const* argv) {
   return {argv, argv + argc};
 }

@@ -9,6 +9,7 @@
 
 #include <shellapi.h>
 
+#include <atomic>
 #include <cstdlib>
 
 #include "console.h"
@@ -16,7 +17,10 @@
 namespace mcc::tool {
 namespace {
 
-UINT code_page_before = 0;
+// What restoreConsole() puts back; it may run on the thread that handles Ctrl-C.
+constexpr DWORD kUnchanged = ~DWORD{0};
+std::atomic<UINT> code_page_before = 0;                                    ///< 0: unchanged
+std::atomic<DWORD> modes_before[] = {kUnchanged, kUnchanged, kUnchanged};  ///< by stream
 
 std::string inUtf8(const wchar_t* text) {
   const int byte_count =
@@ -35,10 +39,19 @@ HANDLE consoleOf(int stream) { return reinterpret_cast<HANDLE>(::_get_osfhandle(
 void prepareConsole() {
   for (const int stream : {kStandardInput, kStandardOutput, kStandardErrors})
     ::_setmode(stream, _O_BINARY);
-  code_page_before = ::GetConsoleOutputCP();
-  if (code_page_before == 0 || code_page_before == CP_UTF8) return;
+  std::atexit(restoreConsole);
+  const UINT code_page = ::GetConsoleOutputCP();
+  if (code_page == 0 || code_page == CP_UTF8) return;
+  code_page_before = code_page;
   ::SetConsoleOutputCP(CP_UTF8);
-  std::atexit([]() { ::SetConsoleOutputCP(code_page_before); });  // the console outlives us
+}
+
+void restoreConsole() {
+  if (code_page_before != 0) ::SetConsoleOutputCP(code_page_before);
+  for (const int stream : {kStandardInput, kStandardOutput, kStandardErrors}) {
+    const DWORD mode = modes_before[stream];
+    if (mode != kUnchanged) ::SetConsoleMode(consoleOf(stream), mode);
+  }
 }
 
 /// The words that the C library passes to main() are in a code page that may lack their characters.
@@ -60,8 +73,10 @@ bool isTerminal(int stream) {
 bool isColorTerminal(int stream) {
   constexpr DWORD kEscapes = 0x0004;  // ENABLE_VIRTUAL_TERMINAL_PROCESSING, of Windows 10
   DWORD mode = 0;
-  return ::GetConsoleMode(consoleOf(stream), &mode) != 0 &&
-         ::SetConsoleMode(consoleOf(stream), mode | kEscapes) != 0;
+  if (::GetConsoleMode(consoleOf(stream), &mode) == 0) return false;
+  if ((mode & kEscapes) != 0) return true;  // perhaps by the other stream, which then restores it
+  modes_before[stream] = mode;
+  return ::SetConsoleMode(consoleOf(stream), mode | kEscapes) != 0;
 }
 
 size_t consoleColumns() {

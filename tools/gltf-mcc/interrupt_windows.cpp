@@ -6,6 +6,7 @@
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
 
+#include "console.h"
 #include "interrupt.h"
 
 namespace mcc::tool {
@@ -17,6 +18,7 @@ BOOL WINAPI removeAndEnd(DWORD) {
   // Held until the process ends, so that no other file appears. Never destroyed, for that reason.
   static const auto* const held = new gltf::TemporaryFiles::Lock(temporaryFiles().removeAll());
   static_cast<void>(held);
+  restoreConsole();
   ::ExitProcess(STATUS_CONTROL_C_EXIT);
 }
 
