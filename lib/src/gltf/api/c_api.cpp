@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "base/c_struct.h"
+#include "format/codings.h"
 #include "mcc/gltf.h"
 
 struct mcc_document {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "format/codings.h"
 #include "values/enc_extent.h"
 
 namespace mcc::gltf {
