@@ -11,7 +11,7 @@ import { ERROR_RAMP, ORDER_RAMP } from './ramps.mjs';
 
 const STEP_RADIANS = Math.PI / 24;
 const ZOOM = 1.15;
-// Moves a surface slightly behind the lines that are drawn on it.
+// Draws a surface a little farther away than it is, so that it does not hide the lines on it.
 const BEHIND = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
 
 /** A picture and its contents. */

@@ -9,6 +9,7 @@
 #include "gltf/base/parallel.h"
 #include "gltf/compress/quantize.h"
 #include "gltf/decompress/coded_input.h"
+#include "gltf/document/bounds.h"
 #include "gltf/document/rebuild.h"
 #include "gltf/files/file_io.h"
 
@@ -27,18 +28,6 @@ struct EmittedPart {
   foreign::DracoPrimitive draco;
 };
 
-Json numbersOf(const std::vector<double>& values, ComponentType type) {
-  Json numbers = Json::array();
-  for (const double value : values) {
-    if (type == ComponentType::kFloat32) {
-      numbers.push_back(value);
-    } else {
-      numbers.push_back(static_cast<int64_t>(value));
-    }
-  }
-  return numbers;
-}
-
 void setBound(const char* name, const std::vector<double>& values, ComponentType type,
               bool is_required, Json& accessor) {
   const bool is_finite =
@@ -46,7 +35,7 @@ void setBound(const char* name, const std::vector<double>& values, ComponentType
   if (!is_finite) {
     accessor.erase(name);
   } else if (is_required || gltf::findMember(accessor, name) != nullptr) {
-    accessor[name] = numbersOf(values, type);
+    accessor[name] = gltf::boundNumbers(values, type);
   }
 }
 

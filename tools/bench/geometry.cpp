@@ -88,13 +88,7 @@ PieceInput makePiece(const PiecePlan& plan, bool keep_all) {
       piece.has_left_out = true;
       continue;
     }
-    AttributeView view;
-    view.format = attribute.format;
-    view.data = attribute.source.data;
-    view.stride_bytes = attribute.source.stride_bytes;
-    view.quantization_bits = attribute.bits;
-    view.lattice = attribute.has_lattice ? &attribute.lattice : nullptr;
-    piece.source.push_back(view);
+    piece.source.push_back(attribute.view());
     piece.labels.push_back(attribute.label());
   }
   for (const gltf::PartPlan& part : plan.parts) piece.parts.push_back({part.triangles});

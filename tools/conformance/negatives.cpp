@@ -16,6 +16,7 @@
 #include "mcc/gltf.h"
 #include "sources.h"
 #include "support/mesh_generators.h"
+#include "writer/truth.h"
 
 namespace mcc::conformance {
 namespace {
@@ -764,16 +765,7 @@ class Maker {
     std::vector<uint32_t> nodes(record.node_count);
     std::vector<uint32_t> vertices(piece.vertex_count);
     std::vector<uint32_t> gates(piece.face_count);
-    McTruth truth;
-    truth.operations = record.operations.data();
-    truth.handles = record.handles.data();
-    truth.components = record.components.data();
-    truth.component_count = static_cast<uint32_t>(record.components.size());
-    truth.gates = record.gates.data();
-    truth.vertex_is_dummy = record.vertex_is_dummy.data();
-    truth.node_of_collapse_node = nodes.data();
-    truth.source_of_vertex = vertices.data();
-    truth.source_gate_of_face = gates.data();
+    const McTruth truth = connectivityTruth(record, {nodes, vertices, gates});
     McModels models{Allocator{}};
     FaceMesh faces{Allocator{}};
     if (!models.init(header.contextSet()) ||

@@ -62,13 +62,7 @@ constexpr const CodingInfo& infoOf(AttributeCoding coding) {
   return kCodings[static_cast<size_t>(coding)];
 }
 
-/// A bit for each coding that this decoder has, so that the decoder needs no table with words.
-inline constexpr uint32_t kDecodedCodings = [] {
-  uint32_t bits = 0;
-  for (const CodingInfo& info : kCodings)
-    bits |= uint32_t{info.is_decoded} << static_cast<uint32_t>(info.coding);
-  return bits;
-}();
+inline constexpr uint32_t kDecodedCodings = decodedMask(kCodings);
 
 constexpr bool isDecoded(AttributeCoding coding) {
   return kWhole || (kDecodedCodings >> static_cast<uint32_t>(coding) & 1) != 0;

@@ -8,6 +8,9 @@
 #ifndef MCC_FORMAT_DECODES_H_
 #define MCC_FORMAT_DECODES_H_
 
+#include <cstddef>
+#include <cstdint>
+
 #include "mcc/status.h"
 
 namespace mcc {
@@ -25,6 +28,16 @@ inline constexpr bool kPivots = kWhole;       ///< faces coded vertex by vertex
 inline constexpr bool kPlanes = kWhole;       ///< planes of positions
 inline constexpr bool kTangentPoints = kWhole;
 }  // namespace decodes
+
+/// A bit for each row of a table whose `is_decoded` is set, by the number of its `coding`. The
+/// decoder keeps the mask instead of the table, whose words would make the core larger.
+template <class Info, size_t kRows>
+constexpr uint32_t decodedMask(const Info (&table)[kRows]) {
+  uint32_t mask = 0;
+  for (const Info& info : table)
+    mask |= uint32_t{info.is_decoded} << static_cast<uint32_t>(info.coding);
+  return mask;
+}
 
 /// Says that the core cannot decode a payload. The payload is not damaged, so this is not one of
 /// the specification's errors.

@@ -85,13 +85,7 @@ constexpr const SurfaceInfo& infoOf(SurfaceCoding coding) {
   return kSurfaces[static_cast<size_t>(coding)];
 }
 
-/// A bit for each surface that this decoder has.
-inline constexpr uint32_t kDecodedSurfaces = [] {
-  uint32_t bits = 0;
-  for (const SurfaceInfo& info : kSurfaces)
-    bits |= uint32_t{info.is_decoded} << static_cast<uint32_t>(info.coding);
-  return bits;
-}();
+inline constexpr uint32_t kDecodedSurfaces = decodedMask(kSurfaces);
 
 constexpr bool isDecoded(SurfaceCoding coding) {
   return kWhole || (kDecodedSurfaces >> static_cast<uint32_t>(coding) & 1) != 0;

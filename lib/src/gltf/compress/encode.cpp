@@ -16,15 +16,7 @@ struct PieceInput {
   PieceView view;
 
   explicit PieceInput(const PiecePlan& plan) {
-    for (const AttributePlan& attribute : plan.attributes) {
-      AttributeView view_of;
-      view_of.format = attribute.format;
-      view_of.data = attribute.source.data;
-      view_of.stride_bytes = attribute.source.stride_bytes;
-      view_of.quantization_bits = attribute.bits;
-      view_of.lattice = attribute.has_lattice ? &attribute.lattice : nullptr;
-      attributes.push_back(view_of);
-    }
+    for (const AttributePlan& attribute : plan.attributes) attributes.push_back(attribute.view());
     if (plan.attributes.empty()) attributes.push_back(weldingView(plan));
     for (const PartPlan& part : plan.parts) parts.push_back({part.triangles});
     view = {plan.wedge_count, attributes, parts};

@@ -352,6 +352,16 @@ std::string AttributePlan::label() const {
   return target == kNone ? name : "target " + std::to_string(target) + " " + name;
 }
 
+AttributeView AttributePlan::view() const {
+  AttributeView view;
+  view.format = format;
+  view.data = source.data;
+  view.stride_bytes = source.stride_bytes;
+  view.quantization_bits = bits;
+  view.lattice = has_lattice ? &lattice : nullptr;
+  return view;
+}
+
 bool comesBefore(const AttributePlan& a, const AttributePlan& b) {
   const auto key = [](const AttributePlan& attribute) {
     return std::tie(attribute.format.morph_target, attribute.format.semantic,

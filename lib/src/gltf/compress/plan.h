@@ -33,6 +33,8 @@ struct AttributePlan {
 
   /// Returns "POSITION" or "target 2 POSITION".
   std::string label() const;
+  /// Returns what the writer is given. It refers to the source and to `lattice`.
+  AttributeView view() const;
 };
 
 /// One triangle list. Primitives that have the same attributes, indices and mode share it.

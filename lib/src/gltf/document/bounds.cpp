@@ -6,9 +6,9 @@
 #include <limits>
 
 namespace mcc::gltf {
-namespace {
+namespace {}  // namespace
 
-Json numbersOf(const std::vector<double>& values, ComponentType type) {
+Json boundNumbers(const std::vector<double>& values, ComponentType type) {
   Json numbers = Json::array();
   for (const double value : values) {
     if (type == ComponentType::kFloat32) {
@@ -19,8 +19,6 @@ Json numbersOf(const std::vector<double>& values, ComponentType type) {
   }
   return numbers;
 }
-
-}  // namespace
 
 Bounds boundsOf(const AccessorData& elements, ComponentType type) {
   const uint32_t bytes = componentBytes(type);
@@ -57,10 +55,10 @@ Bounds boundsOf(std::span<const uint32_t> indices) {
 void setBounds(const Bounds& bounds, ComponentType type, bool is_required, Json& accessor) {
   if (!bounds.is_finite) return;
   if (is_required || findMember(accessor, "min") != nullptr) {
-    accessor["min"] = numbersOf(bounds.min, type);
+    accessor["min"] = boundNumbers(bounds.min, type);
   }
   if (is_required || findMember(accessor, "max") != nullptr) {
-    accessor["max"] = numbersOf(bounds.max, type);
+    accessor["max"] = boundNumbers(bounds.max, type);
   }
 }
 
