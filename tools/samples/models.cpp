@@ -716,7 +716,7 @@ constexpr Model kModels[] = {
     {"skinned.glb", "skin of four joints, one morph target, both animated", skinned},
     {"morphed.glb", "two morph targets with normals, animated", morphed},
     {"non_manifold.glb", "edges of seven faces, vertices of several fans", nonManifold},
-    {"moebius.glb", "Moebius strip: not orientable", moebius},
+    {"moebius.glb", "Möbius strip: not orientable", moebius},
     {"quantized.glb", "KHR_mesh_quantization: 16 and 8 bit integer attributes, vertex colours",
      quantized},
     {"modes.glb", "triangle strip, fan, no indices, sparse accessor, an accessor of two meshes",
