@@ -22,13 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Sanitizers have handlers of their own for faults.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool kIsSanitized = true;
-#else
-constexpr bool kIsSanitized = false;
-#endif
-
 class Interrupt : public testing::Test {
  protected:
   void SetUp() override {
@@ -115,7 +108,8 @@ TEST_F(Interrupt, EndsBySignalWhileItWaits) {
   ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
   std::vector<int> numbers = {SIGINT,  SIGTERM, SIGHUP,    SIGQUIT, SIGALRM, SIGUSR1,
                               SIGUSR2, SIGPROF, SIGVTALRM, SIGXCPU, SIGXFSZ, SIGPIPE};
-  if (!kIsSanitized) numbers.insert(numbers.end(), {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL});
+  // Sanitizers have handlers of their own for faults.
+  if (!MCC_IS_SANITIZED) numbers.insert(numbers.end(), {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL});
   numbers.insert(numbers.end(), {SIGSYS, SIGTRAP, SIGRTMIN, SIGRTMAX});
   for (const int number : numbers) {
     const pid_t child = start({"convert", "pipe", "out.glb", "--report", "report.json"});
@@ -188,7 +182,7 @@ TEST_F(Interrupt, TemporaryFilesAreRemoved) {
   std::ofstream(path("in.glb"), std::ios::binary)
       .write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
   std::ofstream(path("out.glb")) << "older";
-  for (const int signal_number : {SIGTERM, SIGUSR1, kIsSanitized ? SIGALRM : SIGSEGV}) {
+  for (const int signal_number : {SIGTERM, SIGUSR1, MCC_IS_SANITIZED ? SIGALRM : SIGSEGV}) {
     expectRemovedBy(signal_number);
   }
 }

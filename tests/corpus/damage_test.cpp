@@ -24,11 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr uint64_t kMutations = 800;
-#else
-constexpr uint64_t kMutations = 16000;
-#endif
+constexpr uint64_t kMutations = MCC_IS_SANITIZED ? 800 : 16000;
 constexpr uint64_t kAtLeast = kMutations / 16;  ///< for each decoder
 constexpr size_t kFileBytes = 700000;
 constexpr size_t kPayloadBytes = 60000;

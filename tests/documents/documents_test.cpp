@@ -299,7 +299,7 @@ TEST_F(Documents, DamagedCompressedOnesAreRefusedInOneLine) {
 }
 
 TEST_F(Documents, AreReproducible) {
-  for (const uint64_t seed : {1, 2, 3, 4, 5, 6, 7}) {
+  for (uint64_t seed = 1; seed <= 7; ++seed) {
     const RandomDocument a = randomDocument(seed);
     const RandomDocument b = randomDocument(seed);
     EXPECT_TRUE(a.files == b.files && describe(a.options) == describe(b.options)) << seed;

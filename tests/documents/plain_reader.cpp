@@ -16,7 +16,9 @@ constexpr char kDraco[] = "KHR_draco_mesh_compression";
 
 uint32_t word(const Bytes& bytes, size_t at) {
   if (at + 4 > bytes.size()) fail("the GLB ends early");
-  return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 | uint32_t{bytes[at + 3]} << 24;
+  uint32_t value = 0;
+  for (size_t i = 0; i < 4; ++i) value |= uint32_t{bytes[at + i]} << (8 * i);
+  return value;
 }
 
 Bytes slice(const Bytes& bytes, uint64_t offset, uint64_t length) {

@@ -222,7 +222,7 @@ mode_t modeOf(const fs::path& file) {
 }
 
 TEST_F(DestinationTest, PermissionsStay) {
-  for (const mode_t mode : {0600, 0640, 0644, 0666, 0700}) {
+  for (const mode_t mode : {0600U, 0640U, 0644U, 0666U, 0700U}) {
     store("a.gltf", R"({"buffers":[{"uri":"a.bin"}]})");
     store("a.bin", "older");
     ASSERT_EQ(::chmod(path("a.gltf").c_str(), mode), 0);
