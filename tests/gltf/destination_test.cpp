@@ -1,11 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/files/destination.h"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <fstream>
 #include <map>
@@ -13,6 +9,11 @@
 
 #include "gltf/gltf_builder.h"
 #include "support/scratch_folder.h"
+#if !defined(_WIN32)
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#endif
 
 namespace mcc::gltf::test {
 namespace {
@@ -32,7 +33,7 @@ class DestinationTest : public testing::Test {
   std::map<std::string, std::string> everything() const {
     std::map<std::string, std::string> found;
     for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) {
-      const std::string name = entry.path().lexically_relative(folder_.path()).string();
+      const std::string name = entry.path().lexically_relative(folder_.path()).generic_string();
       if (entry.is_directory()) {
         found[name + "/"];
         continue;
@@ -216,6 +217,36 @@ TEST_F(DestinationTest, ABrokenPairIsFoundOut) {
   EXPECT_EQ(first.checkTogether().message(), "");
 }
 
+/// Both copies go to one file, so equal ones are written once.
+TEST_F(DestinationTest, OneFileUnderTwoNames) {
+  const auto bytesOf = [](const std::string& text) {
+    return std::vector<uint8_t>(text.begin(), text.end());
+  };
+  const auto copies = [&](const std::string& second) {
+    Package package;
+    package.main = bytesOf("{}");
+    package.beside = {{SideFile::Kind::kCopy, "t/a.png", bytesOf("image")},
+                      {SideFile::Kind::kCopy, "./t//a.png", bytesOf(second)}};
+    return package;
+  };
+  {
+    Destination destination(path("a.gltf"));
+    ASSERT_EQ(destination.check(false).message(), "");
+    EXPECT_NE(destination.write(copies("another")).message().find("which is another file"),
+              std::string::npos);
+  }
+  Destination destination(path("a.gltf"));
+  ASSERT_EQ(destination.check(false).message(), "");
+  ASSERT_EQ(destination.write(copies("image")).message(), "");
+  std::vector<uint8_t> bytes;
+  EXPECT_EQ(destination.reader()("t/../t/a.png", "", bytes).message(), "");
+  EXPECT_EQ(bytes, bytesOf("image"));
+  ASSERT_EQ(destination.commit().message(), "");
+  EXPECT_EQ(everything().at("t/a.png"), "image");
+}
+
+#if !defined(_WIN32)
+
 mode_t modeOf(const fs::path& file) {
   struct stat status = {};
   return ::stat(file.c_str(), &status) == 0 ? status.st_mode & 07777 : 0;
@@ -318,33 +349,7 @@ TEST_F(DestinationTest, FilesAreKnownWhateverTheirNames) {
   for (const int end : pipe) ::close(end);
 }
 
-/// Both copies go to one file, so equal ones are written once.
-TEST_F(DestinationTest, OneFileUnderTwoNames) {
-  const auto bytesOf = [](const std::string& text) {
-    return std::vector<uint8_t>(text.begin(), text.end());
-  };
-  const auto copies = [&](const std::string& second) {
-    Package package;
-    package.main = bytesOf("{}");
-    package.beside = {{SideFile::Kind::kCopy, "t/a.png", bytesOf("image")},
-                      {SideFile::Kind::kCopy, "./t//a.png", bytesOf(second)}};
-    return package;
-  };
-  {
-    Destination destination(path("a.gltf"));
-    ASSERT_EQ(destination.check(false).message(), "");
-    EXPECT_NE(destination.write(copies("another")).message().find("which is another file"),
-              std::string::npos);
-  }
-  Destination destination(path("a.gltf"));
-  ASSERT_EQ(destination.check(false).message(), "");
-  ASSERT_EQ(destination.write(copies("image")).message(), "");
-  std::vector<uint8_t> bytes;
-  EXPECT_EQ(destination.reader()("t/../t/a.png", "", bytes).message(), "");
-  EXPECT_EQ(bytes, bytesOf("image"));
-  ASSERT_EQ(destination.commit().message(), "");
-  EXPECT_EQ(everything().at("t/a.png"), "image");
-}
+#endif
 
 }  // namespace
 }  // namespace mcc::gltf::test

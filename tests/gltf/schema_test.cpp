@@ -11,6 +11,7 @@
 #include "gltf/files/file_io.h"
 #include "gltf/round_trip.h"
 #include "support/scratch_folder.h"
+#include "support/validator.h"
 
 namespace mcc::gltf::test {
 namespace {
@@ -66,6 +67,7 @@ TEST(Schema, ExtensionObjectsAreValid) {
   if (!fs::exists(kRoot / "tests/web/node_modules/ajv")) {
     GTEST_SKIP() << "no ajv in tests/web/node_modules (npm ci)";
   }
+  if (!mcc::test::hasNode()) GTEST_SKIP() << "no node";
   const mcc::test::ScratchFolder scratch;
   SchemaList list(scratch.path());
   for (const auto& entry : fs::directory_iterator(MCC_SAMPLES_DIR)) {

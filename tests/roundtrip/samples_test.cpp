@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string contentOf(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
+std::string contentOf(const fs::path& path, std::ios::openmode mode = std::ios::binary) {
+  std::ifstream file(path, mode);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
@@ -37,8 +37,12 @@ TEST(Samples, GeneratorMakesTheCommittedBytes) {
   fs::remove_all(folder);
   fs::create_directories(folder);
   const fs::path table = folder / "table.md";
-  const std::string command = std::string("\"") + MCC_TOOL_GENERATE_SAMPLES + "\" \"" +
-                              folder.string() + "\" > \"" + table.string() + "\"";
+  const fs::path tool = fs::absolute(MCC_TOOL_GENERATE_SAMPLES).make_preferred();
+  std::string command =
+      "\"" + tool.string() + "\" \"" + folder.string() + "\" > \"" + table.string() + "\"";
+#if defined(_WIN32)
+  command = "\"" + command + "\"";  // the shell there removes the outermost quotes
+#endif
   ASSERT_EQ(std::system(command.c_str()), 0) << command;
   EXPECT_EQ(modelsIn(folder), modelsIn(committed));
   uintmax_t bytes = 0;
@@ -47,7 +51,8 @@ TEST(Samples, GeneratorMakesTheCommittedBytes) {
     bytes += fs::file_size(committed / name);
   }
   EXPECT_LT(bytes, 1000000u);
-  EXPECT_NE(contentOf(committed / "README.md").find(contentOf(table)), std::string::npos)
+  EXPECT_NE(contentOf(committed / "README.md", std::ios::in).find(contentOf(table, std::ios::in)),
+            std::string::npos)
       << "the table of samples/README.md differs";
   fs::remove_all(folder);
 #endif

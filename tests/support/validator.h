@@ -13,6 +13,8 @@
 
 namespace mcc::test {
 
+inline bool hasNode() { return std::system("node --version >/dev/null 2>&1") == 0; }
+
 /// Collects files and has the validator look at all of them at once.
 class Validator {
  public:
@@ -21,7 +23,7 @@ class Validator {
   /// Why there is no validator; empty when there is.
   static std::string whyNot() {
     if (!std::filesystem::exists(module())) return "no gltf-validator in tests/web/node_modules";
-    return std::system("node --version >/dev/null 2>&1") == 0 ? "" : "no node";
+    return hasNode() ? "" : "no node";
   }
 
   void add(const std::filesystem::path& source, const std::filesystem::path& converted,

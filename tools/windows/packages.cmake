@@ -20,3 +20,9 @@ endfunction()
 header_package(nlohmann_json nlohmann_json::nlohmann_json nlohmann)
 header_package(CLI11 CLI11::CLI11 CLI)
 header_package(fmt fmt::fmt fmt FMT_HEADER_ONLY=1)
+
+# GoogleTest comes as sources (Debian's package googletest).
+file(WRITE ${CMAKE_FIND_PACKAGE_REDIRECTS_DIR}/GTestConfig.cmake
+     "if(NOT TARGET GTest::gtest)\n"
+     "  add_subdirectory(/usr/src/googletest ${CMAKE_BINARY_DIR}/googletest EXCLUDE_FROM_ALL)\n"
+     "endif()\n")
