@@ -7,31 +7,15 @@
 #include <vector>
 
 #include "base/crc32.h"
-#include "decoded_payload.h"
-#include "mcc/writer.h"
+#include "encoded_again.h"
 
 namespace {
 
 void printEncoded(const mcc::machines::DecodedPayload& decoded, uint8_t bits) {
-  const auto pieces = decoded.payload.info().pieces;
-  std::vector<std::vector<mcc::AttributeView>> attributes(pieces.size());
-  std::vector<std::vector<mcc::PartView>> parts(pieces.size());
-  std::vector<mcc::PieceView> views;
-  for (size_t p = 0; p < pieces.size(); ++p) {
-    for (size_t a = 0; a < decoded.values[p].size(); ++a) {
-      mcc::AttributeView view;
-      view.format = pieces[p].attributes[a].format;
-      view.data = decoded.values[p][a].data();
-      view.stride_bytes = mcc::elementBytes(view.format);
-      view.quantization_bits = bits;
-      attributes[p].push_back(view);
-    }
-    for (const auto& i : decoded.indices[p]) parts[p].push_back({i});
-    views.push_back({pieces[p].wedge_count, attributes[p], parts[p]});
-  }
+  const mcc::machines::PieceViews pieces(decoded, bits);
   mcc::EncodeOptions options;
   mcc::EncodeResult result;
-  const mcc::Status status = mcc::encode(views, options, result);
+  const mcc::Status status = mcc::encode(pieces.views(), options, result);
   if (status.ok()) {
     std::printf(" %08x", static_cast<unsigned>(mcc::crc32(result.payload, 0)));
   } else {

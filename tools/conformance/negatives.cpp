@@ -224,11 +224,11 @@ class Maker {
     };
     add("two bytes", "A.2.1", Error::kBadMagic, "Two bytes", asset, cutTo(2));
     add("other magic", "A.2.1", Error::kBadMagic, "The magic is KMD", asset, with(2, 'D', true));
-    add("ends behind magic", "A.2.1", Error::kTruncated, "The payload ends behind the magic", asset,
+    add("ends after magic", "A.2.1", Error::kTruncated, "The payload ends after the magic", asset,
         cutTo(3));
     add("ends in checksum", "A.2.1", Error::kTruncated, "The payload ends inside the checksum",
         asset, cutTo(7));
-    add("ends behind checksum", "A.2.1", Error::kTruncated, "The payload has no flags", asset,
+    add("ends after checksum", "A.2.1", Error::kTruncated, "The payload has no flags", asset,
         cutTo(8));
     add("ends in header", "A.2.2", Error::kTruncated, "The payload ends inside the piece", asset,
         cutTo(11));
@@ -250,7 +250,7 @@ class Maker {
         with(4, asset.payload[4] ^ 0x80, false));
     Bytes longer = asset.payload;
     longer.push_back(0);
-    add("a byte more", "A.2.1", Error::kBadChecksum, "A zero byte behind the payload", asset,
+    add("a byte more", "A.2.1", Error::kBadChecksum, "A zero byte after the payload", asset,
         longer);
   }
 
@@ -520,7 +520,7 @@ class Maker {
     other("angle of three components", "A tangent angle of three components",
           coded(AttributeCoding::kTangentAngle),
           [](HeaderFields& f, const std::string& k) { f.set(k + "shape", 4 << 4 | 2); });
-    other("angle without a normal", "A tangent angle, and no octahedral normal before or behind it",
+    other("angle without a normal", "A tangent angle, and no octahedral normal before or after it",
           baseNormal, [](HeaderFields& f, const std::string& k) {
             f.set(k + "kind", 5 << 3 | 2);
             f.set(k + "shape", 4 << 4 | 3);
@@ -691,22 +691,22 @@ class Maker {
             f.bytes("tokens").resize(f.bytes("tokens").size() - 2);
             f.set("tokens bytes", f.get("tokens bytes") - 2);
           });
-    three("codes longer", "A.3.8", Error::kTrailingBytes, "Bytes behind the end of codes",
+    three("codes longer", "A.3.8", Error::kTrailingBytes, "Bytes after the end of codes",
           [](HeaderFields& f) {
             f.bytes("codes").resize(f.bytes("codes").size() + 12);
             f.set("codes bytes", f.get("codes bytes") + 12);
           });
-    three("tokens longer", "A.3.8", Error::kTrailingBytes, "Bytes behind the end of tokens",
+    three("tokens longer", "A.3.8", Error::kTrailingBytes, "Bytes after the end of tokens",
           [](HeaderFields& f) {
             f.bytes("tokens").resize(f.bytes("tokens").size() + 2);
             f.set("tokens bytes", f.get("tokens bytes") + 2);
           });
-    three("raw longer", "A.3.8", Error::kTrailingBytes, "A zero byte behind the end of raw",
+    three("raw longer", "A.3.8", Error::kTrailingBytes, "A zero byte after the end of raw",
           [](HeaderFields& f) { f.bytes("raw").push_back(0); });
     three("raw cut", "A.3.8", Error::kTruncated, "The stream raw ends a byte early",
           [](HeaderFields& f) { f.bytes("raw").pop_back(); });
     field(
-        "single longer", "A.3.8", Error::kTrailingBytes, "Bytes behind the end of the only stream",
+        "single longer", "A.3.8", Error::kTrailingBytes, "Bytes after the end of the only stream",
         [](const PayloadHeader& h) { return any(h) && h.singleCoder(); },
         [](HeaderFields& f) { f.bytes("codes").resize(f.bytes("codes").size() + 12); });
     field(
@@ -990,7 +990,7 @@ class Maker {
                accessorOf(j, p, "POSITION")["count"] =
                    accessorOf(j, p, "POSITION")["count"].get<int>() - 1;
              });
-    document("draco besides", "the primitive has KHR_draco_mesh_compression, too", plain,
+    document("draco besides", "the primitive also has KHR_draco_mesh_compression", plain,
              [](Json& j, Json& p, Json&) {
                p["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0},
                                                                 {"attributes", {{"POSITION", 0}}}};

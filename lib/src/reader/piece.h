@@ -374,7 +374,7 @@ Status PieceCoder<Io>::codeSeams(const PieceTruth& truth) {
     if (header_.has(piece_flag::kCreases)) MCC_TRY(findCreases());
     Array<uint32_t> starts(allocator_);
     SeamCoder<Io> coder(io_, models_.seams, mesh, groups, truth.corner_source);
-    MCC_TRY(coder.run(surface_wedges, sequence, starts, wedge_group));
+    MCC_TRY(coder.run(surface_wedges, sequence, {starts, wedge_group}));
     sequence.swap(starts);
   }
   const size_t found = header_.has(piece_flag::kSeams) ? sequence.size() : groups.count;
@@ -388,11 +388,11 @@ Status PieceCoder<Io>::codeSeams(const PieceTruth& truth) {
 
 template <SymbolIo Io>
 Status PieceCoder<Io>::codeLeftovers(const PieceTruth& truth) {
-  MCC_TRY(codeParts(io_, models_.leftovers, mesh.view(), mesh.face_count, header_.part_count,
-                    truth.leftovers));
+  const LeftoverCounts counts{mesh.face_count, header_.wedge_count, header_.part_count,
+                              header_.listed_count};
+  MCC_TRY(codeParts(io_, models_.leftovers, mesh.view(), counts, truth.leftovers));
   if (!header_.has(piece_flag::kListed)) return {};
-  return codeList(io_, models_.leftovers, mesh.view(), mesh.face_count, header_.wedge_count,
-                  header_.part_count, header_.listed_count, truth.leftovers, list);
+  return codeList(io_, models_.leftovers, mesh.view(), counts, truth.leftovers, list);
 }
 
 template <SymbolIo Io>

@@ -38,14 +38,23 @@ struct LeftoverTruth {
   const ListedTriangle* list = nullptr;
 };
 
+/// Sizes that are known before the leftovers are coded.
+struct LeftoverCounts {
+  uint32_t faces;
+  uint32_t wedges;
+  uint32_t parts;
+  uint32_t listed;  ///< triangles that are not part of the surface
+};
+
 /// Codes the part of each face into its kFaceWord. It is predicted from the face across half-edge 1
 /// if that was decoded before, else from the previous face. [A.9.1]
 template <class Io>
-Status codeParts(Io& io, LeftoverModels& models, const FaceView& faces, uint32_t face_count,
-                 uint32_t part_count, const LeftoverTruth& truth) {
+Status codeParts(Io& io, LeftoverModels& models, const FaceView& faces,
+                 const LeftoverCounts& counts, const LeftoverTruth& truth) {
+  const uint32_t part_count = counts.parts;
   if (part_count < 2) return {};
   uint32_t previous = 0;
-  for (uint32_t f = 0; f < face_count; ++f) {
+  for (uint32_t f = 0; f < counts.faces; ++f) {
     const uint32_t entry = faces.twin(f * kFaceWords + 1);
     const bool has_entry = entry != kNone && faceOf(entry) < f;
     const uint32_t guess = has_entry ? faces.words[(entry & ~7u) + kFaceWord] : previous;
@@ -90,12 +99,12 @@ inline void placeOnFace(const FaceView& faces, ListedTriangle& t) {
 /// Codes the triangles one by one; those that refer to faces are in ascending order of the faces.
 /// [A.9.2]
 template <class Io>
-Status codeList(Io& io, LeftoverModels& models, const FaceView& faces, uint32_t face_count,
-                uint32_t wedge_count, uint32_t part_count, uint32_t count,
+Status codeList(Io& io, LeftoverModels& models, const FaceView& faces, const LeftoverCounts& counts,
                 const LeftoverTruth& truth, Array<ListedTriangle>& list) {
-  if (!list.reserve(count)) return fail(Error::kOutOfMemory, "no memory for listed triangles");
+  if (!list.reserve(counts.listed))
+    return fail(Error::kOutOfMemory, "no memory for listed triangles");
   ListedTriangle t{};
-  for (uint32_t i = 0; i < count; ++i) {
+  for (uint32_t i = 0; i < counts.listed; ++i) {
     const ListedTriangle last = t;
     const ListedTriangle* known = Io::kEncoding ? truth.list + i : &t;
     t.shape = codeTree<Io, 3>(io, models.list_shape[last.shape], known->shape);
@@ -103,7 +112,7 @@ Status codeList(Io& io, LeftoverModels& models, const FaceView& faces, uint32_t 
     if (t.shape != listed_shape::kAny) {
       const uint32_t gap =
           codeGolomb(io, models.list_gap[t.shape == 0 ? 0 : 1], known->face - last.face);
-      if (uint64_t{last.face} + gap >= face_count)
+      if (uint64_t{last.face} + gap >= counts.faces)
         return fail(Error::kBadAttribute, "a listed triangle refers to a face that is not there");
       t.face = last.face + gap;
       placeOnFace(faces, t);
@@ -114,14 +123,14 @@ Status codeList(Io& io, LeftoverModels& models, const FaceView& faces, uint32_t 
       const int32_t difference =
           codeSignedGolomb(io, models.list_wedge[k], static_cast<int32_t>(known->wedge[k] - from));
       t.wedge[k] = from + static_cast<uint32_t>(difference);
-      if (t.wedge[k] >= wedge_count)
+      if (t.wedge[k] >= counts.wedges)
         return fail(Error::kBadAttribute, "a listed triangle refers to a vertex that is not there");
     }
-    if (part_count > 1) {
+    if (counts.parts > 1) {
       const uint32_t distance =
-          codeGolomb(io, models.list_part, (known->part + part_count - guess) % part_count);
-      if (distance >= part_count) return fail(Error::kBadAttribute, "a triangle is in no part");
-      t.part = (guess + distance) % part_count;
+          codeGolomb(io, models.list_part, (known->part + counts.parts - guess) % counts.parts);
+      if (distance >= counts.parts) return fail(Error::kBadAttribute, "a triangle is in no part");
+      t.part = (guess + distance) % counts.parts;
     }
     (void)list.push_back(t);  // reserved above
     if ((i & 0xff) == 0 && io.overrun())

@@ -41,6 +41,12 @@ inline void setSeamEnd(const FaceView& faces, uint32_t h) {
   faces.words[(h & ~7u) + kSeamWord] |= 1u << (h & 3);
 }
 
+/// What becomes of the seams, per wedge.
+struct SeamWedges {
+  Array<uint32_t>& start;  ///< clockwise-most half-edge of its first run
+  Array<uint32_t>& group;
+};
+
 template <class Io>
 class SeamCoder {
  public:
@@ -56,25 +62,28 @@ class SeamCoder {
         fan_(mesh.allocator()),
         wedge_of_source_(mesh.allocator()) {}
 
-  /// Codes the seams. `group_order` has a half-edge per group in coding order. `wedge_start`
-  /// receives the clockwise-most half-edge of each wedge's first run, `wedge_group` its group. More
-  /// than `wedge_limit` wedges are an error.
-  Status run(uint32_t wedge_limit, const Array<uint32_t>& group_order, Array<uint32_t>& wedge_start,
-             Array<uint32_t>& wedge_group);
+  /// Codes the seams. `group_order` has a half-edge per group in coding order. More than
+  /// `wedge_limit` wedges are an error.
+  Status run(uint32_t wedge_limit, const Array<uint32_t>& group_order, const SeamWedges& wedges);
 
  private:
   /// Marks corners that have become wedges, and thereby reveals a corner that no umbrella reached.
   static constexpr uint32_t kDone = 1u << 31;
 
-  Status codeUmbrella(uint32_t group, uint32_t start, Array<uint32_t>& wedge_start,
-                      Array<uint32_t>& wedge_group);
+  /// A run of faces of one umbrella between two seam ends. It has another wedge than its
+  /// neighbours.
+  struct Run {
+    uint32_t first;          ///< its first half-edge
+    bool is_first;           ///< of the umbrella
+    uint32_t neighbours[2];  ///< wedges of the runs beside it, as far as they are known, or kNone
+  };
+
+  Status codeUmbrella(uint32_t group, uint32_t start, const SeamWedges& wedges);
   Status collectFan(uint32_t start);
   bool codeHasSeam();
   void codeSeamEnds();
-  Status codeRuns(uint32_t group, Array<uint32_t>& wedge_start, Array<uint32_t>& wedge_group);
-  Status codeWedge(uint32_t first, uint32_t excluded_a, uint32_t excluded_b, bool first_run,
-                   uint32_t group, Array<uint32_t>& wedge_start, Array<uint32_t>& wedge_group,
-                   uint32_t& wedge);
+  Status codeRuns(uint32_t group, const SeamWedges& wedges);
+  Status codeWedge(const Run& run, uint32_t group, const SeamWedges& wedges, uint32_t& wedge);
   uint32_t source(uint32_t h) const { return corner_source_[3 * size_t{faceOf(h)} + (h & 3)]; }
   /// Returns the wedge that a source wedge has become (encoder).
   uint32_t wedgeOf(uint32_t source) const {
@@ -118,20 +127,20 @@ class SeamCoder {
 
 template <class Io>
 Status SeamCoder<Io>::run(uint32_t wedge_limit, const Array<uint32_t>& group_order,
-                          Array<uint32_t>& wedge_start, Array<uint32_t>& wedge_group) {
+                          const SeamWedges& wedges) {
   wedge_limit_ = wedge_limit;
-  if (!wedge_start.reserve(wedge_limit_) || !wedge_group.reserve(wedge_limit_)) {
+  if (!wedges.start.reserve(wedge_limit_) || !wedges.group.reserve(wedge_limit_)) {
     return fail(Error::kOutOfMemory, "no memory for wedges");
   }
   for (size_t i = 0; i < group_order.size(); ++i) {
     const uint32_t entry = group_order[i];
     const uint32_t group = faces_.vertex(entry);
     group_begin_ = wedge_count_;
-    MCC_TRY(codeUmbrella(group, entry, wedge_start, wedge_group));
+    MCC_TRY(codeUmbrella(group, entry, wedges));
     if (groups_.hasCopies()) {
       for (const uint32_t start : groups_.umbrellasOf(group)) {
         if ((faces_.vertex(start) & kDone) != 0) continue;  // the umbrella of the entry is done
-        MCC_TRY(codeUmbrella(group, start, wedge_start, wedge_group));
+        MCC_TRY(codeUmbrella(group, start, wedges));
       }
     }
     if ((i & 0xff) == 0 && io_.overrun()) {
@@ -219,23 +228,21 @@ void SeamCoder<Io>::codeSeamEnds() {
 }
 
 template <class Io>
-Status SeamCoder<Io>::codeUmbrella(uint32_t group, uint32_t start, Array<uint32_t>& wedge_start,
-                                   Array<uint32_t>& wedge_group) {
+Status SeamCoder<Io>::codeUmbrella(uint32_t group, uint32_t start, const SeamWedges& wedges) {
   MCC_TRY(collectFan(start));
   if (codeHasSeam()) {
     codeSeamEnds();
-    return codeRuns(group, wedge_start, wedge_group);
+    return codeRuns(group, wedges);
   }
   uint32_t wedge = kNone;
-  MCC_TRY(codeWedge(fan_[0], kNone, kNone, true, group, wedge_start, wedge_group, wedge));
+  MCC_TRY(codeWedge({fan_[0], true, {kNone, kNone}}, group, wedges, wedge));
   for (size_t i = 0; i < fan_.size(); ++i) faces_.words[fan_[i]] = wedge | kDone;
   return {};
 }
 
 /// Codes the runs. A run starts after a seam end; the first may reach back over the closing edge.
 template <class Io>
-Status SeamCoder<Io>::codeRuns(uint32_t group, Array<uint32_t>& wedge_start,
-                               Array<uint32_t>& wedge_group) {
+Status SeamCoder<Io>::codeRuns(uint32_t group, const SeamWedges& wedges) {
   const uint32_t n = static_cast<uint32_t>(fan_.size());
   uint32_t first = 0;
   while (closed_ && first < n && !seamBefore(first)) ++first;
@@ -247,8 +254,9 @@ Status SeamCoder<Io>::codeRuns(uint32_t group, Array<uint32_t>& wedge_start,
     while (i + length < n && !seamBefore(around(first + i + length))) ++length;
     const bool last = i + length == n;
     uint32_t wedge = kNone;
-    MCC_TRY(codeWedge(fan_[around(first + i)], previous, last && closed_ ? first_wedge : kNone,
-                      i == 0, group, wedge_start, wedge_group, wedge));
+    const uint32_t next = last && closed_ ? first_wedge : kNone;
+    const Run run{fan_[around(first + i)], i == 0, {previous, next}};
+    MCC_TRY(codeWedge(run, group, wedges, wedge));
     for (uint32_t k = 0; k < length; ++k) {
       faces_.words[fan_[around(first + i + k)]] = wedge | kDone;
     }
@@ -260,13 +268,13 @@ Status SeamCoder<Io>::codeRuns(uint32_t group, Array<uint32_t>& wedge_start,
 }
 
 /// Codes a run as a new wedge, or as one of the group's wedges again. The rank of the latter counts
-/// back from the latest wedge, skipping the excluded ones, which are wedges of the group or kNone.
-/// [A.7.3]
+/// back from the latest wedge, skipping those of the neighbouring runs. [A.7.3]
 template <class Io>
-Status SeamCoder<Io>::codeWedge(uint32_t first, uint32_t excluded_a, uint32_t excluded_b,
-                                bool first_run, uint32_t group, Array<uint32_t>& wedge_start,
-                                Array<uint32_t>& wedge_group, uint32_t& wedge) {
+Status SeamCoder<Io>::codeWedge(const Run& run, uint32_t group, const SeamWedges& wedges,
+                                uint32_t& wedge) {
   const uint32_t latest = wedge_count_ - 1;
+  uint32_t excluded_a = run.neighbours[0];
+  uint32_t excluded_b = run.neighbours[1];
   // Sorts the excluded wedges, the latest first.
   if (excluded_a == excluded_b) excluded_b = kNone;
   if (excluded_a < excluded_b) std::swap(excluded_a, excluded_b);
@@ -276,7 +284,7 @@ Status SeamCoder<Io>::codeWedge(uint32_t first, uint32_t excluded_a, uint32_t ex
   bool merged = false;
   uint32_t rank = 0;
   if constexpr (Io::kEncoding) {
-    const uint32_t known = wedgeOf(source(first));
+    const uint32_t known = wedgeOf(source(run.first));
     merged = candidates != 0 && known != kNone && known >= group_begin_ && known != excluded_a &&
              known != excluded_b;
     if (merged) {
@@ -286,7 +294,7 @@ Status SeamCoder<Io>::codeWedge(uint32_t first, uint32_t excluded_a, uint32_t ex
     }
   }
   if (candidates != 0) {
-    merged = io_.bit(models_.merge[first_run ? 1 : 0][std::min(candidates, 4u) - 1], merged);
+    merged = io_.bit(models_.merge[run.is_first ? 1 : 0][std::min(candidates, 4u) - 1], merged);
   }
   if (merged) {
     if (candidates > 1) rank = codeGolomb(io_, models_.merge_with, rank);
@@ -301,8 +309,8 @@ Status SeamCoder<Io>::codeWedge(uint32_t first, uint32_t excluded_a, uint32_t ex
     return fail(Error::kBadAttribute, "the seams make more wedges than the header claims");
   }
   wedge = wedge_count_++;
-  bool ok = wedge_start.push_back(first) && wedge_group.push_back(group);
-  if constexpr (Io::kEncoding) ok = ok && noteSource(source(first), wedge);
+  bool ok = wedges.start.push_back(run.first) && wedges.group.push_back(group);
+  if constexpr (Io::kEncoding) ok = ok && noteSource(source(run.first), wedge);
   return ok ? Status{} : fail(Error::kOutOfMemory, "no memory for wedges");
 }
 

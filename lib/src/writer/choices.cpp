@@ -90,15 +90,19 @@ std::vector<AttributeInfo> exactAlternatives(const AttributeInfo& info, const Fe
   return all;
 }
 
+/// What the methods of all attributes are chosen by.
+struct MethodRules {
+  double wedge_share;  ///< what surfaces and positions take, per wedge, in the units of costs
+  TimePrice price;
+  const FeatureSet& without;
+};
+
 /// Tries the candidates of one attribute, starting from the current models, and continues with the
-/// best.
-/// goes_on      says that some later attribute shares its models.
-/// wedge_share  is what the payload takes so far, per wedge, in the units of costs.
+/// best. `goes_on` says that some later attribute shares its models.
 Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& runner,
-                             PayloadModels& models, double wedge_share, const TimePrice& price,
-                             const FeatureSet& without, bool goes_on) {
+                             PayloadModels& models, const MethodRules& rules, bool goes_on) {
   AttributeInfo& info = plan.attributes[index].info;
-  const std::vector<AttributeInfo> alternatives = exactAlternatives(info, without);
+  const std::vector<AttributeInfo> alternatives = exactAlternatives(info, rules.without);
   const uint32_t part = std::max(kTrialWedges, plan.header.wedge_count / kTrialShare);
   // Everything below a grid is always coded for all wedges, so a sample would distort the
   // comparison.
@@ -113,7 +117,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
     for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
     const AttributeMethod method = methodOf(infos, index);
     if (isWithAnother(method)) return {};
-    PredictorSearch search(method, plan.header.has(piece_flag::kSeams), without);
+    PredictorSearch search(method, plan.header.has(piece_flag::kSeams), rules.without);
     if (alternatives.size() == 1 && search.isSettled()) {
       best.predictor = search.best();
       break;
@@ -124,7 +128,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
       MCC_TRY(runner.tryAttribute(index, sample, cost));
       const double tried = std::min(sample, plan.header.wedge_count);
       cost += static_cast<uint64_t>(
-          price.surcharge(tried * wedge_share, timeOf(method, info.predictor)));
+          rules.price.surcharge(tried * rules.wedge_share, timeOf(method, info.predictor)));
       search.report(cost);
       if (!models.attributes.copyFrom(before)) throwBadAlloc();
       if (cost >= best_cost) continue;
@@ -140,7 +144,6 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
 /// positions are coded. `io` has counted the surfaces.
 Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& models,
                      const CostIo& io, const EncodeSettings& options) {
-  const TimePrice price(options.prefer);
   const bool only_positions = std::all_of(plans.begin(), plans.end(), [](const Plan& plan) {
     return plan.attributes.size() == 1 && !plan.header.has(piece_flag::kSeams);
   });
@@ -150,7 +153,8 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& 
     MCC_TRY(runners[i]->codePositions(nullptr));
     wedges += plans[i].header.wedge_count;
   }
-  const double wedge_share = static_cast<double>(io.cost()) / wedges;
+  const MethodRules rules{static_cast<double>(io.cost()) / wedges, TimePrice(options.prefer),
+                          options.without};
   for (size_t i = 0; i < plans.size(); ++i) {
     if (!options.without.has(Feature::kCreases)) MCC_TRY(runners[i]->chooseCreases(models));
     MCC_TRY(runners[i]->codeSeams(nullptr));
@@ -162,8 +166,7 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& 
         goes_on |= plans[i].attributes[order[later]].info.format.semantic ==
                    plans[i].attributes[order[k]].info.format.semantic;
       }
-      MCC_TRY(chooseAttributeMethod(plans[i], order[k], *runners[i], models, wedge_share, price,
-                                    options.without, goes_on));
+      MCC_TRY(chooseAttributeMethod(plans[i], order[k], *runners[i], models, rules, goes_on));
     }
   }
   return {};
