@@ -10,7 +10,8 @@ namespace {
 
 constexpr uint32_t kPolynomial = 0xedb88320u;
 constexpr size_t kSlices = 8;
-constexpr size_t kUsedSlices = kCompact ? 1 : kSlices;  ///< compact code works byte by byte
+/// From so many bytes on, compact code works on eight at a time, as other code always does.
+constexpr size_t kSlicedFrom = kSmall ? SIZE_MAX : kCompact ? 4096 : 0;
 
 constexpr uint32_t crcOfByte(uint32_t crc) {
   for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (kPolynomial & (~(crc & 1) + 1));
@@ -20,9 +21,9 @@ constexpr uint32_t crcOfByte(uint32_t crc) {
 struct SliceTables {
   uint32_t entry[kSlices][256];
 
-  constexpr SliceTables() : entry{} {
+  constexpr explicit SliceTables(size_t slices) : entry{} {
     for (uint32_t i = 0; i < 256; ++i) entry[0][i] = crcOfByte(i);
-    for (size_t slice = 1; slice < kUsedSlices; ++slice) {
+    for (size_t slice = 1; slice < slices; ++slice) {
       for (uint32_t i = 0; i < 256; ++i) {
         const uint32_t previous = entry[slice - 1][i];
         entry[slice][i] = (previous >> 8) ^ entry[0][previous & 0xff];
@@ -31,19 +32,20 @@ struct SliceTables {
   }
 };
 #if !defined(MCC_COMPACT)
-constexpr SliceTables kTables;
+constexpr SliceTables kTables(kSlices);
 #endif
 
 }  // namespace
 
 uint32_t crc32(std::span<const uint8_t> bytes, uint32_t crc) {
 #if defined(MCC_COMPACT)
-  const SliceTables kTables;  // computed in microseconds; stored tables would not compress
+  // Computed in microseconds; stored tables would not compress.
+  const SliceTables kTables(bytes.size() >= kSlicedFrom ? kSlices : 1);
 #endif
   crc = ~crc;
   const uint8_t* p = bytes.data();
   size_t rest = bytes.size();
-  for (; kUsedSlices == kSlices && rest >= kSlices; rest -= kSlices, p += kSlices) {
+  for (; bytes.size() >= kSlicedFrom && rest >= kSlices; rest -= kSlices, p += kSlices) {
     const uint32_t low =
         crc ^ (uint32_t{p[0]} | uint32_t{p[1]} << 8 | uint32_t{p[2]} << 16 | uint32_t{p[3]} << 24);
     crc = kTables.entry[7][low & 0xff] ^ kTables.entry[6][(low >> 8) & 0xff] ^

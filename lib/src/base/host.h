@@ -74,6 +74,15 @@ inline constexpr bool kCompact = false;
 #define MCC_SHARED MCC_INLINE
 #endif
 
+/// Compact code that is also compiled for size: what pays for its length is called as well.
+#if defined(MCC_SMALL)
+inline constexpr bool kSmall = true;
+#define MCC_CALLED_IF_SMALL inline MCC_OUT_OF_LINE
+#else
+inline constexpr bool kSmall = false;
+#define MCC_CALLED_IF_SMALL MCC_INLINE
+#endif
+
 /// A table of constants: made by the compiler; in compact code, where it would be data, by
 /// prepare(), before all that looks at it.
 template <auto kMake>

@@ -5,6 +5,7 @@
 #ifndef MCC_BASE_MEMORY_H_
 #define MCC_BASE_MEMORY_H_
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -107,6 +108,14 @@ class Array {
 
   [[nodiscard]] bool assign(size_t size, T value) {
     if (!resize(size)) return false;
+    if constexpr (kCompact) {  // WebAssembly has an instruction for bytes that are all alike
+      const auto* const bytes = reinterpret_cast<const uint8_t*>(&value);
+      const auto isFirst = [bytes](uint8_t byte) { return byte == bytes[0]; };
+      if (std::all_of(bytes, bytes + sizeof value, isFirst)) {
+        if (size != 0) std::memset(data_, bytes[0], size * sizeof value);
+        return true;
+      }
+    }
     for (size_t i = 0; i < size; ++i) data_[i] = value;
     return true;
   }

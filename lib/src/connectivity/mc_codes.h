@@ -534,8 +534,8 @@ Status McMachine<Io>::expandSpur(const McOperation* op, uint32_t vertex) {
 /// most of its time here, so everything this loop needs is local, and each node is read once.
 /// [A.4.5]
 template <class Io>
-MCC_SHARED Status McMachine<Io>::codeRun(CodesBurst& codes, const McOperation* op,
-                                         uint32_t vertex) {
+MCC_CALLED_IF_SMALL Status McMachine<Io>::codeRun(CodesBurst& codes, const McOperation* op,
+                                                  uint32_t vertex) {
   const McNode* const nodes = nodes_.data();
   BitModel* const models =
       models_.run.data() + (models_.context_set == 1 ? size_t{pattern_} * kRunContexts : 0);

@@ -148,7 +148,7 @@ class CompactIo {
   static constexpr bool kThreeAtOnce = kCompact;
   /// Inner loops use the Io itself, or at most a copy of the range decoder.
   using Burst = CompactIo&;
-  using CodesBurst = std::conditional_t<kCompact, CompactIo&, RangeBurst>;
+  using CodesBurst = std::conditional_t<kSmall, CompactIo&, RangeBurst>;
 
   /// A single coder has only `codes`; others are decoded only in compact code.
   CompactIo(std::span<const uint8_t> codes, std::span<const uint8_t> tokens,
