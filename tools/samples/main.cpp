@@ -1,8 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // generate-samples DIR writes the sample models into DIR and prints the table of samples/README.md.
-// generate-samples --soups DIR instead writes meshes whose edges have many faces, to be measured by
-// `gltf-mcc bench DIR/*.glb`.
+// With --bench it instead writes the second set of models for `gltf-mcc bench DIR/*.glb`, which
+// nothing in the codec was fitted on; with --soups, meshes whose edges have many faces.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -70,15 +70,18 @@ int run(const std::filesystem::path& folder, std::span<const Model> models) {
 }  // namespace mcc::samples
 
 int main(int argc, char** argv) {
-  const bool soups = argc == 3 && std::string_view(argv[1]) == "--soups";
-  const char* const folder = soups ? argv[2] : argv[1];
-  if (argc != (soups ? 3 : 2) || folder[0] == '-') {
-    std::fputs("usage: generate-samples [--soups] DIR\n", stderr);
+  const std::string_view option = argc == 3 ? argv[1] : "";
+  const char* const folder = argc > 1 ? argv[argc - 1] : "-";
+  std::span<const mcc::samples::Model> models = mcc::samples::allModels();
+  if (option == "--bench") models = mcc::samples::benchModels();
+  if (option == "--soups") models = mcc::samples::soupModels();
+  const bool is_known = option.empty() || option == "--bench" || option == "--soups";
+  if (argc < 2 || argc > 3 || !is_known || folder[0] == '-') {
+    std::fputs("usage: generate-samples [--bench|--soups] DIR\n", stderr);
     return 2;
   }
   try {
-    return mcc::samples::run(folder,
-                             soups ? mcc::samples::soupModels() : mcc::samples::allModels());
+    return mcc::samples::run(folder, models);
   } catch (const std::exception& exception) {
     std::fprintf(stderr, "generate-samples: %s\n", exception.what());
     return 1;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "png.h"
-#include "support/mesh_generators.h"
+#include "scene.h"
 
 namespace mcc::samples {
 namespace {
@@ -17,120 +17,15 @@ using test::cellWalls;
 using test::jittered;
 using test::shuffled;
 using test::stackedCubes;
-using test::TestMesh;
 using test::tetrahedraAsQuads;
 using test::tetrahedralSoup;
 using test::turn;
-
-struct Vec3 {
-  double x = 0;
-  double y = 0;
-  double z = 0;
-};
-
-Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Vec3 operator*(const Vec3& a, double s) { return {a.x * s, a.y * s, a.z * s}; }
-double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-Vec3 unit(const Vec3& a) { return a * (1 / std::sqrt(dot(a, a))); }
-
-void push(std::vector<float>& values, const Vec3& v) {
-  values.push_back(static_cast<float>(v.x));
-  values.push_back(static_cast<float>(v.y));
-  values.push_back(static_cast<float>(v.z));
-}
-
-Vec3 at(const std::vector<float>& values, uint32_t i) {
-  return {double{values[size_t{i} * 3]}, double{values[size_t{i} * 3 + 1]},
-          double{values[size_t{i} * 3 + 2]}};
-}
-
-/// Adds the two triangles of a quad, counter-clockwise a b c d.
-void pushQuad(std::vector<uint32_t>& indices, uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
-  for (const uint32_t v : {a, b, c, a, c, d}) indices.push_back(v);
-}
-
-/// Adds the attributes of `mesh`; returns the attribute map of a primitive.
-Json addAttributes(GlbBuilder& glb, const TestMesh& mesh) {
-  Json attributes;
-  attributes["POSITION"] = glb.addFloats(mesh.positions, 3);
-  if (!mesh.normals.empty()) attributes["NORMAL"] = glb.addFloats(mesh.normals, 3);
-  if (!mesh.texcoords.empty()) attributes["TEXCOORD_0"] = glb.addFloats(mesh.texcoords, 2);
-  return attributes;
-}
-
-Json primitive(const Json& attributes, uint32_t indices, uint32_t material) {
-  return {{"attributes", attributes}, {"indices", indices}, {"material", material}};
-}
-
-/// Adds the attributes and then the indices of `mesh`.
-Json addPrimitive(GlbBuilder& glb, const TestMesh& mesh, uint32_t material) {
-  const Json attributes = addAttributes(glb, mesh);
-  return primitive(attributes, glb.addIndices(mesh.indices), material);
-}
-
-/// Makes a document with one node, one mesh and one primitive.
-GlbBuilder single(const std::string& name, const TestMesh& mesh, float red, float green, float blue,
-                  bool double_sided = false) {
-  GlbBuilder glb(name);
-  const uint32_t material = glb.addMaterial(name, red, green, blue, 0.0f, 0.45f, double_sided);
-  const uint32_t index = glb.addMesh(name, Json::array({addPrimitive(glb, mesh, material)}));
-  glb.addNode({{"name", name}, {"mesh", index}});
-  return glb;
-}
 
 // ---- Closed surfaces ----------------------------------------------------------------------------
 
 GlbBuilder sphere() { return single("sphere", test::icosphere(4), 0.05f, 0.45f, 0.5f); }
 
 GlbBuilder torus() { return single("torus", test::torus(64, 32), 0.9f, 0.35f, 0.05f); }
-
-/// Does one step of Loop's subdivision of a closed mesh.
-TestMesh loopSubdivided(const TestMesh& mesh) {
-  struct Edge {
-    uint32_t middle = 0;
-    Vec3 opposite;  // sum over both faces
-  };
-  std::map<std::pair<uint32_t, uint32_t>, Edge> edges;
-  std::vector<Vec3> ring(mesh.vertexCount());
-  std::vector<uint32_t> degree(mesh.vertexCount(), 0);
-  for (size_t h = 0; h < mesh.indices.size(); ++h) {
-    const uint32_t a = mesh.indices[h];
-    const uint32_t b = mesh.indices[h / 3 * 3 + (h + 1) % 3];
-    const uint32_t c = mesh.indices[h / 3 * 3 + (h + 2) % 3];
-    Edge& edge = edges[std::minmax(a, b)];
-    edge.opposite = edge.opposite + at(mesh.positions, c);
-    ring[a] = ring[a] + at(mesh.positions, b);
-    ++degree[a];
-  }
-  TestMesh fine;
-  for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
-    const double n = degree[v];
-    const double inner = 0.375 + 0.25 * turn(1 / n).cos;
-    const double beta = (0.625 - inner * inner) / n;
-    push(fine.positions, at(mesh.positions, v) * (1 - n * beta) + ring[v] * beta);
-  }
-  for (auto& [ends, edge] : edges) {
-    edge.middle = fine.vertexCount();
-    const Vec3 sum = at(mesh.positions, ends.first) + at(mesh.positions, ends.second);
-    push(fine.positions, sum * 0.375 + edge.opposite * 0.125);
-  }
-  for (size_t t = 0; t < mesh.indices.size(); t += 3) {
-    std::array<uint32_t, 3> middle{};
-    for (size_t k = 0; k < 3; ++k) {
-      middle[k] = edges[std::minmax(mesh.indices[t + k], mesh.indices[t + (k + 1) % 3])].middle;
-    }
-    for (size_t k = 0; k < 3; ++k) {
-      for (const uint32_t v : {mesh.indices[t + k], middle[k], middle[(k + 2) % 3]})
-        fine.indices.push_back(v);
-    }
-    fine.indices.insert(fine.indices.end(), middle.begin(), middle.end());
-  }
-  return fine;
-}
 
 GlbBuilder genus3() {
   TestMesh mesh = test::plateWithTunnels(3, 1);

@@ -22,6 +22,9 @@ std::span<const Model> allModels();
 /// repository.
 std::span<const Model> soupModels();
 
+/// Ten kinds of models that nothing in the codec was fitted on, for `bench`.
+std::span<const Model> benchModels();
+
 }  // namespace mcc::samples
 
 #endif  // MCC_TOOLS_SAMPLES_MODELS_H_

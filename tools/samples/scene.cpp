@@ -1,0 +1,76 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "scene.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+namespace mcc::samples {
+
+TestMesh loopSubdivided(const TestMesh& mesh) {
+  struct Edge {
+    uint32_t middle = 0;
+    Vec3 opposite;  // sum over both faces
+  };
+  std::map<std::pair<uint32_t, uint32_t>, Edge> edges;
+  std::vector<Vec3> ring(mesh.vertexCount());
+  std::vector<uint32_t> degree(mesh.vertexCount(), 0);
+  for (size_t h = 0; h < mesh.indices.size(); ++h) {
+    const uint32_t a = mesh.indices[h];
+    const uint32_t b = mesh.indices[h / 3 * 3 + (h + 1) % 3];
+    const uint32_t c = mesh.indices[h / 3 * 3 + (h + 2) % 3];
+    Edge& edge = edges[std::minmax(a, b)];
+    edge.opposite = edge.opposite + at(mesh.positions, c);
+    ring[a] = ring[a] + at(mesh.positions, b);
+    ++degree[a];
+  }
+  TestMesh fine;
+  for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+    const double n = degree[v];
+    const double inner = 0.375 + 0.25 * test::turn(1 / n).cos;
+    const double beta = (0.625 - inner * inner) / n;
+    push(fine.positions, at(mesh.positions, v) * (1 - n * beta) + ring[v] * beta);
+  }
+  for (auto& [ends, edge] : edges) {
+    edge.middle = fine.vertexCount();
+    const Vec3 sum = at(mesh.positions, ends.first) + at(mesh.positions, ends.second);
+    push(fine.positions, sum * 0.375 + edge.opposite * 0.125);
+  }
+  for (size_t t = 0; t < mesh.indices.size(); t += 3) {
+    std::array<uint32_t, 3> middle{};
+    for (size_t k = 0; k < 3; ++k) {
+      middle[k] = edges[std::minmax(mesh.indices[t + k], mesh.indices[t + (k + 1) % 3])].middle;
+    }
+    for (size_t k = 0; k < 3; ++k) {
+      for (const uint32_t v : {mesh.indices[t + k], middle[k], middle[(k + 2) % 3]})
+        fine.indices.push_back(v);
+    }
+    fine.indices.insert(fine.indices.end(), middle.begin(), middle.end());
+  }
+  return fine;
+}
+
+Json addAttributes(GlbBuilder& glb, const TestMesh& mesh) {
+  Json attributes;
+  attributes["POSITION"] = glb.addFloats(mesh.positions, 3);
+  if (!mesh.normals.empty()) attributes["NORMAL"] = glb.addFloats(mesh.normals, 3);
+  if (!mesh.texcoords.empty()) attributes["TEXCOORD_0"] = glb.addFloats(mesh.texcoords, 2);
+  return attributes;
+}
+
+Json addPrimitive(GlbBuilder& glb, const TestMesh& mesh, uint32_t material) {
+  const Json attributes = addAttributes(glb, mesh);
+  return primitive(attributes, glb.addIndices(mesh.indices), material);
+}
+
+GlbBuilder single(const std::string& name, const TestMesh& mesh, float red, float green, float blue,
+                  bool double_sided) {
+  GlbBuilder glb(name);
+  const uint32_t material = glb.addMaterial(name, red, green, blue, 0.0f, 0.45f, double_sided);
+  const uint32_t index = glb.addMesh(name, Json::array({addPrimitive(glb, mesh, material)}));
+  glb.addNode({{"name", name}, {"mesh", index}});
+  return glb;
+}
+
+}  // namespace mcc::samples
