@@ -582,8 +582,8 @@ Status McMachine<Io>::codeDummyRun(const McOperation* op) {
 
 /// Puts the new vertex in the place of the closed ones: top -> node -> q.
 template <class Io>
-MCC_SHARED Status McMachine<Io>::endRun(const McOperation* op, uint32_t vertex, uint32_t q,
-                                        const Fan& fan) {
+MCC_CALLED_IF_SMALL Status McMachine<Io>::endRun(const McOperation* op, uint32_t vertex, uint32_t q,
+                                                 const Fan& fan) {
   uint32_t node = 0;
   MCC_TRY(newNode(vertex, fan.taken + 1, node));
   if constexpr (Io::kEncoding) truth_.node_of_collapse_node[op->node_a] = node;
@@ -606,7 +606,8 @@ MCC_SHARED Status McMachine<Io>::endRun(const McOperation* op, uint32_t vertex, 
 // --- lists ---------------------------------------------------------------------------------------
 
 template <class Io>
-MCC_SHARED Status McMachine<Io>::newNode(uint32_t vertex, uint32_t degree, uint32_t& node) {
+MCC_CALLED_IF_SMALL Status McMachine<Io>::newNode(uint32_t vertex, uint32_t degree,
+                                                  uint32_t& node) {
   const uint16_t clamped = static_cast<uint16_t>(std::min(degree, 0xffffu));
   if (free_ != kNone) [[likely]] {
     node = free_;
@@ -685,7 +686,7 @@ MCC_INLINE bool McMachine<Io>::takeGate(uint32_t vertex, uint32_t node, Fan& fan
 /// refer to nodes outside the digon at work. With handles, closed nodes are therefore marked;
 /// without, they are reused.
 template <class Io>
-MCC_SHARED void McMachine<Io>::closeNodes(uint32_t first, uint32_t last) {
+MCC_CALLED_IF_SMALL void McMachine<Io>::closeNodes(uint32_t first, uint32_t last) {
   if (!counts_.has_handles) {
     nodes_[last].next = free_;
     free_ = first;

@@ -204,8 +204,8 @@ MCC_INLINE void VertexCoder<Io, kModes>::codeComponents(Io& io, uint32_t v,
 /// Codes the components by slot, in the order that the shear prescribes.
 template <class Io, uint32_t kModes>
 template <class Fold, class Shears>
-MCC_SHARED void VertexCoder<Io, kModes>::codeSlots(Io& io, uint32_t v, const ScaleEstimate& scale,
-                                                   const Shift<Fold, Shears>& shift) const {
+MCC_CALLED_IF_SMALL void VertexCoder<Io, kModes>::codeSlots(
+    Io& io, uint32_t v, const ScaleEstimate& scale, const Shift<Fold, Shears>& shift) const {
   const Fold fold = shift.fold;
   const uint8_t* axis = shift.shear.axis;
   const uint8_t* slot = shift.shear.slot;
