@@ -119,8 +119,8 @@ int run(int argc, char** argv) {
   setHelp(
       app, "COMMAND …",
       "Run gltf-mcc COMMAND --help for details.\n"
-      "Exit status: 0 done; 1 the input is bad or the check failed, nothing was written; 2 wrong\n"
-      "usage. Set NO_COLOR in the environment to turn colours off.",
+      "Exit status: 0 done; 1 an input is bad or a check failed, and nothing was written for it;\n"
+      "2 wrong usage. Set NO_COLOR in the environment to turn colours off.",
       "convert model.glb small.glb\n"
       "convert -j 4 -o small models/*.glb\n"
       "decode small.glb model.glb\n"
