@@ -28,7 +28,9 @@ constexpr uint64_t kAlignmentBytes = 8;
 
 /// Converts a number of JavaScript. Infinity becomes the largest number, and NaN becomes 0, so that
 /// a mistake limits too much rather than nothing.
-uint64_t limitOf(double number) { return __builtin_wasm_trunc_saturate_u_i64_f64(number); }
+uint64_t limitOf(double number) {
+  return static_cast<uint64_t>(__builtin_wasm_trunc_saturate_u_i64_f64(number));
+}
 uint32_t shortLimitOf(double number) {
   return static_cast<uint32_t>(__builtin_wasm_trunc_saturate_u_i32_f64(number));
 }
