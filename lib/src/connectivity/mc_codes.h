@@ -141,10 +141,15 @@ inline bool McModels::init(uint32_t set) {
 
 inline constexpr bool kTellsMcEdges = !kCompact;
 
-/// An mc-edge: `vertex` was reached from the edge's other end, `from`.
+/// An mc-edge between two vertices: `vertex` was reached from the edge's other end, `from`.
 struct McEdge {
   uint32_t vertex;
   uint32_t from;
+};
+/// The same as half-edges that begin at the two vertices.
+struct McEdgeCorners {
+  uint32_t of_vertex;
+  uint32_t of_from;
 };
 
 /// What a caller wants to know about the operations; members may be null.

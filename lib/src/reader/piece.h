@@ -192,7 +192,7 @@ class PieceCoder {
   }
 
   FaceMesh mesh;  ///< corners hold vertices, after codeStitch() groups, after codeSeams() wedges
-  Array<McEdge> mc_edges;  ///< only if wanted: between half-edges that begin at the vertices
+  Array<McEdgeCorners> mc_edges;  ///< only if wanted
   Groups groups;
   Array<VertexRecord> records;  ///< by group
   /// A half-edge per group, after codeSeams() per wedge, in coding order.
@@ -205,21 +205,22 @@ class PieceCoder {
   Array<uint32_t> wedge_order;     ///< wedge by place; empty if not kept
 
  private:
-  /// Replaces the vertices of mc-edges by half-edges, because the next stages renumber vertices but
-  /// not half-edges.
-  Status cornersOfMcEdges() {
+  /// Fills mc_edges. The next stages renumber vertices but not half-edges.
+  Status findMcEdgeCorners(const Array<McEdge>& edges) {
+    if constexpr (!kTellsMcEdges) return {};
     Array<uint32_t> corner(allocator_);
-    if (!corner.assign(mesh.vertex_count, kNone)) return noMemory();
+    if (!corner.assign(mesh.vertex_count, kNone) || !mc_edges.reserve(edges.size()))
+      return noMemory();
     for (uint32_t f = 0; f < mesh.face_count; ++f) {
       for (uint32_t h = f * kFaceWords; h < f * kFaceWords + 3; ++h) corner[mesh.words[h]] = h;
     }
-    size_t count = 0;
-    for (size_t i = 0; i < mc_edges.size(); ++i) {
-      const McEdge edge{corner[mc_edges[i].vertex], corner[mc_edges[i].from]};
+    for (size_t i = 0; i < edges.size(); ++i) {
+      const McEdgeCorners corners{corner[edges[i].vertex], corner[edges[i].from]};
       // The codes of a bad file may make vertices without a triangle.
-      if (edge.vertex != kNone && edge.from != kNone) mc_edges[count++] = edge;
+      if (corners.of_vertex == kNone || corners.of_from == kNone) continue;
+      (void)mc_edges.push_back(corners);  // reserved above
     }
-    return mc_edges.resize(count) ? Status{} : noMemory();
+    return {};
   }
 
   /// The scale at which the seeds of exact floats start.
@@ -300,22 +301,22 @@ Status PieceCoder<Io>::codeConnectivity(const PieceTruth& truth, CodeHistogram* 
   if (!mesh.words.resize(size_t{header_.face_count} * kFaceWords)) return noMemory();
   mesh.face_count = 0;
   mesh.vertex_count = 0;
+  Array<McEdge> edges(allocator_);
   if (header_.hasPivots()) {
     PivotModels* const models = models_.pivots.get(allocator_);
     if (models == nullptr) return noMemory();
-    if (wants_mc_edges && !mc_edges.reserve(header_.vertex_count)) return noMemory();
-    PivotCoder<Io> coder(io_, *models, mesh, truth.pivot_faces,
-                         wants_mc_edges ? &mc_edges : nullptr);
+    if (wants_mc_edges && !edges.reserve(header_.vertex_count)) return noMemory();
+    PivotCoder<Io> coder(io_, *models, mesh, truth.pivot_faces, wants_mc_edges ? &edges : nullptr);
     MCC_TRY(coder.run(header_.vertex_count, header_.face_count));
-    return kTellsMcEdges && wants_mc_edges ? cornersOfMcEdges() : Status{};
+    return wants_mc_edges ? findMcEdgeCorners(edges) : Status{};
   }
   const McCounts counts{header_.operation_count, header_.vertex_count, header_.dummy_count,
                         header_.face_count, header_.has(piece_flag::kHandles)};
-  const McWatch watch{histogram, wants_mc_edges ? &mc_edges : nullptr};
+  const McWatch watch{histogram, wants_mc_edges ? &edges : nullptr};
   const bool is_watched = watch.histogram != nullptr || watch.edges != nullptr;
   McMachine<Io> machine(io_, models_.mc, counts, mesh, truth.connectivity);
   MCC_TRY(machine.run(is_watched ? &watch : nullptr));
-  return kTellsMcEdges && wants_mc_edges ? cornersOfMcEdges() : Status{};
+  return wants_mc_edges ? findMcEdgeCorners(edges) : Status{};
 }
 
 template <SymbolIo Io>

@@ -244,8 +244,9 @@ Status tellMcEdges(const PieceCoder<Io>& piece, uint32_t piece_index,
     return place_of.empty() ? w : place_of[w];
   };
   for (size_t i = 0; i < piece.mc_edges.size(); ++i) {
-    const McEdge edge = piece.mc_edges[i];
-    options.mc_edge(options.mc_edge_user, piece_index, wedge(edge.vertex), wedge(edge.from));
+    const McEdgeCorners corners = piece.mc_edges[i];
+    options.mc_edge(options.mc_edge_user, piece_index, wedge(corners.of_vertex),
+                    wedge(corners.of_from));
   }
   return {};
 }

@@ -29,23 +29,20 @@ class WedgeMesh {
   Status build(FaceMesh& mesh, const uint32_t* starts, uint32_t surface_wedges,
                uint32_t wedge_count, const uint32_t* group_of_wedge);
 
-  uint32_t wedgeAt(uint32_t i) const { return order_.empty() ? i : order_[i]; }
-  uint32_t rankOf(uint32_t wedge) const { return rank_.empty() ? wedge : rank_[wedge]; }
+  /// Calls visit(wedge) for the first `end` wedges in coding order. `data`, of `stride` elements
+  /// per wedge, is fetched before it is visited.
+  template <class T, class Visit>
+  MCC_INLINE void forCoded(uint32_t end, const T* data, size_t stride, Visit visit) const {
+    for (uint32_t i = 0; i < end; ++i) {
+      const uint32_t wedge = i < surface_count ? wedgeAt(i) : i;
+      prefetch(i, data, stride);
+      visit(wedge);
+    }
+  }
   /// The half-edges that leave `wedge` in the faces it completes, those in which all other corners
-  /// have a lower rank.
+  /// come before it in coding order.
   uint32_t firstCompleted(uint32_t wedge) const { return completed_[wedge]; }
   uint32_t nextCompleted(uint32_t h) const { return faces.words[(h & ~7u) + kFaceWord]; }
-  /// Prefetches what coding the wedges a few places after i will look at. `data` has `stride`
-  /// elements per wedge.
-  template <class T>
-  MCC_INLINE void prefetch(uint32_t i, const T* data, size_t stride) const {
-    if (i + 2 * kPrefetch >= surface_count) return;
-    const uint32_t far = wedgeAt(i + 2 * kPrefetch);
-    MCC_PREFETCH(&completed_[far]);
-    MCC_PREFETCH(data + stride * far);
-    const uint32_t entry = completed_[wedgeAt(i + kPrefetch)];
-    if (entry != kNone) MCC_PREFETCH(&faces.words[entry]);
-  }
   /// Returns whether wedge `w` is on the same vertex as wedge w-1.
   bool continuesVertex(uint32_t w) const {
     return group_of_wedge_ != nullptr && w != 0 && w < surface_count &&
@@ -56,7 +53,8 @@ class WedgeMesh {
   template <class Visit>
   void forRun(uint32_t wedge, Visit visit) const;
   bool hasSeams() const { return group_of_wedge_ != nullptr; }
-  uint32_t startOf(uint32_t i) const { return starts_[i]; }
+  /// The clockwise-most half-edge of the wedge's first run of faces.
+  uint32_t startOf(uint32_t wedge) const { return starts_[rankOf(wedge)]; }
 
   FaceView faces;
   uint32_t face_count = 0;
@@ -67,6 +65,20 @@ class WedgeMesh {
 
  private:
   static constexpr uint32_t kPrefetch = 4;  ///< places ahead
+
+  // Places in coding order do not leave this class: outside, a wedge has its number only.
+  uint32_t wedgeAt(uint32_t i) const { return order_.empty() ? i : order_[i]; }
+  uint32_t rankOf(uint32_t wedge) const { return rank_.empty() ? wedge : rank_[wedge]; }
+  /// Prefetches what coding the wedges a few places after i will look at.
+  template <class T>
+  MCC_INLINE void prefetch(uint32_t i, const T* data, size_t stride) const {
+    if (i + 2 * kPrefetch >= surface_count) return;
+    const uint32_t far = wedgeAt(i + 2 * kPrefetch);
+    MCC_PREFETCH(&completed_[far]);
+    MCC_PREFETCH(data + stride * far);
+    const uint32_t entry = completed_[wedgeAt(i + kPrefetch)];
+    if (entry != kNone) MCC_PREFETCH(&faces.words[entry]);
+  }
 
   Array<uint32_t> order_;  ///< empty if wedges are numbered in coding order
   Array<uint32_t> rank_;
@@ -113,7 +125,7 @@ inline Status WedgeMesh::build(FaceMesh& mesh, const uint32_t* starts, uint32_t 
 template <class Visit>
 void WedgeMesh::forRun(uint32_t wedge, Visit visit) const {
   if (wedge >= surface_count) return;
-  const uint32_t start = starts_[rankOf(wedge)];
+  const uint32_t start = startOf(wedge);
   uint32_t budget = 16;
   uint32_t h = start;
   do {

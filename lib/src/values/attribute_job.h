@@ -75,12 +75,9 @@ struct Ahead {
 /// of kWords integers, and its length, to the other members of the group, and calls learn(w).
 template <uint32_t kWords, class Io, class T, class Code, class Learn>
 MCC_INLINE void forEachGroup(const AttributeJob<Io>& job, Ahead<T> ahead, Code code, Learn learn) {
-  const WedgeMesh& wedges = job.wedges;
-  std::fill(job.lengths, job.lengths + wedges.count, kNotCoded);
-  for (uint32_t i = 0; i < job.end; ++i) {
-    const uint32_t w = i < wedges.surface_count ? wedges.wedgeAt(i) : i;
-    wedges.prefetch(i, ahead.data, ahead.stride);
-    if (!job.groups.isFirst(w)) continue;
+  std::fill(job.lengths, job.lengths + job.wedges.count, kNotCoded);
+  job.wedges.forCoded(job.end, ahead.data, ahead.stride, [&](uint32_t w) MCC_INLINE_LAMBDA {
+    if (!job.groups.isFirst(w)) return;
     code(w);
     for (uint32_t m = job.groups.nextOf(w); m != kNone; m = job.groups.nextOf(m)) {
       const size_t words = kWords == 0 ? job.info.format.component_count : kWords;
@@ -88,7 +85,7 @@ MCC_INLINE void forEachGroup(const AttributeJob<Io>& job, Ahead<T> ahead, Code c
       job.lengths[m] = job.lengths[w];
     }
     learn(w);
-  }
+  });
 }
 template <uint32_t kWords, class Io, class T, class Code>
 MCC_INLINE void forEachGroup(const AttributeJob<Io>& job, Ahead<T> ahead, Code code) {
