@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Models of the kinds that people measure and that no constant or choice of the codec was fitted
-// on. All are made from seeds.
+// Models of the kinds that people measure, on which no constant or choice of the codec was fitted.
+// All are made from seeds.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -84,6 +84,15 @@ TestMesh sheetOf(uint32_t columns, uint32_t rows,
 void addObject(GlbBuilder& glb, const TestMesh& mesh, uint32_t material) {
   const uint32_t index = glb.addMesh(mesh.name, Json::array({addPrimitive(glb, mesh, material)}));
   glb.addNode({{"name", mesh.name}, {"mesh", index}});
+}
+
+/// Adds an object at its place in rows of `columns` objects, which are `spacing` apart.
+void addInRows(GlbBuilder& glb, const char* kind, uint32_t number, TestMesh mesh, uint32_t columns,
+               uint32_t spacing, uint32_t material) {
+  mesh = test::translated(std::move(mesh), static_cast<float>(number % columns * spacing), 0,
+                          static_cast<float>(number / columns * spacing));
+  mesh.name = std::string(kind) + " " + std::to_string(number);
+  addObject(glb, mesh, material);
 }
 
 // ---- Surfaces -----------------------------------------------------------------------------------
@@ -348,10 +357,7 @@ GlbBuilder cad() {
     outline.push_back({hole, tall, 0, 1});
     TestMesh mesh = revolved(outline, 16 + 4 * random.below(12));
     mesh.texcoords.clear();
-    mesh = test::translated(std::move(mesh), static_cast<float>(part % 10 * 3), 0,
-                            static_cast<float>(part / 10 * 3));
-    mesh.name = "part " + std::to_string(part);
-    addObject(glb, mesh, material);
+    addInRows(glb, "part", part, std::move(mesh), 10, 3, material);
   }
   return glb;
 }
@@ -368,11 +374,7 @@ GlbBuilder props() {
       outline.push_back({0.15 + 0.4 * double{random.unit()}, 0.2 * i, normal.x, normal.y});
     }
     outline.push_back({0, 0.2 * rings, 0, 1});
-    TestMesh mesh = revolved(outline, random.between(8, 24));
-    mesh = test::translated(std::move(mesh), static_cast<float>(prop % 20), 0,
-                            static_cast<float>(prop / 20));
-    mesh.name = "prop " + std::to_string(prop);
-    addObject(glb, mesh, material);
+    addInRows(glb, "prop", prop, revolved(outline, random.between(8, 24)), 20, 1, material);
   }
   return glb;
 }

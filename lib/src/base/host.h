@@ -74,7 +74,7 @@ inline constexpr bool kCompact = false;
 #define MCC_SHARED MCC_INLINE
 #endif
 
-/// Compact code that is also compiled for size: what pays for its length is called as well.
+/// Compact code that is compiled for size alone: it also calls what is worth its length inlined.
 #if defined(MCC_SMALL)
 inline constexpr bool kSmall = true;
 #define MCC_CALLED_IF_SMALL inline MCC_OUT_OF_LINE
