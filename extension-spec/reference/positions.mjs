@@ -18,12 +18,12 @@ import { f } from './vectors.mjs';
 // [B.2.5] The coefficients U[weighted][shear][plain fan][slot]
 const U = [
 	[
-		[[[196, 12, 1662], [216, 12, 1638], [208, 13, 1749]], [[138, 182, 1222], [143, 186, 1186], [140, 178, 1299]]],
-		[[[183, 9, 1774], [170, 13, 1780], [147, 17, 1437]], [[112, 181, 1364], [110, 182, 1382], [140, 77, 1151]]],
+		[[[196, 12, 1662], [216, 12, 1638], [208, 13, 1749]], [[138, 155, 1222, 52], [143, 158, 1186, 52], [140, 151, 1299, 52]]],
+		[[[183, 9, 1774], [170, 13, 1780], [147, 17, 1437]], [[112, 154, 1364, 49], [110, 155, 1382, 49], [140, 65, 1151, 7]]],
 	],
 	[
-		[[[200, 17, 1672], [207, 19, 1672], [188, 18, 1766]], [[136, 106, 1207], [142, 109, 1185], [136, 107, 1292]]],
-		[[[169, 13, 1818], [160, 16, 1786], [157, 14, 1446]], [[113, 102, 1386], [108, 107, 1378], [123, 58, 1121]]],
+		[[[200, 17, 1672], [207, 19, 1672], [188, 18, 1766]], [[136, 90, 1207, 25], [142, 93, 1185, 25], [136, 91, 1292, 25]]],
+		[[[169, 13, 1818], [160, 16, 1786], [157, 14, 1446]], [[113, 87, 1386, 21], [108, 91, 1378, 24], [123, 49, 1121, 6]]],
 	],
 ];
 const COEFFICIENT_LIMIT = 65535;
@@ -34,7 +34,7 @@ export class PositionModels {
 		this.PRESENT = models([]);
 		this.WEIGHT = golombs([]);
 		this.SELECTING_WEIGHT = golombs([]);
-		this.COEFFICIENT = golombs([3]);
+		this.COEFFICIENT = golombs([4]);
 		this.rows = new PositionRows();
 		this.palettes = new PaletteModels();
 		this.planes = new PlanesModels();
@@ -43,7 +43,7 @@ export class PositionModels {
 		this.weights = zeroWeights();
 		this.weightsWereRead = false;
 		this.selectingWeightsWereRead = false;
-		this.changes = models([2, 3, 3], () => 0);
+		this.changes = models([2, 3, 4], () => 0);
 		this.changesWereRead = false;
 	}
 }
@@ -188,17 +188,18 @@ class Positions {
 		const normal = this.shear ? this.prediction.normal(fan) : [0, 0, 0];
 		const axis = axesByNormal(normal);
 		const coefficients = this.coefficients[fan.plain ? 1 : 0];
-		return { normal, axis, ...this.scalesOf(coefficients, predicted.magnitudes, axis.map((s) => predicted.spread[s])) };
+		const inOrder = (list) => axis.map((s) => list[s]);
+		return { normal, axis, ...this.scalesOf(coefficients, predicted.magnitudes, inOrder(predicted.spread), inOrder(predicted.third)) };
 	}
 
 	// [B.2.5]
-	scalesOf(coefficients, magnitudes, spread) {
+	scalesOf(coefficients, magnitudes, spread, third) {
 		const scale = [];
 		const set = [];
 		for (let k = 0; k < 3; ++k) {
-			const [c0, c1, c2] = coefficients[k].map((c) => c / 64);
+			const [c0, c1, c2, c3 = 0] = coefficients[k].map((c) => c / 64);
 			const N = f(c0 * magnitudes[k]);
-			const S = f(c1 * spread[k]);
+			const S = f(f(c1 * spread[k]) + f(c3 * third[k]));
 			scale.push(f(f(N + S) + c2));
 			set.push(this.split ? Number(S > 2 * N) + 2 * Number(N > 2 * S) : 0);
 		}

@@ -37,6 +37,7 @@ PredictorWeights trainedWeights(const FeatureSet& without) {
   for (auto& w : weights.w) {
     if (without.has(Feature::kBeyondWeights)) w[2] = 0;
     if (without.has(Feature::kDegreeWeights)) w[3] = w[4] = 0;
+    if (without.has(Feature::kAngleWeights)) w[kAngleWeight] = 0;
   }
   return weights;
 }
@@ -271,7 +272,7 @@ class Trials {
 
 // --- least squares -------------------------------------------------------------------------------
 
-/// Normal equations of up to 8 unknowns. They use only + - * / in one fixed order, so that every
+/// Normal equations of up to 9 unknowns. They use only + - * / in one fixed order, so that every
 /// machine finds the same solution.
 struct NormalEquations {
   double matrix[kMostWeights][kMostWeights] = {};
@@ -347,6 +348,7 @@ void gatherRows(const PositionCandidate& piece, bool select, uint32_t stride,
       const PlainFeatures f = plainFeatures(fan, beyond, select);
       const float skew = static_cast<float>(c.degree_skew);
       const float better = static_cast<float>(c.better);
+      const float angles = compareAngles(fan);
       at = middleOfTips(fan);
       for (int s = 0; s < 3; ++s) {
         const float features[kMostWeights] = {f.f0[s],
@@ -354,6 +356,7 @@ void gatherRows(const PositionCandidate& piece, bool select, uint32_t stride,
                                               f.fy[s],
                                               f.fd[s] * skew,
                                               f.f0[s] * static_cast<float>(c.degree_sum),
+                                              f.tips[s] * angles,
                                               f.tips[s] * better,
                                               f.x[s] * better,
                                               f.y[s] * better};
@@ -447,10 +450,10 @@ bool fitClass(const std::vector<FitRow>& rows, uint32_t n, bool robust, int16_t*
   return true;
 }
 
-/// Keeps the best of no weights, the trained weights and fitted weights. Each row stands for
-/// `stride` vertices.
-void chooseWeights(const std::vector<FitRow>& rows, uint32_t predictor_class, double stride,
-                   bool robust, int16_t* w) {
+/// Keeps the best of no weights, the trained weights `w` and fitted weights, and returns its bits.
+/// Each row stands for `stride` vertices.
+double chooseWeights(const std::vector<FitRow>& rows, uint32_t predictor_class, double stride,
+                     bool robust, int16_t* w) {
   constexpr double kBitsOfWeight = 9;
   const uint32_t n = weightCount(predictor_class);
   int16_t fitted[kMostWeights];
@@ -464,41 +467,68 @@ void chooseWeights(const std::vector<FitRow>& rows, uint32_t predictor_class, do
     }
   }
   constexpr int16_t kNone[kMostWeights] = {};
-  if (residualBits(rows, kNone, n) * stride <= best) std::copy_n(kNone, kMostWeights, w);
+  const double bits = residualBits(rows, kNone, n) * stride;
+  if (bits > best) return best;
+  std::copy_n(kNone, kMostWeights, w);
+  return bits;
+}
+
+using ClassRows = std::vector<FitRow>[kPredictorClasses];
+
+/// Leaves a feature out of a fit.
+void leaveOut(ClassRows& rows, uint32_t index) {
+  for (std::vector<FitRow>& of_class : rows) {
+    for (FitRow& row : of_class) {
+      for (auto& feature : row.feature) feature[index] = 0;
+    }
+  }
+}
+
+/// Chooses the weights of all classes, and returns the bits of the residuals.
+double fitClasses(const ClassRows& rows, double stride, const WeightFit& fit,
+                  const FeatureSet& without, PredictorWeights& weights) {
+  weights = trainedWeights(without);
+  double bits = 0;
+  for (uint32_t c = 0; c < kPredictorClasses; ++c) {
+    bits += chooseWeights(rows[c], c, stride, fit.robust, weights.w[c]);
+  }
+  return bits;
 }
 
 /// The terms that the scale of a component is computed from, and the size of its residual.
 struct ScaleRow {
   float neighbours;
   float spread;
+  float third;
   float size;
 };
 
 /// Fits |residual| by weighted least squares with non-negative coefficients.
 void fitCoefficients(const std::vector<ScaleRow>& rows, uint16_t* coefficients) {
   if (rows.size() < 200) return;
-  double c[3];
-  for (uint32_t i = 0; i < 3; ++i) c[i] = coefficients[i] / 64.0;
+  constexpr uint32_t kCount = 4;
+  double c[kCount];
+  for (uint32_t i = 0; i < kCount; ++i) c[i] = coefficients[i] / 64.0;
   for (uint32_t round = 0; round < 4; ++round) {
     NormalEquations equations;
     for (const ScaleRow& row : rows) {
-      const double x[3] = {double{row.neighbours}, double{row.spread}, 1};
-      const double estimate = c[0] * x[0] + c[1] * x[1] + c[2];
+      const double x[kCount] = {double{row.neighbours}, double{row.spread}, 1, double{row.third}};
+      const double estimate = c[0] * x[0] + c[1] * x[1] + c[2] + c[3] * x[3];
       const double target = std::min(16 * double{row.size}, 6 * estimate + 16);
-      equations.add(x, target, 1 / ((estimate + 8) * (estimate + 8)), 3);
+      equations.add(x, target, 1 / ((estimate + 8) * (estimate + 8)), kCount);
     }
     // A term whose coefficient would be negative is left out.
-    bool used[3] = {true, true, true};
-    for (uint32_t attempt = 0; attempt < 3; ++attempt) {
+    bool used[kCount] = {true, true, true, true};
+    for (uint32_t attempt = 0; attempt < kCount; ++attempt) {
       NormalEquations reduced = equations;
-      for (uint32_t i = 0; i < 3; ++i) {
+      for (uint32_t i = 0; i < kCount; ++i) {
         if (used[i]) continue;
-        for (uint32_t k = 0; k < 3; ++k) reduced.matrix[i][k] = reduced.matrix[k][i] = 0;
+        for (uint32_t k = 0; k < kCount; ++k) reduced.matrix[i][k] = reduced.matrix[k][i] = 0;
         reduced.right[i] = 0;
       }
-      reduced.solve(3, 1e-6, c);
+      reduced.solve(kCount, 1e-6, c);
       bool negative = false;
-      for (uint32_t i = 0; i < 3; ++i) {
+      for (uint32_t i = 0; i < kCount; ++i) {
         if (c[i] >= 0) continue;
         used[i] = false;
         c[i] = 0;
@@ -507,7 +537,7 @@ void fitCoefficients(const std::vector<ScaleRow>& rows, uint16_t* coefficients) 
       if (!negative) break;
     }
   }
-  for (uint32_t i = 0; i < 3; ++i) {
+  for (uint32_t i = 0; i < kCount; ++i) {
     coefficients[i] = static_cast<uint16_t>(
         std::clamp(std::floor(c[i] * 64 + 0.5), 0.0, static_cast<double>(kMaxCoefficient)));
   }
@@ -521,7 +551,7 @@ void fitScale(Trials& trials, const Jobs& jobs, PositionParameters& p) {
         p.has(position_mode::kShear) ? makeShear(prediction.normal).axis : kFileOrder;
     for (uint32_t s = 0; s < 3; ++s) {
       rows[plain][s].push_back({prediction.magnitudes[s], prediction.spread[axis[s]],
-                                static_cast<float>(r.magnitude[s])});
+                                prediction.third[axis[s]], static_cast<float>(r.magnitude[s])});
     }
   });
   jobs.run(6, [&](size_t i) { fitCoefficients(rows[i / 3][i % 3], p.scale[i / 3][i % 3].c); });
@@ -578,9 +608,10 @@ class Chooser {
       p.modes = predictors[i].modes;
       setUniversalScale(p);
       if (predictors[i].is_fitted) {
-        p.weights = fitWeights(pieces_, p.has(kSelect), true, kFitVertices[effort_], without_);
+        p.setWeights(fitWeights(pieces_, {p.has(kSelect), true, kFitVertices[effort_], without_,
+                                          price_.surcharge(1, price_ns::kAngles)}));
       } else if (p.has(kWeights)) {
-        p.weights = trainedWeights(without_);
+        p.setWeights(trainedWeights(without_));
       }
       race_[i].cost = costOf(p);
     });
@@ -693,26 +724,27 @@ class Chooser {
 
 }  // namespace
 
-PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, bool select, bool robust,
-                            uint32_t max_vertices, const FeatureSet& without) {
-  const uint32_t stride = static_cast<uint32_t>(visitCount(pieces) / max_vertices + 1);
+PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, const WeightFit& fit) {
+  const uint32_t stride = static_cast<uint32_t>(visitCount(pieces) / fit.max_vertices + 1);
   std::vector<FitRow> rows;
-  for (const PositionCandidate& piece : pieces) {
-    gatherRows(piece, select, stride, rows);
+  for (const PositionCandidate& piece : pieces) gatherRows(piece, fit.select, stride, rows);
+  ClassRows rows_of;
+  for (const FitRow& row : rows) rows_of[row.predictor_class].push_back(row);
+  if (fit.without.has(Feature::kBeyondWeights)) leaveOut(rows_of, 2);
+  if (fit.without.has(Feature::kDegreeWeights)) {
+    leaveOut(rows_of, 3);
+    leaveOut(rows_of, 4);
   }
-  std::vector<FitRow> rows_of[kPredictorClasses];
-  for (FitRow& row : rows) {
-    for (auto& feature : row.feature) {
-      if (without.has(Feature::kBeyondWeights)) feature[2] = 0;
-      if (without.has(Feature::kDegreeWeights)) feature[3] = feature[4] = 0;
-    }
-    rows_of[row.predictor_class].push_back(row);
-  }
-  PredictorWeights weights = trainedWeights(without);
-  for (uint32_t c = 0; c < kPredictorClasses; ++c) {
-    chooseWeights(rows_of[c], c, stride, robust, weights.w[c]);
-  }
-  return weights;
+  PredictorWeights with_angles;
+  const double bits = fitClasses(rows_of, stride, fit, fit.without, with_angles);
+  FeatureSet without = fit.without;
+  without.add(Feature::kAngleWeights);
+  leaveOut(rows_of, kAngleWeight);
+  PredictorWeights weights;
+  const double bits_without = fitClasses(rows_of, stride, fit, without, weights);
+  const bool use = !fit.without.has(Feature::kAngleWeights) &&
+                   bits * (1 + fit.price_of_angles) < bits_without;
+  return use ? with_angles : weights;
 }
 
 namespace {

@@ -55,11 +55,18 @@ PositionParameters choosePositionParameters(std::span<const PositionCandidate> p
                                             double surface_bits, const PositionSettings& settings,
                                             const Jobs& jobs);
 
+/// How weights are fitted.
+struct WeightFit {
+  bool select = false;           ///< with the classes of tip selection
+  bool robust = false;           ///< weighs residuals by 1 / size^2 instead of by 1 / size
+  uint32_t max_vertices = ~0u;   ///< a sample of about this many
+  FeatureSet without;
+  double price_of_angles = 0;    ///< share of the residuals' bits that angles must save
+};
+
 /// Chooses the weights of each class of predictors: none, the trained ones, or a least-squares fit
-/// to these pieces, whichever costs the fewest bits. `robust` weighs residuals by the
-/// inverse of their square instead of by the inverse of their size. tools/train uses this too.
-PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, bool select, bool robust,
-                            uint32_t max_vertices, const FeatureSet& without);
+/// to these pieces, whichever costs the fewest bits. tools/train uses this too.
+PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, const WeightFit& fit);
 
 }  // namespace mcc
 

@@ -16,6 +16,10 @@
 namespace mcc {
 
 namespace price_ns {
+/// Angles at the tips, with weights.
+inline constexpr double kAngles = 2.5;
+/// Folding has to wait for the weighted prediction, so it costs more with weights.
+inline constexpr double kFoldWithWeights = 12;
 /// For each distinct value, divided by the number of vertices.
 inline constexpr double kPaletteValue = 40;
 /// kCopy is charged for each copy that is stitched, kPivotFace for each face that is listed by
@@ -30,7 +34,10 @@ inline constexpr double kSingleCoder = 60;
 /// tips. `palette_values` is the number of distinct coordinates per vertex, over all axes that have
 /// a palette.
 inline double timeOf(const PositionParameters& p, double palette_values) {
-  const double ns = timeOf(AttributeMethod::kPosition, p.modes);
+  double ns = timeOf(AttributeMethod::kPosition, p.modes);
+  if (p.has(position_mode::kWeights) && p.has(position_mode::kFold)) {
+    ns += price_ns::kFoldWithWeights;
+  }
   return p.has(position_mode::kPalette) ? ns + price_ns::kPaletteValue * palette_values : ns;
 }
 

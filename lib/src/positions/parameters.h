@@ -18,11 +18,16 @@ namespace mcc {
 struct PositionParameters {
   uint8_t modes = 0;  ///< bits of position_mode
   uint8_t bits = 14;  ///< of the lattice; the first seed is predicted at its middle
-  PredictorWeights weights = {};
+  PredictorWeights weights = {};  ///< see setWeights()
+  bool has_angles = false;        ///< some weight of the angles is not 0
   ScaleCoefficients scale[2][3] = {};  ///< [plain fan][component]
   AxisPalette palette[3];              ///< only with kPalette; borrowed
   const GridPlanes* planes = nullptr;  ///< only with kPlanes; borrowed
 
+  void setWeights(const PredictorWeights& w) {
+    weights = w;
+    has_angles = hasAngles(w);
+  }
   bool has(uint32_t mode) const { return (modes & mode & kDecodedPositionModes) != 0; }
 };
 
@@ -41,11 +46,11 @@ struct PositionTables {
   bool has_selecting = false;
   bool has_scale = false;
   PredictorWeights weights = {};
-  int32_t scale_change[2][3][3] = {};  ///< added to the universal coefficients
+  int32_t scale_change[2][3][4] = {};  ///< added to the universal coefficients
   BitModel present;
   GolombModel weight;
   GolombModel selecting_weight;
-  GolombModel coefficient[3];
+  GolombModel coefficient[4];
   PaletteModels palettes;
 };
 
@@ -79,7 +84,7 @@ Status codeScale(Io& io, PositionTables& t, const PositionParameters& universal,
                  const ScaleCoefficients (*truth)[3]) {
   for (uint32_t fan = 0; fan < 2; ++fan) {
     for (uint32_t s = 0; s < 3; ++s) {
-      for (uint32_t i = 0; i < 3; ++i) {
+      for (uint32_t i = 0; i < coefficientCount(fan); ++i) {
         const int32_t from = universal.scale[fan][s].c[i];
         const int32_t target = Io::kEncoding ? truth[fan][s].c[i] - from : 0;
         const int64_t change = codeSignedGolomb(io, t.coefficient[i], target);
@@ -108,14 +113,14 @@ Status codePositionTables(Io& io, PositionTables& t, PositionParameters& p) {
       }
       t.has_selecting = true;
     }
-    p.weights = t.weights;
+    p.setWeights(t.weights);
   }
   if (!p.has(position_mode::kOwnScale)) return {};
   if (!t.has_scale) MCC_TRY(codeScale(io, t, p, truth.scale));
   t.has_scale = true;
   for (uint32_t fan = 0; fan < 2; ++fan) {
     for (uint32_t s = 0; s < 3; ++s) {
-      for (uint32_t i = 0; i < 3; ++i) {
+      for (uint32_t i = 0; i < coefficientCount(fan); ++i) {
         const int32_t c = p.scale[fan][s].c[i] + t.scale_change[fan][s][i];
         if (c < 0 || c > kMaxCoefficient) {
           return fail(Error::kBadAttribute, "a scale of the positions is out of range");

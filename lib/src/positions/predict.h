@@ -64,6 +64,7 @@ MCC_INLINE Lanes<uint32_t> fractionOf(const Lanes<float>& x) {
 struct Prediction {
   FinePoint at;
   Lanes<float> spread;      ///< disagreement of the first two tips
+  Lanes<float> third;       ///< twice what a plain fan's parallelogram n0 n1 n2 differs from them
   Lanes<float> magnitudes;  ///< of three neighbours' residuals, by component as coded
   Lanes<float> normal;      ///< sum over the tips; only with shear or planes
 };
@@ -111,7 +112,17 @@ struct TipSelection {
   int32_t better;  ///< +1: t0, -1: t1, 0: a tie
 };
 
-MCC_INLINE float sumOfComponents(const Lanes<float>& x) { return x[0] + x[1] + x[2]; }
+/// Returns the sums of the components of up to four vectors, one in each lane.
+MCC_INLINE Lanes<float> sumsOfComponents(const Lanes<float>& a, const Lanes<float>& b,
+                                         const Lanes<float>& c, const Lanes<float>& d) {
+  const Lanes<float> xy_of_ab = shuffleLanes<float, 0, 4, 1, 5>(a, b);
+  const Lanes<float> xy_of_cd = shuffleLanes<float, 0, 4, 1, 5>(c, d);
+  const Lanes<float> x = shuffleLanes<float, 0, 1, 4, 5>(xy_of_ab, xy_of_cd);
+  const Lanes<float> y = shuffleLanes<float, 2, 3, 6, 7>(xy_of_ab, xy_of_cd);
+  const Lanes<float> z = shuffleLanes<float, 0, 1, 4, 5>(shuffleLanes<float, 2, 6, 3, 7>(a, b),
+                                                         shuffleLanes<float, 2, 6, 3, 7>(c, d));
+  return x + y + z;
+}
 
 /// Returns the difference of ya or yb from the parallelogram next to it.
 MCC_INLINE Lanes<uint32_t> stepBeyond(const VertexRecord* y, const VertexRecord* n,
@@ -123,13 +134,16 @@ MCC_INLINE TipSelection selectTip(const PlainFan& f, const Beyond& b) {
   const Lanes<uint32_t> n1 = coordinates(f.n1);
   const auto sizeOf = [](const Lanes<uint32_t>& x)
                           MCC_INLINE_LAMBDA { return absoluteFloats(floatsOf(x)); };
-  const float error1 =
-      sumOfComponents(sizeOf(n1 + coordinates(f.o0) - coordinates(b.xa) - coordinates(f.n0)));
-  const float error0 =
-      sumOfComponents(sizeOf(n1 + coordinates(f.o1) - coordinates(b.xb) - coordinates(f.n2)));
-  float error2 = sumOfComponents(sizeOf(stepBeyond(b.ya, f.n0, f.o0, n1, b.has_ya)) +
-                                 sizeOf(stepBeyond(b.yb, f.n2, f.o1, n1, b.has_yb)));
-  if (b.has_ya & b.has_yb) error2 *= 0.5f;
+  const Lanes<float> of_xa =
+      sizeOf(n1 + coordinates(f.o0) - coordinates(b.xa) - coordinates(f.n0));
+  const Lanes<float> of_xb =
+      sizeOf(n1 + coordinates(f.o1) - coordinates(b.xb) - coordinates(f.n2));
+  const Lanes<float> of_y = sizeOf(stepBeyond(b.ya, f.n0, f.o0, n1, b.has_ya)) +
+                            sizeOf(stepBeyond(b.yb, f.n2, f.o1, n1, b.has_yb));
+  const Lanes<float> errors = sumsOfComponents(of_xa, of_xb, of_y, of_y);
+  const float error1 = errors[0];
+  const float error0 = errors[1];
+  const float error2 = (b.has_ya & b.has_yb) ? errors[2] * 0.5f : errors[2];
   const float low = std::min(error0, error1);
   const float high = std::max(error0, error1);
   const uint32_t preference = uint32_t{2 * high > 3 * low + 2} + uint32_t{high > 3 * low + 2};
@@ -166,14 +180,27 @@ MCC_INLINE PlainClass classifyPlain(bool select, const PlainFan& f, const Beyond
   return c;
 }
 
+/// Returns about the difference of the cosines of the angles at o0 and at o1. Two triangles of a
+/// quad meet in its diagonal, which is across from a right angle, so the tip there is often better.
+MCC_INLINE float compareAngles(const PlainFan& f) {
+  const Lanes<float> u0 = floatsOf(coordinates(f.n0) - coordinates(f.o0));
+  const Lanes<float> w0 = floatsOf(coordinates(f.n1) - coordinates(f.o0));
+  const Lanes<float> u1 = floatsOf(coordinates(f.n2) - coordinates(f.o1));
+  const Lanes<float> w1 = floatsOf(coordinates(f.n1) - coordinates(f.o1));
+  const Lanes<float> sums =
+      sumsOfComponents(u0 * w0, u1 * w1, u0 * u0 + w0 * w0, u1 * u1 + w1 * w1);
+  const Lanes<float> cosines = sums / (shuffleLanes<float, 2, 3, 2, 3>(sums, sums) + 1.0f);
+  return 2 * (cosines[0] - cosines[1]);
+}
+
 /// The features of a plain fan.
 struct PlainFeatures {
   Lanes<float> f0;    ///< fan against tips
   Lanes<float> f1;    ///< ends of the fan against its middle
   Lanes<float> fy;    ///< ya, yb against their parallelograms
   Lanes<float> fd;    ///< from one end to the other
-  Lanes<float> tips;  ///< t0 - t1; this and the next two are set only where a tip was selected
-  Lanes<float> x;
+  Lanes<float> tips;  ///< t0 - t1
+  Lanes<float> x;     ///< this and the next are set only where a tip was selected
   Lanes<float> y;
 };
 
@@ -191,8 +218,8 @@ MCC_INLINE PlainFeatures plainFeatures(const PlainFan& f, const Beyond& b, bool 
   r.f1 = floatsOf(ends);
   r.fy = floatsOf(2 * (ya + yb));
   r.fd = floatsOf(2 * (n0 - n2));
-  if (!select) return r;
   r.tips = floatsOf(n0 - n2 + o1 - o0);
+  if (!select) return r;
   r.x = floatsOf((o0 - coordinates(b.xa) - n0) - (o1 - coordinates(b.xb) - n2));
   r.y = floatsOf(ya - yb);
   return r;
@@ -208,10 +235,11 @@ MCC_INLINE Lanes<float> weightPlainFeatures(const PositionParameters& p, const P
   const auto weight = [](int32_t x) MCC_INLINE_LAMBDA { return static_cast<float>(x); };
   Lanes<float> sum = v.f0 * weight(w[0] + w[4] * c.degree_sum) + v.f1 * weight(w[1]) +
                      v.fy * weight(w[2]) + v.fd * weight(w[3] * c.degree_skew);
+  if (p.has_angles) sum += v.tips * (weight(w[kAngleWeight]) * compareAngles(f));
   if (select) {
-    sum += v.tips * weight(c.better * w[5]);
-    sum += v.x * weight(c.better * w[6]);
-    sum += v.y * weight(c.better * w[7]);
+    sum += v.tips * weight(c.better * w[6]);
+    sum += v.x * weight(c.better * w[7]);
+    sum += v.y * weight(c.better * w[8]);
   }
   return sum;
 }
@@ -244,11 +272,18 @@ MCC_INLINE FinePoint middleOfTips(const PlainFan& f) {
           (between & 1) << 7};
 }
 
+/// Returns twice the vector from there to n0 + n2 - n1.
+MCC_INLINE Lanes<uint32_t> thirdFromTips(const PlainFan& f) {
+  return coordinates(f.n0) + coordinates(f.n2) + coordinates(f.o0) + coordinates(f.o1) -
+         4 * coordinates(f.n1);
+}
+
 /// Predicts from a plain fan. `beyond` may be null if the modes do not include weights.
 MCC_INLINE void predictPlain(const PositionParameters& p, const PlainFan& f, const Beyond* beyond,
                              uint32_t degree, uint32_t modes, Prediction& out) {
   out.at = middleOfTips(f);
   out.spread = absoluteFloats(floatsOf(betweenTips(f)));
+  out.third = absoluteFloats(floatsOf(thirdFromTips(f)));
   out.magnitudes = absoluteFloats(floatsOf(magnitudes(f.n0) + magnitudes(f.n1) + magnitudes(f.n2)));
   if ((modes & position_mode::kWeights) != 0) {
     const bool select = (modes & position_mode::kSelect) != 0;
@@ -300,7 +335,7 @@ inline AnyFeatures anyFeatures(const AnyFan& fan, Lanes<float>& spread, Lanes<fl
 }
 
 inline void predictAny(const PositionParameters& p, const AnyFan& fan, Prediction& out) {
-  out.spread = Lanes<float>{};
+  out.spread = out.third = Lanes<float>{};
   Lanes<float> normal{};
   const AnyFeatures v = anyFeatures(fan, out.spread, normal);
   const float weight = static_cast<float>(2 * p.weights.w[v.predictor_class][0]);

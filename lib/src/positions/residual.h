@@ -76,9 +76,13 @@ struct ScaleLanes {
   Lanes<float> neighbours;
   Lanes<float> spread;
   Lanes<float> constant;
+  Lanes<float> third;
 
   explicit ScaleLanes(const ScaleCoefficients* c)
-      : neighbours(coefficients(c, 0)), spread(coefficients(c, 1)), constant(coefficients(c, 2)) {}
+      : neighbours(coefficients(c, 0)),
+        spread(coefficients(c, 1)),
+        constant(coefficients(c, 2)),
+        third(coefficients(c, 3)) {}
 
  private:
   static Lanes<float> coefficients(const ScaleCoefficients* c, uint32_t i) {
@@ -95,9 +99,10 @@ struct ScaleEstimate {
 };
 
 MCC_INLINE ScaleEstimate estimateScale(const ScaleLanes& c, const Lanes<float>& magnitudes,
-                                       const Lanes<float>& spread, bool split) {
+                                       const Lanes<float>& spread, const Lanes<float>& third,
+                                       bool split) {
   const Lanes<float> of_neighbours = c.neighbours * magnitudes;
-  const Lanes<float> of_spread = c.spread * spread;
+  const Lanes<float> of_spread = c.spread * spread + c.third * third;
   const Lanes<float> scale = of_neighbours + of_spread + c.constant;
   if (!split) return {scale, Lanes<uint32_t>{}};
   const Lanes<int32_t> by_spread = of_spread > 2 * of_neighbours;

@@ -20,19 +20,29 @@ inline constexpr uint32_t kLeastDegree = 3;  ///< lower degrees share this class
 inline constexpr uint32_t kMostDegree = 9;
 inline constexpr uint32_t kClassSelect = 13;
 inline constexpr uint32_t kPredictorClasses = 22;
-inline constexpr uint32_t kMostWeights = 8;
+inline constexpr uint32_t kMostWeights = 9;
 
 /// Returns the number of weights of a class.
 constexpr uint32_t weightCount(uint32_t predictor_class) {
-  return predictor_class < kClassPlain ? 1 : predictor_class < kClassSelect ? 5 : kMostWeights;
+  return predictor_class < kClassPlain ? 1 : predictor_class < kClassSelect ? 6 : kMostWeights;
 }
 
-/// Weights in units of 1/128. A plain fan has weights of the features f0, f1, fy, fd and of f0 by
-/// degrees, and of three more with tip selection; any other fan has one, of the mean of the
-/// neighbours. [B.2.2, B.2.4]
+/// Weights in units of 1/128. A plain fan has weights of the features f0, f1, fy, fd, of f0 by
+/// degrees and of the tips by angles, and of three more with tip selection; any other fan has one,
+/// of the mean of the neighbours. [B.2.2, B.2.4]
 struct PredictorWeights {
   int16_t w[kPredictorClasses][kMostWeights];
 };
+
+/// The weight of the angles, in the classes that have it.
+inline constexpr uint32_t kAngleWeight = 5;
+
+constexpr bool hasAngles(const PredictorWeights& weights) {
+  for (uint32_t c = kClassPlain; c < kPredictorClasses; ++c) {
+    if (weights.w[c][kAngleWeight] != 0) return true;
+  }
+  return false;
+}
 
 inline constexpr PredictorWeights kUniversalWeights{{
     {5},
@@ -41,31 +51,34 @@ inline constexpr PredictorWeights kUniversalWeights{{
     {26},
     {84},
     {78},
-    {0, 0, 0, 0, 0},
-    {98, -97, -4, -2, -4},
-    {71, -53, -5, -4, -4},
-    {50, -5, -7, -7, -3},
-    {34, 13, -8, -9, -4},
-    {20, 35, -9, -10, -4},
-    {3, 60, -15, -11, -5},
+    {0, 0, 0, 0, 0, 0},
+    {98, -97, -4, -2, -4, 0},
+    {71, -53, -5, -4, -4, 0},
+    {50, -5, -7, -7, -3, 0},
+    {34, 13, -8, -9, -4, 0},
+    {20, 35, -9, -10, -4, 0},
+    {3, 60, -15, -11, -5, 0},
 }};
 
 /// Coefficients of a residual's scale in 1/64: for the neighbours' residuals, the spread of the
-/// tips, and a constant.
+/// tips, a constant, and for a plain fan the distance of the parallelogram within it.
 struct ScaleCoefficients {
-  uint16_t c[3];
+  uint16_t c[4];
 };
+
+/// Returns the number of coefficients of a fan, plain or not.
+constexpr uint32_t coefficientCount(uint32_t plain) { return plain != 0 ? 4 : 3; }
 
 /// Indexed by [weighted predictor][shear][fan of three][component].
 inline constexpr ScaleCoefficients kUniversalScale[2][2][2][3] = {
-    {{{{{196, 12, 1662}}, {{216, 12, 1638}}, {{208, 13, 1749}}},
-      {{{138, 182, 1222}}, {{143, 186, 1186}}, {{140, 178, 1299}}}},
-     {{{{183, 9, 1774}}, {{170, 13, 1780}}, {{147, 17, 1437}}},
-      {{{112, 181, 1364}}, {{110, 182, 1382}}, {{140, 77, 1151}}}}},
-    {{{{{200, 17, 1672}}, {{207, 19, 1672}}, {{188, 18, 1766}}},
-      {{{136, 106, 1207}}, {{142, 109, 1185}}, {{136, 107, 1292}}}},
-     {{{{169, 13, 1818}}, {{160, 16, 1786}}, {{157, 14, 1446}}},
-      {{{113, 102, 1386}}, {{108, 107, 1378}}, {{123, 58, 1121}}}}}};
+    {{{{{196, 12, 1662, 0}}, {{216, 12, 1638, 0}}, {{208, 13, 1749, 0}}},
+      {{{138, 155, 1222, 52}}, {{143, 158, 1186, 52}}, {{140, 151, 1299, 52}}}},
+     {{{{183, 9, 1774, 0}}, {{170, 13, 1780, 0}}, {{147, 17, 1437, 0}}},
+      {{{112, 154, 1364, 49}}, {{110, 155, 1382, 49}}, {{140, 65, 1151, 7}}}}},
+    {{{{{200, 17, 1672, 0}}, {{207, 19, 1672, 0}}, {{188, 18, 1766, 0}}},
+      {{{136, 90, 1207, 25}}, {{142, 93, 1185, 25}}, {{136, 91, 1292, 25}}}},
+     {{{{169, 13, 1818, 0}}, {{160, 16, 1786, 0}}, {{157, 14, 1446, 0}}},
+      {{{113, 87, 1386, 21}}, {{108, 91, 1378, 24}}, {{123, 49, 1121, 6}}}}}};
 
 inline constexpr uint32_t kScaleBuckets = 40;
 inline constexpr uint32_t kFirstTabledBucket = 2;

@@ -182,7 +182,8 @@ MCC_INLINE void VertexCoder<Io, kModes>::codeComponents(Io& io, uint32_t v,
                                                         uint32_t plain, Fold fold) const {
   if (!has(position_mode::kShear)) {
     const ScaleEstimate scale = estimateScale(scale_[plain], prediction.magnitudes,
-                                              prediction.spread, has(position_mode::kSplit));
+                                              prediction.spread, prediction.third,
+                                              has(position_mode::kSplit));
     if (has(position_mode::kPalette)) return codeRanks(io, v, prediction.at, scale, fold);
     return codeInFileOrder(io, v, prediction.at, scale, fold);
   }
@@ -191,7 +192,8 @@ MCC_INLINE void VertexCoder<Io, kModes>::codeComponents(Io& io, uint32_t v,
     return X{x[shear.axis[0]], x[shear.axis[1]], x[shear.axis[2]], 0};
   };
   const ScaleEstimate scale = estimateScale(scale_[plain], prediction.magnitudes,
-                                            inOrder(prediction.spread), has(position_mode::kSplit));
+                                            inOrder(prediction.spread), inOrder(prediction.third),
+                                            has(position_mode::kSplit));
   const FinePoint at = {inOrder(prediction.at.step), inOrder(prediction.at.fraction)};
   const Lanes<float> rest = at.rest();
   if constexpr (kCompact) {

@@ -76,20 +76,21 @@ class Variation {
  private:
   void varyWeights(PositionParameters& p) {
     const uint32_t classes = p.has(position_mode::kSelect) ? kPredictorClasses : kClassSelect;
-    p.weights = kUniversalWeights;
+    PredictorWeights weights = kUniversalWeights;
     for (uint32_t c = 0; c < classes; ++c) {
       if (below(4) == 0) continue;
       for (uint32_t i = 0; i < weightCount(c); ++i) {
         const int32_t far = static_cast<int32_t>(below(33)) - 16;
-        p.weights.w[c][i] = static_cast<int16_t>(p.weights.w[c][i] + far);
+        weights.w[c][i] = static_cast<int16_t>(weights.w[c][i] + far);
       }
     }
+    p.setWeights(weights);
   }
 
   void varyScale(PositionParameters& p) {
-    for (auto& fan : p.scale) {
-      for (ScaleCoefficients& scale : fan) {
-        for (uint32_t i = 0; i < 3; ++i) {
+    for (uint32_t fan = 0; fan < 2; ++fan) {
+      for (ScaleCoefficients& scale : p.scale[fan]) {
+        for (uint32_t i = 0; i < coefficientCount(fan); ++i) {
           const int32_t from = scale.c[i];
           const int32_t to = from + static_cast<int32_t>(below(81)) - 40;
           scale.c[i] = static_cast<uint16_t>(std::clamp(to, 0, kMaxCoefficient));
