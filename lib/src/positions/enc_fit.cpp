@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <vector>
 
 #include "base/enc_exceptions.h"
@@ -113,6 +114,7 @@ class Trials {
       samples_.push_back(takeSample(*piece.recording, max_vertices, all_));
       counted_ += samples_.back().counted;
     }
+    palette_bits_ = paletteBits();
   }
 
   /// Returns the expected cost of all positions and their tables, in bits.
@@ -134,7 +136,7 @@ class Trials {
     return (static_cast<double>(spent - last_pass) +
             static_cast<double>(last_pass) * (passes == 1 ? parts : parts - 1)) /
                kCostOne +
-           tableBits(p) + (p.has(position_mode::kPalette) ? paletteBits() : 0) +
+           tableBits(p) + (p.has(position_mode::kPalette) ? palette_bits_ : 0) +
            (p.has(position_mode::kPlanes) ? planeBits() : 0);
   }
 
@@ -148,7 +150,7 @@ class Trials {
  private:
   /// The memory that a replay writes to.
   struct Scratch {
-    std::unique_ptr<PositionRows> rows = std::make_unique<PositionRows>();
+    std::unique_ptr<PositionRows> rows{new PositionRows};  // not zeroed: it is large
     /// By piece; only the records that are looked at are set.
     std::vector<Array<VertexRecord>> records;
   };
@@ -179,8 +181,9 @@ class Trials {
   template <class Io, class Use, class EndPass>
   void replayAll(Io& io, const PositionParameters& p, uint32_t passes, Use use, EndPass end_pass) {
     std::unique_ptr<Scratch> scratch = takeScratch();
-    *scratch->rows = PositionRows();
-    scratch->rows->prepare(p.modes);
+    // Only what prepare() looks at is reset. To clear all rows would take longer than a small trial.
+    PositionRows* rows = ::new (static_cast<void*>(scratch->rows.get())) PositionRows;
+    rows->prepare(p.modes);
     for (uint32_t pass = 0; pass < passes; ++pass) {
       for (size_t i = 0; i < pieces_.size(); ++i) replayPiece(io, p, i, *scratch, use);
       end_pass();
@@ -267,6 +270,7 @@ class Trials {
   std::vector<std::unique_ptr<Scratch>> free_;
   uint64_t all_ = 0;
   uint64_t counted_ = 0;
+  double palette_bits_ = 0;
 };
 
 // --- least squares -------------------------------------------------------------------------------
