@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/enc_exceptions.h"
+#include "base/lanes.h"
 #include "entropy/enc_coder.h"
 #include "format/predictors.h"
 #include "positions/enc_prices.h"
@@ -23,9 +24,12 @@ using Kind = PositionRecording::Kind;
 
 constexpr size_t kLargePalette = 1u << 16;  ///< from this many vertices on, a palette is large
 constexpr uint32_t kRunLength = 1024;       ///< consecutive vertices in one run of a sample
-constexpr uint32_t kTrialVertices[] = {4000, 12000, ~0u};  ///< by effort
-constexpr double kManyParts = 8;  ///< samples of less than 1/8 are replayed twice
-constexpr uint32_t kFitVertices[] = {3000, 20000, 32000};
+constexpr uint32_t kTrialVertices = 6000;
+constexpr double kManyParts = 8;          ///< samples of less than 1/8 are replayed twice
+constexpr uint32_t kFitVertices = 14000;  ///< about as many are fitted to
+constexpr uint32_t kFewestToFit = 128;    ///< vertices; with fewer, fitted tables cost too much
+/// Up to here, the trained weights are tried as well. With more, fitted ones are better.
+constexpr uint64_t kTrainedVertices = 4000;
 
 uint64_t visitCount(std::span<const PositionCandidate> pieces) {
   uint64_t count = 0;
@@ -181,7 +185,8 @@ class Trials {
   template <class Io, class Use, class EndPass>
   void replayAll(Io& io, const PositionParameters& p, uint32_t passes, Use use, EndPass end_pass) {
     std::unique_ptr<Scratch> scratch = takeScratch();
-    // Only what prepare() looks at is reset. To clear all rows would take longer than a small trial.
+    // Only what prepare() looks at is reset. To clear all rows would take longer than a small
+    // trial.
     PositionRows* rows = ::new (static_cast<void*>(scratch->rows.get())) PositionRows;
     rows->prepare(p.modes);
     for (uint32_t pass = 0; pass < passes; ++pass) {
@@ -280,7 +285,6 @@ class Trials {
 struct NormalEquations {
   double matrix[kMostWeights][kMostWeights] = {};
   double right[kMostWeights] = {};
-  double count = 0;
 
   void add(const double* x, double y, double weight, uint32_t n) {
     for (uint32_t i = 0; i < n; ++i) {
@@ -317,17 +321,59 @@ struct NormalEquations {
   }
 };
 
+/// One number for each weight.
+struct Features {
+  Lanes<float> half[2] = {};
+
+  static Features load(const float* from) {
+    return {{loadLanes<float>(from), loadLanes<float>(from + 4)}};
+  }
+  float times(const Features& o) const {
+    const Lanes<float> sum = half[0] * o.half[0] + half[1] * o.half[1];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  }
+};
+
 /// One vertex of a fit. The target is in lattice steps, with the prediction of the average
 /// subtracted; the features are scaled such that weights of 1 (128 in the format) add up to it.
 struct FitRow {
-  uint32_t predictor_class;
+  uint32_t predictor_class[2];  ///< [with tip selection]
   float length;
   float target[3];
   float feature[3][kMostWeights];
 };
 
-void gatherRows(const PositionCandidate& piece, bool select, uint32_t stride,
-                std::vector<FitRow>& rows) {
+/// Adds the three components of a vertex to normal equations, for a few vertices at once in
+/// float32.
+class FitSums {
+ public:
+  static constexpr uint32_t kMostRows = 64;
+
+  void add(const Features (&f)[3], const float (&residual)[3], float weight, uint32_t n) {
+    for (uint32_t s = 0; s < 3; ++s) {
+      const Lanes<float> weighted[2] = {f[s].half[0] * weight, f[s].half[1] * weight};
+      for (uint32_t h = 0; h < 2; ++h) right_.half[h] += weighted[h] * residual[s];
+      for (uint32_t i = 0; i < n; ++i) {
+        const float x = f[s].half[i / 4][i % 4];
+        for (uint32_t h = 0; h <= i / 4; ++h) matrix_[i].half[h] += weighted[h] * x;
+      }
+    }
+  }
+  void addTo(NormalEquations& equations, uint32_t n) {
+    for (uint32_t i = 0; i < n; ++i) {
+      equations.right[i] += double{right_.half[i / 4][i % 4]};
+      for (uint32_t k = 0; k <= i; ++k)
+        equations.matrix[i][k] += double{matrix_[i].half[k / 4][k % 4]};
+    }
+    *this = FitSums();
+  }
+
+ private:
+  Features matrix_[kMostWeights];
+  Features right_;
+};
+
+void gatherRows(const PositionCandidate& piece, uint32_t stride, std::vector<FitRow>& rows) {
   const PositionRecording& recording = *piece.recording;
   // Steps of random length, `stride` on average, because steps of equal length would see only some
   // columns of a grid.
@@ -346,9 +392,10 @@ void gatherRows(const PositionCandidate& piece, bool select, uint32_t stride,
       Beyond beyond;
       recording.plain(recording.records(), visit, fan, beyond);
       const uint32_t degree = recording.records()[v].degree();
-      const PlainClass c = classifyPlain(select, fan, beyond, degree);
-      row.predictor_class = c.predictor_class;
-      const PlainFeatures f = plainFeatures(fan, beyond, select);
+      const PlainClass c = classifyPlain(true, fan, beyond, degree);
+      row.predictor_class[0] = classifyPlain(false, fan, beyond, degree).predictor_class;
+      row.predictor_class[1] = c.predictor_class;
+      const PlainFeatures f = plainFeatures(fan, beyond, true);
       const float skew = static_cast<float>(c.degree_skew);
       const float better = static_cast<float>(c.better);
       at = middleOfTips(fan);
@@ -370,7 +417,7 @@ void gatherRows(const PositionCandidate& piece, bool select, uint32_t stride,
       Lanes<float> spread{};
       Lanes<float> normal{};
       const AnyFeatures f = anyFeatures(fan, spread, normal);
-      row.predictor_class = f.predictor_class;
+      row.predictor_class[0] = row.predictor_class[1] = f.predictor_class;
       at = {f.from, fractionOf(256 * f.tips)};
       for (int s = 0; s < 3; ++s) {
         row.feature[s][0] = f.mean[s];
@@ -394,67 +441,75 @@ double roughLog2(float x) {
   return static_cast<double>(std::bit_cast<uint32_t>(x)) * (1.0 / (1 << 23)) - 127;
 }
 
+/// The rows of one class.
+using ClassRows = std::vector<const FitRow*>;
+
 /// Estimates how many bits the residuals of a class take with these weights.
-double residualBits(const std::vector<FitRow>& rows, const int16_t* w, uint32_t n) {
+double residualBits(const ClassRows& rows, const int16_t* w, uint32_t n) {
+  constexpr float kFarthest = 1 << 30;
+  float weight[kMostWeights] = {};
+  for (uint32_t i = 0; i < n; ++i) weight[i] = w[i] * (1.0f / 128);
+  const Features weights = Features::load(weight);
   double bits = 0;
-  for (const FitRow& row : rows) {
-    for (const auto& feature : row.feature) {
-      float predicted = 0;
-      for (uint32_t i = 0; i < n; ++i) predicted += feature[i] * (1.0f / 128) * w[i];
-      const float residual = std::fabs(row.target[&feature - row.feature] - predicted);
-      bits += roughLog2(1 + 2 * std::floor(residual + 0.5f));
+  for (const FitRow* row : rows) {
+    for (uint32_t s = 0; s < 3; ++s) {
+      const float predicted = Features::load(row->feature[s]).times(weights);
+      const float residual = std::min(std::fabs(row->target[s] - predicted) + 0.5f, kFarthest);
+      bits += roughLog2(static_cast<float>(1 + 2 * int64_t{static_cast<int32_t>(residual)}));
     }
   }
   return bits;
 }
 
+/// Adds the rows, weighted by their residuals with the weights `solution`. The unknowns are changes
+/// of the weights `start`.
+NormalEquations weighRows(const ClassRows& rows, const Features& solution, const Features& start,
+                          uint32_t n, bool robust) {
+  NormalEquations equations;
+  FitSums sums;
+  uint32_t in_sums = 0;
+  for (const FitRow* row : rows) {
+    const Features f[3] = {Features::load(row->feature[0]), Features::load(row->feature[1]),
+                           Features::load(row->feature[2])};
+    float residual[3];
+    float size = 0;
+    for (uint32_t s = 0; s < 3; ++s) {
+      size += std::fabs(row->target[s] - solution.times(f[s]));
+      residual[s] = row->target[s] - start.times(f[s]);
+    }
+    const float near = size + 0.02f * row->length + (robust ? 1.0f : 0.5f);
+    sums.add(f, residual, robust ? 1 / (near * near) : 1 / ((row->length + 1) * near), n);
+    if (++in_sums % FitSums::kMostRows == 0) sums.addTo(equations, n);
+  }
+  sums.addTo(equations, n);
+  return equations;
+}
+
 /// Fits one class by re-weighted least squares, starting from the weights `w`. Returns false if
 /// there are too few vertices.
-bool fitClass(const std::vector<FitRow>& rows, uint32_t n, bool robust, int16_t* w) {
+bool fitClass(const ClassRows& rows, uint32_t n, bool robust, int16_t* w) {
   constexpr uint32_t kRounds = 4;
-  constexpr double kOne = 128;
+  constexpr float kOne = 128;
   if (rows.size() < 2 * n) return false;
-  double solution[kMostWeights] = {};
-  double start[kMostWeights] = {};
-  for (uint32_t i = 0; i < n; ++i) solution[i] = start[i] = w[i] / kOne;
+  float solution[kMostWeights] = {};
+  for (uint32_t i = 0; i < n; ++i) solution[i] = w[i] / kOne;
+  const Features start = Features::load(solution);
   for (uint32_t round = 0; round < kRounds; ++round) {
-    NormalEquations equations;
-    for (const FitRow& row : rows) {
-      double residual[3];
-      double size = 0;
-      for (int s = 0; s < 3; ++s) {
-        double predicted = 0;
-        double universal = 0;
-        for (uint32_t i = 0; i < n; ++i) {
-          predicted += solution[i] * double{row.feature[s][i]};
-          universal += start[i] * double{row.feature[s][i]};
-        }
-        size += std::fabs(double{row.target[s]} - predicted);
-        residual[s] = double{row.target[s]} - universal;
-      }
-      const double length = double{row.length};
-      const double near = size + 0.02 * length + (robust ? 1.0 : 0.5);
-      const double weight = robust ? 1 / (near * near) : 1 / ((length + 1) * near);
-      for (int s = 0; s < 3; ++s) {
-        double x[kMostWeights];
-        for (uint32_t i = 0; i < n; ++i) x[i] = double{row.feature[s][i]};
-        equations.add(x, residual[s], weight, n);
-      }
-    }
+    const NormalEquations equations = weighRows(rows, Features::load(solution), start, n, robust);
     double change[kMostWeights] = {};
     equations.solve(n, 1e-3 + 3.0 / static_cast<double>(rows.size()), change);
-    for (uint32_t i = 0; i < n; ++i) solution[i] = start[i] + change[i];
+    for (uint32_t i = 0; i < n; ++i) solution[i] = static_cast<float>(w[i] / kOne + change[i]);
   }
   for (uint32_t i = 0; i < n; ++i) {
-    w[i] = static_cast<int16_t>(std::clamp(std::floor(solution[i] * kOne + 0.5), -255.0, 255.0));
+    w[i] = static_cast<int16_t>(std::clamp(std::floor(solution[i] * kOne + 0.5f), -255.0f, 255.0f));
   }
   return true;
 }
 
 /// Keeps the best of no weights, the trained weights and fitted weights. Each row stands for
 /// `stride` vertices.
-void chooseWeights(const std::vector<FitRow>& rows, uint32_t predictor_class, double stride,
-                   bool robust, int16_t* w) {
+void chooseWeights(const ClassRows& rows, uint32_t predictor_class, double stride, bool robust,
+                   int16_t* w) {
   constexpr double kBitsOfWeight = 9;
   const uint32_t n = weightCount(predictor_class);
   int16_t fitted[kMostWeights];
@@ -469,6 +524,37 @@ void chooseWeights(const std::vector<FitRow>& rows, uint32_t predictor_class, do
   }
   constexpr int16_t kNone[kMostWeights] = {};
   if (residualBits(rows, kNone, n) * stride <= best) std::copy_n(kNone, kMostWeights, w);
+}
+
+/// A sample of the vertices of all pieces.
+struct FitRows {
+  std::vector<FitRow> rows;
+  uint32_t stride;  ///< each stands for so many vertices
+};
+
+FitRows gatherFitRows(std::span<const PositionCandidate> pieces, uint32_t max_vertices,
+                      const FeatureSet& without) {
+  FitRows fit;
+  fit.stride = static_cast<uint32_t>(visitCount(pieces) / max_vertices + 1);
+  for (const PositionCandidate& piece : pieces) gatherRows(piece, fit.stride, fit.rows);
+  for (FitRow& row : fit.rows) {
+    for (auto& feature : row.feature) {
+      if (without.has(Feature::kBeyondWeights)) feature[2] = 0;
+      if (without.has(Feature::kDegreeWeights)) feature[3] = feature[4] = 0;
+    }
+  }
+  return fit;
+}
+
+PredictorWeights fitToRows(const FitRows& fit, bool select, bool robust,
+                           const FeatureSet& without) {
+  ClassRows rows_of[kPredictorClasses];
+  for (const FitRow& row : fit.rows) rows_of[row.predictor_class[select ? 1 : 0]].push_back(&row);
+  PredictorWeights weights = trainedWeights(without);
+  for (uint32_t c = 0; c < kPredictorClasses; ++c) {
+    chooseWeights(rows_of[c], c, fit.stride, robust, weights.w[c]);
+  }
+  return weights;
 }
 
 /// The terms that the scale of a component is computed from, and the size of its residual.
@@ -544,116 +630,107 @@ class Chooser {
         price_(settings.prefer),
         without_(settings.without),
         palette_values_(paletteValues(pieces)),
-        effort_(std::min<uint8_t>(settings.effort, 2)),
-        trials_(pieces, kTrialVertices[effort_]) {}
+        vertices_(visitCount(pieces)),
+        trials_(pieces, kTrialVertices) {}
 
   PositionParameters run() {
     tryPredictors();
     tryKinds();
-    tryMode(position_mode::kFold, Feature::kFold);
-    tryMode(position_mode::kSplit, Feature::kSplit);
-    tryOwnScale();
-    return race_[0].parameters;
+    // What is tried next decides between two that are about equal.
+    std::stable_sort(candidates_.begin(), candidates_.end());
+    const bool is_tie = candidates_.size() > 1 && candidates_[1].cost < kTie * candidates_[0].cost;
+    candidates_.resize(is_tie ? 2 : 1);
+    jobs_.run(candidates_.size(), [&](size_t i) { improve(candidates_[i]); });
+    return std::min_element(candidates_.begin(), candidates_.end())->parameters;
   }
 
  private:
   struct Candidate {
     PositionParameters parameters;
     double cost;
+    bool operator<(const Candidate& o) const { return cost < o.cost; }
   };
 
   /// Tries plain averages and weights, fitted without and with tip selection; in addition the
   /// trained weights where trials are cheap.
   void tryPredictors() {
     using namespace position_mode;
-    struct Predictor {
-      uint8_t modes;
-      bool is_fitted;
-    };
-    std::vector<Predictor> predictors = {{0, false}};
+    std::vector<PositionParameters> all(1);
     if (!without_.has(Feature::kWeights)) {
-      predictors.push_back({kWeights, true});
-      if (!without_.has(Feature::kTipSelection)) predictors.push_back({kWeights | kSelect, true});
-      if (visitCount(pieces_) <= kTrialVertices[0]) predictors.push_back({kWeights, false});
-    }
-    race_.resize(predictors.size());
-    jobs_.run(race_.size(), [&](size_t i) {
-      PositionParameters& p = race_[i].parameters;
-      p.modes = predictors[i].modes;
-      setUniversalScale(p);
-      if (predictors[i].is_fitted) {
-        p.weights = fitWeights(pieces_, p.has(kSelect), true, kFitVertices[effort_], without_);
-      } else if (p.has(kWeights)) {
-        p.weights = trainedWeights(without_);
+      if (vertices_ >= kFewestToFit) addFitted(all);
+      if (vertices_ <= kTrainedVertices) {
+        all.push_back({.modes = kWeights, .weights = trainedWeights(without_)});
       }
-      race_[i].cost = costOf(p);
+    }
+    candidates_.resize(all.size());
+    jobs_.run(all.size(), [&](size_t i) {
+      setUniversalScale(all[i]);
+      candidates_[i] = {all[i], costOf(all[i])};
     });
-    sortRace(race_.size());
+    std::stable_sort(candidates_.begin(), candidates_.end());
+    while (candidates_.back().cost > kOutOfRace * candidates_[0].cost) candidates_.pop_back();
   }
 
-  /// Tries palette, planes and shear, which exclude each other. Each is tried with every predictor,
-  /// since the best predictor differs between them.
+  void addFitted(std::vector<PositionParameters>& all) {
+    using namespace position_mode;
+    const FitRows rows = gatherFitRows(pieces_, kFitVertices, without_);
+    std::vector<PositionParameters> fitted = {{.modes = kWeights}};
+    if (!without_.has(Feature::kTipSelection)) fitted.push_back({.modes = kWeights | kSelect});
+    jobs_.run(fitted.size(), [&](size_t i) {
+      fitted[i].weights = fitToRows(rows, fitted[i].has(kSelect), true, without_);
+    });
+    all.insert(all.end(), fitted.begin(), fitted.end());
+  }
+
+  /// Tries palette, planes and shear, which exclude each other: first with the best predictor, and
+  /// then with the others if that was promising, since the best predictor differs between them.
   void tryKinds() {
-    std::vector<uint8_t> kinds;
-    const auto offer = [&](bool may, uint8_t kind, Feature feature) {
-      if (may && !without_.has(feature)) kinds.push_back(kind);
-    };
-    offer(palette_values_ > 0, position_mode::kPalette, Feature::kPalette);
-    offer(anyPlanes(), position_mode::kPlanes, Feature::kPlanes);
-    offer(true, position_mode::kShear, Feature::kShear);
-    const std::vector<Candidate> plain = race_;
-    for (const uint8_t kind : kinds) {
+    const std::vector<Candidate> plain = candidates_;
+    const auto tryKind = [&](uint8_t kind, Feature feature, double promising) {
+      if (without_.has(feature)) return;
       std::vector<Candidate> with(plain.size());
       const auto tryWith = [&](size_t i) {
         with[i] = {withMode(plain[i].parameters, kind), 0};
+        setUniversalScale(with[i].parameters);
         with[i].cost = costOf(with[i].parameters);
       };
-      // Whether shear pays depends on the surface, not on the predictor.
       tryWith(0);
-      if (kind == position_mode::kShear && with[0].cost >= plain[0].cost) continue;
+      if (with[0].cost >= promising * plain[0].cost) return;
       jobs_.run(with.size() - 1, [&](size_t i) { tryWith(i + 1); });
-      race_.insert(race_.end(), with.begin(), with.end());
-    }
-    sortRace(kRace);
+      candidates_.insert(candidates_.end(), with.begin(), with.end());
+    };
+    if (palette_values_ > 0) tryKind(position_mode::kPalette, Feature::kPalette, kPromising);
+    if (anyPlanes()) tryKind(position_mode::kPlanes, Feature::kPlanes, kPromising);
+    // Whether shear pays depends on the surface, not on the predictor.
+    tryKind(position_mode::kShear, Feature::kShear, 1);
   }
 
-  /// Tries a mode that can be combined with the others.
-  void tryMode(uint8_t mode, Feature feature) {
-    if (without_.has(feature)) return;
-    std::vector<Candidate> with = race_;
-    jobs_.run(with.size(), [&](size_t i) {
-      PositionParameters& p = with[i].parameters;
-      p = withMode(p, mode);
-      with[i].cost = position_mode::goTogether(p.modes) ? costOf(p) : kNever;
-    });
-    race_.insert(race_.end(), with.begin(), with.end());
-    sortRace(kRace);
+  /// Tries the modes that can be combined with others, and keeps what pays.
+  void improve(Candidate& best) {
+    const auto tryMode = [&](uint8_t mode, Feature feature) {
+      const PositionParameters p = withMode(best.parameters, mode);
+      if (!without_.has(feature) && position_mode::goTogether(p.modes)) offer(p, best);
+    };
+    tryMode(position_mode::kSplit, Feature::kSplit);
+    tryOwnScale(best);
+    tryMode(position_mode::kFold, Feature::kFold);
   }
 
-  void tryOwnScale() {
-    if (without_.has(Feature::kOwnScale)) return;
-    sortRace(kFinal);
-    for (size_t i = race_.size(); i-- != 0;) {
-      PositionParameters p = race_[i].parameters;
-      if (p.has(position_mode::kPlanes)) continue;
-      fitScale(trials_, jobs_, p);
-      race_.push_back({p, costOf(p)});
-    }
-    sortRace(1);
+  void tryOwnScale(Candidate& best) {
+    PositionParameters p = best.parameters;
+    if (without_.has(Feature::kOwnScale) || p.has(position_mode::kPlanes)) return;
+    if (vertices_ < kFewestToFit) return;
+    fitScale(trials_, jobs_, p);
+    offer(p, best);
+  }
+
+  void offer(const PositionParameters& p, Candidate& best) {
+    best = std::min(best, {p, costOf(p)});
   }
 
   static PositionParameters withMode(PositionParameters p, uint8_t mode) {
     p.modes |= mode;
-    setUniversalScale(p);
     return p;
-  }
-
-  /// Sorts by cost, and keeps at most `limit` candidates.
-  void sortRace(size_t limit) {
-    std::stable_sort(race_.begin(), race_.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-    if (race_.size() > limit) race_.resize(limit);
-    while (race_.back().cost > kOutOfRace * race_[0].cost) race_.pop_back();
   }
 
   /// Returns the number of values in all palettes, per vertex.
@@ -679,10 +756,9 @@ class Chooser {
     return bits + price_.surcharge(bits, timeOf(p, palette_values_));
   }
 
-  static constexpr size_t kRace = 3;
-  static constexpr size_t kFinal = 2;
   static constexpr double kOutOfRace = 1.25;
-  static constexpr double kNever = std::numeric_limits<double>::infinity();
+  static constexpr double kPromising = 1.1;
+  static constexpr double kTie = 1.02;
 
   std::span<const PositionCandidate> pieces_;
   const Jobs& jobs_;
@@ -690,33 +766,16 @@ class Chooser {
   const TimePrice price_;
   const FeatureSet without_;
   const double palette_values_;
-  uint8_t effort_;
+  const uint64_t vertices_;
   Trials trials_;
-  std::vector<Candidate> race_;
+  std::vector<Candidate> candidates_;
 };
 
 }  // namespace
 
 PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, bool select, bool robust,
                             uint32_t max_vertices, const FeatureSet& without) {
-  const uint32_t stride = static_cast<uint32_t>(visitCount(pieces) / max_vertices + 1);
-  std::vector<FitRow> rows;
-  for (const PositionCandidate& piece : pieces) {
-    gatherRows(piece, select, stride, rows);
-  }
-  std::vector<FitRow> rows_of[kPredictorClasses];
-  for (FitRow& row : rows) {
-    for (auto& feature : row.feature) {
-      if (without.has(Feature::kBeyondWeights)) feature[2] = 0;
-      if (without.has(Feature::kDegreeWeights)) feature[3] = feature[4] = 0;
-    }
-    rows_of[row.predictor_class].push_back(row);
-  }
-  PredictorWeights weights = trainedWeights(without);
-  for (uint32_t c = 0; c < kPredictorClasses; ++c) {
-    chooseWeights(rows_of[c], c, stride, robust, weights.w[c]);
-  }
-  return weights;
+  return fitToRows(gatherFitRows(pieces, max_vertices, without), select, robust, without);
 }
 
 namespace {

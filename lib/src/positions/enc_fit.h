@@ -47,7 +47,7 @@ struct PositionSettings {
   FeatureSet without;
 };
 
-/// Tries the predictors and modes on the pieces, or on an even sample of their vertices if they
+/// Tries predictors and modes on the pieces, or on an even sample of their vertices if they
 /// have many, and returns the cheapest combination with its tables. A choice that costs time in the
 /// decoder must be worth it, see enc_prices.h; `surface_bits` is the size of the connectivity.
 /// Deterministic on every machine.
