@@ -41,7 +41,9 @@ class StageRunner {
     truth_.connectivity = connectivityTruth(
         plan_.record, {plan_.node_map, plan_.source_of_vertex, plan_.source_gate});
     truth_.pivot_faces = plan_.pivots.faces.data();
+    const uint64_t spent = io_.cost();
     MCC_TRY(piece_.codeConnectivity(truth_));
+    connectivity_cost_ = io_.cost() - spent;
     account(sizes, &StreamSizes::connectivity_bits);
     learnVertices(plan_);
     truth_.class_of_vertex = plan_.class_of_vertex.data();
@@ -55,15 +57,22 @@ class StageRunner {
     return {};
   }
 
-  /// Walks the surface once for the trials; codeSurface() must have run.
+  uint64_t connectivityCost() const { return connectivity_cost_; }
+
+  /// Walks the surface once for the trials; codeSurface() must have run. Leaves what the stages
+  /// after codePositions() need of it.
   Status recordPositions(RecordedPositions& recorded) {
     PositionRecording& recording = recorded.recording;
     PositionCandidate& candidate = recorded.candidate;
     const uint32_t group_count = piece_.groups.count;
     const std::span<const int32_t> positions(plan_.positions.data(), 3 * size_t{group_count});
     if (!recorded.records.resize(group_count)) throwBadAlloc();
+    const bool with_order = piece_.needsSequence();
+    if (with_order && !piece_.sequence.resize(group_count)) throwBadAlloc();
     MCC_TRY(recording.record(piece_.mesh, piece_.groups, recorded.records.data(),
-                             plan_.positions.data()));
+                             plan_.positions.data(),
+                             with_order ? piece_.sequence.data() : nullptr));
+    if (with_order) storePositions();
     PositionParameters parameters;
     PieceCoder<Io>::describePositions(plan_.attributes[0].info, parameters);
     candidate.recording = &recording;
@@ -171,6 +180,16 @@ class StageRunner {
   uint32_t groupCount() const { return piece_.groups.count; }
 
  private:
+  /// Stores the positions of all groups and isolated vertices where later stages find them.
+  void storePositions() {
+    const std::vector<int32_t>& from =
+        plan_.exact_positions.empty() ? plan_.positions : plan_.exact_positions;
+    if (!piece_.records.resize(from.size() / 3)) throwBadAlloc();
+    for (size_t v = 0; v < piece_.records.size(); ++v) {
+      std::copy_n(from.data() + 3 * v, 3, piece_.records[v].q);
+    }
+  }
+
   bool isCodedWithAnother(uint32_t index) const { return isWithAnother(methodOf(infos_, index)); }
 
   /// Fills values_. Coding does not change them.
@@ -217,6 +236,7 @@ class StageRunner {
   Array<int32_t> values_;
   uint32_t learned_ = kNone;  ///< attribute whose values values_ holds
   uint64_t cost_before_ = io_.cost();
+  uint64_t connectivity_cost_ = 0;
 };
 
 inline std::unique_ptr<PayloadModels> makeModels(uint32_t context_set) {
