@@ -27,9 +27,9 @@ constexpr uint32_t kRunLength = 1024;       ///< consecutive vertices in one run
 constexpr uint32_t kTrialVertices = 6000;
 constexpr double kManyParts = 8;          ///< samples of less than 1/8 are replayed twice
 constexpr uint32_t kFitVertices = 14000;  ///< about as many are fitted to
-constexpr uint32_t kFewestToFit = 128;    ///< vertices; with fewer, fitted tables cost too much
+constexpr uint32_t kFewestToFit = 256;    ///< vertices; with fewer, fitted tables cost too much
 /// Up to here, the trained weights are tried as well. With more, fitted ones are better.
-constexpr uint64_t kTrainedVertices = 4000;
+constexpr uint64_t kTrainedVertices = 500;
 
 uint64_t visitCount(std::span<const PositionCandidate> pieces) {
   uint64_t count = 0;
@@ -634,8 +634,9 @@ class Chooser {
         trials_(pieces, kTrialVertices) {}
 
   PositionParameters run() {
+    findClearKind();
     tryPredictors();
-    tryKinds();
+    if (clear_kind_ == 0) tryKinds();
     // What is tried next decides between two that are about equal.
     std::stable_sort(candidates_.begin(), candidates_.end());
     const bool is_tie = candidates_.size() > 1 && candidates_[1].cost < kTie * candidates_[0].cost;
@@ -651,35 +652,49 @@ class Chooser {
     bool operator<(const Candidate& o) const { return cost < o.cost; }
   };
 
-  /// Tries plain averages and weights, fitted without and with tip selection; in addition the
-  /// trained weights where trials are cheap.
-  void tryPredictors() {
-    using namespace position_mode;
+  /// Tries the plain average, without and with a palette or planes. If one of these is far better,
+  /// nothing is tried without it.
+  void findClearKind() {
     std::vector<PositionParameters> all(1);
-    if (!without_.has(Feature::kWeights)) {
-      if (vertices_ >= kFewestToFit) addFitted(all);
-      if (vertices_ <= kTrainedVertices) {
-        all.push_back({.modes = kWeights, .weights = trainedWeights(without_)});
-      }
+    const auto add = [&](bool may, uint8_t kind, Feature feature) {
+      if (may && !without_.has(feature)) all.push_back({.modes = kind});
+    };
+    add(palette_values_ > 0, position_mode::kPalette, Feature::kPalette);
+    add(anyPlanes(), position_mode::kPlanes, Feature::kPlanes);
+    candidates_ = tryAll(std::move(all));
+    const double clear = kClear * candidates_[0].cost;
+    const Candidate best = *std::min_element(candidates_.begin(), candidates_.end());
+    if (best.cost < clear) {
+      clear_kind_ = best.parameters.modes;
+      candidates_ = {best};
+    } else {
+      average_with_kind_.assign(candidates_.begin() + 1, candidates_.end());
+      candidates_.resize(1);
     }
-    candidates_.resize(all.size());
-    jobs_.run(all.size(), [&](size_t i) {
-      setUniversalScale(all[i]);
-      candidates_[i] = {all[i], costOf(all[i])};
-    });
-    std::stable_sort(candidates_.begin(), candidates_.end());
-    while (candidates_.back().cost > kOutOfRace * candidates_[0].cost) candidates_.pop_back();
   }
 
-  void addFitted(std::vector<PositionParameters>& all) {
+  /// Tries weights, fitted without and with tip selection, and the trained weights where trials are
+  /// cheap.
+  void tryPredictors() {
     using namespace position_mode;
-    const FitRows rows = gatherFitRows(pieces_, kFitVertices, without_);
-    std::vector<PositionParameters> fitted = {{.modes = kWeights}};
-    if (!without_.has(Feature::kTipSelection)) fitted.push_back({.modes = kWeights | kSelect});
-    jobs_.run(fitted.size(), [&](size_t i) {
-      fitted[i].weights = fitToRows(rows, fitted[i].has(kSelect), true, without_);
-    });
-    all.insert(all.end(), fitted.begin(), fitted.end());
+    if (without_.has(Feature::kWeights)) return;
+    std::vector<PositionParameters> all;
+    if (vertices_ >= kFewestToFit) {
+      all.push_back({.modes = kWeights});
+      if (!without_.has(Feature::kTipSelection)) all.push_back({.modes = kWeights | kSelect});
+      const FitRows rows = gatherFitRows(pieces_, kFitVertices, without_);
+      jobs_.run(all.size(), [&](size_t i) {
+        all[i].weights = fitToRows(rows, all[i].has(kSelect), true, without_);
+      });
+    }
+    if (vertices_ <= kTrainedVertices) {
+      all.push_back({.modes = kWeights, .weights = trainedWeights(without_)});
+    }
+    for (PositionParameters& p : all) p.modes |= clear_kind_;
+    const std::vector<Candidate> tried = tryAll(std::move(all));
+    candidates_.insert(candidates_.end(), tried.begin(), tried.end());
+    std::stable_sort(candidates_.begin(), candidates_.end());
+    while (candidates_.back().cost > kOutOfRace * candidates_[0].cost) candidates_.pop_back();
   }
 
   /// Tries palette, planes and shear, which exclude each other: first with the best predictor, and
@@ -688,21 +703,35 @@ class Chooser {
     const std::vector<Candidate> plain = candidates_;
     const auto tryKind = [&](uint8_t kind, Feature feature, double promising) {
       if (without_.has(feature)) return;
-      std::vector<Candidate> with(plain.size());
-      const auto tryWith = [&](size_t i) {
-        with[i] = {withMode(plain[i].parameters, kind), 0};
-        setUniversalScale(with[i].parameters);
-        with[i].cost = costOf(with[i].parameters);
-      };
-      tryWith(0);
-      if (with[0].cost >= promising * plain[0].cost) return;
-      jobs_.run(with.size() - 1, [&](size_t i) { tryWith(i + 1); });
-      candidates_.insert(candidates_.end(), with.begin(), with.end());
+      std::vector<PositionParameters> with;
+      for (const Candidate& candidate : plain) with.push_back(withMode(candidate.parameters, kind));
+      const Candidate first = tryOnce(with[0]);
+      if (first.cost >= promising * plain[0].cost) return;
+      candidates_.push_back(first);
+      with.erase(with.begin());
+      const std::vector<Candidate> tried = tryAll(std::move(with));
+      candidates_.insert(candidates_.end(), tried.begin(), tried.end());
     };
     if (palette_values_ > 0) tryKind(position_mode::kPalette, Feature::kPalette, kPromising);
     if (anyPlanes()) tryKind(position_mode::kPlanes, Feature::kPlanes, kPromising);
     // Whether shear pays depends on the surface, not on the predictor.
     tryKind(position_mode::kShear, Feature::kShear, 1);
+  }
+
+  /// Tries one, unless findClearKind() has.
+  Candidate tryOnce(const PositionParameters& p) {
+    for (const Candidate& known : average_with_kind_) {
+      if (known.parameters.modes == p.modes) return known;
+    }
+    return tryAll({p})[0];
+  }
+  std::vector<Candidate> tryAll(std::vector<PositionParameters> all) {
+    std::vector<Candidate> tried(all.size());
+    jobs_.run(all.size(), [&](size_t i) {
+      setUniversalScale(all[i]);
+      tried[i] = {all[i], costOf(all[i])};
+    });
+    return tried;
   }
 
   /// Tries the modes that can be combined with others, and keeps what pays.
@@ -756,6 +785,7 @@ class Chooser {
     return bits + price_.surcharge(bits, timeOf(p, palette_values_));
   }
 
+  static constexpr double kClear = 0.9;
   static constexpr double kOutOfRace = 1.25;
   static constexpr double kPromising = 1.1;
   static constexpr double kTie = 1.02;
@@ -768,6 +798,8 @@ class Chooser {
   const double palette_values_;
   const uint64_t vertices_;
   Trials trials_;
+  uint8_t clear_kind_ = 0;
+  std::vector<Candidate> average_with_kind_;
   std::vector<Candidate> candidates_;
 };
 
