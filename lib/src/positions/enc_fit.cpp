@@ -546,15 +546,14 @@ FitRows gatherFitRows(std::span<const PositionCandidate> pieces, uint32_t max_ve
   return fit;
 }
 
-PredictorWeights fitToRows(const FitRows& fit, bool select, bool robust,
-                           const FeatureSet& without) {
+/// Fits the classes from `first_class` to `last_class`.
+void fitToRows(const FitRows& fit, bool select, bool robust, uint32_t first_class,
+               uint32_t last_class, PredictorWeights& weights) {
   ClassRows rows_of[kPredictorClasses];
   for (const FitRow& row : fit.rows) rows_of[row.predictor_class[select ? 1 : 0]].push_back(&row);
-  PredictorWeights weights = trainedWeights(without);
-  for (uint32_t c = 0; c < kPredictorClasses; ++c) {
+  for (uint32_t c = first_class; c <= last_class; ++c) {
     chooseWeights(rows_of[c], c, fit.stride, robust, weights.w[c]);
   }
-  return weights;
 }
 
 /// The terms that the scale of a component is computed from, and the size of its residual.
@@ -682,10 +681,7 @@ class Chooser {
     if (vertices_ >= kFewestToFit) {
       all.push_back({.modes = kWeights});
       if (!without_.has(Feature::kTipSelection)) all.push_back({.modes = kWeights | kSelect});
-      const FitRows rows = gatherFitRows(pieces_, kFitVertices, without_);
-      jobs_.run(all.size(), [&](size_t i) {
-        all[i].weights = fitToRows(rows, all[i].has(kSelect), true, without_);
-      });
+      fitAll(all);
     }
     if (vertices_ <= kTrainedVertices) {
       all.push_back({.modes = kWeights, .weights = trainedWeights(without_)});
@@ -695,6 +691,19 @@ class Chooser {
     candidates_.insert(candidates_.end(), tried.begin(), tried.end());
     std::stable_sort(candidates_.begin(), candidates_.end());
     while (candidates_.back().cost > kOutOfRace * candidates_[0].cost) candidates_.pop_back();
+  }
+
+  /// Fits the weights without and with tip selection, which have the classes of other fans in
+  /// common.
+  void fitAll(std::vector<PositionParameters>& all) const {
+    const FitRows rows = gatherFitRows(pieces_, kFitVertices, without_);
+    PredictorWeights weights = trainedWeights(without_);
+    fitToRows(rows, false, true, 0, kClassPlain - 1, weights);
+    jobs_.run(all.size(), [&](size_t i) {
+      all[i].weights = weights;
+      fitToRows(rows, all[i].has(position_mode::kSelect), true, kClassPlain, kPredictorClasses - 1,
+                all[i].weights);
+    });
   }
 
   /// Tries palette, planes and shear, which exclude each other: first with the best predictor, and
@@ -788,7 +797,7 @@ class Chooser {
   static constexpr double kClear = 0.9;
   static constexpr double kOutOfRace = 1.25;
   static constexpr double kPromising = 1.1;
-  static constexpr double kTie = 1.02;
+  static constexpr double kTie = 1.01;
 
   std::span<const PositionCandidate> pieces_;
   const Jobs& jobs_;
@@ -807,7 +816,10 @@ class Chooser {
 
 PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, bool select, bool robust,
                             uint32_t max_vertices, const FeatureSet& without) {
-  return fitToRows(gatherFitRows(pieces, max_vertices, without), select, robust, without);
+  const FitRows rows = gatherFitRows(pieces, max_vertices, without);
+  PredictorWeights weights = trainedWeights(without);
+  fitToRows(rows, select, robust, 0, kPredictorClasses - 1, weights);
+  return weights;
 }
 
 namespace {

@@ -167,8 +167,8 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& 
   }
   const MethodRules rules{expected_cost / wedges, TimePrice(options.prefer), options.without};
   for (size_t i = 0; i < plans.size(); ++i) {
-    if (!options.without.has(Feature::kCreases)) MCC_TRY(runners[i]->chooseCreases(models));
-    MCC_TRY(runners[i]->codeSeams(nullptr));
+    const bool without_creases = options.without.has(Feature::kCreases);
+    MCC_TRY(without_creases ? runners[i]->codeSeams(nullptr) : runners[i]->chooseSeams(models));
     MCC_TRY(runners[i]->prepareAttributes());
     const std::vector<uint32_t> order = codingOrder(plans[i]);
     for (size_t k = 0; k < order.size(); ++k) {

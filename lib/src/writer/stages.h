@@ -104,6 +104,10 @@ class StageRunner {
   Status codeSeams(StreamSizes* sizes) {
     MCC_TRY(piece_.codeSeams(truth_));
     account(sizes, &StreamSizes::seam_bits);
+    return codeLeftovers(sizes);
+  }
+
+  Status codeLeftovers(StreamSizes* sizes) {
     learnWedges(plan_, piece_.mesh);
     truth_.leftovers = {plan_.part_of_face.data(), plan_.list.data()};
     MCC_TRY(piece_.codeLeftovers(truth_));
@@ -122,32 +126,35 @@ class StageRunner {
 
   Status prepareAttributes() { return piece_.prepareAttributes(); }
 
-  /// Codes the seams without and with creases as contexts, and selects the cheaper way. The seams
-  /// must then be coded again.
-  Status chooseCreases(PayloadModels& models) {
-    if (!plan_.header.has(piece_flag::kSeams) || plan_.attributes.empty()) return {};
+  /// Replaces codeSeams(): codes the seams without and with creases as contexts, and selects the
+  /// cheaper way.
+  Status chooseSeams(PayloadModels& models) {
+    if (!plan_.header.has(piece_flag::kSeams) || plan_.attributes.empty())
+      return codeSeams(nullptr);
     const std::vector<uint32_t> words(piece_.mesh.words.data(),
                                       piece_.mesh.words.data() + piece_.mesh.words.size());
     const std::vector<uint32_t> sequence(piece_.sequence.data(),
                                          piece_.sequence.data() + piece_.sequence.size());
     const SeamModels before = models.seams;
-    uint64_t cost[2] = {};
-    for (const uint32_t with : {0u, 1u}) {
-      plan_.header.flags =
-          (plan_.header.flags & ~piece_flag::kCreases) | (with != 0 ? piece_flag::kCreases : 0);
-      const uint64_t spent = io_.cost();
-      MCC_TRY(piece_.codeSeams(truth_));
-      cost[with] = io_.cost() - spent;
+    const auto undo = [&] {
       models.seams = before;
       piece_.wedge_group.clear();
-      piece_.sequence.clear();
-      for (const uint32_t h : sequence) {
-        if (!piece_.sequence.push_back(h)) throwBadAlloc();
-      }
+      if (!piece_.sequence.resize(sequence.size())) throwBadAlloc();
+      std::copy(sequence.begin(), sequence.end(), piece_.sequence.data());
       std::copy(words.begin(), words.end(), piece_.mesh.words.data());
-    }
-    if (cost[0] <= cost[1]) plan_.header.flags &= ~piece_flag::kCreases;
-    return {};
+    };
+    const uint64_t start = io_.cost();
+    plan_.header.flags &= ~piece_flag::kCreases;
+    MCC_TRY(piece_.codeSeams(truth_));
+    const uint64_t without = io_.cost() - start;
+    undo();
+    plan_.header.flags |= piece_flag::kCreases;
+    MCC_TRY(piece_.codeSeams(truth_));
+    const uint64_t with = io_.cost() - start - without;
+    if (with < without) return codeLeftovers(nullptr);
+    undo();
+    plan_.header.flags &= ~piece_flag::kCreases;
+    return codeSeams(nullptr);
   }
 
   Status codeAttribute(uint32_t index, StreamSizes* sizes) {
