@@ -656,7 +656,7 @@ class Chooser {
   void findClearKind() {
     std::vector<PositionParameters> all(1);
     const auto add = [&](bool may, uint8_t kind, Feature feature) {
-      if (may && !without_.has(feature)) all.push_back({.modes = kind});
+      if (may && !without_.has(feature)) all.push_back(withMode({}, kind));
     };
     add(palette_values_ > 0, position_mode::kPalette, Feature::kPalette);
     add(anyPlanes(), position_mode::kPlanes, Feature::kPlanes);
@@ -679,12 +679,13 @@ class Chooser {
     if (without_.has(Feature::kWeights)) return;
     std::vector<PositionParameters> all;
     if (vertices_ >= kFewestToFit) {
-      all.push_back({.modes = kWeights});
-      if (!without_.has(Feature::kTipSelection)) all.push_back({.modes = kWeights | kSelect});
+      all.push_back(withMode({}, kWeights));
+      if (!without_.has(Feature::kTipSelection)) all.push_back(withMode({}, kWeights | kSelect));
       fitAll(all);
     }
     if (vertices_ <= kTrainedVertices) {
-      all.push_back({.modes = kWeights, .weights = trainedWeights(without_)});
+      all.push_back(withMode({}, kWeights));
+      all.back().weights = trainedWeights(without_);
     }
     for (PositionParameters& p : all) p.modes |= clear_kind_;
     const std::vector<Candidate> tried = tryAll(std::move(all));

@@ -42,7 +42,6 @@ struct DistinctCoordinates {
 
 /// What the choice depends on in addition to the pieces.
 struct PositionSettings {
-  uint8_t effort = 1;  ///< see EncodeOptions
   Preference prefer = Preference::kBalanced;
   FeatureSet without;
 };

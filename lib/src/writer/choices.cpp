@@ -81,8 +81,8 @@ PositionParameters choosePositions(std::vector<RecordedPositions> recorded, doub
                                    const EncodeSettings& options, const Jobs& jobs) {
   std::vector<PositionCandidate> candidates;
   for (const RecordedPositions& piece : recorded) candidates.push_back(piece.candidate);
-  return choosePositionParameters(candidates, surface_bits,
-                                  {options.effort, options.prefer, options.without}, jobs);
+  return choosePositionParameters(candidates, surface_bits, {options.prefer, options.without},
+                                  jobs);
 }
 
 /// Lists the ways to code an attribute. Unit vectors on a grid may be coded as floats as well;
