@@ -27,7 +27,7 @@ constexpr uint32_t kRunLength = 1024;       ///< consecutive vertices in one run
 constexpr uint32_t kTrialVertices = 6000;
 constexpr double kManyParts = 8;          ///< samples of less than 1/8 are replayed twice
 constexpr uint32_t kFitVertices = 14000;  ///< about as many are fitted to
-constexpr uint32_t kFewestToFit = 256;    ///< vertices; with fewer, fitted tables cost too much
+constexpr uint32_t kFewestToFit = 32;     ///< vertices; with fewer, fitted tables cost too much
 /// Up to here, the trained weights are tried as well. With more, fitted ones are better.
 constexpr uint64_t kTrainedVertices = 500;
 
@@ -636,10 +636,10 @@ class Chooser {
     findClearKind();
     tryPredictors();
     if (clear_kind_ == 0) tryKinds();
-    // What is tried next decides between two that are about equal.
+    // What is tried next decides between those that are about equal.
     std::stable_sort(candidates_.begin(), candidates_.end());
-    const bool is_tie = candidates_.size() > 1 && candidates_[1].cost < kTie * candidates_[0].cost;
-    candidates_.resize(is_tie ? 2 : 1);
+    if (candidates_.size() > kMostTied) candidates_.resize(kMostTied);
+    while (candidates_.back().cost > kTie * candidates_[0].cost) candidates_.pop_back();
     jobs_.run(candidates_.size(), [&](size_t i) { improve(candidates_[i]); });
     return std::min_element(candidates_.begin(), candidates_.end())->parameters;
   }
@@ -799,6 +799,7 @@ class Chooser {
   static constexpr double kOutOfRace = 1.25;
   static constexpr double kPromising = 1.1;
   static constexpr double kTie = 1.01;
+  static constexpr size_t kMostTied = 2;
 
   std::span<const PositionCandidate> pieces_;
   const Jobs& jobs_;
