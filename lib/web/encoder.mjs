@@ -14,7 +14,7 @@ const BITS = {
 };
 const FLAGS = ['lossless', 'indicesOnly', 'keepVertexOrder', 'keepTriangleOrder', 'maxErrorRelative', 'allowLarger',
   'dropUnused'];
-const OTHERS = ['grid', 'maxError', 'effort', 'prefer', 'lattice', 'fallback'];
+const OTHERS = ['grid', 'maxError', 'prefer', 'lattice', 'fallback'];
 
 let source = {};
 let loading = null;
@@ -136,10 +136,9 @@ function checkOptions(options) {
     require(Number.isInteger(value) && (value === 0 || (value >= least && value <= most)),
       `${name} must be 0 (every bit) or ${least} to ${most}`);
   }
-  const { grid = 'mesh', maxError, effort = 1, prefer = 'balanced', lattice, fallback = false } = options;
+  const { grid = 'mesh', maxError, prefer = 'balanced', lattice, fallback = false } = options;
   require(GRIDS.includes(grid), `grid is '${grid}', but must be one of ${GRIDS.join(', ')}`);
   require(maxError === undefined || (Number.isFinite(maxError) && maxError > 0), 'maxError must be a number above 0');
-  require([0, 1, 2].includes(effort), 'effort must be 0, 1 or 2');
   require(PREFERENCES.includes(prefer), `prefer is '${prefer}', but must be one of ${PREFERENCES.join(', ')}`);
   require(lattice === undefined || (lattice.length === 4 && lattice.every(Number.isFinite) && lattice[3] > 0),
     'lattice must be four numbers: x, y, z of a point and the step');
@@ -147,11 +146,11 @@ function checkOptions(options) {
 }
 
 function setOptions(exports, options) {
-  const { grid = 'mesh', maxError, effort = 1, prefer = 'balanced', lattice } = options;
+  const { grid = 'mesh', maxError, prefer = 'balanced', lattice } = options;
   const flag = (name) => (options[name] ? 1 : 0);
   exports.setBits(...Object.entries(BITS).map(([name, [standard]]) => options[name] ?? standard));
   exports.setModes(flag('lossless'), flag('indicesOnly'), GRIDS.indexOf(grid), flag('keepVertexOrder'),
-    flag('keepTriangleOrder'), effort, PREFERENCES.indexOf(prefer), flag('allowLarger'), flag('dropUnused'));
+    flag('keepTriangleOrder'), PREFERENCES.indexOf(prefer), flag('allowLarger'), flag('dropUnused'));
   if (maxError !== undefined) exports.setMaxError(maxError, flag('maxErrorRelative'));
   if (lattice !== undefined) exports.setLattice(...lattice);
 }

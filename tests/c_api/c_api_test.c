@@ -309,9 +309,6 @@ static void test_encoder_refuses(void) {
   EXPECT(encode_sheet(NULL, &encoding).error == MCC_ERROR_BAD_ARGUMENT && encoding == NULL);
   indices[0] = kept;
   mcc_encode_options_init(&options, sizeof options);
-  options.effort = 3;
-  EXPECT(encode_sheet(&options, &encoding).error == MCC_ERROR_BAD_ARGUMENT);
-  mcc_encode_options_init(&options, sizeof options);
   options.prefer = MCC_PREFER_SPEED + 1;
   EXPECT(encode_sheet(&options, &encoding).error == MCC_ERROR_BAD_ARGUMENT);
   options.prefer = MCC_PREFER_SPEED;

@@ -98,7 +98,6 @@ void addPayloads(const std::string& name, const std::vector<uint8_t>& converted,
 
 std::vector<CorpusPayload> corpusPayloads() {
   gltf::ConvertOptions quantized, lossless, ordered;
-  for (gltf::ConvertOptions* options : {&quantized, &lossless, &ordered}) options->effort = 0;
   lossless.lossless = true;
   ordered.keep_triangle_order = ordered.keep_vertex_order = true;
   std::vector<fs::path> files;

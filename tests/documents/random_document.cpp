@@ -1345,7 +1345,6 @@ class Maker {
     if (chance(50)) options.grid = Grid::kMesh;
     options.keep_vertex_order = chance(20);
     options.keep_triangle_order = chance(20);
-    options.effort = static_cast<uint8_t>(chance(70) ? 1 : below(3));
     options.prefer = static_cast<Preference>(chance(60) ? 0 : below(3));
     options.thread_count = chance(90) ? 1 : 2;
     document_.to_memory = document_.files.size() == 1 && chance(60);
@@ -1516,7 +1515,6 @@ std::string describe(const ConvertOptions& options) {
   if (options.keep_vertex_order) add("keep-vertex-order");
   if (options.keep_triangle_order) add("keep-triangle-order");
   if (options.fallback) add("fallback");
-  if (options.effort != 1) add("effort " + std::to_string(options.effort));
   if (options.prefer != Preference::kBalanced)
     add(options.prefer == Preference::kSize ? "prefer size" : "prefer speed");
   if (options.allow_larger) add("allow-larger");

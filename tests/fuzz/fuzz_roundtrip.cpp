@@ -98,7 +98,7 @@ void runRoundTrip(ByteFeed& feed) {
   EncodeSettings options;
   options.keep_triangle_order = (flags & 4) != 0;
   options.keep_vertex_order = (flags & 8) != 0;
-  options.effort = (flags & 16) != 0 ? 1 : 0;
+  options.prefer = (flags & 16) != 0 ? Preference::kBalanced : Preference::kSize;
   if (flags >> 5 < 4)
     options.context_set = flags >> 5 & 1;  // otherwise all are tried, which is slow
   const RoundTrip result = roundTrip(piece, options);

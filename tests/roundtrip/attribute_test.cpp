@@ -137,12 +137,12 @@ std::vector<float> tangentsOf(const std::vector<float>& normals, Shape shape) {
 }
 
 void expectRoundTrip(const MeshPiece& piece, const std::string& what) {
-  for (uint8_t effort = 0; effort <= 2; ++effort) {
+  for (uint32_t prefer = 0; prefer <= 2; ++prefer) {
     EncodeOptions options;
-    options.effort = effort;
-    EXPECT_EQ(roundTrip(piece.view(), options, {effort == 2 ? 4u : 0u, IndexType::kUint32}).failure,
+    options.prefer = static_cast<Preference>(prefer);
+    EXPECT_EQ(roundTrip(piece.view(), options, {prefer == 2 ? 4u : 0u, IndexType::kUint32}).failure,
               "")
-        << what << ", effort " << int{effort};
+        << what << ", preference " << prefer;
   }
 }
 

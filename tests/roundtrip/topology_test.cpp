@@ -80,7 +80,7 @@ TEST_P(Generated, GenusHolesAndComponents) {
     SCOPED_TRACE(mesh.name);
     const Positions positions = kAllPositions[number % kAllPositions.size()];
     EncodeOptions options;
-    options.effort = static_cast<uint8_t>(number / 4 % 3);
+    options.prefer = static_cast<Preference>(number / 4 % 3);
     const RoundTrip result = roundTripOf(mesh, positions, options);
     ASSERT_EQ(result.failure, "");
     if (positions == Positions::kInt16) continue;  // equal positions may join what was apart
@@ -291,8 +291,7 @@ TEST(Topology, AllPairsOfTrianglesOnFourVertices) {
   const auto set_triangle = [&mesh](size_t t, uint32_t code) {
     for (size_t k = 0; k < 3; ++k) mesh.indices[t * 3 + k] = code >> (2 * k) & 3;
   };
-  EncodeOptions options;
-  options.effort = 0;
+  const EncodeOptions options;
   mesh.indices.resize(6);
   for (uint32_t first = 0; first < 64; ++first) {
     for (uint32_t second = first; second < 64; ++second) {
@@ -319,7 +318,7 @@ TEST(Topology, RandomSoups) {
   for (uint32_t seed = 0; seed < count; ++seed) {
     const TestMesh mesh = randomSoup(seed);
     EncodeOptions options;
-    options.effort = static_cast<uint8_t>(seed % 3);
+    options.prefer = static_cast<Preference>(seed % 3);
     ASSERT_EQ(roundTripOf(mesh, kAllPositions[seed / 3 % kAllPositions.size()], options).failure,
               "")
         << mesh.name;
@@ -391,13 +390,13 @@ TEST(Topology, ZooInEveryCoding) {
   }
 }
 
-TEST(Topology, ZooWithEveryEffortAndTarget) {
+TEST(Topology, ZooWithEveryPreferenceAndTarget) {
   for (const TestMesh& mesh : smallZoo()) {
-    for (uint8_t effort = 0; effort <= 2; ++effort) {
+    for (uint32_t prefer = 0; prefer <= 2; ++prefer) {
       EncodeOptions options;
-      options.effort = effort;
-      const TargetLayout layout = {effort * 4u,
-                                   effort == 0 ? IndexType::kUint16 : IndexType::kUint32};
+      options.prefer = static_cast<Preference>(prefer);
+      const TargetLayout layout = {prefer * 4,
+                                   prefer == 0 ? IndexType::kUint16 : IndexType::kUint32};
       EXPECT_EQ(roundTripOf(mesh, Positions::kLattice14, options, layout).failure, "") << mesh.name;
     }
     if (mesh.vertexCount() > 256) continue;

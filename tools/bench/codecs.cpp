@@ -27,7 +27,6 @@ Outcome fromStatus(const Status& status) {
 
 Outcome encodeOurs(const Geometry& geometry, EncodedFile& encoded) {
   EncodeOptions options;
-  options.effort = geometry.effort;
   options.prefer = geometry.prefer;
   for (const PayloadInput& input : geometry.inputs) {
     std::vector<PieceView> views;

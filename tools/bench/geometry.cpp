@@ -57,7 +57,6 @@ gltf::Result load(const std::filesystem::path& path, const gltf::ConvertOptions&
   for (const gltf::LeftAlone& left : left_alone) {
     geometry.notes.push_back(left.primitive.path() + ": " + left.note);
   }
-  geometry.effort = options.effort;
   geometry.prefer = options.prefer;
   addInputs(geometry);
   return {};

@@ -51,8 +51,7 @@ struct Geometry {
   uint64_t wedge_count = 0;   ///< glTF vertices
   uint64_t vertex_count = 0;  ///< distinct positions
   bool has_left_out = false;
-  uint8_t effort = 1;                         ///< of our encoder
-  Preference prefer = Preference::kBalanced;  ///< the same
+  Preference prefer = Preference::kBalanced;  ///< of our encoder
 };
 
 /// Whether a primitive takes part.

@@ -107,7 +107,6 @@ foreign::Outcome measureWithout(const std::string& name, const Geometry& geometr
   figures.triangle_count = geometry.triangle_count;
   const std::vector<std::vector<PieceInput>> payloads = allPieces(geometry);
   EncodeSettings settings;
-  settings.effort = geometry.effort;
   settings.prefer = geometry.prefer;
   EncodedFile full;
   if (auto done = encodeWithout(payloads, settings, full); !done.ok()) return done;

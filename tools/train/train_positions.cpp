@@ -88,7 +88,7 @@ bool fitOf(const PayloadHeader& header, PredictorWeights& weights,
   if (!recording.record(piece.mesh, piece.groups, piece.records.data(), truth.data()).ok())
     return false;
   const PositionCandidate candidate{&recording, truth.data(), header.attributes[0].bits, {}};
-  weights = fitWeights({&candidate, 1}, {});
+  weights = fitWeights({&candidate, 1}, false, false, ~0u, {});
   for (const PositionRecording::Visit& visit : recording.visits()) {
     const uint32_t degree = recording.records()[visit.vertex].degree();
     if (visit.kind == static_cast<uint32_t>(PositionRecording::Kind::kPlain)) {

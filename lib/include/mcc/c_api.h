@@ -290,7 +290,6 @@ typedef struct mcc_encode_options {
   uint32_t keep_vertex_order; /**< 1: decoded wedges come in the order of the view */
   /** 1: decoded triangles come in the order of the view, each with its own first corner */
   uint32_t keep_triangle_order;
-  uint32_t effort; /**< 0 fast, 1, 2 small */
   uint32_t prefer; /**< MCC_PREFER_… */
 } mcc_encode_options;
 
@@ -344,7 +343,6 @@ typedef struct mcc_convert_options {
   uint32_t indices_only;        /**< 1: only the triangles are compressed */
   uint32_t keep_vertex_order;   /**< 1: decoded vertices come in the order of the source */
   uint32_t keep_triangle_order; /**< 1: decoded triangles come in the order of the source */
-  uint32_t effort;              /**< 0 fast, 1, 2 small */
   uint32_t thread_count;        /**< the result does not depend on it */
   const mcc_lattice* position_lattice; /**< the lattice of all positions, for tiles; null: none */
   uint32_t prefer;                     /**< MCC_PREFER_… */

@@ -127,7 +127,6 @@ struct ConvertOptions {
   /// Threads that work at the same time, on several payloads or on the trials of one. The result
   /// does not depend on it.
   uint32_t thread_count = 1;
-  uint8_t effort = 1;                         ///< see EncodeOptions::effort
   Preference prefer = Preference::kBalanced;  ///< smaller payloads, or ones faster to decode
   ForeignDecoders decoders;                   ///< for sources that other codecs compressed
   /// How much a compressed source may decode to, see decodedLimit(); 0: the default. All accessors

@@ -57,8 +57,6 @@ struct EncodeOptions {
   bool keep_triangle_order = false;
   /// Decoded wedges come in the order of the PieceView: source_wedge is then the identity.
   bool keep_vertex_order = false;
-  /// From 0, fast with few trials, to 2, all trials. It changes the bytes, but never the accuracy.
-  uint8_t effort = 1;
   /// Whether the payload should be smaller, or faster to decode. It never changes the accuracy.
   Preference prefer = Preference::kBalanced;
   /// Runs the trials of the writer on several threads. The writer starts none itself; when empty,

@@ -183,37 +183,33 @@ class CostIo {
 
 static_assert(SymbolIo<CostIo>);
 
-/// The encoder as stage code sees it, see entropy/io.h. Codes into three streams or, if `single`,
-/// into one, and also counts the cost.
+/// The encoder as stage code sees it, see entropy/io.h. Codes into three streams, into a single one,
+/// or both ways at once, so that the smaller can be chosen. Also counts the cost.
 class EncoderIo : public CostIo {
  public:
   using Burst = SameIo<EncoderIo>;
   using CodesBurst = SameIo<EncoderIo>;
-  explicit EncoderIo(bool single) : single_(single) {}
+  explicit EncoderIo(bool single) : EncoderIo(!single, single) {}
+  EncoderIo(bool three, bool single) : three_(three), single_(single) {}
 
   bool bit(BitModel& model, bool truth) {
-    codes_.bit(model, truth);
+    if (three_) codes_.bit(model, truth);
+    if (single_) single_codes_.bit(model, truth);
     return CostIo::bit(model, truth);
   }
 
   template <uint32_t kState>
   uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t truth) {
-    if (single_) {
-      codes_.symbol(row.start(truth), row.frequency(truth), kTokenBits);
-    } else {
-      tokens_.token(kState, row.start(truth), row.frequency(truth));
-    }
+    if (three_) tokens_.token(kState, row.start(truth), row.frequency(truth));
+    if (single_) single_codes_.symbol(row.start(truth), row.frequency(truth), kTokenBits);
     return CostIo::token<kState>(row, schedule, truth);
   }
 
   uint32_t raw(uint32_t bits, uint32_t truth) {
-    if (single_) {
-      for (uint32_t done = 0; done < bits; done += 16) {
-        const uint32_t count = std::min(bits - done, 16u);
-        codes_.symbol((truth >> done) & ((1u << count) - 1), 1, count);
-      }
-    } else {
-      raw_.write(bits, truth);
+    if (three_) raw_.write(bits, truth);
+    for (uint32_t done = 0; single_ && done < bits; done += 16) {
+      const uint32_t count = std::min(bits - done, 16u);
+      single_codes_.symbol((truth >> done) & ((1u << count) - 1), 1, count);
     }
     return CostIo::raw(bits, truth);
   }
@@ -229,19 +225,19 @@ class EncoderIo : public CostIo {
     std::vector<uint8_t> tokens;
     std::vector<uint8_t> raw;
   };
+  /// Ends the three streams, or the single one if there is no other.
   Streams finish() {
-    Streams streams;
-    streams.codes = codes_.finish();
-    if (!single_) {
-      streams.tokens = tokens_.finish();
-      streams.raw = raw_.finish();
-    }
-    return streams;
+    if (!three_) return finishSingle();
+    return {codes_.finish(), tokens_.finish(), raw_.finish()};
   }
+  /// Ends the single one of both.
+  Streams finishSingle() { return {single_codes_.finish(), {}, {}}; }
 
  private:
-  bool single_;
+  const bool three_;
+  const bool single_;
   RangeEncoder codes_;
+  RangeEncoder single_codes_;
   RansEncoder tokens_;
   RawBitsEncoder raw_;
 };

@@ -7,9 +7,11 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <vector>
 
 #include "base/enc_exceptions.h"
+#include "base/lanes.h"
 #include "entropy/enc_coder.h"
 #include "format/predictors.h"
 #include "positions/enc_prices.h"
@@ -22,9 +24,12 @@ using Kind = PositionRecording::Kind;
 
 constexpr size_t kLargePalette = 1u << 16;  ///< from this many vertices on, a palette is large
 constexpr uint32_t kRunLength = 1024;       ///< consecutive vertices in one run of a sample
-constexpr uint32_t kTrialVertices[] = {4000, 12000, ~0u};  ///< by effort
-constexpr double kManyParts = 8;  ///< samples of less than 1/8 are replayed twice
-constexpr uint32_t kFitVertices[] = {3000, 20000, 32000};
+constexpr uint32_t kTrialVertices = 6000;
+constexpr double kManyParts = 8;          ///< samples of less than 1/8 are replayed twice
+constexpr uint32_t kFitVertices = 14000;  ///< about as many are fitted to
+constexpr uint32_t kFewestToFit = 32;     ///< vertices; with fewer, fitted tables cost too much
+/// Up to here, the trained weights are tried as well. With more, fitted ones are better.
+constexpr uint64_t kTrainedVertices = 500;
 
 uint64_t visitCount(std::span<const PositionCandidate> pieces) {
   uint64_t count = 0;
@@ -114,6 +119,7 @@ class Trials {
       samples_.push_back(takeSample(*piece.recording, max_vertices, all_));
       counted_ += samples_.back().counted;
     }
+    palette_bits_ = paletteBits();
   }
 
   /// Returns the expected cost of all positions and their tables, in bits.
@@ -135,7 +141,7 @@ class Trials {
     return (static_cast<double>(spent - last_pass) +
             static_cast<double>(last_pass) * (passes == 1 ? parts : parts - 1)) /
                kCostOne +
-           tableBits(p) + (p.has(position_mode::kPalette) ? paletteBits() : 0) +
+           tableBits(p) + (p.has(position_mode::kPalette) ? palette_bits_ : 0) +
            (p.has(position_mode::kPlanes) ? planeBits() : 0);
   }
 
@@ -149,7 +155,7 @@ class Trials {
  private:
   /// The memory that a replay writes to.
   struct Scratch {
-    std::unique_ptr<PositionRows> rows = std::make_unique<PositionRows>();
+    std::unique_ptr<PositionRows> rows{new PositionRows};  // not zeroed: it is large
     /// By piece; only the records that are looked at are set.
     std::vector<Array<VertexRecord>> records;
   };
@@ -180,8 +186,10 @@ class Trials {
   template <class Io, class Use, class EndPass>
   void replayAll(Io& io, const PositionParameters& p, uint32_t passes, Use use, EndPass end_pass) {
     std::unique_ptr<Scratch> scratch = takeScratch();
-    *scratch->rows = PositionRows();
-    scratch->rows->prepare(p.modes);
+    // Only what prepare() looks at is reset. To clear all rows would take longer than a small
+    // trial.
+    PositionRows* rows = ::new (static_cast<void*>(scratch->rows.get())) PositionRows;
+    rows->prepare(p.modes);
     for (uint32_t pass = 0; pass < passes; ++pass) {
       for (size_t i = 0; i < pieces_.size(); ++i) replayPiece(io, p, i, *scratch, use);
       end_pass();
@@ -268,16 +276,16 @@ class Trials {
   std::vector<std::unique_ptr<Scratch>> free_;
   uint64_t all_ = 0;
   uint64_t counted_ = 0;
+  double palette_bits_ = 0;
 };
 
 // --- least squares -------------------------------------------------------------------------------
 
-/// Normal equations of up to 9 unknowns. They use only + - * / in one fixed order, so that every
+/// Normal equations of up to 8 unknowns. They use only + - * / in one fixed order, so that every
 /// machine finds the same solution.
 struct NormalEquations {
   double matrix[kMostWeights][kMostWeights] = {};
   double right[kMostWeights] = {};
-  double count = 0;
 
   void add(const double* x, double y, double weight, uint32_t n) {
     for (uint32_t i = 0; i < n; ++i) {
@@ -285,6 +293,12 @@ struct NormalEquations {
       for (uint32_t k = 0; k <= i; ++k) matrix[i][k] += scaled * x[k];
       right[i] += scaled * y;
     }
+  }
+
+  /// Makes the solution for an unknown 0.
+  void leaveOut(uint32_t unknown) {
+    for (uint32_t k = 0; k < kMostWeights; ++k) matrix[unknown][k] = matrix[k][unknown] = 0;
+    right[unknown] = 0;
   }
 
   /// Solves the symmetric system by Gaussian elimination. Unknowns that nothing depends on become
@@ -314,17 +328,66 @@ struct NormalEquations {
   }
 };
 
+/// One number for each weight, and zeros that fill the lanes.
+struct Features {
+  static constexpr uint32_t kParts = (kMostWeights + 3) / 4;
+  Lanes<float> part[kParts] = {};
+
+  static Features load(const float* from) {
+    Features f;
+    for (uint32_t i = 0; i < kParts; ++i) f.part[i] = loadLanes<float>(from + 4 * i);
+    return f;
+  }
+  float times(const Features& o) const {
+    Lanes<float> sum = part[0] * o.part[0];
+    for (uint32_t i = 1; i < kParts; ++i) sum += part[i] * o.part[i];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  }
+};
+
 /// One vertex of a fit. The target is in lattice steps, with the prediction of the average
 /// subtracted; the features are scaled such that weights of 1 (128 in the format) add up to it.
 struct FitRow {
-  uint32_t predictor_class;
+  uint32_t predictor_class[2];  ///< [with tip selection]
   float length;
   float target[3];
-  float feature[3][kMostWeights];
+  float feature[3][4 * Features::kParts];
 };
 
-void gatherRows(const PositionCandidate& piece, bool select, uint32_t stride,
-                std::vector<FitRow>& rows) {
+/// Adds the three components of a vertex to normal equations, for a few vertices at once in
+/// float32.
+class FitSums {
+ public:
+  static constexpr uint32_t kMostRows = 64;
+
+  void add(const Features (&f)[3], const float (&residual)[3], float weight, uint32_t n) {
+    for (uint32_t s = 0; s < 3; ++s) {
+      Features weighted;
+      for (uint32_t h = 0; h < Features::kParts; ++h) {
+        weighted.part[h] = f[s].part[h] * weight;
+        right_.part[h] += weighted.part[h] * residual[s];
+      }
+      for (uint32_t i = 0; i < n; ++i) {
+        const float x = f[s].part[i / 4][i % 4];
+        for (uint32_t h = 0; h <= i / 4; ++h) matrix_[i].part[h] += weighted.part[h] * x;
+      }
+    }
+  }
+  void addTo(NormalEquations& equations, uint32_t n) {
+    for (uint32_t i = 0; i < n; ++i) {
+      equations.right[i] += double{right_.part[i / 4][i % 4]};
+      for (uint32_t k = 0; k <= i; ++k)
+        equations.matrix[i][k] += double{matrix_[i].part[k / 4][k % 4]};
+    }
+    *this = FitSums();
+  }
+
+ private:
+  Features matrix_[kMostWeights];
+  Features right_;
+};
+
+void gatherRows(const PositionCandidate& piece, uint32_t stride, std::vector<FitRow>& rows) {
   const PositionRecording& recording = *piece.recording;
   // Steps of random length, `stride` on average, because steps of equal length would see only some
   // columns of a grid.
@@ -343,9 +406,10 @@ void gatherRows(const PositionCandidate& piece, bool select, uint32_t stride,
       Beyond beyond;
       recording.plain(recording.records(), visit, fan, beyond);
       const uint32_t degree = recording.records()[v].degree();
-      const PlainClass c = classifyPlain(select, fan, beyond, degree);
-      row.predictor_class = c.predictor_class;
-      const PlainFeatures f = plainFeatures(fan, beyond, select);
+      const PlainClass c = classifyPlain(true, fan, beyond, degree);
+      row.predictor_class[0] = classifyPlain(false, fan, beyond, degree).predictor_class;
+      row.predictor_class[1] = c.predictor_class;
+      const PlainFeatures f = plainFeatures(fan, beyond, true);
       const float skew = static_cast<float>(c.degree_skew);
       const float better = static_cast<float>(c.better);
       const float angles = compareAngles(fan);
@@ -369,7 +433,7 @@ void gatherRows(const PositionCandidate& piece, bool select, uint32_t stride,
       Lanes<float> spread{};
       Lanes<float> normal{};
       const AnyFeatures f = anyFeatures(fan, spread, normal);
-      row.predictor_class = f.predictor_class;
+      row.predictor_class[0] = row.predictor_class[1] = f.predictor_class;
       at = {f.from, fractionOf(256 * f.tips)};
       for (int s = 0; s < 3; ++s) {
         row.feature[s][0] = f.mean[s];
@@ -393,73 +457,90 @@ double roughLog2(float x) {
   return static_cast<double>(std::bit_cast<uint32_t>(x)) * (1.0 / (1 << 23)) - 127;
 }
 
+/// The rows of one class.
+using ClassRows = std::vector<const FitRow*>;
+
 /// Estimates how many bits the residuals of a class take with these weights.
-double residualBits(const std::vector<FitRow>& rows, const int16_t* w, uint32_t n) {
+double residualBits(const ClassRows& rows, const int16_t* w, uint32_t n) {
+  constexpr float kFarthest = 1 << 30;
+  float weight[4 * Features::kParts] = {};
+  for (uint32_t i = 0; i < n; ++i) weight[i] = w[i] * (1.0f / 128);
+  const Features weights = Features::load(weight);
   double bits = 0;
-  for (const FitRow& row : rows) {
-    for (const auto& feature : row.feature) {
-      float predicted = 0;
-      for (uint32_t i = 0; i < n; ++i) predicted += feature[i] * (1.0f / 128) * w[i];
-      const float residual = std::fabs(row.target[&feature - row.feature] - predicted);
-      bits += roughLog2(1 + 2 * std::floor(residual + 0.5f));
+  for (const FitRow* row : rows) {
+    for (uint32_t s = 0; s < 3; ++s) {
+      const float predicted = Features::load(row->feature[s]).times(weights);
+      const float residual = std::min(std::fabs(row->target[s] - predicted) + 0.5f, kFarthest);
+      bits += roughLog2(static_cast<float>(1 + 2 * int64_t{static_cast<int32_t>(residual)}));
     }
   }
   return bits;
 }
 
+/// Adds the rows, weighted by their residuals with the weights `solution`. The unknowns are changes
+/// of the weights `start`.
+NormalEquations weighRows(const ClassRows& rows, const Features& solution, const Features& start,
+                          uint32_t n, bool robust) {
+  NormalEquations equations;
+  FitSums sums;
+  uint32_t in_sums = 0;
+  for (const FitRow* row : rows) {
+    const Features f[3] = {Features::load(row->feature[0]), Features::load(row->feature[1]),
+                           Features::load(row->feature[2])};
+    float residual[3];
+    float size = 0;
+    for (uint32_t s = 0; s < 3; ++s) {
+      size += std::fabs(row->target[s] - solution.times(f[s]));
+      residual[s] = row->target[s] - start.times(f[s]);
+    }
+    const float near = size + 0.02f * row->length + (robust ? 1.0f : 0.5f);
+    sums.add(f, residual, robust ? 1 / (near * near) : 1 / ((row->length + 1) * near), n);
+    if (++in_sums % FitSums::kMostRows == 0) sums.addTo(equations, n);
+  }
+  sums.addTo(equations, n);
+  return equations;
+}
+
+/// How classes are fitted.
+struct FitChoice {
+  bool select;  ///< with the classes of tip selection
+  bool robust;  ///< weighs residuals by 1 / size^2 instead of by 1 / size
+  bool angles;  ///< with the weight of the angles
+};
+
 /// Fits one class by re-weighted least squares, starting from the weights `w`. Returns false if
 /// there are too few vertices.
-bool fitClass(const std::vector<FitRow>& rows, uint32_t n, bool robust, int16_t* w) {
+bool fitClass(const ClassRows& rows, uint32_t n, const FitChoice& choice, int16_t* w) {
   constexpr uint32_t kRounds = 4;
-  constexpr double kOne = 128;
+  constexpr float kOne = 128;
   if (rows.size() < 2 * n) return false;
-  double solution[kMostWeights] = {};
-  double start[kMostWeights] = {};
-  for (uint32_t i = 0; i < n; ++i) solution[i] = start[i] = w[i] / kOne;
+  float solution[4 * Features::kParts] = {};
+  for (uint32_t i = 0; i < n; ++i) solution[i] = w[i] / kOne;
+  const Features start = Features::load(solution);
   for (uint32_t round = 0; round < kRounds; ++round) {
-    NormalEquations equations;
-    for (const FitRow& row : rows) {
-      double residual[3];
-      double size = 0;
-      for (int s = 0; s < 3; ++s) {
-        double predicted = 0;
-        double universal = 0;
-        for (uint32_t i = 0; i < n; ++i) {
-          predicted += solution[i] * double{row.feature[s][i]};
-          universal += start[i] * double{row.feature[s][i]};
-        }
-        size += std::fabs(double{row.target[s]} - predicted);
-        residual[s] = double{row.target[s]} - universal;
-      }
-      const double length = double{row.length};
-      const double near = size + 0.02 * length + (robust ? 1.0 : 0.5);
-      const double weight = robust ? 1 / (near * near) : 1 / ((length + 1) * near);
-      for (int s = 0; s < 3; ++s) {
-        double x[kMostWeights];
-        for (uint32_t i = 0; i < n; ++i) x[i] = double{row.feature[s][i]};
-        equations.add(x, residual[s], weight, n);
-      }
-    }
+    NormalEquations equations =
+        weighRows(rows, Features::load(solution), start, n, choice.robust);
+    if (!choice.angles) equations.leaveOut(kAngleWeight);
     double change[kMostWeights] = {};
     equations.solve(n, 1e-3 + 3.0 / static_cast<double>(rows.size()), change);
-    for (uint32_t i = 0; i < n; ++i) solution[i] = start[i] + change[i];
+    for (uint32_t i = 0; i < n; ++i) solution[i] = static_cast<float>(w[i] / kOne + change[i]);
   }
   for (uint32_t i = 0; i < n; ++i) {
-    w[i] = static_cast<int16_t>(std::clamp(std::floor(solution[i] * kOne + 0.5), -255.0, 255.0));
+    w[i] = static_cast<int16_t>(std::clamp(std::floor(solution[i] * kOne + 0.5f), -255.0f, 255.0f));
   }
   return true;
 }
 
 /// Keeps the best of no weights, the trained weights `w` and fitted weights, and returns its bits.
 /// Each row stands for `stride` vertices.
-double chooseWeights(const std::vector<FitRow>& rows, uint32_t predictor_class, double stride,
-                     bool robust, int16_t* w) {
+double chooseWeights(const ClassRows& rows, uint32_t predictor_class, double stride,
+                     const FitChoice& choice, int16_t* w) {
   constexpr double kBitsOfWeight = 9;
   const uint32_t n = weightCount(predictor_class);
   int16_t fitted[kMostWeights];
   std::copy_n(w, kMostWeights, fitted);
   double best = residualBits(rows, w, n) * stride + 1.5 * n;
-  if (fitClass(rows, n, robust, fitted)) {
+  if (fitClass(rows, n, choice, fitted)) {
     const double bits = residualBits(rows, fitted, n) * stride + kBitsOfWeight * n;
     if (bits < best) {
       best = bits;
@@ -473,24 +554,37 @@ double chooseWeights(const std::vector<FitRow>& rows, uint32_t predictor_class, 
   return bits;
 }
 
-using ClassRows = std::vector<FitRow>[kPredictorClasses];
+/// A sample of the vertices of all pieces.
+struct FitRows {
+  std::vector<FitRow> rows;
+  uint32_t stride;  ///< each stands for so many vertices
+};
 
-/// Leaves a feature out of a fit.
-void leaveOut(ClassRows& rows, uint32_t index) {
-  for (std::vector<FitRow>& of_class : rows) {
-    for (FitRow& row : of_class) {
-      for (auto& feature : row.feature) feature[index] = 0;
+FitRows gatherFitRows(std::span<const PositionCandidate> pieces, uint32_t max_vertices,
+                      const FeatureSet& without) {
+  FitRows fit;
+  fit.stride = static_cast<uint32_t>(visitCount(pieces) / max_vertices + 1);
+  for (const PositionCandidate& piece : pieces) gatherRows(piece, fit.stride, fit.rows);
+  for (FitRow& row : fit.rows) {
+    for (auto& feature : row.feature) {
+      if (without.has(Feature::kBeyondWeights)) feature[2] = 0;
+      if (without.has(Feature::kDegreeWeights)) feature[3] = feature[4] = 0;
+      if (without.has(Feature::kAngleWeights)) feature[kAngleWeight] = 0;
     }
   }
+  return fit;
 }
 
-/// Chooses the weights of all classes, and returns the bits of the residuals.
-double fitClasses(const ClassRows& rows, double stride, const WeightFit& fit,
-                  const FeatureSet& without, PredictorWeights& weights) {
-  weights = trainedWeights(without);
+/// Fits the classes of plain fans, or those of other fans. Returns the bits of their residuals.
+double fitToRows(const FitRows& fit, bool plain, const FitChoice& choice,
+                 PredictorWeights& weights) {
+  ClassRows rows_of[kPredictorClasses];
+  for (const FitRow& row : fit.rows) {
+    rows_of[row.predictor_class[choice.select ? 1 : 0]].push_back(&row);
+  }
   double bits = 0;
-  for (uint32_t c = 0; c < kPredictorClasses; ++c) {
-    bits += chooseWeights(rows[c], c, stride, fit.robust, weights.w[c]);
+  for (uint32_t c = plain ? kClassPlain : 0; c < (plain ? kPredictorClasses : kClassPlain); ++c) {
+    bits += chooseWeights(rows_of[c], c, fit.stride, choice, weights.w[c]);
   }
   return bits;
 }
@@ -522,9 +616,7 @@ void fitCoefficients(const std::vector<ScaleRow>& rows, uint16_t* coefficients) 
     for (uint32_t attempt = 0; attempt < kCount; ++attempt) {
       NormalEquations reduced = equations;
       for (uint32_t i = 0; i < kCount; ++i) {
-        if (used[i]) continue;
-        for (uint32_t k = 0; k < kCount; ++k) reduced.matrix[i][k] = reduced.matrix[k][i] = 0;
-        reduced.right[i] = 0;
+        if (!used[i]) reduced.leaveOut(i);
       }
       reduced.solve(kCount, 1e-6, c);
       bool negative = false;
@@ -570,117 +662,155 @@ class Chooser {
         price_(settings.prefer),
         without_(settings.without),
         palette_values_(paletteValues(pieces)),
-        effort_(std::min<uint8_t>(settings.effort, 2)),
-        trials_(pieces, kTrialVertices[effort_]) {}
+        vertices_(visitCount(pieces)),
+        trials_(pieces, kTrialVertices) {}
 
   PositionParameters run() {
+    findClearKind();
     tryPredictors();
-    tryKinds();
-    tryMode(position_mode::kFold, Feature::kFold);
-    tryMode(position_mode::kSplit, Feature::kSplit);
-    tryOwnScale();
-    return race_[0].parameters;
+    if (clear_kind_ == 0) tryKinds();
+    // What is tried next decides between those that are about equal.
+    std::stable_sort(candidates_.begin(), candidates_.end());
+    if (candidates_.size() > kMostTied) candidates_.resize(kMostTied);
+    while (candidates_.back().cost > kTie * candidates_[0].cost) candidates_.pop_back();
+    jobs_.run(candidates_.size(), [&](size_t i) { improve(candidates_[i]); });
+    return std::min_element(candidates_.begin(), candidates_.end())->parameters;
   }
 
  private:
   struct Candidate {
     PositionParameters parameters;
     double cost;
+    bool operator<(const Candidate& o) const { return cost < o.cost; }
   };
 
-  /// Tries plain averages and weights, fitted without and with tip selection; in addition the
-  /// trained weights where trials are cheap.
+  /// Tries the plain average, without and with a palette or planes. If one of these is far better,
+  /// nothing is tried without it.
+  void findClearKind() {
+    std::vector<PositionParameters> all(1);
+    const auto add = [&](bool may, uint8_t kind, Feature feature) {
+      if (may && !without_.has(feature)) all.push_back(withMode({}, kind));
+    };
+    add(palette_values_ > 0, position_mode::kPalette, Feature::kPalette);
+    add(anyPlanes(), position_mode::kPlanes, Feature::kPlanes);
+    candidates_ = tryAll(std::move(all));
+    const double clear = kClear * candidates_[0].cost;
+    const Candidate best = *std::min_element(candidates_.begin(), candidates_.end());
+    if (best.cost < clear) {
+      clear_kind_ = best.parameters.modes;
+      candidates_ = {best};
+    } else {
+      average_with_kind_.assign(candidates_.begin() + 1, candidates_.end());
+      candidates_.resize(1);
+    }
+  }
+
+  /// Tries weights, fitted without and with tip selection, and the trained weights where trials are
+  /// cheap.
   void tryPredictors() {
     using namespace position_mode;
-    struct Predictor {
-      uint8_t modes;
-      bool is_fitted;
-    };
-    std::vector<Predictor> predictors = {{0, false}};
-    if (!without_.has(Feature::kWeights)) {
-      predictors.push_back({kWeights, true});
-      if (!without_.has(Feature::kTipSelection)) predictors.push_back({kWeights | kSelect, true});
-      if (visitCount(pieces_) <= kTrialVertices[0]) predictors.push_back({kWeights, false});
+    if (without_.has(Feature::kWeights)) return;
+    std::vector<PositionParameters> all;
+    if (vertices_ >= kFewestToFit) {
+      all.push_back(withMode({}, kWeights));
+      if (!without_.has(Feature::kTipSelection)) all.push_back(withMode({}, kWeights | kSelect));
+      fitAll(all);
     }
-    race_.resize(predictors.size());
-    jobs_.run(race_.size(), [&](size_t i) {
-      PositionParameters& p = race_[i].parameters;
-      p.modes = predictors[i].modes;
-      setUniversalScale(p);
-      if (predictors[i].is_fitted) {
-        p.setWeights(fitWeights(pieces_, {p.has(kSelect), true, kFitVertices[effort_], without_,
-                                          price_.surcharge(1, price_ns::kAngles)}));
-      } else if (p.has(kWeights)) {
-        p.setWeights(trainedWeights(without_));
-      }
-      race_[i].cost = costOf(p);
-    });
-    sortRace(race_.size());
+    if (vertices_ <= kTrainedVertices) {
+      all.push_back(withMode({}, kWeights));
+      all.back().setWeights(trainedWeights(without_));
+    }
+    for (PositionParameters& p : all) p.modes |= clear_kind_;
+    const std::vector<Candidate> tried = tryAll(std::move(all));
+    candidates_.insert(candidates_.end(), tried.begin(), tried.end());
+    std::stable_sort(candidates_.begin(), candidates_.end());
+    while (candidates_.back().cost > kOutOfRace * candidates_[0].cost) candidates_.pop_back();
   }
 
-  /// Tries palette, planes and shear, which exclude each other. Each is tried with every predictor,
-  /// since the best predictor differs between them.
+  /// Fits the weights without and with tip selection, which have the classes of other fans in
+  /// common.
+  void fitAll(std::vector<PositionParameters>& all) const {
+    const FitRows rows = gatherFitRows(pieces_, kFitVertices, without_);
+    PredictorWeights weights = trainedWeights(without_);
+    (void)fitToRows(rows, false, {false, true, false}, weights);
+    jobs_.run(all.size(), [&](size_t i) { all[i].setWeights(fitPlain(rows, all[i], weights)); });
+  }
+
+  /// Fits the classes of plain fans with angles, if they are worth their time, or without.
+  PredictorWeights fitPlain(const FitRows& rows, const PositionParameters& p,
+                            const PredictorWeights& others) const {
+    const bool select = p.has(position_mode::kSelect);
+    PredictorWeights weights = others;
+    const double bits = fitToRows(rows, true, {select, true, false}, weights);
+    if (without_.has(Feature::kAngleWeights)) return weights;
+    PredictorWeights with_angles = others;
+    const double bits_with = fitToRows(rows, true, {select, true, true}, with_angles);
+    return bits_with + price_.surcharge(bits_with, price_ns::kAngles) < bits ? with_angles : weights;
+  }
+
+  /// Tries palette, planes and shear, which exclude each other: first with the best predictor, and
+  /// then with the others if that was promising, since the best predictor differs between them.
   void tryKinds() {
-    std::vector<uint8_t> kinds;
-    const auto offer = [&](bool may, uint8_t kind, Feature feature) {
-      if (may && !without_.has(feature)) kinds.push_back(kind);
+    const std::vector<Candidate> plain = candidates_;
+    const auto tryKind = [&](uint8_t kind, Feature feature, double promising) {
+      if (without_.has(feature)) return;
+      std::vector<PositionParameters> with;
+      for (const Candidate& candidate : plain) with.push_back(withMode(candidate.parameters, kind));
+      const Candidate first = tryOnce(with[0]);
+      if (first.cost >= promising * plain[0].cost) return;
+      candidates_.push_back(first);
+      with.erase(with.begin());
+      const std::vector<Candidate> tried = tryAll(std::move(with));
+      candidates_.insert(candidates_.end(), tried.begin(), tried.end());
     };
-    offer(palette_values_ > 0, position_mode::kPalette, Feature::kPalette);
-    offer(anyPlanes(), position_mode::kPlanes, Feature::kPlanes);
-    offer(true, position_mode::kShear, Feature::kShear);
-    const std::vector<Candidate> plain = race_;
-    for (const uint8_t kind : kinds) {
-      std::vector<Candidate> with(plain.size());
-      const auto tryWith = [&](size_t i) {
-        with[i] = {withMode(plain[i].parameters, kind), 0};
-        with[i].cost = costOf(with[i].parameters);
-      };
-      // Whether shear pays depends on the surface, not on the predictor.
-      tryWith(0);
-      if (kind == position_mode::kShear && with[0].cost >= plain[0].cost) continue;
-      jobs_.run(with.size() - 1, [&](size_t i) { tryWith(i + 1); });
-      race_.insert(race_.end(), with.begin(), with.end());
-    }
-    sortRace(kRace);
+    if (palette_values_ > 0) tryKind(position_mode::kPalette, Feature::kPalette, kPromising);
+    if (anyPlanes()) tryKind(position_mode::kPlanes, Feature::kPlanes, kPromising);
+    // Whether shear pays depends on the surface, not on the predictor.
+    tryKind(position_mode::kShear, Feature::kShear, 1);
   }
 
-  /// Tries a mode that can be combined with the others.
-  void tryMode(uint8_t mode, Feature feature) {
-    if (without_.has(feature)) return;
-    std::vector<Candidate> with = race_;
-    jobs_.run(with.size(), [&](size_t i) {
-      PositionParameters& p = with[i].parameters;
-      p = withMode(p, mode);
-      with[i].cost = position_mode::goTogether(p.modes) ? costOf(p) : kNever;
+  /// Tries one, unless findClearKind() has.
+  Candidate tryOnce(const PositionParameters& p) {
+    for (const Candidate& known : average_with_kind_) {
+      if (known.parameters.modes == p.modes) return known;
+    }
+    return tryAll({p})[0];
+  }
+  std::vector<Candidate> tryAll(std::vector<PositionParameters> all) {
+    std::vector<Candidate> tried(all.size());
+    jobs_.run(all.size(), [&](size_t i) {
+      setUniversalScale(all[i]);
+      tried[i] = {all[i], costOf(all[i])};
     });
-    race_.insert(race_.end(), with.begin(), with.end());
-    sortRace(kRace);
+    return tried;
   }
 
-  void tryOwnScale() {
-    if (without_.has(Feature::kOwnScale)) return;
-    sortRace(kFinal);
-    for (size_t i = race_.size(); i-- != 0;) {
-      PositionParameters p = race_[i].parameters;
-      if (p.has(position_mode::kPlanes)) continue;
-      fitScale(trials_, jobs_, p);
-      race_.push_back({p, costOf(p)});
-    }
-    sortRace(1);
+  /// Tries the modes that can be combined with others, and keeps what pays.
+  void improve(Candidate& best) {
+    const auto tryMode = [&](uint8_t mode, Feature feature) {
+      const PositionParameters p = withMode(best.parameters, mode);
+      if (!without_.has(feature) && position_mode::goTogether(p.modes)) offer(p, best);
+    };
+    tryMode(position_mode::kSplit, Feature::kSplit);
+    tryOwnScale(best);
+    tryMode(position_mode::kFold, Feature::kFold);
+  }
+
+  void tryOwnScale(Candidate& best) {
+    PositionParameters p = best.parameters;
+    if (without_.has(Feature::kOwnScale) || p.has(position_mode::kPlanes)) return;
+    if (vertices_ < kFewestToFit) return;
+    fitScale(trials_, jobs_, p);
+    offer(p, best);
+  }
+
+  void offer(const PositionParameters& p, Candidate& best) {
+    best = std::min(best, {p, costOf(p)});
   }
 
   static PositionParameters withMode(PositionParameters p, uint8_t mode) {
     p.modes |= mode;
-    setUniversalScale(p);
     return p;
-  }
-
-  /// Sorts by cost, and keeps at most `limit` candidates.
-  void sortRace(size_t limit) {
-    std::stable_sort(race_.begin(), race_.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-    if (race_.size() > limit) race_.resize(limit);
-    while (race_.back().cost > kOutOfRace * race_[0].cost) race_.pop_back();
   }
 
   /// Returns the number of values in all palettes, per vertex.
@@ -706,10 +836,11 @@ class Chooser {
     return bits + price_.surcharge(bits, timeOf(p, palette_values_));
   }
 
-  static constexpr size_t kRace = 3;
-  static constexpr size_t kFinal = 2;
+  static constexpr double kClear = 0.9;
   static constexpr double kOutOfRace = 1.25;
-  static constexpr double kNever = std::numeric_limits<double>::infinity();
+  static constexpr double kPromising = 1.1;
+  static constexpr double kTie = 1.01;
+  static constexpr size_t kMostTied = 2;
 
   std::span<const PositionCandidate> pieces_;
   const Jobs& jobs_;
@@ -717,34 +848,22 @@ class Chooser {
   const TimePrice price_;
   const FeatureSet without_;
   const double palette_values_;
-  uint8_t effort_;
+  const uint64_t vertices_;
   Trials trials_;
-  std::vector<Candidate> race_;
+  uint8_t clear_kind_ = 0;
+  std::vector<Candidate> average_with_kind_;
+  std::vector<Candidate> candidates_;
 };
 
 }  // namespace
 
-PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, const WeightFit& fit) {
-  const uint32_t stride = static_cast<uint32_t>(visitCount(pieces) / fit.max_vertices + 1);
-  std::vector<FitRow> rows;
-  for (const PositionCandidate& piece : pieces) gatherRows(piece, fit.select, stride, rows);
-  ClassRows rows_of;
-  for (const FitRow& row : rows) rows_of[row.predictor_class].push_back(row);
-  if (fit.without.has(Feature::kBeyondWeights)) leaveOut(rows_of, 2);
-  if (fit.without.has(Feature::kDegreeWeights)) {
-    leaveOut(rows_of, 3);
-    leaveOut(rows_of, 4);
-  }
-  PredictorWeights with_angles;
-  const double bits = fitClasses(rows_of, stride, fit, fit.without, with_angles);
-  FeatureSet without = fit.without;
-  without.add(Feature::kAngleWeights);
-  leaveOut(rows_of, kAngleWeight);
-  PredictorWeights weights;
-  const double bits_without = fitClasses(rows_of, stride, fit, without, weights);
-  const bool use = !fit.without.has(Feature::kAngleWeights) &&
-                   bits * (1 + fit.price_of_angles) < bits_without;
-  return use ? with_angles : weights;
+PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, bool select, bool robust,
+                            uint32_t max_vertices, const FeatureSet& without) {
+  const FitRows rows = gatherFitRows(pieces, max_vertices, without);
+  PredictorWeights weights = trainedWeights(without);
+  const FitChoice choice{select, robust, true};
+  for (const bool plain : {false, true}) (void)fitToRows(rows, plain, choice, weights);
+  return weights;
 }
 
 namespace {

@@ -42,12 +42,11 @@ struct DistinctCoordinates {
 
 /// What the choice depends on in addition to the pieces.
 struct PositionSettings {
-  uint8_t effort = 1;  ///< see EncodeOptions
   Preference prefer = Preference::kBalanced;
   FeatureSet without;
 };
 
-/// Tries the predictors and modes on the pieces, or on an even sample of their vertices if they
+/// Tries predictors and modes on the pieces, or on an even sample of their vertices if they
 /// have many, and returns the cheapest combination with its tables. A choice that costs time in the
 /// decoder must be worth it, see enc_prices.h; `surface_bits` is the size of the connectivity.
 /// Deterministic on every machine.
@@ -55,18 +54,11 @@ PositionParameters choosePositionParameters(std::span<const PositionCandidate> p
                                             double surface_bits, const PositionSettings& settings,
                                             const Jobs& jobs);
 
-/// How weights are fitted.
-struct WeightFit {
-  bool select = false;           ///< with the classes of tip selection
-  bool robust = false;           ///< weighs residuals by 1 / size^2 instead of by 1 / size
-  uint32_t max_vertices = ~0u;   ///< a sample of about this many
-  FeatureSet without;
-  double price_of_angles = 0;    ///< share of the residuals' bits that angles must save
-};
-
 /// Chooses the weights of each class of predictors: none, the trained ones, or a least-squares fit
-/// to these pieces, whichever costs the fewest bits. tools/train uses this too.
-PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, const WeightFit& fit);
+/// to these pieces, whichever costs the fewest bits. `robust` weighs residuals by the
+/// inverse of their square instead of by the inverse of their size. tools/train uses this too.
+PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, bool select, bool robust,
+                            uint32_t max_vertices, const FeatureSet& without);
 
 }  // namespace mcc
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int32_t kLatticeEnd = 1 << 17;
 constexpr size_t kFewestPeaks = 8;
+constexpr size_t kFewestAtPeak = 2;  ///< vertices
 constexpr double kSmallestStep = static_cast<double>(AxisPlanes::kMinStep) / AxisPlanes::kOne;
 
 /// A candidate for the planes of an axis: x = origin + k * step, in lattice steps.
@@ -22,16 +23,42 @@ struct Line {
   double error(int32_t x) const { return x - (origin + number(x) * step); }
 };
 
+/// A coordinate and the number of vertices that have it.
+struct Occupied {
+  int32_t at;
+  size_t count;
+};
+
+/// Counts the vertices at each coordinate that occurs, in ascending order.
+std::vector<Occupied> countCoordinates(std::span<const int32_t> truth, uint32_t axis) {
+  std::vector<int32_t> sorted;
+  sorted.reserve(truth.size() / 3);
+  for (size_t i = axis; i < truth.size(); i += 3) sorted.push_back(truth[i]);
+  std::vector<Occupied> occupied;
+  if (sorted.size() < kLatticeEnd / 16) {
+    std::sort(sorted.begin(), sorted.end());
+    for (const int32_t x : sorted) {
+      if (occupied.empty() || occupied.back().at != x) occupied.push_back({x, 0});
+      ++occupied.back().count;
+    }
+    return occupied;
+  }
+  std::vector<uint32_t> counts(kLatticeEnd, 0);
+  for (const int32_t x : sorted) ++counts[static_cast<size_t>(x)];
+  for (int32_t x = 0; x < kLatticeEnd; ++x) {
+    const uint32_t count = counts[static_cast<size_t>(x)];
+    if (count != 0) occupied.push_back({x, count});
+  }
+  return occupied;
+}
+
 /// Returns the coordinates that far more vertices have than an even distribution would give them.
 std::vector<int32_t> findPeaks(std::span<const int32_t> truth, uint32_t axis) {
-  std::vector<uint32_t> counts(kLatticeEnd, 0);
-  for (size_t i = axis; i < truth.size(); i += 3) ++counts[static_cast<size_t>(truth[i])];
-  const auto is_used = [](uint32_t count) { return count != 0; };
-  const auto used = static_cast<size_t>(std::count_if(counts.begin(), counts.end(), is_used));
-  const size_t limit = 4 * (truth.size() / 3) / (used + 1) + 2;
+  const std::vector<Occupied> occupied = countCoordinates(truth, axis);
+  const size_t limit = 4 * (truth.size() / 3) / (occupied.size() + 1) + kFewestAtPeak;
   std::vector<int32_t> peaks;
-  for (int32_t x = 0; x < kLatticeEnd; ++x) {
-    if (counts[static_cast<size_t>(x)] >= limit) peaks.push_back(x);
+  for (const Occupied& here : occupied) {
+    if (here.count >= limit) peaks.push_back(here.at);
   }
   return peaks;
 }
@@ -111,6 +138,7 @@ bool holdsMany(std::span<const int32_t> truth, uint32_t axis, const AxisPlanes& 
 }  // namespace
 
 bool findPlanes(std::span<const int32_t> truth, AxisPlanes* planes) {
+  if (truth.size() / 3 < kFewestPeaks * kFewestAtPeak) return false;
   const auto is_outside = [](int32_t q) { return q < 0 || q >= kLatticeEnd; };
   if (std::any_of(truth.begin(), truth.end(), is_outside)) return false;
   for (uint32_t axis = 0; axis < 3; ++axis) {

@@ -26,8 +26,9 @@ class PositionRecording {
   static constexpr uint32_t kNoNeighbour = (1u << 30) - 1;
 
   /// Walks the mesh and writes the `truth` positions (3 per record) into `records`, which are
-  /// borrowed.
-  Status record(FaceMesh& mesh, const Groups& groups, VertexRecord* records, const int32_t* truth) {
+  /// borrowed. `order`: see RegionGrowth.
+  Status record(FaceMesh& mesh, const Groups& groups, VertexRecord* records, const int32_t* truth,
+                uint32_t* order = nullptr) {
     records_ = records;
     visits_.clear();
     visits_.reserve(groups.count);
@@ -35,7 +36,7 @@ class PositionRecording {
     any_.clear();
     RegionGrowth growth(mesh, groups, records, true, Allocator{});
     faces_ = growth.faces();
-    MCC_TRY(growth.run(*this, nullptr));
+    MCC_TRY(growth.run(*this, order));
     for (const Visit& visit : visits_) {
       const int32_t* q = truth + 3 * size_t{visit.vertex};
       std::copy(q, q + 3, records_[visit.vertex].q);

@@ -18,8 +18,7 @@ namespace mcc {
 namespace {
 
 mcc_encode_options defaultEncodeOptions() {
-  const EncodeOptions options;
-  return {sizeof(mcc_encode_options), 0, 0, options.effort, MCC_PREFER_BALANCED};
+  return {sizeof(mcc_encode_options), 0, 0, MCC_PREFER_BALANCED};
 }
 
 /// Converts a format. Numbers that do not fit are refused, not truncated.
@@ -81,14 +80,12 @@ Status encodeViews(const mcc_piece_view* views, size_t count, const mcc_encode_o
                    EncodeResult& result) {
   mcc_encode_options options;
   MCC_TRY(readStruct(given, defaultEncodeOptions(), options));
-  if (options.effort > 2) return fail(Error::kBadArgument, "effort is not 0, 1 or 2");
   if (options.prefer > MCC_PREFER_SPEED) {
     return fail(Error::kBadArgument, "prefer is not 0, 1 or 2");
   }
   EncodeOptions encode_options;
   encode_options.keep_vertex_order = options.keep_vertex_order != 0;
   encode_options.keep_triangle_order = options.keep_triangle_order != 0;
-  encode_options.effort = static_cast<uint8_t>(options.effort);
   encode_options.prefer = static_cast<Preference>(options.prefer);
   std::vector<Piece> pieces(count);
   std::vector<PieceView> piece_views;

@@ -16,7 +16,10 @@ namespace {
 /// Candidates for an attribute are tried on this many wedges, or on this fraction of all.
 constexpr uint32_t kTrialWedges = 4000;
 constexpr uint32_t kTrialShare = 6;
-constexpr double kExpectedPositionBits = 15;  ///< per vertex, assumed when surfaces are compared
+/// Per vertex, assumed when surfaces and the methods of attributes are compared.
+constexpr double kExpectedPositionBits = 15;
+/// Context set 1 has so many contexts that it never pays with fewer operations.
+constexpr uint64_t kOperationsForContexts = 100;
 
 Status surfaceCost(Plan& plan, uint64_t& cost) {
   CostIo io;
@@ -31,6 +34,24 @@ struct Connectivity {
   const McRecord* record;
   McCounts counts;
 };
+
+std::vector<Connectivity> connectivityOf(const std::vector<Plan>& plans) {
+  std::vector<Connectivity> pieces;
+  for (const Plan& plan : plans) {
+    const PieceHeader& h = plan.header;
+    if (h.hasPivots()) continue;
+    pieces.push_back({&plan.record,
+                      {h.operation_count, h.vertex_count, h.dummy_count, h.face_count,
+                       h.has(piece_flag::kHandles)}});
+  }
+  return pieces;
+}
+
+uint64_t operationCount(const std::vector<Connectivity>& pieces) {
+  uint64_t count = 0;
+  for (const Connectivity& piece : pieces) count += piece.counts.operation_count;
+  return count;
+}
 
 /// Counts what the connectivity of all pieces costs with a context set.
 Status contextSetCost(const std::vector<Connectivity>& pieces, uint32_t set, uint64_t& cost) {
@@ -53,16 +74,6 @@ Status contextSetCost(const std::vector<Connectivity>& pieces, uint32_t set, uin
   return {};
 }
 
-Status chooseContextSet(const std::vector<Connectivity>& pieces, const Jobs& jobs,
-                        uint32_t& best_set) {
-  uint64_t costs[kContextSetCount];
-  MCC_TRY(jobs.tryAll(kContextSetCount, [&](size_t set) {
-    return contextSetCost(pieces, static_cast<uint32_t>(set), costs[set]);
-  }));
-  best_set = static_cast<uint32_t>(std::min_element(costs, std::end(costs)) - costs);
-  return {};
-}
-
 using Runners = std::vector<std::unique_ptr<StageRunner<CostIo>>>;
 
 /// Chooses once for all pieces, since they share tables and models. Consumes the recordings.
@@ -70,8 +81,8 @@ PositionParameters choosePositions(std::vector<RecordedPositions> recorded, doub
                                    const EncodeSettings& options, const Jobs& jobs) {
   std::vector<PositionCandidate> candidates;
   for (const RecordedPositions& piece : recorded) candidates.push_back(piece.candidate);
-  return choosePositionParameters(candidates, surface_bits,
-                                  {options.effort, options.prefer, options.without}, jobs);
+  return choosePositionParameters(candidates, surface_bits, {options.prefer, options.without},
+                                  jobs);
 }
 
 /// Lists the ways to code an attribute. Unit vectors on a grid may be coded as floats as well;
@@ -141,7 +152,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
 }
 
 /// Chooses creases and the methods of all attributes but positions; they do not depend on how
-/// positions are coded. `io` has counted the surfaces.
+/// positions are coded. `io` has counted the surfaces, and the positions are recorded.
 Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& models,
                      const CostIo& io, const EncodeSettings& options) {
   const bool only_positions = std::all_of(plans.begin(), plans.end(), [](const Plan& plan) {
@@ -149,15 +160,15 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& 
   });
   if (only_positions) return {};
   double wedges = 1;
-  for (size_t i = 0; i < plans.size(); ++i) {
-    MCC_TRY(runners[i]->codePositions(nullptr));
-    wedges += plans[i].header.wedge_count;
+  double expected_cost = static_cast<double>(io.cost());
+  for (const Plan& plan : plans) {
+    wedges += plan.header.wedge_count;
+    expected_cost += plan.header.vertex_count * kExpectedPositionBits * kCostOne;
   }
-  const MethodRules rules{static_cast<double>(io.cost()) / wedges, TimePrice(options.prefer),
-                          options.without};
+  const MethodRules rules{expected_cost / wedges, TimePrice(options.prefer), options.without};
   for (size_t i = 0; i < plans.size(); ++i) {
-    if (!options.without.has(Feature::kCreases)) MCC_TRY(runners[i]->chooseCreases(models));
-    MCC_TRY(runners[i]->codeSeams(nullptr));
+    const bool without_creases = options.without.has(Feature::kCreases);
+    MCC_TRY(without_creases ? runners[i]->codeSeams(nullptr) : runners[i]->chooseSeams(models));
     MCC_TRY(runners[i]->prepareAttributes());
     const std::vector<uint32_t> order = codingOrder(plans[i]);
     for (size_t k = 0; k < order.size(); ++k) {
@@ -172,16 +183,20 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& 
   return {};
 }
 
-Status choosePredictors(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs) {
-  auto models = makeModels(0);  // these choices do not depend on the context set
+/// These choices do not depend on the context set. `connectivity_cost` receives the cost with set
+/// 0.
+Status choosePredictors(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs,
+                        uint64_t& connectivity_cost) {
+  auto models = makeModels(0);
   CostIo io;
   Runners runners;
   for (Plan& plan : plans) {
     runners.push_back(std::make_unique<StageRunner<CostIo>>(io, *models, plan));
     MCC_TRY(runners.back()->codeSurface(nullptr));
+    if (!plan.header.hasPivots()) connectivity_cost += runners.back()->connectivityCost();
   }
   const double surface_bits = static_cast<double>(io.cost()) / kCostOne;
-  if (plans[0].attributes.empty()) return chooseMethods(plans, runners, *models, io, options);
+  if (plans[0].attributes.empty()) return {};
   std::vector<RecordedPositions> recorded(plans.size());
   MCC_TRY(jobs.tryAll(plans.size(),
                       [&](size_t i) { return runners[i]->recordPositions(recorded[i]); }));
@@ -239,20 +254,19 @@ Status chooseSurface(Plan& plan, uint32_t start_half_edge, const FeatureSet& wit
 
 Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs,
                  uint32_t& context_set) {
-  std::vector<Connectivity> connectivity;
-  for (const Plan& plan : plans) {
-    const PieceHeader& h = plan.header;
-    if (h.hasPivots()) continue;
-    connectivity.push_back({&plan.record,
-                            {h.operation_count, h.vertex_count, h.dummy_count, h.face_count,
-                             h.has(piece_flag::kHandles)}});
-  }
-  context_set = options.without.has(Feature::kContextSets) ? 0 : options.context_set;
-  return jobs.tryAll(2, [&](size_t i) -> Status {
-    if (i == 0) return choosePredictors(plans, options, jobs);
-    const bool is_given = context_set < kContextSetCount;
-    return is_given ? Status{} : chooseContextSet(connectivity, jobs, context_set);
-  });
+  static_assert(kContextSetCount == 2);
+  const std::vector<Connectivity> connectivity = connectivityOf(plans);
+  const uint32_t given = options.without.has(Feature::kContextSets) ? 0 : options.context_set;
+  const bool is_given = given < kContextSetCount;
+  const bool tries_other = !is_given && operationCount(connectivity) >= kOperationsForContexts;
+  uint64_t cost = 0;
+  uint64_t other_cost = ~uint64_t{0};
+  MCC_TRY(jobs.tryAll(2, [&](size_t i) -> Status {
+    if (i == 0) return choosePredictors(plans, options, jobs, cost);
+    return tries_other ? contextSetCost(connectivity, 1, other_cost) : Status{};
+  }));
+  context_set = is_given ? given : other_cost < cost ? 1 : 0;
+  return {};
 }
 
 Status varyAll(std::vector<Plan>& plans, const EncodeSettings& options, Variation& variation,

@@ -138,6 +138,7 @@ void sortIsolated(Plan& plan) {
 
 void prepareConnectivity(Plan& plan, uint32_t start_half_edge, uint32_t max_handle_depth) {
   cutAndCollapse(plan, start_half_edge, max_handle_depth);
+  plan.knows_surface = plan.knows_wedges = false;
   const ClosedMesh& mesh = plan.cut.mesh;
   plan.node_map.resize(plan.record.node_count);
   plan.source_of_vertex.resize(mesh.real_vertex_count);
@@ -154,6 +155,7 @@ void prepareConnectivity(Plan& plan, uint32_t start_half_edge, uint32_t max_hand
 }
 
 void preparePivots(Plan& plan) {
+  plan.knows_surface = plan.knows_wedges = false;
   plan.pivots = listByPivots(classesOfCorners(plan), plan.classes.class_count);
   plan.class_of_vertex = plan.pivots.class_of_vertex;
   plan.source_gate = plan.pivots.source_gate;

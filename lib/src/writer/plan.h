@@ -34,7 +34,9 @@ struct Plan {
   McRecord record;
   PivotRecord pivots;  ///< instead of `cut` and `record`, if the header has pivots
 
-  // These are filled while the stages run, and are the same in every run.
+  // These are filled when the stages run for the first time, and are the same in every run.
+  bool knows_surface = false;  ///< what learnVertices() and learnPositions() find
+  bool knows_wedges = false;   ///< what learnWedges() finds
   std::vector<uint32_t> node_map;
   std::vector<uint32_t> source_of_vertex;
   std::vector<uint32_t> source_gate;

@@ -41,7 +41,9 @@ class StageRunner {
     truth_.connectivity = connectivityTruth(
         plan_.record, {plan_.node_map, plan_.source_of_vertex, plan_.source_gate});
     truth_.pivot_faces = plan_.pivots.faces.data();
+    const uint64_t spent = io_.cost();
     MCC_TRY(piece_.codeConnectivity(truth_));
+    connectivity_cost_ = io_.cost() - spent;
     account(sizes, &StreamSizes::connectivity_bits);
     learnVertices(plan_);
     truth_.class_of_vertex = plan_.class_of_vertex.data();
@@ -55,15 +57,22 @@ class StageRunner {
     return {};
   }
 
-  /// Walks the surface once for the trials; codeSurface() must have run.
+  uint64_t connectivityCost() const { return connectivity_cost_; }
+
+  /// Walks the surface once for the trials; codeSurface() must have run. Leaves what the stages
+  /// after codePositions() need of it.
   Status recordPositions(RecordedPositions& recorded) {
     PositionRecording& recording = recorded.recording;
     PositionCandidate& candidate = recorded.candidate;
     const uint32_t group_count = piece_.groups.count;
     const std::span<const int32_t> positions(plan_.positions.data(), 3 * size_t{group_count});
     if (!recorded.records.resize(group_count)) throwBadAlloc();
+    const bool with_order = piece_.needsSequence();
+    if (with_order && !piece_.sequence.resize(group_count)) throwBadAlloc();
     MCC_TRY(recording.record(piece_.mesh, piece_.groups, recorded.records.data(),
-                             plan_.positions.data()));
+                             plan_.positions.data(),
+                             with_order ? piece_.sequence.data() : nullptr));
+    if (with_order) storePositions();
     PositionParameters parameters;
     PieceCoder<Io>::describePositions(plan_.attributes[0].info, parameters);
     candidate.recording = &recording;
@@ -95,6 +104,10 @@ class StageRunner {
   Status codeSeams(StreamSizes* sizes) {
     MCC_TRY(piece_.codeSeams(truth_));
     account(sizes, &StreamSizes::seam_bits);
+    return codeLeftovers(sizes);
+  }
+
+  Status codeLeftovers(StreamSizes* sizes) {
     learnWedges(plan_, piece_.mesh);
     truth_.leftovers = {plan_.part_of_face.data(), plan_.list.data()};
     MCC_TRY(piece_.codeLeftovers(truth_));
@@ -113,32 +126,35 @@ class StageRunner {
 
   Status prepareAttributes() { return piece_.prepareAttributes(); }
 
-  /// Codes the seams without and with creases as contexts, and selects the cheaper way. The seams
-  /// must then be coded again.
-  Status chooseCreases(PayloadModels& models) {
-    if (!plan_.header.has(piece_flag::kSeams) || plan_.attributes.empty()) return {};
+  /// Replaces codeSeams(): codes the seams without and with creases as contexts, and selects the
+  /// cheaper way.
+  Status chooseSeams(PayloadModels& models) {
+    if (!plan_.header.has(piece_flag::kSeams) || plan_.attributes.empty())
+      return codeSeams(nullptr);
     const std::vector<uint32_t> words(piece_.mesh.words.data(),
                                       piece_.mesh.words.data() + piece_.mesh.words.size());
     const std::vector<uint32_t> sequence(piece_.sequence.data(),
                                          piece_.sequence.data() + piece_.sequence.size());
     const SeamModels before = models.seams;
-    uint64_t cost[2] = {};
-    for (const uint32_t with : {0u, 1u}) {
-      plan_.header.flags =
-          (plan_.header.flags & ~piece_flag::kCreases) | (with != 0 ? piece_flag::kCreases : 0);
-      const uint64_t spent = io_.cost();
-      MCC_TRY(piece_.codeSeams(truth_));
-      cost[with] = io_.cost() - spent;
+    const auto undo = [&] {
       models.seams = before;
       piece_.wedge_group.clear();
-      piece_.sequence.clear();
-      for (const uint32_t h : sequence) {
-        if (!piece_.sequence.push_back(h)) throwBadAlloc();
-      }
+      if (!piece_.sequence.resize(sequence.size())) throwBadAlloc();
+      std::copy(sequence.begin(), sequence.end(), piece_.sequence.data());
       std::copy(words.begin(), words.end(), piece_.mesh.words.data());
-    }
-    if (cost[0] <= cost[1]) plan_.header.flags &= ~piece_flag::kCreases;
-    return {};
+    };
+    const uint64_t start = io_.cost();
+    plan_.header.flags &= ~piece_flag::kCreases;
+    MCC_TRY(piece_.codeSeams(truth_));
+    const uint64_t without = io_.cost() - start;
+    undo();
+    plan_.header.flags |= piece_flag::kCreases;
+    MCC_TRY(piece_.codeSeams(truth_));
+    const uint64_t with = io_.cost() - start - without;
+    if (with < without) return codeLeftovers(nullptr);
+    undo();
+    plan_.header.flags &= ~piece_flag::kCreases;
+    return codeSeams(nullptr);
   }
 
   Status codeAttribute(uint32_t index, StreamSizes* sizes) {
@@ -171,6 +187,16 @@ class StageRunner {
   uint32_t groupCount() const { return piece_.groups.count; }
 
  private:
+  /// Stores the positions of all groups and isolated vertices where later stages find them.
+  void storePositions() {
+    const std::vector<int32_t>& from =
+        plan_.exact_positions.empty() ? plan_.positions : plan_.exact_positions;
+    if (!piece_.records.resize(from.size() / 3)) throwBadAlloc();
+    for (size_t v = 0; v < piece_.records.size(); ++v) {
+      std::copy_n(from.data() + 3 * v, 3, piece_.records[v].q);
+    }
+  }
+
   bool isCodedWithAnother(uint32_t index) const { return isWithAnother(methodOf(infos_, index)); }
 
   /// Fills values_. Coding does not change them.
@@ -217,6 +243,7 @@ class StageRunner {
   Array<int32_t> values_;
   uint32_t learned_ = kNone;  ///< attribute whose values values_ holds
   uint64_t cost_before_ = io_.cost();
+  uint64_t connectivity_cost_ = 0;
 };
 
 inline std::unique_ptr<PayloadModels> makeModels(uint32_t context_set) {

@@ -26,6 +26,7 @@ McTruth connectivityTruth(const McRecord& r, const SurfaceLearned& learned) {
 }
 
 void learnVertices(Plan& plan) {
+  if (plan.knows_surface) return;
   if (!plan.header.hasPivots()) {
     plan.class_of_vertex.resize(plan.source_of_vertex.size());
     for (size_t v = 0; v < plan.class_of_vertex.size(); ++v) {
@@ -42,6 +43,8 @@ void learnVertices(Plan& plan) {
 }
 
 void learnPositions(Plan& plan, const FaceMesh& mesh, const Groups& groups) {
+  if (plan.knows_surface) return;
+  plan.knows_surface = true;
   if (plan.attributes.empty()) return;
   const std::vector<int32_t>& q = plan.attributes[0].values;
   plan.positions.resize(3 * (size_t{groups.count} + plan.triangles.isolated.size()));
@@ -95,11 +98,14 @@ void learnListed(Plan& plan, FaceMesh& mesh, const std::vector<uint32_t>& wedge_
         {w[(single + 1) % 3] << 32 | w[single], t.part, listed_shape::kAny, kNone});
   }
   std::sort(degenerates.begin(), degenerates.end());
+  std::vector<uint8_t> is_doubled(wedge_of_source.size(), 0);
+  for (const Degenerate& d : degenerates) is_doubled[d.edge >> 32] = 1;
   for (uint32_t h = 0; h < 3 * mesh.face_count && !degenerates.empty(); ++h) {
     ListedTriangle t{{}, 0, 0, h / 3};
     for (const uint32_t side : {0u, 1u}) {
       t.shape = listed_shape::kOnEdge + 2 * (h % 3) + side;
       placeOnFace(faces, t);
+      if (is_doubled[t.wedge[0]] == 0) continue;
       const uint64_t edge = uint64_t{t.wedge[0]} << 32 | t.wedge[2];
       auto it = std::lower_bound(degenerates.begin(), degenerates.end(), Degenerate{edge, 0, 0, 0});
       for (; it != degenerates.end() && it->edge == edge && it->face == kNone; ++it) {
@@ -123,6 +129,8 @@ void learnListed(Plan& plan, FaceMesh& mesh, const std::vector<uint32_t>& wedge_
 }  // namespace
 
 void learnWedges(Plan& plan, FaceMesh& mesh) {
+  if (plan.knows_wedges) return;
+  plan.knows_wedges = true;
   plan.wedge_source.assign(plan.header.wedge_count, kNone);
   for (uint32_t f = 0; f < mesh.face_count; ++f) {
     for (uint32_t k = 0; k < 3; ++k) {

@@ -19,7 +19,7 @@ struct SurfaceLearned {
 McTruth connectivityTruth(const McRecord& r, const SurfaceLearned& learned);
 
 /// Finds the classes of the vertices and the source wedges of the corners, after the connectivity
-/// is coded.
+/// is coded. This and the next two do nothing when they have run before.
 void learnVertices(Plan& plan);
 
 /// Puts the positions into the order of the groups, after the vertices are stitched.

@@ -28,16 +28,26 @@ void scale(StreamSizes& sizes, double by) {
   for (double& bits : sizes.piece_position_bits) bits *= by;
 }
 
-Status codeAll(std::vector<Plan>& plans, uint32_t context_set, bool single, EncodeResult& result) {
-  EncoderIo io(single);
-  auto models = makeModels(context_set);
-  PayloadHeader header{Allocator{}};
-  header.flags =
-      context_set << payload_flag::kContextSetShift | (single ? payload_flag::kSingleCoder : 0);
-  result.sizes = StreamSizes{};
-  result.pieces.clear();
+/// What becomes of one piece, after its stages have run.
+PieceResult resultOf(const Plan& plan, uint32_t group_count) {
+  PieceResult piece;
+  piece.source_wedge = plan.wedge_source;
+  if (plan.header.has(piece_flag::kVertexOrder)) {
+    std::iota(piece.source_wedge.begin(), piece.source_wedge.end(), 0u);
+  }
+  piece.topological_vertex_count = group_count;
+  piece.cut_copy_count = plan.header.vertex_count - group_count;
+  piece.hole_count = plan.cut.hole_count;
+  piece.component_count = static_cast<uint32_t>(plan.cut.mesh.components.size());
+  piece.leftover_triangle_count =
+      static_cast<uint32_t>(plan.header.triangleCount()) - plan.header.face_count;
+  return piece;
+}
+
+Status codeAll(std::vector<Plan>& plans, EncoderIo& io, PayloadModels& models,
+               PayloadHeader& header, EncodeResult& result) {
   for (Plan& plan : plans) {
-    StageRunner<EncoderIo> runner(io, *models, plan, header.attributes.size());
+    StageRunner<EncoderIo> runner(io, models, plan, header.attributes.size());
     result.sizes.attribute_bits.resize(header.attributes.size() + plan.attributes.size(), 0);
     MCC_TRY(runner.codeSurface(&result.sizes));
     const double bits_before = result.sizes.position_bits;
@@ -58,30 +68,48 @@ Status codeAll(std::vector<Plan>& plans, uint32_t context_set, bool single, Enco
         throwBadAlloc();
     }
     if (!header.pieces.push_back(plan.header)) throwBadAlloc();
-
-    PieceResult piece;
-    piece.source_wedge = plan.wedge_source;
-    if (plan.header.has(piece_flag::kVertexOrder)) {
-      std::iota(piece.source_wedge.begin(), piece.source_wedge.end(), 0u);
-    }
-    piece.topological_vertex_count = runner.groupCount();
-    piece.cut_copy_count = plan.header.vertex_count - runner.groupCount();
-    piece.hole_count = plan.cut.hole_count;
-    piece.component_count = static_cast<uint32_t>(plan.cut.mesh.components.size());
-    piece.leftover_triangle_count =
-        static_cast<uint32_t>(plan.header.triangleCount()) - plan.header.face_count;
-    result.pieces.push_back(std::move(piece));
+    result.pieces.push_back(resultOf(plan, runner.groupCount()));
   }
-  const double coded_bits = static_cast<double>(io.cost()) / kCostOne;
-  const EncoderIo::Streams streams = io.finish();
-  result.payload = writePayload(header, streams.codes, streams.tokens, streams.raw);
+  return {};
+}
+
+/// Completes the sizes. The counted costs are slightly off: over millions of tokens, the error may
+/// exceed what flushing adds to the streams.
+void accountHeader(double coded_bits, const EncoderIo::Streams& streams, EncodeResult& result) {
   const double stream_bits =
       8.0 * static_cast<double>(streams.codes.size() + streams.tokens.size() + streams.raw.size());
-  // The counted costs are slightly off. Over millions of tokens, the error may exceed what flushing
-  // adds to the streams.
   const double spent_bits = std::min(coded_bits, stream_bits);
   if (spent_bits < coded_bits) scale(result.sizes, spent_bits / coded_bits);
   result.sizes.header_bits = 8.0 * static_cast<double>(result.payload.size()) - spent_bits;
+}
+
+/// Codes the pieces as their plans say. A payload of few vertices is coded in both ways at once.
+Status codePayload(std::vector<Plan>& plans, uint32_t context_set, const EncodeSettings& options,
+                   Variation& variation, EncodeResult& result) {
+  uint64_t vertices = 0;
+  for (const Plan& plan : plans) vertices += plan.header.vertex_count;
+  const bool tries_single =
+      vertices <= kSingleCoderVertices && !options.without.has(Feature::kSingleCoder);
+  EncoderIo io(true, tries_single);
+  auto models = makeModels(context_set);
+  PayloadHeader header{Allocator{}};
+  header.flags = context_set << payload_flag::kContextSetShift;
+  MCC_TRY(codeAll(plans, io, *models, header, result));
+  EncoderIo::Streams streams = io.finish();
+  result.payload = writePayload(header, streams.codes, streams.tokens, streams.raw);
+  if (tries_single) {
+    EncoderIo::Streams single_stream = io.finishSingle();
+    header.flags |= payload_flag::kSingleCoder;
+    std::vector<uint8_t> single = writePayload(header, single_stream.codes, {}, {});
+    const double bytes = static_cast<double>(single.size());
+    const double surcharge = TimePrice(options.prefer).surcharge(bytes, price_ns::kSingleCoder);
+    const bool pays = bytes + surcharge < static_cast<double>(result.payload.size());
+    if (variation.active() ? variation.coin() : pays) {
+      result.payload = std::move(single);
+      streams = std::move(single_stream);
+    }
+  }
+  accountHeader(static_cast<double>(io.cost()) / kCostOne, streams, result);
   return {};
 }
 
@@ -100,29 +128,14 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeSettings& opt
                          jobs);
   };
   MCC_TRY(jobs.tryAll(pieces.size(), prepare));
-  uint64_t vertices = 0;
-  for (size_t i = 0; i < pieces.size(); ++i) {
-    vertices += plans[i].header.vertex_count;
-    result.notes.insert(result.notes.end(), notes[i].begin(), notes[i].end());
+  for (const std::vector<std::string>& of_piece : notes) {
+    result.notes.insert(result.notes.end(), of_piece.begin(), of_piece.end());
   }
   uint32_t context_set = kNone;
   Variation variation(options.variation);
   MCC_TRY(variation.active() ? varyAll(plans, options, variation, context_set)
                              : chooseAll(plans, options, jobs, context_set));
-  MCC_TRY(codeAll(plans, context_set, false, result));
-  const bool tries_single = !options.without.has(Feature::kSingleCoder);
-  if (vertices > kSingleCoderVertices || !tries_single) return {};
-  EncodeResult single;
-  MCC_TRY(codeAll(plans, context_set, true, single));
-  const double single_bytes = static_cast<double>(single.payload.size());
-  const bool pays =
-      single_bytes + TimePrice(options.prefer).surcharge(single_bytes, price_ns::kSingleCoder) <
-      static_cast<double>(result.payload.size());
-  if (variation.active() ? variation.coin() : pays) {
-    single.notes = std::move(result.notes);
-    result = std::move(single);
-  }
-  return {};
+  return codePayload(plans, context_set, options, variation, result);
 }
 
 }  // namespace

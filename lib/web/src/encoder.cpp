@@ -37,14 +37,13 @@ void mccSetBits(uint32_t position, uint32_t normal, uint32_t texcoord, uint32_t 
 
 MCC_EXPORT("setModes")
 void mccSetModes(uint32_t lossless, uint32_t indices_only, uint32_t grid,
-                 uint32_t keep_vertex_order, uint32_t keep_triangle_order, uint32_t effort,
-                 uint32_t prefer, uint32_t allow_larger, uint32_t drop_unused) {
+                 uint32_t keep_vertex_order, uint32_t keep_triangle_order, uint32_t prefer,
+                 uint32_t allow_larger, uint32_t drop_unused) {
   options.lossless = lossless != 0;
   options.indices_only = indices_only != 0;
   options.grid = static_cast<mcc::gltf::Grid>(grid);
   options.keep_vertex_order = keep_vertex_order != 0;
   options.keep_triangle_order = keep_triangle_order != 0;
-  options.effort = static_cast<uint8_t>(effort);
   options.prefer = static_cast<mcc::Preference>(prefer);
   options.allow_larger = allow_larger != 0;
   options.drop_unused = drop_unused != 0;

@@ -402,12 +402,12 @@ TEST(Writer, SizesAddUp) {
   EXPECT_GE(s.header_bits, 0);
 }
 
-TEST(Writer, EveryEffortDecodes) {
+TEST(Writer, EveryPreferenceAndContextSetDecodes) {
   const TestMesh mesh = withNormals(chartGrid(9, 9, 4));
   const MeshPiece piece(mesh);
-  for (uint8_t effort = 0; effort <= 2; ++effort) {
+  for (const Preference prefer : {Preference::kBalanced, Preference::kSize, Preference::kSpeed}) {
     EncodeOptions options;
-    options.effort = effort;
+    options.prefer = prefer;
     EXPECT_EQ(roundTrip(piece.view(), options).failure, "");
   }
   for (uint32_t set = 0; set < 2; ++set) {

@@ -32,7 +32,6 @@ mcc_convert_options defaultConvertOptions() {
   options.color_bits = defaults.bits.color;
   options.tangent_bits = defaults.bits.tangent;
   options.weight_bits = defaults.bits.weight;
-  options.effort = defaults.effort;
   options.thread_count = defaults.thread_count;
   return options;
 }
@@ -55,9 +54,9 @@ Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
   MCC_TRY(readBits(options.color_bits, false, out.bits.color));
   MCC_TRY(readBits(options.tangent_bits, true, out.bits.tangent));
   MCC_TRY(readBits(options.weight_bits, false, out.bits.weight));
-  if (options.grid > MCC_GRID_PRIMITIVE || options.effort > 2 ||
-      options.prefer > MCC_PREFER_SPEED || !(options.max_position_error >= 0)) {
-    return fail(Error::kBadArgument, "grid, effort, prefer or max_position_error is out of range");
+  if (options.grid > MCC_GRID_PRIMITIVE || options.prefer > MCC_PREFER_SPEED ||
+      !(options.max_position_error >= 0)) {
+    return fail(Error::kBadArgument, "grid, prefer or max_position_error is out of range");
   }
   out.lossless = options.lossless != 0;
   out.grid = static_cast<Grid>(options.grid);
@@ -67,7 +66,6 @@ Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
   out.drop_unused = options.drop_unused != 0;
   out.keep_vertex_order = options.keep_vertex_order != 0;
   out.keep_triangle_order = options.keep_triangle_order != 0;
-  out.effort = static_cast<uint8_t>(options.effort);
   out.prefer = static_cast<Preference>(options.prefer);
   out.thread_count = options.thread_count;
   out.max_decoded_bytes = options.max_decoded_bytes;

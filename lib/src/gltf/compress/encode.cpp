@@ -37,7 +37,6 @@ Status encodePieces(const std::vector<const PiecePlan*>& plans, const EncodeOpti
 
 EncodeOptions optionsOf(const ConvertOptions& options, const PayloadPlan& plan) {
   EncodeOptions encode_options;
-  encode_options.effort = options.effort;
   encode_options.prefer = options.prefer;
   encode_options.indices_only = plan.indices_only;
   encode_options.keep_vertex_order = plan.keep_vertex_order;
