@@ -4,6 +4,7 @@
 import { createReadStream, existsSync, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { basename, extname, join, normalize, sep } from 'node:path';
+import { build } from 'esbuild';
 import { launchBrowser } from '../../browser/support/browser.mjs';
 import { ROOT } from '../paths.mjs';
 
@@ -12,9 +13,20 @@ const TYPES = { '.mjs': 'text/javascript', '.js': 'text/javascript', '.wasm': 'a
 const PAGE = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><script>var module = {};</script>';
 const HEADERS = { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp', 'Cache-Control': 'no-store' };
 
+/** Our decoder in one script, as an application has it. Those of the others are one script each, too. */
+const DECODER = '/lib/web/decoder.mjs';
+
+async function bundleDecoder() {
+  const { outputFiles: [{ contents }] } = await build({
+    entryPoints: [join(ROOT, DECODER)], bundle: true, minify: true, format: 'esm', target: 'es2022', write: false, logLevel: 'warning',
+  });
+  return contents;
+}
+
 /** @param {string} folder contains the folders that are measured; served below /units/ */
 export async function startChromium(folder) {
-  const server = createServer((request, response) => serve(folder, request, response));
+  const contents = new Map([['/', Buffer.from(PAGE)], [DECODER, await bundleDecoder()]]);
+  const server = createServer((request, response) => serve(folder, contents, request, response));
   await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
   const origin = `http://127.0.0.1:${server.address().port}`;
   const browser = await launchBrowser();
@@ -44,10 +56,12 @@ export async function startChromium(folder) {
   };
 }
 
-function serve(folder, request, response) {
+/** @param {Map<string, Uint8Array>} contents by path; everything else is a file */
+function serve(folder, contents, request, response) {
   const { pathname } = new URL(request.url, 'http://localhost');
-  if (pathname === '/') {
-    response.writeHead(200, { ...HEADERS, 'Content-Type': 'text/html' }).end(PAGE);
+  const type = TYPES[extname(pathname)] ?? (pathname === '/' ? 'text/html' : 'application/octet-stream');
+  if (contents.has(pathname)) {
+    response.writeHead(200, { ...HEADERS, 'Content-Type': type }).end(contents.get(pathname));
     return;
   }
   const isUnits = pathname.startsWith('/units/');
@@ -57,6 +71,6 @@ function serve(folder, request, response) {
     response.writeHead(404).end();
     return;
   }
-  response.writeHead(200, { ...HEADERS, 'Content-Type': TYPES[extname(path)] ?? 'application/octet-stream' });
+  response.writeHead(200, { ...HEADERS, 'Content-Type': type });
   createReadStream(path).pipe(response);
 }

@@ -10,6 +10,7 @@ import { join } from 'node:path';
 import { promisify } from 'node:util';
 import { brotliCompress, constants } from 'node:zlib';
 import { MeshoptEncoder } from 'meshoptimizer/encoder';
+import { decodePayload } from '../../../../lib/web/decoder.mjs';
 import { payloadsOf } from '../../../../lib/web/document.mjs';
 import { readGlb } from '../../../../lib/web/unpack.mjs';
 import { CODECS, decodeDraco, loadDracoScript } from './decoders.mjs';
@@ -26,8 +27,8 @@ export const brotli = (bytes) => promisify(brotliCompress)(bytes, {
 /**
  * Encodes a file with every codec.
  * @param {string} program gltf-mcc
- * @returns {{ glb, triangles, codecs: { [codec]: unit[] } }} our file; a unit has `bytes`; that of
- *   meshopt has `streams`, and what the tests need to compare
+ * @returns {{ glb, triangles, codecs: { [codec]: unit[] } }} our file, its triangles, and units of `bytes`;
+ *   those of meshopt have `streams`
  */
 export async function encodeFile(program, path) {
   const { glb, emitted } = convert(program, path);
@@ -38,8 +39,9 @@ export async function encodeFile(program, path) {
   const primitives = dracoBuffers(emitted).map((bytes) => readPrimitive(decoder, bytes));
   for (const speed of [0, 3, 5]) codecs[`draco ${speed}`] = primitives.map((primitive) => encodeDraco(encoder, decoder, primitive, speed));
   codecs.meshopt = primitives.map(encodeMeshopt);
-  const triangles = primitives.reduce((sum, { indices }) => sum + indices.length / 3, 0);
-  return { glb, triangles, codecs };
+  const decoded = await Promise.all(codecs.mcc.map(({ bytes }) => decodePayload(bytes)));
+  const parts = decoded.flatMap(({ pieces }) => pieces.flatMap((piece) => piece.parts));
+  return { glb, triangles: parts.reduce((sum, { triangleCount }) => sum + triangleCount, 0), codecs };
 }
 
 function convert(program, path) {
