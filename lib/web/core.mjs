@@ -43,6 +43,7 @@ const KEPT_MILLISECONDS = 1000;
 
 export class Decoder {
   #instance = null;
+  #instantiating = null;
   #pending = 0;
   #timer = null;
 
@@ -53,7 +54,7 @@ export class Decoder {
   async decode(bytes, options) {
     ++this.#pending;
     try {
-      this.#instance ??= await WebAssembly.instantiate(this.module);
+      while (this.#instance === null) await this.#instantiate();
       return this.decodeSync(bytes, options);
     } finally {
       --this.#pending;
@@ -73,6 +74,14 @@ export class Decoder {
     } finally {
       this.#giveBackLater();
     }
+  }
+
+  /** Makes the instance. Calls that come before it is there wait for the same one. */
+  #instantiate() {
+    this.#instantiating ??= WebAssembly.instantiate(this.module)
+      .then((instance) => { this.#instance ??= instance; })
+      .finally(() => { this.#instantiating = null; });
+    return this.#instantiating;
   }
 
   #giveBackLater() {

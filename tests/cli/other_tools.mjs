@@ -46,15 +46,17 @@ async function make(source, folder) {
     await document.transform(...steps);
     await io.write(path.join(folder, `${name}.glb`), document);
   }
-  const pack = (name, ...options) => execFileSync(
+  const packFile = (from, name, ...options) => execFileSync(
     process.execPath,
-    [path.join(modules, 'gltfpack/cli.js'), '-i', source, '-o', path.join(folder, `${name}.glb`), ...options]);
+    [path.join(modules, 'gltfpack/cli.js'), '-i', from, '-o', path.join(folder, `${name}.glb`), ...options]);
+  const pack = (...args) => packFile(source, ...args);
   pack('gltfpack');
   pack('gltfpack_c', '-c');
   pack('gltfpack_cc', '-cc');
   pack('gltfpack_c_float', '-c', '-noq');
   pack('gltfpack_cf', '-cf');
   pack('newer_khr', '-c', '-ce', 'khr');
+  packFile(path.join(folder, 'newer_khr.glb'), 'gltfpack_of_newer', '-noq'); // as the message about newer_khr advises
   const { processGlb } = require('gltf-pipeline');
   const { glb } = await processGlb(fs.readFileSync(source), { dracoOptions: { compressionLevel: 7 } });
   fs.writeFileSync(path.join(folder, 'pipeline_draco.glb'), glb);

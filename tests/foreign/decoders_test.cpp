@@ -166,7 +166,7 @@ TEST(Meshopt, UnknownKindsAreClearErrors) {
   gltf::CodedView view = {newer, 16, 8, "ATTRIBUTES", "NONE"};
   EXPECT_EQ(decodeView(view, elements),
             "has version 1 of its codec, which meshoptimizer " + meshoptVersion() +
-                " cannot read; decompress the file with a newer tool first");
+                " cannot read; decompress the file first, for example with gltfpack -noq");
   view.mode = "POINTS";
   EXPECT_EQ(decodeView(view, elements), "has the unknown mode \"POINTS\"");
   view.mode = "ATTRIBUTES";

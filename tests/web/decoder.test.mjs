@@ -148,6 +148,20 @@ test('a payload that is not for the core loads the whole decoder, once', async (
   await init();
 });
 
+test('payloads that come at once share one instance', async (t) => {
+  await init({ bytes: wasm('mcc_decoder') });
+  t.after(() => init());
+  const { instantiate } = WebAssembly;
+  t.after(() => { WebAssembly.instantiate = instantiate; });
+  let count = 0;
+  WebAssembly.instantiate = (...args) => {
+    ++count;
+    return instantiate.apply(WebAssembly, args);
+  };
+  await Promise.all(Array.from({ length: 8 }, () => decodePayload(somePayload())));
+  assert.equal(count, 1);
+});
+
 test('a pool whose first load fails tries again', async () => {
   let requests = 0;
   const server = createServer((request, response) => {

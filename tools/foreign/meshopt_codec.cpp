@@ -418,7 +418,7 @@ Outcome decodeMeshoptView(std::span<const uint8_t> bytes, uint64_t count, uint32
   if (!bytes.empty() && (bytes[0] & 0xf0) == kind && (bytes[0] & 0x0f) > newest) {
     return failure("has version " + std::to_string(bytes[0] & 0x0f) +
                    " of its codec, which meshoptimizer " + meshoptVersion() +
-                   " cannot read; decompress the file with a newer tool first");
+                   " cannot read; decompress the file first, for example with gltfpack -noq");
   }
   return guarded([&]() -> Outcome {
     elements.resize(count * stride);
@@ -443,7 +443,7 @@ Outcome decodeMeshoptView(std::span<const uint8_t> bytes, uint64_t count, uint32
       meshopt_decodeFilterExp(elements.data(), count, stride);
     } else {
       return failure("has the filter \"" + filter + "\", which meshoptimizer " + meshoptVersion() +
-                     " cannot undo here; decompress the file with a newer tool first");
+                     " cannot undo; decompress the file first, for example with gltfpack -noq");
     }
     return {};
   });

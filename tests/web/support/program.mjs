@@ -7,7 +7,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { ROOT, SAMPLES } from './paths.mjs';
 
-const PROGRAM = process.env.MCC_PROGRAM ?? path.join(ROOT, 'build/release/tools/gltf-mcc');
+export const PROGRAM = process.env.MCC_PROGRAM ?? path.join(ROOT, 'build/release/tools/gltf-mcc');
 
 export const readSample = (name) => new Uint8Array(readFileSync(path.join(SAMPLES, `${name}.glb`)));
 
