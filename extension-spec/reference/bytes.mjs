@@ -47,13 +47,14 @@ export class ByteReader {
 	}
 
 	u32() {
-		let value = 0;
-		for (let i = 0; i < 4; ++i) value += this.u8() * 2 ** (8 * i);
-		return value;
+		return this.highBytes(4);
 	}
 
-	f32() {
-		return floatOfBits(this.u32());
+	// The highest bytes of a u32, whose other bytes are 0
+	highBytes(count) {
+		let value = 0;
+		for (let i = 4 - count; i < 4; ++i) value += this.u8() * 2 ** (8 * i);
+		return value;
 	}
 
 	varint() {

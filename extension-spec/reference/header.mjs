@@ -2,7 +2,7 @@
 
 // The container: A.2 of the specification. Reads and checks everything in front of the streams.
 
-import { ByteReader, crc32, fail } from './bytes.mjs';
+import { bitsOfFloat, ByteReader, crc32, fail, floatOfBits } from './bytes.mjs';
 import { SingleCoder, ThreeStreams } from './entropy.mjs';
 import { methodOf, predictorIsValid } from './methods.mjs';
 import { ALIAS, EXACT_FLOAT, FLOAT, GRID, INTEGER, JOINTS, LATTICE, NORMAL, OCTAHEDRAL, POSITION, TANGENT, TANGENT_ANGLE, TEXCOORD,
@@ -13,6 +13,9 @@ export const LIMITS = { vertices: 2 ** 24, wedges: 2 ** 24, triangles: 2 ** 24, 
 
 // [A.2.4] Those of accessors: SCALAR to VEC4 and matrices
 const COMPONENT_COUNTS = [1, 2, 3, 4, 9, 16];
+
+// [A.2.4] By semantic
+const USUAL_COMPONENTS = [3, 3, 4, 2, 4, 4, 4, 1];
 
 // [A.2.2] Flags of a piece, by bit; bits 7 and 8 are a number
 const PIECE_FLAGS = ['SEAMS', 'MANY_PARTS', 'SAME_ATTRIBUTES', 'HOLES', 'HANDLES', 'CREASES', 'ISOLATED', '', '', 'LISTED',
@@ -36,14 +39,14 @@ export function readHeader(bytes) {
 // [A.2.1]
 function readMagicVersionChecksum(reader) {
 	const { bytes } = reader;
-	const magic = String.fromCharCode(...bytes.subarray(0, 3));
-	if (magic === 'MCC') fail('UnsupportedVersion', 'A.2.1', 'the withdrawn version 1.0');
-	if (magic !== 'KMC') fail('BadMagic', 'A.2.1', 'no "KMC"');
-	reader.take(3);
+	const start = String.fromCharCode(...bytes.subarray(0, 3));
+	if (start === 'MCC') fail('UnsupportedVersion', 'A.2.1', 'the withdrawn version 1.0');
+	if (start[0] !== 'K') fail('BadMagic', 'A.2.1', 'no "K"');
+	reader.take(1);
 	const version = reader.u8();
 	if (version !== 0x09) fail('UnsupportedVersion', 'A.2.1', `version ${version >> 4}.${version & 15}`);
 	const checksum = reader.u32();
-	if (crc32(bytes.subarray(0, 4), bytes.subarray(8)) !== checksum) fail('BadChecksum', 'A.2.1', 'the checksum does not match');
+	if (crc32(bytes.subarray(0, 2), bytes.subarray(6)) !== checksum) fail('BadChecksum', 'A.2.1', 'the checksum does not match');
 }
 
 // [A.2.1]
@@ -152,7 +155,7 @@ function readAttributes(reader, piece, before) {
 	const count = reader.varint();
 	if (count > LIMITS.attributes) fail('Limit', 'A.2.3', `${count} attributes`);
 	const attributes = [];
-	for (let i = 0; i < count; ++i) attributes.push({ number: i, ...readAttribute(reader) });
+	for (let i = 0; i < count; ++i) attributes.push({ number: i, ...readAttribute(reader, attributes) });
 	checkCreases(piece, attributes);
 	if (count > 0) checkPosition(attributes[0]);
 	findRelations(attributes);
@@ -186,24 +189,30 @@ function checkPositionPredictor(position) {
 
 // ---- [A.2.4] Header of an attribute
 
-function readAttribute(reader) {
+function readAttribute(reader, before) {
 	const kind = reader.u8();
-	const shape = reader.u8();
+	const semantic = kind & 7;
+	const usual = { type: FLOAT, components: USUAL_COMPONENTS[semantic], normalized: false };
 	const more = kind >> 7 === 1;
 	const attribute = {
-		semantic: kind & 7,
-		type: (kind >> 3) & 7,
-		normalized: ((kind >> 6) & 1) === 1,
-		components: (shape & 15) + 1,
-		coding: shape >> 4,
+		semantic,
+		coding: (kind >> 3) & 7,
+		...((kind >> 6) & 1 ? readType(reader, usual) : usual),
 		set: more ? reader.u8() : 0,
 		target: more ? reader.varint() : 0,
 		predictor: reader.u8(),
 	};
 	if (more && attribute.set === 0 && attribute.target === 0) badHeader('A.2.4', 'MORE without need');
 	checkTypes(attribute);
-	readParameters(reader, attribute);
+	readParameters(reader, attribute, before);
 	return attribute;
+}
+
+function readType(reader, usual) {
+	const byte = reader.u8();
+	const type = { type: byte & 7, components: ((byte >> 3) & 15) + 1, normalized: byte >> 7 === 1 };
+	if (Object.keys(usual).every((key) => type[key] === usual[key])) badHeader('A.2.4', 'TYPE without need');
+	return type;
 }
 
 // [A.2.4]
@@ -217,9 +226,9 @@ function checkTypes({ type, components, target, coding }) {
 }
 
 // [A.2.4] The table of codings
-function readParameters(reader, attribute) {
+function readParameters(reader, attribute, before) {
 	switch (attribute.coding) {
-	case LATTICE: return readLattice(reader, attribute);
+	case LATTICE: return readLattice(reader, attribute, before);
 	case OCTAHEDRAL: return readOctahedral(reader, attribute);
 	case TANGENT_ANGLE: return readTangentAngle(reader, attribute);
 	case ALIAS: attribute.alias = reader.varint(); return undefined;
@@ -228,31 +237,49 @@ function readParameters(reader, attribute) {
 	}
 }
 
-function readBits(reader, attribute, least, most) {
-	attribute.bits = reader.u8();
-	if (attribute.bits < least || attribute.bits > most) badHeader('A.2.4', `${attribute.bits} bits`);
+function setBits(attribute, bits, least, most) {
+	if (bits < least || bits > most) badHeader('A.2.4', `${bits} bits`);
+	attribute.bits = bits;
 }
 
-function readLattice(reader, attribute) {
+function readLattice(reader, attribute, before) {
 	if (attribute.components > 4) badHeader('A.2.4', 'a lattice of more than 4 components');
-	readBits(reader, attribute, 1, 24);
-	attribute.step = reader.f32();
+	const word = reader.varint();
+	const origins = attribute.target === 0 ? attribute.components : 0;
+	const form = (i) => (word >>> (5 + 2 * i)) & 3;
+	setBits(attribute, word & 31, 1, 24);
+	if (word >>> (7 + 2 * origins) !== 0) badHeader('A.2.4', 'a reserved bit of a lattice is set');
+	attribute.step = readFloat(reader, form(0), usualStep(attribute, before));
 	if (!(attribute.step > 0 && attribute.step < Infinity)) badHeader('A.2.4', 'step of a lattice');
 	attribute.origin = new Float32Array(attribute.components);
-	if (attribute.target !== 0) return;
-	for (let c = 0; c < attribute.components; ++c) attribute.origin[c] = reader.f32();
+	for (let c = 0; c < origins; ++c) attribute.origin[c] = readFloat(reader, form(1 + c), 0);
 	if (!attribute.origin.every(Number.isFinite)) badHeader('A.2.4', 'origin of a lattice');
 }
 
+// [A.2.4] Forms of floats
+function readFloat(reader, form, usual) {
+	if (form === 3) return usual;
+	const value = reader.highBytes(4 - form);
+	const isLarger = (larger) => value % 2 ** (8 * larger) === 0;
+	if (value === bitsOfFloat(usual) || (form < 2 && isLarger(form + 1))) badHeader('A.2.4', 'a float has a larger form');
+	return floatOfBits(value);
+}
+
+// [A.2.4]
+function usualStep({ semantic, bits }, before) {
+	const lattice = before.findLast((a) => a.semantic === semantic && a.coding === LATTICE);
+	return lattice === undefined ? Math.fround(1 / (2 ** bits - 1)) : lattice.step;
+}
+
 function readOctahedral(reader, attribute) {
-	readBits(reader, attribute, 2, 16);
+	setBits(attribute, reader.u8(), 2, 16);
 	const isTangent = attribute.semantic === TANGENT;
 	if (attribute.components !== (isTangent ? 4 : 3)) badHeader('A.2.4', 'components of coding octahedral');
 	if (isTangent && attribute.target !== 0) badHeader('A.2.4', 'an octahedral tangent of a morph target');
 }
 
 function readTangentAngle(reader, attribute) {
-	readBits(reader, attribute, 2, 16);
+	setBits(attribute, reader.u8(), 2, 16);
 	if (attribute.semantic !== TANGENT || attribute.components !== 4 || attribute.target !== 0) {
 		badHeader('A.2.4', 'coding tangent angle of another attribute');
 	}

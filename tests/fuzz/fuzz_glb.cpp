@@ -33,7 +33,7 @@ void repairPayloads(std::span<const uint8_t> text, std::vector<uint8_t>& bin) {
     const uint64_t offset = numberOr(view, "byteOffset", 0);
     const uint64_t length = numberOr(view, "byteLength", 0);
     if (offset > bin.size() || length > bin.size() - offset || length < kChecksummedFrom) continue;
-    if (std::memcmp(bin.data() + offset, kMagic, 3) != 0) continue;
+    if (bin[offset] != kMagic) continue;
     const auto begin = bin.begin() + static_cast<std::ptrdiff_t>(offset);
     std::vector<uint8_t> payload(begin, begin + static_cast<std::ptrdiff_t>(length));
     mcc::test::repairChecksum(payload);

@@ -14,8 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size > 1 << 16) return 0;
   std::vector<uint8_t> payload(data, data + size);
   if (size > kChecksummedFrom) {
-    std::copy_n(kMagic, 3, payload.begin());
-    payload[3] = kVersionMajor << 4 | kVersionMinor;
+    payload[0] = kMagic;
+    payload[kVersionOffset] = kVersionMajor << 4 | kVersionMinor;
     test::repairChecksum(payload);
   }
   const test::Outcome outcome = test::decodeDamaged(payload);

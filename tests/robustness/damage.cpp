@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "base/crc32.h"
 #include "container/payload_header.h"
 
 namespace mcc::test {
@@ -100,8 +99,7 @@ std::string checkShape(const PayloadInfo& info, const std::vector<PieceMemory>& 
 
 void repairChecksum(std::vector<uint8_t>& payload) {
   if (payload.size() < kChecksummedFrom) return;
-  const std::span<const uint8_t> all(payload);
-  const uint32_t checksum = crc32(all.subspan(kChecksummedFrom), crc32(all.first(kChecksumOffset)));
+  const uint32_t checksum = checksumOf(payload);
   for (size_t i = 0; i < 4; ++i) {
     payload[kChecksumOffset + i] = static_cast<uint8_t>(checksum >> (8 * i));
   }

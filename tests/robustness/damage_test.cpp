@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "format/flags.h"
 #include "robustness/damage.h"
 #include "robustness/payloads.h"
 
@@ -52,9 +53,9 @@ TEST(Damage, EveryTruncationIsAnError) {
                                      payload.bytes.begin() + static_cast<std::ptrdiff_t>(size));
       Payload opened;
       const Error error = opened.open(cut).error;
-      EXPECT_TRUE(error == (size < 3   ? Error::kBadMagic
-                            : size < 8 ? Error::kTruncated
-                                       : Error::kBadChecksum))
+      EXPECT_TRUE(error == (size == 0                 ? Error::kBadMagic
+                            : size < kChecksummedFrom ? Error::kTruncated
+                                                      : Error::kBadChecksum))
           << payload.name << " cut to " << size << ": " << static_cast<int>(error);
       EXPECT_EQ(opened.info().pieces.size(), 0u);
     }
@@ -118,7 +119,7 @@ TEST(Damage, HeaderBytes) {
     const NamedPayload& payload = robustnessPayloads()[p];
     if (payload.bytes.size() > 400) continue;
     const size_t header_bytes = headerBytes(payload);
-    for (size_t i = 8; i < header_bytes; ++i) {
+    for (size_t i = kChecksummedFrom; i < header_bytes; ++i) {
       for (uint32_t value = 0; value < 256; ++value) {
         std::vector<uint8_t> damaged = payload.bytes;
         damaged[i] = static_cast<uint8_t>(value);

@@ -3,16 +3,15 @@
 
 #include <stdexcept>
 
-#include "base/crc32.h"
 #include "base/enc_bytes.h"
 #include "container/payload_header.h"
+#include "format/usual.h"
 
 namespace mcc::conformance {
 
 void repairChecksum(Bytes& payload) {
   if (payload.size() < kChecksummedFrom) return;
-  const std::span<const uint8_t> all(payload);
-  const uint32_t checksum = crc32(all.subspan(kChecksummedFrom), crc32(all.first(kChecksumOffset)));
+  const uint32_t checksum = checksumOf(payload);
   for (size_t i = 0; i < 4; ++i)
     payload[kChecksumOffset + i] = static_cast<uint8_t>(checksum >> (8 * i));
 }
@@ -24,7 +23,7 @@ Bytes varint(uint32_t value) {
 }
 
 HeaderFields::HeaderFields(std::span<const uint8_t> payload)
-    : rest_(payload.subspan(8)), version_(payload[3]) {
+    : rest_(payload.subspan(kChecksummedFrom)), version_(payload[kVersionOffset]) {
   take("flags", 1);
   const uint32_t flags = get("flags");
   const bool many = (flags & payload_flag::kManyPieces) != 0;
@@ -61,21 +60,17 @@ void HeaderFields::takePiece(const std::string& prefix) {
 
 void HeaderFields::takeAttribute(const std::string& prefix) {
   take(prefix + "kind", 1);
-  take(prefix + "shape", 1);
   const uint32_t kind = get(prefix + "kind");
-  const uint32_t components = (get(prefix + "shape") & 15) + 1;
+  if ((kind & kTypeStated) != 0) take(prefix + "type", 1);
   uint32_t target = 0;
-  if ((kind & 0x80) != 0) {
+  if ((kind & kMoreStated) != 0) {
     take(prefix + "set", 1);
     target = takeVarint(prefix + "target");
   }
   take(prefix + "predictor", 1);
-  switch (static_cast<AttributeCoding>(get(prefix + "shape") >> 4)) {
+  switch (static_cast<AttributeCoding>(kind >> 3 & 7)) {
     case AttributeCoding::kLattice:
-      take(prefix + "bits", 1);
-      take(prefix + "step", 4);
-      for (uint32_t c = 0; c < components && target == 0; ++c)
-        take(prefix + "origin " + std::to_string(c), 4);
+      takeLattice(prefix, target == 0 ? componentsOf(prefix) : 0);
       break;
     case AttributeCoding::kOctahedral:
     case AttributeCoding::kTangentAngle: take(prefix + "bits", 1); break;
@@ -86,6 +81,53 @@ void HeaderFields::takeAttribute(const std::string& prefix) {
       break;
     default: break;
   }
+}
+
+/// Name of a float of a lattice.
+static std::string floatName(uint32_t index) {
+  return index == 0 ? "step" : "origin " + std::to_string(index - 1);
+}
+static uint32_t floatShift(uint32_t index) { return kLatticeBitsBits + kFormBits * index; }
+
+void HeaderFields::takeLattice(const std::string& prefix, uint32_t origins) {
+  const uint32_t word = takeVarint(prefix + "lattice");
+  for (uint32_t i = 0; i <= origins; ++i) {
+    const uint32_t form = word >> floatShift(i) & 3;
+    take(prefix + floatName(i), form == kUsualForm ? 0 : 4 - form);
+  }
+}
+
+uint32_t HeaderFields::componentsOf(const std::string& attribute) const {
+  if (has(attribute + "type")) return (get(attribute + "type") >> 3 & 15) + 1;
+  return kUsualComponents[get(attribute + "kind") & 7];
+}
+
+void HeaderFields::setCoding(const std::string& attribute, AttributeCoding coding) {
+  set(attribute + "kind", (get(attribute + "kind") & 0xc7) | static_cast<uint32_t>(coding) << 3);
+}
+
+void HeaderFields::setType(const std::string& attribute, ComponentType type, uint32_t components) {
+  if (!has(attribute + "type")) {
+    set(attribute + "kind", get(attribute + "kind") | kTypeStated);
+    const std::string next = has(attribute + "set") ? "set" : "predictor";
+    insertBefore(attribute + next, attribute + "type", {0});
+  }
+  set(attribute + "type", static_cast<uint32_t>(type) | (components - 1) << 3);
+}
+
+void HeaderFields::setLatticeBits(const std::string& attribute, uint32_t bits) {
+  set(attribute + "lattice",
+      (get(attribute + "lattice") >> kLatticeBitsBits << kLatticeBitsBits) | bits);
+}
+
+void HeaderFields::setFloat(const std::string& attribute, uint32_t index, uint32_t value,
+                            uint32_t form) {
+  const uint32_t shift = floatShift(index);
+  set(attribute + "lattice", (get(attribute + "lattice") & ~(3u << shift)) | form << shift);
+  Bytes& floats = bytes(attribute + floatName(index));
+  floats.clear();
+  for (uint32_t i = form; i < 4 && form != kUsualForm; ++i)
+    floats.push_back(static_cast<uint8_t>(value >> (8 * i)));
 }
 
 void HeaderFields::take(const std::string& name, size_t count) {
@@ -142,7 +184,7 @@ void HeaderFields::erase(const std::string& name) {
 }
 
 Bytes HeaderFields::payload() const {
-  Bytes all = {kMagic[0], kMagic[1], kMagic[2], version_, 0, 0, 0, 0};
+  Bytes all = {kMagic, version_, 0, 0, 0, 0};
   for (const Field& field : fields_) all.insert(all.end(), field.bytes.begin(), field.bytes.end());
   repairChecksum(all);
   return all;

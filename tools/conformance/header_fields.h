@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "mcc/reader.h"
+
 namespace mcc::conformance {
 
 using Bytes = std::vector<uint8_t>;
@@ -21,9 +23,9 @@ class HeaderFields {
   /// Parses a valid payload. Names are "flags", "piece count"; for piece i "i.flags", "i.vertices",
   /// "i.faces", "i.operations", "i.wedges", "i.dummies", "i.isolated", "i.duplicates",
   /// "i.degenerates", "i.listed", "i.parts", "i.part k", "i.attributes"; for its attribute k
-  /// "i.k.kind", "i.k.shape", "i.k.set", "i.k.target", "i.k.predictor", "i.k.bits", "i.k.step",
-  /// "i.k.origin c", "i.k.alias", "i.k.grid bits", "i.k.grid"; "codes bytes", "tokens bytes",
-  /// "padding bytes", "padding", "codes", "tokens", "raw".
+  /// "i.k.kind", "i.k.type", "i.k.set", "i.k.target", "i.k.predictor", "i.k.bits", "i.k.lattice",
+  /// "i.k.step", "i.k.origin c", "i.k.alias", "i.k.grid bits", "i.k.grid"; "codes bytes",
+  /// "tokens bytes", "padding bytes", "padding", "codes", "tokens", "raw".
   explicit HeaderFields(std::span<const uint8_t> payload);
 
   bool has(const std::string& name) const;
@@ -33,6 +35,15 @@ class HeaderFields {
   void set(const std::string& name, uint32_t value);
   void insertBefore(const std::string& name, const std::string& added, const Bytes& bytes);
   void erase(const std::string& name);
+
+  uint32_t componentsOf(const std::string& attribute) const;
+  /// Changes an attribute, whose prefix is "i.k.".
+  void setCoding(const std::string& attribute, AttributeCoding coding);
+  void setType(const std::string& attribute, ComponentType type, uint32_t components);
+  void setLatticeBits(const std::string& attribute, uint32_t bits);
+  /// Sets float `index` of a lattice, its step or origin `index` - 1, without its `form` lowest
+  /// bytes.
+  void setFloat(const std::string& attribute, uint32_t index, uint32_t value, uint32_t form = 0);
 
   /// Returns the payload with a checksum that fits.
   Bytes payload() const;
@@ -49,6 +60,7 @@ class HeaderFields {
   uint32_t takeVarint(const std::string& name);
   void takePiece(const std::string& prefix);
   void takeAttribute(const std::string& prefix);
+  void takeLattice(const std::string& prefix, uint32_t origins);
 
   std::vector<Field> fields_;
   std::span<const uint8_t> rest_;

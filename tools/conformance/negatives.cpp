@@ -222,32 +222,30 @@ class Maker {
       if (repair) repairChecksum(bytes);
       return bytes;
     };
-    add("two bytes", "A.2.1", Error::kBadMagic, "Two bytes", asset, cutTo(2));
-    add("other magic", "A.2.1", Error::kBadMagic, "The magic is KMD", asset, with(2, 'D', true));
+    add("other magic", "A.2.1", Error::kBadMagic, "The magic is L", asset, with(0, 'L', true));
     add("ends after magic", "A.2.1", Error::kTruncated, "The payload ends after the magic", asset,
-        cutTo(3));
+        cutTo(kVersionOffset));
     add("ends in checksum", "A.2.1", Error::kTruncated, "The payload ends inside the checksum",
-        asset, cutTo(7));
+        asset, cutTo(kChecksummedFrom - 1));
     add("ends after checksum", "A.2.1", Error::kTruncated, "The payload has no flags", asset,
-        cutTo(8));
+        cutTo(kChecksummedFrom));
     add("ends in header", "A.2.2", Error::kTruncated, "The payload ends inside the piece", asset,
-        cutTo(11));
+        cutTo(kChecksummedFrom + 3));
     add("draft 0 8", "A.2.1", Error::kUnsupportedVersion, "The version is 0.8", asset,
-        with(3, 0x08, true));
+        with(kVersionOffset, 0x08, true));
     add("version 1 0", "A.2.1", Error::kUnsupportedVersion, "The version is 1.0", asset,
-        with(3, 0x10, true));
+        with(kVersionOffset, 0x10, true));
     Bytes withdrawn = asset.payload;
     std::copy_n(kWithdrawnMagic, 3, withdrawn.begin());
-    withdrawn[3] = 0x10;
-    repairChecksum(withdrawn);
     add("withdrawn magic", "A.2.1", Error::kUnsupportedVersion, "The withdrawn format 1.0", asset,
         withdrawn);
     add("damaged stream", "A.2.1", Error::kBadChecksum, "A bit of the streams is flipped", asset,
         with(asset.payload.size() - 1, asset.payload.back() ^ 1, false));
     add("damaged flags", "A.2.1", Error::kBadChecksum,
-        "The flags differ, which the checksum covers", asset, with(8, asset.payload[8] ^ 4, false));
+        "The flags differ, which the checksum covers", asset,
+        with(kChecksummedFrom, asset.payload[kChecksummedFrom] ^ 4, false));
     add("damaged checksum", "A.1.3", Error::kBadChecksum, "A bit of the checksum is flipped", asset,
-        with(4, asset.payload[4] ^ 0x80, false));
+        with(kChecksumOffset, asset.payload[kChecksumOffset] ^ 0x80, false));
     Bytes longer = asset.payload;
     longer.push_back(0);
     add("a byte more", "A.2.1", Error::kBadChecksum, "A zero byte after the payload", asset,
@@ -430,45 +428,68 @@ class Maker {
       return [=](HeaderFields& f) { f.set(name, value); };
     };
     const auto floatBits = [](float value) { return std::bit_cast<uint32_t>(value); };
+    const auto setType = [](uint32_t type, uint32_t components) {
+      return
+          [=](HeaderFields& f) { f.setType("0.0.", static_cast<ComponentType>(type), components); };
+    };
+    const auto setBits = [](uint32_t bits) {
+      return [=](HeaderFields& f) { f.setLatticeBits("0.0.", bits); };
+    };
+    const auto setFloat = [](uint32_t index, uint32_t value, uint32_t form) {
+      return [=](HeaderFields& f) { f.setFloat("0.0.", index, value, form); };
+    };
     // Of the position, which is on a lattice.
     const Change positions[] = {
-        {"position is a normal", "The first attribute is no position", set("0.0.kind", 5 << 3 | 1)},
+        {"position is a normal", "The first attribute is no position", set("0.0.kind", 1)},
         {"position with a set", "The position has set 1",
          [](HeaderFields& f) { stateMore(f, "0.0.", 1, {0}); }},
         {"position of two components", "The position has two components",
          [](HeaderFields& f) {
-           f.set("0.0.shape", 1);
+           f.setType("0.0.", ComponentType::kFloat32, 2);
+           f.setFloat("0.0.", 3, 0, 0);
            f.erase("0.0.origin 2");
          }},
         {"position octahedral", "The position is octahedral",
          [](HeaderFields& f) {
-           f.set("0.0.shape", 3 << 4 | 2);
-           f.set("0.0.bits", 8);
+           f.setCoding("0.0.", AttributeCoding::kOctahedral);
+           f.set("0.0.lattice", 8);
            f.erase("0.0.step");
            for (const char* name : {"0.0.origin 0", "0.0.origin 1", "0.0.origin 2"}) f.erase(name);
          }},
     };
     for (const Change& c : positions) header(c.name, "A.2.3", c.shows, any, c.change);
     const Change lattices[] = {
-        {"component type 6", "A component type that is not assigned", set("0.0.kind", 6 << 3)},
-        {"component type 7", "A component type that is not assigned", set("0.0.kind", 7 << 3)},
-        {"coding 7", "A coding that is not assigned", set("0.0.shape", 7 << 4 | 2)},
-        {"coding 15", "A coding that is not assigned", set("0.0.shape", 15 << 4 | 2)},
+        {"component type 6", "A component type that is not assigned", setType(6, 3)},
+        {"component type 7", "A component type that is not assigned", setType(7, 3)},
+        {"usual type", "A type that needs no statement", setType(5, 3)},
+        {"coding 7", "A coding that is not assigned", set("0.0.kind", 7 << 3)},
         {"more without need", "MORE, though set and morph target are 0",
          [](HeaderFields& f) { stateMore(f, "0.0.", 0, {0}); }},
         {"morph target 65536", "A morph target above 65535",
          [](HeaderFields& f) { stateMore(f, "0.0.", 0, varint(65536)); }},
-        {"integer floats", "Floats with the coding of integers", set("0.0.shape", 1 << 4 | 2)},
-        {"lattice of integers", "Integers with the coding of floats", set("0.0.kind", 2 << 3)},
-        {"lattice of 0 bits", "A lattice of 0 bits", set("0.0.bits", 0)},
-        {"lattice of 25 bits", "A lattice of 25 bits", set("0.0.bits", 25)},
-        {"step of 0", "A lattice whose step is 0", set("0.0.step", 0)},
-        {"negative step", "A lattice with a negative step", set("0.0.step", floatBits(-1.0f))},
-        {"step of minus zero", "A lattice whose step is -0", set("0.0.step", 0x80000000)},
-        {"infinite step", "A lattice with an infinite step", set("0.0.step", 0x7f800000)},
-        {"step of nan", "A lattice whose step is no number", set("0.0.step", 0x7fc00000)},
-        {"infinite origin", "A lattice with an infinite origin", set("0.0.origin 1", 0xff800000)},
-        {"origin of nan", "A lattice whose origin is no number", set("0.0.origin 2", 0x7f800001)},
+        {"integer floats", "Floats with the coding of integers", set("0.0.kind", 1 << 3)},
+        {"lattice of integers", "Integers with the coding of floats", setType(2, 3)},
+        {"lattice of 0 bits", "A lattice of 0 bits", setBits(0)},
+        {"lattice of 25 bits", "A lattice of 25 bits", setBits(25)},
+        {"reserved bit of a lattice", "A form of an origin that the lattice does not have",
+         [](HeaderFields& f) { f.set("0.0.lattice", f.get("0.0.lattice") | 1 << 13); }},
+        {"step of 0", "A lattice whose step is 0", setFloat(0, 0, 2)},
+        {"negative step", "A lattice with a negative step", setFloat(0, floatBits(-1.0f), 2)},
+        {"step of minus zero", "A lattice whose step is -0", setFloat(0, 0x80000000, 2)},
+        {"infinite step", "A lattice with an infinite step", setFloat(0, 0x7f800000, 2)},
+        {"step of nan", "A lattice whose step is no number", setFloat(0, 0x7fc00000, 2)},
+        {"infinite origin", "A lattice with an infinite origin", setFloat(2, 0xff800000, 2)},
+        {"origin of nan", "A lattice whose origin is no number", setFloat(3, 0x7f800001, 0)},
+        {"form 0 of three bytes", "A step of four bytes of which the lowest is 0",
+         setFloat(0, 0x3a800100, 0)},
+        {"form 1 of two bytes", "An origin of three bytes of which the lowest is 0",
+         setFloat(1, 0x40400000, 1)},
+        {"form 2 of no bytes", "An origin of 0 that is stated", setFloat(1, 0, 2)},
+        {"usual step", "A step that needs no statement",
+         [&](HeaderFields& f) {
+           f.setLatticeBits("0.0.", 1);
+           f.setFloat("0.0.", 0, floatBits(1), 2);
+         }},
     };
     for (const Change& c : lattices) header(c.name, "A.2.4", c.shows, any, c.change);
 
@@ -499,14 +520,14 @@ class Maker {
     }
     other("octahedral of four components",
           "An octahedral attribute that is no tangent, of four components", baseNormal,
-          [](HeaderFields& f, const std::string& k) { f.set(k + "shape", 3 << 4 | 3); });
+          [](HeaderFields& f, const std::string& k) { f.setType(k, ComponentType::kFloat32, 4); });
     other(
         "octahedral tangent of three", "An octahedral tangent of three components",
         [](const AttributeInfo& a) {
           return a.coding == AttributeCoding::kOctahedral &&
                  a.format.semantic == Semantic::kTangent;
         },
-        [](HeaderFields& f, const std::string& k) { f.set(k + "shape", 3 << 4 | 2); });
+        [](HeaderFields& f, const std::string& k) { f.setType(k, ComponentType::kFloat32, 3); });
     other(
         "octahedral tangent of a target", "An octahedral tangent of a morph target",
         [](const AttributeInfo& a) {
@@ -516,25 +537,21 @@ class Maker {
         [](HeaderFields& f, const std::string& k) { stateMore(f, k, 0, {1}); });
     other("angle that is no tangent", "A tangent angle whose semantic is not that of tangents",
           coded(AttributeCoding::kTangentAngle),
-          [](HeaderFields& f, const std::string& k) { f.set(k + "kind", 5 << 3 | 4); });
+          [](HeaderFields& f, const std::string& k) { f.set(k + "kind", 4 << 3 | 4); });
     other("angle of three components", "A tangent angle of three components",
           coded(AttributeCoding::kTangentAngle),
-          [](HeaderFields& f, const std::string& k) { f.set(k + "shape", 4 << 4 | 2); });
+          [](HeaderFields& f, const std::string& k) { f.setType(k, ComponentType::kFloat32, 3); });
     other("angle without a normal", "A tangent angle, and no octahedral normal before or after it",
           baseNormal, [](HeaderFields& f, const std::string& k) {
-            f.set(k + "kind", 5 << 3 | 2);
-            f.set(k + "shape", 4 << 4 | 3);
+            f.set(k + "kind", 4 << 3 | 2);
             f.set(k + "predictor", 0);
           });
     other(
-        "lattice of five components", "A lattice of five components",
+        "lattice of nine components", "A lattice of nine components",
         [](const AttributeInfo& a) {
           return a.coding == AttributeCoding::kLattice && a.format.component_count == 4;
         },
-        [](HeaderFields& f, const std::string& k) {
-          f.set(k + "shape", 4);
-          f.insertBefore(k + "origin 0", k + "origin 4", {0, 0, 0, 0});
-        });
+        [](HeaderFields& f, const std::string& k) { f.setType(k, ComponentType::kFloat32, 9); });
     const auto grid = coded(AttributeCoding::kGrid);
     other("grid of 0 bits", "A grid of 0 bits", grid,
           [](HeaderFields& f, const std::string& k) { f.set(k + "grid bits", 0); });
@@ -550,15 +567,15 @@ class Maker {
             f.set(k + "grid", 3);
             f.set(k + "grid bits", 1 << 5 | 8);
           });
-    other("grid of five components", "A grid of five components", grid,
-          [](HeaderFields& f, const std::string& k) { f.set(k + "shape", 6 << 4 | 4); });
+    other("grid of nine components", "A grid of nine components", grid,
+          [](HeaderFields& f, const std::string& k) { f.setType(k, ComponentType::kFloat32, 9); });
     const auto integers = [](const AttributeInfo& a) {
       return a.coding == AttributeCoding::kInteger && a.format.semantic == Semantic::kCustom;
     };
     for (const uint32_t components : {5u, 8u, 10u}) {
       other(std::to_string(components) + " components", "A number of components that no type has",
             integers, [=](HeaderFields& f, const std::string& k) {
-              f.set(k + "shape", 1 << 4 | (components - 1));
+              f.set(k + "type", (f.get(k + "type") & 0x87) | (components - 1) << 3);
             });
     }
     const auto alias = coded(AttributeCoding::kAlias);
@@ -572,10 +589,10 @@ class Maker {
           [](HeaderFields& f, const std::string& k) { f.set(k + "alias", 0xffffffff); });
     other("alias of another type", "An alias with another component type", alias,
           [](HeaderFields& f, const std::string& k) {
-            f.set(k + "kind", (f.get(k + "kind") & 0xc7) | 2 << 3);
+            f.setType(k, ComponentType::kInt16, f.componentsOf(k));
           });
     other("alias of other components", "An alias with another number of components", alias,
-          [](HeaderFields& f, const std::string& k) { f.set(k + "shape", 5 << 4 | 8); });
+          [](HeaderFields& f, const std::string& k) { f.setType(k, ComponentType::kFloat32, 9); });
     other("alias with a predictor", "An alias whose predictor is not 0", alias,
           [](HeaderFields& f, const std::string& k) { f.set(k + "predictor", 0x80); });
   }
@@ -640,7 +657,7 @@ class Maker {
     header("planes of 18 bits", "A.6.2", "Planes of a lattice with more than 17 bits", any,
            [](HeaderFields& f) {
              f.set("0.0.predictor", kPlanes);
-             f.set("0.0.bits", 18);
+             f.setLatticeBits("0.0.", 18);
            });
     header(
         "planes of integers", "A.6.2", "Planes of positions that are not on a lattice",
@@ -721,7 +738,7 @@ class Maker {
     field("planes without a step", "B.2.9", Error::kBadAttribute, "Planes with a step of 0",
           threeStreams, [](HeaderFields& f) {
             f.set("0.0.predictor", position_mode::kPlanes);
-            f.set("0.0.bits", 12);
+            f.setLatticeBits("0.0.", 12);
             for (uint8_t& byte : f.bytes("raw")) byte = 0;
           });
   }

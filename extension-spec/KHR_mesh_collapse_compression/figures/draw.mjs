@@ -57,7 +57,7 @@ function container() {
     below.forEach((row, i) => parts.push(text([x + width / 2, 106 + 17 * i], row, 12, 'middle', '#546e7a')));
     x += width;
   };
-  field('magic', ['3'], 60, '#eceff1');
+  field('magic', ['1'], 60, '#eceff1');
   field('version', ['1'], 60, '#eceff1');
   field('CRC-32', ['4'], 60, '#ffe0b2');
   field('flags', ['1'], 50, '#eceff1');

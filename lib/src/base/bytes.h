@@ -4,7 +4,6 @@
 #ifndef MCC_BASE_BYTES_H_
 #define MCC_BASE_BYTES_H_
 
-#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -28,18 +27,15 @@ class ByteReader {
     return {};
   }
 
-  Status readU32(uint32_t& value) {
-    if (remaining() < 4) return fail(Error::kTruncated, "the payload ends inside a field", offset_);
-    const uint8_t* p = bytes_.data() + offset_;
-    value = uint32_t{p[0]} | uint32_t{p[1]} << 8 | uint32_t{p[2]} << 16 | uint32_t{p[3]} << 24;
-    offset_ += 4;
-    return {};
-  }
+  Status readU32(uint32_t& value) { return readHighBytes(value, 4); }
 
-  Status readF32(float& value) {
-    uint32_t bits = 0;
-    MCC_TRY(readU32(bits));
-    value = std::bit_cast<float>(bits);
+  /// Reads the highest bytes of a u32; those below are 0. `count` is 1 to 4.
+  Status readHighBytes(uint32_t& value, uint32_t count) {
+    if (remaining() < count)
+      return fail(Error::kTruncated, "the payload ends inside a field", offset_);
+    uint32_t high = 0;
+    for (uint32_t i = 4 - count; i < 4; ++i) high |= uint32_t{bytes_[offset_++]} << (8 * i);
+    value = high;
     return {};
   }
 

@@ -2,7 +2,6 @@
 #ifndef MCC_BASE_ENC_BYTES_H_
 #define MCC_BASE_ENC_BYTES_H_
 
-#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,11 +15,11 @@ class ByteWriter {
   size_t size() const { return bytes_.size(); }
 
   void writeU8(uint8_t value) { bytes_.push_back(value); }
-  void writeU32(uint32_t value) {
-    for (int shift = 0; shift < 32; shift += 8)
-      bytes_.push_back(static_cast<uint8_t>(value >> shift));
+  void writeU32(uint32_t value) { writeHighBytes(value, 4); }
+  void writeHighBytes(uint32_t value, uint32_t count) {
+    for (uint32_t i = 4 - count; i < 4; ++i)
+      bytes_.push_back(static_cast<uint8_t>(value >> (8 * i)));
   }
-  void writeF32(float value) { writeU32(std::bit_cast<uint32_t>(value)); }
   void writeVarint(uint32_t value) {
     for (; value >= 0x80; value >>= 7) bytes_.push_back(static_cast<uint8_t>(value | 0x80));
     bytes_.push_back(static_cast<uint8_t>(value));

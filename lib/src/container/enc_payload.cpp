@@ -1,30 +1,47 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "container/enc_payload.h"
 
-#include "base/crc32.h"
+#include <bit>
+
 #include "base/enc_bytes.h"
+#include "format/usual.h"
 
 namespace mcc {
 namespace {
 
-void writeAttribute(ByteWriter& out, const AttributeInfo& a) {
+void writeLattice(ByteWriter& out, AttributeInfos before, const AttributeInfo& a) {
+  const uint32_t origins = a.format.morph_target == 0 ? a.format.component_count : 0;
+  ByteWriter floats;
+  uint32_t forms = a.bits;
+  const auto add = [&](uint32_t place, float value, float usual) {
+    const uint32_t form = formOf(value, usual);
+    forms |= form << (kLatticeBitsBits + kFormBits * place);
+    if (form != kUsualForm) floats.writeHighBytes(std::bit_cast<uint32_t>(value), 4 - form);
+  };
+  add(0, a.lattice.step, usualStep(before, a));
+  for (uint32_t c = 0; c < origins; ++c) add(1 + c, a.lattice.origin[c], 0);
+  out.writeVarint(forms);
+  out.writeBytes(floats.bytes());
+}
+
+void writeAttribute(ByteWriter& out, AttributeInfos before, const AttributeInfo& a) {
   const AttributeFormat& f = a.format;
   const bool more = f.set_index != 0 || f.morph_target != 0;
+  const bool typed = !isUsualType(f);
   out.writeU8(static_cast<uint8_t>(static_cast<uint32_t>(f.semantic) |
-                                   static_cast<uint32_t>(f.component_type) << 3 |
-                                   (f.normalized ? 0x40u : 0u) | (more ? 0x80u : 0u)));
-  out.writeU8(
-      static_cast<uint8_t>((f.component_count - 1u) | static_cast<uint32_t>(a.coding) << 4));
+                                   static_cast<uint32_t>(a.coding) << 3 |
+                                   (typed ? kTypeStated : 0u) | (more ? kMoreStated : 0u)));
+  if (typed) {
+    out.writeU8(static_cast<uint8_t>(static_cast<uint32_t>(f.component_type) |
+                                     (f.component_count - 1u) << 3 | (f.normalized ? 0x80u : 0u)));
+  }
   if (more) {
     out.writeU8(f.set_index);
     out.writeVarint(f.morph_target);
   }
   out.writeU8(a.predictor);
   if (a.coding == AttributeCoding::kLattice) {
-    out.writeU8(a.bits);
-    out.writeF32(a.lattice.step);
-    for (uint32_t c = 0; c < f.component_count && f.morph_target == 0; ++c)
-      out.writeF32(a.lattice.origin[c]);
+    writeLattice(out, before, a);
   } else if (a.coding == AttributeCoding::kOctahedral ||
              a.coding == AttributeCoding::kTangentAngle) {
     out.writeU8(a.bits);
@@ -75,9 +92,9 @@ void writePiece(ByteWriter& out, const PayloadHeader& header, size_t index) {
   }
   if (same) return;
   out.writeVarint(piece.attribute_count);
-  for (uint32_t i = 0; i < piece.attribute_count; ++i) {
-    writeAttribute(out, header.attributes[piece.first_attribute + i]);
-  }
+  const AttributeInfos attributes = header.attributesOf(piece);
+  for (uint32_t i = 0; i < piece.attribute_count; ++i)
+    writeAttribute(out, attributes.first(i), attributes[i]);
 }
 
 }  // namespace
@@ -103,7 +120,7 @@ std::vector<uint8_t> writePayload(const PayloadHeader& header, std::span<const u
     pieces.bytes().resize(pieces.size() + padding, 0);
   }
   ByteWriter out;
-  out.writeBytes(kMagic);
+  out.writeU8(kMagic);
   out.writeU8(static_cast<uint8_t>(kVersionMajor << 4 | kVersionMinor));
   out.writeU32(0);
   out.writeU8(static_cast<uint8_t>(flags));
@@ -111,8 +128,7 @@ std::vector<uint8_t> writePayload(const PayloadHeader& header, std::span<const u
   out.writeBytes(codes);
   out.writeBytes(tokens);
   out.writeBytes(raw);
-  const std::span<const uint8_t> all(out.bytes());
-  const uint32_t checksum = crc32(all.subspan(kChecksummedFrom), crc32(all.first(kChecksumOffset)));
+  const uint32_t checksum = checksumOf(out.bytes());
   for (size_t i = 0; i < 4; ++i) {
     out.bytes()[kChecksumOffset + i] = static_cast<uint8_t>(checksum >> (8 * i));
   }

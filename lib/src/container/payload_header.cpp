@@ -7,6 +7,7 @@
 #include "base/crc32.h"
 #include "format/codings.h"
 #include "format/predictors.h"
+#include "format/usual.h"
 
 namespace mcc {
 namespace {
@@ -40,24 +41,69 @@ Status parseGrid(ByteReader& in, AttributeInfo& a) {
 }
 
 /// [A.2.4]
-Status parseAttribute(ByteReader& in, AttributeInfo& a) {
+Status parseFloat(ByteReader& in, uint32_t form, float usual, float& value) {
+  value = usual;
+  if (form == kUsualForm) return {};
   const size_t at = in.offset();
-  uint8_t kind = 0;
-  uint8_t shape = 0;
-  MCC_TRY(in.readU8(kind));
-  MCC_TRY(in.readU8(shape));
-  a = AttributeInfo{};
-  a.format.semantic = static_cast<Semantic>(kind & 7);
-  if (((kind >> 3) & 7) > static_cast<uint8_t>(ComponentType::kFloat32)) {
+  uint32_t bits = 0;
+  MCC_TRY(in.readHighBytes(bits, 4 - form));
+  value = std::bit_cast<float>(bits);
+  if (formOf(value, usual) == form) return {};
+  return fail(Error::kBadHeader, "a number of a lattice has a shorter form", at);
+}
+
+/// `before` are the attributes of the piece before this one. [A.2.4]
+Status parseLattice(ByteReader& in, AttributeInfos before, AttributeInfo& a) {
+  const size_t at = in.offset();
+  uint32_t forms = 0;
+  MCC_TRY(in.readVarint(forms));
+  a.bits = forms % (1u << kLatticeBitsBits);
+  forms >>= kLatticeBitsBits;
+  if (a.bits == 0 || a.bits > kMaxLatticeBits || a.format.component_count > kMaxLatticeComponents) {
+    return fail(Error::kBadHeader, "an attribute's lattice is malformed", at);
+  }
+  constexpr uint32_t kForm = (1u << kFormBits) - 1;
+  MCC_TRY(parseFloat(in, forms & kForm, usualStep(before, a), a.lattice.step));
+  bool finite = isFinitePositive(a.lattice.step);
+  const bool has_origin = a.format.morph_target == 0;  // deltas are on grids through 0
+  for (uint32_t c = 0; c < a.format.component_count && has_origin; ++c) {
+    forms >>= kFormBits;
+    MCC_TRY(parseFloat(in, forms & kForm, 0, a.lattice.origin[c]));
+    finite = finite && isFinite(a.lattice.origin[c]);
+  }
+  if (!finite) return fail(Error::kBadHeader, "an attribute's lattice is not finite", at);
+  if (forms > kForm) return fail(Error::kBadHeader, "reserved bits are set", at);
+  return {};
+}
+
+/// [A.2.4]
+Status parseType(ByteReader& in, AttributeFormat& format) {
+  const size_t at = in.offset();
+  uint8_t type = 0;
+  MCC_TRY(in.readU8(type));
+  if ((type & 7) > static_cast<uint8_t>(ComponentType::kFloat32)) {
     return fail(Error::kBadHeader, "an attribute has an unknown component type", at);
   }
-  a.format.component_type = static_cast<ComponentType>((kind >> 3) & 7);
-  a.format.normalized = (kind & 0x40) != 0;
-  a.format.component_count = static_cast<uint8_t>((shape & 15) + 1);
-  if (!isComponentCount(a.format.component_count)) {
+  format.component_type = static_cast<ComponentType>(type & 7);
+  format.component_count = static_cast<uint8_t>((type >> 3 & 15) + 1);
+  format.normalized = (type & 0x80) != 0;
+  if (!isComponentCount(format.component_count)) {
     return fail(Error::kBadHeader, "an attribute has a number of components that no type has", at);
   }
-  if ((kind & 0x80) != 0) {
+  if (!isUsualType(format)) return {};
+  return fail(Error::kBadHeader, "a type is stated although it is implied", at);
+}
+
+/// `before` are the attributes of the piece before this one. [A.2.4]
+Status parseAttribute(ByteReader& in, AttributeInfos before, AttributeInfo& a) {
+  const size_t at = in.offset();
+  uint8_t kind = 0;
+  MCC_TRY(in.readU8(kind));
+  a = AttributeInfo{};
+  a.format.semantic = static_cast<Semantic>(kind & 7);
+  a.format.component_count = kUsualComponents[kind & 7];
+  if ((kind & kTypeStated) != 0) MCC_TRY(parseType(in, a.format));
+  if ((kind & kMoreStated) != 0) {
     MCC_TRY(in.readU8(a.format.set_index));
     uint32_t target = 0;
     MCC_TRY(in.readVarint(target));
@@ -67,10 +113,10 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
       return fail(Error::kBadHeader, "a set and a morph target that need no statement", at);
     a.format.morph_target = static_cast<uint16_t>(target);
   }
-  if ((shape >> 4) > static_cast<uint8_t>(AttributeCoding::kGrid)) {
+  if ((kind >> 3 & 7) > static_cast<uint8_t>(AttributeCoding::kGrid)) {
     return fail(Error::kBadHeader, "an attribute has an unknown coding", at);
   }
-  a.coding = static_cast<AttributeCoding>(shape >> 4);
+  a.coding = static_cast<AttributeCoding>(kind >> 3 & 7);
   if (!isDecoded(a.coding)) return fail(kNotInCore, "the core lacks a coding", at);
   const bool is_float = a.format.component_type == ComponentType::kFloat32;
   if (a.coding != AttributeCoding::kAlias && is_float == (a.coding == AttributeCoding::kInteger)) {
@@ -78,19 +124,7 @@ Status parseAttribute(ByteReader& in, AttributeInfo& a) {
   }
   MCC_TRY(in.readU8(a.predictor));
   if (a.coding == AttributeCoding::kLattice) {
-    MCC_TRY(in.readU8(a.bits));
-    if (a.bits == 0 || a.bits > kMaxLatticeBits ||
-        a.format.component_count > kMaxLatticeComponents) {
-      return fail(Error::kBadHeader, "an attribute's lattice is malformed", at);
-    }
-    MCC_TRY(in.readF32(a.lattice.step));
-    bool finite = isFinitePositive(a.lattice.step);
-    const bool has_origin = a.format.morph_target == 0;  // deltas are on grids through 0
-    for (uint32_t c = 0; c < a.format.component_count && has_origin; ++c) {
-      MCC_TRY(in.readF32(a.lattice.origin[c]));
-      finite = finite && isFinite(a.lattice.origin[c]);
-    }
-    if (!finite) return fail(Error::kBadHeader, "an attribute's lattice is not finite", at);
+    MCC_TRY(parseLattice(in, before, a));
   } else if (a.coding == AttributeCoding::kOctahedral) {
     MCC_TRY(in.readU8(a.bits));
     const bool is_tangent = a.format.semantic == Semantic::kTangent;
@@ -163,7 +197,7 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
     if (piece.has(piece_flag::kSameAttributes)) {
       a = header.attributes[header.pieces.back().first_attribute + i];
     } else {
-      MCC_TRY(parseAttribute(in, a));
+      MCC_TRY(parseAttribute(in, {header.attributes.data() + piece.first_attribute, i}, a));
     }
     if (!header.attributes.push_back(a))
       return fail(Error::kOutOfMemory, "no memory for the header");
@@ -329,28 +363,32 @@ uint64_t elementsOf(const PayloadHeader& header) {
   return elements;
 }
 
+uint32_t checksumOf(std::span<const uint8_t> payload) {
+  return crc32(payload.subspan(kChecksummedFrom), crc32(payload.first(kChecksumOffset)));
+}
+
 Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, PayloadHeader& header) {
   if (bytes.size() >= 3 && std::memcmp(bytes.data(), kWithdrawnMagic, 3) == 0) {
     return fail(Error::kUnsupportedVersion,
                 "the payload is of the withdrawn format 1.0: compress its source again", 0);
   }
-  if (bytes.size() < 3 || std::memcmp(bytes.data(), kMagic, 3) != 0) {
+  if (bytes.empty() || bytes[0] != kMagic) {
     return fail(Error::kBadMagic, "the bytes are not a mesh collapse payload", 0);
   }
   ByteReader in(bytes);
-  std::span<const uint8_t> magic;
+  uint8_t magic = 0;
   uint8_t version = 0;
   uint32_t checksum = 0;
-  MCC_TRY(in.readBytes(3, magic));
+  MCC_TRY(in.readU8(magic));
   MCC_TRY(in.readU8(version));
   if (version != (kVersionMajor << 4 | kVersionMinor)) {
     return fail(Error::kUnsupportedVersion,
                 "the payload is of a version this reader does not know (it knows the draft 0.9)",
-                3);
+                kVersionOffset);
   }
   header.version_minor = version & 15;
   MCC_TRY(in.readU32(checksum));
-  if (crc32(bytes.subspan(kChecksummedFrom), crc32(bytes.first(kChecksumOffset))) != checksum) {
+  if (checksumOf(bytes) != checksum) {
     return fail(Error::kBadChecksum, "the checksum does not match: the payload is damaged",
                 kChecksumOffset);
   }
@@ -358,21 +396,22 @@ Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, Payloa
   MCC_TRY(in.readU8(flags));
   header.flags = flags;
   if ((header.flags & ~payload_flag::kAll) != 0) {
-    return fail(Error::kBadHeader, "reserved bits are set", 8);
+    return fail(Error::kBadHeader, "reserved bits are set", kChecksummedFrom);
   }
   uint32_t piece_count = 1;
+  const size_t at = in.offset();
   MCC_TRY(parseFlaggedCount(in, (flags & payload_flag::kManyPieces) != 0, 2, piece_count));
   if (piece_count > limits.max_pieces) {
-    return fail(Error::kLimit, "the payload has more pieces than the limit allows", 9);
+    return fail(Error::kLimit, "the payload has more pieces than the limit allows", at);
   }
   Totals totals;
   for (uint32_t i = 0; i < piece_count; ++i) MCC_TRY(parsePiece(in, limits, header, totals));
   const uint64_t elements = elementsOf(header);
   if (elements > kMaxElementsPerByte * bytes.size()) {
-    return fail(Error::kLimit, "the payload claims more than its size can hold", 9);
+    return fail(Error::kLimit, "the payload claims more than its size can hold", at);
   }
   if (elements > limits.max_elements || totals.output_bytes > limits.max_output_bytes) {
-    return fail(Error::kLimit, "the payload is larger than the limit allows", 9);
+    return fail(Error::kLimit, "the payload is larger than the limit allows", at);
   }
   return parseStreams(in, header);
 }

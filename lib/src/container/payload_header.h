@@ -89,6 +89,9 @@ struct PayloadHeader {
 /// [A.2.6]
 uint64_t elementsOf(const PayloadHeader& header);
 
+/// Returns the CRC-32 of a payload of at least kChecksummedFrom bytes, less its checksum. [A.2.1]
+uint32_t checksumOf(std::span<const uint8_t> payload);
+
 /// Parses and checks everything before the streams. Allocates only in proportion to the bytes.
 /// [A.2.1]
 Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, PayloadHeader& header);

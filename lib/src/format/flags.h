@@ -12,13 +12,14 @@
 
 namespace mcc {
 
-inline constexpr uint8_t kMagic[3] = {'K', 'M', 'C'};
+inline constexpr uint8_t kMagic = 'K';
 inline constexpr uint8_t kWithdrawnMagic[3] = {'M', 'C', 'C'};  ///< the first format
 /// A draft (major version 0) is not compatible with any other version.
 inline constexpr uint8_t kVersionMajor = 0;
 inline constexpr uint8_t kVersionMinor = 9;
-inline constexpr size_t kChecksumOffset = 4;
-inline constexpr size_t kChecksummedFrom = 8;  ///< the checksum covers bytes 0..3 and from here on
+inline constexpr size_t kVersionOffset = 1;
+inline constexpr size_t kChecksumOffset = 2;
+inline constexpr size_t kChecksummedFrom = 6;  ///< the checksum covers bytes 0, 1 and from here on
 
 namespace payload_flag {
 inline constexpr uint32_t kSingleCoder = 1u << 0;

@@ -16,6 +16,7 @@
 #define MCC_READER_PIECE_H_
 
 #include <new>
+#include <optional>
 
 #include "base/lazy.h"
 #include "connectivity/mc_codes.h"
@@ -342,15 +343,15 @@ Status PieceCoder<Io>::codePositions(const PieceTruth& truth, const PositionPara
     MCC_TRY(palettes.code(io_, models_.positions.tables.palettes, truth.palettes, groups.count));
     for (uint32_t s = 0; s < 3; ++s) parameters.palette[s] = palettes.axis(s);
   }
-  AxisPlanes planes[3];
+  std::optional<GridPlanes> grid;  // small payloads would notice the time that its tables take
   if (parameters.has(position_mode::kPlanes)) {
+    AxisPlanes planes[3];
     for (uint32_t s = 0; s < 3; ++s) {
       if (Io::kEncoding) planes[s] = truth.planes[s];
       MCC_TRY(codePlanes(io_, planes[s]));
     }
+    parameters.planes = &grid.emplace(planes);
   }
-  const GridPlanes grid(planes);
-  parameters.planes = &grid;
   models_.positions.rows.prepare(parameters.modes);
   sequence.clear();
   if (needsSequence() && !sequence.resize(groups.count)) return noMemory();

@@ -4,17 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "base/crc32.h"
 #include "container/enc_payload.h"
 #include "container/payload_header.h"
 #include "exact/grid.h"
 #include "format/predictors.h"
+#include "format/usual.h"
 #include "support/mesh_generators.h"
 #include "unit/failing_allocator.h"
 
@@ -22,8 +23,7 @@ namespace mcc::test {
 namespace {
 
 void repairChecksum(std::vector<uint8_t>& payload) {
-  const std::span<const uint8_t> all(payload);
-  const uint32_t checksum = crc32(all.subspan(kChecksummedFrom), crc32(all.first(kChecksumOffset)));
+  const uint32_t checksum = checksumOf(payload);
   for (size_t i = 0; i < 4; ++i)
     payload[kChecksumOffset + i] = static_cast<uint8_t>(checksum >> (8 * i));
 }
@@ -39,6 +39,11 @@ AttributeInfo position() {
   a.lattice.step = 0.5f;
   a.lattice.origin[1] = -3;
   return a;
+}
+
+/// A float of any form.
+float withZeroBytes(Random& random, float value) {
+  return std::bit_cast<float>(std::bit_cast<uint32_t>(value) & ~0u << 8 * random.below(3));
 }
 
 AttributeInfo anyAttribute(Random& random) {
@@ -71,9 +76,9 @@ AttributeInfo anyAttribute(Random& random) {
   } else {
     a.format.component_count = static_cast<uint8_t>(random.between(1, 4));
     a.bits = static_cast<uint8_t>(random.between(1, 24));
-    a.lattice.step = random.unit() + 1e-30f;
+    a.lattice.step = random.chance(20) ? 0.5f : withZeroBytes(random, random.unit() + 0.25f);
     for (uint32_t c = 0; c < a.format.component_count && a.format.morph_target == 0; ++c)
-      a.lattice.origin[c] = random.unit() - 0.5f;
+      a.lattice.origin[c] = random.chance(20) ? 0 : withZeroBytes(random, random.unit() - 0.5f);
   }
   return a;
 }
@@ -245,7 +250,7 @@ TEST(Container, EveryTruncationOfTheHeaderIsAnError) {
                                payload.begin() + static_cast<std::ptrdiff_t>(size));
       if (size >= kChecksummedFrom) repairChecksum(cut);
       const Error error = parseError(cut);
-      EXPECT_TRUE(error == (size < 3 ? Error::kBadMagic : Error::kTruncated) ||
+      EXPECT_TRUE(error == (size == 0 ? Error::kBadMagic : Error::kTruncated) ||
                   (size > kChecksummedFrom && error == Error::kLimit))
           << "seed " << seed << ", size " << size << ": " << static_cast<int>(error);
     }
@@ -258,8 +263,8 @@ TEST(Container, ChecksumCoversEveryBit) {
     std::vector<uint8_t> damaged = payload;
     damaged[bit / 8] = static_cast<uint8_t>(damaged[bit / 8] ^ 1u << bit % 8);
     const Error error = parseError(damaged);
-    const Error expected = bit < 24   ? Error::kBadMagic
-                           : bit < 32 ? Error::kUnsupportedVersion
+    const Error expected = bit < 8    ? Error::kBadMagic
+                           : bit < 16 ? Error::kUnsupportedVersion
                                       : Error::kBadChecksum;
     EXPECT_EQ(error, expected) << "bit " << bit;
   }
@@ -268,7 +273,7 @@ TEST(Container, ChecksumCoversEveryBit) {
 TEST(Container, Versions) {
   std::vector<uint8_t> payload = simpleDraft().write();
   for (uint32_t version = 0; version < 256; ++version) {
-    payload[3] = static_cast<uint8_t>(version);
+    payload[kVersionOffset] = static_cast<uint8_t>(version);
     repairChecksum(payload);
     PayloadHeader parsed{Allocator{}};
     const Error error = parsePayload(payload, {}, parsed).error;
@@ -280,8 +285,6 @@ TEST(Container, Versions) {
 TEST(Container, TheWithdrawnFormatIsNamed) {
   std::vector<uint8_t> payload = simpleDraft().write();
   std::copy_n(kWithdrawnMagic, 3, payload.begin());
-  payload[3] = 0x10;
-  repairChecksum(payload);
   PayloadHeader parsed{Allocator{}};
   const Status status = parsePayload(payload, {}, parsed);
   EXPECT_EQ(status.error, Error::kUnsupportedVersion);
@@ -450,6 +453,121 @@ TEST(Container, AttributesThatAreNone) {
   }
 }
 
+/// The bytes of a position's lattice, alone and with what is before it in the piece.
+TEST(Container, LatticesTakeFewBytes) {
+  const auto bytesOf = [](const Lattice& lattice, uint8_t bits) {
+    Draft draft = simpleDraft();
+    const size_t without = kChecksummedFrom + 1 + 1 + 4 + 1 + 2 + 2 + draft.codes.size() +
+                           draft.tokens.size() + draft.raw.size();
+    draft.pieces[0].attributes[0].lattice = lattice;
+    draft.pieces[0].attributes[0].bits = bits;
+    const std::vector<uint8_t> payload = draft.write();
+    EXPECT_EQ(parseError(payload), Error::kOk);
+    return payload.size() - without;
+  };
+  constexpr float kAny = 0.3f;  // its lowest byte is not 0
+  EXPECT_EQ(bytesOf({{kAny, kAny, -kAny}, kAny}, 14), 1u + 16);
+  EXPECT_EQ(bytesOf({{kAny, kAny, -kAny}, 0x1.0002p-9f}, 14), 1u + 15);
+  EXPECT_EQ(bytesOf({{kAny, kAny, 0}, kAny}, 14), 2u + 12);
+  EXPECT_EQ(bytesOf({{-1, 2, 0x1.02p0f}, 0.5f}, 14), 2u + 8);
+  EXPECT_EQ(bytesOf({{0, 0, 0}, 1.0f / 16383}, 14), 2u);
+  EXPECT_EQ(bytesOf({{0, 0, 0}, 1.0f / 16383}, 13), 2u + 3);
+  EXPECT_EQ(bytesOf({{-0.0f, 0, 0}, 1}, 1), 2u + 2);
+}
+
+/// The step of a lattice is that of the last one of the same semantic.
+TEST(Container, StepsAreRepeated) {
+  const auto sizeWith = [](Semantic semantic, float step, uint16_t morph_target) {
+    Draft draft = simpleDraft();
+    std::vector<AttributeInfo>& attributes = draft.pieces[0].attributes;
+    attributes[0].lattice.step = 0.3f;
+    AttributeInfo between = position();
+    between.format.semantic = Semantic::kNormal;
+    attributes.push_back(between);
+    AttributeInfo last;
+    last.format.semantic = semantic;
+    last.format.morph_target = morph_target;
+    last.bits = 14;
+    last.lattice.step = step;
+    attributes.push_back(last);
+    const std::vector<uint8_t> payload = draft.write();
+    PayloadHeader parsed{Allocator{}};
+    EXPECT_TRUE(parsePayload(payload, {}, parsed).ok());
+    EXPECT_EQ(parsed.attributes[2].lattice.step, step);
+    return payload.size();
+  };
+  const size_t repeated = sizeWith(Semantic::kPosition, 0.3f, 1);
+  EXPECT_EQ(sizeWith(Semantic::kPosition, 0.7f, 1), repeated + 4);
+  EXPECT_EQ(sizeWith(Semantic::kNormal, 0.3f, 1), repeated + 4);
+  EXPECT_EQ(sizeWith(Semantic::kNormal, 0.5f, 1), repeated);
+  EXPECT_EQ(sizeWith(Semantic::kPosition, 1.0f / 16383, 1), repeated + 3);
+}
+
+/// A header has one form only: a number in more bytes than it needs is refused.
+TEST(Container, LatticesHaveTheLargestForm) {
+  struct Form {
+    std::vector<uint8_t> bytes;  ///< of a lattice of one bit, that is, a usual step of 1
+    Error error;
+  };
+  const uint8_t usual = 1 | 3 << 5;  // and 3 << 7 and so on for the origins
+  const Form forms[] = {
+      {{0x80 | usual, 0x7f}, Error::kBadHeader},  // one form too many
+      {{0x80 | usual, 0x3f}, Error::kOk},
+      {{0x80 | 1, 0x3f, 1, 0, 0x80, 0x3f}, Error::kOk},  // step of four bytes, of three, of two
+      {{0x80 | 1, 0x3f, 0, 1, 0x80, 0x3f}, Error::kBadHeader},
+      {{0x80 | 1 | 1 << 5, 0x3f, 1, 0x80, 0x3f}, Error::kOk},
+      {{0x80 | 1 | 1 << 5, 0x3f, 0, 0x81, 0x3f}, Error::kBadHeader},
+      {{0x80 | 1 | 2 << 5, 0x3f, 0x81, 0x3f}, Error::kOk},
+      {{0x80 | 1 | 2 << 5, 0x3f, 0x80, 0x3f}, Error::kBadHeader},  // 1 is usual
+      {{0x80 | 1 | 2 << 5, 0x3f, 0, 0}, Error::kBadHeader},        // a step of 0
+      {{usual, 0x3e, 0x80, 0x3f}, Error::kTruncated},              // three origins of four bytes
+      {{0x80 | usual, 0x3e, 0x80, 0x3f}, Error::kOk},              // an origin of two bytes
+      {{0x80 | usual, 0x3e, 0, 0}, Error::kBadHeader},             // 0 is usual
+      {{0x80 | usual, 0x3e, 0, 0x80}, Error::kOk},                 // -0 is not
+  };
+  Draft draft = simpleDraft();
+  draft.flags = payload_flag::kSingleCoder;
+  draft.pieces[0].attributes[0].lattice = {{0, 0, 0}, 1};
+  draft.pieces[0].attributes[0].bits = 1;
+  const std::vector<uint8_t> payload = draft.write();
+  const auto begin = payload.begin() + static_cast<std::ptrdiff_t>(kChecksummedFrom + 9);
+  ASSERT_EQ(*begin, 0x80 | usual);
+  for (const Form& form : forms) {
+    std::vector<uint8_t> changed(payload.begin(), begin);
+    changed.insert(changed.end(), form.bytes.begin(), form.bytes.end());
+    changed.insert(changed.end(), begin + 2, payload.end());
+    repairChecksum(changed);
+    EXPECT_EQ(parseError(changed), form.error) << "form " << &form - forms;
+  }
+}
+
+/// Floats with the usual number of components need no type, and may not state it.
+TEST(Container, UsualTypesAreNotStated) {
+  for (uint32_t semantic = 0; semantic < 8; ++semantic) {
+    const auto written = [&](uint8_t components, bool normalized) {
+      Draft draft = simpleDraft();
+      AttributeInfo a;
+      a.format.semantic = static_cast<Semantic>(semantic);
+      a.format.component_count = components;
+      a.format.normalized = normalized;
+      a.coding = AttributeCoding::kExactFloat;
+      draft.pieces[0].attributes.push_back(a);
+      return draft.write();
+    };
+    const uint8_t usual = kUsualComponents[semantic];
+    const size_t size = written(usual, false).size();
+    EXPECT_EQ(written(usual, true).size(), size + 1);
+    EXPECT_EQ(written(16, false).size(), size + 1);
+    std::vector<uint8_t> stated = written(usual, true);
+    const auto type = std::find(stated.begin() + kChecksummedFrom, stated.end(),
+                                static_cast<uint8_t>(0x80 | (usual - 1) << 3 | 5));
+    ASSERT_NE(type, stated.end());
+    *type &= 0x7f;
+    repairChecksum(stated);
+    EXPECT_EQ(parseError(stated), Error::kBadHeader);
+  }
+}
+
 TEST(Container, TangentsNeedNormalsOfTheBaseMesh) {
   const auto errorWithNormals = [](uint16_t morph_target) {
     return errorAfter([=](Draft& d) {
@@ -521,7 +639,7 @@ TEST(Container, EqualAttributesAreWrittenOnce) {
   draft.pieces.push_back(draft.pieces[0]);
   const size_t equal_bytes = draft.write().size();
   draft.pieces[1].attributes[0].bits = 15;
-  EXPECT_GT(draft.write().size(), equal_bytes + 10);
+  EXPECT_EQ(draft.write().size(), equal_bytes + 1 + 2 + 6);  // count, kind, predictor, lattice
 }
 
 TEST(Container, LimitsOfTheCaller) {
@@ -622,10 +740,10 @@ TEST(Container, WhatNeedsNoStatement) {
   const size_t kind = kChecksummedFrom + 1 + 1 + 4 + 1;  // after flags, counts, attribute count
   std::vector<uint8_t> more = payload;
   more[kind] |= 0x80;
-  more.insert(more.begin() + kind + 2, 2, 0);
+  more.insert(more.begin() + kind + 1, 2, 0);
   repairChecksum(more);
   EXPECT_EQ(parseError(more), Error::kBadHeader);
-  more[kind + 2] = 1;
+  more[kind + 1] = 1;
   repairChecksum(more);
   EXPECT_EQ(parseError(more), Error::kBadHeader) << "a position of set 1 is none of the base mesh";
 
