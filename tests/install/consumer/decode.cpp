@@ -2,7 +2,7 @@
 #include "mcc/reader.h"
 
 int main() {
-  const uint8_t bytes[3] = {'K', 'M', 'C'};
+  const uint8_t bytes[1] = {'K'};
   mcc::Payload payload;
   return payload.open(bytes).error == mcc::Error::kTruncated ? 0 : 1;
 }
