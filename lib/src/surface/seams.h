@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/lanes.h"
 #include "base/memory.h"
 #include "entropy/models.h"
 #include "entropy/numbers.h"
@@ -32,14 +33,6 @@ struct SeamModels {
   BitModel merge[2][4];  ///< [first run of its umbrella][candidates]
   GolombModel merge_with;
 };
-
-/// Returns the bit of a half-edge in its face's kSeamWord: whether a seam ends here.
-inline uint32_t seamEnd(const FaceView& faces, uint32_t h) {
-  return (faces.words[(h & ~7u) + kSeamWord] >> (h & 3)) & 1;
-}
-inline void setSeamEnd(const FaceView& faces, uint32_t h) {
-  faces.words[(h & ~7u) + kSeamWord] |= 1u << (h & 3);
-}
 
 /// What becomes of the seams, per wedge.
 struct SeamWedges {
@@ -59,8 +52,8 @@ class SeamCoder {
         face_count_(mesh.face_count),
         groups_(groups),
         corner_source_(corner_source),
-        fan_(mesh.allocator()),
-        wedge_of_source_(mesh.allocator()) {}
+        wedge_of_source_(mesh.allocator()),
+        fan_(mesh.allocator()) {}
 
   /// Codes the seams. `group_order` has a half-edge per group in coding order. More than
   /// `wedge_limit` wedges are an error.
@@ -78,12 +71,15 @@ class SeamCoder {
     uint32_t neighbours[2];  ///< wedges of the runs beside it, as far as they are known, or kNone
   };
 
-  Status codeUmbrella(uint32_t group, uint32_t start, const SeamWedges& wedges);
-  Status collectFan(uint32_t start);
+  Status codeUmbrella(uint32_t group, uint32_t start);
+  bool collectFan(uint32_t start);
+  bool walkFan(uint32_t start);
   bool codeHasSeam();
   void codeSeamEnds();
-  Status codeRuns(uint32_t group, const SeamWedges& wedges);
-  Status codeWedge(const Run& run, uint32_t group, const SeamWedges& wedges, uint32_t& wedge);
+  Status codeRuns(uint32_t group);
+  Status codeWedge(const Run& run, uint32_t group, uint32_t& wedge);
+  Status makeWedge(uint32_t first, uint32_t group, uint32_t& wedge);
+  Status finishCorners();
   uint32_t source(uint32_t h) const { return corner_source_[3 * size_t{faceOf(h)} + (h & 3)]; }
   /// Returns the wedge that a source wedge has become (encoder).
   uint32_t wedgeOf(uint32_t source) const {
@@ -102,12 +98,11 @@ class SeamCoder {
   }
   /// Returns whether the edge before fan face i (for i == 0, the edge after the last face) has a
   /// seam end here.
-  bool seamBefore(uint32_t i) const { return seamEnd(faces_, fan_[i]) != 0; }
-  /// Wraps an index of the fan; i must be below twice its length.
-  uint32_t around(uint32_t i) const {
-    const uint32_t n = static_cast<uint32_t>(fan_.size());
-    return i < n ? i : i - n;
+  bool seamBefore(uint32_t i) const {
+    return (seamStates(faces_, fan_[i]) & seam_state::kEnd) != 0;
   }
+  /// Wraps an index of the fan; i must be below twice its length.
+  uint32_t around(uint32_t i) const { return i < fan_count_ ? i : i - fan_count_; }
 
   Io& io_;
   SeamModels& models_;
@@ -116,96 +111,119 @@ class SeamCoder {
   const Groups& groups_;
   uint32_t wedge_limit_ = 0;
   const uint32_t* corner_source_;
-  Array<uint32_t> fan_;              ///< half-edges leaving the vertex, counterclockwise
-  Array<uint32_t> wedge_of_source_;  ///< encoder: kNone until it is coded
-  uint32_t group_begin_ = 0;         ///< first wedge of the group; the others follow it
+  uint32_t* starts_ = nullptr;          ///< see SeamWedges
+  uint32_t* group_of_wedge_ = nullptr;  ///< see SeamWedges
+  Array<uint32_t> wedge_of_source_;     ///< encoder: kNone until it is coded
+  uint32_t group_begin_ = 0;            ///< first wedge of the group; the others follow it
+  uint32_t wedge_count_ = 0;
+
+  // The umbrella at work.
+  static constexpr uint32_t kUsualFan = 64;
+  Array<uint32_t> fan_;  ///< half-edges leaving the vertex, counterclockwise, and room for more
+  uint32_t fan_count_ = 0;
   bool closed_ = false;
   uint32_t known_ends_ = 0;  ///< number of seam ends at the other ends of the fan's edges
-  uint32_t sharpest_ = 0;    ///< highest crease class of the fan's edges
-  uint32_t wedge_count_ = 0;
+  uint32_t states_ = 0;      ///< seam states of the fan's edges, combined by "or"
 };
 
 template <class Io>
 Status SeamCoder<Io>::run(uint32_t wedge_limit, const Array<uint32_t>& group_order,
                           const SeamWedges& wedges) {
   wedge_limit_ = wedge_limit;
-  if (!wedges.start.reserve(wedge_limit_) || !wedges.group.reserve(wedge_limit_)) {
+  if (!wedges.start.resize(wedge_limit_) || !wedges.group.resize(wedge_limit_) ||
+      !fan_.resize(kUsualFan)) {
     return fail(Error::kOutOfMemory, "no memory for wedges");
   }
+  starts_ = wedges.start.data();
+  group_of_wedge_ = wedges.group.data();
   for (size_t i = 0; i < group_order.size(); ++i) {
     const uint32_t entry = group_order[i];
     const uint32_t group = faces_.vertex(entry);
     group_begin_ = wedge_count_;
-    MCC_TRY(codeUmbrella(group, entry, wedges));
+    MCC_TRY(codeUmbrella(group, entry));
     if (groups_.hasCopies()) {
       for (const uint32_t start : groups_.umbrellasOf(group)) {
         if ((faces_.vertex(start) & kDone) != 0) continue;  // the umbrella of the entry is done
-        MCC_TRY(codeUmbrella(group, start, wedges));
+        MCC_TRY(codeUmbrella(group, start));
       }
     }
     if ((i & 0xff) == 0 && io_.overrun()) {
       return fail(Error::kTruncated, "the code stream ends inside the seams");
     }
   }
+  (void)wedges.start.resize(wedge_count_);  // they shrink
+  (void)wedges.group.resize(wedge_count_);
+  return finishCorners();
+}
+
+/// Takes the marks off the corners.
+template <class Io>
+Status SeamCoder<Io>::finishCorners() {
+  Lanes<uint32_t> all = {kDone, kDone, kDone, kDone};
   for (uint32_t f = 0; f < face_count_; ++f) {
-    for (uint32_t h = f * kFaceWords; h < f * kFaceWords + 3; ++h) {
-      if ((faces_.words[h] & kDone) == 0) {
-        return fail(Error::kBadConnectivity, "a corner belongs to no umbrella");
-      }
-      faces_.words[h] &= ~kDone;
-    }
+    uint32_t* const corners = faces_.words + size_t{f} * kFaceWords;
+    const Lanes<uint32_t> words = loadLanes<uint32_t>(corners);
+    all &= words;
+    storeLanes(words & Lanes<uint32_t>{~kDone, ~kDone, ~kDone, ~0u}, corners);
   }
-  return {};
+  if ((all[0] & all[1] & all[2] & kDone) != 0) return {};
+  return fail(Error::kBadConnectivity, "a corner belongs to no umbrella");
 }
 
 /// Collects the faces of the umbrella, from its clockwise boundary, or once around from `start`,
-/// and notes the contexts on the way. [A.7.1]
+/// and notes the contexts on the way. False without memory. [A.7.1]
 template <class Io>
-Status SeamCoder<Io>::collectFan(uint32_t start) {
-  fan_.clear();
-  known_ends_ = 0;
-  sharpest_ = 0;
-  const auto add = [this](uint32_t h) {
-    const uint32_t t = faces_.twin(h);
-    if (t != kNone) {
-      known_ends_ += seamEnd(faces_, t);
-      sharpest_ = std::max(sharpest_, creaseClass(faces_, h));
-    }
-    return fan_.push_back(h);
-  };
+bool SeamCoder<Io>::collectFan(uint32_t start) {
+  if (!walkFan(start)) return false;
+  if (closed_ || faces_.twin(start) == kNone) return true;
+  uint32_t first = start;
+  for (uint32_t h = start; h != kNone; h = faces_.rotateCw(h)) first = h;
+  return walkFan(first);
+}
+
+/// Does so counterclockwise from `start`. An edge between two faces has its states in both of them;
+/// they are looked up in the face at hand, at the half-edge that begins at the edge's other end.
+template <class Io>
+bool SeamCoder<Io>::walkFan(uint32_t start) {
+  const FaceView faces = faces_;
+  uint32_t count = 0;
+  uint32_t ends = 0;
+  uint32_t states = 0;
   uint32_t h = start;
   do {
-    if (!add(h)) return fail(Error::kOutOfMemory, "no memory for wedges");
-    h = faces_.rotateCcw(h);
-  } while (h != kNone && h != start);
+    if (count == fan_.size() && !fan_.resize(2 * size_t{count})) [[unlikely]]
+      return false;
+    fan_[count++] = h;
+    const uint32_t edge = prevHalfEdge(h);
+    h = faces.twin(edge);
+    if (h == kNone) break;
+    const uint32_t of_edge = seamStates(faces, edge);
+    states |= of_edge;
+    ends += of_edge & seam_state::kEnd;
+  } while (h != start);
+  fan_count_ = count;
   closed_ = h == start;
-  if (closed_) return {};
-  const size_t behind = fan_.size();
-  for (h = faces_.rotateCw(start); h != kNone; h = faces_.rotateCw(h)) {
-    if (!add(h)) return fail(Error::kOutOfMemory, "no memory for wedges");
-  }
-  // The faces met clockwise, in reverse, come before the others.
-  std::reverse(fan_.data(), fan_.data() + fan_.size());
-  std::reverse(fan_.data() + fan_.size() - behind, fan_.data() + fan_.size());
-  return {};
+  known_ends_ = ends / seam_state::kEnd;
+  states_ = states;
+  return true;
 }
 
 template <class Io>
 bool SeamCoder<Io>::codeHasSeam() {
-  const uint32_t n = static_cast<uint32_t>(fan_.size());
-  if (n < 2) return false;  // a closed umbrella needs two seam ends, an open one needs one
+  if (fan_count_ < 2) return false;  // a closed umbrella needs two seam ends, an open one needs one
   bool any = false;
   if constexpr (Io::kEncoding) {
-    for (uint32_t i = 1; i < n; ++i) any |= source(fan_[i]) != source(fan_[0]);
+    for (uint32_t i = 1; i < fan_count_; ++i) any |= source(fan_[i]) != source(fan_[0]);
   }
-  return io_.bit(models_.has_seam[std::min(known_ends_, 3u)][closed_ ? 0 : 1][sharpest_], any);
+  return io_.bit(models_.has_seam[std::min(known_ends_, 3u)][closed_ ? 0 : 1][creaseOf(states_)],
+                 any);
 }
 
 /// Codes bits for the edges 1 .. n-1 between the fan faces i-1 and i, then for the closing edge 0.
 /// [A.7.2]
 template <class Io>
 void SeamCoder<Io>::codeSeamEnds() {
-  const uint32_t n = static_cast<uint32_t>(fan_.size());
+  const uint32_t n = fan_count_;
   const uint32_t edges = closed_ ? n : n - 1;
   const uint32_t boundary = closed_ ? 0 : 1;
   const uint32_t needed = closed_ ? 2 : 1;
@@ -215,35 +233,40 @@ void SeamCoder<Io>::codeSeamEnds() {
     bool seam = ends + (edges - k + 1) == needed;  // implied when every remaining edge is needed
     if (!seam) {
       const uint32_t t = faces_.twin(fan_[i]);
-      const uint32_t other = (faces_.vertex(t) & kDone) == 0 ? 0 : 1 + seamEnd(faces_, t);
+      const uint32_t states = seamStates(faces_, t);
+      const uint32_t seam_there = (states & seam_state::kEnd) != 0 ? 2 : 1;
+      const uint32_t other = (faces_.vertex(t) & kDone) == 0 ? 0 : seam_there;
       bool truth = false;
       if constexpr (Io::kEncoding) truth = source(fan_[i]) != source(fan_[i == 0 ? n - 1 : i - 1]);
-      const uint32_t crease = creaseClass(faces_, fan_[i]);
-      seam = io_.bit(models_.edge[other][std::min(ends, 2u)][boundary][crease], truth);
+      seam = io_.bit(models_.edge[other][std::min(ends, 2u)][boundary][creaseOf(states)], truth);
     }
     if (!seam) continue;
     ++ends;
-    setSeamEnd(faces_, fan_[i]);
+    faces_.words[fan_[i] | kSeamWord] |= seam_state::kEnd << (8 * (fan_[i] & 3));
   }
 }
 
 template <class Io>
-Status SeamCoder<Io>::codeUmbrella(uint32_t group, uint32_t start, const SeamWedges& wedges) {
-  MCC_TRY(collectFan(start));
+MCC_INLINE Status SeamCoder<Io>::codeUmbrella(uint32_t group, uint32_t start) {
+  if (!collectFan(start)) return fail(Error::kOutOfMemory, "no memory for wedges");
   if (codeHasSeam()) {
     codeSeamEnds();
-    return codeRuns(group, wedges);
+    return codeRuns(group);
   }
   uint32_t wedge = kNone;
-  MCC_TRY(codeWedge({fan_[0], true, {kNone, kNone}}, group, wedges, wedge));
-  for (size_t i = 0; i < fan_.size(); ++i) faces_.words[fan_[i]] = wedge | kDone;
+  if (wedge_count_ == group_begin_) {  // there are no other wedges to merge with
+    MCC_TRY(makeWedge(fan_[0], group, wedge));
+  } else {
+    MCC_TRY(codeWedge({fan_[0], true, {kNone, kNone}}, group, wedge));
+  }
+  for (uint32_t i = 0; i < fan_count_; ++i) faces_.words[fan_[i]] = wedge | kDone;
   return {};
 }
 
 /// Codes the runs. A run starts after a seam end; the first may reach back over the closing edge.
 template <class Io>
-Status SeamCoder<Io>::codeRuns(uint32_t group, const SeamWedges& wedges) {
-  const uint32_t n = static_cast<uint32_t>(fan_.size());
+Status SeamCoder<Io>::codeRuns(uint32_t group) {
+  const uint32_t n = fan_count_;
   uint32_t first = 0;
   while (closed_ && first < n && !seamBefore(first)) ++first;
   if (first == n) first = 0;
@@ -256,7 +279,7 @@ Status SeamCoder<Io>::codeRuns(uint32_t group, const SeamWedges& wedges) {
     uint32_t wedge = kNone;
     const uint32_t next = last && closed_ ? first_wedge : kNone;
     const Run run{fan_[around(first + i)], i == 0, {previous, next}};
-    MCC_TRY(codeWedge(run, group, wedges, wedge));
+    MCC_TRY(codeWedge(run, group, wedge));
     for (uint32_t k = 0; k < length; ++k) {
       faces_.words[fan_[around(first + i + k)]] = wedge | kDone;
     }
@@ -270,8 +293,7 @@ Status SeamCoder<Io>::codeRuns(uint32_t group, const SeamWedges& wedges) {
 /// Codes a run as a new wedge, or as one of the group's wedges again. The rank of the latter counts
 /// back from the latest wedge, skipping those of the neighbouring runs. [A.7.3]
 template <class Io>
-Status SeamCoder<Io>::codeWedge(const Run& run, uint32_t group, const SeamWedges& wedges,
-                                uint32_t& wedge) {
+Status SeamCoder<Io>::codeWedge(const Run& run, uint32_t group, uint32_t& wedge) {
   const uint32_t latest = wedge_count_ - 1;
   uint32_t excluded_a = run.neighbours[0];
   uint32_t excluded_b = run.neighbours[1];
@@ -305,13 +327,21 @@ Status SeamCoder<Io>::codeWedge(const Run& run, uint32_t group, const SeamWedges
     if (excluded_b != kNone && wedge <= excluded_b) --wedge;
     return {};
   }
+  return makeWedge(run.first, group, wedge);
+}
+
+template <class Io>
+MCC_INLINE Status SeamCoder<Io>::makeWedge(uint32_t first, uint32_t group, uint32_t& wedge) {
   if (wedge_count_ == wedge_limit_) {
     return fail(Error::kBadAttribute, "the seams make more wedges than the header claims");
   }
   wedge = wedge_count_++;
-  bool ok = wedges.start.push_back(run.first) && wedges.group.push_back(group);
-  if constexpr (Io::kEncoding) ok = ok && noteSource(source(run.first), wedge);
-  return ok ? Status{} : fail(Error::kOutOfMemory, "no memory for wedges");
+  starts_[wedge] = first;
+  group_of_wedge_[wedge] = group;
+  if constexpr (Io::kEncoding) {
+    if (!noteSource(source(first), wedge)) return fail(Error::kOutOfMemory, "no memory for wedges");
+  }
+  return {};
 }
 
 }  // namespace mcc
