@@ -88,6 +88,21 @@ void storeNormals(int32_t centre, bool has_sign, uint32_t wedge_count,
   }
 }
 
+/// Stores lattice values. They have kComponents, which 0 leaves open.
+template <uint32_t kComponents, class Load>
+void storeLattice(const AttributeInfo& info, uint32_t wedge_count, const AttributeTarget& target,
+                  Load load) {
+  const uint32_t components = kComponents != 0 ? kComponents : info.format.component_count;
+  const Lattice lattice = info.lattice;
+  uint8_t* to = static_cast<uint8_t*>(target.data);
+  for (uint32_t w = 0; w < wedge_count; ++w, to += target.stride_bytes) {
+    const int32_t* q = load(w);
+    for (uint32_t c = 0; c < components; ++c) {
+      storeFloat(to + 4 * c, latticeValue(q[c], lattice.step, lattice.origin[c]));
+    }
+  }
+}
+
 /// Copies coded integers to the caller's elements; `load(i)` points to the integers of element i.
 ///                                                                                        [A.8.11]
 template <class Load>
@@ -99,16 +114,10 @@ void storeElements(const AttributeInfo& info, uint32_t wedge_count, const Attrib
   uint8_t* to = static_cast<uint8_t*>(target.data);
   const size_t stride = target.stride_bytes;
   switch (info.coding) {
-    case AttributeCoding::kLattice: {
-      const Lattice lattice = info.lattice;
-      for (uint32_t w = 0; w < wedge_count; ++w, to += stride) {
-        const int32_t* q = load(w);
-        for (uint32_t c = 0; c < components; ++c) {
-          storeFloat(to + 4 * c, latticeValue(q[c], lattice.step, lattice.origin[c]));
-        }
-      }
-      return;
-    }
+    case AttributeCoding::kLattice:
+      if (!kCompact && components == 3) return storeLattice<3>(info, wedge_count, target, load);
+      if (!kCompact && components == 2) return storeLattice<2>(info, wedge_count, target, load);
+      return storeLattice<0>(info, wedge_count, target, load);
     case AttributeCoding::kOctahedral:
       storeNormals(octahedralCentre(info.bits), components == 4, wedge_count, target, load);
       return;

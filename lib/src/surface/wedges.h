@@ -33,10 +33,18 @@ class WedgeMesh {
   /// per wedge, is fetched before it is visited.
   template <class T, class Visit>
   MCC_INLINE void forCoded(uint32_t end, const T* data, size_t stride, Visit visit) const {
+    const uint32_t* const order = order_.empty() ? nullptr : order_.data();
+    const auto wedgeAt = [order](uint32_t i) { return order == nullptr ? i : order[i]; };
+    const uint32_t* const completed = completed_.data();
     for (uint32_t i = 0; i < end; ++i) {
-      const uint32_t wedge = i < surface_count ? wedgeAt(i) : i;
-      prefetch(i, data, stride);
-      visit(wedge);
+      if (i + 2 * kPrefetch < surface_count) {
+        const uint32_t far = wedgeAt(i + 2 * kPrefetch);
+        MCC_PREFETCH(&completed[far]);
+        MCC_PREFETCH(data + stride * far);
+        const uint32_t entry = completed[wedgeAt(i + kPrefetch)];
+        if (entry != kNone) MCC_PREFETCH(&faces.words[entry]);
+      }
+      visit(wedgeAt(i));
     }
   }
   /// The half-edges that leave `wedge` in the faces it completes, those in which all other corners
@@ -67,18 +75,7 @@ class WedgeMesh {
   static constexpr uint32_t kPrefetch = 4;  ///< places ahead
 
   // Places in coding order do not leave this class: outside, a wedge has its number only.
-  uint32_t wedgeAt(uint32_t i) const { return order_.empty() ? i : order_[i]; }
   uint32_t rankOf(uint32_t wedge) const { return rank_.empty() ? wedge : rank_[wedge]; }
-  /// Prefetches what coding the wedges a few places after i will look at.
-  template <class T>
-  MCC_INLINE void prefetch(uint32_t i, const T* data, size_t stride) const {
-    if (i + 2 * kPrefetch >= surface_count) return;
-    const uint32_t far = wedgeAt(i + 2 * kPrefetch);
-    MCC_PREFETCH(&completed_[far]);
-    MCC_PREFETCH(data + stride * far);
-    const uint32_t entry = completed_[wedgeAt(i + kPrefetch)];
-    if (entry != kNone) MCC_PREFETCH(&faces.words[entry]);
-  }
 
   Array<uint32_t> order_;  ///< empty if wedges are numbered in coding order
   Array<uint32_t> rank_;
@@ -99,22 +96,21 @@ inline Status WedgeMesh::build(FaceMesh& mesh, const uint32_t* starts, uint32_t 
   rank_.clear();
   if (!completed_.assign(wedge_count, kNone) ||
       (group_of_wedge == nullptr &&
-       (!order_.resize(surface_wedges) || !rank_.resize(surface_wedges)))) {
+       (!order_.resize(wedge_count) || !rank_.resize(surface_wedges)))) {
     return fail(Error::kOutOfMemory, "no memory for attributes");
   }
   for (uint32_t i = 0; group_of_wedge == nullptr && i < surface_wedges; ++i) {
     order_[i] = faces.vertex(starts[i]);
     rank_[order_[i]] = i;
   }
+  for (uint32_t i = surface_wedges; i < order_.size(); ++i) order_[i] = i;
   for (uint32_t f = face_count; f-- != 0;) {  // backwards, so that the lists ascend
     // No branches, because which corner is the last one is close to random.
     const uint32_t* corner = faces.words + f * kFaceWords;
-    const uint32_t rank0 = rankOf(corner[0]);
-    const uint32_t rank1 = rankOf(corner[1]);
-    const uint32_t rank2 = rankOf(corner[2]);
-    const uint32_t one = rank1 > rank0 ? 1 : 0;
-    const uint32_t two = rank2 > std::max(rank0, rank1) ? 1 : 0;
-    const uint32_t last = f * kFaceWords + ((one & ~two) | two << 1);
+    uint32_t latest = 4 * rankOf(corner[0]) + 3;  // and, below the rank, 3 - corner
+    latest = std::max(latest, 4 * rankOf(corner[1]) + 2);
+    latest = std::max(latest, 4 * rankOf(corner[2]) + 1);
+    const uint32_t last = f * kFaceWords + 3 - (latest & 3);
     uint32_t& first = completed_[faces.vertex(last)];
     faces.words[f * kFaceWords + kFaceWord] = first;
     first = last;
@@ -188,30 +184,35 @@ inline float squaredDistance(const float* positions, uint32_t a, uint32_t b) {
 /// Products of a few of their differences therefore neither overflow nor become denormal. [B.4.6]
 inline constexpr uint32_t kPredictionBits = 22;
 
-/// Converts wedge positions to float32 integers, 4 per wedge. `position(w)` returns coordinates
-/// (int32[3]) of any range.
+/// Converts wedge positions to float32 integers, 4 per wedge. `position(w)` returns coordinates of
+/// any range and one more integer (int32[4]).
 template <class Position>
 Status latticePredictionPositions(uint32_t count, Position position, Array<float>& out) {
   if (!out.resize(4 * size_t{count})) return fail(Error::kOutOfMemory, "no memory for attributes");
   if (count == 0) return {};
-  const int32_t* centre = position(0);
-  uint64_t reach = 0;
+  const Lanes<int32_t> centre = loadLanes<int32_t>(position(0));
+  Lanes<int32_t> lowest = centre;
+  Lanes<int32_t> highest = centre;
   for (uint32_t w = 0; w < count; ++w) {
-    const int32_t* q = position(w);
-    for (int s = 0; s < 3; ++s) {
-      const int64_t d = int64_t{q[s]} - centre[s];
-      reach |= static_cast<uint64_t>(d < 0 ? -d : d);
-    }
+    const Lanes<int32_t> q = loadLanes<int32_t>(position(w));
+    lowest = chooseLanes<int32_t>(q < lowest, q, lowest);
+    highest = chooseLanes<int32_t>(q > highest, q, highest);
   }
-  const uint32_t length = static_cast<uint32_t>(std::bit_width(reach));
-  const uint32_t shift = length > kPredictionBits ? length - kPredictionBits : 0;
+  int64_t reach = 0;
+  for (int s = 0; s < 3; ++s) {
+    reach = std::max({reach, int64_t{highest[s]} - centre[s], int64_t{centre[s]} - lowest[s]});
+  }
+  const uint32_t length = static_cast<uint32_t>(std::bit_width(static_cast<uint64_t>(reach)));
+  const int32_t shift =
+      length > kPredictionBits ? static_cast<int32_t>(length - kPredictionBits) : 0;
   for (uint32_t w = 0; w < count; ++w) {
-    const int32_t* q = position(w);
-    float* p = &out[4 * size_t{w}];
-    for (int s = 0; s < 3; ++s) {
-      p[s] = static_cast<float>(static_cast<int32_t>((int64_t{q[s]} - centre[s]) >> shift));
-    }
-    p[3] = 0;
+    // The differences have 33 bits, so negative ones are shifted as their complements.
+    const Lanes<int32_t> q = loadLanes<int32_t>(position(w));
+    const Lanes<uint32_t> negative = lanesAs<uint32_t>(q < centre);
+    const Lanes<uint32_t> difference = lanesAs<uint32_t>(q) - lanesAs<uint32_t>(centre);
+    const Lanes<uint32_t> shifted = ((difference ^ negative) >> shift) ^ negative;
+    storeFloat4(&out[4 * size_t{w}],
+                convertLanes<float>(lanesAs<int32_t>(shifted & Lanes<uint32_t>{~0u, ~0u, ~0u, 0})));
   }
   return {};
 }
