@@ -223,7 +223,8 @@ typename TexcoordCoder<Io>::Prediction TexcoordCoder<Io>::predictByHinge(uint32_
 
 /// Adds what the faces predict to the value of the first one's n.
 template <class Io>
-void TexcoordCoder<Io>::predictFrom(uint32_t w, const Faces& faces, int32_t* predicted) const {
+MCC_SHARED void TexcoordCoder<Io>::predictFrom(uint32_t w, const Faces& faces,
+                                               int32_t* predicted) const {
   const Prediction prediction = is_hinge_ ? predictByHinge(w, faces) : predictByDiagonal(faces);
   for (int c = 0; c < 2; ++c) {
     const float delta = prediction.u[c];
@@ -290,7 +291,8 @@ uint32_t TexcoordCoder<Io>::codedNeighbour(uint32_t w) const {
 }
 
 template <class Io>
-void TexcoordCoder<Io>::codePair(uint32_t w, const int32_t* predicted, uint32_t context) {
+MCC_SHARED void TexcoordCoder<Io>::codePair(uint32_t w, const int32_t* predicted,
+                                            uint32_t context) {
   int32_t* value = job_.values + 2 * size_t{w};
   int32_t residual[2] = {};
   if constexpr (Io::kEncoding) {

@@ -106,16 +106,19 @@ class OctahedralFrame {
  public:
   /// `inside`: the predicted point or, if that is `turned_over`, its image in the diamond.
   OctahedralFrame(const int32_t* inside, bool turned_over, int32_t centre)
-      : centre_(centre), turned_over_(turned_over), p_{inside[0], inside[1]} {
-    // Quarter turns that bring p to x < 0, y <= 0.
-    const int32_t x = p_[0];
-    const int32_t y = p_[1];
+      : centre_(centre), turned_over_(turned_over) {
+    // Quarter turns that bring the point to x < 0, y <= 0: signs are flipped, then both swapped.
+    const int32_t x = inside[0];
+    const int32_t y = inside[1];
     const int32_t one = (y > 0) & (x <= 0);
     const int32_t two = (x > 0) & (y >= 0);
     const int32_t three = (y < 0) & (x >= 0);
-    cosine_ = 1 - one - 2 * two - three;
-    sine_ = one - three;
-    turn(p_, sine_);
+    flip_[0] = -(two | three);
+    flip_[1] = -(one | two);
+    swap_ = -(one | three);
+    p_[0] = -std::abs(x);
+    p_[1] = -std::abs(y);
+    swapIfOdd(p_);
   }
 
   static OctahedralFrame around(const int32_t* predicted, int32_t centre) {
@@ -129,35 +132,42 @@ class OctahedralFrame {
   static void turnOver(int32_t* p, int32_t centre) {
     const int32_t x = p[0];
     const int32_t y = p[1];
-    const bool x_negative = (x < 0) | ((x == 0) & (y < 0));
-    const bool y_negative = (y < 0) | ((y == 0) & (x < 0));
-    const int32_t to_x = centre - std::abs(y);
-    const int32_t to_y = centre - std::abs(x);
-    p[0] = x_negative ? -to_x : to_x;
-    p[1] = y_negative ? -to_y : to_y;
+    const int32_t x_negative = -((x < 0) | ((x == 0) & (y < 0)));
+    const int32_t y_negative = -((y < 0) | ((y == 0) & (x < 0)));
+    p[0] = ((centre - std::abs(y)) ^ x_negative) - x_negative;
+    p[1] = ((centre - std::abs(x)) ^ y_negative) - y_negative;
   }
 
   void residualOf(const int32_t* point, int32_t* residual) const {
     int32_t p[2] = {point[0], point[1]};
     turnOverIf(turned_over_, p);
-    turn(p, sine_);
-    for (int k = 0; k < 2; ++k) residual[k] = wrap(p[k] - p_[k]);
+    flip(p);
+    swapIfOdd(p);
+    for (int k = 0; k < 2; ++k) {
+      const int32_t distance = p[k] - p_[k];
+      residual[k] = distance - (distance > centre_ ? size() : 0);
+    }
   }
 
   /// `residual` may be anything; the point is on the grid.
   void pointOf(const int32_t* residual, int32_t* point) const {
     for (int k = 0; k < 2; ++k) {
-      point[k] = wrap(p_[k] + std::clamp(residual[k], -centre_, centre_));
+      const int32_t sum = p_[k] + std::clamp(residual[k], -centre_, centre_);
+      point[k] = sum + (sum < -centre_ ? size() : 0);
     }
-    turn(point, -sine_);
+    swapIfOdd(point);
+    flip(point);
     turnOverIf(turned_over_, point);
   }
 
  private:
-  void turn(int32_t* p, int32_t sine) const {
-    const int32_t x = p[0];
-    p[0] = cosine_ * x - sine * p[1];
-    p[1] = sine * x + cosine_ * p[1];
+  void flip(int32_t* p) const {
+    for (int k = 0; k < 2; ++k) p[k] = (p[k] ^ flip_[k]) - flip_[k];
+  }
+  void swapIfOdd(int32_t* p) const {
+    const int32_t change = (p[0] ^ p[1]) & swap_;
+    p[0] ^= change;
+    p[1] ^= change;
   }
   void turnOverIf(bool condition, int32_t* p) const {
     int32_t q[2] = {p[0], p[1]};
@@ -165,16 +175,13 @@ class OctahedralFrame {
     p[0] = condition ? q[0] : p[0];
     p[1] = condition ? q[1] : p[1];
   }
-  int32_t wrap(int32_t value) const {
-    const int32_t size = 2 * centre_ + 1;
-    return value - (value > centre_ ? size : 0) + (value < -centre_ ? size : 0);
-  }
+  int32_t size() const { return 2 * centre_ + 1; }
 
   const int32_t centre_;
   const bool turned_over_;
-  int32_t p_[2];
-  int32_t cosine_ = 1;
-  int32_t sine_ = 0;
+  int32_t p_[2];     ///< the predicted point turned: -centre_ .. 0, so that sums wrap on one side
+  int32_t flip_[2];  ///< all ones: the sign of the coordinate changes
+  int32_t swap_;     ///< all ones: the coordinates are swapped, at odd numbers of quarter turns
 };
 
 /// One of the up to four grid points that stand for the same direction on the border. Writers store
