@@ -54,7 +54,7 @@ class Check : public testing::Test {
     return verdict(json, bin);
   }
 
-  std::string verdict(const Json& json, const std::vector<uint8_t>& bin) const {
+  std::string verdict(const Json& json, const std::vector<uint8_t>& bin) {
     std::vector<uint8_t> written;
     EXPECT_TRUE(writeGlb(printJson(json), bin, {}, written).ok());
     CheckResult result;
@@ -140,6 +140,50 @@ TEST_F(Check, NoticesLostJson) {
   json = compressed_.json;
   json.erase("scenes");
   EXPECT_NE(verdict(json, compressed_.bin), "");
+}
+
+/// Changes the decoded values that the check may take instead of decoding again.
+void spoil(EncodedPayload& payload) {
+  ASSERT_EQ(payload.decoded.size(), 1u);
+  payload.decoded[0].attributes[0][3] ^= 0x40;
+}
+
+TEST_F(Check, DecodesNoPayloadThatWasDecodedBefore) {
+  spoil(compressed_.payloads[0]);
+  const std::string message = verdict(compressed_.json, compressed_.bin);
+  EXPECT_NE(message.find("/accessors/0/m"), std::string::npos) << message;
+  EXPECT_TRUE(compressed_.payloads[0].decoded.empty());
+  EXPECT_EQ(verdict(compressed_.json, compressed_.bin), "");
+}
+
+TEST_F(Check, DecodesEveryPayloadThatIsNotStoredAsItWasEncoded) {
+  const Compressed compressed = compressed_;
+  const size_t size = compressed.payloads[0].result.payload.size();
+  for (size_t i = 0; i < size; ++i) {
+    compressed_.payloads = compressed.payloads;
+    spoil(compressed_.payloads[0]);
+    compressed_.payloads[0].result.payload[i] ^= 1;
+    EXPECT_EQ(verdict(compressed.json, compressed.bin), "") << i;
+  }
+  for (const size_t other : {size - 1, size + 1, size_t{0}}) {
+    compressed_.payloads = compressed.payloads;
+    spoil(compressed_.payloads[0]);
+    compressed_.payloads[0].result.payload.resize(other);
+    EXPECT_EQ(verdict(compressed.json, compressed.bin), "") << other;
+  }
+}
+
+TEST(DecodedPayloads, GivesEachPayloadOnceAlsoThoseOfTheSameBytes) {
+  const std::vector<uint8_t> bytes = {1, 2, 0, 3};
+  const std::vector<uint8_t> same = bytes;
+  DecodedPayloads payloads;
+  payloads.add(bytes, std::vector<DecodedPiece>(2));
+  payloads.add(same, std::vector<DecodedPiece>(2));
+  EXPECT_EQ(payloads.take(std::vector<uint8_t>{1, 2, 0, 4}).size(), 0u);
+  EXPECT_EQ(payloads.take(std::vector<uint8_t>{1, 2}).size(), 0u);
+  EXPECT_EQ(payloads.take(bytes).size(), 2u);
+  EXPECT_EQ(payloads.take(bytes).size(), 2u);
+  EXPECT_EQ(payloads.take(bytes).size(), 0u);
 }
 
 TEST(CanonicalTriangles, RotationsAreEqualReflectionsAreNot) {

@@ -150,7 +150,7 @@ void addLeftOut(const Geometry& geometry, FileFigures& figures) {
   figures.has_left_out = geometry.has_left_out;
   fullStreams(geometry, figures.full_streams);
   for (const gltf::EncodedPayload& payload : geometry.payloads) {
-    figures.full_bytes += payload.payload_bytes;
+    figures.full_bytes += payload.result.payload.size();
     const std::vector<double>& bits = payload.result.sizes.attribute_bits;
     size_t next = 0;
     for (const gltf::PiecePlan& piece : payload.plan.pieces) {

@@ -65,7 +65,7 @@ gltf::Result BenchCommand::measure(size_t number, const ProgressLine& line,
   if (!sizes.empty()) {
     figures.name = name;
     for (const gltf::EncodedPayload& payload : geometry.payloads) {
-      figures.full_bytes += payload.payload_bytes;
+      figures.full_bytes += payload.result.payload.size();
     }
     bench::fullStreams(geometry, figures.full_streams);
     return {};

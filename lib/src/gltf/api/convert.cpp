@@ -234,30 +234,30 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
       report.notes.push_back("nothing becomes smaller; the output is a copy of the input");
     }
   }
-  report.encode_seconds = watch.seconds();
+  report.encode_seconds = watch.seconds() - compressed.decode_seconds;
   report.output_bytes = report.copied ? document.source_bytes : package.documentBytes();
   return {};
 }
 
 /// Checks the stored output and completes the report.
-Result checkOutput(const Conversion& conversion, const ConvertOptions& options,
+Result checkOutput(Conversion& conversion, const ConvertOptions& options,
                    std::span<const uint8_t> stored, const FileReader& read_file,
                    ConvertReport& report) {
   if (!report.copied) {
     const Stopwatch watch;
     tell(options, "checking");
     CheckResult checked;
-    const std::vector<EncodedPayload>& payloads = conversion.compressed.payloads;
+    std::vector<EncodedPayload>& payloads = conversion.compressed.payloads;
     MCC_GLTF_TRY(checkConversion(conversion.document, payloads, options.decoders, stored, read_file,
                                  options.thread_count, checked));
-    report.decode_seconds = checked.decode_seconds;
+    report.decode_seconds = conversion.compressed.decode_seconds;
     if (checked.decoded_bytes > decodedLimit(0, report.output_bytes)) {
       report.notes.push_back(
           "its geometry decodes to " + std::to_string(checked.decoded_bytes) +
           " bytes, more than decoders accept by default for a file this small; they need a larger "
           "max_decoded_bytes (--max-decoded-bytes)");
     }
-    report.check_seconds = watch.seconds() - checked.decode_seconds;
+    report.check_seconds = watch.seconds();
     addPayloads(payloads, std::move(checked), report);
   }
   report.checked = true;

@@ -17,7 +17,7 @@ void addStreams(const StreamSizes& sizes, PayloadReport& report) {
 
 void addCounts(const EncodedPayload& payload, PayloadReport& report) {
   report.mesh = payload.plan.mesh;
-  report.payload_bytes = payload.payload_bytes;
+  report.payload_bytes = payload.result.payload.size();
   report.freed_bytes = payload.freed_bytes;
   report.piece_count = static_cast<uint32_t>(payload.plan.pieces.size());
   for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {

@@ -1,8 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Proves a conversion: the bytes that were written are decoded and compared with the source. The
-// check takes nothing from the encoder except its claim which decoded vertex is which source
-// vertex, and it verifies that claim.
+// Proves a conversion: the bytes that were written are decoded and compared with the source. What
+// the reader has already decoded from the same bytes is not decoded again. The check takes nothing
+// from the encoder except its claim which decoded vertex is which source vertex, and it verifies
+// that claim.
 #ifndef MCC_GLTF_CHECK_CHECK_H_
 #define MCC_GLTF_CHECK_CHECK_H_
 
@@ -21,7 +22,6 @@ struct CheckResult {
   /// Per payload: the row of each attribute of each piece, in the order of the plan.
   std::vector<std::vector<size_t>> rows;
   uint64_t decoded_bytes = 0;  ///< sum over all payloads
-  double decode_seconds = 0;
 };
 
 /// Checks that `written` holds the document `source`:
@@ -29,11 +29,13 @@ struct CheckResult {
 ///   of triangles, up to rotation;
 /// - every attribute value is within the promised distance of its source; exact ones are bit-equal;
 /// - accessors, images and JSON that are not compressed geometry are equal.
+/// payloads      what was encoded. Takes their decoded pieces: a payload whose bytes in `written` are
+///               those that were encoded is not decoded again.
 /// decoders      decodes attributes next to payloads that another codec holds, before and after.
 /// read_file     fetches the files next to the written one; null: there are none.
 /// thread_count  the number of payloads decoded at the same time.
 /// Errors name the first difference.
-Result checkConversion(const Document& source, const std::vector<EncodedPayload>& payloads,
+Result checkConversion(const Document& source, std::vector<EncodedPayload>& payloads,
                        const ForeignDecoders& decoders, std::span<const uint8_t> written,
                        const FileReader& read_file, uint32_t thread_count, CheckResult& result);
 

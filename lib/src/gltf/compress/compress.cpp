@@ -2,11 +2,13 @@
 #include "gltf/compress/compress.h"
 
 #include <algorithm>
+#include <chrono>
 #include <set>
 
 #include "gltf/compress/indices_only.h"
 #include "gltf/compress/quantize.h"
 #include "gltf/compress/unused.h"
+#include "gltf/document/bounds.h"
 #include "gltf/document/rebuild.h"
 
 namespace mcc::gltf {
@@ -41,10 +43,10 @@ class Applier {
   std::vector<NewView> run() {
     compressed_.json = document_.json;
     std::vector<NewView> views;
-    for (EncodedPayload& payload : compressed_.payloads) {
+    for (const EncodedPayload& payload : compressed_.payloads) {
       const uint64_t view = document_.views.size() + views.size();
       NewView new_view;
-      new_view.bytes = std::move(payload.result.payload);
+      new_view.bytes = payload.result.payload;  // the check compares it with what was written
       views.push_back(std::move(new_view));
       for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
         applyPiece(payload, i, view);
@@ -65,6 +67,7 @@ class Applier {
  private:
   void applyPiece(const EncodedPayload& payload, size_t number, uint64_t view) {
     const PiecePlan& piece = payload.plan.pieces[number];
+    const DecodedPiece& decoded = payload.decoded[number];
     const std::string where = piece.parts[0].users[0].path();
     std::vector<uint32_t> accessors;
     for (size_t k = 0; k < piece.attributes.size(); ++k) {
@@ -73,13 +76,13 @@ class Applier {
       Json& accessor = compressed_.json["accessors"][index];
       const bool is_position = attribute.name == "POSITION";
       accessor["count"] = piece.wedge_count;
-      setBounds(payload.bounds[number].attributes[k], attribute.format.component_type, is_position,
-                accessor);
+      const AttributeFormat& format = attribute.format;
+      setBounds(boundsOf(decoded.attributes[k], format.component_type, format.component_count),
+                format.component_type, is_position, accessor);
       accessors.push_back(index);
     }
     for (size_t k = 0; k < piece.parts.size(); ++k) {
-      const uint32_t indices =
-          takeIndices(piece.parts[k], payload.bounds[number].parts[k], piece.wedge_count);
+      const uint32_t indices = takeIndices(piece.parts[k], decoded.parts[k], piece.wedge_count);
       for (const PrimitiveRef& user : piece.parts[k].users) {
         Json& primitive = compressed_.json["meshes"][user.mesh]["primitives"][user.primitive];
         setAccessors(piece, accessors, primitive);
@@ -126,7 +129,8 @@ class Applier {
     return index;
   }
 
-  uint32_t takeIndices(const PartPlan& part, const Bounds& bounds, uint32_t wedge_count) {
+  uint32_t takeIndices(const PartPlan& part, std::span<const uint32_t> decoded,
+                       uint32_t wedge_count) {
     Json& accessors = compressed_.json["accessors"];
     uint32_t index = 0;
     if (part.indices_accessor == kNone) {
@@ -142,7 +146,7 @@ class Applier {
         indexTypeFits(document_.accessors[part.indices_accessor].component_type, wedge_count);
     if (!fits) accessor["componentType"] = gl_type;
     accessor["count"] = part.triangles.size();
-    setBounds(bounds, ComponentType::kUint32, false, accessor);
+    setBounds(boundsOf(decoded), ComponentType::kUint32, false, accessor);
     return index;
   }
 
@@ -150,6 +154,14 @@ class Applier {
   Compressed& compressed_;
   std::vector<bool> is_taken_;  ///< source accessors that must not be changed (any more)
 };
+
+Result decodeTimed(uint32_t thread_count, Compressed& compressed) {
+  const auto start = std::chrono::steady_clock::now();
+  MCC_GLTF_TRY(decodePayloads(thread_count, compressed.payloads));
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  compressed.decode_seconds = time.count();
+  return {};
+}
 
 void sortByPlace(std::vector<LeftAlone>& left_alone) {
   std::stable_sort(
@@ -247,6 +259,7 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
       compressed.notes.push_back(at("/meshes", payload.plan.mesh) + ": " + note);
     }
   }
+  MCC_GLTF_TRY(decodeTimed(options.thread_count, compressed));
   std::vector<NewView> views = Applier(document, foreign, compressed).run();
   return rebuildBuffers(document, foreign, views, compressed.json, compressed.bin);
 }

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "gltf/base/payload.h"
 #include "gltf/compress/plan.h"
-#include "gltf/document/bounds.h"
 #include "gltf/document/references.h"
 #include "mcc/gltf.h"
 #include "mcc/writer.h"
@@ -17,13 +17,8 @@ namespace mcc::gltf {
 struct EncodedPayload {
   PayloadPlan plan;
   EncodeResult result;
-  /// Bounds of the decoded data, for each piece.
-  struct PieceBounds {
-    std::vector<Bounds> attributes;
-    std::vector<Bounds> parts;  ///< of the indices
-  };
-  std::vector<PieceBounds> bounds;
-  uint64_t payload_bytes = 0;
+  /// What the reader decodes from result.payload. Empty until decodePayloads() and after the check.
+  std::vector<DecodedPiece> decoded;
   uint64_t freed_bytes = 0;
 };
 
@@ -34,6 +29,7 @@ struct Compressed {
   std::vector<EncodedPayload> payloads;  ///< the payloads that are in the document
   std::vector<LeftAlone> left_alone;
   std::vector<std::string> notes;
+  double decode_seconds = 0;  ///< time of decodePayloads()
 };
 
 /// Compresses every primitive for which that saves bytes. If there is no payload in the result,
@@ -42,10 +38,14 @@ struct Compressed {
 Result compressDocument(const Document& document, const ConvertOptions& options,
                         Compressed& compressed);
 
-/// Encodes the planned payloads, and decodes each of them right away. Pieces that the codec refuses
-/// go to `left_alone`.
+/// Encodes the planned payloads. Pieces that the codec or its readers refuse go to `left_alone`.
 Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> plans,
                       std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone);
+
+/// Sets EncodedPayload::decoded. The payloads are decoded once: the bounds of accessors come from
+/// the decoded values, and the check compares them with the source.
+/// Errors: a payload cannot be decoded.
+Result decodePayloads(uint32_t thread_count, std::vector<EncodedPayload>& payloads);
 
 /// Sets EncodedPayload::freed_bytes.
 void countFreedBytes(const Document& document, const ForeignReferences& foreign,

@@ -77,27 +77,6 @@ Status encodePlan(const EncodeOptions& options, const PayloadPlan& plan, EncodeR
   return encodePieces(pieces, options, result);
 }
 
-/// Decodes what was just encoded, because the bounds of accessors are those of the decoded values.
-Status measure(EncodedPayload& payload) {
-  DecodedPayload decoded;
-  Status status = decoded.payload.open(payload.result.payload);
-  if (status.ok()) status = decodePieces(decoded);
-  if (!status.ok()) return status;
-  for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
-    const std::vector<AttributePlan>& attributes = payload.plan.pieces[i].attributes;
-    EncodedPayload::PieceBounds& bounds = payload.bounds.emplace_back();
-    for (size_t k = 0; k < attributes.size(); ++k) {
-      bounds.attributes.push_back(boundsOf(decoded.pieces[i].attributes[k],
-                                           attributes[k].format.component_type,
-                                           attributes[k].format.component_count));
-    }
-    for (const std::vector<uint32_t>& part : decoded.pieces[i].parts) {
-      bounds.parts.push_back(boundsOf(std::span<const uint32_t>(part)));
-    }
-  }
-  return {};
-}
-
 void leaveAllAlone(const std::string& note, EncodedPayload& payload,
                    std::vector<LeftAlone>& left_alone) {
   for (const PiecePlan& piece : payload.plan.pieces) leaveAlone(piece, note, left_alone);
@@ -116,16 +95,19 @@ Result encodeOne(const EncodeOptions& options, EncodedPayload& payload,
       return {};
     }
   }
-  payload.payload_bytes = payload.result.payload.size();
-  const Status status = measure(payload);
-  if (status.error == Error::kLimit) {  // readers would refuse it
-    leaveAllAlone(refusal(status), payload, left_alone);
-    return {};
-  }
-  Result result = toResult(status, at("/meshes", payload.plan.mesh));
+  Payload opened;
+  const Status status = opened.open(payload.result.payload);
+  if (status.error == Error::kLimit) leaveAllAlone(refusal(status), payload, left_alone);
+  return {};
+}
+
+Result decodeOne(EncodedPayload& payload) {
+  DecodedPayload decoded;
+  Result result = decodePayload(payload.result.payload, at("/meshes", payload.plan.mesh), decoded);
   if (!result.ok()) {
     result.what = "the payload cannot be decoded again: " + result.what + "; please report this";
   }
+  payload.decoded = std::move(decoded.pieces);
   return result;
 }
 
@@ -196,6 +178,11 @@ Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> pl
     if (!encoded[i].plan.pieces.empty()) payloads.push_back(std::move(encoded[i]));
   }
   return {};
+}
+
+Result decodePayloads(uint32_t thread_count, std::vector<EncodedPayload>& payloads) {
+  return runParallel(payloads.size(), thread_count,
+                     [&](size_t i) { return decodeOne(payloads[i]); });
 }
 
 }  // namespace mcc::gltf

@@ -19,10 +19,11 @@ constexpr uint32_t kElementArrayBuffer = 34963;
 class Decompressor {
  public:
   Decompressor(const Document& document, DecodeTo decode_to, uint32_t thread_count,
-               Decompressed& out)
+               DecodedPayloads known, Decompressed& out)
       : document_(document),
         decode_to_(decode_to),
         thread_count_(std::max(thread_count, 1u)),
+        known_(std::move(known)),
         out_(out) {}
 
   /// Sets decoded() and the counts.
@@ -36,7 +37,8 @@ class Decompressor {
     for (size_t begin = 0; begin < uses.size(); begin += thread_count_) {
       const size_t count = std::min<size_t>(thread_count_, uses.size() - begin);
       MCC_GLTF_TRY(runParallel(count, thread_count_, [&](size_t i) {
-        return decodePieces(whereOf(uses[begin + i]), payloads[begin + i]);
+        DecodedPayload& payload = payloads[begin + i];
+        return payload.pieces.empty() ? decodePieces(whereOf(uses[begin + i]), payload) : Result{};
       }));
       for (size_t i = begin; i < begin + count; ++i) {
         store(uses[i], payloads[i]);
@@ -84,12 +86,15 @@ class Decompressor {
     return {payload, use.piece, is_part, number, target.component_type, target.columns};
   }
 
-  /// Opens a payload. All counts must match the accessors before memory is taken for them.
+  /// Opens a payload. All counts must match the accessors before memory is taken for them. A known
+  /// payload gets its pieces.
   Result open(const PayloadUse& use, DecodedPayload& decoded) {
-    MCC_GLTF_TRY(toResult(decoded.payload.open(payloadBytes(document_, use.view)), whereOf(use)));
+    const std::span<const uint8_t> bytes = payloadBytes(document_, use.view);
+    MCC_GLTF_TRY(toResult(decoded.payload.open(bytes), whereOf(use)));
     for (const ExtensionUse* user : use.users) {
       MCC_GLTF_TRY(checkAgainstPayload(document_, *user, decoded.payload.info()));
     }
+    decoded.pieces = known_.take(bytes);
     return {};
   }
 
@@ -195,6 +200,7 @@ class Decompressor {
   const Document& document_;
   const DecodeTo decode_to_;
   const uint32_t thread_count_;
+  DecodedPayloads known_;
   Decompressed& out_;
   std::set<uint32_t> stored_;
   std::vector<ExtensionUse> uses_;
@@ -206,16 +212,16 @@ class Decompressor {
 
 Result decodeAccessors(const Document& document, DecodedAccessors& decoded) {
   Decompressed ignored;
-  Decompressor decompressor(document, DecodeTo::kFloats, 1, ignored);
+  Decompressor decompressor(document, DecodeTo::kFloats, 1, {}, ignored);
   MCC_GLTF_TRY(decompressor.decode());
   decoded = std::move(decompressor.decoded());
   return {};
 }
 
 Result decompressDocument(const Document& document, Decompressed& decompressed, DecodeTo decode_to,
-                          uint32_t thread_count) {
+                          uint32_t thread_count, DecodedPayloads known) {
   decompressed = {};
-  Decompressor decompressor(document, decode_to, thread_count, decompressed);
+  Decompressor decompressor(document, decode_to, thread_count, std::move(known), decompressed);
   MCC_GLTF_TRY(decompressor.decode());
   return decompressor.rebuild();
 }

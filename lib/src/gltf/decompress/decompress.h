@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gltf/base/payload.h"
 #include "gltf/decompress/integer_accessors.h"
 #include "gltf/document/extension_json.h"
 #include "gltf/document/rebuild.h"
@@ -43,10 +44,12 @@ Result decodeAccessors(const Document& document, DecodedAccessors& decoded);
 /// there is no payload in the document, `payload_count` is 0, and `json` and `bin` are not set.
 /// decode_to     what quantised attributes become; with integers, `notes` names what stays float.
 /// thread_count  the number of payloads decoded at the same time; the result does not depend on it.
+/// known         payloads that need not be decoded again. Their memory is freed as they are used.
 /// Errors carry JSON paths. It is an error when document.decoded is above its limit, which is
 /// checked before memory is taken. Safe for untrusted documents.
 Result decompressDocument(const Document& document, Decompressed& decompressed,
-                          DecodeTo decode_to = DecodeTo::kFloats, uint32_t thread_count = 1);
+                          DecodeTo decode_to = DecodeTo::kFloats, uint32_t thread_count = 1,
+                          DecodedPayloads known = {});
 
 }  // namespace mcc::gltf
 
