@@ -29,8 +29,8 @@ struct CheckResult {
 ///   of triangles, up to rotation;
 /// - every attribute value is within the promised distance of its source; exact ones are bit-equal;
 /// - accessors, images and JSON that are not compressed geometry are equal.
-/// payloads      what was encoded. Takes their decoded pieces: a payload whose bytes in `written` are
-///               those that were encoded is not decoded again.
+/// payloads      what was encoded. Takes their decoded pieces: a payload whose bytes in `written`
+///               are those that were encoded is not decoded again.
 /// decoders      decodes attributes next to payloads that another codec holds, before and after.
 /// read_file     fetches the files next to the written one; null: there are none.
 /// thread_count  the number of payloads decoded at the same time.
