@@ -183,8 +183,8 @@ class CostIo {
 
 static_assert(SymbolIo<CostIo>);
 
-/// The encoder as stage code sees it, see entropy/io.h. Codes into three streams, into a single one,
-/// or both ways at once, so that the smaller can be chosen. Also counts the cost.
+/// The encoder as stage code sees it, see entropy/io.h. Codes into three streams, into a single
+/// one, or both ways at once, so that the smaller can be chosen. Also counts the cost.
 class EncoderIo : public CostIo {
  public:
   using Burst = SameIo<EncoderIo>;

@@ -518,8 +518,7 @@ bool fitClass(const ClassRows& rows, uint32_t n, const FitChoice& choice, int16_
   for (uint32_t i = 0; i < n; ++i) solution[i] = w[i] / kOne;
   const Features start = Features::load(solution);
   for (uint32_t round = 0; round < kRounds; ++round) {
-    NormalEquations equations =
-        weighRows(rows, Features::load(solution), start, n, choice.robust);
+    NormalEquations equations = weighRows(rows, Features::load(solution), start, n, choice.robust);
     if (!choice.angles) equations.leaveOut(kAngleWeight);
     double change[kMostWeights] = {};
     equations.solve(n, 1e-3 + 3.0 / static_cast<double>(rows.size()), change);
@@ -745,7 +744,8 @@ class Chooser {
     if (without_.has(Feature::kAngleWeights)) return weights;
     PredictorWeights with_angles = others;
     const double bits_with = fitToRows(rows, true, {select, true, true}, with_angles);
-    return bits_with + price_.surcharge(bits_with, price_ns::kAngles) < bits ? with_angles : weights;
+    return bits_with + price_.surcharge(bits_with, price_ns::kAngles) < bits ? with_angles
+                                                                             : weights;
   }
 
   /// Tries palette, planes and shear, which exclude each other: first with the best predictor, and

@@ -16,8 +16,8 @@
 namespace mcc {
 
 struct PositionParameters {
-  uint8_t modes = 0;  ///< bits of position_mode
-  uint8_t bits = 14;  ///< of the lattice; the first seed is predicted at its middle
+  uint8_t modes = 0;              ///< bits of position_mode
+  uint8_t bits = 14;              ///< of the lattice; the first seed is predicted at its middle
   PredictorWeights weights = {};  ///< see setWeights()
   bool has_angles = false;        ///< some weight of the angles is not 0
   ScaleCoefficients scale[2][3] = {};  ///< [plain fan][component]

@@ -134,10 +134,8 @@ MCC_INLINE TipSelection selectTip(const PlainFan& f, const Beyond& b) {
   const Lanes<uint32_t> n1 = coordinates(f.n1);
   const auto sizeOf = [](const Lanes<uint32_t>& x)
                           MCC_INLINE_LAMBDA { return absoluteFloats(floatsOf(x)); };
-  const Lanes<float> of_xa =
-      sizeOf(n1 + coordinates(f.o0) - coordinates(b.xa) - coordinates(f.n0));
-  const Lanes<float> of_xb =
-      sizeOf(n1 + coordinates(f.o1) - coordinates(b.xb) - coordinates(f.n2));
+  const Lanes<float> of_xa = sizeOf(n1 + coordinates(f.o0) - coordinates(b.xa) - coordinates(f.n0));
+  const Lanes<float> of_xb = sizeOf(n1 + coordinates(f.o1) - coordinates(b.xb) - coordinates(f.n2));
   const Lanes<float> of_y = sizeOf(stepBeyond(b.ya, f.n0, f.o0, n1, b.has_ya)) +
                             sizeOf(stepBeyond(b.yb, f.n2, f.o1, n1, b.has_yb));
   const Lanes<float> errors = sumsOfComponents(of_xa, of_xb, of_y, of_y);
@@ -272,7 +270,7 @@ MCC_INLINE FinePoint middleOfTips(const PlainFan& f) {
           (between & 1) << 7};
 }
 
-/// Returns twice the vector from there to n0 + n2 - n1.
+/// Returns twice the vector from the middle of the tips to n0 + n2 - n1.
 MCC_INLINE Lanes<uint32_t> thirdFromTips(const PlainFan& f) {
   return coordinates(f.n0) + coordinates(f.n2) + coordinates(f.o0) + coordinates(f.o1) -
          4 * coordinates(f.n1);

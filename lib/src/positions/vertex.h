@@ -181,9 +181,9 @@ MCC_INLINE void VertexCoder<Io, kModes>::codeComponents(Io& io, uint32_t v,
                                                         const Prediction& prediction,
                                                         uint32_t plain, Fold fold) const {
   if (!has(position_mode::kShear)) {
-    const ScaleEstimate scale = estimateScale(scale_[plain], prediction.magnitudes,
-                                              prediction.spread, prediction.third,
-                                              has(position_mode::kSplit));
+    const ScaleEstimate scale =
+        estimateScale(scale_[plain], prediction.magnitudes, prediction.spread, prediction.third,
+                      has(position_mode::kSplit));
     if (has(position_mode::kPalette)) return codeRanks(io, v, prediction.at, scale, fold);
     return codeInFileOrder(io, v, prediction.at, scale, fold);
   }
@@ -191,9 +191,9 @@ MCC_INLINE void VertexCoder<Io, kModes>::codeComponents(Io& io, uint32_t v,
   const auto inOrder = [&]<class X>(const X& x) MCC_INLINE_LAMBDA {
     return X{x[shear.axis[0]], x[shear.axis[1]], x[shear.axis[2]], 0};
   };
-  const ScaleEstimate scale = estimateScale(scale_[plain], prediction.magnitudes,
-                                            inOrder(prediction.spread), inOrder(prediction.third),
-                                            has(position_mode::kSplit));
+  const ScaleEstimate scale =
+      estimateScale(scale_[plain], prediction.magnitudes, inOrder(prediction.spread),
+                    inOrder(prediction.third), has(position_mode::kSplit));
   const FinePoint at = {inOrder(prediction.at.step), inOrder(prediction.at.fraction)};
   const Lanes<float> rest = at.rest();
   if constexpr (kCompact) {
