@@ -376,7 +376,7 @@ TEST(Container, AttributesThatAreNone) {
   const std::vector<Change> changes = {
       [](AttributeInfo& a) { a.bits = 0; },
       [](AttributeInfo& a) { a.bits = 25; },
-      [](AttributeInfo& a) { a.bits = 255; },
+      [](AttributeInfo& a) { a.bits = 31; },
       [](AttributeInfo& a) { a.lattice.step = 0; },
       [](AttributeInfo& a) { a.lattice.step = -1; },
       [=](AttributeInfo& a) { a.lattice.step = infinity; },
