@@ -809,6 +809,19 @@ void largerSources(std::vector<Source>& all) {
   }
 }
 
+/// A surface whose scales come from the specification's coefficients. The seeds give neither
+/// weights nor shear, both, shear and weights; 600 vertices on a coarse lattice notice if a
+/// coefficient changes by 1/64.
+void scaleSources(std::vector<Source>& all) {
+  for (const uint32_t seed : {4u, 15u, 23u, 28u}) {
+    Source source =
+        single("scales_" + std::to_string(seed), "Coefficients of the scale",
+               flipped(icosphere(3), 5, 12000), [](SourceBuilder& b) { b.positions(7); });
+    source.options.variation = seed;
+    all.push_back(source);
+  }
+}
+
 /// In one part of the grid most vertices have only a weight of 1. Whole weights among the others
 /// lead to an expected sum of 1.
 Source skinOfTinyWeights() {
@@ -905,6 +918,7 @@ std::vector<Source> chosenSources() {
   }
   crowdedSources(all);
   largerSources(all);
+  scaleSources(all);
   all.push_back(single("ordered_duplicates", "Triangles that occur twice, in an order that is kept",
                        withIndexDuplicates(grid(24, 20), 5, 40),
                        [](SourceBuilder& b) { b.positions(10); }));
