@@ -281,7 +281,7 @@ class Trials {
 
 // --- least squares -------------------------------------------------------------------------------
 
-/// Normal equations of up to 8 unknowns. They use only + - * / in one fixed order, so that every
+/// Normal equations of up to 9 unknowns. They use only + - * / in one fixed order, so that every
 /// machine finds the same solution.
 struct NormalEquations {
   double matrix[kMostWeights][kMostWeights] = {};
