@@ -13,14 +13,14 @@ const UNIVERSAL_WEIGHTS = [
 	[26],
 	[84],
 	[78],
-	[0, 0, 0, 0, 0, 0],
-	[98, -97, -4, -2, -4, 0],
-	[71, -53, -5, -4, -4, 0],
-	[50, -5, -7, -7, -3, 0],
-	[34, 13, -8, -9, -4, 0],
-	[20, 35, -9, -10, -4, 0],
-	[3, 60, -15, -11, -5, 0],
-	...Array.from({ length: 9 }, () => new Array(9).fill(0)),
+	[0, 0, 0, 0, 0],
+	[98, -97, -4, -2, -4],
+	[71, -53, -5, -4, -4],
+	[50, -5, -7, -7, -3],
+	[34, 13, -8, -9, -4],
+	[20, 35, -9, -10, -4],
+	[3, 60, -15, -11, -5],
+	...Array.from({ length: 9 }, () => new Array(8).fill(0)),
 ];
 
 export const universalWeights = () => UNIVERSAL_WEIGHTS.map((w) => [...w]);
@@ -68,7 +68,7 @@ export class Prediction {
 	plainFan(fan) {
 		const around = this.aroundPlainFan(fan);
 		const degrees = [fan.v, ...fan.neighbours].map((v) => this.records.degree[v]);
-		const w = { ...this.plainWeights(around, degrees), angles: compareAngles(around) };
+		const w = this.plainWeights(around, degrees);
 		const between = around.map(({ d0, d1 }) => (d1 - d0) | 0);
 		const at = around.map(({ n1, d0, ...rest }, s) => ({
 			step: (d0 + n1 + (between[s] >> 1)) | 0,
@@ -159,34 +159,20 @@ export class Prediction {
 }
 
 // By how much the weights move the prediction of a plain fan from the middle of its tips, in 1/256 of a step.
-function weightedFeatures({ n0, n1, n2, o0, o1, xa, xb, ua, ub }, [, g0, , g2], { w, better, angles }) {
+function weightedFeatures({ n0, n1, n2, o0, o1, xa, xb, ua, ub }, [, g0, , g2], { w, better }) {
 	const f1 = n0 + n2 - 2 * n1;
 	const terms = [
 		[f1 + o0 + o1 - 2 * n1, w[0] + w[4] * clampDegrees(g0 + g2 - 12)],
 		[f1, w[1]],
 		[2 * (ua + ub), w[2]],
 		[2 * (n0 - n2), w[3] * clampDegrees(g0 - g2)],
-		[n0 - n2 + o1 - o0, f(w[5] * angles)],
 	];
 	if (better !== 0) {
-		terms.push([n0 - n2 + o1 - o0, better * w[6]]);
-		terms.push([o0 - xa - n0 - (o1 - xb - n2), better * w[7]]);
-		terms.push([ua - ub, better * w[8]]);
+		terms.push([n0 - n2 + o1 - o0, better * w[5]]);
+		terms.push([o0 - xa - n0 - (o1 - xb - n2), better * w[6]]);
+		terms.push([ua - ub, better * w[7]]);
 	}
 	return sum32(terms.map(([feature, weight]) => f(float(feature) * weight)));
-}
-
-// About the difference of the cosines of the angles at o0 and at o1
-function compareAngles(around) {
-	const at0 = cosine(around.map(({ n0, o0 }) => float(n0 - o0)), around.map(({ n1, o0 }) => float(n1 - o0)));
-	const at1 = cosine(around.map(({ n2, o1 }) => float(n2 - o1)), around.map(({ n1, o1 }) => float(n1 - o1)));
-	return f(2 * f(at0 - at1));
-}
-
-function cosine(a, b) {
-	const dot = sum32(xyz.map((s) => f(a[s] * b[s])));
-	const lengths = sum32(xyz.map((s) => f(f(a[s] * a[s]) + f(b[s] * b[s]))));
-	return f(dot / f(lengths + 1));
 }
 
 // n[0] .. n[m], where n[m] is n[0] if the fan is closed.

@@ -42,7 +42,6 @@ PredictorWeights trainedWeights(const FeatureSet& without) {
   for (auto& w : weights.w) {
     if (without.has(Feature::kBeyondWeights)) w[2] = 0;
     if (without.has(Feature::kDegreeWeights)) w[3] = w[4] = 0;
-    if (without.has(Feature::kAngleWeights)) w[kAngleWeight] = 0;
   }
   return weights;
 }
@@ -281,7 +280,7 @@ class Trials {
 
 // --- least squares -------------------------------------------------------------------------------
 
-/// Normal equations of up to 9 unknowns. They use only + - * / in one fixed order, so that every
+/// Normal equations of up to 8 unknowns. They use only + - * / in one fixed order, so that every
 /// machine finds the same solution.
 struct NormalEquations {
   double matrix[kMostWeights][kMostWeights] = {};
@@ -412,7 +411,6 @@ void gatherRows(const PositionCandidate& piece, uint32_t stride, std::vector<Fit
       const PlainFeatures f = plainFeatures(fan, beyond, true);
       const float skew = static_cast<float>(c.degree_skew);
       const float better = static_cast<float>(c.better);
-      const float angles = compareAngles(fan);
       at = middleOfTips(fan);
       for (int s = 0; s < 3; ++s) {
         const float features[kMostWeights] = {f.f0[s],
@@ -420,7 +418,6 @@ void gatherRows(const PositionCandidate& piece, uint32_t stride, std::vector<Fit
                                               f.fy[s],
                                               f.fd[s] * skew,
                                               f.f0[s] * static_cast<float>(c.degree_sum),
-                                              f.tips[s] * angles,
                                               f.tips[s] * better,
                                               f.x[s] * better,
                                               f.y[s] * better};
@@ -505,7 +502,6 @@ NormalEquations weighRows(const ClassRows& rows, const Features& solution, const
 struct FitChoice {
   bool select;  ///< with the classes of tip selection
   bool robust;  ///< weighs residuals by 1 / size^2 instead of by 1 / size
-  bool angles;  ///< with the weight of the angles
 };
 
 /// Fits one class by re-weighted least squares, starting from the weights `w`. Returns false if
@@ -518,8 +514,8 @@ bool fitClass(const ClassRows& rows, uint32_t n, const FitChoice& choice, int16_
   for (uint32_t i = 0; i < n; ++i) solution[i] = w[i] / kOne;
   const Features start = Features::load(solution);
   for (uint32_t round = 0; round < kRounds; ++round) {
-    NormalEquations equations = weighRows(rows, Features::load(solution), start, n, choice.robust);
-    if (!choice.angles) equations.leaveOut(kAngleWeight);
+    const NormalEquations equations =
+        weighRows(rows, Features::load(solution), start, n, choice.robust);
     double change[kMostWeights] = {};
     equations.solve(n, 1e-3 + 3.0 / static_cast<double>(rows.size()), change);
     for (uint32_t i = 0; i < n; ++i) solution[i] = static_cast<float>(w[i] / kOne + change[i]);
@@ -530,10 +526,10 @@ bool fitClass(const ClassRows& rows, uint32_t n, const FitChoice& choice, int16_
   return true;
 }
 
-/// Keeps the best of no weights, the trained weights `w` and fitted weights, and returns its bits.
-/// Each row stands for `stride` vertices.
-double chooseWeights(const ClassRows& rows, uint32_t predictor_class, double stride,
-                     const FitChoice& choice, int16_t* w) {
+/// Keeps the best of no weights, the trained weights `w` and fitted weights. Each row stands for
+/// `stride` vertices.
+void chooseWeights(const ClassRows& rows, uint32_t predictor_class, double stride,
+                   const FitChoice& choice, int16_t* w) {
   constexpr double kBitsOfWeight = 9;
   const uint32_t n = weightCount(predictor_class);
   int16_t fitted[kMostWeights];
@@ -547,10 +543,7 @@ double chooseWeights(const ClassRows& rows, uint32_t predictor_class, double str
     }
   }
   constexpr int16_t kNone[kMostWeights] = {};
-  const double bits = residualBits(rows, kNone, n) * stride;
-  if (bits > best) return best;
-  std::copy_n(kNone, kMostWeights, w);
-  return bits;
+  if (residualBits(rows, kNone, n) * stride <= best) std::copy_n(kNone, kMostWeights, w);
 }
 
 /// A sample of the vertices of all pieces.
@@ -568,24 +561,20 @@ FitRows gatherFitRows(std::span<const PositionCandidate> pieces, uint32_t max_ve
     for (auto& feature : row.feature) {
       if (without.has(Feature::kBeyondWeights)) feature[2] = 0;
       if (without.has(Feature::kDegreeWeights)) feature[3] = feature[4] = 0;
-      if (without.has(Feature::kAngleWeights)) feature[kAngleWeight] = 0;
     }
   }
   return fit;
 }
 
-/// Fits the classes of plain fans, or those of other fans. Returns the bits of their residuals.
-double fitToRows(const FitRows& fit, bool plain, const FitChoice& choice,
-                 PredictorWeights& weights) {
+/// Fits the classes of plain fans, or those of other fans.
+void fitToRows(const FitRows& fit, bool plain, const FitChoice& choice, PredictorWeights& weights) {
   ClassRows rows_of[kPredictorClasses];
   for (const FitRow& row : fit.rows) {
     rows_of[row.predictor_class[choice.select ? 1 : 0]].push_back(&row);
   }
-  double bits = 0;
   for (uint32_t c = plain ? kClassPlain : 0; c < (plain ? kPredictorClasses : kClassPlain); ++c) {
-    bits += chooseWeights(rows_of[c], c, fit.stride, choice, weights.w[c]);
+    chooseWeights(rows_of[c], c, fit.stride, choice, weights.w[c]);
   }
-  return bits;
 }
 
 /// The terms that the scale of a component is computed from, and the size of its residual.
@@ -717,7 +706,7 @@ class Chooser {
     }
     if (vertices_ <= kTrainedVertices) {
       all.push_back(withMode({}, kWeights));
-      all.back().setWeights(trainedWeights(without_));
+      all.back().weights = trainedWeights(without_);
     }
     for (PositionParameters& p : all) p.modes |= clear_kind_;
     const std::vector<Candidate> tried = tryAll(std::move(all));
@@ -731,21 +720,11 @@ class Chooser {
   void fitAll(std::vector<PositionParameters>& all) const {
     const FitRows rows = gatherFitRows(pieces_, kFitVertices, without_);
     PredictorWeights weights = trainedWeights(without_);
-    (void)fitToRows(rows, false, {false, true, false}, weights);
-    jobs_.run(all.size(), [&](size_t i) { all[i].setWeights(fitPlain(rows, all[i], weights)); });
-  }
-
-  /// Fits the classes of plain fans with angles, if they are worth their time, or without.
-  PredictorWeights fitPlain(const FitRows& rows, const PositionParameters& p,
-                            const PredictorWeights& others) const {
-    const bool select = p.has(position_mode::kSelect);
-    PredictorWeights weights = others;
-    const double bits = fitToRows(rows, true, {select, true, false}, weights);
-    if (without_.has(Feature::kAngleWeights)) return weights;
-    PredictorWeights with_angles = others;
-    const double bits_with = fitToRows(rows, true, {select, true, true}, with_angles);
-    return bits_with + price_.surcharge(bits_with, price_ns::kAngles) < bits ? with_angles
-                                                                             : weights;
+    fitToRows(rows, false, {false, true}, weights);
+    jobs_.run(all.size(), [&](size_t i) {
+      all[i].weights = weights;
+      fitToRows(rows, true, {all[i].has(position_mode::kSelect), true}, all[i].weights);
+    });
   }
 
   /// Tries palette, planes and shear, which exclude each other: first with the best predictor, and
@@ -861,8 +840,7 @@ PredictorWeights fitWeights(std::span<const PositionCandidate> pieces, bool sele
                             uint32_t max_vertices, const FeatureSet& without) {
   const FitRows rows = gatherFitRows(pieces, max_vertices, without);
   PredictorWeights weights = trainedWeights(without);
-  const FitChoice choice{select, robust, true};
-  for (const bool plain : {false, true}) (void)fitToRows(rows, plain, choice, weights);
+  for (const bool plain : {false, true}) fitToRows(rows, plain, {select, robust}, weights);
   return weights;
 }
 

@@ -16,8 +16,6 @@
 namespace mcc {
 
 namespace price_ns {
-/// Angles at the tips, with weights.
-inline constexpr double kAngles = 2.5;
 /// Folding has to wait for the weighted prediction, so it costs more with weights.
 inline constexpr double kFoldWithWeights = 12;
 /// For each distinct value, divided by the number of vertices.

@@ -16,18 +16,13 @@
 namespace mcc {
 
 struct PositionParameters {
-  uint8_t modes = 0;              ///< bits of position_mode
-  uint8_t bits = 14;              ///< of the lattice; the first seed is predicted at its middle
-  PredictorWeights weights = {};  ///< see setWeights()
-  bool has_angles = false;        ///< some weight of the angles is not 0
+  uint8_t modes = 0;  ///< bits of position_mode
+  uint8_t bits = 14;  ///< of the lattice; the first seed is predicted at its middle
+  PredictorWeights weights = {};
   ScaleCoefficients scale[2][3] = {};  ///< [plain fan][component]
   AxisPalette palette[3];              ///< only with kPalette; borrowed
   const GridPlanes* planes = nullptr;  ///< only with kPlanes; borrowed
 
-  void setWeights(const PredictorWeights& w) {
-    weights = w;
-    has_angles = hasAngles(w);
-  }
   bool has(uint32_t mode) const { return (modes & mode & kDecodedPositionModes) != 0; }
 };
 
@@ -113,7 +108,7 @@ Status codePositionTables(Io& io, PositionTables& t, PositionParameters& p) {
       }
       t.has_selecting = true;
     }
-    p.setWeights(t.weights);
+    p.weights = t.weights;
   }
   if (!p.has(position_mode::kOwnScale)) return {};
   if (!t.has_scale) MCC_TRY(codeScale(io, t, p, truth.scale));

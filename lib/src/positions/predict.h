@@ -178,27 +178,14 @@ MCC_INLINE PlainClass classifyPlain(bool select, const PlainFan& f, const Beyond
   return c;
 }
 
-/// Returns about the difference of the cosines of the angles at o0 and at o1. Two triangles of a
-/// quad meet in its diagonal, which is across from a right angle, so the tip there is often better.
-MCC_INLINE float compareAngles(const PlainFan& f) {
-  const Lanes<float> u0 = floatsOf(coordinates(f.n0) - coordinates(f.o0));
-  const Lanes<float> w0 = floatsOf(coordinates(f.n1) - coordinates(f.o0));
-  const Lanes<float> u1 = floatsOf(coordinates(f.n2) - coordinates(f.o1));
-  const Lanes<float> w1 = floatsOf(coordinates(f.n1) - coordinates(f.o1));
-  const Lanes<float> sums =
-      sumsOfComponents(u0 * w0, u1 * w1, u0 * u0 + w0 * w0, u1 * u1 + w1 * w1);
-  const Lanes<float> cosines = sums / (shuffleLanes<float, 2, 3, 2, 3>(sums, sums) + 1.0f);
-  return 2 * (cosines[0] - cosines[1]);
-}
-
 /// The features of a plain fan.
 struct PlainFeatures {
   Lanes<float> f0;    ///< fan against tips
   Lanes<float> f1;    ///< ends of the fan against its middle
   Lanes<float> fy;    ///< ya, yb against their parallelograms
   Lanes<float> fd;    ///< from one end to the other
-  Lanes<float> tips;  ///< t0 - t1
-  Lanes<float> x;     ///< this and the next are set only where a tip was selected
+  Lanes<float> tips;  ///< t0 - t1; this and the next two are set only where a tip was selected
+  Lanes<float> x;
   Lanes<float> y;
 };
 
@@ -216,8 +203,8 @@ MCC_INLINE PlainFeatures plainFeatures(const PlainFan& f, const Beyond& b, bool 
   r.f1 = floatsOf(ends);
   r.fy = floatsOf(2 * (ya + yb));
   r.fd = floatsOf(2 * (n0 - n2));
-  r.tips = floatsOf(n0 - n2 + o1 - o0);
   if (!select) return r;
+  r.tips = floatsOf(n0 - n2 + o1 - o0);
   r.x = floatsOf((o0 - coordinates(b.xa) - n0) - (o1 - coordinates(b.xb) - n2));
   r.y = floatsOf(ya - yb);
   return r;
@@ -233,11 +220,10 @@ MCC_INLINE Lanes<float> weightPlainFeatures(const PositionParameters& p, const P
   const auto weight = [](int32_t x) MCC_INLINE_LAMBDA { return static_cast<float>(x); };
   Lanes<float> sum = v.f0 * weight(w[0] + w[4] * c.degree_sum) + v.f1 * weight(w[1]) +
                      v.fy * weight(w[2]) + v.fd * weight(w[3] * c.degree_skew);
-  if (p.has_angles) sum += v.tips * (weight(w[kAngleWeight]) * compareAngles(f));
   if (select) {
-    sum += v.tips * weight(c.better * w[6]);
-    sum += v.x * weight(c.better * w[7]);
-    sum += v.y * weight(c.better * w[8]);
+    sum += v.tips * weight(c.better * w[5]);
+    sum += v.x * weight(c.better * w[6]);
+    sum += v.y * weight(c.better * w[7]);
   }
   return sum;
 }

@@ -20,29 +20,19 @@ inline constexpr uint32_t kLeastDegree = 3;  ///< lower degrees share this class
 inline constexpr uint32_t kMostDegree = 9;
 inline constexpr uint32_t kClassSelect = 13;
 inline constexpr uint32_t kPredictorClasses = 22;
-inline constexpr uint32_t kMostWeights = 9;
+inline constexpr uint32_t kMostWeights = 8;
 
 /// Returns the number of weights of a class.
 constexpr uint32_t weightCount(uint32_t predictor_class) {
-  return predictor_class < kClassPlain ? 1 : predictor_class < kClassSelect ? 6 : kMostWeights;
+  return predictor_class < kClassPlain ? 1 : predictor_class < kClassSelect ? 5 : kMostWeights;
 }
 
-/// Weights in units of 1/128. A plain fan has weights of the features f0, f1, fy, fd, of f0 by
-/// degrees and of the tips by angles, and of three more with tip selection; any other fan has one,
-/// of the mean of the neighbours. [B.2.2, B.2.4]
+/// Weights in units of 1/128. A plain fan has weights of the features f0, f1, fy, fd and of f0 by
+/// degrees, and of three more with tip selection; any other fan has one, of the mean of the
+/// neighbours. [B.2.2, B.2.4]
 struct PredictorWeights {
   int16_t w[kPredictorClasses][kMostWeights];
 };
-
-/// The weight of the angles, in the classes that have it.
-inline constexpr uint32_t kAngleWeight = 5;
-
-constexpr bool hasAngles(const PredictorWeights& weights) {
-  for (uint32_t c = kClassPlain; c < kPredictorClasses; ++c) {
-    if (weights.w[c][kAngleWeight] != 0) return true;
-  }
-  return false;
-}
 
 inline constexpr PredictorWeights kUniversalWeights{{
     {5},
@@ -51,13 +41,13 @@ inline constexpr PredictorWeights kUniversalWeights{{
     {26},
     {84},
     {78},
-    {0, 0, 0, 0, 0, 0},
-    {98, -97, -4, -2, -4, 0},
-    {71, -53, -5, -4, -4, 0},
-    {50, -5, -7, -7, -3, 0},
-    {34, 13, -8, -9, -4, 0},
-    {20, 35, -9, -10, -4, 0},
-    {3, 60, -15, -11, -5, 0},
+    {0, 0, 0, 0, 0},
+    {98, -97, -4, -2, -4},
+    {71, -53, -5, -4, -4},
+    {50, -5, -7, -7, -3},
+    {34, 13, -8, -9, -4},
+    {20, 35, -9, -10, -4},
+    {3, 60, -15, -11, -5},
 }};
 
 /// Coefficients of a residual's scale in 1/64: for the neighbours' residuals, the spread of the

@@ -76,15 +76,14 @@ class Variation {
  private:
   void varyWeights(PositionParameters& p) {
     const uint32_t classes = p.has(position_mode::kSelect) ? kPredictorClasses : kClassSelect;
-    PredictorWeights weights = kUniversalWeights;
+    p.weights = kUniversalWeights;
     for (uint32_t c = 0; c < classes; ++c) {
       if (below(4) == 0) continue;
       for (uint32_t i = 0; i < weightCount(c); ++i) {
         const int32_t far = static_cast<int32_t>(below(33)) - 16;
-        weights.w[c][i] = static_cast<int16_t>(weights.w[c][i] + far);
+        p.weights.w[c][i] = static_cast<int16_t>(p.weights.w[c][i] + far);
       }
     }
-    p.setWeights(weights);
   }
 
   void varyScale(PositionParameters& p) {

@@ -65,9 +65,7 @@ struct PlainCase {
 TEST(PositionParts, PredictionsMoveWithTheirFan) {
   PositionParameters p;
   p.modes = position_mode::kWeights | position_mode::kSelect | position_mode::kShear;
-  PredictorWeights weights = kUniversalWeights;
-  for (auto& w : weights.w) w[kAngleWeight] = 20;
-  p.setWeights(weights);
+  p.weights = kUniversalWeights;
   std::mt19937 random(3);
   for (int round = 0; round < 1000; ++round) {
     int32_t q[9];
@@ -92,29 +90,10 @@ TEST(PositionParts, PredictionsMoveWithTheirFan) {
   }
 }
 
-/// Two triangles with a right angle at o0 and a sharp one at o1.
-TEST(PositionParts, AnglesPreferTheTipAcrossFromARightAngle) {
-  const int32_t zero[9] = {};
-  PlainCase a(zero);
-  const int32_t n0[3] = {0, 100, 0};
-  const int32_t n1[3] = {100, 0, 0};
-  const int32_t n2[3] = {150, 0, 0};
-  const int32_t o1[3] = {120, 300, 0};
-  const int32_t* corners[] = {n0, n1, n2, nullptr, o1};
-  for (const uint32_t i : {0u, 1u, 2u, 4u}) std::copy_n(corners[i], 3, a.records[i].q);
-  EXPECT_NEAR(compareAngles(a.fan), -0.986, 0.001);
-  PlainFan mirrored = a.fan;
-  std::swap(mirrored.n0, mirrored.n2);
-  std::swap(mirrored.o0, mirrored.o1);
-  EXPECT_EQ(compareAngles(mirrored), -compareAngles(a.fan));
-}
-
 TEST(PositionParts, NoCoordinatesMoveAPredictionTooFar) {
   PositionParameters p;
   p.modes = position_mode::kWeights | position_mode::kSelect;
-  PredictorWeights weights;
-  for (auto& w : weights.w) std::fill_n(w, kMostWeights, static_cast<int16_t>(kMaxWeight));
-  p.setWeights(weights);
+  for (auto& w : p.weights.w) std::fill_n(w, kMostWeights, static_cast<int16_t>(kMaxWeight));
   for (uint32_t signs = 0; signs < 1u << 9; ++signs) {
     int32_t q[9];
     for (uint32_t i = 0; i < 9; ++i) q[i] = (signs >> i & 1) != 0 ? INT32_MAX : INT32_MIN;
