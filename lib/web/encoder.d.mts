@@ -1,6 +1,19 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 import type { InitOptions } from './types.mjs';
 
+/**
+ * What encodeGlb() needs of a decoder of EXT_meshopt_compression and KHR_meshopt_compression.
+ * MeshoptDecoder of the npm package meshoptimizer is one.
+ */
+export interface MeshoptDecoder {
+  /** Resolves when decodeGltfBuffer() can be called. */
+  readonly ready: Promise<void>;
+  /**
+   * Fills `target` with `count` elements of `size` bytes each. Throws if the source is damaged.
+   */
+  decodeGltfBuffer(target: Uint8Array, count: number, size: number, source: Uint8Array, mode: string, filter?: string): void;
+}
+
 /** The options of the command line tool. 0 bits keep every bit. */
 export interface EncodeOptions {
   /** Default 14, up to 24; also the grid of morph targets. */
@@ -41,6 +54,11 @@ export interface EncodeOptions {
   /** Compresses even where that makes the file larger. */
   allowLarger?: boolean;
   fallback?: false;
+  /**
+   * Decodes buffer views that meshoptimizer compressed. Without it, encodeGlb() rejects files whose
+   * triangles are in such views, with a message that names this option.
+   */
+  meshoptDecoder?: MeshoptDecoder;
 }
 
 export interface EncodeResult {
@@ -67,10 +85,13 @@ export interface EncodeResult {
  */
 export function initEncoder(options?: Omit<InitOptions, 'simdWasmUrl' | 'coreUrl' | 'simdCoreUrl'>): Promise<void>;
 
-/** Compresses a GLB, decodes the result and compares it with the source. Safe for untrusted bytes. */
+/**
+ * Compresses a GLB, or a .gltf with its buffers in data URIs, decodes the result and compares it
+ * with the source. Safe for untrusted bytes. Waits for `options.meshoptDecoder`, if there is one.
+ */
 export function encodeGlb(bytes: Uint8Array, options?: EncodeOptions): Promise<EncodeResult>;
 
-/** Like encodeGlb(), but only after `await initEncoder()`. */
+/** Like encodeGlb(), but only after `await initEncoder()` and `await options.meshoptDecoder.ready`. */
 export function encodeGlbSync(bytes: Uint8Array, options?: EncodeOptions): EncodeResult;
 
 /**

@@ -4,6 +4,7 @@
 // same bytes.
 import { MccError } from './error.mjs';
 import { compileModule } from './load.mjs';
+import { decodeView, isDecoder } from './meshopt.mjs';
 
 const GRIDS = ['mesh', 'scene', 'primitive'];
 const PREFERENCES = ['balanced', 'size', 'speed'];
@@ -14,7 +15,7 @@ const BITS = {
 };
 const FLAGS = ['lossless', 'indicesOnly', 'keepVertexOrder', 'keepTriangleOrder', 'maxErrorRelative', 'allowLarger',
   'dropUnused'];
-const OTHERS = ['grid', 'maxError', 'prefer', 'lattice', 'fallback'];
+const OTHERS = ['grid', 'maxError', 'prefer', 'lattice', 'fallback', 'meshoptDecoder'];
 
 let source = {};
 let loading = null;
@@ -36,11 +37,11 @@ export function initEncoder(options = {}) {
  */
 export async function encodeGlb(bytes, options = {}) {
   checkArguments(bytes, options);
-  const module = await load();
+  const [module] = await Promise.all([load(), options.meshoptDecoder?.ready]);
   return encode(await WebAssembly.instantiate(module), bytes, options);
 }
 
-/** Like encodeGlb(), but only after the encoder is loaded; see initEncoder(). */
+/** Like encodeGlb(), but only after the encoder is loaded, see initEncoder(), and options.meshoptDecoder. */
 export function encodeGlbSync(bytes, options = {}) {
   checkArguments(bytes, options);
   if (compiled === null) throw new MccError('the encoder is not loaded yet: await initEncoder() first', 'Load');
@@ -82,14 +83,29 @@ function encode(instance, bytes, options) {
   const began = performance.now();
   return withBytes(instance, bytes, (exports, address) => {
     setOptions(exports, options);
-    const ok = exports.convert(address, bytes.length) === 1;
-    const text = new TextDecoder().decode(new Uint8Array(exports.memory.buffer, exports.text(), exports.textBytes()));
-    if (!ok) throw new MccError(text, 'Encode');
+    if (options.meshoptDecoder) decodeViews(exports, address, bytes.length, options.meshoptDecoder);
+    const text = textOf(exports, exports.convert(address, bytes.length));
     const glb = new Uint8Array(exports.memory.buffer, exports.glb(), exports.glbBytes()).slice();
     // The module has no clock, so it cannot tell how long encoding and checking took.
     const { encode_seconds, decode_seconds, check_seconds, ...report } = JSON.parse(text);
     return { glb, report: { ...report, seconds: (performance.now() - began) / 1000 } };
   });
+}
+
+/** Decodes what meshoptimizer compressed in the source at `address`, where convert() will look for it. */
+function decodeViews(exports, address, length, decoder) {
+  const views = JSON.parse(textOf(exports, exports.findCodedViews(address, length)));
+  for (const view of views) {
+    const coded = new Uint8Array(exports.memory.buffer, view.address, view.length);
+    new Uint8Array(exports.memory.buffer).set(decodeView(view, coded, decoder), view.elements);
+  }
+}
+
+/** Returns the text that a call of the module left, if `ok` says that it succeeded; otherwise the text is its error. */
+function textOf(exports, ok) {
+  const text = new TextDecoder().decode(new Uint8Array(exports.memory.buffer, exports.text(), exports.textBytes()));
+  if (ok !== 1) throw new MccError(text, 'Encode');
+  return text;
 }
 
 /** Calls `work` with `bytes` in the memory of an instance that is used only once. */
@@ -136,13 +152,15 @@ function checkOptions(options) {
     require(Number.isInteger(value) && (value === 0 || (value >= least && value <= most)),
       `${name} must be 0 (every bit) or ${least} to ${most}`);
   }
-  const { grid = 'mesh', maxError, prefer = 'balanced', lattice, fallback = false } = options;
+  const { grid = 'mesh', maxError, prefer = 'balanced', lattice, fallback = false, meshoptDecoder } = options;
   require(GRIDS.includes(grid), `grid is '${grid}', but must be one of ${GRIDS.join(', ')}`);
   require(maxError === undefined || (Number.isFinite(maxError) && maxError > 0), 'maxError must be a number above 0');
   require(PREFERENCES.includes(prefer), `prefer is '${prefer}', but must be one of ${PREFERENCES.join(', ')}`);
   require(lattice === undefined || (lattice.length === 4 && lattice.every(Number.isFinite) && lattice[3] > 0),
     'lattice must be four numbers: x, y, z of a point and the step');
   require(!fallback, 'a fallback is a second file, which the command line tool writes');
+  require(meshoptDecoder === undefined || isDecoder(meshoptDecoder),
+    'meshoptDecoder must be MeshoptDecoder of the npm package meshoptimizer, where WebAssembly is supported');
 }
 
 function setOptions(exports, options) {

@@ -2,13 +2,15 @@
 //
 // What the WebAssembly encoder exports; encoder.mjs is the only caller. An instance does one
 // conversion: allocate() bytes for the GLB, fill them, set the options, convert(), take the
-// outputs.
+// outputs. Where the caller has a decoder of meshoptimizer, findCodedViews() and the elements of
+// those views come before convert().
 #include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "coded_views.h"
 #include "gltf/inspect/report_json.h"
 #include "mcc/gltf.h"
 
@@ -20,7 +22,12 @@ using mcc::gltf::ConvertOptions;
 
 ConvertOptions options;
 std::vector<uint8_t> glb;
-std::string text;  // the report, or the error message
+std::string text;  // the report, the list of coded views, or the error message
+mcc::web::CodedViews coded_views;
+
+std::string printed(const nlohmann::ordered_json& json) {
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
 
 }  // namespace
 
@@ -58,18 +65,25 @@ MCC_EXPORT("setLattice") void mccSetLattice(float x, float y, float z, float ste
   options.position_lattice = mcc::Lattice{{x, y, z, 0}, step};
 }
 
+/// Finds the buffer views that meshoptimizer compressed and that triangles need. Returns 1 on
+/// success; text() is then what CodedViews::list() says. On failure it returns 0, and text() is the
+/// error message. The bytes must stay where they are until convert() has returned.
+MCC_EXPORT("findCodedViews") uint32_t mccFindCodedViews(const uint8_t* bytes, size_t size) {
+  const mcc::gltf::Result result = coded_views.find({bytes, size});
+  text = result.ok() ? printed(coded_views.list()) : result.message();
+  return result.ok() ? 1 : 0;
+}
+
 /// Returns 1 on success; text() is then the report. On failure it returns 0, and text() is the
 /// error message.
 MCC_EXPORT("convert") uint32_t mccConvert(const uint8_t* bytes, size_t size) {
+  options.decoders.view = [](const mcc::gltf::CodedView& view, std::vector<uint8_t>& elements) {
+    return coded_views.elementsOf(view, elements);
+  };
   mcc::gltf::ConvertReport report;
   const mcc::gltf::Result result = mcc::gltf::convertGlb({bytes, size}, options, glb, report);
-  if (!result.ok()) {
-    text = result.message();
-    return 0;
-  }
-  text = mcc::gltf::reportJson(report, options)
-             .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  return 1;
+  text = result.ok() ? printed(mcc::gltf::reportJson(report, options)) : result.message();
+  return result.ok() ? 1 : 0;
 }
 
 MCC_EXPORT("text") const char* mccText() { return text.data(); }

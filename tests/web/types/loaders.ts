@@ -2,6 +2,8 @@
 //
 // Compiled only: the types of the plugins, as applications use them.
 import { NodeIO, type Document } from '@gltf-transform/core';
+import { MeshoptDecoder } from 'meshoptimizer';
+import { encodeGlb } from '../../../lib/web/encoder.mjs';
 import { createDecoderPool } from '../../../lib/web/index.mjs';
 import { registerMeshCollapse } from '../../../lib/web/babylon.mjs';
 import { KHRMeshCollapseCompression, meshCollapse } from '../../../lib/web/gltf-transform.mjs';
@@ -31,3 +33,7 @@ export async function write(document: Document): Promise<number> {
 }
 // @ts-expect-error there is no such option
 meshCollapse({ bits: 12 });
+
+export const compressAgain = async (glb: Uint8Array): Promise<Uint8Array> => (await encodeGlb(glb, { meshoptDecoder: MeshoptDecoder })).glb;
+// @ts-expect-error a name is no decoder
+encodeGlb(new Uint8Array(0), { meshoptDecoder: 'MeshoptDecoder' });
