@@ -166,7 +166,8 @@ TEST(Meshopt, UnknownKindsAreClearErrors) {
   gltf::CodedView view = {newer, 16, 8, "ATTRIBUTES", "NONE"};
   EXPECT_EQ(decodeView(view, elements),
             "has version 1 of its codec, which meshoptimizer " + meshoptVersion() +
-                " cannot read; decompress the file first, for example with gltfpack -noq");
+                " cannot read; encodeGlb() of the npm package gltf-mcc reads it with the option "
+                "meshoptDecoder, and gltfpack -noq decompresses it");
   view.mode = "POINTS";
   EXPECT_EQ(decodeView(view, elements), "has the unknown mode \"POINTS\"");
   view.mode = "ATTRIBUTES";

@@ -18,6 +18,11 @@ namespace {
 
 constexpr size_t kMaxStrideBytes = 256;  // of meshoptimizer's vertex codec and of its remap
 
+/// What to do with a file that is newer than the library.
+constexpr char kAdvice[] =
+    "; encodeGlb() of the npm package gltf-mcc reads it with the option meshoptDecoder, and "
+    "gltfpack -noq decompresses it";
+
 static_assert(std::endian::native == std::endian::little, "streams are written in host order");
 
 template <typename Body>
@@ -417,8 +422,8 @@ Outcome decodeMeshoptView(std::span<const uint8_t> bytes, uint64_t count, uint32
   const uint8_t newest = is_vertices ? 0 : 1;
   if (!bytes.empty() && (bytes[0] & 0xf0) == kind && (bytes[0] & 0x0f) > newest) {
     return failure("has version " + std::to_string(bytes[0] & 0x0f) +
-                   " of its codec, which meshoptimizer " + meshoptVersion() +
-                   " cannot read; decompress the file first, for example with gltfpack -noq");
+                   " of its codec, which meshoptimizer " + meshoptVersion() + " cannot read" +
+                   kAdvice);
   }
   return guarded([&]() -> Outcome {
     elements.resize(count * stride);
@@ -443,7 +448,7 @@ Outcome decodeMeshoptView(std::span<const uint8_t> bytes, uint64_t count, uint32
       meshopt_decodeFilterExp(elements.data(), count, stride);
     } else {
       return failure("has the filter \"" + filter + "\", which meshoptimizer " + meshoptVersion() +
-                     " cannot undo; decompress the file first, for example with gltfpack -noq");
+                     " cannot undo" + kAdvice);
     }
     return {};
   });

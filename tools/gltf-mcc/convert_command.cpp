@@ -336,7 +336,8 @@ void addConvert(CLI::App& app, int& status) {
       ".glb. The result is decoded and compared with the source before it replaces OUT; sizes and\n"
       "measured errors are printed. Positions are set by one of --quantize-position, --max-error,\n"
       "--max-error-relative, --lattice and --lossless.\n"
-      "IN may already be compressed with Draco or meshoptimizer.\n"
+      "IN may already be compressed with Draco or meshoptimizer (version 0 of its codec; the npm\n"
+      "package gltf-mcc reads version 1).\n"
       "With -o DIR every IN becomes a file of the same name in DIR. Files that were made there\n"
       "before, with the same options and from files that have not changed since, are left alone.",
       "convert model.glb small.glb\n"
