@@ -101,6 +101,7 @@ export class KHRMeshCollapseCompression extends Extension {
     const { json, resources } = context.jsonDoc;
     removeName(json, EXTENSION_NAME);
     if (!this.#encoder) throw new Error(`[${EXTENSION_NAME}] Please install the dependency "mcc.encoder".`);
+    checkViews(json);
     const unwritten = unwrittenExtensions(this.document, context);
     // These extensions may depend on an order, which the encoder keeps if it sees their names.
     for (const { extensionName, definitionOf } of unwritten) (definitionOf().extensions ??= {})[extensionName] = {};
@@ -123,6 +124,14 @@ export function meshCollapse(options = {}) {
   return (document) => {
     document.createExtension(KHRMeshCollapseCompression).setRequired(true).setEncoderOptions(options);
   };
+}
+
+// A document that was read from a file with EXT_meshopt_compression still has that extension.
+function checkViews({ bufferViews = [] }) {
+  const names = bufferViews.flatMap(({ extensions = {} }) => Object.keys(extensions));
+  const coder = names.find((name) => name.endsWith('_meshopt_compression'));
+  if (coder === undefined) return;
+  throw new Error(`[${EXTENSION_NAME}] ${coder} compresses this document, too. Please dispose of one of the two extensions.`);
 }
 
 function removeName(json, name) {

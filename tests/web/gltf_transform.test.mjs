@@ -6,15 +6,17 @@ import path from 'node:path';
 import test from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { Extension, ExtensionProperty, GLB_BUFFER, Logger, NodeIO, Primitive } from '@gltf-transform/core';
-import { ALL_EXTENSIONS, EXTMeshGPUInstancing, KHRTextureTransform } from '@gltf-transform/extensions';
+import { ALL_EXTENSIONS, EXTMeshGPUInstancing, EXTMeshoptCompression, KHRTextureTransform } from '@gltf-transform/extensions';
 import { dedup, prune, weld } from '@gltf-transform/functions';
 import validator from 'gltf-validator';
+import { MeshoptEncoder } from 'meshoptimizer';
 import './support/peers.mjs';
 import * as encoder from '../../lib/web/encoder.mjs';
 import * as decoder from '../../lib/web/index.mjs';
 import { readGlb } from '../../lib/web/unpack.mjs';
 import { manifest, readAsset } from './support/conformance.mjs';
 import { compareWithManifest, refusesNegatives } from './support/loaders.mjs';
+import { codedGlb, MeshoptDecoder } from './support/meshopt.mjs';
 import { convertWithFallback, readSample } from './support/program.mjs';
 import { snippetOf } from './support/readme.mjs';
 
@@ -59,6 +61,16 @@ for (const name of ['genus3', 'morphed', 'quantized', 'shared_vertices', 'skinne
     assert.deepEqual(back.map(counts), primitivesOf(document).map(counts));
   });
 }
+
+test('what meshoptimizer compressed is read, and written when its extension is disposed of', async () => {
+  const withMeshopt = ioWith({ 'mcc.decoder': decoder, 'mcc.encoder': encoder, 'meshopt.decoder': MeshoptDecoder, 'meshopt.encoder': MeshoptEncoder });
+  const document = await withMeshopt.readBinary(codedGlb({ name: 'EXT_meshopt_compression' }));
+  const before = primitivesOf(document).map(arraysOf);
+  await document.transform(meshCollapse({ lossless: true, keepVertexOrder: true, keepTriangleOrder: true }));
+  await assert.rejects(withMeshopt.writeBinary(document), /EXT_meshopt_compression compresses this document, too/);
+  document.createExtension(EXTMeshoptCompression).dispose();
+  assert.deepEqual(primitivesOf(await io.readBinary(await withMeshopt.writeBinary(document))).map(arraysOf), before);
+});
 
 test('strips and fans become triangles', async () => {
   const document = await io.readBinary(readSample('modes'));
