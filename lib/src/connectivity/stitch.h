@@ -64,7 +64,7 @@ class Stitcher {
     uint32_t is_glued = 0;         ///< whether it is next to a vertex whose group has copies
     uint32_t seen_by = kNone;      ///< the last vertex whose surroundings included it
     uint32_t asked_by = kNone;     ///< for a leader: the last vertex that need not ask for it again
-    uint32_t group = 0;            ///< for a leader: its number, set at the end
+    uint32_t group = 0;  ///< for a leader: its place in candidates_, at the end its number
   };
   struct Candidate {
     uint32_t leader;
@@ -84,7 +84,9 @@ class Stitcher {
   Status codeReference(uint32_t v, uint32_t truth, uint32_t& leader);
   bool codeCandidate(uint32_t truth, uint32_t& leader);
   Status codeNear(uint32_t v, uint32_t truth, bool& is_near, uint32_t& leader);
-  uint32_t collectNear(uint32_t v);
+  bool findNear(uint32_t v, uint32_t i);
+  void startNear(uint32_t v);
+  bool meetNear(uint32_t v);
   Status codeFar(uint32_t truth, uint32_t& leader);
   Status listGroups(Groups& groups);
 
@@ -115,7 +117,18 @@ class Stitcher {
   uint32_t last_far_ = 0;
   uint32_t candidate_count_ = 0;
   Candidate candidates_[kStitchAcrossLimit];  ///< leaders
-  uint32_t near_[kStitchNearLimit + 1];       ///< vertices, then leaders
+
+  /// The search nearby, which goes on only as far as leaders are asked for.
+  struct Near {
+    uint32_t vertices[kStitchNearLimit + 1];  ///< in the order in which they are met
+    uint32_t vertex_count;
+    uint32_t neighbour_end;  ///< the vertices before it are v and its neighbours
+    uint32_t walked;         ///< the neighbours of so many vertices were met
+    uint32_t asked;          ///< the leaders of so many vertices were looked at
+    uint32_t work;
+    uint32_t leaders[kStitchNearLimit];
+    uint32_t leader_count;
+  } near_;
 };
 
 /// Calls visit(neighbour, side) for the ring of `v`, clockwise-most first, until it returns false.
@@ -237,10 +250,12 @@ void Stitcher<Io>::collectCandidates(uint32_t v) {
 template <class Io>
 void Stitcher<Io>::addCandidate(uint32_t leader, uint32_t score) {
   if (leader == kNone || vertices_[leader].asked_by == now_) return;
-  uint32_t i = 0;
-  while (i < candidate_count_ && candidates_[i].leader != leader) ++i;
-  if (i == candidate_count_) candidates_[candidate_count_++] = {leader, 0};
-  candidates_[i].score += score;
+  uint32_t& place = vertices_[leader].group;
+  if (place >= candidate_count_ || candidates_[place].leader != leader) {
+    place = candidate_count_++;
+    candidates_[place] = {leader, 0};
+  }
+  candidates_[place].score += score;
 }
 
 // --- coding --------------------------------------------------------------------------------------
@@ -282,45 +297,64 @@ Status Stitcher<Io>::codeReference(uint32_t v, uint32_t truth, uint32_t& leader)
 /// Codes whether the leader is near, and if so, one bit per leader, the nearest first.
 template <class Io>
 Status Stitcher<Io>::codeNear(uint32_t v, uint32_t truth, bool& is_near, uint32_t& leader) {
-  uint32_t count = Io::kEncoding ? collectNear(v) : 0;
-  is_near = io_.bit(models_.is_near,
-                    Io::kEncoding && std::find(near_, near_ + count, truth) != near_ + count);
+  bool is_found = false;
+  if constexpr (Io::kEncoding) {
+    startNear(v);
+    for (uint32_t i = 0; !is_found && findNear(v, i); ++i) is_found = near_.leaders[i] == truth;
+  }
+  is_near = io_.bit(models_.is_near, is_found);
   if (!is_near) return {};
-  if constexpr (!Io::kEncoding) count = collectNear(v);
-  if (count == 0) return noSuchGroup();
+  if constexpr (!Io::kEncoding) startNear(v);
+  if (!findNear(v, 0)) return noSuchGroup();
   uint32_t i = 0;
-  while (i + 1 < count &&
-         !io_.bit(models_.near[std::min(i, 7u)], Io::kEncoding && near_[i] == truth))
+  while (findNear(v, i + 1) &&
+         !io_.bit(models_.near[std::min(i, 7u)], Io::kEncoding && near_.leaders[i] == truth))
     ++i;
-  leader = near_[i];
+  leader = near_.leaders[i];
   return {};
 }
 
-/// Fills near_ with the leaders of the vertices around v, breadth first, leaving out the leaders
-/// that were asked for and those of the neighbours. Returns their number.
 template <class Io>
-uint32_t Stitcher<Io>::collectNear(uint32_t v) {
-  uint32_t work = 0;
-  uint32_t vertex_count = 1;
-  uint32_t neighbour_end = 0;
-  near_[0] = v;
+void Stitcher<Io>::startNear(uint32_t v) {
+  near_.vertices[0] = v;
   vertices_[v].seen_by = v;
-  for (uint32_t i = 0; i < vertex_count && work < kStitchNearLimit; ++i) {
-    // Has no branch, because whether a vertex was seen is close to random.
-    forRing(near_[i], [&](uint32_t w, EdgeSide) {
-      near_[vertex_count] = w;
-      vertex_count += vertices_[w].seen_by != v ? 1 : 0;
-      vertices_[w].seen_by = v;
-      return ++work < kStitchNearLimit;
-    });
-    if (i == 0) neighbour_end = vertex_count;
+  near_.vertex_count = near_.asked = 1;
+  near_.work = near_.walked = near_.leader_count = 0;
+  (void)meetNear(v);
+  near_.neighbour_end = near_.vertex_count;
+}
+
+/// Looks for leader number i of the vertices around v, breadth first, leaving out the leaders that
+/// were asked for and those of the neighbours. Returns whether there are so many.
+template <class Io>
+bool Stitcher<Io>::findNear(uint32_t v, uint32_t i) {
+  while (near_.leader_count <= i) {
+    if (near_.asked == near_.vertex_count && !meetNear(v)) return false;
+    for (; near_.asked < near_.vertex_count; ++near_.asked) {
+      const uint32_t leader = vertices_[near_.vertices[near_.asked]].leader;
+      if (claim(leader) && near_.asked >= near_.neighbour_end)
+        near_.leaders[near_.leader_count++] = leader;
+    }
   }
-  uint32_t count = 0;
-  for (uint32_t i = 1; i < vertex_count; ++i) {
-    const uint32_t leader = vertices_[near_[i]].leader;
-    if (claim(leader) && i >= neighbour_end) near_[count++] = leader;
-  }
-  return count;
+  return true;
+}
+
+/// Meets the neighbours of the next vertex. Returns false when the search is over.
+template <class Io>
+bool Stitcher<Io>::meetNear(uint32_t v) {
+  if (near_.walked == near_.vertex_count || near_.work >= kStitchNearLimit) return false;
+  uint32_t count = near_.vertex_count;
+  uint32_t work = near_.work;
+  // Has no branch, because whether a vertex was seen is close to random.
+  forRing(near_.vertices[near_.walked++], [&](uint32_t w, EdgeSide) {
+    near_.vertices[count] = w;
+    count += vertices_[w].seen_by != v ? 1 : 0;
+    vertices_[w].seen_by = v;
+    return ++work < kStitchNearLimit;
+  });
+  near_.vertex_count = count;
+  near_.work = work;
+  return true;
 }
 
 template <class Io>
