@@ -37,8 +37,9 @@ class Cutter {
     return region_of_face_.empty() ? 0 : region_of_face_[h / 3];
   }
 
-  /// Buckets half-edges by the smaller class of their ends, and sorts each bucket by the larger one
-  /// and by region.
+  /// Pairs the half-edges between the same two classes, in the order of their numbers and in one
+  /// region: each with the latest of the other direction that is still open. Buckets them by the
+  /// smaller class of their ends.
   void pairHalfEdges() {
     const uint32_t half_edge_count = static_cast<uint32_t>(corner_class_.size());
     result_.mesh.twin.assign(half_edge_count, kNone);
@@ -48,40 +49,38 @@ class Cutter {
     };
     for (uint32_t h = 0; h < half_edge_count; ++h) ++bucket_end[smallerClass(h) + 1];
     for (uint32_t c = 0; c < class_count_; ++c) bucket_end[c + 1] += bucket_end[c];
-    struct Entry {
-      uint32_t larger_class;
-      uint32_t region;
-      uint32_t half_edge;
-      auto operator<=>(const Entry&) const = default;
-      bool isBeside(const Entry& other) const {
-        return larger_class == other.larger_class && region == other.region;
-      }
-    };
-    std::vector<Entry> entries(half_edge_count);
+    std::vector<uint32_t> bucketed(half_edge_count);
     std::vector<uint32_t> fill(bucket_end.begin(), bucket_end.end() - 1);
-    for (uint32_t h = 0; h < half_edge_count; ++h) {
-      entries[fill[smallerClass(h)]++] = {std::max(corner_class_[h], corner_class_[nextCorner(h)]),
-                                          regionOf(h), h};
-    }
-    std::vector<uint32_t> open;
+    for (uint32_t h = 0; h < half_edge_count; ++h) bucketed[fill[smallerClass(h)]++] = h;
+    open_of_class_.resize(class_count_);
+    next_open_.resize(half_edge_count);
     for (uint32_t c = 0; c < class_count_; ++c) {
-      std::sort(entries.begin() + bucket_end[c], entries.begin() + bucket_end[c + 1]);
-      for (uint32_t i = bucket_end[c], end = i; i < bucket_end[c + 1]; i = end) {
-        while (end < bucket_end[c + 1] && entries[end].isBeside(entries[i])) ++end;
-        open.clear();
-        for (uint32_t k = i; k < end; ++k) pairOne(entries[k].half_edge, open);
+      const auto begin = bucketed.begin() + bucket_end[c];
+      const auto end = bucketed.begin() + bucket_end[c + 1];
+      if (!region_of_face_.empty()) {
+        std::stable_sort(begin, end,
+                         [this](uint32_t a, uint32_t b) { return regionOf(a) < regionOf(b); });
+      }
+      uint32_t region = kNone;
+      for (auto h = begin; h != end; ++h) {
+        if (regionOf(*h) != region) ++search_;
+        region = regionOf(*h);
+        pairOne(*h);
       }
     }
   }
 
-  void pairOne(uint32_t h, std::vector<uint32_t>& open) {
+  void pairOne(uint32_t h) {
     if (isLoose(h)) return;
-    if (!open.empty() && corner_class_[open.back()] != corner_class_[h]) {
-      result_.mesh.twin[h] = open.back();
-      result_.mesh.twin[open.back()] = h;
-      open.pop_back();
+    Open& open = open_of_class_[std::max(corner_class_[h], corner_class_[nextCorner(h)])];
+    if (open.search != search_) open = {search_, kNone};
+    if (open.top != kNone && corner_class_[open.top] != corner_class_[h]) {
+      result_.mesh.twin[h] = open.top;
+      result_.mesh.twin[open.top] = h;
+      open.top = next_open_[open.top];
     } else {
-      open.push_back(h);
+      next_open_[h] = open.top;
+      open.top = h;
     }
   }
 
@@ -186,6 +185,15 @@ class Cutter {
   uint32_t class_count_;
   std::span<const uint32_t> region_of_face_;
   CutResult result_;
+
+  /// The open half-edges from the bucket's class to another, or back: valid for one search only.
+  struct Open {
+    uint32_t search = 0;
+    uint32_t top = kNone;  ///< the latest; next_open_ links to the one before
+  };
+  std::vector<Open> open_of_class_;
+  std::vector<uint32_t> next_open_;
+  uint32_t search_ = 0;  ///< number of the bucket and region
 };
 
 }  // namespace

@@ -260,6 +260,8 @@ class Quantizer {
     // 12 bits on.
     const double length =
         std::sqrt(double{n[0]} * n[0] + double{n[1]} * n[1] + double{n[2]} * n[2]);
+    const double direction[3] = {double{n[0]} / length, double{n[1]} / length,
+                                 double{n[2]} / length};
     double best = 8;
     for (int32_t s = s0; s <= s0 + 1; ++s) {
       for (int32_t t = t0; t <= t0 + 1; ++t) {
@@ -268,7 +270,7 @@ class Quantizer {
         octahedralToUnit(s, t, centre, unit);
         double distance = 0;
         for (int c = 0; c < 3; ++c) {
-          const double difference = double{unit[c]} - double{n[c]} / length;
+          const double difference = double{unit[c]} - direction[c];
           distance += difference * difference;
         }
         if (distance >= best) continue;

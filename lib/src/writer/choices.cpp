@@ -21,6 +21,13 @@ constexpr double kExpectedPositionBits = 15;
 /// Context set 1 has so many contexts that it never pays with fewer operations.
 constexpr uint64_t kOperationsForContexts = 100;
 
+/// Returns how many vertices the surface would have if it were listed vertex by vertex.
+uint32_t pivotCount(const Plan& plan) {
+  std::vector<uint8_t> is_used(plan.classes.class_count, 0);
+  for (const uint32_t c : plan.cut.class_of_vertex) is_used[c] = 1;
+  return static_cast<uint32_t>(std::count(is_used.begin(), is_used.end(), 1));
+}
+
 Status surfaceCost(Plan& plan, uint64_t& cost) {
   CostIo io;
   auto models = makeModels(0);
@@ -228,14 +235,14 @@ Status chooseSurface(Plan& plan, uint32_t start_half_edge, const FeatureSet& wit
                      Variation* variation, const TimePrice& price, const Jobs& jobs) {
   prepareConnectivity(plan, start_half_edge);
   if (!plan.header.hasCopies() || without.has(Feature::kPivots) || !allowsPivots(plan)) return {};
+  // With few copies, seams and predictions are better with the umbrellas that the cut leaves.
+  if (variation == nullptr && plan.header.vertex_count < 2 * pivotCount(plan)) return {};
   Plan other = plan;
   preparePivots(other);
   if (variation != nullptr) {
     if (variation->coin()) plan = std::move(other);
     return {};
   }
-  // With few copies, seams and predictions are better with the umbrellas that the cut leaves.
-  if (plan.header.vertex_count < 2 * other.header.vertex_count) return {};
   uint64_t cut = 0;
   uint64_t pivots = 0;
   MCC_TRY(jobs.tryAll(

@@ -131,30 +131,29 @@ class StageRunner {
   Status chooseSeams(PayloadModels& models) {
     if (!plan_.header.has(piece_flag::kSeams) || plan_.attributes.empty())
       return codeSeams(nullptr);
-    const std::vector<uint32_t> words(piece_.mesh.words.data(),
-                                      piece_.mesh.words.data() + piece_.mesh.words.size());
-    const std::vector<uint32_t> sequence(piece_.sequence.data(),
-                                         piece_.sequence.data() + piece_.sequence.size());
-    const SeamModels before = models.seams;
-    const auto undo = [&] {
-      models.seams = before;
-      piece_.wedge_group.clear();
-      if (!piece_.sequence.resize(sequence.size())) throwBadAlloc();
-      std::copy(sequence.begin(), sequence.end(), piece_.sequence.data());
-      std::copy(words.begin(), words.end(), piece_.mesh.words.data());
+    Surface other;
+    copyArray(piece_.mesh.words, other.words);
+    copyArray(piece_.sequence, other.sequence);
+    SeamModels models_of_other = models.seams;
+    const auto exchange = [&] {
+      piece_.mesh.words.swap(other.words);
+      piece_.sequence.swap(other.sequence);
+      piece_.wedge_group.swap(other.wedge_group);
+      std::swap(models.seams, models_of_other);
     };
     const uint64_t start = io_.cost();
     plan_.header.flags &= ~piece_flag::kCreases;
     MCC_TRY(piece_.codeSeams(truth_));
     const uint64_t without = io_.cost() - start;
-    undo();
+    exchange();
     plan_.header.flags |= piece_flag::kCreases;
     MCC_TRY(piece_.codeSeams(truth_));
     const uint64_t with = io_.cost() - start - without;
     if (with < without) return codeLeftovers(nullptr);
-    undo();
+    exchange();
+    piece_.wedges.half_edges = piece_.sequence.data();
     plan_.header.flags &= ~piece_flag::kCreases;
-    return codeSeams(nullptr);
+    return codeLeftovers(nullptr);
   }
 
   Status codeAttribute(uint32_t index, StreamSizes* sizes) {
@@ -187,6 +186,17 @@ class StageRunner {
   uint32_t groupCount() const { return piece_.groups.count; }
 
  private:
+  /// What coding the seams changes.
+  struct Surface {
+    Array<uint32_t> words;
+    Array<uint32_t> sequence;
+    Array<uint32_t> wedge_group;
+  };
+  static void copyArray(const Array<uint32_t>& from, Array<uint32_t>& to) {
+    if (!to.resize(from.size())) throwBadAlloc();
+    std::copy(from.data(), from.data() + from.size(), to.data());
+  }
+
   /// Stores the positions of all groups and isolated vertices where later stages find them.
   void storePositions() {
     const std::vector<int32_t>& from =
