@@ -19,7 +19,7 @@ constexpr uint32_t kTrialShare = 6;
 /// Per vertex, assumed when surfaces and the methods of attributes are compared.
 constexpr double kExpectedPositionBits = 15;
 /// Context set 1 has so many contexts that it never pays with fewer operations.
-constexpr uint64_t kOperationsForContexts = 100;
+constexpr uint64_t kOperationsForContexts = 1000;
 
 /// Returns how many vertices the surface would have if it were listed vertex by vertex.
 uint32_t pivotCount(const Plan& plan) {

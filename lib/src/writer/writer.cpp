@@ -17,7 +17,7 @@
 namespace mcc {
 namespace {
 
-constexpr uint32_t kSingleCoderVertices = 2000;  ///< up to here the single coder is also tried
+constexpr uint32_t kSingleCoderVertices = 400;  ///< up to here the single coder is also tried
 
 void scale(StreamSizes& sizes, double by) {
   for (double* bits : {&sizes.connectivity_bits, &sizes.stitch_bits, &sizes.leftover_bits,
