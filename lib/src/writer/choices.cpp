@@ -13,7 +13,9 @@
 namespace mcc {
 namespace {
 
-/// Candidates for an attribute are tried on this many wedges, or on this fraction of all.
+/// Candidates for an attribute are tried on half of the wedges, but on at least kFewTrialWedges and
+/// at most kTrialWedges or a fraction of all.
+constexpr uint32_t kFewTrialWedges = 1000;
 constexpr uint32_t kTrialWedges = 4000;
 constexpr uint32_t kTrialShare = 6;
 /// Per vertex, assumed when surfaces and the methods of attributes are compared.
@@ -121,7 +123,9 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
                              PayloadModels& models, const MethodRules& rules, bool goes_on) {
   AttributeInfo& info = plan.attributes[index].info;
   const std::vector<AttributeInfo> alternatives = exactAlternatives(info, rules.without);
-  const uint32_t part = std::max(kTrialWedges, plan.header.wedge_count / kTrialShare);
+  const uint32_t count = plan.header.wedge_count;
+  const uint32_t part =
+      std::clamp(count / 2, kFewTrialWedges, std::max(kTrialWedges, count / kTrialShare));
   // Everything below a grid is always coded for all wedges, so a sample would distort the
   // comparison.
   const uint32_t sample = alternatives.size() > 1 ? kNone : part;
