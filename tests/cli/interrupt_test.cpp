@@ -88,7 +88,9 @@ class Interrupt : public testing::Test {
       const int number = signalOf(child, status);
       EXPECT_FALSE(hasTemporary());
       was_there = was_there && number != 0;
-      if (number != 0) EXPECT_EQ(number, signal_number);
+      if (number != 0) {
+        EXPECT_EQ(number, signal_number);
+      }
       if (was_there) continue;
       // It had replaced the output already, or even finished.
       std::ofstream(path("out.glb")) << "older";
