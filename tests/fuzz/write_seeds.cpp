@@ -56,12 +56,12 @@ void addPayloads(Seeds& seeds) {
     for (uint32_t i = 0; i < 300; ++i) script.push_back(static_cast<uint8_t>(random.below(256)));
     std::vector<uint8_t> reads = {static_cast<uint8_t>(header.singleCoder() ? 1 : 0)};
     append16(reads, script.size());
-    append16(reads, header.codes.size());
-    append16(reads, header.tokens.size());
+    append16(reads, header.streams.codes.size());
+    append16(reads, header.streams.tokens.size());
     append(reads, script);
-    append(reads, header.codes);
-    append(reads, header.tokens);
-    append(reads, header.raw);
+    append(reads, header.streams.codes);
+    append(reads, header.streams.tokens);
+    append(reads, header.streams.raw);
     seeds.add("entropy", reads);
   }
 }

@@ -306,7 +306,7 @@ class Forger {
       const EncoderIo::Streams streams = io.finish();
       const PayloadHeader header = draft_.payloadHeader();
       forged.elements = elementsOf(header);
-      forged.bytes = writePayload(header, streams.codes, streams.tokens, streams.raw);
+      forged.bytes = writePayload(header, {streams.codes, streams.tokens, streams.raw});
       describe(forged);
       return true;
     }

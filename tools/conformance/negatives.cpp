@@ -205,7 +205,7 @@ class Maker {
   static bool threeStreams(const PayloadHeader& h) {
     return h.pieces.size() == 1 && h.pieces[0].attribute_count >= 1 &&
            h.attributes[0].coding == AttributeCoding::kLattice && !h.singleCoder() &&
-           h.raw.size() > 2;
+           h.streams.raw.size() > 2;
   }
 
   void frames() {
@@ -729,7 +729,7 @@ class Maker {
     field(
         "unused bit of raw", "A.3.8", Error::kTrailingBytes,
         "A bit of raw that nobody reads is set",
-        [](const PayloadHeader& h) { return threeStreams(h) && h.raw[h.raw.size() - 1] < 0x40; },
+        [](const PayloadHeader& h) { return threeStreams(h) && h.streams.raw[h.streams.raw.size() - 1] < 0x40; },
         [](HeaderFields& f) { f.bytes("raw").back() |= 0x80; });
   }
 
@@ -760,7 +760,7 @@ class Maker {
     (void)encodeCodes(io, header, mesh, record);
     const EncoderIo::Streams streams = io.finish();
     add("deep handle", "A.4.4", Error::kBadConnectivity, "A handle puts a digon below 256 others",
-        asset, writePayload(header, streams.codes, streams.tokens, streams.raw));
+        asset, writePayload(header, {streams.codes, streams.tokens, streams.raw}));
   }
   /// Of a closed manifold without holes.
   static ClosedMesh closedMesh(const test::TestMesh& mesh) {

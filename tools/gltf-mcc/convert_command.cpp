@@ -285,6 +285,11 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
   command.add_option("--prefer", options.prefer, "Fewer bytes, or less time to decode [balanced]")
       ->transform(CLI::CheckedTransformer(preferences, CLI::ignore_case).description(""))
       ->type_name("size|balanced|speed");
+  command
+      .add_option("--block", options.block_triangles,
+                  "Cut larger surfaces into blocks of N triangles, 0 never [262144 from 524288 on]")
+      ->check(CLI::Range(0u, kBlocksByPreference - 1).description(""))
+      ->type_name("N");
 }
 
 void addKeepOrder(CLI::App& command, gltf::ConvertOptions& options) {

@@ -71,7 +71,7 @@ template <bool kSingle>
 bool fitOf(const PayloadHeader& header, PredictorWeights& weights,
            uint32_t (&vertices)[kPredictorClasses]) {
   auto models = std::make_unique<PayloadModels>(Allocator{});
-  DecoderIo<kSingle> io(header.codes, header.tokens, header.raw);
+  DecoderIo<kSingle> io(header.streams.codes, header.streams.tokens, header.streams.raw);
   if (!models->mc.init(header.contextSet())) return false;
   PieceCoder<DecoderIo<kSingle>> piece(io, *models, header.pieces[0],
                                        header.attributesOf(header.pieces[0]), {});

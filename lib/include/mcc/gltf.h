@@ -128,6 +128,7 @@ struct ConvertOptions {
   /// does not depend on it.
   uint32_t thread_count = 1;
   Preference prefer = Preference::kBalanced;  ///< smaller payloads, or ones faster to decode
+  uint32_t block_triangles = kBlocksByPreference;  ///< see EncodeOptions::block_triangles
   ForeignDecoders decoders;                   ///< for sources that other codecs compressed
   /// How much a compressed source may decode to, see decodedLimit(); 0: the default. All accessors
   /// that have no bytes in the file may take a 32nd of it together; primitives that would need more
@@ -177,6 +178,8 @@ struct PayloadReport {
   uint64_t cut_copy_count = 0;
   uint64_t leftover_triangle_count = 0;
   uint32_t piece_count = 0;
+  uint32_t block_count = 0;   ///< 0: not cut into blocks
+  std::string whole_because;  ///< why not, if blocks were asked for
   std::vector<StreamReport> streams;
   /// Attributes of several pieces are merged where name, coding and bits are the same.
   std::vector<AttributeReport> attributes;

@@ -11,6 +11,7 @@
 
 #include "mcc/allocator.h"
 #include "mcc/export.h"
+#include "mcc/run_jobs.h"
 #include "mcc/status.h"
 #include "mcc/types.h"
 
@@ -75,6 +76,19 @@ enum class SurfaceCoding : uint8_t {
   kPivots,          ///< not cut: faces are coded vertex by vertex
 };
 
+/// A block: a part of a large surface that is coded apart from the others, so that several threads
+/// can decode them. Border vertices are in several blocks.                                    [A.11]
+struct BlockInfo {
+  uint32_t wedge_count = 0;     ///< of the block alone
+  uint32_t repeated_count = 0;  ///< how many of them blocks before this one have too
+  uint32_t triangle_count = 0;
+  uint64_t offset_bytes = 0;  ///< where its streams begin in the payload
+  uint64_t stream_bytes = 0;
+  /// The smallest box of its positions, in the units of the accessor.
+  float low[3] = {};
+  float high[3] = {};
+};
+
 /// A set of wedges (vertices of glTF) with attributes and parts.
 struct PieceInfo {
   uint32_t wedge_count = 0;   ///< glTF vertices, i.e. accessor.count
@@ -85,6 +99,7 @@ struct PieceInfo {
   bool keeps_vertex_order = false;  ///< wedges are numbered as in the source
   /// Triangles come as in the source, in their order and with the first corner of each.
   bool keeps_triangle_order = false;
+  std::span<const BlockInfo> blocks;  ///< empty: the piece is coded as a whole
 };
 
 /// Returns the format that a glTF attribute has in a payload: its name decides semantic and set,
@@ -175,6 +190,11 @@ struct DecodeOptions {
   void (*stage_bits)(void* user, uint32_t piece, DecodeStage stage, uint32_t attribute,
                      uint64_t bits) = nullptr;
   void* stage_bits_user = nullptr;
+  /// Decodes the blocks of a payload on several threads. The reader starts none itself; when empty,
+  /// everything runs on the caller's thread. The result does not depend on it. The allocator must
+  /// then be safe to use by several threads. With `histogram`, `mc_edge` or `stage_bits`, blocks
+  /// are decoded one after another on the caller's thread.
+  RunJobs run_jobs;
 };
 
 /// An opened payload: its parsed and checked header. Move-only; keeps a reference to the bytes.

@@ -106,6 +106,9 @@ enum class Preference : uint8_t {
   kSpeed = 2,     ///< 2.4 ns per vertex must save 1 %
 };
 
+/// Lets Preference decide whether surfaces are cut into blocks, see EncodeOptions::block_triangles.
+inline constexpr uint32_t kBlocksByPreference = 0xffffffffu;
+
 }  // namespace mcc
 
 #endif  // MCC_TYPES_H_

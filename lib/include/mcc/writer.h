@@ -59,6 +59,13 @@ struct EncodeOptions {
   bool keep_vertex_order = false;
   /// Whether the payload should be smaller, or faster to decode. It never changes the accuracy.
   Preference prefer = Preference::kBalanced;
+  /// Cuts a surface of more triangles than this into blocks of about as many, which several threads
+  /// can decode, and parts of which can be shown while the rest is loading. 0: never;
+  /// kBlocksByPreference: blocks of 262,144 triangles from 524,288 on, but none to make the payload
+  /// smaller (Preference::kSize), because each border costs some bytes. A surface that does not cut
+  /// well stays whole, and EncodeResult::whole_because says why. There are blocks only in a payload
+  /// of one piece without kept orders.
+  uint32_t block_triangles = kBlocksByPreference;
   /// Runs the trials of the writer on several threads. The writer starts none itself; when empty,
   /// everything runs on the caller's thread. The bytes do not depend on it. Each job that runs at
   /// the same time takes up to half the memory of a piece more.
@@ -96,6 +103,8 @@ struct EncodeResult {
   StreamSizes sizes;
   std::vector<PieceResult> pieces;
   std::vector<std::string> notes;  ///< attributes that had to be coded exactly, and why
+  uint32_t block_count = 0;        ///< 0: the pieces are coded as wholes
+  std::string whole_because;       ///< why there are no blocks, if they were asked for
 };
 
 /// Compresses pieces into one payload; they share adaptive models.

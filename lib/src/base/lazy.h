@@ -32,15 +32,16 @@ class Lazy {
     return made_;
   }
 
-  /// Copies `other`, which must have the same allocator. Returns false when memory ran out.
-  [[nodiscard]] bool copyFrom(const Lazy& other) {
+  /// Becomes a copy of `other` in memory of `allocator`, as for get(). Returns false when memory ran
+  /// out.
+  [[nodiscard]] bool copyFrom(const Lazy& other, const Allocator& allocator) {
     if (this == &other) return true;
     if (other.made_ == nullptr) {
       releaseBytes(allocator_, made_, sizeof(T));
       made_ = nullptr;
       return true;
     }
-    if (get(other.allocator_) == nullptr) return false;
+    if (get(allocator) == nullptr) return false;
     std::memcpy(static_cast<void*>(made_), other.made_, sizeof(T));
     return true;
   }
@@ -52,13 +53,13 @@ class Lazy {
 
 /// The same for arrays of lazy data.
 template <class T>
-[[nodiscard]] bool copyLazy(Lazy<T>& to, const Lazy<T>& from) {
-  return to.copyFrom(from);
+[[nodiscard]] bool copyLazy(Lazy<T>& to, const Lazy<T>& from, const Allocator& allocator) {
+  return to.copyFrom(from, allocator);
 }
 template <class T, size_t kCount>
-[[nodiscard]] bool copyLazy(T (&to)[kCount], const T (&from)[kCount]) {
+[[nodiscard]] bool copyLazy(T (&to)[kCount], const T (&from)[kCount], const Allocator& allocator) {
   for (size_t i = 0; i < kCount; ++i) {
-    if (!copyLazy(to[i], from[i])) return false;
+    if (!copyLazy(to[i], from[i], allocator)) return false;
   }
   return true;
 }

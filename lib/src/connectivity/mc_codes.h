@@ -98,9 +98,7 @@ inline constexpr uint32_t kClassTwig = 5;
 inline constexpr uint32_t kClassEnd = 6;
 inline constexpr uint32_t kStartAges = 6;
 
-struct McModels {
-  explicit McModels(const Allocator& allocator) : run(allocator), special(allocator) {}
-
+struct McSingleModels {
   BitModel start[kStartAges];
   BitModel kind_spur[4];
   BitModel kind_twig[4];
@@ -116,11 +114,17 @@ struct McModels {
   GolombModel handle_node;
   GolombModel handle_top;
   GolombModel handle_depth;
+};
+
+struct McModels : McSingleModels {
+  explicit McModels(const Allocator& allocator) : run(allocator), special(allocator) {}
+
   Array<BitModel> run;  ///< its size depends on the context set
   Array<BitModel> special;
   uint32_t context_set = 0;
 
   [[nodiscard]] bool init(uint32_t set);
+  [[nodiscard]] bool copyFrom(const McModels& other);
 };
 
 inline constexpr uint32_t kRunContexts = 4 * 16 * 2;  ///< [position][degree][shared]
@@ -137,6 +141,15 @@ inline bool McModels::init(uint32_t set) {
   context_set = set;
   return run.assign(kRunContexts * runContextFactor(set), BitModel{}) &&
          special.assign(8 * specialContextFactor(set), BitModel{});
+}
+
+inline bool McModels::copyFrom(const McModels& other) {
+  if (!run.resize(other.run.size()) || !special.resize(other.special.size())) return false;
+  static_cast<McSingleModels&>(*this) = other;
+  std::copy(other.run.data(), other.run.data() + run.size(), run.data());
+  std::copy(other.special.data(), other.special.data() + special.size(), special.data());
+  context_set = other.context_set;
+  return true;
 }
 
 inline constexpr bool kTellsMcEdges = !kCompact;

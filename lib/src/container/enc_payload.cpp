@@ -3,6 +3,7 @@
 
 #include <bit>
 
+#include "base/bytes.h"
 #include "base/enc_bytes.h"
 #include "format/usual.h"
 
@@ -97,42 +98,113 @@ void writePiece(ByteWriter& out, const PayloadHeader& header, size_t index) {
     writeAttribute(out, attributes.first(i), attributes[i]);
 }
 
-}  // namespace
+void writePieces(ByteWriter& out, const PayloadHeader& header) {
+  if (header.pieces.size() > 1) out.writeVarint(static_cast<uint32_t>(header.pieces.size()));
+  for (size_t i = 0; i < header.pieces.size(); ++i) writePiece(out, header, i);
+}
 
-std::vector<uint8_t> writePayload(const PayloadHeader& header, std::span<const uint8_t> codes,
-                                  std::span<const uint8_t> tokens, std::span<const uint8_t> raw) {
-  ByteWriter pieces;
-  if (header.pieces.size() > 1) pieces.writeVarint(static_cast<uint32_t>(header.pieces.size()));
-  for (size_t i = 0; i < header.pieces.size(); ++i) writePiece(pieces, header, i);
-  if (!header.singleCoder()) {
-    pieces.writeVarint(static_cast<uint32_t>(codes.size()));
-    pieces.writeVarint(static_cast<uint32_t>(tokens.size()));
+/// [A.11.1]
+void writeBlock(ByteWriter& out, const PayloadHeader& header, size_t index) {
+  const BlockHeader& block = header.blocks[index];
+  if (index != 0) {
+    out.writeVarint(block.repeated_count);
+    out.writeVarint(block.exception_count);
+    uint32_t next = 0;
+    for (const BlockException& exception : header.exceptionsOf(block)) {
+      out.writeVarint(exception.wedge - next);
+      out.writeVarint(exception.number == kNone ? 0 : block.first_wedge - exception.number);
+      next = exception.wedge + 1;
+    }
   }
+  out.writeVarint(block.codes_bytes);
+  out.writeVarint(block.tokens_bytes);
+  out.writeVarint(block.raw_bytes);
+  out.writeU32(block.checksum);
+  for (uint32_t s = 0; s < 3; ++s) {
+    out.writeVarint(zigzag(block.box.low[s]));
+    out.writeVarint(static_cast<uint32_t>(block.box.high[s]) -
+                    static_cast<uint32_t>(block.box.low[s]));
+  }
+}
+
+/// Adds the padding that the elements of the header ask for, if the payload would otherwise have
+/// `have_bytes`. Returns the payload's flags. [A.2.6]
+uint32_t writePadding(ByteWriter& out, const PayloadHeader& header, uint64_t have_bytes) {
+  const uint32_t flags =
+      header.flags | (header.pieces.size() > 1 ? payload_flag::kManyPieces : 0u);
   const uint64_t needed = (elementsOf(header) + kMaxElementsPerByte - 1) / kMaxElementsPerByte;
-  const uint64_t have =
-      kChecksummedFrom + 1 + pieces.size() + codes.size() + tokens.size() + raw.size();
-  uint32_t flags = header.flags;
-  if (header.pieces.size() > 1) flags |= payload_flag::kManyPieces;
-  if (needed > have) {
-    flags |= payload_flag::kPadded;
-    const uint32_t padding = static_cast<uint32_t>(needed - have);
-    pieces.writeVarint(padding);
-    pieces.bytes().resize(pieces.size() + padding, 0);
-  }
+  if (needed <= have_bytes) return flags;
+  const uint32_t padding = static_cast<uint32_t>(needed - have_bytes);
+  out.writeVarint(padding);
+  out.bytes().resize(out.size() + padding, 0);
+  return flags | payload_flag::kPadded;
+}
+
+ByteWriter beginPayload(uint32_t flags) {
   ByteWriter out;
   out.writeU8(kMagic);
   out.writeU8(static_cast<uint8_t>(kVersionMajor << 4 | kVersionMinor));
-  out.writeU32(0);
+  out.writeU32(0);  // the checksum
   out.writeU8(static_cast<uint8_t>(flags));
-  out.writeBytes(pieces.bytes());
-  out.writeBytes(codes);
-  out.writeBytes(tokens);
-  out.writeBytes(raw);
-  const uint32_t checksum = checksumOf(out.bytes());
+  return out;
+}
+
+std::vector<uint8_t> endPayload(ByteWriter& out) {
+  const uint32_t checksum = checksumOf(std::span<const uint8_t>(out.bytes()));
   for (size_t i = 0; i < 4; ++i) {
     out.bytes()[kChecksumOffset + i] = static_cast<uint8_t>(checksum >> (8 * i));
   }
   return std::move(out.bytes());
+}
+
+void writeStreams(ByteWriter& out, const Streams& streams) {
+  out.writeBytes(streams.codes);
+  out.writeBytes(streams.tokens);
+  out.writeBytes(streams.raw);
+}
+
+uint64_t bytesOf(const Streams& streams) {
+  return uint64_t{streams.codes.size()} + streams.tokens.size() + streams.raw.size();
+}
+
+}  // namespace
+
+std::vector<uint8_t> writePayload(const PayloadHeader& header, const Streams& streams) {
+  ByteWriter pieces;
+  writePieces(pieces, header);
+  if (!header.singleCoder()) {
+    pieces.writeVarint(static_cast<uint32_t>(streams.codes.size()));
+    pieces.writeVarint(static_cast<uint32_t>(streams.tokens.size()));
+  }
+  const uint64_t have = kChecksummedFrom + 1 + pieces.size() + bytesOf(streams);
+  ByteWriter out = beginPayload(writePadding(pieces, header, have));
+  out.writeBytes(pieces.bytes());
+  writeStreams(out, streams);
+  return endPayload(out);
+}
+
+std::vector<uint8_t> writeBlocks(PayloadHeader& header, std::span<const Streams> streams) {
+  ByteWriter pieces;
+  writePieces(pieces, header);
+  uint64_t stream_bytes = 0;
+  for (size_t i = 0; i < streams.size(); ++i) {
+    BlockHeader& block = header.blocks[i];
+    block.codes_bytes = static_cast<uint32_t>(streams[i].codes.size());
+    block.tokens_bytes = static_cast<uint32_t>(streams[i].tokens.size());
+    block.raw_bytes = static_cast<uint32_t>(streams[i].raw.size());
+    block.checksum = checksumOf(streams[i]);
+    stream_bytes += block.streamBytes();
+    writeBlock(pieces, header, i);
+  }
+  const uint64_t have = kChecksummedFrom + 1 + pieces.size() + stream_bytes;
+  ByteWriter out = beginPayload(writePadding(pieces, header, have));
+  const size_t other_bytes = out.size() + pieces.size();
+  size_t length_bytes = 1;  // of the header's length, which counts its own bytes too
+  while ((other_bytes + length_bytes) >> (7 * length_bytes) != 0) ++length_bytes;
+  out.writeVarint(static_cast<uint32_t>(other_bytes + length_bytes));
+  out.writeBytes(pieces.bytes());
+  for (const Streams& of_block : streams) writeStreams(out, of_block);
+  return endPayload(out);
 }
 
 }  // namespace mcc

@@ -11,9 +11,12 @@
 namespace mcc {
 
 /// Inverse of parsePayload(). `header` must not contain its streams, and this function sets
-/// kSameAttributes.
-std::vector<uint8_t> writePayload(const PayloadHeader& header, std::span<const uint8_t> codes,
-                                  std::span<const uint8_t> tokens, std::span<const uint8_t> raw);
+/// kSameAttributes, kManyPieces and kPadded.
+std::vector<uint8_t> writePayload(const PayloadHeader& header, const Streams& streams);
+
+/// The same for a payload with blocks, which have one element of `streams` each. Fills in what the
+/// table says of the streams.
+std::vector<uint8_t> writeBlocks(PayloadHeader& header, std::span<const Streams> streams);
 
 }  // namespace mcc
 

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "container/payload_header.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -8,6 +9,7 @@
 #include "format/codings.h"
 #include "format/predictors.h"
 #include "format/usual.h"
+#include "mesh/face_mesh.h"
 
 namespace mcc {
 namespace {
@@ -189,6 +191,10 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
                ? fail(Error::kBadHeader, "a piece without positions has creases", at)
                : Status{};
   }
+  if (header.hasBlocks() && !header.pieces.empty()) {
+    piece.first_attribute = header.pieces[0].first_attribute;
+    return {};
+  }
   if (header.attributes.size() + uint64_t{piece.attribute_count} > limits.max_attributes) {
     return fail(Error::kLimit, "the payload has more attributes than the limit allows", at);
   }
@@ -235,6 +241,18 @@ struct Totals {
   uint64_t output_bytes = 0;  ///< size of the caller's attributes and indices of 32 bits
 };
 
+/// [A.11.1]
+Status checkBlock(const PayloadHeader& header, const PieceHeader& block, size_t at) {
+  const bool is_first = header.pieces.empty();
+  if (block.hasPivots() || block.face_count == 0 || block.attribute_count == 0 ||
+      block.has(piece_flag::kTriangleOrder | piece_flag::kVertexOrder) ||
+      block.has(piece_flag::kSameAttributes) == is_first ||
+      (!is_first && block.part_count != header.pieces[0].part_count)) {
+    return fail(Error::kBadHeader, "a block has what no block has", at);
+  }
+  return {};
+}
+
 /// [A.2.2]
 Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, Totals& totals) {
   PieceHeader piece;
@@ -268,10 +286,10 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, T
   totals.triangles += triangles;
   totals.output_bytes += triangles * 3 * sizeof(uint32_t);
   if (totals.vertices > limits.max_vertices || totals.wedges > limits.max_vertices ||
-      piece.vertex_count >= (1u << 28) || piece.wedge_count >= (1u << 28)) {
+      piece.vertex_count >= kMaxVertices || piece.wedge_count >= kMaxVertices) {
     return fail(Error::kLimit, "the payload has more vertices than the limit allows", at);
   }
-  if (totals.triangles > limits.max_triangles || triangles >= (1u << 28)) {
+  if (totals.triangles > limits.max_triangles || triangles >= kMaxVertices) {
     return fail(Error::kLimit, "the payload has more triangles than the limit allows", at);
   }
   if (piece.isolated_count > piece.wedge_count ||
@@ -298,11 +316,25 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, T
                 "the parts of a piece have another number of triangles than the piece", at);
   }
   MCC_TRY(parseAttributes(in, limits, header, piece));
+  if (header.hasBlocks()) MCC_TRY(checkBlock(header, piece, at));
   for (uint32_t i = 0; i < piece.attribute_count; ++i) {
     const AttributeFormat& format = header.attributes[piece.first_attribute + i].format;
     totals.output_bytes += uint64_t{piece.wedge_count} * elementBytes(format);
   }
   if (!header.pieces.push_back(piece)) return fail(Error::kOutOfMemory, "no memory for the header");
+  return {};
+}
+
+Status parsePadding(ByteReader& in, const PayloadHeader& header) {
+  if ((header.flags & payload_flag::kPadded) == 0) return {};
+  uint32_t padding = 0;
+  std::span<const uint8_t> zeros;
+  MCC_TRY(parseFlaggedCount(in, true, 1, padding));
+  const size_t at = in.offset();
+  MCC_TRY(in.readBytes(padding, zeros));
+  for (const uint8_t byte : zeros) {
+    if (byte != 0) return fail(Error::kBadHeader, "the padding is not zero", at);
+  }
   return {};
 }
 
@@ -314,21 +346,92 @@ Status parseStreams(ByteReader& in, PayloadHeader& header) {
     MCC_TRY(in.readVarint(codes_bytes));
     MCC_TRY(in.readVarint(tokens_bytes));
   }
-  if ((header.flags & payload_flag::kPadded) != 0) {
-    uint32_t padding = 0;
-    std::span<const uint8_t> zeros;
-    MCC_TRY(parseFlaggedCount(in, true, 1, padding));
-    const size_t at = in.offset();
-    MCC_TRY(in.readBytes(padding, zeros));
-    for (const uint8_t byte : zeros) {
-      if (byte != 0) return fail(Error::kBadHeader, "the padding is not zero", at);
-    }
-  }
+  MCC_TRY(parsePadding(in, header));
   header.header_bytes = in.offset();
-  if (header.singleCoder()) return in.readBytes(in.remaining(), header.codes);
-  MCC_TRY(in.readBytes(codes_bytes, header.codes));
-  MCC_TRY(in.readBytes(tokens_bytes, header.tokens));
-  return in.readBytes(in.remaining(), header.raw);
+  if (header.singleCoder()) return in.readBytes(in.remaining(), header.streams.codes);
+  MCC_TRY(in.readBytes(codes_bytes, header.streams.codes));
+  MCC_TRY(in.readBytes(tokens_bytes, header.streams.tokens));
+  return in.readBytes(in.remaining(), header.streams.raw);
+}
+
+/// [A.11.1]
+Status parseExceptions(ByteReader& in, const PieceHeader& piece, PayloadHeader& header,
+                       BlockHeader& block) {
+  const size_t at = in.offset();
+  MCC_TRY(in.readVarint(block.exception_count));
+  if (block.exception_count > in.remaining() / 2)
+    return fail(Error::kTruncated, "the payload ends inside its table of blocks", at);
+  uint64_t wedge = 0;
+  for (uint32_t i = 0; i < block.exception_count; ++i) {
+    uint32_t delta = 0;
+    uint32_t back = 0;
+    MCC_TRY(in.readVarint(delta));
+    MCC_TRY(in.readVarint(back));
+    wedge += uint64_t{delta} + (i != 0 ? 1 : 0);
+    if (wedge >= piece.wedge_count - piece.isolated_count || back > block.first_wedge)
+      return fail(Error::kBadHeader, "an exception names a wedge that is not there", at);
+    const uint32_t number = back == 0 ? kNone : block.first_wedge - back;
+    if (!header.exceptions.push_back({static_cast<uint32_t>(wedge), number}))
+      return fail(Error::kOutOfMemory, "no memory for the header");
+  }
+  return {};
+}
+
+/// [A.11.1]
+Status parseBlock(ByteReader& in, const PieceHeader& piece, PayloadHeader& header,
+                  BlockHeader& block) {
+  block.first_exception = static_cast<uint32_t>(header.exceptions.size());
+  if (!header.blocks.empty()) {
+    const size_t at = in.offset();
+    MCC_TRY(in.readVarint(block.repeated_count));
+    if (block.repeated_count > piece.wedge_count - piece.isolated_count)
+      return fail(Error::kBadHeader, "a block repeats more wedges than it has", at);
+    MCC_TRY(parseExceptions(in, piece, header, block));
+  }
+  MCC_TRY(in.readVarint(block.codes_bytes));
+  MCC_TRY(in.readVarint(block.tokens_bytes));
+  MCC_TRY(in.readVarint(block.raw_bytes));
+  MCC_TRY(in.readU32(block.checksum));
+  for (uint32_t s = 0; s < 3; ++s) {
+    const size_t at = in.offset();
+    uint32_t low = 0;
+    uint32_t size = 0;
+    MCC_TRY(in.readVarint(low));
+    MCC_TRY(in.readVarint(size));
+    const int64_t high = int64_t{unzigzag(low)} + size;
+    if (high > INT32_MAX) return fail(Error::kBadHeader, "the box of a block is too large", at);
+    block.box.low[s] = unzigzag(low);
+    block.box.high[s] = static_cast<int32_t>(high);
+  }
+  return {};
+}
+
+/// [A.11.1]
+Status parseBlocks(ByteReader& in, uint64_t payload_bytes, PayloadHeader& header) {
+  if (!header.blocks.reserve(header.pieces.size()))
+    return fail(Error::kOutOfMemory, "no memory for the header");
+  const size_t at = in.offset();
+  uint64_t offset_bytes = header.header_bytes;
+  uint64_t wedges = 0;
+  for (size_t i = 0; i < header.pieces.size(); ++i) {
+    BlockHeader block;
+    block.first_wedge = static_cast<uint32_t>(wedges);
+    MCC_TRY(parseBlock(in, header.pieces[i], header, block));
+    block.offset_bytes = static_cast<size_t>(offset_bytes);
+    offset_bytes += block.streamBytes();
+    wedges += header.pieces[i].wedge_count - block.repeated_count;
+    if (wedges >= kMaxVertices)
+      return fail(Error::kLimit, "the payload has more vertices than the limit allows", at);
+    if (offset_bytes > payload_bytes)
+      return fail(Error::kTruncated, "the payload ends inside a block", header.header_bytes);
+    (void)header.blocks.push_back(block);  // reserved above
+  }
+  MCC_TRY(parsePadding(in, header));
+  if (in.offset() != header.header_bytes)
+    return fail(Error::kBadHeader, "the header has another length than it claims", at);
+  if (offset_bytes != payload_bytes)
+    return fail(Error::kTrailingBytes, "bytes follow the last block", offset_bytes);
+  return in.readBytes(in.remaining(), header.streams.codes);
 }
 
 }  // namespace
@@ -352,7 +455,7 @@ uint64_t attributeElements(const PieceHeader& piece, const AttributeFormat& form
 }
 
 uint64_t elementsOf(const PayloadHeader& header) {
-  uint64_t elements = 0;
+  uint64_t elements = header.hasBlocks() ? kElementsPerBlock * header.pieces.size() : 0;
   for (size_t i = 0; i < header.pieces.size(); ++i) {
     const PieceHeader& piece = header.pieces[i];
     elements += surfaceElements(piece);
@@ -363,11 +466,45 @@ uint64_t elementsOf(const PayloadHeader& header) {
   return elements;
 }
 
-uint32_t checksumOf(std::span<const uint8_t> payload) {
-  return crc32(payload.subspan(kChecksummedFrom), crc32(payload.first(kChecksumOffset)));
+namespace {
+
+bool claimsBlocks(std::span<const uint8_t> bytes) {
+  return bytes.size() > kChecksummedFrom && (bytes[kChecksummedFrom] & payload_flag::kBlocks) != 0;
+}
+
+/// Finds how many bytes the checksum of a payload covers: all, or the header where blocks have
+/// checksums of their own.
+Status findChecksummed(std::span<const uint8_t> bytes, size_t& checksummed_bytes) {
+  checksummed_bytes = bytes.size();
+  if (!claimsBlocks(bytes)) return {};
+  ByteReader in(bytes.subspan(kChecksummedFrom + 1));
+  uint32_t header_bytes = 0;
+  MCC_TRY(in.readVarint(header_bytes));
+  if (header_bytes > bytes.size())
+    return fail(Error::kTruncated, "the payload ends inside its header", bytes.size());
+  checksummed_bytes = std::max<size_t>(header_bytes, kChecksummedFrom + 1);
+  return {};
+}
+
+}  // namespace
+
+uint32_t checksumOf(std::span<const uint8_t> bytes) {
+  size_t checksummed_bytes = 0;
+  if (!findChecksummed(bytes, checksummed_bytes).ok()) checksummed_bytes = bytes.size();
+  return crc32(bytes.first(checksummed_bytes).subspan(kChecksummedFrom),
+               crc32(bytes.first(kChecksumOffset)));
+}
+
+uint32_t checksumOf(const Streams& streams) {
+  return crc32(streams.raw, crc32(streams.tokens, crc32(streams.codes)));
 }
 
 Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, PayloadHeader& header) {
+  return parsePrefix(bytes, bytes.size(), limits, header);
+}
+
+Status parsePrefix(std::span<const uint8_t> bytes, uint64_t payload_bytes, const Limits& limits,
+                   PayloadHeader& header) {
   if (bytes.size() >= 3 && std::memcmp(bytes.data(), kWithdrawnMagic, 3) == 0) {
     return fail(Error::kUnsupportedVersion,
                 "the payload is of the withdrawn format 1.0: compress its source again", 0);
@@ -388,6 +525,8 @@ Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, Payloa
   }
   header.version_minor = version & 15;
   MCC_TRY(in.readU32(checksum));
+  size_t checksummed_bytes = 0;
+  MCC_TRY(findChecksummed(bytes, checksummed_bytes));
   if (checksumOf(bytes) != checksum) {
     return fail(Error::kBadChecksum, "the checksum does not match: the payload is damaged",
                 kChecksumOffset);
@@ -398,6 +537,17 @@ Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, Payloa
   if ((header.flags & ~payload_flag::kAll) != 0) {
     return fail(Error::kBadHeader, "reserved bits are set", kChecksummedFrom);
   }
+  if (!decodes::kBlocks && claimsBlocks(bytes))
+    return fail(kNotInCore, "the core lacks blocks", kChecksummedFrom);
+  if (header.hasBlocks()) {
+    uint32_t header_bytes = 0;
+    MCC_TRY(in.readVarint(header_bytes));
+    header.header_bytes = header_bytes;
+    if (header.singleCoder() || (flags & payload_flag::kManyPieces) == 0)
+      return fail(Error::kBadHeader, "these flags exclude each other", kChecksummedFrom);
+  } else if (bytes.size() != payload_bytes) {
+    return fail(Error::kTruncated, "the payload ends before its last byte", bytes.size());
+  }
   uint32_t piece_count = 1;
   const size_t at = in.offset();
   MCC_TRY(parseFlaggedCount(in, (flags & payload_flag::kManyPieces) != 0, 2, piece_count));
@@ -406,14 +556,16 @@ Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, Payloa
   }
   Totals totals;
   for (uint32_t i = 0; i < piece_count; ++i) MCC_TRY(parsePiece(in, limits, header, totals));
+  if (header.hasBlocks() && (totals.triangles >= kMaxVertices || totals.vertices >= kMaxVertices))
+    return fail(Error::kLimit, "the blocks have more triangles or vertices than a piece can", at);
   const uint64_t elements = elementsOf(header);
-  if (elements > kMaxElementsPerByte * bytes.size()) {
+  if ((elements + kMaxElementsPerByte - 1) / kMaxElementsPerByte > payload_bytes) {
     return fail(Error::kLimit, "the payload claims more than its size can hold", at);
   }
   if (elements > limits.max_elements || totals.output_bytes > limits.max_output_bytes) {
     return fail(Error::kLimit, "the payload is larger than the limit allows", at);
   }
-  return parseStreams(in, header);
+  return header.hasBlocks() ? parseBlocks(in, payload_bytes, header) : parseStreams(in, header);
 }
 
 }  // namespace mcc

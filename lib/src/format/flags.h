@@ -26,7 +26,8 @@ inline constexpr uint32_t kSingleCoder = 1u << 0;
 inline constexpr uint32_t kManyPieces = 1u << 1;
 inline constexpr uint32_t kPadded = 1u << 2;
 inline constexpr uint32_t kContextSetShift = 3;  ///< one bit
-inline constexpr uint32_t kAll = 0xf;
+inline constexpr uint32_t kBlocks = 1u << 4;
+inline constexpr uint32_t kAll = 0x1f;
 }  // namespace payload_flag
 
 namespace piece_flag {

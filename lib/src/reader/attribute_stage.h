@@ -50,13 +50,13 @@ struct AttributeModels {
                  [a.format.morph_target != 0 ? 1 : 0];
   }
 
-  /// Becomes what `o` is. False without memory.
-  [[nodiscard]] bool copyFrom(const AttributeModels& o) {
-    return copyLazy(equalities, o.equalities) && copyLazy(normals, o.normals) &&
-           copyLazy(texcoords, o.texcoords) && copyLazy(tangents, o.tangents) &&
-           copyLazy(tangent_points, o.tangent_points) && copyLazy(skins, o.skins) &&
-           copyLazy(values, o.values) && copyLazy(exact_normals, o.exact_normals) &&
-           copyLazy(exact_tangents, o.exact_tangents) && copyLazy(tails, o.tails);
+  /// Becomes what `o` is, in memory of `a`. Returns false when memory ran out.
+  [[nodiscard]] bool copyFrom(const AttributeModels& o, const Allocator& a) {
+    return copyLazy(equalities, o.equalities, a) && copyLazy(normals, o.normals, a) &&
+           copyLazy(texcoords, o.texcoords, a) && copyLazy(tangents, o.tangents, a) &&
+           copyLazy(tangent_points, o.tangent_points, a) && copyLazy(skins, o.skins, a) &&
+           copyLazy(values, o.values, a) && copyLazy(exact_normals, o.exact_normals, a) &&
+           copyLazy(exact_tangents, o.exact_tangents, a) && copyLazy(tails, o.tails, a);
   }
 };
 

@@ -49,6 +49,18 @@ struct PayloadModels {
   LeftoverModels leftovers;
   Lazy<OrderModels> orders;
   AttributeModels attributes;
+
+  /// Becomes what `o` is, in memory of `a`. Blocks have no pivots and keep no orders. Returns false
+  /// when memory ran out.
+  [[nodiscard]] bool copyFrom(const PayloadModels& o, const Allocator& a) {
+    positions = o.positions;
+    isolated = o.isolated;
+    position_tails = o.position_tails;
+    seams = o.seams;
+    leftovers = o.leftovers;
+    return mc.copyFrom(o.mc) && stitch.copyFrom(o.stitch, a) &&
+           attributes.copyFrom(o.attributes, a);
+  }
 };
 
 /// What the writer knows about a piece, stage by stage; all null when reading.

@@ -130,7 +130,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
   // comparison.
   const uint32_t sample = alternatives.size() > 1 ? kNone : part;
   AttributeModels before;
-  if (!before.copyFrom(models.attributes)) throwBadAlloc();
+  if (!before.copyFrom(models.attributes, {})) throwBadAlloc();
   AttributeInfo best = info;
   uint64_t best_cost = ~uint64_t{0};
   for (AttributeInfo candidate : alternatives) {
@@ -152,7 +152,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
       cost += static_cast<uint64_t>(
           rules.price.surcharge(tried * rules.wedge_share, timeOf(method, info.predictor)));
       search.report(cost);
-      if (!models.attributes.copyFrom(before)) throwBadAlloc();
+      if (!models.attributes.copyFrom(before, {})) throwBadAlloc();
       if (cost >= best_cost) continue;
       best_cost = cost;
       best = candidate;

@@ -80,13 +80,6 @@ bool halveDeepComponents(const Plan& plan, uint32_t max_handle_depth,
   return last != kNone;
 }
 
-std::vector<uint32_t> classesOfCorners(const Plan& plan) {
-  std::vector<uint32_t> corner_class(plan.triangles.wedges.size());
-  for (size_t i = 0; i < corner_class.size(); ++i)
-    corner_class[i] = plan.classes.class_of_wedge[plan.triangles.wedges[i]];
-  return corner_class;
-}
-
 SurfaceCoding surfaceOf(const ClosedMesh& mesh, std::span<const uint32_t> class_of_vertex,
                         uint32_t class_count) {
   std::vector<uint8_t> umbrellas(class_count, 0);
@@ -135,6 +128,13 @@ void sortIsolated(Plan& plan) {
 }
 
 }  // namespace
+
+std::vector<uint32_t> classesOfCorners(const Plan& plan) {
+  std::vector<uint32_t> corner_class(plan.triangles.wedges.size());
+  for (size_t i = 0; i < corner_class.size(); ++i)
+    corner_class[i] = plan.classes.class_of_wedge[plan.triangles.wedges[i]];
+  return corner_class;
+}
 
 void prepareConnectivity(Plan& plan, uint32_t start_half_edge, uint32_t max_handle_depth) {
   cutAndCollapse(plan, start_half_edge, max_handle_depth);
@@ -191,13 +191,20 @@ Status preparePiece(const PieceView& view, const EncodeSettings& options, const 
                                  isExact(plan.attributes[0].info.coding));
   });
   MCC_TRY(checkJoints(plan));
+  if (options.indices_only) plan.attributes.clear();
+  plan.header.wedge_count = view.wedge_count;
+  for (const PartView& part : view.parts)
+    plan.parts.push_back({static_cast<uint32_t>(part.indices.size() / 3)});
+  describePiece(plan, options);
+  return {};
+}
+
+void describePiece(Plan& plan, const EncodeOptions& options) {
   PieceHeader& h = plan.header;
-  h.wedge_count = view.wedge_count;
   h.isolated_count = static_cast<uint32_t>(plan.triangles.isolated.size());
   h.listed_count =
       static_cast<uint32_t>(plan.triangles.listed.size() + plan.triangles.duplicates.size());
-  h.part_count = static_cast<uint32_t>(view.parts.size());
-  if (options.indices_only) plan.attributes.clear();
+  h.part_count = static_cast<uint32_t>(plan.parts.size());
   h.attribute_count = static_cast<uint32_t>(plan.attributes.size());
   if (h.isolated_count != 0) h.flags |= piece_flag::kIsolated;
   if (h.listed_count != 0) h.flags |= piece_flag::kListed;
@@ -211,7 +218,6 @@ Status preparePiece(const PieceView& view, const EncodeSettings& options, const 
     if (first == kNone) first = w;
     if (first != w) h.flags |= piece_flag::kSeams;
   }
-  return {};
 }
 
 std::vector<uint32_t> codingOrder(const Plan& plan) {

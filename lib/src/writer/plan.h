@@ -26,6 +26,7 @@ namespace mcc {
 struct Plan {
   const PieceView* view = nullptr;
   PieceHeader header;
+  std::vector<PartInfo> parts;
   std::vector<QuantizedAttribute> attributes;  ///< POSITION first
   std::vector<uint32_t> source_attribute;      ///< index of each in view->attributes
   PositionClasses classes;
@@ -45,6 +46,7 @@ struct Plan {
   std::vector<int32_t> positions;
   std::vector<int32_t> exact_positions;  ///< ordered floats, if the positions are on an exact grid
   DistinctCoordinates coordinates;
+  bool finds_coordinates = false;  ///< `coordinates` are still to be found
   AxisPlanes planes[3];
   PositionParameters positions_as;  ///< the chosen parameters with fitted tables
   std::vector<uint32_t> wedge_source;
@@ -61,6 +63,12 @@ inline int32_t codedPosition(const AttributeInfo& info, int32_t value) {
 
 constexpr uint32_t nextCorner(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
 constexpr uint32_t prevCorner(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
+
+/// Sets the fields of the header that follow from attributes, classes and triangles.
+void describePiece(Plan& plan, const EncodeOptions& options);
+
+/// Returns the position classes of the corners of all proper triangles.
+std::vector<uint32_t> classesOfCorners(const Plan& plan);
 
 /// Checks the piece, quantises and welds it, and sorts its triangles.
 Status preparePiece(const PieceView& view, const EncodeSettings& options, const Jobs& jobs,

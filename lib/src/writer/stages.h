@@ -92,6 +92,10 @@ class StageRunner {
     AxisPalette palettes[3];
     if (!plan_.attributes.empty()) {
       infos_[0] = plan_.attributes[0].info;
+      if (plan_.finds_coordinates) {
+        plan_.coordinates.find({plan_.positions.data(), 3 * size_t{piece_.groups.count}},
+                               isExact(infos_[0].coding));
+      }
       for (uint32_t s = 0; s < 3; ++s) palettes[s] = plan_.coordinates.palette(s);
       truth_.palettes = palettes;
       truth_.planes = plan_.planes;
@@ -161,7 +165,7 @@ class StageRunner {
     if (isCodedWithAnother(index)) return {};
     learnAttribute(index);
     MCC_TRY(piece_.codeAttribute(index, values_));
-    if (sizes != nullptr) sizes->attribute_bits[first_attribute_ + index] = since();
+    if (sizes != nullptr) sizes->attribute_bits[first_attribute_ + index] += since();
     return {};
   }
 
@@ -184,6 +188,7 @@ class StageRunner {
   }
 
   uint32_t groupCount() const { return piece_.groups.count; }
+  const FaceMesh& mesh() const { return piece_.mesh; }
 
  private:
   /// What coding the seams changes.

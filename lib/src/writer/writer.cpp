@@ -5,12 +5,13 @@
 #include "mcc/writer.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/enc_exceptions.h"
 #include "container/enc_payload.h"
 #include "positions/enc_prices.h"
+#include "writer/blocks.h"
 #include "writer/choices.h"
+#include "writer/code_piece.h"
 #include "writer/settings.h"
 #include "writer/stages.h"
 
@@ -19,68 +20,13 @@ namespace {
 
 constexpr uint32_t kSingleCoderVertices = 400;  ///< up to here the single coder is also tried
 
-void scale(StreamSizes& sizes, double by) {
-  for (double* bits : {&sizes.connectivity_bits, &sizes.stitch_bits, &sizes.leftover_bits,
-                       &sizes.seam_bits, &sizes.position_bits, &sizes.order_bits}) {
-    *bits *= by;
-  }
-  for (double& bits : sizes.attribute_bits) bits *= by;
-  for (double& bits : sizes.piece_position_bits) bits *= by;
-}
-
-/// What becomes of one piece, after its stages have run.
-PieceResult resultOf(const Plan& plan, uint32_t group_count) {
-  PieceResult piece;
-  piece.source_wedge = plan.wedge_source;
-  if (plan.header.has(piece_flag::kVertexOrder)) {
-    std::iota(piece.source_wedge.begin(), piece.source_wedge.end(), 0u);
-  }
-  piece.topological_vertex_count = group_count;
-  piece.cut_copy_count = plan.header.vertex_count - group_count;
-  piece.hole_count = plan.cut.hole_count;
-  piece.component_count = static_cast<uint32_t>(plan.cut.mesh.components.size());
-  piece.leftover_triangle_count =
-      static_cast<uint32_t>(plan.header.triangleCount()) - plan.header.face_count;
-  return piece;
-}
-
 Status codeAll(std::vector<Plan>& plans, EncoderIo& io, PayloadModels& models,
                PayloadHeader& header, EncodeResult& result) {
   for (Plan& plan : plans) {
-    StageRunner<EncoderIo> runner(io, models, plan, header.attributes.size());
-    result.sizes.attribute_bits.resize(header.attributes.size() + plan.attributes.size(), 0);
-    MCC_TRY(runner.codeSurface(&result.sizes));
-    const double bits_before = result.sizes.position_bits;
-    MCC_TRY(runner.codePositions(&result.sizes));
-    result.sizes.piece_position_bits.push_back(result.sizes.position_bits - bits_before);
-    MCC_TRY(runner.codeSeams(&result.sizes));
-    MCC_TRY(runner.codeOrders(&result.sizes));
-    MCC_TRY(runner.prepareAttributes());
-    for (const uint32_t a : codingOrder(plan)) MCC_TRY(runner.codeAttribute(a, &result.sizes));
-
-    plan.header.first_attribute = static_cast<uint32_t>(header.attributes.size());
-    plan.header.first_part = static_cast<uint32_t>(header.parts.size());
-    for (const QuantizedAttribute& a : plan.attributes) {
-      if (!header.attributes.push_back(a.info)) throwBadAlloc();
-    }
-    for (const PartView& part : plan.view->parts) {
-      if (!header.parts.push_back({static_cast<uint32_t>(part.indices.size() / 3)}))
-        throwBadAlloc();
-    }
-    if (!header.pieces.push_back(plan.header)) throwBadAlloc();
-    result.pieces.push_back(resultOf(plan, runner.groupCount()));
+    MCC_TRY(codePiece(plan, io, models, header.attributes.size(), result));
+    addPiece(plan, header);
   }
   return {};
-}
-
-/// Completes the sizes. The counted costs are slightly off: over millions of tokens, the error may
-/// exceed what flushing adds to the streams.
-void accountHeader(double coded_bits, const EncoderIo::Streams& streams, EncodeResult& result) {
-  const double stream_bits =
-      8.0 * static_cast<double>(streams.codes.size() + streams.tokens.size() + streams.raw.size());
-  const double spent_bits = std::min(coded_bits, stream_bits);
-  if (spent_bits < coded_bits) scale(result.sizes, spent_bits / coded_bits);
-  result.sizes.header_bits = 8.0 * static_cast<double>(result.payload.size()) - spent_bits;
 }
 
 /// Codes the pieces as their plans say. A payload of few vertices is coded in both ways at once.
@@ -96,11 +42,11 @@ Status codePayload(std::vector<Plan>& plans, uint32_t context_set, const EncodeS
   header.flags = context_set << payload_flag::kContextSetShift;
   MCC_TRY(codeAll(plans, io, *models, header, result));
   EncoderIo::Streams streams = io.finish();
-  result.payload = writePayload(header, streams.codes, streams.tokens, streams.raw);
+  result.payload = writePayload(header, {streams.codes, streams.tokens, streams.raw});
   if (tries_single) {
     EncoderIo::Streams single_stream = io.finishSingle();
     header.flags |= payload_flag::kSingleCoder;
-    std::vector<uint8_t> single = writePayload(header, single_stream.codes, {}, {});
+    std::vector<uint8_t> single = writePayload(header, {single_stream.codes, {}, {}});
     const double bytes = static_cast<double>(single.size());
     const double surcharge = TimePrice(options.prefer).surcharge(bytes, price_ns::kSingleCoder);
     const bool pays = bytes + surcharge < static_cast<double>(result.payload.size());
@@ -109,7 +55,8 @@ Status codePayload(std::vector<Plan>& plans, uint32_t context_set, const EncodeS
       streams = std::move(single_stream);
     }
   }
-  accountHeader(static_cast<double>(io.cost()) / kCostOne, streams, result);
+  accountHeader(static_cast<double>(io.cost()) / kCostOne,
+                streams.codes.size() + streams.tokens.size() + streams.raw.size(), result);
   return {};
 }
 
@@ -122,6 +69,10 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeSettings& opt
   std::vector<std::vector<std::string>> notes(pieces.size());
   const auto prepare = [&](size_t i) -> Status {
     MCC_TRY(preparePiece(pieces[i], options, jobs, plans[i], notes[i]));
+    if (pieces.size() == 1) {
+      MCC_TRY(encodeBlocks(plans[0], options, jobs, result));
+      if (!result.payload.empty()) return {};
+    }
     Variation variation(options.variation == 0 ? 0 : options.variation + 1 + i);
     return chooseSurface(plans[i], i == 0 ? options.start_half_edge : kNone, options.without,
                          variation.active() ? &variation : nullptr, TimePrice(options.prefer),
@@ -131,6 +82,7 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeSettings& opt
   for (const std::vector<std::string>& of_piece : notes) {
     result.notes.insert(result.notes.end(), of_piece.begin(), of_piece.end());
   }
+  if (!result.payload.empty()) return {};
   uint32_t context_set = kNone;
   Variation variation(options.variation);
   MCC_TRY(variation.active() ? varyAll(plans, options, variation, context_set)

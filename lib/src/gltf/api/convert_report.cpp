@@ -20,6 +20,8 @@ void addCounts(const EncodedPayload& payload, PayloadReport& report) {
   report.payload_bytes = payload.result.payload.size();
   report.freed_bytes = payload.freed_bytes;
   report.piece_count = static_cast<uint32_t>(payload.plan.pieces.size());
+  report.block_count = payload.result.block_count;
+  report.whole_because = payload.result.whole_because;
   for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
     const PiecePlan& piece = payload.plan.pieces[i];
     const PieceResult& result = payload.result.pieces[i];

@@ -61,6 +61,13 @@ void runAll(size_t count, ThreadBudget&, const std::function<void(size_t)>& job)
 
 #endif
 
+RunJobs runJobsOn(ThreadBudget& budget) {
+  if (!budget.hasSpare()) return {};
+  return [&budget](size_t count, const std::function<void(size_t)>& job) {
+    runAll(count, budget, job);
+  };
+}
+
 Result runParallel(size_t count, ThreadBudget& budget, const std::function<Result(size_t)>& job) {
   std::vector<Result> results(count);
   std::atomic<bool> has_failed{false};

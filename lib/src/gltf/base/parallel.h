@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "gltf/base/result.h"
+#include "mcc/run_jobs.h"
 
 namespace mcc::gltf {
 
@@ -25,6 +26,7 @@ class ThreadBudget {
     return spare != 0;
   }
   void giveBack() { ++spare_; }
+  bool hasSpare() const { return spare_ != 0; }
 
  private:
   std::atomic<uint32_t> spare_;
@@ -33,6 +35,9 @@ class ThreadBudget {
 /// Runs job(0) … job(count - 1), which must not throw, on this thread and on as many others as the
 /// budget has at this moment. Returns when all have ended.
 void runAll(size_t count, ThreadBudget& budget, const std::function<void(size_t)>& job);
+
+/// Returns runAll() as the codec's hook, which borrows the budget. It is empty for one thread.
+RunJobs runJobsOn(ThreadBudget& budget);
 
 /// Runs job(0) … job(count - 1) in the same way. Returns the error of the lowest job that failed;
 /// jobs after it may or may not have run. Exceptions become errors.

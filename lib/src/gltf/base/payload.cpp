@@ -67,15 +67,17 @@ Status decodePieces(DecodedPayload& decoded, const DecodeOptions& options) {
   return decoded.payload.decode(targets, options);
 }
 
-Result decodePieces(const std::string& where, DecodedPayload& decoded) {
-  return toResult(decodePieces(decoded), where);
+Result decodePieces(const std::string& where, DecodedPayload& decoded, const RunJobs& run_jobs) {
+  DecodeOptions options;
+  options.run_jobs = run_jobs;
+  return toResult(decodePieces(decoded, options), where);
 }
 
 Result decodePayload(std::span<const uint8_t> bytes, const std::string& where,
-                     DecodedPayload& decoded) {
+                     DecodedPayload& decoded, const RunJobs& run_jobs) {
   decoded = {};
   MCC_GLTF_TRY(toResult(decoded.payload.open(bytes), where));
-  return decodePieces(where, decoded);
+  return decodePieces(where, decoded, run_jobs);
 }
 
 }  // namespace mcc::gltf

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "gltf/base/parallel.h"
 #include "gltf/base/result.h"
 #include "mcc/reader.h"
 
@@ -46,11 +47,11 @@ Result toResult(const Status& status, const std::string& where);
 
 /// Decodes all pieces of an opened payload.
 Status decodePieces(DecodedPayload& decoded, const DecodeOptions& options = {});
-Result decodePieces(const std::string& where, DecodedPayload& decoded);
+Result decodePieces(const std::string& where, DecodedPayload& decoded, const RunJobs& run_jobs);
 
 /// Opens a payload and decodes all of it. `bytes` must outlive `decoded`.
 Result decodePayload(std::span<const uint8_t> bytes, const std::string& where,
-                     DecodedPayload& decoded);
+                     DecodedPayload& decoded, const RunJobs& run_jobs = {});
 
 }  // namespace mcc::gltf
 

@@ -244,7 +244,7 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
   if (!options.allow_larger) {
     MCC_GLTF_TRY(dropTinyPieces(document, foreign, options, plans, compressed.left_alone));
   }
-  splitPayloads(plans);
+  splitPayloads(options, plans);
   MCC_GLTF_TRY(
       encodePayloads(options, std::move(plans), compressed.payloads, compressed.left_alone));
   if (options.allow_larger) {

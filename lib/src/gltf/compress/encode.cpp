@@ -38,6 +38,7 @@ Status encodePieces(const std::vector<const PiecePlan*>& plans, const EncodeOpti
 EncodeOptions optionsOf(const ConvertOptions& options, const PayloadPlan& plan) {
   EncodeOptions encode_options;
   encode_options.prefer = options.prefer;
+  encode_options.block_triangles = options.block_triangles;
   encode_options.indices_only = plan.indices_only;
   encode_options.keep_vertex_order = plan.keep_vertex_order;
   encode_options.keep_triangle_order = plan.keep_triangle_order;
@@ -101,9 +102,10 @@ Result encodeOne(const EncodeOptions& options, EncodedPayload& payload,
   return {};
 }
 
-Result decodeOne(EncodedPayload& payload) {
+Result decodeOne(EncodedPayload& payload, const RunJobs& run_jobs) {
   DecodedPayload decoded;
-  Result result = decodePayload(payload.result.payload, at("/meshes", payload.plan.mesh), decoded);
+  Result result =
+      decodePayload(payload.result.payload, at("/meshes", payload.plan.mesh), decoded, run_jobs);
   if (!result.ok()) {
     result.what = "the payload cannot be decoded again: " + result.what + "; please report this";
   }
@@ -155,12 +157,7 @@ Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> pl
   std::vector<std::vector<LeftAlone>> refused(plans.size());
   EncodingProgress progress(options, plans);
   ThreadBudget threads(options.thread_count);
-  RunJobs run_jobs;
-  if (options.thread_count > 1) {
-    run_jobs = [&](size_t count, const std::function<void(size_t)>& job) {
-      runAll(count, threads, job);
-    };
-  }
+  const RunJobs run_jobs = runJobsOn(threads);
   MCC_GLTF_TRY(runParallel(plans.size(), threads, [&](size_t i) {
     PayloadPlan& plan = encoded[i].plan;
     plan = std::move(plans[i]);
@@ -181,8 +178,10 @@ Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> pl
 }
 
 Result decodePayloads(uint32_t thread_count, std::vector<EncodedPayload>& payloads) {
-  return runParallel(payloads.size(), thread_count,
-                     [&](size_t i) { return decodeOne(payloads[i]); });
+  ThreadBudget threads(thread_count);
+  const RunJobs run_jobs = runJobsOn(threads);
+  return runParallel(payloads.size(), threads,
+                     [&](size_t i) { return decodeOne(payloads[i], run_jobs); });
 }
 
 }  // namespace mcc::gltf

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "gltf/document/references.h"
+#include "writer/settings.h"
 
 namespace mcc::gltf {
 namespace {
@@ -394,14 +395,28 @@ struct PayloadCounts {
 
 }  // namespace
 
-void splitPayloads(std::vector<PayloadPlan>& payloads) {
+namespace {
+
+bool mayHaveBlocks(const ConvertOptions& options, const PayloadPlan& payload,
+                   const PiecePlan& piece) {
+  if (payload.keep_vertex_order || payload.keep_triangle_order || payload.indices_only)
+    return false;
+  uint64_t triangle_count = 0;
+  for (const PartPlan& part : piece.parts) triangle_count += part.triangles.size() / 3;
+  return blockTriangles(triangle_count, options.block_triangles, options.prefer) != 0;
+}
+
+}  // namespace
+
+void splitPayloads(const ConvertOptions& options, std::vector<PayloadPlan>& payloads) {
   std::vector<PayloadPlan> split;
   for (PayloadPlan& payload : payloads) {
     PayloadCounts counts;
     bool is_open = false;
     for (PiecePlan& piece : payload.pieces) {
+      const bool is_alone = mayHaveBlocks(options, payload, piece);
       counts.add(piece);
-      if (!is_open || !counts.isAccepted()) {
+      if (!is_open || is_alone || !counts.isAccepted()) {
         counts = {};
         counts.add(piece);
         PayloadPlan& next = split.emplace_back();
@@ -410,7 +425,7 @@ void splitPayloads(std::vector<PayloadPlan>& payloads) {
         next.keep_triangle_order = payload.keep_triangle_order;
         next.indices_only = payload.indices_only;
       }
-      is_open = true;
+      is_open = !is_alone;
       // Attributes inside the payload and next to it must have the same order.
       split.back().keep_vertex_order |= !payload.indices_only && !piece.ordinary.empty();
       split.back().pieces.push_back(std::move(piece));

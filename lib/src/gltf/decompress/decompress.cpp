@@ -36,9 +36,12 @@ class Decompressor {
     // Decodes as many payloads at a time as there are threads, to limit the memory in use.
     for (size_t begin = 0; begin < uses.size(); begin += thread_count_) {
       const size_t count = std::min<size_t>(thread_count_, uses.size() - begin);
-      MCC_GLTF_TRY(runParallel(count, thread_count_, [&](size_t i) {
+      ThreadBudget threads(thread_count_);
+      const RunJobs run_jobs = runJobsOn(threads);
+      MCC_GLTF_TRY(runParallel(count, threads, [&](size_t i) {
         DecodedPayload& payload = payloads[begin + i];
-        return payload.pieces.empty() ? decodePieces(whereOf(uses[begin + i]), payload) : Result{};
+        if (!payload.pieces.empty()) return Result{};
+        return decodePieces(whereOf(uses[begin + i]), payload, run_jobs);
       }));
       for (size_t i = begin; i < begin + count; ++i) {
         store(uses[i], payloads[i]);

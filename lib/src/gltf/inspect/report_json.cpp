@@ -32,7 +32,7 @@ Json payloadJson(const PayloadReport& payload) {
   for (const auto& stream : payload.streams) streams[stream.name] = stream.bits / 8;
   Json attributes = Json::array();
   for (const auto& attribute : payload.attributes) attributes.push_back(attributeJson(attribute));
-  return {{"mesh", payload.mesh},
+  Json json = {{"mesh", payload.mesh},
           {"bytes", payload.payload_bytes},
           {"freed_bytes", payload.freed_bytes},
           {"pieces", payload.piece_count},
@@ -45,6 +45,9 @@ Json payloadJson(const PayloadReport& payload) {
           {"leftover_triangles", payload.leftover_triangle_count},
           {"stream_bytes", streams},
           {"attributes", attributes}};
+  if (payload.block_count != 0) json["blocks"] = payload.block_count;
+  if (!payload.whole_because.empty()) json["whole_because"] = payload.whole_because;
+  return json;
 }
 
 Json primitiveJson(const PrimitiveReport& primitive) {

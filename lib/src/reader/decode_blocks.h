@@ -1,0 +1,382 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Decodes a payload that is cut into blocks:                                                [A.11]
+//
+//   decode   the stages of a block, whose models begin as block 0 left them     any thread, any order
+//   number   which of its wedges earlier blocks have, and the numbers of all    in the order of blocks
+//   store    triangles and those wedges that are not repeated                   any thread
+#ifndef MCC_READER_DECODE_BLOCKS_H_
+#define MCC_READER_DECODE_BLOCKS_H_
+
+#include <atomic>
+#include <new>
+#include <optional>
+
+#include "base/lazy.h"
+#include "base/working_memory.h"
+#include "entropy/decoder_io.h"
+#include "mesh/border.h"
+#include "reader/decode_piece.h"
+
+namespace mcc {
+
+/// The Io of payloads with three streams.
+using BlockIo = std::conditional_t<kCompact, CompactIo, StreamsIo>;
+
+/// A block after its stages, and then with its numbers.
+class DecodedBlock {
+ public:
+  /// Borrows everything. Takes memory from huge pages if `options` has no allocator.
+  DecodedBlock(const PayloadHeader& header, uint32_t index, const DecodeOptions& options)
+      : options_(options),
+        header_(header),
+        index_(index),
+        infos_(header.attributesOf(header.pieces[index])),
+        pages_(expectedBytes(header.pieces[index])),
+        allocator_(chooseAllocator()),
+        values_(allocator_),
+        part_of_face_(allocator_),
+        border_(allocator_),
+        numbers_(allocator_) {}
+
+  uint32_t index() const { return index_; }
+  const Allocator& allocator() const { return allocator_; }
+
+  /// Runs the stages. `models` must live as long as the block, unless decoding fails.
+  Status decode(PayloadModels& models, Progress& progress) {
+    const BlockHeader& block = header_.blocks[index_];
+    const Streams streams = header_.streamsOf(block);
+    if (checksumOf(streams) != block.checksum) {
+      return fail(Error::kBadChecksum, "the checksum of a block does not match: it is damaged",
+                  block.offset_bytes);
+    }
+    if (!values_.resize(valuesBefore(static_cast<uint32_t>(infos_.size())))) return noMemory();
+    DecodeOptions options = options_;
+    options.allocator = allocator_;
+    BlockIo io(streams.codes, streams.tokens, streams.raw);
+    piece_.emplace(io, models, pieceHeader(), infos_, allocator_);
+    MCC_TRY(decodePiece(*piece_, pieceHeader(), infos_, *this, options,
+                        StageBits<BlockIo>(io, 0, options), progress));
+    return io.finish();
+  }
+
+  // decodePiece() calls these two.
+  Status surface(const PieceCoder<BlockIo>& piece) {
+    CodedBox box;
+    for (uint32_t s = 0; s < 3; ++s) box.low[s] = INT32_MAX, box.high[s] = INT32_MIN;
+    for (uint32_t w = 0; w < pieceHeader().wedge_count; ++w) {
+      const int32_t* q = piece.records[piece.groupOf(w)].q;
+      for (uint32_t s = 0; s < 3; ++s) {
+        values_[3 * size_t{w} + s] = q[s];
+        box.low[s] = std::min(box.low[s], q[s]);
+        box.high[s] = std::max(box.high[s], q[s]);
+      }
+    }
+    if (box != header_.blocks[index_].box)
+      return fail(Error::kBadAttribute, "a block has another box than the header claims");
+    if (pieceHeader().part_count == 1) return {};
+    if (!part_of_face_.resize(piece.mesh.face_count)) return noMemory();
+    for (uint32_t f = 0; f < piece.mesh.face_count; ++f)
+      part_of_face_[f] = piece.mesh.words[size_t{f} * kFaceWords + kFaceWord];
+    return {};
+  }
+  Status attribute(const PieceCoder<BlockIo>&, uint32_t index, const Array<int32_t>& values) {
+    std::copy_n(values.data(), values.size(), values_.data() + valuesBefore(index));
+    return {};
+  }
+
+  /// Numbers the wedges. Must be called block after block.
+  Status number(BorderTable& table) {
+    const BlockHeader& block = header_.blocks[index_];
+    uint32_t repeated_count = 0;
+    if (!findBorder() || !numberWedges(table, border_, header_.exceptionsOf(block),
+                                       block.first_wedge, pieceHeader().wedge_count, numbers_,
+                                       repeated_count))
+      return noMemory();
+    if (repeated_count == block.repeated_count) return {};
+    return fail(Error::kBadAttribute, "a block repeats another number of wedges than it claims");
+  }
+
+  /// Stores the triangles, and the wedges that earlier blocks do not have, where they belong in the
+  /// whole piece. `first_triangles` are those of each part before this block.
+  Status store(const PieceTarget& target, const uint32_t* first_triangles) {
+    Array<AttributeTarget> attributes(allocator_);
+    Array<PartTarget> parts(allocator_);
+    Array<uint32_t> fresh(allocator_);
+    const uint32_t first = header_.blocks[index_].first_wedge;
+    const uint32_t fresh_count =
+        pieceHeader().wedge_count - header_.blocks[index_].repeated_count;
+    if (!attributes.resize(infos_.size()) || !parts.resize(pieceHeader().part_count) ||
+        !fresh.reserve(fresh_count))
+      return noMemory();
+    for (size_t a = 0; a < attributes.size(); ++a) {
+      AttributeTarget& to = attributes[a] = target.attributes[a];
+      if (to.data != nullptr) to.data = static_cast<uint8_t*>(to.data) + to.stride_bytes * first;
+    }
+    for (size_t p = 0; p < parts.size(); ++p) {
+      PartTarget& to = parts[p] = target.parts[p];
+      const size_t triangle_bytes = 3 * static_cast<size_t>(to.index_type);
+      if (to.indices != nullptr)
+        to.indices = static_cast<uint8_t*>(to.indices) + triangle_bytes * first_triangles[p];
+    }
+    for (uint32_t w = 0; w < pieceHeader().wedge_count; ++w) {
+      if (numbers_[w] >= first) (void)fresh.push_back(w);  // number() has checked how many
+    }
+    storeValues({fresh.data(), fresh_count}, {attributes.data(), attributes.size()});
+    const auto number = [this](uint32_t wedge) { return numbers_[wedge]; };
+    MCC_TRY(storeParts({parts.data(), parts.size()}, number));
+    if constexpr (kTellsMcEdges) tellMcEdges(*piece_, 0, number, options_);
+    return {};
+  }
+
+  /// Stores the block alone: all its wedges, in its own numbers.
+  Status storeAlone(const PieceTarget& target) {
+    storeValues({nullptr, pieceHeader().wedge_count}, target.attributes);
+    return storeParts(target.parts, [](uint32_t wedge) { return wedge; });
+  }
+
+ private:
+  static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for a block"); }
+
+  Allocator chooseAllocator() {
+    const uint64_t expected_bytes = expectedBytes(pieceHeader());
+    const bool pays = !kCompact && isHeap(options_.allocator) && WorkingMemory::pays(expected_bytes);
+    return pays ? pages_.allocator() : options_.allocator;
+  }
+  const PieceHeader& pieceHeader() const { return header_.pieces[index_]; }
+
+  /// Returns the integers that a wedge has for an attribute; 0 if another attribute holds them.
+  uint32_t wordsOf(uint32_t a) const {
+    if (a == 0) return 3;
+    return isWithAnother(methodOf(infos_, a)) ? 0 : codedComponents(infos_, a);
+  }
+  /// Returns where the values of an attribute begin: those of all wedges, attribute by attribute.
+  size_t valuesBefore(uint32_t index) const {
+    size_t words = 0;
+    for (uint32_t a = 0; a < index; ++a) words += wordsOf(a);
+    return words * pieceHeader().wedge_count;
+  }
+
+  bool findBorder() {
+    if (!border_.find(piece_->mesh, pieceHeader().wedge_count)) return false;
+    for (uint32_t a = 0; a < infos_.size(); ++a) border_.tuple_words += wordsOf(a);
+    if (!border_.tuples.resize(border_.wedges.size() * border_.tuple_words)) return false;
+    uint32_t column = 0;
+    for (uint32_t a = 0; a < infos_.size(); ++a) {
+      const uint32_t words = wordsOf(a);
+      const int32_t* from = values_.data() + valuesBefore(a);
+      int32_t* to = border_.tuples.data() + column;
+      for (size_t i = 0; i < border_.wedges.size(); ++i, to += border_.tuple_words)
+        std::copy_n(from + size_t{border_.wedges[i]} * words, words, to);
+      column += words;
+    }
+    return true;
+  }
+
+  void storeValues(WedgeAt wedge_at, std::span<const AttributeTarget> targets) {
+    for (uint32_t a = 0; a < infos_.size(); ++a) {
+      const int32_t* values = values_.data() + valuesBefore(a);
+      if (a == 0) {
+        storeAttribute(*piece_, infos_, 0, values, 3, wedge_at, targets);
+      } else if (wordsOf(a) != 0) {
+        storeDecoded(*piece_, infos_, a, values, wedge_at, targets);
+      }
+    }
+  }
+  template <class Number>
+  Status storeParts(std::span<const PartTarget> targets, const Number& number) {
+    const PieceHeader& piece = pieceHeader();
+    const auto part_of = [this](uint32_t f) { return part_of_face_[f]; };
+    return storeSurface(*piece_, {header_.parts.data() + piece.first_part, piece.part_count},
+                        targets, number, part_of, allocator_);
+  }
+
+  const DecodeOptions& options_;
+  const PayloadHeader& header_;
+  const uint32_t index_;
+  const AttributeInfos infos_;
+  WorkingMemory pages_;
+  const Allocator allocator_;
+  std::optional<PieceCoder<BlockIo>> piece_;
+  Array<int32_t> values_;         ///< of all attributes, see valuesBefore()
+  Array<uint32_t> part_of_face_;  ///< only with several parts
+  Border border_;
+  Array<uint32_t> numbers_;  ///< by wedge
+};
+
+/// Creates and destroys large objects in memory of an allocator.
+template <class T>
+class Placed {
+ public:
+  explicit Placed(const Allocator& allocator) : allocator_(allocator) {}
+  Placed(const Placed&) = delete;
+  Placed& operator=(const Placed&) = delete;
+  ~Placed() {
+    if (made_ != nullptr) made_->~T();
+    releaseBytes(allocator_, made_, sizeof(T));
+  }
+  /// Returns null when memory ran out.
+  template <class... Arguments>
+  T* make(Arguments&&... arguments) {
+    void* memory = allocateBytes(allocator_, sizeof(T));
+    if (memory != nullptr) made_ = new (memory) T(std::forward<Arguments>(arguments)...);
+    return made_;
+  }
+  T* get() const { return made_; }
+
+ private:
+  const Allocator allocator_;
+  T* made_ = nullptr;
+};
+
+/// Decodes a block with models that begin as `primed`, or as those of every payload if that is
+/// null. `left`, if not null, receives the models that it leaves.
+inline Status decodeBlock(DecodedBlock& block, const PayloadHeader& header,
+                          const PayloadModels* primed, PayloadModels* left,
+                          const Allocator& allocator, Progress& progress) {
+  Placed<PayloadModels> models(allocator);
+  if (models.make(block.allocator()) == nullptr ||
+      !(primed != nullptr ? models.get()->copyFrom(*primed, block.allocator())
+                          : models.get()->mc.init(header.contextSet())))
+    return fail(Error::kOutOfMemory, "no memory for the models");
+  MCC_TRY(block.decode(*models.get(), progress));
+  if (left != nullptr && !left->copyFrom(*models.get(), allocator))
+    return fail(Error::kOutOfMemory, "no memory for the models");
+  return {};
+}
+
+/// Decodes all blocks of a payload. Threads that have decoded a block number and store all blocks
+/// whose turn has come, so that none waits for another.
+class BlocksDecoder {
+ public:
+  BlocksDecoder(const PayloadHeader& header, const PieceTarget& target,
+                const DecodeOptions& options)
+      : header_(header),
+        target_(target),
+        options_(options),
+        progress_(options, header),
+        primed_(options.allocator),
+        table_(options.allocator),
+        first_triangles_(options.allocator),
+        decoded_(options.allocator),
+        statuses_(options.allocator) {}
+  ~BlocksDecoder() {
+    for (size_t i = 0; i < decoded_.size(); ++i) drop(decoded_[i]);
+  }
+
+  Status run() {
+    const size_t count = header_.blocks.size();
+    if (primed_.make(options_.allocator) == nullptr || !listFirstTriangles() ||
+        !decoded_.assign(count, nullptr) || !statuses_.assign(count, Status{}))
+      return noMemory();
+    decode(0);
+    const bool is_watched = options_.histogram != nullptr || options_.mc_edge != nullptr ||
+                            options_.stage_bits != nullptr;
+    const auto job = [this](size_t i) { decode(static_cast<uint32_t>(i + 1)); };
+    if (options_.run_jobs && !is_watched && first_failed_ == kNone) {
+      options_.run_jobs(count - 1, job);
+    } else {
+      for (size_t i = 0; i + 1 < count; ++i) job(i);
+    }
+    return first_failed_ == kNone ? Status{} : statuses_[first_failed_];
+  }
+
+ private:
+  static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for the blocks"); }
+
+  void lock() {
+    while (is_locked_.test_and_set(std::memory_order_acquire)) {
+    }
+  }
+  void unlock() { is_locked_.clear(std::memory_order_release); }
+
+  /// By the parts of all blocks.
+  bool listFirstTriangles() {
+    if (!first_triangles_.resize(header_.parts.size())) return false;
+    const uint32_t part_count = header_.pieces[0].part_count;
+    for (size_t i = 0; i < header_.parts.size(); ++i) {
+      first_triangles_[i] = i < part_count ? 0
+                                           : first_triangles_[i - part_count] +
+                                                 header_.parts[i - part_count].triangle_count;
+    }
+    return true;
+  }
+
+  DecodedBlock* make(uint32_t index) {
+    void* memory = allocateBytes(options_.allocator, sizeof(DecodedBlock));
+    return memory == nullptr ? nullptr : new (memory) DecodedBlock(header_, index, options_);
+  }
+  void drop(DecodedBlock* block) {
+    if (block == nullptr) return;
+    block->~DecodedBlock();
+    releaseBytes(options_.allocator, block, sizeof(DecodedBlock));
+  }
+
+  /// Decodes a block, unless one before it has failed: the first that fails says what is wrong.
+  void decode(uint32_t index) {
+    if (first_failed_ < index) return;
+    DecodedBlock* block = make(index);
+    Status status = noMemory();
+    if (block != nullptr) {
+      const bool is_first = index == 0;
+      status = decodeBlock(*block, header_, is_first ? nullptr : primed_.get(),
+                           is_first ? primed_.get() : nullptr, options_.allocator, progress_);
+    }
+    if (!status.ok()) {
+      drop(block);
+      return failAt(index, status);
+    }
+    passOn(block);
+  }
+
+  void failAt(uint32_t index, const Status& status) {
+    lock();
+    statuses_[index] = status;
+    if (index < first_failed_) first_failed_ = index;
+    unlock();
+  }
+
+  /// Numbers and stores blocks as long as it is somebody's turn.
+  void passOn(DecodedBlock* decoded) {
+    lock();
+    decoded_[decoded->index()] = decoded;
+    while (!is_numbering_ && next_ < decoded_.size() && decoded_[next_] != nullptr) {
+      DecodedBlock* block = std::exchange(decoded_[next_], nullptr);
+      is_numbering_ = true;
+      unlock();
+      Status status = block->number(table_);
+      lock();
+      if (status.ok()) {  // otherwise no block after it has its turn
+        is_numbering_ = false;
+        ++next_;
+      }
+      unlock();
+      if (status.ok()) {
+        const PieceHeader& piece = header_.pieces[block->index()];
+        status = block->store(target_, first_triangles_.data() + piece.first_part);
+      }
+      if (!status.ok()) failAt(block->index(), status);
+      drop(block);
+      lock();
+    }
+    unlock();
+  }
+
+  const PayloadHeader& header_;
+  const PieceTarget& target_;
+  const DecodeOptions& options_;
+  Progress progress_;
+  Placed<PayloadModels> primed_;  ///< as block 0 left them
+  BorderTable table_;
+  Array<uint32_t> first_triangles_;  ///< in its part, for each part of each block
+  std::atomic<uint32_t> first_failed_ = kNone;
+  std::atomic_flag is_locked_ = ATOMIC_FLAG_INIT;  ///< for what follows
+  Array<DecodedBlock*> decoded_;                   ///< blocks that wait for their turn
+  Array<Status> statuses_;
+  uint32_t next_ = 0;  ///< the block whose turn it is
+  bool is_numbering_ = false;
+};
+
+}  // namespace mcc
+
+#endif  // MCC_READER_DECODE_BLOCKS_H_

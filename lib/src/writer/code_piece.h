@@ -1,0 +1,27 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Runs the stages of a piece or block on the real coder, as its plan says.
+#ifndef MCC_WRITER_CODE_PIECE_H_
+#define MCC_WRITER_CODE_PIECE_H_
+
+#include "entropy/enc_coder.h"
+#include "mesh/border.h"
+#include "writer/plan.h"
+
+namespace mcc {
+
+/// Codes the piece and adds what it cost to `result.sizes`, and what the caller is told of it to
+/// `result.pieces`. `border`, if not null, receives the candidates of a block, without tuples.
+/// first_attribute  is the number of attributes of the payload before this piece's
+Status codePiece(Plan& plan, EncoderIo& io, PayloadModels& models, size_t first_attribute,
+                 EncodeResult& result, Border* border = nullptr);
+
+/// Adds a piece to the header of its payload.
+void addPiece(Plan& plan, PayloadHeader& header);
+
+/// Completes the sizes, of which the coders have counted `coded_bits` in streams of `stream_bytes`.
+void accountHeader(double coded_bits, uint64_t stream_bytes, EncodeResult& result);
+
+}  // namespace mcc
+
+#endif  // MCC_WRITER_CODE_PIECE_H_
