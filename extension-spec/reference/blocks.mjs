@@ -94,7 +94,7 @@ export function copyOf(value) {
 
 // ---- [A.11.3], [A.11.4] The glued piece
 
-// What a header says of a piece
+// What a header says of a piece. The limits of this decoder on totals (A.2.6) are below those of a glued piece.
 export function gluedHeader(blocks) {
 	const [{ piece }] = blocks;
 	const last = blocks.at(-1);
