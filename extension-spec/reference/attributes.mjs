@@ -133,10 +133,11 @@ function positionState(context, attribute) {
 	}
 }
 
-// The elements of all attributes, in the order of the header: of each wedge the bytes of its components.
+// elements: of all attributes, in the order of the header, of each wedge the bytes of its components; integersOf: of a wedge, the
+// integers that were decoded, those of the position first.
 export function decodeAttributes(streams, attributeModels, stages) {
 	const { attributes } = stages.piece;
-	if (attributes.length === 0) return [];
+	if (attributes.length === 0) return { elements: [], integersOf: () => [] };
 	const context = new Context(streams, attributeModels, stages.piece, new Wedges(stages));
 	positionState(context, attributes[0]);
 	for (const phase of [0, 1]) {
@@ -145,5 +146,7 @@ export function decodeAttributes(streams, attributeModels, stages) {
 		}
 	}
 	const normals = context.octahedralNormals();
-	return attributes.map((a) => elementsOf(context.stateOf(a.coding === ALIAS ? attributes[a.alias] : a), normals));
+	const elements = attributes.map((a) => elementsOf(context.stateOf(a.coding === ALIAS ? attributes[a.alias] : a), normals));
+	const states = attributes.filter((a) => a.coding !== ALIAS).map((a) => context.stateOf(a));
+	return { elements, integersOf: (w) => states.flatMap((state) => state.integers(w)) };
 }

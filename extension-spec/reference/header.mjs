@@ -2,6 +2,7 @@
 
 // The container: A.2 of the specification. Reads and checks everything in front of the streams.
 
+import { checkBlock, readStreamsOfBlocks, readTable } from './blocks.mjs';
 import { bitsOfFloat, ByteReader, crc32, fail, floatOfBits } from './bytes.mjs';
 import { SingleCoder, ThreeStreams } from './entropy.mjs';
 import { methodOf, predictorIsValid } from './methods.mjs';
@@ -17,6 +18,9 @@ const COMPONENT_COUNTS = [1, 2, 3, 4, 9, 16];
 // [A.2.4] By semantic
 const USUAL_COMPONENTS = [3, 3, 4, 2, 4, 4, 4, 1];
 
+// [A.2.1] A flag of the payload
+const BLOCKS = 16;
+
 // [A.2.2] Flags of a piece, by bit; bits 7 and 8 are a number
 const PIECE_FLAGS = ['SEAMS', 'MANY_PARTS', 'SAME_ATTRIBUTES', 'HOLES', 'HANDLES', 'CREASES', 'ISOLATED', '', '', 'LISTED',
 	'TRIANGLE_ORDER', 'VERTEX_ORDER'];
@@ -25,14 +29,15 @@ function badHeader(section, message) {
 	fail('BadHeader', section, message);
 }
 
-// [A.2.1] Payload: returns its header and the decoder of its streams.
+// [A.2.1] Payload: returns its header and the decoder of its streams, which with BLOCKS are in header.blocks.
 export function readHeader(bytes) {
 	const reader = new ByteReader(bytes);
 	readMagicVersionChecksum(reader);
 	const header = readPayloadFlags(reader);
-	header.pieces = readPieces(reader, header.pieceCount);
-	checkElements(header.pieces, bytes.length);
-	const streams = readStreams(reader, header);
+	header.pieces = readPieces(reader, header);
+	checkElements(header, bytes.length);
+	if (header.hasBlocks) header.blocks = readBlocks(reader, header);
+	const streams = header.hasBlocks ? undefined : readStreams(reader, header);
 	return { header, streams };
 }
 
@@ -46,25 +51,49 @@ function readMagicVersionChecksum(reader) {
 	const version = reader.u8();
 	if (version !== 0x09) fail('UnsupportedVersion', 'A.2.1', `version ${version >> 4}.${version & 15}`);
 	const checksum = reader.u32();
-	if (crc32(bytes.subarray(0, 2), bytes.subarray(6)) !== checksum) fail('BadChecksum', 'A.2.1', 'the checksum does not match');
+	const end = checksummedBytes(bytes);
+	if (crc32(bytes.subarray(0, 2), bytes.subarray(6, end)) !== checksum) fail('BadChecksum', 'A.2.1', 'the checksum does not match');
+}
+
+// [A.2.1] Where the bytes end that the checksum covers: with BLOCKS it is that of the header.
+function checksummedBytes(bytes) {
+	const reader = new ByteReader(bytes.subarray(6));
+	if (reader.remaining() === 0 || !(reader.u8() & BLOCKS)) return bytes.length;
+	const headerLength = reader.varint();
+	if (headerLength > bytes.length) fail('Truncated', 'A.2.1', 'the payload ends inside its header');
+	return headerLength;
 }
 
 // [A.2.1]
 function readPayloadFlags(reader) {
 	const flags = reader.u8();
-	if (flags >> 4 !== 0) badHeader('A.2.1', 'a reserved flag is set');
+	if (flags >> 5 !== 0) badHeader('A.2.1', 'a reserved flag is set');
+	const hasBlocks = (flags & BLOCKS) !== 0;
+	if (hasBlocks && (flags & 3) !== 2) badHeader('A.11.1', 'BLOCKS with SINGLE_CODER or without MANY_PIECES');
+	const headerLength = hasBlocks ? reader.varint() : undefined;
 	const contextSet = (flags >> 3) & 1;
 	const pieceCount = flags & 2 ? reader.varint() : 1;
 	if (flags & 2 && pieceCount < 2) badHeader('A.2.1', `a stated count of ${pieceCount} pieces`);
 	if (pieceCount > LIMITS.pieces) fail('Limit', 'A.2.1', `${pieceCount} pieces`);
-	return { singleCoder: (flags & 1) !== 0, padded: (flags & 4) !== 0, contextSet, pieceCount };
+	return { singleCoder: (flags & 1) !== 0, padded: (flags & 4) !== 0, contextSet, hasBlocks, headerLength, pieceCount };
 }
 
-function readPieces(reader, pieceCount) {
+function readPieces(reader, { pieceCount, hasBlocks }) {
 	const pieces = [];
 	const totals = { vertices: 0, wedges: 0, triangles: 0, attributes: 0 };
-	for (let i = 0; i < pieceCount; ++i) pieces.push(readPiece(reader, pieces[i - 1], totals));
+	for (let i = 0; i < pieceCount; ++i) {
+		const piece = readPiece(reader, pieces[i - 1], totals);
+		if (hasBlocks) checkBlock(piece, pieces[0]);
+		if (!hasBlocks || i === 0) countAttributes(piece, totals);
+		pieces.push(piece);
+	}
 	return pieces;
+}
+
+// [A.2.3]
+function countAttributes(piece, totals) {
+	totals.attributes += piece.attributes.length;
+	if (totals.attributes > LIMITS.attributes) fail('Limit', 'A.2.3', 'too many attributes');
 }
 
 // ---- [A.2.2] Piece
@@ -76,8 +105,6 @@ function readPiece(reader, before, totals) {
 	const piece = { flags, ...counts };
 	piece.partSizes = readPartSizes(reader, piece);
 	piece.attributes = readAttributes(reader, piece, before);
-	totals.attributes += piece.attributes.length;
-	if (totals.attributes > LIMITS.attributes) fail('Limit', 'A.2.3', 'too many attributes');
 	return piece;
 }
 
@@ -345,19 +372,33 @@ function checkAlias(attribute, attributes) {
 function readStreams(reader, header) {
 	const codesLength = header.singleCoder ? 0 : reader.varint();
 	const tokensLength = header.singleCoder ? 0 : reader.varint();
-	const paddingLength = header.padded ? reader.varint() : 0;
-	if (header.padded && paddingLength === 0) badHeader('A.2.5', 'padding of no bytes');
-	if (reader.take(paddingLength).some((byte) => byte !== 0)) badHeader('A.2.5', 'padding other than zero');
+	readPadding(reader, header);
 	if (header.singleCoder) return new SingleCoder(reader.take(reader.remaining()));
 	const codes = reader.take(codesLength);
 	const tokens = reader.take(tokensLength);
 	return new ThreeStreams(codes, tokens, reader.take(reader.remaining()));
 }
 
+function readPadding(reader, { padded }) {
+	const length = padded ? reader.varint() : 0;
+	if (padded && length === 0) badHeader('A.2.5', 'padding of no bytes');
+	if (reader.take(length).some((byte) => byte !== 0)) badHeader('A.2.5', 'padding other than zero');
+}
+
+// [A.11.1]
+function readBlocks(reader, header) {
+	const blocks = readTable(reader, header.pieces);
+	readPadding(reader, header);
+	if (reader.offset !== header.headerLength) badHeader('A.11.1', 'the header has another length than it says');
+	readStreamsOfBlocks(reader, blocks);
+	return blocks;
+}
+
 // ---- [A.2.6] Limits
 
-function checkElements(pieces, byteLength) {
-	const elements = pieces.reduce((sum, piece) => sum + elementsOf(piece), 0);
+function checkElements({ pieces, hasBlocks }, byteLength) {
+	const copying = hasBlocks ? 16384 : 0;
+	const elements = pieces.reduce((sum, piece) => sum + elementsOf(piece) + copying, 0);
 	if (elements > 1024 * byteLength) fail('Limit', 'A.2.6', 'too many elements for so few bytes');
 }
 

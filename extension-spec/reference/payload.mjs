@@ -3,6 +3,7 @@
 // A payload and its stages: A.2.7 of the specification.
 
 import { AttributeModels, decodeAttributes } from './attributes.mjs';
+import { copyOf, Glue, gluedHeader } from './blocks.mjs';
 import { fail } from './bytes.mjs';
 import { ConnectivityModels, decodeConnectivity } from './connectivity.mjs';
 import { predictionPositions } from './faces.mjs';
@@ -33,7 +34,8 @@ class Models {
 export class Payload {
 	constructor(bytes) {
 		const { header, streams } = readHeader(bytes);
-		this.pieces = header.pieces;
+		this.blocks = header.blocks;
+		this.pieces = header.hasBlocks ? [gluedHeader(header.blocks)] : header.pieces;
 		this.contextSet = header.contextSet;
 		this.streams = streams;
 	}
@@ -42,13 +44,28 @@ export class Payload {
 	// the bytes of the components of each element.
 	decode() {
 		const models = new Models(this.contextSet);
-		const pieces = this.pieces.map((piece) => decodePiece(this.streams, models, piece));
+		if (this.blocks !== undefined) return [this.decodeBlocks(models)];
+		const pieces = this.pieces.map((piece) => {
+			const { parts, elements } = decodePiece(this.streams, models, piece);
+			return { parts, elements };
+		});
 		this.streams.finish();
 		return pieces;
 	}
+
+	// [A.11.2] All blocks but the first begin with the models that the first leaves.
+	decodeBlocks(models) {
+		const glue = new Glue(this.pieces[0]);
+		for (const block of this.blocks) {
+			const decoded = decodePiece(block.streams, block === this.blocks[0] ? models : copyOf(models), block.piece);
+			block.streams.finish();
+			glue.add(block, decoded);
+		}
+		return { parts: glue.parts, elements: glue.elements };
+	}
 }
 
-// [A.2.7] The stages of a piece
+// [A.2.7] The stages of a piece; besides parts and elements what blocks need: the surface and the integers of its wedges
 function decodePiece(streams, models, piece) {
 	const groups = surfaceStages(streams, models, piece);
 	const groupCount = groups.umbrellas?.length ?? piece.vertexCount;
@@ -58,8 +75,13 @@ function decodePiece(streams, models, piece) {
 		: groupsAsWedges(piece, groups.surface, positions.sequence, groupCount);
 	const triangles = decodeTriangles(streams, models.triangles, piece, wedges.surface);
 	const { parts, order } = orderStage(streams, models.orders, piece, wedges.surface, triangles);
-	const elements = decodeAttributes(streams, models.attributes, { piece, groupCount, wedges, positions });
-	return { parts: placed(parts, order), elements: elements.map((list) => reordered(list, order)) };
+	const { elements, integersOf } = decodeAttributes(streams, models.attributes, { piece, groupCount, wedges, positions });
+	return {
+		parts: placed(parts, order),
+		elements: elements.map((list) => reordered(list, order)),
+		surface: wedges.surface,
+		integersOf,
+	};
 }
 
 // [A.4], [A.5]: the surface with groups at its corners; with pivots all half-edges that leave each, with copies the umbrellas.

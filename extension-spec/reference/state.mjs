@@ -25,6 +25,11 @@ export class AttributeState {
 		return this.values.subarray(w * this.components, (w + 1) * this.components);
 	}
 
+	// All that was decoded of a wedge: of some tangents (A.8.7) also the sign.
+	integers(w) {
+		return [...this.value(w), this.negative?.[w] ?? 0];
+	}
+
 	set(w, value) {
 		this.values.set(value, w * this.components);
 	}

@@ -67,7 +67,7 @@ function container() {
   field('tokens', ['rANS: residuals of positions', 'and attributes'], 190, '#c8e6c9');
   field('raw', ['plain bits'], 90, '#f8bbd0');
   parts.push(text([20, 26], 'one buffer view', 13, 'start'));
-  parts.push(text([20, 158], 'Bytes. The checksum covers everything but itself. A small payload has one stream, codes.', 12, 'start', '#546e7a'));
+  parts.push(text([20, 158], 'Bytes. The checksum covers everything but itself, with blocks only the header. A small payload has one stream, codes; a block has its own three.', 12, 'start', '#546e7a'));
   write('container.svg', 0, 960, 172, 'Fields of a payload: magic, version, checksum, flags, pieces, lengths, and three streams', parts);
 }
 
