@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Cuts a piece into blocks, codes each as a piece of its own with the choices made for block 0, and
-// finds which wedges they share.
+// Cuts a piece into blocks, codes each as a piece of its own with the choices made for one of them,
+// and finds which wedges they share.
 #include "writer/blocks.h"
 
 #include <algorithm>
@@ -316,26 +316,18 @@ class BlocksEncoder {
 
   uint32_t blockCount() const { return cut_.blockCount(); }
 
-  /// Codes block 0, for which all choices are made, and then the others.
+  /// Codes block 0 and then the others.
   Status code() {
     coded_.resize(blockCount());
-    std::vector<Plan> plans(1);
-    LocalBlock first = take(0);
-    std::swap(plans[0], first.plan);
-    Variation variation(options_.variation);
-    MCC_TRY(variation.active() ? varyAll(plans, options_, variation, context_set_)
-                               : chooseAll(plans, options_, jobs_, context_set_));
-    std::swap(plans[0], first.plan);
-    chosen_ = choicesOf(first.plan);
+    MCC_TRY(chooseForAll());
     auto primed = makeModels(context_set_);
-    MCC_TRY(codeBlock(std::move(first), *primed, coded_[0]));
+    MCC_TRY(codeBlock(takeChosen(0), *primed, coded_[0]));
     return jobs_.tryAll(blockCount() - 1, [&](size_t i) -> Status {
       const uint32_t index = static_cast<uint32_t>(i) + 1;
       PayloadModels models{Allocator{}};
       if (!models.copyFrom(*primed, {})) throwBadAlloc();
-      LocalBlock block = take(index);
-      choose(block.plan);
-      return codeBlock(std::move(block), models, coded_[index]);
+      return codeBlock(index == sample() ? std::move(sample_) : takeChosen(index), models,
+                       coded_[index]);
     });
   }
 
@@ -373,7 +365,7 @@ class BlocksEncoder {
   }
 
  private:
-  /// What is chosen for block 0 and holds for all.
+  /// What is chosen for one block and holds for all.
   struct Choices {
     std::vector<AttributeInfo> attributes;
     PositionParameters positions;
@@ -389,6 +381,23 @@ class BlocksEncoder {
     return choices;
   }
 
+  /// The block for which all choices are made: one of full size in the middle.
+  uint32_t sample() const { return blockCount() / 2; }
+
+  Status chooseForAll() {
+    sample_ = take(sample());
+    // A block may have too few vertices to see planes in them.
+    findPlanesOf(sample_.plan, whole_.attributes[0].values);
+    std::vector<Plan> plans(1);
+    std::swap(plans[0], sample_.plan);
+    Variation variation(options_.variation);
+    MCC_TRY(variation.active() ? varyAll(plans, options_, variation, context_set_)
+                               : chooseAll(plans, options_, jobs_, context_set_));
+    std::swap(plans[0], sample_.plan);
+    chosen_ = choicesOf(sample_.plan);
+    return {};
+  }
+
   LocalBlock take(uint32_t index) const {
     LocalBlock block =
         takeBlock(whole_, cut_.trianglesOf(index), leftovers_[index], index == 0, options_);
@@ -396,13 +405,17 @@ class BlocksEncoder {
     return block;
   }
 
-  void choose(Plan& plan) const {
+  /// Takes a block and makes the choices for it.
+  LocalBlock takeChosen(uint32_t index) const {
+    LocalBlock block = take(index);
+    Plan& plan = block.plan;
     for (size_t a = 0; a < plan.attributes.size(); ++a)
       plan.attributes[a].info = chosen_.attributes[a];
     plan.positions_as = chosen_.positions;
     std::copy_n(chosen_.planes, 3, plan.planes);
     plan.finds_coordinates = chosen_.positions.has(position_mode::kPalette);
     if (plan.header.has(piece_flag::kSeams)) plan.header.flags |= chosen_.flags;
+    return block;
   }
 
   void addPiece(CodedBlock& block, PayloadHeader& header) const {
@@ -452,6 +465,7 @@ class BlocksEncoder {
   BlockCut cut_;
   std::vector<Leftovers> leftovers_;  ///< by block
   uint32_t context_set_ = kNone;
+  LocalBlock sample_;  ///< until it is coded
   Choices chosen_;
   std::vector<CodedBlock> coded_;
 };

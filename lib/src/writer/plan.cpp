@@ -199,6 +199,14 @@ Status preparePiece(const PieceView& view, const EncodeSettings& options, const 
   return {};
 }
 
+void findPlanesOf(Plan& plan, std::span<const int32_t> positions) {
+  if (plan.has_planes.has_value()) return;
+  const AttributeInfo& info = plan.attributes[0].info;
+  plan.has_planes = info.coding == AttributeCoding::kLattice &&
+                    info.bits <= position_mode::kMaxBitsOfPlanes &&
+                    findPlanes(positions, plan.planes);
+}
+
 void describePiece(Plan& plan, const EncodeOptions& options) {
   PieceHeader& h = plan.header;
   h.isolated_count = static_cast<uint32_t>(plan.triangles.isolated.size());

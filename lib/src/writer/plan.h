@@ -5,6 +5,7 @@
 #ifndef MCC_WRITER_PLAN_H_
 #define MCC_WRITER_PLAN_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,7 @@ struct Plan {
   std::vector<int32_t> exact_positions;  ///< ordered floats, if the positions are on an exact grid
   DistinctCoordinates coordinates;
   bool finds_coordinates = false;  ///< `coordinates` are still to be found
+  std::optional<bool> has_planes;  ///< whether there are `planes`; nothing: not known yet
   AxisPlanes planes[3];
   PositionParameters positions_as;  ///< the chosen parameters with fitted tables
   std::vector<uint32_t> wedge_source;
@@ -69,6 +71,9 @@ void describePiece(Plan& plan, const EncodeOptions& options);
 
 /// Returns the position classes of the corners of all proper triangles.
 std::vector<uint32_t> classesOfCorners(const Plan& plan);
+
+/// Finds planes in positions of the piece, unless that has been tried before.
+void findPlanesOf(Plan& plan, std::span<const int32_t> positions);
 
 /// Checks the piece, quantises and welds it, and sorts its triangles.
 Status preparePiece(const PieceView& view, const EncodeSettings& options, const Jobs& jobs,

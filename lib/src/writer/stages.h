@@ -80,11 +80,8 @@ class StageRunner {
     candidate.bits = parameters.bits;
     plan_.coordinates.find(positions, isExact(plan_.attributes[0].info.coding));
     for (uint32_t s = 0; s < 3; ++s) candidate.palettes[s] = plan_.coordinates.palette(s);
-    const AttributeInfo& info = plan_.attributes[0].info;
-    if (info.coding == AttributeCoding::kLattice && info.bits <= position_mode::kMaxBitsOfPlanes &&
-        findPlanes(positions, plan_.planes)) {
-      candidate.planes = plan_.planes;
-    }
+    findPlanesOf(plan_, positions);
+    if (*plan_.has_planes) candidate.planes = plan_.planes;
     return {};
   }
 
