@@ -13,7 +13,7 @@
 #include "format/methods.h"
 #include "mcc/reader.h"
 #include "mcc/status.h"
-#include "mesh/border.h"
+#include "mesh/rim.h"
 
 namespace mcc {
 

@@ -15,7 +15,7 @@
 #include "base/lazy.h"
 #include "base/working_memory.h"
 #include "entropy/decoder_io.h"
-#include "mesh/border.h"
+#include "mesh/rim.h"
 #include "reader/decode_piece.h"
 
 namespace mcc {
@@ -36,7 +36,7 @@ class DecodedBlock {
         allocator_(chooseAllocator()),
         values_(allocator_),
         part_of_face_(allocator_),
-        border_(allocator_),
+        rim_(allocator_),
         numbers_(allocator_) {}
 
   uint32_t index() const { return index_; }
@@ -86,10 +86,10 @@ class DecodedBlock {
   }
 
   /// Numbers the wedges. Must be called block after block.
-  Status number(BorderTable& table) {
+  Status number(RimTable& table) {
     const BlockHeader& block = header_.blocks[index_];
     uint32_t repeated_count = 0;
-    if (!findBorder() || !numberWedges(table, border_, header_.exceptionsOf(block),
+    if (!findRim() || !numberWedges(table, rim_, header_.exceptionsOf(block),
                                        block.first_wedge, pieceHeader().wedge_count, numbers_,
                                        repeated_count))
       return noMemory();
@@ -157,17 +157,17 @@ class DecodedBlock {
     return words * pieceHeader().wedge_count;
   }
 
-  bool findBorder() {
-    if (!border_.find(piece_->mesh, pieceHeader().wedge_count)) return false;
-    for (uint32_t a = 0; a < infos_.size(); ++a) border_.tuple_words += wordsOf(a);
-    if (!border_.tuples.resize(border_.wedges.size() * border_.tuple_words)) return false;
+  bool findRim() {
+    if (!rim_.find(piece_->mesh, pieceHeader().wedge_count)) return false;
+    for (uint32_t a = 0; a < infos_.size(); ++a) rim_.tuple_words += wordsOf(a);
+    if (!rim_.tuples.resize(rim_.wedges.size() * rim_.tuple_words)) return false;
     uint32_t column = 0;
     for (uint32_t a = 0; a < infos_.size(); ++a) {
       const uint32_t words = wordsOf(a);
       const int32_t* from = values_.data() + valuesBefore(a);
-      int32_t* to = border_.tuples.data() + column;
-      for (size_t i = 0; i < border_.wedges.size(); ++i, to += border_.tuple_words)
-        std::copy_n(from + size_t{border_.wedges[i]} * words, words, to);
+      int32_t* to = rim_.tuples.data() + column;
+      for (size_t i = 0; i < rim_.wedges.size(); ++i, to += rim_.tuple_words)
+        std::copy_n(from + size_t{rim_.wedges[i]} * words, words, to);
       column += words;
     }
     return true;
@@ -200,7 +200,7 @@ class DecodedBlock {
   std::optional<PieceCoder<BlockIo>> piece_;
   Array<int32_t> values_;         ///< of all attributes, see valuesBefore()
   Array<uint32_t> part_of_face_;  ///< only with several parts
-  Border border_;
+  Rim rim_;
   Array<uint32_t> numbers_;  ///< by wedge
 };
 
@@ -367,7 +367,7 @@ class BlocksDecoder {
   const DecodeOptions& options_;
   Progress progress_;
   Placed<PayloadModels> primed_;  ///< as block 0 left them
-  BorderTable table_;
+  RimTable table_;
   Array<uint32_t> first_triangles_;  ///< in its part, for each part of each block
   std::atomic<uint32_t> first_failed_ = kNone;
   std::atomic_flag is_locked_ = ATOMIC_FLAG_INIT;  ///< for what follows

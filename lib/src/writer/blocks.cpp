@@ -188,7 +188,7 @@ struct CodedBlock {
   uint64_t cost = 0;
   CodedBox box;
   std::vector<uint32_t> source_wedge;  ///< in the whole piece, by decoded wedge
-  Border border{Allocator{}};          ///< without tuples
+  Rim rim{Allocator{}};          ///< without tuples
   EncodeResult result;                 ///< sizes and a piece
 };
 
@@ -207,7 +207,7 @@ CodedBox boxOf(const Plan& plan) {
 
 Status codeBlock(LocalBlock block, PayloadModels& models, CodedBlock& coded) {
   EncoderIo io(true, false);
-  MCC_TRY(codePiece(block.plan, io, models, 0, coded.result, &coded.border));
+  MCC_TRY(codePiece(block.plan, io, models, 0, coded.result, &coded.rim));
   coded.cost = io.cost();
   coded.streams = io.finish();
   coded.header = block.plan.header;
@@ -239,7 +239,7 @@ class WedgeGluing {
     }
     row.exception_count = static_cast<uint32_t>(exceptions.size());
     Array<uint32_t> numbers;
-    if (!numberWedges(table_, block.border, exceptions, row.first_wedge, block.header.wedge_count,
+    if (!numberWedges(table_, block.rim, exceptions, row.first_wedge, block.header.wedge_count,
                       numbers, row.repeated_count))
       throwBadAlloc();
     for (uint32_t w = 0; w < block.header.wedge_count; ++w) {
@@ -255,13 +255,13 @@ class WedgeGluing {
 
  private:
   void collectTuples(CodedBlock& block) {
-    Border& border = block.border;
+    Rim& rim = block.rim;
     for (const QuantizedAttribute& a : whole_.attributes)
-      border.tuple_words += a.values.empty() ? 0 : a.components;
-    if (!border.tuples.resize(border.wedges.size() * border.tuple_words)) throwBadAlloc();
-    int32_t* to = border.tuples.data();
-    for (size_t i = 0; i < border.wedges.size(); ++i) {
-      const size_t source = block.source_wedge[border.wedges[i]];
+      rim.tuple_words += a.values.empty() ? 0 : a.components;
+    if (!rim.tuples.resize(rim.wedges.size() * rim.tuple_words)) throwBadAlloc();
+    int32_t* to = rim.tuples.data();
+    for (size_t i = 0; i < rim.wedges.size(); ++i) {
+      const size_t source = block.source_wedge[rim.wedges[i]];
       for (const QuantizedAttribute& a : whole_.attributes) {
         if (!a.values.empty()) to = std::copy_n(&a.values[source * a.components], a.components, to);
       }
@@ -274,8 +274,8 @@ class WedgeGluing {
     size_t i = 0;
     for (uint32_t w = 0; w < block.header.wedge_count; ++w) {
       uint32_t found = kNone;
-      if (i < block.border.wedges.size() && block.border.wedges[i] == w)
-        found = table_.find(block.border.tuple(i++));
+      if (i < block.rim.wedges.size() && block.rim.wedges[i] == w)
+        found = table_.find(block.rim.tuple(i++));
       const uint32_t number = number_of_source_[block.source_wedge[w]];
       if (found != number) exceptions.push_back({w, number});
     }
@@ -286,7 +286,7 @@ class WedgeGluing {
   PayloadHeader& header_;
   std::vector<uint32_t>& source_wedge_;  ///< by number
   std::vector<uint32_t> number_of_source_;
-  BorderTable table_{Allocator{}};
+  RimTable table_{Allocator{}};
   uint64_t repeated_count_ = 0;
 };
 

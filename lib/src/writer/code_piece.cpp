@@ -37,7 +37,7 @@ void scale(StreamSizes& sizes, double by) {
 }  // namespace
 
 Status codePiece(Plan& plan, EncoderIo& io, PayloadModels& models, size_t first_attribute,
-                 EncodeResult& result, Border* border) {
+                 EncodeResult& result, Rim* rim) {
   StreamSizes& sizes = result.sizes;
   StageRunner<EncoderIo> runner(io, models, plan, first_attribute);
   sizes.attribute_bits.resize(first_attribute + plan.attributes.size(), 0);
@@ -47,7 +47,7 @@ Status codePiece(Plan& plan, EncoderIo& io, PayloadModels& models, size_t first_
   sizes.piece_position_bits.push_back(sizes.position_bits - bits_before);
   MCC_TRY(runner.codeSeams(&sizes));
   MCC_TRY(runner.codeOrders(&sizes));
-  if (border != nullptr && !border->find(runner.mesh(), plan.header.wedge_count)) throwBadAlloc();
+  if (rim != nullptr && !rim->find(runner.mesh(), plan.header.wedge_count)) throwBadAlloc();
   MCC_TRY(runner.prepareAttributes());
   for (const uint32_t a : codingOrder(plan)) MCC_TRY(runner.codeAttribute(a, &sizes));
   result.pieces.push_back(resultOf(plan, runner.groupCount()));

@@ -5,16 +5,16 @@
 #define MCC_WRITER_CODE_PIECE_H_
 
 #include "entropy/enc_coder.h"
-#include "mesh/border.h"
+#include "mesh/rim.h"
 #include "writer/plan.h"
 
 namespace mcc {
 
 /// Codes the piece and adds what it cost to `result.sizes`, and what the caller is told of it to
-/// `result.pieces`. `border`, if not null, receives the candidates of a block, without tuples.
+/// `result.pieces`. `rim`, if not null, receives the rim wedges of a block, without tuples.
 /// first_attribute  is the number of attributes of the payload before this piece's
 Status codePiece(Plan& plan, EncoderIo& io, PayloadModels& models, size_t first_attribute,
-                 EncodeResult& result, Border* border = nullptr);
+                 EncodeResult& result, Rim* rim = nullptr);
 
 /// Adds a piece to the header of its payload.
 void addPiece(Plan& plan, PayloadHeader& header);

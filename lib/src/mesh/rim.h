@@ -1,9 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Which wedges of a block are wedges of the blocks before it, and how the wedges of all blocks are
-// numbered. Reader and writer run the same code.                                  [A.11.3, A.11.4]
-#ifndef MCC_MESH_BORDER_H_
-#define MCC_MESH_BORDER_H_
+// numbered. Reader and writer run the same code.                                  [A.11.3]
+#ifndef MCC_MESH_RIM_H_
+#define MCC_MESH_RIM_H_
 
 #include <algorithm>
 #include <cstdint>
@@ -21,24 +21,24 @@ struct BlockException {
   uint32_t number = 0;  ///< in the whole piece; kNone: the wedge is not repeated
 };
 
-/// The candidates of a block: the wedges on edges that have one face in the block.
-struct Border {
-  explicit Border(const Allocator& allocator) : wedges(allocator), tuples(allocator) {}
+/// The rim wedges of a block: those on edges that have one face in the block.
+struct Rim {
+  explicit Rim(const Allocator& allocator) : wedges(allocator), tuples(allocator) {}
 
-  /// Finds the candidates. Isolated wedges are none.
+  /// Finds the rim wedges. Isolated wedges are never among them.
   [[nodiscard]] bool find(const FaceMesh& mesh, uint32_t wedge_count) {
-    Array<uint8_t> is_candidate(wedges.allocator());
-    if (!is_candidate.assign(wedge_count, 0)) return false;
+    Array<uint8_t> is_on_rim(wedges.allocator());
+    if (!is_on_rim.assign(wedge_count, 0)) return false;
     const FaceView faces{const_cast<uint32_t*>(mesh.words.data())};
     for (uint32_t f = 0; f < mesh.face_count; ++f) {
       for (uint32_t h = f * kFaceWords; h < f * kFaceWords + 3; ++h) {
         if (faces.twin(h) != kNone) continue;
-        is_candidate[faces.vertex(h)] = is_candidate[faces.vertex(nextHalfEdge(h))] = 1;
+        is_on_rim[faces.vertex(h)] = is_on_rim[faces.vertex(nextHalfEdge(h))] = 1;
       }
     }
     wedges.clear();
     for (uint32_t w = 0; w < wedge_count; ++w) {
-      if (is_candidate[w] != 0 && !wedges.push_back(w)) return false;
+      if (is_on_rim[w] != 0 && !wedges.push_back(w)) return false;
     }
     return true;
   }
@@ -50,13 +50,13 @@ struct Border {
   uint32_t tuple_words = 0;
 };
 
-/// The candidates of all blocks so far that are not repeated, found by their tuples.
+/// The rim wedges of all blocks so far that are not repeated, found by their tuples.
 ///
 /// Their indices are in sorted runs, the sizes of which at least halve from one to the next. So
 /// finding takes O(log² n) however tuples and blocks are chosen, and adding O(log n) on average.
-class BorderTable {
+class RimTable {
  public:
-  explicit BorderTable(const Allocator& allocator)
+  explicit RimTable(const Allocator& allocator)
       : tuples_(allocator),
         numbers_(allocator),
         sorted_(allocator),
@@ -77,18 +77,18 @@ class BorderTable {
     return kNone;
   }
 
-  /// Adds those wedges of a border that `numbers`, by wedge, has and `is_entry(i)` accepts.
+  /// Adds those rim wedges that `numbers`, by wedge, has and `is_entry(i)` accepts.
   template <class IsEntry>
-  [[nodiscard]] bool add(const Border& border, const uint32_t* numbers, const IsEntry& is_entry) {
-    words_ = border.tuple_words;
+  [[nodiscard]] bool add(const Rim& rim, const uint32_t* numbers, const IsEntry& is_entry) {
+    words_ = rim.tuple_words;
     const uint32_t begin = static_cast<uint32_t>(sorted_.size());
-    for (size_t i = 0; i < border.wedges.size(); ++i) {
+    for (size_t i = 0; i < rim.wedges.size(); ++i) {
       if (!is_entry(i)) continue;
       const size_t words = tuples_.size();
       if (!sorted_.push_back(static_cast<uint32_t>(numbers_.size())) ||
-          !numbers_.push_back(numbers[border.wedges[i]]) || !grow(words + words_))
+          !numbers_.push_back(numbers[rim.wedges[i]]) || !grow(words + words_))
         return false;
-      std::memcpy(tuples_.data() + words, border.tuple(i), words_ * sizeof(int32_t));
+      std::memcpy(tuples_.data() + words, rim.tuple(i), words_ * sizeof(int32_t));
     }
     if (begin == sorted_.size()) return true;
     std::sort(sorted_.data() + begin, sorted_.data() + sorted_.size(),
@@ -153,13 +153,13 @@ class BorderTable {
 /// Numbers the wedges of a block: `numbers` receives the number of each in the whole piece.
 /// Wedges that are not repeated follow one another from `first` on. `repeated_count` receives how
 /// many are repeated. The exceptions ascend. Returns false when memory ran out.
-[[nodiscard]] inline bool numberWedges(BorderTable& table, const Border& border,
+[[nodiscard]] inline bool numberWedges(RimTable& table, const Rim& rim,
                                        std::span<const BlockException> exceptions, uint32_t first,
                                        uint32_t wedge_count, Array<uint32_t>& numbers,
                                        uint32_t& repeated_count) {
   if (!numbers.assign(wedge_count, kNone)) return false;
-  for (size_t i = 0; i < border.wedges.size(); ++i)
-    numbers[border.wedges[i]] = table.find(border.tuple(i));
+  for (size_t i = 0; i < rim.wedges.size(); ++i)
+    numbers[rim.wedges[i]] = table.find(rim.tuple(i));
   for (const BlockException& e : exceptions) numbers[e.wedge] = e.number;
   uint32_t next = first;
   for (uint32_t w = 0; w < wedge_count; ++w) {
@@ -168,8 +168,8 @@ class BorderTable {
   repeated_count = wedge_count - (next - first);
   const BlockException* exception = exceptions.data();
   const BlockException* const end = exception + exceptions.size();
-  return table.add(border, numbers.data(), [&](size_t i) {
-    const uint32_t wedge = border.wedges[i];
+  return table.add(rim, numbers.data(), [&](size_t i) {
+    const uint32_t wedge = rim.wedges[i];
     while (exception != end && exception->wedge < wedge) ++exception;
     return numbers[wedge] >= first && (exception == end || exception->wedge != wedge);
   });
@@ -177,4 +177,4 @@ class BorderTable {
 
 }  // namespace mcc
 
-#endif  // MCC_MESH_BORDER_H_
+#endif  // MCC_MESH_RIM_H_
