@@ -122,6 +122,14 @@ typedef struct mcc_allocator {
   void* user;
 } mcc_allocator;
 
+/**
+ * Calls job(job_user, 0) … job(job_user, count - 1), in any order and possibly at the same time, and
+ * returns when all have ended. It calls every job exactly once. Jobs may call the function again,
+ * also at the same time.
+ */
+typedef void (*mcc_run_jobs)(void* user, size_t count, void (*job)(void* job_user, size_t index),
+                             void* job_user);
+
 /* ---------------------------------------------------------------- reader */
 
 /** An opened payload: its parsed and checked header. */
@@ -153,6 +161,28 @@ MCC_API void mcc_open_options_init(mcc_open_options* options, size_t struct_byte
  */
 MCC_API mcc_status mcc_payload_open(const void* bytes, size_t byte_count,
                                     const mcc_open_options* options, mcc_payload** payload);
+
+/**
+ * Opens a payload of which only the beginning is there yet, see mcc::Payload::openPrefix(). Works
+ * like mcc_payload_open(). MCC_ERROR_TRUNCATED says that the header, or a payload without blocks,
+ * is not complete yet: call it again with more bytes.
+ * @param bytes          must outlive the payload, or the next mcc_payload_extend()
+ * @param payload_bytes  the size of the whole payload, which is that of the buffer view
+ */
+MCC_API mcc_status mcc_payload_open_prefix(const void* bytes, size_t byte_count,
+                                           uint64_t payload_bytes, const mcc_open_options* options,
+                                           mcc_payload** payload);
+
+/**
+ * Tells an open payload that more of its bytes are there; they may be in another place in memory.
+ * Must not run during other calls.
+ * @return MCC_ERROR_BAD_ARGUMENT when there are fewer bytes than before, or more than the payload
+ *   has
+ */
+MCC_API mcc_status mcc_payload_extend(mcc_payload* payload, const void* bytes, size_t byte_count);
+
+/** Returns for how many blocks, from the first on, all bytes are there. */
+MCC_API uint32_t mcc_payload_loaded_block_count(const mcc_payload* payload);
 
 /** Releases a payload; null is accepted. */
 MCC_API void mcc_payload_close(mcc_payload* payload);
@@ -203,6 +233,36 @@ MCC_API mcc_status mcc_payload_attribute(const mcc_payload* payload, uint32_t pi
 MCC_API mcc_status mcc_payload_part(const mcc_payload* payload, uint32_t piece, uint32_t part,
                                     uint32_t* triangle_count);
 
+/**
+ * A block: a part of a large surface, see mcc::BlockInfo. A payload with blocks has one piece.
+ */
+typedef struct mcc_block_info {
+  size_t struct_bytes;     /**< sizeof(mcc_block_info), set by the caller */
+  uint32_t wedge_count;    /**< of the block alone */
+  uint32_t repeated_count; /**< how many of them blocks before this one have too */
+  uint32_t triangle_count;
+  uint64_t offset_bytes; /**< where its streams begin in the payload */
+  uint64_t stream_bytes;
+  float low[3]; /**< the smallest box of its positions, in the units of the accessor */
+  float high[3];
+} mcc_block_info;
+
+/** Returns the number of blocks, or 0 for null and for payloads without blocks. */
+MCC_API uint32_t mcc_payload_block_count(const mcc_payload* payload);
+/**
+ * Reads what the header says of a block.
+ * @param info  its `struct_bytes` must be set
+ * @return MCC_ERROR_BAD_ARGUMENT when there is no such block or `struct_bytes` is not set
+ */
+MCC_API mcc_status mcc_payload_block(const mcc_payload* payload, uint32_t block,
+                                     mcc_block_info* info);
+/**
+ * Reads the number of triangles that a block has of a part.
+ * @return MCC_ERROR_BAD_ARGUMENT when there is no such block or part
+ */
+MCC_API mcc_status mcc_payload_block_part(const mcc_payload* payload, uint32_t block, uint32_t part,
+                                          uint32_t* triangle_count);
+
 /** Where one attribute goes. */
 typedef struct mcc_attribute_target {
   void* data;          /**< wedge_count elements; null: the attribute is decoded and dropped */
@@ -230,10 +290,13 @@ typedef struct mcc_decode_options {
   mcc_allocator allocator; /**< for the working memory */
   /**
    * Called after every stage with the share of the work that is done, which rises to 1, on the
-   * calling thread. Returning 0 cancels. May be null.
+   * calling thread; with run_jobs on any of its threads, one call at a time. Returning 0 cancels.
+   * May be null.
    */
   int (*progress)(void* user, double done);
   void* progress_user;
+  mcc_run_jobs run_jobs; /**< decodes blocks on several threads; may be null */
+  void* run_jobs_user;
 } mcc_decode_options;
 
 /** Sets `struct_bytes`, which the caller passes as sizeof(mcc_decode_options), and the defaults. */
@@ -250,6 +313,27 @@ MCC_API void mcc_decode_options_init(mcc_decode_options* options, size_t struct_
  */
 MCC_API mcc_status mcc_payload_decode(const mcc_payload* payload, const mcc_piece_target* targets,
                                       size_t target_count, const mcc_decode_options* options);
+
+/**
+ * Decodes block 0 and keeps the models with which all other blocks begin. Must not run during other
+ * calls.
+ * @param target  where to store the block, with its own counts, or null
+ * @return as mcc_payload_decode_block()
+ */
+MCC_API mcc_status mcc_payload_prime(mcc_payload* payload, const mcc_piece_target* target,
+                                     const mcc_decode_options* options);
+
+/**
+ * Decodes one block for itself, see mcc::Payload::decodeBlock(): its wedges have their own numbers,
+ * and those that it shares with other blocks are included. Every block except 0 needs
+ * mcc_payload_prime() first. May be called by several threads.
+ * @param target  like that of a piece, with the counts of mcc_block_info
+ * @return the errors of mcc_payload_decode(), and MCC_ERROR_BAD_CHECKSUM when the block is damaged,
+ *   _TRUNCATED when its bytes are not all there
+ */
+MCC_API mcc_status mcc_payload_decode_block(const mcc_payload* payload, uint32_t block,
+                                            const mcc_piece_target* target,
+                                            const mcc_decode_options* options);
 
 /* ---------------------------------------------------------------- writer */
 
@@ -284,6 +368,9 @@ typedef struct mcc_piece_view {
 /** How the writer weighs fewer bytes against faster decoding, see mcc::Preference. */
 enum { MCC_PREFER_BALANCED = 0, MCC_PREFER_SIZE = 1, MCC_PREFER_SPEED = 2 };
 
+/** Lets `prefer` decide whether surfaces are cut into blocks. */
+#define MCC_BLOCKS_BY_PREFERENCE 0xffffffffu
+
 /** How mcc_encode() encodes. */
 typedef struct mcc_encode_options {
   size_t struct_bytes;
@@ -291,6 +378,10 @@ typedef struct mcc_encode_options {
   /** 1: decoded triangles come in the order of the view, each with its own first corner */
   uint32_t keep_triangle_order;
   uint32_t prefer; /**< MCC_PREFER_… */
+  /** triangles of a block, see mcc::EncodeOptions; 0: no blocks; default MCC_BLOCKS_BY_PREFERENCE */
+  uint32_t block_triangles;
+  mcc_run_jobs run_jobs; /**< encodes on several threads; the bytes do not depend on it */
+  void* run_jobs_user;
 } mcc_encode_options;
 
 /** Sets `struct_bytes`, which the caller passes as sizeof(mcc_encode_options), and the defaults. */

@@ -82,7 +82,8 @@ struct BlockInfo {
   uint32_t wedge_count = 0;     ///< of the block alone
   uint32_t repeated_count = 0;  ///< how many of them blocks before this one have too
   uint32_t triangle_count = 0;
-  uint64_t offset_bytes = 0;  ///< where its streams begin in the payload
+  std::span<const PartInfo> parts;  ///< one for each part of the piece: its triangles in the block
+  uint64_t offset_bytes = 0;        ///< where its streams begin in the payload
   uint64_t stream_bytes = 0;
   /// The smallest box of its positions, in the units of the accessor.
   float low[3] = {};
@@ -172,9 +173,10 @@ enum class DecodeStage : uint8_t {
 /// The resources and callbacks of decode().
 struct DecodeOptions {
   Allocator allocator;
-  /// Called after every stage of every piece with the share of the work that is done, which rises
-  /// to 1, on the thread of decode(). Returning false makes decode() end with kCancelled. A stage
-  /// takes at most a few hundred nanoseconds per vertex.
+  /// Called after every stage of every piece or block with the share of the work that is done, which
+  /// rises to 1, on the thread of decode(); with run_jobs on any of its threads, one call at a time.
+  /// Returning false makes decode() end with kCancelled. A stage takes at most a few hundred
+  /// nanoseconds per vertex.
   bool (*progress)(void* user, double done) = nullptr;
   void* progress_user = nullptr;
   CodeHistogram* histogram = nullptr;  ///< filled when not null
@@ -218,6 +220,42 @@ class Payload {
   /// Tests: tests/unit/, tests/robustness/.
   MCC_API Status open(std::span<const uint8_t> bytes, const Limits& limits = {},
                       const Allocator& allocator = {});
+
+  /// Opens a payload of which only the beginning is there yet, for reading blocks while the others
+  /// are loading. Works like open(). Returns kTruncated when the header, or a payload without blocks,
+  /// is not complete yet: call it again with more bytes.
+  /// bytes          the beginning of the payload; must outlive the Payload, or the next extend()
+  /// payload_bytes  the size of the whole payload, which is that of the buffer view
+  MCC_API Status openPrefix(std::span<const uint8_t> bytes, uint64_t payload_bytes,
+                            const Limits& limits = {}, const Allocator& allocator = {});
+
+  /// Tells an open payload that more of its bytes are there. They begin with those it was opened
+  /// with, and may be in another place in memory. Must not run during other calls.
+  /// Returns kBadArgument if `bytes` are fewer than before or more than the payload has.
+  MCC_API Status extend(std::span<const uint8_t> bytes);
+
+  /// Returns for how many blocks, from the first on, all streams are there; 0 without blocks. O(log
+  /// blocks).
+  MCC_API uint32_t loadedBlockCount() const;
+
+  /// Decodes block 0 and keeps the models with which all others begin, some hundred kilobytes. May
+  /// be called again. Must not run during other calls.
+  /// target  where to store the block as decodeBlock() does, or null
+  /// Returns what decodeBlock() returns.
+  MCC_API Status prime(const PieceTarget* target, const DecodeOptions& options = {});
+
+  /// Decodes one block for itself, in any order, into memory of the caller: for drawing what has
+  /// been loaded, or what is in view. The block has BlockInfo::wedge_count wedges of its own
+  /// numbers, those that it shares with other blocks included, and the attributes of the piece.
+  /// Every block except 0 needs prime() first.
+  /// target   like that of a piece, with the counts of the BlockInfo
+  /// options  `run_jobs` is not used; `progress` counts what decode() would have to do
+  /// Returns the errors of decode(), and kBadChecksum when the streams of the block are damaged,
+  /// kTruncated when they are not all there, kBadArgument without prime() or such a block. Safe for
+  /// untrusted input, and to be called by several threads. Work and memory are linear in the counts
+  /// of the BlockInfo. Tests: tests/roundtrip/.                                           [A.11.5]
+  MCC_API Status decodeBlock(uint32_t block, const PieceTarget& target,
+                             const DecodeOptions& options = {}) const;
 
   /// Returns counts and types. Valid until the payload is closed, moved or opened again; all zeros
   /// for an empty payload.

@@ -119,6 +119,10 @@ struct PayloadHeader {
 
   bool singleCoder() const { return (flags & payload_flag::kSingleCoder) != 0; }
   bool hasBlocks() const { return decodes::kBlocks && (flags & payload_flag::kBlocks) != 0; }
+  /// Whether all streams of a block are there, see parsePrefix().
+  bool isLoaded(const BlockHeader& block) const {
+    return block.offset_bytes + block.streamBytes() <= header_bytes + streams.codes.size();
+  }
   /// The streams of a block, all of which must be there.
   Streams streamsOf(const BlockHeader& block) const {
     std::span<const uint8_t> bytes = streams.codes.subspan(block.offset_bytes - header_bytes);

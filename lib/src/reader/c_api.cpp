@@ -4,6 +4,7 @@
 // gltf/api/c_api.cpp.
 #include "mcc/c_api.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <new>
 #include <utility>
@@ -57,12 +58,17 @@ Limits limitsOf(const mcc_open_options& options) {
 }
 
 mcc_decode_options defaultDecodeOptions() {
-  return {sizeof(mcc_decode_options), {}, nullptr, nullptr};
+  return {sizeof(mcc_decode_options), {}, nullptr, nullptr, nullptr, nullptr};
 }
 
 const PieceInfo* pieceOf(const mcc_payload* payload, uint32_t piece) {
   if (payload == nullptr || piece >= payload->payload.info().pieces.size()) return nullptr;
   return &payload->payload.info().pieces[piece];
+}
+
+std::span<const BlockInfo> blocksOf(const mcc_payload* payload) {
+  const PieceInfo* piece = pieceOf(payload, 0);
+  return piece == nullptr ? std::span<const BlockInfo>{} : piece->blocks;
 }
 
 /// The targets of all pieces in the form the reader needs, each array in one block of memory.
@@ -143,31 +149,33 @@ Status checkCounts(std::span<const PieceInfo> pieces, const mcc_piece_target* ta
   return {};
 }
 
-Status decode(const mcc_payload& payload, const mcc_piece_target* targets, size_t target_count,
-              const mcc_decode_options* given) {
+/// Reads targets and options, and calls `decode` with the reader's.
+template <class Decode>
+Status withTargets(std::span<const PieceInfo> pieces, const mcc_piece_target* targets,
+                   size_t target_count, const mcc_decode_options* given, const Decode& decode) {
   mcc_decode_options options;
   MCC_TRY(readStruct(given, defaultDecodeOptions(), options));
-  MCC_TRY(checkCounts(payload.payload.info().pieces, targets, target_count));
+  if (targets != nullptr) MCC_TRY(checkCounts(pieces, targets, target_count));
   Targets read(fromC(options.allocator));
   MCC_TRY(read.read(targets, target_count));
   DecodeOptions decode_options;
   decode_options.allocator = fromC(options.allocator);
+  decode_options.run_jobs = runJobsOf(options.run_jobs, options.run_jobs_user);
   ProgressOfC progress{options.progress, options.progress_user};
   if (options.progress != nullptr) {
     decode_options.progress = callProgress;
     decode_options.progress_user = &progress;
   }
-  return payload.payload.decode(read.all(), decode_options);
+  return decode(read.all(), decode_options);
 }
 
-Status open(const void* bytes, size_t byte_count, const mcc_open_options* given,
+Status open(std::span<const uint8_t> bytes, uint64_t payload_bytes, const mcc_open_options* given,
             mcc_payload*& opened) {
   mcc_open_options options;
   MCC_TRY(readStruct(given, defaultOpenOptions(), options));
   const Allocator allocator = fromC(options.allocator);
   Payload payload;
-  MCC_TRY(
-      payload.open({static_cast<const uint8_t*>(bytes), byte_count}, limitsOf(options), allocator));
+  MCC_TRY(payload.openPrefix(bytes, payload_bytes, limitsOf(options), allocator));
   void* memory = allocateBytes(allocator, sizeof(mcc_payload));
   if (memory == nullptr) return fail(Error::kOutOfMemory, "no memory for the payload object");
   opened = new (memory) mcc_payload{std::move(payload), allocator};
@@ -204,10 +212,25 @@ void mcc_open_options_init(mcc_open_options* options, size_t struct_bytes) {
 
 mcc_status mcc_payload_open(const void* bytes, size_t byte_count, const mcc_open_options* options,
                             mcc_payload** payload) {
+  return mcc_payload_open_prefix(bytes, byte_count, byte_count, options, payload);
+}
+
+mcc_status mcc_payload_open_prefix(const void* bytes, size_t byte_count, uint64_t payload_bytes,
+                                   const mcc_open_options* options, mcc_payload** payload) {
   if (payload == nullptr) return mcc::badArgument("payload is null");
   *payload = nullptr;
   if (bytes == nullptr && byte_count != 0) return mcc::badArgument("bytes is null");
-  return mcc::toC(mcc::open(bytes, byte_count, options, *payload));
+  return mcc::toC(mcc::open({static_cast<const uint8_t*>(bytes), byte_count}, payload_bytes,
+                            options, *payload));
+}
+
+mcc_status mcc_payload_extend(mcc_payload* payload, const void* bytes, size_t byte_count) {
+  if (payload == nullptr || bytes == nullptr) return mcc::badArgument("payload or bytes is null");
+  return mcc::toC(payload->payload.extend({static_cast<const uint8_t*>(bytes), byte_count}));
+}
+
+uint32_t mcc_payload_loaded_block_count(const mcc_payload* payload) {
+  return payload == nullptr ? 0 : payload->payload.loadedBlockCount();
 }
 
 void mcc_payload_close(mcc_payload* payload) {
@@ -258,6 +281,34 @@ mcc_status mcc_payload_part(const mcc_payload* payload, uint32_t piece, uint32_t
   return mcc::toC({});
 }
 
+uint32_t mcc_payload_block_count(const mcc_payload* payload) {
+  return static_cast<uint32_t>(mcc::blocksOf(payload).size());
+}
+
+mcc_status mcc_payload_block(const mcc_payload* payload, uint32_t block, mcc_block_info* info) {
+  const std::span<const mcc::BlockInfo> blocks = mcc::blocksOf(payload);
+  if (block >= blocks.size() || info == nullptr) return mcc::badArgument("there is no such block");
+  const mcc::BlockInfo& found = blocks[block];
+  mcc_block_info filled = {};
+  filled.wedge_count = found.wedge_count;
+  filled.repeated_count = found.repeated_count;
+  filled.triangle_count = found.triangle_count;
+  filled.offset_bytes = found.offset_bytes;
+  filled.stream_bytes = found.stream_bytes;
+  std::copy_n(found.low, 3, filled.low);
+  std::copy_n(found.high, 3, filled.high);
+  return mcc::toC(mcc::writeStruct(filled, info));
+}
+
+mcc_status mcc_payload_block_part(const mcc_payload* payload, uint32_t block, uint32_t part,
+                                  uint32_t* triangle_count) {
+  const std::span<const mcc::BlockInfo> blocks = mcc::blocksOf(payload);
+  if (block >= blocks.size() || part >= blocks[block].parts.size() || triangle_count == nullptr)
+    return mcc::badArgument("there is no such block or part");
+  *triangle_count = blocks[block].parts[part].triangle_count;
+  return mcc::toC({});
+}
+
 void mcc_decode_options_init(mcc_decode_options* options, size_t struct_bytes) {
   mcc::initStruct(options, struct_bytes, mcc::defaultDecodeOptions());
 }
@@ -267,5 +318,31 @@ mcc_status mcc_payload_decode(const mcc_payload* payload, const mcc_piece_target
   if (payload == nullptr || (targets == nullptr && target_count != 0)) {
     return mcc::badArgument("payload or targets is null");
   }
-  return mcc::toC(mcc::decode(*payload, targets, target_count, options));
+  return mcc::toC(mcc::withTargets(
+      payload->payload.info().pieces, targets, target_count, options,
+      [payload](std::span<const mcc::PieceTarget> all, const mcc::DecodeOptions& decode_options) {
+        return payload->payload.decode(all, decode_options);
+      }));
+}
+
+mcc_status mcc_payload_prime(mcc_payload* payload, const mcc_piece_target* target,
+                             const mcc_decode_options* options) {
+  if (payload == nullptr) return mcc::badArgument("payload is null");
+  return mcc::toC(mcc::withTargets(
+      payload->payload.info().pieces, target, target == nullptr ? 0 : 1, options,
+      [payload](std::span<const mcc::PieceTarget> all, const mcc::DecodeOptions& decode_options) {
+        return payload->payload.prime(all.empty() ? nullptr : &all[0], decode_options);
+      }));
+}
+
+mcc_status mcc_payload_decode_block(const mcc_payload* payload, uint32_t block,
+                                    const mcc_piece_target* target,
+                                    const mcc_decode_options* options) {
+  if (payload == nullptr || target == nullptr)
+    return mcc::badArgument("payload or target is null");
+  return mcc::toC(mcc::withTargets(
+      payload->payload.info().pieces, target, 1, options,
+      [&](std::span<const mcc::PieceTarget> all, const mcc::DecodeOptions& decode_options) {
+        return payload->payload.decodeBlock(block, all[0], decode_options);
+      }));
 }

@@ -45,6 +45,9 @@ class DecodedBlock {
   /// Runs the stages. `models` must live as long as the block, unless decoding fails.
   Status decode(PayloadModels& models, Progress& progress) {
     const BlockHeader& block = header_.blocks[index_];
+    if (!header_.isLoaded(block))
+      return fail(Error::kTruncated, "the payload ends before the end of a block",
+                  header_.header_bytes + header_.streams.codes.size());
     const Streams streams = header_.streamsOf(block);
     if (checksumOf(streams) != block.checksum) {
       return fail(Error::kBadChecksum, "the checksum of a block does not match: it is damaged",
@@ -229,20 +232,16 @@ class Placed {
   T* made_ = nullptr;
 };
 
-/// Decodes a block with models that begin as `primed`, or as those of every payload if that is
-/// null. `left`, if not null, receives the models that it leaves.
-inline Status decodeBlock(DecodedBlock& block, const PayloadHeader& header,
-                          const PayloadModels* primed, PayloadModels* left,
-                          const Allocator& allocator, Progress& progress) {
-  Placed<PayloadModels> models(allocator);
+/// Decodes a block with models that are made in `models`. They begin as `primed`, or as those of
+/// every payload if that is null.
+inline Status runBlock(DecodedBlock& block, const PayloadHeader& header,
+                       const PayloadModels* primed, Placed<PayloadModels>& models,
+                       Progress& progress) {
   if (models.make(block.allocator()) == nullptr ||
       !(primed != nullptr ? models.get()->copyFrom(*primed, block.allocator())
                           : models.get()->mc.init(header.contextSet())))
     return fail(Error::kOutOfMemory, "no memory for the models");
-  MCC_TRY(block.decode(*models.get(), progress));
-  if (left != nullptr && !left->copyFrom(*models.get(), allocator))
-    return fail(Error::kOutOfMemory, "no memory for the models");
-  return {};
+  return block.decode(*models.get(), progress);
 }
 
 /// Decodes all blocks of a payload. Threads that have decoded a block number and store all blocks
@@ -316,17 +315,18 @@ class BlocksDecoder {
   void decode(uint32_t index) {
     if (first_failed_ < index) return;
     DecodedBlock* block = make(index);
-    Status status = noMemory();
-    if (block != nullptr) {
-      const bool is_first = index == 0;
-      status = decodeBlock(*block, header_, is_first ? nullptr : primed_.get(),
-                           is_first ? primed_.get() : nullptr, options_.allocator, progress_);
-    }
-    if (!status.ok()) {
-      drop(block);
-      return failAt(index, status);
-    }
-    passOn(block);
+    const Status status = block == nullptr ? noMemory() : decodeStages(*block);
+    if (status.ok()) return passOn(block);
+    drop(block);
+    failAt(index, status);
+  }
+
+  Status decodeStages(DecodedBlock& block) {
+    const bool is_first = block.index() == 0;
+    Placed<PayloadModels> models(options_.allocator);
+    MCC_TRY(runBlock(block, header_, is_first ? nullptr : primed_.get(), models, progress_));
+    if (!is_first || primed_.get()->copyFrom(*models.get(), options_.allocator)) return {};
+    return noMemory();
   }
 
   void failAt(uint32_t index, const Status& status) {

@@ -22,16 +22,20 @@ namespace mcc {
 
 struct Payload::State {
   explicit State(const Allocator& a)
-      : allocator(a), header(a), pieces(a), blocks(a), whole_parts(a) {}
+      : allocator(a), header(a), pieces(a), blocks(a), whole_parts(a), primed(a) {}
 
   Status listPieces();
   Status listBlocks();
+  Status decodeBlock(uint32_t index, const PieceTarget* target, const PayloadModels* from,
+                     PayloadModels* left, const DecodeOptions& options) const;
 
   Allocator allocator;
   PayloadHeader header;
   Array<PieceInfo> pieces;
   Array<BlockInfo> blocks;
-  Array<PartInfo> whole_parts;  ///< of the piece that is cut into the blocks
+  Array<PartInfo> whole_parts;     ///< of the piece that is cut into the blocks
+  uint64_t payload_bytes = 0;
+  Placed<PayloadModels> primed;  ///< as block 0 left them, see prime()
   PayloadInfo info;
 };
 
@@ -39,30 +43,34 @@ namespace {
 
 const PayloadInfo kEmptyInfo{};
 
+/// Checks a target for a piece, or for a block of it.
+Status checkTarget(const PieceTarget& target, const PieceInfo& piece, uint32_t wedge_count) {
+  if (target.attributes.size() != piece.attributes.size() ||
+      target.parts.size() != piece.parts.size()) {
+    return fail(Error::kBadArgument, "a target does not have the shape of its piece");
+  }
+  for (size_t a = 0; a < piece.attributes.size(); ++a) {
+    const AttributeTarget& t = target.attributes[a];
+    if (t.data != nullptr && t.stride_bytes < elementBytes(piece.attributes[a].format)) {
+      return fail(Error::kBadArgument, "the stride of a target is smaller than its elements");
+    }
+  }
+  for (const PartTarget& t : target.parts) {
+    const uint32_t bits = 8 * static_cast<uint32_t>(t.index_type);
+    if (bits < 32 && wedge_count > (1u << bits)) {
+      return fail(Error::kBadArgument, "the index type of a target is too narrow");
+    }
+  }
+  return {};
+}
+
 [[maybe_unused]] Status checkTargets(const PayloadInfo& info,
                                      std::span<const PieceTarget> targets) {
   if (targets.size() != info.pieces.size()) {
     return fail(Error::kBadArgument, "the number of targets is not the number of pieces");
   }
-  for (size_t i = 0; i < targets.size(); ++i) {
-    const PieceInfo& piece = info.pieces[i];
-    if (targets[i].attributes.size() != piece.attributes.size() ||
-        targets[i].parts.size() != piece.parts.size()) {
-      return fail(Error::kBadArgument, "a target does not have the shape of its piece");
-    }
-    for (size_t a = 0; a < piece.attributes.size(); ++a) {
-      const AttributeTarget& t = targets[i].attributes[a];
-      if (t.data != nullptr && t.stride_bytes < elementBytes(piece.attributes[a].format)) {
-        return fail(Error::kBadArgument, "the stride of a target is smaller than its elements");
-      }
-    }
-    for (const PartTarget& t : targets[i].parts) {
-      const uint32_t bits = 8 * static_cast<uint32_t>(t.index_type);
-      if (bits < 32 && piece.wedge_count > (1u << bits)) {
-        return fail(Error::kBadArgument, "the index type of a target is too narrow");
-      }
-    }
-  }
+  for (size_t i = 0; i < targets.size(); ++i)
+    MCC_TRY(checkTarget(targets[i], info.pieces[i], info.pieces[i].wedge_count));
   return {};
 }
 
@@ -161,6 +169,7 @@ BlockInfo infoOf(const PayloadHeader& header, size_t index) {
   info.wedge_count = piece.wedge_count;
   info.repeated_count = block.repeated_count;
   info.triangle_count = static_cast<uint32_t>(piece.triangleCount());
+  info.parts = {header.parts.data() + piece.first_part, piece.part_count};
   info.offset_bytes = block.offset_bytes;
   info.stream_bytes = block.streamBytes();
   for (uint32_t s = 0; s < 3; ++s) {
@@ -203,6 +212,22 @@ Status Payload::State::listBlocks() {
   return {};
 }
 
+/// Decodes one block, see BlocksDecoder; stores it if `target` is not null.
+Status Payload::State::decodeBlock(uint32_t index, const PieceTarget* target,
+                                   const PayloadModels* from, PayloadModels* left,
+                                   const DecodeOptions& options) const {
+  if (target != nullptr)
+    MCC_TRY(checkTarget(*target, pieces[0], header.pieces[index].wedge_count));
+  prepareTables();
+  Progress progress(options, header);
+  DecodedBlock block(header, index, options);
+  Placed<PayloadModels> models(options.allocator);
+  MCC_TRY(runBlock(block, header, from, models, progress));
+  if (left != nullptr && !left->copyFrom(*models.get(), allocator))
+    return fail(Error::kOutOfMemory, "no memory for the models");
+  return target == nullptr ? Status{} : block.storeAlone(*target);
+}
+
 Payload::Payload(Payload&& other) noexcept : state_(std::exchange(other.state_, nullptr)) {}
 
 Payload& Payload::operator=(Payload&& other) noexcept {
@@ -219,6 +244,11 @@ Payload::~Payload() {
 
 Status Payload::open(std::span<const uint8_t> bytes, const Limits& limits,
                      const Allocator& allocator) {
+  return openPrefix(bytes, bytes.size(), limits, allocator);
+}
+
+Status Payload::openPrefix(std::span<const uint8_t> bytes, uint64_t payload_bytes,
+                           const Limits& limits, const Allocator& allocator) {
   *this = Payload();
   void* memory = allocateBytes(allocator, sizeof(State));
   if (memory == nullptr) return fail(Error::kOutOfMemory, "no memory for the header");
@@ -226,7 +256,8 @@ Status Payload::open(std::span<const uint8_t> bytes, const Limits& limits,
   opened.state_ = new (memory) State(allocator);
   State& state = *opened.state_;
   PayloadHeader& header = state.header;
-  MCC_TRY(parsePayload(bytes, limits, header));
+  MCC_TRY(parsePrefix(bytes, payload_bytes, limits, header));
+  state.payload_bytes = payload_bytes;
   MCC_TRY(header.hasBlocks() ? state.listBlocks() : state.listPieces());
   state.info.version_major = kVersionMajor;
   state.info.version_minor = header.version_minor;
@@ -250,6 +281,45 @@ Status Payload::open(std::span<const uint8_t> bytes, const Limits& limits,
 }
 
 const PayloadInfo& Payload::info() const { return state_ == nullptr ? kEmptyInfo : state_->info; }
+
+Status Payload::extend(std::span<const uint8_t> bytes) {
+  if (state_ == nullptr) return fail(Error::kBadArgument, "no payload is open");
+  if (!state_->header.hasBlocks()) return {};  // it was complete
+  PayloadHeader& header = state_->header;
+  if (bytes.size() > state_->payload_bytes ||
+      bytes.size() < header.header_bytes + header.streams.codes.size())
+    return fail(Error::kBadArgument, "these are fewer bytes than before, or too many");
+  header.streams.codes = bytes.subspan(header.header_bytes);
+  return {};
+}
+
+uint32_t Payload::loadedBlockCount() const {
+  if (!decodes::kBlocks || state_ == nullptr) return 0;
+  const PayloadHeader& header = state_->header;
+  const BlockHeader* const begin = header.blocks.data();
+  return static_cast<uint32_t>(
+      std::partition_point(begin, begin + header.blocks.size(),
+                           [&](const BlockHeader& block) { return header.isLoaded(block); }) -
+      begin);
+}
+
+Status Payload::prime(const PieceTarget* target, const DecodeOptions& options) {
+  if (!decodes::kBlocks || state_ == nullptr || !state_->header.hasBlocks())
+    return fail(Error::kBadArgument, "no payload with blocks is open");
+  if (state_->primed.get() == nullptr && state_->primed.make(state_->allocator) == nullptr)
+    return fail(Error::kOutOfMemory, "no memory for the models");
+  return state_->decodeBlock(0, target, nullptr, state_->primed.get(), options);
+}
+
+Status Payload::decodeBlock(uint32_t block, const PieceTarget& target,
+                            const DecodeOptions& options) const {
+  if (!decodes::kBlocks || state_ == nullptr || block >= state_->header.blocks.size())
+    return fail(Error::kBadArgument, "there is no such block");
+  const PayloadModels* const primed = state_->primed.get();
+  if (block != 0 && primed == nullptr)
+    return fail(Error::kBadArgument, "blocks after the first need prime()");
+  return state_->decodeBlock(block, &target, block == 0 ? nullptr : primed, nullptr, options);
+}
 
 Status Payload::decode(std::span<const PieceTarget> targets, const DecodeOptions& options) const {
   if (state_ == nullptr) return fail(Error::kBadArgument, "no payload is open");

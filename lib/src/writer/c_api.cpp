@@ -18,7 +18,8 @@ namespace mcc {
 namespace {
 
 mcc_encode_options defaultEncodeOptions() {
-  return {sizeof(mcc_encode_options), 0, 0, MCC_PREFER_BALANCED};
+  return {sizeof(mcc_encode_options), 0,       0,      MCC_PREFER_BALANCED,
+          MCC_BLOCKS_BY_PREFERENCE,   nullptr, nullptr};
 }
 
 /// Converts a format. Numbers that do not fit are refused, not truncated.
@@ -87,6 +88,8 @@ Status encodeViews(const mcc_piece_view* views, size_t count, const mcc_encode_o
   encode_options.keep_vertex_order = options.keep_vertex_order != 0;
   encode_options.keep_triangle_order = options.keep_triangle_order != 0;
   encode_options.prefer = static_cast<Preference>(options.prefer);
+  encode_options.block_triangles = options.block_triangles;
+  encode_options.run_jobs = runJobsOf(options.run_jobs, options.run_jobs_user);
   std::vector<Piece> pieces(count);
   std::vector<PieceView> piece_views;
   for (size_t i = 0; i < count; ++i) {
