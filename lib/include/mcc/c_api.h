@@ -440,6 +440,8 @@ typedef struct mcc_convert_options {
   /** bounds what a compressed source may decode to; 0: the default of mcc_decode_glb_options */
   uint64_t max_decoded_bytes;
   uint32_t drop_unused; /**< 1: vertices that no triangle uses are left out */
+  /** triangles of a block, see mcc_encode_options */
+  uint32_t block_triangles;
 } mcc_convert_options;
 
 /**
@@ -462,7 +464,7 @@ MCC_API mcc_status mcc_convert_glb(const void* glb, size_t byte_count,
 typedef struct mcc_decode_glb_options {
   size_t struct_bytes;
   uint32_t decode_to_integers; /**< 1: quantised attributes stay integers (KHR_mesh_quantization) */
-  uint32_t thread_count; /**< payloads decoded at the same time; the result does not depend on it */
+  uint32_t thread_count; /**< the result does not depend on it */
   /**
    * A GLB that asks for more bytes of decoded geometry is refused before memory is taken. 0, the
    * default, allows 1024 bytes for each byte of the GLB, but at least 256 MiB and at most 4 GiB.

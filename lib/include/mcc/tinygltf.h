@@ -30,6 +30,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -45,6 +46,7 @@
 
 #include "mcc/decoded_limit.h"
 #include "mcc/reader.h"
+#include "mcc/run_jobs.h"
 
 #if __has_include("mcc/gltf.h")
 #include "mcc/gltf.h"
@@ -67,7 +69,8 @@ struct [[nodiscard]] Result {
 
 /// Options of decode().
 struct DecodeOptions {
-  /// Payloads decoded at the same time; the result does not depend on it.
+  /// Threads that work at the same time, on several payloads or on the blocks of one. The result
+  /// does not depend on it.
   uint32_t thread_count = 1;
   /// Bounds of each payload.
   Limits limits;
@@ -100,6 +103,50 @@ inline void check(const Status& status, const std::string& where) {
   }
   fail(where, what);
 }
+
+/// Runs jobs on up to `thread_count` threads in all, those of nested calls included.
+class Threads {
+ public:
+  explicit Threads(uint32_t thread_count) : spare_(thread_count == 0 ? 0 : thread_count - 1) {}
+
+  /// Runs job(0) … job(count - 1), which must not throw.
+  void run(size_t count, const std::function<void(size_t)>& job) {
+    std::atomic<size_t> next = 0;
+    const auto work = [&] {
+      for (size_t i = next++; i < count; i = next++) job(i);
+    };
+    const auto work_and_leave = [&] {
+      work();
+      ++spare_;
+    };
+    std::vector<std::thread> threads;
+    for (size_t i = 1; i < count && take(); ++i) {
+      try {
+        threads.emplace_back(work_and_leave);
+      } catch (const std::exception&) {  // continue with the threads there are
+        ++spare_;
+        break;
+      }
+    }
+    work();
+    for (std::thread& thread : threads) thread.join();
+  }
+
+  /// The reader's hook, which borrows this object.
+  RunJobs hook() {
+    return [this](size_t count, const std::function<void(size_t)>& job) { run(count, job); };
+  }
+
+ private:
+  bool take() {
+    uint32_t spare = spare_;
+    while (spare != 0 && !spare_.compare_exchange_weak(spare, spare - 1)) {
+    }
+    return spare != 0;
+  }
+
+  std::atomic<uint32_t> spare_;
+};
 
 /// Reads an index. Returns `absent` when there is no such member, unless that is kNone: then it
 /// must be there.
@@ -386,23 +433,13 @@ class Decoder {
 
   void decodeAll() {
     std::vector<Status> statuses(jobs_.size());
-    std::atomic<size_t> next = 0;
-    const auto work = [&] {
-      for (size_t i = next++; i < jobs_.size(); i = next++) statuses[i] = decodeJob(*jobs_[i]);
-    };
-    std::vector<std::thread> threads;
-    const size_t count = std::min<size_t>(options_.thread_count, jobs_.size());
-    try {
-      while (threads.size() + 1 < count) threads.emplace_back(work);
-    } catch (const std::system_error&) {  // continue with the threads there are
-    }
-    work();
-    for (std::thread& thread : threads) thread.join();
+    Threads threads(options_.thread_count);
+    threads.run(jobs_.size(), [&](size_t i) { statuses[i] = decodeJob(*jobs_[i], threads); });
     for (size_t i = 0; i < jobs_.size(); ++i) check(statuses[i], jobs_[i]->where);
   }
 
   /// Decodes one payload. Must not throw, since it may run on any thread.
-  Status decodeJob(Job& job) try {
+  Status decodeJob(Job& job, Threads& threads) try {
     const std::span<const PieceInfo> infos = job.payload.info().pieces;
     std::vector<std::vector<AttributeTarget>> attributes(infos.size());
     std::vector<std::vector<PartTarget>> parts(infos.size());
@@ -422,7 +459,9 @@ class Decoder {
         attributes[filled.piece][filled.id] = {data, place.stride};
       }
     }
-    const Status status = job.payload.decode(targets);
+    mcc::DecodeOptions options;
+    if (options_.thread_count > 1) options.run_jobs = threads.hook();
+    const Status status = job.payload.decode(targets, options);
     if (status.ok()) padMatrices(job);
     return status;
   } catch (const std::bad_alloc&) {

@@ -33,6 +33,7 @@ mcc_convert_options defaultConvertOptions() {
   options.tangent_bits = defaults.bits.tangent;
   options.weight_bits = defaults.bits.weight;
   options.thread_count = defaults.thread_count;
+  options.block_triangles = defaults.block_triangles;
   return options;
 }
 
@@ -68,6 +69,7 @@ Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
   out.keep_triangle_order = options.keep_triangle_order != 0;
   out.prefer = static_cast<Preference>(options.prefer);
   out.thread_count = options.thread_count;
+  out.block_triangles = options.block_triangles;
   out.max_decoded_bytes = options.max_decoded_bytes;
   if (options.position_lattice != nullptr) {
     Lattice& lattice = out.position_lattice.emplace();
