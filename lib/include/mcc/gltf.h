@@ -264,6 +264,16 @@ struct InspectAttribute {
   bool is_angle = false;  ///< error_bound is in degrees
 };
 
+/// A block of an inspected piece, see BlockInfo.
+struct InspectBlock {
+  uint32_t wedge_count = 0;
+  uint32_t repeated_count = 0;
+  uint32_t triangle_count = 0;
+  uint64_t stream_bytes = 0;
+  float low[3] = {};
+  float high[3] = {};
+};
+
 /// A piece of an inspected payload.
 struct InspectPiece {
   uint32_t wedge_count = 0;
@@ -275,6 +285,7 @@ struct InspectPiece {
   std::vector<std::string>
       attribute_names;                    ///< as in the JSON; "(unused)" when no primitive names it
   std::vector<InspectAttribute> details;  ///< one for each of `attributes`
+  std::vector<InspectBlock> blocks;       ///< empty: coded as a whole
 };
 
 /// A payload as its header describes it.
