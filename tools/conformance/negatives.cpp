@@ -729,7 +729,9 @@ class Maker {
     field(
         "unused bit of raw", "A.3.8", Error::kTrailingBytes,
         "A bit of raw that nobody reads is set",
-        [](const PayloadHeader& h) { return threeStreams(h) && h.streams.raw[h.streams.raw.size() - 1] < 0x40; },
+        [](const PayloadHeader& h) {
+          return threeStreams(h) && h.streams.raw[h.streams.raw.size() - 1] < 0x40;
+        },
         [](HeaderFields& f) { f.bytes("raw").back() |= 0x80; });
   }
 

@@ -127,9 +127,9 @@ struct ConvertOptions {
   /// Threads that work at the same time, on several payloads or on the trials of one. The result
   /// does not depend on it.
   uint32_t thread_count = 1;
-  Preference prefer = Preference::kBalanced;  ///< smaller payloads, or ones faster to decode
+  Preference prefer = Preference::kBalanced;       ///< smaller payloads, or ones faster to decode
   uint32_t block_triangles = kBlocksByPreference;  ///< see EncodeOptions::block_triangles
-  ForeignDecoders decoders;                   ///< for sources that other codecs compressed
+  ForeignDecoders decoders;                        ///< for sources that other codecs compressed
   /// How much a compressed source may decode to, see decodedLimit(); 0: the default. All accessors
   /// that have no bytes in the file may take a 32nd of it together; primitives that would need more
   /// stay as they are.

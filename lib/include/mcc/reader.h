@@ -77,7 +77,7 @@ enum class SurfaceCoding : uint8_t {
 };
 
 /// A block: a part of a large surface that is coded apart from the others, so that several threads
-/// can decode them. Border vertices are in several blocks.                                    [A.11]
+/// can decode them. Border vertices are in several blocks. [A.11]
 struct BlockInfo {
   uint32_t wedge_count = 0;     ///< of the block alone
   uint32_t repeated_count = 0;  ///< how many of them blocks before this one have too
@@ -173,10 +173,10 @@ enum class DecodeStage : uint8_t {
 /// The resources and callbacks of decode().
 struct DecodeOptions {
   Allocator allocator;
-  /// Called after every stage of every piece or block with the share of the work that is done, which
-  /// rises to 1, on the thread of decode(); with run_jobs on any of its threads, one call at a time.
-  /// Returning false makes decode() end with kCancelled. A stage takes at most a few hundred
-  /// nanoseconds per vertex.
+  /// Called after every stage of every piece or block with the share of the work that is done,
+  /// which rises to 1, on the thread of decode(); with run_jobs on any of its threads, one call at
+  /// a time. Returning false makes decode() end with kCancelled. A stage takes at most a few
+  /// hundred nanoseconds per vertex.
   bool (*progress)(void* user, double done) = nullptr;
   void* progress_user = nullptr;
   CodeHistogram* histogram = nullptr;  ///< filled when not null
@@ -222,10 +222,10 @@ class Payload {
                       const Allocator& allocator = {});
 
   /// Opens a payload of which only the beginning is there yet, for reading blocks while the others
-  /// are loading. Works like open(). Returns kTruncated when the header, or a payload without blocks,
-  /// is not complete yet: call it again with more bytes.
-  /// bytes          the beginning of the payload; must outlive the Payload, or the next extend()
-  /// payload_bytes  the size of the whole payload, which is that of the buffer view
+  /// are loading. Works like open(). Returns kTruncated when the header, or a payload without
+  /// blocks, is not complete yet: call it again with more bytes. bytes          the beginning of
+  /// the payload; must outlive the Payload, or the next extend() payload_bytes  the size of the
+  /// whole payload, which is that of the buffer view
   MCC_API Status openPrefix(std::span<const uint8_t> bytes, uint64_t payload_bytes,
                             const Limits& limits = {}, const Allocator& allocator = {});
 

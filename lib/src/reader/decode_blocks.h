@@ -2,9 +2,10 @@
 //
 // Decodes a payload that is cut into blocks:                                                [A.11]
 //
-//   decode   the stages of a block, whose models begin as block 0 left them     any thread, any order
-//   number   which of its wedges earlier blocks have, and the numbers of all    in the order of blocks
-//   store    triangles and those wedges that are not repeated                   any thread
+//   decode   the stages of a block, whose models begin as block 0 left them     any thread, any
+//   order number   which of its wedges earlier blocks have, and the numbers of all    in the order
+//   of blocks store    triangles and those wedges that are not repeated                   any
+//   thread
 #ifndef MCC_READER_DECODE_BLOCKS_H_
 #define MCC_READER_DECODE_BLOCKS_H_
 
@@ -92,9 +93,8 @@ class DecodedBlock {
   Status number(RimTable& table) {
     const BlockHeader& block = header_.blocks[index_];
     uint32_t repeated_count = 0;
-    if (!findRim() || !numberWedges(table, rim_, header_.exceptionsOf(block),
-                                       block.first_wedge, pieceHeader().wedge_count, numbers_,
-                                       repeated_count))
+    if (!findRim() || !numberWedges(table, rim_, header_.exceptionsOf(block), block.first_wedge,
+                                    pieceHeader().wedge_count, numbers_, repeated_count))
       return noMemory();
     if (repeated_count == block.repeated_count) return {};
     return fail(Error::kBadAttribute, "a block repeats another number of wedges than it claims");
@@ -107,8 +107,7 @@ class DecodedBlock {
     Array<PartTarget> parts(allocator_);
     Array<uint32_t> fresh(allocator_);
     const uint32_t first = header_.blocks[index_].first_wedge;
-    const uint32_t fresh_count =
-        pieceHeader().wedge_count - header_.blocks[index_].repeated_count;
+    const uint32_t fresh_count = pieceHeader().wedge_count - header_.blocks[index_].repeated_count;
     if (!attributes.resize(infos_.size()) || !parts.resize(pieceHeader().part_count) ||
         !fresh.reserve(fresh_count))
       return noMemory();
@@ -143,7 +142,8 @@ class DecodedBlock {
 
   Allocator chooseAllocator() {
     const uint64_t expected_bytes = expectedBytes(pieceHeader());
-    const bool pays = !kCompact && isHeap(options_.allocator) && WorkingMemory::pays(expected_bytes);
+    const bool pays =
+        !kCompact && isHeap(options_.allocator) && WorkingMemory::pays(expected_bytes);
     return pays ? pages_.allocator() : options_.allocator;
   }
   const PieceHeader& pieceHeader() const { return header_.pieces[index_]; }

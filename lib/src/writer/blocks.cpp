@@ -87,7 +87,7 @@ class Renumbering {
 
 /// Triangles apart from the surface, by block.
 struct Leftovers {
-  std::vector<uint32_t> duplicates;              ///< proper triangles of the whole piece
+  std::vector<uint32_t> duplicates;             ///< proper triangles of the whole piece
   std::vector<SortedTriangles::Listed> listed;  ///< with wedges of the whole piece
 };
 
@@ -191,7 +191,7 @@ struct CodedBlock {
   uint64_t cost = 0;
   CodedBox box;
   std::vector<uint32_t> source_wedge;  ///< in the whole piece, by decoded wedge
-  Rim rim{Allocator{}};          ///< without tuples
+  Rim rim{Allocator{}};                ///< without tuples
   EncodeResult result;                 ///< sizes and a piece
 };
 

@@ -182,9 +182,8 @@ Status preparePiece(const PieceView& view, const EncodeSettings& options, const 
                 "with indices_only, a piece can have no attribute except POSITION");
   plan.view = &view;
   // Some floats turn out to be coded exactly although bits were asked for; that is rare.
-  const bool expects_exact =
-      view.attributes[0].quantization_bits == 0 &&
-      view.attributes[0].format.component_type == ComponentType::kFloat32;
+  const bool expects_exact = view.attributes[0].quantization_bits == 0 &&
+                             view.attributes[0].format.component_type == ComponentType::kFloat32;
   jobs.run(3, [&](size_t i) {
     if (i == 0) plan.attributes = quantizeAttributes(view, options.without, notes);
     if (i == 1) plan.classes = weldPositions(view.attributes[0], view.wedge_count, expects_exact);
