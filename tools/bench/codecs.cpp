@@ -110,7 +110,7 @@ Outcome decodeOurs(std::span<const uint8_t> bytes, const Allocator& allocator,
   }
   DecodeOptions options;
   options.allocator = allocator;
-  options.run_jobs = run_jobs;
+  options.run_jobs = runnerOf(run_jobs);
   return fromStatus(payload.decode(targets, options));
 }
 

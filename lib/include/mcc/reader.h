@@ -11,7 +11,7 @@
 
 #include "mcc/allocator.h"
 #include "mcc/export.h"
-#include "mcc/run_jobs.h"
+#include "mcc/job_runner.h"
 #include "mcc/status.h"
 #include "mcc/types.h"
 
@@ -192,11 +192,11 @@ struct DecodeOptions {
   void (*stage_bits)(void* user, uint32_t piece, DecodeStage stage, uint32_t attribute,
                      uint64_t bits) = nullptr;
   void* stage_bits_user = nullptr;
-  /// Decodes the blocks of a payload on several threads. The reader starts none itself; when empty,
+  /// Decodes the blocks of a payload on several threads. The reader starts none itself; when null,
   /// everything runs on the caller's thread. The result does not depend on it. The allocator must
   /// then be safe to use by several threads. With `histogram`, `mc_edge` or `stage_bits`, blocks
   /// are decoded one after another on the caller's thread.
-  RunJobs run_jobs;
+  JobRunner run_jobs;
 };
 
 /// An opened payload: its parsed and checked header. Move-only; keeps a reference to the bytes.

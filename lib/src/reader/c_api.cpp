@@ -160,7 +160,7 @@ Status withTargets(std::span<const PieceInfo> pieces, const mcc_piece_target* ta
   MCC_TRY(read.read(targets, target_count));
   DecodeOptions decode_options;
   decode_options.allocator = fromC(options.allocator);
-  decode_options.run_jobs = runJobsOf(options.run_jobs, options.run_jobs_user);
+  decode_options.run_jobs = {options.run_jobs, options.run_jobs_user};
   ProgressOfC progress{options.progress, options.progress_user};
   if (options.progress != nullptr) {
     decode_options.progress = callProgress;

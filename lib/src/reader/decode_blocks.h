@@ -271,11 +271,13 @@ class BlocksDecoder {
     decode(0);
     const bool is_watched = options_.histogram != nullptr || options_.mc_edge != nullptr ||
                             options_.stage_bits != nullptr;
-    const auto job = [this](size_t i) { decode(static_cast<uint32_t>(i + 1)); };
-    if (options_.run_jobs && !is_watched && first_failed_ == kNone) {
-      options_.run_jobs(count - 1, job);
+    const auto job = [](void* self, size_t i) {
+      static_cast<BlocksDecoder*>(self)->decode(static_cast<uint32_t>(i + 1));
+    };
+    if (options_.run_jobs.run != nullptr && !is_watched) {
+      options_.run_jobs.run(options_.run_jobs.user, count - 1, job, this);
     } else {
-      for (size_t i = 0; i + 1 < count; ++i) job(i);
+      for (size_t i = 0; i + 1 < count; ++i) job(this, i);
     }
     return first_failed_ == kNone ? Status{} : statuses_[first_failed_];
   }

@@ -485,7 +485,7 @@ class BlocksEncoder {
 Status encodeBlocks(const Plan& whole, const EncodeSettings& options, const Jobs& jobs,
                     EncodeResult& result) {
   const uint32_t block_triangles =
-      blockTriangles(whole.triangles.part.size(), options.block_triangles, options.prefer);
+      blockTriangles(options.block_triangles, options.prefer, whole.triangles.part.size());
   if (block_triangles == 0) return {};
   if (const char* why = whyWhole(whole, options)) {
     result.whole_because = why;
