@@ -140,6 +140,12 @@ class DecodedBlock {
  private:
   static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for a block"); }
 
+  /// Stands for WorkingMemory in compact code, which has no huge pages.
+  struct NoPages {
+    explicit NoPages(uint64_t) {}
+    static Allocator allocator() { return {}; }
+  };
+
   Allocator chooseAllocator() {
     const uint64_t expected_bytes = expectedBytes(pieceHeader());
     const bool pays =
@@ -198,7 +204,7 @@ class DecodedBlock {
   const PayloadHeader& header_;
   const uint32_t index_;
   const AttributeInfos infos_;
-  WorkingMemory pages_;
+  std::conditional_t<kCompact, NoPages, WorkingMemory> pages_;
   const Allocator allocator_;
   std::optional<PieceCoder<BlockIo>> piece_;
   Array<int32_t> values_;         ///< of all attributes, see valuesBefore()
