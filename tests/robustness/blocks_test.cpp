@@ -415,7 +415,7 @@ TEST(DamagedBlocks, OutOfMemory) {
         FailingAllocator memory(allocations);
         DecodeOptions options;
         options.allocator = memory.allocator();
-        options.run_jobs = hook;
+        options.run_jobs = runnerOf(hook);
         const Error error = opened.decode({&target, 1}, options).error;
         ASSERT_EQ(memory.liveBlocks(), 0u) << payload.name << ", " << allocations;
         ASSERT_TRUE(memory.booksBalance()) << payload.name << ", " << allocations;
@@ -459,7 +459,7 @@ TEST(DamagedBlocks, GiveBackTheirMemoryAfterAnError) {
           FailingAllocator memory;
           DecodeOptions options;
           options.allocator = memory.allocator();
-          options.run_jobs = hook;
+          options.run_jobs = runnerOf(hook);
           EXPECT_FALSE(opened.decode({&target, 1}, options).ok()) << payload.name;
           EXPECT_EQ(memory.liveBlocks(), 0u) << payload.name;
           EXPECT_TRUE(memory.booksBalance()) << payload.name;
@@ -545,7 +545,7 @@ TEST(DamagedBlocks, ManyTinyBlocksCountTheCopiesOfModels) {
       TakenBytes taken;
       DecodeOptions options;
       options.allocator = taken.allocator();
-      options.run_jobs = hook;
+      options.run_jobs = runnerOf(hook);
       EXPECT_TRUE(opened.decode({&target, 1}, options).ok() || is_forged);
       EXPECT_LE(taken.all(), 64 * elementsOf(header)) << count;
       EXPECT_LE(taken.peak(), (uint64_t{4} << 20) + 16 * elementsOf(header)) << count;

@@ -502,7 +502,7 @@ TEST(Blocks, JobsChangeNothing) {
       EXPECT_EQ(result.pieces[0].source_wedge, alone.pieces[0].source_wedge) << mesh.name;
       EXPECT_EQ(result.block_count, alone.block_count) << mesh.name;
       DecodeOptions options;
-      options.run_jobs = hook;
+      options.run_jobs = runnerOf(hook);
       for (int i = 0; i < 5; ++i) {
         Decoded decoded;
         ASSERT_TRUE(decoded.decode(payload, options).ok()) << mesh.name;
@@ -533,7 +533,7 @@ TEST(Blocks, TheFirstFailureIsReported) {
     ASSERT_TRUE(payload.open(damaged).ok());
     for (const RunJobs& hook : allHooks()) {
       DecodeOptions options;
-      options.run_jobs = hook;
+      options.run_jobs = runnerOf(hook);
       Decoded decoded;
       const Status status = decoded.decode(payload, options);
       EXPECT_EQ(status.error, Error::kBadChecksum);
@@ -658,7 +658,7 @@ TEST(Blocks, CallbacksWork) {
     Told told;
     CodeHistogram histogram{};
     DecodeOptions options;
-    options.run_jobs = hook;
+    options.run_jobs = runnerOf(hook);
     options.histogram = &histogram;
     options.mc_edge = [](void* user, uint32_t piece, uint32_t vertex, uint32_t from) {
       static_cast<Told*>(user)->edges.push_back({piece, vertex, from});
@@ -718,7 +718,7 @@ struct Progress {
 
 Status decodeWithProgress(const Payload& payload, const RunJobs& hook, Progress& progress) {
   DecodeOptions options;
-  options.run_jobs = hook;
+  options.run_jobs = runnerOf(hook);
   options.progress = [](void* user, double done) {
     auto* const seen = static_cast<Progress*>(user);
     seen->done.push_back(done);
@@ -767,7 +767,8 @@ TEST(Blocks, ProgressIsToldByOneThreadAtATime) {
   for (int i = 0; i < 20; ++i) {
     Watch watch;
     DecodeOptions options;
-    options.run_jobs = runOnThreads;
+    const RunJobs hook = runOnThreads;
+    options.run_jobs = runnerOf(hook);
     options.progress = [](void* user, double done) {
       auto* const w = static_cast<Watch*>(user);
       w->is_good = w->is_good && ++w->tellers == 1 && done >= w->last && done <= 1;
