@@ -1,11 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Decodes a payload that is cut into blocks:                                                [A.11]
+// Decodes a payload that is cut into blocks:
 //
-//   decode   the stages of a block, whose models begin as block 0 left them     any thread, any
-//   order number   which of its wedges earlier blocks have, and the numbers of all    in the order
-//   of blocks store    triangles and those wedges that are not repeated                   any
-//   thread
+//   decode  the stages of a block, from models as block 0 left them; any thread     [A.11.2]
+//   number  which of its wedges earlier blocks have; block after block    [A.11.3, A.11.4]
+//   store   triangles, and the wedges that are not repeated; any thread             [A.11.4]
 #ifndef MCC_READER_DECODE_BLOCKS_H_
 #define MCC_READER_DECODE_BLOCKS_H_
 
