@@ -422,13 +422,13 @@ Status parseBlocks(ByteReader& in, uint64_t payload_bytes, PayloadHeader& header
     wedges += header.pieces[i].wedge_count - block.repeated_count;
     if (wedges >= kMaxVertices)
       return fail(Error::kLimit, "the payload has more vertices than the limit allows", at);
-    if (offset_bytes > payload_bytes)
-      return fail(Error::kTruncated, "the payload ends inside a block", header.header_bytes);
     (void)header.blocks.push_back(block);  // reserved above
   }
   MCC_TRY(parsePadding(in, header));
   if (in.offset() != header.header_bytes)
     return fail(Error::kBadHeader, "the header has another length than it claims", at);
+  if (offset_bytes > payload_bytes)
+    return fail(Error::kTruncated, "the payload ends inside a block", header.header_bytes);
   if (offset_bytes != payload_bytes)
     return fail(Error::kTrailingBytes, "bytes follow the last block", offset_bytes);
   return in.readBytes(in.remaining(), header.streams.codes);
