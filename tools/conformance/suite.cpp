@@ -130,12 +130,23 @@ std::vector<Candidate> makeCandidates() {
   return all;
 }
 
+void addAsset(std::vector<Candidate>& all, Asset asset) {
+  Features features = featuresOf(asset.payload);
+  all.push_back({std::move(asset), std::move(features)});
+}
+
 void addSources(std::vector<Candidate>& all) {
-  for (const Source& source : addedSources()) {
-    Asset asset = encodeSource(source);
-    Features features = featuresOf(asset.payload);
-    all.push_back({std::move(asset), std::move(features)});
-  }
+  for (const Source& source : addedSources()) addAsset(all, encodeSource(source));
+  for (const Source& source : blockSources()) addAsset(all, encodeSource(source));
+  Asset padded = encodeSource(blockSources()[0]);
+  padded.name = "blocks_padded";
+  padded.shows = "Blocks, and padding that nobody needs";
+  HeaderFields fields(padded.payload);
+  fields.set("flags", fields.get("flags") | payload_flag::kPadded);
+  fields.insertBefore("block 0.codes", "padding bytes", {5});
+  fields.insertBefore("block 0.codes", "padding", Bytes(5, 0));
+  padded.payload = fields.payload();
+  addAsset(all, std::move(padded));
 }
 
 /// Puts numbers before the names.
