@@ -220,6 +220,7 @@ void addBench(CLI::App& app, int& status) {
                    "Measure blocks of N triangles, 0 for none (0,65536,262144):\n"
                    "bytes, time with one and two threads, working memory")
       ->delimiter(',')
+      ->allow_extra_args(false)  // the files follow
       ->type_name("N,N");
   command->add_option("--sizes", state->sizes, "Only write our bytes per stream to this file")
       ->type_name("FILE")
