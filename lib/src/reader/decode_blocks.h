@@ -42,7 +42,7 @@ class DecodedBlock {
   uint32_t index() const { return index_; }
   const Allocator& allocator() const { return allocator_; }
 
-  /// Runs the stages. `models` must live as long as the block, unless decoding fails.
+  /// Runs the stages. The models are used during this call only.
   Status decode(PayloadModels& models, Progress& progress) {
     const BlockHeader& block = header_.blocks[index_];
     if (!header_.isLoaded(block))
