@@ -168,6 +168,7 @@ class DecodedBlock {
   bool findRim() {
     if (!rim_.find(piece_->mesh, pieceHeader().wedge_count)) return false;
     for (uint32_t a = 0; a < infos_.size(); ++a) rim_.tuple_words += wordsOf(a);
+    if (rim_.wedges.empty()) return true;
     if (!rim_.tuples.resize(rim_.wedges.size() * rim_.tuple_words)) return false;
     uint32_t column = 0;
     for (uint32_t a = 0; a < infos_.size(); ++a) {

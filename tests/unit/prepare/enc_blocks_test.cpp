@@ -84,7 +84,7 @@ TEST(CutIntoBlocks, SizesAreNearTheAim) {
       if (has_first) {
         EXPECT_LT(cut.trianglesOf(0).size(), aim / 4) << mesh.name << ", " << aim;
       }
-      const double each = double{rest} / others;
+      const double each = static_cast<double>(rest) / others;
       for (uint32_t b = has_first ? 1 : 0; b < cut.blockCount(); ++b) {
         const auto size = static_cast<double>(cut.trianglesOf(b).size());
         EXPECT_GT(size, 0.7 * each) << mesh.name << ", " << aim;
@@ -127,7 +127,7 @@ TEST(CutIntoBlocks, BordersAreShort) {
       }
     }
     // A square of n triangles has a circumference of 4 sqrt(n / 2) edges, half of each border.
-    const double squares = cut.blockCount() * 4 * std::sqrt(350.0);
+    const double squares = static_cast<double>(cut.blockCount()) * 4 * std::sqrt(350.0);
     EXPECT_LT(static_cast<double>(border_edges), 1.6 * squares) << mesh.name;
     EXPECT_LE(sticking_out, border_edges / 100) << mesh.name;
   }
