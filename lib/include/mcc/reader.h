@@ -264,11 +264,12 @@ class Payload {
   /// Decodes all pieces into memory the caller owns, see PieceTarget for its shape. `targets` has
   /// one entry per piece. After an error the targets hold unspecified bytes, and nothing was
   /// written outside them.
-  /// Returns kTruncated, kBadConnectivity, kBadStitch, kBadAttribute, kTrailingBytes, kLimit,
-  /// kOutOfMemory, kBadArgument, kCancelled. Safe for untrusted input. Work and memory are linear
-  /// in the counts of info(). There are no globals, so different Payloads may be decoded in
-  /// parallel, and one Payload several times. The result is the same on every platform. Inverse:
-  /// encode(). Tests: tests/roundtrip/, tests/conformance/, tests/robustness/.
+  /// Returns kTruncated, kBadChecksum (of a block), kBadConnectivity, kBadStitch, kBadAttribute,
+  /// kTrailingBytes, kLimit, kOutOfMemory, kBadArgument, kCancelled. Safe for untrusted input. Work
+  /// and memory are linear in the counts of info(); with blocks, memory in those of a block. There
+  /// are no globals, so different Payloads may be decoded in parallel, and one Payload several
+  /// times. The result is the same on every platform. Inverse: encode(). Tests: tests/roundtrip/,
+  /// tests/conformance/, tests/robustness/.
   MCC_API Status decode(std::span<const PieceTarget> targets,
                         const DecodeOptions& options = {}) const;
 
