@@ -88,13 +88,32 @@ class DecodedBlock {
     return {};
   }
 
+  /// Finds the rim and its tuples. Returns false when memory ran out.
+  [[nodiscard]] bool findRim() {
+    if (!rim_.find(piece_->mesh, pieceHeader().wedge_count)) return false;
+    for (uint32_t a = 0; a < infos_.size(); ++a) rim_.tuple_words += wordsOf(a);
+    if (!rim_.tuples.resize(rim_.wedges.size() * rim_.tuple_words)) return false;
+    uint32_t column = 0;
+    for (uint32_t a = 0; a < infos_.size(); ++a) {
+      const uint32_t words = wordsOf(a);
+      const int32_t* from = values_.data() + valuesBefore(a);
+      int32_t* to = rim_.tuples.data() + column;
+      for (size_t i = 0; i < rim_.wedges.size(); ++i, to += rim_.tuple_words)
+        std::copy_n(from + size_t{rim_.wedges[i]} * words, words, to);
+      column += words;
+    }
+    return true;
+  }
+
+  Rim& rim() { return rim_; }
+
   /// Numbers the wedges. Must be called block after block.
   Status number(RimTable& table) {
     const BlockHeader& block = header_.blocks[index_];
     uint32_t repeated_count = 0;
-    if (!findRim() || !numberWedges(table, rim_, header_.exceptionsOf(block),
-                                       block.first_wedge, pieceHeader().wedge_count, numbers_,
-                                       repeated_count))
+    if (!findRim() ||
+        !numberWedges(table, rim_, header_.exceptionsOf(block), block.first_wedge,
+                      pieceHeader().wedge_count, numbers_, repeated_count))
       return noMemory();
     if (repeated_count == block.repeated_count) return {};
     return fail(Error::kBadAttribute, "a block repeats another number of wedges than it claims");
@@ -164,22 +183,6 @@ class DecodedBlock {
     size_t words = 0;
     for (uint32_t a = 0; a < index; ++a) words += wordsOf(a);
     return words * pieceHeader().wedge_count;
-  }
-
-  bool findRim() {
-    if (!rim_.find(piece_->mesh, pieceHeader().wedge_count)) return false;
-    for (uint32_t a = 0; a < infos_.size(); ++a) rim_.tuple_words += wordsOf(a);
-    if (!rim_.tuples.resize(rim_.wedges.size() * rim_.tuple_words)) return false;
-    uint32_t column = 0;
-    for (uint32_t a = 0; a < infos_.size(); ++a) {
-      const uint32_t words = wordsOf(a);
-      const int32_t* from = values_.data() + valuesBefore(a);
-      int32_t* to = rim_.tuples.data() + column;
-      for (size_t i = 0; i < rim_.wedges.size(); ++i, to += rim_.tuple_words)
-        std::copy_n(from + size_t{rim_.wedges[i]} * words, words, to);
-      column += words;
-    }
-    return true;
   }
 
   void storeValues(WedgeAt wedge_at, std::span<const AttributeTarget> targets) {
