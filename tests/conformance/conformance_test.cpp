@@ -162,12 +162,17 @@ TEST(Conformance, TenThousandMutationsAreErrors) {
   }
 }
 
-/// What the headers of all assets say: a name for each value.
-std::set<std::string> headerValues() {
+/// What the headers of all assets say, or of those with blocks: a name for each value.
+std::set<std::string> headerValues(bool only_blocks = false) {
   std::set<std::string> values;
   for (const Json& asset : manifest()["assets"]) {
     PayloadHeader header{Allocator{}};
     EXPECT_TRUE(parsePayload(File(asset).payload, {}, header).ok()) << asset["file"];
+    if (only_blocks && !header.hasBlocks()) continue;
+    values.insert("context set " + std::to_string(header.contextSet()));
+    if ((header.flags & payload_flag::kPadded) != 0) values.insert("PADDED");
+    for (size_t i = 0; i < header.exceptions.size(); ++i)
+      values.insert(header.exceptions[i].number == kNone ? "new wedge" : "earlier wedge");
     for (size_t i = 0; i < header.pieces.size(); ++i) {
       const PieceHeader& piece = header.pieces[i];
       values.insert(infoOf(piece.surface()).name);
@@ -201,6 +206,26 @@ TEST(Conformance, EveryRowOfTheFormatsTablesHasAnAsset) {
   }
 }
 
+/// Stages look at blocks in some way: what a copy of the models leaves out shows in none but these.
+TEST(Conformance, EverythingThatBlocksMayHaveIsInOne) {
+  const std::set<std::string> seen = headerValues(true);
+  const auto expect = [&](const std::string& name) { EXPECT_TRUE(seen.contains(name)) << name; };
+  for (const char* const name :
+       {"context set 0", "context set 1", "PADDED", "new wedge", "earlier wedge"})
+    expect(name);
+  for (const SurfaceInfo& surface : kSurfaces) {
+    const bool is_allowed = surface.name != std::string(infoOf(SurfaceCoding::kPivots).name);
+    EXPECT_EQ(seen.contains(surface.name), is_allowed) << surface.name;
+  }
+  for (const PieceFlagInfo& flag : kPieceFlags) {
+    const bool is_order =
+        flag.bit == piece_flag::kTriangleOrder || flag.bit == piece_flag::kVertexOrder;
+    EXPECT_EQ(seen.contains(flag.name), !is_order) << flag.name;
+  }
+  for (const CodingInfo& coding : kCodings) expect(std::string("coding ") + coding.name);
+  for (const MethodInfo& method : kMethods) expect(method.name);
+}
+
 /// Every feature of the format that an asset can show is shown by one, as far as the sections tell.
 TEST(Conformance, SectionsAreCovered) {
   std::set<std::string> covered;
@@ -210,11 +235,11 @@ TEST(Conformance, SectionsAreCovered) {
     }
   }
   for (const char* const section :
-       {"A.2.4",  "A.3.3", "A.3.4", "A.3.5",  "A.3.7",  "A.4.3",  "A.4.4",  "A.4.5",
-        "A.4.6",  "A.4.7", "A.5.2", "A.5.3",  "A.6.4",  "A.7.3",  "A.7.4",  "A.8.3",
-        "A.8.4",  "A.8.5", "A.8.6", "A.8.7",  "A.8.8",  "A.8.9",  "A.8.10", "A.8.11",
-        "A.8.12", "A.9.1", "A.9.2", "A.10.1", "A.10.2", "A.10.3", "B.2.3",  "B.2.8",
-        "B.2.9",  "B.5.2", "B.5.3", "B.6.6",  "B.6.7",  "B.7.3"}) {
+       {"A.2.4",  "A.3.3",  "A.3.4",  "A.3.5",  "A.3.7",  "A.4.3",  "A.4.4",  "A.4.5", "A.4.6",
+        "A.4.7",  "A.5.2",  "A.5.3",  "A.6.4",  "A.7.3",  "A.7.4",  "A.8.3",  "A.8.4", "A.8.5",
+        "A.8.6",  "A.8.7",  "A.8.8",  "A.8.9",  "A.8.10", "A.8.11", "A.8.12", "A.9.1", "A.9.2",
+        "A.10.1", "A.10.2", "A.10.3", "B.2.3",  "B.2.8",  "B.2.9",  "B.5.2",  "B.5.3", "B.6.6",
+        "B.6.7",  "B.7.3",  "A.11.1", "A.11.2", "A.11.3", "A.11.4", "A.11.5"}) {
     EXPECT_TRUE(covered.contains(section)) << section;
   }
 }

@@ -25,19 +25,6 @@ Outcome fromStatus(const Status& status) {
   return status.ok() ? Outcome{} : foreign::failure(status.what);
 }
 
-Outcome encodeOurs(const Geometry& geometry, EncodedFile& encoded) {
-  EncodeOptions options;
-  options.prefer = geometry.prefer;
-  for (const PayloadInput& input : geometry.inputs) {
-    std::vector<PieceView> views;
-    for (const PieceInput& piece : input.pieces) views.push_back(piece.view());
-    encoded.payloads.emplace_back();
-    if (Outcome done = fromStatus(encode(views, options, encoded.payloads.back())); !done.ok())
-      return done;
-  }
-  return {};
-}
-
 Outcome encodeDracoPrimitive(const PrimitiveInput& primitive, Codec codec, EncodedFile& encoded) {
   foreign::DracoInput input;
   Outcome made = foreign::makeDracoInput(primitive.piece->view(), primitive.part, input);
@@ -94,7 +81,7 @@ void addMeshoptStreams(const PrimitiveInput& primitive, const foreign::MeshoptEn
 }
 
 Outcome decodeOurs(std::span<const uint8_t> bytes, const Allocator& allocator,
-                   DecodedUnit& decoded) {
+                   const RunJobs& run_jobs, DecodedUnit& decoded) {
   Payload payload;
   if (Outcome done = fromStatus(payload.open(bytes, {}, allocator)); !done.ok()) return done;
   const std::span<const PieceInfo> infos = payload.info().pieces;
@@ -123,6 +110,7 @@ Outcome decodeOurs(std::span<const uint8_t> bytes, const Allocator& allocator,
   }
   DecodeOptions options;
   options.allocator = allocator;
+  options.run_jobs = runnerOf(run_jobs);
   return fromStatus(payload.decode(targets, options));
 }
 
@@ -242,10 +230,25 @@ uint64_t EncodedFile::bytes() const {
   return sum;
 }
 
+Outcome encodeOurs(const Geometry& geometry, const OurBlocks& blocks, EncodedFile& encoded) {
+  EncodeOptions options;
+  options.prefer = geometry.prefer;
+  options.block_triangles = blocks.block_triangles;
+  options.run_jobs = blocks.run_jobs;
+  for (const PayloadInput& input : geometry.inputs) {
+    std::vector<PieceView> views;
+    for (const PieceInput& piece : input.pieces) views.push_back(piece.view());
+    encoded.payloads.emplace_back();
+    if (Outcome done = fromStatus(encode(views, options, encoded.payloads.back())); !done.ok())
+      return done;
+  }
+  return {};
+}
+
 Outcome encodeFile(const Geometry& geometry, Codec codec, EncodedFile& encoded) {
   encoded = {};
   encoded.codec = codec;
-  if (codec == Codec::kMcc) return encodeOurs(geometry, encoded);
+  if (codec == Codec::kMcc) return encodeOurs(geometry, {geometry.block_triangles, {}}, encoded);
   const std::vector<PrimitiveInput> primitives = primitivesOf(geometry);
   for (size_t i = 0; i < primitives.size(); ++i) {
     Outcome done;
@@ -299,10 +302,10 @@ void fullStreams(const Geometry& geometry, std::vector<Stream>& streams) {
 }
 
 Outcome decodeUnit(const EncodedFile& encoded, size_t unit, const Allocator& allocator,
-                   DecodedUnit& decoded) {
+                   DecodedUnit& decoded, const RunJobs& run_jobs) {
   Outcome done;
   if (encoded.codec == Codec::kMcc) {
-    return decodeOurs(encoded.payloads[unit].payload, allocator, decoded);
+    return decodeOurs(encoded.payloads[unit].payload, allocator, run_jobs, decoded);
   }
   if (isDraco(encoded.codec)) {
     done = foreign::decodeDraco(encoded.draco[unit].bytes, decoded.mesh);

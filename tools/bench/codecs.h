@@ -54,6 +54,15 @@ struct EncodedFile {
 /// words and the number of the primitive.
 Outcome encodeFile(const Geometry& geometry, Codec codec, EncodedFile& encoded);
 
+/// How our encoder treats large surfaces, see EncodeOptions.
+struct OurBlocks {
+  uint32_t block_triangles = kBlocksByPreference;
+  RunJobs run_jobs;
+};
+
+/// The same for our codec, with blocks of a given size and several threads.
+Outcome encodeOurs(const Geometry& geometry, const OurBlocks& blocks, EncodedFile& encoded);
+
 /// Bytes of all units by stream. Draco's triangles are "connectivity" as measured alone, on the
 /// mesh welded by position without seams, and "seams", what they take more in the file.
 /// meshoptimizer's streams are those before zstd, and "zstd" what it saves, a negative number.
@@ -78,9 +87,10 @@ struct DecodedUnit {
 };
 
 /// Decodes one unit from bytes in memory into arrays it allocates.
-/// allocator  where our reader takes its working memory from.
+/// allocator  where our reader takes its working memory from
+/// run_jobs   the threads on which our reader decodes blocks
 Outcome decodeUnit(const EncodedFile& encoded, size_t unit, const Allocator& allocator,
-                   DecodedUnit& decoded);
+                   DecodedUnit& decoded, const RunJobs& run_jobs = {});
 
 /// Vertex cache misses of the decoded triangles of a unit: a FIFO of 16 vertices, per primitive.
 double cacheMisses(const EncodedFile& encoded, size_t unit, const DecodedUnit& decoded);

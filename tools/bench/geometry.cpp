@@ -58,6 +58,7 @@ gltf::Result load(const std::filesystem::path& path, const gltf::ConvertOptions&
     geometry.notes.push_back(left.primitive.path() + ": " + left.note);
   }
   geometry.prefer = options.prefer;
+  geometry.block_triangles = options.block_triangles;
   addInputs(geometry);
   return {};
 }

@@ -51,7 +51,8 @@ struct Geometry {
   uint64_t wedge_count = 0;   ///< glTF vertices
   uint64_t vertex_count = 0;  ///< distinct positions
   bool has_left_out = false;
-  Preference prefer = Preference::kBalanced;  ///< of our encoder
+  Preference prefer = Preference::kBalanced;  ///< of our encoder, and its blocks
+  uint32_t block_triangles = kBlocksByPreference;
 };
 
 /// Whether a primitive takes part.

@@ -108,6 +108,7 @@ foreign::Outcome measureWithout(const std::string& name, const Geometry& geometr
   const std::vector<std::vector<PieceInput>> payloads = allPieces(geometry);
   EncodeSettings settings;
   settings.prefer = geometry.prefer;
+  settings.block_triangles = geometry.block_triangles;
   EncodedFile full;
   if (auto done = encodeWithout(payloads, settings, full); !done.ok()) return done;
   figures.full_bytes = full.bytes();

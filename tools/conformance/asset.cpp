@@ -259,6 +259,8 @@ Asset encodeSource(const Source& source) {
     pieces.push_back({source.pieces[i].wedge_count, attributes[i], parts[i]});
   test::RoundTrip trip = test::roundTrip(pieces, source.options);
   if (!trip.failure.empty()) throw std::runtime_error(source.name + ": " + trip.failure);
+  if (source.options.block_triangles != kBlocksByPreference && trip.encoded.block_count == 0)
+    throw std::runtime_error(source.name + " has no blocks: " + trip.encoded.whole_because);
   Asset asset{source.name, source.shows, std::move(trip.encoded.payload), {}};
   for (size_t i = 0; i < pieces.size(); ++i) {
     PieceNames names;

@@ -45,12 +45,24 @@ class Listing {
     if ((header_.flags & payload_flag::kPadded) != 0) add("PADDED", {"A.2.5", "A.2.6"});
     if ((header_.flags & payload_flag::kManyPieces) != 0) add("MANY_PIECES", {"A.2.1", "A.3.6"});
     for (size_t i = 0; i < header_.pieces.size(); ++i) addPiece(header_.pieces[i]);
+    if (header_.hasBlocks()) addBlocks();
     return std::move(features_);
   }
 
  private:
   void add(const std::string& name, const Sections& sections) {
     features_[name].insert(sections.begin(), sections.end());
+  }
+
+  void addBlocks() {
+    add("BLOCKS", {"A.11.1", "A.11.2", "A.11.3", "A.11.4", "A.11.5"});
+    for (size_t i = 0; i < header_.exceptions.size(); ++i) {
+      add(header_.exceptions[i].number == kNone ? "exception: a new wedge"
+                                                : "exception: an earlier wedge",
+          {"A.11.1", "A.11.3"});
+    }
+    for (uint32_t i = 0; i < all_.size(); ++i)
+      add(std::string("BLOCKS, ") + infoOf(methodOf(all_, i)).name, {"A.11.3"});
   }
 
   /// The flags whose stages look at what this one's stage does.

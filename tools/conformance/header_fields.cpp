@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "base/crc32.h"
 #include "base/enc_bytes.h"
 #include "container/payload_header.h"
 #include "format/usual.h"
@@ -26,9 +27,21 @@ HeaderFields::HeaderFields(std::span<const uint8_t> payload)
     : rest_(payload.subspan(kChecksummedFrom)), version_(payload[kVersionOffset]) {
   take("flags", 1);
   const uint32_t flags = get("flags");
+  const bool has_blocks = (flags & payload_flag::kBlocks) != 0;
+  if (has_blocks) takeVarint("header bytes");
   const bool many = (flags & payload_flag::kManyPieces) != 0;
   const uint32_t pieces = many ? takeVarint("piece count") : 1;
   for (uint32_t i = 0; i < pieces; ++i) takePiece(std::to_string(i) + ".");
+  const auto block = [](uint32_t i) { return "block " + std::to_string(i) + "."; };
+  for (uint32_t i = 0; has_blocks && i < pieces; ++i) takeBlock(block(i), i == 0);
+  if (has_blocks) {
+    if ((flags & payload_flag::kPadded) != 0) take("padding", takeVarint("padding bytes"));
+    for (uint32_t i = 0; i < pieces; ++i) {
+      for (const char* const stream : {"codes", "tokens", "raw"})
+        take(block(i) + stream, get(block(i) + stream + " bytes"));
+    }
+    return;
+  }
   const bool single = (flags & payload_flag::kSingleCoder) != 0;
   const uint32_t codes = single ? 0 : takeVarint("codes bytes");
   const uint32_t tokens = single ? 0 : takeVarint("tokens bytes");
@@ -56,6 +69,35 @@ void HeaderFields::takePiece(const std::string& prefix) {
   if ((flags & piece_flag::kSameAttributes) != 0) return;
   const uint32_t attributes = takeVarint(prefix + "attributes");
   for (uint32_t i = 0; i < attributes; ++i) takeAttribute(prefix + std::to_string(i) + ".");
+}
+
+void HeaderFields::takeBlock(const std::string& prefix, bool is_first) {
+  if (!is_first) {
+    takeVarint(prefix + "repeated");
+    const uint32_t exceptions = takeVarint(prefix + "exceptions");
+    for (uint32_t i = 0; i < exceptions; ++i) {
+      takeVarint(prefix + "skipped " + std::to_string(i));
+      takeVarint(prefix + "back " + std::to_string(i));
+    }
+  }
+  for (const char* const name : {"codes bytes", "tokens bytes", "raw bytes"})
+    takeVarint(prefix + name);
+  take(prefix + "checksum", 4);
+  for (uint32_t s = 0; s < 3; ++s) {
+    takeVarint(prefix + "low " + std::to_string(s));
+    takeVarint(prefix + "size " + std::to_string(s));
+  }
+}
+
+void HeaderFields::repairBlock(uint32_t index) {
+  const std::string prefix = "block " + std::to_string(index) + ".";
+  uint32_t checksum = crc32({});
+  for (const char* const stream : {"codes", "tokens", "raw"}) {
+    const Bytes& of_stream = bytes(prefix + stream);
+    set(prefix + stream + " bytes", static_cast<uint32_t>(of_stream.size()));
+    checksum = crc32(of_stream, checksum);
+  }
+  set(prefix + "checksum", checksum);
 }
 
 void HeaderFields::takeAttribute(const std::string& prefix) {
@@ -183,9 +225,26 @@ void HeaderFields::erase(const std::string& name) {
   fields_.erase(fields_.begin() + static_cast<std::ptrdiff_t>(find(name)));
 }
 
+/// The length counts its own bytes too.
+Bytes HeaderFields::headerLength() const {
+  size_t others = kChecksummedFrom;
+  for (const Field& field : fields_) {
+    if (field.name == "block 0.codes") break;
+    if (field.name != "header bytes") others += field.bytes.size();
+  }
+  Bytes length;
+  while (length.size() != varint(static_cast<uint32_t>(others + length.size())).size())
+    length.push_back(0);
+  return varint(static_cast<uint32_t>(others + length.size()) +
+                static_cast<uint32_t>(header_length_change_));
+}
+
 Bytes HeaderFields::payload() const {
   Bytes all = {kMagic, version_, 0, 0, 0, 0};
-  for (const Field& field : fields_) all.insert(all.end(), field.bytes.begin(), field.bytes.end());
+  for (const Field& field : fields_) {
+    const Bytes bytes = field.name == "header bytes" ? headerLength() : field.bytes;
+    all.insert(all.end(), bytes.begin(), bytes.end());
+  }
   repairChecksum(all);
   return all;
 }

@@ -25,7 +25,11 @@ class HeaderFields {
   /// "i.degenerates", "i.listed", "i.parts", "i.part k", "i.attributes"; for its attribute k
   /// "i.k.kind", "i.k.type", "i.k.set", "i.k.target", "i.k.predictor", "i.k.bits", "i.k.lattice",
   /// "i.k.step", "i.k.origin c", "i.k.alias", "i.k.grid bits", "i.k.grid"; "codes bytes",
-  /// "tokens bytes", "padding bytes", "padding", "codes", "tokens", "raw".
+  /// "tokens bytes", "padding bytes", "padding", "codes", "tokens", "raw". With blocks "header
+  /// bytes" follows the flags, and instead of lengths and streams there are, for block i, "block
+  /// i.repeated", "block i.exceptions", "block i.skipped k", "block i.back k", "block i.codes
+  /// bytes", "block i.tokens bytes", "block i.raw bytes", "block i.checksum", "block i.low s",
+  /// "block i.size s", and "block i.codes", "block i.tokens", "block i.raw".
   explicit HeaderFields(std::span<const uint8_t> payload);
 
   bool has(const std::string& name) const;
@@ -45,6 +49,11 @@ class HeaderFields {
   /// bytes.
   void setFloat(const std::string& attribute, uint32_t index, uint32_t value, uint32_t form = 0);
 
+  /// Makes the length of the header, which otherwise fits, wrong by `change`.
+  void changeHeaderLength(int32_t change) { header_length_change_ = change; }
+  /// Makes what the table says of the streams of a block fit them.
+  void repairBlock(uint32_t index);
+
   /// Returns the payload with a checksum that fits.
   Bytes payload() const;
 
@@ -61,10 +70,13 @@ class HeaderFields {
   void takePiece(const std::string& prefix);
   void takeAttribute(const std::string& prefix);
   void takeLattice(const std::string& prefix, uint32_t origins);
+  void takeBlock(const std::string& prefix, bool is_first);
+  Bytes headerLength() const;
 
   std::vector<Field> fields_;
   std::span<const uint8_t> rest_;
   uint8_t version_ = 0;
+  int32_t header_length_change_ = 0;
 };
 
 Bytes varint(uint32_t value);

@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "base/bytes.h"
 #include "connectivity/enc_collapse.h"
 #include "container/enc_payload.h"
 #include "container/payload_header.h"
@@ -84,6 +85,7 @@ class Maker {
     deepHandle();
     contradictions();
     searched();
+    blocks();
     documents();
     sharedAccessors();
     emptyParts();
@@ -161,14 +163,13 @@ class Maker {
   /// Makes the document claim what the payload's header does, so that the payload is what is
   /// refused.
   static void claimCounts(const Bytes& payload, Json& json) {
-    PayloadHeader header{Allocator{}};
-    if (!parsePayload(payload, {}, header).ok()) return;
+    Payload opened;
+    if (!opened.open(payload).ok()) return;
     for (const Json& primitive : json["meshes"][0]["primitives"]) {
       const Json& extension = primitive["extensions"][gltf::kExtensionName];
-      const PieceHeader& piece = header.pieces[extension.value("piece", size_t{0})];
-      const size_t part = piece.first_part + extension.value("part", size_t{0});
-      json["accessors"][primitive["indices"].get<size_t>()]["count"] =
-          3 * header.parts[part].triangle_count;
+      const PieceInfo& piece = opened.info().pieces[extension.value("piece", size_t{0})];
+      const PartInfo& part = piece.parts[extension.value("part", size_t{0})];
+      json["accessors"][primitive["indices"].get<size_t>()]["count"] = 3 * part.triangle_count;
       for (const auto& [name, accessor] : primitive["attributes"].items())
         json["accessors"][accessor.get<size_t>()]["count"] = piece.wedge_count;
     }
@@ -253,7 +254,7 @@ class Maker {
   }
 
   void payloadFlags() {
-    for (const uint32_t bit : {4u, 5u, 7u}) {
+    for (const uint32_t bit : {5u, 6u, 7u}) {
       header("reserved bit " + std::to_string(bit), "A.2.1",
              "A reserved bit of the payload's flags", any,
              [=](HeaderFields& f) { f.set("flags", f.get("flags") | 1u << bit); });
@@ -729,7 +730,9 @@ class Maker {
     field(
         "unused bit of raw", "A.3.8", Error::kTrailingBytes,
         "A bit of raw that nobody reads is set",
-        [](const PayloadHeader& h) { return threeStreams(h) && h.streams.raw[h.streams.raw.size() - 1] < 0x40; },
+        [](const PayloadHeader& h) {
+          return threeStreams(h) && h.streams.raw[h.streams.raw.size() - 1] < 0x40;
+        },
         [](HeaderFields& f) { f.bytes("raw").back() |= 0x80; });
   }
 
@@ -875,6 +878,248 @@ class Maker {
       add(message.what, message.section, f.error,
           std::string("The streams say that ") + message.what, *f.asset, f.payload);
     }
+  }
+
+  // ---- Blocks -----------------------------------------------------------------------------------
+
+  void blocks() {
+    const std::vector<Source> sources = blockSources();
+    const auto named = [&](const char* name) {
+      const auto it = std::find_if(sources.begin(), sources.end(),
+                                   [&](const Source& source) { return source.name == name; });
+      if (it == sources.end()) throw std::runtime_error(std::string("no source ") + name);
+      return encodeSource(*it);
+    };
+    const Asset plain = named("blocks_torus");
+    blockPieces(plain);
+    blockTable(plain, named("blocks_equal_tuples"));
+    blockStreams(plain);
+    gluedPiece(plain, named("blocks_equal_tuples"));
+  }
+
+  void block(const std::string& name, const std::string& section, Error error,
+             const std::string& shows, const Asset& asset,
+             const std::function<void(HeaderFields&)>& change) {
+    HeaderFields fields(asset.payload);
+    change(fields);
+    add(name, section, error, shows, asset, fields.payload());
+  }
+
+  /// What a block may not have, or must.
+  void blockPieces(const Asset& asset) {
+    const auto bad = [&](const std::string& name, const std::string& shows,
+                         const std::function<void(HeaderFields&)>& change) {
+      block(name, "A.11.1", Error::kBadHeader, shows, asset, change);
+    };
+    const auto flags = [](const std::string& name, uint32_t set, uint32_t clear) {
+      return [=](HeaderFields& f) { f.set(name, (f.get(name) & ~clear) | set); };
+    };
+    bad("blocks of a single coder", "BLOCKS with SINGLE_CODER",
+        flags("flags", payload_flag::kSingleCoder, 0));
+    bad("one block", "BLOCKS without MANY_PIECES", flags("flags", 0, payload_flag::kManyPieces));
+    bad("block with attributes", "The second block has attributes of its own", [](HeaderFields& f) {
+      f.set("1.flags", f.get("1.flags") & ~piece_flag::kSameAttributes);
+      Bytes all;
+      for (const char* const name : {"attributes", "0.kind", "0.predictor", "0.lattice", "0.step",
+                                     "0.origin 0", "0.origin 1", "0.origin 2"}) {
+        const Bytes& bytes = f.bytes(std::string("0.") + name);
+        all.insert(all.end(), bytes.begin(), bytes.end());
+      }
+      f.insertBefore("2.flags", "1.all", all);
+    });
+    bad("blocks without attributes", "The blocks have no attributes", [](HeaderFields& f) {
+      f.set("0.attributes", 0);
+      for (const char* const name :
+           {"kind", "predictor", "lattice", "step", "origin 0", "origin 1", "origin 2"})
+        f.erase(std::string("0.0.") + name);
+    });
+    bad("block of other parts", "The second block has two parts, the first one",
+        [](HeaderFields& f) {
+          f.set("1.flags", f.get("1.flags") | piece_flag::kManyParts);
+          Bytes parts = {2};
+          for (const uint8_t byte : varint(f.get("1.faces"))) parts.push_back(byte);
+          parts.push_back(0);
+          f.insertBefore("2.flags", "1.all parts", parts);
+        });
+    bad("block without faces", "The second block has no faces and no wedges", [](HeaderFields& f) {
+      if (f.has("1.dummies")) f.erase("1.dummies");
+      f.set("1.flags", piece_flag::kSameAttributes);
+      for (const char* const name : {"vertices", "faces", "operations", "wedges"})
+        f.set(std::string("1.") + name, 0);
+      f.set("block 1.repeated", 0);
+    });
+    bad("block of pivots", "A block that is not cut", [](HeaderFields& f) {
+      if (f.has("1.dummies")) f.erase("1.dummies");
+      f.erase("1.operations");
+      f.set("1.flags", piece_flag::kSameAttributes | piece_flag::kSurfaceMask);
+    });
+    bad("block with a triangle order", "A block with TRIANGLE_ORDER",
+        flags("1.flags", piece_flag::kTriangleOrder, 0));
+    bad("block with a vertex order", "A block with VERTEX_ORDER",
+        flags("1.flags", piece_flag::kVertexOrder, 0));
+    bad("first block with a vertex order", "The first block has VERTEX_ORDER",
+        flags("0.flags", piece_flag::kVertexOrder, 0));
+  }
+
+  void blockTable(const Asset& asset, const Asset& with_exceptions) {
+    const auto bad = [&](const std::string& name, const std::string& shows, const Asset& of,
+                         const std::function<void(HeaderFields&)>& change) {
+      block(name, "A.11.1", Error::kBadHeader, shows, of, change);
+    };
+    const auto wedges = [](const Asset& of, uint32_t index) {
+      const PieceHeader piece = headerOf(of.payload).pieces[index];
+      return piece.wedge_count - piece.isolated_count;
+    };
+    bad("repeated above wedges", "A block repeats more wedges than it has", asset,
+        [&](HeaderFields& f) { f.set("block 1.repeated", wedges(asset, 1) + 1); });
+    // A block with an exception, and the first of its fields.
+    const PayloadHeader header = headerOf(with_exceptions.payload);
+    uint32_t index = 1;
+    while (header.blocks[index].exception_count < 2) ++index;
+    const std::string row = "block " + std::to_string(index) + ".";
+    bad("exception of no wedge", "An exception about a wedge that the block does not have",
+        with_exceptions,
+        [&](HeaderFields& f) { f.set(row + "skipped 0", wedges(with_exceptions, index)); });
+    bad("second exception of no wedge", "The second exception is about a wedge beyond the last",
+        with_exceptions, [&](HeaderFields& f) {
+          const uint32_t first = f.get(row + "skipped 0") + 1;
+          f.set(row + "skipped 1", wedges(with_exceptions, index) - first);
+        });
+    bad("exception with no wedge", "An exception names a wedge before the first", with_exceptions,
+        [&](HeaderFields& f) { f.set(row + "back 0", header.blocks[index].first_wedge + 1); });
+    bad("exceptions above wedges", "2^30 exceptions", with_exceptions,
+        [&](HeaderFields& f) { f.set(row + "exceptions", 1u << 30); });
+    bad("box above 2 31", "A box ends above 2^31 - 1", asset, [](HeaderFields& f) {
+      f.set("block 1.low 0", 2);  // zigzag: 1
+      f.set("block 1.size 0", 0x7fffffff);
+    });
+    bad("box of 2 32", "A box whose size wraps", asset,
+        [](HeaderFields& f) { f.set("block 1.size 2", 0xffffffff); });
+    bad("header too short", "The header is said to be a byte shorter than it is", asset,
+        [](HeaderFields& f) { f.changeHeaderLength(-1); });
+    bad("header too long", "The header is said to be a byte longer than it is", asset,
+        [](HeaderFields& f) { f.changeHeaderLength(1); });
+    block("header beyond the end", "A.2.1", Error::kTruncated,
+          "The header is said to be longer than the payload", asset,
+          [](HeaderFields& f) { f.changeHeaderLength(1 << 20); });
+    // Faces that only the copies of models make too many.
+    block("elements of copies", "A.2.6", Error::kLimit,
+          "Blocks whose elements and copies of models are more than 1024 elements to a byte", asset,
+          [&](HeaderFields& f) {
+            const uint64_t elements = elementsOf(headerOf(asset.payload));
+            const uint64_t most = kMaxElementsPerByte * (asset.payload.size() + 8);
+            f.set("1.faces", f.get("1.faces") + static_cast<uint32_t>((most - elements) / 2 + 1));
+          });
+  }
+
+  void blockStreams(const Asset& asset) {
+    const uint32_t last = static_cast<uint32_t>(headerOf(asset.payload).blocks.size()) - 1;
+    const std::string end = "block " + std::to_string(last) + ".";
+    block("block beyond the end", "A.11.1", Error::kTruncated,
+          "The last stream is beyond the payload", asset,
+          [&](HeaderFields& f) { f.set(end + "raw bytes", f.get(end + "raw bytes") + 1); });
+    block("block beyond 2 32", "A.11.1", Error::kTruncated,
+          "Lengths of streams whose sum modulo 2^32 fits", asset, [](HeaderFields& f) {
+            f.set("block 0.raw bytes", f.get("block 0.raw bytes") + 0x80000000);
+            f.set("block 1.raw bytes", f.get("block 1.raw bytes") + 0x80000000);
+          });
+    Bytes longer = asset.payload;
+    longer.push_back(0);
+    add("byte after the last block", "A.11.1", Error::kTrailingBytes,
+        "A zero byte after the last block", asset, longer);
+    const auto damaged = [&](const std::string& name, uint32_t index) {
+      block("damaged " + name, "A.11.1", Error::kBadChecksum,
+            "A bit of the " + name + " is flipped", asset, [&](HeaderFields& f) {
+              f.bytes("block " + std::to_string(index) + ".tokens").back() ^= 1;
+            });
+    };
+    damaged("first block", 0);
+    damaged("second block", 1);
+    damaged("last block", last);
+    block("damaged checksum of a block", "A.11.1", Error::kBadChecksum,
+          "A bit of the checksum of a block is flipped", asset,
+          [](HeaderFields& f) { f.set("block 1.checksum", f.get("block 1.checksum") ^ 0x100); });
+    Bytes flipped = asset.payload;
+    flipped[headerOf(asset.payload).header_bytes - 1] ^= 1;
+    add("damaged table", "A.2.1", Error::kBadChecksum, "The last byte of the table is changed",
+        asset, flipped);
+    block("block that does not end", "A.11.2", Error::kTrailingBytes,
+          "A zero byte more in raw of the second block", asset, [](HeaderFields& f) {
+            f.bytes("block 1.raw").push_back(0);
+            f.repairBlock(1);
+          });
+    block("first block that does not end", "A.11.2", Error::kTrailingBytes,
+          "Bytes more in codes of the first block", asset, [](HeaderFields& f) {
+            f.bytes("block 0.codes").resize(f.bytes("block 0.codes").size() + 12);
+            f.repairBlock(0);
+          });
+    block("block that ends early", "A.11.2", Error::kTruncated,
+          "The stream raw of the second block ends a byte early, where that of the third begins",
+          asset, [](HeaderFields& f) {
+            f.bytes("block 1.raw").pop_back();
+            f.repairBlock(1);
+          });
+  }
+
+  void gluedPiece(const Asset& asset, const Asset& with_exceptions) {
+    const uint32_t last = static_cast<uint32_t>(headerOf(asset.payload).blocks.size()) - 1;
+    const std::string end = "block " + std::to_string(last) + ".";
+    for (const int32_t change : {-1, 1}) {
+      const std::string what = change < 0 ? "fewer" : "more";
+      const auto amount = static_cast<uint32_t>(change);
+      block("one repeated " + what, "A.11.3", Error::kBadAttribute,
+            "The last block repeats a wedge " + what + " than it says", asset,
+            [&](HeaderFields& f) { f.set(end + "repeated", f.get(end + "repeated") - amount); });
+    }
+    // An exception says that a wedge is new. Without it, the wedge is repeated.
+    const PayloadHeader header = headerOf(with_exceptions.payload);
+    block("exception left out", "A.11.3", Error::kBadAttribute,
+          "Without an exception a block repeats a wedge more", with_exceptions,
+          [&](HeaderFields& f) {
+            for (size_t i = header.blocks.size(); --i != 0;) {
+              const std::span<const BlockException> all = header.exceptionsOf(header.blocks[i]);
+              if (all.empty() || all.back().number != kNone) continue;
+              const std::string prefix = "block " + std::to_string(i) + ".";
+              const std::string last_one = std::to_string(all.size() - 1);
+              f.set(prefix + "exceptions", static_cast<uint32_t>(all.size()) - 1);
+              f.erase(prefix + "skipped " + last_one);
+              f.erase(prefix + "back " + last_one);
+              return;
+            }
+          });
+    for (const bool is_low : {true, false}) {
+      block(is_low ? "box too low" : "box too high", "A.11.4", Error::kBadAttribute,
+            "The box of a block is larger than its positions", asset, [=](HeaderFields& f) {
+              if (is_low) f.set("block 1.low 1", zigzag(unzigzag(f.get("block 1.low 1")) - 1));
+              f.set("block 1.size 1", f.get("block 1.size 1") + 1);
+            });
+    }
+    block("box too small", "A.11.4", Error::kBadAttribute,
+          "The box of the last block is smaller than its positions", asset,
+          [&](HeaderFields& f) { f.set(end + "size 2", f.get(end + "size 2") - 1); });
+    block("box of the first block", "A.11.4", Error::kBadAttribute,
+          "The box of the first block is beside its positions", asset,
+          [](HeaderFields& f) { f.set("block 0.low 0", f.get("block 0.low 0") + 2); });
+    constexpr uint32_t kHalf = 1u << 27;
+    block("triangles of all blocks", "A.11.4", Error::kLimit, "Two blocks have 2^27 faces each",
+          asset, [](HeaderFields& f) {
+            f.set("0.faces", kHalf);
+            f.set("1.faces", kHalf);
+          });
+    block("vertices of all blocks", "A.11.4", Error::kLimit, "Two blocks have 2^27 vertices each",
+          asset, [](HeaderFields& f) {
+            for (const char* const piece : {"0.", "1."}) {
+              f.set(std::string(piece) + "vertices", kHalf);
+              f.set(std::string(piece) + "faces", kHalf - 1000);
+            }
+          });
+    block("wedges of all blocks", "A.11.4", Error::kLimit, "Two blocks have 2^27 wedges each",
+          asset, [](HeaderFields& f) {
+            for (const char* const piece : {"0.", "1."}) {
+              f.set(std::string(piece) + "wedges", 2 * kHalf);
+              f.set(std::string(piece) + "faces", kHalf - 1000);
+            }
+          });
   }
 
   // ---- Documents --------------------------------------------------------------------------------

@@ -903,6 +903,150 @@ std::vector<Source> addedSources() {
                  plateWithTunnels(kTooManyTunnels, 1), positions)};
 }
 
+namespace {
+
+/// A mesh in blocks of about `block_triangles`. With a variation, choices are made at random.
+Source inBlocks(const std::string& name, const std::string& shows, const TestMesh& mesh,
+                uint32_t block_triangles, uint64_t variation,
+                const std::function<void(SourceBuilder&)>& fill) {
+  Source source = single("blocks_" + name, "Blocks: " + shows, mesh, fill);
+  source.options.block_triangles = block_triangles;
+  source.options.variation = variation;
+  return source;
+}
+
+void addAlias(SourceBuilder& b) {
+  b.piece().attributes.push_back(b.piece().attributes.back());
+  NamedAttribute& alias = b.piece().attributes.back();
+  alias.name = "TEXCOORD_1";
+  alias.format.set_index = 1;
+}
+
+/// What blocks are cut out of, and the wedges that they share.
+void blockSurfaces(std::vector<Source>& all) {
+  const auto positions = [](SourceBuilder& b) { b.positions(12); };
+  const auto rich = [](SourceBuilder& b) {
+    b.positions(12);
+    b.normals(8);
+    b.texcoords("TEXCOORD_0", 10);
+  };
+  all.push_back(inBlocks("torus", "a closed surface", torus(9, 7), 40, 0, positions));
+  for (uint32_t set = 0; set < 2; ++set) {
+    all.push_back(inBlocks("contexts_" + std::to_string(set), "context set " + std::to_string(set),
+                           flipped(icosphere(3), 3, 9000), 300, 0, positions));
+    all.back().options.context_set = set;
+  }
+  all.push_back(inBlocks("charts", "seams along and across the cuts",
+                         withNormals(chartGrid(12, 12, 4)), 60, 0, rich));
+  all.push_back(inBlocks("random_wedges", "wedges all around their vertices",
+                         withNormals(withRandomWedges(torus(12, 9), 4, 3)), 50, 2, rich));
+  all.push_back(inBlocks("equal_tuples", "wedges with equal elements on the cuts: exceptions",
+                         withEqualTuples(torus(10, 8), 4), 30, 0, positions));
+  all.push_back(inBlocks("touching", "cuts that end in vertices inside of other blocks: exceptions",
+                         pinchedSpheres(6), 21, 0, positions));
+  all.push_back(inBlocks("copies", "edges of many faces, cut by blocks and by the codec",
+                         book(5, 14, 4), 60, 3, positions));
+  all.push_back(inBlocks("voxels", "cubes that meet in edges and vertices", randomVoxels(6, 6, 45),
+                         120, 0, positions));
+  all.push_back(inBlocks("holes_and_handles", "many holes, handles and components",
+                         generated(21, 6, 9, 5), 70, 5, positions));
+  all.push_back(inBlocks("parts", "parts that begin in any block, one of them empty",
+                         chartGrid(12, 12, 4), 50, 0, [](SourceBuilder& b) {
+                           b.positions(12);
+                           b.texcoords("TEXCOORD_0", 10);
+                           b.split(3);
+                         }));
+  all.push_back(inBlocks("isolated", "isolated wedges in the first block",
+                         withUnused(torus(9, 7), 5, 30), 40, 0, positions));
+  all.push_back(inBlocks(
+      "beside", "duplicates, and degenerate triangles on edges and vertices",
+      [] {
+        TestMesh mesh = withIndexDuplicates(grid(12, 12), 5, 30);
+        for (uint32_t t = 0; t < 60; t += 3) {
+          const uint32_t a = mesh.indices[3 * t];
+          const uint32_t b = t % 2 == 0 ? mesh.indices[3 * t + 1] : a;
+          mesh.indices.insert(mesh.indices.end(), {a, b, a});
+        }
+        return mesh;
+      }(),
+      50, 0, positions));
+  all.push_back(inBlocks("tiny", "one triangle in each block", icosphere(1), 1, 0, positions));
+  all.push_back(inBlocks("planes", "positions on planes that all blocks share", gyroid(14), 500, 0,
+                         [](SourceBuilder& b) { b.positions(14); }));
+}
+
+/// Attributes of every method.
+void blockAttributes(std::vector<Source>& all) {
+  const TestMesh ring = withNormals(withRandomWedges(torus(14, 10), 4, 2));
+  const auto add = [&](const std::string& name, const std::string& shows, uint64_t variation,
+                       const std::function<void(SourceBuilder&)>& fill) {
+    all.push_back(inBlocks(name, shows, ring, 70, variation, fill));
+  };
+  add("octahedral", "octahedral normals and tangents in their planes, charts, an alias", 0,
+      [](SourceBuilder& b) {
+        b.positions(13);
+        b.normals(9);
+        b.tangents(9, true);
+        b.texcoords("TEXCOORD_0", 11);
+        addAlias(b);
+      });
+  add("tangent_points", "octahedral tangents", 7, [](SourceBuilder& b) {
+    b.positions(13);
+    b.normals(9);
+    b.tangents(7, false);
+    b.texcoords("TEXCOORD_0", 11);
+  });
+  add("exact", "every float exact", 0, [](SourceBuilder& b) {
+    b.positions(0);
+    b.normals(0);
+    b.tangents(0, true);
+    b.texcoords("TEXCOORD_0", 0);
+    b.colors("COLOR_0", 0, Floats::kSpecial);
+  });
+  add("exact_varied", "exact floats, other choices", 12, [](SourceBuilder& b) {
+    b.positions(0, Floats::kHuge);
+    b.normals(0);
+    b.tangents(0, false);
+    b.texcoords("TEXCOORD_0", 0, Floats::kBinary);
+  });
+  add("integers", "integers, their positions too", 0, [](SourceBuilder& b) {
+    b.integerPositions(ComponentType::kInt16);
+    b.ids("_ID");
+    b.integers("_WIDE", kBase, "MAT4", ComponentType::kUint32, false,
+               [](const Place& at, uint32_t c) { return at.position(c % 3) * 1e8f + 2e9f; });
+  });
+  for (uint64_t variation = 0; variation < 3; ++variation) {
+    add("skin_and_morph_" + std::to_string(variation), "joints, weights and morph targets",
+        variation, [](SourceBuilder& b) {
+          b.positions(11);
+          b.normals(7);
+          b.skin("0");
+          b.morph(0);
+          b.morph(1);
+        });
+  }
+  for (const uint64_t variation : {21, 34, 55, 89}) {
+    add("varied_" + std::to_string(variation), "choices at random", variation,
+        [variation](SourceBuilder& b) {
+          b.positions(static_cast<uint8_t>(6 + variation % 9));
+          b.normals(static_cast<uint8_t>(variation % 2 == 0 ? 0 : 8));
+          b.tangents(8, true);
+          b.texcoords("TEXCOORD_0", 9);
+          b.colors("COLOR_0", 5);
+          b.custom("_A");
+        });
+  }
+}
+
+}  // namespace
+
+std::vector<Source> blockSources() {
+  std::vector<Source> all;
+  blockSurfaces(all);
+  blockAttributes(all);
+  return all;
+}
+
 std::vector<Source> chosenSources() {
   std::vector<Source> all;
   smallSources(all);

@@ -21,6 +21,9 @@ std::vector<Source> chosenSources();
 /// Sources of assets that came later; nothing that was there before depends on them.
 std::vector<Source> addedSources();
 
+/// Sources of assets with blocks. The first has positions on a lattice alone.
+std::vector<Source> blockSources();
+
 /// A random source: surface, attributes, options. The same for the same seed on every machine.
 Source randomSource(uint64_t seed);
 /// The same of an isosurface whose positions may lie on planes.

@@ -11,6 +11,7 @@
 #include "asset.h"
 #include "container/payload_header.h"
 #include "format_features.h"
+#include "gltf/base/payload.h"
 #include "header_fields.h"
 #include "negatives.h"
 #include "sources.h"
@@ -130,12 +131,55 @@ std::vector<Candidate> makeCandidates() {
   return all;
 }
 
-void addSources(std::vector<Candidate>& all) {
-  for (const Source& source : addedSources()) {
-    Asset asset = encodeSource(source);
-    Features features = featuresOf(asset.payload);
-    all.push_back({std::move(asset), std::move(features)});
+void addAsset(std::vector<Candidate>& all, Asset asset) {
+  Features features = featuresOf(asset.payload);
+  all.push_back({std::move(asset), std::move(features)});
+}
+
+bool decodes(const Bytes& payload) {
+  gltf::DecodedPayload decoded;
+  return gltf::decodePayload(payload, "", decoded).ok();
+}
+
+/// An exception says of a wedge what is the case without it: that it is new. So it is not in the
+/// table when a later block looks for it, where it becomes another wedge. The encoder writes no
+/// such exceptions; payloads with one about the wrong wedge do not decode.
+Asset neverRepeated() {
+  Asset asset = encodeSource(blockSources()[0]);
+  asset.name = "blocks_never_repeated";
+  asset.shows = "Blocks: a new wedge with an exception that it is new, which is so not repeated";
+  PayloadHeader header{Allocator{}};
+  if (!parsePayload(asset.payload, {}, header).ok()) throw std::runtime_error(asset.name);
+  for (uint32_t wedge = 0; wedge < header.pieces[1].wedge_count; ++wedge) {
+    for (uint32_t later = 2; later < header.blocks.size(); ++later) {
+      HeaderFields fields(asset.payload);
+      fields.set("block 1.exceptions", 1);
+      fields.insertBefore("block 1.codes bytes", "block 1.skipped 0", varint(wedge));
+      fields.insertBefore("block 1.codes bytes", "block 1.back 0", {0});
+      const std::string repeated = "block " + std::to_string(later) + ".repeated";
+      fields.set(repeated, fields.get(repeated) - 1);
+      const Bytes payload = fields.payload();
+      if (!decodes(payload)) continue;
+      asset.payload = payload;
+      return asset;
+    }
   }
+  throw std::runtime_error(asset.name + ": no wedge of block 1 is repeated later");
+}
+
+void addSources(std::vector<Candidate>& all) {
+  for (const Source& source : addedSources()) addAsset(all, encodeSource(source));
+  for (const Source& source : blockSources()) addAsset(all, encodeSource(source));
+  Asset padded = encodeSource(blockSources()[0]);
+  padded.name = "blocks_padded";
+  padded.shows = "Blocks, and padding that nobody needs";
+  HeaderFields fields(padded.payload);
+  fields.set("flags", fields.get("flags") | payload_flag::kPadded);
+  fields.insertBefore("block 0.codes", "padding bytes", {5});
+  fields.insertBefore("block 0.codes", "padding", Bytes(5, 0));
+  padded.payload = fields.payload();
+  addAsset(all, std::move(padded));
+  addAsset(all, neverRepeated());
 }
 
 /// Puts numbers before the names.

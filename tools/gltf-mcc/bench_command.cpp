@@ -7,8 +7,10 @@
 #include <memory>
 
 #include "bench/measure.h"
+#include "bench/measure_blocks.h"
 #include "bench/measure_without.h"
 #include "bench_report.h"
+#include "blocks_report.h"
 #include "commands.h"
 #include "convert_report.h"
 #include "file_roles.h"
@@ -33,10 +35,14 @@ struct BenchCommand {
   std::string apart;
   uint32_t run_count = 5;
   bool with_load = false;
-  std::string without;  ///< when not empty: only this is measured
+  std::string without;           ///< when not empty: only this is measured
+  std::vector<uint32_t> blocks;  ///< when not empty: only this is measured
 
   int run() const;
   int runWithout() const;
+  int runBlocks() const;
+  template <class Measure>
+  int runEach(const Measure& measure) const;
   gltf::Result load(const std::string& input, bench::Geometry& geometry) const;
   gltf::Result measure(size_t number, const ProgressLine& line, bench::FileFigures& figures) const;
 };
@@ -96,6 +102,7 @@ int BenchCommand::run() const {
     return kUsage;
   }
   if (!without.empty()) return runWithout();
+  if (!blocks.empty()) return runBlocks();
   int status = kDone;
   std::vector<bench::FileFigures> files;
   {
@@ -132,8 +139,37 @@ int BenchCommand::runWithout() const {
     return reportFailure(
         {"--without", "there is no \"" + wrong + "\"; there are " + bench::featureNames()});
   }
-  int status = kDone;
   std::vector<bench::WithoutFigures> files;
+  const int status =
+      runEach([&](const std::string& name, const bench::Geometry& geometry, const auto& tell) {
+        bench::WithoutFigures figures;
+        bench::Outcome done =
+            bench::measureWithout(name, geometry, ablations, run_count, tell, figures);
+        if (done.ok()) files.push_back(std::move(figures));
+        return done;
+      });
+  if (files.empty()) return status;
+  return printOut(withoutReport(ablations, files, common.format)) == kDone ? status : kFailed;
+}
+
+int BenchCommand::runBlocks() const {
+  std::vector<bench::BlocksOfFile> files;
+  const int status =
+      runEach([&](const std::string& name, const bench::Geometry& geometry, const auto& tell) {
+        bench::BlocksOfFile figures;
+        bench::Outcome done =
+            bench::measureBlocks(name, geometry, blocks, run_count, tell, figures);
+        if (done.ok()) files.push_back(std::move(figures));
+        return done;
+      });
+  if (files.empty()) return status;
+  return printOut(blocksReport(files, common.format)) == kDone ? status : kFailed;
+}
+
+/// Loads every file and measures it. One that fails does not stop the others.
+template <class Measure>
+int BenchCommand::runEach(const Measure& measure) const {
+  int status = kDone;
   const ProgressLine line(common.is_quiet);
   for (size_t i = 0; i < inputs.size(); ++i) {
     const std::string place = fmt::format("[{}/{}] ", i + 1, inputs.size());
@@ -141,18 +177,13 @@ int BenchCommand::runWithout() const {
     bench::Geometry geometry;
     gltf::Result result = load(inputs[i], geometry);
     if (result.ok()) {
-      const bench::Outcome measured = bench::measureWithout(nameOf(inputs[i]), geometry, ablations,
-                                                            run_count, tell, files.emplace_back());
-      if (!measured.ok()) {
-        files.pop_back();
-        result = {inputs[i], measured.message};
-      }
+      const bench::Outcome measured = measure(nameOf(inputs[i]), geometry, tell);
+      if (!measured.ok()) result = {inputs[i], measured.message};
     }
     line.clear();
     if (!result.ok()) status = reportFailure(result);
   }
-  if (files.empty()) return status;
-  return printOut(withoutReport(ablations, files, common.format)) == kDone ? status : kFailed;
+  return status;
 }
 
 }  // namespace
@@ -184,6 +215,13 @@ void addBench(CLI::App& app, int& status) {
                    "time without each of them (a,b), without several together\n"
                    "(a+b), or without each one in turn (all)")
       ->type_name("FEATURES");
+  command
+      ->add_option("--blocks", state->blocks,
+                   "Measure blocks of N triangles, 0 for none (0,65536,262144):\n"
+                   "bytes, time with one and two threads, working memory")
+      ->delimiter(',')
+      ->allow_extra_args(false)  // the files follow
+      ->type_name("N,N");
   command->add_option("--sizes", state->sizes, "Only write our bytes per stream to this file")
       ->type_name("FILE")
       ->group("");  // for tests/results

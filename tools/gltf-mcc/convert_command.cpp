@@ -287,7 +287,7 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
       ->type_name("size|balanced|speed");
   command
       .add_option("--block", options.block_triangles,
-                  "Cut larger surfaces into blocks of N triangles, 0 never [262144 from 524288 on]")
+                  "Cut large surfaces into blocks of N triangles, 0 never [262144]")
       ->check(CLI::Range(0u, kBlocksByPreference - 1).description(""))
       ->type_name("N");
 }

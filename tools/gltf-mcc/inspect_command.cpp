@@ -171,6 +171,35 @@ Table attributeTable(const gltf::InspectReport& report, Format format) {
   return table;
 }
 
+std::string pointText(const float* point) {
+  return fmt::format("{:.6g}, {:.6g}, {:.6g}", point[0], point[1], point[2]);
+}
+
+/// Lists the blocks of the pieces that are cut into some.
+Table blockTable(const gltf::InspectReport& report, Format format) {
+  Table table({"bufferView", "block", "bytes", "triangles", "vertices", "repeated", "from", "to"},
+              {6, 7});
+  for (const auto& payload : report.payloads) {
+    for (const gltf::InspectPiece& piece : payload.pieces) {
+      for (size_t i = 0; i < piece.blocks.size(); ++i) {
+        const gltf::InspectBlock& block = piece.blocks[i];
+        table.addRow({std::to_string(payload.buffer_view), std::to_string(i),
+                      count(block.stream_bytes, format), count(block.triangle_count, format),
+                      count(block.wedge_count, format), count(block.repeated_count, format),
+                      pointText(block.low), pointText(block.high)});
+      }
+    }
+  }
+  return table;
+}
+
+bool hasBlocks(const gltf::InspectReport& report) {
+  const auto isCut = [](const gltf::InspectPiece& piece) { return !piece.blocks.empty(); };
+  return std::any_of(report.payloads.begin(), report.payloads.end(), [&](const auto& payload) {
+    return std::any_of(payload.pieces.begin(), payload.pieces.end(), isCut);
+  });
+}
+
 /// Counts how often each code occurs, in the columns of the paper's table 1.
 Table codeTable(const gltf::InspectReport& report, Format format) {
   uint32_t last_degree = 8;
@@ -242,9 +271,18 @@ Json pieceJson(const gltf::InspectPiece& piece) {
     }
     attributes.push_back(std::move(json));
   }
-  return {{"vertices", piece.wedge_count},         {"positions", piece.vertex_count},
-          {"triangles", piece.triangle_count},     {"parts", piece.part_count},
-          {"surface", surfaceName(piece.surface)}, {"attributes", attributes}};
+  Json json = {{"vertices", piece.wedge_count},         {"positions", piece.vertex_count},
+               {"triangles", piece.triangle_count},     {"parts", piece.part_count},
+               {"surface", surfaceName(piece.surface)}, {"attributes", attributes}};
+  for (const gltf::InspectBlock& block : piece.blocks) {
+    json["blocks"].push_back({{"bytes", block.stream_bytes},
+                              {"triangles", block.triangle_count},
+                              {"vertices", block.wedge_count},
+                              {"repeated", block.repeated_count},
+                              {"min", block.low},
+                              {"max", block.high}});
+  }
+  return json;
 }
 
 std::string inspectJson(const std::string& input, const gltf::InspectReport& report) {
@@ -319,7 +357,9 @@ struct InspectCommand {
     out += "\n" + payloadTable(report, common.format).print(common.format);
     if (show_codes) return out + "\n" + codeTable(report, common.format).print(common.format);
     out += "\n" + streamTable(report, common.format).print(common.format);
-    return out + "\n" + attributeTable(report, common.format).print(common.format);
+    out += "\n" + attributeTable(report, common.format).print(common.format);
+    if (!hasBlocks(report)) return out;
+    return out + "\n" + blockTable(report, common.format).print(common.format);
   }
 };
 

@@ -123,9 +123,9 @@ typedef struct mcc_allocator {
 } mcc_allocator;
 
 /**
- * Calls job(job_user, 0) … job(job_user, count - 1), in any order and possibly at the same time, and
- * returns when all have ended. It calls every job exactly once. Jobs may call the function again,
- * also at the same time.
+ * Calls job(job_user, 0) … job(job_user, count - 1), in any order and possibly at the same time,
+ * and returns when all have ended. It calls every job exactly once. Jobs may call the function
+ * again, also at the same time.
  */
 typedef void (*mcc_run_jobs)(void* user, size_t count, void (*job)(void* job_user, size_t index),
                              void* job_user);
@@ -378,7 +378,8 @@ typedef struct mcc_encode_options {
   /** 1: decoded triangles come in the order of the view, each with its own first corner */
   uint32_t keep_triangle_order;
   uint32_t prefer; /**< MCC_PREFER_… */
-  /** triangles of a block, see mcc::EncodeOptions; 0: no blocks; default MCC_BLOCKS_BY_PREFERENCE */
+  /** triangles of a block, see mcc::EncodeOptions; 0: no blocks; default MCC_BLOCKS_BY_PREFERENCE
+   */
   uint32_t block_triangles;
   mcc_run_jobs run_jobs; /**< encodes on several threads; the bytes do not depend on it */
   void* run_jobs_user;
@@ -464,7 +465,7 @@ MCC_API mcc_status mcc_convert_glb(const void* glb, size_t byte_count,
 typedef struct mcc_decode_glb_options {
   size_t struct_bytes;
   uint32_t decode_to_integers; /**< 1: quantised attributes stay integers (KHR_mesh_quantization) */
-  uint32_t thread_count; /**< the result does not depend on it */
+  uint32_t thread_count;       /**< the result does not depend on it */
   /**
    * A GLB that asks for more bytes of decoded geometry is refused before memory is taken. 0, the
    * default, allows 1024 bytes for each byte of the GLB, but at least 256 MiB and at most 4 GiB.

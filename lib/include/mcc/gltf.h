@@ -127,9 +127,9 @@ struct ConvertOptions {
   /// Threads that work at the same time, on several payloads or on the trials of one. The result
   /// does not depend on it.
   uint32_t thread_count = 1;
-  Preference prefer = Preference::kBalanced;  ///< smaller payloads, or ones faster to decode
+  Preference prefer = Preference::kBalanced;       ///< smaller payloads, or ones faster to decode
   uint32_t block_triangles = kBlocksByPreference;  ///< see EncodeOptions::block_triangles
-  ForeignDecoders decoders;                   ///< for sources that other codecs compressed
+  ForeignDecoders decoders;                        ///< for sources that other codecs compressed
   /// How much a compressed source may decode to, see decodedLimit(); 0: the default. All accessors
   /// that have no bytes in the file may take a 32nd of it together; primitives that would need more
   /// stay as they are.
@@ -264,6 +264,16 @@ struct InspectAttribute {
   bool is_angle = false;  ///< error_bound is in degrees
 };
 
+/// A block of an inspected piece, see BlockInfo.
+struct InspectBlock {
+  uint32_t wedge_count = 0;
+  uint32_t repeated_count = 0;
+  uint32_t triangle_count = 0;
+  uint64_t stream_bytes = 0;
+  float low[3] = {};
+  float high[3] = {};
+};
+
 /// A piece of an inspected payload.
 struct InspectPiece {
   uint32_t wedge_count = 0;
@@ -275,6 +285,7 @@ struct InspectPiece {
   std::vector<std::string>
       attribute_names;                    ///< as in the JSON; "(unused)" when no primitive names it
   std::vector<InspectAttribute> details;  ///< one for each of `attributes`
+  std::vector<InspectBlock> blocks;       ///< empty: coded as a whole
 };
 
 /// A payload as its header describes it.

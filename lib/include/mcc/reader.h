@@ -11,7 +11,7 @@
 
 #include "mcc/allocator.h"
 #include "mcc/export.h"
-#include "mcc/run_jobs.h"
+#include "mcc/job_runner.h"
 #include "mcc/status.h"
 #include "mcc/types.h"
 
@@ -77,7 +77,7 @@ enum class SurfaceCoding : uint8_t {
 };
 
 /// A block: a part of a large surface that is coded apart from the others, so that several threads
-/// can decode them. Border vertices are in several blocks.                                    [A.11]
+/// can decode them. Border vertices are in several blocks. [A.11]
 struct BlockInfo {
   uint32_t wedge_count = 0;     ///< of the block alone
   uint32_t repeated_count = 0;  ///< how many of them blocks before this one have too
@@ -173,10 +173,10 @@ enum class DecodeStage : uint8_t {
 /// The resources and callbacks of decode().
 struct DecodeOptions {
   Allocator allocator;
-  /// Called after every stage of every piece or block with the share of the work that is done, which
-  /// rises to 1, on the thread of decode(); with run_jobs on any of its threads, one call at a time.
-  /// Returning false makes decode() end with kCancelled. A stage takes at most a few hundred
-  /// nanoseconds per vertex.
+  /// Called after every stage of every piece or block with the share of the work that is done,
+  /// which rises to 1, on the thread of decode(); with run_jobs on any of its threads, one call at
+  /// a time. Returning false makes decode() end with kCancelled. A stage takes at most a few
+  /// hundred nanoseconds per vertex.
   bool (*progress)(void* user, double done) = nullptr;
   void* progress_user = nullptr;
   CodeHistogram* histogram = nullptr;  ///< filled when not null
@@ -192,11 +192,11 @@ struct DecodeOptions {
   void (*stage_bits)(void* user, uint32_t piece, DecodeStage stage, uint32_t attribute,
                      uint64_t bits) = nullptr;
   void* stage_bits_user = nullptr;
-  /// Decodes the blocks of a payload on several threads. The reader starts none itself; when empty,
+  /// Decodes the blocks of a payload on several threads. The reader starts none itself; when null,
   /// everything runs on the caller's thread. The result does not depend on it. The allocator must
   /// then be safe to use by several threads. With `histogram`, `mc_edge` or `stage_bits`, blocks
   /// are decoded one after another on the caller's thread.
-  RunJobs run_jobs;
+  JobRunner run_jobs;
 };
 
 /// An opened payload: its parsed and checked header. Move-only; keeps a reference to the bytes.
@@ -222,10 +222,10 @@ class Payload {
                       const Allocator& allocator = {});
 
   /// Opens a payload of which only the beginning is there yet, for reading blocks while the others
-  /// are loading. Works like open(). Returns kTruncated when the header, or a payload without blocks,
-  /// is not complete yet: call it again with more bytes.
-  /// bytes          the beginning of the payload; must outlive the Payload, or the next extend()
-  /// payload_bytes  the size of the whole payload, which is that of the buffer view
+  /// are loading. Works like open(). Returns kTruncated when the header, or a payload without
+  /// blocks, is not complete yet: call it again with more bytes. bytes          the beginning of
+  /// the payload; must outlive the Payload, or the next extend() payload_bytes  the size of the
+  /// whole payload, which is that of the buffer view
   MCC_API Status openPrefix(std::span<const uint8_t> bytes, uint64_t payload_bytes,
                             const Limits& limits = {}, const Allocator& allocator = {});
 

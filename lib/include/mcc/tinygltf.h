@@ -46,7 +46,6 @@
 
 #include "mcc/decoded_limit.h"
 #include "mcc/reader.h"
-#include "mcc/run_jobs.h"
 
 #if __has_include("mcc/gltf.h")
 #include "mcc/gltf.h"
@@ -132,9 +131,13 @@ class Threads {
     for (std::thread& thread : threads) thread.join();
   }
 
-  /// The reader's hook, which borrows this object.
-  RunJobs hook() {
-    return [this](size_t count, const std::function<void(size_t)>& job) { run(count, job); };
+  /// The same for the reader, which borrows this object.
+  JobRunner runner() {
+    return {
+        [](void* self, size_t count, void (*job)(void* job_user, size_t index), void* job_user) {
+          static_cast<Threads*>(self)->run(count, [=](size_t i) { job(job_user, i); });
+        },
+        this};
   }
 
  private:
@@ -460,7 +463,7 @@ class Decoder {
       }
     }
     mcc::DecodeOptions options;
-    if (options_.thread_count > 1) options.run_jobs = threads.hook();
+    if (options_.thread_count > 1) options.run_jobs = threads.runner();
     const Status status = job.payload.decode(targets, options);
     if (status.ok()) padMatrices(job);
     return status;

@@ -72,6 +72,19 @@ struct EncodeOptions {
   RunJobs run_jobs;
 };
 
+/// Returns how many triangles the blocks of a piece have under these options; 0: the options ask
+/// for none. Such a piece should be alone in its payload. Allocates nothing.
+constexpr uint32_t blockTriangles(uint32_t block_triangles, Preference prefer,
+                                  uint64_t triangle_count) {
+  constexpr uint64_t kUsualFewestTriangles = 1u << 19;
+  constexpr uint32_t kUsualBlockTriangles = 1u << 18;
+  if (block_triangles == kBlocksByPreference) {
+    const bool pays = prefer != Preference::kSize && triangle_count >= kUsualFewestTriangles;
+    block_triangles = pays ? kUsualBlockTriangles : 0;
+  }
+  return triangle_count > block_triangles ? block_triangles : 0;
+}
+
 /// Bits per stream, as the entropy coders spent them. They add up to the payload's size.
 struct StreamSizes {
   double header_bits = 0;        ///< container, attribute descriptions, flushes, padding

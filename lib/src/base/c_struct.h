@@ -11,25 +11,11 @@
 
 #include "base/status.h"
 #include "mcc/c_api.h"
-#include "mcc/run_jobs.h"
 
 namespace mcc {
 
 inline mcc_status toC(const Status& status) {
   return {static_cast<int32_t>(status.error), status.what, status.offset_bytes};
-}
-
-/// Wraps a hook of the C API, which may be null.
-inline RunJobs runJobsOf(mcc_run_jobs run_jobs, void* user) {
-  if (run_jobs == nullptr) return {};
-  return [run_jobs, user](size_t count, const std::function<void(size_t)>& job) {
-    run_jobs(
-        user, count,
-        [](void* of_job, size_t index) {
-          (*static_cast<const std::function<void(size_t)>*>(of_job))(index);
-        },
-        const_cast<void*>(static_cast<const void*>(&job)));
-  };
 }
 
 inline mcc_status badArgument(const char* what) { return toC(fail(Error::kBadArgument, what)); }

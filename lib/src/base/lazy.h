@@ -32,8 +32,8 @@ class Lazy {
     return made_;
   }
 
-  /// Becomes a copy of `other` in memory of `allocator`, as for get(). Returns false when memory ran
-  /// out.
+  /// Becomes a copy of `other` in memory of `allocator`, as for get(). Returns false when memory
+  /// ran out.
   [[nodiscard]] bool copyFrom(const Lazy& other, const Allocator& allocator) {
     if (this == &other) return true;
     if (other.made_ == nullptr) {

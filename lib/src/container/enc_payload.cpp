@@ -130,8 +130,7 @@ void writeBlock(ByteWriter& out, const PayloadHeader& header, size_t index) {
 /// Adds the padding that the elements of the header ask for, if the payload would otherwise have
 /// `have_bytes`. Returns the payload's flags. [A.2.6]
 uint32_t writePadding(ByteWriter& out, const PayloadHeader& header, uint64_t have_bytes) {
-  const uint32_t flags =
-      header.flags | (header.pieces.size() > 1 ? payload_flag::kManyPieces : 0u);
+  const uint32_t flags = header.flags | (header.pieces.size() > 1 ? payload_flag::kManyPieces : 0u);
   const uint64_t needed = (elementsOf(header) + kMaxElementsPerByte - 1) / kMaxElementsPerByte;
   if (needed <= have_bytes) return flags;
   const uint32_t padding = static_cast<uint32_t>(needed - have_bytes);

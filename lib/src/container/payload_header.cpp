@@ -359,8 +359,6 @@ Status parseExceptions(ByteReader& in, const PieceHeader& piece, PayloadHeader& 
                        BlockHeader& block) {
   const size_t at = in.offset();
   MCC_TRY(in.readVarint(block.exception_count));
-  if (block.exception_count > in.remaining() / 2)
-    return fail(Error::kTruncated, "the payload ends inside its table of blocks", at);
   uint64_t wedge = 0;
   for (uint32_t i = 0; i < block.exception_count; ++i) {
     uint32_t delta = 0;
@@ -422,13 +420,13 @@ Status parseBlocks(ByteReader& in, uint64_t payload_bytes, PayloadHeader& header
     wedges += header.pieces[i].wedge_count - block.repeated_count;
     if (wedges >= kMaxVertices)
       return fail(Error::kLimit, "the payload has more vertices than the limit allows", at);
-    if (offset_bytes > payload_bytes)
-      return fail(Error::kTruncated, "the payload ends inside a block", header.header_bytes);
     (void)header.blocks.push_back(block);  // reserved above
   }
   MCC_TRY(parsePadding(in, header));
   if (in.offset() != header.header_bytes)
     return fail(Error::kBadHeader, "the header has another length than it claims", at);
+  if (offset_bytes > payload_bytes)
+    return fail(Error::kTruncated, "the payload ends inside a block", header.header_bytes);
   if (offset_bytes != payload_bytes)
     return fail(Error::kTrailingBytes, "bytes follow the last block", offset_bytes);
   return in.readBytes(in.remaining(), header.streams.codes);
@@ -558,6 +556,7 @@ Status parsePrefix(std::span<const uint8_t> bytes, uint64_t payload_bytes, const
   }
   Totals totals;
   for (uint32_t i = 0; i < piece_count; ++i) MCC_TRY(parsePiece(in, limits, header, totals));
+  // [A.11.4]
   if (header.hasBlocks() && (totals.triangles >= kMaxVertices || totals.vertices >= kMaxVertices))
     return fail(Error::kLimit, "the blocks have more triangles or vertices than a piece can", at);
   const uint64_t elements = elementsOf(header);

@@ -157,7 +157,7 @@ uint32_t checksumOf(const Streams& streams);
 /// Parses and checks everything before the streams. Allocates only in proportion to the bytes.
 /// payload_bytes  is the size of the payload, if `bytes` are only its beginning: its header, and
 ///                with blocks any part of its streams.
-/// [A.2.1]
+/// [A.2.1, A.11.5]
 Status parsePayload(std::span<const uint8_t> bytes, const Limits& limits, PayloadHeader& header);
 Status parsePrefix(std::span<const uint8_t> bytes, uint64_t payload_bytes, const Limits& limits,
                    PayloadHeader& header);

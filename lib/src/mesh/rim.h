@@ -158,8 +158,7 @@ class RimTable {
                                        uint32_t wedge_count, Array<uint32_t>& numbers,
                                        uint32_t& repeated_count) {
   if (!numbers.assign(wedge_count, kNone)) return false;
-  for (size_t i = 0; i < rim.wedges.size(); ++i)
-    numbers[rim.wedges[i]] = table.find(rim.tuple(i));
+  for (size_t i = 0; i < rim.wedges.size(); ++i) numbers[rim.wedges[i]] = table.find(rim.tuple(i));
   for (const BlockException& e : exceptions) numbers[e.wedge] = e.number;
   uint32_t next = first;
   for (uint32_t w = 0; w < wedge_count; ++w) {

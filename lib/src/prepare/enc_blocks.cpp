@@ -58,9 +58,9 @@ std::pair<Region, Region> halve(const Region& region) {
   const uint32_t blocks = region.block_count / 2;
   const size_t count = region.centroids.size() * uint64_t{blocks} / region.block_count;
   divideAt(region.centroids, count);
-  return {{region.centroids.first(count), region.first_block, blocks},
-          {region.centroids.subspan(count), region.first_block + blocks,
-           region.block_count - blocks}};
+  return {
+      {region.centroids.first(count), region.first_block, blocks},
+      {region.centroids.subspan(count), region.first_block + blocks, region.block_count - blocks}};
 }
 
 /// Returns the block of each triangle.
@@ -188,9 +188,8 @@ class Smoothing {
 
 }  // namespace
 
-BlockCut cutIntoBlocks(std::span<const float> centroid_sums,
-                       std::span<const uint32_t> corner_class, uint32_t class_count,
-                       uint32_t block_triangles, const Jobs& jobs) {
+BlockCut cutIntoBlocks(std::span<const float> centroid_sums, std::span<const uint32_t> corner_class,
+                       uint32_t class_count, uint32_t block_triangles, const Jobs& jobs) {
   const uint32_t triangle_count = static_cast<uint32_t>(centroid_sums.size() / 3);
   std::vector<Centroid> centroids(triangle_count);
   for (uint32_t t = 0; t < triangle_count; ++t) {
@@ -198,8 +197,7 @@ BlockCut cutIntoBlocks(std::span<const float> centroid_sums,
     centroids[t].triangle = t;
   }
   uint32_t block_count = 0;
-  std::vector<uint32_t> block_of =
-      divide(std::move(centroids), block_triangles, block_count, jobs);
+  std::vector<uint32_t> block_of = divide(std::move(centroids), block_triangles, block_count, jobs);
   Smoothing(corner_class, class_count, block_of).run();
 
   std::vector<uint32_t> sizes(block_count, 0);

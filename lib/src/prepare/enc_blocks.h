@@ -28,9 +28,8 @@ struct BlockCut {
 /// centroid_sums  3 per triangle, finite: the sum of its corners
 /// corner_class   3 position classes per triangle, below class_count
 /// Takes O(n log blocks). The result does not depend on the number of threads.
-BlockCut cutIntoBlocks(std::span<const float> centroid_sums,
-                       std::span<const uint32_t> corner_class, uint32_t class_count,
-                       uint32_t block_triangles, const Jobs& jobs);
+BlockCut cutIntoBlocks(std::span<const float> centroid_sums, std::span<const uint32_t> corner_class,
+                       uint32_t class_count, uint32_t block_triangles, const Jobs& jobs);
 
 }  // namespace mcc
 

@@ -160,7 +160,7 @@ Status withTargets(std::span<const PieceInfo> pieces, const mcc_piece_target* ta
   MCC_TRY(read.read(targets, target_count));
   DecodeOptions decode_options;
   decode_options.allocator = fromC(options.allocator);
-  decode_options.run_jobs = runJobsOf(options.run_jobs, options.run_jobs_user);
+  decode_options.run_jobs = {options.run_jobs, options.run_jobs_user};
   ProgressOfC progress{options.progress, options.progress_user};
   if (options.progress != nullptr) {
     decode_options.progress = callProgress;
@@ -338,8 +338,7 @@ mcc_status mcc_payload_prime(mcc_payload* payload, const mcc_piece_target* targe
 mcc_status mcc_payload_decode_block(const mcc_payload* payload, uint32_t block,
                                     const mcc_piece_target* target,
                                     const mcc_decode_options* options) {
-  if (payload == nullptr || target == nullptr)
-    return mcc::badArgument("payload or target is null");
+  if (payload == nullptr || target == nullptr) return mcc::badArgument("payload or target is null");
   return mcc::toC(mcc::withTargets(
       payload->payload.info().pieces, target, 1, options,
       [&](std::span<const mcc::PieceTarget> all, const mcc::DecodeOptions& decode_options) {

@@ -1,10 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Decodes a payload that is cut into blocks:                                                [A.11]
+// Decodes a payload that is cut into blocks:
 //
-//   decode   the stages of a block, whose models begin as block 0 left them     any thread, any order
-//   number   which of its wedges earlier blocks have, and the numbers of all    in the order of blocks
-//   store    triangles and those wedges that are not repeated                   any thread
+//   decode  the stages of a block, from models as block 0 left them; any thread     [A.11.2]
+//   number  which of its wedges earlier blocks have; block after block    [A.11.3, A.11.4]
+//   store   triangles, and the wedges that are not repeated; any thread             [A.11.4]
 #ifndef MCC_READER_DECODE_BLOCKS_H_
 #define MCC_READER_DECODE_BLOCKS_H_
 
@@ -111,9 +111,8 @@ class DecodedBlock {
   Status number(RimTable& table) {
     const BlockHeader& block = header_.blocks[index_];
     uint32_t repeated_count = 0;
-    if (!findRim() ||
-        !numberWedges(table, rim_, header_.exceptionsOf(block), block.first_wedge,
-                      pieceHeader().wedge_count, numbers_, repeated_count))
+    if (!findRim() || !numberWedges(table, rim_, header_.exceptionsOf(block), block.first_wedge,
+                                    pieceHeader().wedge_count, numbers_, repeated_count))
       return noMemory();
     if (repeated_count == block.repeated_count) return {};
     return fail(Error::kBadAttribute, "a block repeats another number of wedges than it claims");
@@ -126,8 +125,7 @@ class DecodedBlock {
     Array<PartTarget> parts(allocator_);
     Array<uint32_t> fresh(allocator_);
     const uint32_t first = header_.blocks[index_].first_wedge;
-    const uint32_t fresh_count =
-        pieceHeader().wedge_count - header_.blocks[index_].repeated_count;
+    const uint32_t fresh_count = pieceHeader().wedge_count - header_.blocks[index_].repeated_count;
     if (!attributes.resize(infos_.size()) || !parts.resize(pieceHeader().part_count) ||
         !fresh.reserve(fresh_count))
       return noMemory();
@@ -168,7 +166,8 @@ class DecodedBlock {
 
   Allocator chooseAllocator() {
     const uint64_t expected_bytes = expectedBytes(pieceHeader());
-    const bool pays = !kCompact && isHeap(options_.allocator) && WorkingMemory::pays(expected_bytes);
+    const bool pays =
+        !kCompact && isHeap(options_.allocator) && WorkingMemory::pays(expected_bytes);
     return pays ? pages_.allocator() : options_.allocator;
   }
   const PieceHeader& pieceHeader() const { return header_.pieces[index_]; }
@@ -280,11 +279,13 @@ class BlocksDecoder {
     decode(0);
     const bool is_watched = options_.histogram != nullptr || options_.mc_edge != nullptr ||
                             options_.stage_bits != nullptr;
-    const auto job = [this](size_t i) { decode(static_cast<uint32_t>(i + 1)); };
-    if (options_.run_jobs && !is_watched && first_failed_ == kNone) {
-      options_.run_jobs(count - 1, job);
+    const auto job = [](void* self, size_t i) {
+      static_cast<BlocksDecoder*>(self)->decode(static_cast<uint32_t>(i + 1));
+    };
+    if (options_.run_jobs.run != nullptr && !is_watched) {
+      options_.run_jobs.run(options_.run_jobs.user, count - 1, job, this);
     } else {
-      for (size_t i = 0; i + 1 < count; ++i) job(i);
+      for (size_t i = 0; i + 1 < count; ++i) job(this, i);
     }
     return first_failed_ == kNone ? Status{} : statuses_[first_failed_];
   }

@@ -17,20 +17,23 @@ namespace mcc {
 class Progress {
  public:
   Progress(const DecodeOptions& options, const PayloadHeader& header) : options_(options) {
-    if (!kCompact && options.progress != nullptr) all_ = elementsOf(header);
+    if (kCompact || options.progress == nullptr) return;
+    all_ = elementsOf(header);
+    if (header.hasBlocks()) all_ -= kElementsPerBlock * header.pieces.size();  // not told of
   }
 
-  /// Returns an error if the caller asks to stop. The caller is told by one thread at a time; what
-  /// others do meanwhile is told later.
+  /// Returns an error if the caller asks to stop. The caller is told by one thread at a time, which
+  /// also tells what others have done meanwhile.
   Status advance(uint64_t elements) {
     if (kCompact || options_.progress == nullptr) return {};
     done_ += elements;
-    if (is_cancelled_) return cancelled();
-    if (is_telling_.test_and_set()) return {};
-    const double share =
-        all_ == 0 ? 1 : static_cast<double>(done_.load()) / static_cast<double>(all_);
-    if (!options_.progress(options_.progress_user, share)) is_cancelled_ = true;
-    is_telling_.clear();
+    uint64_t told = ~done_;
+    while (!is_cancelled_ && told != done_ && !is_telling_.test_and_set()) {
+      told = done_;
+      const double share = all_ == 0 ? 1 : static_cast<double>(told) / static_cast<double>(all_);
+      if (!options_.progress(options_.progress_user, share)) is_cancelled_ = true;
+      is_telling_.clear();
+    }
     return is_cancelled_ ? cancelled() : Status{};
   }
 

@@ -131,8 +131,8 @@ void storeElements(const AttributeInfo& info, uint32_t wedge_count, const Attrib
 
 /// Computes tangents from angles in the planes of their normals. [A.8.7]
 inline void storeTangents(const AttributeInfo& info, const int32_t* values,
-                   const AttributeInfo& normal_info, const int32_t* normals, WedgeAt wedge_at,
-                   const AttributeTarget& target) {
+                          const AttributeInfo& normal_info, const int32_t* normals,
+                          WedgeAt wedge_at, const AttributeTarget& target) {
   const int32_t centre = octahedralCentre(normal_info.bits);
   uint8_t* to = static_cast<uint8_t*>(target.data);
   for (uint32_t w = 0; w < wedge_at.count; w += 4) {
@@ -168,8 +168,7 @@ void storeAttribute(const PieceCoder<Io>& piece, AttributeInfos infos, uint32_t 
                     std::span<const AttributeTarget> targets) {
   const AttributeInfo& a = infos[index];
   for (size_t i = index; i < targets.size(); ++i) {
-    const bool is_alias =
-        infos[i].coding == AttributeCoding::kAlias && infos[i].alias_of == index;
+    const bool is_alias = infos[i].coding == AttributeCoding::kAlias && infos[i].alias_of == index;
     if (targets[i].data == nullptr || (i != index && !is_alias)) continue;
     if (a.coding == AttributeCoding::kTangentAngle) {
       storeTangents(a, values, piece.tangentNormalInfo(), piece.tangentNormals(), wedge_at,
@@ -210,10 +209,9 @@ void storePositions(const PieceCoder<Io>& piece, const AttributeInfo& info, uint
   } else if (piece.wedge_group.empty() && piece.wedge_order.empty()) {
     storeElements(info, wedge_count, target, [=](uint32_t w) { return records[w].q; });
   } else {
-    storeElements(info, wedge_count, target,
-                  [&piece, records, wedge_at](uint32_t i) {
-                    return records[piece.groupOf(static_cast<uint32_t>(wedge_at(i)))].q;
-                  });
+    storeElements(info, wedge_count, target, [&piece, records, wedge_at](uint32_t i) {
+      return records[piece.groupOf(static_cast<uint32_t>(wedge_at(i)))].q;
+    });
   }
 }
 
@@ -285,8 +283,7 @@ Status storeOrderedTriangles(const PieceCoder<Io>& piece, std::span<const PartIn
                              std::span<const PartTarget> targets, const Allocator& allocator) {
   Array<uint32_t> fill(allocator);
   Array<uint32_t> place_of(allocator);
-  if (!fill.assign(targets.size(), 0))
-    return fail(Error::kOutOfMemory, "no memory for the order");
+  if (!fill.assign(targets.size(), 0)) return fail(Error::kOutOfMemory, "no memory for the order");
   MCC_TRY(findPlaces(piece, place_of));
   const TriangleTable& table = piece.triangles;
   for (uint32_t i = 0; i < table.count(); ++i) {
@@ -322,8 +319,7 @@ Status storeSurface(const PieceCoder<Io>& piece, std::span<const PartInfo> infos
     for (size_t k = 0; k < 3; ++k) storeIndex(targets[part], 3 * at + k, number(wedges[k]));
   };
   for (uint32_t f = 0; f < piece.mesh.face_count; ++f) {
-    store(targets.size() > 1 ? part_of(f) : 0,
-          piece.mesh.words.data() + size_t{f} * kFaceWords);
+    store(targets.size() > 1 ? part_of(f) : 0, piece.mesh.words.data() + size_t{f} * kFaceWords);
   }
   for (size_t i = 0; i < piece.list.size(); ++i) store(piece.list[i].part, piece.list[i].wedge);
   return checkPartCounts(infos, fill);

@@ -51,7 +51,7 @@ struct PayloadModels {
   AttributeModels attributes;
 
   /// Becomes what `o` is, in memory of `a`. Blocks have no pivots and keep no orders. Returns false
-  /// when memory ran out.
+  /// when memory ran out.  [A.11.2]
   [[nodiscard]] bool copyFrom(const PayloadModels& o, const Allocator& a) {
     positions = o.positions;
     isolated = o.isolated;

@@ -33,7 +33,7 @@ struct Payload::State {
   PayloadHeader header;
   Array<PieceInfo> pieces;
   Array<BlockInfo> blocks;
-  Array<PartInfo> whole_parts;     ///< of the piece that is cut into the blocks
+  Array<PartInfo> whole_parts;  ///< of the piece that is cut into the blocks
   uint64_t payload_bytes = 0;
   Placed<PayloadModels> primed;  ///< as block 0 left them, see prime()
   PayloadInfo info;
@@ -216,8 +216,7 @@ Status Payload::State::listBlocks() {
 Status Payload::State::decodeBlock(uint32_t index, const PieceTarget* target,
                                    const PayloadModels* from, PayloadModels* left,
                                    const DecodeOptions& options) const {
-  if (target != nullptr)
-    MCC_TRY(checkTarget(*target, pieces[0], header.pieces[index].wedge_count));
+  if (target != nullptr) MCC_TRY(checkTarget(*target, pieces[0], header.pieces[index].wedge_count));
   prepareTables();
   Progress progress(options, header);
   DecodedBlock block(header, index, options);
@@ -326,8 +325,7 @@ Status Payload::decode(std::span<const PieceTarget> targets, const DecodeOptions
   if constexpr (!kCompact) MCC_TRY(checkTargets(state_->info, targets));  // else they are ours
   prepareTables();
   if constexpr (decodes::kBlocks) {
-    if (state_->header.hasBlocks())
-      return BlocksDecoder(state_->header, targets[0], options).run();
+    if (state_->header.hasBlocks()) return BlocksDecoder(state_->header, targets[0], options).run();
   }
   if constexpr (!kCompact) {  // compact code has no huge pages
     const uint64_t expected_bytes = largestExpectedBytes(state_->header);

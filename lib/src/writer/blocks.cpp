@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "container/enc_payload.h"
 #include "prepare/enc_blocks.h"
@@ -23,6 +24,8 @@ constexpr uint64_t kWedgesPerRepeated = 16;
 /// With more exceptions than one for so many wedges, a payload has no blocks.
 constexpr uint64_t kWedgesPerException = 64;
 constexpr uint64_t kFreeExceptions = 1000;
+/// So many blocks are taken out of the piece while choices are made for another.
+constexpr uint32_t kEarlyBlocks = 2;
 
 /// Returns why a piece has no blocks, or null.
 const char* whyWhole(const Plan& whole, const EncodeSettings& options) {
@@ -84,7 +87,7 @@ class Renumbering {
 
 /// Triangles apart from the surface, by block.
 struct Leftovers {
-  std::vector<uint32_t> duplicates;              ///< proper triangles of the whole piece
+  std::vector<uint32_t> duplicates;             ///< proper triangles of the whole piece
   std::vector<SortedTriangles::Listed> listed;  ///< with wedges of the whole piece
 };
 
@@ -188,7 +191,7 @@ struct CodedBlock {
   uint64_t cost = 0;
   CodedBox box;
   std::vector<uint32_t> source_wedge;  ///< in the whole piece, by decoded wedge
-  Rim rim{Allocator{}};          ///< without tuples
+  Rim rim{Allocator{}};                ///< without tuples
   EncodeResult result;                 ///< sizes and a piece
 };
 
@@ -319,15 +322,20 @@ class BlocksEncoder {
   /// Codes block 0 and then the others.
   Status code() {
     coded_.resize(blockCount());
-    MCC_TRY(chooseForAll());
+    taken_.resize(blockCount());
+    MCC_TRY(jobs_.tryAll(2, [&](size_t i) -> Status {
+      if (i == 0) return chooseForAll();
+      for (uint32_t early = 0; early < kEarlyBlocks && early < sample(); ++early)
+        taken_[early] = take(early);
+      return {};
+    }));
     auto primed = makeModels(context_set_);
     MCC_TRY(codeBlock(takeChosen(0), *primed, coded_[0]));
     return jobs_.tryAll(blockCount() - 1, [&](size_t i) -> Status {
       const uint32_t index = static_cast<uint32_t>(i) + 1;
       PayloadModels models{Allocator{}};
       if (!models.copyFrom(*primed, {})) throwBadAlloc();
-      return codeBlock(index == sample() ? std::move(sample_) : takeChosen(index), models,
-                       coded_[index]);
+      return codeBlock(takeChosen(index), models, coded_[index]);
     });
   }
 
@@ -385,16 +393,16 @@ class BlocksEncoder {
   uint32_t sample() const { return blockCount() / 2; }
 
   Status chooseForAll() {
-    sample_ = take(sample());
-    // A block may have too few vertices to see planes in them.
-    findPlanesOf(sample_.plan, whole_.attributes[0].values);
+    taken_[sample()] = take(sample());
     std::vector<Plan> plans(1);
-    std::swap(plans[0], sample_.plan);
+    std::swap(plans[0], taken_[sample()]->plan);
+    // A block may have too few vertices to see planes in them.
+    findPlanesOf(plans[0], whole_.attributes[0].values);
     Variation variation(options_.variation);
     MCC_TRY(variation.active() ? varyAll(plans, options_, variation, context_set_)
                                : chooseAll(plans, options_, jobs_, context_set_));
-    std::swap(plans[0], sample_.plan);
-    chosen_ = choicesOf(sample_.plan);
+    chosen_ = choicesOf(plans[0]);
+    std::swap(plans[0], taken_[sample()]->plan);
     return {};
   }
 
@@ -405,9 +413,11 @@ class BlocksEncoder {
     return block;
   }
 
-  /// Takes a block and makes the choices for it.
-  LocalBlock takeChosen(uint32_t index) const {
-    LocalBlock block = take(index);
+  /// Takes a block, unless that is done, and makes the choices for it.
+  LocalBlock takeChosen(uint32_t index) {
+    LocalBlock block = taken_[index].has_value() ? std::move(*taken_[index]) : take(index);
+    taken_[index].reset();
+    if (index == sample()) return block;
     Plan& plan = block.plan;
     for (size_t a = 0; a < plan.attributes.size(); ++a)
       plan.attributes[a].info = chosen_.attributes[a];
@@ -465,7 +475,7 @@ class BlocksEncoder {
   BlockCut cut_;
   std::vector<Leftovers> leftovers_;  ///< by block
   uint32_t context_set_ = kNone;
-  LocalBlock sample_;  ///< until it is coded
+  std::vector<std::optional<LocalBlock>> taken_;  ///< before they are coded
   Choices chosen_;
   std::vector<CodedBlock> coded_;
 };
@@ -475,7 +485,7 @@ class BlocksEncoder {
 Status encodeBlocks(const Plan& whole, const EncodeSettings& options, const Jobs& jobs,
                     EncodeResult& result) {
   const uint32_t block_triangles =
-      blockTriangles(whole.triangles.part.size(), options.block_triangles, options.prefer);
+      blockTriangles(options.block_triangles, options.prefer, whole.triangles.part.size());
   if (block_triangles == 0) return {};
   if (const char* why = whyWhole(whole, options)) {
     result.whole_because = why;

@@ -22,6 +22,19 @@ mcc_encode_options defaultEncodeOptions() {
           MCC_BLOCKS_BY_PREFERENCE,   nullptr, nullptr};
 }
 
+/// Wraps a hook of the C API, which may be null.
+RunJobs runJobsOf(mcc_run_jobs run_jobs, void* user) {
+  if (run_jobs == nullptr) return {};
+  return [run_jobs, user](size_t count, const std::function<void(size_t)>& job) {
+    run_jobs(
+        user, count,
+        [](void* of_job, size_t index) {
+          (*static_cast<const std::function<void(size_t)>*>(of_job))(index);
+        },
+        const_cast<void*>(static_cast<const void*>(&job)));
+  };
+}
+
 /// Converts a format. Numbers that do not fit are refused, not truncated.
 Status fromC(const mcc_attribute_format& format, AttributeFormat& out) {
   if (format.semantic > MCC_CUSTOM || format.set_index > 0xff ||

@@ -181,15 +181,17 @@ Status preparePiece(const PieceView& view, const EncodeSettings& options, const 
     return fail(Error::kBadArgument,
                 "with indices_only, a piece can have no attribute except POSITION");
   plan.view = &view;
-  jobs.run(2, [&](size_t i) {
-    if (i == 1) {
-      plan.triangles = sortTriangles(view.parts, view.wedge_count);
-      return;
-    }
-    plan.attributes = quantizeAttributes(view, options.without, notes);
-    plan.classes = weldPositions(view.attributes[0], view.wedge_count,
-                                 isExact(plan.attributes[0].info.coding));
+  // Some floats turn out to be coded exactly although bits were asked for; that is rare.
+  const bool expects_exact = view.attributes[0].quantization_bits == 0 &&
+                             view.attributes[0].format.component_type == ComponentType::kFloat32;
+  jobs.run(3, [&](size_t i) {
+    if (i == 0) plan.attributes = quantizeAttributes(view, options.without, notes);
+    if (i == 1) plan.classes = weldPositions(view.attributes[0], view.wedge_count, expects_exact);
+    if (i == 2) plan.triangles = sortTriangles(view.parts, view.wedge_count);
   });
+  const bool is_exact = isExact(plan.attributes[0].info.coding);
+  if (is_exact != expects_exact)
+    plan.classes = weldPositions(view.attributes[0], view.wedge_count, is_exact);
   MCC_TRY(checkJoints(plan));
   if (options.indices_only) plan.attributes.clear();
   plan.header.wedge_count = view.wedge_count;

@@ -29,18 +29,6 @@ struct EncodeSettings : EncodeOptions {
   uint64_t variation = 0;
 };
 
-/// Returns how many triangles a block of a piece has; 0: the options ask for none.
-constexpr uint32_t blockTriangles(uint64_t triangle_count, uint32_t block_triangles,
-                                  Preference prefer) {
-  constexpr uint64_t kUsualFewestTriangles = 1u << 19;
-  constexpr uint32_t kUsualBlockTriangles = 1u << 18;
-  if (block_triangles == kBlocksByPreference) {
-    const bool pays = prefer != Preference::kSize && triangle_count >= kUsualFewestTriangles;
-    block_triangles = pays ? kUsualBlockTriangles : 0;
-  }
-  return triangle_count > block_triangles ? block_triangles : 0;
-}
-
 /// Like encode(). Features that are switched off change the bytes, but never what they decode to.
 Status encodeWith(std::span<const PieceView> pieces, const EncodeSettings& settings,
                   EncodeResult& result);

@@ -309,7 +309,7 @@ TEST(Lazy, MadeOnceAndCopiedAsItIs) {
   EXPECT_EQ(lazy[0].get({})->count, 8u);
   Lazy<Counter> copy[2];
   ++copy[1].get({})->count;
-  ASSERT_TRUE(copyLazy(copy, lazy));
+  ASSERT_TRUE(copyLazy(copy, lazy, {}));
   EXPECT_EQ(copy[0].get({})->count, 8u);
   EXPECT_EQ(copy[1].get({})->count, 7u);  // as before its first use
 }
@@ -319,6 +319,10 @@ TEST(Lazy, NullWithoutMemory) {
   none.allocate = [](void*, size_t) -> void* { return nullptr; };
   Lazy<int> lazy;
   EXPECT_EQ(lazy.get(none), nullptr);
+  Lazy<int> made;
+  EXPECT_NE(made.get({}), nullptr);
+  EXPECT_FALSE(lazy.copyFrom(made, none));
+  EXPECT_TRUE(made.copyFrom(lazy, {}));  // neither is made now
 }
 
 }  // namespace

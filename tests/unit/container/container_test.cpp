@@ -110,8 +110,8 @@ struct Draft {
       for (const AttributeInfo& a : piece.attributes) ok = ok && out.attributes.push_back(a);
       EXPECT_TRUE(ok);
     }
-    return (flags & payload_flag::kSingleCoder) != 0 ? writePayload(out, codes, {}, {})
-                                                     : writePayload(out, codes, tokens, raw);
+    return (flags & payload_flag::kSingleCoder) != 0 ? writePayload(out, {codes, {}, {}})
+                                                     : writePayload(out, {codes, tokens, raw});
   }
 };
 
@@ -230,10 +230,11 @@ TEST(Container, EveryFieldComesBack) {
       for (uint32_t i = 0; i < h.attribute_count; ++i)
         expectSameAttribute(parsed.attributes[h.first_attribute + i], written.attributes[i]);
     }
-    EXPECT_TRUE(sameBytes(parsed.codes, draft.codes));
-    EXPECT_TRUE(parsed.singleCoder() || sameBytes(parsed.tokens, draft.tokens));
-    EXPECT_TRUE(parsed.singleCoder() || sameBytes(parsed.raw, draft.raw));
-    EXPECT_EQ(parsed.header_bytes + parsed.codes.size() + parsed.tokens.size() + parsed.raw.size(),
+    EXPECT_TRUE(sameBytes(parsed.streams.codes, draft.codes));
+    EXPECT_TRUE(parsed.singleCoder() || sameBytes(parsed.streams.tokens, draft.tokens));
+    EXPECT_TRUE(parsed.singleCoder() || sameBytes(parsed.streams.raw, draft.raw));
+    EXPECT_EQ(parsed.header_bytes + parsed.streams.codes.size() + parsed.streams.tokens.size() +
+                  parsed.streams.raw.size(),
               payload.size());
   }
 }
@@ -243,8 +244,9 @@ TEST(Container, EveryTruncationOfTheHeaderIsAnError) {
     const std::vector<uint8_t> payload = anyDraft(seed).write();
     PayloadHeader parsed{Allocator{}};
     ASSERT_TRUE(parsePayload(payload, {}, parsed).ok());
-    const size_t needed = parsed.header_bytes +
-                          (parsed.singleCoder() ? 0 : parsed.codes.size() + parsed.tokens.size());
+    const size_t needed =
+        parsed.header_bytes +
+        (parsed.singleCoder() ? 0 : parsed.streams.codes.size() + parsed.streams.tokens.size());
     for (size_t size = 0; size < std::min<size_t>(needed, 600); ++size) {
       std::vector<uint8_t> cut(payload.begin(),
                                payload.begin() + static_cast<std::ptrdiff_t>(size));
@@ -787,7 +789,7 @@ TEST(Container, Padding) {
     EXPECT_NE(payload[kChecksummedFrom] & payload_flag::kPadded, 0u);
     PayloadHeader parsed{Allocator{}};
     ASSERT_TRUE(parsePayload(payload, {}, parsed).ok());
-    EXPECT_TRUE(sameBytes(parsed.codes, claim(faces).codes));
+    EXPECT_TRUE(sameBytes(parsed.streams.codes, claim(faces).codes));
     EXPECT_GE(payload.size() * kMaxElementsPerByte, uint64_t{faces} * 2);
     EXPECT_LE(payload.size(), uint64_t{faces} * 5 / kMaxElementsPerByte + 100);
 

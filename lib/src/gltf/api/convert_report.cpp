@@ -56,6 +56,11 @@ void addAttributeBits(const EncodedPayload& payload, const std::vector<size_t>& 
 void addPrimitives(const Document& document, const Compressed& compressed, ConvertReport& report) {
   std::map<std::pair<uint32_t, uint32_t>, PrimitiveReport> known;
   for (uint32_t i = 0; i < compressed.payloads.size(); ++i) {
+    const EncodeResult& result = compressed.payloads[i].result;
+    if (!result.whole_because.empty()) {
+      report.notes.push_back(at("/meshes", compressed.payloads[i].plan.mesh) +
+                             ": is not cut into blocks: " + result.whole_because);
+    }
     for (const PiecePlan& piece : compressed.payloads[i].plan.pieces) {
       for (const PartPlan& part : piece.parts) {
         for (const PrimitiveRef& user : part.users) {

@@ -69,7 +69,7 @@ Status decodePieces(DecodedPayload& decoded, const DecodeOptions& options) {
 
 Result decodePieces(const std::string& where, DecodedPayload& decoded, const RunJobs& run_jobs) {
   DecodeOptions options;
-  options.run_jobs = run_jobs;
+  options.run_jobs = runnerOf(run_jobs);
   return toResult(decodePieces(decoded, options), where);
 }
 

@@ -10,7 +10,6 @@
 #include <tuple>
 
 #include "gltf/document/references.h"
-#include "writer/settings.h"
 
 namespace mcc::gltf {
 namespace {
@@ -403,7 +402,7 @@ bool mayHaveBlocks(const ConvertOptions& options, const PayloadPlan& payload,
     return false;
   uint64_t triangle_count = 0;
   for (const PartPlan& part : piece.parts) triangle_count += part.triangles.size() / 3;
-  return blockTriangles(triangle_count, options.block_triangles, options.prefer) != 0;
+  return blockTriangles(options.block_triangles, options.prefer, triangle_count) != 0;
 }
 
 }  // namespace

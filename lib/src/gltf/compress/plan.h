@@ -86,9 +86,9 @@ bool comesBefore(const AttributePlan& a, const AttributePlan& b);
 Result planPayloads(const Document& document, std::vector<PayloadPlan>& payloads,
                     std::vector<LeftAlone>& left_alone);
 
-/// Divides payloads that hold more than every reader accepts by its default Limits, and gives pieces
-/// that may be cut into blocks payloads of their own. What the pieces of a mesh share, such as their
-/// lattice, must have been chosen before.
+/// Divides payloads that hold more than every reader accepts by its default Limits, and gives
+/// pieces that may be cut into blocks payloads of their own. What the pieces of a mesh share, such
+/// as their lattice, must have been chosen before.
 void splitPayloads(const ConvertOptions& options, std::vector<PayloadPlan>& payloads);
 
 }  // namespace mcc::gltf

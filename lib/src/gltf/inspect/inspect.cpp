@@ -129,6 +129,15 @@ Result inspectView(const Document& document, uint32_t view,
     row.part_count = static_cast<uint32_t>(piece.parts.size());
     for (const PartInfo& part : piece.parts) row.triangle_count += part.triangle_count;
     describeAttributes(piece, row);
+    for (const BlockInfo& block : piece.blocks) {
+      InspectBlock& to = row.blocks.emplace_back();
+      to.wedge_count = block.wedge_count;
+      to.repeated_count = block.repeated_count;
+      to.triangle_count = block.triangle_count;
+      to.stream_bytes = block.stream_bytes;
+      std::copy_n(block.low, 3, to.low);
+      std::copy_n(block.high, 3, to.high);
+    }
     report.pieces.push_back(std::move(row));
   }
   for (const ExtensionUse* use : users) {

@@ -33,18 +33,18 @@ Json payloadJson(const PayloadReport& payload) {
   Json attributes = Json::array();
   for (const auto& attribute : payload.attributes) attributes.push_back(attributeJson(attribute));
   Json json = {{"mesh", payload.mesh},
-          {"bytes", payload.payload_bytes},
-          {"freed_bytes", payload.freed_bytes},
-          {"pieces", payload.piece_count},
-          {"vertices", payload.wedge_count},
-          {"positions", payload.vertex_count},
-          {"triangles", payload.triangle_count},
-          {"components", payload.component_count},
-          {"holes", payload.hole_count},
-          {"cut_copies", payload.cut_copy_count},
-          {"leftover_triangles", payload.leftover_triangle_count},
-          {"stream_bytes", streams},
-          {"attributes", attributes}};
+               {"bytes", payload.payload_bytes},
+               {"freed_bytes", payload.freed_bytes},
+               {"pieces", payload.piece_count},
+               {"vertices", payload.wedge_count},
+               {"positions", payload.vertex_count},
+               {"triangles", payload.triangle_count},
+               {"components", payload.component_count},
+               {"holes", payload.hole_count},
+               {"cut_copies", payload.cut_copy_count},
+               {"leftover_triangles", payload.leftover_triangle_count},
+               {"stream_bytes", streams},
+               {"attributes", attributes}};
   if (payload.block_count != 0) json["blocks"] = payload.block_count;
   if (!payload.whole_because.empty()) json["whole_because"] = payload.whole_because;
   return json;
