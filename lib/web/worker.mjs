@@ -19,17 +19,17 @@ function take(message, post) {
   answered = answered.then(() => answer(message, post));
 }
 
-async function answer(message, post) {
-  if (message.close !== undefined) {
-    blockDecoders.delete(message.close);
+async function answer(request, post) {
+  if (request.close !== undefined) {
+    blockDecoders.delete(request.close);
     return;
   }
-  if (message.module !== undefined) {
-    decoders.push(new Decoder(message.module));
+  if (request.module !== undefined) {
+    decoders.push(new Decoder(request.module));
     if (waiting === null) return;
-    message = waiting;
+    request = waiting;
   }
-  const { bytes, options, task } = message;
+  const { bytes, options, task } = request;
   waiting = null;
   try {
     if (task !== undefined) {
@@ -44,7 +44,7 @@ async function answer(message, post) {
     post({ decoded }, buffersOf(decoded));
   } catch ({ message, code }) {
     const needsWhole = code === 'NotInCore' && decoders.length === 1;
-    if (needsWhole) waiting = message;
+    if (needsWhole) waiting = request;
     post({ needsWhole, message, code }, []);
   }
 }
