@@ -103,7 +103,7 @@ function decodeWith(exports, bytes, { limits = {}, indexType = 'auto', claims })
   let closes = true;
   try {
     new Uint8Array(exports.memory.buffer, address, bytes.length).set(bytes);
-    check(exports.open(address, bytes.length, ...LIMITS.map((name) => limits[name] ?? Infinity)));
+    check(exports.open(address, bytes.length, ...limitsOf(limits)));
     const info = describe(exports);
     if (claims !== undefined) checkClaims(info, claims);
     if (indexType === 'uint16' && info.pieces.some((piece) => piece.wedgeCount > 0xffff)) {
@@ -120,8 +120,11 @@ function decodeWith(exports, bytes, { limits = {}, indexType = 'auto', claims })
   }
 }
 
+/** The limits as arguments of the exports. */
+export const limitsOf = (limits = {}) => LIMITS.map((name) => limits[name] ?? Infinity);
+
 /** Throws the reader's error, if `number` is one. */
-function check(number) {
+export function check(number) {
   if (number === 0) return;
   const [code, what] = ERRORS[number - 1] ?? NOT_IN_CORE;
   throw new MccError(`the payload ${what}`, code);
@@ -131,7 +134,7 @@ function check(number) {
  * Reads the header: a DecodedPayload without its arrays. The words are described in
  * src/decoder.cpp.
  */
-function describe(exports) {
+export function describe(exports) {
   const words = new Uint32Array(exports.memory.buffer, exports.table());
   let at = 0;
   const list = (count, read) => Array.from({ length: count }, read);
@@ -153,7 +156,7 @@ function describe(exports) {
 }
 
 /** Copies the outputs from the addresses that decode() has put into the table. */
-function takeOutputs(exports, info) {
+export function takeOutputs(exports, info) {
   const buffer = exports.memory.buffer;
   const words = new Uint32Array(buffer, exports.table());
   let at = 1;

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Decodes payloads of KHR_mesh_collapse_compression, on this thread or in workers.
+import { blocksOf, claimsBlocks, decodeGlued } from './blocks.mjs';
 import { Decoder } from './core.mjs';
 import { MccError } from './error.mjs';
 import { compileModule, importOfNode } from './load.mjs';
@@ -65,6 +66,9 @@ export const ready = {
   then: (fulfilled, rejected) => source.whole().then(() => {}).then(fulfilled, rejected),
 };
 
+/** Returns the compiled whole decoder. */
+export const wholeModule = async () => (await source.whole()).module;
+
 export async function decodePayload(bytes, options) {
   const from = source;
   try {
@@ -96,18 +100,53 @@ class DecoderPool {
     this.size = size;
     // All workers share one copy of the modules; without options, it is that of decodePayload().
     this.#source = Object.keys(where).length === 0 ? source : new Source(where);
-    this.#workers = Array.from({ length: size }, () => ({ job: null, worker: null, started: null }));
+    this.#workers = Array.from({ length: size }, () => ({ job: null, worker: null, started: null, keys: new Set() }));
+    this.#runner.ahead = size + 1;
   }
 
   /** Bound to the pool, so that it can be passed on as the option `decode` of unpackGlb(). */
-  decodePayload = (bytes, { transfer = false, ...options } = {}) => new Promise((resolve, reject) => {
-    if (this.#disposed) throw new MccError('the pool was disposed of', 'Disposed');
+  decodePayload = async (bytes, { transfer = false, onBlock, ...options } = {}) => {
+    // Workers share the blocks of a large surface.
+    if ((this.size > 1 || onBlock !== undefined) && bytes instanceof Uint8Array && claimsBlocks(bytes)) {
+      return decodeGlued(this.#runner, bytes, { onBlock, ...options });
+    }
     // The buffer moves to the worker. It is the caller's own if that is wanted and it holds nothing
     // else.
     const whole = transfer && bytes.byteLength === bytes.buffer.byteLength;
-    this.#waiting.push({ bytes: whole ? bytes : bytes.slice(), options, resolve, reject });
-    this.#next();
-  });
+    const payload = whole ? bytes : bytes.slice();
+    return this.#run(undefined, () => ({ message: { bytes: payload, options }, moved: [payload.buffer] }));
+  };
+
+  /** Bound to the pool. */
+  decodeBlocks = (bytes, options) => blocksOf(this.#runner, bytes, options);
+
+  #runner = {
+    /** Blocks that are decoded or wait to be, so that no worker waits. */
+    ahead: 0,
+    module: async () => (await this.#source.whole()).module,
+    decodePayload: (bytes, options) => this.decodePayload(bytes, options),
+    run: (key, makeTask) => this.#run(key, (slot) => {
+      const { task, moved } = makeTask(!slot.keys.has(key));
+      slot.keys.add(key);
+      return { message: { task }, moved };
+    }),
+    close: (key) => this.#close(key),
+  };
+
+  /** Resolves when a worker has answered what `make` makes for it. */
+  #run(key, make) {
+    return new Promise((resolve, reject) => {
+      if (this.#disposed) throw new MccError('the pool was disposed of', 'Disposed');
+      this.#waiting.push({ key, make, resolve, reject });
+      this.#next();
+    });
+  }
+
+  /** Makes workers forget the blocks of a payload. */
+  #close(key) {
+    this.#waiting = this.#waiting.filter((job) => job.key !== key);
+    for (const slot of this.#workers) if (slot.keys.delete(key)) slot.worker?.postMessage({ close: key });
+  }
 
   dispose() {
     this.#disposed = true;
@@ -121,16 +160,18 @@ class DecoderPool {
   }
 
   #next() {
-    const slot = this.#workers.find(({ job }) => job === null);
-    if (slot === undefined || this.#waiting.length === 0) return;
+    if (this.#waiting.length === 0) return;
+    const idle = this.#workers.filter(({ job }) => job === null);
+    const slot = idle.find(({ keys }) => keys.has(this.#waiting[0].key)) ?? idle[0];
+    if (slot === undefined) return;
     slot.job = this.#waiting.shift();
-    slot.started ??= this.#source.first(slot.job.options).then(({ module }) => this.#start(slot, module));
+    slot.started ??= this.#source.first().then(({ module }) => this.#start(slot, module));
     slot.started.then(
       () => {
         if (slot.job === null) return; // the pool was disposed of
-        const { bytes, options } = slot.job;
+        const { message, moved } = slot.job.make(slot);
         slot.worker.ref?.(); // Node: only a running job keeps the program alive
-        slot.worker.postMessage({ bytes, options }, [bytes.buffer]);
+        slot.worker.postMessage(message, moved);
       },
       (error) => {
         slot.started = null; // the next payload tries again
@@ -143,6 +184,8 @@ class DecoderPool {
     const { job } = slot;
     slot.job = null;
     slot.worker?.unref?.();
+    // Its payload may have been closed while it waited for the whole decoder.
+    if (job?.key !== undefined && !slot.keys.has(job.key)) slot.worker?.postMessage({ close: job.key });
     job?.[how](value);
     this.#next();
   }
@@ -162,6 +205,7 @@ class DecoderPool {
       (error) => {
         slot.worker?.terminate();
         slot.worker = slot.started = null;
+        slot.keys.clear();
         this.#finish(slot, 'reject', new MccError(`the worker failed (${error.message ?? 'it could not start'})`, 'Load'));
       },
     );

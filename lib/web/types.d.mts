@@ -36,6 +36,36 @@ export interface DecodedPayload {
   pieces: DecodedPiece[];
 }
 
+/** A part of a large piece that is decoded for itself, in its own numbers. */
+export interface DecodedBlock {
+  /** Its number, and how many there are. A payload without blocks yields each of its pieces as a block. */
+  index: number;
+  blockCount: number;
+  /** The piece that it is a part of. */
+  piece: number;
+  /** The smallest box of its positions, in the units of the accessor; undefined for a piece without positions. */
+  box?: { min: number[]; max: number[] };
+  /** Vertices in the sense of glTF, those included that blocks before this one have too. */
+  wedgeCount: number;
+  repeatedCount: number;
+  triangleCount: number;
+  /** One for each attribute of the piece, with the elements of the block's own vertices. */
+  attributes: DecodedAttribute[];
+  /** One for each part of the piece: its triangles in the block, as indices of the block's own vertices. */
+  parts: DecodedPart[];
+}
+
+/** A block of a payload of a GLB. */
+export interface GlbBlock extends DecodedBlock {
+  /** Which payload. */
+  bufferView: number;
+  /** What draws it: /meshes/MESH/primitives/PRIMITIVE, with `attributes` as numbers by name. */
+  uses: { mesh: number; primitive: number; piece: number; part: number; attributes: Record<string, number> }[];
+}
+
+/** Bytes, or a stream of them such as the body of a response. Bytes must not change meanwhile. */
+export type ByteSource = Uint8Array | ArrayBuffer | ReadableStream<Uint8Array> | AsyncIterable<Uint8Array>;
+
 /** Bounds that are checked before memory is allocated for a payload. */
 export interface Limits {
   maxVertices?: number;
@@ -69,6 +99,21 @@ export interface DecodeOptions {
   claims?: readonly object[];
 }
 
+export interface BlockOptions extends DecodeOptions {
+  /** The size of the payload, which is that of its buffer view. A stream needs it; no more is read. */
+  payloadBytes?: number;
+  /** 'any' yields blocks when they are decoded; 'index', the default, by their numbers. */
+  order?: 'index' | 'any';
+  /** Ends the iteration: next() rejects with its reason. */
+  signal?: AbortSignal;
+}
+
+export interface GlbBlockOptions extends Omit<BlockOptions, 'payloadBytes' | 'claims' | 'limits'> {
+  /** Default: decodeBlocks(). The one of a pool decodes in workers. */
+  decodeBlocks?: (source: ByteSource, options: BlockOptions) => AsyncGenerator<DecodedBlock, void, void>;
+  limits?: FileLimits;
+}
+
 export interface InitOptions {
   /** Where the module is, without and with SIMD. Default: the folder wasm/ next to decoder.mjs. */
   wasmUrl?: string | URL;
@@ -95,12 +140,19 @@ export interface PoolOptions extends InitOptions {
 export interface PoolDecodeOptions extends DecodeOptions {
   /** Moves the buffer of `bytes` to the worker instead of copying it; afterwards it is empty. */
   transfer?: boolean;
+  /**
+   * Is called with each block of a payload with blocks, by their numbers, before all of them become the
+   * piece. If it throws, decodePayload() rejects.
+   */
+  onBlock?: (block: DecodedBlock) => void;
 }
 
 export interface DecoderPool {
   readonly size: number;
   /** Bound to the pool. */
   readonly decodePayload: (bytes: Uint8Array, options?: PoolDecodeOptions) => Promise<DecodedPayload>;
+  /** decodeBlocks() in workers, several blocks at a time. Bound to the pool. */
+  readonly decodeBlocks: (source: ByteSource, options?: BlockOptions) => AsyncGenerator<DecodedBlock, void, void>;
   /** Ends the workers; pending calls of decodePayload() reject. */
   dispose(): void;
 }

@@ -15,8 +15,9 @@ export class PayloadViews {
    * @param {object} json a glTF document; it is not changed
    * @param {(bufferView: number) => Promise<Uint8Array>} fetchPayload the bytes of a buffer view of the file
    * @param {import('./unpack.mjs').UnpackOptions} [options] decode: by default in workers that all loaders of a page share
+   * @param {(block: object, payload: object) => void} [onBlock] is called with each block of a payload of payloadsOf()
    */
-  constructor(json, fetchPayload, { decode = decodeInWorkers, limits } = {}) {
+  constructor(json, fetchPayload, { decode = decodeInWorkers, limits } = {}, onBlock) {
     /**
      * The lists to use in place of the document's. Existing numbers stay; added buffer views come
      * last.
@@ -31,7 +32,8 @@ export class PayloadViews {
       if (bytes.length !== json.bufferViews[bufferView].byteLength) fail(`/bufferViews/${bufferView}`, 'reaches beyond its buffer');
       budget.fileBytes += bytes.length;
       budget.add(namedBytes(payload));
-      return budget.settle(payload, await decode(bytes, budget.optionsFor(payload)));
+      const watch = onBlock === undefined ? {} : { onBlock: (block) => onBlock(block, payload) };
+      return budget.settle(payload, await decode(bytes, { ...budget.optionsFor(payload), ...watch }));
     };
     for (const payload of payloadsOf(json)) {
       let decoded;

@@ -1,4 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+import { claimsBlocks, decodeGlued, OnThisThread } from './blocks.mjs';
 import { createDecoderPool, decodePayload } from './decoder.mjs';
 
 let pool;
@@ -11,7 +12,8 @@ let hasWorkers = typeof Worker !== 'undefined';
  * module comes from another origin), it decodes on this thread.
  * @type {typeof decodePayload}
  */
-export async function decodeInWorkers(payload, options) {
+export async function decodeInWorkers(payload, { onBlock, ...others } = {}) {
+  const options = onBlock === undefined ? others : { ...others, onBlock: once(onBlock) };
   if (hasWorkers) {
     try {
       pool ??= createDecoderPool();
@@ -21,7 +23,18 @@ export async function decodeInWorkers(payload, options) {
       hasWorkers = false;
     }
   }
-  return decodePayload(payload, options);
+  if (options.onBlock !== undefined && claimsBlocks(payload)) return decodeGlued(new OnThisThread(), payload, options);
+  return decodePayload(payload, others);
+}
+
+/** Blocks that workers have decoded before one failed are not told again. */
+function once(onBlock) {
+  let told = 0;
+  return (block) => {
+    if (block.index < told) return;
+    told = block.index + 1;
+    onBlock(block);
+  };
 }
 
 const isAboutPayload = ({ code }) => typeof code === 'string' && code !== 'Load';

@@ -1,10 +1,12 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import test from 'node:test';
+import './support/peers.mjs';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { decodePayload } from '../../lib/web/index.mjs';
+import { createDecoderPool, decodePayload } from '../../lib/web/index.mjs';
 import { MeshCollapsePlugin } from '../../lib/web/three.mjs';
 import { readGlb } from '../../lib/web/unpack.mjs';
+import { blocksGlb, trianglesOf, trianglesOfBlocks } from './support/blocks.mjs';
 import { manifest, readAsset } from './support/conformance.mjs';
 import { compareWithManifest, refusesNegatives } from './support/loaders.mjs';
 import { convert, convertWithFallback, readSample } from './support/program.mjs';
@@ -65,4 +67,34 @@ test('three.js loads a document again, which stays as it was, and no fallback', 
     assert.equal(scene.getObjectsByProperty('isMesh', true)[0].geometry.index.count, 3 * 4096);
     assert.deepEqual(json, copy);
   }
+});
+
+test('three.js shows the blocks of a large primitive before all of it is there', async (t) => {
+  const pool = createDecoderPool({ workers: 2 });
+  t.after(() => pool.dispose());
+  // What trianglesOf() takes.
+  const plain = ({ attributes, index }) => ({
+    attributes: ['position', 'normal'].map((name) => ({ array: attributes[name].array, componentCount: attributes[name].itemSize })),
+    parts: [{ indices: index.array }],
+  });
+  for (const decode of [undefined, pool.decodePayload]) {
+    const told = [];
+    const onBlock = (geometry, info) => told.push({ geometry, info });
+    const { scene } = await load(blocksGlb('torus'), { decode, onBlock });
+    const [{ geometry: whole }] = scene.getObjectsByProperty('isMesh', true);
+    assert.ok(told.length > 3);
+    assert.deepEqual(told.map(({ info }) => info), told.map((_, index) => ({ index, blockCount: told.length, mesh: 0, primitive: 0 })));
+    assert.deepEqual(trianglesOfBlocks(told.map(({ geometry }) => plain(geometry))), trianglesOf(plain(whole)));
+    for (const { geometry } of told) {
+      const { boundingBox, boundingSphere } = geometry;
+      geometry.computeBoundingBox();
+      assert.deepEqual(boundingBox, geometry.boundingBox);
+      assert.ok(boundingSphere.radius > 0);
+    }
+  }
+  const uses = new Set();
+  await load(blocksGlb('shared_vertices', 100), { onBlock: (_, { primitive }) => uses.add(primitive) });
+  assert.deepEqual([...uses].sort(), [0, 1, 2], 'for each primitive');
+  await assert.rejects(load(blocksGlb('torus'), { onBlock() { throw new Error('mine'); } }), /mine/);
+  await load(readAsset(manifest.assets[0]), { onBlock: () => assert.fail('it has no blocks') });
 });

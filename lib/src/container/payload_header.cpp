@@ -472,9 +472,13 @@ bool claimsBlocks(std::span<const uint8_t> bytes) {
 
 /// Finds how many bytes the checksum of a payload covers: all, or the header where blocks have
 /// checksums of their own.
-Status findChecksummed(std::span<const uint8_t> bytes, size_t& checksummed_bytes) {
+Status findChecksummed(std::span<const uint8_t> bytes, uint64_t payload_bytes,
+                       size_t& checksummed_bytes) {
   checksummed_bytes = bytes.size();
-  if (!claimsBlocks(bytes)) return {};
+  if (!claimsBlocks(bytes)) {
+    if (bytes.size() == payload_bytes) return {};
+    return fail(Error::kTruncated, "the payload ends before its last byte", bytes.size());
+  }
   ByteReader in(bytes.subspan(kChecksummedFrom + 1));
   uint32_t header_bytes = 0;
   MCC_TRY(in.readVarint(header_bytes));
@@ -488,7 +492,8 @@ Status findChecksummed(std::span<const uint8_t> bytes, size_t& checksummed_bytes
 
 uint32_t checksumOf(std::span<const uint8_t> bytes) {
   size_t checksummed_bytes = 0;
-  if (!findChecksummed(bytes, checksummed_bytes).ok()) checksummed_bytes = bytes.size();
+  if (!findChecksummed(bytes, bytes.size(), checksummed_bytes).ok())
+    checksummed_bytes = bytes.size();
   return crc32(bytes.first(checksummed_bytes).subspan(kChecksummedFrom),
                crc32(bytes.first(kChecksumOffset)));
 }
@@ -524,7 +529,7 @@ Status parsePrefix(std::span<const uint8_t> bytes, uint64_t payload_bytes, const
   header.version_minor = version & 15;
   MCC_TRY(in.readU32(checksum));
   size_t checksummed_bytes = 0;
-  MCC_TRY(findChecksummed(bytes, checksummed_bytes));
+  MCC_TRY(findChecksummed(bytes, payload_bytes, checksummed_bytes));
   if (checksumOf(bytes) != checksum) {
     return fail(Error::kBadChecksum, "the checksum does not match: the payload is damaged",
                 kChecksumOffset);
@@ -543,8 +548,6 @@ Status parsePrefix(std::span<const uint8_t> bytes, uint64_t payload_bytes, const
     header.header_bytes = header_bytes;
     if (header.singleCoder() || (flags & payload_flag::kManyPieces) == 0)
       return fail(Error::kBadHeader, "these flags exclude each other", kChecksummedFrom);
-  } else if (bytes.size() != payload_bytes) {
-    return fail(Error::kTruncated, "the payload ends before its last byte", bytes.size());
   }
   uint32_t piece_count = 1;
   const size_t at = in.offset();

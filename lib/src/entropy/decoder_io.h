@@ -150,9 +150,9 @@ class CompactIo {
   using Burst = CompactIo&;
   using CodesBurst = std::conditional_t<kSmall, CompactIo&, RangeBurst>;
 
-  /// A single coder has only `codes`; others are decoded only in compact code.
+  /// A single coder has only `codes`; others are decoded only in compact code, and are its default.
   CompactIo(std::span<const uint8_t> codes, std::span<const uint8_t> tokens,
-            std::span<const uint8_t> raw, bool single = true)
+            std::span<const uint8_t> raw, bool single = !kCompact)
       : codes_(codes), tokens_(tokens), raw_(raw), is_single_(single) {}
 
   MCC_CALLED bool bit(BitModel& model, bool = false) { return codes_.bit(model); }

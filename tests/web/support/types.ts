@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Is never run: tsc checks it against the package's types.
-import { createDecoderPool, decodePayload, init, MccError, ready, unpackGlb, type DecodedPayload } from 'gltf-mcc';
+import { createDecoderPool, decodeBlocks, decodeGlbBlocks, decodePayload, init, MccError, ready, unpackGlb, type DecodedPayload } from 'gltf-mcc';
 import { elementsOf, payloadsOf, EXTENSION_NAME } from 'gltf-mcc/document';
 import { encodeGlb } from 'gltf-mcc/encoder';
 
@@ -15,6 +15,13 @@ async function use(glb: Uint8Array, json: object): Promise<number> {
   for (const { targets, claims } of payloadsOf(json)) {
     const decoded: DecodedPayload = await decodePayload(glb, { claims, indexType: 'uint16' });
     for (const target of targets) count += elementsOf(decoded, target, { componentType: 5126 }).length;
+  }
+  for await (const { box, attributes } of decodeBlocks(glb, { order: 'any', signal: AbortSignal.timeout(1000) })) {
+    count += attributes.length + (box?.min[0] ?? 0);
+  }
+  const { body } = await fetch('model.glb');
+  if (body !== null) {
+    for await (const { uses } of decodeGlbBlocks(body, { decodeBlocks: pool.decodeBlocks })) count += uses[0]?.attributes.POSITION ?? 0;
   }
   const { report } = await encodeGlb(glb, { positionBits: 12, grid: 'scene' });
   pool.dispose();

@@ -20,6 +20,9 @@ const pool = createDecoderPool({ workers: 2 });
 export const plugin = (parser: object): GLTFLoaderPlugin =>
   new MeshCollapsePlugin(parser, { decode: pool.decodePayload, limits: { maxVertices: 1e6 } });
 
+export const watched = (parser: object): GLTFLoaderPlugin =>
+  new MeshCollapsePlugin(parser, { onBlock: (geometry, { index, blockCount }) => { geometry.name = `${index} of ${blockCount}`; } });
+
 registerMeshCollapse();
 registerMeshCollapse({ decode: pool.decodePayload });
 
