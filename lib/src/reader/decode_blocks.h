@@ -92,6 +92,7 @@ class DecodedBlock {
   [[nodiscard]] bool findRim() {
     if (!rim_.find(piece_->mesh, pieceHeader().wedge_count)) return false;
     for (uint32_t a = 0; a < infos_.size(); ++a) rim_.tuple_words += wordsOf(a);
+    if (rim_.wedges.empty()) return true;
     if (!rim_.tuples.resize(rim_.wedges.size() * rim_.tuple_words)) return false;
     uint32_t column = 0;
     for (uint32_t a = 0; a < infos_.size(); ++a) {
@@ -184,26 +185,6 @@ class DecodedBlock {
     return words * pieceHeader().wedge_count;
   }
 
-<<<<<<< HEAD
-  bool findRim() {
-    if (!rim_.find(piece_->mesh, pieceHeader().wedge_count)) return false;
-    for (uint32_t a = 0; a < infos_.size(); ++a) rim_.tuple_words += wordsOf(a);
-    if (rim_.wedges.empty()) return true;
-    if (!rim_.tuples.resize(rim_.wedges.size() * rim_.tuple_words)) return false;
-    uint32_t column = 0;
-    for (uint32_t a = 0; a < infos_.size(); ++a) {
-      const uint32_t words = wordsOf(a);
-      const int32_t* from = values_.data() + valuesBefore(a);
-      int32_t* to = rim_.tuples.data() + column;
-      for (size_t i = 0; i < rim_.wedges.size(); ++i, to += rim_.tuple_words)
-        std::copy_n(from + size_t{rim_.wedges[i]} * words, words, to);
-      column += words;
-    }
-    return true;
-  }
-
-=======
->>>>>>> web1
   void storeValues(WedgeAt wedge_at, std::span<const AttributeTarget> targets) {
     for (uint32_t a = 0; a < infos_.size(); ++a) {
       const int32_t* values = values_.data() + valuesBefore(a);
