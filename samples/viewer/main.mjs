@@ -8,6 +8,9 @@ import { checkDocument, FileError, MAX_FILE_BYTES, readGlb } from './glb.mjs';
 import { Job } from './jobs.mjs';
 import { Options } from './options.mjs';
 import { ERROR_RAMP, ORDER_RAMP } from './ramps.mjs';
+import { createDecoderPool, decodeGlbBlocks } from './vendor/gltf-mcc/index.mjs';
+import { claimsBlocks } from './vendor/gltf-mcc/blocks.mjs';
+import { EXTENSION_NAME } from './vendor/gltf-mcc/document.mjs';
 import { LinkedViews } from './views.mjs';
 
 const SAMPLES = ['textured', 'torus', 'genus3', 'sheet_with_holes', 'two_materials', 'skinned', 'morphed', 'moebius', 'non_manifold',
@@ -94,7 +97,7 @@ class Page {
       const { json } = readGlb(bytes);
       checkDocument(json);
       checkSize(json);
-      this.file = { name, bytes };
+      this.file = { name, bytes, json };
     } catch (error) {
       this.say('error', `${name}: ${error instanceof FileError ? error.message : `The file is damaged (${error.message}).`}`);
       return;
@@ -139,7 +142,8 @@ class Page {
     this.enable(false);
     this.progress('Reading', undefined);
     // Messages from a run that was stopped may still be on their way.
-    const run = this.run = {};
+    const run = this.run = { stopping: new AbortController() };
+    if (this.isNew) this.inOrder(() => this.showBlocks(run));
     const request = { bytes: this.file.bytes, options: this.options.value };
     this.job = new Job('./workers/compressor.mjs', request, (message) => run === this.run && this.onMessage(message, run));
   }
@@ -208,6 +212,24 @@ class Page {
     });
   }
 
+  /** Shows the blocks of a compressed file one after the other, before all of it is decoded. */
+  async showBlocks(run) {
+    const { bytes, json } = this.file;
+    const canvas = $('original');
+    delete canvas.dataset.blocks;
+    if (!hasBlocks(bytes)) return;
+    this.pool ??= createDecoderPool();
+    try {
+      for await (const block of decodeGlbBlocks(bytes, { decodeBlocks: this.pool.decodeBlocks, signal: run.stopping.signal })) {
+        if (block.blockCount === 1 || block.box === undefined) continue;
+        this.views.showBlock(block, json);
+        canvas.dataset.blocks = `${block.index + 1} of ${block.blockCount}`;
+      }
+    } catch {
+      this.views.clearBlocks(); // the compressor says what is wrong
+    }
+  }
+
   compareWithDraco(run) {
     $('work').classList.remove('busy');
     const { bits, lossless } = this.options;
@@ -232,6 +254,7 @@ class Page {
   stop() {
     this.job?.stop();
     this.dracoJob?.stop();
+    this.run?.stopping.abort();
     this.run = undefined;
   }
 
@@ -328,6 +351,13 @@ class Page {
     element('a', { href: url, download: this.file.name.replace(/(\.glb)?$/i, '.mcc.glb') }).click();
     setTimeout(() => URL.revokeObjectURL(url), 60_000);
   }
+}
+
+/** Whether a payload of a file is in blocks. */
+function hasBlocks(bytes) {
+  const { json: { meshes = [], bufferViews = [] }, bin } = readGlb(bytes);
+  const views = meshes.flatMap(({ primitives = [] }) => primitives).map(({ extensions }) => bufferViews[extensions?.[EXTENSION_NAME]?.bufferView]);
+  return views.some((view) => view !== undefined && claimsBlocks(bin.subarray(view.byteOffset ?? 0)));
 }
 
 function checkSize({ meshes = [], accessors = [] }) {

@@ -2,8 +2,8 @@
 //
 // Shows two pictures of a model with the same camera: the original, and what compression made of
 // it.
-import { BackSide, Box3, BoxGeometry, BufferAttribute, BufferGeometry, Color, DirectionalLight, HemisphereLight, LineBasicMaterial,
-  LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, MeshStandardMaterial, PerspectiveCamera, PMREMGenerator, Scene, Sphere,
+import { BackSide, Box3, BoxGeometry, BufferAttribute, BufferGeometry, Color, DirectionalLight, Group, HemisphereLight,
+  LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, MeshStandardMaterial, PerspectiveCamera, PMREMGenerator, Quaternion, Scene, Sphere,
   Spherical, SphereGeometry, Vector3, WebGLRenderer } from './vendor/three/build/three.module.js';
 import { OrbitControls } from './vendor/three/examples/jsm/controls/OrbitControls.js';
 import { GLTFLoader } from './vendor/three/examples/jsm/loaders/GLTFLoader.js';
@@ -42,7 +42,40 @@ class View {
     if (this.meshes.some(({ own }) => own.metalness > 0.1)) this.scene.environment ??= surroundings(this.renderer);
   }
 
+  /** Adds a block of a model that is not there yet. @param {Matrix4[]} places where it is drawn */
+  addBlock({ attributes, parts, box }, { part, attributes: numbers }, places) {
+    this.blocks ??= new Group();
+    const geometry = new BufferGeometry();
+    for (const [name, number] of [['position', numbers.POSITION], ['normal', numbers.NORMAL]]) {
+      if (number === undefined) continue;
+      const { array, componentCount, normalized } = attributes[number];
+      geometry.setAttribute(name, new BufferAttribute(array, componentCount, normalized));
+    }
+    geometry.setIndex(new BufferAttribute(parts[part].indices, 1));
+    if (!attributes[0].normalized) {
+      geometry.boundingSphere = new Box3(new Vector3(...box.min), new Vector3(...box.max)).getBoundingSphere(new Sphere());
+    }
+    const material = paper(geometry);
+    for (const place of places) {
+      const mesh = new Mesh(geometry, material);
+      mesh.matrixAutoUpdate = false;
+      mesh.matrix.copy(place);
+      this.blocks.add(mesh);
+    }
+    this.scene.add(this.blocks);
+  }
+
+  clearBlocks() {
+    for (const { geometry, material } of this.blocks?.children ?? []) {
+      geometry.dispose();
+      material.dispose();
+    }
+    this.blocks?.removeFromParent();
+    this.blocks = undefined;
+  }
+
   clear() {
+    this.clearBlocks();
     this.setTree(undefined);
     for (const surface of this.meshes) surface.dispose();
     this.meshes = [];
@@ -165,6 +198,39 @@ function surroundings(renderer) {
   return texture;
 }
 
+/** Returns where the scene of a document has each of its meshes: matrices by the mesh's number. */
+function placesOf({ nodes = [], scenes = [], scene = 0 }) {
+  const places = new Map();
+  const seen = new Set(); // a damaged document may have cycles
+  const waiting = (scenes[scene]?.nodes ?? [...nodes.keys()]).map((number) => ({ number, above: new Matrix4() }));
+  while (waiting.length > 0) {
+    const { number, above } = waiting.pop();
+    const node = nodes[number];
+    if (node === undefined || seen.has(number)) continue;
+    seen.add(number);
+    const own = new Matrix4();
+    if (node.matrix !== undefined) own.fromArray(node.matrix);
+    else own.compose(new Vector3(...node.translation ?? [0, 0, 0]), new Quaternion(...node.rotation ?? [0, 0, 0, 1]), new Vector3(...node.scale ?? [1, 1, 1]));
+    own.premultiply(above);
+    if (node.mesh !== undefined) places.set(node.mesh, [...places.get(node.mesh) ?? [], own]);
+    for (const child of node.children ?? []) waiting.push({ number: child, above: own });
+  }
+  return places;
+}
+
+/** Returns the box of a document's scene, of which nothing has been decoded yet. */
+function boxOfDocument({ meshes = [], accessors = [] }, places) {
+  const box = new Box3();
+  for (const [mesh, matrices] of places) {
+    for (const { attributes } of meshes[mesh]?.primitives ?? []) {
+      const { min, max } = accessors[attributes?.POSITION] ?? {};
+      if (min === undefined || max === undefined) continue;
+      for (const matrix of matrices) box.union(new Box3(new Vector3(...min), new Vector3(...max)).applyMatrix4(matrix));
+    }
+  }
+  return box;
+}
+
 export class LinkedViews {
   /** @param {{ original: HTMLCanvasElement, compressed: HTMLCanvasElement }} canvases */
   constructor({ original, compressed }) {
@@ -224,6 +290,23 @@ export class LinkedViews {
     this.paint();
   }
 
+  /** Shows a block of a model, of which the first one positions the camera. @param {object} json of the model */
+  showBlock(block, json) {
+    const isFirst = this.original.blocks === undefined;
+    if (isFirst) this.places = placesOf(json);
+    const { places } = this;
+    for (const use of block.uses) {
+      if (block.parts[use.part].triangleCount !== 0) this.original.addBlock(block, use, places.get(use.mesh) ?? []);
+    }
+    if (isFirst) this.frame(boxOfDocument(json, places));
+    this.draw();
+  }
+
+  clearBlocks() {
+    this.original.clearBlocks();
+    this.draw();
+  }
+
   async showCompressed(glb) {
     this.tree = undefined; // it belongs to another payload
     await this.compressed.load(glb);
@@ -270,8 +353,7 @@ export class LinkedViews {
   }
 
   /** Shows the whole model, from its front and slightly from above. */
-  frame() {
-    const box = new Box3().setFromObject(this.original.model);
+  frame(box = new Box3().setFromObject(this.original.model ?? this.original.blocks ?? new Group())) {
     const { center, radius } = box.getBoundingSphere(new Sphere());
     const size = radius > 0 ? radius : 1;
     this.target.copy(radius > 0 ? center : new Vector3());

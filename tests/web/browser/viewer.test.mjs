@@ -318,6 +318,30 @@ test('a phone shows everything without scrolling sideways', async () => {
   await page.close();
 });
 
+test('a compressed model appears block by block', async () => {
+  const { page, violations, problems } = await openViewer();
+  await page.evaluate(() => {
+    globalThis.seen = [];
+    const note = () => globalThis.seen.push(document.getElementById('original').dataset.blocks);
+    new MutationObserver(note).observe(document.getElementById('original'), { attributeFilter: ['data-blocks'] });
+  });
+  await drop(page, 'blocks.glb', convert(readSample('torus'), ['--block', '500']));
+  await settle(page);
+  const seen = (await page.evaluate(() => globalThis.seen)).filter(Boolean);
+  assert.ok(seen.length > 0 && seen.every((text) => / of 9$/.test(text)), seen.join());
+  assert.equal(seen.at(-1), '9 of 9');
+  const { original, compressed } = await picturesOf(page);
+  assert.ok(coverageOf(original) >= MIN_COVERAGE);
+  assert.ok(differenceOf(original, compressed) <= MAX_DIFFERENCE_FROM_SOURCE);
+  const damaged = convert(readSample('torus'), ['--block', '500']);
+  damaged[damaged.length - 10] ^= 1;
+  await drop(page, 'damaged.glb', damaged);
+  await page.waitForFunction(() => document.getElementById('error').textContent.includes('checksum'), undefined, { timeout: 30_000 });
+  assert.deepEqual(violations(), []);
+  assert.deepEqual(problems(), []);
+  await page.close();
+});
+
 test('the keyboard reaches everything', async () => {
   const { page } = await openViewer();
   const focused = () => page.evaluate(() => document.activeElement.id || document.activeElement.textContent.trim());
