@@ -492,7 +492,8 @@ Status findChecksummed(std::span<const uint8_t> bytes, uint64_t payload_bytes,
 
 uint32_t checksumOf(std::span<const uint8_t> bytes) {
   size_t checksummed_bytes = 0;
-  if (!findChecksummed(bytes, bytes.size(), checksummed_bytes).ok()) checksummed_bytes = bytes.size();
+  if (!findChecksummed(bytes, bytes.size(), checksummed_bytes).ok())
+    checksummed_bytes = bytes.size();
   return crc32(bytes.first(checksummed_bytes).subspan(kChecksummedFrom),
                crc32(bytes.first(kChecksumOffset)));
 }

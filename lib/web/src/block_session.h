@@ -68,7 +68,8 @@ class BlockSession {
     const BlockHeader& block = header_.blocks[next_];
     const uint32_t wedge_count = header_.pieces[next_].wedge_count;
     const size_t words = wedges.empty() ? 0 : tuples.size() / wedges.size();
-    if (words * wedges.size() != tuples.size() || (next_ != 0 && words != 0 && words != tuple_words_))
+    if (words * wedges.size() != tuples.size() ||
+        (next_ != 0 && words != 0 && words != tuple_words_))
       return fail(Error::kBadArgument, "a rim has tuples of another size");
     for (size_t i = 0; i < wedges.size(); ++i) {
       if (wedges[i] >= wedge_count || (i != 0 && wedges[i] <= wedges[i - 1]))

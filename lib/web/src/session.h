@@ -31,8 +31,8 @@ uint32_t shortLimitOf(double number) {
 }
 
 /// The arguments are those of the exports that open a payload.
-Limits limitsOf(double max_vertices, double max_triangles, double max_attributes,
-                double max_pieces, double max_elements, double max_output_bytes) {
+Limits limitsOf(double max_vertices, double max_triangles, double max_attributes, double max_pieces,
+                double max_elements, double max_output_bytes) {
   Limits limits;
   limits.max_vertices = std::min(limits.max_vertices, limitOf(max_vertices));
   limits.max_triangles = std::min(limits.max_triangles, limitOf(max_triangles));
