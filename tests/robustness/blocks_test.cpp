@@ -579,5 +579,17 @@ TEST(DamagedBlocks, RimsOfManyWedges) {
   }
 }
 
+TEST(DamagedBlocks, BeginningOfAPayloadWithoutBlocks) {
+  const TestMesh mesh = looseTriangles(20);
+  const MeshPiece piece(mesh, kExactBits);
+  const Bytes bytes = roundTrip(piece.view(), {}).encoded.payload;
+  Payload payload;
+  for (size_t size = 1; size < bytes.size(); ++size) {
+    const Status status = payload.openPrefix(std::span(bytes).first(size), bytes.size());
+    EXPECT_EQ(status.error, Error::kTruncated) << size;
+  }
+  EXPECT_TRUE(payload.openPrefix(bytes, bytes.size()).ok());
+}
+
 }  // namespace
 }  // namespace mcc::test

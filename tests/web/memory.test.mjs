@@ -7,9 +7,9 @@ import { setTimeout as wait } from 'node:timers/promises';
 import { setFlagsFromString } from 'node:v8';
 import { runInNewContext } from 'node:vm';
 import { Decoder } from '../../lib/web/core.mjs';
-import { encodeGlb } from '../../lib/web/encoder.mjs';
 import { BIN_CHUNK, writeGlb } from '../../lib/web/unpack.mjs';
 import { manifest, payloadOf, readAsset, wasm } from './support/conformance.mjs';
+import { convert } from './support/program.mjs';
 
 setFlagsFromString('--expose-gc');
 const collectGarbage = runInNewContext('gc');
@@ -71,7 +71,7 @@ async function isGone(reference) {
 }
 
 test('the memory of a large model is given back', async () => {
-  const large = payloadOf((await encodeGlb(gridGlb(900))).glb);
+  const large = payloadOf(convert(gridGlb(900), ['--block', '0'])); // blocks take less
   const decoder = new Decoder(await WebAssembly.compile(wasm('mcc_decoder')));
   const memories = await memoriesOf(async () => {
     await decoder.decode(large);
