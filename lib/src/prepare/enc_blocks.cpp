@@ -63,6 +63,14 @@ std::pair<Region, Region> halve(const Region& region) {
       {region.centroids.subspan(count), region.first_block + blocks, region.block_count - blocks}};
 }
 
+/// Returns how many blocks the triangles after the first block make: an even number, because with
+/// an odd one of two threads would wait while the other codes the last block.
+uint32_t countAfterFirst(uint64_t triangle_count, uint64_t block_triangles) {
+  if (2 * triangle_count < 3 * block_triangles) return 1;
+  return static_cast<uint32_t>(
+      2 * std::max<uint64_t>(1, (triangle_count + block_triangles) / (2 * block_triangles)));
+}
+
 /// Returns the block of each triangle.
 std::vector<uint32_t> divide(std::vector<Centroid> centroids, uint32_t block_triangles,
                              uint32_t& block_count, const Jobs& jobs) {
@@ -70,8 +78,7 @@ std::vector<uint32_t> divide(std::vector<Centroid> centroids, uint32_t block_tri
   const size_t first_count =
       std::clamp<size_t>(block_triangles / kFirstBlockShare, 1, triangle_count - 1);
   const size_t rest = triangle_count - first_count;
-  const uint32_t rest_blocks = static_cast<uint32_t>(
-      std::max<uint64_t>(1, (rest + block_triangles / 2) / std::max(block_triangles, 1u)));
+  const uint32_t rest_blocks = countAfterFirst(rest, block_triangles);
   block_count = 1 + rest_blocks;
   divideAt(centroids, first_count);
   std::vector<Region> done = {{std::span(centroids).first(first_count), 0, 1}};
