@@ -11,6 +11,7 @@
 
 #include "cli/run_tool.h"
 #include "gltf/round_trip.h"
+#include "support/mesh_generators.h"
 
 namespace mcc::gltf::test {
 namespace {
@@ -100,6 +101,26 @@ TEST_F(Cli, ConvertDecodeInspect) {
   EXPECT_EQ(codes.status, 0) << codes.err;
   EXPECT_NE(codes.out.find("bits/vertex"), std::string::npos) << codes.out;
   EXPECT_EQ(names(), (std::set<std::string>{"in.glb", "out.glb", "back.glb"}));
+}
+
+TEST_F(Cli, InspectSaysWhyALargeSurfaceHasNoBlocks) {
+  Builder builder;
+  const mcc::test::TestMesh large = mcc::test::grid(520, 520);
+  const uint32_t positions = builder.addPositions(large.positions);
+  const uint32_t indices =
+      builder.addAccessor(large.indices, kUnsignedInt, "SCALAR", large.indices.size());
+  builder.addMesh({{{"attributes", {{"POSITION", positions}}}, {"indices", indices}}});
+  const std::vector<uint8_t> file = builder.toGlb();
+  store(folder_ / "large.glb", {file.begin(), file.end()});
+  const auto inspected = [this](const std::string& options) {
+    EXPECT_EQ(run("convert -q large.glb whole.glb --compare none " + options).status, 0);
+    return run("inspect whole.glb").out;
+  };
+  const std::string without = "540,800 triangles without blocks: ";
+  EXPECT_EQ(inspected("").find(without), std::string::npos);
+  EXPECT_NE(inspected("--block 0").find(without + "its writer was not asked"), std::string::npos);
+  EXPECT_NE(inspected("--keep-order vertices").find(without + "an order is kept"),
+            std::string::npos);
 }
 
 TEST_F(Cli, DecodeToIntegers) {

@@ -20,8 +20,10 @@
 #include "container/payload_header.h"
 #include "robustness/damage.h"
 #include "robustness/payloads.h"
+#include "support/counting_allocator.h"
 #include "support/mesh_compare.h"
 #include "support/mesh_generators.h"
+#include "support/run_jobs.h"
 #include "unit/failing_allocator.h"
 
 namespace mcc::test {
@@ -399,10 +401,6 @@ struct Targets {
   std::vector<PartTarget> parts;
 };
 
-void runBackwards(size_t count, const std::function<void(size_t)>& job) {
-  while (count-- != 0) job(count);
-}
-
 TEST(DamagedBlocks, OutOfMemory) {
   for (const size_t p : {size_t{2}, size_t{3}, size_t{7}}) {
     const NamedPayload& payload = payloads()[p];
@@ -471,32 +469,6 @@ TEST(DamagedBlocks, GiveBackTheirMemoryAfterAnError) {
 
 // ---- Work ---------------------------------------------------------------------------------------
 
-/// Counts all bytes that were ever taken.
-class TakenBytes {
- public:
-  Allocator allocator() {
-    return {[](void* user, size_t bytes) -> void* {
-              auto* self = static_cast<TakenBytes*>(user);
-              self->all_ += bytes;
-              self->live_ += bytes;
-              self->peak_ = std::max(self->peak_, self->live_);
-              return std::malloc(bytes);
-            },
-            [](void* user, void* memory, size_t bytes) {
-              static_cast<TakenBytes*>(user)->live_ -= bytes;
-              std::free(memory);
-            },
-            this};
-  }
-  uint64_t all() const { return all_; }
-  uint64_t peak() const { return peak_; }
-
- private:
-  uint64_t all_ = 0;
-  uint64_t live_ = 0;
-  uint64_t peak_ = 0;
-};
-
 /// A payload of as many tiny blocks as its bytes allow, all of them copies of one.
 Bytes manyTinyBlocks(uint32_t count) {
   const Bytes few = blocksOf(looseTriangles(40), 10).bytes;
@@ -542,13 +514,13 @@ TEST(DamagedBlocks, ManyTinyBlocksCountTheCopiesOfModels) {
     const Targets targets(opened.info().pieces[0]);
     const PieceTarget target = targets.target();
     for (const RunJobs& hook : {RunJobs(), RunJobs(runBackwards)}) {
-      TakenBytes taken;
+      CountingAllocator taken;
       DecodeOptions options;
       options.allocator = taken.allocator();
       options.run_jobs = runnerOf(hook);
       EXPECT_TRUE(opened.decode({&target, 1}, options).ok() || is_forged);
-      EXPECT_LE(taken.all(), 64 * elementsOf(header)) << count;
-      EXPECT_LE(taken.peak(), (uint64_t{4} << 20) + 16 * elementsOf(header)) << count;
+      EXPECT_LE(taken.allBytes(), 64 * elementsOf(header)) << count;
+      EXPECT_LE(taken.peakBytes(), (uint64_t{4} << 20) + 16 * elementsOf(header)) << count;
     }
   }
 }

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "container/payload_header.h"
+#include "support/counting_allocator.h"
 
 namespace mcc::test {
 namespace {
@@ -19,29 +20,6 @@ constexpr size_t kMaxTargetBytes = size_t{64} << 20;
 constexpr uint64_t kFixedBytes = uint64_t{16} << 20;
 /// ... and per triangle, vertex and wedge, attributes apart.
 constexpr uint64_t kBytesPerElement = 256;
-
-class CountingAllocator {
- public:
-  Allocator allocator() {
-    return {[](void* user, size_t bytes) -> void* {
-              auto* self = static_cast<CountingAllocator*>(user);
-              self->used_bytes_ += bytes;
-              self->peak_bytes_ = std::max(self->peak_bytes_, self->used_bytes_);
-              return std::malloc(bytes);
-            },
-            [](void* user, void* memory, size_t bytes) {
-              static_cast<CountingAllocator*>(user)->used_bytes_ -= bytes;
-              std::free(memory);
-            },
-            this};
-  }
-  uint64_t usedBytes() const { return used_bytes_; }
-  uint64_t peakBytes() const { return peak_bytes_; }
-
- private:
-  uint64_t used_bytes_ = 0;
-  uint64_t peak_bytes_ = 0;
-};
 
 struct PieceMemory {
   std::vector<std::vector<uint8_t>> attributes;

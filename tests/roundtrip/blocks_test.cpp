@@ -22,29 +22,10 @@
 #include "container/payload_header.h"
 #include "support/mesh_compare.h"
 #include "support/mesh_generators.h"
+#include "support/run_jobs.h"
 
 namespace mcc::test {
 namespace {
-
-void runForwards(size_t count, const std::function<void(size_t)>& job) {
-  for (size_t i = 0; i < count; ++i) job(i);
-}
-
-void runBackwards(size_t count, const std::function<void(size_t)>& job) {
-  while (count-- != 0) job(count);
-}
-
-/// Four threads share the jobs.
-void runOnThreads(size_t count, const std::function<void(size_t)>& job) {
-  std::atomic<size_t> next{0};
-  std::vector<std::thread> threads;
-  for (int t = 0; t < 4; ++t) {
-    threads.emplace_back([&] {
-      for (size_t i = next++; i < count; i = next++) job(i);
-    });
-  }
-  for (std::thread& thread : threads) thread.join();
-}
 
 std::array<RunJobs, 3> allHooks() { return {runForwards, runBackwards, runOnThreads}; }
 

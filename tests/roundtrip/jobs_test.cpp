@@ -13,19 +13,10 @@
 #include "base/enc_jobs.h"
 #include "support/mesh_compare.h"
 #include "support/mesh_generators.h"
+#include "support/run_jobs.h"
 
 namespace mcc::test {
 namespace {
-
-void runBackwards(size_t count, const std::function<void(size_t)>& job) {
-  while (count-- != 0) job(count);
-}
-
-void runOnThreads(size_t count, const std::function<void(size_t)>& job) {
-  std::vector<std::thread> threads;
-  for (size_t i = 0; i < count; ++i) threads.emplace_back(job, i);
-  for (std::thread& thread : threads) thread.join();
-}
 
 void expectSame(std::span<const PieceView> pieces, EncodeOptions options, const std::string& name) {
   EncodeResult alone;

@@ -200,6 +200,19 @@ bool hasBlocks(const gltf::InspectReport& report) {
   });
 }
 
+/// Says of each large piece without blocks why it has none.
+std::string wholePieces(const gltf::InspectReport& report) {
+  std::string lines;
+  for (const auto& payload : report.payloads) {
+    for (const gltf::InspectPiece& piece : payload.pieces) {
+      if (piece.whole_because.empty()) continue;
+      lines += fmt::format("\nbufferView {}: {} triangles without blocks: {}\n",
+                           payload.buffer_view, grouped(piece.triangle_count), piece.whole_because);
+    }
+  }
+  return lines;
+}
+
 /// Counts how often each code occurs, in the columns of the paper's table 1.
 Table codeTable(const gltf::InspectReport& report, Format format) {
   uint32_t last_degree = 8;
@@ -274,6 +287,7 @@ Json pieceJson(const gltf::InspectPiece& piece) {
   Json json = {{"vertices", piece.wedge_count},         {"positions", piece.vertex_count},
                {"triangles", piece.triangle_count},     {"parts", piece.part_count},
                {"surface", surfaceName(piece.surface)}, {"attributes", attributes}};
+  if (!piece.whole_because.empty()) json["whole_because"] = piece.whole_because;
   for (const gltf::InspectBlock& block : piece.blocks) {
     json["blocks"].push_back({{"bytes", block.stream_bytes},
                               {"triangles", block.triangle_count},
@@ -358,6 +372,7 @@ struct InspectCommand {
     if (show_codes) return out + "\n" + codeTable(report, common.format).print(common.format);
     out += "\n" + streamTable(report, common.format).print(common.format);
     out += "\n" + attributeTable(report, common.format).print(common.format);
+    out += wholePieces(report);
     if (!hasBlocks(report)) return out;
     return out + "\n" + blockTable(report, common.format).print(common.format);
   }

@@ -123,6 +123,16 @@ GlbBuilder terrain() {
   return glb;
 }
 
+/// A terrain in one primitive that has positions alone, as scans of landscapes do.
+GlbBuilder largeTerrain() {
+  constexpr uint32_t kCells = 3163;
+  TestMesh mesh = sheetOf(kCells, kCells, [](double u, double v) {
+    return Vec3{8 * u, 0.5 * fractal({8 * u, 0, 8 * v}, 9, 11), -8 * v};
+  });
+  mesh.texcoords.clear();
+  return grey(named("large_terrain", std::move(mesh)));
+}
+
 double gyroidField(double x, double y, double z) {
   const CosSin a = turn(1.5 * x);
   const CosSin b = turn(1.5 * y);
@@ -425,8 +435,13 @@ constexpr Model kBenchModels[] = {
     {"bench_boxes.glb", "1,000 boxes, a mesh each", boxes},
 };
 
+constexpr Model kLargeModels[] = {
+    {"large_terrain.glb", "a terrain of 20 million triangles", largeTerrain},
+};
+
 }  // namespace
 
 std::span<const Model> benchModels() { return kBenchModels; }
+std::span<const Model> largeModels() { return kLargeModels; }
 
 }  // namespace mcc::samples

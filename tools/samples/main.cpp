@@ -2,7 +2,8 @@
 //
 // generate-samples DIR writes the sample models into DIR and prints the table of samples/README.md.
 // With --bench it instead writes the second set of models for `gltf-mcc bench DIR/*.glb`, which
-// nothing in the codec was fitted on; with --soups, meshes whose edges have many faces.
+// nothing in the codec was fitted on; with --soups, meshes whose edges have many faces; with
+// --large, a surface of 20 million triangles.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -75,9 +76,11 @@ int main(int argc, char** argv) {
   std::span<const mcc::samples::Model> models = mcc::samples::allModels();
   if (option == "--bench") models = mcc::samples::benchModels();
   if (option == "--soups") models = mcc::samples::soupModels();
-  const bool is_known = option.empty() || option == "--bench" || option == "--soups";
+  if (option == "--large") models = mcc::samples::largeModels();
+  const bool is_known =
+      option.empty() || option == "--bench" || option == "--soups" || option == "--large";
   if (argc < 2 || argc > 3 || !is_known || folder[0] == '-') {
-    std::fputs("usage: generate-samples [--bench|--soups] DIR\n", stderr);
+    std::fputs("usage: generate-samples [--bench|--soups|--large] DIR\n", stderr);
     return 2;
   }
   try {

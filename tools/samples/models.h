@@ -25,6 +25,9 @@ std::span<const Model> soupModels();
 /// Ten kinds of models that nothing in the codec was fitted on, for `bench`.
 std::span<const Model> benchModels();
 
+/// A surface of 20 million triangles, for `bench --blocks`.
+std::span<const Model> largeModels();
+
 }  // namespace mcc::samples
 
 #endif  // MCC_TOOLS_SAMPLES_MODELS_H_

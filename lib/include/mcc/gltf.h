@@ -286,6 +286,7 @@ struct InspectPiece {
       attribute_names;                    ///< as in the JSON; "(unused)" when no primitive names it
   std::vector<InspectAttribute> details;  ///< one for each of `attributes`
   std::vector<InspectBlock> blocks;       ///< empty: coded as a whole
+  std::string whole_because;  ///< why a large piece is coded as a whole, as far as a file shows it
 };
 
 /// A payload as its header describes it.

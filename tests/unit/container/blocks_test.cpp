@@ -14,7 +14,7 @@
 #include "container/enc_payload.h"
 #include "container/payload_header.h"
 #include "support/mesh_generators.h"
-#include "unit/failing_allocator.h"
+#include "unit/container/parse_without_memory.h"
 
 namespace mcc::test {
 namespace {
@@ -504,19 +504,7 @@ TEST(BlockHeaders, Elements) {
 
 TEST(BlockHeaders, OutOfMemory) {
   const Bytes payload = anyDraft(8).write();
-  for (uint64_t allocations = 0;; ++allocations) {
-    FailingAllocator memory(allocations);
-    Error error = Error::kOk;
-    {
-      PayloadHeader parsed(memory.allocator());
-      error = parsePayload(payload, {}, parsed).error;
-    }
-    EXPECT_EQ(memory.liveBlocks(), 0u);
-    EXPECT_TRUE(memory.booksBalance());
-    if (error == Error::kOk) break;
-    ASSERT_EQ(error, Error::kOutOfMemory);
-    ASSERT_LT(allocations, 1000u);
-  }
+  expectParsesOrRunsOutOfMemory(payload);
 }
 
 }  // namespace

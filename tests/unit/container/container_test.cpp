@@ -17,7 +17,7 @@
 #include "format/predictors.h"
 #include "format/usual.h"
 #include "support/mesh_generators.h"
-#include "unit/failing_allocator.h"
+#include "unit/container/parse_without_memory.h"
 
 namespace mcc::test {
 namespace {
@@ -884,19 +884,7 @@ TEST(Container, ClaimsOfAttributesAreBounded) {
 
 TEST(Container, OutOfMemory) {
   const std::vector<uint8_t> payload = anyDraft(11).write();
-  for (uint64_t allocations = 0;; ++allocations) {
-    FailingAllocator memory(allocations);
-    Error error = Error::kOk;
-    {
-      PayloadHeader parsed(memory.allocator());
-      error = parsePayload(payload, {}, parsed).error;
-    }
-    EXPECT_EQ(memory.liveBlocks(), 0u);
-    EXPECT_TRUE(memory.booksBalance());
-    if (error == Error::kOk) break;
-    ASSERT_EQ(error, Error::kOutOfMemory);
-    ASSERT_LT(allocations, 1000u);
-  }
+  expectParsesOrRunsOutOfMemory(payload);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "gltf/files/file_io.h"
 #include "gltf/inspect/coding_names.h"
 #include "mcc/gltf.h"
+#include "mcc/writer.h"
 
 namespace mcc::gltf {
 namespace {
@@ -103,6 +104,18 @@ class StreamCounter {
   double coded_bits_ = 0;
 };
 
+/// Returns why a piece that is large enough for blocks has none.
+std::string whyWhole(const PayloadInfo& payload, const PieceInfo& piece, uint64_t triangle_count) {
+  if (!piece.blocks.empty() ||
+      blockTriangles(kBlocksByPreference, Preference::kBalanced, triangle_count) == 0)
+    return "";
+  if (piece.keeps_vertex_order || piece.keeps_triangle_order) return "an order is kept";
+  if (piece.attributes.empty()) return "the payload has no attributes";
+  if (payload.pieces.size() > 1) return "the payload has other pieces";
+  return "its writer was not asked for blocks, or found that it does not cut well; the report of "
+         "convert says which";
+}
+
 Result inspectView(const Document& document, uint32_t view,
                    const std::vector<const ExtensionUse*>& users, bool count_codes,
                    DecodedBytes& decoded_bytes, InspectPayload& report) {
@@ -138,6 +151,7 @@ Result inspectView(const Document& document, uint32_t view,
       std::copy_n(block.low, 3, to.low);
       std::copy_n(block.high, 3, to.high);
     }
+    row.whole_because = whyWhole(info, piece, row.triangle_count);
     report.pieces.push_back(std::move(row));
   }
   for (const ExtensionUse* use : users) {
