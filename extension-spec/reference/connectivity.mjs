@@ -21,8 +21,7 @@ const HANDLE = 1;
 
 // [A.4.2] The models of the stage
 export class ConnectivityModels {
-	constructor(contextSet) {
-		this.contextSet = contextSet;
+	constructor() {
 		this.START = models([6]);
 		this.KIND_SPUR = models([4]);
 		this.KIND_TWIG = models([4]);
@@ -34,8 +33,8 @@ export class ConnectivityModels {
 		this.DUMMY_END = models([2]);
 		this.DUMMY_TWIG = models([]);
 		this.DUMMY_FINISH = models([]);
-		this.SPECIAL = models([8 * (contextSet === 1 ? 625 : 49)]);
-		this.RUN = models([128 * (contextSet === 1 ? 625 : 1)]);
+		this.SPECIAL = models([8 * 49]);
+		this.RUN = models([128]);
 		this.DUMMY_DEGREE = golombs([]);
 		this.HANDLE_NODE = golombs([]);
 		this.HANDLE_TOP = golombs([]);
@@ -104,7 +103,6 @@ class Connectivity {
 	constructor(streams, modelSet, piece) {
 		this.streams = streams;
 		this.models = modelSet;
-		this.contextSet = modelSet.contextSet;
 		this.piece = piece;
 		this.handles = piece.flags.HANDLES;
 		this.tails = new Int32Array(3 * piece.faceCount);
@@ -119,7 +117,6 @@ class Connectivity {
 		this.age = 0;
 		this.last = 6;
 		this.before = 6;
-		this.pattern = 0;
 	}
 
 	bit(model) {
@@ -156,11 +153,6 @@ class Connectivity {
 	remember(operation) {
 		this.before = this.last;
 		this.last = operation;
-		this.pattern = (this.pattern % 125) * 5 + [0, 1, 2, 3, 3, 4, 4][operation];
-	}
-
-	recent() {
-		return 7 * this.last + this.before;
 	}
 
 	spur(vertex) {
@@ -244,8 +236,7 @@ class Connectivity {
 	}
 
 	specialContext() {
-		const degree = Math.min(this.nodes.degree(this.top), 7);
-		return this.contextSet === 1 ? 625 * degree + this.pattern : 49 * degree + this.recent();
+		return 49 * Math.min(this.nodes.degree(this.top), 7) + 7 * this.last + this.before;
 	}
 
 	twig() {
@@ -354,8 +345,7 @@ class Connectivity {
 
 	runContext(position, q) {
 		const { nodes } = this;
-		const base = 32 * (Math.min(position, 4) - 1) + 2 * Math.min(nodes.degree(q), 15) + nodes.shared[q];
-		return this.contextSet === 1 ? 128 * this.pattern + base : base;
+		return 32 * (Math.min(position, 4) - 1) + 2 * Math.min(nodes.degree(q), 15) + nodes.shared[q];
 	}
 
 	dummyRun() {

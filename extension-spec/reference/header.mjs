@@ -19,7 +19,7 @@ const COMPONENT_COUNTS = [1, 2, 3, 4, 9, 16];
 const USUAL_COMPONENTS = [3, 3, 4, 2, 4, 4, 4, 1];
 
 // [A.2.1] A flag of the payload
-const BLOCKS = 16;
+const BLOCKS = 8;
 
 // [A.2.2] Flags of a piece, by bit; bits 7 and 8 are a number
 const PIECE_FLAGS = ['SEAMS', 'MANY_PARTS', 'SAME_ATTRIBUTES', 'HOLES', 'HANDLES', 'CREASES', 'ISOLATED', '', '', 'LISTED',
@@ -71,11 +71,10 @@ function readPayloadFlags(reader) {
 	const hasBlocks = (flags & BLOCKS) !== 0;
 	if (hasBlocks && (flags & 3) !== 2) badHeader('A.11.1', 'BLOCKS with SINGLE_CODER or without MANY_PIECES');
 	const headerLength = hasBlocks ? reader.varint() : undefined;
-	const contextSet = (flags >> 3) & 1;
 	const pieceCount = flags & 2 ? reader.varint() : 1;
 	if (flags & 2 && pieceCount < 2) badHeader('A.2.1', `a stated count of ${pieceCount} pieces`);
 	if (pieceCount > LIMITS.pieces) fail('Limit', 'A.2.1', `${pieceCount} pieces`);
-	return { singleCoder: (flags & 1) !== 0, padded: (flags & 4) !== 0, contextSet, hasBlocks, headerLength, pieceCount };
+	return { singleCoder: (flags & 1) !== 0, padded: (flags & 4) !== 0, hasBlocks, headerLength, pieceCount };
 }
 
 function readPieces(reader, { pieceCount, hasBlocks }) {

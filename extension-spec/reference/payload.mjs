@@ -18,8 +18,8 @@ import { decodeTriangles, TriangleModels } from './triangles.mjs';
 
 // [A.3.6] All models exist once per payload.
 class Models {
-	constructor(contextSet) {
-		this.connectivity = new ConnectivityModels(contextSet);
+	constructor() {
+		this.connectivity = new ConnectivityModels();
 		this.pivots = new PivotModels();
 		this.stitching = new StitchModels();
 		this.positions = new PositionModels();
@@ -36,14 +36,13 @@ export class Payload {
 		const { header, streams } = readHeader(bytes);
 		this.blocks = header.blocks;
 		this.pieces = header.hasBlocks ? [gluedHeader(header.blocks)] : header.pieces;
-		this.contextSet = header.contextSet;
 		this.streams = streams;
 	}
 
 	// The pieces, each with: parts, lists of triangles, which are three places of wedges; elements, a list for each attribute of
 	// the bytes of the components of each element.
 	decode() {
-		const models = new Models(this.contextSet);
+		const models = new Models();
 		if (this.blocks !== undefined) return [this.decodeBlocks(models)];
 		const pieces = this.pieces.map((piece) => {
 			const { parts, elements } = decodePiece(this.streams, models, piece);

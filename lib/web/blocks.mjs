@@ -17,7 +17,7 @@ const POSITION = 0;
 
 /** Whether the header of a payload says that there are blocks. */
 export function claimsBlocks(bytes) {
-  return bytes.length >= FLAGS_END && bytes[0] === 0x4b && (bytes[FLAGS_END - 1] & 16) !== 0; // A.2.1
+  return bytes.length >= FLAGS_END && bytes[0] === 0x4b && (bytes[FLAGS_END - 1] & 8) !== 0; // A.2.1
 }
 
 /** Decodes the blocks of a payload on this thread, which may do other things between two of them. */

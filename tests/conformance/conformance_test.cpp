@@ -169,7 +169,6 @@ std::set<std::string> headerValues(bool only_blocks = false) {
     PayloadHeader header{Allocator{}};
     EXPECT_TRUE(parsePayload(File(asset).payload, {}, header).ok()) << asset["file"];
     if (only_blocks && !header.hasBlocks()) continue;
-    values.insert("context set " + std::to_string(header.contextSet()));
     if ((header.flags & payload_flag::kPadded) != 0) values.insert("PADDED");
     for (size_t i = 0; i < header.exceptions.size(); ++i)
       values.insert(header.exceptions[i].number == kNone ? "new wedge" : "earlier wedge");
@@ -210,9 +209,7 @@ TEST(Conformance, EveryRowOfTheFormatsTablesHasAnAsset) {
 TEST(Conformance, EverythingThatBlocksMayHaveIsInOne) {
   const std::set<std::string> seen = headerValues(true);
   const auto expect = [&](const std::string& name) { EXPECT_TRUE(seen.contains(name)) << name; };
-  for (const char* const name :
-       {"context set 0", "context set 1", "PADDED", "new wedge", "earlier wedge"})
-    expect(name);
+  for (const char* const name : {"PADDED", "new wedge", "earlier wedge"}) expect(name);
   for (const SurfaceInfo& surface : kSurfaces) {
     const bool is_allowed = surface.name != std::string(infoOf(SurfaceCoding::kPivots).name);
     EXPECT_EQ(seen.contains(surface.name), is_allowed) << surface.name;

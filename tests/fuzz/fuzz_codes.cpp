@@ -59,9 +59,8 @@ void runCodes(ByteFeed& feed) {
   const uint32_t flags = feed.byte();
   claims.has_handles = (flags & 1) != 0;
   FaceMesh mesh{Allocator{}};
-  McModels models{Allocator{}};
+  McModels models;
   require(mesh.words.assign(size_t{claims.face_count} * kFaceWords, kNone), "memory");
-  require(models.init((flags >> 1) % kContextSetCount), "memory");
   AnswerIo io(feed);
   if (!McMachine<AnswerIo>(io, models, claims, mesh, McTruth{}).run().ok()) return;
   require(mesh.face_count == claims.face_count && mesh.vertex_count == claims.vertex_count,

@@ -99,8 +99,6 @@ void runRoundTrip(ByteFeed& feed) {
   options.keep_triangle_order = (flags & 4) != 0;
   options.keep_vertex_order = (flags & 8) != 0;
   options.prefer = (flags & 16) != 0 ? Preference::kBalanced : Preference::kSize;
-  if (flags >> 5 < 4)
-    options.context_set = flags >> 5 & 1;  // otherwise all are tried, which is slow
   const RoundTrip result = roundTrip(piece, options);
   require(result.failure.empty(), result.failure);
 }

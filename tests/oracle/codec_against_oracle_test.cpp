@@ -142,13 +142,11 @@ void expectSameFaces(const ClosedMesh& mesh, const FaceMesh& decoded,
 }
 
 /// Encodes and decodes; expects the mesh that the record was made of. Returns the decoder's counts.
-CodeHistogram codedAndDecoded(const ClosedMesh& mesh, const McRecord& record,
-                              uint32_t context_set) {
+CodeHistogram codedAndDecoded(const ClosedMesh& mesh, const McRecord& record) {
   const McCounts counts{static_cast<uint32_t>(record.operations.size()), mesh.real_vertex_count,
                         mesh.dummy_count, mesh.real_face_count, !record.handles.empty()};
   const auto run = [&](auto& io, FaceMesh& faces, const McTruth& truth, CodeHistogram& histogram) {
-    McModels models{Allocator{}};
-    EXPECT_TRUE(models.init(context_set));
+    McModels models;
     EXPECT_TRUE(faces.words.resize(size_t{counts.face_count} * kFaceWords));
     const McWatch watch{&histogram, nullptr};
     McMachine machine(io, models, counts, faces, truth);
@@ -205,7 +203,7 @@ class Comparison {
   }
 
   /// The comparison from one start half-edge of the closed mesh. Returns the number of divides.
-  uint64_t expectSame(uint32_t start, uint32_t context_set = 0) const {
+  uint64_t expectSame(uint32_t start) const {
     SCOPED_TRACE("start half-edge " + std::to_string(start));
     const OracleCoding coding = encodeByPaper(closed_, start);
     const ClosedMesh mesh = codecMeshAt(start);
@@ -216,7 +214,7 @@ class Comparison {
               coding.stacks.vertices[0].dummy);
     EXPECT_EQ(difference(coding.records, inPaperWords(record.operations, record, index_of_)), "");
 
-    const CodeHistogram counts = codedAndDecoded(mesh, record, context_set);
+    const CodeHistogram counts = codedAndDecoded(mesh, record);
     EXPECT_EQ(contractsAndDivides(counts), mesh.real_vertex_count + mesh.dummy_count - 3);
     EXPECT_EQ(counts.end, counts.start + 1);
     CodeHistogram oracle_counts;
@@ -319,8 +317,7 @@ uint64_t expectSomeStarts(const OracleMesh& mesh, Random& random, uint32_t start
   const Comparison comparison(mesh);
   uint64_t divides = 0;
   for (uint32_t i = 0; i < starts && !testing::Test::HasFailure(); ++i) {
-    divides += comparison.expectSame(random.below(comparison.startCount()),
-                                     random.below(kContextSetCount));
+    divides += comparison.expectSame(random.below(comparison.startCount()));
   }
   if (comparison.startCount() > 3 * mesh.triangles.size()) {
     divides += comparison.expectSame(comparison.startAtDummy(random));
@@ -642,7 +639,7 @@ TEST_P(CorpusAgainstOracle, SameCodes) {
   }
   const ClosedMesh mesh = cutToManifold(corner_class, class_count, kNone).mesh;
   const McRecord record = collapse(mesh);
-  const CodeHistogram counts = codedAndDecoded(mesh, record, 1);
+  const CodeHistogram counts = codedAndDecoded(mesh, record);
   CodeHistogram oracle_counts;
   std::vector<uint32_t> index_of(record.vertex_is_dummy.size(), kNone);
   std::span<const McOperation> rest = record.operations;

@@ -157,13 +157,11 @@ AttributeInfo drawAttribute(const Kind& kind, Random& random) {
 struct Draft {
   PieceHeader header;
   std::vector<AttributeInfo> attributes;
-  uint32_t context_set = 0;
   bool single = false;
 
   PayloadHeader payloadHeader() const {
     PayloadHeader payload{Allocator{}};
-    payload.flags =
-        context_set << payload_flag::kContextSetShift | (single ? payload_flag::kSingleCoder : 0);
+    payload.flags = single ? payload_flag::kSingleCoder : 0;
     (void)payload.pieces.push_back(header);
     (void)payload.parts.push_back(PartInfo{static_cast<uint32_t>(header.triangleCount())});
     for (const AttributeInfo& a : attributes) (void)payload.attributes.push_back(a);
@@ -217,7 +215,6 @@ void drawFlags(Draft& draft, Random& random) {
   perhaps(20, piece_flag::kVertexOrder);
   perhaps(10, piece_flag::kListed);
   perhaps(10, piece_flag::kIsolated);
-  draft.context_set = random.below(kContextSetCount);
   draft.single = random.chance(40);
 }
 
@@ -273,7 +270,7 @@ class Forger {
     claims.dummy_count = has_dummies_ ? 3 : 0;
     claims.has_handles = draft_.header.has(piece_flag::kHandles);
     ForgingIo io(seed_, budgetBits(), draft_.single);
-    const ObservedCodes observed = observeCodes(io, claims, draft_.context_set);
+    const ObservedCodes observed = observeCodes(io, claims);
     if (!observed.failure.empty() || !observed.complete || observed.faces == 0 ||
         observed.faces > kMaxElementsPerByte * max_bytes_)
       return false;
@@ -315,9 +312,8 @@ class Forger {
 
   /// Returns true if a count was learnt, so that everything has to be coded again.
   bool codeStages(ForgingIo& io) {
-    PayloadModels models{Allocator{}};
+    PayloadModels models;
     PieceHeader& h = draft_.header;
-    if (!models.mc.init(draft_.context_set)) return false;
     PieceCoder<ForgingIo> piece(io, models, h, draft_.attributes, {});
     const PieceTruth nothing;
     if (!piece.codeConnectivity(nothing).ok() || !piece.codeStitch(nothing).ok()) return false;

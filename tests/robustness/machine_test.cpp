@@ -89,9 +89,9 @@ class RandomIo {
 };
 static_assert(SymbolIo<RandomIo>);
 
-ObservedCodes observe(uint64_t seed, const McCounts& claims, uint32_t context_set) {
+ObservedCodes observe(uint64_t seed, const McCounts& claims) {
   RandomIo io(seed, 1u << 22);
-  ObservedCodes observed = observeCodes(io, claims, context_set);
+  ObservedCodes observed = observeCodes(io, claims);
   // Every answer belongs to an operation, or closes a node, of which an operation makes at most
   // two; handles take some more.
   if (io.used() > 200 * (uint64_t{claims.operation_count} + 10)) observed.failure = "too much work";
@@ -110,8 +110,8 @@ struct Depth {
 /// a first pass.
 class RandomPiece {
  public:
-  RandomPiece(uint64_t seed, const PieceHeader& header, uint32_t context_set)
-      : seed_(seed), header_(header), context_set_(context_set), attributes_(18) {
+  RandomPiece(uint64_t seed, const PieceHeader& header)
+      : seed_(seed), header_(header), attributes_(18) {
     Random random(seed + 1);
     attributes_[0].bits = static_cast<uint8_t>(random.between(1, 24));
     if (random.chance(20)) attributes_[0].coding = AttributeCoding::kExactFloat;
@@ -182,8 +182,7 @@ class RandomPiece {
   /// Returns false if claims were learnt and another pass is needed.
   bool runOnce(Depth* depth) {
     RandomIo io(seed_, 1u << 22);
-    PayloadModels models{Allocator{}};
-    if (!models.mc.init(context_set_)) return true;
+    PayloadModels models;
     PieceCoder<RandomIo> piece(io, models, header_, attributes_, {});
     const PieceTruth nothing;
     // Fails when the last vertices have no triangle, which the faces cannot show.
@@ -250,7 +249,6 @@ class RandomPiece {
 
   const uint64_t seed_;
   PieceHeader header_;
-  const uint32_t context_set_;
   std::vector<AttributeInfo> attributes_;
   std::string pass_failure_;
 };
@@ -269,9 +267,8 @@ TEST(Machine, RandomAnswers) {
     claims.face_count = 8 * claims.operation_count + 8;
     claims.dummy_count = random.chance(50) ? 0 : random.between(1, 4);
     claims.has_handles = random.chance(70);
-    const uint32_t context_set = random.below(kContextSetCount);
     const uint64_t seed = random.next();
-    const ObservedCodes observed = observe(seed, claims, context_set);
+    const ObservedCodes observed = observe(seed, claims);
     ASSERT_EQ(observed.failure, "") << "run " << i;
     if (!observed.complete || observed.dummies != claims.dummy_count || observed.faces == 0)
       continue;
@@ -294,7 +291,7 @@ TEST(Machine, RandomAnswers) {
       header.listed_count = random.between(1, 20);
     }
     with_handles += claims.has_handles ? 1 : 0;
-    ASSERT_EQ(RandomPiece(seed, header, context_set).run(depth), "") << "run " << i;
+    ASSERT_EQ(RandomPiece(seed, header).run(depth), "") << "run " << i;
   }
   RecordProperty("connectivity", std::to_string(depth.connectivity));
   RecordProperty("stitched", std::to_string(depth.stitched));
@@ -324,7 +321,7 @@ TEST(Machine, RandomPivots) {
     if (header.has(piece_flag::kSeams) && random.chance(50)) header.flags |= piece_flag::kCreases;
     if (random.chance(50)) header.flags |= piece_flag::kTriangleOrder;
     if (random.chance(50)) header.part_count = random.between(2, 4);
-    ASSERT_EQ(RandomPiece(random.next(), header, 0).run(depth), "") << "run " << i;
+    ASSERT_EQ(RandomPiece(random.next(), header).run(depth), "") << "run " << i;
   }
   EXPECT_GT(depth.attributes, runs / 200);
 }
@@ -350,9 +347,8 @@ TEST(Machine, RandomCodeStreams) {
     claims.dummy_count = random.below(5);
     claims.has_handles = random.chance(70);
     FaceMesh mesh{Allocator{}};
-    McModels models{Allocator{}};
+    McModels models;
     ASSERT_TRUE(mesh.words.assign(size_t{claims.face_count} * kFaceWords, kUntouched));
-    ASSERT_TRUE(models.init(random.below(kContextSetCount)));
     DecoderIo<true> io(bytes, {}, {});
     const Status status = McMachine<DecoderIo<true>>(io, models, claims, mesh, McTruth{}).run();
     if (status.ok()) {

@@ -43,13 +43,12 @@ struct ObservedCodes {
 /// Runs the machine on claims it cannot fulfil, to learn what the answers of `io` yield. `io` has
 /// watched(), which returns its WatchedModels.
 template <class Io>
-ObservedCodes observeCodes(Io& io, const McCounts& claims, uint32_t context_set) {
+ObservedCodes observeCodes(Io& io, const McCounts& claims) {
   constexpr uint32_t kUntouched = 0xabababab;
   ObservedCodes observed;
   FaceMesh mesh{Allocator{}};
-  McModels models{Allocator{}};
-  if (!mesh.words.assign(size_t{claims.face_count} * kFaceWords, kUntouched) ||
-      !models.init(context_set)) {
+  McModels models;
+  if (!mesh.words.assign(size_t{claims.face_count} * kFaceWords, kUntouched)) {
     observed.failure = "no memory";
     return observed;
   }

@@ -34,12 +34,6 @@ class PayloadList {
   std::vector<NamedPayload> payloads_;
 };
 
-EncodeSettings contextSet(uint32_t set) {
-  EncodeSettings options;
-  options.context_set = set;
-  return options;
-}
-
 EncodeOptions keepingOrders(bool vertices, bool triangles) {
   EncodeOptions options;
   options.keep_vertex_order = vertices;
@@ -158,12 +152,12 @@ std::vector<NamedPayload> makePayloads() {
   PayloadList list;
   list.add(tetrahedron());
   list.add(looseTriangles(1), kExactBits);
-  list.add(icosphere(1), kExactBits, contextSet(1));
-  list.add(torus(9, 7), {}, contextSet(0));
-  list.add(plateWithTunnels(3, 2), {}, contextSet(1));
-  list.add(sheetWithHoles(4, 1), {}, contextSet(1));
+  list.add(icosphere(1), kExactBits);
+  list.add(torus(9, 7));
+  list.add(plateWithTunnels(3, 2));
+  list.add(sheetWithHoles(4, 1));
   list.add(generated(5, 4, 6, 7), {});
-  list.add(mengerSponge(1), {}, contextSet(0));
+  list.add(mengerSponge(1));
   list.add(book(4, 3, 2));
   list.add(fins(5));
   list.add(bowTies(3, 3, 2));

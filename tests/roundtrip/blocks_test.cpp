@@ -424,17 +424,6 @@ TEST(Blocks, OddFloats) {
   }
 }
 
-TEST(Blocks, EveryContextSet) {
-  for (uint32_t set = 0; set < 2; ++set) {
-    EncodeSettings settings = inBlocks(60);
-    settings.context_set = set;
-    const RoundTrip trip = tripOf(flipped(icosphere(3), 7, 1500), settings);
-    Payload payload;
-    ASSERT_TRUE(payload.open(trip.encoded.payload).ok());
-    EXPECT_EQ(payload.info().context_set, set);
-  }
-}
-
 // ---- Jobs ---------------------------------------------------------------------------------------
 
 /// Memory for what decode() writes, and what it says meanwhile.

@@ -52,14 +52,11 @@ class Surface {
 /// Models, header and stages of one piece on one coder.
 template <class Io>
 struct Stages {
-  Stages(Io& io, const PieceHeader& piece_header, std::vector<AttributeInfo> infos,
-         uint32_t context_set = 0)
+  Stages(Io& io, const PieceHeader& piece_header, std::vector<AttributeInfo> infos)
       : header(withAttributes(piece_header, infos.size())),
         attributes(std::move(infos)),
-        models(std::make_unique<PayloadModels>(Allocator{})),
-        piece(io, *models, header, attributes, {}) {
-    ready = models->mc.init(context_set);
-  }
+        models(std::make_unique<PayloadModels>()),
+        piece(io, *models, header, attributes, {}) {}
   Stages(const Stages&) = delete;
   Stages& operator=(const Stages&) = delete;
 
@@ -72,7 +69,6 @@ struct Stages {
   std::vector<AttributeInfo> attributes;
   std::unique_ptr<PayloadModels> models;
   PieceCoder<Io> piece;
-  bool ready = false;
 };
 
 /// POSITION on a lattice of `bits` bits.

@@ -41,7 +41,6 @@ class Listing {
                     "A.2.6", "A.2.7", "A.3.1", "A.3.2", "A.3.6", "A.3.8"});
     add(header_.singleCoder() ? "single coder" : "three streams",
         header_.singleCoder() ? Sections{"A.3.7"} : Sections{"A.3.3", "A.3.4"});
-    add(text("context set", header_.contextSet()), {"A.4.2", "A.4.5"});
     if ((header_.flags & payload_flag::kPadded) != 0) add("PADDED", {"A.2.5", "A.2.6"});
     if ((header_.flags & payload_flag::kManyPieces) != 0) add("MANY_PIECES", {"A.2.1", "A.3.6"});
     for (size_t i = 0; i < header_.pieces.size(); ++i) addPiece(header_.pieces[i]);

@@ -786,10 +786,9 @@ class Maker {
     std::vector<uint32_t> vertices(piece.vertex_count);
     std::vector<uint32_t> gates(piece.face_count);
     const McTruth truth = connectivityTruth(record, {nodes, vertices, gates});
-    McModels models{Allocator{}};
+    McModels models;
     FaceMesh faces{Allocator{}};
-    if (!models.init(header.contextSet()) ||
-        !faces.words.resize(size_t{mesh.real_face_count} * kFaceWords)) {
+    if (!faces.words.resize(size_t{mesh.real_face_count} * kFaceWords)) {
       throw std::bad_alloc();
     }
     const McCounts counts{piece.operation_count, piece.vertex_count, 0, piece.face_count, true};
@@ -893,7 +892,7 @@ class Maker {
     const Asset plain = named("blocks_torus");
     blockPieces(plain);
     blockTable(plain, named("blocks_equal_tuples"));
-    blockStreams(plain);
+    blockStreams(plain, named("blocks_charts"));
     gluedPiece(plain, named("blocks_equal_tuples"));
   }
 
@@ -1012,7 +1011,7 @@ class Maker {
           });
   }
 
-  void blockStreams(const Asset& asset) {
+  void blockStreams(const Asset& asset, const Asset& with_attributes) {
     const uint32_t last = static_cast<uint32_t>(headerOf(asset.payload).blocks.size()) - 1;
     const std::string end = "block " + std::to_string(last) + ".";
     block("block beyond the end", "A.11.1", Error::kTruncated,
@@ -1055,7 +1054,7 @@ class Maker {
           });
     block("block that ends early", "A.11.2", Error::kTruncated,
           "The stream raw of the second block ends a byte early, where that of the third begins",
-          asset, [](HeaderFields& f) {
+          with_attributes, [](HeaderFields& f) {
             f.bytes("block 1.raw").pop_back();
             f.repairBlock(1);
           });

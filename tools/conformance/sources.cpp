@@ -797,13 +797,12 @@ void largerSources(std::vector<Source>& all) {
       {"poles", poles()},
   };
   for (const Larger& larger : surfaces) {
-    for (uint32_t set = 0; set < 2; ++set) {
+    for (const uint32_t number : {1u, 2u}) {
       Source source =
-          single(std::string(larger.name) + "_contexts_" + std::to_string(set),
-                 "A few hundred triangles or more, context set " + std::to_string(set), larger.mesh,
-                 [set](SourceBuilder& b) { b.positions(static_cast<uint8_t>(10 + 2 * set)); });
-      source.options.context_set = set;
-      source.options.variation = set + 1;
+          single(std::string(larger.name) + "_large_" + std::to_string(number),
+                 "A few hundred triangles or more, choice " + std::to_string(number), larger.mesh,
+                 [number](SourceBuilder& b) { b.positions(static_cast<uint8_t>(8 + 2 * number)); });
+      source.options.variation = number;
       all.push_back(source);
     }
   }
@@ -931,11 +930,8 @@ void blockSurfaces(std::vector<Source>& all) {
     b.texcoords("TEXCOORD_0", 10);
   };
   all.push_back(inBlocks("torus", "a closed surface", torus(9, 7), 40, 0, positions));
-  for (uint32_t set = 0; set < 2; ++set) {
-    all.push_back(inBlocks("contexts_" + std::to_string(set), "context set " + std::to_string(set),
-                           flipped(icosphere(3), 3, 9000), 300, 0, positions));
-    all.back().options.context_set = set;
-  }
+  all.push_back(inBlocks("random_edges", "a surface with edges flipped at random",
+                         flipped(icosphere(3), 3, 9000), 300, 0, positions));
   all.push_back(inBlocks("charts", "seams along and across the cuts",
                          withNormals(chartGrid(12, 12, 4)), 60, 0, rich));
   all.push_back(inBlocks("random_wedges", "wedges all around their vertices",

@@ -49,10 +49,9 @@ std::string attributeText(const AttributeInfo& attribute) {
 }
 
 Table payloadTable(const gltf::InspectReport& report, Format format) {
-  Table table(
-      {"bufferView", "bytes", "bits/vertex", "version", "pieces", "triangles", "vertices",
-       "positions", "header", "codes", "tokens", "raw bits", "coders", "contexts", "used by"},
-      {14});
+  Table table({"bufferView", "bytes", "bits/vertex", "version", "pieces", "triangles", "vertices",
+               "positions", "header", "codes", "tokens", "raw bits", "coders", "used by"},
+              {14});
   for (const auto& payload : report.payloads) {
     const Counts counts = countsOf(payload);
     std::string users = payload.primitives[0];
@@ -69,7 +68,7 @@ Table payloadTable(const gltf::InspectReport& report, Format format) {
          count(counts.wedges, format), count(counts.vertices, format),
          count(payload.header_bytes, format), count(payload.codes_bytes, format),
          count(payload.tokens_bytes, format), count(payload.raw_bits_bytes, format),
-         payload.single_coder ? "1" : "3", std::to_string(payload.context_set), users});
+         payload.single_coder ? "1" : "3", users});
   }
   return table;
 }
@@ -312,7 +311,6 @@ std::string inspectJson(const std::string& input, const gltf::InspectReport& rep
                  {"tokens_bytes", payload.tokens_bytes},
                  {"raw_bits_bytes", payload.raw_bits_bytes},
                  {"single_coder", payload.single_coder},
-                 {"context_set", payload.context_set},
                  {"primitives", payload.primitives},
                  {"pieces", pieces}};
     if (payload.has_codes) json["codes"] = codesJson(payload.codes);

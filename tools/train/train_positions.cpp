@@ -70,9 +70,8 @@ std::vector<Mesh> loadMeshes(const char* path) {
 template <bool kSingle>
 bool fitOf(const PayloadHeader& header, PredictorWeights& weights,
            uint32_t (&vertices)[kPredictorClasses]) {
-  auto models = std::make_unique<PayloadModels>(Allocator{});
+  auto models = std::make_unique<PayloadModels>();
   DecoderIo<kSingle> io(header.streams.codes, header.streams.tokens, header.streams.raw);
-  if (!models->mc.init(header.contextSet())) return false;
   PieceCoder<DecoderIo<kSingle>> piece(io, *models, header.pieces[0],
                                        header.attributesOf(header.pieces[0]), {});
   const PieceTruth nothing;

@@ -302,7 +302,6 @@ struct InspectPayload {
   std::vector<std::string> primitives;  ///< JSON paths of the primitives that use it
   std::vector<InspectPiece> pieces;
   bool single_coder = false;
-  uint32_t context_set = 0;
   bool has_codes = false;
   CodeHistogram codes;  ///< only when codes are counted
   /// Also only when codes are counted: the streams of ConvertReport that are not attributes.

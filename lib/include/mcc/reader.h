@@ -128,7 +128,6 @@ struct PayloadInfo {
   uint8_t version_major = 0;
   uint8_t version_minor = 0;
   bool single_coder = false;
-  uint32_t context_set = 0;
   std::span<const PieceInfo> pieces;  ///< owned by the Payload
   uint64_t codes_bytes = 0;           ///< chunk sizes
   uint64_t tokens_bytes = 0;

@@ -43,8 +43,6 @@
 
 namespace mcc {
 
-inline constexpr uint32_t kContextSetCount = 2;
-
 /// The vertex of all dummies: the apex of the cone over a hole. Triangles with this vertex are not
 /// emitted.
 inline constexpr uint32_t kDummyVertex = kMaxVertices;
@@ -98,7 +96,13 @@ inline constexpr uint32_t kClassTwig = 5;
 inline constexpr uint32_t kClassEnd = 6;
 inline constexpr uint32_t kStartAges = 6;
 
-struct McSingleModels {
+inline constexpr uint32_t kRunContexts = 4 * 16 * 2;  ///< [position][degree][shared]
+/// [degree][class of the last operation][of the one before]
+inline constexpr uint32_t kSpecialContexts = 8 * kClassCount * kClassCount;
+
+struct McModels {
+  BitModel run[kRunContexts];
+  BitModel special[kSpecialContexts];
   BitModel start[kStartAges];
   BitModel kind_spur[4];
   BitModel kind_twig[4];
@@ -115,42 +119,6 @@ struct McSingleModels {
   GolombModel handle_top;
   GolombModel handle_depth;
 };
-
-struct McModels : McSingleModels {
-  explicit McModels(const Allocator& allocator) : run(allocator), special(allocator) {}
-
-  Array<BitModel> run;  ///< its size depends on the context set
-  Array<BitModel> special;
-  uint32_t context_set = 0;
-
-  [[nodiscard]] bool init(uint32_t set);
-  [[nodiscard]] bool copyFrom(const McModels& other);
-};
-
-inline constexpr uint32_t kRunContexts = 4 * 16 * 2;  ///< [position][degree][shared]
-/// Context set 1 distinguishes these classes of each of the last four operations.
-inline constexpr uint32_t kPatternClasses = 5;
-inline constexpr uint32_t kPatterns = 625;
-
-constexpr uint32_t runContextFactor(uint32_t set) { return set == 1 ? kPatterns : 1; }
-constexpr uint32_t specialContextFactor(uint32_t set) {
-  return set == 1 ? kPatterns : kClassCount * kClassCount;
-}
-
-inline bool McModels::init(uint32_t set) {
-  context_set = set;
-  return run.assign(kRunContexts * runContextFactor(set), BitModel{}) &&
-         special.assign(8 * specialContextFactor(set), BitModel{});
-}
-
-inline bool McModels::copyFrom(const McModels& other) {
-  if (!run.resize(other.run.size()) || !special.resize(other.special.size())) return false;
-  static_cast<McSingleModels&>(*this) = other;
-  std::copy(other.run.data(), other.run.data() + run.size(), run.data());
-  std::copy(other.special.data(), other.special.data() + special.size(), special.data());
-  context_set = other.context_set;
-  return true;
-}
 
 inline constexpr bool kTellsMcEdges = !kCompact;
 
@@ -241,8 +209,7 @@ class McMachine {
     uint32_t taken = 0;           ///< number of gates
   };
 
-  /// Returns the context of a run's decisions: [position][degree][shared]. In context set 1, the
-  /// pattern selects the models first.
+  /// Returns the context of a run's decisions: [position][degree][shared].
   static MCC_INLINE uint32_t runContext(uint32_t position, const McNode& node) {
     return (std::min(position, 4u) - 1) * 32 + std::min<uint32_t>(node.degree, 15) * 2 +
            node.shared;
@@ -318,7 +285,6 @@ class McMachine {
   uint32_t age_ = 0;        ///< operations since the last END
   uint32_t last_class_ = kClassEnd;
   uint32_t class_before_ = kClassEnd;
-  uint32_t pattern_ = 0;  ///< the last four operations; context set 1 only
 };
 
 template <class Io>
@@ -358,7 +324,6 @@ Status McMachine<Io>::run(const McWatch* watch) {
 template <class Io>
 MCC_INLINE uint32_t McMachine<Io>::specialContext() const {
   const uint32_t degree = std::min<uint32_t>(nodes_[top_].degree, 7);
-  if (models_.context_set == 1) return degree * kPatterns + pattern_;
   return (degree * kClassCount + last_class_) * kClassCount + class_before_;
 }
 
@@ -366,9 +331,6 @@ template <class Io>
 MCC_INLINE void McMachine<Io>::remember(uint32_t operation_class) {
   class_before_ = last_class_;
   last_class_ = operation_class;
-  static constexpr uint8_t kPatternOfClass[kClassCount] = {0, 1, 2, 3, 3, 4, 4};
-  pattern_ =
-      pattern_ % (kPatterns / kPatternClasses) * kPatternClasses + kPatternOfClass[operation_class];
 }
 
 template <class Io>
@@ -555,8 +517,7 @@ template <class Io>
 MCC_CALLED_IF_SMALL Status McMachine<Io>::codeRun(CodesBurst& codes, const McOperation* op,
                                                   uint32_t vertex) {
   const McNode* const nodes = nodes_.data();
-  BitModel* const models =
-      models_.run.data() + (models_.context_set == 1 ? size_t{pattern_} * kRunContexts : 0);
+  BitModel* const models = models_.run;
   const uint32_t top = top_;
   const uint32_t first_closed = nodes[top].next;
   uint32_t before = top;

@@ -141,7 +141,6 @@ struct PayloadHeader {
   AttributeInfos attributesOf(const PieceHeader& piece) const {
     return {attributes.data() + piece.first_attribute, piece.attribute_count};
   }
-  uint32_t contextSet() const { return flags >> payload_flag::kContextSetShift & 1; }
 };
 
 /// Counts the elements of all pieces and their attributes.

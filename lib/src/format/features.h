@@ -13,7 +13,6 @@ namespace mcc {
 /// A choice of the format that the encoder can do without.
 enum class Feature : uint8_t {
   kPivots,
-  kContextSets,
   kSingleCoder,
   kPalette,
   kPlanes,
@@ -49,7 +48,6 @@ struct FeatureInfo {
 
 inline constexpr FeatureInfo kFeatures[] = {
     {Feature::kPivots, "pivots", "A.4.7", "all surfaces are cut to manifolds and stitched"},
-    {Feature::kContextSets, "context-sets", "A.4", "the first set of contexts always"},
     {Feature::kSingleCoder, "single-coder", "A.3.7", "three streams always"},
     {Feature::kPalette, "palette", "B.2", "coordinates, not ranks among the distinct ones"},
     {Feature::kPlanes, "planes", "B.2.9", "coordinates, not numbers of planes"},

@@ -25,9 +25,8 @@ namespace payload_flag {
 inline constexpr uint32_t kSingleCoder = 1u << 0;
 inline constexpr uint32_t kManyPieces = 1u << 1;
 inline constexpr uint32_t kPadded = 1u << 2;
-inline constexpr uint32_t kContextSetShift = 3;  ///< one bit
-inline constexpr uint32_t kBlocks = 1u << 4;
-inline constexpr uint32_t kAll = 0x1f;
+inline constexpr uint32_t kBlocks = 1u << 3;
+inline constexpr uint32_t kAll = 0x0f;
 }  // namespace payload_flag
 
 namespace piece_flag {
@@ -77,7 +76,7 @@ struct SurfaceInfo {
 
 /// The codings of surfaces, in the order of SurfaceCoding.
 inline constexpr SurfaceInfo kSurfaces[] = {
-    {SurfaceCoding::kManifold, "MANIFOLD", "A.4", true},
+    {SurfaceCoding::kManifold, "MANIFOLD", "A.4 A.4.2 A.4.5", true},
     {SurfaceCoding::kBoundaryCopies, "COPIES", "A.5 A.5.1 A.5.2 A.5.3 A.3.5", true},
     {SurfaceCoding::kCopies, "INTERIOR_COPIES", "A.5 A.5.1 A.5.2 A.5.3", true},
     {SurfaceCoding::kPivots, "PIVOTS", "A.4.7", decodes::kPivots},

@@ -243,12 +243,10 @@ class Placed {
 
 /// Decodes a block with models that are made in `models`. They begin as `primed`, or as those of
 /// every payload if that is null.
-inline Status runBlock(DecodedBlock& block, const PayloadHeader& header,
-                       const PayloadModels* primed, Placed<PayloadModels>& models,
-                       Progress& progress) {
-  if (models.make(block.allocator()) == nullptr ||
-      !(primed != nullptr ? models.get()->copyFrom(*primed, block.allocator())
-                          : models.get()->mc.init(header.contextSet())))
+inline Status runBlock(DecodedBlock& block, const PayloadModels* primed,
+                       Placed<PayloadModels>& models, Progress& progress) {
+  if (models.make() == nullptr ||
+      (primed != nullptr && !models.get()->copyFrom(*primed, block.allocator())))
     return fail(Error::kOutOfMemory, "no memory for the models");
   return block.decode(*models.get(), progress);
 }
@@ -274,8 +272,8 @@ class BlocksDecoder {
 
   Status run() {
     const size_t count = header_.blocks.size();
-    if (primed_.make(options_.allocator) == nullptr || !listFirstTriangles() ||
-        !decoded_.assign(count, nullptr) || !statuses_.assign(count, Status{}))
+    if (primed_.make() == nullptr || !listFirstTriangles() || !decoded_.assign(count, nullptr) ||
+        !statuses_.assign(count, Status{}))
       return noMemory();
     decode(0);
     const bool is_watched = options_.histogram != nullptr || options_.mc_edge != nullptr ||
@@ -335,7 +333,7 @@ class BlocksDecoder {
   Status decodeStages(DecodedBlock& block) {
     const bool is_first = block.index() == 0;
     Placed<PayloadModels> models(options_.allocator);
-    MCC_TRY(runBlock(block, header_, is_first ? nullptr : primed_.get(), models, progress_));
+    MCC_TRY(runBlock(block, is_first ? nullptr : primed_.get(), models, progress_));
     if (!is_first || primed_.get()->copyFrom(*models.get(), options_.allocator)) return {};
     return noMemory();
   }

@@ -37,8 +37,6 @@ namespace mcc {
 
 /// Adaptive models of a payload; all its pieces share them.
 struct PayloadModels {
-  explicit PayloadModels(const Allocator& allocator) : mc(allocator) {}
-
   McModels mc;
   Lazy<PivotModels> pivots;
   Lazy<StitchModels> stitch;
@@ -53,13 +51,13 @@ struct PayloadModels {
   /// Becomes what `o` is, in memory of `a`. Blocks have no pivots and keep no orders. Returns false
   /// when memory ran out.  [A.11.2]
   [[nodiscard]] bool copyFrom(const PayloadModels& o, const Allocator& a) {
+    mc = o.mc;
     positions = o.positions;
     isolated = o.isolated;
     position_tails = o.position_tails;
     seams = o.seams;
     leftovers = o.leftovers;
-    return mc.copyFrom(o.mc) && stitch.copyFrom(o.stitch, a) &&
-           attributes.copyFrom(o.attributes, a);
+    return stitch.copyFrom(o.stitch, a) && attributes.copyFrom(o.attributes, a);
   }
 };
 

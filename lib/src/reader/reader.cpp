@@ -104,8 +104,7 @@ template <class Io>
 Status decodePieces(Io& io, const PayloadHeader& header, const PayloadInfo& info,
                     std::span<const PieceTarget> targets, const DecodeOptions& options) {
   Placed<PayloadModels> models(options.allocator);
-  if (models.make(options.allocator) == nullptr || !models.get()->mc.init(header.contextSet()))
-    return fail(Error::kOutOfMemory, "no memory for the models");
+  if (models.make() == nullptr) return fail(Error::kOutOfMemory, "no memory for the models");
   Progress progress(options, header);
   for (uint32_t i = 0; i < targets.size(); ++i) {
     const AttributeInfos infos = info.pieces[i].attributes;
@@ -221,7 +220,7 @@ Status Payload::State::decodeBlock(uint32_t index, const PieceTarget* target,
   Progress progress(options, header);
   DecodedBlock block(header, index, options);
   Placed<PayloadModels> models(options.allocator);
-  MCC_TRY(runBlock(block, header, from, models, progress));
+  MCC_TRY(runBlock(block, from, models, progress));
   if (left != nullptr && !left->copyFrom(*models.get(), allocator))
     return fail(Error::kOutOfMemory, "no memory for the models");
   return target == nullptr ? Status{} : block.storeAlone(*target);
@@ -261,7 +260,6 @@ Status Payload::openPrefix(std::span<const uint8_t> bytes, uint64_t payload_byte
   state.info.version_major = kVersionMajor;
   state.info.version_minor = header.version_minor;
   state.info.single_coder = header.singleCoder();
-  state.info.context_set = header.contextSet();
   state.info.pieces = {state.pieces.data(), state.pieces.size()};
   state.info.codes_bytes = header.streams.codes.size();
   state.info.tokens_bytes = header.streams.tokens.size();
@@ -305,7 +303,7 @@ uint32_t Payload::loadedBlockCount() const {
 Status Payload::prime(const PieceTarget* target, const DecodeOptions& options) {
   if (!decodes::kBlocks || state_ == nullptr || !state_->header.hasBlocks())
     return fail(Error::kBadArgument, "no payload with blocks is open");
-  if (state_->primed.get() == nullptr && state_->primed.make(state_->allocator) == nullptr)
+  if (state_->primed.get() == nullptr && state_->primed.make() == nullptr)
     return fail(Error::kOutOfMemory, "no memory for the models");
   return state_->decodeBlock(0, target, nullptr, state_->primed.get(), options);
 }

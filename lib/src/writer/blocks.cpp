@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 
 #include "container/enc_payload.h"
@@ -329,11 +330,11 @@ class BlocksEncoder {
         taken_[early] = take(early);
       return {};
     }));
-    auto primed = makeModels(context_set_);
+    auto primed = std::make_unique<PayloadModels>();
     MCC_TRY(codeBlock(takeChosen(0), *primed, coded_[0]));
     return jobs_.tryAll(blockCount() - 1, [&](size_t i) -> Status {
       const uint32_t index = static_cast<uint32_t>(i) + 1;
-      PayloadModels models{Allocator{}};
+      PayloadModels models;
       if (!models.copyFrom(*primed, {})) throwBadAlloc();
       return codeBlock(takeChosen(index), models, coded_[index]);
     });
@@ -344,7 +345,7 @@ class BlocksEncoder {
   void write(bool was_asked, EncodeResult& result) {
     EncodeResult written;
     PayloadHeader header{Allocator{}};
-    header.flags = context_set_ << payload_flag::kContextSetShift | payload_flag::kBlocks;
+    header.flags = payload_flag::kBlocks;
     for (const AttributeInfo& info : chosen_.attributes) {
       if (!header.attributes.push_back(info)) throwBadAlloc();
     }
@@ -399,8 +400,8 @@ class BlocksEncoder {
     // A block may have too few vertices to see planes in them.
     findPlanesOf(plans[0], whole_.attributes[0].values);
     Variation variation(options_.variation);
-    MCC_TRY(variation.active() ? varyAll(plans, options_, variation, context_set_)
-                               : chooseAll(plans, options_, jobs_, context_set_));
+    MCC_TRY(variation.active() ? varyAll(plans, options_, variation)
+                               : chooseAll(plans, options_, jobs_));
     chosen_ = choicesOf(plans[0]);
     std::swap(plans[0], taken_[sample()]->plan);
     return {};
@@ -473,8 +474,7 @@ class BlocksEncoder {
   const EncodeSettings& options_;
   const Jobs& jobs_;
   BlockCut cut_;
-  std::vector<Leftovers> leftovers_;  ///< by block
-  uint32_t context_set_ = kNone;
+  std::vector<Leftovers> leftovers_;              ///< by block
   std::vector<std::optional<LocalBlock>> taken_;  ///< before they are coded
   Choices chosen_;
   std::vector<CodedBlock> coded_;

@@ -4,6 +4,7 @@
 #include "writer/choices.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "exact/enc_grid.h"
 #include "positions/enc_prices.h"
@@ -20,8 +21,6 @@ constexpr uint32_t kTrialWedges = 4000;
 constexpr uint32_t kTrialShare = 6;
 /// Per vertex, assumed when surfaces and the methods of attributes are compared.
 constexpr double kExpectedPositionBits = 15;
-/// Context set 1 has so many contexts that it never pays with fewer operations.
-constexpr uint64_t kOperationsForContexts = 1000;
 
 /// Returns how many vertices the surface would have if it were listed vertex by vertex.
 uint32_t pivotCount(const Plan& plan) {
@@ -32,53 +31,9 @@ uint32_t pivotCount(const Plan& plan) {
 
 Status surfaceCost(Plan& plan, uint64_t& cost) {
   CostIo io;
-  auto models = makeModels(0);
+  auto models = std::make_unique<PayloadModels>();
   StageRunner<CostIo> runner(io, *models, plan);
   MCC_TRY(runner.codeSurface(nullptr));
-  cost = io.cost();
-  return {};
-}
-
-struct Connectivity {
-  const McRecord* record;
-  McCounts counts;
-};
-
-std::vector<Connectivity> connectivityOf(const std::vector<Plan>& plans) {
-  std::vector<Connectivity> pieces;
-  for (const Plan& plan : plans) {
-    const PieceHeader& h = plan.header;
-    if (h.hasPivots()) continue;
-    pieces.push_back({&plan.record,
-                      {h.operation_count, h.vertex_count, h.dummy_count, h.face_count,
-                       h.has(piece_flag::kHandles)}});
-  }
-  return pieces;
-}
-
-uint64_t operationCount(const std::vector<Connectivity>& pieces) {
-  uint64_t count = 0;
-  for (const Connectivity& piece : pieces) count += piece.counts.operation_count;
-  return count;
-}
-
-/// Counts what the connectivity of all pieces costs with a context set.
-Status contextSetCost(const std::vector<Connectivity>& pieces, uint32_t set, uint64_t& cost) {
-  CostIo io;
-  auto models = makeModels(set);
-  FaceMesh mesh{Allocator{}};
-  std::vector<uint32_t> node_map;
-  std::vector<uint32_t> source_of_vertex;
-  std::vector<uint32_t> source_gate;
-  for (const Connectivity& piece : pieces) {
-    if (!mesh.words.resize(size_t{piece.counts.face_count} * kFaceWords)) throwBadAlloc();
-    node_map.resize(piece.record->node_count);
-    source_of_vertex.resize(piece.counts.vertex_count);
-    source_gate.resize(piece.counts.face_count);
-    const McTruth truth =
-        connectivityTruth(*piece.record, {node_map, source_of_vertex, source_gate});
-    MCC_TRY(McMachine<CostIo>(io, models->mc, piece.counts, mesh, truth).run());
-  }
   cost = io.cost();
   return {};
 }
@@ -194,36 +149,6 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& 
   return {};
 }
 
-/// These choices do not depend on the context set. `connectivity_cost` receives the cost with set
-/// 0.
-Status choosePredictors(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs,
-                        uint64_t& connectivity_cost) {
-  auto models = makeModels(0);
-  CostIo io;
-  Runners runners;
-  for (Plan& plan : plans) {
-    runners.push_back(std::make_unique<StageRunner<CostIo>>(io, *models, plan));
-    MCC_TRY(runners.back()->codeSurface(nullptr));
-    if (!plan.header.hasPivots()) connectivity_cost += runners.back()->connectivityCost();
-  }
-  const double surface_bits = static_cast<double>(io.cost()) / kCostOne;
-  if (plans[0].attributes.empty()) return {};
-  std::vector<RecordedPositions> recorded(plans.size());
-  MCC_TRY(jobs.tryAll(plans.size(),
-                      [&](size_t i) { return runners[i]->recordPositions(recorded[i]); }));
-  PositionParameters chosen;
-  MCC_TRY(jobs.tryAll(2, [&](size_t i) -> Status {
-    if (i == 1) return chooseMethods(plans, runners, *models, io, options);
-    chosen = choosePositions(std::move(recorded), surface_bits, options, jobs);
-    return {};
-  }));
-  for (Plan& plan : plans) {
-    plan.positions_as = chosen;
-    plan.attributes[0].info.predictor = chosen.modes;
-  }
-  return {};
-}
-
 /// Chooses at random, instead of chooseAttributeMethod().
 void varyAttributeMethod(Plan& plan, uint32_t index, Variation& variation) {
   std::vector<AttributeInfo> infos;
@@ -263,28 +188,34 @@ Status chooseSurface(Plan& plan, uint32_t start_half_edge, const FeatureSet& wit
   return {};
 }
 
-Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs,
-                 uint32_t& context_set) {
-  static_assert(kContextSetCount == 2);
-  const std::vector<Connectivity> connectivity = connectivityOf(plans);
-  const uint32_t given = options.without.has(Feature::kContextSets) ? 0 : options.context_set;
-  const bool is_given = given < kContextSetCount;
-  const bool tries_other = !is_given && operationCount(connectivity) >= kOperationsForContexts;
-  uint64_t cost = 0;
-  uint64_t other_cost = ~uint64_t{0};
+Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs) {
+  auto models = std::make_unique<PayloadModels>();
+  CostIo io;
+  Runners runners;
+  for (Plan& plan : plans) {
+    runners.push_back(std::make_unique<StageRunner<CostIo>>(io, *models, plan));
+    MCC_TRY(runners.back()->codeSurface(nullptr));
+  }
+  const double surface_bits = static_cast<double>(io.cost()) / kCostOne;
+  if (plans[0].attributes.empty()) return {};
+  std::vector<RecordedPositions> recorded(plans.size());
+  MCC_TRY(jobs.tryAll(plans.size(),
+                      [&](size_t i) { return runners[i]->recordPositions(recorded[i]); }));
+  PositionParameters chosen;
   MCC_TRY(jobs.tryAll(2, [&](size_t i) -> Status {
-    if (i == 0) return choosePredictors(plans, options, jobs, cost);
-    return tries_other ? contextSetCost(connectivity, 1, other_cost) : Status{};
+    if (i == 1) return chooseMethods(plans, runners, *models, io, options);
+    chosen = choosePositions(std::move(recorded), surface_bits, options, jobs);
+    return {};
   }));
-  context_set = is_given ? given : other_cost < cost ? 1 : 0;
+  for (Plan& plan : plans) {
+    plan.positions_as = chosen;
+    plan.attributes[0].info.predictor = chosen.modes;
+  }
   return {};
 }
 
-Status varyAll(std::vector<Plan>& plans, const EncodeSettings& options, Variation& variation,
-               uint32_t& context_set) {
-  context_set = options.context_set;
-  if (context_set >= kContextSetCount) context_set = variation.below(kContextSetCount);
-  auto models = makeModels(context_set);
+Status varyAll(std::vector<Plan>& plans, const EncodeSettings& options, Variation& variation) {
+  auto models = std::make_unique<PayloadModels>();
   CostIo io;
   Runners runners;
   for (Plan& plan : plans) {

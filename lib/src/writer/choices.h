@@ -17,13 +17,11 @@ namespace mcc {
 Status chooseSurface(Plan& plan, uint32_t start_half_edge, const FeatureSet& without,
                      Variation* variation, const TimePrice& price, const Jobs& jobs);
 
-/// Chooses the context set, predictors and methods, after the surface of every piece is settled.
-Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs,
-                 uint32_t& context_set);
+/// Chooses predictors and methods, after the surface of every piece is settled.
+Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs);
 
 /// Chooses at random instead of chooseAll(), for tests.
-Status varyAll(std::vector<Plan>& plans, const EncodeSettings& options, Variation& variation,
-               uint32_t& context_set);
+Status varyAll(std::vector<Plan>& plans, const EncodeSettings& options, Variation& variation);
 
 }  // namespace mcc
 

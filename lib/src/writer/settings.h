@@ -22,8 +22,6 @@ struct EncodeSettings : EncodeOptions {
   /// The half-edge (3 * triangle + corner) at which the first component's collapse starts; kNone:
   /// the encoder chooses.
   uint32_t start_half_edge = kNone;
-  /// One of the connectivity context sets; kNone: the encoder chooses.
-  uint32_t context_set = kNone;
   /// When not 0, every choice is made at random among those the format allows, with this seed,
   /// instead of for the smallest result.
   uint64_t variation = 0;

@@ -6,7 +6,6 @@
 #define MCC_WRITER_STAGES_H_
 
 #include <algorithm>
-#include <memory>
 #include <vector>
 
 #include "base/enc_exceptions.h"
@@ -41,9 +40,7 @@ class StageRunner {
     truth_.connectivity = connectivityTruth(
         plan_.record, {plan_.node_map, plan_.source_of_vertex, plan_.source_gate});
     truth_.pivot_faces = plan_.pivots.faces.data();
-    const uint64_t spent = io_.cost();
     MCC_TRY(piece_.codeConnectivity(truth_));
-    connectivity_cost_ = io_.cost() - spent;
     account(sizes, &StreamSizes::connectivity_bits);
     learnVertices(plan_);
     truth_.class_of_vertex = plan_.class_of_vertex.data();
@@ -56,8 +53,6 @@ class StageRunner {
     truth_.exact_positions = plan_.exact_positions.data();
     return {};
   }
-
-  uint64_t connectivityCost() const { return connectivity_cost_; }
 
   /// Walks the surface once for the trials; codeSurface() must have run. Leaves what the stages
   /// after codePositions() need of it.
@@ -255,14 +250,7 @@ class StageRunner {
   Array<int32_t> values_;
   uint32_t learned_ = kNone;  ///< attribute whose values values_ holds
   uint64_t cost_before_ = io_.cost();
-  uint64_t connectivity_cost_ = 0;
 };
-
-inline std::unique_ptr<PayloadModels> makeModels(uint32_t context_set) {
-  auto models = std::make_unique<PayloadModels>(Allocator{});
-  if (!models->mc.init(context_set)) throwBadAlloc();
-  return models;
-}
 
 }  // namespace mcc
 

@@ -5,6 +5,7 @@
 #include "mcc/writer.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "base/enc_exceptions.h"
 #include "container/enc_payload.h"
@@ -30,16 +31,15 @@ Status codeAll(std::vector<Plan>& plans, EncoderIo& io, PayloadModels& models,
 }
 
 /// Codes the pieces as their plans say. A payload of few vertices is coded in both ways at once.
-Status codePayload(std::vector<Plan>& plans, uint32_t context_set, const EncodeSettings& options,
-                   Variation& variation, EncodeResult& result) {
+Status codePayload(std::vector<Plan>& plans, const EncodeSettings& options, Variation& variation,
+                   EncodeResult& result) {
   uint64_t vertices = 0;
   for (const Plan& plan : plans) vertices += plan.header.vertex_count;
   const bool tries_single =
       vertices <= kSingleCoderVertices && !options.without.has(Feature::kSingleCoder);
   EncoderIo io(true, tries_single);
-  auto models = makeModels(context_set);
+  auto models = std::make_unique<PayloadModels>();
   PayloadHeader header{Allocator{}};
-  header.flags = context_set << payload_flag::kContextSetShift;
   MCC_TRY(codeAll(plans, io, *models, header, result));
   EncoderIo::Streams streams = io.finish();
   result.payload = writePayload(header, {streams.codes, streams.tokens, streams.raw});
@@ -83,11 +83,10 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeSettings& opt
     result.notes.insert(result.notes.end(), of_piece.begin(), of_piece.end());
   }
   if (!result.payload.empty()) return {};
-  uint32_t context_set = kNone;
   Variation variation(options.variation);
-  MCC_TRY(variation.active() ? varyAll(plans, options, variation, context_set)
-                             : chooseAll(plans, options, jobs, context_set));
-  return codePayload(plans, context_set, options, variation, result);
+  MCC_TRY(variation.active() ? varyAll(plans, options, variation)
+                             : chooseAll(plans, options, jobs));
+  return codePayload(plans, options, variation, result);
 }
 
 }  // namespace

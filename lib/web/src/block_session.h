@@ -120,10 +120,9 @@ class BlockSession {
     const bool is_first = block.index() == 0;
     Progress progress(options_, header_);
     models_.emplace(options_.allocator);
-    MCC_TRY(runBlock(block, header_, is_first ? nullptr : primed_.get(), *models_, progress));
+    MCC_TRY(runBlock(block, is_first ? nullptr : primed_.get(), *models_, progress));
     if (!is_first || primed_.get() != nullptr) return {};
-    if (primed_.make(options_.allocator) == nullptr ||
-        !primed_.get()->copyFrom(*models_->get(), options_.allocator))
+    if (primed_.make() == nullptr || !primed_.get()->copyFrom(*models_->get(), options_.allocator))
       return noMemory();
     return {};
   }

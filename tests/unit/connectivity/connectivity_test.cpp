@@ -51,10 +51,10 @@ void expectSame(const Surface& surface, const FaceMesh& decoded) {
 }
 
 template <bool kSingle>
-Coded expectConnectivity(Surface& surface, uint32_t context_set) {
+Coded expectConnectivity(Surface& surface) {
   Coded coded;
   EncoderIo encoder(kSingle);
-  Stages<EncoderIo> writer(encoder, surface.header(), {positionInfo(14)}, context_set);
+  Stages<EncoderIo> writer(encoder, surface.header(), {positionInfo(14)});
   PieceTruth truth;
   truth.connectivity = surface.truth();
   EXPECT_TRUE(writer.piece.codeConnectivity(truth).ok());
@@ -64,7 +64,7 @@ Coded expectConnectivity(Surface& surface, uint32_t context_set) {
   coded.codes = streams.codes;
 
   DecoderIo<kSingle> decoder(streams.codes, streams.tokens, streams.raw);
-  Stages<DecoderIo<kSingle>> reader(decoder, surface.header(), {positionInfo(14)}, context_set);
+  Stages<DecoderIo<kSingle>> reader(decoder, surface.header(), {positionInfo(14)});
   const Status status = reader.piece.codeConnectivity(PieceTruth{}, &coded.histogram);
   EXPECT_TRUE(status.ok()) << status.what;
   if (!status.ok()) return coded;
@@ -76,12 +76,8 @@ Coded expectConnectivity(Surface& surface, uint32_t context_set) {
 Coded expectConnectivity(const TestMesh& mesh) {
   SCOPED_TRACE(mesh.name);
   Surface surface(mesh);
-  Coded coded;
-  for (uint32_t set = 0; set < kContextSetCount; ++set) {
-    SCOPED_TRACE("context set " + std::to_string(set));
-    coded = expectConnectivity<false>(surface, set);
-    expectConnectivity<true>(surface, set);
-  }
+  const Coded coded = expectConnectivity<false>(surface);
+  expectConnectivity<true>(surface);
   return coded;
 }
 
@@ -113,7 +109,7 @@ TEST(Connectivity, EveryStartHalfEdge) {
       SCOPED_TRACE(mesh.name + ", start " + std::to_string(h));
       const uint32_t vertex = surface.record().components.front().vertex;
       EXPECT_EQ(vertex, surface.cut().mesh.corner_vertex[h]);
-      expectConnectivity<true>(surface, h % kContextSetCount);
+      expectConnectivity<true>(surface);
     }
   }
 }

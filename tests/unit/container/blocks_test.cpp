@@ -94,7 +94,6 @@ struct Draft {
 Draft anyDraft(uint64_t seed) {
   Random random(seed);
   Draft draft;
-  draft.flags |= random.below(2) << payload_flag::kContextSetShift;
   draft.blocks.resize(random.between(2, random.chance(20) ? 60 : 5));
   const uint32_t part_count = random.between(1, 3);
   const uint32_t limit = random.chance(50) ? 40 : 4000000;
@@ -155,7 +154,6 @@ bool sameBytes(std::span<const uint8_t> a, std::span<const uint8_t> b) {
 
 void expectRows(const PayloadHeader& parsed, const Draft& draft, uint64_t seed) {
   ASSERT_TRUE(parsed.hasBlocks());
-  EXPECT_EQ(parsed.contextSet(), draft.flags >> payload_flag::kContextSetShift & 1);
   ASSERT_EQ(parsed.blocks.size(), draft.blocks.size());
   ASSERT_EQ(parsed.pieces.size(), draft.blocks.size());
   EXPECT_EQ(parsed.attributes.size(), 2u);  // once for all

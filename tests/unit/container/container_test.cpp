@@ -130,7 +130,6 @@ Draft simpleDraft() {
 Draft anyDraft(uint64_t seed) {
   Random random(seed);
   Draft draft;
-  draft.flags = random.below(2) << payload_flag::kContextSetShift;
   if (random.chance(50)) draft.flags |= payload_flag::kSingleCoder;
   draft.pieces.resize(random.chance(50) ? 1 : random.between(2, 5));
   const uint32_t limit = random.chance(50) ? 200 : 20000000;
@@ -209,7 +208,6 @@ TEST(Container, EveryFieldComesBack) {
     const Status status = parsePayload(payload, {}, parsed);
     ASSERT_TRUE(status.ok()) << seed << ": " << status.what;
     EXPECT_EQ(parsed.version_minor, kVersionMinor);
-    EXPECT_EQ(parsed.contextSet(), draft.flags >> payload_flag::kContextSetShift);
     EXPECT_EQ(parsed.singleCoder(), (draft.flags & payload_flag::kSingleCoder) != 0);
     ASSERT_EQ(parsed.pieces.size(), draft.pieces.size());
     for (size_t p = 0; p < draft.pieces.size(); ++p) {

@@ -402,22 +402,13 @@ TEST(Writer, SizesAddUp) {
   EXPECT_GE(s.header_bits, 0);
 }
 
-TEST(Writer, EveryPreferenceAndContextSetDecodes) {
+TEST(Writer, EveryPreferenceDecodes) {
   const TestMesh mesh = withNormals(chartGrid(9, 9, 4));
   const MeshPiece piece(mesh);
   for (const Preference prefer : {Preference::kBalanced, Preference::kSize, Preference::kSpeed}) {
     EncodeOptions options;
     options.prefer = prefer;
     EXPECT_EQ(roundTrip(piece.view(), options).failure, "");
-  }
-  for (uint32_t set = 0; set < 2; ++set) {
-    EncodeSettings options;
-    options.context_set = set;
-    const RoundTrip result = roundTrip(piece.view(), options);
-    EXPECT_EQ(result.failure, "");
-    Payload payload;
-    ASSERT_TRUE(payload.open(result.encoded.payload).ok());
-    EXPECT_EQ(payload.info().context_set, set);
   }
 }
 

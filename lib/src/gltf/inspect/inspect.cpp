@@ -133,7 +133,6 @@ Result inspectView(const Document& document, uint32_t view,
   report.tokens_bytes = info.tokens_bytes;
   report.raw_bits_bytes = info.raw_bits_bytes;
   report.single_coder = info.single_coder;
-  report.context_set = info.context_set;
   for (const PieceInfo& piece : info.pieces) {
     InspectPiece row;
     row.wedge_count = piece.wedge_count;
