@@ -214,7 +214,7 @@ Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const 
   return {};
 }
 
-Status varyAll(std::vector<Plan>& plans, const EncodeSettings& options, Variation& variation) {
+Status varyAll(std::vector<Plan>& plans, Variation& variation) {
   auto models = std::make_unique<PayloadModels>();
   CostIo io;
   Runners runners;
