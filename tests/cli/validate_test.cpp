@@ -41,7 +41,7 @@ TEST(ValidateCommand, GoldenJson) {
     "messages": [
       {
         "code": "COUNT_MISMATCH",
-        "message": "23 does not match the payload, which has 24 vertices",
+        "message": "47 does not match the payload, which has 48 vertices",
         "severity": 0,
         "pointer": "/accessors/0/count"
       }
@@ -60,8 +60,8 @@ TEST(ValidateCommand, GoldenJson) {
     "primitiveCount": 1,
     "compressedPrimitiveCount": 1,
     "payloadCount": 1,
-    "payloadVertexCount": 24,
-    "payloadTriangleCount": 4
+    "payloadVertexCount": 48,
+    "payloadTriangleCount": 70
   }
 }
 )json";
