@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// The attributes of a piece: A.8 of the specification.
+// The attributes of a piece: A.10 of the specification.
 
 import { elementsOf } from './components.mjs';
 import { models } from './entropy.mjs';
@@ -56,7 +56,7 @@ class Context {
 		return Array.from({ length: this.wedges.count }, (_, w) => make(w));
 	}
 
-	// [B.6.5] The chart coordinates of the wedges, or undefined
+	// [A.10.12] The chart coordinates of the wedges, or undefined
 	chart() {
 		const { chart } = this.attributes;
 		return chart && chartCoordinates(this.stateOf(chart));
@@ -74,7 +74,7 @@ class Context {
 		return this.perWedge((w) => unitVector(C, state.value(w)));
 	}
 
-	// [A.8.7] The normals that tangent points are perpendicular to, or undefined
+	// [A.10.13] The normals that tangent points are perpendicular to, or undefined
 	unitNormals() {
 		const state = this.exactNormalState();
 		if (state === undefined) return this.octahedralNormals();
@@ -82,7 +82,7 @@ class Context {
 	}
 }
 
-// [A.8.1] Order of the attributes
+// [A.10.1] Order of the attributes
 function phaseOf(attribute) {
 	return attribute.semantic === TANGENT && attribute.target === 0 ? 1 : 0;
 }
@@ -97,7 +97,7 @@ const DECODERS = {
 	values: decodeValues,
 };
 
-// [A.8.1] An attribute is read in three steps.
+// [A.10.1] An attribute is read in three steps.
 function decodeAttribute(context, attribute) {
 	if (attribute.method === 'alias' || attribute.method === 'skin weights') return;
 	const bundleOf = readBundles(context.streams, context.models.equalities, context.wedges, attribute);
@@ -112,7 +112,7 @@ function decodeAttribute(context, attribute) {
 	readBelowGrid(context, state);
 }
 
-// [A.8.12] A wedge that is not the first of its bundle gets the floats of the first.
+// [A.10.5] A wedge that is not the first of its bundle gets the floats of the first.
 function readBelowGrid({ streams, models: { tails } }, state) {
 	const { attribute, wedges, bundleOf } = state;
 	if (attribute.coding !== GRID) return;

@@ -59,7 +59,7 @@ export class ByteReader {
 
 	varint() {
 		let value = 0;
-		for (let i = 0; i <= 4; ++i) {
+		for (let i = 0; ; ++i) {
 			const byte = this.u8();
 			if (i === 4 && byte > 15) fail('BadHeader', 'A.1.1', 'a varint exceeds 32 bits');
 			value += (byte % 128) * 2 ** (7 * i);
@@ -68,7 +68,6 @@ export class ByteReader {
 				return value;
 			}
 		}
-		return value; // never reached: the fifth byte is below 128
 	}
 
 	zigzag() {

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// From integers to components: A.8.11 of the specification.
+// From integers to components: A.10.18 of the specification.
 
 import { bitsOfFloat } from './bytes.mjs';
 import { latticeFloat } from './faces.mjs';

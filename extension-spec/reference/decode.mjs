@@ -101,7 +101,7 @@ function indexView(accessor, triangles) {
 	return { bytes, target: ELEMENT_ARRAY_BUFFER };
 }
 
-// [A.10.4] Elements begin at multiples of four bytes, and so do the columns of matrices.
+// [A.9.4] Elements begin at multiples of four bytes, and so do the columns of matrices.
 function elementView(accessor, elements) {
 	const { size, offsets, elementBytes } = layout(accessor);
 	const byteStride = Math.ceil(elementBytes / 4) * 4;

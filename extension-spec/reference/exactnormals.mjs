@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Exact normals: A.8.9 of the specification.
+// Exact normals: A.10.16 of the specification.
 
 import { bounded, makeUnit, meanError, noError, vectorOf, VectorReader, vectorRows } from './exactvectors.mjs';
 import { orderedOfBits } from './floats.mjs';

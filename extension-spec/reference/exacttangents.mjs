@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Exact tangents: A.8.10 of the specification. What they are predicted from: B.6.7.
+// Exact tangents: A.10.17 of the specification. What they are predicted from: A.10.17.
 
 import { models } from './entropy.mjs';
 import { flatten, makeUnit, meanError, noError, vectorOf, VectorReader, vectorRows } from './exactvectors.mjs';
@@ -18,7 +18,7 @@ export class ExactTangentModels {
 	}
 }
 
-// ---- [B.6.7] Exact sums of face tangents
+// ---- [A.10.17] Exact sums of face tangents
 
 function exactFaceTangentSums(wedges, chart) {
 	const { surface, exactPositions } = wedges;
@@ -44,7 +44,7 @@ function exactFaceTangent([p0, p1, p2], [c0, c1, c2]) {
 	return { t, side };
 }
 
-// ---- [A.8.10] Exact tangents
+// ---- [A.10.17] Exact tangents
 
 class ExactTangents {
 	constructor(context, state) {

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Vectors of binary64 and exact vectors: B.7.1 and B.7.2 of the specification.
+// Vectors of binary64 and exact vectors: A.10.9 and A.10.15 of the specification.
 
 import { models } from './entropy.mjs';
 import { finite, ordered, ulp } from './floats.mjs';
@@ -12,7 +12,7 @@ const xyz = [0, 1, 2];
 // ROW, by what the vectors are: normals or tangents
 export const vectorRows = () => models([3], scaledRows);
 
-// ---- [B.7.1] Vectors: makeUnit changes v and says whether it could; flatten returns the part of v beside N.
+// ---- [A.10.9] Vectors: makeUnit changes v and says whether it could; flatten returns the part of v beside N.
 
 export function makeUnit(v) {
 	const q = dot64(v, v);
@@ -32,7 +32,7 @@ export const bounded = (x) => (Math.abs(x) < 4 ? x : 0);
 
 export const meanError = (a, b) => ({ size: f(f(a.size + b.size) / 2), places: f(f(a.places + b.places) / 2) });
 
-// The value of a component and what its residual amounts to: [B.7.2]
+// The value of a component and what its residual amounts to: [A.10.15]
 export function readComponent(streams, state, rowsByBucket, predicted, expected) {
 	const from = ordered(f(predicted));
 	const size = ulp(from);
@@ -45,7 +45,7 @@ export function readComponent(streams, state, rowsByBucket, predicted, expected)
 
 export const noError = () => ({ size: 0, places: 0 });
 
-// ---- [B.7.2] Exact vectors
+// ---- [A.10.15] Exact vectors
 
 export class VectorReader {
 	constructor(streams, ROW) {

@@ -1,18 +1,18 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Positions as predictions see them, and what is made of faces: B.4.2, B.4.3, B.4.6 and B.4.7 of the specification.
+// Positions as predictions see them, and what is made of faces: A.10.7, A.10.7, A.6.13 and A.10.16 of the specification.
 
 import { width } from './bytes.mjs';
 import { finite } from './floats.mjs';
 import { INTEGER, LATTICE } from './names.mjs';
 import { add32, add64, cross32, cross64, dot32, dot64, f, max, min, scale32, scale64, sqrt32, sub32, sub64 } from './vectors.mjs';
 
-// The weight of faces: bits 0..1 of the predictor byte of normals (A.8.5, A.8.9)
+// The weight of faces: bits 0..1 of the predictor byte of normals (A.10.8, A.10.16)
 const AREA = 0, ANGLE = 1; // 2 is sine
 
 const vectorsOf = (list) => Array.from({ length: list.length / 3 }, (_, i) => [list[3 * i], list[3 * i + 1], list[3 * i + 2]]);
 
-// ---- [B.4.6] Positions as predictions see them
+// ---- [A.6.13] Positions as predictions see them
 
 // Of all records, whose integers are q.
 export function predictionPositions(attribute, q) {
@@ -55,10 +55,10 @@ function exactCoordinate(attribute, q, s) {
 	return attribute.coding === INTEGER ? f(q) : finite(q);
 }
 
-// [A.8.11] The float of a lattice
+// [A.10.18] The float of a lattice
 export const latticeFloat = (attribute, q, c) => f(f(f(q) * attribute.step) + attribute.origin[c]);
 
-// ---- [B.4.3] Angles at corners
+// ---- [A.10.7] Angles at corners
 
 function cornerAngle(y, x) {
 	const ax = Math.abs(x);
@@ -82,7 +82,7 @@ function exactAngle(c, d) {
 	return d < 0 ? 3.141592653589793 - acute : acute;
 }
 
-// The angles at the three corners of a face, and 1 / length of its normal. [B.4.2]
+// The angles at the three corners of a face, and 1 / length of its normal. [A.10.7]
 export function faceAngles(e0, e1, normal) {
 	const length = sqrt32(dot32(normal, normal));
 	const d = dot32(e0, e1);
@@ -91,7 +91,7 @@ export function faceAngles(e0, e1, normal) {
 	return { length, angles: [a0, a1, f(f(f(3.14159274) - a0) - a1)] };
 }
 
-// ---- [B.4.2] Sums of face normals
+// ---- [A.10.7] Sums of face normals
 
 // positions: of the wedges. The sums of all wedges.
 export function faceNormalSums(surface, wedgeCount, positions, weight) {
@@ -121,7 +121,7 @@ function faceWeights(weight, e0, e1, normal) {
 	return [[q0, q1], [q0, q2], [q1, q2]].map(([a, b]) => (nn > 0 ? f(1 / f(a * b)) : 0));
 }
 
-// ---- [B.4.7] Exact sums of face normals
+// ---- [A.10.16] Exact sums of face normals
 
 export function exactFaceNormalSums(surface, wedgeCount, positions, weight) {
 	const sums = Array.from({ length: wedgeCount }, () => [0, 0, 0]);

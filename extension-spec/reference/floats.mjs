@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Ordered floats: B.7.1 of the specification. Floats are kept as integers, so that the bits of a NaN survive.
+// Ordered floats: A.10.9 of the specification. Floats are kept as integers, so that the bits of a NaN survive.
 
 import { bitsOfFloat, floatOfBits } from './bytes.mjs';
 

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Exact grids and what is below them: A.8.12 of the specification.
+// Exact grids and what is below them: A.10.5 of the specification.
 
 import { width } from './bytes.mjs';
 import { models } from './entropy.mjs';

@@ -45,11 +45,11 @@ export function readHeader(bytes) {
 function readMagicVersionChecksum(reader) {
 	const { bytes } = reader;
 	const start = String.fromCharCode(...bytes.subarray(0, 3));
-	if (start === 'MCC') fail('UnsupportedVersion', 'A.2.1', 'the withdrawn version 1.0');
+	if (start === 'MCC') fail('UnsupportedVersion', 'A.2.1', 'a withdrawn draft');
 	if (start[0] !== 'K') fail('BadMagic', 'A.2.1', 'no "K"');
 	reader.take(1);
 	const version = reader.u8();
-	if (version !== 0x09) fail('UnsupportedVersion', 'A.2.1', `version ${version >> 4}.${version & 15}`);
+	if (version >> 4 !== 1) fail('UnsupportedVersion', 'A.2.1', `version ${version >> 4}.${version & 15}`);
 	const checksum = reader.u32();
 	const end = checksummedBytes(bytes);
 	if (crc32(bytes.subarray(0, 2), bytes.subarray(6, end)) !== checksum) fail('BadChecksum', 'A.2.1', 'the checksum does not match');
@@ -324,7 +324,7 @@ function readGrid(reader, attribute) {
 
 // ---- [A.2.4] Relations between the attributes of a piece
 
-// Sets octahedralNormal, exactNormal and chart (A.8.1) of the list; partner of attributes.
+// Sets octahedralNormal, exactNormal and chart (A.10.1) of the list; partner of attributes.
 function findRelations(attributes) {
 	const base = (a) => a.target === 0;
 	attributes.octahedralNormal = attributes.find((a) => base(a) && a.coding === OCTAHEDRAL && a.semantic !== TANGENT);

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Isolated wedges: A.6.4 of the specification.
+// Isolated wedges: A.6.9 of the specification.
 
 import { models, uniform } from './entropy.mjs';
 

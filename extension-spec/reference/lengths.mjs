@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Residuals of attributes: A.8.2 of the specification. Each has a value and a length in context.
+// Residuals of attributes: A.10.2 of the specification. Each has a value and a length in context.
 
 import { ATTRIBUTES } from './entropy.mjs';
 

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Memory of values: B.7.3 of the specification.
+// Memory of values: A.10.10 of the specification.
 
 import { width } from './bytes.mjs';
 import { models } from './entropy.mjs';

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Normals on the octahedral grid: A.8.5 of the specification.
+// Normals on the octahedral grid: A.10.8 of the specification.
 
 import { rows } from './entropy.mjs';
 import { faceNormalSums } from './faces.mjs';
@@ -54,7 +54,7 @@ class Normals {
 		let used = direction;
 		let context = NO_NEIGHBOUR;
 		if (bundle.hasEntry) {
-			context = state.meanLength(bundle, 11);
+			context = state.meanLength(bundle);
 			if (this.blend) used = add32(direction, scale32(add32(S[bundle.n], S[bundle.p]), 0.25));
 		}
 		const frame = length1(used) > f(1e-30) ? Frame.ofDirection(C, used) : Frame.around(C, this.last);

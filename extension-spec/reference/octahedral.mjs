@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// The octahedral grid and frames of predictions: B.4.1, B.4.4 and B.4.5 of the specification; points of A.8.5.
+// The octahedral grid and frames of predictions: A.10.6, A.10.6 and A.10.6 of the specification; points of A.10.8.
 
 import { following, readSmallSigned } from './lengths.mjs';
 import { copysign, f, length1, round32, scale32, sqrt32 } from './vectors.mjs';
@@ -9,7 +9,7 @@ export const NO_NEIGHBOUR = 11; // the context
 
 export const centreOf = (bits) => 2 ** (bits - 1) - 1; // C
 
-// ---- [B.4.1] Octahedral grid
+// ---- [A.10.6] Octahedral grid
 
 export function fold(x, y) {
 	const ax = Math.abs(x);
@@ -26,14 +26,14 @@ export function unitVector(C, [s, t]) {
 	return scale32([x, y, z], j);
 }
 
-// ---- [B.4.4] Projection to the grid: a point relative to the centre
+// ---- [A.10.6] Projection to the grid: a point relative to the centre
 
 function project(C, v) {
 	const scale = f(f(C) / length1(v));
 	return [round32(f(v[0] * scale)), round32(f(v[1] * scale))];
 }
 
-// ---- [B.4.5] The frame of a prediction
+// ---- [A.10.6] The frame of a prediction
 
 function turnOver(C, [x, y]) {
 	const X = C - Math.abs(y);
@@ -74,11 +74,10 @@ function rotationOf([x, y]) {
 }
 
 function wrap(C, i) {
-	if (i > C) return i - (2 * C + 1);
 	return i < -C ? i + (2 * C + 1) : i;
 }
 
-// ---- [A.8.5] A point in a frame: relative to the centre, and its length in context
+// ---- [A.10.8] A point in a frame: relative to the centre, and its length in context
 
 export function readPoint(streams, ROW, frame, context) {
 	const first = readSmallSigned(streams, 0, ROW[0][context]);

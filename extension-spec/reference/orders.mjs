@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Orders of the triangles and of the wedges: A.10 of the specification.
+// Orders of the triangles and of the wedges: A.9 of the specification.
 
 import { fail } from './bytes.mjs';
 import { models, trees, uniform } from './entropy.mjs';
@@ -26,7 +26,7 @@ export class OrderModels {
 	}
 }
 
-// [A.10.1] Sequences. `lists` is near and far: [element, note], latest first.
+// [A.9.1] Sequences. `lists` is near and far: [element, note], latest first.
 class Sequence {
 	constructor(streams, modelSet, elementCount) {
 		this.streams = streams;
@@ -123,13 +123,13 @@ class Sequence {
 	ranked(w) {
 		const list = this.lists[this.way];
 		const rank = this.streams.tree(this.models.RANK[this.way][this.class[this.way]][w === this.way ? 1 : 0]);
-		if (rank >= list.length) fail('BadAttribute', 'A.10.1', 'a rank beyond its list');
+		if (rank >= list.length) fail('BadAttribute', 'A.9.1', 'a rank beyond its list');
 		this.class[this.way] = rank < 2 ? rank : rank < 4 ? 2 : 3;
 		return list[rank];
 	}
 }
 
-// [A.10.2] Order of the triangles: for each part a list of triangles, each of which has its wedges from the corner it begins with.
+// [A.9.2] Order of the triangles: for each part a list of triangles, each of which has its wedges from the corner it begins with.
 export function decodeTriangleOrder(streams, m, piece, surface, table) {
 	const sequence = new Sequence(streams, m.triangles, table.length);
 	const touch = new TriangleTouch(sequence, surface);
@@ -182,19 +182,19 @@ function partition(piece, table) {
 	return lists;
 }
 
-// [A.10.4] Without TRIANGLE_ORDER
+// [A.9.4] Without TRIANGLE_ORDER
 export function trianglesOfParts(piece, table) {
 	return partition(piece, table).map((list) => list.map((x) => table[x].wedges));
 }
 
-// [A.10.4]
+// [A.9.4]
 export function checkParts(piece, parts) {
 	if (parts.some((list, i) => list.length !== piece.partSizes[i])) {
-		fail('BadAttribute', 'A.10.4', 'a part has another number of triangles than its header says');
+		fail('BadAttribute', 'A.9.4', 'a part has another number of triangles than its header says');
 	}
 }
 
-// [A.10.3] Order of the wedges: the wedge at every place. `parts` are ordered triangles, or undefined.
+// [A.9.3] Order of the wedges: the wedge at every place. `parts` are ordered triangles, or undefined.
 export function decodeWedgeOrder(streams, m, piece, table, parts) {
 	const sequence = new Sequence(streams, m.wedges, piece.wedgeCount);
 	const expected = expectedWedges(piece, parts);

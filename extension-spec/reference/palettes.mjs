@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Palettes of coordinates: B.2.8 of the specification.
+// Palettes of coordinates: A.6.11 of the specification.
 
 import { fail } from './bytes.mjs';
 import { golombs, models } from './entropy.mjs';
@@ -24,7 +24,7 @@ export function readPalettes(streams, m, vertexCount) {
 
 function readPalette(streams, m, vertexCount) {
 	const count = streams.golomb(m.COUNT) + 1;
-	if (count > vertexCount || count > 2 ** 23) fail('BadAttribute', 'B.2.8', 'a palette that is too large');
+	if (count > vertexCount || count > 2 ** 23) fail('BadAttribute', 'A.6.11', 'a palette that is too large');
 	const values = [streams.signedGolomb(m.FIRST)];
 	let gap = 1;
 	let regular = 0;
@@ -33,7 +33,7 @@ function readPalette(streams, m, vertexCount) {
 		if (regular) gap += readChange(streams, m);
 		else gap = streams.golomb(m.GAP) + 1;
 		values.push(values[i - 1] + gap);
-		if (gap < 1 || values[i] > 2 ** 31 - 1) fail('BadAttribute', 'B.2.8', 'a value of a palette out of range');
+		if (gap < 1 || values[i] > 2 ** 31 - 1) fail('BadAttribute', 'A.6.11', 'a value of a palette out of range');
 	}
 	return new Palette(values);
 }

@@ -113,7 +113,7 @@ function groupsAsWedges(piece, surface, sequence, groupCount) {
 	return { surface, starts, groupOf: Int32Array.from({ length: groupCount }, (_, g) => g) };
 }
 
-// [A.10]
+// [A.9]
 function orderStage(streams, models, piece, surface, triangles) {
 	const { TRIANGLE_ORDER, VERTEX_ORDER } = piece.flags;
 	const parts = trianglesOfParts(piece, triangles);
@@ -123,7 +123,7 @@ function orderStage(streams, models, piece, surface, triangles) {
 	return { parts: ordered ?? parts, order };
 }
 
-// [A.10.4] Triangles with the places of their wedges
+// [A.9.4] Triangles with the places of their wedges
 function placed(parts, order) {
 	if (order === undefined) return parts;
 	const place = new Uint32Array(order.length);
@@ -131,7 +131,7 @@ function placed(parts, order) {
 	return parts.map((triangles) => triangles.map((wedges) => wedges.map((w) => place[w])));
 }
 
-// [A.10.4] Elements, an array of bytes for each wedge, in their order
+// [A.9.4] Elements, an array of bytes for each wedge, in their order
 function reordered(elements, order) {
 	return order === undefined ? elements : order.map((w) => elements[w]);
 }

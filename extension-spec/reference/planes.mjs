@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Positions on and between planes: B.2.9 of the specification. All floats are binary32.
+// Positions on and between planes: A.6.12 of the specification. All floats are binary32.
 
 import { fail } from './bytes.mjs';
 import { POSITIONS, rows } from './entropy.mjs';
@@ -30,7 +30,7 @@ class Axis {
 	constructor(streams) {
 		this.step = readNumberOf49Bits(streams);
 		this.origin = readNumberOf49Bits(streams);
-		if (this.step < 1n << 34n || this.origin >= this.step) fail('BadAttribute', 'B.2.9', 'step or origin of planes');
+		if (this.step < 1n << 34n || this.origin >= this.step) fail('BadAttribute', 'A.6.12', 'step or origin of planes');
 		this.O = f(f(Number(this.origin)) / 2 ** 24);
 		this.D = f(f(Number(this.step)) / 2 ** 32);
 		this.I = f(1 / this.D);

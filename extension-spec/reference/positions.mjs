@@ -15,7 +15,7 @@ import { Region } from './region.mjs';
 import { PositionRows, readFoldedResidual, readScaledResidual } from './residuals.mjs';
 import { f } from './vectors.mjs';
 
-// [B.2.5] The coefficients U[weighted][shear][plain fan][slot]
+// [A.6.6] The coefficients U[weighted][shear][plain fan][slot]
 const U = [
 	[
 		[[[196, 12, 1662], [216, 12, 1638], [208, 13, 1749]], [[138, 155, 1222, 52], [143, 158, 1186, 52], [140, 151, 1299, 52]]],
@@ -106,7 +106,7 @@ function changedCoefficients(streams, m, coefficients) {
 	})));
 }
 
-// ---- [B.2.1] What is kept of a vertex: groups, and isolated vertices behind them
+// ---- [A.6.3] What is kept of a vertex: groups, and isolated vertices behind them
 
 class Records {
 	constructor(surface, groupCount, count) {
@@ -163,7 +163,7 @@ class Positions {
 		return { sequence, positions: this.records.q };
 	}
 
-	// [A.8.12]
+	// [A.10.5]
 	readBelowGrid() {
 		const below = new BelowGrid(this.streams, this.attribute, this.models.below);
 		this.records.q = this.records.q.map((q, i) => below.read(q, i % 3));
@@ -183,7 +183,7 @@ class Positions {
 		else this.codePlain(fan.v, predicted.at, slots);
 	}
 
-	// The order of the components by slot, and [B.2.5] the scale and set of each slot.
+	// The order of the components by slot, and [A.6.6] the scale and set of each slot.
 	scalesAndSets(fan, predicted) {
 		const normal = this.shear ? this.prediction.normal(fan) : [0, 0, 0];
 		const axis = axesByNormal(normal);
@@ -192,7 +192,7 @@ class Positions {
 		return { normal, axis, ...this.scalesOf(coefficients, predicted.magnitudes, inOrder(predicted.spread), inOrder(predicted.third)) };
 	}
 
-	// [B.2.5]
+	// [A.6.6]
 	scalesOf(coefficients, magnitudes, spread, third) {
 		const scale = [];
 		const set = [];
@@ -206,7 +206,7 @@ class Positions {
 		return { scale, set };
 	}
 
-	// [B.2.5] `fraction` is that of the prediction.
+	// [A.6.6] `fraction` is that of the prediction.
 	readResidual(slot, set, scale, fraction) {
 		const { rows } = this.models;
 		if (this.fold) return readFoldedResidual(this.streams, rows, slot, set, scale, fraction + 128);
@@ -225,7 +225,7 @@ class Positions {
 		for (let s = 0; s < 3; ++s) this.codeComponent(v, s, s, at[s], 0, scale[s], set[s]);
 	}
 
-	// [B.2.3] Normal shear
+	// [A.6.10] Normal shear
 	codeSheared(fan, predicted, { normal, axis, scale, set }) {
 		const { q } = this.records;
 		const { c10, c20, c21 } = shearOf(normal, axis);
@@ -242,7 +242,7 @@ class Positions {
 		}
 	}
 
-	// [B.2.8] A vertex with palettes
+	// [A.6.11] A vertex with palettes
 	codePalette(v, at, { scale, set }) {
 		const { records } = this;
 		for (let s = 0; s < 3; ++s) {
@@ -257,7 +257,7 @@ class Positions {
 		}
 	}
 
-	// ---- [B.2.7] Seeds
+	// ---- [A.6.8] Seeds
 
 	codeSeed(v, neighbour) {
 		const { seeds, records } = this;
@@ -290,7 +290,7 @@ class Positions {
 	}
 }
 
-// [B.2.7]
+// [A.6.8]
 function newSeeds(P) {
 	return {
 		last: [0, 1, 2].map(() => 2 ** P / 2),
@@ -299,7 +299,7 @@ function newSeeds(P) {
 	};
 }
 
-// [B.2.3]
+// [A.6.10]
 function shearOf(normal, axis) {
 	const largest = normal[axis[2]];
 	const inverse = f(1 / (largest === 0 ? 1 : largest));

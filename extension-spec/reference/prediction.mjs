@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Prediction of positions from a fan: B.2.2, B.2.3 and B.2.4 of the specification, and the weights of A.6.2.
+// Prediction of positions from a fan: A.6.4, A.6.10 and A.6.5 of the specification, and the weights of A.6.2.
 
 import { next, NONE, prev } from './mesh.mjs';
 import { add32, clamp, cross32, f } from './vectors.mjs';
@@ -29,15 +29,15 @@ export const zeroWeights = () => UNIVERSAL_WEIGHTS.map((w) => w.map(() => 0));
 const clampDegrees = (x) => clamp(x, -12, 12);
 const xyz = [0, 1, 2];
 
-// [B.2.1] float(x) of an i32, whose sums wrap
+// [A.6.3] float(x) of an i32, whose sums wrap
 const float = (x) => f(x | 0);
 const sumOf = (list) => list.reduce((a, b) => a + b, 0);
 const sum32 = (list) => list.reduce((a, b) => f(a + b), 0);
 
-// [B.2.1] A movement in 1/256 of a step
+// [A.6.3] A movement in 1/256 of a step
 export const movement = (x) => Math.trunc(clamp(x, -(2 ** 29), 2 ** 29));
 
-// Predictions of one piece. `records` holds what B.2.1 keeps of the groups.
+// Predictions of one piece. `records` holds what A.6.3 keeps of the groups.
 export class Prediction {
 	constructor(surface, region, records, select, weights) {
 		this.surface = surface;
@@ -63,7 +63,7 @@ export class Prediction {
 		return xyz.map((k) => Math.abs(float(sumOf(fan.neighbours.map((n) => magnitude[3 * n + k])))));
 	}
 
-	// ---- [B.2.2] Prediction of a plain fan
+	// ---- [A.6.4] Prediction of a plain fan
 
 	plainFan(fan) {
 		const around = this.aroundPlainFan(fan);
@@ -117,7 +117,7 @@ export class Prediction {
 		return { w: this.weights[13 + 3 * preference + third], better: Number(e0 < e1) - Number(e0 > e1) };
 	}
 
-	// ---- [B.2.4] Prediction of any other fan
+	// ---- [A.6.5] Prediction of any other fan
 
 	otherFan(fan) {
 		const ring = ringOfNeighbours(fan);
@@ -142,7 +142,7 @@ export class Prediction {
 		return { at, spread, third: [0, 0, 0], magnitudes };
 	}
 
-	// ---- [B.2.3] The normal of a fan
+	// ---- [A.6.10] The normal of a fan
 
 	normal(fan) {
 		const ring = ringOfNeighbours(fan);
@@ -185,7 +185,7 @@ function classOfOtherFan(T, closed) {
 	return clamp(T, 1, 4) - 1;
 }
 
-// [B.2.3] The axes by |normal|, ascending, lower axes first among equals
+// [A.6.10] The axes by |normal|, ascending, lower axes first among equals
 export function axesByNormal(normal) {
 	return [0, 1, 2].sort((a, b) => Math.abs(normal[a]) - Math.abs(normal[b]) || a - b);
 }

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Residuals whose row follows from an expected scale: B.2.5 and B.2.6 of the specification.
+// Residuals whose row follows from an expected scale: A.6.6 and A.6.7 of the specification.
 
 import { bitsOfFloat } from './bytes.mjs';
 import { models, POSITIONS, Row } from './entropy.mjs';
@@ -12,7 +12,7 @@ const ESCAPE = 15;
 const BUCKETS = 40;
 const FOLDED_BUCKETS = 10;
 
-// [B.2.6] Frequencies, per mille, of tokens in buckets 2 .. 22
+// [A.6.7] Frequencies, per mille, of tokens in buckets 2 .. 22
 const FREQUENCIES = [
 	[902, 97, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // 2
 	[795, 193, 7, 2, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0], // 3
@@ -45,7 +45,7 @@ function frequencies(bucket) {
 
 const sum = (list) => list.reduce((a, b) => a + b, 0);
 
-// [B.2.6]
+// [A.6.7]
 function makeRow(freq) {
 	const row = new Row();
 	const total = sum(freq);
@@ -66,7 +66,7 @@ function tokenOf(a) {
 	return t;
 }
 
-// [B.2.6] The densities of |residual| = 0 .. 128 in a bucket
+// [A.6.7] The densities of |residual| = 0 .. 128 in a bucket
 function densities(bucket) {
 	const density = [];
 	for (let i = 0; i <= 128; ++i) {
@@ -77,7 +77,7 @@ function densities(bucket) {
 	return density;
 }
 
-// [B.2.6]
+// [A.6.7]
 function makeFoldedRow(fractionClass, bucket) {
 	const density = densities(bucket);
 	const p = 2 * fractionClass + 1;
@@ -100,7 +100,7 @@ function foldedRows(fractionClass) {
 	return Array.from({ length: FOLDED_BUCKETS }, (_, bucket) => makeFoldedRow(fractionClass, bucket));
 }
 
-// [B.2.5] ROW[slot][set][bucket] and FOLDED[slot][set][fraction class][bucket] of positions
+// [A.6.6] ROW[slot][set][bucket] and FOLDED[slot][set][fraction class][bucket] of positions
 export class PositionRows {
 	constructor() {
 		this.ROW = models([3, 3], scaledRows);
@@ -108,12 +108,12 @@ export class PositionRows {
 	}
 }
 
-// [B.2.5]
+// [A.6.6]
 function bucketOf(scale) {
 	return Math.min(39, (bitsOfFloat(f(scale + 1)) >>> 22) - 254);
 }
 
-// [B.2.5] The residual, of a row with `low` low bits. `flip` is given for folded residuals only.
+// [A.6.6] The residual, of a row with `low` low bits. `flip` is given for folded residuals only.
 export function readResidual(streams, state, row, low, flip) {
 	const folded = flip !== undefined;
 	const { a, negative } = readMagnitude(streams, state, row, low, folded);
@@ -136,7 +136,7 @@ function readMagnitude(streams, state, row, low, folded) {
 	return { a, negative };
 }
 
-// [B.2.5] A residual whose bucket is that of `scale`, never folded; `rows` by bucket.
+// [A.6.6] A residual whose bucket is that of `scale`, never folded; `rows` by bucket.
 export function readScaledResidual(streams, state, rows, scale) {
 	const bucket = bucketOf(scale);
 	return readResidual(streams, state, rows[bucket], lowBits(bucket));
@@ -146,7 +146,7 @@ function lowBits(bucket) {
 	return bucket < FOLDED_BUCKETS ? 0 : (bucket >> 1) - 5;
 }
 
-// [B.2.5] A residual that is folded if its bucket is small. r: the prediction in units of 1/256, with 128 added.
+// [A.6.6] A residual that is folded if its bucket is small. r: the prediction in units of 1/256, with 128 added.
 export function readFoldedResidual(streams, rows, slot, set, scale, r) {
 	const bucket = bucketOf(scale);
 	if (bucket >= FOLDED_BUCKETS) return readResidual(streams, slot, rows.ROW[slot][set][bucket], lowBits(bucket));

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Skins: A.8.8 of the specification. Tuples of four joints and four weights.
+// Skins: A.10.14 of the specification. Tuples of four joints and four weights.
 
 import { golombs, models, rows } from './entropy.mjs';
 import { readByLength } from './lengths.mjs';

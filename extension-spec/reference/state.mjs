@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// What is kept of the wedges while an attribute is decoded: A.8.1 of the specification.
+// What is kept of the wedges while an attribute is decoded: A.10.1 of the specification.
 
 import { NONE } from './mesh.mjs';
 
@@ -14,7 +14,7 @@ export class AttributeState {
 		this.components = attribute.components;
 		this.values = new Int32Array(wedges.count * this.components);
 		this.coded = new Uint8Array(wedges.count);
-		this.L = new Uint8Array(wedges.count).fill(NOT_CODED); // [A.8.2]
+		this.L = new Uint8Array(wedges.count).fill(NOT_CODED); // [A.10.2]
 	}
 
 	isCoded(w) {
@@ -25,7 +25,7 @@ export class AttributeState {
 		return this.values.subarray(w * this.components, (w + 1) * this.components);
 	}
 
-	// All that was decoded of a wedge: of some tangents (A.8.7) also the sign.
+	// All that was decoded of a wedge: of some tangents (A.10.13) also the sign.
 	integers(w) {
 		return [...this.value(w), this.negative?.[w] ?? 0];
 	}
@@ -44,7 +44,7 @@ export class AttributeState {
 	}
 
 	// The mean of the lengths at the neighbours of a bundle with an entry.
-	meanLength({ n, p }, most) {
-		return Math.min(Math.floor((this.L[n] + this.L[p] + 1) / 2), most);
+	meanLength({ n, p }) {
+		return Math.min(Math.floor((this.L[n] + this.L[p] + 1) / 2), 10);
 	}
 }

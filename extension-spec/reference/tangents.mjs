@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Tangents as angles and as points: A.8.7 of the specification. What they are predicted from: B.6.
+// Tangents as angles and as points: A.10.13 of the specification. What they are predicted from: A.10.12.
 
 import { models, rows } from './entropy.mjs';
 import { faceAngles } from './faces.mjs';
@@ -18,7 +18,7 @@ export class TangentModels {
 	}
 }
 
-// ---- [B.6.1] A frame beside a normal
+// ---- [A.10.12] A frame beside a normal
 
 function frameBeside(n) {
 	const [ax, ay, az] = n.map(Math.abs);
@@ -29,7 +29,7 @@ function frameBeside(n) {
 	return [e1, cross32(n, e1)];
 }
 
-// ---- [B.6.2] Angle in a plane
+// ---- [A.10.12] Angle in a plane
 
 function planeAngle(y, x) {
 	const ax = Math.abs(x);
@@ -44,7 +44,7 @@ function planeAngle(y, x) {
 	return y < 0 ? -r : r;
 }
 
-// ---- [B.6.3] The vector of an angle
+// ---- [A.10.12] The vector of an angle
 
 const SINE = [-1 / 6, 1 / 120, -1 / 5040, 1 / 362880, -1 / 39916800].map(f);
 const COSINE = [-0.5, 1 / 24, -1 / 720, 1 / 40320, -1 / 3628800, 1 / 479001600].map(f);
@@ -64,7 +64,7 @@ export function vectorOfAngle(B, angle, normal) {
 	return add32(scale32(e1, along), scale32(e2, across));
 }
 
-// ---- [B.6.5] Chart coordinates of all wedges
+// ---- [A.10.12] Chart coordinates of all wedges
 
 export function chartCoordinates(state) {
 	const { coding } = state.attribute;
@@ -77,7 +77,7 @@ function floatCoordinate(i) {
 	return Math.abs(x) >= f(1e-9) && Math.abs(x) <= 1e9 ? x : 0;
 }
 
-// ---- [B.6.4] Sums of face tangents: four numbers for each wedge
+// ---- [A.10.12] Sums of face tangents: four numbers for each wedge
 
 function faceTangentSums(wedges, chart) {
 	const { surface, positions } = wedges;
@@ -116,7 +116,7 @@ function bundleSums(wedges, bundleOf, chart) {
 	return T;
 }
 
-// ---- [B.6.6] Projection on a plane
+// ---- [A.10.12] Projection on a plane
 
 function projectOnPlane(n, v) {
 	const q = dot32(n, n);
@@ -124,7 +124,7 @@ function projectOnPlane(n, v) {
 	return sub32(v, scale32(n, f(dot32(n, v) / q)));
 }
 
-// ---- [A.8.7]
+// ---- [A.10.13]
 
 class Tangents {
 	constructor(context, state, tangentModels) {
@@ -177,7 +177,7 @@ class TangentAngles extends Tangents {
 		let predicted = this.last;
 		let context = NO_NEIGHBOUR;
 		if (bundle.hasEntry) {
-			context = state.meanLength(bundle, 10);
+			context = state.meanLength(bundle);
 			if (state.isCoded(bundle.n)) predicted = state.value(bundle.n)[0];
 		}
 		const sum = this.T[bundle.first];
@@ -209,7 +209,7 @@ class TangentPoints extends Tangents {
 		let direction = this.projected(this.T[bundle.first].slice(0, 3), bundle.first);
 		let context = NO_NEIGHBOUR;
 		if (bundle.hasEntry) {
-			context = this.state.meanLength(bundle, 11);
+			context = this.state.meanLength(bundle);
 			if (!(length1(direction) > f(1e-6))) direction = this.fromNeighbours(direction, bundle);
 		}
 		const length = length1(direction);

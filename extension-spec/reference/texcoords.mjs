@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Texture coordinates: A.8.6 of the specification. Their prediction: B.5.
+// Texture coordinates: A.10.11 of the specification. Their prediction: A.10.11.
 
 import { models, rows } from './entropy.mjs';
 import { following, readByLength } from './lengths.mjs';
@@ -23,7 +23,7 @@ export class TexcoordModels {
 }
 
 const add = (a, b) => [f(a[0] + b[0]), f(a[1] + b[1])];
-const difference = (a, b) => [f((a[0] - b[0]) | 0), f((a[1] - b[1]) | 0)]; // diff of B.5.1
+const difference = (a, b) => [f((a[0] - b[0]) | 0), f((a[1] - b[1]) | 0)]; // diff of A.10.11
 const change = (u) => (Math.abs(u) < 1e9 ? round32(u) : 0);
 
 class Texcoords {
@@ -64,10 +64,10 @@ class Texcoords {
 		const { n, p, o } = faces[0];
 		this.memory.begin();
 		const k = this.memory.ask(this.memory.edgeKey(n, p), o === n ? NONE : o);
-		return k === NONE ? undefined : { value: [...this.state.value(k)], L: this.state.meanLength({ n, p }, 10) };
+		return k === NONE ? undefined : { value: [...this.state.value(k)], L: this.state.meanLength({ n, p }) };
 	}
 
-	// [B.5.1] Faces
+	// [A.10.11] Faces
 	faces(bundle) {
 		const { state, wedges } = this;
 		const { surface } = wedges;
@@ -86,7 +86,7 @@ class Texcoords {
 		const { n, p } = faces[0];
 		const delta = this.hinge ? this.unfolded(bundle.first, faces) : this.diagonal(faces);
 		const predicted = [...this.state.value(n)].map((x, k) => (x + change(delta[k])) | 0);
-		return { predicted, context: this.state.meanLength({ n, p }, 10) };
+		return { predicted, context: this.state.meanLength({ n, p }) };
 	}
 
 	withoutFaces(bundle) {
@@ -99,8 +99,8 @@ class Texcoords {
 		const { state, wedges } = this;
 		for (const h of wedges.run(w)) {
 			const [n, p] = [next(h), prev(h)].map((g) => wedges.surface.tail(g));
-			if (state.isCoded(p)) return p;
 			if (state.isCoded(n)) return n;
+			if (state.isCoded(p)) return p;
 		}
 		return NONE;
 	}
@@ -112,7 +112,7 @@ class Texcoords {
 		return { pair: [first.residual, second.residual], L: Math.max(first.length, second.length) };
 	}
 
-	// ---- [B.5.2] Hinge
+	// ---- [A.10.11] Hinge
 
 	unfolded(v, faces) {
 		const R = faces.map((face) => this.faceTerm(v, face, this.state.value(faces[0].n)));
@@ -172,7 +172,7 @@ class Texcoords {
 		else if (turn < 0) this.side = -1;
 	}
 
-	// ---- [B.5.3] Diagonal
+	// ---- [A.10.11] Diagonal
 
 	diagonal(faces) {
 		const value = (w) => this.state.value(w);

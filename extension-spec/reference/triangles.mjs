@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Further triangles and parts: A.9 of the specification, and the table of triangles of A.10.
+// Further triangles and parts: A.8 of the specification, and the table of triangles of A.9.
 
 import { fail } from './bytes.mjs';
 import { golombs, models, trees } from './entropy.mjs';
@@ -8,7 +8,7 @@ import { face, NONE } from './mesh.mjs';
 
 const ANY = 7; // shape of a listed triangle that refers to no face
 
-// [A.9]
+// [A.8]
 export class TriangleModels {
 	constructor() {
 		this.SAME_PART = models([4]);
@@ -41,7 +41,7 @@ class FurtherTriangles {
 		return [...faces, ...this.further];
 	}
 
-	// [A.9.1] Parts of the faces
+	// [A.8.1] Parts of the faces
 	partsOfFaces() {
 		const { faceCount, partCount } = this.piece;
 		const parts = new Uint32Array(faceCount);
@@ -61,11 +61,11 @@ class FurtherTriangles {
 		const guess = entered ? parts[face(t)] : previous;
 		if (this.bit(this.models.SAME_PART[guess === previous ? entered + 2 : entered])) return guess;
 		const distance = this.streams.golomb(this.models.PART);
-		if (distance >= partCount - 1) fail('BadAttribute', 'A.9.1', 'a part that does not exist');
+		if (distance >= partCount - 1) fail('BadAttribute', 'A.8.1', 'a part that does not exist');
 		return (guess + 1 + distance) % partCount;
 	}
 
-	// [A.9.2] Listed triangles
+	// [A.8.2] Listed triangles
 	listed(parts) {
 		let last = { shape: 0, face: 0, wedges: [0, 0, 0], part: 0 };
 		for (let i = 0; i < this.piece.listedCount; ++i) {
@@ -82,7 +82,7 @@ class FurtherTriangles {
 			return { shape, face: last.face, wedges, part: this.listedPart(last.part) };
 		}
 		const f = last.face + streams.golomb(m.LIST_GAP[Math.min(shape, 1)]);
-		if (f >= this.piece.faceCount) fail('BadAttribute', 'A.9.2', 'a face that does not exist');
+		if (f >= this.piece.faceCount) fail('BadAttribute', 'A.8.2', 'a face that does not exist');
 		return { shape, face: f, wedges: this.wedgesOfShape(shape, f), part: this.listedPart(parts[f]) };
 	}
 
@@ -98,7 +98,7 @@ class FurtherTriangles {
 	anyWedges(last) {
 		const near = (from, k) => {
 			const w = (from + this.streams.signedGolomb(this.models.LIST_WEDGE[k])) >>> 0;
-			if (w >= this.piece.wedgeCount) fail('BadAttribute', 'A.9.2', 'a wedge that does not exist');
+			if (w >= this.piece.wedgeCount) fail('BadAttribute', 'A.8.2', 'a wedge that does not exist');
 			return w;
 		};
 		const w0 = near(last, 0);
@@ -109,7 +109,7 @@ class FurtherTriangles {
 		const { partCount } = this.piece;
 		if (partCount === 1) return 0;
 		const distance = this.streams.golomb(this.models.LIST_PART);
-		if (distance >= partCount) fail('BadAttribute', 'A.9.2', 'a part that does not exist');
+		if (distance >= partCount) fail('BadAttribute', 'A.8.2', 'a part that does not exist');
 		return (guess + distance) % partCount;
 	}
 }

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Values of any number of components: A.8.4 of the specification. Their prediction: B.3.
+// Values of any number of components: A.10.4 of the specification. Their prediction: A.10.4.
 
 import { models, rows } from './entropy.mjs';
 import { following, readByLength } from './lengths.mjs';
@@ -108,7 +108,7 @@ class Values {
 		return { value, L: longest };
 	}
 
-	// ---- [B.3] The prediction, in integers that wrap
+	// ---- [A.10.4] The prediction, in integers that wrap
 
 	predict(bundle, n, p) {
 		const { state } = this;

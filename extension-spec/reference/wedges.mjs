@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Wedges, their order, and bundles of wedges with equal values: A.8.1 and A.8.3 of the specification.
+// Wedges, their order, and bundles of wedges with equal values: A.10.1 and A.10.3 of the specification.
 
 import { models } from './entropy.mjs';
 import { exactPositions } from './faces.mjs';
@@ -25,7 +25,7 @@ export class Wedges {
 		this.exactPositions = this.perWedge(exactPositions(piece.attributes[0], positions.positions));
 	}
 
-	// [A.8.1] The places of the wedges on the surface in their coding order
+	// [A.10.1] The places of the wedges on the surface in their coding order
 	findRanks(sequence) {
 		const rank = new Uint32Array(this.surfaceCount);
 		if (this.hasSeams) return rank.map((_, w) => w);
@@ -33,7 +33,7 @@ export class Wedges {
 		return rank;
 	}
 
-	// [A.8.1] The half-edges that each wedge completes
+	// [A.10.1] The half-edges that each wedge completes
 	findCompleted() {
 		const completed = Array.from({ length: this.count }, () => []);
 		for (let f = 0; f < this.surface.faceCount; ++f) {
@@ -59,20 +59,20 @@ export class Wedges {
 		return Array.from({ length: this.count }, (_, w) => ofRecords[this.recordOf(w)]);
 	}
 
-	// [B.4.6] D(a, b)
+	// [A.6.13] D(a, b)
 	squaredDistance(a, b) {
 		const d = sub32(this.positions[b], this.positions[a]);
 		return dot32(d, d);
 	}
 
-	// [A.8.1] All wedges in the order in which they are coded
+	// [A.10.1] All wedges in the order in which they are coded
 	codingOrder() {
 		const order = new Array(this.count);
 		for (let w = 0; w < this.count; ++w) order[this.isOnSurface(w) ? this.rank[w] : w] = w;
 		return order;
 	}
 
-	// [A.8.1] The run of a wedge on the surface
+	// [A.10.1] The run of a wedge on the surface
 	run(w) {
 		const { surface } = this;
 		const list = [this.starts[w]];
@@ -96,7 +96,7 @@ export class Wedges {
 	}
 }
 
-// ---- [A.8.3] Equal values
+// ---- [A.10.3] Equal values
 
 export class EqualityModels {
 	constructor() {
@@ -165,7 +165,7 @@ class EqualityReader {
 	}
 }
 
-// ---- [A.8.1] Bundles
+// ---- [A.10.1] Bundles
 
 // The bundles in the order in which they are coded: members, first, halfEdges (those it completes), n and p (its neighbours;
 // NONE without an entry), before (the first wedge of the bundle before, or NONE).

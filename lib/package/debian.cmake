@@ -7,6 +7,9 @@ set(CPACK_PACKAGE_NAME gltf-mcc)
 set(CPACK_PACKAGE_VENDOR "The gltf-mcc authors")
 set(CPACK_PACKAGE_CONTACT "The gltf-mcc authors")
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+if(mcc_prerelease)
+  string(APPEND CPACK_PACKAGE_VERSION ~${mcc_prerelease})  # sorts before the release
+endif()
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL tool library development)
@@ -30,7 +33,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libgltf-mcc-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libgltf-mcc${mcc_soversion} (= ${PROJECT_VERSION})")
+    "libgltf-mcc${mcc_soversion} (= ${CPACK_PACKAGE_VERSION})")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "mesh collapse compression of glTF 2.0, development files
  Headers for C++ and C, static libraries, CMake package and pkg-config files.")
 include(CPack)

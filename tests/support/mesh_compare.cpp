@@ -69,7 +69,7 @@ const uint8_t* elementOf(const DecodedAttribute& attribute, uint32_t wedge) {
   return attribute.bytes.data() + size_t{wedge} * elementBytes(attribute.info.format);
 }
 
-/// Returns what a writer rounds to and a reader makes of it. [A.8.12]
+/// Returns what a writer rounds to and a reader makes of it. [A.10.5]
 float latticeValue(float x, float origin, float step) {
   const double q = std::floor(
       (static_cast<double>(x) - static_cast<double>(origin)) / static_cast<double>(step) + 0.5);

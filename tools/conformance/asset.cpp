@@ -247,6 +247,24 @@ NamedAttribute makeAttribute(const std::string& name, uint32_t target, const std
   return a;
 }
 
+std::vector<uint8_t> bytesOf(const std::string& hex) {
+  std::vector<uint8_t> bytes;
+  for (size_t i = 0; i < hex.size(); i += 2)
+    bytes.push_back(static_cast<uint8_t>(std::stoul(hex.substr(i, 2), nullptr, 16)));
+  return bytes;
+}
+
+const Asset& closestTo(const std::vector<uint8_t>& payload, std::span<const Asset> assets) {
+  constexpr size_t kMostDifferences = 10;  // the checksum, and what was damaged
+  for (const Asset& asset : assets) {
+    if (asset.payload.size() != payload.size()) continue;
+    size_t differences = 0;
+    for (size_t i = 0; i < payload.size(); ++i) differences += asset.payload[i] != payload[i];
+    if (differences <= kMostDifferences) return asset;
+  }
+  throw std::runtime_error("a payload that was found is like no asset: search anew");
+}
+
 Asset encodeSource(const Source& source) {
   const std::vector<std::vector<AttributeView>> attributes = viewsOf(source);
   std::vector<std::vector<PartView>> parts;

@@ -68,6 +68,11 @@ struct Asset {
 /// Encodes, decodes and compares with the source; throws where they differ.
 Asset encodeSource(const Source& source);
 
+/// Returns the bytes of a payload, from hexadecimal digits, and the asset whose payload it was made
+/// from: one of the same size that differs in a few bytes. Throws if there is none.
+std::vector<uint8_t> bytesOf(const std::string& hex);
+const Asset& closestTo(const std::vector<uint8_t>& payload, std::span<const Asset> assets);
+
 /// The file: one mesh, one primitive for each part that has triangles.
 std::vector<uint8_t> makeGlb(const Asset& asset);
 

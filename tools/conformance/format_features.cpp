@@ -114,10 +114,10 @@ class Listing {
 
   void addCoding(const AttributeInfo& a) {
     const CodingInfo& coding = infoOf(a.coding);
-    add(std::string("coding ") + coding.name, {"A.2.4", "A.8.11"});
+    add(std::string("coding ") + coding.name, {"A.2.4", "A.10.18"});
     if (a.coding == AttributeCoding::kGrid) {
       add(text("grid", a.grid), sectionsIn(coding.sections));
-      add(text("tails", a.tails) + (&a == all_.data() ? " of positions" : ""), {"A.8.12"});
+      add(text("tails", a.tails) + (&a == all_.data() ? " of positions" : ""), {"A.10.5"});
     } else if (a.bits != 0) {
       add(text((std::string(coding.name) + " bits").c_str(), a.bits), sectionsIn(coding.sections));
     }
@@ -127,7 +127,7 @@ class Listing {
     add(text("components", a.format.component_count), {"A.2.4"});
     if (a.format.set_index != 0) add("set other than 0", {"A.2.4"});
     if (a.format.set_index == 255) add("set 255", {"A.2.4"});
-    if (a.format.morph_target != 0) add("morph target", {"A.2.4", "A.8.11"});
+    if (a.format.morph_target != 0) add("morph target", {"A.2.4", "A.10.18"});
     if (a.format.morph_target == 65535) add("morph target 65535", {"A.2.4"});
   }
 
@@ -150,9 +150,9 @@ class Listing {
     const std::string coding =
         isExact(a.coding) && a.coding != AttributeCoding::kGrid ? "exact" : infoOf(a.coding).name;
     add("positions " + coding + " " + kind, sections);
-    if (piece.isolated_count != 0) add("isolated wedges, " + kind, {"A.6.4"});
+    if (piece.isolated_count != 0) add("isolated wedges, " + kind, {"A.6.9"});
     if (piece.hasCopies()) add("copies, " + kind, {"A.6.1"});
-    if (piece.has(piece_flag::kCreases)) add("creases, positions " + coding, {"A.7.4", "B.4.6"});
+    if (piece.has(piece_flag::kCreases)) add("creases, positions " + coding, {"A.7.4", "A.6.13"});
   }
 
   /// A method's name, with what the pieces around it may or may not have.
@@ -217,9 +217,9 @@ class Listing {
     }
     addPredictor(method, nameOf(method, a), a.predictor);
     if (method.method == AttributeMethod::kNormal && all_[0].coding != AttributeCoding::kLattice)
-      add("normals of exact positions", {"B.4.6"});
+      add("normals of exact positions", {"A.6.13"});
     if (method.method == AttributeMethod::kTexcoord && a.coding == AttributeCoding::kGrid)
-      add("texture coordinate on a grid", {"A.8.6", "A.8.12"});
+      add("texture coordinate on a grid", {"A.10.11", "A.10.5"});
   }
 
   const PayloadHeader& header_;

@@ -12,6 +12,7 @@
 #include "container/payload_header.h"
 #include "entropy/enc_coder.h"
 #include "format/predictors.h"
+#include "found.h"
 #include "gltf/document/glb.h"
 #include "header_fields.h"
 #include "mcc/gltf.h"
@@ -70,7 +71,8 @@ void stateMore(HeaderFields& fields, const std::string& attribute, uint8_t set,
 
 class Maker {
  public:
-  explicit Maker(std::span<const Asset> assets) : assets_(assets) {
+  Maker(std::span<const Asset> assets, std::span<const Asset> all)
+      : assets_(assets), every_asset_(all) {
     for (const Asset& asset : assets) headers_.push_back(headerOf(asset.payload));
   }
 
@@ -85,12 +87,22 @@ class Maker {
     deepHandle();
     contradictions();
     searched();
+    found();
     blocks();
     documents();
     sharedAccessors();
     emptyParts();
     if (!problems_.empty()) throw std::runtime_error(problems_);
     return std::move(all_);
+  }
+
+  std::vector<Invalid> runInvalid() {
+    bounds();
+    lists();
+    fallbacks();
+    viewsAndManifolds();
+    if (!problems_.empty()) throw std::runtime_error(problems_);
+    return std::move(invalid_);
   }
 
  private:
@@ -232,14 +244,14 @@ class Maker {
         cutTo(kChecksummedFrom));
     add("ends in header", "A.2.2", Error::kTruncated, "The payload ends inside the piece", asset,
         cutTo(kChecksummedFrom + 3));
-    add("draft 0 8", "A.2.1", Error::kUnsupportedVersion, "The version is 0.8", asset,
-        with(kVersionOffset, 0x08, true));
-    add("version 1 0", "A.2.1", Error::kUnsupportedVersion, "The version is 1.0", asset,
-        with(kVersionOffset, 0x10, true));
+    add("draft 0 9", "A.2.1", Error::kUnsupportedVersion, "The version is 0.9", asset,
+        with(kVersionOffset, 0x09, true));
+    add("version 2 0", "A.2.1", Error::kUnsupportedVersion, "The version is 2.0", asset,
+        with(kVersionOffset, 0x20, true));
     Bytes withdrawn = asset.payload;
     std::copy_n(kWithdrawnMagic, 3, withdrawn.begin());
-    add("withdrawn magic", "A.2.1", Error::kUnsupportedVersion, "The withdrawn format 1.0", asset,
-        withdrawn);
+    add("withdrawn magic", "A.2.1", Error::kUnsupportedVersion, "The magic of a withdrawn draft",
+        asset, withdrawn);
     add("damaged stream", "A.2.1", Error::kBadChecksum, "A bit of the streams is flipped", asset,
         with(asset.payload.size() - 1, asset.payload.back() ^ 1, false));
     add("damaged flags", "A.2.1", Error::kBadChecksum,
@@ -738,7 +750,7 @@ class Maker {
 
   /// Streams that do not fit any more because the header changed.
   void contradictions() {
-    field("planes without a step", "B.2.9", Error::kBadAttribute, "Planes with a step of 0",
+    field("planes without a step", "A.6.12", Error::kBadAttribute, "Planes with a step of 0",
           threeStreams, [](HeaderFields& f) {
             f.set("0.0.predictor", position_mode::kPlanes);
             f.setLatticeBits("0.0.", 12);
@@ -823,16 +835,16 @@ class Maker {
         {"the seams make more wedges than the header claims", "A.7.3"},
         {"the seams make fewer wedges than the header claims", "A.7.1"},
         {"a wedge is merged with none of its group", "A.7.3"},
-        {"a triangle is in no part", "A.9.1"},
-        {"a listed triangle refers to a face that is not there", "A.9.2"},
-        {"a listed triangle refers to a vertex that is not there", "A.9.2"},
+        {"a triangle is in no part", "A.8.1"},
+        {"a listed triangle refers to a face that is not there", "A.8.2"},
+        {"a listed triangle refers to a vertex that is not there", "A.8.2"},
         {"a triangle refers to a vertex that it cannot have", "A.4.7"},
         {"the codes yield fewer triangles than the header claims", "A.4.7"},
         {"the codes leave a vertex without a triangle", "A.4.7"},
-        {"an order refers to an element that is not there", "A.10.1"},
-        {"a part has another number of triangles than the header claims", "A.10.4"},
-        {"a palette has more values than there are vertices", "B.2.8"},
-        {"a palette is not increasing", "B.2.8"},
+        {"an order refers to an element that is not there", "A.9.1"},
+        {"a part has another number of triangles than the header claims", "A.9.4"},
+        {"a palette has more values than there are vertices", "A.6.11"},
+        {"a palette is not increasing", "A.6.11"},
     };
     struct Found {
       const Asset* asset = nullptr;
@@ -1121,6 +1133,15 @@ class Maker {
           });
   }
 
+  void found() {
+    for (const FoundPayload& found : kFoundMalformed) {
+      const Bytes payload = bytesOf(found.hex);
+      const Status status = decode(payload);
+      add(found.name, found.section, status.error, found.shows, closestTo(payload, every_asset_),
+          payload);
+    }
+  }
+
   // ---- Documents --------------------------------------------------------------------------------
 
   /// Changes an asset's JSON. `change` gets the document, its first primitive and that one's
@@ -1334,18 +1355,138 @@ class Maker {
              });
   }
 
+  // ---- Documents that a validator reports -------------------------------------------------------
+
+  using Change = std::function<void(Json& json, Json& primitive, Bytes& bin)>;
+
+  void invalid(const std::string& name, const std::string& rule, const std::string& code,
+               const std::string& shows, const Asset& asset, const Change& change) {
+    const std::vector<uint8_t> file = makeGlb(asset);
+    gltf::GlbFile glb;
+    Json json;
+    if (!gltf::readGlb(file, glb).ok() || !gltf::parseJson(glb.json, json).ok())
+      throw std::runtime_error("an asset is no GLB");
+    Bytes bin(glb.bin.begin(), glb.bin.end());
+    change(json, json["meshes"][0]["primitives"][0], bin);
+    Invalid made{slug(rule) + "_" + slug(name), shows, rule, code, glbOf(json, bin)};
+    gltf::ValidationReport report;
+    const gltf::Result result = gltf::validate({{}, made.glb}, {}, report);
+    const bool is_found =
+        result.ok() && std::any_of(report.issues.begin(), report.issues.end(),
+                                   [&](const auto& issue) { return issue.code == code; });
+    if (!is_found) problems_ += name + ": validate() does not report " + code + "\n";
+    invalid_.push_back(std::move(made));
+  }
+
+  /// A payload of a single piece with positions and without anything that no JSON can name.
+  const Asset& simpleAsset() const {
+    return base([](const PayloadHeader& h) {
+      return h.pieces.size() == 1 && h.pieces[0].attribute_count == 1 && !h.hasBlocks() &&
+             h.pieces[0].part_count == 1 &&
+             h.attributes[0].format.component_type == ComponentType::kFloat32;
+    });
+  }
+
+  void bounds() {
+    const auto bound = [](const char* key) {
+      return [key](Json& j, Json& p, Bytes&) {
+        Json& accessor = j["accessors"][p["attributes"]["POSITION"].get<size_t>()];
+        accessor[key][1] = accessor[key][1].get<double>() + 0.5;
+      };
+    };
+    const Asset& asset = simpleAsset();
+    invalid("min", "V1", "BOUNDS_MISMATCH", "min of POSITION is above the smallest y", asset,
+            bound("min"));
+    invalid("max", "V1", "BOUNDS_MISMATCH", "max of POSITION is above the largest y", asset,
+            bound("max"));
+  }
+
+  void lists() {
+    const Asset& asset = simpleAsset();
+    invalid("not used", "V2", "EXTENSION_NOT_LISTED_AS_USED",
+            "The extension is not listed in extensionsUsed", asset,
+            [](Json& j, Json&, Bytes&) { j.erase("extensionsUsed"); });
+    invalid("not required", "V2", "EXTENSION_REQUIRED_MISMATCH",
+            "There is no fallback, and the extension is not listed in extensionsRequired", asset,
+            [](Json& j, Json&, Bytes&) { j.erase("extensionsRequired"); });
+  }
+
+  /// Gives an accessor a buffer view of its own, of zeros.
+  static void addElements(Json& json, size_t accessor, Bytes& bin) {
+    Json& a = json["accessors"][accessor];
+    const size_t component_bytes = a["componentType"].get<int>() < 5122   ? 1
+                                   : a["componentType"].get<int>() < 5124 ? 2
+                                                                          : 4;
+    const size_t bytes =
+        a["count"].get<size_t>() * component_bytes * (a["type"] == "SCALAR" ? 1 : 3);
+    bin.resize((bin.size() + 3) / 4 * 4);
+    a["bufferView"] = json["bufferViews"].size();
+    json["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", bin.size()}, {"byteLength", bytes}});
+    bin.resize(bin.size() + bytes);
+    json["buffers"][0]["byteLength"] = bin.size();
+  }
+
+  void fallbacks() {
+    const Asset& asset = simpleAsset();
+    invalid("fallback of some accessors", "V2", "FALLBACK_INCOMPLETE",
+            "POSITION has a fallback, the indices have none", asset,
+            [](Json& j, Json& p, Bytes& bin) {
+              addElements(j, p["attributes"]["POSITION"].get<size_t>(), bin);
+            });
+    const auto addAll = [](Json& j, Json& p, Bytes& bin) {
+      addElements(j, p["attributes"]["POSITION"].get<size_t>(), bin);
+      addElements(j, p["indices"].get<size_t>(), bin);
+    };
+    invalid("required with a fallback", "V2", "EXTENSION_REQUIRED_MISMATCH",
+            "Everything has a fallback, and the extension is listed in extensionsRequired", asset,
+            addAll);
+    invalid("other elements", "V3", "FALLBACK_MISMATCH",
+            "The elements of the fallback are zeros, those of the payload are not", asset,
+            [&](Json& j, Json& p, Bytes& bin) {
+              addAll(j, p, bin);
+              j.erase("extensionsRequired");
+            });
+  }
+
+  void viewsAndManifolds() {
+    const Asset& asset = simpleAsset();
+    invalid("manifold", "V4", "MANIFOLD_WITHOUT_ORDER",
+            "The mesh has EXT_mesh_manifold, and the payload keeps no order", asset,
+            [](Json& j, Json&, Bytes&) {
+              j["meshes"][0]["extensions"]["EXT_mesh_manifold"] = {
+                  {"manifoldPrimitive", {{"indices", 0}}}};
+              j["extensionsUsed"].push_back("EXT_mesh_manifold");
+            });
+    invalid("stride", "V5", "INVALID_PAYLOAD_BUFFER_VIEW", "The payload's buffer view has a stride",
+            asset, [](Json& j, Json&, Bytes&) { j["bufferViews"][0]["byteStride"] = 16; });
+    invalid("target", "V5", "INVALID_PAYLOAD_BUFFER_VIEW", "The payload's buffer view has a target",
+            asset, [](Json& j, Json&, Bytes&) { j["bufferViews"][0]["target"] = 34962; });
+    invalid("image", "V5", "PAYLOAD_BUFFER_VIEW_USED_ELSEWHERE",
+            "An image is in the payload's buffer view", asset, [](Json& j, Json&, Bytes&) {
+              j["images"] = {{{"bufferView", 0}, {"mimeType", "image/png"}}};
+            });
+  }
+
   static constexpr size_t kSearchedBytes = 700;
   static constexpr uint32_t kRounds = 1000;  ///< of each asset, in each search
   static constexpr uint32_t kSearches = 20;  ///< at most: until each message was found
 
   std::span<const Asset> assets_;
+  std::span<const Asset> every_asset_;
   std::vector<PayloadHeader> headers_;
   std::vector<Negative> all_;
+  std::vector<Invalid> invalid_;
   std::string problems_;  ///< in what is made here
 };
 
 }  // namespace
 
-std::vector<Negative> makeNegatives(std::span<const Asset> assets) { return Maker(assets).run(); }
+std::vector<Negative> makeNegatives(std::span<const Asset> assets, std::span<const Asset> all) {
+  return Maker(assets, all).run();
+}
+std::vector<Invalid> makeInvalid(std::span<const Asset> assets) {
+  return Maker(assets, assets).runInvalid();
+}
 
 }  // namespace mcc::conformance

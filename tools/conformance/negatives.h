@@ -21,9 +21,21 @@ struct Negative {
   std::vector<uint8_t> glb;
 };
 
-/// Makes negative files from valid assets. Throws if one of them decodes, or fails for another
-/// reason than it should.
-std::vector<Negative> makeNegatives(std::span<const Asset> assets);
+/// A document that contradicts the specification, though loaders may show it.
+struct Invalid {
+  std::string name;
+  std::string shows;  ///< one sentence
+  std::string rule;   ///< of the list "Validators also report"
+  std::string code;   ///< one of those that validate() reports
+  std::vector<uint8_t> glb;
+};
+
+/// Makes negative files from valid assets, and from `all` those that a search has found. Throws if
+/// one of them decodes, or fails for another reason than it should.
+std::vector<Negative> makeNegatives(std::span<const Asset> assets, std::span<const Asset> all);
+
+/// The same for files that a validator reports. Throws if validate() does not.
+std::vector<Invalid> makeInvalid(std::span<const Asset> assets);
 
 }  // namespace mcc::conformance
 

@@ -1043,6 +1043,84 @@ std::vector<Source> blockSources() {
   return all;
 }
 
+namespace {
+
+/// A vertex in the middle of many others, and triangles from it to random pairs of these, so that
+/// its edges have many faces in no order.
+TestMesh coneOverRandomGraph() {
+  constexpr uint32_t kAround = 90;
+  TestMesh mesh;
+  mesh.name = "cone over a random graph";
+  Random random(11);
+  for (uint32_t v = 0; v <= kAround; ++v) {
+    const float angle = static_cast<float>(v) * 0.41f;
+    const float radius = v == 0 ? 0.0f : 1.0f + static_cast<float>(v % 7) * 0.1f;
+    mesh.positions.insert(mesh.positions.end(), {radius * (1 - angle * angle / 700),
+                                                 radius * angle / 40, static_cast<float>(v % 11)});
+  }
+  for (uint32_t t = 0; t < 420; ++t) {
+    const uint32_t a = random.between(1, kAround);
+    const uint32_t b = random.between(1, kAround);
+    if (a != b) mesh.indices.insert(mesh.indices.end(), {0, a, b});
+  }
+  return mesh;
+}
+
+/// Wedges of a single point, in triangles that are none.
+TestMesh onePoint() {
+  TestMesh mesh;
+  mesh.name = "one point";
+  mesh.positions = {0.3f, 0.1f, 0.7f, 0.3f, 0.1f, 0.7f, 0.3f, 0.1f, 0.7f};
+  mesh.normals = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  mesh.indices = {0, 1, 2, 0, 0, 1};
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<Source> rareSources() {
+  std::vector<Source> all;
+  all.push_back(single("one_point", "Exact positions that are all the same", onePoint(),
+                       [](SourceBuilder& b) {
+                         b.floats("POSITION", kBase, "VEC3", 0,
+                                  [](const Place& at, uint32_t c) { return at.position(c); });
+                         b.normals(8);
+                       }));
+  for (uint64_t variation = 1; variation <= 6; ++variation) {
+    all.push_back(single("flat_faces_exact_" + std::to_string(variation),
+                         "Exact normals and tangents at faces without an area",
+                         withNormals(grid(5, 5)), [](SourceBuilder& b) {
+                           b.floats("POSITION", kBase, "VEC3", 0, [](const Place& at, uint32_t c) {
+                             return c == 0 ? std::floor(at.position(0) * 3) : 0.0f;
+                           });
+                           b.normals(0);
+                           b.texcoords("TEXCOORD_0", 0);
+                           b.tangents(0, true);
+                         }));
+    all.back().options.variation = variation;
+  }
+  all.push_back(
+      single("joints_without_partners", "A second JOINTS of set 0, and one without WEIGHTS",
+             withNormals(torus(9, 7)), [](SourceBuilder& b) {
+               b.positions(10);
+               b.skin("0");
+               const auto joint = [](const Place& at, uint32_t c) {
+                 return static_cast<float>((at.wedge / 9 + c) % 5);
+               };
+               b.integers("JOINTS_0", kBase, "VEC4", ComponentType::kUint8, false, joint);
+               b.piece().attributes.back().name.clear();
+               b.integers("JOINTS_1", kBase, "VEC4", ComponentType::kUint8, false,
+                          [joint](const Place& at, uint32_t c) { return joint(at, c + 1); });
+             }));
+  for (uint64_t variation = 0; variation < 3; ++variation) {
+    all.push_back(single("many_spokes_" + std::to_string(variation),
+                         "A face whose spokes are more than 32 places apart", coneOverRandomGraph(),
+                         [](SourceBuilder& b) { b.positions(9); }));
+    all.back().options.variation = variation;
+  }
+  return all;
+}
+
 std::vector<Source> chosenSources() {
   std::vector<Source> all;
   smallSources(all);

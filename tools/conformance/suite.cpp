@@ -11,6 +11,7 @@
 #include "asset.h"
 #include "container/payload_header.h"
 #include "format_features.h"
+#include "found.h"
 #include "gltf/base/payload.h"
 #include "header_fields.h"
 #include "negatives.h"
@@ -22,6 +23,7 @@ namespace {
 constexpr uint64_t kCandidates = 2500;
 constexpr uint32_t kTimes = 2;  ///< every feature is in this many assets, if there are candidates
 constexpr size_t kAssetBytes = 24000;
+constexpr const char* kLists[] = {"assets", "negative", "invalid"};  ///< also folders
 
 struct Candidate {
   Asset asset;
@@ -50,7 +52,7 @@ Asset appendixC() {
   Asset asset;
   asset.name = "appendix_c";
   asset.shows = "The payload of Appendix C: two triangles, without attributes";
-  asset.payload = {0x4b, 0x09, 0xf2, 0x28, 0x2c, 0xb7, 0x01, 0x08, 0x04,
+  asset.payload = {0x4b, 0x10, 0xc0, 0x84, 0xbe, 0x84, 0x01, 0x08, 0x04,
                    0x02, 0x01, 0x00, 0x01, 0x00, 0x00, 0x00, 0x00, 0x02};
   NamedAttribute positions = makeAttribute("POSITION", kNone, "VEC3", ComponentType::kFloat32);
   for (uint32_t i = 0; i < 4; ++i) {
@@ -73,6 +75,12 @@ void addVariants(std::vector<Asset>& assets) {
   fields.insertBefore("codes", "padding", {0, 0, 0});
   padded.payload = fields.payload();
   assets.push_back(padded);
+  Asset later = assets[0];
+  later.name = "later_minor_version";
+  later.shows = "Version 1.15, without anything that is new in it";
+  later.payload[kVersionOffset] = kVersionMajor << 4 | 15;
+  repairChecksum(later.payload);
+  assets.push_back(later);
 }
 
 /// Takes candidates until every feature was met kTimes, preferring small ones that show much.
@@ -167,6 +175,26 @@ Asset neverRepeated() {
   throw std::runtime_error(asset.name + ": no wedge of block 1 is repeated later");
 }
 
+std::vector<Asset> assetsOf(const std::vector<Candidate>& candidates) {
+  std::vector<Asset> assets;
+  for (const Candidate& candidate : candidates) assets.push_back(candidate.asset);
+  return assets;
+}
+
+/// Valid payloads that no writer makes.
+void addFound(std::vector<Candidate>& candidates) {
+  const std::vector<Asset> assets = assetsOf(candidates);
+  for (const FoundPayload& found : kFoundValid) {
+    const std::vector<uint8_t> payload = bytesOf(found.hex);
+    Asset asset = closestTo(payload, assets);
+    asset.name = found.name;
+    asset.shows = found.shows;
+    asset.payload = payload;
+    Features features = featuresOf(asset.payload);
+    candidates.push_back({std::move(asset), std::move(features)});
+  }
+}
+
 void addSources(std::vector<Candidate>& all) {
   for (const Source& source : addedSources()) addAsset(all, encodeSource(source));
   for (const Source& source : blockSources()) addAsset(all, encodeSource(source));
@@ -223,7 +251,7 @@ std::vector<uint8_t> extended(const std::vector<uint8_t>& there, const std::vect
   Json manifest, more;
   if (!gltf::parseJson(there, manifest).ok() || !gltf::parseJson(made, more).ok())
     throw std::runtime_error("the manifest is damaged");
-  for (const char* const list : {"assets", "negative"}) {
+  for (const char* const list : kLists) {
     std::set<std::string> known;
     for (const Json& entry : manifest[list]) known.insert(entry["file"]);
     for (const Json& entry : more[list]) {
@@ -246,7 +274,7 @@ Json sectionsOf(const Negative& negative) {
   if (negative.error != 0) sections.push_back("A.1.4");
   const bool is_stream_end = negative.error == static_cast<uint32_t>(Error::kTruncated) &&
                              negative.section.starts_with("A.3");
-  if (is_stream_end) sections.push_back("B.1.4");
+  if (is_stream_end) sections.push_back("A.1.4");
   return sections;
 }
 
@@ -254,15 +282,17 @@ Json sectionsOf(const Negative& negative) {
 
 Suite makeSuite() {
   std::vector<Candidate> candidates = makeCandidates();
-  std::vector<Asset> assets;  // from which negative ones are made
-  for (const Candidate& candidate : candidates) assets.push_back(candidate.asset);
+  const std::vector<Asset> assets = assetsOf(candidates);  // from which negative ones are made
   addSources(candidates);
+  addFound(candidates);
+  for (const Source& source : rareSources()) addAsset(candidates, encodeSource(source));
   numberNames(candidates);
   Suite suite;
   Json manifest = {{"extension", gltf::kExtensionName},
-                   {"payloadVersion", "0.9"},
+                   {"payloadVersion", "1.0"},
                    {"assets", Json::array()},
-                   {"negative", Json::array()}};
+                   {"negative", Json::array()},
+                   {"invalid", Json::array()}};
   std::set<std::string> features;
   size_t bytes = 0;
   for (const Candidate& candidate : candidates) {
@@ -275,7 +305,7 @@ Suite makeSuite() {
                                   {"spec", sectionsOf(candidate.features)},
                                   {"primitives", expectedOf(candidate.asset)}});
   }
-  const std::vector<Negative> negatives = makeNegatives(assets);
+  const std::vector<Negative> negatives = makeNegatives(assets, assetsOf(candidates));
   for (const Negative& negative : negatives) {
     const std::string file = "negative/" + negative.name + ".glb";
     suite[file] = negative.glb;
@@ -286,6 +316,13 @@ Suite makeSuite() {
                                     {"error", negative.error},
                                     {"kind", kindOf(negative.error)}});
   }
+  for (const Invalid& invalid : makeInvalid(assets)) {
+    const std::string file = "invalid/" + invalid.name + ".glb";
+    suite[file] = invalid.glb;
+    bytes += invalid.glb.size();
+    manifest["invalid"].push_back(
+        {{"file", file}, {"shows", invalid.shows}, {"rule", invalid.rule}, {"code", invalid.code}});
+  }
   suite["manifest.json"] = asFile(manifest);
   std::printf("%zu assets, %zu negative ones, %zu features, %zu bytes, manifest %zu bytes\n",
               candidates.size(), negatives.size(), features.size(), bytes,
@@ -294,7 +331,7 @@ Suite makeSuite() {
 }
 
 int writeSuite(const Suite& suite, const std::filesystem::path& folder) {
-  for (const char* const part : {"assets", "negative"}) {
+  for (const char* const part : kLists) {
     std::filesystem::create_directories(folder / part);
   }
   uint32_t added = 0;
@@ -323,7 +360,7 @@ int checkSuite(const Suite& suite, const std::filesystem::path& folder) {
     std::printf("%s differs\n", name.c_str());
     ++different;
   }
-  for (const char* const part : {"assets", "negative"}) {
+  for (const char* const part : kLists) {
     for (const auto& entry : std::filesystem::directory_iterator(folder / part)) {
       const std::string name = std::string(part) + "/" + entry.path().filename().string();
       if (suite.contains(name)) continue;

@@ -62,8 +62,7 @@ Table payloadTable(const gltf::InspectReport& report, Format format) {
     table.addRow(
         {std::to_string(payload.buffer_view), count(payload.payload_bytes, format),
          counts.wedges == 0 ? "" : fmt::format("{:.3f}", bits / static_cast<double>(counts.wedges)),
-         fmt::format("{}.{}{}", payload.version_major, payload.version_minor,
-                     payload.version_major == 0 ? " draft" : ""),
+         fmt::format("{}.{}", payload.version_major, payload.version_minor),
          std::to_string(payload.pieces.size()), count(counts.triangles, format),
          count(counts.wedges, format), count(counts.vertices, format),
          count(payload.header_bytes, format), count(payload.codes_bytes, format),

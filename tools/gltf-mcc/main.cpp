@@ -84,7 +84,7 @@ namespace {
 
 std::string versionText() {
   std::string text = fmt::format("gltf-mcc {}\n", MCC_VERSION);
-  text += fmt::format("{}: writes and reads format {}.{}, a draft\n", gltf::kExtensionName,
+  text += fmt::format("{}: writes and reads format {}.{}\n", gltf::kExtensionName,
                       kVersionMajor, kVersionMinor);
 #if defined(MCC_HAS_FOREIGN)
   text += "reads KHR_draco_mesh_compression, EXT_meshopt_compression, KHR_meshopt_compression";

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// node draw.mjs: writes the figures of Appendices A and B beside itself.
+// node draw.mjs: writes the figures of the specification next to itself.
 import fs from 'node:fs';
 
 const GREY = '#90a4ae';
@@ -176,7 +176,7 @@ function joins() {
   write('joins.svg', 40, 900, 320, 'A hole with its dummy, START joins two rings, HANDLE splits one', parts);
 }
 
-/// Appendix B: the known region, a vertex with the three scores, and a plain fan with what lies beyond.
+/// A.6: the known region, a vertex with the three scores, and a plain fan with what lies beyond.
 function fan() {
   const parts = [];
   const at = (x, y) => [x, y];
@@ -219,7 +219,7 @@ function fan() {
   write('fan.svg', 40, 900, 340, 'The region of known vertices with scores, and a plain fan with its tips', parts);
 }
 
-/// Appendix B: unfolding a chart, and a cell of planes.
+/// A.10.11 and A.6.12: unfolding a chart, and a cell of planes.
 function hingeAndPlanes() {
   const parts = [];
   const n = [60, 160], p = [210, 160], o = [120, 70], v = [150, 262];
@@ -234,7 +234,7 @@ function hingeAndPlanes() {
   const along = middle(un, up, 0.6), alongO = middle(un, up, 0.4);
   parts.push(dashed(uo, alongO, BLUE), dashed(along, uv, RED));
   for (const [q, name, dx, dy] of [[un, 'n', -14, 4], [up, 'p', 14, 4], [uo, 'o', 0, -12], [uv, 'v', 14, 14]]) parts.push(dot(q, name === 'v' ? RED : DARK), text([q[0] + dx, q[1] + dy], name));
-  parts.push(text([400, 304], 'in the chart: the map of n, p, o goes on behind n-p', 12));
+  parts.push(text([400, 304], 'in the chart: the map of n, p, o goes on beyond n-p', 12));
 
   const x = [600, 690, 780, 870], y = [70, 160, 250];
   for (const a of x) parts.push(line([a, 50], [a, 270], '#cfd8dc', 1.5));
@@ -247,9 +247,95 @@ function hingeAndPlanes() {
   write('hinge_and_planes.svg', 40, 900, 370, 'A chart unfolded over an edge, and vertices on and between the planes of a grid', parts);
 }
 
+/// A.7: ends of seams cut the corners around a group into runs, and wedges are made of runs.
+function wedges() {
+  const parts = [];
+  const fills = { w1: '#bbdefb', w2: '#c8e6c9', w3: '#ffe0b2' };
+  const umbrella = (centre, count, isOpen, runs, seams, start) => {
+    const rim = ring(centre, 92, count + (isOpen ? 1 : 0) + (isOpen ? 1 : 0), start);
+    for (let i = 0; i < count; ++i) {
+      const p = rim[i], q = rim[(i + 1) % rim.length];
+      const mean = middle(middle(p, q), centre, 0.42);
+      parts.push(area([centre, p, q], fills[runs[i]]), text([mean[0], mean[1] + 4], runs[i], 12));
+    }
+    for (let i = 0; i < count; ++i) parts.push(line(rim[i], rim[(i + 1) % rim.length], GREY, 1.5));
+    rim.slice(0, isOpen ? count + 1 : count).forEach((p, i) => {
+      const isSeam = seams.includes(i);
+      parts.push(line(centre, p, isSeam ? RED : GREY, isSeam ? 4 : 1.5), dot(p, '#90a4ae', 4));
+    });
+    parts.push(dot(centre, DARK, 7));
+  };
+  umbrella([150, 160], 6, false, ['w1', 'w1', 'w2', 'w2', 'w2', 'w1'], [2, 5], -90);
+  parts.push(text([150, 286], 'A closed umbrella: two seams (red) end here, so', 12), text([150, 303], 'its six corners are two runs, wedges w1 and w2.', 12));
+  umbrella([520, 160], 4, true, ['w1', 'w3', 'w3', 'w3'], [1], -20);
+  parts.push(text([520, 286], 'An open umbrella of the same group: one seam, two', 12), text([520, 303], 'runs. The first is w1 again, the second a new wedge.', 12));
+  parts.push(dashed([158, 160], [512, 160], ORANGE), text([336, 134], 'one group: two', 12, 'middle', '#ef6c00'), text([336, 150], 'vertices, stitched', 12, 'middle', '#ef6c00'));
+  const rows = [['red', 'end(h) = 1: a seam ends at this group on the edge of h'], ['run', 'corners in a row, counterclockwise, without an end between'],
+    ['start', 'the first half-edge of the first run of a wedge'], ['wedge', 'one run, or several: MERGE names an earlier wedge again']];
+  rows.forEach(([left, right], i) => {
+    parts.push(text([650, 92 + 26 * i], left, 13, 'start', '#1565c0', 'bold'), text([706, 92 + 26 * i], right, 12, 'start'));
+  });
+  write('wedges.svg', 50, 1060, 320, 'A group with two umbrellas: ends of seams cut their corners into runs, and runs are wedges', parts);
+}
+
+/// A.10.6: the grid of an octahedron, the turn of a prediction, and residuals that wrap.
+function frame() {
+  const parts = [];
+  const square = (x, y, size) => [[x, y], [x + size, y], [x + size, y + size], [x, y + size]];
+  const diamond = (x, y, size) => [[x + size / 2, y], [x + size, y + size / 2], [x + size / 2, y + size], [x, y + size / 2]];
+  const grid = (x, name, more) => {
+    parts.push(area(square(x, 60, 200), '#eceff1'), area(diamond(x, 60, 200)), closed(square(x, 60, 200)), closed(diamond(x, 60, 200), BLUE, 1.5));
+    parts.push(line([x, 160], [x + 200, 160], '#cfd8dc', 1), line([x + 100, 60], [x + 100, 260], '#cfd8dc', 1));
+    name.forEach((row, i) => parts.push(text([x + 100, 284 + 17 * i], row.replaceAll('<', '&lt;').replaceAll('>', '&gt;'), 12)));
+    parts.push(more);
+  };
+  grid(30, ['The grid: z > 0 inside of the diamond,', 'z < 0 in the corners, folded outwards.', 'A prediction q outside is turned over to p.'], [
+    dot([206, 86], RED, 6), text([190, 80], 'q', 13, 'middle', '#c62828', 'bold'), dot([154, 124], RED, 6), text([140, 120], 'p', 13, 'middle', '#c62828', 'bold'), arrow([201, 92], [160, 119]),
+    text([228, 154], 'x', 12), text([122, 74], 'y', 12)]);
+  parts.push(arrow([246, 160], [304, 160]), text([275, 148], '(c, s)', 12));
+  grid(320, ['Quarter turns bring p to p′,', 'where x ≤ 0 and y ≤ 0, so that', 'residuals are alike in all quadrants.'], [
+    dot([444, 124], '#ef9a9a', 5), dot([384, 136], '#ef9a9a', 5), dot([396, 196], RED, 6), text([382, 214], 'p′', 13, 'middle', '#c62828', 'bold'),
+    `<path d="M 444 124 A 43.3 43.3 0 0 0 384 136 A 43.3 43.3 0 0 0 394 189" stroke="${DARK}" stroke-width="1.5" stroke-dasharray="4 3" fill="none"/>`]);
+  parts.push(arrow([536, 160], [594, 160]), text([565, 148], 'residual', 12));
+  grid(610, ['p′ + (r0, r1), each at most C in size, may', 'leave the grid on one side; it comes', 'in again on the other (wrap).'], [
+    dot([686, 196], RED, 6), text([672, 214], 'p′', 13, 'middle', '#c62828', 'bold'), arrow([686, 196], [590, 180], BLUE), dot([790, 180], BLUE, 6), dashed([590, 180], [790, 180], BLUE)]);
+  write('frame.svg', 40, 860, 330, 'The frame of a prediction: the predicted point is turned into one quadrant of the diamond, and residuals wrap around the grid', parts);
+}
+
+/// A.11: blocks, their rim wedges, and the numbers of the glued piece.
+function blocks() {
+  const parts = [];
+  const cells = (x, y, columns, fill) => {
+    for (let i = 0; i < columns; ++i) {
+      for (let j = 0; j < 3; ++j) {
+        const [a, b, c, d] = [[x + 36 * i, y + 36 * j], [x + 36 * (i + 1), y + 36 * j], [x + 36 * (i + 1), y + 36 * (j + 1)], [x + 36 * i, y + 36 * (j + 1)]];
+        parts.push(area([a, b, c, d], fill), closed([a, b, c, d], GREY, 1), line(a, c, GREY, 1));
+      }
+    }
+  };
+  const names = (x, y, first, colour) => first.forEach((name, j) => parts.push(dot([x, y + 36 * j], colour, 6), text([x + (colour === RED ? 18 : -18), y + 36 * j + 4], name, 11, 'middle', colour === RED ? '#c62828' : '#1565c0')));
+  parts.push(text([104, 60], 'block 0', 13, 'middle', '#263238', 'bold'), text([300, 60], 'block 1', 13, 'middle', '#263238', 'bold'));
+  cells(32, 80, 4, DONE);
+  cells(236, 80, 4, '#e8f5e9');
+  names(176, 80, ['4', '9', '14', '19'], BLUE);
+  names(236, 80, ['0', '5', '10', '15'], RED);
+  parts.push(text([206, 218], 'copies of four wedges', 12), text([206, 235], 'along the cut', 12));
+  parts.push(arrow([400, 134], [452, 134]), text([426, 122], 'glue', 12));
+  cells(476, 80, 4, DONE);
+  cells(620, 80, 4, '#e8f5e9');
+  for (let j = 0; j < 4; ++j) parts.push(dot([620, 80 + 36 * j], BLUE, 6));
+  parts.push(text([620, 60], 'the glued piece', 13, 'middle', '#263238', 'bold'), text([620, 218], 'tuples of rim wedges are equal: numbers 4, 9, 14, 19', 12), text([620, 235], 'again; the other wedges of block 1 follow from 20 on', 12));
+  const rows = [['header', 'counts, attributes of block 0, table of blocks (lengths, boxes)'], ['block 0', 'codes, tokens, raw; leaves its models to all others'], ['block 1 …', 'codes, tokens, raw; in any order, at the same time']];
+  rows.forEach(([name, what], i) => parts.push(box(32, 258 + 30 * i, 110, 26, i === 0 ? '#eceff1' : i === 1 ? DONE : '#e8f5e9'), text([87, 276 + 30 * i], name, 12), text([156, 276 + 30 * i], what, 12, 'start')));
+  write('blocks.svg', 40, 800, 356, 'A mesh cut into blocks; the tuples of rim wedges glue them together', parts);
+}
+
 container();
 halfEdges();
 expand();
 joins();
 fan();
 hingeAndPlanes();
+wedges();
+frame();
+blocks();

@@ -61,7 +61,7 @@ struct AttributeInfo {
   AttributeCoding coding = AttributeCoding::kLattice;
   uint8_t bits = 0;       ///< of kLattice, kOctahedral, kTangentAngle and kGrid
   Lattice lattice;        ///< of kLattice
-  uint8_t predictor = 0;  ///< the predictor byte, whose meaning depends on the coding [A.8]
+  uint8_t predictor = 0;  ///< the predictor byte, whose meaning depends on the coding [A.10]
   uint32_t alias_of = 0;  ///< of kAlias
   uint8_t grid = 0;       ///< of kGrid: the byte that gives its steps
   /// With kGrid, whether values have bits below the steps of the grid, and how those are coded.

@@ -510,7 +510,7 @@ Status parsePrefix(std::span<const uint8_t> bytes, uint64_t payload_bytes, const
                    PayloadHeader& header) {
   if (bytes.size() >= 3 && std::memcmp(bytes.data(), kWithdrawnMagic, 3) == 0) {
     return fail(Error::kUnsupportedVersion,
-                "the payload is of the withdrawn format 1.0: compress its source again", 0);
+                "the payload is of a withdrawn draft of the format: compress its source again", 0);
   }
   if (bytes.empty() || bytes[0] != kMagic) {
     return fail(Error::kBadMagic, "the bytes are not a mesh collapse payload", 0);
@@ -521,9 +521,11 @@ Status parsePrefix(std::span<const uint8_t> bytes, uint64_t payload_bytes, const
   uint32_t checksum = 0;
   MCC_TRY(in.readU8(magic));
   MCC_TRY(in.readU8(version));
-  if (version != (kVersionMajor << 4 | kVersionMinor)) {
+  if (version >> 4 != kVersionMajor) {
     return fail(Error::kUnsupportedVersion,
-                "the payload is of a version this reader does not know (it knows the draft 0.9)",
+                version >> 4 == 0
+                    ? "the payload is of a draft of the format: compress its source again"
+                    : "the payload is of a version this reader does not know: it knows 1.x",
                 kVersionOffset);
   }
   header.version_minor = version & 15;

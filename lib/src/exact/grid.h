@@ -3,7 +3,7 @@
 // Exact float32 values on a grid through 0: most files come from numbers with a few decimals, or
 // from computations whose results lie far above the precision of their smallest values. Coded are
 // the grid's integers, like those of a lattice; grids of binary fractions may leave bits below
-// their step, the tails.                      [A.8.12]
+// their step, the tails.                      [A.10.5]
 #ifndef MCC_EXACT_GRID_H_
 #define MCC_EXACT_GRID_H_
 

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Exact normals, predicted from the decoded faces in binary64: where a program computed them from
-// the same positions, little more is left than its rounding. [A.8.9]
+// the same positions, little more is left than its rounding. [A.10.16]
 #ifndef MCC_EXACT_NORMALS_H_
 #define MCC_EXACT_NORMALS_H_
 
@@ -19,7 +19,7 @@
 
 namespace mcc {
 
-/// Angle between two vectors by the length of their cross product and their dot product. [B.4.3]
+/// Angle between two vectors by the length of their cross product and their dot product. [A.10.7]
 inline double exactAngle(double cross_length, double dot_product) {
   const double h = std::sqrt(cross_length * cross_length + dot_product * dot_product);
   const double t = cross_length / (h + std::fabs(dot_product));
@@ -74,7 +74,7 @@ MCC_SHARED void addExactNormalsOfWeight(NormalWeight normal_weight, const WedgeM
 }
 
 /// Adds the weighted normals of all faces to their wedges' sums (3 per wedge). `positions`: 3
-/// floats per wedge. [B.4.7]
+/// floats per wedge. [A.10.16]
 inline void addExactFaces(NormalWeight weight, const WedgeMesh& wedges, const float* positions,
                           double* sums) {
   if constexpr (kCompact) return addExactNormalsOfWeight(weight, wedges, positions, sums);

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Exact tangents, predicted from the decoded faces, charts and normals in binary64. [A.8.10]
+// Exact tangents, predicted from the decoded faces, charts and normals in binary64. [A.10.17]
 #ifndef MCC_EXACT_TANGENTS_H_
 #define MCC_EXACT_TANGENTS_H_
 
@@ -40,7 +40,7 @@ inline void projectAlong(const double* unit, double* v) {
 }
 
 /// Adds to the three wedges of a face (4 sums each) the direction in which u grows, of length 1,
-/// and the orientation of the chart. [B.6.7]
+/// and the orientation of the chart. [A.10.17]
 inline void addExactTangent(const WedgeMesh& wedges, const TangentSources& from, uint32_t face,
                             double* sums) {
   const uint32_t* corner = wedges.faces.words + size_t{face} * kFaceWords;

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Exact vectors of unit length near a prediction: two components by the distance of their floats,
-// as ordered integers, from the predicted ones, the longest from the other two. [B.7.2]
+// as ordered integers, from the predicted ones, the longest from the other two. [A.10.15]
 #ifndef MCC_EXACT_VECTORS_H_
 #define MCC_EXACT_VECTORS_H_
 
@@ -27,7 +27,7 @@ inline double finiteValue(int32_t ordered) {
   return (bits & 0x7f800000u) == 0x7f800000u ? 0.0
                                              : static_cast<double>(std::bit_cast<float>(bits));
 }
-/// Distance of a finite float from the next one away from 0. [B.7.1]
+/// Distance of a finite float from the next one away from 0. [A.10.9]
 inline double lastPlaceOf(int32_t ordered) {
   const uint32_t exponent = (bitsFromOrdered(ordered) >> 23) & 255;
   return powerOfTwo((exponent == 0 ? 1 : static_cast<int32_t>(exponent)) - 150);

@@ -48,14 +48,14 @@ struct CodingInfo {
 
 /// The codings, in the order of AttributeCoding.
 inline constexpr CodingInfo kCodings[] = {
-    {AttributeCoding::kLattice, "lattice", "lattice", "A.2.4 A.8.11", true, true},
-    {AttributeCoding::kInteger, "integer", "integer", "A.2.4 A.8.11", false, true},
-    {AttributeCoding::kExactFloat, "exact float", "exact float", "A.2.4 A.8.11", false,
+    {AttributeCoding::kLattice, "lattice", "lattice", "A.2.4 A.10.18", true, true},
+    {AttributeCoding::kInteger, "integer", "integer", "A.2.4 A.10.18", false, true},
+    {AttributeCoding::kExactFloat, "exact float", "exact float", "A.2.4 A.10.18", false,
      decodes::kExactFloats},
-    {AttributeCoding::kOctahedral, "octahedral", "octahedral", "A.2.4 B.4.1", true, true},
-    {AttributeCoding::kTangentAngle, "tangent angle", "angle", "A.2.4 B.6.3", true, true},
+    {AttributeCoding::kOctahedral, "octahedral", "octahedral", "A.2.4 A.10.6", true, true},
+    {AttributeCoding::kTangentAngle, "tangent angle", "angle", "A.2.4 A.10.12", true, true},
     {AttributeCoding::kAlias, "alias", "alias", "A.2.4", false, true},
-    {AttributeCoding::kGrid, "grid", "exact grid", "A.2.4 A.8.12", false, decodes::kExactFloats},
+    {AttributeCoding::kGrid, "grid", "exact grid", "A.2.4 A.10.5", false, decodes::kExactFloats},
 };
 
 constexpr const CodingInfo& infoOf(AttributeCoding coding) {

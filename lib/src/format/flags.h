@@ -13,10 +13,10 @@
 namespace mcc {
 
 inline constexpr uint8_t kMagic = 'K';
-inline constexpr uint8_t kWithdrawnMagic[3] = {'M', 'C', 'C'};  ///< the first format
-/// A draft (major version 0) is not compatible with any other version.
-inline constexpr uint8_t kVersionMajor = 0;
-inline constexpr uint8_t kVersionMinor = 9;
+inline constexpr uint8_t kWithdrawnMagic[3] = {'M', 'C', 'C'};  ///< of a draft
+/// Of the format. Readers accept any minor version: what a later one adds, reserved bits announce.
+inline constexpr uint8_t kVersionMajor = 1;
+inline constexpr uint8_t kVersionMinor = 0;
 inline constexpr size_t kVersionOffset = 1;
 inline constexpr size_t kChecksumOffset = 2;
 inline constexpr size_t kChecksummedFrom = 6;  ///< the checksum covers bytes 0, 1 and from here on
@@ -56,15 +56,15 @@ struct PieceFlagInfo {
 
 inline constexpr PieceFlagInfo kPieceFlags[] = {
     {piece_flag::kSeams, "SEAMS", "A.7 A.7.1 A.7.2 A.7.3"},
-    {piece_flag::kManyParts, "MANY_PARTS", "A.9.1"},
+    {piece_flag::kManyParts, "MANY_PARTS", "A.8.1"},
     {piece_flag::kSameAttributes, "SAME_ATTRIBUTES", "A.2.3"},
     {piece_flag::kHoles, "HOLES", "A.4.6"},
     {piece_flag::kHandles, "HANDLES", "A.4.4"},
-    {piece_flag::kIsolated, "ISOLATED", "A.2.2 A.6.4"},
-    {piece_flag::kListed, "LISTED", "A.9.2"},
+    {piece_flag::kIsolated, "ISOLATED", "A.2.2 A.6.9"},
+    {piece_flag::kListed, "LISTED", "A.8.2"},
     {piece_flag::kCreases, "CREASES", "A.7.4"},
-    {piece_flag::kTriangleOrder, "TRIANGLE_ORDER", "A.3.5 A.10.1 A.10.2"},
-    {piece_flag::kVertexOrder, "VERTEX_ORDER", "A.3.5 A.10.1 A.10.3"},
+    {piece_flag::kTriangleOrder, "TRIANGLE_ORDER", "A.3.5 A.9.1 A.9.2"},
+    {piece_flag::kVertexOrder, "VERTEX_ORDER", "A.3.5 A.9.1 A.9.3"},
 };
 
 struct SurfaceInfo {

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Which coder an attribute goes through.  [A.2.4, A.8]
+// Which coder an attribute goes through.  [A.2.4, A.10]
 #ifndef MCC_FORMAT_METHODS_H_
 #define MCC_FORMAT_METHODS_H_
 
@@ -81,7 +81,7 @@ constexpr uint32_t chartOfTangents(AttributeInfos attributes) {
 }
 
 /// Attributes are coded in the order of their phases, and within a phase in the order of the
-/// header. Tangents come after what they are predicted from. [A.8.1]
+/// header. Tangents come after what they are predicted from. [A.10.1]
 inline constexpr uint32_t kCodingPhases = 2;
 constexpr uint32_t codingPhase(const AttributeInfo& a) {
   return a.format.semantic == Semantic::kTangent && a.format.morph_target == 0 ? 1 : 0;

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Converts coded integers to the components of accessors. [A.8.11]
+// Converts coded integers to the components of accessors. [A.10.18]
 #ifndef MCC_MESH_DEQUANTIZE_H_
 #define MCC_MESH_DEQUANTIZE_H_
 

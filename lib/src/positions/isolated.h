@@ -2,7 +2,7 @@
 //
 // Positions of the wedges that no triangle uses, coded as a sorted set: a box is halved until every
 // half holds one position or equal ones. Since the order of the positions is not coded, the set is
-// cheaper than a list by the bits that the order would take. [A.6.4]
+// cheaper than a list by the bits that the order would take. [A.6.9]
 #ifndef MCC_POSITIONS_ISOLATED_H_
 #define MCC_POSITIONS_ISOLATED_H_
 

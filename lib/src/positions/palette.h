@@ -2,7 +2,7 @@
 //
 // Palettes: the distinct coordinates of an axis. Where few values repeat (CAD, voxels, low-poly
 // models), predictions and scales are mapped to ranks among the values, and residuals are
-// differences of ranks. [B.2.8]
+// differences of ranks. [A.6.11]
 #ifndef MCC_POSITIONS_PALETTE_H_
 #define MCC_POSITIONS_PALETTE_H_
 

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// One vertex of a surface with planes, see positions/planes.h. [B.2.9]
+// One vertex of a surface with planes, see positions/planes.h. [A.6.12]
 //
 // On an axis whose coordinate lies on a plane, the number of the plane (its rank) is coded. The
 // other axes move: their coordinates are coded. The rows of all three numbers are known before the

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Planes: evenly spaced coordinates that many vertices share. Isosurfaces (marching cubes, marching
-// tetrahedra) have their vertices on the edges, faces or diagonals of the cells of a grid. [B.2.9]
+// tetrahedra) have their vertices on the edges, faces or diagonals of the cells of a grid. [A.6.12]
 //
 // The kind of a vertex tells on which axes it lies between planes, and whether it moves along a
 // diagonal there. If so, the number of its line is coded on all of these axes except the first.

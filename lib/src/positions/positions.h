@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Codes positions. Reader and writer run the same code. [A.6, B.2]
+// Codes positions. Reader and writer run the same code. [A.6]
 //
 //   positions/growth.h      order of the vertices, and what is known around each
 //   positions/predict.h     prediction from the fan, normal shear

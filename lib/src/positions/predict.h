@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Prediction of a vertex from its fan. [B.2.2]
+// Prediction of a vertex from its fan. [A.6.4]
 //
 //          xa      xb           The tips t0 = n0 + n1 - o0 and t1 = n1 + n2 - o1 complete
 //          /\      /\           parallelograms; the prediction is their average. Weights by
@@ -233,7 +233,7 @@ MCC_INLINE Lanes<float> rotateComponents(const Lanes<float>& x) {  // y z x
 }
 
 /// Returns the normal of a tip's triangle (a, b, o), with its components in the order z x y.
-/// [B.2.3]
+/// [A.6.10]
 MCC_INLINE Lanes<float> tipNormal(const VertexRecord* a, const VertexRecord* b,
                                   const VertexRecord* o) {
   const Lanes<float> u = floatsOf(coordinates(a) - coordinates(b));
@@ -277,7 +277,7 @@ MCC_INLINE void predictPlain(const PositionParameters& p, const PlainFan& f, con
 }
 
 /// The features of any other fan, relative to its first tip, or to its first neighbour if it has no
-/// tip. [B.2.4]
+/// tip. [A.6.5]
 struct AnyFeatures {
   uint32_t predictor_class;
   Lanes<uint32_t> from;
@@ -331,7 +331,7 @@ inline void predictAny(const PositionParameters& p, const AnyFan& fan, Predictio
 }
 
 /// Normal shear: components are coded in the order of growing |normal|. How far the first ones are
-/// from their predictions moves the predictions of the later ones along the tangent plane. [B.2.3]
+/// from their predictions moves the predictions of the later ones along the tangent plane. [A.6.10]
 struct Shear {
   const uint8_t* axis;  ///< by slot; three of them
   const uint8_t* slot;  ///< by axis

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The state of a vertex while positions are coded: half a cache line, two vector registers. [B.2.1]
+// The state of a vertex while positions are coded: half a cache line, two vector registers. [A.6.3]
 #ifndef MCC_POSITIONS_RECORD_H_
 #define MCC_POSITIONS_RECORD_H_
 

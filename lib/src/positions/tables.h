@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Constants of the position coder; they are part of the format. [B.2]
+// Constants of the position coder; they are part of the format. [A.6]
 #ifndef MCC_POSITIONS_TABLES_H_
 #define MCC_POSITIONS_TABLES_H_
 
@@ -29,7 +29,7 @@ constexpr uint32_t weightCount(uint32_t predictor_class) {
 
 /// Weights in units of 1/128. A plain fan has weights of the features f0, f1, fy, fd and of f0 by
 /// degrees, and of three more with tip selection; any other fan has one, of the mean of the
-/// neighbours. [B.2.2, B.2.4]
+/// neighbours. [A.6.4, A.6.5]
 struct PredictorWeights {
   int16_t w[kPredictorClasses][kMostWeights];
 };
@@ -173,7 +173,7 @@ constexpr void makeTokenRow(uint32_t bucket, TokenRow& row) {
 
 /// Fills the row of a folded bucket as it is before the first symbol: the trained density of
 /// |residual|, taken as symmetric and linear between integers, moved by the middle of the fraction
-/// class, (2k+1)/16. [B.2.6]
+/// class, (2k+1)/16. [A.6.7]
 constexpr void makeFoldedRow(uint32_t fraction_class, uint32_t bucket, TokenRow& row) {
   constexpr uint32_t kReach = 128;
   constexpr uint32_t kUnit = 64;  // resolution of densities within a token of 64 values

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Codes one vertex: scales, shear and the residuals of its three components. [A.6.3, B.2]
+// Codes one vertex: scales, shear and the residuals of its three components. [A.6.3, A.6]
 //
 // The components do not depend on each other, except with shear, and each has its own entropy coder
 // state. Nothing here knows the mesh, so that the writer can try choices on a recording of it.
@@ -304,7 +304,7 @@ void VertexCoder<Io, kModes>::codeRanks(Io& io, uint32_t v, const FinePoint& at,
 }
 
 /// Codes a vertex without a known face around it: it is predicted from a neighbour or from the last
-/// seed, with a scale that adapts over the seeds. [B.2.7]
+/// seed, with a scale that adapts over the seeds. [A.6.8]
 template <class Io, uint32_t kModes>
 void VertexCoder<Io, kModes>::codeSeed(Io& io, uint32_t v, const VertexRecord* neighbour) {
   VertexRecord& r = records_[v];

@@ -142,7 +142,7 @@ class Quantizer {
     return std::move(result_);
   }
 
-  /// Rounds each component to the nearest point, ties upwards; the inverse of [A.8.12].
+  /// Rounds each component to the nearest point, ties upwards; the inverse of [A.10.5].
   QuantizedAttribute toLattice(std::vector<std::string>& notes) {
     result_.info.coding = AttributeCoding::kLattice;
     result_.info.bits = std::min<uint8_t>(view_.quantization_bits, 24);

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // All attributes of a piece but its positions: what they share, and which coder each goes through.
-// [A.8]
+// [A.10]
 #ifndef MCC_READER_ATTRIBUTE_STAGE_H_
 #define MCC_READER_ATTRIBUTE_STAGE_H_
 

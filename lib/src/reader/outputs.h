@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Stores what the stages of a piece decode in the caller's memory. [A.8.11, A.10.4]
+// Stores what the stages of a piece decode in the caller's memory. [A.10.18, A.9.4]
 #ifndef MCC_READER_OUTPUTS_H_
 #define MCC_READER_OUTPUTS_H_
 
@@ -89,7 +89,7 @@ void storeLattice(const AttributeInfo& info, uint32_t wedge_count, const Attribu
 }
 
 /// Copies coded integers to the caller's elements; `load(i)` points to the integers of element i.
-///                                                                                        [A.8.11]
+///                                                                                        [A.10.18]
 template <class Load>
 void storeElements(const AttributeInfo& info, uint32_t wedge_count, const AttributeTarget& target,
                    Load load) {
@@ -129,7 +129,7 @@ void storeElements(const AttributeInfo& info, uint32_t wedge_count, const Attrib
   }
 }
 
-/// Computes tangents from angles in the planes of their normals. [A.8.7]
+/// Computes tangents from angles in the planes of their normals. [A.10.13]
 inline void storeTangents(const AttributeInfo& info, const int32_t* values,
                           const AttributeInfo& normal_info, const int32_t* normals,
                           WedgeAt wedge_at, const AttributeTarget& target) {
@@ -302,7 +302,7 @@ Status storeOrderedTriangles(const PieceCoder<Io>& piece, std::span<const PartIn
 }
 
 /// Stores faces in decoding order, then the listed triangles, split into parts. `number(w)` is what
-/// the caller calls wedge w, and `part_of(f)` the part of face f. [A.10.4]
+/// the caller calls wedge w, and `part_of(f)` the part of face f. [A.9.4]
 template <class Io, class Number, class PartOf>
 Status storeSurface(const PieceCoder<Io>& piece, std::span<const PartInfo> infos,
                     std::span<const PartTarget> targets, const Number& number,

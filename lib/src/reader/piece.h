@@ -7,9 +7,9 @@
 //   codeStitch       which cut vertices share a position -> groups  connectivity/stitch.h     [A.5]
 //   codePositions    positions of groups and isolated vertices      positions/positions.h     [A.6]
 //   codeSeams        corners -> wedges                              surface/seams.h           [A.7]
-//   codeLeftovers    parts, duplicate and degenerate triangles      surface/leftovers.h       [A.9]
-//   codeOrders       the source's order of triangles and wedges     surface/order.h [A.10]
-//   codeAttribute    the other attributes, along the same traversal reader/attribute_stage.h  [A.8]
+//   codeLeftovers    parts, duplicate and degenerate triangles      surface/leftovers.h       [A.8]
+//   codeOrders       the source's order of triangles and wedges     surface/order.h [A.9]
+//   codeAttribute    the other attributes, along the same traversal reader/attribute_stage.h  [A.10]
 //
 // The writer runs the same stages with an encoder and with pointers to what it knows (PieceTruth).
 #ifndef MCC_READER_PIECE_H_

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Codes which wedges of a vertex have the same value of an attribute. [A.8.3]
+// Codes which wedges of a vertex have the same value of an attribute. [A.10.3]
 //
 // For every wedge except the first of a vertex, in coding order: is it equal to the wedge before?
 // If not, is it equal to the first wedge of the vertex? (Umbrellas are closed, so the last wedge

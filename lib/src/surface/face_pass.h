@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Sums over the faces around every wedge, computed for four faces at a time. [B.4.2]
+// Sums over the faces around every wedge, computed for four faces at a time. [A.10.7]
 #ifndef MCC_SURFACE_FACE_PASS_H_
 #define MCC_SURFACE_FACE_PASS_H_
 
@@ -16,7 +16,7 @@ MCC_INLINE Real dotProduct(const Real* a, const Real* b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Returns the angle of the vector (x, y), y >= 0, in 0..pi, by a polynomial. [B.4.3]
+/// Returns the angle of the vector (x, y), y >= 0, in 0..pi, by a polynomial. [A.10.7]
 template <class Real>
 MCC_SHARED Real cornerAngle(Real y, Real x) {
   const Real ax = magnitude(x);

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Triangles that are not part of the surface: exact duplicates of faces, and degenerate ones; and
-// the parts that all triangles belong to. [A.9]
+// the parts that all triangles belong to. [A.8]
 #ifndef MCC_SURFACE_LEFTOVERS_H_
 #define MCC_SURFACE_LEFTOVERS_H_
 
@@ -47,7 +47,7 @@ struct LeftoverCounts {
 };
 
 /// Codes the part of each face into its kFaceWord. It is predicted from the face across half-edge 1
-/// if that was decoded before, else from the previous face. [A.9.1]
+/// if that was decoded before, else from the previous face. [A.8.1]
 template <class Io>
 Status codeParts(Io& io, LeftoverModels& models, const FaceView& faces,
                  const LeftoverCounts& counts, const LeftoverTruth& truth) {
@@ -97,7 +97,7 @@ inline void placeOnFace(const FaceView& faces, ListedTriangle& t) {
 }
 
 /// Codes the triangles one by one; those that refer to faces are in ascending order of the faces.
-/// [A.9.2]
+/// [A.8.2]
 template <class Io>
 Status codeList(Io& io, LeftoverModels& models, const FaceView& faces, const LeftoverCounts& counts,
                 const LeftoverTruth& truth, Array<ListedTriangle>& list) {

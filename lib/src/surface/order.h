@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Codes the writer's order of triangles and of wedges, where it is kept. [A.10]
+// Codes the writer's order of triangles and of wedges, where it is kept. [A.9]
 //
 // Both are sequences of elements that earlier stages have produced in an order of their own. The
 // next element is one of:
@@ -143,7 +143,7 @@ struct Found {
   Way way = Way::kAny;
 };
 
-/// Codes the choice of elements, one by one. [A.10.1]
+/// Codes the choice of elements, one by one. [A.9.1]
 template <class Io>
 class SequenceCoder {
  public:
@@ -231,7 +231,7 @@ constexpr uint32_t orderedTriangle(uint32_t triangle, uint32_t corner) {
   return 4 * triangle + corner;
 }
 
-/// Codes the order of the triangles within each part. Reads only the twins of `faces`. [A.10.2]
+/// Codes the order of the triangles within each part. Reads only the twins of `faces`. [A.9.2]
 template <class Io>
 class TriangleOrderCoder {
  public:
@@ -324,7 +324,7 @@ class TriangleOrderCoder {
   uint32_t last_corner_ = 0;
 };
 
-/// Codes the order of the wedges. [A.10.3]
+/// Codes the order of the wedges. [A.9.3]
 template <class Io>
 class WedgeOrderCoder {
  public:

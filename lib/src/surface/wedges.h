@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // What all attributes of a piece share: the order of the wedges, the faces that each wedge
-// completes, positions as the predictions see them, and groups of wedges with equal values. [A.8.1]
+// completes, positions as the predictions see them, and groups of wedges with equal values. [A.10.1]
 #ifndef MCC_SURFACE_WEDGES_H_
 #define MCC_SURFACE_WEDGES_H_
 
@@ -181,7 +181,7 @@ inline float squaredDistance(const float* positions, uint32_t a, uint32_t b) {
 }
 
 /// The coordinates that predictions see are integers of at most this many bits, stored as floats.
-/// Products of a few of their differences therefore neither overflow nor become denormal. [B.4.6]
+/// Products of a few of their differences therefore neither overflow nor become denormal. [A.6.13]
 inline constexpr uint32_t kPredictionBits = 22;
 
 /// Converts wedge positions to float32 integers, 4 per wedge. `position(w)` returns coordinates of

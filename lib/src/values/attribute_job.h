@@ -2,7 +2,7 @@
 //
 // What all coders of attributes share: the data they work on, and the walk over the wedges. A coder
 // predicts the value of a group of equal wedges and codes what the prediction missed; the walk
-// decides which group is next, and copies its value to all members.                      [A.8.1]
+// decides which group is next, and copies its value to all members.                      [A.10.1]
 #ifndef MCC_VALUES_ATTRIBUTE_JOB_H_
 #define MCC_VALUES_ATTRIBUTE_JOB_H_
 
@@ -13,6 +13,7 @@
 #include "entropy/io.h"
 #include "mcc/types.h"
 #include "surface/wedges.h"
+#include "values/residuals.h"
 
 namespace mcc {
 
@@ -37,8 +38,10 @@ struct AttributeJob {
   uint32_t end;               ///< number of wedges to code, in coding order
 
   bool isCoded(uint32_t w) const { return lengths[w] != kNotCoded; }
-  /// Returns the mean length at two wedges. It is long if one of them is not coded.
-  uint32_t meanLength(uint32_t a, uint32_t b) const { return (lengths[a] + lengths[b] + 1u) / 2; }
+  /// Returns the context of a residual between two wedges; it is long if one of them is not coded.
+  uint32_t contextOf(uint32_t a, uint32_t b) const {
+    return std::min((lengths[a] + lengths[b] + 1u) / 2, kLongestContext);
+  }
 
   OtherCorners othersOf(uint32_t h) const {
     return {wedges.faces.vertex(nextHalfEdge(h)), wedges.faces.vertex(prevHalfEdge(h))};
@@ -51,6 +54,16 @@ struct AttributeJob {
       entry = wedges.firstCompleted(m);
     }
     return entry;
+  }
+  /// Returns a wedge next to w that is coded, for groups that complete no face; or kNone.
+  uint32_t neighbourAlongRun(uint32_t w) const {
+    uint32_t found = kNone;
+    wedges.forRun(w, [&](uint32_t h) {
+      const auto [n, p] = othersOf(h);
+      found = isCoded(n) ? n : isCoded(p) ? p : kNone;
+      return found == kNone;
+    });
+    return found;
   }
   /// Calls visit(h) with the half-edges that leave the group of w in the faces that the group
   /// completes, until it returns false.

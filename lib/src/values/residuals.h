@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Residuals of attributes as tokens and raw bits. [A.8.2]
+// Residuals of attributes as tokens and raw bits. [A.10.2]
 #ifndef MCC_VALUES_RESIDUALS_H_
 #define MCC_VALUES_RESIDUALS_H_
 
@@ -18,6 +18,11 @@ inline constexpr uint32_t kLengthContexts = 12;
 inline constexpr uint32_t kLongestContext = 10;
 inline constexpr uint32_t kNoNeighbours = 11;
 inline constexpr uint32_t kTokenEscapeLength = 15;
+
+/// Context of a further residual of the same wedge, after one with `length`.
+constexpr uint32_t contextAfter(uint32_t context, uint32_t length) {
+  return context == kNoNeighbours ? context : (context + length + 1) / 2;
+}
 
 constexpr uint32_t absoluteOf(int32_t value) {
   return value < 0 ? 0u - static_cast<uint32_t>(value) : static_cast<uint32_t>(value);

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // JOINTS_n and WEIGHTS_n together: rigid parts repeat their neighbour's tuple, blends share its
-// joints.   [A.8.8]
+// joints.   [A.10.14]
 //
 // Per group of equal wedges: is the tuple that of a neighbour? If not, slot by slot: is the weight
 // 0; the joint, by its rank among the neighbours' joints; the weight, against what the neighbours
@@ -283,8 +283,7 @@ int32_t SkinCoder<Io>::codeIdleJoint(int32_t truth) {
 template <class Io>
 int32_t SkinCoder<Io>::codeWeight(uint32_t slot, uint32_t context, uint32_t predicted,
                                   int32_t truth, uint32_t& longest) {
-  const uint32_t mixed =
-      slot == 0 || context == kNoNeighbours ? context : (context + longest + 1) / 2;
+  const uint32_t mixed = slot == 0 ? context : contextAfter(context, longest);
   TokenRow& row = models_.weight[std::min(slot, 2u)][mixed];
   int32_t residual =
       Io::kEncoding ? static_cast<int32_t>(static_cast<uint32_t>(truth) - predicted) : 0;

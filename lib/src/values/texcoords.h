@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Texture coordinates, predicted from the faces a wedge completes and from the decoded positions.
-// [A.8.6, B.5]
+// [A.10.11]
 //
 //        o            The wedge v completes the face v, n, p. If the face across n-p is in the same
 //       / \           chart and known, it predicts v by
@@ -66,13 +66,13 @@ class TexcoordCoder {
   }
 
  private:
-  static constexpr uint32_t kOneNeighbour = 10;  ///< context
+  static constexpr uint32_t kOneNeighbour = kLongestContext;
   static constexpr uint32_t kFaceLimit = 4;      ///< faces looked at: lanes of a Float4
   static constexpr float kSteepest =
       36;  ///< square of the largest ratio of heights a hinge unfolds
 
   /// Completed faces whose other corners are coded; `o` is the corner beyond n-p, or n when that is
-  /// not known. [B.5.1]
+  /// not known. [A.10.11]
   struct Faces {
     uint32_t count = 0;
     uint32_t n[kFaceLimit];
@@ -94,7 +94,6 @@ class TexcoordCoder {
   bool codeKnown(uint32_t w, const Faces& faces);
   void predictFrom(uint32_t w, const Faces& faces, int32_t* predicted) const;
   void learnSide(uint32_t w, uint32_t n, uint32_t p);
-  uint32_t codedNeighbour(uint32_t w) const;
   void codePair(uint32_t w, const int32_t* predicted, uint32_t context);
 
   const AttributeJob<Io> job_;
@@ -128,7 +127,7 @@ MCC_INLINE typename TexcoordCoder<Io>::Faces TexcoordCoder<Io>::completedFaces(u
   return faces;
 }
 
-/// [B.5.3]
+/// [A.10.11]
 template <class Io>
 typename TexcoordCoder<Io>::Prediction TexcoordCoder<Io>::predictByDiagonal(
     const Faces& faces) const {
@@ -148,7 +147,7 @@ typename TexcoordCoder<Io>::Prediction TexcoordCoder<Io>::predictByDiagonal(
   return prediction;
 }
 
-/// All faces at once, a lane each. [B.5.2]
+/// All faces at once, a lane each. [A.10.11]
 template <class Io>
 typename TexcoordCoder<Io>::Prediction TexcoordCoder<Io>::predictByHinge(uint32_t v,
                                                                          const Faces& faces) const {
@@ -253,9 +252,9 @@ template <class Io>
 void TexcoordCoder<Io>::codeGroup(uint32_t w) {
   const Faces faces = completedFaces(w);
   const bool has_faces = faces.count != 0;
-  const uint32_t n = has_faces ? faces.n[0] : codedNeighbour(w);
+  const uint32_t n = has_faces ? faces.n[0] : job_.neighbourAlongRun(w);
   uint32_t context = n == kNone ? kNoNeighbours : kOneNeighbour;
-  if (has_faces) context = std::min(job_.meanLength(n, faces.p[0]), kOneNeighbour);
+  if (has_faces) context = job_.contextOf(n, faces.p[0]);
   if (memory_ != nullptr && has_faces && codeKnown(w, faces)) {
     job_.lengths[w] = static_cast<uint8_t>(context);
   } else {
@@ -277,19 +276,6 @@ void TexcoordCoder<Io>::learnSide(uint32_t w, uint32_t n, uint32_t p) {
   if (turn < 0) side_ = -1.0f;
 }
 
-/// Some neighbour of the wedge that is coded, for wedges without a completed face.
-template <class Io>
-uint32_t TexcoordCoder<Io>::codedNeighbour(uint32_t w) const {
-  uint32_t found = kNone;
-  job_.wedges.forRun(w, [&](uint32_t h) {
-    const auto [n, p] = job_.othersOf(h);
-    if (job_.isCoded(n)) found = n;
-    if (job_.isCoded(p)) found = p;
-    return found == kNone;
-  });
-  return found;
-}
-
 template <class Io>
 MCC_SHARED void TexcoordCoder<Io>::codePair(uint32_t w, const int32_t* predicted,
                                             uint32_t context) {
@@ -304,7 +290,7 @@ MCC_SHARED void TexcoordCoder<Io>::codePair(uint32_t w, const int32_t* predicted
   uint32_t length = 0;
   uint32_t second_length = 0;
   residual[0] = codeByLength<0>(job_.io, models_.row[0][context], residual[0], length);
-  const uint32_t second = context == kNoNeighbours ? context : (context + length + 1) / 2;
+  const uint32_t second = contextAfter(context, length);
   residual[1] = codeByLength<1>(job_.io, models_.row[1][second], residual[1], second_length);
   job_.lengths[w] = static_cast<uint8_t>(std::max(length, second_length));
   for (int c = 0; c < 2; ++c) {

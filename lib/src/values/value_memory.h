@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Remembers values by the values next to them: where parts and charts repeat, even mirrored, one
-// flag codes a value. [B.7]
+// flag codes a value. [A.10.15]
 #ifndef MCC_VALUES_VALUE_MEMORY_H_
 #define MCC_VALUES_VALUE_MEMORY_H_
 
@@ -22,7 +22,7 @@ struct MemoryModels {
 };
 
 /// Two different values for each key, which is made of the values at an edge or of a prediction.
-/// [B.7.3]
+/// [A.10.10]
 class ValueMemory {
  public:
   explicit ValueMemory(const Allocator& allocator) : entries_(allocator) {}

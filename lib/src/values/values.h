@@ -2,7 +2,7 @@
 //
 // Attributes without a predictor of their own (colours, custom attributes, morph deltas, floats
 // that fit no grid): any number of integer components, by the parallelogram over the longest edge.
-// [A.8.4, B.3]
+// [A.10.4]
 //
 // Optionally, a flag first tells that all components are 0 (morph deltas), or equal to those of a
 // neighbour (colours of parts, ids, rigid regions).
@@ -94,7 +94,7 @@ class ValueCoder {
   int32_t predicted_[kValueComponents];
 };
 
-/// [A.8.4]
+/// [A.10.4]
 template <class Io>
 void ValueCoder<Io>::findNeighbours(uint32_t w) {
   n_ = p_ = kNone;
@@ -104,17 +104,13 @@ void ValueCoder<Io>::findNeighbours(uint32_t w) {
     if (job_.isCoded(n)) n_ = n;  // as in every sound mesh
     if (job_.isCoded(p)) p_ = p;
   } else {
-    job_.wedges.forRun(w, [this](uint32_t h) {
-      const auto [a, b] = job_.othersOf(h);
-      n_ = job_.isCoded(a) ? a : job_.isCoded(b) ? b : kNone;
-      return n_ == kNone;
-    });
+    n_ = job_.neighbourAlongRun(w);
   }
   if (n_ == kNone) std::swap(n_, p_);
 }
 
 /// The half-edge across which a parallelogram has the longest diagonal, among the first faces that
-/// the group of w completes; or kNone. [B.3]
+/// the group of w completes; or kNone. [A.10.4]
 template <class Io>
 uint32_t ValueCoder<Io>::diagonalFace(uint32_t w) const {
   const FaceView& view = job_.wedges.faces;
@@ -189,8 +185,7 @@ template <class Io>
 void ValueCoder<Io>::codeResiduals(uint32_t w) {
   uint32_t context = kNoNeighbours;
   if (n_ != kNone) {
-    const uint32_t other = p_ != kNone ? p_ : n_;
-    context = std::min(job_.meanLength(n_, other), kLongestContext);
+    context = job_.contextOf(n_, p_ != kNone ? p_ : n_);
   }
   uint32_t longest = 0;
   for (uint32_t c = 0; c < components_; ++c) {
@@ -199,7 +194,7 @@ void ValueCoder<Io>::codeResiduals(uint32_t w) {
                             : c % 3 == 1 ? codeComponent<1>(row, predicted_[c], at(w)[c])
                                          : codeComponent<2>(row, predicted_[c], at(w)[c]);
     longest = std::max(longest, length);
-    if (context != kNoNeighbours) context = (context + length + 1) / 2;
+    context = contextAfter(context, length);
   }
   job_.lengths[w] = static_cast<uint8_t>(longest);
 }

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Unit normals on the octahedral grid, predicted from the decoded faces. [A.8.5, B.4]
+// Unit normals on the octahedral grid, predicted from the decoded faces. [A.10.8, A.10.6]
 //
 // Prediction: the weighted sum of the normals of all faces around a group of equal wedges;
 // optionally corrected by what the prediction missed at the two neighbours of the entry face.
@@ -70,7 +70,7 @@ MCC_SHARED void addNormalsOfWeight(NormalWeight normal_weight, const WedgeMesh& 
   });
 }
 
-/// Adds the weighted normal of every face to its three wedges' sums (4 floats each). [B.4.2]
+/// Adds the weighted normal of every face to its three wedges' sums (4 floats each). [A.10.7]
 inline void addFaceNormals(NormalWeight weight, const WedgeMesh& wedges, const float* positions,
                            float* sums) {
   if constexpr (kCompact) return addNormalsOfWeight(weight, wedges, positions, sums);
@@ -91,7 +91,7 @@ inline float manhattanLength(const float* v) {
 inline constexpr float kShortest = 1e-30f;  ///< shorter vectors have no direction
 
 /// Grid point, relative to the centre, nearest to the projection of a vector along z; `length`: its
-/// manhattanLength(), above kShortest. Vectors with z < 0 are mirrored first. [B.4.4]
+/// manhattanLength(), above kShortest. Vectors with z < 0 are mirrored first. [A.10.6]
 inline void projectToGrid(const float* v, float length, int32_t centre, int32_t* point) {
   const float scale = static_cast<float>(centre) / length;
   for (int s = 0; s < 2; ++s) {
@@ -101,7 +101,7 @@ inline void projectToGrid(const float* v, float length, int32_t centre, int32_t*
 }
 
 /// The residual's frame, chosen by the predicted point; maps grid points to and fro. The cases are
-/// equally likely, so it is all selects and no branches. [B.4.5]
+/// equally likely, so it is all selects and no branches. [A.10.6]
 class OctahedralFrame {
  public:
   /// `inside`: the predicted point or, if that is `turned_over`, its image in the diamond.
@@ -196,7 +196,7 @@ inline void canonicalGridPoint(int32_t centre, int32_t* point) {
 }
 
 /// Codes a grid point `value` in 0..2*centre; `point`: relative to the centre. `context`: up to
-/// kNoNeighbours. [A.8.5]
+/// kNoNeighbours. [A.10.8]
 template <class Io>
 MCC_INLINE void codeGridPoint(Io& io, TokenRow (&rows)[2][kLengthContexts],
                               const OctahedralFrame& frame, int32_t centre, uint32_t context,
@@ -211,7 +211,7 @@ MCC_INLINE void codeGridPoint(Io& io, TokenRow (&rows)[2][kLengthContexts],
   uint32_t length = 0;
   uint32_t second_length = 0;
   residual[0] = codeSmallSigned<0>(io, rows[0][context], residual[0], length);
-  const uint32_t second = context == kNoNeighbours ? length : (context + length + 1) / 2;
+  const uint32_t second = context == kNoNeighbours ? length : contextAfter(context, length);
   residual[1] = codeSmallSigned<1>(io, rows[1][second], residual[1], second_length);
   longest = static_cast<uint8_t>(std::max(length, second_length));
   frame.pointOf(residual, p);
@@ -284,7 +284,7 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
   }
   if (entry != kNone) {
     const auto [n, p] = job_.othersOf(entry);
-    context = job_.meanLength(n, p);
+    context = job_.contextOf(n, p);
     if (blends_) {
       for (int s = 0; s < 3; ++s) used[s] = direction[s] + kBlendPart * (sum(n)[s] + sum(p)[s]);
     }
@@ -308,8 +308,8 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
 template <class Io>
 MCC_SHARED void NormalCoder<Io>::codePoint(uint32_t w, const OctahedralFrame& frame,
                                            uint32_t context) {
-  codeGridPoint(job_.io, models_.row, frame, centre_, std::min(context, kNoNeighbours),
-                job_.values + 2 * size_t{w}, job_.lengths[w], last_);  // kNotCoded makes it long
+  codeGridPoint(job_.io, models_.row, frame, centre_, context, job_.values + 2 * size_t{w},
+                job_.lengths[w], last_);
 }
 
 }  // namespace mcc

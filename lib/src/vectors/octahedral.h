@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Unit vectors on an octahedral grid, in float32 with one order of operations. [B.4.1]
+// Unit vectors on an octahedral grid, in float32 with one order of operations. [A.10.6]
 #ifndef MCC_VECTORS_OCTAHEDRAL_H_
 #define MCC_VECTORS_OCTAHEDRAL_H_
 

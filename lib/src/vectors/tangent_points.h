@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Tangents as points of an octahedral grid and a sign: those that have no octahedral normals to be
-// perpendicular to, or are not perpendicular to them. [A.8.7, B.6.6]
+// perpendicular to, or are not perpendicular to them. [A.10.13, A.10.12]
 //
 // Prediction: the direction in which u grows around the group, as for angles (tangents.h); without
 // one, the mean of the neighbours' tangents. Projected on the plane of the wedge's normal, if the
@@ -31,7 +31,7 @@ struct TangentPointModels {
   }
 };
 
-/// Takes from v what points along a vector of any length. [B.6.6]
+/// Takes from v what points along a vector of any length. [A.10.12]
 inline void projectOnPlane(const float* normal, float* v) {
   const float square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
   if (!(square > 1e-12f && square < 1e12f)) return;
@@ -91,7 +91,7 @@ void TangentPointCoder<Io>::codeGroup(uint32_t w) {
   float length = manhattanLength(direction);
   if (entry != kNone) {
     const auto [n, p] = job_.othersOf(entry);
-    context = std::min(job_.meanLength(n, p), kNoNeighbours);
+    context = job_.contextOf(n, p);
     if (!(length > kShortestSum)) {
       addDecoded(n, direction);
       addDecoded(p, direction);

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Tangents as an angle in the plane of the decoded normal and a sign. [A.8.7, B.6]
+// Tangents as an angle in the plane of the decoded normal and a sign. [A.10.13, A.10.12]
 //
 // Prediction as the tools compute tangents (Mikkelsen 2008): the sum over the faces around a group
 // of equal wedges of the direction in which u grows, weighted by the angle at the corner; the sign
@@ -31,7 +31,7 @@ struct TangentModels {
 };
 
 /// Orthonormal vectors beside a unit vector: the first is perpendicular to its smallest component's
-/// axis. [B.6.1]
+/// axis. [A.10.12]
 template <class Real>
 MCC_INLINE void tangentFrame(const Real* n, Real* e1, Real* e2) {
   const Real zero = constant<Real>(0.0f);
@@ -51,7 +51,7 @@ MCC_INLINE void tangentFrame(const Real* n, Real* e1, Real* e2) {
   e2[2] = n[0] * e1[1] - n[1] * e1[0];
 }
 
-/// Angle of (x, y) in -pi..pi, by a polynomial; (0, 0) gives 0. [B.6.2]
+/// Angle of (x, y) in -pi..pi, by a polynomial; (0, 0) gives 0. [A.10.12]
 template <class Real>
 MCC_INLINE Real planeAngle(Real y, Real x) {
   const Real zero = constant<Real>(0.0f);
@@ -82,7 +82,7 @@ struct AngleSteps {
 };
 
 /// Unit vectors of angles in the planes of unit normals; `quarter`, `rest` as in AngleSteps.
-/// [B.6.3]
+/// [A.10.12]
 template <class Real>
 MCC_INLINE void tangentFromSteps(const Real* normal, Real quarter, Real rest, uint32_t bits,
                                  Real* tangent) {
@@ -125,7 +125,7 @@ inline void tangentFromAngle(const float* normal, int32_t angle, uint32_t bits, 
 
 /// Adds to the three wedges of every face (4 floats each) the direction in which u grows, weighted
 /// by the angle at the corner, and the orientation of the chart. `chart` has 2 finite floats per
-/// wedge, see chartCoordinates(). [B.6.4]
+/// wedge, see chartCoordinates(). [A.10.12]
 inline void addFaceTangents(const WedgeMesh& wedges, const float* positions, const float* chart,
                             float* sums) {
   forFourFaces(wedges.faces, wedges.face_count, [=](const uint32_t* words, uint32_t count) {
@@ -165,7 +165,7 @@ inline void addFaceTangents(const WedgeMesh& wedges, const float* positions, con
 }
 
 /// Texture coordinates as finite floats whose products neither overflow nor become denormal.
-/// [B.6.5]
+/// [A.10.12]
 inline void chartCoordinates(const AttributeInfo& info, const int32_t* values, size_t count,
                              float* chart) {
   const bool exact = isExact(info.coding);
@@ -251,7 +251,7 @@ void TangentCoder<Io>::codeGroup(uint32_t w) {
   uint32_t context = kNoNeighbours;
   if (entry != kNone) {
     const auto [n, p] = job_.othersOf(entry);
-    context = std::min(job_.meanLength(n, p), kLongestContext);
+    context = job_.contextOf(n, p);
     if (job_.isCoded(n)) predicted = job_.values[2 * size_t{n}];
   }
   if (sum[1] != 0) {

@@ -1,0 +1,94 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Payloads that no writer makes: damaged bytes of the suite's assets with the checksum set right. A
+// random search kept those that lead the reference decoder into a branch that no other file enters
+// (tests/conformance/branches_test lists such branches).
+#ifndef MCC_TOOLS_CONFORMANCE_FOUND_H_
+#define MCC_TOOLS_CONFORMANCE_FOUND_H_
+
+namespace mcc::conformance {
+
+struct FoundPayload {
+  const char* name;
+  const char* section;
+  const char* shows;
+  const char* hex;
+};
+
+/// Odd, but valid.
+inline constexpr FoundPayload kFoundValid[] = {
+    {"normal_without_length", "A.10.12", "An exact normal whose length is 0 or not finite",
+     "4b10b038219901020404030004030001000930a9090f318002f7338017881a8010741500069a4d19004e9b01"
+     "b00001011507f21500010118081863b93ea2455da2e87413b9312d33c0c301d7375706633dc80f5e7c4e1ece"
+     "ebefefae38210a8158ea391895eb32291a785ee0ae1d0577bd64e9fbfe9fc777aa5cf4ca68e6471c59853628"
+     "2590a02c1fddb6fdab1ce633c0d30a20f60c09247650e3a6c6e04913725b93726e506460d78022e30e4bfe18"
+     "77cf912e1f669d759044bdc51665bdc59e57a2907d92352e6588d878646f223e8f0c26dbacb0c17b6ad16c4a"
+     "a6"},
+    {"corner_not_coded", "A.10.11",
+     "A face with a vertex twice, whose other corner is not coded yet",
+     "4b10390ec5d501a90196013263e301320400c88c3f010f703b19850803800857a1d53bb0fc0d3f8fc2153f1a"
+     "80089ad0c809ff2cb9a11bfb4a5e79d4df4ff49053c9cbbff19195af2c2b51ec516a6bf4ec9542bb8fe7687d"
+     "aa94e61f73ff2a06c6eee12d32bc6aba9d7712ed56e5e52e04d23b6f8c6c3383aaf7f58a1f22277926612921"
+     "76f0664ba5eb814bae028201b1429cd550ed994175d445307503b1ecafb0dd10824a5ef6133d625450623eef"
+     "2af2f7cc6c9279f8b927894f02415fdb412647ef986ca791d2571639152c0d2aafdbb701bb8f2c9776863bde"
+     "636228e962272d9f305d7e2082eb5a8afce5f77f8203c723a9d3725f4f4aec84219ec2bd625b6236733a0941"
+     "d2bdf17dd405a6d4d2dee9ff6a100a9728bb58a680fb17ec3334ec1143de6e1bf6cf27004426c2837a1cfbda"
+     "7922229823fc086ba9257829196b81cab4700beadda36e5ee23707477d10014604e1776e201ea58b337a"},
+};
+
+inline constexpr FoundPayload kFoundMalformed[] = {
+    {"no such wedge of a group", "A.7.3", "MERGE_WITH names a wedge that the group does not have",
+     "4b1061f8b3120111234600de0200651e18a753692463f3d0f932d8a38566"},
+    {"handle with no such node", "A.4.4", "HANDLE names a top that was not made yet",
+     "4b10641402c50111234600de0200653e18a75369d463c8d2f932d8a38566"},
+    {"handle with a closed node", "A.4.4", "HANDLE names a node that has left its ring",
+     "4b107584be600111234600de0200653e18a753292459f3d2f932d8a38566"},
+    {"start with a closed node", "A.4.4", "The digon that START joins was closed by its own EXPAND",
+     "4b10198c16b80111234600de0200653e18a753e96431f3d2f932d8a38566"},
+    {"no group near", "A.5.3", "A vertex is near a group, but none is near",
+     "4b105187508501880903010100010200c003399a873ea820e23e3cf15c3ea08b583c12013f3ee30fd32bfddb"
+     "203a1137d6318839d895cf239c058e5ea20e03fd5521f116ec9a4ee74c33820d759700cc26752b9b9b0a756d"
+     "df9d325cc7fbf05969859a2bafe4d6b7f3c81847"},
+    {"listed triangle of no part", "A.8.2", "A listed triangle is of a part that does not exist",
+     "4b10bf50f26001e30f111d06020b040f0f0a0003481368190103030201aebac83e63290f3fca62063ff8668c"
+     "bf631e27bd059cab70047e04d1ece1d56498611b759ac73302828e9dc4eceacec5495491f32b261fe37639dd"
+     "22c80fe20644d59221bfad9cd867c665fca1d828fbcbc6d4304fc61cfa19c7222a05654af7a2e7ea5a5e1e1f"
+     "cf5b5846dea7335697ac813d57843eceb985b384b624dd04679cc904323c546775f4a4a6d8fe026d8a92e24c"
+     "f02983d8236831d2da592e7feb7ff5819e231ed8b7e9db8028ee97705379cba6680c68b0752616070ced4c50"
+     "99d00ad90916ee3193137ee86a25b5d14c5d74c87b5cc82453dd8c44c850f95671f5ecfd16bf5aed48887b2d"
+     "0d7977371a89ab39a4343c8cfff2baaa42f6a3d202ab61e473805a676e"},
+    {"group without a face", "A.6.1", "No face is left for a group without a position",
+     "4b10579f36ff0188080e0c0100010900c095389a6c7e3525d97cbf80bf110e0302088f5c1e3bdc77463e5c8f"
+     "423e830100001833be1d33dc77463e5c8f423ecf40620081cf045a0001800001816b810001000b0210803ac2"
+     "150001800b0210803a2dbf000059d8d739cf69a36531a8c776aff7f22b938317707b2c12dca5d4ada8059a6e"
+     "94b4651c8b1c3d10b9a462da094487dd2b4bb681af2936ef952500e8bac40f3a78fb7d47c6b7a159f60c01a6"
+     "02e0acb8f87809dc45ca8bc134415e26d7621819878bb91e87bf40f23e85f8db0ca39df883f8eab9bd50d249"
+     "d6873fd7d677aa4b62bc9e2d8bac1318c318436ecac6649e653019dc8b7dc2e9391dd4f57de477060a641909"
+     "894c7f9b7a1bf58a073b677a7f3e5c670e3b90bf5ed4670ef2756ba4c303a1d3c2935628230a880d1198f4ea"
+     "8f0877b06d41661ac5b89b95909b6b52de4a7da721b51858ad096dced7841f0fc21dfd584f47245173db934a"
+     "7d2217d1ce53d8c7847f43ee989d6ff13fc2f8bcddda86bc9bce547c7a04f4e42e1e6299cf28f07f5ec3e98d"
+     "c9c21b26112a523e6b910f40e4c6c2a12e7ece8499321f6dab0fba3f2d5c9f79e7cb7c4a7af107d8d946ad99"
+     "c0de9e0f9eceb211d14654389f7eb609d6e856693599bdfd2c2c52c0d2031c879dca5bb2962283d89a511e42"
+     "01ee235aa4b03b43093e0b18a520ff83e368863fc467a6b7894fde89d6d704121b45459dc57f4122f79298d6"
+     "f975d407c336e86c093f392c5aa40baec9af99aec4ffcd6321a8015030"},
+    {"no such spoke", "A.4.7", "SKIPPED leads beyond the last spoke of a pivot",
+     "4b10c6accf110180075b8d0300100100c8893c2850a03c7791c1bf59c499e63df3240948c86b583cdc11f52f"
+     "e21aaf9cf4d2a93791bb093e6f5333fa7386a510d1c85f55247d9793802c9b3e008533de69da6e464ef7d8c0"
+     "c169281c6523dc1b3e5e23b65dd465ece8241f03042db04e267602a1c2d73618e5a57ff0cb3e91dfb5e82afa"
+     "345f99809e7ab9745a6c8a744f6998815c5f3705bfe3d3a2a9a3df962d140c2de518cfd3519bca97d96fa9f8"
+     "c1f54cc41cd7825101c35580024dfa889842d0f31c777e981815123a6c7fe7c503b5f6c025e93b1a411a0847"
+     "00128a5ae217cb78aeca14154584d1dd896fe631d156bd32e043a8b2cb74e03a5de41c4be968e3c6fc94d76d"
+     "f5849710f9eb08ddc3e92efb6fe30b0ae83189a370c7ffec3a1e8d53b4fd5d9d1a9ad3173a6b1f68a68a6d4a"
+     "a96709c911100181dea998245d2c3bcf9c836bb05fb0e0e979d1b6ccd001c34e6031a411acd19aec241ec024"
+     "33fd988db8da12e6f23c11849906c320510575cdf12b5b47792420de3b9338a4df41b64f0ce7a9cb75736cc9"
+     "b7a10dc845c726ca54a124fcf6fae7f552f978323cc9842b62511aa477d24ea18b22a052f475ca92284d381f"
+     "e1a44502af019828f0b95b04330783da6538d2448b9c4a507d4eb4cae702c912fddb9611c6ae5d341623b5da"
+     "06bf28fa6a4aa94f226c99a6a91460df1a403d36e87aae7f92a57b8a7fe8aa3336bbca0999cdbfee16708c39"
+     "929fe578d78f5befb51d3067b079e116a767c1276be00c2dc3aa782db95756451953163f26c0ffb5a80a695b"
+     "78b8f7de3b81c2caec35ea1202d438d07ffde80c7d387b63d7e9d39d2a7f72ccdb209843ea8623d4c906ad10"
+     "3b8561825a0261f4d0af8b52af0239a49428469bb5ef53bf1931291da0f3cc7d66746b49d6eea01c3b0853"},
+};
+
+}  // namespace mcc::conformance
+
+#endif  // MCC_TOOLS_CONFORMANCE_FOUND_H_
