@@ -89,7 +89,7 @@ export function floatOfBits(bits) {
 	return converter.getFloat32(0);
 }
 
-// Of a number that binary32 holds. Not for NaN, whose bits a Number does not keep.
+// The bits of a number that binary32 holds. Not for NaN, whose bits a Number does not keep.
 export function bitsOfFloat(x) {
 	converter.setFloat32(0, x);
 	return converter.getUint32(0);

@@ -6,7 +6,7 @@ import { fail } from './bytes.mjs';
 import { golombs, models } from './entropy.mjs';
 import { NONE, Surface } from './mesh.mjs';
 
-// What the field `vertex` of a node can be besides a vertex.
+// What the field `vertex` of a node can be if not a vertex.
 const DUMMY = -2;
 const CLOSED = -3;
 

@@ -79,13 +79,13 @@ export const rows = (dimensions) => models(dimensions, () => new Row());
 class RangeDecoder {
 	constructor(bytes) {
 		this.bytes = bytes;
-		this.read = 0; // bytes, those behind the end included
+		this.read = 0; // bytes, those after the end included
 		this.range = MASK_64;
 		this.code = this.word() << 32n;
 		this.code += this.word();
 	}
 
-	// Zero behind the end, of which [A.3.8] allows 8 bytes.
+	// Zero after the end, of which [A.3.8] allows 8 bytes.
 	word() {
 		let value = 0;
 		for (let i = 0; i < 4; ++i) value += (this.bytes[this.read + i] ?? 0) * 2 ** (8 * i);

@@ -82,8 +82,8 @@ class ExactNormals {
 		this.memory.begin();
 		let k = this.memory.ask(keyOfPrediction(predicted), NONE);
 		if (k === NONE && this.hasNeighbours(bundle)) {
-			const behind = this.wedges.surface.across(next(bundle.halfEdges[0]));
-			const o = behind === NONE ? NONE : this.wedges.surface.tail(behind);
+			const beyond = this.wedges.surface.across(next(bundle.halfEdges[0]));
+			const o = beyond === NONE ? NONE : this.wedges.surface.tail(beyond);
 			k = this.memory.ask(this.memory.edgeKey(bundle.n, bundle.p), this.state.isCoded(o) ? o : NONE);
 		}
 		return k === NONE ? undefined : this.state.value(k).map((x, s) => withSignOf(x, predicted[s]));

@@ -14,7 +14,7 @@ const vectorsOf = (list) => Array.from({ length: list.length / 3 }, (_, i) => [l
 
 // ---- [A.6.13] Positions as predictions see them
 
-// Of all records, whose integers are q.
+// The positions of all records, whose integers are q.
 export function predictionPositions(attribute, q) {
 	const ofIntegers = attribute.coding === LATTICE || attribute.coding === INTEGER;
 	return ofIntegers ? rangeOfIntegers(vectorsOf(q)) : rangeOfFloats(vectorsOf(q).map((v) => v.map(finite)));
@@ -27,7 +27,7 @@ function rangeOfIntegers(list) {
 	return list.map((v) => v.map((x, s) => f(Math.floor((x - list[0][s]) / 2 ** shift))));
 }
 
-// Of floats that are finite.
+// The range of floats that are finite.
 function rangeOfFloats(list) {
 	const reach = largestDifference(list);
 	const E = exponent64(reach);

@@ -12,7 +12,7 @@ export function bitsOfOrdered(i) {
 	return i >= 0 ? i : ~(i ^ 0x80000000) >>> 0;
 }
 
-// Of a float that is no NaN.
+// The ordered integer of a float that is not a NaN.
 export const ordered = (x) => orderedOfBits(bitsOfFloat(x));
 
 const exponentField = (i) => (bitsOfOrdered(i) >>> 23) & 255;

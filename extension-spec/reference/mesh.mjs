@@ -43,7 +43,7 @@ export class Surface {
 		return this.twins[h] === NONE ? NONE : next(this.twins[h]);
 	}
 
-	// [A.1.5] The half-edge that leaves the vertex behind h.
+	// [A.1.5] The half-edge that leaves the vertex beyond h.
 	across(h) {
 		return this.twins[h] === NONE ? NONE : prev(this.twins[h]);
 	}

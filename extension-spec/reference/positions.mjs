@@ -106,7 +106,7 @@ function changedCoefficients(streams, m, coefficients) {
 	})));
 }
 
-// ---- [A.6.3] What is kept of a vertex: groups, and isolated vertices behind them
+// ---- [A.6.3] What is kept of a vertex: groups, and isolated vertices after them
 
 class Records {
 	constructor(surface, groupCount, count) {

@@ -189,10 +189,10 @@ export class Region {
 		}
 	}
 
-	// The vertex behind a half-edge, if there is one and it is known.
+	// The vertex beyond a half-edge, if there is one and it is known.
 	tip(h) {
-		const behind = this.surface.across(h);
-		return behind !== NONE && this.tailIsKnown(behind) ? this.surface.tail(behind) : NONE;
+		const beyond = this.surface.across(h);
+		return beyond !== NONE && this.tailIsKnown(beyond) ? this.surface.tail(beyond) : NONE;
 	}
 }
 

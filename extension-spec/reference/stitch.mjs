@@ -93,7 +93,7 @@ class Stitching {
 		this.copies[w].push(v);
 	}
 
-	// Of the group with the leader w: first w, then the others, the latest first.
+	// The members of the group with the leader w: first w, then the others, the latest first.
 	* members(w) {
 		yield w;
 		for (let i = this.copies[w].length; i-- !== 0;) yield this.copies[w][i];
@@ -174,7 +174,7 @@ class Stitching {
 		return list[list.length - 1];
 	}
 
-	// Of the vertices around v, breadth first, except its neighbours' and those that were asked for.
+	// The leaders of the vertices around v, breadth first, except its neighbours' and those that were asked for.
 	leadersNear(v) {
 		const around = new Set([v]); // in the order in which they are added, also while one walks over it
 		let work = 0;

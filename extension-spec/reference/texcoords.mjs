@@ -76,8 +76,8 @@ class Texcoords {
 			const n = surface.tail(next(h));
 			const p = surface.tail(prev(h));
 			if (!state.isCoded(n) || !state.isCoded(p)) continue;
-			const behind = wedges.behind(h);
-			faces.push({ n, p, o: state.isCoded(behind) ? behind : n });
+			const beyond = wedges.beyond(h);
+			faces.push({ n, p, o: state.isCoded(beyond) ? beyond : n });
 		}
 		return faces.slice(0, 4);
 	}

@@ -129,7 +129,7 @@ class Values {
 		let longest = -1;
 		let found;
 		for (const h of bundle.halfEdges.slice(0, 8)) {
-			const [n, p, o] = [wedges.surface.tail(next(h)), wedges.surface.tail(prev(h)), wedges.behind(h)];
+			const [n, p, o] = [wedges.surface.tail(next(h)), wedges.surface.tail(prev(h)), wedges.beyond(h)];
 			if (![n, p, o].every((w) => state.isCoded(w))) continue;
 			const l = wedges.squaredDistance(n, p);
 			if (!(l > longest)) continue;

@@ -7,7 +7,7 @@ import { exactPositions } from './faces.mjs';
 import { next, NONE, prev } from './mesh.mjs';
 import { dot32, sub32 } from './vectors.mjs';
 
-// The wedges of a piece. The isolated ones are behind those on the surface.
+// The wedges of a piece. The isolated ones come after those on the surface.
 export class Wedges {
 	constructor({ piece, groupCount, wedges, positions }) {
 		this.surface = wedges.surface;
@@ -50,7 +50,7 @@ export class Wedges {
 		return w < this.surfaceCount;
 	}
 
-	// The record of a wedge's position: of its group, or behind those of all groups.
+	// The record of a wedge's position: of its group, or after those of all groups.
 	recordOf(w) {
 		return this.isOnSurface(w) ? this.groupOf[w] : this.groupCount + w - this.surfaceCount;
 	}
@@ -87,8 +87,8 @@ export class Wedges {
 		return h !== NONE && this.surface.tail(h) === w;
 	}
 
-	// The wedge behind the edge opposite to the corner of h, if the face there has the same wedges at that edge; else NONE.
-	behind(h) {
+	// The wedge beyond the edge opposite to the corner of h, if the face there has the same wedges at that edge; else NONE.
+	beyond(h) {
 		const { surface } = this;
 		const t = surface.twin(next(h));
 		if (t === NONE || surface.tail(t) !== surface.tail(prev(h)) || surface.tail(next(t)) !== surface.tail(next(h))) return NONE;

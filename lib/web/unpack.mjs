@@ -133,16 +133,16 @@ class Bin {
     let moved = 0;
     for (const view of views) {
       const begin = view.byteOffset ?? 0;
-      const behind = begin + view.byteLength;
+      const after = begin + view.byteLength;
       if (begin >= end) {
         this.#align(8);
         const aligned = begin - (begin % 8);
         moved = this.length - aligned;
         end = aligned;
       }
-      if (behind > end) {
-        this.#add(bin.subarray(end, behind));
-        end = behind;
+      if (after > end) {
+        this.#add(bin.subarray(end, after));
+        end = after;
       }
       view.byteOffset = begin + moved;
     }

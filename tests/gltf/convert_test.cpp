@@ -249,7 +249,7 @@ TEST(Convert, DecodingLeavesNoViewsThatOnlyHoldNumbers) {
     const RoundTrip trip = roundTrip(builder);
     ASSERT_EQ(trip.error, "");
     ASSERT_TRUE(isCompressed(jsonOf(trip.converted), 0, 0));
-    EXPECT_EQ(unusedViews(trip.converted), is_image_last ? 3u : 0u) << "none behind the last";
+    EXPECT_EQ(unusedViews(trip.converted), is_image_last ? 3u : 0u) << "none after the last";
     EXPECT_EQ(unusedViews(trip.decoded), 0u);
     EXPECT_EQ(jsonOf(trip.decoded)["bufferViews"].size(), 5u);
     EXPECT_EQ(jsonOf(trip.decoded)["images"][0]["bufferView"], image);

@@ -79,7 +79,7 @@ TEST(JobsOfTheWriter, PassOnTheLowestFailure) {
     EXPECT_THROW(jobs.run(3,
                           [](size_t i) {
                             if (i == 1) throw std::bad_alloc();
-                            if (i == 2) throw std::runtime_error("behind the first");
+                            if (i == 2) throw std::runtime_error("after the first");
                           }),
                  std::bad_alloc);
   }

@@ -111,7 +111,7 @@ test('other extensions are written, before and after this one', async () => {
     .map((texture) => texture.getImage()));
 });
 
-// Of a vendor; what it says of a primitive is written when this one is done.
+// An extension of a vendor; what it says of a primitive is written when this one is done.
 class ZZ_numbers extends Extension {
   static EXTENSION_NAME = 'ZZ_numbers';
   extensionName = 'ZZ_numbers';

@@ -80,8 +80,8 @@ test('animations stay compressed', async () => {
   const codingOf = (document, accessor) => document.bufferViews[document.accessors[accessor].bufferView].extensions[KHR];
   for (const accessor of ANIMATION) {
     const { byteOffset: from, ...before } = codingOf(readGlb(source).json, accessor);
-    const { byteOffset: to, ...behind } = codingOf(json, accessor);
-    assert.deepEqual(behind, before);
+    const { byteOffset: to, ...after } = codingOf(json, accessor);
+    assert.deepEqual(after, before);
   }
   // Nothing that has to be decoded: the decoder is not needed.
   const { meshoptDecoder, ...without } = EXACT;
@@ -170,7 +170,7 @@ describe('refused', () => {
     'no buffer': [1, (coding) => { delete coding.buffer; }, /\/bufferViews\/1 ….*buffer/],
     'bytes in the buffer without bytes': [1, (coding) => { coding.buffer = 1; },
       /\/bufferViews\/1 …: bytes \d+ to \d+ are outside buffer 1 of 0 bytes/],
-    'bytes behind the buffer': [2, (coding) => { coding.byteOffset = 1e6; },
+    'bytes after the buffer': [2, (coding) => { coding.byteOffset = 1e6; },
       /\/bufferViews\/2 …: bytes 1000000 to \d+ are outside buffer 0/],
     'more bytes than the buffer has': [0, (coding) => { coding.byteLength = 1e9; },
       /\/bufferViews\/0 …: bytes 0 to 1000000000 are outside buffer 0/],

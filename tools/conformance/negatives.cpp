@@ -451,7 +451,7 @@ class Maker {
     const auto setFloat = [](uint32_t index, uint32_t value, uint32_t form) {
       return [=](HeaderFields& f) { f.setFloat("0.0.", index, value, form); };
     };
-    // Of the position, which is on a lattice.
+    // The position is on a lattice.
     const Change positions[] = {
         {"position is a normal", "The first attribute is no position", set("0.0.kind", 1)},
         {"position with a set", "The position has set 1",
@@ -506,7 +506,7 @@ class Maker {
     };
     for (const Change& c : lattices) header(c.name, "A.2.4", c.shows, any, c.change);
 
-    // Of another attribute: `k` is its number.
+    // A change of another attribute: `k` is its number.
     const auto other = [&](const std::string& name, const std::string& shows,
                            const std::function<bool(const AttributeInfo&)>& wanted,
                            const std::function<void(HeaderFields&, const std::string& k)>& change) {
@@ -777,7 +777,7 @@ class Maker {
     add("deep handle", "A.4.4", Error::kBadConnectivity, "A handle puts a digon below 256 others",
         asset, writePayload(header, {streams.codes, streams.tokens, streams.raw}));
   }
-  /// Of a closed manifold without holes.
+  /// A surface that is a closed manifold without holes.
   static ClosedMesh closedMesh(const test::TestMesh& mesh) {
     ClosedMesh closed;
     closed.corner_vertex = mesh.indices;
@@ -1357,10 +1357,10 @@ class Maker {
 
   // ---- Documents that a validator reports -------------------------------------------------------
 
-  using Change = std::function<void(Json& json, Json& primitive, Bytes& bin)>;
+  using DocumentChange = std::function<void(Json& json, Json& primitive, Bytes& bin)>;
 
   void invalid(const std::string& name, const std::string& rule, const std::string& code,
-               const std::string& shows, const Asset& asset, const Change& change) {
+               const std::string& shows, const Asset& asset, const DocumentChange& change) {
     const std::vector<uint8_t> file = makeGlb(asset);
     gltf::GlbFile glb;
     Json json;

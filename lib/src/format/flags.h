@@ -14,7 +14,7 @@ namespace mcc {
 
 inline constexpr uint8_t kMagic = 'K';
 inline constexpr uint8_t kWithdrawnMagic[3] = {'M', 'C', 'C'};  ///< of a draft
-/// Of the format. Readers accept any minor version: what a later one adds, reserved bits announce.
+/// The version of the format. Readers accept any minor one: reserved bits announce what it adds.
 inline constexpr uint8_t kVersionMajor = 1;
 inline constexpr uint8_t kVersionMinor = 0;
 inline constexpr size_t kVersionOffset = 1;

@@ -65,7 +65,7 @@ class Pair {
     return writer_.piece.mesh.words[size_t{f} * kFaceWords + k];
   }
   FaceView faces() { return writer_.piece.mesh.view(); }
-  /// Of the groups, in thousandths, and zeros for isolated vertices.
+  /// Positions of the groups, in thousandths, and zeros for isolated vertices.
   std::vector<int32_t> latticePositions(const TestMesh& mesh, uint32_t isolated_count) const {
     std::vector<int32_t> positions(3 * (size_t{groupCount()} + isolated_count));
     for (uint32_t f = 0; f < faceCount(); ++f) {

@@ -4,7 +4,7 @@ import { launchBrowser } from './browser.mjs';
 import { makeModels } from './models.mjs';
 import { startServer } from './server.mjs';
 
-/** For the tests of a file: { models, server, browser }, which are there once the first test runs and end behind the last. */
+/** For the tests of a file: { models, server, browser }, which are there once the first test runs and end after the last. */
 export function useSite() {
   const site = {};
   before(async () => {
