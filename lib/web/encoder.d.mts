@@ -47,10 +47,13 @@ export interface EncodeOptions {
   indicesOnly?: boolean;
   /** Leaves out vertices that no triangle uses. */
   dropUnused?: boolean;
-  /** 0 fast to 2 thorough. Default 1. */
-  effort?: 0 | 1 | 2;
   /** Payloads that are smaller, or faster to decode. Default 'balanced'. */
   prefer?: 'balanced' | 'size' | 'speed';
+  /**
+   * Large surfaces are cut into blocks of this many triangles, which `decodeGlbBlocks()` shows while a file is loading; 0: never.
+   * Default: 262,144, for surfaces of twice as many or more, but none with `prefer: 'size'`.
+   */
+  blockTriangles?: number;
   /** Compresses even where that makes the file larger. */
   allowLarger?: boolean;
   fallback?: false;

@@ -15,7 +15,7 @@ const BITS = {
 };
 const FLAGS = ['lossless', 'indicesOnly', 'keepVertexOrder', 'keepTriangleOrder', 'maxErrorRelative', 'allowLarger',
   'dropUnused'];
-const OTHERS = ['grid', 'maxError', 'prefer', 'lattice', 'fallback', 'meshoptDecoder'];
+const OTHERS = ['grid', 'maxError', 'prefer', 'lattice', 'blockTriangles', 'fallback', 'meshoptDecoder'];
 
 let source = {};
 let loading = null;
@@ -152,23 +152,26 @@ function checkOptions(options) {
     require(Number.isInteger(value) && (value === 0 || (value >= least && value <= most)),
       `${name} must be 0 (every bit) or ${least} to ${most}`);
   }
-  const { grid = 'mesh', maxError, prefer = 'balanced', lattice, fallback = false, meshoptDecoder } = options;
+  const { grid = 'mesh', maxError, prefer = 'balanced', lattice, blockTriangles = 0, fallback = false, meshoptDecoder } = options;
   require(GRIDS.includes(grid), `grid is '${grid}', but must be one of ${GRIDS.join(', ')}`);
   require(maxError === undefined || (Number.isFinite(maxError) && maxError > 0), 'maxError must be a number above 0');
   require(PREFERENCES.includes(prefer), `prefer is '${prefer}', but must be one of ${PREFERENCES.join(', ')}`);
   require(lattice === undefined || (lattice.length === 4 && lattice.every(Number.isFinite) && lattice[3] > 0),
     'lattice must be four numbers: x, y, z of a point and the step');
+  require(Number.isInteger(blockTriangles) && blockTriangles >= 0 && blockTriangles < 2 ** 32 - 1,
+    'blockTriangles must be a number of triangles, or 0 for no blocks');
   require(!fallback, 'a fallback is a second file, which the command line tool writes');
   require(meshoptDecoder === undefined || isDecoder(meshoptDecoder),
     'meshoptDecoder must be MeshoptDecoder of the npm package meshoptimizer, where WebAssembly is supported');
 }
 
 function setOptions(exports, options) {
-  const { grid = 'mesh', maxError, prefer = 'balanced', lattice } = options;
+  const { grid = 'mesh', maxError, prefer = 'balanced', lattice, blockTriangles } = options;
   const flag = (name) => (options[name] ? 1 : 0);
   exports.setBits(...Object.entries(BITS).map(([name, [standard]]) => options[name] ?? standard));
   exports.setModes(flag('lossless'), flag('indicesOnly'), GRIDS.indexOf(grid), flag('keepVertexOrder'),
     flag('keepTriangleOrder'), PREFERENCES.indexOf(prefer), flag('allowLarger'), flag('dropUnused'));
+  if (blockTriangles !== undefined) exports.setBlocks(blockTriangles);
   if (maxError !== undefined) exports.setMaxError(maxError, flag('maxErrorRelative'));
   if (lattice !== undefined) exports.setLattice(...lattice);
 }

@@ -128,7 +128,7 @@ test('a payload that is not for the core loads the whole decoder, once', async (
   await init({ bytes: wasm('mcc_decoder_core_simd') });
   assert.equal((await failureOf(decodePayload(exact))).code, 'NotInCore');
   await init({ coreUrl, wasmUrl: new URL('no_such.wasm', import.meta.url) });
-  await decodePayload(payloadOf(readAsset(assetNamed('005_tetrahedron'))));
+  await decodePayload(payloadOf(readAsset(assetNamed('_tetrahedron.glb'))));
   assert.equal((await failureOf(decodePayload(exact))).code, 'Load');
   assert.throws(() => decodePayloadSync(exact), { code: 'Load' });
   await init({ coreUrl, wasmUrl });
@@ -140,7 +140,7 @@ test('a payload that is not for the core loads the whole decoder, once', async (
   pool.dispose();
   const lost = createDecoderPool({ workers: 1, coreUrl, wasmUrl: new URL('no_such.wasm', import.meta.url) });
   assert.equal((await failureOf(lost.decodePayload(exact))).code, 'Load');
-  await lost.decodePayload(payloadOf(readAsset(assetNamed('005_tetrahedron'))));
+  await lost.decodePayload(payloadOf(readAsset(assetNamed('_tetrahedron.glb'))));
   lost.dispose();
   const coreAlone = createDecoderPool({ workers: 1, bytes: wasm('mcc_decoder_core_simd') });
   assert.equal((await failureOf(coreAlone.decodePayload(exact))).code, 'NotInCore');

@@ -38,6 +38,7 @@ const CASES = [
   ['skinned', { indicesOnly: true }, ['--indices-only']],
   ['two_materials', { grid: 'primitive' }, ['--grid', 'primitive']],
   ['sphere', { prefer: 'speed' }, ['--prefer', 'speed']],
+  ['torus', { blockTriangles: 500 }, ['--block', '500']],
 ];
 
 /** Measured angles depend on the C library's arc tangent. */
@@ -79,7 +80,7 @@ test('what is wrong is said', async () => {
     return error.code;
   });
   for (const options of [{ positionBits: 25 }, { normalBits: 1 }, { positionBits: '14' }, { grid: 'world' }, { maxError: 0 },
-    { positionbits: 14 }, { lossless: 1 }, { effort: 1 }, { prefer: 'beauty' }, { lattice: [0, 0, 0, 0] }, { fallback: true }]) {
+    { positionbits: 14 }, { lossless: 1 }, { effort: 1 }, { prefer: 'beauty' }, { blockTriangles: -1 }, { lattice: [0, 0, 0, 0] }, { fallback: true }]) {
     assert.equal(await codeOf(sample('torus'), options), 'BadArgument', JSON.stringify(options));
   }
   assert.equal(await codeOf('torus.glb'), 'BadArgument');

@@ -11,11 +11,13 @@ import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';
 import { brotliCompressSync, constants } from 'node:zlib';
 import { build } from 'vite';
+import { manifest } from './support/conformance.mjs';
 
 const run = promisify(execFile);
 const here = fileURLToPath(new URL('.', import.meta.url));
 const packageFolder = fileURLToPath(new URL('../../lib/web', import.meta.url));
-const asset = fileURLToPath(new URL('../conformance/assets/005_tetrahedron.glb', import.meta.url));
+const [asset] = manifest.assets.map(({ file }) => fileURLToPath(new URL(`../conformance/${file}`, import.meta.url)))
+  .filter((file) => file.endsWith('_tetrahedron.glb'));
 const project = mkdtempSync(join(tmpdir(), 'gltf-mcc-project-'));
 const installed = join(project, 'node_modules', 'gltf-mcc');
 after(() => rmSync(project, { recursive: true }));

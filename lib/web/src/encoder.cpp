@@ -56,6 +56,11 @@ void mccSetModes(uint32_t lossless, uint32_t indices_only, uint32_t grid,
   options.drop_unused = drop_unused != 0;
 }
 
+/// Without a call, what the other options say decides about blocks.
+MCC_EXPORT("setBlocks") void mccSetBlocks(uint32_t triangles) {
+  options.block_triangles = triangles;
+}
+
 MCC_EXPORT("setMaxError") void mccSetMaxError(double error, uint32_t is_relative) {
   options.max_position_error = error;
   options.is_error_relative = is_relative != 0;
