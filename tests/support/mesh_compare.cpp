@@ -102,10 +102,10 @@ std::string compareLatticeItself(const AttributeView& source, uint32_t wedge_cou
   // Deltas of morph targets are on the grid of what they are added to; all weights of a model on
   // one.
   if (source.format.morph_target != 0 || source.format.semantic == Semantic::kWeights) return {};
-  // No step is finer than the floats themselves, which matters where the extent is a few denormals.
-  const double step = std::max(extent / (std::ldexp(1.0, source.quantization_bits) - 1),
-                               double{std::numeric_limits<float>::denorm_min()});
-  if (extent > 0 && static_cast<double>(info.lattice.step) > step * (1 + 1e-6)) {
+  const double step = extent / (std::ldexp(1.0, source.quantization_bits) - 1);
+  // The lattice's step is a float: rounded by a part of itself, or among denormals to the next one.
+  const double rounded_up = step * (1 + 1e-6) + std::numeric_limits<float>::denorm_min();
+  if (extent > 0 && static_cast<double>(info.lattice.step) > rounded_up) {
     return text("the lattice's step is ", info.lattice.step, ", the extent needs ", step);
   }
   return "";
