@@ -379,7 +379,7 @@ class BlocksDecoder {
   RimTable table_;
   Array<uint32_t> first_triangles_;  ///< in its part, for each part of each block
   std::atomic<uint32_t> first_failed_ = kNone;
-  std::atomic_flag is_locked_ = ATOMIC_FLAG_INIT;  ///< for what follows
+  std::atomic_flag is_locked_;  ///< for what follows
   Array<DecodedBlock*> decoded_;                   ///< blocks that wait for their turn
   Array<Status> statuses_;
   uint32_t next_ = 0;  ///< the block whose turn it is

@@ -43,7 +43,7 @@ class Progress {
   const DecodeOptions& options_;
   uint64_t all_ = 0;
   std::atomic<uint64_t> done_ = 0;
-  std::atomic_flag is_telling_ = ATOMIC_FLAG_INIT;
+  std::atomic_flag is_telling_;
   std::atomic<bool> is_cancelled_ = false;
 };
 

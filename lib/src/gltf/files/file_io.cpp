@@ -235,13 +235,13 @@ ReplacementFile::~ReplacementFile() {
   keep();
   if (temporary_.empty()) return;
   std::error_code ignored;
-  fs::remove(temporary_, ignored);
+  system::remove(temporary_, ignored);
   if (temporaries_ != nullptr) temporaries_->forget(temporary_);
 }
 
 void ReplacementFile::keep() {
   std::error_code ignored;
-  if (!backup_.empty()) fs::remove(backup_, ignored);
+  if (!backup_.empty()) system::remove(backup_, ignored);
   backup_.clear();
   is_for_now_ = false;
 }
@@ -317,7 +317,7 @@ bool ReplacementFile::isInPlace() const {
 Result ReplacementFile::commit() {
   const TemporaryFiles::Lock held = lockOf(temporaries_);
   std::error_code code;
-  fs::rename(temporary_, target_, code);
+  system::rename(temporary_, target_, code);
   if (code) return error(textOf(destination_), "cannot be written: " + code.message());
   if (temporaries_ != nullptr) temporaries_->forget(temporary_);
   temporary_.clear();
@@ -330,7 +330,7 @@ Result ReplacementFile::commitForNow() {
     const fs::path backup = temporaryName(target_);
     // A hard link, where the file system has them, keeps the destination in place at every moment.
     fs::create_hard_link(target_, backup, code);
-    if (code) fs::rename(target_, backup, code);
+    if (code) system::rename(target_, backup, code);
     if (code) return error(textOf(destination_), "cannot be written: " + code.message());
     backup_ = backup;
   }
@@ -360,10 +360,10 @@ void ReplacementFile::undo() {
   is_for_now_ = false;
   std::error_code ignored;
   if (backup_.empty()) {
-    fs::remove(target_, ignored);
+    system::remove(target_, ignored);
   } else {
-    fs::rename(backup_, target_, ignored);
-    fs::remove(backup_, ignored);  // if both are links of one file, rename() leaves both
+    system::rename(backup_, target_, ignored);
+    system::remove(backup_, ignored);  // if both are links of one file, rename() leaves both
     backup_.clear();
   }
 }

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 
 namespace mcc::gltf {
 
@@ -46,6 +47,13 @@ ptrdiff_t writeSome(int file, const void* from, size_t byte_count);
 /// error if the file system cannot tell.
 int flush(int file);
 int close(int file);
+
+/// Like the functions of std::filesystem. Where a file that somebody is reading cannot be replaced
+/// or removed, they try again for a second: other programs, such as scanners for viruses, read new
+/// files at once.
+void rename(const std::filesystem::path& from, const std::filesystem::path& to,
+            std::error_code& code);
+void remove(const std::filesystem::path& path, std::error_code& code);
 
 /// Returns the identity of an open file, or of the file at a path. Empty if there is no file, or if
 /// its file system does not number files.

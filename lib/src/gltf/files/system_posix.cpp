@@ -65,6 +65,15 @@ int flush(int file) { return ::fsync(file); }
 
 int close(int file) { return ::close(file); }
 
+void rename(const std::filesystem::path& from, const std::filesystem::path& to,
+            std::error_code& code) {
+  std::filesystem::rename(from, to, code);
+}
+
+void remove(const std::filesystem::path& path, std::error_code& code) {
+  std::filesystem::remove(path, code);
+}
+
 std::optional<FileIdentity> identityOf(int file) {
   struct stat facts = {};
   if (::fstat(file, &facts) != 0) return std::nullopt;

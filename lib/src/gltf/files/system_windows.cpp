@@ -61,6 +61,20 @@ std::optional<FileIdentity> identityOfHandle(HANDLE handle) {
   return FileIdentity{facts.dwVolumeSerialNumber, number};
 }
 
+/// Tries again while another program has the file open.
+template <typename Action>
+void untilReleased(const std::error_code& code, Action action) {
+  constexpr DWORD kLongestPause_ms = 64;
+  constexpr DWORD kPatience_ms = 1000;
+  DWORD pause_ms = 1;
+  for (DWORD waited_ms = 0;; waited_ms += pause_ms) {
+    action();
+    if (code != std::errc::permission_denied || waited_ms >= kPatience_ms) return;
+    ::Sleep(pause_ms);
+    pause_ms = std::min(2 * pause_ms, kLongestPause_ms);
+  }
+}
+
 /// Bytes in one call: the C library takes an unsigned int and returns an int.
 unsigned chunkOf(size_t byte_count) {
   return static_cast<unsigned>(std::min<size_t>(byte_count, INT_MAX));
@@ -117,6 +131,15 @@ int flush(int file) {
 }
 
 int close(int file) { return ::_close(file); }
+
+void rename(const std::filesystem::path& from, const std::filesystem::path& to,
+            std::error_code& code) {
+  untilReleased(code, [&]() { std::filesystem::rename(from, to, code); });
+}
+
+void remove(const std::filesystem::path& path, std::error_code& code) {
+  untilReleased(code, [&]() { std::filesystem::remove(path, code); });
+}
 
 std::optional<FileIdentity> identityOf(int file) { return identityOfHandle(handleOf(file)); }
 
