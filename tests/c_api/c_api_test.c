@@ -392,6 +392,7 @@ static void test_documents(const char* path) {
   mcc_document* small = NULL;
   mcc_document* back = NULL;
   const uint8_t* bytes;
+  const char* text;
   if (file != NULL) fclose(file);
   EXPECT(glb_bytes != 0);
   test_lattices(glb, glb_bytes);
@@ -419,6 +420,13 @@ static void test_documents(const char* path) {
   mcc_convert_options_init(&options, sizeof options);
   options.max_decoded_bytes = 1;
   EXPECT(mcc_convert_glb(bytes, small_bytes, &options, &back).error == MCC_ERROR_DOCUMENT);
+  mcc_document_release(back);
+  EXPECT(mcc_inspect_glb(bytes, small_bytes, "a name", &back).error == MCC_OK);
+  text = (const char*)mcc_document_bytes(back, &back_bytes);
+  EXPECT(text != NULL && text[0] == '{' && text[back_bytes - 1] == '}');
+  mcc_document_release(back);
+  EXPECT(mcc_inspect_glb("no GLB", 6, NULL, &back).error == MCC_ERROR_DOCUMENT);
+  EXPECT(mcc_document_bytes(back, &back_bytes) == NULL && strlen(mcc_document_message(back)) > 10);
   mcc_document_release(back);
   mcc_document_release(small);
   EXPECT(mcc_decode_glb("no GLB", 6, NULL, &back).error == MCC_ERROR_DOCUMENT);

@@ -10,6 +10,7 @@
 #include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "gltf/files/file_io.h"
+#include "gltf/inspect/inspect_json.h"
 #include "gltf/inspect/report_json.h"
 #include "help.h"
 #include "progress_line.h"
@@ -17,8 +18,6 @@
 
 namespace mcc::tool {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Counts {
   uint64_t wedges = 0;
@@ -40,12 +39,6 @@ std::string joined(const std::vector<std::string>& texts) {
   std::string all;
   for (const std::string& text : texts) all += (all.empty() ? "" : " ") + text;
   return all;
-}
-
-std::string attributeText(const AttributeInfo& attribute) {
-  static constexpr const char* kTypes[] = {"i8", "u8", "i16", "u16", "u32", "f32"};
-  return fmt::format("{}x{}{}", kTypes[static_cast<size_t>(attribute.format.component_type)],
-                     attribute.format.component_count, attribute.format.normalized ? "n" : "");
 }
 
 Table payloadTable(const gltf::InspectReport& report, Format format) {
@@ -137,12 +130,6 @@ std::string originText(const AttributeInfo& info) {
   return text;
 }
 
-std::string surfaceName(SurfaceCoding surface) {
-  static constexpr const char* kNames[] = {"manifold", "cut at boundaries", "cut",
-                                           "vertex by vertex"};
-  return kNames[static_cast<size_t>(surface)];
-}
-
 Table attributeTable(const gltf::InspectReport& report, Format format) {
   Table table({"bufferView", "piece", "triangles", "vertices", "parts", "surface", "attribute",
                "type", "coding", "step", "error bound", "origin", "predictor"},
@@ -158,8 +145,8 @@ Table attributeTable(const gltf::InspectReport& report, Format format) {
                                        : gltf::codingName(attribute.coding, attribute.bits);
         table.addRow({std::to_string(payload.buffer_view), std::to_string(i),
                       count(piece.triangle_count, format), count(piece.wedge_count, format),
-                      std::to_string(piece.part_count), surfaceName(piece.surface),
-                      piece.details[k].name, attributeText(attribute), coding,
+                      std::to_string(piece.part_count), gltf::surfaceName(piece.surface),
+                      piece.details[k].name, gltf::typeText(attribute), coding,
                       has_lattice ? fmt::format("{:.6g}", attribute.lattice.step) : "",
                       boundText(piece.details[k]), has_lattice ? originText(attribute) : "",
                       piece.details[k].predictor});
@@ -250,83 +237,6 @@ Table codeTable(const gltf::InspectReport& report, Format format) {
   return table;
 }
 
-Json codesJson(const CodeHistogram& codes) {
-  Json degrees = Json::object();
-  for (uint32_t d = 0; d < 256; ++d) {
-    if (codes.degree[d] != 0) degrees[std::to_string(d)] = codes.degree[d];
-  }
-  return {{"S", codes.start},
-          {"E", codes.end},
-          {"M", codes.handle},
-          {"dummy", codes.dummy},
-          {"degrees", degrees}};
-}
-
-Json pieceJson(const gltf::InspectPiece& piece) {
-  Json attributes = Json::array();
-  for (size_t k = 0; k < piece.attributes.size(); ++k) {
-    const AttributeInfo& attribute = piece.attributes[k];
-    Json json = {{"name", piece.details[k].name},
-                 {"type", attributeText(attribute)},
-                 {"coding", gltf::codingName(attribute.coding, 0)},
-                 {"bits", attribute.bits},
-                 {"predictor", attribute.predictor},
-                 {"predictor_name", piece.details[k].predictor},
-                 {"coded_bytes", piece.details[k].coded_bits / 8},
-                 {"error_unit", piece.details[k].is_angle ? "degrees" : "accessor units"},
-                 {"error_bound", piece.details[k].error_bound}};
-    if (attribute.coding == AttributeCoding::kAlias) json["alias_of"] = attribute.alias_of;
-    if (attribute.coding == AttributeCoding::kLattice) {
-      json["step"] = attribute.lattice.step;
-      json["origin"] = attribute.lattice.origin;
-    }
-    attributes.push_back(std::move(json));
-  }
-  Json json = {{"vertices", piece.wedge_count},         {"positions", piece.vertex_count},
-               {"triangles", piece.triangle_count},     {"parts", piece.part_count},
-               {"surface", surfaceName(piece.surface)}, {"attributes", attributes}};
-  if (!piece.whole_because.empty()) json["whole_because"] = piece.whole_because;
-  for (const gltf::InspectBlock& block : piece.blocks) {
-    json["blocks"].push_back({{"bytes", block.stream_bytes},
-                              {"triangles", block.triangle_count},
-                              {"vertices", block.wedge_count},
-                              {"repeated", block.repeated_count},
-                              {"min", block.low},
-                              {"max", block.high}});
-  }
-  return json;
-}
-
-std::string inspectJson(const std::string& input, const gltf::InspectReport& report) {
-  Json payloads = Json::array();
-  for (const auto& payload : report.payloads) {
-    Json pieces = Json::array();
-    for (const auto& piece : payload.pieces) pieces.push_back(pieceJson(piece));
-    Json json = {{"bufferView", payload.buffer_view},
-                 {"bytes", payload.payload_bytes},
-                 {"version", fmt::format("{}.{}", payload.version_major, payload.version_minor)},
-                 {"header_bytes", payload.header_bytes},
-                 {"codes_bytes", payload.codes_bytes},
-                 {"tokens_bytes", payload.tokens_bytes},
-                 {"raw_bits_bytes", payload.raw_bits_bytes},
-                 {"single_coder", payload.single_coder},
-                 {"primitives", payload.primitives},
-                 {"pieces", pieces}};
-    if (payload.has_codes) json["codes"] = codesJson(payload.codes);
-    for (const gltf::StreamReport& stream : payload.streams) {
-      json["stream_bytes"][stream.name] = stream.bits / 8;
-    }
-    payloads.push_back(std::move(json));
-  }
-  const Json json = {{"input", input},
-                     {"input_bytes", report.input_bytes},
-                     {"meshes", report.mesh_count},
-                     {"primitives", report.primitive_count},
-                     {"extensionsUsed", report.extensions_used},
-                     {"payloads", payloads}};
-  return printReport(json);
-}
-
 struct InspectCommand {
   CommonOptions common;
   std::string input;
@@ -347,7 +257,8 @@ struct InspectCommand {
       if (outcome.ok()) outcome = inspect(stream.source(), report);
     }
     if (!outcome.ok()) return reportFailure(outcome, input, "");
-    if (common.format == Format::kJson) return printOut(inspectJson(input, report));
+    if (common.format == Format::kJson)
+      return printOut(printReport(gltf::inspectJson(input, report)));
     if (common.format == Format::kCsv) {
       const Table table =
           show_codes ? codeTable(report, common.format) : payloadTable(report, common.format);

@@ -413,7 +413,7 @@ MCC_API void mcc_encoding_release(mcc_encoding* encoding);
 
 /* ---------------------------------------------------------------- documents */
 
-/** A GLB that was made, or the message that says why it could not be. */
+/** A GLB or a text that was made, or the message that says why it could not be. */
 typedef struct mcc_document mcc_document;
 
 /** Which primitives share a lattice of positions; no cracks can open between those that do. */
@@ -485,7 +485,16 @@ MCC_API void mcc_decode_glb_options_init(mcc_decode_glb_options* options, size_t
 MCC_API mcc_status mcc_decode_glb(const void* glb, size_t byte_count,
                                   const mcc_decode_glb_options* options, mcc_document** document);
 
-/** Returns the GLB, which is owned by the document; null after an error. */
+/**
+ * Describes the payloads of a GLB as JSON, with the members of `gltf-mcc inspect --format json`: a
+ * text in UTF-8, without a terminating zero, that mcc_document_bytes() returns. All payloads are
+ * decoded, to count their codes. Ownership, errors and safety are those of mcc_convert_glb().
+ * @param name  what the text calls the GLB; null: ""
+ */
+MCC_API mcc_status mcc_inspect_glb(const void* glb, size_t byte_count, const char* name,
+                                   mcc_document** document);
+
+/** Returns the GLB or the text, which is owned by the document; null after an error. */
 MCC_API const uint8_t* mcc_document_bytes(const mcc_document* document, size_t* byte_count);
 /**
  * Returns why there is no GLB, such as "/meshes/0/primitives/1: what is wrong", or "" when there is

@@ -7,9 +7,11 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "base/c_struct.h"
 #include "format/codings.h"
+#include "gltf/inspect/inspect_json.h"
 #include "mcc/gltf.h"
 
 struct mcc_document {
@@ -151,6 +153,22 @@ mcc_status mcc_decode_glb(const void* glb, size_t byte_count, const mcc_decode_g
                                    mcc::gltf::DecodeReport report;
                                    return mcc::gltf::decode(source, sink, report, decode_options);
                                  });
+}
+
+mcc_status mcc_inspect_glb(const void* glb, size_t byte_count, const char* name,
+                           mcc_document** document) {
+  return mcc::gltf::makeDocument(
+      glb, byte_count, document, [=](const mcc::gltf::Source& source, const mcc::gltf::Sink& sink) {
+        mcc::gltf::InspectReport report;
+        mcc::gltf::Result result = mcc::gltf::inspectGlb(*source.bytes, true, report);
+        if (!result.ok()) return result;
+        // Names in the JSON of a file need not be UTF-8; dump() must not throw for them.
+        const std::string text =
+            mcc::gltf::inspectJson(name == nullptr ? "" : name, report)
+                .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+        sink.bytes->assign(text.begin(), text.end());
+        return result;
+      });
 }
 
 const uint8_t* mcc_document_bytes(const mcc_document* document, size_t* byte_count) {
