@@ -1,0 +1,151 @@
+# Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+"""Whole GLB files: compress, decompress, describe."""
+from __future__ import annotations
+
+import ctypes
+import json
+import os
+from typing import Any, Callable, Dict, Optional, Tuple, Union
+
+from . import _library
+from ._library import library
+from .errors import check
+
+Source = Union[bytes, bytearray, memoryview, str, "os.PathLike[str]"]
+
+PREFERENCES = ("balanced", "size", "speed")
+_GRIDS = ("mesh", "scene", "primitive")
+
+
+def choice(value: str, names: Tuple[str, ...], option: str) -> int:
+    """Returns the number of a named choice."""
+    if value not in names:
+        raise ValueError(f"{option} is {value!r}; it can be {', '.join(map(repr, names))}")
+    return names.index(value)
+
+
+def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits: Optional[int] = None,
+            texcoord_bits: Optional[int] = None, color_bits: Optional[int] = None,
+            tangent_bits: Optional[int] = None, weight_bits: Optional[int] = None, lossless: bool = False,
+            grid: str = "mesh", max_position_error: float = 0.0, is_error_relative: bool = False,
+            indices_only: bool = False, keep_vertex_order: bool = False, keep_triangle_order: bool = False,
+            drop_unused: bool = False, prefer: str = "balanced", block_triangles: Optional[int] = None,
+            threads: int = 1, max_decoded_bytes: int = 0) -> bytes:
+    """Compresses the meshes of a GLB and returns the GLB that results.
+
+    The result is decoded and compared with the source before the call returns; where compression gains
+    nothing, the result is the source. The same input gives the same bytes, whatever `threads` is.
+
+    Args:
+        source: the bytes of a GLB, or the path of a .glb file
+        position_bits: bits of a coordinate (14), and likewise normal_bits (10), texcoord_bits (12), color_bits
+            (8), tangent_bits (12), weight_bits (12); 0 keeps every bit, None is the default in parentheses
+        lossless: every float keeps every bit
+        grid: which primitives share a lattice of positions: "mesh", "scene" or "primitive"
+        max_position_error: if not 0, how far a position may move, in units of the file; replaces position_bits
+        is_error_relative: the error is a fraction of the largest side of the bounding box
+        indices_only: only the triangles are compressed
+        keep_vertex_order, keep_triangle_order: decoded elements come in the order of the source
+        drop_unused: vertices that no triangle uses are left out
+        prefer: "balanced", "size" or "speed" of decoding
+        block_triangles: triangles of a block of a large surface, 0 for no blocks; None: `prefer` decides
+        threads: how many threads to use
+        max_decoded_bytes: bounds what a compressed source may decode to; 0 is the library's default
+
+    Raises:
+        Error: the file is not a GLB, or is damaged, or an option is out of range
+        OSError: the file cannot be read
+        MemoryError: memory ran out
+    """
+    options = _library.ConvertOptions()
+    library.mcc_convert_options_init(ctypes.byref(options), ctypes.sizeof(options))
+    given = {"position_bits": position_bits, "normal_bits": normal_bits, "texcoord_bits": texcoord_bits,
+             "color_bits": color_bits, "tangent_bits": tangent_bits, "weight_bits": weight_bits,
+             "block_triangles": block_triangles}
+    for name, value in given.items():
+        if value is not None:
+            setattr(options, name, unsigned(value, name))
+    options.lossless = lossless
+    options.grid = choice(grid, _GRIDS, "grid")
+    options.max_position_error = max_position_error
+    options.is_error_relative = is_error_relative
+    options.indices_only = indices_only
+    options.keep_vertex_order = keep_vertex_order
+    options.keep_triangle_order = keep_triangle_order
+    options.drop_unused = drop_unused
+    options.prefer = choice(prefer, PREFERENCES, "prefer")
+    options.thread_count = unsigned(threads, "threads")
+    options.max_decoded_bytes = unsigned(max_decoded_bytes, "max_decoded_bytes", 64)
+    return _document(source, lambda glb, document: library.mcc_convert_glb(
+        glb, len(glb), ctypes.byref(options), document))
+
+
+def decode(source: Source, *, to_integers: bool = False, threads: int = 1, max_decoded_bytes: int = 0) -> bytes:
+    """Turns the compressed primitives of a GLB into ordinary accessors again and returns the GLB.
+
+    Safe for untrusted input.
+
+    Args:
+        source: the bytes of a GLB, or the path of a .glb file
+        to_integers: quantised attributes stay integers (KHR_mesh_quantization)
+        threads: how many threads to use; the result does not depend on it
+        max_decoded_bytes: a GLB that asks for more is refused before memory is taken; 0 allows 1024 bytes for
+            each byte of the GLB, but at least 256 MiB and at most 4 GiB
+
+    Raises:
+        Error: the file is not a GLB, or is damaged
+        OSError: the file cannot be read
+        MemoryError: memory ran out
+    """
+    options = _library.DecodeGlbOptions()
+    library.mcc_decode_glb_options_init(ctypes.byref(options), ctypes.sizeof(options))
+    options.decode_to_integers = to_integers
+    options.thread_count = unsigned(threads, "threads")
+    options.max_decoded_bytes = unsigned(max_decoded_bytes, "max_decoded_bytes", 64)
+    return _document(source, lambda glb, document: library.mcc_decode_glb(
+        glb, len(glb), ctypes.byref(options), document))
+
+
+def inspect(source: Source) -> Dict[str, Any]:
+    """Describes the payloads of a GLB: the members of `gltf-mcc inspect --format json`.
+
+    Args:
+        source: the bytes of a GLB, or the path of a .glb file
+
+    Raises:
+        as decode()
+    """
+    name = "" if isinstance(source, (bytes, bytearray, memoryview)) else os.fspath(source)
+    text = _document(source, lambda glb, document: library.mcc_inspect_glb(
+        glb, len(glb), os.fsencode(name), document))
+    return json.loads(text)
+
+
+def unsigned(value: int, name: str, bits: int = 32) -> int:
+    """Returns a number that fits an unsigned member; ctypes would cut off what does not fit."""
+    if not 0 <= value < 2**bits:
+        raise ValueError(f"{name} is {value}; it can be 0 to {2**bits - 1}")
+    return value
+
+
+def bytes_of(source: Source) -> bytes:
+    """Returns the bytes of a source: itself, a copy of a buffer, or what a file holds."""
+    if isinstance(source, bytes):
+        return source
+    if isinstance(source, (bytearray, memoryview)):
+        return bytes(source)
+    with open(source, "rb") as file:
+        return file.read()
+
+
+def _document(source: Source, call: Callable[[bytes, Any], _library.Status]) -> bytes:
+    document = ctypes.c_void_p()
+    try:
+        status = call(bytes_of(source), ctypes.byref(document))
+        message = library.mcc_document_message(document).decode("utf-8", "replace") if document else None
+        check(status, message or None)
+        size = ctypes.c_size_t()
+        data = library.mcc_document_bytes(document, ctypes.byref(size))
+        return ctypes.string_at(data, size.value)
+    finally:
+        library.mcc_document_release(document)
