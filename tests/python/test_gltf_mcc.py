@@ -3,6 +3,7 @@
 nothing but the wheel. NumPy is used if it is there."""
 import json
 import os
+import pickle
 import struct
 import subprocess
 import sys
@@ -81,6 +82,9 @@ class Documents(unittest.TestCase):
         self.assertEqual(caught.exception.code, "DOCUMENT")
         with self.assertRaises(FileNotFoundError):
             gltf_mcc.convert("there is no such file.glb")
+        again = pickle.loads(pickle.dumps(caught.exception))
+        self.assertEqual((str(again), again.code, again.offset_bytes),
+                         (str(caught.exception), "DOCUMENT", caught.exception.offset_bytes))
         for wrong in ({"position_bits": 99}, {"position_bits": -1}, {"position_bits": 2**32 + 14}, {"grid": "x"},
                       {"prefer": "x"}):
             with self.assertRaises(ValueError, msg=str(wrong)):

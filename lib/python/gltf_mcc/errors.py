@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Optional
+from typing import Optional, Tuple
 
 from ._library import Status, library
 
@@ -29,6 +29,10 @@ class Error(ValueError):
         super().__init__(text)
         self.code = code
         self.offset_bytes = offset_bytes
+
+    def __reduce__(self) -> Tuple[type, Tuple[str, str, Optional[int]]]:
+        # Exceptions are pickled with the arguments of ValueError otherwise; Dask and multiprocessing send them.
+        return type(self), (str(self), self.code, self.offset_bytes)
 
 
 def check(status: Status, text: Optional[str] = None) -> None:
