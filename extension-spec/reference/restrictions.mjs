@@ -158,11 +158,13 @@ export function checkAccessors(json) {
 // The accessors that anything but the attributes and indices in payloads refers to.
 function otherReferences(json) {
 	const others = allPrimitives(json).filter((primitive) => !isCompressed(primitive));
+	const instances = (json.nodes ?? []).map((node) => node.extensions?.EXT_mesh_gpu_instancing?.attributes ?? {});
 	const samplers = (json.animations ?? []).flatMap((animation) => animation.samplers);
 	return [
 		...compressedPrimitives(json).flatMap(ordinaryAttributes),
 		...others.flatMap((primitive) => [primitive.indices, ...accessorsOf(primitive)]),
 		...samplers.flatMap(({ input, output }) => [input, output]),
+		...instances.flatMap((attributes) => Object.values(attributes)),
 		...(json.skins ?? []).map(({ inverseBindMatrices }) => inverseBindMatrices),
 	].filter((accessor) => accessor !== undefined);
 }

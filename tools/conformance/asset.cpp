@@ -230,6 +230,21 @@ std::vector<NamedAttribute> reordered(const SourcePiece& piece, const PieceResul
   return all;
 }
 
+/// Writes the integers of the first primitive, its accessors and buffer views as 1.0 instead of 1.
+void writeFractions(Json& json) {
+  std::vector<Json*> todo = {&json["meshes"][0]["primitives"][0], &json["accessors"],
+                             &json["bufferViews"]};
+  while (!todo.empty()) {
+    Json& value = *todo.back();
+    todo.pop_back();
+    if (value.is_structured()) {
+      for (Json& member : value) todo.push_back(&member);
+    } else if (value.is_number_integer()) {
+      value = value.get<double>();
+    }
+  }
+}
+
 }  // namespace
 
 NamedAttribute makeAttribute(const std::string& name, uint32_t target, const std::string& type,
@@ -299,7 +314,9 @@ Asset encodeSource(const Source& source) {
 
 std::vector<uint8_t> makeGlb(const Asset& asset) {
   const Document document(asset);
-  return glbOf(document.json(), document.bin());
+  Json json = document.json();
+  if (asset.numbers_with_fractions) writeFractions(json);
+  return glbOf(json, document.bin());
 }
 
 Json expectedOf(const Asset& asset) { return Document(asset).expected(); }

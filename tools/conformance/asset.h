@@ -63,6 +63,7 @@ struct Asset {
   std::string shows;
   std::vector<uint8_t> payload;
   std::vector<PieceNames> pieces;
+  bool numbers_with_fractions = false;  ///< the JSON has 1.0 for 1
 };
 
 /// Encodes, decodes and compares with the source; throws where they differ.

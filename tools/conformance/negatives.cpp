@@ -1010,6 +1010,9 @@ class Maker {
         [](HeaderFields& f) { f.changeHeaderLength(-1); });
     bad("header too long", "The header is said to be a byte longer than it is", asset,
         [](HeaderFields& f) { f.changeHeaderLength(1); });
+    const auto whole = static_cast<int32_t>(headerOf(asset.payload).header_bytes);
+    bad("header ends before its flags", "The header is said to have three bytes", asset,
+        [=](HeaderFields& f) { f.changeHeaderLength(3 - whole); });
     block("header beyond the end", "A.2.1", Error::kTruncated,
           "The header is said to be longer than the payload", asset,
           [](HeaderFields& f) { f.changeHeaderLength(1 << 20); });
@@ -1178,11 +1181,7 @@ class Maker {
              [](Json&, Json&, Json& e) { e["bufferView"] = 99; });
     document("buffer view no integer", "bufferView is a string", plain,
              [](Json&, Json&, Json& e) { e["bufferView"] = "0"; });
-    document("payload cut", "the buffer view is a byte shorter than the payload", plain,
-             [](Json& j, Json&, Json&) {
-               j["bufferViews"][0]["byteLength"] =
-                   j["bufferViews"][0]["byteLength"].get<size_t>() - 1;
-             });
+    cutView(plain);
     document("payload beyond the buffer", "the buffer view ends outside of the buffer", plain,
              [](Json& j, Json&, Json&) { j["bufferViews"][0]["byteLength"] = 1 << 20; });
     document("no such piece", "piece is none of the payload", plain,
@@ -1290,6 +1289,16 @@ class Maker {
              });
   }
 
+  /// The error is the payload's: its checksum is not that of the bytes that are left.
+  void cutView(const Asset& asset) {
+    document("payload cut", "the buffer view is a byte shorter than the payload", asset,
+             [](Json& j, Json&, Json&) {
+               j["bufferViews"][0]["byteLength"] =
+                   j["bufferViews"][0]["byteLength"].get<size_t>() - 1;
+             });
+    all_.back().error = static_cast<uint32_t>(Error::kBadChecksum);
+  }
+
   /// Accessors that a payload fills and something else refers to.
   void sharedAccessors() {
     const Asset& plain = base([](const PayloadHeader& h) {
@@ -1307,6 +1316,22 @@ class Maker {
     document("accessor of an ordinary attribute",
              "an attribute beside the payload has the accessor of NORMAL", plain,
              [](Json&, Json& p, Json&) { p["attributes"]["_COPY"] = p["attributes"]["NORMAL"]; });
+    document("accessor of instances", "instances are moved by the accessor of NORMAL", plain,
+             [](Json& j, Json& p, Json&) {
+               const Json normal = p["attributes"]["NORMAL"];
+               j["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"] = {
+                   {"attributes", {{"TRANSLATION", normal}}}};
+               j["extensionsUsed"].push_back("EXT_mesh_gpu_instancing");
+             });
+    document("two views of the same bytes",
+             "one accessor is filled from payloads in two buffer views, whose bytes are the same",
+             plain, [](Json& j, Json& p, Json& e) {
+               j["bufferViews"].push_back(j["bufferViews"][0]);
+               Json other = p;
+               other["extensions"][gltf::kExtensionName]["bufferView"] =
+                   j["bufferViews"].size() - 1;
+               j["meshes"].push_back({{"primitives", {other}}});
+             });
     document("accessor of a skin", "the inverse bind matrices are the accessor of NORMAL", plain,
              [](Json& j, Json& p, Json&) {
                const Json normal = p["attributes"]["NORMAL"];

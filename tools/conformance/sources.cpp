@@ -1118,6 +1118,32 @@ std::vector<Source> rareSources() {
                          [](SourceBuilder& b) { b.positions(9); }));
     all.back().options.variation = variation;
   }
+  all.push_back(single(
+      "partners_come_later", "JOINTS and WEIGHTS that cannot have partners before ones that do",
+      withNormals(torus(9, 7)), [](SourceBuilder& b) {
+        b.positions(10);
+        const auto unfit = [&b](const char* name, Semantic semantic, uint32_t target) {
+          b.integers(name, target, target == kBase ? "VEC3" : "VEC4", ComponentType::kUint8, false,
+                     [](const Place& at, uint32_t c) {
+                       return static_cast<float>((at.wedge / 9 + c) % 5);
+                     });
+          NamedAttribute& attribute = b.piece().attributes.back();
+          attribute.name.clear();
+          attribute.format.semantic = semantic;
+          attribute.format.set_index = 0;
+        };
+        unfit("JOINTS_0", Semantic::kJoints, kBase);
+        unfit("WEIGHTS_0", Semantic::kWeights, kBase);
+        unfit("JOINTS_0", Semantic::kJoints, 0);
+        unfit("WEIGHTS_0", Semantic::kWeights, 0);
+        b.skin("0");
+      }));
+  all.push_back(single("origin_of_negative_zero", "A lattice whose origins are -0",
+                       withNormals(torus(9, 7)), [](SourceBuilder& b) {
+                         b.positions(10);
+                         const Lattice lattice{{-0.0f, -0.0f, -0.0f, 0}, 0.001f};
+                         b.piece().attributes[0].lattice = lattice;
+                       }));
   return all;
 }
 

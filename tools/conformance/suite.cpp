@@ -195,6 +195,15 @@ void addFound(std::vector<Candidate>& candidates) {
   }
 }
 
+/// Documents and headers that are written in another way than usual.
+void addSpellings(std::vector<Candidate>& all) {
+  Asset fractions = appendixC();
+  fractions.name = "numbers_with_fractions";
+  fractions.shows = "Integers of the JSON are written 1.0, as JSON allows";
+  fractions.numbers_with_fractions = true;
+  addAsset(all, std::move(fractions));
+}
+
 void addSources(std::vector<Candidate>& all) {
   for (const Source& source : addedSources()) addAsset(all, encodeSource(source));
   for (const Source& source : blockSources()) addAsset(all, encodeSource(source));
@@ -286,6 +295,7 @@ Suite makeSuite() {
   addSources(candidates);
   addFound(candidates);
   for (const Source& source : rareSources()) addAsset(candidates, encodeSource(source));
+  addSpellings(candidates);
   numberNames(candidates);
   Suite suite;
   Json manifest = {{"extension", gltf::kExtensionName},
