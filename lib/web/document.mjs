@@ -233,5 +233,6 @@ function ordinaryReferences(json) {
     for (const { input, output } of samplers) numbers.push(input, output);
   }
   for (const { inverseBindMatrices } of json.skins ?? []) numbers.push(inverseBindMatrices);
+  for (const { extensions } of json.nodes ?? []) numbers.push(...Object.values(extensions?.EXT_mesh_gpu_instancing?.attributes ?? {}));
   return numbers;
 }

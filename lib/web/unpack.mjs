@@ -12,6 +12,7 @@ export const BIN_CHUNK = 0x004e4942;
 const ARRAY_BUFFER = 34962;
 const ELEMENT_ARRAY_BUFFER = 34963;
 const ROWS = { MAT2: 2, MAT3: 3, MAT4: 4 };
+const COMPONENT_BYTES = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 };
 
 /**
  * Decodes all payloads of a GLB.
@@ -31,11 +32,7 @@ export async function unpackGlb(bytes, { decode = decodePayload, limits } = {}) 
   budget.add(sum(payloads.map(namedBytes)));
   const decoded = await Promise.all(payloads.map(async (payload) => (
     budget.settle(payload, await decode(payloadBytes(json, bin, payload.bufferView), budget.optionsFor(payload))))));
-  for (const { primitive } of extensionUses(json)) removeMember(primitive, 'extensions', EXTENSION_NAME);
-  for (const list of ['extensionsUsed', 'extensionsRequired']) {
-    json[list] = json[list]?.filter((name) => name !== EXTENSION_NAME);
-    if (!json[list]?.length) delete json[list];
-  }
+  removeExtension(json);
   const newBin = new Bin(json, bin, payloads);
   payloads.forEach(({ targets }, i) => newBin.fill(targets, decoded[i]));
   const others = chunks.filter(({ type }) => type !== BIN_CHUNK);
@@ -77,9 +74,16 @@ function payloadBytes(json, bin, number) {
   return bin.slice(byteOffset, byteOffset + byteLength);
 }
 
-function removeMember(object, key, member) {
-  delete object[key][member];
-  if (Object.keys(object[key]).length === 0) delete object[key];
+/** Removes all that a document says of the extension. */
+export function removeExtension(json) {
+  for (const { primitive } of extensionUses(json)) {
+    delete primitive.extensions[EXTENSION_NAME];
+    if (Object.keys(primitive.extensions).length === 0) delete primitive.extensions;
+  }
+  for (const list of ['extensionsUsed', 'extensionsRequired']) {
+    json[list] = json[list]?.filter((name) => name !== EXTENSION_NAME);
+    if (!json[list]?.length) delete json[list];
+  }
 }
 
 /** Returns the values of all members of this name, at any depth. */
@@ -166,14 +170,12 @@ class Bin {
   }
 
   /** Adds the elements of an accessor, tightly packed in `array`, as a buffer view. */
-  #addView(accessor, array, { attribute }) {
-    const isIndex = attribute === undefined;
-    const { bytes, stride } = isIndex ? { bytes: asBytes(array) } : elementBytes(accessor, array);
+  #addView(accessor, array, target) {
+    const bytes = elementBytes(accessor, array, target);
     const number = this.free.pop() ?? this.json.bufferViews.length;
     this.#align(4);
     this.json.bufferViews[number] = {
-      buffer: 0, byteOffset: this.length, byteLength: bytes.length,
-      ...(stride === undefined ? {} : { byteStride: stride }), target: isIndex ? ELEMENT_ARRAY_BUFFER : ARRAY_BUFFER,
+      buffer: 0, byteOffset: this.length, byteLength: bytes.length, ...viewOf(accessor, target),
     };
     this.#add(bytes);
     return number;
@@ -206,21 +208,39 @@ class Bin {
 const asBytes = ({ buffer, byteOffset, byteLength }) => new Uint8Array(buffer, byteOffset, byteLength);
 
 /**
- * Pads the elements of vertex attributes to multiples of four bytes, and so the columns of
- * matrices.
+ * Vertex attributes begin at multiples of four bytes, and so do the columns of matrices; indices are
+ * tight.
+ * @returns {{ columnBytes: number, paddedBytes: number, columns: number, stride: number, isPadded: boolean }}
  */
-function elementBytes({ type, count }, array) {
+function layoutOf({ type, componentType }, { attribute }) {
   const components = COMPONENT_COUNTS[type];
-  const size = array.BYTES_PER_ELEMENT;
   const rows = ROWS[type] ?? components;
-  const columnBytes = Math.ceil((rows * size) / 4) * 4;
-  const stride = (components / rows) * columnBytes;
+  const columnBytes = rows * COMPONENT_BYTES[componentType];
+  const paddedBytes = attribute === undefined ? columnBytes : Math.ceil(columnBytes / 4) * 4;
+  const columns = components / rows;
+  return { columnBytes, paddedBytes, columns, stride: columns * paddedBytes, isPadded: paddedBytes !== columnBytes };
+}
+
+/** Returns what a buffer view says of the elements of an accessor. */
+export function viewOf(accessor, target) {
+  const { stride, isPadded } = layoutOf(accessor, target);
+  return { ...(isPadded ? { byteStride: stride } : {}), target: target.attribute === undefined ? ELEMENT_ARRAY_BUFFER : ARRAY_BUFFER };
+}
+
+/** Returns the size of the elements of an accessor in a buffer view of their own. */
+export function viewBytes(accessor, target) {
+  return accessor.count * layoutOf(accessor, target).stride;
+}
+
+/** Returns the bytes of such a buffer view; `array` has the components without padding. */
+export function elementBytes(accessor, array, target) {
+  const { columnBytes, paddedBytes, columns, isPadded } = layoutOf(accessor, target);
   const tight = asBytes(array);
-  if (stride === components * size) return { bytes: tight };
-  const bytes = new Uint8Array(count * stride);
-  const columns = (count * components) / rows;
-  for (let i = 0; i < columns; ++i) bytes.set(tight.subarray(i * rows * size, (i + 1) * rows * size), i * columnBytes);
-  return { bytes, stride };
+  if (!isPadded) return tight;
+  const count = accessor.count * columns;
+  const bytes = new Uint8Array(count * paddedBytes);
+  for (let i = 0; i < count; ++i) bytes.set(tight.subarray(i * columnBytes, (i + 1) * columnBytes), i * paddedBytes);
+  return bytes;
 }
 
 /**

@@ -9,3 +9,4 @@ export const LIBRARY = path.join(ROOT, 'lib/web');
 export const SAMPLES = path.join(ROOT, 'samples');
 export const ENGINES = path.join(ROOT, 'tests/web/node_modules');
 export const PAGES = path.resolve(here, '../browser/pages');
+export const PLAIN = path.resolve(here, '../browser/plain');

@@ -4,13 +4,14 @@ import path from 'node:path';
 import { LIBRARY } from './paths.mjs';
 
 /**
- * The first JavaScript block below "### heading" in the README of lib/web: what users copy is what the tests run.
+ * The first block of a language below "### heading" in the README of lib/web: what users copy is what the tests run.
  * @param {string} heading
+ * @param {string} [language]
  */
-export async function snippetOf(heading) {
+export async function snippetOf(heading, language = 'js') {
   const text = await readFile(path.join(LIBRARY, 'README.md'), 'utf8');
   const section = text.split(/^(?=##+ )/m).find((part) => part.startsWith(`### ${heading}\n`));
-  const code = section?.match(/^```js\n(.*?)^```$/ms)?.[1];
+  const code = section?.match(new RegExp(`^\`\`\`${language}\\n(.*?)^\`\`\`$`, 'ms'))?.[1];
   if (code === undefined) throw new Error(`lib/web/README.md: no code below "### ${heading}"`);
   return code;
 }

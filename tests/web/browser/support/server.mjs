@@ -9,11 +9,14 @@
 //   /snippets/NAME.mjs      the code under "### NAME" in the README of lib/web
 //   /lib/…, /engines/…      lib/web and node_modules
 //   /bundle/…               what a bundler has made
+//   /plain/…                pages that know nothing of the library; ?worker adds the README's line that starts the service worker
+//   /sw.js, /gltf-mcc/…     the README's service worker, and lib/web where it expects it
+//   /files/…                what a test has put into `files`: { body, headers, status }; ranges are honoured
 import { createHash } from 'node:crypto';
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import path from 'node:path';
-import { ENGINES, LIBRARY, PAGES } from '../../support/paths.mjs';
+import { ENGINES, LIBRARY, PAGES, PLAIN } from '../../support/paths.mjs';
 import { snippetOf } from '../../support/readme.mjs';
 
 const TYPES = {
@@ -37,6 +40,23 @@ const LIBRARY_IMPORTS = {
 };
 const NO_LIBRARY = Object.fromEntries(Object.keys(LIBRARY_IMPORTS).map((name) => [name, '/pages/without.mjs']));
 
+/** Four tiles, beside each other, that all are the model next to this file. */
+const TILESET = JSON.stringify({
+  asset: { version: '1.1' },
+  geometricError: 100,
+  root: {
+    boundingVolume: { sphere: [0, 0, 0, 4] },
+    geometricError: 50,
+    refine: 'ADD',
+    children: [[-1.5, -1.5], [1.5, -1.5], [-1.5, 1.5], [1.5, 1.5]].map(([x, y]) => ({
+      boundingVolume: { sphere: [0, 0, 0, 1.5] },
+      geometricError: 0,
+      transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, 0, 1],
+      content: { uri: 'model.glb' },
+    })),
+  },
+});
+
 /** What an application has to allow; engines add blob: for images, and model-viewer for its model. */
 const POLICY = { 'default-src': "'self'", 'script-src': "'self' 'wasm-unsafe-eval'", 'worker-src': "'self'" };
 const POLICY_OF_ENGINES = {
@@ -46,12 +66,19 @@ const POLICY_OF_ENGINES = {
 /**
  * @param {Map<string, Uint8Array>} models by name
  * @param {string} [bundle] a folder
- * @returns {Promise<{ origin: string, missing: string[], close(): Promise<void> }>} missing: requests that found nothing
+ * @returns {Promise<{ origin: string, missing: string[], files: Map<string, object>, close(): Promise<void> }>} missing: requests
+ *   that found nothing
  */
 export async function startServer(models, bundle) {
   const missing = [];
+  const files = new Map();
   const server = createServer((request, response) => {
     const url = new URL(request.url, 'http://localhost');
+    const asked = files.get(url.pathname.replace('/files/', ''));
+    if (url.pathname.startsWith('/files/') && asked !== undefined) {
+      sendFile(request, response, asked);
+      return;
+    }
     answer(url, models, bundle).then(({ body, headers }) => response.writeHead(200, headers).end(body), () => {
       if (url.pathname !== '/favicon.ico') missing.push(url.pathname);
       response.writeHead(404).end();
@@ -62,7 +89,17 @@ export async function startServer(models, bundle) {
     server.closeAllConnections?.();
     server.close(resolve);
   });
-  return { origin: `http://127.0.0.1:${server.address().port}`, missing, close };
+  return { origin: `http://127.0.0.1:${server.address().port}`, missing, files, close };
+}
+
+function sendFile(request, response, { body, headers = {}, status = 200 }) {
+  const [, first, last] = /^bytes=(\d+)-(\d*)$/.exec(request.headers.range ?? '') ?? [];
+  if (first === undefined) {
+    response.writeHead(status, headers).end(body);
+    return;
+  }
+  const part = body.subarray(Number(first), last === '' ? body.length : Number(last) + 1);
+  response.writeHead(206, { ...headers, 'Content-Range': `bytes ${first}-${Number(first) + part.length - 1}/${body.length}` }).end(part);
 }
 
 async function answer(url, models, bundle) {
@@ -73,11 +110,21 @@ async function answer(url, models, bundle) {
     case 'lib': return file(LIBRARY);
     case 'engines': return file(ENGINES);
     case 'bundle': return withPolicy(await readInside(bundle, name), { ...POLICY, ...POLICY_OF_ENGINES });
-    case 'models': return content(models.get(rest[0]) ?? missingModel(rest[0]), '.glb');
+    case 'models': return rest[1] === 'tileset.json' ? content(TILESET, '.json') : content(models.get(rest[0]) ?? missingModel(rest[0]), '.glb');
     case 'snippets': return content(await snippetOf(name.replace(/\.mjs$/, '')), '.mjs');
+    case 'gltf-mcc': return file(LIBRARY);
+    case 'sw.js': return withPolicy(content(await snippetOf('sw.js'), '.js'), POLICY);
+    case 'plain': return name.endsWith('.html') ? plainPage(await file(PLAIN), url) : file(PLAIN);
     case 'pages': return name.endsWith('.html') ? page(name.replace(/\.html$/, ''), url) : file(PAGES);
     default: throw new Error(`no such folder: ${folder}`);
   }
+}
+
+async function plainPage({ body, headers }, url) {
+  const line = url.searchParams.has('worker') ? await snippetOf('The page', 'html') : '';
+  const text = body.toString().replace('<script', () => `${line}<script`);
+  const scripts = `${POLICY['script-src']}${url.searchParams.has('eval') ? " 'unsafe-eval'" : ''}`;
+  return withPolicy({ body: text, headers }, { ...POLICY, ...POLICY_OF_ENGINES, 'script-src': scripts });
 }
 
 function missingModel(name) {

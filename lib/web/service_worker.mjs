@@ -1,0 +1,144 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Decodes models on their way from the network to a page, so that engines without a plugin show them.
+import { EXTENSION_NAME } from './document.mjs';
+import { unpackGlb } from './unpack.mjs';
+import { unpackGltf } from './unpack_gltf.mjs';
+
+/** Marks the URL of the buffer that is added to a .gltf document. */
+const BUFFER_PARAMETER = 'gltf-mcc-buffer';
+const GLB_MAGIC = 'glTF';
+/** Those of a GLB before its JSON. */
+const HEADER_BYTES = 20;
+
+const isModel = ({ pathname }) => /\.(glb|gltf)$/i.test(pathname);
+
+/**
+ * Makes a service worker answer requests for models; to be called by its script at once.
+ *
+ *     import { decodeFetches } from 'gltf-mcc/service-worker';
+ *     decodeFetches();
+ *
+ * @param {import('./service_worker.mjs').ServiceWorkerOptions} [options]
+ */
+export function decodeFetches({ match = isModel, ...options } = {}) {
+  const models = new Models(options);
+  self.addEventListener('install', () => self.skipWaiting());
+  self.addEventListener('activate', (event) => event.waitUntil(self.clients.claim()));
+  self.addEventListener('fetch', (event) => {
+    const { request } = event;
+    // Parts of files, and what is shown itself, go their usual way.
+    if (request.method !== 'GET' || request.mode === 'navigate' || request.headers.has('Range')) return;
+    const url = new URL(request.url);
+    if (match(url)) event.respondWith(url.searchParams.has(BUFFER_PARAMETER) ? models.buffer(request, url) : models.file(request));
+  });
+}
+
+class Models {
+  #options;
+  /** The added buffers of documents that were delivered, until they are asked for. By the URL of the document. */
+  #buffers = new Map();
+
+  constructor(options) {
+    this.#options = options;
+  }
+
+  async file(request) {
+    const response = await fetch(request);
+    if (response.status !== 200) return response; // opaque responses have 0
+    try {
+      const start = await startOf(response.clone());
+      if (!start.json?.extensionsUsed?.includes?.(EXTENSION_NAME)) return response;
+      if (!start.isGlb) return answer(response, JSON.stringify(this.#begin(request, start.json).json));
+      return answer(response, await unpackGlb(new Uint8Array(await response.arrayBuffer()), this.#options));
+    } catch (error) {
+      return refusal(request.url, error);
+    }
+  }
+
+  async buffer(request, url) {
+    try {
+      url.searchParams.delete(BUFFER_PARAMETER);
+      const bytes = await (this.#buffers.get(url.href) ?? this.#again(request, url));
+      return new Response(bytes, { headers: { 'Content-Type': 'application/gltf-buffer' } });
+    } catch (error) {
+      return refusal(request.url, error);
+    } finally {
+      this.#buffers.delete(url.href);
+    }
+  }
+
+  /** Browsers end service workers at any time, and a page may ask twice. */
+  async #again({ credentials }, url) {
+    const request = new Request(url, { credentials });
+    const response = await fetch(request);
+    if (!response.ok) throw new Error(`${url}: status ${response.status}`);
+    return this.#begin(request, await response.json()).bytes;
+  }
+
+  /** Starts to decode the payloads of a .gltf document. */
+  #begin({ url, credentials }, source) {
+    const uri = new URL(url);
+    uri.searchParams.set(BUFFER_PARAMETER, '');
+    const { json, decode } = unpackGltf(source, `${uri.pathname.slice(uri.pathname.lastIndexOf('/') + 1)}${uri.search}`);
+    const buffers = new Map(); // by their number, fetched once
+    const fetchView = async (number) => {
+      const { buffer, byteOffset = 0, byteLength } = source.bufferViews[number];
+      if (!buffers.has(buffer)) buffers.set(buffer, fetchBytes(new URL(source.buffers[buffer].uri, url), credentials));
+      return (await buffers.get(buffer)).slice(byteOffset, byteOffset + byteLength);
+    };
+    const bytes = decode(fetchView, this.#options);
+    bytes.catch(() => {}); // whoever asks for them hears of it
+    this.#buffers.set(new URL(url).href, bytes);
+    return { json, bytes };
+  }
+}
+
+async function fetchBytes(url, credentials) {
+  const response = await fetch(url, { credentials });
+  if (!response.ok) throw new Error(`${url}: status ${response.status}`);
+  return new Uint8Array(await response.arrayBuffer());
+}
+
+/** Reads a file only as far as its JSON goes: { isGlb, json }, or an empty object if it is no glTF file. */
+async function startOf(response) {
+  const reader = response.body.getReader();
+  const parts = [];
+  let byteLength = 0;
+  const readTo = async (length) => {
+    while (byteLength < length) {
+      const { done, value } = await reader.read();
+      if (done) break;
+      parts.push(value);
+      byteLength += value.length;
+    }
+    return new Uint8Array(await new Blob(parts).arrayBuffer());
+  };
+  try {
+    const head = await readTo(HEADER_BYTES);
+    const isGlb = textOf(head.subarray(0, 4)) === GLB_MAGIC;
+    if (!isGlb && textOf(head).trimStart()[0] !== '{') return {};
+    const [from, to] = isGlb ? [HEADER_BYTES, HEADER_BYTES + new DataView(head.buffer).getUint32(12, true)] : [0, Infinity];
+    return { isGlb, json: JSON.parse(textOf((await readTo(to)).subarray(from, to))) };
+  } catch {
+    return {}; // not ours to complain about
+  } finally {
+    reader.cancel().catch(() => {});
+  }
+}
+
+const textOf = (bytes) => new TextDecoder().decode(bytes);
+
+/** The response with another body. What described the bytes that came over the network is left out. */
+function answer({ status, statusText, headers: received }, body) {
+  const headers = new Headers(received);
+  for (const name of ['Content-Length', 'Content-Encoding', 'Accept-Ranges', 'ETag', 'Digest', 'Content-Digest', 'Repr-Digest']) headers.delete(name);
+  return new Response(body, { status, statusText, headers });
+}
+
+/** Engines show the status of what failed to load, so it says why. */
+function refusal(url, { message }) {
+  console.error(`${url}: ${message}`);
+  const statusText = message.replace(/[^\x20-\x7e]+/g, ' ');
+  return new Response(`${message}\n`, { status: 502, statusText, headers: { 'Content-Type': 'text/plain; charset=utf-8' } });
+}
