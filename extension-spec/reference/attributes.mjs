@@ -1,152 +1,109 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// The attributes of a piece: A.10 of the specification.
+// The attributes of a piece but the position [A.10], in the order of A.10.1.
 
-import { elementsOf } from './components.mjs';
-import { models } from './entropy.mjs';
-import { decodeExactNormals, ExactNormalModels } from './exactnormals.mjs';
-import { decodeExactTangents, ExactTangentModels } from './exacttangents.mjs';
-import { finite } from './floats.mjs';
-import { BelowGrid, TailModels } from './grids.mjs';
-import { ALIAS, GRID, TANGENT } from './names.mjs';
-import { decodeNormals, NormalModels } from './normals.mjs';
-import { centreOf, unitVector } from './octahedral.mjs';
-import { decodeSkins, SkinModels } from './skins.mjs';
-import { AttributeState } from './state.mjs';
-import { chartCoordinates, decodeTangentAngles, decodeTangentPoints, TangentModels } from './tangents.mjs';
-import { decodeTexcoords, TexcoordModels } from './texcoords.mjs';
-import { decodeValues, ValueModels } from './values.mjs';
-import { EqualityModels, readBundles, Wedges } from './wedges.mjs';
+import { ALIAS, GRID, TANGENT, TEXCOORD } from './attributeheader.mjs';
+import { chartCoordinates, sumsOfFaceTangents } from './directions.mjs';
+import { arrayOf } from './entropy.mjs';
+import { decodeExactNormals, exactNormalModels } from './exactnormals.mjs';
+import { decodeExactTangents, exactTangentModels } from './exacttangents.mjs';
+import { gridModels, readTails } from './grids.mjs';
+import { decodeNormals, normalModels } from './normals.mjs';
+import { exactPositions, seenPositions } from './seenpositions.mjs';
+import { decodeSkin, skinModels } from './skins.mjs';
+import {
+	decodeTangentAngles, decodeTangentPoints, normalsBeside, tangentModels, tangentPointModels, unitNormals,
+} from './tangents.mjs';
+import { decodeTexcoords, texcoordModels } from './texcoords.mjs';
+import { decodeValues, valuesModels } from './values.mjs';
+import { createCoding, equalityModels, readEqualities, singleBundles } from './wedges.mjs';
 
-export class AttributeModels {
-	constructor() {
-		this.equalities = new EqualityModels();
-		this.values = new ValueModels();
-		this.normals = new NormalModels();
-		this.texcoords = new TexcoordModels();
-		this.tangents = new TangentModels();
-		this.skins = new SkinModels();
-		this.exactNormals = new ExactNormalModels();
-		this.exactTangents = new ExactTangentModels();
-		this.tails = models([8, 2], () => new TailModels());
-	}
+const EQUALITIES = 128;
+export const attributeModels = () => ({
+	equalities: arrayOf(8, equalityModels), values: arrayOf(8, () => arrayOf(2, () => arrayOf(2, valuesModels))),
+	normals: normalModels(), texcoords: arrayOf(2, texcoordModels), tangents: tangentModels(),
+	tangentPoints: tangentPointModels(), skins: arrayOf(2, skinModels), exactNormals: exactNormalModels(),
+	exactTangents: exactTangentModels(),
+});
+
+// [A.10.5] By semantic and by whether it is a morph target; attribute 0 has its own.
+export const allGridModels = () => ({ position: gridModels(), others: arrayOf(8, () => arrayOf(2, gridModels)) });
+
+// [A.10] The values of all attributes, by number and wedge; aliases have none. recordOf(w) is the number of the
+// position of a wedge among q.
+export function decodeAttributes(coder, models, piece, wedges, q, recordOf, crease) {
+	const perWedge = (records) => arrayOf(piece.wedge_count, (w) => records[recordOf(w)]);
+	const a = {
+		coder, models: models.attributes, gridModels: models.grids.others, piece, wedges, crease, values: [perWedge(q)],
+		positions: perWedge(seenPositions(piece.attributes[0], q)),
+		// Only exact methods need them.
+		exactPositions: () => perWedge(exactPositions(piece.attributes[0], q)),
+	};
+	const isBaseTangent = ({ semantic, target }) => semantic === TANGENT && target === 0;
+	const others = piece.attributes.slice(1);
+	for (const attribute of others) if (!isBaseTangent(attribute)) decodeAttribute(a, attribute);
+	for (const attribute of others) if (isBaseTangent(attribute)) decodeAttribute(a, attribute);
+	return a.values;
 }
 
-// What the methods have in common in one piece.
-class Context {
-	constructor(streams, attributeModels, piece, wedges) {
-		this.streams = streams;
-		this.models = attributeModels;
-		this.attributes = piece.attributes;
-		this.wedges = wedges;
-		this.states = new Map(); // by attribute
-	}
-
-	begin(attribute, bundleOf) {
-		const state = new AttributeState(attribute, this.wedges, bundleOf);
-		this.states.set(attribute, state);
-		return state;
-	}
-
-	stateOf(attribute) {
-		return this.states.get(attribute);
-	}
-
-	perWedge(make) {
-		return Array.from({ length: this.wedges.count }, (_, w) => make(w));
-	}
-
-	// [A.10.12] The chart coordinates of the wedges, or undefined
-	chart() {
-		const { chart } = this.attributes;
-		return chart && chartCoordinates(this.stateOf(chart));
-	}
-
-	exactNormalState() {
-		return this.stateOf(this.attributes.exactNormal);
-	}
-
-	octahedralNormals() {
-		const { octahedralNormal } = this.attributes;
-		if (octahedralNormal === undefined) return undefined;
-		const C = centreOf(octahedralNormal.bits);
-		const state = this.stateOf(octahedralNormal);
-		return this.perWedge((w) => unitVector(C, state.value(w)));
-	}
-
-	// [A.10.13] The normals that tangent points are perpendicular to, or undefined
-	unitNormals() {
-		const state = this.exactNormalState();
-		if (state === undefined) return this.octahedralNormals();
-		return this.perWedge((w) => [...state.value(w)].map(finite));
-	}
-}
-
-// [A.10.1] Order of the attributes
-function phaseOf(attribute) {
-	return attribute.semantic === TANGENT && attribute.target === 0 ? 1 : 0;
-}
-
-const DECODERS = {
-	'tangent point': decodeTangentPoints,
-	normal: decodeNormals,
-	tangent: decodeTangentAngles,
-	'texture coordinate': decodeTexcoords,
-	'exact normal': decodeExactNormals,
-	'exact tangent': decodeExactTangents,
-	values: decodeValues,
-};
-
-// [A.10.1] An attribute is read in three steps.
-function decodeAttribute(context, attribute) {
+// [A.10.1] The three steps of an attribute. The weights of a skin are read with its joints.
+function decodeAttribute(a, attribute) {
 	if (attribute.method === 'alias' || attribute.method === 'skin weights') return;
-	const bundleOf = readBundles(context.streams, context.models.equalities, context.wedges, attribute);
-	const state = context.begin(attribute, bundleOf);
+	const equalities = (attribute.predictor & EQUALITIES) !== 0 && a.piece.SEAMS;
+	const models = a.models.equalities[attribute.semantic];
+	const bundles = equalities ? readEqualities(a.coder, models, a.wedges, a.crease) : singleBundles(a.wedges);
+	const coding = createCoding(a.coder, a.wedges, bundles);
+	readValues(a, coding, attribute);
+	a.values[attribute.number] = coding.values;
 	if (attribute.method === 'skin') {
-		const weights = context.begin(attribute.partner, bundleOf);
-		decodeSkins(context, state, weights);
-		readBelowGrid(context, weights);
-		return;
+		const weights = a.piece.attributes[attribute.partner];
+		a.values[attribute.number] = coding.values.map((tuple) => tuple.slice(0, 4));
+		a.values[weights.number] = coding.values.map((tuple) => tuple.slice(4));
+		readBelow(a, weights, bundles);
 	}
-	DECODERS[attribute.method](context, state);
-	readBelowGrid(context, state);
+	readBelow(a, attribute, bundles);
 }
 
-// [A.10.5] A wedge that is not the first of its bundle gets the floats of the first.
-function readBelowGrid({ streams, models: { tails } }, state) {
-	const { attribute, wedges, bundleOf } = state;
-	if (attribute.coding !== GRID) return;
-	const below = new BelowGrid(streams, attribute, tails[attribute.semantic][attribute.target !== 0 ? 1 : 0]);
-	for (let w = 0; w < wedges.count; ++w) {
-		const first = bundleOf[w][0];
-		state.set(w, first === w ? state.value(w).map((q, c) => below.read(q, c)) : state.value(first));
-	}
-}
-
-// The values of the position are those of groups and isolated vertices.
-function positionState(context, attribute) {
-	const state = context.begin(attribute, undefined);
-	const { wedges } = context;
-	for (let w = 0; w < wedges.count; ++w) {
-		const record = wedges.recordOf(w);
-		state.set(w, wedges.integers.subarray(3 * record, 3 * record + 3));
-	}
-}
-
-// elements: of all attributes, in the order of the header, of each wedge the bytes of its components; integersOf: of a wedge, the
-// integers that were decoded, those of the position first.
-export function decodeAttributes(streams, attributeModels, stages) {
-	const { attributes } = stages.piece;
-	if (attributes.length === 0) return { elements: [], integersOf: () => [] };
-	const context = new Context(streams, attributeModels, stages.piece, new Wedges(stages));
-	positionState(context, attributes[0]);
-	for (const phase of [0, 1]) {
-		for (const attribute of attributes.slice(1)) {
-			if (phaseOf(attribute) === phase) decodeAttribute(context, attribute);
+function readValues(a, coding, attribute) {
+	const { models, piece } = a;
+	const set = attribute.set === 0 ? 0 : 1, isTarget = attribute.target === 0 ? 0 : 1;
+	const valuesOf = ({ number }) => a.values[number];
+	const sums = () => sumsOfFaceTangents(a.wedges, a.positions, chartOf(a));
+	switch (attribute.method) {
+		case 'normal':
+			return decodeNormals(coding, models.normals, attribute, a.positions);
+		case 'tangent':
+			return decodeTangentAngles(coding, models.tangents, attribute, sums(), unitNormals(piece, valuesOf));
+		case 'tangent point':
+			return decodeTangentPoints(coding, models.tangentPoints, attribute, sums(), normalsBeside(piece, valuesOf));
+		case 'skin':
+			return decodeSkin(coding, models.skins[set], piece.attributes[attribute.partner]);
+		case 'texture coordinate':
+			return decodeTexcoords(coding, models.texcoords[set], attribute, a.positions);
+		case 'exact normal':
+			return decodeExactNormals(coding, models.exactNormals, attribute, a.exactPositions());
+		case 'exact tangent': {
+			const normal = piece.exactNormal === undefined ? undefined : (w) => valuesOf(piece.exactNormal)[w];
+			return decodeExactTangents(coding, models.exactTangents, attribute, a.exactPositions(), chartOf(a), normal);
 		}
+		default:
+			return decodeValues(coding, models.values[attribute.semantic][set][isTarget], attribute, a.positions);
 	}
-	const normals = context.octahedralNormals();
-	const elements = attributes.map((a) => elementsOf(context.stateOf(a.coding === ALIAS ? attributes[a.alias] : a), normals));
-	const states = attributes.filter((a) => a.coding !== ALIAS).map((a) => context.stateOf(a));
-	return { elements, integersOf: (w) => states.flatMap((state) => state.integers(w)) };
+}
+
+// [A.10.1] The coordinates of the chart, undefined if there is none.
+function chartOf({ piece, values }) {
+	const fits = ({ semantic, target, components, coding }) =>
+		semantic === TEXCOORD && target === 0 && components === 2 && coding !== ALIAS;
+	const chart = piece.attributes.slice(1).find(fits);
+	return chart === undefined ? undefined : chartCoordinates(chart, values[chart.number]);
+}
+
+// [A.10.5] Wedges that are not the first of their bundle get the floats of the first.
+function readBelow(a, attribute, bundles) {
+	if (attribute.coding !== GRID) return;
+	const values = a.values[attribute.number];
+	const models = a.gridModels[attribute.semantic][attribute.target === 0 ? 0 : 1];
+	readTails(a.coder, models, attribute, values.map((value, w) => (bundles[w][0] === w ? value : undefined)));
+	bundles.forEach((members, w) => { values[w] = values[members[0]]; });
 }

@@ -1,108 +1,57 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Bytes, integers and errors: A.1 of the specification.
+// Fields of a header, integers and checksums [A.1.1, A.1.2, A.1.3].
 
-// [A.1.4] Errors
-export const KINDS = ['', 'Truncated', 'BadMagic', 'UnsupportedVersion', 'BadChecksum', 'BadHeader',
-	'BadConnectivity', 'BadStitch', 'BadAttribute', 'TrailingBytes', 'Limit'];
+import { fail, failUnless } from './errors.mjs';
 
-export class PayloadError extends Error {
-	constructor(kind, section, message) {
-		super(`${kind} [${section}]: ${message}`);
-		this.name = 'PayloadError';
-		this.kind = kind;
-		this.number = KINDS.indexOf(kind);
-		this.section = section;
-	}
+// [A.1.1] A place in the bytes of a payload.
+export const createReader = (bytes) => ({ bytes, offset: 0 });
+export const remaining = (reader) => reader.bytes.length - reader.offset;
+export function u8(reader) {
+	failUnless(remaining(reader) > 0, 'Truncated', 'A.2.1', 'the payload ends inside a field');
+	return reader.bytes[reader.offset++];
 }
 
-export function fail(kind, section, message) {
-	throw new PayloadError(kind, section, message);
+// An unsigned integer of `count` bytes, at most four.
+export function unsigned(reader, count) {
+	let value = 0;
+	for (let i = 0; i < count; ++i) value += u8(reader) * 2 ** (8 * i);
+	return value;
 }
-
-// [A.1.2] The smallest w with x < 2^w, of a Number or of a BigInt x >= 0.
-export function width(x) {
-	return x <= 0 ? 0 : x.toString(2).length;
-}
-
-// [A.1.1]
-export function unzigzag(u) {
-	return u % 2 === 0 ? u / 2 : -(u + 1) / 2;
-}
-
-// [A.1.1] Reads fields one after another.
-export class ByteReader {
-	constructor(bytes) {
-		this.bytes = bytes;
-		this.offset = 0;
-	}
-
-	remaining() {
-		return this.bytes.length - this.offset;
-	}
-
-	u8() {
-		if (this.remaining() < 1) fail('Truncated', 'A.2.1', 'the payload ends inside a field');
-		return this.bytes[this.offset++];
-	}
-
-	u32() {
-		return this.highBytes(4);
-	}
-
-	// The highest bytes of a u32, whose other bytes are 0
-	highBytes(count) {
-		let value = 0;
-		for (let i = 4 - count; i < 4; ++i) value += this.u8() * 2 ** (8 * i);
-		return value;
-	}
-
-	varint() {
-		let value = 0;
-		for (let i = 0; ; ++i) {
-			const byte = this.u8();
-			if (i === 4 && byte > 15) fail('BadHeader', 'A.1.1', 'a varint exceeds 32 bits');
-			value += (byte % 128) * 2 ** (7 * i);
-			if (byte < 128) {
-				if (byte === 0 && i !== 0) fail('BadHeader', 'A.1.1', 'a varint has a superfluous byte');
-				return value;
-			}
+export const u32 = (reader) => unsigned(reader, 4);
+export function varint(reader) {
+	let value = 0;
+	for (let i = 0; ; ++i) {
+		const byte = u8(reader);
+		if (i === 4 && byte > 15) fail('BadHeader', 'A.1.1', 'a varint exceeds 32 bits');
+		value += (byte % 128) * 2 ** (7 * i);
+		if (byte < 128) {
+			if (byte === 0 && i !== 0) fail('BadHeader', 'A.1.1', 'a varint is longer than needed');
+			return value;
 		}
 	}
-
-	zigzag() {
-		return unzigzag(this.varint());
-	}
-
-	// The next `length` bytes.
-	take(length) {
-		if (length > this.remaining()) fail('Truncated', 'A.2.5', 'fewer bytes remain than a length says');
-		this.offset += length;
-		return this.bytes.subarray(this.offset - length, this.offset);
-	}
 }
 
-const converter = new DataView(new ArrayBuffer(4));
-
-export function floatOfBits(bits) {
-	converter.setUint32(0, bits);
-	return converter.getFloat32(0);
+// [A.1.1] u is below 2^32, so that the result is an i32.
+export const unzigzag = (u) => (u % 2 === 0 ? u / 2 : -(u + 1) / 2);
+export const zigzag = (reader) => unzigzag(varint(reader));
+export function take(reader, count) {
+	failUnless(count <= remaining(reader), 'Truncated', 'A.2.5', 'fewer bytes remain than a length says');
+	reader.offset += count;
+	return reader.bytes.subarray(reader.offset - count, reader.offset);
 }
 
-// The bits of a number that binary32 holds. Not for NaN, whose bits a Number does not keep.
-export function bitsOfFloat(x) {
-	converter.setFloat32(0, x);
-	return converter.getUint32(0);
-}
+// [A.1.2] The number of binary digits of an integer from 0 to 2^32 - 1.
+export const width = (x) => 32 - Math.clz32(x);
+const CRC_TABLE = Uint32Array.from({ length: 256 }, (_, byte) => {
+	let crc = byte;
+	for (let i = 0; i < 8; ++i) crc = crc & 1 ? (crc >>> 1) ^ 0xedb88320 : crc >>> 1;
+	return crc;
+});
 
-// [A.1.3] CRC-32 of several byte arrays, one after the other.
-export function crc32(...arrays) {
+// [A.1.3] The CRC-32 of several runs of bytes, one after the other.
+export function crc32(...runs) {
 	let crc = 0xffffffff;
-	for (const bytes of arrays) {
-		for (const byte of bytes) {
-			crc ^= byte;
-			for (let k = 0; k < 8; ++k) crc = crc & 1 ? (crc >>> 1) ^ 0xedb88320 : crc >>> 1;
-		}
-	}
-	return (crc ^ 0xffffffff) >>> 0;
+	for (const bytes of runs) for (const byte of bytes) crc = (crc >>> 8) ^ CRC_TABLE[(crc ^ byte) & 255];
+	return ~crc >>> 0;
 }

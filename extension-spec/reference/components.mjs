@@ -1,43 +1,47 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// From integers to components: A.10.18 of the specification.
+// From integers to components [A.10.18].
 
-import { bitsOfFloat } from './bytes.mjs';
-import { latticeFloat } from './faces.mjs';
-import { bitsOfOrdered } from './floats.mjs';
-import { BYTES_OF_TYPE, INTEGER, LATTICE, OCTAHEDRAL, TANGENT, TANGENT_ANGLE } from './names.mjs';
+import { ALIAS, INTEGER, LATTICE, OCTAHEDRAL, TANGENT_ANGLE, bytesOfComponent } from './attributeheader.mjs';
+import { vectorOfAngle } from './directions.mjs';
+import { bitsOfFloat, bitsOfOrdered } from './floats.mjs';
 import { centreOf, unitVector } from './octahedral.mjs';
-import { vectorOfAngle } from './tangents.mjs';
+import { latticeCoordinate } from './seenpositions.mjs';
 
-// The elements of an attribute by wedge, each the bytes of its components. normals: the unit vectors of the octahedral normal.
-export function elementsOf(state, normals) {
-	const size = BYTES_OF_TYPE[state.attribute.type];
-	return Array.from({ length: state.wedges.count }, (_, w) => bytesOf(componentBits(state, w, normals), size));
-}
-
-function bytesOf(bits, size) {
-	return Uint8Array.from({ length: bits.length * size }, (_, i) => (bits[Math.floor(i / size)] >>> (8 * (i % size))) & 255);
-}
-
-// The bits of the components at a wedge.
-function componentBits(state, w, normals) {
-	const { attribute } = state;
-	const value = [...state.value(w)];
+// [A.10.18] The function that yields the bits of the components of a wedge; values[i] are those of attribute i.
+function componentsOf(piece, attribute, values) {
+	const own = values[attribute.number];
 	switch (attribute.coding) {
-	case INTEGER: return value;
-	case LATTICE:
-	case OCTAHEDRAL:
-	case TANGENT_ANGLE: return vectorOf(state, w, normals).map(bitsOfFloat);
-	default: return value.map(bitsOfOrdered);
+		case LATTICE:
+			return (w) => own[w].map((q, c) => bitsOfFloat(latticeCoordinate(attribute, q, c)));
+		case INTEGER:
+			return (w) => own[w];
+		case OCTAHEDRAL:
+			return (w) => withSign(unitVector(centreOf(attribute.bits), own[w]), own[w][2]).map(bitsOfFloat);
+		case TANGENT_ANGLE:
+			return (w) => {
+				const vector = vectorOfAngle(own[w][0], attribute.bits, normalOf(piece, values, w));
+				return withSign(vector, own[w][1]).map(bitsOfFloat);
+			};
+		case ALIAS:
+			return componentsOf(piece, piece.attributes[attribute.alias], values);
+		default:
+			return (w) => own[w].map(bitsOfOrdered);
 	}
 }
 
-// The floats at a wedge, of the codings that compute them.
-export function vectorOf(state, w, normals) {
-	const { attribute } = state;
-	const value = state.value(w);
-	if (attribute.coding === LATTICE) return [...value].map((q, c) => latticeFloat(attribute, q, c));
-	const sign = attribute.semantic === TANGENT ? [state.negative[w] ? -1 : 1] : [];
-	if (attribute.coding === OCTAHEDRAL) return [...unitVector(centreOf(attribute.bits), value), ...sign];
-	return [...vectorOfAngle(attribute.bits, value[0], normals[w]), ...sign];
+// Normals have no sign.
+const withSign = (vector, sign) => (sign === undefined ? vector : [...vector, sign]);
+const normalOf = ({ octahedralNormal }, values, w) =>
+	unitVector(centreOf(octahedralNormal.bits), values[octahedralNormal.number][w]);
+
+// [A.9.4] The elements of an attribute without gaps, little-endian; the i-th is that of the wedge wedgeOrder[i].
+export function elementsOf(piece, attribute, values, wedgeOrder) {
+	const size = bytesOfComponent(attribute), components = componentsOf(piece, attribute, values);
+	const bytes = new Uint8Array(wedgeOrder.length * attribute.components * size);
+	let offset = 0;
+	for (const w of wedgeOrder) {
+		for (const bits of components(w)) for (let k = 0; k < size; ++k) bytes[offset++] = bits >>> (8 * k);
+	}
+	return bytes;
 }

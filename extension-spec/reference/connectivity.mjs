@@ -1,405 +1,284 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Connectivity: A.4 of the specification.
+// Mesh collapse, decoded backwards [A.4].
 
-import { fail } from './bytes.mjs';
-import { golombs, models } from './entropy.mjs';
-import { NONE, Surface } from './mesh.mjs';
+import { arrayOf, binaryModel, bit, golomb, golombModel, signedGolomb } from './entropy.mjs';
+import { fail, failUnless } from './errors.mjs';
+import { NONE, createSurface } from './surface.mjs';
 
-// What the field `vertex` of a node can be if not a vertex.
-const DUMMY = -2;
-const CLOSED = -3;
-
-// A gate is a half-edge, BOUNDARY, or `node m`, which is stored as -2 - m.
+const DUMMY = -1, CLOSED = -2;
+// A gate is a half-edge (a number), the node whose gate it is glued to (an object), or BOUNDARY.
 const BOUNDARY = NONE;
-const nodeGate = (m) => -2 - m;
-const isNodeGate = (gate) => gate <= -2;
-const nodeOfGate = (gate) => -2 - gate;
+const TWIG_CLASS = 5, END_CLASS = 6;
+export const connectivityModels = () => ({
+	START: arrayOf(6), KIND_SPUR: arrayOf(4), KIND_TWIG: arrayOf(4), KIND_START: arrayOf(4), KIND_END: arrayOf(4),
+	KIND_HANDLE: binaryModel(), FINISH: binaryModel(), JOINED_SPUR: arrayOf(2), DUMMY_END: arrayOf(2),
+	DUMMY_TWIG: binaryModel(), DUMMY_FINISH: binaryModel(), SPECIAL: arrayOf(8 * 49), RUN: arrayOf(128),
+	DUMMY_DEGREE: golombModel(), HANDLE_NODE: golombModel(), HANDLE_TOP: golombModel(), HANDLE_DEPTH: golombModel(),
+});
 
-const START = 0;
-const HANDLE = 1;
+const malformed = (message, section) => fail('BadConnectivity', section, message);
 
-// [A.4.2] The models of the stage
-export class ConnectivityModels {
-	constructor() {
-		this.START = models([6]);
-		this.KIND_SPUR = models([4]);
-		this.KIND_TWIG = models([4]);
-		this.KIND_START = models([4]);
-		this.KIND_END = models([4]);
-		this.KIND_HANDLE = models([]);
-		this.FINISH = models([]);
-		this.JOINED_SPUR = models([2]);
-		this.DUMMY_END = models([2]);
-		this.DUMMY_TWIG = models([]);
-		this.DUMMY_FINISH = models([]);
-		this.SPECIAL = models([8 * 49]);
-		this.RUN = models([128]);
-		this.DUMMY_DEGREE = golombs([]);
-		this.HANDLE_NODE = golombs([]);
-		this.HANDLE_TOP = golombs([]);
-		this.HANDLE_DEPTH = golombs([]);
+// [A.4.2] connectivity(): the faces and their twins.
+export function decodeConnectivity(coder, models, piece) {
+	const s = {
+		coder, models, piece, surface: createSurface(piece.face_count), nodes: [], top: undefined, stack: [],
+		vertices: 0, dummies: 0, faces: 0, age: 0, last: END_CLASS, before: END_CLASS,
+	};
+	for (let operations = 0; operations < piece.operation_count; ++operations) {
+		if (s.top === undefined) end(s, true);
+		else operation(s);
 	}
+	if (s.top !== undefined) finish(s);
+	const { vertex_count, face_count, dummy_count } = piece;
+	const isComplete = s.vertices === vertex_count && s.faces === face_count && s.dummies === dummy_count;
+	failUnless(isComplete, 'BadConnectivity', 'A.4.2', 'the operations do not yield the counts of the header');
+	return s.surface;
 }
 
-function badConnectivity(section, message) {
-	fail('BadConnectivity', section, message);
+// [A.4.1]
+function newNode(s, vertex, degree) {
+	if (s.nodes.length === 2 ** 28) fail('Limit', 'A.4.1', 'too many nodes');
+	const n = { number: s.nodes.length, next: undefined, vertex, gate: BOUNDARY, degree: limited(degree), shared: 0 };
+	n.next = n;
+	s.nodes.push(n);
+	return n;
+}
+const limited = (degree) => Math.min(degree, 65535);
+function newVertex(s) {
+	if (s.vertices === s.piece.vertex_count) malformed('too many vertices', 'A.4.1');
+	return s.vertices++;
 }
 
-// [A.4.1] The nodes: one array per field.
-class Nodes {
-	constructor() {
-		this.next = [];
-		this.vertex = [];
-		this.gate = [];
-		this.degrees = [];
-		this.shared = [];
-	}
-
-	get count() {
-		return this.next.length;
-	}
-
-	make(vertex, degree) {
-		const n = this.count;
-		if (n === 2 ** 28) fail('Limit', 'A.4.1', 'too many nodes');
-		this.next.push(n);
-		this.vertex.push(vertex);
-		this.gate.push(BOUNDARY);
-		this.degrees.push(0);
-		this.shared.push(0);
-		this.setDegree(n, degree);
-		return n;
-	}
-
-	degree(n) {
-		return this.degrees[n];
-	}
-
-	setDegree(n, degree) {
-		this.degrees[n] = Math.min(degree, 65535);
-	}
-
-	addDegree(n, more) {
-		this.setDegree(n, this.degrees[n] + more);
-	}
-
-	pointBack(n) {
-		if (isNodeGate(this.gate[n])) this.gate[nodeOfGate(this.gate[n])] = nodeGate(n);
-	}
-
-	swapLinks(a, b) {
-		[this.next[a], this.next[b]] = [this.next[b], this.next[a]];
-		if (this.gate[a] === nodeGate(b)) return;
-		[this.gate[a], this.gate[b]] = [this.gate[b], this.gate[a]];
-		this.pointBack(a);
-		this.pointBack(b);
-	}
+function newDummy(s) {
+	++s.dummies;
+	return DUMMY;
+}
+const dummiesLeft = (s) => s.dummies < s.piece.dummy_count;
+const newDummyOrVertex = (s, M) => (dummiesLeft(s) && bit(s.coder, M) ? newDummy(s) : newVertex(s));
+function remember(s, operationClass) {
+	s.before = s.last;
+	s.last = operationClass;
+}
+const isNode = (gate) => typeof gate === 'object';
+const isHalfEdge = (gate) => typeof gate === 'number' && gate !== BOUNDARY;
+function pointBack(n) {
+	if (isNode(n.gate)) n.gate.gate = n;
 }
 
+function addDegree(n, more) {
+	n.degree = limited(n.degree + more);
+}
+
+function spur(s, vertex) {
+	const { top } = s;
+	const copy = newNode(s, top.vertex, top.degree + 1), tip = newNode(s, vertex, 1);
+	addDegree(top, 1);
+	copy.next = top.next;
+	copy.gate = top.gate;
+	pointBack(copy);
+	tip.next = copy;
+	tip.gate = top;
+	top.next = tip;
+	top.gate = tip;
+	return { tip, copy };
+}
+
+function swapLinks(a, b) {
+	[a.next, b.next] = [b.next, a.next];
+	if (a.gate === b) return;
+	[a.gate, b.gate] = [b.gate, a.gate];
+	pointBack(a);
+	pointBack(b);
+}
+
+// Without HANDLES nothing refers to a node that has left its ring.
+function close(s, first, count) {
+	if (!s.piece.HANDLES) return;
+	for (let n = first, k = 0; k < count; n = n.next, ++k) n.vertex = CLOSED;
+}
 const newFan = () => ({ first: NONE, lastHalf: NONE, taken: 0 });
 
-class Connectivity {
-	constructor(streams, modelSet, piece) {
-		this.streams = streams;
-		this.models = modelSet;
-		this.piece = piece;
-		this.handles = piece.flags.HANDLES;
-		this.tails = new Int32Array(3 * piece.faceCount);
-		this.twins = new Int32Array(3 * piece.faceCount).fill(NONE);
-		this.nodes = new Nodes();
-		this.top = NONE;
-		this.stack = [];
-		this.vertices = 0;
-		this.dummies = 0;
-		this.faces = 0;
-		this.operations = 0;
-		this.age = 0;
-		this.last = 6;
-		this.before = 6;
+// The gate is not read earlier, since the triangle before may have been glued to it.
+function takeGate(s, v, n, fan) {
+	const { twin } = s.surface;
+	const { gate } = n;
+	const f = newFace(s, v, n.vertex, n.next.vertex);
+	const [left, base, right] = f === NONE ? [NONE, NONE, NONE] : [3 * f, 3 * f + 1, 3 * f + 2];
+	if (f !== NONE) {
+		twin[left] = fan.lastHalf;
+		twin[base] = isHalfEdge(gate) ? gate : NONE;
+		twin[right] = NONE;
 	}
-
-	bit(model) {
-		return this.streams.bit(model);
-	}
-
-	// ---- [A.4.1] State
-
-	newVertex() {
-		if (this.vertices === this.piece.vertexCount) badConnectivity('A.4.1', 'too many vertices');
-		return this.vertices++;
-	}
-
-	dummiesAreLeft() {
-		return this.dummies < this.piece.dummyCount;
-	}
-
-	newDummy() {
-		++this.dummies;
-		return DUMMY;
-	}
-
-	// A dummy if one is left and the model says so, else a vertex.
-	newDummyOrVertex(model) {
-		return this.dummiesAreLeft() && this.bit(model) ? this.newDummy() : this.newVertex();
-	}
-
-	newFace(a, b, c) {
-		if (this.faces === this.piece.faceCount) badConnectivity('A.4.1', 'too many faces');
-		this.tails.set([a, b, c], 3 * this.faces);
-		return this.faces++;
-	}
-
-	remember(operation) {
-		this.before = this.last;
-		this.last = operation;
-	}
-
-	spur(vertex) {
-		const { nodes, top } = this;
-		const copy = nodes.make(nodes.vertex[top], nodes.degree(top) + 1);
-		const tip = nodes.make(vertex, 1);
-		nodes.addDegree(top, 1);
-		nodes.next[copy] = nodes.next[top];
-		nodes.gate[copy] = nodes.gate[top];
-		nodes.pointBack(copy);
-		nodes.next[tip] = copy;
-		nodes.gate[tip] = nodeGate(top);
-		nodes.next[top] = tip;
-		nodes.gate[top] = nodeGate(tip);
-		return { tip, copy };
-	}
-
-	// The triangle of v and the gate of node n. With a dummy there is none; its half-edges are none, then.
-	takeGate(v, n, fan) {
-		const { nodes, twins } = this;
-		const a = nodes.vertex[n];
-		const b = nodes.vertex[nodes.next[n]];
-		const gate = nodes.gate[n];
-		const { left, base, right } = this.triangleAtGate(v, a, b, gate, fan);
-		if (isNodeGate(gate)) nodes.gate[nodeOfGate(gate)] = base;
-		else if (gate !== BOUNDARY) twins[gate] = base;
-		if (fan.taken === 0) fan.first = left;
-		else if (fan.lastHalf !== NONE) twins[fan.lastHalf] = left;
-		fan.lastHalf = right;
-		++fan.taken;
-	}
-
-	triangleAtGate(v, a, b, gate, fan) {
-		if (v === DUMMY || a === DUMMY || b === DUMMY) return { left: NONE, base: NONE, right: NONE };
-		const left = 3 * this.newFace(v, a, b);
-		this.twins[left] = fan.lastHalf;
-		this.twins[left + 1] = isNodeGate(gate) ? NONE : gate;
-		return { left, base: left + 1, right: left + 2 };
-	}
-
-	// Nothing but handles refers to closed nodes.
-	close(n, k) {
-		if (!this.handles) return;
-		for (let i = 0; i < k; ++i) {
-			this.nodes.vertex[n] = CLOSED;
-			n = this.nodes.next[n];
-		}
-	}
-
-	// ---- [A.4.2] Operations
-
-	decode() {
-		const { piece } = this;
-		while (this.operations < piece.operationCount) {
-			++this.operations;
-			if (this.top === NONE) this.end(true);
-			else this.operation();
-		}
-		if (this.top !== NONE) this.finish();
-		if (this.vertices !== piece.vertexCount || this.faces !== piece.faceCount || this.dummies !== piece.dummyCount) {
-			badConnectivity('A.4.2', 'counts that the operations do not reach');
-		}
-		return new Surface(this.tails, this.twins);
-	}
-
-	operation() {
-		const { models: m } = this;
-		if (this.age < 6 && this.stack.length !== 0 && this.bit(m.START[this.age])) return this.joinedExpand(START);
-		if (!this.bit(m.SPECIAL[this.specialContext()])) return this.run(this.newVertex());
-		const c = Math.min(Math.max(this.nodes.degree(this.top), 1) - 1, 3);
-		if (this.bit(m.KIND_SPUR[c])) return this.expandSpur(this.newVertex());
-		if (this.bit(m.KIND_TWIG[c])) return this.twig();
-		if (this.stack.length !== 0 && this.bit(m.KIND_START[c])) return this.joinedExpand(START);
-		const possible = this.handles || this.dummiesAreLeft();
-		if (!possible || this.bit(m.KIND_END[c])) return this.end(false);
-		let handle = this.handles;
-		if (handle && this.dummiesAreLeft()) handle = this.bit(m.KIND_HANDLE) === 1;
-		if (handle) return this.joinedExpand(HANDLE);
-		this.newDummy();
-		return this.dummyRun();
-	}
-
-	specialContext() {
-		return 49 * Math.min(this.nodes.degree(this.top), 7) + 7 * this.last + this.before;
-	}
-
-	twig() {
-		const { nodes } = this;
-		const v = this.newDummyOrVertex(this.models.DUMMY_TWIG);
-		const { copy } = this.spur(v);
-		nodes.shared[copy] = nodes.shared[this.top];
-		nodes.shared[this.top] = 1;
-		nodes.addDegree(copy, 1);
-		this.top = copy;
-		++this.age;
-		this.remember(5);
-	}
-
-	// ---- [A.4.3] END
-
-	end(first) {
-		if (!first) {
-			if (this.stack.length === 0 && this.bit(this.models.FINISH)) this.finish();
-			else this.stack.push(this.top);
-		}
-		const { nodes } = this;
-		const v = [0, 1].map((i) => this.newDummyOrVertex(this.models.DUMMY_END[i]));
-		const a = nodes.make(v[0], 1);
-		const b = nodes.make(v[1], 1);
-		nodes.next[a] = b;
-		nodes.gate[a] = nodeGate(b);
-		nodes.next[b] = a;
-		nodes.gate[b] = nodeGate(a);
-		this.top = a;
-		this.age = 0;
-		this.remember(6);
-	}
-
-	// ---- [A.4.4] EXPAND that joins
-
-	joinedExpand(join) {
-		const { nodes } = this;
-		const h = join === START ? this.stack[this.stack.length - 1] : this.handleNode();
-		const v = nodes.vertex[h];
-		if (v === CLOSED) badConnectivity('A.4.4', 'a join with a vertex that is closed');
-		if (v === DUMMY) this.dummyRun();
-		else if (this.bit(this.models.JOINED_SPUR[join])) this.expandSpur(v);
-		else this.run(v);
-		if (join === START) this.joinStart();
-		else this.joinHandle(h);
-	}
-
-	handleNode() {
-		const last = this.nodes.count - 1;
-		const back = this.streams.golomb(this.models.HANDLE_NODE);
-		if (back > last) badConnectivity('A.4.4', 'a handle with a node that does not exist');
-		return last - back;
-	}
-
-	joinStart() {
-		const { nodes, top } = this;
-		const s = this.stack.pop();
-		if (nodes.vertex[s] === CLOSED) badConnectivity('A.4.4', 'a join with a node that its own EXPAND closed');
-		nodes.swapLinks(top, s);
-		const d = nodes.degree(top) + nodes.degree(s);
-		nodes.setDegree(s, d);
-		nodes.shared[s] = 1;
-		nodes.setDegree(top, d + 1);
-	}
-
-	joinHandle(h) {
-		const { nodes, streams } = this;
-		const t = (h + streams.signedGolomb(this.models.HANDLE_TOP)) >>> 0;
-		const depth = streams.golomb(this.models.HANDLE_DEPTH);
-		if (t >= nodes.count) badConnectivity('A.4.4', 'a handle with a node that does not exist');
-		if (depth > 255 || depth > this.stack.length) badConnectivity('A.4.4', 'a handle with a digon that does not exist');
-		if (nodes.vertex[t] === CLOSED || nodes.vertex[h] === CLOSED) badConnectivity('A.4.4', 'a handle with a closed node');
-		nodes.swapLinks(this.top, h);
-		this.stack.splice(this.stack.length - depth, 0, t);
-		nodes.shared[h] = 1;
-		nodes.addDegree(this.top, 1);
-	}
-
-	// ---- [A.4.5] EXPAND
-
-	expandSpur(v) {
-		const { nodes } = this;
-		const { tip, copy } = this.spur(v);
-		nodes.shared[copy] = 1;
-		nodes.addDegree(this.top, 1);
-		this.top = tip;
-		++this.age;
-		this.remember(0);
-	}
-
-	run(v) {
-		const { nodes } = this;
-		const closing = nodes.next[this.top];
-		const fan = newFan();
-		let q = this.top;
-		for (;;) {
-			this.takeGate(v, q, fan);
-			q = nodes.next[q];
-			if (q === this.top) break;
-			if (!this.bit(this.models.RUN[this.runContext(fan.taken, q)])) break;
-		}
-		this.close(closing, fan.taken - 1);
-		this.endRun(v, q, fan);
-	}
-
-	runContext(position, q) {
-		const { nodes } = this;
-		return 32 * (Math.min(position, 4) - 1) + 2 * Math.min(nodes.degree(q), 15) + nodes.shared[q];
-	}
-
-	dummyRun() {
-		const { nodes } = this;
-		const r = this.streams.golomb(this.models.DUMMY_DEGREE);
-		if (r === 0) {
-			this.expandSpur(DUMMY);
-			return;
-		}
-		const closing = nodes.next[this.top];
-		const fan = newFan();
-		let q = this.top;
-		do {
-			this.takeGate(DUMMY, q, fan);
-			q = nodes.next[q];
-		} while (fan.taken < r && q !== this.top);
-		if (fan.taken !== r) badConnectivity('A.4.5', 'a dummy with more gates than the ring has');
-		this.close(closing, fan.taken - 1);
-		this.endRun(DUMMY, q, fan);
-	}
-
-	endRun(v, q, fan) {
-		const { nodes, top } = this;
-		const n = nodes.make(v, fan.taken + 1);
-		nodes.addDegree(top, 1);
-		nodes.addDegree(q, 1);
-		nodes.next[top] = n;
-		nodes.gate[top] = fan.first;
-		nodes.next[n] = q;
-		nodes.gate[n] = fan.lastHalf;
-		this.top = n;
-		++this.age;
-		this.remember(Math.min(fan.taken, 4));
-	}
-
-	// ---- [A.4.6] End of a component
-
-	finish() {
-		if (this.stack.length !== 0) badConnectivity('A.4.6', 'the end of a component while digons wait');
-		const v = this.newDummyOrVertex(this.models.DUMMY_FINISH);
-		const fan = newFan();
-		let q = this.top;
-		do {
-			this.takeGate(v, q, fan);
-			q = this.nodes.next[q];
-		} while (q !== this.top);
-		this.close(this.top, fan.taken);
-		if (fan.first !== NONE) this.twins[fan.first] = fan.lastHalf;
-		if (fan.lastHalf !== NONE) this.twins[fan.lastHalf] = fan.first;
-		this.top = NONE;
-	}
+	if (isHalfEdge(gate)) twin[gate] = base;
+	if (isNode(gate)) gate.gate = base === NONE ? BOUNDARY : base;
+	if (fan.taken === 0) fan.first = left;
+	else if (fan.lastHalf !== NONE) twin[fan.lastHalf] = left;
+	fan.lastHalf = right;
+	++fan.taken;
 }
 
-// The surface of a piece, with vertices at its corners.
-export function decodeConnectivity(streams, modelSet, piece) {
-	return new Connectivity(streams, modelSet, piece).decode();
+// Triangles at a dummy are no faces.
+function newFace(s, v, a, b) {
+	if (v === DUMMY || a === DUMMY || b === DUMMY) return NONE;
+	if (s.faces === s.piece.face_count) malformed('too many faces', 'A.4.1');
+	const f = s.faces++;
+	s.surface.tail.set([v, a, b], 3 * f);
+	return f;
+}
+
+// [A.4.2]
+function operation(s) {
+	const { coder, models, top, stack } = s;
+	if (s.age < 6 && stack.length !== 0 && bit(coder, models.START[s.age])) return joinedStart(s);
+	const special = 49 * Math.min(top.degree, 7) + 7 * s.last + s.before;
+	if (!bit(coder, models.SPECIAL[special])) return run(s, newVertex(s));
+	const c = Math.min(Math.max(top.degree, 1) - 1, 3);
+	if (bit(coder, models.KIND_SPUR[c])) return expandSpur(s, newVertex(s));
+	if (bit(coder, models.KIND_TWIG[c])) return twig(s);
+	if (stack.length !== 0 && bit(coder, models.KIND_START[c])) return joinedStart(s);
+	const possible = s.piece.HANDLES || dummiesLeft(s);
+	if (!possible || bit(coder, models.KIND_END[c])) return end(s, false);
+	let handle = s.piece.HANDLES;
+	if (handle && dummiesLeft(s)) handle = bit(coder, models.KIND_HANDLE) === 1;
+	if (handle) return joinedHandle(s);
+	newDummy(s);
+	return dummyRun(s);
+}
+
+function twig(s) {
+	const { top } = s;
+	const { copy } = spur(s, newDummyOrVertex(s, s.models.DUMMY_TWIG));
+	copy.shared = top.shared;
+	top.shared = 1;
+	addDegree(copy, 1);
+	s.top = copy;
+	++s.age;
+	remember(s, TWIG_CLASS);
+}
+
+// [A.4.3]
+function end(s, first) {
+	if (!first) {
+		if (s.stack.length === 0 && bit(s.coder, s.models.FINISH)) finish(s);
+		else s.stack.push(s.top);
+	}
+	const v = [0, 1].map((i) => newDummyOrVertex(s, s.models.DUMMY_END[i]));
+	const [a, b] = v.map((vertex) => newNode(s, vertex, 1));
+	[a.next, a.gate] = [b, b];
+	[b.next, b.gate] = [a, a];
+	s.top = a;
+	s.age = 0;
+	remember(s, END_CLASS);
+}
+
+// [A.4.4] joinedExpand(START)
+function joinedStart(s) {
+	joinedExpand(s, s.stack[s.stack.length - 1].vertex, 0);
+	const { top } = s;
+	const waiting = s.stack.pop();
+	// The EXPAND itself may have closed the node.
+	if (waiting.vertex === CLOSED) malformed('START joins a closed node', 'A.4.4');
+	swapLinks(top, waiting);
+	const d = top.degree + waiting.degree;
+	waiting.degree = limited(d);
+	waiting.shared = 1;
+	top.degree = limited(d + 1);
+}
+
+// [A.4.4] joinedExpand(HANDLE)
+function joinedHandle(s) {
+	const back = golomb(s.coder, s.models.HANDLE_NODE);
+	if (back > s.nodes.length - 1) malformed('HANDLE names a node that does not exist', 'A.4.4');
+	const h = s.nodes[s.nodes.length - 1 - back];
+	joinedExpand(s, h.vertex, 1);
+	joinHandle(s, h);
+}
+
+function joinedExpand(s, v, join) {
+	if (v === CLOSED) malformed('a closed node is joined', 'A.4.4');
+	if (v === DUMMY) dummyRun(s);
+	else if (bit(s.coder, s.models.JOINED_SPUR[join])) expandSpur(s, v);
+	else run(s, v);
+}
+
+function joinHandle(s, h) {
+	const { stack, top } = s;
+	// Modulo 2^32 a negative number is that of no node.
+	const t = s.nodes[h.number + signedGolomb(s.coder, s.models.HANDLE_TOP)];
+	const depth = golomb(s.coder, s.models.HANDLE_DEPTH);
+	const isThere = t !== undefined && t.vertex !== CLOSED && h.vertex !== CLOSED;
+	if (!isThere || depth > 255 || depth > stack.length) malformed('HANDLE names what does not exist', 'A.4.4');
+	swapLinks(top, h);
+	stack.splice(stack.length - depth, 0, t);
+	h.shared = 1;
+	addDegree(top, 1);
+}
+
+// [A.4.5]
+function expandSpur(s, v) {
+	const { tip, copy } = spur(s, v);
+	copy.shared = 1;
+	addDegree(s.top, 1);
+	s.top = tip;
+	++s.age;
+	remember(s, 0);
+}
+
+function run(s, v) {
+	const closing = s.top.next, fan = newFan();
+	let q = s.top;
+	for (;;) {
+		takeGate(s, v, q, fan);
+		q = q.next;
+		if (q === s.top) break;
+		const context = 32 * (Math.min(fan.taken, 4) - 1) + 2 * Math.min(q.degree, 15) + q.shared;
+		if (!bit(s.coder, s.models.RUN[context])) break;
+	}
+	close(s, closing, fan.taken - 1);
+	endRun(s, v, q, fan);
+}
+
+function dummyRun(s) {
+	const r = golomb(s.coder, s.models.DUMMY_DEGREE);
+	if (r === 0) return expandSpur(s, DUMMY);
+	const closing = s.top.next, fan = newFan();
+	let q = s.top;
+	do {
+		takeGate(s, DUMMY, q, fan);
+		q = q.next;
+	} while (fan.taken < r && q !== s.top);
+	if (fan.taken !== r) malformed('a dummy takes more gates than there are', 'A.4.5');
+	close(s, closing, fan.taken - 1);
+	endRun(s, DUMMY, q, fan);
+}
+
+function endRun(s, v, q, fan) {
+	const { top } = s;
+	const n = newNode(s, v, fan.taken + 1);
+	addDegree(top, 1);
+	// q may be top.
+	addDegree(q, 1);
+	top.next = n;
+	top.gate = fan.first;
+	n.next = q;
+	n.gate = fan.lastHalf;
+	s.top = n;
+	++s.age;
+	remember(s, Math.min(fan.taken, 4));
+}
+
+// [A.4.6]
+function finish(s) {
+	if (s.stack.length !== 0) malformed('a component ends while digons wait', 'A.4.6');
+	const v = newDummyOrVertex(s, s.models.DUMMY_FINISH), fan = newFan(), { twin } = s.surface;
+	let q = s.top;
+	do {
+		takeGate(s, v, q, fan);
+		q = q.next;
+	} while (q !== s.top);
+	close(s, s.top, fan.taken);
+	if (fan.first !== NONE) twin[fan.first] = fan.lastHalf;
+	if (fan.lastHalf !== NONE) twin[fan.lastHalf] = fan.first;
+	s.top = undefined;
 }

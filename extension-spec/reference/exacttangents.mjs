@@ -1,119 +1,65 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Exact tangents: A.10.17 of the specification. What they are predicted from: A.10.17.
+// Tangents whose bits are kept [A.10.17]. All floats are f64.
 
-import { models } from './entropy.mjs';
-import { flatten, makeUnit, meanError, noError, vectorOf, VectorReader, vectorRows } from './exactvectors.mjs';
-import { ordered, orderedOfBits } from './floats.mjs';
-import { add64 } from './vectors.mjs';
-import { bundles } from './wedges.mjs';
+import { arrayOf, binaryModel, bit, raw } from './entropy.mjs';
+import { exactVectorModels, meanError, readVector } from './exactvectors.mjs';
+import { finite, flatten, makeUnit, ordered, orderedBits } from './floats.mjs';
+import { NONE, forEachFace } from './surface.mjs';
+import { codeBundles } from './wedges.mjs';
 
-const xyz = [0, 1, 2];
+const PERPENDICULAR = 1;
+export const exactTangentModels = () => ({ ...exactVectorModels(), NEGATIVE: arrayOf(3), ODD: binaryModel() });
 
-export class ExactTangentModels {
-	constructor() {
-		this.ROW = vectorRows();
-		this.NEGATIVE = models([3]);
-		this.ODD = models([]);
-	}
-}
-
-// ---- [A.10.17] Exact sums of face tangents
-
-function exactFaceTangentSums(wedges, chart) {
-	const { surface, exactPositions } = wedges;
-	const T = Array.from({ length: wedges.count }, () => [0, 0, 0, 0]);
-	if (chart === undefined) return T;
-	for (let h = 0; h < surface.halfEdgeCount; h += 3) {
-		const corners = [h, h + 1, h + 2].map((g) => surface.tail(g));
-		const tangent = exactFaceTangent(corners.map((w) => exactPositions[w]), corners.map((w) => chart[w]));
-		if (tangent === undefined) continue;
-		for (const w of corners) T[w] = [...add64(T[w], tangent.t), T[w][3] + tangent.side];
-	}
+// [A.10.17] The sums T, four numbers of each wedge; chartOf(w) are chart coordinates, and is undefined without a chart.
+function exactTangentSums({ piece, surface }, positions, chartOf) {
+	const T = Array.from({ length: piece.wedge_count }, () => [0, 0, 0, 0]);
+	if (chartOf === undefined) return T;
+	forEachFace(surface, (corners) => {
+		const tangent = tangentOf(corners.map((w) => positions[w]), corners.map(chartOf));
+		if (tangent !== undefined) for (const w of corners) T[w] = add4(T[w], tangent);
+	});
 	return T;
 }
+const add4 = (a, b) => a.map((x, c) => x + b[c]);
 
-function exactFaceTangent([p0, p1, p2], [c0, c1, c2]) {
-	const v0 = c1[1] - c0[1];
-	const v1 = c2[1] - c0[1];
-	const determinant = (c1[0] - c0[0]) * v1 - (c2[0] - c0[0]) * v0;
+// What a face adds, or undefined if its chart has no area.
+function tangentOf([p0, p1, p2], [uv0, uv1, uv2]) {
+	const v0 = uv1[1] - uv0[1], v1 = uv2[1] - uv0[1];
+	const determinant = (uv1[0] - uv0[0]) * v1 - (uv2[0] - uv0[0]) * v0;
 	if (!(Math.abs(determinant) > 1e-60)) return undefined;
 	const side = determinant < 0 ? -1 : 1;
-	const t = xyz.map((s) => side * ((p1[s] - p0[s]) * v1 - (p2[s] - p0[s]) * v0));
-	makeUnit(t);
-	return { t, side };
+	const t = p0.map((x, s) => side * ((p1[s] - x) * v1 - (p2[s] - x) * v0));
+	return [...makeUnit(t).vector, side];
 }
 
-// ---- [A.10.17] Exact tangents
-
-class ExactTangents {
-	constructor(context, state) {
-		const byte = state.attribute.predictor;
-		const { wedges } = state;
-		this.streams = context.streams;
-		this.models = context.models.exactTangents;
-		this.state = state;
-		this.wedges = wedges;
-		this.perpendicular = (byte & 1) !== 0;
-		this.reader = new VectorReader(context.streams, this.models.ROW);
-		this.normals = unitExactNormals(context, wedges);
-		this.T = exactFaceTangentSums(wedges, context.chart());
-		this.E = Array.from({ length: wedges.count }, noError);
-		this.last = [0, 0, 0];
-		this.error = noError();
-	}
-
-	decode() {
-		for (const bundle of bundles(this.wedges, this.state.bundleOf)) this.bundle(bundle);
-	}
-
-	bundle(bundle) {
-		const total = this.total(bundle.members);
-		const N = this.normals[bundle.first];
-		if (bundle.hasEntry) this.error = meanError(this.E[bundle.n], this.E[bundle.p]);
-		const vector = this.reader.read(this.direction(total, N), this.error, this.perpendicular ? N : undefined);
-		const value = [...vector, this.readSign(total[3])];
-		for (const w of bundle.members) this.E[w] = { ...this.error };
-		this.state.finish(bundle, value, 0);
-		this.last = vectorOf(value);
-		makeUnit(this.last);
-	}
-
-	total(members) {
-		let total = [0, 0, 0, 0];
-		for (const w of members) total = total.map((x, k) => x + this.T[w][k]);
-		return total;
-	}
-
-	direction(total, N) {
-		const sum = flatten(N, total);
-		if (makeUnit(sum)) return sum;
-		const direction = flatten(N, this.last);
-		makeUnit(direction);
-		return direction;
-	}
-
-	readSign(side) {
-		const { streams, models: m } = this;
-		if (streams.bit(m.ODD)) {
-			const high = streams.raw(16);
-			return orderedOfBits((high * 2 ** 16 + streams.raw(16)) >>> 0);
-		}
-		const s = side > 0 ? 1 : side < 0 ? 2 : 0;
-		return ordered(streams.bit(m.NEGATIVE[s]) ? -1 : 1);
-	}
-}
-
-// The exact normals as unit vectors, (0, 0, 0) if there are none.
-function unitExactNormals(context, wedges) {
-	const state = context.exactNormalState();
-	return Array.from({ length: wedges.count }, (_, w) => {
-		const N = state === undefined ? [0, 0, 0] : vectorOf(state.value(w));
-		makeUnit(N);
-		return N;
+// [A.10.17] normal(w) are the components of the exact normal, and is undefined without one.
+export function decodeExactTangents(coding, models, attribute, positions, chartOf, normal) {
+	const { coder } = coding;
+	const T = exactTangentSums(coding.wedges, positions, chartOf);
+	const errors = T.map(() => ({ size: 0, places: 0 }));
+	let last = [0, 0, 0], error = { size: 0, places: 0 };
+	codeBundles(coding, ({ w, members, entry, n, p }) => {
+		const total = members.map((member) => T[member]).reduce(add4, [0, 0, 0, 0]);
+		if (entry !== NONE) error = meanError(errors[n], errors[p]);
+		const N = makeUnit(normal === undefined ? [0, 0, 0] : normal(w).map(finite)).vector;
+		const sum = makeUnit(flatten(N, total.slice(0, 3)));
+		const predicted = sum.there ? sum.vector : makeUnit(flatten(N, last)).vector;
+		const plane = attribute.predictor & PERPENDICULAR ? N : undefined;
+		const read = readVector(coder, models.ROW, predicted, error, plane);
+		const fourth = readFourth(coder, models, total[3]);
+		error = read.error;
+		for (const member of members) errors[member] = error;
+		last = makeUnit(read.value.map(finite)).vector;
+		return { value: [...read.value, fourth], length: 0 };
 	});
 }
 
-export function decodeExactTangents(context, state) {
-	new ExactTangents(context, state).decode();
+// The sign, as an ordered float.
+function readFourth(coder, models, side) {
+	if (bit(coder, models.ODD)) {
+		const high = raw(coder, 16);
+		return orderedBits(high * 65536 + raw(coder, 16));
+	}
+	return ordered(bit(coder, models.NEGATIVE[side > 0 ? 1 : side < 0 ? 2 : 0]) ? -1 : 1);
 }

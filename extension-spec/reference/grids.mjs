@@ -1,81 +1,60 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Exact grids and what is below them: A.10.5 of the specification.
+// What is below the step of a grid [A.10.5].
 
 import { width } from './bytes.mjs';
-import { models } from './entropy.mjs';
-import { ordered, orderedOfBits } from './floats.mjs';
-import { f } from './vectors.mjs';
+import { arrayOf, bit, raw } from './entropy.mjs';
+import { clamp, f, ordered, orderedBits } from './floats.mjs';
 
-const NO_TAILS = 0, PLAIN_TAILS = 1;
+const PLAIN = 1, CACHED = 2;
 
-export class TailModels {
-	constructor() {
-		this.AGAIN = models([4, 2]);
-		this.ZERO = models([4]);
-		this.MINUS = models([4]);
+// [A.10.5] One for each semantic and for morph targets or not, and one for attribute 0.
+export const gridModels = () => ({ AGAIN: arrayOf(4, () => arrayOf(2)), ZERO: arrayOf(4), MINUS: arrayOf(4) });
+
+// [A.10.5] Replaces the integers of a grid by ordered floats. values[w] are the components of wedge w, or undefined if
+// it gets those of the first wedge of its bundle.
+export function readTails(coder, models, attribute, values) {
+	const g = {
+		coder, models, before: 0, entries: new Array(8192), exponent: attribute.grid - 10 - 149,
+		scale: attribute.grid < 10 ? 10 ** attribute.grid : 2 ** -(attribute.grid - 10 - 149),
+	};
+	for (const value of values) {
+		if (value === undefined) continue;
+		for (let c = 0; c < value.length; ++c) value[c] = orderedOf(g, attribute.tails, value[c], c);
 	}
 }
 
-const isBinary = (grid) => grid >= 10;
-const exponentOf = (grid) => grid - 10 - 149; // e
+function orderedOf(g, tails, q, c) {
+	if (tails === CACHED) return cached(g, q, c);
+	return tails === PLAIN ? tail(g, q, c) : ordered(plain(g, q));
+}
+const plain = (g, q) => f(q / g.scale);
+const tailBits = (g, q) => clamp(24 - width(Math.abs(q)), 0, g.exponent + 149);
 
-// The number of steps per unit.
-function scaleOfGrid(grid) {
-	return isBinary(grid) ? 2 ** -exponentOf(grid) : Number(10n ** BigInt(grid));
+// The ordered float of q and the tail t. The mantissa has at most 24 bits where it has a tail.
+function withTail(g, q, t) {
+	const b = tailBits(g, q);
+	if (b === 0) return ordered(plain(g, q));
+	const x = f((Math.abs(q) * 2 ** b + t) * 2 ** (g.exponent - b));
+	return ordered(q < 0 ? -x : x);
 }
 
-// Reads the floats of one attribute of a piece.
-export class BelowGrid {
-	constructor(streams, attribute, tailModels) {
-		this.streams = streams;
-		this.models = tailModels;
-		this.tails = attribute.tails;
-		this.scale = scaleOfGrid(attribute.grid);
-		this.e = isBinary(attribute.grid) ? exponentOf(attribute.grid) : 0;
-		this.entries = new Array(8192); // undefined: unused
-		this.before = 0;
-	}
+function tail(g, q, c) {
+	if (q !== 0) return withTail(g, q, raw(g.coder, tailBits(g, q)));
+	if (bit(g.coder, g.models.ZERO[c])) return ordered(bit(g.coder, g.models.MINUS[c]) ? -0 : 0);
+	const high = raw(g.coder, 16);
+	return orderedBits(high * 65536 + raw(g.coder, 16));
+}
 
-	// The ordered float of the grid integer q of component c.
-	read(q, c) {
-		if (this.tails === NO_TAILS) return this.plain(q);
-		return this.tails === PLAIN_TAILS ? this.tail(q, c) : this.cached(q, c);
+// The entries keep ordered floats, which determine all bits.
+function cached(g, q, c) {
+	const k = Math.imul(q * 4 + c, 0x9e3779b1) >>> 19, entry = g.entries[k];
+	if (entry !== undefined && entry.q === q) {
+		g.before = bit(g.coder, g.models.AGAIN[c][g.before]);
+		if (g.before) return entry.ordered;
+	} else if (q !== 0 && tailBits(g, q) === 0) {
+		return ordered(plain(g, q));
 	}
-
-	plain(q) {
-		return ordered(f(q / this.scale));
-	}
-
-	tailBits(q) {
-		return Math.min(Math.max(24 - width(Math.abs(q)), 0), this.e + 149);
-	}
-
-	cached(q, c) {
-		const k = Math.imul(Math.imul(q, 4) + c, 0x9e3779b1) >>> 19;
-		const entry = this.entries[k];
-		if (entry !== undefined && entry.q === q) {
-			this.before = this.streams.bit(this.models.AGAIN[c][this.before]);
-			if (this.before) return entry.float;
-		} else if (q !== 0 && this.tailBits(q) === 0) {
-			return this.plain(q);
-		}
-		this.entries[k] = { q, float: this.tail(q, c) };
-		return this.entries[k].float;
-	}
-
-	tail(q, c) {
-		if (q === 0) return this.tailOfZero(c);
-		const b = this.tailBits(q);
-		if (b === 0) return this.plain(q);
-		const magnitude = f((Math.abs(q) * 2 ** b + this.streams.raw(b)) * 2 ** (this.e - b));
-		return ordered(q < 0 ? -magnitude : magnitude);
-	}
-
-	tailOfZero(c) {
-		const { streams, models: m } = this;
-		if (streams.bit(m.ZERO[c])) return ordered(streams.bit(m.MINUS[c]) ? -0 : 0);
-		const high = streams.raw(16);
-		return orderedOfBits((high * 2 ** 16 + streams.raw(16)) >>> 0);
-	}
+	g.entries[k] = { q, ordered: tail(g, q, c) };
+	return g.entries[k].ordered;
 }

@@ -1,75 +1,83 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Normals on the octahedral grid: A.10.8 of the specification.
+// Sums of face normals [A.10.7], normals [A.10.8]. All floats are f32.
 
-import { rows } from './entropy.mjs';
-import { faceNormalSums } from './faces.mjs';
-import { centreOf, fold, Frame, NO_NEIGHBOUR, readPoint } from './octahedral.mjs';
-import { bundles } from './wedges.mjs';
-import { add32, f, length1, scale32, sub32 } from './vectors.mjs';
+import { add32, cross32, dot32, f, max, min, scale32, subtract32 } from './floats.mjs';
+import { centreOf, frameAround, frameOfVector, gridPoint, octahedron, readPoint, size, sumOf } from './octahedral.mjs';
+import { NO_NEIGHBOURS, contextOf, contextRows } from './residuals.mjs';
+import { NONE, forEachFace } from './surface.mjs';
+import { codeBundles } from './wedges.mjs';
 
-export class NormalModels {
-	constructor() {
-		this.ROW = rows([2, 12]);
-	}
+// The weight of faces, bits 0..1 of `predictor`.
+export const AREA = 0, ANGLE = 1, SINE = 2;
+export const BLEND = 4;
+const PI = f(3.14159274);
+export const normalModels = () => ({ ROW: [contextRows(), contextRows()] });
+
+// [A.10.7] Of a face with these positions at its corners.
+export function faceOf(p0, p1, p2) {
+	const e0 = subtract32(p1, p0), e1 = subtract32(p2, p0), normal = cross32(e0, e1);
+	return { e0, e1, normal, nn: dot32(normal, normal) };
 }
 
-class Normals {
-	constructor(context, state) {
-		const { wedges } = state;
-		const byte = state.attribute.predictor;
-		this.streams = context.streams;
-		this.ROW = context.models.normals.ROW;
-		this.state = state;
-		this.C = centreOf(state.attribute.bits);
-		this.blend = (byte & 4) !== 0;
-		this.S = faceNormalSums(wedges.surface, wedges.count, wedges.positions, byte & 3);
-		this.last = [0, 0];
-	}
+// [A.10.7] The angles at the corners of a face.
+export function anglesOf({ e0, e1, nn }) {
+	const length = f(Math.sqrt(nn)), d = dot32(e0, e1), a0 = cornerAngle(length, d);
+	const a1 = cornerAngle(length, f(dot32(e0, e0) - d));
+	return [a0, a1, f(f(PI - a0) - a1)];
+}
 
-	decode() {
-		for (const bundle of bundles(this.state.wedges, this.state.bundleOf)) this.bundle(bundle);
-	}
+function cornerAngle(y, x) {
+	const ax = Math.abs(x), t = f(min(ax, y) / f(max(ax, y) + f(1e-30))), s = f(t * t);
+	const p = f(f(f(f(f(-0.0464964749) * s) + f(0.15931422)) * s) - f(0.327622764));
+	let r = f(f(f(p * s) * t) + t);
+	if (y > ax) r = f(f(1.57079637) - r);
+	return x < 0 ? f(PI - r) : r;
+}
 
-	bundle(bundle) {
-		const direction = this.direction(bundle.members);
-		const { frame, context } = this.frameOf(bundle, direction);
-		const { point, L } = readPoint(this.streams, this.ROW, frame, context);
-		this.last = point;
-		this.state.finish(bundle, point.map((x) => x + this.C), L);
-		if (this.blend) this.learn(bundle.members, direction);
+function weightsOf(faceAt, weight) {
+	const { e0, e1, nn } = faceAt;
+	if (weight === AREA) return [1, 1, 1];
+	if (weight === ANGLE) {
+		const i = nn > 0 ? f(1 / f(Math.sqrt(nn))) : 0;
+		return anglesOf(faceAt).map((a) => f(a * i));
 	}
+	if (!(nn > 0)) return [0, 0, 0];
+	const e2 = subtract32(e1, e0);
+	const [q0, q1, q2] = [e0, e1, e2].map((e) => dot32(e, e));
+	return [f(1 / f(q0 * q1)), f(1 / f(q0 * q2)), f(1 / f(q1 * q2))];
+}
 
-	direction(members) {
-		let direction = this.S[members[0]];
-		for (const w of members.slice(1)) direction = add32(direction, this.S[w]);
-		if (!this.blend) return direction;
-		const length = length1(direction);
-		return scale32(direction, length > f(1e-30) ? f(1 / length) : 0);
-	}
+// [A.10.7] The sum of each wedge.
+function sumsOfFaceNormals({ piece, surface }, positions, weight) {
+	const sums = Array.from({ length: piece.wedge_count }, () => [0, 0, 0]);
+	forEachFace(surface, (corners) => {
+		const faceAt = faceOf(...corners.map((w) => positions[w]));
+		const weights = weightsOf(faceAt, weight);
+		corners.forEach((w, k) => { sums[w] = add32(sums[w], scale32(faceAt.normal, weights[k])); });
+	});
+	return sums;
+}
 
-	frameOf(bundle, direction) {
-		const { C, S, state } = this;
-		if (bundle.isolated) return { frame: Frame.around(C, this.last), context: NO_NEIGHBOUR };
+// [A.10.8]
+export function decodeNormals(coding, models, attribute, positions) {
+	const C = centreOf(attribute.bits), blend = (attribute.predictor & BLEND) !== 0;
+	const S = sumsOfFaceNormals(coding.wedges, positions, attribute.predictor & 3);
+	let last = [0, 0];
+	codeBundles(coding, ({ members, entry, n, p }) => {
+		let direction = sumOf(members.map((member) => S[member]));
+		if (blend) direction = scale32(direction, size(direction) > f(1e-30) ? f(1 / size(direction)) : 0);
 		let used = direction;
-		let context = NO_NEIGHBOUR;
-		if (bundle.hasEntry) {
-			context = state.meanLength(bundle);
-			if (this.blend) used = add32(direction, scale32(add32(S[bundle.n], S[bundle.p]), 0.25));
+		if (blend && entry !== NONE) used = add32(direction, scale32(add32(S[n], S[p]), 0.25));
+		const context = entry === NONE ? NO_NEIGHBOURS : contextOf(coding, n, p);
+		const frame = size(used) > f(1e-30) ? frameOfVector(C, used) : frameAround(C, last);
+		const { point, length } = readPoint(coding.coder, models.ROW, frame, context);
+		last = point;
+		if (blend) {
+			const i = f(1 / C);
+			const missed = subtract32(octahedron(f(last[0] * i), f(last[1] * i)), direction);
+			for (const member of members) S[member] = missed;
 		}
-		const frame = length1(used) > f(1e-30) ? Frame.ofDirection(C, used) : Frame.around(C, this.last);
-		return { frame, context };
-	}
-
-	// What the faces did not tell is kept, for the neighbours.
-	learn(members, direction) {
-		const i = f(1 / f(this.C));
-		const folded = fold(f(f(this.last[0]) * i), f(f(this.last[1]) * i));
-		const difference = sub32(folded, direction);
-		for (const w of members) this.S[w] = difference;
-	}
-}
-
-export function decodeNormals(context, state) {
-	new Normals(context, state).decode();
+		return { value: gridPoint(C, point), length };
+	});
 }

@@ -1,87 +1,70 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// The octahedral grid and frames of predictions: A.10.6, A.10.6 and A.10.6 of the specification; points of A.10.8.
+// The octahedral grid and its frames [A.10.6]. All floats are f32.
 
-import { following, readSmallSigned } from './lengths.mjs';
-import { copysign, f, length1, round32, scale32, sqrt32 } from './vectors.mjs';
+import { add32, clamp, copysign, dot32, f, round32, scale32 } from './floats.mjs';
+import { NO_NEIGHBOURS, contextAfter, smallSigned } from './residuals.mjs';
 
-export const NO_NEIGHBOUR = 11; // the context
+// [A.10.6] The centre of a grid of b bits.
+export const centreOf = (b) => 2 ** (b - 1) - 1;
 
-export const centreOf = (bits) => 2 ** (bits - 1) - 1; // C
-
-// ---- [A.10.6] Octahedral grid
-
-export function fold(x, y) {
-	const ax = Math.abs(x);
-	const ay = Math.abs(y);
-	const z = f(f(1 - ax) - ay);
+// [A.10.6] |v| of a vector.
+export const size = (v) => f(f(Math.abs(v[0]) + Math.abs(v[1])) + Math.abs(v[2]));
+export function octahedron(x, y) {
+	const ax = Math.abs(x), ay = Math.abs(y), z = f(f(1 - ax) - ay);
 	return z < 0 ? [copysign(f(1 - ay), x), copysign(f(1 - ax), y), z] : [x, y, z];
 }
 
-// The unit vector of a point, whose coordinates are 0 .. 2 C
 export function unitVector(C, [s, t]) {
-	const i = f(1 / f(C));
-	const [x, y, z] = fold(f(f(f(s) - f(C)) * i), f(f(f(t) - f(C)) * i));
-	const j = f(1 / sqrt32(f(f(f(x * x) + f(y * y)) + f(z * z))));
-	return scale32([x, y, z], j);
+	const i = f(1 / C), v = octahedron(f(f(s - C) * i), f(f(t - C) * i));
+	return scale32(v, f(1 / f(Math.sqrt(dot32(v, v)))));
 }
-
-// ---- [A.10.6] Projection to the grid: a point relative to the centre
-
-function project(C, v) {
-	const scale = f(f(C) / length1(v));
-	return [round32(f(v[0] * scale)), round32(f(v[1] * scale))];
-}
-
-// ---- [A.10.6] The frame of a prediction
 
 function turnOver(C, [x, y]) {
-	const X = C - Math.abs(y);
-	const Y = C - Math.abs(x);
+	const X = C - Math.abs(y), Y = C - Math.abs(x);
 	return [x < 0 || (x === 0 && y < 0) ? -X : X, y < 0 || (y === 0 && x < 0) ? -Y : Y];
 }
 
-export class Frame {
-	constructor(C, p, turnedOver) {
-		this.C = C;
-		this.turnedOver = turnedOver;
-		[this.c, this.s] = rotationOf(p);
-		this.p = [this.c * p[0] - this.s * p[1], this.s * p[0] + this.c * p[1]];
-	}
-
-	static around(C, point) {
-		const turned = Math.abs(point[0]) + Math.abs(point[1]) > C;
-		return new Frame(C, turned ? turnOver(C, point) : point, turned);
-	}
-
-	static ofDirection(C, v) {
-		return new Frame(C, project(C, v), v[2] < 0);
-	}
-
-	pointOf(residual) {
-		const { C, c, s } = this;
-		const [a, b] = this.p.map((x, k) => wrap(C, x + Math.min(Math.max(residual[k], -C), C)));
-		const point = [c * a + s * b, c * b - s * a];
-		return this.turnedOver ? turnOver(C, point) : point;
-	}
+// The frame of project(v).
+export function frameOfVector(C, v) {
+	const scale = f(C / size(v));
+	return frame(C, [round32(f(v[0] * scale)), round32(f(v[1] * scale))], v[2] < 0);
 }
 
-function rotationOf([x, y]) {
+// The frame around a point.
+export function frameAround(C, point) {
+	const turned = Math.abs(point[0]) + Math.abs(point[1]) > C;
+	return frame(C, turned ? turnOver(C, point) : point, turned);
+}
+
+function frame(C, [x, y], turned) {
+	const [c, s] = rotationOf(x, y);
+	return { C, c, s, turned, p: [c * x - s * y, s * x + c * y] };
+}
+
+function rotationOf(x, y) {
 	if (y > 0 && x <= 0) return [0, 1];
 	if (x > 0 && y >= 0) return [-1, 0];
-	if (y < 0 && x >= 0) return [0, -1];
-	return [1, 0];
+	return y < 0 && x >= 0 ? [0, -1] : [1, 0];
 }
 
-function wrap(C, i) {
-	return i < -C ? i + (2 * C + 1) : i;
+// The point of a residual, relative to the centre. Adding 0 makes a 0 of -0, which integers do not have.
+function pointOf({ C, c, s, turned, p }, residuals) {
+	const [a, b] = residuals.map((r, i) => wrap(C, p[i] + clamp(r, -C, C)));
+	const point = [c * a + s * b, c * b - s * a];
+	return (turned ? turnOver(C, point) : point).map((x) => x + 0);
+}
+const wrap = (C, i) => (i < -C ? i + (2 * C + 1) : i);
+
+// [A.10.8] A point in a frame, relative to the centre, and its length L.
+export function readPoint(coder, ROW, frameOfPoint, context) {
+	const first = smallSigned(coder, 0, ROW[0][context]);
+	const row = ROW[1][context === NO_NEIGHBOURS ? first.length : contextAfter(context, first.length)];
+	const second = smallSigned(coder, 1, row);
+	const point = pointOf(frameOfPoint, [first.residual, second.residual]);
+	return { point, length: Math.max(first.length, second.length) };
 }
 
-// ---- [A.10.8] A point in a frame: relative to the centre, and its length in context
-
-export function readPoint(streams, ROW, frame, context) {
-	const first = readSmallSigned(streams, 0, ROW[0][context]);
-	const secondContext = context === NO_NEIGHBOUR ? first.length : following(context, first.length);
-	const second = readSmallSigned(streams, 1, ROW[1][secondContext]);
-	return { point: frame.pointOf([first.residual, second.residual]), L: Math.max(first.length, second.length) };
-}
+// [A.10.8] The value of a point: its place on the grid.
+export const gridPoint = (C, point) => [point[0] + C, point[1] + C];
+export const sumOf = (vectors) => vectors.reduce(add32);

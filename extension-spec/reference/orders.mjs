@@ -1,230 +1,173 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Orders of the triangles and of the wedges: A.9 of the specification.
+// The order of triangles and wedges [A.9].
 
-import { fail } from './bytes.mjs';
-import { models, trees, uniform } from './entropy.mjs';
-import { corner, face, next, NONE, prev } from './mesh.mjs';
+import { arrayOf, bit, tree, treeModel, uniform } from './entropy.mjs';
+import { failUnless } from './errors.mjs';
+import { NONE, face, next, prev } from './surface.mjs';
 
 const NEAR = 0, FAR = 1, NEXT = 2, ANY = 3;
-const CLOSED = -1; // the place in `open` of an element that is placed, or of none
+const LONGEST = 32;
+const sequenceModels = () => ({
+	IS_NEXT: arrayOf(8, () => arrayOf(4)), IS_NEAR: arrayOf(2, () => arrayOf(4, () => arrayOf(3))),
+	IS_FAR: arrayOf(2, () => arrayOf(4)), RANK: arrayOf(2, () => arrayOf(4, () => arrayOf(2, () => treeModel(5)))),
+});
 
-class SequenceModels {
-	constructor() {
-		this.IS_NEXT = models([8, 4]);
-		this.IS_NEAR = models([2, 4, 3]);
-		this.IS_FAR = models([2, 4]);
-		this.RANK = trees(5, [2, 4, 2]);
+export const orderModels = () => ({
+	triangles: { ...sequenceModels(), CORNER: arrayOf(4, () => arrayOf(3, () => arrayOf(2))) },
+	wedges: sequenceModels(),
+});
+
+// [A.9.1] `placeOf` is the place of each element in `open`, NONE of one that is not open.
+function createSequence(coder, models, elementCount) {
+	return {
+		coder, models, placeOf: new Int32Array(elementCount).fill(NONE), open: [], near: [], far: [],
+		history: 0, class: [0, 0], way: ANY,
+	};
+}
+const isOpen = (s, x) => s.placeOf[x] !== NONE;
+function openAll(s, elements) {
+	s.near = [];
+	s.far = [];
+	for (const x of elements) s.placeOf[x] = s.open.push(x) - 1;
+}
+const without = (list, x) => list.filter((entry) => entry.x !== x);
+const withFirst = (list, x, note) => [{ x, note }, ...without(list, x)].slice(0, LONGEST);
+function place(s, x) {
+	const i = s.placeOf[x], last = s.open.pop();
+	if (last !== x) {
+		s.open[i] = last;
+		s.placeOf[last] = i;
+	}
+	s.placeOf[x] = NONE;
+	s.near = without(s.near, x);
+	s.far = without(s.far, x);
+}
+
+function touchNear(s, x, note) {
+	if (!isOpen(s, x)) return;
+	s.far = without(s.far, x);
+	s.near = withFirst(s.near, x, note);
+}
+
+function touchFar(s, x, note) {
+	if (!isOpen(s, x) || s.near.some((entry) => entry.x === x)) return;
+	s.far = withFirst(s.far, x, note);
+}
+
+// [A.9.1] The next element, its note and the way it was found.
+function following(s, expected) {
+	const { coder, models } = s;
+	const w = s.way, yes = bit(coder, models.IS_NEXT[s.history][w]);
+	s.history = (2 * s.history + yes) % 8;
+	const hopeful = s.history !== 0 ? 1 : 0;
+	let found = { x: expected, note: 0 };
+	if (yes) {
+		s.way = NEXT;
+	} else if (s.near.length !== 0 && bit(coder, models.IS_NEAR[hopeful][w][Math.min(s.class[NEAR], 2)])) {
+		s.way = NEAR;
+		found = ranked(s, s.near, w);
+	} else if (s.far.length !== 0 && bit(coder, models.IS_FAR[hopeful][w])) {
+		s.way = FAR;
+		found = ranked(s, s.far, w);
+	} else {
+		s.way = ANY;
+		found = { x: s.open[uniform(coder, s.open.length)], note: 0 };
+	}
+	place(s, found.x);
+	return { ...found, way: s.way };
+}
+
+function ranked(s, list, w) {
+	const { way } = s;
+	const rank = tree(s.coder, s.models.RANK[way][s.class[way]][w === way ? 1 : 0]);
+	failUnless(rank < list.length, 'BadAttribute', 'A.9.1', 'an element is not in its list');
+	if (rank < 2) s.class[way] = rank;
+	else s.class[way] = rank <= 3 ? 2 : 3;
+	return list[rank];
+}
+
+// Places all elements of the expected list; `take` gets each as it is found.
+function placeAll(s, elements, take) {
+	openAll(s, elements);
+	let first = 0;
+	while (s.open.length !== 0) {
+		while (!isOpen(s, elements[first])) ++first;
+		take(following(s, elements[first]));
 	}
 }
 
-export class OrderModels {
-	constructor() {
-		this.triangles = new SequenceModels();
-		this.wedges = new SequenceModels();
-		this.CORNER = models([4, 3, 2]);
-	}
-}
-
-// [A.9.1] Sequences. `lists` is near and far: [element, note], latest first.
-class Sequence {
-	constructor(streams, modelSet, elementCount) {
-		this.streams = streams;
-		this.models = modelSet;
-		this.open = [];
-		this.placeInOpen = new Int32Array(elementCount).fill(CLOSED);
-		this.lists = [[], []];
-		this.history = 0;
-		this.class = [0, 0];
-		this.way = ANY;
-	}
-
-	// Begins with another list of expected elements.
-	expect(list) {
-		this.lists = [[], []];
-		this.expected = list;
-		this.cursor = 0;
-		for (const x of list) {
-			this.placeInOpen[x] = this.open.length;
-			this.open.push(x);
-		}
-	}
-
-	isOpen(x) {
-		return this.placeInOpen[x] !== CLOSED;
-	}
-
-	place(x) {
-		const i = this.placeInOpen[x];
-		const last = this.open.pop();
-		if (last !== x) {
-			this.open[i] = last;
-			this.placeInOpen[last] = i;
-		}
-		this.placeInOpen[x] = CLOSED;
-		this.remove(NEAR, x);
-		this.remove(FAR, x);
-	}
-
-	remove(way, x) {
-		this.lists[way] = this.lists[way].filter(([y]) => y !== x);
-	}
-
-	putInFront(way, x, note) {
-		this.lists[way].unshift([x, note]);
-		if (this.lists[way].length > 32) this.lists[way].pop();
-	}
-
-	touchNear(x, note) {
-		if (!this.isOpen(x)) return;
-		this.remove(FAR, x);
-		this.remove(NEAR, x);
-		this.putInFront(NEAR, x, note);
-	}
-
-	touchFar(x, note) {
-		if (!this.isOpen(x) || this.lists[NEAR].some(([y]) => y === x)) return;
-		this.remove(FAR, x);
-		this.putInFront(FAR, x, note);
-	}
-
-	firstExpected() {
-		while (!this.isOpen(this.expected[this.cursor])) ++this.cursor;
-		return this.expected[this.cursor];
-	}
-
-	following() {
-		const { streams, models: m } = this;
-		const expected = this.firstExpected();
-		const w = this.way;
-		const yes = streams.bit(m.IS_NEXT[this.history][w]);
-		this.history = (2 * this.history + yes) % 8;
-		const hopeful = this.history !== 0 ? 1 : 0;
-		this.way = yes ? NEXT : this.askWay(hopeful, w);
-		const [x, note] = this.element(expected, w);
-		this.place(x);
-		return { x, note, way: this.way };
-	}
-
-	askWay(hopeful, w) {
-		const { streams, models: m } = this;
-		const [near, far] = this.lists;
-		if (near.length !== 0 && streams.bit(m.IS_NEAR[hopeful][w][Math.min(this.class[NEAR], 2)])) return NEAR;
-		if (far.length !== 0 && streams.bit(m.IS_FAR[hopeful][w])) return FAR;
-		return ANY;
-	}
-
-	element(expected, w) {
-		if (this.way === NEXT) return [expected, 0];
-		if (this.way === ANY) return [this.open[uniform(this.streams, this.open.length)], 0];
-		return this.ranked(w);
-	}
-
-	ranked(w) {
-		const list = this.lists[this.way];
-		const rank = this.streams.tree(this.models.RANK[this.way][this.class[this.way]][w === this.way ? 1 : 0]);
-		if (rank >= list.length) fail('BadAttribute', 'A.9.1', 'a rank beyond its list');
-		this.class[this.way] = rank < 2 ? rank : rank < 4 ? 2 : 3;
-		return list[rank];
-	}
-}
-
-// [A.9.2] Order of the triangles: for each part a list of triangles, each of which has its wedges from the corner it begins with.
-export function decodeTriangleOrder(streams, m, piece, surface, table) {
-	const sequence = new Sequence(streams, m.triangles, table.length);
-	const touch = new TriangleTouch(sequence, surface);
+// [A.9.2] For each part its triangles in order, each with the corner it begins with.
+export function decodeTriangleOrder(coder, models, piece, surface, parts) {
+	const s = createSequence(coder, models, piece.triangle_count);
 	let turn = 0;
-	return partition(piece, table).map((expected) => {
-		sequence.expect(expected);
-		return expected.map(() => {
-			const { x, note, way } = sequence.following();
-			turn = readTurn(streams, m.CORNER[way][turn]);
-			const begin = (note + turn) % 3;
-			touch.around(x, begin);
-			return rotated(table[x].wedges, begin);
+	return parts.map((triangles) => {
+		const ordered = [];
+		placeAll(s, triangles.map(({ triangle }) => triangle), ({ x, note, way }) => {
+			turn = readTurn(coder, models.CORNER[way][turn]);
+			const corner = (note + turn) % 3;
+			ordered.push({ triangle: x, corner });
+			touchAround(s, surface, x, corner);
 		});
+		return ordered;
 	});
 }
 
-function readTurn(streams, [IS_TURNED, IS_TWO]) {
-	if (!streams.bit(IS_TURNED)) return 0;
-	return streams.bit(IS_TWO) ? 2 : 1;
+function readTurn(coder, CORNER) {
+	if (!bit(coder, CORNER[0])) return 0;
+	return bit(coder, CORNER[1]) ? 2 : 1;
 }
 
-const rotated = (wedges, begin) => [0, 1, 2].map((k) => wedges[(begin + k) % 3]);
-
-class TriangleTouch {
-	constructor(sequence, surface) {
-		this.sequence = sequence;
-		this.surface = surface;
+function touchAround(s, { twin }, x, corner) {
+	if (3 * x >= twin.length) return;
+	for (let i = 0; i <= 2; ++i) {
+		const t = twin[3 * x + ((corner + i) % 3)];
+		if (t === NONE || !isOpen(s, face(t))) continue;
+		for (const y of [twin[next(t)], twin[prev(t)]]) if (y !== NONE) touchFar(s, face(y), y % 3);
+		touchNear(s, face(t), t % 3);
 	}
+}
 
-	around(x, begin) {
-		const { sequence, surface } = this;
-		if (x >= surface.faceCount) return;
-		for (let i = 0; i < 3; ++i) {
-			const t = surface.twin(3 * x + (begin + i) % 3);
-			if (t === NONE || !sequence.isOpen(face(t))) continue;
-			for (const s of [next(t), prev(t)]) this.far(surface.twin(s));
-			sequence.touchNear(face(t), corner(t));
+// [A.9.3] The wedge at every place. `parts` are those of A.9.2.
+export function decodeWedgeOrder(coder, models, piece, table, parts) {
+	const s = createSequence(coder, models, piece.wedge_count);
+	const expected = expectedWedges(piece, table, parts), corners = firstCorners(piece, table);
+	const ordered = [];
+	placeAll(s, expected, ({ x }) => {
+		ordered.push(x);
+		for (const c of corners[x]) touchCorner(s, table.wedges[next(c)], table.wedges[prev(c)]);
+	});
+	return ordered;
+}
+
+function expectedWedges(piece, table, parts) {
+	const numbers = Array.from({ length: piece.wedge_count }, (_, w) => w);
+	if (!piece.TRIANGLE_ORDER) return numbers;
+	const used = new Set();
+	for (const triangles of parts) {
+		for (const { triangle, corner } of triangles) {
+			for (let k = 0; k < 3; ++k) used.add(table.wedges[3 * triangle + ((corner + k) % 3)]);
 		}
 	}
-
-	far(y) {
-		if (y !== NONE) this.sequence.touchFar(face(y), corner(y));
-	}
+	return [...used, ...numbers.filter((w) => !used.has(w))];
 }
 
-// The triangles of each part, by their numbers.
-function partition(piece, table) {
-	const lists = piece.partSizes.map(() => []);
-	table.forEach(({ part }, x) => lists[part].push(x));
-	return lists;
-}
-
-// [A.9.4] Without TRIANGLE_ORDER
-export function trianglesOfParts(piece, table) {
-	return partition(piece, table).map((list) => list.map((x) => table[x].wedges));
-}
-
-// [A.9.4]
-export function checkParts(piece, parts) {
-	if (parts.some((list, i) => list.length !== piece.partSizes[i])) {
-		fail('BadAttribute', 'A.9.4', 'a part has another number of triangles than its header says');
-	}
-}
-
-// [A.9.3] Order of the wedges: the wedge at every place. `parts` are ordered triangles, or undefined.
-export function decodeWedgeOrder(streams, m, piece, table, parts) {
-	const sequence = new Sequence(streams, m.wedges, piece.wedgeCount);
-	const expected = expectedWedges(piece, parts);
-	const corners = cornersOfWedges(piece, table);
-	sequence.expect(expected);
-	return expected.map(() => {
-		const { x } = sequence.following();
-		for (const { triangle, k } of corners[x]) touchWedges(sequence, table[triangle].wedges, k);
-		return x;
-	});
-}
-
-function expectedWedges(piece, parts) {
-	const order = new Set(parts === undefined ? [] : parts.flat(2));
-	for (let w = 0; w < piece.wedgeCount; ++w) order.add(w);
-	return [...order];
-}
-
-// The first 32 corners of each wedge in the table.
-function cornersOfWedges(piece, table) {
-	const corners = Array.from({ length: piece.wedgeCount }, () => []);
-	table.forEach(({ wedges }, triangle) => wedges.forEach((w, k) => {
-		if (corners[w].length < 32) corners[w].push({ triangle, k });
-	}));
+// The first 32 corners of the table at each wedge.
+function firstCorners(piece, table) {
+	const corners = Array.from({ length: piece.wedge_count }, () => []);
+	table.wedges.forEach((w, c) => { if (corners[w].length < 32) corners[w].push(c); });
 	return corners;
 }
 
-function touchWedges(sequence, wedges, k) {
-	const [a, b] = [wedges[(k + 1) % 3], wedges[(k + 2) % 3]];
-	const touch = sequence.isOpen(a) && sequence.isOpen(b) ? 'touchFar' : 'touchNear';
-	sequence[touch](b, 0);
-	sequence[touch](a, 0);
+function touchCorner(s, a, b) {
+	const touch = isOpen(s, a) && isOpen(s, b) ? touchFar : touchNear;
+	touch(s, b, 0);
+	touch(s, a, 0);
+}
+
+// The triangles of each part in the order of the table, beginning with their first corners.
+export function partsOfTable(piece, table) {
+	const parts = Array.from({ length: piece.part_count }, () => []);
+	table.part.forEach((p, triangle) => parts[p].push({ triangle, corner: 0 }));
+	return parts;
 }

@@ -1,109 +1,74 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Palettes of coordinates: A.6.11 of the specification.
+// Coordinates as ranks among the distinct ones [A.6.11].
+//
+// All integers here are below 2^50 in size, so that Numbers hold what the text calculates in 64 bits.
 
-import { fail } from './bytes.mjs';
-import { golombs, models } from './entropy.mjs';
-import { f } from './vectors.mjs';
+import { arrayOf, bit, golomb, golombModel, signedGolomb } from './entropy.mjs';
+import { failUnless } from './errors.mjs';
+import { clamp, f } from './floats.mjs';
+import { residualOfSlot } from './positionresiduals.mjs';
+import { vector } from './prediction.mjs';
 
-export class PaletteModels {
-	constructor() {
-		this.PRESENT = models([3]);
-		this.REGULAR = models([2]);
-		this.CHANGE = models([2]);
-		this.COUNT = golombs([]);
-		this.FIRST = golombs([]);
-		this.GAP = golombs([]);
-	}
-}
+export const paletteModels = () => ({
+	PRESENT: arrayOf(3), REGULAR: arrayOf(2), CHANGE: arrayOf(2), COUNT: golombModel(), FIRST: golombModel(),
+	GAP: golombModel(),
+});
 
-// The palettes of the three axes; undefined where there is none.
-export function readPalettes(streams, m, vertexCount) {
-	return [0, 1, 2].map((s) => (streams.bit(m.PRESENT[s]) ? readPalette(streams, m, vertexCount) : undefined));
-}
+// [A.6.11] The palette of each axis; undefined for an axis without one.
+export const readPalettes = (coder, models, groupCount) =>
+	(vector((s) => (bit(coder, models.PRESENT[s]) ? readPalette(coder, models, groupCount) : undefined)));
 
-function readPalette(streams, m, vertexCount) {
-	const count = streams.golomb(m.COUNT) + 1;
-	if (count > vertexCount || count > 2 ** 23) fail('BadAttribute', 'A.6.11', 'a palette that is too large');
-	const values = [streams.signedGolomb(m.FIRST)];
-	let gap = 1;
-	let regular = 0;
+const valid = (condition, message) => failUnless(condition, 'BadAttribute', 'A.6.11', message);
+function readPalette(coder, models, groupCount) {
+	const count = golomb(coder, models.COUNT) + 1;
+	valid(count <= groupCount && count <= 2 ** 23, 'a palette has more values than there are groups');
+	const value = [signedGolomb(coder, models.FIRST)];
+	let gap = 1, c = 0;
 	for (let i = 1; i < count; ++i) {
-		regular = streams.bit(m.REGULAR[regular]);
-		if (regular) gap += readChange(streams, m);
-		else gap = streams.golomb(m.GAP) + 1;
-		values.push(values[i - 1] + gap);
-		if (gap < 1 || values[i] > 2 ** 31 - 1) fail('BadAttribute', 'A.6.11', 'a value of a palette out of range');
+		c = bit(coder, models.REGULAR[c]);
+		if (!c) gap = golomb(coder, models.GAP) + 1;
+		else if (bit(coder, models.CHANGE[0])) gap += bit(coder, models.CHANGE[1]) ? 1 : -1;
+		value.push(value[i - 1] + gap);
+		valid(gap >= 1 && value[i] <= 2 ** 31 - 1, 'the values of a palette do not ascend, or exceed 31 bits');
 	}
-	return new Palette(values);
+	return { value, ...cellsOf(value) };
 }
 
-function readChange(streams, m) {
-	if (!streams.bit(m.CHANGE[0])) return 0;
-	return streams.bit(m.CHANGE[1]) ? 1 : -1;
+// [A.6.11] The ranks, in 1/256, at the ends of cells that are 2^g wide.
+function cellsOf(value) {
+	const last = value.length - 1, range = value[last] - value[0];
+	let g = 0;
+	while (Math.floor((range + 1) / 2 ** g) > 4 * value.length) ++g;
+	const cell = [];
+	let i = 0;
+	for (let j = 0; j <= Math.floor(range / 2 ** g) + 1; ++j) {
+		const x = Math.min(j * 2 ** g, range);
+		while (i < last && value[i + 1] - value[0] <= x) ++i;
+		const part = i === last ? 0 : Math.floor((256 * (x - (value[i] - value[0]))) / (value[i + 1] - value[i]));
+		cell.push(256 * i + part);
+	}
+	return { g, cell };
 }
 
-class Palette {
-	constructor(values) {
-		this.values = values;
-		this.n = values.length;
-		this.first = BigInt(values[0]);
-		this.extent = BigInt(values[this.n - 1]) - this.first;
-		this.g = this.cellBits();
-	}
+function rank({ value, g, cell }, x) {
+	const low = 256 * value[0], high = 256 * value[value.length - 1], d = clamp(x, low, high) - low;
+	const unit = 2 ** (g + 8), j = Math.floor(d / unit), rest = d - j * unit;
+	return cell[j] + Math.floor(((cell[j + 1] - cell[j]) * rest) / unit);
+}
 
-	cellBits() {
-		let g = 0n;
-		while ((this.extent + 1n) >> g > 4n * BigInt(this.n)) ++g;
-		return g;
-	}
-
-	distance(x) {
-		const low = 256n * this.first;
-		const high = low + 256n * this.extent;
-		return (x < low ? low : x > high ? high : x) - low;
-	}
-
-	// The last index i with V[i] - V[0] <= x
-	indexOf(x) {
-		let low = 0;
-		let high = this.n;
-		while (high - low > 1) {
-			const middle = (low + high) >> 1;
-			if (BigInt(this.values[middle]) - this.first <= x) low = middle;
-			else high = middle;
-		}
-		return low;
-	}
-
-	// The rank where cell j begins.
-	cell(j) {
-		const at = j << this.g;
-		const x = at < this.extent ? at : this.extent;
-		const i = this.indexOf(x);
-		if (i === this.n - 1) return 256n * BigInt(i);
-		const from = BigInt(this.values[i]) - this.first;
-		const gap = BigInt(this.values[i + 1] - this.values[i]);
-		return 256n * BigInt(i) + (256n * (x - from)) / gap;
-	}
-
-	rank(x) {
-		const d = this.distance(x);
-		const j = (d >> 8n) >> this.g;
-		const rest = d - (j << (this.g + 8n));
-		return this.cell(j) + (((this.cell(j + 1n) - this.cell(j)) * rest) >> (this.g + 8n));
-	}
-
-	// Prediction and scale, in ranks.
-	ranked({ step, fraction }, scale) {
-		const x = BigInt(256 * step + fraction);
-		const reach = BigInt(Math.trunc(16 * scale));
-		const ranks = f(Number(this.rank(x + reach) - this.rank(x - reach)));
-		return { at: { step: 0, fraction: Number(this.rank(x)) }, scale: ranks / 32 };
-	}
-
-	// What was decoded is a rank.
-	valueOf(rank) {
-		return this.values[Math.min(Math.max(rank, 0), this.n - 1)];
-	}
+// [A.6.11] One vertex.
+export function codeWithPalettes(p, { step, fraction }, contexts) {
+	const from = vector((s) => (step[s] + ((fraction[s] + 128) >> 8)) | 0);
+	const q = vector((s) => {
+		const palette = p.palettes[s];
+		if (palette === undefined) return (from[s] + residualOfSlot(p, s, contexts[s], fraction[s])) | 0;
+		const x = 256 * step[s] + fraction[s], reach = Math.trunc(f(16 * contexts[s].scale));
+		const scale = f(f(rank(palette, x + reach) - rank(palette, x - reach)) / 32);
+		const expected = rank(palette, x);
+		const residual = residualOfSlot(p, s, { scale, set: contexts[s].set }, expected);
+		const decoded = (((expected + 128) >> 8) + residual) | 0;
+		return palette.value[clamp(decoded, 0, palette.value.length - 1)];
+	});
+	return { q, magnitude: vector((s) => Math.abs((q[s] - from[s]) | 0)) };
 }

@@ -1,137 +1,121 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// A payload and its stages: A.2.7 of the specification.
+// A payload from its first byte to its last, in the order of decoding [A.2.7].
 
-import { AttributeModels, decodeAttributes } from './attributes.mjs';
-import { copyOf, Glue, gluedHeader } from './blocks.mjs';
-import { fail } from './bytes.mjs';
-import { ConnectivityModels, decodeConnectivity } from './connectivity.mjs';
-import { predictionPositions } from './faces.mjs';
-import { readHeader } from './header.mjs';
-import { checkParts, decodeTriangleOrder, decodeWedgeOrder, OrderModels, trianglesOfParts } from './orders.mjs';
-import { decodePivots, PivotModels } from './pivots.mjs';
-import { decodePositions, PositionModels } from './positions.mjs';
-import { orderOfFirstCorners } from './region.mjs';
-import { decodeSeams, findCreases, SeamModels } from './seams.mjs';
-import { stitch, StitchModels } from './stitch.mjs';
-import { decodeTriangles, TriangleModels } from './triangles.mjs';
+import { allGridModels, attributeModels, decodeAttributes } from './attributes.mjs';
+import { gluePieces } from './blocks.mjs';
+import { elementsOf } from './components.mjs';
+import { connectivityModels, decodeConnectivity } from './connectivity.mjs';
+import { arrayOf, checkEnds, createCoder } from './entropy.mjs';
+import { failUnless } from './errors.mjs';
+import { sequenceWithoutPositions, umbrellasOfPivots } from './order.mjs';
+import { decodeTriangleOrder, decodeWedgeOrder, orderModels, partsOfTable } from './orders.mjs';
+import { decodePivots, pivotModels } from './pivots.mjs';
+import { decodePositions, positionModels } from './positions.mjs';
+import { creasesOf, decodeSeams, seamModels } from './seams.mjs';
+import { seenPositions } from './seenpositions.mjs';
+import { decodeStitching, stitchModels } from './stitch.mjs';
+import { decodeTriangles, triangleModels } from './triangles.mjs';
+import { createWedges } from './wedges.mjs';
 
-// [A.3.6] All models exist once per payload.
-class Models {
-	constructor() {
-		this.connectivity = new ConnectivityModels();
-		this.pivots = new PivotModels();
-		this.stitching = new StitchModels();
-		this.positions = new PositionModels();
-		this.seams = new SeamModels();
-		this.triangles = new TriangleModels();
-		this.orders = new OrderModels();
-		this.attributes = new AttributeModels();
+// [A.3.6] All models of a payload, and what else it has one of.
+const createModels = () => ({
+	connectivity: connectivityModels(), pivots: pivotModels(), stitch: stitchModels(), positions: positionModels(),
+	grids: allGridModels(), seams: seamModels(), triangles: triangleModels(), orders: orderModels(),
+	attributes: attributeModels(),
+});
+
+// The pieces of a payload with this header; one with blocks has one piece. A piece has a list of indices for each part,
+// and the function elements(i), which yields the bytes of attribute i.
+export const decodePayload = (header) => (header.BLOCKS ? [decodeBlocks(header)] : decodePieces(header));
+function decodePieces(header) {
+	const coder = createCoder(header.streams), models = createModels();
+	const decoded = header.pieces.map((piece) => decodePiece(coder, models, piece));
+	checkEnds(coder);
+	return decoded.map(resultOf);
+}
+
+// [A.11.2] All blocks but the first begin with a copy of the models that the first has left.
+function decodeBlocks({ pieces, blocks }) {
+	const learnt = createModels();
+	const decoded = pieces.map((piece, i) => {
+		const coder = createCoder(blocks[i].streams);
+		const block = decodePiece(coder, i === 0 ? learnt : structuredClone(learnt), piece);
+		checkEnds(coder);
+		return block;
+	});
+	return gluePieces(decoded, blocks);
+}
+
+// [A.2.7] The stages of a piece.
+function decodePiece(coder, models, piece) {
+	const surface = piece.PIVOTS
+		? decodePivots(coder, models.pivots, piece) : decodeConnectivity(coder, models.connectivity, piece);
+	const groups = groupsOf(coder, models, piece, surface);
+	const { q, sequence } = positionsOf(coder, models, piece, surface, groups);
+	const crease = creasesOf(piece, surface, piece.CREASES ? seenPositions(piece.attributes[0], q) : []);
+	const { starts, groupOf } = seamsOf(coder, models, piece, surface, groups, sequence, crease);
+	const table = decodeTriangles(coder, models.triangles, piece, surface);
+	const { parts, wedgeOrder } = ordersOf(coder, models.orders, piece, surface, table);
+	let values = [];
+	if (piece.attributes.length !== 0) {
+		const wedges = createWedges(piece, surface, starts, groupOf);
+		const recordOf = (w) => (w < piece.surface_wedges ? groupOf[w] : groups.count + w - piece.surface_wedges);
+		values = decodeAttributes(coder, models, piece, wedges, q, recordOf, crease);
 	}
+	return { piece, surface, table, parts, wedgeOrder, values };
 }
 
-// A payload whose header was read and checked: pieces, the headers of its pieces; decode() decodes them.
-export class Payload {
-	constructor(bytes) {
-		const { header, streams } = readHeader(bytes);
-		this.blocks = header.blocks;
-		this.pieces = header.hasBlocks ? [gluedHeader(header.blocks)] : header.pieces;
-		this.streams = streams;
+// The number of groups, and the umbrellas of each if it may have several.
+function groupsOf(coder, models, piece, surface) {
+	if (piece.COPIES) return decodeStitching(coder, models.stitch, piece, surface);
+	return piece.PIVOTS ? umbrellasOfPivots(surface, piece.vertex_count) : { count: piece.vertex_count };
+}
+
+// Without attributes there are no positions, and without seams nobody needs the sequence then.
+function positionsOf(coder, models, piece, surface, groups) {
+	if (piece.attributes.length !== 0) {
+		return decodePositions(coder, models.positions, models.grids.position, piece, surface, groups);
 	}
+	return { q: [], sequence: piece.SEAMS ? sequenceWithoutPositions(surface, groups.count) : [] };
+}
 
-	// The pieces, each with: parts, lists of triangles, which are three places of wedges; elements, a list for each attribute of
-	// the bytes of the components of each element.
-	decode() {
-		const models = new Models();
-		if (this.blocks !== undefined) return [this.decodeBlocks(models)];
-		const pieces = this.pieces.map((piece) => {
-			const { parts, elements } = decodePiece(this.streams, models, piece);
-			return { parts, elements };
-		});
-		this.streams.finish();
-		return pieces;
+// The start and the group of each wedge. Corners hold wedges afterwards.
+function seamsOf(coder, models, piece, surface, groups, sequence, crease) {
+	if (!piece.SEAMS) {
+		const alike = groups.count === piece.surface_wedges;
+		failUnless(alike, 'BadAttribute', 'A.2.7', 'without seams there are as many wedges as groups');
+		return { starts: sequence, groupOf: arrayOf(groups.count, (g) => g) };
 	}
-
-	// [A.11.2] All blocks but the first begin with the models that the first leaves.
-	decodeBlocks(models) {
-		const glue = new Glue(this.pieces[0]);
-		for (const block of this.blocks) {
-			const decoded = decodePiece(block.streams, block === this.blocks[0] ? models : copyOf(models), block.piece);
-			block.streams.finish();
-			glue.add(block, decoded);
-		}
-		return { parts: glue.parts, elements: glue.elements };
-	}
-}
-
-// [A.2.7] The stages of a piece; besides parts and elements what blocks need: the surface and the integers of its wedges
-function decodePiece(streams, models, piece) {
-	const groups = surfaceStages(streams, models, piece);
-	const groupCount = groups.umbrellas?.length ?? piece.vertexCount;
-	const positions = positionStage(streams, models, piece, groups, groupCount);
-	const wedges = piece.flags.SEAMS
-		? seamStage(streams, models, piece, groups, positions)
-		: groupsAsWedges(piece, groups.surface, positions.sequence, groupCount);
-	const triangles = decodeTriangles(streams, models.triangles, piece, wedges.surface);
-	const { parts, order } = orderStage(streams, models.orders, piece, wedges.surface, triangles);
-	const { elements, integersOf } = decodeAttributes(streams, models.attributes, { piece, groupCount, wedges, positions });
-	return {
-		parts: placed(parts, order),
-		elements: elements.map((list) => reordered(list, order)),
-		surface: wedges.surface,
-		integersOf,
-	};
-}
-
-// [A.4], [A.5]: the surface with groups at its corners; with pivots all half-edges that leave each, with copies the umbrellas.
-function surfaceStages(streams, models, piece) {
-	if (piece.flags.PIVOTS) return decodePivots(streams, models.pivots, piece);
-	const surface = decodeConnectivity(streams, models.connectivity, piece);
-	return piece.flags.COPIES ? stitch(streams, models.stitching, piece, surface) : { surface };
-}
-
-// [A.6]
-function positionStage(streams, models, piece, groups, groupCount) {
-	const { surface } = groups;
-	if (piece.attributes.length === 0) return { sequence: orderOfFirstCorners(surface, groupCount) };
-	const result = decodePositions(streams, models.positions, piece, groups, groupCount);
-	return { ...result, seen: predictionPositions(piece.attributes[0], result.positions) };
-}
-
-// [A.7]
-function seamStage(streams, models, piece, { surface, umbrellas, corners }, { sequence, seen }) {
-	const crease = piece.flags.CREASES ? findCreases(surface, seen) : new Uint8Array(surface.halfEdgeCount);
-	const result = decodeSeams(streams, models.seams, piece, surface, umbrellas ?? corners, sequence, crease);
-	return { ...result, crease };
-}
-
-// [A.2.7] Without seams wedge g is group g.
-function groupsAsWedges(piece, surface, sequence, groupCount) {
-	if (groupCount !== piece.wedgeCount - piece.isolatedCount) fail('BadAttribute', 'A.2.7', 'groups and wedges differ in number');
-	const starts = new Int32Array(groupCount);
-	for (const h of sequence) starts[surface.tail(h)] = h;
-	return { surface, starts, groupOf: Int32Array.from({ length: groupCount }, (_, g) => g) };
+	const { wedgeOf, starts, groupOf } = decodeSeams(coder, models.seams, piece, surface, groups, sequence, crease);
+	surface.tail = wedgeOf;
+	return { starts, groupOf };
 }
 
 // [A.9]
-function orderStage(streams, models, piece, surface, triangles) {
-	const { TRIANGLE_ORDER, VERTEX_ORDER } = piece.flags;
-	const parts = trianglesOfParts(piece, triangles);
-	checkParts(piece, parts);
-	const ordered = TRIANGLE_ORDER ? decodeTriangleOrder(streams, models, piece, surface, triangles) : undefined;
-	const order = VERTEX_ORDER ? decodeWedgeOrder(streams, models, piece, triangles, ordered) : undefined;
-	return { parts: ordered ?? parts, order };
+function ordersOf(coder, models, piece, surface, table) {
+	let parts = partsOfTable(piece, table);
+	if (piece.TRIANGLE_ORDER) parts = decodeTriangleOrder(coder, models.triangles, piece, surface, parts);
+	const wedgeOrder = piece.VERTEX_ORDER
+		? decodeWedgeOrder(coder, models.wedges, piece, table, parts) : arrayOf(piece.wedge_count, (w) => w);
+	return { parts, wedgeOrder };
 }
 
-// [A.9.4] Triangles with the places of their wedges
-function placed(parts, order) {
-	if (order === undefined) return parts;
-	const place = new Uint32Array(order.length);
-	order.forEach((w, i) => { place[w] = i; });
-	return parts.map((triangles) => triangles.map((wedges) => wedges.map((w) => place[w])));
+// [A.9.4] What a loader gets.
+function resultOf({ piece, table, parts, wedgeOrder, values }) {
+	const placeOf = new Uint32Array(piece.wedge_count);
+	wedgeOrder.forEach((w, i) => { placeOf[w] = i; });
+	return {
+		indices: (part) => indicesOf(table, parts[part]).map((w) => placeOf[w]),
+		elements: (i) => elementsOf(piece, piece.attributes[i], values, wedgeOrder),
+	};
 }
 
-// [A.9.4] Elements, an array of bytes for each wedge, in their order
-function reordered(elements, order) {
-	return order === undefined ? elements : order.map((w) => elements[w]);
+// The wedges of the triangles of a part.
+export function indicesOf(table, triangles) {
+	const indices = new Uint32Array(3 * triangles.length);
+	triangles.forEach(({ triangle, corner }, i) => {
+		for (let k = 0; k < 3; ++k) indices[3 * i + k] = table.wedges[3 * triangle + ((corner + k) % 3)];
+	});
+	return indices;
 }

@@ -1,190 +1,156 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Faces vertex by vertex: A.4.7 of the specification.
+// Faces vertex by vertex, of a surface that is not cut [A.4.7].
 
-import { fail } from './bytes.mjs';
-import { golombs, models } from './entropy.mjs';
-import { NONE, Surface } from './mesh.mjs';
+import { arrayOf, binaryModel, bit, golomb, golombModel } from './entropy.mjs';
+import { fail } from './errors.mjs';
+import { createSurface } from './surface.mjs';
 
-export class PivotModels {
-	constructor() {
-		this.MORE = models([16, 3, 3]);
-		this.IS_SPOKE = models([16, 3, 3]);
-		this.IS_THIS = models([16, 3, 3, 2]);
-		this.TURNED = models([3, 3, 2]);
-		this.IS_NEAR = models([16]);
-		this.IS_NEW = models([]);
-		this.ANOTHER_FAN = models([]);
-		this.SKIPPED = golombs([]);
-		this.FAR = golombs([]);
+const grid = (...sizes) => (sizes.length === 0 ? binaryModel() : arrayOf(sizes[0], () => grid(...sizes.slice(1))));
+export const pivotModels = () => ({
+	MORE: grid(16, 3, 3), IS_SPOKE: grid(16, 3, 3), IS_THIS: grid(16, 3, 3, 2), TURNED: grid(3, 3, 2),
+	IS_NEAR: arrayOf(16), IS_NEW: binaryModel(), ANOTHER_FAN: binaryModel(), SKIPPED: golombModel(), FAR: golombModel(),
+});
+
+const malformed = (message) => fail('BadConnectivity', 'A.4.7', message);
+
+// [A.4.7] pivots(). `middle[w]` has the latest face last, so it is walked backwards.
+export function decodePivots(coder, models, piece) {
+	const s = {
+		coder, models, piece, surface: createSurface(piece.face_count), middle: arrayOf(piece.vertex_count, () => []),
+		known: 0, faces: 0,
+	};
+	for (let p = 0; p < piece.vertex_count; ++p) pivot(s, p);
+	if (s.faces !== piece.face_count) malformed('there are fewer faces than the header says');
+	return s.surface;
+}
+
+function pivot(s, p) {
+	const begins = p === s.known;
+	if (begins) ++s.known;
+	s.p = p;
+	s.spokes = [];
+	s.spokeTo = new Map();
+	// The number of spokes of each balance.
+	s.balances = [0, 0, 0];
+	joinEarlierFaces(s, p);
+	let row = 0, forced = 0;
+	for (;;) {
+		for (; row < s.spokes.length; ++row) {
+			facesOf(s, row, forced);
+			forced = 0;
+		}
+		if (s.faces === s.piece.face_count) break;
+		forced = begins && row === 0 ? 1 : bit(s.coder, s.models.ANOTHER_FAN);
+		if (forced === 0) break;
+		meet(s);
+	}
+	if (begins && row === 0) malformed('a vertex has no face');
+}
+
+// The faces of which the pivot is the second vertex.
+function joinEarlierFaces(s, p) {
+	const { tail } = s.surface;
+	const faces = s.middle[p];
+	for (let i = faces.length - 1; i >= 0; --i) {
+		const f = faces[i], leaves = tail[3 * f + 1] === p;
+		const w = leaves ? tail[3 * f + 2] : tail[3 * f + 1];
+		const spoke = s.spokeTo.has(w) ? s.spokes[s.spokeTo.get(w)] : s.spokes[newSpoke(s, w)];
+		join(s, spoke, 3 * f + 1, leaves);
 	}
 }
 
-class Spoke {
-	constructor(vertex) {
-		this.vertex = vertex;
-		this.faces = 0;
-		this.leaving = []; // half-edges from the pivot that are open
-		this.arriving = []; // half-edges to it
-	}
+// The number of a new spoke, which is its place.
+function newSpoke(s, vertex) {
+	const place = s.spokes.length;
+	s.spokes.push({ vertex, faces: 0, leaving: [], arriving: [] });
+	s.spokeTo.set(vertex, place);
+	++s.balances[0];
+	return place;
+}
 
-	get faceClass() {
-		return Math.min(this.faces, 15);
-	}
+function balance(spoke) {
+	if (spoke.arriving.length !== 0) return 2;
+	return spoke.leaving.length !== 0 ? 1 : 0;
+}
+const classOf = (spoke) => Math.min(spoke.faces, 15);
 
-	get balance() {
-		if (this.leaving.length !== 0) return 1;
-		return this.arriving.length !== 0 ? 2 : 0;
+// The new faces with the spoke `row` and a later one.
+function facesOf(s, row, forced) {
+	const { coder, models } = s;
+	const a = s.spokes[row];
+	let place = row + 1;
+	for (let count = 0; s.faces < s.piece.face_count; ++count) {
+		const own = balance(a);
+		if (forced === 0 || count !== 0) if (!bit(coder, models.MORE[classOf(a)][own][Math.min(count, 2)])) return;
+		const last = place;
+		place = other(s, row, last);
+		const b = s.spokes[place], again = count !== 0 && place === last ? 1 : 0;
+		if (bit(coder, models.TURNED[own][balance(b)][again])) addFace(s, b, a);
+		else addFace(s, a, b);
 	}
 }
 
-class Pivots {
-	constructor(streams, modelSet, piece) {
-		this.streams = streams;
-		this.models = modelSet;
-		this.piece = piece;
-		this.tails = new Int32Array(3 * piece.faceCount);
-		this.twins = new Int32Array(3 * piece.faceCount).fill(NONE);
-		this.faces = 0;
-		this.known = 0; // vertices
-		this.middle = Array.from({ length: piece.vertexCount }, () => []); // faces, the latest first
+// The place of the other spoke of a face.
+function other(s, row, from) {
+	const { coder, models, spokes } = s;
+	const a = spokes[row], own = balance(a), fitting = own === 0 ? 2 : Math.min(2, s.balances[3 - own]);
+	if (from === spokes.length || !bit(coder, models.IS_SPOKE[classOf(a)][own][fitting])) return near(s, a.vertex);
+	for (let place = from; ; ++place) {
+		if (place === spokes.length - 1) return place;
+		if (place - from === 32) return place + skip(s, place);
+		const again = place === from && from !== row + 1 ? 1 : 0;
+		if (bit(coder, models.IS_THIS[classOf(spokes[place])][own][balance(spokes[place])][again])) return place;
 	}
+}
 
-	bit(model) {
-		return this.streams.bit(model);
+function skip(s, place) {
+	const skipped = golomb(s.coder, s.models.SKIPPED);
+	if (skipped >= s.spokes.length - place) malformed('a spoke does not exist');
+	return skipped;
+}
+
+function near(s, w) {
+	const { tail } = s.surface;
+	const faces = s.middle[w];
+	let asked = 0;
+	for (let i = faces.length - 1; i >= Math.max(0, faces.length - 16); --i) {
+		const v = Math.max(...tail.subarray(3 * faces[i], 3 * faces[i] + 3));
+		if (s.spokeTo.has(v)) continue;
+		if (bit(s.coder, s.models.IS_NEAR[asked])) return newSpoke(s, v);
+		++asked;
 	}
+	return meet(s);
+}
 
-	allFaces() {
-		return this.faces === this.piece.faceCount;
-	}
+function meet(s) {
+	const old = s.known - s.p - 1;
+	if (s.known < s.piece.vertex_count && (old === 0 || bit(s.coder, s.models.IS_NEW))) return newSpoke(s, s.known++);
+	const distance = golomb(s.coder, s.models.FAR);
+	if (distance >= old) malformed('a vertex does not exist');
+	const v = s.known - 1 - distance;
+	if (s.spokeTo.has(v)) malformed('there is a spoke to this vertex');
+	return newSpoke(s, v);
+}
 
-	decode() {
-		for (let p = 0; p < this.piece.vertexCount; ++p) this.pivot(p);
-		if (!this.allFaces()) fail('BadConnectivity', 'A.4.7', 'too few faces');
-		const corners = Array.from({ length: this.piece.vertexCount }, () => []);
-		this.tails.forEach((v, h) => corners[v].push(h));
-		return { surface: new Surface(this.tails, this.twins), corners };
-	}
+function addFace(s, a, b) {
+	const f = s.faces++;
+	s.surface.tail.set([s.p, a.vertex, b.vertex], 3 * f);
+	s.middle[Math.min(a.vertex, b.vertex)].push(f);
+	join(s, a, 3 * f, true);
+	join(s, b, 3 * f + 2, false);
+}
 
-	pivot(p) {
-		const begins = p === this.known;
-		if (begins) ++this.known;
-		this.spokes = [];
-		this.spokeOf = new Map();
-		for (const f of this.middle[p]) this.meetFace(p, f);
-		let row = 0;
-		let forced = false;
-		for (;;) {
-			for (; row < this.spokes.length; ++row) {
-				this.row(p, row, forced);
-				forced = false;
-			}
-			if (this.allFaces()) break;
-			forced = (begins && row === 0) || this.bit(this.models.ANOTHER_FAN) === 1;
-			if (!forced) break;
-			this.meet(p);
-		}
-		if (begins && row === 0) fail('BadConnectivity', 'A.4.7', 'a vertex without a face');
-	}
-
-	// A face of an earlier pivot of which p is the second vertex by number
-	meetFace(p, f) {
-		const leaves = this.tails[3 * f + 1] === p;
-		const w = this.tails[3 * f + (leaves ? 2 : 1)];
-		if (!this.spokeOf.has(w)) this.addSpoke(w);
-		this.join(this.spokes[this.spokeOf.get(w)], 3 * f + 1, leaves);
-	}
-
-	addSpoke(vertex) {
-		this.spokeOf.set(vertex, this.spokes.length);
-		this.spokes.push(new Spoke(vertex));
-		return this.spokes.length - 1;
-	}
-
-	row(p, row, forced) {
-		const { models: m } = this;
-		const first = this.spokes[row];
-		let place = row + 1;
-		for (let count = 0; !this.allFaces(); ++count) {
-			const asks = !forced || count !== 0;
-			const { balance } = first;
-			if (asks && !this.bit(m.MORE[first.faceClass][balance][Math.min(count, 2)])) return;
-			const last = place;
-			place = this.other(p, row, last);
-			const second = this.spokes[place];
-			const again = count !== 0 && place === last ? 1 : 0;
-			const turned = this.bit(m.TURNED[balance][second.balance][again]);
-			this.addFace(p, turned ? second : first, turned ? first : second);
-		}
-	}
-
-	other(p, row, from) {
-		const { models: m, spokes } = this;
-		const first = spokes[row];
-		const { balance } = first;
-		const fitting = balance === 0 ? 2 : Math.min(spokes.filter((s) => s.balance === 3 - balance).length, 2);
-		const none = from === spokes.length || !this.bit(m.IS_SPOKE[first.faceClass][balance][fitting]);
-		if (none) return this.near(p, first.vertex);
-		let place = from;
-		for (; place + 1 < spokes.length; ++place) {
-			if (place - from === 32) return this.skip(place);
-			const s = spokes[place];
-			const again = place === from && from !== row + 1 ? 1 : 0;
-			if (this.bit(m.IS_THIS[s.faceClass][balance][s.balance][again])) break;
-		}
-		return place;
-	}
-
-	skip(place) {
-		const skipped = this.streams.golomb(this.models.SKIPPED);
-		if (skipped >= this.spokes.length - place) fail('BadConnectivity', 'A.4.7', 'a vertex that the face cannot have');
-		return place + skipped;
-	}
-
-	near(p, w) {
-		let asked = 0;
-		for (const f of this.middle[w].slice(0, 16)) {
-			const v = this.tails[3 * f + (this.tails[3 * f + 1] === w ? 2 : 1)];
-			if (this.spokeOf.has(v)) continue;
-			if (this.bit(this.models.IS_NEAR[asked++])) return this.addSpoke(v);
-		}
-		return this.meet(p);
-	}
-
-	meet(p) {
-		const old = this.known - p - 1;
-		const mayBeNew = this.known !== this.piece.vertexCount;
-		if (mayBeNew && (old === 0 || this.bit(this.models.IS_NEW))) return this.addSpoke(this.known++);
-		const distance = this.streams.golomb(this.models.FAR);
-		const vertex = this.known - 1 - distance;
-		if (distance >= old || this.spokeOf.has(vertex)) fail('BadConnectivity', 'A.4.7', 'a vertex that the face cannot have');
-		return this.addSpoke(vertex);
-	}
-
-	addFace(p, a, b) {
-		const h = 3 * this.faces;
-		this.tails.set([p, a.vertex, b.vertex], h);
-		this.middle[Math.min(a.vertex, b.vertex)].unshift(this.faces);
-		++this.faces;
-		this.join(a, h, true);
-		this.join(b, h + 2, false);
-	}
-
-	// With the latest open half-edge of the other direction
-	join(spoke, h, leaves) {
-		++spoke.faces;
-		const others = leaves ? spoke.arriving : spoke.leaving;
-		if (others.length === 0) {
-			(leaves ? spoke.leaving : spoke.arriving).push(h);
-			return;
-		}
+function join(s, spoke, h, leaves) {
+	const { twin } = s.surface;
+	--s.balances[balance(spoke)];
+	++spoke.faces;
+	const others = leaves ? spoke.arriving : spoke.leaving;
+	if (others.length === 0) {
+		(leaves ? spoke.leaving : spoke.arriving).push(h);
+	} else {
 		const t = others.pop();
-		this.twins[h] = t;
-		this.twins[t] = h;
+		[twin[h], twin[t]] = [t, h];
 	}
-}
-
-// The surface of a piece with pivots, with vertices at its corners, which are groups; all half-edges that leave each group.
-export function decodePivots(streams, modelSet, piece) {
-	return new Pivots(streams, modelSet, piece).decode();
+	++s.balances[balance(spoke)];
 }

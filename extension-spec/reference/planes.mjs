@@ -1,181 +1,119 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Positions on and between planes: A.6.12 of the specification. All floats are binary32.
+// Coordinates as numbers of planes [A.6.12].
 
-import { fail } from './bytes.mjs';
-import { POSITIONS, rows } from './entropy.mjs';
-import { axesByNormal, movement } from './prediction.mjs';
-import { readByFraction, readFoldedResidual } from './residuals.mjs';
-import { dot32, f, min, sqrt32 } from './vectors.mjs';
+import { POSITIONS, arrayOf, raw, rowModel, token } from './entropy.mjs';
+import { failUnless } from './errors.mjs';
+import { f, min, move } from './floats.mjs';
+import { fractionClass, offOf, readFolded, readResidual } from './positionresiduals.mjs';
+import { sortAxes, vector } from './prediction.mjs';
 
-const xyz = [0, 1, 2];
-const TINY = f(1e-30);
+const SEED_CONTEXT = 512;
+export const planeModels = () => ({ KIND: arrayOf(513, () => rowModel()), REST: arrayOf(4, () => rowModel()) });
 
-// The kinds: axes between planes; of those that lie on a diagonal, the axes on which it counts downwards.
-const KINDS = [
-	...[1, 2, 3, 4, 5, 6, 7].map((axes) => ({ axes })),
-	{ axes: 3, down: 0 }, { axes: 3, down: 2 }, { axes: 5, down: 0 }, { axes: 5, down: 4 }, { axes: 6, down: 0 }, { axes: 6, down: 4 },
-	{ axes: 7, down: 0 }, { axes: 7, down: 2 }, { axes: 7, down: 4 },
-];
-
-export class PlanesModels {
-	constructor() {
-		this.KIND = rows([513]);
-		this.REST = rows([4]);
-	}
+// [A.6.12] The planes of each axis. Step and origin have 49 bits; BigInts serve products that have more than 53.
+export function readPlanes(coder) {
+	return vector(() => {
+		const step = raw(coder, 24) + raw(coder, 25) * 2 ** 24;
+		const origin = raw(coder, 24) + raw(coder, 25) * 2 ** 24;
+		failUnless(step >= 2 ** 34 && origin < step, 'BadAttribute', 'A.6.12', 'the planes of an axis are not valid');
+		const D = f(f(step) / 2 ** 32);
+		return { step: BigInt(step), origin: BigInt(origin), O: f(f(origin) / 2 ** 24), D, I: f(1 / D) };
+	});
 }
 
-// One axis: its planes in units of 2^-32 of a lattice step, and as floats O (Q8), D and I.
-class Axis {
-	constructor(streams) {
-		this.step = readNumberOf49Bits(streams);
-		this.origin = readNumberOf49Bits(streams);
-		if (this.step < 1n << 34n || this.origin >= this.step) fail('BadAttribute', 'A.6.12', 'step or origin of planes');
-		this.O = f(f(Number(this.origin)) / 2 ** 24);
-		this.D = f(f(Number(this.step)) / 2 ** 32);
-		this.I = f(1 / this.D);
-	}
+// The i32 that is the place of plane p.
+const plane = ({ step, origin }, p) => Number(BigInt.asIntN(32, BigInt.asIntN(64, origin + BigInt(p) * step) >> 24n));
+const AXES_BY_KIND = [1, 2, 3, 4, 5, 6, 7, 3, 3, 5, 5, 6, 6, 7, 7, 7];
+const FIRST_DIAGONAL = 7;
+// By kind from 7 on, the axis on which the diagonal counts downwards, or -1.
+const DOWNWARDS = [-1, 1, -1, 2, -1, 2, -1, 1, 2];
 
-	q8(p) {
-		const position = BigInt.asIntN(64, this.origin + BigInt(p) * this.step);
-		return Number(BigInt.asIntN(32, position >> 24n));
-	}
+// [A.6.12] What a token says; slope is 0 for axes that do not follow the first one.
+function kindOf(planes, t) {
+	const axes = AXES_BY_KIND[t];
+	const members = [0, 1, 2].filter((s) => (axes >> s) & 1);
+	const first = members[0];
+	if (t < FIRST_DIAGONAL) return { axes, first, moving: members, slope: [0, 0, 0] };
+	const slope = vector((s) => {
+		if (s === first || !members.includes(s)) return 0;
+		const size = f(planes[s].D * planes[first].I);
+		return s === DOWNWARDS[t - FIRST_DIAGONAL] ? -size : size;
+	});
+	return { axes, first, moving: [first], slope };
 }
 
-function readNumberOf49Bits(streams) {
-	const low = BigInt(streams.raw(24));
-	return low + (BigInt(streams.raw(25)) << 24n);
+function contextOf(p, fan) {
+	if (fan === undefined) return SEED_CONTEXT;
+	const N = fan.count;
+	const axesOf = (i) => p.magnitude[fan.n[i]][1] & 7;
+	return 64 * axesOf(0) + 8 * axesOf(N >> 1) + axesOf(N - 1);
 }
 
-export class Planes {
-	constructor(streams, models, positionRows, records) {
-		this.streams = streams;
-		this.models = models;
-		this.rows = positionRows;
-		this.records = records;
-		this.axes = xyz.map(() => new Axis(streams));
-		this.kinds = KINDS.map((kind) => this.complete(kind));
-	}
-
-	// Slopes of diagonals, and the axes that move: those whose coordinates are coded
-	complete({ axes, down }) {
-		const between = xyz.filter((s) => (axes >> s) & 1);
-		const first = between[0];
-		const slope = xyz.map((s) => {
-			if (down === undefined || s === first || !between.includes(s)) return 0;
-			const steep = f(this.axes[s].D * this.axes[first].I);
-			return (down >> s) & 1 ? -steep : steep;
-		});
-		return { axes, slope, first, moving: down === undefined ? between : [first] };
-	}
-
-	codeFan(fan, predicted, normal) {
-		const { neighbours } = fan;
-		const N = neighbours.length;
-		const [A, B, C] = [0, N >> 1, N - 1].map((i) => this.records.magnitude[3 * neighbours[i] + 1] & 7);
-		this.code(fan.v, 64 * A + 8 * B + C, { ...predicted, normal });
-	}
-
-	codeSeed(v, at) {
-		this.code(v, 512, { at, normal: [0, 0, 0], spread: [0, 0, 0], magnitudes: [0, 0, 0] });
-	}
-
-	code(v, context, fanState) {
-		const kind = this.kinds[this.streams.token(0, this.models.KIND[context], POSITIONS)];
-		const vertex = new Vertex(this, kind, fanState);
-		vertex.read();
-		this.records.q.set(vertex.q, 3 * v);
-		this.records.magnitude.set(vertex.magnitudes(), 3 * v);
-	}
+// [A.6.12] One vertex; a seed has no fan.
+export function codeWithPlanes(p, fan, prediction, normal) {
+	const kind = kindOf(p.planes, token(p.coder, 0, p.models.planes.KIND[contextOf(p, fan)], POSITIONS));
+	const q8 = vector((s) => (256 * prediction.step[s] + prediction.fraction[s]) | 0);
+	const g = geometryOf(p.planes, kind, q8, normal), v = readNumbers(p, kind, prediction, g);
+	const base = vector((s) => plane(p.planes[s], v[s]));
+	const { q, distance } = coordinatesOf(kind, g, v, base);
+	readRests(p, kind, q, base);
+	const across = f(Math.abs(distance) * f(1 / f(f(16 * g.size) + 1e-30)));
+	const along = vector((s) => Math.abs(((q[s] << 8) - q8[s]) | 0) >>> 5);
+	const sum = along[0] + along[1] + along[2];
+	return { q, magnitude: [Math.trunc(min(across, 2 ** 22)), kind.axes, Math.min(sum, 2 ** 22)] };
 }
 
-// The state of one vertex, and its code.
-class Vertex {
-	constructor(planes, kind, { at, normal, spread, magnitudes }) {
-		Object.assign(this, { planes, kind, streams: planes.streams });
-		this.q8 = at.map(({ step, fraction }) => ((step << 8) + fraction) | 0);
-		this.spread = spread;
-		this.normal = normal.map((x) => x / 2 ** 32);
-		const squared = dot32(this.normal, this.normal);
-		this.size = sqrt32(squared);
-		const [m0, , m2] = magnitudes;
-		this.reachAcross = f(f(m0 * 0.25) + 16);
-		this.reachAlong = f(f(m2 * 0.25) + 16);
-		this.q = new Int32Array(3);
-		this.alignToDiagonal();
-		this.order = axesByNormal(this.normal).filter((s) => kind.moving.includes(s));
-		this.slopes = this.slopesOfOrder(f(squared / 64 + TINY));
+// The normal n, where the line begins (at), the moving axes in order (m), and the share k of each in the way to the
+// tangent plane. The constant 1e-30 is an f32.
+function geometryOf(planes, { first, moving, slope }, q8, normal) {
+	const n = normal.map((x) => f(x * 2 ** -32));
+	const squared = f(f(f(n[0] * n[0]) + f(n[1] * n[1])) + f(n[2] * n[2]));
+	const size = f(Math.sqrt(squared)), fromOrigin = f(f(q8[first]) - planes[first].O);
+	const at = vector((s) => f(f(q8[s]) - f(slope[s] * fromOrigin)));
+	n[first] = f(n[first] + f(f(f(slope[0] * n[0]) + f(slope[1] * n[1])) + f(slope[2] * n[2])));
+	const m = sortAxes(moving, n), k = [0, 0, 0];
+	let left = f(f(squared * (1 / 64)) + f(1e-30));
+	for (const s of m.slice().reverse()) {
+		left = f(left + f(n[s] * n[s]));
+		k[s] = f(n[s] / left);
 	}
+	return { n, size, at, m, k };
+}
 
-	alignToDiagonal() {
-		const { slope, first } = this.kind;
-		const q8 = this.q8.map(f);
-		const off = f(q8[first] - this.planes.axes[first].O);
-		this.at = xyz.map((s) => f(q8[s] - f(slope[s] * off)));
-		this.normal[first] = f(this.normal[first] + dot32(slope, this.normal));
+// The numbers v: planes, or coordinates of moving axes.
+function readNumbers(p, { moving }, { magnitudes, spread }, { size, at, m, k }) {
+	const reachAcross = f(f(magnitudes[0] * 0.25) + 16), reachAlong = f(f(magnitudes[2] * 0.25) + 16);
+	return vector((s) => {
+		const { O, I } = p.planes[s];
+		const moves = moving.includes(s);
+		let scale = f(f(f(spread[s] * 8) + f(reachAlong * 0.5)) * I);
+		if (moves) scale = f(f(spread[s] * 2) + reachAlong);
+		if (s === m[m.length - 1]) scale = f(f(reachAcross * Math.abs(k[s])) * size);
+		const r = (128 + move(moves ? at[s] : f(f(at[s] - O) * I))) | 0;
+		return ((r >> 8) + readResidual(p, s, moves ? 0 : 1, scale, offOf(r), true)) | 0;
+	});
+}
+
+// The coordinates, and how far the vertex is from the tangent plane.
+function coordinatesOf({ moving }, { n, at, m, k }, v, base) {
+	const off = vector((s) => (moving.includes(s) ? 0 : f((base[s] - move(at[s])) | 0)));
+	let distance = f(f(f(off[0] * n[0]) + f(off[1] * n[1])) + f(off[2] * n[2]));
+	const q = base.map((x) => ((x + 128) | 0) >> 8);
+	for (const s of m) {
+		q[s] = (v[s] + ((move(f(-k[s] * distance)) + 128) >> 8)) | 0;
+		distance = f(distance + f(n[s] * f(((q[s] << 8) - move(at[s])) | 0)));
 	}
+	return { q, distance };
+}
 
-	// By how much each coordinate moves for each step away from the tangent plane.
-	slopesOfOrder(doubt) {
-		const slopes = [];
-		let left = doubt;
-		for (const s of [...this.order].reverse()) {
-			left = f(left + f(this.normal[s] * this.normal[s]));
-			slopes.unshift(f(this.normal[s] / left));
-		}
-		return slopes;
-	}
-
-	isMoving(s) {
-		return this.kind.moving.includes(s);
-	}
-
-	// ---- Its code
-
-	read() {
-		const value = xyz.map((s) => this.readValue(s));
-		const base = xyz.map((s) => this.planes.axes[s].q8(value[s]));
-		const off = xyz.map((s) => (this.isMoving(s) ? 0 : f((base[s] - movement(this.at[s])) | 0)));
-		this.distance = dot32(off, this.normal);
-		for (const s of xyz) this.q[s] = (base[s] + 128) >> 8;
-		this.order.forEach((s, i) => this.place(s, value[s], this.slopes[i]));
-		for (const s of xyz) {
-			if (this.kind.slope[s] !== 0) this.q[s] = this.readOnDiagonal(s, base[s]);
-		}
-	}
-
-	readValue(s) {
-		const axis = this.planes.axes[s];
-		const x = this.isMoving(s) ? this.at[s] : f(f(this.at[s] - axis.O) * axis.I);
-		const r = movement(x) + 128;
-		const set = this.isMoving(s) ? 0 : 1;
-		return ((r >> 8) + readFoldedResidual(this.streams, this.planes.rows, s, set, this.width(s, axis), r)) | 0;
-	}
-
-	width(s, axis) {
-		if (s === this.order.at(-1)) return f(f(this.reachAcross * Math.abs(this.slopes.at(-1))) * this.size);
-		if (this.isMoving(s)) return f(f(this.spread[s] * 2) + this.reachAlong);
-		return f(f(f(this.spread[s] * 8) + f(this.reachAlong * 0.5)) * axis.I);
-	}
-
-	// A coordinate, moved as the tangent plane says.
-	place(s, value, slope) {
-		const shift = movement(f(-slope * this.distance));
-		this.q[s] = value + ((shift + 128) >> 8);
-		const off = f(((this.q[s] << 8) - movement(this.at[s])) | 0);
-		this.distance = f(this.distance + f(this.normal[s] * off));
-	}
-
-	readOnDiagonal(s, base) {
-		const { slope, first } = this.kind;
-		const along = f(slope[s] * f(f(this.q[first]) * 256 - this.planes.axes[first].O));
-		const r = (base + movement(along) + 128) | 0;
-		return (r >> 8) + readByFraction(this.streams, s, this.planes.models.REST, r);
-	}
-
-	magnitudes() {
-		const across = Math.trunc(min(f(Math.abs(this.distance) * f(1 / f(16 * this.size + TINY))), 2 ** 22));
-		const moved = xyz.map((s) => Math.abs(((this.q[s] << 8) - this.q8[s]) | 0) >>> 5);
-		return [across, this.kind.axes, Math.min(moved[0] + moved[1] + moved[2], 2 ** 22)];
+// What a diagonal leaves of the coordinates that follow its first axis.
+function readRests(p, { first, slope }, q, base) {
+	const along = f(f(f(q[first]) * 256) - p.planes[first].O);
+	for (let s = 0; s < 3; ++s) {
+		if (slope[s] === 0) continue;
+		const r = (base[s] + move(f(slope[s] * along)) + 128) | 0, fraction = offOf(r);
+		const residual = readFolded(p.coder, s, p.models.planes.REST[fractionClass(fraction)], fraction < 0);
+		q[s] = ((r >> 8) + residual) | 0;
 	}
 }

@@ -1,191 +1,124 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Prediction of positions from a fan: A.6.4, A.6.10 and A.6.5 of the specification, and the weights of A.6.2.
+// Predictions of positions from a fan [A.6.4, A.6.5], and the normal of a fan [A.6.10].
+//
+// Sums of i32 are exact in Numbers, so that it suffices to wrap them (| 0) before they are shifted or become floats.
 
-import { next, NONE, prev } from './mesh.mjs';
-import { add32, clamp, cross32, f } from './vectors.mjs';
+import { SELECT, WEIGHTS_BIT } from './attributeheader.mjs';
+import { add32, clamp, cross32, f, max, min, move } from './floats.mjs';
+import { NONE, across, next, prev } from './surface.mjs';
 
-// [A.6.2] Universal weights of the classes
-const UNIVERSAL_WEIGHTS = [
-	[5],
-	[37],
-	[23],
-	[26],
-	[84],
-	[78],
-	[0, 0, 0, 0, 0],
-	[98, -97, -4, -2, -4],
-	[71, -53, -5, -4, -4],
-	[50, -5, -7, -7, -3],
-	[34, 13, -8, -9, -4],
-	[20, 35, -9, -10, -4],
-	[3, 60, -15, -11, -5],
-	...Array.from({ length: 9 }, () => new Array(8).fill(0)),
-];
+// A vector of what `make` makes of each axis.
+export const vector = (make) => [make(0), make(1), make(2)];
+const float = (i) => f(i | 0);
+const absFloat = (i) => Math.abs(float(i));
+const sumOfVector = (x) => f(f(x[0] + x[1]) + x[2]);
+export const predict = (p, fan) => (fan.plain ? predictPlain(p, fan) : predictOther(p, fan));
 
-export const universalWeights = () => UNIVERSAL_WEIGHTS.map((w) => [...w]);
-export const zeroWeights = () => UNIVERSAL_WEIGHTS.map((w) => w.map(() => 0));
+// [A.6.4] A prediction: step, fraction, spread and third by component, magnitudes by slot.
+function predictPlain(p, fan) {
+	const [n0, n1, n2] = fan.n.map((g) => p.q[g]);
+	const [o0, o1] = fan.o.map((g) => p.q[g]);
+	const between = vector((s) => (n2[s] - o1[s] - (n0[s] - o0[s])) | 0);
+	const sums = vector((k) => fan.n.reduce((sum, g) => sum + p.magnitude[g][k], 0));
+	const prediction = {
+		step: vector((s) => (n0[s] + n1[s] - o0[s] + (between[s] >> 1)) | 0),
+		fraction: vector((s) => 128 * (between[s] & 1)),
+		spread: vector((s) => absFloat(between[s])),
+		third: vector((s) => absFloat(n0[s] + n2[s] + o0[s] + o1[s] - 4 * n1[s])),
+		magnitudes: sums.map(absFloat),
+	};
+	if (p.predictor & WEIGHTS_BIT) addWeighted(p, fan, prediction.fraction, { n0, n1, n2, o0, o1 });
+	return prediction;
+}
 
-const clampDegrees = (x) => clamp(x, -12, 12);
-const xyz = [0, 1, 2];
-
-// [A.6.3] float(x) of an i32, whose sums wrap
-const float = (x) => f(x | 0);
-const sumOf = (list) => list.reduce((a, b) => a + b, 0);
-const sum32 = (list) => list.reduce((a, b) => f(a + b), 0);
-
-// [A.6.3] A movement in 1/256 of a step
-export const movement = (x) => Math.trunc(clamp(x, -(2 ** 29), 2 ** 29));
-
-// Predictions of one piece. `records` holds what A.6.3 keeps of the groups.
-export class Prediction {
-	constructor(surface, region, records, select, weights) {
-		this.surface = surface;
-		this.region = region;
-		this.records = records;
-		this.select = select;
-		this.weights = weights;
+// [A.6.4] With weights: moves the fraction along differences.
+function addWeighted(p, fan, fraction, { n0, n1, n2, o0, o1 }) {
+	const { xa, xb, ya, yb } = verticesBeyond(p, fan);
+	const [g0, g1, g2] = fan.n.map((g) => p.degree[g]);
+	const g = p.degree[fan.v];
+	const ua = vector((s) => (ya === undefined ? 0 : (ya[s] - n0[s] - o0[s] + n1[s]) | 0));
+	const ub = vector((s) => (yb === undefined ? 0 : (yb[s] - n2[s] - o1[s] + n1[s]) | 0));
+	const degrees = clamp(g0 + g2 - 12, -12, 12), skew = clamp(g0 - g2, -12, 12);
+	let c = 3 + clamp(g, 3, 9), better = 0;
+	if ((p.predictor & SELECT) && xa !== undefined && xb !== undefined && g1 >= 6 && g === 6) {
+		const e1 = sumOfVector(vector((s) => absFloat(n1[s] + o0[s] - xa[s] - n0[s])));
+		const e0 = sumOfVector(vector((s) => absFloat(n1[s] + o1[s] - xb[s] - n2[s])));
+		const e2 = sumOfVector(vector((s) => f(absFloat(ua[s]) + absFloat(ub[s]))));
+		({ c, better } = selectTip(e0, e1, e2, [ya, yb].filter((y) => y !== undefined).length));
 	}
-
-	// By component the fine point `at`, spread, third and magnitudes of a fan.
-	predict(fan) {
-		return fan.plain ? this.plainFan(fan) : this.otherFan(fan);
-	}
-
-	// The coordinates of vertices on axis s, undefined where there is none.
-	on(s, vertices) {
-		return vertices.map((v) => (v === NONE ? undefined : this.records.q[3 * v + s]));
-	}
-
-	// |float(sum)| of the magnitudes of the neighbours
-	magnitudes(fan) {
-		const { magnitude } = this.records;
-		return xyz.map((k) => Math.abs(float(sumOf(fan.neighbours.map((n) => magnitude[3 * n + k])))));
-	}
-
-	// ---- [A.6.4] Prediction of a plain fan
-
-	plainFan(fan) {
-		const around = this.aroundPlainFan(fan);
-		const degrees = [fan.v, ...fan.neighbours].map((v) => this.records.degree[v]);
-		const w = this.plainWeights(around, degrees);
-		const between = around.map(({ d0, d1 }) => (d1 - d0) | 0);
-		const at = around.map(({ n1, d0, ...rest }, s) => ({
-			step: (d0 + n1 + (between[s] >> 1)) | 0,
-			fraction: 128 * (between[s] & 1) + movement(weightedFeatures({ n1, d0, ...rest }, degrees, w)),
-		}));
-		const spread = between.map((x) => Math.abs(f(x)));
-		const third = around.map(({ n0, n1, n2, o0, o1 }) => Math.abs(float(n0 + n2 + o0 + o1 - 4 * n1)));
-		return { at, spread, third, magnitudes: this.magnitudes(fan) };
-	}
-
-	// The coordinates around the fan and the vertices beyond, by component.
-	aroundPlainFan(fan) {
-		const { surface, region } = this;
-		const b0 = surface.twin(next(fan.halfEdges[0]));
-		const b1 = surface.twin(next(fan.halfEdges[1]));
-		const beyond = [next(b0), prev(b1), prev(b0), next(b1)].map((h) => region.tip(h)); // ya, yb, xa, xb
-		return xyz.map((s) => {
-			const [n0, n1, n2] = this.on(s, fan.neighbours);
-			const [o0, o1] = this.on(s, fan.tips);
-			const [ya, yb, xa, xb] = this.on(s, beyond);
-			const ua = ya === undefined ? 0 : ya - n0 - o0 + n1;
-			const ub = yb === undefined ? 0 : yb - n2 - o1 + n1;
-			return { n0, n1, n2, o0, o1, ya, yb, xa, xb, ua, ub, d0: n0 - o0, d1: n2 - o1 };
-		});
-	}
-
-	// The weights of the class of a plain fan, and better.
-	plainWeights(around, [g, , g1]) {
-		const select = this.select && around[0].xa !== undefined && around[0].xb !== undefined && g1 >= 6 && g === 6;
-		if (select) return this.selectedWeights(around);
-		return { w: this.weights[3 + clamp(g, 3, 9)], better: 0 };
-	}
-
-	selectedWeights(around) {
-		const total = (term) => sum32(around.map(term));
-		const size = (x) => Math.abs(float(x));
-		const e1 = total(({ n0, n1, o0, xa }) => size(n1 + o0 - xa - n0));
-		const e0 = total(({ n1, n2, o1, xb }) => size(n1 + o1 - xb - n2));
-		const [hasYa, hasYb] = [around[0].ya !== undefined, around[0].yb !== undefined];
-		const e2 = total(({ ua, ub }) => f(size(ua) + size(ub))) * (hasYa && hasYb ? 0.5 : 1);
-		const low = Math.min(e0, e1);
-		const high = Math.max(e0, e1);
-		const limit = f(f(3 * low) + 2);
-		const preference = Number(2 * high > limit) + Number(high > limit);
-		const third = hasYa || hasYb ? Number(e2 <= 2 * low) + Number(2 * e2 <= low) : 0;
-		return { w: this.weights[13 + 3 * preference + third], better: Number(e0 < e1) - Number(e0 > e1) };
-	}
-
-	// ---- [A.6.5] Prediction of any other fan
-
-	otherFan(fan) {
-		const ring = ringOfNeighbours(fan);
-		const indices = fan.tips.flatMap((o, i) => (o === NONE ? [] : [i])); // of the tips
-		const T = indices.length;
-		const w = this.weights[classOfOtherFan(T, fan.closed)][0];
-		const N = fan.neighbours.length;
-		const at = [];
-		const spread = [];
-		for (const s of xyz) {
-			const n = this.on(s, ring);
-			const o = this.on(s, fan.tips);
-			const tips = indices.map((i) => (n[i] + n[i + 1] - o[i]) | 0);
-			const step = T === 0 ? n[0] : tips[0];
-			const meanOf = (list) => f(float(sumOf(list.map((x) => x - step))) / list.length);
-			const mean = meanOf(this.on(s, fan.neighbours));
-			const tip = T === 0 ? mean : meanOf(tips);
-			at.push({ step, fraction: movement(f(256 * tip + f(f(mean - tip) * 2 * w))) });
-			spread.push(T >= 2 ? Math.abs(float(tips[1] - tips[0])) : 0);
+	const w = p.w[c];
+	for (let s = 0; s < 3; ++s) {
+		const f1 = n0[s] + n2[s] - 2 * n1[s], f0 = f1 + o0[s] + o1[s] - 2 * n1[s];
+		let x = f(float(f0) * f(w[0] + w[4] * degrees));
+		x = f(x + f(float(f1) * f(w[1])));
+		x = f(x + f(float(2 * (ua[s] + ub[s])) * f(w[2])));
+		x = f(x + f(float(2 * (n0[s] - n2[s])) * f(w[3] * skew)));
+		if (better !== 0) {
+			x = f(x + f(float(n0[s] - n2[s] + o1[s] - o0[s]) * f(better * w[5])));
+			x = f(x + f(float(o0[s] - xa[s] - n0[s] - (o1[s] - xb[s] - n2[s])) * f(better * w[6])));
+			x = f(x + f(float(ua[s] - ub[s]) * f(better * w[7])));
 		}
-		const magnitudes = this.magnitudes(fan).map((m) => f(m * f(3 / N)));
-		return { at, spread, third: [0, 0, 0], magnitudes };
-	}
-
-	// ---- [A.6.10] The normal of a fan
-
-	normal(fan) {
-		const ring = ringOfNeighbours(fan);
-		const coordinates = xyz.map((s) => ({ n: this.on(s, ring), o: this.on(s, fan.tips) }));
-		let normal = [0, 0, 0];
-		fan.tips.forEach((tip, i) => {
-			if (tip === NONE) return;
-			const u = coordinates.map(({ n }) => float(n[i] - n[i + 1]));
-			const w = coordinates.map(({ n, o }) => float(o[i] - n[i + 1]));
-			normal = add32(normal, cross32(u, w));
-		});
-		return normal;
+		fraction[s] = (fraction[s] + move(x)) | 0;
 	}
 }
 
-// By how much the weights move the prediction of a plain fan from the middle of its tips, in 1/256 of a step.
-function weightedFeatures({ n0, n1, n2, o0, o1, xa, xb, ua, ub }, [, g0, , g2], { w, better }) {
-	const f1 = n0 + n2 - 2 * n1;
-	const terms = [
-		[f1 + o0 + o1 - 2 * n1, w[0] + w[4] * clampDegrees(g0 + g2 - 12)],
-		[f1, w[1]],
-		[2 * (ua + ub), w[2]],
-		[2 * (n0 - n2), w[3] * clampDegrees(g0 - g2)],
-	];
-	if (better !== 0) {
-		terms.push([n0 - n2 + o1 - o0, better * w[5]]);
-		terms.push([o0 - xa - n0 - (o1 - xb - n2), better * w[6]]);
-		terms.push([ua - ub, better * w[7]]);
+// [A.6.4] Coordinates of the known vertices beyond o0 and o1; those that are missing are undefined.
+function verticesBeyond(p, fan) {
+	const { twin, tail } = p.surface;
+	const b0 = twin[next(fan.fan[0])], b1 = twin[next(fan.fan[1])];
+	const beyond = (h) => {
+		const x = across(p.surface, h);
+		return x === NONE ? undefined : p.q[tail[x]];
+	};
+	return { ya: beyond(next(b0)), yb: beyond(prev(b1)), xa: beyond(prev(b0)), xb: beyond(next(b1)) };
+}
+
+// [A.6.4] The class of tip selection; `there` is how many of ya and yb are.
+function selectTip(e0, e1, sum, there) {
+	const e2 = there === 2 ? f(sum * 0.5) : sum, low = min(e0, e1), high = max(e0, e1);
+	const limit = f(f(3 * low) + 2);
+	const preference = (f(2 * high) > limit ? 1 : 0) + (high > limit ? 1 : 0);
+	const alike = there === 0 ? 0 : (e2 <= f(2 * low) ? 1 : 0) + (f(2 * e2) <= low ? 1 : 0);
+	return { c: 13 + 3 * preference + alike, better: (e0 < e1 ? 1 : 0) - (e0 > e1 ? 1 : 0) };
+}
+
+// [A.6.5]
+function predictOther(p, fan) {
+	const N = fan.count, neighbours = fan.n.slice(0, N), tips = [];
+	for (let i = 0; i < fan.m; ++i) {
+		if (fan.o[i] === NONE) continue;
+		const [a, b, o] = [p.q[fan.n[i]], p.q[fan.n[i + 1]], p.q[fan.o[i]]];
+		tips.push(vector((s) => (a[s] + b[s] - o[s]) | 0));
 	}
-	return sum32(terms.map(([feature, weight]) => f(float(feature) * weight)));
+	const T = tips.length, step = T === 0 ? p.q[fan.n[0]].slice() : tips[0];
+	const w = p.w[fan.closed ? 4 + (T >= 4 ? 1 : 0) : Math.max(Math.min(T, 4), 1) - 1];
+	const meanOf = (points, s) => f(float(points.reduce((sum, point) => sum + point[s] - step[s], 0)) / points.length);
+	const fraction = vector((s) => {
+		const mean = meanOf(neighbours.map((g) => p.q[g]), s);
+		const mean2 = T === 0 ? mean : meanOf(tips, s);
+		return move(f(f(256 * mean2) + f(f(mean - mean2) * f(2 * w[0]))));
+	});
+	const share = f(3 / N);
+	return {
+		step, fraction, third: [0, 0, 0],
+		spread: vector((s) => (T >= 2 ? absFloat(tips[1][s] - tips[0][s]) : 0)),
+		magnitudes: vector((k) => f(absFloat(neighbours.reduce((sum, g) => sum + p.magnitude[g][k], 0)) * share)),
+	};
 }
 
-// n[0] .. n[m], where n[m] is n[0] if the fan is closed.
-function ringOfNeighbours(fan) {
-	return fan.closed ? [...fan.neighbours, fan.neighbours[0]] : fan.neighbours;
+// [A.6.10] The normal of a fan.
+export function normalOfFan(p, fan) {
+	let normal = [0, 0, 0];
+	for (let i = 0; i < fan.m; ++i) {
+		if (fan.o[i] === NONE) continue;
+		const [a, b, o] = [p.q[fan.n[i]], p.q[fan.n[i + 1]], p.q[fan.o[i]]];
+		const product = cross32(vector((s) => float(a[s] - b[s])), vector((s) => float(o[s] - b[s])));
+		normal = add32(normal, product);
+	}
+	return normal;
 }
 
-function classOfOtherFan(T, closed) {
-	if (closed) return T < 4 ? 4 : 5;
-	return clamp(T, 1, 4) - 1;
-}
-
-// [A.6.10] The axes by |normal|, ascending, lower axes first among equals
-export function axesByNormal(normal) {
-	return [0, 1, 2].sort((a, b) => Math.abs(normal[a]) - Math.abs(normal[b]) || a - b);
-}
+// [A.6.10] The axes by |normal|, ascending, lower axes first among equals.
+export const sortAxes = (axes, normal) =>
+	axes.slice().sort((a, b) => Math.abs(normal[a]) - Math.abs(normal[b]) || a - b);

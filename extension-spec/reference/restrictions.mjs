@@ -1,177 +1,183 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// The restrictions on the JSON: "Exclusions" and "glTF Schema Updates" of the specification. `min` and `max` are not checked.
+// What a loader refuses [README, Restrictions, L1 to L11], from the JSON and the headers of payloads alone.
 
-import { crc32 } from './bytes.mjs';
-import { BYTES, COMPONENTS, DocumentError } from './glb.mjs';
-import { COLOR, COMPONENT_TYPES, CUSTOM, JOINTS, NORMAL, POSITION, TANGENT, TEXCOORD, WEIGHTS } from './names.mjs';
+import { BYTES, COMPONENTS, DocumentError, bytesOfView } from './glb.mjs';
+import { EXTENSION, semanticOf } from './semantics.mjs';
+import { readHeader } from './header.mjs';
+import { gluedWedgeCount } from './blocktable.mjs';
 
-export const EXTENSION = 'KHR_mesh_collapse_compression';
+export { EXTENSION };
 
-const TRIANGLES = 4;
-const INDEX_TYPES = [5121, 5123, 5125];
-const FLOAT = 5126;
+// Limits of this loader on all payloads of a file, and on the bytes that are made for accessors.
+const MOST_ELEMENTS = 2 ** 29, MOST_BYTES = 2 ** 30;
+function refuseUnless(condition, rule, message) {
+	if (!condition) throw new DocumentError(`${rule}: ${message}`);
+}
+const isIndex = (x) => Number.isInteger(x) && x >= 0 && x < 2 ** 32;
+const isObject = (x) => typeof x === 'object' && x !== null && !Array.isArray(x);
 
-function require(condition, message) {
-	if (!condition) throw new DocumentError(`${EXTENSION}: ${message}`);
+// Where each accessor that is filled from a payload gets its elements: accessor -> source. A source has the payload's
+// buffer view, the piece and either the part or the number of the attribute. Also returns the headers, by buffer view.
+export function checkDocument(gltf) {
+	const state = { gltf, headers: new Map(), sources: new Map() };
+	const compressed = primitivesOf(gltf).filter((primitive) => extensionOf(primitive) !== undefined);
+	for (const primitive of compressed) checkPrimitive(state, primitive);
+	checkOtherReferences(state);
+	checkTotals(state);
+	return state;
+}
+export const primitivesOf = ({ json }) => (json.meshes ?? []).flatMap((mesh) => mesh.primitives ?? []);
+export const extensionOf = (primitive) => primitive.extensions?.[EXTENSION];
+function checkPrimitive(state, primitive) {
+	const extension = extensionOf(primitive);
+	checkSchema(extension);
+	refuseUnless((primitive.mode ?? 4) === 4, 'L1', 'the mode is not TRIANGLES');
+	const { KHR_draco_mesh_compression } = primitive.extensions;
+	refuseUnless(KHR_draco_mesh_compression === undefined, 'L2', 'there is a Draco extension, too');
+	const header = headerOf(state, extension.bufferView);
+	const place = { view: extension.bufferView, piece: extension.piece ?? 0 };
+	const counts = countsOf(header, place.piece, extension.part ?? 0);
+	checkIndices(state, primitive, { ...place, part: extension.part ?? 0 }, counts);
+	const groups = attributeGroups(primitive, extension);
+	for (const group of groups) checkAttributes(state, group, place, counts);
 }
 
-const allPrimitives = (json) => (json.meshes ?? []).flatMap((mesh) => mesh.primitives);
-const isCompressed = (primitive) => primitive.extensions?.[EXTENSION] !== undefined;
-
-export const compressedPrimitives = (json) => allPrimitives(json).filter(isCompressed);
-
-// The attributes of a compressed primitive that the payload holds: { name, target, accessor, attribute }, target as in A.2.4
-export function sourcesOf(primitive) {
-	const { attributes, targets } = primitive.extensions[EXTENSION];
-	const entries = (names, accessors, target) => Object.entries(names ?? {})
-		.map(([name, attribute]) => ({ name, target, accessor: accessors?.[name], attribute }));
-	const base = entries(attributes, primitive.attributes, 0);
-	return [...base, ...(targets ?? []).flatMap((names, i) => entries(names, primitive.targets?.[i], i + 1))];
+// The JSON schema of the extension object.
+function checkSchema(extension) {
+	const valid = (condition) => refuseUnless(condition, 'schema', 'the extension object does not fit its schema');
+	valid(isObject(extension) && isIndex(extension.bufferView));
+	valid(isIndex(extension.piece ?? 0) && isIndex(extension.part ?? 0));
+	const { attributes = {}, targets } = extension;
+	valid(targets === undefined || (Array.isArray(targets) && targets.length !== 0));
+	for (const names of [attributes, ...(targets ?? [])]) valid(isObject(names) && Object.values(names).every(isIndex));
 }
 
-const accessorsOf = (primitive) => [primitive.attributes, ...(primitive.targets ?? [])].flatMap((names) => Object.values(names));
+function headerOf({ gltf, headers }, number) {
+	if (headers.has(number)) return headers.get(number);
+	const view = gltf.json.bufferViews?.[number];
+	refuseUnless(isObject(view), 'L3', 'the buffer view does not exist');
+	const length = gltf.json.buffers?.[view.buffer]?.byteLength, begin = view.byteOffset ?? 0;
+	const lies = isIndex(begin) && isIndex(view.byteLength) && begin + view.byteLength <= length;
+	refuseUnless(lies, 'L3', 'the buffer view does not lie within its buffer');
+	const { EXT_meshopt_compression, KHR_meshopt_compression } = view.extensions ?? {};
+	const isCompressed = EXT_meshopt_compression !== undefined || KHR_meshopt_compression !== undefined;
+	refuseUnless(!isCompressed, 'L3', 'the buffer view is compressed');
+	headers.set(number, readHeader(bytesOfView(gltf, number)));
+	return headers.get(number);
+}
 
-// ---- "Attribute names and types"
+// [L4] The numbers of wedges and triangles that a primitive gets, and the headers of the attributes.
+function countsOf(header, number, part) {
+	const pieces = header.BLOCKS ? header.pieces.slice(0, 1) : header.pieces;
+	const exists = number < pieces.length && part < pieces[number].part_count;
+	refuseUnless(exists, 'L4', 'the piece or the part does not exist');
+	const { attributes } = pieces[number];
+	const wedges = header.BLOCKS ? gluedWedgeCount(header) : pieces[number].wedge_count;
+	const partsOf = header.BLOCKS ? header.pieces : [pieces[number]];
+	const triangles = partsOf.reduce((sum, { partTriangles }) => sum + partTriangles[part], 0);
+	refuseUnless(wedges !== 0 && triangles !== 0, 'L4', 'the piece has no wedges or the part no triangles');
+	return { wedges, triangles, attributes };
+}
 
-const NAMES = [
-	{ name: /^POSITION$/, types: ['VEC3'], semantic: POSITION },
-	{ name: /^NORMAL$/, types: ['VEC3'], semantic: NORMAL },
-	{ name: /^TANGENT$/, types: ['VEC3', 'VEC4'], semantic: TANGENT },
-	{ name: /^TEXCOORD_(0|[1-9]\d*)$/, types: ['VEC2'], semantic: TEXCOORD },
-	{ name: /^COLOR_(0|[1-9]\d*)$/, types: ['VEC3', 'VEC4'], semantic: COLOR },
-	{ name: /^JOINTS_(0|[1-9]\d*)$/, types: ['VEC4'], semantic: JOINTS },
-	{ name: /^WEIGHTS_(0|[1-9]\d*)$/, types: ['VEC4'], semantic: WEIGHTS },
-];
+function accessorOf({ gltf }, number, rule) {
+	const accessor = isIndex(number) ? gltf.json.accessors?.[number] : undefined;
+	refuseUnless(isObject(accessor), rule, `accessor ${number} does not exist`);
+	const isKnown = Object.hasOwn(COMPONENTS, accessor.type) && Object.hasOwn(BYTES, accessor.componentType);
+	refuseUnless(isKnown, rule, `accessor ${number} has no valid type`);
+	return accessor;
+}
 
-function semanticOf(name, { type, componentType }) {
-	for (const row of NAMES) {
-		const match = row.name.exec(name);
-		const set = Number(match?.[1] ?? 0);
-		const isFloatJoints = row.semantic === JOINTS && componentType === FLOAT;
-		if (match !== null && row.types.includes(type) && set <= 255 && !isFloatJoints) return { semantic: row.semantic, set };
+// The number of wedges that glTF can number with a type of indices.
+const MOST_WEDGES = { 5121: 255, 5123: 65535, 5125: 2 ** 32 - 1 };
+function checkIndices(state, primitive, source, { wedges, triangles }) {
+	const accessor = accessorOf(state, primitive.indices, 'L5');
+	const { type, componentType, normalized, count } = accessor;
+	const fits = type === 'SCALAR' && MOST_WEDGES[componentType] !== undefined && !normalized;
+	refuseUnless(fits, 'L5', 'indices have another type');
+	refuseUnless(count === 3 * triangles, 'L6', 'the number of indices is not that of the part');
+	refuseUnless(wedges <= MOST_WEDGES[componentType], 'L6', 'the type of the indices is too small');
+	fill(state, primitive.indices, source);
+}
+
+// [L7] The attributes of the primitive and each morph target, with the names that the extension has of them.
+function attributeGroups(primitive, extension) {
+	const targets = primitive.targets ?? [];
+	const isMatch = extension.targets === undefined || extension.targets.length === targets.length;
+	refuseUnless(isMatch, 'L7', 'the morph targets of the extension are not those of the primitive');
+	const groups = [primitive.attributes ?? {}, ...targets].map((accessors, target) => {
+		const numbers = target === 0 ? extension.attributes : extension.targets?.[target - 1];
+		return { accessors, numbers: numbers ?? {}, target };
+	});
+	for (const { accessors, numbers } of groups) {
+		const known = Object.keys(numbers).every((name) => Object.hasOwn(accessors, name));
+		refuseUnless(known, 'L7', 'the extension names an attribute that the primitive does not have');
 	}
-	return { semantic: CUSTOM, set: crc32(new TextEncoder().encode(name)) & 255 };
+	return groups;
 }
 
-// ---- "Restrictions" and "Exclusions"
-
-const isNumber = (x) => Number.isInteger(x) && x >= 0 && x < 2 ** 32;
-
-// What does not need the payload.
-export function checkPrimitive(json, primitive) {
-	const extension = primitive.extensions[EXTENSION];
-	const { bufferView, piece = 0, part = 0, targets } = extension;
-	require([bufferView, piece, part].every(isNumber), 'bufferView, piece or part is no number');
-	require((primitive.mode ?? TRIANGLES) === TRIANGLES, 'mode is not TRIANGLES');
-	require(primitive.extensions.KHR_draco_mesh_compression === undefined, 'the primitive has KHR_draco_mesh_compression');
-	checkView(json.bufferViews?.[bufferView]);
-	checkIndices(json.accessors?.[primitive.indices]);
-	require(targets === undefined || targets.length === primitive.targets?.length, 'the number of morph targets differs');
-	for (const { name, accessor, attribute } of sourcesOf(primitive)) {
-		require(json.accessors[accessor] !== undefined, `${name} is no attribute of the primitive`);
-		require(isNumber(attribute), `${name} is no number`);
+function checkAttributes(state, { accessors, numbers, target }, place, { wedges, attributes }) {
+	for (const [name, index] of Object.entries(accessors)) {
+		const accessor = accessorOf(state, index, 'L9');
+		refuseUnless(accessor.count === wedges, 'L9', `${name} has not as many elements as there are wedges`);
+		if (!Object.hasOwn(numbers, name)) continue;
+		const attribute = attributes[numbers[name]];
+		refuseUnless(attribute !== undefined, 'L8', `${name} names an attribute that does not exist`);
+		refuseUnless(isHeaderOf(attribute, name, accessor, target), 'L8', `${name} contradicts its header`);
+		const isBasePosition = name === 'POSITION' && target === 0;
+		refuseUnless(!isBasePosition || attribute.number === 0, 'L8', 'POSITION is not attribute 0');
+		fill(state, index, { ...place, attribute: attribute.number });
 	}
 }
 
-function checkView(view) {
-	require(view !== undefined, 'the buffer view does not exist');
-	for (const name of ['EXT_meshopt_compression', 'KHR_meshopt_compression']) {
-		require(view.extensions?.[name] === undefined, `the buffer view has ${name}`);
-	}
-}
-
-function checkIndices(accessor) {
-	require(accessor !== undefined, 'there are no indices');
-	require(accessor.type === 'SCALAR' && INDEX_TYPES.includes(accessor.componentType), 'type of the indices');
-	require(!accessor.normalized, 'the indices are normalized');
-}
-
-// piece: its header
-export function checkPiece(json, primitive, piece) {
-	require(piece !== undefined, 'the piece does not exist');
-	const indices = json.accessors[primitive.indices];
-	require(piece.wedgeCount < 2 ** (8 * BYTES[indices.componentType]), 'the indices cannot hold the number of vertices');
-	const triangles = piece.partSizes[primitive.extensions[EXTENSION].part ?? 0];
-	require(triangles !== undefined, 'the part does not exist');
-	require(piece.wedgeCount > 0 && triangles > 0, 'the piece has no wedges, or the part no triangles');
-	require(indices.count === 3 * triangles, 'the indices have another count than the part');
-	for (const { name, target, accessor, attribute } of sourcesOf(primitive)) {
-		checkAttribute(json.accessors[accessor], name, target, piece.attributes[attribute]);
-	}
-	const counts = accessorsOf(primitive).map((accessor) => json.accessors[accessor]?.count);
-	require(counts.every((count) => count === piece.wedgeCount), 'an accessor has another count than the piece');
-}
-
-// header: of the attribute
-function checkAttribute(accessor, name, target, header) {
-	require(header !== undefined, `${name} is no attribute of the piece`);
+const COMPONENT_TYPES = [5120, 5121, 5122, 5123, 5125, 5126];
+function isHeaderOf(attribute, name, accessor, target) {
 	const { semantic, set } = semanticOf(name, accessor);
-	require(COMPONENT_TYPES[header.type] === accessor.componentType, `component type of ${name}`);
-	require(header.components === COMPONENTS[accessor.type], `number of components of ${name}`);
-	require(header.normalized === (accessor.normalized ?? false), `${name} differs in being normalized`);
-	require(header.semantic === semantic && header.set === set, `semantic or set of ${name}`);
-	require(header.target === target, `morph target of ${name}`);
+	return attribute.semantic === semantic && attribute.set === set && attribute.target === target
+		&& COMPONENT_TYPES[attribute.componentType] === accessor.componentType
+		&& attribute.components === COMPONENTS[accessor.type]
+		&& attribute.normalized === (accessor.normalized ?? false);
 }
 
-// "Fallback": all accessors that payloads fill have uncompressed elements, or the extension is required.
-export function checkFallback(json) {
-	const ofPrimitive = (primitive) => [primitive.indices, ...sourcesOf(primitive).map(({ accessor }) => accessor)];
-	const filled = compressedPrimitives(json).flatMap(ofPrimitive).map((number) => json.accessors[number]);
-	const withElements = filled.filter((accessor) => ['bufferView', 'byteOffset', 'sparse'].some((name) => name in accessor));
-	require(withElements.length === 0 || withElements.length === filled.length, 'only some accessors have a fallback');
-	if (filled.length === 0) return;
-	require(json.extensionsUsed?.includes(EXTENSION), 'the extension is not listed as used');
-	const required = json.extensionsRequired?.includes(EXTENSION) ?? false;
-	require(required === (withElements.length === 0), 'the extension is required unless there is a fallback');
+function fill({ sources }, accessor, source) {
+	const before = sources.get(accessor);
+	const isSame = (key) => before[key] === source[key];
+	const same = before === undefined || ['view', 'piece', 'part', 'attribute'].every(isSame);
+	refuseUnless(same, 'L10', `accessor ${accessor} is filled from two places`);
+	sources.set(accessor, source);
 }
 
-// "Exclusions": EXT_mesh_manifold needs the orders that are kept. pieceOf: the header of the piece of a primitive
-export function checkManifolds(json, pieceOf) {
-	for (const mesh of json.meshes ?? []) {
-		if (mesh.extensions?.EXT_mesh_manifold === undefined) continue;
-		for (const primitive of mesh.primitives.filter(isCompressed)) {
-			const { TRIANGLE_ORDER, VERTEX_ORDER } = pieceOf(primitive).flags;
-			require(TRIANGLE_ORDER && VERTEX_ORDER, 'EXT_mesh_manifold without the orders of vertices and triangles');
-		}
+// [L11]
+function checkOtherReferences({ gltf, sources }) {
+	const { animations = [], skins = [], nodes = [] } = gltf.json;
+	const references = primitivesOf(gltf).flatMap(otherReferences);
+	for (const { samplers = [] } of animations) {
+		for (const { input, output } of samplers) references.push(input, output);
 	}
-}
-
-// An accessor is filled from one place, and only what is filled from there refers to it.
-export function checkAccessors(json) {
-	const sources = new Map();
-	const note = (accessor, source) => {
-		require((sources.get(accessor) ?? source) === source, `accessor ${accessor} is filled from two places or used elsewhere`);
-		sources.set(accessor, source);
-	};
-	for (const primitive of compressedPrimitives(json)) {
-		const { bufferView, piece = 0, part = 0 } = primitive.extensions[EXTENSION];
-		const place = `payload ${bufferView}, piece ${piece}`;
-		note(primitive.indices, `${place}, part ${part}`);
-		for (const { accessor, attribute } of sourcesOf(primitive)) note(accessor, `${place}, attribute ${attribute}`);
+	references.push(...skins.map(({ inverseBindMatrices }) => inverseBindMatrices));
+	// Instances are not in the list of L11, but it begins with "anything else".
+	for (const { extensions } of nodes) {
+		references.push(...Object.values(extensions?.EXT_mesh_gpu_instancing?.attributes ?? {}));
 	}
-	for (const accessor of otherReferences(json)) {
-		require(!sources.has(accessor), `accessor ${accessor}, which a payload fills, is used elsewhere`);
+	const filled = references.find((accessor) => sources.has(accessor));
+	refuseUnless(filled === undefined, 'L11', `accessor ${filled} is referred to by something else`);
+}
+
+// What a primitive refers to that no payload fills.
+function otherReferences(primitive) {
+	const extension = extensionOf(primitive);
+	if (extension === undefined) {
+		const groups = [primitive.attributes ?? {}, ...(primitive.targets ?? [])];
+		return [primitive.indices, ...groups.flatMap(Object.values)];
 	}
+	return attributeGroups(primitive, extension).flatMap(({ accessors, numbers }) =>
+		Object.keys(accessors).filter((name) => !Object.hasOwn(numbers, name)).map((name) => accessors[name]));
 }
 
-// The accessors that anything but the attributes and indices in payloads refers to.
-function otherReferences(json) {
-	const others = allPrimitives(json).filter((primitive) => !isCompressed(primitive));
-	const instances = (json.nodes ?? []).map((node) => node.extensions?.EXT_mesh_gpu_instancing?.attributes ?? {});
-	const samplers = (json.animations ?? []).flatMap((animation) => animation.samplers);
-	return [
-		...compressedPrimitives(json).flatMap(ordinaryAttributes),
-		...others.flatMap((primitive) => [primitive.indices, ...accessorsOf(primitive)]),
-		...samplers.flatMap(({ input, output }) => [input, output]),
-		...instances.flatMap((attributes) => Object.values(attributes)),
-		...(json.skins ?? []).map(({ inverseBindMatrices }) => inverseBindMatrices),
-	].filter((accessor) => accessor !== undefined);
-}
-
-function ordinaryAttributes(primitive) {
-	const { attributes = {}, targets = [] } = primitive.extensions[EXTENSION];
-	const unnamed = (accessors, names) => Object.keys(accessors).filter((name) => !(name in names)).map((name) => accessors[name]);
-	const ofTargets = (primitive.targets ?? []).flatMap((accessors, i) => unnamed(accessors, targets[i] ?? {}));
-	return [...unnamed(primitive.attributes, attributes), ...ofTargets];
+function checkTotals({ gltf, headers, sources }) {
+	const elements = [...headers.values()].reduce((sum, header) => sum + header.elements, 0);
+	refuseUnless(elements <= MOST_ELEMENTS, 'limit', 'the payloads of the file have too many elements');
+	const sizes = [...sources.keys()].map((number) => gltf.json.accessors[number])
+		.map(({ count, type, componentType }) => count * COMPONENTS[type] * BYTES[componentType]);
+	refuseUnless(sizes.reduce((sum, size) => sum + size, 0) <= MOST_BYTES, 'limit', 'the accessors are too large');
 }

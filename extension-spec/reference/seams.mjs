@@ -1,174 +1,130 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Seams: A.7 of the specification. The corners of a group become wedges.
+// The wedge of each corner [A.7].
 
-import { fail } from './bytes.mjs';
-import { golombs, models } from './entropy.mjs';
-import { face, NONE } from './mesh.mjs';
-import { cross32, dot32, f, scale32, sqrt32, sub32 } from './vectors.mjs';
+import { arrayOf, bit, golomb, golombModel } from './entropy.mjs';
+import { failUnless } from './errors.mjs';
+import { cross32, dot32, f, scale32, subtract32 } from './floats.mjs';
+import { NONE, face, umbrellaAt } from './surface.mjs';
 
-// [A.7.1]
-export class SeamModels {
-	constructor() {
-		this.HAS_SEAM = models([4, 2, 4]);
-		this.EDGE = models([3, 3, 2, 4]);
-		this.MERGE = models([2, 4]);
-		this.MERGE_WITH = golombs([]);
+export const seamModels = () => ({
+	HAS_SEAM: arrayOf(4, () => arrayOf(2, () => arrayOf(4))),
+	EDGE: arrayOf(3, () => arrayOf(3, () => arrayOf(2, () => arrayOf(4)))),
+	MERGE: arrayOf(2, () => arrayOf(4)), MERGE_WITH: golombModel(),
+});
+
+// [A.7.1] seams(): the wedge of each corner, the start of each wedge, and its group. Corners still hold groups here.
+export function decodeSeams(coder, models, piece, surface, groups, sequence, crease) {
+	const s = {
+		coder, models, surface, crease, limit: piece.surface_wedges,
+		wedgeOf: new Int32Array(surface.tail.length).fill(NONE), end: new Uint8Array(surface.tail.length),
+		starts: [], groupOf: [], firstOfGroup: 0,
+	};
+	for (const entry of sequence) {
+		const g = surface.tail[entry];
+		s.firstOfGroup = s.starts.length;
+		decodeUmbrella(s, g, entry);
+		for (const h of groups.umbrellas?.[g] ?? []) if (s.wedgeOf[h] === NONE) decodeUmbrella(s, g, h);
+	}
+	failUnless(s.wedgeOf.every((w) => w !== NONE), 'BadConnectivity', 'A.7.1', 'an umbrella is not met');
+	failUnless(s.starts.length === s.limit, 'BadAttribute', 'A.7.1', 'there are fewer wedges than the header says');
+	return { wedgeOf: s.wedgeOf, starts: s.starts, groupOf: s.groupOf };
+}
+
+// The half-edges of an umbrella, counterclockwise, and whether it is open (1) or closed (0).
+function fanOf(surface, h) {
+	const { counterclockwise, clockwise, closed } = umbrellaAt(surface, h);
+	return { fan: [...clockwise.reverse(), ...counterclockwise], open: closed ? 0 : 1 };
+}
+
+function decodeUmbrella(s, g, h) {
+	const u = { g, ...fanOf(s.surface, h) };
+	if (u.fan.length < 2 || !hasSeam(s, u)) {
+		const w = wedge(s, g, u.fan[0], NONE, NONE, 1);
+		for (const x of u.fan) s.wedgeOf[x] = w;
+		return;
+	}
+	readSeamEnds(s, u);
+	readRuns(s, u);
+}
+
+function hasSeam(s, { fan, open }) {
+	let farEnds = 0, sharpest = 0;
+	for (const x of fan) {
+		const t = s.surface.twin[x];
+		if (t === NONE) continue;
+		farEnds += s.end[t];
+		sharpest = Math.max(sharpest, s.crease(x));
+	}
+	return bit(s.coder, s.models.HAS_SEAM[Math.min(farEnds, 3)][open][sharpest]);
+}
+
+// [A.7.2] seamEnds()
+function readSeamEnds(s, { fan, open }) {
+	const n = fan.length, edges = open ? n - 1 : n, needed = open ? 1 : 2;
+	let ends = 0;
+	for (let k = 1; k <= edges; ++k) {
+		const x = fan[k % n];
+		if (ends + edges - k + 1 !== needed && !readSeamEnd(s, x, ends, open)) continue;
+		++ends;
+		s.end[x] = 1;
 	}
 }
 
-// [A.7.4] Creases of all half-edges. positions: those that predictions see, of groups.
-export function findCreases(surface, positions) {
-	const normals = [];
-	for (let h = 0; h < surface.halfEdgeCount; h += 3) {
-		const [a, b, c] = [h, h + 1, h + 2].map((g) => positions[surface.tail(g)]);
-		normals.push(unitNormal(a, b, c));
-	}
-	const crease = new Uint8Array(surface.halfEdgeCount);
-	for (let h = 0; h < surface.halfEdgeCount; ++h) {
-		const t = surface.twin(h);
-		if (t !== NONE) crease[h] = creaseClass(dot32(normals[face(h)], normals[face(t)]));
-	}
-	return crease;
+function readSeamEnd(s, x, ends, open) {
+	const t = s.surface.twin[x], other = s.wedgeOf[t] === NONE ? 0 : 1 + s.end[t];
+	return bit(s.coder, s.models.EDGE[other][Math.min(ends, 2)][open][s.crease(x)]);
 }
 
-function unitNormal(a, b, c) {
-	const m = cross32(sub32(b, a), sub32(c, a));
-	const s = dot32(m, m);
-	return scale32(m, s > 0 ? f(1 / sqrt32(s)) : 0);
-}
-
-const creaseClass = (q) => Number(f(0.99) > q) + Number(f(0.9) > q) + Number(f(0.6) > q);
-
-class Seams {
-	constructor(streams, modelSet, piece, surface, umbrellas, crease) {
-		this.streams = streams;
-		this.models = modelSet;
-		this.surface = surface;
-		this.umbrellas = umbrellas;
-		this.crease = crease;
-		this.end = new Uint8Array(surface.halfEdgeCount);
-		this.wedgeOf = new Int32Array(surface.halfEdgeCount).fill(NONE); // of corners
-		this.limit = piece.wedgeCount - piece.isolatedCount;
-		this.starts = []; // of each wedge
-		this.groups = []; // of each wedge
-	}
-
-	// ---- [A.7.1] Groups and umbrellas
-
-	decode(sequence) {
-		for (const entry of sequence) {
-			const g = this.surface.tail(entry);
-			this.group = g;
-			this.firstOfGroup = this.starts.length;
-			this.umbrella(entry);
-			if (this.umbrellas === undefined) continue;
-			for (const s of this.umbrellas[g]) {
-				if (this.wedgeOf[s] === NONE) this.umbrella(s);
-			}
-		}
-		if (this.wedgeOf.includes(NONE)) fail('BadConnectivity', 'A.7.1', 'a corner without a wedge');
-		if (this.starts.length !== this.limit) fail('BadAttribute', 'A.7.1', 'too few wedges');
-		return { surface: this.surface.withTails(this.wedgeOf), starts: this.starts, groupOf: this.groups };
-	}
-
-	umbrella(h) {
-		const { fan, open } = this.collectFan(h);
-		if (fan.length < 2 || !this.hasSeam(fan, open)) {
-			const w = this.wedge(fan[0], NONE, NONE, 1);
-			for (const x of fan) this.wedgeOf[x] = w;
-			return;
-		}
-		this.seamEnds(fan, open);
-		this.runs(fan, open);
-	}
-
-	collectFan(h) {
-		const { surface } = this;
-		const fan = [h];
-		let x = surface.ccw(h);
-		for (; x !== NONE && x !== h; x = surface.ccw(x)) fan.push(x);
-		if (x === h) return { fan, open: 0 };
-		for (x = surface.cw(h); x !== NONE; x = surface.cw(x)) fan.unshift(x);
-		return { fan, open: 1 };
-	}
-
-	hasSeam(fan, open) {
-		const { surface } = this;
-		const inside = fan.filter((x) => surface.twin(x) !== NONE);
-		const farEnds = inside.filter((x) => this.end[surface.twin(x)]).length;
-		const sharpest = inside.reduce((most, x) => Math.max(most, this.crease[x]), 0);
-		return this.streams.bit(this.models.HAS_SEAM[Math.min(farEnds, 3)][open][sharpest]);
-	}
-
-	// ---- [A.7.2] Ends of seams
-
-	seamEnds(fan, open) {
-		const n = fan.length;
-		const edges = open ? n - 1 : n;
-		const needed = open ? 1 : 2;
-		let ends = 0;
-		for (let k = 1; k <= edges; ++k) {
-			const x = fan[k % n];
-			const mustBe = ends + edges - k + 1 === needed;
-			const seam = mustBe ? 1 : this.streams.bit(this.models.EDGE[this.otherEnd(x)][Math.min(ends, 2)][open][this.crease[x]]);
-			if (!seam) continue;
-			++ends;
-			this.end[x] = 1;
-		}
-	}
-
-	otherEnd(x) {
-		const t = this.surface.twin(x);
-		return this.wedgeOf[t] === NONE ? 0 : 1 + this.end[t];
-	}
-
-	runs(fan, open) {
-		const n = fan.length;
-		const first = open ? 0 : fan.findIndex((x) => this.end[x]);
-		const at = (i) => fan[(first + i) % n];
-		let previous = NONE;
-		let firstWedge = NONE;
-		let i = 0;
-		while (i < n) {
-			let length = 1;
-			while (i + length < n && !this.end[at(i + length)]) ++length;
-			const isLast = i + length === n;
-			const w = this.wedge(at(i), previous, isLast && !open ? firstWedge : NONE, i === 0 ? 1 : 0);
-			for (let k = 0; k < length; ++k) this.wedgeOf[at(i + k)] = w;
-			if (firstWedge === NONE) firstWedge = w;
-			previous = w;
-			i += length;
-		}
-	}
-
-	// ---- [A.7.3] Wedges
-
-	wedge(x, a, b, isFirst) {
-		const earlier = this.mergedWedge(a, b, isFirst);
-		if (earlier !== NONE) return earlier;
-		if (this.starts.length === this.limit) fail('BadAttribute', 'A.7.3', 'too many wedges');
-		this.starts.push(x);
-		this.groups.push(this.group);
-		return this.starts.length - 1;
-	}
-
-	// The wedges of the group but a and b are asked for, the latest first: their numbers are consecutive.
-	mergedWedge(a, b, isFirst) {
-		const excluded = [...new Set([a, b])].filter((w) => w !== NONE).sort((x, y) => y - x);
-		const c = this.starts.length - this.firstOfGroup - excluded.length;
-		if (c === 0 || !this.streams.bit(this.models.MERGE[isFirst][Math.min(c, 4) - 1])) return NONE;
-		const rank = c > 1 ? this.streams.golomb(this.models.MERGE_WITH) : 0;
-		if (rank >= c) fail('BadAttribute', 'A.7.3', 'a wedge that does not exist');
-		let w = this.starts.length - 1 - rank;
-		for (const x of excluded) {
-			if (w <= x) --w;
-		}
-		return w;
+// [A.7.2] runs()
+function readRuns(s, { g, fan, open }) {
+	const n = fan.length;
+	const first = open ? 0 : fan.findIndex((x) => s.end[x] === 1);
+	const at = (i) => fan[(first + i) % n];
+	let previous = NONE, firstWedge = NONE, length;
+	for (let i = 0; i < n; i += length) {
+		length = 1;
+		while (i + length < n && s.end[at(i + length)] === 0) ++length;
+		const isLast = i + length === n;
+		const w = wedge(s, g, at(i), previous, isLast && !open ? firstWedge : NONE, i === 0 ? 1 : 0);
+		for (let k = i; k < i + length; ++k) s.wedgeOf[at(k)] = w;
+		if (firstWedge === NONE) firstWedge = w;
+		previous = w;
 	}
 }
 
-// The surface with wedges at its corners; the start and the group of each wedge.
-export function decodeSeams(streams, modelSet, piece, surface, umbrellas, sequence, crease) {
-	return new Seams(streams, modelSet, piece, surface, umbrellas, crease).decode(sequence);
+// [A.7.3] The wedges of a group have consecutive numbers, so that the list of those it may be needs not be made.
+function wedge(s, g, x, a, b, isFirst) {
+	const excluded = [...new Set([a, b])].filter((w) => w !== NONE).sort((v, w) => w - v);
+	const c = s.starts.length - s.firstOfGroup - excluded.length;
+	if (c !== 0 && bit(s.coder, s.models.MERGE[isFirst][Math.min(c, 4) - 1])) {
+		const rank = c > 1 ? golomb(s.coder, s.models.MERGE_WITH) : 0;
+		failUnless(rank < c, 'BadAttribute', 'A.7.3', 'a wedge does not exist');
+		return excluded.reduce((w, hole) => (hole >= w ? w - 1 : w), s.starts.length - 1 - rank);
+	}
+	failUnless(s.starts.length < s.limit, 'BadAttribute', 'A.7.3', 'there are more wedges than the header says');
+	s.starts.push(x);
+	s.groupOf.push(g);
+	return s.starts.length - 1;
+}
+
+// [A.7.4] The constants are 3F7D70A4, 3F666666 and 3F19999A.
+const COSINES = [0.99, 0.9, 0.6].map(f);
+
+// [A.7.4] The function crease(h), from the positions of the groups at the corners.
+export function creasesOf(piece, surface, groupPositions) {
+	if (!piece.CREASES) return () => 0;
+	const normals = Array.from({ length: surface.tail.length / 3 }, (_, i) => unitNormal(surface, i, groupPositions));
+	const creases = surface.twin.map((t, h) => {
+		if (t === NONE) return 0;
+		const q = dot32(normals[face(h)], normals[face(t)]);
+		return COSINES.filter((cosine) => cosine > q).length;
+	});
+	return (h) => creases[h];
+}
+
+function unitNormal({ tail }, i, positions) {
+	const [a, b, c] = [0, 1, 2].map((k) => positions[tail[3 * i + k]]);
+	const m = cross32(subtract32(b, a), subtract32(c, a)), s = dot32(m, m);
+	return scale32(m, s > 0 ? f(1 / f(Math.sqrt(s))) : 0);
 }

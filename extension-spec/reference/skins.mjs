@@ -1,204 +1,139 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Skins: A.10.14 of the specification. Tuples of four joints and four weights.
+// Joints and weights [A.10.14].
+//
+// A value is a tuple: four joints, then four weights. Sums of weights stay below 2^40, so that Numbers hold them.
 
-import { golombs, models, rows } from './entropy.mjs';
-import { readByLength } from './lengths.mjs';
-import { next, prev } from './mesh.mjs';
-import { unitSum } from './methods.mjs';
-import { bundles } from './wedges.mjs';
+import { LATTICE } from './attributeheader.mjs';
+import { arrayOf, binaryModel, bit, golomb, golombModel } from './entropy.mjs';
+import { NO_NEIGHBOURS, byLength, contextAfter, contextRows } from './residuals.mjs';
+import { next, prev } from './surface.mjs';
+import { codeBundles, runOfWedge } from './wedges.mjs';
 
-const NO_NEIGHBOUR = 11; // the context
-const slots = [0, 1, 2, 3];
+const SLOTS = [0, 1, 2, 3];
+const MOST_NEIGHBOURS = 4, MOST_RANKS = 6, LOOKED_AT = 3;
+const ALWAYS = 1, MOSTLY = 2;
+export const skinModels = () => ({
+	SAME: arrayOf(4, () => arrayOf(4)), WEIGHTLESS: arrayOf(4, () => arrayOf(5)),
+	RANK: arrayOf(4, () => arrayOf(6, () => arrayOf(3))), IDLE: binaryModel(), HAS_SUM: binaryModel(),
+	JOINT: golombModel(), WEIGHT: arrayOf(3, contextRows),
+});
 
-// By whether the set index is 0.
-export class SkinModels {
-	constructor() {
-		this.sets = models([2], () => ({
-			SAME: models([4, 4]),
-			WEIGHTLESS: models([4, 5]),
-			RANK: models([4, 6, 3]),
-			IDLE: models([]),
-			HAS_SUM: models([]),
-			JOINT: golombs([]),
-			WEIGHT: rows([3, 12]),
-		}));
-	}
-
-	of(attribute) {
-		return this.sets[attribute.set === 0 ? 1 : 0];
-	}
+// U
+function unitSum({ coding, bits, componentType }) {
+	if (coding === LATTICE) return 2 ** bits - 1;
+	return { 1: 255, 3: 65535 }[componentType] ?? 0;
 }
 
-const add = (a, b) => a + b;
-
-class Skins {
-	constructor(context, state, weightState) {
-		this.streams = context.streams;
-		this.models = context.models.skins.of(state.attribute);
-		this.state = state; // of the joints
-		this.weightState = weightState;
-		this.wedges = state.wedges;
-		this.sums = weightState.attribute.predictor;
-		this.unitSum = unitSum(weightState.attribute) ?? 0;
-	}
-
-	bit(model) {
-		return this.streams.bit(model);
-	}
-
-	decode() {
-		for (const bundle of bundles(this.wedges, this.state.bundleOf)) {
-			const { joints, weights, L } = this.tuple(bundle);
-			this.state.finish(bundle, joints, L);
-			this.weightState.finish(bundle, weights, L);
-		}
-	}
-
-	tuple(bundle) {
-		const neighbours = this.neighbours(bundle);
-		return this.sameTuple(neighbours) ?? this.newTuple(neighbours);
-	}
-
-	tupleOf(w) {
-		return { joints: this.state.value(w).slice(), weights: this.weightState.value(w).slice() };
-	}
-
-	// ---- Neighbours: { joints, weights, L, shared }
-
-	neighbours(bundle) {
-		const { surface } = this.wedges;
-		const list = [];
-		const ask = (h) => [next(h), prev(h)].forEach((g) => this.addCandidate(list, surface.tail(g)));
-		bundle.halfEdges.slice(0, 3).forEach(ask);
-		if (list.length === 0 && !bundle.isolated) {
-			for (const h of this.wedges.run(bundle.first)) {
-				if (list.length === 0) ask(h);
-			}
-		}
-		if (list.length === 0) this.addCandidate(list, bundle.before);
-		return list;
-	}
-
-	addCandidate(list, w) {
-		if (!this.state.isCoded(w)) return;
-		const { joints, weights } = this.tupleOf(w);
-		const equal = list.find((other) => slots.every((k) => other.joints[k] === joints[k] && other.weights[k] === weights[k]));
-		if (equal !== undefined) ++equal.shared;
-		else if (list.length < 4) list.push({ joints, weights, L: this.state.L[w], shared: 0 });
-	}
-
-	sameTuple(neighbours) {
+// [A.10.14]
+export function decodeSkin(coding, models, weights) {
+	const { coder } = coding;
+	const U = unitSum(weights), rule = weights.predictor & 3;
+	codeBundles(coding, (bundle) => {
+		const neighbours = neighboursOf(coding, bundle);
 		for (let i = 0; i < neighbours.length; ++i) {
-			const { joints, weights, shared } = neighbours[i];
-			if (this.bit(this.models.SAME[i][Math.min(shared, 3)])) return { joints, weights, L: 0 };
+			const { tuple, shared } = neighbours[i];
+			if (bit(coder, models.SAME[i][Math.min(shared, 3)])) return { value: tuple, length: 0 };
 		}
-		return undefined;
-	}
-
-	// ---- A tuple of its own
-
-	newTuple(neighbours) {
-		const joints = this.readJoints(neighbours);
-		return { joints: joints.joint, ...this.readWeights(neighbours, joints) };
-	}
-
-	// The entries { joint, count, weight } of joints that neighbours have with weight, in the order they are asked in.
-	jointEntries(neighbours) {
-		const entries = [];
-		for (const { joints, weights, shared } of neighbours) {
-			const u = 1 + shared;
-			for (const k of slots.filter((slot) => weights[slot] !== 0)) {
-				let entry = entries.find(({ joint }) => joint === joints[k]);
-				if (entry === undefined) {
-					entry = { joint: joints[k], count: 0, weight: 0 };
-					entries.push(entry);
-				}
-				entry.count += u;
-				entry.weight += weights[k] * u;
-			}
-		}
-		return entries;
-	}
-
-	readJoints(neighbours) {
-		const N = neighbours.length;
-		const entries = this.jointEntries(neighbours);
-		const uses = neighbours.map(({ shared }) => 1 + shared).reduce(add, 0);
-		const typical = Math.trunc(entries.map(({ weight }) => weight).reduce(add, 0) / (8 * Math.max(uses, 1)));
-		const m = this.typicalWeightCount(neighbours);
-		const result = { joint: [0, 0, 0, 0], expected: [0, 0, 0, 0], weightless: [0, 0, 0, 0] };
-		for (const k of slots) {
-			result.weightless[k] = this.bit(this.models.WEIGHTLESS[k][m]);
-			if (result.weightless[k]) {
-				result.joint[k] = this.bit(this.models.IDLE) ? 0 : this.readJoint();
-				continue;
-			}
-			const entry = this.readRank(entries, k, uses, N === 0 ? undefined : neighbours[0]);
-			result.expected[k] = entry !== undefined ? Math.trunc(entry.weight / entry.count) : typical;
-			result.joint[k] = entry !== undefined ? entry.joint : this.readJoint();
-		}
-		return result;
-	}
-
-	typicalWeightCount(neighbours) {
-		const N = neighbours.length;
-		if (N === 0) return 0;
-		const m = neighbours.map(({ weights }) => weights.filter((x) => x !== 0).length).reduce(add, 0);
-		return Math.floor((m + (N >> 1)) / N);
-	}
-
-	// The entry whose joint slot k has, if it is one of the first six that are left.
-	readRank(entries, k, uses, neighbour) {
-		const left = entries.filter((entry) => !entry.taken);
-		for (let r = 0; r < Math.min(left.length, 6); ++r) {
-			const entry = left[r];
-			const kind = neighbour.joints[k] === entry.joint ? 0 : entry.count === uses ? 1 : 2;
-			if (this.bit(this.models.RANK[k][r][kind])) {
-				entry.taken = true;
-				return entry;
-			}
-		}
-		return undefined;
-	}
-
-	readJoint() {
-		return this.streams.golomb(this.models.JOINT) | 0;
-	}
-
-	readWeights(neighbours, { expected, weightless }) {
-		const context = this.weightContext(neighbours);
-		const sum = this.readSum();
-		const weights = [0, 0, 0, 0];
-		const lastSlot = weightless.lastIndexOf(0);
-		let rest = sum;
-		let longest = 0;
-		for (const k of slots.filter((slot) => !weightless[slot])) {
-			if (sum !== 0 && k === lastSlot) {
-				weights[k] = rest | 0;
-				continue;
-			}
-			const c = k === 0 || context === NO_NEIGHBOUR ? context : Math.floor((context + longest + 1) / 2);
-			const { residual, length } = readByLength(this.streams, 0, this.models.WEIGHT[Math.min(k, 2)][c]);
-			weights[k] = (expected[k] + residual) | 0;
-			longest = Math.max(longest, length);
-			rest -= weights[k];
-		}
-		return { weights, L: longest };
-	}
-
-	weightContext(neighbours) {
-		const N = neighbours.length;
-		if (N === 0) return NO_NEIGHBOUR;
-		return Math.min(Math.floor((neighbours.map(({ L }) => L).reduce(add, 0) + (N >> 1)) / N), 10);
-	}
-
-	readSum() {
-		if (this.sums === 1) return this.unitSum;
-		return this.sums === 2 && this.unitSum !== 0 && this.bit(this.models.HAS_SUM) ? this.unitSum : 0;
-	}
+		const joints = readJoints(coder, models, neighbours);
+		let sum = rule === ALWAYS ? U : 0;
+		if (rule === MOSTLY && U !== 0) sum = bit(coder, models.HAS_SUM) ? U : 0;
+		return readWeights(coder, models, neighbours, joints, sum);
+	});
 }
 
-export function decodeSkins(context, state, weightState) {
-	new Skins(context, state, weightState).decode();
+// Up to four different tuples of the neighbours, each with how often it came again and the length L of its wedge.
+function neighboursOf(coding, { w, completed }) {
+	const { values, L, bundleBefore } = coding;
+	const neighbours = [];
+	const around = (h) => addCandidates(coding, neighbours, h);
+	completed.slice(0, LOOKED_AT).forEach(around);
+	if (neighbours.length === 0) for (const h of runOfWedge(coding.wedges, w)) if (around(h)) break;
+	if (neighbours.length === 0 && bundleBefore !== undefined) {
+		neighbours.push({ tuple: values[bundleBefore], shared: 0, L: L[bundleBefore] });
+	}
+	return neighbours;
+}
+
+// Whether there is a neighbour then.
+function addCandidates({ surface, coded, values, L }, neighbours, h) {
+	for (const w of [surface.tail[next(h)], surface.tail[prev(h)]]) {
+		if (!coded[w]) continue;
+		const same = neighbours.find(({ tuple }) => tuple.every((x, i) => x === values[w][i]));
+		if (same !== undefined) ++same.shared;
+		else if (neighbours.length < MOST_NEIGHBOURS) neighbours.push({ tuple: values[w], shared: 0, L: L[w] });
+	}
+	return neighbours.length !== 0;
+}
+const jointOf = (tuple, k) => tuple[k];
+const weightOf = (tuple, k) => tuple[4 + k];
+
+// The joints that neighbours have, in the order in which they are met.
+function entriesOf(neighbours) {
+	const entries = [];
+	for (const { tuple, shared } of neighbours) {
+		for (const k of SLOTS) {
+			if (weightOf(tuple, k) === 0) continue;
+			let entry = entries.find(({ joint }) => joint === jointOf(tuple, k));
+			if (entry === undefined) {
+				entry = { joint: jointOf(tuple, k), count: 0, weight: 0, taken: false };
+				entries.push(entry);
+			}
+			entry.count += 1 + shared;
+			entry.weight += weightOf(tuple, k) * (1 + shared);
+		}
+	}
+	return entries;
+}
+
+// The joint of each slot, whether it has a weight, and which weight is expected.
+function readJoints(coder, models, neighbours) {
+	const N = neighbours.length, entries = entriesOf(neighbours);
+	const uses = neighbours.reduce((sum, { shared }) => sum + 1 + shared, 0);
+	const typical = Math.trunc(entries.reduce((sum, { weight }) => sum + weight, 0) / (8 * Math.max(uses, 1)));
+	const weighted = neighbours.flatMap(({ tuple }) => SLOTS.filter((k) => weightOf(tuple, k) !== 0)).length;
+	const m = N === 0 ? 0 : Math.floor((weighted + (N >> 1)) / N);
+	return SLOTS.map((k) => {
+		if (bit(coder, models.WEIGHTLESS[k][m])) {
+			return { joint: bit(coder, models.IDLE) ? 0 : golomb(coder, models.JOINT) | 0, weightless: true };
+		}
+		const isInSlot = (joint) => N !== 0 && jointOf(neighbours[0].tuple, k) === joint;
+		const entry = readEntry(coder, models.RANK[k], entries, uses, isInSlot);
+		if (entry === undefined) {
+			return { joint: golomb(coder, models.JOINT) | 0, weightless: false, expected: typical };
+		}
+		entry.taken = true;
+		return { joint: entry.joint, weightless: false, expected: Math.trunc(entry.weight / entry.count) };
+	});
+}
+
+function readEntry(coder, RANK, entries, uses, isInSlot) {
+	let r = 0;
+	for (const entry of entries) {
+		if (r === MOST_RANKS) break;
+		if (entry.taken) continue;
+		let kind = entry.count === uses ? 1 : 2;
+		if (isInSlot(entry.joint)) kind = 0;
+		if (bit(coder, RANK[r][kind])) return entry;
+		++r;
+	}
+	return undefined;
+}
+
+function readWeights(coder, models, neighbours, joints, sum) {
+	const N = neighbours.length;
+	const lengths = neighbours.reduce((total, { L }) => total + L, 0);
+	const context = N === 0 ? NO_NEIGHBOURS : Math.min(Math.floor((lengths + (N >> 1)) / N), 10);
+	let rest = sum, longest = 0;
+	const weights = joints.map(({ weightless, expected }, k) => {
+		if (weightless) return 0;
+		if (sum !== 0 && joints.slice(k + 1).every((later) => later.weightless)) return rest | 0;
+		const row = models.WEIGHT[Math.min(k, 2)][k === 0 ? context : contextAfter(context, longest)];
+		const { residual, length } = byLength(coder, 0, row);
+		const weight = ((expected | 0) + residual) | 0;
+		longest = Math.max(longest, length);
+		rest -= weight;
+		return weight;
+	});
+	return { value: [...joints.map(({ joint }) => joint), ...weights], length: longest };
 }

@@ -1,215 +1,175 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Stitching: A.5 of the specification. Vertices that are one point of the source become one group.
+// Which vertices are one point of the source [A.5].
 
-import { fail } from './bytes.mjs';
-import { golombs, models } from './entropy.mjs';
-import { NONE, prev } from './mesh.mjs';
+import { arrayOf, binaryModel, bit, golombModel, signedGolomb } from './entropy.mjs';
+import { failUnless } from './errors.mjs';
+import { NONE, ccw, head, prev } from './surface.mjs';
 
 const OUT = 0, INNER = 1, IN = 2;
+export const stitchModels = () => ({
+	COPY: arrayOf(2, () => arrayOf(16)), CANDIDATE: arrayOf(4, () => arrayOf(16)), IS_NEAR: binaryModel(),
+	NEAR: arrayOf(8), FAR: golombModel(),
+});
 
-// [A.5.1]
-export class StitchModels {
-	constructor() {
-		this.COPY = models([2, 16]);
-		this.CANDIDATE = models([4, 16]);
-		this.IS_NEAR = models([]);
-		this.NEAR = models([8]);
-		this.FAR = golombs([]);
-	}
+// [A.5.1] Replaces vertices by groups in the faces, and returns the number of groups and the umbrellas of each.
+export function decodeStitching(coder, models, piece, surface) {
+	const s = {
+		coder, models, piece, surface, start: startsOf(surface, piece.vertex_count),
+		leader: new Int32Array(piece.vertex_count).fill(NONE), glued: new Uint8Array(piece.vertex_count),
+		copies: arrayOf(piece.vertex_count, () => []), lastFar: 0, asked: new Set(), candidates: [],
+	};
+	for (let v = 0; v < piece.vertex_count; ++v) if (onBoundary(s, v) || piece.INTERIOR_COPIES) stitchVertex(s, v);
+	return replaceVertices(s);
 }
 
-class Stitching {
-	constructor(streams, modelSet, piece, surface) {
-		this.streams = streams;
-		this.models = modelSet;
-		this.interiorCopies = piece.flags.INTERIOR_COPIES;
-		this.surface = surface;
-		this.vertexCount = piece.vertexCount;
-		this.start = this.findStarts();
-		this.leader = new Int32Array(this.vertexCount).fill(NONE);
-		this.copies = Array.from({ length: this.vertexCount }, () => []); // of each leader
-		this.glued = new Uint8Array(this.vertexCount);
-		this.lastFar = 0;
+// The boundary half-edge with the highest number that leaves each vertex, or else any with the highest number.
+function startsOf(surface, vertexCount) {
+	const start = new Int32Array(vertexCount).fill(NONE);
+	for (let h = 0; h < surface.tail.length; ++h) {
+		const before = start[surface.tail[h]];
+		if (before === NONE || surface.twin[h] === NONE || surface.twin[before] !== NONE) start[surface.tail[h]] = h;
 	}
+	failUnless(start.every((h) => h !== NONE), 'BadConnectivity', 'A.5.1', 'a vertex has no face');
+	return start;
+}
+const onBoundary = (s, v) => s.surface.twin[s.start[v]] === NONE;
+const isDone = (s, v) => s.leader[v] !== NONE;
 
-	// [A.5.1]
-	findStarts() {
-		const { surface } = this;
-		const start = new Int32Array(this.vertexCount).fill(NONE);
-		for (let h = 0; h < surface.halfEdgeCount; ++h) {
-			const v = surface.tail(h);
-			if (surface.twin(h) === NONE || start[v] === NONE || surface.twin(start[v]) !== NONE) start[v] = h;
-		}
-		if (start.includes(NONE)) fail('BadConnectivity', 'A.5.1', 'a vertex without a face');
-		return start;
+// The neighbours of a vertex, each with its side. They are made one by one, since some walks end early.
+function* ring(s, v) {
+	const { surface } = s;
+	const start = s.start[v], boundary = onBoundary(s, v);
+	let h = start, lastHalf = start;
+	do {
+		yield [head(surface, h), boundary && h === start ? OUT : INNER];
+		lastHalf = h;
+		h = ccw(surface, h);
+	} while (h !== start && h !== NONE);
+	if (boundary) yield [surface.tail[prev(lastHalf)], IN];
+}
+
+function stitchVertex(s, v) {
+	s.asked = new Set();
+	s.candidates = [];
+	if (s.glued[v]) collectCandidates(s, v);
+	const best = s.candidates.reduce((most, { score }) => Math.max(most, score), 0);
+	if (!bit(s.coder, s.models.COPY[onBoundary(s, v) ? 1 : 0][Math.min(best, 15)])) {
+		s.leader[v] = v;
+		return;
 	}
+	const w = findLeader(s, v);
+	if (s.copies[w].length === 0) for (const [u] of ring(s, w)) s.glued[u] = 1;
+	for (const [u] of ring(s, v)) s.glued[u] = 1;
+	s.leader[v] = w;
+	s.copies[w].push(v);
+}
 
-	isOnBoundary(v) {
-		return this.surface.twin(this.start[v]) === NONE;
-	}
+// The vertices of a group: its leader, then the copies, the latest first.
+function* verticesOf(s, leader) {
+	yield leader;
+	for (let i = s.copies[leader].length - 1; i >= 0; --i) yield s.copies[leader][i];
+}
 
-	isDone(v) {
-		return this.leader[v] !== NONE;
-	}
-
-	// The neighbours of v with their sides.
-	* ring(v) {
-		const { surface } = this;
-		let h = this.start[v];
-		yield { u: surface.head(h), side: surface.twin(h) === NONE ? OUT : INNER };
-		for (;;) {
-			const last = prev(h);
-			h = surface.twin(last);
-			if (h === NONE) {
-				yield { u: surface.tail(last), side: IN };
-				return;
-			}
-			if (h === this.start[v]) return;
-			yield { u: surface.head(h), side: INNER };
-		}
-	}
-
-	decode() {
-		for (let v = 0; v < this.vertexCount; ++v) {
-			if (this.interiorCopies || this.isOnBoundary(v)) this.vertex(v);
-		}
-		return this.numberGroups();
-	}
-
-	vertex(v) {
-		this.asked = new Set(); // leaders
-		this.candidates = new Map(); // leader to score
-		if (this.glued[v]) this.collectCandidates(v);
-		const best = Math.max(0, ...this.candidates.values());
-		if (!this.streams.bit(this.models.COPY[this.isOnBoundary(v) ? 1 : 0][Math.min(best, 15)])) {
-			this.leader[v] = v;
-			return;
-		}
-		const w = this.findLeader(v);
-		if (this.copies[w].length === 0) this.markNeighbours(w);
-		this.markNeighbours(v);
-		this.leader[v] = w;
-		this.copies[w].push(v);
-	}
-
-	// The members of the group with the leader w: first w, then the others, the latest first.
-	* members(w) {
-		yield w;
-		for (let i = this.copies[w].length; i-- !== 0;) yield this.copies[w][i];
-	}
-
-	markNeighbours(v) {
-		for (const { u } of this.ring(v)) this.glued[u] = 1;
-	}
-
-	// The groups in the order of their leaders; every vertex that is not done is a group of its own.
-	numberGroups() {
-		const { leader, start, surface } = this;
-		const number = new Int32Array(this.vertexCount);
-		const umbrellas = [];
-		for (let v = 0; v < this.vertexCount; ++v) {
-			if (!this.isDone(v)) leader[v] = v;
-			if (leader[v] !== v) continue;
-			number[v] = umbrellas.length;
-			umbrellas.push([...this.members(v)].map((u) => start[u]));
-		}
-		return { surface: surface.withTails(surface.tails.map((v) => number[leader[v]])), umbrellas };
-	}
-
-	// ---- [A.5.2] Candidates
-
-	collectCandidates(v) {
-		for (const { u } of this.ring(v)) {
-			if (this.isDone(u)) this.asked.add(this.leader[u]);
-		}
-		let work = 0;
-		for (const { u, side } of this.ring(v)) {
-			const first = this.leader[u];
-			if (first === NONE || this.copies[first].length === 0) continue;
-			for (const u2 of this.members(first)) {
-				if (u2 === u) continue;
-				for (const { u: w, side: other } of this.ring(u2)) {
-					if (work === 64) return;
-					++work;
-					if (this.isDone(w)) this.addCandidate(this.leader[w], scoreOfSides(side, other));
-				}
-			}
-		}
-	}
-
-	addCandidate(w, score) {
-		if (!this.asked.has(w)) this.candidates.set(w, (this.candidates.get(w) ?? 0) + score);
-	}
-
-	// ---- [A.5.3] Which group?
-
-	findLeader(v) {
-		const candidate = this.askCandidates();
-		if (candidate !== NONE) return candidate;
-		return this.streams.bit(this.models.IS_NEAR) ? this.nearLeader(v) : this.farLeader();
-	}
-
-	askCandidates() {
-		const list = [...this.candidates].map(([w, score]) => ({ w, score }));
-		for (let i = 0; i < list.length; ++i) {
-			let k = i;
-			for (let j = i + 1; j < list.length; ++j) {
-				if (list[j].score > list[k].score) k = j;
-			}
-			[list[i], list[k]] = [list[k], list[i]];
-			const { w, score } = list[i];
-			if (this.streams.bit(this.models.CANDIDATE[Math.min(i, 3)][Math.min(score, 15)])) return w;
-			this.asked.add(w);
-		}
-		return NONE;
-	}
-
-	nearLeader(v) {
-		const list = this.leadersNear(v);
-		if (list.length === 0) fail('BadStitch', 'A.5.3', 'no group is near');
-		for (let i = 0; i < list.length - 1; ++i) {
-			if (this.streams.bit(this.models.NEAR[Math.min(i, 7)])) return list[i];
-		}
-		return list[list.length - 1];
-	}
-
-	// The leaders of the vertices around v, breadth first, except its neighbours' and those that were asked for.
-	leadersNear(v) {
-		const around = new Set([v]); // in the order in which they are added, also while one walks over it
-		let work = 0;
-		let neighbours = 0;
-		for (const x of around) {
-			for (const { u: w } of this.ring(x)) {
-				if (work === 288) break;
+// [A.5.2]
+function collectCandidates(s, v) {
+	for (const [u] of ring(s, v)) if (isDone(s, u)) s.asked.add(s.leader[u]);
+	const byLeader = new Map();
+	let work = 0;
+	for (const [u, side] of ring(s, v)) {
+		if (!isDone(s, u) || s.copies[s.leader[u]].length === 0) continue;
+		for (const u2 of verticesOf(s, s.leader[u])) {
+			if (u2 === u) continue;
+			for (const [w, other] of ring(s, u2)) {
+				if (work === 64) return;
 				++work;
-				around.add(w);
+				if (!isDone(s, w) || s.asked.has(s.leader[w])) continue;
+				addCandidate(s, byLeader, s.leader[w], scoreOf(side, other));
 			}
-			if (x === v) neighbours = around.size - 1;
 		}
-		const list = [];
-		[...around].slice(1).forEach((w, i) => {
-			if (!this.isDone(w) || this.asked.has(this.leader[w])) return;
-			this.asked.add(this.leader[w]);
-			if (i >= neighbours) list.push(this.leader[w]);
-		});
-		return list;
-	}
-
-	farLeader() {
-		const w = (this.lastFar + this.streams.signedGolomb(this.models.FAR)) >>> 0;
-		if (w >= this.vertexCount || this.leader[w] !== w) fail('BadStitch', 'A.5.3', 'a group that does not exist');
-		this.lastFar = w;
-		return w;
 	}
 }
 
-function scoreOfSides(side, other) {
+function scoreOf(side, other) {
 	if (side === INNER || other === INNER) return 1;
 	return side === other ? 6 : 5;
 }
 
-// The surface with groups at its corners, and the umbrellas of each group: `start` of its members.
-export function stitch(streams, modelSet, piece, surface) {
-	return new Stitching(streams, modelSet, piece, surface).decode();
+function addCandidate(s, byLeader, leader, score) {
+	if (byLeader.has(leader)) {
+		byLeader.get(leader).score += score;
+	} else {
+		const candidate = { leader, score };
+		byLeader.set(leader, candidate);
+		s.candidates.push(candidate);
+	}
+}
+
+// [A.5.3]
+function findLeader(s, v) {
+	const { coder, models, candidates } = s;
+	for (let i = 0; i < candidates.length; ++i) {
+		let best = i;
+		for (let j = i + 1; j < candidates.length; ++j) if (candidates[j].score > candidates[best].score) best = j;
+		[candidates[i], candidates[best]] = [candidates[best], candidates[i]];
+		const { leader, score } = candidates[i];
+		if (bit(coder, models.CANDIDATE[Math.min(i, 3)][Math.min(score, 15)])) return leader;
+		s.asked.add(leader);
+	}
+	if (bit(coder, models.IS_NEAR)) return nearLeader(s, v);
+	// Modulo 2^32 a negative number is above all numbers of vertices.
+	const w = s.lastFar + signedGolomb(coder, models.FAR);
+	const valid = w >= 0 && w < s.piece.vertex_count && s.leader[w] === w;
+	failUnless(valid, 'BadStitch', 'A.5.3', 'a far group does not exist');
+	s.lastFar = w;
+	return w;
+}
+
+function nearLeader(s, v) {
+	const near = nearLeaders(s, v);
+	failUnless(near.length !== 0, 'BadStitch', 'A.5.3', 'there is no group near');
+	for (let i = 0; i < near.length - 1; ++i) if (bit(s.coder, s.models.NEAR[Math.min(i, 7)])) return near[i];
+	return near[near.length - 1];
+}
+
+function nearLeaders(s, v) {
+	const around = verticesAround(s, v);
+	around.delete(v);
+	const neighbours = new Set();
+	for (const [w] of ring(s, v)) neighbours.add(w);
+	const near = [];
+	for (const w of around) {
+		if (!isDone(s, w) || s.asked.has(s.leader[w])) continue;
+		s.asked.add(s.leader[w]);
+		if (!neighbours.has(w)) near.push(s.leader[w]);
+	}
+	return near;
+}
+
+// A Set is walked in the order of insertion, and what is added meanwhile is met, too.
+function verticesAround(s, v) {
+	const around = new Set([v]);
+	let work = 0;
+	for (const x of around) {
+		for (const [w] of ring(s, x)) {
+			if (work === 288) return around;
+			++work;
+			around.add(w);
+		}
+	}
+	return around;
+}
+
+// [A.5.1] What follows stitch().
+function replaceVertices(s) {
+	const { tail } = s.surface;
+	const group = new Int32Array(s.leader.length), umbrellas = [];
+	s.leader.forEach((leader, v) => {
+		if (leader !== NONE && leader !== v) return;
+		s.leader[v] = v;
+		group[v] = umbrellas.length;
+		umbrellas.push(Array.from(verticesOf(s, v), (u) => s.start[u]));
+	});
+	for (let h = 0; h < tail.length; ++h) tail[h] = group[s.leader[tail[h]]];
+	return { count: umbrellas.length, umbrellas };
 }

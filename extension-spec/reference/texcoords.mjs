@@ -1,194 +1,123 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Texture coordinates: A.10.11 of the specification. Their prediction: A.10.11.
+// Texture coordinates [A.10.11]. All floats are f32.
 
-import { models, rows } from './entropy.mjs';
-import { following, readByLength } from './lengths.mjs';
-import { Memory, memoryModels } from './memories.mjs';
-import { next, NONE, prev } from './mesh.mjs';
-import { bundles } from './wedges.mjs';
-import { dot32, f, max, round32, sqrt32, sub32 } from './vectors.mjs';
+import { dot32, f, max, round32, subtract32 } from './floats.mjs';
+import { ask, beginQuestions, createMemory, edgeKey, learnFaces, memoryModels } from './memory.mjs';
+import { NO_NEIGHBOURS, byLength, contextAfter, contextOf, contextRows } from './residuals.mjs';
+import { squaredDistance } from './seenpositions.mjs';
+import { NONE, next, prev } from './surface.mjs';
+import { codeBundles, neighbourAlongRun } from './wedges.mjs';
 
-const NO_NEIGHBOUR = 11; // the context
+const HINGE = 1, REMEMBERS = 2;
+const MOST_FACES = 4;
+const ALONG_RUN = 10;
+export const texcoordModels = () => ({ ROW: [contextRows(), contextRows()], ...memoryModels() });
+const diff = (a, b) => [f((a[0] - b[0]) | 0), f((a[1] - b[1]) | 0)];
+const add2 = (a, b) => [f(a[0] + b[0]), f(a[1] + b[1])];
+const cross2 = (a, b) => f(f(a[0] * b[1]) - f(a[1] * b[0]));
 
-// By whether the set index is 0.
-export class TexcoordModels {
-	constructor() {
-		this.sets = models([2], () => ({ ROW: rows([2, 12]), KNOWN: memoryModels() }));
-	}
-
-	of(attribute) {
-		return this.sets[attribute.set === 0 ? 1 : 0];
-	}
+// [A.10.11]
+export function decodeTexcoords(coding, models, attribute, positions) {
+	const { values } = coding;
+	const hinge = (attribute.predictor & HINGE) !== 0;
+	const numbersOf = (w) => values[w].map((x) => x >>> 0);
+	const memory = attribute.predictor & REMEMBERS
+		? createMemory(coding, models, coding.wedges.piece.face_count, numbersOf) : undefined;
+	let last = [0, 0], side = 1;
+	codeBundles(coding, (bundle) => {
+		const faces = facesOf(coding, bundle);
+		const { predicted, context } = predict(coding, bundle, faces, positions, hinge, last, side);
+		const result = readValue(coding, models, memory, faces, predicted, context);
+		last = result.value;
+		if (hinge && faces.length !== 0) side = sideOf(values, faces[0], last, side);
+		return result;
+	}, (bundle) => {
+		if (memory !== undefined) learnFaces(memory, bundle);
+	});
 }
 
-const add = (a, b) => [f(a[0] + b[0]), f(a[1] + b[1])];
-const difference = (a, b) => [f((a[0] - b[0]) | 0), f((a[1] - b[1]) | 0)]; // diff of A.10.11
-const change = (u) => (Math.abs(u) < 1e9 ? round32(u) : 0);
-
-class Texcoords {
-	constructor(context, state) {
-		const byte = state.attribute.predictor;
-		this.streams = context.streams;
-		this.models = context.models.texcoords.of(state.attribute);
-		this.state = state;
-		this.wedges = state.wedges;
-		this.hinge = (byte & 1) !== 0;
-		this.memory = byte & 2 ? new Memory(context.streams, this.models.KNOWN, state, (x) => x >>> 0) : undefined;
-		this.side = 1;
-		this.last = [0, 0];
+// The first four faces whose other wedges are coded; o is n where there is no face beyond.
+function facesOf({ surface, coded }, { completed }) {
+	const { tail, twin } = surface;
+	const faces = [];
+	for (const h of completed) {
+		if (faces.length === MOST_FACES) break;
+		const n = tail[next(h)], p = tail[prev(h)], t = twin[next(h)];
+		if (!coded[n] || !coded[p]) continue;
+		const beyond = t !== NONE && tail[t] === p && tail[next(t)] === n && coded[tail[prev(t)]];
+		faces.push({ n, p, o: beyond ? tail[prev(t)] : n });
 	}
+	return faces;
+}
 
-	decode() {
-		for (const bundle of bundles(this.wedges, this.state.bundleOf)) this.bundle(bundle);
+function predict(coding, { w }, faces, positions, hinge, last, side) {
+	const { values } = coding;
+	if (faces.length === 0) {
+		const n = neighbourAlongRun(coding, w);
+		return n === NONE ? { predicted: last, context: NO_NEIGHBOURS } : { predicted: values[n], context: ALONG_RUN };
 	}
+	const { n, p } = faces[0];
+	const delta = hinge ? deltaOfHinges(values, positions, w, faces, side) : deltaOfDiagonal(values, positions, faces);
+	const predicted = values[n].map((x, c) => (Math.abs(delta[c]) < 1e9 ? (x + round32(delta[c])) | 0 : x));
+	return { predicted, context: contextOf(coding, n, p) };
+}
 
-	bundle(bundle) {
-		const faces = this.faces(bundle);
-		const { value, L } = this.known(faces) ?? this.coded(bundle, faces);
-		this.last = value;
-		this.state.finish(bundle, value, L);
-		if (faces.length !== 0 && this.hinge) this.learnSide(faces[0], value);
-		this.memory?.learnFaces(bundle.members);
-	}
-
-	coded(bundle, faces) {
-		const { predicted, context } = faces.length !== 0 ? this.fromFaces(bundle, faces) : this.withoutFaces(bundle);
-		const { pair, L } = this.readResiduals(context);
-		return { value: predicted.map((x, k) => (x + pair[k]) | 0), L };
-	}
-
-	// What the memory knows, if a flag says so.
-	known(faces) {
-		if (this.memory === undefined || faces.length === 0) return undefined;
+function readValue({ coder, values }, models, memory, faces, predicted, context) {
+	if (memory !== undefined && faces.length !== 0) {
 		const { n, p, o } = faces[0];
-		this.memory.begin();
-		const k = this.memory.ask(this.memory.edgeKey(n, p), o === n ? NONE : o);
-		return k === NONE ? undefined : { value: [...this.state.value(k)], L: this.state.meanLength({ n, p }) };
+		beginQuestions(memory);
+		const hit = ask(memory, edgeKey(memory, n, p), o === n ? undefined : o);
+		if (hit !== undefined) return { value: values[hit], length: context };
 	}
-
-	// [A.10.11] Faces
-	faces(bundle) {
-		const { state, wedges } = this;
-		const { surface } = wedges;
-		const faces = [];
-		for (const h of bundle.halfEdges) {
-			const n = surface.tail(next(h));
-			const p = surface.tail(prev(h));
-			if (!state.isCoded(n) || !state.isCoded(p)) continue;
-			const beyond = wedges.beyond(h);
-			faces.push({ n, p, o: state.isCoded(beyond) ? beyond : n });
-		}
-		return faces.slice(0, 4);
-	}
-
-	fromFaces(bundle, faces) {
-		const { n, p } = faces[0];
-		const delta = this.hinge ? this.unfolded(bundle.first, faces) : this.diagonal(faces);
-		const predicted = [...this.state.value(n)].map((x, k) => (x + change(delta[k])) | 0);
-		return { predicted, context: this.state.meanLength({ n, p }) };
-	}
-
-	withoutFaces(bundle) {
-		const n = bundle.isolated ? NONE : this.neighbourInRun(bundle.first);
-		if (n === NONE) return { predicted: this.last, context: NO_NEIGHBOUR };
-		return { predicted: [...this.state.value(n)], context: 10 };
-	}
-
-	neighbourInRun(w) {
-		const { state, wedges } = this;
-		for (const h of wedges.run(w)) {
-			const [n, p] = [next(h), prev(h)].map((g) => wedges.surface.tail(g));
-			if (state.isCoded(n)) return n;
-			if (state.isCoded(p)) return p;
-		}
-		return NONE;
-	}
-
-	readResiduals(context) {
-		const first = readByLength(this.streams, 0, this.models.ROW[0][context]);
-		const secondContext = context === NO_NEIGHBOUR ? NO_NEIGHBOUR : following(context, first.length);
-		const second = readByLength(this.streams, 1, this.models.ROW[1][secondContext]);
-		return { pair: [first.residual, second.residual], L: Math.max(first.length, second.length) };
-	}
-
-	// ---- [A.10.11] Hinge
-
-	unfolded(v, faces) {
-		const R = faces.map((face) => this.faceTerm(v, face, this.state.value(faces[0].n)));
-		const at = (i) => R[i] ?? [0, 0, 0];
-		const [U, V, W] = [0, 1, 2].map((k) => f(f(at(0)[k] + at(1)[k]) + f(at(2)[k] + at(3)[k])));
-		if (!(W > 0)) return [0, 0];
-		const i = f(1 / W);
-		return [f(U * i), f(V * i)];
-	}
-
-	faceTerm(v, { n, p, o }, origin) {
-		const { positions } = this.wedges;
-		const [un, up, uo] = [n, p, o].map((w) => this.state.value(w));
-		const [e, d, g] = [p, v, o].map((w) => sub32(positions[w], positions[n]));
-		const base = difference(un, origin);
-		const ee = dot32(e, e);
-		return ee > 0 ? this.unfoldedTerm(e, d, g, base, difference(up, un), difference(uo, un)) : [0, 0, 0];
-	}
-
-	// e, d, g: p, v and o relative to n; (du, dv) and (ou, ov): p and o relative to n in the chart
-	unfoldedTerm(e, d, g, [x, y], [du, dv], [ou, ov]) {
-		const inverse = f(1 / dot32(e, e));
-		const ed = dot32(e, d);
-		const s = f(ed * inverse);
-		const height = max(f(dot32(d, d) - f(s * ed)), 0);
-		const eg = dot32(e, g);
-		const so = f(eg * inverse);
-		const heightO = f(dot32(g, g) - f(so * eg));
-		let away = this.similarity([du, dv], [ou, ov], f(height * inverse));
-		let weight = 0.25;
-		if (height < f(36 * heightO)) {
-			const ratio2 = f(height / heightO);
-			const ratio = sqrt32(ratio2);
-			away = [f(ratio * f(f(so * du) - ou)), f(ratio * f(f(so * dv) - ov))];
-			weight = f(1 / f(1 + ratio2));
-		}
-		return [
-			f(weight * f(f(x + f(s * du)) + away[0])),
-			f(weight * f(f(y + f(s * dv)) + away[1])),
-			weight,
-		];
-	}
-
-	similarity([du, dv], [ou, ov], square) {
-		const turn = f(f(du * ov) - f(dv * ou));
-		const side = turn > 0 ? -1 : turn < 0 ? 1 : this.side;
-		const k = f(side * sqrt32(square));
-		return [f(0 - f(k * dv)), f(k * du)];
-	}
-
-	learnSide({ n, p }, value) {
-		const un = this.state.value(n);
-		const a = difference(this.state.value(p), un);
-		const b = difference(value, un);
-		const turn = f(f(a[0] * b[1]) - f(a[1] * b[0]));
-		if (turn > 0) this.side = 1;
-		else if (turn < 0) this.side = -1;
-	}
-
-	// ---- [A.10.11] Diagonal
-
-	diagonal(faces) {
-		const value = (w) => this.state.value(w);
-		let delta = [0, 0];
-		let longest = -1;
-		for (const { n, p, o } of faces) {
-			if (o === n) continue;
-			const l = this.wedges.squaredDistance(n, p);
-			if (!(l > longest)) continue;
-			longest = l;
-			delta = add(difference(value(n), value(faces[0].n)), difference(value(p), value(o)));
-		}
-		return delta;
-	}
+	const r0 = byLength(coder, 0, models.ROW[0][context]);
+	const r1 = byLength(coder, 1, models.ROW[1][contextAfter(context, r0.length)]);
+	const value = [(predicted[0] + r0.residual) | 0, (predicted[1] + r1.residual) | 0];
+	return { value, length: Math.max(r0.length, r1.length) };
 }
 
-export function decodeTexcoords(context, state) {
-	new Texcoords(context, state).decode();
+function sideOf(values, { n, p }, value, side) {
+	const turn = cross2(diff(values[p], values[n]), diff(value, values[n]));
+	return turn > 0 ? 1 : turn < 0 ? -1 : side;
+}
+
+function deltaOfDiagonal(values, positions, faces) {
+	let longest = -1, delta = [0, 0];
+	for (const { n, p, o } of faces) {
+		if (o === n) continue;
+		const l = squaredDistance(positions[n], positions[p]);
+		if (!(l > longest)) continue;
+		longest = l;
+		delta = add2(diff(values[n], values[faces[0].n]), diff(values[p], values[o]));
+	}
+	return delta;
+}
+
+function deltaOfHinges(values, positions, w, faces, side) {
+	const R = faces.map((face) => hingeOf(values, positions, w, face, faces[0], side));
+	while (R.length < MOST_FACES) R.push([0, 0, 0]);
+	const [U, V, W] = [0, 1, 2].map((c) => f(f(R[0][c] + R[1][c]) + f(R[2][c] + R[3][c])));
+	if (!(W > 0)) return [0, 0];
+	const i = f(1 / W);
+	return [f(U * i), f(V * i)];
+}
+
+// R_i: the weighted delta of a face, and its weight.
+function hingeOf(values, positions, w, { n, p, o }, first, side) {
+	const [e, d, beyond] = [p, w, o].map((x) => subtract32(positions[x], positions[n]));
+	const ee = dot32(e, e);
+	if (!(ee > 0)) return [0, 0, 0];
+	const inverse = f(1 / ee), ed = dot32(e, d), s = f(ed * inverse);
+	const height = max(f(dot32(d, d) - f(s * ed)), 0), ef = dot32(e, beyond), so = f(ef * inverse);
+	const heightO = f(dot32(beyond, beyond) - f(so * ef)), base = diff(values[n], values[first.n]);
+	const du = diff(values[p], values[n]), ou = diff(values[o], values[n]), turn = cross2(du, ou);
+	const k = f((turn > 0 ? -1 : turn < 0 ? 1 : side) * f(Math.sqrt(f(height * inverse))));
+	let away = [f(0 - f(k * du[1])), f(k * du[0])], weight = 0.25;
+	if (height < f(36 * heightO)) {
+		const ratio2 = f(height / heightO), ratio = f(Math.sqrt(ratio2));
+		away = du.map((x, c) => f(ratio * f(f(so * x) - ou[c])));
+		weight = f(1 / f(1 + ratio2));
+	}
+	const [x, y] = base.map((b, c) => f(weight * f(f(b + f(s * du[c])) + away[c])));
+	return [x, y, weight];
 }

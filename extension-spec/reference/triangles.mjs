@@ -1,119 +1,93 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Further triangles and parts: A.8 of the specification, and the table of triangles of A.9.
+// Listed triangles and parts [A.8]. Corners hold wedges.
 
-import { fail } from './bytes.mjs';
-import { golombs, models, trees } from './entropy.mjs';
-import { face, NONE } from './mesh.mjs';
+import { arrayOf, bit, golomb, golombModel, signedGolomb, tree, treeModel } from './entropy.mjs';
+import { failUnless } from './errors.mjs';
+import { NONE, face, head } from './surface.mjs';
 
-const ANY = 7; // shape of a listed triangle that refers to no face
+export const triangleModels = () => ({
+	SAME_PART: arrayOf(4), LIST_SHAPE: arrayOf(8, () => treeModel(3)), PART: golombModel(),
+	LIST_GAP: arrayOf(2, golombModel), LIST_WEDGE: arrayOf(3, golombModel), LIST_PART: golombModel(),
+});
 
-// [A.8]
-export class TriangleModels {
-	constructor() {
-		this.SAME_PART = models([4]);
-		this.PART = golombs([]);
-		this.LIST_SHAPE = trees(3, [8]);
-		this.LIST_GAP = golombs([2]);
-		this.LIST_WEDGE = golombs([3]);
-		this.LIST_PART = golombs([]);
+const valid = (condition, section, message) => failUnless(condition, 'BadAttribute', section, message);
+
+// [A.8] The table of triangles: the wedges and the part of each.
+export function decodeTriangles(coder, models, piece, surface) {
+	const table = { wedges: new Int32Array(3 * piece.triangle_count), part: new Int32Array(piece.triangle_count) };
+	table.wedges.set(surface.tail);
+	if (piece.part_count > 1) readParts(coder, models, piece, surface, table.part);
+	if (piece.LISTED) readList(coder, models, piece, surface, table);
+	checkParts(piece, table);
+	return table;
+}
+
+// [A.8.1]
+function readParts(coder, models, { face_count, part_count }, { twin }, part) {
+	let previous = 0;
+	for (let i = 0; i < face_count; ++i) {
+		const t = twin[3 * i + 1], entered = t !== NONE && face(t) < i ? 1 : 0;
+		const guess = entered ? part[face(t)] : previous;
+		if (bit(coder, models.SAME_PART[guess === previous ? entered + 2 : entered])) {
+			part[i] = guess;
+		} else {
+			const distance = golomb(coder, models.PART);
+			valid(distance < part_count - 1, 'A.8.1', 'a part does not exist');
+			part[i] = (guess + 1 + distance) % part_count;
+		}
+		previous = part[i];
 	}
 }
 
-class FurtherTriangles {
-	constructor(streams, modelSet, piece, surface) {
-		this.streams = streams;
-		this.models = modelSet;
-		this.piece = piece;
-		this.surface = surface;
-		this.further = []; // { wedges, part }
-	}
+const LISTED_BY_NUMBERS = 7;
 
-	bit(model) {
-		return this.streams.bit(model);
-	}
-
-	// The table of triangles: { wedges, part }; that of a face has its number.
-	decode() {
-		const parts = this.partsOfFaces();
-		this.listed(parts);
-		const faces = Array.from(parts, (part, f) => ({ wedges: [0, 1, 2].map((k) => this.surface.tail(3 * f + k)), part }));
-		return [...faces, ...this.further];
-	}
-
-	// [A.8.1] Parts of the faces
-	partsOfFaces() {
-		const { faceCount, partCount } = this.piece;
-		const parts = new Uint32Array(faceCount);
-		if (partCount === 1) return parts;
-		let previous = 0;
-		for (let f = 0; f < faceCount; ++f) {
-			parts[f] = this.partOfFace(parts, f, previous);
-			previous = parts[f];
+// [A.8.2]
+function readList(coder, models, piece, surface, table) {
+	const { face_count, listed_count, part_count } = piece;
+	let shape = 0, i = 0, w = [0, 0, 0], part = 0;
+	for (let triangle = face_count; triangle < face_count + listed_count; ++triangle) {
+		shape = tree(coder, models.LIST_SHAPE[shape]);
+		let guess = part;
+		if (shape !== LISTED_BY_NUMBERS) {
+			i += golomb(coder, models.LIST_GAP[Math.min(shape, 1)]);
+			valid(i < face_count, 'A.8.2', 'a listed triangle refers to a face that does not exist');
+			w = trianglesOfShape(surface, i, shape);
+			guess = table.part[i];
+		} else {
+			w = readWedges(coder, models, piece.wedge_count, w[0]);
 		}
-		return parts;
-	}
-
-	partOfFace(parts, f, previous) {
-		const { partCount } = this.piece;
-		const t = this.surface.twin(3 * f + 1);
-		const entered = t !== NONE && face(t) < f ? 1 : 0;
-		const guess = entered ? parts[face(t)] : previous;
-		if (this.bit(this.models.SAME_PART[guess === previous ? entered + 2 : entered])) return guess;
-		const distance = this.streams.golomb(this.models.PART);
-		if (distance >= partCount - 1) fail('BadAttribute', 'A.8.1', 'a part that does not exist');
-		return (guess + 1 + distance) % partCount;
-	}
-
-	// [A.8.2] Listed triangles
-	listed(parts) {
-		let last = { shape: 0, face: 0, wedges: [0, 0, 0], part: 0 };
-		for (let i = 0; i < this.piece.listedCount; ++i) {
-			last = this.listedTriangle(last, parts);
-			this.further.push({ wedges: last.wedges, part: last.part });
+		part = 0;
+		if (part_count > 1) {
+			const distance = golomb(coder, models.LIST_PART);
+			valid(distance < part_count, 'A.8.2', 'a part does not exist');
+			part = (guess + distance) % part_count;
 		}
-	}
-
-	listedTriangle(last, parts) {
-		const { streams, models: m } = this;
-		const shape = streams.tree(m.LIST_SHAPE[last.shape]);
-		if (shape === ANY) {
-			const wedges = this.anyWedges(last.wedges[0]);
-			return { shape, face: last.face, wedges, part: this.listedPart(last.part) };
-		}
-		const f = last.face + streams.golomb(m.LIST_GAP[Math.min(shape, 1)]);
-		if (f >= this.piece.faceCount) fail('BadAttribute', 'A.8.2', 'a face that does not exist');
-		return { shape, face: f, wedges: this.wedgesOfShape(shape, f), part: this.listedPart(parts[f]) };
-	}
-
-	// The face again, or two ends of an edge, the first of them twice
-	wedgesOfShape(shape, f) {
-		const { surface } = this;
-		if (shape === 0) return [0, 1, 2].map((k) => surface.tail(3 * f + k));
-		const h = 3 * f + Math.floor((shape - 1) / 2);
-		const [a, b] = shape % 2 === 1 ? [surface.tail(h), surface.head(h)] : [surface.head(h), surface.tail(h)];
-		return [a, a, b];
-	}
-
-	anyWedges(last) {
-		const near = (from, k) => {
-			const w = (from + this.streams.signedGolomb(this.models.LIST_WEDGE[k])) >>> 0;
-			if (w >= this.piece.wedgeCount) fail('BadAttribute', 'A.8.2', 'a wedge that does not exist');
-			return w;
-		};
-		const w0 = near(last, 0);
-		return [w0, near(w0, 1), near(w0, 2)];
-	}
-
-	listedPart(guess) {
-		const { partCount } = this.piece;
-		if (partCount === 1) return 0;
-		const distance = this.streams.golomb(this.models.LIST_PART);
-		if (distance >= partCount) fail('BadAttribute', 'A.8.2', 'a part that does not exist');
-		return (guess + distance) % partCount;
+		table.wedges.set(w, 3 * triangle);
+		table.part[triangle] = part;
 	}
 }
 
-export function decodeTriangles(streams, modelSet, piece, surface) {
-	return new FurtherTriangles(streams, modelSet, piece, surface).decode();
+function trianglesOfShape(surface, i, shape) {
+	if (shape === 0) return [...surface.tail.subarray(3 * i, 3 * i + 3)];
+	const h = 3 * i + Math.floor((shape - 1) / 2), a = surface.tail[h], b = head(surface, h);
+	return shape % 2 === 1 ? [a, a, b] : [b, b, a];
+}
+
+// Modulo 2^32 a negative number is above all numbers of wedges.
+function readWedges(coder, models, wedgeCount, before) {
+	const read = (from, k) => {
+		const wedge = from + signedGolomb(coder, models.LIST_WEDGE[k]);
+		valid(wedge >= 0 && wedge < wedgeCount, 'A.8.2', 'a wedge does not exist');
+		return wedge;
+	};
+	const first = read(before, 0), second = read(first, 1);
+	return [first, second, read(first, 2)];
+}
+
+// [A.9.4]
+function checkParts({ partTriangles }, { part }) {
+	const counts = new Float64Array(partTriangles.length);
+	for (const p of part) ++counts[p];
+	valid(partTriangles.every((count, p) => count === counts[p]), 'A.9.4', 'a part has another number of triangles');
 }

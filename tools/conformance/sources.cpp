@@ -1144,6 +1144,17 @@ std::vector<Source> rareSources() {
                          const Lattice lattice{{-0.0f, -0.0f, -0.0f, 0}, 0.001f};
                          b.piece().attributes[0].lattice = lattice;
                        }));
+  for (uint64_t variation = 1; variation <= 2; ++variation) {
+    all.push_back(single("long_normals_" + std::to_string(variation),
+                         "Exact normals with components of 4 and more", withNormals(torus(9, 7)),
+                         [](SourceBuilder& b) {
+                           b.positions(12);
+                           b.floats("NORMAL", kBase, "VEC3", 0, [](const Place& at, uint32_t c) {
+                             return at.normal(c) * (at.wedge % 5 == 0 ? 40.0f : 1.0f);
+                           });
+                         }));
+    all.back().options.variation = variation;
+  }
   return all;
 }
 

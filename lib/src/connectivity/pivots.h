@@ -115,8 +115,14 @@ class PivotCoder {
   static Status noMemory() {
     return fail(Error::kOutOfMemory, "no memory for the connectivity decoder");
   }
+  static Status noSuchSpoke() {
+    return fail(Error::kBadConnectivity, "a triangle refers to a spoke that does not exist");
+  }
   static Status noSuchVertex() {
-    return fail(Error::kBadConnectivity, "a triangle refers to a vertex that it cannot have");
+    return fail(Error::kBadConnectivity, "a triangle refers to a vertex that does not exist");
+  }
+  static Status isSpoke() {
+    return fail(Error::kBadConnectivity, "a new spoke leads to the vertex of another one");
   }
 
   Io& io_;
@@ -234,7 +240,7 @@ MCC_INLINE Status PivotCoder<Io>::codeOther(CodesBurst& codes, uint32_t p, uint3
       codes.giveBack(io_);
       const uint32_t skipped = codeGolomb(io_, models_.skipped, truth - place);
       codes.take(io_);
-      if (skipped >= spokes_.size() - place) return noSuchVertex();
+      if (skipped >= spokes_.size() - place) return noSuchSpoke();
       place += skipped;
       break;
     }
@@ -275,7 +281,8 @@ Status PivotCoder<Io>::meet(uint32_t p, uint32_t truth, uint32_t& place) {
   } else {
     const uint32_t distance = codeGolomb(io_, models_.far, known_count_ - 1 - truth);
     vertex = known_count_ - 1 - distance;
-    if (distance >= old_count || vertices_[vertex].pivot == p) return noSuchVertex();
+    if (distance >= old_count) return noSuchVertex();
+    if (vertices_[vertex].pivot == p) return isSpoke();
   }
   return addSpoke(p, vertex, place);
 }
