@@ -16,6 +16,7 @@ import * as decoder from '../../lib/web/index.mjs';
 import { readGlb } from '../../lib/web/unpack.mjs';
 import { manifest, readAsset } from './support/conformance.mjs';
 import { compareWithManifest, refusesNegatives } from './support/loaders.mjs';
+import { composedModel } from './support/composed.mjs';
 import { codedGlb, MeshoptDecoder } from './support/meshopt.mjs';
 import { convertWithFallback, readSample } from './support/program.mjs';
 import { snippetOf } from './support/readme.mjs';
@@ -61,6 +62,20 @@ for (const name of ['genus3', 'morphed', 'quantized', 'shared_vertices', 'skinne
     assert.deepEqual(back.map(counts), primitivesOf(document).map(counts));
   });
 }
+
+test('meshes of ours beside animations and instances of meshopt', async () => {
+  const { plain, composed } = await composedModel();
+  const arraysOf = (document) => document.getRoot().listAccessors().map((accessor) => [accessor.getType(), accessor.getCount()]);
+  const animationOf = (document) => document.getRoot().listAnimations()[0].listSamplers().map((sampler) => sampler.getOutput().getArray());
+  const source = await plainIo.readBinary(plain);
+  for (const extensions of [[EXTMeshoptCompression, KHRMeshCollapseCompression], [KHRMeshCollapseCompression, EXTMeshoptCompression]]) {
+    const both = new NodeIO().setLogger(quiet).registerExtensions([...extensions, ...ALL_EXTENSIONS])
+      .registerDependencies({ 'mcc.decoder': decoder, 'meshopt.decoder': MeshoptDecoder });
+    const document = await both.readBinary(composed);
+    assert.deepEqual(arraysOf(document), arraysOf(source));
+    assert.deepEqual(animationOf(document), animationOf(source));
+  }
+});
 
 test('what meshoptimizer compressed is read, and written when its extension is disposed of', async () => {
   const withMeshopt = ioWith({ 'mcc.decoder': decoder, 'mcc.encoder': encoder, 'meshopt.decoder': MeshoptDecoder, 'meshopt.encoder': MeshoptEncoder });

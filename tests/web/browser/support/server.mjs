@@ -4,7 +4,7 @@
 // import maps, without a bundler.
 //
 //   /pages/NAME.html        NAME.mjs of tests/web/browser/pages, with an import map; ?without replaces the library by nothing,
-//                           ?eval allows it, ?noworkers forbids workers, ?strict is for pages without an import map
+//                           ?eval allows it, ?blobs allows workers of blobs, ?noworkers forbids workers, ?strict is for pages without an import map
 //   /models/NAME/model.glb  a model of the test
 //   /snippets/NAME.mjs      the code under "### NAME" in the README of lib/web
 //   /lib/…, /engines/…      lib/web and node_modules
@@ -112,6 +112,7 @@ async function answer(url, models, bundle) {
     case 'bundle': return withPolicy(await readInside(bundle, name), { ...POLICY, ...POLICY_OF_ENGINES });
     case 'models': return rest[1] === 'tileset.json' ? content(TILESET, '.json') : content(models.get(rest[0]) ?? missingModel(rest[0]), '.glb');
     case 'snippets': return content(await snippetOf(name.replace(/\.mjs$/, '')), '.mjs');
+    case 'three': return readInside(path.join(ENGINES, 'three'), name);
     case 'gltf-mcc': return file(LIBRARY);
     case 'sw.js': return withPolicy(content(await snippetOf('sw.js'), '.js'), POLICY);
     case 'plain': return name.endsWith('.html') ? plainPage(await file(PLAIN), url) : file(PLAIN);
@@ -149,6 +150,7 @@ function page(name, url) {
   const policy = {
     ...POLICY,
     ...(has('strict') ? {} : { ...POLICY_OF_ENGINES, 'script-src': scripts }),
+    ...(has('blobs') ? { 'worker-src': "'self' blob:" } : {}),
     ...(has('noworkers') ? { 'worker-src': "'none'" } : {}),
   };
   const body = `<!doctype html>
