@@ -115,15 +115,19 @@ describe('package', () => {
     }).length;
     mkdirSync(join(project, 'src'), { recursive: true });
     // For browsers that have what the modules need: not one of these is without ES2022.
-    const scriptBytes = async (names) => {
-      writeFileSync(join(project, 'src/least.js'), `export { ${names} } from 'gltf-mcc';`);
+    const scriptBytes = async (names, module = 'gltf-mcc') => {
+      writeFileSync(join(project, 'src/least.js'), `export { ${names} } from '${module}';`);
       const { output: [{ code }] } = await build({
         root: project, logLevel: 'warn',
         build: { write: false, minify: 'esbuild', target: 'es2022', modulePreload: false,
-          rollupOptions: { input: join(project, 'src/least.js'), preserveEntrySignatures: 'strict' } },
+          rollupOptions: { input: join(project, 'src/least.js'), preserveEntrySignatures: 'strict', external: /^(three|@babylonjs|@gltf-transform)/ } },
       });
       return brotli(Buffer.from(code));
     };
+    const plugins = { three: 'MeshCollapsePlugin', babylon: 'registerMeshCollapse', 'gltf-transform': 'KHRMeshCollapseCompression', 'service-worker': 'decodeFetches' };
+    for (const [name, exported] of Object.entries(plugins)) {
+      console.log(`gltf-mcc/${name}, minified, after brotli: ${await scriptBytes(exported, `gltf-mcc/${name}`)} bytes`);
+    }
     console.log(`decodePayload(), minified, after brotli: ${await scriptBytes('decodePayload')} bytes`);
     const script = await scriptBytes('decodePayload, unpackGlb');
     console.log(`decodePayload() and unpackGlb(), minified, after brotli: ${script} bytes`);
