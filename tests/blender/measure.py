@@ -36,7 +36,7 @@ def draw(path):
     camera.rotation_euler = (centre - camera.location).to_track_quat("-Z", "Y").to_euler()
     camera.data.angle = math.radians(42)
     sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
-    sun.data.energy = 3
+    sun.data.energy = 1.5
     sun.rotation_euler = (0.6, 0.2, 0.5)
     world = bpy.data.worlds.new("world")
     world.use_nodes = True

@@ -131,6 +131,8 @@ describe('package', () => {
     console.log(`decodePayload(), minified, after brotli: ${await scriptBytes('decodePayload')} bytes`);
     const script = await scriptBytes('decodePayload, unpackGlb');
     console.log(`decodePayload() and unpackGlb(), minified, after brotli: ${script} bytes`);
+    const draco = readFileSync(join(here, 'node_modules/draco3d/draco_decoder.wasm'));
+    console.log(`draco_decoder.wasm of draco3d, to compare: ${draco.length} bytes, after brotli ${brotli(draco)}`);
     for (const name of ['mcc_decoder_core_simd', 'mcc_decoder_core', 'mcc_decoder_simd', 'mcc_decoder', 'mcc_encoder']) {
       const module = readFileSync(join(installed, `wasm/${name}.wasm`));
       const compressed = brotli(module);

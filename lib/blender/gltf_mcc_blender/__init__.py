@@ -3,7 +3,6 @@
 
 Blender's importer looks for glTF2ImportUserExtension in every add-on that is enabled.
 """
-import ctypes
 import os
 from pathlib import Path
 
@@ -17,20 +16,9 @@ bl_info = {
     "category": "Import-Export",
 }
 
-
-def _find_library():
-    """Names the shared library that the zip holds, if GLTF_MCC_LIBRARY names no other. Those that it needs are loaded
-    first, since the system would not look for them here."""
-    found = [path for part in ("-reader", "-writer", "")
-             for path in Path(__file__).parent.glob(f"*gltf-mcc{part}.[sd]*")]
-    if not found or "GLTF_MCC_LIBRARY" in os.environ:
-        return
-    for path in found[:-1]:
-        ctypes.CDLL(str(path))
-    os.environ["GLTF_MCC_LIBRARY"] = str(found[-1])
-
-
-_find_library()
+# The zip may hold the shared library, next to those that it needs; GLTF_MCC_LIBRARY names another one.
+for _library in Path(__file__).parent.glob("*gltf-mcc.[sd]*"):
+    os.environ.setdefault("GLTF_MCC_LIBRARY", str(_library))
 
 from . import exporter  # noqa: E402 (the library must be named before it is loaded)
 from .importer import glTF2ImportUserExtension  # noqa: E402, F401 (Blender's importer looks for it here)
