@@ -3,6 +3,7 @@
 import base64
 import json
 import math
+import os
 import struct
 import subprocess
 import sys
@@ -189,6 +190,19 @@ class Addon(unittest.TestCase):
         attributes = [gltf_of(self.path(f"{name}.glb"))["meshes"][0]["primitives"][0]["attributes"]
                       for name in ("without", "with")]
         self.assertEqual(["TEXCOORD_0" in a for a in attributes], [False, True])
+
+    def test_the_code_of_the_readme(self):
+        code = Path("lib/blender/README.md").read_text().split("```python\n")[1].split("```")[0]
+        self.compressed(Path(SAMPLES, "torus.glb")).rename(self.path("in.glb"))
+        import_file(self.path("in.glb"))
+        bpy.ops.object.select_all(action="DESELECT")
+        before = os.getcwd()
+        os.chdir(self.folder.name)
+        try:
+            exec(code, {"bpy": bpy})
+        finally:
+            os.chdir(before)
+        self.assertIn(EXTENSION, gltf_of(self.path("out.glb"))["extensionsRequired"])
 
     def test_export_that_fails_leaves_the_old_file(self):
         import_file(Path(SAMPLES, "sphere.glb"))

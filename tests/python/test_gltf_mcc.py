@@ -1,9 +1,10 @@
 # Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-"""Tests of the package gltf_mcc: test_gltf_mcc.py GLTF_MCC SAMPLES, run by package_test in an environment that has
+"""Tests of the package gltf_mcc: test_gltf_mcc.py GLTF_MCC SAMPLES README, run by package_test in an environment that has
 nothing but the wheel. NumPy is used if it is there."""
 import json
 import os
 import pickle
+import shutil
 import struct
 import subprocess
 import sys
@@ -16,7 +17,7 @@ from pathlib import Path
 import gltf_mcc
 from gltf_mcc import meshes
 
-PROGRAM, SAMPLES = sys.argv[1], Path(sys.argv[2])
+PROGRAM, SAMPLES, README = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
 
 
 def grid(side):
@@ -197,6 +198,21 @@ class Meshes(unittest.TestCase):
 
 
 class Package(unittest.TestCase):
+    def test_the_code_of_the_readme(self):
+        code = README.read_text().split("```python\n")[1].split("```")[0]
+        positions, indices = grid(5)
+        names = {"positions": positions, "indices": indices, "uvs": memoryview(bytes(4 * 2 * 25)).cast("f", (25, 2))}
+        before = os.getcwd()
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copyfile(SAMPLES / "torus.glb", Path(folder, "in.glb"))
+            os.chdir(folder)
+            try:
+                exec(code, names)
+            finally:
+                os.chdir(before)
+        self.assertEqual(names["plain"], gltf_mcc.decode(gltf_mcc.convert(SAMPLES / "torus.glb", position_bits=12)))
+        self.assertEqual(names["piece"]["POSITION"].shape, (25, 3))
+
     def test_versions_go_together(self):
         self.assertEqual(gltf_mcc.__version__, gltf_mcc.library_version.replace("-rc.", "rc"))
 
