@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The README's recipe for GNU Parallel, verbatim, with two workers on this machine and one broken
+// The recipe of docs/cli.md for GNU Parallel, verbatim, with two workers on this machine and one broken
 // model.
 #include <gtest/gtest.h>
 
@@ -14,12 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the indented lines of the README, from one with this beginning to an empty line.
+/// Returns the indented lines of docs/cli.md, from one with this beginning to an empty line.
 std::string snippetOf(const std::string& begin) {
-  const std::string readme = contentOf(fs::path(MCC_SOURCE_DIR) / "README.md");
-  const size_t at = readme.find("\n    " + begin);
+  const std::string text = contentOf(fs::path(MCC_SOURCE_DIR) / "docs" / "cli.md");
+  const size_t at = text.find("\n    " + begin);
   if (at == std::string::npos) return "";
-  return readme.substr(at + 1, readme.find("\n\n", at) - at);
+  return text.substr(at + 1, text.find("\n\n", at) - at);
 }
 
 TEST(Recipes, ParallelConvertsALibraryAndTriesAgainWhatFailed) {
