@@ -1144,6 +1144,20 @@ std::vector<Source> rareSources() {
                          const Lattice lattice{{-0.0f, -0.0f, -0.0f, 0}, 0.001f};
                          b.piece().attributes[0].lattice = lattice;
                        }));
+  all.push_back(single(
+      "listed_in_two_parts", "Degenerate triangles at every vertex, on no edges, in two parts",
+      [] {
+        TestMesh mesh = grid(5, 5);
+        const auto count = static_cast<uint32_t>(mesh.positions.size() / 3);
+        for (uint32_t v = 0; v < count; ++v)
+          mesh.indices.insert(mesh.indices.end(),
+                              {v, (v * 7 + 11) % count, v, v, (v * 11 + 20) % count, v});
+        return mesh;
+      }(),
+      [](SourceBuilder& b) {
+        b.positions(9);
+        b.split(1);
+      }));
   for (uint64_t variation = 1; variation <= 2; ++variation) {
     all.push_back(single("long_normals_" + std::to_string(variation),
                          "Exact normals with components of 4 and more", withNormals(torus(9, 7)),
