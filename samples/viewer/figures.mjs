@@ -140,7 +140,7 @@ export function remarksOn({ report, codecs, errors }, options) {
     all.push('Times are for all payloads on one thread of this device: from nothing in a new worker, with the decoder from the network or the',
       'browser’s cache; and the shortest of several runs.');
   }
-  if (Object.values(codecs).some(({ brotliBytes }) => brotliBytes !== undefined)) all.push(`Brotli ${VERSIONS.brotli} (brotli-wasm) at quality 11.`);
+  if (Object.values(codecs).some(({ brotliBytes }) => brotliBytes !== undefined)) all.push(`Brotli: brotli-wasm ${VERSIONS.brotli} at quality 11.`);
   return all;
 }
 

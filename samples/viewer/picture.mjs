@@ -25,7 +25,7 @@ export function drawReport(views, { name, date, summary, codecs, remarks }) {
   drawViews(pen, views);
   let y = TEXT_TOP;
   drawSummary(pen, summary, y);
-  y += 80;
+  y += 96;
   y = drawTable(pen, codecs, y);
   pen.wrap(remarks.join(' '), MARGIN, y + 10, WIDTH - 2 * MARGIN);
   return new Promise((resolve) => canvas.toBlob(resolve, 'image/png'));

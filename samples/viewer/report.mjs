@@ -12,7 +12,7 @@ export function reportOf({ file, result, options, remarks }) {
     generator: 'gltf-mcc viewer',
     date: new Date().toISOString(),
     userAgent: navigator.userAgent,
-    threads: navigator.hardwareConcurrency,
+    hardwareThreads: navigator.hardwareConcurrency,
     file: { name: file.name, bytes: file.bytes.length, resultBytes: glb.length },
     primitives: report.primitives.length,
     triangles: sum(report.payloads, 'triangles'),
@@ -30,8 +30,11 @@ const codecOf = (name, version, { bytes, brotliBytes, first, best, streams, erro
   version,
   bytes,
   brotliBytes,
-  loadAndFirstDecodeMilliseconds: first,
-  bestDecodeMilliseconds: best,
+  loadAndFirstDecodeMilliseconds: toMicroseconds(first),
+  bestDecodeMilliseconds: toMicroseconds(best),
   streamBytes: streams && Object.fromEntries(streams),
   errors,
 });
+
+/** Further decimals say nothing. */
+const toMicroseconds = (milliseconds) => milliseconds && Number(milliseconds.toFixed(3));

@@ -11,7 +11,7 @@ let loading;
 
 onmessage = async ({ data: { parts } }) => {
   try {
-    loading ??= init({ module_or_path: new URL('../vendor/brotli/brotli_wasm_bg.wasm', import.meta.url) });
+    loading ??= init(new URL('../vendor/brotli/brotli_wasm_bg.wasm', import.meta.url));
     await loading;
     const bytes = joinBytes(parts);
     postMessage({ name: 'done', byteLength: bytes.length === 0 ? 0 : compress(bytes, { quality: QUALITY }).length });
