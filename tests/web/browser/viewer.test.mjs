@@ -214,12 +214,12 @@ function saturatedPixels({ width, height, data }) {
 }
 
 test('its picture for the README', { skip: process.env.MCC_SCREENSHOTS === undefined && 'MCC_SCREENSHOTS is not set' }, async () => {
-  const { page } = await openViewer({ width: 1120, height: 600 });
+  const { page } = await openViewer({ width: 1200, height: 600 });
   await drop(page, 'genus3.glb', readSample('genus3'));
   await settle(page);
   await click(page, 'tree');
   const { y, height } = await page.locator('#codecs').boundingBox();
-  const clip = { x: 0, y: 0, width: 1120, height: Math.ceil(y + height + 12) };
+  const clip = { x: 0, y: 0, width: 1200, height: Math.ceil(y + height + 12) };
   await writeFile(path.join(process.env.MCC_SCREENSHOTS, 'viewer.png'), await page.screenshot({ fullPage: true, clip }));
   await page.close();
 });
