@@ -1,8 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Shows sizes, times and errors as text and tables.
+import { CODECS } from './comparison.mjs';
 import { element } from './element.mjs';
 import { formatCount, formatMilliseconds, formatPercent, formatSmall } from './format.mjs';
+import { VERSIONS } from './vendor/versions.mjs';
 
 const FIRST = ['connectivity', 'stitching', 'leftovers', 'order', 'seams', 'POSITION'];
 const LAST = ['header'];
@@ -22,28 +24,60 @@ const rank = (name) => (FIRST.includes(name) ? FIRST.indexOf(name) : LAST.includ
 
 /**
  * @param {HTMLTableElement} table
- * @param {Map<string, number>} ours @param {number} oursTotal
- * @param {{ streams: Map<string, number>, byteLength: number } | undefined} draco not there yet, or
- * not to be had
+ * @param {{ [codec]: { streams?: Map<string, number>, bytes?: number, errors: string[] } }} codecs streams: not there yet, or not
+ * to be had
  */
-export function showStreams(table, ours, oursTotal, draco) {
-  const names = [...new Set([...ours.keys(), ...draco?.streams.keys() ?? []])].sort((a, b) => rank(a) - rank(b));
-  const most = Math.max(...ours.values(), ...draco?.streams.values() ?? [0]);
+export function showStreams(table, codecs) {
+  const known = Object.values(codecs).map(({ streams }) => streams ?? new Map());
+  const names = [...new Set(known.flatMap((streams) => [...streams.keys()]))].sort((a, b) => rank(a) - rank(b));
+  const most = Math.max(...known.flatMap((streams) => [...streams.values()]));
   table.replaceChildren(
-    element('thead', {}, element('tr', {},
-      element('th', { scope: 'col' }, 'Stream'),
-      element('th', { scope: 'col' }, key('ours'), 'Mesh collapse'),
-      element('th', { scope: 'col' }, key('draco'), 'Draco'))),
+    headOf('Stream'),
     element('tbody', {}, ...names.map((name) => element('tr', {},
       element('th', { scope: 'row' }, name),
-      cell(ours.get(name), most, 'ours'),
-      cell(draco?.streams.get(name), most, 'draco')))),
-    element('tfoot', {}, element('tr', {},
-      element('th', { scope: 'row' }, 'all'),
-      element('td', {}, number(formatCount(oursTotal))),
-      element('td', {}, number(draco === undefined ? '…' : formatCount(draco.byteLength)),
-        element('span', { class: 'ratio' }, draco === undefined ? '' : comparison(oursTotal, draco.byteLength))))));
+      ...Object.keys(CODECS).map((codec) => cell(codecs[codec].streams?.get(name), most, codec))))),
+    element('tfoot', {}, rowOf({ ...rowsOf(codecs)[0], name: 'all' })));
 }
+
+/** Shows a row per figure: bytes, times. @param {HTMLTableElement} table */
+export function showCodecs(table, codecs) {
+  table.replaceChildren(headOf('Payloads'), element('tbody', {}, ...rowsOf(codecs).map(rowOf)));
+}
+
+const headOf = (title) => element('thead', {}, element('tr', {},
+  element('th', { scope: 'col' }, title),
+  ...Object.entries(CODECS).map(([codec, name]) => element('th', { scope: 'col' }, key(codec), name))));
+
+const rowOf = ({ name, cells }) => element('tr', {},
+  element('th', { scope: 'row' }, name),
+  ...cells.map(({ text, ratio, isLeast }) => element('td', isLeast ? { class: 'least' } : {},
+    number(text), element('span', { class: 'ratio' }, ratio))));
+
+const FIGURES = [
+  ['Bytes', 'bytes', formatCount],
+  ['Bytes after brotli', 'brotliBytes', formatCount],
+  ['Load + first decode', 'first', formatMilliseconds],
+  ['Best decode', 'best', formatMilliseconds],
+];
+
+/**
+ * The figures of all codecs as text, for the page and the picture.
+ * @returns {{ name: string, cells: { text: string, ratio: string, isLeast: boolean }[] }[]} ratio: to ours; cells in the order of CODECS
+ */
+export function rowsOf(codecs) {
+  return FIGURES.map(([name, figure, format]) => {
+    const values = Object.keys(CODECS).map((codec) => codecs[codec][figure]);
+    const least = Math.min(...values.filter((value) => value > 0));
+    const cells = Object.keys(CODECS).map((codec, i) => ({
+      text: values[i] === undefined ? missing(codecs[codec]) : format(values[i]),
+      ratio: i === 0 || !(values[i] > 0 && values[0] > 0) ? '' : comparison(format(values[0]), format(values[i]), values[i] / values[0]),
+      isLeast: values[i] === least,
+    }));
+    return { name, cells };
+  });
+}
+
+const missing = ({ errors, isComplete }) => (errors.length !== 0 || isComplete ? '–' : '…');
 
 const key = (kind) => element('span', { class: `key ${kind}` });
 
@@ -56,9 +90,9 @@ function cell(bytes, most, kind) {
   return element('td', {}, number(formatCount(bytes)), element('span', { class: 'track' }, bar));
 }
 
-function comparison(ours, draco) {
-  if (ours === draco) return 'the same';
-  return ours < draco ? `${(draco / ours).toFixed(2)} × ours` : `${formatPercent(draco / ours)} of ours`;
+function comparison(ours, theirs, ratio) {
+  if (ours === theirs) return 'the same';
+  return ratio > 1 ? `${ratio < 100 ? ratio.toFixed(2) : Math.round(ratio)} × ours` : `${formatPercent(ratio)} of ours`;
 }
 
 /** @param {HTMLDListElement} list @param {[string, string, string?][]} entries name, figure, more */
@@ -68,7 +102,7 @@ export function showSummary(list, entries) {
 }
 
 /** Lists what is known so far about a compression. */
-export function summaryOf({ sourceBytes, report, glb, timing, errors, draco, dracoError }) {
+export function summaryOf({ sourceBytes, report, glb, errors }) {
   const sizes = `${formatCount(sourceBytes)} → ${formatCount(glb.length)}`;
   const entries = [['File', sizes, `bytes, ${formatPercent(glb.length / sourceBytes)}`]];
   const payloadBytes = sum(report.payloads, 'bytes');
@@ -77,10 +111,6 @@ export function summaryOf({ sourceBytes, report, glb, timing, errors, draco, dra
     const vertices = formatCount(sum(report.payloads, 'vertices'));
     const rate = formatSmall(8 * payloadBytes / triangles);
     entries.push(['Triangles', formatCount(triangles), `and ${vertices} vertices in ${formatCount(payloadBytes)} bytes, ${rate} bits per triangle`]);
-  }
-  if (timing !== undefined) {
-    const theirs = draco === undefined ? '…' : formatMilliseconds(draco.decodeMilliseconds);
-    entries.push(['Decoding', formatMilliseconds(timing.decodeMilliseconds), dracoError === undefined ? `Draco ${theirs}` : '']);
   }
   if (errors !== undefined) entries.push(['Largest error', formatSmall(errors.most), describeError(errors)]);
   return entries;
@@ -92,3 +122,49 @@ function describeError({ most, side, mean }) {
 }
 
 export const sum = (list, name) => list.reduce((all, entry) => all + entry[name], 0);
+
+/** Sentences on what the figures do not say. @param {{ report, codecs, errors }} result @param {{ lossless, keepsOrder }} options */
+export function remarksOn({ report, codecs, errors }, options) {
+  const { ours, draco, meshopt } = codecs;
+  const all = [];
+  if (draco.streams !== undefined) all.push(...dracoRemarks(draco, options));
+  if (meshopt.streams !== undefined) all.push(...meshoptRemarks(options));
+  const dropped = sum(report.payloads, 'triangles') - draco.triangles;
+  if (dropped > 0) all.push(`Draco drops ${formatCount(dropped)} triangles.`);
+  if (options.keepsOrder && (draco.bytes ?? meshopt.bytes) !== undefined) all.push('Draco and meshopt do not keep the order here.');
+  for (const [codec, name] of Object.entries(CODECS)) for (const error of codecs[codec].errors) all.push(errorOf(name, codecs[codec], error));
+  if (ours.streams.has('JOINTS_0') && ours.streams.get('WEIGHTS_0') === 0) all.push('Mesh collapse codes weights with their joints.');
+  if (errors?.missed > 0) all.push(`${formatCount(errors.missed)} vertices of the source have no decoded vertex within the promised distance.`);
+  all.push(...keptRemarks(report));
+  if (Object.values(codecs).some(({ best }) => best !== undefined)) {
+    all.push('Times are for all payloads on one thread of this device: from nothing in a new worker, with the decoder from the network or the',
+      'browser’s cache; and the shortest of several runs.');
+  }
+  if (Object.values(codecs).some(({ brotliBytes }) => brotliBytes !== undefined)) all.push(`Brotli: brotli-wasm ${VERSIONS.brotli} at quality 11.`);
+  return all;
+}
+
+const errorOf = (name, { bytes }, error) => `${bytes === undefined ? `No comparison with ${name}` : `${name}: a figure is missing`}: ${error}.`;
+
+const quantised = (lossless) => (lossless ? 'not quantised' : 'with the same bits');
+
+function dracoRemarks({ streams }, { lossless }) {
+  const all = [`Draco ${VERSIONS.draco} at speed 0, which gives its smallest files, ${quantised(lossless)};`,
+    'its seams are counted with the attributes that have them.'];
+  if ([...streams.keys()].some((name) => name.startsWith('target'))) {
+    all.push('Draco has no coding for morph targets; they are counted uncompressed.');
+  }
+  return all;
+}
+
+const meshoptRemarks = ({ lossless }) => [
+  `meshopt ${VERSIONS.meshopt} as gltfpack -cz has it, ${quantised(lossless)}: it is made to be compressed once more by the server, and a graphics`,
+  'card takes what it decodes to.',
+];
+
+function keptRemarks(report) {
+  const kept = report.primitives.filter(({ compressed }) => !compressed);
+  if (kept.length === 0 || report.copied) return [];
+  const why = kept[0].note ? ` (${kept[0].note})` : '';
+  return [`${kept.length} of ${report.primitives.length} primitives are left as they were${why}.`];
+}

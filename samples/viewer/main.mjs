@@ -1,13 +1,17 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // The page: it opens files, reacts to changed options, and shows results.
+import { compareCodecs } from './comparison.mjs';
 import { element } from './element.mjs';
-import { showStreams, showSummary, streamsOf, sum, summaryOf } from './figures.mjs';
+import { remarksOn, showCodecs, showStreams, showSummary, streamsOf, sum, summaryOf } from './figures.mjs';
 import { formatCount, formatPercent, formatSmall } from './format.mjs';
 import { checkDocument, FileError, MAX_FILE_BYTES, readGlb } from './glb.mjs';
 import { Job } from './jobs.mjs';
 import { Options } from './options.mjs';
+import { drawReport } from './picture.mjs';
 import { ERROR_RAMP, ORDER_RAMP } from './ramps.mjs';
+import { reportOf } from './report.mjs';
+import { saveFiles } from './save.mjs';
 import { createDecoderPool, decodeGlbBlocks } from './vendor/gltf-mcc/index.mjs';
 import { claimsBlocks } from './vendor/gltf-mcc/blocks.mjs';
 import { EXTENSION_NAME } from './vendor/gltf-mcc/document.mjs';
@@ -41,6 +45,7 @@ class Page {
     $('reset').onclick = () => this.views.frame();
     $('cancel').onclick = () => this.cancel();
     $('download').onclick = () => this.download();
+    $('report').onclick = () => this.report();
     document.addEventListener('keydown', (event) => this.onKey(event));
     this.listenForDrops();
   }
@@ -122,7 +127,7 @@ class Page {
   // ---- work
 
   get isBusy() {
-    return this.job?.isRunning || this.dracoJob?.isRunning;
+    return this.job?.isRunning || this.run?.isComparing;
   }
 
   compress() {
@@ -143,7 +148,7 @@ class Page {
     this.progress('Reading', undefined);
     // Messages from a run that was stopped may still be on their way.
     const run = this.run = { stopping: new AbortController() };
-    if (this.isNew) this.inOrder(() => this.showBlocks(run));
+    if (this.isNew) this.inOrder(() => this.showBlocks(run, this.views.original, this.file.bytes));
     const request = { bytes: this.file.bytes, options: this.options.value };
     this.job = new Job('./workers/compressor.mjs', request, (message) => run === this.run && this.onMessage(message, run));
   }
@@ -154,11 +159,11 @@ class Page {
       switch (message.name) {
         case 'stage': this.progress(message.text, undefined); break;
         case 'source': await this.onSource(message); break;
+        case 'encoded': this.onEncoded(message, run); break;
         case 'compressed': await this.onCompressed(message); break;
-        case 'timing': result.timing = message; break;
         case 'errors': this.onErrors(message); break;
         case 'tree': this.onTree(message); break;
-        case 'done': this.compareWithDraco(run); break;
+        case 'done': await this.compare(run); break;
         case 'error': this.fail(message.message); break;
       }
       if (run === this.run && result.glb !== undefined) this.showFigures();
@@ -185,8 +190,17 @@ class Page {
     await this.inOrder(() => this.views.showOriginal(bytes));
   }
 
-  async onCompressed({ glb, report, bytes }) {
-    Object.assign(this.result, { glb, report });
+  /** The result may be large: its blocks are shown while the worker still decodes the whole of it. */
+  onEncoded({ glb }, run) {
+    this.inOrder(() => {
+      this.views.clearCompressed();
+      return this.showBlocks(run, this.views.compressed, glb);
+    });
+  }
+
+  async onCompressed({ glb, report, bytes, payloads }) {
+    const ours = { bytes: sum(report.payloads, 'bytes'), streams: streamsOf(report), errors: [] };
+    Object.assign(this.result, { glb, report, payloads, codecs: { ours, draco: { errors: [] }, meshopt: { errors: [] } } });
     $('compressed-size').textContent = `${formatCount(glb.length)} bytes, ${formatPercent(glb.length / this.file.bytes.length)}`;
     $('download').disabled = false;
     if (report.copied) this.say('notice', 'Compression would not make this file smaller, so the result is the source.');
@@ -213,37 +227,51 @@ class Page {
   }
 
   /** Shows the blocks of a compressed file one after the other, before all of it is decoded. */
-  async showBlocks(run) {
-    const { bytes, json } = this.file;
-    const canvas = $('original');
-    delete canvas.dataset.blocks;
+  async showBlocks(run, view, bytes) {
+    delete view.canvas.dataset.blocks;
     if (!hasBlocks(bytes)) return;
+    const { json } = readGlb(bytes);
     this.pool ??= createDecoderPool();
     try {
       for await (const block of decodeGlbBlocks(bytes, { decodeBlocks: this.pool.decodeBlocks, signal: run.stopping.signal })) {
         if (block.blockCount === 1 || block.box === undefined) continue;
-        this.views.showBlock(block, json);
-        canvas.dataset.blocks = `${block.index + 1} of ${block.blockCount}`;
+        this.views.showBlock(view, block, json);
+        view.canvas.dataset.blocks = `${block.index + 1} of ${block.blockCount}`;
       }
     } catch {
-      this.views.clearBlocks(); // the compressor says what is wrong
+      this.views.clearBlocks(view); // the compressor says what is wrong
     }
   }
 
-  compareWithDraco(run) {
+  async compare(run) {
     $('work').classList.remove('busy');
-    const { bits, lossless } = this.options;
-    this.progress('Compressing with Draco for comparison', undefined);
-    this.dracoJob = new Job('./workers/draco.mjs', { bytes: this.source, bits, lossless }, (message) => {
-      if (run !== this.run) return;
-      if (message.name === 'progress') this.progress('Compressing with Draco for comparison', message.done);
-      if (message.name === 'done') this.result.draco = message;
-      if (message.name === 'error') this.result.dracoError = message.message;
-      if (message.name === 'progress') return;
-      this.showFigures();
-      this.progress('');
-      this.announce();
-    });
+    run.isComparing = true;
+    const { result, source, options: { bits, lossless } } = this;
+    const { signal } = run.stopping;
+    try {
+      await compareCodecs({ source, payloads: result.payloads, bits, lossless }, {
+        signal,
+        onStep: (text, done) => !signal.aborted && this.progress(text, done),
+        onFigures: (codecs) => {
+          for (const codec of Object.keys(codecs)) Object.assign(result.codecs[codec], codecs[codec]);
+          if (!signal.aborted) this.showFigures();
+        },
+      });
+    } catch (error) {
+      if (!signal.aborted) throw error;
+      return;
+    }
+    this.finish(run);
+  }
+
+  /** All figures are there, or will not come. */
+  finish(run) {
+    if (run !== undefined) run.isComparing = false;
+    for (const codec of Object.values(this.result.codecs)) codec.isComplete = true;
+    this.showFigures();
+    this.progress('');
+    $('report').disabled = false;
+    this.announce();
   }
 
   announce() {
@@ -253,7 +281,6 @@ class Page {
 
   stop() {
     this.job?.stop();
-    this.dracoJob?.stop();
     this.run?.stopping.abort();
     this.run = undefined;
   }
@@ -261,6 +288,7 @@ class Page {
   cancel() {
     const hadResult = this.result?.glb !== undefined;
     this.stop();
+    if (hadResult) this.finish();
     this.progress('');
     $('work').classList.remove('busy');
     $('waiting').textContent = hadResult ? '' : 'Cancelled';
@@ -308,7 +336,7 @@ class Page {
   }
 
   enable(on) {
-    for (const id of ['download', 'heat', 'tree']) $(id).disabled = !on;
+    for (const id of ['download', 'report', 'heat', 'tree']) $(id).disabled = !on;
   }
 
   /**
@@ -339,17 +367,39 @@ class Page {
     $('legend-high').textContent = legend.high;
   }
 
-  showFigures() {
-    const { report, draco, dracoError, errors } = this.result;
-    showSummary($('summary'), summaryOf(this.result));
-    showStreams($('streams'), streamsOf(report), sum(report.payloads, 'bytes'), draco);
-    $('remarks').textContent = remarks({ report, draco, dracoError, errors, options: this.options }).join(' ');
+  get remarks() {
+    const { lossless, keepsOrder } = this.options;
+    return remarksOn(this.result, { lossless, keepsOrder });
   }
 
-  download() {
-    const url = URL.createObjectURL(new Blob([this.result.glb], { type: 'model/gltf-binary' }));
-    element('a', { href: url, download: this.file.name.replace(/(\.glb)?$/i, '.mcc.glb') }).click();
-    setTimeout(() => URL.revokeObjectURL(url), 60_000);
+  showFigures() {
+    const { codecs } = this.result;
+    showSummary($('summary'), summaryOf(this.result));
+    showCodecs($('codecs'), codecs);
+    showStreams($('streams'), codecs);
+    $('remarks').textContent = this.remarks.join(' ');
+  }
+
+  async download() {
+    await saveFiles([new File([this.result.glb], this.nameOf('.mcc.glb'), { type: 'model/gltf-binary' })]);
+  }
+
+  nameOf(ending) {
+    return this.file.name.replace(/(\.glb)?$/i, ending);
+  }
+
+  /** Saves the figures for programs, and a picture of them for people. */
+  async report() {
+    const { file, result, options, remarks } = this;
+    const json = reportOf({ file, result, options: options.value, remarks });
+    const picture = await drawReport(this.views, { name: file.name, date: json.date, summary: summaryOf(result), codecs: result.codecs, remarks });
+    const text = `${JSON.stringify(json, undefined, 2)}\n`;
+    await saveFiles([
+      new File([text], this.nameOf('.report.json'), { type: 'application/json' }),
+      new File([picture], this.nameOf('.report.png'), { type: 'image/png' }),
+    ], { mayShare: true });
+    this.say('notice', '');
+    $('status').textContent = 'The report is saved.';
   }
 }
 
@@ -381,32 +431,5 @@ const orderLegend = (tree) => ({
   low: 'first',
   high: `last of ${formatCount(sum(tree.map(({ edges }) => edges), 'length') / 2)}`,
 });
-
-function remarks({ report, draco, dracoError, errors, options }) {
-  const all = draco === undefined ? [] : dracoRemarks(draco, report, options);
-  if (dracoError !== undefined) all.push(`No comparison with Draco: ${dracoError}.`);
-  const ours = streamsOf(report);
-  if (ours.has('JOINTS_0') && ours.get('WEIGHTS_0') === 0) all.push('Mesh collapse codes weights with their joints.');
-  if (errors?.missed > 0) all.push(`${formatCount(errors.missed)} vertices of the source have no decoded vertex within the promised distance.`);
-  const kept = report.primitives.filter(({ compressed }) => !compressed);
-  if (kept.length !== 0 && !report.copied) {
-    const why = kept[0].note ? ` (${kept[0].note})` : '';
-    all.push(`${kept.length} of ${report.primitives.length} primitives are left as they were${why}.`);
-  }
-  return all;
-}
-
-function dracoRemarks(draco, report, { lossless, value: { keepVertexOrder, keepTriangleOrder } }) {
-  const all = [`Draco ${draco.version} at speed 0, which gives its smallest files, ${lossless ? 'not quantised' : 'with the same bits'};`,
-    'its seams are counted with the attributes that have them.'];
-  if ([...draco.streams.keys()].some((name) => name.startsWith('target'))) {
-    all.push('Draco has no coding for morph targets; they are counted uncompressed.');
-  }
-  if (keepVertexOrder || keepTriangleOrder) all.push('Draco does not keep the order.');
-  const dropped = sum(report.payloads, 'triangles') - draco.triangles;
-  if (dropped > 0) all.push(`Draco drops ${formatCount(dropped)} triangles.`);
-  all.push('Times are for all payloads on one thread, the shortest of several runs on this device.');
-  return all;
-}
 
 new Page();

@@ -51,6 +51,11 @@ export class Options {
     return Object.fromEntries(BITS.map(({ name }) => [name, Number(this.form.elements[name].value)]));
   }
 
+  get keepsOrder() {
+    const { keepVertexOrder, keepTriangleOrder } = this.form.elements;
+    return keepVertexOrder.checked || keepTriangleOrder.checked;
+  }
+
   /** The options for encodeGlb(). */
   get value() {
     const { keepVertexOrder, keepTriangleOrder } = this.form.elements;

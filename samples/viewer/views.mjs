@@ -290,20 +290,29 @@ export class LinkedViews {
     this.paint();
   }
 
-  /** Shows a block of a model, of which the first one positions the camera. @param {object} json of the model */
-  showBlock(block, json) {
-    const isFirst = this.original.blocks === undefined;
+  /**
+   * Shows a block of a model. The first one positions the camera, unless the original is there already.
+   * @param {View} view @param {object} json of the model
+   */
+  showBlock(view, block, json) {
+    const isFirst = view.blocks === undefined;
     if (isFirst) this.places = placesOf(json);
     const { places } = this;
     for (const use of block.uses) {
-      if (block.parts[use.part].triangleCount !== 0) this.original.addBlock(block, use, places.get(use.mesh) ?? []);
+      if (block.parts[use.part].triangleCount !== 0) view.addBlock(block, use, places.get(use.mesh) ?? []);
     }
-    if (isFirst) this.frame(boxOfDocument(json, places));
+    if (isFirst && this.original.model === undefined) this.frame(boxOfDocument(json, places));
     this.draw();
   }
 
-  clearBlocks() {
-    this.original.clearBlocks();
+  clearBlocks(view) {
+    view.clearBlocks();
+    this.draw();
+  }
+
+  clearCompressed() {
+    this.tree = undefined;
+    this.compressed.clear();
     this.draw();
   }
 
@@ -370,6 +379,23 @@ export class LinkedViews {
     for (const view of this.views) this.camera.aspect = view.resize();
     this.camera.updateProjectionMatrix();
     this.draw();
+  }
+
+  /**
+   * Draws each picture in another size and calls `use(canvas, number)` before anything else is drawn, because a canvas forgets its
+   * picture. The page's own pictures are back before they are seen.
+   */
+  drawEach(width, height, use) {
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.views.forEach((view, i) => {
+      view.renderer.setSize(width, height, false);
+      view.render(this.camera, this.target);
+      use(view.canvas, i);
+    });
+    for (const view of this.views) this.camera.aspect = view.resize();
+    this.camera.updateProjectionMatrix();
+    for (const view of this.views) view.render(this.camera, this.target);
   }
 
   /** Draws in the next frame. */

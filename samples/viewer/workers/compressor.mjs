@@ -3,19 +3,19 @@
 // Everything in gltf-mcc that takes time. This worker gets { bytes, options } of encodeGlb. It
 // posts { name: 'stage', text } before each step, and after the step its result:
 //   source      { bytes, counts }             the file, decoded if it was compressed
-//   compressed  { glb, report, bytes }        the result, and the same decoded
-//   timing      { decodeMilliseconds }
+//   encoded     { glb }                       the result, if a payload is in blocks, to be shown before it is decoded here
+//   compressed  { glb, report, bytes, payloads }  the result, and the same decoded
 //   errors      { primitives, most, mean, side, missed }
 //   tree        { primitives }
 //   done        {}
 // or error { message }.
 import { checkDocument, FileError, readGlb, readNumbers, trianglePrimitivesOf } from '../glb.mjs';
 import { boxOf, measureErrors } from '../errors.mjs';
+import { claimsBlocks } from '../vendor/gltf-mcc/blocks.mjs';
 import { EXTENSION_NAME } from '../vendor/gltf-mcc/document.mjs';
-import { decodePayloadSync, MccError, ready } from '../vendor/gltf-mcc/decoder.mjs';
+import { MccError } from '../vendor/gltf-mcc/decoder.mjs';
 import { encodeGlb, mcEdges } from '../vendor/gltf-mcc/encoder.mjs';
 import { unpackGlb } from '../vendor/gltf-mcc/unpack.mjs';
-import { bestTime } from './timing.mjs';
 
 const post = (name, content = {}, moved = []) => postMessage({ name, ...content }, moved);
 const stage = (text) => post('stage', { text });
@@ -45,15 +45,6 @@ async function openSource(bytes) {
 function payloadsOf(gltf) {
   const views = new Set(trianglePrimitivesOf(gltf.json).map(extensionOf).filter(Boolean).map(({ bufferView }) => bufferView));
   return new Map([...views].map((view) => [view, viewOf(gltf, view)]));
-}
-
-async function timeDecoding(payloads) {
-  stage('Timing the decoder');
-  await ready;
-  const decodeMilliseconds = bestTime(() => {
-    for (const payload of payloads) decodePayloadSync(payload);
-  });
-  post('timing', { decodeMilliseconds });
 }
 
 /**
@@ -118,11 +109,11 @@ async function run({ bytes, options }) {
   stage('Compressing');
   const { glb, report } = await encodeGlb(source.plain, options);
   const compressed = readGlb(glb);
+  const payloads = payloadsOf(compressed);
+  if ([...payloads.values()].some(claimsBlocks)) post('encoded', { glb });
   stage('Decoding the result');
   const decodedBytes = await unpackGlb(glb);
-  post('compressed', { glb, report, bytes: decodedBytes });
-  const payloads = payloadsOf(compressed);
-  await timeDecoding([...payloads.values()]);
+  post('compressed', { glb, report, bytes: decodedBytes, payloads: [...payloads.values()].map((payload) => ({ bytes: payload })) });
   measure(source.gltf, readGlb(decodedBytes), report);
   await readTree(compressed, payloads);
   post('done');

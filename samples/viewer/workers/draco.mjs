@@ -2,40 +2,30 @@
 //
 // Compresses the same primitives with Google's Draco, with the same bits, at the speed setting that
 // gives the smallest files (0). This worker gets { bytes, bits, lossless }. It posts
-// { name: 'progress', done }, and then { name: 'done', ... } or { name: 'error', message }.
-import DracoDecoderModule from '../vendor/draco/draco_decoder.mjs';
+// { name: 'progress', done }, and then { name: 'error', message } or
+//   { name: 'done', payloads, streams, uncoded }
+// with a payload per primitive, bytes by name of stream, and what it has no coding for, as it is.
 import DracoEncoderModule from '../vendor/draco/draco_encoder.mjs';
-import { DRACO_VERSION } from '../vendor/draco/version.mjs';
-import { readAccessor, readGlb, readTriangles, trianglePrimitivesOf } from '../glb.mjs';
-import { bestTime } from './timing.mjs';
+import { readGlb, trianglePrimitivesOf } from '../glb.mjs';
+import { bitsOf, readPrimitive, semanticOf } from '../primitives.mjs';
 
 const SPEED = 0;
 const HEADER_BYTES = 11;
-const FLOAT = 5126;
 
-// Which bits apply to a semantic, and what Draco calls it.
-const SEMANTICS = {
-  POSITION: { kind: 'POSITION', bits: 'positionBits' },
-  NORMAL: { kind: 'NORMAL', bits: 'normalBits' },
-  TEXCOORD: { kind: 'TEX_COORD', bits: 'texcoordBits' },
-  COLOR: { kind: 'COLOR', bits: 'colorBits' },
-  TANGENT: { kind: 'GENERIC', bits: 'tangentBits' },
-  WEIGHTS: { kind: 'GENERIC', bits: 'weightBits' },
-};
+const KINDS = { POSITION: 'POSITION', NORMAL: 'NORMAL', TEXCOORD: 'TEX_COORD', COLOR: 'COLOR' }; // all others are GENERIC
 const ADD = { 5120: 'AddInt8Attribute', 5121: 'AddUInt8Attribute', 5122: 'AddInt16Attribute', 5123: 'AddUInt16Attribute',
   5125: 'AddUInt32Attribute', 5126: 'AddFloatAttribute' };
 
-const semanticOf = (name) => SEMANTICS[name.replace(/_\d+$/, '')] ?? { kind: 'GENERIC' };
+const kindOf = (name) => KINDS[semanticOf(name)] ?? 'GENERIC';
 
-async function load(factory, name) {
-  const response = await fetch(new URL(`../vendor/draco/${name}`, import.meta.url));
-  return factory({ wasmBinary: await response.arrayBuffer() });
+async function load() {
+  const response = await fetch(new URL('../vendor/draco/draco_encoder.wasm', import.meta.url));
+  return DracoEncoderModule({ wasmBinary: await response.arrayBuffer() });
 }
 
 class Codec {
-  constructor(encoder, decoder, options) {
+  constructor(encoder, options) {
     this.encoder = encoder;
-    this.decoder = decoder;
     this.options = options;
   }
 
@@ -46,13 +36,13 @@ class Codec {
     const mesh = new encoder.Mesh();
     builder.AddFacesToMesh(mesh, triangles.length / 3, triangles);
     const ids = attributes.map(({ name, array, componentCount, componentType, count }) =>
-      builder[ADD[componentType]](mesh, encoder[semanticOf(name).kind], count, componentCount, array));
+      builder[ADD[componentType]](mesh, encoder[kindOf(name)], count, componentCount, array));
     const expert = new encoder.ExpertEncoder(mesh);
     expert.SetSpeedOptions(SPEED, SPEED);
     expert.SetEncodingMethod(encoder.MESH_EDGEBREAKER_ENCODING);
-    attributes.forEach(({ name, componentType }, i) => {
-      const bits = this.options.lossless ? 0 : this.options.bits[semanticOf(name).bits] ?? 0;
-      if (bits !== 0 && componentType === FLOAT) expert.SetAttributeQuantization(ids[i], bits);
+    attributes.forEach((attribute, i) => {
+      const bits = bitsOf(attribute, this.options);
+      if (bits !== 0) expert.SetAttributeQuantization(ids[i], bits);
     });
     const data = new encoder.DracoInt8Array();
     // Merges equal values, as its smallest files do.
@@ -61,40 +51,6 @@ class Codec {
     for (const made of [data, expert, mesh, builder]) encoder.destroy(made);
     if (length === 0) throw new Error('Draco cannot encode a primitive of this file');
     return bytes;
-  }
-
-  /** Returns all triangles and attributes, as a loader takes them out. */
-  decode(bytes) {
-    const { decoder: module } = this;
-    const decoder = new module.Decoder();
-    const mesh = new module.Mesh();
-    const status = decoder.DecodeArrayToMesh(bytes, bytes.length, mesh);
-    if (!status.ok()) throw new Error(`Draco: ${status.error_msg()}`);
-    const indexBytes = mesh.num_faces() * 12;
-    const outputs = [this.copied(indexBytes, (pointer) => decoder.GetTrianglesUInt32Array(mesh, indexBytes, pointer))];
-    for (let i = 0; i < mesh.num_attributes(); ++i) outputs.push(this.attribute(decoder, mesh, decoder.GetAttribute(mesh, i)));
-    const counts = { triangles: mesh.num_faces(), vertices: mesh.num_points() };
-    for (const made of [mesh, decoder]) module.destroy(made);
-    return counts;
-  }
-
-  attribute(decoder, mesh, attribute) {
-    const { decoder: module } = this;
-    const count = mesh.num_points() * attribute.num_components();
-    const type = attribute.data_type();
-    const ofFour = [module.DT_FLOAT32, module.DT_UINT32, module.DT_INT32];
-    const size = ofFour.includes(type) ? 4 : [module.DT_UINT16, module.DT_INT16].includes(type) ? 2 : 1;
-    const byteLength = count * size;
-    return this.copied(byteLength, (pointer) => decoder.GetAttributeDataArrayForAllPoints(mesh, attribute, type, byteLength, pointer));
-  }
-
-  copied(byteLength, fill) {
-    const { decoder: module } = this;
-    const pointer = module._malloc(byteLength);
-    fill(pointer);
-    const copy = module.HEAPU8.slice(pointer, pointer + byteLength);
-    module._free(pointer);
-    return copy;
   }
 }
 
@@ -135,47 +91,37 @@ function encodeByStream(codec, primitive, add) {
   return bytes;
 }
 
-function readPrimitive(gltf, definition) {
-  const names = Object.keys(definition.attributes).sort((a, b) => (b === 'POSITION') - (a === 'POSITION'));
-  const attributes = names.map((name) => ({ name, ...readAccessor(gltf, definition.attributes[name]) }));
-  return { triangles: readTriangles(gltf, definition), attributes };
-}
-
 /** Counts the bytes of morph targets as they are, because Draco has no coding for them. */
-function addTargets(gltf, { targets = [] }, add) {
-  targets.forEach((target, i) => {
-    for (const [name, index] of Object.entries(target)) add(`target ${i} ${name}`, readAccessor(gltf, index).array.byteLength);
-  });
+function addTargets({ targets }, add) {
+  targets.forEach(({ name, array }) => add(name, array.byteLength));
+  return targets.map(({ array }) => new Uint8Array(array.buffer));
 }
 
-/** The modules, compiled once. */
-let modules;
+/** The module, compiled once. */
+let module;
 
 async function run({ bytes, bits, lossless }) {
-  modules ??= Promise.all([load(DracoEncoderModule, 'draco_encoder.wasm'), load(DracoDecoderModule, 'draco_decoder_gltf.wasm')]);
-  const codec = new Codec(...await modules, { bits, lossless });
+  module ??= load();
+  const codec = new Codec(await module, { bits, lossless });
   const gltf = readGlb(bytes);
   const streams = new Map();
   const add = (name, byteLength) => streams.set(name, (streams.get(name) ?? 0) + byteLength);
-  const primitives = trianglePrimitivesOf(gltf.json);
-  const encoded = primitives.map(({ definition }, i) => {
-    const result = encodeByStream(codec, readPrimitive(gltf, definition), add);
-    addTargets(gltf, definition, add);
-    postMessage({ name: 'progress', done: (i + 1) / (primitives.length + 1) });
-    return result;
+  const definitions = trianglePrimitivesOf(gltf.json).map(({ definition }) => definition);
+  const [payloads, uncoded] = [[], []];
+  definitions.forEach((definition, i) => {
+    const primitive = readPrimitive(gltf, definition);
+    payloads.push({ bytes: encodeByStream(codec, primitive, add) });
+    uncoded.push(...addTargets(primitive, add));
+    postMessage({ name: 'progress', done: (i + 1) / definitions.length });
   });
-  let counts = [];
-  const decodeMilliseconds = bestTime(() => { counts = encoded.map((data) => codec.decode(data)); });
-  const sum = (key) => counts.reduce((all, count) => all + count[key], 0);
-  const byteLength = [...streams.values()].reduce((a, b) => a + b, 0);
-  return { version: DRACO_VERSION, streams, byteLength, decodeMilliseconds, triangles: sum('triangles'), vertices: sum('vertices') };
+  return { payloads, streams, uncoded };
 }
 
 onmessage = async ({ data }) => {
   try {
     postMessage({ name: 'done', ...await run(data) });
   } catch (error) {
-    modules = undefined; // a module that has aborted cannot be used again
+    module = undefined; // a module that has aborted cannot be used again
     postMessage({ name: 'error', message: error.message });
   }
 };

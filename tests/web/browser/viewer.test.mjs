@@ -11,7 +11,9 @@ import { payloadsOf } from '../../../lib/web/document.mjs';
 import { readGlb } from '../../../lib/web/unpack.mjs';
 import { serve } from '../../../samples/viewer/serve.mjs';
 import { gather } from '../../../samples/viewer/setup.mjs';
-import { convert, decode, readSample } from '../support/program.mjs';
+import { brotli, encodeFile } from '../support/bench/encode.mjs';
+import { ENGINES, LIBRARY, SAMPLES } from '../support/paths.mjs';
+import { convert, decode, PROGRAM, readSample } from '../support/program.mjs';
 import { launchBrowser, openPage } from './support/browser.mjs';
 import { coverageOf, differenceOf } from './support/pixels.mjs';
 
@@ -64,7 +66,7 @@ function dropInPage([name, base64, size]) {
 async function settle(page) {
   await page.waitForFunction(() => {
     const isHidden = (id) => document.getElementById(id).hidden;
-    return !isHidden('error') || (!isHidden('work') && isHidden('progress') && document.querySelector('#streams tfoot .ratio')?.textContent !== '');
+    return !isHidden('error') || (!isHidden('work') && isHidden('progress') && !document.getElementById('report').disabled);
   }, undefined, { timeout: 60_000 });
   assert.equal(await textOf(page, 'error'), '');
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
@@ -78,12 +80,29 @@ async function picturesOf(page) {
   return { original: await picture('original'), compressed: await picture('compressed') };
 }
 
+const numberOf = (text) => Number(text.replaceAll(',', ''));
+
+/** What the page says of each codec: rows of text by their name. */
+async function codecsOf(page) {
+  const rows = await page.$$eval('#codecs tbody tr', (list) => list.map((row) => [row.cells[0].textContent,
+    [...row.cells].slice(1).map((cell) => cell.querySelector('.number').textContent)]));
+  return Object.fromEntries(rows);
+}
+
+function payloadsIn(glb) {
+  const { json, chunks: [{ data }] } = readGlb(glb);
+  return payloadsOf(json).map(({ bufferView }) => {
+    const { byteOffset = 0, byteLength } = json.bufferViews[bufferView];
+    return data.slice(byteOffset, byteOffset + byteLength);
+  });
+}
+
 async function click(page, id) {
   await page.click(`#${id}`);
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 }
 
-test('a dropped GLB is compressed, shown beside its source and compared with Draco', async () => {
+test('a dropped GLB is compressed, shown beside its source and compared with other codecs', async () => {
   const { page, violations, problems } = await openViewer();
   const source = readSample('textured');
   await drop(page, 'dropped.glb', source);
@@ -99,15 +118,13 @@ test('a dropped GLB is compressed, shown beside its source and compared with Dra
   const rows = await page.$$eval('#streams tbody tr', (list) => list.map((row) => [...row.cells].map((cell) => cell.textContent)));
   const names = rows.map(([name]) => name);
   for (const name of ['connectivity', 'seams', 'POSITION', 'NORMAL', 'TANGENT', 'TEXCOORD_0', 'header']) assert.ok(names.includes(name), name);
-  const numberOf = (text) => Number(text.replaceAll(',', ''));
-  const [ours, theirs] = await page.$$eval('#streams tfoot .number', (list) => list.map(({ textContent }) => textContent));
-  const { byteLength } = readGlb(expected).json.bufferViews[payloadsOf(readGlb(expected).json)[0].bufferView];
-  assert.equal(numberOf(ours), byteLength);
-  assert.ok(numberOf(theirs) > numberOf(ours), `Draco ${theirs}`);
+  const totals = await page.$$eval('#streams tfoot .number', (list) => list.map(({ textContent }) => textContent));
+  const [ours, draco, meshopt] = totals.map(numberOf);
+  assert.equal(ours, payloadsIn(expected).reduce((sum, { length }) => sum + length, 0));
+  assert.ok(draco > ours && meshopt > ours, totals.join(' '));
   const sumOf = (column) => rows.reduce((sum, row) => sum + (numberOf(row[column]) || 0), 0);
-  assert.ok(Math.abs(sumOf(1) - numberOf(ours)) <= rows.length, 'the streams are not all bytes');
-  assert.equal(sumOf(2), numberOf(theirs));
-  assert.match(await textOf(page, 'summary'), /Decoding[\d.]+ m?sDraco [\d.]+ m?s/);
+  assert.ok(Math.abs(sumOf(1) - ours) <= rows.length, 'the streams are not all bytes');
+  assert.deepEqual([sumOf(2), sumOf(3)], [draco, meshopt]);
 
   // Linked cameras: dragging one turns both.
   const box = await page.locator('#compressed').boundingBox();
@@ -197,11 +214,13 @@ function saturatedPixels({ width, height, data }) {
 }
 
 test('its picture for the README', { skip: process.env.MCC_SCREENSHOTS === undefined && 'MCC_SCREENSHOTS is not set' }, async () => {
-  const { page } = await openViewer({ width: 950, height: 570 });
+  const { page } = await openViewer({ width: 1200, height: 600 });
   await drop(page, 'genus3.glb', readSample('genus3'));
   await settle(page);
   await click(page, 'tree');
-  await writeFile(path.join(process.env.MCC_SCREENSHOTS, 'viewer.png'), await page.screenshot());
+  const { y, height } = await page.locator('#codecs').boundingBox();
+  const clip = { x: 0, y: 0, width: 1200, height: Math.ceil(y + height + 12) };
+  await writeFile(path.join(process.env.MCC_SCREENSHOTS, 'viewer.png'), await page.screenshot({ fullPage: true, clip }));
   await page.close();
 });
 
@@ -228,6 +247,167 @@ test('the download is what the program writes with the same options', async () =
   decode((await downloaded(page)).bytes);
   await page.close();
 });
+
+/** Times are as they are; bytes are what the program and the encoders of tools/bench-web give. */
+test('bytes and times of three codecs are shown', async () => {
+  const { page, violations, problems } = await openViewer();
+  const brotliBytes = async (parts) => (await brotli(Buffer.concat(parts))).length;
+  for (const name of ['morphed', 'two_materials']) {
+    await drop(page, `${name}.glb`, readSample(name));
+    await settle(page);
+    const rows = await codecsOf(page);
+    const { glb, codecs } = await encodeFile(PROGRAM, path.join(SAMPLES, `${name}.glb`));
+    const [ours, draco, meshopt] = [payloadsIn(glb), ...['draco 0', 'meshopt'].map((codec) => codecs[codec].map(({ bytes }) => bytes))];
+    const streams = await streamsOf(page);
+    assert.equal(numberOf(rows.Bytes[0]), Buffer.concat(ours).length, name);
+    isNear(numberOf(rows['Bytes after brotli'][0]), await brotliBytes(ours), 0.02, `${name} after brotli`);
+    // The benchmark has no morph targets. Draco's lattice has its own origin here, and gets the vertices in the file's order.
+    [draco, meshopt].forEach((payloads, i) => {
+      const targets = streams.filter(({ stream }) => stream.startsWith('target')).reduce((sum, { bytes }) => sum + bytes[i + 1], 0);
+      isNear(numberOf(rows.Bytes[i + 1]) - targets, Buffer.concat(payloads).length, 0.08, `${name} by codec ${i + 1}`);
+      assert.ok(numberOf(rows['Bytes after brotli'][i + 1]) < numberOf(rows.Bytes[i + 1]), `${name}: brotli of codec ${i + 1}`);
+    });
+    for (const figure of ['Load + first decode', 'Best decode']) {
+      for (const time of rows[figure]) assert.match(time, /^[\d.]+ m?s$/, `${name} ${figure}`);
+    }
+    assert.equal(/Draco has no coding for morph targets/.test(await textOf(page, 'remarks')), name === 'morphed');
+  }
+  assert.match(await textOf(page, 'remarks'), /Draco 1\.5\.\d.*meshopt 1\.\d/);
+  assert.deepEqual(violations(), []);
+  assert.deepEqual(problems(), []);
+  await page.close();
+});
+
+const isNear = (value, expected, tolerance, what) =>
+  assert.ok(Math.abs(value / expected - 1) <= tolerance, `${what}: ${value} instead of ${expected}`);
+
+/** The bytes of each stream by each codec; 0 where there are none. */
+async function streamsOf(page) {
+  const rows = await page.$$eval('#streams tbody tr', (list) => list.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  return rows.map(([stream, ...bytes]) => ({ stream, bytes: bytes.map((text) => numberOf(text) || 0) }));
+}
+
+for (const [codec, file, kept] of [
+  ['meshopt', 'meshopt/meshopt_encoder.mjs', ['Mesh collapse', 'Draco']],
+  ['Draco', 'draco/draco_encoder.wasm', ['Mesh collapse', 'meshopt']],
+  ['Draco', 'draco/draco_decoder.mjs', ['Mesh collapse', 'meshopt']],
+  ['brotli', 'brotli/brotli_wasm.mjs', []],
+]) {
+  test(`without ${file} the other figures are there`, async () => {
+    const { page } = await openViewer();
+    await page.context().route(`**/vendor/${file}`, (route) => route.fulfill({ status: 404, body: 'not found' }));
+    await drop(page, 'moebius.glb', readSample('moebius'));
+    await settle(page);
+    const rows = await codecsOf(page);
+    const names = ['Mesh collapse', 'Draco', 'meshopt'];
+    for (const name of kept) for (const [figure, cells] of Object.entries(rows)) assert.match(cells[names.indexOf(name)], /\d/, `${name} ${figure}`);
+    if (codec === 'brotli') {
+      assert.deepEqual(rows['Bytes after brotli'], ['–', '–', '–']);
+      for (const time of rows['Best decode']) assert.match(time, /\d/);
+    } else {
+      assert.equal(rows['Best decode'][names.indexOf(codec)], '–');
+    }
+    assert.match(await textOf(page, 'remarks'), codec === 'brotli' ? /meshopt: a figure is missing/
+      : new RegExp(`No comparison with ${codec}|${codec}: a figure is missing`));
+    const { json } = await reported(page);
+    assert.equal(json.codecs.draco.errors.length + json.codecs.meshopt.errors.length > 0, true);
+    await page.close();
+  });
+}
+
+test('the report has the numbers of the page, and a picture', async () => {
+  const { page, violations, problems } = await openViewer();
+  assert.equal(await page.getByRole('button', { name: /^Report/ }).count(), 0, 'there is nothing to report yet');
+  await drop(page, 'vase.glb', readSample('two_materials'));
+  await settle(page);
+  const { json, names, picture } = await reported(page);
+  assert.deepEqual(names, ['vase.report.json', 'vase.report.png']);
+  const rows = await codecsOf(page);
+  const codecs = Object.values(json.codecs);
+  assert.deepEqual(codecs.map(({ name }) => name), ['Mesh collapse', 'Draco', 'meshopt']);
+  assert.deepEqual(codecs.map(({ bytes }) => bytes), rows.Bytes.map(numberOf));
+  assert.deepEqual(codecs.map(({ brotliBytes }) => brotliBytes), rows['Bytes after brotli'].map(numberOf));
+  for (const [figure, key] of [['Load + first decode', 'loadAndFirstDecodeMilliseconds'], ['Best decode', 'bestDecodeMilliseconds']]) {
+    codecs.forEach((codec, i) => {
+      const [value, unit] = rows[figure][i].split(' ');
+      isNear(codec[key], Number(value) * (unit === 's' ? 1000 : 1), 0.1, `${codec.name} ${figure}`);
+    });
+  }
+  for (const { stream, bytes } of await streamsOf(page)) {
+    assert.deepEqual(codecs.map(({ streamBytes }) => Math.round(streamBytes[stream] ?? 0)), bytes, stream);
+  }
+  assert.deepEqual(codecs.map(({ errors }) => errors), [[], [], []]);
+  const version = async (file) => JSON.parse(await readFile(file, 'utf8')).version;
+  const packages = ['draco3d', 'meshoptimizer', 'brotli-wasm'].map((name) => path.join(ENGINES, name));
+  const versions = await Promise.all([LIBRARY, ...packages].map((folder) => version(path.join(folder, 'package.json'))));
+  assert.deepEqual([...codecs, json.brotli].map((codec) => codec.version), versions);
+  const source = readSample('two_materials');
+  assert.deepEqual(json.file, { name: 'vase.glb', bytes: source.length, resultBytes: convert(source).length });
+  assert.equal(json.triangles, 3680);
+  assert.equal(json.options.positionBits, 14);
+  assert.equal(json.userAgent, await page.evaluate(() => navigator.userAgent));
+  assert.ok(Math.abs(new Date(json.date) - Date.now()) < 600_000);
+  assert.equal(json.remarks.join(' '), await textOf(page, 'remarks'));
+
+  const { width, height } = picture;
+  assert.deepEqual([width, height], [1200, 960]);
+  const left = partOf(picture, 24, 92, 564, 440), right = partOf(picture, 612, 92, 564, 440), text = partOf(picture, 24, 540, 1152, 400);
+  for (const part of [left, right]) assert.ok(coverageOf(part) >= MIN_COVERAGE, `${coverageOf(part)} of a view`);
+  assert.ok(differenceOf(left, right) <= MAX_DIFFERENCE_FROM_SOURCE);
+  assert.ok(coverageOf(text) > 0.02, `${coverageOf(text)} of the figures`);
+
+  // The page's own pictures are as before, and a dark page has a dark report.
+  const before = await picturesOf(page);
+  assert.ok(coverageOf(before.original) >= MIN_COVERAGE);
+  await page.emulateMedia({ colorScheme: 'dark' });
+  const dark = await reported(page);
+  assert.ok(dark.picture.data[0] < 64 && picture.data[0] > 192);
+  await page.emulateMedia({ colorScheme: 'light' });
+  assert.equal(differenceOf((await picturesOf(page)).compressed, before.compressed), 0);
+  assert.deepEqual(violations(), []);
+  assert.deepEqual(problems(), []);
+  await page.close();
+});
+
+test('the report goes to other programs where files can be shared, else it is downloaded', async () => {
+  const { page } = await openViewer();
+  await drop(page, 'moebius.glb', readSample('moebius'));
+  await settle(page);
+  await page.evaluate(() => {
+    navigator.canShare = ({ files }) => files.length === 2;
+    navigator.share = async ({ files }) => { globalThis.shared = files.map(({ name, type }) => `${name} ${type}`); };
+  });
+  await page.focus('#report');
+  await page.keyboard.press('Enter');
+  await page.waitForFunction(() => globalThis.shared !== undefined);
+  assert.deepEqual(await page.evaluate(() => globalThis.shared), ['moebius.report.json application/json', 'moebius.report.png image/png']);
+  await page.evaluate(() => {
+    navigator.share = async () => { throw new DOMException('these types cannot be shared', 'NotAllowedError'); };
+  });
+  assert.equal((await reported(page)).names.length, 2);
+  await page.close();
+});
+
+async function reported(page) {
+  const downloads = [];
+  const isThere = new Promise((resolve) => {
+    page.on('download', function listen(download) {
+      if (downloads.push(download) < 2) return;
+      page.off('download', listen);
+      resolve();
+    });
+  });
+  await page.click('#report');
+  await isThere;
+  const [json, picture] = await Promise.all(downloads.map(async (download) => readFile(await download.path())));
+  return { names: downloads.map((download) => download.suggestedFilename()), json: JSON.parse(json), picture: PNG.sync.read(picture) };
+}
+
+function partOf(picture, x, y, width, height) {
+  const part = new PNG({ width, height });
+  PNG.bitblt(picture, part, x, y, width, height, 0, 0);
+  return part;
+}
 
 async function downloaded(page) {
   const [download] = await Promise.all([page.waitForEvent('download'), page.click('#download')]);
@@ -337,6 +517,61 @@ test('a compressed model appears block by block', async () => {
   damaged[damaged.length - 10] ^= 1;
   await drop(page, 'damaged.glb', damaged);
   await page.waitForFunction(() => document.getElementById('error').textContent.includes('checksum'), undefined, { timeout: 30_000 });
+  assert.deepEqual(violations(), []);
+  assert.deepEqual(problems(), []);
+  await page.close();
+});
+
+/** A wavy sheet of so many triangles that the encoder cuts it into blocks. */
+function largeSheet(side) {
+  const positions = Float32Array.from({ length: 3 * side * side }, (_, i) => {
+    const [x, y] = [Math.floor(i / 3) % side, Math.floor(i / 3 / side)];
+    return [x / side, y / side, 0.1 * Math.sin(x / 40) * Math.cos(y / 60)][i % 3];
+  });
+  const indices = new Uint32Array(6 * (side - 1) ** 2);
+  for (let at = 0, y = 0; y + 1 < side; ++y) {
+    for (let x = 0; x + 1 < side; ++x, at += 6) {
+      const corner = y * side + x;
+      indices.set([corner, corner + 1, corner + side, corner + 1, corner + side + 1, corner + side], at);
+    }
+  }
+  return withBuffer({
+    scenes: [{ nodes: [0] }],
+    nodes: [{ mesh: 0 }],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
+    accessors: [{ bufferView: 0, componentType: 5126, type: 'VEC3', count: side * side, min: [0, 0, -0.1], max: [1, 1, 0.1] },
+      { bufferView: 1, componentType: 5125, type: 'SCALAR', count: indices.length }],
+    bufferViews: [{ buffer: 0, byteLength: positions.byteLength },
+      { buffer: 0, byteOffset: positions.byteLength, byteLength: indices.byteLength }],
+    buffers: [{ byteLength: positions.byteLength + indices.byteLength }],
+  }, Buffer.concat([Buffer.from(positions.buffer), Buffer.from(indices.buffer)]));
+}
+
+function withBuffer(json, data) {
+  const head = glbOf(json);
+  const chunk = Buffer.alloc(8);
+  [data.length, 0x004e4942].forEach((word, i) => chunk.writeUInt32LE(word, 4 * i));
+  const glb = Buffer.concat([head, chunk, data]);
+  glb.writeUInt32LE(glb.length, 8);
+  return glb;
+}
+
+test('what the page has compressed to blocks appears block by block', async () => {
+  const { page, violations, problems } = await openViewer();
+  await page.evaluate(() => {
+    globalThis.seen = [];
+    const canvas = document.getElementById('compressed');
+    new MutationObserver(() => globalThis.seen.push(canvas.dataset.blocks)).observe(canvas, { attributeFilter: ['data-blocks'] });
+  });
+  await drop(page, 'sheet.glb', largeSheet(520));
+  await page.waitForFunction(() => document.getElementById('compressed-size').textContent !== '', undefined, { timeout: 120_000 });
+  await page.waitForFunction(() => document.getElementById('waiting').textContent === '', undefined, { timeout: 60_000 });
+  const seen = (await page.evaluate(() => globalThis.seen)).filter(Boolean);
+  assert.ok(seen.length > 0 && seen.every((text) => / of [2-9]$/.test(text)), seen.join());
+  await page.keyboard.press('Escape'); // the comparison would take long
+  const { original, compressed } = await picturesOf(page);
+  assert.ok(coverageOf(compressed) >= MIN_COVERAGE);
+  assert.ok(differenceOf(original, compressed) <= MAX_DIFFERENCE_FROM_SOURCE);
   assert.deepEqual(violations(), []);
   assert.deepEqual(problems(), []);
   await page.close();
