@@ -1326,7 +1326,7 @@ class Maker {
              });
     document("two views of the same bytes",
              "one accessor is filled from payloads in two buffer views, whose bytes are the same",
-             plain, [](Json& j, Json& p, Json& e) {
+             plain, [](Json& j, Json& p, Json&) {
                j["bufferViews"].push_back(j["bufferViews"][0]);
                Json other = p;
                other["extensions"][gltf::kExtensionName]["bufferView"] =
