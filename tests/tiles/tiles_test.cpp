@@ -328,6 +328,52 @@ TEST_F(Tiles, WrongUse) {
   EXPECT_FALSE(fs::exists(path("out")));
 }
 
+/// A tile's transform scales the promised error, and tiles with different transforms share no grid.
+TEST_F(Tiles, TransformsCount) {
+  Json root = makeTile(64, "");
+  for (const char* name : {"1/0-0.b3dm", "1/1-0.b3dm", "2/leaf 3-3.glb"}) {
+    root["children"].push_back(makeTile(16, name));
+  }
+  root["transform"] = {0, 4, 0, 0, -4, 0, 0, 0, 0, 0, 4, 0, 6e6, 1e6, 2e6, 1};
+  root["children"][1]["transform"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 8, 9, 1};
+  root["children"][2]["transform"] = {0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1};
+  storeText(path("in/placed.json"), makeTileset(root, 100).dump());
+  const ToolResult result = run("tiles in/placed.json out");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("note: the tiles of level 1 have 3 different transforms"),
+            std::string::npos)
+      << result.out;
+  expectWithin("1/0-0.b3dm", {1.0 / 4});
+  expectWithin("1/1-0.b3dm", {1.0 / 4});
+  expectWithin("2/leaf 3-3.glb", {1.0 / 2});
+}
+
+/// A grid of more than 24 bits is not possible, and the tiles are told apart.
+TEST_F(Tiles, GridsThatAreTooFineAreNoted) {
+  const ToolResult result = run("tiles in/tileset.json out --error-share 0.000001");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("needs more than 24 bits for one grid of positions"), std::string::npos)
+      << result.out;
+}
+
+TEST_F(Tiles, BitsReplaceTheErrorShare) {
+  ASSERT_EQ(run("tiles in/tileset.json out --quantize-position 11 --report r.json").status, 0);
+  const Json level = Json::parse(contentOf(path("r.json")))["levels"][1];
+  EXPECT_EQ(level["position_bits"], Json({11, 11}));
+  EXPECT_FALSE(level.contains("promised_error"));
+  EXPECT_EQ(run("tiles in/tileset.json out --quantize-position 11 --error-share 0.1").status, 2);
+}
+
+TEST_F(Tiles, ImplicitTilesAreCopiedAndNoted) {
+  Json root = makeTile(64, "1/{x}-{y}.b3dm");
+  root["implicitTiling"] = {{"subdivisionScheme", "QUADTREE"}};
+  storeText(path("in/implicit.json"), makeTileset(root, 100).dump());
+  const ToolResult result = run("tiles in/implicit.json out");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("note: 1 tile with implicit tiling"), std::string::npos) << result.out;
+  EXPECT_TRUE(filesOf("out") == filesOf("in"));
+}
+
 TEST_F(Tiles, DeepTreesAreRead) {
   std::string text = "{\"asset\":{\"version\":\"1.0\"},\"geometricError\":9,\"root\":";
   constexpr int kDepth = 20000;
