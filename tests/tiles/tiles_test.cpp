@@ -232,7 +232,8 @@ TEST_F(Tiles, WhatHasNotChangedIsLeftAlone) {
   }
   const ToolResult again = run("tiles in/tileset.json out --format json");
   ASSERT_EQ(again.status, 0) << again.err;
-  for (const Json& file : Json::parse(again.out)["files"]) EXPECT_TRUE(file["up_to_date"]) << file;
+  const Json report = Json::parse(again.out);
+  for (const Json& file : report["files"]) EXPECT_TRUE(file["up_to_date"]) << file;
   for (const auto& [name, time] : times) {
     EXPECT_EQ(fs::last_write_time(path("out") / name), time) << name;
   }
