@@ -29,6 +29,7 @@ void addDecode(CLI::App& app, int& status);
 void addInspect(CLI::App& app, int& status);
 void addValidate(CLI::App& app, int& status);
 void addTree(CLI::App& app, int& status);
+void addTiles(CLI::App& app, int& status);
 #if defined(MCC_HAS_FOREIGN)
 void addCompare(CLI::App& app, int& status);
 void addBench(CLI::App& app, int& status);
@@ -40,6 +41,12 @@ void addColorOption(CLI::App& command);
 /// These add the options that set CommonOptions.
 void addFormatOption(CLI::App& command, CommonOptions& options);
 void addVerbosityOptions(CLI::App& command, CommonOptions& options);
+
+/// Adds the option for the bits of each attribute.
+void addAttributeBits(CLI::App& command, gltf::ConvertOptions& options);
+
+/// Adds --prefer.
+void addPreference(CLI::App& command, gltf::ConvertOptions& options);
 
 /// Adds the options for bits, --lossless, --grid and --prefer.
 void addQuantization(CLI::App& command, gltf::ConvertOptions& options);

@@ -262,13 +262,26 @@ void addPositionPromises(CLI::App& command, gltf::ConvertOptions& options, CLI::
 
 }  // namespace
 
-void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
+void addAttributeBits(CLI::App& command, gltf::ConvertOptions& options) {
   addBits(command, "position", options.bits.position, 1, 24);
   addBits(command, "normal", options.bits.normal, 2, 16);
   addBits(command, "texcoord", options.bits.texcoord, 1, 24);
   addBits(command, "color", options.bits.color, 1, 24);
   addBits(command, "tangent", options.bits.tangent, 2, 16);
   addBits(command, "weight", options.bits.weight, 1, 24);
+}
+
+void addPreference(CLI::App& command, gltf::ConvertOptions& options) {
+  const std::map<std::string, Preference> preferences = {{"balanced", Preference::kBalanced},
+                                                         {"size", Preference::kSize},
+                                                         {"speed", Preference::kSpeed}};
+  command.add_option("--prefer", options.prefer, "Fewer bytes, or less time to decode [balanced]")
+      ->transform(CLI::CheckedTransformer(preferences, CLI::ignore_case).description(""))
+      ->type_name("size|balanced|speed");
+}
+
+void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
+  addAttributeBits(command, options);
   CLI::Option* lossless =
       command.add_flag("--lossless", options.lossless, "Keep every bit of every number");
   addPositionPromises(command, options, lossless);
@@ -279,12 +292,7 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
       .add_option("--grid", options.grid, "What shares a grid of positions, without cracks [mesh]")
       ->transform(CLI::CheckedTransformer(grids, CLI::ignore_case).description(""))
       ->type_name("mesh|scene|primitive");
-  const std::map<std::string, Preference> preferences = {{"balanced", Preference::kBalanced},
-                                                         {"size", Preference::kSize},
-                                                         {"speed", Preference::kSpeed}};
-  command.add_option("--prefer", options.prefer, "Fewer bytes, or less time to decode [balanced]")
-      ->transform(CLI::CheckedTransformer(preferences, CLI::ignore_case).description(""))
-      ->type_name("size|balanced|speed");
+  addPreference(command, options);
   command
       .add_option("--block", options.block_triangles,
                   "Cut large surfaces into blocks of N triangles, 0 never [262144]")

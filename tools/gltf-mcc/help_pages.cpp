@@ -108,6 +108,9 @@ The first of these that is set determines whether bars and symbols may use chara
 \fIDIR\fR/.gltf\-mcc.json
 Records what convert and decode wrote with \-o \fIDIR\fR and from which files,
 so that only outputs whose inputs have changed are made again.
+.TP
+\fIOUT\fR/.gltf\-mcc\-tiles.jsonl
+Records what tiles wrote, for the same purpose, and so that it replaces no file of anybody else.
 )";
 
 }  // namespace

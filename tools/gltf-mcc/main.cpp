@@ -111,6 +111,7 @@ int run(int argc, char** argv) {
   addInspect(app, status);
   addValidate(app, status);
   addTree(app, status);
+  addTiles(app, status);
 #if defined(MCC_HAS_FOREIGN)
   addCompare(app, status);
   addBench(app, status);
@@ -126,7 +127,8 @@ int run(int argc, char** argv) {
       "decode small.glb model.glb\n"
       "inspect small.glb\n"
       "validate small.glb\n"
-      "tree small.glb tree.svg");
+      "tree small.glb tree.svg\n"
+      "tiles city/tileset.json small-city");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {  // also thrown for --help and --version
