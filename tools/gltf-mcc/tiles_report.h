@@ -12,14 +12,14 @@
 
 namespace mcc::tool {
 
-enum class TilesOutcome : uint8_t { kConverted, kCopied, kFailed };
+enum class TilesOutcome : uint8_t { kConverted, kCopied, kRefused };
 
 /// A file of a tileset and what became of it.
 struct TilesFile {
   std::string path;          ///< relative to both folders, with '/'
   uint64_t size = 0;         ///< of the source
   uint32_t content = kNone;  ///< index into Tileset::contents; kNone: no tile shows it
-  TilesOutcome outcome = TilesOutcome::kFailed;
+  TilesOutcome outcome = TilesOutcome::kRefused;
   bool is_up_to_date = false;  ///< an earlier run made it
   gltf::Result failure;        ///< of a file that was copied although it should be compressed, too
   uint64_t input_bytes = 0;

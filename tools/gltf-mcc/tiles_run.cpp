@@ -467,7 +467,7 @@ void TilesRun::makeOne(TilesFile& file) {
     }
     if (!made.ok()) {
       file.failure = made;
-      file.outcome = TilesOutcome::kFailed;
+      file.outcome = TilesOutcome::kRefused;
     } else if (!file.failure.ok()) {
       file.figures.notes.push_back("cannot be converted, and is only copied");
     }
