@@ -37,7 +37,7 @@ class Record {
   /// Whether a name in the output folder was written, or was going to be, by an earlier run.
   bool isOurs(const std::string& name) const { return names_.contains(name); }
 
-  /// Removes what earlier runs left behind when they were killed.
+  /// Removes the temporary files of earlier runs that were killed.
   void removeTemporaries() const;
 
   /// Adds names that will be written, stores the record, and begins to append to it.
