@@ -155,6 +155,7 @@ size_t binOffset(const std::vector<uint8_t>& file) {
 
 Builder buildingWithTable(bool is_draft, uint32_t odd_bytes) {
   Builder builder;
+  builder.json["asset"]["generator"] = std::string(odd_bytes, 'x');
   builder.addView(std::vector<uint8_t>(odd_bytes, 7));
   const Sheet sheet(20);
   Json primitive = sheet.addTo(builder);
@@ -176,7 +177,7 @@ Builder buildingWithTable(bool is_draft, uint32_t odd_bytes) {
 }
 
 TEST(KnownExtensions, PropertyTablesKeepTheirBytesAndAlignment) {
-  for (const uint32_t odd_bytes : {1u, 4u, 5u, 12u}) {
+  for (uint32_t odd_bytes = 1; odd_bytes <= 8; ++odd_bytes) {
     const RoundTrip trip = roundTrip(buildingWithTable(false, odd_bytes));
     ASSERT_EQ(trip.error, "");
     ASSERT_TRUE(isCompressed(jsonOf(trip.converted), 0, 0));
