@@ -214,7 +214,7 @@ Bytes dracoCity(const City& city, int type, foreign::DracoPrimitive& coded) {
   Builder builder;
   const char* names[] = {"POSITION", "NORMAL", "_BATCHID"};
   Json primitive;
-  Json& extension = primitive["extensions"]["KHR_draco_mesh_compression"];
+  Json extension;
   extension["bufferView"] = builder.addView(coded.bytes);
   for (const foreign::DracoPrimitiveAttribute& attribute : coded.attributes) {
     const char* name = names[attribute.piece_attribute];
@@ -224,6 +224,7 @@ Bytes dracoCity(const City& city, int type, foreign::DracoPrimitive& coded) {
                              {"count", coded.vertex_count},
                              {"type", attribute.piece_attribute == 2 ? "SCALAR" : "VEC3"}});
   }
+  primitive["extensions"]["KHR_draco_mesh_compression"] = extension;
   primitive["indices"] = builder.addAccessor(
       {{"componentType", kUnsignedShort}, {"count", 3 * coded.triangle_count}, {"type", "SCALAR"}});
   builder.addMesh({primitive});
