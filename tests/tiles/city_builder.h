@@ -76,10 +76,10 @@ struct City {
         houses.push_back(house);
         faces.push_back(6 * house + face);
       }
-      for (const uint16_t corner : {0, 1, 2, 0, 2, 3}) {
+      for (const int corner : {0, 1, 2, 0, 2, 3}) {
         indices.push_back(static_cast<uint16_t>(first + corner));
       }
-      for (const uint16_t corner : {0, 1, 1, 2, 2, 3, 3, 0}) {
+      for (const int corner : {0, 1, 1, 2, 2, 3, 3, 0}) {
         edges.push_back(static_cast<uint16_t>(first + corner));
       }
     }
