@@ -112,13 +112,17 @@ struct ConvertedModel {
 inline ConvertedModel convertAsTile(const Bytes& source) {
   ConvertedModel model;
   model.source = source;
-  tiles::Accuracy accuracy;
-  accuracy.promised_error = kPromisedError;
-  accuracy.step = tiles::stepFor(kPromisedError);
+  const auto choose = [](std::span<const uint8_t>, const tiles::TileModel&,
+                         tiles::Accuracy& accuracy) {
+    accuracy.promised_error = kPromisedError;
+    accuracy.lattice.step = static_cast<float>(tiles::stepFor(kPromisedError));
+    return gltf::Result();
+  };
+  std::vector<std::string> notes;
   gltf::ConvertOptions options;
   options.decoders = foreign::foreignDecoders();
   gltf::Result result =
-      tiles::convertTile(source, {accuracy}, options, model.converted, model.figures);
+      tiles::convertTile(source, choose, options, model.converted, model.figures, notes);
   EXPECT_TRUE(result.ok()) << result.message();
   EXPECT_FALSE(model.converted.empty()) << "the tile does not become smaller";
   if (model.converted.empty()) return model;
