@@ -18,7 +18,7 @@ import { startServer } from './support/server.mjs';
 const CAMERAS = {
   whole: { from: [-230, -420, 190], to: [20, -20, 0], columns: 10, rows: 6 },
   houses: { from: [-42, -128, 44], to: [-8, -50, 5], columns: 12, rows: 8 },
-  castle: { from: [-2, 22, 36], to: [70, 92, 14], columns: 9, rows: 6 },
+  north: { from: [0, 4, 46], to: [12, 80, 5], columns: 9, rows: 6 },
 };
 
 /**
