@@ -15,8 +15,9 @@ namespace fs = std::filesystem;
 
 constexpr double kRootError = 64;  // metres; the errors of the levels below it follow
 constexpr double kTerrainError = 16;
-constexpr double kTownError = 16;
+constexpr double kTownError = 64;
 constexpr double kRowError = 4;
+constexpr double kLandmarkError = 1;  // they have no level below, and stand beside the districts
 constexpr uint64_t kTreeSeed = 77;
 constexpr const char* kPictures = "../textures/";
 
@@ -206,7 +207,7 @@ class CityWriter {
       Tile& group = tiles[i / side / kGroup * group_count + i % side / kGroup];
       group.bounds.add(district.bounds);
       group.json["boundingVolume"] = boxOf(group.bounds);
-      group.json["geometricError"] = kTownError / 2;
+      group.json["geometricError"] = kTownError / 4;
       group.json["refine"] = "ADD";
       group.json["children"].push_back(district.json);
     }
@@ -309,7 +310,9 @@ class CityWriter {
 
   static Tile leafOf(const Bounds& exact, const std::string& uri) {
     const Bounds bounds = rounded(exact);
-    return {{{"boundingVolume", boxOf(bounds)}, {"geometricError", 0}, {"content", {{"uri", uri}}}},
+    return {{{"boundingVolume", boxOf(bounds)},
+             {"geometricError", kLandmarkError},
+             {"content", {{"uri", uri}}}},
             bounds};
   }
 

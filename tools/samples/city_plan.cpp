@@ -13,8 +13,9 @@ using test::turn;
 
 constexpr uint64_t kSeed = 20260;
 constexpr double kTownLevel = 5;     // metres above the water
+constexpr double kDry = 1.6;         // metres above the water where grass begins
 constexpr double kRiverWidth = 44;   // metres
-constexpr double kDistrictGap = 46;  // metres between districts
+constexpr double kDistrictGap = 42;  // metres between districts
 constexpr double kAvenue = 9;        // half of its width
 constexpr double kMarket = 27;       // half of its side
 
@@ -115,8 +116,8 @@ class HouseRow {
 /// Plants a block that has no houses.
 void addPark(const CityPlan& plan, District& district, Random& random, const Vec3& corner) {
   for (uint32_t i = 0; i < 16; ++i) {
-    const double x = 3 + random.below(460) / 10.0;
-    const double y = 3 + random.below(460) / 10.0;
+    const double x = 3 + random.below(400) / 10.0;
+    const double y = 3 + random.below(400) / 10.0;
     const Vec3 tree = district.frame.toWorld(corner + Vec3{x, y, 0});
     district.trees.push_back(plan.onGround(tree.x, tree.y));
   }
@@ -141,11 +142,11 @@ void addBlock(const CityPlan& plan, District& district, Random& random, const Ve
   row.build({place(0, kBlock - kDepth), {d.sin, -d.cos}}, kBlock - 2 * kDepth, street(), 2);
   const uint32_t tree_count = random.between(2, 5);
   for (uint32_t i = 0; i < tree_count; ++i) {
-    const double x = 18 + random.below(160) / 10.0;
-    const Vec3 tree = place(x, 18 + random.below(160) / 10.0);
+    const double x = 15 + random.below(160) / 10.0;
+    const Vec3 tree = place(x, 15 + random.below(160) / 10.0);
     district.trees.push_back(plan.onGround(tree.x, tree.y));
   }
-  for (const double x : {10.0, 26.0, 42.0}) {
+  for (const double x : {8.0, 23.0, 38.0}) {
     const Vec3 lamp = place(x, -2.0);
     district.lamps.push_back(plan.onGround(lamp.x, lamp.y));
   }
@@ -184,7 +185,7 @@ double CityPlan::landAt(double x, double y) const {
   const double from_castle = std::sqrt(dx * dx + dy * dy);
   land = mix(top.z, land, smoothStep(34, 150, from_castle));
   const double from_river = std::abs(y - riverAt(x));
-  return mix(-5, land, smoothStep(kRiverWidth / 2 - 8, kRiverWidth / 2 + 60, from_river));
+  return mix(-5, land, smoothStep(kRiverWidth / 2 - 8, kRiverWidth / 2 + 84, from_river));
 }
 
 double CityPlan::heightAt(double x, double y) const { return std::max(0.0, landAt(x, y)); }
@@ -234,7 +235,7 @@ bool CityPlan::inTown(double x, double y, Ground& ground) const {
 Ground CityPlan::groundAt(double x, double y) const {
   const double land = landAt(x, y);
   if (land < 0) return Ground::kWater;
-  if (land < 1.6) return Ground::kSand;
+  if (land < kDry) return Ground::kSand;
   Ground ground = Ground::kMeadow;
   if (inTown(x, y, ground)) return ground;
   if (isOnRoad(x, y)) return Ground::kStreet;
@@ -257,7 +258,7 @@ void CityPlan::addDistrict(uint32_t column, uint32_t row) {
   District district;
   const double pitch = sideOf(size_.block_count) + kDistrictGap;
   const double first = -pitch * (size_.district_count - 1) / 2;
-  const double angle = (random.below(100) / 100.0 - 0.5) * 0.045;
+  const double angle = (random.below(100) / 100.0 - 0.5) * 0.028;
   const Vec3 middle = onGround(first + column * pitch, first + row * pitch);
   district.frame = {middle, turn(angle)};
   district.kind = static_cast<DistrictKind>(number % 4);
@@ -266,7 +267,9 @@ void CityPlan::addDistrict(uint32_t column, uint32_t row) {
   district.block_count = size_.block_count;
   district.has_rows = district.kind != DistrictKind::kInstanced;
   district.gap_percent = district.has_rows ? 5 : 30;
-  district.park = random.below(size_.block_count * size_.block_count);
+  if (number % 4 == 2 || number % 4 == 3) {
+    district.park = random.below(size_.block_count * size_.block_count);
+  }
   const double half = sideOf(size_.block_count) / 2;
   for (uint32_t block = 0; block < size_.block_count * size_.block_count; ++block) {
     const uint32_t x = block % size_.block_count;
@@ -283,7 +286,7 @@ void CityPlan::addAvenueTrees() {
     for (const double side : {-kAvenue - 3, kAvenue + 3}) {
       for (const double sign : {-1.0, 1.0}) {
         for (const Vec3& place : {Vec3{side, sign * at, 0}, Vec3{sign * at, side, 0}}) {
-          if (inTown(place.x, place.y, ground)) continue;
+          if (inTown(place.x, place.y, ground) || landAt(place.x, place.y) < kDry) continue;
           avenue_trees_.push_back(onGround(place.x, place.y));
         }
       }

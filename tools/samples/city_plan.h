@@ -81,7 +81,7 @@ struct District {
   DistrictKind kind = DistrictKind::kGlb;
   Frame frame;
   uint32_t block_count = 0;  ///< on a side
-  uint32_t park = 0;         ///< the block without houses
+  uint32_t park = kNone;     ///< the block without houses; kNone: each has some
   uint32_t gap_percent = 0;  ///< of the plots are gardens
   bool has_rows = true;      ///< houses stand wall to wall
   std::vector<House> houses;
@@ -91,7 +91,7 @@ struct District {
 };
 
 /// The sides of blocks and streets, in metres.
-inline constexpr double kBlock = 52;
+inline constexpr double kBlock = 46;
 inline constexpr double kStreet = 8;
 
 class CityPlan {
