@@ -63,6 +63,13 @@ std::string bitsText(const tiles::TileFigures& figures) {
 
 std::string errorText(double error) { return error == 0 ? "" : fmt::format("{:.3g}", error); }
 
+/// The models of a level may have several promises; the largest error is below the largest.
+std::string promiseText(const tiles::TileFigures& figures) {
+  const std::string low = errorText(figures.promised_error);
+  const std::string high = errorText(figures.largest_promise);
+  return low == high ? low : low + "-" + high;
+}
+
 std::vector<std::string> cellsOf(const std::string& name, const LevelSum& sum, Format format) {
   const double ratio = sum.output_bytes == 0 ? 0
                                              : static_cast<double>(sum.input_bytes) /
@@ -74,7 +81,7 @@ std::vector<std::string> cellsOf(const std::string& name, const LevelSum& sum, F
           count(sum.output_bytes, format),
           ratio == 0 ? "" : fmt::format("{:.2f}", ratio),
           bitsText(sum.figures),
-          errorText(sum.figures.promised_error),
+          promiseText(sum.figures),
           errorText(sum.figures.measured_error)};
 }
 
@@ -96,7 +103,10 @@ Json figuresJson(const tiles::TileFigures& figures) {
     json["position_bits"] = {figures.bits_low, figures.bits_high};
     json["largest_error"] = figures.measured_error;
   }
-  if (figures.promised_error != 0) json["promised_error"] = figures.promised_error;
+  if (figures.promised_error != 0) {
+    json["promised_error"] = figures.promised_error;
+    json["largest_promised_error"] = figures.largest_promise;
+  }
   return json;
 }
 
@@ -169,6 +179,7 @@ std::string tilesReportText(const TilesRunResult& result, const CommonOptions& o
   // The finest promise of one level next to the largest error of another would look broken.
   LevelSum all = sums.all;
   all.figures.promised_error = 0;
+  all.figures.largest_promise = 0;
   all.figures.measured_error = 0;
   table.addRow(cellsOf("all", all, format));
   std::string text = table.print(format);
@@ -198,6 +209,7 @@ std::string tilesReportJson(const TilesRunResult& result) {
   }
   Json all = sumJson(sums.all);
   all.erase("promised_error");  // they are those of different levels
+  all.erase("largest_promised_error");
   all.erase("largest_error");
   const Json json = {{"tool", std::string("gltf-mcc ") + MCC_VERSION},
                      {"input", result.input},

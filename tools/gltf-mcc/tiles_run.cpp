@@ -316,7 +316,8 @@ bool TilesRun::takeUpToDate(uint32_t file) {
     figures.has_positions = made->at("has_positions").get<bool>();
     figures.bits_low = made->at("bits").at(0).get<uint8_t>();
     figures.bits_high = made->at("bits").at(1).get<uint8_t>();
-    figures.promised_error = made->at("promised").get<double>();
+    figures.promised_error = made->at("promised").at(0).get<double>();
+    figures.largest_promise = made->at("promised").at(1).get<double>();
     figures.measured_error = made->at("measured").get<double>();
     notes = made->at("notes").get<std::vector<std::string>>();
   } catch (const Json::exception&) {
@@ -336,7 +337,7 @@ void TilesRun::keep(uint32_t file, const std::vector<std::string>& notes) {
                      {"is_copy", made.outcome == TilesOutcome::kCopied},
                      {"has_positions", figures.has_positions},
                      {"bits", {figures.bits_low, figures.bits_high}},
-                     {"promised", figures.promised_error},
+                     {"promised", {figures.promised_error, figures.largest_promise}},
                      {"measured", figures.measured_error},
                      {"notes", notes}};
   record_->add(newName(file), makerOf(file), inputsOf(file), outputsOf(file), json);

@@ -13,6 +13,7 @@ using gltf::Result;
 void TileFigures::add(const gltf::ConvertReport& report, const Accuracy& accuracy) {
   TileFigures of_model;
   of_model.promised_error = accuracy.promised_error;
+  of_model.largest_promise = accuracy.promised_error;
   for (const gltf::PayloadReport& payload : report.payloads) {
     for (const gltf::AttributeReport& attribute : payload.attributes) {
       if (attribute.name != "POSITION") continue;
@@ -41,6 +42,7 @@ void TileFigures::add(const TileFigures& other) {
   if (promised != 0 && (promised_error == 0 || promised < promised_error)) {
     promised_error = promised;
   }
+  largest_promise = std::max(largest_promise, other.largest_promise);
   measured_error = std::max(measured_error, other.measured_error);
 }
 

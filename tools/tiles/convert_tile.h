@@ -19,6 +19,7 @@ struct TileFigures {
   uint8_t bits_high = 0;
   bool has_positions = false;  ///< false: nothing was compressed
   double promised_error = 0;   ///< the smallest of its models, in metres; 0: none was promised
+  double largest_promise = 0;  ///< the largest
   double measured_error = 0;   ///< largest, in metres, at most
 
   /// Adds what the library measured on one model.

@@ -23,7 +23,7 @@ uint64_t groupKey(const TileUse& use) {
 
 }  // namespace
 
-void DemandGroups::add(const TileUse& use, bool is_first, TileDemand& demand) {
+void DemandGroups::add(const TileUse& use, TileDemand& demand) {
   const uint64_t key = groupKey(use);
   const std::array<double, 3> translation = {use.transform[12], use.transform[13],
                                              use.transform[14]};
@@ -39,8 +39,7 @@ void DemandGroups::add(const TileUse& use, bool is_first, TileDemand& demand) {
   Matrix inverse;
   const bool has_inverse = invertLinear(use.transform, inverse);
   if (has_inverse) offset = transformed(inverse, offset);
-  if (is_first) {
-    demand = {};
+  if (demand.scale < 0) {
     demand.level = use.level;
     demand.up_axis = use.up_axis;
     demand.has_group = has_inverse;

@@ -35,7 +35,7 @@ struct TileDemand {
   bool has_group = false;        ///< false: several tiles show it, and they differ
   uint64_t group = 0;            ///< key of the tiles whose grids can be one
   std::array<double, 3> offset;  ///< from the origin of the group's grid, in the tile's coordinates
-  double scale = 0;              ///< no transform makes a vector longer than by this
+  double scale = -1;             ///< no transform makes a vector longer; below 0: no tile shows it
   double world_distance = std::numeric_limits<double>::infinity();  ///< in metres
   double tile_distance = std::numeric_limits<double>::infinity();   ///< in the tile's coordinates
 };
@@ -44,8 +44,8 @@ struct TileDemand {
 /// apart from its translation.
 class DemandGroups {
  public:
-  /// Adds a tile that shows a content to its demand. `is_first`: nothing shows it so far.
-  void add(const TileUse& use, bool is_first, TileDemand& demand);
+  /// Adds a tile that shows a content to its demand, and to its group.
+  void add(const TileUse& use, TileDemand& demand);
 
   /// Returns the smallest tile_distance in a group.
   double distanceOf(uint64_t group) const { return groups_.at(group).distance; }

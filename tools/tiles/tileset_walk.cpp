@@ -209,22 +209,28 @@ class TilesetWalker {
       return {};
     }
     const uint32_t file = files_.find(path);
+    if (file != kNone && isTileset(file)) return addTileset(named, file, use, inherited_error);
+    // Also what another part has, or what is missing, decides about the grid of its group, so that
+    // all parts come to the same one.
+    TileDemand demand;
+    if (file != kNone && out_.demand_numbers_[file] != kNone) {
+      demand = out_.demands_[out_.demand_numbers_[file]];
+    }
+    const bool is_first = demand.scale < 0;
+    const bool is_renamed = glbNameOf(named.uri).has_value() && (is_first || demand.is_renamed);
+    out_.groups_.add(use, demand);
+    demand.is_renamed = is_renamed;
     if (file == kNone) {
       const bool is_of_other_part = isNameOfLeaf(path) && !part_.has(path);
       if (!is_of_other_part) failHere("names no file that is there: \"" + path + "\"");
       return {};
     }
-    if (isTileset(file)) return addTileset(named, file, use, inherited_error);
-    uint32_t& demand = out_.demand_numbers_[file];
-    const bool is_first = demand == kNone;
     if (is_first) {
-      demand = static_cast<uint32_t>(out_.demands_.size());
-      out_.demands_.emplace_back();
+      out_.demand_numbers_[file] = static_cast<uint32_t>(out_.demands_.size());
+      out_.demands_.push_back(demand);
+    } else {
+      out_.demands_[out_.demand_numbers_[file]] = demand;
     }
-    TileDemand& known = out_.demands_[demand];
-    const bool is_renamed = glbNameOf(named.uri).has_value() && (is_first || known.is_renamed);
-    out_.groups_.add(use, is_first, known);
-    known.is_renamed = is_renamed;
     return {};
   }
 
