@@ -219,6 +219,16 @@ TEST(Upgrade, RandomNumbersComeBack) {
   }
 }
 
+/// Offsets have a type that holds the last of them.
+TEST(Upgrade, LongStringsComeBack) {
+  for (const size_t length : {254u, 255u, 256u, 65535u, 65536u}) {
+    const std::string text = "[\"" + std::string(length, 'x') + "\",\"y\",\"\"]";
+    const Bytes glb = upgraded(
+        makeModelTile("b3dm", tablesOf(kThree, "{\"n\":" + text + "}"), makeModel().toGlb()));
+    EXPECT_EQ(MetadataReader(glb).valuesOf("n"), parsed(text)) << length;
+  }
+}
+
 TEST(Upgrade, BinaryColumnsKeepTheirBits) {
   Bytes binary;
   for (uint32_t i = 0; i < 200; ++i) binary.push_back(static_cast<uint8_t>(i % 64));
