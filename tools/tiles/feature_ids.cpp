@@ -189,21 +189,25 @@ Result Converter::convertPrimitive(Json& primitive, bool& has_ids) {
   MCC_GLTF_TRY(findName(primitive, name));
   if (name.empty()) return {};
   has_ids = true;
-  Json& attributes = *findMember(primitive, "attributes");
   uint64_t index = 0;
-  MCC_GLTF_TRY(gltf::readUnsigned(attributes, name, "attributes", kNone, index));
+  MCC_GLTF_TRY(
+      gltf::readUnsigned(*findMember(primitive, "attributes"), name, "attributes", kNone, index));
   if (index >= document_.accessors.size()) return gltf::error("", "its accessor does not exist");
-  FeatureIds made;
-  MCC_GLTF_TRY(convertAccessor(static_cast<uint32_t>(index), made));
   Json& extensions = memberOrNew(primitive, "extensions", Json::object());
   Json* draco = findMember(extensions, gltf::kMeshExtension);
   Json* coded = draco == nullptr ? nullptr : findMember(*draco, "attributes");
-  if (coded != nullptr && findMember(*coded, name) != nullptr) {
-    if (made.is_rewritten) {
-      return gltf::error("", "Draco codes its batch ids with a type that feature ids cannot have");
-    }
-    renameMember(*coded, name, kFeatureIds);
+  const bool is_coded = coded != nullptr && findMember(*coded, name) != nullptr;
+  const gltf::Accessor& accessor = document_.accessors[index];
+  if (is_coded && accessor.view == kNone && accessor.decoded == kNone) {
+    // Without the decoder the accessor looks like one of zeros.
+    return gltf::error("", "its batch ids are coded by Draco and cannot be read");
   }
+  FeatureIds made;
+  MCC_GLTF_TRY(convertAccessor(static_cast<uint32_t>(index), made));
+  if (is_coded && made.is_rewritten) {
+    return gltf::error("", "Draco codes its batch ids with a type that feature ids cannot have");
+  }
+  if (is_coded) renameMember(*coded, name, kFeatureIds);
   Json& renamed = *findMember(primitive, "attributes");  // adding a member moves the others
   renameMember(renamed, name, kFeatureIds);
   *findMember(renamed, kFeatureIds) = made.accessor;
