@@ -1,6 +1,7 @@
 # Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 """Runs the README's recipe for many machines: dask_test.py GLTF_MCC README SAMPLES. One of two workers is killed after
-the first models; in the end every model is there once, with the program's bytes. A second run does the rest."""
+the first models; in the end every model is there once, with the program's bytes. A second run does the rest. The same
+for the recipe for tilesets, with samples/city."""
 import os
 import re
 import shutil
@@ -12,7 +13,8 @@ from pathlib import Path
 
 PROGRAM, README, SAMPLES = (Path(argument) for argument in sys.argv[1:])
 COPIES = 6
-ENVIRONMENT = dict(os.environ, DASK_DISTRIBUTED__DASHBOARD__LINK="")
+PATH = f"{PROGRAM.resolve().parent}{os.pathsep}{os.environ['PATH']}"  # where the recipe for tilesets finds the program
+ENVIRONMENT = dict(os.environ, DASK_DISTRIBUTED__DASHBOARD__LINK="", PATH=PATH)
 
 
 def start(log, *command):
@@ -46,8 +48,34 @@ def converted(folder):
     return expected
 
 
-def run_recipe(recipe, address, source, target, **options):
-    return subprocess.Popen([sys.executable, recipe, address, source, target], env=ENVIRONMENT, text=True, **options)
+def run_recipe(recipe, address, source, target, *more, **options):
+    return subprocess.Popen([sys.executable, recipe, address, source, target, *more], env=ENVIRONMENT, text=True, **options)
+
+
+def files_of(folder):
+    """Returns the bytes of all files in a folder and below, without the program's records."""
+    paths = [path for path in folder.rglob("*") if path.is_file() and not path.name.startswith(".gltf-mcc-tiles.")]
+    return {path.relative_to(folder): path.read_bytes() for path in paths}
+
+
+def check_tiles(folder, address, running, start_worker):
+    """Runs the recipe for tilesets; one of two workers is killed after the first files."""
+    source, target = SAMPLES / "city" / "tileset.json", folder / "city-small"
+    subprocess.run([PROGRAM, "tiles", "-q", source, folder / "city-plain"], check=True)
+    expected = files_of(folder / "city-plain")
+    recipe = folder / "compress_tileset.py"
+    recipe.write_text(re.search(r"```python\n(import subprocess\n.*?)```", README.read_text(), re.DOTALL).group(1))
+    worker = start_worker()
+    job = run_recipe(recipe, address, source, target, "40", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    running.append(job)
+    wait_until(lambda: target.exists() and len(files_of(target)) >= 3, "the first tiles")
+    worker.kill()
+    killed_after = len(files_of(target))
+    out, err = job.communicate(timeout=200)
+    assert job.returncode == 0 and "failed: none" in out, (out, err)
+    assert files_of(target) == expected
+    assert killed_after < len(expected), "the worker was killed too late to prove anything"
+    print(f"dask: a tileset of {len(expected)} files in 40 parts, one worker killed after {killed_after} files")
 
 
 def main(folder):
@@ -66,9 +94,14 @@ def main(folder):
         address_file = folder / "scheduler.json"
         wait_until(address_file.exists, "the scheduler's start")
         address = re.search(r'"address": "([^"]+)"', address_file.read_text()).group(1)
-        for _ in range(2):
+
+        def start_worker():
             running.append(start(log, "-m", "distributed.cli.dask_worker", address, "--nthreads", "1", "--no-nanny",
                                  "--no-dashboard", "--local-directory", str(folder)))
+            return running[-1]
+
+        for _ in range(2):
+            start_worker()
         job = run_recipe(recipe, address, source, target, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         running.append(job)
         wait_until(lambda: len(list(target.rglob("*.glb"))) >= 3, "the first models")
@@ -87,6 +120,7 @@ def main(folder):
         check(out, err, job.returncode, source, target, expected)
         assert all(path.stat().st_mtime_ns == changed for path, changed in times.items())
         print(f"dask: {len(times) + 1} models, one worker killed after {killed_after}")
+        check_tiles(folder, address, running, start_worker)
     except BaseException:
         log.seek(0)
         sys.stderr.write(log.read()[-4000:])

@@ -157,8 +157,14 @@ TEST_F(TileParts, TwoRunsDoNotMeet) {
     EXPECT_NE(result.err.find(refused), std::string::npos) << arguments << result.err;
   }
   EXPECT_EQ(run("tiles in/tileset.json shared --part " + other).status, 0);
+  // A run that waits goes on as soon as the other one is gone.
+  const pid_t waiting = start({"tiles", "in/tileset.json", "shared", "--wait"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  int code = 0;
+  EXPECT_EQ(waitpid(waiting, &code, WNOHANG), 0) << "it does not wait";
   end(child);
-  EXPECT_EQ(run("tiles in/tileset.json shared").status, 0);
+  waitpid(waiting, &code, 0);
+  EXPECT_TRUE(WIFEXITED(code) && WEXITSTATUS(code) == 0);
   EXPECT_TRUE(filesOf("shared") == whole_);
 }
 

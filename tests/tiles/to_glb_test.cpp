@@ -41,7 +41,8 @@ TEST_F(TilesToGlb, NamesChangeAndNothingElseInTheJson) {
   EXPECT_EQ(run("tiles in/tileset.json parts --to-glb --part 2/2").status, 0);
   EXPECT_TRUE(filesOf("parts") == filesOf("out"));
   const ToolResult again = run("tiles in/tileset.json out --to-glb --format json");
-  for (const Json& file : Json::parse(again.out)["files"]) EXPECT_TRUE(file["up_to_date"]) << file;
+  const Json report = Json::parse(again.out);
+  for (const Json& file : report["files"]) EXPECT_TRUE(file["up_to_date"]) << file;
 }
 
 TEST_F(TilesToGlb, NoFileLosesItsName) {

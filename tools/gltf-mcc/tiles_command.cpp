@@ -55,6 +55,7 @@ void addTiles(CLI::App& app, int& status) {
       ->add_option("--part", state->part_text,
                    "Make only the K-th of N parts; the parts of several machines make a whole")
       ->type_name("K/N");
+  command->add_flag("--wait", state->waits, "Wait for other runs that write to the same folder");
   command->add_flag("--to-glb", state->makes_glb,
                     "Make a .glb of 3D Tiles 1.1 of each .b3dm, and rename it in the tilesets");
   command->add_option("--max-tiles", state->max_tiles, "Refuse tilesets with more tiles [16777216]")

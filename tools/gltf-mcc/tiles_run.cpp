@@ -99,6 +99,7 @@ class TilesRun {
   fs::path input_;
   fs::path output_;
   TilesRunResult result_;
+  std::string settings_;               ///< as JSON
   std::vector<Role> roles_;            ///< by file, as in the table
   std::map<uint32_t, Buffers> gltfs_;  ///< of the files with the role kGltf
   std::unique_ptr<tiles::Record> record_;
@@ -262,7 +263,7 @@ Result TilesRun::claimOutputs() {
     }
   }
   record_ = std::make_unique<tiles::Record>(input_, output_, options_.part);
-  MCC_GLTF_TRY(record_->open());
+  MCC_GLTF_TRY(record_->open(options_.waits));
   record_->removeTemporaries();
   for (uint32_t i = 0; i < roles_.size(); ++i) {
     if (roles_[i] == Role::kNone) continue;
@@ -284,20 +285,23 @@ Result TilesRun::claimOutputs() {
   return record_->endClaims();
 }
 
-/// Returns everything that the output of a file depends on, apart from the file.
+/// Returns a text that is equal as long as everything is that the output of a file depends on,
+/// apart from the file. There is one for each file in the record, so it is short.
 std::string TilesRun::makerOf(uint32_t file) const {
-  std::string maker = MCC_VERSION;
-  if (!isModel(file)) return maker + (roles_[file] == Role::kTileset ? " to-glb" : " copy");
-  const tiles::TileDemand& demand = *result_.walk.demandOf(file);
-  maker += " " + result_.settings.dump();
-  if (options_.has_fixed_bits) return maker;
-  maker += fmt::format(" {} {} {} {}", demand.world_distance, demand.tile_distance, demand.scale,
-                       static_cast<int>(demand.up_axis));
-  if (demand.has_group) {
-    maker += fmt::format(" {} {} {} {}", result_.walk.groups().distanceOf(demand.group),
-                         demand.offset[0], demand.offset[1], demand.offset[2]);
+  if (!isModel(file)) {
+    return std::string(MCC_VERSION) + (roles_[file] == Role::kTileset ? " to-glb" : " copy");
   }
-  return maker;
+  const tiles::TileDemand& demand = *result_.walk.demandOf(file);
+  std::string all = settings_;
+  if (!options_.has_fixed_bits) {
+    all += fmt::format(" {} {} {} {}", demand.world_distance, demand.tile_distance, demand.scale,
+                       static_cast<int>(demand.up_axis));
+    if (demand.has_group) {
+      all += fmt::format(" {} {} {} {}", result_.walk.groups().distanceOf(demand.group),
+                         demand.offset[0], demand.offset[1], demand.offset[2]);
+    }
+  }
+  return fmt::format("{} {:016x}", MCC_VERSION, tiles::hashOf(all));
 }
 
 bool TilesRun::takeUpToDate(uint32_t file) {
@@ -612,6 +616,7 @@ int TilesRun::run() {
       options_.has_fixed_bits ? Json(nullptr) : Json(options_.error_share);
   if (options_.makes_glb) result_.settings["to_glb"] = true;
   result_.part = options_.part.name();
+  settings_ = result_.settings.dump();
   addLevelNotes();
   assignRoles();
   ready = claimOutputs();

@@ -25,6 +25,7 @@ struct TilesOptions {
   bool is_forced = false;
   tiles::Part part;        ///< of the files, which this run makes
   bool makes_glb = false;  ///< b3dm become GLBs of 3D Tiles 1.1
+  bool waits = false;      ///< for other runs that write to the folder
   uint64_t max_tiles = tiles::kMostTiles;
 };
 

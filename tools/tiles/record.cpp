@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <chrono>
+#include <thread>
 
 #include "gltf/base/path_text.h"
 #include "gltf/base/result.h"
@@ -89,7 +91,7 @@ Record::Record(fs::path input, fs::path output, const Part& part)
       part_(part),
       path_(output_ / nameOf(part)) {}
 
-Result Record::open() {
+Result Record::open(bool waits) {
   std::error_code code;
   const fs::file_status status = fs::symlink_status(path_, code);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
@@ -105,7 +107,14 @@ Result Record::open() {
     }
   }
   std::sort(others.begin(), others.end());
-  MCC_GLTF_TRY(lockAgainstOthers(others));
+  while (!lockAgainstOthers(others)) {
+    if (!waits) {
+      return gltf::error(gltf::textOf(output_),
+                         "another run is writing to this folder; wait for its end (--wait), choose "
+                         "another folder, or give each run a part of the same number (--part)");
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  }
   // A run that was killed may have left half of a line.
   stream_ << "\n" << textOf({{"tool", std::string("gltf-mcc ") + MCC_VERSION}}) << std::flush;
   read(path_);
@@ -115,17 +124,16 @@ Result Record::open() {
 
 /// Two runs that begin at the same time both hold their own lock before they look at the other's,
 /// so at least one of them sees the other.
-Result Record::lockAgainstOthers(const std::vector<fs::path>& others) {
-  bool is_free = lock_.take(path_);
+bool Record::lockAgainstOthers(const std::vector<fs::path>& others) {
+  lock_.emplace();
+  bool is_free = lock_->take(path_);
   for (const fs::path& other : others) {
     if (!part_.overlaps(partOf(genericText(other.filename())))) continue;
     gltf::WorkLock probe;
     is_free = is_free && probe.take(other);
   }
-  if (is_free) return {};
-  return gltf::error(gltf::textOf(output_),
-                     "another run is writing to this folder; wait for its end, choose another "
-                     "folder, or give each run a part of the same number of parts (--part)");
+  if (!is_free) lock_.reset();  // two that wait for each other would wait forever
+  return is_free;
 }
 
 void Record::read(const fs::path& path) {

@@ -41,8 +41,9 @@ class Record {
   /// Opens the record of the part, and makes sure that nobody else works on it, or on another part
   /// that has files in common with it, as long as this object exists. Reads all records in the
   /// folder. Lines that are damaged count as absent.
+  /// waits  for the end of other runs
   /// Errors: another run is working; something that is not a file has the name of the record.
-  gltf::Result open();
+  gltf::Result open(bool waits);
 
   /// Whether a name in the output folder was written, or was going to be, by an earlier run.
   bool isOurs(std::string_view name);
@@ -70,7 +71,8 @@ class Record {
     uint64_t offset = 0;
   };
 
-  gltf::Result lockAgainstOthers(const std::vector<std::filesystem::path>& others);
+  /// Returns whether no other run works, and keeps it so.
+  bool lockAgainstOthers(const std::vector<std::filesystem::path>& others);
   void read(const std::filesystem::path& path);
   /// Returns the last line about a name, or null.
   Json lineOf(std::string_view name);
@@ -79,7 +81,7 @@ class Record {
   std::filesystem::path output_;
   Part part_;
   std::filesystem::path path_;
-  gltf::WorkLock lock_;
+  std::optional<gltf::WorkLock> lock_;
   std::unordered_map<uint64_t, Place> places_;  ///< by the hash of the name
   std::vector<std::ifstream> records_;          ///< the first is that of the part
   std::ofstream stream_;
