@@ -11,7 +11,7 @@ import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { SAMPLES } from '../support/paths.mjs';
 import { PROGRAM } from '../support/program.mjs';
-import { launchBrowser, openPage } from './support/browser.mjs';
+import { isDecoding, launchBrowser, openPage } from './support/browser.mjs';
 import { coverageOf, differenceOf, readPicture, writePicture } from './support/pixels.mjs';
 import { startServer } from './support/server.mjs';
 
@@ -66,12 +66,9 @@ async function serveFolder(name, folder) {
   return bytes;
 }
 
-/** Whether the page is there for the second time, as it is once the worker answers. */
-const isReloaded = () => globalThis.draw !== undefined && performance.getEntriesByType('navigation')[0].type === 'reload';
-
 /** Opens the page, whose requests go through the worker. */
 async function openCity(name) {
-  const { page } = await openPage(site.browser, `${site.server.origin}/plain/tiles.html?eval&worker`, isReloaded);
+  const { page } = await openPage(site.browser, `${site.server.origin}/plain/tiles.html?eval&worker`, isDecoding);
   await page.setViewportSize({ width: 600, height: 400 });
   await page.evaluate((url) => globalThis.load(url), `/files/${name}/tileset.json`);
   return page;
