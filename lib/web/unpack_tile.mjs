@@ -138,7 +138,8 @@ class TileFile {
       if (format === 0) return; // a URI
     }
     const rest = end - at;
-    if (rest < HEADER_BYTES.glTF || kindOf(this.bytes.subarray(at, end)) !== 'glTF') fail(`byte ${at}`, 'there is no GLB where the tables end');
+    const isGlb = rest >= HEADER_BYTES.glTF && kindOf(this.bytes.subarray(at, end)) === 'glTF';
+    if (!isGlb) fail(`byte ${at}`, 'there is no GLB where the tables end');
     const length = this.#number(at + 8);
     if (length < HEADER_BYTES.glTF || length > rest) fail(`byte ${at + 8}`, `the GLB claims ${length} bytes, and ${rest} are there`);
     node.tables = tables;

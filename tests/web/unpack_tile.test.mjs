@@ -2,12 +2,18 @@
 //
 // Models inside of tiles of 3D Tiles 1.0: what unpackTile() changes of a tile, what it does not, and what it refuses.
 import assert from 'node:assert/strict';
-import { describe, test } from 'node:test';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
+import { after, describe, test } from 'node:test';
 import { namedBytes } from '../../lib/web/budget.mjs';
 import { payloadsOf } from '../../lib/web/document.mjs';
 import { createDecoderPool, MccError, unpackGlb, unpackTile } from '../../lib/web/index.mjs';
 import { readGlb } from '../../lib/web/unpack.mjs';
 import { manifest, readAsset } from './support/conformance.mjs';
+import { SAMPLES } from './support/paths.mjs';
+import { PROGRAM } from './support/program.mjs';
 import { b3dm, cmpt, i3dm, i3dmOf, joined, modelTile, pnts, readTile, textBytes } from './support/tiles.mjs';
 
 const assetNamed = (part) => readAsset(manifest.assets.find(({ file }) => file.includes(part)));
@@ -239,6 +245,33 @@ describe('damaged tiles', () => {
     for (const bytes of [undefined, 'b3dm', whole.buffer]) assert.equal((await failureOf(unpackTile(bytes))).code, 'Document');
   });
 });
+
+describe('tiles that the program has compressed', () => {
+  const source = path.join(SAMPLES, 'city');
+  const compressed = mkdtempSync(path.join(tmpdir(), 'gltf-mcc-city-'));
+  after(() => rmSync(compressed, { recursive: true }));
+  execFileSync(PROGRAM, ['tiles', '--quiet', path.join(source, 'tileset.json'), compressed]);
+
+  /** The models of a file and their tables, in a list. */
+  const modelsOf = (tile) => (tile.tiles === undefined ? [tile] : tile.tiles.flatMap(modelsOf));
+
+  for (const file of readdirSync(source, { recursive: true }).filter((name) => /\.(b3dm|i3dm|cmpt)$/.test(name))) {
+    test(`${path.basename(file)} has its models and tables again`, async () => {
+      const [before, packed] = [source, compressed].map((folder) => new Uint8Array(readFileSync(path.join(folder, file))));
+      const unpacked = await unpackTile(packed);
+      const [old, plain] = [before, unpacked].map((tile) => modelsOf(readTile(tile)));
+      assert.deepEqual(plain.map(({ magic, tables }) => ({ magic, tables })), old.map(({ magic, tables }) => ({ magic, tables })));
+      for (const [i, { glb }] of plain.entries()) {
+        const [was, is] = [old[i].glb, glb].map((bytes) => readGlb(bytes).json);
+        assert.deepEqual(triangleCounts(is), triangleCounts(was));
+        assert.equal(JSON.stringify(is).includes('KHR_mesh_collapse'), false);
+      }
+      assert.equal(await unpackTile(unpacked), unpacked);
+    });
+  }
+});
+
+const triangleCounts = ({ meshes, accessors }) => meshes.flatMap(({ primitives }) => primitives.map(({ indices }) => accessors[indices].count / 3));
 
 test('limits hold for all models of a tile together', async () => {
   const payloads = payloadsOf(readGlb(MODEL).json);
