@@ -180,10 +180,15 @@ describe('damaged tiles', () => {
   const lies = [
     ['the length', 8, [0, 11, 15, whole.length - 8, whole.length + 1, 0xffffffff], /^byte (0|8): /],
     ['the version', 4, [0, 2, 0x80000001], /^byte 4: the tile has version/],
-    ['the number of tiles', 12, [0, 1, 3, 0xffffffff], /^byte \d+: /],
-    ['the length of an inner tile', inner + 8, [0, 11, 27, second - inner - 8, whole.length, 0xffffffff], /^byte \d+: /],
+    ['the number of tiles', 12, [0, 1, 3], /^byte \d+: .*inner tile/],
+    ['the number of tiles, far too many', 12, [whole.length, 0xffffffff], /^byte 12: the tile claims to hold/],
+    ['the length of an inner tile', inner + 8, [27, second - inner - 8], /^byte \d+: /],
+    ['the length of an inner tile, impossible', inner + 8, [0, 11, whole.length, 0xffffffff], /^byte 24: the inner tile 0 claims/],
     ['the version of an inner tile', inner + 4, [0, 2], /^byte 20: the tile has version/],
-    ...[0, 1, 2, 3].map((i) => [`the length of table ${i}`, inner + 12 + 4 * i, [0, TABLES[i].length + 1, whole.length, 0xffffffff], /^byte \d+: /]),
+    ...[0, 1, 2, 3].map((i) => [`the length of table ${i}`, inner + 12 + 4 * i, [0, TABLES[i].length + 1], /^byte \d+: there is no GLB/]),
+    ...[0, 1, 2, 3].map((i) => [
+      `the length of table ${i}, impossible`, inner + 12 + 4 * i, [whole.length, 0xffffffff], new RegExp(`^byte ${inner + 12 + 4 * i}: a table of the tile`),
+    ]),
     ['the length of a GLB', glbAt + 8, [0, 11, MODEL.length + 1, 0xffffffff], /^byte \d+: the GLB claims/],
     ['the magic of a GLB', glbAt, [0], /there is no GLB where the tables end/],
     ['gltfFormat', second + 16 + 28, [2, 0xffffffff], /gltfFormat is neither 0 nor 1/],
@@ -194,6 +199,11 @@ describe('damaged tiles', () => {
       for (const number of numbers) await assertRefused(withNumber(whole, at, number), pattern);
     });
   }
+
+  test('a table of a tile whose model is elsewhere is too long', async () => {
+    const linked = i3dmOf('lamp.glb');
+    await assertRefused(withNumber(linked, 24, linked.length - 31), /^byte 24: a table of the tile/);
+  });
 
   test('what is wrong inside of a model has its place and its code', async () => {
     const damaged = readAsset(manifest.negative.find(({ file }) => file.includes('damaged_checksum')));
