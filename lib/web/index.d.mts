@@ -4,3 +4,4 @@ export { decodeBlocks } from './blocks.mjs';
 export { decodeGlbBlocks } from './glb_blocks.mjs';
 export { EXTENSION_NAME } from './document.mjs';
 export { unpackGlb, type UnpackOptions } from './unpack.mjs';
+export { unpackTile } from './unpack_tile.mjs';

@@ -6,3 +6,4 @@ export { createDecoderPool, decodePayload, decodePayloadSync, init, MccError, re
 export { decodeGlbBlocks } from './glb_blocks.mjs';
 export { EXTENSION_NAME } from './document.mjs';
 export { unpackGlb } from './unpack.mjs';
+export { unpackTile } from './unpack_tile.mjs';

@@ -4,6 +4,7 @@
 import { EXTENSION_NAME } from './document.mjs';
 import { unpackGlb } from './unpack.mjs';
 import { unpackGltf } from './unpack_gltf.mjs';
+import { isContainer, unpackTile } from './unpack_tile.mjs';
 
 /** Marks the URL of the buffer that is added to a .gltf document. */
 const BUFFER_PARAMETER = 'gltf-mcc-buffer';
@@ -11,7 +12,7 @@ const GLB_MAGIC = 'glTF';
 /** Those of a GLB before its JSON. */
 const HEADER_BYTES = 20;
 
-const isModel = ({ pathname }) => /\.(glb|gltf)$/i.test(pathname);
+const isModel = ({ pathname }) => /\.(glb|gltf|b3dm|i3dm|cmpt)$/i.test(pathname);
 
 /**
  * Makes a service worker answer requests for models; to be called by its script at once.
@@ -48,12 +49,24 @@ class Models {
     if (response.status !== 200) return response; // opaque responses have 0
     try {
       const start = await startOf(response.clone());
+      if (start.isContainer) return await this.#tile(response);
       if (!start.json?.extensionsUsed?.includes?.(EXTENSION_NAME)) return response;
       if (!start.isGlb) return answer(response, JSON.stringify(this.#begin(request, start.json).json));
       return answer(response, await unpackGlb(new Uint8Array(await response.arrayBuffer()), this.#options));
     } catch (error) {
       return refusal(request.url, error);
     }
+  }
+
+  async #tile(response) {
+    // The response is kept, to be passed on as it is.
+    const bytes = new Uint8Array(await response.clone().arrayBuffer());
+    const plain = await unpackTile(bytes, this.#options).catch((error) => {
+      // Engines read containers of older drafts too, and it is not for us to complain about them.
+      if (namesExtension(bytes)) throw error;
+      return bytes;
+    });
+    return plain === bytes ? response : answer(response, plain);
   }
 
   async buffer(request, url) {
@@ -100,7 +113,13 @@ async function fetchBytes(url, credentials) {
   return new Uint8Array(await response.arrayBuffer());
 }
 
-/** Reads a file only as far as its JSON goes: { isGlb, json }, or an empty object if it is no glTF file. */
+/** Whether the name of the extension is anywhere in a file: of a damaged container, it is not known where its models are. */
+const namesExtension = (bytes) => new TextDecoder('latin1').decode(bytes).includes(EXTENSION_NAME);
+
+/**
+ * Reads a file only as far as its JSON goes: { isGlb, json }; { isContainer: true } if glTF is inside of it, or an empty object if it
+ * is no glTF file.
+ */
 async function startOf(response) {
   const reader = response.body.getReader();
   const parts = [];
@@ -116,6 +135,7 @@ async function startOf(response) {
   };
   try {
     const head = await readTo(HEADER_BYTES);
+    if (isContainer(head)) return { isContainer: true };
     const isGlb = textOf(head.subarray(0, 4)) === GLB_MAGIC;
     if (!isGlb && textOf(head).trimStart()[0] !== '{') return {};
     const [from, to] = isGlb ? [HEADER_BYTES, HEADER_BYTES + new DataView(head.buffer).getUint32(12, true)] : [0, Infinity];

@@ -24,12 +24,23 @@ const COMPONENT_BYTES = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 }
  * use it
  */
 export async function unpackGlb(bytes, { decode = decodePayload, limits } = {}) {
+  const packed = readPacked(bytes);
+  if (packed === undefined) return bytes;
+  const budget = new Budget(bytes.length, limits);
+  budget.add(packed.namedBytes);
+  return decodePacked(packed, decode, budget);
+}
+
+/** Reads a GLB with payloads, for decodePacked(). Returns undefined if there are none. */
+export function readPacked(bytes) {
   const { json, chunks } = readGlb(bytes);
   const payloads = payloadsOf(json);
-  if (payloads.length === 0) return bytes;
+  return payloads.length === 0 ? undefined : { json, chunks, payloads, namedBytes: sum(payloads.map(namedBytes)) };
+}
+
+/** Returns the GLB without the extension. Its `namedBytes` have been added to the budget, and it is read by this once. */
+export async function decodePacked({ json, chunks, payloads }, decode, budget) {
   const bin = chunks.find(({ type }) => type === BIN_CHUNK)?.data ?? new Uint8Array(0);
-  const budget = new Budget(bytes.length, limits);
-  budget.add(sum(payloads.map(namedBytes)));
   const decoded = await Promise.all(payloads.map(async (payload) => (
     budget.settle(payload, await decode(payloadBytes(json, bin, payload.bufferView), budget.optionsFor(payload))))));
   removeExtension(json);
@@ -67,7 +78,8 @@ export function readGlb(bytes) {
 function payloadBytes(json, bin, number) {
   const { buffer, byteOffset = 0, byteLength } = json.bufferViews[number];
   const path = `/bufferViews/${number}`;
-  if (buffer !== 0 || json.buffers?.[0]?.uri !== undefined) fail(`${path}/buffer`, 'the payload is not in the GLB');
+  const inGlb = json.buffers?.[0];
+  if (buffer !== 0 || !inGlb || inGlb.uri !== undefined) fail(`${path}/buffer`, 'the payload is not in the GLB');
   if (!(byteOffset >= 0 && byteLength > 0 && byteOffset + byteLength <= bin.length)) {
     fail(path, 'reaches beyond its buffer');
   }

@@ -115,6 +115,14 @@ test('counts that are none are refused', async () => {
   }
 });
 
+test('a document without buffers is refused', async () => {
+  const glb = glbOf(documentOf(1, 1, () => 0));
+  for (const buffers of [undefined, [], [null]]) {
+    const { json, chunks } = readGlb(glb);
+    await assert.rejects(unpackGlb(writeGlb({ ...json, buffers }, chunks), standIn()), { code: 'Document' });
+  }
+});
+
 test('a loader whose buffer is shorter than the document says decodes nothing', async () => {
   const { calls, decode } = standIn();
   const views = new PayloadViews(documentOf(1, 1, () => 0), async () => new Uint8Array(3), { decode });

@@ -24,7 +24,8 @@ after(() => rmSync(project, { recursive: true }));
 
 const USE = `
 import { readFileSync } from 'node:fs';
-import { createDecoderPool, decodePayload, MccError, ready, unpackGlb } from 'gltf-mcc';
+import { createDecoderPool, decodePayload, MccError, ready, unpackGlb, unpackTile } from 'gltf-mcc';
+import { unpackTile as alone } from 'gltf-mcc/unpack-tile';
 const glb = new Uint8Array(readFileSync(process.argv[2]));
 await ready;
 const plain = await unpackGlb(glb);
@@ -32,6 +33,8 @@ const pool = createDecoderPool({ workers: 1 });
 const pooled = await unpackGlb(glb, { decode: pool.decodePayload });
 pool.dispose();
 const refused = await decodePayload(new Uint8Array(8)).catch((error) => error);
+const tile = await unpackTile(glb);
+if (alone !== unpackTile || Buffer.compare(plain, tile) !== 0) throw new Error('another result of unpackTile()');
 if (!(refused instanceof MccError) || Buffer.compare(plain, pooled) !== 0) throw new Error('other results');
 console.log(plain.length);
 `;
@@ -131,6 +134,7 @@ describe('package', () => {
     console.log(`decodePayload(), minified, after brotli: ${await scriptBytes('decodePayload')} bytes`);
     const script = await scriptBytes('decodePayload, unpackGlb');
     console.log(`decodePayload() and unpackGlb(), minified, after brotli: ${script} bytes`);
+    console.log(`and unpackTile(), minified, after brotli: ${await scriptBytes('decodePayload, unpackGlb, unpackTile')} bytes`);
     const draco = readFileSync(join(here, 'node_modules/draco3d/draco_decoder.wasm'));
     console.log(`draco_decoder.wasm of draco3d, to compare: ${draco.length} bytes, after brotli ${brotli(draco)}`);
     for (const name of ['mcc_decoder_core_simd', 'mcc_decoder_core', 'mcc_decoder_simd', 'mcc_decoder', 'mcc_encoder']) {

@@ -10,7 +10,8 @@ import { build } from 'esbuild';
 import { readGlb } from '../../../lib/web/unpack.mjs';
 import { LIBRARY } from '../support/paths.mjs';
 import { snippetOf } from '../support/readme.mjs';
-import { openPage } from './support/browser.mjs';
+import { b3dm, cmpt, i3dm, i3dmOf, pnts, readTile, textBytes } from '../support/tiles.mjs';
+import { isDecoding, openPage } from './support/browser.mjs';
 import { coverageOf, differenceOf, readPicture, writePicture } from './support/pixels.mjs';
 import { useSite } from './support/site.mjs';
 
@@ -22,8 +23,7 @@ const MIN_COVERAGE = 0.05;
 
 const site = useSite();
 
-const isControlled = () => globalThis.draw !== undefined && navigator.serviceWorker.controller !== null;
-const open = ({ page, query = '' }, more = 'worker', isReady = isControlled) =>
+const open = ({ page, query = '' }, more = 'worker', isReady = isDecoding) =>
   openPage(site.browser, `${site.server.origin}/plain/${page}.html?${query}&${more}`, isReady);
 const draw = async (page, url) => readPicture(await page.evaluate((at) => globalThis.draw(at), url));
 
@@ -86,6 +86,68 @@ test('files that are not ours, parts of files and errors pass through untouched'
   const ours = await fetchIn(page, '/files/ours.glb');
   assert.equal(ours.headers.etag, undefined);
   assert.ok(!JSON.stringify(readGlb(new Uint8Array(ours.bytes)).json).includes('KHR_mesh_collapse'));
+  await page.close();
+});
+
+const TABLES = [textBytes('{"BATCH_LENGTH":0}')];
+
+test('the models inside of tiles are decoded', async () => {
+  const { page, put } = await openPlain();
+  const [compressed, plain] = ['textured.mcc', 'textured'].map((name) => site.models.get(name));
+  const headers = { 'ETag': '"1"', 'X-Other': 'kept', 'Content-Type': 'application/octet-stream' };
+  put('ours.b3dm', b3dm(compressed, { tables: TABLES }), headers);
+  put('ours.i3dm', i3dm(compressed), headers);
+  put('OURS.CMPT', cmpt([cmpt([b3dm(compressed), i3dm(plain)])]), headers);
+  const glbs = [];
+  for (const name of ['ours.b3dm?version=1', 'ours.i3dm', 'OURS.CMPT']) {
+    const answer = await fetchIn(page, `/files/${name}`);
+    assert.deepEqual([answer.status, answer.headers.etag, answer.headers['x-other']], [200, undefined, 'kept'], name);
+    let tile = readTile(new Uint8Array(answer.bytes));
+    while (tile.tiles !== undefined) [tile] = tile.tiles;
+    glbs.push(tile.glb);
+  }
+  const { bytes } = await fetchIn(page, '/models/textured.mcc/model.glb');
+  for (const glb of glbs) assert.deepEqual(asArray(glb), bytes);
+  const part = await fetchIn(page, '/files/ours.b3dm', { headers: { Range: 'bytes=8-19' } });
+  assert.deepEqual([part.status, part.bytes], [206, asArray(site.server.files.get('ours.b3dm').body.subarray(8, 20))]);
+  await page.close();
+});
+
+test('tiles that are not ours pass through untouched, also those that cannot be read', async () => {
+  const { page, put } = await openPlain();
+  const source = site.models.get('textured');
+  const headers = { 'ETag': '"2"', 'Content-Type': 'application/octet-stream' };
+  const old = new Uint8Array(Buffer.concat([textBytes('b3dm'), new Uint8Array(new Uint32Array([1, 20 + source.length, 0, 0]).buffer), source]));
+  const tiles = {
+    'other.b3dm': b3dm(source, { tables: TABLES, padding: 3 }),
+    'old.b3dm': old, // the header of a draft of 3D Tiles, which CesiumJS reads
+    'cut.b3dm': b3dm(source).subarray(0, 200),
+    'short.b3dm': textBytes('b3dm'),
+    'linked.i3dm': i3dmOf('textured.glb'),
+    'other.cmpt': cmpt([b3dm(source), pnts(new Uint8Array(4))], 1),
+    'page.cmpt': textBytes('<!doctype html>no tile'),
+    'empty.i3dm': new Uint8Array(0),
+  };
+  for (const [name, tile] of Object.entries(tiles)) {
+    put(name, tile, headers);
+    const answer = await fetchIn(page, `/files/${name}`);
+    assert.deepEqual([answer.status, answer.bytes, answer.headers.etag], [200, asArray(tile), '"2"'], name);
+  }
+  put('gone.b3dm', b3dm(site.models.get('textured.mcc')), {}, 404);
+  assert.equal((await fetchIn(page, '/files/gone.b3dm')).status, 404);
+  await page.close();
+});
+
+test('a tile of ours that is damaged is refused with its reason', async () => {
+  const { page, put } = await openPlain();
+  const whole = b3dm(site.models.get('textured.mcc'));
+  put('checksum.cmpt', cmpt([b3dm(site.models.get('textured')), b3dm(site.models.get('damaged'))]));
+  put('cut.b3dm', whole.subarray(0, whole.length - 100));
+  for (const [name, why] of [['checksum.cmpt', /^in the GLB at byte \d+: .*checksum/], ['cut.b3dm', /^byte 8: the tile claims \d+ bytes/]]) {
+    const { status, statusText } = await fetchIn(page, `/files/${name}`);
+    assert.equal(status, 502, name);
+    assert.match(statusText, why);
+  }
   await page.close();
 });
 

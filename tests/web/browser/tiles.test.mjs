@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// A city that `gltf-mcc tiles` has compressed looks in CesiumJS as it did before, and what one picks in it is the same.
+// A city that `gltf-mcc tiles` has compressed looks in CesiumJS as it did before, by the README's service worker, and what one picks in
+// it is the same.
 // MCC_SCREENSHOTS=FOLDER saves the pictures.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -10,7 +11,7 @@ import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { SAMPLES } from '../support/paths.mjs';
 import { PROGRAM } from '../support/program.mjs';
-import { launchBrowser, openPage } from './support/browser.mjs';
+import { isDecoding, launchBrowser, openPage } from './support/browser.mjs';
 import { coverageOf, differenceOf, readPicture, writePicture } from './support/pixels.mjs';
 import { startServer } from './support/server.mjs';
 
@@ -43,8 +44,6 @@ before(async () => {
   execFileSync(PROGRAM, ['tiles', '--quiet', path.join(source, 'tileset.json'), compressed]);
   [site.server, site.browser] = await Promise.all([startServer(new Map()), launchBrowser()]);
   site.bytes = { source: await serveFolder('source', source), compressed: await serveFolder('compressed', compressed) };
-  const worker = await readFile(new URL('support/tiles_worker.js', import.meta.url));
-  site.server.files.set('worker.js', { body: worker, headers: { 'Content-Type': 'text/javascript', 'Service-Worker-Allowed': '/' } });
 });
 
 after(async () => {
@@ -69,14 +68,8 @@ async function serveFolder(name, folder) {
 
 /** Opens the page, whose requests go through the worker. */
 async function openCity(name) {
-  const { page } = await openPage(site.browser, `${site.server.origin}/plain/tiles.html?eval`, () => globalThis.draw !== undefined);
+  const { page } = await openPage(site.browser, `${site.server.origin}/plain/tiles.html?eval&worker`, isDecoding);
   await page.setViewportSize({ width: 600, height: 400 });
-  await page.evaluate(async () => {
-    const { serviceWorker } = navigator;
-    const isThere = new Promise((resolve) => serviceWorker.addEventListener('controllerchange', resolve, { once: true }));
-    await serviceWorker.register('/files/worker.js', { type: 'module', scope: '/' });
-    if (serviceWorker.controller === null) await isThere;
-  });
   await page.evaluate((url) => globalThis.load(url), `/files/${name}/tileset.json`);
   return page;
 }

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Is never run: tsc checks it against the package's types.
-import { createDecoderPool, decodeBlocks, decodeGlbBlocks, decodePayload, init, MccError, ready, unpackGlb, type DecodedPayload } from 'gltf-mcc';
+import { createDecoderPool, decodeBlocks, decodeGlbBlocks, decodePayload, init, MccError, ready, unpackGlb, unpackTile, type DecodedPayload } from 'gltf-mcc';
 import { elementsOf, payloadsOf, EXTENSION_NAME } from 'gltf-mcc/document';
 import { encodeGlb } from 'gltf-mcc/encoder';
 
@@ -10,8 +10,9 @@ async function use(glb: Uint8Array, json: object): Promise<number> {
   await ready;
   const pool = createDecoderPool({ workers: 2 });
   const plain: Uint8Array = await unpackGlb(glb, { decode: pool.decodePayload, limits: { maxTriangles: 1000 } });
+  const tile: Uint8Array = await unpackTile(plain, { decode: pool.decodePayload, limits: { maxDecodedBytes: 2 ** 30 } });
   const name: 'KHR_mesh_collapse_compression' = EXTENSION_NAME;
-  let count = plain.length + name.length + pool.size;
+  let count = plain.length + tile.length + name.length + pool.size;
   for (const { targets, claims } of payloadsOf(json)) {
     const decoded: DecodedPayload = await decodePayload(glb, { claims, indexType: 'uint16' });
     for (const target of targets) count += elementsOf(decoded, target, { componentType: 5126 }).length;
@@ -31,6 +32,8 @@ async function use(glb: Uint8Array, json: object): Promise<number> {
 async function misuse(glb: Uint8Array) {
   // @ts-expect-error: bytes, not a name
   await decodePayload('payload');
+  // @ts-expect-error: an option of decodePayload()
+  await unpackTile(glb, { indexType: 'uint16' });
   // @ts-expect-error: no such type
   await decodePayload(glb, { indexType: 'uint8' });
   // @ts-expect-error: no such option

@@ -31,3 +31,9 @@ export async function openPage(browser, url, isReady) {
   }
   return { page, messages, violations: () => messages.filter((text) => text.includes('Content Security Policy')) };
 }
+
+/**
+ * For openPage() of a plain page with the README's line: whether the service worker answers. The line loads the page again when the
+ * worker takes it over; before that, what a test runs in the page may be cut off.
+ */
+export const isDecoding = () => globalThis.draw !== undefined && performance.getEntriesByType('navigation')[0].type === 'reload';
