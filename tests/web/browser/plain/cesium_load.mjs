@@ -1,0 +1,40 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Loads a tileset (3D Tiles) and says how long it took; for tools/bench-tiles.
+globalThis.CESIUM_BASE_URL = '/engines/cesium/Build/Cesium/'; // wanted when the module is loaded
+const { Cesium3DTileset, Color, DirectionalLight, Cartesian3, HeadingPitchRange, Scene } = await import('/engines/cesium/Build/Cesium/index.js');
+
+const canvas = document.querySelector('canvas');
+const scene = new Scene({ canvas });
+scene.backgroundColor = Color.WHITE;
+scene.light = new DirectionalLight({ direction: new Cartesian3(-3, -1, -2), intensity: 4 });
+
+/**
+ * Loads what a camera needs that looks at the middle of a tileset.
+ * @param {string} url of its tileset.json
+ * @param {number} distance of the camera, in radii of the tileset's sphere
+ * @returns {Promise<{ ms: number, tiles: number, failed: number }>} ms: from the first request until all its tiles are there
+ */
+globalThis.load = async (url, distance) => {
+  await nextFrame(); // compiles what does not depend on tiles
+  const begin = performance.now();
+  const tileset = await Cesium3DTileset.fromUrl(url, { maximumScreenSpaceError: 8 });
+  let failed = 0;
+  tileset.tileFailed.addEventListener(() => ++failed);
+  scene.primitives.add(tileset);
+  const { center, radius } = tileset.boundingSphere;
+  scene.camera.lookAt(center, new HeadingPitchRange(0.5, -0.6, distance * radius));
+  let ms;
+  for (let idle = 0; idle < 5;) {
+    await nextFrame();
+    idle = tileset.tilesLoaded ? idle + 1 : 0;
+    if (idle === 1) ms = performance.now() - begin; // tiles that come may ask for their children
+  }
+  return { ms, tiles: tileset.statistics?.numberOfTilesWithContentReady ?? 0, failed };
+};
+
+async function nextFrame() {
+  await new Promise(requestAnimationFrame);
+  scene.initializeFrame();
+  scene.render();
+}

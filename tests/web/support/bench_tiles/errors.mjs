@@ -1,0 +1,76 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Measures how far the positions of a decoded model are from those of its source. Codecs reorder vertices and drop some, so the
+// vertices of the source are numbered by an attribute of their own, which all codecs keep exactly.
+import { Accessor } from '@gltf-transform/core';
+import { unpackGlb } from '../../../../lib/web/unpack.mjs';
+import { io } from './codecs.mjs';
+
+const NUMBER = '_VERTEX_NUMBER';
+
+/** Returns a GLB whose vertices have numbers. */
+export async function numbered(glb) {
+  const document = await io.readBinary(new Uint8Array(glb));
+  const [buffer] = document.getRoot().listBuffers();
+  const numbers = new Map();
+  for (const primitive of document.getRoot().listMeshes().flatMap((mesh) => mesh.listPrimitives())) {
+    const position = primitive.getAttribute('POSITION');
+    if (position === null) continue;
+    if (!numbers.has(position)) {
+      const array = Float32Array.from({ length: position.getCount() }, (_, i) => i);
+      numbers.set(position, document.createAccessor().setType(Accessor.Type.SCALAR).setArray(array).setBuffer(buffer));
+    }
+    primitive.setAttribute(NUMBER, numbers.get(position));
+  }
+  return Buffer.from(await io.writeBinary(document));
+}
+
+/** Primitives where their nodes put them, in the order of the nodes: [{ positions, numbers, ids }], `positions` in doubles. */
+export async function placedPrimitives(glb) {
+  const document = await io.readBinary(await unpackGlb(new Uint8Array(glb)));
+  const placed = [];
+  for (const scene of document.getRoot().listScenes()) {
+    scene.traverse((node) => {
+      for (const primitive of node.getMesh()?.listPrimitives() ?? []) placed.push(placedPrimitive(primitive, node.getWorldMatrix()));
+    });
+  }
+  return placed;
+}
+
+function placedPrimitive(primitive, m) {
+  const position = primitive.getAttribute('POSITION');
+  const count = position?.getCount() ?? 0;
+  const positions = new Float64Array(3 * count);
+  const point = [];
+  for (let i = 0; i < count; ++i) {
+    const [x, y, z] = position.getElement(i, point);
+    for (let k = 0; k < 3; ++k) positions[3 * i + k] = m[k] * x + m[4 + k] * y + m[8 + k] * z + m[12 + k];
+  }
+  const ids = primitive.listSemantics().filter((name) => /^_(BATCHID|FEATURE_ID_\d+)$/.test(name)).sort()
+    .map((name) => primitive.getAttribute(name).getArray());
+  return { positions, numbers: primitive.getAttribute(NUMBER)?.getArray(), ids };
+}
+
+/**
+ * The largest distance of a vertex from its source, in metres, and whether all of its ids are the same.
+ * @param source, decoded of placedPrimitives()
+ * @param {number[][]} transforms those of the tiles that show the model
+ */
+export function errorOf(source, decoded, transforms) {
+  if (source.length !== decoded.length) throw new Error(`${decoded.length} primitives instead of ${source.length}`);
+  let largest = 0;
+  let hasSameIds = true;
+  decoded.forEach(({ positions, numbers, ids }, i) => {
+    const from = source[i];
+    if (numbers === undefined) throw new Error('a codec dropped the numbers of the vertices');
+    for (let v = 0; v < numbers.length; ++v) {
+      const s = numbers[v];
+      const d = [0, 1, 2].map((k) => positions[3 * v + k] - from.positions[3 * s + k]);
+      for (const m of transforms) {
+        largest = Math.max(largest, Math.hypot(...[0, 1, 2].map((k) => m[k] * d[0] + m[4 + k] * d[1] + m[8 + k] * d[2])));
+      }
+      hasSameIds &&= ids.length === from.ids.length && ids.every((list, j) => list[v] === from.ids[j][s]);
+    }
+  });
+  return { error: largest, hasSameIds };
+}
