@@ -28,40 +28,6 @@ TestMesh named(const char* name, TestMesh mesh) {
   return mesh;
 }
 
-/// Returns a smooth random number of -1 .. 1 for each place: values at the points of the integer
-/// lattice, blended between them.
-double noise(const Vec3& p, uint64_t seed) {
-  const std::array<double, 3> floors = {std::floor(p.x), std::floor(p.y), std::floor(p.z)};
-  const std::array<double, 3> rest = {p.x - floors[0], p.y - floors[1], p.z - floors[2]};
-  double sum = 0;
-  for (uint32_t corner = 0; corner < 8; ++corner) {
-    uint64_t key = seed;
-    double weight = 1;
-    for (uint32_t axis = 0; axis < 3; ++axis) {
-      const bool far = (corner >> axis & 1) != 0;
-      const double t = rest[axis];
-      const double blend = t * t * (3 - 2 * t);
-      weight *= far ? blend : 1 - blend;
-      key =
-          key * 0x9e3779b97f4a7c15u + static_cast<uint64_t>(int64_t(floors[axis]) + (far ? 1 : 0));
-    }
-    sum += weight * (2.0 * double{Random(key).unit()} - 1);
-  }
-  return sum;
-}
-
-/// Adds up noise of `octaves` sizes, each half as large and half as high as the one before.
-double fractal(Vec3 p, uint32_t octaves, uint64_t seed) {
-  double sum = 0;
-  double height = 1;
-  for (uint32_t octave = 0; octave < octaves; ++octave) {
-    sum += height * noise(p, seed + octave);
-    p = p * 2;
-    height /= 2;
-  }
-  return sum;
-}
-
 /// Makes a sheet of columns x rows quads with texture coordinates; `place` takes 0..1 twice.
 TestMesh sheetOf(uint32_t columns, uint32_t rows,
                  const std::function<Vec3(double, double)>& place) {

@@ -13,6 +13,10 @@ constexpr uint32_t kNoTarget = 0;
 constexpr uint32_t kUnsignedShort = 5123;
 constexpr uint32_t kUnsignedInt = 5125;
 constexpr uint32_t kFloat = 5126;
+constexpr uint32_t kLinear = 9729;
+constexpr uint32_t kLinearMipmapLinear = 9987;
+constexpr uint32_t kRepeat = 10497;
+constexpr uint32_t kClampToEdge = 33071;
 
 void putU32(std::vector<uint8_t>& bytes, uint32_t value) {
   for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<uint8_t>(value >> shift));
@@ -130,11 +134,19 @@ uint32_t GlbBuilder::addIntegers(std::span<const int32_t> values, uint32_t compo
 }
 
 uint32_t GlbBuilder::addIndices(std::span<const uint32_t> indices) {
+  return addIndices(indices, kElementArrayBuffer);
+}
+
+uint32_t GlbBuilder::addPlainIndices(std::span<const uint32_t> indices) {
+  return addIndices(indices, kNoTarget);
+}
+
+uint32_t GlbBuilder::addIndices(std::span<const uint32_t> indices, uint32_t target) {
   const uint32_t last = *std::max_element(indices.begin(), indices.end());
   const bool is_short = last < 65535;
   std::vector<uint8_t> bytes;
   for (const uint32_t index : indices) putInteger(bytes, index, is_short ? 2 : 4);
-  const uint32_t view = addView(bytes, kElementArrayBuffer, 0);
+  const uint32_t view = addView(bytes, target, 0);
   return addAccessor(view, is_short ? kUnsignedShort : kUnsignedInt, indices.size(), "SCALAR");
 }
 
@@ -173,9 +185,6 @@ uint32_t GlbBuilder::addMaterial(const std::string& name, float red, float green
 }
 
 uint32_t GlbBuilder::addTexture(const std::string& name, std::span<const uint8_t> png) {
-  constexpr uint32_t kClampToEdge = 33071;
-  constexpr uint32_t kLinear = 9729;
-  constexpr uint32_t kLinearMipmapLinear = 9987;
   const uint32_t view = addView(png, kNoTarget, 0);
   const uint32_t image =
       push("images", {{"name", name}, {"mimeType", "image/png"}, {"bufferView", view}});
@@ -186,6 +195,20 @@ uint32_t GlbBuilder::addTexture(const std::string& name, std::span<const uint8_t
                       {"wrapT", kClampToEdge}});
   }
   return push("textures", {{"sampler", 0}, {"source", image}});
+}
+
+uint32_t GlbBuilder::addExternalTexture(const std::string& name, const std::string& uri) {
+  const uint32_t image = push("images", {{"name", name}, {"uri", uri}});
+  const uint32_t sampler = push("samplers", {{"magFilter", kLinear},
+                                             {"minFilter", kLinearMipmapLinear},
+                                             {"wrapS", kRepeat},
+                                             {"wrapT", kRepeat}});
+  return push("textures", {{"sampler", sampler}, {"source", image}});
+}
+
+uint32_t GlbBuilder::addBytes(std::span<const uint8_t> bytes) {
+  while (binary_.size() % 8 != 0) binary_.push_back(0);
+  return addView(bytes, kNoTarget, 0);
 }
 
 uint32_t GlbBuilder::addMesh(const std::string& name, const Json& primitives) {

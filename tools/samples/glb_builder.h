@@ -44,6 +44,12 @@ class GlbBuilder {
                        float roughness, bool double_sided = false);
   /// Embeds a PNG and adds a texture that does not repeat.
   uint32_t addTexture(const std::string& name, std::span<const uint8_t> png);
+  /// Adds a texture that repeats, of an image file at `uri`.
+  uint32_t addExternalTexture(const std::string& name, const std::string& uri);
+  /// Adds bytes at a multiple of eight of the buffer, and returns the buffer view.
+  uint32_t addBytes(std::span<const uint8_t> bytes);
+  /// Like addIndices(), for indices that are not those of triangles.
+  uint32_t addPlainIndices(std::span<const uint32_t> indices);
   /// Adds a mesh and returns its index.
   uint32_t addMesh(const std::string& name, const Json& primitives);
   /// Adds a node; `in_scene` makes it a root of the scene.
@@ -52,6 +58,7 @@ class GlbBuilder {
   std::vector<uint8_t> finish() const;
 
  private:
+  uint32_t addIndices(std::span<const uint32_t> indices, uint32_t target);
   uint32_t addView(std::span<const uint8_t> bytes, uint32_t target, uint32_t stride_bytes);
   uint32_t addAccessor(uint32_t view, uint32_t component_type, size_t count, const char* type);
   uint32_t push(const char* array, Json element);

@@ -3,16 +3,19 @@
 // generate-samples DIR writes the sample models into DIR and prints the table of samples/README.md.
 // With --bench it instead writes the second set of models for `gltf-mcc bench DIR/*.glb`, which
 // nothing in the codec was fitted on; with --soups, meshes whose edges have many faces; with
-// --large, a surface of 20 million triangles.
+// --large, a surface of 20 million triangles; with --city, the tileset of samples/city; with
+// --city-large, one of about 1,000 tiles.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <set>
 #include <span>
 #include <string_view>
 
+#include "city.h"
 #include "models.h"
 
 namespace mcc::samples {
@@ -71,20 +74,22 @@ int run(const std::filesystem::path& folder, std::span<const Model> models) {
 }  // namespace mcc::samples
 
 int main(int argc, char** argv) {
+  using namespace mcc::samples;
+  using Models = std::span<const Model> (*)();
+  const std::map<std::string_view, Models> kinds = {
+      {"", allModels}, {"--bench", benchModels}, {"--soups", soupModels}, {"--large", largeModels}};
   const std::string_view option = argc == 3 ? argv[1] : "";
   const char* const folder = argc > 1 ? argv[argc - 1] : "-";
-  std::span<const mcc::samples::Model> models = mcc::samples::allModels();
-  if (option == "--bench") models = mcc::samples::benchModels();
-  if (option == "--soups") models = mcc::samples::soupModels();
-  if (option == "--large") models = mcc::samples::largeModels();
-  const bool is_known =
-      option.empty() || option == "--bench" || option == "--soups" || option == "--large";
-  if (argc < 2 || argc > 3 || !is_known || folder[0] == '-') {
-    std::fputs("usage: generate-samples [--bench|--soups|--large] DIR\n", stderr);
+  const bool is_city = option == "--city" || option == "--city-large";
+  if (argc < 2 || argc > 3 || (!is_city && !kinds.contains(option)) || folder[0] == '-') {
+    std::fputs("usage: generate-samples [--bench|--soups|--large|--city|--city-large] DIR\n",
+               stderr);
     return 2;
   }
   try {
-    return mcc::samples::run(folder, models);
+    if (!is_city) return run(folder, kinds.at(option)());
+    writeCity(folder, option == "--city" ? smallCity() : largeCity());
+    return 0;
   } catch (const std::exception& exception) {
     std::fprintf(stderr, "generate-samples: %s\n", exception.what());
     return 1;

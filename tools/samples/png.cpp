@@ -56,25 +56,52 @@ std::vector<uint8_t> storedZlib(std::span<const uint8_t> bytes) {
   return out;
 }
 
+/// Puts a PNG together; `rows` begin with their filter.
+std::vector<uint8_t> pngOf(uint32_t width, uint32_t height, uint8_t bits, uint8_t color_type,
+                           std::span<const uint8_t> palette, std::span<const uint8_t> rows) {
+  std::vector<uint8_t> header;
+  putBigEndian(header, width);
+  putBigEndian(header, height);
+  for (const uint8_t field : {bits, color_type, uint8_t{0}, uint8_t{0}, uint8_t{0}})
+    header.push_back(field);  // not interlaced
+  std::vector<uint8_t> png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  putChunk(png, "IHDR", header);
+  if (!palette.empty()) putChunk(png, "PLTE", palette);
+  putChunk(png, "IDAT", storedZlib(rows));
+  putChunk(png, "IEND", {});
+  return png;
+}
+
 }  // namespace
 
 std::vector<uint8_t> encodePng(uint32_t width, uint32_t height, std::span<const uint8_t> rgb) {
+  constexpr uint8_t kTrueColor = 2;
   std::vector<uint8_t> rows;
   for (uint32_t y = 0; y < height; ++y) {
     rows.push_back(0);  // filter: none
     const auto row = rgb.subspan(size_t{y} * width * 3, size_t{width} * 3);
     rows.insert(rows.end(), row.begin(), row.end());
   }
-  std::vector<uint8_t> header;
-  putBigEndian(header, width);
-  putBigEndian(header, height);
-  for (const int field : {8, 2, 0, 0, 0})
-    header.push_back(static_cast<uint8_t>(field));  // 8 bits, RGB, not interlaced
-  std::vector<uint8_t> png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  putChunk(png, "IHDR", header);
-  putChunk(png, "IDAT", storedZlib(rows));
-  putChunk(png, "IEND", {});
-  return png;
+  return pngOf(width, height, 8, kTrueColor, {}, rows);
+}
+
+std::vector<uint8_t> encodePalettePng(uint32_t width, uint32_t height,
+                                      std::span<const uint8_t> indices,
+                                      std::span<const Rgb> palette) {
+  constexpr uint8_t kIndexed = 3;
+  std::vector<uint8_t> colors;
+  for (const Rgb& color : palette) {
+    colors.insert(colors.end(), {color.red, color.green, color.blue});
+  }
+  std::vector<uint8_t> rows;
+  for (uint32_t y = 0; y < height; ++y) {
+    rows.push_back(0);  // filter: none
+    for (uint32_t x = 0; x < width; x += 2) {
+      const size_t at = size_t{y} * width + x;
+      rows.push_back(static_cast<uint8_t>(indices[at] << 4 | indices[at + 1]));
+    }
+  }
+  return pngOf(width, height, 4, kIndexed, colors, rows);
 }
 
 }  // namespace mcc::samples

@@ -8,6 +8,37 @@
 
 namespace mcc::samples {
 
+double noise(const Vec3& p, uint64_t seed) {
+  const std::array<double, 3> floors = {std::floor(p.x), std::floor(p.y), std::floor(p.z)};
+  const std::array<double, 3> rest = {p.x - floors[0], p.y - floors[1], p.z - floors[2]};
+  double sum = 0;
+  for (uint32_t corner = 0; corner < 8; ++corner) {
+    uint64_t key = seed;
+    double weight = 1;
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const bool far = (corner >> axis & 1) != 0;
+      const double t = rest[axis];
+      const double blend = t * t * (3 - 2 * t);
+      weight *= far ? blend : 1 - blend;
+      key =
+          key * 0x9e3779b97f4a7c15u + static_cast<uint64_t>(int64_t(floors[axis]) + (far ? 1 : 0));
+    }
+    sum += weight * (2.0 * double{test::Random(key).unit()} - 1);
+  }
+  return sum;
+}
+
+double fractal(Vec3 p, uint32_t octaves, uint64_t seed) {
+  double sum = 0;
+  double height = 1;
+  for (uint32_t octave = 0; octave < octaves; ++octave) {
+    sum += height * noise(p, seed + octave);
+    p = p * 2;
+    height /= 2;
+  }
+  return sum;
+}
+
 TestMesh loopSubdivided(const TestMesh& mesh) {
   struct Edge {
     uint32_t middle = 0;

@@ -48,6 +48,13 @@ inline void pushQuad(std::vector<uint32_t>& indices, uint32_t a, uint32_t b, uin
   for (const uint32_t v : {a, b, c, a, c, d}) indices.push_back(v);
 }
 
+/// Returns a smooth random number of -1 .. 1 for each place: values at the points of the integer
+/// lattice, blended between them.
+double noise(const Vec3& p, uint64_t seed);
+
+/// Adds up noise of `octaves` sizes, each half as large and half as high as the one before.
+double fractal(Vec3 p, uint32_t octaves, uint64_t seed);
+
 /// Does one step of Loop's subdivision of a closed mesh.
 TestMesh loopSubdivided(const TestMesh& mesh);
 
