@@ -236,9 +236,8 @@ TEST(EverythingElse, WhatNumbersVerticesKeepsTheOrder) {
         {{"featureCount", 441}}};  // the id of a vertex is its number
   }));
   EXPECT_TRUE(keepsOrder([](Json& j) {
-    j["extensionsUsed"] = {"EXT_structural_metadata"};
-    j["meshes"][0]["primitives"][0]["extensions"]["EXT_structural_metadata"]["propertyAttributes"] =
-        {0};
+    j["extensionsUsed"] = {"FB_ngon_encoding"};  // neighbouring triangles make polygons
+    j["meshes"][0]["primitives"][0]["extensions"]["FB_ngon_encoding"] = Json::object();
   }));
 }
 
@@ -246,7 +245,7 @@ TEST(EverythingElse, WhatNumbersVerticesKeepsTheOrder) {
 std::vector<std::pair<const char*, Json>> countingExtensions() {
   return {
       {"EXT_mesh_features", {{"featureIds", {{{"featureCount", 441}}}}}},
-      {"EXT_structural_metadata", {{"propertyAttributes", {0}}}},
+      {"FB_ngon_encoding", Json::object()},
       {"KHR_draw_ranges",
        {{"ranges", {{{"first", 0}, {"count", 300}}, {{"first", 300}, {"count", 30}}}}}},
   };

@@ -116,8 +116,9 @@ struct ConvertOptions {
   bool drop_unused = false;
   Grid grid = Grid::kMesh;
   /// Vertices, or triangles with the first corner of each, come back in the source's order. This is
-  /// always so where a mesh or primitive has an extension this library does not know, which may
-  /// refer to them by number.
+  /// always so where a mesh or primitive has an extension that may refer to them by number: one
+  /// that this library does not know, or one that counts triangles. Numbers of vertices in
+  /// CESIUM_primitive_outline and CESIUM_tile_edges are translated.
   bool keep_vertex_order = false;
   bool keep_triangle_order = false;
   /// Also writes the decoded geometry, uncompressed, to a second file next to the output,

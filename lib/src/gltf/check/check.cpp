@@ -138,6 +138,10 @@ class Checker {
         MCC_GLTF_TRY(failed(checkOrdinary(piece, attribute, source_of), where));
         if (payload.plan.reorders()) reordered_.insert(attribute.accessor);
       }
+      for (const uint32_t accessor : piece.vertex_numbers) {
+        MCC_GLTF_TRY(failed(checkVertexNumbers(accessor, source_of), at("/accessors", accessor)));
+        reordered_.insert(accessor);
+      }
       for (const PartPlan& part : piece.parts) {
         MCC_GLTF_TRY(failed(checkPart(payload.plan, piece, part, source_of), part.users[0].path()));
       }
@@ -264,6 +268,27 @@ class Checker {
     std::vector<float> no_angles;
     return compareValues(source_values, decoded_values, source_of, attribute.format, Promise{},
                          ignored, no_angles);
+  }
+
+  /// Checks that an accessor of vertex numbers still names the vertices that it named in the
+  /// source.
+  Result checkVertexNumbers(uint32_t accessor, std::span<const uint32_t> source_of) const {
+    std::vector<uint32_t> expected;
+    std::vector<uint32_t> numbers;
+    MCC_GLTF_TRY(readIndices(source_, accessor, expected));
+    MCC_GLTF_TRY(readIndices(decoded_, accessor, numbers));
+    if (decoded_.accessors[accessor].component_type != source_.accessors[accessor].component_type ||
+        numbers.size() != expected.size()) {
+      return error("", "has another count or type");
+    }
+    for (size_t i = 0; i < numbers.size(); ++i) {
+      if (numbers[i] >= source_of.size() || source_of[numbers[i]] != expected[i]) {
+        return error("", "element " + std::to_string(i) + " names another vertex");
+      }
+    }
+    AccessorData elements;
+    MCC_GLTF_TRY(readAccessor(decoded_, accessor, elements));
+    return checkBounds(accessor, elements);
   }
 
   Result decodedTriangles(const PrimitiveRef& ref, std::vector<uint32_t>& indices) const {

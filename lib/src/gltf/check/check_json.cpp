@@ -5,6 +5,7 @@
 #include <set>
 
 #include "gltf/document/accessors.h"
+#include "gltf/document/known_extensions.h"
 #include "gltf/document/rebuild.h"
 #include "gltf/document/references.h"
 
@@ -163,6 +164,30 @@ Result compareImages(const Document& source, const Document& decoded) {
   return {};
 }
 
+/// Checks that the property tables have the bytes of the source.
+Result compareTables(const Document& source, const Document& decoded) {
+  const auto viewsOf = [](const Document& document) {
+    std::vector<uint64_t> views;
+    visitTableViews(document.json, [&](const Json& number) {
+      uint64_t view = 0;
+      views.push_back(asUnsigned(number, view) ? view : kNone);
+    });
+    return views;
+  };
+  const std::vector<uint64_t> old_views = viewsOf(source);
+  const std::vector<uint64_t> new_views = viewsOf(decoded);
+  if (old_views.size() != new_views.size()) return error("", "a property table is lost");
+  for (size_t i = 0; i < old_views.size(); ++i) {
+    // A number of a view that does not exist was already wrong in the source.
+    if (old_views[i] >= source.views.size()) continue;
+    const bool is_same =
+        new_views[i] < decoded.views.size() &&
+        sameBytes(viewBytes(source, old_views[i]), viewBytes(decoded, new_views[i]));
+    if (!is_same) return error(at("/bufferViews", old_views[i]), "a property table changed");
+  }
+  return {};
+}
+
 /// Where views keep their numbers, checks that every view is unchanged, except those that only
 /// compressed accessors used and payloads of the source, which are decoded.
 Result compareViews(const Document& source, const Document& decoded,
@@ -218,6 +243,7 @@ Result compareRest(const Document& source, const Document& decoded,
     if (touched.count(i) == 0) MCC_GLTF_TRY(compareAccessor(source, decoded, i));
   }
   MCC_GLTF_TRY(compareImages(source, decoded));
+  MCC_GLTF_TRY(compareTables(source, decoded));
   return compareViews(source, decoded, touched);
 }
 

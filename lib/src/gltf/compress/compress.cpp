@@ -8,6 +8,7 @@
 #include "gltf/compress/indices_only.h"
 #include "gltf/compress/quantize.h"
 #include "gltf/compress/unused.h"
+#include "gltf/compress/vertex_numbers.h"
 #include "gltf/document/bounds.h"
 #include "gltf/document/rebuild.h"
 
@@ -50,6 +51,8 @@ class Applier {
       views.push_back(std::move(new_view));
       for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
         applyPiece(payload, i, view);
+        renumberVertices(document_, payload.plan.pieces[i], payload.result.pieces[i].source_wedge,
+                         compressed_.json, views);
         if (!payload.plan.reorders()) continue;
         reorderAttributes(document_, payload.plan.pieces[i], payload.result.pieces[i].source_wedge,
                           compressed_.json, views);
@@ -202,6 +205,7 @@ std::vector<bool> accessorsOutsidePayloads(const Document& document,
   }
   std::vector<bool> is_used;
   markAccessorsOutsideMeshes(document, foreign, is_used);
+  markAccessorsOfExtensions(document, is_used);
   visitPrimitives(document.json, [&](const PrimitiveRef& ref, const Json& primitive) {
     if (compressed.contains(ref)) return;
     visitAccessorNumbers(primitive, [&](uint64_t accessor) {
@@ -235,6 +239,7 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
   std::vector<PayloadPlan> plans;
   MCC_GLTF_TRY(planPayloads(document, plans, compressed.left_alone));
   const ForeignReferences foreign = findForeignReferences(document.json);
+  planVertexNumbers(document, foreign, plans);
   if (options.indices_only) {
     planIndicesOnly(document, foreign, plans);
   } else {

@@ -29,7 +29,10 @@ class Planner {
     std::string mesh_part;
     visitPrimitives(document_.json, [&](const PrimitiveRef& ref, const Json& primitive) {
       if (!result.ok()) return;
-      if (ref.primitive == 0) mesh_part = orderDependentPart(document_.json["meshes"][ref.mesh]);
+      if (ref.primitive == 0) {
+        mesh_part =
+            orderDependentPart(document_.json["meshes"][ref.mesh], NumbersOfVertices::kStay);
+      }
       std::string note;
       result = planPrimitive(ref, primitive, mesh_part, note);
       if (!note.empty()) left_alone_.push_back({ref, note});
@@ -67,7 +70,7 @@ class Planner {
     note = mode > 6 ? "has the mode " + std::to_string(mode) + ", which is unknown; left as it was"
                     : extensionNote(json, mesh_part);
     if (!note.empty()) return {};
-    const std::string own_part = orderDependentPart(json);
+    const std::string own_part = orderDependentPart(json, NumbersOfVertices::kCanChange);
     const std::string& unknown = own_part.empty() ? mesh_part : own_part;
 
     PiecePlan piece;

@@ -56,6 +56,8 @@ struct PiecePlan {
   /// indices_only, else those beyond what a payload can hold.
   std::vector<AttributePlan> ordinary;
   std::vector<PartPlan> parts;
+  /// Accessors that hold numbers of its vertices, and nothing else uses; see vertex_numbers.h.
+  std::vector<uint32_t> vertex_numbers;
 };
 
 /// What one mesh puts into one buffer view. A piece that several meshes use belongs to the first of

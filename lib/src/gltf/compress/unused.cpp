@@ -53,9 +53,10 @@ void planUnused(const ConvertOptions& options, std::vector<PayloadPlan>& payload
       if (used.size() == piece.wedge_count) continue;
       unused += piece.wedge_count - used.size();
       // An extension may refer to vertices by number, and a primitive needs at least one vertex.
-      if (payload.keep_vertex_order || used.empty()) is_kept = true;
-      if (options.drop_unused && !payload.keep_vertex_order && !used.empty())
-        keepVertices(std::move(used), piece);
+      const bool must_stay =
+          payload.keep_vertex_order || !piece.vertex_numbers.empty() || used.empty();
+      if (must_stay) is_kept = true;
+      if (options.drop_unused && !must_stay) keepVertices(std::move(used), piece);
     }
     if (unused == 0) continue;
     const std::string which = unused == 1 ? "1 vertex" : std::to_string(unused) + " vertices";

@@ -131,6 +131,7 @@ IntegerAccessors::IntegerAccessors(const Document& source, const ForeignReferenc
                                    std::vector<NewView>& views)
     : source_(source), coded_(coded), json_(json), views_(views) {
   markAccessorsOutsideMeshes(source, foreign, is_used_otherwise_);
+  markAccessorsOfExtensions(source, is_used_otherwise_);
   for (const Json& mesh : arrayOf(json, "meshes")) {
     for (const Json& primitive : arrayOf(mesh, "primitives")) {
       if (const Json* map = findMember(primitive, "attributes")) noteUser(*map, false);

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "gltf/document/image_type.h"
+#include "gltf/document/known_extensions.h"
 #include "gltf/document/uri.h"
 
 namespace mcc::gltf {
@@ -67,9 +68,23 @@ Result containerOf(const std::string& file_name, Container& container) {
   return {};
 }
 
+namespace {
+
+/// Pads the JSON of a GLB with property tables so that its BIN chunk begins at a multiple of 8, as
+/// EXT_structural_metadata demands for numbers of 64 bits.
+std::string glbText(const Json& json) {
+  constexpr size_t kBytesBeforeBin = 28;  // a header of 12 bytes, and two of chunks
+  std::string text = printJson(json);
+  if (!mayHaveTables(json)) return text;
+  while ((kBytesBeforeBin + text.size()) % 8 != 0) text += ' ';
+  return text;
+}
+
+}  // namespace
+
 Result writePackage(const Container& container, Json json, std::vector<uint8_t> bin,
                     const std::vector<GlbChunk>& other_chunks, Package& package) {
-  if (!container.is_gltf) return writeGlb(printJson(json), bin, other_chunks, package.main);
+  if (!container.is_gltf) return writeGlb(glbText(json), bin, other_chunks, package.main);
   if (!bin.empty()) {
     json["buffers"][0]["uri"] = uriOf(container.buffer_name);
     package.beside.push_back({SideFile::Kind::kBuffer, container.buffer_name, std::move(bin)});

@@ -110,7 +110,7 @@ class Rebuilder {
     });
     // Runs with gaps smaller than the alignment stay together, so that an untouched buffer does not
     // change.
-    const uint64_t alignment = foreign_.keep_numbers ? 8 : 4;
+    const uint64_t alignment = foreign_.alignment();
     for (const ByteRange& range : live) {
       Block* last = blocks_.empty() ? nullptr : &blocks_.back();
       if (last != nullptr && last->source.buffer == range.buffer &&

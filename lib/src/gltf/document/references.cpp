@@ -3,61 +3,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <type_traits>
+
+#include "gltf/document/known_extensions.h"
 
 namespace mcc::gltf {
 namespace {
-
-/// Extensions that hold no numbers of buffer views or accessors, except where visitViewReferences()
-/// and markAccessorsOutsideMeshes() look for them.
-constexpr std::string_view kKnownExtensions[] = {
-    "ADOBE_materials_clearcoat_specular",
-    "ADOBE_materials_clearcoat_tint",
-    "ADOBE_materials_thin_transparency",
-    "CESIUM_RTC",
-    "EXT_lights_image_based",
-    "EXT_mesh_gpu_instancing",
-    "EXT_meshopt_compression",
-    "EXT_texture_avif",
-    "EXT_texture_webp",
-    "KHR_animation_pointer",
-    "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",
-    "KHR_mesh_collapse_compression",
-    "KHR_mesh_quantization",
-    "KHR_meshopt_compression",
-    "KHR_node_hoverability",
-    "KHR_node_selectability",
-    "KHR_node_visibility",
-    "KHR_texture_basisu",
-    "KHR_texture_transform",
-    "KHR_xmp",
-    "KHR_xmp_json_ld",
-    "MSFT_lod",
-    "MSFT_packing_normalRoughnessMetallic",
-    "MSFT_packing_occlusionRoughnessMetallic",
-    "MSFT_texture_dds",
-    "VRM",
-    "VRMC_materials_mtoon",
-    "VRMC_node_constraint",
-    "VRMC_springBone",
-    "VRMC_vrm",
-};
-
-/// Extensions of meshes and primitives that do not depend on the order of vertices and triangles.
-constexpr std::string_view kOrderFreeExtensions[] = {
-    "KHR_draco_mesh_compression", "KHR_materials_variants", "KHR_mesh_collapse_compression",
-    "KHR_xmp", "KHR_xmp_json_ld"};
-
-/// Extensions on our list that name nodes because of their meshes.
-constexpr std::string_view kNodeReferringExtensions[] = {
-    "KHR_animation_pointer", "MSFT_lod",        "VRM",
-    "VRMC_node_constraint",  "VRMC_springBone", "VRMC_vrm"};
-
-bool isKnownExtension(std::string_view name) {
-  return name.starts_with("KHR_materials_") ||
-         std::find(std::begin(kKnownExtensions), std::end(kKnownExtensions), name) !=
-             std::end(kKnownExtensions);
-}
 
 bool containsIgnoringCase(const std::string& text, std::string_view word) {
   const auto same = [](char a, char b) {
@@ -132,7 +83,7 @@ void walkKnown(const Json& json, ForeignReferences& foreign) {
       walkForeign(value, foreign);
     } else if (key == "extensions" && value.is_object()) {
       for (const auto& [name, extension] : value.items()) {
-        if (isKnownExtension(name)) {
+        if (isUnderstood(name, extension)) {
           walkKnown(extension, foreign);
         } else {
           keepNumbersFor(foreign, name);
@@ -182,6 +133,11 @@ void visitViewReferencesOf(J& root, const Visit& visit) {
       visitMember(member(extensions, kMeshExtension), "bufferView", kNone, visit);
     });
   });
+  if constexpr (std::is_const_v<J>) {
+    visitTableViews(root, [&](J& number) { visit(number, kNone); });
+  } else {
+    editTableViews(root, [&](J& number) { visit(number, kNone); });
+  }
 }
 
 void mark(const Json* json, std::vector<bool>& is_used) {
@@ -199,6 +155,7 @@ void markAll(const Json* object, std::vector<bool>& is_used) {
 ForeignReferences findForeignReferences(const Json& root) {
   ForeignReferences foreign;
   walkKnown(root, foreign);
+  foreign.has_tables = mayHaveTables(root);
   for (const Json& name : arrayOf(root, "extensionsUsed")) {
     if (name.is_string() && !isKnownExtension(name.get<std::string>())) {
       keepNumbersFor(foreign, name.get<std::string>());
@@ -216,14 +173,13 @@ void editViewReferences(Json& root, const std::function<void(Json&, uint32_t)>& 
   visitViewReferencesOf(root, visit);
 }
 
-std::string orderDependentPart(const Json& mesh_or_primitive) {
+std::string orderDependentPart(const Json& mesh_or_primitive, NumbersOfVertices numbers) {
   if (const Json* extensions = findMember(mesh_or_primitive, "extensions");
       extensions != nullptr && extensions->is_object()) {
     for (const auto& [name, value] : extensions->items()) {
-      if (std::find(std::begin(kOrderFreeExtensions), std::end(kOrderFreeExtensions), name) ==
-          std::end(kOrderFreeExtensions)) {
-        return name;
-      }
+      const bool is_free = isOrderFree(name, value) || (numbers == NumbersOfVertices::kCanChange &&
+                                                        isRenumberable(name, value));
+      if (!is_free) return name;
     }
   }
   const Json* extras = findMember(mesh_or_primitive, "extras");
@@ -262,8 +218,8 @@ void removeExtensionName(Json& root, const char* list, const char* name) {
 std::string nodeDependentExtension(const Json& root, const ForeignReferences& foreign) {
   if (!foreign.extension.empty()) return foreign.extension;
   for (const Json& name : arrayOf(root, "extensionsUsed")) {
-    for (const std::string_view listed : kNodeReferringExtensions) {
-      if (name == listed) return name.get<std::string>();
+    if (name.is_string() && refersToNodes(name.get_ref<const std::string&>())) {
+      return name.get<std::string>();
     }
   }
   return "";
@@ -290,6 +246,14 @@ void markAccessorsOutsideMeshes(const Document& document, const ForeignReference
     const Json* instancing = findMember(*extensions, "EXT_mesh_gpu_instancing");
     if (instancing != nullptr) markAll(findMember(*instancing, "attributes"), is_used);
   }
+}
+
+void markAccessorsOfExtensions(const Document& document, std::vector<bool>& is_used) {
+  is_used.resize(document.accessors.size(), false);
+  visitPrimitives(document.json, [&](const PrimitiveRef&, const Json& primitive) {
+    visitExtensionAccessors(primitive,
+                            [&](const Json& number, ExtensionAccessor) { mark(&number, is_used); });
+  });
 }
 
 }  // namespace mcc::gltf

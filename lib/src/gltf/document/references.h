@@ -26,6 +26,11 @@ struct ForeignReferences {
   std::string extension;  ///< the first extension that is not on our list
   std::set<uint64_t> views;
   std::set<uint64_t> accessors;
+  bool has_tables = false;  ///< the document may have property tables
+
+  /// Returns the power of two by which bytes stay aligned as in the source: property tables may
+  /// hold numbers of 64 bits, and so may what we do not understand.
+  uint32_t alignment() const { return keep_numbers || has_tables ? 8 : 4; }
 };
 
 ForeignReferences findForeignReferences(const Json& root);
@@ -38,10 +43,13 @@ void visitViewReferences(const Json& root,
 void editViewReferences(Json& root,
                         const std::function<void(Json& number, uint32_t accessor)>& visit);
 
+/// Whether accessors that hold numbers of vertices can get others, see isRenumberable().
+enum class NumbersOfVertices : uint8_t { kStay, kCanChange };
+
 /// Returns the part of a mesh or primitive that depends on the order of vertices or triangles, as
-/// far as we know: the first extension that is not on our list, a key of its extras that suggests
-/// it ("drawRange"), or an empty string.
-std::string orderDependentPart(const Json& mesh_or_primitive);
+/// far as we know: the first extension that is not on our list or says so, a key of its extras that
+/// suggests it ("drawRange"), or an empty string.
+std::string orderDependentPart(const Json& mesh_or_primitive, NumbersOfVertices numbers);
 
 /// Returns the first extension of an object that is not on our list, or an empty string.
 std::string unknownExtension(const Json& object);
@@ -64,6 +72,9 @@ void removeExtensionName(Json& root, const char* list, const char* name);
 /// foreign references.
 void markAccessorsOutsideMeshes(const Document& document, const ForeignReferences& foreign,
                                 std::vector<bool>& is_used);
+
+/// Marks accessors that extensions of primitives use.
+void markAccessorsOfExtensions(const Document& document, std::vector<bool>& is_used);
 
 }  // namespace mcc::gltf
 

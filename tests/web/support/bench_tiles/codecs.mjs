@@ -2,7 +2,7 @@
 //
 // The other codecs of tools/bench-tiles: each makes of a GLB a smaller one, with positions of a given number of bits. Everything else
 // is as accurate as ours: normals have 10 bits (octahedral), texture coordinates 12, colours 8, and ids are exact.
-import { Logger, NodeIO, VertexLayout } from '@gltf-transform/core';
+import { Format, GLB_BUFFER, Logger, NodeIO, VertexLayout } from '@gltf-transform/core';
 import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
 import { quantize, reorder } from '@gltf-transform/functions';
 import draco3d from 'draco3d';
@@ -24,10 +24,42 @@ export const io = new NodeIO().setLogger(new Logger(Logger.Verbosity.ERROR)).set
   });
 const KNOWN = new Set(ALL_EXTENSIONS.map(({ EXTENSION_NAME }) => EXTENSION_NAME));
 
+const isExternal = ({ uri }) => uri !== undefined && !uri.startsWith('data:');
+
+/** Reads a GLB, also one whose images are other files: they stay where they are. */
+export async function readDocument(glb) {
+  const { json, chunks } = readGlb(new Uint8Array(glb));
+  const images = Object.fromEntries((json.images ?? []).filter(isExternal).map(({ uri }) => [uri, new Uint8Array(4)]));
+  return io.readJSON({ json, resources: { [GLB_BUFFER]: chunks[0]?.data, ...images } });
+}
+
+/** Writes a GLB; images that were other files are so again. */
+export async function writeDocument(document) {
+  const isOutside = (texture) => texture.getURI() !== '' && texture.getImage()?.length === 4;
+  const textures = document.getRoot().listTextures();
+  if (!textures.some(isOutside)) return io.writeBinary(document);
+  if (!textures.every(isOutside)) throw new Error('some images are in the file, others are not');
+  const { json, resources } = await io.writeJSON(document, { format: Format.GLTF });
+  const [{ uri }] = json.buffers;
+  delete json.buffers[0].uri;
+  return writeGlb(json, [{ type: BIN_CHUNK, data: resources[uri] }]);
+}
+
 /** gltf-pipeline, as the stages optimizeGlb, optimizeB3dm and optimizeI3dm of 3d-tiles-tools call it. Ids are never quantised. */
-const draco = (compressionLevel) => (glb, bits) => GltfUtilities.optimizeGlb(Buffer.from(glb), {
+const draco = (compressionLevel) => (glb, bits) => withoutImages(glb, (plain) => GltfUtilities.optimizeGlb(Buffer.from(plain), {
   dracoOptions: dracoOptions(compressionLevel, bits),
-});
+}));
+
+/** Changes a GLB whose images, if they are other files, stay where they are: gltf-pipeline would put them into the GLB. */
+async function withoutImages(glb, change) {
+  const { json, chunks } = readGlb(new Uint8Array(glb));
+  const { images = [], textures } = json;
+  if (images.length === 0 || !images.every(isExternal)) return change(glb);
+  delete json.images;
+  json.textures = textures.map(({ source, ...rest }) => rest);
+  const made = readGlb(new Uint8Array(await change(writeGlb(json, chunks))));
+  return Buffer.from(writeGlb({ ...made.json, images, textures }, made.chunks));
+}
 
 export function dracoOptions(compressionLevel, bits) {
   return {
@@ -40,7 +72,7 @@ export function dracoOptions(compressionLevel, bits) {
  * gltfpack does. glTF-Transform's own last step would round normals to 8 bits, and gltfpack would drop EXT_mesh_features.
  */
 const meshopt = (name, version) => async (glb, bits) => {
-  const document = await io.readBinary(new Uint8Array(glb));
+  const document = await readDocument(glb);
   const unknown = document.getRoot().listExtensionsUsed().length !== (readGlb(new Uint8Array(glb)).json.extensionsUsed ?? []).length;
   if (unknown) return glb; // glTF-Transform drops extensions that it does not know
   const isQuantized = bits <= 16;
@@ -51,7 +83,7 @@ const meshopt = (name, version) => async (glb, bits) => {
       quantizePosition: Math.min(bits, 16), quantizeTexcoord: TEXCOORD_BITS, quantizeColor: COLOR_BITS,
     }),
   );
-  return compressViews(await io.writeBinary(document), name, version);
+  return compressViews(await writeDocument(document), name, version);
 };
 
 /** Compresses the buffer views of indices and vertices of a GLB in which no two accessors share one. */

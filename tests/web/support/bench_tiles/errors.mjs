@@ -4,13 +4,13 @@
 // vertices of the source are numbered by an attribute of their own, which all codecs keep exactly.
 import { Accessor } from '@gltf-transform/core';
 import { unpackGlb } from '../../../../lib/web/unpack.mjs';
-import { io } from './codecs.mjs';
+import { readDocument, writeDocument } from './codecs.mjs';
 
 const NUMBER = '_VERTEX_NUMBER';
 
 /** Returns a GLB whose vertices have numbers. */
 export async function numbered(glb) {
-  const document = await io.readBinary(new Uint8Array(glb));
+  const document = await readDocument(glb);
   const [buffer] = document.getRoot().listBuffers();
   const numbers = new Map();
   for (const primitive of document.getRoot().listMeshes().flatMap((mesh) => mesh.listPrimitives())) {
@@ -22,12 +22,12 @@ export async function numbered(glb) {
     }
     primitive.setAttribute(NUMBER, numbers.get(position));
   }
-  return Buffer.from(await io.writeBinary(document));
+  return Buffer.from(await writeDocument(document));
 }
 
 /** Primitives where their nodes put them, in the order of the nodes: [{ positions, numbers, ids }], `positions` in doubles. */
 export async function placedPrimitives(glb) {
-  const document = await io.readBinary(await unpackGlb(new Uint8Array(glb)));
+  const document = await readDocument(await unpackGlb(new Uint8Array(glb)));
   const placed = [];
   for (const scene of document.getRoot().listScenes()) {
     scene.traverse((node) => {

@@ -1,0 +1,133 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/compress/vertex_numbers.h"
+
+#include <algorithm>
+
+#include "gltf/document/accessors.h"
+#include "gltf/document/bounds.h"
+#include "gltf/document/known_extensions.h"
+
+namespace mcc::gltf {
+namespace {
+
+/// Calls visit(uint64_t accessor) for the accessors of vertex numbers of a primitive. A member that
+/// is no number of an accessor counts as one that does not exist.
+template <typename Visit>
+void visitVertexNumbers(const Json& primitive, const Visit& visit) {
+  visitExtensionAccessors(primitive, [&](const Json& number, ExtensionAccessor what) {
+    if (what != ExtensionAccessor::kVertexNumbers) return;
+    uint64_t accessor = 0;
+    visit(asUnsigned(number, accessor) ? accessor : uint64_t{kNone});
+  });
+}
+
+/// Counts the uses of each accessor: each member of a primitive that names it, and one for
+/// everything else.
+std::vector<uint32_t> countUses(const Document& document, const ForeignReferences& foreign) {
+  std::vector<bool> is_used_outside;
+  markAccessorsOutsideMeshes(document, foreign, is_used_outside);
+  std::vector<uint32_t> counts(is_used_outside.begin(), is_used_outside.end());
+  const auto add = [&](uint64_t accessor) {
+    if (accessor < counts.size()) ++counts[accessor];
+  };
+  visitPrimitives(document.json, [&](const PrimitiveRef&, const Json& primitive) {
+    visitAccessorNumbers(primitive, add);
+    visitExtensionAccessors(primitive, [&](const Json& number, ExtensionAccessor) {
+      uint64_t accessor = 0;
+      if (asUnsigned(number, accessor)) add(accessor);
+    });
+  });
+  return counts;
+}
+
+/// Whether the elements can be read and stored again in the same way.
+bool canBeChanged(const Document& document, uint32_t index, uint32_t vertex_count) {
+  const Accessor& accessor = document.accessors[index];
+  const Json& json = document.json["accessors"][index];
+  if (accessor.view == kNone || accessor.sparse.count != 0 || accessor.normalized) return false;
+  const Json& view = document.json["bufferViews"][accessor.view];
+  if (document.views[accessor.view].isCoded() || !unknownExtension(json).empty() ||
+      !unknownExtension(view).empty()) {
+    return false;
+  }
+  std::vector<uint32_t> numbers;
+  if (!readIndices(document, index, numbers).ok()) return false;
+  return std::all_of(numbers.begin(), numbers.end(),
+                     [&](uint32_t number) { return number < vertex_count; });
+}
+
+/// Collects the accessors of vertex numbers of a piece. Returns false if one of them is also used
+/// by something else, or cannot be changed.
+bool collect(const Document& document, const std::vector<uint32_t>& use_counts, PiecePlan& piece) {
+  std::vector<uint64_t> named;
+  for (const PartPlan& part : piece.parts) {
+    for (const PrimitiveRef& user : part.users) {
+      visitVertexNumbers(primitiveAt(document.json, user),
+                         [&](uint64_t accessor) { named.push_back(accessor); });
+    }
+  }
+  std::sort(named.begin(), named.end());
+  for (size_t i = 0, end = 0; i < named.size(); i = end) {
+    while (end < named.size() && named[end] == named[i]) ++end;
+    if (named[i] >= document.accessors.size()) return false;
+    const auto accessor = static_cast<uint32_t>(named[i]);
+    const bool is_only_ours = use_counts[accessor] == end - i;
+    if (!is_only_ours || !canBeChanged(document, accessor, piece.wedge_count)) return false;
+    piece.vertex_numbers.push_back(accessor);
+  }
+  return true;
+}
+
+}  // namespace
+
+void planVertexNumbers(const Document& document, const ForeignReferences& foreign,
+                       std::vector<PayloadPlan>& payloads) {
+  const std::vector<uint32_t> use_counts = countUses(document, foreign);
+  for (PayloadPlan& payload : payloads) {
+    for (PiecePlan& piece : payload.pieces) {
+      if (!collect(document, use_counts, piece)) payload.keep_vertex_order = true;
+    }
+    if (!payload.keep_vertex_order) continue;
+    for (PiecePlan& piece : payload.pieces) piece.vertex_numbers.clear();
+  }
+}
+
+bool isIdentity(const std::vector<uint32_t>& source_wedge) {
+  for (uint32_t i = 0; i < source_wedge.size(); ++i) {
+    if (source_wedge[i] != i) return false;
+  }
+  return true;
+}
+
+void renumberVertices(const Document& document, const PiecePlan& piece,
+                      const std::vector<uint32_t>& source_wedge, Json& json,
+                      std::vector<NewView>& views) {
+  if (piece.vertex_numbers.empty() || isIdentity(source_wedge)) return;
+  std::vector<uint32_t> decoded_wedge(source_wedge.size());
+  for (uint32_t i = 0; i < source_wedge.size(); ++i) decoded_wedge[source_wedge[i]] = i;
+  for (const uint32_t index : piece.vertex_numbers) {
+    const Accessor& accessor = document.accessors[index];
+    std::vector<uint32_t> numbers;
+    if (!readIndices(document, index, numbers).ok()) continue;  // it could be read before
+    const uint32_t bytes_each = componentBytes(accessor.component_type);
+    NewView view;
+    for (uint32_t& number : numbers) {
+      number = decoded_wedge[number];
+      for (uint32_t byte = 0; byte < bytes_each; ++byte) {
+        view.bytes.push_back(static_cast<uint8_t>(number >> (8 * byte)));
+      }
+    }
+    Json& edited = json["accessors"][index];
+    edited.erase("byteOffset");
+    edited["bufferView"] = document.views.size() + views.size();
+    const Json* target = findMember(document.json["bufferViews"][accessor.view], "target");
+    uint64_t number = 0;
+    if (target != nullptr && asUnsigned(*target, number) && number <= 0xffffffffu) {
+      view.target = static_cast<uint32_t>(number);
+    }
+    if (!numbers.empty()) setBounds(boundsOf(numbers), ComponentType::kUint32, false, edited);
+    views.push_back(std::move(view));
+  }
+}
+
+}  // namespace mcc::gltf

@@ -1,0 +1,279 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/document/known_extensions.h"
+
+#include <algorithm>
+#include <initializer_list>
+
+#include "gltf/document/primitives.h"
+
+namespace mcc::gltf {
+namespace {
+
+/// The extension whose property tables lie in buffer views.
+constexpr char kMetadataExtension[] = "EXT_structural_metadata";
+
+using Names = std::initializer_list<std::string_view>;
+
+bool contains(const Names& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Whether an object has no members but these.
+bool hasOnly(const Json& object, const Names& names) {
+  if (!object.is_object()) return false;
+  for (const auto& [key, value] : object.items()) {
+    if (!contains(names, key)) return false;
+  }
+  return true;
+}
+
+/// The same, where any object may also have extras and extensions, which are looked at apart.
+bool hasOnlyWithExtras(const Json& object, const Names& names) {
+  if (!object.is_object()) return false;
+  for (const auto& [key, value] : object.items()) {
+    if (!contains(names, key) && key != "extras" && key != "extensions") return false;
+  }
+  return true;
+}
+
+/// The members of tables and their properties that the ratified version has. Drafts named buffer
+/// views in others.
+bool areTablesUnderstood(const Json& metadata) {
+  const Json* tables = findMember(metadata, "propertyTables");
+  if (tables == nullptr) return true;
+  if (!tables->is_array()) return false;
+  for (const Json& table : *tables) {
+    if (!hasOnlyWithExtras(table, {"name", "class", "count", "properties"})) return false;
+    const Json* properties = findMember(table, "properties");
+    if (properties == nullptr) continue;
+    if (!properties->is_object()) return false;
+    for (const Json& property : *properties) {
+      const bool is_known =
+          hasOnlyWithExtras(property, {"values", "arrayOffsets", "stringOffsets", "arrayOffsetType",
+                                       "stringOffsetType", "offset", "scale", "max", "min"});
+      if (!is_known) return false;
+    }
+  }
+  return true;
+}
+
+bool areLineStringsUnderstood(const Json& visibility) {
+  const Json* strings = findMember(visibility, "lineStrings");
+  if (strings == nullptr) return true;
+  if (!strings->is_array()) return false;
+  return std::all_of(strings->begin(), strings->end(), [](const Json& line_string) {
+    return hasOnlyWithExtras(line_string, {"indices", "material"});
+  });
+}
+
+bool always(const Json&) { return true; }
+
+/// An extension on our list. `is_understood` looks for members that we do not know.
+struct KnownExtension {
+  std::string_view name;
+  bool (*is_understood)(const Json& object);
+};
+
+constexpr KnownExtension kKnownExtensions[] = {
+    {"ADOBE_materials_clearcoat_specular", always},
+    {"ADOBE_materials_clearcoat_tint", always},
+    {"ADOBE_materials_thin_transparency", always},
+    {"BENTLEY_materials_line_style", always},
+    {"BENTLEY_materials_planar_fill", always},
+    {"BENTLEY_materials_point_style", always},
+    {"CESIUM_RTC", always},
+    {"CESIUM_primitive_outline",
+     [](const Json& object) { return hasOnlyWithExtras(object, {"indices"}); }},
+    {"CESIUM_tile_edges",
+     [](const Json& object) {
+       return hasOnlyWithExtras(object, {"left", "bottom", "right", "top"});
+     }},
+    {"EXT_instance_features",
+     [](const Json& object) { return hasOnlyWithExtras(object, {"featureIds"}); }},
+    {"EXT_lights_image_based", always},
+    {"EXT_mesh_features",
+     [](const Json& object) { return hasOnlyWithExtras(object, {"featureIds"}); }},
+    {"EXT_mesh_gpu_instancing", always},
+    {"EXT_mesh_primitive_edge_visibility",
+     [](const Json& object) {
+       return hasOnlyWithExtras(object, {"visibility", "material", "lineStrings", "silhouetteMates",
+                                         "silhouetteNormals"}) &&
+              areLineStringsUnderstood(object);
+     }},
+    {"EXT_meshopt_compression", always},
+    {kMetadataExtension,
+     [](const Json& object) {
+       return hasOnlyWithExtras(object,
+                                {"schema", "schemaUri", "propertyTables", "propertyTextures",
+                                 "propertyAttributes", "propertyTable", "index"}) &&
+              areTablesUnderstood(object);
+     }},
+    {"EXT_texture_avif", always},
+    {"EXT_texture_webp", always},
+    {"KHR_animation_pointer", always},
+    {"KHR_draco_mesh_compression", always},
+    {"KHR_lights_punctual", always},
+    {"KHR_mesh_collapse_compression", always},
+    {"KHR_mesh_quantization", always},
+    {"KHR_meshopt_compression", always},
+    {"KHR_node_hoverability", always},
+    {"KHR_node_selectability", always},
+    {"KHR_node_visibility", always},
+    {"KHR_texture_basisu", always},
+    {"KHR_texture_transform", always},
+    {"KHR_xmp", always},
+    {"KHR_xmp_json_ld", always},
+    {"MSFT_lod", always},
+    {"MSFT_packing_normalRoughnessMetallic", always},
+    {"MSFT_packing_occlusionRoughnessMetallic", always},
+    {"MSFT_texture_dds", always},
+    {"VRM", always},
+    {"VRMC_materials_mtoon", always},
+    {"VRMC_node_constraint", always},
+    {"VRMC_springBone", always},
+    {"VRMC_vrm", always},
+};
+
+const KnownExtension* findKnown(std::string_view name) {
+  const auto found =
+      std::find_if(std::begin(kKnownExtensions), std::end(kKnownExtensions),
+                   [&](const KnownExtension& extension) { return extension.name == name; });
+  return found == std::end(kKnownExtensions) ? nullptr : found;
+}
+
+/// Whether every set of feature ids is an attribute, which moves with its vertices, or a texture.
+/// Without either, the id of a vertex is its number.
+bool hasExplicitIds(const Json& features) {
+  if (!hasOnly(features, {"featureIds"})) return false;
+  const Json* sets = findMember(features, "featureIds");
+  if (sets == nullptr || !sets->is_array() || sets->empty()) return false;
+  return std::all_of(sets->begin(), sets->end(), [](const Json& set) {
+    return hasOnly(set, {"featureCount", "nullFeatureId", "label", "attribute", "texture",
+                         "propertyTable"}) &&
+           (findMember(set, "attribute") != nullptr || findMember(set, "texture") != nullptr);
+  });
+}
+
+/// Textures are found by texture coordinates, attributes by their names, rows by their numbers.
+bool hasOnlyMetadata(const Json& metadata) {
+  return hasOnly(metadata, {"propertyTextures", "propertyAttributes", "propertyTable", "index"});
+}
+
+/// An extension of meshes or primitives that does not depend on the order of vertices and
+/// triangles, at least where `is_order_free` says so.
+struct OrderFreeExtension {
+  std::string_view name;
+  bool (*is_order_free)(const Json& object);
+};
+
+constexpr OrderFreeExtension kOrderFreeExtensions[] = {
+    {"EXT_mesh_features", hasExplicitIds},
+    {kMetadataExtension, hasOnlyMetadata},
+    {"KHR_draco_mesh_compression", always},     // removed with the data that it describes
+    {"KHR_materials_variants", always},         // materials of the whole primitive
+    {"KHR_mesh_collapse_compression", always},  // our own
+    {"KHR_xmp", always},                        // names a packet of metadata
+    {"KHR_xmp_json_ld", always},                // the same
+};
+
+/// A member of a primitive's extension that is the number of an accessor.
+struct AccessorMember {
+  std::string_view extension;
+  std::string_view member;
+  ExtensionAccessor what;
+};
+
+constexpr AccessorMember kAccessorMembers[] = {
+    {"CESIUM_primitive_outline", "indices", ExtensionAccessor::kVertexNumbers},
+    {"CESIUM_tile_edges", "left", ExtensionAccessor::kVertexNumbers},
+    {"CESIUM_tile_edges", "bottom", ExtensionAccessor::kVertexNumbers},
+    {"CESIUM_tile_edges", "right", ExtensionAccessor::kVertexNumbers},
+    {"CESIUM_tile_edges", "top", ExtensionAccessor::kVertexNumbers},
+    // Two bits for each edge of each triangle, and what belongs to these edges.
+    {"EXT_mesh_primitive_edge_visibility", "visibility", ExtensionAccessor::kOther},
+    {"EXT_mesh_primitive_edge_visibility", "silhouetteMates", ExtensionAccessor::kOther},
+    {"EXT_mesh_primitive_edge_visibility", "silhouetteNormals", ExtensionAccessor::kOther},
+};
+
+/// Visits the members of property tables that are numbers of buffer views. `J` is Json or const
+/// Json.
+template <typename J, typename Visit>
+void visitTableViewsOf(J& root, const Visit& visit) {
+  const Json* metadata = extensionOf(root, kMetadataExtension);
+  if (metadata == nullptr) return;
+  for (const Json& table : arrayOf(*metadata, "propertyTables")) {
+    const Json* properties = findMember(table, "properties");
+    if (properties == nullptr || !properties->is_object()) continue;
+    for (const Json& property : *properties) {
+      for (const char* key : {"values", "arrayOffsets", "stringOffsets"}) {
+        const Json* number = findMember(property, key);
+        if (number != nullptr) visit(const_cast<J&>(*number));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+bool isKnownExtension(std::string_view name) {
+  return name.starts_with("KHR_materials_") || findKnown(name) != nullptr;
+}
+
+bool isUnderstood(std::string_view name, const Json& object) {
+  const KnownExtension* known = findKnown(name);
+  return known == nullptr ? isKnownExtension(name) : known->is_understood(object);
+}
+
+bool isOrderFree(std::string_view name, const Json& object) {
+  return std::any_of(std::begin(kOrderFreeExtensions), std::end(kOrderFreeExtensions),
+                     [&](const OrderFreeExtension& extension) {
+                       return extension.name == name && extension.is_order_free(object);
+                     });
+}
+
+bool isRenumberable(std::string_view name, const Json& object) {
+  if (!object.is_object()) return false;
+  for (const auto& [key, value] : object.items()) {
+    const bool is_renumberable =
+        std::any_of(std::begin(kAccessorMembers), std::end(kAccessorMembers),
+                    [&, &member = key](const AccessorMember& known) {
+                      return known.extension == name && known.member == member &&
+                             known.what == ExtensionAccessor::kVertexNumbers;
+                    });
+    if (!is_renumberable) return false;
+  }
+  return !object.empty();
+}
+
+bool refersToNodes(std::string_view name) {
+  return contains({"KHR_animation_pointer", "MSFT_lod", "VRM", "VRMC_node_constraint",
+                   "VRMC_springBone", "VRMC_vrm"},
+                  name);
+}
+
+void visitExtensionAccessors(const Json& primitive,
+                             const std::function<void(const Json&, ExtensionAccessor)>& visit) {
+  for (const AccessorMember& known : kAccessorMembers) {
+    const Json* extension = extensionOf(primitive, known.extension);
+    const Json* number = extension == nullptr ? nullptr : findMember(*extension, known.member);
+    if (number != nullptr) visit(*number, known.what);
+  }
+  const Json* visibility = extensionOf(primitive, "EXT_mesh_primitive_edge_visibility");
+  if (visibility == nullptr) return;
+  for (const Json& line_string : arrayOf(*visibility, "lineStrings")) {
+    const Json* number = findMember(line_string, "indices");
+    if (number != nullptr) visit(*number, ExtensionAccessor::kOther);
+  }
+}
+
+bool mayHaveTables(const Json& root) { return extensionOf(root, kMetadataExtension) != nullptr; }
+
+void visitTableViews(const Json& root, const std::function<void(const Json&)>& visit) {
+  visitTableViewsOf(root, visit);
+}
+
+void editTableViews(Json& root, const std::function<void(Json&)>& visit) {
+  visitTableViewsOf(root, visit);
+}
+
+}  // namespace mcc::gltf
