@@ -162,12 +162,12 @@ function octahedral(bytes, { count }) {
   return MeshoptEncoder.encodeFilterOct(padded, count, 8, NORMAL_BITS);
 }
 
-/** By name: `make(glb, bits)`, and the name of the codec whose errors are the same ones, because it quantises in the same way. */
+/** By name: `make(glb, bits)`, the least number of bits that its tool takes, and the name of the codec whose errors are the same ones, because it quantises in the same way. */
 export const CODECS = {
-  'Draco 7': { make: draco(7), errorsOf: 'Draco 7' },
-  'Draco 10': { make: draco(10), errorsOf: 'Draco 7' },
-  'meshopt': { make: meshopt('EXT_meshopt_compression', 0), errorsOf: 'meshopt' },
-  'meshopt v1': { make: meshopt('KHR_meshopt_compression', 1), errorsOf: 'meshopt' },
+  'Draco 7': { make: draco(7), leastBits: 1, errorsOf: 'Draco 7' },
+  'Draco 10': { make: draco(10), leastBits: 1, errorsOf: 'Draco 7' },
+  'meshopt': { make: meshopt('EXT_meshopt_compression', 0), leastBits: 8, errorsOf: 'meshopt' },
+  'meshopt v1': { make: meshopt('KHR_meshopt_compression', 1), leastBits: 8, errorsOf: 'meshopt' },
 };
 export const CODEC_NAMES = Object.keys(CODECS);
 /** Those that CesiumJS loads. */

@@ -82,10 +82,11 @@ class Meter {
   async leastBits(codec) {
     const { promise } = this.tile;
     if (!(promise > 0)) return DEFAULT_BITS;
+    const { leastBits } = CODECS[codec];
     const first = await this.error(codec, 12);
-    let bits = Math.min(MOST_BITS, Math.max(1, 12 + Math.ceil(Math.log2(Math.max(first, 1e-12) / promise))));
+    let bits = Math.min(MOST_BITS, Math.max(leastBits, 12 + Math.ceil(Math.log2(Math.max(first, 1e-12) / promise))));
     while (bits < MOST_BITS && await this.error(codec, bits) > promise) ++bits;
-    while (bits > 1 && await this.error(codec, bits - 1) <= promise) --bits;
+    while (bits > leastBits && await this.error(codec, bits - 1) <= promise) --bits;
     return bits;
   }
 }
