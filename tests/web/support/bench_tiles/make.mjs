@@ -31,8 +31,11 @@ function tilesOf(tileset, report) {
   const folder = path.dirname(tileset);
   const files = new Map(report.files.map((file) => [file.file, file]));
   return [...contentsOf(tileset)].map(([name, transforms]) => {
-    const { level, promised_error: promised, largest_error: largest, position_bits: bits } = files.get(name);
-    return { name, level, promise: promised ?? largest, bits: bits?.[1], transforms, bytes: readFileSync(path.join(folder, name)) };
+    // A tile that ours leaves as it is has no level, and no promise that the others could keep.
+    const { level = 0, outcome, promised_error: promised, largest_error: largest, position_bits: bits } = files.get(name);
+    return {
+      name, level, promise: promised ?? largest, bits: bits?.[1], isCopied: outcome === 'copied', transforms, bytes: readFileSync(path.join(folder, name)),
+    };
   }).sort((a, b) => a.level - b.level || (a.name < b.name ? -1 : 1));
 }
 
@@ -128,14 +131,15 @@ async function sizesOf(folder, names) {
   return sizes;
 }
 
-/** Adds an error to the largest ones by level. */
-function note(errors, level, error) {
+/** Adds the error of a tile to the largest ones of a row by level, in metres and as a part of what was promised for the tile. */
+function note({ errors, shares }, { level, promise }, error) {
   errors[level] = Math.max(errors[level] ?? 0, error);
+  if (promise > 0) shares[level] = Math.max(shares[level] ?? 0, error / promise);
 }
 
 /**
  * Makes all tilesets of one below `work`, in folders named like the rows.
- * @returns figures: { tiles, levels: [{ promise, tiles }], rows: { [row]: { bytes, gzip, brotli, images, bits: [low, high], errors, failed } }, seconds }
+ * @returns figures: { tiles, levels: [{ promise, tiles }], rows: { [row]: { bytes, gzip, brotli, images, bits, errors, shares, unchanged } }, seconds }
  */
 export async function makeAll(program, tileset, work, say) {
   rmSync(work, { recursive: true, force: true });
@@ -163,7 +167,7 @@ export async function makeAll(program, tileset, work, say) {
   return { tiles: tiles.length, fixed, levels: levelsOf(tiles), rows, seconds, unknown: await unknownIn(tiles) };
 }
 
-const newRow = () => ({ bits: [], errors: {}, failed: [] });
+const newRow = () => ({ bits: [], errors: {}, shares: {}, unchanged: [] });
 
 function levelsOf(tiles) {
   const levels = [];
@@ -198,27 +202,28 @@ async function measureTiles(tiles, work, rows) {
   for (const tile of tiles) {
     const meter = await Meter.of(tile);
     if (!meter.isModel) continue;
-    note(rows[OURS].errors, tile.level, await meter.errorOfFile(readFileSync(path.join(work, 'numbered out', tile.name))));
+    if (tile.isCopied) rows[OURS].unchanged.push(tile.name);
+    note(rows[OURS], tile, await meter.errorOfFile(readFileSync(path.join(work, 'numbered out', tile.name))));
     if (tile.bits !== undefined) rows[OURS].bits.push(tile.bits);
     for (const codec of FAMILIES) {
       const bits = await meter.leastBits(codec);
       least[codec][tile.name] = bits;
-      noteAll(rows, codec, true, tile.level, await meter.error(codec, bits), bits);
+      noteAll(rows, codec, true, tile, await meter.error(codec, bits), bits);
     }
   }
   const fixed = fixedBits(least);
   for (const tile of tiles) {
     const meter = await Meter.of(tile);
     if (!meter.isModel) continue;
-    for (const codec of FAMILIES) noteAll(rows, codec, false, tile.level, await meter.error(codec, fixed[codec]), fixed[codec]);
+    for (const codec of FAMILIES) noteAll(rows, codec, false, tile, await meter.error(codec, fixed[codec]), fixed[codec]);
   }
   return least;
 }
 
-function noteAll(rows, family, isEach, level, error, bits) {
+function noteAll(rows, family, isEach, tile, error, bits) {
   for (const codec of CODEC_NAMES.filter((name) => CODECS[name].errorsOf === family)) {
     const row = rows[rowName(codec, isEach)];
-    note(row.errors, level, error);
+    note(row, tile, error);
     row.bits.push(bits);
   }
 }
@@ -237,7 +242,7 @@ async function writeRows(tileset, tiles, work, rows, least, fixed) {
         const bytes = readFileSync(path.join(path.dirname(tileset), name));
         const bits = isEach ? least[errorsOf][name] : fixed[errorsOf];
         const made = await changeModels(bytes, (glb) => make(isEach ? withIntegerIds(glb) : glb, bits)).catch(({ message }) => {
-          rows[row].failed.push(`${name}: ${message}`);
+          rows[row].unchanged.push(`${name}: ${message}`);
           return bytes;
         });
         const place = path.join(work, row, name);

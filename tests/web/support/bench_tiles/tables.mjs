@@ -23,12 +23,14 @@ function bytesTable(figures) {
     'bytes / ours', 'gzip / ours', 'brotli / ours', 'bytes without images / ours'], eachTileset(figures, 'bytes', (name, { rows }) => {
     const ours = rows[OURS];
     return Object.entries(rows).map(([row, figuresOfRow]) => [
-      `${name}: ${row === OURS ? `**${row}**` : row}${figuresOfRow.failed.length === 0 ? '' : ` (${figuresOfRow.failed.length} tiles failed and stayed as they were)`}`,
+      `${name}: ${row === OURS ? `**${row}**` : row}${unchangedText(figuresOfRow.unchanged)}`,
       bitsText(figuresOfRow.bits), ...kinds.map((kind) => count(figuresOfRow[kind])), ...kinds.map((kind) => ratio(figuresOfRow, ours, kind)),
       (geometry(figuresOfRow) / geometry(ours)).toFixed(2),
     ]);
   }));
 }
+
+const unchangedText = ({ length }) => (length === 0 ? '' : ` (${count(length)} tiles stay as they were)`);
 
 function bitsText(bits) {
   if (bits.length === 0) return '';
@@ -36,15 +38,17 @@ function bitsText(bits) {
   return low === high ? `${low}` : `${low}-${high}`;
 }
 
-/** Largest errors of each level; rows that quantise alike are one. */
+/** Largest errors of each level, and the largest parts of what was promised for a tile; rows that quantise alike are one. */
 function errorsTable(figures) {
   const depth = Math.max(0, ...Object.values(figures.tilesets).map(({ bytes }) => bytes?.levels.length ?? 0));
   const levels = Array.from({ length: depth }, (_, i) => i);
-  return table(['largest error, m'], levels.map((level) => `level ${level}`), eachTileset(figures, 'bytes', (name, { rows, levels: promised }) => [
+  return table(['largest error, m (of what its tile was promised)'], levels.map((level) => `level ${level}`), eachTileset(figures, 'bytes', (name, { rows, levels: promised }) => [
     [`${name}: tiles`, ...levels.map((level) => (promised[level] === undefined ? '' : count(promised[level].tiles)))],
     [`${name}: least promise`, ...levels.map((level) => meters(promised[level]?.promise ?? undefined))],
-    ...Object.entries(rows).filter(([row]) => row !== SOURCE && !/ 10,| v1,/.test(row)).map(([row, { errors }]) => (
-      [`${name}: ${row.replace('Draco 7,', 'Draco,')}`, ...levels.map((level) => meters(errors[level]))])),
+    ...Object.entries(rows).filter(([row]) => row !== SOURCE && !/ 10,| v1,/.test(row)).map(([row, { errors, shares }]) => [
+      `${name}: ${row.replace('Draco 7,', 'Draco,')}`,
+      ...levels.map((level) => meters(errors[level]) + (shares[level] === undefined ? '' : ` (${Math.round(100 * shares[level])} %)`)),
+    ]),
   ]));
 }
 
