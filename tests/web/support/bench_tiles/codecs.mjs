@@ -38,15 +38,28 @@ export async function writeDocument(document) {
   const isOutside = (texture) => texture.getURI() !== '' && texture.getImage()?.length === 4;
   const textures = document.getRoot().listTextures();
   if (!textures.some(isOutside)) return io.writeBinary(document);
-  if (!textures.every(isOutside)) throw new Error('some images are in the file, others are not');
+  if (!textures.every(isOutside)) throw new Unsupported('some images are in the file, others are not');
   const { json, resources } = await io.writeJSON(document, { format: Format.GLTF });
   const [{ uri }] = json.buffers;
   delete json.buffers[0].uri;
   return writeGlb(json, [{ type: BIN_CHUNK, data: resources[uri] }]);
 }
 
+/** A codec cannot keep everything that a model has. */
+export class Unsupported extends Error {}
+
+/** gltf-pipeline removes the accessors of instances, and keeps the numbers of vertices that outlines have while Draco changes them. */
+const BROKEN_BY_DRACO = (name) => name === 'EXT_mesh_gpu_instancing' || name === 'CESIUM_primitive_outline';
+
+/** Returns a GLB, if it has no extension that a codec would break; such tiles stay as they are. */
+function whole(glb, isBroken) {
+  const name = readGlb(new Uint8Array(glb)).json.extensionsUsed?.find(isBroken);
+  if (name !== undefined) throw new Unsupported(`the tools do not keep ${name}`);
+  return glb;
+}
+
 /** gltf-pipeline, as the stages optimizeGlb, optimizeB3dm and optimizeI3dm of 3d-tiles-tools call it. Ids are never quantised. */
-const draco = (compressionLevel) => (glb, bits) => withoutImages(glb, (plain) => GltfUtilities.optimizeGlb(Buffer.from(plain), {
+const draco = (compressionLevel) => async (glb, bits) => withoutImages(whole(glb, BROKEN_BY_DRACO), (plain) => GltfUtilities.optimizeGlb(Buffer.from(plain), {
   dracoOptions: dracoOptions(compressionLevel, bits),
 }));
 
@@ -72,9 +85,7 @@ export function dracoOptions(compressionLevel, bits) {
  * gltfpack does. glTF-Transform's own last step would round normals to 8 bits, and gltfpack would drop EXT_mesh_features.
  */
 const meshopt = (name, version) => async (glb, bits) => {
-  const document = await readDocument(glb);
-  const unknown = document.getRoot().listExtensionsUsed().length !== (readGlb(new Uint8Array(glb)).json.extensionsUsed ?? []).length;
-  if (unknown) return glb; // glTF-Transform drops extensions that it does not know
+  const document = await readDocument(whole(glb, (used) => !KNOWN.has(used))); // glTF-Transform drops what it does not know
   const isQuantized = bits <= 16;
   await document.transform(
     reorder({ encoder: MeshoptEncoder, target: 'size' }),
@@ -172,9 +183,6 @@ export const CODECS = {
 export const CODEC_NAMES = Object.keys(CODECS);
 /** Those that CesiumJS loads. */
 export const LOADED_NAMES = ['Draco 7', 'meshopt'];
-
-/** Extensions of a GLB that glTF-Transform does not keep. */
-export const unknownExtensions = (json) => (json.extensionsUsed ?? []).filter((name) => !KNOWN.has(name));
 
 /**
  * Returns a GLB whose ids are integers of 16 bits where they are floats with such values: Draco and meshoptimizer code these smaller,

@@ -5,6 +5,7 @@
 import { Accessor } from '@gltf-transform/core';
 import { unpackGlb } from '../../../../lib/web/unpack.mjs';
 import { readDocument, writeDocument } from './codecs.mjs';
+import { product } from './tileset.mjs';
 
 const NUMBER = '_VERTEX_NUMBER';
 
@@ -31,10 +32,35 @@ export async function placedPrimitives(glb) {
   const placed = [];
   for (const scene of document.getRoot().listScenes()) {
     scene.traverse((node) => {
-      for (const primitive of node.getMesh()?.listPrimitives() ?? []) placed.push(placedPrimitive(primitive, node.getWorldMatrix()));
+      for (const primitive of node.getMesh()?.listPrimitives() ?? []) {
+        for (const matrix of matricesOf(node)) placed.push(placedPrimitive(primitive, matrix));
+      }
     });
   }
   return placed;
+}
+
+/** The matrices of a node's instances (EXT_mesh_gpu_instancing), or that of the node. */
+function matricesOf(node) {
+  const world = node.getWorldMatrix();
+  const instances = node.getExtension('EXT_mesh_gpu_instancing');
+  if (instances === null) return [world];
+  const [t, r, s] = ['TRANSLATION', 'ROTATION', 'SCALE'].map((name) => instances.getAttribute(name));
+  return Array.from({ length: (t ?? r ?? s).getCount() }, (_, i) => product(world, composed(
+    t?.getElement(i, []) ?? [0, 0, 0],
+    r?.getElement(i, []) ?? [0, 0, 0, 1],
+    s?.getElement(i, []) ?? [1, 1, 1],
+  )));
+}
+
+/** The matrix of a translation, a rotation and a scale. */
+function composed(t, [x, y, z, w], s) {
+  const axes = [
+    [1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)],
+    [2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)],
+    [2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)],
+  ];
+  return [...axes.flatMap((axis, i) => [...axis.map((value) => value * s[i]), 0]), ...t, 1];
 }
 
 function placedPrimitive(primitive, m) {

@@ -7,7 +7,7 @@ import path from 'node:path';
 import { promisify } from 'node:util';
 import { brotliCompress, constants, gzip } from 'node:zlib';
 import { readGlb } from '../../../../lib/web/unpack.mjs';
-import { CODECS, CODEC_NAMES, unknownExtensions, withIntegerIds } from './codecs.mjs';
+import { CODECS, CODEC_NAMES, Unsupported, withIntegerIds } from './codecs.mjs';
 import { changeModels, modelsOf } from './contents.mjs';
 import { errorOf, numbered, placedPrimitives } from './errors.mjs';
 import { contentsOf, filesIn } from './tileset.mjs';
@@ -81,13 +81,24 @@ class Meter {
     return this.#measure(async () => compressed.shift());
   }
 
+  /** Whether a codec can encode the tile. */
+  async canEncode(codec) {
+    try {
+      await this.error(codec, DEFAULT_BITS);
+      return true;
+    } catch (error) {
+      if (!(error instanceof Unsupported)) throw error;
+      return false;
+    }
+  }
+
   /** The least number of bits with which no vertex is farther from its source than was promised. */
   async leastBits(codec) {
     const { promise } = this.tile;
     if (!(promise > 0)) return DEFAULT_BITS;
     const { leastBits } = CODECS[codec];
-    const first = await this.error(codec, 12);
-    let bits = Math.min(MOST_BITS, Math.max(leastBits, 12 + Math.ceil(Math.log2(Math.max(first, 1e-12) / promise))));
+    const first = await this.error(codec, DEFAULT_BITS);
+    let bits = Math.min(MOST_BITS, Math.max(leastBits, DEFAULT_BITS + Math.ceil(Math.log2(Math.max(first, 1e-12) / promise))));
     while (bits < MOST_BITS && await this.error(codec, bits) > promise) ++bits;
     while (bits > leastBits && await this.error(codec, bits - 1) <= promise) --bits;
     return bits;
@@ -164,7 +175,7 @@ export async function makeAll(program, tileset, work, say) {
     Object.assign(figures, await sizesOf(path.join(work, row), names));
   }
   for (const folder of ['numbered', 'numbered out']) rmSync(path.join(work, folder), { recursive: true });
-  return { tiles: tiles.length, fixed, levels: levelsOf(tiles), rows, seconds, unknown: await unknownIn(tiles) };
+  return { tiles: tiles.length, fixed, levels: levelsOf(tiles), rows, seconds };
 }
 
 const newRow = () => ({ bits: [], errors: {}, shares: {}, unchanged: [] });
@@ -176,15 +187,8 @@ function levelsOf(tiles) {
     ++levels[level].tiles;
     if (promise > 0) levels[level].promise = Math.min(levels[level].promise, promise);
   }
-  return levels.map((level) => level ?? { tiles: 0, promise: 0 });
-}
-
-async function unknownIn(tiles) {
-  const names = new Set();
-  for (const { bytes } of tiles) {
-    for (const { glb } of await modelsOf(bytes)) unknownExtensions(readGlb(new Uint8Array(glb)).json).forEach((name) => names.add(name));
-  }
-  return [...names].sort();
+  // JSON has no infinity; 0 is that there is no promise.
+  return Array.from(levels, ({ tiles: number, promise } = { tiles: 0, promise: 0 }) => ({ tiles: number, promise: Number.isFinite(promise) ? promise : 0 }));
 }
 
 const FAMILIES = [...new Set(Object.values(CODECS).map(({ errorsOf }) => errorsOf))];
@@ -206,6 +210,7 @@ async function measureTiles(tiles, work, rows) {
     note(rows[OURS], tile, await meter.errorOfFile(readFileSync(path.join(work, 'numbered out', tile.name))));
     if (tile.bits !== undefined) rows[OURS].bits.push(tile.bits);
     for (const codec of FAMILIES) {
+      if (!await meter.canEncode(codec)) continue;
       const bits = await meter.leastBits(codec);
       least[codec][tile.name] = bits;
       noteAll(rows, codec, true, tile, await meter.error(codec, bits), bits);
@@ -215,7 +220,9 @@ async function measureTiles(tiles, work, rows) {
   for (const tile of tiles) {
     const meter = await Meter.of(tile);
     if (!meter.isModel) continue;
-    for (const codec of FAMILIES) noteAll(rows, codec, false, tile, await meter.error(codec, fixed[codec]), fixed[codec]);
+    for (const codec of FAMILIES) {
+      if (least[codec][tile.name] !== undefined) noteAll(rows, codec, false, tile, await meter.error(codec, fixed[codec]), fixed[codec]);
+    }
   }
   return least;
 }
@@ -240,9 +247,10 @@ async function writeRows(tileset, tiles, work, rows, least, fixed) {
       const begin = performance.now();
       for (const { name } of tiles) {
         const bytes = readFileSync(path.join(path.dirname(tileset), name));
-        const bits = isEach ? least[errorsOf][name] : fixed[errorsOf];
-        const made = await changeModels(bytes, (glb) => make(isEach ? withIntegerIds(glb) : glb, bits)).catch(({ message }) => {
-          rows[row].unchanged.push(`${name}: ${message}`);
+        const bits = isEach ? least[errorsOf][name] ?? DEFAULT_BITS : fixed[errorsOf];
+        const made = await changeModels(bytes, (glb) => make(isEach ? withIntegerIds(glb) : glb, bits)).catch((error) => {
+          if (!(error instanceof Unsupported)) throw error;
+          rows[row].unchanged.push(`${name}: ${error.message}`);
           return bytes;
         });
         const place = path.join(work, row, name);

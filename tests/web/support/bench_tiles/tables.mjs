@@ -44,7 +44,7 @@ function errorsTable(figures) {
   const levels = Array.from({ length: depth }, (_, i) => i);
   return table(['largest error, m (of what its tile was promised)'], levels.map((level) => `level ${level}`), eachTileset(figures, 'bytes', (name, { rows, levels: promised }) => [
     [`${name}: tiles`, ...levels.map((level) => (promised[level] === undefined ? '' : count(promised[level].tiles)))],
-    [`${name}: least promise`, ...levels.map((level) => meters(promised[level]?.promise ?? undefined))],
+    [`${name}: least promise`, ...levels.map((level) => meters(promised[level]?.promise || undefined))],
     ...Object.entries(rows).filter(([row]) => row !== SOURCE && !/ 10,| v1,/.test(row)).map(([row, { errors, shares }]) => [
       `${name}: ${row.replace('Draco 7,', 'Draco,')}`,
       ...levels.map((level) => meters(errors[level]) + (shares[level] === undefined ? '' : ` (${Math.round(100 * shares[level])} %)`)),
