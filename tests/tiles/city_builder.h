@@ -76,10 +76,10 @@ struct City {
         houses.push_back(house);
         faces.push_back(6 * house + face);
       }
-      for (const uint16_t corner : {0, 1, 2, 0, 2, 3}) {
+      for (const int corner : {0, 1, 2, 0, 2, 3}) {
         indices.push_back(static_cast<uint16_t>(first + corner));
       }
-      for (const uint16_t corner : {0, 1, 1, 2, 2, 3, 3, 0}) {
+      for (const int corner : {0, 1, 1, 2, 2, 3, 3, 0}) {
         edges.push_back(static_cast<uint16_t>(first + corner));
       }
     }
@@ -112,13 +112,17 @@ struct ConvertedModel {
 inline ConvertedModel convertAsTile(const Bytes& source) {
   ConvertedModel model;
   model.source = source;
-  tiles::Accuracy accuracy;
-  accuracy.promised_error = kPromisedError;
-  accuracy.step = tiles::stepFor(kPromisedError);
+  const auto choose = [](std::span<const uint8_t>, const tiles::TileModel&,
+                         tiles::Accuracy& accuracy) {
+    accuracy.promised_error = kPromisedError;
+    accuracy.lattice.step = static_cast<float>(tiles::stepFor(kPromisedError));
+    return gltf::Result();
+  };
+  std::vector<std::string> notes;
   gltf::ConvertOptions options;
   options.decoders = foreign::foreignDecoders();
   gltf::Result result =
-      tiles::convertTile(source, {accuracy}, options, model.converted, model.figures);
+      tiles::convertTile(source, choose, options, model.converted, model.figures, notes);
   EXPECT_TRUE(result.ok()) << result.message();
   EXPECT_FALSE(model.converted.empty()) << "the tile does not become smaller";
   if (model.converted.empty()) return model;

@@ -14,12 +14,15 @@ namespace {
 bool convertAny(const Bytes& file) {
   tiles::TileFile tile;
   if (!tile.read(file).ok()) return false;
-  std::vector<tiles::Accuracy> accuracies(tile.models().size());
   Bytes output;
   tiles::TileFigures figures;
+  std::vector<std::string> notes;
   gltf::ConvertOptions options;
   options.prefer = Preference::kSpeed;
-  if (!tiles::convertTile(file, accuracies, options, output, figures).ok()) return false;
+  const auto choose = [](std::span<const uint8_t>, const tiles::TileModel&, tiles::Accuracy&) {
+    return gltf::Result();
+  };
+  if (!tiles::convertTile(file, choose, options, output, figures, notes).ok()) return false;
   if (output.empty()) return true;
   tiles::TileFile again;
   const gltf::Result read = again.read(output);

@@ -1,136 +1,21 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // `gltf-mcc tiles` as a user sees it.
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <map>
 #include <thread>
 
-#include "cli/run_tool.h"
-#include "gltf/scene_positions.h"
-#include "tiles/tile_file.h"
-#include "tiles/tileset_builder.h"
+#include "tiles/tiles_fixture.h"
 
 namespace mcc::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Position = std::array<float, 3>;
-using Files = std::map<std::string, std::string>;
 
-constexpr char kRecord[] = ".gltf-mcc-tiles.jsonl";
-
-Bytes bytesOf(const fs::path& path) {
-  const std::string content = contentOf(path);
-  return {content.begin(), content.end()};
-}
-
-/// Returns the models of a tile as they are stored.
-std::vector<Bytes> modelsOf(const Bytes& file) {
-  tiles::TileFile tile;
-  const gltf::Result read = tile.read(file);
-  EXPECT_TRUE(read.ok()) << read.message();
-  std::vector<Bytes> models;
-  for (const tiles::TileModel& model : tile.models()) {
-    models.emplace_back(file.begin() + static_cast<ptrdiff_t>(model.begin),
-                        file.begin() + static_cast<ptrdiff_t>(model.end));
-  }
-  return models;
-}
-
-std::vector<Position> positionsOf(const Bytes& model) {
-  Bytes decoded;
-  gltf::DecodeReport report;
-  gltf::Result result = gltf::decodeGlb(model, decoded, report);
-  EXPECT_TRUE(result.ok()) << result.message();
-  gltf::Document document;
-  result = gltf::loadDocument(decoded, nullptr, document);
-  EXPECT_TRUE(result.ok()) << result.message();
-  if (!result.ok()) return {};
-  const auto accessor =
-      document.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<uint32_t>();
-  const std::vector<double> numbers = gltf::test::SceneReader::numbers(document, accessor);
-  std::vector<Position> positions;
-  for (size_t i = 0; i + 2 < numbers.size(); i += 3) {
-    positions.push_back({static_cast<float>(numbers[i]), static_cast<float>(numbers[i + 1]),
-                         static_cast<float>(numbers[i + 2])});
-  }
-  return positions;
-}
-
-double distanceOf(const Position& a, const Position& b) {
-  double sum = 0;
-  for (size_t c = 0; c < 3; ++c) sum += (double{a[c]} - b[c]) * (double{a[c]} - b[c]);
-  return std::sqrt(sum);
-}
-
-const Position& nearest(const Position& to, const std::vector<Position>& positions) {
-  size_t best = 0;
-  for (size_t i = 1; i < positions.size(); ++i) {
-    if (distanceOf(to, positions[i]) < distanceOf(to, positions[best])) best = i;
-  }
-  return positions[best];
-}
-
-class Tiles : public testing::Test {
- protected:
-  void SetUp() override {
-#ifndef MCC_TOOL_GLTF_MCC
-    GTEST_SKIP() << "the tool is not part of this build";
-#endif
-    storeTerrain(path("in"));
-  }
-
-  fs::path path(const std::string& name) const { return folder_.path() / name; }
-  ToolResult run(const std::string& arguments) const { return runTool(folder_, arguments); }
-
-  /// Returns the files of a folder and below with their contents, without our record.
-  Files filesOf(const std::string& name) const {
-    Files files;
-    for (const auto& entry : fs::recursive_directory_iterator(path(name))) {
-      if (entry.is_directory() || entry.path().filename() == kRecord) continue;
-      files[entry.path().lexically_relative(path(name)).generic_string()] = contentOf(entry.path());
-    }
-    return files;
-  }
-
-  /// Starts the tool without waiting for it.
-  pid_t start(const std::vector<std::string>& arguments) const {
-    const pid_t child = fork();
-    if (child != 0) return child;
-    const int nowhere = open("/dev/null", O_RDWR);
-    for (const int stream : {0, 1, 2}) dup2(nowhere, stream);
-    becomeTool(folder_, arguments);
-  }
-
-  /// Compares the positions of the models of one file with their sources.
-  void expectWithin(const std::string& name, const std::vector<double>& promised_errors) const {
-    const std::vector<Bytes> sources = modelsOf(bytesOf(path("in") / name));
-    const std::vector<Bytes> models = modelsOf(bytesOf(path("out") / name));
-    ASSERT_EQ(models.size(), sources.size()) << name;
-    ASSERT_EQ(models.size(), promised_errors.size()) << name;
-    for (size_t m = 0; m < models.size(); ++m) {
-      EXPECT_LT(models[m].size(), sources[m].size() / 2) << name;
-      const std::vector<Position> decoded = positionsOf(models[m]);
-      const std::vector<Position> source = positionsOf(sources[m]);
-      ASSERT_EQ(decoded.size(), source.size()) << name;
-      double largest = 0;
-      for (const Position& position : source) {
-        largest = std::max(largest, distanceOf(position, nearest(position, decoded)));
-      }
-      EXPECT_LE(largest, promised_errors[m]) << name;
-      // Much less would mean that the promise was not used.
-      EXPECT_GT(largest, promised_errors[m] / 8) << name;
-    }
-  }
-
-  ScratchFolder folder_;
-};
+class Tiles : public TilesTest {};
 
 TEST_F(Tiles, EveryModelIsWithinThePromisedError) {
   const Files before = filesOf("in");
@@ -138,13 +23,13 @@ TEST_F(Tiles, EveryModelIsWithinThePromisedError) {
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_TRUE(filesOf("in") == before);
-  expectWithin("0/root.glb", {4});
-  expectWithin("1/0-0.b3dm", {1});
-  expectWithin("1/1-1.b3dm", {1});
-  expectWithin("2/leaf 3-0.glb", {0.5});
-  expectWithin("2/leaf 3-3.glb", {0.5});
-  expectWithin("2/leaf 0-0.cmpt", {0.5, 0.5 / 0.01});  // the instances are smaller by 100
-  expectWithin("2/leaf 1-0.i3dm", {0.5 / 4});          // and larger by 4
+  expectWithin("in", "0/root.glb", {4});
+  expectWithin("in", "1/0-0.b3dm", {1});
+  expectWithin("in", "1/1-1.b3dm", {1});
+  expectWithin("in", "2/leaf 3-0.glb", {0.5});
+  expectWithin("in", "2/leaf 3-3.glb", {0.5});
+  expectWithin("in", "2/leaf 0-0.cmpt", {0.5, 0.5 / 0.01});  // the instances are smaller by 100
+  expectWithin("in", "2/leaf 1-0.i3dm", {0.5 / 4});          // and larger by 4
   const Json report = Json::parse(contentOf(path("report.json")));
   EXPECT_EQ(report["levels"].size(), 4u);
   EXPECT_EQ(report["levels"][0]["tiles"], 1);
@@ -198,23 +83,10 @@ TEST_F(Tiles, TablesAreKept) {
 /// Positions that two tiles of a level have in common decode to equal bits.
 TEST_F(Tiles, BordersStayClosed) {
   ASSERT_EQ(run("tiles in/tileset.json out").status, 0);
-  std::map<Position, Position> seen[2];
-  size_t shared_count = 0;
-  const auto add = [&](const std::string& name, std::map<Position, Position>& known) {
-    const std::vector<Position> source = positionsOf(modelsOf(bytesOf(path("in") / name))[0]);
-    const std::vector<Position> decoded = positionsOf(modelsOf(bytesOf(path("out") / name))[0]);
-    for (const Position& position : source) {
-      const auto [found, is_new] = known.try_emplace(position, nearest(position, decoded));
-      if (is_new) continue;
-      ++shared_count;
-      EXPECT_EQ(found->second, nearest(position, decoded)) << name;
-    }
-  };
-  for (const char* name : {"1/0-0.b3dm", "1/1-0.b3dm", "1/0-1.b3dm"}) add(name, seen[0]);
-  for (const char* name : {"2/leaf 0-0.cmpt", "2/leaf 1-0.glb", "2/leaf 0-1.glb", "2/leaf 1-1.glb",
-                           "2/leaf 3-0.glb", "2/leaf 3-1.glb", "2/leaf 2-1.glb"}) {
-    add(name, seen[1]);
-  }
+  size_t shared_count = expectClosedBorders("in", {"1/0-0.b3dm", "1/1-0.b3dm", "1/0-1.b3dm"});
+  shared_count += expectClosedBorders(
+      "in", {"2/leaf 0-0.cmpt", "2/leaf 1-0.glb", "2/leaf 0-1.glb", "2/leaf 1-1.glb",
+             "2/leaf 3-0.glb", "2/leaf 3-1.glb", "2/leaf 2-1.glb"});
   EXPECT_GT(shared_count, 200u);
 }
 
@@ -301,7 +173,7 @@ TEST_F(Tiles, OneBadTileDoesNotStopTheOthers) {
   }
   EXPECT_EQ(contentOf(path("out/1/0-0.b3dm")), "b3dm is all there is");
   EXPECT_EQ(contentOf(path("out/2/leaf 3-3.glb")), contentOf(path("in/2/leaf 3-3.glb")));
-  expectWithin("1/1-0.b3dm", {1});
+  expectWithin("in", "1/1-0.b3dm", {1});
   EXPECT_EQ(run("tiles in/tileset.json out").status, 1);  // it stays bad
 }
 
@@ -329,7 +201,8 @@ TEST_F(Tiles, WrongUse) {
   EXPECT_FALSE(fs::exists(path("out")));
 }
 
-/// A tile's transform scales the promised error, and tiles with different transforms share no grid.
+/// A tile's transform scales the promised error, and tiles that are turned or scaled differently
+/// share no grid.
 TEST_F(Tiles, TransformsCount) {
   Json root = makeTile(64, "");
   for (const char* name : {"1/0-0.b3dm", "1/1-0.b3dm", "2/leaf 3-3.glb"}) {
@@ -341,12 +214,12 @@ TEST_F(Tiles, TransformsCount) {
   storeText(path("in/placed.json"), makeTileset(root, 100).dump());
   const ToolResult result = run("tiles in/placed.json out");
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.out.find("note: the tiles of level 1 have 3 different transforms"),
+  EXPECT_NE(result.out.find("note: the tiles of level 1 have transforms of 2 kinds"),
             std::string::npos)
       << result.out;
-  expectWithin("1/0-0.b3dm", {1.0 / 4});
-  expectWithin("1/1-0.b3dm", {1.0 / 4});
-  expectWithin("2/leaf 3-3.glb", {1.0 / 2});
+  expectWithin("in", "1/0-0.b3dm", {1.0 / 4});
+  expectWithin("in", "1/1-0.b3dm", {1.0 / 4});
+  expectWithin("in", "2/leaf 3-3.glb", {1.0 / 2});
 }
 
 /// A grid of more than 24 bits is not possible, and the tiles are told apart.
@@ -365,16 +238,6 @@ TEST_F(Tiles, BitsReplaceTheErrorShare) {
   EXPECT_EQ(run("tiles in/tileset.json out --quantize-position 11 --error-share 0.1").status, 2);
 }
 
-TEST_F(Tiles, ImplicitTilesAreCopiedAndNoted) {
-  Json root = makeTile(64, "1/{x}-{y}.b3dm");
-  root["implicitTiling"] = {{"subdivisionScheme", "QUADTREE"}};
-  storeText(path("in/implicit.json"), makeTileset(root, 100).dump());
-  const ToolResult result = run("tiles in/implicit.json out");
-  ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.out.find("note: 1 tile with implicit tiling"), std::string::npos) << result.out;
-  EXPECT_TRUE(filesOf("out") == filesOf("in"));
-}
-
 TEST_F(Tiles, DeepTreesAreRead) {
   std::string text = "{\"asset\":{\"version\":\"1.0\"},\"geometricError\":9,\"root\":";
   constexpr int kDepth = 20000;
@@ -385,7 +248,7 @@ TEST_F(Tiles, DeepTreesAreRead) {
   const ToolResult result = run("tiles in/deep.json out -q --report report.json");
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(Json::parse(contentOf(path("report.json")))["levels"].size(), kDepth + 1);
-  expectWithin("0/root.glb", {0.25});
+  expectWithin("in", "0/root.glb", {0.25});
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include <charconv>
 #include <memory>
 
 #include "commands.h"
@@ -11,6 +12,20 @@
 #endif
 
 namespace mcc::tool {
+namespace {
+
+/// Reads "3/8". Returns false for anything else.
+bool readPart(const std::string& text, tiles::Part& part) {
+  const char* const end = text.data() + text.size();
+  const auto [slash, bad_number] = std::from_chars(text.data(), end, part.number);
+  if (bad_number != std::errc() || slash == end || *slash != '/') return false;
+  const auto [rest, bad_count] = std::from_chars(slash + 1, end, part.count);
+  constexpr uint32_t kMostParts = 1000000;
+  return bad_count == std::errc() && rest == end && part.number >= 1 && part.number <= part.count &&
+         part.count <= kMostParts;
+}
+
+}  // namespace
 
 void addTiles(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("tiles", "Compress the tiles of a 3D Tiles tileset");
@@ -36,6 +51,15 @@ void addTiles(CLI::App& app, int& status) {
   command->add_option("-j,--jobs", state->job_count, "Tiles at the same time [1]")
       ->check(CLI::Range(1, 1024).description(""))
       ->type_name("N");
+  command
+      ->add_option("--part", state->part_text,
+                   "Make only the K-th of N parts; the parts of several machines make a whole")
+      ->type_name("K/N");
+  command->add_flag("--to-glb", state->makes_glb,
+                    "Make a .glb of 3D Tiles 1.1 of each .b3dm, and rename it in the tilesets");
+  command->add_option("--max-tiles", state->max_tiles, "Refuse tilesets with more tiles [16777216]")
+      ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 40).description(""))
+      ->type_name("N");
   command->add_flag("--force", state->is_forced, "Also convert what is up to date");
   addDecodedLimitOption(*command, state->convert.max_decoded_bytes);
   addVerbosityOptions(*command, state->common);
@@ -45,7 +69,7 @@ void addTiles(CLI::App& app, int& status) {
       "Writes the whole folder of the tileset to OUT: glTF, b3dm, i3dm and cmpt that its tiles "
       "show\n"
       "are compressed, also those of external tilesets; every other file is copied. URIs stay the\n"
-      "same. Tiles of implicit tilings are only copied yet.\n"
+      "same, unless --to-glb is given.\n"
       "The accuracy of positions follows from the tile's geometric error. A tile without one, as\n"
       "leaves are, takes half of its nearest ancestor's. Tiles of one level with the same "
       "transform\n"
@@ -56,10 +80,14 @@ void addTiles(CLI::App& app, int& status) {
       "alone.",
       "tiles city/tileset.json small-city\n"
       "tiles -j 8 terrain/tileset.json out --error-share 0.01 --report sizes.json\n"
-      "tiles city/tileset.json small-city --quantize-position 12");
+      "tiles city/tileset.json small-city --quantize-position 12\n"
+      "tiles city/tileset.json small-city --part 3/8");
   command->callback([state, bits, &status]() {
     if (isStandardStream(state->report)) {
       throw CLI::ValidationError("--report", "takes the name of a file; --format json prints it");
+    }
+    if (!state->part_text.empty() && !readPart(state->part_text, state->part)) {
+      throw CLI::ValidationError("--part", "takes K/N, as in 3/8, with K from 1 to N");
     }
     state->has_fixed_bits = bits->count() != 0;
     status = runTiles(*state);

@@ -26,18 +26,7 @@ struct LevelSum {
     ++file_count;
     input_bytes += file.input_bytes;
     output_bytes += file.output_bytes;
-    const tiles::TileFigures& of_file = file.figures;
-    if (of_file.has_positions) {
-      figures.bits_low =
-          figures.has_positions ? std::min(figures.bits_low, of_file.bits_low) : of_file.bits_low;
-      figures.bits_high = std::max(figures.bits_high, of_file.bits_high);
-      figures.has_positions = true;
-    }
-    const double promised = of_file.promised_error;
-    if (promised != 0 && (figures.promised_error == 0 || promised < figures.promised_error)) {
-      figures.promised_error = promised;
-    }
-    figures.measured_error = std::max(figures.measured_error, of_file.measured_error);
+    figures.add(file.figures);
   }
 };
 
@@ -49,19 +38,18 @@ struct Sums {
 
 Sums sumsOf(const TilesRunResult& result) {
   Sums sums;
-  const std::vector<uint64_t>& tile_counts = result.tileset.level_tiles;
+  const std::vector<uint64_t>& tile_counts = result.walk.levelTiles();
   sums.levels.resize(tile_counts.size());
   for (size_t i = 0; i < tile_counts.size(); ++i) {
     sums.levels[i].tile_count = tile_counts[i];
     sums.all.tile_count += tile_counts[i];
   }
-  for (const TilesFile& file : result.files) {
+  for (uint32_t i = 0; i < result.files.size(); ++i) {
+    const TilesFile& file = result.files[i];
+    if (file.outcome == TilesOutcome::kNotMade) continue;
     sums.all.add(file);
-    if (file.content == kNone) {
-      sums.others.add(file);
-    } else {
-      sums.levels[result.tileset.contents[file.content].uses[0].level].add(file);
-    }
+    const tiles::TileDemand* demand = result.walk.demandOf(i);
+    (demand == nullptr ? sums.others : sums.levels[demand->level]).add(file);
   }
   return sums;
 }
@@ -92,22 +80,12 @@ std::vector<std::string> cellsOf(const std::string& name, const LevelSum& sum, F
 
 /// Returns the notes of all files, each text once with the number of files that it is about.
 std::vector<std::string> notesOf(const TilesRunResult& result) {
-  struct Files {
-    std::string first;
-    uint64_t count = 0;
-  };
-  std::map<std::string, Files> by_text;
-  for (const TilesFile& file : result.files) {
-    for (const std::string& note : file.figures.notes) {
-      Files& files = by_text[note];
-      if (files.count++ == 0) files.first = file.path;
-    }
-  }
   std::vector<std::string> notes = result.notes;
-  for (const auto& [text, files] : by_text) {
-    notes.push_back(files.count == 1 ? files.first + ": " + text
-                                     : fmt::format("{} and {} more: {}", files.first,
-                                                   grouped(files.count - 1), text));
+  for (const auto& [text, files] : result.file_notes) {
+    const std::string first(result.table.name(*std::min_element(files.begin(), files.end())));
+    notes.push_back(files.size() == 1 ? first + ": " + text
+                                      : fmt::format("{} and {} more: {}", first,
+                                                    grouped(files.size() - 1), text));
   }
   return notes;
 }
@@ -131,19 +109,49 @@ Json sumJson(const LevelSum& sum) {
   return json;
 }
 
-Json fileJson(const TilesRunResult& result, const TilesFile& file) {
+Json fileJson(const TilesRunResult& result, uint32_t number) {
   static constexpr const char* kOutcomes[] = {"converted", "copied", "failed"};
-  Json json = {{"file", file.path}, {"outcome", kOutcomes[static_cast<size_t>(file.outcome)]}};
+  const TilesFile& file = result.files[number];
+  Json json = {{"file", result.table.name(number)},
+               {"outcome", kOutcomes[static_cast<size_t>(file.outcome)]}};
   json["up_to_date"] = file.is_up_to_date;
-  if (file.content != kNone) {
-    json["level"] = result.tileset.contents[file.content].uses[0].level;
+  if (const tiles::TileDemand* demand = result.walk.demandOf(number)) {
+    json["level"] = demand->level;
   }
   json["input_bytes"] = file.input_bytes;
   json["output_bytes"] = file.output_bytes;
   json.update(figuresJson(file.figures));
-  if (!file.figures.notes.empty()) json["notes"] = file.figures.notes;
-  if (!file.failure.ok()) json["message"] = gltf::printable(file.failure.message());
+  const auto failure = result.failures.find(number);
+  if (failure != result.failures.end()) {
+    json["message"] = gltf::printable(failure->second.message());
+  }
   return json;
+}
+
+/// Prints JSON in one line; names of files may be any bytes.
+std::string lineOf(const Json& json) {
+  return json.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+/// Returns a line of JSON for each file, with its notes.
+std::string fileLines(const TilesRunResult& result) {
+  std::vector<std::pair<uint32_t, const std::string*>> notes;
+  for (const auto& [text, files] : result.file_notes) {
+    for (const uint32_t file : files) notes.emplace_back(file, &text);
+  }
+  std::stable_sort(notes.begin(), notes.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::string lines;
+  size_t next = 0;
+  for (uint32_t i = 0; i < result.files.size(); ++i) {
+    if (result.files[i].outcome == TilesOutcome::kNotMade) continue;
+    Json json = fileJson(result, i);
+    for (; next < notes.size() && notes[next].first <= i; ++next) {
+      if (notes[next].first == i) json["notes"].push_back(*notes[next].second);
+    }
+    lines += (lines.empty() ? "\n    " : ",\n    ") + lineOf(json);
+  }
+  return lines + "\n  ";
 }
 
 }  // namespace
@@ -176,7 +184,7 @@ std::string tilesReportText(const TilesRunResult& result, const CommonOptions& o
   return text;
 }
 
-Json tilesReportJson(const TilesRunResult& result) {
+std::string tilesReportJson(const TilesRunResult& result) {
   const Sums sums = sumsOf(result);
   Json levels = Json::array();
   for (size_t i = 0; i < sums.levels.size(); ++i) {
@@ -184,25 +192,27 @@ Json tilesReportJson(const TilesRunResult& result) {
     level.update(sumJson(sums.levels[i]));
     levels.push_back(std::move(level));
   }
-  Json files = Json::array();
-  for (const TilesFile& file : result.files) files.push_back(fileJson(result, file));
   Json failures = Json::array();
-  for (const gltf::Result& failure : result.tileset.failures) {
+  for (const gltf::Result& failure : result.walk.failures()) {
     failures.push_back(gltf::printable(failure.message()));
   }
   Json all = sumJson(sums.all);
   all.erase("promised_error");  // they are those of different levels
   all.erase("largest_error");
-  return {{"tool", std::string("gltf-mcc ") + MCC_VERSION},
-          {"input", result.input},
-          {"output", result.output},
-          {"options", result.settings},
-          {"levels", std::move(levels)},
-          {"other_files", sumJson(sums.others)},
-          {"all", std::move(all)},
-          {"files", std::move(files)},
-          {"failures", std::move(failures)},
-          {"notes", result.notes}};
+  const Json json = {{"tool", std::string("gltf-mcc ") + MCC_VERSION},
+                     {"input", result.input},
+                     {"output", result.output},
+                     {"part", result.part},
+                     {"options", result.settings},
+                     {"levels", std::move(levels)},
+                     {"other_files", sumJson(sums.others)},
+                     {"all", std::move(all)},
+                     {"failures", std::move(failures)},
+                     {"notes", result.notes}};
+  // The list of the files, which may be millions, is never a tree of JSON.
+  std::string text = printReport(json);
+  const size_t end = text.rfind("\n}");
+  return text.substr(0, end) + ",\n  \"files\": [" + fileLines(result) + "]\n}\n";
 }
 
 }  // namespace mcc::tool

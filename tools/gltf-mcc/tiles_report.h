@@ -2,44 +2,50 @@
 #ifndef MCC_TOOL_TILES_REPORT_H_
 #define MCC_TOOL_TILES_REPORT_H_
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "commands.h"
 #include "tiles/convert_tile.h"
-#include "tiles/tileset.h"
+#include "tiles/file_table.h"
+#include "tiles/tileset_walk.h"
 
 namespace mcc::tool {
 
-enum class TilesOutcome : uint8_t { kConverted, kCopied, kRefused };
+enum class TilesOutcome : uint8_t { kConverted, kCopied, kRefused, kNotMade };
 
-/// A file of a tileset and what became of it.
+/// What became of a file of the tileset.
 struct TilesFile {
-  std::string path;          ///< relative to both folders, with '/'
-  uint64_t size = 0;         ///< of the source
-  uint32_t content = kNone;  ///< index into Tileset::contents; kNone: no tile shows it
-  TilesOutcome outcome = TilesOutcome::kRefused;
-  bool is_up_to_date = false;  ///< an earlier run made it
-  gltf::Result failure;        ///< of a file that was copied although it should be compressed, too
   uint64_t input_bytes = 0;
   uint64_t output_bytes = 0;
   tiles::TileFigures figures;
+  TilesOutcome outcome = TilesOutcome::kNotMade;  ///< another part makes it, or it is a buffer
+  bool is_up_to_date = false;                     ///< an earlier run made it
 };
 
-/// Everything there is to report about a run.
+/// Everything there is to report about a run. There may be millions of files, so what few of them
+/// have is not a member of each.
 struct TilesRunResult {
   std::string input;
   std::string output;
+  std::string part;  ///< "whole" or "3-of-8"
   nlohmann::ordered_json settings;
-  tiles::Tileset tileset;
-  std::vector<TilesFile> files;
-  std::vector<std::string> notes;  ///< about the whole
+  tiles::FileTable table;
+  tiles::TilesetWalk walk;
+  std::vector<TilesFile> files;  ///< as in the table
+  /// Files that were copied although they should be compressed, too, and those that were not made.
+  std::map<uint32_t, gltf::Result> failures;
+  std::map<std::string, std::vector<uint32_t>> file_notes;  ///< by their text
+  std::vector<std::string> notes;                           ///< about the whole
 };
 
 /// Returns one row for each level, the totals, and the notes.
 std::string tilesReportText(const TilesRunResult& result, const CommonOptions& options);
-nlohmann::ordered_json tilesReportJson(const TilesRunResult& result);
+
+/// Returns the report as indented JSON, with a line for each file.
+std::string tilesReportJson(const TilesRunResult& result);
 
 }  // namespace mcc::tool
 

@@ -7,7 +7,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <numeric>
 
 #include "convert_report.h"
 #include "gltf/api/convert.h"
@@ -24,6 +23,8 @@
 #include "tiles/convert_tile.h"
 #include "tiles/record.h"
 #include "tiles/tile_file.h"
+#include "tiles/to_glb.h"
+#include "tiles/upgrade.h"
 #include "tiles_report.h"
 
 namespace mcc::tool {
@@ -31,18 +32,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using gltf::Result;
+using tiles::genericText;
+using tiles::isInside;
 using Json = nlohmann::ordered_json;
-
-std::string genericText(const fs::path& path) {
-  const std::u8string text = path.generic_u8string();
-  return {text.begin(), text.end()};
-}
-
-/// Whether a path is a folder or lies in it. Both are absolute and without links.
-bool isInside(const fs::path& path, const fs::path& folder) {
-  const fs::path relative = path.lexically_relative(folder);
-  return !relative.empty() && *relative.begin() != "..";
-}
 
 class TilesRun {
  public:
@@ -52,56 +44,66 @@ class TilesRun {
   int run();
 
  private:
-  /// What the survey found out about a content, apart from the placements.
-  struct Side {
-    std::vector<std::string> buffers;  ///< files of its buffers, relative to the folder
-    bool is_gltf = false;              ///< JSON, with its buffers in other files
-    Result failure;
+  /// What becomes of a file.
+  enum class Role : uint8_t {
+    kNone,  ///< nothing: another part has it, or its place belongs to somebody else
+    kCopy,
+    kTileset,  ///< a copy in which names of contents change
+    kModel,
+    kGltf,  ///< a model whose buffers are other files
   };
 
+  /// The buffers of a .gltf that is compressed, relative to the folder.
+  using Buffers = std::vector<std::string>;
+
   Result openFolders();
-  Result listFiles();
-  Result addFile(const fs::directory_entry& entry);
-  void surveyAll();
-  Result surveyOne(const TilesFile& file);
-  void settleBuffers();
+  Result walk();
+  void addLevelNotes();
+  void assignRoles();
+  void assignGltf();
+  Result checkNewNames() const;
   Result claimOutputs();
-  void chooseAll();
   void makeAll();
-  void makeOne(TilesFile& file);
-  Result convertOne(TilesFile& file);
-  Result convertGltf(TilesFile& file);
-  Result copyOne(TilesFile& file, const std::string& name);
+  void makeOne(uint32_t file);
+  Result makeModel(uint32_t file);
+  Result makeGltf(uint32_t file);
+  Result makeTileset(uint32_t file);
+  Result copyOne(uint32_t file);
+  Result convertBytes(uint32_t file, std::vector<uint8_t> bytes, std::vector<uint8_t>& output,
+                      tiles::TileFigures& figures, std::vector<std::string>& notes) const;
+  Result chooseFor(uint32_t file, std::span<const uint8_t> glb, const tiles::TileModel& model,
+                   tiles::Accuracy& accuracy) const;
   Result store(const std::string& name, std::span<const uint8_t> bytes);
   Result makeFolderOf(const std::string& name) const;
-  bool takeUpToDate(TilesFile& file) const;
-  void keep(const TilesFile& file);
-  bool isModel(const TilesFile& file) const {
-    return file.content != kNone && !surveys_[file.content].placements.empty();
-  }
-  std::string makerOf(const TilesFile& file) const;
-  std::vector<std::string> inputsOf(const TilesFile& file) const;
-  std::vector<std::string> outputsOf(const TilesFile& file) const;
+  bool takeUpToDate(uint32_t file);
+  void keep(uint32_t file, const std::vector<std::string>& notes);
+  void addNotes(uint32_t file, const std::vector<std::string>& notes);
+  std::string makerOf(uint32_t file) const;
+  std::vector<std::string> inputsOf(uint32_t file) const;
+  std::vector<std::string> outputsOf(uint32_t file) const;
   void showProgress(const char* what);
-  void runAll(const std::vector<size_t>& order, const char* what,
-              const std::function<void(TilesFile&)>& job);
+  void runAll(const std::vector<uint32_t>& order, const char* what,
+              const std::function<void(uint32_t)>& job);
   int printResults();
 
-  fs::path in(const std::string& name) const { return input_ / gltf::pathOf(name); }
-  fs::path out(const std::string& name) const { return output_ / gltf::pathOf(name); }
+  std::string name(uint32_t file) const { return std::string(result_.table.name(file)); }
+  /// The name under which a file is stored.
+  std::string newName(uint32_t file) const;
+  bool isModel(uint32_t file) const {
+    return roles_[file] == Role::kModel || roles_[file] == Role::kGltf;
+  }
+  fs::path in(const std::string& of) const { return input_ / gltf::pathOf(of); }
+  fs::path out(const std::string& of) const { return output_ / gltf::pathOf(of); }
 
   const TilesOptions& options_;
   fs::path input_;
   fs::path output_;
   TilesRunResult result_;
-  std::vector<tiles::Survey> surveys_;  ///< by content, as the two below
-  std::vector<Side> sides_;
-  std::vector<std::vector<tiles::Accuracy>> accuracies_;
+  std::vector<Role> roles_;            ///< by file, as in the table
+  std::map<uint32_t, Buffers> gltfs_;  ///< of the files with the role kGltf
   std::unique_ptr<tiles::Record> record_;
-  std::map<std::string, size_t> file_numbers_;
-  std::vector<bool> is_claimed_;  ///< by file: false: its output is somebody else's
   ProgressLine line_;
-  std::mutex mutex_;  ///< guards record_, done_ and line_
+  std::mutex mutex_;  ///< guards result_.failures, result_.file_notes, done_ and line_
   size_t done_ = 0;
   size_t job_total_ = 0;
 };
@@ -139,150 +141,114 @@ Result TilesRun::openFolders() {
   return {};
 }
 
-Result TilesRun::addFile(const fs::directory_entry& entry) {
-  std::error_code code;
-  const std::string name = genericText(entry.path().lexically_relative(input_));
-  if (entry.is_directory(code) && !entry.is_symlink(code)) return {};
-  if (!entry.is_regular_file(code)) {
-    result_.notes.push_back(name + ": is neither a file nor a folder, and is left out");
-    return {};
-  }
-  if (entry.is_symlink(code)) {
-    const fs::path target = fs::canonical(entry.path(), code);
-    if (!isInside(target, fs::canonical(input_, code))) {
-      result_.notes.push_back(name + ": is a link to a file elsewhere, and is left out");
-      return {};
-    }
-  }
-  if (name == genericText(tiles::Record::pathIn({}))) return {};  // IN was the OUT of a run
-  TilesFile file;
-  file.path = name;
-  file.size = entry.file_size(code);
-  result_.files.push_back(std::move(file));
-  return {};
+/// Lists every file in the folder of the tileset, so that OUT is complete whatever names them, and
+/// finds out what the tiles ask of them.
+Result TilesRun::walk() {
+  const fs::path file = gltf::pathOf(options_.input);
+  MCC_GLTF_TRY(result_.table.read(input_, options_.part, tiles::Record::isName, result_.notes));
+  return result_.walk.run(input_, genericText(file.filename()), result_.table, options_.part,
+                          options_.max_tiles);
 }
 
-/// Lists every file in the folder of the tileset, so that OUT is complete whatever names them.
-Result TilesRun::listFiles() {
-  std::error_code code;
-  for (fs::recursive_directory_iterator it(input_, code), end; !code && it != end;
-       it.increment(code)) {
-    MCC_GLTF_TRY(addFile(*it));
+std::string TilesRun::newName(uint32_t file) const {
+  const tiles::TileDemand* demand = result_.walk.demandOf(file);
+  if (options_.makes_glb && demand != nullptr && demand->is_renamed) {
+    if (const auto renamed = tiles::glbNameOf(result_.table.name(file))) return *renamed;
   }
-  if (code) return {gltf::textOf(input_), "the folder cannot be read: " + code.message()};
-  std::vector<TilesFile>& files = result_.files;
-  std::sort(files.begin(), files.end(),
-            [](const TilesFile& a, const TilesFile& b) { return a.path < b.path; });
-  for (size_t i = 0; i < files.size(); ++i) file_numbers_[files[i].path] = i;
-  const auto& contents = result_.tileset.contents;
-  for (uint32_t c = 0; c < contents.size(); ++c) {
-    const auto found = file_numbers_.find(contents[c].path);
-    if (found != file_numbers_.end()) {
-      files[found->second].content = c;
-    } else {
-      result_.tileset.failures.push_back(
-          {contents[c].where, "names no file that is there: \"" + contents[c].path + "\""});
-    }
-  }
-  surveys_.resize(contents.size());
-  sides_.resize(contents.size());
-  return {};
+  return name(file);
 }
 
-/// Reads a content to find out where its models are. What is damaged is found out here.
-Result TilesRun::surveyOne(const TilesFile& file) {
-  std::vector<uint8_t> bytes;
-  MCC_GLTF_TRY(gltf::readFile(in(file.path), bytes));
-  tiles::Survey& survey = surveys_[file.content];
-  Side& side = sides_[file.content];
-  const tiles::TileKind kind = tiles::kindOf(bytes);
-  if (kind == tiles::TileKind::kOther) return {};
-  tiles::TileFile tile;
-  std::vector<tiles::TileModel> models;
-  if (kind == tiles::TileKind::kJson) {
-    side.is_gltf = gltf::pathOf(file.path).extension() == ".gltf";
-    if (!side.is_gltf) return {};
-    models.push_back({0, bytes.size()});
-  } else {
-    MCC_GLTF_TRY(tile.read(bytes));
-    models = tile.models();
+void TilesRun::assignRoles() {
+  const tiles::FileTable& table = result_.table;
+  result_.files.resize(table.size());
+  roles_.assign(table.size(), Role::kNone);
+  for (uint32_t i = 0; i < table.size(); ++i) {
+    if (!options_.part.has(table.name(i))) continue;
+    const bool is_shown = result_.walk.demandOf(i) != nullptr;
+    roles_[i] = is_shown ? Role::kModel : Role::kCopy;
   }
-  const fs::path folder = gltf::pathOf(file.path).parent_path();
-  for (const tiles::TileModel& model : models) {
-    const auto of_model =
-        std::span<const uint8_t>(bytes).subspan(model.begin, model.end - model.begin);
-    Json json;
-    MCC_GLTF_TRY(gltf::readJson(of_model, json));
-    for (const std::string& name : gltf::filesOf(json, "buffers")) {
-      side.buffers.push_back(genericText((folder / gltf::pathOf(name)).lexically_normal()));
-    }
-    tiles::Placement placement;
-    MCC_GLTF_TRY(tiles::placementOf(of_model, model, placement));
-    survey.placements.push_back(std::move(placement));
+  for (const uint32_t tileset : result_.walk.tilesets()) {
+    if (options_.makes_glb && roles_[tileset] != Role::kNone) roles_[tileset] = Role::kTileset;
   }
-  return {};
+  assignGltf();
 }
 
-void TilesRun::surveyAll() {
-  std::vector<size_t> order;
-  for (size_t i = 0; i < result_.files.size(); ++i) {
-    if (result_.files[i].content != kNone) order.push_back(i);
-  }
-  runAll(order, "looked at", [this](TilesFile& file) {
-    file.failure = gltf::inFile(in(file.path), surveyOne(file));
-    if (!file.failure.ok()) surveys_[file.content].placements.clear();
-  });
-}
-
-/// Decides what becomes of the buffers of .gltf files. The library writes a.gltf with a.bin, which
-/// must not be the place of anything else, and the old buffers are not copied. Where that cannot
-/// be, the .gltf is copied.
-void TilesRun::settleBuffers() {
+/// Decides what becomes of .gltf files and their buffers. The library writes a.gltf with a.bin,
+/// which must not be the place of anything else, and the old buffers are not copied. Where that
+/// cannot be, the .gltf is copied. All parts of a tileset look at all .gltf files, and come to the
+/// same decisions.
+void TilesRun::assignGltf() {
+  const tiles::FileTable& table = result_.table;
   std::map<std::string, uint32_t> user_counts;
-  for (const Side& side : sides_) {
-    for (const std::string& name : side.buffers) ++user_counts[name];
-  }
-  std::vector<bool> is_replaced(result_.files.size(), false);
-  for (TilesFile& file : result_.files) {
-    if (!isModel(file) || !sides_[file.content].is_gltf) continue;
-    Side& side = sides_[file.content];
-    std::string bin = genericText(gltf::pathOf(file.path).replace_extension(".bin"));
-    bool is_free = !file_numbers_.contains(bin) ||
-                   std::find(side.buffers.begin(), side.buffers.end(), bin) != side.buffers.end();
-    for (const std::string& name : side.buffers) is_free = is_free && user_counts[name] == 1;
-    if (!is_free) {
-      file.figures.notes.push_back("shares its buffers with other files, and is only copied");
-      surveys_[file.content].placements.clear();
+  std::map<uint32_t, Buffers> found;
+  for (uint32_t i = 0; i < table.size(); ++i) {
+    if (result_.walk.demandOf(i) == nullptr || !table.name(i).ends_with(".gltf")) continue;
+    std::vector<uint8_t> bytes;
+    Json json;
+    Result read = gltf::readFile(in(name(i)), bytes);
+    if (read.ok()) read = gltf::inFile(in(name(i)), gltf::readJson(bytes, json));
+    if (!read.ok()) {
+      if (roles_[i] != Role::kNone) roles_[i] = Role::kCopy;
+      if (roles_[i] != Role::kNone) result_.failures[i] = read;
       continue;
     }
-    for (const std::string& name : side.buffers) {
-      const auto found = file_numbers_.find(name);
-      if (found != file_numbers_.end()) is_replaced[found->second] = true;
+    const fs::path folder = gltf::pathOf(table.name(i)).parent_path();
+    for (const std::string& buffer : gltf::filesOf(json, "buffers")) {
+      found[i].push_back(genericText((folder / gltf::pathOf(buffer)).lexically_normal()));
+      ++user_counts[found[i].back()];
     }
+    found[i];
   }
-  std::vector<TilesFile> kept;
-  for (size_t i = 0; i < result_.files.size(); ++i) {
-    if (!is_replaced[i]) kept.push_back(std::move(result_.files[i]));
+  for (auto& [file, buffers] : found) {
+    const std::string bin = genericText(gltf::pathOf(table.name(file)).replace_extension(".bin"));
+    std::error_code code;
+    bool is_free = !fs::exists(in(bin), code) ||
+                   std::find(buffers.begin(), buffers.end(), bin) != buffers.end();
+    for (const std::string& buffer : buffers) is_free = is_free && user_counts[buffer] == 1;
+    if (is_free) {
+      for (const std::string& buffer : buffers) {
+        const uint32_t number = table.find(buffer);
+        if (number != kNone) roles_[number] = Role::kNone;
+      }
+    }
+    if (roles_[file] == Role::kNone) continue;
+    roles_[file] = is_free ? Role::kGltf : Role::kCopy;
+    if (is_free)
+      gltfs_[file] = std::move(buffers);
+    else
+      addNotes(file, {"shares its buffers with other files, and is only copied"});
   }
-  result_.files = std::move(kept);
 }
 
-std::vector<std::string> TilesRun::inputsOf(const TilesFile& file) const {
-  std::vector<std::string> names = {file.path};
-  if (isModel(file) && sides_[file.content].is_gltf) {
-    const Side& side = sides_[file.content];
-    names.insert(names.end(), side.buffers.begin(), side.buffers.end());
+/// Makes sure that no file gets the name of another one.
+Result TilesRun::checkNewNames() const {
+  for (uint32_t i = 0; i < result_.table.size(); ++i) {
+    const std::string renamed = newName(i);
+    std::error_code code;
+    if (renamed != result_.table.name(i) && fs::exists(in(renamed), code)) {
+      return {gltf::textOf(in(renamed)),
+              "is there already, and --to-glb would give its name to \"" + name(i) +
+                  "\"; rename one of the two"};
+    }
+  }
+  return {};
+}
+
+std::vector<std::string> TilesRun::inputsOf(uint32_t file) const {
+  std::vector<std::string> names = {name(file)};
+  const auto buffers = gltfs_.find(file);
+  if (buffers != gltfs_.end()) {
+    names.insert(names.end(), buffers->second.begin(), buffers->second.end());
   }
   return names;
 }
 
 /// Returns every name that may be written for a file.
-std::vector<std::string> TilesRun::outputsOf(const TilesFile& file) const {
+std::vector<std::string> TilesRun::outputsOf(uint32_t file) const {
+  if (roles_[file] != Role::kGltf) return {newName(file)};
   std::vector<std::string> names = inputsOf(file);
-  if (isModel(file) && sides_[file.content].is_gltf) {
-    const std::string bin = genericText(gltf::pathOf(file.path).replace_extension(".bin"));
-    if (std::find(names.begin(), names.end(), bin) == names.end()) names.push_back(bin);
-  }
+  const std::string bin = genericText(gltf::pathOf(name(file)).replace_extension(".bin"));
+  if (std::find(names.begin(), names.end(), bin) == names.end()) names.push_back(bin);
   return names;
 }
 
@@ -291,88 +257,94 @@ Result TilesRun::claimOutputs() {
   std::error_code code;
   if (!fs::is_directory(output_, code)) {
     fs::create_directory(output_, code);
-    if (code) return {options_.output, "the folder cannot be created: " + code.message()};
+    if (code && !fs::is_directory(output_)) {
+      return {options_.output, "the folder cannot be created: " + code.message()};
+    }
   }
-  record_ = std::make_unique<tiles::Record>(input_, output_);
-  MCC_GLTF_TRY(record_->read());
+  record_ = std::make_unique<tiles::Record>(input_, output_, options_.part);
+  MCC_GLTF_TRY(record_->open());
   record_->removeTemporaries();
-  std::vector<std::string> names;
-  is_claimed_.assign(result_.files.size(), true);
-  for (size_t i = 0; i < result_.files.size(); ++i) {
-    TilesFile& file = result_.files[i];
-    const std::vector<std::string> outputs = outputsOf(file);
-    for (const std::string& name : outputs) {
-      const fs::file_status status = fs::symlink_status(out(name), code);
-      if (!fs::exists(status) || (record_->isOurs(name) && fs::is_regular_file(status))) continue;
-      file.failure = {gltf::textOf(out(name)),
-                      "is there and was not written by this command; remove it or choose another "
-                      "folder"};
-      is_claimed_[i] = false;
+  for (uint32_t i = 0; i < roles_.size(); ++i) {
+    if (roles_[i] == Role::kNone) continue;
+    const std::vector<std::string> outputs = outputsOf(i);
+    const auto foreign = std::find_if(outputs.begin(), outputs.end(), [&](const auto& output) {
+      const fs::file_status status = fs::symlink_status(out(output), code);
+      return fs::exists(status) && !(fs::is_regular_file(status) && record_->isOurs(output));
+    });
+    if (foreign == outputs.end()) {
+      for (const std::string& output : outputs) record_->claim(output);
+      continue;
     }
-    if (is_claimed_[i]) names.insert(names.end(), outputs.begin(), outputs.end());
+    result_.failures[i] = {gltf::textOf(out(*foreign)),
+                           "is there and was not written by this command; remove it or choose "
+                           "another folder"};
+    result_.files[i].outcome = TilesOutcome::kRefused;
+    roles_[i] = Role::kNone;
   }
-  return record_->begin(names, &temporaryFiles());
+  return record_->endClaims();
 }
 
-void TilesRun::chooseAll() {
-  if (options_.has_fixed_bits) {
-    for (const tiles::Survey& survey : surveys_) {
-      accuracies_.emplace_back(survey.placements.size());
-      for (size_t m = 0; m < survey.placements.size(); ++m) {
-        accuracies_.back()[m].scale = survey.placements[m].scale;
-      }
-    }
-    return;
-  }
-  tiles::Accuracies chosen =
-      tiles::chooseAccuracies(result_.tileset, surveys_, options_.error_share);
-  accuracies_ = std::move(chosen.of_models);
-  result_.notes.insert(result_.notes.end(), chosen.notes.begin(), chosen.notes.end());
-}
-
-std::string TilesRun::makerOf(const TilesFile& file) const {
+/// Returns everything that the output of a file depends on, apart from the file.
+std::string TilesRun::makerOf(uint32_t file) const {
   std::string maker = MCC_VERSION;
-  if (!isModel(file)) return maker + " copy";
+  if (!isModel(file)) return maker + (roles_[file] == Role::kTileset ? " to-glb" : " copy");
+  const tiles::TileDemand& demand = *result_.walk.demandOf(file);
   maker += " " + result_.settings.dump();
-  for (const tiles::Accuracy& accuracy : accuracies_[file.content]) maker += " " + accuracy.key();
+  if (options_.has_fixed_bits) return maker;
+  maker += fmt::format(" {} {} {} {}", demand.world_distance, demand.tile_distance, demand.scale,
+                       static_cast<int>(demand.up_axis));
+  if (demand.has_group) {
+    maker += fmt::format(" {} {} {} {}", result_.walk.groups().distanceOf(demand.group),
+                         demand.offset[0], demand.offset[1], demand.offset[2]);
+  }
   return maker;
 }
 
-bool TilesRun::takeUpToDate(TilesFile& file) const {
+bool TilesRun::takeUpToDate(uint32_t file) {
   if (options_.is_forced) return false;
-  const Json* made = record_->findUpToDate(file.path, makerOf(file), inputsOf(file));
-  if (made == nullptr) return false;
+  const std::optional<Json> made =
+      record_->findUpToDate(newName(file), makerOf(file), inputsOf(file));
+  if (!made) return false;
+  TilesFile taken;
+  std::vector<std::string> notes;
   try {
-    tiles::TileFigures& figures = file.figures;
-    file.input_bytes = made->at("input_bytes").get<uint64_t>();
-    file.output_bytes = made->at("output_bytes").get<uint64_t>();
-    file.outcome =
+    tiles::TileFigures& figures = taken.figures;
+    taken.input_bytes = made->at("input_bytes").get<uint64_t>();
+    taken.output_bytes = made->at("output_bytes").get<uint64_t>();
+    taken.outcome =
         made->at("is_copy").get<bool>() ? TilesOutcome::kCopied : TilesOutcome::kConverted;
     figures.has_positions = made->at("has_positions").get<bool>();
     figures.bits_low = made->at("bits").at(0).get<uint8_t>();
     figures.bits_high = made->at("bits").at(1).get<uint8_t>();
     figures.promised_error = made->at("promised").get<double>();
     figures.measured_error = made->at("measured").get<double>();
-    figures.notes = made->at("notes").get<std::vector<std::string>>();
+    notes = made->at("notes").get<std::vector<std::string>>();
   } catch (const Json::exception&) {
-    file.figures = {};
     return false;  // the record is damaged
   }
-  file.is_up_to_date = true;
+  taken.is_up_to_date = true;
+  result_.files[file] = taken;
+  addNotes(file, notes);
   return true;
 }
 
-void TilesRun::keep(const TilesFile& file) {
-  const tiles::TileFigures& figures = file.figures;
-  const Json made = {{"input_bytes", file.input_bytes},
-                     {"output_bytes", file.output_bytes},
-                     {"is_copy", file.outcome == TilesOutcome::kCopied},
+void TilesRun::keep(uint32_t file, const std::vector<std::string>& notes) {
+  const TilesFile& made = result_.files[file];
+  const tiles::TileFigures& figures = made.figures;
+  const Json json = {{"input_bytes", made.input_bytes},
+                     {"output_bytes", made.output_bytes},
+                     {"is_copy", made.outcome == TilesOutcome::kCopied},
                      {"has_positions", figures.has_positions},
                      {"bits", {figures.bits_low, figures.bits_high}},
                      {"promised", figures.promised_error},
                      {"measured", figures.measured_error},
-                     {"notes", figures.notes}};
-  record_->add(file.path, makerOf(file), inputsOf(file), outputsOf(file), made);
+                     {"notes", notes}};
+  record_->add(newName(file), makerOf(file), inputsOf(file), outputsOf(file), json);
+}
+
+void TilesRun::addNotes(uint32_t file, const std::vector<std::string>& notes) {
+  const std::lock_guard lock(mutex_);
+  for (const std::string& note : notes) result_.file_notes[note].push_back(file);
 }
 
 /// Creates the folders that a name in OUT needs. A link there could lead out of OUT.
@@ -408,73 +380,136 @@ Result TilesRun::store(const std::string& name, std::span<const uint8_t> bytes) 
   return {};
 }
 
-Result TilesRun::copyOne(TilesFile& file, const std::string& name) {
-  std::vector<uint8_t> bytes;
-  MCC_GLTF_TRY(gltf::readFile(in(name), bytes));
-  MCC_GLTF_TRY(store(name, bytes));
-  file.input_bytes += bytes.size();
-  file.output_bytes += bytes.size();
-  file.outcome = TilesOutcome::kCopied;
+Result TilesRun::copyOne(uint32_t file) {
+  TilesFile& made = result_.files[file];
+  made = {};
+  const std::vector<std::string> inputs = inputsOf(file);
+  for (const std::string& input : inputs) {
+    std::vector<uint8_t> bytes;
+    MCC_GLTF_TRY(gltf::readFile(in(input), bytes));
+    MCC_GLTF_TRY(store(input == inputs[0] ? newName(file) : input, bytes));
+    made.input_bytes += bytes.size();
+    made.output_bytes += bytes.size();
+  }
+  made.outcome = TilesOutcome::kCopied;
+  return {};
+}
+
+Result TilesRun::chooseFor(uint32_t file, std::span<const uint8_t> glb,
+                           const tiles::TileModel& model, tiles::Accuracy& accuracy) const {
+  tiles::Placement placement;
+  MCC_GLTF_TRY(tiles::placementOf(glb, model, placement));
+  accuracy = tiles::chooseAccuracy(*result_.walk.demandOf(file), result_.walk.groups(), model,
+                                   placement, options_.has_fixed_bits ? 0 : options_.error_share);
   return {};
 }
 
 /// Converts a JSON glTF, whose buffers are other files.
-Result TilesRun::convertGltf(TilesFile& file) {
-  gltf::ConvertOptions options = options_.convert;
-  accuracies_[file.content].at(0).applyTo(options);
-  MCC_GLTF_TRY(makeFolderOf(file.path));
-  gltf::ConvertReport report;
-  MCC_GLTF_TRY(gltf::convertTo({{out(file.path), nullptr}, &temporaryFiles()}, {in(file.path), {}},
-                               options, report));
-  file.figures.add(report, accuracies_[file.content][0]);
-  file.input_bytes = report.input_bytes;
-  file.output_bytes = report.output_bytes;
-  file.outcome = report.copied ? TilesOutcome::kCopied : TilesOutcome::kConverted;
-  return {};
-}
-
-Result TilesRun::convertOne(TilesFile& file) {
-  if (sides_[file.content].is_gltf) return convertGltf(file);
+Result TilesRun::makeGltf(uint32_t file) {
+  TilesFile& made = result_.files[file];
   std::vector<uint8_t> bytes;
-  MCC_GLTF_TRY(gltf::readFile(in(file.path), bytes));
-  std::vector<uint8_t> output;
-  MCC_GLTF_TRY(
-      gltf::inFile(in(file.path), tiles::convertTile(bytes, accuracies_[file.content],
-                                                     options_.convert, output, file.figures)));
-  MCC_GLTF_TRY(store(file.path, output.empty() ? bytes : output));
-  file.input_bytes = bytes.size();
-  file.output_bytes = output.empty() ? bytes.size() : output.size();
-  file.outcome = output.empty() ? TilesOutcome::kCopied : TilesOutcome::kConverted;
+  MCC_GLTF_TRY(gltf::readFile(in(name(file)), bytes));
+  tiles::Accuracy accuracy;
+  MCC_GLTF_TRY(chooseFor(file, bytes, {0, bytes.size()}, accuracy));
+  gltf::ConvertOptions options = options_.convert;
+  accuracy.applyTo(options);
+  MCC_GLTF_TRY(makeFolderOf(name(file)));
+  gltf::ConvertReport report;
+  MCC_GLTF_TRY(gltf::convertTo({{out(name(file)), nullptr}, &temporaryFiles()},
+                               {in(name(file)), {}}, options, report));
+  made.figures.add(report, accuracy);
+  made.input_bytes = report.input_bytes;
+  made.output_bytes = report.output_bytes;
+  made.outcome = report.copied ? TilesOutcome::kCopied : TilesOutcome::kConverted;
+  std::vector<std::string> notes = report.notes;
+  if (!accuracy.note.empty()) notes.push_back(accuracy.note);
+  addNotes(file, notes);
+  keep(file, notes);
   return {};
 }
 
-/// Makes one output. A tile that cannot be converted is copied as it is.
-void TilesRun::makeOne(TilesFile& file) {
+/// Converts a tile in memory. `output` is what is to be stored.
+Result TilesRun::convertBytes(uint32_t file, std::vector<uint8_t> bytes,
+                              std::vector<uint8_t>& output, tiles::TileFigures& figures,
+                              std::vector<std::string>& notes) const {
+  const bool is_b3dm = tiles::kindOf(bytes) == tiles::TileKind::kB3dm;
+  if (options_.makes_glb && is_b3dm) {
+    std::string because = "its tileset has gltfUpAxis, which 3D Tiles 1.1 does not have";
+    std::vector<uint8_t> glb;
+    if (result_.walk.demandOf(file)->up_axis == tiles::UpAxis::kY) {
+      MCC_GLTF_TRY(tiles::upgradeB3dm(bytes, "", glb, because, options_.convert.decoders));
+    }
+    if (glb.empty())
+      notes.push_back("stays a b3dm: " + because);
+    else
+      bytes = std::move(glb);
+  }
+  const auto choose = [&](std::span<const uint8_t> glb, const tiles::TileModel& model,
+                          tiles::Accuracy& accuracy) {
+    return chooseFor(file, glb, model, accuracy);
+  };
+  MCC_GLTF_TRY(tiles::convertTile(bytes, choose, options_.convert, output, figures, notes));
+  if (output.empty()) output = std::move(bytes);
+  return {};
+}
+
+Result TilesRun::makeModel(uint32_t file) {
+  TilesFile& made = result_.files[file];
+  std::vector<uint8_t> bytes;
+  MCC_GLTF_TRY(gltf::readFile(in(name(file)), bytes));
+  std::vector<uint8_t> output;
+  std::vector<std::string> notes;
+  MCC_GLTF_TRY(
+      gltf::inFile(in(name(file)), convertBytes(file, bytes, output, made.figures, notes)));
+  MCC_GLTF_TRY(store(newName(file), output));
+  made.input_bytes = bytes.size();
+  made.output_bytes = output.size();
+  made.outcome = output == bytes ? TilesOutcome::kCopied : TilesOutcome::kConverted;
+  addNotes(file, notes);
+  keep(file, notes);
+  return {};
+}
+
+Result TilesRun::makeTileset(uint32_t file) {
+  TilesFile& made = result_.files[file];
+  std::vector<uint8_t> json;
+  MCC_GLTF_TRY(tiles::renameContents(input_, name(file), options_.max_tiles, json));
+  MCC_GLTF_TRY(store(name(file), json));
+  made.input_bytes = result_.table.bytes(file);
+  made.output_bytes = json.size();
+  made.outcome = TilesOutcome::kCopied;
+  keep(file, {});
+  return {};
+}
+
+/// Makes one output. What cannot be converted is copied as it is.
+void TilesRun::makeOne(uint32_t file) {
   if (takeUpToDate(file)) return;
-  Result made;
-  if (isModel(file)) {
-    made = gltf::guarded([&]() { return convertOne(file); });
-    if (!made.ok()) file.failure = made;
-  }
-  if (!isModel(file) || !made.ok()) {
-    if (!made.ok()) file.figures = {};
-    file.input_bytes = 0;
-    file.output_bytes = 0;
-    made = {};
-    for (const std::string& name : inputsOf(file)) {
-      const Result copied = gltf::guarded([&]() { return copyOne(file, name); });
-      if (!copied.ok()) made = copied;
+  const Role role = roles_[file];
+  Result made = gltf::guarded([&]() -> Result {
+    switch (role) {
+      case Role::kModel: return makeModel(file);
+      case Role::kGltf: return makeGltf(file);
+      case Role::kTileset: return makeTileset(file);
+      default: break;
     }
-    if (!made.ok()) {
-      file.failure = made;
-      file.outcome = TilesOutcome::kRefused;
-    } else if (!file.failure.ok()) {
-      file.figures.notes.push_back("cannot be converted, and is only copied");
-    }
+    MCC_GLTF_TRY(copyOne(file));
+    keep(file, {});
+    return {};
+  });
+  if (made.ok()) return;
+  if (role != Role::kCopy) {
+    const Result copied = gltf::guarded([&]() { return copyOne(file); });
+    if (copied.ok())
+      addNotes(file, {"cannot be converted, and is only copied"});
+    else
+      made = copied;
   }
-  if (!file.failure.ok()) return;
+  if (role == Role::kCopy || result_.files[file].outcome != TilesOutcome::kCopied) {
+    result_.files[file].outcome = TilesOutcome::kRefused;
+  }
   const std::lock_guard lock(mutex_);
-  keep(file);
+  result_.failures[file] = made;
 }
 
 void TilesRun::showProgress(const char* what) {
@@ -485,88 +520,101 @@ void TilesRun::showProgress(const char* what) {
 }
 
 /// Runs a job for each of the files. A file that fails does not stop the others.
-void TilesRun::runAll(const std::vector<size_t>& order, const char* what,
-                      const std::function<void(TilesFile&)>& job) {
+void TilesRun::runAll(const std::vector<uint32_t>& order, const char* what,
+                      const std::function<void(uint32_t)>& job) {
   done_ = 0;
   job_total_ = order.size();
   const Result all = gltf::runParallel(order.size(), options_.job_count, [&](size_t i) -> Result {
-    TilesFile& file = result_.files[order[i]];
-    const Result done = gltf::guarded([&]() -> Result {
-      job(file);
-      return {};
-    });
-    if (!done.ok()) file.failure = {file.path, done.what};
+    job(order[i]);
     const std::lock_guard lock(mutex_);
     ++done_;
     showProgress(what);
     return {};
   });
-  if (!all.ok()) result_.tileset.failures.push_back(all);
   line_.clear();
+  if (!all.ok()) result_.notes.push_back(all.message());
 }
 
-/// Copies before it converts, because a .gltf refuses to replace an image that differs. Within each
-/// the largest files come first, because they take longest.
+/// Copies before it converts, because a .gltf refuses to replace an image that differs. Tilesets
+/// come last, so that what they name is there. Otherwise the largest files come first, because they
+/// take longest.
 void TilesRun::makeAll() {
-  std::vector<size_t> copies;
-  std::vector<size_t> models;
-  for (size_t i = 0; i < result_.files.size(); ++i) {
-    if (is_claimed_[i]) (isModel(result_.files[i]) ? models : copies).push_back(i);
+  std::vector<uint32_t> copies;
+  std::vector<uint32_t> models;
+  std::vector<uint32_t> tilesets;
+  std::vector<bool> is_tileset(roles_.size(), false);
+  for (const uint32_t file : result_.walk.tilesets()) is_tileset[file] = true;
+  for (uint32_t i = 0; i < roles_.size(); ++i) {
+    if (roles_[i] == Role::kNone) continue;
+    (is_tileset[i] ? tilesets : isModel(i) ? models : copies).push_back(i);
   }
-  for (std::vector<size_t>* order : {&copies, &models}) {
-    std::stable_sort(order->begin(), order->end(), [&](size_t a, size_t b) {
-      return result_.files[a].size > result_.files[b].size;
+  for (std::vector<uint32_t>* order : {&copies, &models}) {
+    std::stable_sort(order->begin(), order->end(), [&](uint32_t a, uint32_t b) {
+      return result_.table.bytes(a) > result_.table.bytes(b);
     });
   }
-  runAll(copies, "copied", [this](TilesFile& file) { makeOne(file); });
-  runAll(models, "converted", [this](TilesFile& file) { makeOne(file); });
+  runAll(copies, "copied", [this](uint32_t file) { makeOne(file); });
+  runAll(models, "converted", [this](uint32_t file) { makeOne(file); });
+  runAll(tilesets, "copied", [this](uint32_t file) { makeOne(file); });
 }
 
 int TilesRun::printResults() {
   int status = kDone;
-  const Json json = tilesReportJson(result_);
+  const bool is_json = options_.common.format == Format::kJson && !options_.common.is_quiet;
+  const std::string json =
+      is_json || !options_.report.empty() ? tilesReportJson(result_) : std::string();
   if (!options_.report.empty()) {
-    const Result written = writeReport(options_.report, printReport(json));
+    const Result written = writeReport(options_.report, json);
     if (!written.ok()) status = reportFailure(written);
   }
   if (!options_.common.is_quiet) {
-    const std::string text = options_.common.format == Format::kJson
-                                 ? printReport(json)
-                                 : tilesReportText(result_, options_.common);
+    const std::string text = is_json ? json : tilesReportText(result_, options_.common);
     if (printOut(text) != kDone) status = kFailed;
   }
-  for (const Result& failure : result_.tileset.failures) status = reportFailure(failure);
-  for (const TilesFile& file : result_.files) {
-    if (!file.failure.ok()) status = reportFailure(file.failure);
+  const tiles::TilesetWalk& walk = result_.walk;
+  for (const Result& failure : walk.failures()) status = reportFailure(failure);
+  if (walk.failureCount() > walk.failures().size()) {
+    status =
+        reportFailure({options_.input, fmt::format("{} more parts of the tilesets are wrong",
+                                                   walk.failureCount() - walk.failures().size())});
   }
+  for (const auto& [file, failure] : result_.failures) status = reportFailure(failure);
   return status;
+}
+
+void TilesRun::addLevelNotes() {
+  if (result_.walk.remoteCount() != 0) {
+    result_.notes.push_back(counted(result_.walk.remoteCount(), "content", "contents") +
+                            " on servers or in data URIs stay as they are");
+  }
+  if (options_.has_fixed_bits) return;
+  for (const auto& [level, count] : result_.walk.groups().countByLevel()) {
+    if (count == 1) continue;
+    result_.notes.push_back(
+        fmt::format("the tiles of level {} have transforms of {} kinds, apart from translations; "
+                    "borders are exact between tiles of one kind, and within the promised errors "
+                    "elsewhere",
+                    level, count));
+  }
 }
 
 int TilesRun::run() {
   Result ready = openFolders();
-  if (ready.ok()) ready = tiles::readTileset(gltf::pathOf(options_.input), result_.tileset);
   if (ready.ok() && !options_.report.empty()) ready = checkReport(options_.report);
-  if (ready.ok()) ready = listFiles();
+  if (ready.ok()) ready = walk();
+  if (ready.ok()) ready = checkNewNames();
   if (!ready.ok()) return reportFailure(ready);
   result_.input = options_.input;
   result_.output = options_.output;
   result_.settings = gltf::optionsJson(options_.convert);
   result_.settings["error_share"] =
       options_.has_fixed_bits ? Json(nullptr) : Json(options_.error_share);
-  if (result_.tileset.implicit_count != 0) {
-    result_.notes.push_back(
-        fmt::format("{} with implicit tiling: their tiles are copied and not compressed",
-                    counted(result_.tileset.implicit_count, "tile", "tiles")));
-  }
-  if (result_.tileset.remote_count != 0) {
-    result_.notes.push_back(counted(result_.tileset.remote_count, "content", "contents") +
-                            " on servers or in data URIs stay as they are");
-  }
-  surveyAll();
-  settleBuffers();
+  if (options_.makes_glb) result_.settings["to_glb"] = true;
+  result_.part = options_.part.name();
+  addLevelNotes();
+  assignRoles();
   ready = claimOutputs();
   if (!ready.ok()) return reportFailure(ready);
-  chooseAll();
   makeAll();
   return printResults();
 }

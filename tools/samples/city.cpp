@@ -310,7 +310,9 @@ class CityWriter {
 
   static Tile leafOf(const Bounds& exact, const std::string& uri) {
     const Bounds bounds = rounded(exact);
-    return {{{"boundingVolume", boxOf(bounds)}, {"geometricError", 0}, {"content", {{"uri", uri}}}},
+    return {{{"boundingVolume", boxOf(bounds)},
+             {"geometricError", kLandmarkError},
+             {"content", {{"uri", uri}}}},
             bounds};
   }
 

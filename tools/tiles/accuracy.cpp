@@ -1,81 +1,52 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "tiles/accuracy.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <limits>
-#include <map>
 
 namespace mcc::tiles {
 namespace {
 
 constexpr double kMostSteps = 16777216;  // 2^24, up to which float32 has every integer
 
-/// The tiles that share a lattice: those of one level whose meshes have the same coordinates.
-struct Group {
-  uint32_t level = 0;
-  double distance = std::numeric_limits<double>::infinity();  ///< in the coordinates of the meshes
-  double farthest = 0;
-};
+/// What is left of a promised distance for the lattice. Where its origin is not 0, the sum of the
+/// origin and of a number of steps is rounded to float32, which must be less than the rest.
+constexpr double kShareOfLattice = 0.998;
 
-std::string groupKey(const TileUse& use, const Placement& placement) {
-  std::string key(sizeof(Matrix) + sizeof(uint32_t), '\0');
-  std::memcpy(key.data(), &use.level, sizeof(uint32_t));
-  std::memcpy(key.data() + sizeof(uint32_t), use.transform.data(), sizeof(Matrix));
-  return key + placement.frame + use.up_axis;
+/// From a model's coordinates to its tile's, in which z is up.
+const Matrix& modelToTile(UpAxis axis) {
+  static constexpr Matrix kFromX = {0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1};
+  static constexpr Matrix kFromY = {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1};
+  switch (axis) {
+    case UpAxis::kX: return kFromX;
+    case UpAxis::kZ: return kIdentity;
+    case UpAxis::kY: break;
+  }
+  return kFromY;
 }
 
-/// What the tiles that show a content ask of one of its models.
-struct Demand {
-  double promised_error = std::numeric_limits<double>::infinity();
-  double distance = std::numeric_limits<double>::infinity();
-  double scale = 0;
-  std::string group;  ///< empty: it has no lattice in common with others
-};
-
-Demand demandOf(const TileContent& content, const Placement& placement, double error_share) {
-  Demand demand;
-  bool is_one_group = !placement.frame.empty();
-  for (const TileUse& use : content.uses) {
-    const double error = error_share * use.geometric_error;
-    const double scale = placement.scale * largestScale(use.transform);
-    demand.scale = std::max(demand.scale, scale);
-    if (error == 0) continue;
-    demand.promised_error = std::min(demand.promised_error, error);
-    demand.distance = std::min(demand.distance, error / scale);
-    const std::string key = groupKey(use, placement);
-    if (!demand.group.empty() && demand.group != key) is_one_group = false;
-    demand.group = key;
+/// Finds where the lattice of a tile's group has a point in the coordinates of the meshes. Returns
+/// false when they cannot have one.
+bool findOrigin(const TileDemand& demand, const TileModel& model, const Matrix& mesh_to_model,
+                double step, Lattice& lattice) {
+  Matrix mesh_to_tile = product(modelToTile(demand.up_axis), mesh_to_model);
+  Matrix tile_to_mesh;
+  if (!invertLinear(mesh_to_tile, tile_to_mesh)) return false;
+  std::array<double, 3> shift = transformed(mesh_to_tile, {0, 0, 0});
+  for (size_t c = 0; c < 3; ++c) shift[c] += model.center[c] + demand.offset[c];
+  shift = transformed(tile_to_mesh, shift);
+  for (size_t c = 0; c < 3; ++c) {
+    const double rest = std::remainder(-shift[c], step);
+    if (!std::isfinite(rest)) return false;
+    lattice.origin[c] = static_cast<float>(rest) + 0.0f;  // no -0
   }
-  if (!is_one_group) demand.group.clear();
-  return demand;
+  lattice.step = static_cast<float>(step);
+  return true;
 }
 
-Accuracy accuracyOf(const Demand& demand, const Placement& placement, const Group* group) {
-  Accuracy accuracy;
-  accuracy.note = placement.caveat;
-  accuracy.scale = demand.scale;
-  const bool is_known = std::isfinite(demand.distance) && demand.distance > 0;
-  if (!is_known) {
-    accuracy.note = "no tile above it has a geometric error; its positions get the default bits";
-    return accuracy;
-  }
-  accuracy.promised_error = demand.promised_error;
-  if (group == nullptr) return accuracy;
-  const double step = stepFor(group->distance);
-  const bool is_float =
-      step >= std::numeric_limits<float>::min() && step <= std::numeric_limits<float>::max();
-  if (is_float && group->farthest < (kMostSteps - 1) * step) {
-    accuracy.step = step;
-  } else {
-    accuracy.note =
-        "its level needs more than 24 bits for one grid of positions, so that borders between "
-        "tiles may open by the promised error";
-  }
-  return accuracy;
-}
+constexpr char kNoCommonFrame[] =
+    "has parts or tiles with different transforms, so that its borders may open by the promised "
+    "error";
 
 }  // namespace
 
@@ -88,57 +59,47 @@ double stepFor(double distance) {
 
 void Accuracy::applyTo(gltf::ConvertOptions& options) const {
   if (promised_error == 0) return;
-  if (step != 0) {
-    options.position_lattice = Lattice{{0, 0, 0, 0}, static_cast<float>(step)};
+  if (lattice.step != 0) {
+    options.position_lattice = lattice;
   } else {
     options.max_position_error = promised_error / scale;
     options.is_error_relative = false;
   }
 }
 
-std::string Accuracy::key() const {
-  std::string text(3 * 24 + 8, '\0');
-  text.resize(
-      static_cast<size_t>(std::max(0, std::snprintf(text.data(), text.size(), "%.17g %.17g %.17g",
-                                                    promised_error, scale, step))));
-  return text;
-}
-
-Accuracies chooseAccuracies(const Tileset& tileset, const std::vector<Survey>& surveys,
-                            double error_share) {
-  std::vector<std::vector<Demand>> demands(surveys.size());
-  std::map<std::string, Group> groups;
-  for (size_t i = 0; i < surveys.size(); ++i) {
-    for (const Placement& placement : surveys[i].placements) {
-      const Demand demand = demandOf(tileset.contents[i], placement, error_share);
-      demands[i].push_back(demand);
-      if (demand.group.empty()) continue;
-      Group& group = groups[demand.group];
-      group.level = tileset.contents[i].uses[0].level;
-      group.distance = std::min(group.distance, demand.distance);
-      group.farthest = std::max(group.farthest, placement.farthest);
-    }
+Accuracy chooseAccuracy(const TileDemand& demand, const DemandGroups& groups,
+                        const TileModel& model, const Placement& placement, double error_share) {
+  Accuracy accuracy;
+  accuracy.note = placement.caveat;
+  accuracy.scale = demand.scale * placement.scale;
+  if (error_share == 0) return accuracy;
+  const double distance = error_share * demand.tile_distance / placement.scale;
+  if (!std::isfinite(distance) || distance <= 0) {
+    accuracy.note = "no tile above it has a geometric error; its positions get the default bits";
+    return accuracy;
   }
-  Accuracies accuracies;
-  accuracies.of_models.resize(surveys.size());
-  for (size_t i = 0; i < surveys.size(); ++i) {
-    for (size_t m = 0; m < demands[i].size(); ++m) {
-      const auto found = groups.find(demands[i][m].group);
-      accuracies.of_models[i].push_back(
-          accuracyOf(demands[i][m], surveys[i].placements[m],
-                     found == groups.end() ? nullptr : &found->second));
-    }
+  accuracy.promised_error = error_share * demand.world_distance;
+  if (!demand.has_group || !placement.matrix) {
+    if (accuracy.note.empty() && !model.is_instanced) accuracy.note = kNoCommonFrame;
+    return accuracy;
   }
-  std::map<uint32_t, uint64_t> group_counts;
-  for (const auto& [key, group] : groups) ++group_counts[group.level];
-  for (const auto& [level, count] : group_counts) {
-    if (count == 1) continue;
-    accuracies.notes.push_back("the tiles of level " + std::to_string(level) + " have " +
-                               std::to_string(count) +
-                               " different transforms; borders are exact between tiles of the "
-                               "same one, and within the promised errors elsewhere");
+  const double of_group = error_share * groups.distanceOf(demand.group) / placement.scale;
+  const double step = stepFor(kShareOfLattice * of_group);
+  const bool is_float =
+      step >= std::numeric_limits<float>::min() && step <= std::numeric_limits<float>::max();
+  const double rounding = placement.farthest * std::numeric_limits<float>::epsilon();
+  Lattice lattice;
+  if (is_float && placement.farthest < (kMostSteps - 2) * step &&
+      findOrigin(demand, model, *placement.matrix, step, lattice) &&
+      (rounding < (1 - kShareOfLattice) * distance ||
+       (lattice.origin[0] == 0 && lattice.origin[1] == 0 && lattice.origin[2] == 0))) {
+    accuracy.lattice = lattice;
+  } else {
+    accuracy.note =
+        "its level needs more than 24 bits for one grid of positions, so that borders between "
+        "tiles may open by the promised error";
   }
-  return accuracies;
+  return accuracy;
 }
 
 }  // namespace mcc::tiles

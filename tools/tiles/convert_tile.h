@@ -3,6 +3,7 @@
 #define MCC_TILES_CONVERT_TILE_H_
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,17 +20,23 @@ struct TileFigures {
   bool has_positions = false;  ///< false: nothing was compressed
   double promised_error = 0;   ///< the smallest of its models, in metres; 0: none was promised
   double measured_error = 0;   ///< largest, in metres, at most
-  std::vector<std::string> notes;
 
   /// Adds what the library measured on one model.
   void add(const gltf::ConvertReport& report, const Accuracy& accuracy);
+  /// Adds the figures of another tile.
+  void add(const TileFigures& other);
 };
 
+/// Chooses the accuracy of a model. Errors: it is not glTF.
+using AccuracyChooser = std::function<gltf::Result(std::span<const uint8_t> file,
+                                                   const TileModel& model, Accuracy& accuracy)>;
+
 /// Compresses the models in a GLB, b3dm, i3dm or cmpt. `output` stays empty when nothing becomes
-/// smaller. Errors: the file is damaged; a model cannot be converted. Safe for untrusted input.
-gltf::Result convertTile(std::span<const uint8_t> file, const std::vector<Accuracy>& accuracies,
+/// smaller. `notes` gets what the user should know.
+/// Errors: the file is damaged; a model cannot be converted. Safe for untrusted input.
+gltf::Result convertTile(std::span<const uint8_t> file, const AccuracyChooser& choose,
                          const gltf::ConvertOptions& options, std::vector<uint8_t>& output,
-                         TileFigures& figures);
+                         TileFigures& figures, std::vector<std::string>& notes);
 
 }  // namespace mcc::tiles
 

@@ -48,6 +48,36 @@ double largestScale(const Matrix& matrix) {
   return std::exp(logarithm / 2);
 }
 
+bool invertLinear(const Matrix& matrix, Matrix& inverse) {
+  const auto at = [&](size_t row, size_t column) { return matrix[4 * column + row]; };
+  inverse = kIdentity;
+  double determinant = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t j = 0; j < 3; ++j) {
+      const size_t r0 = (i + 1) % 3, r1 = (i + 2) % 3, c0 = (j + 1) % 3, c1 = (j + 2) % 3;
+      const double cofactor = at(r0, c0) * at(r1, c1) - at(r0, c1) * at(r1, c0);
+      if (j == 0) determinant += at(i, 0) * cofactor;
+      inverse[4 * i + j] = cofactor;  // the transpose of the cofactors
+    }
+  }
+  bool is_finite = determinant != 0;
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t j = 0; j < 3; ++j) {
+      inverse[4 * i + j] /= determinant;
+      is_finite = is_finite && std::isfinite(inverse[4 * i + j]);
+    }
+  }
+  return is_finite;
+}
+
+std::array<double, 3> transformed(const Matrix& matrix, const std::array<double, 3>& point) {
+  std::array<double, 3> result = {matrix[12], matrix[13], matrix[14]};
+  for (size_t row = 0; row < 3; ++row) {
+    for (size_t k = 0; k < 3; ++k) result[row] += matrix[4 * k + row] * point[k];
+  }
+  return result;
+}
+
 bool readNumbers(const nlohmann::ordered_json& json, double* numbers, size_t count) {
   if (!json.is_array() || json.size() != count) return false;
   for (size_t i = 0; i < count; ++i) {

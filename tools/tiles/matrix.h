@@ -19,6 +19,13 @@ Matrix product(const Matrix& a, const Matrix& b);
 /// infinity when that is not a finite number.
 double largestScale(const Matrix& matrix);
 
+/// Inverts the part of a matrix that is not its translation, which becomes 0. Returns false when
+/// there is no inverse of finite numbers.
+bool invertLinear(const Matrix& matrix, Matrix& inverse);
+
+/// Returns the point that a matrix makes of a point.
+std::array<double, 3> transformed(const Matrix& matrix, const std::array<double, 3>& point);
+
 /// Reads `count` finite numbers from a JSON array. Returns false when it is anything else.
 bool readNumbers(const nlohmann::ordered_json& json, double* numbers, size_t count);
 

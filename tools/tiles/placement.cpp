@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "gltf/base/result.h"
 #include "gltf/document/json.h"
 #include "gltf/document/package.h"
-#include "tiles/matrix.h"
 
 namespace mcc::tiles {
 namespace {
@@ -153,9 +151,7 @@ Result placementOf(std::span<const uint8_t> file, const TileModel& model, Placem
     placement.caveat = "its nodes move, and the promised error is that of their rest";
   }
   if (!is_one_frame || !placement.caveat.empty()) return {};
-  placement.frame.resize(sizeof(Matrix) + sizeof(model.center));
-  std::memcpy(placement.frame.data(), matrices[0].data(), sizeof(Matrix));
-  std::memcpy(placement.frame.data() + sizeof(Matrix), model.center.data(), sizeof(model.center));
+  placement.matrix = matrices[0];
   return {};
 }
 

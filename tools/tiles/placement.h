@@ -3,10 +3,12 @@
 #define MCC_TILES_PLACEMENT_H_
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "mcc/gltf.h"
+#include "tiles/matrix.h"
 #include "tiles/tile_file.h"
 
 namespace mcc::tiles {
@@ -14,9 +16,9 @@ namespace mcc::tiles {
 /// How the coordinates of a model's meshes become those of its tile.
 struct Placement {
   double scale = 1;  ///< no vector becomes longer than by this
-  /// Equal for models with the same transform; empty where a model has several, or where they
+  /// From the meshes to the model. Empty where a model has several such matrices, or where they
   /// change: meshes under different nodes, instances, skins, animations.
-  std::string frame;
+  std::optional<Matrix> matrix;
   double farthest = 0;  ///< largest absolute coordinate, as far as the accessors state bounds
   std::string caveat;   ///< what `scale` leaves out; empty: nothing
 };

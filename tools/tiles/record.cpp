@@ -1,11 +1,14 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "tiles/record.h"
 
+#include <algorithm>
 #include <cctype>
+#include <charconv>
 
 #include "gltf/base/path_text.h"
 #include "gltf/base/result.h"
 #include "gltf/files/file_io.h"
+#include "tiles/file_table.h"
 
 namespace mcc::tiles {
 namespace {
@@ -14,7 +17,28 @@ namespace fs = std::filesystem;
 using gltf::Result;
 using Json = Record::Json;
 
-constexpr char kFileName[] = ".gltf-mcc-tiles.jsonl";
+constexpr std::string_view kNameBegin = ".gltf-mcc-tiles.";
+constexpr std::string_view kNameEnd = "jsonl";
+
+std::string nameOf(const Part& part) {
+  std::string name(kNameBegin);
+  if (!part.isWhole()) name += part.name() + ".";
+  return name.append(kNameEnd);
+}
+
+/// Returns the part of a record by its name. A name that says nothing is that of a whole, which
+/// overlaps everything.
+Part partOf(std::string_view name) {
+  Part part;
+  name.remove_prefix(std::min(name.size(), kNameBegin.size()));
+  const char* const end = name.data() + name.size();
+  const auto [first, code] = std::from_chars(name.data(), end, part.number);
+  constexpr std::string_view kOf = "-of-";
+  const std::string_view rest = name.substr(static_cast<size_t>(first - name.data()));
+  if (code != std::errc() || !rest.starts_with(kOf)) return {};
+  std::from_chars(first + kOf.size(), end, part.count);
+  return part;
+}
 
 /// Returns name, size and time of a file; the size is -1 when it does not exist.
 Json stampOf(const fs::path& folder, const std::string& name) {
@@ -32,7 +56,7 @@ Json stampsOf(const fs::path& folder, const std::vector<std::string>& names) {
   return stamps;
 }
 
-std::string lineOf(const Json& json) {
+std::string textOf(const Json& json) {
   return json.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
@@ -46,40 +70,96 @@ std::string nameOfTemporary(const std::string& file_name) {
   return file_name.substr(1, mark - 1);
 }
 
-}  // namespace
-
-fs::path Record::pathIn(const fs::path& folder) { return folder / kFileName; }
-
-Record::Record(fs::path input, fs::path output)
-    : input_(std::move(input)), output_(std::move(output)) {
-  names_.insert(kFileName);
+/// Parses a line of a record. Returns null for one that was cut off or damaged.
+Json parseLine(const std::string& line) {
+  Json entry = Json::parse(line, nullptr, false);
+  const bool is_file = entry.is_object() && entry.contains("file") && entry["file"].is_string();
+  return is_file ? entry : Json();
 }
 
-Result Record::read() {
-  const fs::path path = pathIn(output_);
+}  // namespace
+
+bool Record::isName(std::string_view name) {
+  return name.starts_with(kNameBegin) && name.ends_with(kNameEnd);
+}
+
+Record::Record(fs::path input, fs::path output, const Part& part)
+    : input_(std::move(input)),
+      output_(std::move(output)),
+      part_(part),
+      path_(output_ / nameOf(part)) {}
+
+Result Record::open() {
   std::error_code code;
-  const fs::file_status status = fs::symlink_status(path, code);
-  if (!fs::exists(status)) return {};
-  if (!fs::is_regular_file(status)) {
-    return gltf::error(gltf::textOf(path), "is not a file, as the record of this folder would be");
+  const fs::file_status status = fs::symlink_status(path_, code);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    return gltf::error(gltf::textOf(path_), "is not a file, as the record of this folder would be");
   }
-  std::ifstream stream(path, std::ios::binary);
-  for (std::string line; std::getline(stream, line);) {
-    Json entry = Json::parse(line, nullptr, false);  // the last line may be cut off
-    const bool is_file = entry.is_object() && entry.contains("file") && entry["file"].is_string();
-    if (!is_file) continue;
-    const auto name = entry["file"].get<std::string>();
-    names_.insert(name);
-    if (entry.contains("maker")) {
-      files_[name] = std::move(entry);
-    } else {
-      files_.erase(name);
+  stream_.open(path_, std::ios::binary | std::ios::app);
+  if (!stream_) return gltf::error(gltf::textOf(path_), "cannot be written");
+  std::vector<fs::path> others;
+  for (fs::directory_iterator it(output_, code), end; !code && it != end; it.increment(code)) {
+    const std::string name = genericText(it->path().filename());
+    if (isName(name) && it->path() != path_ && it->is_regular_file(code)) {
+      others.push_back(it->path());
     }
   }
+  std::sort(others.begin(), others.end());
+  MCC_GLTF_TRY(lockAgainstOthers(others));
+  // A run that was killed may have left half of a line.
+  stream_ << "\n" << textOf({{"tool", std::string("gltf-mcc ") + MCC_VERSION}}) << std::flush;
+  read(path_);
+  for (const fs::path& other : others) read(other);
   return {};
 }
 
-void Record::removeTemporaries() const {
+/// Two runs that begin at the same time both hold their own lock before they look at the other's,
+/// so at least one of them sees the other.
+Result Record::lockAgainstOthers(const std::vector<fs::path>& others) {
+  bool is_free = lock_.take(path_);
+  for (const fs::path& other : others) {
+    if (!part_.overlaps(partOf(genericText(other.filename())))) continue;
+    gltf::WorkLock probe;
+    is_free = is_free && probe.take(other);
+  }
+  if (is_free) return {};
+  return gltf::error(gltf::textOf(output_),
+                     "another run is writing to this folder; wait for its end, choose another "
+                     "folder, or give each run a part of the same number of parts (--part)");
+}
+
+void Record::read(const fs::path& path) {
+  const auto record = static_cast<uint32_t>(records_.size());
+  std::ifstream& stream = records_.emplace_back(path, std::ios::binary);
+  uint64_t offset = 0;
+  for (std::string line; std::getline(stream, line); offset += line.size() + 1) {
+    const Json entry = parseLine(line);
+    if (entry.is_null()) continue;
+    const auto [known, is_new] =
+        places_.try_emplace(hashOf(entry["file"].get_ref<const std::string&>()));
+    // What was made counts more than what another part's record only announced.
+    if (is_new || entry.contains("maker")) known->second = {record, offset};
+  }
+  stream.clear();
+}
+
+Json Record::lineOf(std::string_view name) {
+  const auto found = places_.find(hashOf(name));
+  if (found == places_.end()) return {};
+  const std::lock_guard lock(mutex_);
+  std::ifstream& stream = records_[found->second.record];
+  std::string line;
+  stream.clear();
+  stream.seekg(static_cast<std::streamoff>(found->second.offset));
+  std::getline(stream, line);
+  Json entry = parseLine(line);
+  const bool is_it = !entry.is_null() && entry["file"].get_ref<const std::string&>() == name;
+  return is_it ? entry : Json();
+}
+
+bool Record::isOurs(std::string_view name) { return !lineOf(name).is_null(); }
+
+void Record::removeTemporaries() {
   std::error_code code;
   std::vector<fs::path> found;
   for (fs::recursive_directory_iterator it(output_, code), end; !code && it != end;
@@ -87,52 +167,55 @@ void Record::removeTemporaries() const {
     const std::string name = nameOfTemporary(gltf::textOf(it->path().filename()));
     if (name.empty()) continue;
     const fs::path file = it->path().parent_path() / gltf::pathOf(name);
-    const std::u8string relative = file.lexically_relative(output_).generic_u8string();
-    if (isOurs({relative.begin(), relative.end()})) found.push_back(it->path());
+    const std::string relative = genericText(file.lexically_relative(output_));
+    const auto place = places_.find(hashOf(relative));
+    // Another part may be working on those of its own.
+    const bool is_of_part =
+        place != places_.end() && (part_.isWhole() || place->second.record == 0);
+    if (is_of_part && isOurs(relative)) found.push_back(it->path());
   }
   for (const fs::path& path : found) fs::remove(path, code);
 }
 
-Result Record::begin(const std::vector<std::string>& names, gltf::TemporaryFiles* temporaries) {
-  names_.insert(names.begin(), names.end());
-  std::string text = lineOf({{"tool", std::string("gltf-mcc ") + MCC_VERSION}});
-  for (const std::string& name : names_) {
-    const auto known = files_.find(name);
-    text += known != files_.end() ? lineOf(known->second) : lineOf({{"file", name}});
-  }
-  const fs::path path = pathIn(output_);
-  MCC_GLTF_TRY(gltf::writeFile(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()},
-                               temporaries));
-  stream_.open(path, std::ios::binary | std::ios::app);
+void Record::claim(std::string_view name) {
+  const auto place = places_.find(hashOf(name));
+  if (place != places_.end() && place->second.record == 0) return;
+  stream_ << textOf({{"file", name}});
+}
+
+Result Record::endClaims() {
+  stream_.flush();
   if (stream_) return {};
-  return gltf::error(gltf::textOf(path), "cannot be written");
+  return gltf::error(gltf::textOf(path_), "cannot be written");
 }
 
-const Json* Record::findUpToDate(const std::string& name, const std::string& maker,
-                                 const std::vector<std::string>& inputs) const {
+std::optional<Json> Record::findUpToDate(std::string_view name, const std::string& maker,
+                                         const std::vector<std::string>& inputs) {
   try {
-    const auto found = files_.find(name);
-    if (found == files_.end() || found->second.at("maker") != maker) return nullptr;
-    const Json& entry = found->second;
-    if (entry.at("input") != stampsOf(input_, inputs)) return nullptr;
-    for (const Json& stamp : entry.at("output")) {
-      if (stampOf(output_, stamp.at(0).get<std::string>()) != stamp) return nullptr;
+    const Json entry = lineOf(name);
+    if (entry.is_null() || !entry.contains("maker") || entry.at("maker") != maker) {
+      return std::nullopt;
     }
-    return &entry.at("made");
+    if (entry.at("input") != stampsOf(input_, inputs)) return std::nullopt;
+    for (const Json& stamp : entry.at("output")) {
+      if (stampOf(output_, stamp.at(0).get<std::string>()) != stamp) return std::nullopt;
+    }
+    return entry.at("made");
   } catch (const Json::exception&) {
-    return nullptr;  // damaged
+    return std::nullopt;  // damaged
   }
 }
 
-void Record::add(const std::string& name, const std::string& maker,
+void Record::add(std::string_view name, const std::string& maker,
                  const std::vector<std::string>& inputs, const std::vector<std::string>& outputs,
                  const Json& made) {
-  stream_ << lineOf({{"file", name},
-                     {"maker", maker},
-                     {"input", stampsOf(input_, inputs)},
-                     {"output", stampsOf(output_, outputs)},
-                     {"made", made}})
-          << std::flush;
+  const std::string line = textOf({{"file", name},
+                                   {"maker", maker},
+                                   {"input", stampsOf(input_, inputs)},
+                                   {"output", stampsOf(output_, outputs)},
+                                   {"made", made}});
+  const std::lock_guard lock(mutex_);
+  stream_ << line << std::flush;
 }
 
 }  // namespace mcc::tiles

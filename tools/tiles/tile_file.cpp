@@ -11,6 +11,7 @@
 #include "gltf/base/result.h"
 #include "gltf/document/glb.h"
 #include "gltf/document/json.h"
+#include "tiles/little_endian.h"
 #include "tiles/matrix.h"
 
 namespace mcc::tiles {
@@ -26,13 +27,6 @@ constexpr uint64_t kI3dmHeaderBytes = 32;
 constexpr uint64_t kCmptHeaderBytes = 16;
 constexpr uint64_t kGlbHeaderBytes = 12;
 constexpr uint32_t kMostNesting = 64;
-
-/// Reads a number whose place has been checked.
-uint32_t numberAt(std::span<const uint8_t> bytes, uint64_t at) {
-  uint32_t value = 0;
-  for (size_t i = 0; i < 4; ++i) value |= uint32_t{bytes[at + i]} << (8 * i);
-  return value;
-}
 
 void setNumber(std::vector<uint8_t>& bytes, uint64_t at, uint32_t value) {
   for (size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<uint8_t>(value >> (8 * i));

@@ -108,7 +108,8 @@ void renumberVertices(const Document& document, const PiecePlan& piece,
   for (const uint32_t index : piece.vertex_numbers) {
     const Accessor& accessor = document.accessors[index];
     std::vector<uint32_t> numbers;
-    if (!readIndices(document, index, numbers).ok()) continue;  // it could be read before
+    // They could be read before. Without numbers, there is nothing to change.
+    if (!readIndices(document, index, numbers).ok() || numbers.empty()) continue;
     const uint32_t bytes_each = componentBytes(accessor.component_type);
     NewView view;
     for (uint32_t& number : numbers) {
@@ -125,7 +126,7 @@ void renumberVertices(const Document& document, const PiecePlan& piece,
     if (target != nullptr && asUnsigned(*target, number) && number <= 0xffffffffu) {
       view.target = static_cast<uint32_t>(number);
     }
-    if (!numbers.empty()) setBounds(boundsOf(numbers), ComponentType::kUint32, false, edited);
+    setBounds(boundsOf(numbers), ComponentType::kUint32, false, edited);
     views.push_back(std::move(view));
   }
 }

@@ -134,9 +134,9 @@ void visitViewReferencesOf(J& root, const Visit& visit) {
     });
   });
   if constexpr (std::is_const_v<J>) {
-    visitTableViews(root, [&](J& number) { visit(number, kNone); });
+    visitTableViews(root, [&](J& view) { visit(view, kNone); });
   } else {
-    editTableViews(root, [&](J& number) { visit(number, kNone); });
+    editTableViews(root, [&](J& view) { visit(view, kNone); });
   }
 }
 

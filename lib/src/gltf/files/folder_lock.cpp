@@ -13,13 +13,13 @@
 namespace mcc::gltf {
 
 FolderLock::FolderLock(const std::filesystem::path& folder, Kind kind)
-    : lock_(system::openFolderLock(folder)) {
+    : lock_(system::openLock(folder)) {
   using std::chrono::milliseconds;
   constexpr milliseconds kLongestPause(20);
   constexpr milliseconds kPatience(2000);
   milliseconds pause(1);
   for (milliseconds waited(0); lock_ != system::kNoLock && waited < kPatience; waited += pause) {
-    const system::LockOutcome outcome = system::tryFolderLock(lock_, kind == Kind::kShared);
+    const system::LockOutcome outcome = system::tryLock(lock_, kind == Kind::kShared);
     is_held_ = outcome == system::LockOutcome::kHeld;
     if (outcome != system::LockOutcome::kBusy) return;
     std::this_thread::sleep_for(pause);
@@ -28,7 +28,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder, Kind kind)
 }
 
 FolderLock::~FolderLock() {
-  if (lock_ != system::kNoLock) system::closeFolderLock(lock_, is_held_);
+  if (lock_ != system::kNoLock) system::closeLock(lock_, is_held_);
 }
 
 std::unique_ptr<FolderLock> lockToRead(const std::filesystem::path& document) {

@@ -82,14 +82,15 @@ std::optional<Permissions> permissionsOf(const std::filesystem::path& path);
 /// users have, so that nobody can read what was hidden from them.
 void setPermissions(int file, const Permissions& older);
 
-/// An advisory lock on a folder; see FolderLock for what it promises. It belongs to the thread that
-/// took it, which must close it; on Windows that thread may take another lock on the same folder.
+/// An advisory lock on a folder or a file; see FolderLock and WorkLock for what they promise. It
+/// belongs to the thread that took it, which must close it; on Windows that thread may take another
+/// lock on the same folder or file.
 enum class LockOutcome : uint8_t { kHeld, kBusy, kImpossible };
 inline constexpr intptr_t kNoLock = -1;
-intptr_t openFolderLock(const std::filesystem::path& folder);
+intptr_t openLock(const std::filesystem::path& path);
 /// Does not wait. A shared lock may be exclusive where the system has no shared ones.
-LockOutcome tryFolderLock(intptr_t lock, bool is_shared);
-void closeFolderLock(intptr_t lock, bool is_held);
+LockOutcome tryLock(intptr_t lock, bool is_shared);
+void closeLock(intptr_t lock, bool is_held);
 
 }  // namespace system
 }  // namespace mcc::gltf

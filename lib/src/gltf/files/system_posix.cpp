@@ -113,18 +113,20 @@ void setPermissions(int file, const Permissions& older) {
   (void)::fchmod(file, mode);  // some file systems have no permissions
 }
 
-intptr_t openFolderLock(const std::filesystem::path& folder) {
-  return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+intptr_t openLock(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);  // NFS locks only what may be written
+  if (file >= 0 || errno != EISDIR) return file;
+  return ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
 }
 
-LockOutcome tryFolderLock(intptr_t lock, bool is_shared) {
+LockOutcome tryLock(intptr_t lock, bool is_shared) {
   if (::flock(static_cast<int>(lock), (is_shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0)
     return LockOutcome::kHeld;
   const bool is_busy = errno == EWOULDBLOCK || errno == EINTR;
   return is_busy ? LockOutcome::kBusy : LockOutcome::kImpossible;
 }
 
-void closeFolderLock(intptr_t lock, bool) { ::close(static_cast<int>(lock)); }
+void closeLock(intptr_t lock, bool) { ::close(static_cast<int>(lock)); }
 
 }  // namespace mcc::gltf::system
 #endif

@@ -178,8 +178,8 @@ void setPermissions(int, const Permissions&) {}
 /// Folders cannot be locked here, so a mutex is named after the identity of the folder, for all
 /// sessions of the machine. The system releases it when its process ends. A mutex of another user
 /// cannot be opened, and the lock is then impossible.
-intptr_t openFolderLock(const std::filesystem::path& folder) {
-  const std::optional<FileIdentity> identity = identityOf(folder);
+intptr_t openLock(const std::filesystem::path& path) {
+  const std::optional<FileIdentity> identity = identityOf(path);
   if (!identity) return kNoLock;
   const std::wstring name = L"Global\\gltf-mcc-" + std::to_wstring(identity->device) + L"-" +
                             std::to_wstring(identity->number);
@@ -187,7 +187,7 @@ intptr_t openFolderLock(const std::filesystem::path& folder) {
   return mutex == nullptr ? kNoLock : reinterpret_cast<intptr_t>(mutex);
 }
 
-LockOutcome tryFolderLock(intptr_t lock, bool) {
+LockOutcome tryLock(intptr_t lock, bool) {
   switch (::WaitForSingleObject(reinterpret_cast<HANDLE>(lock), 0)) {
     case WAIT_OBJECT_0:
     case WAIT_ABANDONED: return LockOutcome::kHeld;
@@ -196,7 +196,7 @@ LockOutcome tryFolderLock(intptr_t lock, bool) {
   }
 }
 
-void closeFolderLock(intptr_t lock, bool is_held) {
+void closeLock(intptr_t lock, bool is_held) {
   const HANDLE mutex = reinterpret_cast<HANDLE>(lock);
   if (is_held) ::ReleaseMutex(mutex);
   ::CloseHandle(mutex);

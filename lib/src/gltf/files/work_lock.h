@@ -1,0 +1,35 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Keeps a second process from doing the same work at the same time.
+#ifndef MCC_GLTF_FILES_WORK_LOCK_H_
+#define MCC_GLTF_FILES_WORK_LOCK_H_
+
+#include <cstdint>
+#include <filesystem>
+
+#include "gltf/files/system.h"
+
+namespace mcc::gltf {
+
+/// An advisory lock on a file that stands for the work, held for as long as this object exists. The
+/// system releases it when the process ends, in whatever way it ends. The thread that takes it must
+/// also release it.
+class WorkLock {
+ public:
+  WorkLock() = default;
+  ~WorkLock();
+  WorkLock(const WorkLock&) = delete;
+  WorkLock& operator=(const WorkLock&) = delete;
+
+  /// Takes the lock on a file, without waiting. Returns false when another process holds it. Where
+  /// the file system has no locks, nothing can be known about others, and this returns true.
+  bool take(const std::filesystem::path& file);
+
+ private:
+  intptr_t lock_ = system::kNoLock;
+  bool is_held_ = false;
+};
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_FILES_WORK_LOCK_H_
