@@ -10,7 +10,9 @@ import { OURS } from './make.mjs';
 import { median } from './runs.mjs';
 import { filesIn } from './tileset.mjs';
 
-const isControlled = () => globalThis.load !== undefined && navigator.serviceWorker.controller !== null;
+/** The page loads itself again as soon as the service worker has it, so that a worker alone is not enough. */
+const isControlled = () => globalThis.load !== undefined && navigator.serviceWorker.controller !== null
+  && performance.getEntriesByType('navigation')[0].type === 'reload';
 const isReady = () => globalThis.load !== undefined;
 
 /**
