@@ -100,6 +100,7 @@ const meshopt = (name, version) => async (glb, bits) => {
 /** Compresses the buffer views of indices and vertices of a GLB in which no two accessors share one. */
 function compressViews(glb, name, version) {
   const { json, chunks: [{ data }] } = readGlb(glb);
+  separateIndices(json);
   const roles = rolesOf(json);
   const parts = [];
   let length = 0;
@@ -143,6 +144,26 @@ function compressViews(glb, name, version) {
   json.extensionsUsed = [...new Set([...(json.extensionsUsed ?? []), ...required])];
   json.extensionsRequired = [...new Set([...(json.extensionsRequired ?? []), ...required])];
   return writeGlb(json, [{ type: BIN_CHUNK, data: Buffer.concat(parts) }]);
+}
+
+/** Gives each accessor of indices a buffer view of its own, which glTF-Transform does for attributes alone. */
+function separateIndices(json) {
+  const taken = new Set();
+  const numbers = new Set((json.meshes ?? []).flatMap(({ primitives }) => primitives).map(({ indices }) => indices).filter((number) => number !== undefined));
+  const views = [...json.bufferViews];
+  for (const number of numbers) {
+    const accessor = json.accessors[number];
+    const { byteOffset = 0, ...view } = views[accessor.bufferView];
+    const own = { ...view, byteOffset: byteOffset + (accessor.byteOffset ?? 0), byteLength: bytesPerIndex(accessor) * accessor.count };
+    if (taken.has(accessor.bufferView)) {
+      json.bufferViews.push(own);
+      accessor.bufferView = json.bufferViews.length - 1;
+    } else {
+      taken.add(accessor.bufferView);
+      json.bufferViews[accessor.bufferView] = own;
+    }
+    accessor.byteOffset = 0;
+  }
 }
 
 const bytesPerIndex = ({ componentType }) => ({ 5121: 1, 5123: 2, 5125: 4 })[componentType];

@@ -74,7 +74,26 @@ function placedPrimitive(primitive, m) {
   }
   const ids = primitive.listSemantics().filter((name) => /^_(BATCHID|FEATURE_ID_\d+)$/.test(name)).sort()
     .map((name) => primitive.getAttribute(name).getArray());
-  return { positions, numbers: primitive.getAttribute(NUMBER)?.getArray(), ids };
+  const indices = primitive.getIndices()?.getArray() ?? Uint32Array.from({ length: count }, (_, i) => i);
+  return { positions, numbers: primitive.getAttribute(NUMBER)?.getArray(), ids, indices };
+}
+
+/**
+ * A sum over all triangles, which their order and first corners do not change. Those with two corners in one place do not count, because
+ * Draco drops them.
+ */
+function trianglesSum({ indices, numbers }, { positions }) {
+  let sum = 0;
+  const isSame = (a, b) => [0, 1, 2].every((k) => positions[3 * a + k] === positions[3 * b + k]);
+  for (let i = 0; i + 2 < indices.length; i += 3) {
+    const corners = [0, 1, 2].map((k) => numbers[indices[i + k]]);
+    const [a, b, c] = corners;
+    if (isSame(a, b) || isSame(b, c) || isSame(a, c)) continue;
+    const first = corners.indexOf(Math.min(a, b, c));
+    const [x, y, z] = [0, 1, 2].map((k) => corners[(first + k) % 3]);
+    sum = (sum + Math.imul(Math.imul(Math.imul(x + 1, 0x9e3779b1) ^ y, 0x85ebca6b) ^ z, 0xc2b2ae35)) | 0;
+  }
+  return sum;
 }
 
 /**
@@ -89,6 +108,7 @@ export function errorOf(source, decoded, transforms) {
   decoded.forEach(({ positions, numbers, ids }, i) => {
     const from = source[i];
     if (numbers === undefined) throw new Error('a codec dropped the numbers of the vertices');
+    if (trianglesSum(decoded[i], from) !== trianglesSum(from, from)) throw new Error('a codec changed triangles');
     for (let v = 0; v < numbers.length; ++v) {
       const s = numbers[v];
       const d = [0, 1, 2].map((k) => positions[3 * v + k] - from.positions[3 * s + k]);
