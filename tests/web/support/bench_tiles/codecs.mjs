@@ -74,7 +74,7 @@ async function withoutImages(glb, change) {
   return Buffer.from(writeGlb({ ...made.json, images, textures }, made.chunks));
 }
 
-export function dracoOptions(compressionLevel, bits) {
+function dracoOptions(compressionLevel, bits) {
   return {
     compressionLevel, quantizePositionBits: bits, quantizeNormalBits: NORMAL_BITS, quantizeTexcoordBits: TEXCOORD_BITS, quantizeColorBits: COLOR_BITS,
   };

@@ -9,7 +9,6 @@ import { ROOT } from '../paths.mjs';
 const FOLDER = path.join(ROOT, 'tools/bench-tiles.d');
 const ours = createRequire(path.join(FOLDER, 'package.json'));
 
-export const TILES_TOOLS = path.join(FOLDER, 'node_modules/3d-tiles-tools/build/src/cli.mjs');
 export const { GltfUtilities, TileFormats } = ours('3d-tiles-tools');
 export const toolsVersions = () => Object.fromEntries(['3d-tiles-tools', 'gltf-pipeline', 'draco3d'].map((name) => [
   name, JSON.parse(readFileSync(path.join(FOLDER, `node_modules/${name}/package.json`))).version]));

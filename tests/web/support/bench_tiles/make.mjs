@@ -235,6 +235,16 @@ function noteAll(rows, family, isEach, tile, error, bits) {
   }
 }
 
+/** The smallest of the contents that some ways to change models make: fewer bits are not always smaller. */
+async function smallest(bytes, ways) {
+  let best;
+  for (const way of ways) {
+    const made = await changeModels(bytes, way);
+    if (best === undefined || made.length < best.length) best = made;
+  }
+  return best;
+}
+
 /** Writes the tilesets of the other codecs; returns the seconds that each row took, with reading and writing. */
 async function writeRows(tileset, tiles, work, rows, least, fixed) {
   const seconds = {};
@@ -248,7 +258,8 @@ async function writeRows(tileset, tiles, work, rows, least, fixed) {
       for (const { name } of tiles) {
         const bytes = readFileSync(path.join(path.dirname(tileset), name));
         const bits = isEach ? least[errorsOf][name] ?? DEFAULT_BITS : fixed[errorsOf];
-        const made = await changeModels(bytes, (glb) => make(isEach ? withIntegerIds(glb) : glb, bits)).catch((error) => {
+        const choices = isEach ? [[bits, false], [bits, true], [fixed[errorsOf], false]] : [[bits, false]];
+        const made = await smallest(bytes, choices.map(([of, hasIntegers]) => (glb) => make(hasIntegers ? withIntegerIds(glb) : glb, of))).catch((error) => {
           if (!(error instanceof Unsupported)) throw error;
           rows[row].unchanged.push(`${name}: ${error.message}`);
           return bytes;

@@ -3,10 +3,8 @@
 // Runs of programs for tools/bench-tiles: tiles per second, and what is left of runs that were killed.
 import { execFileSync, spawn } from 'node:child_process';
 import { createHash } from 'node:crypto';
-import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, rmSync } from 'node:fs';
 import path from 'node:path';
-import { dracoOptions } from './codecs.mjs';
-import { TILES_TOOLS } from './contents.mjs';
 import { RECORD } from './make.mjs';
 import { filesIn } from './tileset.mjs';
 
@@ -20,15 +18,13 @@ function secondsOf(work) {
 
 const runQuietly = (program, args) => execFileSync(program, args, { stdio: ['ignore', 'ignore', 'pipe'] });
 
-/** Seconds of whole runs: { [what]: seconds }, medians of `runs`, in turns. */
-export function measureRuns(program, tileset, work, bits, runs) {
+/** Seconds of whole runs of ours: { [what]: seconds }, medians of `runs`, in turns. */
+export function measureRuns(program, tileset, work, runs) {
   const folder = path.join(work, 'rates');
   const ours = (jobs) => () => runQuietly(program, ['tiles', '--quiet', '-j', `${jobs}`, tileset, folder]);
   const tasks = {
     'gltf-mcc, 1 job': ours(1),
     'gltf-mcc, 2 jobs': ours(2),
-    'Draco 7': () => runPipeline(tileset, folder, dracoOptions(7, bits)),
-    'Draco 10': () => runPipeline(tileset, folder, dracoOptions(10, bits)),
   };
   const seconds = Object.fromEntries(Object.keys(tasks).map((name) => [name, []]));
   for (let i = 0; i < runs; ++i) {
@@ -39,18 +35,6 @@ export function measureRuns(program, tileset, work, bits, runs) {
   }
   rmSync(folder, { recursive: true, force: true });
   return Object.fromEntries(Object.entries(seconds).map(([name, list]) => [name, median(list)]));
-}
-
-/** 3d-tiles-tools' pipeline with gltf-pipeline for all kinds of tiles that it has a stage for. */
-function runPipeline(tileset, folder, options) {
-  const stage = (name) => ({ name: `_${name}`, contentStages: [{ name, options: { dracoOptions: options } }] });
-  const file = `${folder}.pipeline.json`;
-  mkdirSync(folder, { recursive: true });
-  writeFileSync(file, JSON.stringify({
-    input: tileset, output: path.join(folder, path.basename(tileset)), tilesetStages: ['optimizeGlb', 'optimizeB3dm', 'optimizeI3dm'].map(stage),
-  }));
-  runQuietly(process.execPath, [TILES_TOOLS, 'pipeline', '--force', '-i', file]);
-  rmSync(file);
 }
 
 /** { [name]: digest } of all files but the record, which has the times of the files. */

@@ -30,7 +30,7 @@ function bytesTable(figures) {
   }));
 }
 
-const unchangedText = ({ length }) => (length === 0 ? '' : ` (${count(length)} tiles stay as they were)`);
+const unchangedText = ({ length }) => (length === 0 ? '' : ` (${length === 1 ? '1 tile stays as it was' : `${count(length)} tiles stay as they were`})`);
 
 function bitsText(bits) {
   if (bits.length === 0) return '';
