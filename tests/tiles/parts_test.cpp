@@ -6,9 +6,11 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include <optional>
 #include <set>
 #include <thread>
 
+#include "gltf/files/work_lock.h"
 #include "tiles/part.h"
 #include "tiles/tiles_fixture.h"
 
@@ -129,40 +131,27 @@ TEST_F(TileParts, WrongUse) {
   EXPECT_FALSE(fs::exists(path("none")));
 }
 
-/// Stops a run in its middle, and starts others in the same folder.
+/// The test holds the lock that a run of a part would hold.
 TEST_F(TileParts, TwoRunsDoNotMeet) {
-  const auto startAndStop = [&](const std::vector<std::string>& arguments) {
-    const pid_t child = start(arguments);
-    while (!fs::exists(path("shared/0/root.glb"))) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    kill(child, SIGSTOP);
-    return child;
-  };
-  const auto end = [](pid_t child) {
-    kill(child, SIGKILL);
-    int code = 0;
-    waitpid(child, &code, 0);
-  };
-  // Files are made in a known order with one job: a part that has root.glb, the largest, first.
-  const tiles::Part first{1, 2};
-  const std::string part = first.has("0/root.glb") ? "1/2" : "2/2";
-  const std::string other = first.has("0/root.glb") ? "2/2" : "1/2";
-  const pid_t child = startAndStop({"tiles", "in/tileset.json", "shared", "--part", part});
-  const std::string refused = "another run is writing to this folder";
-  for (const std::string& arguments :
-       {"--part " + part, std::string(), std::string("--part 3/5")}) {
-    const ToolResult result = run("tiles in/tileset.json shared " + arguments);
+  ASSERT_EQ(run("tiles in/tileset.json shared --part 1/2").status, 0);
+  const Files part = filesOf("shared");
+  std::optional<gltf::WorkLock> lock(std::in_place);
+  ASSERT_TRUE(lock->take(path("shared/.gltf-mcc-tiles.1-of-2.jsonl")));
+  for (const char* arguments : {"--part 1/2", "", "--part 3/5"}) {
+    const ToolResult result = run(std::string("tiles in/tileset.json shared ") + arguments);
     EXPECT_EQ(result.status, 1) << arguments;
-    EXPECT_NE(result.err.find(refused), std::string::npos) << arguments << result.err;
+    EXPECT_NE(result.err.find("another run is writing to this folder"), std::string::npos)
+        << arguments << result.err;
+    EXPECT_TRUE(filesOf("shared") == part);
   }
-  EXPECT_EQ(run("tiles in/tileset.json shared --part " + other).status, 0);
+  EXPECT_EQ(run("tiles in/tileset.json shared --part 2/2").status, 0);
+  EXPECT_TRUE(filesOf("shared") == whole_);
   // A run that waits goes on as soon as the other one is gone.
   const pid_t waiting = start({"tiles", "in/tileset.json", "shared", "--wait"});
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   int code = 0;
   EXPECT_EQ(waitpid(waiting, &code, WNOHANG), 0) << "it does not wait";
-  end(child);
+  lock.reset();
   waitpid(waiting, &code, 0);
   EXPECT_TRUE(WIFEXITED(code) && WEXITSTATUS(code) == 0);
   EXPECT_TRUE(filesOf("shared") == whole_);
