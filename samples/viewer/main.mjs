@@ -17,9 +17,9 @@ import { claimsBlocks } from './vendor/gltf-mcc/blocks.mjs';
 import { EXTENSION_NAME } from './vendor/gltf-mcc/document.mjs';
 import { LinkedViews } from './views.mjs';
 
-const SAMPLES = ['textured', 'torus', 'genus3', 'sheet_with_holes', 'two_materials', 'skinned', 'morphed', 'moebius', 'non_manifold',
-  'quantized'];
-const EXAMPLES = ['textured', 'torus', 'sheet_with_holes', 'two_materials'];
+const SAMPLES = ['koi', 'textured', 'torus', 'genus3', 'sheet_with_holes', 'two_materials', 'skinned', 'morphed', 'moebius',
+  'non_manifold', 'quantized'];
+const EXAMPLES = ['koi', 'textured', 'torus', 'sheet_with_holes', 'two_materials'];
 /** Encoding takes a thousand bytes of memory per triangle, and seconds per million triangles. */
 const MAX_TRIANGLES = 4_000_000;
 
@@ -42,6 +42,7 @@ class Page {
       $('chips').append(element('li', {}, element('button', { type: 'button', onclick: () => this.openSample(name) }, titleOf(name))));
     }
     for (const mode of ['wireframe', 'heat', 'tree']) $(mode).onclick = () => this.toggle(mode);
+    $('play').onclick = () => this.play(!this.views.isPlaying);
     $('reset').onclick = () => this.views.frame();
     $('cancel').onclick = () => this.cancel();
     $('download').onclick = () => this.download();
@@ -69,6 +70,7 @@ class Page {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches('input, select')) return;
     const mode = { w: 'wireframe', e: 'heat', c: 'tree' }[event.key.toLowerCase()];
     if (mode !== undefined && !$('work').hidden && !$(mode).disabled) this.toggle(mode);
+    if (event.key.toLowerCase() === 'p' && !$('play').hidden) this.play(!this.views.isPlaying);
   }
 
   // ---- files
@@ -187,7 +189,11 @@ class Page {
     if (isCompressed) this.say('notice', 'This file is compressed with mesh collapse already. The original shown here is what it decodes to.');
     if (!this.isNew) return;
     this.isNew = false;
-    await this.inOrder(() => this.views.showOriginal(bytes));
+    await this.inOrder(async () => {
+      this.play(false);
+      await this.views.showOriginal(bytes);
+      $('play').hidden = !this.views.isAnimated;
+    });
   }
 
   /** The result may be large: its blocks are shown while the worker still decodes the whole of it. */
@@ -347,10 +353,24 @@ class Page {
     const on = !this.views.modes[mode];
     const modes = { [mode]: on };
     if (on && mode === 'heat') modes.tree = false;
-    if (on && mode === 'tree') modes.heat = false;
+    if (on && mode === 'tree') {
+      modes.heat = false;
+      this.play(false);
+    }
+    this.setModes(modes);
+  }
+
+  setModes(modes) {
     this.views.setModes(modes);
     for (const id of ['wireframe', 'heat', 'tree']) $(id).setAttribute('aria-pressed', String(this.views.modes[id]));
     this.showLegend();
+  }
+
+  /** The collapse order is drawn on models at rest. */
+  play(on) {
+    if (on) this.setModes({ tree: false });
+    this.views.play(on);
+    $('play').setAttribute('aria-pressed', String(on));
   }
 
   showLegend() {

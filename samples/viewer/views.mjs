@@ -2,7 +2,7 @@
 //
 // Shows two pictures of a model with the same camera: the original, and what compression made of
 // it.
-import { BackSide, Box3, BoxGeometry, BufferAttribute, BufferGeometry, Color, DirectionalLight, Group, HemisphereLight,
+import { AnimationMixer, BackSide, Box3, BoxGeometry, BufferAttribute, BufferGeometry, Color, DirectionalLight, Group, HemisphereLight,
   LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, MeshStandardMaterial, PerspectiveCamera, PMREMGenerator, Quaternion, Scene, Sphere,
   Spherical, SphereGeometry, Vector3, WebGLRenderer } from './vendor/three/build/three.module.js';
 import { OrbitControls } from './vendor/three/examples/jsm/controls/OrbitControls.js';
@@ -26,13 +26,15 @@ class View {
     this.scene.add(this.sun, this.sun.target, new HemisphereLight(0xffffff, 0x8a93a3, 1));
     this.meshes = [];
     this.lines = [];
+    this.animations = [];
   }
 
   /** @param {Uint8Array} glb */
   async load(glb) {
-    const { scene, parser } = await new GLTFLoader().parseAsync(glb.slice().buffer, '');
+    const { scene, parser, animations } = await new GLTFLoader().parseAsync(glb.slice().buffer, '');
     this.clear();
     this.model = scene;
+    this.animations = animations;
     this.scene.add(scene);
     scene.updateMatrixWorld(true);
     scene.traverse((object) => {
@@ -81,6 +83,22 @@ class View {
     this.meshes = [];
     if (this.model !== undefined) this.scene.remove(this.model);
     this.model = undefined;
+    this.animations = [];
+    this.mixer = undefined;
+  }
+
+  /** @param {number | undefined} seconds since all animations began; undefined: the model is at rest */
+  pose(seconds) {
+    if (seconds === undefined) {
+      this.mixer?.stopAllAction();
+      this.mixer = undefined;
+    } else if (this.animations.length !== 0) {
+      if (this.mixer === undefined) {
+        this.mixer = new AnimationMixer(this.model);
+        for (const clip of this.animations) this.mixer.clipAction(clip).play();
+      }
+      this.mixer.setTime(seconds);
+    }
   }
 
   /** @param {{ mesh: number, primitive: number, edges: Uint32Array }[] | undefined} primitives edges: pairs of vertices in their order */
@@ -346,6 +364,21 @@ export class LinkedViews {
     this.paint();
   }
 
+  get isAnimated() {
+    return this.original.animations.length !== 0;
+  }
+
+  get isPlaying() {
+    return this.begin !== undefined;
+  }
+
+  /** Both models move at the same time, or return to rest. */
+  play(on) {
+    this.begin = on ? performance.now() : undefined;
+    if (!on) for (const view of this.views) view.pose(undefined);
+    this.draw();
+  }
+
   paint() {
     const { wireframe, heat, tree } = this.modes;
     for (const surface of this.original.meshes) surface.paint({ wireframe });
@@ -398,11 +431,15 @@ export class LinkedViews {
     for (const view of this.views) view.render(this.camera, this.target);
   }
 
-  /** Draws in the next frame. */
+  /** Draws in the next frame, and in all after it while the models move. */
   draw() {
-    this.request ??= requestAnimationFrame(() => {
+    this.request ??= requestAnimationFrame((now) => {
       this.request = undefined;
-      for (const view of this.views) view.render(this.camera, this.target);
+      for (const view of this.views) {
+        if (this.isPlaying) view.pose(Math.max(now - this.begin, 0) / 1000);
+        view.render(this.camera, this.target);
+      }
+      if (this.isPlaying) this.draw();
     });
   }
 }

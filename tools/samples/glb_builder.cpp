@@ -150,26 +150,40 @@ uint32_t GlbBuilder::addIndices(std::span<const uint32_t> indices, uint32_t targ
   return addAccessor(view, is_short ? kUnsignedShort : kUnsignedInt, indices.size(), "SCALAR");
 }
 
+Json GlbBuilder::addReplacements(std::span<const uint32_t> where, std::span<const float> values) {
+  std::vector<uint8_t> indices;
+  for (const uint32_t index : where) putInteger(indices, index, 2);
+  const uint32_t index_view = addView(indices, kNoTarget, 0);
+  const uint32_t value_view = addView(bytesOf(values), kNoTarget, 0);
+  return {{"count", where.size()},
+          {"indices", {{"bufferView", index_view}, {"componentType", kUnsignedShort}}},
+          {"values", {{"bufferView", value_view}}}};
+}
+
 uint32_t GlbBuilder::addSparseFloats(uint32_t base_accessor, std::span<const float> base,
                                      std::span<const uint32_t> where,
                                      std::span<const float> values) {
-  std::vector<uint8_t> indices;
   std::vector<float> all(base.begin(), base.end());
   for (size_t i = 0; i < where.size(); ++i) {
-    putInteger(indices, where[i], 2);
     std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i * 3), 3,
                 all.begin() + static_cast<std::ptrdiff_t>(size_t{where[i]} * 3));
   }
-  const uint32_t index_view = addView(indices, kNoTarget, 0);
-  const uint32_t value_view = addView(bytesOf(values), kNoTarget, 0);
+  Json sparse = addReplacements(where, values);
   Json accessor = json_["accessors"][base_accessor];
   json_["bufferViews"][accessor["bufferView"].get<size_t>()]["byteStride"] =
       12;  // it has two users now
   setBounds(accessor, std::span<const float>(all), 3);
-  accessor["sparse"] = {
-      {"count", where.size()},
-      {"indices", {{"bufferView", index_view}, {"componentType", kUnsignedShort}}},
-      {"values", {{"bufferView", value_view}}}};
+  accessor["sparse"] = std::move(sparse);
+  return push("accessors", std::move(accessor));
+}
+
+uint32_t GlbBuilder::addSparseZeros(size_t count, std::span<const uint32_t> where,
+                                    std::span<const float> values) {
+  std::vector<float> bounding(values.begin(), values.end());
+  if (where.size() < count) bounding.insert(bounding.end(), 3, 0.0f);
+  Json accessor = {{"componentType", kFloat}, {"count", count}, {"type", "VEC3"}};
+  setBounds(accessor, std::span<const float>(bounding), 3);
+  if (!where.empty()) accessor["sparse"] = addReplacements(where, values);
   return push("accessors", std::move(accessor));
 }
 

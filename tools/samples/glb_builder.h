@@ -39,6 +39,9 @@ class GlbBuilder {
   /// (ascending) by `values`.
   uint32_t addSparseFloats(uint32_t base_accessor, std::span<const float> base,
                            std::span<const uint32_t> where, std::span<const float> values);
+  /// Adds a VEC3 float accessor of zeros, and replaces those at `where` (ascending) by `values`.
+  uint32_t addSparseZeros(size_t count, std::span<const uint32_t> where = {},
+                          std::span<const float> values = {});
   /// Adds a material; colour components are 0..1, linear.
   uint32_t addMaterial(const std::string& name, float red, float green, float blue, float metallic,
                        float roughness, bool double_sided = false);
@@ -59,6 +62,7 @@ class GlbBuilder {
 
  private:
   uint32_t addIndices(std::span<const uint32_t> indices, uint32_t target);
+  Json addReplacements(std::span<const uint32_t> where, std::span<const float> values);
   uint32_t addView(std::span<const uint8_t> bytes, uint32_t target, uint32_t stride_bytes);
   uint32_t addAccessor(uint32_t view, uint32_t component_type, size_t count, const char* type);
   uint32_t push(const char* array, Json element);

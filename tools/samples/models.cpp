@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "koi.h"
 #include "png.h"
 #include "scene.h"
 
@@ -299,18 +300,6 @@ GlbBuilder sharedVertices() {
 
 // ---- Moving -------------------------------------------------------------------------------------
 
-void addChannel(GlbBuilder& glb, uint32_t times, uint32_t values, uint32_t node, const char* path) {
-  Json& json = glb.json();
-  if (!json.contains("animations")) {
-    json["animations"] = Json::array(
-        {Json{{"name", "move"}, {"channels", Json::array()}, {"samplers", Json::array()}}});
-  }
-  Json& animation = json["animations"][0];
-  animation["channels"].push_back(
-      {{"sampler", animation["samplers"].size()}, {"target", {{"node", node}, {"path", path}}}});
-  animation["samplers"].push_back({{"input", times}, {"output", values}});
-}
-
 GlbBuilder skinned() {
   constexpr uint32_t kJoints = 4;
   constexpr uint32_t kRowsPerJoint = 9;
@@ -599,6 +588,7 @@ GlbBuilder modes() {
 }
 
 constexpr Model kModels[] = {
+    {"koi.glb", "a picture, a skin of nine joints and two morph targets: a fish that swims", koi},
     {"sphere.glb", "closed surface of genus 0", sphere},
     {"torus.glb", "closed surface of genus 1", torus},
     {"genus3.glb", "closed surface of genus 3", genus3},
@@ -614,7 +604,7 @@ constexpr Model kModels[] = {
     {"moebius.glb", "Möbius strip: not orientable", moebius},
     {"quantized.glb", "KHR_mesh_quantization: 16 and 8 bit integer attributes, vertex colours",
      quantized},
-    {"modes.glb", "triangle strip, fan, no indices, sparse accessor, an accessor of two meshes",
+    {"modes.glb", "triangle strip, fan, no indices, sparse accessor, an accessor shared by two meshes",
      modes},
 };
 

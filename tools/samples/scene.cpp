@@ -95,6 +95,18 @@ Json addPrimitive(GlbBuilder& glb, const TestMesh& mesh, uint32_t material) {
   return primitive(attributes, glb.addIndices(mesh.indices), material);
 }
 
+void addChannel(GlbBuilder& glb, uint32_t times, uint32_t values, uint32_t node, const char* path) {
+  Json& json = glb.json();
+  if (!json.contains("animations")) {
+    json["animations"] = Json::array(
+        {Json{{"name", "move"}, {"channels", Json::array()}, {"samplers", Json::array()}}});
+  }
+  Json& animation = json["animations"][0];
+  animation["channels"].push_back(
+      {{"sampler", animation["samplers"].size()}, {"target", {{"node", node}, {"path", path}}}});
+  animation["samplers"].push_back({{"input", times}, {"output", values}});
+}
+
 GlbBuilder single(const std::string& name, const TestMesh& mesh, float red, float green, float blue,
                   bool double_sided) {
   GlbBuilder glb(name);

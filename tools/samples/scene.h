@@ -68,6 +68,10 @@ inline Json primitive(const Json& attributes, uint32_t indices, uint32_t materia
 /// Adds the attributes and then the indices of `mesh`.
 Json addPrimitive(GlbBuilder& glb, const TestMesh& mesh, uint32_t material);
 
+/// Adds a channel to the first animation, which is added when it is missing. `times` and `values`
+/// are accessors.
+void addChannel(GlbBuilder& glb, uint32_t times, uint32_t values, uint32_t node, const char* path);
+
 /// Makes a document with one node, one mesh and one primitive.
 GlbBuilder single(const std::string& name, const TestMesh& mesh, float red, float green, float blue,
                   bool double_sided = false);

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // samples/viewer: files come in, are compressed and compared, go out; what cannot be shown gets a message. MCC_SCREENSHOTS=FOLDER
-// saves a picture of the page.
+// saves viewer.png, a picture of the page, and koi.png, one of its model.
 import assert from 'node:assert/strict';
 import { readFile, writeFile } from 'node:fs/promises';
 import path from 'node:path';
@@ -24,6 +24,7 @@ const MAX_DIFFERENCE_FROM_SOURCE = 0.02;
 const MIN_COVERAGE = 0.1;
 /** What an overlay changes at least. */
 const MIN_CHANGE = 0.05;
+const MIN_MOTION = 0.02;
 /** Lines on a dark surface that takes a tenth of the picture. */
 const MIN_LINES = 0.02;
 
@@ -184,6 +185,39 @@ test('wireframe, error heat map and collapse order are drawn', async () => {
   await page.close();
 });
 
+test('animations play in both pictures at the same time, and models return to rest', async () => {
+  const { page, problems } = await openViewer();
+  await page.click('#chips button:has-text("textured")');
+  await settle(page);
+  assert.equal(await isShown(page, 'play'), false);
+  await drop(page, 'koi.glb', readSample('koi'));
+  await settle(page);
+  const rest = await picturesOf(page);
+  await click(page, 'tree');
+  await click(page, 'play');
+  assert.equal(await page.getAttribute('#tree', 'aria-pressed'), 'false');
+  await page.waitForTimeout(400);
+  const [original, compressed] = await picturesOfOneFrame(page);
+  assert.ok(differenceOf(original, rest.original) > MIN_MOTION, `only ${differenceOf(original, rest.original)} differ`);
+  assert.ok(differenceOf(original, compressed) <= MAX_DIFFERENCE_FROM_SOURCE, `${differenceOf(original, compressed)} differ`);
+  await click(page, 'play');
+  assert.equal(differenceOf((await picturesOf(page)).original, rest.original), 0);
+  assert.equal(differenceOf((await picturesOf(page)).compressed, rest.compressed), 0);
+  assert.deepEqual(problems(), []);
+  await page.close();
+});
+
+/** Both pictures, cut out of one of the page. */
+async function picturesOfOneFrame(page) {
+  const boxes = await Promise.all(['original', 'compressed'].map((id) => page.locator(`#${id}`).boundingBox()));
+  const whole = PNG.sync.read(await page.screenshot({ fullPage: true }));
+  return boxes.map(({ x, y, width, height }) => {
+    const picture = new PNG({ width: Math.floor(width), height: Math.floor(height) });
+    PNG.bitblt(whole, picture, Math.round(x), Math.round(y), picture.width, picture.height, 0, 0);
+    return picture;
+  });
+}
+
 /** The largest distance that the page tells, against all pairs of vertices. */
 async function checkLargestError(page, source) {
   const positions = (glb) => {
@@ -213,10 +247,11 @@ function saturatedPixels({ width, height, data }) {
   return count / (width * height);
 }
 
-test('its picture for the README', { skip: process.env.MCC_SCREENSHOTS === undefined && 'MCC_SCREENSHOTS is not set' }, async () => {
+test('pictures for the READMEs', { skip: process.env.MCC_SCREENSHOTS === undefined && 'MCC_SCREENSHOTS is not set' }, async () => {
   const { page } = await openViewer({ width: 1200, height: 600 });
-  await drop(page, 'genus3.glb', readSample('genus3'));
+  await drop(page, 'koi.glb', readSample('koi'));
   await settle(page);
+  await page.locator('#original').screenshot({ path: path.join(process.env.MCC_SCREENSHOTS, 'koi.png') });
   await click(page, 'tree');
   const { y, height } = await page.locator('#codecs').boundingBox();
   const clip = { x: 0, y: 0, width: 1200, height: Math.ceil(y + height + 12) };
@@ -586,7 +621,7 @@ test('the keyboard reaches everything', async () => {
   };
   assert.equal(await press('Tab', 'Tab'), 'drop-open');
   assert.notEqual(await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle), 'none');
-  assert.equal(await press('Tab', 'Tab'), 'torus');
+  assert.equal(await press('Tab', 'Tab'), 'textured');
   await press('Enter');
   await settle(page);
   assert.equal(await focused(), 'original', 'the focus is lost with the button');
