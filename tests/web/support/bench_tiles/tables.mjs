@@ -75,7 +75,7 @@ function validationTable(figures) {
 function loadTable(figures) {
   return table(['loaded by CesiumJS'], ['tiles', 'ms', 'ms / ours', 'all runs, ms'], eachTileset(figures, 'load', (name, { links }) => (
     Object.entries(links).flatMap(([link, cameras]) => Object.entries(cameras).flatMap(([camera, rows]) => (
-      Object.entries(rows).map(([row, { ms, tiles, failed, all }]) => [
+      Object.entries(rows).filter(([, { tiles }]) => tiles !== 0).map(([row, { ms, tiles, failed, all }]) => [
         `${name}, ${link}, ${camera}: ${row === OURS ? `**${row}**` : row}${failed === 0 ? '' : ` (${failed} tiles failed)`}`,
         tiles, Math.round(ms), (ms / rows[OURS].ms).toFixed(2), all.join(' '),
       ])))))));
