@@ -11,6 +11,7 @@
 #include "tiles/bin_end.h"
 #include "tiles/feature_ids.h"
 #include "tiles/json_edit.h"
+#include "tiles/little_endian.h"
 #include "tiles/root_node.h"
 #include "tiles/structural_metadata.h"
 #include "tiles/tile_file.h"
@@ -48,8 +49,7 @@ Result readBatchCount(const Json& length, std::span<const uint8_t> binary, uint6
   if (!gltf::asUnsigned(*place, offset) || offset > binary.size() || binary.size() - offset < 4) {
     return gltf::error("feature table /BATCH_LENGTH", "it is beyond the binary part of the table");
   }
-  count = 0;
-  for (size_t i = 0; i < 4; ++i) count |= uint64_t{binary[offset + i]} << (8 * i);
+  count = numberAt(binary, offset);
   return {};
 }
 
