@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Remembers values by the values next to them: where parts and charts repeat, even mirrored, one
-// flag codes a value. [A.10.15]
+// flag codes a value. [A.10.10]
 #ifndef MCC_VALUES_VALUE_MEMORY_H_
 #define MCC_VALUES_VALUE_MEMORY_H_
 
