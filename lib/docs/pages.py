@@ -15,12 +15,14 @@ from pathlib import Path, PurePosixPath
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
 CODE = re.compile(r"(^```[\s\S]*?^```|^(?:    .*\n)+)", re.MULTILINE)
 
-# What the side bar lists; every other page follows under "More".
+# What the side bar lists, with titles where those of the pages are not enough; every other page follows under "More".
 SECTIONS = {
-    "Use": ["docs/cli.md", "docs/loaders.md", "lib/web/README.md", "lib/python/README.md", "lib/blender/README.md", "samples/README.md"],
+    "Use": ["docs/cli.md", "docs/loaders.md", "JavaScript <lib/web/README.md>", "Python <lib/python/README.md>", "Blender <lib/blender/README.md>",
+            "samples/README.md"],
     "Sizes and times": ["docs/benchmarks.md", "docs/web.md", "docs/tilesets.md", "docs/format-choices.md"],
-    "Format": ["extension-spec/KHR_mesh_collapse_compression/README.md", "extension-spec/KHR_mesh_collapse_compression/bitstream.md",
-               "extension-spec/KHR_mesh_collapse_compression/methods.md", "extension-spec/reference/README.md",
+    "Format": ["The extension <extension-spec/KHR_mesh_collapse_compression/README.md>",
+               "The bitstream <extension-spec/KHR_mesh_collapse_compression/bitstream.md>",
+               "The methods <extension-spec/KHR_mesh_collapse_compression/methods.md>", "extension-spec/reference/README.md",
                "tests/conformance/README.md", "docs/adoption/README.md"],
     "Reference": ["lib/docs/main.md"],
     "Change it": ["docs/architecture.md", "docs/performance.md", "CONTRIBUTING.md", "CHANGELOG.md"],
@@ -30,6 +32,23 @@ SECTIONS = {
 def page_name(name):
     """The name of a page in the site."""
     return "index.md" if name == "README.md" else name
+
+
+def entry(page):
+    """A line of a table of contents."""
+    return page.replace("<", "</") if "<" in page else f"/{page}"
+
+
+def with_one_title(parts):
+    """Makes sections of all headings of the first level but the first, which Sphinx would take for titles of the page."""
+    count = 0
+
+    def heading(match):
+        nonlocal count
+        count += 1
+        return "# " if count == 1 else "## "
+
+    return [re.sub(r"^# ", heading, part, flags=re.MULTILINE) for part in parts]
 
 
 class Site:
@@ -71,7 +90,7 @@ class Site:
     def write_page(self, name):
         text = (self.tree / name).read_text()
         parts = CODE.split(text)  # every other one is code
-        parts[::2] = [LINK.sub(lambda match: self.link(name, match), part) for part in parts[::2]]
+        parts[::2] = with_one_title([LINK.sub(lambda match: self.link(name, match), part) for part in parts[::2]])
         self.write(page_name(name), "".join(parts) + (self.contents() if name == "README.md" else ""))
 
     def write(self, name, text):
@@ -83,9 +102,9 @@ class Site:
         reference = [f"reference/{path.name}.md" for path in self.headers()] + ["reference/python.md"]
         reference += sorted(str(path.relative_to(self.folder)) for path in self.folder.glob("reference/web/*.md"))
         sections = {**SECTIONS, "Reference": SECTIONS["Reference"] + reference}
-        known = {page for pages in sections.values() for page in pages}
+        known = {re.sub(r".*<(.*)>", r"\1", page) for pages in sections.values() for page in pages}
         sections["More"] = [page for page in self.pages if page not in known and page != "README.md"]
-        return "".join(f"\n```{{toctree}}\n:hidden:\n:caption: {title}\n\n" + "".join(f"/{page}\n" for page in pages) + "```\n"
+        return "".join(f"\n```{{toctree}}\n:hidden:\n:caption: {title}\n\n" + "".join(f"{entry(page)}\n" for page in pages) + "```\n"
                        for title, pages in sections.items())
 
     def import_name(self, types):
