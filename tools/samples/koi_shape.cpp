@@ -19,13 +19,14 @@ constexpr Profile kWidth = {.105, .165, .200, .214, .208, .188, .158, .122, .086
 
 /// Catmull and Rom's curve through the values.
 double valueAt(const Profile& profile, double along) {
-  const double place = std::clamp(along, 0.0, 1.0) * (profile.size() - 1);
-  const size_t i = std::min(static_cast<size_t>(place), profile.size() - 2);
+  constexpr size_t kLast = std::tuple_size_v<Profile> - 1;
+  const double place = std::clamp(along, 0.0, 1.0) * double{kLast};
+  const size_t i = std::min(static_cast<size_t>(place), kLast - 1);
   const double t = place - static_cast<double>(i);
   const double p0 = profile[i == 0 ? 0 : i - 1];
   const double p1 = profile[i];
   const double p2 = profile[i + 1];
-  const double p3 = profile[std::min(i + 2, profile.size() - 1)];
+  const double p3 = profile[std::min(i + 2, kLast)];
   return p1 +
          t / 2 * (p2 - p0 + t * (2 * p0 - 5 * p1 + 4 * p2 - p3 + t * (3 * (p1 - p2) + p3 - p0)));
 }
