@@ -642,7 +642,7 @@ test('the keyboard reaches everything', async () => {
   await settle(page);
   assert.equal(await page.inputValue('#positionBits'), '13');
   assert.notEqual(await textOf(page, 'compressed-size'), size);
-  assert.match(await textOf(page, 'status'), /torus\.glb: 74,844 bytes became/);
+  assert.match(await textOf(page, 'status'), /textured\.glb: 134,580 bytes became/);
 
   // Esc ends what is under way, and the next change begins anew.
   await press('ArrowLeft', 'Escape');
