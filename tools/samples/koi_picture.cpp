@@ -83,14 +83,14 @@ Tone toneOfBody(const Vec3& p) {
   return orange + back > 0.16 ? kOrange : kWhite;
 }
 
-/// How dark the scales make a place: each is an arc that hides the next ones.
+/// How dark the scales make a place: each ends in an arc that lies on the row after it.
 double shadeOfScales(double along, double around) {
   constexpr double kRows = 28;
   constexpr double kColumns = 24;
   const double row = along * kRows;
   double shade = 0;
-  for (int behind = 0; behind < 2; ++behind) {
-    const double n = std::floor(row) - behind;
+  for (int before = 0; before < 2; ++before) {
+    const double n = std::floor(row) - before;
     const double column = around * kColumns + (static_cast<int64_t>(n) % 2 == 0 ? 0 : 0.5);
     const double dx = row - n - 0.35;
     const double dy = 2 * (column - std::floor(column)) - 1;
