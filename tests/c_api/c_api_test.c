@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "arguments_test.h"
 #include "mcc/c_api.h"
 
 static int failure_count = 0;
@@ -395,6 +396,7 @@ static void test_documents(const char* path) {
   const char* text;
   if (file != NULL) fclose(file);
   EXPECT(glb_bytes != 0);
+  failure_count += test_arguments(glb, glb_bytes);
   test_lattices(glb, glb_bytes);
   mcc_convert_options_init(&options, sizeof options);
   EXPECT(options.position_bits == 14);

@@ -434,6 +434,52 @@ TEST(Convert, UnusedVerticesAreNotedAndDropped) {
   EXPECT_NE(roundTrip(builder, options).error.find("only without indices_only"), std::string::npos);
 }
 
+/// Every number that is not one of bits is refused before the source is looked at, with any other
+/// option that cannot be meant.
+TEST(Convert, OptionsOutOfRangeAreRefused) {
+  Builder builder;
+  builder.addMesh({Sheet(4).addTo(builder)});
+  const std::vector<uint8_t> glb = builder.toGlb();
+  const auto refusalOf = [&](const ConvertOptions& options) {
+    std::vector<uint8_t> output;
+    ConvertReport report;
+    const Result result = convertGlb(glb, options, output, report);
+    EXPECT_EQ(result.ok(), !output.empty());
+    EXPECT_EQ(convertGlb({}, options, output, report).what == result.what, !result.ok());
+    return result.message();
+  };
+  using Bits = QuantizationBits;
+  for (uint32_t bits = 0; bits < 256; ++bits) {
+    for (uint8_t Bits::*field : {&Bits::position, &Bits::texcoord, &Bits::color, &Bits::weight}) {
+      ConvertOptions options;
+      options.bits.*field = static_cast<uint8_t>(bits);
+      EXPECT_EQ(refusalOf(options),
+                bits <= 24 ? ""
+                           : "the bits of positions, texture coordinates, colours and weights "
+                             "are 0 to 24");
+    }
+    for (uint8_t Bits::*field : {&Bits::normal, &Bits::tangent}) {
+      ConvertOptions options;
+      options.bits.*field = static_cast<uint8_t>(bits);
+      EXPECT_EQ(refusalOf(options), bits == 0 || (bits >= 2 && bits <= 16)
+                                        ? ""
+                                        : "the bits of normals and tangents are 0, or 2 to 16");
+    }
+    if (bits <= 2) continue;
+    ConvertOptions options;
+    options.grid = static_cast<Grid>(bits);
+    EXPECT_EQ(refusalOf(options), "grid is not one of the grids");
+    options = {};
+    options.prefer = static_cast<Preference>(bits);
+    EXPECT_EQ(refusalOf(options), "prefer is not one of the preferences");
+  }
+  for (const double error : {-1.0, -0x1p-1000, std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    ConvertOptions options;
+    options.max_position_error = error;
+    EXPECT_EQ(refusalOf(options), "max_position_error is negative or not a finite number") << error;
+  }
+}
+
 /// What an unknown extension may refer to by number stays.
 TEST(Convert, VerticesWithANumberAreNotDropped) {
   Builder builder;

@@ -169,6 +169,17 @@ TEST(FileLimits, LargeAccessorsWithoutBytesStayAsTheyAre) {
             std::string::npos);
 }
 
+/// 2^28 itself is more than a payload holds, as for the codec.
+TEST(FileLimits, PiecesHaveFewerThan2To28Vertices) {
+  for (const uint64_t count : {uint64_t{1} << 28, (uint64_t{1} << 28) + 1, uint64_t{1} << 31}) {
+    const RoundTrip trip = roundTrip(withZeros(count), evenIfLarger());
+    ASSERT_EQ(trip.error, "");
+    EXPECT_EQ(trip.report.primitives[1].note, "has 2^28 or more vertices; left as it was") << count;
+  }
+  const RoundTrip trip = roundTrip(withZeros((uint64_t{1} << 28) - 1), evenIfLarger());
+  EXPECT_NE(trip.report.primitives[1].note.find("no bytes in the file"), std::string::npos);
+}
+
 TEST(FileLimits, AccessorsWithoutBytesCountTogether) {
   Builder builder = withZeros(300);
   Json zeros = builder.json["accessors"].back();

@@ -483,6 +483,39 @@ TEST(Blocks, JobsChangeNothing) {
   }
 }
 
+/// A hook that leaves out jobs, or makes up some, is the caller's mistake. What is missing must not
+/// pass for decoded.
+TEST(Blocks, JobsThatAreLeftOutAreReported) {
+  const TestMesh mesh = torus(16, 12);
+  const RichPiece rich(mesh, 11);
+  const PieceView view = rich.view();
+  EncodeResult result;
+  ASSERT_TRUE(encodeWith({&view, 1}, inBlocks(30), result).ok());
+  Payload payload;
+  ASSERT_TRUE(payload.open(result.payload).ok());
+  const auto errorOf = [&](const RunJobs& hook) {
+    DecodeOptions options;
+    options.run_jobs = runnerOf(hook);
+    Decoded decoded;
+    return decoded.decode(payload, options).error;
+  };
+  using Job = std::function<void(size_t)>;
+  EXPECT_EQ(errorOf([](size_t, const Job&) {}), Error::kBadArgument);
+  for (const size_t left_out : {0u, 1u, 3u}) {
+    EXPECT_EQ(errorOf([=](size_t count, const Job& job) {
+                for (size_t i = 0; i < count; ++i) {
+                  if (i != left_out) job(i);
+                }
+              }),
+              Error::kBadArgument);
+  }
+  EXPECT_EQ(errorOf([](size_t count, const Job& job) {
+              for (const size_t i : {count, count + 1, SIZE_MAX - 1, SIZE_MAX}) job(i);
+              runForwards(count, job);
+            }),
+            Error::kOk);
+}
+
 /// Where several blocks are damaged, the first says what is wrong.
 TEST(Blocks, TheFirstFailureIsReported) {
   const TestMesh mesh = torus(16, 12);

@@ -6,8 +6,10 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <iostream>
 #include <limits>
 #include <map>
+#include <sstream>
 
 #include "commands.h"
 #include "console.h"
@@ -75,17 +77,17 @@ int reportFailure(const gltf::Result& result, const std::string& input, const st
 }
 
 int printOut(const std::string& text) {
-  const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (is_written && std::fflush(stdout) == 0) return kDone;
-  return reportFailure({"standard output", "cannot be written"});
+  const gltf::Result result =
+      writeStandardOutput({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+  return result.ok() ? kDone : reportFailure(result);
 }
 
 namespace {
 
 std::string versionText() {
   std::string text = fmt::format("gltf-mcc {}\n", MCC_VERSION);
-  text += fmt::format("{}: writes and reads format {}.{}\n", gltf::kExtensionName,
-                      kVersionMajor, kVersionMinor);
+  text += fmt::format("{}: writes and reads format {}.{}\n", gltf::kExtensionName, kVersionMajor,
+                      kVersionMinor);
 #if defined(MCC_HAS_FOREIGN)
   text += "reads KHR_draco_mesh_compression, EXT_meshopt_compression, KHR_meshopt_compression";
 #else
@@ -132,7 +134,9 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {  // also thrown for --help and --version
-    return app.exit(stop) == 0 ? kDone : kUsage;
+    std::ostringstream asked_for;
+    const bool is_wrong = app.exit(stop, asked_for, std::cerr) != 0;
+    return is_wrong ? kUsage : printOut(asked_for.str());
   }
   return status;
 }

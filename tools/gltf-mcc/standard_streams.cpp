@@ -7,6 +7,7 @@
 #include "gltf/base/path_text.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
+#include "gltf/files/system.h"
 #include "interrupt.h"
 
 namespace mcc::tool {
@@ -46,6 +47,15 @@ FileContents StreamSource::contents(const std::vector<std::filesystem::path>& fi
   return bytes_ ? FileContents{*bytes_} : readFiles(files);
 }
 
+gltf::Result writeStandardOutput(std::span<const uint8_t> bytes) {
+  bool is_written = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
+  is_written = std::fflush(stdout) == 0 && is_written;
+  // Some file systems tell only when a file is closed that they could not store it.
+  const int again = is_written ? gltf::system::duplicate(kStandardOutput) : -1;
+  if (again >= 0) is_written = gltf::system::close(again) == 0;
+  return is_written ? gltf::Result{} : gltf::Result{kOutputName, "cannot be written"};
+}
+
 bool isStandardOutput(const std::string& name) {
   return isStandardStream(name) || gltf::openStreamOf(gltf::pathOf(name)) == kStandardOutput;
 }
@@ -81,10 +91,8 @@ FileContents StreamSink::contents(const std::vector<std::filesystem::path>& file
 
 gltf::Result StreamSink::finish() const {
   if (!is_stream_) return {};
-  if (!is_standard_output_) return gltf::writeStream(gltf::pathOf(name_), bytes_);
-  const bool is_written = std::fwrite(bytes_.data(), 1, bytes_.size(), stdout) == bytes_.size();
-  if (is_written && std::fflush(stdout) == 0) return {};
-  return {kOutputName, "cannot be written"};
+  return is_standard_output_ ? writeStandardOutput(bytes_)
+                             : gltf::writeStream(gltf::pathOf(name_), bytes_);
 }
 
 }  // namespace mcc::tool

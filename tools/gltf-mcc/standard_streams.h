@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,11 @@
 namespace mcc::tool {
 
 inline bool isStandardStream(const std::string& name) { return name == "-"; }
+
+/// Writes to standard output, and makes sure that it arrives. Everything that the program prints
+/// there goes through this.
+/// Errors: it is closed, or what it leads to is full or broken.
+gltf::Result writeStandardOutput(std::span<const uint8_t> bytes);
 
 /// Whether an output of this name is standard output: "-", /dev/stdout, or a link to it.
 bool isStandardOutput(const std::string& name);

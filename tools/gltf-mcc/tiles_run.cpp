@@ -379,7 +379,10 @@ Result TilesRun::store(const std::string& name, std::span<const uint8_t> bytes) 
   gltf::ReplacementFile file(out(name), &temporaryFiles());
   MCC_GLTF_TRY(file.check());
   MCC_GLTF_TRY(file.write(bytes));
-  if (!is_new) return file.commit();
+  if (!is_new) {
+    MCC_GLTF_TRY(file.commit());
+    return file.flushName();
+  }
   MCC_GLTF_TRY(file.commitNew());  // fails if somebody else's file has appeared meanwhile
   file.keep();
   return {};
@@ -622,7 +625,9 @@ int TilesRun::run() {
   ready = claimOutputs();
   if (!ready.ok()) return reportFailure(ready);
   makeAll();
-  return printResults();
+  const int status = printResults();
+  const Result recorded = record_->finish();
+  return recorded.ok() ? status : reportFailure(recorded);
 }
 
 }  // namespace

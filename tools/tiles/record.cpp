@@ -117,6 +117,7 @@ Result Record::open(bool waits) {
   }
   // A run that was killed may have left half of a line.
   stream_ << "\n" << textOf({{"tool", std::string("gltf-mcc ") + MCC_VERSION}}) << std::flush;
+  if (!stream_) return gltf::error(gltf::textOf(path_), "cannot be written");
   read(path_);
   for (const fs::path& other : others) read(other);
   return {};
@@ -224,6 +225,13 @@ void Record::add(std::string_view name, const std::string& maker,
                                    {"made", made}});
   const std::lock_guard lock(mutex_);
   stream_ << line << std::flush;
+}
+
+Result Record::finish() {
+  stream_.close();
+  if (stream_) return {};
+  return gltf::error(gltf::textOf(path_),
+                     "cannot be written; the next run makes again what is not in it");
 }
 
 }  // namespace mcc::tiles

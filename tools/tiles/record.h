@@ -64,6 +64,9 @@ class Record {
   void add(std::string_view name, const std::string& maker, const std::vector<std::string>& inputs,
            const std::vector<std::string>& outputs, const Json& made);
 
+  /// Ends the record after the last add(). Errors: a line of it could not be stored.
+  gltf::Result finish();
+
  private:
   /// Where the last line about a name is.
   struct Place {

@@ -3,8 +3,11 @@
  * @file
  * C API of the reader, the writer and the glTF layer, for C99 and for other languages.
  *
- * - Functions return an mcc_status; no C++ exception leaves them. Passing null for a pointer that
- *   must not be null gives MCC_ERROR_BAD_ARGUMENT.
+ * - Functions return an mcc_status; no C++ exception leaves them. An argument that can be seen to be
+ *   wrong gives MCC_ERROR_BAD_ARGUMENT: null for a pointer that must not be null, a number that is
+ *   no enumerator, a flag that is neither 0 nor 1, a count or stride that leads beyond all memory,
+ *   one function of an allocator without the other. Whether memory is there, and is as large as the
+ *   caller says, cannot be seen.
  * - Objects (mcc_payload, mcc_encoding, mcc_document) are created by one function and released by
  *   their own release function, which accepts null. They may move between threads, but several
  *   threads may use one at the same time only to read it.
@@ -14,7 +17,8 @@
  *   library is too old to know are neither read nor written.
  *     - Options: the init functions set `struct_bytes` and fill in the defaults. Members that later
  *       versions append keep their defaults for programs compiled earlier. A null pointer means the
- *       defaults.
+ *       defaults. A `struct_bytes` that no struct can have, because it is not a multiple of the
+ *       alignment, gives MCC_ERROR_BAD_ARGUMENT.
  *     - Information (mcc_piece_info, mcc_attribute_info): the program sets `struct_bytes` before
  *       the call that fills the rest; it stays set for the next call.
  *   Structs without `struct_bytes` never change.
@@ -49,7 +53,7 @@ enum {
   MCC_ERROR_OUT_OF_MEMORY = 11,   /**< the allocator returned null */
   MCC_ERROR_BAD_ARGUMENT = 12,    /**< the arguments contradict each other */
   MCC_ERROR_CANCELLED = 13,       /**< the progress callback asked to stop */
-  MCC_ERROR_DOCUMENT = 64         /**< a document failed: see mcc_document_message() */
+  MCC_ERROR_DOCUMENT = 64         /**< a document was refused: mcc_document_message() says why */
 };
 
 /** The offset of a status that has no known place in the payload. */
@@ -58,7 +62,7 @@ enum {
 /** Result of every fallible function. */
 typedef struct mcc_status {
   int32_t error;         /**< MCC_OK or one of MCC_ERROR_… */
-  const char* what;      /**< plain English, never freed; "" when all went well */
+  const char* what;      /**< plain English, a constant, never freed; "" when all went well */
   uint64_t offset_bytes; /**< place in the payload, or MCC_NO_OFFSET */
 } mcc_status;
 
@@ -115,7 +119,7 @@ typedef struct mcc_lattice {
   float step;
 } mcc_lattice;
 
-/** Where memory comes from. When both functions are null, malloc() and free() are used. */
+/** Where memory comes from: both functions, or neither for malloc() and free(). */
 typedef struct mcc_allocator {
   void* (*allocate)(void* user, size_t bytes); /**< may return null */
   void (*release)(void* user, void* memory, size_t bytes);
@@ -193,7 +197,8 @@ MCC_API void mcc_payload_close(mcc_payload* payload);
 typedef struct mcc_piece_info {
   size_t struct_bytes;      /**< sizeof(mcc_piece_info), set by the caller */
   uint32_t wedge_count;     /**< accessor.count of every attribute */
-  uint32_t vertex_count;    /**< distinct positions */
+  /** before stitching: a position at a cut, or at the borders of blocks, counts repeatedly */
+  uint32_t vertex_count;
   uint32_t attribute_count; /**< 0: the payload has only the triangles */
   uint32_t part_count;      /**< triangle lists; each is one glTF primitive */
 } mcc_piece_info;
@@ -308,8 +313,8 @@ MCC_API void mcc_decode_options_init(mcc_decode_options* options, size_t struct_
  * counts. The result is the same on every platform. Several payloads may be decoded at the same
  * time. Inverse: mcc_encode(). Tests: tests/c_api.
  * @param targets  one entry per piece
- * @return MCC_ERROR_TRUNCATED, _BAD_CONNECTIVITY, _BAD_STITCH, _BAD_ATTRIBUTE, _TRAILING_BYTES,
- *   _LIMIT, _OUT_OF_MEMORY, _BAD_ARGUMENT, _CANCELLED
+ * @return MCC_ERROR_TRUNCATED, _BAD_CHECKSUM (of a block), _BAD_CONNECTIVITY, _BAD_STITCH,
+ *   _BAD_ATTRIBUTE, _TRAILING_BYTES, _LIMIT, _OUT_OF_MEMORY, _BAD_ARGUMENT, _CANCELLED
  */
 MCC_API mcc_status mcc_payload_decode(const mcc_payload* payload, const mcc_piece_target* targets,
                                       size_t target_count, const mcc_decode_options* options);
@@ -395,8 +400,9 @@ typedef struct mcc_encoding mcc_encoding;
  * Compresses pieces into one payload. Deterministic: the same input gives the same bytes on every
  * machine. Takes time O(n log n). Inverse: mcc_payload_decode(). Tests: tests/c_api.
  * @param encoding  receives the object, or null on an error; release it by mcc_encoding_release()
- * @return MCC_ERROR_BAD_ARGUMENT (an index is not below wedge_count, POSITION is missing, bits are
- *   out of range, or data is null), _LIMIT, _OUT_OF_MEMORY
+ * @return MCC_ERROR_BAD_ARGUMENT (an index is not below wedge_count, POSITION is missing, bits,
+ *   flags or enumerators are out of range, data is null, or a stride or count leads beyond all
+ *   memory), _LIMIT, _OUT_OF_MEMORY
  */
 MCC_API mcc_status mcc_encode(const mcc_piece_view* pieces, size_t piece_count,
                               const mcc_encode_options* options, mcc_encoding** encoding);
@@ -489,7 +495,7 @@ MCC_API mcc_status mcc_decode_glb(const void* glb, size_t byte_count,
  * Describes the payloads of a GLB as JSON, with the members of `gltf-mcc inspect --format json`: a
  * text in UTF-8, without a terminating zero, that mcc_document_bytes() returns. All payloads are
  * decoded, to count their codes. Ownership, errors and safety are those of mcc_convert_glb().
- * @param name  what the text calls the GLB; null: ""
+ * @param name  what the text calls the GLB; null: "". Bytes that are not UTF-8 become U+FFFD
  */
 MCC_API mcc_status mcc_inspect_glb(const void* glb, size_t byte_count, const char* name,
                                    mcc_document** document);

@@ -93,7 +93,7 @@ struct BlockInfo {
 /// A set of wedges (vertices of glTF) with attributes and parts.
 struct PieceInfo {
   uint32_t wedge_count = 0;   ///< glTF vertices, i.e. accessor.count
-  uint32_t vertex_count = 0;  ///< topological vertices before stitching
+  uint32_t vertex_count = 0;  ///< before stitching: those at cuts and at blocks' borders repeat
   SurfaceCoding surface = SurfaceCoding::kManifold;
   std::span<const AttributeInfo> attributes;  ///< empty: the payload has only the triangles
   std::span<const PartInfo> parts;
@@ -222,9 +222,9 @@ class Payload {
 
   /// Opens a payload of which only the beginning is there yet, for reading blocks while the others
   /// are loading. Works like open(). Returns kTruncated when the header, or a payload without
-  /// blocks, is not complete yet: call it again with more bytes. bytes          the beginning of
-  /// the payload; must outlive the Payload, or the next extend() payload_bytes  the size of the
-  /// whole payload, which is that of the buffer view
+  /// blocks, is not complete yet: call it again with more bytes.
+  /// bytes          the beginning of the payload; must outlive the Payload, or the next extend()
+  /// payload_bytes  the size of the whole payload, which is that of the buffer view
   MCC_API Status openPrefix(std::span<const uint8_t> bytes, uint64_t payload_bytes,
                             const Limits& limits = {}, const Allocator& allocator = {});
 

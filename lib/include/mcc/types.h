@@ -91,12 +91,12 @@ constexpr bool isValidLattice(const Lattice& lattice, uint32_t component_count) 
   return valid;
 }
 
-/// Index types of the output of decode().
+/// Index types of the output of decode(). Their values are their sizes in bytes.
 enum class IndexType : uint8_t {
   kUint8 = 1,
   kUint16 = 2,
-  kUint32 = 4
-};  // the value is the size in bytes
+  kUint32 = 4,
+};
 
 /// How a writer weighs fewer bytes against faster decoding: a slower method is taken only when it
 /// saves enough.

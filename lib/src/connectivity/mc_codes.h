@@ -196,8 +196,8 @@ class McMachine {
         mesh_(mesh),
         truth_(truth) {}
 
-  /// Runs all operations and fills `mesh`, whose words must have room for counts.face_count faces.
-  /// [A.4.2]
+  /// Runs all operations and fills `mesh`, whose words must have room for
+  /// counts.face_count faces. [A.4.2]
   Status run(const McWatch* watch = nullptr);
 
  private:
@@ -511,8 +511,8 @@ Status McMachine<Io>::expandSpur(const McOperation* op, uint32_t vertex) {
 }
 
 /// Codes the degree of an EXPAND, gate by gate: "close the next vertex too?". The decoder spends
-/// most of its time here, so everything this loop needs is local, and each node is read once.
-/// [A.4.5]
+/// most of its time here, so everything this loop needs is local, and each node is read
+/// once. [A.4.5]
 template <class Io>
 MCC_CALLED_IF_SMALL Status McMachine<Io>::codeRun(CodesBurst& codes, const McOperation* op,
                                                   uint32_t vertex) {

@@ -17,9 +17,9 @@
 
 namespace mcc {
 
-/// Bounds the work per byte; writers pad a payload to keep it. Known meshes have fewer than 50
-/// elements per byte; only the triangles of a regular grid reach 2200.
-/// [A.2.6]
+/// Bounds the work per byte; writers pad a payload to keep it. [A.2.6]
+/// Known meshes have fewer than 50 elements per byte;
+/// only the triangles of a regular grid reach 2200.
 inline constexpr uint64_t kMaxElementsPerByte = 1024;
 /// The elements that an attribute counts in addition to its values, because its tables of up to
 /// 4096 entries start anew.
@@ -61,9 +61,9 @@ struct PieceHeader {
   }
 };
 
-/// Count the elements of a piece without its attributes, and of one of its attributes. Time and
-/// working memory of decoding are proportional to them.
-/// [A.2.6]
+/// Count the elements of a piece without its attributes, and of one of its attributes.
+/// Time and working memory of decoding are proportional
+/// to them. [A.2.6]
 uint64_t surfaceElements(const PieceHeader& piece);
 uint64_t attributeElements(const PieceHeader& piece, const AttributeFormat& format);
 
@@ -143,8 +143,8 @@ struct PayloadHeader {
   }
 };
 
-/// Counts the elements of all pieces and their attributes.
-/// [A.2.6]
+/// Counts the elements of all pieces
+/// and their attributes. [A.2.6]
 uint64_t elementsOf(const PayloadHeader& header);
 
 /// Returns the CRC-32 of a payload of at least kChecksummedFrom bytes, less its checksum; with

@@ -37,9 +37,9 @@ MCC_INLINE uint64_t loadU64(const uint8_t* p) {
   return uint64_t{loadU32(p)} | uint64_t{loadU32(p + 4)} << 32;
 }
 
-/// Binary range decoder with a 64-bit range and 32-bit words. After its end the stream continues
-/// with zeros, so that the writer may drop trailing zero bytes.
-/// [A.3.2]
+/// Binary range decoder with a 64-bit range and 32-bit words. [A.3.2]
+/// After its end the stream continues with zeros, so that the writer may drop
+/// trailing zero bytes.
 class RangeDecoder {
  public:
   explicit RangeDecoder(std::span<const uint8_t> bytes) : bytes_(bytes) {
@@ -131,9 +131,9 @@ class RangeDecoder {
   uint64_t code_ = 0;
 };
 
-/// Three interleaved rANS states over one sequence of 16-bit words, which begins with the states'
-/// initial values (32 bits each).
-/// [A.3.3]
+/// Three interleaved rANS states over one sequence of 16-bit words. [A.3.3]
+/// The sequence begins with the initial values of the states,
+/// which have 32 bits each.
 class RansDecoder {
  public:
   explicit RansDecoder(std::span<const uint8_t> bytes) : bytes_(bytes) {
@@ -237,8 +237,8 @@ MCC_INLINE uint32_t maskBelow(uint32_t bit) {
   }
 }
 
-/// Plain bits, least significant bit first.
-/// [A.3.4]
+/// Plain bits, which no model predicts. [A.3.4]
+/// The least significant bit of a byte comes first.
 class RawBitsDecoder {
  public:
   explicit RawBitsDecoder(std::span<const uint8_t> bytes) : bytes_(bytes) {}

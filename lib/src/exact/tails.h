@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// From the integers of an exact grid to its floats, with what they have below the grid's step.
-// [A.10.5]
+// From the integers of an exact grid to its floats, with what they have below the
+// grid's step. [A.10.5]
 #ifndef MCC_EXACT_TAILS_H_
 #define MCC_EXACT_TAILS_H_
 

@@ -21,8 +21,8 @@ namespace mcc {
 /// consecutive wedges of a vertex may share a value.
 inline constexpr uint8_t kHasEqualities = 0x80;
 
-/// The bits of a position select what its coder does. Modes that are off cost the coder nothing.
-/// [A.6.2]
+/// The bits of a position select what its coder does. Modes that are off cost the coder
+/// nothing. [A.6.2]
 namespace position_mode {
 inline constexpr uint8_t kWeights = 1u << 0;  ///< weights of features, from the payload
 inline constexpr uint8_t kSelect = 1u << 1;   ///< classes of tip selection; needs kWeights

@@ -35,7 +35,7 @@ struct Groups {
 
   bool hasCopies() const { return !listed.empty(); }
   /// Returns the umbrellas of a group, or nothing for a group of one vertex that is not listed.
-  /// Only with copies.
+  /// hasCopies() must hold.
   MCC_INLINE std::span<const uint32_t> umbrellasOf(uint32_t group) const {
     const Listed& l = listed[group / 64];
     const uint64_t bit = uint64_t{1} << (group % 64);

@@ -232,8 +232,8 @@ MCC_INLINE Lanes<float> rotateComponents(const Lanes<float>& x) {  // y z x
   return shuffleLanes<float, 1, 2, 0, 3>(x, x);
 }
 
-/// Returns the normal of a tip's triangle (a, b, o), with its components in the order z x y.
-/// [A.6.10]
+/// Returns the normal of a tip's triangle (a, b, o), with its components in the
+/// order z x y. [A.6.10]
 MCC_INLINE Lanes<float> tipNormal(const VertexRecord* a, const VertexRecord* b,
                                   const VertexRecord* o) {
   const Lanes<float> u = floatsOf(coordinates(a) - coordinates(b));

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Maps the expected scale of a residual to its row of token frequencies, and codes the residual.
-// [A.6.6]
+// Maps the expected scale of a residual to its row of token frequencies, and codes the
+// residual. [A.6.6]
 #ifndef MCC_POSITIONS_RESIDUAL_H_
 #define MCC_POSITIONS_RESIDUAL_H_
 

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// All attributes of a piece but its positions: what they share, and which coder each goes through.
-// [A.10]
+// All attributes of a piece but its positions: what they share, and which coder each
+// goes through. [A.10]
 #ifndef MCC_READER_ATTRIBUTE_STAGE_H_
 #define MCC_READER_ATTRIBUTE_STAGE_H_
 
@@ -176,7 +176,7 @@ class AttributeStage {
     return {};
   }
 
-  /// And back, with what is below the grid.
+  /// Turns the integers of a grid back into floats, with the bits below the grid's step.
   Status leaveGrid(const GridPart& part, int32_t* values) {
     TailModels* const models = models_.tailsOf(*part.info).get(allocator_);
     if (models == nullptr) return noMemory();
@@ -209,7 +209,7 @@ class AttributeStage {
     return {};
   }
 
-  /// What the decoder's core is without.
+  /// Runs the coders that the core of the web decoder lacks.
   Status codeRare(AttributeMethod method, const Job& job) {
     switch (method) {
       case AttributeMethod::kExactNormal: return codeExactNormals(job);

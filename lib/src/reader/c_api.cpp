@@ -26,8 +26,14 @@ static_assert(MCC_CUSTOM == static_cast<int>(Semantic::kCustom));
 static_assert(MCC_FLOAT32 == static_cast<int>(ComponentType::kFloat32));
 static_assert(MCC_NO_OFFSET == Status::kNoOffset);
 
-Allocator fromC(const mcc_allocator& allocator) {
-  return {allocator.allocate, allocator.release, allocator.user};
+/// Converts an allocator, of which one function alone would be called with memory of the other's.
+Status fromC(const mcc_allocator& allocator, Allocator& out) {
+  if ((allocator.allocate == nullptr) != (allocator.release == nullptr)) {
+    return fail(Error::kBadArgument,
+                "an allocator has only one of its two functions; set both, or neither");
+  }
+  out = {allocator.allocate, allocator.release, allocator.user};
+  return {};
 }
 
 mcc_attribute_format formatToC(const AttributeFormat& format) {
@@ -69,6 +75,14 @@ const PieceInfo* pieceOf(const mcc_payload* payload, uint32_t piece) {
 std::span<const BlockInfo> blocksOf(const mcc_payload* payload) {
   const PieceInfo* piece = pieceOf(payload, 0);
   return piece == nullptr ? std::span<const BlockInfo>{} : piece->blocks;
+}
+
+/// Refuses bytes that cannot be there: none, or so many that they would go beyond all addresses.
+Status checkBytes(const void* bytes, size_t byte_count) {
+  if (bytes == nullptr && byte_count != 0) return fail(Error::kBadArgument, "bytes is null");
+  if (!canBeInMemory(bytes, byte_count, 1, 1))
+    return fail(Error::kBadArgument, "byte_count is more than memory has");
+  return {};
 }
 
 /// The targets of all pieces in the form the reader needs, each array in one block of memory.
@@ -156,10 +170,10 @@ Status withTargets(std::span<const PieceInfo> pieces, const mcc_piece_target* ta
   mcc_decode_options options;
   MCC_TRY(readStruct(given, defaultDecodeOptions(), options));
   if (targets != nullptr) MCC_TRY(checkCounts(pieces, targets, target_count));
-  Targets read(fromC(options.allocator));
-  MCC_TRY(read.read(targets, target_count));
   DecodeOptions decode_options;
-  decode_options.allocator = fromC(options.allocator);
+  MCC_TRY(fromC(options.allocator, decode_options.allocator));
+  Targets read(decode_options.allocator);
+  MCC_TRY(read.read(targets, target_count));
   decode_options.run_jobs = {options.run_jobs, options.run_jobs_user};
   ProgressOfC progress{options.progress, options.progress_user};
   if (options.progress != nullptr) {
@@ -169,13 +183,16 @@ Status withTargets(std::span<const PieceInfo> pieces, const mcc_piece_target* ta
   return decode(read.all(), decode_options);
 }
 
-Status open(std::span<const uint8_t> bytes, uint64_t payload_bytes, const mcc_open_options* given,
-            mcc_payload*& opened) {
+Status open(const void* bytes, size_t byte_count, uint64_t payload_bytes,
+            const mcc_open_options* given, mcc_payload*& opened) {
+  MCC_TRY(checkBytes(bytes, byte_count));
   mcc_open_options options;
   MCC_TRY(readStruct(given, defaultOpenOptions(), options));
-  const Allocator allocator = fromC(options.allocator);
+  Allocator allocator;
+  MCC_TRY(fromC(options.allocator, allocator));
   Payload payload;
-  MCC_TRY(payload.openPrefix(bytes, payload_bytes, limitsOf(options), allocator));
+  MCC_TRY(payload.openPrefix({static_cast<const uint8_t*>(bytes), byte_count}, payload_bytes,
+                             limitsOf(options), allocator));
   void* memory = allocateBytes(allocator, sizeof(mcc_payload));
   if (memory == nullptr) return fail(Error::kOutOfMemory, "no memory for the payload object");
   opened = new (memory) mcc_payload{std::move(payload), allocator};
@@ -198,10 +215,7 @@ size_t mcc_status_text(mcc_status status, char* text, size_t text_bytes) {
 }
 
 size_t mcc_element_bytes(const mcc_attribute_format* format) {
-  if (format == nullptr || format->component_type > MCC_FLOAT32 ||
-      !mcc::isComponentCount(format->component_count)) {
-    return 0;
-  }
+  if (format == nullptr || !mcc::isFormat(*format)) return 0;
   return mcc::componentBytes(static_cast<mcc::ComponentType>(format->component_type)) *
          format->component_count;
 }
@@ -219,13 +233,13 @@ mcc_status mcc_payload_open_prefix(const void* bytes, size_t byte_count, uint64_
                                    const mcc_open_options* options, mcc_payload** payload) {
   if (payload == nullptr) return mcc::badArgument("payload is null");
   *payload = nullptr;
-  if (bytes == nullptr && byte_count != 0) return mcc::badArgument("bytes is null");
-  return mcc::toC(mcc::open({static_cast<const uint8_t*>(bytes), byte_count}, payload_bytes,
-                            options, *payload));
+  return mcc::toC(mcc::open(bytes, byte_count, payload_bytes, options, *payload));
 }
 
 mcc_status mcc_payload_extend(mcc_payload* payload, const void* bytes, size_t byte_count) {
-  if (payload == nullptr || bytes == nullptr) return mcc::badArgument("payload or bytes is null");
+  if (payload == nullptr) return mcc::badArgument("payload is null");
+  const mcc::Status status = mcc::checkBytes(bytes, byte_count);
+  if (!status.ok()) return mcc::toC(status);
   return mcc::toC(payload->payload.extend({static_cast<const uint8_t*>(bytes), byte_count}));
 }
 

@@ -11,6 +11,9 @@
 #include <atomic>
 #include <new>
 #include <optional>
+#if !defined(__wasm__)  // has no threads
+#include <thread>
+#endif
 
 #include "base/lazy.h"
 #include "base/working_memory.h"
@@ -279,10 +282,13 @@ class BlocksDecoder {
     const bool is_watched = options_.histogram != nullptr || options_.mc_edge != nullptr ||
                             options_.stage_bits != nullptr;
     const auto job = [](void* self, size_t i) {
-      static_cast<BlocksDecoder*>(self)->decode(static_cast<uint32_t>(i + 1));
+      auto* decoder = static_cast<BlocksDecoder*>(self);
+      if (i + 1 < decoder->decoded_.size()) decoder->decode(static_cast<uint32_t>(i + 1));
     };
     if (options_.run_jobs.run != nullptr && !is_watched) {
       options_.run_jobs.run(options_.run_jobs.user, count - 1, job, this);
+      if (!kCompact && first_failed_ == kNone && next_ < count)
+        return fail(Error::kBadArgument, "run_jobs returned before all jobs had ended");
     } else {
       for (size_t i = 0; i + 1 < count; ++i) job(this, i);
     }
@@ -292,13 +298,18 @@ class BlocksDecoder {
  private:
   static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for the blocks"); }
 
+  /// Others hold the lock for some instructions only, unless the system has interrupted them: then
+  /// they need the processor that waiting would take.
   void lock() {
     while (is_locked_.test_and_set(std::memory_order_acquire)) {
+#if !defined(__wasm__)
+      std::this_thread::yield();
+#endif
     }
   }
   void unlock() { is_locked_.clear(std::memory_order_release); }
 
-  /// By the parts of all blocks.
+  /// Finds where the triangles of each part of each block begin in the whole part.
   bool listFirstTriangles() {
     if (!first_triangles_.resize(header_.parts.size())) return false;
     const uint32_t part_count = header_.pieces[0].part_count;
@@ -379,8 +390,8 @@ class BlocksDecoder {
   RimTable table_;
   Array<uint32_t> first_triangles_;  ///< in its part, for each part of each block
   std::atomic<uint32_t> first_failed_ = kNone;
-  std::atomic_flag is_locked_;  ///< for what follows
-  Array<DecodedBlock*> decoded_;                   ///< blocks that wait for their turn
+  std::atomic_flag is_locked_;    ///< for what follows
+  Array<DecodedBlock*> decoded_;  ///< blocks that wait for their turn
   Array<Status> statuses_;
   uint32_t next_ = 0;  ///< the block whose turn it is
   bool is_numbering_ = false;

@@ -88,8 +88,8 @@ void storeLattice(const AttributeInfo& info, uint32_t wedge_count, const Attribu
   }
 }
 
-/// Copies coded integers to the caller's elements; `load(i)` points to the integers of element i.
-///                                                                                        [A.10.18]
+/// Copies coded integers to the caller's elements; `load(i)` points to the integers of
+/// element i. [A.10.18]
 template <class Load>
 void storeElements(const AttributeInfo& info, uint32_t wedge_count, const AttributeTarget& target,
                    Load load) {

@@ -9,6 +9,7 @@
 #include <new>
 #include <utility>
 
+#include "base/caller_memory.h"
 #include "base/memory.h"
 #include "base/working_memory.h"
 #include "container/payload_header.h"
@@ -43,8 +44,18 @@ namespace {
 
 const PayloadInfo kEmptyInfo{};
 
-/// Checks a target for a piece, or for a block of it.
-Status checkTarget(const PieceTarget& target, const PieceInfo& piece, uint32_t wedge_count) {
+/// Whether indices go to memory that can be there, with one of the three types.
+bool canHold(const PartTarget& target, uint64_t triangle_count) {
+  const auto bytes = static_cast<uint32_t>(target.index_type);
+  const bool is_type = bytes == 1 || bytes == 2 || bytes == 4;
+  return is_type && (target.indices == nullptr ||
+                     canBeInMemory(target.indices, 3 * triangle_count, bytes, bytes));
+}
+
+/// Checks a target for a piece, or for a block of it. Targets in compact code are its own, and have
+/// no places that could be wrong.
+Status checkTarget(const PieceTarget& target, const PieceInfo& piece, uint32_t wedge_count,
+                   std::span<const PartInfo> parts) {
   if (target.attributes.size() != piece.attributes.size() ||
       target.parts.size() != piece.parts.size()) {
     return fail(Error::kBadArgument, "a target does not have the shape of its piece");
@@ -54,8 +65,18 @@ Status checkTarget(const PieceTarget& target, const PieceInfo& piece, uint32_t w
     if (t.data != nullptr && t.stride_bytes < elementBytes(piece.attributes[a].format)) {
       return fail(Error::kBadArgument, "the stride of a target is smaller than its elements");
     }
+    if (!kCompact && t.data != nullptr &&
+        !canBeInMemory(t.data, wedge_count, t.stride_bytes,
+                       elementBytes(piece.attributes[a].format))) {
+      return fail(Error::kBadArgument, "the stride of a target leads out of memory");
+    }
   }
-  for (const PartTarget& t : target.parts) {
+  for (size_t p = 0; p < target.parts.size(); ++p) {
+    const PartTarget& t = target.parts[p];
+    if (!kCompact && !canHold(t, parts[p].triangle_count)) {
+      return fail(Error::kBadArgument,
+                  "the indices of a target are not of 1, 2 or 4 bytes, or lead out of memory");
+    }
     const uint32_t bits = 8 * static_cast<uint32_t>(t.index_type);
     if (bits < 32 && wedge_count > (1u << bits)) {
       return fail(Error::kBadArgument, "the index type of a target is too narrow");
@@ -70,7 +91,8 @@ Status checkTarget(const PieceTarget& target, const PieceInfo& piece, uint32_t w
     return fail(Error::kBadArgument, "the number of targets is not the number of pieces");
   }
   for (size_t i = 0; i < targets.size(); ++i)
-    MCC_TRY(checkTarget(targets[i], info.pieces[i], info.pieces[i].wedge_count));
+    MCC_TRY(
+        checkTarget(targets[i], info.pieces[i], info.pieces[i].wedge_count, info.pieces[i].parts));
   return {};
 }
 
@@ -215,7 +237,9 @@ Status Payload::State::listBlocks() {
 Status Payload::State::decodeBlock(uint32_t index, const PieceTarget* target,
                                    const PayloadModels* from, PayloadModels* left,
                                    const DecodeOptions& options) const {
-  if (target != nullptr) MCC_TRY(checkTarget(*target, pieces[0], header.pieces[index].wedge_count));
+  if (target != nullptr) {
+    MCC_TRY(checkTarget(*target, pieces[0], header.pieces[index].wedge_count, blocks[index].parts));
+  }
   prepareTables();
   Progress progress(options, header);
   DecodedBlock block(header, index, options);

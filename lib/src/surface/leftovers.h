@@ -96,8 +96,8 @@ inline void placeOnFace(const FaceView& faces, ListedTriangle& t) {
   t.wedge[2] = faces.vertex(reversed ? h : nextHalfEdge(h));
 }
 
-/// Codes the triangles one by one; those that refer to faces are in ascending order of the faces.
-/// [A.8.2]
+/// Codes the triangles one by one; those that refer to faces are in ascending order of
+/// the faces. [A.8.2]
 template <class Io>
 Status codeList(Io& io, LeftoverModels& models, const FaceView& faces, const LeftoverCounts& counts,
                 const LeftoverTruth& truth, Array<ListedTriangle>& list) {

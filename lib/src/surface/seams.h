@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Seams: the partition of the corners around every vertex into wedges, shared by all attributes.
-// [A.7]
+// Seams: the partition of the corners around every vertex into wedges, shared by all
+// attributes. [A.7]
 //
 // The umbrellas come in traversal order. For each one: does it have a seam at all? If so, for each
 // edge: are the corners on its two sides, at this vertex, different wedges? The other end of the
@@ -219,8 +219,8 @@ bool SeamCoder<Io>::codeHasSeam() {
                  any);
 }
 
-/// Codes bits for the edges 1 .. n-1 between the fan faces i-1 and i, then for the closing edge 0.
-/// [A.7.2]
+/// Codes bits for the edges 1 .. n-1 between the fan faces i-1 and i, then for the
+/// closing edge 0. [A.7.2]
 template <class Io>
 void SeamCoder<Io>::codeSeamEnds() {
   const uint32_t n = fan_count_;

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Texture coordinates, predicted from the faces a wedge completes and from the decoded positions.
-// [A.10.11]
+// Texture coordinates, predicted from the faces a wedge completes and from the decoded
+// positions. [A.10.11]
 //
 //        o            The wedge v completes the face v, n, p. If the face across n-p is in the same
 //       / \           chart and known, it predicts v by
@@ -67,7 +67,7 @@ class TexcoordCoder {
 
  private:
   static constexpr uint32_t kOneNeighbour = kLongestContext;
-  static constexpr uint32_t kFaceLimit = 4;      ///< faces looked at: lanes of a Float4
+  static constexpr uint32_t kFaceLimit = 4;  ///< faces looked at: lanes of a Float4
   static constexpr float kSteepest =
       36;  ///< square of the largest ratio of heights a hinge unfolds
 

@@ -21,8 +21,8 @@ struct MemoryModels {
   BitModel known[4][4];  ///< [candidates asked for before][last two outcomes]
 };
 
-/// Two different values for each key, which is made of the values at an edge or of a prediction.
-/// [A.10.10]
+/// Two different values for each key, which is made of the values at an edge or of a
+/// prediction. [A.10.10]
 class ValueMemory {
  public:
   explicit ValueMemory(const Allocator& allocator) : entries_(allocator) {}
@@ -40,16 +40,16 @@ class ValueMemory {
   }
   void clear() { entries_.clear(); }
 
-  /// Alike for both directions of the edge.
+  /// The key of the values at the ends of an edge, the same in both directions.
   uint64_t edgeKey(uint32_t a, uint32_t b) const { return keyOf(hashOf(a) + hashOf(b)); }
   /// The key of a prediction that integers stand for.
   uint64_t predictionKey(const uint32_t* integers) const { return keyOf(hashOf(integers)); }
 
   /// To be called before the first ask() about a wedge.
   void begin() { asked_count_ = 0; }
-  /// Asks whether the value is one of those at a key, but not that of `except` (kNone: of none),
-  /// and not one asked for before; `isValue(k)`: the encoder's answer for that of wedge k. Returns
-  /// k, or kNone.
+  /// Asks whether the value is one of those at a key. Values that were asked for before are left
+  /// out, and so is that of wedge `except`, unless it is kNone. `isValue(k)` is the encoder's
+  /// answer for the value of wedge k. Returns k, or kNone.
   template <class Io, class IsValue>
   uint32_t ask(Io& io, MemoryModels& models, uint64_t key, uint32_t except, IsValue isValue) {
     const Entry e = entries_[key >> (64 - bits_)];

@@ -1,8 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Attributes without a predictor of their own (colours, custom attributes, morph deltas, floats
-// that fit no grid): any number of integer components, by the parallelogram over the longest edge.
-// [A.10.4]
+// that fit no grid): any number of integer components, by the parallelogram over the
+// longest edge. [A.10.4]
 //
 // Optionally, a flag first tells that all components are 0 (morph deltas), or equal to those of a
 // neighbour (colours of parts, ids, rigid regions).

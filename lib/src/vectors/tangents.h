@@ -81,8 +81,8 @@ struct AngleSteps {
   }
 };
 
-/// Unit vectors of angles in the planes of unit normals; `quarter`, `rest` as in AngleSteps.
-/// [A.10.12]
+/// Unit vectors of angles in the planes of unit normals; `quarter`, `rest` as in
+/// AngleSteps. [A.10.12]
 template <class Real>
 MCC_INLINE void tangentFromSteps(const Real* normal, Real quarter, Real rest, uint32_t bits,
                                  Real* tangent) {
@@ -164,8 +164,8 @@ inline void addFaceTangents(const WedgeMesh& wedges, const float* positions, con
   });
 }
 
-/// Texture coordinates as finite floats whose products neither overflow nor become denormal.
-/// [A.10.12]
+/// Texture coordinates as finite floats whose products neither overflow nor become
+/// denormal. [A.10.12]
 inline void chartCoordinates(const AttributeInfo& info, const int32_t* values, size_t count,
                              float* chart) {
   const bool exact = isExact(info.coding);

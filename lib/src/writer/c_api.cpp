@@ -35,11 +35,16 @@ RunJobs runJobsOf(mcc_run_jobs run_jobs, void* user) {
   };
 }
 
+/// Refuses arrays of structures that cannot be there.
+template <class Struct>
+Status checkArray(const Struct* first, size_t count) {
+  if (canBeInMemory(first, count, sizeof(Struct), sizeof(Struct))) return {};
+  return fail(Error::kBadArgument, "a count is larger than memory");
+}
+
 /// Converts a format. Numbers that do not fit are refused, not truncated.
 Status fromC(const mcc_attribute_format& format, AttributeFormat& out) {
-  if (format.semantic > MCC_CUSTOM || format.set_index > 0xff ||
-      format.component_type > MCC_FLOAT32 || !isComponentCount(format.component_count) ||
-      format.morph_target > 0xffff) {
+  if (!isFormat(format)) {
     return fail(Error::kBadArgument, "the format of an attribute has a number out of range");
   }
   out.semantic = static_cast<Semantic>(format.semantic);
@@ -63,6 +68,8 @@ Status readPiece(const mcc_piece_view& view, Piece& piece) {
       (view.parts == nullptr && view.part_count != 0)) {
     return fail(Error::kBadArgument, "attributes or parts of a piece are null");
   }
+  MCC_TRY(checkArray(view.attributes, view.attribute_count));
+  MCC_TRY(checkArray(view.parts, view.part_count));
   piece.lattices.resize(view.attribute_count);
   for (size_t i = 0; i < view.attribute_count; ++i) {
     const mcc_attribute_view& from = view.attributes[i];
@@ -94,15 +101,16 @@ Status encodeViews(const mcc_piece_view* views, size_t count, const mcc_encode_o
                    EncodeResult& result) {
   mcc_encode_options options;
   MCC_TRY(readStruct(given, defaultEncodeOptions(), options));
-  if (options.prefer > MCC_PREFER_SPEED) {
+  MCC_TRY(checkFlags({options.keep_vertex_order, options.keep_triangle_order}));
+  if (options.prefer > MCC_PREFER_SPEED)
     return fail(Error::kBadArgument, "prefer is not 0, 1 or 2");
-  }
   EncodeOptions encode_options;
   encode_options.keep_vertex_order = options.keep_vertex_order != 0;
   encode_options.keep_triangle_order = options.keep_triangle_order != 0;
   encode_options.prefer = static_cast<Preference>(options.prefer);
   encode_options.block_triangles = options.block_triangles;
   encode_options.run_jobs = runJobsOf(options.run_jobs, options.run_jobs_user);
+  MCC_TRY(checkArray(views, count));
   std::vector<Piece> pieces(count);
   std::vector<PieceView> piece_views;
   for (size_t i = 0; i < count; ++i) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/caller_memory.h"
 #include "positions/enc_isolated.h"
 
 namespace mcc {
@@ -15,40 +16,77 @@ bool isBasePosition(const AttributeFormat& f) {
   return f.semantic == Semantic::kPosition && f.morph_target == 0;
 }
 
+/// Whether bits are 0, or what a lattice or the grid of unit vectors can have.
+bool areBits(const AttributeView& attribute) {
+  const AttributeFormat& format = attribute.format;
+  const uint32_t bits = attribute.quantization_bits;
+  const bool is_unit_vector =
+      format.semantic == Semantic::kNormal || format.semantic == Semantic::kTangent;
+  // Vectors of other lengths, and deltas of morph targets, are on a lattice that the caller gives.
+  const bool has_grid = is_unit_vector && format.morph_target == 0 &&
+                        attribute.lattice == nullptr &&
+                        format.component_type == ComponentType::kFloat32;
+  if (bits == 0 || !has_grid) return bits <= kMaxLatticeBits;
+  return bits >= kMinUnitBits && bits <= kMaxUnitBits;
+}
+
+Status checkAttribute(const AttributeView& attribute, uint32_t wedge_count) {
+  const AttributeFormat& format = attribute.format;
+  if (format.semantic > Semantic::kCustom || format.component_type > ComponentType::kFloat32 ||
+      !isComponentCount(format.component_count)) {
+    return fail(Error::kBadArgument, "the format of an attribute is not one of glTF");
+  }
+  if (!areBits(attribute)) {
+    return fail(
+        Error::kBadArgument,
+        "the bits of an attribute are not 0 to 24, or for normals and tangents 0 or 2 to 16");
+  }
+  if (attribute.data == nullptr && wedge_count != 0)
+    return fail(Error::kBadArgument, "the data of an attribute is null");
+  if (attribute.stride_bytes < elementBytes(format)) {
+    return fail(Error::kBadArgument, "the stride of an attribute is smaller than its elements");
+  }
+  if (!canBeInMemory(attribute.data, wedge_count, attribute.stride_bytes, elementBytes(format))) {
+    return fail(Error::kBadArgument, "the stride of an attribute leads out of memory");
+  }
+  const uint32_t origins = format.morph_target == 0 ? format.component_count : 0;
+  if (attribute.lattice != nullptr && !isValidLattice(*attribute.lattice, origins)) {
+    return fail(Error::kBadArgument,
+                "the step of a lattice is not positive and finite, or its origin not finite");
+  }
+  return {};
+}
+
+/// Checks the counts of all parts before any index is read, since a count may be wrong.
+Status checkParts(const PieceView& piece) {
+  uint64_t triangles = 0;
+  for (const PartView& part : piece.parts) {
+    if (part.indices.size() % 3 != 0)
+      return fail(Error::kBadArgument, "a part's number of indices is not a multiple of three");
+    triangles += part.indices.size() / 3;  // cannot overflow: each part before fits
+    if (triangles >= kMaxVertices) return fail(Error::kLimit, "a piece has 2^28 or more triangles");
+  }
+  for (const PartView& part : piece.parts) {
+    for (const uint32_t index : part.indices) {
+      if (index >= piece.wedge_count)
+        return fail(Error::kBadArgument, "an index is not below wedge_count");
+    }
+  }
+  return {};
+}
+
 Status checkPiece(const PieceView& piece) {
   if (piece.attributes.empty() || !isBasePosition(piece.attributes[0].format) ||
       piece.attributes[0].format.component_count != 3) {
     return fail(Error::kBadArgument,
                 "the first attribute of a piece must be POSITION with 3 components");
   }
-  if (piece.wedge_count >= (1u << 28))
-    return fail(Error::kLimit, "a piece has more than 2^28 vertices");
+  if (piece.wedge_count >= kMaxVertices)
+    return fail(Error::kLimit, "a piece has 2^28 or more vertices");
   if (piece.parts.empty()) return fail(Error::kBadArgument, "a piece has no parts");
-  for (const AttributeView& a : piece.attributes) {
-    if (!isComponentCount(a.format.component_count) ||
-        (a.data == nullptr && piece.wedge_count != 0) || a.stride_bytes < elementBytes(a.format) ||
-        a.quantization_bits > kMaxLatticeBits) {
-      return fail(Error::kBadArgument,
-                  "an attribute's format, data, stride or bits are out of range");
-    }
-    const uint32_t origins = a.format.morph_target == 0 ? a.format.component_count : 0;
-    if (a.lattice != nullptr && !isValidLattice(*a.lattice, origins)) {
-      return fail(Error::kBadArgument,
-                  "the step of a lattice is not positive and finite, or its origin not finite");
-    }
-  }
-  uint64_t triangles = 0;
-  for (const PartView& part : piece.parts) {
-    if (part.indices.size() % 3 != 0)
-      return fail(Error::kBadArgument, "a part's number of indices is not a multiple of three");
-    triangles += part.indices.size() / 3;
-    for (const uint32_t index : part.indices) {
-      if (index >= piece.wedge_count)
-        return fail(Error::kBadArgument, "an index is not below wedge_count");
-    }
-  }
-  if (triangles >= (1u << 28)) return fail(Error::kLimit, "a piece has more than 2^28 triangles");
-  return {};
+  for (const AttributeView& attribute : piece.attributes)
+    MCC_TRY(checkAttribute(attribute, piece.wedge_count));
+  return checkParts(piece);
 }
 
 /// Joints are coded by golomb(), whose largest value is 2^32 - 2. [A.3.5]

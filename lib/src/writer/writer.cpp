@@ -63,6 +63,8 @@ Status codePayload(std::vector<Plan>& plans, const EncodeSettings& options, Vari
 Status encodePieces(std::span<const PieceView> pieces, const EncodeSettings& options,
                     EncodeResult& result) {
   if (pieces.empty()) return fail(Error::kBadArgument, "there is nothing to encode");
+  if (options.prefer > Preference::kSpeed)
+    return fail(Error::kBadArgument, "prefer is not one of the preferences");
   result = EncodeResult{};
   const Jobs jobs(options.run_jobs);
   std::vector<Plan> plans(pieces.size());

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Parts of the position coder by themselves; attributes_test.cpp tests the whole.
+// Parts of the position coder by themselves; roundtrip/attribute_test.cpp tests the whole.
 #include <gtest/gtest.h>
 
 #include <algorithm>

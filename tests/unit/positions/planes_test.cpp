@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Planes that coordinates lie on; the coder of their vertices is in attributes_test.cpp, whole
+// Planes that coordinates lie on; the coder of their vertices is in parts_test.cpp, whole
 // surfaces are in roundtrip/isosurface_test.cpp.
 #include <gtest/gtest.h>
 

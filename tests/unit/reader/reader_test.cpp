@@ -10,6 +10,7 @@
 
 #include "mcc/reader.h"
 #include "mcc/writer.h"
+#include "mesh/face_mesh.h"
 #include "support/mesh_compare.h"
 #include "support/mesh_generators.h"
 #include "unit/failing_allocator.h"
@@ -372,6 +373,82 @@ TEST(Writer, BadArguments) {
   }
   EncodeResult result;
   EXPECT_EQ(encode({}, {}, result).error, Error::kBadArgument);
+}
+
+/// The same numbers as of the reader, with 2^28 itself among those that are too many; nothing that
+/// many elements would need is read.
+TEST(Writer, LimitsOfThePieces) {
+  for (const uint32_t count : {kMaxVertices, kMaxVertices + 1, ~0u})
+    EXPECT_EQ(encodeError([=](Source& s) { s.wedge_count = count; }), Error::kLimit) << count;
+  for (const size_t triangles : {size_t{kMaxVertices}, size_t{kMaxVertices} + 1, size_t{1} << 40}) {
+    EXPECT_EQ(encodeError([=](Source& s) {
+                s.parts[0].indices = {s.mesh.indices.data(), 3 * triangles};
+              }),
+              Error::kLimit)
+        << triangles;
+  }
+  EXPECT_EQ(encodeError([](Source& s) {  // together
+              const size_t half = size_t{3} << 27;
+              s.parts = {PartView{{s.mesh.indices.data(), half}},
+                         PartView{{s.mesh.indices.data(), half}}};
+            }),
+            Error::kLimit);
+}
+
+TEST(Writer, StridesThatLeadOutOfMemory) {
+  constexpr size_t kMost = size_t{PTRDIFF_MAX} / 3;  // from the first of four wedges to the last
+  for (const size_t stride : {SIZE_MAX, SIZE_MAX / 2 + 1, SIZE_MAX / 3, kMost, kMost - 1}) {
+    EXPECT_EQ(encodeError([=](Source& s) { s.attributes[0].stride_bytes = stride; }),
+              Error::kBadArgument)
+        << stride;
+  }
+  Source source;
+  source.attributes[0].stride_bytes = SIZE_MAX;  // from a single wedge it leads nowhere
+  const PartView nothing;
+  EXPECT_EQ(roundTrip({1, source.attributes, {&nothing, 1}}).failure, "");
+}
+
+/// Numbers that are no bits and no enumerators are refused, and not cut off or taken for others.
+TEST(Writer, OptionsOutOfRange) {
+  for (uint32_t bits = 0; bits < 256; ++bits) {
+    const auto b = static_cast<uint8_t>(bits);
+    const bool is_lattice = bits <= 24;
+    EXPECT_EQ(encodeError([=](Source& s) { s.attributes[0].quantization_bits = b; }),
+              is_lattice ? Error::kOk : Error::kBadArgument)
+        << bits;
+    const bool is_grid = bits == 0 || (bits >= 2 && bits <= 16);
+    for (const Semantic semantic : {Semantic::kNormal, Semantic::kTangent}) {
+      const auto change = [=](Source& s) {
+        s.attributes.push_back(s.attributes[0]);
+        s.attributes[1].format.semantic = semantic;
+        s.attributes[1].quantization_bits = b;
+      };
+      EXPECT_EQ(encodeError(change), is_grid ? Error::kOk : Error::kBadArgument) << bits;
+    }
+    const auto integers = [=](Source& s) {  // ignore what it is
+      s.attributes.push_back(s.attributes[0]);
+      s.attributes[1].format.semantic = Semantic::kColor;
+      s.attributes[1].format.component_type = ComponentType::kUint8;
+      s.attributes[1].quantization_bits = b;
+    };
+    EXPECT_EQ(encodeError(integers), is_lattice ? Error::kOk : Error::kBadArgument) << bits;
+    if (bits <= static_cast<uint32_t>(Semantic::kCustom)) continue;
+    EXPECT_EQ(encodeError([=](Source& s) {
+                s.attributes.push_back(s.attributes[0]);
+                s.attributes[1].format.semantic = static_cast<Semantic>(b);
+              }),
+              Error::kBadArgument);
+    EXPECT_EQ(encodeError([=](Source& s) {
+                s.attributes[0].format.component_type = static_cast<ComponentType>(b);
+              }),
+              Error::kBadArgument);
+    const Source source;
+    const PieceView view{source.wedge_count, source.attributes, source.parts};
+    EncodeOptions options;
+    options.prefer = static_cast<Preference>(b);
+    EncodeResult result;
+    EXPECT_EQ(encode({&view, 1}, options, result).error, Error::kBadArgument);
+  }
 }
 
 TEST(Writer, NothingInAPieceIsFine) {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/c_struct.h"
-#include "format/codings.h"
+#include "gltf/api/convert.h"
 #include "gltf/inspect/inspect_json.h"
 #include "mcc/gltf.h"
 
@@ -41,35 +41,32 @@ mcc_convert_options defaultConvertOptions() {
 
 mcc_decode_glb_options defaultDecodeOptions() { return {sizeof(mcc_decode_glb_options), 0, 1, 0}; }
 
-/// Reads a number of bits, for floats or for unit vectors.
-Status readBits(uint32_t bits, bool is_unit_vector, uint8_t& out) {
-  const bool fits = is_unit_vector ? bits == 0 || (bits >= kMinUnitBits && bits <= kMaxUnitBits)
-                                   : bits <= kMaxLatticeBits;
-  if (!fits) return fail(Error::kBadArgument, "a number of bits is out of range");
-  out = static_cast<uint8_t>(bits);
-  return {};
+/// Stores a number in a type that it may be too large for; checkOptions() refuses what it becomes
+/// then.
+template <class Small>
+Small clampedTo(uint32_t number) {
+  return static_cast<Small>(std::min<uint32_t>(number, UINT8_MAX));
 }
 
 Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
-  MCC_TRY(readBits(options.position_bits, false, out.bits.position));
-  MCC_TRY(readBits(options.normal_bits, true, out.bits.normal));
-  MCC_TRY(readBits(options.texcoord_bits, false, out.bits.texcoord));
-  MCC_TRY(readBits(options.color_bits, false, out.bits.color));
-  MCC_TRY(readBits(options.tangent_bits, true, out.bits.tangent));
-  MCC_TRY(readBits(options.weight_bits, false, out.bits.weight));
-  if (options.grid > MCC_GRID_PRIMITIVE || options.prefer > MCC_PREFER_SPEED ||
-      !(options.max_position_error >= 0)) {
-    return fail(Error::kBadArgument, "grid, prefer or max_position_error is out of range");
-  }
+  MCC_TRY(
+      checkFlags({options.lossless, options.is_error_relative, options.indices_only,
+                  options.keep_vertex_order, options.keep_triangle_order, options.drop_unused}));
+  out.bits.position = clampedTo<uint8_t>(options.position_bits);
+  out.bits.normal = clampedTo<uint8_t>(options.normal_bits);
+  out.bits.texcoord = clampedTo<uint8_t>(options.texcoord_bits);
+  out.bits.color = clampedTo<uint8_t>(options.color_bits);
+  out.bits.tangent = clampedTo<uint8_t>(options.tangent_bits);
+  out.bits.weight = clampedTo<uint8_t>(options.weight_bits);
   out.lossless = options.lossless != 0;
-  out.grid = static_cast<Grid>(options.grid);
+  out.grid = clampedTo<Grid>(options.grid);
   out.max_position_error = options.max_position_error;
   out.is_error_relative = options.is_error_relative != 0;
   out.indices_only = options.indices_only != 0;
   out.drop_unused = options.drop_unused != 0;
   out.keep_vertex_order = options.keep_vertex_order != 0;
   out.keep_triangle_order = options.keep_triangle_order != 0;
-  out.prefer = static_cast<Preference>(options.prefer);
+  out.prefer = clampedTo<Preference>(options.prefer);
   out.thread_count = options.thread_count;
   out.block_triangles = options.block_triangles;
   out.max_decoded_bytes = options.max_decoded_bytes;
@@ -77,12 +74,8 @@ Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
     Lattice& lattice = out.position_lattice.emplace();
     std::copy_n(options.position_lattice->origin, 4, lattice.origin);
     lattice.step = options.position_lattice->step;
-    if (!isValidLattice(lattice, 3)) {
-      return fail(Error::kBadArgument,
-                  "the step of a lattice is not positive and finite, or its origin not finite");
-    }
   }
-  return {};
+  return checkOptions(out);
 }
 
 /// Runs a conversion of `glb` into a new document. The document gets a message in any case.
@@ -91,6 +84,8 @@ mcc_status makeDocument(const void* glb, size_t byte_count, mcc_document** docum
   if (document == nullptr) return badArgument("document is null");
   *document = nullptr;
   if (glb == nullptr && byte_count != 0) return badArgument("glb is null");
+  if (!canBeInMemory(glb, byte_count, 1, 1))
+    return badArgument("byte_count is more than memory has");
   auto made = std::make_unique<mcc_document>();
   Source source;
   source.bytes = std::span(static_cast<const uint8_t*>(glb), byte_count);
@@ -103,7 +98,9 @@ mcc_status makeDocument(const void* glb, size_t byte_count, mcc_document** docum
   }
   *document = made.release();
   if (result.ok()) return toC({});
-  return {MCC_ERROR_DOCUMENT, (*document)->message.c_str(), MCC_NO_OFFSET};
+  // The message dies with the document, and what a status says never does.
+  return {MCC_ERROR_DOCUMENT, "the document was refused; mcc_document_message() says why",
+          MCC_NO_OFFSET};
 } catch (const std::exception&) {
   return toC(fail(Error::kOutOfMemory, "no memory for the document"));
 }
@@ -139,7 +136,8 @@ void mcc_decode_glb_options_init(mcc_decode_glb_options* options, size_t struct_
 mcc_status mcc_decode_glb(const void* glb, size_t byte_count, const mcc_decode_glb_options* options,
                           mcc_document** document) {
   mcc_decode_glb_options read;
-  const mcc::Status status = mcc::readStruct(options, mcc::gltf::defaultDecodeOptions(), read);
+  mcc::Status status = mcc::readStruct(options, mcc::gltf::defaultDecodeOptions(), read);
+  if (status.ok()) status = mcc::checkFlags({read.decode_to_integers});
   if (!status.ok()) {
     if (document != nullptr) *document = nullptr;
     return mcc::toC(status);

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 
+#include "format/codings.h"
 #include "gltf/api/convert_report.h"
 #include "gltf/base/parallel.h"
 #include "gltf/base/path_text.h"
@@ -150,8 +152,7 @@ Result packageSource(const Document& document, const Input& input, const Output&
             (!input.isFile() || !moves || canCopyBuffers(document.json));
   if (is_copy) {
     package.main.assign(input.bytes.begin(), input.bytes.end());
-    Json json = document.json;
-    return addFilesBeside(json, true, input, output, package, notes);
+    return addFilesBeside(document.json, true, input, output, package, notes);
   }
   Json json = document.json;
   std::vector<uint8_t> bin;
@@ -320,21 +321,48 @@ Result inInput(const Input& input, Result result) {
   return input.path.empty() ? result : inFile(input.path, std::move(result));
 }
 
+/// Whether bits are 0 or in a range.
+bool areBits(uint8_t bits, uint32_t from, uint32_t to) {
+  return bits == 0 || (bits >= from && bits <= to);
+}
+
 }  // namespace
+
+Status checkOptions(const ConvertOptions& options) {
+  const QuantizationBits& bits = options.bits;
+  for (const uint8_t number : {bits.position, bits.texcoord, bits.color, bits.weight}) {
+    if (!areBits(number, 1, kMaxLatticeBits)) {
+      return fail(Error::kBadArgument,
+                  "the bits of positions, texture coordinates, colours and weights are 0 to 24");
+    }
+  }
+  for (const uint8_t number : {bits.normal, bits.tangent}) {
+    if (!areBits(number, kMinUnitBits, kMaxUnitBits)) {
+      return fail(Error::kBadArgument, "the bits of normals and tangents are 0, or 2 to 16");
+    }
+  }
+  if (options.grid > Grid::kPrimitive)
+    return fail(Error::kBadArgument, "grid is not one of the grids");
+  if (options.prefer > Preference::kSpeed)
+    return fail(Error::kBadArgument, "prefer is not one of the preferences");
+  if (!(options.max_position_error >= 0) || !std::isfinite(options.max_position_error))
+    return fail(Error::kBadArgument, "max_position_error is negative or not a finite number");
+  if (options.position_lattice && !isValidLattice(*options.position_lattice, 3)) {
+    return fail(Error::kBadArgument,
+                "the lattice of positions needs finite numbers, and a step that is greater than 0");
+  }
+  if (options.indices_only && options.drop_unused) {
+    return fail(Error::kBadArgument,
+                "attributes that are not compressed keep all their vertices: unused ones can be "
+                "dropped only without indices_only");
+  }
+  return {};
+}
 
 Result convertTo(const ListedSink& sink, const Source& source, const ConvertOptions& options,
                  ConvertReport& report) {
   const Result result = guarded([&]() -> Result {
-    if (options.position_lattice && !isValidLattice(*options.position_lattice, 3)) {
-      return error("",
-                   "the lattice of positions needs finite numbers, and a step that is greater "
-                   "than 0");
-    }
-    if (options.indices_only && options.drop_unused) {
-      return error("",
-                   "attributes that are not compressed keep all their vertices: unused ones can be "
-                   "dropped only without indices_only");
-    }
+    if (const Status checked = checkOptions(options); !checked.ok()) return error("", checked.what);
     Input input;
     Output output;
     MCC_GLTF_TRY(input.open(source));

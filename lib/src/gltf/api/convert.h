@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// convert() and decode() for a program that removes its temporary files when a signal ends it.
+// convert() and decode() for a program that removes its temporary files when a signal ends it, and
+// the check of their options for all callers.
 #ifndef MCC_GLTF_API_CONVERT_H_
 #define MCC_GLTF_API_CONVERT_H_
 
@@ -14,6 +15,11 @@ struct ListedSink {
   Sink sink;
   TemporaryFiles* temporaries = nullptr;  ///< null: nothing is listed. Borrowed
 };
+
+/// Checks options before any work is done for them: numbers of bits, enumerators, and what cannot
+/// be combined. Whoever calls the library, from C++, from C or by the program, is refused in these
+/// words.
+Status checkOptions(const ConvertOptions& options);
 
 /// Like convert() and decode(), apart from the list.
 Result convertTo(const ListedSink& sink, const Source& source, const ConvertOptions& options,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 namespace mcc::gltf {
@@ -77,10 +76,13 @@ Deviation latticeDeviation(const double* source, const double* decoded, uint32_t
   return deviation;
 }
 
+/// Returns a number with six digits, spelt as in JSON whatever the locale of the program is.
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
+  if (!std::isfinite(value)) return std::isnan(value) ? "nan" : "inf";
+  const double places = value == 0 ? 0 : 5 - std::floor(std::log10(std::abs(value)));
+  const double power = std::pow(10, std::abs(places));
+  return Json(places > 0 ? std::round(value * power) / power : std::round(value / power) * power)
+      .dump();
 }
 
 Result tooFar(const AttributeReport& report, uint64_t index, double off, bool is_angle) {

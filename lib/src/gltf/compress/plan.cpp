@@ -10,11 +10,11 @@
 #include <tuple>
 
 #include "gltf/document/references.h"
+#include "mesh/face_mesh.h"
 
 namespace mcc::gltf {
 namespace {
 
-constexpr uint64_t kMaxVertices = uint64_t{1} << 28;  // the limit of the payload format
 constexpr uint64_t kMaxTargets = 4096;
 
 class Planner {
@@ -223,9 +223,8 @@ class Planner {
       return "has no POSITION of three components; left as it was";
     }
     const uint64_t count = document_.accessors[piece.attributes[0].accessor].count;
-    if (count == 0 || count > kMaxVertices) {
-      return "has " + std::to_string(count) + " vertices; left as it was";
-    }
+    if (count == 0) return "has 0 vertices; left as it was";
+    if (count >= kMaxVertices) return "has 2^28 or more vertices; left as it was";
     for (const AttributePlan& attribute : piece.attributes) {
       const Accessor& accessor = document_.accessors[attribute.accessor];
       if (!accessor.is_known_type) {
@@ -279,8 +278,8 @@ class Planner {
     const size_t count = part.triangles.size();
     if (!expandTriangles(part.mode, part.triangles)) {
       note = "has " + std::to_string(count) + " indices, which make no triangles; left as it was";
-    } else if (part.triangles.size() / 3 > kMaxVertices) {
-      note = "has more triangles than a payload can hold; left as it was";
+    } else if (part.triangles.size() / 3 >= kMaxVertices) {
+      note = "has 2^28 or more triangles; left as it was";
     }
     return {};
   }

@@ -6,7 +6,6 @@
 #include <limits>
 
 namespace mcc::gltf {
-namespace {}  // namespace
 
 Json boundNumbers(const std::vector<double>& values, ComponentType type) {
   Json numbers = Json::array();

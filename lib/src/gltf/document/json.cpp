@@ -2,8 +2,8 @@
 #include "gltf/document/json.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <string_view>
 #include <vector>
 
@@ -164,6 +164,19 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   Result result_;
 };
 
+/// Returns the value of a number as JSON spells it. strtod() would look for the decimal point of
+/// the program's locale. The parser has refused numbers that are too large for a double.
+double numberOf(std::string_view spelling) {
+#if defined(__cpp_lib_to_chars)
+  double value = 0;
+  const char* const end = spelling.data() + spelling.size();
+  const bool is_zero = std::from_chars(spelling.data(), end, value).ec != std::errc();
+  return is_zero ? (spelling.starts_with('-') ? -0.0 : 0.0) : value;
+#else  // such as libc++ before version 20; the parser then knows the point of the locale
+  return Json::parse(spelling, nullptr, false).get<double>();
+#endif
+}
+
 void print(const Json& json, std::string& out) {
   switch (json.type()) {
     case Json::value_t::object: {
@@ -268,7 +281,7 @@ bool asUnsigned(const Json& json, uint64_t& value) {
 bool asNumber(const Json& json, double& value) {
   if (json.is_binary()) {
     const auto& spelling = json.get_binary();
-    value = std::strtod(std::string(spelling.begin(), spelling.end()).c_str(), nullptr);
+    value = numberOf({reinterpret_cast<const char*>(spelling.data()), spelling.size()});
   } else if (json.is_number()) {
     value = json.get<double>();
   } else {

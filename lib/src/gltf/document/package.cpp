@@ -1,8 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/document/package.h"
 
-#include <set>
-
 #include <algorithm>
 #include <cctype>
 #include <set>

@@ -226,7 +226,9 @@ Result Destination::commit() {
     if (temporaries_ != nullptr) temporaries_->forget(folder);
   }
   new_folders_.clear();
-  return checkTogether();
+  MCC_GLTF_TRY(checkTogether());
+  for (const auto& side : sides_) MCC_GLTF_TRY(side->file.flushName());
+  return main_.flushName();
 }
 
 Result Destination::checkTogether() const {

@@ -41,10 +41,11 @@ fs::path withoutLinks(fs::path path) {
   return path;
 }
 
-/// Writes all bytes. Returns 0 or the number of the error.
+/// Writes all bytes, however many the system takes at a time. Returns 0 or the number of the error.
 int writeAll(int file, std::span<const uint8_t> bytes) {
   while (!bytes.empty()) {
     const ptrdiff_t count = system::writeSome(file, bytes.data(), bytes.size());
+    if (count == 0) return ENOSPC;  // nothing was taken, and trying again could last forever
     if (count < 0 && errno != EINTR) return errno;
     if (count > 0) bytes = bytes.subspan(static_cast<size_t>(count));
   }
@@ -302,8 +303,8 @@ Result ReplacementFile::write(std::span<const uint8_t> bytes) {
   int failure = writeAll(file, bytes);
   // The file that is there now is replaced only when the new bytes are safely stored.
   std::error_code code;
-  if (failure == 0 && fs::exists(target_, code) && system::flush(file) != 0 && errno == EIO)
-    failure = EIO;
+  is_replacing_ = fs::exists(target_, code);
+  if (failure == 0 && is_replacing_ && system::flush(file) != 0) failure = errno;
   identity_ = system::identityOf(file);
   if (system::close(file) != 0 && failure == 0) failure = errno;
   if (failure == 0) return {};
@@ -312,6 +313,12 @@ Result ReplacementFile::write(std::span<const uint8_t> bytes) {
 
 bool ReplacementFile::isInPlace() const {
   return identity_ && system::identityOf(target_) == identity_;
+}
+
+Result ReplacementFile::flushName() const {
+  if (!is_replacing_ || system::flushFolder(folderOf(target_)) == 0) return {};
+  return error(textOf(destination_), "was replaced, but its folder cannot be stored: " +
+                                         reasonOf(errno) + "; check the disk and write it again");
 }
 
 Result ReplacementFile::commit() {
@@ -378,7 +385,8 @@ Result writeFile(const fs::path& path, std::span<const uint8_t> bytes,
   ReplacementFile file(path, temporaries);
   Result result = file.check();
   if (result.ok()) result = file.write(bytes);
-  return result.ok() ? file.commit() : result;
+  if (result.ok()) result = file.commit();
+  return result.ok() ? file.flushName() : result;
 }
 
 }  // namespace mcc::gltf

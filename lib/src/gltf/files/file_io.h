@@ -84,7 +84,8 @@ class ReplacementFile {
   /// Checks whether the destination could be written, before any work is done for it. Refuses what
   /// isStream() is true for.
   Result check() const;
-  /// Writes a temporary file in the folder of the destination.
+  /// Writes a temporary file in the folder of the destination. Where it will replace a file, it is
+  /// stored safely before this returns, so that a disk that is full or broken costs no old file.
   Result write(std::span<const uint8_t> bytes);
   const std::filesystem::path& destination() const { return destination_; }
   const std::filesystem::path& temporaryPath() const { return temporary_; }
@@ -99,6 +100,9 @@ class ReplacementFile {
   void undo();
   /// Removes what undo() would need.
   void keep();
+  /// After a commit that replaced a file: waits until the folder is stored, too. On an error the
+  /// new file is in place, and a crash may bring the old one back.
+  Result flushName() const;
   /// After a commit: whether the destination is known to be still the file that the commit put
   /// there. False when another program has replaced it since, or where files have no identity.
   bool isInPlace() const;
@@ -113,6 +117,7 @@ class ReplacementFile {
   std::filesystem::path backup_;  ///< the file that was at the target, while undo() is possible
   std::optional<FileIdentity> identity_;  ///< identity of the file that was written
   bool is_for_now_ = false;
+  bool is_replacing_ = false;  ///< there was a file at the target when this one was written
 };
 
 /// Checks whether writeFile() could write, before any work is done for it.

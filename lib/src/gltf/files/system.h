@@ -43,9 +43,13 @@ int createNew(const std::filesystem::path& path, bool only_owner);
 int duplicate(int file);
 ptrdiff_t readSome(int file, void* to, size_t byte_count);
 ptrdiff_t writeSome(int file, const void* from, size_t byte_count);
-/// Waits until what was written is stored. Fails with EIO if that went wrong, and with another
-/// error if the file system cannot tell.
+/// Waits until what was written is stored. Every failure means that it is not: EIO, but also ENOSPC
+/// and EDQUOT, where a file system finds room only when it stores. Succeeds on file systems that
+/// have no such wait.
 int flush(int file);
+/// The same for the names in a folder. Succeeds if the folder may be written but not listed, since
+/// it cannot be opened then.
+int flushFolder(const std::filesystem::path& folder);
 int close(int file);
 
 /// Like the functions of std::filesystem. Where a file that somebody is reading cannot be replaced

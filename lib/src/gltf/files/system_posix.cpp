@@ -61,7 +61,23 @@ ptrdiff_t writeSome(int file, const void* from, size_t byte_count) {
   return ::write(file, from, byte_count);
 }
 
-int flush(int file) { return ::fsync(file); }
+int flush(int file) {
+  while (::fsync(file) != 0) {
+    if (errno == EINTR) continue;
+    // What fsync() reports of files that have nothing to wait for.
+    return errno == EINVAL || errno == ENOTSUP || errno == EROFS ? 0 : -1;
+  }
+  return 0;
+}
+
+int flushFolder(const std::filesystem::path& folder) {
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return errno == EACCES ? 0 : -1;
+  const int failure = flush(file) == 0 ? 0 : errno;
+  ::close(file);
+  errno = failure;
+  return failure == 0 ? 0 : -1;
+}
 
 int close(int file) { return ::close(file); }
 

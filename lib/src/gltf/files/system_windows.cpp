@@ -120,15 +120,17 @@ ptrdiff_t writeSome(int file, const void* from, size_t byte_count) {
   return ::_write(file, from, chunkOf(byte_count));
 }
 
-/// Like fsync(): EINVAL means that the file cannot be flushed, EIO that it failed. _commit()
-/// reports EBADF for both.
+/// _commit() would report EBADF whatever is wrong.
 int flush(int file) {
   if (::FlushFileBuffers(handleOf(file)) != 0) return 0;
   const DWORD failure = ::GetLastError();
-  const bool is_impossible = failure == ERROR_INVALID_FUNCTION || failure == ERROR_NOT_SUPPORTED;
-  errno = is_impossible ? EINVAL : EIO;
+  if (failure == ERROR_INVALID_FUNCTION || failure == ERROR_NOT_SUPPORTED) return 0;
+  errno = numberOf(failure);
   return -1;
 }
+
+/// Names are in the journal of the file system.
+int flushFolder(const std::filesystem::path&) { return 0; }
 
 int close(int file) { return ::_close(file); }
 
