@@ -11,8 +11,8 @@ endforeach()
 
 # mcc_installed(COMPONENT NAME...): the component consists of these targets.
 function(mcc_installed component)
-  add_dependencies(installed ${ARGN})
   foreach(name IN LISTS ARGN)
+    add_dependencies(installed ${name})
     set_property(TARGET installed APPEND PROPERTY MCC_${component} $<TARGET_FILE:${name}>)
   endforeach()
 endfunction()

@@ -68,8 +68,13 @@ int reportFailure(const gltf::Result& result, const std::string& input, const st
   std::error_code code;
   if (!isStandardStream(input) && !fs::exists(gltf::pathOf(input), code)) {
     advised.what += didYouMeanFile(input);
+  } else if (fs::is_directory(gltf::pathOf(input), code)) {
+    if (!output.empty())
+      advised.what += ", or take all models in it with -o DIR " + shellWord(input);
   } else if (fs::is_directory(gltf::pathOf(output), code)) {
     advised.what += ", or write into it with -o " + output;
+  } else {
+    advised.what += howToReadOther(input);
   }
   return reportFailure(advised);
 }
@@ -84,8 +89,8 @@ namespace {
 
 std::string versionText() {
   std::string text = fmt::format("gltf-mcc {}\n", MCC_VERSION);
-  text += fmt::format("{}: writes and reads format {}.{}\n", gltf::kExtensionName,
-                      kVersionMajor, kVersionMinor);
+  text += fmt::format("{}: writes and reads format {}.{}\n", gltf::kExtensionName, kVersionMajor,
+                      kVersionMinor);
 #if defined(MCC_HAS_FOREIGN)
   text += "reads KHR_draco_mesh_compression, EXT_meshopt_compression, KHR_meshopt_compression";
 #else

@@ -85,7 +85,7 @@ struct ValidateCommand {
       StreamSource source;
       gltf::Result outcome = source.open(file);
       if (outcome.ok()) outcome = gltf::validate(source.source(), options, report.report);
-      if (!outcome.ok()) status = reportFailure(outcome);
+      if (!outcome.ok()) status = reportFailure(outcome, file, "");
       if (outcome.ok() && !report.report.isValid()) status = kFailed;
       if (outcome.ok()) reports.push_back(std::move(report));
     }
