@@ -219,8 +219,9 @@ TEST_F(Manners, OtherFormatsGetAdvice) {
   const std::string neither = ": byte 0: this is not a glTF file: neither a GLB nor JSON";
   for (const std::string name : {"m.obj", "m.STL", "m.ply"}) {
     std::ofstream(folder_.path() / name) << "o a model\n";
-    for (const std::string& command : {"convert " + name + " out.glb", "decode " + name + " out.glb",
-                                      "inspect " + name, "tree " + name + " out.svg"}) {
+    for (const std::string& command :
+         {"convert " + name + " out.glb", "decode " + name + " out.glb", "inspect " + name,
+          "tree " + name + " out.svg"}) {
       const ToolResult result = run(command);
       EXPECT_EQ(result.status, 1) << command;
       EXPECT_EQ(result.err,
@@ -229,6 +230,10 @@ TEST_F(Manners, OtherFormatsGetAdvice) {
                     " m.glb -fglb2\n");
     }
   }
+  EXPECT_EQ(
+      run("validate m.obj torus.glb").err,
+      "gltf-mcc: m.obj: is no glTF file; turn it into a .glb first, with Blender or with: assimp "
+      "export m.obj m.glb -fglb2\n");
   EXPECT_NE(run("convert -o out m.obj torus.glb").err.find("assimp export m.obj"),
             std::string::npos);
   std::ofstream(folder_.path() / "a b.obj") << "o a model\n";
