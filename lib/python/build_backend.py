@@ -1,7 +1,7 @@
 # Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-"""Makes the wheel of gltf_mcc: for pip, which calls the hooks of PEP 517 and gets the package alone, and for tools/build-wheel,
-which adds the shared libraries: build_backend.py FOLDER LIBRARY... prints the path of the wheel. The same input gives the same
-bytes.
+"""Makes the wheel of gltf_mcc: for pip, which calls the hooks of PEP 517 and gets the package alone, and for
+tools/build-wheel, which adds the shared libraries: build_backend.py FOLDER LIBRARY... prints the path of the wheel. The
+same input gives the same bytes.
 """
 import base64
 import hashlib
@@ -68,8 +68,8 @@ def licence():
 
 
 def platform_tag():
-    """Returns the tag of the systems that run what was built on this one: those whose C library is not older, since a library
-    asks for no newer symbols than there were where it was linked."""
+    """Returns the tag of the systems that run what was built on this one: those whose C library is not older, since a
+    library asks for no newer symbols than there were where it was linked."""
     tag = sysconfig.get_platform().replace("-", "_").replace(".", "_")
     libc, version = platform.libc_ver()
     if tag.startswith("linux_") and libc == "glibc":
@@ -85,7 +85,8 @@ def write_wheel(folder, files, platform_name):
     is_pure = "true" if platform_name == "any" else "false"
     files = dict(sorted(files.items()))
     files[f"{info}/METADATA"] = metadata()
-    files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: gltf-mcc\nRoot-Is-Purelib: {is_pure}\nTag: {tag}\n".encode()
+    files[f"{info}/WHEEL"] = (f"Wheel-Version: 1.0\nGenerator: gltf-mcc\nRoot-Is-Purelib: {is_pure}\n"
+                              f"Tag: {tag}\n").encode()
     files.update((f"{info}/{name}", content) for name, content in licence().items())
     record = "".join(f"{name},sha256={digest(content)},{len(content)}\n" for name, content in files.items())
     files[f"{info}/RECORD"] = f"{record}{info}/RECORD,,\n".encode()

@@ -51,7 +51,7 @@ class Documents(unittest.TestCase):
         for sample in sorted(SAMPLES.glob("*.glb")):
             with tempfile.TemporaryDirectory() as folder:
                 out = Path(folder, "out.glb")
-                subprocess.run([PROGRAM, "convert", "--quantize-position", "12", sample, out], check=True,
+                subprocess.run([PROGRAM, "convert", "-q", "--quantize-position", "12", sample, out], check=True,
                                stdout=subprocess.DEVNULL)
                 expected = out.read_bytes()
                 self.assertEqual(gltf_mcc.convert(sample, position_bits=12), expected, sample.name)
@@ -447,7 +447,8 @@ class Package(unittest.TestCase):
         named = os.environ.get("GLTF_MCC_LIBRARY")
         folder = Path(named).parent if named else Path(gltf_mcc.__file__).parent  # a wheel with the libraries inside
         loaded = {Path(line.split()[-1]) for line in Path("/proc/self/maps").read_text().splitlines() if "gltf-mcc" in line}
-        self.assertEqual({path.name.split(".")[0] for path in loaded}, {"libgltf-mcc", "libgltf-mcc-writer", "libgltf-mcc-reader"})
+        self.assertEqual({path.name.split(".")[0] for path in loaded},
+                         {"libgltf-mcc", "libgltf-mcc-writer", "libgltf-mcc-reader"})
         self.assertEqual({path.parent for path in loaded}, {folder.resolve()})
 
     def test_a_missing_library_is_explained(self):

@@ -1,6 +1,6 @@
 # Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-"""Reads the accessors of a GLB into arrays of their own. The GLB may lie about everything: each number is checked before it
-is used, and all arrays together take no more than a given number of bytes."""
+"""Reads the accessors of a GLB into arrays of their own. The GLB may lie about everything: each number is checked
+before it is used, and all arrays together take no more than a given number of bytes."""
 from __future__ import annotations
 
 import array
@@ -168,7 +168,8 @@ class Document:
         if not count or (columns == 1 and stride == size):
             return bytearray(data[begin:begin + size * count])
         if numpy is not None:
-            return bytearray(numpy.ndarray((count, columns, column_bytes), "u1", data, begin, (stride, pitch, 1)).tobytes())
+            shape, strides = (count, columns, column_bytes), (stride, pitch, 1)
+            return bytearray(numpy.ndarray(shape, "u1", data, begin, strides).tobytes())
         starts = (begin + stride * i + pitch * k for i in range(count) for k in range(columns))
         return bytearray(b"".join(data[at:at + column_bytes] for at in starts))
 
@@ -207,7 +208,8 @@ class Document:
             except binascii.Error as failure:
                 raise refuse(f"/buffers/{number}/uri", str(failure)) from failure
         else:
-            raise refuse(f"/buffers/{number}/uri", "is another file; gltf-mcc decode IN.gltf OUT.glb makes one file of both")
+            raise refuse(f"/buffers/{number}/uri",
+                         "is another file; gltf-mcc decode IN.gltf OUT.glb makes one file of both")
         self._buffers[number] = data
         return data
 
@@ -242,4 +244,5 @@ def _floats(memory: bytearray, code: str, is_normalized: bool) -> bytearray:
     lowest = -1 if is_normalized else -_SCALES[code] - 1
     if numpy is not None:
         return bytearray(numpy.maximum(numpy.frombuffer(memory, code) / scale, lowest).astype("f").tobytes())
-    return bytearray(array.array("f", (max(value / scale, lowest) for value in memoryview(memory).cast(code))).tobytes())
+    values = memoryview(memory).cast(code)
+    return bytearray(array.array("f", (max(value / scale, lowest) for value in values)).tobytes())

@@ -1,5 +1,5 @@
 # Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-"""What the package returns as arrays: NumPy's where NumPy is installed, else memoryviews with the same shape and format."""
+"""What the package returns as arrays: NumPy's where NumPy is installed, else memoryviews of the same shape and type."""
 from __future__ import annotations
 
 from typing import Any, Tuple

@@ -69,8 +69,8 @@ def meshes(source: Source, *, threads: int = 1, max_decoded_bytes: int = 0) -> L
     Args:
         source: the bytes of a GLB, or the path of a .glb file
         threads: how many threads decode
-        max_decoded_bytes: bounds what compressed meshes decode to, as in decode(), and the bytes of all arrays; by default
-            the arrays may take eight bytes for each byte of the decoded GLB, and at least 256 MiB
+        max_decoded_bytes: bounds what compressed meshes decode to, as in decode(), and the bytes of all arrays; by
+            default the arrays may take eight bytes for each byte of the decoded GLB, and at least 256 MiB
 
     Raises:
         Error: the file is not a GLB, or is damaged, or a mesh is compressed with another codec
