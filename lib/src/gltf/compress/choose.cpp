@@ -206,7 +206,7 @@ void leaveAlone(const PiecePlan& piece, const std::string& cost, uint64_t freed_
   const std::string note = "would not become smaller (" + cost + ", buffers " +
                            std::to_string(freed_bytes) + " bytes); left as it was";
   for (const PartPlan& part : piece.parts) {
-    for (const PrimitiveRef& user : part.users) left_alone.push_back({user, note});
+    for (const PrimitiveRef& user : part.users) left_alone.push_back({user, note, true});
   }
 }
 
