@@ -57,6 +57,13 @@ function(mcc_install)
                   NAMELINK_COMPONENT development
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
           INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  if(PROJECT_IS_TOP_LEVEL)
+    set(shared ${targets})
+    list(FILTER shared INCLUDE REGEX _shared$)
+    list(FILTER targets EXCLUDE REGEX _shared$)
+    mcc_installed(library ${shared})
+    mcc_installed(development ${targets})
+  endif()
 
   set(folder ${CMAKE_INSTALL_LIBDIR}/cmake/gltf-mcc)
   configure_package_config_file(${mcc_package_dir}/gltf-mccConfig.cmake.in gltf-mccConfig.cmake

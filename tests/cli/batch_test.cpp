@@ -159,6 +159,45 @@ TEST_F(Batch, OneFailureDoesNotStopTheRest) {
   }
 }
 
+TEST_F(Batch, AFolderStandsForItsModels) {
+  ASSERT_EQ(run("decode -q in/torus.glb in/B.GLTF").status,
+            0);  // after the others in no order but bytes
+  fs::rename(path("in/torus.glb"), path("in/C.GLB"));
+  fs::create_directories(path("in/deeper.glb"));
+  fs::copy_file(path("in/skinned.glb"), path("in/deeper.glb/d.glb"));
+  store("in/notes.txt", "no model");
+  fs::create_directory(path("empty"));
+  std::string order;  // as --format csv lists files: as on the command line
+  std::set<std::string> expected = names_;
+  expected.erase("torus.glb");
+  expected.insert({"B.GLTF", "C.GLB"});
+  for (const std::string& name : expected) order += "in/" + name + ",converted,";
+  const ToolResult result = run("convert -o out in --format csv");
+  EXPECT_EQ(result.status, 0) << result.err;
+  std::string found;
+  for (size_t at = result.out.find("\nin/"); at != std::string::npos;
+       at = result.out.find("\nin/", at + 1)) {
+    found += result.out.substr(at + 1, result.out.find(',', result.out.find(',', at) + 1) - at);
+  }
+  EXPECT_EQ(found, order);
+  std::set<std::string> written = expected;
+  written.insert("B.bin");
+  for (const auto& [name, content] : filesOf("out")) EXPECT_EQ(written.erase(name), 1u) << name;
+  EXPECT_TRUE(written.empty());
+  const ToolResult back = run("decode -j 2 -o back out/");
+  EXPECT_EQ(back.status, 0) << back.err;
+  EXPECT_EQ(countOf(back.out, "] out/"), expected.size()) << back.out;
+  // Together with files, and with a folder that has none.
+  const ToolResult mixed = run("convert -o mixed in/deeper.glb empty in/C.GLB");
+  EXPECT_EQ(mixed.status, 1);
+  EXPECT_EQ(filesOf("mixed").size(), 2u);
+  EXPECT_EQ(mixed.err, "gltf-mcc: empty: is a folder; name a file in it\n");
+  // Into the folder itself.
+  const ToolResult onto = run("convert -o in in");
+  EXPECT_EQ(onto.status, 2);
+  EXPECT_NE(onto.err.find("would be replaced by its output"), std::string::npos) << onto.err;
+}
+
 TEST_F(Batch, WhatIsUpToDateIsLeft) {
   ASSERT_EQ(run("convert -o out/ in/*.glb").status, 0);
   const auto before = filesOf("out");

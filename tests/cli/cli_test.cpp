@@ -274,7 +274,7 @@ TEST_F(Cli, WrongUsageSaysWhatIsWrong) {
     EXPECT_EQ(result.err.rfind("gltf-mcc: " + text, 0), 0u) << result.err;
     EXPECT_LT(result.err.size(), 250u) << result.err;
   };
-  expectSays("", "name a command: convert, decode, inspect");
+  expectSays("-i in.glb -o out.glb", "name a command before -i; did you mean: gltf-mcc convert -i");
   expectSays("frobnicate in.glb", "\"frobnicate\" is not a command; the commands are convert, ");
   expectSays("convert in.glb", "convert: OUT is missing");
   expectSays("decode in.glb", "decode: OUT is missing");
@@ -286,6 +286,15 @@ TEST_F(Cli, WrongUsageSaysWhatIsWrong) {
     expectSays(std::string("convert in.glb out.glb --lattice ") + lattice,
                "--lattice: needs finite numbers, and a step that is greater than 0");
   }
+  fs::create_directory(folder_ / "folder");
+  expectSays("convert folder",
+             "convert: folder: is a folder; to convert all models in it, write: -o DIR folder");
+  expectSays("decode folder out",
+             "decode: folder: is a folder; to decode all models in it, write: -o out folder");
+  expectSays("convert -o out folder",
+             "convert: folder: there is no .glb or .gltf file in this folder");
+  expectSays("convert -o out.glb in.glb in.glb",
+             "convert: out.glb: is the name of a file, but several");
   expectSays("convert in.glb out.obj", "convert: out.obj: only .glb and .gltf files are written");
   expectSays("convert in.glb out.glb --frobnicate", "convert: there is no option --frobnicate");
   EXPECT_EQ(run("convert in.glb out.vrm").status, 0);

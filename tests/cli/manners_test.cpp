@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <regex>
 #include <set>
 
@@ -122,6 +123,19 @@ TEST_F(Manners, EveryCommandHasHelpWithExamples) {
     }
   }
   EXPECT_EQ(run("help").out, run("--help").out);
+  EXPECT_EQ(all.back(), "man");
+  // Words of the format and its code: the points of positions are a lattice; --grid is an old name.
+  for (const std::string& command : all) {
+    EXPECT_EQ(run(command + " --help").out.find(" grid"), std::string::npos) << command;
+  }
+  // Without any word, the help in short.
+  const ToolResult none = run("");
+  EXPECT_EQ(none.status, 2);
+  EXPECT_EQ(none.out, "");
+  EXPECT_EQ(none.err.rfind("gltf-mcc: name a command\n\nUsage: gltf-mcc COMMAND ", 0), 0u)
+      << none.err;
+  EXPECT_EQ(wordsBelow(none.err, "Commands"), all);
+  EXPECT_NE(none.err.find("\n\nRun \"gltf-mcc --help\".\n"), std::string::npos) << none.err;
   expectUsageError("help convrt", "help: there is no command convrt; did you mean convert?");
 }
 
@@ -143,6 +157,27 @@ TEST_F(Manners, WrongWordsGetSuggestions) {
   EXPECT_EQ(run("xylophone").err.find("did you mean"), std::string::npos);
   EXPECT_NE(run("torus.glb small.glb").err.find("name a command before torus.glb: convert, "),
             std::string::npos);
+  EXPECT_NE(
+      run("torus.glb small.glb").err.find("; did you mean: gltf-mcc convert torus.glb small.glb\n"),
+      std::string::npos);
+  EXPECT_NE(run("torus.glb").err.find("; did you mean: gltf-mcc inspect torus.glb\n"),
+            std::string::npos);
+  expectUsageError("-i torus.glb -o 'my model.glb'",
+                   "name a command before -i; did you mean: gltf-mcc convert -i torus.glb -o "
+                   "'my model.glb'");
+  expectUsageError("--lossless \"it's.glb\" b.glb",
+                   "name a command before --lossless; did you mean: gltf-mcc convert --lossless "
+                   "'it'\\''s.glb' b.glb");
+  for (const auto& [word, meant] : std::map<std::string, std::string>{{"compress", "convert"},
+                                                                      {"decompress", "decode"},
+                                                                      {"info", "inspect"},
+                                                                      {"check", "validate"},
+                                                                      {"benchmark", "bench"},
+                                                                      {"version", "--version"}}) {
+    EXPECT_NE(run(word + " a.glb b.glb").err.find("; did you mean " + meant + "?\n"),
+              std::string::npos)
+        << word;
+  }
   expectUsageError("convert torus.glb s.glb --lossles",
                    "convert: there is no option --lossles; did you mean --lossless?");
   expectUsageError("convert torus.glb s.glb --quantise-position=12",
@@ -178,6 +213,71 @@ TEST_F(Manners, FilesGetSuggestions) {
                    "convert: small: has no extension; name it small.glb or small.gltf");
   std::ofstream(folder_.path() / "model") << "older";
   EXPECT_EQ(run("convert torus.glb model").status, 0);  // an existing path may be anything
+}
+
+TEST_F(Manners, OtherFormatsGetAdvice) {
+  const std::string neither = ": byte 0: this is not a glTF file: neither a GLB nor JSON";
+  for (const std::string name : {"m.obj", "m.STL", "m.ply"}) {
+    std::ofstream(folder_.path() / name) << "o a model\n";
+    for (const std::string& command :
+         {"convert " + name + " out.glb", "decode " + name + " out.glb", "inspect " + name,
+          "tree " + name + " out.svg"}) {
+      const ToolResult result = run(command);
+      EXPECT_EQ(result.status, 1) << command;
+      EXPECT_EQ(result.err,
+                "gltf-mcc: " + name + neither +
+                    "; turn it into a .glb first, with Blender or with: assimp export " + name +
+                    " m.glb -fglb2\n");
+    }
+  }
+  EXPECT_EQ(
+      run("validate m.obj torus.glb").err,
+      "gltf-mcc: m.obj: is no glTF file; turn it into a .glb first, with Blender or with: assimp "
+      "export m.obj m.glb -fglb2\n");
+  EXPECT_NE(run("convert -o out m.obj torus.glb").err.find("assimp export m.obj"),
+            std::string::npos);
+  std::ofstream(folder_.path() / "a b.obj") << "o a model\n";
+  EXPECT_NE(run("inspect 'a b.obj'").err.find("assimp export 'a b.obj' 'a b.glb'"),
+            std::string::npos);
+  std::ofstream(folder_.path() / "m.glb") << "o a model\n";
+  EXPECT_EQ(run("inspect m.glb").err, "gltf-mcc: m.glb" + neither + "\n");
+}
+
+TEST_F(Manners, InspectListsWhatIsInAPlainFile) {
+  const ToolResult torus = run("inspect torus.glb");
+  EXPECT_EQ(torus.status, 0);
+  EXPECT_EQ(torus.out,
+            "torus.glb: 74,844 bytes, 1 mesh, 1 primitive; extensions: none\n"
+            "nothing in it is compressed with KHR_mesh_collapse_compression\n\n"
+            "           bytes  what\n"
+            "--------  ------  -------------------------------\n"
+            "geometry  73,728  4,096 triangles, 2,048 vertices\n"
+            "the rest   1,116  JSON, nodes, materials\n\n"
+            "To compress the geometry: gltf-mcc convert torus.glb OUT.glb\n");
+  const std::string skinned = run("inspect " + samplePath("skinned.glb")).out;
+  EXPECT_TRUE(std::regex_search(skinned, std::regex("\nanimations +1,208  1 animation\n")))
+      << skinned;
+  const std::string textured = run("inspect " + samplePath("textured.glb") + " --format md").out;
+  EXPECT_TRUE(std::regex_search(textured, std::regex("\n\\| images +\\| +30,952 \\| 2 images ")))
+      << textured;
+  std::ofstream(folder_.path() / "none.gltf")
+      << R"({"asset": {"version": "2.0"}, "images": [{"uri": "a.png"}]})";
+  const std::string none = run("inspect none.gltf").out;
+  EXPECT_TRUE(std::regex_search(none, std::regex("\nimages +0  0 images, and 1 file beside it\n")))
+      << none;
+  EXPECT_NE(none.find("There are no triangles that could be compressed.\n"), std::string::npos)
+      << none;
+  std::ofstream(folder_.path() / "draco.gltf")
+      << R"({"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_draco_mesh_compression"],
+             "accessors": [{"count": 7, "componentType": 5126, "type": "VEC3"}, {"count": 5, "componentType": 5126, "type": "VEC3"}],
+             "meshes": [{"primitives": [{"mode": 5, "attributes": {"POSITION": 0}},
+                                        {"mode": 6, "attributes": {"POSITION": 0}},
+                                        {"mode": 0, "attributes": {"POSITION": 1}}]}]})";
+  const std::string draco = run("inspect draco.gltf").out;
+  EXPECT_NE(draco.find("10 triangles, 12 vertices\n"), std::string::npos) << draco;
+  EXPECT_NE(draco.find("It uses KHR_draco_mesh_compression, which convert reads. To compress"),
+            std::string::npos)
+      << draco;
 }
 
 TEST_F(Manners, ColoursOnATerminalOnly) {
@@ -287,7 +387,7 @@ words=(gltf-mcc convert --qu) CURRENT=3; _gltf_mcc; print $words[1] $CURRENT
 )");
   EXPECT_EQ(asked.err, "");
   EXPECT_NE(asked.out.find("convert:Compress"), std::string::npos) << asked.out;
-  EXPECT_NE(asked.out.find("--grid[What shares a grid"), std::string::npos) << asked.out;
+  EXPECT_NE(asked.out.find("--grid[What shares a lattice"), std::string::npos) << asked.out;
   EXPECT_NE(asked.out.find(":(mesh scene primitive)"), std::string::npos) << asked.out;
   EXPECT_NE(asked.out.find("(-o --output)-o["), std::string::npos) << asked.out;
   EXPECT_NE(asked.out.find("\nconvert 2\n"), std::string::npos) << asked.out;

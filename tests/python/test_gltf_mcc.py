@@ -1,6 +1,8 @@
 # Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 """Tests of the package gltf_mcc: test_gltf_mcc.py GLTF_MCC SAMPLES README, run by package_test in an environment that has
 nothing but the wheel. NumPy is used if it is there."""
+import contextlib
+import io
 import json
 import os
 import pickle
@@ -15,7 +17,7 @@ import zlib
 from pathlib import Path
 
 import gltf_mcc
-from gltf_mcc import meshes
+from gltf_mcc import accessors, arrays, primitives
 
 PROGRAM, SAMPLES, README = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
 
@@ -49,7 +51,7 @@ class Documents(unittest.TestCase):
         for sample in sorted(SAMPLES.glob("*.glb")):
             with tempfile.TemporaryDirectory() as folder:
                 out = Path(folder, "out.glb")
-                subprocess.run([PROGRAM, "convert", "--quantize-position", "12", sample, out], check=True,
+                subprocess.run([PROGRAM, "convert", "-q", "--quantize-position", "12", sample, out], check=True,
                                stdout=subprocess.DEVNULL)
                 expected = out.read_bytes()
                 self.assertEqual(gltf_mcc.convert(sample, position_bits=12), expected, sample.name)
@@ -183,9 +185,9 @@ class Meshes(unittest.TestCase):
         self.assertEqual(gltf_mcc.encode_mesh({"POSITION": positions}, narrow).payload, wide)
         self.assertEqual(gltf_mcc.encode_mesh({"POSITION": positions}, indices.tolist()).payload, wide)
 
-    @unittest.skipIf(meshes._numpy is None, "NumPy is not installed")
+    @unittest.skipIf(arrays.numpy is None, "NumPy is not installed")
     def test_numpy(self):
-        numpy = meshes._numpy
+        numpy = arrays.numpy
         positions, indices = grid(9)
         wide = numpy.zeros((81, 8), numpy.float32)
         wide[:, 2:5] = positions.tolist()
@@ -197,9 +199,230 @@ class Meshes(unittest.TestCase):
         self.assertEqual(piece.parts[0].shape[1], 3)
 
 
+def glb_of(document, binary=b""):
+    """Returns a GLB of a document and its BIN chunk."""
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    binary += bytes(-len(binary) % 4)
+    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(binary), b"BIN\0") + binary
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+class Builder:
+    """Makes documents of one mesh, accessor by accessor."""
+
+    def __init__(self):
+        self.binary = b""
+        self.document = {"asset": {"version": "2.0"}, "buffers": [{}], "bufferViews": [], "accessors": [], "meshes": []}
+
+    def view(self, data, **members):
+        self.binary += bytes(-len(self.binary) % 4)
+        self.document["bufferViews"].append(
+            {"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data), **members})
+        self.binary += data
+        return len(self.document["bufferViews"]) - 1
+
+    def accessor(self, kind, component_type, count, data=None, stride=None, **members):
+        if data is not None:
+            members["bufferView"] = self.view(data, **({"byteStride": stride} if stride else {}))
+        self.document["accessors"].append({"type": kind, "componentType": component_type, "count": count, **members})
+        return len(self.document["accessors"]) - 1
+
+    def primitive(self, **members):
+        if not self.document["meshes"]:
+            self.document["meshes"] = [{"name": "a mesh", "primitives": []}]
+        self.document["meshes"][0]["primitives"].append(members)
+
+    def glb(self):
+        self.document["buffers"][0]["byteLength"] = len(self.binary)
+        return glb_of(self.document, self.binary)
+
+    def positions(self, count=4):
+        return self.accessor("VEC3", FLOAT, count, struct.pack(f"{3 * count}f", *range(3 * count)),
+                             min=[0, 1, 2], max=[3 * count - 3, 3 * count - 2, 3 * count - 1])
+
+
+BYTE, UBYTE, SHORT, USHORT, UINT, FLOAT = 5120, 5121, 5122, 5123, 5125, 5126
+
+
+def flat(array):
+    return [number for row in array.tolist() for number in row]
+
+
+class MeshesOfFiles(unittest.TestCase):
+    def read(self, builder):
+        mesh, = gltf_mcc.meshes(builder.glb())
+        return mesh.primitives
+
+    def test_compressed_or_not_is_the_same(self):
+        kept = {"lossless": True, "keep_vertex_order": True, "keep_triangle_order": True}
+        compressed_count = 0
+        for sample in sorted(SAMPLES.glob("*.glb")):
+            small = gltf_mcc.convert(sample, **kept)
+            compressed_count += gltf_mcc.inspect(small)["payloads"] != []
+            plain, again = gltf_mcc.meshes(sample), gltf_mcc.meshes(small)
+            self.assertEqual([mesh.name for mesh in plain], [mesh.name for mesh in again])
+            for mesh, other in zip(plain, again):
+                self.assertEqual(len(mesh.primitives), len(other.primitives))
+                for a, b in zip(mesh.primitives, other.primitives):
+                    self.assertEqual((a.kind, a.material), (b.kind, b.material))
+                    self.assertEqual(list(a.attributes), list(b.attributes))
+                    self.assertEqual(a.indices.tolist(), b.indices.tolist())
+                    for arrays, others in zip([a.attributes, *a.targets], [b.attributes, *b.targets]):
+                        for name in arrays:
+                            self.assertEqual(arrays[name].tolist(), others[name].tolist(), f"{sample.name} {name}")
+        self.assertGreater(compressed_count, 10)
+
+    def test_triangles_of_a_sample(self):
+        data = (SAMPLES / "torus.glb").read_bytes()
+        document = json.loads(data[20:20 + struct.unpack_from("<I", data, 12)[0]])
+        mesh, = gltf_mcc.meshes(gltf_mcc.convert(data))
+        primitive, = mesh.primitives
+        accessors = document["accessors"]
+        described = document["meshes"][0]["primitives"][0]
+        self.assertEqual(mesh.name, document["meshes"][0].get("name", ""))
+        self.assertEqual(primitive.kind, "triangles")
+        self.assertEqual(primitive.indices.shape, (accessors[described["indices"]]["count"] // 3, 3))
+        position = accessors[described["attributes"]["POSITION"]]
+        self.assertEqual(primitive.positions.shape, (position["count"], 3))
+        for found, expected in ((map(min, zip(*primitive.positions.tolist())), position["min"]),
+                                (map(max, zip(*primitive.positions.tolist())), position["max"])):
+            for a, b in zip(found, expected):
+                self.assertAlmostEqual(a, b, places=3)
+
+    def test_every_layout(self):
+        made = Builder()
+        positions = made.positions()
+        interleaved = made.accessor("VEC2", SHORT, 4, b"".join(struct.pack("2h4x", k, k + 1) for k in range(0, 8, 2)), 8)
+        padded = made.accessor("MAT2", BYTE, 4, bytes(range(32)))  # columns begin at multiples of four
+        colors = made.accessor("VEC3", UBYTE, 4, bytes([0, 255, 51, 0] * 4), 4, normalized=True)
+        normals = made.accessor("VEC3", BYTE, 4, struct.pack("12b", *[-128, -127, 127] * 4), normalized=True)
+        joints = made.accessor("VEC4", USHORT, 4, struct.pack("16H", *range(16)))
+        zeros = made.accessor("SCALAR", UINT, 4)
+        changed = made.view(bytes([1, 3]))
+        values = made.view(struct.pack("2I", 70, 90))
+        sparse = made.accessor("SCALAR", UINT, 4, sparse={
+            "count": 2, "indices": {"bufferView": changed, "componentType": UBYTE}, "values": {"bufferView": values}})
+        made.primitive(attributes={"POSITION": positions, "_I": interleaved, "_M": padded, "COLOR_0": colors, "_Z": zeros,
+                                   "NORMAL": normals, "JOINTS_0": joints, "_S": sparse, "TEXCOORD_0": interleaved},
+                       targets=[{"POSITION": positions}], material=0)
+        made.document["materials"] = [{}]
+        primitive, = self.read(made)
+        found = primitive.attributes
+        self.assertEqual(flat(found["_I"]), list(range(8)))
+        self.assertEqual(flat(found["_M"]), [8 * i + k for i in range(4) for k in (0, 1, 4, 5)])
+        self.assertEqual(found["_M"].shape, (4, 4))
+        for value, expected in zip(flat(found["COLOR_0"]), [0, 1, 0.2] * 4):
+            self.assertAlmostEqual(value, expected)
+        self.assertEqual(flat(found["NORMAL"]), [-1, -1, 1] * 4)
+        self.assertEqual(flat(found["JOINTS_0"]), list(range(16)))
+        self.assertEqual(flat(found["_Z"]), [0] * 4)
+        self.assertEqual(flat(found["_S"]), [0, 70, 0, 90])
+        self.assertEqual(flat(found["TEXCOORD_0"]), list(range(8)))
+        formats = {name: memoryview(array).format for name, array in found.items()}
+        self.assertEqual(formats, {"POSITION": "f", "_I": "h", "_M": "b", "COLOR_0": "f", "_Z": "I", "NORMAL": "f",
+                                   "JOINTS_0": "H", "_S": "I", "TEXCOORD_0": "f"})
+        self.assertEqual(flat(primitive.targets[0]["POSITION"]), flat(primitive.positions))
+        self.assertEqual(primitive.material, 0)
+        self.assertEqual(primitive.indices.tolist(), [[0, 1, 2]])  # one vertex is left over
+        primitive.positions[0, 0] = 7  # the arrays are the caller's
+
+    def test_every_mode(self):
+        made = Builder()
+        positions = made.positions(5)
+        indices = made.accessor("SCALAR", UBYTE, 5, bytes([4, 3, 2, 1, 0]))
+        for mode in range(7):
+            made.primitive(attributes={"POSITION": positions}, indices=indices, mode=mode)
+        kinds = [(primitive.kind, primitive.indices.tolist()) for primitive in self.read(made)]
+        self.assertEqual(kinds, [
+            ("points", [[4], [3], [2], [1], [0]]), ("lines", [[4, 3], [2, 1]]),
+            ("lines", [[4, 3], [3, 2], [2, 1], [1, 0], [0, 4]]), ("lines", [[4, 3], [3, 2], [2, 1], [1, 0]]),
+            ("triangles", [[4, 3, 2]]), ("triangles", [[4, 3, 2], [3, 1, 2], [2, 1, 0]]),
+            ("triangles", [[3, 2, 4], [2, 1, 4], [1, 0, 4]])])
+
+    def test_what_is_shared_is_read_once(self):
+        made = Builder()
+        positions = made.positions()
+        for _ in range(2000):
+            made.primitive(attributes={"POSITION": positions})
+        primitives = self.read(made)
+        self.assertTrue(all(primitive.positions is primitives[0].positions for primitive in primitives))
+        self.assertTrue(all(primitive.indices is primitives[0].indices for primitive in primitives))
+
+    def test_nothing_at_all(self):
+        self.assertEqual(gltf_mcc.meshes(glb_of({"asset": {"version": "2.0"}})), [])
+
+    def refuses(self, made, pattern, code="DOCUMENT", **options):
+        with self.assertRaisesRegex(gltf_mcc.Error, pattern) as caught:
+            gltf_mcc.meshes(made.glb(), **options)
+        self.assertEqual(caught.exception.code, code)
+
+    def test_refusals(self):
+        made = Builder()
+        made.primitive(attributes={"POSITION": made.positions()}, indices=made.accessor("SCALAR", UBYTE, 3, bytes([0, 1, 4])))
+        self.refuses(made, "^/meshes/0/primitives/0/indices: there are indices beyond the 4 vertices$")
+        made = Builder()
+        made.primitive(attributes={"POSITION": made.positions(), "_A": made.positions(5)})
+        self.refuses(made, "different numbers of vertices")
+        made = Builder()
+        made.primitive(attributes={"POSITION": made.accessor("VEC3", FLOAT, 2**31)})
+        self.refuses(made, "max_decoded_bytes", "LIMIT")
+        made = Builder()
+        made.primitive(attributes={"POSITION": made.positions()}, extensions={"KHR_draco_mesh_compression": {}})
+        self.refuses(made, "compressed with KHR_draco_mesh_compression")
+        made = Builder()
+        made.primitive(attributes={"POSITION": made.positions()})
+        self.refuses(made, "max_decoded_bytes", "LIMIT", max_decoded_bytes=10)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "in.gltf")
+            path.write_text(json.dumps({"asset": {"version": "2.0"}, "buffers": [{"uri": "in.bin", "byteLength": 4}]}))
+            with self.assertRaisesRegex(gltf_mcc.Error, "gltf-mcc decode IN.gltf OUT.glb"):
+                gltf_mcc.meshes(path)
+
+    def test_false_claims_raise_nothing_else(self):
+        """Every member of the JSON, one after the other, becomes something that it should not be."""
+        made = Builder()
+        positions = made.positions()
+        sparse = made.accessor("SCALAR", UINT, 4, sparse={
+            "count": 1, "indices": {"bufferView": made.view(bytes(1)), "componentType": UBYTE},
+            "values": {"bufferView": made.view(bytes(4))}})
+        made.primitive(attributes={"POSITION": positions, "_S": sparse}, indices=made.accessor("SCALAR", UBYTE, 3, bytes(3)),
+                       targets=[{"POSITION": positions}], mode=4, material=0, extensions={})
+        made.glb()
+        wrong = [None, True, -1, 1, 3, 0.5, 1e300, 2**31, 2**63, 10**40, "x", "\n", [], {}, [[]], [None], {"a": []}]
+
+        def places(value, path=()):
+            yield path
+            for key in (value if isinstance(value, dict) else range(len(value)) if isinstance(value, list) else ()):
+                yield from places(value[key], (*path, key))
+
+        refused_count = 0
+        for path in list(places(made.document))[1:]:
+            for value in wrong:
+                document = json.loads(json.dumps(made.document))
+                owner = document
+                for key in path[:-1]:
+                    owner = owner[key]
+                owner[path[-1]] = value
+                for read in (gltf_mcc.meshes, self.read_without_the_library):
+                    try:
+                        read(glb_of(document, made.binary))
+                    except gltf_mcc.Error as error:
+                        refused_count += 1
+                        self.assertTrue(str(error).isprintable(), error)
+        self.assertGreater(refused_count, 500)
+
+    @staticmethod
+    def read_without_the_library(glb):
+        """The library refuses some of the documents before the package sees them."""
+        document = accessors.Document(glb, 2**20)
+        for k, mesh in enumerate(accessors.list_in(document.json, "meshes", "")):
+            primitives._mesh(document, mesh, f"/meshes/{k}")
+
+
 class Package(unittest.TestCase):
     def test_the_code_of_the_readme(self):
-        code = README.read_text().split("```python\n")[1].split("```")[0]
+        code = "".join(part.split("```")[0] for part in README.read_text().split("```python\n")[1:3])
         positions, indices = grid(5)
         names = {"positions": positions, "indices": indices, "uvs": memoryview(bytes(4 * 2 * 25)).cast("f", (25, 2))}
         before = os.getcwd()
@@ -207,18 +430,31 @@ class Package(unittest.TestCase):
             shutil.copyfile(SAMPLES / "torus.glb", Path(folder, "in.glb"))
             os.chdir(folder)
             try:
-                exec(code, names)
+                with contextlib.redirect_stdout(io.StringIO()) as printed:
+                    exec(code, names)
             finally:
                 os.chdir(before)
         self.assertEqual(names["plain"], gltf_mcc.decode(gltf_mcc.convert(SAMPLES / "torus.glb", position_bits=12)))
         self.assertEqual(names["piece"]["POSITION"].shape, (25, 3))
+        self.assertEqual(names["normals"].shape, names["primitive"].positions.shape)
+        self.assertIn("triangles", printed.getvalue())
 
     def test_versions_go_together(self):
         self.assertEqual(gltf_mcc.__version__, gltf_mcc.library_version.replace("-rc.", "rc"))
 
+    @unittest.skipUnless(Path("/proc/self/maps").exists(), "no list of what the process has loaded")
+    def test_the_library_is_the_one_that_was_asked_for(self):
+        named = os.environ.get("GLTF_MCC_LIBRARY")
+        folder = Path(named).parent if named else Path(gltf_mcc.__file__).parent  # a wheel with the libraries inside
+        loaded = {Path(line.split()[-1]) for line in Path("/proc/self/maps").read_text().splitlines() if "gltf-mcc" in line}
+        self.assertEqual({path.name.split(".")[0] for path in loaded},
+                         {"libgltf-mcc", "libgltf-mcc-writer", "libgltf-mcc-reader"})
+        self.assertEqual({path.parent for path in loaded}, {folder.resolve()})
+
     def test_a_missing_library_is_explained(self):
         environment = dict(os.environ, GLTF_MCC_LIBRARY="no-such-library.so")
         run = subprocess.run([sys.executable, "-c", "import gltf_mcc"], env=environment, stderr=subprocess.PIPE)
+        self.assertIn(b"tools/build-wheel", run.stderr)
         self.assertIn(b"set GLTF_MCC_LIBRARY", run.stderr)
 
 

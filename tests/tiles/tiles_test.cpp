@@ -121,7 +121,7 @@ Bytes makeCentredPatch(uint32_t x, uint32_t y, bool is_b3dm, std::array<double, 
 }
 
 /// Tiles whose coordinates begin at centres of their own (RTC_CENTER, or the tile's transform) have
-/// one grid all the same: common points come to the same place, apart from the rounding of float32,
+/// one lattice all the same: common points come to the same place, apart from the rounding of float32,
 /// which is far below the promised error.
 TEST_F(Tiles, BordersOfTranslatedTilesStayClosed) {
   Json root = makeTile(64, "");
@@ -306,7 +306,7 @@ TEST_F(Tiles, TransformsCount) {
 TEST_F(Tiles, GridsThatAreTooFineAreNoted) {
   const ToolResult result = run("tiles in/tileset.json out --error-share 0.000001");
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.out.find("needs more than 24 bits for one grid of positions"), std::string::npos)
+  EXPECT_NE(result.out.find("needs more than 24 bits for one lattice of positions"), std::string::npos)
       << result.out;
 }
 

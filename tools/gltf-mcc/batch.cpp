@@ -377,7 +377,7 @@ int Batch::printResults() const {
     if (printOut(text) != kDone) status = kFailed;
   }
   for (const BatchFile& file : files_) {
-    if (file.outcome == Outcome::kFailed) status = reportFailure(file.failure);
+    if (file.outcome == Outcome::kFailed) status = reportFailure(file.failure, file.input, "");
   }
   return status;
 }

@@ -114,7 +114,7 @@ int BenchCommand::run() const {
         files.push_back(std::move(figures));
       } else {
         line.clear();
-        status = reportFailure(result);
+        status = reportFailure(result, inputs[i], "");
       }
     }
   }
@@ -181,7 +181,7 @@ int BenchCommand::runEach(const Measure& measure) const {
       if (!measured.ok()) result = {inputs[i], measured.message};
     }
     line.clear();
-    if (!result.ok()) status = reportFailure(result);
+    if (!result.ok()) status = reportFailure(result, inputs[i], "");
   }
   return status;
 }
@@ -230,7 +230,8 @@ void addBench(CLI::App& app, int& status) {
   addColorOption(*command);
   setHelp(
       *command, "bench [OPTIONS] IN…",
-      "All codecs get the same grids and run in turn on one thread of one process. Times are the\n"
+      "All codecs get the same lattices and run in turn on one thread of one process. Times are "
+      "the\n"
       "least CPU time of at least N runs, from payloads in memory to new float and index arrays.\n"
       "Encoding takes longer; it is repeated for two seconds per codec and file, at most N times.\n"
       "The category of a file is the letter before '_' in names like a_bunny.glb.",

@@ -81,7 +81,7 @@ int CompareCommand::run() const {
     bench::FileFigures figures;
     const gltf::Result result = compare(input, figures);
     if (!result.ok()) {
-      status = reportFailure(result);
+      status = reportFailure(result, input, "");
       continue;
     }
     if (is_table && !common.is_quiet) {
@@ -148,7 +148,8 @@ void addCompare(CLI::App& app, int& status) {
   addColorOption(*command);
   setHelp(
       *command, "compare [OPTIONS] IN…",
-      "Draco gets the same grids as our codec, at speeds 0 (smallest), 3 and 5 (glTF-Transform's\n"
+      "Draco gets the same lattices as our codec, at speeds 0 (smallest), 3 and 5 "
+      "(glTF-Transform's\n"
       "default). \"best\" is the smaller of speeds 0 and 5. Draco's connectivity is measured on\n"
       "its own, on the mesh welded by position; \"seams\" is what its triangles take beyond that\n"
       "in the file. Draco does not support morph targets, so they are left out on both sides and\n"

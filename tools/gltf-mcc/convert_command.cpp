@@ -267,7 +267,7 @@ void addPositionPromises(CLI::App& command, gltf::ConvertOptions& options, CLI::
                 }
                 options.position_lattice = given;
               },
-              "Grid of positions, for tiles that must fit together")
+              "Lattice of positions, for tiles that must fit together")
           ->expected(4)
           ->delimiter(',')
           ->type_name("X,Y,Z,STEP");
@@ -308,7 +308,8 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
                                                    {"scene", gltf::Grid::kScene},
                                                    {"primitive", gltf::Grid::kPrimitive}};
   command
-      .add_option("--grid", options.grid, "What shares a grid of positions, without cracks [mesh]")
+      .add_option("--grid", options.grid,
+                  "What shares a lattice of positions, without cracks [mesh]")
       ->transform(CLI::CheckedTransformer(grids, CLI::ignore_case).description(""))
       ->type_name("mesh|scene|primitive");
   addPreference(command, options);
@@ -370,8 +371,10 @@ void addConvert(CLI::App& app, int& status) {
       "--max-error-relative, --lattice and --lossless.\n"
       "IN may already be compressed with Draco or meshoptimizer (version 0 of its codec; the npm\n"
       "package gltf-mcc reads version 1).\n"
-      "With -o DIR every IN becomes a file of the same name in DIR. Files that were made there\n"
-      "before, with the same options and from files that have not changed since, are left alone.",
+      "With -o DIR every IN becomes a file of the same name in DIR. A folder IN stands for the\n"
+      ".glb and .gltf files in it, without its subfolders. Files that were made in DIR before, "
+      "with\n"
+      "the same options and from files that have not changed since, are left alone.",
       "convert model.glb small.glb\n"
       "convert scene.gltf small.glb --quantize-position 12 --report sizes.json\n"
       "convert scan.glb exact.glb --lossless\n"

@@ -324,10 +324,8 @@ void addCompletion(CLI::App& app, int& status) {
   });
 }
 
-/// Adds the hidden command `man`; users read the installed page instead.
 void addMan(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("man", "Print the man page");
-  command->group("");
   setHelp(*command, "man", "", "man | man -l -");
   command->callback([&app, &status]() { status = printOut(manPage(app)); });
 }

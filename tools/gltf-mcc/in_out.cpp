@@ -6,8 +6,62 @@
 
 #include "gltf/base/path_text.h"
 #include "standard_streams.h"
+#include "suggest.h"
 
 namespace mcc::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isFolder(const std::string& path) {
+  std::error_code ignored;
+  return !isStandardStream(path) && fs::is_directory(gltf::pathOf(path), ignored);
+}
+
+/// Refuses a folder in place of IN, where its files could only become one OUT.
+void refuseFolder(const std::string& command, const std::vector<std::string>& words) {
+  if (words.empty() || words.size() > 2 || !isFolder(words[0])) return;
+  const bool has_file = words.size() == 2 && gltf::pathOf(words[1]).has_extension();
+  if (has_file) return;  // opening the folder will fail
+  const std::string folder = words.size() == 2 ? shellWord(words[1]) : "DIR";
+  throw CLI::ValidationError(command, words[0] + ": is a folder; to " + command +
+                                          " all models in it, write: -o " + folder + " " +
+                                          shellWord(words[0]));
+}
+
+/// Returns the paths of the .glb and .gltf files in a folder, in the order of their bytes.
+std::vector<std::string> modelsIn(const std::string& folder) {
+  std::vector<std::string> models;
+  std::error_code code;
+  for (fs::directory_iterator entry(gltf::pathOf(folder), code), end; !code && entry != end;
+       entry.increment(code)) {
+    std::error_code ignored;
+    const std::string path = gltf::textOf(entry->path());
+    if (isModelName(path) && entry->is_regular_file(ignored)) models.push_back(path);
+  }
+  std::sort(models.begin(), models.end());
+  return models;
+}
+
+/// Returns the inputs with the models of each folder in its place. A folder without models stays,
+/// and fails like any other bad input, unless it is the only one.
+std::vector<std::string> withModelsOfFolders(const std::string& command,
+                                             const std::vector<std::string>& inputs) {
+  std::vector<std::string> files;
+  for (const std::string& input : inputs) {
+    const std::vector<std::string> models =
+        isFolder(input) ? modelsIn(input) : std::vector<std::string>{};
+    if (models.empty()) files.push_back(input);
+    files.insert(files.end(), models.begin(), models.end());
+    if (models.empty() && inputs.size() == 1 && isFolder(input)) {
+      throw CLI::ValidationError(command,
+                                 input + ": there is no .glb or .gltf file in this folder");
+    }
+  }
+  return files;
+}
+
+}  // namespace
 
 void InOut::addOptions(CLI::App& command) {
   command.add_option("FILES", inputs, "IN and OUT");
@@ -20,6 +74,7 @@ void InOut::addOptions(CLI::App& command) {
 void InOut::sort(const std::string& command) {
   if (!input.empty()) inputs.insert(inputs.begin(), input);
   const bool may_be_folder = !output.empty();  // given by -o; OUT must be a file
+  if (!may_be_folder) refuseFolder(command, inputs);
   if (output.empty() && inputs.size() > 2) {
     throw CLI::ValidationError(command, "several inputs need a folder: -o DIR IN…");
   }
@@ -32,19 +87,23 @@ void InOut::sort(const std::string& command) {
   }
   // A GLB may have any other extension (.vrm), but these belong to other formats.
   const std::string extension = gltf::textOf(gltf::pathOf(output).extension());
-  for (const char* other : {".obj", ".ply", ".stl", ".fbx", ".dae", ".usdz", ".drc"}) {
-    if (extension != other) continue;
+  if (isOtherFormat(output)) {
     throw CLI::ValidationError(command, output + ": only .glb and .gltf files are written");
   }
   std::error_code ignored;
   // No program would open a model without an extension. An existing path may be a device or folder.
   if (extension.empty() && !may_be_folder && !isStandardStream(output) && !output.ends_with('/') &&
-      !std::filesystem::exists(gltf::pathOf(output), ignored)) {
+      !fs::exists(gltf::pathOf(output), ignored)) {
     throw CLI::ValidationError(
         command, output + ": has no extension; name it " + output + ".glb or " + output + ".gltf");
   }
-  is_batch = may_be_folder && (inputs.size() > 1 || output.ends_with('/') ||
-                               std::filesystem::is_directory(gltf::pathOf(output), ignored));
+  is_batch = may_be_folder && (inputs.size() > 1 || output.ends_with('/') || isFolder(inputs[0]) ||
+                               isFolder(output));
+  if (is_batch && isModelName(output) && !output.ends_with('/') && !isFolder(output)) {
+    throw CLI::ValidationError(
+        command, output + ": is the name of a file, but several outputs need a folder: -o DIR");
+  }
+  if (is_batch) inputs = withModelsOfFolders(command, inputs);
   if (is_batch && std::any_of(inputs.begin(), inputs.end(), isStandardStream)) {
     throw CLI::ValidationError(command, "standard input cannot be one of several inputs");
   }

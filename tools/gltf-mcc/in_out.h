@@ -19,8 +19,8 @@ struct InOut {
 
   void addOptions(CLI::App& command);
   /// Separates the inputs from the output. The value of -o is a folder if it ends with a slash, if
-  /// a folder of that name exists, or if there are several inputs. Throws CLI::ValidationError,
-  /// which is reported as wrong usage.
+  /// a folder of that name exists, or if there are several inputs or a folder of them, which is
+  /// replaced by the models in it. Throws CLI::ValidationError, which is reported as wrong usage.
   void sort(const std::string& command);
   /// Throws CLI::ValidationError where OUT is IN, unless --in-place was given; `loss` says what
   /// would be lost. Called after sort().

@@ -13,6 +13,7 @@
 #include "gltf/inspect/inspect_json.h"
 #include "gltf/inspect/report_json.h"
 #include "help.h"
+#include "plain_report.h"
 #include "progress_line.h"
 #include "standard_streams.h"
 
@@ -256,6 +257,11 @@ struct InspectCommand {
       outcome = stream.open(input);  // may have to wait for a pipe
       if (outcome.ok()) outcome = inspect(stream.source(), report);
     }
+    std::string contents;
+    const bool is_read = common.format == Format::kPretty || common.format == Format::kMarkdown;
+    if (outcome.ok() && is_read && report.payloads.empty()) {
+      outcome = plainReport(input, stream.source(), common.format, contents);
+    }
     if (!outcome.ok()) return reportFailure(outcome, input, "");
     if (common.format == Format::kJson)
       return printOut(printReport(gltf::inspectJson(input, report)));
@@ -264,17 +270,17 @@ struct InspectCommand {
           show_codes ? codeTable(report, common.format) : payloadTable(report, common.format);
       return printOut(table.print(common.format));
     }
-    return printOut(text(report));
+    return printOut(text(report, contents));
   }
 
-  std::string text(const gltf::InspectReport& report) const {
+  std::string text(const gltf::InspectReport& report, const std::string& contents) const {
     std::string out = fmt::format(
         "{}: {} bytes, {}, {}; extensions: {}\n", gltf::printable(input),
         grouped(report.input_bytes), counted(report.mesh_count, "mesh", "meshes"),
         counted(report.primitive_count, "primitive", "primitives"),
         report.extensions_used.empty() ? "none" : gltf::printable(joined(report.extensions_used)));
     if (report.payloads.empty()) {
-      return out + "nothing in it is compressed with " + gltf::kExtensionName + "\n";
+      return out + "nothing in it is compressed with " + gltf::kExtensionName + "\n\n" + contents;
     }
     out += "\n" + payloadTable(report, common.format).print(common.format);
     if (show_codes) return out + "\n" + codeTable(report, common.format).print(common.format);
@@ -289,7 +295,7 @@ struct InspectCommand {
 }  // namespace
 
 void addInspect(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("inspect", "List what the payloads of a file hold");
+  CLI::App* command = app.add_subcommand("inspect", "List what a file and its payloads hold");
   auto state = std::make_shared<InspectCommand>();
   command->add_option("-i,--input,IN", state->input, "Same as IN")->required()->type_name("FILE");
   command->add_flag("--codes", state->show_codes,
@@ -299,9 +305,9 @@ void addInspect(CLI::App& app, int& status) {
   setHelp(
       *command, "inspect [OPTIONS] IN",
       "IN is a .glb or .gltf file, or - for standard input. For each payload, its streams are\n"
-      "listed with their bytes, and its attributes: how each is coded, the step of its grid, how\n"
-      "far a value may be from the source, and how the writer chose to predict it, in the words\n"
-      "of the specification.",
+      "listed with their bytes, and its attributes: how each is coded, the step of its lattice,\n"
+      "how far a value may be from the source, and how the writer chose to predict it, in the\n"
+      "words of the specification. Of a file without payloads the contents are listed.",
       "inspect small.glb\n"
       "inspect small.glb --codes --format md");
   command->callback([state, &status]() { status = state->run(); });

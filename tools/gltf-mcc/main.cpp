@@ -70,8 +70,13 @@ int reportFailure(const gltf::Result& result, const std::string& input, const st
   std::error_code code;
   if (!isStandardStream(input) && !fs::exists(gltf::pathOf(input), code)) {
     advised.what += didYouMeanFile(input);
+  } else if (fs::is_directory(gltf::pathOf(input), code)) {
+    if (!output.empty())
+      advised.what += ", or take all models in it with -o DIR " + shellWord(input);
   } else if (fs::is_directory(gltf::pathOf(output), code)) {
     advised.what += ", or write into it with -o " + output;
+  } else {
+    advised.what += howToReadOther(input);
   }
   return reportFailure(advised);
 }

@@ -11,6 +11,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Extensions of files that models come in, and that are neither GLB nor JSON.
+constexpr const char* kOtherFormats[] = {".obj", ".ply", ".stl",  ".fbx", ".dae", ".3ds",
+                                         ".off", ".x3d", ".usdz", ".usd", ".drc", ".blend"};
+
+/// Returns the extension of a path in lower case, with its dot.
+std::string extensionOf(const std::string& path) {
+  std::string extension = gltf::textOf(gltf::pathOf(path).extension());
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return extension;
+}
+
 /// Returns how many letters have to be changed, added, removed, or exchanged with their neighbour.
 size_t distanceOf(std::string_view a, std::string_view b) {
   std::vector<size_t> before_last(b.size() + 1);
@@ -76,6 +87,37 @@ std::string didYouMeanFile(const std::string& path) {
   const std::string nearest = nearestWord(gltf::textOf(wanted.filename()), names);
   if (nearest.empty()) return "";
   return "; did you mean " + gltf::textOf(wanted.parent_path() / gltf::pathOf(nearest)) + "?";
+}
+
+std::string shellWord(const std::string& word) {
+  const auto isPlain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           static_cast<unsigned char>(c) >= 0x80 ||
+           std::string_view("-_./,:=+@%").find(c) != std::string_view::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), isPlain)) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
+bool isModelName(const std::string& path) {
+  const std::string extension = extensionOf(path);
+  return extension == ".glb" || extension == ".gltf";
+}
+
+bool isOtherFormat(const std::string& path) {
+  const auto isIt = [extension = extensionOf(path)](const char* other) {
+    return extension == other;
+  };
+  return std::any_of(std::begin(kOtherFormats), std::end(kOtherFormats), isIt);
+}
+
+std::string howToReadOther(const std::string& path) {
+  if (!isOtherFormat(path)) return "";
+  const fs::path name = gltf::pathOf(path);
+  return "; turn it into a .glb first, with Blender or with: assimp export " + shellWord(path) +
+         " " + shellWord(gltf::textOf(fs::path(name).replace_extension(".glb"))) + " -fglb2";
 }
 
 }  // namespace mcc::tool

@@ -74,7 +74,7 @@ void addTiles(CLI::App& app, int& status) {
       "The accuracy of positions follows from the tile's geometric error. A tile without one, as\n"
       "leaves are, takes half of its nearest ancestor's. Tiles of one level with the same "
       "transform\n"
-      "share a grid of positions, so that borders between them stay closed.\n"
+      "share a lattice of positions, so that borders between them stay closed.\n"
       "A tile that is damaged is copied; the others are converted, and the exit status is 1. A "
       "run\n"
       "that was interrupted continues where it was, and tiles that have not changed are left "

@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
-#include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "help.h"
 #include "suggest.h"
@@ -36,27 +34,71 @@ std::string noOption(const CLI::App& command, const std::string& word) {
   return "there is no option " + name + (is_long ? didYouMean(name, optionNames(command)) : "");
 }
 
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Returns the command that a word of other programs stands for, or an empty string.
+std::string synonymOf(const std::string& word) {
+  static constexpr struct {
+    const char* word;
+    const char* command;
+  } kSynonyms[] = {{"compress", "convert"}, {"encode", "convert"},    {"pack", "convert"},
+                   {"optimize", "convert"}, {"decompress", "decode"}, {"uncompress", "decode"},
+                   {"unpack", "decode"},    {"info", "inspect"},      {"show", "inspect"},
+                   {"list", "inspect"},     {"stats", "inspect"},     {"check", "validate"},
+                   {"verify", "validate"},  {"draw", "tree"},         {"diff", "compare"},
+                   {"benchmark", "bench"},  {"tileset", "tiles"},     {"version", "--version"}};
+  for (const auto& [other, command] : kSynonyms) {
+    if (word == other) return command;
+  }
+  return "";
+}
+
+/// Returns the command line with this command before the words, for people to copy.
+std::string lineWith(const std::string& command, int argc, const char* const* argv) {
+  std::string line = "; did you mean: gltf-mcc " + command;
+  for (int i = 1; i < argc; ++i) line += " " + shellWord(argv[i]);
+  return line;
+}
+
+/// Returns the help in short.
+std::string commandList(const CLI::App& app) {
+  std::string text = "\nUsage: gltf-mcc " + helpOf(app).usage + "\n\nCommands:\n";
+  for (const CLI::App* command : commandsOf(app)) {
+    text += fmt::format("  {:<12}{}\n", command->get_name(), command->get_description());
+  }
+  return text + "\n";
+}
+
+/// Returns what is wrong with a line that names no command; empty: it has no words at all.
 std::string withoutCommand(const CLI::App& app, int argc, const char* const* argv) {
   std::vector<std::string> names;
   for (const CLI::App* command : commandsOf(app)) names.push_back(command->get_name());
   const std::vector<std::string> own = optionNames(app);
+  const std::vector<std::string> of_convert = optionNames(*app.get_subcommand("convert"));
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word.starts_with('-')) {
       const std::string name = word.substr(0, word.find('='));
-      if (std::find(own.begin(), own.end(), name) == own.end()) return noOption(app, word);
-      if (name == word && name == "--color") ++i;  // the only global option with a value
-      continue;
+      if (contains(own, name)) {
+        if (name == word && name == "--color") ++i;  // the only global option with a value
+        continue;
+      }
+      if (!contains(of_convert, name)) return noOption(app, word);
+      return fmt::format("name a command before {}{}", word, lineWith("convert", argc, argv));
     }
-    const std::string extension = gltf::textOf(gltf::pathOf(word).extension());
-    if (extension == ".glb" || extension == ".gltf") {
-      return fmt::format("name a command before {}: {}", word, listed(names));
+    if (isModelName(word)) {
+      const char* command = i + 1 < argc ? "convert" : "inspect";
+      return fmt::format("name a command before {}: {}{}", word, listed(names),
+                         lineWith(command, argc, argv));
     }
-    const std::string nearest = didYouMean(word, names);
-    return fmt::format("\"{}\" is not a command; the commands are {}{}", word, listed(names),
-                       nearest);
+    const std::string synonym = synonymOf(word);
+    return fmt::format(
+        "\"{}\" is not a command; the commands are {}{}", word, listed(names),
+        synonym.empty() ? didYouMean(word, names) : "; did you mean " + synonym + "?");
   }
-  return "name a command: " + listed(names);
+  return "";
 }
 
 /// Returns a message about the words that are left over. CLI11 keeps them in no particular order.
@@ -104,8 +146,9 @@ std::string usageErrorText(const CLI::App& app, const CLI::Error& failure, int a
       chosen.empty() ? "gltf-mcc --help" : "gltf-mcc " + chosen[0]->get_name() + " --help";
   const std::string reason =
       chosen.empty() ? withoutCommand(app, argc, argv) : reasonOf(app, *chosen[0], failure);
-  return inLocale(fmt::format("{} {}\nRun \"{}\".\n", styleOfErrors().error("gltf-mcc:"),
-                              gltf::printable(reason), help));
+  return inLocale(fmt::format("{} {}\n{}Run \"{}\".\n", styleOfErrors().error("gltf-mcc:"),
+                              reason.empty() ? "name a command" : gltf::printable(reason),
+                              reason.empty() ? commandList(app) : "", help));
 }
 
 }  // namespace mcc::tool

@@ -9,6 +9,7 @@
 #include "gltf/base/printable.h"
 #include "help.h"
 #include "standard_streams.h"
+#include "suggest.h"
 
 namespace mcc::tool {
 namespace {
@@ -85,8 +86,11 @@ struct ValidateCommand {
       StreamSource source;
       gltf::Result outcome = source.open(file);
       if (outcome.ok()) outcome = gltf::validate(source.source(), options, report.report);
-      if (!outcome.ok()) status = reportFailure(outcome);
-      if (outcome.ok() && !report.report.isValid()) status = kFailed;
+      if (!outcome.ok()) status = reportFailure(outcome, file, "");
+      const bool is_invalid = outcome.ok() && !report.report.isValid();
+      if (is_invalid) status = kFailed;
+      if (is_invalid && isOtherFormat(file))
+        reportFailure({file, "is no glTF file" + howToReadOther(file)});
       if (outcome.ok()) reports.push_back(std::move(report));
     }
     const int printed = printOut(textOf(reports));

@@ -96,7 +96,7 @@ Accuracy chooseAccuracy(const TileDemand& demand, const DemandGroups& groups,
     accuracy.lattice = lattice;
   } else {
     accuracy.note =
-        "its level needs more than 24 bits for one grid of positions, so that borders between "
+        "its level needs more than 24 bits for one lattice of positions, so that borders between "
         "tiles may open by the promised error";
   }
   return accuracy;

@@ -210,7 +210,7 @@ class TilesetWalker {
     }
     const uint32_t file = files_.find(path);
     if (file != kNone && isTileset(file)) return addTileset(named, file, use, inherited_error);
-    // Also what another part has, or what is missing, decides about the grid of its group, so that
+    // Also what another part has, or what is missing, decides about the lattice of its group, so that
     // all parts come to the same one.
     TileDemand demand;
     if (file != kNone && out_.demand_numbers_[file] != kNone) {

@@ -6,6 +6,9 @@
     small = gltf_mcc.convert("in.glb", position_bits=12)
     plain = gltf_mcc.decode(small)
     facts = gltf_mcc.inspect(small)
+    for mesh in gltf_mcc.meshes(small):
+        for primitive in mesh.primitives:
+            primitive.positions, primitive.indices, primitive.attributes["NORMAL"]
 
 The functions call the shared library of gltf-mcc; no compiler is needed. They may be called by several threads at
 the same time, and release the interpreter's lock while they work.
@@ -14,10 +17,11 @@ from ._library import library as _the_library
 from ._version import VERSION
 from .documents import convert, decode, inspect
 from .errors import Error
-from .meshes import Attribute, Encoding, Piece, decode_payload, encode_mesh
+from .payloads import Attribute, Encoding, Piece, decode_payload, encode_mesh
+from .primitives import Mesh, Primitive, meshes
 
 __version__ = VERSION
 library_version: str = _the_library.mcc_version().decode()
 
-__all__ = ["Attribute", "Encoding", "Error", "Piece", "convert", "decode", "decode_payload", "encode_mesh",
-           "inspect", "library_version"]
+__all__ = ["Attribute", "Encoding", "Error", "Mesh", "Piece", "Primitive", "convert", "decode", "decode_payload",
+           "encode_mesh", "inspect", "library_version", "meshes"]

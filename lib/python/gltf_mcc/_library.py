@@ -123,8 +123,8 @@ _FUNCTIONS = [
     ("mcc_document_release", None, [c_void_p]),
 ]
 
-_HELP = ("gltf_mcc: the shared library of gltf-mcc was not found. Install the package gltf-mcc or build it "
-         "(cmake --install), or set GLTF_MCC_LIBRARY to the path of libgltf-mcc.so")
+_HELP = ("gltf_mcc: the shared library of gltf-mcc was not found. Install the wheel that tools/build-wheel makes, "
+         "which contains it, or the library (tools/install), or set GLTF_MCC_LIBRARY to the path of libgltf-mcc.so")
 
 
 def _candidates():

@@ -143,6 +143,8 @@ def _document(source: Source, call: Callable[[bytes, Any], _library.Status]) -> 
     try:
         status = call(bytes_of(source), ctypes.byref(document))
         message = library.mcc_document_message(document).decode("utf-8", "replace") if document else None
+        if message and not isinstance(source, (bytes, bytearray, memoryview)) and os.fspath(source).endswith(".gltf"):
+            message += "; gltf-mcc decode IN.gltf OUT.glb makes a GLB of a .gltf and its files"
         check(status, message or None)
         size = ctypes.c_size_t()
         data = library.mcc_document_bytes(document, ctypes.byref(size))

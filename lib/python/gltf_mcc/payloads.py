@@ -1,9 +1,5 @@
 # Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-"""Single meshes: payloads to arrays, arrays to payloads.
-
-Arrays that come out are NumPy's where NumPy is installed, else memoryviews with the same shape and format. Arrays
-that go in are anything with the buffer protocol.
-"""
+"""Single meshes: payloads to arrays, arrays to payloads. Arrays that go in are anything with the buffer protocol."""
 from __future__ import annotations
 
 import ctypes
@@ -13,13 +9,9 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 from . import _library
 from ._library import library
+from .arrays import array_over
 from .documents import PREFERENCES, Source, bytes_of, choice, unsigned
 from .errors import check
-
-try:
-    import numpy as _numpy
-except ImportError:
-    _numpy = None
 
 _SEMANTICS = ("POSITION", "NORMAL", "TANGENT", "TEXCOORD", "COLOR", "JOINTS", "WEIGHTS")
 _CUSTOM = 7
@@ -174,18 +166,9 @@ def _encode(view: _library.PieceView, options: _library.EncodeOptions) -> Encodi
         payload = ctypes.string_at(library.mcc_encoding_payload(encoding, ctypes.byref(size)), size.value)
         wedges = library.mcc_encoding_source_wedges(encoding, 0, ctypes.byref(size))
         source = bytearray(ctypes.string_at(wedges, 4 * size.value) if wedges else b"")
-        return Encoding(payload, _array(source, "I", (size.value,)))
+        return Encoding(payload, array_over(source, "I", (size.value,)))
     finally:
         library.mcc_encoding_release(encoding)
-
-
-def _array(memory: bytearray, code: str, shape: Tuple[int, ...]) -> Any:
-    """Returns a writable array over memory that it keeps alive."""
-    if _numpy is not None:
-        return _numpy.frombuffer(memory, dtype=_numpy.dtype(code)).reshape(shape)
-    if 0 in shape:  # which no memoryview of several dimensions can be
-        return memoryview(memory).cast(code)
-    return memoryview(memory).cast(code, shape)
 
 
 def _address(memory: bytearray) -> Optional[int]:
@@ -214,7 +197,7 @@ def _piece(opened: ctypes.c_void_p, number: int) -> Tuple[Piece, _library.PieceT
         memory = bytearray(12 * count.value)
         target.indices = _address(memory)
         target.index_bytes = 4
-        piece.parts.append(_array(memory, "I", (count.value, 3)))
+        piece.parts.append(array_over(memory, "I", (count.value, 3)))
     return piece, _library.PieceTarget(attributes, len(attributes), parts, len(parts))
 
 
@@ -226,7 +209,7 @@ def _attribute(facts: _library.AttributeInfo, memory: bytearray, count: int) -> 
         name = _SEMANTICS[form.semantic]
         if name in _NUMBERED:
             name += f"_{form.set_index}"
-    data = _array(memory, _FORMATS[form.component_type], (count, form.component_count))
+    data = array_over(memory, _FORMATS[form.component_type], (count, form.component_count))
     return Attribute(name, data, bool(form.normalized), form.morph_target, _CODINGS[facts.coding], facts.bits)
 
 
