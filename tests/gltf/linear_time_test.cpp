@@ -190,35 +190,33 @@ TEST(LinearTime, NodesOfAnAnimatedMeshBecomeIntegers) {
 
 // ---- Documents that name the same bytes again and again
 
-Json withRootMembers(const Json& json, uint32_t count) {
-  Json all = Json::object();
-  Json::object_t& members = all.get_ref<Json::object_t&>();
-  for (uint32_t i = 0; i < count; ++i) members.emplace_back("member " + std::to_string(i), i);
-  for (const auto& [key, value] : json.items()) members.emplace_back(key, value);
-  return all;
-}
-
-TEST(LinearTime, MembersOfTheRoot) {
-  constexpr uint32_t kCount = 60000;
-  Builder builder = accessorsInOneView(std::vector<uint32_t>(kCount, 4));
+/// The members of the root come before all accessors, and are looked up no more often for those.
+TEST(LinearTime, MembersOfTheRootLarge) {
+  constexpr uint32_t kCount = 200000;
+  Builder builder;
   builder.addMesh({Sheet(20).addTo(builder)});
-  std::vector<Json> tiny;
-  for (uint32_t i = 0; i < 1000; ++i) {
-    const float x = static_cast<float>(i);
-    tiny.push_back(
-        {{"attributes", {{"POSITION", builder.addPositions({x, 0, 0, x, 1, 0, x, 0, 1})}}}});
+  const std::string rest = printJson(builder.json);
+  std::string text = "{";
+  for (uint32_t i = 0; i < kCount; ++i) text += "\"" + std::to_string(100000000 + i) + "\":0,";
+  text += "\"buffers\":[{\"byteLength\":" + std::to_string(builder.bin.size()) + "}],";
+  text += rest.substr(1);
+  std::string accessors = "\"accessors\":[";
+  for (uint32_t i = 0; i < kCount; ++i) {
+    accessors += R"({"bufferView":0,"componentType":5121,"count":1,"type":"SCALAR"},)";
   }
-  builder.addMesh(tiny);
-  builder.json = withRootMembers(builder.json, kCount);
-  const RoundTrip trip = roundTrip(builder, evenIfLarger());
+  // The ones of the mesh keep their numbers.
+  const size_t end = text.find("],\"meshes\"");
+  ASSERT_NE(end, std::string::npos);
+  accessors.pop_back();
+  text.insert(end, "," + accessors.substr(accessors.find('[') + 1));
+  std::vector<uint8_t> file;
+  ASSERT_TRUE(writeGlb(text, builder.bin, {}, file).ok());
+  const RoundTrip trip = roundTrip(file);
   ASSERT_EQ(trip.error, "");
-  EXPECT_TRUE(isCompressed(jsonOf(trip.converted), 1, 999));
+  ASSERT_EQ(trip.report.payloads.size(), 1u);
   ValidationReport report;
   ASSERT_EQ(validate({"a.glb", trip.converted}, {}, report).message(), "");
   EXPECT_TRUE(report.isValid());
-  DecodeReport decode_report;
-  std::vector<uint8_t> integers;
-  ASSERT_TRUE(decodeGlb(trip.converted, integers, decode_report, {DecodeTo::kIntegers}).ok());
 }
 
 /// Each of the primitives has almost all of the vertices.
@@ -339,8 +337,8 @@ TEST(LinearTime, BytesThatManyNameAreComparedOnce) {
 }
 
 TEST(LinearTime, AccessorsAndImagesOverTheSameBytes) {
-  constexpr uint32_t kCount = 20000;
-  constexpr uint32_t kBytes = 8000000;
+  constexpr uint32_t kCount = 10000;
+  constexpr uint32_t kBytes = 16000000;
   Builder builder;
   builder.addMesh({Sheet(20).addTo(builder)});
   const uint32_t view = builder.addView(std::vector<uint8_t>(kBytes, 0));
@@ -427,7 +425,7 @@ TEST(LinearTime, AttributesOfOnePrimitive) {
   Json primitive = Sheet(3).addTo(builder);
   const Json normal = primitive["attributes"]["NORMAL"];
   Json::object_t& attributes = primitive["attributes"].get_ref<Json::object_t&>();
-  for (uint32_t i = 0; i < 60000; ++i) attributes.emplace_back("_A" + std::to_string(i), normal);
+  for (uint32_t i = 0; i < 30000; ++i) attributes.emplace_back("_A" + std::to_string(i), normal);
   builder.addMesh({primitive});
   const RoundTrip trip = roundTrip(builder, evenIfLarger());
   ASSERT_EQ(trip.error, "");
