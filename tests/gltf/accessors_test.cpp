@@ -136,7 +136,11 @@ TEST_F(Accessors, RangesAreChecked) {
   const auto with = [&](const char* key, const Json& value) {
     builder_.json["accessors"] = Json::array({accessor});
     builder_.json["accessors"][0][key] = value;
-    return load();
+    EXPECT_EQ(load(), "");  // what is wrong concerns only this accessor
+    AccessorData elements;
+    EXPECT_EQ(document_.accessors[0].fault.ok() && document_.accessors[0].is_known_type,
+              readAccessor(document_, 0, elements).ok());
+    return document_.accessors[0].fault.message();
   };
   EXPECT_EQ(with("count", 1), "");
   EXPECT_NE(with("count", 2), "");
@@ -160,9 +164,19 @@ TEST_F(Accessors, ViewsAreChecked) {
     file_ = copy.toGlb();
     return loadDocument(file_, nullptr, document_).message();
   };
-  EXPECT_EQ(with("byteLength", 4), "");
-  EXPECT_NE(with("byteLength", 5), "");
-  EXPECT_NE(with("byteOffset", 1), "");
+  const auto bytesWith = [&](const char* key, const Json& value) {
+    EXPECT_EQ(with(key, value), "");
+    const BufferView& view = document_.views[0];
+    EXPECT_LE(view.offset, 4u);
+    EXPECT_LE(view.length, 4 - view.offset);
+    return view.fault.ok() ? -1 : static_cast<int>(view.length);
+  };
+  EXPECT_EQ(bytesWith("byteLength", 4), -1);
+  EXPECT_EQ(bytesWith("byteLength", 5), 4);
+  EXPECT_EQ(bytesWith("byteOffset", 1), 3);
+  EXPECT_EQ(bytesWith("byteOffset", 5), 0);
+  EXPECT_EQ(bytesWith("byteLength", 9007199254740992u), 4);
+  EXPECT_EQ(bytesWith("byteOffset", 9007199254740992u), 0);
   EXPECT_NE(with("byteOffset", 18446744073709551615u), "");
   EXPECT_NE(with("buffer", 1), "");
   EXPECT_NE(with("byteStride", 70000), "");

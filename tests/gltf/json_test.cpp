@@ -74,8 +74,6 @@ TEST(GltfJson, ErrorsAreWhole) {
                 "missing closing quote; last read: '\"a: b'"),
       std::string::npos)
       << text;
-  EXPECT_NE(reprinted("[1e999]").find("(number overflow parsing '1e999')"), std::string::npos)
-      << reprinted("[1e999]");
   for (const std::string escape : {"\033[31m",
                                    "\xc2\x9b"
                                    "31m",

@@ -1,10 +1,12 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Documents with very many of one thing. The work on them must be linear, up to a logarithm; at
-// these sizes quadratic work would run into the timeout of the test.
+// these sizes quadratic work would run into the timeout of the test. tools/check/growth documents
+// measures such documents.
 #include <gtest/gtest.h>
 
 #include "gltf/check/check_json.h"
+#include "gltf/check/same_bytes.h"
 #include "gltf/compress/compress.h"
 #include "gltf/document/rebuild.h"
 #include "gltf/round_trip.h"
@@ -184,6 +186,292 @@ TEST(LinearTime, NodesOfAnAnimatedMeshBecomeIntegers) {
     ASSERT_EQ(json["nodes"][i]["children"][0], node);
     ASSERT_EQ(json["nodes"][node.get<size_t>()]["mesh"], 0);
   }
+}
+
+// ---- Documents that name the same bytes again and again
+
+/// The members of the root come before all accessors, and are looked up no more often for those.
+TEST(LinearTime, MembersOfTheRootLarge) {
+  constexpr uint32_t kCount = 200000;
+  Builder builder;
+  builder.addMesh({Sheet(20).addTo(builder)});
+  const std::string rest = printJson(builder.json);
+  std::string text = "{";
+  for (uint32_t i = 0; i < kCount; ++i) text += "\"" + std::to_string(100000000 + i) + "\":0,";
+  text += "\"buffers\":[{\"byteLength\":" + std::to_string(builder.bin.size()) + "}],";
+  text += rest.substr(1);
+  std::string accessors = "\"accessors\":[";
+  for (uint32_t i = 0; i < kCount; ++i) {
+    accessors += R"({"bufferView":0,"componentType":5121,"count":1,"type":"SCALAR"},)";
+  }
+  // The ones of the mesh keep their numbers.
+  const size_t end = text.find("],\"meshes\"");
+  ASSERT_NE(end, std::string::npos);
+  accessors.pop_back();
+  text.insert(end, "," + accessors.substr(accessors.find('[') + 1));
+  std::vector<uint8_t> file;
+  ASSERT_TRUE(writeGlb(text, builder.bin, {}, file).ok());
+  const RoundTrip trip = roundTrip(file);
+  ASSERT_EQ(trip.error, "");
+  ASSERT_EQ(trip.report.payloads.size(), 1u);
+  ValidationReport report;
+  ASSERT_EQ(validate({"a.glb", trip.converted}, {}, report).message(), "");
+  EXPECT_TRUE(report.isValid());
+}
+
+/// Each of the primitives has almost all of the vertices.
+TEST(LinearTime, PiecesOverTheSameBytesAreHeldSixteenTimes) {
+  constexpr uint32_t kPieces = 2000;
+  constexpr uint32_t kVertices = 90000;
+  Builder builder;
+  const uint32_t view =
+      builder.addView(bytesOf(std::vector<float>(3 * (kVertices + kPieces), 1.0f)));
+  std::vector<Json> primitives;
+  for (uint32_t i = 0; i < kPieces; ++i) {
+    primitives.push_back({{"attributes",
+                           {{"POSITION", builder.addAccessor({{"bufferView", view},
+                                                              {"byteOffset", 12 * i},
+                                                              {"componentType", kFloat},
+                                                              {"count", kVertices},
+                                                              {"type", "VEC3"}})}}}});
+  }
+  builder.addMesh(primitives);
+  const std::vector<uint8_t> file = builder.toGlb();
+  Document document;
+  ASSERT_TRUE(loadDocument(file, nullptr, document).ok());
+  document.decoded = DecodedBytes(0, document.source_bytes);
+  std::vector<PayloadPlan> plans;
+  std::vector<LeftAlone> left_alone;
+  ASSERT_TRUE(planPayloads(document, plans, left_alone).ok());
+  ASSERT_EQ(plans.size(), 1u);
+  const uint64_t held = plans[0].pieces.size() * uint64_t{kVertices} * (12 + 4);
+  EXPECT_LE(held, kMaxSharing * file.size() + document.decoded.zeroLimit());
+  EXPECT_GE(plans[0].pieces.size(), 8u);
+  EXPECT_EQ(left_alone.size() + plans[0].pieces.size(), kPieces);
+  EXPECT_NE(left_alone[0].note.find("shares its bytes with so many others"), std::string::npos);
+}
+
+/// Each index accessor has almost all of the indices.
+TEST(LinearTime, IndicesOverTheSameBytesAreHeldSixteenTimes) {
+  constexpr uint32_t kParts = 5000;
+  constexpr uint32_t kIndices = 300000;
+  Builder builder;
+  const uint32_t view = builder.addView(std::vector<uint8_t>(kIndices + 3 * kParts, 1));
+  const Json attributes = {{"POSITION", builder.addPositions(Sheet(1).positions)}};
+  std::vector<Json> primitives;
+  for (uint32_t i = 0; i < kParts; ++i) {
+    primitives.push_back({{"attributes", attributes},
+                          {"indices", builder.addAccessor({{"bufferView", view},
+                                                           {"byteOffset", 3 * i},
+                                                           {"componentType", kUnsignedByte},
+                                                           {"count", kIndices},
+                                                           {"type", "SCALAR"}})}});
+  }
+  builder.addMesh(primitives);
+  const std::vector<uint8_t> file = builder.toGlb();
+  Document document;
+  ASSERT_TRUE(loadDocument(file, nullptr, document).ok());
+  document.decoded = DecodedBytes(0, document.source_bytes);
+  std::vector<PayloadPlan> plans;
+  std::vector<LeftAlone> left_alone;
+  ASSERT_TRUE(planPayloads(document, plans, left_alone).ok());
+  const size_t parts = plans[0].pieces[0].parts.size();
+  EXPECT_LE(parts * kIndices * 4, kMaxSharing * file.size() + document.decoded.zeroLimit());
+  EXPECT_GE(parts, 8u);
+}
+
+/// Payload k frees the bytes of all later ones.
+TEST(LinearTime, OwnersOfAPileOfPayloads) {
+  constexpr uint32_t kCount = 40000;
+  Builder builder;
+  const uint32_t view = builder.addView(std::vector<uint8_t>(4 * kCount, 7));
+  Json accessors = Json::array();
+  for (uint32_t i = 0; i < kCount; ++i) {
+    accessors.push_back({{"bufferView", view},
+                         {"byteOffset", i},
+                         {"componentType", kUnsignedByte},
+                         {"count", 4 * kCount - 2 * i},
+                         {"type", "SCALAR"}});
+  }
+  builder.json["accessors"] = std::move(accessors);
+  const std::vector<uint8_t> file = builder.toGlb();
+  Document document;
+  ASSERT_TRUE(loadDocument(file, nullptr, document).ok());
+  std::vector<EncodedPayload> payloads;
+  for (uint32_t i = 0; i < kCount; ++i) payloads.push_back(payloadOver(i, i, i, 1));
+  countFreedBytes(document, ForeignReferences{}, payloads);
+  EXPECT_EQ(payloads[0].freed_bytes, 128u);  // at both ends there are at most 64 owners
+  EXPECT_EQ(payloads[63].freed_bytes, 2u);
+  EXPECT_EQ(payloads[64].freed_bytes, 0u);
+}
+
+TEST(LinearTime, BytesThatManyNameAreComparedOnce) {
+  constexpr uint32_t kBytes = 20000000;
+  std::vector<uint8_t> a(kBytes, 5);
+  std::vector<uint8_t> b(kBytes + 8, 5);
+  Document source, result;
+  source.buffers = {a};
+  result.buffers = {b};
+  const auto difference = [&](uint64_t moved_by) {
+    SameBytes bytes(source, result);
+    for (uint32_t i = 0; i < 100000; ++i) {
+      bytes.add({0, i, kBytes - i}, {0, i + moved_by, kBytes - i + moved_by}, 100000 - i);
+    }
+    return bytes.firstDifference();
+  };
+  EXPECT_EQ(difference(0), SameBytes::kNothing);
+  EXPECT_EQ(difference(8), SameBytes::kNothing);
+  b[60000] = 6;  // only in those that begin before it
+  EXPECT_EQ(difference(0), 100000u - 60000u);
+  EXPECT_EQ(difference(8), 100000u - 59992u);
+  b[kBytes / 2] = 7;
+  EXPECT_EQ(difference(0), 1u);
+  b[60000] = 5;
+  b[0] = 7;
+  b[kBytes / 2] = 5;
+  EXPECT_EQ(difference(0), 100000u);
+  SameBytes lengths(source, result);
+  lengths.add({0, 5, 9}, {0, 5, 8}, 3);
+  lengths.add({0, 5, 5}, {0, 7, 7}, 2);
+  EXPECT_EQ(lengths.firstDifference(), 3u);
+}
+
+TEST(LinearTime, AccessorsAndImagesOverTheSameBytes) {
+  constexpr uint32_t kCount = 10000;
+  constexpr uint32_t kBytes = 16000000;
+  Builder builder;
+  builder.addMesh({Sheet(20).addTo(builder)});
+  const uint32_t view = builder.addView(std::vector<uint8_t>(kBytes, 0));
+  const Json sparse = {{"count", 1},
+                       {"indices", {{"bufferView", view}, {"componentType", kUnsignedByte}}},
+                       {"values", {{"bufferView", view}}}};
+  Json images = Json::array();
+  for (uint32_t i = 0; i < kCount; ++i) {
+    Json accessor = {{"bufferView", view},
+                     {"byteOffset", i},
+                     {"componentType", kUnsignedByte},
+                     {"count", kBytes - kCount},
+                     {"type", "SCALAR"}};
+    if (i % 2 == 0) accessor["sparse"] = sparse;
+    builder.json["accessors"].get_ref<Json::array_t&>().push_back(std::move(accessor));
+    images.push_back({{"bufferView", view}, {"mimeType", "image/png"}});
+  }
+  builder.json["images"] = std::move(images);
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_TRUE(isCompressed(jsonOf(trip.converted), 0, 0));
+}
+
+TEST(LinearTime, NotesDoNotRepeatLongNames) {
+  constexpr uint32_t kCount = 2000;
+  Builder builder;
+  builder.addMesh({Sheet(20).addTo(builder)});
+  Json primitive = {{"attributes", Sheet(3).addTo(builder)["attributes"]}};
+  builder.addMesh(std::vector<Json>(kCount, primitive));
+  const std::string name(1000000, 'N');
+  builder.json["meshes"][1]["extensions"][name] = Json::object();
+  builder.json["accessors"][4]["extensions"][name] = Json::object();
+  builder.addMesh(std::vector<Json>(kCount, primitive));
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  size_t bytes = 0;
+  for (const std::string& note : trip.report.notes) bytes += note.size();
+  for (const PrimitiveReport& report : trip.report.primitives) bytes += report.note.size();
+  EXPECT_GE(trip.report.notes.size(), 2 * kCount);
+  EXPECT_LT(bytes, 1000u * kCount);
+}
+
+/// A long accessor that pieces share is not copied as a whole for each of them.
+TEST(LinearTime, CopiesOfALongAccessor) {
+  constexpr uint32_t kCount = 500;
+  Builder builder;
+  const Sheet sheet(10);
+  Json primitive = sheet.addTo(builder);
+  const uint32_t normal = primitive["attributes"]["NORMAL"];
+  builder.json["accessors"][normal]["extras"] = {{"text", std::string(1000000, 'x')}};
+  builder.json["accessors"][normal]["min"] = {-1, -1, -1};
+  std::vector<Json> primitives;
+  for (uint32_t i = 0; i < kCount; ++i) {
+    primitive["attributes"]["POSITION"] =
+        builder.addPositions(Sheet(10, 0.01f * static_cast<float>(i)).positions);
+    primitives.push_back(primitive);
+  }
+  builder.addMesh(primitives);
+  const RoundTrip trip = roundTrip(builder, evenIfLarger());
+  ASSERT_EQ(trip.error, "");
+  const Json json = jsonOf(trip.converted);
+  EXPECT_TRUE(isCompressed(json, 0, kCount - 1));
+  EXPECT_LT(trip.converted.size(), 2 * trip.source.size());
+  EXPECT_EQ(json["accessors"][normal]["extras"]["text"].get<std::string>().size(), 1000000u);
+  const size_t copy = json["meshes"][0]["primitives"][kCount - 1]["attributes"]["NORMAL"];
+  EXPECT_NE(copy, normal);
+  EXPECT_EQ(json["accessors"][copy]["min"].size(), 3u);
+}
+
+TEST(LinearTime, NumbersBelowManyKeysOfViews) {
+  Json numbers = Json::array();
+  for (uint32_t i = 0; i < 300000; ++i) numbers.push_back(i);
+  for (uint32_t i = 0; i < 200; ++i) {
+    numbers = Json::object({{i % 2 == 0 ? "bufferView" : "accessor", std::move(numbers)}});
+  }
+  const Json root = {{"extras", std::move(numbers)}};
+  const ForeignReferences foreign = findForeignReferences(root);
+  EXPECT_EQ(foreign.views.size(), 300000u);
+  EXPECT_EQ(foreign.accessors.size(), 300000u);
+}
+
+TEST(LinearTime, AttributesOfOnePrimitive) {
+  Builder builder;
+  Json primitive = Sheet(3).addTo(builder);
+  const Json normal = primitive["attributes"]["NORMAL"];
+  Json::object_t& attributes = primitive["attributes"].get_ref<Json::object_t&>();
+  for (uint32_t i = 0; i < 30000; ++i) attributes.emplace_back("_A" + std::to_string(i), normal);
+  builder.addMesh({primitive});
+  const RoundTrip trip = roundTrip(builder, evenIfLarger());
+  ASSERT_EQ(trip.error, "");
+  EXPECT_TRUE(isCompressed(jsonOf(trip.converted), 0, 0));
+}
+
+TEST(LinearTime, PayloadsThatOverlapAreNotRead) {
+  Builder builder;
+  builder.addMesh({Sheet(10).addTo(builder)});
+  RoundTrip trip = roundTrip(builder, evenIfLarger());
+  ASSERT_EQ(trip.error, "");
+  Json json = jsonOf(trip.converted);
+  const auto decode = [&] {
+    GlbFile glb;
+    EXPECT_TRUE(readGlb(trip.converted, glb).ok());
+    std::vector<uint8_t> file;
+    EXPECT_TRUE(writeGlb(printJson(json), glb.bin, {}, file).ok());
+    ValidationReport validation;
+    EXPECT_EQ(validate({"a.glb", file}, {}, validation).message(), "");
+    std::vector<uint8_t> output;
+    DecodeReport report;
+    const std::string message = decodeGlb(file, output, report).message();
+    EXPECT_EQ(validation.isValid(), message.empty());
+    return message;
+  };
+  EXPECT_EQ(decode(), "");
+  // Adds a primitive with accessors of its own and a view that is shorter than the last one.
+  const auto addPrimitive = [&](size_t shorter_by) {
+    Json primitive = json["meshes"][0]["primitives"][0];
+    const auto copyAccessor = [&](Json& number) {
+      const Json accessor = json["accessors"][number.get<size_t>()];
+      number = json["accessors"].size();
+      json["accessors"].push_back(accessor);
+    };
+    for (Json& number : primitive["attributes"]) copyAccessor(number);
+    copyAccessor(primitive["indices"]);
+    primitive["extensions"][kExtensionName]["bufferView"] = json["bufferViews"].size();
+    Json view = json["bufferViews"].back();
+    view["byteLength"] = view["byteLength"].get<size_t>() - shorter_by;
+    json["bufferViews"].push_back(view);
+    json["meshes"][0]["primitives"].push_back(primitive);
+  };
+  addPrimitive(0);
+  EXPECT_EQ(decode(), "") << "the same payload in two views";
+  addPrimitive(1);
+  EXPECT_NE(decode().find("overlaps other payloads"), std::string::npos);
 }
 
 }  // namespace

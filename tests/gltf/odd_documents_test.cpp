@@ -29,11 +29,34 @@ TEST(OddDocuments, PrimitivesShareAccessorsHoweverTheirNumbersAreSpelt) {
   EXPECT_TRUE(isCompressed(jsonOf(trip.converted), 0, 1));
 }
 
-TEST(OddDocuments, NumbersThatAreTooLargeAreRefusedInPlainWords) {
+/// They are valid JSON; what they mean is up to whoever reads them.
+TEST(OddDocuments, NumbersThatAreTooLargeAreKeptAsTheyAreSpelt) {
+  const std::string digits(400, '9');
+  const std::string text =
+      R"({"a":1e400,"b":-1.5E+999,"c":)" + digits + R"(,"d":"1e400","e":1e-400,"f":[0,1e9]})";
   Json json;
-  const Result result = parseJson(asBytes(R"({"extras": 1e400})"), json);
-  EXPECT_EQ(result.message(),
-            "JSON byte 16: the JSON is damaged (number overflow parsing '1e400')");
+  ASSERT_EQ(parseJson(asBytes(text), json).message(), "");
+  EXPECT_EQ(printJson(json), text);
+  double value = 0;
+  EXPECT_TRUE(asNumber(json["b"], value));
+  EXPECT_TRUE(std::isinf(value) && value < 0);
+  ASSERT_TRUE(asNumber(json["e"], value));
+  EXPECT_EQ(value, 0);
+  const std::string zeros = "0." + std::string(400, '0') + "1e";
+  for (const auto& [number, is_huge] :
+       {std::pair(zeros + "3", false), std::pair(zeros + "900", true),
+        std::pair(digits + "e-90", true), std::pair(digits + "e-900", false),
+        std::pair(std::string("1e99999999999999999999"), true),
+        std::pair(std::string("1e-99999999999999999999"), false)}) {
+    ASSERT_TRUE(asNumber(spelt(number), value));
+    EXPECT_EQ(std::isinf(value), is_huge) << number;
+    EXPECT_TRUE(is_huge || value == 0) << number;
+  }
+  uint64_t whole = 0;
+  EXPECT_FALSE(asUnsigned(json["a"], whole));
+  for (const char* damaged : {"1e400e", "01e400", "1.e400", ".1e400", "1e400.5", "--1e400", "1e"}) {
+    EXPECT_FALSE(parseJson(asBytes("{\"a\":" + std::string(damaged) + "}"), json).ok()) << damaged;
+  }
 }
 
 TEST(OddDocuments, DeltasThatAreAllAlikeKeepTheirBits) {

@@ -53,7 +53,7 @@ class Emitter {
       : document_(document), json_(document.json), is_taken_(std::move(is_taken)) {}
 
   void add(EmittedPart& part) {
-    const uint64_t view = document_.views.size() + views_.size();
+    const uint64_t view = gltf::kFirstNewView + views_.size();
     std::vector<uint32_t> accessors;
     Json ids = Json::object();
     for (const foreign::DracoPrimitiveAttribute& attribute : part.draco.attributes) {

@@ -46,7 +46,10 @@ struct Box {
 class Checker {
  public:
   Checker(const Document& source, std::vector<EncodedPayload>& payloads, CheckResult& result)
-      : source_(source), payloads_(payloads), result_(result) {}
+      : source_(source),
+        source_meshes_(arrayOf(source.json, "meshes")),
+        payloads_(payloads),
+        result_(result) {}
 
   Result run(const ForeignDecoders& decoders, std::span<const uint8_t> written,
              const FileReader& read_file, uint32_t thread_count) {
@@ -68,6 +71,8 @@ class Checker {
           adoptDocument(std::move(decompressed.json), std::move(decompressed.bin), decoded_), ""));
     }
     MCC_GLTF_TRY(failed(decodeViews(decoders, decoded_, &source_), ""));
+    decoded_accessors_ = &arrayOf(decoded_.json, "accessors");
+    decoded_meshes_ = &arrayOf(decoded_.json, "meshes");
     for (const EncodedPayload& payload : payloads_) MCC_GLTF_TRY(checkPayload(payload));
     MCC_GLTF_TRY(failed(checkUses(uses), ""));
     if (!uses.empty()) MCC_GLTF_TRY(failed(checkFallback(compressed, uses), ""));
@@ -88,7 +93,8 @@ class Checker {
     std::set<PrimitiveRef> found;
     for (const ExtensionUse& use : uses) {
       const PrimitiveRef ref = {use.mesh, use.primitive};
-      if (extensionOf(primitiveOf(source_, ref), kExtensionName) == nullptr) found.insert(ref);
+      if (extensionOf(primitiveAt(source_meshes_, ref), kExtensionName) == nullptr)
+        found.insert(ref);
     }
     if (found != planned_) {
       return error("", "the compressed primitives are not those that were planned");
@@ -99,7 +105,7 @@ class Checker {
   /// Checks that `min` and `max` are those of the elements, where the decoded document has them and
   /// JSON can represent them.
   Result checkBounds(uint32_t index, const AccessorData& elements) const {
-    const Json& json = decoded_.json["accessors"][index];
+    const Json& json = (*decoded_accessors_)[index];
     const Json* min = findMember(json, "min");
     const Json* max = findMember(json, "max");
     if ((min == nullptr && max == nullptr) || elements.count == 0) return {};
@@ -152,11 +158,12 @@ class Checker {
       for (uint32_t& wedge : source_of) {
         if (!piece.kept.empty()) wedge = piece.kept[wedge];
       }
+      const DecodedMaps maps(decodedPrimitive(piece.parts[0].users[0]));
       for (const AttributePlan& attribute : piece.attributes) {
-        MCC_GLTF_TRY(failed(checkAttribute(piece, attribute, source_of), where));
+        MCC_GLTF_TRY(failed(checkAttribute(piece, maps, attribute, source_of), where));
       }
       for (const AttributePlan& attribute : piece.ordinary) {
-        MCC_GLTF_TRY(failed(checkOrdinary(piece, attribute, source_of), where));
+        MCC_GLTF_TRY(failed(checkOrdinary(maps, attribute, source_of), where));
         if (payload.plan.reorders()) reordered_.insert(attribute.accessor);
       }
       for (const uint32_t accessor : piece.vertex_numbers) {
@@ -197,18 +204,29 @@ class Checker {
     return {};
   }
 
-  const Json& primitiveOf(const Document& document, const PrimitiveRef& ref) const {
-    return primitiveAt(document.json, ref);
+  const Json& decodedPrimitive(const PrimitiveRef& ref) const {
+    return primitiveAt(*decoded_meshes_, ref);
   }
 
+  /// The accessors of a decoded primitive by name, those of its morph targets as well.
+  struct DecodedMaps {
+    explicit DecodedMaps(const Json& primitive) : attributes(findMember(primitive, "attributes")) {
+      for (const Json& target : arrayOf(primitive, "targets")) targets.emplace_back(target);
+    }
+    MemberIndex attributes;
+    std::vector<MemberIndex> targets;
+  };
+
   /// Finds the accessor of an attribute of a decoded primitive.
-  Result decodedAccessor(const PrimitiveRef& ref, const AttributePlan& attribute,
+  Result decodedAccessor(const DecodedMaps& maps, const AttributePlan& attribute,
                          uint32_t& accessor) const {
-    const Json& primitive = primitiveOf(decoded_, ref);
-    const Json* map = attribute.target == kNone ? findMember(primitive, "attributes")
-                                                : &arrayOf(primitive, "targets")[attribute.target];
     uint64_t index = 0;
-    const Json* number = map == nullptr ? nullptr : findMember(*map, attribute.name);
+    const Json* number = nullptr;
+    if (attribute.target == kNone) {
+      number = maps.attributes.find(attribute.name);
+    } else if (attribute.target < maps.targets.size()) {
+      number = maps.targets[attribute.target].find(attribute.name);
+    }
     if (number == nullptr || !asUnsigned(*number, index) || index >= decoded_.accessors.size()) {
       return error("", attribute.label() + " is missing");
     }
@@ -245,10 +263,10 @@ class Checker {
     return 0;
   }
 
-  Result checkAttribute(const PiecePlan& piece, const AttributePlan& attribute,
-                        std::span<const uint32_t> source_of) {
+  Result checkAttribute(const PiecePlan& piece, const DecodedMaps& maps,
+                        const AttributePlan& attribute, std::span<const uint32_t> source_of) {
     uint32_t index = 0;
-    MCC_GLTF_TRY(decodedAccessor(piece.parts[0].users[0], attribute, index));
+    MCC_GLTF_TRY(decodedAccessor(maps, attribute, index));
     const Accessor& accessor = decoded_.accessors[index];
     if (accessor.count != piece.wedge_count ||
         formatOf(attribute.name, attribute.target, accessor) != attribute.format) {
@@ -279,10 +297,10 @@ class Checker {
   }
 
   /// Checks an attribute that stays next to the payload: every bit must be at its vertex.
-  Result checkOrdinary(const PiecePlan& piece, const AttributePlan& attribute,
+  Result checkOrdinary(const DecodedMaps& maps, const AttributePlan& attribute,
                        std::span<const uint32_t> source_of) const {
     uint32_t index = 0;
-    MCC_GLTF_TRY(decodedAccessor(piece.parts[0].users[0], attribute, index));
+    MCC_GLTF_TRY(decodedAccessor(maps, attribute, index));
     const Accessor& accessor = decoded_.accessors[index];
     if (accessor.count != source_.accessors[attribute.accessor].count ||
         formatOf(attribute.name, attribute.target, accessor) != attribute.format) {
@@ -321,7 +339,7 @@ class Checker {
   }
 
   Result decodedTriangles(const PrimitiveRef& ref, std::vector<uint32_t>& indices) const {
-    const Json* number = findMember(primitiveOf(decoded_, ref), "indices");
+    const Json* number = findMember(decodedPrimitive(ref), "indices");
     uint64_t index = 0;
     if (number == nullptr || !asUnsigned(*number, index) || index >= decoded_.accessors.size()) {
       return error("", "the indices are missing");
@@ -335,7 +353,7 @@ class Checker {
   /// Reads the source's triangles again, instead of taking them from the plan.
   Result sourceTriangles(const PrimitiveRef& ref, uint32_t wedge_count,
                          std::vector<uint32_t>& indices) const {
-    const Json& primitive = primitiveOf(source_, ref);
+    const Json& primitive = primitiveAt(source_meshes_, ref);
     uint64_t mode = 4;
     MCC_GLTF_TRY(readOptionalUnsigned(primitive, "mode", ref.path(), 6, mode));
     uint64_t accessor = 0;
@@ -385,15 +403,15 @@ class Checker {
   /// source.
   Result checkSharing(const PiecePlan& piece, const PartPlan& part,
                       const PrimitiveRef& user) const {
-    for (const Document* document : {&source_, static_cast<const Document*>(&decoded_)}) {
-      const Json& own = primitiveOf(*document, user);
-      const Json& first = primitiveOf(*document, piece.parts[0].users[0]);
-      const Json& first_of_part = primitiveOf(*document, part.users[0]);
+    for (const Json* meshes : {&source_meshes_, decoded_meshes_}) {
+      const Json& own = primitiveAt(*meshes, user);
+      const Json& first = primitiveAt(*meshes, piece.parts[0].users[0]);
+      const Json& first_of_part = primitiveAt(*meshes, part.users[0]);
       const bool has_same = sameMap(own, first, "attributes") && sameMap(own, first, "targets") &&
                             sameMap(own, first_of_part, "indices");
       if (!has_same) return error(user.path(), "does not share the accessors of its piece");
     }
-    if (arrayOf(primitiveOf(decoded_, user), "targets").size() != piece.target_count) {
+    if (arrayOf(decodedPrimitive(user), "targets").size() != piece.target_count) {
       return error(user.path(), "has another number of morph targets");
     }
     return {};
@@ -424,9 +442,12 @@ class Checker {
   }
 
   const Document& source_;
+  const Json& source_meshes_;
   std::vector<EncodedPayload>& payloads_;
   CheckResult& result_;
   Document decoded_;
+  const Json* decoded_accessors_ = nullptr;
+  const Json* decoded_meshes_ = nullptr;
   CodedAttributes coded_;
   std::vector<std::vector<float>> angles_;  ///< per row of the current payload's reports
   std::vector<Box> boxes_;                  ///< of the positions, per row

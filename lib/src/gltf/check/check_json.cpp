@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "gltf/check/same_bytes.h"
 #include "gltf/document/accessors.h"
 #include "gltf/document/known_extensions.h"
 #include "gltf/document/rebuild.h"
@@ -53,6 +54,10 @@ void eraseAll(Json& object, std::initializer_list<const char*> keys) {
   for (const char* key : keys) object.erase(key);
 }
 
+void eraseFrom(Json& json, const char* key) {
+  if (json.is_object()) json.erase(key);
+}
+
 void eraseGeometry(Json& primitive) {
   eraseAll(primitive, {"attributes", "indices", "mode", "targets"});
   const auto extensions = primitive.find("extensions");
@@ -75,17 +80,23 @@ Json withoutGeometry(const Document& document, const std::vector<ExtensionUse>& 
     removeExtensionName(json, list, kExtensionName);
   }
   editViewReferences(json, [](Json& number, uint32_t) { number = 0; });
-  for (const ExtensionUse& use : uses) {
-    eraseGeometry(json["meshes"][use.mesh]["primitives"][use.primitive]);
+  hideMissingAccessors(document.accessors.size(), json);
+  if (!uses.empty()) {
+    Json& meshes = json["meshes"];
+    for (const ExtensionUse& use : uses) {
+      eraseGeometry(meshes[use.mesh]["primitives"][use.primitive]);
+    }
   }
   if (json.find("accessors") == json.end()) return json;
+  Json old_accessors = std::move(json["accessors"]);
   Json accessors = Json::array();
-  for (uint32_t i = 0; i < std::min(accessor_count, json["accessors"].size()); ++i) {
-    Json accessor = std::move(json["accessors"][i]);
+  for (uint32_t i = 0; i < std::min(accessor_count, old_accessors.size()); ++i) {
+    Json accessor = std::move(old_accessors[i]);
     accessor.erase("byteOffset");
-    if (Json* sparse = accessor.contains("sparse") ? &accessor["sparse"] : nullptr) {
-      (*sparse)["indices"].erase("byteOffset");
-      (*sparse)["values"].erase("byteOffset");
+    if (const auto sparse = accessor.find("sparse"); sparse != accessor.end()) {
+      for (const char* part : {"indices", "values"}) {
+        if (findMember(*sparse, part) != nullptr) eraseFrom((*sparse)[part], "byteOffset");
+      }
     }
     if (touched.count(i) != 0) {
       eraseAll(accessor, {"bufferView", "sparse", "min", "max", "count", "componentType"});
@@ -100,98 +111,141 @@ Json withoutGeometry(const Document& document, const std::vector<ExtensionUse>& 
   return json;
 }
 
-std::span<const uint8_t> viewBytes(const Document& document, uint64_t view) {
+ByteRange viewRange(const Document& document, uint64_t view) {
   const BufferView& range = document.views[view];
-  return document.buffers[range.buffer].subspan(range.offset, range.length);
+  return {range.buffer, range.offset, range.offset + range.length};
 }
 
-bool sameBytes(std::span<const uint8_t> a, std::span<const uint8_t> b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end());
-}
+/// Compares the bytes of everything that a conversion must not change.
+class BytesChecker {
+ public:
+  BytesChecker(const Document& source, const Document& decoded)
+      : source_(source), decoded_(decoded), bytes_(source, decoded) {}
 
-/// Checks that a view which another codec compressed is as it was.
-Result compareCoding(const Document& source, uint32_t source_view, const Document& decoded,
-                     uint32_t decoded_view) {
-  const std::string path = at("/bufferViews", source_view);
-  if (decoded_view == kNone) return error(path, "is lost");
-  const ViewCoding& a = source.views[source_view].coding;
-  const ViewCoding& b = decoded.views[decoded_view].coding;
-  const bool is_same = a.extension == b.extension && a.mode == b.mode && a.filter == b.filter &&
-                       a.count == b.count && a.stride == b.stride &&
-                       sameBytes(viewBytes(source, source_view), viewBytes(decoded, decoded_view));
-  return is_same ? Result{} : error(path, "the coded bytes changed");
-}
-
-Result compareAccessor(const Document& source, const Document& decoded, uint32_t index) {
-  const std::string path = at("/accessors", index);
-  if (!source.accessors[index].is_known_type) return {};
-  const uint32_t view = source.accessors[index].view;
-  if (view != kNone && source.views[view].isCoded()) {
-    return compareCoding(source, view, decoded, decoded.accessors[index].view);
-  }
-  if (source.accessors[index].view == kNone && source.accessors[index].sparse.count == 0) return {};
-  AccessorData a;
-  AccessorData b;
-  if (!readAccessor(source, index, a).ok()) return {};  // unreadable in the source, too
-  MCC_GLTF_TRY(readAccessor(decoded, index, b));
-  if (a.count != b.count || a.element_bytes != b.element_bytes) {
-    return error(path, "has another size");
-  }
-  for (uint64_t i = 0; i < a.count; ++i) {
-    if (!sameBytes(a.element(i), b.element(i))) {
-      return error(path, "element " + std::to_string(i) + " changed");
+  void addAccessor(uint32_t index) {
+    const Accessor& a = source_.accessors[index];
+    if (!a.is_known_type || (a.view == kNone && a.sparse.count == 0)) return;
+    const Accessor& b = decoded_.accessors[index];
+    const bool is_same = a.fault.ok() == b.fault.ok() && a.count == b.count &&
+                         a.elementBytes() == b.elementBytes() &&
+                         strideOf(source_, a) == strideOf(decoded_, b);
+    const std::vector<ByteRange> in_source = accessorRanges(source_, index, false);
+    const std::vector<ByteRange> in_decoded = accessorRanges(decoded_, index, false);
+    if (!is_same || in_source.size() != in_decoded.size()) {
+      return addDifference("/accessors", index, "has another size");
+    }
+    if (!sameCodings(a, b)) return addDifference("/accessors", index, "the coded bytes changed");
+    for (size_t i = 0; i < in_source.size(); ++i) {
+      add(in_source[i], in_decoded[i], "/accessors", index, "its elements changed");
     }
   }
-  return {};
-}
 
-Result compareImages(const Document& source, const Document& decoded) {
-  const Json& images = arrayOf(source.json, "images");
-  for (size_t i = 0; i < images.size(); ++i) {
-    const Json* number = findMember(images[i], "bufferView");
-    if (number == nullptr) continue;
+  void addImages() {
+    const Json& images = arrayOf(source_.json, "images");
+    const Json& new_images = arrayOf(decoded_.json, "images");
+    for (size_t i = 0; i < images.size(); ++i) {
+      const Json* number = findMember(images[i], "bufferView");
+      if (number == nullptr) continue;
+      const Json* new_number = findMember(new_images[i], "bufferView");
+      addViews(number, new_number, "/images", i, "the image changed");
+    }
+  }
+
+  /// Adds the property tables. Their views have names of their own.
+  void addTables() {
+    const auto numbersOf = [](const Document& document) {
+      std::vector<const Json*> numbers;
+      visitTableViews(document.json, [&](const Json& number) { numbers.push_back(&number); });
+      return numbers;
+    };
+    const std::vector<const Json*> old_numbers = numbersOf(source_);
+    const std::vector<const Json*> new_numbers = numbersOf(decoded_);
+    if (old_numbers.size() != new_numbers.size()) {
+      return addDifference("/extensions", 0, "a property table is lost");
+    }
+    for (size_t i = 0; i < old_numbers.size(); ++i) {
+      uint64_t view = 0;
+      if (!asUnsigned(*old_numbers[i], view)) continue;
+      addViews(old_numbers[i], new_numbers[i], "/bufferViews", view, "a property table changed");
+    }
+  }
+
+  void addView(uint32_t view) {
+    if (view >= decoded_.views.size()) {
+      return addDifference("/bufferViews", view, "the bytes changed");
+    }
+    add(viewRange(source_, view), viewRange(decoded_, view), "/bufferViews", view,
+        "the bytes changed");
+  }
+
+  Result run() {
+    const size_t first = std::min(bytes_.firstDifference(), first_);
+    if (first == SameBytes::kNothing) return {};
+    return error(at(places_[first].array, places_[first].index), places_[first].what);
+  }
+
+ private:
+  struct Place {
+    const char* array;
+    uint64_t index;
+    const char* what;
+  };
+
+  static uint64_t strideOf(const Document& document, const Accessor& accessor) {
+    return accessor.view == kNone ? 0 : document.views[accessor.view].stride;
+  }
+
+  void add(const ByteRange& in_source, const ByteRange& in_decoded, const char* array,
+           uint64_t index, const char* what) {
+    bytes_.add(in_source, in_decoded, places_.size());
+    places_.push_back({array, index, what});
+  }
+
+  void addDifference(const char* array, uint64_t index, const char* what) {
+    first_ = std::min(first_, places_.size());
+    places_.push_back({array, index, what});
+  }
+
+  /// Adds the views that two members name. A view that does not exist was wrong in the source, too.
+  void addViews(const Json* number, const Json* new_number, const char* array, uint64_t index,
+                const char* what) {
     uint64_t old_view = 0;
     uint64_t new_view = 0;
-    // A number of a view that does not exist was already wrong in the source.
-    if (!asUnsigned(*number, old_view) || old_view >= source.views.size()) continue;
-    const Json* new_number = findMember(arrayOf(decoded.json, "images")[i], "bufferView");
-    const bool is_valid = new_number != nullptr && asUnsigned(*new_number, new_view) &&
-                          new_view < decoded.views.size();
-    if (!is_valid || !sameBytes(viewBytes(source, old_view), viewBytes(decoded, new_view))) {
-      return error(at("/images", i), "the image changed");
+    if (!asUnsigned(*number, old_view) || old_view >= source_.views.size()) return;
+    const bool exists = new_number != nullptr && asUnsigned(*new_number, new_view) &&
+                        new_view < decoded_.views.size();
+    if (!exists) return addDifference(array, index, what);
+    add(viewRange(source_, old_view), viewRange(decoded_, new_view), array, index, what);
+  }
+
+  /// Whether views that another codec compressed are described as they were.
+  bool sameCodings(const Accessor& a, const Accessor& b) const {
+    if ((a.view == kNone) != (b.view == kNone)) return false;
+    bool is_same = a.view == kNone || sameCoding(a.view, b.view);
+    if (a.sparse.count != 0 && b.sparse.count != 0) {
+      is_same &= sameCoding(a.sparse.index_view, b.sparse.index_view) &&
+                 sameCoding(a.sparse.value_view, b.sparse.value_view);
     }
+    return is_same;
   }
-  return {};
-}
 
-/// Checks that the property tables have the bytes of the source.
-Result compareTables(const Document& source, const Document& decoded) {
-  const auto viewsOf = [](const Document& document) {
-    std::vector<uint64_t> views;
-    visitTableViews(document.json, [&](const Json& number) {
-      uint64_t view = 0;
-      views.push_back(asUnsigned(number, view) ? view : kNone);
-    });
-    return views;
-  };
-  const std::vector<uint64_t> old_views = viewsOf(source);
-  const std::vector<uint64_t> new_views = viewsOf(decoded);
-  if (old_views.size() != new_views.size()) return error("", "a property table is lost");
-  for (size_t i = 0; i < old_views.size(); ++i) {
-    // A number of a view that does not exist was already wrong in the source.
-    if (old_views[i] >= source.views.size()) continue;
-    const bool is_same =
-        new_views[i] < decoded.views.size() &&
-        sameBytes(viewBytes(source, old_views[i]), viewBytes(decoded, new_views[i]));
-    if (!is_same) return error(at("/bufferViews", old_views[i]), "a property table changed");
+  bool sameCoding(uint32_t source_view, uint32_t decoded_view) const {
+    const ViewCoding& a = source_.views[source_view].coding;
+    const ViewCoding& b = decoded_.views[decoded_view].coding;
+    return a.extension == b.extension && a.mode == b.mode && a.filter == b.filter &&
+           a.count == b.count && a.stride == b.stride;
   }
-  return {};
-}
 
-/// Where views keep their numbers, checks that every view is unchanged, except those that only
-/// compressed accessors used and payloads of the source, which are decoded.
-Result compareViews(const Document& source, const Document& decoded,
-                    const std::set<uint32_t>& touched) {
+  const Document& source_;
+  const Document& decoded_;
+  SameBytes bytes_;
+  std::vector<Place> places_;  ///< of the pairs, by number
+  size_t first_ = SameBytes::kNothing;
+};
+
+/// Where views keep their numbers, adds every view, except those that only compressed accessors
+/// used and payloads of the source, which are decoded.
+Result addViews(const Document& source, const std::set<uint32_t>& touched, BytesChecker& checker) {
   const ForeignReferences foreign = findForeignReferences(source.json);
   if (!foreign.keep_numbers) return {};
   std::vector<bool> is_freed;
@@ -208,12 +262,8 @@ Result compareViews(const Document& source, const Document& decoded,
     is_freed[accessor.sparse.index_view] = true;
     is_freed[accessor.sparse.value_view] = true;
   }
-  for (size_t view = 0; view < source.views.size(); ++view) {
-    if (is_freed[view]) continue;
-    if (view >= decoded.views.size() ||
-        !sameBytes(viewBytes(source, view), viewBytes(decoded, view))) {
-      return error(at("/bufferViews", view), "the bytes changed");
-    }
+  for (uint32_t view = 0; view < source.views.size(); ++view) {
+    if (!is_freed[view]) checker.addView(view);
   }
   return {};
 }
@@ -239,12 +289,14 @@ Result compareRest(const Document& source, const Document& decoded,
   const std::string difference = firstDifference(withoutGeometry(source, uses, touched, count),
                                                  withoutGeometry(decoded, uses, touched, count));
   if (!difference.empty()) return error(difference, "the JSON changed");
+  BytesChecker checker(source, decoded);
   for (uint32_t i = 0; i < count; ++i) {
-    if (touched.count(i) == 0) MCC_GLTF_TRY(compareAccessor(source, decoded, i));
+    if (touched.count(i) == 0) checker.addAccessor(i);
   }
-  MCC_GLTF_TRY(compareImages(source, decoded));
-  MCC_GLTF_TRY(compareTables(source, decoded));
-  return compareViews(source, decoded, touched);
+  checker.addImages();
+  checker.addTables();
+  MCC_GLTF_TRY(addViews(source, touched, checker));
+  return checker.run();
 }
 
 }  // namespace mcc::gltf

@@ -38,6 +38,8 @@ class Validator {
   Validator(const Json& json, const Document& document, const ValidateOptions& options,
             Issues& issues, ValidationReport& report)
       : json_(json),
+        meshes_(arrayOf(json, "meshes")),
+        accessors_(arrayOf(json, "accessors")),
         document_(document),
         limits_(options.limits),
         decoded_bytes_(options.max_decoded_bytes, document.source_bytes),
@@ -45,6 +47,7 @@ class Validator {
         report_(report) {}
 
   void run() {
+    checkFaults();
     findExtensionUses(document_, issues_, uses_);
     report_.compressed_primitive_count = static_cast<uint32_t>(uses_.size());
     checkLists();
@@ -55,11 +58,14 @@ class Validator {
       by_view[use.view].push_back(&use);
       payload_buffers_.insert(document_.views[use.view].buffer);
     }
-    for (const auto& [view, ignored] : by_view) checkView(view);
+    const Json& views = arrayOf(document_.json, "bufferViews");
+    for (const auto& [view, ignored] : by_view) checkView(views, view);
     checkOtherViewUses(by_view);
     const std::vector<PayloadUse> payloads = payloadUses(document_, uses_);
     report_.payload_count = static_cast<uint32_t>(payloads.size());
-    for (const auto& [view, users] : payloads) checkPayload(view, users);
+    if (issues_.passes(Rule::kPayloadView, checkPayloadLengths(document_, payloads))) {
+      for (const auto& [view, users] : payloads) checkPayload(view, users);
+    }
     // Reported once; payloads below the limit were checked.
     issues_.passes(Rule::kDecodedBytes, decoded_bytes_.check());
   }
@@ -67,8 +73,25 @@ class Validator {
  private:
   // ---- The document
 
+  /// Reports what keeps single views and accessors from being read. A buffer of a .gltf may have
+  /// no bytes, because an extension may provide them; that of a GLB has no other place for them.
+  void checkFaults() {
+    const auto isMissing = [&](uint32_t view) {
+      return view != kNone && document_.isMissing(document_.views[view].buffer);
+    };
+    if (document_.is_glb && document_.isMissing(0)) {
+      issues_.add(Rule::kDocument, "/buffers/0", "the buffer has neither a URI nor a BIN chunk");
+    }
+    for (uint32_t view = 0; view < document_.views.size(); ++view) {
+      if (!isMissing(view)) issues_.passes(Rule::kDocument, document_.views[view].fault);
+    }
+    for (const Accessor& accessor : document_.accessors) {
+      if (!isMissing(accessor.view)) issues_.passes(Rule::kDocument, accessor.fault);
+    }
+  }
+
   const Json& primitiveOf(const ExtensionUse& use) const {
-    return json_["meshes"][use.mesh]["primitives"][use.primitive];
+    return primitiveAt(meshes_, {use.mesh, use.primitive});
   }
 
   /// Checks properties by the JSON Schema that decoding does not look at.
@@ -109,7 +132,7 @@ class Validator {
     const std::set<uint32_t> filled = filledAccessors();
     std::vector<uint32_t> bare;
     for (const uint32_t accessor : filled) {
-      if (!hasElements(json_["accessors"][accessor])) bare.push_back(accessor);
+      if (!hasElements(accessors_[accessor])) bare.push_back(accessor);
     }
     if (bare.size() == filled.size()) {
       if (!is_required) {
@@ -129,8 +152,8 @@ class Validator {
     }
   }
 
-  void checkView(uint32_t view) {
-    const Json& json = document_.json["bufferViews"][view];
+  void checkView(const Json& views, uint32_t view) {
+    const Json& json = views[view];
     for (const char* key : {"byteStride", "target"}) {
       if (findMember(json, key) == nullptr) continue;
       issues_.add(Rule::kPayloadView, at(at("/bufferViews", view), key),
@@ -190,7 +213,7 @@ class Validator {
   }
 
   void checkManifold(const ExtensionUse& use, const PayloadInfo& info) {
-    const Json* extensions = findMember(json_["meshes"][use.mesh], "extensions");
+    const Json* extensions = findMember(meshes_[use.mesh], "extensions");
     if (extensions == nullptr || findMember(*extensions, "EXT_mesh_manifold") == nullptr) return;
     if (use.piece >= info.pieces.size()) return;
     const PieceInfo& piece = info.pieces[use.piece];
@@ -251,7 +274,7 @@ class Validator {
   /// Checks an accessor; `tight` has the decoded elements.
   void checkAccessor(uint32_t number, std::span<const uint8_t> tight, bool needs_bounds) {
     const Accessor& accessor = document_.accessors[number];
-    const Json& json = json_["accessors"][number];
+    const Json& json = accessors_[number];
     const std::string path = at("/accessors", number);
     const Json* min = findMember(json, "min");
     const Json* max = findMember(json, "max");
@@ -277,7 +300,7 @@ class Validator {
     const Accessor& accessor = document_.accessors[number];
     const std::string path = at("/accessors", number);
     AccessorData elements;
-    if (accessor.view == kNone && findMember(json_["accessors"][number], "sparse") == nullptr) {
+    if (accessor.view == kNone && findMember(accessors_[number], "sparse") == nullptr) {
       return issues_.add(Rule::kFallbackLoaded, path, "its fallback could not be loaded");
     }
     if (!issues_.passes(Rule::kFallbackLoaded, readAccessor(document_, number, elements))) return;
@@ -296,6 +319,8 @@ class Validator {
   }
 
   const Json& json_;
+  const Json& meshes_;
+  const Json& accessors_;
   const Document& document_;
   const Limits& limits_;
   DecodedBytes decoded_bytes_;

@@ -40,11 +40,13 @@ uint64_t costOf(const EncodedPayload& payload) {
   return cost;
 }
 
-/// Counts source bytes by who needs them. A byte is freed when only owners need it. Each of these
-/// owners frees it only as long as the others stay.
+/// Counts source bytes by who needs them. A byte is freed when only owners need it, and no more of
+/// them than kMostOwners, so that the lists of owners are no longer than that. Each of these owners
+/// frees it only as long as the others stay.
 class ByteOwners {
  public:
   static constexpr size_t kSomebodyElse = ~size_t{0};
+  static constexpr size_t kMostOwners = 64;
 
   explicit ByteOwners(size_t owner_count) : freed_(owner_count, 0), segments_of_(owner_count) {}
 
@@ -67,7 +69,7 @@ class ByteOwners {
       uint32_t& count_of = open[edge.owner];
       count_of += edge.is_begin ? 1 : ~0u;
       if (count_of == 0) open.erase(edge.owner);
-      if (open.empty() || open.count(kSomebodyElse) != 0) continue;
+      if (open.empty() || open.size() > kMostOwners || open.count(kSomebodyElse) != 0) continue;
       addSegment(edges_[i + 1].offset - edge.offset,
                  open);  // a range is open, so i is not last
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <set>
 
 #include "gltf/compress/indices_only.h"
@@ -38,24 +39,29 @@ class Applier {
  public:
   Applier(const Document& document, const ForeignReferences& foreign, Compressed& compressed)
       : document_(document),
+        source_accessors_(arrayOf(document.json, "accessors")),
         compressed_(compressed),
         is_taken_(accessorsInOtherUse(document, foreign, compressed.payloads)) {}
 
   std::vector<NewView> run() {
     compressed_.json = document_.json;
+    // Accessors that exist nowhere shall not exist by accident when new ones are added.
+    hideMissingAccessors(document_.accessors.size(), compressed_.json);
+    accessors_ = &compressed_.json["accessors"];
+    meshes_ = &compressed_.json["meshes"];
     std::vector<NewView> views;
     for (const EncodedPayload& payload : compressed_.payloads) {
-      const uint64_t view = document_.views.size() + views.size();
+      const uint64_t view = kFirstNewView + views.size();
       NewView new_view;
       new_view.bytes = payload.result.payload;  // the check compares it with what was written
       views.push_back(std::move(new_view));
       for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
         applyPiece(payload, i, view);
         renumberVertices(document_, payload.plan.pieces[i], payload.result.pieces[i].source_wedge,
-                         compressed_.json, views);
+                         *accessors_, views);
         if (!payload.plan.reorders()) continue;
         reorderAttributes(document_, payload.plan.pieces[i], payload.result.pieces[i].source_wedge,
-                          compressed_.json, views);
+                          *accessors_, views);
       }
     }
     // addFallback() removes the requirement again.
@@ -76,7 +82,7 @@ class Applier {
     for (size_t k = 0; k < piece.attributes.size(); ++k) {
       const AttributePlan& attribute = piece.attributes[k];
       const uint32_t index = take(attribute.accessor, where + ": " + attribute.label());
-      Json& accessor = compressed_.json["accessors"][index];
+      Json& accessor = (*accessors_)[index];
       const bool is_position = attribute.name == "POSITION";
       accessor["count"] = piece.wedge_count;
       const AttributeFormat& format = attribute.format;
@@ -87,7 +93,7 @@ class Applier {
     for (size_t k = 0; k < piece.parts.size(); ++k) {
       const uint32_t indices = takeIndices(piece.parts[k], decoded.parts[k], piece.wedge_count);
       for (const PrimitiveRef& user : piece.parts[k].users) {
-        Json& primitive = compressed_.json["meshes"][user.mesh]["primitives"][user.primitive];
+        Json& primitive = (*meshes_)[user.mesh]["primitives"][user.primitive];
         setAccessors(piece, accessors, primitive);
         primitive["indices"] = indices;
         if (piece.parts[k].mode != 4) primitive["mode"] = 4;
@@ -118,12 +124,11 @@ class Applier {
 
   /// Returns the accessor to compress: the source's own, or a clone if something else needs it.
   uint32_t take(uint32_t source, const std::string& where) {
-    Json& accessors = compressed_.json["accessors"];
+    Json& accessors = *accessors_;
     uint32_t index = source;
     if (is_taken_[source]) {
       index = static_cast<uint32_t>(accessors.size());
-      Json clone = document_.json["accessors"][source];
-      accessors.push_back(std::move(clone));
+      accessors.push_back(cloneOf(source));
       compressed_.remarks.push_back(where + " shares accessor " + std::to_string(source) +
                                     " with others and gets its own");
     }
@@ -132,9 +137,28 @@ class Applier {
     return index;
   }
 
+  /// Returns a copy of an accessor of the source. A long one is copied without what glTF does not
+  /// need, because there may be as many copies as pieces.
+  Json cloneOf(uint32_t source) {
+    constexpr size_t kLong = 1000;
+    const Json& original = source_accessors_[source];
+    const auto [found, is_new] = is_long_.try_emplace(source, false);
+    if (is_new) found->second = printJson(original).size() > kLong;
+    if (!found->second) return original;
+    Json clone = Json::object();
+    for (const char* key : {"componentType", "count", "type", "normalized"}) {
+      if (const Json* value = findMember(original, key)) clone[key] = *value;
+    }
+    for (const char* key : {"min", "max"}) {
+      if (findMember(original, key) != nullptr)
+        clone[key] = Json::array();  // set from the elements
+    }
+    return clone;
+  }
+
   uint32_t takeIndices(const PartPlan& part, std::span<const uint32_t> decoded,
                        uint32_t wedge_count) {
-    Json& accessors = compressed_.json["accessors"];
+    Json& accessors = *accessors_;
     uint32_t index = 0;
     if (part.indices_accessor == kNone) {
       index = static_cast<uint32_t>(accessors.size());
@@ -154,8 +178,12 @@ class Applier {
   }
 
   const Document& document_;
+  const Json& source_accessors_;
   Compressed& compressed_;
-  std::vector<bool> is_taken_;  ///< source accessors that must not be changed (any more)
+  Json* accessors_ = nullptr;  ///< of the result; it has them, since something is compressed
+  Json* meshes_ = nullptr;
+  std::vector<bool> is_taken_;        ///< source accessors that must not be changed (any more)
+  std::map<uint32_t, bool> is_long_;  ///< by source accessor: the JSON of its copies is shortened
 };
 
 Result decodeTimed(uint32_t thread_count, Compressed& compressed) {

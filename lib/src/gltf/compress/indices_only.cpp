@@ -74,7 +74,7 @@ AttributeView weldingView(const PiecePlan& piece) {
 }
 
 void reorderAttributes(const Document& document, const PiecePlan& piece,
-                       const std::vector<uint32_t>& source_wedge, Json& json,
+                       const std::vector<uint32_t>& source_wedge, Json& accessors,
                        std::vector<NewView>& views) {
   std::set<uint32_t> reordered;  // an accessor may serve as several attributes
   for (const AttributePlan& attribute : piece.ordinary) {
@@ -88,9 +88,9 @@ void reorderAttributes(const Document& document, const PiecePlan& piece,
     NewView view;
     view.target = kArrayBuffer;
     view.bytes = packElements(tight, accessor, true, view.stride_bytes);
-    Json& edited = json["accessors"][attribute.accessor];
+    Json& edited = accessors[attribute.accessor];
     edited.erase("byteOffset");
-    edited["bufferView"] = document.views.size() + views.size();
+    edited["bufferView"] = kFirstNewView + views.size();
     views.push_back(std::move(view));
   }
 }

@@ -23,9 +23,9 @@ void planIndicesOnly(const Document& document, const ForeignReferences& foreign,
 AttributeView weldingView(const PiecePlan& piece);
 
 /// Gives the ordinary accessors of a piece new views with their elements in decoded order.
-/// json  is the edited document; `views` receives the new views.
+/// accessors  those of the edited document; `views` receives the new views.
 void reorderAttributes(const Document& document, const PiecePlan& piece,
-                       const std::vector<uint32_t>& source_wedge, Json& json,
+                       const std::vector<uint32_t>& source_wedge, Json& accessors,
                        std::vector<NewView>& views);
 
 }  // namespace mcc::gltf

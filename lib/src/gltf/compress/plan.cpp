@@ -9,6 +9,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "gltf/base/printable.h"
 #include "gltf/document/references.h"
 #include "mesh/face_mesh.h"
 
@@ -21,21 +22,31 @@ class Planner {
  public:
   Planner(const Document& document, std::vector<PayloadPlan>& payloads,
           std::vector<LeftAlone>& left_alone)
-      : document_(document), payloads_(payloads), left_alone_(left_alone) {}
+      : document_(document),
+        accessors_(arrayOf(document.json, "accessors")),
+        views_(arrayOf(document.json, "bufferViews")),
+        payloads_(payloads),
+        left_alone_(left_alone),
+        room_bytes_(kMaxSharing * (document.source_bytes + document.decoded.total()) +
+                    document.decoded.zeroLimit()) {}
 
   Result run() {
     findFilledAccessors();
+    const Json& meshes = arrayOf(document_.json, "meshes");
     Result result;
     std::string mesh_part;
     visitPrimitives(document_.json, [&](const PrimitiveRef& ref, const Json& primitive) {
       if (!result.ok()) return;
-      if (ref.primitive == 0) {
-        mesh_part =
-            orderDependentPart(document_.json["meshes"][ref.mesh], NumbersOfVertices::kStay);
+      if (!primitive.is_object()) {
+        result = error(ref.path(), "must be an object");
+        return;
       }
-      std::string note;
-      result = planPrimitive(ref, primitive, mesh_part, note);
-      if (!note.empty()) left_alone_.push_back({ref, note});
+      if (ref.primitive == 0) {
+        mesh_part = nameInNote(orderDependentPart(meshes[ref.mesh], NumbersOfVertices::kStay));
+      }
+      const std::string note = planPrimitive(ref, primitive, mesh_part);
+      const bool is_ours = extensionOf(primitive, kExtensionName) != nullptr;
+      if (!note.empty()) left_alone_.push_back({ref, note + (is_ours ? "" : "; left as it was")});
     });
     return result;
   }
@@ -51,59 +62,76 @@ class Planner {
 
   /// A piece in the plan and its parts, by index accessor and mode.
   struct KnownPiece {
+    std::string note;                   ///< why its elements cannot be read
+    bool is_read = false;               ///< they were read, or cannot be
+    std::vector<AccessorData> sources;  ///< of its attributes, until the first primitive uses them
     bool is_used = false;  ///< a part of it is used; only then is its place in the plan known
     size_t payload = 0;
     size_t number = 0;
     std::map<std::pair<uint32_t, uint64_t>, KnownPart> parts;
   };
 
-  Result planPrimitive(const PrimitiveRef& ref, const Json& json, const std::string& mesh_part,
-                       std::string& note) {
-    if (!json.is_object()) return error(ref.path(), "must be an object");
+  /// Shortens a name that the notes of many primitives may repeat.
+  static std::string nameInNote(const std::string& name) { return shortened(name, 100); }
+
+  /// Returns what is wrong with a primitive. Its place begins at the primitive.
+  static std::string noteOf(const Result& result) {
+    const std::string message = result.message();
+    return message.starts_with("/") && !message.starts_with("/accessors") ? message.substr(1)
+                                                                          : message;
+  }
+
+  /// Adds a primitive to the plan, or returns why it stays as it was.
+  std::string planPrimitive(const PrimitiveRef& ref, const Json& json,
+                            const std::string& mesh_part) {
     uint64_t mode = 4;
-    MCC_GLTF_TRY(readOptionalUnsigned(json, "mode", ref.path(), kNone, mode));
-    if (mode < 4) return checkReferences(ref, json);
+    const Result has_mode = readOptionalUnsigned(json, "mode", "", kNone, mode);
+    if (!has_mode.ok()) return noteOf(has_mode);
+    if (mode < 4) return "";
+    if (mode > 6) return "has the mode " + std::to_string(mode) + ", which is unknown";
     const Json* extensions = findMember(json, "extensions");
-    if (extensions != nullptr && !extensions->is_object()) {
-      return error(ref.path() + "/extensions", "must be an object");
-    }
-    note = mode > 6 ? "has the mode " + std::to_string(mode) + ", which is unknown; left as it was"
-                    : extensionNote(json, mesh_part);
-    if (!note.empty()) return {};
-    const std::string own_part = orderDependentPart(json, NumbersOfVertices::kCanChange);
+    if (extensions != nullptr && !extensions->is_object()) return "extensions: must be an object";
+    std::string note = extensionNote(json, mesh_part);
+    if (!note.empty()) return note;
+    const std::string own_part =
+        nameInNote(orderDependentPart(json, NumbersOfVertices::kCanChange));
     const std::string& unknown = own_part.empty() ? mesh_part : own_part;
 
     PiecePlan piece;
-    MCC_GLTF_TRY(collectAttributes(ref, json, piece));
+    uint32_t indices = kNone;
+    Result collected = collectAttributes(json, piece);
+    if (collected.ok()) collected = readIndicesNumber(json, indices);
+    if (!collected.ok()) return noteOf(collected);
     note = attributeNote(piece);
     if (note.empty()) note = codedNote(json, piece);
-    if (!note.empty()) return {};
+    if (!note.empty()) return note;
     piece.wedge_count =
         static_cast<uint32_t>(document_.accessors[piece.attributes[0].accessor].count);
-    uint32_t indices = kNone;
-    MCC_GLTF_TRY(readIndicesNumber(ref, json, indices));
     note = zeroNote(piece, indices);
-    if (!note.empty()) return {};
+    if (!note.empty()) return note;
 
     KnownPiece& known = pieces_[pieceKey(piece)];
+    note = readPiece(piece, known);
+    if (!note.empty()) return note;
     const auto [found, is_new] = known.parts.try_emplace({indices, mode});
     KnownPart& part = found->second;
     if (is_new) {
       part.plan.indices_accessor = indices;
       part.plan.mode = mode;
-      MCC_GLTF_TRY(collectTriangles(ref, piece.wedge_count, part.plan, part.note));
+      part.note = collectTriangles(piece.wedge_count, part.plan);
+      if (!part.note.empty()) part.plan.triangles = {};
     }
-    note = part.note;
-    if (note.empty() && !unknown.empty() && (mode != 4 || indices == kNone)) {
-      note = "has " + unknown +
-             ", which may rely on it not being an indexed triangle list; left as it was";
+    if (!part.note.empty()) return part.note;
+    if (!unknown.empty() && (mode != 4 || indices == kNone)) {
+      return "has " + unknown + ", which may rely on it not being an indexed triangle list";
     }
-    return note.empty() ? addUser(ref, !unknown.empty(), std::move(piece), known, part) : Result{};
+    addUser(ref, !unknown.empty(), std::move(piece), known, part);
+    return "";
   }
 
   static std::string extensionNote(const Json& json, const std::string& mesh_part) {
     if (mesh_part == "EXT_mesh_manifold") {  // it shares the bytes of the primitives' indices
-      return "belongs to a mesh with EXT_mesh_manifold; left as it was";
+      return "belongs to a mesh with EXT_mesh_manifold";
     }
     return extensionOf(json, kExtensionName) == nullptr ? "" : "is compressed already";
   }
@@ -124,23 +152,23 @@ class Planner {
   std::string unreadableNote(uint32_t index) const {
     const Accessor& accessor = document_.accessors[index];
     if (is_filled_[index]) return "is in the payload of another primitive";
-    std::string unknown = unknownExtension(document_.json["accessors"][index]);
+    std::string unknown = unknownExtension(accessors_[index]);
     for (const uint32_t view :
          {accessor.view, accessor.sparse.index_view, accessor.sparse.value_view}) {
       const bool is_used = view != kNone && (view == accessor.view || accessor.sparse.count != 0);
       if (is_used && unknown.empty()) {
-        unknown = unknownExtension(document_.json["bufferViews"][view]);
+        unknown = unknownExtension(views_[view]);
       }
     }
     return unknown.empty() ? whyUnreadable(document_, accessor)
-                           : "has the unknown extension " + unknown;
+                           : "has the unknown extension " + nameInNote(unknown);
   }
 
   /// Returns why accessors of a primitive cannot be read; empty when they can be.
   std::string codedNote(const Json& json, const PiecePlan& piece) const {
     for (const AttributePlan& attribute : piece.attributes) {
       const std::string reason = unreadableNote(attribute.accessor);
-      if (!reason.empty()) return attribute.label() + " " + reason + "; left as it was";
+      if (!reason.empty()) return attribute.label() + " " + reason;
     }
     uint64_t accessor = 0;
     const Json* indices = findMember(json, "indices");
@@ -149,13 +177,12 @@ class Planner {
       std::string reason = unreadableNote(static_cast<uint32_t>(accessor));
       const Accessor& claimed = document_.accessors[accessor];
       if (reason.empty() && claimed.normalized) reason = "is normalized, which indices cannot be";
-      if (!reason.empty()) return "its index accessor " + reason + "; left as it was";
+      if (!reason.empty()) return "its index accessor " + reason;
     }
     if (extensionOf(json, kMeshExtension) == nullptr) return "";
     const bool is_decoded = indices != nullptr && accessor < document_.accessors.size() &&
                             document_.accessors[accessor].decoded != kNone;
-    return is_decoded ? ""
-                      : std::string("is compressed with ") + kMeshExtension + "; left as it was";
+    return is_decoded ? "" : std::string("is compressed with ") + kMeshExtension;
   }
 
   Result readAccessorIndex(const Json& json, const std::string& path, uint32_t& accessor) const {
@@ -168,18 +195,10 @@ class Planner {
     return {};
   }
 
-  Result checkReferences(const PrimitiveRef& ref, const Json& json) const {
-    PiecePlan ignored;
-    MCC_GLTF_TRY(collectAttributes(ref, json, ignored));
-    uint32_t accessor = kNone;
-    return readIndicesNumber(ref, json, accessor);
-  }
-
-  /// Leaves `accessor` alone when there are no indices.
-  Result readIndicesNumber(const PrimitiveRef& ref, const Json& json, uint32_t& accessor) const {
+  /// Reads the number of the index accessor; kNone without indices.
+  Result readIndicesNumber(const Json& json, uint32_t& accessor) const {
     const Json* indices = findMember(json, "indices");
-    if (indices == nullptr) return {};
-    return readAccessorIndex(*indices, ref.path() + "/indices", accessor);
+    return indices == nullptr ? Result{} : readAccessorIndex(*indices, "indices", accessor);
   }
 
   Result collectMap(const Json& map, const std::string& path, uint32_t target,
@@ -196,16 +215,15 @@ class Planner {
     return {};
   }
 
-  Result collectAttributes(const PrimitiveRef& ref, const Json& json, PiecePlan& piece) const {
+  Result collectAttributes(const Json& json, PiecePlan& piece) const {
     const Json* attributes = findMember(json, "attributes");
-    if (attributes == nullptr) return error(ref.path(), "\"attributes\" is missing");
-    MCC_GLTF_TRY(collectMap(*attributes, ref.path() + "/attributes", kNone, piece));
+    if (attributes == nullptr) return error("", "\"attributes\" is missing");
+    MCC_GLTF_TRY(collectMap(*attributes, "attributes", kNone, piece));
     if (const Json* targets = findMember(json, "targets"); targets != nullptr) {
-      const std::string path = ref.path() + "/targets";
-      if (!targets->is_array()) return error(path, "must be an array");
+      if (!targets->is_array()) return error("targets", "must be an array");
       piece.target_count = static_cast<uint32_t>(targets->size());
       for (uint32_t i = 0; i < targets->size(); ++i) {
-        MCC_GLTF_TRY(collectMap((*targets)[i], at(path, i), i, piece));
+        MCC_GLTF_TRY(collectMap((*targets)[i], at("targets", i), i, piece));
       }
     }
     std::stable_sort(piece.attributes.begin(), piece.attributes.end(), comesBefore);
@@ -216,23 +234,24 @@ class Planner {
   std::string attributeNote(const PiecePlan& piece) const {
     if (piece.target_count > kMaxTargets) {
       return "has " + std::to_string(piece.target_count) + " morph targets, more than the " +
-             std::to_string(kMaxTargets) + " of a payload; left as it was";
+             std::to_string(kMaxTargets) + " of a payload";
     }
     if (piece.attributes.empty() || piece.attributes[0].format.semantic != Semantic::kPosition ||
         piece.attributes[0].target != kNone) {
-      return "has no POSITION of three components; left as it was";
+      return "has no POSITION of three components";
     }
     const uint64_t count = document_.accessors[piece.attributes[0].accessor].count;
-    if (count == 0) return "has 0 vertices; left as it was";
-    if (count >= kMaxVertices) return "has 2^28 or more vertices; left as it was";
+    if (count == 0) return "has 0 vertices";
+    if (count >= kMaxVertices) return "has 2^28 or more vertices";
     for (const AttributePlan& attribute : piece.attributes) {
       const Accessor& accessor = document_.accessors[attribute.accessor];
-      if (!accessor.is_known_type) {
-        return attribute.label() + " has an unknown type; left as it was";
+      if (!accessor.fault.ok()) {
+        return attribute.label() + " " + whyUnreadable(document_, accessor);
       }
+      if (!accessor.is_known_type) return attribute.label() + " has an unknown type";
       if (accessor.count != count) {
         return "has " + std::to_string(count) + " positions but " + std::to_string(accessor.count) +
-               " elements of " + attribute.label() + "; left as it was";
+               " elements of " + attribute.label();
       }
     }
     return "";
@@ -253,35 +272,67 @@ class Planner {
     }
     if (bytes > document_.decoded.zeroLimit() - zero_bytes_) {
       return "has accessors that have no bytes in the file and claim " + std::to_string(bytes) +
-             "; left as it was (max_decoded_bytes, --max-decoded-bytes allow more)";
+             " (max_decoded_bytes, --max-decoded-bytes allow more)";
     }
     zero_bytes_ += bytes;
     zeros_.insert(accessors.begin(), accessors.end());
     return "";
   }
 
-  Result collectTriangles(const PrimitiveRef& ref, uint32_t wedge_count, PartPlan& part,
-                          std::string& note) const {
-    if (part.indices_accessor != kNone) {
-      MCC_GLTF_TRY(readIndices(document_, part.indices_accessor, part.triangles));
+  /// Takes room for elements that are going to be held, however many others share their bytes.
+  /// Without this, a file could name the same bytes for each of its primitives.
+  bool takeRoom(uint64_t bytes) {
+    if (bytes > room_bytes_) return false;
+    room_bytes_ -= bytes;
+    return true;
+  }
+
+  static std::string roomNote() {
+    return "shares its bytes with so many others that together they hold more than " +
+           std::to_string(kMaxSharing) + " times those of the file";
+  }
+
+  /// Reads the elements of a piece when it is met for the first time. Returns why they cannot be
+  /// read.
+  const std::string& readPiece(const PiecePlan& piece, KnownPiece& known) {
+    if (known.is_read) return known.note;
+    known.is_read = true;
+    uint64_t bytes = 0;
+    for (const AttributePlan& attribute : piece.attributes) {
+      bytes += uint64_t{piece.wedge_count} * document_.accessors[attribute.accessor].tightBytes();
+    }
+    if (!takeRoom(bytes)) known.note = roomNote();
+    for (const AttributePlan& attribute : piece.attributes) {
+      if (!known.note.empty()) break;
+      known.sources.emplace_back();
+      known.note = noteOf(readAccessor(document_, attribute.accessor, known.sources.back()));
+    }
+    if (!known.note.empty()) known.sources.clear();
+    return known.note;
+  }
+
+  std::string collectTriangles(uint32_t wedge_count, PartPlan& part) {
+    const bool has_indices = part.indices_accessor != kNone;
+    const uint64_t index_count =
+        has_indices ? document_.accessors[part.indices_accessor].count : wedge_count;
+    if (!takeRoom(index_count * (part.mode == 4 ? 4 : 12))) return roomNote();
+    if (has_indices) {
+      const Result read = readIndices(document_, part.indices_accessor, part.triangles);
+      if (!read.ok()) return noteOf(read);
     } else {
       part.triangles.resize(wedge_count);
       std::iota(part.triangles.begin(), part.triangles.end(), 0u);
     }
     for (size_t i = 0; i < part.triangles.size(); ++i) {
       if (part.triangles[i] < wedge_count) continue;
-      return error(ref.path() + "/indices", "index number " + std::to_string(i) + " is " +
-                                                std::to_string(part.triangles[i]) +
-                                                " but there are only " +
-                                                std::to_string(wedge_count) + " vertices");
+      return "index number " + std::to_string(i) + " is " + std::to_string(part.triangles[i]) +
+             " but there are only " + std::to_string(wedge_count) + " vertices";
     }
-    const size_t count = part.triangles.size();
     if (!expandTriangles(part.mode, part.triangles)) {
-      note = "has " + std::to_string(count) + " indices, which make no triangles; left as it was";
-    } else if (part.triangles.size() / 3 >= kMaxVertices) {
-      note = "has 2^28 or more triangles; left as it was";
+      return "has " + std::to_string(index_count) + " indices, which make no triangles";
     }
-    return {};
+    if (part.triangles.size() / 3 >= kMaxVertices) return "has 2^28 or more triangles";
+    return "";
   }
 
   static std::string pieceKey(const PiecePlan& piece) {
@@ -302,15 +353,13 @@ class Planner {
     return payloads_.size() - 1;
   }
 
-  Result addUser(const PrimitiveRef& ref, bool keep_orders, PiecePlan&& piece, KnownPiece& known,
-                 KnownPart& part) {
+  void addUser(const PrimitiveRef& ref, bool keep_orders, PiecePlan&& piece, KnownPiece& known,
+               KnownPart& part) {
     if (!known.is_used) {
-      keepBesidePayload(piece);
-      for (auto* attributes : {&piece.attributes, &piece.ordinary}) {
-        for (AttributePlan& attribute : *attributes) {
-          MCC_GLTF_TRY(readAccessor(document_, attribute.accessor, attribute.source));
-        }
+      for (size_t i = 0; i < piece.attributes.size(); ++i) {
+        piece.attributes[i].source = std::move(known.sources[i]);
       }
+      keepBesidePayload(piece);
       known.is_used = true;
       known.payload = payloadOf(ref.mesh);
       known.number = payloads_[known.payload].pieces.size();
@@ -326,7 +375,6 @@ class Planner {
       parts.push_back(std::move(part.plan));
     }
     parts[part.number].users.push_back(ref);
-    return {};
   }
 
   /// Keeps attributes next to the payload that are more than all readers accept.
@@ -340,12 +388,15 @@ class Planner {
   }
 
   const Document& document_;
+  const Json& accessors_;
+  const Json& views_;
   std::vector<PayloadPlan>& payloads_;
   std::vector<LeftAlone>& left_alone_;
   std::map<std::string, KnownPiece> pieces_;
   std::vector<bool> is_filled_;  ///< accessors that are already compressed
   std::set<uint32_t> zeros_;     ///< accessors whose zeros were counted, and others
   uint64_t zero_bytes_ = 0;      ///< sum over all accessors that are read
+  uint64_t room_bytes_;          ///< that may still be held
 };
 
 }  // namespace

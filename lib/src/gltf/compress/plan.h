@@ -80,12 +80,19 @@ struct LeftAlone {
   bool is_larger = false;  ///< only because its payload would take more bytes
 };
 
+/// What all pieces and parts hold together, counted as often as they hold it, for each byte that
+/// was read. Files without shared bytes stay below it even if they consist of strips of small
+/// numbers, which expand to twelve bytes for each.
+inline constexpr uint64_t kMaxSharing = 16;
+
 /// Orders the attributes of a payload: those that others are predicted from come first.
 bool comesBefore(const AttributePlan& a, const AttributePlan& b);
 
-/// Collects the triangle primitives of all meshes. Points and lines are left alone without a note.
-/// Errors: the document contradicts itself (an index out of range, an accessor that does not
-/// exist). Takes time proportional to the document and the contents of its pieces and parts.
+/// Collects the triangle primitives of all meshes. Points and lines are left alone without a note,
+/// and primitives that contradict themselves with one (an index out of range, an accessor that does
+/// not exist). Error: a primitive is no object.
+/// Takes time and memory proportional to the bytes that were read, because primitives that share
+/// bytes in more than kMaxSharing ways are left alone, too.
 Result planPayloads(const Document& document, std::vector<PayloadPlan>& payloads,
                     std::vector<LeftAlone>& left_alone);
 

@@ -40,52 +40,72 @@ std::vector<uint32_t> countUses(const Document& document, const ForeignReference
   return counts;
 }
 
-/// Whether the elements can be read and stored again in the same way.
-bool canBeChanged(const Document& document, uint32_t index, uint32_t vertex_count) {
-  const Accessor& accessor = document.accessors[index];
-  const Json& json = document.json["accessors"][index];
-  if (accessor.view == kNone || accessor.sparse.count != 0 || accessor.normalized) return false;
-  const Json& view = document.json["bufferViews"][accessor.view];
-  if (document.views[accessor.view].isCoded() || !unknownExtension(json).empty() ||
-      !unknownExtension(view).empty()) {
-    return false;
-  }
-  std::vector<uint32_t> numbers;
-  if (!readIndices(document, index, numbers).ok()) return false;
-  return std::all_of(numbers.begin(), numbers.end(),
-                     [&](uint32_t number) { return number < vertex_count; });
-}
+/// Finds the accessors of vertex numbers of pieces.
+class Collector {
+ public:
+  Collector(const Document& document, const ForeignReferences& foreign)
+      : document_(document),
+        meshes_(arrayOf(document.json, "meshes")),
+        accessors_(arrayOf(document.json, "accessors")),
+        views_(arrayOf(document.json, "bufferViews")),
+        use_counts_(countUses(document, foreign)),
+        room_(kMaxSharing * document.source_bytes) {}
 
-/// Collects the accessors of vertex numbers of a piece. Returns false if one of them is also used
-/// by something else, or cannot be changed.
-bool collect(const Document& document, const std::vector<uint32_t>& use_counts, PiecePlan& piece) {
-  std::vector<uint64_t> named;
-  for (const PartPlan& part : piece.parts) {
-    for (const PrimitiveRef& user : part.users) {
-      visitVertexNumbers(primitiveAt(document.json, user),
-                         [&](uint64_t accessor) { named.push_back(accessor); });
+  /// Collects the accessors of a piece. Returns false if one of them is also used by something
+  /// else, or cannot be changed.
+  bool collect(PiecePlan& piece) {
+    std::vector<uint64_t> named;
+    for (const PartPlan& part : piece.parts) {
+      for (const PrimitiveRef& user : part.users) {
+        visitVertexNumbers(primitiveAt(meshes_, user),
+                           [&](uint64_t accessor) { named.push_back(accessor); });
+      }
     }
+    std::sort(named.begin(), named.end());
+    for (size_t i = 0, end = 0; i < named.size(); i = end) {
+      while (end < named.size() && named[end] == named[i]) ++end;
+      if (named[i] >= document_.accessors.size()) return false;
+      const auto accessor = static_cast<uint32_t>(named[i]);
+      const bool is_only_ours = use_counts_[accessor] == end - i;
+      if (!is_only_ours || !canBeChanged(accessor, piece.wedge_count)) return false;
+      piece.vertex_numbers.push_back(accessor);
+    }
+    return true;
   }
-  std::sort(named.begin(), named.end());
-  for (size_t i = 0, end = 0; i < named.size(); i = end) {
-    while (end < named.size() && named[end] == named[i]) ++end;
-    if (named[i] >= document.accessors.size()) return false;
-    const auto accessor = static_cast<uint32_t>(named[i]);
-    const bool is_only_ours = use_counts[accessor] == end - i;
-    if (!is_only_ours || !canBeChanged(document, accessor, piece.wedge_count)) return false;
-    piece.vertex_numbers.push_back(accessor);
+
+ private:
+  /// Whether the elements can be read and stored again in the same way. Accessors over the same
+  /// bytes become separate, so there is a limit to them.
+  bool canBeChanged(uint32_t index, uint32_t vertex_count) {
+    const Accessor& accessor = document_.accessors[index];
+    if (accessor.view == kNone || accessor.sparse.count != 0 || accessor.normalized) return false;
+    if (document_.views[accessor.view].isCoded() || !unknownExtension(accessors_[index]).empty() ||
+        !unknownExtension(views_[accessor.view]).empty() || accessor.count > room_) {
+      return false;
+    }
+    room_ -= accessor.count;
+    std::vector<uint32_t> numbers;
+    if (!readIndices(document_, index, numbers).ok()) return false;
+    return std::all_of(numbers.begin(), numbers.end(),
+                       [&](uint32_t number) { return number < vertex_count; });
   }
-  return true;
-}
+
+  const Document& document_;
+  const Json& meshes_;
+  const Json& accessors_;
+  const Json& views_;
+  const std::vector<uint32_t> use_counts_;
+  uint64_t room_;  ///< numbers that may still be read
+};
 
 }  // namespace
 
 void planVertexNumbers(const Document& document, const ForeignReferences& foreign,
                        std::vector<PayloadPlan>& payloads) {
-  const std::vector<uint32_t> use_counts = countUses(document, foreign);
+  Collector collector(document, foreign);
   for (PayloadPlan& payload : payloads) {
     for (PiecePlan& piece : payload.pieces) {
-      if (!collect(document, use_counts, piece)) payload.keep_vertex_order = true;
+      if (!collector.collect(piece)) payload.keep_vertex_order = true;
     }
     if (!payload.keep_vertex_order) continue;
     for (PiecePlan& piece : payload.pieces) piece.vertex_numbers.clear();
@@ -100,9 +120,10 @@ bool isIdentity(const std::vector<uint32_t>& source_wedge) {
 }
 
 void renumberVertices(const Document& document, const PiecePlan& piece,
-                      const std::vector<uint32_t>& source_wedge, Json& json,
+                      const std::vector<uint32_t>& source_wedge, Json& accessors,
                       std::vector<NewView>& views) {
   if (piece.vertex_numbers.empty() || isIdentity(source_wedge)) return;
+  const Json& old_views = arrayOf(document.json, "bufferViews");
   std::vector<uint32_t> decoded_wedge(source_wedge.size());
   for (uint32_t i = 0; i < source_wedge.size(); ++i) decoded_wedge[source_wedge[i]] = i;
   for (const uint32_t index : piece.vertex_numbers) {
@@ -118,10 +139,10 @@ void renumberVertices(const Document& document, const PiecePlan& piece,
         view.bytes.push_back(static_cast<uint8_t>(number >> (8 * byte)));
       }
     }
-    Json& edited = json["accessors"][index];
+    Json& edited = accessors[index];
     edited.erase("byteOffset");
-    edited["bufferView"] = document.views.size() + views.size();
-    const Json* target = findMember(document.json["bufferViews"][accessor.view], "target");
+    edited["bufferView"] = kFirstNewView + views.size();
+    const Json* target = findMember(old_views[accessor.view], "target");
     uint64_t number = 0;
     if (target != nullptr && asUnsigned(*target, number) && number <= 0xffffffffu) {
       view.target = static_cast<uint32_t>(number);

@@ -24,9 +24,9 @@ void planVertexNumbers(const Document& document, const ForeignReferences& foreig
 /// Gives the accessors in piece.vertex_numbers new views with the numbers of the decoded vertices.
 /// Does nothing when decoded vertices have the numbers of the source.
 /// source_wedge  the source vertex of each decoded one: a bijection.
-/// json          the edited document; `views` receives the new views.
+/// accessors     those of the edited document; `views` receives the new views.
 void renumberVertices(const Document& document, const PiecePlan& piece,
-                      const std::vector<uint32_t>& source_wedge, Json& json,
+                      const std::vector<uint32_t>& source_wedge, Json& accessors,
                       std::vector<NewView>& views);
 
 /// Whether decoded vertices have the numbers of the source.

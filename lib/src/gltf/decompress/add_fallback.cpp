@@ -14,24 +14,27 @@ Result addFallback(const std::vector<uint8_t>& bin, const std::string& uri, Json
   MCC_GLTF_TRY(decodeAccessors(document, decoded));
   fallback.clear();
   std::vector<size_t> numbers(decoded.views.size(), kNone);  // numbers of the views in the JSON
+  const size_t buffer = json["buffers"].size();
+  Json& accessors = json["accessors"];
+  Json& views = json["bufferViews"];
   for (const DecodedAccessors::Filled& filled : decoded.filled) {
     if (document.accessors[filled.accessor].view != kNone) continue;  // it already has a fallback
-    Json& accessor = json["accessors"][filled.accessor];
+    Json& accessor = accessors[filled.accessor];
     if (numbers[filled.view] != kNone) {
       accessor["bufferView"] = numbers[filled.view];
       continue;
     }
     const NewView& decoded_view = decoded.views[filled.view];
     fallback.resize((fallback.size() + 3) & ~size_t{3}, 0);
-    Json view = {{"buffer", json["buffers"].size()},
+    Json view = {{"buffer", buffer},
                  {"byteOffset", fallback.size()},
                  {"byteLength", decoded_view.bytes.size()}};
     if (decoded_view.stride_bytes != 0) view["byteStride"] = decoded_view.stride_bytes;
     view["target"] = decoded_view.target;
     fallback.insert(fallback.end(), decoded_view.bytes.begin(), decoded_view.bytes.end());
-    numbers[filled.view] = json["bufferViews"].size();
+    numbers[filled.view] = views.size();
     accessor["bufferView"] = numbers[filled.view];
-    json["bufferViews"].push_back(std::move(view));
+    views.push_back(std::move(view));
   }
   json["buffers"].push_back({{"uri", uri}, {"byteLength", fallback.size()}});
   removeExtensionName(json, "extensionsRequired", kExtensionName);

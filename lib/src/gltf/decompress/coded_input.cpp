@@ -32,22 +32,55 @@ void visitTrianglePrimitives(const Document& document, const Visit& visit) {
   });
 }
 
-Result decodeView(const ForeignDecoders& decoders, uint32_t number, Document& document) {
+/// How many coded bytes may be decoded, counted as often as they are: views and primitives may name
+/// the same ones.
+class Room {
+ public:
+  explicit Room(const Document& document) {
+    for (const auto& buffer : document.buffers) bytes_ += kMaxSharing * buffer.size();
+  }
+  /// There is room for everything.
+  Room() : bytes_(~uint64_t{0}) {}
+
+  bool take(uint64_t bytes) {
+    if (bytes > bytes_) return false;
+    bytes_ -= bytes;
+    return true;
+  }
+
+ private:
+  static constexpr uint64_t kMaxSharing = 16;
+  uint64_t bytes_ = 0;
+};
+
+const char* const kNoRoom = "its bytes are those of many others, and were decoded too often";
+
+/// Decodes the elements of a view. Damage becomes its fault; an error is the limit of the document.
+Result decodeView(const ForeignDecoders& decoders, uint32_t number, Room& room,
+                  Document& document) {
   BufferView& view = document.views[number];
-  if (!view.isCoded() || view.coding.decoded != kNone) return {};
+  if (!view.isCoded() || view.coding.decoded != kNone || !view.fault.ok()) return {};
   const ViewCoding& coding = view.coding;
   const std::string where = at("/bufferViews", number) + "/extensions/" + coding.extension;
   if (coding.length / kMaxViewExpansion > view.length) {
-    return error(where, std::to_string(view.length) + " bytes cannot hold " +
-                            std::to_string(coding.length) + " bytes");
+    view.fault = error(where, std::to_string(view.length) + " bytes cannot hold " +
+                                  std::to_string(coding.length) + " bytes");
+    return {};
+  }
+  if (!room.take(view.length)) {
+    view.fault = error(where, kNoRoom);
+    return {};
   }
   document.decoded.add(coding.length);
   MCC_GLTF_TRY(document.decoded.check());
   const CodedView coded = {payloadBytes(document, number), coding.count, coding.stride, coding.mode,
                            coding.filter};
   std::vector<uint8_t> elements;
-  MCC_GLTF_TRY(inPlace(decoders.view(coded, elements), where));
-  if (elements.size() != coding.length) return error(where, "decodes to another size");
+  view.fault = inPlace(decoders.view(coded, elements), where);
+  if (view.fault.ok() && elements.size() != coding.length) {
+    view.fault = error(where, "decodes to another size");
+  }
+  if (!view.fault.ok()) return {};
   view.coding.decoded = static_cast<uint32_t>(document.storage.size());
   document.storage.push_back(std::move(elements));
   return {};
@@ -60,13 +93,16 @@ struct CodedPrimitive {
   uint32_t indices = 0;              ///< accessor number
   std::vector<uint32_t> attributes;  ///< accessor numbers
   CodedMesh coded;
+  bool is_known = false;  ///< its accessors were filled for another primitive
 };
 
 class MeshReader {
  public:
   MeshReader(const ForeignDecoders& decoders, Document& document)
-      : decoders_(decoders), document_(document) {}
+      : decoders_(decoders), document_(document), room_(document) {}
 
+  /// Decodes a primitive. Where it is damaged, it stays as it is, with a note; an error is the
+  /// limit of the document.
   Result read(const Json& primitive, const std::string& path) {
     const Json* extensions = findMember(primitive, "extensions");
     const Json* extension =
@@ -74,20 +110,25 @@ class MeshReader {
     if (extension == nullptr) return {};
     CodedPrimitive coded;
     coded.path = path + "/extensions/" + kMeshExtension;
-    MCC_GLTF_TRY(parse(primitive, path, *extension, coded));
-    const std::string reason = obstacle(primitive, coded);
-    if (!reason.empty()) {
-      document_.notes.push_back(path + ": " + reason);
-      return {};
+    Result damage = parse(primitive, path, *extension, coded);
+    if (damage.ok()) {
+      const std::string reason = obstacle(primitive, coded);
+      if (!reason.empty()) damage = error(path, reason);
     }
-    return decode(coded);
+    if (damage.ok()) damage = claim(coded);
+    if (damage.ok() && !coded.is_known) {
+      addDecodedBytes(coded);
+      MCC_GLTF_TRY(document_.decoded.check());
+      damage = decode(coded);
+    }
+    if (!damage.ok()) document_.notes.push_back(damage.message());
+    return {};
   }
 
  private:
-  Result accessorOf(const Json* map, const std::string& name, const std::string& path,
+  Result accessorOf(const Json* number, const std::string& name, const std::string& path,
                     uint32_t& accessor) const {
     uint64_t index = 0;
-    const Json* number = map == nullptr ? nullptr : findMember(*map, name);
     if (number == nullptr || !asUnsigned(*number, index) || index >= document_.accessors.size()) {
       return error(at(path, name), "must be the number of an accessor");
     }
@@ -104,18 +145,18 @@ class MeshReader {
                                                    " does not exist or is itself compressed");
     }
     coded.view = static_cast<uint32_t>(view);
-    MCC_GLTF_TRY(accessorOf(&primitive, "indices", path, coded.indices));
+    MCC_GLTF_TRY(accessorOf(findMember(primitive, "indices"), "indices", path, coded.indices));
     const Json* ids = findMember(extension, "attributes");
     if (ids == nullptr || !ids->is_object()) {
       return error(coded.path, "\"attributes\" is missing or not an object");
     }
+    const MemberIndex accessors(findMember(primitive, "attributes"));
     for (const auto& [name, value] : ids->items()) {
       CodedMesh::Attribute attribute;
       uint64_t id = 0;
-      MCC_GLTF_TRY(readUnsigned(*ids, name, coded.path + "/attributes", kNone, id));
+      MCC_GLTF_TRY(readUnsigned(value, at(coded.path + "/attributes", name), kNone, id));
       uint32_t accessor = 0;
-      MCC_GLTF_TRY(
-          accessorOf(findMember(primitive, "attributes"), name, path + "/attributes", accessor));
+      MCC_GLTF_TRY(accessorOf(accessors.find(name), name, path + "/attributes", accessor));
       attribute.id = static_cast<uint32_t>(id);
       attribute.component_type = document_.accessors[accessor].component_type;
       attribute.component_count = document_.accessors[accessor].componentCount();
@@ -143,6 +184,13 @@ class MeshReader {
     if (std::any_of(all.begin(), all.end(), has_bytes)) {
       return "is compressed, but its accessors have bytes of their own";
     }
+    for (const uint32_t accessor : all) {
+      const Result& fault = document_.accessors[accessor].fault;
+      if (!fault.ok()) return "is compressed, but " + fault.message();
+    }
+    if (!document_.views[coded.view].fault.ok()) {
+      return "is compressed, but " + document_.views[coded.view].fault.message();
+    }
     const Accessor& indices = document_.accessors[coded.indices];
     coded.coded.bytes = payloadBytes(document_, coded.view);
     coded.coded.triangle_count = indices.count / 3;
@@ -168,8 +216,9 @@ class MeshReader {
   /// Where the elements of an accessor come from.
   using Origin = std::tuple<uint32_t, bool, uint32_t>;  // view, is an attribute, id
 
-  Result decode(CodedPrimitive& coded) {
-    bool is_known = true;
+  /// Claims the accessors for the primitive. Error: they are filled from somewhere else, too.
+  Result claim(CodedPrimitive& coded) {
+    coded.is_known = true;
     for (size_t i = 0; i <= coded.attributes.size(); ++i) {
       const bool is_attribute = i < coded.attributes.size();
       const uint32_t accessor = is_attribute ? coded.attributes[i] : coded.indices;
@@ -180,22 +229,26 @@ class MeshReader {
         return error(coded.path, "accessor " + std::to_string(accessor) +
                                      " is filled from two different places");
       }
-      is_known &= !is_new;
+      coded.is_known &= !is_new;
     }
-    if (is_known) return {};
+    return {};
+  }
+
+  void addDecodedBytes(const CodedPrimitive& coded) {
     document_.decoded.add(12 * coded.coded.triangle_count);
     for (const uint32_t accessor : coded.attributes) {
       document_.decoded.add(coded.coded.vertex_count * document_.accessors[accessor].tightBytes());
     }
-    MCC_GLTF_TRY(document_.decoded.check());
+  }
+
+  /// Fills all accessors of a primitive, or none.
+  Result decode(const CodedPrimitive& coded) {
+    if (!room_.take(coded.coded.bytes.size())) return error(coded.path, kNoRoom);
     DecodedMesh mesh;
     MCC_GLTF_TRY(inPlace(decoders_.mesh(coded.coded, mesh), coded.path));
     if (mesh.indices.size() != 3 * coded.coded.triangle_count ||
         mesh.attributes.size() != coded.attributes.size()) {
       return error(coded.path, "decodes to other counts than the accessors have");
-    }
-    for (size_t i = 0; i < coded.attributes.size(); ++i) {
-      MCC_GLTF_TRY(store(coded, coded.attributes[i], std::move(mesh.attributes[i])));
     }
     std::vector<uint8_t> indices;
     const uint32_t bytes = document_.accessors[coded.indices].tightBytes();
@@ -205,24 +258,30 @@ class MeshReader {
       }
       for (uint32_t i = 0; i < bytes; ++i) indices.push_back(static_cast<uint8_t>(index >> 8 * i));
     }
-    return store(coded, coded.indices, std::move(indices));
+    for (size_t i = 0; i < coded.attributes.size(); ++i) {
+      const Accessor& accessor = document_.accessors[coded.attributes[i]];
+      if (mesh.attributes[i].size() == accessor.count * accessor.tightBytes()) continue;
+      return error(coded.path, "decodes to another size than accessor " +
+                                   std::to_string(coded.attributes[i]) + " has");
+    }
+    for (size_t i = 0; i < coded.attributes.size(); ++i) {
+      store(coded, coded.attributes[i], std::move(mesh.attributes[i]));
+    }
+    store(coded, coded.indices, std::move(indices));
+    return {};
   }
 
-  Result store(const CodedPrimitive& coded, uint32_t number, std::vector<uint8_t> elements) {
+  void store(const CodedPrimitive& coded, uint32_t number, std::vector<uint8_t> elements) {
     Accessor& accessor = document_.accessors[number];
-    if (elements.size() != accessor.count * accessor.tightBytes()) {
-      return error(coded.path,
-                   "decodes to another size than accessor " + std::to_string(number) + " has");
-    }
     accessor.decoded = static_cast<uint32_t>(document_.storage.size());
     accessor.decoded_from = coded.view;
     document_.storage.push_back(std::move(elements));
-    return {};
   }
 
   const ForeignDecoders& decoders_;
   Document& document_;
   std::map<uint32_t, Origin> origins_;  ///< origin of each accessor
+  Room room_;
 };
 
 }  // namespace
@@ -237,13 +296,14 @@ Result decodeViews(const ForeignDecoders& decoders, Document& document, const Do
   };
   visitTrianglePrimitives(document, markUsed);
   if (source != nullptr) visitTrianglePrimitives(*source, markUsed);
+  Room room = source == nullptr ? Room(document) : Room();
   for (size_t i = 0; i < is_used.size(); ++i) {
     if (!is_used[i]) continue;
     const Accessor& accessor = document.accessors[i];
-    if (accessor.view != kNone) MCC_GLTF_TRY(decodeView(decoders, accessor.view, document));
+    if (accessor.view != kNone) MCC_GLTF_TRY(decodeView(decoders, accessor.view, room, document));
     if (accessor.sparse.count == 0) continue;
-    MCC_GLTF_TRY(decodeView(decoders, accessor.sparse.index_view, document));
-    MCC_GLTF_TRY(decodeView(decoders, accessor.sparse.value_view, document));
+    MCC_GLTF_TRY(decodeView(decoders, accessor.sparse.index_view, room, document));
+    MCC_GLTF_TRY(decodeView(decoders, accessor.sparse.value_view, room, document));
   }
   return {};
 }

@@ -30,6 +30,7 @@ class Decompressor {
   Result decode() {
     MCC_GLTF_TRY(findExtensionUses(document_, uses_));
     const std::vector<PayloadUse> uses = payloadUses(document_, uses_);
+    MCC_GLTF_TRY(checkPayloadLengths(document_, uses));
     std::vector<DecodedPayload> payloads(uses.size());
     for (size_t i = 0; i < uses.size(); ++i) MCC_GLTF_TRY(open(uses[i], payloads[i]));
     MCC_GLTF_TRY(checkDecodedBytes(uses, payloads));
@@ -59,13 +60,17 @@ class Decompressor {
   Result rebuild() {
     if (uses_.empty()) return {};
     out_.json = document_.json;
+    Json& accessors = out_.json["accessors"];
     for (const DecodedAccessors::Filled& filled : decoded_.filled) {
-      Json& accessor = out_.json["accessors"][filled.accessor];
+      Json& accessor = accessors[filled.accessor];
       accessor.erase("byteOffset");
       accessor.erase("sparse");
-      accessor["bufferView"] = document_.views.size() + filled.view;
+      accessor["bufferView"] = kFirstNewView + filled.view;
     }
-    for (const ExtensionUse& use : uses_) removeExtension(use);
+    Json& meshes = out_.json["meshes"];
+    for (const ExtensionUse& use : uses_) {
+      removeExtension(meshes[use.mesh]["primitives"][use.primitive]);
+    }
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
       removeExtensionName(out_.json, list, kExtensionName);
     }
@@ -194,8 +199,7 @@ class Decompressor {
     }
   }
 
-  void removeExtension(const ExtensionUse& use) {
-    Json& primitive = out_.json["meshes"][use.mesh]["primitives"][use.primitive];
+  static void removeExtension(Json& primitive) {
     primitive["extensions"].erase(kExtensionName);
     if (primitive["extensions"].empty()) primitive.erase("extensions");
   }

@@ -129,7 +129,7 @@ void storeWeightsOf(const std::vector<uint32_t>& sets, IntegerAccessors& accesso
 IntegerAccessors::IntegerAccessors(const Document& source, const ForeignReferences& foreign,
                                    const CodedAttributes& coded, Json& json,
                                    std::vector<NewView>& views)
-    : source_(source), coded_(coded), json_(json), views_(views) {
+    : source_(source), coded_(coded), json_(json["accessors"]), views_(views) {
   markAccessorsOutsideMeshes(source, foreign, is_used_otherwise_);
   markAccessorsOfExtensions(source, is_used_otherwise_);
   for (const Json& mesh : arrayOf(json, "meshes")) {
@@ -167,8 +167,8 @@ std::string IntegerAccessors::label(uint32_t accessor) const {
 }
 
 double IntegerAccessors::value(uint32_t accessor, uint64_t index) const {
-  const uint64_t view = json_["accessors"][accessor]["bufferView"].get<uint64_t>();
-  return componentValue(views_[view - source_.views.size()].bytes.data() + 4 * index,
+  const uint64_t view = json_[accessor]["bufferView"].get<uint64_t>();
+  return componentValue(views_[view - kFirstNewView].bytes.data() + 4 * index,
                         ComponentType::kFloat32);
 }
 
@@ -188,8 +188,8 @@ void IntegerAccessors::replace(uint32_t index, ComponentType type, bool normaliz
     low[i % components] = std::min(low[i % components], values[i]);
     high[i % components] = std::max(high[i % components], values[i]);
   }
-  Json& json = json_["accessors"][index];
-  NewView& view = views_[json["bufferView"].get<uint64_t>() - source_.views.size()];
+  Json& json = json_[index];
+  NewView& view = views_[json["bufferView"].get<uint64_t>() - kFirstNewView];
   view.bytes = packElements(tight, accessor, true, view.stride_bytes);
   json["componentType"] = kGlTypes[static_cast<size_t>(type)];
   json.erase("normalized");

@@ -48,6 +48,10 @@ class PositionStore {
         foreign_(foreign),
         accessors_(accessors),
         json_(json),
+        nodes_(member("nodes")),
+        skins_(member("skins")),
+        all_accessors_(member("accessors")),
+        skin_room_(kSkinBytes + kMaxCopies * source.source_bytes),
         views_(views),
         notes_(notes),
         node_extension_(nodeDependentExtension(source.json, foreign)) {}
@@ -64,10 +68,23 @@ class PositionStore {
   }
 
  private:
+  /// The matrices of a skin are stored for each lattice of its meshes. A file may have many of
+  /// both, so what they take is limited, by this and by this many times the bytes of the file.
+  static constexpr uint64_t kSkinBytes = uint64_t{1} << 24;
+  static constexpr uint64_t kMaxCopies = 16;
+  static constexpr uint64_t kBytesOfJoint = 80;  // a matrix, and a number in the JSON
+
   struct SkinnedNode {
     uint32_t node;
     Lattice lattice;
   };
+
+  /// Returns a member of the document, or null. No member is added to the document while this
+  /// lives.
+  Json* member(const char* key) {
+    const auto found = json_.find(key);
+    return found == json_.end() ? nullptr : &*found;
+  }
 
   void collectMeshes() {
     for (const Json& mesh : arrayOf(json_, "meshes")) {
@@ -129,9 +146,10 @@ class PositionStore {
     }
     if (mesh.nodes.empty()) return "no node shows it";
     for (const uint32_t node : mesh.nodes) {
-      const std::string reason = nodeObstacle(json_["nodes"][node]);
+      const std::string reason = nodeObstacle((*nodes_)[node]);
       if (!reason.empty()) return at("/nodes", node) + " " + reason;
     }
+    if (!takeSkinRoom(mesh)) return "the matrices of its skins would be stored too often";
     return "";
   }
 
@@ -184,6 +202,22 @@ class PositionStore {
     if (children != nullptr && !children->is_array()) return "has malformed children";
     const Json* skin = findMember(node, "skin");
     return skin == nullptr || hasMatrices(*skin) ? "" : "has a skin without valid matrices";
+  }
+
+  /// Takes room for the matrices of the skins of a mesh; its nodes have valid ones.
+  bool takeSkinRoom(const MeshPlan& mesh) {
+    std::set<uint64_t> skins;
+    for (const uint32_t node : mesh.nodes) {
+      uint64_t number = 0;
+      const Json* skin = findMember((*nodes_)[node], "skin");
+      if (skin != nullptr && asUnsigned(*skin, number)) skins.insert(number);
+    }
+    for (const uint64_t skin : skins) {
+      const uint64_t bytes = kBytesOfJoint * arrayOf((*skins_)[skin], "joints").size();
+      if (bytes > skin_room_) return false;
+      skin_room_ -= bytes;
+    }
+    return true;
   }
 
   /// Looks at each skin once, since many nodes may share it.
@@ -250,7 +284,7 @@ class PositionStore {
     for (const uint32_t accessor : mesh.deltas) storePoints(accessor, mesh.lattice, true);
     for (const uint32_t node : mesh.nodes) {
       uint64_t skin = 0;
-      const Json* number = findMember(json_["nodes"][node], "skin");
+      const Json* number = findMember((*nodes_)[node], "skin");
       if (number != nullptr && asUnsigned(*number, skin)) {
         skinned_[skin].push_back({node, mesh.lattice});
       } else {
@@ -262,8 +296,8 @@ class PositionStore {
   /// Moves the mesh of a node to a new child whose transform is the lattice. Everything else about
   /// the node stays, and so do its animations.
   void moveToChild(uint32_t number, const Lattice& lattice) {
-    const size_t child_number = json_["nodes"].size();
-    Json& node = json_["nodes"][number];
+    const size_t child_number = nodes_->size();
+    Json& node = (*nodes_)[number];
     Json child = {{"mesh", std::move(node["mesh"])},
                   {"translation", {lattice.origin[0], lattice.origin[1], lattice.origin[2]}},
                   {"scale", {lattice.step, lattice.step, lattice.step}}};
@@ -271,7 +305,7 @@ class PositionStore {
     if (findMember(node, "weights") != nullptr) child["weights"] = std::move(node["weights"]);
     node.erase("weights");
     node["children"].push_back(child_number);
-    json_["nodes"].push_back(std::move(child));
+    nodes_->push_back(std::move(child));
     child_of_node_[number] = child_number;
   }
 
@@ -348,7 +382,7 @@ class PositionStore {
       size_t& user_count = user_counts[skin];
       for (const std::vector<SkinnedNode>& group : byLattice(nodes)) {
         const uint64_t folded = foldedSkin(skin, group[0].lattice, group.size() == user_count);
-        for (const SkinnedNode& node : group) json_["nodes"][node.node]["skin"] = folded;
+        for (const SkinnedNode& node : group) (*nodes_)[node.node]["skin"] = folded;
         user_count -= group.size();
       }
     }
@@ -393,37 +427,41 @@ class PositionStore {
   uint64_t foldedSkin(uint64_t number, const Lattice& lattice, bool in_place) {
     std::vector<float> matrices = *inverseBindMatrices(Json(number));
     for (size_t i = 0; i < matrices.size(); i += 16) fold(lattice, &matrices[i]);
-    Json skin = json_["skins"][number];
-    uint64_t accessor = json_["accessors"].size();
+    Json skin = (*skins_)[number];
+    uint64_t accessor = all_accessors_->size();
     if (in_place && hasOwnMatrices(skin)) {
       asUnsigned(skin["inverseBindMatrices"], accessor);
     } else {
       uint64_t left = 0;
       const Json* old = findMember(skin, "inverseBindMatrices");
       if (in_place && old != nullptr && asUnsigned(*old, left)) --matrix_users_[left];
-      json_["accessors"].push_back({{"componentType", 5126}, {"type", "MAT4"}});
+      all_accessors_->push_back({{"componentType", 5126}, {"type", "MAT4"}});
     }
     skin["inverseBindMatrices"] = accessor;
-    Json& json = json_["accessors"][accessor];
+    Json& json = (*all_accessors_)[accessor];
     for (const char* key : {"byteOffset", "sparse", "min", "max"}) json.erase(key);
-    json["bufferView"] = source_.views.size() + views_.size();
+    json["bufferView"] = kFirstNewView + views_.size();
     json["count"] = matrices.size() / 16;
     NewView view;
     view.bytes.resize(4 * matrices.size());
     std::memcpy(view.bytes.data(), matrices.data(), view.bytes.size());
     views_.push_back(std::move(view));
     if (in_place) {
-      json_["skins"][number] = std::move(skin);
+      (*skins_)[number] = std::move(skin);
       return number;
     }
-    json_["skins"].push_back(std::move(skin));
-    return json_["skins"].size() - 1;
+    skins_->push_back(std::move(skin));
+    return skins_->size() - 1;
   }
 
   const Document& source_;
   const ForeignReferences& foreign_;
   IntegerAccessors& accessors_;
   Json& json_;
+  Json* const nodes_;
+  Json* const skins_;
+  Json* const all_accessors_;
+  uint64_t skin_room_;  ///< bytes that matrices of skins may still take
   std::vector<NewView>& views_;
   std::vector<std::string>& notes_;
   const std::string node_extension_;  ///< an extension that may refer to nodes, or empty

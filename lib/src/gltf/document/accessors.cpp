@@ -69,6 +69,7 @@ bool canBeUsedInPlace(const Accessor& accessor, const uint8_t* bytes, uint64_t s
 }  // namespace
 
 std::string whyUnreadable(const Document& document, const Accessor& accessor) {
+  if (!accessor.fault.ok()) return "cannot be read (" + accessor.fault.message() + ")";
   if (!accessor.is_known_type) return "the type or component type is unknown";
   const auto is_sealed = [&](uint32_t view) {
     return document.views[view].isCoded() && document.views[view].coding.decoded == kNone;
@@ -80,6 +81,8 @@ std::string whyUnreadable(const Document& document, const Accessor& accessor) {
   }
   const auto sealed = std::find_if(views.begin(), views.end(), is_sealed);
   if (sealed == views.end()) return "";
+  const Result& fault = document.views[*sealed].fault;
+  if (!fault.ok()) return "cannot be read (" + fault.message() + ")";
   return "is coded with " + document.views[*sealed].coding.extension +
          ", which this program cannot read";
 }

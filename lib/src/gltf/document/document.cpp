@@ -117,19 +117,21 @@ class BufferLoader {
     const std::string path = at("/buffers", number);
     uint64_t length = 0;
     MCC_GLTF_TRY(readUnsigned(json, "byteLength", path, kMaxCount, length));
-    if (isPlaceholder(json)) {  // the views in it are decoded from other buffers
+    const bool has_uri = findMember(json, "uri") != nullptr;
+    const bool is_bin = !has_uri && number == 0 && glb_ != nullptr && glb_->has_bin;
+    // The views of a placeholder are decoded from other buffers.
+    if (isPlaceholder(json) || (!has_uri && !is_bin)) {
       document_.buffers.emplace_back();
       document_.same_buffers.push_back(number);
+      document_.missing_buffers.push_back(!isPlaceholder(json));
       return {};
     }
     std::span<const uint8_t> bytes;
     std::string file;
-    if (findMember(json, "uri") != nullptr) {
-      MCC_GLTF_TRY(fetch(json, path, file, bytes));
-    } else if (number == 0 && glb_ != nullptr && glb_->has_bin) {
+    if (is_bin) {
       bytes = glb_->bin;
     } else {
-      return error(path, "the buffer has neither a URI nor a BIN chunk");
+      MCC_GLTF_TRY(fetch(json, path, file, bytes));
     }
     if (length > bytes.size()) {
       return error(path + "/byteLength", std::to_string(length) + " bytes are announced but only " +
@@ -137,6 +139,7 @@ class BufferLoader {
     }
     document_.buffers.push_back(bytes.first(length));
     document_.same_buffers.push_back(number);
+    document_.missing_buffers.push_back(false);
     if (!file.empty()) users_[file].push_back(number);
     return {};
   }
@@ -179,7 +182,8 @@ class BufferLoader {
   std::map<std::string, std::vector<uint32_t>> users_;     ///< numbers of buffers by path
 };
 
-/// Parses where the bytes of a view are. `json` is the view, or the object that codes it.
+/// Parses where the bytes of a view are, and finds the part of them that exists. `json` is the
+/// view, or the object that codes it.
 Result parseBytes(const Document& document, const Json& json, const std::string& path,
                   BufferView& view) {
   uint64_t buffer = 0;
@@ -192,15 +196,22 @@ Result parseBytes(const Document& document, const Json& json, const std::string&
   MCC_GLTF_TRY(readUnsigned(json, "byteLength", path, kMaxCount, view.length));
   const uint64_t available = document.buffers[buffer].size();
   if (view.offset > available || view.length > available - view.offset) {
-    return error(path, "bytes " + std::to_string(view.offset) + " to " +
-                           std::to_string(view.offset + view.length) + " are outside buffer " +
-                           std::to_string(buffer) + " of " + std::to_string(available) + " bytes");
+    view.fault =
+        document.isMissing(view.buffer)
+            ? error(path, "buffer " + std::to_string(buffer) + " has neither a URI nor a BIN chunk")
+            : error(path, "bytes " + std::to_string(view.offset) + " to " +
+                              std::to_string(view.offset + view.length) + " are outside buffer " +
+                              std::to_string(buffer) + " of " + std::to_string(available) +
+                              " bytes");
+    view.offset = std::min(view.offset, available);
+    view.length = std::min(view.length, available - view.offset);
   }
   if (!document.same_buffers.empty()) view.buffer = document.same_buffers[buffer];
   return {};
 }
 
-Result parseCoding(const Json& json, const std::string& path, uint64_t length, ViewCoding& coding) {
+Result parseCoding(const Json& json, const std::string& path, uint64_t length, ViewCoding& coding,
+                   Result& fault) {
   MCC_GLTF_TRY(readUnsigned(json, "count", path, kMaxAccessorCount, coding.count));
   uint64_t stride = 0;
   MCC_GLTF_TRY(readUnsigned(json, "byteStride", path, kMaxStride, stride));
@@ -211,9 +222,11 @@ Result parseCoding(const Json& json, const std::string& path, uint64_t length, V
   }
   coding.stride = static_cast<uint32_t>(stride);
   coding.length = coding.count * stride;
-  if (coding.length == length) return {};
-  return error(path, "codes " + std::to_string(coding.length) + " bytes, but the view has " +
-                         std::to_string(length));
+  if (coding.length != length && fault.ok()) {
+    fault = error(path, "codes " + std::to_string(coding.length) + " bytes, but the view has " +
+                            std::to_string(length));
+  }
+  return {};
 }
 
 Result parseView(const Document& document, const Json& json, const std::string& path,
@@ -226,19 +239,21 @@ Result parseView(const Document& document, const Json& json, const std::string& 
   uint64_t length = 0;
   MCC_GLTF_TRY(readUnsigned(json, "byteLength", path, kMaxCount, length));
   MCC_GLTF_TRY(parseBytes(document, *coded, coded_path, view));
-  MCC_GLTF_TRY(parseCoding(*coded, coded_path, length, view.coding));
+  MCC_GLTF_TRY(parseCoding(*coded, coded_path, length, view.coding, view.fault));
   view.coding.extension = extension;
   return {};
 }
 
-/// Checks that `count` elements of `bytes` each lie inside a view.
-Result checkRange(const Document& document, uint32_t view, uint64_t offset, uint64_t count,
-                  uint64_t bytes, uint64_t stride, const std::string& path) {
-  if (count == 0) return {};
-  // count < 2^32, stride <= 2^16 and offset <= 2^53, so this cannot wrap.
-  const uint64_t end = offset + (count - 1) * stride + bytes;
+/// Checks that `bytes` from an offset on lie inside a view.
+Result checkRange(const Document& document, uint32_t view, uint64_t offset, uint64_t bytes,
+                  const std::string& path) {
+  if (bytes == 0) return {};
+  // There are fewer than 2^32 elements, their stride is at most 2^16, and the offset at most 2^53,
+  // so this cannot wrap.
+  const uint64_t end = offset + bytes;
   const uint64_t available = document.views[view].elementsLength();
   if (end <= available) return {};
+  if (document.isMissing(document.views[view].buffer)) return document.views[view].fault;
   return error(path, "needs " + std::to_string(end) + " bytes of bufferView " +
                          std::to_string(view) + ", which has " + std::to_string(available));
 }
@@ -274,21 +289,20 @@ Result parseSparse(const Document& document, const Json& json, const std::string
   MCC_GLTF_TRY(readViewIndex(document, *values, path + "/values", sparse.value_view));
   MCC_GLTF_TRY(readOptionalUnsigned(*values, "byteOffset", path + "/values", kMaxCount,
                                     sparse.value_offset));
-  const uint64_t index_bytes = componentBytes(sparse.index_type);
-  MCC_GLTF_TRY(checkRange(document, sparse.index_view, sparse.index_offset, count, index_bytes,
-                          index_bytes, path + "/indices"));
-  MCC_GLTF_TRY(checkRange(document, sparse.value_view, sparse.value_offset, count,
-                          accessor.elementBytes(), accessor.elementBytes(), path + "/values"));
+  MCC_GLTF_TRY(checkRange(document, sparse.index_view, sparse.index_offset,
+                          count * componentBytes(sparse.index_type), path + "/indices"));
+  MCC_GLTF_TRY(checkRange(document, sparse.value_view, sparse.value_offset,
+                          accessor.rangeBytes(count, 0), path + "/values"));
   sparse.count = count;
   return {};
 }
 
 Result parseType(const Json& json, const std::string& path, Accessor& accessor) {
+  accessor.is_known_type = false;
   std::string type;
   MCC_GLTF_TRY(readString(json, "type", path, type));
   uint64_t gl_type = 0;
   MCC_GLTF_TRY(readUnsigned(json, "componentType", path, kMaxCount, gl_type));
-  accessor.is_known_type = false;
   for (const TypeName& name : kTypeNames) {
     if (name.name != type) continue;
     accessor.columns = name.columns;
@@ -296,6 +310,49 @@ Result parseType(const Json& json, const std::string& path, Accessor& accessor) 
     accessor.is_known_type = componentTypeOf(gl_type, accessor.component_type);
   }
   return {};
+}
+
+/// Parses one accessor. An error concerns only this accessor.
+Result parseAccessor(const Document& document, const Json& json, const std::string& path,
+                     Accessor& accessor) {
+  MCC_GLTF_TRY(parseType(json, path, accessor));
+  MCC_GLTF_TRY(readUnsigned(json, "count", path, kMaxAccessorCount, accessor.count));
+  if (findMember(json, "bufferView") != nullptr) {
+    MCC_GLTF_TRY(readViewIndex(document, json, path, accessor.view));
+    MCC_GLTF_TRY(readOptionalUnsigned(json, "byteOffset", path, kMaxCount, accessor.offset));
+  }
+  if (!accessor.is_known_type) return {};
+  if (const Json* flag = findMember(json, "normalized"); flag != nullptr) {
+    if (!flag->is_boolean()) return error(path + "/normalized", "must be true or false");
+    accessor.normalized = flag->get<bool>();
+  }
+  if (accessor.view != kNone) {
+    const uint64_t stride = document.views[accessor.view].stride;
+    const uint64_t bytes = accessor.elementBytes();
+    if (stride != 0 && stride < bytes) {
+      return error(path, "elements of " + std::to_string(bytes) + " bytes do not fit the stride " +
+                             std::to_string(stride) + " of bufferView " +
+                             std::to_string(accessor.view));
+    }
+    MCC_GLTF_TRY(checkRange(document, accessor.view, accessor.offset,
+                            accessor.rangeBytes(accessor.count, stride), path));
+  }
+  if (const Json* sparse = findMember(json, "sparse"); sparse != nullptr) {
+    MCC_GLTF_TRY(parseSparse(document, *sparse, path + "/sparse", accessor, accessor.sparse));
+  }
+  return {};
+}
+
+/// Says once how many views are not whole; images in them have no other note.
+void noteFaults(Document& document) {
+  const auto isFaulty = [](const BufferView& view) { return !view.fault.ok(); };
+  const auto first = std::find_if(document.views.begin(), document.views.end(), isFaulty);
+  const auto count = std::count_if(document.views.begin(), document.views.end(), isFaulty);
+  if (count == 0) return;
+  document.notes.push_back(
+      first->fault.message() + "; what needs " +
+      (count == 1 ? "it" : "such buffer views, of which there are " + std::to_string(count) + ",") +
+      " is left as it was");
 }
 
 Result loadTables(Document& document) {
@@ -307,8 +364,10 @@ Result loadTables(Document& document) {
   const Json& accessors = arrayOf(document.json, "accessors");
   document.accessors.resize(accessors.size());
   for (size_t i = 0; i < accessors.size(); ++i) {
-    MCC_GLTF_TRY(parseAccessor(document, accessors[i], at("/accessors", i), document.accessors[i]));
+    Accessor& accessor = document.accessors[i];
+    accessor.fault = parseAccessor(document, accessors[i], at("/accessors", i), accessor);
   }
+  noteFaults(document);
   return {};
 }
 
@@ -325,7 +384,7 @@ void addView(ImageFile& file, Document& document) {
   document.json["buffers"].push_back({{"byteLength", file.bytes.size()}});
   document.json["bufferViews"].push_back({{"buffer", buffer}, {"byteLength", file.bytes.size()}});
   file.view = static_cast<uint32_t>(document.views.size());
-  document.views.push_back({static_cast<uint32_t>(buffer), 0, file.bytes.size(), 0, {}});
+  document.views.push_back({static_cast<uint32_t>(buffer), 0, file.bytes.size(), 0, {}, {}});
 }
 
 Result embedImage(const FileReader& read_file, size_t index,
@@ -360,37 +419,6 @@ Result embedImage(const FileReader& read_file, size_t index,
 
 }  // namespace
 
-Result parseAccessor(const Document& document, const Json& json, const std::string& path,
-                     Accessor& accessor) {
-  accessor = {};
-  MCC_GLTF_TRY(parseType(json, path, accessor));
-  MCC_GLTF_TRY(readUnsigned(json, "count", path, kMaxAccessorCount, accessor.count));
-  if (findMember(json, "bufferView") != nullptr) {
-    MCC_GLTF_TRY(readViewIndex(document, json, path, accessor.view));
-    MCC_GLTF_TRY(readOptionalUnsigned(json, "byteOffset", path, kMaxCount, accessor.offset));
-  }
-  if (!accessor.is_known_type) return {};
-  if (const Json* flag = findMember(json, "normalized"); flag != nullptr) {
-    if (!flag->is_boolean()) return error(path + "/normalized", "must be true or false");
-    accessor.normalized = flag->get<bool>();
-  }
-  if (accessor.view != kNone) {
-    const uint64_t stride = document.views[accessor.view].stride;
-    const uint64_t bytes = accessor.elementBytes();
-    if (stride != 0 && stride < bytes) {
-      return error(path, "elements of " + std::to_string(bytes) + " bytes do not fit the stride " +
-                             std::to_string(stride) + " of bufferView " +
-                             std::to_string(accessor.view));
-    }
-    MCC_GLTF_TRY(checkRange(document, accessor.view, accessor.offset, accessor.count, bytes,
-                            stride == 0 ? bytes : stride, path));
-  }
-  if (const Json* sparse = findMember(json, "sparse"); sparse != nullptr) {
-    MCC_GLTF_TRY(parseSparse(document, *sparse, path + "/sparse", accessor, accessor.sparse));
-  }
-  return {};
-}
-
 Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file,
                     Document& document) {
   document = {};
@@ -415,11 +443,15 @@ Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file,
   const Json& buffers = arrayOf(document.json, "buffers");
   BufferLoader loader(document.is_glb ? &glb : nullptr, read_file, document);
   for (uint32_t i = 0; i < buffers.size(); ++i) {
-    const Result loaded = loader.load(buffers[i], i);
-    if (loaded.ok()) continue;
-    if (!removeFallback(i, document.json)) return loaded;
-    document.notes.push_back(loaded.message() + "; this fallback is not needed");
-    break;
+    Result loaded = loader.load(buffers[i], i);
+    const bool is_missing = loaded.ok() && document.missing_buffers[i];
+    if (loaded.ok() && !is_missing) continue;
+    if (removeFallback(i, document.json)) {
+      if (is_missing) loaded = error(at("/buffers", i), "has neither a URI nor a BIN chunk");
+      document.notes.push_back(loaded.message() + "; this fallback is not needed");
+      break;
+    }
+    if (!is_missing) return loaded;
   }
   loader.findSame();
   return loadTables(document);
@@ -431,9 +463,10 @@ Result adoptDocument(Json json, std::vector<uint8_t> bin, Document& document) {
   document.is_glb = true;
   document.storage.push_back(std::move(bin));
   for (const Json& buffer : arrayOf(document.json, "buffers")) {
-    const bool is_first = document.buffers.empty();
-    document.buffers.push_back(is_first && !isPlaceholder(buffer) ? document.storage.back()
-                                                                  : std::span<const uint8_t>());
+    const bool is_bin =
+        document.buffers.empty() && !isPlaceholder(buffer) && !document.storage.back().empty();
+    document.buffers.push_back(is_bin ? document.storage.back() : std::span<const uint8_t>());
+    document.missing_buffers.push_back(!is_bin && !isPlaceholder(buffer));
   }
   return loadTables(document);
 }

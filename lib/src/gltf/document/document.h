@@ -1,7 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // A loaded glTF file: its JSON as it was, its buffers, and typed tables of the JSON's buffer views
-// and accessors. The ranges of all views and accessors have been checked.
+// and accessors. The ranges of all views and accessors have been checked. What is wrong with one
+// of them is its `fault`, and concerns only who needs it; what is wrong with the file as a whole
+// keeps it from being loaded.
 #ifndef MCC_GLTF_DOCUMENT_DOCUMENT_H_
 #define MCC_GLTF_DOCUMENT_DOCUMENT_H_
 
@@ -36,6 +38,9 @@ struct BufferView {
   uint64_t length = 0;
   uint64_t stride = 0;  ///< 0: elements are packed
   ViewCoding coding;
+  /// Why its bytes cannot be used as the JSON says. The range above is then the part of them that
+  /// exists, which may be empty.
+  Result fault;
 
   bool isCoded() const { return !coding.extension.empty(); }
   /// Number of bytes that accessors may use.
@@ -66,6 +71,9 @@ struct Accessor {
   /// packed elements, and the view they came from.
   uint32_t decoded = kNone;
   uint32_t decoded_from = kNone;
+  /// Why its elements cannot be read. What the JSON says may then not fit its view, and what could
+  /// not be parsed has the value above.
+  Result fault;
 
   uint32_t componentCount() const { return columns * rows; }
   uint32_t tightBytes() const { return componentCount() * componentBytes(component_type); }
@@ -76,12 +84,24 @@ struct Accessor {
   }
   /// Bytes of an element in a buffer.
   uint32_t elementBytes() const { return columns * columnBytes(); }
+  /// The same without the padding of the last column, which the last element may lack.
+  uint32_t lastElementBytes() const {
+    return (columns - 1) * columnBytes() + rows * componentBytes(component_type);
+  }
+  /// Bytes from the first element to the end of the last one. `stride` 0: elements are packed.
+  uint64_t rangeBytes(uint64_t element_count, uint64_t stride) const {
+    if (element_count == 0) return 0;
+    return (element_count - 1) * (stride == 0 ? elementBytes() : stride) + lastElementBytes();
+  }
 };
 
 struct Document {
   Json json;
   bool is_glb = false;
   std::vector<std::span<const uint8_t>> buffers;
+  /// Marks the buffers without a URI whose bytes are not in the file, either. glTF allows them,
+  /// because extensions may provide the bytes. They have no bytes here.
+  std::vector<bool> missing_buffers;
   /// For each buffer, the number of the longest buffer that comes from the same file, which may be
   /// itself. Buffer views refer to that number, so that the bytes of a file are kept once. Empty:
   /// no file is used twice.
@@ -96,13 +116,18 @@ struct Document {
   std::vector<std::string> notes;
   /// Owns the buffers that are not part of the file, and everything that was decoded.
   std::vector<std::vector<uint8_t>> storage;
+
+  bool isMissing(uint32_t buffer) const {
+    return buffer < missing_buffers.size() && missing_buffers[buffer];
+  }
 };
 
 /// Fetches a file. The path must be one that relativePathOf() has accepted.
 using FileReader =
     std::function<Result(const std::string& path, const std::string& where, std::vector<uint8_t>&)>;
 
-/// Loads a GLB or the JSON of a .gltf. `file` must outlive the document.
+/// Loads a GLB or the JSON of a .gltf. `file` must outlive the document. Errors: it is no GLB or
+/// JSON, its arrays do not have the types of glTF, or a file that it names cannot be read.
 /// read_file  fetches buffers; null: every buffer must be inside the file.
 Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file, Document& document);
 
@@ -113,10 +138,6 @@ Result embedImages(const FileReader& read_file, Document& document);
 /// Makes a document from parts that are already in memory: JSON with at most one buffer, and the
 /// bytes of that buffer.
 Result adoptDocument(Json json, std::vector<uint8_t> bin, Document& document);
-
-/// Parses one accessor; its views must be in `document.views`. Errors carry the path /accessors/N.
-Result parseAccessor(const Document& document, const Json& json, const std::string& path,
-                     Accessor& accessor);
 
 }  // namespace mcc::gltf
 

@@ -82,6 +82,7 @@ void readView(const Document& document, const Json& extension, Issues& issues, E
     return issues.add(Rule::kReference, path, "there is no bufferView " + std::to_string(number));
   }
   const BufferView& view = document.views[number];
+  if (!view.fault.ok()) return issues.add(Rule::kPayloadView, path, view.fault.message());
   if (view.isCoded()) {
     return issues.add(
         Rule::kPayloadView, path,
@@ -224,7 +225,8 @@ void checkAttribute(const Document& document, const ExtensionUse::AttributeUse& 
                    std::to_string(piece.wedge_count) + " vertices");
   }
   if (!accessor.is_known_type) {
-    return issues.add(Rule::kType, accessor_path, "the type is unknown");
+    return issues.add(Rule::kType, accessor_path,
+                      accessor.fault.ok() ? "the type is unknown" : accessor.fault.what);
   }
   if (attribute.name == "POSITION" && attribute.target == kNone && attribute.id != 0) {
     return issues.add(Rule::kAttributeNumber, attribute.path,
@@ -280,7 +282,7 @@ void checkIndices(const Document& document, const ExtensionUse& use, const Piece
 /// morph targets. Accessors that the payload fills are checked where they are named.
 void checkOrdinaryAttributes(const Document& document, const ExtensionUse& use,
                              const PieceInfo& piece, Issues& issues) {
-  const Json& primitive = primitiveAt(document.json, {use.mesh, use.primitive});
+  const Json& primitive = *use.json;
   const Json* extension = extensionOf(primitive, kExtensionName);
   const std::string path = primitivePath(use.mesh, use.primitive);
   visitAttributeMaps(primitive, [&](const Json& map, uint32_t target) {
@@ -321,6 +323,7 @@ void findExtensionUses(const Document& document, Issues& issues, std::vector<Ext
     ExtensionUse use;
     use.mesh = ref.mesh;
     use.primitive = ref.primitive;
+    use.json = &primitive;
     readExtension(document, *extension, primitive, issues, use);
     uses.push_back(std::move(use));
   });
@@ -351,6 +354,20 @@ std::vector<PayloadUse> payloadUses(const Document& document,
     all.insert(all.end(), users.begin(), users.end());
   }
   return payloads;
+}
+
+Result checkPayloadLengths(const Document& document, const std::vector<PayloadUse>& payloads) {
+  uint64_t available = 0;
+  for (const auto& buffer : document.buffers) available += buffer.size();
+  for (const PayloadUse& payload : payloads) {
+    const uint64_t length = document.views[payload.view].length;
+    if (length > available) {
+      return error(at("/bufferViews", payload.view),
+                   "overlaps other payloads, which together are longer than all buffers");
+    }
+    available -= length;
+  }
+  return {};
 }
 
 std::span<const uint8_t> payloadBytes(const Document& document, uint32_t view) {

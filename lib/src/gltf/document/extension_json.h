@@ -33,7 +33,8 @@ struct ExtensionUse {
     std::string path;  ///< JSON path of the id
   };
   std::vector<AttributeUse> attributes;
-  std::string path;  ///< JSON path of the extension object
+  std::string path;            ///< JSON path of the extension object
+  const Json* json = nullptr;  ///< the primitive, in the JSON of the document
 };
 
 /// Finds and checks the extension objects of all primitives, and checks who else refers to the
@@ -51,6 +52,10 @@ struct PayloadUse {
 /// hold the same payload. Uses without a view are left out. The result borrows `uses`.
 std::vector<PayloadUse> payloadUses(const Document& document,
                                     const std::vector<ExtensionUse>& uses);
+
+/// Checks that payloads do not overlap so much that together they are longer than all buffers.
+/// Files have no reason to overlap them, and reading all of them could take very long.
+Result checkPayloadLengths(const Document& document, const std::vector<PayloadUse>& payloads);
 
 /// Returns the bytes of the buffer view that holds a payload.
 std::span<const uint8_t> payloadBytes(const Document& document, uint32_t view);

@@ -47,9 +47,12 @@ bool removeFallback(size_t number, Json& json) {
     is_needed |= is_lost && compressed.count(accessor) == 0;
   });
   if (is_needed) return false;
+  if (!compressed.empty() && *compressed.rbegin() >= arrayOf(json, "accessors").size()) {
+    return false;
+  }
+  Json* const accessors = compressed.empty() ? nullptr : &json["accessors"];
   for (const uint64_t index : compressed) {
-    if (index >= arrayOf(json, "accessors").size()) return false;
-    Json& accessor = json["accessors"][index];
+    Json& accessor = (*accessors)[index];
     uint64_t view = 0;
     const Json* reference = findMember(accessor, "bufferView");
     if (reference == nullptr || !asUnsigned(*reference, view) || view < view_count) continue;

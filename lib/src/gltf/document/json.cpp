@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +18,7 @@ class NumberScanner {
  public:
   explicit NumberScanner(std::string_view text) : rest_(text) {}
 
+  /// Returns the next number, or an empty text after the last one.
   std::string_view next() {
     size_t i = 0;
     while (i < rest_.size() && !startsNumber(rest_[i])) i = rest_[i] == '"' ? pastString(i) : i + 1;
@@ -42,6 +44,87 @@ class NumberScanner {
 
   std::string_view rest_;
 };
+
+/// Whether a text is a number of JSON (RFC 8259, section 6).
+bool isNumber(std::string_view text) {
+  const auto digits = [&] {
+    const size_t count = std::min(text.find_first_not_of("0123456789"), text.size());
+    text.remove_prefix(count);
+    return count;
+  };
+  const auto skip = [&](std::string_view any) {
+    const bool is_there = !text.empty() && any.find(text[0]) != std::string_view::npos;
+    if (is_there) text.remove_prefix(1);
+    return is_there;
+  };
+  skip("-");
+  const bool has_zero = text.starts_with('0');
+  const size_t whole = digits();
+  if (whole == 0 || (has_zero && whole > 1)) return false;
+  if (skip(".") && digits() == 0) return false;
+  if (skip("eE")) {
+    skip("+-");
+    if (digits() == 0) return false;
+  }
+  return text.empty();
+}
+
+/// Whether a number of JSON that binary64 cannot hold is too large, instead of too small. Compares
+/// the power of ten of its first digit with 0, because it is far from it.
+bool isHuge(std::string_view number) {
+  if (number.starts_with('-')) number.remove_prefix(1);
+  const size_t end = std::min(number.find_first_of("eE"), number.size());
+  const std::string_view digits = number.substr(0, end);
+  const auto point = static_cast<int64_t>(std::min(digits.find('.'), digits.size()));
+  const auto first =
+      static_cast<int64_t>(std::min(digits.find_first_of("123456789"), digits.size()));
+  int64_t power = point - first;
+  if (end == number.size()) return power > 0;
+  number.remove_prefix(end + 1);
+  const bool is_negative = number.starts_with('-');
+  if (is_negative || number.starts_with('+')) number.remove_prefix(1);
+  int64_t exponent = std::numeric_limits<int64_t>::max() / 2;  // stays if it is even larger
+  std::from_chars(number.data(), number.data() + number.size(), exponent);
+  power += is_negative ? -exponent : exponent;
+  return power > 0;
+}
+
+/// Returns the value of a number as JSON spells it; one that is too large is infinite. strtod()
+/// would look for the decimal point of the program's locale.
+double numberOf(std::string_view spelling) {
+#if defined(__cpp_lib_to_chars)
+  double value = 0;
+  const char* const end = spelling.data() + spelling.size();
+  if (std::from_chars(spelling.data(), end, value).ec == std::errc()) return value;
+  value = isHuge(spelling) ? std::numeric_limits<double>::infinity() : 0;
+  return spelling.starts_with('-') ? -value : value;
+#else  // such as libc++ before version 20
+  return std::strtod(std::string(spelling).c_str(), nullptr);
+#endif
+}
+
+Json spelt(std::string_view number) {
+  return Json::binary(std::vector<uint8_t>(number.begin(), number.end()));
+}
+
+/// Replaces numbers that are too large for binary64, which nlohmann's parser refuses, by zeros of
+/// the same length. Stays empty if there are none. They are valid JSON, and exporters write them
+/// where they do not know bounds.
+std::string withoutHugeNumbers(std::string_view text) {
+  constexpr size_t kMostDigits = 300;  // with fewer, a number without an exponent is not too large
+  std::string changed;
+  NumberScanner numbers(text);
+  for (std::string_view number = numbers.next(); !number.empty(); number = numbers.next()) {
+    const bool may_be_huge =
+        number.size() > kMostDigits || number.find_first_of("eE") != std::string_view::npos;
+    if (!may_be_huge || !isNumber(number) || std::isfinite(numberOf(number))) continue;
+    if (changed.empty()) changed = text;
+    const auto begin = changed.begin() + (number.data() - text.data());
+    std::fill_n(begin, number.size(), ' ');
+    *begin = '0';
+  }
+  return changed;
+}
 
 /// Returns the message of nlohmann's parser without "[json.exception.parse_error.101] parse error
 /// at line 1, column 2: ". The rest may quote any part of the text.
@@ -108,7 +191,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   bool addNumber(Json value) {
     const std::string_view spelling = numbers_.next();
     if (value.dump() != spelling) {
-      value = Json::binary(std::vector<uint8_t>(spelling.begin(), spelling.end()));
+      value = spelt(spelling);
     }
     return add(std::move(value)) != nullptr;
   }
@@ -219,8 +302,10 @@ std::string Result::message() const {
 
 Result parseJson(std::span<const uint8_t> text, Json& json) {
   const std::string_view view(reinterpret_cast<const char*>(text.data()), text.size());
+  const std::string changed = withoutHugeNumbers(view);
+  const std::string_view parsed = changed.empty() ? view : changed;
   DocumentBuilder builder(view, json);
-  if (Json::sax_parse(view.begin(), view.end(), &builder)) return {};
+  if (Json::sax_parse(parsed.begin(), parsed.end(), &builder)) return {};
   if (!builder.result().ok()) return builder.result();
   return error("JSON", "the JSON is damaged");
 }

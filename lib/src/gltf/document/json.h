@@ -24,7 +24,7 @@ inline constexpr uint32_t kMaxJsonDepth = 256;
 
 /// Parses UTF-8 text. Errors name the byte. Repeated keys are an error, with their JSON path,
 /// because glTF forbids them and readers differ in which of them counts. In `extras` they are kept
-/// as they are.
+/// as they are. Numbers may be larger than any that binary64 holds.
 Result parseJson(std::span<const uint8_t> text, Json& json);
 
 /// Prints JSON without white space, with numbers as parseJson() found them.
@@ -57,7 +57,7 @@ class MemberIndex {
 /// else.
 bool asUnsigned(const Json& json, uint64_t& value);
 
-/// Reads any number. Returns false for anything else.
+/// Reads any number; one too large for binary64 is infinite. Returns false for anything else.
 bool asNumber(const Json& json, double& value);
 
 /// Reads the member `key` of the object at `path`. The first form requires it; the second leaves

@@ -28,9 +28,9 @@ inline const Json* extensionOf(const Json& object, std::string_view name) {
   return extensions == nullptr ? nullptr : findMember(*extensions, name);
 }
 
-/// Returns the primitive that visitPrimitives() reported.
-inline const Json& primitiveAt(const Json& root, const PrimitiveRef& ref) {
-  return (*findMember((*findMember(root, "meshes"))[ref.mesh], "primitives"))[ref.primitive];
+/// Returns the primitive that visitPrimitives() reported; `meshes` are those of the document.
+inline const Json& primitiveAt(const Json& meshes, const PrimitiveRef& ref) {
+  return arrayOf(meshes[ref.mesh], "primitives")[ref.primitive];
 }
 
 /// Calls visit(const PrimitiveRef&, const Json& primitive) for all primitives in their order.

@@ -67,6 +67,9 @@ class Rebuilder {
   }
 
  private:
+  /// Whether the bytes of a view are in none of the files.
+  bool isMissing(size_t view) const { return document_.isMissing(document_.views[view].buffer); }
+
   void keepWhole(uint32_t view) {
     is_whole_[view] = true;
     ranges_[view].push_back(viewRange(document_, view));
@@ -84,7 +87,7 @@ class Rebuilder {
       const bool is_old = accessor < document_.accessors.size();
       if (!is_old || foreign_.keep_numbers || document_.views[view].isCoded() ||
           !document_.accessors[accessor].is_known_type ||
-          document_.accessors[accessor].count == 0) {
+          !document_.accessors[accessor].fault.ok() || document_.accessors[accessor].count == 0) {
         keepWhole(view);
         return;
       }
@@ -104,7 +107,10 @@ class Rebuilder {
 
   void layOutBlocks() {
     std::vector<ByteRange> live;
-    for (const auto& ranges : ranges_) live.insert(live.end(), ranges.begin(), ranges.end());
+    for (size_t view = 0; view < ranges_.size(); ++view) {
+      if (isMissing(view)) continue;
+      live.insert(live.end(), ranges_[view].begin(), ranges_[view].end());
+    }
     std::sort(live.begin(), live.end(), [](const ByteRange& a, const ByteRange& b) {
       return std::tie(a.buffer, a.begin, a.end) < std::tie(b.buffer, b.begin, b.end);
     });
@@ -177,8 +183,10 @@ class Rebuilder {
   }
 
   void moveAccessors() {
+    if (document_.accessors.empty()) return;
+    Json& accessors = json_["accessors"];
     for (uint32_t i = 0; i < document_.accessors.size(); ++i) {
-      Json& accessor = json_["accessors"][i];
+      Json& accessor = accessors[i];
       moveOffset(accessor, document_.accessors[i].offset);
       const bool is_sparse = document_.accessors[i].sparse.count != 0;
       if (!is_sparse || findMember(accessor, "sparse") == nullptr) continue;
@@ -210,7 +218,13 @@ class Rebuilder {
     }
     editViewReferences(json_, [&](Json& number, uint32_t) {
       uint64_t view = 0;
-      if (asUnsigned(number, view) && view < numbers_.size()) number = numbers_[view];
+      if (!asUnsigned(number, view)) return;
+      const bool is_new = view >= kFirstNewView && view - kFirstNewView < new_views_.size();
+      if (is_new || view < old_count) {
+        number = numbers_[is_new ? view - kFirstNewView + old_count : view];
+      } else if (view < view_count_) {
+        number = kNone;  // it named no view, and shall not name one of ours
+      }
     });
   }
 
@@ -223,6 +237,10 @@ class Rebuilder {
   /// A coded view keeps its coded bytes. Its own range lies in a placeholder buffer without bytes.
   void setCodedRange(Json& view, const ViewCoding& coding, uint64_t offset, uint64_t length) {
     setRange(view["extensions"][coding.extension], offset, length);
+    setPlaceholder(view, coding);
+  }
+
+  void setPlaceholder(Json& view, const ViewCoding& coding) {
     view["buffer"] = 1;
     view["byteOffset"] = placeholder_bytes_;
     placeholder_bytes_ += (coding.length + 3) & ~uint64_t{3};
@@ -233,11 +251,16 @@ class Rebuilder {
     const size_t old_count = document_.views.size();
     const uint64_t first_new = new_views_.empty() ? 0 : alignedEnd();
     std::vector<Json> views(view_count_);
+    const Json& old_views = arrayOf(json_, "bufferViews");
     for (uint32_t view = 0; view < old_count; ++view) {
       if (numbers_[view] == kNone) continue;
       Json& json = views[numbers_[view]];
-      json = json_["bufferViews"][view];
-      if (!ranges_[view].empty()) {
+      json = old_views[view];
+      if (isMissing(view) && !ranges_[view].empty()) {
+        // It keeps its place in its buffer, whose number is not known yet.
+        if (document_.views[view].isCoded()) setPlaceholder(json, document_.views[view].coding);
+        missing_views_.push_back(view);
+      } else if (!ranges_[view].empty()) {
         const ByteRange kept = kept_[view];
         const uint64_t offset = moved(kept.buffer, kept.begin);
         const uint64_t length =
@@ -278,22 +301,55 @@ class Rebuilder {
   }
 
   void writeBuffers() {
-    if (bin_.empty()) {
-      json_.erase("buffers");
-      return;
+    const Json old_buffers = arrayOf(json_, "buffers");
+    Json buffers = Json::array();
+    nameCodings();
+    if (!bin_.empty() || !coded_extensions_.empty()) buffers.push_back(firstBuffer(old_buffers));
+    if (!coded_extensions_.empty()) {
+      Json placeholder = {{"byteLength", placeholder_bytes_}};
+      for (const std::string& name : coded_extensions_) {
+        placeholder["extensions"][name]["fallback"] = true;
+      }
+      buffers.push_back(std::move(placeholder));
     }
-    Json first = document_.buffers.empty() ? Json::object() : json_["buffers"][0];
+    appendMissingBuffers(old_buffers, buffers);
+    if (buffers.empty()) {
+      json_.erase("buffers");
+    } else {
+      json_["buffers"] = std::move(buffers);
+    }
+  }
+
+  /// Returns the buffer of `bin_`, with what the first buffer of the source says about itself.
+  Json firstBuffer(const Json& old_buffers) const {
+    Json first = Json::object();
+    for (uint32_t i = 0; i < old_buffers.size(); ++i) {
+      if (document_.isMissing(i)) continue;
+      first = old_buffers[i];
+      break;
+    }
     first.erase("uri");
     eraseViewExtensions(first);
     first["byteLength"] = bin_.size();
-    json_["buffers"] = Json::array({std::move(first)});
-    nameCodings();
-    if (coded_extensions_.empty()) return;
-    Json placeholder = {{"byteLength", placeholder_bytes_}};
-    for (const std::string& name : coded_extensions_) {
-      placeholder["extensions"][name]["fallback"] = true;
+    return first;
+  }
+
+  /// Keeps the buffers whose bytes are missing, and tells their views where they are now.
+  void appendMissingBuffers(const Json& old_buffers, Json& buffers) {
+    std::vector<size_t> numbers(old_buffers.size(), kNone);
+    for (uint32_t i = 0; i < old_buffers.size(); ++i) {
+      if (!document_.isMissing(i)) continue;
+      numbers[i] = buffers.size();
+      buffers.push_back(old_buffers[i]);
     }
-    json_["buffers"].push_back(std::move(placeholder));
+    if (missing_views_.empty()) return;
+    Json& views = json_["bufferViews"];
+    for (const uint32_t view : missing_views_) {
+      const BufferView& from = document_.views[view];
+      Json& json = views[numbers_[view]];
+      Json& place = from.isCoded() ? json["extensions"][from.coding.extension] : json;
+      place["buffer"] = numbers[from.buffer];
+    }
   }
 
   static void eraseViewExtensions(Json& object) {
@@ -325,8 +381,9 @@ class Rebuilder {
   std::vector<std::vector<ByteRange>> ranges_;  ///< ranges of each old view that are kept
   std::vector<ByteRange> kept_;                 ///< the hull of each old view's ranges
   std::vector<bool> is_whole_;
-  std::vector<Block> blocks_;      ///< ascending in buffer and begin
-  std::vector<uint32_t> numbers_;  ///< final numbers of old and new views
+  std::vector<Block> blocks_;            ///< ascending in buffer and begin
+  std::vector<uint32_t> numbers_;        ///< final numbers of old and new views
+  std::vector<uint32_t> missing_views_;  ///< old views that are kept without bytes
   uint32_t view_count_ = 0;
   uint64_t placeholder_bytes_ = 0;          ///< size of the buffer that coded views claim to be in
   std::set<std::string> coded_extensions_;  ///< extensions of the views that are still coded
@@ -361,23 +418,22 @@ std::vector<ByteRange> accessorRanges(const Document& document, uint32_t index, 
   if (accessor.decoded_from != kNone) return {viewRange(document, accessor.decoded_from)};
   std::vector<ByteRange> ranges;
   const auto add = [&](uint32_t view, uint64_t offset, uint64_t bytes) {
-    if (whole_views || !accessor.is_known_type || document.views[view].isCoded()) {
+    if (whole_views || !accessor.is_known_type || !accessor.fault.ok() ||
+        document.views[view].isCoded()) {
       ranges.push_back(viewRange(document, view));
     } else if (bytes != 0) {
       const BufferView& from = document.views[view];
       ranges.push_back({from.buffer, from.offset + offset, from.offset + offset + bytes});
     }
   };
-  const uint64_t element = accessor.elementBytes();
   if (accessor.view != kNone && accessor.count != 0) {
-    const uint64_t stride = document.views[accessor.view].stride;
     add(accessor.view, accessor.offset,
-        (accessor.count - 1) * (stride == 0 ? element : stride) + element);
+        accessor.rangeBytes(accessor.count, document.views[accessor.view].stride));
   }
   const Sparse& sparse = accessor.sparse;
   if (sparse.count != 0) {
     add(sparse.index_view, sparse.index_offset, sparse.count * componentBytes(sparse.index_type));
-    add(sparse.value_view, sparse.value_offset, sparse.count * element);
+    add(sparse.value_view, sparse.value_offset, accessor.rangeBytes(sparse.count, 0));
   }
   return ranges;
 }

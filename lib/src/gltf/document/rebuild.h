@@ -36,6 +36,10 @@ std::vector<ViewUse> viewUses(const Document& document, const ForeignReferences&
 std::vector<ByteRange> accessorRanges(const Document& document, uint32_t accessor,
                                       bool whole_views);
 
+/// The number of the first new view while a document is edited. A file that names a view which does
+/// not exist does so by a smaller number.
+inline constexpr uint64_t kFirstNewView = uint64_t{1} << 52;
+
 struct NewView {
   std::vector<uint8_t> bytes;
   uint32_t stride_bytes = 0;  ///< 0: none is written
@@ -45,13 +49,14 @@ struct NewView {
 /// Removes what was freed and adds what is new.
 /// document   the source, as it was loaded.
 /// json       the edited document. Buffer views have the numbers of the source; new view k has the
-///            number document.views.size() + k. Accessors keep their numbers; if an old one still
-///            has a bufferView, nothing about its bytes was edited.
+///            number kFirstNewView + k. Accessors keep their numbers; if an old one still has a
+///            bufferView, nothing about its bytes was edited.
 /// new_views  consumed.
-/// On return `json` has the final numbers and offsets, and `bin` the bytes of its one buffer. A
-/// view that nothing referred to in the source is kept, unless it is free. View numbers do not
-/// change when foreign.keep_numbers: new views take the free numbers first, then those after the
-/// end.
+/// On return `json` has the final numbers and offsets, and `bin` the bytes of its first buffer;
+/// others are those whose bytes are missing, with their views as they were. A number of a view that
+/// does not exist still names none. A view that nothing referred to in the source is kept, unless
+/// it is free. View numbers do not change when foreign.keep_numbers: new views take the free
+/// numbers first, then those after the end.
 Result rebuildBuffers(const Document& document, const ForeignReferences& foreign,
                       std::vector<NewView>& new_views, Json& json, std::vector<uint8_t>& bin);
 

@@ -37,15 +37,6 @@ std::string orderWordOf(const Json& json) {
   return "";
 }
 
-void collectNumbers(const Json& json, std::set<uint64_t>& numbers) {
-  uint64_t number = 0;
-  if (json.is_structured()) {
-    for (const Json& value : json) collectNumbers(value, numbers);
-  } else if (asUnsigned(json, number)) {
-    numbers.insert(number);
-  }
-}
-
 void keepNumbers(ForeignReferences& foreign, const std::string& reason) {
   if (!foreign.keep_numbers) foreign.reason = reason;
   foreign.keep_numbers = true;
@@ -56,20 +47,31 @@ void keepNumbersFor(ForeignReferences& foreign, const std::string& extension) {
   if (foreign.extension.empty()) foreign.extension = extension;
 }
 
-/// Collects the references in extras and unknown extensions.
-void walkForeign(const Json& json, ForeignReferences& foreign) {
+/// What the keys above a value say that its numbers are.
+struct Meaning {
+  bool is_view = false;
+  bool is_accessor = false;
+};
+
+/// Collects the references in extras and unknown extensions. Visits every value once.
+void walkForeign(const Json& json, Meaning meaning, ForeignReferences& foreign) {
+  uint64_t number = 0;
   if (json.is_array()) {
-    for (const Json& value : json) walkForeign(value, foreign);
-  }
-  if (!json.is_object()) return;
-  for (const auto& [key, value] : json.items()) {
-    if (containsIgnoringCase(key, "bufferView")) {
-      collectNumbers(value, foreign.views);
-      keepNumbers(foreign, "\"" + key + "\"");
-    } else if (containsIgnoringCase(key, "accessor")) {
-      collectNumbers(value, foreign.accessors);
+    for (const Json& value : json) walkForeign(value, meaning, foreign);
+  } else if (json.is_object()) {
+    for (const auto& [key, value] : json.items()) {
+      Meaning below = meaning;
+      if (containsIgnoringCase(key, "bufferView")) {
+        below.is_view = true;
+        keepNumbers(foreign, "\"" + key + "\"");
+      } else if (containsIgnoringCase(key, "accessor")) {
+        below.is_accessor = true;
+      }
+      walkForeign(value, below, foreign);
     }
-    walkForeign(value, foreign);
+  } else if ((meaning.is_view || meaning.is_accessor) && asUnsigned(json, number)) {
+    if (meaning.is_view) foreign.views.insert(number);
+    if (meaning.is_accessor) foreign.accessors.insert(number);
   }
 }
 
@@ -80,14 +82,14 @@ void walkKnown(const Json& json, ForeignReferences& foreign) {
   if (!json.is_object()) return;
   for (const auto& [key, value] : json.items()) {
     if (key == "extras") {
-      walkForeign(value, foreign);
+      walkForeign(value, {}, foreign);
     } else if (key == "extensions" && value.is_object()) {
       for (const auto& [name, extension] : value.items()) {
         if (isUnderstood(name, extension)) {
           walkKnown(extension, foreign);
         } else {
           keepNumbersFor(foreign, name);
-          walkForeign(extension, foreign);
+          walkForeign(extension, {}, foreign);
         }
       }
     } else {
@@ -151,6 +153,39 @@ void markAll(const Json* object, std::vector<bool>& is_used) {
 }
 
 }  // namespace
+
+void hideMissingAccessors(size_t accessor_count, Json& root) {
+  const auto hide = [&](Json& number) {
+    uint64_t accessor = 0;
+    if (asUnsigned(number, accessor) && accessor >= accessor_count) number = kNone;
+  };
+  const auto hideAll = [&](Json* map) {
+    if (map == nullptr || !map->is_object()) return;
+    for (Json& number : *map) hide(number);
+  };
+  const auto hideMember = [&](Json* object, const char* key) {
+    if (Json* number = member(object, key)) hide(*number);
+  };
+  visitElements(member(&root, "meshes"), [&](Json& mesh) {
+    visitElements(member(&mesh, "primitives"), [&](Json& primitive) {
+      hideAll(member(&primitive, "attributes"));
+      visitElements(member(&primitive, "targets"), [&](Json& target) { hideAll(&target); });
+      hideMember(&primitive, "indices");
+    });
+  });
+  visitElements(member(&root, "skins"),
+                [&](Json& skin) { hideMember(&skin, "inverseBindMatrices"); });
+  visitElements(member(&root, "animations"), [&](Json& animation) {
+    visitElements(member(&animation, "samplers"), [&](Json& sampler) {
+      hideMember(&sampler, "input");
+      hideMember(&sampler, "output");
+    });
+  });
+  visitElements(member(&root, "nodes"), [&](Json& node) {
+    Json* instancing = member(member(&node, "extensions"), "EXT_mesh_gpu_instancing");
+    hideAll(member(instancing, "attributes"));
+  });
+}
 
 ForeignReferences findForeignReferences(const Json& root) {
   ForeignReferences foreign;

@@ -35,6 +35,10 @@ struct ForeignReferences {
 
 ForeignReferences findForeignReferences(const Json& root);
 
+/// Changes the numbers of accessors that do not exist to one that never will, in the places that
+/// glTF 2.0 and EXT_mesh_gpu_instancing define.
+void hideMissingAccessors(size_t accessor_count, Json& root);
+
 /// Calls `visit` with every number of a buffer view in the places that glTF 2.0 and the extensions
 /// on our list define. `accessor` is the accessor that the reference belongs to, or kNone.
 void visitViewReferences(const Json& root,

@@ -184,7 +184,9 @@ Result inspectBytes(std::span<const uint8_t> source, const FileReader& read_file
   std::vector<ExtensionUse> uses;
   MCC_GLTF_TRY(findExtensionUses(document, uses));
   DecodedBytes decoded(0, document.source_bytes);
-  for (const auto& [view, users] : payloadUses(document, uses)) {
+  const std::vector<PayloadUse> payloads = payloadUses(document, uses);
+  MCC_GLTF_TRY(checkPayloadLengths(document, payloads));
+  for (const auto& [view, users] : payloads) {
     report.payloads.emplace_back();
     MCC_GLTF_TRY(inspectView(document, view, users, count_codes, decoded, report.payloads.back()));
   }
