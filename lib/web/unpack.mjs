@@ -105,14 +105,15 @@ export function removeExtension(json) {
 /** Returns the values of all members of a name. Throws an MccError if they may be so deep that engines cannot copy or write the document. */
 export function membersOf(root, name) {
   const values = new Set();
-  const visit = ([key, value]) => {
-    if (key === name) values.add(value);
-    return typeof value === 'object' ? [value] : [];
-  };
   let level = [root];
   for (let depth = 0; level.length > 0; ++depth) {
     if (depth > MOST_NESTING) fail('', `the JSON is nested deeper than ${MOST_NESTING} levels`);
-    level = level.flatMap((value) => Object.entries(value ?? {}).flatMap(visit));
+    const next = [];
+    for (const [key, value] of level.flatMap((parent) => Object.entries(parent ?? {}))) {
+      if (key === name) values.add(value);
+      if (typeof value === 'object') next.push(value);
+    }
+    level = next;
   }
   return values;
 }

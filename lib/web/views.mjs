@@ -4,6 +4,7 @@
 // view, which is not in the file; accessors with the same elements share one. Everything a loader
 // does with an accessor, including morph targets and normalized integers, then works as usual.
 import { Budget, fetchAndDecode, MOST_AT_A_TIME } from './budget.mjs';
+import { asTrap } from './core.mjs';
 import { elementsOf, listOf, originOf, payloadsOf } from './document.mjs';
 import { decodeInWorkers } from './workers.mjs';
 
@@ -46,7 +47,14 @@ export class PayloadViews {
       const number = this.bufferViews.length;
       numbers.set(origin, number);
       this.bufferViews.push({ buffer: 0, byteLength: 0 });
-      this.#sources.set(number, async () => elementsOf(await decodeOnce(), target, accessor));
+      this.#sources.set(number, async () => {
+        const decoded = await decodeOnce();
+        try {
+          return elementsOf(decoded, target, accessor);
+        } catch (error) {
+          throw asTrap(error);
+        }
+      });
     }
     this.accessors[target.accessor] = { ...accessor, bufferView: numbers.get(origin) };
   }
