@@ -38,6 +38,7 @@ export async function* decodeGlbBlocks(source, options) {
       const { bufferView, claims, bytes: payloadBytes } = payload;
       const uses = usesByPiece(claims);
       const blocks = decodeBlocks(chunks, { ...others, ...budget.optionsFor(payload), payloadBytes });
+      requireArgument(typeof blocks?.[Symbol.asyncIterator] === 'function', 'decodeBlocks must do what that of a pool does');
       try {
         for await (const block of blocks) yield { ...block, bufferView, uses: uses.get(block.piece) ?? [] };
       } catch (error) {

@@ -107,11 +107,13 @@ export function membersOf(root, name) {
   const values = new Set();
   let level = [root];
   for (let depth = 0; level.length > 0; ++depth) {
-    if (depth > MOST_NESTING) fail('', `the JSON is nested deeper than ${MOST_NESTING} levels`);
+    if (depth > MOST_NESTING) fail('', `the JSON is nested deeper than ${MOST_NESTING}`);
     const next = [];
-    for (const [key, value] of level.flatMap((parent) => Object.entries(parent ?? {}))) {
-      if (key === name) values.add(value);
-      if (typeof value === 'object') next.push(value);
+    for (const parent of level) {
+      for (const key in parent) {
+        if (key === name) values.add(parent[key]);
+        if (typeof parent[key] === 'object') next.push(parent[key]);
+      }
     }
     level = next;
   }
