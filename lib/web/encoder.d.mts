@@ -28,9 +28,9 @@ export interface EncodeOptions {
   tangentBits?: number;
   /** Default 12. */
   weightBits?: number;
-  /** Every float keeps every bit; the bits above are ignored. */
+  /** Every float keeps every bit. Excludes maxError, lattice, and bits other than 0. */
   lossless?: boolean;
-  /** No position moves farther than this; positionBits is ignored. */
+  /** No position moves farther than this. Excludes positionBits and lattice. */
   maxError?: number;
   /** maxError is a fraction of the longest side of the bounding box. */
   maxErrorRelative?: boolean;
