@@ -24,6 +24,7 @@ export class Chunks {
       this.#next = () => iterator.next();
       this.#cancel = () => iterator.return?.();
     } else {
+      if (source === null) throw new MccError('the source is null: the response has no body', 'BadArgument');
       throw new MccError('the source must be bytes, a ReadableStream or an async iterable of Uint8Arrays', 'BadArgument');
     }
   }

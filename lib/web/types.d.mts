@@ -1,6 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-export type TypedArray = Int8Array | Uint8Array | Int16Array | Uint16Array | Uint32Array | Float32Array;
+/** An array with a buffer of its own, which is never shared: Uint8Array<ArrayBuffer> in TypeScript 5.7 and later. */
+export type Owned<A extends { slice(): unknown }> = ReturnType<A['slice']>;
+
+export type TypedArray =
+  | Owned<Int8Array> | Owned<Uint8Array> | Owned<Int16Array> | Owned<Uint16Array> | Owned<Uint32Array> | Owned<Float32Array>;
 
 export interface DecodedAttribute {
   /** 0 POSITION, 1 NORMAL, 2 TANGENT, 3 TEXCOORD, 4 COLOR, 5 JOINTS, 6 WEIGHTS, 7 any other. */
@@ -20,7 +24,7 @@ export interface DecodedAttribute {
 export interface DecodedPart {
   triangleCount: number;
   /** Three per triangle. Owns its buffer. */
-  indices: Uint16Array | Uint32Array;
+  indices: Owned<Uint16Array> | Owned<Uint32Array>;
 }
 
 export interface DecodedPiece {
@@ -63,8 +67,8 @@ export interface GlbBlock extends DecodedBlock {
   uses: { mesh: number; primitive: number; piece: number; part: number; attributes: Record<string, number> }[];
 }
 
-/** Bytes, or a stream of them such as the body of a response. Bytes must not change meanwhile. */
-export type ByteSource = Uint8Array | ArrayBuffer | ReadableStream<Uint8Array> | AsyncIterable<Uint8Array>;
+/** Bytes, or a stream of them such as the body of a response. Bytes must not change meanwhile. null, which a body may be, is refused. */
+export type ByteSource = Uint8Array | ArrayBuffer | ReadableStream<Uint8Array> | AsyncIterable<Uint8Array> | null;
 
 /** Bounds that are checked before memory is allocated for a payload. */
 export interface Limits {
