@@ -125,6 +125,8 @@ test('a damaged payload is named', async () => {
   const views = new PayloadViews(json, fetchPayload, { decode: decodePayload });
   assert.match(await messageOf(views.load(views.accessors[0].bufferView), 'BadChecksum'), expected);
   assert.match(await messageOf(unpackGltf(json, 'more.bin').decode(fetchPayload), 'BadChecksum'), expected);
+  json.buffers[0].uri = 'model.bin';
+  assert.match(await messageOf(unpackGltf(json, 'more.bin').decode(fetchPayload), 'BadChecksum'), /^model.bin: \/bufferViews\/0: the payload is damaged/);
   assert.match(await messageOf(unpackTile(b3dm(damaged)), 'BadChecksum'), /^in the GLB at byte 28: \/bufferViews\/0: the payload is damaged/);
 });
 
