@@ -3,7 +3,7 @@
 // Limits what all payloads of a file may decode to, before memory is allocated, and how many are under way at a time.
 import { fail } from './claims.mjs';
 import { limitOf, limitsOf } from './core.mjs';
-import { inView, MccError, requireArgument } from './error.mjs';
+import { inView, MccError, placed, requireArgument } from './error.mjs';
 
 /** More than there are workers, so that each has something to do. */
 export const MOST_AT_A_TIME = 16;
@@ -107,12 +107,18 @@ export async function forAll(list, work) {
   return results;
 }
 
-/** Fetches a payload whose namedBytes() have not been added, and decodes it. */
+/** Fetches a payload whose namedBytes() have not been added, and decodes it. Errors have the name of its file, if it has one. */
 export async function fetchAndDecode(budget, json, payload, fetchView, decode, options) {
   const { bufferView } = payload;
+  const { buffer, byteLength } = json.bufferViews[bufferView];
   const bytes = await fetchView(bufferView);
-  if (bytes?.length !== json.bufferViews[bufferView].byteLength) fail(`/bufferViews/${bufferView}`, 'reaches beyond its buffer');
-  budget.fileBytes += bytes.length;
-  budget.add(namedBytes(payload));
-  return budget.decode(payload, bytes, decode, options);
+  try {
+    if (bytes?.length !== byteLength) fail(`/bufferViews/${bufferView}`, 'reaches beyond its buffer');
+    budget.fileBytes += bytes.length;
+    budget.add(namedBytes(payload));
+    return await budget.decode(payload, bytes, decode, options);
+  } catch (error) {
+    const { uri = 'data:' } = json.buffers?.[buffer] ?? {};
+    throw uri.startsWith('data:') ? error : placed(error, uri);
+  }
 }

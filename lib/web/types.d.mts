@@ -135,8 +135,8 @@ export interface InitOptions {
 
 export interface PoolOptions extends InitOptions {
   /**
-   * The number of workers. Default: one less than the processor has cores, at most 4. A worker starts
-   * when it is first needed.
+   * The number of workers, from 1 to 1024; others are refused with an MccError. Default: one less than the processor has cores, at most
+   * 4. A worker starts when it is first needed, and another takes its place if it fails.
    */
   workers?: number;
 }
@@ -153,7 +153,10 @@ export interface PoolDecodeOptions extends DecodeOptions {
 
 export interface DecoderPool {
   readonly size: number;
-  /** Bound to the pool. */
+  /**
+   * Bound to the pool. What is not moved is copied when a worker takes it, so it must not change before. Rejects with an MccError if it
+   * cannot be sent to a worker.
+   */
   readonly decodePayload: (bytes: Uint8Array, options?: PoolDecodeOptions) => Promise<DecodedPayload>;
   /** decodeBlocks() in workers, several blocks at a time. Bound to the pool. */
   readonly decodeBlocks: (source: ByteSource, options?: BlockOptions) => AsyncGenerator<DecodedBlock, void, void>;

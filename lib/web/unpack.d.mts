@@ -9,6 +9,7 @@ export interface UnpackOptions {
 
 /**
  * Returns a GLB without the extension, or `bytes` themselves if no primitive has it. Safe for
- * untrusted bytes.
+ * untrusted bytes: rejects with an MccError, whose message begins with a JSON path or the number of a
+ * byte. `decode` is called with parts of `bytes`, for at most 16 payloads at a time.
  */
 export function unpackGlb<Bytes extends Uint8Array>(bytes: Bytes, options?: UnpackOptions): Promise<Bytes | Owned<Uint8Array>>;
