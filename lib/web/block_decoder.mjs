@@ -2,8 +2,7 @@
 //
 // Decodes and numbers the blocks of a payload with the whole decoder. It does not load anything, so
 // that workers need no other module.
-import { check, describe, limitsOf, takeOutputs } from './core.mjs';
-import { MccError } from './error.mjs';
+import { asTrap, check, describe, instanceOf, limitsOf } from './core.mjs';
 
 const TRUNCATED = 1;
 const NOT_IN_CORE = 255;
@@ -19,7 +18,7 @@ export class BlockDecoder {
   /** @param {WebAssembly.Module} module the core is refused */
   static async make(module) {
     const decoder = new BlockDecoder();
-    decoder.#exports = (await WebAssembly.instantiate(module)).exports;
+    decoder.#exports = (await instanceOf(module)).exports;
     if (decoder.#exports.open_prefix === undefined) check(NOT_IN_CORE);
     return decoder;
   }
@@ -59,9 +58,7 @@ export class BlockDecoder {
   decode(index, { indexType, findsRim }) {
     return this.#guard((exports) => {
       check(exports.decode_block(index, indexType === 'uint32' ? 0 : 1, findsRim ? 1 : 0));
-      const info = describe(exports);
-      takeOutputs(exports, info);
-      const [{ wedgeCount, attributes, parts }] = info.pieces;
+      const [{ wedgeCount, attributes, parts }] = describe(exports, true).pieces;
       if (!findsRim) return { wedgeCount, attributes, parts };
       const { buffer } = exports.memory;
       const wedges = new Uint32Array(buffer, exports.rim_wedges(), exports.rim_count()).slice();
@@ -92,8 +89,7 @@ export class BlockDecoder {
     try {
       return work(this.#exports);
     } catch (error) {
-      if (error instanceof MccError) throw error;
-      throw new MccError(`the decoder failed (${error.message}); there may be too little memory`, 'Trap');
+      throw asTrap(error);
     }
   }
 }

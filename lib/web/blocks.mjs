@@ -4,8 +4,9 @@
 import { BlockDecoder, runTask } from './block_decoder.mjs';
 import { Chunks } from './chunks.mjs';
 import { checkClaims } from './claims.mjs';
+import { asTrap, checkIndexType } from './core.mjs';
 import { decodePayload, wholeModule } from './decoder.mjs';
-import { MccError } from './error.mjs';
+import { MccError, requireArgument } from './error.mjs';
 
 /** What suffices to see whether a payload has blocks. */
 const FLAGS_END = 7;
@@ -64,13 +65,12 @@ let payloadCount = 0;
  * @param {object} [options] besides those of decodeBlocks(): `findsRim` adds `rim` to blocks, `onOpen` is called with a
  *   BlockDecoder that can number blocks and with what the header says
  */
-export async function* blocksOf(runner, source, options = {}) {
-  const { order = 'index', signal, limits, indexType = 'auto', claims, findsRim = false, onOpen } = options;
-  if (!['index', 'any'].includes(order)) throw new MccError(`order is '${order}', but must be index or any`, 'BadArgument');
-  if (!['auto', 'uint16', 'uint32'].includes(indexType)) {
-    throw new MccError(`indexType is '${indexType}', but must be auto, uint16 or uint32`, 'BadArgument');
-  }
-  const payloadBytes = sizeOf(source, options);
+export async function* blocksOf(runner, source, options) {
+  const { order = 'index', signal, limits, indexType = 'auto', claims, findsRim = false, onOpen, payloadBytes: given } = options ?? {};
+  requireArgument(['index', 'any'].includes(order), 'order must be index or any');
+  requireArgument(signal === undefined || typeof signal?.throwIfAborted === 'function', 'signal must be an AbortSignal');
+  checkIndexType(indexType);
+  const payloadBytes = sizeOf(source, given);
   signal?.throwIfAborted();
   const chunks = source instanceof Chunks ? source : new Chunks(source);
   const abort = new Abort(signal);
@@ -84,8 +84,8 @@ export async function* blocksOf(runner, source, options = {}) {
     }
     const table = await BlockDecoder.make(await abort.race(runner.module()));
     const info = await openTable(table, chunks, payloadBytes, limits, abort);
-    if (claims !== undefined) checkClaims(info, claims);
-    checkIndexType(info, indexType);
+    checkAgainst(info, claims);
+    checkIndexType(indexType, info.blocks);
     onOpen?.(table, info);
     const header = await chunks.read(info.headerBytes);
     yield* inOrder(order, info.blocks.length, runner.ahead, abort, starter(runner, key, {
@@ -99,11 +99,17 @@ export async function* blocksOf(runner, source, options = {}) {
   }
 }
 
-function sizeOf(source, { payloadBytes }) {
-  const known = source instanceof Uint8Array || source instanceof ArrayBuffer ? source.byteLength : payloadBytes;
-  if (!Number.isSafeInteger(known) || known < 0 || (payloadBytes ?? known) !== known) {
-    throw new MccError('payloadBytes must be the size of the payload', 'BadArgument');
+function checkAgainst(info, claims) {
+  try {
+    if (claims !== undefined) checkClaims(info, claims);
+  } catch (error) {
+    throw asTrap(error);
   }
+}
+
+function sizeOf(source, given) {
+  const known = source instanceof Uint8Array || source instanceof ArrayBuffer ? source.byteLength : given;
+  requireArgument(Number.isSafeInteger(known) && known >= 0 && (given ?? known) === known, 'payloadBytes must be the size of the payload');
   return known;
 }
 
@@ -117,12 +123,6 @@ async function openTable(table, chunks, payloadBytes, limits, abort) {
   }
 }
 
-function checkIndexType({ blocks }, indexType) {
-  if (indexType === 'uint16' && blocks.some(({ wedgeCount }) => wedgeCount > 0xffff)) {
-    throw new MccError('a block has too many vertices for 16-bit indices', 'BadArgument');
-  }
-}
-
 /** Returns a function that begins with a block: it reads one after the other, and decodes several at a time. */
 function starter(runner, key, { header, info, chunks, opening, options }) {
   let reading = Promise.resolve();
@@ -133,7 +133,7 @@ function starter(runner, key, { header, info, chunks, opening, options }) {
     prefix ??= joined(header, bytes); // of block 0, which is read first
     const makeTask = (isFirst) => {
       const own = isFirst ? { opening: { ...opening, prefix: prefix.slice() } } : {};
-      if (index !== 0) Object.assign(own, { offset, bytes: bytes.slice() });
+      if (index !== 0) Object.assign(own, { offset, bytes: new Uint8Array(bytes) });
       const task = { key, index, ...own, ...options };
       return { task, moved: [own.opening?.prefix.buffer, own.bytes?.buffer].filter(Boolean) };
     };
@@ -250,9 +250,7 @@ class Glue {
     this.#table = table;
     this.pieces = pieces;
     const [{ wedgeCount }] = pieces;
-    if (indexType === 'uint16' && wedgeCount > 0xffff) {
-      throw new MccError('a piece has too many vertices for 16-bit indices', 'BadArgument');
-    }
+    checkIndexType(indexType, pieces);
     this.IndexArray = indexType === 'uint32' || wedgeCount > 0xffff ? Uint32Array : Uint16Array;
     this.filled = pieces[0].parts.map(() => 0);
   }

@@ -1,7 +1,12 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Limits what all payloads of a file may decode to. It is checked before memory is allocated.
-import { MccError } from './error.mjs';
+// Limits what all payloads of a file may decode to, before memory is allocated, and how many are under way at a time.
+import { fail } from './claims.mjs';
+import { limitOf, limitsOf } from './core.mjs';
+import { inView, MccError, placed, requireArgument } from './error.mjs';
+
+/** More than there are workers, so that each has something to do. */
+export const MOST_AT_A_TIME = 16;
 
 /**
  * Returns the number of bytes that the document names of a payload: each attribute and each part
@@ -34,10 +39,12 @@ export class Budget {
    * @param {number} fileBytes
    * @param {import('./types.mjs').FileLimits} [limits]
    */
-  constructor(fileBytes, { maxDecodedBytes, ...limits } = {}) {
+  constructor(fileBytes, limits) {
+    limitsOf(limits); // checks them
+    this.#max = limitOf(limits, 'maxDecodedBytes');
+    const { maxDecodedBytes, ...others } = limits ?? {};
+    this.#limits = others;
     this.fileBytes = fileBytes;
-    this.#limits = limits;
-    this.#max = maxDecodedBytes;
   }
 
   /** The same as decodedLimit() of the C++ library. */
@@ -56,6 +63,15 @@ export class Budget {
     this.#total = total;
   }
 
+  /** Decodes a payload whose namedBytes() have been added. */
+  async decode(payload, bytes, decode, options) {
+    try {
+      return this.settle(payload, typeof decode === 'function' && await decode(bytes, { ...this.optionsFor(payload), ...options }));
+    } catch (error) {
+      throw inView(error, payload.bufferView);
+    }
+  }
+
   /**
    * Returns the options of decodePayload() for a payload whose namedBytes() have been added.
    * Outputs that the document does not name must fit in what is left.
@@ -67,7 +83,42 @@ export class Budget {
 
   /** Counts the outputs that the document does not name, and returns `decoded`. */
   settle(payload, decoded) {
+    requireArgument(Array.isArray(decoded?.pieces), 'decode must do what decodePayload() does');
     this.add(Math.max(0, bytesOf(decoded) - namedBytes(payload)));
     return decoded;
+  }
+}
+
+/** Calls an asynchronous function for each entry of a list, a few at a time, and for none any more after one has failed. */
+export async function forAll(list, work) {
+  const results = [];
+  let next = 0;
+  const workOn = async () => {
+    while (next < list.length) {
+      const i = next++;
+      results[i] = await work(list[i]);
+    }
+  };
+  try {
+    await Promise.all(Array.from({ length: MOST_AT_A_TIME }, workOn));
+  } finally {
+    next = list.length;
+  }
+  return results;
+}
+
+/** Fetches a payload whose namedBytes() have not been added, and decodes it. Errors have the name of its file, if it has one. */
+export async function fetchAndDecode(budget, json, payload, fetchView, decode, options) {
+  const { bufferView } = payload;
+  const { buffer, byteLength } = json.bufferViews[bufferView];
+  const bytes = await fetchView(bufferView);
+  try {
+    if (bytes?.length !== byteLength) fail(`/bufferViews/${bufferView}`, 'reaches beyond its buffer');
+    budget.fileBytes += bytes.length;
+    budget.add(namedBytes(payload));
+    return await budget.decode(payload, bytes, decode, options);
+  } catch (error) {
+    const { uri = 'data:' } = json.buffers?.[buffer] ?? {};
+    throw uri.startsWith('data:') ? error : placed(error, uri);
   }
 }

@@ -1,5 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-import { MccError } from './error.mjs';
+import { asMccError, MccError } from './error.mjs';
 
 /** Reads bytes, or a stream of them, from its beginning to its end. */
 export class Chunks {
@@ -16,7 +16,7 @@ export class Chunks {
       this.#add(source);
       this.#next = async () => ({ done: true });
     } else if (typeof source?.getReader === 'function') {
-      const reader = source.getReader();
+      const reader = readerOf(source);
       this.#next = () => reader.read();
       this.#cancel = () => reader.cancel();
     } else if (typeof source?.[Symbol.asyncIterator] === 'function') {
@@ -24,6 +24,7 @@ export class Chunks {
       this.#next = () => iterator.next();
       this.#cancel = () => iterator.return?.();
     } else {
+      if (source === null) throw new MccError('the source is null: the response has no body', 'BadArgument');
       throw new MccError('the source must be bytes, a ReadableStream or an async iterable of Uint8Arrays', 'BadArgument');
     }
   }
@@ -64,7 +65,7 @@ export class Chunks {
 
   async #fill(count) {
     while (this.#length < count) {
-      const { done, value } = await this.#next();
+      const { done, value } = (await this.#next()) ?? {};
       if (done) {
         this.#cancel = undefined;
         return;
@@ -101,5 +102,13 @@ export class Chunks {
     while (whole < this.#chunks.length && this.#chunks[whole].length <= count) count -= this.#chunks[whole++].length;
     this.#chunks.splice(0, whole);
     if (count > 0) this.#chunks[0] = this.#chunks[0].subarray(count);
+  }
+}
+
+function readerOf(source) {
+  try {
+    return source.getReader();
+  } catch (error) {
+    throw asMccError(error, 'the source cannot be read', 'BadArgument');
   }
 }

@@ -3,7 +3,7 @@
 // Decodes payloads with a compiled WebAssembly module. It does not load anything, so that workers
 // need no other module.
 import { checkClaims } from './claims.mjs';
-import { MccError } from './error.mjs';
+import { asMccError, MccError, requireArgument } from './error.mjs';
 
 /**
  * Kinds of errors, indexed by number - 1: the name in the specification (A.1.4), and what is wrong
@@ -27,11 +27,11 @@ const OUT_OF_MEMORY = ERRORS.length;
 const NOT_IN_CORE = ['NotInCore', 'needs the whole decoder'];
 const LIMITS = ['maxVertices', 'maxTriangles', 'maxAttributes', 'maxPieces', 'maxElements', 'maxOutputBytes'];
 
-/** Component types of glTF and array types, by the component type in the payload's header. */
-const COMPONENT_TYPES = [
-  [5120, Int8Array], [5121, Uint8Array], [5122, Int16Array], [5123, Uint16Array], [5125, Uint32Array],
-  [5126, Float32Array],
-];
+/** Array types by the component types of glTF, in the order of the component types in a payload's header. */
+export const ARRAYS = {
+  5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array,
+};
+const COMPONENT_TYPES = Object.keys(ARRAYS).map(Number);
 
 /**
  * An instance whose memory has grown beyond this is dropped after it has been idle for a while,
@@ -62,15 +62,13 @@ export class Decoder {
     }
   }
 
-  decodeSync(bytes, options = {}) {
-    this.#instance ??= new WebAssembly.Instance(this.module);
-    const exports = this.#instance.exports;
+  decodeSync(bytes, options) {
     try {
-      return decodeWith(exports, bytes, options);
+      this.#instance ??= new WebAssembly.Instance(this.module);
+      return decodeWith(this.#instance.exports, bytes, options ?? {});
     } catch (error) {
-      if (error instanceof MccError) throw error;
-      this.#instance = null; // after a trap, its memory may be in any state
-      throw new MccError(`the decoder failed (${error.message}); there may be too little memory`, 'Trap');
+      if (!(error instanceof MccError)) this.#instance = null; // after a trap, its memory may be in any state
+      throw asTrap(error);
     } finally {
       this.#giveBackLater();
     }
@@ -78,7 +76,7 @@ export class Decoder {
 
   /** Makes the instance. Calls that come before it is there wait for the same one. */
   #instantiate() {
-    this.#instantiating ??= WebAssembly.instantiate(this.module)
+    this.#instantiating ??= instanceOf(this.module)
       .then((instance) => { this.#instance ??= instance; })
       .finally(() => { this.#instantiating = null; });
     return this.#instantiating;
@@ -93,25 +91,40 @@ export class Decoder {
   }
 }
 
-function decodeWith(exports, bytes, { limits = {}, indexType = 'auto', claims }) {
-  if (!(bytes instanceof Uint8Array)) throw new MccError('the payload must be a Uint8Array', 'BadArgument');
-  if (!['auto', 'uint16', 'uint32'].includes(indexType)) {
-    throw new MccError(`indexType is '${indexType}', but must be auto, uint16 or uint32`, 'BadArgument');
+/** Errors of the engine while a module runs: a trap, or memory that is not there. */
+export const asTrap = (error) => asMccError(error, 'the decoder failed, maybe out of memory', 'Trap');
+
+/** Makes an instance of a module. */
+export async function instanceOf(module) {
+  try {
+    return await WebAssembly.instantiate(module);
+  } catch (error) {
+    throw asTrap(error);
   }
+}
+
+export const checkBytes = (bytes) => requireArgument(bytes instanceof Uint8Array, 'the payload must be a Uint8Array');
+
+/** Checks an option, and whether indices of pieces or blocks can be of that type. */
+export function checkIndexType(indexType, pieces = []) {
+  requireArgument(['auto', 'uint16', 'uint32'].includes(indexType), 'indexType must be auto, uint16 or uint32');
+  requireArgument(indexType !== 'uint16' || pieces.every(({ wedgeCount }) => wedgeCount <= 0xffff), 'indexType is too small for so many vertices');
+}
+
+function decodeWith(exports, bytes, { limits, indexType = 'auto', claims }) {
+  checkBytes(bytes);
+  const numbers = limitsOf(limits);
   const address = exports.allocate(bytes.length);
   if (address === 0) check(OUT_OF_MEMORY);
   let closes = true;
   try {
     new Uint8Array(exports.memory.buffer, address, bytes.length).set(bytes);
-    check(exports.open(address, bytes.length, ...limitsOf(limits)));
+    check(exports.open(address, bytes.length, ...numbers));
     const info = describe(exports);
     if (claims !== undefined) checkClaims(info, claims);
-    if (indexType === 'uint16' && info.pieces.some((piece) => piece.wedgeCount > 0xffff)) {
-      throw new MccError('a piece has too many vertices for 16-bit indices', 'BadArgument');
-    }
+    checkIndexType(indexType, info.pieces);
     check(exports.decode(indexType === 'uint32' ? 0 : 1));
-    takeOutputs(exports, info);
-    return info;
+    return describe(exports, true);
   } catch (error) {
     closes = error instanceof MccError;
     throw error;
@@ -120,8 +133,15 @@ function decodeWith(exports, bytes, { limits = {}, indexType = 'auto', claims })
   }
 }
 
+/** Returns a limit, or undefined if it is not given. */
+export function limitOf(limits, name) {
+  const limit = limits?.[name] ?? undefined;
+  requireArgument(limit === undefined || (typeof limit === 'number' && limit >= 0), `limits.${name} must be a number >= 0`);
+  return limit;
+}
+
 /** The limits as arguments of the exports. */
-export const limitsOf = (limits = {}) => LIMITS.map((name) => limits[name] ?? Infinity);
+export const limitsOf = (limits) => LIMITS.map((name) => limitOf(limits, name) ?? Infinity);
 
 /** Throws the reader's error, if `number` is one. */
 export function check(number) {
@@ -131,48 +151,30 @@ export function check(number) {
 }
 
 /**
- * Reads the header: a DecodedPayload without its arrays. The words are described in
+ * Reads the header: a DecodedPayload, without its arrays unless `isDecoded`. The words are described in
  * src/decoder.cpp.
  */
-export function describe(exports) {
-  const words = new Uint32Array(exports.memory.buffer, exports.table());
+export function describe(exports, isDecoded) {
+  const { buffer } = exports.memory;
+  const words = new Uint32Array(buffer, exports.table());
   let at = 0;
   const list = (count, read) => Array.from({ length: count }, read);
+  const copyOf = (ArrayType, address, length) => (isDecoded ? new ArrayType(buffer, address, length).slice() : undefined);
   const pieces = list(words[at++], () => {
     const [wedgeCount, vertexCount, attributeCount, partCount] = words.subarray(at, (at += 4));
     const attributes = list(attributeCount, () => {
-      const [semantic, set, type, normalized, componentCount, morphTarget] = words.subarray(at, (at += 7));
-      const componentType = COMPONENT_TYPES[type][0];
-      return { semantic, set, morphTarget, componentType, componentCount, normalized: normalized === 1 };
+      const [semantic, set, type, normalized, componentCount, morphTarget, address] = words.subarray(at, (at += 7));
+      const componentType = COMPONENT_TYPES[type];
+      const array = copyOf(ARRAYS[componentType], address, wedgeCount * componentCount);
+      return { semantic, set, morphTarget, componentType, componentCount, normalized: normalized === 1, array };
     });
     const parts = list(partCount, () => {
-      const triangleCount = words[at];
-      at += 3;
-      return { triangleCount };
+      const [triangleCount, indexBytes, address] = words.subarray(at, (at += 3));
+      return { triangleCount, indices: copyOf(indexBytes === 2 ? Uint16Array : Uint32Array, address, 3 * triangleCount) };
     });
     return { wedgeCount, vertexCount, attributes, parts };
   });
   return { pieces };
-}
-
-/** Copies the outputs from the addresses that decode() has put into the table. */
-export function takeOutputs(exports, info) {
-  const buffer = exports.memory.buffer;
-  const words = new Uint32Array(buffer, exports.table());
-  let at = 1;
-  for (const piece of info.pieces) {
-    at += 4;
-    for (const attribute of piece.attributes) {
-      const ArrayType = COMPONENT_TYPES[words[at + 2]][1];
-      attribute.array = new ArrayType(buffer, words[at + 6], piece.wedgeCount * attribute.componentCount).slice();
-      at += 7;
-    }
-    for (const part of piece.parts) {
-      const ArrayType = words[at + 1] === 2 ? Uint16Array : Uint32Array;
-      part.indices = new ArrayType(buffer, words[at + 2], 3 * part.triangleCount).slice();
-      at += 3;
-    }
-  }
 }
 
 /** Returns the buffers of a DecodedPayload, to be transferred by postMessage(). */

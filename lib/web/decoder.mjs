@@ -2,9 +2,10 @@
 //
 // Decodes payloads of KHR_mesh_collapse_compression, on this thread or in workers.
 import { blocksOf, claimsBlocks, decodeGlued } from './blocks.mjs';
-import { Decoder } from './core.mjs';
-import { MccError } from './error.mjs';
-import { compileModule, importOfNode } from './load.mjs';
+import { checkBytes, checkIndexType, Decoder } from './core.mjs';
+import { asMccError, MccError, requireArgument } from './error.mjs';
+import { compileModule } from './load.mjs';
+import { importOfNode } from './node.mjs';
 
 export { MccError };
 
@@ -50,14 +51,16 @@ class Source {
   }
 }
 
+const MOST_WORKERS = 1024;
+
 let source = new Source({});
 
 /**
  * Loads the decoder. If it is never called, the first decodePayload() loads the modules next to
  * this one.
  */
-export async function init(options = {}) {
-  source = new Source(options);
+export async function init(options) {
+  source = new Source(options ?? {});
   await source.core();
 }
 
@@ -85,8 +88,9 @@ export function decodePayloadSync(bytes, options) {
 }
 
 /** Creates a pool that decodes several payloads at a time, in workers. */
-export function createDecoderPool(options = {}) {
-  const { workers = Math.max(1, Math.min(4, (globalThis.navigator?.hardwareConcurrency ?? 4) - 1)), ...where } = options;
+export function createDecoderPool(options) {
+  const { workers = Math.max(1, Math.min(4, (globalThis.navigator?.hardwareConcurrency ?? 4) - 1)), ...where } = options ?? {};
+  requireArgument(Number.isInteger(workers) && workers > 0 && workers <= MOST_WORKERS, `workers must be a number from 1 to ${MOST_WORKERS}`);
   return new DecoderPool(workers, where);
 }
 
@@ -105,16 +109,23 @@ class DecoderPool {
   }
 
   /** Bound to the pool, so that it can be passed on as the option `decode` of unpackGlb(). */
-  decodePayload = async (bytes, { transfer = false, onBlock, ...options } = {}) => {
+  decodePayload = async (bytes, options) => {
+    const { transfer = false, onBlock, limits, indexType = 'auto', claims } = options ?? {};
+    checkBytes(bytes);
+    checkIndexType(indexType);
+    requireArgument(onBlock === undefined || typeof onBlock === 'function', 'onBlock must be a function');
     // Workers share the blocks of a large surface.
-    if ((this.size > 1 || onBlock !== undefined) && bytes instanceof Uint8Array && claimsBlocks(bytes)) {
-      return decodeGlued(this.#runner, bytes, { onBlock, ...options });
+    if ((this.size > 1 || onBlock !== undefined) && claimsBlocks(bytes)) {
+      return decodeGlued(this.#runner, bytes, { onBlock, limits, indexType, claims });
     }
     // The buffer moves to the worker. It is the caller's own if that is wanted and it holds nothing
-    // else.
-    const whole = transfer && bytes.byteLength === bytes.buffer.byteLength;
-    const payload = whole ? bytes : bytes.slice();
-    return this.#run(undefined, () => ({ message: { bytes: payload, options }, moved: [payload.buffer] }));
+    // else; otherwise it is copied when a worker is free, so that no more copies are there than workers.
+    const { buffer } = bytes;
+    const whole = transfer && buffer instanceof ArrayBuffer && bytes.byteLength === buffer.byteLength;
+    return this.#run(undefined, () => {
+      const payload = whole ? bytes : new Uint8Array(bytes);
+      return { message: { bytes: payload, options: { limits, indexType, claims } }, moved: [payload.buffer] };
+    });
   };
 
   /** Bound to the pool. */
@@ -165,19 +176,19 @@ class DecoderPool {
     const slot = idle.find(({ keys }) => keys.has(this.#waiting[0].key)) ?? idle[0];
     if (slot === undefined) return;
     slot.job = this.#waiting.shift();
-    slot.started ??= this.#source.first().then(({ module }) => this.#start(slot, module));
-    slot.started.then(
-      () => {
-        if (slot.job === null) return; // the pool was disposed of
-        const { message, moved } = slot.job.make(slot);
-        slot.worker.ref?.(); // Node: only a running job keeps the program alive
-        slot.worker.postMessage(message, moved);
-      },
-      (error) => {
-        slot.started = null; // the next payload tries again
-        this.#finish(slot, 'reject', error);
-      },
-    );
+    slot.started ??= this.#start(slot);
+    slot.started.then(() => this.#post(slot), (error) => this.#lose(slot, error));
+  }
+
+  #post(slot) {
+    if (slot.job === null) return; // the pool was disposed of
+    try {
+      const { message, moved } = slot.job.make(slot);
+      slot.worker.postMessage(message, moved);
+      slot.worker.ref?.(); // Node: only a running job keeps the program alive
+    } catch (error) {
+      this.#finish(slot, 'reject', asMccError(error, 'the payload cannot be sent to a worker', 'BadArgument'));
+    }
   }
 
   #finish(slot, how, value) {
@@ -190,27 +201,38 @@ class DecoderPool {
     this.#next();
   }
 
-  async #start(slot, module) {
-    slot.worker = await createWorker(
-      ({ decoded, needsWhole, message, code }) => {
-        if (decoded !== undefined) {
-          this.#finish(slot, 'resolve', decoded);
-        } else if (needsWhole) { // the worker keeps the payload and waits
-          this.#source.whole().then(({ module: whole }) => slot.worker.postMessage({ module: whole }),
-            (error) => this.#finish(slot, 'reject', error));
-        } else {
-          this.#finish(slot, 'reject', new MccError(message, code));
-        }
-      },
-      (error) => {
-        slot.worker?.terminate();
-        slot.worker = slot.started = null;
-        slot.keys.clear();
-        this.#finish(slot, 'reject', new MccError(`the worker failed (${error.message ?? 'it could not start'})`, 'Load'));
-      },
-    );
-    if (this.#disposed) slot.worker.terminate();
-    else slot.worker.postMessage({ module });
+  /** Drops a worker that has failed, or that could not start. The next payload gets another one. */
+  #lose(slot, error) {
+    slot.worker?.terminate();
+    slot.worker = slot.started = null;
+    slot.keys.clear();
+    this.#finish(slot, 'reject', asMccError(error, 'the worker failed', 'Load'));
+  }
+
+  async #start(slot) {
+    const { module } = await this.#source.first();
+    const answer = ({ decoded, needsWhole, message, code }) => {
+      if (decoded !== undefined) this.#finish(slot, 'resolve', decoded);
+      else if (needsWhole) this.#sendWhole(slot);
+      else this.#finish(slot, 'reject', new MccError(message, code));
+    };
+    // What comes from a worker that was dropped is not about the one in its place.
+    const ifCurrent = (call) => (value) => { if (slot.worker === worker) call(value); };
+    const worker = await createWorker(ifCurrent(answer), ifCurrent((error) => this.#lose(slot, error)));
+    slot.worker = worker;
+    if (this.#disposed) worker.terminate();
+    else worker.postMessage({ module });
+  }
+
+  /** The worker keeps the payload and waits. */
+  async #sendWhole(slot) {
+    const { worker } = slot;
+    try {
+      const { module } = await this.#source.whole();
+      if (slot.worker === worker) worker.postMessage({ module });
+    } catch (error) {
+      if (slot.worker === worker) this.#finish(slot, 'reject', asMccError(error, 'the decoder cannot be sent to a worker', 'Load'));
+    }
   }
 }
 
@@ -219,13 +241,14 @@ async function createWorker(onMessage, onError) {
   if (typeof Worker === 'function') {
     const worker = new Worker(new URL('./worker.mjs', import.meta.url), { type: 'module' });
     worker.onmessage = ({ data }) => onMessage(data);
-    worker.onerror = onError;
+    worker.onerror = worker.onmessageerror = onError;
     return worker;
   }
   const threads = await importOfNode('worker_threads');
   const worker = new threads.Worker(new URL('./worker.mjs', import.meta.url));
   worker.on('message', onMessage);
-  worker.on('error', onError);
+  for (const event of ['error', 'messageerror']) worker.on(event, onError);
+  worker.on('exit', () => onError({ message: 'it has ended' }));
   return worker;
 }
 

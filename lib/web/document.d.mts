@@ -13,6 +13,8 @@ export interface Target {
 
 export interface Payload {
   bufferView: number;
+  /** The buffer, where the payload begins, and where it ends. */
+  source: [number, number, number];
   /** One per accessor. */
   targets: Target[];
   /** Plain data for decodePayload(bytes, { claims }). */
@@ -21,7 +23,9 @@ export interface Payload {
 
 /**
  * Lists the payloads of a glTF document, each once: buffer views of the same bytes hold one
- * payload. Throws an MccError if the document violates the specification.
+ * payload. Throws an MccError with a JSON path if the document violates the specification, if what is
+ * read of it is of a wrong type, or if payloads overlap, since work and memory must be in proportion
+ * to its bytes. Of a document without payloads nothing is checked.
  */
 export function payloadsOf(json: object): Payload[];
 

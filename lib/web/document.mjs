@@ -4,14 +4,16 @@
 // accessors. Checks the rules of the specification that need no payload; decodePayload() checks
 // `claims` against the payload's header.
 import { fail } from './claims.mjs';
+import { ARRAYS } from './core.mjs';
+import { checkShape, DOCUMENT, EXTENSION, NEEDED } from './shape.mjs';
 
 export const EXTENSION_NAME = 'KHR_mesh_collapse_compression';
 
 const TRIANGLES = 4;
 const FLOAT = 5126;
 const CUSTOM = 7;
-const INDEX_ARRAYS = { 5121: Uint8Array, 5123: Uint16Array, 5125: Uint32Array };
-export const COMPONENT_COUNTS = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 };
+const INDEX_TYPES = [5121, 5123, 5125];
+export const COMPONENT_COUNTS = { __proto__: null, SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 };
 /** The semantic of an attribute, by name and accessor type; all others are custom. */
 const SEMANTICS = [
   [/^POSITION$/, 'VEC3'],
@@ -27,7 +29,8 @@ const SEMANTICS = [
  * Lists the payloads of a document, each once.
  *
  * @param {object} json  the glTF document
- * @returns {object[]}  { bufferView, targets, claims } by payload, where
+ * @returns {object[]}  { bufferView, source, targets, claims } by payload, where
+ *   source:  [the buffer, where the payload begins, where it ends];
  *   targets: [{ accessor, piece, attribute } or { accessor, piece, part }], one per accessor that
  *            the payload fills; `attribute` and `part` are numbers within the piece; see elementsOf();
  *   claims:  plain data, to be passed on as decodePayload(bytes, { claims }); each with the
@@ -36,26 +39,43 @@ const SEMANTICS = [
  * @throws MccError with a JSON path, if an extension object violates the specification
  */
 export function payloadsOf(json) {
+  const uses = extensionUses(json);
+  // Documents that are not ours may be as they like.
+  if (uses.length === 0) return [];
+  checkShape(json, json, DOCUMENT, '');
+  // By URI: the last buffer that has it.
+  const buffers = new Map(listOf(json.buffers).map(({ uri }, i) => [uri ?? i, i]));
   const payloads = new Map();
-  const sources = new Map(); // what fills each accessor
-  for (const use of extensionUses(json)) {
+  const filled = new Map(); // what fills each accessor
+  for (const use of uses) {
     const claim = readUse(json, use);
     const { bufferView } = claim;
     const { buffer, byteOffset = 0, byteLength } = json.bufferViews[bufferView];
-    const place = `${buffer} ${byteOffset} ${byteLength}`;
-    if (!payloads.has(place)) payloads.set(place, { bufferView, targets: [], claims: [] });
+    const source = [buffers.get(json.buffers?.[buffer]?.uri ?? buffer), byteOffset, byteOffset + byteLength];
+    const place = source.join();
+    if (!payloads.has(place)) payloads.set(place, { bufferView, source, targets: [], claims: [] });
     const payload = payloads.get(place);
     payload.claims.push(claim);
     for (const { path, target } of targetsOf(claim)) {
-      const source = JSON.stringify([bufferView, target.piece, target.attribute, target.part]);
-      const known = sources.get(target.accessor);
+      const origin = [bufferView, target.piece, target.attribute, target.part].join();
+      const known = filled.get(target.accessor);
       if (known === undefined) payload.targets.push(target);
-      else if (known !== source) fail(path, `accessor ${target.accessor} is filled from two different places`);
-      sources.set(target.accessor, source);
+      else if (known !== origin) fail(path, `accessor ${target.accessor} is filled from two different places`);
+      filled.set(target.accessor, origin);
     }
   }
-  if (payloads.size !== 0) checkOthers(json, sources);
+  checkOverlaps([...payloads.values()]);
+  checkOthers(json, filled);
   return [...payloads.values()];
+}
+
+/** Work and memory are in proportion to the bytes of all payloads, which therefore must not be more than those of the file. */
+function checkOverlaps(payloads) {
+  const sorted = payloads.sort(({ source: a }, { source: b }) => a[0] - b[0] || a[1] - b[1]);
+  sorted.forEach(({ bufferView, source: [buffer, begin] }, i) => {
+    const before = sorted[i - 1]?.source;
+    if (begin < before?.[2] && buffer === before[0]) fail(`/bufferViews/${bufferView}`, 'overlaps another payload');
+  });
 }
 
 /**
@@ -65,7 +85,7 @@ export function payloadsOf(json) {
 export function elementsOf({ pieces }, { piece, attribute, part }, { componentType }) {
   if (attribute !== undefined) return pieces[piece].attributes[attribute].array;
   const { indices } = pieces[piece].parts[part];
-  const IndexArray = INDEX_ARRAYS[componentType];
+  const IndexArray = ARRAYS[componentType];
   return indices instanceof IndexArray ? indices : IndexArray.from(indices);
 }
 
@@ -74,101 +94,79 @@ export function originOf({ piece, attribute, part }, { componentType, type }) {
   return [piece, attribute, part, componentType, type].join();
 }
 
+/** The entries of a list of a document that is not checked yet. */
+export const listOf = (value) => (Array.isArray(value) ? value : []);
+
 /** @returns {object[]}  { extension, primitive, path } of all primitives with the extension */
 export function extensionUses(json) {
-  return (json.meshes ?? []).flatMap((mesh, m) => (mesh.primitives ?? []).flatMap((primitive, p) => {
-    const extension = primitive.extensions?.[EXTENSION_NAME];
+  return listOf(json?.meshes).flatMap((mesh, m) => listOf(mesh?.primitives).flatMap((primitive, p) => {
+    const extension = primitive?.extensions?.[EXTENSION_NAME];
     return extension === undefined ? [] : [{ extension, primitive, path: `/meshes/${m}/primitives/${p}` }];
   }));
 }
 
-const isObject = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
-const isNumber = (value) => Number.isInteger(value) && value >= 0 && value < 2 ** 32;
-
-function numberOf(value, path) {
-  if (!isNumber(value)) fail(path, 'must be a non-negative integer');
-  return value;
-}
-
 function readUse(json, { extension, primitive, path: primitivePath }) {
   const path = `${primitivePath}/extensions/${EXTENSION_NAME}`;
-  if (!isObject(extension)) fail(path, 'must be an object');
+  checkShape(json, extension, EXTENSION, path);
   if (primitive.extensions.KHR_draco_mesh_compression !== undefined) {
     fail(path, 'the primitive is also compressed with KHR_draco_mesh_compression');
   }
   if ((primitive.mode ?? TRIANGLES) !== TRIANGLES) fail(`${primitivePath}/mode`, 'must be 4 (triangles) in a compressed primitive');
-  const claim = {
-    path,
-    bufferView: readView(json, extension, path),
-    piece: numberOf(extension.piece ?? 0, `${path}/piece`),
-    part: numberOf(extension.part ?? 0, `${path}/part`),
-    indices: readIndices(json, primitive.indices, `${primitivePath}/indices`),
-    attributes: [],
-    ordinary: [],
-  };
-  readMap(json, extension.attributes, path, primitive.attributes, primitivePath, 0, claim);
+  const { bufferView, piece = 0, part = 0 } = extension;
+  checkView(json, bufferView, `${path}/bufferView`);
+  const indices = readIndices(json, primitive.indices, `${primitivePath}/indices`);
+  const claim = { path, bufferView, piece, part, indices, attributes: [], ordinary: [] };
+  readMap(json, extension.attributes, `${path}/attributes`, primitive.attributes, 0, claim);
   const targets = primitive.targets ?? [];
-  if (extension.targets !== undefined && extension.targets?.length !== targets.length) {
+  if (extension.targets !== undefined && extension.targets.length !== targets.length) {
     fail(`${path}/targets`, `must have as many targets as the primitive, which has ${targets.length}`);
   }
-  targets.forEach((target, i) => {
-    readMap(json, extension.targets?.[i], `${path}/targets/${i}`, target, `${primitivePath}/targets/${i}`, i + 1, claim);
-  });
+  targets.forEach((target, i) => readMap(json, extension.targets?.[i], `${path}/targets/${i}`, target, i + 1, claim));
   return claim;
 }
 
-function readView(json, { bufferView }, path) {
-  const view = json.bufferViews?.[numberOf(bufferView, `${path}/bufferView`)];
-  if (view === undefined) fail(`${path}/bufferView`, `there is no bufferView ${bufferView}`);
-  for (const name of ['EXT_meshopt_compression', 'KHR_meshopt_compression']) {
-    if (view.extensions?.[name] !== undefined) fail(`${path}/bufferView`, `bufferView ${bufferView} is coded with ${name}`);
-  }
-  return bufferView;
+function checkView({ bufferViews }, number, path) {
+  const view = bufferViews?.[number] ?? fail(path, `there is no bufferView ${number}`);
+  const coder = Object.keys(view.extensions ?? {}).find((name) => /^(EXT|KHR)_meshopt_compression$/.test(name));
+  if (coder !== undefined) fail(path, `bufferView ${number} is coded with ${coder}`);
 }
 
-function accessorOf(json, number, path) {
-  const accessor = json.accessors?.[numberOf(number, path)];
-  if (accessor === undefined) fail(path, `there is no accessor ${number}`);
-  const count = numberOf(accessor.count, `/accessors/${number}/count`);
-  return { path: `/accessors/${number}`, number, count, accessor };
-}
+/** Returns what is to be checked of an accessor. */
+const placeOf = ({ accessors }, number) => ({ path: `/accessors/${number}`, number, count: accessors[number].count });
 
 function readIndices(json, number, path) {
-  const { accessor, ...indices } = accessorOf(json, number, path);
-  const size = INDEX_ARRAYS[accessor.componentType]?.BYTES_PER_ELEMENT;
-  if (accessor.type !== 'SCALAR' || size === undefined || accessor.normalized) {
-    fail(indices.path, 'indices must be SCALAR of an unsigned type');
-  }
-  return { ...indices, size };
+  checkShape(json, number, NEEDED, path);
+  const place = placeOf(json, number);
+  const { type, componentType, normalized } = json.accessors[number];
+  if (type !== 'SCALAR' || !INDEX_TYPES.includes(componentType) || normalized) fail(place.path, 'indices must be SCALAR of an unsigned type');
+  return { ...place, size: ARRAYS[componentType].BYTES_PER_ELEMENT };
 }
 
 /**
  * Reads the attributes of the primitive or of a morph target. `ids` names those in the payload; the
  * others are ordinary.
  */
-function readMap(json, ids = {}, path, accessors = {}, accessorsPath, morphTarget, claim) {
-  if (morphTarget === 0) [path, accessorsPath] = [`${path}/attributes`, `${accessorsPath}/attributes`];
-  if (!isObject(ids)) fail(path, 'must be an object');
+function readMap(json, ids = {}, path, accessors = {}, morphTarget, claim) {
   for (const name of Object.keys(ids)) {
     if (!Object.hasOwn(accessors, name)) fail(`${path}/${name}`, 'the primitive has no attribute of this name');
   }
   for (const [name, number] of Object.entries(accessors)) {
-    const { accessor, ...place } = accessorOf(json, number, `${accessorsPath}/${name}`);
+    const accessor = placeOf(json, number);
     if (!Object.hasOwn(ids, name)) {
-      claim.ordinary.push(place);
+      claim.ordinary.push(accessor);
       continue;
     }
-    const { componentType, type, normalized = false } = accessor;
-    const attribute = numberOf(ids[name], `${path}/${name}`);
+    const { componentType, type, normalized = false } = json.accessors[number];
+    const attribute = ids[name];
     if (name === 'POSITION' && morphTarget === 0 && attribute !== 0) fail(`${path}/${name}`, 'must be attribute 0');
     claim.attributes.push({
-      path: `${path}/${name}`, attribute, accessor: place, componentType, componentCount: COMPONENT_COUNTS[type], normalized,
-      ...semanticOf(name, accessor), morphTarget,
+      path: `${path}/${name}`, attribute, accessor, componentType, componentCount: COMPONENT_COUNTS[type] ?? 0, normalized,
+      ...semanticOf(name, type, componentType), morphTarget,
     });
   }
 }
 
-function semanticOf(name, { type, componentType }) {
+function semanticOf(name, type, componentType) {
   for (const [semantic, [pattern, types]] of SEMANTICS.entries()) {
     const match = pattern.exec(name);
     const set = Number(match?.[1] ?? 0);
@@ -200,39 +198,31 @@ function targetsOf({ path, piece, part, indices, attributes }) {
  * Checks the accessors that payloads fill: either all or none have a fallback, and nothing else
  * refers to them.
  */
-function checkOthers(json, sources) {
+function checkOthers(json, filled) {
   const hasFallback = (number) => {
     const { bufferView, byteOffset, sparse } = json.accessors[number];
-    return bufferView !== undefined || byteOffset !== undefined || sparse !== undefined;
+    return [bufferView, byteOffset, sparse].some((member) => member !== undefined);
   };
-  const filled = [...sources.keys()];
-  const withFallback = filled.filter(hasFallback).length;
-  if (withFallback !== 0 && withFallback !== filled.length) fail('', 'only some of the compressed accessors have a fallback');
-  if (!json.extensionsUsed?.includes(EXTENSION_NAME)) fail('/extensionsUsed', `must list ${EXTENSION_NAME}`);
-  if ((json.extensionsRequired?.includes(EXTENSION_NAME) ?? false) === (withFallback !== 0)) {
-    fail('/extensionsRequired', `must list ${EXTENSION_NAME} unless there is a fallback`);
-  }
-  for (const number of ordinaryReferences(json)) {
-    if (sources.has(number)) fail(`/accessors/${number}`, 'is filled from a payload, but also used elsewhere');
-  }
+  const withFallback = [...filled.keys()].filter(hasFallback).length;
+  if (withFallback !== 0 && withFallback !== filled.size) fail('', 'only some of the compressed accessors have a fallback');
+  const isIn = (names = []) => names.includes(EXTENSION_NAME);
+  if (!isIn(json.extensionsUsed)) fail('/extensionsUsed', `must list ${EXTENSION_NAME}`);
+  if (isIn(json.extensionsRequired) === (withFallback !== 0)) fail('/extensionsRequired', `must list ${EXTENSION_NAME} unless there is a fallback`);
+  const other = othersOf(json).find((number) => filled.has(number));
+  if (other !== undefined) fail(`/accessors/${other}`, 'is filled from a payload, but also used elsewhere');
 }
 
 /** Returns the accessors that anything except a payload's attributes and indices refers to. */
-function ordinaryReferences(json) {
-  const numbers = [];
-  const unnamed = (accessors = {}, ids = {}) => {
-    for (const [name, number] of Object.entries(accessors)) if (!Object.hasOwn(ids, name)) numbers.push(number);
-  };
-  for (const primitive of (json.meshes ?? []).flatMap((mesh) => mesh.primitives ?? [])) {
-    const extension = primitive.extensions?.[EXTENSION_NAME];
-    if (extension === undefined && primitive.indices !== undefined) numbers.push(primitive.indices);
-    unnamed(primitive.attributes, extension?.attributes);
-    (primitive.targets ?? []).forEach((target, i) => unnamed(target, extension?.targets?.[i]));
-  }
-  for (const { samplers = [] } of json.animations ?? []) {
-    for (const { input, output } of samplers) numbers.push(input, output);
-  }
-  for (const { inverseBindMatrices } of json.skins ?? []) numbers.push(inverseBindMatrices);
-  for (const { extensions } of json.nodes ?? []) numbers.push(...Object.values(extensions?.EXT_mesh_gpu_instancing?.attributes ?? {}));
-  return numbers;
+function othersOf({ meshes, animations = [], skins = [], nodes = [] }) {
+  const unnamed = (accessors = {}, ids = {}) => Object.keys(accessors).map((name) => (Object.hasOwn(ids, name) ? undefined : accessors[name]));
+  return [
+    meshes.flatMap(({ primitives = [] }) => primitives).map(({ indices, attributes, targets = [], extensions }) => {
+      const extension = extensions?.[EXTENSION_NAME];
+      return [extension ? undefined : indices, unnamed(attributes, extension?.attributes),
+        targets.map((target, i) => unnamed(target, extension?.targets?.[i]))];
+    }),
+    animations.map(({ samplers = [] }) => samplers.map(({ input, output }) => [input, output])),
+    skins.map(({ inverseBindMatrices }) => inverseBindMatrices),
+    nodes.map(({ extensions }) => Object.values(extensions?.EXT_mesh_gpu_instancing?.attributes ?? {})),
+  ].flat(4);
 }

@@ -1,5 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-import type { InitOptions } from './types.mjs';
+import type { InitOptions, Owned } from './types.mjs';
 
 /**
  * What encodeGlb() needs of a decoder of EXT_meshopt_compression and KHR_meshopt_compression.
@@ -28,9 +28,9 @@ export interface EncodeOptions {
   tangentBits?: number;
   /** Default 12. */
   weightBits?: number;
-  /** Every float keeps every bit; the bits above are ignored. */
+  /** Every float keeps every bit. Excludes maxError, lattice, and bits other than 0. */
   lossless?: boolean;
-  /** No position moves farther than this; positionBits is ignored. */
+  /** No position moves farther than this. Excludes positionBits and lattice. */
   maxError?: number;
   /** maxError is a fraction of the longest side of the bounding box. */
   maxErrorRelative?: boolean;
@@ -66,7 +66,7 @@ export interface EncodeOptions {
 
 export interface EncodeResult {
   /** The compressed file, or a copy of the input if nothing becomes smaller. */
-  glb: Uint8Array;
+  glb: Owned<Uint8Array>;
   /** What `gltf-mcc convert --report` writes, as far as it applies, and `seconds`. */
   report: {
     options: Record<string, unknown>;
@@ -101,4 +101,4 @@ export function encodeGlbSync(bytes: Uint8Array, options?: EncodeOptions): Encod
  * Returns the edges along which the mesh of a payload was contracted, for programs that draw it. By
  * piece: two vertices per edge, numbered as in the indices, the last contraction first.
  */
-export function mcEdges(payload: Uint8Array): Promise<Uint32Array[]>;
+export function mcEdges(payload: Uint8Array): Promise<Owned<Uint32Array>[]>;

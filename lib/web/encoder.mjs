@@ -2,7 +2,7 @@
 //
 // Compresses GLBs. It runs the code of the command line tool, so that the same options give the
 // same bytes.
-import { MccError } from './error.mjs';
+import { asMccError, MccError, requireArgument } from './error.mjs';
 import { compileModule } from './load.mjs';
 import { decodeView, isDecoder } from './meshopt.mjs';
 
@@ -15,7 +15,23 @@ const BITS = {
 };
 const FLAGS = ['lossless', 'indicesOnly', 'keepVertexOrder', 'keepTriangleOrder', 'maxErrorRelative', 'allowLarger',
   'dropUnused'];
-const OTHERS = ['grid', 'maxError', 'prefer', 'lattice', 'blockTriangles', 'fallback', 'meshoptDecoder'];
+/** What the value of another option has to be, and how to say it. */
+const OTHERS = {
+  grid: [(grid) => GRIDS.includes(grid), `one of ${GRIDS.join(', ')}`],
+  prefer: [(prefer) => PREFERENCES.includes(prefer), `one of ${PREFERENCES.join(', ')}`],
+  maxError: [(maxError) => Number.isFinite(maxError) && maxError > 0, 'a number above 0'],
+  lattice: [(lattice) => (Array.isArray(lattice) || ArrayBuffer.isView(lattice)) && lattice.length === 4 && lattice.every(Number.isFinite) && lattice[3] > 0,
+    'four numbers: x, y, z of a point and the step'],
+  blockTriangles: [(count) => Number.isInteger(count) && count >= 0 && count < 2 ** 32 - 1, 'a number of triangles, or 0 for no blocks'],
+  fallback: [(fallback) => fallback === false, 'false: a fallback is a second file, which the command line tool writes'],
+  meshoptDecoder: [isDecoder, 'MeshoptDecoder of the npm package meshoptimizer, where WebAssembly is supported'],
+};
+/** Options that exclude others, as in the command line tool. */
+const CONTRADICTIONS = {
+  lossless: [...Object.keys(BITS), 'maxError', 'lattice'],
+  maxError: ['positionBits', 'lattice'],
+  lattice: ['positionBits'],
+};
 
 let source = {};
 let loading = null;
@@ -24,8 +40,8 @@ let compiled = null;
 /**
  * Loads the encoder from the place in `options`, or the module itself; see init() of decoder.mjs.
  */
-export function initEncoder(options = {}) {
-  source = options;
+export function initEncoder(options) {
+  source = options ?? {};
   loading = null;
   return load().then(() => {});
 }
@@ -35,17 +51,39 @@ export function initEncoder(options = {}) {
  * @param {object} [options]  see EncodeOptions in encoder.d.mts
  * @returns {Promise<{ glb: Uint8Array, report: object }>}
  */
-export async function encodeGlb(bytes, options = {}) {
-  checkArguments(bytes, options);
-  const [module] = await Promise.all([load(), options.meshoptDecoder?.ready]);
-  return encode(await WebAssembly.instantiate(module), bytes, options);
+export async function encodeGlb(bytes, options) {
+  const checked = checkArguments(bytes, options);
+  const [module] = await Promise.all([load(), readyOf(checked.meshoptDecoder)]);
+  return encode(await instanceOf(module), bytes, checked);
+}
+
+async function readyOf(meshoptDecoder) {
+  try {
+    await meshoptDecoder?.ready;
+  } catch (error) {
+    throw asMccError(error, 'meshoptDecoder cannot be loaded', 'Load');
+  }
 }
 
 /** Like encodeGlb(), but only after the encoder is loaded, see initEncoder(), and options.meshoptDecoder. */
-export function encodeGlbSync(bytes, options = {}) {
-  checkArguments(bytes, options);
+export function encodeGlbSync(bytes, options) {
+  const checked = checkArguments(bytes, options);
   if (compiled === null) throw new MccError('the encoder is not loaded yet: await initEncoder() first', 'Load');
-  return encode(new WebAssembly.Instance(compiled), bytes, options);
+  try {
+    return encode(new WebAssembly.Instance(compiled), bytes, checked);
+  } catch (error) {
+    throw asTrap(error);
+  }
+}
+
+const asTrap = (error) => asMccError(error, 'the encoder failed, maybe out of memory', 'Trap');
+
+async function instanceOf(module) {
+  try {
+    return await WebAssembly.instantiate(module);
+  } catch (error) {
+    throw asTrap(error);
+  }
 }
 
 /**
@@ -55,8 +93,8 @@ export function encodeGlbSync(bytes, options = {}) {
  * @returns {Promise<Uint32Array[]>}  by piece: two vertices per edge, the last contraction first
  */
 export async function mcEdges(payload) {
-  if (!(payload instanceof Uint8Array)) throw new MccError('the payload must be a Uint8Array', 'BadArgument');
-  const instance = await WebAssembly.instantiate(await load());
+  requireArgument(payload instanceof Uint8Array, 'the payload must be a Uint8Array');
+  const instance = await instanceOf(await load());
   return withBytes(instance, payload, (exports, address) => {
     if (exports.findEdges(address, payload.length) !== 1) {
       const message = new Uint8Array(exports.memory.buffer).subarray(exports.edgesError());
@@ -117,8 +155,7 @@ function withBytes({ exports }, bytes, work) {
     new Uint8Array(exports.memory.buffer, address, bytes.length).set(bytes);
     return work(exports, address);
   } catch (error) {
-    if (error instanceof MccError) throw error;
-    throw new MccError(`the encoder failed (${error.message}); there may be too little memory`, 'Trap');
+    throw asTrap(error);
   }
 }
 
@@ -134,35 +171,32 @@ function load() {
   return loading;
 }
 
+/** Returns the options, whose values are what they have to be. */
 function checkArguments(bytes, options) {
-  if (!(bytes instanceof Uint8Array)) throw new MccError('the GLB must be a Uint8Array', 'BadArgument');
-  checkOptions(options);
+  requireArgument(bytes instanceof Uint8Array, 'the GLB must be a Uint8Array');
+  const given = Object.entries(options ?? {}).filter(([, value]) => value !== undefined);
+  for (const [name, value] of given) checkOption(name, value);
+  const names = new Set(given.filter(([, value]) => value !== false).map(([name]) => name));
+  for (const [name, others] of Object.entries(CONTRADICTIONS)) {
+    const keepsAll = (other) => name === 'lossless' && options[other] === 0; // bits
+    const other = names.has(name) && others.find((one) => names.has(one) && !keepsAll(one));
+    requireArgument(!other, `${name} excludes ${other}`);
+  }
+  return Object.fromEntries(given);
 }
 
-function checkOptions(options) {
-  const require = (condition, message) => {
-    if (!condition) throw new MccError(message, 'BadArgument');
-  };
-  for (const [name, value] of Object.entries(options)) {
-    if (value === undefined) continue;
-    require(name in BITS || FLAGS.includes(name) || OTHERS.includes(name), `there is no option '${name}'`);
-    if (FLAGS.includes(name)) require(typeof value === 'boolean', `${name} must be true or false`);
-    if (!(name in BITS)) continue;
+function checkOption(name, value) {
+  if (Object.hasOwn(BITS, name)) {
     const [, least, most] = BITS[name];
-    require(Number.isInteger(value) && (value === 0 || (value >= least && value <= most)),
+    requireArgument(Number.isInteger(value) && (value === 0 || (value >= least && value <= most)),
       `${name} must be 0 (every bit) or ${least} to ${most}`);
+  } else if (FLAGS.includes(name)) {
+    requireArgument(typeof value === 'boolean', `${name} must be true or false`);
+  } else {
+    requireArgument(Object.hasOwn(OTHERS, name), `there is no option '${name}'`);
+    const [isRight, message] = OTHERS[name];
+    requireArgument(isRight(value), `${name} must be ${message}`);
   }
-  const { grid = 'mesh', maxError, prefer = 'balanced', lattice, blockTriangles = 0, fallback = false, meshoptDecoder } = options;
-  require(GRIDS.includes(grid), `grid is '${grid}', but must be one of ${GRIDS.join(', ')}`);
-  require(maxError === undefined || (Number.isFinite(maxError) && maxError > 0), 'maxError must be a number above 0');
-  require(PREFERENCES.includes(prefer), `prefer is '${prefer}', but must be one of ${PREFERENCES.join(', ')}`);
-  require(lattice === undefined || (lattice.length === 4 && lattice.every(Number.isFinite) && lattice[3] > 0),
-    'lattice must be four numbers: x, y, z of a point and the step');
-  require(Number.isInteger(blockTriangles) && blockTriangles >= 0 && blockTriangles < 2 ** 32 - 1,
-    'blockTriangles must be a number of triangles, or 0 for no blocks');
-  require(!fallback, 'a fallback is a second file, which the command line tool writes');
-  require(meshoptDecoder === undefined || isDecoder(meshoptDecoder),
-    'meshoptDecoder must be MeshoptDecoder of the npm package meshoptimizer, where WebAssembly is supported');
 }
 
 function setOptions(exports, options) {

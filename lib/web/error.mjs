@@ -12,3 +12,17 @@ export class MccError extends Error {
     this.code = code;
   }
 }
+
+/** Returns an MccError for whatever was thrown. */
+export const asMccError = (error, what, code) => (error instanceof MccError ? error : new MccError(`${what} (${error?.message})`, code));
+
+/** Throws an MccError that says which argument is not what it has to be. */
+export function requireArgument(condition, message) {
+  if (!condition) throw new MccError(message, 'BadArgument');
+}
+
+/** Returns an error that is about a place. */
+export const placed = (error, place) => (error instanceof MccError ? new MccError(`${place}: ${error.message}`, error.code) : error);
+
+/** Returns an error about the payload in a buffer view; what contradicts the document has a path of its own. */
+export const inView = (error, number) => (error?.code === 'Document' ? error : placed(error, `/bufferViews/${number}`));

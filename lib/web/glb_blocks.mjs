@@ -6,6 +6,7 @@ import { Budget, namedBytes, sum } from './budget.mjs';
 import { Chunks } from './chunks.mjs';
 import { fail } from './claims.mjs';
 import { payloadsOf } from './document.mjs';
+import { inView, requireArgument } from './error.mjs';
 import { BIN_CHUNK, readGlb } from './unpack.mjs';
 import { usesOf } from './uses.mjs';
 
@@ -21,7 +22,9 @@ const MAX_JSON_BYTES = 2 ** 28;
  * @param {object} [options]  of decodeBlocks(); `decodeBlocks`: for instance that of a pool; `limits`: of each payload, and of all
  * of them together
  */
-export async function* decodeGlbBlocks(source, { decodeBlocks = decodeHere, limits, ...options } = {}) {
+export async function* decodeGlbBlocks(source, options) {
+  const { decodeBlocks = decodeHere, limits, ...others } = options ?? {};
+  requireArgument(typeof decodeBlocks === 'function', 'decodeBlocks must be a function');
   const chunks = new Chunks(source);
   try {
     const { json, fileBytes, binBytes } = await readBeginning(chunks);
@@ -31,17 +34,29 @@ export async function* decodeGlbBlocks(source, { decodeBlocks = decodeHere, limi
     const budget = new Budget(fileBytes, limits);
     budget.add(sum(payloads.map(namedBytes)));
     for (const payload of payloads) {
-      const distance = begin + payload.offset - chunks.position;
-      if (distance < 0) fail(`/bufferViews/${payload.bufferView}`, 'overlaps another payload');
-      await chunks.skip(distance);
+      await chunks.skip(begin + payload.offset - chunks.position);
       const { bufferView, claims, bytes: payloadBytes } = payload;
-      const uses = usesOf(claims);
-      const blocks = decodeBlocks(chunks, { ...options, ...budget.optionsFor(payload), payloadBytes });
-      for await (const block of blocks) yield { ...block, bufferView, uses: uses.filter(({ piece }) => piece === block.piece) };
+      const uses = usesByPiece(claims);
+      const blocks = decodeBlocks(chunks, { ...others, ...budget.optionsFor(payload), payloadBytes });
+      requireArgument(typeof blocks?.[Symbol.asyncIterator] === 'function', 'decodeBlocks must do what that of a pool does');
+      try {
+        for await (const block of blocks) yield { ...block, bufferView, uses: uses.get(block.piece) ?? [] };
+      } catch (error) {
+        throw inView(error, bufferView);
+      }
     }
   } finally {
     chunks.cancel();
   }
+}
+
+function usesByPiece(claims) {
+  const uses = new Map();
+  for (const use of usesOf(claims)) {
+    if (!uses.has(use.piece)) uses.set(use.piece, []);
+    uses.get(use.piece).push(use);
+  }
+  return uses;
 }
 
 /** Reads up to the bytes of the BIN chunk. */
@@ -50,7 +65,7 @@ async function readBeginning(chunks) {
   const words = new DataView(start.buffer, start.byteOffset, start.byteLength);
   const jsonBytes = start.length < HEADER_BYTES + CHUNK_HEADER_BYTES ? 0 : words.getUint32(12, true);
   if (jsonBytes > MAX_JSON_BYTES) fail('byte 12', 'the JSON is too long');
-  const beginning = (await chunks.peek(start.length + jsonBytes)).slice();
+  const beginning = new Uint8Array(await chunks.peek(start.length + jsonBytes)); // a copy
   const fileBytes = beginning.length < HEADER_BYTES ? 0 : words.getUint32(8, true);
   // readGlb() checks what is there as if it were all.
   if (beginning.length >= HEADER_BYTES && fileBytes >= beginning.length) {
@@ -69,7 +84,7 @@ async function readBeginning(chunks) {
 function placeOf(json, { bufferView }, binBytes) {
   const { buffer, byteOffset = 0, byteLength } = json.bufferViews[bufferView];
   const path = `/bufferViews/${bufferView}`;
-  if (buffer !== 0 || json.buffers?.[0]?.uri !== undefined) fail(`${path}/buffer`, 'the payload is not in the GLB');
-  if (!(byteOffset >= 0 && byteLength > 0 && byteOffset + byteLength <= binBytes)) fail(path, 'reaches beyond its buffer');
+  if (buffer !== 0 || json.buffers[0].uri !== undefined) fail(`${path}/buffer`, 'the payload is not in the GLB');
+  if (byteOffset + byteLength > binBytes) fail(path, 'reaches beyond its buffer');
   return { offset: byteOffset, bytes: byteLength };
 }

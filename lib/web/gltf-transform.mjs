@@ -3,6 +3,7 @@ import { Extension, GLB_BUFFER, PropertyType } from '@gltf-transform/core';
 import { Budget, namedBytes, sum } from './budget.mjs';
 import { fail } from './claims.mjs';
 import { EXTENSION_NAME, elementsOf, payloadsOf } from './document.mjs';
+import { asMccError, inView, MccError } from './error.mjs';
 import { BIN_CHUNK, readGlb, writeGlb } from './unpack.mjs';
 
 /**
@@ -56,7 +57,7 @@ export class KHRMeshCollapseCompression extends Extension {
   preread(context) {
     if (!this.#decoder) {
       if (!this.isRequired()) return this; // there is a fallback
-      throw new Error(`[${EXTENSION_NAME}] Please install the dependency "mcc.decoder".`);
+      refuse('Please install the dependency "mcc.decoder".');
     }
     const payloads = payloadsOf(context.jsonDoc.json);
     const fileBytes = Object.values(context.jsonDoc.resources).reduce((sum, { byteLength }) => sum + byteLength, 0);
@@ -66,14 +67,22 @@ export class KHRMeshCollapseCompression extends Extension {
       const { bufferView, targets } = payload;
       const bytes = context.bufferViews[bufferView];
       // glTF-Transform silently shortens a view that is longer than its buffer.
-      if (bytes.byteLength !== context.jsonDoc.json.bufferViews[bufferView].byteLength) {
+      if (bytes?.byteLength !== context.jsonDoc.json.bufferViews[bufferView].byteLength) {
         fail(`/bufferViews/${bufferView}`, 'reaches beyond its buffer');
       }
-      const decoded = budget.settle(payload, this.#decoder.decodePayloadSync(bytes, budget.optionsFor(payload)));
+      const decoded = this.#decode(payload, bytes, budget);
       const taken = new Set();
       for (const target of targets) this.#fill(context, target, decoded, bufferView, taken, budget);
     }
     return this;
+  }
+
+  #decode(payload, bytes, budget) {
+    try {
+      return budget.settle(payload, this.#decoder.decodePayloadSync?.(bytes, budget.optionsFor(payload)));
+    } catch (error) {
+      throw inView(error, payload.bufferView);
+    }
   }
 
   // Each accessor gets an array of its own, because callers may change it.
@@ -100,12 +109,12 @@ export class KHRMeshCollapseCompression extends Extension {
   write(context) {
     const { json, resources } = context.jsonDoc;
     removeName(json, EXTENSION_NAME);
-    if (!this.#encoder) throw new Error(`[${EXTENSION_NAME}] Please install the dependency "mcc.encoder".`);
+    if (!this.#encoder) refuse('Please install the dependency "mcc.encoder".');
     checkViews(json);
     const unwritten = unwrittenExtensions(this.document, context);
     // These extensions may depend on an order, which the encoder keeps if it sees their names.
     for (const { extensionName, definitionOf } of unwritten) (definitionOf().extensions ??= {})[extensionName] = {};
-    const { glb, report } = this.#encoder.encodeGlbSync(packGlb(json, resources), this.#encoderOptions);
+    const { glb, report } = this.#encoder.encodeGlbSync(pack(json, resources), this.#encoderOptions);
     this.#report = report;
     takeOver(context.jsonDoc, readGlb(glb));
     for (const { extensionName, definitionOf } of unwritten) delete definitionOf().extensions[extensionName];
@@ -126,12 +135,16 @@ export function meshCollapse(options = {}) {
   };
 }
 
+function refuse(message) {
+  throw new MccError(`[${EXTENSION_NAME}] ${message}`, 'BadArgument');
+}
+
 // A document that was read from a file with EXT_meshopt_compression still has that extension.
 function checkViews({ bufferViews = [] }) {
   const names = bufferViews.flatMap(({ extensions = {} }) => Object.keys(extensions));
   const coder = names.find((name) => name.endsWith('_meshopt_compression'));
   if (coder === undefined) return;
-  throw new Error(`[${EXTENSION_NAME}] ${coder} compresses this document, too. Please dispose of one of the two extensions.`);
+  refuse(`${coder} compresses this document, too. Please dispose of one of the two extensions.`);
 }
 
 function removeName(json, name) {
@@ -148,6 +161,14 @@ function unwrittenExtensions(document, { jsonDoc: { json }, meshIndexMap }) {
       .filter(({ extensionName }) => definitionOf().extensions?.[extensionName] === undefined)
       .map(({ extensionName }) => ({ extensionName, definitionOf })));
   });
+}
+
+function pack(json, resources) {
+  try {
+    return packGlb(json, resources);
+  } catch (error) {
+    throw asMccError(error, 'the document cannot be made a GLB', 'Document'); // it may be nested too deeply
+  }
 }
 
 // Makes a GLB of the document, with all of its buffers in one. Images in files stay in files.

@@ -15,6 +15,7 @@ export interface ServiceWorkerOptions extends UnpackOptions {
  * i3dm and cmpt. The worker's script calls it at once. Requests for parts of a file, responses other
  * than 200, opaque responses, and files without the extension go their usual way, untouched. A file
  * that is damaged, or does not fit its payloads, is answered with status 502 and a text that says
- * why.
+ * why, after the name of the file. What is decoded for a .gltf is kept until the page asks for it, of up to 64 documents and 256 MiB, or
+ * for the newest one; what had to be dropped is decoded again.
  */
 export function decodeFetches(options?: ServiceWorkerOptions): void;

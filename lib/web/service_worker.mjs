@@ -1,7 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Decodes models on their way from the network to a page, so that engines without a plugin show them.
-import { EXTENSION_NAME } from './document.mjs';
+import { sum } from './budget.mjs';
+import { fail } from './claims.mjs';
+import { EXTENSION_NAME, listOf } from './document.mjs';
 import { unpackGlb } from './unpack.mjs';
 import { unpackGltf } from './unpack_gltf.mjs';
 import { isContainer, unpackTile } from './unpack_tile.mjs';
@@ -11,6 +13,10 @@ const BUFFER_PARAMETER = 'gltf-mcc-buffer';
 const GLB_MAGIC = 'glTF';
 /** Those of a GLB before its JSON. */
 const HEADER_BYTES = 20;
+
+/** Added buffers that are kept until pages ask for them. */
+const MOST_BUFFERS = 64;
+const MOST_BUFFER_BYTES = 2 ** 28;
 
 const isModel = ({ pathname }) => /\.(glb|gltf|b3dm|i3dm|cmpt)$/i.test(pathname);
 
@@ -22,8 +28,9 @@ const isModel = ({ pathname }) => /\.(glb|gltf|b3dm|i3dm|cmpt)$/i.test(pathname)
  *
  * @param {import('./service_worker.mjs').ServiceWorkerOptions} [options]
  */
-export function decodeFetches({ match = isModel, ...options } = {}) {
-  const models = new Models(options);
+export function decodeFetches(options) {
+  const { match = isModel, ...others } = options ?? {};
+  const models = new Models(others);
   self.addEventListener('install', () => self.skipWaiting());
   self.addEventListener('activate', (event) => event.waitUntil(self.clients.claim()));
   self.addEventListener('fetch', (event) => {
@@ -37,7 +44,7 @@ export function decodeFetches({ match = isModel, ...options } = {}) {
 
 class Models {
   #options;
-  /** The added buffers of documents that were delivered, until they are asked for. By the URL of the document. */
+  /** The added buffers of documents that were delivered, until they are asked for, oldest first: { bytes, byteLength } by URL. */
   #buffers = new Map();
 
   constructor(options) {
@@ -50,8 +57,11 @@ class Models {
     try {
       const start = await startOf(response.clone());
       if (start.isContainer) return await this.#tile(response);
-      if (!start.json?.extensionsUsed?.includes?.(EXTENSION_NAME)) return response;
-      if (!start.isGlb) return answer(response, JSON.stringify(this.#begin(request, start.json).json));
+      if (!listOf(start.json?.extensionsUsed).includes(EXTENSION_NAME)) return response;
+      if (!start.isGlb) {
+        const begun = this.#begin(request, start.json);
+        return begun === undefined ? response : answer(response, JSON.stringify(begun.json));
+      }
       return answer(response, await unpackGlb(new Uint8Array(await response.arrayBuffer()), this.#options));
     } catch (error) {
       return refusal(request.url, error);
@@ -72,7 +82,7 @@ class Models {
   async buffer(request, url) {
     try {
       url.searchParams.delete(BUFFER_PARAMETER);
-      const bytes = await (this.#buffers.get(url.href) ?? this.#again(request, url));
+      const bytes = await (this.#buffers.get(url.href)?.bytes ?? this.#again(request, url));
       return new Response(bytes, { headers: { 'Content-Type': 'application/gltf-buffer' } });
     } catch (error) {
       return refusal(request.url, error);
@@ -81,29 +91,57 @@ class Models {
     }
   }
 
-  /** Browsers end service workers at any time, and a page may ask twice. */
+  /** Decodes a buffer that is not kept: browsers end service workers at any time, a page may ask twice, and old ones are dropped. */
   async #again({ credentials }, url) {
     const request = new Request(url, { credentials });
     const response = await fetch(request);
     if (!response.ok) throw new Error(`${url}: status ${response.status}`);
-    return this.#begin(request, await response.json()).bytes;
+    const begun = this.#begin(request, await response.json());
+    if (begun === undefined) throw new Error(`${url} has changed`);
+    return begun.bytes;
   }
 
-  /** Starts to decode the payloads of a .gltf document. */
+  /** Starts to decode the payloads of a .gltf document. Returns undefined if there are none. */
   #begin({ url, credentials }, source) {
     const uri = new URL(url);
     uri.searchParams.set(BUFFER_PARAMETER, '');
-    const { json, decode } = unpackGltf(source, `${uri.pathname.slice(uri.pathname.lastIndexOf('/') + 1)}${uri.search}`);
-    const buffers = new Map(); // by their number, fetched once
+    const unpacked = unpackGltf(source, `${nameOf(uri)}${uri.search}`);
+    if (unpacked === undefined) return undefined;
+    const { json, decode } = unpacked;
+    const buffers = new Map(); // by their URL, fetched once
     const fetchView = async (number) => {
       const { buffer, byteOffset = 0, byteLength } = source.bufferViews[number];
-      if (!buffers.has(buffer)) buffers.set(buffer, fetchBytes(new URL(source.buffers[buffer].uri, url), credentials));
-      return (await buffers.get(buffer)).slice(byteOffset, byteOffset + byteLength);
+      const { href } = urlOf(source, buffer, url);
+      if (!buffers.has(href)) buffers.set(href, fetchBytes(href, credentials));
+      return (await buffers.get(href)).subarray(byteOffset, byteOffset + byteLength);
     };
     const bytes = decode(fetchView, this.#options);
     bytes.catch(() => {}); // whoever asks for them hears of it
-    this.#buffers.set(new URL(url).href, bytes);
+    this.#keep(new URL(url).href, { bytes, byteLength: json.buffers.at(-1).byteLength });
     return { json, bytes };
+  }
+
+  #keep(url, buffer) {
+    this.#buffers.delete(url);
+    this.#buffers.set(url, buffer); // as the newest
+    let total = sum([...this.#buffers.values()].map(({ byteLength }) => byteLength));
+    for (const [oldest, { byteLength }] of this.#buffers) {
+      if (this.#buffers.size <= MOST_BUFFERS && (total <= MOST_BUFFER_BYTES || oldest === url)) break; // the newest is always kept
+      this.#buffers.delete(oldest);
+      total -= byteLength;
+    }
+  }
+}
+
+const nameOf = ({ pathname }) => pathname.slice(pathname.lastIndexOf('/') + 1);
+
+function urlOf({ buffers }, number, base) {
+  const uri = buffers?.[number]?.uri;
+  if (uri === undefined) fail(`/buffers/${number}`, 'has no URI');
+  try {
+    return new URL(uri, base);
+  } catch (error) {
+    return fail(`/buffers/${number}/uri`, error.message);
   }
 }
 
@@ -157,8 +195,9 @@ function answer({ status, statusText, headers: received }, body) {
 }
 
 /** Engines show the status of what failed to load, so it says why. */
-function refusal(url, { message }) {
-  console.error(`${url}: ${message}`);
+function refusal(url, { message: what }) {
+  const message = `${nameOf(new URL(url))}: ${what}`;
+  console.error(`${url}: ${what}`);
   const statusText = message.replace(/[^\x20-\x7e]+/g, ' ');
   return new Response(`${message}\n`, { status: 502, statusText, headers: { 'Content-Type': 'text/plain; charset=utf-8' } });
 }

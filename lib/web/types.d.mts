@@ -1,6 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-export type TypedArray = Int8Array | Uint8Array | Int16Array | Uint16Array | Uint32Array | Float32Array;
+/** An array with a buffer of its own, which is never shared: Uint8Array<ArrayBuffer> in TypeScript 5.7 and later. */
+export type Owned<A extends { slice(): unknown }> = ReturnType<A['slice']>;
+
+export type TypedArray =
+  | Owned<Int8Array> | Owned<Uint8Array> | Owned<Int16Array> | Owned<Uint16Array> | Owned<Uint32Array> | Owned<Float32Array>;
 
 export interface DecodedAttribute {
   /** 0 POSITION, 1 NORMAL, 2 TANGENT, 3 TEXCOORD, 4 COLOR, 5 JOINTS, 6 WEIGHTS, 7 any other. */
@@ -20,7 +24,7 @@ export interface DecodedAttribute {
 export interface DecodedPart {
   triangleCount: number;
   /** Three per triangle. Owns its buffer. */
-  indices: Uint16Array | Uint32Array;
+  indices: Owned<Uint16Array> | Owned<Uint32Array>;
 }
 
 export interface DecodedPiece {
@@ -63,8 +67,8 @@ export interface GlbBlock extends DecodedBlock {
   uses: { mesh: number; primitive: number; piece: number; part: number; attributes: Record<string, number> }[];
 }
 
-/** Bytes, or a stream of them such as the body of a response. Bytes must not change meanwhile. */
-export type ByteSource = Uint8Array | ArrayBuffer | ReadableStream<Uint8Array> | AsyncIterable<Uint8Array>;
+/** Bytes, or a stream of them such as the body of a response. Bytes must not change meanwhile. null, which a body may be, is refused. */
+export type ByteSource = Uint8Array | ArrayBuffer | ReadableStream<Uint8Array> | AsyncIterable<Uint8Array> | null;
 
 /** Bounds that are checked before memory is allocated for a payload. */
 export interface Limits {
@@ -131,8 +135,8 @@ export interface InitOptions {
 
 export interface PoolOptions extends InitOptions {
   /**
-   * The number of workers. Default: one less than the processor has cores, at most 4. A worker starts
-   * when it is first needed.
+   * The number of workers, from 1 to 1024; others are refused with an MccError. Default: one less than the processor has cores, at most
+   * 4. A worker starts when it is first needed, and another takes its place if it fails.
    */
   workers?: number;
 }
@@ -149,7 +153,10 @@ export interface PoolDecodeOptions extends DecodeOptions {
 
 export interface DecoderPool {
   readonly size: number;
-  /** Bound to the pool. */
+  /**
+   * Bound to the pool. What is not moved is copied when a worker takes it, so it must not change before. Rejects with an MccError if it
+   * cannot be sent to a worker.
+   */
   readonly decodePayload: (bytes: Uint8Array, options?: PoolDecodeOptions) => Promise<DecodedPayload>;
   /** decodeBlocks() in workers, several blocks at a time. Bound to the pool. */
   readonly decodeBlocks: (source: ByteSource, options?: BlockOptions) => AsyncGenerator<DecodedBlock, void, void>;

@@ -1,5 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-import type { DecodedPayload, DecodeOptions, FileLimits } from './types.mjs';
+import type { DecodedPayload, DecodeOptions, FileLimits, Owned } from './types.mjs';
 
 export interface UnpackOptions {
   /** Default: decodePayload(). The one of a pool decodes in workers. */
@@ -9,6 +9,7 @@ export interface UnpackOptions {
 
 /**
  * Returns a GLB without the extension, or `bytes` themselves if no primitive has it. Safe for
- * untrusted bytes.
+ * untrusted bytes: rejects with an MccError, whose message begins with a JSON path or the number of a
+ * byte. `decode` is called with parts of `bytes`, for at most 16 payloads at a time.
  */
-export function unpackGlb(bytes: Uint8Array, options?: UnpackOptions): Promise<Uint8Array>;
+export function unpackGlb<Bytes extends Uint8Array>(bytes: Bytes, options?: UnpackOptions): Promise<Bytes | Owned<Uint8Array>>;

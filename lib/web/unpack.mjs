@@ -1,8 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Turns a GLB into one without the extension, for loaders that do not know it.
-import { Budget, namedBytes, sum } from './budget.mjs';
+import { Budget, forAll, namedBytes, sum } from './budget.mjs';
 import { fail } from './claims.mjs';
+import { ARRAYS, asTrap } from './core.mjs';
 import { decodePayload } from './decoder.mjs';
 import { COMPONENT_COUNTS, elementsOf, EXTENSION_NAME, extensionUses, originOf, payloadsOf } from './document.mjs';
 
@@ -11,8 +12,9 @@ const JSON_CHUNK = 0x4e4f534a;
 export const BIN_CHUNK = 0x004e4942;
 const ARRAY_BUFFER = 34962;
 const ELEMENT_ARRAY_BUFFER = 34963;
+/** As deep as the C++ library reads. */
+const MOST_NESTING = 256;
 const ROWS = { MAT2: 2, MAT3: 3, MAT4: 4 };
-const COMPONENT_BYTES = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 };
 
 /**
  * Decodes all payloads of a GLB.
@@ -23,7 +25,8 @@ const COMPONENT_BYTES = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 }
  * @returns {Promise<Uint8Array>}  a GLB without the extension; `bytes` themselves if they do not
  * use it
  */
-export async function unpackGlb(bytes, { decode = decodePayload, limits } = {}) {
+export async function unpackGlb(bytes, options) {
+  const { decode = decodePayload, limits } = options ?? {};
   const packed = readPacked(bytes);
   if (packed === undefined) return bytes;
   const budget = new Budget(bytes.length, limits);
@@ -41,14 +44,17 @@ export function readPacked(bytes) {
 /** Returns the GLB without the extension. Its `namedBytes` have been added to the budget, and it is read by this once. */
 export async function decodePacked({ json, chunks, payloads }, decode, budget) {
   const bin = chunks.find(({ type }) => type === BIN_CHUNK)?.data ?? new Uint8Array(0);
-  const decoded = await Promise.all(payloads.map(async (payload) => (
-    budget.settle(payload, await decode(payloadBytes(json, bin, payload.bufferView), budget.optionsFor(payload))))));
+  const decoded = await forAll(payloads, (payload) => budget.decode(payload, bytesOfView(json, bin, payload.bufferView), decode));
   removeExtension(json);
-  const newBin = new Bin(json, bin, payloads);
-  payloads.forEach(({ targets }, i) => newBin.fill(targets, decoded[i]));
-  const others = chunks.filter(({ type }) => type !== BIN_CHUNK);
-  newBin.finish();
-  return writeGlb(json, [{ type: BIN_CHUNK, data: newBin }, ...others]);
+  try {
+    const newBin = new Bin(json, bin, payloads);
+    payloads.forEach(({ targets }, i) => newBin.fill(targets, decoded[i]));
+    const others = chunks.filter(({ type }) => type !== BIN_CHUNK);
+    newBin.finish();
+    return writeGlb(json, [{ type: BIN_CHUNK, data: newBin }, ...others]);
+  } catch (error) {
+    throw asTrap(error);
+  }
 }
 
 /** Splits a GLB into its JSON and its other chunks. */
@@ -75,15 +81,13 @@ export function readGlb(bytes) {
   }
 }
 
-function payloadBytes(json, bin, number) {
+/** Returns the bytes of a buffer view, in place. */
+function bytesOfView(json, bin, number) {
   const { buffer, byteOffset = 0, byteLength } = json.bufferViews[number];
   const path = `/bufferViews/${number}`;
-  const inGlb = json.buffers?.[0];
-  if (buffer !== 0 || !inGlb || inGlb.uri !== undefined) fail(`${path}/buffer`, 'the payload is not in the GLB');
-  if (!(byteOffset >= 0 && byteLength > 0 && byteOffset + byteLength <= bin.length)) {
-    fail(path, 'reaches beyond its buffer');
-  }
-  return bin.slice(byteOffset, byteOffset + byteLength);
+  if (buffer !== 0 || json.buffers[0].uri !== undefined) fail(`${path}/buffer`, 'the payload is not in the GLB');
+  if (byteOffset + byteLength > bin.length) fail(path, 'reaches beyond its buffer');
+  return bin.subarray(byteOffset, byteOffset + byteLength);
 }
 
 /** Removes all that a document says of the extension. */
@@ -98,17 +102,22 @@ export function removeExtension(json) {
   }
 }
 
-/** Returns the values of all members of this name, at any depth. */
-function numbersOf(root, name) {
-  const numbers = new Set();
-  const stack = [root];
-  while (stack.length > 0) {
-    for (const [key, member] of Object.entries(stack.pop() ?? {})) {
-      if (key === name) numbers.add(member);
-      if (typeof member === 'object') stack.push(member);
+/** Returns the values of all members of a name. Throws an MccError if they may be so deep that engines cannot copy or write the document. */
+export function membersOf(root, name) {
+  const values = new Set();
+  let level = [root];
+  for (let depth = 0; level.length > 0; ++depth) {
+    if (depth > MOST_NESTING) fail('', `the JSON is nested deeper than ${MOST_NESTING}`);
+    const next = [];
+    for (const parent of level) {
+      for (const key in parent) {
+        if (key === name) values.add(parent[key]);
+        if (typeof parent[key] === 'object') next.push(parent[key]);
+      }
     }
+    level = next;
   }
-  return numbers;
+  return values;
 }
 
 /**
@@ -127,7 +136,7 @@ class Bin {
       for (const key of ['bufferView', 'byteOffset', 'sparse']) delete accessor[key];
     }
     const payloadViews = payloads.flatMap(({ claims }) => claims.map(({ bufferView }) => bufferView));
-    const used = numbersOf(json, 'bufferView');
+    const used = membersOf(json, 'bufferView');
     this.free = [...new Set([...payloadViews, ...fallbackViews])].filter((number) => !used.has(number)).sort((a, b) => b - a);
     this.#keepOld(bin);
   }
@@ -137,19 +146,20 @@ class Bin {
    * buffer.
    */
   #keepOld(bin) {
-    const free = new Set(this.free);
-    const views = this.json.bufferViews.filter((view, number) => view.buffer === 0 && !free.has(number));
-    const refersToBuffers = (extensions) => numbersOf(extensions, 'buffer').size > 0;
-    if (this.json.bufferViews.some(({ extensions }) => refersToBuffers(extensions)) || refersToBuffers(this.json.extensions)) {
+    const { bufferViews, extensions } = this.json;
+    const refersToBuffers = (value) => membersOf(value, 'buffer').size > 0;
+    if (bufferViews.some((view) => refersToBuffers(view.extensions)) || refersToBuffers(extensions)) {
       this.#add(bin);
       return;
     }
-    views.sort((a, b) => (a.byteOffset ?? 0) - (b.byteOffset ?? 0));
+    const free = new Set(this.free);
+    const views = [...bufferViews.entries()].filter(([number, { buffer }]) => buffer === 0 && !free.has(number));
+    views.sort(([, { byteOffset: a = 0 }], [, { byteOffset: b = 0 }]) => a - b);
     let end = 0; // end of the last range that is kept, in the old chunk
     let moved = 0;
-    for (const view of views) {
+    for (const [number, view] of views) {
       const begin = view.byteOffset ?? 0;
-      const after = begin + view.byteLength;
+      const after = begin + bytesOfView(this.json, bin, number).length;
       if (begin >= end) {
         this.#align(8);
         const aligned = begin - (begin % 8);
@@ -201,7 +211,7 @@ class Bin {
       if (number === bufferViews.length - 1) bufferViews.pop();
       else bufferViews[number] = { buffer: 0, byteOffset: 0, byteLength: 1 };
     }
-    const used = numbersOf(this.json, 'buffer');
+    const used = membersOf(this.json, 'buffer');
     // The buffer of a fallback.
     while (buffers.length > 1 && !used.has(buffers.length - 1)) buffers.pop();
     buffers[0].byteLength = this.length;
@@ -227,7 +237,7 @@ const asBytes = ({ buffer, byteOffset, byteLength }) => new Uint8Array(buffer, b
 function layoutOf({ type, componentType }, { attribute }) {
   const components = COMPONENT_COUNTS[type];
   const rows = ROWS[type] ?? components;
-  const columnBytes = rows * COMPONENT_BYTES[componentType];
+  const columnBytes = rows * ARRAYS[componentType]?.BYTES_PER_ELEMENT;
   const paddedBytes = attribute === undefined ? columnBytes : Math.ceil(columnBytes / 4) * 4;
   const columns = components / rows;
   return { columnBytes, paddedBytes, columns, stride: columns * paddedBytes, isPadded: paddedBytes !== columnBytes };
@@ -264,6 +274,7 @@ export function writeGlb(json, chunks) {
   const all = [{ type: JSON_CHUNK, data: text, padding: 0x20 }, ...chunks.filter(({ data }) => data.length > 0)];
   const padded = ({ data }) => Math.ceil(data.length / 4) * 4;
   const length = all.reduce((sum, chunk) => sum + 8 + padded(chunk), 12);
+  if (length >= 2 ** 32) fail('', 'the GLB would have 4 GiB');
   const bytes = new Uint8Array(length);
   const view = new DataView(bytes.buffer);
   [MAGIC, 2, length].forEach((word, i) => view.setUint32(4 * i, word, true));

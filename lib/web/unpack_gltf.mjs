@@ -2,13 +2,14 @@
 //
 // Turns a .gltf document into one without the extension and one more buffer, for loaders that do not
 // know it.
-import { Budget, namedBytes } from './budget.mjs';
-import { fail } from './claims.mjs';
+import { Budget, fetchAndDecode, forAll } from './budget.mjs';
+import { asTrap } from './core.mjs';
 import { decodePayload } from './decoder.mjs';
 import { elementsOf, originOf, payloadsOf } from './document.mjs';
-import { elementBytes, removeExtension, viewBytes, viewOf } from './unpack.mjs';
+import { elementBytes, membersOf, removeExtension, viewBytes, viewOf } from './unpack.mjs';
 
 /**
+ * Returns undefined if there are no payloads.
  * @param {object} source a glTF document; it is not changed
  * @param {string} uri of the added buffer
  * @returns {{ json: object, decode(fetchView: (bufferView: number) => Promise<Uint8Array>, options?: object): Promise<Uint8Array> }}
@@ -16,8 +17,10 @@ import { elementBytes, removeExtension, viewBytes, viewOf } from './unpack.mjs';
  * @throws MccError with a JSON path, if an extension object violates the specification
  */
 export function unpackGltf(source, uri) {
+  const payloads = payloadsOf(source);
+  if (payloads.length === 0) return undefined;
+  membersOf(source); // which bounds how deep it is nested
   const json = structuredClone(source);
-  const payloads = payloadsOf(json);
   removeExtension(json);
   const buffer = json.buffers.length;
   const fills = [];
@@ -46,19 +49,19 @@ export function unpackGltf(source, uri) {
   return { json, decode: (fetchView, options) => decodeBuffer(source, payloads, fills, byteLength, fetchView, options) };
 }
 
-async function decodeBuffer(json, payloads, fills, byteLength, fetchView, { decode = decodePayload, limits } = {}) {
+async function decodeBuffer(json, payloads, fills, byteLength, fetchView, options) {
+  const { decode = decodePayload, limits } = options ?? {};
   const budget = new Budget(0, limits);
-  const decoded = new Map(await Promise.all(payloads.map(async (payload) => {
-    const bytes = await fetchView(payload.bufferView);
-    if (bytes.length !== json.bufferViews[payload.bufferView].byteLength) fail(`/bufferViews/${payload.bufferView}`, 'reaches beyond its buffer');
-    budget.fileBytes += bytes.length;
-    budget.add(namedBytes(payload));
-    return [payload, budget.settle(payload, await decode(bytes, budget.optionsFor(payload)))];
-  })));
-  const bytes = new Uint8Array(byteLength);
-  for (const { payload, target, at } of fills) {
-    const accessor = json.accessors[target.accessor];
-    bytes.set(elementBytes(accessor, elementsOf(decoded.get(payload), target, accessor), target), at);
+  const decodeOne = async (payload) => [payload, await fetchAndDecode(budget, json, payload, fetchView, decode)];
+  const decoded = new Map(await forAll(payloads, decodeOne));
+  try {
+    const bytes = new Uint8Array(byteLength);
+    for (const { payload, target, at } of fills) {
+      const accessor = json.accessors[target.accessor];
+      bytes.set(elementBytes(accessor, elementsOf(decoded.get(payload), target, accessor), target), at);
+    }
+    return bytes;
+  } catch (error) {
+    throw asTrap(error);
   }
-  return bytes;
 }

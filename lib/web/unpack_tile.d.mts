@@ -1,4 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+import type { Owned } from './types.mjs';
 import type { UnpackOptions } from './unpack.mjs';
 
 /**
@@ -8,4 +9,4 @@ import type { UnpackOptions } from './unpack.mjs';
  * models together. Rejects with an MccError if a header does not fit the bytes that are there. Safe
  * for untrusted bytes.
  */
-export function unpackTile(bytes: Uint8Array, options?: UnpackOptions): Promise<Uint8Array>;
+export function unpackTile<Bytes extends Uint8Array>(bytes: Bytes, options?: UnpackOptions): Promise<Bytes | Owned<Uint8Array>>;

@@ -2,10 +2,11 @@
 //
 // Turns a tile of 3D Tiles into one without the extension, for engines that do not know it: b3dm, i3dm, and cmpt with tiles of any
 // kind inside. In C++ tools/tiles/tile_file.h does the same.
-import { Budget, sum } from './budget.mjs';
+import { Budget, forAll, sum } from './budget.mjs';
 import { fail } from './claims.mjs';
+import { asTrap } from './core.mjs';
 import { decodePayload } from './decoder.mjs';
-import { MccError } from './error.mjs';
+import { placed } from './error.mjs';
 import { decodePacked, readPacked, unpackGlb } from './unpack.mjs';
 
 const ALIGNMENT = 8;
@@ -33,11 +34,12 @@ export const isContainer = (start) => ![undefined, 'glTF'].includes(kindOf(start
  * @param {import('./unpack.mjs').UnpackOptions} [options]  those of unpackGlb()
  * @returns {Promise<Uint8Array>}  a tile without the extension; `bytes` themselves if no model uses it, or if they are something else
  */
-export async function unpackTile(bytes, { decode = decodePayload, limits } = {}) {
+export async function unpackTile(bytes, options) {
+  const { decode = decodePayload, limits } = options ?? {};
   if (!(bytes instanceof Uint8Array)) fail('', 'the tile must be a Uint8Array');
   const kind = kindOf(bytes);
   if (kind === undefined) return bytes;
-  if (kind === 'glTF') return unpackGlb(bytes, { decode, limits });
+  if (kind === 'glTF') return unpackGlb(bytes, options);
   const tile = new TileFile(bytes);
   const models = tile.nodes.filter(({ glb }) => glb !== undefined);
   for (const model of models) model.packed = await inModel(model, () => readModel(model.glb));
@@ -46,11 +48,15 @@ export async function unpackTile(bytes, { decode = decodePayload, limits } = {})
   // One budget for all models, since a cmpt can have many.
   const budget = new Budget(bytes.length, limits);
   budget.add(sum(packed.map((model) => model.packed.namedBytes)));
-  await Promise.all(packed.map(async (model) => {
+  await forAll(packed, async (model) => {
     const glb = await inModel(model, () => decodePacked(model.packed, decode, budget));
     model.glb = model.kind === 'glTF' ? alignedGlb(glb) : glb;
-  }));
-  return tile.rebuild();
+  });
+  try {
+    return tile.rebuild();
+  } catch (error) {
+    throw asTrap(error);
+  }
 }
 
 /** Older tiles have models of glTF 1.0, which stay as they were. */
@@ -61,7 +67,7 @@ async function inModel({ glbBegin }, call) {
   try {
     return await call();
   } catch (error) {
-    throw error instanceof MccError ? new MccError(`in the GLB at byte ${glbBegin}: ${error.message}`, error.code) : error;
+    throw placed(error, `in the GLB at byte ${glbBegin}`);
   }
 }
 

@@ -3,9 +3,9 @@
 // For loaders with a hook for buffer views. Every accessor that a payload fills gets a new buffer
 // view, which is not in the file; accessors with the same elements share one. Everything a loader
 // does with an accessor, including morph targets and normalized integers, then works as usual.
-import { Budget, namedBytes } from './budget.mjs';
-import { fail } from './claims.mjs';
-import { elementsOf, originOf, payloadsOf } from './document.mjs';
+import { Budget, fetchAndDecode, MOST_AT_A_TIME } from './budget.mjs';
+import { asTrap } from './core.mjs';
+import { elementsOf, listOf, originOf, payloadsOf } from './document.mjs';
 import { decodeInWorkers } from './workers.mjs';
 
 export class PayloadViews {
@@ -17,28 +17,24 @@ export class PayloadViews {
    * @param {import('./unpack.mjs').UnpackOptions} [options] decode: by default in workers that all loaders of a page share
    * @param {(block: object, payload: object) => void} [onBlock] is called with each block of a payload of payloadsOf()
    */
-  constructor(json, fetchPayload, { decode = decodeInWorkers, limits } = {}, onBlock) {
+  constructor(json, fetchPayload, options, onBlock) {
+    const { decode = decodeInWorkers, limits } = options ?? {};
+    const payloads = payloadsOf(json);
     /**
      * The lists to use in place of the document's. Existing numbers stay; added buffer views come
      * last.
      */
-    this.accessors = [...(json.accessors ?? [])];
-    this.bufferViews = [...(json.bufferViews ?? [])];
+    this.accessors = [...listOf(json.accessors)];
+    this.bufferViews = [...listOf(json.bufferViews)];
     // Only the size of its payloads is known, not that of the file.
     const budget = new Budget(0, limits);
-    const fetchAndDecode = async (payload) => {
-      const { bufferView } = payload;
-      const bytes = await fetchPayload(bufferView);
-      if (bytes.length !== json.bufferViews[bufferView].byteLength) fail(`/bufferViews/${bufferView}`, 'reaches beyond its buffer');
-      budget.fileBytes += bytes.length;
-      budget.add(namedBytes(payload));
-      const watch = onBlock === undefined ? {} : { onBlock: (block) => onBlock(block, payload) };
-      return budget.settle(payload, await decode(bytes, { ...budget.optionsFor(payload), ...watch }));
-    };
-    for (const payload of payloadsOf(json)) {
+    const turns = new Turns();
+    const start = (payload) => turns.call(() => (
+      fetchAndDecode(budget, json, payload, fetchPayload, decode, onBlock && { onBlock: (block) => onBlock(block, payload) })));
+    for (const payload of payloads) {
       let decoded;
       // A payload is decoded once, when the first of its accessors is requested.
-      const decodeOnce = () => (decoded ??= fetchAndDecode(payload));
+      const decodeOnce = () => (decoded ??= start(payload));
       const numbers = new Map(); // numbers of added buffer views, by what they hold
       for (const target of payload.targets) this.#addView(target, decodeOnce, numbers);
     }
@@ -51,7 +47,14 @@ export class PayloadViews {
       const number = this.bufferViews.length;
       numbers.set(origin, number);
       this.bufferViews.push({ buffer: 0, byteLength: 0 });
-      this.#sources.set(number, async () => elementsOf(await decodeOnce(), target, accessor));
+      this.#sources.set(number, async () => {
+        const decoded = await decodeOnce();
+        try {
+          return elementsOf(decoded, target, accessor);
+        } catch (error) {
+          throw asTrap(error);
+        }
+      });
     }
     this.accessors[target.accessor] = { ...accessor, bufferView: numbers.get(origin) };
   }
@@ -63,5 +66,18 @@ export class PayloadViews {
    */
   load(bufferView) {
     return this.#sources.get(bufferView)?.();
+  }
+}
+
+/** Calls functions a few at a time: loaders ask for all buffer views at once. */
+class Turns {
+  #ends = [];
+  #count = 0;
+
+  call(work) {
+    const lane = this.#count++ % MOST_AT_A_TIME;
+    const done = Promise.resolve(this.#ends[lane]).then(work);
+    this.#ends[lane] = done.catch(() => {});
+    return done;
   }
 }

@@ -6,8 +6,8 @@
 // it until it is sent the whole decoder, which from then on decodes everything that the core
 // cannot.
 import { buffersOfBlock, runTask } from './block_decoder.mjs';
-import { buffersOf, Decoder } from './core.mjs';
-import { importOfNode } from './load.mjs';
+import { asTrap, buffersOf, Decoder } from './core.mjs';
+import { importOfNode } from './node.mjs';
 
 const decoders = [];
 const blockDecoders = new Map();
@@ -42,19 +42,25 @@ async function answer(request, post) {
       return decoders[1].decode(bytes, options);
     });
     post({ decoded }, buffersOf(decoded));
-  } catch ({ message, code }) {
+  } catch (error) {
+    const { message, code } = asTrap(error);
     const needsWhole = code === 'NotInCore' && decoders.length === 1;
     if (needsWhole) waiting = request;
     post({ needsWhole, message, code }, []);
   }
 }
 
+/** Of a message that does not arrive whole. */
+const UNREADABLE = { message: 'the message to the worker cannot be read', code: 'BadArgument' };
+
 if (typeof self === 'object' && typeof self.postMessage === 'function') {
   self.onmessage = ({ data }) => take(data, (message, moved) => self.postMessage(message, moved));
+  self.onmessageerror = () => self.postMessage(UNREADABLE);
 } else {
   // Does not use await at the top level, because the usual output format of bundlers for workers
   // does not allow it. Messages are queued until the listener is there.
   importOfNode('worker_threads').then(({ parentPort }) => {
     parentPort.on('message', (data) => take(data, (message, moved) => parentPort.postMessage(message, moved)));
+    parentPort.on('messageerror', () => parentPort.postMessage(UNREADABLE));
   });
 }

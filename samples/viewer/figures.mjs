@@ -36,13 +36,16 @@ export function showStreams(table, codecs) {
     element('tbody', {}, ...names.map((name) => element('tr', {},
       element('th', { scope: 'row' }, name),
       ...Object.keys(CODECS).map((codec) => cell(codecs[codec].streams?.get(name), most, codec))))),
-    element('tfoot', {}, rowOf({ ...rowsOf(codecs)[0], name: 'all' })));
+    element('tfoot', {}, rowOf(totalsOf(codecs))));
 }
 
 /** Shows a row per figure: bytes, times. @param {HTMLTableElement} table */
 export function showCodecs(table, codecs) {
-  table.replaceChildren(headOf('Payloads'), element('tbody', {}, ...rowsOf(codecs).map(rowOf)));
+  table.replaceChildren(headOf(titleOf(codecs)), element('tbody', {}, ...rowsOf(codecs).map(rowOf)));
 }
+
+/** What the figures are of. */
+export const titleOf = ({ ours }) => (ours.allBytes === undefined ? 'Payloads' : 'Without morph targets');
 
 const headOf = (title) => element('thead', {}, element('tr', {},
   element('th', { scope: 'col' }, title),
@@ -65,16 +68,26 @@ const FIGURES = [
  * @returns {{ name: string, cells: { text: string, ratio: string, isLeast: boolean }[] }[]} ratio: to ours; cells in the order of CODECS
  */
 export function rowsOf(codecs) {
-  return FIGURES.map(([name, figure, format]) => {
-    const values = Object.keys(CODECS).map((codec) => codecs[codec][figure]);
-    const least = Math.min(...values.filter((value) => value > 0));
-    const cells = Object.keys(CODECS).map((codec, i) => ({
-      text: values[i] === undefined ? missing(codecs[codec]) : format(values[i]),
-      ratio: i === 0 || !(values[i] > 0 && values[0] > 0) ? '' : comparison(format(values[0]), format(values[i]), values[i] / values[0]),
-      isLeast: values[i] === least,
-    }));
-    return { name, cells };
-  });
+  const rows = FIGURES.map(([name, figure, format]) => ({ name, cells: cellsOf(codecs, ({ [figure]: value }) => value, format) }));
+  if (codecs.ours.allBytes === undefined) return rows;
+  return [...rows, { name: 'Bytes with morph targets', cells: cellsOf(codecs, ({ allBytes }) => allBytes, formatCount) }];
+}
+
+/** The sums of the streams. */
+function totalsOf(codecs) {
+  const totals = cellsOf(codecs, ({ allBytes, bytes }) => allBytes ?? bytes, formatCount);
+  return { name: 'all', cells: Object.keys(CODECS).map((codec, i) => (
+    codecs[codec].uncodedBytes === undefined ? totals[i] : { ...totals[i], ratio: 'without morph targets', isLeast: false })) };
+}
+
+function cellsOf(codecs, valueOf, format) {
+  const values = Object.keys(CODECS).map((codec) => valueOf(codecs[codec]));
+  const least = Math.min(...values.filter((value) => value > 0));
+  return Object.keys(CODECS).map((codec, i) => ({
+    text: values[i] === undefined ? missing(codecs[codec]) : format(values[i]),
+    ratio: i === 0 || !(values[i] > 0 && values[0] > 0) ? '' : comparison(format(values[0]), format(values[i]), values[i] / values[0]),
+    isLeast: values[i] === least,
+  }));
 }
 
 const missing = ({ errors, isComplete }) => (errors.length !== 0 || isComplete ? '–' : '…');
@@ -102,9 +115,9 @@ export function showSummary(list, entries) {
 }
 
 /** Lists what is known so far about a compression. */
-export function summaryOf({ sourceBytes, report, glb, errors }) {
+export function summaryOf({ sourceBytes, isCompressed, report, glb, errors }) {
   const sizes = `${formatCount(sourceBytes)} → ${formatCount(glb.length)}`;
-  const entries = [['File', sizes, `bytes, ${formatPercent(glb.length / sourceBytes)}`]];
+  const entries = [['File', sizes, `bytes, ${formatPercent(glb.length / sourceBytes)}${isCompressed ? ' of what the file decodes to' : ''}`]];
   const payloadBytes = sum(report.payloads, 'bytes');
   const triangles = sum(report.payloads, 'triangles');
   if (triangles !== 0) {
@@ -148,11 +161,12 @@ const errorOf = (name, { bytes }, error) => `${bytes === undefined ? `No compari
 
 const quantised = (lossless) => (lossless ? 'not quantised' : 'with the same bits');
 
-function dracoRemarks({ streams }, { lossless }) {
-  const all = [`Draco ${VERSIONS.draco} at speed 0, which gives its smallest files, ${quantised(lossless)};`,
+function dracoRemarks({ speed, uncodedBytes }, { lossless }) {
+  const all = [`Draco ${VERSIONS.draco} at speed ${speed}, which of 0, 3 and 5 gives its smallest result, ${quantised(lossless)};`,
     'its seams are counted with the attributes that have them.'];
-  if ([...streams.keys()].some((name) => name.startsWith('target'))) {
-    all.push('Draco has no coding for morph targets; they are counted uncompressed.');
+  if (uncodedBytes !== undefined) {
+    all.push(`Draco has no coding for morph targets: it leaves ${formatCount(uncodedBytes)} bytes of them as they are.`,
+      'The codecs are therefore compared on the file without them.');
   }
   return all;
 }

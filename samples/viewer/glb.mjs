@@ -7,7 +7,8 @@ export const MAX_FILE_BYTES = 256 * 2 ** 20;
 /** A problem with the file that its owner can understand and fix. */
 export class FileError extends Error {}
 
-const GLB_MAGIC = 0x46546c67, JSON_CHUNK = 0x4e4f534a, BIN_CHUNK = 0x004e4942;
+const GLB_MAGIC = 0x46546c67, JSON_CHUNK = 0x4e4f534a;
+export const BIN_CHUNK = 0x004e4942;
 const COMPONENTS = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 };
 const ARRAYS = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };
 const TRIANGLES = 4, TRIANGLE_STRIP = 5, TRIANGLE_FAN = 6;
@@ -45,13 +46,19 @@ export function readGlb(bytes) {
   return gltf;
 }
 
+/**
+ * Reads a GLB or a .gltf.
+ * @param {Uint8Array} bytes
+ * @returns {{ json: object, bin: Uint8Array, isGlb: boolean }}
+ */
+export function readGltf(bytes) {
+  const isText = /^(\xef\xbb\xbf)?\s*\{/.test(String.fromCharCode(...bytes.subarray(0, 64)));
+  return isText ? { json: parseJson(bytes), bin: new Uint8Array(0), isGlb: false } : { ...readGlb(bytes), isGlb: true };
+}
+
 function describeOther(bytes) {
-  const start = String.fromCharCode(...bytes.subarray(0, 64)).trimStart();
   if (bytes.length === 0) return 'The file is empty.';
-  if (start.startsWith('{')) {
-    return 'This is a .gltf, whose buffers and images are in other files. Combine them first: gltf-mcc convert model.gltf model.glb';
-  }
-  return 'This is not a GLB: a GLB begins with the letters “glTF”.';
+  return 'This is not a GLB, nor a .gltf: a GLB begins with the letters “glTF”.';
 }
 
 function parseJson(chunk) {
@@ -76,11 +83,6 @@ export function checkDocument(json) {
   if (json.extensionsRequired?.includes('KHR_texture_basisu')) {
     throw new FileError('The textures of this file are KTX2 (KHR_texture_basisu), which the viewer does not show. '
       + 'The command line tool keeps them: gltf-mcc convert model.glb small.glb');
-  }
-  const outside = [...json.buffers ?? [], ...json.images ?? []].find(({ uri }) => uri !== undefined && !uri.startsWith('data:'));
-  if (outside !== undefined) {
-    throw new FileError(`The file refers to another one, “${outside.uri}”, which a page cannot read. `
-      + 'Combine them first: gltf-mcc convert model.glb whole.glb');
   }
   if (trianglePrimitivesOf(json).length === 0) throw new FileError('There are no triangles in this file.');
 }
@@ -112,6 +114,15 @@ export function readAccessor({ json, bin }, index) {
   }
   return { array, componentCount, normalized, componentType, count };
 }
+
+/** Returns the bytes of the elements that a file has of an accessor. */
+export function bytesOfAccessor({ bufferView, componentType, count, type, sparse }) {
+  const elementBytes = componentBytes(componentType) * COMPONENTS[type];
+  const sparseBytes = sparse === undefined ? 0 : sparse.count * (componentBytes(sparse.indices.componentType) + elementBytes);
+  return (bufferView === undefined ? 0 : count * elementBytes) + sparseBytes;
+}
+
+const componentBytes = (componentType) => ARRAYS[componentType].BYTES_PER_ELEMENT;
 
 function copyElements({ json, bin }, viewIndex, byteOffset, array, componentCount) {
   const view = json.bufferViews[viewIndex];

@@ -5,13 +5,15 @@ import { compareCodecs } from './comparison.mjs';
 import { element } from './element.mjs';
 import { remarksOn, showCodecs, showStreams, showSummary, streamsOf, sum, summaryOf } from './figures.mjs';
 import { formatCount, formatPercent, formatSmall } from './format.mjs';
-import { checkDocument, FileError, MAX_FILE_BYTES, readGlb } from './glb.mjs';
+import { checkFileSize, chooseModel, wholeGlb } from './files.mjs';
+import { checkDocument, FileError, readGlb } from './glb.mjs';
 import { Job } from './jobs.mjs';
 import { Options } from './options.mjs';
 import { drawReport } from './picture.mjs';
 import { ERROR_RAMP, ORDER_RAMP } from './ramps.mjs';
 import { reportOf } from './report.mjs';
 import { saveFiles } from './save.mjs';
+import { hasTargets } from './targets.mjs';
 import { createDecoderPool, decodeGlbBlocks } from './vendor/gltf-mcc/index.mjs';
 import { claimsBlocks } from './vendor/gltf-mcc/blocks.mjs';
 import { EXTENSION_NAME } from './vendor/gltf-mcc/document.mjs';
@@ -35,7 +37,7 @@ class Page {
   listen() {
     const choose = () => $('file').click();
     $('open').onclick = $('drop-open').onclick = choose;
-    $('file').onchange = () => this.openFile($('file').files[0]);
+    $('file').onchange = () => this.openFiles([...$('file').files]);
     for (const name of SAMPLES) $('sample').append(element('option', { value: name }, titleOf(name)));
     $('sample').onchange = () => $('sample').value !== '' && this.openSample($('sample').value);
     for (const name of EXAMPLES) {
@@ -61,7 +63,7 @@ class Page {
     document.addEventListener('drop', (event) => {
       event.preventDefault();
       mark(false);
-      if (event.dataTransfer.files.length !== 0) this.openFile(event.dataTransfer.files[0]);
+      this.openFiles([...event.dataTransfer.files]);
     });
   }
 
@@ -79,38 +81,41 @@ class Page {
     await this.open(`${name}.glb`, async () => {
       const response = await fetch(`vendor/samples/${name}.glb`);
       if (!response.ok) throw new FileError(`There is no sample ${name}.glb.`);
-      return response.arrayBuffer();
+      return { bytes: new Uint8Array(await response.arrayBuffer()), ignored: [] };
     });
   }
 
-  async openFile(file) {
+  /** @param {File[]} files that were dropped or chosen together */
+  async openFiles(files) {
+    if (files.length === 0) return;
+    const { model, parts, others } = chooseModel(files);
+    await this.open(model.name, async () => {
+      checkFileSize(model.size);
+      const { bytes, unused } = await wholeGlb(model.name, new Uint8Array(await model.arrayBuffer()), parts);
+      return { bytes, ignored: [...others, ...unused].map(({ name }) => name) };
+    });
     $('file').value = '';
     $('sample').value = '';
-    await this.open(file.name, () => {
-      if (file.size > MAX_FILE_BYTES) {
-        const mebibytes = (bytes) => `${formatCount(bytes / 2 ** 20)} MiB`;
-        throw new FileError(`The file has ${mebibytes(file.size)}; this page takes ${mebibytes(MAX_FILE_BYTES)} at most. `
-          + 'The command line tool takes larger ones: gltf-mcc convert model.glb small.glb');
-      }
-      return file.arrayBuffer();
-    });
   }
 
-  /** A file that cannot be shown leaves the current one in place. */
+  /** A file that cannot be read leaves the current one in place. */
   async open(name, read) {
     this.say('error', '');
     try {
-      const bytes = new Uint8Array(await read());
+      const { bytes, ignored } = await read();
       const { json } = readGlb(bytes);
       checkDocument(json);
       checkSize(json);
-      this.file = { name, bytes, json };
+      this.file = { name, bytes, json, ignored };
     } catch (error) {
       this.say('error', `${name}: ${error instanceof FileError ? error.message : `The file is damaged (${error.message}).`}`);
       return;
     }
     this.isNew = true;
     this.views?.clear();
+    $('original-size').textContent = '';
+    $('play').hidden = true;
+    this.clearFigures();
     this.compress();
   }
 
@@ -136,7 +141,8 @@ class Page {
     if (this.file === undefined) return;
     this.stop();
     this.say('error', '');
-    this.say('notice', '');
+    this.notes = ignoredNotes(this.file);
+    this.note();
     try {
       this.showWork();
     } catch (error) {
@@ -185,8 +191,12 @@ class Page {
   async onSource({ bytes, isCompressed }) {
     this.source = bytes;
     this.options.showUsed(readGlb(bytes).json);
-    $('original-size').textContent = `${formatCount(this.file.bytes.length)} bytes`;
-    if (isCompressed) this.say('notice', 'This file is compressed with mesh collapse already. The original shown here is what it decodes to.');
+    Object.assign(this.result, { isCompressed, sourceBytes: bytes.length });
+    $('original-size').textContent = `${formatCount(bytes.length)} bytes${isCompressed ? ' decoded' : ''}`;
+    if (isCompressed) {
+      this.note(`This file is compressed with mesh collapse already: it has ${formatCount(this.file.bytes.length)} bytes and decodes to `
+        + `${formatCount(bytes.length)}. The original shown here is what it decodes to, and is compressed anew.`);
+    }
     if (!this.isNew) return;
     this.isNew = false;
     await this.inOrder(async () => {
@@ -205,11 +215,13 @@ class Page {
   }
 
   async onCompressed({ glb, report, bytes, payloads }) {
-    const ours = { bytes: sum(report.payloads, 'bytes'), streams: streamsOf(report), errors: [] };
+    const figure = hasTargets(readGlb(this.source).json) ? 'allBytes' : 'bytes';
+    const ours = { [figure]: sum(report.payloads, 'bytes'), streams: streamsOf(report), errors: [] };
     Object.assign(this.result, { glb, report, payloads, codecs: { ours, draco: { errors: [] }, meshopt: { errors: [] } } });
-    $('compressed-size').textContent = `${formatCount(glb.length)} bytes, ${formatPercent(glb.length / this.file.bytes.length)}`;
+    $('compressed-size').textContent = `${formatCount(glb.length)} bytes, ${formatPercent(glb.length / this.result.sourceBytes)}`;
     $('download').disabled = false;
-    if (report.copied) this.say('notice', 'Compression would not make this file smaller, so the result is the source.');
+    if (report.copied) this.note('Compression would not make this file smaller, so the result is the source.');
+    if (this.result.isCompressed && glb.length >= this.file.bytes.length) this.note('The file as it was is not larger than the result.');
     await this.inOrder(() => this.views.showCompressed(bytes));
     $('waiting').textContent = '';
   }
@@ -252,10 +264,10 @@ class Page {
   async compare(run) {
     $('work').classList.remove('busy');
     run.isComparing = true;
-    const { result, source, options: { bits, lossless } } = this;
+    const { result, source, options: { bits, lossless, value: options } } = this;
     const { signal } = run.stopping;
     try {
-      await compareCodecs({ source, payloads: result.payloads, bits, lossless }, {
+      await compareCodecs({ source, payloads: result.payloads, options, bits, lossless }, {
         signal,
         onStep: (text, done) => !signal.aborted && this.progress(text, done),
         onFigures: (codecs) => {
@@ -306,7 +318,19 @@ class Page {
     this.progress('');
     $('work').classList.remove('busy');
     $('waiting').textContent = '';
+    if (this.result?.glb === undefined) {
+      this.clearFigures();
+      this.views?.clearCompressed();
+    }
     this.say('error', `${this.file.name}: ${text}`);
+  }
+
+  /** Nothing of another file, or of other options, remains. */
+  clearFigures() {
+    this.result = {};
+    for (const id of ['compressed-size', 'summary', 'codecs', 'streams', 'remarks']) $(id).replaceChildren();
+    $('figures').hidden = true;
+    if (this.views !== undefined) this.showLegend();
   }
 
   // ---- what is seen
@@ -316,6 +340,12 @@ class Page {
     $(kind).textContent = text;
     $(kind).hidden = text === '';
     if (kind === 'notice') $('status').textContent = text;
+  }
+
+  /** Adds a sentence to the notice. */
+  note(text) {
+    if (text !== undefined) this.notes.push(text);
+    this.say('notice', this.notes.join(' '));
   }
 
   /** @param {string} text empty: nothing is under way @param {number} [done] from 0 to 1, if that is known */
@@ -394,6 +424,7 @@ class Page {
 
   showFigures() {
     const { codecs } = this.result;
+    $('figures').hidden = false;
     showSummary($('summary'), summaryOf(this.result));
     showCodecs($('codecs'), codecs);
     showStreams($('streams'), codecs);
@@ -405,7 +436,7 @@ class Page {
   }
 
   nameOf(ending) {
-    return this.file.name.replace(/(\.glb)?$/i, ending);
+    return this.file.name.replace(/(\.glb|\.gltf)?$/i, ending);
   }
 
   /** Saves the figures for programs, and a picture of them for people. */
@@ -430,6 +461,13 @@ function hasBlocks(bytes) {
   return views.some((view) => view !== undefined && claimsBlocks(bin.subarray(view.byteOffset ?? 0)));
 }
 
+/** Says what of the files that were opened together is not shown. */
+function ignoredNotes({ name, ignored }) {
+  if (ignored.length === 0) return [];
+  const list = ignored.slice(0, 3).join(', ') + (ignored.length > 3 ? ` and ${ignored.length - 3} more` : '');
+  return [`Only ${name} is opened; ${list} ${ignored.length === 1 ? 'is' : 'are'} ignored.`];
+}
+
 function checkSize({ meshes = [], accessors = [] }) {
   const counts = meshes.flatMap(({ primitives = [] }) => primitives).map(({ indices }) => accessors[indices]?.count ?? 0);
   const corners = counts.reduce((a, b) => a + b, 0);
@@ -446,7 +484,7 @@ const errorLegend = ({ most, side }) => ({
 });
 
 const orderLegend = (tree) => ({
-  title: 'Edges in the order of their contraction',
+  title: 'Order of contraction',
   ramp: ORDER_RAMP,
   low: 'first',
   high: `last of ${formatCount(sum(tree.map(({ edges }) => edges), 'length') / 2)}`,

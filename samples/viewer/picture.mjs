@@ -2,13 +2,13 @@
 //
 // The report as a picture: both views side by side, the figures below. Its size is always the same, whatever the window's is.
 import { CODECS } from './comparison.mjs';
-import { rowsOf } from './figures.mjs';
+import { rowsOf, titleOf } from './figures.mjs';
 
 export const WIDTH = 1200, HEIGHT = 960;
 const MARGIN = 24;
 const VIEW = { top: 92, width: (WIDTH - 3 * MARGIN) / 2, height: 440 };
 const TEXT_TOP = VIEW.top + VIEW.height + 40;
-const ROW = 30, SMALL_ROW = 19, MOST_LINES = 7;
+const ROW = 30, SMALL_ROW = 19;
 
 /**
  * @param {import('./views.mjs').LinkedViews} views
@@ -56,7 +56,7 @@ function makePen(context) {
     /** What does not fit is in the JSON. */
     wrap(text, x, y, width) {
       set({ size: 13, color: '--quiet' });
-      linesOf(context, text, width).slice(0, MOST_LINES).forEach((line, i) => context.fillText(line, x, y + i * SMALL_ROW));
+      linesOf(context, text, width).slice(0, Math.floor((HEIGHT - y) / SMALL_ROW)).forEach((line, i) => context.fillText(line, x, y + i * SMALL_ROW));
     },
   };
 }
@@ -97,6 +97,7 @@ function drawSummary(pen, summary, y) {
 function drawTable(pen, codecs, top) {
   const column = (i) => MARGIN + 220 + i * 310;
   let y = top;
+  pen.write(titleOf(codecs), MARGIN, y, { color: '--quiet' });
   Object.entries(CODECS).forEach(([codec, name], i) => {
     pen.box(`--${codec}`, column(i), y - 10, 11, 11);
     pen.write(name, column(i) + 18, y, { color: '--quiet' });

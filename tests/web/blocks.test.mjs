@@ -285,6 +285,8 @@ describe('decodeGlbBlocks()', () => {
   test('errors', async () => {
     const glb = blocksGlb('torus');
     const codeOf = async (source, options) => (await untilFailure(decodeGlbBlocks(source, options))).error.code;
+    const { error } = await untilFailure(decodeGlbBlocks(null));
+    assert.match(`${error.code}: ${error.message}`, /^BadArgument: the source is null: the response has no body$/);
     for (const end of [0, 5, 19, 100]) assert.equal(await codeOf(streamOf(glb.subarray(0, end), [30])), 'Document');
     assert.equal(await codeOf(glb.slice(0, -200)), 'Truncated');
     assert.equal(await codeOf(glb, { limits: { maxDecodedBytes: 1000 } }), 'Limit');

@@ -122,7 +122,7 @@ describe('package', () => {
       writeFileSync(join(project, 'src/least.js'), `export { ${names} } from '${module}';`);
       const { output: [{ code }] } = await build({
         root: project, logLevel: 'warn',
-        build: { write: false, minify: 'esbuild', target: 'es2022', modulePreload: false,
+        build: { write: false, target: 'es2022', modulePreload: false,
           rollupOptions: { input: join(project, 'src/least.js'), preserveEntrySignatures: 'strict', external: /^(three|@babylonjs|@gltf-transform)/ } },
       });
       return brotli(Buffer.from(code));

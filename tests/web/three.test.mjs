@@ -4,12 +4,13 @@ import test from 'node:test';
 import './support/peers.mjs';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { createDecoderPool, decodePayload } from '../../lib/web/index.mjs';
-import { MeshCollapsePlugin } from '../../lib/web/three.mjs';
 import { readGlb } from '../../lib/web/unpack.mjs';
 import { blocksGlb, trianglesOf, trianglesOfBlocks } from './support/blocks.mjs';
 import { manifest, readAsset } from './support/conformance.mjs';
 import { compareWithManifest, refusesNegatives } from './support/loaders.mjs';
 import { convert, convertWithFallback, readSample } from './support/program.mjs';
+
+const { MeshCollapsePlugin } = await import('../../lib/web/three.mjs');
 
 // What the loader takes for granted in browsers.
 globalThis.self ??= globalThis;

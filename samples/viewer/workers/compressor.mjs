@@ -11,6 +11,7 @@
 // or error { message }.
 import { checkDocument, FileError, readGlb, readNumbers, trianglePrimitivesOf } from '../glb.mjs';
 import { boxOf, measureErrors } from '../errors.mjs';
+import { extensionOf, payloadsOf } from '../payloads.mjs';
 import { claimsBlocks } from '../vendor/gltf-mcc/blocks.mjs';
 import { EXTENSION_NAME } from '../vendor/gltf-mcc/document.mjs';
 import { MccError } from '../vendor/gltf-mcc/decoder.mjs';
@@ -19,12 +20,6 @@ import { unpackGlb } from '../vendor/gltf-mcc/unpack.mjs';
 
 const post = (name, content = {}, moved = []) => postMessage({ name, ...content }, moved);
 const stage = (text) => post('stage', { text });
-const extensionOf = ({ definition }) => definition.extensions?.[EXTENSION_NAME];
-
-function viewOf({ json, bin }, index) {
-  const { byteOffset = 0, byteLength } = json.bufferViews[index];
-  return bin.slice(byteOffset, byteOffset + byteLength);
-}
 
 /** Opens the source as ordinary glTF. */
 async function openSource(bytes) {
@@ -39,12 +34,6 @@ async function openSource(bytes) {
   const vertices = [...positions].reduce((sum, index) => sum + gltf.json.accessors[index].count, 0);
   post('source', { bytes: plain, isCompressed, primitives: primitives.length, vertices });
   return { plain, gltf };
-}
-
-/** Returns the payloads by buffer view. */
-function payloadsOf(gltf) {
-  const views = new Set(trianglePrimitivesOf(gltf.json).map(extensionOf).filter(Boolean).map(({ bufferView }) => bufferView));
-  return new Map([...views].map((view) => [view, viewOf(gltf, view)]));
 }
 
 /**

@@ -1,15 +1,16 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Compresses the same primitives with Google's Draco, with the same bits, at the speed setting that
-// gives the smallest files (0). This worker gets { bytes, bits, lossless }. It posts
+// Compresses the same primitives with Google's Draco, with the same bits, at that speed setting which gives the
+// smallest file. This worker gets { bytes, bits, lossless }. It posts
 // { name: 'progress', done }, and then { name: 'error', message } or
-//   { name: 'done', payloads, streams, uncoded }
-// with a payload per primitive, bytes by name of stream, and what it has no coding for, as it is.
+//   { name: 'done', payloads, streams, speed }
+// with a payload per primitive and bytes by name of stream. Draco has no coding for morph targets; they are passed over.
 import DracoEncoderModule from '../vendor/draco/draco_encoder.mjs';
 import { readGlb, trianglePrimitivesOf } from '../glb.mjs';
 import { bitsOf, readPrimitive, semanticOf } from '../primitives.mjs';
 
-const SPEED = 0;
+/** As gltf-mcc compares them: 0 has the best methods, 5 is the default, and neither is always the smallest. */
+const SPEEDS = [0, 3, 5];
 const HEADER_BYTES = 11;
 
 const KINDS = { POSITION: 'POSITION', NORMAL: 'NORMAL', TEXCOORD: 'TEX_COORD', COLOR: 'COLOR' }; // all others are GENERIC
@@ -29,8 +30,8 @@ class Codec {
     this.options = options;
   }
 
-  /** @param {ReturnType<typeof readPrimitive>} primitive */
-  encode({ triangles, attributes }) {
+  /** @param {ReturnType<typeof readPrimitive>} primitive @param {number} speed */
+  encode({ triangles, attributes }, speed) {
     const { encoder } = this;
     const builder = new encoder.MeshBuilder();
     const mesh = new encoder.Mesh();
@@ -38,7 +39,7 @@ class Codec {
     const ids = attributes.map(({ name, array, componentCount, componentType, count }) =>
       builder[ADD[componentType]](mesh, encoder[kindOf(name)], count, componentCount, array));
     const expert = new encoder.ExpertEncoder(mesh);
-    expert.SetSpeedOptions(SPEED, SPEED);
+    expert.SetSpeedOptions(speed, speed);
     expert.SetEncodingMethod(encoder.MESH_EDGEBREAKER_ENCODING);
     attributes.forEach((attribute, i) => {
       const bits = bitsOf(attribute, this.options);
@@ -72,9 +73,9 @@ function attributesBegin(bytes, componentType) {
  * Measures bytes by name of stream. Those of an attribute are what the mesh grows by when the
  * attribute is added, including seams.
  */
-function encodeByStream(codec, primitive, add) {
+function encodeByStream(codec, primitive, speed, add) {
   const [position, ...others] = primitive.attributes;
-  let bytes = codec.encode({ ...primitive, attributes: [position] });
+  let bytes = codec.encode({ ...primitive, attributes: [position] }, speed);
   const begin = attributesBegin(bytes, position.componentType);
   if (begin === undefined) {
     add('POSITION', bytes.length);
@@ -84,17 +85,11 @@ function encodeByStream(codec, primitive, add) {
     add('POSITION', bytes.length - begin.at - begin.byteLength);
   }
   others.forEach(({ name }, i) => {
-    const more = codec.encode({ ...primitive, attributes: primitive.attributes.slice(0, i + 2) });
+    const more = codec.encode({ ...primitive, attributes: primitive.attributes.slice(0, i + 2) }, speed);
     add(name, more.length - bytes.length);
     bytes = more;
   });
   return bytes;
-}
-
-/** Counts the bytes of morph targets as they are, because Draco has no coding for them. */
-function addTargets({ targets }, add) {
-  targets.forEach(({ name, array }) => add(name, array.byteLength));
-  return targets.map(({ array }) => new Uint8Array(array.buffer));
 }
 
 /** The module, compiled once. */
@@ -107,14 +102,16 @@ async function run({ bytes, bits, lossless }) {
   const streams = new Map();
   const add = (name, byteLength) => streams.set(name, (streams.get(name) ?? 0) + byteLength);
   const definitions = trianglePrimitivesOf(gltf.json).map(({ definition }) => definition);
-  const [payloads, uncoded] = [[], []];
-  definitions.forEach((definition, i) => {
-    const primitive = readPrimitive(gltf, definition);
-    payloads.push({ bytes: encodeByStream(codec, primitive, add) });
-    uncoded.push(...addTargets(primitive, add));
-    postMessage({ name: 'progress', done: (i + 1) / definitions.length });
+  const steps = (SPEEDS.length + 1) * definitions.length;
+  let step = 0;
+  const encodeAll = (encode) => definitions.map((definition) => {
+    const bytes = encode(readPrimitive(gltf, definition));
+    postMessage({ name: 'progress', done: ++step / steps });
+    return { bytes };
   });
-  return { payloads, streams, uncoded };
+  const sizes = SPEEDS.map((speed) => encodeAll((primitive) => codec.encode(primitive, speed)).reduce((sum, { bytes: { length } }) => sum + length, 0));
+  const speed = SPEEDS[sizes.indexOf(Math.min(...sizes))];
+  return { payloads: encodeAll((primitive) => encodeByStream(codec, primitive, speed, add)), streams, speed };
 }
 
 onmessage = async ({ data }) => {

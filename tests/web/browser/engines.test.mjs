@@ -85,6 +85,13 @@ test('where workers cannot start, plugins decode on the thread of the page', asy
   await page.close();
 });
 
+test('pictures inside of a GLB need blob: in connect-src, as the README says', async () => {
+  const { page, violations } = await open({ page: 'three' }, 'noblobs');
+  await draw(page, 'textured.mcc').catch(() => {});
+  assert.match(violations().join(), /blob:.*connect-src/);
+  await page.close();
+});
+
 async function saveScreenshot(engine, picture) {
   const folder = process.env.MCC_SCREENSHOTS;
   if (folder) await writeFile(path.join(folder, `${engine}.png`), writePicture(picture));

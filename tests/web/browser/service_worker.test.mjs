@@ -143,7 +143,7 @@ test('a tile of ours that is damaged is refused with its reason', async () => {
   const whole = b3dm(site.models.get('textured.mcc'));
   put('checksum.cmpt', cmpt([b3dm(site.models.get('textured')), b3dm(site.models.get('damaged'))]));
   put('cut.b3dm', whole.subarray(0, whole.length - 100));
-  for (const [name, why] of [['checksum.cmpt', /^in the GLB at byte \d+: .*checksum/], ['cut.b3dm', /^byte 8: the tile claims \d+ bytes/]]) {
+  for (const [name, why] of [['checksum.cmpt', /^checksum.cmpt: in the GLB at byte \d+: .*checksum/], ['cut.b3dm', /^cut.b3dm: byte 8: the tile claims \d+ bytes/]]) {
     const { status, statusText } = await fetchIn(page, `/files/${name}`);
     assert.equal(status, 502, name);
     assert.match(statusText, why);

@@ -8,7 +8,7 @@ import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { PNG } from 'pngjs';
 import { payloadsOf } from '../../../lib/web/document.mjs';
-import { readGlb } from '../../../lib/web/unpack.mjs';
+import { readGlb, unpackGlb, writeGlb } from '../../../lib/web/unpack.mjs';
 import { serve } from '../../../samples/viewer/serve.mjs';
 import { gather } from '../../../samples/viewer/setup.mjs';
 import { brotli, encodeFile } from '../support/bench/encode.mjs';
@@ -49,17 +49,20 @@ async function openViewer(viewport = DESKTOP) {
 }
 
 /** As a user's file manager drops it; until the page has taken it or says why not. */
-async function drop(page, name, bytes, claimedSize) {
-  await page.evaluate(dropInPage, [name, Buffer.from(bytes).toString('base64'), claimedSize]);
+const drop = (page, name, bytes, claimedSize) => dropAll(page, [[name, bytes]], name, claimedSize);
+
+/** Drops several files together; the page names one of them. @param {[string, Uint8Array][]} files */
+async function dropAll(page, files, name, claimedSize) {
+  await page.evaluate(dropInPage, [files.map(([file, bytes]) => [file, Buffer.from(bytes).toString('base64')]), claimedSize]);
   const begins = ([id, name]) => document.getElementById(id).textContent.startsWith(name);
   await Promise.any(['file-name', 'error'].map((id) => page.waitForFunction(begins, [id, name], { timeout: 30_000 })));
 }
 
-function dropInPage([name, base64, size]) {
-  const file = new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name);
+function dropInPage([contents, size]) {
+  const files = contents.map(([name, base64]) => new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name));
   const dataTransfer = new DataTransfer();
-  dataTransfer.items.add(file);
-  if (size !== undefined) Object.defineProperty(dataTransfer, 'files', { value: [Object.defineProperty(file, 'size', { value: size })] });
+  for (const file of files) dataTransfer.items.add(file);
+  if (size !== undefined) Object.defineProperty(dataTransfer, 'files', { value: [Object.defineProperty(files[0], 'size', { value: size })] });
   document.querySelector('main').dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true }));
 }
 
@@ -274,10 +277,15 @@ test('the download is what the program writes with the same options', async () =
   assert.deepEqual(bytes, Buffer.from(convert(source, ['--lossless', '--keep-order', 'both'])));
   assert.match(await textOf(page, 'summary'), /Largest error0every position is exact/);
 
-  // What was compressed already is opened, too.
+  // What was compressed already is opened, too, and its figures are against what it decodes to.
   await drop(page, 'again.glb', bytes);
   await settle(page);
-  assert.match(await textOf(page, 'notice'), /compressed with mesh collapse already/);
+  const decoded = await unpackGlb(new Uint8Array(bytes));
+  const [given, plain] = [bytes, decoded].map(({ length }) => length.toLocaleString('en-US'));
+  assert.match(await textOf(page, 'notice'), new RegExp(`compressed with mesh collapse already: it has ${given} bytes and decodes to ${plain}`));
+  assert.equal(await textOf(page, 'original-size'), `${plain} bytes decoded`);
+  assert.match(await textOf(page, 'summary'), new RegExp(`^File${plain} → [\\d,]+bytes, \\d+ % of what the file decodes to`));
+  assert.equal((await reported(page)).json.file.decodedBytes, decoded.length);
   assert.ok(coverageOf((await picturesOf(page)).original) >= MIN_COVERAGE);
   decode((await downloaded(page)).bytes);
   await page.close();
@@ -292,26 +300,65 @@ test('bytes and times of three codecs are shown', async () => {
     await settle(page);
     const rows = await codecsOf(page);
     const { glb, codecs } = await encodeFile(PROGRAM, path.join(SAMPLES, `${name}.glb`));
-    const [ours, draco, meshopt] = [payloadsIn(glb), ...['draco 0', 'meshopt'].map((codec) => codecs[codec].map(({ bytes }) => bytes))];
-    const streams = await streamsOf(page);
+    const [draco, meshopt] = ['draco 0', 'meshopt'].map((codec) => codecs[codec].map(({ bytes }) => bytes));
+    const ours = payloadsIn(name === 'morphed' ? convert(withoutTargets(readSample(name))) : glb);
     assert.equal(numberOf(rows.Bytes[0]), Buffer.concat(ours).length, name);
     isNear(numberOf(rows['Bytes after brotli'][0]), await brotliBytes(ours), 0.02, `${name} after brotli`);
-    // The benchmark has no morph targets. Draco's lattice has its own origin here, and gets the vertices in the file's order.
+    // The benchmark has no morph targets either. Draco's lattice has its own origin here, and gets the vertices in the file's order.
     [draco, meshopt].forEach((payloads, i) => {
-      const targets = streams.filter(({ stream }) => stream.startsWith('target')).reduce((sum, { bytes }) => sum + bytes[i + 1], 0);
-      isNear(numberOf(rows.Bytes[i + 1]) - targets, Buffer.concat(payloads).length, 0.08, `${name} by codec ${i + 1}`);
+      isNear(numberOf(rows.Bytes[i + 1]), Buffer.concat(payloads).length, 0.08, `${name} by codec ${i + 1}`);
       assert.ok(numberOf(rows['Bytes after brotli'][i + 1]) < numberOf(rows.Bytes[i + 1]), `${name}: brotli of codec ${i + 1}`);
     });
     for (const figure of ['Load + first decode', 'Best decode']) {
       for (const time of rows[figure]) assert.match(time, /^[\d.]+ m?s$/, `${name} ${figure}`);
     }
-    assert.equal(/Draco has no coding for morph targets/.test(await textOf(page, 'remarks')), name === 'morphed');
+    await (name === 'morphed' ? checkMorphTargets(page, rows, payloadsIn(glb)) : checkNoMorphTargets(page, rows));
   }
   assert.match(await textOf(page, 'remarks'), /Draco 1\.5\.\d.*meshopt 1\.\d/);
   assert.deepEqual(violations(), []);
   assert.deepEqual(problems(), []);
   await page.close();
 });
+
+/** Two targets with positions and normals, as floats, of 642 vertices. */
+const BYTES_OF_TARGETS = 2 * 2 * 12 * 642;
+
+async function checkMorphTargets(page, rows, ours) {
+  const { json } = await reported(page);
+  const all = rows['Bytes with morph targets'];
+  const streams = await streamsOf(page);
+  const sums = [0, 1, 2].map((i) => streams.reduce((sum, { bytes }) => sum + bytes[i], 0));
+  const totals = await page.$$eval('#streams tfoot .number', (list) => list.map(({ textContent }) => textContent));
+  assert.equal(numberOf(all[0]), Buffer.concat(ours).length);
+  assert.equal(all[1], '–');
+  assert.deepEqual([numberOf(all[2]), totals[0], totals[1], totals[2]], [sums[2], all[0], rows.Bytes[1], all[2]]);
+  assert.ok(numberOf(all[2]) > numberOf(rows.Bytes[2]));
+  assert.match(await textOf(page, 'codecs'), /^Without morph targets/);
+  assert.match(await textOf(page, 'streams'), /without morph targets/);
+  const left = BYTES_OF_TARGETS.toLocaleString('en-US');
+  assert.match(await textOf(page, 'remarks'), new RegExp(`Draco has no coding for morph targets: it leaves ${left} bytes of them as they are\\.`));
+  const figuresOf = ({ bytes, withMorphTargetsBytes, uncodedMorphTargetBytes }) => [bytes, withMorphTargetsBytes, uncodedMorphTargetBytes];
+  assert.equal(json.comparedWithoutMorphTargets, true);
+  assert.deepEqual(Object.values(json.codecs).map(figuresOf), [0, 1, 2].map((i) => (
+    [numberOf(rows.Bytes[i]), i === 1 ? undefined : numberOf(all[i]), i === 1 ? BYTES_OF_TARGETS : undefined])));
+}
+
+async function checkNoMorphTargets(page, rows) {
+  assert.equal(rows['Bytes with morph targets'], undefined);
+  assert.match(await textOf(page, 'codecs'), /^Payloads/);
+  assert.doesNotMatch(await textOf(page, 'remarks'), /morph/);
+  assert.equal((await reported(page)).json.comparedWithoutMorphTargets, false);
+}
+
+function withoutTargets(glb) {
+  const { json, chunks } = readGlb(glb);
+  for (const mesh of json.meshes) {
+    delete mesh.weights;
+    for (const primitive of mesh.primitives) delete primitive.targets;
+  }
+  delete json.animations;
+  return writeGlb(json, chunks);
+}
 
 const isNear = (value, expected, tolerance, what) =>
   assert.ok(Math.abs(value / expected - 1) <= tolerance, `${what}: ${value} instead of ${expected}`);
@@ -471,14 +518,20 @@ function damagedFile() {
   return bytes;
 }
 
+const textGltf = (buffer, bufferViews) => Buffer.from(JSON.stringify(
+  { asset: { version: '2.0' }, ...triangles(1), buffers: [{ byteLength: 9, ...buffer }], bufferViews }));
+
 const BAD_FILES = [
   ['note.txt', () => Buffer.from('no model'), /not a GLB/],
   ['empty.glb', () => Buffer.alloc(0), /is empty/],
-  ['model.gltf', () => Buffer.from('{ "asset": { "version": "2.0" } }'), /is a \.gltf.*gltf-mcc convert/],
+  ['model.gltf', () => textGltf({ uri: 'some%20parts.bin' }), /refers to “some%20parts\.bin”\. Drop .*together.*gltf-mcc decode model\.gltf whole\.glb/],
+  ['short.gltf', () => textGltf({ uri: 'data:application/octet-stream;base64,AAAA' }), /a buffer has 3 bytes instead of 9/],
+  ['uri.gltf', () => textGltf({ uri: 'data:application/octet-stream,abc' }), /is not base64/],
+  ['view.gltf', () => textGltf({ uri: `data:;base64,${'A'.repeat(12)}` }, [{ buffer: 1, byteLength: 9 }]), /buffer that is not there/],
   ['half.glb', () => readSample('torus').subarray(0, 40_000), /cut off: .* 74,844 bytes, but 40,000/],
   ['json.glb', () => Buffer.from(readSample('torus')).fill('?', 20, 30), /JSON cannot be read/],
   ['points.glb', () => glbOf({}), /no triangles/],
-  ['parts.glb', () => glbOf({ ...triangles(1), buffers: [{ byteLength: 9, uri: 'parts.bin' }] }), /refers to another one, “parts\.bin”/],
+  ['parts.glb', () => glbOf({ ...triangles(1), buffers: [{ byteLength: 9, uri: 'parts.bin' }] }), /refers to “parts\.bin”.*gltf-mcc decode model\.glb whole\.glb/],
   ['draco.glb', () => glbOf({ ...triangles(1), extensionsUsed: ['KHR_draco_mesh_compression'] }), /compressed with Draco.*gltf-mcc convert/],
   ['ktx.glb', () => glbOf({ ...triangles(1), extensionsRequired: ['KHR_texture_basisu'] }), /textures .* are KTX2/],
   ['odd.glb', () => glbOf({ meshes: 7 }), /is damaged \(/],
@@ -507,6 +560,83 @@ test('what cannot be shown gets a message near the drop zone, and the next file 
   await drop(page, 'note.txt', Buffer.from('no model'));
   assert.equal(await textOf(page, 'file-name'), 'good.glb');
   assert.ok(coverageOf((await picturesOf(page)).compressed) >= MIN_COVERAGE);
+  await page.close();
+});
+
+test('after a damaged file no figure or picture of the one before remains', async () => {
+  const { page } = await openViewer();
+  await drop(page, 'good.glb', readSample('morphed'));
+  await settle(page);
+  assert.equal(await isShown(page, 'figures'), true);
+  await drop(page, 'damaged.glb', damagedFile());
+  await page.waitForSelector('#error:not([hidden])');
+  assert.equal(await textOf(page, 'file-name'), 'damaged.glb');
+  for (const id of ['original-size', 'compressed-size', 'summary', 'codecs', 'streams', 'remarks']) assert.equal(await textOf(page, id), '', id);
+  for (const id of ['figures', 'legend', 'play']) assert.equal(await isShown(page, id), false, id);
+  for (const picture of Object.values(await picturesOf(page))) assert.ok(coverageOf(picture) < 0.01, 'only its rounded corners');
+  for (const id of ['download', 'report', 'heat', 'tree']) assert.equal(await page.isDisabled(`#${id}`), true, id);
+  await drop(page, 'good.glb', readSample('moebius'));
+  await settle(page);
+  assert.equal(await isShown(page, 'figures'), true);
+  await page.close();
+});
+
+/** A sample as a .gltf, with its buffer in a file and its pictures in others. */
+function partsOf(name) {
+  const { json, chunks: [{ data }] } = readGlb(readSample(name));
+  const pictures = json.images.map(({ bufferView }, i) => {
+    const { byteOffset = 0, byteLength } = json.bufferViews[bufferView];
+    json.images[i] = { uri: `textures/picture%20${i}.png` };
+    return [`picture ${i}.png`, data.slice(byteOffset, byteOffset + byteLength)];
+  });
+  json.buffers = [{ byteLength: json.buffers[0].byteLength, uri: 'model.bin' }];
+  return [['model.bin', data], ...pictures, ['model.gltf', Buffer.from(`\ufeff${JSON.stringify(json)}`)]];
+}
+
+test('a .gltf is opened with its buffers and images, dropped or chosen together', async () => {
+  const { page, violations, problems } = await openViewer();
+  await drop(page, 'textured.glb', readSample('textured'));
+  await settle(page);
+  const expected = { pictures: await picturesOf(page), rows: (await codecsOf(page)).Bytes };
+  const parts = partsOf('textured');
+  await page.setInputFiles('#file', parts.map(([name, bytes]) => ({ name, mimeType: '', buffer: Buffer.from(bytes) })));
+  await page.waitForFunction(() => document.getElementById('file-name').textContent === 'model.gltf');
+  await settle(page);
+  assert.equal(await isShown(page, 'notice'), false);
+  assert.deepEqual((await codecsOf(page)).Bytes, expected.rows);
+  const shown = await picturesOf(page);
+  for (const side of ['original', 'compressed']) assert.equal(differenceOf(shown[side], expected.pictures[side]), 0, side);
+  assert.equal((await downloaded(page)).name, 'model.mcc.glb');
+
+  await dropAll(page, [...parts, ['note.txt', Buffer.from('not used')]], 'model.gltf');
+  await page.waitForSelector('#notice:not([hidden])');
+  await settle(page);
+  assert.equal(await textOf(page, 'notice'), 'Only model.gltf is opened; note.txt is ignored.');
+  assert.deepEqual((await codecsOf(page)).Bytes, expected.rows);
+  assert.deepEqual(violations(), []);
+  assert.deepEqual(problems(), []);
+  await page.close();
+});
+
+test('the second of two models is said to be ignored', async () => {
+  const { page } = await openViewer();
+  await dropAll(page, ['moebius', 'torus'].map((name) => [`${name}.glb`, readSample(name)]), 'moebius.glb');
+  await settle(page);
+  assert.equal(await textOf(page, 'file-name'), 'moebius.glb');
+  assert.equal(await textOf(page, 'notice'), 'Only moebius.glb is opened; torus.glb is ignored.');
+  await page.close();
+});
+
+test('the keys of the toolbar are seen', async () => {
+  const { page } = await openViewer();
+  await page.click('#chips button:has-text("koi")');
+  await settle(page);
+  for (const [id, key] of Object.entries({ wireframe: 'W', heat: 'E', tree: 'C', play: 'P' })) {
+    assert.equal(await page.locator(`#${id} kbd`).innerText(), key);
+    assert.equal(await page.getAttribute(`#${id}`, 'aria-keyshortcuts'), key);
+    await page.keyboard.press(key);
+    assert.equal(await page.getAttribute(`#${id}`, 'aria-pressed'), 'true', id);
+  }
   await page.close();
 });
 

@@ -4,7 +4,7 @@
 // import maps, without a bundler.
 //
 //   /pages/NAME.html        NAME.mjs of tests/web/browser/pages, with an import map; ?without replaces the library by nothing,
-//                           ?eval allows it, ?blobs allows workers of blobs, ?noworkers forbids workers, ?strict is for pages without an import map
+//                           ?eval allows it, ?blobs allows workers of blobs, ?noworkers forbids workers, ?noblobs forbids what pictures inside of a GLB need, ?strict is for pages without an import map
 //   /models/NAME/model.glb  a model of the test
 //   /snippets/NAME.mjs      the code under "### NAME" in the README of lib/web
 //   /lib/…, /engines/…      lib/web and node_modules
@@ -17,7 +17,7 @@ import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import path from 'node:path';
 import { ENGINES, LIBRARY, PAGES, PLAIN } from '../../support/paths.mjs';
-import { snippetOf } from '../../support/readme.mjs';
+import { policyOfReadme, snippetOf } from '../../support/readme.mjs';
 
 const TYPES = {
   '.html': 'text/html', '.mjs': 'text/javascript', '.js': 'text/javascript', '.wasm': 'application/wasm', '.css': 'text/css',
@@ -57,11 +57,10 @@ const TILESET = JSON.stringify({
   },
 });
 
-/** What an application has to allow; engines add blob: for images, and model-viewer for its model. */
-const POLICY = { 'default-src': "'self'", 'script-src': "'self' 'wasm-unsafe-eval'", 'worker-src': "'self'" };
-const POLICY_OF_ENGINES = {
-  'img-src': "'self' blob: data:", 'connect-src': "'self' blob:", 'style-src': "'self' 'unsafe-inline'",
-};
+/** What an application has to allow, as the README says; blob: is for pictures, and for model-viewer's model. */
+const { 'connect-src': CONNECT, 'img-src': IMG, ...NEEDED } = policyOfReadme();
+const POLICY = { 'default-src': "'self'", ...NEEDED };
+const POLICY_OF_ENGINES = { 'img-src': IMG, 'connect-src': CONNECT, 'style-src': "'self' 'unsafe-inline'" };
 
 /**
  * @param {Map<string, Uint8Array>} models by name
@@ -152,6 +151,7 @@ function page(name, url) {
     ...(has('strict') ? {} : { ...POLICY_OF_ENGINES, 'script-src': scripts }),
     ...(has('blobs') ? { 'worker-src': "'self' blob:" } : {}),
     ...(has('noworkers') ? { 'worker-src': "'none'" } : {}),
+    ...(has('noblobs') ? { 'connect-src': "'self'" } : {}),
   };
   const body = `<!doctype html>
 <html lang="en">
