@@ -96,11 +96,13 @@ double numberOf(std::string_view spelling) {
   double value = 0;
   const char* const end = spelling.data() + spelling.size();
   if (std::from_chars(spelling.data(), end, value).ec == std::errc()) return value;
+#else  // such as libc++ before version 20; the parser knows the point of the locale
+  const Json parsed = Json::parse(spelling, nullptr, false);
+  if (parsed.is_number()) return parsed.get<double>();
+  double value = 0;
+#endif
   value = isHuge(spelling) ? std::numeric_limits<double>::infinity() : 0;
   return spelling.starts_with('-') ? -value : value;
-#else  // such as libc++ before version 20
-  return std::strtod(std::string(spelling).c_str(), nullptr);
-#endif
 }
 
 Json spelt(std::string_view number) {
@@ -246,19 +248,6 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   std::string key_;
   Result result_;
 };
-
-/// Returns the value of a number as JSON spells it. strtod() would look for the decimal point of
-/// the program's locale. The parser has refused numbers that are too large for a double.
-double numberOf(std::string_view spelling) {
-#if defined(__cpp_lib_to_chars)
-  double value = 0;
-  const char* const end = spelling.data() + spelling.size();
-  const bool is_zero = std::from_chars(spelling.data(), end, value).ec != std::errc();
-  return is_zero ? (spelling.starts_with('-') ? -0.0 : 0.0) : value;
-#else  // such as libc++ before version 20; the parser then knows the point of the locale
-  return Json::parse(spelling, nullptr, false).get<double>();
-#endif
-}
 
 void print(const Json& json, std::string& out) {
   switch (json.type()) {
