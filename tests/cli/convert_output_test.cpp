@@ -110,7 +110,7 @@ TEST_F(ConvertOutput, MorphTargetsAreComparedLikeWithLike) {
   EXPECT_NE(lineOf(result.out, "errors").find("of morph targets 0.0"), std::string::npos)
       << result.out;
   const std::string draco = lineOf(result.out, "Draco");
-  EXPECT_NE(draco.find("without the morph targets"), std::string::npos) << result.out;
+  EXPECT_NE(draco.find("such as morph targets"), std::string::npos) << result.out;
   // The tables count the same bytes.
   const Json report =
       Json::parse(run("convert " + samplePath("koi.glb") + " o.glb --format json").out);
@@ -128,7 +128,7 @@ TEST_F(ConvertOutput, CopyHasItsReason) {
   store("in.glb", builder.toGlb());
   const Outcome result = run("convert in.glb out.glb");
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.out.find("in.glb -> out.glb: copied, because"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("in.glb -> out.glb: copied, "), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("(and 2 more like this)"), std::string::npos) << result.out;
   EXPECT_LE(linesOf(result.out), 4u) << result.out;
   EXPECT_TRUE(contentOf(folder_ / "in.glb") == contentOf(folder_ / "out.glb"));

@@ -87,7 +87,7 @@ std::string lineOf(const DracoSize& size, uint64_t ours) {
   const double ratio =
       static_cast<double>(size.bytes) / static_cast<double>(std::max<uint64_t>(ours, 1));
   const char* const without =
-      size.has_left_out ? ", without the morph targets, which it cannot code" : "";
+      size.has_left_out ? ", without what it cannot code, such as morph targets" : "";
   return fmt::format("{} bytes for the same geometry at its smallest{}: {:.2f} times our {}",
                      grouped(size.bytes), without, ratio, grouped(ours));
 }

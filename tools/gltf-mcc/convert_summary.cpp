@@ -180,8 +180,7 @@ std::string titleText(const Converted& converted) {
   const std::string names =
       gltf::printable(converted.input) + " -> " + gltf::printable(converted.output);
   if (converted.report.copied) {
-    return fmt::format("{}: copied, because compression would not make it smaller ({} bytes)\n",
-                       names, grouped(converted.report.output_bytes));
+    return fmt::format("{}: copied, {} bytes\n", names, grouped(converted.report.output_bytes));
   }
   return names + "\n";
 }
