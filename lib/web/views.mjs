@@ -69,15 +69,21 @@ export class PayloadViews {
   }
 }
 
-/** Calls functions a few at a time: loaders ask for all buffer views at once. */
+/** Calls functions a few at a time, in their order: loaders ask for all buffer views at once. */
 class Turns {
-  #ends = [];
-  #count = 0;
+  #running = 0;
+  #waiting = [];
+  #next = 0;
 
-  call(work) {
-    const lane = this.#count++ % MOST_AT_A_TIME;
-    const done = Promise.resolve(this.#ends[lane]).then(work);
-    this.#ends[lane] = done.catch(() => {});
-    return done;
+  async call(work) {
+    // Who ends passes its turn on.
+    if (this.#running === MOST_AT_A_TIME) await new Promise((resolve) => { this.#waiting.push(resolve); });
+    else ++this.#running;
+    try {
+      return await work();
+    } finally {
+      if (this.#next < this.#waiting.length) this.#waiting[this.#next++]();
+      else --this.#running;
+    }
   }
 }

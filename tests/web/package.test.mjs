@@ -85,6 +85,9 @@ describe('package', () => {
       assert.ok(assets.some((name) => pattern.test(name)), `${pattern} is not in ${assets}`);
     }
     assert.ok(!assets.some((name) => /encoder/.test(name)), 'the encoder is bundled, though nobody asks for it');
+    for (const name of assets.filter((each) => each.endsWith('.js'))) {
+      assert.doesNotMatch(readFileSync(join(project, 'dist/assets', name), 'utf8'), /node:|worker_threads/, `${name} has code for Node`);
+    }
   });
 
   test('a bundle of Vite runs in Node', async () => {

@@ -7,8 +7,10 @@ import { describe, test } from 'node:test';
 // Counts what is compiled after it is loaded, which functions are when they are called.
 import { assertLinear, countOf } from './support/counting.mjs';
 import { decodeGlbBlocks, decodePayload, MccError, unpackTile } from '../../lib/web/index.mjs';
+import { payloadsOf } from '../../lib/web/document.mjs';
 import { readGlb, unpackGlb } from '../../lib/web/unpack.mjs';
 import { unpackGltf } from '../../lib/web/unpack_gltf.mjs';
+import { usesOf } from '../../lib/web/uses.mjs';
 import { PayloadViews } from '../../lib/web/views.mjs';
 import { FAMILIES, glbOf } from './support/families.mjs';
 
@@ -52,6 +54,11 @@ describe('linear', () => {
     };
     const blocks = await listOf(decodeGlbBlocks(glbOf(json, data), { decodeBlocks }));
     assert.deepEqual(blocks.map(({ uses }) => uses.map(({ primitive }) => primitive)), blocks.map((_, i) => [i]));
+  }));
+
+  test('blocks whose primitives plugins ask for', () => assertLinear(SMALL, async (n) => {
+    const [{ claims }] = payloadsOf(readGlb(FAMILIES['primitives of one payload'].make(n)).json);
+    for (let block = 0; block < n; ++block) assert.equal(usesOf(claims).length, n);
   }));
 });
 
@@ -133,6 +140,18 @@ test('loaders and services fetch and decode a few at a time', async () => {
   [now, most] = [0, 0];
   await unpackGltf(json, 'more.bin').decode(fetchPayload, { decode });
   assert.equal(most, AT_A_TIME);
+});
+
+test('a payload that never comes does not keep others from being loaded', async () => {
+  const { json, chunks: [{ data }] } = readGlb(FAMILIES.payloads.make(100));
+  const views = new PayloadViews(json, async (number) => {
+    if (number < AT_A_TIME - 1) await new Promise(() => {});
+    const { byteOffset, byteLength } = json.bufferViews[number];
+    return data.subarray(byteOffset, byteOffset + byteLength);
+  }, { decode: decodePayload });
+  const numberOf = (accessor) => views.accessors[accessor].bufferView;
+  const loads = json.meshes[0].primitives.map(({ indices }) => views.load(numberOf(indices)));
+  await Promise.all(loads.slice(AT_A_TIME - 1));
 });
 
 test('after a failure, no payload is begun', async () => {
