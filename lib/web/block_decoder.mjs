@@ -2,7 +2,8 @@
 //
 // Decodes and numbers the blocks of a payload with the whole decoder. It does not load anything, so
 // that workers need no other module.
-import { asTrap, check, describe, instanceOf, limitsOf } from './core.mjs';
+import { asTrap, limitsOf } from './arguments.mjs';
+import { check, describe, instanceOf } from './core.mjs';
 
 const TRUNCATED = 1;
 const NOT_IN_CORE = 255;

@@ -1,25 +1,21 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Decodes payloads block by block, while they are loaded, and glues blocks to the piece that they are.
+import { asTrap, checkIndexType, claimsBlocks, FLAGS_END } from './arguments.mjs';
 import { BlockDecoder, runTask } from './block_decoder.mjs';
 import { Chunks } from './chunks.mjs';
 import { checkClaims } from './claims.mjs';
-import { asTrap, checkIndexType } from './core.mjs';
-import { decodePayload, wholeModule } from './decoder.mjs';
+import { decodePayload } from './decoder.mjs';
 import { MccError, requireArgument } from './error.mjs';
+import { wholeModule } from './source.mjs';
 
-/** What suffices to see whether a payload has blocks. */
-const FLAGS_END = 7;
+export { claimsBlocks };
+
 const FIRST_PREFIX_BYTES = 1024;
 /** What the page's thread works at most before it lets others work. */
 const WORK_MILLISECONDS = 3;
 const SLICE = 1 << 14;
 const POSITION = 0;
-
-/** Whether the header of a payload says that there are blocks. */
-export function claimsBlocks(bytes) {
-  return bytes.length >= FLAGS_END && bytes[0] === 0x4b && (bytes[FLAGS_END - 1] & 8) !== 0; // A.2.1
-}
 
 /** Decodes the blocks of a payload on this thread, which may do other things between two of them. */
 export function decodeBlocks(source, options) {

@@ -1,9 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Limits what all payloads of a file may decode to, before memory is allocated, and how many are under way at a time.
-import { fail } from './claims.mjs';
-import { limitOf, limitsOf } from './core.mjs';
-import { inView, MccError, placed, requireArgument } from './error.mjs';
+import { limitOf, limitsOf } from './arguments.mjs';
+import { fail, inView, MccError, placed, requireArgument } from './error.mjs';
 
 /** More than there are workers, so that each has something to do. */
 export const MOST_AT_A_TIME = 16;

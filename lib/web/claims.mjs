@@ -2,11 +2,7 @@
 //
 // Checks what a document says about a payload against the payload's header, before memory is
 // allocated for it.
-import { MccError } from './error.mjs';
-
-export function fail(path, message) {
-  throw new MccError(path === '' ? message : `${path}: ${message}`, 'Document');
-}
+import { fail } from './error.mjs';
 
 /**
  * Checks all claims. `info` is a DecodedPayload without arrays; `claims` is plain data from

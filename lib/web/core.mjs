@@ -2,8 +2,9 @@
 //
 // Decodes payloads with a compiled WebAssembly module. It does not load anything, so that workers
 // need no other module.
+import { ARRAYS, asTrap, checkBytes, checkIndexType, limitsOf } from './arguments.mjs';
 import { checkClaims } from './claims.mjs';
-import { asMccError, MccError, requireArgument } from './error.mjs';
+import { MccError } from './error.mjs';
 
 /**
  * Kinds of errors, indexed by number - 1: the name in the specification (A.1.4), and what is wrong
@@ -25,12 +26,9 @@ const ERRORS = [
 const OUT_OF_MEMORY = ERRORS.length;
 /** The error of the core alone, number 255, see format/decodes.h. */
 const NOT_IN_CORE = ['NotInCore', 'needs the whole decoder'];
-const LIMITS = ['maxVertices', 'maxTriangles', 'maxAttributes', 'maxPieces', 'maxElements', 'maxOutputBytes'];
 
-/** Array types by the component types of glTF, in the order of the component types in a payload's header. */
-export const ARRAYS = {
-  5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array,
-};
+
+/** In the order of the component types in a payload's header. */
 const COMPONENT_TYPES = Object.keys(ARRAYS).map(Number);
 
 /**
@@ -91,9 +89,6 @@ export class Decoder {
   }
 }
 
-/** Errors of the engine while a module runs: a trap, or memory that is not there. */
-export const asTrap = (error) => asMccError(error, 'the decoder failed, maybe out of memory', 'Trap');
-
 /** Makes an instance of a module. */
 export async function instanceOf(module) {
   try {
@@ -101,14 +96,6 @@ export async function instanceOf(module) {
   } catch (error) {
     throw asTrap(error);
   }
-}
-
-export const checkBytes = (bytes) => requireArgument(bytes instanceof Uint8Array, 'the payload must be a Uint8Array');
-
-/** Checks an option, and whether indices of pieces or blocks can be of that type. */
-export function checkIndexType(indexType, pieces = []) {
-  requireArgument(['auto', 'uint16', 'uint32'].includes(indexType), 'indexType must be auto, uint16 or uint32');
-  requireArgument(indexType !== 'uint16' || pieces.every(({ wedgeCount }) => wedgeCount <= 0xffff), 'indexType is too small for so many vertices');
 }
 
 function decodeWith(exports, bytes, { limits, indexType = 'auto', claims }) {
@@ -132,16 +119,6 @@ function decodeWith(exports, bytes, { limits, indexType = 'auto', claims }) {
     if (closes) exports.close(address);
   }
 }
-
-/** Returns a limit, or undefined if it is not given. */
-export function limitOf(limits, name) {
-  const limit = limits?.[name] ?? undefined;
-  requireArgument(limit === undefined || (typeof limit === 'number' && limit >= 0), `limits.${name} must be a number >= 0`);
-  return limit;
-}
-
-/** The limits as arguments of the exports. */
-export const limitsOf = (limits) => LIMITS.map((name) => limitOf(limits, name) ?? Infinity);
 
 /** Throws the reader's error, if `number` is one. */
 export function check(number) {

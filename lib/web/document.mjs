@@ -3,8 +3,8 @@
 // Reads the extension objects of a glTF document, for all loaders: which payload fills which
 // accessors. Checks the rules of the specification that need no payload; decodePayload() checks
 // `claims` against the payload's header.
-import { fail } from './claims.mjs';
-import { ARRAYS } from './core.mjs';
+import { ARRAYS } from './arguments.mjs';
+import { fail } from './error.mjs';
 import { checkShape, DOCUMENT, EXTENSION, NEEDED } from './shape.mjs';
 
 export const EXTENSION_NAME = 'KHR_mesh_collapse_compression';

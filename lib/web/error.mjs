@@ -26,3 +26,8 @@ export const placed = (error, place) => (error instanceof MccError ? new MccErro
 
 /** Returns an error about the payload in a buffer view; what contradicts the document has a path of its own. */
 export const inView = (error, number) => (error?.code === 'Document' ? error : placed(error, `/bufferViews/${number}`));
+
+/** Throws an error about a place in a document. */
+export function fail(path, message) {
+  throw new MccError(path === '' ? message : `${path}: ${message}`, 'Document');
+}

@@ -4,9 +4,8 @@
 import { decodeBlocks as decodeHere } from './blocks.mjs';
 import { Budget, namedBytes, sum } from './budget.mjs';
 import { Chunks } from './chunks.mjs';
-import { fail } from './claims.mjs';
 import { payloadsOf } from './document.mjs';
-import { inView, requireArgument } from './error.mjs';
+import { fail, inView, requireArgument } from './error.mjs';
 import { BIN_CHUNK, readGlb } from './unpack.mjs';
 import { usesOf } from './uses.mjs';
 

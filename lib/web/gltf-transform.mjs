@@ -1,9 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 import { Extension, GLB_BUFFER, PropertyType } from '@gltf-transform/core';
 import { Budget, namedBytes, sum } from './budget.mjs';
-import { fail } from './claims.mjs';
 import { EXTENSION_NAME, elementsOf, payloadsOf } from './document.mjs';
-import { asMccError, inView, MccError } from './error.mjs';
+import { asMccError, fail, inView, MccError } from './error.mjs';
 import { BIN_CHUNK, readGlb, writeGlb } from './unpack.mjs';
 
 /**

@@ -2,8 +2,8 @@
 //
 // Decodes models on their way from the network to a page, so that engines without a plugin show them.
 import { sum } from './budget.mjs';
-import { fail } from './claims.mjs';
 import { EXTENSION_NAME, listOf } from './document.mjs';
+import { fail } from './error.mjs';
 import { unpackGlb } from './unpack.mjs';
 import { unpackGltf } from './unpack_gltf.mjs';
 import { isContainer, unpackTile } from './unpack_tile.mjs';

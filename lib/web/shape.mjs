@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Checks the types of what is read of a document once, so that whoever reads it can trust them.
-import { fail } from './claims.mjs';
+import { fail } from './error.mjs';
 
 const NUMBER = 0;
 export const NEEDED = 1;

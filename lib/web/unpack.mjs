@@ -1,11 +1,11 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Turns a GLB into one without the extension, for loaders that do not know it.
+import { ARRAYS, asTrap } from './arguments.mjs';
 import { Budget, forAll, namedBytes, sum } from './budget.mjs';
-import { fail } from './claims.mjs';
-import { ARRAYS, asTrap } from './core.mjs';
 import { decodePayload } from './decoder.mjs';
 import { COMPONENT_COUNTS, elementsOf, EXTENSION_NAME, extensionUses, originOf, payloadsOf } from './document.mjs';
+import { fail } from './error.mjs';
 
 const MAGIC = 0x46546c67;
 const JSON_CHUNK = 0x4e4f534a;

@@ -2,8 +2,8 @@
 //
 // Turns a .gltf document into one without the extension and one more buffer, for loaders that do not
 // know it.
+import { asTrap } from './arguments.mjs';
 import { Budget, fetchAndDecode, forAll } from './budget.mjs';
-import { asTrap } from './core.mjs';
 import { decodePayload } from './decoder.mjs';
 import { elementsOf, originOf, payloadsOf } from './document.mjs';
 import { elementBytes, membersOf, removeExtension, viewBytes, viewOf } from './unpack.mjs';

@@ -2,11 +2,10 @@
 //
 // Turns a tile of 3D Tiles into one without the extension, for engines that do not know it: b3dm, i3dm, and cmpt with tiles of any
 // kind inside. In C++ tools/tiles/tile_file.h does the same.
+import { asTrap } from './arguments.mjs';
 import { Budget, forAll, sum } from './budget.mjs';
-import { fail } from './claims.mjs';
-import { asTrap } from './core.mjs';
 import { decodePayload } from './decoder.mjs';
-import { placed } from './error.mjs';
+import { fail, placed } from './error.mjs';
 import { decodePacked, readPacked, unpackGlb } from './unpack.mjs';
 
 const ALIGNMENT = 8;

@@ -3,8 +3,8 @@
 // For loaders with a hook for buffer views. Every accessor that a payload fills gets a new buffer
 // view, which is not in the file; accessors with the same elements share one. Everything a loader
 // does with an accessor, including morph targets and normalized integers, then works as usual.
+import { asTrap } from './arguments.mjs';
 import { Budget, fetchAndDecode, MOST_AT_A_TIME } from './budget.mjs';
-import { asTrap } from './core.mjs';
 import { elementsOf, listOf, originOf, payloadsOf } from './document.mjs';
 import { decodeInWorkers } from './workers.mjs';
 

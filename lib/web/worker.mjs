@@ -5,8 +5,9 @@
 // it is told to close it. If a payload or a block needs more than the core of the decoder, the worker keeps
 // it until it is sent the whole decoder, which from then on decodes everything that the core
 // cannot.
+import { asTrap } from './arguments.mjs';
 import { buffersOfBlock, runTask } from './block_decoder.mjs';
-import { asTrap, buffersOf, Decoder } from './core.mjs';
+import { buffersOf, Decoder } from './core.mjs';
 import { importOfNode } from './node.mjs';
 
 const decoders = [];

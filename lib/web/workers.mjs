@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-import { claimsBlocks, decodeGlued, OnThisThread } from './blocks.mjs';
-import { createDecoderPool, decodePayload } from './decoder.mjs';
+import { claimsBlocks } from './arguments.mjs';
+import { asMccError } from './error.mjs';
+import { createPool } from './pool.mjs';
 
 let pool;
 let hasWorkers = typeof Worker !== 'undefined';
@@ -10,21 +11,31 @@ let hasWorkers = typeof Worker !== 'undefined';
  * payload.
  * Where there are no workers (Node), or they cannot start (in a page that forbids them, or if this
  * module comes from another origin), it decodes on this thread.
- * @type {typeof decodePayload}
+ * @type {typeof import('./decoder.mjs').decodePayload}
  */
 export async function decodeInWorkers(payload, { onBlock, ...others } = {}) {
   const options = onBlock === undefined ? others : { ...others, onBlock: once(onBlock) };
   if (hasWorkers) {
     try {
-      pool ??= createDecoderPool();
+      pool ??= createPool({}, { decodeGlued: async (...args) => (await rarelyNeeded()).decodeGlued(...args) });
       return await pool.decodePayload(payload, options);
     } catch (error) {
       if (isAboutPayload(error)) throw error;
       hasWorkers = false;
     }
   }
+  const { decodeGlued, decodePayload, OnThisThread } = await rarelyNeeded();
   if (options.onBlock !== undefined && claimsBlocks(payload)) return decodeGlued(new OnThisThread(), payload, options);
   return decodePayload(payload, others);
+}
+
+/** What most pages never need is a chunk of its own in bundles. */
+async function rarelyNeeded() {
+  try {
+    return await import('./page_thread.mjs');
+  } catch (error) {
+    throw asMccError(error, 'cannot load page_thread.mjs', 'Load');
+  }
 }
 
 /** Blocks that workers have decoded before one failed are not told again. */
