@@ -3,6 +3,7 @@
 // Implements the public functions: load, compress or decompress, write, check.
 #include "gltf/api/convert.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -17,6 +18,7 @@
 #include "gltf/decompress/add_fallback.h"
 #include "gltf/decompress/coded_input.h"
 #include "gltf/decompress/decompress.h"
+#include "gltf/document/contents.h"
 #include "gltf/document/rebuild.h"
 #include "gltf/document/uri.h"
 #include "gltf/files/destination.h"
@@ -205,6 +207,7 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
   tell(options, "reading");
   MCC_GLTF_TRY(loadFor(output, input, document, report.files));
   document.decoded = DecodedBytes(options.max_decoded_bytes, document.source_bytes);
+  report.input_contents = contentsOf(document);
   MCC_GLTF_TRY(decodeViews(options.decoders, document));
   // With indices_only, decoded attributes would have to be stored again next to the payload.
   if (!options.indices_only) MCC_GLTF_TRY(decodeMeshes(options.decoders, document));
@@ -214,6 +217,7 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
   tell(options, "encoding");
   MCC_GLTF_TRY(compressDocument(document, options, compressed));
   report.notes.insert(report.notes.end(), compressed.notes.begin(), compressed.notes.end());
+  report.remarks = std::move(compressed.remarks);
   addPrimitives(document, compressed, report);
   if (!compressed.payloads.empty()) {
     if (options.fallback) {
@@ -232,12 +236,21 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
     forgetPayloads(report);
     report.fallback_bytes = 0;
     if (report.copied) {
-      report.notes.push_back("nothing becomes smaller; the output is a copy of the input");
+      report.remarks.push_back("nothing becomes smaller; the output is a copy of the input");
     }
   }
   report.encode_seconds = watch.seconds() - compressed.decode_seconds;
   report.output_bytes = report.copied ? document.source_bytes : package.documentBytes();
   return {};
+}
+
+/// Returns the contents of the output alone: a fallback holds geometry, too.
+Contents withoutFallback(Contents contents, const ConvertReport& report) {
+  contents.geometry_bytes -= std::min(contents.geometry_bytes, report.fallback_bytes);
+  const uint64_t known =
+      contents.geometry_bytes + contents.image_bytes + contents.animation_bytes;
+  contents.other_bytes = report.output_bytes - std::min(report.output_bytes, known);
+  return contents;
 }
 
 /// Checks the stored output and completes the report.
@@ -259,8 +272,10 @@ Result checkOutput(Conversion& conversion, const ConvertOptions& options,
           "max_decoded_bytes (--max-decoded-bytes)");
     }
     report.check_seconds = watch.seconds();
+    report.output_contents = withoutFallback(checked.contents, report);
     addPayloads(payloads, std::move(checked), report);
   }
+  if (report.copied) report.output_contents = report.input_contents;
   report.checked = true;
   return {};
 }
@@ -368,6 +383,7 @@ Result convertTo(const ListedSink& sink, const Source& source, const ConvertOpti
     return {};
   });
   cleanNotes(report.notes);
+  cleanNotes(report.remarks);
   for (PrimitiveReport& primitive : report.primitives) {
     primitive.note = printable(primitive.note);
   }

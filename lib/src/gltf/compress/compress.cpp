@@ -124,8 +124,8 @@ class Applier {
       index = static_cast<uint32_t>(accessors.size());
       Json clone = document_.json["accessors"][source];
       accessors.push_back(std::move(clone));
-      compressed_.notes.push_back(where + " shares accessor " + std::to_string(source) +
-                                  " with others and gets its own");
+      compressed_.remarks.push_back(where + " shares accessor " + std::to_string(source) +
+                                    " with others and gets its own");
     }
     is_taken_[source] = true;
     removeBytes(accessors[index]);

@@ -77,6 +77,7 @@ struct PayloadPlan {
 struct LeftAlone {
   PrimitiveRef primitive;
   std::string note;
+  bool is_larger = false;  ///< only because its payload would take more bytes
 };
 
 /// Orders the attributes of a payload: those that others are predicted from come first.
