@@ -283,7 +283,8 @@ class BlocksDecoder {
                             options_.stage_bits != nullptr;
     const auto job = [](void* self, size_t i) {
       auto* decoder = static_cast<BlocksDecoder*>(self);
-      if (i + 1 < decoder->decoded_.size()) decoder->decode(static_cast<uint32_t>(i + 1));
+      if (kCompact || i + 1 < decoder->decoded_.size())
+        decoder->decode(static_cast<uint32_t>(i + 1));
     };
     if (options_.run_jobs.run != nullptr && !is_watched) {
       options_.run_jobs.run(options_.run_jobs.user, count - 1, job, this);

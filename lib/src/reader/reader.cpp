@@ -44,18 +44,8 @@ namespace {
 
 const PayloadInfo kEmptyInfo{};
 
-/// Whether indices go to memory that can be there, with one of the three types.
-bool canHold(const PartTarget& target, uint64_t triangle_count) {
-  const auto bytes = static_cast<uint32_t>(target.index_type);
-  const bool is_type = bytes == 1 || bytes == 2 || bytes == 4;
-  return is_type && (target.indices == nullptr ||
-                     canBeInMemory(target.indices, 3 * triangle_count, bytes, bytes));
-}
-
-/// Checks a target for a piece, or for a block of it. Targets in compact code are its own, and have
-/// no places that could be wrong.
-Status checkTarget(const PieceTarget& target, const PieceInfo& piece, uint32_t wedge_count,
-                   std::span<const PartInfo> parts) {
+/// Checks a target for a piece, or for a block of it.
+Status checkTarget(const PieceTarget& target, const PieceInfo& piece, uint32_t wedge_count) {
   if (target.attributes.size() != piece.attributes.size() ||
       target.parts.size() != piece.parts.size()) {
     return fail(Error::kBadArgument, "a target does not have the shape of its piece");
@@ -65,22 +55,34 @@ Status checkTarget(const PieceTarget& target, const PieceInfo& piece, uint32_t w
     if (t.data != nullptr && t.stride_bytes < elementBytes(piece.attributes[a].format)) {
       return fail(Error::kBadArgument, "the stride of a target is smaller than its elements");
     }
-    if (!kCompact && t.data != nullptr &&
-        !canBeInMemory(t.data, wedge_count, t.stride_bytes,
-                       elementBytes(piece.attributes[a].format))) {
-      return fail(Error::kBadArgument, "the stride of a target leads out of memory");
-    }
   }
-  for (size_t p = 0; p < target.parts.size(); ++p) {
-    const PartTarget& t = target.parts[p];
-    if (!kCompact && !canHold(t, parts[p].triangle_count)) {
-      return fail(Error::kBadArgument,
-                  "the indices of a target are not of 1, 2 or 4 bytes, or lead out of memory");
-    }
+  for (const PartTarget& t : target.parts) {
     const uint32_t bits = 8 * static_cast<uint32_t>(t.index_type);
     if (bits < 32 && wedge_count > (1u << bits)) {
       return fail(Error::kBadArgument, "the index type of a target is too narrow");
     }
+  }
+  return {};
+}
+
+/// Checks that a target is where memory can be, with one of the three types of indices. Compact
+/// code has targets of its own only.
+[[maybe_unused]] Status checkPlaces(const PieceTarget& target, const PieceInfo& piece,
+                                    uint32_t wedge_count, std::span<const PartInfo> parts) {
+  for (size_t a = 0; a < piece.attributes.size(); ++a) {
+    const AttributeTarget& t = target.attributes[a];
+    const uint32_t bytes = elementBytes(piece.attributes[a].format);
+    if (t.data != nullptr && !canBeInMemory(t.data, wedge_count, t.stride_bytes, bytes))
+      return fail(Error::kBadArgument, "the stride of a target leads out of memory");
+  }
+  for (size_t p = 0; p < parts.size(); ++p) {
+    const void* const indices = target.parts[p].indices;
+    const auto bytes = static_cast<uint32_t>(target.parts[p].index_type);
+    if (bytes != 1 && bytes != 2 && bytes != 4)
+      return fail(Error::kBadArgument, "the indices of a target are not of 1, 2 or 4 bytes");
+    const uint64_t count = 3 * uint64_t{parts[p].triangle_count};
+    if (indices != nullptr && !canBeInMemory(indices, count, bytes, bytes))
+      return fail(Error::kBadArgument, "the indices of a target lead out of memory");
   }
   return {};
 }
@@ -90,9 +92,11 @@ Status checkTarget(const PieceTarget& target, const PieceInfo& piece, uint32_t w
   if (targets.size() != info.pieces.size()) {
     return fail(Error::kBadArgument, "the number of targets is not the number of pieces");
   }
-  for (size_t i = 0; i < targets.size(); ++i)
-    MCC_TRY(
-        checkTarget(targets[i], info.pieces[i], info.pieces[i].wedge_count, info.pieces[i].parts));
+  for (size_t i = 0; i < targets.size(); ++i) {
+    const PieceInfo& piece = info.pieces[i];
+    MCC_TRY(checkTarget(targets[i], piece, piece.wedge_count));
+    MCC_TRY(checkPlaces(targets[i], piece, piece.wedge_count, piece.parts));
+  }
   return {};
 }
 
@@ -237,8 +241,11 @@ Status Payload::State::listBlocks() {
 Status Payload::State::decodeBlock(uint32_t index, const PieceTarget* target,
                                    const PayloadModels* from, PayloadModels* left,
                                    const DecodeOptions& options) const {
-  if (target != nullptr) {
-    MCC_TRY(checkTarget(*target, pieces[0], header.pieces[index].wedge_count, blocks[index].parts));
+  const uint32_t wedge_count = header.pieces[index].wedge_count;
+  if (target != nullptr) MCC_TRY(checkTarget(*target, pieces[0], wedge_count));
+  if constexpr (!kCompact) {
+    if (target != nullptr)
+      MCC_TRY(checkPlaces(*target, pieces[0], wedge_count, blocks[index].parts));
   }
   prepareTables();
   Progress progress(options, header);
