@@ -123,6 +123,41 @@ TEST_F(Files, PipesThatADocumentNamesAreNotOpened) {
   }
 }
 
+/// The author of a document chose its names, and must not get other files of this machine into it.
+TEST_F(Files, BuffersAreReadFromTheFolderOfTheInputAlone) {
+  storeModel({});
+  fs::create_directory(path("elsewhere"));
+  fs::rename(path("m/mesh.bin"), path("elsewhere/mesh.bin"));
+  fs::create_symlink("../elsewhere/mesh.bin", path("m/mesh.bin"));
+  for (const std::string arguments :
+       {"convert m/a.gltf b.glb", "convert m/a.gltf o.gltf", "decode m/a.gltf b.glb",
+        "inspect m/a.gltf", "validate m/a.gltf", "tree m/a.gltf x.svg",
+        "convert m/a.gltf m/a.gltf"}) {
+    const ToolResult result = run(arguments);
+    EXPECT_EQ(result.status, 1) << arguments;
+    EXPECT_NE((result.err + result.out).find("\"mesh.bin\": is a symbolic link out of the folder"),
+              std::string::npos)
+        << arguments << result.err;
+  }
+  EXPECT_FALSE(fs::exists(path("b.glb")));
+  EXPECT_FALSE(fs::exists(path("mesh.bin")));
+}
+
+/// The user may name the input by a link. Its files are then looked for next to the link, as other
+/// programs do, and links that stay in that folder are followed.
+TEST_F(Files, TheFolderOfAnInputIsThatOfItsName) {
+  storeModel({});
+  fs::create_directory(path("m/data"));
+  fs::rename(path("m/mesh.bin"), path("m/data/mesh.bin"));
+  fs::create_symlink("data/mesh.bin", path("m/mesh.bin"));
+  EXPECT_EQ(run("convert m/a.gltf b.glb").status, 0);
+  fs::create_symlink("m/a.gltf", path("link.gltf"));
+  expectRefused("convert link.gltf c.glb", 1, "\"mesh.bin\": there is no such file");
+  fs::copy_file(path("m/data/mesh.bin"), path("mesh.bin"));
+  EXPECT_EQ(run("convert link.gltf c.glb").status, 0);
+  EXPECT_TRUE(contentOf(path("b.glb")) == contentOf(path("c.glb")));
+}
+
 TEST_F(Files, DevicesAreWrittenTo) {
   const auto device = [&](const std::string& name, unsigned minor_number) {
     if (geteuid() != 0) return "/dev/" + name;  // only root could replace it
@@ -299,8 +334,8 @@ TEST_F(Files, OnlyImagesAreCopied) {
     EXPECT_EQ(copied.size(), images.size()) << command;
     for (const std::string word : {"\".bashrc\" is the name of a hidden file; it is not copied",
                                    "\"run.sh\" is not a known type of image",
-                                   "\"link.png\" is a symbolic link out of the folder",
-                                   "\"folder/b.png\" is a symbolic link"}) {
+                                   "\"link.png\": is a symbolic link out of the folder",
+                                   "\"folder/b.png\": is a symbolic link"}) {
       EXPECT_NE(result.out.find(word), std::string::npos) << word << "\n" << result.out;
     }
     fs::remove_all(path("o"));

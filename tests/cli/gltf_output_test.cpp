@@ -11,6 +11,7 @@
 #include "cli/run_tool.h"
 #include "gltf/document/accessors.h"
 #include "gltf/files/file_io.h"
+#include "gltf/files/named_file.h"
 #include "gltf/gltf_builder.h"
 
 namespace mcc::gltf::test {

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "gltf/files/file_io.h"
+#include "gltf/files/named_file.h"
 #include "gltf/made_up_codecs.h"
 #include "support/scratch_folder.h"
 

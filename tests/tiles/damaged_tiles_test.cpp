@@ -185,8 +185,12 @@ TEST(Matrix, LargestScale) {
               5, 1e-8);
   EXPECT_NEAR(tiles::largestScale({1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}),
               (1 + std::sqrt(5.0)) / 2, 1e-8);
-  EXPECT_NEAR(tiles::largestScale({1e200, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}) > 1e100, 1,
-              0);
+  for (const double s : {1e-308, 1e-200, 1e200, 1e308}) {
+    EXPECT_NEAR(tiles::largestScale({0, s, 0, 0, s, 0, 0, 0, 0, 0, s, 0, 0, 0, 0, 1}) / s, 1, 1e-9);
+  }
+  constexpr double kMost = std::numeric_limits<double>::max();
+  EXPECT_TRUE(std::isinf(tiles::largestScale(
+      {kMost, kMost, kMost, 0, kMost, kMost, kMost, 0, kMost, kMost, kMost, 0, 0, 0, 0, 1})));
 }
 
 TEST(Accuracy, StepsAreLargeButNotTooLarge) {

@@ -6,12 +6,14 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include <atomic>
 #include <optional>
 #include <set>
 #include <thread>
 
 #include "gltf/files/work_lock.h"
 #include "tiles/part.h"
+#include "tiles/record.h"
 #include "tiles/tiles_fixture.h"
 
 namespace mcc::test {
@@ -155,6 +157,45 @@ TEST_F(TileParts, TwoRunsDoNotMeet) {
   waitpid(waiting, &code, 0);
   EXPECT_TRUE(WIFEXITED(code) && WEXITSTATUS(code) == 0);
   EXPECT_TRUE(filesOf("shared") == whole_);
+}
+
+/// Runs that overlap and begin together take turns: they wait, but not for each other.
+TEST_F(TileParts, RunsThatWaitAllEnd) {
+  std::vector<pid_t> runs;
+  for (const char* part : {"1/1", "1/2", "2/2", "1/3", "2/3"}) {
+    runs.push_back(start({"tiles", "in/tileset.json", "together", "--wait", "--part", part}));
+  }
+  for (const pid_t run : runs) {
+    int code = 0;
+    waitpid(run, &code, 0);
+    EXPECT_TRUE(WIFEXITED(code) && WEXITSTATUS(code) == 0);
+  }
+  EXPECT_TRUE(filesOf("together") == whole_);
+}
+
+/// If each of two let go because it saw the other, they could go on like that for ever.
+TEST_F(TileParts, OfTwoRunsThatBeginTogetherOneWorks) {
+  constexpr int kRounds = 300;
+  for (int round = 0; round < kRounds; ++round) {
+    const fs::path output = path("o" + std::to_string(round));
+    fs::create_directory(output);
+    tiles::Record records[] = {{path("in"), output, {1, 2}}, {path("in"), output, {2, 3}}};
+    std::atomic<int> ready = 0;
+    bool is_open[2] = {};
+    const auto open = [&](int i) {
+      for (++ready; ready != 2;) {
+      }
+      is_open[i] = records[i].open(false).ok();
+    };
+    std::thread other(open, 1);
+    open(0);
+    other.join();
+    EXPECT_EQ(is_open[0] + is_open[1], 1) << round;
+    // The one that works holds its own lock alone, so that parts apart from it may begin.
+    gltf::WorkLock of_loser;
+    const char* names[] = {".gltf-mcc-tiles.1-of-2.jsonl", ".gltf-mcc-tiles.2-of-3.jsonl"};
+    EXPECT_TRUE(of_loser.take(output / names[is_open[0] ? 1 : 0]));
+  }
 }
 
 /// Runs the tool and returns the most memory it took, in MB.

@@ -302,6 +302,37 @@ TEST_F(Tiles, TransformsCount) {
   expectWithin("in", "2/leaf 3-3.glb", {1.0 / 2});
 }
 
+/// The third tile that shows a file must not cost the other two their promise, however it scales.
+TEST_F(Tiles, AnEnormousScaleKeepsThePromiseOfOtherTiles) {
+  const auto scaledBy = [](double s, Json tile) {
+    tile["transform"] = {s, 0, 0, 0, 0, s, 0, 0, 0, 0, s, 0, 0, 0, 0, 1};
+    return tile;
+  };
+  const Json plain = makeTile(16, "1/0-0.b3dm");
+  Json root = makeTile(64, "");
+  root["children"] = {plain, plain, scaledBy(1e308, plain)};
+  storeText(path("in/large.json"), makeTileset(root, 100).dump());
+  ToolResult result = run("tiles in/large.json out --report report.json");
+  EXPECT_EQ(result.status, 0) << result.err;
+  Json report = Json::parse(contentOf(path("report.json")));
+  EXPECT_EQ(report["levels"][1]["promised_error"], 1.0);
+  EXPECT_EQ(report["levels"][1]["position_bits"], Json({0, 0})) << "only exact ones are so near";
+  EXPECT_EQ(result.out.find("inf"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("no tile above it has a geometric error"), std::string::npos);
+  // Beyond the numbers of 64 bits a transform has no meaning, and only that tile is left out.
+  Json beyond = makeTile(16, "");
+  beyond["children"] = {scaledBy(1e200, plain)};
+  root["children"] = {plain, plain, scaledBy(1e200, beyond)};
+  storeText(path("in/large.json"), makeTileset(root, 100).dump());
+  result = run("tiles in/large.json out");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("large.json: /root/children/2/children/0/transform: with those above "
+                            "it reaches beyond the numbers of 64 bits"),
+            std::string::npos)
+      << result.err;
+  expectWithin("in", "1/0-0.b3dm", {1});
+}
+
 /// A grid of more than 24 bits is not possible, and the tiles are told apart.
 TEST_F(Tiles, GridsThatAreTooFineAreNoted) {
   const ToolResult result = run("tiles in/tileset.json out --error-share 0.000001");

@@ -12,6 +12,7 @@
 #include "gltf/document/bounds.h"
 #include "gltf/document/rebuild.h"
 #include "gltf/files/file_io.h"
+#include "gltf/files/named_file.h"
 
 namespace mcc::bench {
 namespace {

@@ -7,6 +7,7 @@
 #include "gltf/compress/quantize.h"
 #include "gltf/decompress/coded_input.h"
 #include "gltf/files/file_io.h"
+#include "gltf/files/named_file.h"
 
 namespace mcc::bench {
 namespace {

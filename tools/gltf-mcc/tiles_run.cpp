@@ -16,6 +16,7 @@
 #include "gltf/base/result.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
+#include "gltf/files/named_file.h"
 #include "gltf/inspect/report_json.h"
 #include "interrupt.h"
 #include "progress_line.h"
@@ -94,6 +95,9 @@ class TilesRun {
   }
   fs::path in(const std::string& of) const { return input_ / gltf::pathOf(of); }
   fs::path out(const std::string& of) const { return output_ / gltf::pathOf(of); }
+  Result read(const std::string& of, std::vector<uint8_t>& bytes) const {
+    return gltf::inFile(in(of), gltf::readNamed(input_, of, bytes));
+  }
 
   const TilesOptions& options_;
   fs::path input_;
@@ -186,7 +190,7 @@ void TilesRun::assignGltf() {
     if (result_.walk.demandOf(i) == nullptr || !table.name(i).ends_with(".gltf")) continue;
     std::vector<uint8_t> bytes;
     Json json;
-    Result read = gltf::readFile(in(name(i)), bytes);
+    Result read = this->read(name(i), bytes);
     if (read.ok()) read = gltf::inFile(in(name(i)), gltf::readJson(bytes, json));
     if (!read.ok()) {
       if (roles_[i] != Role::kNone) roles_[i] = Role::kCopy;
@@ -392,13 +396,20 @@ Result TilesRun::copyOne(uint32_t file) {
   TilesFile& made = result_.files[file];
   made = {};
   const std::vector<std::string> inputs = inputsOf(file);
-  for (const std::string& input : inputs) {
+  std::vector<std::string> notes;
+  for (size_t i = 0; i < inputs.size(); ++i) {
     std::vector<uint8_t> bytes;
-    MCC_GLTF_TRY(gltf::readFile(in(input), bytes));
-    MCC_GLTF_TRY(store(input == inputs[0] ? newName(file) : input, bytes));
+    const Result found = read(inputs[i], bytes);
+    if (i == 0) MCC_GLTF_TRY(found);
+    if (!found.ok()) {
+      notes.push_back("its buffer \"" + inputs[i] + "\" is not copied: " + found.what);
+      continue;
+    }
+    MCC_GLTF_TRY(store(i == 0 ? newName(file) : inputs[i], bytes));
     made.input_bytes += bytes.size();
     made.output_bytes += bytes.size();
   }
+  addNotes(file, notes);
   made.outcome = TilesOutcome::kCopied;
   return {};
 }
@@ -416,7 +427,7 @@ Result TilesRun::chooseFor(uint32_t file, std::span<const uint8_t> glb,
 Result TilesRun::makeGltf(uint32_t file) {
   TilesFile& made = result_.files[file];
   std::vector<uint8_t> bytes;
-  MCC_GLTF_TRY(gltf::readFile(in(name(file)), bytes));
+  MCC_GLTF_TRY(read(name(file), bytes));
   tiles::Accuracy accuracy;
   MCC_GLTF_TRY(chooseFor(file, bytes, {0, bytes.size()}, accuracy));
   gltf::ConvertOptions options = options_.convert;
@@ -424,7 +435,7 @@ Result TilesRun::makeGltf(uint32_t file) {
   MCC_GLTF_TRY(makeFolderOf(name(file)));
   gltf::ConvertReport report;
   MCC_GLTF_TRY(gltf::convertTo({{out(name(file)), nullptr}, &temporaryFiles()},
-                               {in(name(file)), {}}, options, report));
+                               {in(name(file)), {}}, options, report, input_));
   made.figures.add(report, accuracy);
   made.input_bytes = report.input_bytes;
   made.output_bytes = report.output_bytes;
@@ -464,7 +475,7 @@ Result TilesRun::convertBytes(uint32_t file, std::vector<uint8_t> bytes,
 Result TilesRun::makeModel(uint32_t file) {
   TilesFile& made = result_.files[file];
   std::vector<uint8_t> bytes;
-  MCC_GLTF_TRY(gltf::readFile(in(name(file)), bytes));
+  MCC_GLTF_TRY(read(name(file), bytes));
   std::vector<uint8_t> output;
   std::vector<std::string> notes;
   MCC_GLTF_TRY(

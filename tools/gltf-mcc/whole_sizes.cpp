@@ -11,6 +11,7 @@
 #include "gltf/base/path_text.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
+#include "gltf/files/named_file.h"
 
 namespace mcc::tool {
 bool canMeasureWhole() {

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "tiles/accuracy.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,6 +9,9 @@ namespace mcc::tiles {
 namespace {
 
 constexpr double kMostSteps = 16777216;  // 2^24, up to which float32 has every integer
+
+/// A promise that is even smaller is kept by exact positions, as this one is; 0 would be none.
+constexpr double kLeastDistance = std::numeric_limits<double>::min();
 
 /// What is left of a promised distance for the lattice. Where its origin is not 0, the sum of the
 /// origin and of a number of steps is rounded to float32, which must be less than the rest.
@@ -62,7 +66,7 @@ void Accuracy::applyTo(gltf::ConvertOptions& options) const {
   if (lattice.step != 0) {
     options.position_lattice = lattice;
   } else {
-    options.max_position_error = promised_error / scale;
+    options.max_position_error = std::max(promised_error / scale, kLeastDistance);
     options.is_error_relative = false;
   }
 }
@@ -73,8 +77,9 @@ Accuracy chooseAccuracy(const TileDemand& demand, const DemandGroups& groups,
   accuracy.note = placement.caveat;
   accuracy.scale = demand.scale * placement.scale;
   if (error_share == 0) return accuracy;
-  const double distance = error_share * demand.tile_distance / placement.scale;
-  if (!std::isfinite(distance) || distance <= 0) {
+  const double distance =
+      std::max(error_share * demand.tile_distance / placement.scale, kLeastDistance);
+  if (!std::isfinite(distance)) {
     accuracy.note = "no tile above it has a geometric error; its positions get the default bits";
     return accuracy;
   }

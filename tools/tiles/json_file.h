@@ -6,20 +6,19 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <vector>
+
+#include "gltf/files/named_file.h"
 
 namespace mcc::tiles {
 
 /// A file that is read from its beginning to its end in parts.
 class JsonFile {
  public:
-  explicit JsonFile(const std::filesystem::path& path)
-      : stream_(path, std::ios::binary), part_(kPartBytes) {}
+  /// `file` is open, and stays so as long as this object exists. Borrowed.
+  explicit JsonFile(gltf::NamedFile& file) : file_(file), part_(kPartBytes) {}
 
-  bool isOpen() const { return stream_.is_open(); }
   bool isAtEnd() { return at_ == filled_ && !refill(); }
   char byte() const { return part_[at_]; }
   void advance() { ++at_; }
@@ -60,12 +59,11 @@ class JsonFile {
   bool refill() {
     begin_ += filled_;
     at_ = 0;
-    stream_.read(part_.data(), static_cast<std::streamsize>(part_.size()));
-    filled_ = static_cast<size_t>(stream_.gcount());
+    filled_ = file_.readSome(part_.data(), part_.size());
     return filled_ != 0;
   }
 
-  std::ifstream stream_;
+  gltf::NamedFile& file_;
   std::vector<char> part_;
   size_t at_ = 0;
   size_t filled_ = 0;

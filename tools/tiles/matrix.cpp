@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "tiles/matrix.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,8 +21,18 @@ Matrix product(const Matrix& a, const Matrix& b) {
 
 /// The largest eigenvalue of A = M^T M is the limit of trace(A^n)^(1/n), which is never below it.
 /// Squaring A 34 times leaves a factor of at most 3^(1/2^34). Each power is divided by its trace,
-/// so that no number overflows.
+/// so that no number overflows. The matrix itself is only divided when its squares would.
 double largestScale(const Matrix& matrix) {
+  constexpr double kMost = 1e100;
+  double largest = 0;
+  for (size_t i = 0; i < 9; ++i) {
+    largest = std::max(largest, std::abs(matrix[i / 3 * 4 + i % 3]));
+  }
+  if (std::isfinite(largest) && (largest > kMost || (largest > 0 && largest < 1 / kMost))) {
+    Matrix divided = matrix;
+    for (double& element : divided) element /= largest;
+    return largestScale(divided) * largest;  // once: its largest element is 1
+  }
   double power[3][3] = {};
   for (size_t i = 0; i < 3; ++i) {
     for (size_t j = 0; j < 3; ++j) {

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 #include <chrono>
+#include <deque>
 #include <thread>
 
 #include "gltf/base/path_text.h"
@@ -99,15 +100,7 @@ Result Record::open(bool waits) {
   }
   stream_.open(path_, std::ios::binary | std::ios::app);
   if (!stream_) return gltf::error(gltf::textOf(path_), "cannot be written");
-  std::vector<fs::path> others;
-  for (fs::directory_iterator it(output_, code), end; !code && it != end; it.increment(code)) {
-    const std::string name = genericText(it->path().filename());
-    if (isName(name) && it->path() != path_ && it->is_regular_file(code)) {
-      others.push_back(it->path());
-    }
-  }
-  std::sort(others.begin(), others.end());
-  while (!lockAgainstOthers(others)) {
+  while (!lockAgainstOthers()) {
     if (!waits) {
       return gltf::error(gltf::textOf(output_),
                          "another run is writing to this folder; wait for its end (--wait), choose "
@@ -119,22 +112,51 @@ Result Record::open(bool waits) {
   stream_ << "\n" << textOf({{"tool", std::string("gltf-mcc ") + MCC_VERSION}}) << std::flush;
   if (!stream_) return gltf::error(gltf::textOf(path_), "cannot be written");
   read(path_);
-  for (const fs::path& other : others) read(other);
+  for (const fs::path& record : listRecords()) {
+    if (record != path_) read(record);
+  }
   return {};
 }
 
-/// Two runs that begin at the same time both hold their own lock before they look at the other's,
-/// so at least one of them sees the other.
-bool Record::lockAgainstOthers(const std::vector<fs::path>& others) {
-  lock_.emplace();
-  bool is_free = lock_->take(path_);
-  for (const fs::path& other : others) {
-    if (!part_.overlaps(partOf(genericText(other.filename())))) continue;
-    gltf::WorkLock probe;
-    is_free = is_free && probe.take(other);
+std::vector<fs::path> Record::listRecords() const {
+  std::vector<fs::path> records = {path_};
+  std::error_code code;
+  for (fs::directory_iterator it(output_, code), end; !code && it != end; it.increment(code)) {
+    const std::string name = genericText(it->path().filename());
+    if (isName(name) && it->path() != path_ && it->is_regular_file(code)) {
+      records.push_back(it->path());
+    }
   }
-  if (!is_free) lock_.reset();  // two that wait for each other would wait forever
-  return is_free;
+  std::sort(records.begin(), records.end());
+  return records;
+}
+
+/// All runs take locks in the order of the names. So of those that begin at the same time, the one
+/// that holds the last name of all takes every lock that it still needs: no two wait for each
+/// other.
+bool Record::takeLocks(const std::vector<fs::path>& records) {
+  std::deque<gltf::WorkLock> others;
+  lock_.reset();
+  for (const fs::path& record : records) {
+    const bool is_own = record == path_;
+    if (!is_own && !part_.overlaps(partOf(genericText(record.filename())))) continue;
+    if ((is_own ? lock_.emplace() : others.emplace_back()).take(record)) continue;
+    lock_.reset();
+    return false;
+  }
+  return true;
+}
+
+/// A run has its record in the folder before it looks for others. One that begins after the second
+/// look therefore finds the lock of this run.
+bool Record::lockAgainstOthers() {
+  std::vector<fs::path> records = listRecords();
+  while (takeLocks(records)) {
+    std::vector<fs::path> now = listRecords();
+    if (now == records) return true;
+    records = std::move(now);
+  }
+  return false;
 }
 
 void Record::read(const fs::path& path) {

@@ -74,8 +74,12 @@ class Record {
     uint64_t offset = 0;
   };
 
+  /// Returns the records in the folder, sorted; this one is among them.
+  std::vector<std::filesystem::path> listRecords() const;
+  /// Takes the locks of this record and of all that overlap with it, and keeps that of this one.
+  bool takeLocks(const std::vector<std::filesystem::path>& records);
   /// Returns whether no other run works, and keeps it so.
-  bool lockAgainstOthers(const std::vector<std::filesystem::path>& others);
+  bool lockAgainstOthers();
   void read(const std::filesystem::path& path);
   /// Returns the last line about a name, or null.
   Json lineOf(std::string_view name);

@@ -218,7 +218,9 @@ Result Subtree::read(std::vector<uint8_t> file, uint32_t dimensions, uint32_t le
     const std::string where = gltf::at("/contentAvailability", i);
     MCC_GLTF_TRY(readAvailability(&list[i], where, tiles, contents_.emplace_back()));
   }
-  return readErrors(schema);
+  const Result errors = readErrors(schema);
+  json_ = {};  // takes many times the memory of the rest, and was all read
+  return errors;
 }
 
 }  // namespace mcc::tiles

@@ -92,7 +92,7 @@ class Subtree {
   gltf::Result readErrors(const ErrorSchema& schema);
 
   std::vector<uint8_t> file_;
-  nlohmann::ordered_json json_;
+  nlohmann::ordered_json json_;  ///< only while read() works
   std::vector<std::vector<uint8_t>> loaded_;
   std::vector<std::span<const uint8_t>> buffers_;
   Availability tiles_;

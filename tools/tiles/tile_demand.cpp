@@ -51,7 +51,9 @@ void DemandGroups::add(const TileUse& use, TileDemand& demand) {
   const double scale = largestScale(use.transform);
   demand.scale = std::max(demand.scale, scale);
   if (use.geometric_error == 0) return;
-  const double tile_distance = use.geometric_error / scale;
+  // A scale so large that the distance would become 0 must not look like a tile without an error.
+  const double tile_distance =
+      std::max(use.geometric_error / scale, std::numeric_limits<double>::min());
   demand.world_distance = std::min(demand.world_distance, use.geometric_error);
   demand.tile_distance = std::min(demand.tile_distance, tile_distance);
   group.distance = std::min(group.distance, tile_distance);

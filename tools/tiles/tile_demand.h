@@ -22,7 +22,7 @@ struct TileUse {
   /// The geometric error that the promised error is a share of, in metres. That of a tile without
   /// one is half of its nearest ancestor's. 0: no ancestor has one either.
   double geometric_error = 0;
-  Matrix transform = kIdentity;  ///< from the tile to the world
+  Matrix transform = kIdentity;  ///< from the tile to the world; its scale is finite
   UpAxis up_axis = UpAxis::kY;   ///< of the models, which loaders turn so that z is up
 };
 
@@ -51,6 +51,7 @@ class DemandGroups {
   double distanceOf(uint64_t group) const { return groups_.at(group).distance; }
   /// Returns how many groups the tiles of each level form.
   const std::map<uint32_t, uint64_t>& countByLevel() const { return count_by_level_; }
+  size_t size() const { return groups_.size(); }
 
  private:
   struct Group {

@@ -9,6 +9,7 @@
 #include "gltf/base/path_text.h"
 #include "gltf/base/result.h"
 #include "gltf/files/file_io.h"
+#include "gltf/files/named_file.h"
 #include "tiles/json_file.h"
 
 namespace mcc::tiles {
@@ -308,6 +309,7 @@ class TilesetHandler final : public nlohmann::json_sax<Json> {
 
   void addWrong(const std::string& member, const char* what) {
     constexpr size_t kMost = 1000;
+    ++out_.wrong_count;
     if (out_.wrong_places.size() == kMost) return;
     out_.wrong_places.push_back({open_tiles_.back().tile, member, what});
   }
@@ -376,8 +378,14 @@ std::string TilesetJson::pathOfTile(uint32_t tile) const {
   for (uint32_t at = tile; tiles[at].parent != kNone; at = tiles[at].parent) {
     numbers.push_back(tiles[at].child_number);
   }
+  constexpr size_t kShownAtEachEnd = 16;
   std::string path = "/root";
-  for (size_t i = numbers.size(); i-- > 0;) path += "/children/" + std::to_string(numbers[i]);
+  for (size_t i = numbers.size(); i-- > 0;) {
+    path += "/children/" + std::to_string(numbers[i]);
+    if (numbers.size() - i != kShownAtEachEnd || i <= kShownAtEachEnd) continue;
+    path += "/… " + std::to_string(i - kShownAtEachEnd) + " levels …";
+    i = kShownAtEachEnd;
+  }
   return path;
 }
 
@@ -389,15 +397,13 @@ std::string TilesetJson::pathOf(const Content& content) const {
   return content.number == kNone ? path : gltf::at(path, content.number);
 }
 
-Result readTilesetJson(const std::filesystem::path& path, uint64_t max_tiles,
-                       TilesetJson& tileset) {
+Result readTilesetJson(const std::filesystem::path& folder, const std::string& name,
+                       uint64_t max_tiles, TilesetJson& tileset) {
   tileset = {};
-  JsonFile file(path);
-  if (!file.isOpen()) {
-    std::vector<uint8_t> none;
-    Result reason = gltf::readFile(path, none);  // says what is there instead
-    return reason.ok() ? gltf::error(gltf::textOf(path), "cannot be read") : reason;
-  }
+  const std::filesystem::path path = folder / gltf::pathOf(name);
+  gltf::NamedFile opened;
+  MCC_GLTF_TRY(gltf::inFile(path, opened.open(folder, name)));
+  JsonFile file(opened);
   TilesetHandler handler(file, max_tiles, tileset);
   Json::sax_parse(file.begin(), JsonFile::end(), &handler);
   if (!handler.result().ok()) return gltf::inFile(path, handler.result());
@@ -405,9 +411,11 @@ Result readTilesetJson(const std::filesystem::path& path, uint64_t max_tiles,
   return gltf::error(gltf::textOf(path), "is not a tileset: it has no root");
 }
 
-bool isTilesetFile(const std::filesystem::path& path) {
-  JsonFile file(path);
-  if (!file.isOpen() || file.isAtEnd()) return false;
+bool isTilesetFile(const std::filesystem::path& folder, const std::string& name) {
+  gltf::NamedFile opened;
+  if (!opened.open(folder, name).ok()) return false;
+  JsonFile file(opened);
+  if (file.isAtEnd()) return false;
   RootFinder finder;
   Json::sax_parse(file.begin(), JsonFile::end(), &finder);
   return finder.isFound();

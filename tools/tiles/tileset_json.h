@@ -61,6 +61,7 @@ struct TilesetJson {
   std::vector<Matrix> transforms;
   std::vector<ImplicitTiling> implicit;
   std::vector<Wrong> wrong_places;  ///< the first 1,000
+  uint64_t wrong_count = 0;         ///< of all
   std::string texts;
   double geometric_error = -1;  ///< of the tileset
   std::string up_axis;          ///< asset.gltfUpAxis
@@ -74,20 +75,22 @@ struct TilesetJson {
   std::string_view uriOf(const Content& content) const {
     return std::string_view(texts).substr(content.uri_begin, content.uri_length);
   }
-  /// Returns the JSON path of a tile, or of a content.
+  /// Returns the JSON path of a tile, or of a content, for messages: of a tile that is deeper than
+  /// 32 levels, the first and the last 16.
   std::string pathOfTile(uint32_t tile) const;
   std::string pathOf(const Content& content) const;
 };
 
 /// Reads a tileset of any depth without recursion. What is malformed in a tile is marked there.
+/// folder, name  as NamedFile::open() takes them
 /// Errors: the file cannot be read; it is not JSON, with the byte; it has no root; it has more than
 /// `max_tiles` tiles. Safe for untrusted input: memory is at most a small multiple of the file.
-gltf::Result readTilesetJson(const std::filesystem::path& path, uint64_t max_tiles,
-                             TilesetJson& tileset);
+gltf::Result readTilesetJson(const std::filesystem::path& folder, const std::string& name,
+                             uint64_t max_tiles, TilesetJson& tileset);
 
 /// Whether a file is the JSON of a tileset: it is an object with an object `root`. Reads no farther
 /// than to that. False when it cannot be read.
-bool isTilesetFile(const std::filesystem::path& path);
+bool isTilesetFile(const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace mcc::tiles
 

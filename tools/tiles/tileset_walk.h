@@ -21,8 +21,22 @@ namespace mcc::tiles {
 /// a few small files have any number of tiles.
 inline constexpr uint64_t kMostTiles = uint64_t{1} << 24;
 
+/// How much work a walk was.
+struct WalkWork {
+  uint64_t file_count = 0;    ///< that were opened
+  uint64_t parse_count = 0;   ///< of JSON
+  uint64_t tile_count = 0;    ///< tiles that were visited
+  uint64_t naming_count = 0;  ///< visits of tiles that name an external tileset
+};
+
 /// What the tiles say about files. The walk keeps nothing of a tile, so memory depends on the
 /// number of files and on the size of the largest tileset file, but not on the number of tiles.
+///
+/// An external tileset may be named many times, as are those of a forest's trees. It is visited
+/// once for each place: level, transform and geometric error. Its file is read once, unless the
+/// tilesets take more than some megabytes. The work is then linear in the bytes of the tilesets and
+/// subtrees, and in the tiles of all places, which max_tiles limits. Failures are found, and
+/// listed, at the first place of a tileset.
 class TilesetWalk {
  public:
   /// Walks a tileset, without recursion. Parts that are malformed are listed in failures() and left
@@ -31,7 +45,8 @@ class TilesetWalk {
   /// name    of its JSON in the folder
   /// files   of the folder, those of `part` at least
   /// Errors: the first tileset cannot be read; external tilesets form a cycle; there are more than
-  /// `max_tiles` tiles. Safe for untrusted input.
+  /// `max_tiles` tiles; external tilesets that contain others have many more places than fit the
+  /// bytes of all. Safe for untrusted input.
   gltf::Result run(const std::filesystem::path& folder, const std::string& name,
                    const FileTable& files, const Part& part, uint64_t max_tiles);
 
@@ -45,6 +60,7 @@ class TilesetWalk {
   uint64_t remoteCount() const { return remote_count_; }  ///< contents on servers or in data URIs
   const std::vector<gltf::Result>& failures() const { return failures_; }  ///< the first 1,000
   uint64_t failureCount() const { return failure_count_; }
+  const WalkWork& work() const { return work_; }
 
  private:
   friend class TilesetWalker;
@@ -57,6 +73,7 @@ class TilesetWalk {
   uint64_t remote_count_ = 0;
   std::vector<gltf::Result> failures_;
   uint64_t failure_count_ = 0;
+  WalkWork work_;
 };
 
 }  // namespace mcc::tiles

@@ -7,6 +7,7 @@
 #include "gltf/base/path_text.h"
 #include "gltf/base/result.h"
 #include "gltf/files/file_io.h"
+#include "gltf/files/named_file.h"
 #include "tiles/tile_uri.h"
 #include "tiles/tileset_json.h"
 
@@ -56,9 +57,9 @@ Result renameContents(const std::filesystem::path& folder, const std::string& na
                       uint64_t max_tiles, std::vector<uint8_t>& json) {
   const std::filesystem::path path = folder / gltf::pathOf(name);
   TilesetJson tileset;
-  MCC_GLTF_TRY(readTilesetJson(path, max_tiles, tileset));
+  MCC_GLTF_TRY(readTilesetJson(folder, name, max_tiles, tileset));
   std::vector<uint8_t> source;
-  MCC_GLTF_TRY(gltf::readFile(path, source));
+  MCC_GLTF_TRY(gltf::inFile(path, gltf::readNamed(folder, name, source)));
   json.clear();
   uint64_t kept = 0;
   for (const Edit& edit : editsOf(name, tileset)) {

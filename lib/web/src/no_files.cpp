@@ -9,6 +9,7 @@
 #include "gltf/files/destination.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/folder_lock.h"
+#include "gltf/files/named_file.h"
 
 namespace mcc::gltf {
 namespace {
@@ -20,8 +21,7 @@ constexpr char kNoFiles[] = "this module has no file system";
 Result readFile(const std::filesystem::path& path, std::vector<uint8_t>&) {
   return error(path.string(), kNoFiles);
 }
-FileReader readerOf(const std::filesystem::path&) { return nullptr; }
-FileReader readerInside(const std::filesystem::path&) { return nullptr; }
+FileReader readerOf(const std::filesystem::path&, const std::filesystem::path&) { return nullptr; }
 Result inFile(const std::filesystem::path&, Result result) { return result; }
 std::filesystem::path folderOf(const std::filesystem::path&) { return {}; }
 

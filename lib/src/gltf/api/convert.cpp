@@ -23,6 +23,7 @@
 #include "gltf/document/uri.h"
 #include "gltf/files/destination.h"
 #include "gltf/files/folder_lock.h"
+#include "gltf/files/named_file.h"
 
 namespace mcc::gltf {
 namespace {
@@ -48,7 +49,7 @@ struct Input {
   FileReader read_file;                 ///< null for a source in memory
   std::unique_ptr<FolderLock> reading;  ///< held until all files are read
 
-  Result open(const Source& source) {
+  Result open(const Source& source, const fs::path& within = {}) {
     path = source.path;
     if (source.bytes) {
       bytes = *source.bytes;
@@ -58,7 +59,7 @@ struct Input {
     reading = lockToRead(path);
     MCC_GLTF_TRY(readFile(path, owned));
     bytes = owned;
-    read_file = readerOf(path.parent_path());
+    read_file = readerOf(path.parent_path(), within);
     return {};
   }
   bool isFile() const { return read_file != nullptr; }
@@ -121,8 +122,7 @@ Result addFilesBeside(const Json& json, bool with_buffers, const Input& input, c
                       Package& package, std::vector<std::string>& notes) {
   if (input.isFile() && output.destination) {
     if (output.destination->isBeside(input.path)) return {};
-    const CopyReaders readers = {input.read_file, readerInside(input.path.parent_path())};
-    return addCopies(json, with_buffers, readers, package, notes);
+    return addCopies(json, with_buffers, input.read_file, package, notes);
   }
   for (const std::string& path : filesBeside(json)) {
     notes.push_back("\"" + path + "\" stays a separate file; put it next to the output");
@@ -360,12 +360,12 @@ Status checkOptions(const ConvertOptions& options) {
 }
 
 Result convertTo(const ListedSink& sink, const Source& source, const ConvertOptions& options,
-                 ConvertReport& report) {
+                 ConvertReport& report, const fs::path& within) {
   const Result result = guarded([&]() -> Result {
     if (const Status checked = checkOptions(options); !checked.ok()) return error("", checked.what);
     Input input;
     Output output;
-    MCC_GLTF_TRY(input.open(source));
+    MCC_GLTF_TRY(input.open(source, within));
     MCC_GLTF_TRY(output.open(sink, options.fallback));
     Conversion conversion;
     MCC_GLTF_TRY(inInput(input, convertInput(input, output, options, conversion, report)));

@@ -22,8 +22,10 @@ struct ListedSink {
 Status checkOptions(const ConvertOptions& options);
 
 /// Like convert() and decode(), apart from the list.
+/// within  a folder that contains that of the source, as NamedFile::open() takes it: the files that
+///         the source names may be links to anything in it.
 Result convertTo(const ListedSink& sink, const Source& source, const ConvertOptions& options,
-                 ConvertReport& report);
+                 ConvertReport& report, const std::filesystem::path& within = {});
 Result decodeTo(const ListedSink& sink, const Source& source, const FileDecodeOptions& options,
                 DecodeReport& report);
 

@@ -18,6 +18,7 @@
 #include "gltf/document/package.h"
 #include "gltf/document/references.h"
 #include "gltf/files/file_io.h"
+#include "gltf/files/named_file.h"
 
 namespace mcc::gltf {
 namespace {

@@ -92,7 +92,7 @@ Result writePackage(const Container& container, Json json, std::vector<uint8_t> 
   return {};
 }
 
-Result addCopies(const Json& json, bool with_buffers, const CopyReaders& readers, Package& package,
+Result addCopies(const Json& json, bool with_buffers, const FileReader& read_file, Package& package,
                  std::vector<std::string>& notes) {
   std::vector<std::pair<std::string, std::string>> uris;
   if (with_buffers) listUris(json, "buffers", uris);
@@ -106,7 +106,7 @@ Result addCopies(const Json& json, bool with_buffers, const CopyReaders& readers
     file.kind = SideFile::Kind::kCopy;
     MCC_GLTF_TRY(relativePathOf(uri, where, file.path));
     if (!known.insert(file.path).second) continue;
-    const Result read = readCopy(is_image, is_image ? readers.image : readers.buffer, where, file);
+    const Result read = readCopy(is_image, read_file, where, file);
     if (read.ok()) {
       package.beside.push_back(std::move(file));
     } else {

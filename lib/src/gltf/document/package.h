@@ -50,17 +50,11 @@ Result containerOf(const std::string& file_name, Container& container);
 Result writePackage(const Container& container, Json json, std::vector<uint8_t> bin,
                     const std::vector<GlbChunk>& other_chunks, Package& package);
 
-/// Fetches files next to a source, to copy them.
-struct CopyReaders {
-  FileReader buffer;
-  FileReader image;  ///< fails for what lies outside of the folder of the source
-};
-
 /// Adds the files next to the source that the JSON names: images, and buffers if `with_buffers`.
 /// The author of the source chose their names and contents, so an image is copied only if its first
 /// bytes are those of an image, and hidden files are never copied. A file that is not copied is
 /// noted. A URI that relativePathOf() refuses is an error.
-Result addCopies(const Json& json, bool with_buffers, const CopyReaders& readers, Package& package,
+Result addCopies(const Json& json, bool with_buffers, const FileReader& read_file, Package& package,
                  std::vector<std::string>& notes);
 
 /// Whether all files of the buffers may be copied under their names: none is hidden, and each has

@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "gltf/base/path_text.h"
-#include "gltf/document/uri.h"
 #include "gltf/files/system.h"
 
 namespace mcc::gltf {
@@ -73,12 +72,6 @@ std::string keyOf(const FileIdentity& file) {
   return std::to_string(file.device) + ":" + std::to_string(file.number);
 }
 
-/// Refuses paths of a document that this system takes for something else than a file.
-Result checkName(const std::string& path, const std::string& where) {
-  if (!kIsWindows || isPathOnWindows(path)) return {};
-  return error(where, "\"" + path + "\" cannot be the name of a file on Windows; rename the file");
-}
-
 Result readRegularFile(int file, const fs::path& path, std::vector<uint8_t>& bytes) {
   std::error_code code;
   const uintmax_t size = fs::file_size(path, code);
@@ -139,34 +132,6 @@ bool haveSameContent(const fs::path& a, const fs::path& b) {
   std::vector<uint8_t> bytes_of_a;
   std::vector<uint8_t> bytes_of_b;
   return readFile(a, bytes_of_a).ok() && readFile(b, bytes_of_b).ok() && bytes_of_a == bytes_of_b;
-}
-
-FileReader readerOf(const fs::path& folder) {
-  return [folder](const std::string& path, const std::string& where, std::vector<uint8_t>& bytes) {
-    MCC_GLTF_TRY(checkName(path, where));
-    std::error_code code;
-    const fs::file_status status = fs::status(folder / pathOf(path), code);
-    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
-      return error(where, "\"" + path + "\": is not a regular file");
-    }
-    Result result = readFile(folder / pathOf(path), bytes);
-    if (!result.ok()) return error(where, "\"" + path + "\": " + result.what);
-    return result;
-  };
-}
-
-FileReader readerInside(const fs::path& folder) {
-  return [folder](const std::string& path, const std::string& where, std::vector<uint8_t>& bytes) {
-    MCC_GLTF_TRY(checkName(path, where));
-    std::error_code code;
-    const fs::path inside = fs::canonical(folder.empty() ? "." : folder, code);
-    const fs::path file = fs::canonical(folder / pathOf(path), code);
-    const fs::path relative = file.lexically_relative(inside);
-    if (!code && (relative.empty() || *relative.begin() == "..")) {
-      return error(where, "\"" + path + "\" is a symbolic link out of the folder");
-    }
-    return readerOf(folder)(path, where, bytes);
-  };
 }
 
 bool isStream(const fs::path& path) {

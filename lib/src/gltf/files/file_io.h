@@ -18,9 +18,9 @@ namespace mcc::gltf {
 /// The largest file that is read. Lengths in a GLB have 32 bits.
 inline constexpr uint64_t kMaxFileBytes = uint64_t{1} << 32;
 
-/// Reads a whole file. A pipe, a device, or anything else that is not a regular file is read by
-/// readStream(). Errors say what is there instead: nothing, a folder, a file without permission, or
-/// more than kMaxFileBytes.
+/// Reads a whole file that the user named; what a file names is read by NamedFile. A pipe, a
+/// device, or anything else that is not a regular file is read by readStream(). Errors say what is
+/// there instead: nothing, a folder, a file without permission, or more than kMaxFileBytes.
 Result readFile(const std::filesystem::path& path, std::vector<uint8_t>& bytes);
 
 /// Reads a glTF file from an open file that may never end. JSON is read to its end. A GLB is read
@@ -32,12 +32,6 @@ Result readStream(int file, const std::string& name, std::vector<uint8_t>& bytes
 
 /// Whether two files have the same bytes; false when one cannot be read.
 bool haveSameContent(const std::filesystem::path& a, const std::filesystem::path& b);
-
-/// Returns a reader of regular files below a folder, for loadDocument().
-FileReader readerOf(const std::filesystem::path& folder);
-
-/// The same, but refuses files that symbolic links lead to outside of the folder.
-FileReader readerInside(const std::filesystem::path& folder);
 
 /// Puts the name of a file before the place in it where something is wrong.
 Result inFile(const std::filesystem::path& path, Result result);

@@ -35,6 +35,11 @@ std::optional<int> openStreamNamed(const std::filesystem::path& path);
 // inherited by other programs. Functions that return -1 have set errno.
 
 int openToRead(const std::filesystem::path& path);
+/// Opens a file below a folder without following any link on the way, and without waiting for what
+/// is at its end. On Windows, links are followed.
+int openInside(const std::filesystem::path& folder, const std::filesystem::path& relative);
+/// Returns the size of an open file. Empty if it is not a regular file.
+std::optional<uint64_t> sizeOfRegular(int file);
 /// Opens something that exists and is not replaced, such as a device.
 int openToWrite(const std::filesystem::path& path);
 /// Creates a file; fails with EEXIST if there is one. `only_owner`: no other user may read it.

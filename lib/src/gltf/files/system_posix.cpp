@@ -45,6 +45,32 @@ int openToRead(const std::filesystem::path& path) {
   return ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
 }
 
+int openInside(const std::filesystem::path& folder, const std::filesystem::path& relative) {
+#if defined(O_PATH)
+  constexpr int kFolder = O_PATH | O_DIRECTORY | O_CLOEXEC;  // which may be one without a list
+#else
+  constexpr int kFolder = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
+#endif
+  constexpr int kFile = O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
+  int file = ::open(folder.c_str(), kFolder);
+  for (auto part = relative.begin(); file >= 0 && part != relative.end();) {
+    const std::filesystem::path name = *part++;
+    const int flags = (part == relative.end() ? kFile : kFolder) | O_NOFOLLOW;
+    const int next = ::openat(file, name.c_str(), flags);
+    const int failure = errno;
+    ::close(file);
+    errno = failure;
+    file = next;
+  }
+  return file;
+}
+
+std::optional<uint64_t> sizeOfRegular(int file) {
+  struct stat facts = {};
+  if (::fstat(file, &facts) != 0 || !S_ISREG(facts.st_mode)) return std::nullopt;
+  return static_cast<uint64_t>(facts.st_size);
+}
+
 int openToWrite(const std::filesystem::path& path) {
   return ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
 }

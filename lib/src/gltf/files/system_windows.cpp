@@ -89,6 +89,16 @@ std::optional<int> openStreamNamed(const std::filesystem::path&) { return std::n
 
 int openToRead(const std::filesystem::path& path) { return openWide(path, _O_RDONLY); }
 
+int openInside(const std::filesystem::path& folder, const std::filesystem::path& relative) {
+  return openWide(folder / relative, _O_RDONLY);
+}
+
+std::optional<uint64_t> sizeOfRegular(int file) {
+  struct _stat64 facts = {};
+  if (::_fstat64(file, &facts) != 0 || (facts.st_mode & _S_IFMT) != _S_IFREG) return std::nullopt;
+  return static_cast<uint64_t>(facts.st_size);
+}
+
 int openToWrite(const std::filesystem::path& path) { return openWide(path, _O_WRONLY); }
 
 /// New files inherit who may read them from their folder. Sharing the right to delete lets the

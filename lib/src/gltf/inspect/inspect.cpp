@@ -10,6 +10,7 @@
 #include "gltf/check/check_values.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/files/file_io.h"
+#include "gltf/files/named_file.h"
 #include "gltf/inspect/coding_names.h"
 #include "mcc/gltf.h"
 #include "mcc/writer.h"

@@ -10,6 +10,7 @@
 #include "gltf/decompress/decompress.h"
 #include "gltf/document/accessors.h"
 #include "gltf/files/file_io.h"
+#include "gltf/files/named_file.h"
 #include "mcc/gltf.h"
 #include "mcc/writer.h"
 
