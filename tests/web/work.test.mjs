@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Work and memory are in proportion to the bytes of a file, whatever its JSON says: counted, not timed. tools/check/web-scaling.mjs
+// Work and memory are in proportion to the bytes of a file, whatever its JSON says: counted, not timed. tools/check/growth web
 // measures the same families at sizes that hurt.
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';

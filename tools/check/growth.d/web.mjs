@@ -1,13 +1,13 @@
 #!/usr/bin/env node
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// tools/check/web-scaling.mjs [--library FOLDER] [PART OF A NAME...]: for documents and tiles with n, 2 n and 4 n of one thing, prints
+// tools/check/growth web [--library FOLDER] [PART OF A NAME...]: for documents and tiles with n, 2 n and 4 n of one thing, prints
 // the processor time that unpackTile() of lib/web takes, and the largest memory of its process. Linear time doubles from column to column. Each
 // document has a process of its own, and at most a minute.
 import { execFileSync } from 'node:child_process';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { FAMILIES } from '../../tests/web/support/families.mjs';
+import { FAMILIES } from '../../../tests/web/support/families.mjs';
 
 const SECONDS = 60;
 const self = fileURLToPath(import.meta.url);
@@ -32,7 +32,7 @@ function measured(library, name, n) {
 }
 
 function main(args) {
-  const library = args[0] === '--library' ? args.splice(0, 2)[1] : fileURLToPath(new URL('../../lib/web', import.meta.url));
+  const library = args[0] === '--library' ? args.splice(0, 2)[1] : fileURLToPath(new URL('../../../lib/web', import.meta.url));
   for (const [name, { n }] of Object.entries(FAMILIES)) {
     if (args.length > 0 && !args.some((part) => name.includes(part))) continue;
     const columns = [n, 2 * n, 4 * n].map((count) => [count, measured(library, name, count)]);
