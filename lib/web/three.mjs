@@ -1,7 +1,11 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+import { Box3, BufferAttribute, BufferGeometry, Sphere, Vector3 } from 'three';
 import { EXTENSION_NAME } from './document.mjs';
-import { showBlock } from './three_blocks.mjs';
 import { PayloadViews } from './views.mjs';
+import { rarelyNeeded } from './workers.mjs';
+
+/** All of these GLTFLoader needs anyway. import('three') would make bundlers keep the rest of three.js as well. */
+const THREE = { Box3, BufferAttribute, BufferGeometry, Sphere, Vector3 };
 
 /**
  * Loads KHR_mesh_collapse_compression with GLTFLoader of three.js:
@@ -34,7 +38,8 @@ export class MeshCollapsePlugin {
   async beforeRoot() {
     const parser = this.#parser;
     const fetchPayload = async (bufferView) => new Uint8Array(await parser.getDependency('bufferView', bufferView));
-    const onBlock = this.#onBlock && ((block, { claims }) => showBlock(block, claims, this.#onBlock));
+    const show = this.#onBlock && (await rarelyNeeded()).showBlock;
+    const onBlock = show && ((block, { claims }) => show(THREE, block, claims, this.#onBlock));
     this.#views = new PayloadViews(parser.json, fetchPayload, this.#options, onBlock);
     const { accessors, bufferViews } = this.#views;
     parser.json = { ...parser.json, accessors, bufferViews };

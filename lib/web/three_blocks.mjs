@@ -1,8 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Geometries of three.js for single blocks. All names from 'three' are ones that GLTFLoader needs anyway. They are imported by name and
-// at once: import('three') would make bundlers keep all of it, and a chunk of its own would make some of them cut three.js in two.
-import { Box3, BufferAttribute, BufferGeometry, Sphere, Vector3 } from 'three';
+// Geometries of three.js for single blocks. It is part of page_thread.mjs, and gets what it needs of three.js from the plugin: a bundler
+// would cut three.js in two if a chunk that is loaded later imported it.
 import { usesOf } from './uses.mjs';
 
 /** Names of attributes, as GLTFLoader has them; others become lower case. */
@@ -11,8 +10,9 @@ const NAMES = {
   TEXCOORD_3: 'uv3', COLOR_0: 'color', WEIGHTS_0: 'skinWeight', JOINTS_0: 'skinIndex',
 };
 
-/** Tells of a block, once for each primitive that draws triangles of it. */
-export function showBlock({ index, blockCount, box, attributes, parts }, claims, onBlock) {
+/** Tells of a block, once for each primitive that draws triangles of it. @param {object} three its classes, by name */
+export function showBlock(three, { index, blockCount, box, attributes, parts }, claims, onBlock) {
+  const { BufferAttribute, BufferGeometry } = three;
   const shared = new Map();
   const attributeOf = (number) => {
     const { array, componentCount, normalized } = attributes[number];
@@ -24,13 +24,13 @@ export function showBlock({ index, blockCount, box, attributes, parts }, claims,
     const geometry = new BufferGeometry();
     for (const [name, number] of Object.entries(names)) geometry.setAttribute(NAMES[name] ?? name.toLowerCase(), attributeOf(number));
     geometry.setIndex(new BufferAttribute(parts[part].indices, 1));
-    if (names.POSITION !== undefined && !attributes[0].normalized) setBounds(geometry, box);
+    if (names.POSITION !== undefined && !attributes[0].normalized) setBounds(three, geometry, box);
     onBlock(geometry, { index, blockCount, mesh, primitive });
   }
 }
 
 /** Three.js would look at all positions. */
-function setBounds(geometry, { min, max }) {
+function setBounds({ Box3, Sphere, Vector3 }, geometry, { min, max }) {
   geometry.boundingBox = new Box3(new Vector3(...min), new Vector3(...max));
   geometry.boundingSphere = geometry.boundingBox.getBoundingSphere(new Sphere());
 }

@@ -30,7 +30,7 @@ export async function decodeInWorkers(payload, { onBlock, ...others } = {}) {
 }
 
 /** What most pages never need is a chunk of its own in bundles. */
-async function rarelyNeeded() {
+export async function rarelyNeeded() {
   try {
     return await import('./page_thread.mjs');
   } catch (error) {

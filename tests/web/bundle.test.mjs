@@ -42,7 +42,7 @@ engine.runRenderLoop(() => scene.render());
 `;
 
 /** With the worker, which starts with the first payload. */
-const LARGEST_BYTES = { three: 12_000, babylon: 11_000 };
+const LARGEST_BYTES = { three: 11_500, babylon: 10_700 };
 
 /** Returns what a page has more than without the plugin. */
 async function added(plain, page, imports, setup) {
