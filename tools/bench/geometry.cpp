@@ -46,14 +46,16 @@ gltf::Result load(const std::filesystem::path& path, const gltf::ConvertOptions&
                   const PrimitiveFilter& wanted, Geometry& geometry) {
   MCC_GLTF_TRY(
       gltf::loadDocument(geometry.file, gltf::readerOf(path.parent_path()), geometry.document));
-  MCC_GLTF_TRY(gltf::decodeViews(options.decoders, geometry.document));
-  MCC_GLTF_TRY(gltf::decodeMeshes(options.decoders, geometry.document));
+  gltf::Result refused;
+  MCC_GLTF_TRY(gltf::decodeViews(options.decoders, geometry.document, nullptr, &refused));
+  MCC_GLTF_TRY(gltf::decodeMeshes(options.decoders, geometry.document, &refused));
   std::vector<PayloadPlan> plans;
   std::vector<gltf::LeftAlone> left_alone;
   MCC_GLTF_TRY(gltf::planPayloads(geometry.document, plans, left_alone));
   gltf::planQuantization(options, plans, geometry.notes);
   if (wanted) applyFilter(wanted, plans);
   MCC_GLTF_TRY(gltf::encodePayloads(options, std::move(plans), geometry.payloads, left_alone));
+  if (geometry.payloads.empty() && !refused.ok()) return refused;
   for (const gltf::LeftAlone& left : left_alone) {
     geometry.notes.push_back(left.primitive.path() + ": " + left.note);
   }

@@ -204,14 +204,17 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
   tell(options, "reading");
   MCC_GLTF_TRY(loadFor(output, input, document, report.files));
   document.decoded = DecodedBytes(options.max_decoded_bytes, document.source_bytes);
-  MCC_GLTF_TRY(decodeViews(options.decoders, document));
+  Result refused;
+  MCC_GLTF_TRY(decodeViews(options.decoders, document, nullptr, &refused));
   // With indices_only, decoded attributes would have to be stored again next to the payload.
-  if (!options.indices_only) MCC_GLTF_TRY(decodeMeshes(options.decoders, document));
+  if (!options.indices_only) MCC_GLTF_TRY(decodeMeshes(options.decoders, document, &refused));
   report.input_bytes = document.source_bytes;
   report.notes = document.notes;
   MCC_GLTF_TRY(checkOldPayloads(document));
   tell(options, "encoding");
   MCC_GLTF_TRY(compressDocument(document, options, compressed));
+  // What another codec compressed and ours cannot read is no reason to refuse the rest.
+  if (compressed.payloads.empty() && !refused.ok()) return refused;
   report.notes.insert(report.notes.end(), compressed.notes.begin(), compressed.notes.end());
   addPrimitives(document, compressed, report);
   if (!compressed.payloads.empty()) {
