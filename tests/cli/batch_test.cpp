@@ -396,7 +396,7 @@ TEST_F(Batch, WholeFileSizes) {
   ASSERT_EQ(run("convert in/textured.glb out.glb --emit-draco draco.glb").status, 0);
   EXPECT_EQ(files["draco"]["bytes"], fs::file_size(path("draco.glb")));
 #endif
-  const std::string text = run("convert in/textured.glb out.glb").out;
+  const std::string text = run("convert -v in/textured.glb out.glb").out;
   EXPECT_NE(text.find("whole file"), std::string::npos) << text;
   EXPECT_NE(text.find("after brotli 5"), std::string::npos) << text;
   const std::string csv = run("convert in/textured.glb out.glb --format csv").out;
@@ -404,7 +404,7 @@ TEST_F(Batch, WholeFileSizes) {
   // Convert in place, and with files next to the model.
   const auto size = fs::file_size(path("in/textured.glb"));
   const Json in_place =
-      Json::parse(run("convert in/textured.glb in/textured.glb --format json").out);
+      Json::parse(run("convert --in-place in/textured.glb in/textured.glb --format json").out);
   EXPECT_EQ(in_place["files"]["input"]["bytes"], size);
   const Json gltf = Json::parse(run("convert in/torus.glb o.gltf --format json").out);
   EXPECT_EQ(gltf["files"]["output"]["bytes"],

@@ -178,7 +178,10 @@ TEST(Compare, ConvertReportsTheComparison) {
   const std::string torus = samplePath("torus.glb");
   const ToolResult convert = runTool(folder, "convert " + torus + " o.glb --report r.json");
   ASSERT_EQ(convert.status, 0) << convert.err;
-  EXPECT_NE(convert.out.find("draco 0"), std::string::npos) << convert.out;
+  EXPECT_NE(convert.out.find("\n  Draco "), std::string::npos) << convert.out;
+  EXPECT_EQ(convert.out.find("draco 0"), std::string::npos) << convert.out;
+  const ToolResult tables = runTool(folder, "convert -v " + torus + " o.glb");
+  EXPECT_NE(tables.out.find("draco 0"), std::string::npos) << tables.out;
   const Json report = Json::parse(contentOf(folder.path() / "r.json"));
   expectConsistent(report["comparison"]);
   EXPECT_EQ(report["comparison"]["codecs"]["mcc"]["bytes"], report["payloads"][0]["bytes"]);
@@ -194,7 +197,7 @@ TEST(Compare, ConvertInPlaceComparesTheSource) {
   MCC_REQUIRE_COMPARISON();
   const ScratchFolder folder;
   std::filesystem::copy_file(std::string(MCC_SAMPLES_DIR) + "/torus.glb", folder.path() / "a.glb");
-  const ToolResult result = runTool(folder, "convert a.glb a.glb --format json");
+  const ToolResult result = runTool(folder, "convert --in-place a.glb a.glb --format json");
   ASSERT_EQ(result.status, 0) << result.err;
   expectConsistent(Json::parse(result.out)["comparison"]);
 }

@@ -116,7 +116,7 @@ TEST_F(Files, PipesThatADocumentNamesAreNotOpened) {
   fs::remove(path("m/mesh.bin"));
   ASSERT_EQ(mkfifo(path("m/mesh.bin").c_str(), 0600), 0);
   for (const std::string arguments :
-       {"convert m/a.gltf m/a.gltf", "convert m/a.gltf b.glb", "inspect m/a.gltf"}) {
+       {"convert --in-place m/a.gltf m/a.gltf", "convert m/a.gltf b.glb", "inspect m/a.gltf"}) {
     const ToolResult result = shell("timeout 20 " + tool_ + arguments);
     EXPECT_EQ(result.status, 1) << arguments;
     EXPECT_NE(result.err.find("is not a regular file"), std::string::npos) << result.err;
@@ -148,7 +148,7 @@ TEST_F(Files, InPlaceKeepsPermissionsAndLinks) {
   fs::rename(path("in.glb"), path("real/model.glb"));
   fs::create_symlink("real/model.glb", path("link.glb"));
   ASSERT_EQ(chmod(path("real/model.glb").c_str(), 0600), 0);
-  ASSERT_EQ(run("convert link.glb link.glb -q").status, 0);
+  ASSERT_EQ(run("convert --in-place link.glb link.glb -q").status, 0);
   EXPECT_TRUE(fs::is_symlink(path("link.glb")));
   EXPECT_TRUE(contentOf(path("real/model.glb")) == contentOf(path("small.glb")));
   EXPECT_EQ(fs::status(path("real/model.glb")).permissions(),
@@ -168,7 +168,7 @@ TEST_F(Files, OneNameForTwoThingsIsRefused) {
   fs::create_directory(path("d"));
   expectRefused("convert in.glb out.glb --report out.glb", 2, "is the output");
   expectRefused("convert in.glb small.glb --report ./small.glb", 2, "is the output");
-  expectRefused("convert in.glb in.glb --report in.glb", 2, "is the output");
+  expectRefused("convert --in-place in.glb in.glb --report in.glb", 2, "is the output");
   expectRefused("convert in.glb out.gltf --report out.bin", 2, "is the buffer of the output");
   expectRefused("convert in.glb out.glb --fallback --report out.fallback.bin", 2,
                 "is the fallback");

@@ -175,15 +175,15 @@ TEST_F(GltfOutput, InputMayBeOutput) {
   }());
   fs::rename(path("m/mesh.bin"), path("m/a.bin"));
   const auto before = names();
-  expectDone("convert m/a.gltf m/a.gltf");
+  expectDone("convert --in-place m/a.gltf m/a.gltf");
   EXPECT_EQ(names(), before);
   EXPECT_LT(fs::file_size(path("m/a.bin")) * 3, bin_.size());
   const std::string json = contentOf(path("m/a.gltf"));
   const std::string bin = contentOf(path("m/a.bin"));
-  expectDone("convert m/a.gltf m/a.gltf");  // nothing is gained, so nothing changes
+  expectDone("convert --in-place m/a.gltf m/a.gltf");  // nothing is gained, so nothing changes
   EXPECT_EQ(contentOf(path("m/a.gltf")), json);
   EXPECT_EQ(contentOf(path("m/a.bin")), bin);
-  expectDone("decode m/a.gltf m/a.gltf");
+  expectDone("decode --in-place m/a.gltf m/a.gltf");
   EXPECT_GT(fs::file_size(path("m/a.bin")) * 2, bin_.size());
 }
 

@@ -130,7 +130,8 @@ TEST_F(Manners, VersionNamesTheFormat) {
   EXPECT_EQ(version.status, 0);
   EXPECT_TRUE(std::regex_search(
       version.out,
-      std::regex("^gltf-mcc \\d+\\.\\d+\\.\\d+(-rc\\.\\d+)?\nKHR_mesh_collapse_compression: writes and reads "
+      std::regex("^gltf-mcc \\d+\\.\\d+\\.\\d+(-rc\\.\\d+)?\nKHR_mesh_collapse_compression: writes "
+                 "and reads "
                  "format 1\\.\\d+\n")))
       << version.out;
 }

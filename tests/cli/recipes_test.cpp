@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The recipe of docs/cli.md for GNU Parallel, verbatim, with two workers on this machine and one broken
-// model.
+// The recipe of docs/cli.md for GNU Parallel, verbatim, with two workers on this machine and one
+// broken model.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -43,6 +43,12 @@ TEST(ConvertReport, PiecesCodedDifferentlyHaveRowsOfTheirOwn) {
   EXPECT_EQ(bit_by_bit->vertex_count, exact.count());
   EXPECT_EQ(bit_by_bit->promised_error, 0);
   EXPECT_EQ(bit_by_bit->max_error, 0);
+  // Each row says which primitives it is about.
+  using Paths = std::vector<std::string>;
+  EXPECT_EQ(on_lattice->primitives, (Paths{"/meshes/0/primitives/0", "/meshes/0/primitives/2"}));
+  EXPECT_EQ(bit_by_bit->primitives, Paths{"/meshes/0/primitives/1"});
+  EXPECT_EQ(positions->primitives.size(), 3u);
+  EXPECT_NEAR(positions->extent, 1, 1e-3);
   // The bits of all attributes and streams add up to the payload.
   double bits = 0;
   for (const StreamReport& stream : payload.streams) bits += stream.bits;
@@ -51,6 +57,24 @@ TEST(ConvertReport, PiecesCodedDifferentlyHaveRowsOfTheirOwn) {
     bits += attribute.coded_bits;
   }
   EXPECT_NEAR(bits, 8 * static_cast<double>(payload.payload_bytes), 1);
+}
+
+/// Notes are for what a user may want to change; remarks only tell what was found.
+TEST(ConvertReport, WhatAsksNothingIsARemark) {
+  Builder builder;
+  const Sheet sheet(20);
+  Json first = sheet.addTo(builder);
+  Json second = sheet.addTo(builder);
+  second["indices"] = first["indices"];
+  Sheet tiny(1);
+  builder.addMesh({first});
+  builder.addMesh({second});
+  builder.addMesh({tiny.addTo(builder)});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_EQ(trip.report.notes, std::vector<std::string>{});
+  EXPECT_TRUE(hasNote(trip.report, "shares accessor"));
+  EXPECT_TRUE(hasNote(trip.report, "would not become smaller"));
 }
 
 }  // namespace

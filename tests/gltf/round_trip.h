@@ -49,8 +49,10 @@ inline bool isCompressed(const Json& json, size_t mesh, size_t primitive) {
 }
 
 inline bool hasNote(const ConvertReport& report, const std::string& text) {
-  for (const std::string& note : report.notes) {
-    if (note.find(text) != std::string::npos) return true;
+  for (const std::vector<std::string>* list : {&report.notes, &report.remarks}) {
+    for (const std::string& note : *list) {
+      if (note.find(text) != std::string::npos) return true;
+    }
   }
   return false;
 }

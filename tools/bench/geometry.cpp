@@ -35,7 +35,9 @@ void addInputs(Geometry& geometry) {
       const PieceInput& piece = input.pieces.back();
       geometry.has_left_out = geometry.has_left_out || piece.has_left_out;
       geometry.wedge_count += piece.wedge_count;
-      geometry.vertex_count += payload.result.pieces[i].topological_vertex_count;
+      if (i < payload.result.pieces.size()) {
+        geometry.vertex_count += payload.result.pieces[i].topological_vertex_count;
+      }
       for (const PartView& part : piece.parts) geometry.triangle_count += part.indices.size() / 3;
     }
     geometry.inputs.push_back(std::move(input));
@@ -43,7 +45,7 @@ void addInputs(Geometry& geometry) {
 }
 
 gltf::Result load(const std::filesystem::path& path, const gltf::ConvertOptions& options,
-                  const PrimitiveFilter& wanted, Geometry& geometry) {
+                  const PrimitiveFilter& wanted, OurPayloads ours, Geometry& geometry) {
   MCC_GLTF_TRY(
       gltf::loadDocument(geometry.file, gltf::readerOf(path.parent_path()), geometry.document));
   gltf::Result refused;
@@ -54,7 +56,11 @@ gltf::Result load(const std::filesystem::path& path, const gltf::ConvertOptions&
   MCC_GLTF_TRY(gltf::planPayloads(geometry.document, plans, left_alone));
   gltf::planQuantization(options, plans, geometry.notes);
   if (wanted) applyFilter(wanted, plans);
-  MCC_GLTF_TRY(gltf::encodePayloads(options, std::move(plans), geometry.payloads, left_alone));
+  if (ours == OurPayloads::kEncoded) {
+    MCC_GLTF_TRY(gltf::encodePayloads(options, std::move(plans), geometry.payloads, left_alone));
+  } else {
+    for (PayloadPlan& plan : plans) geometry.payloads.emplace_back().plan = std::move(plan);
+  }
   if (geometry.payloads.empty() && !refused.ok()) return refused;
   for (const gltf::LeftAlone& left : left_alone) {
     geometry.notes.push_back(left.primitive.path() + ": " + left.note);
@@ -69,9 +75,10 @@ gltf::Result load(const std::filesystem::path& path, const gltf::ConvertOptions&
 
 gltf::Result loadGeometry(const std::filesystem::path& path, std::vector<uint8_t> file,
                           const gltf::ConvertOptions& options, const PrimitiveFilter& wanted,
-                          Geometry& geometry) {
+                          Geometry& geometry, OurPayloads ours) {
   geometry.file = std::move(file);
-  gltf::Result result = gltf::guarded([&]() { return load(path, options, wanted, geometry); });
+  gltf::Result result =
+      gltf::guarded([&]() { return load(path, options, wanted, ours, geometry); });
   if (!result.ok()) {
     result.where = path.string() + (result.where.empty() ? "" : ": " + result.where);
   }

@@ -58,16 +58,21 @@ struct Geometry {
 /// Whether a primitive takes part.
 using PrimitiveFilter = std::function<bool(uint32_t mesh, uint32_t primitive)>;
 
+/// Whether our own payloads are needed as well, or only what other codecs get.
+enum class OurPayloads : uint8_t { kEncoded, kLeftOut };
+
 /// Quantises and encodes a file as `convert` does, but keeps payloads that gain nothing.
 /// path    names the file in messages; the buffers of a .gltf are next to it.
 /// file    its bytes, see gltf::readFile().
 /// wanted  null: all triangle primitives. A primitive counts once however often it is used; those
 ///         with the same attributes share a piece, those with the same indices too are one.
+/// ours    when they are left out, Geometry::payloads has plans without results, and vertex_count
+///         stays 0.
 /// Errors: as convertFile(). A file without triangle primitives is not an error; `inputs` is then
 /// empty.
 gltf::Result loadGeometry(const std::filesystem::path& path, std::vector<uint8_t> file,
                           const gltf::ConvertOptions& options, const PrimitiveFilter& wanted,
-                          Geometry& geometry);
+                          Geometry& geometry, OurPayloads ours = OurPayloads::kEncoded);
 
 /// A piece of a plan; with `keep_all` nothing is left out. Borrows from the plan.
 PieceInput makePiece(const gltf::PiecePlan& plan, bool keep_all);

@@ -19,6 +19,7 @@
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/system.h"
+#include "notes.h"
 #include "progress_line.h"
 
 namespace mcc::tool {
@@ -29,6 +30,7 @@ using Json = nlohmann::ordered_json;
 
 enum class Outcome : uint8_t { kDone, kCopied, kUpToDate, kFailed };
 constexpr size_t kOutcomeCount = 4;
+constexpr size_t kShownNotes = 3;  ///< of a file, without -v
 
 struct BatchFile {
   std::string input;
@@ -38,6 +40,7 @@ struct BatchFile {
   gltf::Result failure;
   uint64_t input_bytes = 0;
   uint64_t output_bytes = 0;
+  std::vector<std::string> notes;
   Json report;  ///< only when --report was given
 };
 
@@ -221,7 +224,11 @@ void Batch::finishOne(const BatchFile& file, const BatchResult& made) {
     keepRecord(false);
   }
   line_.clear();
-  if (printsLines()) has_output_failed_ |= printOut(lineOf(file)) != kDone;
+  if (printsLines()) {
+    const size_t most = options_.common.is_verbose ? kAllNotes : kShownNotes;
+    const std::string notes = notesText(file.notes, most, "  ");
+    has_output_failed_ |= printOut(lineOf(file) + notes) != kDone;
+  }
   showProgress();
 }
 
@@ -242,6 +249,7 @@ void Batch::makeOne(BatchFile& file) {
       file.outcome = made.copied ? Outcome::kCopied : Outcome::kDone;
       file.input_bytes = made.input_bytes;
       file.output_bytes = made.output_bytes;
+      file.notes = made.notes;
       file.report = std::move(made.details);
     }
   }
@@ -271,6 +279,12 @@ void Batch::makeAll() {
     if (is_unsaid) file.failure = {file.input, all.ok() ? "was left out" : all.what};
   }
   line_.clear();
+}
+
+std::vector<std::string> printableOf(const std::vector<std::string>& notes) {
+  std::vector<std::string> printable;
+  for (const std::string& note : notes) printable.push_back(gltf::printable(note));
+  return printable;
 }
 
 std::string ratioOf(uint64_t input_bytes, uint64_t output_bytes) {
@@ -306,7 +320,13 @@ std::string Batch::summaryText() const {
   }
   table.addRule();
   addRow("all", all);
-  return "\n" + table.print(Format::kPretty);
+  const auto noted = std::count_if(files_.begin(), files_.end(),
+                                   [](const BatchFile& file) { return !file.notes.empty(); });
+  const std::string about =
+      noted == 0 ? ""
+                 : fmt::format("{} notes; see above\n",
+                               counted(static_cast<uint64_t>(noted), "file has", "files have"));
+  return "\n" + table.print(Format::kPretty) + about;
 }
 
 /// One row per file, in the order of the command line.
@@ -334,6 +354,7 @@ Json Batch::reportOf() const {
       entry["input_bytes"] = file.input_bytes;
       entry["output_bytes"] = file.output_bytes;
     }
+    if (!file.notes.empty()) entry["notes"] = printableOf(file.notes);
     if (!file.report.is_null()) entry[options_.details_name] = file.report;
     list.push_back(std::move(entry));
   }

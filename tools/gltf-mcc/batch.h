@@ -21,6 +21,7 @@ struct BatchResult {
   uint64_t input_bytes = 0;
   uint64_t output_bytes = 0;
   gltf::FilesInUse files;
+  std::vector<std::string> notes;
   nlohmann::ordered_json details;  ///< for the report; may be null
 };
 

@@ -20,6 +20,9 @@ struct CommonOptions {
   Format format = Format::kPretty;
   bool is_quiet = false;
   bool is_verbose = false;
+
+  /// Whether tables are printed, and not only what everybody wants to know.
+  bool hasTables() const { return is_verbose || format == Format::kMarkdown; }
 };
 
 /// Each of these adds a subcommand to the app; when the user chose it, `status` becomes the exit

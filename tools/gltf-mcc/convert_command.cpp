@@ -54,6 +54,7 @@ bool isGltf(const std::string& name) {
 
 int ConvertCommand::run() {
   files.sort("convert");
+  files.refuseReplacing("convert", "the result is not the same model to the last bit");
   if (isStandardStream(report)) {
     throw CLI::ValidationError("--report", "takes the name of a file; --format json prints it");
   }
@@ -86,9 +87,10 @@ int ConvertCommand::runMany() const {
     const gltf::Result outcome = gltf::convertTo({{to, nullptr}, &temporaryFiles()},
                                                  {gltf::pathOf(file), {}}, of_file, done);
     if (!outcome.ok()) return outcome;
-    result = {done.copied, done.input_bytes, done.output_bytes, done.files, {}};
+    result = {done.copied, done.input_bytes, done.output_bytes, done.files, done.notes, {}};
     if (!report.empty()) {
-      result.details = reportJson({file, gltf::textOf(to), std::move(done), {}}, of_file, nullptr);
+      result.details =
+          reportJson({file, gltf::textOf(to), std::move(done), {}, {}}, of_file, nullptr);
     }
     return outcome;
   };
@@ -114,6 +116,9 @@ gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison&
   if (!result.ok()) return result;
   CommonOptions shown = common;
   shown.is_quiet |= sink.isStandardOutput();
+  compared.is_full = common.is_verbose || common.format != Format::kPretty || !report.empty() ||
+                     comparison.mode == "draco";
+  const bool compares_size = !compared.is_full && !shown.is_quiet;
   const bool is_measured = canMeasureWhole() && (!report.empty() || !shown.is_quiet);
   const auto measure = [&](const char* name, std::function<FileContents()> read) {
     return std::async(launchPolicy(convert.thread_count),
@@ -130,7 +135,13 @@ gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison&
   {
     WorkProgress progress(common.is_quiet, converted.input);
     gltf::ConvertOptions watched = convert;
-    watched.progress = [&](const char* stage, double share) { progress.tell(stage, share); };
+    watched.progress = [&](const char* stage, double share) {
+      progress.tell(stage, share);
+      const bool is_checking = std::string_view(stage) == "checking";
+      if (is_checking && compares_size) {
+        compared.beginSize(source.source(), convert, converted.report);
+      }
+    };
     result = gltf::convertTo(sink.sink(), source.source(), watched, converted.report);
   }
   if (result.ok()) result = sink.finish();
@@ -144,6 +155,7 @@ gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison&
     output_size = measure("output", [&]() { return sink.contents(done.files.output); });
   }
   result = compared.finish(source.source(), convert, converted.report, shown, !report.empty());
+  converted.draco = compared.line;
   if (!result.ok() || !is_measured) return result;
   converted.sizes.push_back(input_size.get());
   if (output_size.valid()) converted.sizes.push_back(output_size.get());
@@ -178,7 +190,7 @@ int ConvertCommand::runOne() const {
   // failed.
   const gltf::Result writable = report.empty() ? gltf::Result{} : checkReport(report);
   if (!writable.ok()) return reportFailure(writable);
-  Converted converted{files.inputs[0], files.output, {}, {}};
+  Converted converted{files.inputs[0], files.output, {}, {}, {}};
   ConvertComparison compared = comparison;
   const gltf::Result outcome = convertOne(converted, compared);
   if (!outcome.ok()) return reportFailure(outcome, converted.input, converted.output);
@@ -189,9 +201,16 @@ int ConvertCommand::runOne() const {
   }
   if (common.is_quiet || isStandardOutput(files.output)) return kDone;
   if (common.format == Format::kJson) return printOut(printReport(json));
-  const std::string text = reportText(converted, common);
-  const bool has_more = !compared.text.empty() && common.format != Format::kCsv;
-  return printOut(has_more ? text + "\n" + compared.text : text);
+  std::string text = reportText(converted, common) + compared.notes;
+  const bool has_tables = common.hasTables() || comparison.mode == "draco";
+  if (has_tables && common.format != Format::kCsv && !compared.tables.empty()) {
+    text +=
+        "\nPayloads beside Draco's, without what Draco cannot code. They are made again for this, "
+        "and\n"
+        "times are CPU times of one thread, so figures may differ from those above.\n\n" +
+        compared.tables;
+  }
+  return printOut(text);
 }
 
 void addBits(CLI::App& command, const std::string& name, uint8_t& bits, int low, int high) {

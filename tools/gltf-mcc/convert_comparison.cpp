@@ -8,9 +8,12 @@
 #include <future>
 #include <set>
 
+#include "bench/codecs.h"
 #include "bench/emit_draco.h"
+#include "bench/geometry.h"
 #include "compare_command.h"
 #include "comparison_report.h"
+#include "gltf/base/parallel.h"
 #include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "gltf/document/glb.h"
@@ -26,7 +29,84 @@ namespace fs = std::filesystem;
 constexpr uint64_t kComparedTriangles = 2'000'000;
 constexpr uint32_t kRuns = 3;
 
+using Primitives = std::set<std::pair<uint32_t, uint32_t>>;
+
+struct Compressed {
+  Primitives primitives;
+  uint64_t triangle_count = 0;
+};
+
+Compressed compressedOf(const gltf::ConvertReport& report) {
+  Compressed compressed;
+  for (const gltf::PrimitiveReport& primitive : report.primitives) {
+    if (!primitive.compressed) continue;
+    compressed.primitives.insert({primitive.mesh, primitive.primitive});
+    compressed.triangle_count += primitive.triangle_count;
+  }
+  return compressed;
+}
+
+bench::PrimitiveFilter filterOf(const Primitives& primitives) {
+  return [&primitives](uint32_t mesh, uint32_t primitive) {
+    return primitives.count({mesh, primitive}) != 0;
+  };
+}
+
+DracoSize measureSize(const fs::path& path, std::vector<uint8_t> file,
+                      const gltf::ConvertOptions& convert, const Primitives& primitives) {
+  DracoSize size;
+  const gltf::Result done = gltf::guarded([&]() -> gltf::Result {
+    bench::Geometry geometry;
+    MCC_GLTF_TRY(bench::loadGeometry(path, std::move(file), convert, filterOf(primitives), geometry,
+                                     bench::OurPayloads::kLeftOut));
+    bench::EncodedFile encoded;
+    const bench::Outcome outcome = bench::encodeFile(geometry, bench::Codec::kDraco0, encoded);
+    if (outcome.ok()) size = {encoded.bytes(), geometry.has_left_out};
+    return {};
+  });
+  return done.ok() ? size : DracoSize{};
+}
+
+/// Returns our bytes without what Draco cannot code, see bench::isLeftOut().
+uint64_t comparableBytes(const gltf::ConvertReport& report) {
+  double bits = 0;
+  for (const gltf::PayloadReport& payload : report.payloads) {
+    bits += 8 * static_cast<double>(payload.payload_bytes);
+    for (const gltf::AttributeReport& attribute : payload.attributes) {
+      const bool is_left_out =
+          attribute.name.starts_with("target ") || attribute.component_count > 4;
+      if (is_left_out) bits -= attribute.coded_bits;
+    }
+  }
+  return static_cast<uint64_t>(bits / 8 + 0.5);
+}
+
+/// Returns "52,311 bytes …", the line about Draco.
+std::string lineOf(const DracoSize& size, uint64_t ours) {
+  if (size.bytes == 0) return "cannot code this geometry";
+  const double ratio =
+      static_cast<double>(size.bytes) / static_cast<double>(std::max<uint64_t>(ours, 1));
+  const char* const without =
+      size.has_left_out ? ", without what it cannot code, such as morph targets" : "";
+  return fmt::format("{} bytes for the same geometry at its smallest{}: {:.2f} times our {}",
+                     grouped(size.bytes), without, ratio, grouped(ours));
+}
+
 }  // namespace
+
+void ConvertComparison::beginSize(const gltf::Source& input, const gltf::ConvertOptions& convert,
+                                  const gltf::ConvertReport& report) {
+  Compressed compressed = compressedOf(report);
+  const bool is_too_large = mode.empty() && compressed.triangle_count > kComparedTriangles;
+  if (mode == "none" || is_too_large || compressed.primitives.empty() || size_.valid()) return;
+  gltf::ConvertOptions options = convert;
+  options.thread_count = 1;
+  options.progress = nullptr;
+  size_ = std::async(std::launch::async,
+                     [this, path = input.path, options, held = std::move(compressed.primitives)]() {
+                       return measureSize(path, std::move(source), options, held);
+                     });
+}
 
 void ConvertComparison::addOptions(CLI::App& command) {
   command.add_option("--compare", mode, "Compare with Draco [draco, but none above 2M triangles]")
@@ -49,14 +129,14 @@ gltf::Result ConvertComparison::begin(const gltf::Source& input, const std::stri
   std::error_code ignored;
   if (result.ok() && !gltf::isGlb(source) && fs::equivalent(input.path, output, ignored)) {
     mode = "none";  // the buffer of the input may be replaced, too
-    text += "note: not compared with Draco: the input is replaced\n";
+    notes += "note: not compared with Draco: the input is replaced\n";
   }
   if (!result.ok() || draco_output.empty()) return result;
   result = gltf::checkWritable(draco_output);
-  std::vector<std::string> notes;
-  if (result.ok()) result = bench::emitDraco(input.path, source, convert, draco, notes);
-  for (const std::string& note : notes)
-    text += "note: " + gltf::printable(draco_output + ": " + note) + "\n";
+  std::vector<std::string> left_out;
+  if (result.ok()) result = bench::emitDraco(input.path, source, convert, draco, left_out);
+  for (const std::string& note : left_out)
+    notes += "note: " + gltf::printable(draco_output + ": " + note) + "\n";
   return result;
 }
 
@@ -68,20 +148,18 @@ gltf::Result ConvertComparison::finish(const gltf::Source& input,
     gltf::Result written = gltf::writeFile(draco_output, draco, &temporaryFiles());
     if (!written.ok()) return written;
   }
-  std::set<std::pair<uint32_t, uint32_t>> compressed;
-  uint64_t triangle_count = 0;
-  for (const gltf::PrimitiveReport& primitive : report.primitives) {
-    if (!primitive.compressed) continue;
-    compressed.insert({primitive.mesh, primitive.primitive});
-    triangle_count += primitive.triangle_count;
+  if (size_.valid() && !report.payloads.empty()) {
+    line = lineOf(size_.get(), comparableBytes(report));
   }
+  const Compressed compressed = compressedOf(report);
   const bool is_seen = is_reported || !common.is_quiet;
-  if (mode == "none" || !is_seen || compressed.empty()) return {};
-  if (mode.empty() && triangle_count > kComparedTriangles) {
-    text += fmt::format("note: not compared with Draco above {} triangles; use --compare draco\n",
-                        grouped(kComparedTriangles));
+  if (mode == "none" || !is_seen || compressed.primitives.empty()) return {};
+  if (mode.empty() && compressed.triangle_count > kComparedTriangles) {
+    notes += fmt::format("note: not compared with Draco above {} triangles; use --compare draco\n",
+                         grouped(kComparedTriangles));
     return {};
   }
+  if (!is_full) return {};
   auto size = std::async(launchPolicy(convert.thread_count), [&]() -> std::optional<WholeSize> {
     std::vector<std::string> ignored;
     const bool is_made =
@@ -91,27 +169,29 @@ gltf::Result ConvertComparison::finish(const gltf::Source& input,
   });
   // With --format csv only one table is printed; `compare` prints the other one.
   const bool is_csv = common.format == Format::kCsv && !is_reported;
-  const gltf::Result result = is_csv ? gltf::Result{} : compare(input, convert, common, compressed);
+  const gltf::Result result =
+      is_csv ? gltf::Result{} : compare(input, convert, common, compressed.primitives);
   draco_size = size.get();
   return result;
 }
 
 gltf::Result ConvertComparison::compare(const gltf::Source& input,
                                         const gltf::ConvertOptions& convert,
-                                        const CommonOptions& common,
-                                        const std::set<std::pair<uint32_t, uint32_t>>& compressed) {
-  const auto is_compressed = [&](uint32_t mesh, uint32_t primitive) {
-    return compressed.count({mesh, primitive}) != 0;
-  };
+                                        const CommonOptions& common, const Primitives& compressed) {
   bench::FileFigures figures;
-  const gltf::Result compared = compareWithDraco(gltf::textOf(input.path), source, convert,
-                                                 is_compressed, kRuns, common.is_quiet, figures);
+  const gltf::Result compared =
+      compareWithDraco(gltf::textOf(input.path), source, convert, filterOf(compressed), kRuns,
+                       common.is_quiet, figures);
   if (!compared.ok()) {
-    text += "note: not compared with Draco: " + gltf::printable(compared.message()) + "\n";
+    notes += "note: not compared with Draco: " + gltf::printable(compared.message()) + "\n";
     return {};
   }
   json = comparisonJson(figures);
-  text += comparisonText(figures, common.format);
+  tables = comparisonText(figures, common.format);
+  const bench::CodecFigures& small = figures.of(bench::Codec::kDraco0);
+  if (small.ok()) {
+    line = lineOf({small.bytes, figures.has_left_out}, figures.of(bench::Codec::kMcc).bytes);
+  }
   return {};
 }
 
@@ -132,6 +212,9 @@ gltf::Result ConvertComparison::finish(const gltf::Source&, const gltf::ConvertO
                                        const gltf::ConvertReport&, const CommonOptions&, bool) {
   return {};
 }
+
+void ConvertComparison::beginSize(const gltf::Source&, const gltf::ConvertOptions&,
+                                  const gltf::ConvertReport&) {}
 
 }  // namespace mcc::tool
 

@@ -3,6 +3,7 @@
 #define MCC_TOOL_CONVERT_COMPARISON_H_
 
 #include <cstdint>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -15,6 +16,12 @@
 
 namespace mcc::tool {
 
+/// What Draco makes of the primitives that were compressed.
+struct DracoSize {
+  uint64_t bytes = 0;         ///< 0: it failed
+  bool has_left_out = false;  ///< without what Draco cannot code, such as morph targets
+};
+
 /// The options `--compare` and `--emit-draco` of `convert`. A build without other codecs does not
 /// have them and compares nothing.
 struct ConvertComparison {
@@ -22,17 +29,27 @@ struct ConvertComparison {
   std::string draco_output;     ///< path of the Draco file; empty: none is written
   std::vector<uint8_t> source;  ///< a copy of the input when the output replaces it
   std::vector<uint8_t> draco;   ///< the bytes of the Draco file
-  std::string text;             ///< tables and notes to print
-  nlohmann::ordered_json json;  ///< see comparisonJson(); null when nothing was compared
-  std::optional<WholeSize> draco_size;  ///< only when something was compared
+  std::string line;             ///< Draco's size in words; empty when nothing was compared
+  std::string tables;           ///< empty unless is_full
+  std::string notes;            ///< lines to print
+  nlohmann::ordered_json json;  ///< see comparisonJson(); null unless is_full
+  std::optional<WholeSize> draco_size;  ///< only when is_full
+  /// Whether Draco is measured at all its speeds, for tables and reports; else only its size at its
+  /// smallest speed, while the conversion is being checked.
+  bool is_full = false;
 
   void addOptions(CLI::App& command);
   /// Called before the conversion: reads the source, makes the Draco file, and checks that it can
   /// be written.
   gltf::Result begin(const gltf::Source& input, const std::string& output,
                      const gltf::ConvertOptions& convert);
-  /// Called after the conversion: writes the Draco file, and compares the primitives that were
-  /// compressed, unless the result would not be shown or reported.
+  /// Called when everything is encoded and `report` lists the primitives: starts to measure Draco's
+  /// size on a thread of its own.
+  void beginSize(const gltf::Source& input, const gltf::ConvertOptions& convert,
+                 const gltf::ConvertReport& report);
+  /// Called after the conversion: writes the Draco file, and waits for Draco's size or, when
+  /// is_full, compares the primitives that were compressed, unless the result would not be shown or
+  /// reported.
   gltf::Result finish(const gltf::Source& input, const gltf::ConvertOptions& convert,
                       const gltf::ConvertReport& report, const CommonOptions& common,
                       bool is_reported);
@@ -41,6 +58,8 @@ struct ConvertComparison {
   gltf::Result compare(const gltf::Source& input, const gltf::ConvertOptions& convert,
                        const CommonOptions& common,
                        const std::set<std::pair<uint32_t, uint32_t>>& compressed);
+
+  std::shared_future<DracoSize> size_;
 };
 
 }  // namespace mcc::tool

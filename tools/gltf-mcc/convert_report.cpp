@@ -5,11 +5,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "convert_summary.h"
 #include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "gltf/files/file_io.h"
 #include "gltf/inspect/report_json.h"
 #include "interrupt.h"
+#include "notes.h"
 
 namespace mcc::tool {
 namespace {
@@ -21,8 +23,6 @@ struct Totals {
   uint64_t payload_bytes = 0;
   uint64_t wedge_count = 0;
   uint64_t vertex_count = 0;
-  uint64_t triangle_count = 0;
-  uint64_t compressed_primitives = 0;
   std::vector<gltf::StreamReport> streams;
   std::vector<gltf::AttributeReport> attributes;
 };
@@ -59,12 +59,8 @@ Totals totalsOf(const gltf::ConvertReport& report) {
     totals.payload_bytes += payload.payload_bytes;
     totals.wedge_count += payload.wedge_count;
     totals.vertex_count += payload.vertex_count;
-    totals.triangle_count += payload.triangle_count;
     for (const auto& stream : payload.streams) addStream(stream, totals);
     for (const auto& attribute : payload.attributes) addAttribute(attribute, totals);
-  }
-  for (const auto& primitive : report.primitives) {
-    totals.compressed_primitives += primitive.compressed ? 1 : 0;
   }
   return totals;
 }
@@ -117,48 +113,22 @@ Table primitiveTable(const gltf::ConvertReport& report, Format format) {
   return table;
 }
 
-std::string summaryText(const Converted& converted, const Totals& totals) {
+std::string tablesText(const Converted& converted, const Totals& totals, Format format) {
   const gltf::ConvertReport& report = converted.report;
-  const double in = static_cast<double>(report.input_bytes);
-  const double out = static_cast<double>(report.output_bytes);
-  std::string text =
-      fmt::format("{} -> {}: {}, ratio {:.2f}\n", gltf::printable(converted.input),
-                  gltf::printable(converted.output),
-                  sizeChange(report.input_bytes, report.output_bytes), out == 0 ? 0 : in / out);
-  if (report.copied) return text;
-  if (report.fallback_bytes != 0) {
-    text += fmt::format("fallback file: {} bytes\n", grouped(report.fallback_bytes));
-  }
-  text += fmt::format(
-      "{} of {} primitives compressed into {} {} of {} bytes; {} triangles and {} vertices "
-      "kept ({} positions)\n",
-      totals.compressed_primitives, report.primitives.size(), report.payloads.size(),
-      report.payloads.size() == 1 ? "payload" : "payloads", grouped(totals.payload_bytes),
-      grouped(totals.triangle_count), grouped(totals.wedge_count), grouped(totals.vertex_count));
+  std::string text;
+  if (!report.payloads.empty()) text += "\n" + streamTable(totals, format).print(format);
+  if (!report.primitives.empty()) text += "\n" + primitiveTable(report, format).print(format);
+  if (!converted.sizes.empty()) text += "\n" + wholeSizesText(converted.sizes, format);
   if (report.checked && !report.copied) {
-    text += fmt::format(
-        "decoded and compared with the source: equal within the promised errors "
-        "(encode {:.0f} ms, decode {:.0f} ms, check {:.0f} ms)\n",
-        1000 * report.encode_seconds, 1000 * report.decode_seconds, 1000 * report.check_seconds);
+    text += fmt::format("\nencoded in {:.0f} ms, decoded in {:.0f} ms, checked in {:.0f} ms\n",
+                        1000 * report.encode_seconds, 1000 * report.decode_seconds,
+                        1000 * report.check_seconds);
   }
   for (const auto& attribute : totals.attributes) {
     if (attribute.promised_distance == 0) continue;
     text += fmt::format("no {} is farther than {:.6g} from its source (promised {:.6g})\n",
                         gltf::printable(attribute.name), attribute.max_distance,
                         attribute.promised_distance);
-  }
-  return text;
-}
-
-std::string notesText(const gltf::ConvertReport& report, bool is_verbose) {
-  constexpr size_t kShownNotes = 12;
-  std::string text;
-  const size_t shown =
-      is_verbose ? report.notes.size() : std::min(report.notes.size(), kShownNotes);
-  for (size_t i = 0; i < shown; ++i) text += "note: " + report.notes[i] + "\n";
-  if (shown < report.notes.size()) {
-    text +=
-        fmt::format("and {} more notes; -v or --report shows them\n", report.notes.size() - shown);
   }
   return text;
 }
@@ -184,15 +154,15 @@ std::string reportText(const Converted& converted, const CommonOptions& options)
     }
     return table.print(Format::kCsv);
   }
-  std::string text = summaryText(converted, totals);
-  if (!report.payloads.empty()) {
-    text += "\n" + streamTable(totals, options.format).print(options.format);
+  std::string text = titleText(converted) + summaryText(converted);
+  if (!options.hasTables()) {
+    text += notesText(report.notes, kSomeNotes);
+    // Where nothing was compressed, these say why.
+    return report.copied ? text + notesText(report.remarks, kSomeNotes) : text;
   }
-  if (options.is_verbose && !report.primitives.empty()) {
-    text += "\n" + primitiveTable(report, options.format).print(options.format);
-  }
-  if (!converted.sizes.empty()) text += "\n" + wholeSizesText(converted.sizes, options.format);
-  const std::string notes = notesText(report, options.is_verbose);
+  text += tablesText(converted, totals, options.format);
+  const std::string notes =
+      notesText(report.notes, kAllNotes) + notesText(report.remarks, kAllNotes);
   return notes.empty() ? text : text + "\n" + notes;
 }
 

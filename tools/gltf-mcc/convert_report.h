@@ -17,9 +17,11 @@ struct Converted {
   std::string output;
   gltf::ConvertReport report;
   std::vector<WholeSize> sizes;  ///< sizes of whole files; empty when not measured
+  std::string draco;  ///< the same geometry with Draco, in one line; empty when not compared
 };
 
-/// Returns the tables of `convert`.
+/// Returns what `convert` prints: the summary and the notes; with -v and in other formats than
+/// kPretty also tables.
 std::string reportText(const Converted& converted, const CommonOptions& options);
 
 /// Returns everything known about a conversion. `comparison` is left out when it is null.

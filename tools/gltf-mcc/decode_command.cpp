@@ -11,6 +11,7 @@
 #include "help.h"
 #include "in_out.h"
 #include "interrupt.h"
+#include "notes.h"
 #include "progress_line.h"
 #include "standard_streams.h"
 
@@ -25,6 +26,7 @@ struct DecodeCommand {
 
   int run() {
     files.sort("decode");
+    files.refuseReplacing("decode", "the compressed file would be gone");
     return files.is_batch ? runMany() : runOne();
   }
 
@@ -51,7 +53,7 @@ int DecodeCommand::runMany() const {
     of_file.thread_count = threads_of_file;
     gltf::Result outcome =
         gltf::decodeTo({{to, nullptr}, &temporaryFiles()}, {gltf::pathOf(file), {}}, of_file, done);
-    result = {done.copied, done.input_bytes, done.output_bytes, done.files, {}};
+    result = {done.copied, done.input_bytes, done.output_bytes, done.files, done.notes, {}};
     return outcome;
   };
   return runBatch(options);
@@ -80,7 +82,7 @@ int DecodeCommand::runOne() const {
                       counted(report.payload_count, "payload", "payloads"),
                       grouped(report.triangle_count), grouped(report.wedge_count),
                       1000 * report.decode_seconds);
-  for (const std::string& note : report.notes) text += "note: " + note + "\n";
+  text += notesText(report.notes, common.is_verbose ? kAllNotes : kSomeNotes);
   return printOut(text);
 }
 

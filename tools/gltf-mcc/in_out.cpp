@@ -14,6 +14,7 @@ void InOut::addOptions(CLI::App& command) {
   command.add_option("-i,--input", input, "Same as IN")->type_name("FILE");
   command.add_option("-o,--output", output, "Same as OUT, or the folder for several IN")
       ->type_name("FILE|DIR");
+  command.add_flag("--in-place", may_replace_input, "Let OUT replace IN");
 }
 
 void InOut::sort(const std::string& command) {
@@ -47,6 +48,16 @@ void InOut::sort(const std::string& command) {
   if (is_batch && std::any_of(inputs.begin(), inputs.end(), isStandardStream)) {
     throw CLI::ValidationError(command, "standard input cannot be one of several inputs");
   }
+}
+
+void InOut::refuseReplacing(const std::string& command, const std::string& loss) const {
+  std::error_code ignored;
+  const bool is_same =
+      !is_batch && !isStandardStream(output) &&
+      std::filesystem::equivalent(gltf::pathOf(inputs[0]), gltf::pathOf(output), ignored);
+  if (!is_same || may_replace_input) return;
+  throw CLI::ValidationError(command, output + ": is IN and OUT, and " + loss +
+                                          "; choose another OUT, or pass --in-place");
 }
 
 }  // namespace mcc::tool

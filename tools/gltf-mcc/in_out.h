@@ -15,12 +15,16 @@ struct InOut {
   std::string input;                ///< the value of -i
   std::string output;               ///< the value of -o; the output after sort()
   bool is_batch = false;            ///< `output` is a folder
+  bool may_replace_input = false;   ///< --in-place
 
   void addOptions(CLI::App& command);
   /// Separates the inputs from the output. The value of -o is a folder if it ends with a slash, if
   /// a folder of that name exists, or if there are several inputs. Throws CLI::ValidationError,
   /// which is reported as wrong usage.
   void sort(const std::string& command);
+  /// Throws CLI::ValidationError where OUT is IN, unless --in-place was given; `loss` says what
+  /// would be lost. Called after sort().
+  void refuseReplacing(const std::string& command, const std::string& loss) const;
 };
 
 }  // namespace mcc::tool

@@ -158,6 +158,8 @@ struct AttributeReport {
   double median_error = 0;       ///< measured, for angles only
   double promised_distance = 0;  ///< for positions under max_position_error, else 0
   double max_distance = 0;       ///< measured where a distance was promised
+  double extent = 0;  ///< for positions: the longest side of the box around the decoded ones
+  std::vector<std::string> primitives;  ///< JSON paths of the primitives it belongs to
 };
 
 /// Bits of one stream of a payload.
@@ -204,11 +206,24 @@ struct FilesInUse {
   std::vector<std::filesystem::path> output;       ///< counted in output_bytes, the main one first
 };
 
+/// What the bytes of a document and its buffers are for. The four sums add up to its size.
+struct Contents {
+  uint64_t geometry_bytes = 0;    ///< attributes, indices and morph targets of meshes, coded or not
+  uint64_t image_bytes = 0;       ///< images inside of the document
+  uint64_t animation_bytes = 0;   ///< samplers of animations, and matrices of skins
+  uint64_t other_bytes = 0;       ///< the JSON, padding, and everything else
+  uint32_t image_count = 0;       ///< images inside of the document
+  uint32_t image_file_count = 0;  ///< images in files of their own, which no sum contains
+  uint32_t animation_count = 0;
+};
+
 /// What convert() did.
 struct ConvertReport {
   uint64_t input_bytes = 0;     ///< with all buffers
   uint64_t output_bytes = 0;    ///< with all buffers, without the fallback
   uint64_t fallback_bytes = 0;  ///< size of the fallback file
+  Contents input_contents;
+  Contents output_contents;
   FilesInUse files;
   bool copied = false;   ///< compression gained nothing, so the output is the input
   bool checked = false;  ///< the output was decoded and compared with the source
@@ -217,7 +232,9 @@ struct ConvertReport {
   double check_seconds = 0;
   std::vector<PayloadReport> payloads;
   std::vector<PrimitiveReport> primitives;  ///< all primitives of the file, in file order
-  std::vector<std::string> notes;           ///< "/meshes/0/primitives/1: why"
+  /// What the user may want to do something about: "/meshes/0/primitives/1: why".
+  std::vector<std::string> notes;
+  std::vector<std::string> remarks;  ///< the same for facts that ask nothing of anybody
 };
 
 /// What quantised attributes become when a file is decoded.

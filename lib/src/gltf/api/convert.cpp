@@ -3,6 +3,7 @@
 // Implements the public functions: load, compress or decompress, write, check.
 #include "gltf/api/convert.h"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 
@@ -15,6 +16,7 @@
 #include "gltf/decompress/add_fallback.h"
 #include "gltf/decompress/coded_input.h"
 #include "gltf/decompress/decompress.h"
+#include "gltf/document/contents.h"
 #include "gltf/document/rebuild.h"
 #include "gltf/document/uri.h"
 #include "gltf/files/destination.h"
@@ -204,6 +206,7 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
   tell(options, "reading");
   MCC_GLTF_TRY(loadFor(output, input, document, report.files));
   document.decoded = DecodedBytes(options.max_decoded_bytes, document.source_bytes);
+  report.input_contents = contentsOf(document);
   Result refused;
   MCC_GLTF_TRY(decodeViews(options.decoders, document, nullptr, &refused));
   // With indices_only, decoded attributes would have to be stored again next to the payload.
@@ -216,6 +219,7 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
   // What another codec compressed and ours cannot read is no reason to refuse the rest.
   if (compressed.payloads.empty() && !refused.ok()) return refused;
   report.notes.insert(report.notes.end(), compressed.notes.begin(), compressed.notes.end());
+  report.remarks = std::move(compressed.remarks);
   addPrimitives(document, compressed, report);
   if (!compressed.payloads.empty()) {
     if (options.fallback) {
@@ -234,12 +238,20 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
     forgetPayloads(report);
     report.fallback_bytes = 0;
     if (report.copied) {
-      report.notes.push_back("nothing becomes smaller; the output is a copy of the input");
+      report.remarks.push_back("nothing becomes smaller; the output is a copy of the input");
     }
   }
   report.encode_seconds = watch.seconds() - compressed.decode_seconds;
   report.output_bytes = report.copied ? document.source_bytes : package.documentBytes();
   return {};
+}
+
+/// Returns the contents of the output alone: a fallback holds geometry, too.
+Contents withoutFallback(Contents contents, const ConvertReport& report) {
+  contents.geometry_bytes -= std::min(contents.geometry_bytes, report.fallback_bytes);
+  const uint64_t known = contents.geometry_bytes + contents.image_bytes + contents.animation_bytes;
+  contents.other_bytes = report.output_bytes - std::min(report.output_bytes, known);
+  return contents;
 }
 
 /// Checks the stored output and completes the report.
@@ -261,8 +273,10 @@ Result checkOutput(Conversion& conversion, const ConvertOptions& options,
           "max_decoded_bytes (--max-decoded-bytes)");
     }
     report.check_seconds = watch.seconds();
+    report.output_contents = withoutFallback(checked.contents, report);
     addPayloads(payloads, std::move(checked), report);
   }
+  if (report.copied) report.output_contents = report.input_contents;
   report.checked = true;
   return {};
 }
@@ -343,6 +357,7 @@ Result convertTo(const ListedSink& sink, const Source& source, const ConvertOpti
     return {};
   });
   cleanNotes(report.notes);
+  cleanNotes(report.remarks);
   for (PrimitiveReport& primitive : report.primitives) {
     primitive.note = printable(primitive.note);
   }

@@ -58,8 +58,8 @@ void addPrimitives(const Document& document, const Compressed& compressed, Conve
   for (uint32_t i = 0; i < compressed.payloads.size(); ++i) {
     const EncodeResult& result = compressed.payloads[i].result;
     if (!result.whole_because.empty()) {
-      report.notes.push_back(at("/meshes", compressed.payloads[i].plan.mesh) +
-                             ": is not cut into blocks: " + result.whole_because);
+      report.remarks.push_back(at("/meshes", compressed.payloads[i].plan.mesh) +
+                               ": is not cut into blocks: " + result.whole_because);
     }
     for (const PiecePlan& piece : compressed.payloads[i].plan.pieces) {
       for (const PartPlan& part : piece.parts) {
@@ -73,7 +73,8 @@ void addPrimitives(const Document& document, const Compressed& compressed, Conve
   for (const LeftAlone& left : compressed.left_alone) {
     PrimitiveReport& primitive = known[{left.primitive.mesh, left.primitive.primitive}];
     primitive.note = left.note;
-    report.notes.push_back(left.primitive.path() + ": " + left.note);
+    (left.is_larger ? report.remarks : report.notes)
+        .push_back(left.primitive.path() + ": " + left.note);
   }
   const Json& meshes = arrayOf(document.json, "meshes");
   for (uint32_t m = 0; m < meshes.size(); ++m) {

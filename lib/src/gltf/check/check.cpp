@@ -13,6 +13,7 @@
 #include "gltf/decompress/decompress.h"
 #include "gltf/document/accessors.h"
 #include "gltf/document/bounds.h"
+#include "gltf/document/contents.h"
 
 namespace mcc::gltf {
 namespace {
@@ -23,6 +24,24 @@ Result failed(Result result, const std::string& where) {
   result.what = "the check of the result failed: " + result.what + "; please report this";
   return result;
 }
+
+/// The box around the positions of several pieces.
+struct Box {
+  double low[3];
+  double high[3];
+  bool is_empty = true;
+
+  void add(const Bounds& bounds) {
+    for (size_t i = 0; i < std::min<size_t>(bounds.min.size(), 3); ++i) {
+      low[i] = is_empty ? bounds.min[i] : std::min(low[i], bounds.min[i]);
+      high[i] = is_empty ? bounds.max[i] : std::max(high[i], bounds.max[i]);
+    }
+    is_empty = false;
+  }
+  double longestSide() const {
+    return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+  }
+};
 
 class Checker {
  public:
@@ -36,6 +55,7 @@ class Checker {
              const FileReader& read_file, uint32_t thread_count) {
     Document compressed;
     MCC_GLTF_TRY(failed(loadDocument(written, read_file, compressed), ""));
+    result_.contents = contentsOf(compressed);
     Decompressed decompressed;
     MCC_GLTF_TRY(failed(decompressDocument(compressed, decompressed, DecodeTo::kFloats,
                                            thread_count, takeDecoded()),
@@ -126,6 +146,7 @@ class Checker {
     result_.attributes.emplace_back();
     result_.rows.emplace_back();
     angles_.clear();
+    boxes_.clear();
     row_of_.clear();
     for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
       const PiecePlan& piece = payload.plan.pieces[i];
@@ -227,6 +248,7 @@ class Checker {
       report.bits = bits;
       report.component_count = attribute.format.component_count;
       angles_.emplace_back();
+      boxes_.emplace_back();
     }
     result_.rows.back().push_back(row);
     return row;
@@ -263,6 +285,13 @@ class Checker {
     const size_t row = rowOf(attribute, coded->second.coding, bits);
     AttributeReport& report = result_.attributes.back()[row];
     report.vertex_count += piece.wedge_count;
+    for (const PartPlan& part : piece.parts) {
+      for (const PrimitiveRef& user : part.users) report.primitives.push_back(user.path());
+    }
+    if (attribute.label() == "POSITION") {
+      boxes_[row].add(boundsOf(decoded_values, accessor.component_type));
+      report.extent = boxes_[row].longestSide();
+    }
     return compareValues(source_values, decoded_values, source_of, attribute.format, promise,
                          report, angles_[row]);
   }
@@ -421,6 +450,7 @@ class Checker {
   const Json* decoded_meshes_ = nullptr;
   CodedAttributes coded_;
   std::vector<std::vector<float>> angles_;  ///< per row of the current payload's reports
+  std::vector<Box> boxes_;                  ///< of the positions, per row
   /// Rows of the current payload.
   std::map<std::tuple<std::string, AttributeCoding, uint8_t>, size_t> row_of_;
   std::set<uint32_t> reordered_;  ///< accessors next to payloads, compared in another order

@@ -22,6 +22,7 @@ struct CheckResult {
   /// Per payload: the row of each attribute of each piece, in the order of the plan.
   std::vector<std::vector<size_t>> rows;
   uint64_t decoded_bytes = 0;  ///< sum over all payloads
+  Contents contents;           ///< of the written document
 };
 
 /// Checks that `written` holds the document `source`:

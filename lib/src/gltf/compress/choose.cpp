@@ -202,13 +202,14 @@ std::vector<bool> touchingPieces(const PayloadPlan& plan, const std::vector<bool
   return touches;
 }
 
-/// Leaves the primitives of a piece as they were. `cost` describes the loss: "payload 20 bytes".
-void leaveAlone(const PiecePlan& piece, const std::string& cost, uint64_t freed_bytes,
+/// Leaves the primitives of a piece as they were. `cost_bytes` is the size of payload and JSON.
+void leaveAlone(const PiecePlan& piece, uint64_t cost_bytes, uint64_t freed_bytes,
                 std::vector<LeftAlone>& left_alone) {
-  const std::string note = "would not become smaller (" + cost + ", buffers " +
+  const std::string note = "would not become smaller (payload and JSON " +
+                           std::to_string(cost_bytes) + " bytes, buffers " +
                            std::to_string(freed_bytes) + " bytes); left as it was";
   for (const PartPlan& part : piece.parts) {
-    for (const PrimitiveRef& user : part.users) left_alone.push_back({user, note});
+    for (const PrimitiveRef& user : part.users) left_alone.push_back({user, note, true});
   }
 }
 
@@ -274,12 +275,9 @@ class LoserSearch {
   }
 
   void leaveGroupAlone(size_t number, std::vector<LeftAlone>& left_alone) const {
-    uint64_t bytes = 0;
-    for (const size_t i : groups_[number].payloads) bytes += payloads_[i].result.payload.size();
     for (const size_t i : groups_[number].payloads) {
       for (const PiecePlan& piece : payloads_[i].plan.pieces) {
-        leaveAlone(piece, "payload " + std::to_string(bytes) + " bytes", owners_.freed()[number],
-                   left_alone);
+        leaveAlone(piece, groups_[number].cost, owners_.freed()[number], left_alone);
       }
     }
   }
@@ -340,8 +338,7 @@ Result dropTinyPieces(const Document& document, const ForeignReferences& foreign
     for (size_t i = 0; i < plan.pieces.size(); ++i) {
       is_dropped.push_back(is_tiny[i] && !touches[i]);
       if (!is_dropped.back()) continue;
-      leaveAlone(plan.pieces[i], "payload and JSON " + std::to_string(costs[i]) + " bytes",
-                 freed[first + i], left_alone);
+      leaveAlone(plan.pieces[i], costs[i], freed[first + i], left_alone);
     }
     std::vector<PiecePlan> kept;
     for (size_t i = 0; i < plan.pieces.size(); ++i) {

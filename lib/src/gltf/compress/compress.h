@@ -29,6 +29,7 @@ struct Compressed {
   std::vector<EncodedPayload> payloads;  ///< the payloads that are in the document
   std::vector<LeftAlone> left_alone;
   std::vector<std::string> notes;
+  std::vector<std::string> remarks;  ///< see ConvertReport::remarks
   double decode_seconds = 0;  ///< time of decodePayloads()
 };
 

@@ -77,6 +77,7 @@ struct PayloadPlan {
 struct LeftAlone {
   PrimitiveRef primitive;
   std::string note;
+  bool is_larger = false;  ///< only because its payload would take more bytes
 };
 
 /// What all pieces and parts hold together, counted as often as they hold it, for each byte that

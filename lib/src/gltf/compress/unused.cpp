@@ -59,11 +59,12 @@ void planUnused(const ConvertOptions& options, std::vector<PayloadPlan>& payload
       if (options.drop_unused && !must_stay) keepVertices(std::move(used), piece);
     }
     if (unused == 0) continue;
-    const std::string which = unused == 1 ? "1 vertex" : std::to_string(unused) + " vertices";
-    notes.push_back(at("/meshes", payload.mesh) + ": no triangle uses " + which +
-                    (!options.drop_unused ? "; --drop-unused leaves them out"
-                     : is_kept            ? "; not all can be left out"
-                                          : "; left out"));
+    const std::string which =
+        unused == 1 ? "1 vertex is" : std::to_string(unused) + " vertices are";
+    notes.push_back(at("/meshes", payload.mesh) + ": " + which + " in no triangle" +
+                    (!options.drop_unused ? "; --drop-unused leaves out what nothing refers to"
+                     : is_kept            ? ", and not all can be left out"
+                                          : ", and left out"));
   }
 }
 

@@ -24,6 +24,8 @@ Json attributeJson(const AttributeReport& attribute) {
     json["max_distance"] = attribute.max_distance;
   }
   if (attribute.is_angle) json["median_error"] = attribute.median_error;
+  if (attribute.extent > 0) json["extent"] = attribute.extent;
+  json["primitives"] = attribute.primitives;
   return json;
 }
 
@@ -61,6 +63,16 @@ Json primitiveJson(const PrimitiveReport& primitive) {
   }
   if (!primitive.note.empty()) json["note"] = primitive.note;
   return json;
+}
+
+Json contentsJson(const Contents& contents) {
+  return {{"geometry_bytes", contents.geometry_bytes},
+          {"image_bytes", contents.image_bytes},
+          {"animation_bytes", contents.animation_bytes},
+          {"other_bytes", contents.other_bytes},
+          {"images", contents.image_count},
+          {"image_files", contents.image_file_count},
+          {"animations", contents.animation_count}};
 }
 
 }  // namespace
@@ -102,10 +114,14 @@ Json reportJson(const ConvertReport& report, const ConvertOptions& options) {
   for (const auto& payload : report.payloads) payloads.push_back(payloadJson(payload));
   Json primitives = Json::array();
   for (const auto& primitive : report.primitives) primitives.push_back(primitiveJson(primitive));
+  std::vector<std::string> notes = report.notes;
+  notes.insert(notes.end(), report.remarks.begin(), report.remarks.end());
   return {{"options", optionsJson(options)},
           {"input_bytes", report.input_bytes},
           {"output_bytes", report.output_bytes},
           {"fallback_bytes", report.fallback_bytes},
+          {"input_contents", contentsJson(report.input_contents)},
+          {"output_contents", contentsJson(report.output_contents)},
           {"copied", report.copied},
           {"checked", report.checked},
           {"encode_seconds", report.encode_seconds},
@@ -113,7 +129,7 @@ Json reportJson(const ConvertReport& report, const ConvertOptions& options) {
           {"check_seconds", report.check_seconds},
           {"payloads", payloads},
           {"primitives", primitives},
-          {"notes", report.notes}};
+          {"notes", notes}};
 }
 
 }  // namespace mcc::gltf
