@@ -192,7 +192,7 @@ TEST(LinearTime, NodesOfAnAnimatedMeshBecomeIntegers) {
 
 /// The members of the root come before all accessors, and are looked up no more often for those.
 TEST(LinearTime, MembersOfTheRootLarge) {
-  constexpr uint32_t kCount = 200000;
+  constexpr uint32_t kCount = 40000;
   Builder builder;
   builder.addMesh({Sheet(20).addTo(builder)});
   const std::string rest = printJson(builder.json);

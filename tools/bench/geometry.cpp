@@ -49,8 +49,9 @@ gltf::Result load(const std::filesystem::path& path, const gltf::ConvertOptions&
                   const PrimitiveFilter& wanted, OurPayloads ours, Geometry& geometry) {
   MCC_GLTF_TRY(
       gltf::loadDocument(geometry.file, gltf::readerOf(path.parent_path()), geometry.document));
-  MCC_GLTF_TRY(gltf::decodeViews(options.decoders, geometry.document));
-  MCC_GLTF_TRY(gltf::decodeMeshes(options.decoders, geometry.document));
+  gltf::Result refused;
+  MCC_GLTF_TRY(gltf::decodeViews(options.decoders, geometry.document, nullptr, &refused));
+  MCC_GLTF_TRY(gltf::decodeMeshes(options.decoders, geometry.document, &refused));
   std::vector<PayloadPlan> plans;
   std::vector<gltf::LeftAlone> left_alone;
   MCC_GLTF_TRY(gltf::planPayloads(geometry.document, plans, left_alone));
@@ -61,6 +62,7 @@ gltf::Result load(const std::filesystem::path& path, const gltf::ConvertOptions&
   } else {
     for (PayloadPlan& plan : plans) geometry.payloads.emplace_back().plan = std::move(plan);
   }
+  if (geometry.payloads.empty() && !refused.ok()) return refused;
   for (const gltf::LeftAlone& left : left_alone) {
     geometry.notes.push_back(left.primitive.path() + ": " + left.note);
   }

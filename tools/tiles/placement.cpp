@@ -108,7 +108,7 @@ double farthestBound(const Json& json) {
       for (const char* bound : {"min", "max"}) {
         for (const Json& value : arrayOf(accessors[number], bound)) {
           double coordinate = 0;
-          if (gltf::asNumber(value, coordinate)) {
+          if (gltf::asNumber(value, coordinate) && std::isfinite(coordinate)) {
             farthest = std::max(farthest, std::abs(coordinate));
           }
         }

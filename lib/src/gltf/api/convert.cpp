@@ -208,14 +208,17 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
   MCC_GLTF_TRY(loadFor(output, input, document, report.files));
   document.decoded = DecodedBytes(options.max_decoded_bytes, document.source_bytes);
   report.input_contents = contentsOf(document);
-  MCC_GLTF_TRY(decodeViews(options.decoders, document));
+  Result refused;
+  MCC_GLTF_TRY(decodeViews(options.decoders, document, nullptr, &refused));
   // With indices_only, decoded attributes would have to be stored again next to the payload.
-  if (!options.indices_only) MCC_GLTF_TRY(decodeMeshes(options.decoders, document));
+  if (!options.indices_only) MCC_GLTF_TRY(decodeMeshes(options.decoders, document, &refused));
   report.input_bytes = document.source_bytes;
   report.notes = document.notes;
   MCC_GLTF_TRY(checkOldPayloads(document));
   tell(options, "encoding");
   MCC_GLTF_TRY(compressDocument(document, options, compressed));
+  // What another codec compressed and ours cannot read is no reason to refuse the rest.
+  if (compressed.payloads.empty() && !refused.ok()) return refused;
   report.notes.insert(report.notes.end(), compressed.notes.begin(), compressed.notes.end());
   report.remarks = std::move(compressed.remarks);
   addPrimitives(document, compressed, report);
@@ -247,8 +250,7 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
 /// Returns the contents of the output alone: a fallback holds geometry, too.
 Contents withoutFallback(Contents contents, const ConvertReport& report) {
   contents.geometry_bytes -= std::min(contents.geometry_bytes, report.fallback_bytes);
-  const uint64_t known =
-      contents.geometry_bytes + contents.image_bytes + contents.animation_bytes;
+  const uint64_t known = contents.geometry_bytes + contents.image_bytes + contents.animation_bytes;
   contents.other_bytes = report.output_bytes - std::min(report.output_bytes, known);
   return contents;
 }

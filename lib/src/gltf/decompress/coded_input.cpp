@@ -55,7 +55,8 @@ class Room {
 
 const char* const kNoRoom = "its bytes are those of many others, and were decoded too often";
 
-/// Decodes the elements of a view. Damage becomes its fault; an error is the limit of the document.
+/// Decodes the elements of a view. What is wrong with it becomes its fault; an error is the limit
+/// of the document.
 Result decodeView(const ForeignDecoders& decoders, uint32_t number, Room& room,
                   Document& document) {
   BufferView& view = document.views[number];
@@ -113,17 +114,23 @@ class MeshReader {
     Result damage = parse(primitive, path, *extension, coded);
     if (damage.ok()) {
       const std::string reason = obstacle(primitive, coded);
-      if (!reason.empty()) damage = error(path, reason);
+      if (!reason.empty()) {
+        document_.notes.push_back(path + ": " + reason);
+        return {};
+      }
+      damage = claim(coded);
     }
-    if (damage.ok()) damage = claim(coded);
     if (damage.ok() && !coded.is_known) {
       addDecodedBytes(coded);
       MCC_GLTF_TRY(document_.decoded.check());
       damage = decode(coded);
     }
     if (!damage.ok()) document_.notes.push_back(damage.message());
+    if (first_damage_.ok()) first_damage_ = damage;
     return {};
   }
+
+  const Result& firstDamage() const { return first_damage_; }
 
  private:
   Result accessorOf(const Json* number, const std::string& name, const std::string& path,
@@ -282,11 +289,13 @@ class MeshReader {
   Document& document_;
   std::map<uint32_t, Origin> origins_;  ///< origin of each accessor
   Room room_;
+  Result first_damage_;
 };
 
 }  // namespace
 
-Result decodeViews(const ForeignDecoders& decoders, Document& document, const Document* source) {
+Result decodeViews(const ForeignDecoders& decoders, Document& document, const Document* source,
+                   Result* refused) {
   if (!decoders.view) return {};
   std::vector<bool> is_used(document.accessors.size(), false);
   const auto markUsed = [&](const Json& primitive, const std::string&) {
@@ -297,24 +306,32 @@ Result decodeViews(const ForeignDecoders& decoders, Document& document, const Do
   visitTrianglePrimitives(document, markUsed);
   if (source != nullptr) visitTrianglePrimitives(*source, markUsed);
   Room room = source == nullptr ? Room(document) : Room();
+  const auto decode = [&](uint32_t number) -> Result {
+    MCC_GLTF_TRY(decodeView(decoders, number, room, document));
+    const BufferView& view = document.views[number];
+    const bool is_first = refused != nullptr && refused->ok();
+    if (is_first && view.isCoded() && !document.isMissing(view.buffer)) *refused = view.fault;
+    return {};
+  };
   for (size_t i = 0; i < is_used.size(); ++i) {
     if (!is_used[i]) continue;
     const Accessor& accessor = document.accessors[i];
-    if (accessor.view != kNone) MCC_GLTF_TRY(decodeView(decoders, accessor.view, room, document));
+    if (accessor.view != kNone) MCC_GLTF_TRY(decode(accessor.view));
     if (accessor.sparse.count == 0) continue;
-    MCC_GLTF_TRY(decodeView(decoders, accessor.sparse.index_view, room, document));
-    MCC_GLTF_TRY(decodeView(decoders, accessor.sparse.value_view, room, document));
+    MCC_GLTF_TRY(decode(accessor.sparse.index_view));
+    MCC_GLTF_TRY(decode(accessor.sparse.value_view));
   }
   return {};
 }
 
-Result decodeMeshes(const ForeignDecoders& decoders, Document& document) {
+Result decodeMeshes(const ForeignDecoders& decoders, Document& document, Result* refused) {
   if (!decoders.mesh) return {};
   MeshReader reader(decoders, document);
   Result result;
   visitTrianglePrimitives(document, [&](const Json& primitive, const std::string& path) {
     if (result.ok()) result = reader.read(primitive, path);
   });
+  if (refused != nullptr && refused->ok()) *refused = reader.firstDamage();
   return result;
 }
 

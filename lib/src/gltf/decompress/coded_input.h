@@ -12,16 +12,19 @@ namespace mcc::gltf {
 
 /// Decodes the coded buffer views that triangle primitives use, so that accessors on them can be
 /// read. If `source` is not null, it must be a document with the same accessors; the views that its
-/// triangle primitives use are decoded as well. Without a decoder the views stay unreadable.
-/// Errors: a view is damaged, or coded in a way the decoder does not know; document.decoded is
-/// above its limit.
+/// triangle primitives use are decoded as well. Without a decoder the views stay unreadable. A view
+/// that is damaged, or coded in a way the decoder does not know, gets a fault; the first of them is
+/// returned in `refused`, if that is not null.
+/// Error: document.decoded is above its limit.
 Result decodeViews(const ForeignDecoders& decoders, Document& document,
-                   const Document* source = nullptr);
+                   const Document* source = nullptr, Result* refused = nullptr);
 
 /// Decodes coded primitives, so that their accessors can be read. A primitive stays as it is when
-/// its accessors also have bytes of their own, or contradict each other or the decoded mesh;
-/// Document::notes says why.
-Result decodeMeshes(const ForeignDecoders& decoders, Document& document);
+/// it is damaged, or its accessors also have bytes of their own, or contradict each other or the
+/// decoded mesh; Document::notes says why. The first damage is returned in `refused`, if that is
+/// not null and has no error already.
+/// Error: document.decoded is above its limit.
+Result decodeMeshes(const ForeignDecoders& decoders, Document& document, Result* refused = nullptr);
 
 }  // namespace mcc::gltf
 

@@ -82,6 +82,7 @@ class ContentsWalk {
     const Accessor& accessor = document_.accessors[index];
     const Sparse& sparse = accessor.sparse;
     if (!accessor.is_known_type) return;
+    if (!accessor.fault.ok()) return addView(accessor.view);  // its range was not checked
     if (accessor.view != kNone) {
       addElements(accessor.view, accessor.offset, accessor.count, accessor.elementBytes());
     }
