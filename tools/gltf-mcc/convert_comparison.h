@@ -34,8 +34,8 @@ struct ConvertComparison {
   std::string notes;            ///< lines to print
   nlohmann::ordered_json json;  ///< see comparisonJson(); null unless is_full
   std::optional<WholeSize> draco_size;  ///< only when is_full
-  /// Whether Draco is measured at all its speeds, for tables and reports; else only its size at its
-  /// smallest speed, while the conversion is being checked.
+  /// Whether Draco is measured at all its speeds, for tables and reports; else only its size, the
+  /// smaller of speeds 0 and 5, while the conversion is being checked.
   bool is_full = false;
 
   void addOptions(CLI::App& command);
