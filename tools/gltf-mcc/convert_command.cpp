@@ -229,6 +229,10 @@ void addBits(CLI::App& command, const std::string& name, uint8_t& bits, int low,
       ->type_name("N");
 }
 
+constexpr const char* kQuantized[] = {"--quantize-position", "--quantize-normal",
+                                      "--quantize-texcoord", "--quantize-color",
+                                      "--quantize-tangent",  "--quantize-weight"};
+
 /// Adds --max-error, --max-error-relative and --lattice, which each replace --quantize-position.
 void addPositionPromises(CLI::App& command, gltf::ConvertOptions& options, CLI::Option* lossless) {
   const auto addError = [&](const std::string& name, bool is_relative, const std::string& help) {
@@ -303,6 +307,7 @@ void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
   addAttributeBits(command, options);
   CLI::Option* lossless =
       command.add_flag("--lossless", options.lossless, "Keep every bit of every number");
+  for (const char* name : kQuantized) lossless->excludes(command.get_option(name));
   addPositionPromises(command, options, lossless);
   const std::map<std::string, gltf::Grid> grids = {{"mesh", gltf::Grid::kMesh},
                                                    {"scene", gltf::Grid::kScene},
