@@ -104,6 +104,15 @@ TEST_F(ConvertOutput, LosslessSaysThatNothingIsLost) {
       << result.out;
 }
 
+TEST_F(ConvertOutput, LosslessExcludesBits) {
+  for (const char* name : {"position", "normal", "texcoord", "color", "tangent", "weight"}) {
+    const Outcome result =
+        run("convert --lossless --quantize-" + std::string(name) + " 8 in.glb out.glb");
+    EXPECT_EQ(result.status, 2) << name;
+    EXPECT_NE(result.err.find("--lossless"), std::string::npos) << result.err;
+  }
+}
+
 TEST_F(ConvertOutput, MorphTargetsAreComparedLikeWithLike) {
   MCC_REQUIRE_COMPARISON();
   const Outcome result = run("convert " + samplePath("koi.glb") + " out.glb");

@@ -292,5 +292,29 @@ TEST(FileLimits, AFileAbove4GiBIsNotRead) {
   EXPECT_TRUE(bytes.empty());
 }
 
+/// However a document spells the name of a file, the file is read once.
+TEST(FileLimits, OneFileIsReadOnceUnderAllItsNames) {
+  Json json = {{"asset", {{"version", "2.0"}}}};
+  for (const char* uri : {"a.bin", "./a.bin", "././a.bin", "b/../a.bin", ".//a.bin", "%61.bin"}) {
+    json["buffers"].push_back({{"uri", uri}, {"byteLength", 1000}});
+  }
+  const std::string text = json.dump();
+  size_t read_count = 0;
+  Document document;
+  const Result loaded = loadDocument(
+      asBytes(text),
+      [&](const std::string&, const std::string&, std::vector<uint8_t>& bytes) -> Result {
+        ++read_count;
+        bytes.assign(1000, 1);
+        return {};
+      },
+      document);
+  ASSERT_TRUE(loaded.ok()) << loaded.message();
+  EXPECT_EQ(read_count, 1u);
+  EXPECT_EQ(document.source_bytes, text.size() + 1000);
+  ASSERT_EQ(document.buffers.size(), 6u);
+  for (const auto& buffer : document.buffers) EXPECT_EQ(buffer.size(), 1000u);
+}
+
 }  // namespace
 }  // namespace mcc::gltf::test

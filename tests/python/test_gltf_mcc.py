@@ -89,7 +89,7 @@ class Documents(unittest.TestCase):
         self.assertEqual((str(again), again.code, again.offset_bytes),
                          (str(caught.exception), "DOCUMENT", caught.exception.offset_bytes))
         for wrong in ({"position_bits": 99}, {"position_bits": -1}, {"position_bits": 2**32 + 14}, {"grid": "x"},
-                      {"prefer": "x"}):
+                      {"prefer": "x"}, {"lossless": True, "normal_bits": 8}):
             with self.assertRaises(ValueError, msg=str(wrong)):
                 gltf_mcc.convert(SAMPLES / "torus.glb", **wrong)
         with self.assertRaisesRegex(gltf_mcc.Error, "max_decoded_bytes"):

@@ -40,7 +40,7 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
         source: the bytes of a GLB, or the path of a .glb file
         position_bits: bits of a coordinate (14), and likewise normal_bits (10), texcoord_bits (12), color_bits
             (8), tangent_bits (12), weight_bits (12); 0 keeps every bit, None is the default in parentheses
-        lossless: every float keeps every bit
+        lossless: every float keeps every bit; excludes the options for bits
         grid: which primitives share a lattice of positions: "mesh", "scene" or "primitive"
         max_position_error: if not 0, how far a position may move, in units of the file; replaces position_bits
         is_error_relative: the error is a fraction of the largest side of the bounding box
@@ -63,6 +63,8 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
              "color_bits": color_bits, "tangent_bits": tangent_bits, "weight_bits": weight_bits,
              "block_triangles": block_triangles}
     for name, value in given.items():
+        if value is not None and lossless and name != "block_triangles":
+            raise ValueError(f"lossless keeps every bit, so it excludes {name}")
         if value is not None:
             setattr(options, name, unsigned(value, name))
     options.lossless = lossless

@@ -5,6 +5,7 @@
 #include <map>
 #include <string_view>
 
+#include "gltf/base/path_text.h"
 #include "gltf/document/fallback.h"
 #include "gltf/document/image_type.h"
 #include "gltf/document/references.h"
@@ -161,7 +162,10 @@ class BufferLoader {
                std::span<const uint8_t>& bytes) {
     std::string uri;
     MCC_GLTF_TRY(readString(json, "uri", path, uri));
-    if (!isDataUri(uri)) MCC_GLTF_TRY(relativePathOf(uri, path + "/uri", file));
+    if (!isDataUri(uri)) {
+      MCC_GLTF_TRY(relativePathOf(uri, path + "/uri", file));
+      file = textOf(pathOf(file).lexically_normal());  // "a.bin" and "./a.bin" are one file
+    }
     if (const auto known = users_.find(file); known != users_.end()) {
       bytes = files_[file];
       return {};
