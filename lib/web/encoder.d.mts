@@ -16,7 +16,7 @@ export interface MeshoptDecoder {
 
 /** The options of the command line tool. 0 bits keep every bit. */
 export interface EncodeOptions {
-  /** Default 14, up to 24; also the grid of morph targets. */
+  /** Default 14, up to 24; also the lattice of morph targets. */
   positionBits?: number;
   /** Default 10, from 2 to 16. */
   normalBits?: number;
@@ -35,11 +35,11 @@ export interface EncodeOptions {
   /** maxError is a fraction of the longest side of the bounding box. */
   maxErrorRelative?: boolean;
   /**
-   * x, y, z of a point of the grid of positions, and the step of the grid. For tiles that must fit
+   * x, y, z of a point of the lattice of positions, and its step. For tiles that must fit
    * together.
    */
   lattice?: [number, number, number, number];
-  /** What shares a grid of positions. Default 'mesh'. */
+  /** What shares a lattice of positions. Default 'mesh'. */
   grid?: 'mesh' | 'scene' | 'primitive';
   keepVertexOrder?: boolean;
   keepTriangleOrder?: boolean;
