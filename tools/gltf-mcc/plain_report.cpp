@@ -11,6 +11,7 @@
 #include "gltf/document/primitives.h"
 #include "gltf/document/references.h"
 #include "gltf/files/file_io.h"
+#include "gltf/files/named_file.h"
 #include "suggest.h"
 
 namespace mcc::tool {
