@@ -36,7 +36,8 @@ class Faults : public testing::Test {
   bool wasHit() const { return fs::exists(path(".hit")); }
 
   /// Runs the tool with a fault, such as "fsync:1:28".
-  ToolResult runWith(const std::string& fault, const std::string& arguments) const {
+  ToolResult runWith([[maybe_unused]] const std::string& fault,
+                     [[maybe_unused]] const std::string& arguments) const {
 #if defined(MCC_TOOL_GLTF_MCC) && defined(MCC_FAULTS)
     fs::remove(path(".hit"));
     return runCommand(folder_, "MCC_FAULT=" + fault + " MCC_FAULT_HIT=.hit LD_PRELOAD='" +

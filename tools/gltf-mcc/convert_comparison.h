@@ -6,7 +6,6 @@
 #include <future>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -56,8 +55,7 @@ struct ConvertComparison {
 
  private:
   gltf::Result compare(const gltf::Source& input, const gltf::ConvertOptions& convert,
-                       const CommonOptions& common,
-                       const std::set<std::pair<uint32_t, uint32_t>>& compressed);
+                       const CommonOptions& common, const gltf::ConvertReport& report);
 
   std::shared_future<DracoSize> size_;
 };

@@ -145,7 +145,7 @@ const Measure& measureOf(const std::string& name) {
 
 std::string checkText(const ConvertReport& report) {
   if (!report.checked || report.payloads.empty()) return "";
-  return "decoded and compared: every vertex and triangle is there, no error is larger";
+  return "decoded and compared: every vertex and triangle is there, with no larger errors";
 }
 
 }  // namespace

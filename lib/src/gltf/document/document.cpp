@@ -5,7 +5,6 @@
 #include <map>
 #include <string_view>
 
-#include "gltf/base/path_text.h"
 #include "gltf/document/fallback.h"
 #include "gltf/document/image_type.h"
 #include "gltf/document/references.h"
@@ -108,6 +107,24 @@ Result fetchUri(const std::string& uri, const std::string& where, const FileRead
 }
 
 /// Loads the buffers. A file that several buffers name is read once.
+/// Returns a path that relativePathOf() has accepted without its parts "." and "..".
+std::string withoutDots(const std::string& path) {
+  std::vector<std::string> parts;
+  for (size_t begin = 0; begin <= path.size();) {
+    const size_t end = std::min(path.find('/', begin), path.size());
+    const std::string part = path.substr(begin, end - begin);
+    begin = end + 1;
+    if (part == ".." && !parts.empty()) {
+      parts.pop_back();
+    } else if (!part.empty() && part != ".") {
+      parts.push_back(part);
+    }
+  }
+  std::string joined;
+  for (const std::string& part : parts) joined += (joined.empty() ? "" : "/") + part;
+  return joined;
+}
+
 class BufferLoader {
  public:
   /// `glb` is null for a .gltf.
@@ -164,7 +181,7 @@ class BufferLoader {
     MCC_GLTF_TRY(readString(json, "uri", path, uri));
     if (!isDataUri(uri)) {
       MCC_GLTF_TRY(relativePathOf(uri, path + "/uri", file));
-      file = textOf(pathOf(file).lexically_normal());  // "a.bin" and "./a.bin" are one file
+      file = withoutDots(file);  // "a.bin" and "./a.bin" are one file
     }
     if (const auto known = users_.find(file); known != users_.end()) {
       bytes = files_[file];
