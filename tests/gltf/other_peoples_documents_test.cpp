@@ -257,7 +257,7 @@ TEST(OtherPeoplesDocuments, TargetsOfNormalsOnlyAndOfDifferentAttributes) {
     d.builder.json["meshes"][0]["extras"] = {{"targetNames", {"a", "\u00e4 b"}}};
     d.builder.json["meshes"][0]["weights"] = {0, 1};
   });
-  expectCompressed([](Document2& d) { d.primitive()["targets"] = {Json::object()}; });
+  expectCompressed([](Document2& d) { d.primitive()["targets"] = Json::array({Json::object()}); });
   expectLeft(  // a target of another mesh
       [](Document2& d) {
         d.primitive()["targets"] = {{{"POSITION", d.builder.addPositions(Sheet(3).positions)}}};
@@ -272,7 +272,7 @@ TEST(OtherPeoplesDocuments, InstancesAndVariants) {
         {"attributes", {{"TRANSLATION", moves}}}};
     d.primitive()["extensions"]["KHR_materials_variants"] = {
         {"mappings", {{{"material", 0}, {"variants", {0}}}}}};
-    d.builder.json["materials"] = {Json::object()};
+    d.builder.json["materials"] = Json::array({Json::object()});
     d.builder.json["extensions"]["KHR_materials_variants"] = {{"variants", {{{"name", "red"}}}}};
     d.builder.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing", "KHR_materials_variants"};
   });
