@@ -321,7 +321,7 @@ TEST_F(Tiles, AnEnormousScaleKeepsThePromiseOfOtherTiles) {
   EXPECT_EQ(result.out.find("no tile above it has a geometric error"), std::string::npos);
   // Beyond the numbers of 64 bits a transform has no meaning, and only that tile is left out.
   Json beyond = makeTile(16, "");
-  beyond["children"] = {scaledBy(1e200, plain)};
+  beyond["children"] = Json::array({scaledBy(1e200, plain)});
   root["children"] = {plain, plain, scaledBy(1e200, beyond)};
   storeText(path("in/large.json"), makeTileset(root, 100).dump());
   result = run("tiles in/large.json out");
