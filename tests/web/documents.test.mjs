@@ -134,7 +134,7 @@ test('files that are cut off at any byte', async () => {
   for (let length = 0; length < MODEL.length; ++length) {
     const cut = MODEL.slice(0, length);
     await messageOf(unpackGlb(cut));
-    // Of the payload itself nothing may be missing; what follows is not read.
+    // The payload itself must be complete; what follows it is not read.
     await decodeGlbBlocks(cut).next().catch((error) => assert.ok(error instanceof MccError, error.stack));
   }
 });
