@@ -32,7 +32,6 @@ struct BatchOptions {
   CommonOptions common;
   uint32_t job_count = 1;  ///< files at the same time; the results do not depend on it
   bool is_forced = false;  ///< also makes outputs that are up to date
-  bool with_fallback = false;
   std::string done_name;            ///< name of the outcome in tables, "converted"
   std::string copied_why;           ///< why a file was copied, "nothing becomes smaller"
   std::string details_name;         ///< key of BatchResult::details in the report
