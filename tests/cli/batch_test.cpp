@@ -14,6 +14,7 @@
 #include "cli/run_tool.h"
 #include "gltf/gltf_builder.h"
 #include "json/json.h"
+#include "support/made_files.h"
 
 namespace mcc::test {
 namespace {
@@ -99,14 +100,15 @@ TEST_F(Batch, OneFileDoesNotDependOnTheThreads) {
   }
   const std::vector<uint8_t> file = builder.toGlb();
   store("many.glb", {file.begin(), file.end()});
-  const std::string names[] = {"a.glb", "a.fallback.bin", "b.gltf", "b.bin"};
   std::map<std::string, std::string> first;
   for (const std::string jobs : {"1", "2", "4"}) {
     ASSERT_EQ(run("convert many.glb a.glb --fallback -j " + jobs).status, 0);
     const ToolResult result = run("convert many.glb b.gltf --format json -j " + jobs);
     ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(Json::parse(result.out)["payloads"].size(), 5u);
-    for (const std::string& name : names) {
+    for (const std::string& name :
+         {std::string("a.glb"), std::string("b.gltf"),
+          madeBeside(folder_.path(), "a", ".fallback.bin"), madeBeside(folder_.path(), "b")}) {
       const std::string content = contentOf(path(name));
       EXPECT_TRUE(first.try_emplace(name, content).first->second == content) << name << " " << jobs;
     }
@@ -181,7 +183,7 @@ TEST_F(Batch, AFolderStandsForItsModels) {
   }
   EXPECT_EQ(found, order);
   std::set<std::string> written = expected;
-  written.insert("B.bin");
+  written.insert(madeBeside(path("out"), "B"));
   for (const auto& [name, content] : filesOf("out")) EXPECT_EQ(written.erase(name), 1u) << name;
   EXPECT_TRUE(written.empty());
   const ToolResult back = run("decode -j 2 -o back out/");
@@ -225,7 +227,9 @@ TEST_F(Batch, WhatIsUpToDateIsLeft) {
   EXPECT_EQ(counted(""), 0u);
 
   // The record may be missing or damaged.
-  store("out/.gltf-mcc.json", R"({"files":{"torus.glb":{"maker":1,"input":[[1]],"output":{}}}})");
+  store("out/.gltf-mcc.json",
+        "{\"tool\":\"gltf-mcc "
+        "\"}\n{\"file\":\"torus.glb\",\"maker\":1,\"input\":[[1]],\"output\":{}}\n");
   EXPECT_EQ(counted(""), names_.size());
   store("out/.gltf-mcc.json", "[");
   EXPECT_EQ(counted(""), names_.size());
@@ -251,10 +255,11 @@ TEST_F(Batch, BuffersAndImagesCountForWhatIsUpToDate) {
   EXPECT_EQ(contentOf(path("out/a.png")), "\x89PNG, another");
   fs::remove(path("out/a.png"));
   EXPECT_FALSE(isUpToDate());
-  fs::remove(path("out/a.bin"));
+  fs::remove(path("out/" + madeBeside(path("out"), "a")));
   EXPECT_FALSE(isUpToDate());
   EXPECT_TRUE(isUpToDate());
-  store("g/a.bin", contentOf(path("g/a.bin")) + "more");
+  const std::string buffer = "g/" + madeBeside(path("g"), "a");
+  store(buffer, contentOf(path(buffer)) + "more");
   EXPECT_FALSE(isUpToDate());
   EXPECT_TRUE(isUpToDate());
 }
@@ -263,21 +268,18 @@ TEST_F(Batch, FallbacksCountForWhatIsUpToDate) {
   const std::string command = "convert --fallback -o out/ in/torus.glb";
   ASSERT_EQ(run(command).status, 0);
   EXPECT_EQ(countOf(run(command).out, ": up to date\n"), 1u);
-  fs::remove(path("out/torus.fallback.bin"));
+  const std::string fallback = "out/" + madeBeside(path("out"), "torus", ".fallback.bin");
+  fs::remove(path(fallback));
   EXPECT_EQ(countOf(run(command).out, ": up to date\n"), 0u);
-  EXPECT_TRUE(fs::exists(path("out/torus.fallback.bin")));
+  EXPECT_TRUE(fs::exists(path(fallback)));
 }
 
 TEST_F(Batch, CollisionsAreRefused) {
   fs::create_directory(path("in2"));
   fs::copy_file(path("in/torus.glb"), path("in2/torus.glb"));
-  store("in/torus.gltf", "{}");
-  store("in/torus.GLTF", "{}");
   for (const auto& [arguments, message] : std::map<std::string, std::string>{
            {"-o out/ in/sphere.glb in/torus.glb in2/torus.glb",
             "in2/torus.glb: writes \"out/torus.glb\", as \"in/torus.glb\" does; "},
-           {"-o out/ in/torus.gltf in/torus.GLTF", "writes \"out/torus.bin\", as "},
-           {"-o out/ --fallback in/torus.gltf in/torus.glb", "writes \"out/torus.fallback.bin\""},
            {"-o in in/torus.glb", "in/torus.glb: would be replaced by its output; "},
            {"-o out/ in/torus.glb -", "standard input cannot be one of several inputs"},
            {"-o out/ --compare draco in/torus.glb", "take one input"},
@@ -447,7 +449,7 @@ TEST_F(Batch, WholeFileSizes) {
   EXPECT_EQ(in_place["files"]["input"]["bytes"], size);
   const Json gltf = Json::parse(run("convert in/torus.glb o.gltf --format json").out);
   EXPECT_EQ(gltf["files"]["output"]["bytes"],
-            fs::file_size(path("o.gltf")) + fs::file_size(path("o.bin")));
+            fs::file_size(path("o.gltf")) + fs::file_size(path(madeBeside(folder_.path(), "o"))));
   EXPECT_EQ(gltf["output_bytes"], gltf["files"]["output"]["bytes"]);
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "cli/run_tool.h"
+#include "support/made_files.h"
 
 namespace mcc::test {
 namespace {
@@ -168,13 +169,43 @@ TEST_F(Faults, OneFileIsStoredOrRefused) {
   expectSafe("tree small.glb out.svg", {"out.svg"}, {{"out.svg", kOldFile}}, true);
 }
 
-/// A .gltf and its buffer belong together.
+/// A .gltf and its buffer belong together, and the old pair goes only when the new one is stored.
 TEST_F(Faults, ADocumentAndItsBufferAreStoredOrRefused) {
-  ASSERT_EQ(runTool(folder_, "convert -q --lossless in.glb out.gltf").status, 0);
-  const std::vector<std::string> names = {"out.gltf", "out.bin"};
-  const Files old = contentsOf(names);
-  ASSERT_EQ(old.size(), 2u);
-  expectSafe("convert -q in.glb out.gltf", names, old, true);
+  const auto pair = [&](const std::string& options) {
+    EXPECT_EQ(runTool(folder_, "convert -q in.glb out.gltf " + options).status, 0);
+    return contentsOf({"out.gltf", madeBeside(folder_.path(), "out")});
+  };
+  const Files made = pair("");
+  const Files old = pair("--lossless");
+  size_t fault_count = 0;
+  for (const std::string kind : {"open", "write", "short", "fsync", "close", "rename", "link"}) {
+    for (int number = 1; number < 100; ++number) {
+      for (const Files* files : {&made, &old}) {
+        for (const auto& [name, content] : *files) fs::remove(path(name));
+      }
+      for (const auto& [name, content] : old) store(name, content);
+      const std::string fault =
+          kind + ":" + std::to_string(number) + ":" + std::to_string(number % 2 ? ENOSPC : EIO);
+      const ToolResult result = runWith(fault, "convert -q in.glb out.gltf");
+      if (!wasHit()) break;
+      ++fault_count;
+      SCOPED_TRACE(fault + ": " + result.err);
+      Files now;
+      for (const auto& entry : fs::directory_iterator(folder_.path())) {
+        const std::string name = entry.path().filename();
+        if (name.starts_with("out.")) now[name] = contentOf(entry.path());
+      }
+      // The new pair may have the old buffer beside it, as long as a crash could bring its .gltf
+      // back.
+      Files both = old;
+      for (const auto& [name, content] : made) both[name] = content;
+      EXPECT_TRUE(now == made || (result.status == 1 && (now == old || now == both)));
+      EXPECT_TRUE(result.status == 0 || result.err.find("gltf-mcc: ") != std::string::npos);
+      EXPECT_TRUE(kind != "short" || result.status == 0);
+      expectNoTemporaries();
+    }
+  }
+  EXPECT_GE(fault_count, 8u);
 }
 
 TEST_F(Faults, ReportsAreStoredOrRefused) {

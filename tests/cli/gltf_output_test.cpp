@@ -13,6 +13,7 @@
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
 #include "gltf/gltf_builder.h"
+#include "support/made_files.h"
 
 namespace mcc::gltf::test {
 namespace {
@@ -79,6 +80,12 @@ class GltfOutput : public testing::Test {
     EXPECT_EQ(after, before) << arguments;
   }
 
+  /// Returns the path of what was made beside x.gltf, with the folder of x.
+  std::string made(const std::string& x, const std::string& end = ".bin") const {
+    const fs::path folder = fs::path(x).parent_path();
+    return folder / mcc::test::madeBeside(folder_.path() / folder, fs::path(x).filename(), end);
+  }
+
   Json jsonAt(const std::string& name) const {
     Json json;
     EXPECT_TRUE(parseJson(asBytes(contentOf(path(name))), json).ok()) << name;
@@ -94,11 +101,12 @@ TEST_F(GltfOutput, BufferLiesBesideIt) {
   const auto before = names();
   expectDone("convert in.glb 'out 1.gltf'");
   auto after = before;
-  after.insert({"out 1.gltf", "out 1.bin"});
+  const std::string buffer = made("out 1");
+  after.insert({"out 1.gltf", buffer});
   EXPECT_EQ(names(), after);
   const Json json = jsonAt("out 1.gltf");
-  EXPECT_EQ(json["buffers"][0]["uri"], "out%201.bin");
-  EXPECT_EQ(json["buffers"][0]["byteLength"], fs::file_size(path("out 1.bin")));
+  EXPECT_EQ(json["buffers"][0]["uri"], "out%201" + buffer.substr(5));
+  EXPECT_EQ(json["buffers"][0]["byteLength"], fs::file_size(path(buffer)));
   EXPECT_EQ(json["extensionsRequired"], Json::array({"KHR_mesh_collapse_compression"}));
 
   // Both containers hold the same document.
@@ -117,7 +125,7 @@ TEST_F(GltfOutput, ImagesComeAlong) {
   const auto before = names();
   expectDone("convert m/a.gltf o/b.gltf");
   auto after = before;
-  after.insert({"o/b.gltf", "o/b.bin", "o/sub dir/a.png"});
+  after.insert({"o/b.gltf", made("o/b"), "o/sub dir/a.png"});
   EXPECT_EQ(names(), after);
   EXPECT_EQ(contentOf(path("o/sub dir/a.png")), "\x89PNG image");
   EXPECT_EQ(jsonAt("o/b.gltf")["images"], jsonAt("m/a.gltf")["images"]);
@@ -144,29 +152,46 @@ TEST_F(GltfOutput, ImagesBesideTheInputStayWhereTheyAre) {
   const auto before = names();
   expectDone("convert m/a.gltf m/b.gltf");
   auto after = before;
-  after.insert({"m/b.gltf", "m/b.bin"});
+  after.insert({"m/b.gltf", made("m/b")});
   EXPECT_EQ(names(), after);
 }
 
-TEST_F(GltfOutput, ForeignFilesAreNotReplaced) {
+/// What was made with an older output goes with it; everything else stays.
+TEST_F(GltfOutput, ForeignFilesStay) {
   store("out.bin", "precious");
-  expectRefused("convert in.glb out.gltf",
-                "out.bin\" would be replaced, which does not belong to it");
-  expectRefused("decode in.glb out.gltf", "out.bin\" would be replaced");
-  store("out.gltf", "{}");
-  expectRefused("convert in.glb out.gltf", "out.bin\" would be replaced");
-  store("out.gltf", R"({"buffers":[{"uri":"out.bin","byteLength":8}]})");
-  expectDone("convert in.glb out.gltf");
+  store("out.0123456789abcdef.bin", "precious");
   expectDone("convert in.glb out.gltf --lossless");
+  const std::set<std::string> once = names();
+  expectDone("convert in.glb out.gltf");
+  EXPECT_EQ(names().size(), once.size());
+  EXPECT_NE(names(), once);  // a buffer of another name
+  expectDone("convert in.glb out.gltf --lossless");
+  EXPECT_EQ(names(), once);
+  for (const char* name : {"out.bin", "out.0123456789abcdef.bin"}) {
+    EXPECT_EQ(contentOf(path(name)), "precious");
+  }
+  store("out.gltf", "{}");
+  expectDone("convert in.glb out.gltf");
+  EXPECT_EQ(contentOf(path("out.bin")), "precious");
+  // The buffer of an older version belongs to its .gltf.
+  store("out.gltf", R"({"buffers":[{"uri":"out.bin","byteLength":8}]})");
+  expectDone("decode in.glb out.gltf");
+  EXPECT_FALSE(fs::exists(path("out.bin")));
 
-  // The buffer of the input must stay, even when the output of that name refers to it, too.
-  store("m/b.gltf", R"({"buffers":[{"uri":"mesh.bin","byteLength":8}]})");
-  fs::copy_file(path("m/b.gltf"), path("m/mesh.gltf"));
-  expectRefused("convert m/a.gltf m/mesh.gltf", "is part of the input and would be replaced");
-  // A model that has the name of our buffer.
-  fs::copy_file(path("in.glb"), path("x.bin"));
+  // A buffer of our name with other bytes.
+  const std::string buffer = jsonAt("out.gltf")["buffers"][0]["uri"];
+  store(buffer, "damaged");
+  expectRefused("decode in.glb out.gltf", buffer + ": another file appeared there");
+
+  // The files of the input stay, even when the output that is replaced refers to them, too.
+  store("m/mesh.gltf", R"({"buffers":[{"uri":"mesh.bin","byteLength":8}]})");
+  expectDone("convert m/a.gltf m/mesh.gltf");
+  EXPECT_EQ(contentOf(path("m/mesh.bin")), bin_);
+  const std::string glb = contentOf(path("in.glb"));
+  store("x.bin", glb);
   store("x.gltf", R"({"buffers":[{"uri":"x.bin","byteLength":8}]})");
-  expectRefused("convert x.bin x.gltf", "is part of the input and would be replaced");
+  expectDone("convert x.bin x.gltf");
+  EXPECT_TRUE(contentOf(path("x.bin")) == glb);
 }
 
 TEST_F(GltfOutput, InputMayBeOutput) {
@@ -175,17 +200,20 @@ TEST_F(GltfOutput, InputMayBeOutput) {
     return json_.dump();
   }());
   fs::rename(path("m/mesh.bin"), path("m/a.bin"));
-  const auto before = names();
+  auto expected = names();
   expectDone("convert --in-place m/a.gltf m/a.gltf");
-  EXPECT_EQ(names(), before);
-  EXPECT_LT(fs::file_size(path("m/a.bin")) * 3, bin_.size());
+  expected.erase("m/a.bin");
+  const std::string buffer = made("m/a");
+  expected.insert(buffer);
+  EXPECT_EQ(names(), expected);
+  EXPECT_LT(fs::file_size(path(buffer)) * 3, bin_.size());
   const std::string json = contentOf(path("m/a.gltf"));
-  const std::string bin = contentOf(path("m/a.bin"));
+  const std::string bin = contentOf(path(buffer));
   expectDone("convert --in-place m/a.gltf m/a.gltf");  // nothing is gained, so nothing changes
   EXPECT_EQ(contentOf(path("m/a.gltf")), json);
-  EXPECT_EQ(contentOf(path("m/a.bin")), bin);
+  EXPECT_EQ(contentOf(path(buffer)), bin);
   expectDone("decode --in-place m/a.gltf m/a.gltf");
-  EXPECT_GT(fs::file_size(path("m/a.bin")) * 2, bin_.size());
+  EXPECT_GT(fs::file_size(path(made("m/a"))) * 2, bin_.size());
 }
 
 TEST_F(GltfOutput, WhatGainsNothingIsCopiedWithItsFiles) {
@@ -196,10 +224,10 @@ TEST_F(GltfOutput, WhatGainsNothingIsCopiedWithItsFiles) {
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.out.find("the output is a copy of the input"), std::string::npos) << result.out;
   auto after = before;
-  after.insert({"o/small.gltf", "o/small.bin", "o/sub dir/a.png"});
+  after.insert({"o/small.gltf", made("o/small"), "o/sub dir/a.png"});
   EXPECT_EQ(names(), after);
   EXPECT_EQ(contentOf(path("o/small.gltf")), contentOf(path("m/small.gltf")));
-  EXPECT_EQ(contentOf(path("o/small.bin")), contentOf(path("m/small.bin")));
+  EXPECT_EQ(contentOf(path(made("o/small"))), contentOf(path(made("m/small"))));
   expectDone("decode o/small.gltf o/back.gltf");
 }
 
@@ -233,7 +261,7 @@ TEST_F(GltfOutput, DataUrisAndSeveralBuffersAreRead) {
   store("two.gltf", json.dump());
   expectDone("convert two.gltf two_out.gltf");
   expectDone("convert in.glb one_out.gltf");
-  EXPECT_EQ(contentOf(path("two_out.bin")), contentOf(path("one_out.bin")));
+  EXPECT_EQ(contentOf(path(made("two_out"))), contentOf(path(made("one_out"))));
 }
 
 TEST_F(GltfOutput, UnsafeUrisAreRefused) {
@@ -252,10 +280,10 @@ TEST_F(GltfOutput, UnsafeUrisAreRefused) {
 
 TEST_F(GltfOutput, NamesThatUrisCannotHave) {
   expectDone("convert in.glb 'a:b.gltf'");
-  EXPECT_EQ(jsonAt("a:b.gltf")["buffers"][0]["uri"], "./a%3Ab.bin");
+  EXPECT_EQ(jsonAt("a:b.gltf")["buffers"][0]["uri"], "./a%3Ab" + made("a:b").substr(3));
   expectDone("decode 'a:b.gltf' back.glb");
   expectDone("convert in.glb '100%.gltf'");
-  EXPECT_EQ(jsonAt("100%.gltf")["buffers"][0]["uri"], "100%25.bin");
+  EXPECT_EQ(jsonAt("100%.gltf")["buffers"][0]["uri"], "100%25" + made("100%").substr(4));
   expectDone("decode '100%.gltf' back.glb");
   expectRefused(R"(convert in.glb 'a\b.gltf')", "no URI can name a file");
 }
@@ -264,7 +292,7 @@ TEST_F(GltfOutput, ReplacementLeavesNoTemporaryFiles) {
   {
     ReplacementFile file(path("m/mesh.bin"));
     ASSERT_TRUE(file.write(asBytes("new")).ok());
-    ASSERT_TRUE(file.commitForNow().ok());
+    ASSERT_TRUE(file.commit().ok());
   }
   EXPECT_EQ(contentOf(path("m/mesh.bin")), "new");
   EXPECT_EQ(names(),
@@ -299,7 +327,8 @@ TEST_F(Fallback, HoldsWhatThePayloadHolds) {
     EXPECT_EQ(json["extensionsUsed"], Json::array({"KHR_mesh_collapse_compression"}));
     EXPECT_FALSE(json.contains("extensionsRequired"));
     ASSERT_EQ(json["buffers"].size(), 2u);
-    EXPECT_EQ(json["buffers"][1]["uri"], "out.fallback.bin");
+    const std::string fallback_name = made("out", ".fallback.bin");
+    EXPECT_EQ(json["buffers"][1]["uri"], fallback_name);
 
     // A loader that does not know the extension reads the accessors as they stand.
     const Document fallback = load(name);
@@ -322,7 +351,7 @@ TEST_F(Fallback, HoldsWhatThePayloadHolds) {
     // A loader that knows it does not need the second file.
     expectDone("decode " + name + " back.glb");
     EXPECT_EQ(fs::file_size(path("back.glb")), fs::file_size(path("decoded.glb")));
-    fs::remove(path("out.fallback.bin"));
+    fs::remove(path(fallback_name));
     const ToolResult result = run("decode " + name + " back.glb");
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_NE(result.out.find("this fallback is not needed"), std::string::npos) << result.out;
@@ -332,10 +361,11 @@ TEST_F(Fallback, HoldsWhatThePayloadHolds) {
 
 TEST_F(Fallback, IsReplacedWithItsFileOnly) {
   store("out.fallback.bin", "precious");
-  expectRefused("convert in.glb out.glb --fallback", "out.fallback.bin\" would be replaced");
-  fs::remove(path("out.fallback.bin"));
   expectDone("convert in.glb out.glb --fallback");
+  const std::string first = made("out", ".fallback.bin");
   expectDone("convert in.glb out.glb --fallback --lossless");
+  EXPECT_NE(made("out", ".fallback.bin"), first);
+  EXPECT_EQ(contentOf(path("out.fallback.bin")), "precious");
   expectRefused("convert in.glb - --fallback", "a fallback is a second file");
 }
 
@@ -347,8 +377,9 @@ TEST_F(Fallback, AMissingBufferOfAnythingElseIsAnError) {
       {{"bufferView", view}, {"componentType", 5126}, {"count", 1}, {"type", "VEC3"}});
   store("out.gltf", json.dump());
   expectDone("decode out.gltf back.glb");
-  fs::remove(path("out.fallback.bin"));
-  expectRefused("decode out.gltf back.glb", "out.fallback.bin\": there is no such file");
+  const std::string fallback = made("out", ".fallback.bin");
+  fs::remove(path(fallback));
+  expectRefused("decode out.gltf back.glb", fallback + "\": there is no such file");
 }
 
 TEST_F(Fallback, SurvivesACopy) {
@@ -356,7 +387,8 @@ TEST_F(Fallback, SurvivesACopy) {
   fs::create_directory(path("o"));
   expectDone("convert out.glb o/again.glb");
   EXPECT_EQ(contentOf(path("o/again.glb")), contentOf(path("out.glb")));
-  EXPECT_EQ(contentOf(path("o/out.fallback.bin")), contentOf(path("out.fallback.bin")));
+  EXPECT_EQ(contentOf(path(made("o/out", ".fallback.bin"))),
+            contentOf(path(made("out", ".fallback.bin"))));
 }
 
 }  // namespace

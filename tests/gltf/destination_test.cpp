@@ -7,6 +7,7 @@
 #include <map>
 #include <thread>
 
+#include "gltf/files/work_lock.h"
 #include "gltf/gltf_builder.h"
 #include "support/scratch_folder.h"
 #if !defined(_WIN32)
@@ -19,6 +20,13 @@ namespace mcc::gltf::test {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::vector<uint8_t> bytesOf(const std::string& text) { return {text.begin(), text.end()}; }
+
+/// A buffer or fallback of a.gltf.
+SideFile madeOf(SideFile::Kind kind, const std::string& content) {
+  return {kind, nameOfMade({true, "a.gltf", "a"}, kind, bytesOf(content)), bytesOf(content)};
+}
 
 class DestinationTest : public testing::Test {
  protected:
@@ -47,20 +55,36 @@ class DestinationTest : public testing::Test {
   /// A .gltf with its buffer, a fallback and an image in a folder of its own.
   static Package package(const std::string& content) {
     Package package;
-    const auto bytes = [&](const std::string& text) {
-      const std::string all = text + content;
-      return std::vector<uint8_t>(all.begin(), all.end());
-    };
-    package.main = bytes(R"({"buffers":[{"uri":"a.bin"},{"uri":"a.fallback.bin"}],"extras":")");
-    package.main.insert(package.main.end(), {'"', '}'});
-    package.beside = {{SideFile::Kind::kFallback, "a.fallback.bin", bytes("fallback ")},
-                      {SideFile::Kind::kCopy, "./new/folder/a.png", bytes("image ")},
-                      {SideFile::Kind::kBuffer, "a.bin", bytes("buffer ")}};
+    package.beside = {madeOf(SideFile::Kind::kFallback, "fallback " + content),
+                      {SideFile::Kind::kCopy, "./new/folder/a.png", bytesOf("image " + content)},
+                      madeOf(SideFile::Kind::kBuffer, "buffer " + content)};
+    package.main = bytesOf(R"({"buffers":[{"uri":")" + package.beside[2].path + R"("},{"uri":")" +
+                           package.beside[0].path + R"("}],"extras":")" + content + "\"}");
     return package;
   }
 
   mcc::test::ScratchFolder folder_;
 };
+
+TEST(NamesOfMade, BelongToOneDocument) {
+  const Container a{true, "a.gltf", "a"};
+  const auto name = [](const Container& container, const std::string& bytes) {
+    return nameOfMade(container, SideFile::Kind::kBuffer, bytesOf(bytes));
+  };
+  EXPECT_EQ(name(a, "bytes"), name(a, "bytes"));
+  EXPECT_NE(name(a, "bytes"), name(a, "byteS"));
+  EXPECT_NE(name(a, "bytes"), name({false, "a.glb", "a"}, "bytes"));
+  EXPECT_EQ(name(a, ""), "a.2d2395995a98d3a7.bin");
+  for (const std::string& made : {name(a, "x"), nameOfMade(a, SideFile::Kind::kFallback, {}),
+                                  std::string("a.bin"), std::string("a.fallback.bin")}) {
+    EXPECT_TRUE(isNameOfMade(a, made)) << made;
+  }
+  for (const char* other :
+       {"", "a", "bin", "a.", "b.bin", "ab.bin", "a.0123.bin", "a.png", "a.0123456789ABCDEF.bin",
+        "a.0123456789abcdefbin", "a.0123456789abcdef0.bin", "a.0123456789abcdef", "a.x.bin"}) {
+    EXPECT_FALSE(isNameOfMade(a, other)) << other;
+  }
+}
 
 TEST_F(DestinationTest, WritesAllFiles) {
   for (const std::string content : {"1", "2"}) {
@@ -73,16 +97,20 @@ TEST_F(DestinationTest, WritesAllFiles) {
     std::vector<uint8_t> buffer;
     ASSERT_TRUE(destination.readBack(main).ok());
     EXPECT_EQ(main, package(content).main);
-    ASSERT_TRUE(destination.reader()("a.bin", "", buffer).ok());
-    EXPECT_EQ(buffer, package(content).beside[2].bytes);
+    const SideFile expected = package(content).beside[2];
+    ASSERT_TRUE(destination.reader()(expected.path, "", buffer).ok());
+    EXPECT_EQ(buffer, expected.bytes);
     EXPECT_FALSE(destination.reader()("b.bin", "/buffers/0", buffer).ok());
     ASSERT_EQ(destination.commit().message(), "");
-    EXPECT_EQ(destination.files(), (std::vector<fs::path>{path("a.gltf"), path("a.bin")}));
+    FilesInUse files;
+    destination.listFiles(files);
+    EXPECT_EQ(files.output, (std::vector<fs::path>{path("a.gltf"), path(expected.path)}));
+    EXPECT_EQ(files.other_output, std::vector<fs::path>{path(package(content).beside[0].path)});
   }
   const auto files = everything();
   EXPECT_EQ(files.size(), 6u);
-  EXPECT_EQ(files.at("a.bin"), "buffer 2");
-  EXPECT_EQ(files.at("a.fallback.bin"), "fallback 2");
+  EXPECT_EQ(files.at(package("2").beside[2].path), "buffer 2");
+  EXPECT_EQ(files.at(package("2").beside[0].path), "fallback 2");
   EXPECT_EQ(files.at("new/folder/a.png"), "image 2");
 }
 
@@ -115,7 +143,7 @@ TEST_F(DestinationTest, TemporariesAreKnown) {
     (void)temporaries.removeAll();  // finished files stay; nothing else is left
     const auto files = everything();
     EXPECT_EQ(files.size(), 6u) << content;
-    EXPECT_EQ(files.at("a.bin"), "buffer " + content);
+    EXPECT_EQ(files.at(package(content).beside[2].path), "buffer " + content);
     fs::remove_all(path("new"));
   }
 }
@@ -126,8 +154,8 @@ TEST_F(DestinationTest, TakesEverythingBack) {
     if (with_older) {
       const std::vector<uint8_t> older = package("").main;
       store("a.gltf", std::string(older.begin(), older.end()));
-      store("a.bin", "older buffer");
-      store("a.fallback.bin", "older fallback");
+      store(package("").beside[2].path, "older buffer");
+      store(package("").beside[0].path, "older fallback");
     }
     {
       Destination destination(path("a.gltf"));
@@ -141,8 +169,8 @@ TEST_F(DestinationTest, TakesEverythingBack) {
     const auto after = everything();
     EXPECT_EQ(after.size(), with_older ? 4u : 2u);
     if (with_older) {
-      EXPECT_EQ(after.at("a.bin"), "older buffer");
-      EXPECT_EQ(after.at("a.fallback.bin"), "older fallback");
+      EXPECT_EQ(after.at(package("").beside[2].path), "older buffer");
+      EXPECT_EQ(after.at(package("").beside[0].path), "older fallback");
     }
     fs::remove_all(path("a.gltf"));
   }
@@ -152,21 +180,23 @@ TEST_F(DestinationTest, AFileThatAppearsIsNotReplaced) {
   Destination destination(path("a.gltf"));
   ASSERT_TRUE(destination.check(true).ok());
   ASSERT_TRUE(destination.write(package("")).ok());
-  store("a.bin", "precious");
+  store("new/folder/a.png", "precious");
   const Result result = destination.commit();
-  EXPECT_NE(result.message().find("a.bin: another file appeared there"), std::string::npos)
+  EXPECT_NE(result.message().find("a.png: another file appeared there"), std::string::npos)
       << result.message();
-  EXPECT_EQ(everything().at("a.bin"), "precious");
+  EXPECT_EQ(everything().at("new/folder/a.png"), "precious");
   EXPECT_EQ(everything().count("a.gltf"), 0u);
-  EXPECT_EQ(everything().count("a.fallback.bin"), 0u);
+  for (const SideFile& side : package("").beside) {
+    if (side.kind == SideFile::Kind::kCopy) continue;
+    EXPECT_EQ(everything().count(side.path), 0u);
+  }
 }
 
 /// A .gltf with its buffer, each of which says who wrote it.
 Package pairOf(const std::string& writer) {
   Package package;
-  const std::string main = R"({"buffers":[{"uri":"a.bin"}],"extras":")" + writer + "\"}";
-  package.main.assign(main.begin(), main.end());
-  package.beside = {{SideFile::Kind::kBuffer, "a.bin", {writer.begin(), writer.end()}}};
+  package.beside = {madeOf(SideFile::Kind::kBuffer, writer)};
+  package.main = bytesOf(R"({"buffers":[{"uri":")" + package.beside[0].path + "\"}]}");
   return package;
 }
 
@@ -194,34 +224,47 @@ TEST_F(DestinationTest, APairIsAlwaysOneWriters) {
     for (const std::string& message : messages) ASSERT_EQ(message, "") << round;
     const auto files = everything();
     ASSERT_EQ(files.size(), 2u) << round;
-    ASSERT_NE(files.at("a.gltf").find('"' + files.at("a.bin") + '"'), std::string::npos)
-        << round << ": " << files.at("a.gltf") << " beside " << files.at("a.bin");
+    int count = 0;
+    for (int i = 0; i < kWriters; ++i) {
+      const std::string writer = "writer " + std::to_string(i);
+      const Package pair = pairOf(writer);
+      const auto buffer = files.find(pair.beside[0].path);
+      if (buffer == files.end()) continue;
+      ++count;
+      EXPECT_EQ(buffer->second, writer);
+      EXPECT_EQ(bytesOf(files.at("a.gltf")), pair.main);
+    }
+    ASSERT_EQ(count, 1) << round;
     if (round % 3 == 0) {
-      fs::remove(path("a.gltf"));
-      fs::remove(path("a.bin"));
+      for (const auto& [name, content] : files) fs::remove(path(name));
     }
   }
 }
 
-/// Where folders cannot be locked, a pair that another program has broken up is detected.
-TEST_F(DestinationTest, ABrokenPairIsFoundOut) {
-  Destination first(path("a.gltf"));
-  ASSERT_TRUE(first.check(false).ok());
-  ASSERT_TRUE(first.write(pairOf("first")).ok());
-  ASSERT_EQ(first.commit().message(), "");
-  EXPECT_EQ(first.checkTogether().message(), "");
-  ASSERT_TRUE(writeFile(path("a.bin"), asBytes("second")).ok());
-  EXPECT_NE(first.checkTogether().message().find("may not belong together"), std::string::npos);
-  // A complete pair of another program is fine.
-  ASSERT_TRUE(writeFile(path("a.gltf"), pairOf("second").main).ok());
-  EXPECT_EQ(first.checkTogether().message(), "");
+/// Where the folder cannot be locked, old buffers stay, and every .gltf has its own.
+TEST_F(DestinationTest, ALockedFolderCostsNoBuffer) {
+  const auto write = [&](const std::string& writer) {
+    Destination destination(path("a.gltf"));
+    Result result = destination.check(false);
+    if (result.ok()) result = destination.write(pairOf(writer));
+    return result.ok() ? destination.commit() : result;
+  };
+  ASSERT_EQ(write("first").message(), "");
+  {
+    WorkLock lock;
+    ASSERT_TRUE(lock.take(folder_.path()));
+    ASSERT_EQ(write("second").message(), "");
+  }
+  EXPECT_EQ(everything().size(), 3u);
+  EXPECT_EQ(everything().at(pairOf("second").beside[0].path), "second");
+  ASSERT_EQ(write("third").message(), "");
+  EXPECT_EQ(everything().count(pairOf("first").beside[0].path), 1u);
+  EXPECT_EQ(everything().count(pairOf("second").beside[0].path), 0u);
+  EXPECT_EQ(everything().at(pairOf("third").beside[0].path), "third");
 }
 
 /// Both copies go to one file, so equal ones are written once.
 TEST_F(DestinationTest, OneFileUnderTwoNames) {
-  const auto bytesOf = [](const std::string& text) {
-    return std::vector<uint8_t>(text.begin(), text.end());
-  };
   const auto copies = [&](const std::string& second) {
     Package package;
     package.main = bytesOf("{}");
@@ -254,17 +297,22 @@ mode_t modeOf(const fs::path& file) {
 
 TEST_F(DestinationTest, PermissionsStay) {
   for (const mode_t mode : {0600U, 0640U, 0644U, 0666U, 0700U}) {
-    store("a.gltf", R"({"buffers":[{"uri":"a.bin"}]})");
-    store("a.bin", "older");
-    ASSERT_EQ(::chmod(path("a.gltf").c_str(), mode), 0);
-    ASSERT_EQ(::chmod(path("a.bin").c_str(), mode), 0);
+    const Package older = pairOf("older");
+    const std::string old_buffer = older.beside[0].path;
+    store("a.gltf", std::string(older.main.begin(), older.main.end()));
+    store(old_buffer, "older");
+    ASSERT_EQ(::chmod(path("a.gltf").c_str(), 0644), 0);
+    ASSERT_EQ(::chmod(path(old_buffer).c_str(), mode), 0);
     Destination destination(path("a.gltf"));
     ASSERT_EQ(destination.check(false).message(), "");
     ASSERT_EQ(destination.write(pairOf("new")).message(), "");
     ASSERT_EQ(destination.commit().message(), "");
-    EXPECT_EQ(everything().at("a.bin"), "new");
-    EXPECT_EQ(modeOf(path("a.gltf")), mode);
-    EXPECT_EQ(modeOf(path("a.bin")), mode);
+    const std::string new_buffer = pairOf("new").beside[0].path;
+    EXPECT_EQ(everything().at(new_buffer), "new");
+    EXPECT_EQ(everything().count(old_buffer), 0u);
+    EXPECT_EQ(modeOf(path("a.gltf")), 0644);
+    EXPECT_EQ(modeOf(path(new_buffer)), mode);
+    fs::remove(path(new_buffer));
   }
 }
 

@@ -13,7 +13,7 @@
 
 #include "gltf/files/work_lock.h"
 #include "tiles/part.h"
-#include "tiles/record.h"
+#include "tiles/part_record.h"
 #include "tiles/tiles_fixture.h"
 
 namespace mcc::test {
@@ -179,7 +179,7 @@ TEST_F(TileParts, OfTwoRunsThatBeginTogetherOneWorks) {
   for (int round = 0; round < kRounds; ++round) {
     const fs::path output = path("o" + std::to_string(round));
     fs::create_directory(output);
-    tiles::Record records[] = {{path("in"), output, {1, 2}}, {path("in"), output, {2, 3}}};
+    tiles::PartRecord records[] = {{path("in"), output, {1, 2}}, {path("in"), output, {2, 3}}};
     std::atomic<int> ready = 0;
     bool is_open[2] = {};
     const auto open = [&](int i) {

@@ -40,8 +40,9 @@ test('b3dm are upgraded by 3d-tiles-tools and then compressed', () => {
     };
     writeFileSync(path.join(folder, 'city/tileset.json'), JSON.stringify({ asset: { version: '1.0' }, geometricError: 9, root }));
     const [command] = readFileSync(path.join(ROOT, 'docs/cli.md'), 'utf8').match(/(?<=^ {4})npx 3d-tiles-tools upgrade .*$/m);
-    const PATH = [path.join(folder, 'bin'), path.join(ROOT, 'tests/web/node_modules/.bin'), process.env.PATH].join(path.delimiter);
-    execSync(command, { cwd: folder, env: { ...process.env, PATH }, stdio: ['ignore', 'ignore', 'inherit'] });
+    symlinkSync(path.join(ROOT, 'tests/web/node_modules'), path.join(folder, 'node_modules')); // where npx looks first
+    const PATH = [path.join(folder, 'bin'), process.env.PATH].join(path.delimiter);
+    execSync(command, { cwd: folder, env: { ...process.env, PATH, npm_config_offline: 'true' }, stdio: ['ignore', 'ignore', 'inherit'] });
     const read = (name) => readFileSync(path.join(folder, 'city-small', name));
     const tileset = JSON.parse(read('tileset.json'));
     assert.equal(tileset.asset.version, '1.1');

@@ -4,21 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
-#include <mutex>
 #include <numeric>
 #include <system_error>
 
-#include "batch_record.h"
 #include "convert_report.h"
 #include "file_roles.h"
-#include "gltf/base/parallel.h"
 #include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
-#include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/system.h"
+#include "jobs/run.h"
 #include "json/json.h"
 #include "notes.h"
 #include "progress_line.h"
@@ -45,9 +41,15 @@ struct BatchFile {
   Json report;  ///< only when --report was given
 };
 
+constexpr char kRecordName[] = ".gltf-mcc.json";
+
 class Batch {
  public:
-  explicit Batch(const BatchOptions& options) : options_(options), line_(options.common.is_quiet) {}
+  explicit Batch(const BatchOptions& options)
+      : options_(options),
+        maker_(jobs::makerOf(options.settings.dump())),
+        record_(options.folder / kRecordName, {}, options.folder),
+        line_(options.common.is_quiet) {}
 
   int run();
 
@@ -55,15 +57,17 @@ class Batch {
   gltf::Result listFiles();
   gltf::Result checkRoles() const;
   gltf::Result makeFolder() const;
+  void openRecord();
   void makeAll();
-  void makeOne(BatchFile& file);
-  void finishOne(const BatchFile& file, const BatchResult& made);
-  std::vector<fs::path> outputsOf(const BatchFile& file, const BatchResult& made) const;
+  jobs::Job describe(const BatchFile& file) const;
+  bool take(BatchFile& file, const Json& made) const;
+  gltf::Result make(BatchFile& file);
+  void end(BatchFile& file, const gltf::Result& result, size_t done);
+  void keep(const BatchFile& file, const BatchResult& made);
   std::string nameOf(Outcome outcome) const;
-  void keepRecord(bool is_last);
-  void showProgress() const;
+  void showProgress(size_t done) const;
   void printNote(const std::string& text) const;
-  std::string lineOf(const BatchFile& file) const;
+  std::string lineOf(const BatchFile& file, size_t done) const;
   std::string summaryText() const;
   std::string fileTable() const;
   Json reportOf() const;
@@ -77,28 +81,16 @@ class Batch {
   }
 
   const BatchOptions& options_;
+  const std::string maker_;
   std::vector<BatchFile> files_;
-  std::unique_ptr<BatchRecord> record_;
-  std::chrono::steady_clock::time_point recorded_;
+  jobs::Record record_;
   ProgressLine line_;
-  std::mutex mutex_;  ///< guards record_, done_, line_ and standard output
-  size_t done_ = 0;
   bool has_output_failed_ = false;
 };
 
-/// Returns the names of all files an output consists of.
-std::vector<std::string> namesOf(const std::string& name, bool with_fallback) {
-  std::vector<std::string> names = {name};
-  gltf::Container container;
-  if (!gltf::containerOf(name, container).ok()) return names;
-  if (container.is_gltf) names.push_back(container.buffer_name);
-  if (with_fallback) names.push_back(container.fallback_name);
-  return names;
-}
-
 gltf::Result Batch::listFiles() {
   std::map<std::string, std::string> taken;  // key of the name -> input
-  const std::string record_key = gltf::system::nameKey(BatchRecord::pathIn({}));
+  const std::string record_key = gltf::system::nameKey(kRecordName);
   for (const std::string& input : options_.inputs) {
     BatchFile file;
     file.input = input;
@@ -113,14 +105,12 @@ gltf::Result Batch::listFiles() {
     if (gltf::isSameFile(gltf::pathOf(input), outputOf(file))) {
       return {input, "would be replaced by its output; choose another folder with -o"};
     }
-    for (const std::string& name : namesOf(file.name, options_.with_fallback)) {
-      const auto [found, is_new] =
-          taken.try_emplace(gltf::system::nameKey(gltf::pathOf(name)), input);
-      if (is_new) continue;
-      return {input,
-              fmt::format("writes \"{}\", as \"{}\" does; name different folders for "
-                          "them or rename one",
-                          gltf::textOf(options_.folder / gltf::pathOf(name)), found->second)};
+    const std::string key = gltf::system::nameKey(gltf::pathOf(file.name));
+    const auto [found, is_new] = taken.try_emplace(key, input);
+    if (!is_new) {
+      return {input, fmt::format("writes \"{}\", as \"{}\" does; name different folders for "
+                                 "them or rename one",
+                                 gltf::textOf(outputOf(file)), found->second)};
     }
     files_.push_back(std::move(file));
   }
@@ -136,11 +126,9 @@ gltf::Result Batch::checkRoles() const {
     const bool has_files = input.extension() == ".gltf";
     if (has_files && !options_.report.empty()) roles.readBeside(input, options_.folder);
   }
-  gltf::Result apart =
-      roles.write(BatchRecord::pathIn(options_.folder), "the record of the folder");
+  gltf::Result apart = roles.write(options_.folder / kRecordName, "the record of the folder");
   for (size_t i = 0; i < files_.size() && apart.ok(); ++i) {
     apart = roles.write(outputOf(files_[i]), "the output of " + files_[i].input);
-    roles.replaceBeside(outputOf(files_[i]), options_.with_fallback);
   }
   if (apart.ok() && !options_.report.empty())
     apart = roles.write(gltf::pathOf(options_.report), "--report");
@@ -173,16 +161,11 @@ void Batch::printNote(const std::string& text) const {
   if (!options_.common.is_quiet) fmt::print(stderr, "gltf-mcc: note: {}\n", gltf::printable(text));
 }
 
-void Batch::showProgress() const {
-  constexpr size_t kBarWidth = 24;
-  const size_t filled = files_.empty() ? kBarWidth : kBarWidth * done_ / files_.size();
-  line_.show(fmt::format("[{}{}] {} of {} files", std::string(filled, '#'),
-                         std::string(kBarWidth - filled, '-'), done_, files_.size()));
-}
+void Batch::showProgress(size_t done) const { line_.show(jobs::progressText(done, files_.size())); }
 
-std::string Batch::lineOf(const BatchFile& file) const {
+std::string Batch::lineOf(const BatchFile& file, size_t done) const {
   const std::string start =
-      fmt::format("[{}/{}] {}: ", done_, files_.size(), gltf::printable(file.input));
+      fmt::format("[{}/{}] {}: ", done, files_.size(), gltf::printable(file.input));
   switch (file.outcome) {
     case Outcome::kDone: return start + sizeChange(file.input_bytes, file.output_bytes) + "\n";
     case Outcome::kCopied: return start + "copied, " + options_.copied_why + "\n";
@@ -192,94 +175,109 @@ std::string Batch::lineOf(const BatchFile& file) const {
   return start + "failed\n";
 }
 
-void Batch::keepRecord(bool is_last) {
-  constexpr std::chrono::seconds kInterval(2);
-  const auto now = std::chrono::steady_clock::now();
-  if (!is_last && now - recorded_ < kInterval) return;
-  recorded_ = now;
-  const gltf::Result written = record_->write();
-  if (is_last && !written.ok()) {
-    printNote(written.message() + "; the next run will make everything again");
-  }
+/// A file of the record's name that is not a record is replaced; anything else stays.
+void Batch::openRecord() {
+  constexpr uintmax_t kMostBytes = uintmax_t{1} << 26;
+  const gltf::Result usable = record_.check(kMostBytes);
+  if (!usable.ok()) printNote(usable.message() + "; it is ignored, and everything is made again");
+  const gltf::Result opened = record_.open(usable.ok());  // makeAll() tells what was not written
+  if (opened.ok()) record_.read(options_.folder / kRecordName);
 }
 
-/// Returns all files of an output: those that are always made or may be, and copies of the others.
-std::vector<fs::path> Batch::outputsOf(const BatchFile& file, const BatchResult& made) const {
-  std::vector<fs::path> paths;
-  for (const std::string& name : namesOf(file.name, options_.with_fallback)) {
-    paths.push_back(options_.folder / gltf::pathOf(name));
+jobs::Job Batch::describe(const BatchFile& file) const {
+  std::error_code code;
+  const fs::path input = fs::absolute(gltf::pathOf(file.input), code).lexically_normal();
+  return {file.name, maker_, {gltf::textOf(input)}};
+}
+
+bool Batch::take(BatchFile& file, const Json& made) const {
+  for (const char* key : {"input_bytes", "output_bytes"}) {
+    if (!made.is_object() || !made.contains(key) || !made[key].is_number()) return false;
   }
+  file.input_bytes = made["input_bytes"].get<uint64_t>();
+  file.output_bytes = made["output_bytes"].get<uint64_t>();
+  file.outcome = Outcome::kUpToDate;
+  return true;
+}
+
+gltf::Result Batch::make(BatchFile& file) {
+  BatchResult made;
+  const auto count = static_cast<uint32_t>(files_.size());
+  const uint32_t thread_count = std::max(1u, options_.job_count / std::max(1u, count));
+  file.failure = options_.make(file.input, outputOf(file), thread_count, made);
+  if (!file.failure.ok()) return file.failure;
+  file.outcome = made.copied ? Outcome::kCopied : Outcome::kDone;
+  file.input_bytes = made.input_bytes;
+  file.output_bytes = made.output_bytes;
+  file.notes = std::move(made.notes);
+  file.report = std::move(made.details);
+  keep(file, made);
+  return {};
+}
+
+/// Records an output with all its files: those that were made, and copies of the input's.
+void Batch::keep(const BatchFile& file, const BatchResult& made) {
+  const jobs::Job job = describe(file);
+  std::vector<fs::path> inputs = made.files.input;
+  inputs.insert(inputs.end(), made.files.other_input.begin(), made.files.other_input.end());
+  std::vector<std::string> input_names;
+  std::vector<std::string> outputs = {file.name};
   const fs::path source_folder = gltf::folderOf(gltf::pathOf(file.input));
-  for (const fs::path& path : made.files.other_input) {
-    paths.push_back(options_.folder / path.lexically_relative(source_folder));
+  for (size_t i = 0; i < inputs.size(); ++i) {
+    std::error_code code;
+    input_names.push_back(gltf::textOf(fs::absolute(inputs[i], code).lexically_normal()));
+    const bool is_copied = i != 0 && (made.copied || i >= made.files.input.size());
+    if (is_copied) outputs.push_back(gltf::textOf(inputs[i].lexically_relative(source_folder)));
   }
-  return paths;
+  for (const std::vector<fs::path>* list : {&made.files.output, &made.files.other_output}) {
+    for (const fs::path& path : *list) {
+      if (path == outputOf(file)) continue;
+      outputs.push_back(gltf::textOf(path.lexically_relative(options_.folder)));
+    }
+  }
+  record_.add(job, input_names, outputs,
+              {{"input_bytes", made.input_bytes}, {"output_bytes", made.output_bytes}});
 }
 
-void Batch::finishOne(const BatchFile& file, const BatchResult& made) {
-  const std::lock_guard lock(mutex_);
-  ++done_;
-  if (file.outcome == Outcome::kFailed) record_->remove(file.name);
-  if (file.outcome == Outcome::kDone || file.outcome == Outcome::kCopied) {
-    record_->add(file.name, made, outputsOf(file, made));
-    keepRecord(false);
+void Batch::end(BatchFile& file, const gltf::Result& result, size_t done) {
+  if (!result.ok()) {
+    file.outcome = Outcome::kFailed;
+    if (file.failure.ok()) file.failure = {file.input, result.what};
+    if (record_.hasOfOwn(file.name)) record_.claim(file.name);  // and no longer how it was made
   }
   line_.clear();
   if (printsLines()) {
     const size_t most = options_.common.is_verbose ? kAllNotes : kShownNotes;
     const std::string notes = notesText(file.notes, most, "  ");
-    has_output_failed_ |= printOut(lineOf(file) + notes) != kDone;
+    has_output_failed_ |= printOut(lineOf(file, done) + notes) != kDone;
   }
-  showProgress();
+  showProgress(done);
 }
 
-void Batch::makeOne(BatchFile& file) {
-  BatchResult made;
-  {
-    const std::lock_guard lock(mutex_);
-    if (!options_.is_forced && record_->isUpToDate(file.name, gltf::pathOf(file.input))) {
-      file.outcome = Outcome::kUpToDate;
-      std::tie(file.input_bytes, file.output_bytes) = record_->sizesOf(file.name);
-    }
-  }
-  if (file.outcome != Outcome::kUpToDate) {
-    const auto count = static_cast<uint32_t>(files_.size());
-    const uint32_t thread_count = std::max(1u, options_.job_count / std::max(1u, count));
-    file.failure = options_.make(file.input, outputOf(file), thread_count, made);
-    if (file.failure.ok()) {
-      file.outcome = made.copied ? Outcome::kCopied : Outcome::kDone;
-      file.input_bytes = made.input_bytes;
-      file.output_bytes = made.output_bytes;
-      file.notes = made.notes;
-      file.report = std::move(made.details);
-    }
-  }
-  finishOne(file, made);
-}
-
-/// Starts with the largest files, because they take longest. The first N files at a time are then
-/// also the most memory that is ever needed.
 void Batch::makeAll() {
-  std::vector<size_t> order(files_.size());
-  std::iota(order.begin(), order.end(), size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](size_t a, size_t b) { return files_[a].size > files_[b].size; });
-  showProgress();
-  const gltf::Result all =
-      gltf::runParallel(order.size(), options_.job_count, [&](size_t i) -> gltf::Result {
-        BatchFile& file = files_[order[i]];
-        const gltf::Result done = gltf::guarded([&]() -> gltf::Result {
-          makeOne(file);
-          return {};
-        });
-        if (!done.ok()) file.failure = {file.input, done.what};
-        return {};  // a file that fails does not stop the others
-      });
+  jobs::Work work;
+  work.bytesOf = [this](uint32_t i) { return files_[i].size; };
+  work.describe = [this](uint32_t i) { return describe(files_[i]); };
+  work.take = [this](uint32_t i, const Json& made) { return take(files_[i], made); };
+  work.make = [this](uint32_t i) { return make(files_[i]); };
+  work.end = [this](uint32_t i, const gltf::Result& result, size_t done) {
+    end(files_[i], result, done);
+  };
+  work.thread_count = options_.job_count;
+  work.is_forced = options_.is_forced;
+  std::vector<uint32_t> all(files_.size());
+  std::iota(all.begin(), all.end(), 0u);
+  showProgress(0);
+  const gltf::Result done = runJobs(std::move(all), work, record_);
   for (BatchFile& file : files_) {
     const bool is_unsaid = file.outcome == Outcome::kFailed && file.failure.ok();
-    if (is_unsaid) file.failure = {file.input, all.ok() ? "was left out" : all.what};
+    if (is_unsaid) file.failure = {file.input, done.ok() ? "was left out" : done.what};
   }
   line_.clear();
+  const gltf::Result recorded = record_.flush();
+  if (!recorded.ok()) {
+    printNote(recorded.message() + "; the next run will make everything again");
+  }
 }
 
 std::vector<std::string> printableOf(const std::vector<std::string>& notes) {
@@ -392,10 +390,8 @@ int Batch::run() {
   if (!options_.report.empty()) ready = checkReport(options_.report);
   if (ready.ok()) ready = makeFolder();
   if (!ready.ok()) return reportFailure(ready);
-  record_ = std::make_unique<BatchRecord>(options_.folder, options_.settings);
-  if (!record_->note().ok()) printNote(record_->note().message());
+  openRecord();
   makeAll();
-  keepRecord(true);
   return printResults();
 }
 

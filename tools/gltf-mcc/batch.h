@@ -30,13 +30,12 @@ struct BatchOptions {
   std::filesystem::path folder;  ///< created if necessary; its parent must exist
   std::string report;            ///< path of the JSON report; empty: none is written
   CommonOptions common;
-  uint32_t job_count = 1;  ///< files at the same time; the results do not depend on it
-  bool is_forced = false;  ///< also makes outputs that are up to date
-  bool with_fallback = false;
-  std::string done_name;            ///< name of the outcome in tables, "converted"
-  std::string copied_why;           ///< why a file was copied, "nothing becomes smaller"
-  std::string details_name;         ///< key of BatchResult::details in the report
-  gltf::Json settings;  ///< all options that the bytes of the outputs depend on
+  uint32_t job_count = 1;    ///< files at the same time; the results do not depend on it
+  bool is_forced = false;    ///< also makes outputs that are up to date
+  std::string done_name;     ///< name of the outcome in tables, "converted"
+  std::string copied_why;    ///< why a file was copied, "nothing becomes smaller"
+  std::string details_name;  ///< key of BatchResult::details in the report
+  gltf::Json settings;       ///< all options that the bytes of the outputs depend on
   /// Makes one output from one input with the given number of threads. Called in parallel.
   std::function<gltf::Result(const std::string& input, const std::filesystem::path& output,
                              uint32_t thread_count, BatchResult& result)>

@@ -74,7 +74,6 @@ int ConvertCommand::runMany() const {
   options.common = common;
   options.job_count = convert.thread_count;
   options.is_forced = is_forced;
-  options.with_fallback = convert.fallback;
   options.done_name = "converted";
   options.copied_why = "nothing becomes smaller";
   options.details_name = "conversion";
@@ -173,7 +172,6 @@ gltf::Result ConvertCommand::checkNames() const {
   roles.read(gltf::pathOf(input));
   roles.readBeside(gltf::pathOf(input), gltf::folderOf(output));
   roles.replace(output);
-  roles.replaceBeside(output, convert.fallback);
   gltf::Result apart;
   if (!draco.empty()) apart = roles.write(gltf::pathOf(draco), "--emit-draco");
   if (apart.ok() && !report.empty()) apart = roles.write(gltf::pathOf(report), "--report");
@@ -355,7 +353,7 @@ void addConvert(CLI::App& app, int& status) {
   addQuantization(*command, state->convert);
   addKeepOrder(*command, state->convert);
   command->add_flag("--fallback", state->convert.fallback,
-                    "Also keep the geometry uncompressed, in OUT.fallback.bin");
+                    "Also keep the geometry uncompressed, in OUT.HASH.fallback.bin");
   command->add_option("--report", state->report, "Write all figures to this JSON file")
       ->type_name("FILE");
   state->comparison.addOptions(*command);
@@ -370,7 +368,8 @@ void addConvert(CLI::App& app, int& status) {
   setHelp(
       *command, "convert [OPTIONS] IN OUT\nconvert [OPTIONS] -o DIR IN…",
       "IN and OUT are .glb or .gltf files, or - for standard input and output. A .gltf gets its\n"
-      "buffer next to it (a.gltf: a.bin). Images in separate files stay separate, but move into a\n"
+      "buffer next to it (a.gltf: a.HASH.bin). Images in separate files stay separate, but move "
+      "into a\n"
       ".glb. The result is decoded and compared with the source before it replaces OUT; sizes and\n"
       "measured errors are printed. Positions are set by one of --quantize-position, --max-error,\n"
       "--max-error-relative, --lattice and --lossless.\n"

@@ -109,7 +109,7 @@ void addDecode(CLI::App& app, int& status) {
   setHelp(
       *command, "decode [OPTIONS] IN OUT\ndecode [OPTIONS] -o DIR IN…",
       "IN and OUT are .glb or .gltf files, or - for standard input and output. A .gltf gets its\n"
-      "buffer next to it (a.gltf: a.bin). What is not compressed is copied.\n"
+      "buffer next to it (a.gltf: a.HASH.bin). What is not compressed is copied.\n"
       "Integers (KHR_mesh_quantization) take less memory.\n"
       "A file whose geometry decodes to more than --max-decoded-bytes is refused before memory is\n"
       "taken. Without the option 256 MiB are always accepted, and more than 4 GiB never.\n"

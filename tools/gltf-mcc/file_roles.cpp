@@ -50,16 +50,4 @@ gltf::Result FileRoles::write(const fs::path& path, const std::string& role) {
   return {gltf::textOf(path), "is " + found->second + "; choose another name for " + role};
 }
 
-void FileRoles::replaceBeside(const fs::path& output, bool with_fallback) {
-  gltf::Container container;
-  const bool has_files = !isStandardStream(gltf::textOf(output)) && !gltf::isStream(output) &&
-                         gltf::containerOf(gltf::textOf(output.filename()), container).ok();
-  if (!has_files) return;
-  const fs::path folder = gltf::folderOf(output);
-  if (container.is_gltf)
-    replace(folder / gltf::pathOf(container.buffer_name), "the buffer of the output");
-  if (with_fallback)
-    replace(folder / gltf::pathOf(container.fallback_name), "the fallback of the output");
-}
-
 }  // namespace mcc::tool

@@ -25,9 +25,6 @@ class FileRoles {
   /// Adds an output. Fails when the file already has another role. `role` names what the user
   /// should rename: "the report".
   gltf::Result write(const std::filesystem::path& path, const std::string& role);
-  /// Adds the buffer and the fallback of an output. The library makes sure that they replace
-  /// nothing else.
-  void replaceBeside(const std::filesystem::path& output, bool with_fallback);
 
  private:
   std::map<std::string, std::string> roles_;  ///< by gltf::fileKey()

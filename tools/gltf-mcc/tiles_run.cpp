@@ -19,11 +19,12 @@
 #include "gltf/files/named_file.h"
 #include "gltf/inspect/report_json.h"
 #include "interrupt.h"
+#include "jobs/run.h"
 #include "json/json.h"
 #include "progress_line.h"
 #include "tiles/accuracy.h"
 #include "tiles/convert_tile.h"
-#include "tiles/record.h"
+#include "tiles/part_record.h"
 #include "tiles/tile_file.h"
 #include "tiles_report.h"
 
@@ -31,10 +32,10 @@ namespace mcc::tool {
 namespace {
 
 namespace fs = std::filesystem;
+using gltf::Json;
 using gltf::Result;
 using tiles::genericText;
 using tiles::isInside;
-using gltf::Json;
 
 class TilesRun {
  public:
@@ -62,7 +63,8 @@ class TilesRun {
   void assignGltf();
   Result claimOutputs();
   void makeAll();
-  void makeOne(uint32_t file);
+  void makeAll(std::vector<uint32_t> files, const char* what);
+  Result makeOne(uint32_t file);
   Result makeModel(uint32_t file);
   Result makeGltf(uint32_t file);
   Result copyOne(uint32_t file);
@@ -72,15 +74,13 @@ class TilesRun {
                    tiles::Accuracy& accuracy) const;
   Result store(const std::string& name, std::span<const uint8_t> bytes);
   Result makeFolderOf(const std::string& name) const;
-  bool takeUpToDate(uint32_t file);
-  void keep(uint32_t file, const std::vector<std::string>& notes);
+  jobs::Job describe(uint32_t file) const;
+  bool take(uint32_t file, const Json& made);
+  void keep(uint32_t file, const std::vector<std::string>& notes,
+            const std::vector<fs::path>& beside = {});
   void addNotes(uint32_t file, const std::vector<std::string>& notes);
   std::string makerOf(uint32_t file) const;
   std::vector<std::string> inputsOf(uint32_t file) const;
-  std::vector<std::string> outputsOf(uint32_t file) const;
-  void showProgress(const char* what);
-  void runAll(const std::vector<uint32_t>& order, const char* what,
-              const std::function<void(uint32_t)>& job);
   int printResults();
 
   std::string name(uint32_t file) const { return std::string(result_.table.name(file)); }
@@ -100,11 +100,9 @@ class TilesRun {
   std::string settings_;               ///< as JSON
   std::vector<Role> roles_;            ///< by file, as in the table
   std::map<uint32_t, Buffers> gltfs_;  ///< of the files with the role kGltf
-  std::unique_ptr<tiles::Record> record_;
+  std::unique_ptr<tiles::PartRecord> record_;
   ProgressLine line_;
-  std::mutex mutex_;  ///< guards result_.failures, result_.file_notes, done_ and line_
-  size_t done_ = 0;
-  size_t job_total_ = 0;
+  std::mutex mutex_;  ///< guards result_.failures and result_.file_notes
 };
 
 /// Checks the folders before anything is read or written.
@@ -144,7 +142,7 @@ Result TilesRun::openFolders() {
 /// finds out what the tiles ask of them.
 Result TilesRun::walk() {
   const fs::path file = gltf::pathOf(options_.input);
-  MCC_GLTF_TRY(result_.table.read(input_, options_.part, tiles::Record::isName, result_.notes));
+  MCC_GLTF_TRY(result_.table.read(input_, options_.part, tiles::PartRecord::isName, result_.notes));
   return result_.walk.run(input_, genericText(file.filename()), result_.table, options_.part,
                           options_.max_tiles);
 }
@@ -161,10 +159,9 @@ void TilesRun::assignRoles() {
   assignGltf();
 }
 
-/// Decides what becomes of .gltf files and their buffers. The library writes a.gltf with a.bin,
-/// which must not be the place of anything else, and the old buffers are not copied. Where that
-/// cannot be, the .gltf is copied. All parts of a tileset look at all .gltf files, and come to the
-/// same decisions.
+/// Decides what becomes of .gltf files and their buffers. The library writes a .gltf with a buffer
+/// of its own, and the old buffers are not copied. Where others need these, the .gltf is copied.
+/// All parts of a tileset look at all .gltf files, and come to the same decisions.
 void TilesRun::assignGltf() {
   const tiles::FileTable& table = result_.table;
   std::map<std::string, uint32_t> user_counts;
@@ -188,11 +185,8 @@ void TilesRun::assignGltf() {
     found[i];
   }
   for (auto& [file, buffers] : found) {
-    const std::string bin = genericText(gltf::pathOf(table.name(file)).replace_extension(".bin"));
-    std::error_code code;
-    bool is_free = !fs::exists(in(bin), code) ||
-                   std::find(buffers.begin(), buffers.end(), bin) != buffers.end();
-    for (const std::string& buffer : buffers) is_free = is_free && user_counts[buffer] == 1;
+    const bool is_free = std::all_of(buffers.begin(), buffers.end(),
+                                     [&](const auto& buffer) { return user_counts[buffer] == 1; });
     if (is_free) {
       for (const std::string& buffer : buffers) {
         const uint32_t number = table.find(buffer);
@@ -217,15 +211,6 @@ std::vector<std::string> TilesRun::inputsOf(uint32_t file) const {
   return names;
 }
 
-/// Returns every name that may be written for a file.
-std::vector<std::string> TilesRun::outputsOf(uint32_t file) const {
-  if (roles_[file] != Role::kGltf) return {name(file)};
-  std::vector<std::string> names = inputsOf(file);
-  const std::string bin = genericText(gltf::pathOf(name(file)).replace_extension(".bin"));
-  if (std::find(names.begin(), names.end(), bin) == names.end()) names.push_back(bin);
-  return names;
-}
-
 /// Makes sure that no output is the file of somebody else, and records those that are ours.
 Result TilesRun::claimOutputs() {
   std::error_code code;
@@ -235,18 +220,20 @@ Result TilesRun::claimOutputs() {
       return {options_.output, "the folder cannot be created: " + code.message()};
     }
   }
-  record_ = std::make_unique<tiles::Record>(input_, output_, options_.part);
+  record_ = std::make_unique<tiles::PartRecord>(input_, output_, options_.part);
   MCC_GLTF_TRY(record_->open(options_.waits));
   record_->removeTemporaries();
   for (uint32_t i = 0; i < roles_.size(); ++i) {
     if (roles_[i] == Role::kNone) continue;
-    const std::vector<std::string> outputs = outputsOf(i);
+    const std::vector<std::string> outputs = inputsOf(i);  // if it is copied
     const auto foreign = std::find_if(outputs.begin(), outputs.end(), [&](const auto& output) {
       const fs::file_status status = fs::symlink_status(out(output), code);
-      return fs::exists(status) && !(fs::is_regular_file(status) && record_->isOurs(output));
+      return fs::exists(status) && !(fs::is_regular_file(status) && record_->lines().has(output));
     });
     if (foreign == outputs.end()) {
-      for (const std::string& output : outputs) record_->claim(output);
+      for (const std::string& output : outputs) {
+        if (!record_->lines().hasOfOwn(output)) record_->lines().claim(output);
+      }
       continue;
     }
     result_.failures[i] = {gltf::textOf(out(*foreign)),
@@ -255,7 +242,7 @@ Result TilesRun::claimOutputs() {
     result_.files[i].outcome = TilesOutcome::kRefused;
     roles_[i] = Role::kNone;
   }
-  return record_->endClaims();
+  return record_->lines().flush();
 }
 
 /// Returns a text that is equal as long as everything is that the output of a file depends on,
@@ -272,7 +259,7 @@ std::string TilesRun::makerOf(uint32_t file) const {
                          demand.offset[0], demand.offset[1], demand.offset[2]);
     }
   }
-  return fmt::format("{} {:016x}", MCC_VERSION, tiles::hashOf(all));
+  return jobs::makerOf(all);
 }
 
 /// Whether a line of the record holds what keep() wrote; it may be damaged.
@@ -288,32 +275,36 @@ bool isMade(const Json& json) {
          std::all_of(notes.begin(), notes.end(), [](const Json& note) { return note.is_string(); });
 }
 
-bool TilesRun::takeUpToDate(uint32_t file) {
-  if (options_.is_forced) return false;
-  const std::optional<Json> made = record_->findUpToDate(name(file), makerOf(file), inputsOf(file));
-  if (!made) return false;
+jobs::Job TilesRun::describe(uint32_t file) const {
+  return {name(file), makerOf(file), inputsOf(file)};
+}
+
+bool TilesRun::take(uint32_t file, const Json& json) {
+  if (!isMade(json)) return false;
   TilesFile taken;
-  if (!isMade(*made)) return false;
-  const Json& json = *made;
-    tiles::TileFigures& figures = taken.figures;
-    taken.input_bytes = json["input_bytes"].get<uint64_t>();
-    taken.output_bytes = json["output_bytes"].get<uint64_t>();
-    taken.outcome =
-        json["is_copy"].get<bool>() ? TilesOutcome::kCopied : TilesOutcome::kConverted;
-    figures.has_positions = json["has_positions"].get<bool>();
-    figures.bits_low = json["bits"][0].get<uint8_t>();
-    figures.bits_high = json["bits"][1].get<uint8_t>();
-    figures.promised_error = json["promised"][0].get<double>();
-    figures.largest_promise = json["promised"][1].get<double>();
-    figures.measured_error = json["measured"].get<double>();
-    const auto notes = json["notes"].get<std::vector<std::string>>();
+  tiles::TileFigures& figures = taken.figures;
+  taken.input_bytes = json["input_bytes"].get<uint64_t>();
+  taken.output_bytes = json["output_bytes"].get<uint64_t>();
+  taken.outcome = json["is_copy"].get<bool>() ? TilesOutcome::kCopied : TilesOutcome::kConverted;
+  figures.has_positions = json["has_positions"].get<bool>();
+  figures.bits_low = json["bits"][0].get<uint8_t>();
+  figures.bits_high = json["bits"][1].get<uint8_t>();
+  figures.promised_error = json["promised"][0].get<double>();
+  figures.largest_promise = json["promised"][1].get<double>();
+  figures.measured_error = json["measured"].get<double>();
+  const auto notes = json["notes"].get<std::vector<std::string>>();
   taken.is_up_to_date = true;
   result_.files[file] = taken;
   addNotes(file, notes);
   return true;
 }
 
-void TilesRun::keep(uint32_t file, const std::vector<std::string>& notes) {
+/// Records a file that was made, and what was made with it.
+void TilesRun::keep(uint32_t file, const std::vector<std::string>& notes,
+                    const std::vector<fs::path>& beside) {
+  std::vector<std::string> outputs = inputsOf(file);
+  for (const fs::path& path : beside)
+    outputs.push_back(genericText(path.lexically_relative(output_)));
   const TilesFile& made = result_.files[file];
   const tiles::TileFigures& figures = made.figures;
   const Json json = {{"input_bytes", made.input_bytes},
@@ -324,7 +315,7 @@ void TilesRun::keep(uint32_t file, const std::vector<std::string>& notes) {
                      {"promised", {figures.promised_error, figures.largest_promise}},
                      {"measured", figures.measured_error},
                      {"notes", notes}};
-  record_->add(name(file), makerOf(file), inputsOf(file), outputsOf(file), json);
+  record_->lines().add(describe(file), inputsOf(file), outputs, json);
 }
 
 void TilesRun::addNotes(uint32_t file, const std::vector<std::string>& notes) {
@@ -363,9 +354,7 @@ Result TilesRun::store(const std::string& name, std::span<const uint8_t> bytes) 
     MCC_GLTF_TRY(file.commit());
     return file.flushName();
   }
-  MCC_GLTF_TRY(file.commitNew());  // fails if somebody else's file has appeared meanwhile
-  file.keep();
-  return {};
+  return file.commitNew();  // fails if somebody else's file has appeared meanwhile
 }
 
 Result TilesRun::copyOne(uint32_t file) {
@@ -419,7 +408,7 @@ Result TilesRun::makeGltf(uint32_t file) {
   std::vector<std::string> notes = report.notes;
   if (!accuracy.note.empty()) notes.push_back(accuracy.note);
   addNotes(file, notes);
-  keep(file, notes);
+  keep(file, notes, {report.files.output.begin() + 1, report.files.output.end()});
   return {};
 }
 
@@ -454,20 +443,16 @@ Result TilesRun::makeModel(uint32_t file) {
 }
 
 /// Makes one output. What cannot be converted is copied as it is.
-void TilesRun::makeOne(uint32_t file) {
-  if (takeUpToDate(file)) return;
+Result TilesRun::makeOne(uint32_t file) {
   const Role role = roles_[file];
   Result made = gltf::guarded([&]() -> Result {
-    switch (role) {
-      case Role::kModel: return makeModel(file);
-      case Role::kGltf: return makeGltf(file);
-      default: break;
-    }
+    if (role == Role::kModel) return makeModel(file);
+    if (role == Role::kGltf) return makeGltf(file);
     MCC_GLTF_TRY(copyOne(file));
     keep(file, {});
     return {};
   });
-  if (made.ok()) return;
+  if (made.ok()) return made;
   if (role != Role::kCopy) {
     const Result copied = gltf::guarded([&]() { return copyOne(file); });
     if (copied.ok())
@@ -478,36 +463,32 @@ void TilesRun::makeOne(uint32_t file) {
   if (role == Role::kCopy || result_.files[file].outcome != TilesOutcome::kCopied) {
     result_.files[file].outcome = TilesOutcome::kRefused;
   }
-  const std::lock_guard lock(mutex_);
-  result_.failures[file] = made;
+  return made;
 }
 
-void TilesRun::showProgress(const char* what) {
-  constexpr size_t kBarWidth = 24;
-  const size_t filled = job_total_ == 0 ? kBarWidth : kBarWidth * done_ / job_total_;
-  line_.show(fmt::format("[{}{}] {} of {} files {}", std::string(filled, '#'),
-                         std::string(kBarWidth - filled, '-'), done_, job_total_, what));
-}
-
-/// Runs a job for each of the files. A file that fails does not stop the others.
-void TilesRun::runAll(const std::vector<uint32_t>& order, const char* what,
-                      const std::function<void(uint32_t)>& job) {
-  done_ = 0;
-  job_total_ = order.size();
-  const Result all = gltf::runParallel(order.size(), options_.job_count, [&](size_t i) -> Result {
-    job(order[i]);
-    const std::lock_guard lock(mutex_);
-    ++done_;
-    showProgress(what);
-    return {};
-  });
+void TilesRun::makeAll(std::vector<uint32_t> files, const char* what) {
+  const size_t count = files.size();
+  jobs::Work work;
+  work.bytesOf = [this](uint32_t file) { return result_.table.bytes(file); };
+  work.describe = [this](uint32_t file) { return describe(file); };
+  work.take = [this](uint32_t file, const Json& made) { return take(file, made); };
+  work.make = [this](uint32_t file) { return makeOne(file); };
+  work.end = [&](uint32_t file, const Result& made, size_t done) {
+    if (!made.ok()) {
+      const std::lock_guard lock(mutex_);
+      result_.failures[file] = made;
+    }
+    line_.show(jobs::progressText(done, count) + " " + what);
+  };
+  work.thread_count = options_.job_count;
+  work.is_forced = options_.is_forced;
+  const Result all = runJobs(std::move(files), work, record_->lines());
   line_.clear();
   if (!all.ok()) result_.notes.push_back(all.message());
 }
 
 /// Copies before it converts, because a .gltf refuses to replace an image that differs. Tilesets
-/// come last, so that what they name is there. Otherwise the largest files come first, because they
-/// take longest.
+/// come last, so that what they name is there.
 void TilesRun::makeAll() {
   std::vector<uint32_t> copies;
   std::vector<uint32_t> models;
@@ -518,14 +499,9 @@ void TilesRun::makeAll() {
     if (roles_[i] == Role::kNone) continue;
     (is_tileset[i] ? tilesets : isModel(i) ? models : copies).push_back(i);
   }
-  for (std::vector<uint32_t>* order : {&copies, &models}) {
-    std::stable_sort(order->begin(), order->end(), [&](uint32_t a, uint32_t b) {
-      return result_.table.bytes(a) > result_.table.bytes(b);
-    });
-  }
-  runAll(copies, "copied", [this](uint32_t file) { makeOne(file); });
-  runAll(models, "converted", [this](uint32_t file) { makeOne(file); });
-  runAll(tilesets, "copied", [this](uint32_t file) { makeOne(file); });
+  makeAll(std::move(copies), "copied");
+  makeAll(std::move(models), "converted");
+  makeAll(std::move(tilesets), "copied");
 }
 
 int TilesRun::printResults() {
@@ -586,8 +562,10 @@ int TilesRun::run() {
   if (!ready.ok()) return reportFailure(ready);
   makeAll();
   const int status = printResults();
-  const Result recorded = record_->finish();
-  return recorded.ok() ? status : reportFailure(recorded);
+  Result recorded = record_->lines().flush();
+  if (recorded.ok()) return status;
+  recorded.what += "; the next run makes again what is not in it";
+  return reportFailure(recorded);
 }
 
 }  // namespace

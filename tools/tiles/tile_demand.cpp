@@ -18,7 +18,7 @@ uint64_t groupKey(const TileUse& use) {
   std::string key(sizeof(linear), '\0');
   std::memcpy(key.data(), linear, sizeof(linear));
   key += std::to_string(use.level) + "xyz"[static_cast<size_t>(use.up_axis)];
-  return hashOf(key);
+  return jobs::hashOf(key);
 }
 
 }  // namespace

@@ -112,8 +112,8 @@ struct ConvertOptions {
   bool keep_vertex_order = false;
   bool keep_triangle_order = false;
   /// Also writes the decoded geometry, uncompressed, to a second file next to the output,
-  /// NAME.fallback.bin, for loaders that do not know the extension. The extension is then used but
-  /// not required.
+  /// NAME.<hash>.fallback.bin, for loaders that do not know the extension. The extension is then
+  /// used but not required.
   bool fallback = false;
   /// Threads that work at the same time, on several payloads or on the trials of one. The result
   /// does not depend on it.
@@ -191,9 +191,10 @@ struct PrimitiveReport {
 
 /// The files of a conversion. A list is empty where the document came from memory or went to it.
 struct FilesInUse {
-  std::vector<std::filesystem::path> input;        ///< counted in input_bytes, the main one first
-  std::vector<std::filesystem::path> other_input;  ///< images that stay separate files
-  std::vector<std::filesystem::path> output;       ///< counted in output_bytes, the main one first
+  std::vector<std::filesystem::path> input;         ///< counted in input_bytes, the main one first
+  std::vector<std::filesystem::path> other_input;   ///< images that stay separate files
+  std::vector<std::filesystem::path> output;        ///< counted in output_bytes, the main one first
+  std::vector<std::filesystem::path> other_output;  ///< the fallback
 };
 
 /// What the bytes of a document and its buffers are for. The four sums add up to its size.

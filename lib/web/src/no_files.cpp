@@ -8,7 +8,6 @@
 #include "gltf/base/result.h"
 #include "gltf/files/destination.h"
 #include "gltf/files/file_io.h"
-#include "gltf/files/folder_lock.h"
 #include "gltf/files/named_file.h"
 
 namespace mcc::gltf {
@@ -25,9 +24,6 @@ FileReader readerOf(const std::filesystem::path&, const std::filesystem::path&) 
 Result inFile(const std::filesystem::path&, Result result) { return result; }
 std::filesystem::path folderOf(const std::filesystem::path&) { return {}; }
 
-FolderLock::~FolderLock() = default;
-std::unique_ptr<FolderLock> lockToRead(const std::filesystem::path&) { return nullptr; }
-
 ReplacementFile::ReplacementFile(std::filesystem::path destination, TemporaryFiles* temporaries)
     : temporaries_(temporaries), destination_(std::move(destination)) {}
 ReplacementFile::~ReplacementFile() = default;
@@ -36,7 +32,7 @@ Destination::Destination(std::filesystem::path main, TemporaryFiles* temporaries
     : temporaries_(temporaries), main_(std::move(main)) {}
 Destination::~Destination() = default;
 Result Destination::check(bool) { return error("", kNoFiles); }
-Result Destination::checkSource(const std::filesystem::path&, const Json&) const {
+Result Destination::checkSource(const std::filesystem::path&, const Json&) {
   return error("", kNoFiles);
 }
 bool Destination::isBeside(const std::filesystem::path&) const { return false; }
@@ -44,7 +40,7 @@ Result Destination::write(const Package&) { return error("", kNoFiles); }
 Result Destination::readBack(std::vector<uint8_t>&) const { return error("", kNoFiles); }
 FileReader Destination::reader() const { return nullptr; }
 Result Destination::commit() { return error("", kNoFiles); }
-std::vector<std::filesystem::path> Destination::files() const { return {}; }
+void Destination::listFiles(FilesInUse&) const {}
 
 }  // namespace mcc::gltf
 

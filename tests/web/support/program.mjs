@@ -2,7 +2,7 @@
 //
 // The program gltf-mcc, for models to test with.
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { ROOT, SAMPLES } from './paths.mjs';
@@ -20,7 +20,8 @@ export function convertWithFallback(name) {
   try {
     run(['convert', '--compare', 'none', '--fallback', path.join(SAMPLES, `${name}.glb`), path.join(folder, 'model.glb')]);
     const read = (file) => new Uint8Array(readFileSync(path.join(folder, file)));
-    return { glb: read('model.glb'), fallback: read('model.fallback.bin'), fallbackName: 'model.fallback.bin' };
+    const fallbackName = readdirSync(folder).find((file) => file.endsWith('.fallback.bin'));
+    return { glb: read('model.glb'), fallback: read(fallbackName), fallbackName };
   } finally {
     rmSync(folder, { recursive: true });
   }

@@ -22,7 +22,6 @@
 #include "gltf/document/rebuild.h"
 #include "gltf/document/uri.h"
 #include "gltf/files/destination.h"
-#include "gltf/files/folder_lock.h"
 #include "gltf/files/named_file.h"
 
 namespace mcc::gltf {
@@ -46,8 +45,7 @@ struct Input {
   fs::path path;  ///< for a source in memory only a name
   std::vector<uint8_t> owned;
   std::span<const uint8_t> bytes;
-  FileReader read_file;                 ///< null for a source in memory
-  std::unique_ptr<FolderLock> reading;  ///< held until all files are read
+  FileReader read_file;  ///< null for a source in memory
 
   Result open(const Source& source, const fs::path& within = {}) {
     path = source.path;
@@ -55,14 +53,27 @@ struct Input {
       bytes = *source.bytes;
       return {};
     }
-    // A .gltf and its buffer that are being replaced are read either before or after that.
-    reading = lockToRead(path);
     MCC_GLTF_TRY(readFile(path, owned));
     bytes = owned;
     read_file = readerOf(path.parent_path(), within);
     return {};
   }
   bool isFile() const { return read_file != nullptr; }
+  /// Loads the document. A .gltf may be replaced after it was read, and its old buffer removed:
+  /// then the new one is loaded.
+  Result load(Document& document) {
+    constexpr int kMostTries = 10;
+    Result loaded;
+    for (int i = 0; i < kMostTries; ++i) {
+      document = {};
+      loaded = loadDocument(bytes, read_file, document);
+      std::vector<uint8_t> now;
+      if (loaded.ok() || !isFile() || !readFile(path, now).ok() || now == owned) break;
+      owned = std::move(now);
+      bytes = owned;
+    }
+    return loaded;
+  }
 };
 
 /// Where the result goes: to a file with others next to it, or to memory.
@@ -95,7 +106,7 @@ struct Output {
 
 /// Loads the source for an output. For a GLB, image files move into its buffers.
 Result loadFor(const Output& output, Input& input, Document& document, FilesInUse& files) {
-  MCC_GLTF_TRY(loadDocument(input.bytes, input.read_file, document));
+  MCC_GLTF_TRY(input.load(document));
   if (input.isFile()) {
     files.input = {input.path};
     files.other_input.clear();
@@ -112,7 +123,6 @@ Result loadFor(const Output& output, Input& input, Document& document, FilesInUs
     }
   }
   if (!output.container.is_gltf) MCC_GLTF_TRY(embedImages(input.read_file, document));
-  input.reading.reset();
   return {};
 }
 
@@ -179,8 +189,10 @@ Result packageFallback(const Container& container, Compressed& compressed, Packa
                        uint64_t& fallback_bytes) {
   SideFile file;
   file.kind = SideFile::Kind::kFallback;
-  file.path = container.fallback_name;
-  MCC_GLTF_TRY(addFallback(compressed.bin, uriOf(file.path), compressed.json, file.bytes));
+  MCC_GLTF_TRY(addFallback(compressed.bin, compressed.json, file.bytes));
+  file.path = nameOfMade(container, file.kind, file.bytes);
+  Json& buffers = compressed.json["buffers"];
+  buffers[buffers.size() - 1]["uri"] = uriOf(file.path);
   fallback_bytes = file.bytes.size();
   package.beside.push_back(std::move(file));
   return {};
@@ -381,7 +393,7 @@ Result convertTo(const ListedSink& sink, const Source& source, const ConvertOpti
     const std::span<const uint8_t> written = output.destination ? stored : *output.bytes;
     MCC_GLTF_TRY(inInput(input, checkOutput(conversion, options, written, read_file, report)));
     MCC_GLTF_TRY(output.commit());
-    if (output.destination) report.files.output = output.destination->files();
+    if (output.destination) output.destination->listFiles(report.files);
     return {};
   });
   cleanNotes(report.notes);
@@ -403,7 +415,7 @@ Result decodeTo(const ListedSink& sink, const Source& source, const FileDecodeOp
     MCC_GLTF_TRY(inInput(input, decodeInput(input, output, options, package, report)));
     MCC_GLTF_TRY(output.write(std::move(package)));
     MCC_GLTF_TRY(output.commit());
-    if (output.destination) report.files.output = output.destination->files();
+    if (output.destination) output.destination->listFiles(report.files);
     return {};
   });
   cleanNotes(report.notes);

@@ -6,8 +6,7 @@
 
 namespace mcc::gltf {
 
-Result addFallback(const std::vector<uint8_t>& bin, const std::string& uri, Json& json,
-                   std::vector<uint8_t>& fallback) {
+Result addFallback(const std::vector<uint8_t>& bin, Json& json, std::vector<uint8_t>& fallback) {
   Document document;
   MCC_GLTF_TRY(adoptDocument(json, bin, document));
   DecodedAccessors decoded;
@@ -36,7 +35,7 @@ Result addFallback(const std::vector<uint8_t>& bin, const std::string& uri, Json
     accessor["bufferView"] = numbers[filled.view];
     views.push_back(std::move(view));
   }
-  json["buffers"].push_back({{"uri", uri}, {"byteLength", fallback.size()}});
+  json["buffers"].push_back({{"uri", ""}, {"byteLength", fallback.size()}});
   removeExtensionName(json, "extensionsRequired", kExtensionName);
   return {};
 }

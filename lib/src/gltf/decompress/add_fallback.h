@@ -3,19 +3,17 @@
 #define MCC_GLTF_DECOMPRESS_ADD_FALLBACK_H_
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "json/json.h"
 
 namespace mcc::gltf {
 
-/// Adds the second buffer to a compressed document with one buffer. The extension is no longer
-/// required.
+/// Adds another buffer, the last one, to a compressed document. The extension is no longer
+/// required. The caller names the buffer.
 /// bin       the bytes of the first buffer.
-/// fallback  receives the bytes of the second one, made from the decoded payloads.
-Result addFallback(const std::vector<uint8_t>& bin, const std::string& uri, Json& json,
-                   std::vector<uint8_t>& fallback);
+/// fallback  receives the bytes of the new one, made from the decoded payloads.
+Result addFallback(const std::vector<uint8_t>& bin, Json& json, std::vector<uint8_t>& fallback);
 
 }  // namespace mcc::gltf
 

@@ -12,6 +12,10 @@
 namespace mcc::gltf {
 namespace {
 
+constexpr size_t kHashDigits = 16;
+constexpr std::string_view kBufferEnd = ".bin";
+constexpr std::string_view kFallbackEnd = ".fallback.bin";
+
 /// Lists the relative URIs in one list, with their JSON paths. Data URIs are left out, since they
 /// are not files.
 void listUris(const Json& json, const char* list,
@@ -53,17 +57,37 @@ uint64_t Package::documentBytes() const {
 }
 
 Result containerOf(const std::string& file_name, Container& container) {
-  container = {};
   const size_t dot = file_name.rfind('.');
-  const std::string stem = dot == 0 ? file_name : file_name.substr(0, dot);
   container.is_gltf = extensionOf(file_name) == ".gltf";
-  if (container.is_gltf) container.buffer_name = stem + ".bin";
-  container.fallback_name = stem + ".fallback.bin";
-  if (container.is_gltf && !isUsableName(container.buffer_name)) {
-    return error(file_name,
-                 "no URI can name a file \"" + container.buffer_name + "\"; choose another name");
+  container.file_name = file_name;
+  container.stem = dot == 0 ? file_name : file_name.substr(0, dot);
+  const std::string buffer_name = container.stem + ".bin";
+  if (container.is_gltf && !isUsableName(buffer_name)) {
+    return error(file_name, "no URI can name a file \"" + buffer_name + "\"; choose another name");
   }
   return {};
+}
+
+std::string nameOfMade(const Container& container, SideFile::Kind kind,
+                       std::span<const uint8_t> bytes) {
+  uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
+  const auto add = [&](uint8_t byte) { hash = (hash ^ byte) * 0x100000001b3; };
+  for (const char c : container.file_name) add(static_cast<uint8_t>(c));
+  for (const uint8_t byte : bytes) add(byte);
+  std::string digits(kHashDigits, '0');
+  for (size_t i = kHashDigits; i-- != 0; hash >>= 4) digits[i] = "0123456789abcdef"[hash & 15];
+  return (container.stem + "." + digits)
+      .append(kind == SideFile::Kind::kFallback ? kFallbackEnd : kBufferEnd);
+}
+
+bool isNameOfMade(const Container& container, std::string_view name) {
+  if (!name.starts_with(container.stem)) return false;
+  name.remove_prefix(container.stem.size());
+  const std::string_view digits = name.substr(0, kHashDigits + 1);
+  const bool has_hash = digits.size() > kHashDigits && digits[0] == '.' &&
+                        digits.find_first_not_of("0123456789abcdef", 1) == std::string_view::npos;
+  if (has_hash) name.remove_prefix(digits.size());
+  return name == kFallbackEnd || name == kBufferEnd;
 }
 
 namespace {
@@ -84,8 +108,9 @@ Result writePackage(const Container& container, Json json, std::vector<uint8_t> 
                     const std::vector<GlbChunk>& other_chunks, Package& package) {
   if (!container.is_gltf) return writeGlb(glbText(json), bin, other_chunks, package.main);
   if (!bin.empty()) {
-    json["buffers"][0]["uri"] = uriOf(container.buffer_name);
-    package.beside.push_back({SideFile::Kind::kBuffer, container.buffer_name, std::move(bin)});
+    std::string name = nameOfMade(container, SideFile::Kind::kBuffer, bin);
+    json["buffers"][0]["uri"] = uriOf(name);
+    package.beside.push_back({SideFile::Kind::kBuffer, std::move(name), std::move(bin)});
   }
   const std::string text = printJson(json) + "\n";
   package.main.assign(text.begin(), text.end());

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gltf/document/document.h"
@@ -34,15 +35,25 @@ struct Package {
   uint64_t documentBytes() const;
 };
 
-/// How a document is stored. The names are those of files next to the main one; see uriOf().
+/// How a document is stored.
 struct Container {
   bool is_gltf = false;
-  std::string buffer_name;    ///< only for a .gltf
-  std::string fallback_name;  ///< empty where there cannot be a fallback
+  std::string file_name;  ///< of the main file; empty in memory
+  std::string stem;       ///< the same without its extension
 };
 
-/// Finds the container of a file by its name: x.gltf has x.bin next to it, all others are GLBs.
-/// Errors: a file next to it would have a name that no URI can express.
+/// Returns the name of the buffer or the fallback of a document: x.0123456789abcdef.bin or
+/// x.0123456789abcdef.fallback.bin. The digits are a hash of the bytes and of the name of the main
+/// file, so that a new document can be stored beside the one that it replaces. See uriOf().
+std::string nameOfMade(const Container& container, SideFile::Kind kind,
+                       std::span<const uint8_t> bytes);
+
+/// Whether a file next to the main one may have been made with it, by its name: one that
+/// nameOfMade() returns, or x.bin or x.fallback.bin.
+bool isNameOfMade(const Container& container, std::string_view name);
+
+/// Finds the container of a file by its name: x.gltf has its buffer next to it, all others are
+/// GLBs. Errors: a file next to it would have a name that no URI can express.
 Result containerOf(const std::string& file_name, Container& container);
 
 /// Stores a document whose buffer 0 is `bin`; other buffers must have a URI already. Other chunks

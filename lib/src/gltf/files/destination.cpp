@@ -2,18 +2,21 @@
 #include "gltf/files/destination.h"
 
 #include <algorithm>
-#include <optional>
+#include <chrono>
 #include <system_error>
 
 #include "gltf/base/path_text.h"
 #include "gltf/document/uri.h"
-#include "gltf/files/folder_lock.h"
 #include "gltf/files/system.h"
+#include "gltf/files/work_lock.h"
 
 namespace mcc::gltf {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// How long to wait for others that write to the folder, who need it for a few renames.
+constexpr std::chrono::milliseconds kPatience(2000);
 
 /// Normalises a path: "./a//b" becomes "a/b".
 std::string normalized(const std::string& path) {
@@ -25,13 +28,17 @@ std::string keyOfName(const std::string& path) {
   return system::nameKey(pathOf(path).lexically_normal());
 }
 
+/// Returns the files next to the document at `main`; none if it is not a document.
+std::vector<std::string> filesOfDocument(const fs::path& main) {
+  std::vector<uint8_t> bytes;
+  Json json;
+  const bool is_document = readFile(main, bytes).ok() && readJson(bytes, json).ok();
+  return is_document ? filesBeside(json) : std::vector<std::string>();
+}
+
 /// Whether the file at `main` is a document that refers to the file with this key next to it.
 bool refersTo(const fs::path& main, const std::string& key) {
-  std::vector<uint8_t> bytes;
-  if (!readFile(main, bytes).ok()) return false;
-  Json json;
-  if (!readJson(bytes, json).ok()) return false;
-  const std::vector<std::string> paths = filesBeside(json);
+  const std::vector<std::string> paths = filesOfDocument(main);
   return std::any_of(paths.begin(), paths.end(),
                      [&](const std::string& path) { return keyOfName(path) == key; });
 }
@@ -61,57 +68,36 @@ Destination::~Destination() {
   }
 }
 
-std::vector<std::string> Destination::ownNames() const {
-  std::vector<std::string> names;
-  if (container_.is_gltf) names.push_back(container_.buffer_name);
-  if (with_fallback_) names.push_back(container_.fallback_name);
-  return names;
-}
-
-Result Destination::checkOwner(const std::string& name) const {
-  const fs::path path = folder_ / pathOf(name);
-  std::error_code ignored;
-  if (!fs::exists(fs::symlink_status(path, ignored)) || refersTo(main_path_, keyOfName(name)))
-    return {};
-  return error(textOf(main_path_), "\"" + textOf(path) +
-                                       "\" would be replaced, which does not belong to it; move "
-                                       "that file or choose another name");
+std::vector<fs::path> Destination::madeFiles() const {
+  std::vector<fs::path> made;
+  for (const std::string& path : filesOfDocument(main_path_)) {
+    const std::string name = normalized(path);
+    if (isNameOfMade(container_, name)) made.push_back(folder_ / pathOf(name));
+  }
+  return made;
 }
 
 Result Destination::check(bool with_fallback) {
   MCC_GLTF_TRY(main_.check());
   MCC_GLTF_TRY(containerOf(textOf(main_path_.filename()), container_));
-  with_fallback_ = with_fallback;
-  if (with_fallback && !isUsableName(container_.fallback_name)) {
-    return error(textOf(main_path_), "no URI can name a file \"" + container_.fallback_name +
-                                         "\"; choose another name");
-  }
-  for (const std::string& name : ownNames()) {
-    MCC_GLTF_TRY(ReplacementFile(folder_ / pathOf(name)).check());
-    MCC_GLTF_TRY(checkOwner(name));
-  }
-  return {};
+  const std::string fallback = container_.stem + ".fallback.bin";
+  if (!with_fallback || isUsableName(fallback)) return {};
+  return error(textOf(main_path_),
+               "no URI can name a file \"" + fallback + "\"; choose another name");
 }
 
-Result Destination::checkSource(const fs::path& source, const Json& json) const {
-  const bool is_in_place = isSameFile(source, main_path_);
-  const auto refuse = [&](const fs::path& path) {
-    return error(textOf(main_path_), "\"" + textOf(path) +
+Result Destination::checkSource(const fs::path& source, const Json& json) {
+  std::vector<fs::path> beside;
+  for (const std::string& path : filesBeside(json)) {
+    beside.push_back(folderOf(source) / pathOf(path));
+    if (!isSameFile(main_path_, beside.back())) continue;
+    return error(textOf(main_path_), "\"" + textOf(main_path_) +
                                          "\" is part of the input and would be replaced; choose "
                                          "another name or folder");
-  };
-  const std::vector<std::string> of_source = filesBeside(json);
-  for (const std::string& beside : of_source) {
-    if (isSameFile(main_path_, folderOf(source) / pathOf(beside))) return refuse(main_path_);
   }
-  for (const std::string& name : ownNames()) {
-    const fs::path path = folder_ / pathOf(name);
-    if (isSameFile(path, source)) return refuse(path);
-    if (is_in_place) continue;
-    for (const std::string& beside : of_source) {
-      if (isSameFile(path, folderOf(source) / pathOf(beside))) return refuse(path);
-    }
-  }
+  if (isSameFile(source, main_path_)) return {};
+  kept_ = std::move(beside);
+  kept_.push_back(source);
   return {};
 }
 
@@ -164,19 +150,24 @@ Result Destination::writeCopy(const SideFile& copy) {
   return writeSide(copy);
 }
 
-Result Destination::writeSide(const SideFile& side) {
+/// `older` is a file that the new one stands for, under another name.
+Result Destination::writeSide(const SideFile& side, const fs::path& older) {
   const std::string name = normalized(side.path);
-  MCC_GLTF_TRY(ReplacementFile(folder_ / pathOf(name)).check());
-  std::error_code ignored;
-  const bool is_new = !fs::exists(fs::symlink_status(folder_ / pathOf(name), ignored));
-  sides_.push_back(std::unique_ptr<Side>(new Side{
-      side.kind, is_new, keyOfName(name), ReplacementFile(folder_ / pathOf(name), temporaries_)}));
-  return sides_.back()->file.write(side.bytes);
+  sides_.push_back(std::unique_ptr<Side>(
+      new Side{side.kind, keyOfName(name), ReplacementFile(folder_ / pathOf(name), temporaries_)}));
+  ReplacementFile& file = sides_.back()->file;
+  MCC_GLTF_TRY(file.check());
+  return file.write(side.bytes, older);
 }
 
 Result Destination::write(const Package& package) {
+  fs::path older = main_path_;
+  for (const fs::path& made : package.beside.empty() ? std::vector<fs::path>() : madeFiles()) {
+    std::error_code ignored;
+    if (fs::exists(made, ignored)) older = made;
+  }
   for (const SideFile& side : package.beside) {
-    if (side.kind != SideFile::Kind::kCopy) MCC_GLTF_TRY(writeSide(side));
+    if (side.kind != SideFile::Kind::kCopy) MCC_GLTF_TRY(writeSide(side, older));
   }
   for (const SideFile& side : package.beside) {
     if (side.kind == SideFile::Kind::kCopy) MCC_GLTF_TRY(writeCopy(side));
@@ -196,56 +187,70 @@ FileReader Destination::reader() const {
   };
 }
 
-/// Commits a file next to the main one. Where no file was when the work began, another conversion
-/// to the same name may have finished first; then its whole set of files is replaced by ours.
+/// Gives a file next to the main one its name. If a file has it, it must be equal, or a copy that
+/// belongs to the main file.
 Result Destination::commitSide(Side& side) {
-  if (!side.is_new) return side.file.commitForNow();
-  Result result = side.file.commitNew();
-  return !result.ok() && refersTo(main_path_, side.key) ? side.file.commitForNow() : result;
+  const fs::path& path = side.file.destination();
+  Result placed = side.file.commitNew();
+  if (placed.ok()) new_files_.push_back(path);
+  if (placed.ok()) return placed;
+  std::vector<uint8_t> bytes;
+  const bool may_replace =
+      (readFile(side.file.temporaryPath(), bytes).ok() && hasContent(path, bytes)) ||
+      (side.kind == SideFile::Kind::kCopy && refersTo(main_path_, side.key));
+  return may_replace ? side.file.commit() : placed;
+}
+
+/// Removes files that the main file does not name, apart from those of the source.
+void Destination::removeUnnamed(const std::vector<fs::path>& paths) const {
+  if (paths.empty()) return;
+  const std::vector<fs::path> named = madeFiles();
+  for (const fs::path& path : paths) {
+    const auto isIt = [&](const fs::path& other) { return isSameFile(path, other); };
+    std::error_code ignored;
+    if (std::any_of(named.begin(), named.end(), isIt)) continue;
+    if (std::any_of(kept_.begin(), kept_.end(), isIt)) continue;
+    system::remove(path, ignored);
+  }
 }
 
 Result Destination::commit() {
   // Taken before the lock of the temporary files, because the thread that handles signals waits for
   // that one.
-  std::optional<FolderLock> alone;
-  if (!sides_.empty()) alone.emplace(folder_, FolderLock::Kind::kAlone);
+  WorkLock alone;
+  const bool has_made = container_.is_gltf || !sides_.empty();
+  if (has_made) alone.take(folder_, kPatience);
   const TemporaryFiles::Lock held = lockOf(temporaries_);
   Result result;
-  size_t done = 0;
-  while (done < sides_.size() && result.ok()) {
-    result = commitSide(*sides_[done]);
-    if (result.ok()) ++done;
-  }
+  for (size_t i = 0; i < sides_.size() && result.ok(); ++i) result = commitSide(*sides_[i]);
+  std::vector<fs::path> older;
+  if (has_made) older = madeFiles();
   if (result.ok()) result = main_.commit();
   if (!result.ok()) {
-    while (done-- != 0) sides_[done]->file.undo();
+    removeUnnamed(new_files_);
     return result;
   }
-  for (const auto& side : sides_) side->file.keep();
   for (const fs::path& folder : new_folders_) {
     if (temporaries_ != nullptr) temporaries_->forget(folder);
   }
   new_folders_.clear();
-  MCC_GLTF_TRY(checkTogether());
-  for (const auto& side : sides_) MCC_GLTF_TRY(side->file.flushName());
-  return main_.flushName();
-}
-
-Result Destination::checkTogether() const {
-  const bool is_ours = std::all_of(sides_.begin(), sides_.end(),
-                                   [](const auto& side) { return side->file.isInPlace(); });
-  if (is_ours || !main_.isInPlace()) return {};
-  return error(textOf(main_path_),
-               "another program wrote the same files at the same time, and they "
-               "may not belong together; write them again");
-}
-
-std::vector<fs::path> Destination::files() const {
-  std::vector<fs::path> paths = {main_path_};
   for (const auto& side : sides_) {
-    if (side->kind == SideFile::Kind::kBuffer) paths.push_back(side->file.destination());
+    if (side->kind == SideFile::Kind::kCopy) MCC_GLTF_TRY(side->file.flushName());
   }
-  return paths;
+  MCC_GLTF_TRY(main_.flushName());
+  // After a crash either main file may be there, until the new one is stored.
+  if (alone.isHeld()) removeUnnamed(older);
+  return {};
+}
+
+void Destination::listFiles(FilesInUse& files) const {
+  files.output = {main_path_};
+  files.other_output.clear();
+  for (const auto& side : sides_) {
+    if (side->kind == SideFile::Kind::kCopy) continue;
+    const bool is_buffer = side->kind == SideFile::Kind::kBuffer;
+    (is_buffer ? files.output : files.other_output).push_back(side->file.destination());
+  }
 }
 
 }  // namespace mcc::gltf

@@ -25,13 +25,11 @@ class Destination {
   Destination(const Destination&) = delete;
   Destination& operator=(const Destination&) = delete;
 
-  /// Checks whether the files could be written, before any work is done. A file next to the main
-  /// one is replaced only when the main file that is there now refers to it. The same holds for
-  /// copies, which write() checks.
+  /// Checks whether the files could be written, before any work is done. write() checks the copies.
   Result check(bool with_fallback);
-  /// Checks the same once the source is known: none of the source's other files may be replaced,
-  /// unless the source itself is replaced.
-  Result checkSource(const std::filesystem::path& source, const Json& json) const;
+  /// Checks the same once the source is known: the main file must be none of its other files. None
+  /// of them is removed, unless the source itself is replaced.
+  Result checkSource(const std::filesystem::path& source, const Json& json);
 
   const Container& container() const { return container_; }
   /// Whether the source lies in the same folder, so that relative URIs mean the same files.
@@ -42,41 +40,41 @@ class Destination {
   /// Reads the temporary main file back; reader() reads the files next to it.
   Result readBack(std::vector<uint8_t>& main) const;
   FileReader reader() const;
-  /// Gives all files their names, the main one last. After an error everything is as it was. When
-  /// several programs write to one name at the same time, all files of the last one are in place at
-  /// the end, because each program locks the folder meanwhile. Where a folder cannot be locked,
-  /// checkTogether() detects a mixture.
+  /// Gives all files their names, the main one last; after an error everything is as it was, except
+  /// for copies that have replaced older ones. Buffer and fallback get names that nothing else has
+  /// (nameOfMade()), so when several programs write to one main file at the same time, it has the
+  /// buffer of its own writer at every moment. At the end those of the main file that was replaced
+  /// are removed. Programs do that one at a time: the folder is locked, and where it cannot be,
+  /// they stay.
   Result commit();
-  /// After commit(): fails when the main file is ours but a file next to it is not, because another
-  /// program has replaced it.
-  Result checkTogether() const;
-  /// Returns the main file and its buffer, after write().
-  std::vector<std::filesystem::path> files() const;
+  /// Adds the main file, its buffer and its fallback to a list, after write().
+  void listFiles(FilesInUse& files) const;
 
  private:
   struct Side {
     SideFile::Kind kind;
-    bool is_new;      ///< no file of this name existed
     std::string key;  ///< equal for all spellings of its relative path
     ReplacementFile file;
   };
 
-  std::vector<std::string> ownNames() const;
-  Result checkOwner(const std::string& name) const;
+  /// Returns the files made with the main file that is there now.
+  std::vector<std::filesystem::path> madeFiles() const;
   /// Returns the file next to the main one with this key; null if none is written.
   const Side* sideOf(const std::string& key) const;
   Result writeCopy(const SideFile& copy);
-  Result writeSide(const SideFile& side);
+  Result writeSide(const SideFile& side, const std::filesystem::path& older = {});
   Result commitSide(Side& side);
+  void removeUnnamed(const std::vector<std::filesystem::path>& paths) const;
   Result createFolders(const std::filesystem::path& folder);
 
   TemporaryFiles* temporaries_;
   std::filesystem::path main_path_;
   std::filesystem::path folder_;
   Container container_;
-  bool with_fallback_ = false;
   ReplacementFile main_;
   std::vector<std::unique_ptr<Side>> sides_;
+  std::vector<std::filesystem::path> new_files_;    ///< that commit() put where nothing was
+  std::vector<std::filesystem::path> kept_;         ///< files of the source, which stay
   std::vector<std::filesystem::path> new_folders_;  ///< outer folders come first
 };
 

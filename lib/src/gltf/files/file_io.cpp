@@ -128,12 +128,6 @@ Result readFile(const fs::path& path, std::vector<uint8_t>& bytes) {
   return result;
 }
 
-bool haveSameContent(const fs::path& a, const fs::path& b) {
-  std::vector<uint8_t> bytes_of_a;
-  std::vector<uint8_t> bytes_of_b;
-  return readFile(a, bytes_of_a).ok() && readFile(b, bytes_of_b).ok() && bytes_of_a == bytes_of_b;
-}
-
 bool isStream(const fs::path& path) {
   const fs::path target = withoutLinks(path);
   if (system::openStreamNamed(target)) return true;
@@ -198,18 +192,10 @@ ReplacementFile::ReplacementFile(fs::path destination, TemporaryFiles* temporari
       temporary_(temporaryName(target_)) {}
 
 ReplacementFile::~ReplacementFile() {
-  keep();
   if (temporary_.empty()) return;
   std::error_code ignored;
   system::remove(temporary_, ignored);
   if (temporaries_ != nullptr) temporaries_->forget(temporary_);
-}
-
-void ReplacementFile::keep() {
-  std::error_code ignored;
-  if (!backup_.empty()) system::remove(backup_, ignored);
-  backup_.clear();
-  is_for_now_ = false;
 }
 
 Result ReplacementFile::check() const {
@@ -242,13 +228,13 @@ Result ReplacementFile::check() const {
 
 /// Creates the temporary file. A file of the same name may be left over from a process that was
 /// killed and had the same process id.
-Result ReplacementFile::create(int& file) {
+Result ReplacementFile::create(int& file, const fs::path& older) {
   constexpr int kMostNames = 100;
   // Asked once: a file that disappears meanwhile must not leave permissions for its owner alone.
-  const std::optional<system::Permissions> older = system::permissionsOf(target_);
+  const std::optional<system::Permissions> permissions = system::permissionsOf(older);
   const TemporaryFiles::Lock held = lockOf(temporaries_);
   for (int i = 0; i < kMostNames; ++i) {
-    file = system::createNew(temporary_, older.has_value());
+    file = system::createNew(temporary_, permissions.has_value());
     if (file >= 0 || errno != EEXIST) break;
     temporary_ = temporaryName(target_);
   }
@@ -258,26 +244,22 @@ Result ReplacementFile::create(int& file) {
     return error(textOf(destination_), "cannot be written: " + reasonOf(failure));
   }
   if (temporaries_ != nullptr) temporaries_->add(temporary_);
-  if (older) system::setPermissions(file, *older);
+  if (permissions) system::setPermissions(file, *permissions);
   return {};
 }
 
-Result ReplacementFile::write(std::span<const uint8_t> bytes) {
+Result ReplacementFile::write(std::span<const uint8_t> bytes, const fs::path& older) {
+  const fs::path& replaced = older.empty() ? target_ : older;
   int file = -1;
-  MCC_GLTF_TRY(create(file));
+  MCC_GLTF_TRY(create(file, replaced));
   int failure = writeAll(file, bytes);
   // The file that is there now is replaced only when the new bytes are safely stored.
   std::error_code code;
-  is_replacing_ = fs::exists(target_, code);
+  is_replacing_ = fs::exists(replaced, code);
   if (failure == 0 && is_replacing_ && system::flush(file) != 0) failure = errno;
-  identity_ = system::identityOf(file);
   if (system::close(file) != 0 && failure == 0) failure = errno;
   if (failure == 0) return {};
   return error(textOf(destination_), "cannot be written: " + reasonOf(failure));
-}
-
-bool ReplacementFile::isInPlace() const {
-  return identity_ && system::identityOf(target_) == identity_;
 }
 
 Result ReplacementFile::flushName() const {
@@ -296,48 +278,13 @@ Result ReplacementFile::commit() {
   return {};
 }
 
-Result ReplacementFile::commitForNow() {
-  std::error_code code;
-  if (fs::exists(fs::symlink_status(target_, code))) {
-    const fs::path backup = temporaryName(target_);
-    // A hard link, where the file system has them, keeps the destination in place at every moment.
-    fs::create_hard_link(target_, backup, code);
-    if (code) system::rename(target_, backup, code);
-    if (code) return error(textOf(destination_), "cannot be written: " + code.message());
-    backup_ = backup;
-  }
-  is_for_now_ = true;
-  Result result = commit();
-  if (!result.ok()) undo();
-  return result;
-}
-
 Result ReplacementFile::commitNew() {
+  const TemporaryFiles::Lock held = lockOf(temporaries_);
   std::error_code code;
   fs::create_hard_link(temporary_, target_, code);
-  if (!code) {
-    is_for_now_ = true;
-    return {};  // the destructor removes the temporary name
-  }
-  if (!fs::exists(fs::symlink_status(target_, code))) return commitForNow();  // no hard links
-  if (haveSameContent(temporary_, target_)) {
-    identity_ = system::identityOf(target_);
-    return {};
-  }
+  if (!code) return {};  // the destructor removes the temporary name
+  if (!fs::exists(fs::symlink_status(target_, code))) return commit();  // no hard links here
   return error(textOf(destination_), "another file appeared there; choose another folder");
-}
-
-void ReplacementFile::undo() {
-  if (!is_for_now_) return;
-  is_for_now_ = false;
-  std::error_code ignored;
-  if (backup_.empty()) {
-    system::remove(target_, ignored);
-  } else {
-    system::rename(backup_, target_, ignored);
-    system::remove(backup_, ignored);  // if both are links of one file, rename() leaves both
-    backup_.clear();
-  }
 }
 
 Result checkWritable(const fs::path& path) {

@@ -30,9 +30,6 @@ Result readFile(const std::filesystem::path& path, std::vector<uint8_t>& bytes);
 /// Errors: it cannot be read; it has more than kMaxFileBytes.
 Result readStream(int file, const std::string& name, std::vector<uint8_t>& bytes);
 
-/// Whether two files have the same bytes; false when one cannot be read.
-bool haveSameContent(const std::filesystem::path& a, const std::filesystem::path& b);
-
 /// Puts the name of a file before the place in it where something is wrong.
 Result inFile(const std::filesystem::path& path, Result result);
 
@@ -70,7 +67,7 @@ class ReplacementFile {
   /// `temporaries`, which may be null, lists the temporary file while it exists. Borrowed.
   explicit ReplacementFile(std::filesystem::path destination,
                            TemporaryFiles* temporaries = nullptr);
-  /// Removes the temporary file unless it was committed. After that, undo() is no longer possible.
+  /// Removes the temporary file unless it was committed.
   ~ReplacementFile();
   ReplacementFile(const ReplacementFile&) = delete;
   ReplacementFile& operator=(const ReplacementFile&) = delete;
@@ -80,37 +77,25 @@ class ReplacementFile {
   Result check() const;
   /// Writes a temporary file in the folder of the destination. Where it will replace a file, it is
   /// stored safely before this returns, so that a disk that is full or broken costs no old file.
-  Result write(std::span<const uint8_t> bytes);
+  /// older  the file that it replaces, if that is not the destination
+  Result write(std::span<const uint8_t> bytes, const std::filesystem::path& older = {});
   const std::filesystem::path& destination() const { return destination_; }
   const std::filesystem::path& temporaryPath() const { return temporary_; }
   /// Renames the temporary file to the destination.
   Result commit();
-  /// Like commit(), but undo() can revert it.
-  Result commitForNow();
-  /// Like commitForNow(), for a destination where there was no file. An equal file may have
-  /// appeared, and stays; any other file is an error.
+  /// The same where there is no file, which is an error otherwise.
   Result commitNew();
-  /// Puts back what was there before commitForNow() or commitNew().
-  void undo();
-  /// Removes what undo() would need.
-  void keep();
   /// After a commit that replaced a file: waits until the folder is stored, too. On an error the
   /// new file is in place, and a crash may bring the old one back.
   Result flushName() const;
-  /// After a commit: whether the destination is known to be still the file that the commit put
-  /// there. False when another program has replaced it since, or where files have no identity.
-  bool isInPlace() const;
 
  private:
-  Result create(int& file);
+  Result create(int& file, const std::filesystem::path& older);
 
   TemporaryFiles* temporaries_;
   std::filesystem::path destination_;  ///< as the caller named it
   std::filesystem::path target_;       ///< the same, with symbolic links at its end followed
   std::filesystem::path temporary_;
-  std::filesystem::path backup_;  ///< the file that was at the target, while undo() is possible
-  std::optional<FileIdentity> identity_;  ///< identity of the file that was written
-  bool is_for_now_ = false;
   bool is_replacing_ = false;  ///< there was a file at the target when this one was written
 };
 

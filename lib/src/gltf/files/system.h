@@ -91,14 +91,14 @@ std::optional<Permissions> permissionsOf(const std::filesystem::path& path);
 /// users have, so that nobody can read what was hidden from them.
 void setPermissions(int file, const Permissions& older);
 
-/// An advisory lock on a folder or a file; see FolderLock and WorkLock for what they promise. It
-/// belongs to the thread that took it, which must close it; on Windows that thread may take another
-/// lock on the same folder or file.
+/// An advisory lock on a folder or a file; see WorkLock for what it promises. It belongs to the
+/// thread that took it, which must close it; on Windows that thread may take another lock on the
+/// same folder or file.
 enum class LockOutcome : uint8_t { kHeld, kBusy, kImpossible };
 inline constexpr intptr_t kNoLock = -1;
 intptr_t openLock(const std::filesystem::path& path);
-/// Does not wait. A shared lock may be exclusive where the system has no shared ones.
-LockOutcome tryLock(intptr_t lock, bool is_shared);
+/// Does not wait.
+LockOutcome tryLock(intptr_t lock);
 void closeLock(intptr_t lock, bool is_held);
 
 }  // namespace system

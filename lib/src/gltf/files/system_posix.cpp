@@ -161,9 +161,8 @@ intptr_t openLock(const std::filesystem::path& path) {
   return ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
 }
 
-LockOutcome tryLock(intptr_t lock, bool is_shared) {
-  if (::flock(static_cast<int>(lock), (is_shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0)
-    return LockOutcome::kHeld;
+LockOutcome tryLock(intptr_t lock) {
+  if (::flock(static_cast<int>(lock), LOCK_EX | LOCK_NB) == 0) return LockOutcome::kHeld;
   const bool is_busy = errno == EWOULDBLOCK || errno == EINTR;
   return is_busy ? LockOutcome::kBusy : LockOutcome::kImpossible;
 }

@@ -199,7 +199,7 @@ intptr_t openLock(const std::filesystem::path& path) {
   return mutex == nullptr ? kNoLock : reinterpret_cast<intptr_t>(mutex);
 }
 
-LockOutcome tryLock(intptr_t lock, bool) {
+LockOutcome tryLock(intptr_t lock) {
   switch (::WaitForSingleObject(reinterpret_cast<HANDLE>(lock), 0)) {
     case WAIT_OBJECT_0:
     case WAIT_ABANDONED: return LockOutcome::kHeld;
