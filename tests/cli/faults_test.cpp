@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Files = std::map<std::string, std::string>;
+using Contents = std::map<std::string, std::string>;
 
 class Faults : public testing::Test {
  protected:
@@ -48,14 +48,14 @@ class Faults : public testing::Test {
   }
 
   /// Returns the contents of files; those that are not there are left out.
-  Files contentsOf(const std::vector<std::string>& names) const {
-    Files files;
+  Contents contentsOf(const std::vector<std::string>& names) const {
+    Contents files;
     for (const std::string& name : names) {
       if (fs::exists(path(name))) files[name] = contentOf(path(name));
     }
     return files;
   }
-  void restore(const std::vector<std::string>& names, const Files& old) const {
+  void restore(const std::vector<std::string>& names, const Contents& old) const {
     for (const std::string& name : names) fs::remove(path(name));
     for (const auto& [name, content] : old) store(name, content);
   }
@@ -70,10 +70,10 @@ class Faults : public testing::Test {
   /// means that all are new; failure says why, and leaves each file old or new, all alike if
   /// `together`.
   void expectSafe(const std::string& arguments, const std::vector<std::string>& names,
-                  const Files& old, bool together) const {
+                  const Contents& old, bool together) const {
     restore(names, old);
     ASSERT_EQ(runTool(folder_, arguments).status, 0) << arguments;
-    const Files made = contentsOf(names);
+    const Contents made = contentsOf(names);
     ASSERT_EQ(made.size(), names.size()) << arguments;
     size_t fault_count = 0;
     for (const std::string kind : {"open", "write", "short", "fsync", "close", "rename", "link"}) {
@@ -85,7 +85,7 @@ class Faults : public testing::Test {
         if (!wasHit()) break;
         ++fault_count;
         SCOPED_TRACE(fault + " in " + arguments + ": " + result.err);
-        const Files now = contentsOf(names);
+        const Contents now = contentsOf(names);
         if (result.status == 0) {
           EXPECT_TRUE(now == made);
         } else {
@@ -161,7 +161,7 @@ TEST_F(Faults, CallsAreRepeatedThatASignalInterrupted) {
 }
 
 TEST_F(Faults, OneFileIsStoredOrRefused) {
-  for (const Files& old : {Files{}, Files{{"out.glb", kOldFile}}}) {
+  for (const Contents& old : {Contents{}, Contents{{"out.glb", kOldFile}}}) {
     expectSafe("convert -q in.glb out.glb", {"out.glb"}, old, true);
     expectSafe("decode -q small.glb out.glb", {"out.glb"}, old, true);
   }
@@ -172,7 +172,7 @@ TEST_F(Faults, OneFileIsStoredOrRefused) {
 TEST_F(Faults, ADocumentAndItsBufferAreStoredOrRefused) {
   ASSERT_EQ(runTool(folder_, "convert -q --lossless in.glb out.gltf").status, 0);
   const std::vector<std::string> names = {"out.gltf", "out.bin"};
-  const Files old = contentsOf(names);
+  const Contents old = contentsOf(names);
   ASSERT_EQ(old.size(), 2u);
   expectSafe("convert -q in.glb out.gltf", names, old, true);
 }
@@ -214,7 +214,7 @@ TEST_F(Faults, TilesAreStoredOrRefused) {
   const std::vector<std::string> names = {"small/a.glb", "small/tileset.json"};
   const std::vector<std::string> with_record = {names[0], names[1], "small/.gltf-mcc-tiles.jsonl"};
   ASSERT_EQ(runTool(folder_, "tiles -q city/tileset.json small").status, 0);
-  const Files made = contentsOf(names);
+  const Contents made = contentsOf(names);
   ASSERT_EQ(made.size(), 2u);
   for (const std::string kind : {"open", "write", "fsync", "close", "rename", "link"}) {
     for (int number = 1; number < 100; ++number) {
