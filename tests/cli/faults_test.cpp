@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Files = std::map<std::string, std::string>;
+using Contents = std::map<std::string, std::string>;
 
 class Faults : public testing::Test {
  protected:
@@ -49,14 +49,14 @@ class Faults : public testing::Test {
   }
 
   /// Returns the contents of files; those that are not there are left out.
-  Files contentsOf(const std::vector<std::string>& names) const {
-    Files files;
+  Contents contentsOf(const std::vector<std::string>& names) const {
+    Contents files;
     for (const std::string& name : names) {
       if (fs::exists(path(name))) files[name] = contentOf(path(name));
     }
     return files;
   }
-  void restore(const std::vector<std::string>& names, const Files& old) const {
+  void restore(const std::vector<std::string>& names, const Contents& old) const {
     for (const std::string& name : names) fs::remove(path(name));
     for (const auto& [name, content] : old) store(name, content);
   }
@@ -71,10 +71,10 @@ class Faults : public testing::Test {
   /// means that all are new; failure says why, and leaves each file old or new, all alike if
   /// `together`.
   void expectSafe(const std::string& arguments, const std::vector<std::string>& names,
-                  const Files& old, bool together) const {
+                  const Contents& old, bool together) const {
     restore(names, old);
     ASSERT_EQ(runTool(folder_, arguments).status, 0) << arguments;
-    const Files made = contentsOf(names);
+    const Contents made = contentsOf(names);
     ASSERT_EQ(made.size(), names.size()) << arguments;
     size_t fault_count = 0;
     for (const std::string kind : {"open", "write", "short", "fsync", "close", "rename", "link"}) {
@@ -86,7 +86,7 @@ class Faults : public testing::Test {
         if (!wasHit()) break;
         ++fault_count;
         SCOPED_TRACE(fault + " in " + arguments + ": " + result.err);
-        const Files now = contentsOf(names);
+        const Contents now = contentsOf(names);
         if (result.status == 0) {
           EXPECT_TRUE(now == made);
         } else {
@@ -162,7 +162,7 @@ TEST_F(Faults, CallsAreRepeatedThatASignalInterrupted) {
 }
 
 TEST_F(Faults, OneFileIsStoredOrRefused) {
-  for (const Files& old : {Files{}, Files{{"out.glb", kOldFile}}}) {
+  for (const Contents& old : {Contents{}, Contents{{"out.glb", kOldFile}}}) {
     expectSafe("convert -q in.glb out.glb", {"out.glb"}, old, true);
     expectSafe("decode -q small.glb out.glb", {"out.glb"}, old, true);
   }
@@ -175,12 +175,12 @@ TEST_F(Faults, ADocumentAndItsBufferAreStoredOrRefused) {
     EXPECT_EQ(runTool(folder_, "convert -q in.glb out.gltf " + options).status, 0);
     return contentsOf({"out.gltf", madeBeside(folder_.path(), "out")});
   };
-  const Files made = pair("");
-  const Files old = pair("--lossless");
+  const Contents made = pair("");
+  const Contents old = pair("--lossless");
   size_t fault_count = 0;
   for (const std::string kind : {"open", "write", "short", "fsync", "close", "rename", "link"}) {
     for (int number = 1; number < 100; ++number) {
-      for (const Files* files : {&made, &old}) {
+      for (const Contents* files : {&made, &old}) {
         for (const auto& [name, content] : *files) fs::remove(path(name));
       }
       for (const auto& [name, content] : old) store(name, content);
@@ -190,14 +190,14 @@ TEST_F(Faults, ADocumentAndItsBufferAreStoredOrRefused) {
       if (!wasHit()) break;
       ++fault_count;
       SCOPED_TRACE(fault + ": " + result.err);
-      Files now;
+      Contents now;
       for (const auto& entry : fs::directory_iterator(folder_.path())) {
         const std::string name = entry.path().filename();
         if (name.starts_with("out.")) now[name] = contentOf(entry.path());
       }
       // The new pair may have the old buffer beside it, as long as a crash could bring its .gltf
       // back.
-      Files both = old;
+      Contents both = old;
       for (const auto& [name, content] : made) both[name] = content;
       EXPECT_TRUE(now == made || (result.status == 1 && (now == old || now == both)));
       EXPECT_TRUE(result.status == 0 || result.err.find("gltf-mcc: ") != std::string::npos);
@@ -245,7 +245,7 @@ TEST_F(Faults, TilesAreStoredOrRefused) {
   const std::vector<std::string> names = {"small/a.glb", "small/tileset.json"};
   const std::vector<std::string> with_record = {names[0], names[1], "small/.gltf-mcc-tiles.jsonl"};
   ASSERT_EQ(runTool(folder_, "tiles -q city/tileset.json small").status, 0);
-  const Files made = contentsOf(names);
+  const Contents made = contentsOf(names);
   ASSERT_EQ(made.size(), 2u);
   for (const std::string kind : {"open", "write", "fsync", "close", "rename", "link"}) {
     for (int number = 1; number < 100; ++number) {

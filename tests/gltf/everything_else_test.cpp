@@ -142,12 +142,6 @@ void expectBytesKept(const RoundTrip& trip, const std::set<uint32_t>& compressed
   }
 }
 
-std::vector<uint8_t> fileOf(const Builder& builder) {
-  std::vector<uint8_t> file;
-  const Result result = writeGlb(printJson(builder.json), builder.bin, {}, file);
-  return result.ok() ? file : std::vector<uint8_t>{};
-}
-
 void expectSurvival(const Builder& builder, bool keeps_views) {
   const RoundTrip trip = roundTrip(fileOf(builder));
   ASSERT_EQ(trip.error, "");

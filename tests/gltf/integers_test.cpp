@@ -38,7 +38,7 @@ BothDecodes decodeBoth(const Builder& builder, ConvertOptions options = {}) {
   return both;
 }
 
-bool hasNote(const BothDecodes& both, const std::string& text) {
+bool bothHaveNote(const BothDecodes& both, const std::string& text) {
   return std::any_of(both.notes.begin(), both.notes.end(),
                      [&](const std::string& note) { return note.find(text) != std::string::npos; });
 }
@@ -153,8 +153,8 @@ TEST(Integers, AttributesGetTheSmallestTypeOfTheirGrid) {
   EXPECT_EQ(accessorOf(large, attributes["NORMAL"])["componentType"], kShort);
   EXPECT_EQ(accessorOf(large, attributes["TEXCOORD_0"])["componentType"], kFloat);
   EXPECT_EQ(accessorOf(large, attributes["COLOR_0"])["componentType"], kFloat);
-  EXPECT_TRUE(hasNote(large, "/meshes/0: its lattice has more than 16 bits"));
-  EXPECT_TRUE(hasNote(large, "TEXCOORD_0 has finer steps than 16 bits can hold"));
+  EXPECT_TRUE(bothHaveNote(large, "/meshes/0: its lattice has more than 16 bits"));
+  EXPECT_TRUE(bothHaveNote(large, "TEXCOORD_0 has finer steps than 16 bits can hold"));
 
   ConvertOptions lossless;
   lossless.lossless = true;
@@ -236,7 +236,7 @@ TEST(Integers, NewChildrenCarryTheLattice) {
   const Json& target = both.json["meshes"][0]["primitives"][1]["targets"];
   EXPECT_EQ(accessorOf(both, target[0]["POSITION"])["componentType"], kShort);
   EXPECT_EQ(accessorOf(both, target[1]["NORMAL"])["componentType"], kFloat);  // up to 3
-  EXPECT_TRUE(hasNote(both, "target NORMAL has values outside -1 to 1"));
+  EXPECT_TRUE(bothHaveNote(both, "target NORMAL has values outside -1 to 1"));
 }
 
 TEST(Integers, SkinsCarryTheLattice) {

@@ -14,12 +14,6 @@
 namespace mcc::gltf::test {
 namespace {
 
-ConvertOptions lossless() {
-  ConvertOptions options;
-  options.lossless = true;
-  return options;
-}
-
 struct OrderCase {
   const char* extension;
   const char* object;

@@ -89,7 +89,8 @@ std::vector<uint8_t> documentWithBounds() {
     for (const char* bound : {"min", "max"}) {
       if (!accessor.contains(bound)) continue;
       for (Json& value : accessor[bound]) {
-        const std::string spelling = value.dump() + (value.text().find('.') != std::string::npos ? "0" : ".0");
+        const std::string spelling =
+            value.dump() + (value.text().find('.') != std::string::npos ? "0" : ".0");
         value = Json::number(spelling);
       }
     }
@@ -97,7 +98,7 @@ std::vector<uint8_t> documentWithBounds() {
   return builder.toGlb();
 }
 
-std::vector<std::string> issuesOf(std::span<const uint8_t> file) {
+std::vector<std::string> messagesOf(std::span<const uint8_t> file) {
   ValidationReport report;
   EXPECT_TRUE(validate({{}, file}, {}, report).ok());
   std::vector<std::string> issues;
@@ -113,7 +114,7 @@ TEST_P(Language, ChangesNoNumberAndNoByte) {
   const std::vector<uint8_t> source = documentWithBounds();
   const RoundTrip usual = roundTrip(source);
   ASSERT_EQ(usual.error, "");
-  const std::vector<std::string> usual_issues = issuesOf(usual.converted);
+  const std::vector<std::string> usual_issues = messagesOf(usual.converted);
   const DecimalPoint point(GetParam().first, GetParam().second);
   if (!point.isSet()) GTEST_SKIP() << "there is no locale " << GetParam().first << ".UTF-8";
   expectNumbers();
@@ -121,7 +122,7 @@ TEST_P(Language, ChangesNoNumberAndNoByte) {
   EXPECT_EQ(trip.error, "");
   EXPECT_TRUE(trip.converted == usual.converted);
   EXPECT_TRUE(trip.decoded == usual.decoded);
-  EXPECT_EQ(issuesOf(trip.converted), usual_issues);
+  EXPECT_EQ(messagesOf(trip.converted), usual_issues);
 }
 
 INSTANTIATE_TEST_SUITE_P(Locale, Language,

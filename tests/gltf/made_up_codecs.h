@@ -80,12 +80,6 @@ inline void codeViews(Builder& builder, const std::vector<uint32_t>& views) {
   builder.json["extensionsRequired"] = {kViewName};
 }
 
-inline std::vector<uint8_t> fileOf(const Builder& builder) {
-  std::vector<uint8_t> file;
-  const Result result = writeGlb(printJson(builder.json), builder.bin, {}, file);
-  return result.ok() ? file : std::vector<uint8_t>{};
-}
-
 /// Moves the primitive's attributes and indices into one coded view.
 inline void codeMesh(Builder& builder, size_t mesh, bool keep_bytes = false) {
   Json& primitive = builder.json["meshes"][mesh]["primitives"][0];

@@ -37,6 +37,18 @@ inline RoundTrip roundTrip(const Builder& builder, const ConvertOptions& options
   return roundTrip(builder.toGlb(), options);
 }
 
+inline std::vector<uint8_t> fileOf(const Builder& builder) {
+  std::vector<uint8_t> file;
+  const Result result = writeGlb(printJson(builder.json), builder.bin, {}, file);
+  return result.ok() ? file : std::vector<uint8_t>{};
+}
+
+inline ConvertOptions lossless() {
+  ConvertOptions options;
+  options.lossless = true;
+  return options;
+}
+
 inline ConvertOptions evenIfLarger() {
   ConvertOptions options;
   options.allow_larger = true;

@@ -17,7 +17,7 @@
 namespace mcc::gltf::test {
 namespace {
 
-constexpr char kPath[] = "/meshes/0/primitives/0/extensions/KHR_mesh_collapse_compression";
+constexpr char kExtensionPath[] = "/meshes/0/primitives/0/extensions/KHR_mesh_collapse_compression";
 
 ValidationReport validated(std::span<const uint8_t> file, const ValidateOptions& options = {}) {
   ValidationReport report;
@@ -81,7 +81,7 @@ TEST(ValidateConformance, NegativeAssetsHaveErrorsWithTheirCodes) {
         EXPECT_FALSE(issue.code.starts_with("PAYLOAD_")) << issue.code;
       } else {
         EXPECT_EQ(issue.code, codeOf(kind));
-        EXPECT_EQ(issue.pointer, std::string(kPath) + "/bufferView");
+        EXPECT_EQ(issue.pointer, std::string(kExtensionPath) + "/bufferView");
       }
     }
   }
@@ -168,7 +168,7 @@ TEST_F(Validate, ListsOfExtensions) {
 }
 
 TEST_F(Validate, Schema) {
-  const std::string path = kPath;
+  const std::string path = kExtensionPath;
   expectIssue("SCHEMA_MISMATCH", path + "/targets",
               [](Json&, Json& p, Json& e) { e["targets"] = p["targets"] = Json::array(); });
   expectIssue("SCHEMA_MISMATCH", path + "/piece", [](Json&, Json&, Json& e) { e["piece"] = 0.5; });
@@ -246,10 +246,11 @@ TEST_F(Validate, Manifolds) {
 }
 
 TEST_F(Validate, UnusedPartsOfPayloads) {
-  expectIssue("UNUSED_ATTRIBUTE", std::string(kPath) + "/bufferView", [](Json&, Json& p, Json& e) {
-    e["attributes"].erase("NORMAL");
-    p["attributes"].erase("NORMAL");
-  });
+  expectIssue("UNUSED_ATTRIBUTE", std::string(kExtensionPath) + "/bufferView",
+              [](Json&, Json& p, Json& e) {
+                e["attributes"].erase("NORMAL");
+                p["attributes"].erase("NORMAL");
+              });
   const ValidationReport report = after([](Json&, Json& p, Json& e) {
     e["attributes"].erase("NORMAL");
     p["attributes"].erase("NORMAL");

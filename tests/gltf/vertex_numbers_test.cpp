@@ -17,12 +17,6 @@ namespace {
 constexpr uint32_t kSize = 20;
 constexpr uint32_t kRow = kSize + 1;
 
-ConvertOptions lossless() {
-  ConvertOptions options;
-  options.lossless = true;
-  return options;
-}
-
 /// The pairs of vertices along two sides of a sheet, and one that is far away.
 std::vector<uint32_t> edgesOfSheet() {
   std::vector<uint32_t> numbers = {kRow * kRow - 1, 0};

@@ -29,11 +29,6 @@ constexpr uint64_t kMemoryPerByte = 50'000'000 / 600;
 /// Decisions, tokens and raw bits: an element takes a few nanoseconds for each.
 constexpr uint64_t kSymbolsPerElement = 4;
 
-uint64_t fromEnvironment(const char* name, uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
-}
-
 /// Counts faces, vertices, wedges and values that the reader walks over, independently of the
 /// reader's own count.
 uint64_t walkedOver(const PayloadInfo& info) {

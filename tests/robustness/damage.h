@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <cstdlib>
 #include <span>
 #include <string>
 #include <thread>
@@ -62,6 +63,12 @@ class Watchdog {
   std::atomic<bool> done_{false};
   std::thread thread_;
 };
+
+/// The number in an environment variable, for longer runs by hand.
+inline uint64_t fromEnvironment(const char* name, uint64_t otherwise) {
+  const char* text = std::getenv(name);
+  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
+}
 
 }  // namespace mcc::test
 

@@ -18,11 +18,6 @@ namespace {
 constexpr uint64_t kMutations = 2000;
 constexpr size_t kSmallBytes = 1200;
 
-uint64_t fromEnvironment(const char* name, uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
-}
-
 size_t headerBytes(const NamedPayload& payload) {
   Payload opened;
   EXPECT_TRUE(opened.open(payload.bytes).ok());

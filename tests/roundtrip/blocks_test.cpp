@@ -264,8 +264,8 @@ TEST(Blocks, Parts) {
 
 // ---- Attributes ---------------------------------------------------------------------------------
 
-AttributeFormat formatOf(Semantic semantic, ComponentType type, uint8_t components, uint8_t set = 0,
-                         uint16_t target = 0) {
+AttributeFormat formatOfSet(Semantic semantic, ComponentType type, uint8_t components,
+                            uint8_t set = 0, uint16_t target = 0) {
   AttributeFormat format;
   format.semantic = semantic;
   format.component_type = type;
@@ -284,16 +284,17 @@ class RichPiece {
     memory_.reserve(20);
     addTangents(bits == 0 ? 0 : 9);
     addSkin(bits);
-    addFloats(formatOf(Semantic::kColor, ComponentType::kFloat32, 4), bits, 0.3f);
-    addFloats(formatOf(Semantic::kCustom, ComponentType::kFloat32, 2, 1), 0, 1e30f);
-    addFloats(formatOf(Semantic::kPosition, ComponentType::kFloat32, 3, 0, 1), bits, 0.1f);
-    addFloats(formatOf(Semantic::kNormal, ComponentType::kFloat32, 3, 0, 1), bits, 0.1f);
-    addFloats(formatOf(Semantic::kPosition, ComponentType::kFloat32, 3, 0, 2), bits, 0.1f);
+    addFloats(formatOfSet(Semantic::kColor, ComponentType::kFloat32, 4), bits, 0.3f);
+    addFloats(formatOfSet(Semantic::kCustom, ComponentType::kFloat32, 2, 1), 0, 1e30f);
+    addFloats(formatOfSet(Semantic::kPosition, ComponentType::kFloat32, 3, 0, 1), bits, 0.1f);
+    addFloats(formatOfSet(Semantic::kNormal, ComponentType::kFloat32, 3, 0, 1), bits, 0.1f);
+    addFloats(formatOfSet(Semantic::kPosition, ComponentType::kFloat32, 3, 0, 2), bits, 0.1f);
     addIntegers(ComponentType::kUint8, 4, 2);
     addIntegers(ComponentType::kInt16, 3, 3);
     addIntegers(ComponentType::kUint32, 9, 4);
     // An alias.
-    piece_.add(formatOf(Semantic::kColor, ComponentType::kFloat32, 4, 5), memory_[3].data(), bits);
+    piece_.add(formatOfSet(Semantic::kColor, ComponentType::kFloat32, 4, 5), memory_[3].data(),
+               bits);
   }
 
   PieceView view() const { return piece_.view(); }
@@ -316,7 +317,7 @@ class RichPiece {
     add(format, bits);
   }
   void addIntegers(ComponentType type, uint8_t components, uint8_t set) {
-    const AttributeFormat format = formatOf(Semantic::kCustom, type, components, set);
+    const AttributeFormat format = formatOfSet(Semantic::kCustom, type, components, set);
     const uint32_t width = componentBytes(type);
     std::vector<uint8_t>& memory = newMemory(wedgeCount() * elementBytes(format));
     for (size_t i = 0; i < memory.size() / width; ++i) {
@@ -328,7 +329,7 @@ class RichPiece {
     add(format, 0);
   }
   void addTangents(uint8_t bits) {
-    const AttributeFormat format = formatOf(Semantic::kTangent, ComponentType::kFloat32, 4);
+    const AttributeFormat format = formatOfSet(Semantic::kTangent, ComponentType::kFloat32, 4);
     std::vector<uint8_t>& memory = newMemory(wedgeCount() * elementBytes(format));
     for (size_t w = 0; w < wedgeCount(); ++w) {
       const float* const n = &mesh_.normals[3 * w];
@@ -347,7 +348,7 @@ class RichPiece {
       const float x = mesh_.positions[3 * (i / 4)] + 4;
       joints[i] = static_cast<uint8_t>(static_cast<uint32_t>(std::fabs(x)) % 40 + i % 4);
     }
-    add(formatOf(Semantic::kJoints, ComponentType::kUint8, 4), 0);
+    add(formatOfSet(Semantic::kJoints, ComponentType::kUint8, 4), 0);
     std::vector<uint8_t>& weights = newMemory(16 * wedgeCount());
     for (size_t w = 0; w < wedgeCount(); ++w) {
       const float x = std::fabs(mesh_.positions[3 * w + 1]);
@@ -355,7 +356,7 @@ class RichPiece {
       const float all[4] = {0.5f + 0.5f * part, 0.5f - 0.5f * part, 0, 0};
       std::memcpy(&weights[16 * w], all, 16);
     }
-    add(formatOf(Semantic::kWeights, ComponentType::kFloat32, 4), bits);
+    add(formatOfSet(Semantic::kWeights, ComponentType::kFloat32, 4), bits);
   }
 
   TestMesh mesh_;
@@ -395,7 +396,7 @@ TEST(Blocks, IntegerPositions) {
         std::memcpy(&values[i * width], &value, width);
       }
       MeshPiece piece(mesh);
-      piece.setPositions(formatOf(Semantic::kPosition, type, 3), values.data());
+      piece.setPositions(formatOfSet(Semantic::kPosition, type, 3), values.data());
       Random random(++seed);
       for (uint32_t i = 0; i < 4; ++i)
         (void)expectSame(piece.view(), anySettings(random), mesh.name);

@@ -63,7 +63,7 @@ std::vector<float> valuesOf(Kind kind, const TestMesh& mesh, uint32_t components
   return values;
 }
 
-std::vector<TestMesh> carriers() {
+std::vector<TestMesh> exactCarriers() {
   return {grid(7, 6),
           chartGrid(12, 10, 4),
           withNormals(torus(16, 10)),
@@ -75,7 +75,7 @@ std::vector<TestMesh> carriers() {
           openFan(1)};
 }
 
-AttributeFormat formatOf(Semantic semantic, uint8_t components, uint16_t target = 0) {
+AttributeFormat floatsOf(Semantic semantic, uint8_t components, uint16_t target = 0) {
   AttributeFormat format;
   format.semantic = semantic;
   format.component_count = components;
@@ -85,14 +85,14 @@ AttributeFormat formatOf(Semantic semantic, uint8_t components, uint16_t target 
 
 TEST(Exact, EverySemanticOnEveryGrid) {
   const std::vector<AttributeFormat> formats = {
-      formatOf(Semantic::kNormal, 3),      formatOf(Semantic::kTangent, 4),
-      formatOf(Semantic::kTexcoord, 2),    formatOf(Semantic::kColor, 4),
-      formatOf(Semantic::kColor, 3),       formatOf(Semantic::kWeights, 4),
-      formatOf(Semantic::kCustom, 1),      formatOf(Semantic::kCustom, 16),
-      formatOf(Semantic::kPosition, 3, 1), formatOf(Semantic::kNormal, 3, 1),
-      formatOf(Semantic::kTangent, 3, 1),
+      floatsOf(Semantic::kNormal, 3),      floatsOf(Semantic::kTangent, 4),
+      floatsOf(Semantic::kTexcoord, 2),    floatsOf(Semantic::kColor, 4),
+      floatsOf(Semantic::kColor, 3),       floatsOf(Semantic::kWeights, 4),
+      floatsOf(Semantic::kCustom, 1),      floatsOf(Semantic::kCustom, 16),
+      floatsOf(Semantic::kPosition, 3, 1), floatsOf(Semantic::kNormal, 3, 1),
+      floatsOf(Semantic::kTangent, 3, 1),
   };
-  for (const TestMesh& carrier : carriers()) {
+  for (const TestMesh& carrier : exactCarriers()) {
     for (uint8_t k = 0; k < static_cast<uint8_t>(Kind::kCount); ++k) {
       const Kind kind = static_cast<Kind>(k);
       TestMesh mesh = carrier;
@@ -149,14 +149,14 @@ TEST(Exact, ComputedNormalsAndTangents) {
     }
     mesh.texcoords = chart;
     MeshPiece piece(mesh, kExactBits);
-    piece.add(formatOf(Semantic::kTangent, 4), tangents.data());
+    piece.add(floatsOf(Semantic::kTangent, 4), tangents.data());
     EXPECT_EQ(roundTrip(piece.view()).failure, "") << mesh.name;
     // Exact values next to a lattice.
     MeshPiece mixed(mesh, {14, 0, 12});
-    mixed.add(formatOf(Semantic::kTangent, 4), tangents.data());
+    mixed.add(floatsOf(Semantic::kTangent, 4), tangents.data());
     EXPECT_EQ(roundTrip(mixed.view()).failure, "") << mesh.name;
     MeshPiece other(mesh, {0, 10, 0});
-    other.add(formatOf(Semantic::kTangent, 4), tangents.data());
+    other.add(floatsOf(Semantic::kTangent, 4), tangents.data());
     EXPECT_EQ(roundTrip(other.view()).failure, "") << mesh.name;
   }
 }
@@ -167,14 +167,14 @@ TEST(Exact, SkinsWithWeightsOnGrids) {
   for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
     for (uint32_t c = 0; c < 4; ++c) joints.push_back(static_cast<uint8_t>((v / 9 + c * 3) % 11));
   }
-  AttributeFormat format = formatOf(Semantic::kJoints, 4);
+  AttributeFormat format = floatsOf(Semantic::kJoints, 4);
   format.component_type = ComponentType::kUint8;
   for (uint8_t k = 0; k < static_cast<uint8_t>(Kind::kCount); ++k) {
     std::vector<float> weights = valuesOf(static_cast<Kind>(k), mesh, 4);
     for (float& w : weights) w = std::fabs(w) < 0.3f ? w * 1e-30f : w;
     MeshPiece piece(mesh, kExactBits);
     piece.add(format, joints.data());
-    piece.add(formatOf(Semantic::kWeights, 4), weights.data());
+    piece.add(floatsOf(Semantic::kWeights, 4), weights.data());
     EXPECT_EQ(roundTrip(piece.view()).failure, "") << "kind " << int{k};
   }
 }

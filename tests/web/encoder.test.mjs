@@ -14,7 +14,7 @@ import { wasm } from './support/conformance.mjs';
 
 const fileOf = (name) => fileURLToPath(new URL(`../../samples/${name}.glb`, import.meta.url));
 const sample = (name) => new Uint8Array(readFileSync(fileOf(name)));
-/** What tools/test --web has built. */
+/** What tools/build-web has built. */
 const tool = process.env.MCC_TOOL ?? fileURLToPath(new URL('../../build/release/tools/gltf-mcc', import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), 'encoder-'));
 after(() => rmSync(folder, { recursive: true }));

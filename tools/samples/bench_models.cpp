@@ -15,8 +15,14 @@
 namespace mcc::samples {
 namespace {
 
+using test::cellWalls;
 using test::CosSin;
+using test::jittered;
 using test::Random;
+using test::shuffled;
+using test::stackedCubes;
+using test::tetrahedraAsQuads;
+using test::tetrahedralSoup;
 using test::turn;
 
 constexpr float kGrey = 0.6f;
@@ -405,9 +411,30 @@ constexpr Model kLargeModels[] = {
     {"large_terrain.glb", "a terrain of 20 million triangles", largeTerrain},
 };
 
+GlbBuilder soupModel(const TestMesh& mesh) { return single(mesh.name, mesh, 0.6f, 0.6f, 0.6f); }
+
+constexpr Model kSoups[] = {
+    {"soup_tetrahedra.glb", "tetrahedra, four faces each",
+     [] { return soupModel(tetrahedralSoup(12)); }},
+    {"soup_tetrahedra_jittered.glb", "the same, moved and shuffled",
+     [] { return soupModel(shuffled(jittered(tetrahedralSoup(12), 1, 0.25f), 2)); }},
+    {"soup_quads.glb", "tetrahedra as quads: 96,000 triangles on 9,261 vertices",
+     [] { return soupModel(tetrahedraAsQuads(1, 20)); }},
+    {"soup_quads_jittered.glb", "the same, moved",
+     [] { return soupModel(jittered(tetrahedraAsQuads(1, 20), 2, 0.25f)); }},
+    {"soup_cubes.glb", "stacked cubes", [] { return soupModel(stackedCubes(1, 20, 100)); }},
+    {"soup_cubes_half.glb", "every other cube", [] { return soupModel(stackedCubes(1, 20, 50)); }},
+    {"soup_cubes_jittered.glb", "every other cube, moved and shuffled",
+     [] { return soupModel(shuffled(jittered(stackedCubes(3, 20, 50), 4, 0.2f), 5)); }},
+    {"soup_cells.glb", "walls of cells, moved",
+     [] { return soupModel(jittered(cellWalls(20), 1, 0.2f)); }},
+};
+
 }  // namespace
 
 std::span<const Model> benchModels() { return kBenchModels; }
+std::span<const Model> soupModels() { return kSoups; }
+
 std::span<const Model> largeModels() { return kLargeModels; }
 
 }  // namespace mcc::samples

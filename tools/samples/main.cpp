@@ -1,10 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// generate-samples DIR writes the sample models into DIR and prints the table of samples/README.md.
-// With --bench it instead writes the second set of models for `gltf-mcc bench DIR/*.glb`, which
-// nothing in the codec was fitted on; with --soups, meshes whose edges have many faces; with
-// --large, a surface of 20 million triangles; with --city, the tileset of samples/city; with
-// --city-large, one of about 1,000 tiles.
+// generate-samples --bench DIR writes the second set of models for `gltf-mcc bench DIR/*.glb`,
+// which nothing in the codec was fitted on, and prints a table of them; with --soups, meshes whose
+// edges have many faces; with --large, a surface of 20 million triangles; with --city, the tileset
+// of samples/city; with --city-large, one of about 1,000 tiles.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -77,13 +76,12 @@ int main(int argc, char** argv) {
   using namespace mcc::samples;
   using Models = std::span<const Model> (*)();
   const std::map<std::string_view, Models> kinds = {
-      {"", allModels}, {"--bench", benchModels}, {"--soups", soupModels}, {"--large", largeModels}};
+      {"--bench", benchModels}, {"--soups", soupModels}, {"--large", largeModels}};
   const std::string_view option = argc == 3 ? argv[1] : "";
-  const char* const folder = argc > 1 ? argv[argc - 1] : "-";
+  const char* const folder = argc == 3 ? argv[2] : "-";
   const bool is_city = option == "--city" || option == "--city-large";
-  if (argc < 2 || argc > 3 || (!is_city && !kinds.contains(option)) || folder[0] == '-') {
-    std::fputs("usage: generate-samples [--bench|--soups|--large|--city|--city-large] DIR\n",
-               stderr);
+  if (argc != 3 || (!is_city && !kinds.contains(option)) || folder[0] == '-') {
+    std::fputs("usage: generate-samples --bench|--soups|--large|--city|--city-large DIR\n", stderr);
     return 2;
   }
   try {

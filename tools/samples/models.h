@@ -12,11 +12,9 @@ namespace mcc::samples {
 
 struct Model {
   const char* file;
-  const char* shows;  ///< a phrase for the table in samples/README.md
+  const char* shows;  ///< a phrase for the table that is printed
   GlbBuilder (*build)();
 };
-
-std::span<const Model> allModels();
 
 /// Meshes whose edges have many faces, for `bench`. They are too large to be kept in the
 /// repository.

@@ -74,17 +74,6 @@ std::vector<uint8_t> pngOf(uint32_t width, uint32_t height, uint8_t bits, uint8_
 
 }  // namespace
 
-std::vector<uint8_t> encodePng(uint32_t width, uint32_t height, std::span<const uint8_t> rgb) {
-  constexpr uint8_t kTrueColor = 2;
-  std::vector<uint8_t> rows;
-  for (uint32_t y = 0; y < height; ++y) {
-    rows.push_back(0);  // filter: none
-    const auto row = rgb.subspan(size_t{y} * width * 3, size_t{width} * 3);
-    rows.insert(rows.end(), row.begin(), row.end());
-  }
-  return pngOf(width, height, 8, kTrueColor, {}, rows);
-}
-
 std::vector<uint8_t> encodePalettePng(uint32_t width, uint32_t height,
                                       std::span<const uint8_t> indices,
                                       std::span<const Rgb> palette) {

@@ -8,10 +8,6 @@
 
 namespace mcc::samples {
 
-/// Returns an 8-bit RGB PNG of width * height * 3 bytes, top row first, in stored (uncompressed)
-/// deflate blocks.
-std::vector<uint8_t> encodePng(uint32_t width, uint32_t height, std::span<const uint8_t> rgb);
-
 struct Rgb {
   uint8_t red = 0;
   uint8_t green = 0;

@@ -21,7 +21,7 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-AttributeInfo position() {
+AttributeInfo positionOfBlocks() {
   AttributeInfo a;
   a.bits = 14;
   a.lattice.step = 0.5f;
@@ -41,7 +41,7 @@ AttributeInfo color() {
 struct DraftBlock {
   PieceHeader piece;
   std::vector<uint32_t> part_triangles = {4};
-  std::vector<AttributeInfo> attributes = {position(), color()};
+  std::vector<AttributeInfo> attributes = {positionOfBlocks(), color()};
   uint32_t repeated_count = 0;
   std::vector<BlockException> exceptions;
   CodedBox box = {{-1, 0, 5}, {1, 0, 7}};
@@ -56,7 +56,7 @@ struct DraftBlock {
 };
 
 /// A payload under construction.
-struct Draft {
+struct DraftOfBlocks {
   uint32_t flags = payload_flag::kBlocks;
   std::vector<DraftBlock> blocks = std::vector<DraftBlock>(3);
 
@@ -91,9 +91,9 @@ struct Draft {
   }
 };
 
-Draft anyDraft(uint64_t seed) {
+DraftOfBlocks anyDraftOfBlocks(uint64_t seed) {
   Random random(seed);
-  Draft draft;
+  DraftOfBlocks draft;
   draft.blocks.resize(random.between(2, random.chance(20) ? 60 : 5));
   const uint32_t part_count = random.between(1, 3);
   const uint32_t limit = random.chance(50) ? 40 : 4000000;
@@ -148,11 +148,11 @@ Draft anyDraft(uint64_t seed) {
   return draft;
 }
 
-bool sameBytes(std::span<const uint8_t> a, std::span<const uint8_t> b) {
+bool sameSpans(std::span<const uint8_t> a, std::span<const uint8_t> b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
-void expectRows(const PayloadHeader& parsed, const Draft& draft, uint64_t seed) {
+void expectRows(const PayloadHeader& parsed, const DraftOfBlocks& draft, uint64_t seed) {
   ASSERT_TRUE(parsed.hasBlocks());
   ASSERT_EQ(parsed.blocks.size(), draft.blocks.size());
   ASSERT_EQ(parsed.pieces.size(), draft.blocks.size());
@@ -192,7 +192,7 @@ void expectRows(const PayloadHeader& parsed, const Draft& draft, uint64_t seed) 
 TEST(BlockHeaders, EveryFieldOfTheTableComesBack) {
   uint32_t padded_count = 0;
   for (uint64_t seed = 0; seed < 500; ++seed) {
-    const Draft draft = anyDraft(seed);
+    const DraftOfBlocks draft = anyDraftOfBlocks(seed);
     const Bytes payload = draft.write();
     PayloadHeader parsed{Allocator{}};
     const Status status = parsePayload(payload, {}, parsed);
@@ -200,9 +200,9 @@ TEST(BlockHeaders, EveryFieldOfTheTableComesBack) {
     expectRows(parsed, draft, seed);
     for (size_t i = 0; i < draft.blocks.size(); ++i) {
       const Streams streams = parsed.streamsOf(parsed.blocks[i]);
-      EXPECT_TRUE(sameBytes(streams.codes, draft.blocks[i].codes)) << seed;
-      EXPECT_TRUE(sameBytes(streams.tokens, draft.blocks[i].tokens)) << seed;
-      EXPECT_TRUE(sameBytes(streams.raw, draft.blocks[i].raw)) << seed;
+      EXPECT_TRUE(sameSpans(streams.codes, draft.blocks[i].codes)) << seed;
+      EXPECT_TRUE(sameSpans(streams.tokens, draft.blocks[i].tokens)) << seed;
+      EXPECT_TRUE(sameSpans(streams.raw, draft.blocks[i].raw)) << seed;
     }
     EXPECT_LE(elementsOf(parsed), kMaxElementsPerByte * payload.size());
     padded_count += (parsed.flags & payload_flag::kPadded) != 0 ? 1 : 0;
@@ -213,7 +213,7 @@ TEST(BlockHeaders, EveryFieldOfTheTableComesBack) {
 
 TEST(BlockHeaders, HeaderIsReadFromTheFirstBytes) {
   for (uint64_t seed = 0; seed < 100; ++seed) {
-    const Draft draft = anyDraft(seed);
+    const DraftOfBlocks draft = anyDraftOfBlocks(seed);
     const Bytes payload = draft.write();
     PayloadHeader whole{Allocator{}};
     ASSERT_TRUE(parsePayload(payload, {}, whole).ok());
@@ -239,7 +239,7 @@ TEST(BlockHeaders, HeaderIsReadFromTheFirstBytes) {
 
 TEST(BlockHeaders, EveryTruncationOfTheHeaderIsAnError) {
   for (uint64_t seed = 0; seed < 40; ++seed) {
-    const Bytes payload = anyDraft(seed).write();
+    const Bytes payload = anyDraftOfBlocks(seed).write();
     PayloadHeader whole{Allocator{}};
     ASSERT_TRUE(parsePayload(payload, {}, whole).ok());
     for (size_t size = 0; size < std::min<size_t>(whole.header_bytes, 1500); ++size) {
@@ -257,7 +257,7 @@ TEST(BlockHeaders, APrefixOfAPayloadWithoutThemIsTruncated) {
   DraftBlock whole;
   whole.piece.attribute_count = 1;
   ASSERT_TRUE(out.pieces.push_back(whole.piece) && out.parts.push_back({4}) &&
-              out.attributes.push_back(position()));
+              out.attributes.push_back(positionOfBlocks()));
   const Bytes payload = writePayload(out, {whole.codes, whole.tokens, whole.raw});
   PayloadHeader parsed{Allocator{}};
   EXPECT_TRUE(parsePrefix(payload, payload.size(), {}, parsed).ok());
@@ -267,7 +267,7 @@ TEST(BlockHeaders, APrefixOfAPayloadWithoutThemIsTruncated) {
 
 /// The header's checksum covers the header; the streams have those of the table.
 TEST(BlockHeaders, ChecksumCoversTheHeader) {
-  const Bytes payload = anyDraft(3).write();
+  const Bytes payload = anyDraftOfBlocks(3).write();
   PayloadHeader whole{Allocator{}};
   ASSERT_TRUE(parsePayload(payload, {}, whole).ok());
   for (size_t bit = 16; bit < 8 * payload.size(); ++bit) {
@@ -290,64 +290,64 @@ TEST(BlockHeaders, ChecksumCoversTheHeader) {
   }
 }
 
-Error parseError(const Bytes& payload, const Limits& limits = {}) {
+Error blocksError(const Bytes& payload, const Limits& limits = {}) {
   PayloadHeader parsed{Allocator{}};
   const Status status = parsePayload(payload, limits, parsed);
   EXPECT_EQ(status.ok(), status.what[0] == '\0');
   return status.error;
 }
 
-Error errorAfter(const std::function<void(Draft&)>& change, const Limits& limits = {}) {
-  Draft draft;
+Error errorAfter(const std::function<void(DraftOfBlocks&)>& change, const Limits& limits = {}) {
+  DraftOfBlocks draft;
   change(draft);
-  return parseError(draft.write(), limits);
+  return blocksError(draft.write(), limits);
 }
 
 TEST(BlockHeaders, HaveWhatBlocksMayHave) {
-  EXPECT_EQ(errorAfter([](Draft&) {}), Error::kOk);
-  const auto expectBad = [](const char* what, const std::function<void(Draft&)>& change) {
+  EXPECT_EQ(errorAfter([](DraftOfBlocks&) {}), Error::kOk);
+  const auto expectBad = [](const char* what, const std::function<void(DraftOfBlocks&)>& change) {
     EXPECT_EQ(errorAfter(change), Error::kBadHeader) << what;
   };
-  expectBad("one block", [](Draft& d) { d.blocks.resize(1); });
-  expectBad("a single coder", [](Draft& d) { d.flags |= payload_flag::kSingleCoder; });
-  expectBad("other attributes", [](Draft& d) { d.blocks[2].attributes[0].bits = 15; });
-  expectBad("no attributes", [](Draft& d) {
+  expectBad("one block", [](DraftOfBlocks& d) { d.blocks.resize(1); });
+  expectBad("a single coder", [](DraftOfBlocks& d) { d.flags |= payload_flag::kSingleCoder; });
+  expectBad("other attributes", [](DraftOfBlocks& d) { d.blocks[2].attributes[0].bits = 15; });
+  expectBad("no attributes", [](DraftOfBlocks& d) {
     for (DraftBlock& block : d.blocks) block.attributes.clear();
   });
-  expectBad("another number of parts", [](Draft& d) {
+  expectBad("another number of parts", [](DraftOfBlocks& d) {
     d.blocks[1].piece.flags |= piece_flag::kManyParts;
     d.blocks[1].part_triangles = {2, 2};
   });
   for (size_t i = 0; i < 3; ++i) {
-    expectBad("no faces", [i](Draft& d) {
+    expectBad("no faces", [i](DraftOfBlocks& d) {
       PieceHeader& h = d.blocks[i].piece;
       h.face_count = h.vertex_count = h.wedge_count = h.operation_count = 0;
       d.blocks[i].part_triangles = {0};
     });
-    expectBad("pivots", [i](Draft& d) {
+    expectBad("pivots", [i](DraftOfBlocks& d) {
       d.blocks[i].piece.setSurface(SurfaceCoding::kPivots);
       d.blocks[i].piece.operation_count = 0;
     });
     for (const uint32_t flag : {piece_flag::kTriangleOrder, piece_flag::kVertexOrder})
-      expectBad("an order", [i, flag](Draft& d) { d.blocks[i].piece.flags |= flag; });
+      expectBad("an order", [i, flag](DraftOfBlocks& d) { d.blocks[i].piece.flags |= flag; });
   }
 }
 
 TEST(BlockHeaders, RepeatOnlyWedgesOfTheirSurface) {
-  const auto withIsolated = [](Draft& d) {
+  const auto withIsolated = [](DraftOfBlocks& d) {
     PieceHeader& h = d.blocks[2].piece;
     h.flags |= piece_flag::kIsolated;
     h.isolated_count = 3;
     h.wedge_count = 7;
   };
   for (const uint32_t count : {4u, 5u}) {
-    EXPECT_EQ(errorAfter([&](Draft& d) {
+    EXPECT_EQ(errorAfter([&](DraftOfBlocks& d) {
                 withIsolated(d);
                 d.blocks[2].repeated_count = count;
               }),
               count == 4 ? Error::kOk : Error::kBadHeader);
     const uint32_t wedge = count - 1;
-    EXPECT_EQ(errorAfter([&](Draft& d) {
+    EXPECT_EQ(errorAfter([&](DraftOfBlocks& d) {
                 withIsolated(d);
                 d.blocks[2].exceptions = {{0, kNone}, {wedge, 7}};
               }),
@@ -358,7 +358,7 @@ TEST(BlockHeaders, RepeatOnlyWedgesOfTheirSurface) {
 /// The number is stated as a distance to the first wedge of the block.
 TEST(BlockHeaders, ExceptionsNameEarlierWedges) {
   const auto withNumber = [](uint32_t number) {
-    return errorAfter([=](Draft& d) { d.blocks[2].exceptions = {{1, number}}; });
+    return errorAfter([=](DraftOfBlocks& d) { d.blocks[2].exceptions = {{1, number}}; });
   };
   EXPECT_EQ(withNumber(0), Error::kOk);
   EXPECT_EQ(withNumber(7), Error::kOk);
@@ -366,7 +366,7 @@ TEST(BlockHeaders, ExceptionsNameEarlierWedges) {
   EXPECT_EQ(withNumber(9), Error::kBadHeader);
   EXPECT_EQ(withNumber(0x80000000), Error::kBadHeader);
   // More than there can be.
-  EXPECT_EQ(errorAfter([](Draft& d) {
+  EXPECT_EQ(errorAfter([](DraftOfBlocks& d) {
               for (uint32_t i = 0; i < 5; ++i) d.blocks[2].exceptions.push_back({i, kNone});
             }),
             Error::kBadHeader);
@@ -374,7 +374,7 @@ TEST(BlockHeaders, ExceptionsNameEarlierWedges) {
 
 TEST(BlockHeaders, BoxesHaveIntegersOf32Bits) {
   const auto withBox = [](int32_t low, int32_t high) {
-    return errorAfter([=](Draft& d) {
+    return errorAfter([=](DraftOfBlocks& d) {
       d.blocks[1].box.low[1] = low;
       d.blocks[1].box.high[1] = high;
     });
@@ -398,7 +398,7 @@ Bytes withHeaderLength(Bytes payload, uint32_t value) {
 }
 
 TEST(BlockHeaders, HeaderHasTheLengthThatItClaims) {
-  Draft draft;
+  DraftOfBlocks draft;
   for (DraftBlock& block : draft.blocks) block.raw.resize(40);  // no padding
   const Bytes payload = draft.write();
   PayloadHeader whole{Allocator{}};
@@ -406,31 +406,31 @@ TEST(BlockHeaders, HeaderHasTheLengthThatItClaims) {
   const auto header_bytes = static_cast<uint32_t>(whole.header_bytes);
   ASSERT_LT(header_bytes, 0x80u);
   ASSERT_EQ(payload[kChecksummedFrom + 1], header_bytes);
-  EXPECT_EQ(parseError(withHeaderLength(payload, header_bytes)), Error::kOk);
+  EXPECT_EQ(blocksError(withHeaderLength(payload, header_bytes)), Error::kOk);
   for (const uint32_t length : {0u, 1u, 6u, 7u, 8u, header_bytes - 1, header_bytes + 1}) {
-    EXPECT_NE(parseError(withHeaderLength(payload, length)), Error::kOk) << length;
+    EXPECT_NE(blocksError(withHeaderLength(payload, length)), Error::kOk) << length;
   }
-  EXPECT_EQ(parseError(withHeaderLength(payload, header_bytes - 1)), Error::kBadHeader);
+  EXPECT_EQ(blocksError(withHeaderLength(payload, header_bytes - 1)), Error::kBadHeader);
   const auto size = static_cast<uint32_t>(payload.size());
-  EXPECT_NE(parseError(withHeaderLength(payload, size)), Error::kOk);
-  EXPECT_EQ(parseError(withHeaderLength(payload, size + 2)), Error::kTruncated);
-  EXPECT_EQ(parseError(withHeaderLength(payload, ~0u)), Error::kTruncated);
+  EXPECT_NE(blocksError(withHeaderLength(payload, size)), Error::kOk);
+  EXPECT_EQ(blocksError(withHeaderLength(payload, size + 2)), Error::kTruncated);
+  EXPECT_EQ(blocksError(withHeaderLength(payload, ~0u)), Error::kTruncated);
 }
 
 TEST(BlockHeaders, StreamsFillThePayload) {
-  Bytes payload = Draft().write();
+  Bytes payload = DraftOfBlocks().write();
   payload.push_back(0);
-  EXPECT_EQ(parseError(payload), Error::kTrailingBytes);
-  Draft draft;
+  EXPECT_EQ(blocksError(payload), Error::kTrailingBytes);
+  DraftOfBlocks draft;
   for (DraftBlock& block : draft.blocks) block.raw.resize(100);  // so that elements are no matter
   payload = draft.write();
   payload.pop_back();
-  EXPECT_EQ(parseError(payload), Error::kTruncated);
+  EXPECT_EQ(blocksError(payload), Error::kTruncated);
 }
 
 /// Limits of the caller hold for the sum of all blocks, but attributes count once.
 TEST(BlockHeaders, LimitsOfTheCaller) {
-  const auto same = [](Draft&) {};
+  const auto same = [](DraftOfBlocks&) {};
   Limits limits;
   limits.max_attributes = 2;
   limits.max_pieces = 3;
@@ -455,7 +455,7 @@ TEST(BlockHeaders, LimitsOfTheGluedPiece) {
   limits.max_vertices = limits.max_triangles = ~uint64_t{0};
   const auto with = [&](uint32_t faces, uint32_t vertices, uint32_t wedges, uint32_t repeated) {
     return errorAfter(
-        [=](Draft& d) {
+        [=](DraftOfBlocks& d) {
           d.blocks.resize(2);
           for (DraftBlock& block : d.blocks) {
             block.piece.face_count = faces;
@@ -479,7 +479,7 @@ TEST(BlockHeaders, LimitsOfTheGluedPiece) {
 /// A block costs the copy of all models.
 TEST(BlockHeaders, Elements) {
   const auto elements = [](uint32_t count) {
-    Draft draft;
+    DraftOfBlocks draft;
     draft.blocks.resize(count);
     PayloadHeader parsed{Allocator{}};
     EXPECT_TRUE(parsePayload(draft.write(), {}, parsed).ok());
@@ -491,7 +491,7 @@ TEST(BlockHeaders, Elements) {
   EXPECT_EQ(elements(70), 70 * block);
   // 18 bytes for each block, or there are too many elements.
   const Bytes payload = [] {
-    Draft draft;
+    DraftOfBlocks draft;
     draft.blocks.resize(300);
     return draft.write();
   }();
@@ -501,7 +501,7 @@ TEST(BlockHeaders, Elements) {
 }
 
 TEST(BlockHeaders, OutOfMemory) {
-  const Bytes payload = anyDraft(8).write();
+  const Bytes payload = anyDraftOfBlocks(8).write();
   expectParsesOrRunsOutOfMemory(payload);
 }
 

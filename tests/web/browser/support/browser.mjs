@@ -1,17 +1,21 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-import { existsSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import { chromium } from 'playwright-core';
 
 const CHROMIUM = process.env.MCC_CHROMIUM ?? '/usr/bin/chromium';
 
 /** Debian's Chromium without a window; WebGL is drawn by the CPU. */
+export const LAUNCH_OPTIONS = {
+  executablePath: CHROMIUM,
+  args: ['--no-sandbox', '--disable-quic', '--disable-background-networking', '--disable-component-update', '--disable-sync',
+    '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+};
+
+/** A browser for this process, or the one of shared_browser.mjs, of which close() ends only what this process has opened. */
 export function launchBrowser() {
+  if (process.env.MCC_BROWSER) return chromium.connect(JSON.parse(readFileSync(process.env.MCC_BROWSER)).endpoint);
   if (!existsSync(CHROMIUM)) throw new Error(`${CHROMIUM} is missing; install chromium or name it in MCC_CHROMIUM`);
-  return chromium.launch({
-    executablePath: CHROMIUM,
-    args: ['--no-sandbox', '--disable-quic', '--disable-background-networking', '--disable-component-update', '--disable-sync',
-      '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-  });
+  return chromium.launch(LAUNCH_OPTIONS);
 }
 
 /**
