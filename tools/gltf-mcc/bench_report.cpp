@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "comparison_report.h"
-#include "convert_report.h"
 #include "gltf/base/printable.h"
+#include "report_file.h"
 
 namespace mcc::tool {
 namespace {

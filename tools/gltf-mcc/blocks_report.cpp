@@ -7,8 +7,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "convert_report.h"
-
 namespace mcc::tool {
 namespace {
 

@@ -37,7 +37,7 @@ struct ConvertComparison {
   /// smaller of speeds 0 and 5, while the conversion is being checked.
   bool is_full = false;
 
-  void addOptions(CLI::App& command);
+  void addOptions(Command& command);
   /// Called before the conversion: reads the source, makes the Draco file, and checks that it can
   /// be written.
   gltf::Result begin(const gltf::Source& input, const std::string& output,

@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "mcc/gltf.h"
+#include "report_file.h"
 #include "whole_sizes.h"
 
 namespace mcc::tool {
@@ -28,17 +29,8 @@ std::string reportText(const Converted& converted, const CommonOptions& options)
 nlohmann::ordered_json reportJson(const Converted& converted, const gltf::ConvertOptions& options,
                                   const nlohmann::ordered_json& comparison);
 
-/// Returns the indented text of a report.
-std::string printReport(const nlohmann::ordered_json& json);
-
 /// Returns text like "1,838,104 -> 171,656 bytes (9.3 %)".
 std::string sizeChange(uint64_t input_bytes, uint64_t output_bytes);
-
-/// Checks whether a report can be written, before any work is done for it.
-gltf::Result checkReport(const std::string& path);
-
-/// Writes a report. It replaces an older one only when it is complete.
-gltf::Result writeReport(const std::string& path, const std::string& text);
 
 }  // namespace mcc::tool
 
