@@ -393,5 +393,31 @@ words=(gltf-mcc convert --qu) CURRENT=3; _gltf_mcc; print $words[1] $CURRENT
   EXPECT_NE(asked.out.find("\nconvert 2\n"), std::string::npos) << asked.out;
 }
 
+TEST_F(Manners, OtherProgramsAreFoundBesideThisOneOrInThePath) {
+  const fs::path root = folder_.path();
+  for (const char* name : {"alone", "others"}) fs::create_directory(root / name);
+  fs::copy_file(tool_, root / "alone/gltf-mcc");
+  const std::string line = "--color never tree torus.glb 'a b.svg'";
+  const ToolResult lacking = runCommand(folder_, "alone/gltf-mcc " + line);
+  EXPECT_EQ(lacking.status, 1);
+  EXPECT_EQ(lacking.out, "");
+  EXPECT_NE(lacking.err.find("gltf-mcc: gltf-mcc-tree: is a program of its own, "),
+            std::string::npos);
+  EXPECT_NE(lacking.err.find(" tools/run tree\n"), std::string::npos) << lacking.err;
+  EXPECT_EQ(runCommand(folder_, "alone/gltf-mcc tree --help").out, run("tree --help").out);
+  EXPECT_EQ(runCommand(folder_, "alone/gltf-mcc tree --siz 3").err, run("tree --siz 3").err);
+  // A stand-in shows what it gets, and its status is that of the whole.
+  std::ofstream(root / "others/gltf-mcc-tree") << "#!/bin/bash\nprintf '<%s>' \"$@\"\nexit 7\n";
+  fs::permissions(root / "others/gltf-mcc-tree", fs::perms::owner_all);
+  const ToolResult found = runCommand(folder_, "PATH=$PWD/others:$PATH alone/gltf-mcc " + line);
+  EXPECT_EQ(found.status, 7);
+  EXPECT_EQ(found.out, "<--color><never><torus.glb><a b.svg>");
+  fs::copy_file(tool_ + "-tree", root / "alone/gltf-mcc-tree");
+  const ToolResult beside = runCommand(folder_, "PATH=$PWD/others:$PATH alone/gltf-mcc " + line);
+  EXPECT_EQ(beside.status, 0) << beside.err;
+  EXPECT_TRUE(fs::exists(root / "a b.svg"));
+  EXPECT_EQ(runCommand(folder_, "alone/gltf-mcc-tree torus.glb").err, run("tree torus.glb").err);
+}
+
 }  // namespace
 }  // namespace mcc::test

@@ -5,20 +5,18 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <exception>
 #include <functional>
 #include <limits>
 #include <memory>
-#include <new>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 
 #include "draco/compression/config/encoder_options.h"
 #include "draco/compression/decode.h"
-#include "draco/compression/mesh/mesh_edgebreaker_decoder.h"
 #include "draco/compression/mesh/mesh_edgebreaker_encoder.h"
 #include "draco/compression/mesh/mesh_sequential_encoder.h"
+#include "draco/compression/point_cloud/point_cloud_decoder.h"
 #include "draco/core/draco_version.h"
 #include "draco/core/options.h"
 #include "draco/core/varint_decoding.h"
@@ -27,21 +25,6 @@
 
 namespace mcc::foreign {
 namespace {
-
-/// Runs `body`, an Outcome-returning callable, and turns what Draco or the allocator throws into a
-/// message.
-template <typename Body>
-Outcome guarded(const Body& body) {
-  try {
-    return body();
-  } catch (const std::bad_alloc&) {
-    return failure("out of memory");
-  } catch (const std::exception& error) {
-    return failure(error.what());
-  } catch (...) {
-    return failure("unknown exception");
-  }
-}
 
 Outcome fromDraco(const draco::Status& status) {
   return status.ok() ? Outcome{} : failure("Draco: " + status.error_msg_string());
@@ -88,15 +71,6 @@ bool componentTypeOf(draco::DataType type, ComponentType& out) {
     case draco::DT_FLOAT32: out = ComponentType::kFloat32; return true;
     default: return false;
   }
-}
-
-bool allFinite(const AttributeView& view, uint32_t wedge_count) {
-  for (uint32_t wedge = 0; wedge < wedge_count; ++wedge) {
-    for (uint32_t c = 0; c < view.format.component_count; ++c) {
-      if (!std::isfinite(readComponent(view, wedge, c))) return false;
-    }
-  }
-  return true;
 }
 
 /// Whether Draco's float32 arithmetic can put every value on the lattice: it subtracts the origin,
@@ -258,12 +232,6 @@ Outcome runEncoder(const DracoInput& input, const draco::Mesh& mesh,
   streams.header_bytes = rest;
   return {};
 }
-
-/// Edgebreaker decoder that leaves the attributes in the buffer.
-class ConnectivityDecoder final : public draco::MeshEdgebreakerDecoder {
- protected:
-  bool DecodePointAttributes() override { return true; }
-};
 
 Outcome extractAttribute(const draco::Mesh& source, const draco::PointAttribute& attribute,
                          DecodedAttribute& out) {
@@ -489,25 +457,6 @@ Outcome readDracoCounts(std::span<const uint8_t> bytes, DracoCounts& counts) {
     }
     counts.vertex_count = is_edgebreaker ? first : second;
     counts.triangle_count = is_edgebreaker ? second : first;
-    return {};
-  });
-}
-
-Outcome decodeDracoConnectivity(std::span<const uint8_t> bytes, uint32_t& triangle_count,
-                                double& decode_ms) {
-  triangle_count = 0;
-  decode_ms = 0;
-  return guarded([&]() -> Outcome {
-    const Stopwatch watch;
-    draco::DecoderBuffer buffer;
-    buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    draco::Mesh mesh;
-    ConnectivityDecoder decoder;
-    const draco::DecoderOptions options;
-    const draco::Status status = decoder.Decode(options, &buffer, &mesh);
-    if (!status.ok()) return fromDraco(status);
-    decode_ms = watch.elapsedMs();
-    triangle_count = mesh.num_faces();
     return {};
   });
 }

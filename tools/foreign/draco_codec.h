@@ -85,7 +85,7 @@ Outcome encodeDraco(const DracoInput& input, int speed, DracoEncoded& encoded);
 /// Bytes of the triangles alone, on the mesh welded by position, and of the whole of that encode.
 struct DracoConnectivity {
   size_t connectivity_bytes = 0;
-  DracoEncoded positions_only;  ///< input of decodeDracoConnectivity()
+  DracoEncoded positions_only;
 };
 Outcome encodeDracoConnectivity(const DracoInput& input, int speed,
                                 DracoConnectivity& connectivity);
@@ -105,10 +105,6 @@ struct DracoCounts {
 /// Reads only the counts, and takes no memory for what they claim. Fails on anything that is not a
 /// triangle mesh.
 Outcome readDracoCounts(std::span<const uint8_t> bytes, DracoCounts& counts);
-
-/// Decodes the triangles and stops before the attributes. Edgebreaker only.
-Outcome decodeDracoConnectivity(std::span<const uint8_t> bytes, uint32_t& triangle_count,
-                                double& decode_ms);
 
 /// What a decode did to the values. Draco gives no map from decoded to source vertices. So the same
 /// attributes, with the same quantisation, are coded once more in sequential mode, which

@@ -162,4 +162,13 @@ Outcome measureError(const AttributeView& source, uint32_t source_wedge_count,
   return {};
 }
 
+bool allFinite(const AttributeView& view, uint32_t wedge_count) {
+  for (uint32_t wedge = 0; wedge < wedge_count; ++wedge) {
+    for (uint32_t c = 0; c < view.format.component_count; ++c) {
+      if (!std::isfinite(readComponent(view, wedge, c))) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace mcc::foreign

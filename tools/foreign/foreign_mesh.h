@@ -7,7 +7,9 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <memory>
+#include <new>
 #include <span>
 #include <string>
 #include <utility>
@@ -27,6 +29,21 @@ struct [[nodiscard]] Outcome {
 
 inline Outcome failure(std::string message) {
   return Outcome{message.empty() ? std::string("unknown error") : std::move(message)};
+}
+
+/// Runs `body`, an Outcome-returning callable, and turns what a codec or the allocator throws into
+/// a message.
+template <typename Body>
+Outcome guarded(const Body& body) {
+  try {
+    return body();
+  } catch (const std::bad_alloc&) {
+    return failure("out of memory");
+  } catch (const std::exception& error) {
+    return failure(error.what());
+  } catch (...) {
+    return failure("unknown exception");
+  }
 }
 
 /// Milliseconds since construction, on the monotonic clock.
@@ -102,6 +119,9 @@ bool effectiveLattice(const AttributeView& view, uint32_t wedge_count, Lattice& 
 
 /// Component of an element as stored (normalized integers are not divided).
 double readComponent(const AttributeView& view, uint32_t wedge, uint32_t component);
+
+/// Whether there is neither NaN nor infinity among the values.
+bool allFinite(const AttributeView& view, uint32_t wedge_count);
 
 }  // namespace mcc::foreign
 

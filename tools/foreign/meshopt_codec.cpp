@@ -5,9 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <exception>
 #include <memory>
-#include <new>
 #include <utility>
 
 #include <meshoptimizer.h>
@@ -25,30 +23,10 @@ constexpr char kAdvice[] =
 
 static_assert(std::endian::native == std::endian::little, "streams are written in host order");
 
-template <typename Body>
-Outcome guarded(const Body& body) {
-  try {
-    return body();
-  } catch (const std::bad_alloc&) {
-    return failure("out of memory");
-  } catch (const std::exception& error) {
-    return failure(error.what());
-  }
-}
-
 bool isDirection(const AttributeFormat& format) {
   if (format.morph_target != 0 || format.component_type != ComponentType::kFloat32) return false;
   return (format.semantic == Semantic::kNormal && format.component_count == 3) ||
          (format.semantic == Semantic::kTangent && format.component_count == 4);
-}
-
-bool allFinite(const AttributeView& view, uint32_t wedge_count) {
-  for (uint32_t wedge = 0; wedge < wedge_count; ++wedge) {
-    for (uint32_t c = 0; c < view.format.component_count; ++c) {
-      if (!std::isfinite(readComponent(view, wedge, c))) return false;
-    }
-  }
-  return true;
 }
 
 uint32_t padded(uint32_t bytes) { return (bytes + 3) & ~3u; }
@@ -526,16 +504,6 @@ double averageCacheMissRatio(std::span<const uint32_t> indices, uint32_t vertex_
   return double{
       meshopt_analyzeVertexCache(indices.data(), indices.size(), vertex_count, cache_size, 0, 0)
           .acmr};
-}
-
-Outcome zstdSize(std::span<const uint8_t> bytes, int level, size_t& compressed_bytes) {
-  compressed_bytes = 0;
-  return guarded([&]() {
-    std::vector<uint8_t> out;
-    Outcome done = compressZstd(bytes, level, out);
-    if (done.ok()) compressed_bytes = out.size();
-    return done;
-  });
 }
 
 std::string meshoptVersion() {

@@ -100,9 +100,6 @@ Outcome measureMeshoptErrors(const PieceView& piece, const MeshoptEncoded& layou
 double averageCacheMissRatio(std::span<const uint32_t> indices, uint32_t vertex_count,
                              uint32_t cache_size = 16);
 
-/// zstd alone on any bytes; the size only.
-Outcome zstdSize(std::span<const uint8_t> bytes, int level, size_t& compressed_bytes);
-
 std::string meshoptVersion();  ///< "0.18"
 std::string zstdVersion();     ///< "1.5.4"
 

@@ -1,24 +1,21 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-#if defined(MCC_HAS_FOREIGN)
-
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 
 #include "bench/measure.h"
 #include "bench/measure_blocks.h"
 #include "bench/measure_without.h"
 #include "bench_report.h"
 #include "blocks_report.h"
-#include "commands.h"
-#include "convert_report.h"
 #include "file_roles.h"
 #include "foreign/decoders.h"
 #include "gltf/base/path_text.h"
 #include "gltf/files/file_io.h"
-#include "help.h"
+#include "other_programs.h"
+#include "program.h"
 #include "progress_line.h"
+#include "report_file.h"
 #include "without_report.h"
 
 namespace mcc::tool {
@@ -27,17 +24,7 @@ namespace {
 /// How long encoding is repeated, per codec and file.
 constexpr double kEncodeSeconds = 2;
 
-struct BenchCommand {
-  CommonOptions common;
-  gltf::ConvertOptions convert;
-  std::vector<std::string> inputs;
-  std::string sizes;  ///< when not empty: only this file is written and nothing is measured
-  std::string apart;
-  uint32_t run_count = 5;
-  bool with_load = false;
-  std::string without;           ///< when not empty: only this is measured
-  std::vector<uint32_t> blocks;  ///< when not empty: only this is measured
-
+struct BenchCommand : BenchOptions {
   int run() const;
   int runWithout() const;
   int runBlocks() const;
@@ -187,58 +174,12 @@ int BenchCommand::runEach(const Measure& measure) const {
 }
 
 }  // namespace
-
-void addBench(CLI::App& app, int& status) {
-  CLI::App* command =
-      app.add_subcommand("bench", "Compare sizes and speed with Draco and meshoptimizer");
-  auto state = std::make_shared<BenchCommand>();
-  state->convert.decoders = foreign::foreignDecoders();
-  command->add_option("IN", state->inputs, "The .glb or .gltf files to read")
-      ->required()
-      ->type_name("");
-  addQuantization(*command, state->convert);
-  command
-      ->add_option("--runs", state->run_count,
-                   "Decode at least N times, 5 or more, and take the least time [5]")
-      ->check(CLI::Range(5, 1000).description(""))
-      ->type_name("N");
-  command
-      ->add_option("--apart", state->apart,
-                   "Categories, by their letters, to leave out of the means")
-      ->type_name("LETTERS");
-  command->add_flag("--load", state->with_load,
-                    "Also load whole files with tinygltf (ours through our\n"
-                    "adapter) and decode with two threads");
-  command
-      ->add_option("--without", state->without,
-                   "Measure what the encoder's choices gain: bytes and decoding\n"
-                   "time without each of them (a,b), without several together\n"
-                   "(a+b), or without each one in turn (all)")
-      ->type_name("FEATURES");
-  command
-      ->add_option("--blocks", state->blocks,
-                   "Measure blocks of N triangles, 0 for none (0,65536,262144):\n"
-                   "bytes, time with one and two threads, working memory")
-      ->delimiter(',')
-      ->allow_extra_args(false)  // the files follow
-      ->type_name("N,N");
-  command->add_option("--sizes", state->sizes, "Only write our bytes per stream to this file")
-      ->type_name("FILE")
-      ->group("");  // for tests/results
-  addFormatOption(*command, state->common);
-  command->add_flag("-q,--quiet", state->common.is_quiet, "Show no progress");
-  addColorOption(*command);
-  setHelp(
-      *command, "bench [OPTIONS] IN…",
-      "All codecs get the same lattices and run in turn on one thread of one process. Times are "
-      "the\n"
-      "least CPU time of at least N runs, from payloads in memory to new float and index arrays.\n"
-      "Encoding takes longer; it is repeated for two seconds per codec and file, at most N times.\n"
-      "The category of a file is the letter before '_' in names like a_bunny.glb.",
-      "bench --format md models/*.glb > table.md");
-  command->callback([state, &status]() { status = state->run(); });
-}
-
 }  // namespace mcc::tool
 
-#endif  // MCC_HAS_FOREIGN
+int main(int argc, char** argv) {
+  return mcc::tool::runProgram(argc, argv, "bench", [](mcc::tool::Program& program) {
+    static mcc::tool::BenchCommand command;
+    command.convert.decoders = mcc::foreign::foreignDecoders();
+    mcc::tool::addBench(program, command).run = [] { return command.run(); };
+  });
+}

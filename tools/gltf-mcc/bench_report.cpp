@@ -10,9 +10,8 @@
 #include <functional>
 
 #include "comparison_report.h"
-#include "convert_report.h"
 #include "gltf/base/printable.h"
-#include "json/json.h"
+#include "report_file.h"
 
 namespace mcc::tool {
 namespace {

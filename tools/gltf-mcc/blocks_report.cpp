@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "convert_report.h"
 #include "json/json.h"
 
 namespace mcc::tool {

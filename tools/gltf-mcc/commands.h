@@ -2,10 +2,10 @@
 #ifndef MCC_TOOL_COMMANDS_H_
 #define MCC_TOOL_COMMANDS_H_
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "mcc/gltf.h"
+#include "options.h"
 #include "table.h"
 
 namespace mcc::tool {
@@ -25,37 +25,33 @@ struct CommonOptions {
   bool hasTables() const { return is_verbose || format == Format::kMarkdown; }
 };
 
-/// Each of these adds a subcommand to the app; when the user chose it, `status` becomes the exit
-/// status.
-void addConvert(CLI::App& app, int& status);
-void addDecode(CLI::App& app, int& status);
-void addInspect(CLI::App& app, int& status);
-void addValidate(CLI::App& app, int& status);
-void addTree(CLI::App& app, int& status);
-void addTiles(CLI::App& app, int& status);
-#if defined(MCC_HAS_FOREIGN)
-void addCompare(CLI::App& app, int& status);
-void addBench(CLI::App& app, int& status);
-#endif
+/// Each of these adds a command.
+void addConvert(Program& program);
+void addDecode(Program& program);
+void addInspect(Program& program);
+void addValidate(Program& program);
 
 /// Adds --color, which colorModeOf() reads.
-void addColorOption(CLI::App& command);
+void addColorOption(Command& command);
 
 /// These add the options that set CommonOptions.
-void addFormatOption(CLI::App& command, CommonOptions& options);
-void addVerbosityOptions(CLI::App& command, CommonOptions& options);
+void addFormatOption(Command& command, CommonOptions& options);
+void addVerbosityOptions(Command& command, CommonOptions& options);
+
+/// Adds -j.
+void addJobs(Command& command, uint32_t& count, const char* help);
 
 /// Adds the option for the bits of each attribute.
-void addAttributeBits(CLI::App& command, gltf::ConvertOptions& options);
+void addAttributeBits(Command& command, gltf::ConvertOptions& options);
 
 /// Adds --prefer.
-void addPreference(CLI::App& command, gltf::ConvertOptions& options);
+void addPreference(Command& command, gltf::ConvertOptions& options);
 
 /// Adds the options for bits, --lossless, --grid and --prefer.
-void addQuantization(CLI::App& command, gltf::ConvertOptions& options);
+void addQuantization(Command& command, gltf::ConvertOptions& options);
 
 /// Adds --max-decoded-bytes, see decodedLimit().
-void addDecodedLimitOption(CLI::App& command, uint64_t& max_decoded_bytes);
+void addDecodedLimitOption(Command& command, uint64_t& max_decoded_bytes);
 
 /// Prints "gltf-mcc: FILE: where: what" on standard error; returns kFailed.
 int reportFailure(const gltf::Result& result);

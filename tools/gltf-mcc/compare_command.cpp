@@ -1,38 +1,27 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-#if defined(MCC_HAS_FOREIGN)
-
-#include "compare_command.h"
-
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 
 #include "bench/emit_draco.h"
 #include "comparison_report.h"
-#include "convert_report.h"
 #include "file_roles.h"
 #include "foreign/decoders.h"
 #include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "gltf/files/file_io.h"
-#include "help.h"
 #include "interrupt.h"
 #include "json/json.h"
-#include "progress_line.h"
+#include "other_programs.h"
+#include "program.h"
+#include "report_file.h"
 
 namespace mcc::tool {
 namespace {
 
 using gltf::Json;
 
-struct CompareCommand {
-  CommonOptions common;
-  gltf::ConvertOptions convert;
-  std::vector<std::string> inputs;
-  std::string draco_output;
-  uint32_t run_count = 3;
-
+struct CompareCommand : CompareOptions {
   int run() const;
   gltf::Result compare(const std::string& input, bench::FileFigures& figures) const;
   std::string jsonOf(const std::vector<bench::FileFigures>& files) const;
@@ -104,80 +93,36 @@ int CompareCommand::run() const {
   return printOut(text) == kDone ? status : kFailed;
 }
 
+/// Checks that --emit-draco replaces no file that is read.
+gltf::Result checkNames(const CompareOptions& options) {
+  if (options.draco_output.empty()) return {};
+  FileRoles roles;
+  for (const std::string& input : options.inputs) {
+    roles.read(input);
+    roles.readBeside(input, gltf::folderOf(input));
+  }
+  return roles.write(options.draco_output, "--emit-draco");
+}
+
+int run(CompareCommand& command) {
+  if (!command.draco_output.empty() && command.inputs.size() != 1) {
+    throw UsageError("--emit-draco", "takes one input");
+  }
+  const gltf::Result apart = checkNames(command);
+  if (!apart.ok()) {
+    reportFailure(apart);
+    return kUsage;
+  }
+  command.convert.decoders = foreign::foreignDecoders();
+  return command.run();
+}
+
 }  // namespace
-
-gltf::Result compareWithDraco(const std::string& input, std::vector<uint8_t> file,
-                              const gltf::ConvertOptions& convert,
-                              const bench::PrimitiveFilter& wanted, uint32_t run_count,
-                              bool is_quiet, bench::FileFigures& figures) {
-  const ProgressLine line(is_quiet);
-  bench::Geometry geometry;
-  const gltf::Result loaded =
-      bench::loadGeometry(input, std::move(file), convert, wanted, geometry);
-  if (!loaded.ok()) return loaded;
-  if (geometry.inputs.empty()) return {input, "has no triangles to compare"};
-  bench::MeasureOptions options;
-  options.codecs = {bench::Codec::kMcc, bench::Codec::kDraco0, bench::Codec::kDraco3,
-                    bench::Codec::kDraco5};
-  options.run_count = run_count;
-  options.thread_count = convert.thread_count;
-  options.with_errors = true;
-  options.progress = [&](const std::string& text) { line.show(text); };
-  const std::string name = gltf::textOf(gltf::pathOf(input).stem());
-  const bench::Outcome measured = bench::measureFile(name, geometry, options, figures);
-  return measured.ok() ? gltf::Result{} : gltf::Result{input, measured.message};
-}
-
-void addCompare(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("compare", "Compare with Draco: bytes, errors, times");
-  auto state = std::make_shared<CompareCommand>();
-  state->convert.decoders = foreign::foreignDecoders();
-  command->add_option("IN", state->inputs, "The .glb or .gltf files to read")
-      ->required()
-      ->type_name("");
-  addQuantization(*command, state->convert);
-  command->add_option("--runs", state->run_count, "Decode N times and take the least time [3]")
-      ->check(CLI::Range(1, 1000).description(""))
-      ->type_name("N");
-  command
-      ->add_option("--emit-draco", state->draco_output,
-                   "Write IN with KHR_draco_mesh_compression, speed 0, to this .glb")
-      ->type_name("OUT2");
-  addFormatOption(*command, state->common);
-  addVerbosityOptions(*command, state->common);
-  addColorOption(*command);
-  setHelp(
-      *command, "compare [OPTIONS] IN…",
-      "Draco gets the same lattices as our codec, at speeds 0 (smallest), 3 and 5 "
-      "(glTF-Transform's\n"
-      "default). \"best\" is the smaller of speeds 0 and 5. Draco's connectivity is measured on\n"
-      "its own, on the mesh welded by position; \"seams\" is what its triangles take beyond that\n"
-      "in the file. Draco does not support morph targets, so they are left out on both sides and\n"
-      "listed below. Times are CPU times in one process, from payloads in memory to float and\n"
-      "index arrays, the least of several runs.",
-      "compare model.glb\n"
-      "compare --quantize-position 12 --format md a.glb b.glb");
-  command->callback([state, &status]() {
-    if (!state->draco_output.empty() && state->inputs.size() != 1) {
-      throw CLI::ValidationError("--emit-draco", "takes one input");
-    }
-    FileRoles roles;
-    for (const std::string& input : state->inputs) {
-      roles.read(input);
-      if (!state->draco_output.empty()) roles.readBeside(input, gltf::folderOf(input));
-    }
-    if (!state->draco_output.empty()) {
-      const gltf::Result apart = roles.write(state->draco_output, "--emit-draco");
-      if (!apart.ok()) {
-        reportFailure(apart);
-        status = kUsage;
-        return;
-      }
-    }
-    status = state->run();
-  });
-}
-
 }  // namespace mcc::tool
 
-#endif  // MCC_HAS_FOREIGN
+int main(int argc, char** argv) {
+  return mcc::tool::runProgram(argc, argv, "compare", [](mcc::tool::Program& program) {
+    static mcc::tool::CompareCommand command;
+    mcc::tool::addCompare(program, command).run = [] { return mcc::tool::run(command); };
+  });
+}

@@ -8,8 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
-#include "json/json.h"
+#include "progress_line.h"
 
 namespace mcc::tool {
 namespace {
@@ -312,6 +313,28 @@ Json comparisonJson(const FileFigures& figures) {
   json["notes"] = Json::array();
   for (const std::string& note : figures.notes) json["notes"].push_back(gltf::printable(note));
   return json;
+}
+
+gltf::Result compareWithDraco(const std::string& input, std::vector<uint8_t> file,
+                              const gltf::ConvertOptions& convert,
+                              const bench::PrimitiveFilter& wanted, uint32_t run_count,
+                              bool is_quiet, bench::FileFigures& figures) {
+  const ProgressLine line(is_quiet);
+  bench::Geometry geometry;
+  const gltf::Result loaded =
+      bench::loadGeometry(input, std::move(file), convert, wanted, geometry);
+  if (!loaded.ok()) return loaded;
+  if (geometry.inputs.empty()) return {input, "has no triangles to compare"};
+  bench::MeasureOptions options;
+  options.codecs = {bench::Codec::kMcc, bench::Codec::kDraco0, bench::Codec::kDraco3,
+                    bench::Codec::kDraco5};
+  options.run_count = run_count;
+  options.thread_count = convert.thread_count;
+  options.with_errors = true;
+  options.progress = [&](const std::string& text) { line.show(text); };
+  const std::string name = gltf::textOf(gltf::pathOf(input).stem());
+  const bench::Outcome measured = bench::measureFile(name, geometry, options, figures);
+  return measured.ok() ? gltf::Result{} : gltf::Result{input, measured.message};
 }
 
 }  // namespace mcc::tool

@@ -5,6 +5,7 @@
 #ifndef MCC_TOOL_CONSOLE_H_
 #define MCC_TOOL_CONSOLE_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,12 @@ void restoreConsole();
 
 /// Returns the words of the command line in UTF-8, the name of the program first.
 std::vector<std::string> commandLine(int argc, const char* const* argv);
+
+/// Runs another program with these words, and returns its exit status; nothing when there is none
+/// of this name, neither in the folder of this program nor in the PATH. On POSIX it takes the place
+/// of this one, so the function returns only in that case. Must be called before other threads are
+/// started.
+std::optional<int> startProgram(const std::string& name, const std::vector<std::string>& words);
 
 /// Whether a standard stream is a terminal.
 bool isTerminal(int stream);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <string_view>
 
 #include "console.h"
@@ -24,6 +25,19 @@ void restoreConsole() {}
 
 std::vector<std::string> commandLine(int argc, const char* const* argv) {
   return {argv, argv + argc};
+}
+
+std::optional<int> startProgram(const std::string& name, const std::vector<std::string>& words) {
+  std::vector<std::string> line = {name};
+  line.insert(line.end(), words.begin(), words.end());
+  std::vector<char*> pointers;
+  for (std::string& word : line) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  std::error_code code;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", code);
+  if (!code) ::execv((self.parent_path() / name).c_str(), pointers.data());
+  ::execvp(name.c_str(), pointers.data());
+  return std::nullopt;
 }
 
 bool isTerminal(int stream) { return ::isatty(stream) == 1; }

@@ -5,6 +5,7 @@
 #endif
 #include <fcntl.h>
 #include <io.h>
+#include <process.h>
 #include <windows.h>
 
 #include <shellapi.h>
@@ -30,6 +31,27 @@ std::string inUtf8(const wchar_t* text) {
   ::WideCharToMultiByte(CP_UTF8, 0, text, -1, bytes.data(), byte_count, nullptr, nullptr);
   bytes.pop_back();
   return bytes;
+}
+
+/// Puts a word in quotes, as CommandLineToArgvW() and the C library take it for one word.
+std::wstring quoted(const std::wstring& word) {
+  std::wstring text = L"\"";
+  size_t backslash_count = 0;
+  for (const wchar_t c : word) {
+    if (c == L'"') text.append(backslash_count + 1, L'\\');
+    backslash_count = c == L'\\' ? backslash_count + 1 : 0;
+    text += c;
+  }
+  return text.append(backslash_count, L'\\') + L'"';
+}
+
+std::wstring inWide(const std::string& text) {
+  const int length = ::MultiByteToWideChar(CP_UTF8, 0, text.c_str(), -1, nullptr, 0);
+  if (length <= 0) return {};
+  std::wstring wide(static_cast<size_t>(length), L'\0');
+  ::MultiByteToWideChar(CP_UTF8, 0, text.c_str(), -1, wide.data(), length);
+  wide.pop_back();
+  return wide;
 }
 
 HANDLE consoleOf(int stream) { return reinterpret_cast<HANDLE>(::_get_osfhandle(stream)); }
@@ -63,6 +85,21 @@ std::vector<std::string> commandLine(int argc, const char* const* argv) {
   for (int i = 0; i < count; ++i) line.push_back(inUtf8(words[i]));
   ::LocalFree(words);
   return line;
+}
+
+std::optional<int> startProgram(const std::string& name, const std::vector<std::string>& words) {
+  std::vector<std::wstring> line = {quoted(inWide(name))};
+  for (const std::string& word : words) line.push_back(quoted(inWide(word)));
+  std::vector<const wchar_t*> pointers;
+  for (const std::wstring& word : line) pointers.push_back(word.c_str());
+  pointers.push_back(nullptr);
+  std::wstring self(32768, L'\0');  // the longest path there is
+  self.resize(::GetModuleFileNameW(nullptr, self.data(), static_cast<DWORD>(self.size())));
+  const std::wstring file = inWide(name) + L".exe";
+  const std::wstring beside = self.substr(0, self.find_last_of(L'\\') + 1) + file;
+  intptr_t status = ::_wspawnv(_P_WAIT, beside.c_str(), pointers.data());
+  if (status == -1) status = ::_wspawnvp(_P_WAIT, file.c_str(), pointers.data());
+  return status == -1 ? std::nullopt : std::optional<int>(static_cast<int>(status));
 }
 
 bool isTerminal(int stream) {

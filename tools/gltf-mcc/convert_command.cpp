@@ -17,7 +17,6 @@
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
 #include "gltf/inspect/report_json.h"
-#include "help.h"
 #include "in_out.h"
 #include "interrupt.h"
 #include "progress_line.h"
@@ -56,7 +55,7 @@ int ConvertCommand::run() {
   files.sort("convert");
   files.refuseReplacing("convert", "the result is not the same model to the last bit");
   if (isStandardStream(report)) {
-    throw CLI::ValidationError("--report", "takes the name of a file; --format json prints it");
+    throw UsageError("--report", "takes the name of a file; --format json prints it");
   }
   return files.is_batch ? runMany() : runOne();
 }
@@ -64,8 +63,7 @@ int ConvertCommand::run() {
 int ConvertCommand::runMany() const {
   const bool compares = comparison.mode == "draco" || !comparison.draco_output.empty();
   if (compares) {
-    throw CLI::ValidationError("convert",
-                               "--compare and --emit-draco take one input; see gltf-mcc compare");
+    throw UsageError("convert", "--compare and --emit-draco take one input; see gltf-mcc compare");
   }
   BatchOptions options;
   options.inputs = files.inputs;
@@ -211,166 +209,51 @@ int ConvertCommand::runOne() const {
   return printOut(text);
 }
 
-void addBits(CLI::App& command, const std::string& name, uint8_t& bits, int low, int high) {
-  const auto check = [low, high](const std::string& text) -> std::string {
-    int number = -1;
-    const bool is_number = CLI::detail::lexical_cast(text, number);
-    if (is_number && (number == 0 || (number >= low && number <= high))) return "";
-    return fmt::format("{} is not 0 or {} to {}", text, low, high);
-  };
-  // The option is parsed as an int, because CLI11 would read a uint8_t as a character.
+void addKeepOrder(Command& command, gltf::ConvertOptions& options) {
+  command.addFlag("--indices-only", options.indices_only,
+                  "Compress only the triangles, keep the attributes as they are");
   command
-      .add_option_function<int>(
-          "--quantize-" + name, [&bits](const int& number) { bits = static_cast<uint8_t>(number); },
-          fmt::format("Bits of {}, 0 keeps all [{}]", name, bits))
-      ->check(CLI::Validator(check, ""))
-      ->type_name("N");
-}
-
-constexpr const char* kQuantized[] = {"--quantize-position", "--quantize-normal",
-                                      "--quantize-texcoord", "--quantize-color",
-                                      "--quantize-tangent",  "--quantize-weight"};
-
-/// Adds --max-error, --max-error-relative and --lattice, which each replace --quantize-position.
-void addPositionPromises(CLI::App& command, gltf::ConvertOptions& options, CLI::Option* lossless) {
-  const auto addError = [&](const std::string& name, bool is_relative, const std::string& help) {
-    return command
-        .add_option_function<double>(
-            name,
-            [&options, is_relative](const double& value) {
-              options.max_position_error = value;
-              options.is_error_relative = is_relative;
-            },
-            help)
-        ->check(CLI::Validator(
-            [](const std::string& text) -> std::string {
-              double number = 0;
-              const bool is_number = CLI::detail::lexical_cast(text, number);
-              return is_number && number > 0 ? "" : text + " is not greater than 0";
-            },
-            ""))
-        ->type_name("X");
+      .addFlag("--drop-unused", options.drop_unused,
+               "Leave out vertices that no triangle uses; not with --indices-only")
+      .excludes = {"--indices-only"};
+  const auto what = std::make_shared<std::string>();
+  command
+      .addWords("--keep-order", *what, {"vertices", "triangles", "both"},
+                "Keep the order of vertices, triangles or both")
+      .then = [what, &options]() {
+    options.keep_vertex_order = *what != "triangles";
+    options.keep_triangle_order = *what != "vertices";
   };
-  CLI::Option* absolute =
-      addError("--max-error", false, "No position moves farther than X, in units of the model");
-  CLI::Option* relative =
-      addError("--max-error-relative", true, "The same, X is a fraction of the longest side");
-  CLI::Option* lattice =
-      command
-          .add_option_function<std::vector<float>>(
-              "--lattice",
-              [&options](const std::vector<float>& numbers) {
-                Lattice given;
-                std::copy_n(numbers.begin(), 3, given.origin);
-                given.step = numbers[3];
-                if (!isValidLattice(given, 3)) {
-                  throw CLI::ValidationError(
-                      "--lattice", "needs finite numbers, and a step that is greater than 0");
-                }
-                options.position_lattice = given;
-              },
-              "Lattice of positions, for tiles that must fit together")
-          ->expected(4)
-          ->delimiter(',')
-          ->type_name("X,Y,Z,STEP");
-  CLI::Option* bits = command.get_option("--quantize-position");
-  for (CLI::Option* option : {absolute, relative, lattice}) {
-    option->excludes(lossless)->excludes(bits);
-  }
-  absolute->excludes(relative)->excludes(lattice);
-  relative->excludes(lattice);
 }
 
 }  // namespace
 
-void addAttributeBits(CLI::App& command, gltf::ConvertOptions& options) {
-  addBits(command, "position", options.bits.position, 1, 24);
-  addBits(command, "normal", options.bits.normal, 2, 16);
-  addBits(command, "texcoord", options.bits.texcoord, 1, 24);
-  addBits(command, "color", options.bits.color, 1, 24);
-  addBits(command, "tangent", options.bits.tangent, 2, 16);
-  addBits(command, "weight", options.bits.weight, 1, 24);
-}
-
-void addPreference(CLI::App& command, gltf::ConvertOptions& options) {
-  const std::map<std::string, Preference> preferences = {{"balanced", Preference::kBalanced},
-                                                         {"size", Preference::kSize},
-                                                         {"speed", Preference::kSpeed}};
-  command.add_option("--prefer", options.prefer, "Fewer bytes, or less time to decode [balanced]")
-      ->transform(CLI::CheckedTransformer(preferences, CLI::ignore_case).description(""))
-      ->type_name("size|balanced|speed");
-}
-
-void addQuantization(CLI::App& command, gltf::ConvertOptions& options) {
-  addAttributeBits(command, options);
-  CLI::Option* lossless =
-      command.add_flag("--lossless", options.lossless, "Keep every bit of every number");
-  for (const char* name : kQuantized) lossless->excludes(command.get_option(name));
-  addPositionPromises(command, options, lossless);
-  const std::map<std::string, gltf::Grid> grids = {{"mesh", gltf::Grid::kMesh},
-                                                   {"scene", gltf::Grid::kScene},
-                                                   {"primitive", gltf::Grid::kPrimitive}};
-  command
-      .add_option("--grid", options.grid,
-                  "What shares a lattice of positions, without cracks [mesh]")
-      ->transform(CLI::CheckedTransformer(grids, CLI::ignore_case).description(""))
-      ->type_name("mesh|scene|primitive");
-  addPreference(command, options);
-  command
-      .add_option("--block", options.block_triangles,
-                  "Cut large surfaces into blocks of N triangles, 0 never [262144]")
-      ->check(CLI::Range(0u, kBlocksByPreference - 1).description(""))
-      ->type_name("N");
-}
-
-void addKeepOrder(CLI::App& command, gltf::ConvertOptions& options) {
-  CLI::Option* const indices_only =
-      command.add_flag("--indices-only", options.indices_only,
-                       "Compress only the triangles, keep the attributes as they are");
-  command
-      .add_flag("--drop-unused", options.drop_unused,
-                "Leave out vertices that no triangle uses; not with --indices-only")
-      ->excludes(indices_only);
-  command
-      .add_option_function<std::string>(
-          "--keep-order",
-          [&options](const std::string& what) {
-            options.keep_vertex_order = what != "triangles";
-            options.keep_triangle_order = what != "vertices";
-          },
-          "Keep the order of vertices, triangles or both")
-      ->check(CLI::IsMember({"vertices", "triangles", "both"}).description(""))
-      ->type_name("vertices|triangles|both");
-}
-
-void addConvert(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("convert", "Compress .glb and .gltf files");
+void addConvert(Program& program) {
+  Command& command = program.commands.emplace_back();
   auto state = std::make_shared<ConvertCommand>();
 #if defined(MCC_HAS_FOREIGN)
   state->convert.decoders = foreign::foreignDecoders();
 #endif
-  state->files.addOptions(*command);
-  addQuantization(*command, state->convert);
-  addKeepOrder(*command, state->convert);
-  command->add_flag("--fallback", state->convert.fallback,
-                    "Also keep the geometry uncompressed, in OUT.HASH.fallback.bin");
-  command->add_option("--report", state->report, "Write all figures to this JSON file")
-      ->type_name("FILE");
-  state->comparison.addOptions(*command);
-  addFormatOption(*command, state->common);
-  command->add_option("-j,--jobs", state->convert.thread_count, "Threads to use [1]")
-      ->check(CLI::Range(1, 1024).description(""))
-      ->type_name("N");
-  command->add_flag("--force", state->is_forced, "With -o DIR: also convert what is up to date");
-  addDecodedLimitOption(*command, state->convert.max_decoded_bytes);
-  addVerbosityOptions(*command, state->common);
-  addColorOption(*command);
-  setHelp(
-      *command, "convert [OPTIONS] IN OUT\nconvert [OPTIONS] -o DIR IN…",
+  command.name = "convert";
+  command.summary = "Compress .glb and .gltf files";
+  state->files.addOptions(command);
+  addQuantization(command, state->convert);
+  addKeepOrder(command, state->convert);
+  command.addFlag("--fallback", state->convert.fallback,
+                  "Also keep the geometry uncompressed, in OUT.HASH.fallback.bin");
+  command.add("--report", "FILE", &state->report, "Write all figures to this JSON file");
+  state->comparison.addOptions(command);
+  addFormatOption(command, state->common);
+  addJobs(command, state->convert.thread_count, "Threads to use [1]");
+  command.addFlag("--force", state->is_forced, "With -o DIR: also convert what is up to date");
+  addDecodedLimitOption(command, state->convert.max_decoded_bytes);
+  addVerbosityOptions(command, state->common);
+  addColorOption(command);
+  command.usage = "convert [OPTIONS] IN OUT\nconvert [OPTIONS] -o DIR IN…";
+  command.text =
       "IN and OUT are .glb or .gltf files, or - for standard input and output. A .gltf gets its\n"
-      "buffer next to it (a.gltf: a.HASH.bin). Images in separate files stay separate, but move "
-      "into a\n"
-      ".glb. The result is decoded and compared with the source before it replaces OUT; sizes and\n"
+      "buffer next to it (a.gltf: a.HASH.bin). Images in separate files stay separate, but\n"
+      "move into a .glb. The result is decoded and compared with the source before it replaces OUT; sizes and\n"
       "measured errors are printed. Positions are set by one of --quantize-position, --max-error,\n"
       "--max-error-relative, --lattice and --lossless.\n"
       "IN may already be compressed with Draco or meshoptimizer (version 0 of its codec; the npm\n"
@@ -378,15 +261,16 @@ void addConvert(CLI::App& app, int& status) {
       "With -o DIR every IN becomes a file of the same name in DIR. A folder IN stands for the\n"
       ".glb and .gltf files in it, without its subfolders. Files that were made in DIR before, "
       "with\n"
-      "the same options and from files that have not changed since, are left alone.",
+      "the same options and from files that have not changed since, are left alone.";
+  command.examples =
       "convert model.glb small.glb\n"
       "convert scene.gltf small.glb --quantize-position 12 --report sizes.json\n"
       "convert scan.glb exact.glb --lossless\n"
       "convert part.glb small.glb --max-error 0.05\n"
       "convert terrain.glb small.glb --keep-order both\n"
       "convert -j 4 -o small models/*.glb\n"
-      "convert - - < model.glb | upload");
-  command->callback([state, &status]() { status = state->run(); });
+      "convert - - < model.glb | upload";
+  command.run = [state]() { return state->run(); };
 }
 
 }  // namespace mcc::tool

@@ -12,7 +12,6 @@
 #include "bench/codecs.h"
 #include "bench/emit_draco.h"
 #include "bench/geometry.h"
-#include "compare_command.h"
 #include "comparison_report.h"
 #include "gltf/base/parallel.h"
 #include "gltf/base/path_text.h"
@@ -123,13 +122,11 @@ void ConvertComparison::beginSize(const gltf::Source& input, const gltf::Convert
                      });
 }
 
-void ConvertComparison::addOptions(CLI::App& command) {
-  command.add_option("--compare", mode, "Compare with Draco [draco, but none above 2M triangles]")
-      ->check(CLI::IsMember({"draco", "none"}).description(""))
-      ->type_name("draco|none");
-  command
-      .add_option("--emit-draco", draco_output, "Also write IN with Draco, speed 0, to this .glb")
-      ->type_name("OUT2");
+void ConvertComparison::addOptions(Command& command) {
+  command.addWords("--compare", mode, {"draco", "none"},
+                   "Compare with Draco [draco, but none above 2M triangles]");
+  command.add("--emit-draco", "OUT2", &draco_output,
+              "Also write IN with Draco, speed 0, to this .glb");
 }
 
 gltf::Result ConvertComparison::begin(const gltf::Source& input, const std::string& output,
@@ -217,7 +214,7 @@ gltf::Result ConvertComparison::compare(const gltf::Source& input,
 
 namespace mcc::tool {
 
-void ConvertComparison::addOptions(CLI::App&) {}
+void ConvertComparison::addOptions(Command&) {}
 
 gltf::Result ConvertComparison::begin(const gltf::Source&, const std::string&,
                                       const gltf::ConvertOptions&) {

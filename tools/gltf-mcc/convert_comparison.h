@@ -31,13 +31,13 @@ struct ConvertComparison {
   std::string line;             ///< Draco's size in words; empty when nothing was compared
   std::string tables;           ///< empty unless is_full
   std::string notes;            ///< lines to print
-  gltf::Json json;  ///< see comparisonJson(); null unless is_full
+  gltf::Json json;              ///< see comparisonJson(); null unless is_full
   std::optional<WholeSize> draco_size;  ///< only when is_full
   /// Whether Draco is measured at all its speeds, for tables and reports; else only its size, the
   /// smaller of speeds 0 and 5, while the conversion is being checked.
   bool is_full = false;
 
-  void addOptions(CLI::App& command);
+  void addOptions(Command& command);
   /// Called before the conversion: reads the source, makes the Draco file, and checks that it can
   /// be written.
   gltf::Result begin(const gltf::Source& input, const std::string& output,

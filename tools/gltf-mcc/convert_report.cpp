@@ -4,12 +4,8 @@
 #include <fmt/format.h>
 
 #include "convert_summary.h"
-#include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
-#include "gltf/files/file_io.h"
 #include "gltf/inspect/report_json.h"
-#include "interrupt.h"
-#include "json/json.h"
 #include "notes.h"
 
 namespace mcc::tool {
@@ -174,30 +170,6 @@ Json reportJson(const Converted& converted, const gltf::ConvertOptions& options,
   if (!converted.sizes.empty()) json["files"] = wholeSizesJson(converted.sizes);
   if (!comparison.is_null()) json["comparison"] = comparison;
   return json;
-}
-
-std::string printReport(const Json& json) {
-  // Pure ASCII, so that control characters in names cannot reach a terminal.
-  return json.dump(2, true) + "\n";
-}
-
-namespace {
-
-gltf::Result ofReport(gltf::Result result) {
-  if (!result.ok()) result.what = "the report cannot be written: " + result.what;
-  return result;
-}
-
-}  // namespace
-
-gltf::Result checkReport(const std::string& path) {
-  return ofReport(gltf::checkWritable(gltf::pathOf(path)));
-}
-
-gltf::Result writeReport(const std::string& path, const std::string& text) {
-  return ofReport(gltf::writeFile(gltf::pathOf(path),
-                                  {reinterpret_cast<const uint8_t*>(text.data()), text.size()},
-                                  &temporaryFiles()));
 }
 
 }  // namespace mcc::tool

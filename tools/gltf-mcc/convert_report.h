@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "json/json.h"
 #include "mcc/gltf.h"
+#include "report_file.h"
 #include "whole_sizes.h"
 
 namespace mcc::tool {
@@ -26,19 +27,10 @@ std::string reportText(const Converted& converted, const CommonOptions& options)
 
 /// Returns everything known about a conversion. `comparison` is left out when it is null.
 gltf::Json reportJson(const Converted& converted, const gltf::ConvertOptions& options,
-                                  const gltf::Json& comparison);
-
-/// Returns the indented text of a report.
-std::string printReport(const gltf::Json& json);
+                      const gltf::Json& comparison);
 
 /// Returns text like "1,838,104 -> 171,656 bytes (9.3 %)".
 std::string sizeChange(uint64_t input_bytes, uint64_t output_bytes);
-
-/// Checks whether a report can be written, before any work is done for it.
-gltf::Result checkReport(const std::string& path);
-
-/// Writes a report. It replaces an older one only when it is complete.
-gltf::Result writeReport(const std::string& path, const std::string& text);
 
 }  // namespace mcc::tool
 

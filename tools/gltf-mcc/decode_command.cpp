@@ -1,14 +1,12 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <map>
 #include <memory>
 
 #include "batch.h"
 #include "commands.h"
 #include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
-#include "help.h"
 #include "in_out.h"
 #include "interrupt.h"
 #include "notes.h"
@@ -88,38 +86,35 @@ int DecodeCommand::runOne() const {
 
 }  // namespace
 
-void addDecode(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("decode", "Turn compressed files into ordinary ones");
+void addDecode(Program& program) {
+  Command& command = program.commands.emplace_back();
   auto state = std::make_shared<DecodeCommand>();
-  state->files.addOptions(*command);
-  const std::map<std::string, gltf::DecodeTo> kinds = {{"floats", gltf::DecodeTo::kFloats},
-                                                       {"integers", gltf::DecodeTo::kIntegers}};
-  command
-      ->add_option("--decode-to", state->decoding.decode_to,
-                   "What quantised attributes become [floats]")
-      ->transform(CLI::CheckedTransformer(kinds, CLI::ignore_case).description(""))
-      ->type_name("floats|integers");
-  command->add_option("-j,--jobs", state->decoding.thread_count, "Threads to use [1]")
-      ->check(CLI::Range(1, 1024).description(""))
-      ->type_name("N");
-  command->add_flag("--force", state->is_forced, "With -o DIR: also decode what is up to date");
-  addDecodedLimitOption(*command, state->decoding.max_decoded_bytes);
-  addVerbosityOptions(*command, state->common);
-  addColorOption(*command);
-  setHelp(
-      *command, "decode [OPTIONS] IN OUT\ndecode [OPTIONS] -o DIR IN…",
+  command.name = "decode";
+  command.summary = "Turn compressed files into ordinary ones";
+  state->files.addOptions(command);
+  command.addWords("--decode-to", state->decoding.decode_to,
+                   {{"floats", gltf::DecodeTo::kFloats}, {"integers", gltf::DecodeTo::kIntegers}},
+                   "What quantised attributes become [floats]");
+  addJobs(command, state->decoding.thread_count, "Threads to use [1]");
+  command.addFlag("--force", state->is_forced, "With -o DIR: also decode what is up to date");
+  addDecodedLimitOption(command, state->decoding.max_decoded_bytes);
+  addVerbosityOptions(command, state->common);
+  addColorOption(command);
+  command.usage = "decode [OPTIONS] IN OUT\ndecode [OPTIONS] -o DIR IN…";
+  command.text =
       "IN and OUT are .glb or .gltf files, or - for standard input and output. A .gltf gets its\n"
       "buffer next to it (a.gltf: a.HASH.bin). What is not compressed is copied.\n"
       "Integers (KHR_mesh_quantization) take less memory.\n"
       "A file whose geometry decodes to more than --max-decoded-bytes is refused before memory is\n"
       "taken. Without the option 256 MiB are always accepted, and more than 4 GiB never.\n"
-      "With -o DIR every IN becomes a file of the same name in DIR, as with convert.",
+      "With -o DIR every IN becomes a file of the same name in DIR, as with convert.";
+  command.examples =
       "decode small.glb model.glb\n"
       "decode small.glb model.gltf\n"
       "decode small.glb model.glb --decode-to integers\n"
       "decode -j 4 -o models small/*.glb\n"
-      "decode - - < small.glb > model.glb");
-  command->callback([state, &status]() { status = state->run(); });
+      "decode - - < small.glb > model.glb";
+  command.run = [state]() { return state->run(); };
 }
 
 }  // namespace mcc::tool

@@ -1,8 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "help_pages.h"
 
-#include <fmt/format.h>
-
 #include <memory>
 #include <sstream>
 
@@ -26,15 +24,21 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
   return text;
 }
 
-std::vector<std::string> namesOf(const std::vector<const CLI::App*>& commands) {
+std::string textsOf(const std::vector<Word>& words) {
+  std::string text;
+  for (const Word& word : words) text += (text.empty() ? "" : " ") + word.text;
+  return text;
+}
+
+std::vector<std::string> namesOf(const Program& program) {
   std::vector<std::string> names;
-  for (const CLI::App* command : commands) names.push_back(command->get_name());
+  for (const Command& command : program.commands) names.push_back(command.name);
   return names;
 }
 
 /// Returns the words a command accepts as its argument, if it accepts only these.
-std::vector<std::string> wordsOf(const CLI::App& app, const std::string& command) {
-  if (command == "help") return namesOf(commandsOf(app));
+std::vector<std::string> wordsOf(const Program& program, const std::string& command) {
+  if (command == "help") return namesOf(program);
   if (command == "completion") return {"bash", "zsh"};
   return {};
 }
@@ -67,21 +71,20 @@ std::string roffAsTyped(const std::string& text) {
   return ".PP\n.nf\n.RS 4\n" + roffLines(text, "gltf-mcc ") + ".RE\n.fi\n";
 }
 
-std::string roffOptions(const CLI::App& command) {
+std::string roffOptions(const Command& command) {
   std::string text;
-  for (const OptionHelp& option : optionsOf(command)) {
-    text += ".TP\n\\fB" + roff(joined(option.names, ", ")) + "\\fR";
-    if (!option.value.empty()) text += " \\fI" + roff(option.value) + "\\fR";
-    text += "\n" + roff(option.description) + "\n";
+  for (const Option* option : command.shownOptions()) {
+    text += ".TP\n\\fB" + roff(joined(option->shownNames(), ", ")) + "\\fR";
+    if (!option->value.empty()) text += " \\fI" + roff(option->value) + "\\fR";
+    text += "\n" + roff(option->help) + "\n";
   }
   return text;
 }
 
-std::string roffCommand(const CLI::App& command) {
-  const CommandHelp& help = helpOf(command);
-  std::string text = ".SS " + command.get_name() + "\n" + roff(command.get_description()) + ".\n";
-  text += roffAsTyped(help.usage) + ".PP\n" + roffLines(help.text, "") + roffOptions(command);
-  return text + ".PP\nExamples:\n" + roffAsTyped(help.examples);
+std::string roffCommand(const Command& command) {
+  std::string text = ".SS " + command.name + "\n" + roff(command.summary) + ".\n";
+  text += roffAsTyped(command.usage) + ".PP\n" + roffLines(command.text, "") + roffOptions(command);
+  return text + ".PP\nExamples:\n" + roffAsTyped(command.examples);
 }
 
 constexpr char kManEnd[] =
@@ -115,20 +118,20 @@ Records what tiles wrote, for the same purpose, and so that it replaces no file 
 
 }  // namespace
 
-std::string manPage(const CLI::App& app) {
+std::string manPage(const Program& program) {
   std::string text =
       ".\\\" Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0\n"
       ".\\\" Made by: gltf-mcc man\n";
-  text += fmt::format(".TH GLTF\\-MCC 1 \"\" \"gltf\\-mcc {}\" \"User Commands\"\n", MCC_VERSION);
+  text += ".TH GLTF\\-MCC 1 \"\" \"gltf\\-mcc " MCC_VERSION "\" \"User Commands\"\n";
   text += ".SH NAME\ngltf\\-mcc \\- compress the meshes of glTF files\n.SH SYNOPSIS\n.nf\n";
-  for (const CLI::App* command : commandsOf(app)) {
-    for (const std::string& line : linesOf(helpOf(*command).usage)) {
+  for (const Command& command : program.commands) {
+    for (const std::string& line : linesOf(command.usage)) {
       text += "\\fBgltf\\-mcc\\fR " + roff(line) + "\n";
     }
   }
-  text += ".fi\n.SH DESCRIPTION\n" + roff(app.get_description()) +
-          "\nEvery command has \\-\\-help.\n" + roffOptions(app) + ".SH COMMANDS\n";
-  for (const CLI::App* command : commandsOf(app)) text += roffCommand(*command);
+  text += ".fi\n.SH DESCRIPTION\n" + roff(program.root.summary) +
+          "\nEvery command has \\-\\-help.\n" + roffOptions(program.root) + ".SH COMMANDS\n";
+  for (const Command& command : program.commands) text += roffCommand(command);
   return text + kManEnd;
 }
 
@@ -137,33 +140,33 @@ std::string manPage(const CLI::App& app) {
 namespace {
 
 /// "convert:-o|convert:--output".
-std::string bashCase(const std::string& command, const OptionHelp& option) {
+std::string bashCase(const std::string& command, const Option& option) {
   std::string text;
-  for (const std::string& name : option.names) {
+  for (const std::string& name : option.shownNames()) {
     text += (text.empty() ? "" : "|") + command + ":" + name;
   }
   return text;
 }
 
 /// Lists what bash offers after the options of a command that take a value.
-std::string bashValues(const CLI::App& command, const std::string& prefix) {
+std::string bashValues(const Command& command, const std::string& prefix) {
   std::string text;
-  for (const OptionHelp& option : optionsOf(command)) {
-    if (option.value.empty()) continue;
+  for (const Option* option : command.shownOptions()) {
+    if (option->value.empty()) continue;
     std::string offer;  // empty for numbers
-    if (!option.choices.empty()) offer = "offer '" + joined(option.choices, " ") + "'; ";
-    if (option.takes_file) offer = "offer_files; ";
-    text += fmt::format("    {}) {}return ;;\n", bashCase(prefix, option), offer);
+    if (!option->words.empty()) offer = "offer '" + textsOf(option->words) + "'; ";
+    if (option->takesFile()) offer = "offer_files; ";
+    text += "    " + bashCase(prefix, *option) + ") " + offer + "return ;;\n";
   }
   return text;
 }
 
-std::string bashOptions(const CLI::App& command) {
-  std::vector<std::string> names;
-  for (const OptionHelp& option : optionsOf(command)) {
-    names.insert(names.end(), option.names.begin(), option.names.end());
+std::string bashOptions(const Command& command) {
+  std::string names;
+  for (const Option* option : command.shownOptions()) {
+    names += (names.empty() ? "" : " ") + joined(option->shownNames(), " ");
   }
-  return joined(names, " ");
+  return names;
 }
 
 constexpr char kBashStart[] = R"(# bash completion of gltf-mcc
@@ -191,26 +194,26 @@ _gltf_mcc() {
 
 }  // namespace
 
-std::string bashCompletion(const CLI::App& app) {
-  const std::vector<const CLI::App*> commands = commandsOf(app);
+std::string bashCompletion(const Program& program) {
+  const std::string names = joined(namesOf(program), " ");
   std::string text = kBashStart;
   text += "  for ((i = 1; i < COMP_CWORD; ++i)); do\n    case ${COMP_WORDS[i]} in\n      " +
-          joined(namesOf(commands), "|") +
+          joined(namesOf(program), "|") +
           ") command=${COMP_WORDS[i]}; break ;;\n    esac\n  done\n";
   text += "  case $command:$previous in\n";
-  for (const CLI::App* command : commands) text += bashValues(*command, command->get_name());
-  text += bashValues(app, "");
+  for (const Command& command : program.commands) text += bashValues(command, command.name);
+  text += bashValues(program.root, "");
   text += "  esac\n  if [[ $current == -* ]]; then\n    case $command in\n";
-  for (const CLI::App* command : commands) {
-    text += fmt::format("      {}) offer '{}' ;;\n", command->get_name(), bashOptions(*command));
+  for (const Command& command : program.commands) {
+    text += "      " + command.name + ") offer '" + bashOptions(command) + "' ;;\n";
   }
-  text += fmt::format("      *) offer '{}' ;;\n", bashOptions(app));
+  text += "      *) offer '" + bashOptions(program.root) + "' ;;\n";
   text += "    esac\n    return\n  fi\n  case $command in\n";
-  text += fmt::format("    '') offer '{}' ;;\n", joined(namesOf(commands), " "));
-  for (const CLI::App* command : commands) {
-    const std::vector<std::string> words = wordsOf(app, command->get_name());
+  text += "    '') offer '" + names + "' ;;\n";
+  for (const Command& command : program.commands) {
+    const std::vector<std::string> words = wordsOf(program, command.name);
     if (words.empty()) continue;
-    text += fmt::format("    {}) offer '{}' ;;\n", command->get_name(), joined(words, " "));
+    text += "    " + command.name + ") offer '" + joined(words, " ") + "' ;;\n";
   }
   return text + "    *) offer_models ;;\n  esac\n}\ncomplete -F _gltf_mcc gltf-mcc\n";
 }
@@ -233,24 +236,30 @@ std::string zshText(const std::string& text) {
   return escaped;
 }
 
-std::string zshOption(const OptionHelp& option) {
+std::string zshOption(const Option& option) {
   std::string value;
   if (!option.value.empty()) {
     value = ":" + zshText(option.value) + ":";
-    if (!option.choices.empty()) value += "(" + joined(option.choices, " ") + ")";
-    if (option.takes_file) value += "_files";
+    if (!option.words.empty()) value += "(" + textsOf(option.words) + ")";
+    if (option.takesFile()) value += "_files";
   }
-  const std::string rest = "[" + zshText(option.description) + "]" + value + "'";
-  if (option.names.size() == 1) return "'" + option.names[0] + rest;
-  return "'(" + joined(option.names, " ") + ")'{" + joined(option.names, ",") + "}'" + rest;
+  const std::string rest = "[" + zshText(option.help) + "]" + value + "'";
+  const std::vector<std::string> names = option.shownNames();
+  if (names.size() == 1) return "'" + names[0] + rest;
+  return "'(" + joined(names, " ") + ")'{" + joined(names, ",") + "}'" + rest;
 }
 
-std::string zshArguments(const CLI::App& app, const CLI::App& command) {
+std::string zshArguments(const Command& command) {
   std::string text = "      _arguments -s";
-  for (const OptionHelp& option : optionsOf(command)) {
-    text += " \\\n        " + zshOption(option);
+  for (const Option* option : command.shownOptions()) {
+    text += " \\\n        " + zshOption(*option);
   }
-  const std::vector<std::string> words = wordsOf(app, command.get_name());
+  return text;
+}
+
+std::string zshArguments(const Program& program, const Command& command) {
+  std::string text = zshArguments(command);
+  const std::vector<std::string> words = wordsOf(program, command.name);
   text += " \\\n        ";
   if (words.empty()) return text + "'*:model:_files -g \"*.(glb|gltf)\"'";
   return text + "'1:word:(" + joined(words, " ") + ")'";
@@ -258,14 +267,14 @@ std::string zshArguments(const CLI::App& app, const CLI::App& command) {
 
 }  // namespace
 
-std::string zshCompletion(const CLI::App& app) {
+std::string zshCompletion(const Program& program) {
   std::string text =
       "#compdef gltf-mcc\n"
       "# Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0\n"
       "# Made by: gltf-mcc completion zsh\n"
       "_gltf_mcc() {\n  local -a commands\n  commands=(\n";
-  for (const CLI::App* command : commandsOf(app)) {
-    text += fmt::format("    '{}:{}'\n", command->get_name(), zshText(command->get_description()));
+  for (const Command& command : program.commands) {
+    text += "    '" + command.name + ":" + zshText(command.summary) + "'\n";
   }
   text +=
       "  )\n  if ((CURRENT == 2)) && [[ $words[2] != -* ]]; then\n"
@@ -273,13 +282,10 @@ std::string zshCompletion(const CLI::App& app) {
   text +=
       "  local command=$words[2]\n  if ((CURRENT > 2)); then\n    shift words\n"
       "    ((--CURRENT))\n  fi\n  case $command in\n";
-  for (const CLI::App* command : commandsOf(app)) {
-    text +=
-        fmt::format("    {})\n{}\n      ;;\n", command->get_name(), zshArguments(app, *command));
+  for (const Command& command : program.commands) {
+    text += "    " + command.name + ")\n" + zshArguments(program, command) + "\n      ;;\n";
   }
-  text += "    *)\n      _arguments -s";
-  for (const OptionHelp& option : optionsOf(app)) text += " \\\n        " + zshOption(option);
-  return text +
+  return text + "    *)\n" + zshArguments(program.root) +
          "\n      ;;\n  esac\n}\nif [[ $funcstack[1] == _gltf_mcc ]]; then\n  _gltf_mcc \"$@\"\n"
          "else\n  compdef _gltf_mcc gltf-mcc\nfi\n";
 }
@@ -288,54 +294,58 @@ std::string zshCompletion(const CLI::App& app) {
 
 namespace {
 
-void addHelpCommand(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("help", "Explain a command, as COMMAND --help does");
+void addHelpCommand(Program& program) {
+  Command& command = program.commands.emplace_back();
+  command.name = "help";
+  command.summary = "Explain a command, as COMMAND --help does";
+  command.usage = "help [COMMAND]";
+  command.examples = "help convert";
   auto name = std::make_shared<std::string>();
-  command->add_option("COMMAND", *name, "Which")->type_name("");
-  setHelp(*command, "help [COMMAND]", "", "help convert");
-  command->callback([&app, &status, name]() {
-    const CLI::App* wanted = name->empty() ? &app : nullptr;
-    for (const CLI::App* one : commandsOf(app)) {
-      if (one->get_name() == *name) wanted = one;
+  command.add("COMMAND", "", name.get(), "Which");
+  command.run = [&program, name]() {
+    if (name->empty()) return printOut(helpOf(program));
+    for (const Command& one : program.commands) {
+      if (one.name == *name) return printOut(helpOf(one));
     }
-    if (wanted == nullptr) {
-      throw CLI::ValidationError(
-          "help", "there is no command " + *name + didYouMean(*name, namesOf(commandsOf(app))));
-    }
-    // CLI11's help() of the app would print the help of the command that runs, `help` itself.
-    status = printOut(wanted->get_formatter()->make_help(wanted, "", CLI::AppFormatMode::Normal));
-  });
+    throw UsageError("help", "there is no command " + *name + didYouMean(*name, namesOf(program)));
+  };
 }
 
-void addCompletion(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("completion", "Print a completion script for a shell");
+void addCompletion(Program& program) {
+  Command& command = program.commands.emplace_back();
+  command.name = "completion";
+  command.summary = "Print a completion script for a shell";
+  command.usage = "completion bash|zsh";
+  command.text =
+      "For this session: source <(gltf-mcc completion bash), in zsh after compinit.\n"
+      "To keep it, save it as gltf-mcc in ~/.local/share/bash-completion/completions, which\n"
+      "you may have to create, or as _gltf-mcc in a folder of zsh's fpath.";
+  command.examples = "completion bash > ~/.local/share/bash-completion/completions/gltf-mcc";
   auto shell = std::make_shared<std::string>();
-  command->add_option("SHELL", *shell, "Which")->type_name("")->required();
-  setHelp(*command, "completion bash|zsh",
-          "For this session: source <(gltf-mcc completion bash), in zsh after compinit.\n"
-          "To keep it, save it as gltf-mcc in ~/.local/share/bash-completion/completions, which\n"
-          "you may have to create, or as _gltf-mcc in a folder of zsh's fpath.",
-          "completion bash > ~/.local/share/bash-completion/completions/gltf-mcc");
-  command->callback([&app, &status, shell]() {
+  command.add("SHELL", "", shell.get(), "Which").is_required = true;
+  command.run = [&program, shell]() {
     if (*shell != "bash" && *shell != "zsh") {
-      throw CLI::ValidationError("completion", "supports bash and zsh, not " + *shell);
+      throw UsageError("completion", "supports bash and zsh, not " + *shell);
     }
-    status = printOut(*shell == "bash" ? bashCompletion(app) : zshCompletion(app));
-  });
+    return printOut(*shell == "bash" ? bashCompletion(program) : zshCompletion(program));
+  };
 }
 
-void addMan(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("man", "Print the man page");
-  setHelp(*command, "man", "", "man | man -l -");
-  command->callback([&app, &status]() { status = printOut(manPage(app)); });
+void addMan(Program& program) {
+  Command& command = program.commands.emplace_back();
+  command.name = "man";
+  command.summary = "Print the man page";
+  command.usage = "man";
+  command.examples = "man | man -l -";
+  command.run = [&program]() { return printOut(manPage(program)); };
 }
 
 }  // namespace
 
-void addHelpCommands(CLI::App& app, int& status) {
-  addHelpCommand(app, status);
-  addCompletion(app, status);
-  addMan(app, status);
+void addHelpCommands(Program& program) {
+  addHelpCommand(program);
+  addCompletion(program);
+  addMan(program);
 }
 
 }  // namespace mcc::tool

@@ -4,22 +4,24 @@
 #ifndef MCC_TOOL_HELP_PAGES_H_
 #define MCC_TOOL_HELP_PAGES_H_
 
-#include <CLI/CLI.hpp>
 #include <string>
+
+#include "options.h"
 
 namespace mcc::tool {
 
 /// Returns the man page in roff, for section 1.
-std::string manPage(const CLI::App& app);
+std::string manPage(const Program& program);
 
 /// Returns a script for bash 4 or newer, to be sourced or saved in a folder of bash-completion.
-std::string bashCompletion(const CLI::App& app);
+std::string bashCompletion(const Program& program);
 
 /// Returns a script for zsh, to be sourced, or saved as _gltf-mcc in a folder of fpath.
-std::string zshCompletion(const CLI::App& app);
+std::string zshCompletion(const Program& program);
 
-/// Adds `help`, `completion` and the hidden `man`.
-void addHelpCommands(CLI::App& app, int& status);
+/// Adds `help`, `completion` and `man`, which are about all commands of the program, also those
+/// that are added later.
+void addHelpCommands(Program& program);
 
 }  // namespace mcc::tool
 

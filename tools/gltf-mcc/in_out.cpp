@@ -24,9 +24,9 @@ void refuseFolder(const std::string& command, const std::vector<std::string>& wo
   const bool has_file = words.size() == 2 && gltf::pathOf(words[1]).has_extension();
   if (has_file) return;  // opening the folder will fail
   const std::string folder = words.size() == 2 ? shellWord(words[1]) : "DIR";
-  throw CLI::ValidationError(command, words[0] + ": is a folder; to " + command +
-                                          " all models in it, write: -o " + folder + " " +
-                                          shellWord(words[0]));
+  throw UsageError(command, words[0] + ": is a folder; to " + command +
+                                " all models in it, write: -o " + folder + " " +
+                                shellWord(words[0]));
 }
 
 /// Returns the paths of the .glb and .gltf files in a folder, in the order of their bytes.
@@ -54,8 +54,7 @@ std::vector<std::string> withModelsOfFolders(const std::string& command,
     if (models.empty()) files.push_back(input);
     files.insert(files.end(), models.begin(), models.end());
     if (models.empty() && inputs.size() == 1 && isFolder(input)) {
-      throw CLI::ValidationError(command,
-                                 input + ": there is no .glb or .gltf file in this folder");
+      throw UsageError(command, input + ": there is no .glb or .gltf file in this folder");
     }
   }
   return files;
@@ -63,12 +62,11 @@ std::vector<std::string> withModelsOfFolders(const std::string& command,
 
 }  // namespace
 
-void InOut::addOptions(CLI::App& command) {
-  command.add_option("FILES", inputs, "IN and OUT");
-  command.add_option("-i,--input", input, "Same as IN")->type_name("FILE");
-  command.add_option("-o,--output", output, "Same as OUT, or the folder for several IN")
-      ->type_name("FILE|DIR");
-  command.add_flag("--in-place", may_replace_input, "Let OUT replace IN");
+void InOut::addOptions(Command& command) {
+  command.add("FILES", "", &inputs, "IN and OUT");
+  command.add("-i,--input", "FILE", &input, "Same as IN");
+  command.add("-o,--output", "FILE|DIR", &output, "Same as OUT, or the folder for several IN");
+  command.addFlag("--in-place", may_replace_input, "Let OUT replace IN");
 }
 
 void InOut::sort(const std::string& command) {
@@ -76,36 +74,36 @@ void InOut::sort(const std::string& command) {
   const bool may_be_folder = !output.empty();  // given by -o; OUT must be a file
   if (!may_be_folder) refuseFolder(command, inputs);
   if (output.empty() && inputs.size() > 2) {
-    throw CLI::ValidationError(command, "several inputs need a folder: -o DIR IN…");
+    throw UsageError(command, "several inputs need a folder: -o DIR IN…");
   }
   if (output.empty() && inputs.size() == 2) {
     output = inputs.back();
     inputs.pop_back();
   }
   if (inputs.empty() || output.empty()) {
-    throw CLI::ValidationError(command, inputs.empty() ? "IN is missing" : "OUT is missing");
+    throw UsageError(command, inputs.empty() ? "IN is missing" : "OUT is missing");
   }
   // A GLB may have any other extension (.vrm), but these belong to other formats.
   const std::string extension = gltf::textOf(gltf::pathOf(output).extension());
   if (isOtherFormat(output)) {
-    throw CLI::ValidationError(command, output + ": only .glb and .gltf files are written");
+    throw UsageError(command, output + ": only .glb and .gltf files are written");
   }
   std::error_code ignored;
   // No program would open a model without an extension. An existing path may be a device or folder.
   if (extension.empty() && !may_be_folder && !isStandardStream(output) && !output.ends_with('/') &&
       !fs::exists(gltf::pathOf(output), ignored)) {
-    throw CLI::ValidationError(
+    throw UsageError(
         command, output + ": has no extension; name it " + output + ".glb or " + output + ".gltf");
   }
   is_batch = may_be_folder && (inputs.size() > 1 || output.ends_with('/') || isFolder(inputs[0]) ||
                                isFolder(output));
   if (is_batch && isModelName(output) && !output.ends_with('/') && !isFolder(output)) {
-    throw CLI::ValidationError(
-        command, output + ": is the name of a file, but several outputs need a folder: -o DIR");
+    throw UsageError(command,
+                     output + ": is the name of a file, but several outputs need a folder: -o DIR");
   }
   if (is_batch) inputs = withModelsOfFolders(command, inputs);
   if (is_batch && std::any_of(inputs.begin(), inputs.end(), isStandardStream)) {
-    throw CLI::ValidationError(command, "standard input cannot be one of several inputs");
+    throw UsageError(command, "standard input cannot be one of several inputs");
   }
 }
 
@@ -115,8 +113,8 @@ void InOut::refuseReplacing(const std::string& command, const std::string& loss)
       !is_batch && !isStandardStream(output) &&
       std::filesystem::equivalent(gltf::pathOf(inputs[0]), gltf::pathOf(output), ignored);
   if (!is_same || may_replace_input) return;
-  throw CLI::ValidationError(command, output + ": is IN and OUT, and " + loss +
-                                          "; choose another OUT, or pass --in-place");
+  throw UsageError(command, output + ": is IN and OUT, and " + loss +
+                                "; choose another OUT, or pass --in-place");
 }
 
 }  // namespace mcc::tool

@@ -4,9 +4,10 @@
 #ifndef MCC_TOOL_IN_OUT_H_
 #define MCC_TOOL_IN_OUT_H_
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
+
+#include "options.h"
 
 namespace mcc::tool {
 
@@ -17,12 +18,12 @@ struct InOut {
   bool is_batch = false;            ///< `output` is a folder
   bool may_replace_input = false;   ///< --in-place
 
-  void addOptions(CLI::App& command);
+  void addOptions(Command& command);
   /// Separates the inputs from the output. The value of -o is a folder if it ends with a slash, if
   /// a folder of that name exists, or if there are several inputs or a folder of them, which is
-  /// replaced by the models in it. Throws CLI::ValidationError, which is reported as wrong usage.
+  /// replaced by the models in it. Throws UsageError.
   void sort(const std::string& command);
-  /// Throws CLI::ValidationError where OUT is IN, unless --in-place was given; `loss` says what
+  /// Throws UsageError where OUT is IN, unless --in-place was given; `loss` says what
   /// would be lost. Called after sort().
   void refuseReplacing(const std::string& command, const std::string& loss) const;
 };

@@ -5,16 +5,14 @@
 
 #include "bars.h"
 #include "commands.h"
-#include "convert_report.h"
 #include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "gltf/files/file_io.h"
 #include "gltf/inspect/inspect_json.h"
 #include "gltf/inspect/report_json.h"
-#include "help.h"
-#include "json/json.h"
 #include "plain_report.h"
 #include "progress_line.h"
+#include "report_file.h"
 #include "standard_streams.h"
 
 namespace mcc::tool {
@@ -294,23 +292,26 @@ struct InspectCommand {
 
 }  // namespace
 
-void addInspect(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("inspect", "List what a file and its payloads hold");
+void addInspect(Program& program) {
+  Command& command = program.commands.emplace_back();
   auto state = std::make_shared<InspectCommand>();
-  command->add_option("-i,--input,IN", state->input, "Same as IN")->required()->type_name("FILE");
-  command->add_flag("--codes", state->show_codes,
-                    "Count the codes: S, E, M and the degrees of vertices");
-  addFormatOption(*command, state->common);
-  addColorOption(*command);
-  setHelp(
-      *command, "inspect [OPTIONS] IN",
+  command.name = "inspect";
+  command.summary = "List what a file and its payloads hold";
+  command.add("-i,--input,IN", "FILE", &state->input, "Same as IN").is_required = true;
+  command.addFlag("--codes", state->show_codes,
+                  "Count the codes: S, E, M and the degrees of vertices");
+  addFormatOption(command, state->common);
+  addColorOption(command);
+  command.usage = "inspect [OPTIONS] IN";
+  command.text =
       "IN is a .glb or .gltf file, or - for standard input. For each payload, its streams are\n"
       "listed with their bytes, and its attributes: how each is coded, the step of its lattice,\n"
       "how far a value may be from the source, and how the writer chose to predict it, in the\n"
-      "words of the specification. Of a file without payloads the contents are listed.",
+      "words of the specification. Of a file without payloads the contents are listed.";
+  command.examples =
       "inspect small.glb\n"
-      "inspect small.glb --codes --format md");
-  command->callback([state, &status]() { status = state->run(); });
+      "inspect small.glb --codes --format md";
+  command.run = [state]() { return state->run(); };
 }
 
 }  // namespace mcc::tool

@@ -33,18 +33,18 @@ std::string Style::in(std::string_view code, std::string_view text) const {
 
 void setColorMode(ColorMode mode) { color_mode = mode; }
 
-ColorMode colorModeOf(int argc, const char* const* argv) {
+ColorMode colorModeOf(const std::vector<std::string>& words) {
   constexpr std::string_view kOption = "--color";
   ColorMode mode = ColorMode::kAuto;
-  for (int i = 1; i < argc; ++i) {
-    std::string_view word = argv[i];
+  for (size_t i = 0; i < words.size(); ++i) {
+    std::string_view word = words[i];
     if (word == "--") break;
     if (!word.starts_with(kOption)) continue;
     word.remove_prefix(kOption.size());
     if (word.starts_with('=')) {
       word.remove_prefix(1);
-    } else if (word.empty() && i + 1 < argc) {
-      word = argv[i + 1];
+    } else if (word.empty() && i + 1 < words.size()) {
+      word = words[i + 1];
     }
     mode = word == "always"  ? ColorMode::kAlways
            : word == "never" ? ColorMode::kNever

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mcc::tool {
 
@@ -35,7 +36,7 @@ void setColorMode(ColorMode mode);
 
 /// Returns the last --color on a command line. It is read before parsing, so that help and usage
 /// errors have the right colours, too.
-ColorMode colorModeOf(int argc, const char* const* argv);
+ColorMode colorModeOf(const std::vector<std::string>& words);
 
 Style styleOfOutput();
 Style styleOfErrors();

@@ -1,12 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "usage_error.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "gltf/base/printable.h"
-#include "help.h"
 #include "suggest.h"
 #include "terminal.h"
 
@@ -19,16 +16,16 @@ std::string listed(const std::vector<std::string>& words) {
   return text;
 }
 
-std::vector<std::string> optionNames(const CLI::App& command) {
+std::vector<std::string> optionNames(const Command& command) {
   std::vector<std::string> names;
-  for (const OptionHelp& option : optionsOf(command)) {
-    names.insert(names.end(), option.names.begin(), option.names.end());
+  for (const Option* option : command.shownOptions()) {
+    for (const std::string& name : option->shownNames()) names.push_back(name);
   }
   return names;
 }
 
 /// Returns text like "there is no option --colour; did you mean --color?".
-std::string noOption(const CLI::App& command, const std::string& word) {
+std::string noOption(const Command& command, const std::string& word) {
   const std::string name = word.substr(0, word.find('='));
   const bool is_long = name.starts_with("--");
   return "there is no option " + name + (is_long ? didYouMean(name, optionNames(command)) : "");
@@ -56,99 +53,91 @@ std::string synonymOf(const std::string& word) {
 }
 
 /// Returns the command line with this command before the words, for people to copy.
-std::string lineWith(const std::string& command, int argc, const char* const* argv) {
+std::string lineWith(const std::string& command, const std::vector<std::string>& words) {
   std::string line = "; did you mean: gltf-mcc " + command;
-  for (int i = 1; i < argc; ++i) line += " " + shellWord(argv[i]);
+  for (const std::string& word : words) line += " " + shellWord(word);
   return line;
 }
 
 /// Returns the help in short.
-std::string commandList(const CLI::App& app) {
-  std::string text = "\nUsage: gltf-mcc " + helpOf(app).usage + "\n\nCommands:\n";
-  for (const CLI::App* command : commandsOf(app)) {
-    text += fmt::format("  {:<12}{}\n", command->get_name(), command->get_description());
+std::string commandList(const Program& program) {
+  constexpr size_t kColumn = 12;
+  std::string text = "\nUsage: gltf-mcc " + program.root.usage + "\n\nCommands:\n";
+  for (const Command& command : program.commands) {
+    const std::string space(kColumn - std::min(kColumn, command.name.size()), ' ');
+    text += "  " + command.name + space + command.summary + "\n";
   }
   return text + "\n";
 }
 
+const Command* findCommand(const Program& program, const std::string& name) {
+  for (const Command& command : program.commands) {
+    if (command.name == name) return &command;
+  }
+  return nullptr;
+}
+
 /// Returns what is wrong with a line that names no command; empty: it has no words at all.
-std::string withoutCommand(const CLI::App& app, int argc, const char* const* argv) {
+std::string withoutCommand(const Program& program, const std::vector<std::string>& words) {
   std::vector<std::string> names;
-  for (const CLI::App* command : commandsOf(app)) names.push_back(command->get_name());
-  const std::vector<std::string> own = optionNames(app);
-  const std::vector<std::string> of_convert = optionNames(*app.get_subcommand("convert"));
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
+  for (const Command& command : program.commands) names.push_back(command.name);
+  const std::vector<std::string> own = optionNames(program.root);
+  const Command* const convert = findCommand(program, "convert");
+  for (size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
     if (word.starts_with('-')) {
       const std::string name = word.substr(0, word.find('='));
       if (contains(own, name)) {
         if (name == word && name == "--color") ++i;  // the only global option with a value
         continue;
       }
-      if (!contains(of_convert, name)) return noOption(app, word);
-      return fmt::format("name a command before {}{}", word, lineWith("convert", argc, argv));
+      if (convert == nullptr || !contains(optionNames(*convert), name)) {
+        return noOption(program.root, word);
+      }
+      return "name a command before " + word + lineWith("convert", words);
     }
     if (isModelName(word)) {
-      const char* command = i + 1 < argc ? "convert" : "inspect";
-      return fmt::format("name a command before {}: {}{}", word, listed(names),
-                         lineWith(command, argc, argv));
+      const char* command = i + 1 < words.size() ? "convert" : "inspect";
+      return "name a command before " + word + ": " + listed(names) + lineWith(command, words);
     }
     const std::string synonym = synonymOf(word);
-    return fmt::format(
-        "\"{}\" is not a command; the commands are {}{}", word, listed(names),
-        synonym.empty() ? didYouMean(word, names) : "; did you mean " + synonym + "?");
+    return "\"" + word + "\" is not a command; the commands are " + listed(names) +
+           (synonym.empty() ? didYouMean(word, names) : "; did you mean " + synonym + "?");
   }
   return "";
 }
 
-/// Returns a message about the words that are left over. CLI11 keeps them in no particular order.
-std::string leftOver(const CLI::App& app, const CLI::App& command) {
-  const std::vector<std::string> words = app.remaining(true);
+/// Returns a message about the words that are left over.
+std::string leftOver(const Command& command, const std::vector<std::string>& words) {
   for (const char* dash : {"--", "-"}) {
     for (const std::string& word : words) {
-      if (word.starts_with(dash)) return command.get_name() + ": " + noOption(command, word);
+      if (word.starts_with(dash)) return command.name + ": " + noOption(command, word);
     }
   }
-  return fmt::format("{}: does not know what to do with {}", command.get_name(), listed(words));
+  return command.name + ": does not know what to do with " + listed(words);
 }
 
-/// Returns a message about a word that an option does not accept, or an empty string when that is
-/// not the failure. CLI11's own message also lists the numbers of the words.
-std::string unknownWord(const CLI::App& command, const CLI::Error& failure) {
-  const std::string what = failure.what();
-  for (const OptionHelp& option : optionsOf(command)) {
-    const std::string& name = option.names.back();
-    if (option.choices.empty() || !what.starts_with(name + ": ")) continue;
-    const CLI::Option* given = command.get_option_no_throw(name);
-    if (given == nullptr || given->results().empty()) return "";
-    const std::string& word = given->results().back();
-    return fmt::format("{}: {} is not one of {}{}", name, word, listed(option.choices),
-                       didYouMean(word, option.choices));
-  }
-  return "";
-}
-
-std::string reasonOf(const CLI::App& app, const CLI::App& command, const CLI::Error& failure) {
-  if (dynamic_cast<const CLI::ExtrasError*>(&failure) != nullptr) return leftOver(app, command);
-  if (dynamic_cast<const CLI::ValidationError*>(&failure) != nullptr) {
-    const std::string text = unknownWord(command, failure);
-    if (!text.empty()) return text;
-  }
-  return failure.what();
+std::string reasonOf(const Parsed& parsed) {
+  if (!parsed.left_over.empty()) return leftOver(*parsed.command, parsed.left_over);
+  if (parsed.option == nullptr) return parsed.message;
+  std::vector<std::string> accepted;
+  for (const Word& word : parsed.option->words) accepted.push_back(word.text);
+  return parsed.option->shownNames().back() + ": " + parsed.word + " is not one of " +
+         listed(accepted) + didYouMean(parsed.word, accepted);
 }
 
 }  // namespace
 
-std::string usageErrorText(const CLI::App& app, const CLI::Error& failure, int argc,
-                           const char* const* argv) {
-  const std::vector<CLI::App*> chosen = app.get_subcommands();
-  const std::string help =
-      chosen.empty() ? "gltf-mcc --help" : "gltf-mcc " + chosen[0]->get_name() + " --help";
+std::string usageErrorText(const Program& program, const Parsed& parsed,
+                           const std::vector<std::string>& words) {
+  const std::string help = parsed.command == nullptr
+                               ? "gltf-mcc --help"
+                               : "gltf-mcc " + parsed.command->name + " --help";
   const std::string reason =
-      chosen.empty() ? withoutCommand(app, argc, argv) : reasonOf(app, *chosen[0], failure);
-  return inLocale(fmt::format("{} {}\n{}Run \"{}\".\n", styleOfErrors().error("gltf-mcc:"),
-                              reason.empty() ? "name a command" : gltf::printable(reason),
-                              reason.empty() ? commandList(app) : "", help));
+      parsed.command == nullptr ? withoutCommand(program, words) : reasonOf(parsed);
+  return inLocale(styleOfErrors().error("gltf-mcc:") + " " +
+                  (reason.empty() ? "name a command" : gltf::printable(reason)) + "\n" +
+                  (reason.empty() ? commandList(program) : "") + "Run \"" + help + "\".\n");
 }
 
 }  // namespace mcc::tool

@@ -2,15 +2,17 @@
 #ifndef MCC_TOOL_USAGE_ERROR_H_
 #define MCC_TOOL_USAGE_ERROR_H_
 
-#include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
+
+#include "parse.h"
 
 namespace mcc::tool {
 
-/// Returns what to print when the command line was not understood: what is wrong, what may have
-/// been meant, and which help to read. `app` is the whole program after parsing.
-std::string usageErrorText(const CLI::App& app, const CLI::Error& failure, int argc,
-                           const char* const* argv);
+/// Returns what to print when a command line was not understood: what is wrong, what may have been
+/// meant, and which help to read.
+std::string usageErrorText(const Program& program, const Parsed& parsed,
+                           const std::vector<std::string>& words);
 
 }  // namespace mcc::tool
 

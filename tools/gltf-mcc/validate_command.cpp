@@ -4,11 +4,8 @@
 #include <memory>
 
 #include "commands.h"
-#include "convert_report.h"
 #include "gltf/base/printable.h"
-#include "help.h"
-#include "json/json.h"
-#include "mcc/gltf.h"
+#include "report_file.h"
 #include "standard_streams.h"
 #include "suggest.h"
 
@@ -156,30 +153,31 @@ struct ValidateCommand {
 
 }  // namespace
 
-void addValidate(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("validate", "Check compressed files against all rules");
+void addValidate(Program& program) {
+  Command& command = program.commands.emplace_back();
   auto state = std::make_shared<ValidateCommand>();
-  command->add_option("FILES", state->files, "The files")->required()->type_name("FILE");
-  command
-      ->add_option("--max-issues", state->options.max_issues,
-                   "List at most N issues of a file, 0: all [1000]")
-      ->type_name("N");
-  addDecodedLimitOption(*command, state->options.max_decoded_bytes);
-  command->add_flag("-q,--quiet", state->common.is_quiet, "Print errors only");
-  addFormatOption(*command, state->common);
-  addColorOption(*command);
-  setHelp(
-      *command, "validate [OPTIONS] FILE…",
+  command.name = "validate";
+  command.summary = "Check compressed files against all rules";
+  command.add("FILES", "FILE", &state->files, "The files").is_required = true;
+  command.add("--max-issues", "N", &state->options.max_issues,
+              "List at most N issues of a file, 0: all [1000]");
+  addDecodedLimitOption(command, state->options.max_decoded_bytes);
+  command.addFlag("-q,--quiet", state->common.is_quiet, "Print errors only");
+  addFormatOption(command, state->common);
+  addColorOption(command);
+  command.usage = "validate [OPTIONS] FILE…";
+  command.text =
       "FILE is a .glb or .gltf file, or - for standard input. Everything that\n"
       "KHR_mesh_collapse_compression requires is checked: extension objects, the accessors they\n"
       "fill, lists of extensions, fallbacks, and payloads, which are decoded. For the rest of a\n"
       "file, use Khronos' glTF validator. --format json prints reports in its format: one object,\n"
       "or an array of them for several FILEs.\n"
-      "Exit status: 0 no errors (warnings do not count); 1 errors; 2 wrong usage.",
+      "Exit status: 0 no errors (warnings do not count); 1 errors; 2 wrong usage.";
+  command.examples =
       "validate small.glb\n"
       "validate --format json small.glb\n"
-      "validate -q out/*.glb");
-  command->callback([state, &status]() { status = state->run(); });
+      "validate -q out/*.glb";
+  command.run = [state]() { return state->run(); };
 }
 
 }  // namespace mcc::tool

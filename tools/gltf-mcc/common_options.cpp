@@ -1,0 +1,117 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Options that several commands have.
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include "commands.h"
+
+namespace mcc::tool {
+
+void addColorOption(Command& command) {
+  static std::string read_already;  // by main(), before parsing
+  command.addWords("--color", read_already, {"auto", "always", "never"},
+                   "Colours: on a terminal, always, or never [auto]");
+}
+
+void addFormatOption(Command& command, CommonOptions& options) {
+  command.addWords("--format", options.format,
+                   {{"pretty", Format::kPretty},
+                    {"md", Format::kMarkdown},
+                    {"csv", Format::kCsv},
+                    {"json", Format::kJson}},
+                   "How tables are printed");
+}
+
+void addDecodedLimitOption(Command& command, uint64_t& max_decoded_bytes) {
+  command
+      .add("--max-decoded-bytes", "N", &max_decoded_bytes,
+           "Most bytes that a file may decode to [1024 per byte of the file]")
+      .limits = between(1, std::numeric_limits<uint64_t>::max());
+}
+
+void addVerbosityOptions(Command& command, CommonOptions& options) {
+  command.addFlag("-q,--quiet", options.is_quiet, "Print errors only");
+  command.addFlag("-v,--verbose", options.is_verbose, "Print more");
+}
+
+void addJobs(Command& command, uint32_t& count, const char* help) {
+  command.add("-j,--jobs", "N", &count, help).limits = between(1, 1024);
+}
+
+void addAttributeBits(Command& command, gltf::ConvertOptions& options) {
+  const auto add = [&](const std::string& attribute, uint8_t& bits, uint64_t low, uint64_t high) {
+    const std::string name = "--quantize-" + attribute;
+    const std::string help =
+        "Bits of " + attribute + ", 0 keeps all [" + std::to_string(bits) + "]";
+    command.add(name.c_str(), "N", &bits, help).limits = {Limits::kZeroOrIntegers, low, high, 0, 0};
+  };
+  add("position", options.bits.position, 1, 24);
+  add("normal", options.bits.normal, 2, 16);
+  add("texcoord", options.bits.texcoord, 1, 24);
+  add("color", options.bits.color, 1, 24);
+  add("tangent", options.bits.tangent, 2, 16);
+  add("weight", options.bits.weight, 1, 24);
+}
+
+void addPreference(Command& command, gltf::ConvertOptions& options) {
+  command.addWords("--prefer", options.prefer,
+                   {{"size", Preference::kSize},
+                    {"balanced", Preference::kBalanced},
+                    {"speed", Preference::kSpeed}},
+                   "Fewer bytes, or less time to decode [balanced]");
+}
+
+namespace {
+
+/// Adds --max-error, --max-error-relative and --lattice, which each replace --quantize-position.
+void addPositionPromises(Command& command, gltf::ConvertOptions& options) {
+  const auto addError = [&](const char* name, bool is_relative, const char* help) -> Option& {
+    Option& option = command.add(name, "X", &options.max_position_error, help);
+    option.limits.kind = Limits::kAboveZero;
+    option.then = [&options, is_relative]() { options.is_error_relative = is_relative; };
+    return option;
+  };
+  addError("--max-error", false, "No position moves farther than X, in units of the model")
+      .excludes = {"--lossless", "--quantize-position", "--max-error-relative", "--lattice"};
+  addError("--max-error-relative", true, "The same, X is a fraction of the longest side")
+      .excludes = {"--lossless", "--quantize-position", "--lattice"};
+  const auto numbers = std::make_shared<std::vector<float>>();
+  Option& lattice = command.add("--lattice", "X,Y,Z,STEP", numbers.get(),
+                                "Lattice of positions, for tiles that must fit together");
+  lattice.count = 4;
+  lattice.is_list = true;
+  lattice.excludes = {"--lossless", "--quantize-position"};
+  lattice.then = [numbers, &options]() {
+    Lattice given;
+    std::copy_n(numbers->begin(), 3, given.origin);
+    given.step = (*numbers)[3];
+    if (!isValidLattice(given, 3)) {
+      throw UsageError("--lattice", "needs finite numbers, and a step that is greater than 0");
+    }
+    options.position_lattice = given;
+  };
+}
+
+}  // namespace
+
+void addQuantization(Command& command, gltf::ConvertOptions& options) {
+  addAttributeBits(command, options);
+  command.addFlag("--lossless", options.lossless, "Keep every bit of every number").excludes = {
+      "--quantize-position", "--quantize-normal",  "--quantize-texcoord",
+      "--quantize-color",    "--quantize-tangent", "--quantize-weight"};
+  addPositionPromises(command, options);
+  command.addWords("--grid", options.grid,
+                   {{"mesh", gltf::Grid::kMesh},
+                    {"scene", gltf::Grid::kScene},
+                    {"primitive", gltf::Grid::kPrimitive}},
+                   "What shares a lattice of positions, without cracks [mesh]");
+  addPreference(command, options);
+  command
+      .add("--block", "N", &options.block_triangles,
+           "Cut large surfaces into blocks of N triangles, 0 never [262144]")
+      .limits = between(0, kBlocksByPreference - 1);
+}
+
+}  // namespace mcc::tool
