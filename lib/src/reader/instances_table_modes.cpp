@@ -6,8 +6,8 @@
 #if !defined(MCC_COMPACT)
 namespace mcc {
 
-#define MCC_INSTANCE(modes) MCC_MODES_INSTANCE(, StreamsIo, modes)
-MCC_COMPILED_TABLE_MODES(MCC_INSTANCE)
+#define MCC_INSTANCE(which, modes) MCC_MODES_INSTANCE(, StreamsIo, fixedModes(which, modes))
+MCC_TABLE_MODES(MCC_INSTANCE)
 
 }  // namespace mcc
 #endif
