@@ -7,7 +7,6 @@
 #include "tiles/convert_tile.h"
 #include "tiles/matrix.h"
 #include "tiles/tileset_builder.h"
-#include "tiles/upgrade.h"
 
 namespace mcc::test {
 namespace {
@@ -114,66 +113,6 @@ TEST(DamagedTiles, AlignmentIsRepaired) {
   const std::string text(output.begin(), output.end());
   EXPECT_NE(text.find("{\"BATCH_LENGTH\":1} "), std::string::npos);
   EXPECT_NE(text.find("{\"a\":[1]} "), std::string::npos);
-}
-
-/// Makes a GLB of a b3dm as far as that is possible. What is made must be a document.
-void upgradeAny(const Bytes& b3dm) {
-  Bytes glb;
-  std::string kept_because;
-  if (!tiles::upgradeB3dm(b3dm, "Z", glb, kept_because).ok()) return;
-  EXPECT_NE(glb.empty(), kept_because.empty());
-  if (glb.empty()) return;
-  gltf::Document document;
-  const gltf::Result loaded = gltf::loadDocument(glb, nullptr, document);
-  EXPECT_TRUE(loaded.ok()) << loaded.message();
-}
-
-/// A b3dm with all that upgradeB3dm() reads.
-Bytes makeFullB3dm() {
-  gltf::test::Builder builder;
-  Json primitive = gltf::test::Sheet(1).addTo(builder);
-  primitive["attributes"]["_BATCHID"] = builder.addAccessor(
-      std::vector<uint16_t>{0, 1, 1, 0}, gltf::test::kUnsignedShort, "SCALAR", 4);
-  builder.addMesh({primitive});
-  Tables tables;
-  tables.feature_json =
-      paddedJson(R"({"BATCH_LENGTH":{"byteOffset":12},"RTC_CENTER":{"byteOffset":0}})", 28);
-  tables.feature_binary = gltf::test::bytesOf(std::vector<float>{1, 2, 3});
-  appendNumber(tables.feature_binary, 2);
-  tables.batch_json =
-      paddedJson(R"({"a":["x",null],"b":[[1,2],[-3]],"c":[true,false],"d":{"byteOffset":0,)"
-                 R"("componentType":"DOUBLE","type":"SCALAR"},"e e":[["u","v"],["w",""]]})",
-                 0);
-  tables.batch_binary = gltf::test::bytesOf(std::vector<double>{0.5, -3});
-  return makeModelTile("b3dm", tables, builder.toGlb());
-}
-
-TEST(DamagedTiles, UpgradeOfEveryTruncation) {
-  const Bytes b3dm = makeFullB3dm();
-  Bytes glb;
-  std::string kept_because;
-  ASSERT_TRUE(tiles::upgradeB3dm(b3dm, "Z", glb, kept_because).ok());
-  ASSERT_EQ(kept_because, "");
-  for (size_t length = 0; length < b3dm.size(); ++length) {
-    Bytes cut(b3dm.begin(), b3dm.begin() + static_cast<ptrdiff_t>(length));
-    upgradeAny(cut);
-    if (length < 12) continue;
-    // The same with a header that agrees.
-    const auto size = static_cast<uint32_t>(length);
-    std::memcpy(cut.data() + 8, &size, 4);
-    upgradeAny(cut);
-  }
-}
-
-TEST(DamagedTiles, UpgradeOfFlippedBytes) {
-  const Bytes b3dm = makeFullB3dm();
-  for (size_t at = 0; at < b3dm.size(); ++at) {
-    for (const int change : {0x01, 0x02, 0x08, 0x10, 0x20, 0x80, 0xff}) {
-      Bytes damaged = b3dm;
-      damaged[at] ^= static_cast<uint8_t>(change);
-      upgradeAny(damaged);
-    }
-  }
 }
 
 TEST(Matrix, LargestScale) {

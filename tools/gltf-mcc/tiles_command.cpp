@@ -56,8 +56,7 @@ void addTiles(CLI::App& app, int& status) {
                    "Make only the K-th of N parts; the parts of several machines make a whole")
       ->type_name("K/N");
   command->add_flag("--wait", state->waits, "Wait for other runs that write to the same folder");
-  command->add_flag("--to-glb", state->makes_glb,
-                    "Make a .glb of 3D Tiles 1.1 of each .b3dm, and rename it in the tilesets");
+  CLI::Option* to_glb = command->add_flag("--to-glb")->group("");
   command->add_option("--max-tiles", state->max_tiles, "Refuse tilesets with more tiles [16777216]")
       ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 40).description(""))
       ->type_name("N");
@@ -70,7 +69,7 @@ void addTiles(CLI::App& app, int& status) {
       "Writes the whole folder of the tileset to OUT: glTF, b3dm, i3dm and cmpt that its tiles "
       "show\n"
       "are compressed, also those of external tilesets; every other file is copied. URIs stay the\n"
-      "same, unless --to-glb is given.\n"
+      "same.\n"
       "The accuracy of positions follows from the tile's geometric error. A tile without one, as\n"
       "leaves are, takes half of its nearest ancestor's. Tiles of one level with the same "
       "transform\n"
@@ -83,7 +82,13 @@ void addTiles(CLI::App& app, int& status) {
       "tiles -j 8 terrain/tileset.json out --error-share 0.01 --report sizes.json\n"
       "tiles city/tileset.json small-city --quantize-position 12\n"
       "tiles city/tileset.json small-city --part 3/8");
-  command->callback([state, bits, &status]() {
+  command->callback([state, bits, to_glb, &status]() {
+    if (to_glb->count() != 0) {
+      throw CLI::ValidationError(
+          "--to-glb",
+          "is no option any more; upgrade b3dm before: npx 3d-tiles-tools upgrade "
+          "--targetVersion 1.1 -i IN/tileset.json -o DIR/tileset.json");
+    }
     if (isStandardStream(state->report)) {
       throw CLI::ValidationError("--report", "takes the name of a file; --format json prints it");
     }

@@ -24,8 +24,6 @@
 #include "tiles/convert_tile.h"
 #include "tiles/record.h"
 #include "tiles/tile_file.h"
-#include "tiles/to_glb.h"
-#include "tiles/upgrade.h"
 #include "tiles_report.h"
 
 namespace mcc::tool {
@@ -49,7 +47,6 @@ class TilesRun {
   enum class Role : uint8_t {
     kNone,  ///< nothing: another part has it, or its place belongs to somebody else
     kCopy,
-    kTileset,  ///< a copy in which names of contents change
     kModel,
     kGltf,  ///< a model whose buffers are other files
   };
@@ -62,13 +59,11 @@ class TilesRun {
   void addLevelNotes();
   void assignRoles();
   void assignGltf();
-  Result checkNewNames() const;
   Result claimOutputs();
   void makeAll();
   void makeOne(uint32_t file);
   Result makeModel(uint32_t file);
   Result makeGltf(uint32_t file);
-  Result makeTileset(uint32_t file);
   Result copyOne(uint32_t file);
   Result convertBytes(uint32_t file, std::vector<uint8_t> bytes, std::vector<uint8_t>& output,
                       tiles::TileFigures& figures, std::vector<std::string>& notes) const;
@@ -88,8 +83,6 @@ class TilesRun {
   int printResults();
 
   std::string name(uint32_t file) const { return std::string(result_.table.name(file)); }
-  /// The name under which a file is stored.
-  std::string newName(uint32_t file) const;
   bool isModel(uint32_t file) const {
     return roles_[file] == Role::kModel || roles_[file] == Role::kGltf;
   }
@@ -155,14 +148,6 @@ Result TilesRun::walk() {
                           options_.max_tiles);
 }
 
-std::string TilesRun::newName(uint32_t file) const {
-  const tiles::TileDemand* demand = result_.walk.demandOf(file);
-  if (options_.makes_glb && demand != nullptr && demand->is_renamed) {
-    if (const auto renamed = tiles::glbNameOf(result_.table.name(file))) return *renamed;
-  }
-  return name(file);
-}
-
 void TilesRun::assignRoles() {
   const tiles::FileTable& table = result_.table;
   result_.files.resize(table.size());
@@ -171,9 +156,6 @@ void TilesRun::assignRoles() {
     if (!options_.part.has(table.name(i))) continue;
     const bool is_shown = result_.walk.demandOf(i) != nullptr;
     roles_[i] = is_shown ? Role::kModel : Role::kCopy;
-  }
-  for (const uint32_t tileset : result_.walk.tilesets()) {
-    if (options_.makes_glb && roles_[tileset] != Role::kNone) roles_[tileset] = Role::kTileset;
   }
   assignGltf();
 }
@@ -225,20 +207,6 @@ void TilesRun::assignGltf() {
   }
 }
 
-/// Makes sure that no file gets the name of another one.
-Result TilesRun::checkNewNames() const {
-  for (uint32_t i = 0; i < result_.table.size(); ++i) {
-    const std::string renamed = newName(i);
-    std::error_code code;
-    if (renamed != result_.table.name(i) && fs::exists(in(renamed), code)) {
-      return {gltf::textOf(in(renamed)),
-              "is there already, and --to-glb would give its name to \"" + name(i) +
-                  "\"; rename one of the two"};
-    }
-  }
-  return {};
-}
-
 std::vector<std::string> TilesRun::inputsOf(uint32_t file) const {
   std::vector<std::string> names = {name(file)};
   const auto buffers = gltfs_.find(file);
@@ -250,7 +218,7 @@ std::vector<std::string> TilesRun::inputsOf(uint32_t file) const {
 
 /// Returns every name that may be written for a file.
 std::vector<std::string> TilesRun::outputsOf(uint32_t file) const {
-  if (roles_[file] != Role::kGltf) return {newName(file)};
+  if (roles_[file] != Role::kGltf) return {name(file)};
   std::vector<std::string> names = inputsOf(file);
   const std::string bin = genericText(gltf::pathOf(name(file)).replace_extension(".bin"));
   if (std::find(names.begin(), names.end(), bin) == names.end()) names.push_back(bin);
@@ -292,9 +260,7 @@ Result TilesRun::claimOutputs() {
 /// Returns a text that is equal as long as everything is that the output of a file depends on,
 /// apart from the file. There is one for each file in the record, so it is short.
 std::string TilesRun::makerOf(uint32_t file) const {
-  if (!isModel(file)) {
-    return std::string(MCC_VERSION) + (roles_[file] == Role::kTileset ? " to-glb" : " copy");
-  }
+  if (!isModel(file)) return std::string(MCC_VERSION) + " copy";
   const tiles::TileDemand& demand = *result_.walk.demandOf(file);
   std::string all = settings_;
   if (!options_.has_fixed_bits) {
@@ -310,8 +276,7 @@ std::string TilesRun::makerOf(uint32_t file) const {
 
 bool TilesRun::takeUpToDate(uint32_t file) {
   if (options_.is_forced) return false;
-  const std::optional<Json> made =
-      record_->findUpToDate(newName(file), makerOf(file), inputsOf(file));
+  const std::optional<Json> made = record_->findUpToDate(name(file), makerOf(file), inputsOf(file));
   if (!made) return false;
   TilesFile taken;
   std::vector<std::string> notes;
@@ -348,7 +313,7 @@ void TilesRun::keep(uint32_t file, const std::vector<std::string>& notes) {
                      {"promised", {figures.promised_error, figures.largest_promise}},
                      {"measured", figures.measured_error},
                      {"notes", notes}};
-  record_->add(newName(file), makerOf(file), inputsOf(file), outputsOf(file), json);
+  record_->add(name(file), makerOf(file), inputsOf(file), outputsOf(file), json);
 }
 
 void TilesRun::addNotes(uint32_t file, const std::vector<std::string>& notes) {
@@ -405,7 +370,7 @@ Result TilesRun::copyOne(uint32_t file) {
       notes.push_back("its buffer \"" + inputs[i] + "\" is not copied: " + found.what);
       continue;
     }
-    MCC_GLTF_TRY(store(i == 0 ? newName(file) : inputs[i], bytes));
+    MCC_GLTF_TRY(store(i == 0 ? name(file) : inputs[i], bytes));
     made.input_bytes += bytes.size();
     made.output_bytes += bytes.size();
   }
@@ -451,18 +416,6 @@ Result TilesRun::makeGltf(uint32_t file) {
 Result TilesRun::convertBytes(uint32_t file, std::vector<uint8_t> bytes,
                               std::vector<uint8_t>& output, tiles::TileFigures& figures,
                               std::vector<std::string>& notes) const {
-  const bool is_b3dm = tiles::kindOf(bytes) == tiles::TileKind::kB3dm;
-  if (options_.makes_glb && is_b3dm) {
-    std::string because = "its tileset has gltfUpAxis, which 3D Tiles 1.1 does not have";
-    std::vector<uint8_t> glb;
-    if (result_.walk.demandOf(file)->up_axis == tiles::UpAxis::kY) {
-      MCC_GLTF_TRY(tiles::upgradeB3dm(bytes, "", glb, because, options_.convert.decoders));
-    }
-    if (glb.empty())
-      notes.push_back("stays a b3dm: " + because);
-    else
-      bytes = std::move(glb);
-  }
   const auto choose = [&](std::span<const uint8_t> glb, const tiles::TileModel& model,
                           tiles::Accuracy& accuracy) {
     return chooseFor(file, glb, model, accuracy);
@@ -480,24 +433,12 @@ Result TilesRun::makeModel(uint32_t file) {
   std::vector<std::string> notes;
   MCC_GLTF_TRY(
       gltf::inFile(in(name(file)), convertBytes(file, bytes, output, made.figures, notes)));
-  MCC_GLTF_TRY(store(newName(file), output));
+  MCC_GLTF_TRY(store(name(file), output));
   made.input_bytes = bytes.size();
   made.output_bytes = output.size();
   made.outcome = output == bytes ? TilesOutcome::kCopied : TilesOutcome::kConverted;
   addNotes(file, notes);
   keep(file, notes);
-  return {};
-}
-
-Result TilesRun::makeTileset(uint32_t file) {
-  TilesFile& made = result_.files[file];
-  std::vector<uint8_t> json;
-  MCC_GLTF_TRY(tiles::renameContents(input_, name(file), options_.max_tiles, json));
-  MCC_GLTF_TRY(store(name(file), json));
-  made.input_bytes = result_.table.bytes(file);
-  made.output_bytes = json.size();
-  made.outcome = TilesOutcome::kCopied;
-  keep(file, {});
   return {};
 }
 
@@ -509,7 +450,6 @@ void TilesRun::makeOne(uint32_t file) {
     switch (role) {
       case Role::kModel: return makeModel(file);
       case Role::kGltf: return makeGltf(file);
-      case Role::kTileset: return makeTileset(file);
       default: break;
     }
     MCC_GLTF_TRY(copyOne(file));
@@ -621,14 +561,12 @@ int TilesRun::run() {
   Result ready = openFolders();
   if (ready.ok() && !options_.report.empty()) ready = checkReport(options_.report);
   if (ready.ok()) ready = walk();
-  if (ready.ok()) ready = checkNewNames();
   if (!ready.ok()) return reportFailure(ready);
   result_.input = options_.input;
   result_.output = options_.output;
   result_.settings = gltf::optionsJson(options_.convert);
   result_.settings["error_share"] =
       options_.has_fixed_bits ? Json(nullptr) : Json(options_.error_share);
-  if (options_.makes_glb) result_.settings["to_glb"] = true;
   result_.part = options_.part.name();
   settings_ = result_.settings.dump();
   addLevelNotes();

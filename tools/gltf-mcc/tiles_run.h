@@ -24,7 +24,6 @@ struct TilesOptions {
   uint32_t job_count = 1;       ///< the results do not depend on it
   bool is_forced = false;
   tiles::Part part;        ///< of the files, which this run makes
-  bool makes_glb = false;  ///< b3dm become GLBs of 3D Tiles 1.1
   bool waits = false;      ///< for other runs that write to the folder
   uint64_t max_tiles = tiles::kMostTiles;
 };

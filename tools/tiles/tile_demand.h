@@ -31,7 +31,6 @@ struct TileUse {
 struct TileDemand {
   uint32_t level = 0;  ///< of the first tile that shows it
   UpAxis up_axis = UpAxis::kY;
-  bool is_renamed = false;       ///< --to-glb renames all URIs that name it
   bool has_group = false;        ///< false: several tiles show it, and they differ
   uint64_t group = 0;            ///< key of the tiles whose grids can be one
   std::array<double, 3> offset;  ///< from the origin of the group's grid, in the tile's coordinates

@@ -254,19 +254,6 @@ Result TileFile::readComposite(uint32_t index) {
   return {};
 }
 
-std::array<std::span<const uint8_t>, 4> TileFile::tablesOf(size_t model) const {
-  std::array<std::span<const uint8_t>, 4> tables;
-  for (const Node& node : nodes_) {
-    if (node.model != model) continue;
-    uint64_t at = node.table_begin;
-    for (size_t i = 0; i < 4; ++i) {
-      tables[i] = file_.subspan(at, node.table_bytes[i]);
-      at += node.table_bytes[i];
-    }
-  }
-  return tables;
-}
-
 /// Pads each table that has bytes: JSON with spaces, other bytes with zeros.
 void TileFile::appendModelTile(const Node& node, const std::vector<uint8_t>& model,
                                std::vector<uint8_t>& tile) const {

@@ -38,10 +38,6 @@ class TileFile {
   const std::vector<TileModel>& models() const { return models_; }
   bool hasUri() const { return has_uri_; }
 
-  /// Returns the tables next to a model of a b3dm or i3dm: feature table as JSON and binary, batch
-  /// table as JSON and binary. They are empty next to other models.
-  std::array<std::span<const uint8_t>, 4> tablesOf(size_t model) const;
-
   /// Returns the file with other models. An empty one leaves the model as it was. Tables are kept
   /// byte for byte; paddings, lengths and the alignment to 8 bytes become those that the
   /// specification asks for.

@@ -47,7 +47,6 @@ class TilesetHandler final : public nlohmann::json_sax<Json> {
 
   bool key(string_t& name) override {
     key_ = std::move(name);
-    key_end_ = file_.position();
     return true;
   }
 
@@ -243,17 +242,11 @@ class TilesetHandler final : public nlohmann::json_sax<Json> {
     content.uri_length = static_cast<uint32_t>(text.size());
     content.is_uri_wrong = false;
     content.is_url = is_url;
-    content.token_begin = key_end_;
-    content.token_end = file_.position();
     out_.texts += text;
   }
 
   void stringOfAsset(const std::string& text) {
     if (key_ == "gltfUpAxis") out_.up_axis = text;
-    if (key_ != "version") return;
-    out_.version = text;
-    out_.version_begin = key_end_;
-    out_.version_end = file_.position();
   }
 
   bool number(double value) {
@@ -321,7 +314,6 @@ class TilesetHandler final : public nlohmann::json_sax<Json> {
   std::vector<Scope> scopes_;
   std::vector<OpenTile> open_tiles_;
   std::string key_;
-  uint64_t key_end_ = 0;
   Place list_place_ = Place::kContents;
   uint32_t list_size_ = 0;
   Matrix transform_ = kIdentity;

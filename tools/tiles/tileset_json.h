@@ -45,8 +45,6 @@ struct TilesetJson {
     uint32_t uri_length = 0;
     bool is_uri_wrong = true;  ///< it has no URI that is a string
     bool is_url = false;       ///< the member is called url, as until version 1.0
-    uint64_t token_begin = 0;  ///< bytes of the file from the key to the end of the URI
-    uint64_t token_end = 0;
   };
 
   /// Something in a tile that is left out.
@@ -65,9 +63,6 @@ struct TilesetJson {
   std::string texts;
   double geometric_error = -1;  ///< of the tileset
   std::string up_axis;          ///< asset.gltfUpAxis
-  std::string version;          ///< asset.version
-  uint64_t version_begin = 0;   ///< bytes of the file from the key to the end of the version
-  uint64_t version_end = 0;
   std::string schema_uri;
   uint64_t schema_begin = 0;  ///< bytes of the object `schema` in the file; equal: it has none
   uint64_t schema_end = 0;

@@ -23,7 +23,6 @@
 #include "tiles/subtree.h"
 #include "tiles/tile_uri.h"
 #include "tiles/tileset_json.h"
-#include "tiles/to_glb.h"
 
 namespace mcc::tiles {
 
@@ -398,20 +397,18 @@ class TilesetWalker {
     }
     const uint32_t file = files_.find(path);
     if (file != kNone && isTileset(file)) return addTileset(named, file, use, inherited_error);
-    // Also what another part has, or what is missing, decides about the lattice of its group, so that
-    // all parts come to the same one.
+    // Also what another part has, or what is missing, decides about the lattice of its group, so
+    // that all parts come to the same one.
     TileDemand demand;
     if (file != kNone && out_.demand_numbers_[file] != kNone) {
       demand = out_.demands_[out_.demand_numbers_[file]];
     }
     const bool is_first = demand.scale < 0;
-    const bool is_renamed = glbNameOf(named.uri).has_value() && (is_first || demand.is_renamed);
     const size_t group_count = out_.groups_.size();
     out_.groups_.add(use, demand);
     // Groups of a tileset's first place are as many as its tiles say; those of further ones take
     // memory that nothing in the files accounts for.
     if (is_repeated_ && out_.groups_.size() != group_count) MCC_GLTF_TRY(spend(kTilesPerGroup));
-    demand.is_renamed = is_renamed;
     if (file == kNone) {
       const bool is_of_other_part = isNameOfLeaf(path) && !part_.has(path);
       if (!is_of_other_part) failAt(named.where, "names no file that is there: \"" + path + "\"");

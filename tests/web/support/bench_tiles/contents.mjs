@@ -6,12 +6,10 @@ import { createRequire } from 'node:module';
 import path from 'node:path';
 import { ROOT } from '../paths.mjs';
 
-const FOLDER = path.join(ROOT, 'tools/bench-tiles.d');
-const ours = createRequire(path.join(FOLDER, 'package.json'));
-
+const ours = createRequire(import.meta.url);
 export const { GltfUtilities, TileFormats } = ours('3d-tiles-tools');
 export const toolsVersions = () => Object.fromEntries(['3d-tiles-tools', 'gltf-pipeline', 'draco3d'].map((name) => [
-  name, JSON.parse(readFileSync(path.join(FOLDER, `node_modules/${name}/package.json`))).version]));
+  name, JSON.parse(readFileSync(path.join(ROOT, `tests/web/node_modules/${name}/package.json`))).version]));
 
 const magicOf = (bytes) => bytes.toString('latin1', 0, 4);
 
