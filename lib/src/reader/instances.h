@@ -37,8 +37,7 @@ MCC_MODES_INSTANCE(extern, CompactIo, kAnyModes)
 #define MCC_EXTERN_MODES(which, modes) \
   MCC_MODES_INSTANCE(extern, StreamsIo, fixedModes(which, modes))
 MCC_PLAIN_MODES(MCC_EXTERN_MODES)
-MCC_SHEAR_MODES(MCC_EXTERN_MODES)
-MCC_TABLE_MODES(MCC_EXTERN_MODES)
+MCC_KIND_MODES(MCC_EXTERN_MODES)
 #undef MCC_EXTERN_MODES
 
 }  // namespace mcc

@@ -78,16 +78,15 @@ struct PieceTruth {
   const uint32_t* wedge_order = nullptr;     ///< wedge by place
 };
 
-/// The inner loops of positions that are compiled for an Io with kFast; the first that fits is taken.
-/// USE(which, modes): see fixedModes(). docs/performance.md says what each is worth.
+/// The inner loops of positions that are compiled for an Io with kFast; the first that fits is
+/// taken. USE(which, modes): see fixedModes(). docs/performance.md says what each is worth.
 #define MCC_PLAIN_MODES(USE)               \
   USE(kLoopModes, 0)                       \
   USE(kLoopModes, position_mode::kWeights) \
   USE(kLoopModes, position_mode::kWeights | position_mode::kSelect)
-#define MCC_SHEAR_MODES(USE)                                       \
-  USE(kLoopModes, position_mode::kWeights | position_mode::kShear) \
-  USE(position_mode::kKinds, position_mode::kShear)
-#define MCC_TABLE_MODES(USE)                                        \
+#define MCC_KIND_MODES(USE)                                         \
+  USE(kLoopModes, position_mode::kWeights | position_mode::kShear)  \
+  USE(position_mode::kKinds, position_mode::kShear)                 \
   USE(position_mode::kKinds, position_mode::kPalette)               \
   USE(kLoopModes, position_mode::kWeights | position_mode::kPlanes) \
   USE(position_mode::kKinds, position_mode::kPlanes)
@@ -429,8 +428,7 @@ Status PieceCoder<Io>::runPositions(const PositionParameters& parameters, const 
   if ((parameters.modes & (which)) == (modes_)) \
     return runModes<fixedModes(which, modes_)>(parameters, truth);
     MCC_PLAIN_MODES(MCC_TRY_MODES)
-    MCC_SHEAR_MODES(MCC_TRY_MODES)
-    MCC_TABLE_MODES(MCC_TRY_MODES)
+    MCC_KIND_MODES(MCC_TRY_MODES)
 #undef MCC_TRY_MODES
     return fail(Error::kBadHeader, "the modes of the positions do not go together");
   } else {
