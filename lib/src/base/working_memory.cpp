@@ -14,7 +14,7 @@ namespace mcc {
 namespace {
 
 constexpr size_t kLineBytes = 64;
-constexpr size_t kLargest = SIZE_MAX / 4;
+constexpr size_t kLargestMemory = SIZE_MAX / 4;
 
 constexpr size_t roundUp(size_t bytes, size_t unit) { return (bytes + unit - 1) / unit * unit; }
 
@@ -75,7 +75,7 @@ bool WorkingMemory::pays(uint64_t expected_bytes) {
 
 void* WorkingMemory::allocate(size_t bytes) {
   if (bytes < kSmallBytes) return std::malloc(bytes);
-  if (bytes > kLargest) return nullptr;
+  if (bytes > kLargestMemory) return nullptr;
   if (bytes >= kLargeBytes) return mapPages(roundUp(bytes, kPageBytes));
   bytes = roundUp(bytes, kLineBytes);
   for (int attempt = 0; attempt < 2; ++attempt) {

@@ -7,9 +7,6 @@
 namespace mcc {
 namespace {
 
-constexpr uint32_t nextCorner(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
-constexpr uint32_t prevCorner(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
-
 /// Digons as circular lists of nodes, see mc_codes.h. Here gate[i] is the half-edge (a_i -> a_i+1)
 /// of the triangle on the side of the mc-vertex; the triangle of its twin is still to be
 /// contracted.

@@ -5,11 +5,10 @@
 #include <tuple>
 #include <utility>
 
+#include "mesh/enc_closed_mesh.h"
+
 namespace mcc {
 namespace {
-
-constexpr uint32_t nextCorner(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
-constexpr uint32_t prevCorner(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 /// Visits the faces in the order in which PivotCoder codes them.
 class PivotLister {

@@ -187,30 +187,25 @@ static_assert(SymbolIo<CostIo>);
 /// one, or both ways at once, so that the smaller can be chosen. Also counts the cost.
 class EncoderIo : public CostIo {
  public:
-  using Burst = SameIo<EncoderIo>;
+  using Burst = EncoderIo&;
   using CodesBurst = SameIo<EncoderIo>;
+  EncoderIo() : EncoderIo(false, false) {}  ///< only counts the cost
   explicit EncoderIo(bool single) : EncoderIo(!single, single) {}
-  EncoderIo(bool three, bool single) : three_(three), single_(single) {}
+  EncoderIo(bool three, bool single) : three_(three), single_(single), writes_(three || single) {}
 
   bool bit(BitModel& model, bool truth) {
-    if (three_) codes_.bit(model, truth);
-    if (single_) single_codes_.bit(model, truth);
+    if (writes_) writeBit(model, truth);
     return CostIo::bit(model, truth);
   }
 
   template <uint32_t kState>
   uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t truth) {
-    if (three_) tokens_.token(kState, row.start(truth), row.frequency(truth));
-    if (single_) single_codes_.symbol(row.start(truth), row.frequency(truth), kTokenBits);
+    if (writes_) writeToken(kState, row.start(truth), row.frequency(truth));
     return CostIo::token<kState>(row, schedule, truth);
   }
 
   uint32_t raw(uint32_t bits, uint32_t truth) {
-    if (three_) raw_.write(bits, truth);
-    for (uint32_t done = 0; single_ && done < bits; done += 16) {
-      const uint32_t count = std::min(bits - done, 16u);
-      single_codes_.symbol((truth >> done) & ((1u << count) - 1), 1, count);
-    }
+    if (writes_) writeRaw(bits, truth);
     return CostIo::raw(bits, truth);
   }
 
@@ -219,6 +214,10 @@ class EncoderIo : public CostIo {
     if (sign && truth != 0) raw(1, negative);
     return truth;
   }
+
+  void take(EncoderIo&) {}
+  void giveBack(EncoderIo&) {}
+  bool hasRoom(uint32_t) const { return true; }
 
   struct Streams {
     std::vector<uint8_t> codes;
@@ -234,8 +233,26 @@ class EncoderIo : public CostIo {
   Streams finishSingle() { return {single_codes_.finish(), {}, {}}; }
 
  private:
+  // Trials are most of the work of the writer, and they write nothing: this keeps their part short.
+  MCC_OUT_OF_LINE void writeBit(const BitModel& model, bool one) {
+    if (three_) codes_.bit(model, one);
+    if (single_) single_codes_.bit(model, one);
+  }
+  MCC_OUT_OF_LINE void writeToken(uint32_t state, uint32_t start, uint32_t frequency) {
+    if (three_) tokens_.token(state, start, frequency);
+    if (single_) single_codes_.symbol(start, frequency, kTokenBits);
+  }
+  MCC_OUT_OF_LINE void writeRaw(uint32_t bits, uint32_t value) {
+    if (three_) raw_.write(bits, value);
+    for (uint32_t done = 0; single_ && done < bits; done += 16) {
+      const uint32_t count = std::min(bits - done, 16u);
+      single_codes_.symbol((value >> done) & ((1u << count) - 1), 1, count);
+    }
+  }
+
   const bool three_;
   const bool single_;
+  const bool writes_;
   RangeEncoder codes_;
   RangeEncoder single_codes_;
   RansEncoder tokens_;

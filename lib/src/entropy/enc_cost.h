@@ -38,10 +38,9 @@ inline constexpr std::array<uint32_t, 1025> kLogTable = makeLogTable();
 /// Returns the cost of an event of probability `numerator` / 2^bits, in units of 1/65536 bit.
 /// `numerator` must be at least 1.
 constexpr uint32_t costOf(uint32_t numerator, uint32_t bits) {
-  const uint32_t width = static_cast<uint32_t>(std::bit_width(numerator));  // 1..32
-  const uint64_t mantissa = (uint64_t{numerator} << 32) >> width;           // [2^31, 2^32)
-  const uint32_t index = static_cast<uint32_t>((mantissa - (uint64_t{1} << 31)) >> 21);
-  return (bits - (width - 1)) * kCostOne - kLogTable[index];
+  const uint32_t zeros = static_cast<uint32_t>(std::countl_zero(numerator | 1));
+  const uint32_t index = ((numerator << zeros) >> 21) - 1024;
+  return (bits + zeros - 31) * kCostOne - kLogTable[index];
 }
 
 }  // namespace mcc

@@ -4,8 +4,8 @@
 //
 //   StreamsIo    the reader's: reads the symbols of a payload             entropy/decoder_io.h
 //   CompactIo    the same, where one coder has all symbols or code counts entropy/decoder_io.h
-//   EncoderIo    the writer's: writes them                                entropy/enc_coder.h
-//   CostIo       the writer's trials: counts what they would take         entropy/enc_coder.h
+//   EncoderIo    the writer's: writes them, or counts what they would take entropy/enc_coder.h
+//   CostIo       what counts in it, and in the trials of positions        entropy/enc_coder.h
 //
 // or one of the tests'. An Io is given the symbol (`truth`) and returns it; a decoder ignores what
 // it is given and returns what it reads. Both sides therefore run the same code.           [A.3]

@@ -27,7 +27,7 @@ int32_t lowestBit(uint32_t bits) {
   return lastPlace(bits) + std::countr_zero(mantissa);
 }
 
-struct Extent {
+struct BitExtent {
   bool finite = true;
   bool minus_zero = false;
   uint32_t largest = 0;  ///< magnitude, as bits
@@ -35,8 +35,8 @@ struct Extent {
   double mean_last_place = 0;  ///< of values other than 0
 };
 
-Extent measure(std::span<const int32_t> ordered) {
-  Extent e;
+BitExtent measure(std::span<const int32_t> ordered) {
+  BitExtent e;
   size_t count = 0;
   double places = 0;
   for (const int32_t o : ordered) {
@@ -86,7 +86,7 @@ constexpr uint32_t binaryGrid(int32_t exponent) {
 
 bool findExactGrid(std::span<const int32_t> ordered, AttributeInfo& info) {
   if (info.format.component_count > kGridComponents) return false;
-  const Extent e = measure(ordered);
+  const BitExtent e = measure(ordered);
   if (!e.finite) return false;
   const float largest = std::bit_cast<float>(e.largest);
   if (e.largest == 0) {

@@ -7,6 +7,10 @@
 
 namespace mcc {
 
+/// Half-edges that are numbered 3 * face + corner.
+constexpr uint32_t nextCorner(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
+constexpr uint32_t prevCorner(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
+
 /// A closed, oriented manifold in which every hole is coned to a dummy vertex. Half-edge 3f+k runs
 /// from corner k to corner k+1 of face f. Every vertex is one umbrella, and no face has a vertex
 /// twice.

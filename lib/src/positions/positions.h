@@ -94,8 +94,8 @@ class PositionCoder {
   }
 
  private:
-  template <class AnyIo>
-  MCC_INLINE static void codePlain(const VertexCoder<AnyIo, kModes>& vertex, AnyIo& io,
+  template <class AnyIo, uint32_t kFixed>
+  MCC_INLINE static void codePlain(const VertexCoder<AnyIo, kFixed>& vertex, AnyIo& io,
                                    const FaceView& faces, const VertexRecord* records, uint32_t v,
                                    const PlainFan& fan) {
     Prediction prediction;
@@ -110,7 +110,7 @@ class PositionCoder {
   PositionRows& rows_;
   const PositionParameters& parameters_;
   const int32_t* const truth_;
-  VertexCoder<Io, kModes> vertex_;
+  VertexCoder<Io, fixedKind(kModes)> vertex_;  ///< for what the inner loop does not code
   RegionGrowth growth_;
   VertexRecord* const records_;
 };

@@ -18,12 +18,19 @@
 
 namespace mcc {
 
-/// `kModes` are position_mode bits. Those in kCompiledModes are fixed at compile time; the others
-/// are taken from the parameters. kAnyModes takes all of them from the parameters.
-inline constexpr uint32_t kAnyModes = ~0u;
-inline constexpr uint32_t kCompiledModes = position_mode::kWeights | position_mode::kSelect |
-                                           position_mode::kShear | position_mode::kPalette |
-                                           position_mode::kPlanes;
+/// Which position_mode bits are fixed at compile time, above their values. The parameters have the
+/// others, and all of kAnyModes.
+constexpr uint32_t fixedModes(uint32_t which, uint32_t modes) {
+  return which << 8 | (modes & which);
+}
+inline constexpr uint32_t kAnyModes = fixedModes(0, 0);
+/// What inner loops differ by.
+inline constexpr uint32_t kLoopModes =
+    position_mode::kWeights | position_mode::kSelect | position_mode::kKinds;
+/// Apart from inner loops, only the kind is worth fixing.
+constexpr uint32_t fixedKind(uint32_t fixed_modes) {
+  return fixed_modes & fixedModes(position_mode::kKinds, position_mode::kKinds);
+}
 /// The most tokens that a vertex takes from the streams, without and with planes.
 inline constexpr uint32_t kTokensOfVertex = 3;
 inline constexpr uint32_t kTokensWithPlanes = 6;
@@ -52,7 +59,7 @@ class VertexCoder {
   /// Codes a vertex with a plain fan. `prediction` receives what was expected.
   MCC_INLINE void codePlain(Io& io, uint32_t v, const PlainFan& fan, const Beyond* beyond,
                             Prediction& prediction) const {
-    predictPlain(p_, fan, beyond, records_[v].degree(), compiledModes(), prediction);
+    predictPlain(p_, fan, beyond, records_[v].degree(), modes(), prediction);
     if (has(position_mode::kPlanes)) {
       return codeOnPlanes(io, v, prediction, axesAround(fan.n0, fan.n1, fan.n2));
     }
@@ -67,22 +74,33 @@ class VertexCoder {
     }
     codeVertex(io, v, prediction, 0);
   }
+  /// Inner loops that decode three residuals at once have copies of this; others call one.
   MCC_SHARED void codeVertex(Io& io, uint32_t v, const Prediction& prediction,
                              uint32_t plain) const {
-    withChoice(has(position_mode::kFold), [&](auto fold) MCC_INLINE_LAMBDA {
-      codeComponents(io, v, prediction, plain, fold);
-    });
+    if constexpr (ThreeAtOnceIo<Io>) {
+      withChoice(has(position_mode::kFold), [&](auto fold) MCC_INLINE_LAMBDA {
+        codeComponents(io, v, prediction, plain, fold);
+      });
+    } else {
+      codeVertexApart(io, v, prediction, plain);
+    }
   }
   void codeSeed(Io& io, uint32_t v, const VertexRecord* neighbour);
 
   bool has(uint32_t mode) const {
-    if (kModes != kAnyModes && (mode & kCompiledModes) != 0) return (kModes & mode) != 0;
+    if ((kModes >> 8 & mode) != 0) return (kModes & mode) != 0;
     return p_.has(mode);
   }
 
  private:
-  uint32_t compiledModes() const { return kModes == kAnyModes ? p_.modes : kModes; }
+  uint32_t modes() const { return (p_.modes & ~(kModes >> 8)) | (kModes & 0xff); }
 
+  MCC_OUT_OF_LINE void codeVertexApart(Io& io, uint32_t v, const Prediction& prediction,
+                                       uint32_t plain) const {
+    withChoice(has(position_mode::kFold), [&](auto fold) MCC_INLINE_LAMBDA {
+      codeComponents(io, v, prediction, plain, fold);
+    });
+  }
   template <class Fold>
   void codeComponents(Io& io, uint32_t v, const Prediction& prediction, uint32_t plain,
                       Fold fold) const;
@@ -321,13 +339,11 @@ void VertexCoder<Io, kModes>::codeSeed(Io& io, uint32_t v, const VertexRecord* n
     if (neighbour == nullptr) std::copy(r.q, r.q + 3, last_seed_);
     return;
   }
-  withChoice(has(position_mode::kFold), [&](auto fold) {
-    if (has(position_mode::kPalette)) {
-      codeRanks(io, v, at, estimate, fold);
-    } else {
-      codeInFileOrder(io, v, at, estimate, fold);
-    }
-  });
+  if (has(position_mode::kPalette)) {
+    codeRanks(io, v, at, estimate, has(position_mode::kFold));
+  } else {
+    codeInFileOrder(io, v, at, estimate, has(position_mode::kFold));
+  }
   for (int s = 0; s < 3; ++s) {
     scale[s] = (scale[s] + 16 * std::min(r.magnitude[s], 1u << 24)) / 2;
     if (neighbour != nullptr) continue;

@@ -8,9 +8,6 @@
 namespace mcc {
 namespace {
 
-constexpr uint32_t nextCorner(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
-constexpr uint32_t prevCorner(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
-
 class Cutter {
  public:
   Cutter(std::span<const uint32_t> corner_class, uint32_t class_count,

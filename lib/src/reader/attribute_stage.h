@@ -71,6 +71,12 @@ inline uint32_t codedComponents(AttributeInfos attributes, uint32_t index) {
   }
 }
 
+/// The normals that tangents are angles around, for which there are grid points by wedge.
+struct TangentNormals {
+  const AttributeInfo* info;  ///< null if no tangents are
+  const int32_t* points;
+};
+
 template <SymbolIo Io>
 class AttributeStage {
  public:
@@ -134,7 +140,9 @@ class AttributeStage {
     return false;
   }
 
-  const AttributeInfo& normalInfo() const { return attributes_[normal_]; }
+  TangentNormals tangentNormals() const {
+    return {normal_ == kNone ? nullptr : &normalInfo(), normals.data()};
+  }
 
   WedgeMesh wedges;
   Array<float>
@@ -146,6 +154,7 @@ class AttributeStage {
   using Job = AttributeJob<Io>;
 
   static Status noMemory() { return fail(Error::kOutOfMemory, "no memory for attributes"); }
+  const AttributeInfo& normalInfo() const { return attributes_[normal_]; }
 
   /// Which of the coded values are on an exact grid; `info` null: none.
   struct GridPart {

@@ -67,7 +67,7 @@ class DecodedBlock {
   }
 
   // decodePiece() calls these two.
-  Status surface(const PieceCoder<BlockIo>& piece) {
+  Status surface(const CodedPiece& piece) {
     CodedBox box;
     for (uint32_t s = 0; s < 3; ++s) box.low[s] = INT32_MAX, box.high[s] = INT32_MIN;
     for (uint32_t w = 0; w < pieceHeader().wedge_count; ++w) {
@@ -86,7 +86,7 @@ class DecodedBlock {
       part_of_face_[f] = piece.mesh.words[size_t{f} * kFaceWords + kFaceWord];
     return {};
   }
-  Status attribute(const PieceCoder<BlockIo>&, uint32_t index, const Array<int32_t>& values) {
+  Status attribute(const TangentNormals&, uint32_t index, const Array<int32_t>& values) {
     std::copy_n(values.data(), values.size(), values_.data() + valuesBefore(index));
     return {};
   }
@@ -189,12 +189,13 @@ class DecodedBlock {
   }
 
   void storeValues(WedgeAt wedge_at, std::span<const AttributeTarget> targets) {
+    const TangentNormals normals = piece_->tangentNormals();
     for (uint32_t a = 0; a < infos_.size(); ++a) {
       const int32_t* values = values_.data() + valuesBefore(a);
       if (a == 0) {
-        storeAttribute(*piece_, infos_, 0, values, 3, wedge_at, targets);
+        storeAttribute(normals, infos_, 0, values, 3, wedge_at, targets);
       } else if (wordsOf(a) != 0) {
-        storeDecoded(*piece_, infos_, a, values, wedge_at, targets);
+        storeDecoded(normals, infos_, a, values, wedge_at, targets);
       }
     }
   }

@@ -74,8 +74,8 @@ class StageBits {
 
 /// Decodes a piece and hands what it consists of to `sink`, which stores it:
 ///
-///   surface(piece)                  after the surface and its positions, before the attributes
-///   attribute(piece, index, values) after codeAttribute()
+///   surface(piece)                    after the surface and its positions, before the attributes
+///   attribute(normals, index, values) after codeAttribute(); see TangentNormals
 template <class Io, class Sink>
 Status decodePiece(PieceCoder<Io>& piece, const PieceHeader& header, AttributeInfos infos,
                    Sink& sink, const DecodeOptions& options, StageBits<Io> bits,
@@ -105,7 +105,7 @@ Status decodePiece(PieceCoder<Io>& piece, const PieceHeader& header, AttributeIn
       if (codingPhase(infos[a]) != phase) continue;
       if (!isWithAnother(methodOf(infos, a))) {
         MCC_TRY(piece.codeAttribute(a, values));
-        MCC_TRY(sink.attribute(piece, a, values));
+        MCC_TRY(sink.attribute(piece.tangentNormals(), a, values));
       }
       bits.tell(DecodeStage::kAttribute, a);
       MCC_TRY(progress.advance(attributeElements(header, infos[a].format)));

@@ -12,8 +12,8 @@
 
 // PREFIX is `extern` for a declaration, and nothing where the instances are.
 
-#define MCC_MODES_INSTANCE(PREFIX, Io, modes)                                       \
-  PREFIX template Status PieceCoder<Io>::runModes<modes>(const PositionParameters&, \
+#define MCC_MODES_INSTANCE(PREFIX, Io, fixed)                                       \
+  PREFIX template Status PieceCoder<Io>::runModes<fixed>(const PositionParameters&, \
                                                          const PieceTruth&);
 #define MCC_ALL_INSTANCES(PREFIX, Io)                                                        \
   PREFIX template Status PieceCoder<Io>::codeConnectivity(const PieceTruth&, CodeHistogram*, \
@@ -22,7 +22,6 @@
   PREFIX template Status PieceCoder<Io>::codePositions(const PieceTruth&,                    \
                                                        const PositionParameters*);           \
   PREFIX template Status PieceCoder<Io>::codePositionTails(const PieceTruth&);               \
-  MCC_MODES_INSTANCE(PREFIX, Io, kAnyModes)                                                  \
   PREFIX template Status PieceCoder<Io>::codeSeams(const PieceTruth&);                       \
   PREFIX template Status PieceCoder<Io>::codeLeftovers(const PieceTruth&);                   \
   PREFIX template Status PieceCoder<Io>::codeOrders(const PieceTruth&);                      \
@@ -34,8 +33,11 @@ namespace mcc {
 
 MCC_ALL_INSTANCES(extern, StreamsIo)
 MCC_ALL_INSTANCES(extern, CompactIo)
-#define MCC_EXTERN_MODES(modes) MCC_MODES_INSTANCE(extern, StreamsIo, modes)
-MCC_COMPILED_MODES(MCC_EXTERN_MODES)
+MCC_MODES_INSTANCE(extern, CompactIo, kAnyModes)
+#define MCC_EXTERN_MODES(which, modes) \
+  MCC_MODES_INSTANCE(extern, StreamsIo, fixedModes(which, modes))
+MCC_PLAIN_MODES(MCC_EXTERN_MODES)
+MCC_KIND_MODES(MCC_EXTERN_MODES)
 #undef MCC_EXTERN_MODES
 
 }  // namespace mcc

@@ -5,8 +5,8 @@
 #if !defined(MCC_COMPACT)
 namespace mcc {
 
-#define MCC_INSTANCE(modes) MCC_MODES_INSTANCE(, StreamsIo, modes)
-MCC_COMPILED_PLAIN_MODES(MCC_INSTANCE)
+#define MCC_INSTANCE(which, modes) MCC_MODES_INSTANCE(, StreamsIo, fixedModes(which, modes))
+MCC_PLAIN_MODES(MCC_INSTANCE)
 
 }  // namespace mcc
 #endif

@@ -6,6 +6,7 @@
 namespace mcc {
 
 MCC_ALL_INSTANCES(, CompactIo)
+MCC_MODES_INSTANCE(, CompactIo, kAnyModes)
 
 }  // namespace mcc
 #endif

@@ -26,8 +26,7 @@ struct WedgeAt {
     return !decodes::kOrders || order == nullptr ? place : order[place];
   }
 };
-template <class Io>
-WedgeAt wedgeAt(const PieceCoder<Io>& piece, uint32_t wedge_count) {
+inline WedgeAt wedgeAt(const CodedPiece& piece, uint32_t wedge_count) {
   return {piece.wedge_order.empty() ? nullptr : piece.wedge_order.data(), wedge_count};
 }
 
@@ -162,17 +161,15 @@ inline void storeTangents(const AttributeInfo& info, const int32_t* values,
 
 /// Stores `values`, value_stride per wedge, in the target of attribute `index` and of all its
 /// aliases.
-template <class Io>
-void storeAttribute(const PieceCoder<Io>& piece, AttributeInfos infos, uint32_t index,
-                    const int32_t* values, uint32_t value_stride, WedgeAt wedge_at,
-                    std::span<const AttributeTarget> targets) {
+inline void storeAttribute(const TangentNormals& normals, AttributeInfos infos, uint32_t index,
+                           const int32_t* values, uint32_t value_stride, WedgeAt wedge_at,
+                           std::span<const AttributeTarget> targets) {
   const AttributeInfo& a = infos[index];
   for (size_t i = index; i < targets.size(); ++i) {
     const bool is_alias = infos[i].coding == AttributeCoding::kAlias && infos[i].alias_of == index;
     if (targets[i].data == nullptr || (i != index && !is_alias)) continue;
     if (a.coding == AttributeCoding::kTangentAngle) {
-      storeTangents(a, values, piece.tangentNormalInfo(), piece.tangentNormals(), wedge_at,
-                    targets[i]);
+      storeTangents(a, values, *normals.info, normals.points, wedge_at, targets[i]);
     } else {
       if constexpr (kCompact) {
         storeElements(a, wedge_at.count, targets[i], ElementAt{values, value_stride, wedge_at});
@@ -185,20 +182,18 @@ void storeAttribute(const PieceCoder<Io>& piece, AttributeInfos infos, uint32_t 
 }
 
 /// Stores the values that codeAttribute() left for an attribute, and for one that is coded with it.
-template <class Io>
-void storeDecoded(const PieceCoder<Io>& piece, AttributeInfos infos, uint32_t index,
-                  const int32_t* values, WedgeAt wedge_at,
-                  std::span<const AttributeTarget> targets) {
-  const uint32_t stride = piece.codedComponentsOf(index);
-  storeAttribute(piece, infos, index, values, stride, wedge_at, targets);
+inline void storeDecoded(const TangentNormals& normals, AttributeInfos infos, uint32_t index,
+                         const int32_t* values, WedgeAt wedge_at,
+                         std::span<const AttributeTarget> targets) {
+  const uint32_t stride = codedComponents(infos, index);
+  storeAttribute(normals, infos, index, values, stride, wedge_at, targets);
   if (methodOf(infos, index) != AttributeMethod::kSkin || wedge_at.count == 0) return;
-  storeAttribute(piece, infos, skinPartner(infos, index), values + kSkinSlots, stride, wedge_at,
+  storeAttribute(normals, infos, skinPartner(infos, index), values + kSkinSlots, stride, wedge_at,
                  targets);
 }
 
-template <class Io>
-void storePositions(const PieceCoder<Io>& piece, const AttributeInfo& info, uint32_t wedge_count,
-                    const AttributeTarget& target) {
+inline void storePositions(const CodedPiece& piece, const AttributeInfo& info, uint32_t wedge_count,
+                           const AttributeTarget& target) {
   const VertexRecord* records = piece.records.data();
   const WedgeAt wedge_at = wedgeAt(piece, wedge_count);
   if constexpr (kCompact) {
@@ -247,8 +242,8 @@ void storeFaces(const FaceMesh& mesh, const PartTarget& target, const Number& nu
 }
 
 /// Tells the caller the mc-edges of a piece. `number(w)` is what the caller calls wedge w.
-template <class Io, class Number>
-void tellMcEdges(const PieceCoder<Io>& piece, uint32_t piece_index, const Number& number,
+template <class Number>
+void tellMcEdges(const CodedPiece& piece, uint32_t piece_index, const Number& number,
                  const DecodeOptions& options) {
   if (options.mc_edge == nullptr) return;
   for (size_t i = 0; i < piece.mc_edges.size(); ++i) {
@@ -259,8 +254,7 @@ void tellMcEdges(const PieceCoder<Io>& piece, uint32_t piece_index, const Number
 }
 
 /// Fills `place_of` with the place of each wedge in the order that is kept; empty if none is.
-template <class Io>
-Status findPlaces(const PieceCoder<Io>& piece, Array<uint32_t>& place_of) {
+inline Status findPlaces(const CodedPiece& piece, Array<uint32_t>& place_of) {
   if (!place_of.resize(piece.wedge_order.size()))
     return fail(Error::kOutOfMemory, "no memory for the order");
   for (uint32_t i = 0; i < piece.wedge_order.size(); ++i) place_of[piece.wedge_order[i]] = i;
@@ -278,9 +272,9 @@ inline Status checkPartCounts(std::span<const PartInfo> infos, const Array<uint3
 }
 
 /// Stores triangles and wedges in the orders that are kept.
-template <class Io>
-Status storeOrderedTriangles(const PieceCoder<Io>& piece, std::span<const PartInfo> infos,
-                             std::span<const PartTarget> targets, const Allocator& allocator) {
+inline Status storeOrderedTriangles(const CodedPiece& piece, std::span<const PartInfo> infos,
+                                    std::span<const PartTarget> targets,
+                                    const Allocator& allocator) {
   Array<uint32_t> fill(allocator);
   Array<uint32_t> place_of(allocator);
   if (!fill.assign(targets.size(), 0)) return fail(Error::kOutOfMemory, "no memory for the order");
@@ -303,8 +297,8 @@ Status storeOrderedTriangles(const PieceCoder<Io>& piece, std::span<const PartIn
 
 /// Stores faces in decoding order, then the listed triangles, split into parts. `number(w)` is what
 /// the caller calls wedge w, and `part_of(f)` the part of face f. [A.9.4]
-template <class Io, class Number, class PartOf>
-Status storeSurface(const PieceCoder<Io>& piece, std::span<const PartInfo> infos,
+template <class Number, class PartOf>
+Status storeSurface(const CodedPiece& piece, std::span<const PartInfo> infos,
                     std::span<const PartTarget> targets, const Number& number,
                     const PartOf& part_of, const Allocator& allocator) {
   if (targets.size() == 1 && piece.list.empty()) {
@@ -325,9 +319,8 @@ Status storeSurface(const PieceCoder<Io>& piece, std::span<const PartInfo> infos
   return checkPartCounts(infos, fill);
 }
 
-template <class Io>
-Status storeTriangles(const PieceCoder<Io>& piece, std::span<const PartInfo> infos,
-                      std::span<const PartTarget> targets, const Allocator& allocator) {
+inline Status storeTriangles(const CodedPiece& piece, std::span<const PartInfo> infos,
+                             std::span<const PartTarget> targets, const Allocator& allocator) {
   if (decodes::kOrders && piece.triangles.count() != 0)
     return storeOrderedTriangles(piece, infos, targets, allocator);
   const uint32_t* words = piece.mesh.words.data();

@@ -9,7 +9,7 @@
 //   codeSeams        corners -> wedges                              surface/seams.h           [A.7]
 //   codeLeftovers    parts, duplicate and degenerate triangles      surface/leftovers.h       [A.8]
 //   codeOrders       the source's order of triangles and wedges     surface/order.h [A.9]
-//   codeAttribute    the other attributes, along the same traversal reader/attribute_stage.h  [A.10]
+//   codeAttribute    the other attributes, along the same traversal reader/attribute_stage.h [A.10]
 //
 // The writer runs the same stages with an encoder and with pointers to what it knows (PieceTruth).
 #ifndef MCC_READER_PIECE_H_
@@ -78,33 +78,23 @@ struct PieceTruth {
   const uint32_t* wedge_order = nullptr;     ///< wedge by place
 };
 
-/// The combinations of kCompiledModes for which the inner loop of positions is compiled apart, for
-/// an Io with kFast: those that the encoder often chooses.
-#define MCC_COMPILED_PLAIN_MODES(USE) \
-  USE(0)                              \
-  USE(position_mode::kWeights)        \
-  USE(position_mode::kWeights | position_mode::kSelect)
-#define MCC_COMPILED_SHEAR_MODES(USE)                  \
-  USE(position_mode::kShear)                           \
-  USE(position_mode::kWeights | position_mode::kShear) \
-  USE(position_mode::kWeights | position_mode::kSelect | position_mode::kShear)
-#define MCC_COMPILED_TABLE_MODES(USE)                    \
-  USE(position_mode::kPalette)                           \
-  USE(position_mode::kWeights | position_mode::kPalette) \
-  USE(position_mode::kPlanes)                            \
-  USE(position_mode::kWeights | position_mode::kPlanes)
-#define MCC_COMPILED_MODES(USE) \
-  MCC_COMPILED_PLAIN_MODES(USE) \
-  MCC_COMPILED_SHEAR_MODES(USE) \
-  MCC_COMPILED_TABLE_MODES(USE)
+/// The inner loops of positions that are compiled for an Io with kFast; the first that fits is
+/// taken. USE(which, modes): see fixedModes(). docs/performance.md says what each is worth.
+#define MCC_PLAIN_MODES(USE)               \
+  USE(kLoopModes, 0)                       \
+  USE(kLoopModes, position_mode::kWeights) \
+  USE(kLoopModes, position_mode::kWeights | position_mode::kSelect)
+#define MCC_KIND_MODES(USE)                                         \
+  USE(kLoopModes, position_mode::kWeights | position_mode::kShear)  \
+  USE(position_mode::kKinds, position_mode::kShear)                 \
+  USE(position_mode::kKinds, position_mode::kPalette)               \
+  USE(kLoopModes, position_mode::kWeights | position_mode::kPlanes) \
+  USE(position_mode::kKinds, position_mode::kPlanes)
 
-/// Runs the stages of a piece. The stages that take long to compile are defined below; for the
-/// reader's and the writer's Ios they are compiled in files of their own, see instances.h.
-template <SymbolIo Io>
-class PieceCoder {
+/// What the stages of a piece make of it, whatever they code through.
+class CodedPiece {
  public:
-  PieceCoder(Io& io, PayloadModels& models, const PieceHeader& header, AttributeInfos attributes,
-             const Allocator& allocator)
+  CodedPiece(const PieceHeader& header, AttributeInfos attributes, const Allocator& allocator)
       : mesh(allocator),
         mc_edges(allocator),
         groups(allocator),
@@ -115,28 +105,8 @@ class PieceCoder {
         triangles(allocator),
         triangle_order(allocator),
         wedge_order(allocator),
-        io_(io),
-        models_(models),
         header_(header),
-        attributes_(attributes),
-        allocator_(allocator),
-        stage_(io, models.attributes, attributes, allocator),
-        group_positions_(allocator) {}
-
-  /// Counts codes in `histogram` if it is not null. Fills mc_edges if `wants_mc_edges`.
-  Status codeConnectivity(const PieceTruth& truth, CodeHistogram* histogram = nullptr,
-                          bool wants_mc_edges = false);
-
-  Status codeStitch(const PieceTruth& truth);
-
-  /// The writer passes the fitted tables that the position's flags ask for in `fitted`.
-  Status codePositions(const PieceTruth& truth, const PositionParameters* fitted = nullptr);
-
-  Status codeSeams(const PieceTruth& truth);
-
-  Status codeLeftovers(const PieceTruth& truth);
-
-  Status codeOrders(const PieceTruth& truth);
+        attributes_(attributes) {}
 
   /// Fills `triangles`. Returns false when memory ran out.
   [[nodiscard]] bool listTriangles() {
@@ -157,6 +127,65 @@ class PieceCoder {
     for (size_t i = 0; i < list.size(); ++i) add(list[i].wedge, list[i].part);
     return true;
   }
+
+  uint32_t codedComponentsOf(uint32_t index) const { return codedComponents(attributes_, index); }
+
+  bool needsSequence() const {
+    return header_.has(piece_flag::kSeams) || header_.attribute_count > 1;
+  }
+  /// Returns the group whose record holds the position of a wedge. Isolated vertices come after the
+  /// groups.
+  uint32_t groupOf(uint32_t wedge) const {
+    if (wedge >= wedges.isolated_first) return groups.count + (wedge - wedges.isolated_first);
+    return header_.has(piece_flag::kSeams) ? wedge_group[wedge] : wedge;
+  }
+
+  FaceMesh mesh;  ///< corners hold vertices, after codeStitch() groups, after codeSeams() wedges
+  Array<McEdgeCorners> mc_edges;  ///< only if wanted
+  Groups groups;
+  Array<VertexRecord> records;  ///< by group
+  /// A half-edge per group, after codeSeams() per wedge, in coding order.
+  Array<uint32_t> sequence;
+  Array<uint32_t> wedge_group;  ///< only with seams
+  WedgeSequence wedges;
+  Array<ListedTriangle> list;
+  TriangleTable triangles;         ///< only if an order is kept
+  Array<uint32_t> triangle_order;  ///< see TriangleOrderCoder; empty if not kept
+  Array<uint32_t> wedge_order;     ///< wedge by place; empty if not kept
+
+ protected:
+  const PieceHeader& header_;
+  const AttributeInfos attributes_;
+};
+
+/// Runs the stages of a piece. The stages that take long to compile are defined below; for the
+/// reader's and the writer's Ios they are compiled in files of their own, see instances.h.
+template <SymbolIo Io>
+class PieceCoder : public CodedPiece {
+ public:
+  PieceCoder(Io& io, PayloadModels& models, const PieceHeader& header, AttributeInfos attributes,
+             const Allocator& allocator)
+      : CodedPiece(header, attributes, allocator),
+        io_(io),
+        models_(models),
+        allocator_(allocator),
+        stage_(io, models.attributes, attributes, allocator),
+        group_positions_(allocator) {}
+
+  /// Counts codes in `histogram` if it is not null. Fills mc_edges if `wants_mc_edges`.
+  Status codeConnectivity(const PieceTruth& truth, CodeHistogram* histogram = nullptr,
+                          bool wants_mc_edges = false);
+
+  Status codeStitch(const PieceTruth& truth);
+
+  /// The writer passes the fitted tables that the position's flags ask for in `fitted`.
+  Status codePositions(const PieceTruth& truth, const PositionParameters* fitted = nullptr);
+
+  Status codeSeams(const PieceTruth& truth);
+
+  Status codeLeftovers(const PieceTruth& truth);
+
+  Status codeOrders(const PieceTruth& truth);
 
   /// Must be called after the stages before and before codeAttribute(). Overwrites the faces' parts
   /// and releases the records.
@@ -186,34 +215,7 @@ class PieceCoder {
     return stage_.keepForOthers(index, values);
   }
 
-  uint32_t codedComponentsOf(uint32_t index) const { return codedComponents(attributes_, index); }
-
-  /// Returns the grid points of the normals that tangents refer to, and how they are coded.
-  const int32_t* tangentNormals() const { return stage_.normals.data(); }
-  const AttributeInfo& tangentNormalInfo() const { return stage_.normalInfo(); }
-
-  bool needsSequence() const {
-    return header_.has(piece_flag::kSeams) || header_.attribute_count > 1;
-  }
-  /// Returns the group whose record holds the position of a wedge. Isolated vertices come after the
-  /// groups.
-  uint32_t groupOf(uint32_t wedge) const {
-    if (wedge >= wedges.isolated_first) return groups.count + (wedge - wedges.isolated_first);
-    return header_.has(piece_flag::kSeams) ? wedge_group[wedge] : wedge;
-  }
-
-  FaceMesh mesh;  ///< corners hold vertices, after codeStitch() groups, after codeSeams() wedges
-  Array<McEdgeCorners> mc_edges;  ///< only if wanted
-  Groups groups;
-  Array<VertexRecord> records;  ///< by group
-  /// A half-edge per group, after codeSeams() per wedge, in coding order.
-  Array<uint32_t> sequence;
-  Array<uint32_t> wedge_group;  ///< only with seams
-  WedgeSequence wedges;
-  Array<ListedTriangle> list;
-  TriangleTable triangles;         ///< only if an order is kept
-  Array<uint32_t> triangle_order;  ///< see TriangleOrderCoder; empty if not kept
-  Array<uint32_t> wedge_order;     ///< wedge by place; empty if not kept
+  TangentNormals tangentNormals() const { return stage_.tangentNormals(); }
 
  private:
   /// Fills mc_edges. The next stages renumber vertices but not half-edges.
@@ -299,8 +301,6 @@ class PieceCoder {
 
   Io& io_;
   PayloadModels& models_;
-  const PieceHeader& header_;
-  const AttributeInfos attributes_;
   const Allocator allocator_;
   AttributeStage<Io> stage_;
   Array<float> group_positions_;  ///< 4 per group, see surface/wedges.h
@@ -424,15 +424,16 @@ Status PieceCoder<Io>::codeOrders(const PieceTruth& truth) {
 template <SymbolIo Io>
 Status PieceCoder<Io>::runPositions(const PositionParameters& parameters, const PieceTruth& truth) {
   if constexpr (Io::kFast) {
-    switch (parameters.modes & kCompiledModes) {
-#define MCC_CASE(modes) \
-  case modes: return runModes<modes>(parameters, truth);
-      MCC_COMPILED_MODES(MCC_CASE)
-#undef MCC_CASE
-      default: break;
-    }
+#define MCC_TRY_MODES(which, modes_)            \
+  if ((parameters.modes & (which)) == (modes_)) \
+    return runModes<fixedModes(which, modes_)>(parameters, truth);
+    MCC_PLAIN_MODES(MCC_TRY_MODES)
+    MCC_KIND_MODES(MCC_TRY_MODES)
+#undef MCC_TRY_MODES
+    return fail(Error::kBadHeader, "the modes of the positions do not go together");
+  } else {
+    return runModes<kAnyModes>(parameters, truth);
   }
-  return runModes<kAnyModes>(parameters, truth);
 }
 
 template <SymbolIo Io>

@@ -101,14 +101,14 @@ Status checkTarget(const PieceTarget& target, const PieceInfo& piece, uint32_t w
 }
 
 /// Stores a piece as it is decoded. See decodePiece().
-template <class Io>
 struct PieceSink {
   const PieceInfo& info;
   uint32_t index;
   const PieceTarget& target;
   const DecodeOptions& options;
+  const CodedPiece& piece;
 
-  Status surface(const PieceCoder<Io>& piece) const {
+  Status surface(const CodedPiece&) const {
     if (!info.attributes.empty())
       storePositions(piece, info.attributes[0], info.wedge_count, target.attributes[0]);
     MCC_TRY(storeTriangles(piece, info.parts, target.parts, options.allocator));
@@ -119,8 +119,8 @@ struct PieceSink {
         piece, index, [&](uint32_t w) { return place_of.empty() ? w : place_of[w]; }, options);
     return {};
   }
-  Status attribute(const PieceCoder<Io>& piece, uint32_t a, const Array<int32_t>& values) const {
-    storeDecoded(piece, info.attributes, a, values.data(), wedgeAt(piece, info.wedge_count),
+  Status attribute(const TangentNormals& normals, uint32_t a, const Array<int32_t>& values) const {
+    storeDecoded(normals, info.attributes, a, values.data(), wedgeAt(piece, info.wedge_count),
                  target.attributes);
     return {};
   }
@@ -135,7 +135,7 @@ Status decodePieces(Io& io, const PayloadHeader& header, const PayloadInfo& info
   for (uint32_t i = 0; i < targets.size(); ++i) {
     const AttributeInfos infos = info.pieces[i].attributes;
     PieceCoder<Io> piece(io, *models.get(), header.pieces[i], infos, options.allocator);
-    PieceSink<Io> sink{info.pieces[i], i, targets[i], options};
+    PieceSink sink{info.pieces[i], i, targets[i], options, piece};
     MCC_TRY(decodePiece(piece, header.pieces[i], infos, sink, options,
                         StageBits<Io>(io, i, options), progress));
   }

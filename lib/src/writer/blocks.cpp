@@ -15,7 +15,6 @@
 #include "prepare/enc_blocks.h"
 #include "writer/choices.h"
 #include "writer/code_piece.h"
-#include "writer/stages.h"
 
 namespace mcc {
 namespace {
@@ -209,7 +208,7 @@ CodedBox boxOf(const Plan& plan) {
   return box;
 }
 
-Status codeBlock(LocalBlock block, PayloadModels& models, CodedBlock& coded) {
+Status codeBlock(LocalBlock block, StageModels& models, CodedBlock& coded) {
   EncoderIo io(true, false);
   MCC_TRY(codePiece(block.plan, io, models, 0, coded.result, &coded.rim));
   coded.cost = io.cost();
@@ -330,12 +329,12 @@ class BlocksEncoder {
         taken_[early] = take(early);
       return {};
     }));
-    auto primed = std::make_unique<PayloadModels>();
-    MCC_TRY(codeBlock(takeChosen(0), *primed, coded_[0]));
+    StageModels primed;
+    MCC_TRY(codeBlock(takeChosen(0), primed, coded_[0]));
     return jobs_.tryAll(blockCount() - 1, [&](size_t i) -> Status {
       const uint32_t index = static_cast<uint32_t>(i) + 1;
-      PayloadModels models;
-      if (!models.copyFrom(*primed, {})) throwBadAlloc();
+      StageModels models;
+      models.copyFrom(primed);
       return codeBlock(takeChosen(index), models, coded_[index]);
     });
   }

@@ -30,15 +30,15 @@ uint32_t pivotCount(const Plan& plan) {
 }
 
 Status surfaceCost(Plan& plan, uint64_t& cost) {
-  CostIo io;
-  auto models = std::make_unique<PayloadModels>();
-  StageRunner<CostIo> runner(io, *models, plan);
+  EncoderIo io;
+  StageModels models;
+  StageRunner runner(io, models, plan);
   MCC_TRY(runner.codeSurface(nullptr));
   cost = io.cost();
   return {};
 }
 
-using Runners = std::vector<std::unique_ptr<StageRunner<CostIo>>>;
+using Runners = std::vector<std::unique_ptr<StageRunner>>;
 
 /// Chooses once for all pieces, since they share tables and models. Consumes the recordings.
 PositionParameters choosePositions(std::vector<RecordedPositions> recorded, double surface_bits,
@@ -74,8 +74,8 @@ struct MethodRules {
 
 /// Tries the candidates of one attribute, starting from the current models, and continues with the
 /// best. `goes_on` says that some later attribute shares its models.
-Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& runner,
-                             PayloadModels& models, const MethodRules& rules, bool goes_on) {
+Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner& runner,
+                             const MethodRules& rules, bool goes_on) {
   AttributeInfo& info = plan.attributes[index].info;
   const std::vector<AttributeInfo> alternatives = exactAlternatives(info, rules.without);
   const uint32_t count = plan.header.wedge_count;
@@ -84,8 +84,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
   // Everything below a grid is always coded for all wedges, so a sample would distort the
   // comparison.
   const uint32_t sample = alternatives.size() > 1 ? kNone : part;
-  AttributeModels before;
-  if (!before.copyFrom(models.attributes, {})) throwBadAlloc();
+  runner.prepareTrials();
   AttributeInfo best = info;
   uint64_t best_cost = ~uint64_t{0};
   for (AttributeInfo candidate : alternatives) {
@@ -107,7 +106,6 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
       cost += static_cast<uint64_t>(
           rules.price.surcharge(tried * rules.wedge_share, timeOf(method, info.predictor)));
       search.report(cost);
-      if (!models.attributes.copyFrom(before, {})) throwBadAlloc();
       if (cost >= best_cost) continue;
       best_cost = cost;
       best = candidate;
@@ -119,8 +117,8 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner<CostIo>& ru
 
 /// Chooses creases and the methods of all attributes but positions; they do not depend on how
 /// positions are coded. `io` has counted the surfaces, and the positions are recorded.
-Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& models,
-                     const CostIo& io, const EncodeSettings& options) {
+Status chooseMethods(std::vector<Plan>& plans, Runners& runners, const EncoderIo& io,
+                     const EncodeSettings& options) {
   const bool only_positions = std::all_of(plans.begin(), plans.end(), [](const Plan& plan) {
     return plan.attributes.size() == 1 && !plan.header.has(piece_flag::kSeams);
   });
@@ -134,7 +132,7 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& 
   const MethodRules rules{expected_cost / wedges, TimePrice(options.prefer), options.without};
   for (size_t i = 0; i < plans.size(); ++i) {
     const bool without_creases = options.without.has(Feature::kCreases);
-    MCC_TRY(without_creases ? runners[i]->codeSeams(nullptr) : runners[i]->chooseSeams(models));
+    MCC_TRY(without_creases ? runners[i]->codeSeams(nullptr) : runners[i]->chooseSeams());
     MCC_TRY(runners[i]->prepareAttributes());
     const std::vector<uint32_t> order = codingOrder(plans[i]);
     for (size_t k = 0; k < order.size(); ++k) {
@@ -143,7 +141,7 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, PayloadModels& 
         goes_on |= plans[i].attributes[order[later]].info.format.semantic ==
                    plans[i].attributes[order[k]].info.format.semantic;
       }
-      MCC_TRY(chooseAttributeMethod(plans[i], order[k], *runners[i], models, rules, goes_on));
+      MCC_TRY(chooseAttributeMethod(plans[i], order[k], *runners[i], rules, goes_on));
     }
   }
   return {};
@@ -189,11 +187,11 @@ Status chooseSurface(Plan& plan, uint32_t start_half_edge, const FeatureSet& wit
 }
 
 Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs) {
-  auto models = std::make_unique<PayloadModels>();
-  CostIo io;
+  StageModels models;
+  EncoderIo io;
   Runners runners;
   for (Plan& plan : plans) {
-    runners.push_back(std::make_unique<StageRunner<CostIo>>(io, *models, plan));
+    runners.push_back(std::make_unique<StageRunner>(io, models, plan));
     MCC_TRY(runners.back()->codeSurface(nullptr));
   }
   const double surface_bits = static_cast<double>(io.cost()) / kCostOne;
@@ -203,7 +201,7 @@ Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const 
                       [&](size_t i) { return runners[i]->recordPositions(recorded[i]); }));
   PositionParameters chosen;
   MCC_TRY(jobs.tryAll(2, [&](size_t i) -> Status {
-    if (i == 1) return chooseMethods(plans, runners, *models, io, options);
+    if (i == 1) return chooseMethods(plans, runners, io, options);
     chosen = choosePositions(std::move(recorded), surface_bits, options, jobs);
     return {};
   }));
@@ -215,11 +213,11 @@ Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const 
 }
 
 Status varyAll(std::vector<Plan>& plans, Variation& variation) {
-  auto models = std::make_unique<PayloadModels>();
-  CostIo io;
+  StageModels models;
+  EncoderIo io;
   Runners runners;
   for (Plan& plan : plans) {
-    runners.push_back(std::make_unique<StageRunner<CostIo>>(io, *models, plan));
+    runners.push_back(std::make_unique<StageRunner>(io, models, plan));
     MCC_TRY(runners.back()->codeSurface(nullptr));
   }
   if (plans[0].attributes.empty()) return {};

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "writer/stages.h"
+#include "base/enc_exceptions.h"
 
 namespace mcc {
 
@@ -36,10 +36,10 @@ void scale(StreamSizes& sizes, double by) {
 
 }  // namespace
 
-Status codePiece(Plan& plan, EncoderIo& io, PayloadModels& models, size_t first_attribute,
+Status codePiece(Plan& plan, EncoderIo& io, StageModels& models, size_t first_attribute,
                  EncodeResult& result, Rim* rim) {
   StreamSizes& sizes = result.sizes;
-  StageRunner<EncoderIo> runner(io, models, plan, first_attribute);
+  StageRunner runner(io, models, plan, first_attribute);
   sizes.attribute_bits.resize(first_attribute + plan.attributes.size(), 0);
   MCC_TRY(runner.codeSurface(&sizes));
   const double bits_before = sizes.position_bits;

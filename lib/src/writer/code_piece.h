@@ -4,16 +4,15 @@
 #ifndef MCC_WRITER_CODE_PIECE_H_
 #define MCC_WRITER_CODE_PIECE_H_
 
-#include "entropy/enc_coder.h"
 #include "mesh/rim.h"
-#include "writer/plan.h"
+#include "writer/stages.h"
 
 namespace mcc {
 
 /// Codes the piece and adds what it cost to `result.sizes`, and what the caller is told of it to
 /// `result.pieces`. `rim`, if not null, receives the rim wedges of a block, without tuples.
 /// first_attribute  is the number of attributes of the payload before this piece's
-Status codePiece(Plan& plan, EncoderIo& io, PayloadModels& models, size_t first_attribute,
+Status codePiece(Plan& plan, EncoderIo& io, StageModels& models, size_t first_attribute,
                  EncodeResult& result, Rim* rim = nullptr);
 
 /// Adds a piece to the header of its payload.

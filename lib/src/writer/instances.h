@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The stages that are compiled once for each Io of the writer, see reader/instances.h.
+// The stages that are compiled for the writer in stages.cpp, see reader/instances.h.
 #ifndef MCC_WRITER_INSTANCES_H_
 #define MCC_WRITER_INSTANCES_H_
 
@@ -9,8 +9,8 @@
 
 namespace mcc {
 
-MCC_ALL_INSTANCES(extern, CostIo)
 MCC_ALL_INSTANCES(extern, EncoderIo)
+MCC_MODES_INSTANCE(extern, EncoderIo, kAnyModes)
 
 }  // namespace mcc
 

@@ -12,13 +12,15 @@
 #include "base/enc_jobs.h"
 #include "connectivity/enc_collapse.h"
 #include "connectivity/enc_pivots.h"
+#include "container/payload_header.h"
+#include "exact/grid.h"
 #include "positions/enc_fit.h"
 #include "positions/enc_planes.h"
 #include "prepare/enc_cut.h"
 #include "prepare/enc_quantize.h"
 #include "prepare/enc_triangles.h"
 #include "prepare/enc_weld.h"
-#include "reader/piece.h"
+#include "surface/leftovers.h"
 #include "writer/settings.h"
 
 namespace mcc {
@@ -62,9 +64,6 @@ struct Plan {
 inline int32_t codedPosition(const AttributeInfo& info, int32_t value) {
   return info.coding == AttributeCoding::kGrid ? gridInteger(info, value) : value;
 }
-
-constexpr uint32_t nextCorner(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
-constexpr uint32_t prevCorner(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 /// Sets the fields of the header that follow from attributes, classes and triangles.
 void describePiece(Plan& plan, const EncodeOptions& options);

@@ -7,8 +7,6 @@
 #include <array>
 #include <tuple>
 
-#include "entropy/enc_coder.h"
-
 namespace mcc {
 
 McTruth connectivityTruth(const McRecord& r, const SurfaceLearned& learned) {

@@ -5,6 +5,8 @@
 #ifndef MCC_WRITER_TRUTH_H_
 #define MCC_WRITER_TRUTH_H_
 
+#include "mesh/groups.h"
+#include "surface/order.h"
 #include "writer/plan.h"
 
 namespace mcc {

@@ -14,15 +14,14 @@
 #include "writer/choices.h"
 #include "writer/code_piece.h"
 #include "writer/settings.h"
-#include "writer/stages.h"
 
 namespace mcc {
 namespace {
 
 constexpr uint32_t kSingleCoderVertices = 400;  ///< up to here the single coder is also tried
 
-Status codeAll(std::vector<Plan>& plans, EncoderIo& io, PayloadModels& models,
-               PayloadHeader& header, EncodeResult& result) {
+Status codeAll(std::vector<Plan>& plans, EncoderIo& io, StageModels& models, PayloadHeader& header,
+               EncodeResult& result) {
   for (Plan& plan : plans) {
     MCC_TRY(codePiece(plan, io, models, header.attributes.size(), result));
     addPiece(plan, header);
@@ -38,9 +37,9 @@ Status codePayload(std::vector<Plan>& plans, const EncodeSettings& options, Vari
   const bool tries_single =
       vertices <= kSingleCoderVertices && !options.without.has(Feature::kSingleCoder);
   EncoderIo io(true, tries_single);
-  auto models = std::make_unique<PayloadModels>();
+  StageModels models;
   PayloadHeader header{Allocator{}};
-  MCC_TRY(codeAll(plans, io, *models, header, result));
+  MCC_TRY(codeAll(plans, io, models, header, result));
   EncoderIo::Streams streams = io.finish();
   result.payload = writePayload(header, {streams.codes, streams.tokens, streams.raw});
   if (tries_single) {
