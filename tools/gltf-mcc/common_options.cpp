@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "mcc/gltf.h"
 
 namespace mcc::tool {
 

@@ -252,10 +252,10 @@ void addConvert(Program& program) {
   command.usage = "convert [OPTIONS] IN OUT\nconvert [OPTIONS] -o DIR IN…";
   command.text =
       "IN and OUT are .glb or .gltf files, or - for standard input and output. A .gltf gets its\n"
-      "buffer next to it (a.gltf: a.HASH.bin). Images in separate files stay separate, but\n"
-      "move into a .glb. The result is decoded and compared with the source before it replaces OUT; sizes and\n"
-      "measured errors are printed. Positions are set by one of --quantize-position, --max-error,\n"
-      "--max-error-relative, --lattice and --lossless.\n"
+      "buffer next to it (a.gltf: a.HASH.bin). Images in separate files stay separate, but move\n"
+      "into a .glb. The result is decoded and compared with the source before it replaces OUT;\n"
+      "sizes and measured errors are printed. Positions are set by one of --quantize-position,\n"
+      "--max-error, --max-error-relative, --lattice and --lossless.\n"
       "IN may already be compressed with Draco or meshoptimizer (version 0 of its codec; the npm\n"
       "package gltf-mcc reads version 1).\n"
       "With -o DIR every IN becomes a file of the same name in DIR. A folder IN stands for the\n"

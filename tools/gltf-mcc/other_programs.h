@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "mcc/gltf.h"
 #include "tiles/part.h"
 
 namespace mcc::tool {

@@ -12,6 +12,7 @@
 #include "gltf/base/printable.h"
 #include "help.h"
 #include "interrupt.h"
+#include "mcc/gltf.h"
 #include "parse.h"
 #include "standard_streams.h"
 #include "suggest.h"
