@@ -9,17 +9,17 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "cli/run_tool.h"
 #include "gltf/gltf_builder.h"
+#include "json/json.h"
 
 namespace mcc::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 class Batch : public testing::Test {
  protected:

@@ -4,15 +4,15 @@
 // sizes of the samples, so that a change of size shows in review.
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "cli/run_tool.h"
+#include "json/json.h"
 
 namespace mcc::test {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 TEST(Bench, FiguresAreConsistent) {
   MCC_REQUIRE_COMPARISON();

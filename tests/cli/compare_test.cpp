@@ -4,16 +4,16 @@
 // others can read.
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "cli/run_tool.h"
 #include "gltf/gltf_builder.h"
+#include "json/json.h"
 
 namespace mcc::test {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 const std::vector<std::string> kCodecs = {"mcc", "draco_0", "draco_3", "draco_5"};
 

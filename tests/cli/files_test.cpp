@@ -10,16 +10,16 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "cli/run_tool.h"
 #include "gltf/gltf_builder.h"
+#include "json/json.h"
 
 namespace mcc::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 class Files : public testing::Test {
  protected:

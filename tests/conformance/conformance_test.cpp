@@ -13,7 +13,7 @@
 #include "format/codings.h"
 #include "format/predictors.h"
 #include "gltf/document/glb.h"
-#include "gltf/document/json.h"
+#include "json/json.h"
 #include "mcc/gltf.h"
 #include "mcc/reader.h"
 #include "robustness/damage.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "documents/random_document.h"
-#include "gltf/document/json.h"
+#include "json/json.h"
 
 namespace mcc::gltf::test {
 

@@ -18,14 +18,13 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "foreign/draco_codec.h"
 #include "foreign/meshopt_codec.h"
 
 #if __has_include("draco/compression/expert_encode.h")
 #define MCC_HAS_DRACO_HEADERS 1
 #include "draco/compression/expert_encode.h"
+#include "json/json.h"
 #endif
 
 namespace mcc::foreign {
@@ -58,7 +57,7 @@ struct Bits {
   uint8_t generic = 12;
 };
 
-bool formatOf(const std::string& name, const nlohmann::json& accessor, AttributeFormat& format) {
+bool formatOf(const std::string& name, const gltf::Json& accessor, AttributeFormat& format) {
   const std::string type = accessor["type"];
   format.component_count = static_cast<uint8_t>(type == "SCALAR" ? 1 : type.back() - '0');
   format.normalized = accessor.value("normalized", false);
@@ -84,9 +83,9 @@ bool formatOf(const std::string& name, const nlohmann::json& accessor, Attribute
 }
 
 /// Tightly packed elements of an accessor without sparse part.
-std::vector<std::byte> readAccessor(const nlohmann::json& document, const std::vector<char>& binary,
-                                    const nlohmann::json& accessor, size_t element_bytes) {
-  const nlohmann::json& view = document["bufferViews"][accessor["bufferView"].get<size_t>()];
+std::vector<std::byte> readAccessor(const gltf::Json& document, const std::vector<char>& binary,
+                                    const gltf::Json& accessor, size_t element_bytes) {
+  const gltf::Json& view = document["bufferViews"][accessor["bufferView"].get<size_t>()];
   const size_t count = accessor["count"];
   const size_t stride = view.value("byteStride", element_bytes);
   const size_t start =
@@ -111,11 +110,11 @@ bool loadModel(const std::string& name, const Bits& bits, Model& model) {
                               std::istreambuf_iterator<char>());
   uint32_t json_bytes = 0;
   std::memcpy(&json_bytes, &glb.at(12), 4);
-  const nlohmann::json document =
-      nlohmann::json::parse(glb.begin() + 20, glb.begin() + 20 + json_bytes);
+  const gltf::Json document =
+      gltf::Json::parse(glb.begin() + 20, glb.begin() + 20 + json_bytes);
   const std::vector<char> binary(glb.begin() + 20 + json_bytes + 8, glb.end());
-  const nlohmann::json& primitive = document["meshes"][0]["primitives"][0];
-  const nlohmann::json& index_accessor = document["accessors"][primitive["indices"].get<size_t>()];
+  const gltf::Json& primitive = document["meshes"][0]["primitives"][0];
+  const gltf::Json& index_accessor = document["accessors"][primitive["indices"].get<size_t>()];
   AttributeFormat index_format;
   if (!formatOf("INDEX", index_accessor, index_format)) return false;
   const size_t index_bytes = componentBytes(index_format.component_type);
@@ -127,7 +126,7 @@ bool loadModel(const std::string& name, const Bits& bits, Model& model) {
     model.indices.push_back(index);
   }
   for (const auto& [semantic, accessor_index] : primitive["attributes"].items()) {
-    const nlohmann::json& accessor = document["accessors"][accessor_index.get<size_t>()];
+    const gltf::Json& accessor = document["accessors"][accessor_index.get<size_t>()];
     AttributeFormat format;
     if (!formatOf(semantic, accessor, format)) return false;
     model.wedge_count = accessor["count"];

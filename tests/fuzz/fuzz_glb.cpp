@@ -11,7 +11,7 @@
 #include "container/payload_header.h"
 #include "fuzz/byte_feed.h"
 #include "gltf/document/glb.h"
-#include "gltf/document/json.h"
+#include "json/json.h"
 #include "mcc/gltf.h"
 #include "robustness/damage.h"
 

@@ -63,10 +63,7 @@ void change(Json& json, Random& random) {
   collect(json, values);
   Json& value = *values[below(random, values.size())];
   if (value.is_object() && !value.empty() && random() % 2 == 0) {
-    auto member = value.begin();
-    std::advance(member, below(random, value.size()));
-    const std::string key = member.key();
-    value.erase(key);
+    value.erase(&value[below(random, value.size())]);
   } else {
     value = strangeValue(random);
   }

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "gltf/document/glb.h"
-#include "gltf/document/json.h"
+#include "json/json.h"
 
 namespace mcc::gltf::test {
 

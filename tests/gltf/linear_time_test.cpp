@@ -88,14 +88,14 @@ TEST(LinearTime, PayloadsOfAMeshStayOrGoTogether) {
 TEST(LinearTime, KeysOfOneObject) {
   Json a = Json::object();
   for (uint32_t i = 0; i < 200000; ++i) {
-    a.get_ref<Json::object_t&>().emplace_back("key " + std::to_string(i), i);
+    a.append("key " + std::to_string(i), i);
   }
   Json b = Json::object();
   for (uint32_t i = 200000; i-- > 0;) {
-    b.get_ref<Json::object_t&>().emplace_back("key " + std::to_string(i), i);
+    b.append("key " + std::to_string(i), i);
   }
   EXPECT_EQ(firstDifference(a, b), "");
-  b.get_ref<Json::object_t&>().front().second = 0;
+  b.front() = 0;
   EXPECT_EQ(firstDifference(a, b), "/key 199999");
   Json parsed;
   EXPECT_TRUE(parseJson(asBytes(printJson(a)), parsed).ok());
@@ -353,7 +353,7 @@ TEST(LinearTime, AccessorsAndImagesOverTheSameBytes) {
                      {"count", kBytes - kCount},
                      {"type", "SCALAR"}};
     if (i % 2 == 0) accessor["sparse"] = sparse;
-    builder.json["accessors"].get_ref<Json::array_t&>().push_back(std::move(accessor));
+    builder.json["accessors"].push_back(std::move(accessor));
     images.push_back({{"bufferView", view}, {"mimeType", "image/png"}});
   }
   builder.json["images"] = std::move(images);
@@ -424,8 +424,8 @@ TEST(LinearTime, AttributesOfOnePrimitive) {
   Builder builder;
   Json primitive = Sheet(3).addTo(builder);
   const Json normal = primitive["attributes"]["NORMAL"];
-  Json::object_t& attributes = primitive["attributes"].get_ref<Json::object_t&>();
-  for (uint32_t i = 0; i < 30000; ++i) attributes.emplace_back("_A" + std::to_string(i), normal);
+  Json& attributes = primitive["attributes"];
+  for (uint32_t i = 0; i < 30000; ++i) attributes.append("_A" + std::to_string(i), normal);
   builder.addMesh({primitive});
   const RoundTrip trip = roundTrip(builder, evenIfLarger());
   ASSERT_EQ(trip.error, "");

@@ -89,8 +89,8 @@ std::vector<uint8_t> documentWithBounds() {
     for (const char* bound : {"min", "max"}) {
       if (!accessor.contains(bound)) continue;
       for (Json& value : accessor[bound]) {
-        const std::string spelling = value.dump() + (value.is_number_float() ? "0" : ".0");
-        value = Json::binary({spelling.begin(), spelling.end()});
+        const std::string spelling = value.dump() + (value.text().find('.') != std::string::npos ? "0" : ".0");
+        value = Json::number(spelling);
       }
     }
   }

@@ -14,7 +14,7 @@
 namespace mcc::gltf::test {
 namespace {
 
-Json spelt(const std::string& number) { return Json::binary({number.begin(), number.end()}); }
+Json spelt(const std::string& number) { return Json::number(number); }
 
 TEST(OddDocuments, PrimitivesShareAccessorsHoweverTheirNumbersAreSpelt) {
   Builder builder;

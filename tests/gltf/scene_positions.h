@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "gltf/document/accessors.h"
-#include "gltf/document/json.h"
+#include "json/json.h"
 
 namespace mcc::gltf::test {
 
@@ -33,9 +33,7 @@ inline Matrix product(const Matrix& a, const Matrix& b) {
 
 /// A number however it is spelt.
 inline double numberOf(const Json& json) {
-  if (!json.is_binary()) return json.get<double>();
-  const auto& spelling = json.get_binary();
-  return std::strtod(std::string(spelling.begin(), spelling.end()).c_str(), nullptr);
+  return std::strtod(json.text().c_str(), nullptr);
 }
 
 /// Reads a document and places its vertices.

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "gltf/document/accessors.h"
-#include "gltf/document/json.h"
+#include "json/json.h"
 
 namespace mcc::gltf::test {
 

@@ -239,7 +239,7 @@ void writeFractions(Json& json) {
     todo.pop_back();
     if (value.is_structured()) {
       for (Json& member : value) todo.push_back(&member);
-    } else if (value.is_number_integer()) {
+    } else if (value.is_number() && value.text().find_first_of(".eE") == std::string::npos) {
       value = value.get<double>();
     }
   }

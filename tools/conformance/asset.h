@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf/document/json.h"
+#include "json/json.h"
 #include "mcc/reader.h"
 #include "writer/settings.h"
 

@@ -202,7 +202,7 @@ class Maker {
     const int64_t moved =
         static_cast<int64_t>((payload.size() + 3) & ~size_t{3}) - static_cast<int64_t>(before);
     for (Json& view : json["bufferViews"]) {
-      const int64_t offset = view["byteOffset"];
+      const auto offset = view["byteOffset"].get<int64_t>();
       if (offset != 0) view["byteOffset"] = offset + moved;
     }
     claimCounts(payload, json);

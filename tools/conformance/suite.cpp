@@ -14,6 +14,7 @@
 #include "found.h"
 #include "gltf/base/payload.h"
 #include "header_fields.h"
+#include "mcc/gltf.h"
 #include "negatives.h"
 #include "sources.h"
 
@@ -262,9 +263,9 @@ std::vector<uint8_t> extended(const std::vector<uint8_t>& there, const std::vect
     throw std::runtime_error("the manifest is damaged");
   for (const char* const list : kLists) {
     std::set<std::string> known;
-    for (const Json& entry : manifest[list]) known.insert(entry["file"]);
+    for (const Json& entry : manifest[list]) known.insert(entry["file"].text());
     for (const Json& entry : more[list]) {
-      if (known.insert(entry["file"]).second) manifest[list].push_back(entry);
+      if (known.insert(entry["file"].text()).second) manifest[list].push_back(entry);
     }
   }
   return asFile(manifest);

@@ -19,6 +19,7 @@
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/system.h"
+#include "json/json.h"
 #include "notes.h"
 #include "progress_line.h"
 
@@ -26,7 +27,7 @@ namespace mcc::tool {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 enum class Outcome : uint8_t { kDone, kCopied, kUpToDate, kFailed };
 constexpr size_t kOutcomeCount = 4;

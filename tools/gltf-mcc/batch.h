@@ -6,11 +6,11 @@
 
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "commands.h"
+#include "json/json.h"
 #include "mcc/gltf.h"
 
 namespace mcc::tool {
@@ -22,7 +22,7 @@ struct BatchResult {
   uint64_t output_bytes = 0;
   gltf::FilesInUse files;
   std::vector<std::string> notes;
-  nlohmann::ordered_json details;  ///< for the report; may be null
+  gltf::Json details;  ///< for the report; may be null
 };
 
 struct BatchOptions {
@@ -36,7 +36,7 @@ struct BatchOptions {
   std::string done_name;            ///< name of the outcome in tables, "converted"
   std::string copied_why;           ///< why a file was copied, "nothing becomes smaller"
   std::string details_name;         ///< key of BatchResult::details in the report
-  nlohmann::ordered_json settings;  ///< all options that the bytes of the outputs depend on
+  gltf::Json settings;  ///< all options that the bytes of the outputs depend on
   /// Makes one output from one input with the given number of threads. Called in parallel.
   std::function<gltf::Result(const std::string& input, const std::filesystem::path& output,
                              uint32_t thread_count, BatchResult& result)>

@@ -6,12 +6,13 @@
 #include "gltf/base/path_text.h"
 #include "gltf/files/file_io.h"
 #include "interrupt.h"
+#include "json/json.h"
 
 namespace mcc::tool {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using gltf::Json;
 
 constexpr char kFileName[] = ".gltf-mcc.json";
 
@@ -33,7 +34,7 @@ Json stampsOf(const std::vector<fs::path>& paths) {
 
 bool areUnchanged(const Json& stamps) {
   for (const Json& stamp : stamps) {
-    if (stampOf(gltf::pathOf(stamp.at(0).get<std::string>())) != stamp) return false;
+    if (stampOf(gltf::pathOf(stamp[0].get<std::string>())) != stamp) return false;
   }
   return !stamps.empty();
 }
@@ -42,7 +43,7 @@ bool areUnchanged(const Json& stamps) {
 
 fs::path BatchRecord::pathIn(const fs::path& folder) { return folder / kFileName; }
 
-BatchRecord::BatchRecord(const fs::path& folder, const nlohmann::ordered_json& settings)
+BatchRecord::BatchRecord(const fs::path& folder, const gltf::Json& settings)
     : path_(pathIn(folder)),
       maker_(std::string(MCC_VERSION) + " " + settings.dump()),
       files_(Json::object()),
@@ -52,7 +53,6 @@ BatchRecord::BatchRecord(const fs::path& folder, const nlohmann::ordered_json& s
 
 gltf::Result BatchRecord::read() {
   constexpr uintmax_t kMostBytes = uintmax_t{1} << 26;
-  constexpr int kMostLevels = 5;  // of objects and arrays in a record
   std::error_code code;
   const fs::file_status status = fs::symlink_status(path_, code);
   if (!fs::exists(status)) return {};
@@ -64,38 +64,27 @@ gltf::Result BatchRecord::read() {
   std::vector<uint8_t> bytes;
   gltf::Result result = gltf::readFile(path_, bytes);
   if (!result.ok()) return result;
-  bool is_deep = false;
-  const auto look = [&](int depth, Json::parse_event_t, const Json&) {
-    is_deep |= depth > kMostLevels;
-    return !is_deep;
-  };
-  Json json = Json::parse(bytes, look, false);
-  const bool is_record =
-      !is_deep && json.is_object() && json.contains("files") && json["files"].is_object();
-  if (!is_record) return {gltf::textOf(path_), "is not a record of this program"};
+  Json json;
+  if (!gltf::parseJson(bytes, json).ok() || !json["files"].is_object()) return {gltf::textOf(path_), "is not a record of this program"};
   files_ = std::move(json["files"]);
   return {};
 }
 
 bool BatchRecord::isUpToDate(const std::string& output_name, const fs::path& input) const {
-  try {
-    const auto found = files_.find(output_name);
-    if (found == files_.end() || found->at("maker") != maker_) return false;
-    const Json& inputs = found->at("input");
-    const Json& outputs = found->at("output");
-    const Json& bytes = found->at("bytes");
-    return inputs.at(0) == stampOf(input) &&
-           outputs.at(0) == stampOf(path_.parent_path() / gltf::pathOf(output_name)) &&
-           areUnchanged(inputs) && areUnchanged(outputs) && bytes.at(0).is_number_unsigned() &&
-           bytes.at(1).is_number_unsigned();
-  } catch (const Json::exception&) {
-    return false;  // damaged
-  }
+  const Json* const found = gltf::findMember(files_, output_name);
+  if (found == nullptr || (*found)["maker"] != maker_) return false;
+  const Json& inputs = (*found)["input"];
+  const Json& outputs = (*found)["output"];
+  const Json& bytes = (*found)["bytes"];
+  return inputs[0] == stampOf(input) &&
+         outputs[0] == stampOf(path_.parent_path() / gltf::pathOf(output_name)) &&
+         areUnchanged(inputs) && areUnchanged(outputs) && bytes[0].is_number() &&
+         bytes[1].is_number();
 }
 
 std::pair<uint64_t, uint64_t> BatchRecord::sizesOf(const std::string& output_name) const {
-  const Json& bytes = files_.at(output_name).at("bytes");
-  return {bytes.at(0).get<uint64_t>(), bytes.at(1).get<uint64_t>()};
+  const Json& bytes = files_.find(output_name)->find("bytes")[0];
+  return {bytes[0].get<uint64_t>(), bytes[1].get<uint64_t>()};
 }
 
 void BatchRecord::add(const std::string& output_name, const BatchResult& made,
@@ -113,7 +102,7 @@ void BatchRecord::remove(const std::string& output_name) { files_.erase(output_n
 gltf::Result BatchRecord::write() const {
   if (!is_file_) return {};
   const Json json = {{"tool", std::string("gltf-mcc ") + MCC_VERSION}, {"files", files_}};
-  const std::string text = json.dump(1, ' ', true, Json::error_handler_t::replace) + "\n";
+  const std::string text = json.dump(1, true) + "\n";
   return gltf::writeFile(path_, {reinterpret_cast<const uint8_t*>(text.data()), text.size()},
                          &temporaryFiles());
 }

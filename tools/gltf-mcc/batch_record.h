@@ -5,11 +5,11 @@
 #define MCC_TOOL_BATCH_RECORD_H_
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "batch.h"
+#include "json/json.h"
 #include "mcc/gltf.h"
 
 namespace mcc::tool {
@@ -24,7 +24,7 @@ class BatchRecord {
   /// Reads the record of a folder. `settings` are those of BatchOptions. A record that is absent
   /// counts as empty. So does one that is damaged, huge, deeply nested or not a file, with a note,
   /// since other programs may have written it.
-  BatchRecord(const std::filesystem::path& folder, const nlohmann::ordered_json& settings);
+  BatchRecord(const std::filesystem::path& folder, const gltf::Json& settings);
 
   /// Says why the record was not used; ok when it was used or there was none.
   const gltf::Result& note() const { return note_; }
@@ -45,7 +45,7 @@ class BatchRecord {
 
   std::filesystem::path path_;
   std::string maker_;  ///< version and options, as one string
-  nlohmann::json files_;
+  gltf::Json files_;
   bool is_file_ = true;  ///< false when something other than a file has the record's name
   gltf::Result note_;    ///< result of read(), which sets files_ and is_file_, so it comes last
 };

@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 
 #include "comparison_report.h"
 #include "convert_report.h"
 #include "gltf/base/printable.h"
+#include "json/json.h"
 
 namespace mcc::tool {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 using bench::Codec;
 using bench::CodecFigures;
 using bench::FileFigures;
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 /// Means of times are taken over files with at least this many triangles.
 constexpr uint64_t kTimedTriangles = 5000;

@@ -5,16 +5,15 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "convert_report.h"
+#include "json/json.h"
 
 namespace mcc::tool {
 namespace {
 
 using bench::BlocksFigures;
 using bench::BlocksOfFile;
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 std::string milliseconds(double seconds) { return fmt::format("{:.1f}", 1000 * seconds); }
 

@@ -7,7 +7,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "bench/emit_draco.h"
 #include "comparison_report.h"
@@ -19,12 +18,13 @@
 #include "gltf/files/file_io.h"
 #include "help.h"
 #include "interrupt.h"
+#include "json/json.h"
 #include "progress_line.h"
 
 namespace mcc::tool {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 struct CompareCommand {
   CommonOptions common;

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "gltf/base/printable.h"
+#include "json/json.h"
 
 namespace mcc::tool {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 using bench::Codec;
 using bench::CodecFigures;
 using bench::FileFigures;
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 constexpr Codec kColumns[] = {Codec::kMcc, Codec::kDraco0, Codec::kDraco3, Codec::kDraco5};
 

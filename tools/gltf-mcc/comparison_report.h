@@ -4,11 +4,11 @@
 
 #if defined(MCC_HAS_FOREIGN)
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "bench/measure.h"
+#include "json/json.h"
 #include "table.h"
 
 namespace mcc::tool {
@@ -43,7 +43,7 @@ std::string comparisonCsv(const std::vector<bench::FileFigures>& files);
 ///                  {bytes_with, streams: [{name, mcc}]}. `codecs` leaves them out on both sides.
 ///   versions       {draco}
 ///   notes          what was not compared, and why
-nlohmann::ordered_json comparisonJson(const bench::FileFigures& figures);
+gltf::Json comparisonJson(const bench::FileFigures& figures);
 
 /// Returns the order of streams in tables: triangles first, attributes in their order, header last.
 int streamRank(const std::string& name);

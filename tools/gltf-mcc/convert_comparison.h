@@ -4,12 +4,12 @@
 
 #include <cstdint>
 #include <future>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "commands.h"
+#include "json/json.h"
 #include "mcc/gltf.h"
 #include "whole_sizes.h"
 
@@ -31,7 +31,7 @@ struct ConvertComparison {
   std::string line;             ///< Draco's size in words; empty when nothing was compared
   std::string tables;           ///< empty unless is_full
   std::string notes;            ///< lines to print
-  nlohmann::ordered_json json;  ///< see comparisonJson(); null unless is_full
+  gltf::Json json;  ///< see comparisonJson(); null unless is_full
   std::optional<WholeSize> draco_size;  ///< only when is_full
   /// Whether Draco is measured at all its speeds, for tables and reports; else only its size, the
   /// smaller of speeds 0 and 5, while the conversion is being checked.

@@ -3,20 +3,19 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "convert_summary.h"
 #include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "gltf/files/file_io.h"
 #include "gltf/inspect/report_json.h"
 #include "interrupt.h"
+#include "json/json.h"
 #include "notes.h"
 
 namespace mcc::tool {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 /// Sums over all payloads of a file.
 struct Totals {
@@ -179,7 +178,7 @@ Json reportJson(const Converted& converted, const gltf::ConvertOptions& options,
 
 std::string printReport(const Json& json) {
   // Pure ASCII, so that control characters in names cannot reach a terminal.
-  return json.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
+  return json.dump(2, true) + "\n";
 }
 
 namespace {

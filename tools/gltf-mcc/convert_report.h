@@ -2,10 +2,10 @@
 #ifndef MCC_TOOL_CONVERT_REPORT_H_
 #define MCC_TOOL_CONVERT_REPORT_H_
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "commands.h"
+#include "json/json.h"
 #include "mcc/gltf.h"
 #include "whole_sizes.h"
 
@@ -25,11 +25,11 @@ struct Converted {
 std::string reportText(const Converted& converted, const CommonOptions& options);
 
 /// Returns everything known about a conversion. `comparison` is left out when it is null.
-nlohmann::ordered_json reportJson(const Converted& converted, const gltf::ConvertOptions& options,
-                                  const nlohmann::ordered_json& comparison);
+gltf::Json reportJson(const Converted& converted, const gltf::ConvertOptions& options,
+                                  const gltf::Json& comparison);
 
 /// Returns the indented text of a report.
-std::string printReport(const nlohmann::ordered_json& json);
+std::string printReport(const gltf::Json& json);
 
 /// Returns text like "1,838,104 -> 171,656 bytes (9.3 %)".
 std::string sizeChange(uint64_t input_bytes, uint64_t output_bytes);

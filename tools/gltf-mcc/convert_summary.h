@@ -8,6 +8,7 @@
 #include <string>
 
 #include "convert_report.h"
+#include "mcc/gltf.h"
 
 namespace mcc::tool {
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "bars.h"
 #include "commands.h"
@@ -13,6 +12,7 @@
 #include "gltf/inspect/inspect_json.h"
 #include "gltf/inspect/report_json.h"
 #include "help.h"
+#include "json/json.h"
 #include "plain_report.h"
 #include "progress_line.h"
 #include "standard_streams.h"

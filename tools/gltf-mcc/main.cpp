@@ -19,6 +19,7 @@
 #include "help.h"
 #include "help_pages.h"
 #include "interrupt.h"
+#include "mcc/gltf.h"
 #include "standard_streams.h"
 #include "suggest.h"
 #include "terminal.h"

@@ -55,7 +55,7 @@ std::string otherCodec(const gltf::Document& document) {
   for (const gltf::Json& name : gltf::arrayOf(document.json, "extensionsUsed")) {
     for (const char* codec :
          {gltf::kMeshExtension, gltf::kViewExtensions[0], gltf::kViewExtensions[1]}) {
-      if (name.is_string() && name.get_ref<const std::string&>() == codec) return codec;
+      if (name.is_string() && name.text() == codec) return codec;
     }
   }
   return "";

@@ -6,6 +6,7 @@
 
 #include "gltf/document/document.h"
 #include "gltf/document/package.h"
+#include "mcc/gltf.h"
 #include "table.h"
 
 namespace mcc::tool {

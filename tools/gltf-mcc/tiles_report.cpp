@@ -8,11 +8,12 @@
 
 #include "convert_report.h"
 #include "gltf/base/printable.h"
+#include "json/json.h"
 
 namespace mcc::tool {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 /// Sums over the files of a level. A file that tiles of several levels show counts for the first.
 struct LevelSum {
@@ -140,7 +141,7 @@ Json fileJson(const TilesRunResult& result, uint32_t number) {
 
 /// Prints JSON in one line; names of files may be any bytes.
 std::string lineOf(const Json& json) {
-  return json.dump(-1, ' ', true, Json::error_handler_t::replace);
+  return json.dump(-1, true);
 }
 
 /// Returns a line of JSON for each file, with its notes.

@@ -3,11 +3,11 @@
 #define MCC_TOOL_TILES_REPORT_H_
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "commands.h"
+#include "json/json.h"
 #include "tiles/convert_tile.h"
 #include "tiles/file_table.h"
 #include "tiles/tileset_walk.h"
@@ -31,7 +31,7 @@ struct TilesRunResult {
   std::string input;
   std::string output;
   std::string part;  ///< "whole" or "3-of-8"
-  nlohmann::ordered_json settings;
+  gltf::Json settings;
   tiles::FileTable table;
   tiles::TilesetWalk walk;
   std::vector<TilesFile> files;  ///< as in the table

@@ -19,6 +19,7 @@
 #include "gltf/files/named_file.h"
 #include "gltf/inspect/report_json.h"
 #include "interrupt.h"
+#include "json/json.h"
 #include "progress_line.h"
 #include "tiles/accuracy.h"
 #include "tiles/convert_tile.h"
@@ -33,7 +34,7 @@ namespace fs = std::filesystem;
 using gltf::Result;
 using tiles::genericText;
 using tiles::isInside;
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 class TilesRun {
  public:
@@ -274,28 +275,38 @@ std::string TilesRun::makerOf(uint32_t file) const {
   return fmt::format("{} {:016x}", MCC_VERSION, tiles::hashOf(all));
 }
 
+/// Whether a line of the record holds what keep() wrote; it may be damaged.
+bool isMade(const Json& json) {
+  const auto areNumbers = [](const Json& numbers) {
+    return numbers[0].is_number() && numbers[1].is_number();
+  };
+  const Json& notes = json["notes"];
+  return json["input_bytes"].is_number() && json["output_bytes"].is_number() &&
+         json["is_copy"].is_boolean() && json["has_positions"].is_boolean() &&
+         areNumbers(json["bits"]) && areNumbers(json["promised"]) && json["measured"].is_number() &&
+         notes.is_array() &&
+         std::all_of(notes.begin(), notes.end(), [](const Json& note) { return note.is_string(); });
+}
+
 bool TilesRun::takeUpToDate(uint32_t file) {
   if (options_.is_forced) return false;
   const std::optional<Json> made = record_->findUpToDate(name(file), makerOf(file), inputsOf(file));
   if (!made) return false;
   TilesFile taken;
-  std::vector<std::string> notes;
-  try {
+  if (!isMade(*made)) return false;
+  const Json& json = *made;
     tiles::TileFigures& figures = taken.figures;
-    taken.input_bytes = made->at("input_bytes").get<uint64_t>();
-    taken.output_bytes = made->at("output_bytes").get<uint64_t>();
+    taken.input_bytes = json["input_bytes"].get<uint64_t>();
+    taken.output_bytes = json["output_bytes"].get<uint64_t>();
     taken.outcome =
-        made->at("is_copy").get<bool>() ? TilesOutcome::kCopied : TilesOutcome::kConverted;
-    figures.has_positions = made->at("has_positions").get<bool>();
-    figures.bits_low = made->at("bits").at(0).get<uint8_t>();
-    figures.bits_high = made->at("bits").at(1).get<uint8_t>();
-    figures.promised_error = made->at("promised").at(0).get<double>();
-    figures.largest_promise = made->at("promised").at(1).get<double>();
-    figures.measured_error = made->at("measured").get<double>();
-    notes = made->at("notes").get<std::vector<std::string>>();
-  } catch (const Json::exception&) {
-    return false;  // the record is damaged
-  }
+        json["is_copy"].get<bool>() ? TilesOutcome::kCopied : TilesOutcome::kConverted;
+    figures.has_positions = json["has_positions"].get<bool>();
+    figures.bits_low = json["bits"][0].get<uint8_t>();
+    figures.bits_high = json["bits"][1].get<uint8_t>();
+    figures.promised_error = json["promised"][0].get<double>();
+    figures.largest_promise = json["promised"][1].get<double>();
+    figures.measured_error = json["measured"].get<double>();
+    const auto notes = json["notes"].get<std::vector<std::string>>();
   taken.is_up_to_date = true;
   result_.files[file] = taken;
   addNotes(file, notes);

@@ -2,19 +2,20 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "convert_report.h"
 #include "gltf/base/printable.h"
 #include "help.h"
+#include "json/json.h"
+#include "mcc/gltf.h"
 #include "standard_streams.h"
 #include "suggest.h"
 
 namespace mcc::tool {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 constexpr const char* kSeverities[] = {"error", "warning", "info", "hint"};
 

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #if defined(MCC_HAS_FOREIGN)
 #include "foreign/brotli_codec.h"
 #endif
@@ -12,6 +10,7 @@
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
+#include "json/json.h"
 
 namespace mcc::tool {
 bool canMeasureWhole() {
@@ -65,8 +64,8 @@ std::string wholeSizesText(const std::vector<WholeSize>& sizes, Format format) {
   return table.print(format);
 }
 
-nlohmann::ordered_json wholeSizesJson(const std::vector<WholeSize>& sizes) {
-  nlohmann::ordered_json json = {{"brotli_quality", kBrotliQuality}};
+gltf::Json wholeSizesJson(const std::vector<WholeSize>& sizes) {
+  gltf::Json json = {{"brotli_quality", kBrotliQuality}};
   for (const WholeSize& size : sizes) {
     json[size.name] = {{"bytes", size.bytes}, {"brotli_bytes", size.brotli_bytes}};
   }

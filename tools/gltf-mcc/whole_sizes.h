@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <future>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "json/json.h"
 #include "table.h"
 
 namespace mcc::tool {
@@ -48,7 +48,7 @@ WholeSize measureWhole(std::string name, const FileContents& files);
 std::string wholeSizesText(const std::vector<WholeSize>& sizes, Format format);
 
 /// Returns {"brotli_quality", "input": {"bytes", "brotli_bytes"}, …}.
-nlohmann::ordered_json wholeSizesJson(const std::vector<WholeSize>& sizes);
+gltf::Json wholeSizesJson(const std::vector<WholeSize>& sizes);
 
 }  // namespace mcc::tool
 

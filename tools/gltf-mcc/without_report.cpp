@@ -6,7 +6,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "json/json.h"
 
 namespace mcc::tool {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 using bench::Ablation;
 using bench::AblationFigures;
 using bench::WithoutFigures;
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 /// Accumulates a geometric mean of quotients.
 struct Mean {

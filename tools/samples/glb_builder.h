@@ -5,16 +5,16 @@
 #define MCC_TOOLS_SAMPLES_GLB_BUILDER_H_
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "json/json.h"
 #include "mcc/types.h"
 
 namespace mcc::samples {
 
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 class GlbBuilder {
  public:

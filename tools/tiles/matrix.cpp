@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "gltf/document/json.h"
+#include "json/json.h"
 
 namespace mcc::tiles {
 
@@ -89,7 +89,7 @@ std::array<double, 3> transformed(const Matrix& matrix, const std::array<double,
   return result;
 }
 
-bool readNumbers(const nlohmann::ordered_json& json, double* numbers, size_t count) {
+bool readNumbers(const gltf::Json& json, double* numbers, size_t count) {
   if (!json.is_array() || json.size() != count) return false;
   for (size_t i = 0; i < count; ++i) {
     if (!gltf::asNumber(json[i], numbers[i]) || !std::isfinite(numbers[i])) return false;

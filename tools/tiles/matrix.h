@@ -3,7 +3,8 @@
 #define MCC_TILES_MATRIX_H_
 
 #include <array>
-#include <nlohmann/json.hpp>
+
+#include "json/json.h"
 
 namespace mcc::tiles {
 
@@ -27,7 +28,7 @@ bool invertLinear(const Matrix& matrix, Matrix& inverse);
 std::array<double, 3> transformed(const Matrix& matrix, const std::array<double, 3>& point);
 
 /// Reads `count` finite numbers from a JSON array. Returns false when it is anything else.
-bool readNumbers(const nlohmann::ordered_json& json, double* numbers, size_t count);
+bool readNumbers(const gltf::Json& json, double* numbers, size_t count);
 
 }  // namespace mcc::tiles
 

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "gltf/base/result.h"
-#include "gltf/document/json.h"
 #include "gltf/document/package.h"
+#include "json/json.h"
 
 namespace mcc::tiles {
 namespace {
@@ -120,7 +119,7 @@ double farthestBound(const Json& json) {
 
 bool usesExtension(const Json& json, const char* name) {
   for (const Json& used : arrayOf(json, "extensionsUsed")) {
-    if (used.is_string() && used.get_ref<const std::string&>() == name) return true;
+    if (used.is_string() && used.text() == name) return true;
   }
   return false;
 }

@@ -60,7 +60,7 @@ Json stampsOf(const fs::path& folder, const std::vector<std::string>& names) {
 }
 
 std::string textOf(const Json& json) {
-  return json.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
+  return json.dump(-1, true) + "\n";
 }
 
 /// Returns the name of which ".NAME.tmp-12-3" is a temporary file, or an empty text.
@@ -75,7 +75,7 @@ std::string nameOfTemporary(const std::string& file_name) {
 
 /// Parses a line of a record. Returns null for one that was cut off or damaged.
 Json parseLine(const std::string& line) {
-  Json entry = Json::parse(line, nullptr, false);
+  Json entry = Json::parse(line);
   const bool is_file = entry.is_object() && entry.contains("file") && entry["file"].is_string();
   return is_file ? entry : Json();
 }
@@ -167,7 +167,7 @@ void Record::read(const fs::path& path) {
     const Json entry = parseLine(line);
     if (entry.is_null()) continue;
     const auto [known, is_new] =
-        places_.try_emplace(hashOf(entry["file"].get_ref<const std::string&>()));
+        places_.try_emplace(hashOf(entry["file"].text()));
     // What was made counts more than what another part's record only announced.
     if (is_new || entry.contains("maker")) known->second = {record, offset};
   }
@@ -184,7 +184,7 @@ Json Record::lineOf(std::string_view name) {
   stream.seekg(static_cast<std::streamoff>(found->second.offset));
   std::getline(stream, line);
   Json entry = parseLine(line);
-  const bool is_it = !entry.is_null() && entry["file"].get_ref<const std::string&>() == name;
+  const bool is_it = !entry.is_null() && entry["file"].text() == name;
   return is_it ? entry : Json();
 }
 
@@ -222,19 +222,14 @@ Result Record::endClaims() {
 
 std::optional<Json> Record::findUpToDate(std::string_view name, const std::string& maker,
                                          const std::vector<std::string>& inputs) {
-  try {
-    const Json entry = lineOf(name);
-    if (entry.is_null() || !entry.contains("maker") || entry.at("maker") != maker) {
-      return std::nullopt;
-    }
-    if (entry.at("input") != stampsOf(input_, inputs)) return std::nullopt;
-    for (const Json& stamp : entry.at("output")) {
-      if (stampOf(output_, stamp.at(0).get<std::string>()) != stamp) return std::nullopt;
-    }
-    return entry.at("made");
-  } catch (const Json::exception&) {
-    return std::nullopt;  // damaged
+  const Json entry = lineOf(name);
+  const Json& outputs = entry["output"];
+  if (entry["maker"] != maker || entry["input"] != stampsOf(input_, inputs)) return std::nullopt;
+  if (!outputs.is_array() || !entry.contains("made")) return std::nullopt;  // damaged
+  for (const Json& stamp : outputs) {
+    if (stampOf(output_, stamp[0].get<std::string>()) != stamp) return std::nullopt;
   }
+  return entry["made"];
 }
 
 void Record::add(std::string_view name, const std::string& maker,

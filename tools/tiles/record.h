@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "gltf/files/work_lock.h"
+#include "json/json.h"
 #include "mcc/gltf.h"
 #include "tiles/part.h"
 
@@ -30,7 +30,7 @@ namespace mcc::tiles {
 /// made in one folder or in several that are merged later.
 class Record {
  public:
-  using Json = nlohmann::ordered_json;
+  using Json = gltf::Json;
 
   /// Whether a file at the top of a folder has the name of a record.
   static bool isName(std::string_view name);

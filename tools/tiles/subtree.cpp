@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "gltf/base/result.h"
-#include "gltf/document/json.h"
+#include "json/json.h"
 #include "tiles/little_endian.h"
 
 namespace mcc::tiles {
@@ -22,7 +22,7 @@ constexpr uint64_t kMostBuffers = 1024;
 constexpr char kSemantic[] = "TILE_GEOMETRIC_ERROR";
 
 bool isText(const Json* json, const char* text) {
-  return json != nullptr && json->is_string() && json->get_ref<const std::string&>() == text;
+  return json != nullptr && json->is_string() && json->text() == text;
 }
 
 }  // namespace

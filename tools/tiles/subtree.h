@@ -7,12 +7,12 @@
 
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "json/json.h"
 #include "mcc/gltf.h"
 
 namespace mcc::tiles {
@@ -56,7 +56,7 @@ struct ErrorSchema {
 };
 
 /// Looks for a property with the semantic TILE_GEOMETRIC_ERROR.
-ErrorSchema errorSchemaOf(const nlohmann::ordered_json& schema);
+ErrorSchema errorSchemaOf(const gltf::Json& schema);
 
 /// A subtree that has been read.
 class Subtree {
@@ -85,14 +85,14 @@ class Subtree {
  private:
   gltf::Result readJsonPart(std::span<const uint8_t>& json, std::span<const uint8_t>& binary) const;
   gltf::Result readBuffers(const BufferReader& read_buffer, std::span<const uint8_t> binary);
-  gltf::Result viewAt(const std::string& where, const nlohmann::ordered_json& number,
+  gltf::Result viewAt(const std::string& where, const gltf::Json& number,
                       std::span<const uint8_t>& bytes) const;
-  gltf::Result readAvailability(const nlohmann::ordered_json* json, const std::string& where,
+  gltf::Result readAvailability(const gltf::Json* json, const std::string& where,
                                 uint64_t bit_count, Availability& availability) const;
   gltf::Result readErrors(const ErrorSchema& schema);
 
   std::vector<uint8_t> file_;
-  nlohmann::ordered_json json_;  ///< only while read() works
+  gltf::Json json_;  ///< only while read() works
   std::vector<std::vector<uint8_t>> loaded_;
   std::vector<std::span<const uint8_t>> buffers_;
   Availability tiles_;

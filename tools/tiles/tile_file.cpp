@@ -5,12 +5,11 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "gltf/base/result.h"
 #include "gltf/document/glb.h"
-#include "gltf/document/json.h"
+#include "json/json.h"
 #include "tiles/little_endian.h"
 #include "tiles/matrix.h"
 

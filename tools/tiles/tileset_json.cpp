@@ -4,19 +4,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "gltf/base/path_text.h"
 #include "gltf/base/result.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
-#include "tiles/json_file.h"
+#include "json/json_scanner.h"
+#include "json/numbers.h"
 
 namespace mcc::tiles {
 namespace {
 
+using gltf::JsonScanner;
+using gltf::JsonToken;
 using gltf::Result;
-using Json = nlohmann::json;
 using Place = TilesetJson::ContentPlace;
 
 /// What an object or array that is open means.
@@ -38,19 +39,44 @@ enum class Scope : uint8_t {
 
 /// The number of an element of `children` or of a list of contents counts elements of every kind,
 /// so that paths in messages are right.
-class TilesetHandler final : public nlohmann::json_sax<Json> {
+class TilesetReader {
  public:
-  TilesetHandler(const JsonFile& file, uint64_t max_tiles, TilesetJson& out)
-      : file_(file), max_tiles_(max_tiles), out_(out) {}
+  TilesetReader(JsonScanner& scanner, uint64_t max_tiles, TilesetJson& out)
+      : scanner_(scanner), max_tiles_(max_tiles), out_(out) {}
 
-  const Result& result() const { return result_; }
-
-  bool key(string_t& name) override {
-    key_ = std::move(name);
-    return true;
+  Result read() {
+    JsonToken token = scanner_.next();
+    for (; token != JsonToken::kEnd && token != JsonToken::kError; token = scanner_.next()) {
+      take(token);
+      if (!result_.ok()) return result_;
+    }
+    return token == JsonToken::kEnd ? Result() : scanner_.error();
   }
 
-  bool start_object(std::size_t) override {
+ private:
+  /// A tile that is open, and how many children it has so far.
+  struct OpenTile {
+    uint32_t tile = 0;
+    uint32_t child_count = 0;
+  };
+
+  void take(JsonToken token) {
+    switch (token) {
+      case JsonToken::kKey: key_ = scanner_.text(); break;
+      case JsonToken::kObject: beginObject(); break;
+      case JsonToken::kObjectEnd: endObject(); break;
+      case JsonToken::kArray: beginArray(); break;
+      case JsonToken::kArrayEnd:
+        if (inner() == Scope::kTransform) endTransform();
+        scopes_.pop_back();
+        break;
+      case JsonToken::kString: string(scanner_.text()); break;
+      case JsonToken::kNumber: number(gltf::numberOf(scanner_.text())); break;
+      default: wrongValue(); break;
+    }
+  }
+
+  void beginObject() {
     Scope scope = Scope::kIgnored;
     switch (inner()) {
       case Scope::kTop: scope = objectOfTop(); break;
@@ -72,19 +98,16 @@ class TilesetHandler final : public nlohmann::json_sax<Json> {
         if (scopes_.empty()) scope = Scope::kTop;
         break;
     }
-    if (!result_.ok()) return false;
     scopes_.push_back(scope);
-    return true;
   }
 
-  bool end_object() override {
+  void endObject() {
     if (inner() == Scope::kTile) open_tiles_.pop_back();
-    if (inner() == Scope::kSchema) out_.schema_end = file_.position();
+    if (inner() == Scope::kSchema) out_.schema_end = scanner_.position();
     scopes_.pop_back();
-    return true;
   }
 
-  bool start_array(std::size_t) override {
+  void beginArray() {
     Scope scope = Scope::kIgnored;
     if (inner() == Scope::kTile) {
       scope = arrayOfTile();
@@ -94,16 +117,9 @@ class TilesetHandler final : public nlohmann::json_sax<Json> {
       wrongValue();
     }
     scopes_.push_back(scope);
-    return true;
   }
 
-  bool end_array() override {
-    if (inner() == Scope::kTransform) endTransform();
-    scopes_.pop_back();
-    return true;
-  }
-
-  bool string(string_t& text) override {
+  void string(const std::string& text) {
     switch (inner()) {
       case Scope::kAsset: stringOfAsset(text); break;
       case Scope::kTop:
@@ -120,32 +136,7 @@ class TilesetHandler final : public nlohmann::json_sax<Json> {
         break;
       default: wrongValue(); break;
     }
-    return result_.ok();
   }
-
-  bool number_integer(number_integer_t value) override {
-    return number(static_cast<double>(value));
-  }
-  bool number_unsigned(number_unsigned_t value) override {
-    return number(static_cast<double>(value));
-  }
-  bool number_float(number_float_t value, const string_t&) override { return number(value); }
-  bool null() override { return wrongValue(); }
-  bool boolean(bool) override { return wrongValue(); }
-  bool binary(binary_t&) override { return wrongValue(); }
-
-  bool parse_error(std::size_t position, const std::string&,
-                   const nlohmann::detail::exception&) override {
-    result_ = gltf::error("JSON byte " + std::to_string(position), "the JSON is damaged");
-    return false;
-  }
-
- private:
-  /// A tile that is open, and how many children it has so far.
-  struct OpenTile {
-    uint32_t tile = 0;
-    uint32_t child_count = 0;
-  };
 
   Scope inner() const { return scopes_.empty() ? Scope::kIgnored : scopes_.back(); }
   TilesetJson::Tile& tile() { return out_.tiles[open_tiles_.back().tile]; }
@@ -153,7 +144,7 @@ class TilesetHandler final : public nlohmann::json_sax<Json> {
   Scope objectOfTop() {
     if (key_ == "asset") return Scope::kAsset;
     if (key_ == "schema") {
-      out_.schema_begin = file_.position() - 1;
+      out_.schema_begin = scanner_.position() - 1;
       return Scope::kSchema;
     }
     if (key_ != "root") return Scope::kIgnored;
@@ -249,7 +240,7 @@ class TilesetHandler final : public nlohmann::json_sax<Json> {
     if (key_ == "gltfUpAxis") out_.up_axis = text;
   }
 
-  bool number(double value) {
+  void number(double value) {
     switch (inner()) {
       case Scope::kTop:
         if (key_ == "geometricError" && std::isfinite(value)) out_.geometric_error = value;
@@ -268,7 +259,6 @@ class TilesetHandler final : public nlohmann::json_sax<Json> {
       case Scope::kImplicit: numberOfImplicit(value); break;
       default: wrongValue(); break;
     }
-    return true;
   }
 
   void numberOfImplicit(double value) {
@@ -282,7 +272,7 @@ class TilesetHandler final : public nlohmann::json_sax<Json> {
   }
 
   /// A value of another kind than this place has.
-  bool wrongValue() {
+  void wrongValue() {
     switch (inner()) {
       case Scope::kTransform: is_transform_wrong_ = true; break;
       case Scope::kTile:
@@ -297,7 +287,6 @@ class TilesetHandler final : public nlohmann::json_sax<Json> {
       case Scope::kContentList: newContent(list_place_, list_size_++); break;
       default: break;
     }
-    return true;
   }
 
   void addWrong(const std::string& member, const char* what) {
@@ -307,7 +296,7 @@ class TilesetHandler final : public nlohmann::json_sax<Json> {
     out_.wrong_places.push_back({open_tiles_.back().tile, member, what});
   }
 
-  const JsonFile& file_;
+  JsonScanner& scanner_;
   const uint64_t max_tiles_;
   TilesetJson& out_;
   Result result_;
@@ -321,47 +310,44 @@ class TilesetHandler final : public nlohmann::json_sax<Json> {
   bool is_transform_wrong_ = false;
 };
 
-/// Looks for the object `root` of a document, and ends the parser as soon as it is there.
-class RootFinder final : public nlohmann::json_sax<Json> {
+/// Reads a file in parts. Borrows it.
+class FileParts {
  public:
-  bool isFound() const { return is_found_; }
+  explicit FileParts(gltf::NamedFile& file) : file_(file), part_(size_t{1} << 16) {}
 
-  bool key(string_t& name) override {
-    is_root_ = depth_ == 1 && name == "root";
-    return true;
-  }
-  bool start_object(std::size_t) override {
-    is_found_ = is_root_;
-    is_root_ = false;
-    ++depth_;
-    return !is_found_;
-  }
-  bool end_object() override {
-    --depth_;
-    return true;
-  }
-  bool start_array(std::size_t) override {
-    is_root_ = false;
-    ++depth_;
-    return true;
-  }
-  bool end_array() override { return end_object(); }
-  bool string(string_t&) override { return depth_ != 0; }
-  bool number_integer(number_integer_t) override { return depth_ != 0; }
-  bool number_unsigned(number_unsigned_t) override { return depth_ != 0; }
-  bool number_float(number_float_t, const string_t&) override { return depth_ != 0; }
-  bool null() override { return depth_ != 0; }
-  bool boolean(bool) override { return depth_ != 0; }
-  bool binary(binary_t&) override { return depth_ != 0; }
-  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
-    return false;
+  static std::string_view next(void* self) {
+    auto& [file, part] = *static_cast<FileParts*>(self);
+    return {part.data(), file.readSome(part.data(), part.size())};
   }
 
  private:
-  uint64_t depth_ = 0;
-  bool is_root_ = false;
-  bool is_found_ = false;
+  gltf::NamedFile& file_;
+  std::vector<char> part_;
 };
+
+/// Looks for the object `root` of a document, and stops as soon as it is there.
+bool hasRoot(JsonScanner& scanner) {
+  uint64_t depth = 0;
+  bool is_root = false;
+  while (true) {
+    switch (scanner.next()) {
+      case JsonToken::kKey: is_root = depth == 1 && scanner.text() == "root"; continue;
+      case JsonToken::kObject:
+        if (is_root) return true;
+        ++depth;
+        continue;
+      case JsonToken::kArray: ++depth; break;
+      case JsonToken::kObjectEnd:
+      case JsonToken::kArrayEnd: --depth; break;
+      case JsonToken::kEnd:
+      case JsonToken::kError: return false;
+      default:
+        if (depth == 0) return false;
+        break;
+    }
+    is_root = false;
+  }
+}
 
 }  // namespace
 
@@ -395,10 +381,9 @@ Result readTilesetJson(const std::filesystem::path& folder, const std::string& n
   const std::filesystem::path path = folder / gltf::pathOf(name);
   gltf::NamedFile opened;
   MCC_GLTF_TRY(gltf::inFile(path, opened.open(folder, name)));
-  JsonFile file(opened);
-  TilesetHandler handler(file, max_tiles, tileset);
-  Json::sax_parse(file.begin(), JsonFile::end(), &handler);
-  if (!handler.result().ok()) return gltf::inFile(path, handler.result());
+  FileParts parts(opened);
+  JsonScanner scanner(&FileParts::next, &parts);
+  MCC_GLTF_TRY(gltf::inFile(path, TilesetReader(scanner, max_tiles, tileset).read()));
   if (!tileset.tiles.empty()) return {};
   return gltf::error(gltf::textOf(path), "is not a tileset: it has no root");
 }
@@ -406,11 +391,9 @@ Result readTilesetJson(const std::filesystem::path& folder, const std::string& n
 bool isTilesetFile(const std::filesystem::path& folder, const std::string& name) {
   gltf::NamedFile opened;
   if (!opened.open(folder, name).ok()) return false;
-  JsonFile file(opened);
-  if (file.isAtEnd()) return false;
-  RootFinder finder;
-  Json::sax_parse(file.begin(), JsonFile::end(), &finder);
-  return finder.isFound();
+  FileParts parts(opened);
+  JsonScanner scanner(&FileParts::next, &parts);
+  return hasRoot(scanner);
 }
 
 }  // namespace mcc::tiles

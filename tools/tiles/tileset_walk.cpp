@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -17,9 +16,9 @@
 #include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "gltf/base/result.h"
-#include "gltf/document/json.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
+#include "json/json.h"
 #include "tiles/subtree.h"
 #include "tiles/tile_uri.h"
 #include "tiles/tileset_json.h"

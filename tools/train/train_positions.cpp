@@ -4,7 +4,6 @@
 // (kUniversalWeights in lib/src/positions/tables.h) and prints the table. Each mesh is fitted at 11
 // and 14 bits; an entry of the table is the median over the meshes that have enough vertices of the
 // class. See tools/train/run.
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "entropy/decoder_io.h"
+#include "json/json.h"
 #include "mcc/writer.h"
 #include "positions/enc_fit.h"
 #include "reader/piece.h"
@@ -38,7 +38,7 @@ std::vector<Mesh> loadMeshes(const char* path) {
   if (bytes.size() < 28) return meshes;
   uint32_t json_bytes = 0;
   std::memcpy(&json_bytes, bytes.data() + 12, 4);
-  const auto json = nlohmann::json::parse(bytes.substr(20, json_bytes));
+  const auto json = gltf::Json::parse(bytes.substr(20, json_bytes));
   const std::string chunk = bytes.substr(28 + json_bytes);
   for (const auto& mesh : json["meshes"]) {
     for (const auto& primitive : mesh["primitives"]) {
@@ -46,7 +46,7 @@ std::vector<Mesh> loadMeshes(const char* path) {
       const auto& position = json["accessors"][primitive["attributes"]["POSITION"].get<size_t>()];
       const auto& index = json["accessors"][primitive["indices"].get<size_t>()];
       if (position["componentType"] != 5126) continue;
-      const auto start = [&](const nlohmann::json& accessor) {
+      const auto start = [&](const gltf::Json& accessor) {
         const auto& view = json["bufferViews"][accessor["bufferView"].get<size_t>()];
         return chunk.data() + view.value("byteOffset", 0) + accessor.value("byteOffset", 0);
       };

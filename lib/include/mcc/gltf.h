@@ -16,23 +16,13 @@
 #include "mcc/decoded_limit.h"
 #include "mcc/export.h"
 #include "mcc/reader.h"
+#include "mcc/result.h"
 #include "mcc/types.h"
 
 namespace mcc::gltf {
 
 /// The key of the extension objects.
 inline constexpr char kExtensionName[] = "KHR_mesh_collapse_compression";
-
-/// Result of every fallible call: `what` is empty on success.
-struct [[nodiscard]] Result {
-  std::string where;  ///< JSON path ("/meshes/0/primitives/2"), "byte 20", a file name, or empty
-  std::string what;   ///< what is wrong and, where that helps, what to do; one line, no full stop
-
-  /// Whether the call succeeded.
-  bool ok() const { return what.empty(); }
-  /// "where: what", or only one of them when the other is empty.
-  MCC_API std::string message() const;
-};
 
 /// Which primitives share one lattice of positions. No cracks can open between those that do.
 enum class Grid : uint8_t {

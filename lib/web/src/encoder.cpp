@@ -6,12 +6,12 @@
 // those views come before convert().
 #include <algorithm>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "coded_views.h"
 #include "gltf/inspect/report_json.h"
+#include "json/json.h"
 #include "mcc/gltf.h"
 
 #define MCC_EXPORT(name) extern "C" __attribute__((export_name(name), used))
@@ -25,8 +25,8 @@ std::vector<uint8_t> glb;
 std::string text;  // the report, the list of coded views, or the error message
 mcc::web::CodedViews coded_views;
 
-std::string printed(const nlohmann::ordered_json& json) {
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+std::string printed(const gltf::Json& json) {
+  return json.dump(-1);
 }
 
 }  // namespace

@@ -7,11 +7,11 @@
 #include <exception>
 #include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "base/c_struct.h"
 #include "gltf/api/convert.h"
 #include "gltf/inspect/inspect_json.h"
+#include "json/json.h"
 #include "mcc/gltf.h"
 
 struct mcc_document {
@@ -163,7 +163,7 @@ mcc_status mcc_inspect_glb(const void* glb, size_t byte_count, const char* name,
         // Names in the JSON of a file need not be UTF-8; dump() must not throw for them.
         const std::string text =
             mcc::gltf::inspectJson(name == nullptr ? "" : name, report)
-                .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+                .dump(2);
         sink.bytes->assign(text.begin(), text.end());
         return result;
       });

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gltf/base/result.h"
+#include "mcc/gltf.h"
 #include "mcc/status.h"
 
 namespace mcc::gltf {

@@ -3,36 +3,10 @@
 
 #include <cstdint>
 
+#include "json/utf8.h"
+
 namespace mcc::gltf {
 namespace {
-
-struct Character {
-  uint32_t code = 0;
-  size_t byte_count = 0;  ///< 0: not UTF-8
-};
-
-bool isContinuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
-
-/// Returns the first character of a text that is not empty.
-Character firstCharacter(std::string_view text) {
-  const auto lead = static_cast<unsigned char>(text[0]);
-  if (lead < 0x80) return {lead, 1};
-  const size_t byte_count = lead >= 0xf8   ? 0
-                            : lead >= 0xf0 ? 4
-                            : lead >= 0xe0 ? 3
-                            : lead >= 0xc2 ? 2
-                                           : 0;
-  if (byte_count == 0 || byte_count > text.size()) return {};
-  uint32_t code = lead & (0x7fu >> byte_count);
-  for (size_t i = 1; i < byte_count; ++i) {
-    if (!isContinuation(text[i])) return {};
-    code = code << 6 | (static_cast<unsigned char>(text[i]) & 0x3fu);
-  }
-  constexpr uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
-  const bool is_surrogate = code >= 0xd800 && code < 0xe000;
-  if (code < kLeast[byte_count] || code > 0x10ffff || is_surrogate) return {};
-  return {code, byte_count};
-}
 
 bool isPrintable(uint32_t code) {
   if (code < 0x20 || (code >= 0x7f && code < 0xa0)) return false;

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "mcc/gltf.h"
+#include "mcc/result.h"
 
 namespace mcc::gltf {
 

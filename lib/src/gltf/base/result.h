@@ -5,28 +5,13 @@
 #include <string>
 #include <utility>
 
-#include "mcc/gltf.h"
+#include "json/path.h"
+#include "mcc/result.h"
 
 namespace mcc::gltf {
 
 inline Result error(std::string where, std::string what) {
   return Result{std::move(where), std::move(what)};
-}
-
-/// Returns the JSON pointer to an element: at("/accessors", 3) is "/accessors/3".
-inline std::string at(const std::string& path, uint64_t index) {
-  return path + "/" + std::to_string(index);
-}
-inline std::string at(const std::string& path, const std::string& key) {
-  std::string escaped;  // RFC 6901
-  for (const char c : key) {
-    if (c == '~' || c == '/') {
-      escaped += c == '~' ? "~0" : "~1";
-    } else {
-      escaped += c;
-    }
-  }
-  return path + "/" + escaped;
 }
 
 /// Returns the JSON path of a primitive.

@@ -158,12 +158,12 @@ class Checker {
       for (uint32_t& wedge : source_of) {
         if (!piece.kept.empty()) wedge = piece.kept[wedge];
       }
-      const DecodedMaps maps(decodedPrimitive(piece.parts[0].users[0]));
+      const Json& decoded = decodedPrimitive(piece.parts[0].users[0]);
       for (const AttributePlan& attribute : piece.attributes) {
-        MCC_GLTF_TRY(failed(checkAttribute(piece, maps, attribute, source_of), where));
+        MCC_GLTF_TRY(failed(checkAttribute(piece, decoded, attribute, source_of), where));
       }
       for (const AttributePlan& attribute : piece.ordinary) {
-        MCC_GLTF_TRY(failed(checkOrdinary(maps, attribute, source_of), where));
+        MCC_GLTF_TRY(failed(checkOrdinary(decoded, attribute, source_of), where));
         if (payload.plan.reorders()) reordered_.insert(attribute.accessor);
       }
       for (const uint32_t accessor : piece.vertex_numbers) {
@@ -208,25 +208,16 @@ class Checker {
     return primitiveAt(*decoded_meshes_, ref);
   }
 
-  /// The accessors of a decoded primitive by name, those of its morph targets as well.
-  struct DecodedMaps {
-    explicit DecodedMaps(const Json& primitive) : attributes(findMember(primitive, "attributes")) {
-      for (const Json& target : arrayOf(primitive, "targets")) targets.emplace_back(target);
-    }
-    MemberIndex attributes;
-    std::vector<MemberIndex> targets;
-  };
-
   /// Finds the accessor of an attribute of a decoded primitive.
-  Result decodedAccessor(const DecodedMaps& maps, const AttributePlan& attribute,
+  Result decodedAccessor(const Json& primitive, const AttributePlan& attribute,
                          uint32_t& accessor) const {
     uint64_t index = 0;
-    const Json* number = nullptr;
-    if (attribute.target == kNone) {
-      number = maps.attributes.find(attribute.name);
-    } else if (attribute.target < maps.targets.size()) {
-      number = maps.targets[attribute.target].find(attribute.name);
+    const Json* map = findMember(primitive, "attributes");
+    const Json& targets = arrayOf(primitive, "targets");
+    if (attribute.target != kNone) {
+      map = attribute.target < targets.size() ? &targets[attribute.target] : nullptr;
     }
+    const Json* number = findMember(map, attribute.name);
     if (number == nullptr || !asUnsigned(*number, index) || index >= decoded_.accessors.size()) {
       return error("", attribute.label() + " is missing");
     }
@@ -263,10 +254,10 @@ class Checker {
     return 0;
   }
 
-  Result checkAttribute(const PiecePlan& piece, const DecodedMaps& maps,
+  Result checkAttribute(const PiecePlan& piece, const Json& primitive,
                         const AttributePlan& attribute, std::span<const uint32_t> source_of) {
     uint32_t index = 0;
-    MCC_GLTF_TRY(decodedAccessor(maps, attribute, index));
+    MCC_GLTF_TRY(decodedAccessor(primitive, attribute, index));
     const Accessor& accessor = decoded_.accessors[index];
     if (accessor.count != piece.wedge_count ||
         formatOf(attribute.name, attribute.target, accessor) != attribute.format) {
@@ -297,10 +288,10 @@ class Checker {
   }
 
   /// Checks an attribute that stays next to the payload: every bit must be at its vertex.
-  Result checkOrdinary(const DecodedMaps& maps, const AttributePlan& attribute,
+  Result checkOrdinary(const Json& primitive, const AttributePlan& attribute,
                        std::span<const uint32_t> source_of) const {
     uint32_t index = 0;
-    MCC_GLTF_TRY(decodedAccessor(maps, attribute, index));
+    MCC_GLTF_TRY(decodedAccessor(primitive, attribute, index));
     const Accessor& accessor = decoded_.accessors[index];
     if (accessor.count != source_.accessors[attribute.accessor].count ||
         formatOf(attribute.name, attribute.target, accessor) != attribute.format) {
@@ -427,12 +418,10 @@ class Checker {
   /// Compares numbers of accessors under the same names, however each is spelt.
   static bool equalNumbers(const Json& a, const Json& b) {
     if (a.is_structured()) {
-      if (a.type() != b.type() || a.size() != b.size()) return false;
-      const MemberIndex in_b(b);
-      size_t i = 0;
-      for (auto value = a.begin(); value != a.end(); ++value, ++i) {
-        const Json* other = a.is_array() ? &b[i] : in_b.find(value.key());
-        if (other == nullptr || !equalNumbers(*value, *other)) return false;
+      if (a.kind() != b.kind() || a.size() != b.size()) return false;
+      for (size_t i = 0; i < a.size(); ++i) {
+        const Json* other = a.is_array() ? &b[i] : findMember(b, a.keyAt(i));
+        if (other == nullptr || !equalNumbers(a[i], *other)) return false;
       }
       return true;
     }

@@ -2,6 +2,7 @@
 #include "gltf/check/check_json.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "gltf/check/same_bytes.h"
@@ -13,21 +14,19 @@
 namespace mcc::gltf {
 namespace {
 
-using Member = std::pair<const std::string, Json>;
-
-/// Returns the members of an object sorted by key; those with the same key stay in the order of the
-/// object.
-std::vector<const Member*> sortedMembers(const Json& object) {
-  std::vector<const Member*> members;
-  for (const Member& member : object.get_ref<const Json::object_t&>()) members.push_back(&member);
+/// Returns the numbers of an object's members sorted by key; those with the same key stay in the
+/// order of the object.
+std::vector<size_t> sortedMembers(const Json& object) {
+  std::vector<size_t> members(object.size());
+  std::iota(members.begin(), members.end(), size_t{0});
   std::stable_sort(members.begin(), members.end(),
-                   [](const Member* a, const Member* b) { return a->first < b->first; });
+                   [&](size_t a, size_t b) { return object.keyAt(a) < object.keyAt(b); });
   return members;
 }
 
 /// Whether two values differ. `path` is extended to the place of the difference.
 bool differs(const Json& a, const Json& b, std::string& path) {
-  if (!a.is_structured() || a.type() != b.type()) return !(a == b);
+  if (!a.is_structured() || a.kind() != b.kind()) return !(a == b);
   if (a.size() != b.size()) return true;
   const size_t length = path.size();
   if (a.is_array()) {
@@ -38,13 +37,12 @@ bool differs(const Json& a, const Json& b, std::string& path) {
     }
     return false;
   }
-  const std::vector<const Member*> in_a = sortedMembers(a);
-  const std::vector<const Member*> in_b = sortedMembers(b);
+  const std::vector<size_t> in_a = sortedMembers(a);
+  const std::vector<size_t> in_b = sortedMembers(b);
   for (size_t i = 0; i < in_a.size(); ++i) {
-    path = at(path, in_a[i]->first);
-    if (in_a[i]->first != in_b[i]->first || differs(in_a[i]->second, in_b[i]->second, path)) {
-      return true;
-    }
+    const std::string& key = a.keyAt(in_a[i]);
+    path = at(path, key);
+    if (key != b.keyAt(in_b[i]) || differs(a[in_a[i]], b[in_b[i]], path)) return true;
     path.resize(length);
   }
   return false;

@@ -254,7 +254,7 @@ Json extensionJson(uint64_t buffer_view, size_t piece_number, const PiecePlan& p
   for (size_t id = 0; id < piece.attributes.size(); ++id) {
     const AttributePlan& attribute = piece.attributes[id];
     Json& map = attribute.target == kNone ? attributes : targets[attribute.target];
-    map.get_ref<Json::object_t&>().emplace_back(attribute.name, id);  // names are unique
+    map.append(attribute.name, id);  // names are unique
   }
   json["attributes"] = std::move(attributes);
   if (!targets.empty()) json["targets"] = std::move(targets);

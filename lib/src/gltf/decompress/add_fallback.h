@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf/document/json.h"
+#include "json/json.h"
 
 namespace mcc::gltf {
 

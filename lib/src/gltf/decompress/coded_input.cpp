@@ -157,13 +157,13 @@ class MeshReader {
     if (ids == nullptr || !ids->is_object()) {
       return error(coded.path, "\"attributes\" is missing or not an object");
     }
-    const MemberIndex accessors(findMember(primitive, "attributes"));
+    const Json* accessors = findMember(primitive, "attributes");
     for (const auto& [name, value] : ids->items()) {
       CodedMesh::Attribute attribute;
       uint64_t id = 0;
       MCC_GLTF_TRY(readUnsigned(value, at(coded.path + "/attributes", name), kNone, id));
       uint32_t accessor = 0;
-      MCC_GLTF_TRY(accessorOf(accessors.find(name), name, path + "/attributes", accessor));
+      MCC_GLTF_TRY(accessorOf(findMember(accessors, name), name, path + "/attributes", accessor));
       attribute.id = static_cast<uint32_t>(id);
       attribute.component_type = document_.accessors[accessor].component_type;
       attribute.component_count = document_.accessors[accessor].componentCount();

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstring>
 
+#include "mcc/reader.h"
+
 namespace mcc::gltf {
 
 // glTF buffers are little-endian, and accessors are filled by memcpy. Reader and writer work on

@@ -114,8 +114,8 @@ class ContentsWalk {
       if (uri == nullptr || !uri->is_string()) {
         addNumber(image, "bufferView", false);
         ++result_.image_count;
-      } else if (isDataUri(uri->get_ref<const std::string&>())) {
-        data_uri_bytes_ += uri->get_ref<const std::string&>().size();
+      } else if (isDataUri(uri->text())) {
+        data_uri_bytes_ += uri->text().size();
         ++result_.image_count;
       } else {
         ++result_.image_file_count;

@@ -15,7 +15,7 @@
 
 #include "gltf/base/decoded_bytes.h"
 #include "gltf/document/glb.h"
-#include "gltf/document/json.h"
+#include "json/json.h"
 #include "mcc/types.h"
 
 namespace mcc::gltf {

@@ -31,7 +31,6 @@ void readMap(const Document& document, const Json& ids, const std::string& path,
              const Json* accessors, const std::string& accessors_path, uint32_t target,
              Issues& issues, ExtensionUse& use) {
   if (!ids.is_object()) return issues.add(Rule::kSchema, path, "must be an object");
-  const MemberIndex own(accessors);
   for (const auto& [name, id] : ids.items()) {
     ExtensionUse::AttributeUse attribute;
     attribute.name = name;
@@ -39,7 +38,7 @@ void readMap(const Document& document, const Json& ids, const std::string& path,
     attribute.path = at(path, name);
     const bool has_id =
         issues.passes(Rule::kSchema, readUnsigned(id, attribute.path, kMaxNumber, attribute.id));
-    const Json* number = own.find(name);
+    const Json* number = findMember(accessors, name);
     if (number == nullptr) {
       issues.add(Rule::kAttributeName, attribute.path,
                  "the primitive has no attribute of this name");
@@ -186,9 +185,9 @@ class Sharing {
     const Json* indices = findMember(primitive, "indices");
     if (indices != nullptr && ours == nullptr) note(*indices, path + "/indices");
     visitAttributeMaps(primitive, [&](const Json& map, uint32_t target) {
-      const MemberIndex coded(codedMap(ours, target));
+      const Json* coded = codedMap(ours, target);
       for (const auto& [name, accessor] : map.items()) {
-        if (coded.find(name) == nullptr) note(accessor, at(mapPath(path, target), name));
+        if (findMember(coded, name) == nullptr) note(accessor, at(mapPath(path, target), name));
       }
     });
   }
@@ -286,10 +285,10 @@ void checkOrdinaryAttributes(const Document& document, const ExtensionUse& use,
   const Json* extension = extensionOf(primitive, kExtensionName);
   const std::string path = primitivePath(use.mesh, use.primitive);
   visitAttributeMaps(primitive, [&](const Json& map, uint32_t target) {
-    const MemberIndex coded(codedMap(extension, target));
+    const Json* coded = codedMap(extension, target);
     for (const auto& [name, value] : map.items()) {
       uint64_t index = 0;
-      if (coded.find(name) != nullptr) continue;
+      if (findMember(coded, name) != nullptr) continue;
       if (asUnsigned(value, index) && index < document.accessors.size() &&
           document.accessors[index].count == piece.wedge_count) {
         continue;

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "gltf/document/references.h"
+#include "mcc/gltf.h"
 
 namespace mcc::gltf {
 namespace {
@@ -60,7 +61,7 @@ bool removeFallback(size_t number, Json& json) {
   }
   json["bufferViews"].erase(json["bufferViews"].begin() + static_cast<ptrdiff_t>(view_count),
                             json["bufferViews"].end());
-  json["buffers"].erase(number);
+  json["buffers"].erase(&json["buffers"][number]);
   return true;
 }
 

@@ -7,7 +7,7 @@
 
 #include <cstddef>
 
-#include "gltf/document/json.h"
+#include "json/json.h"
 
 namespace mcc::gltf {
 

@@ -8,7 +8,7 @@
 #include <functional>
 #include <string_view>
 
-#include "gltf/document/json.h"
+#include "json/json.h"
 
 namespace mcc::gltf {
 

@@ -9,7 +9,8 @@
 #include <string>
 #include <string_view>
 
-#include "gltf/document/json.h"
+#include "gltf/base/result.h"
+#include "json/json.h"
 #include "mcc/types.h"
 
 namespace mcc::gltf {
@@ -87,9 +88,8 @@ void visitFilledAccessors(const Json& primitive, const Json& extension, const Vi
     const Json* ids = attribute_ids;
     if (target != kNone) ids = target < target_ids.size() ? &target_ids[target] : nullptr;
     if (ids == nullptr || !ids->is_object()) return;
-    const MemberIndex accessors(map);
     for (const auto& [name, id] : ids->items()) {
-      const Json* number = accessors.find(name);
+      const Json* number = findMember(map, name);
       if (number != nullptr && asUnsigned(*number, accessor)) visit(accessor);
     }
   });

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "gltf/document/known_extensions.h"
+#include "mcc/gltf.h"
 
 namespace mcc::gltf {
 namespace {
@@ -253,7 +254,7 @@ void removeExtensionName(Json& root, const char* list, const char* name) {
 std::string nodeDependentExtension(const Json& root, const ForeignReferences& foreign) {
   if (!foreign.extension.empty()) return foreign.extension;
   for (const Json& name : arrayOf(root, "extensionsUsed")) {
-    if (name.is_string() && refersToNodes(name.get_ref<const std::string&>())) {
+    if (name.is_string() && refersToNodes(name.text())) {
       return name.get<std::string>();
     }
   }

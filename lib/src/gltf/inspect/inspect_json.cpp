@@ -1,14 +1,11 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/inspect/inspect_json.h"
 
-#include <nlohmann/json.hpp>
-
 #include "gltf/inspect/report_json.h"
+#include "json/json.h"
 
 namespace mcc::gltf {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json codesJson(const CodeHistogram& codes) {
   Json degrees = Json::object();

@@ -4,15 +4,15 @@
 #ifndef MCC_GLTF_INSPECT_INSPECT_JSON_H_
 #define MCC_GLTF_INSPECT_INSPECT_JSON_H_
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "json/json.h"
 #include "mcc/gltf.h"
 
 namespace mcc::gltf {
 
 /// Returns everything that is known about the payloads of a file. `input` is the file's name.
-nlohmann::ordered_json inspectJson(const std::string& input, const InspectReport& report);
+Json inspectJson(const std::string& input, const InspectReport& report);
 
 /// Returns a text such as "f32x3" or "u8x4n".
 std::string typeText(const AttributeInfo& attribute);

@@ -1,13 +1,11 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/inspect/report_json.h"
 
-#include <nlohmann/json.hpp>
 #include "format/codings.h"
+#include "json/json.h"
 
 namespace mcc::gltf {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json attributeJson(const AttributeReport& attribute) {
   Json json = {{"name", attribute.name},

@@ -5,18 +5,18 @@
 #define MCC_GLTF_INSPECT_REPORT_JSON_H_
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "json/json.h"
 #include "mcc/gltf.h"
 
 namespace mcc::gltf {
 
 /// Returns the options that the bytes of the output depend on.
-nlohmann::ordered_json optionsJson(const ConvertOptions& options);
+Json optionsJson(const ConvertOptions& options);
 
 /// Returns everything that is known about a conversion.
-nlohmann::ordered_json reportJson(const ConvertReport& report, const ConvertOptions& options);
+Json reportJson(const ConvertReport& report, const ConvertOptions& options);
 
 /// Returns a name such as "lattice 14" or "exact float". With `bits` 0, the bits are left out.
 std::string codingName(AttributeCoding coding, uint32_t bits);
