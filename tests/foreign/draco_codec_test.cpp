@@ -110,7 +110,7 @@ bool loadModel(const std::string& name, const Bits& bits, Model& model) {
                               std::istreambuf_iterator<char>());
   uint32_t json_bytes = 0;
   std::memcpy(&json_bytes, &glb.at(12), 4);
-  const gltf::Json document = gltf::Json::parse(glb.begin() + 20, glb.begin() + 20 + json_bytes);
+  const gltf::Json document = gltf::Json::parse({glb.data() + 20, json_bytes});
   const std::vector<char> binary(glb.begin() + 20 + json_bytes + 8, glb.end());
   const gltf::Json& primitive = document["meshes"][0]["primitives"][0];
   const gltf::Json& index_accessor = document["accessors"][primitive["indices"].get<size_t>()];

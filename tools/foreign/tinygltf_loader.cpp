@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "foreign/tinygltf_loader.h"
 
-#if __has_include(<tiny_gltf.h>)
+#if __has_include(<tiny_gltf.h>) && __has_include(<nlohmann/json.hpp>)
 
 // A namespace of its own: programs may link another tinygltf, without Draco.
 #define tinygltf tinygltf_with_draco

@@ -17,7 +17,6 @@ function(header_package name target folder)
   file(WRITE ${CMAKE_FIND_PACKAGE_REDIRECTS_DIR}/${name}ConfigVersion.cmake "set(PACKAGE_VERSION_COMPATIBLE TRUE)\n")
 endfunction()
 
-header_package(nlohmann_json nlohmann_json::nlohmann_json nlohmann)
 header_package(CLI11 CLI11::CLI11 CLI)
 header_package(fmt fmt::fmt fmt FMT_HEADER_ONLY=1)
 

@@ -19,10 +19,6 @@ class GltfMccConan(ConanFile):
     options = {"shared": [True, False], "reader_only": [True, False]}
     default_options = {"shared": False, "reader_only": False}
 
-    def requirements(self):
-        if not self.options.reader_only:
-            self.requires("nlohmann_json/[>=3.10 <4]", visible=False)
-
     def validate(self):
         check_min_cppstd(self, 20)
 

@@ -210,6 +210,10 @@ class Json {
   friend bool operator==(const Json& a, T b) {
     return a.equals(Json(b));
   }
+  /// Orders numbers.
+  friend std::partial_ordering operator<=>(const Json& a, const Json& b) {
+    return a.get<double>() <=> b.get<double>();
+  }
   template <class T>
     requires std::is_arithmetic_v<T>
   friend std::partial_ordering operator<=>(const Json& a, T b) {

@@ -38,11 +38,11 @@ bool readNumber(std::string_view spelling, double& value) {
 #if defined(__cpp_lib_to_chars)
   return std::from_chars(spelling.data(), spelling.data() + spelling.size(), value).ec ==
          std::errc();
-#else  // such as libc++ before version 20, whose strtod() wants the decimal point of the locale
+#else  // such as libc++ before version 20: the function wants the decimal point of the locale
   std::string text(spelling);
   const size_t point = text.find('.');
   if (point != std::string::npos) text.replace(point, 1, std::localeconv()->decimal_point);
-  value = std::strtod(text.c_str(), nullptr);  // not of the locale
+  value = std::strtod(text.c_str(), nullptr);  // which is the one of the locale
   return std::isfinite(value);
 #endif
 }
