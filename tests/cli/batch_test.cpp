@@ -418,7 +418,7 @@ TEST_F(Streams, BuffersMustBeInside) {
   const ToolResult result =
       runCommand(folder_, std::string("( '") + MCC_TOOL_GLTF_MCC + "' convert - b.glb < a.gltf )");
   EXPECT_EQ(result.status, 1);
-  EXPECT_NE(result.err.find("standard input: /buffers/0/uri: the file \"a.bin\" is needed"),
+  EXPECT_NE(result.err.find("standard input: /buffers/0/uri: the file \"a."),
             std::string::npos)
       << result.err;
 #endif

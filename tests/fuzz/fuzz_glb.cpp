@@ -20,7 +20,8 @@ namespace {
 
 uint64_t numberOr(const Json& object, const char* key, uint64_t otherwise) {
   const auto found = object.find(key);
-  return found != object.end() && found->is_number_unsigned() ? found->get<uint64_t>() : otherwise;
+  return found != object.end() && found->is_number() && *found >= 0 ? found->get<uint64_t>()
+                                                                    : otherwise;
 }
 
 void repairPayloads(std::span<const uint8_t> text, std::vector<uint8_t>& bin) {

@@ -22,7 +22,7 @@ namespace {
 class Seeds {
  public:
   explicit Seeds(std::filesystem::path folder) : folder_(std::move(folder)) {
-    for (const char* target : {"payload", "codes", "entropy", "roundtrip", "glb"}) {
+    for (const char* target : {"payload", "codes", "entropy", "roundtrip", "glb", "json"}) {
       std::filesystem::create_directories(folder_ / target);
     }
   }
@@ -98,6 +98,7 @@ void addSamples(Seeds& seeds) {
     seeds.add("glb", file);
     gltf::GlbFile glb;
     if (!gltf::readGlb(file, glb).ok()) continue;
+    seeds.add("json", {glb.json.begin(), glb.json.end()});
     std::vector<uint8_t> parts = {1};
     append16(parts, glb.json.size());
     parts.insert(parts.end(), glb.json.begin(), glb.json.end());

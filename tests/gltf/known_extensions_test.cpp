@@ -126,7 +126,7 @@ struct PropertyTable {
     size_t next = 0;
     for (const char* name : {"name", "floors", "height"}) {
       for (const auto& [key, value] : properties[name].items()) {
-        if (!value.is_number()) continue;
+        if (!value.is_number() || value < 0) continue;
         const uint32_t view = value.get<uint32_t>();
         ASSERT_LT(view, document.views.size());
         const BufferView& range = document.views[view];

@@ -252,7 +252,7 @@ TEST(ForeignInput, DracoTilesKeepTheirIds) {
     EXPECT_TRUE(sortedTriangles(corners, indicesOf(model.decoded, accessor)) ==
                 sortedTriangles(cornersOf(plain.toGlb(), {"_BATCHID"}), wide(city.indices)));
     const Json json = gltf::test::jsonOf(model.converted);
-    EXPECT_EQ(json["extensionsUsed"], Json({gltf::kExtensionName}));
+    EXPECT_EQ(json["extensionsUsed"], Json::array({gltf::kExtensionName}));
   }
 }
 

@@ -63,13 +63,10 @@ Json::Json(Json&& other) noexcept
       text_(std::move(other.text_)),
       values_(std::move(other.values_)) {}
 
-Json& Json::operator=(const Json& other) { return *this = Json(other); }
-
-Json& Json::operator=(Json&& other) noexcept {
-  Json taken(std::move(other));  // which may lie in this one
-  kind_ = taken.kind_;
-  text_ = std::move(taken.text_);
-  values_.swap(taken.values_);
+Json& Json::operator=(Json other) noexcept {
+  kind_ = other.kind_;
+  text_ = std::move(other.text_);
+  values_.swap(other.values_);
   return *this;
 }
 
@@ -345,7 +342,9 @@ std::string Json::dump(int indent, bool is_ascii) const {
 
 Result parseJson(std::span<const uint8_t> text, Json& json) {
   json = Json();
-  Builder builder({reinterpret_cast<const char*>(text.data()), text.size()}, json);
+  std::string_view view(reinterpret_cast<const char*>(text.data()), text.size());
+  while (view.ends_with('\0')) view.remove_suffix(1);  // what old exporters pad a GLB with
+  Builder builder(view, json);
   return builder.build();
 }
 

@@ -58,8 +58,7 @@ class Json {
   template <class T, size_t kCount>
   Json(const std::array<T, kCount>& values) : Json(rangeOf(values)) {}
   template <class T, size_t kCount>
-    requires(!std::same_as<T, char>)
-  Json(const T (&values)[kCount]) : Json(rangeOf(values)) {}
+  requires(!std::same_as<T, char>) Json(const T (&values)[kCount]) : Json(rangeOf(values)) {}
   /// An object if every element is an array of a text and a value; else an array.
   Json(std::initializer_list<Json> elements);
   static Json array(std::initializer_list<Json> elements = {});
@@ -71,8 +70,8 @@ class Json {
 
   Json(const Json& other);
   Json(Json&& other) noexcept;
-  Json& operator=(const Json& other);
-  Json& operator=(Json&& other) noexcept;
+  /// By value, because json["a"] = json["b"] may move where "b" is.
+  Json& operator=(Json other) noexcept;
   ~Json();
 
   Kind kind() const { return kind_; }
@@ -106,8 +105,7 @@ class Json {
 
   /// The same where a number, a truth or a text is wanted.
   template <class T>
-    requires(std::is_arithmetic_v<T> || std::same_as<T, std::string>)
-  operator T() const {
+  requires(std::is_arithmetic_v<T> || std::same_as<T, std::string>) operator T() const {
     return get<T>();
   }
 
@@ -137,6 +135,8 @@ class Json {
   /// an object; in const JSON it is null.
   Json& operator[](std::string_view key);
   const Json& operator[](std::string_view key) const;
+  Json& operator[](const char* key) { return (*this)[std::string_view(key)]; }
+  const Json& operator[](const char* key) const { return (*this)[std::string_view(key)]; }
   /// The first member with this key, or end().
   Json* find(std::string_view key);
   const Json* find(std::string_view key) const { return const_cast<Json*>(this)->find(key); }
@@ -169,7 +169,8 @@ class Json {
   void update(const Json& other);
   /// Gives a member another key. It keeps its place.
   void rename(std::string_view from, std::string to);
-  /// Removes the first member with this key, if there is one, or the elements or members at a place.
+  /// Removes the first member with this key, if there is one, or the elements or members at a
+  /// place.
   void erase(std::string_view key);
   void erase(const Json* place) { erase(place, place + 1); }
   void erase(const Json* from, const Json* to);
@@ -206,16 +207,14 @@ class Json {
   /// Whether both have equal members in the same order. Numbers are equal if their values are.
   friend bool operator==(const Json& a, const Json& b) { return a.equals(b); }
   template <class T>
-    requires std::is_arithmetic_v<T>
-  friend bool operator==(const Json& a, T b) {
-    return a.equals(Json(b));
-  }
+  requires std::is_arithmetic_v<T>
+  friend bool operator==(const Json& a, T b) { return a.equals(Json(b)); }
   /// Orders numbers.
   friend std::partial_ordering operator<=>(const Json& a, const Json& b) {
     return a.get<double>() <=> b.get<double>();
   }
   template <class T>
-    requires std::is_arithmetic_v<T>
+  requires std::is_arithmetic_v<T>
   friend std::partial_ordering operator<=>(const Json& a, T b) {
     return a.get<double>() <=> static_cast<double>(b);
   }
@@ -238,7 +237,7 @@ class Json {
   };
   struct Values {
     std::vector<Json> values;
-    std::vector<std::string> keys;           ///< of an object
+    std::vector<std::string> keys;              ///< of an object
     std::set<uint32_t, ByKey> sorted{{&keys}};  ///< all members of an object that has many
   };
   template <class T>

@@ -67,8 +67,7 @@ Decimal decimalOf(const char* begin, const char* end) {
 Decimal shortestDecimal(double value) {
   char text[128];
   constexpr auto kForm = std::chars_format::scientific;
-  Decimal shortest =
-      decimalOf(text, std::to_chars(text, text + sizeof text, value, kForm).ptr);
+  Decimal shortest = decimalOf(text, std::to_chars(text, text + sizeof text, value, kForm).ptr);
   // Of two that are as near, to_chars takes the even one.
   const size_t size = shortest.digits.size();
   constexpr int kMore = 25;

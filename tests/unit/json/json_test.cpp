@@ -1,0 +1,337 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "gltf/gltf_builder.h"
+#include "json/json.h"
+#include "json/json_scanner.h"
+
+namespace mcc::gltf::test {
+namespace {
+
+std::string reprinted(const std::string& text) {
+  Json json;
+  const Result result = parseJson(asBytes(text), json);
+  return result.ok() ? printJson(json) : "error: " + result.message();
+}
+
+TEST(Json, KeepsNumbersAsTheyWereWritten) {
+  const std::string text =
+      R"({"a":[1e-7,1E+5,-0,-0.0,0.10,1.0,100000000000000000000000,12345678901234567890,)"
+      R"(-9223372036854775808,0.1000000000000000055511151231257827,1e308,5e-324,42,-7,2.5]})";
+  EXPECT_EQ(reprinted(text), text);
+}
+
+TEST(Json, KeepsOrderNullsAndEmptyThings) {
+  const std::string text =
+      R"({"z":null,"a":{},"m":[],"b":[null,{},[]],"":"","t":true,"f":false,"k":{"y":1,"x":2}})";
+  EXPECT_EQ(reprinted(text), text);
+}
+
+TEST(Json, NumbersInsideStringsAreNoNumbers) {
+  const std::string text = R"({"1e-7":"-0 \"0.10\" \\","x":[1e-7,"2.50",3.50]})";
+  EXPECT_EQ(reprinted(text), text);
+}
+
+TEST(Json, KeepsTextOfAllLanguages) {
+  const std::string text = "{\"n\":\"\xc3\xa9\xe4\xb8\xad\xf0\x9f\x98\x80\\n\"}";
+  EXPECT_EQ(reprinted(text), text);
+}
+
+TEST(Json, ErrorsNameTheByte) {
+  EXPECT_NE(reprinted("{\"a\":1,}").find("error: JSON byte 8"), std::string::npos);
+  EXPECT_NE(reprinted("").find("error: JSON byte"), std::string::npos);
+  EXPECT_NE(reprinted("{} x").find("error: JSON byte"), std::string::npos);
+  EXPECT_NE(reprinted("{\"a\":\"\xff\"}").find("error: JSON byte"), std::string::npos);
+}
+
+TEST(Json, RepeatedKeysAreAnErrorExceptInExtras) {
+  const std::string kept =
+      R"({"extras":{"a":1,"a":2,"n":[{"b":1,"b":[]}]},"z":{"extras":{"":0,"":0}}})";
+  EXPECT_EQ(reprinted(kept), kept);
+  EXPECT_EQ(reprinted(R"({"a":[{},{"b/c":1,"x":{"extras":{}},"b/c":1}]})"),
+            "error: /a/1/b~1c: the key appears twice in one object, which glTF forbids");
+  EXPECT_NE(reprinted(R"({"extras":{},"a":1,"a":2})"), R"({"extras":{},"a":1,"a":2})");
+  EXPECT_NE(reprinted(R"({"extras":1,"extras":2})"), R"({"extras":1,"extras":2})");
+}
+
+TEST(Json, KeysAreWholeTexts) {
+  Json json;
+  ASSERT_TRUE(parseJson(asBytes(R"({"a\u0000b":1,"a\u0000c":2,"b":3,"a":4})"), json).ok());
+  for (const auto& [key, value] : json.items()) {
+    EXPECT_EQ(findMember(json, key), &value);
+  }
+  EXPECT_EQ(findMember(json, "c"), nullptr);
+  EXPECT_EQ(findMember(nullptr, "a"), nullptr);
+}
+
+TEST(Json, ErrorsSayWhatIsWrong) {
+  const std::pair<const char*, const char*> kDamaged[] = {
+      {"{\"a: b", "7: the JSON is damaged (a string has no end)"},
+      {"", "1: the JSON is damaged (it ends too early)"},
+      {"[1 2]", "4: the JSON is damaged (a comma or the end of an array is missing)"},
+      {"{\"a\" 1}", "6: the JSON is damaged (a colon is missing after a key)"},
+      {"[01]", "3: the JSON is damaged (a comma or the end of an array is missing)"},
+      {"[1.]", "4: the JSON is damaged (a number has no digits after its point)"},
+      {"[tru]", "5: the JSON is damaged (a value is missing)"},
+      {"\"\\x\"", "3: the JSON is damaged (an escape is unknown)"},
+      {"\"\\ud800\"", "8: the JSON is damaged (half of a surrogate pair is missing)"},
+      {"{} x", "4: the JSON is damaged (something follows the value)"}};
+  for (const auto& [text, error] : kDamaged) {
+    EXPECT_EQ(reprinted(text), std::string("error: JSON byte ") + error) << text;
+  }
+}
+
+TEST(Json, DeepNestingIsAnError) {
+  const std::string deep(100000, '[');
+  EXPECT_NE(reprinted(deep).find("nested deeper"), std::string::npos);
+  const std::string fine = std::string(200, '[') + std::string(200, ']');
+  EXPECT_EQ(reprinted(fine), fine);
+}
+
+TEST(Json, ReadsWholeNumbersInAnySpelling) {
+  Json json;
+  ASSERT_TRUE(
+      parseJson(asBytes(R"({"a":3,"b":3.0,"c":3e0,"d":-1,"e":3.5,"f":"3","g":1e99})"), json).ok());
+  for (const char* key : {"a", "b", "c"}) {
+    uint64_t value = 0;
+    EXPECT_TRUE(readUnsigned(json, key, "", 10, value).ok()) << key;
+    EXPECT_EQ(value, 3u);
+  }
+  for (const char* key : {"d", "e", "f", "g", "missing"}) {
+    uint64_t value = 0;
+    EXPECT_FALSE(readUnsigned(json, key, "/x", 10, value).ok()) << key;
+  }
+  uint64_t value = 7;
+  EXPECT_TRUE(readOptionalUnsigned(json, "missing", "", 10, value).ok());
+  EXPECT_EQ(value, 7u);
+  EXPECT_NE(readUnsigned(json, "a", "/x", 2, value).message().find("/x/a: 3 is too large"),
+            std::string::npos);
+}
+
+/// Texts in the manner of nst's JSONTestSuite, https://github.com/nst/JSONTestSuite: whether each
+/// is JSON.
+TEST(Json, TakesJsonAndNothingElse) {
+  const std::vector<std::string> good = {"[]",
+                                         "[[]]",
+                                         " [ ] ",
+                                         "{}",
+                                         "null",
+                                         "true",
+                                         "false",
+                                         "\"\"",
+                                         "0",
+                                         "-0",
+                                         "-1",
+                                         "1.5",
+                                         "1e1",
+                                         "1E+2",
+                                         "0e1",
+                                         "[1e-2]",
+                                         "[123.456e78]",
+                                         "[0.4e006999999999999999999]",
+                                         "[-237462374673276894279832749832423479823246327846]",
+                                         "[1,null]",
+                                         "{\"\":0}",
+                                         "{\"a\":[]}",
+                                         "{\"\\u0000\":1}",
+                                         "[\"\\ud83d\\ude39\"]",
+                                         "[\"\\\"\\\\\\/\\b\\f\\n\\r\\t\"]",
+                                         "[\"\x7f\"]",
+                                         "[\"\xf4\x8f\xbf\xbf\"]",
+                                         "[\"\xe2\x80\xa8\"]",
+                                         "[\"\\uDBFF\\uDFFE\"]",
+                                         "\xef\xbb\xbf{}",
+                                         "\r\n\t []\n",
+                                         "[\"a/*b*/c\"]"};
+  const std::vector<std::string> bad = {"",
+                                        " ",
+                                        "[",
+                                        "]",
+                                        "[1",
+                                        "[1,",
+                                        "[1,]",
+                                        "[,1]",
+                                        "[1,,2]",
+                                        "[1 true]",
+                                        "[a]",
+                                        "{",
+                                        "}",
+                                        "{\"a\"",
+                                        "{\"a\":",
+                                        "{\"a\":1",
+                                        "{\"a\":1,}",
+                                        "{,}",
+                                        "{a:1}",
+                                        "{'a':1}",
+                                        "{1:1}",
+                                        "{\"a\" 1}",
+                                        "{\"a\"::1}",
+                                        "{\"a\":1 \"b\":2}",
+                                        "[1:2]",
+                                        "[}",
+                                        "{]",
+                                        "nul",
+                                        "nulll",
+                                        "True",
+                                        "[tru]",
+                                        "[-]",
+                                        "[+1]",
+                                        "[.5]",
+                                        "[1.]",
+                                        "[1.e1]",
+                                        "[01]",
+                                        "[-01]",
+                                        "[1e]",
+                                        "[1e+]",
+                                        "[0x1]",
+                                        "[1_0]",
+                                        "[NaN]",
+                                        "[Infinity]",
+                                        "[-Infinity]",
+                                        "[1a]",
+                                        "[\"a]",
+                                        "\"",
+                                        "[\"\\\"]",
+                                        "[\"\\x00\"]",
+                                        "[\"\\u\"]",
+                                        "[\"\\u00g0\"]",
+                                        "[\"\\u123\"]",
+                                        "[\"\\ud800\"]",
+                                        "[\"\\ud800\\u0041\"]",
+                                        "[\"\\udc00\"]",
+                                        "[\"\\ud800x\"]",
+                                        "[\"\t\"]",
+                                        "[\"\n\"]",
+                                        std::string("[\"\0\"]", 5),
+                                        "[\"\xff\"]",
+                                        "[\"\xc3\"]",
+                                        "[\"\xc0\xaf\"]",
+                                        "[\"\xed\xa0\x80\"]",
+                                        "[\"\xf4\x90\x80\x80\"]",
+                                        "[\"\xe0\x80\x80\"]",
+                                        "[]]",
+                                        "[] []",
+                                        "{}x",
+                                        "[/*a*/]",
+                                        "[//a\n]",
+                                        "\xef\xbb",
+                                        "\xef\xbb[]",
+                                        std::string("[\0]", 3),
+                                        "\v[]",
+                                        "\xc2\xa0[]"};
+  for (const std::string& text : good) EXPECT_FALSE(reprinted(text).starts_with("error")) << text;
+  for (const std::string& text : bad) EXPECT_TRUE(reprinted(text).starts_with("error")) << text;
+}
+
+/// What a text is made of does not depend on where its parts end.
+TEST(Json, PartsOfATextAreOneText) {
+  const std::string text =
+      "\xef\xbb\xbf{\"k\\u00e9\xe4\xb8\xad\":[1.5e-3,\"\\ud83d\\ude39\xf0\x9f\x98\x80\",true,null],"
+      "\"\":{}} ";
+  struct Parts {
+    std::string_view rest;
+    size_t byte_count;
+    static std::string_view next(void* self) {
+      Parts& parts = *static_cast<Parts*>(self);
+      const std::string_view part = parts.rest.substr(0, parts.byte_count);
+      parts.rest.remove_prefix(part.size());
+      return part;
+    }
+  };
+  const auto tokens = [](JsonScanner scanner) {
+    std::string all;
+    for (JsonToken token = JsonToken::kNull; token != JsonToken::kEnd;) {
+      token = scanner.next();
+      all += std::to_string(static_cast<int>(token)) + scanner.text() +
+             std::to_string(scanner.position()) + ";";
+      if (token == JsonToken::kError) return all + scanner.error().message();
+    }
+    return all;
+  };
+  for (size_t end = 0; end <= text.size(); ++end) {
+    const std::string_view whole = std::string_view(text).substr(0, end);
+    for (size_t byte_count = 1; byte_count < 8; ++byte_count) {
+      Parts parts{whole, byte_count};
+      ASSERT_EQ(tokens(JsonScanner(&Parts::next, &parts)), tokens(JsonScanner(whole)))
+          << end << " " << byte_count;
+    }
+  }
+}
+
+TEST(Json, MembersAreFoundHoweverManyThereAre) {
+  std::mt19937 random(1);
+  Json json = Json::object();
+  std::vector<std::pair<std::string, uint32_t>> model;
+  for (uint32_t step = 0; step < 4000; ++step) {
+    const std::string key = "k" + std::to_string(random() % 60);
+    const auto known =
+        std::find_if(model.begin(), model.end(), [&](const auto& m) { return m.first == key; });
+    const uint32_t what = random() % 8;
+    if (what < 5) {
+      json[key] = step;
+      if (known == model.end()) model.emplace_back(key, step);
+      if (known != model.end()) known->second = step;
+    } else if (what == 5 && known == model.end() && !model.empty()) {
+      json.rename(model.back().first, key);
+      model.back().first = key;
+    } else {
+      json.erase(key);
+      if (known != model.end()) model.erase(known);
+    }
+    if (step % 50 == 0) json = Json(json);
+    ASSERT_EQ(json.size(), model.size());
+    for (size_t i = 0; i < model.size(); ++i) {
+      ASSERT_EQ(json.keyAt(i), model[i].first);
+      ASSERT_EQ(json.find(model[i].first), &json[i]);
+      ASSERT_EQ(json[i], model[i].second);
+    }
+    ASSERT_FALSE(json.contains("none"));
+  }
+}
+
+/// A member may be given the value of another one of the same object.
+TEST(Json, MembersAreCopiedWithinAnObject) {
+  Json json = {{"a", "text"}};
+  for (int i = 0; i < 40; ++i) json["b" + std::to_string(i)] = json["a"];
+  for (const Json& value : json) EXPECT_EQ(value, "text");
+}
+
+TEST(Json, NumbersAreSpeltAsShortAsTheyCanBe) {
+  const std::pair<double, const char*> kSpellings[] = {{0.5, "0.5"},
+                                                       {-0.0, "-0.0"},
+                                                       {3, "3.0"},
+                                                       {1e15, "1e+15"},
+                                                       {123456789012345, "123456789012345.0"},
+                                                       {1e-7, "1e-07"},
+                                                       {0.0001, "0.0001"},
+                                                       {0.00001, "1e-05"},
+                                                       {1.5e300, "1.5e+300"},
+                                                       {-2.5e-10, "-2.5e-10"},
+                                                       {3.28751373291015625, "3.2875137329101563"}};
+  for (const auto& [value, spelling] : kSpellings) EXPECT_EQ(Json(value).dump(), spelling);
+  EXPECT_TRUE(Json(std::numeric_limits<double>::infinity()).is_null());
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 100000; ++i) {
+    const double value = std::bit_cast<double>(random());
+    if (std::isfinite(value)) ASSERT_EQ(Json::parse(Json(value).dump()).get<double>(), value);
+  }
+}
+
+TEST(Json, PrintsForPeopleAndForTerminals) {
+  const Json json = {
+      {"a", {1, "\x1b\xc3\xa9\xf0\x9f\x98\x80\xff"}}, {"b", Json::array()}, {"c", Json::object()}};
+  EXPECT_EQ(json.dump(2, true),
+            "{\n  \"a\": [\n    1,\n    \"\\u001b\\u00e9\\ud83d\\ude00\\ufffd\"\n  ],\n  \"b\": "
+            "[],\n  \"c\": {}\n}");
+}
+
+}  // namespace
+}  // namespace mcc::gltf::test
