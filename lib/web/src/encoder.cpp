@@ -25,9 +25,7 @@ std::vector<uint8_t> glb;
 std::string text;  // the report, the list of coded views, or the error message
 mcc::web::CodedViews coded_views;
 
-std::string printed(const gltf::Json& json) {
-  return json.dump(-1);
-}
+std::string printed(const mcc::gltf::Json& json) { return json.dump(-1); }
 
 }  // namespace
 

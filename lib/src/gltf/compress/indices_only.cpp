@@ -11,8 +11,6 @@
 namespace mcc::gltf {
 namespace {
 
-constexpr uint32_t kArrayBuffer = 34962;
-
 /// Marks accessors that more than one piece uses, or a piece and something else.
 std::vector<bool> sharedAccessors(const Document& document, const ForeignReferences& foreign,
                                   const std::vector<PayloadPlan>& payloads) {

@@ -13,9 +13,6 @@
 namespace mcc::gltf {
 namespace {
 
-constexpr uint32_t kArrayBuffer = 34962;
-constexpr uint32_t kElementArrayBuffer = 34963;
-
 class Decompressor {
  public:
   Decompressor(const Document& document, DecodeTo decode_to, uint32_t thread_count,

@@ -40,10 +40,14 @@ std::vector<ByteRange> accessorRanges(const Document& document, uint32_t accesso
 /// not exist does so by a smaller number.
 inline constexpr uint64_t kFirstNewView = uint64_t{1} << 52;
 
+/// Values of NewView::target.
+inline constexpr uint32_t kArrayBuffer = 34962;
+inline constexpr uint32_t kElementArrayBuffer = 34963;
+
 struct NewView {
   std::vector<uint8_t> bytes;
   uint32_t stride_bytes = 0;  ///< 0: none is written
-  uint32_t target = 0;        ///< 0: none is written
+  uint32_t target = 0;        ///< of the GPU; 0: none is written
 };
 
 /// Removes what was freed and adds what is new.

@@ -18,13 +18,14 @@
 namespace mcc::gltf {
 namespace {
 
+constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
+
 std::string primitiveLabel(const ExtensionUse::AttributeUse& use) {
   return use.target == kNone ? use.name : "target " + std::to_string(use.target) + " " + use.name;
 }
 
 /// Derives the errors of an attribute from its coding.
 void describeErrors(AttributeInfos attributes, uint32_t index, InspectAttribute& details) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
   const AttributeInfo& info = attributes[index];
   switch (info.coding) {
     case AttributeCoding::kInteger:
@@ -38,11 +39,11 @@ void describeErrors(AttributeInfos attributes, uint32_t index, InspectAttribute&
       return;
     }
     case AttributeCoding::kOctahedral:
-      details.error_bound = octahedralBound(info.bits) * kDegrees;
+      details.error_bound = octahedralBound(info.bits) * kDegreesPerRadian;
       break;
     case AttributeCoding::kTangentAngle: {
       const uint32_t normal = normalOfTangents(attributes);
-      details.error_bound = tangentBound(info.bits, attributes[normal].bits) * kDegrees;
+      details.error_bound = tangentBound(info.bits, attributes[normal].bits) * kDegreesPerRadian;
       break;
     }
   }
