@@ -5,6 +5,7 @@
 import assert from 'node:assert/strict';
 import { readFile, writeFile } from 'node:fs/promises';
 import path from 'node:path';
+import { buffer } from 'node:stream/consumers';
 import { after, before, test } from 'node:test';
 import { PNG } from 'pngjs';
 import { payloadsOf } from '../../../lib/web/document.mjs';
@@ -481,7 +482,7 @@ async function reported(page) {
   });
   await page.click('#report');
   await isThere;
-  const [json, picture] = await Promise.all(downloads.map(async (download) => readFile(await download.path())));
+  const [json, picture] = await Promise.all(downloads.map(contentOf));
   return { names: downloads.map((download) => download.suggestedFilename()), json: JSON.parse(json), picture: PNG.sync.read(picture) };
 }
 
@@ -491,9 +492,14 @@ function partOf(picture, x, y, width, height) {
   return part;
 }
 
+/** The browser is another process's, so that there is no file that this one could read. */
+async function contentOf(download) {
+  return buffer(await download.createReadStream());
+}
+
 async function downloaded(page) {
   const [download] = await Promise.all([page.waitForEvent('download'), page.click('#download')]);
-  return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
+  return { name: download.suggestedFilename(), bytes: await contentOf(download) };
 }
 
 function glbOf(json) {
