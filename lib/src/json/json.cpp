@@ -50,14 +50,6 @@ Json Json::parse(std::string_view text) {
   return parseJson(bytes, json).ok() ? json : Json();
 }
 
-Json::Json(const Json& other) : kind_(other.kind_), text_(other.text_) {
-  if (other.values_ == nullptr) return;
-  values_ = std::make_unique<Values>();
-  values_->values = other.values_->values;
-  values_->keys = other.values_->keys;
-  sortMembers();
-}
-
 Json::Json(Json&& other) noexcept
     : kind_(std::exchange(other.kind_, Kind::kNull)),
       text_(std::move(other.text_)),
@@ -72,13 +64,22 @@ Json& Json::operator=(Json other) noexcept {
 
 Json::~Json() = default;
 
+Json::Values& Json::own() {
+  if (values_.use_count() == 1) return *values_;
+  const std::shared_ptr<Values> shared = std::exchange(values_, std::make_shared<Values>());
+  values_->values = shared->values;
+  values_->keys = shared->keys;
+  sortMembers();
+  return *values_;
+}
+
 Json::Values& Json::become(Kind kind) {
   if (kind_ != kind) {
     *this = Json();  // a value of another kind is replaced
-    values_ = std::make_unique<Values>();
+    values_ = std::make_shared<Values>();
     kind_ = kind;
   }
-  return *values_;
+  return own();
 }
 
 void Json::sortMembers() {
@@ -88,7 +89,7 @@ void Json::sortMembers() {
   for (uint32_t i = 0; i < all.keys.size(); ++i) all.sorted.insert(i);
 }
 
-Json* Json::find(std::string_view key) {
+const Json* Json::find(std::string_view key) const {
   if (!is_object()) return end();
   const Values& all = *values_;
   if (all.sorted.empty()) {
@@ -97,6 +98,11 @@ Json* Json::find(std::string_view key) {
   }
   const auto found = all.sorted.lower_bound(key);
   return found == all.sorted.end() || all.keys[*found] != key ? end() : begin() + *found;
+}
+
+Json* Json::find(std::string_view key) {
+  const ptrdiff_t place = std::as_const(*this).find(key) - std::as_const(*this).begin();
+  return begin() + place;
 }
 
 Json& Json::operator[](std::string_view key) {
@@ -141,15 +147,15 @@ void Json::rename(std::string_view from, std::string to) {
 }
 
 void Json::erase(std::string_view key) {
-  const Json* const found = find(key);
-  if (found != end()) erase(found);
+  const Json* const found = std::as_const(*this).find(key);
+  if (found != std::as_const(*this).end()) erase(found);
 }
 
 void Json::erase(const Json* from, const Json* to) {
   if (from == to) return;
-  const ptrdiff_t first = from - begin();
-  const ptrdiff_t last = to - begin();
-  auto& [values, keys, sorted] = *values_;
+  const ptrdiff_t first = from - std::as_const(*this).begin();
+  const ptrdiff_t last = to - std::as_const(*this).begin();
+  auto& [values, keys, sorted] = own();
   if (is_object()) keys.erase(keys.begin() + first, keys.begin() + last);
   values.erase(values.begin() + first, values.begin() + last);
   sortMembers();

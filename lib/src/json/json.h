@@ -3,6 +3,9 @@
 // JSON whose members keep their order and whose numbers keep their spelling: a number is the text
 // that a file had, and becomes a value only for whoever asks. Objects find a member in logarithmic
 // time, however many they have.
+//
+// A copy shares the elements and members of its source until one of the two is about to change
+// them. An edited document therefore costs what is edited of it, and nothing is copied to print it.
 #ifndef MCC_JSON_JSON_H_
 #define MCC_JSON_JSON_H_
 
@@ -27,6 +30,8 @@
 namespace mcc::gltf {
 
 /// A value of JSON. A const object may be read by several threads at the same time.
+/// Whoever holds a reference to an element or member of a value, other than a const one, must not
+/// copy the value and then use the reference: it may be one to the copy as well.
 class Json {
  public:
   enum class Kind : uint8_t { kNull, kBoolean, kNumber, kString, kArray, kObject };
@@ -68,7 +73,7 @@ class Json {
   /// Parses a text, see parseJson(). Returns null when it is damaged.
   static Json parse(std::string_view text);
 
-  Json(const Json& other);
+  Json(const Json& other) = default;
   Json(Json&& other) noexcept;
   /// By value, because json["a"] = json["b"] may move where "b" is.
   Json& operator=(Json other) noexcept;
@@ -110,9 +115,9 @@ class Json {
   }
 
   /// The values of an array or of the members of an object.
-  Json* begin() { return values_ == nullptr ? nullptr : values_->values.data(); }
+  Json* begin() { return values_ == nullptr ? nullptr : own().values.data(); }
   Json* end() { return begin() + size(); }
-  const Json* begin() const { return const_cast<Json*>(this)->begin(); }
+  const Json* begin() const { return values_ == nullptr ? nullptr : values_->values.data(); }
   const Json* end() const { return begin() + size(); }
   size_t size() const { return values_ == nullptr ? 0 : values_->values.size(); }
   bool empty() const { return size() == 0; }
@@ -139,7 +144,7 @@ class Json {
   const Json& operator[](const char* key) const { return (*this)[std::string_view(key)]; }
   /// The first member with this key, or end().
   Json* find(std::string_view key);
-  const Json* find(std::string_view key) const { return const_cast<Json*>(this)->find(key); }
+  const Json* find(std::string_view key) const;
   bool contains(std::string_view key) const { return find(key) != end(); }
   /// The member with this key, or `other` when there is none.
   template <class T>
@@ -251,12 +256,14 @@ class Json {
   uint64_t wholeNumber() const;
   double realNumber() const;
   void setNumber(double value);
+  /// The elements or members, which must exist and which no other value shares from now on.
+  Values& own();
   Values& become(Kind kind);
   void sortMembers();
 
   Kind kind_ = Kind::kNull;
   std::string text_;
-  std::unique_ptr<Values> values_;
+  std::shared_ptr<Values> values_;
 };
 
 /// The deepest nesting of arrays and objects that is read.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 #include <vector>
@@ -43,6 +44,57 @@ TEST(Json, NumbersInsideStringsAreNoNumbers) {
 TEST(Json, KeepsTextOfAllLanguages) {
   const std::string text = "{\"n\":\"\xc3\xa9\xe4\xb8\xad\xf0\x9f\x98\x80\\n\"}";
   EXPECT_EQ(reprinted(text), text);
+}
+
+TEST(Json, CopiesShareWhatNobodyChanges) {
+  const std::string text = R"({"a":[{"x":1},{"y":[2,3]}],"b":{"c":{"d":4}},"e":5})";
+  const Json source = Json::parse(text);
+  const Json same = source;
+  EXPECT_EQ(&same["a"][1], &source["a"][1]);
+  Json edited = source;
+  edited["a"][1]["y"].push_back(6);
+  edited["b"]["c"].erase("d");
+  edited.erase("e");
+  EXPECT_EQ(edited.dump(), R"({"a":[{"x":1},{"y":[2,3,6]}],"b":{"c":{}}})");
+  EXPECT_EQ(source.dump(), text);
+  EXPECT_EQ(same.dump(), text);
+  const Json& as_const = edited;
+  EXPECT_EQ(&as_const["a"][0]["x"], &source["a"][0]["x"])
+      << "was copied although nobody changed it";
+}
+
+TEST(Json, EveryChangeOfACopyLeavesTheSourceAlone) {
+  Json source = Json::object();
+  for (int i = 0; i < 40; ++i)
+    source[std::to_string(i)] = Json::array({i, Json::object({{"n", i}})});
+  const std::string text = source.dump();
+  const std::function<void(Json&)> changes[] = {
+      [](Json& json) { json["7"][1]["n"] = 8; },
+      [](Json& json) { json.find("7")->push_back(1); },
+      [](Json& json) { json.erase("7"); },
+      [](Json& json) { json.rename("7", "seven"); },
+      [](Json& json) { json.append("new", nullptr); },
+      [](Json& json) {
+        json.update(Json::object({{"3", 4}}));
+      },
+      [](Json& json) { json.back() = 1; },
+      [](Json& json) { json.clear(); },
+      [](Json& json) { *json.begin() = "text"; },
+      [](Json& json) { json.items().begin().json->erase("0"); },
+      [](Json& json) {
+        const Json& shared = json;
+        json.erase(shared.begin() + 3, shared.begin() + 9);
+      },
+  };
+  for (const auto& change : changes) {
+    Json copy = source;
+    change(copy);
+    EXPECT_EQ(source.dump(), text);
+    EXPECT_NE(copy.dump(), text);
+    for (size_t i = 0; i < copy.size(); ++i) {
+      EXPECT_EQ(std::as_const(copy).find(copy.keyAt(i)), &std::as_const(copy)[i]);
+    }
+  }
 }
 
 TEST(Json, ErrorsNameTheByte) {
