@@ -113,8 +113,8 @@ TEST_F(Accessors, MatrixColumnsArePadded) {
   EXPECT_EQ(read<uint16_t>(1), (std::vector<uint16_t>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
   EXPECT_EQ(read<float>(2), (std::vector<float>{1, 2, 3, 4}));
   uint32_t stride = 1;
-  const std::vector<uint8_t> packed = packElements(std::vector<uint8_t>{1, 2, 3, 4, 5, 6, 7, 8, 9},
-                                                   document_.accessors[0], true, stride);
+  const std::vector<uint8_t> packed = packAttribute(std::vector<uint8_t>{1, 2, 3, 4, 5, 6, 7, 8, 9},
+                                                    document_.accessors[0], stride);
   EXPECT_EQ(stride,
             12u);  // without the padding of the last column elements would be 11 bytes apart
   EXPECT_EQ(packed, (std::vector<uint8_t>{1, 2, 3, 0, 4, 5, 6, 0, 7, 8, 9, 0}));
@@ -125,7 +125,7 @@ TEST_F(Accessors, VertexAttributesArePackedAtMultiplesOfFour) {
   ASSERT_EQ(load(), "");
   uint32_t stride = 0;
   const auto packed =
-      packElements(std::vector<uint8_t>{1, 2, 3, 4, 5, 6}, document_.accessors[0], true, stride);
+      packAttribute(std::vector<uint8_t>{1, 2, 3, 4, 5, 6}, document_.accessors[0], stride);
   EXPECT_EQ(stride, 4u);
   EXPECT_EQ(packed, (std::vector<uint8_t>{1, 2, 3, 0, 4, 5, 6, 0}));
 }

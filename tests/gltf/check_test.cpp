@@ -5,11 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "gltf/check/check_values.h"
+#include "gltf/check/prove.h"
 #include "gltf/compress/quantize.h"
-#include "gltf/document/rebuild.h"
 #include "gltf/gltf_builder.h"
 
 namespace mcc::gltf::test {
@@ -19,17 +20,20 @@ class Check : public testing::Test {
  protected:
   void SetUp() override {
     Builder builder;
-    builder.addMesh({Sheet(12).addTo(builder)});
+    builder.addMesh({Sheet(12).addTo(builder), Sheet(9).addTo(builder)});
     image_ = builder.addView({1, 2, 3, 4, 5, 6});
     builder.json["images"] = {{{"bufferView", image_}, {"mimeType", "image/png"}}};
     file_ = builder.toGlb();
     ASSERT_TRUE(loadDocument(file_, nullptr, source_).ok());
-    ConvertOptions options;
-    ASSERT_TRUE(compressDocument(source_, options, compressed_).ok());
+    ASSERT_TRUE(compressDocument(source_, {}, compressed_).ok());
     ASSERT_EQ(compressed_.payloads.size(), 1u);
+    ASSERT_TRUE(provePayloads(source_, 1, compressed_.payloads, proofs_).ok());
+    storePayloads(source_, compressed_);
+    bin_.resize(compressed_.layout.byte_count);
+    compressed_.layout.copyTo(bin_);
   }
 
-  /// Returns the check's verdict on a file that was compressed from other data than the source.
+  /// Returns the verdict on payloads that were made from other data than the source.
   std::string verdictOn(const std::function<void(PayloadPlan&)>& sabotage) {
     std::vector<PayloadPlan> plans;
     std::vector<LeftAlone> left_alone;
@@ -40,20 +44,13 @@ class Check : public testing::Test {
     sabotage(plans[0]);
     std::vector<EncodedPayload> payloads;
     EXPECT_TRUE(encodePayloads(options, std::move(plans), payloads, left_alone).ok());
-    Json json = compressed_.json;
-    json["accessors"][3]["count"] = payloads[0].plan.pieces[0].parts[0].triangles.size();
-    const uint64_t view =
-        json["meshes"][0]["primitives"][0]["extensions"][kExtensionName]["bufferView"];
-    std::vector<uint8_t> bin = compressed_.bin;
-    bin.resize((bin.size() + 3) & ~size_t{3});
-    json["bufferViews"][view]["byteOffset"] = bin.size();
-    json["bufferViews"][view]["byteLength"] = payloads[0].result.payload.size();
-    bin.insert(bin.end(), payloads[0].result.payload.begin(), payloads[0].result.payload.end());
-    json["buffers"][0]["byteLength"] = bin.size();
-    compressed_.payloads = std::move(payloads);
-    return verdict(json, bin);
+    return provePayloads(source_, 1, payloads, proofs_).message();
+  }
+  std::string verdictOnPayloads() {
+    return provePayloads(source_, 1, compressed_.payloads, proofs_).message();
   }
 
+  /// Returns the verdict on a file.
   std::string verdict(const Json& json, const std::vector<uint8_t>& bin) {
     std::vector<uint8_t> written;
     EXPECT_TRUE(writeGlb(printJson(json), bin, {}, written).ok());
@@ -61,15 +58,25 @@ class Check : public testing::Test {
     return checkConversion(source_, compressed_.payloads, {}, written, nullptr, 1, result)
         .message();
   }
+  void expectVerdict(const std::string& words, const Json& json) {
+    const std::string message = verdict(json, bin_);
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+  }
 
   std::vector<uint8_t> file_;
   Document source_;
   Compressed compressed_;
+  std::vector<PayloadProof> proofs_;
+  std::vector<uint8_t> bin_;
   uint32_t image_ = 0;
 };
 
+Json& extensionIn(Json& json, size_t primitive) {
+  return json["meshes"][0]["primitives"][primitive]["extensions"][kExtensionName];
+}
+
 TEST_F(Check, AcceptsWhatIsRight) {
-  EXPECT_EQ(verdict(compressed_.json, compressed_.bin), "");
+  EXPECT_EQ(verdict(compressed_.json, bin_), "");
   EXPECT_EQ(verdictOn([](PayloadPlan&) {}), "");
 }
 
@@ -102,31 +109,73 @@ TEST_F(Check, NoticesAMovedVertex) {
 
 TEST_F(Check, NoticesACoarserGridThanPlanned) {
   compressed_.payloads[0].plan.pieces[0].attributes[0].lattice.step /= 2;
-  EXPECT_NE(verdict(compressed_.json, compressed_.bin).find("coarser than asked for"),
-            std::string::npos);
-}
-
-TEST_F(Check, NoticesWrongBounds) {
-  Json json = compressed_.json;
-  json["accessors"][0]["max"][1] = 17;
-  EXPECT_NE(verdict(json, compressed_.bin).find("component 1 is 17"), std::string::npos);
-  json = compressed_.json;
-  json["accessors"][3]["min"] = {1};
-  EXPECT_NE(verdict(json, compressed_.bin).find("component 0 is 1"), std::string::npos);
+  EXPECT_NE(verdictOnPayloads().find("coarser than asked for"), std::string::npos);
 }
 
 TEST_F(Check, NoticesAWrongPermutation) {
   std::vector<uint32_t>& source_of = compressed_.payloads[0].result.pieces[0].source_wedge;
   std::swap(source_of[3], source_of[4]);
-  EXPECT_NE(verdict(compressed_.json, compressed_.bin), "");
+  EXPECT_NE(verdictOnPayloads(), "");
   std::swap(source_of[3], source_of[4]);
   source_of[3] = source_of[4];
-  EXPECT_NE(verdict(compressed_.json, compressed_.bin).find("not a permutation"),
-            std::string::npos);
+  EXPECT_NE(verdictOnPayloads().find("not a permutation"), std::string::npos);
+}
+
+TEST_F(Check, NoticesAPayloadThatCannotBeDecoded) {
+  compressed_.payloads[0].result.payload.back() ^= 1;
+  EXPECT_NE(verdictOnPayloads().find("cannot be decoded again"), std::string::npos);
+}
+
+TEST_F(Check, NoticesAPayloadThatIsNotStoredAsItWasProved) {
+  const std::vector<uint8_t> payload = compressed_.payloads[0].result.payload;
+  const auto stored = std::search(bin_.begin(), bin_.end(), payload.begin(), payload.end());
+  for (auto byte = stored; byte != stored + static_cast<ptrdiff_t>(payload.size()); ++byte) {
+    *byte ^= 1;
+    EXPECT_NE(verdict(compressed_.json, bin_), "");
+    *byte ^= 1;
+  }
+  for (uint8_t& byte : compressed_.payloads[0].result.payload) {
+    byte ^= 1;
+    expectVerdict("not those that were compared", compressed_.json);
+    byte ^= 1;
+  }
+  compressed_.payloads[0].result.payload.pop_back();
+  expectVerdict("not those that were compared", compressed_.json);
+}
+
+TEST_F(Check, NoticesPrimitivesThatReadSomethingElse) {
+  Json json = compressed_.json;
+  std::swap(extensionIn(json, 0), extensionIn(json, 1));
+  EXPECT_NE(verdict(json, bin_), "");
+  json = compressed_.json;
+  extensionIn(json, 0)["attributes"].erase("POSITION");
+  EXPECT_NE(verdict(json, bin_), "");
+  json = compressed_.json;
+  Json& primitive = json["meshes"][0]["primitives"][1];
+  primitive["extensions"].erase(kExtensionName);
+  expectVerdict("is not compressed, as it should be", json);
+}
+
+TEST_F(Check, NoticesASourceThatIsNotAsPlanned) {
+  PiecePlan& piece = compressed_.payloads[0].plan.pieces[1];
+  ++piece.target_count;
+  expectVerdict("does not share the accessors of its piece", compressed_.json);
+  --piece.target_count;
+  piece.parts[0].indices_accessor = 0;
+  expectVerdict("does not share the accessors of its piece", compressed_.json);
+}
+
+TEST_F(Check, NoticesWrongBounds) {
+  Json json = compressed_.json;
+  json["accessors"][0]["max"][1] = 17;
+  expectVerdict("component 1 is 17", json);
+  json = compressed_.json;
+  json["accessors"][3]["min"] = {1};
+  expectVerdict("component 0 is 1", json);
 }
 
 TEST_F(Check, NoticesADamagedImage) {
-  std::vector<uint8_t> bin = compressed_.bin;
+  std::vector<uint8_t> bin = bin_;
   const uint64_t view = compressed_.json["images"][0]["bufferView"];
   const uint64_t offset = compressed_.json["bufferViews"][view]["byteOffset"];
   bin[offset + 5] ^= 1;
@@ -136,54 +185,42 @@ TEST_F(Check, NoticesADamagedImage) {
 TEST_F(Check, NoticesLostJson) {
   Json json = compressed_.json;
   json["nodes"][0]["name"] = "new";
-  EXPECT_NE(verdict(json, compressed_.bin).find("/nodes/0"), std::string::npos);
+  expectVerdict("/nodes/0", json);
   json = compressed_.json;
   json.erase("scenes");
-  EXPECT_NE(verdict(json, compressed_.bin), "");
+  EXPECT_NE(verdict(json, bin_), "");
+  json = compressed_.json;
+  json["accessors"][0]["name"] = "new";
+  expectVerdict("/accessors/0", json);
+  json = compressed_.json;
+  json["meshes"][0]["primitives"][0]["material"] = 0;
+  expectVerdict("/meshes/0/primitives/0", json);
 }
 
-/// Changes the decoded values that the check may take instead of decoding again.
-void spoil(EncodedPayload& payload) {
-  ASSERT_EQ(payload.decoded.size(), 1u);
-  payload.decoded[0].attributes[0][3] ^= 0x40;
-}
-
-TEST_F(Check, DecodesNoPayloadThatWasDecodedBefore) {
-  spoil(compressed_.payloads[0]);
-  const std::string message = verdict(compressed_.json, compressed_.bin);
-  EXPECT_NE(message.find("/accessors/0/m"), std::string::npos) << message;
-  EXPECT_TRUE(compressed_.payloads[0].decoded.empty());
-  EXPECT_EQ(verdict(compressed_.json, compressed_.bin), "");
-}
-
-TEST_F(Check, DecodesEveryPayloadThatIsNotStoredAsItWasEncoded) {
-  const Compressed compressed = compressed_;
-  const size_t size = compressed.payloads[0].result.payload.size();
-  for (size_t i = 0; i < size; ++i) {
-    compressed_.payloads = compressed.payloads;
-    spoil(compressed_.payloads[0]);
-    compressed_.payloads[0].result.payload[i] ^= 1;
-    EXPECT_EQ(verdict(compressed.json, compressed.bin), "") << i;
-  }
-  for (const size_t other : {size - 1, size + 1, size_t{0}}) {
-    compressed_.payloads = compressed.payloads;
-    spoil(compressed_.payloads[0]);
-    compressed_.payloads[0].result.payload.resize(other);
-    EXPECT_EQ(verdict(compressed.json, compressed.bin), "") << other;
-  }
-}
-
-TEST(DecodedPayloads, GivesEachPayloadOnceAlsoThoseOfTheSameBytes) {
-  const std::vector<uint8_t> bytes = {1, 2, 0, 3};
-  const std::vector<uint8_t> same = bytes;
-  DecodedPayloads payloads;
-  payloads.add(bytes, std::vector<DecodedPiece>(2));
-  payloads.add(same, std::vector<DecodedPiece>(2));
-  EXPECT_EQ(payloads.take(std::vector<uint8_t>{1, 2, 0, 4}).size(), 0u);
-  EXPECT_EQ(payloads.take(std::vector<uint8_t>{1, 2}).size(), 0u);
-  EXPECT_EQ(payloads.take(bytes).size(), 2u);
-  EXPECT_EQ(payloads.take(bytes).size(), 2u);
-  EXPECT_EQ(payloads.take(bytes).size(), 0u);
+TEST_F(Check, NoticesAnotherPayloadInPlaceOfAnOldOne) {
+  std::vector<uint8_t> old_file;
+  ASSERT_TRUE(writeGlb(printJson(compressed_.json), bin_, {}, old_file).ok());
+  ASSERT_TRUE(loadDocument(old_file, nullptr, source_).ok());
+  std::vector<EncodedPayload> payloads = std::move(compressed_.payloads);
+  compressed_.payloads.clear();
+  EXPECT_EQ(verdict(compressed_.json, bin_), "");
+  // The same triangles with other bits: a payload that fits the JSON in every count.
+  ConvertOptions options;
+  options.bits.position = 9;
+  Compressed other;
+  Document document;
+  ASSERT_TRUE(loadDocument(file_, nullptr, document).ok());
+  ASSERT_TRUE(compressDocument(document, options, other).ok());
+  const std::vector<uint8_t>& payload = other.payloads[0].result.payload;
+  std::vector<uint8_t> bin = bin_;
+  Json json = compressed_.json;
+  Json& view = json["bufferViews"][extensionIn(json, 0)["bufferView"].get<size_t>()];
+  view["byteOffset"] = bin.size();
+  view["byteLength"] = payload.size();
+  bin.insert(bin.end(), payload.begin(), payload.end());
+  json["buffers"][0]["byteLength"] = bin.size();
+  const std::string message = verdict(json, bin);
+  EXPECT_NE(message.find("has another payload"), std::string::npos) << message;
 }
 
 TEST(CanonicalTriangles, RotationsAreEqualReflectionsAreNot) {

@@ -280,9 +280,7 @@ TEST(OtherPeoplesDocuments, InstancesAndVariants) {
 
 /// A number may be spelt in any way that JSON allows.
 TEST(OtherPeoplesDocuments, NumbersInOtherSpellings) {
-  const auto spelt = [](const std::string& number) {
-    return Json::number(number);
-  };
+  const auto spelt = [](const std::string& number) { return Json::number(number); };
   expectCompressed([&](Document2& d) {
     d.accessor("NORMAL")["count"] = spelt("4.41E2");
     d.accessor("NORMAL")["byteOffset"] = spelt("-0");

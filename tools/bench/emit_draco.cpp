@@ -10,7 +10,7 @@
 #include "gltf/compress/quantize.h"
 #include "gltf/decompress/coded_input.h"
 #include "gltf/document/bounds.h"
-#include "gltf/document/rebuild.h"
+#include "gltf/document/layout.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
 
@@ -73,7 +73,7 @@ class Emitter {
       primitive["extensions"][kDracoName] = {{"bufferView", view}, {"attributes", ids}};
     }
     gltf::NewView new_view;
-    new_view.bytes = std::move(part.draco.bytes);
+    new_view.hold(std::move(part.draco.bytes));
     views_.push_back(std::move(new_view));
   }
 
@@ -82,9 +82,12 @@ class Emitter {
       addExtensionName("extensionsUsed", json_);
       addExtensionName("extensionsRequired", json_);
     }
-    std::vector<uint8_t> bin;
-    MCC_GLTF_TRY(gltf::rebuildBuffers(document_, foreign, views_, json_, bin));
-    return gltf::writeGlb(gltf::printJson(json_), bin, document_.other_chunks, file);
+    const gltf::Layout layout = gltf::layOut(document_, foreign, views_, json_);
+    std::span<uint8_t> bin;
+    MCC_GLTF_TRY(gltf::startGlb(gltf::printJson(json_), layout.byte_count, document_.other_chunks,
+                                file, bin));
+    layout.copyTo(bin);
+    return {};
   }
 
  private:

@@ -14,12 +14,13 @@
 #include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
 #include "gltf/check/check.h"
+#include "gltf/check/prove.h"
 #include "gltf/compress/compress.h"
 #include "gltf/decompress/add_fallback.h"
 #include "gltf/decompress/coded_input.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/document/contents.h"
-#include "gltf/document/rebuild.h"
+#include "gltf/document/layout.h"
 #include "gltf/document/uri.h"
 #include "gltf/files/destination.h"
 #include "gltf/files/named_file.h"
@@ -140,16 +141,23 @@ Result addFilesBeside(const Json& json, bool with_buffers, const Input& input, c
   return {};
 }
 
+/// The buffer of a layout that borrows everything it holds.
+BufferContent contentOf(const Layout& layout) {
+  return {layout.byte_count, [&layout](std::span<uint8_t> buffer) {
+            layout.copyTo(buffer);
+            return Result();
+          }};
+}
+
 /// Stores an edited document and adds its other files.
-Result packageDocument(const Document& document, Json json, std::vector<uint8_t> bin,
+Result packageDocument(const Document& document, Json json, const BufferContent& buffer,
                        const Input& input, const Output& output, Package& package,
                        std::vector<std::string>& notes) {
   MCC_GLTF_TRY(addFilesBeside(json, false, input, output, package, notes));
   if (output.container.is_gltf && !document.other_chunks.empty()) {
     notes.push_back("the GLB has chunks that a .gltf cannot hold; they are left out");
   }
-  return writePackage(output.container, std::move(json), std::move(bin), document.other_chunks,
-                      package);
+  return writePackage(output.container, std::move(json), buffer, document.other_chunks, package);
 }
 
 /// Used when nothing was compressed or decompressed: stores the source itself, or its contents in
@@ -165,23 +173,23 @@ Result packageSource(const Document& document, const Input& input, const Output&
     return addFilesBeside(document.json, true, input, output, package, notes);
   }
   Json json = document.json;
-  std::vector<uint8_t> bin;
-  std::vector<NewView> no_views;
-  const ForeignReferences foreign = findForeignReferences(document.json);
-  MCC_GLTF_TRY(rebuildBuffers(document, foreign, no_views, json, bin));
-  return packageDocument(document, std::move(json), std::move(bin), input, output, package, notes);
+  const Layout layout = layOut(document, findForeignReferences(document.json), {}, json);
+  return packageDocument(document, std::move(json), contentOf(layout), input, output, package,
+                         notes);
 }
 
-/// Checks that existing payloads decode, because the check compares what they hold.
-Result checkOldPayloads(const Document& document) {
-  Decompressed ignored;
-  return decompressDocument(document, ignored);
+/// Checks that existing payloads decode, because they are kept. Nothing of them is stored.
+Result checkOldPayloads(const Document& document, uint32_t thread_count) {
+  PayloadDecoder decoder(document, PayloadDecoder::Views::kShared);
+  MCC_GLTF_TRY(decoder.open());
+  return decoder.decode(thread_count, nullptr);
 }
 
 /// One conversion of a loaded document. The check comes later, on the bytes that were stored.
 struct Conversion {
   Document document;
   Compressed compressed;
+  std::vector<PayloadProof> proofs;  ///< of the payloads
   Package package;
 };
 
@@ -189,7 +197,9 @@ Result packageFallback(const Container& container, Compressed& compressed, Packa
                        uint64_t& fallback_bytes) {
   SideFile file;
   file.kind = SideFile::Kind::kFallback;
-  MCC_GLTF_TRY(addFallback(compressed.bin, compressed.json, file.bytes));
+  std::vector<uint8_t> bin(compressed.layout.byte_count);
+  compressed.layout.copyTo(bin);
+  MCC_GLTF_TRY(addFallback(bin, compressed.json, file.bytes));
   file.path = nameOfMade(container, file.kind, file.bytes);
   Json& buffers = compressed.json["buffers"];
   buffers[buffers.size() - 1]["uri"] = uriOf(file.path);
@@ -226,11 +236,14 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
   if (!options.indices_only) MCC_GLTF_TRY(decodeMeshes(options.decoders, document, &refused));
   report.input_bytes = document.source_bytes;
   report.notes = document.notes;
-  MCC_GLTF_TRY(checkOldPayloads(document));
+  MCC_GLTF_TRY(checkOldPayloads(document, options.thread_count));
   tell(options, "encoding");
   MCC_GLTF_TRY(compressDocument(document, options, compressed));
   // What another codec compressed and ours cannot read is no reason to refuse the rest.
   if (compressed.payloads.empty() && !refused.ok()) return refused;
+  MCC_GLTF_TRY(
+      provePayloads(document, options.thread_count, compressed.payloads, conversion.proofs));
+  if (!compressed.payloads.empty()) storePayloads(document, compressed);
   report.notes.insert(report.notes.end(), compressed.notes.begin(), compressed.notes.end());
   report.remarks = std::move(compressed.remarks);
   addPrimitives(document, compressed, report);
@@ -238,10 +251,9 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
     if (options.fallback) {
       MCC_GLTF_TRY(packageFallback(output.container, compressed, package, report.fallback_bytes));
     }
-    MCC_GLTF_TRY(packageDocument(document, std::move(compressed.json), std::move(compressed.bin),
-                                 input, output, package, report.notes));
-    compressed.json = {};
-    compressed.bin = {};
+    MCC_GLTF_TRY(packageDocument(document, std::exchange(compressed.json, {}),
+                                 contentOf(compressed.layout), input, output, package,
+                                 report.notes));
   }
   const bool is_larger = document.is_glb != output.container.is_gltf && !options.allow_larger &&
                          package.documentBytes() >= document.source_bytes;
@@ -254,7 +266,8 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
       report.remarks.push_back("nothing becomes smaller; the output is a copy of the input");
     }
   }
-  report.encode_seconds = watch.seconds() - compressed.decode_seconds;
+  for (const PayloadProof& proof : conversion.proofs) report.decode_seconds += proof.decode_seconds;
+  report.encode_seconds = std::max(watch.seconds() - report.decode_seconds, 0.0);
   report.output_bytes = report.copied ? document.source_bytes : package.documentBytes();
   return {};
 }
@@ -275,10 +288,9 @@ Result checkOutput(Conversion& conversion, const ConvertOptions& options,
     const Stopwatch watch;
     tell(options, "checking");
     CheckResult checked;
-    std::vector<EncodedPayload>& payloads = conversion.compressed.payloads;
+    const std::vector<EncodedPayload>& payloads = conversion.compressed.payloads;
     MCC_GLTF_TRY(checkConversion(conversion.document, payloads, options.decoders, stored, read_file,
                                  options.thread_count, checked));
-    report.decode_seconds = conversion.compressed.decode_seconds;
     if (checked.decoded_bytes > decodedLimit(0, report.output_bytes)) {
       report.notes.push_back(
           "its geometry decodes to " + std::to_string(checked.decoded_bytes) +
@@ -287,7 +299,7 @@ Result checkOutput(Conversion& conversion, const ConvertOptions& options,
     }
     report.check_seconds = watch.seconds();
     report.output_contents = withoutFallback(checked.contents, report);
-    addPayloads(payloads, std::move(checked), report);
+    addPayloads(payloads, conversion.proofs, report);
   }
   if (report.copied) report.output_contents = report.input_contents;
   report.checked = true;
@@ -304,16 +316,18 @@ Result decodeInput(Input& input, const Output& output, const FileDecodeOptions& 
   report.notes = document.notes;
   Decompressed decompressed;
   document.decoded = DecodedBytes(options.max_decoded_bytes, document.source_bytes);
-  MCC_GLTF_TRY(decompressDocument(document, decompressed, options.decode_to, options.thread_count));
+  MCC_GLTF_TRY(decompressDocument(document, options, decompressed));
   report.notes.insert(report.notes.end(), decompressed.notes.begin(), decompressed.notes.end());
-  report.payload_count = decompressed.payload_count;
+  report.payload_count = static_cast<uint32_t>(decompressed.counts.payloads);
   report.primitive_count = decompressed.primitive_count;
-  report.triangle_count = decompressed.triangle_count;
-  report.wedge_count = decompressed.wedge_count;
-  if (decompressed.payload_count != 0) {
-    MCC_GLTF_TRY(packageDocument(document, std::move(decompressed.json),
-                                 std::move(decompressed.bin), input, output, package,
-                                 report.notes));
+  report.triangle_count = decompressed.counts.triangles;
+  report.wedge_count = decompressed.counts.wedges;
+  if (report.payload_count != 0) {
+    const BufferContent buffer = {decompressed.layout.byte_count, [&](std::span<uint8_t> bytes) {
+                                    return decompressed.fill(options.thread_count, bytes);
+                                  }};
+    MCC_GLTF_TRY(packageDocument(document, std::move(decompressed.json), buffer, input, output,
+                                 package, report.notes));
   } else {
     MCC_GLTF_TRY(packageSource(document, input, output, package, report.notes, report.copied));
     if (report.copied) {

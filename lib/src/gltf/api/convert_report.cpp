@@ -35,7 +35,7 @@ void addCounts(const EncodedPayload& payload, PayloadReport& report) {
   }
 }
 
-/// Adds the coded bits to the measured attributes. `rows` are those of CheckResult.
+/// Adds the coded bits to the measured attributes.
 void addAttributeBits(const EncodedPayload& payload, const std::vector<size_t>& rows,
                       std::vector<AttributeReport>& attributes) {
   const StreamSizes& sizes = payload.result.sizes;
@@ -88,14 +88,14 @@ void addPrimitives(const Document& document, const Compressed& compressed, Conve
   }
 }
 
-void addPayloads(const std::vector<EncodedPayload>& payloads, CheckResult checked,
-                 ConvertReport& report) {
+void addPayloads(const std::vector<EncodedPayload>& payloads,
+                 const std::vector<PayloadProof>& proofs, ConvertReport& report) {
   for (size_t i = 0; i < payloads.size(); ++i) {
     PayloadReport payload;
     addCounts(payloads[i], payload);
     addStreams(payloads[i].result.sizes, payload);
-    payload.attributes = std::move(checked.attributes[i]);
-    addAttributeBits(payloads[i], checked.rows[i], payload.attributes);
+    payload.attributes = proofs[i].attributes;
+    addAttributeBits(payloads[i], proofs[i].rows, payload.attributes);
     report.payloads.push_back(std::move(payload));
   }
 }

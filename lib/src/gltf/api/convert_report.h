@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "gltf/check/check.h"
+#include "gltf/check/prove.h"
 #include "gltf/compress/compress.h"
 
 namespace mcc::gltf {
@@ -14,9 +14,9 @@ namespace mcc::gltf {
 /// Lists all primitives of the document, and adds notes on those that were left alone.
 void addPrimitives(const Document& document, const Compressed& compressed, ConvertReport& report);
 
-/// Adds the payloads with the results of the check.
-void addPayloads(const std::vector<EncodedPayload>& payloads, CheckResult checked,
-                 ConvertReport& report);
+/// Adds the payloads with what was measured on them.
+void addPayloads(const std::vector<EncodedPayload>& payloads,
+                 const std::vector<PayloadProof>& proofs, ConvertReport& report);
 
 }  // namespace mcc::gltf
 

@@ -1,28 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/base/payload.h"
 
-#include <utility>
-
 namespace mcc::gltf {
-namespace {
-
-std::string_view keyOf(std::span<const uint8_t> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-}  // namespace
-
-void DecodedPayloads::add(std::span<const uint8_t> bytes, std::vector<DecodedPiece> pieces) {
-  pieces_.emplace(keyOf(bytes), std::move(pieces));
-}
-
-std::vector<DecodedPiece> DecodedPayloads::take(std::span<const uint8_t> bytes) {
-  const auto found = pieces_.find(keyOf(bytes));
-  if (found == pieces_.end()) return {};
-  std::vector<DecodedPiece> pieces = std::move(found->second);
-  pieces_.erase(found);
-  return pieces;
-}
 
 Result toResult(const Status& status, const std::string& where) {
   if (status.ok()) return {};

@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "gltf/base/parallel.h"
@@ -24,18 +22,6 @@ struct DecodedPiece {
 struct DecodedPayload {
   Payload payload;
   std::vector<DecodedPiece> pieces;
-};
-
-/// Payloads that were decoded before, found by their bytes. All bytes are compared.
-class DecodedPayloads {
- public:
-  /// Adds a payload. `bytes` must outlive the object.
-  void add(std::span<const uint8_t> bytes, std::vector<DecodedPiece> pieces);
-  /// Removes a payload with these bytes and returns its pieces; without one, returns no pieces.
-  std::vector<DecodedPiece> take(std::span<const uint8_t> bytes);
-
- private:
-  std::unordered_multimap<std::string_view, std::vector<DecodedPiece>> pieces_;
 };
 
 /// Returns the bytes of all attributes of an opened payload, and of all its indices with 32 bits

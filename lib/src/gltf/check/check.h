@@ -1,9 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Proves a conversion: the bytes that were written are decoded and compared with the source. What
-// the reader has already decoded from the same bytes is not decoded again. The check takes nothing
-// from the encoder except its claim which decoded vertex is which source vertex, and it verifies
-// that claim.
+// Checks the file that a conversion wrote: it has the payloads that were proved, each primitive
+// reads what belongs to it, and everything else is as in the source.
 #ifndef MCC_GLTF_CHECK_CHECK_H_
 #define MCC_GLTF_CHECK_CHECK_H_
 
@@ -17,26 +15,23 @@
 namespace mcc::gltf {
 
 struct CheckResult {
-  /// Per payload: what was measured; attributes with the same name, coding and bits share a row.
-  std::vector<std::vector<AttributeReport>> attributes;
-  /// Per payload: the row of each attribute of each piece, in the order of the plan.
-  std::vector<std::vector<size_t>> rows;
   uint64_t decoded_bytes = 0;  ///< sum over all payloads
   Contents contents;           ///< of the written document
 };
 
 /// Checks that `written` holds the document `source`:
-/// - each compressed primitive has the source's vertices in a permuted order, and the same multiset
-///   of triangles, up to rotation;
-/// - every attribute value is within the promised distance of its source; exact ones are bit-equal;
-/// - accessors, images and JSON that are not compressed geometry are equal.
-/// payloads      what was encoded. Takes their decoded pieces: a payload whose bytes in `written`
-///               are those that were encoded is not decoded again.
+/// - the bytes of each payload are those that provePayloads() has decoded and compared;
+/// - each compressed primitive names its payload, piece, part and attributes, and the counts, types
+///   and bounds of its accessors are those of the payload; others are not compressed, or were so in
+///   the source and have the same bytes;
+/// - elements next to payloads that moved with the vertices belong to the same ones;
+/// - accessors, images and JSON that are not compressed geometry are equal;
+/// - a fallback holds what the payloads do.
 /// decoders      decodes attributes next to payloads that another codec holds, before and after.
 /// read_file     fetches the files next to the written one; null: there are none.
 /// thread_count  the number of payloads decoded at the same time.
 /// Errors name the first difference.
-Result checkConversion(const Document& source, std::vector<EncodedPayload>& payloads,
+Result checkConversion(const Document& source, const std::vector<EncodedPayload>& payloads,
                        const ForeignDecoders& decoders, std::span<const uint8_t> written,
                        const FileReader& read_file, uint32_t thread_count, CheckResult& result);
 

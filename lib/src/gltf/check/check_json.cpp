@@ -2,111 +2,139 @@
 #include "gltf/check/check_json.h"
 
 #include <algorithm>
-#include <numeric>
-#include <set>
+#include <initializer_list>
+#include <unordered_set>
 
 #include "gltf/check/same_bytes.h"
 #include "gltf/document/accessors.h"
 #include "gltf/document/known_extensions.h"
-#include "gltf/document/rebuild.h"
+#include "gltf/document/layout.h"
 #include "gltf/document/references.h"
 
 namespace mcc::gltf {
 namespace {
 
-/// Returns the numbers of an object's members sorted by key; those with the same key stay in the
-/// order of the object.
-std::vector<size_t> sortedMembers(const Json& object) {
-  std::vector<size_t> members(object.size());
-  std::iota(members.begin(), members.end(), size_t{0});
-  std::stable_sort(members.begin(), members.end(),
-                   [&](size_t a, size_t b) { return object.keyAt(a) < object.keyAt(b); });
-  return members;
-}
+/// What does not count when the JSON of a document is compared.
+struct Exceptions {
+  std::unordered_set<const Json*> hidden;  ///< is as if it was not there
+  std::unordered_set<const Json*> alike;   ///< is equal to anything that is alike as well
 
-/// Whether two values differ. `path` is extended to the place of the difference.
-bool differs(const Json& a, const Json& b, std::string& path) {
-  if (!a.is_structured() || a.kind() != b.kind()) return !(a == b);
-  if (a.size() != b.size()) return true;
-  const size_t length = path.size();
-  if (a.is_array()) {
-    for (size_t i = 0; i < a.size(); ++i) {
-      path += "/" + std::to_string(i);
-      if (differs(a[i], b[i], path)) return true;
+  bool isVisible(const Json& value) const { return !hidden.contains(&value); }
+  bool hasVisible(const Json& json) const {
+    return std::any_of(json.begin(), json.end(), [&](const Json& v) { return isVisible(v); });
+  }
+  void hide(const Json& object, std::initializer_list<const char*> keys) {
+    for (const char* key : keys) {
+      if (const Json* member = findMember(object, key)) hidden.insert(member);
+    }
+  }
+  /// Hides a member that has nothing visible in it.
+  void hideEmpty(const Json& object, const char* key) {
+    const Json* const member = findMember(object, key);
+    if (member != nullptr && member->is_structured() && !hasVisible(*member)) {
+      hidden.insert(member);
+    }
+  }
+};
+
+/// Compares two values, each with its exceptions.
+class Comparison {
+ public:
+  Comparison(const Exceptions& in_a, const Exceptions& in_b) : in_a_(in_a), in_b_(in_b) {}
+
+  /// Whether two values differ. `path` is extended to the place of the difference.
+  bool differs(const Json& a, const Json& b, std::string& path) const {
+    if (in_a_.alike.contains(&a)) return !in_b_.alike.contains(&b);
+    if (!a.is_structured() || a.kind() != b.kind()) return !(a == b);
+    const std::vector<size_t> of_a = visibleOf(a, in_a_);
+    const std::vector<size_t> of_b = visibleOf(b, in_b_);
+    if (of_a.size() != of_b.size()) return true;
+    const size_t length = path.size();
+    for (size_t i = 0; i < of_a.size(); ++i) {
+      path = a.is_array() ? at(path, of_a[i]) : at(path, a.keyAt(of_a[i]));
+      const bool has_key = a.is_array() || a.keyAt(of_a[i]) == b.keyAt(of_b[i]);
+      if (!has_key || differs(a[of_a[i]], b[of_b[i]], path)) return true;
       path.resize(length);
     }
     return false;
   }
-  const std::vector<size_t> in_a = sortedMembers(a);
-  const std::vector<size_t> in_b = sortedMembers(b);
-  for (size_t i = 0; i < in_a.size(); ++i) {
-    const std::string& key = a.keyAt(in_a[i]);
-    path = at(path, key);
-    if (key != b.keyAt(in_b[i]) || differs(a[in_a[i]], b[in_b[i]], path)) return true;
-    path.resize(length);
-  }
-  return false;
-}
 
-void eraseAll(Json& object, std::initializer_list<const char*> keys) {
-  for (const char* key : keys) object.erase(key);
-}
-
-void eraseFrom(Json& json, const char* key) {
-  if (json.is_object()) json.erase(key);
-}
-
-void eraseGeometry(Json& primitive) {
-  eraseAll(primitive, {"attributes", "indices", "mode", "targets"});
-  const auto extensions = primitive.find("extensions");
-  if (extensions == primitive.end()) return;
-  extensions->erase(kExtensionName);
-  extensions->erase(kMeshExtension);
-  if (extensions->empty()) primitive.erase("extensions");
-}
-
-/// Returns the document without what a conversion may change: numbers and places of buffer views,
-/// and the compressed geometry itself. Accessors from `accessor_count` on are ours and are left
-/// out.
-Json withoutGeometry(const Document& document, const std::vector<ExtensionUse>& uses,
-                     const std::set<uint32_t>& touched, size_t accessor_count) {
-  Json json = document.json;
-  eraseAll(json, {"buffers", "bufferViews"});
-  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
-    for (const char* name : kViewExtensions) removeExtensionName(json, list, name);
-    removeExtensionName(json, list, kMeshExtension);
-    removeExtensionName(json, list, kExtensionName);
-  }
-  editViewReferences(json, [](Json& number, uint32_t) { number = 0; });
-  hideMissingAccessors(document.accessors.size(), json);
-  if (!uses.empty()) {
-    Json& meshes = json["meshes"];
-    for (const ExtensionUse& use : uses) {
-      eraseGeometry(meshes[use.mesh]["primitives"][use.primitive]);
+ private:
+  /// Returns the numbers of what is visible in an array or object, members sorted by key; those
+  /// with the same key stay in the order of the object.
+  static std::vector<size_t> visibleOf(const Json& json, const Exceptions& exceptions) {
+    std::vector<size_t> numbers;
+    for (size_t i = 0; i < json.size(); ++i) {
+      if (exceptions.isVisible(json[i])) numbers.push_back(i);
     }
+    if (json.is_array()) return numbers;
+    std::stable_sort(numbers.begin(), numbers.end(),
+                     [&](size_t a, size_t b) { return json.keyAt(a) < json.keyAt(b); });
+    return numbers;
   }
-  if (json.find("accessors") == json.end()) return json;
-  Json old_accessors = std::move(json["accessors"]);
-  Json accessors = Json::array();
-  for (uint32_t i = 0; i < std::min(accessor_count, old_accessors.size()); ++i) {
-    Json accessor = std::move(old_accessors[i]);
-    accessor.erase("byteOffset");
-    if (const auto sparse = accessor.find("sparse"); sparse != accessor.end()) {
+
+  const Exceptions& in_a_;
+  const Exceptions& in_b_;
+};
+
+/// The accessors that something compressed uses, before or after.
+using Touched = std::set<uint32_t>;
+
+void exceptLists(const Json& root, Exceptions& exceptions) {
+  const auto isOfCodec = [](const Json& name) {
+    return name == kExtensionName || name == kMeshExtension ||
+           std::find(std::begin(kViewExtensions), std::end(kViewExtensions), name.text()) !=
+               std::end(kViewExtensions);
+  };
+  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+    for (const Json& name : arrayOf(root, list)) {
+      if (name.is_string() && isOfCodec(name)) exceptions.hidden.insert(&name);
+    }
+    exceptions.hideEmpty(root, list);
+  }
+}
+
+void exceptGeometry(const Json& primitive, Exceptions& exceptions) {
+  exceptions.hide(primitive, {"attributes", "indices", "mode", "targets"});
+  const Json* const extensions = findMember(primitive, "extensions");
+  if (extensions == nullptr) return;
+  exceptions.hide(*extensions, {kExtensionName, kMeshExtension});
+  exceptions.hideEmpty(primitive, "extensions");
+}
+
+void exceptAccessors(const Json& root, const Touched& touched, size_t accessor_count,
+                     Exceptions& exceptions) {
+  const Json& accessors = arrayOf(root, "accessors");
+  for (size_t i = 0; i < accessors.size(); ++i) {
+    const Json& accessor = accessors[i];
+    if (i >= accessor_count) exceptions.hidden.insert(&accessor);
+    exceptions.hide(accessor, {"byteOffset"});
+    if (const Json* sparse = findMember(accessor, "sparse")) {
       for (const char* part : {"indices", "values"}) {
-        if (findMember(*sparse, part) != nullptr) eraseFrom((*sparse)[part], "byteOffset");
+        if (const Json* place = findMember(*sparse, part)) exceptions.hide(*place, {"byteOffset"});
       }
     }
-    if (touched.count(i) != 0) {
-      eraseAll(accessor, {"bufferView", "sparse", "min", "max", "count", "componentType"});
-    }
-    accessors.push_back(std::move(accessor));
+    if (!touched.contains(static_cast<uint32_t>(i))) continue;
+    exceptions.hide(accessor, {"bufferView", "sparse", "min", "max", "count", "componentType"});
   }
-  if (accessors.empty()) {
-    json.erase("accessors");
-  } else {
-    json["accessors"] = std::move(accessors);
-  }
-  return json;
+  exceptions.hideEmpty(root, "accessors");
+}
+
+/// Returns what a conversion may change: numbers and places of buffer views, and the compressed
+/// geometry itself. Accessors from `accessor_count` on are ours.
+Exceptions exceptionsOf(const Document& document, const std::vector<PrimitiveRef>& compressed,
+                        const Touched& touched, size_t accessor_count) {
+  Exceptions exceptions;
+  const Json& root = document.json;
+  exceptions.hide(root, {"buffers", "bufferViews"});
+  exceptLists(root, exceptions);
+  const auto exceptNumber = [&](const Json& number) { exceptions.alike.insert(&number); };
+  visitViewReferences(root, [&](const Json& number, uint32_t) { exceptNumber(number); });
+  visitMissingAccessors(root, document.accessors.size(), exceptNumber);
+  const Json& meshes = arrayOf(root, "meshes");
+  for (const PrimitiveRef& ref : compressed) exceptGeometry(primitiveAt(meshes, ref), exceptions);
+  exceptAccessors(root, touched, accessor_count, exceptions);
+  return exceptions;
 }
 
 ByteRange viewRange(const Document& document, uint64_t view) {
@@ -117,30 +145,30 @@ ByteRange viewRange(const Document& document, uint64_t view) {
 /// Compares the bytes of everything that a conversion must not change.
 class BytesChecker {
  public:
-  BytesChecker(const Document& source, const Document& decoded)
-      : source_(source), decoded_(decoded), bytes_(source, decoded) {}
+  BytesChecker(const Document& source, const Document& written)
+      : source_(source), written_(written), bytes_(source, written) {}
 
   void addAccessor(uint32_t index) {
     const Accessor& a = source_.accessors[index];
     if (!a.is_known_type || (a.view == kNone && a.sparse.count == 0)) return;
-    const Accessor& b = decoded_.accessors[index];
+    const Accessor& b = written_.accessors[index];
     const bool is_same = a.fault.ok() == b.fault.ok() && a.count == b.count &&
                          a.elementBytes() == b.elementBytes() &&
-                         strideOf(source_, a) == strideOf(decoded_, b);
+                         strideOf(source_, a) == strideOf(written_, b);
     const std::vector<ByteRange> in_source = accessorRanges(source_, index, false);
-    const std::vector<ByteRange> in_decoded = accessorRanges(decoded_, index, false);
-    if (!is_same || in_source.size() != in_decoded.size()) {
+    const std::vector<ByteRange> in_written = accessorRanges(written_, index, false);
+    if (!is_same || in_source.size() != in_written.size()) {
       return addDifference("/accessors", index, "has another size");
     }
     if (!sameCodings(a, b)) return addDifference("/accessors", index, "the coded bytes changed");
     for (size_t i = 0; i < in_source.size(); ++i) {
-      add(in_source[i], in_decoded[i], "/accessors", index, "its elements changed");
+      add(in_source[i], in_written[i], "/accessors", index, "its elements changed");
     }
   }
 
   void addImages() {
     const Json& images = arrayOf(source_.json, "images");
-    const Json& new_images = arrayOf(decoded_.json, "images");
+    const Json& new_images = arrayOf(written_.json, "images");
     for (size_t i = 0; i < images.size(); ++i) {
       const Json* number = findMember(images[i], "bufferView");
       if (number == nullptr) continue;
@@ -157,7 +185,7 @@ class BytesChecker {
       return numbers;
     };
     const std::vector<const Json*> old_numbers = numbersOf(source_);
-    const std::vector<const Json*> new_numbers = numbersOf(decoded_);
+    const std::vector<const Json*> new_numbers = numbersOf(written_);
     if (old_numbers.size() != new_numbers.size()) {
       return addDifference("/extensions", 0, "a property table is lost");
     }
@@ -169,10 +197,10 @@ class BytesChecker {
   }
 
   void addView(uint32_t view) {
-    if (view >= decoded_.views.size()) {
+    if (view >= written_.views.size()) {
       return addDifference("/bufferViews", view, "the bytes changed");
     }
-    add(viewRange(source_, view), viewRange(decoded_, view), "/bufferViews", view,
+    add(viewRange(source_, view), viewRange(written_, view), "/bufferViews", view,
         "the bytes changed");
   }
 
@@ -193,9 +221,9 @@ class BytesChecker {
     return accessor.view == kNone ? 0 : document.views[accessor.view].stride;
   }
 
-  void add(const ByteRange& in_source, const ByteRange& in_decoded, const char* array,
+  void add(const ByteRange& in_source, const ByteRange& in_written, const char* array,
            uint64_t index, const char* what) {
-    bytes_.add(in_source, in_decoded, places_.size());
+    bytes_.add(in_source, in_written, places_.size());
     places_.push_back({array, index, what});
   }
 
@@ -211,9 +239,9 @@ class BytesChecker {
     uint64_t new_view = 0;
     if (!asUnsigned(*number, old_view) || old_view >= source_.views.size()) return;
     const bool exists = new_number != nullptr && asUnsigned(*new_number, new_view) &&
-                        new_view < decoded_.views.size();
+                        new_view < written_.views.size();
     if (!exists) return addDifference(array, index, what);
-    add(viewRange(source_, old_view), viewRange(decoded_, new_view), array, index, what);
+    add(viewRange(source_, old_view), viewRange(written_, new_view), array, index, what);
   }
 
   /// Whether views that another codec compressed are described as they were.
@@ -227,30 +255,27 @@ class BytesChecker {
     return is_same;
   }
 
-  bool sameCoding(uint32_t source_view, uint32_t decoded_view) const {
+  bool sameCoding(uint32_t source_view, uint32_t written_view) const {
     const ViewCoding& a = source_.views[source_view].coding;
-    const ViewCoding& b = decoded_.views[decoded_view].coding;
+    const ViewCoding& b = written_.views[written_view].coding;
     return a.extension == b.extension && a.mode == b.mode && a.filter == b.filter &&
            a.count == b.count && a.stride == b.stride;
   }
 
   const Document& source_;
-  const Document& decoded_;
+  const Document& written_;
   SameBytes bytes_;
   std::vector<Place> places_;  ///< of the pairs, by number
   size_t first_ = SameBytes::kNothing;
 };
 
 /// Where views keep their numbers, adds every view, except those that only compressed accessors
-/// used and payloads of the source, which are decoded.
-Result addViews(const Document& source, const std::set<uint32_t>& touched, BytesChecker& checker) {
+/// used.
+void addViews(const Document& source, const Touched& touched, BytesChecker& checker) {
   const ForeignReferences foreign = findForeignReferences(source.json);
-  if (!foreign.keep_numbers) return {};
+  if (!foreign.keep_numbers) return;
   std::vector<bool> is_freed;
   for (const ViewUse use : viewUses(source, foreign)) is_freed.push_back(use == ViewUse::kFree);
-  std::vector<ExtensionUse> own;
-  MCC_GLTF_TRY(findExtensionUses(source, own));
-  for (const ExtensionUse& use : own) is_freed[use.view] = true;
   for (const uint32_t index : touched) {
     if (index >= source.accessors.size()) continue;
     const Accessor& accessor = source.accessors[index];
@@ -263,7 +288,6 @@ Result addViews(const Document& source, const std::set<uint32_t>& touched, Bytes
   for (uint32_t view = 0; view < source.views.size(); ++view) {
     if (!is_freed[view]) checker.addView(view);
   }
-  return {};
 }
 
 }  // namespace
@@ -272,28 +296,35 @@ bool equalJson(const Json& a, const Json& b) { return firstDifference(a, b).empt
 
 std::string firstDifference(const Json& a, const Json& b) {
   std::string path;
-  if (!differs(a, b, path)) return "";
+  if (!Comparison({}, {}).differs(a, b, path)) return "";
   return path.empty() ? "/" : path;
 }
 
-Result compareRest(const Document& source, const Document& decoded,
+Result compareRest(const Document& source, const Document& written,
                    const std::vector<ExtensionUse>& uses, const std::set<uint32_t>& reordered) {
-  std::set<uint32_t> touched = reordered;
+  Touched touched = reordered;
+  std::vector<PrimitiveRef> compressed;
+  const Json& meshes = arrayOf(source.json, "meshes");
   for (const ExtensionUse& use : uses) {
+    const PrimitiveRef ref = {use.mesh, use.primitive};
+    if (extensionOf(primitiveAt(meshes, ref), kExtensionName) == nullptr) compressed.push_back(ref);
     touched.insert(use.indices_accessor);
     for (const auto& attribute : use.attributes) touched.insert(attribute.accessor);
   }
   const size_t count = source.accessors.size();
-  const std::string difference = firstDifference(withoutGeometry(source, uses, touched, count),
-                                                 withoutGeometry(decoded, uses, touched, count));
-  if (!difference.empty()) return error(difference, "the JSON changed");
-  BytesChecker checker(source, decoded);
+  const Exceptions in_source = exceptionsOf(source, compressed, touched, count);
+  const Exceptions in_written = exceptionsOf(written, compressed, touched, count);
+  std::string path;
+  if (Comparison(in_source, in_written).differs(source.json, written.json, path)) {
+    return error(path.empty() ? "/" : path, "the JSON changed");
+  }
+  BytesChecker checker(source, written);
   for (uint32_t i = 0; i < count; ++i) {
-    if (touched.count(i) == 0) checker.addAccessor(i);
+    if (!touched.contains(i)) checker.addAccessor(i);
   }
   checker.addImages();
   checker.addTables();
-  MCC_GLTF_TRY(addViews(source, touched, checker));
+  addViews(source, touched, checker);
   return checker.run();
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "gltf/decompress/decompress.h"
 #include "gltf/document/document.h"
+#include "gltf/document/extension_json.h"
 
 namespace mcc::gltf {
 
@@ -19,8 +19,9 @@ std::string firstDifference(const Json& a, const Json& b);
 
 /// Compares everything that does not belong to the compressed primitives in `uses`: the JSON, the
 /// bytes of the other accessors and of the images, and, where no views were renumbered, all views.
-/// The bytes of `reordered` accessors are compared elsewhere.
-Result compareRest(const Document& source, const Document& decoded,
+/// The documents are walked side by side and nothing is copied. The bytes of `reordered` accessors
+/// are compared elsewhere.
+Result compareRest(const Document& source, const Document& written,
                    const std::vector<ExtensionUse>& uses, const std::set<uint32_t>& reordered);
 
 }  // namespace mcc::gltf

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gltf/document/document.h"
-#include "gltf/document/rebuild.h"
+#include "gltf/document/layout.h"
 
 namespace mcc::gltf {
 

@@ -12,7 +12,7 @@
 #include "gltf/base/parallel.h"
 #include "gltf/base/path_text.h"
 #include "gltf/compress/compress.h"
-#include "gltf/document/rebuild.h"
+#include "gltf/document/layout.h"
 
 namespace mcc::gltf {
 namespace {

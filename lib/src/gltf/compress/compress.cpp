@@ -2,7 +2,6 @@
 #include "gltf/compress/compress.h"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <set>
 
@@ -10,8 +9,6 @@
 #include "gltf/compress/quantize.h"
 #include "gltf/compress/unused.h"
 #include "gltf/compress/vertex_numbers.h"
-#include "gltf/document/bounds.h"
-#include "gltf/document/rebuild.h"
 
 namespace mcc::gltf {
 namespace {
@@ -53,7 +50,7 @@ class Applier {
     for (const EncodedPayload& payload : compressed_.payloads) {
       const uint64_t view = kFirstNewView + views.size();
       NewView new_view;
-      new_view.bytes = payload.result.payload;  // the check compares it with what was written
+      new_view.borrow(payload.result.payload);
       views.push_back(std::move(new_view));
       for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
         applyPiece(payload, i, view);
@@ -76,7 +73,7 @@ class Applier {
  private:
   void applyPiece(const EncodedPayload& payload, size_t number, uint64_t view) {
     const PiecePlan& piece = payload.plan.pieces[number];
-    const DecodedPiece& decoded = payload.decoded[number];
+    const PieceBounds& bounds = payload.bounds[number];
     const std::string where = piece.parts[0].users[0].path();
     std::vector<uint32_t> accessors;
     for (size_t k = 0; k < piece.attributes.size(); ++k) {
@@ -85,13 +82,11 @@ class Applier {
       Json& accessor = (*accessors_)[index];
       const bool is_position = attribute.name == "POSITION";
       accessor["count"] = piece.wedge_count;
-      const AttributeFormat& format = attribute.format;
-      setBounds(boundsOf(decoded.attributes[k], format.component_type, format.component_count),
-                format.component_type, is_position, accessor);
+      setBounds(bounds.attributes[k], attribute.format.component_type, is_position, accessor);
       accessors.push_back(index);
     }
     for (size_t k = 0; k < piece.parts.size(); ++k) {
-      const uint32_t indices = takeIndices(piece.parts[k], decoded.parts[k], piece.wedge_count);
+      const uint32_t indices = takeIndices(piece.parts[k], bounds.parts[k], piece.wedge_count);
       for (const PrimitiveRef& user : piece.parts[k].users) {
         Json& primitive = (*meshes_)[user.mesh]["primitives"][user.primitive];
         setAccessors(piece, accessors, primitive);
@@ -156,8 +151,7 @@ class Applier {
     return clone;
   }
 
-  uint32_t takeIndices(const PartPlan& part, std::span<const uint32_t> decoded,
-                       uint32_t wedge_count) {
+  uint32_t takeIndices(const PartPlan& part, const Bounds& bounds, uint32_t wedge_count) {
     Json& accessors = *accessors_;
     uint32_t index = 0;
     if (part.indices_accessor == kNone) {
@@ -173,7 +167,7 @@ class Applier {
         indexTypeFits(document_.accessors[part.indices_accessor].component_type, wedge_count);
     if (!fits) accessor["componentType"] = gl_type;
     accessor["count"] = part.triangles.size();
-    setBounds(boundsOf(decoded), ComponentType::kUint32, false, accessor);
+    setBounds(bounds, ComponentType::kUint32, false, accessor);
     return index;
   }
 
@@ -185,14 +179,6 @@ class Applier {
   std::vector<bool> is_taken_;        ///< source accessors that must not be changed (any more)
   std::map<uint32_t, bool> is_long_;  ///< by source accessor: the JSON of its copies is shortened
 };
-
-Result decodeTimed(uint32_t thread_count, Compressed& compressed) {
-  const auto start = std::chrono::steady_clock::now();
-  MCC_GLTF_TRY(decodePayloads(thread_count, compressed.payloads));
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  compressed.decode_seconds = time.count();
-  return {};
-}
 
 void sortByPlace(std::vector<LeftAlone>& left_alone) {
   std::stable_sort(
@@ -286,15 +272,18 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
     dropLosers(document, foreign, compressed.payloads, compressed.left_alone);
   }
   sortByPlace(compressed.left_alone);
-  if (compressed.payloads.empty()) return {};
   for (const EncodedPayload& payload : compressed.payloads) {
     for (const std::string& note : payload.result.notes) {
       compressed.notes.push_back(at("/meshes", payload.plan.mesh) + ": " + note);
     }
   }
-  MCC_GLTF_TRY(decodeTimed(options.thread_count, compressed));
-  std::vector<NewView> views = Applier(document, foreign, compressed).run();
-  return rebuildBuffers(document, foreign, views, compressed.json, compressed.bin);
+  return {};
+}
+
+void storePayloads(const Document& document, Compressed& compressed) {
+  const ForeignReferences foreign = findForeignReferences(document.json);
+  compressed.views = Applier(document, foreign, compressed).run();
+  compressed.layout = layOut(document, foreign, compressed.views, compressed.json);
 }
 
 }  // namespace mcc::gltf

@@ -5,48 +5,53 @@
 #include <cstdint>
 #include <vector>
 
-#include "gltf/base/payload.h"
 #include "gltf/compress/plan.h"
+#include "gltf/document/bounds.h"
+#include "gltf/document/layout.h"
 #include "gltf/document/references.h"
 #include "mcc/gltf.h"
 #include "mcc/writer.h"
 
 namespace mcc::gltf {
 
+/// The bounds of what the reader decodes.
+struct PieceBounds {
+  std::vector<Bounds> attributes;
+  std::vector<Bounds> parts;
+};
+
 /// A payload plan and the payload it became.
 struct EncodedPayload {
   PayloadPlan plan;
   EncodeResult result;
-  /// What the reader decodes from result.payload. Empty until decodePayloads() and after the check.
-  std::vector<DecodedPiece> decoded;
+  std::vector<PieceBounds> bounds;  ///< one for each piece, from provePayloads()
   uint64_t freed_bytes = 0;
 };
 
 /// A compressed document before it is written.
 struct Compressed {
-  Json json;
-  std::vector<uint8_t> bin;
   std::vector<EncodedPayload> payloads;  ///< the payloads that are in the document
   std::vector<LeftAlone> left_alone;
   std::vector<std::string> notes;
   std::vector<std::string> remarks;  ///< see ConvertReport::remarks
-  double decode_seconds = 0;  ///< time of decodePayloads()
+  // From storePayloads():
+  Json json;
+  Layout layout;               ///< of the buffer
+  std::vector<NewView> views;  ///< what the layout borrows, besides the source and the payloads
 };
 
-/// Compresses every primitive for which that saves bytes. If there is no payload in the result,
-/// `json` and `bin` are not set. Primitives that the codec refuses are left alone. Errors: the
-/// document contradicts itself.
+/// Compresses every primitive for which that saves bytes. Primitives that the codec refuses are
+/// left alone. Errors: the document contradicts itself.
 Result compressDocument(const Document& document, const ConvertOptions& options,
                         Compressed& compressed);
+
+/// Puts the payloads into the JSON of the document, and lays out its buffer. The payloads have
+/// their bounds.
+void storePayloads(const Document& document, Compressed& compressed);
 
 /// Encodes the planned payloads. Pieces that the codec or its readers refuse go to `left_alone`.
 Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> plans,
                       std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone);
-
-/// Sets EncodedPayload::decoded. The payloads are decoded once: the bounds of accessors come from
-/// the decoded values, and the check compares them with the source.
-/// Errors: a payload cannot be decoded.
-Result decodePayloads(uint32_t thread_count, std::vector<EncodedPayload>& payloads);
 
 /// Sets EncodedPayload::freed_bytes.
 void countFreedBytes(const Document& document, const ForeignReferences& foreign,

@@ -102,17 +102,6 @@ Result encodeOne(const EncodeOptions& options, EncodedPayload& payload,
   return {};
 }
 
-Result decodeOne(EncodedPayload& payload, const RunJobs& run_jobs) {
-  DecodedPayload decoded;
-  Result result =
-      decodePayload(payload.result.payload, at("/meshes", payload.plan.mesh), decoded, run_jobs);
-  if (!result.ok()) {
-    result.what = "the payload cannot be decoded again: " + result.what + "; please report this";
-  }
-  payload.decoded = std::move(decoded.pieces);
-  return result;
-}
-
 /// Reports how much of the payloads' triangles is encoded.
 class EncodingProgress {
  public:
@@ -175,13 +164,6 @@ Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> pl
     if (!encoded[i].plan.pieces.empty()) payloads.push_back(std::move(encoded[i]));
   }
   return {};
-}
-
-Result decodePayloads(uint32_t thread_count, std::vector<EncodedPayload>& payloads) {
-  ThreadBudget threads(thread_count);
-  const RunJobs run_jobs = runJobsOn(threads);
-  return runParallel(payloads.size(), threads,
-                     [&](size_t i) { return decodeOne(payloads[i], run_jobs); });
 }
 
 }  // namespace mcc::gltf

@@ -85,7 +85,7 @@ void reorderAttributes(const Document& document, const PiecePlan& piece,
     }
     NewView view;
     view.target = kArrayBuffer;
-    view.bytes = packElements(tight, accessor, true, view.stride_bytes);
+    view.hold(packAttribute(tight, accessor, view.stride_bytes));
     Json& edited = accessors[attribute.accessor];
     edited.erase("byteOffset");
     edited["bufferView"] = kFirstNewView + views.size();

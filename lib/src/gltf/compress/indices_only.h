@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gltf/compress/plan.h"
-#include "gltf/document/rebuild.h"
+#include "gltf/document/layout.h"
 #include "gltf/document/references.h"
 #include "mcc/writer.h"
 

@@ -52,9 +52,10 @@ void planUnused(const ConvertOptions& options, std::vector<PayloadPlan>& payload
       std::vector<uint32_t> used = usedVertices(piece);
       if (used.size() == piece.wedge_count) continue;
       unused += piece.wedge_count - used.size();
-      // An extension may refer to vertices by number, and a primitive needs at least one vertex.
-      const bool must_stay =
-          payload.keep_vertex_order || !piece.vertex_numbers.empty() || used.empty();
+      // An extension may refer to vertices by number, attributes may stay next to the payload, and
+      // a primitive needs at least one vertex.
+      const bool must_stay = payload.keep_vertex_order || !piece.vertex_numbers.empty() ||
+                             !piece.ordinary.empty() || used.empty();
       if (must_stay) is_kept = true;
       if (options.drop_unused && !must_stay) keepVertices(std::move(used), piece);
     }

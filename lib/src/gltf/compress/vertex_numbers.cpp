@@ -132,13 +132,15 @@ void renumberVertices(const Document& document, const PiecePlan& piece,
     // They could be read before. Without numbers, there is nothing to change.
     if (!readIndices(document, index, numbers).ok() || numbers.empty()) continue;
     const uint32_t bytes_each = componentBytes(accessor.component_type);
-    NewView view;
+    std::vector<uint8_t> bytes;
     for (uint32_t& number : numbers) {
       number = decoded_wedge[number];
       for (uint32_t byte = 0; byte < bytes_each; ++byte) {
-        view.bytes.push_back(static_cast<uint8_t>(number >> (8 * byte)));
+        bytes.push_back(static_cast<uint8_t>(number >> (8 * byte)));
       }
     }
+    NewView view;
+    view.hold(std::move(bytes));
     Json& edited = accessors[index];
     edited.erase("byteOffset");
     edited["bufferView"] = kFirstNewView + views.size();

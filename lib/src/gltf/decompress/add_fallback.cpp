@@ -7,37 +7,40 @@
 namespace mcc::gltf {
 
 Result addFallback(const std::vector<uint8_t>& bin, Json& json, std::vector<uint8_t>& fallback) {
+  std::vector<uint8_t> glb;
   Document document;
-  MCC_GLTF_TRY(adoptDocument(json, bin, document));
-  DecodedAccessors decoded;
-  MCC_GLTF_TRY(decodeAccessors(document, decoded));
-  fallback.clear();
-  std::vector<size_t> numbers(decoded.views.size(), kNone);  // numbers of the views in the JSON
+  MCC_GLTF_TRY(writeGlb(printJson(json), bin, {}, glb));
+  MCC_GLTF_TRY(loadDocument(glb, nullptr, document));
+  PayloadDecoder decoder(document, PayloadDecoder::Views::kShared);
+  MCC_GLTF_TRY(decoder.open());
+  const std::vector<NewView> decoded = decoder.takeViews();
+  std::vector<uint64_t> numbers(decoded.size(), kNone);  // numbers of the views in the JSON
+  std::vector<uint64_t> offsets(decoded.size());
+  uint64_t end = 0;
   const size_t buffer = json["buffers"].size();
   Json& accessors = json["accessors"];
   Json& views = json["bufferViews"];
-  for (const DecodedAccessors::Filled& filled : decoded.filled) {
-    if (document.accessors[filled.accessor].view != kNone) continue;  // it already has a fallback
-    Json& accessor = accessors[filled.accessor];
-    if (numbers[filled.view] != kNone) {
-      accessor["bufferView"] = numbers[filled.view];
-      continue;
+  for (const auto& [accessor, number] : decoder.filled()) {
+    if (document.accessors[accessor].view != kNone) continue;  // it already has a fallback
+    if (numbers[number] == kNone) {
+      const NewView& view = decoded[number];
+      offsets[number] = (end + 3) & ~uint64_t{3};
+      end = offsets[number] + view.byte_count;
+      numbers[number] = views.size();
+      Json added = {
+          {"buffer", buffer}, {"byteOffset", offsets[number]}, {"byteLength", view.byte_count}};
+      if (view.stride_bytes != 0) added["byteStride"] = view.stride_bytes;
+      added["target"] = view.target;
+      views.push_back(std::move(added));
     }
-    const NewView& decoded_view = decoded.views[filled.view];
-    fallback.resize((fallback.size() + 3) & ~size_t{3}, 0);
-    Json view = {{"buffer", buffer},
-                 {"byteOffset", fallback.size()},
-                 {"byteLength", decoded_view.bytes.size()}};
-    if (decoded_view.stride_bytes != 0) view["byteStride"] = decoded_view.stride_bytes;
-    view["target"] = decoded_view.target;
-    fallback.insert(fallback.end(), decoded_view.bytes.begin(), decoded_view.bytes.end());
-    numbers[filled.view] = views.size();
-    accessor["bufferView"] = numbers[filled.view];
-    views.push_back(std::move(view));
+    accessors[accessor]["bufferView"] = numbers[number];
   }
-  json["buffers"].push_back({{"uri", ""}, {"byteLength", fallback.size()}});
+  json["buffers"].push_back({{"uri", ""}, {"byteLength", end}});
   removeExtensionName(json, "extensionsRequired", kExtensionName);
-  return {};
+  fallback.assign(end, 0);
+  return decoder.decode(1, [&](size_t view) {
+    return numbers[view] == kNone ? nullptr : fallback.data() + offsets[view];
+  });
 }
 
 }  // namespace mcc::gltf

@@ -2,232 +2,265 @@
 #include "gltf/decompress/decompress.h"
 
 #include <algorithm>
-#include <set>
-#include <tuple>
+#include <deque>
 
 #include "gltf/base/parallel.h"
-#include "gltf/base/payload.h"
 #include "gltf/decompress/integers.h"
 #include "gltf/document/accessors.h"
 
 namespace mcc::gltf {
 namespace {
 
-class Decompressor {
- public:
-  Decompressor(const Document& document, DecodeTo decode_to, uint32_t thread_count,
-               DecodedPayloads known, Decompressed& out)
-      : document_(document),
-        decode_to_(decode_to),
-        thread_count_(std::max(thread_count, 1u)),
-        known_(std::move(known)),
-        out_(out) {}
-
-  /// Sets decoded() and the counts.
-  Result decode() {
-    MCC_GLTF_TRY(findExtensionUses(document_, uses_));
-    const std::vector<PayloadUse> uses = payloadUses(document_, uses_);
-    MCC_GLTF_TRY(checkPayloadLengths(document_, uses));
-    std::vector<DecodedPayload> payloads(uses.size());
-    for (size_t i = 0; i < uses.size(); ++i) MCC_GLTF_TRY(open(uses[i], payloads[i]));
-    MCC_GLTF_TRY(checkDecodedBytes(uses, payloads));
-    // Decodes as many payloads at a time as there are threads, to limit the memory in use.
-    for (size_t begin = 0; begin < uses.size(); begin += thread_count_) {
-      const size_t count = std::min<size_t>(thread_count_, uses.size() - begin);
-      ThreadBudget threads(thread_count_);
-      const RunJobs run_jobs = runJobsOn(threads);
-      MCC_GLTF_TRY(runParallel(count, threads, [&](size_t i) {
-        DecodedPayload& payload = payloads[begin + i];
-        if (!payload.pieces.empty()) return Result{};
-        return decodePieces(whereOf(uses[begin + i]), payload, run_jobs);
-      }));
-      for (size_t i = begin; i < begin + count; ++i) {
-        store(uses[i], payloads[i]);
-        payloads[i] = {};
-      }
-    }
-    out_.payload_count = static_cast<uint32_t>(uses.size());
-    out_.primitive_count = static_cast<uint32_t>(uses_.size());
-    return {};
+IndexType indexTypeOf(ComponentType type) {
+  switch (type) {
+    case ComponentType::kUint8: return IndexType::kUint8;
+    case ComponentType::kUint16: return IndexType::kUint16;
+    default: return IndexType::kUint32;
   }
-
-  DecodedAccessors& decoded() { return decoded_; }
-
-  /// Removes the extension from the document, after decode().
-  Result rebuild() {
-    if (uses_.empty()) return {};
-    out_.json = document_.json;
-    Json& accessors = out_.json["accessors"];
-    for (const DecodedAccessors::Filled& filled : decoded_.filled) {
-      Json& accessor = accessors[filled.accessor];
-      accessor.erase("byteOffset");
-      accessor.erase("sparse");
-      accessor["bufferView"] = kFirstNewView + filled.view;
-    }
-    Json& meshes = out_.json["meshes"];
-    for (const ExtensionUse& use : uses_) {
-      removeExtension(meshes[use.mesh]["primitives"][use.primitive]);
-    }
-    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
-      removeExtensionName(out_.json, list, kExtensionName);
-    }
-    if (decode_to_ == DecodeTo::kIntegers) {
-      storeIntegers(document_, out_.coded_attributes, out_.json, decoded_.views, out_.notes);
-    }
-    const ForeignReferences foreign = findForeignReferences(document_.json);
-    return rebuildBuffers(document_, foreign, decoded_.views, out_.json, out_.bin);
-  }
-
- private:
-  /// Where the elements of an accessor come from, and how they are stored: payload, piece, whether
-  /// it is a part, its number, component type, columns.
-  using Origin = std::tuple<uint32_t, uint64_t, bool, uint64_t, ComponentType, uint32_t>;
-
-  static std::string whereOf(const PayloadUse& use) { return use.users[0]->path + "/bufferView"; }
-
-  Origin originOf(uint32_t payload, const ExtensionUse& use, bool is_part, uint64_t number,
-                  uint32_t accessor) const {
-    const Accessor& target = document_.accessors[accessor];
-    return {payload, use.piece, is_part, number, target.component_type, target.columns};
-  }
-
-  /// Opens a payload. All counts must match the accessors before memory is taken for them. A known
-  /// payload gets its pieces.
-  Result open(const PayloadUse& use, DecodedPayload& decoded) {
-    const std::span<const uint8_t> bytes = payloadBytes(document_, use.view);
-    MCC_GLTF_TRY(toResult(decoded.payload.open(bytes), whereOf(use)));
-    for (const ExtensionUse* user : use.users) {
-      MCC_GLTF_TRY(checkAgainstPayload(document_, *user, decoded.payload.info()));
-    }
-    decoded.pieces = known_.take(bytes);
-    return {};
-  }
-
-  Result checkDecodedBytes(const std::vector<PayloadUse>& uses,
-                           const std::vector<DecodedPayload>& payloads) {
-    DecodedBytes bytes = document_.decoded;
-    for (const DecodedPayload& payload : payloads) {
-      out_.decoded_bytes += outputBytes(payload.payload.info());
-    }
-    bytes.add(out_.decoded_bytes);
-    if (decode_to_ == DecodeTo::kIntegers) addCopies(uses, bytes);
-    return bytes.check();
-  }
-
-  /// Adds the bytes of accessors that get the same elements as another one. With integers each
-  /// needs its own copy, because they may become different integers.
-  void addCopies(const std::vector<PayloadUse>& uses, DecodedBytes& bytes) const {
-    std::set<uint32_t> accessors;
-    std::set<Origin> origins;
-    for (const PayloadUse& use : uses) {
-      for (const ExtensionUse* user : use.users) {
-        for (const ExtensionUse::AttributeUse& attribute : user->attributes) {
-          const Accessor& accessor = document_.accessors[attribute.accessor];
-          const Origin origin = originOf(use.view, *user, false, attribute.id, attribute.accessor);
-          const bool is_copy =
-              accessors.insert(attribute.accessor).second && !origins.insert(origin).second;
-          if (is_copy) bytes.add(accessor.count * accessor.elementBytes());
-        }
-      }
-    }
-  }
-
-  void store(const PayloadUse& use, const DecodedPayload& decoded) {
-    for (const ExtensionUse* user : use.users) {
-      storeAttributes(use.view, *user, decoded);
-      storeIndices(use.view, *user, decoded);
-    }
-    for (const PieceInfo& piece : decoded.payload.info().pieces) {
-      out_.wedge_count += piece.wedge_count;
-      for (const PartInfo& part : piece.parts) out_.triangle_count += part.triangle_count;
-    }
-  }
-
-  /// Gives an accessor a view that already holds its elements. Returns false if there is none, and
-  /// the accessor gets a new one.
-  bool share(uint32_t accessor, const Origin& origin) {
-    const auto [found, is_new] = views_.try_emplace(origin, decoded_.views.size());
-    // Integers are made for each accessor separately.
-    if (is_new || decode_to_ == DecodeTo::kIntegers) {
-      decoded_.filled.push_back({accessor, decoded_.views.size()});
-      decoded_.views.emplace_back();
-      return false;
-    }
-    decoded_.filled.push_back({accessor, found->second});
-    NewView& view = decoded_.views[found->second];
-    const uint32_t stride = (document_.accessors[accessor].elementBytes() + 3) & ~3u;
-    // glTF requires a stride where several vertex attributes share a view.
-    if (view.target == kArrayBuffer) view.stride_bytes = stride;
-    return true;
-  }
-
-  void storeAttributes(uint32_t payload, const ExtensionUse& use, const DecodedPayload& decoded) {
-    for (const ExtensionUse::AttributeUse& attribute : use.attributes) {
-      if (!stored_.insert(attribute.accessor).second) continue;
-      const auto& attributes = decoded.payload.info().pieces[use.piece].attributes;
-      AttributeInfo info = attributes[attribute.id];
-      if (info.coding == AttributeCoding::kAlias) {
-        const AttributeFormat format = info.format;
-        info = attributes[info.alias_of];
-        info.format = format;
-      }
-      out_.coded_attributes.emplace(attribute.accessor, info);
-      const Origin origin = originOf(payload, use, false, attribute.id, attribute.accessor);
-      if (share(attribute.accessor, origin)) continue;
-      NewView& view = decoded_.views.back();
-      view.target = kArrayBuffer;
-      view.bytes = packElements(decoded.pieces[use.piece].attributes[attribute.id],
-                                document_.accessors[attribute.accessor], true, view.stride_bytes);
-    }
-  }
-
-  void storeIndices(uint32_t payload, const ExtensionUse& use, const DecodedPayload& decoded) {
-    if (!stored_.insert(use.indices_accessor).second) return;
-    const Origin origin = originOf(payload, use, true, use.part, use.indices_accessor);
-    if (share(use.indices_accessor, origin)) return;
-    const uint32_t bytes = componentBytes(document_.accessors[use.indices_accessor].component_type);
-    NewView& view = decoded_.views.back();
-    view.target = kElementArrayBuffer;
-    const std::vector<uint32_t>& indices = decoded.pieces[use.piece].parts[use.part];
-    view.bytes.reserve(bytes * indices.size());
-    for (const uint32_t index : indices) {
-      for (uint32_t i = 0; i < bytes; ++i)
-        view.bytes.push_back(static_cast<uint8_t>(index >> 8 * i));
-    }
-  }
-
-  static void removeExtension(Json& primitive) {
-    primitive["extensions"].erase(kExtensionName);
-    if (primitive["extensions"].empty()) primitive.erase("extensions");
-  }
-
-  const Document& document_;
-  const DecodeTo decode_to_;
-  const uint32_t thread_count_;
-  DecodedPayloads known_;
-  Decompressed& out_;
-  std::set<uint32_t> stored_;
-  std::vector<ExtensionUse> uses_;
-  DecodedAccessors decoded_;
-  std::map<Origin, size_t> views_;  ///< indices into decoded_.views
-};
+}
 
 }  // namespace
 
-Result decodeAccessors(const Document& document, DecodedAccessors& decoded) {
-  Decompressed ignored;
-  Decompressor decompressor(document, DecodeTo::kFloats, 1, {}, ignored);
-  MCC_GLTF_TRY(decompressor.decode());
-  decoded = std::move(decompressor.decoded());
+Result PayloadDecoder::open() {
+  MCC_GLTF_TRY(findExtensionUses(document_, uses_));
+  const std::vector<PayloadUse> uses = payloadUses(document_, uses_);
+  MCC_GLTF_TRY(checkPayloadLengths(document_, uses));
+  for (const PayloadUse& use : uses) MCC_GLTF_TRY(openPayload(use));
+  for (size_t i = 0; i < uses.size(); ++i) {
+    for (const ExtensionUse* user : uses[i].users) {
+      for (const auto& attribute : user->attributes) addAttribute(i, *user, attribute);
+      addIndices(i, *user);
+    }
+  }
+  DecodedBytes bytes = document_.decoded;
+  bytes.add(counts_.bytes + copied_bytes_);
+  return bytes.check();
+}
+
+/// All counts must match the accessors before memory is taken for them.
+Result PayloadDecoder::openPayload(const PayloadUse& use) {
+  OpenPayload& payload = payloads_.emplace_back();
+  payload.where = use.users[0]->path + "/bufferView";
+  MCC_GLTF_TRY(toResult(payload.payload.open(payloadBytes(document_, use.view)), payload.where));
+  const PayloadInfo& info = payload.payload.info();
+  for (const ExtensionUse* user : use.users) {
+    MCC_GLTF_TRY(checkAgainstPayload(document_, *user, info));
+  }
+  for (const PieceInfo& piece : info.pieces) {
+    Piece& targets = payload.pieces.emplace_back();
+    targets.attributes.resize(piece.attributes.size());
+    targets.parts.resize(piece.parts.size());
+    counts_.wedges += piece.wedge_count;
+    for (const PartInfo& part : piece.parts) counts_.triangles += part.triangle_count;
+  }
+  ++counts_.payloads;
+  counts_.bytes += outputBytes(info);
   return {};
 }
 
-Result decompressDocument(const Document& document, Decompressed& decompressed, DecodeTo decode_to,
-                          uint32_t thread_count, DecodedPayloads known) {
+void PayloadDecoder::addAttribute(size_t payload, const ExtensionUse& use,
+                                  const ExtensionUse::AttributeUse& attribute) {
+  if (!known_.insert(attribute.accessor).second) return;
+  const auto& attributes = payloads_[payload].payload.info().pieces[use.piece].attributes;
+  AttributeInfo info = attributes[attribute.id];
+  if (info.coding == AttributeCoding::kAlias) {
+    const AttributeFormat format = info.format;
+    info = attributes[info.alias_of];
+    info.format = format;
+  }
+  codings_.emplace(attribute.accessor, info);
+  const Accessor& accessor = document_.accessors[attribute.accessor];
+  addTarget({payload, use.piece, false, attribute.id, accessor.component_type, accessor.columns},
+            attribute.accessor, payloads_[payload].pieces[use.piece].attributes[attribute.id]);
+}
+
+void PayloadDecoder::addIndices(size_t payload, const ExtensionUse& use) {
+  if (!known_.insert(use.indices_accessor).second) return;
+  const Accessor& accessor = document_.accessors[use.indices_accessor];
+  addTarget({payload, use.piece, true, use.part, accessor.component_type, accessor.columns},
+            use.indices_accessor, payloads_[payload].pieces[use.piece].parts[use.part]);
+}
+
+/// Gives an accessor a view that already gets its elements, or a new one.
+void PayloadDecoder::addTarget(const Origin& origin, uint32_t number,
+                               std::vector<Target>& targets) {
+  const Accessor& accessor = document_.accessors[number];
+  const bool is_indices = std::get<2>(origin);
+  const uint32_t stride = attributeStride(accessor);
+  const auto [found, is_new] = view_of_.try_emplace(origin, views_.size());
+  if (!is_new && are_shared_) {
+    filled_.push_back({number, found->second});
+    // glTF requires a stride where several vertex attributes share a view.
+    if (!is_indices) views_[found->second].stride_bytes = stride;
+    return;
+  }
+  if (!is_new && !is_indices) copied_bytes_ += accessor.count * accessor.elementBytes();
+  filled_.push_back({number, views_.size()});
+  targets.push_back(filled_.back());
+  NewView& view = views_.emplace_back();
+  view.target = is_indices ? kElementArrayBuffer : kArrayBuffer;
+  view.byte_count = accessor.count * (is_indices ? accessor.elementBytes() : stride);
+  if (!is_indices && stride != accessor.tightBytes()) view.stride_bytes = stride;
+}
+
+/// Decodes one payload. What one view gets as it is decoded goes there; the rest goes through
+/// memory of its own.
+class PayloadDecoder::Run {
+ public:
+  Run(const Document& document, const OpenPayload& payload, const Place& place)
+      : document_(document), payload_(payload), place_(place) {}
+
+  Result decode(const RunJobs& run_jobs) {
+    const std::span<const PieceInfo> infos = payload_.payload.info().pieces;
+    attributes_.resize(infos.size());
+    parts_.resize(infos.size());
+    std::vector<PieceTarget> pieces;
+    for (size_t i = 0; i < infos.size(); ++i) {
+      for (size_t k = 0; k < infos[i].attributes.size(); ++k) addAttribute(infos[i], i, k);
+      for (size_t k = 0; k < infos[i].parts.size(); ++k) addPart(infos[i], i, k);
+      pieces.push_back({attributes_[i], parts_[i]});
+    }
+    DecodeOptions options;
+    options.run_jobs = runnerOf(run_jobs);
+    MCC_GLTF_TRY(toResult(payload_.payload.decode(pieces, options), payload_.where));
+    for (const Detour& detour : detours_) store(detour);
+    return {};
+  }
+
+ private:
+  /// Elements that are decoded without gaps and then stored for each of their accessors.
+  struct Detour {
+    const std::vector<Target>* targets = nullptr;
+    bool is_part = false;
+    std::vector<uint8_t> elements;
+  };
+
+  uint8_t* placeOf(const Target& target) const { return place_ ? place_(target.view) : nullptr; }
+
+  uint8_t* addDetour(const std::vector<Target>& targets, bool is_part, uint64_t byte_count) {
+    const auto is_wanted = [&](const Target& target) { return placeOf(target) != nullptr; };
+    if (std::none_of(targets.begin(), targets.end(), is_wanted)) return nullptr;
+    Detour& detour = detours_.emplace_back(&targets, is_part);
+    detour.elements.resize(byte_count);
+    return detour.elements.data();
+  }
+
+  void addAttribute(const PieceInfo& info, size_t piece, size_t number) {
+    const std::vector<Target>& targets = payload_.pieces[piece].attributes[number];
+    AttributeTarget& target = attributes_[piece].emplace_back();
+    if (targets.empty()) return;
+    const Accessor& accessor = document_.accessors[targets[0].accessor];
+    const bool is_padded = accessor.elementBytes() != accessor.tightBytes();
+    if (targets.size() == 1 && !is_padded) {
+      target = {placeOf(targets[0]), attributeStride(accessor)};
+    } else {
+      const uint32_t bytes = accessor.tightBytes();
+      target = {addDetour(targets, false, uint64_t{info.wedge_count} * bytes), bytes};
+    }
+  }
+
+  void addPart(const PieceInfo& info, size_t piece, size_t number) {
+    const std::vector<Target>& targets = payload_.pieces[piece].parts[number];
+    PartTarget& target = parts_[piece].emplace_back();
+    if (targets.size() == 1) {
+      const Accessor& accessor = document_.accessors[targets[0].accessor];
+      target = {placeOf(targets[0]), indexTypeOf(accessor.component_type)};
+    } else if (!targets.empty()) {
+      target.indices = addDetour(targets, true, uint64_t{12} * info.parts[number].triangle_count);
+    }
+  }
+
+  void store(const Detour& detour) const {
+    for (const Target& target : *detour.targets) {
+      uint8_t* const out = placeOf(target);
+      if (out == nullptr) continue;
+      const Accessor& accessor = document_.accessors[target.accessor];
+      if (detour.is_part) {
+        narrowIndices(detour.elements, accessor.tightBytes(), out);
+      } else {
+        packElements(detour.elements, accessor, out);
+      }
+    }
+  }
+
+  const Document& document_;
+  const OpenPayload& payload_;
+  const Place& place_;
+  std::vector<std::vector<AttributeTarget>> attributes_;
+  std::vector<std::vector<PartTarget>> parts_;
+  std::deque<Detour> detours_;
+};
+
+Result PayloadDecoder::decode(uint32_t thread_count, const Place& place) const {
+  ThreadBudget threads(thread_count);
+  const RunJobs run_jobs = runJobsOn(threads);
+  return runParallel(payloads_.size(), threads, [&](size_t i) {
+    return Run(document_, payloads_[i], place).decode(run_jobs);
+  });
+}
+
+namespace {
+
+void removeExtension(Json& primitive) {
+  Json& extensions = primitive["extensions"];
+  extensions.erase(kExtensionName);
+  if (extensions.empty()) primitive.erase("extensions");
+}
+
+/// Makes the filled accessors read the views, and removes the extension.
+void editJson(const PayloadDecoder& decoder, Json& json) {
+  Json& accessors = json["accessors"];
+  for (const PayloadDecoder::Filled& filled : decoder.filled()) {
+    Json& accessor = accessors[filled.accessor];
+    accessor.erase("byteOffset");
+    accessor.erase("sparse");
+    accessor["bufferView"] = kFirstNewView + filled.view;
+  }
+  Json& meshes = json["meshes"];
+  for (const ExtensionUse& use : decoder.uses()) {
+    removeExtension(meshes[use.mesh]["primitives"][use.primitive]);
+  }
+  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+    removeExtensionName(json, list, kExtensionName);
+  }
+}
+
+}  // namespace
+
+Result Decompressed::fill(uint32_t thread_count, std::span<uint8_t> buffer) const {
+  layout.copyTo(buffer);
+  if (decoder == nullptr) return {};
+  return decoder->decode(thread_count,
+                         [&](size_t view) { return buffer.data() + layout.offsets[view]; });
+}
+
+Result decompressDocument(const Document& document, const FileDecodeOptions& options,
+                          Decompressed& decompressed) {
+  using Views = PayloadDecoder::Views;
   decompressed = {};
-  Decompressor decompressor(document, decode_to, thread_count, std::move(known), decompressed);
-  MCC_GLTF_TRY(decompressor.decode());
-  return decompressor.rebuild();
+  const bool to_integers = options.decode_to == DecodeTo::kIntegers;
+  // Accessors of the same elements may become different integers.
+  auto decoder = std::make_unique<PayloadDecoder>(
+      document, to_integers ? Views::kOfEachAccessor : Views::kShared);
+  MCC_GLTF_TRY(decoder->open());
+  decompressed.counts = decoder->counts();
+  decompressed.primitive_count = static_cast<uint32_t>(decoder->uses().size());
+  if (decoder->uses().empty()) return {};
+  std::vector<NewView>& views = decompressed.views;
+  views = decoder->takeViews();
+  decompressed.json = document.json;
+  editJson(*decoder, decompressed.json);
+  if (to_integers) {
+    for (NewView& view : views) view.hold(std::vector<uint8_t>(view.byte_count));
+    MCC_GLTF_TRY(decoder->decode(options.thread_count,
+                                 [&](size_t view) { return views[view].owned.data(); }));
+    storeIntegers(document, decoder->codings(), decompressed.json, views, decompressed.notes);
+  } else {
+    decompressed.decoder = std::move(decoder);
+  }
+  const ForeignReferences foreign = findForeignReferences(document.json);
+  decompressed.layout = layOut(document, foreign, views, decompressed.json);
+  return {};
 }
 
 }  // namespace mcc::gltf

@@ -1,55 +1,124 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Decodes the payloads of a document: what they hold gets its place in a buffer first, and is then
+// decoded there.
 #ifndef MCC_GLTF_DECOMPRESS_DECOMPRESS_H_
 #define MCC_GLTF_DECOMPRESS_DECOMPRESS_H_
 
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <memory>
+#include <set>
+#include <span>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "gltf/base/payload.h"
 #include "gltf/decompress/integer_accessors.h"
 #include "gltf/document/extension_json.h"
-#include "gltf/document/rebuild.h"
+#include "gltf/document/layout.h"
 #include "mcc/gltf.h"
 
 namespace mcc::gltf {
 
-struct Decompressed {
-  Json json;
-  std::vector<uint8_t> bin;
-  uint32_t payload_count = 0;  ///< distinct payloads
-  uint64_t decoded_bytes = 0;  ///< see outputBytes()
-  uint32_t primitive_count = 0;
-  uint64_t triangle_count = 0;
-  uint64_t wedge_count = 0;
-  CodedAttributes coded_attributes;
-  std::vector<std::string> notes;
-};
-
-/// The elements of the accessors that payloads fill.
-struct DecodedAccessors {
+/// All payloads of a document, and the buffer views that their elements become.
+class PayloadDecoder {
+ public:
+  /// An accessor that a payload fills.
   struct Filled {
     uint32_t accessor = 0;
-    size_t view = 0;  ///< index into `views`; accessors of the same elements share one
+    size_t view = 0;  ///< index into views()
   };
-  std::vector<Filled> filled;
-  std::vector<NewView> views;
+  /// Whether accessors of the same elements share a view.
+  enum class Views : uint8_t { kShared, kOfEachAccessor };
+
+  /// The document must outlive the object.
+  PayloadDecoder(const Document& document, Views views)
+      : document_(document), are_shared_(views == Views::kShared) {}
+
+  /// Opens the payloads and checks their headers, how accessors use them, and how much they decode
+  /// to, before memory is taken for that. Errors carry JSON paths. Safe for untrusted documents.
+  Result open();
+
+  /// Decodes all payloads, several at a time; the result does not depend on it.
+  /// place  returns where a view goes, or null where it is not wanted. Called on any thread.
+  using Place = std::function<uint8_t*(size_t view)>;
+  Result decode(uint32_t thread_count, const Place& place) const;
+
+  // What open() found.
+  struct Counts {
+    uint64_t payloads = 0;  ///< distinct ones
+    uint64_t triangles = 0;
+    uint64_t wedges = 0;
+    uint64_t bytes = 0;  ///< see outputBytes()
+  };
+  const Counts& counts() const { return counts_; }
+  const std::vector<ExtensionUse>& uses() const { return uses_; }
+  const std::vector<Filled>& filled() const { return filled_; }
+  /// Sizes, strides and targets of the views. They hold nothing.
+  std::vector<NewView> takeViews() { return std::move(views_); }
+  /// How the attributes are coded, by accessor.
+  const CodedAttributes& codings() const { return codings_; }
+
+ private:
+  /// A view that gets the elements of an attribute or a part, and an accessor that reads it.
+  using Target = Filled;
+  struct Piece {
+    std::vector<std::vector<Target>> attributes;
+    std::vector<std::vector<Target>> parts;
+  };
+  struct OpenPayload {
+    Payload payload;
+    std::string where;
+    std::vector<Piece> pieces;
+  };
+  /// Where the elements of an accessor come from, and how they are stored: payload, piece, whether
+  /// it is a part, its number, component type, columns.
+  using Origin = std::tuple<size_t, uint64_t, bool, uint64_t, ComponentType, uint32_t>;
+  class Run;
+
+  Result openPayload(const PayloadUse& use);
+  void addAttribute(size_t payload, const ExtensionUse& use,
+                    const ExtensionUse::AttributeUse& attribute);
+  void addIndices(size_t payload, const ExtensionUse& use);
+  void addTarget(const Origin& origin, uint32_t accessor, std::vector<Target>& targets);
+
+  const Document& document_;
+  const bool are_shared_;
+  std::vector<ExtensionUse> uses_;
+  std::vector<OpenPayload> payloads_;
+  std::vector<Filled> filled_;
+  std::vector<NewView> views_;
+  CodedAttributes codings_;
+  std::set<uint32_t> known_;  ///< accessors that are in `filled_`
+  std::map<Origin, size_t> view_of_;
+  uint64_t copied_bytes_ = 0;  ///< of views that repeat others
+  Counts counts_;
 };
 
-/// Decodes all payloads. Errors carry JSON paths. Safe for untrusted documents.
-Result decodeAccessors(const Document& document, DecodedAccessors& decoded);
+/// A document without payloads. Its buffer is laid out but not filled.
+struct Decompressed {
+  Json json;
+  Layout layout;
+  std::vector<NewView> views;
+  std::unique_ptr<PayloadDecoder> decoder;  ///< fills the views; null: they hold their elements
+  PayloadDecoder::Counts counts;            ///< without payloads, only this is set
+  uint32_t primitive_count = 0;
+  std::vector<std::string> notes;
 
-/// Replaces all payloads by ordinary accessors and removes the extension from the document. If
-/// there is no payload in the document, `payload_count` is 0, and `json` and `bin` are not set.
-/// decode_to     what quantised attributes become; with integers, `notes` names what stays float.
-/// thread_count  the number of payloads decoded at the same time; the result does not depend on it.
-/// known         payloads that need not be decoded again. Their memory is freed as they are used.
-/// Errors carry JSON paths. It is an error when document.decoded is above its limit, which is
-/// checked before memory is taken. Safe for untrusted documents.
-Result decompressDocument(const Document& document, Decompressed& decompressed,
-                          DecodeTo decode_to = DecodeTo::kFloats, uint32_t thread_count = 1,
-                          DecodedPayloads known = {});
+  /// Stores all bytes of the buffer, which has zeros. The document must still exist.
+  Result fill(uint32_t thread_count, std::span<uint8_t> buffer) const;
+};
+
+/// Replaces all payloads by ordinary accessors and removes the extension from the document.
+/// Attributes become integers if options.decode_to says so; `notes` names what stays float. Errors
+/// carry JSON paths. It is an error when document.decoded is above its limit, which is checked
+/// before memory is taken. Safe for untrusted documents.
+Result decompressDocument(const Document& document, const FileDecodeOptions& options,
+                          Decompressed& decompressed);
 
 }  // namespace mcc::gltf
 

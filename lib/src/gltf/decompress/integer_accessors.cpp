@@ -168,8 +168,7 @@ std::string IntegerAccessors::label(uint32_t accessor) const {
 
 double IntegerAccessors::value(uint32_t accessor, uint64_t index) const {
   const uint64_t view = json_[accessor]["bufferView"].get<uint64_t>();
-  return componentValue(views_[view - kFirstNewView].bytes.data() + 4 * index,
-                        ComponentType::kFloat32);
+  return componentValue(views_[view - kFirstNewView].bytes + 4 * index, ComponentType::kFloat32);
 }
 
 void IntegerAccessors::replace(uint32_t index, ComponentType type, bool normalized,
@@ -190,7 +189,7 @@ void IntegerAccessors::replace(uint32_t index, ComponentType type, bool normaliz
   }
   Json& json = json_[index];
   NewView& view = views_[json["bufferView"].get<uint64_t>() - kFirstNewView];
-  view.bytes = packElements(tight, accessor, true, view.stride_bytes);
+  view.hold(packAttribute(tight, accessor, view.stride_bytes));
   json["componentType"] = kGlTypes[static_cast<size_t>(type)];
   json.erase("normalized");
   if (normalized) json["normalized"] = true;

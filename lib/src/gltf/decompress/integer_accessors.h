@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf/document/rebuild.h"
+#include "gltf/document/layout.h"
 #include "mcc/reader.h"
 
 namespace mcc::gltf {
@@ -18,10 +18,10 @@ namespace mcc::gltf {
 /// How each decoded accessor was coded, by accessor number. Contains no aliases.
 using CodedAttributes = std::map<uint32_t, AttributeInfo>;
 
-/// Reads and replaces the elements of decoded accessors in a document that is not yet rebuilt.
+/// Reads and replaces the elements of decoded accessors in a document that is not laid out yet.
 class IntegerAccessors {
  public:
-  /// json and views are those of rebuildBuffers(); both must outlive the object.
+  /// json and views are those of layOut(); both must outlive the object.
   IntegerAccessors(const Document& source, const ForeignReferences& foreign,
                    const CodedAttributes& coded, Json& json, std::vector<NewView>& views);
 

@@ -443,8 +443,9 @@ class PositionStore {
     json["bufferView"] = kFirstNewView + views_.size();
     json["count"] = matrices.size() / 16;
     NewView view;
-    view.bytes.resize(4 * matrices.size());
-    std::memcpy(view.bytes.data(), matrices.data(), view.bytes.size());
+    std::vector<uint8_t> bytes(4 * matrices.size());
+    std::memcpy(bytes.data(), matrices.data(), bytes.size());
+    view.hold(std::move(bytes));
     views_.push_back(std::move(view));
     if (in_place) {
       (*skins_)[number] = std::move(skin);

@@ -64,8 +64,19 @@ Result applySparse(const Document& document, const Accessor& accessor, const std
 
 bool canBeUsedInPlace(const Accessor& accessor, const uint8_t* bytes, uint64_t stride) {
   const uint32_t alignment = componentBytes(accessor.component_type);
-  return accessor.sparse.count == 0 && accessor.elementBytes() == accessor.tightBytes() &&
+  return accessor.elementBytes() == accessor.tightBytes() &&
          std::bit_cast<uintptr_t>(bytes) % alignment == 0 && stride % alignment == 0;
+}
+
+/// Copies elements; they are zeros when `bytes` is null.
+void copyElements(const Accessor& accessor, const uint8_t* bytes, uint64_t stride,
+                  AccessorData& elements) {
+  elements.owned.resize(accessor.count * elements.element_bytes);
+  for (uint64_t i = 0; bytes != nullptr && i < accessor.count; ++i) {
+    copyTight(bytes + i * stride, accessor, elements.owned.data() + i * elements.element_bytes);
+  }
+  elements.data = elements.owned.data();
+  elements.stride_bytes = elements.element_bytes;
 }
 
 }  // namespace
@@ -89,6 +100,19 @@ std::string whyUnreadable(const Document& document, const Accessor& accessor) {
          ", which this program cannot read";
 }
 
+void readElements(const Accessor& accessor, const uint8_t* bytes, uint64_t stride_bytes,
+                  AccessorData& elements) {
+  const uint64_t stride = stride_bytes != 0 ? stride_bytes : accessor.elementBytes();
+  elements = {};
+  elements.count = accessor.count;
+  elements.element_bytes = accessor.tightBytes();
+  if (!canBeUsedInPlace(accessor, bytes, stride)) {
+    return copyElements(accessor, bytes, stride, elements);
+  }
+  elements.data = bytes;
+  elements.stride_bytes = stride;
+}
+
 Result readAccessor(const Document& document, uint32_t index, AccessorData& elements) {
   const Accessor& accessor = document.accessors[index];
   const std::string path = at("/accessors", index);
@@ -105,12 +129,10 @@ Result readAccessor(const Document& document, uint32_t index, AccessorData& elem
   const uint8_t* source = nullptr;
   uint64_t stride = 0;
   if (accessor.view != kNone) {
-    const BufferView& view = document.views[accessor.view];
+    stride = document.views[accessor.view].stride;
     source = viewBytes(document, accessor.view, accessor.offset);
-    stride = view.stride != 0 ? view.stride : accessor.elementBytes();
-    if (canBeUsedInPlace(accessor, source, stride)) {
-      elements.data = source;
-      elements.stride_bytes = stride;
+    if (accessor.sparse.count == 0) {
+      readElements(accessor, source, stride, elements);
       return {};
     }
   } else if (accessor.count * elements.element_bytes > maxZeroBytes(document)) {
@@ -118,11 +140,7 @@ Result readAccessor(const Document& document, uint32_t index, AccessorData& elem
                            " elements; at most " + std::to_string(maxZeroBytes(document)) +
                            " bytes of such elements are read");
   }
-  elements.owned.resize(accessor.count * elements.element_bytes);
-  for (uint64_t i = 0; source != nullptr && i < accessor.count; ++i) {
-    copyTight(source + i * stride, accessor, elements.owned.data() + i * elements.element_bytes);
-  }
-  elements.data = elements.owned.data();
+  copyElements(accessor, source, stride != 0 ? stride : accessor.elementBytes(), elements);
   if (accessor.sparse.count == 0) return {};
   return applySparse(document, accessor, path, elements.owned);
 }
@@ -186,21 +204,31 @@ double componentValue(const uint8_t* bytes, ComponentType type) {
   }
 }
 
-std::vector<uint8_t> packElements(std::span<const uint8_t> tight, const Accessor& accessor,
-                                  bool is_vertex_attribute, uint32_t& stride_bytes) {
-  const uint32_t element = accessor.elementBytes();
+void packElements(std::span<const uint8_t> tight, const Accessor& accessor, uint8_t* out) {
+  const uint32_t stride = attributeStride(accessor);
   const uint32_t tight_bytes = accessor.tightBytes();
   const uint32_t tight_column = accessor.rows * componentBytes(accessor.component_type);
-  const uint32_t stride = is_vertex_attribute ? (element + 3) & ~3u : element;
-  stride_bytes = stride == tight_bytes ? 0 : stride;
-  std::vector<uint8_t> packed(accessor.count * stride);
   for (uint64_t i = 0; i < accessor.count; ++i) {
     for (uint32_t column = 0; column < accessor.columns; ++column) {
-      std::memcpy(packed.data() + i * stride + column * accessor.columnBytes(),
+      std::memcpy(out + i * stride + column * accessor.columnBytes(),
                   tight.data() + i * tight_bytes + column * tight_column, tight_column);
     }
   }
+}
+
+std::vector<uint8_t> packAttribute(std::span<const uint8_t> tight, const Accessor& accessor,
+                                   uint32_t& stride_bytes) {
+  const uint32_t stride = attributeStride(accessor);
+  stride_bytes = stride == accessor.tightBytes() ? 0 : stride;
+  std::vector<uint8_t> packed(accessor.count * stride);
+  packElements(tight, accessor, packed.data());
   return packed;
+}
+
+void narrowIndices(std::span<const uint8_t> indices, uint32_t index_bytes, uint8_t* out) {
+  for (size_t i = 0; i < indices.size(); i += 4, out += index_bytes) {
+    std::memcpy(out, indices.data() + i, index_bytes);  // the host is little-endian
+  }
 }
 
 AttributeFormat formatOf(const std::string& name, uint32_t target, const Accessor& accessor) {

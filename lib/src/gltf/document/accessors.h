@@ -36,6 +36,11 @@ std::string whyUnreadable(const Document& document, const Accessor& accessor);
 /// document.decoded.zeroLimit().
 Result readAccessor(const Document& document, uint32_t index, AccessorData& elements);
 
+/// Reads elements that begin at `bytes`, as a buffer view of this stride has them; 0: without gaps
+/// between them. Does not copy when they can be used where they are.
+void readElements(const Accessor& accessor, const uint8_t* bytes, uint64_t stride_bytes,
+                  AccessorData& elements);
+
 /// Reads an accessor of indices. Errors: it is not SCALAR of an unsigned integer type.
 Result readIndices(const Document& document, uint32_t index, std::vector<uint32_t>& indices);
 
@@ -50,12 +55,23 @@ std::string describeType(const Accessor& accessor);
 /// Returns one component as a number.
 double componentValue(const uint8_t* bytes, ComponentType type);
 
-/// Copies packed elements into the layout of a buffer: columns of matrices are padded, and elements
-/// of vertex attributes start at multiples of four. `stride_bytes` becomes 0 when elements follow
-/// each other without gaps. Padding inside a matrix counts as a gap, because not all programs pad
-/// the last column.
-std::vector<uint8_t> packElements(std::span<const uint8_t> tight, const Accessor& accessor,
-                                  bool is_vertex_attribute, uint32_t& stride_bytes);
+/// Returns the bytes between elements of a vertex attribute, which start at multiples of four.
+inline uint32_t attributeStride(const Accessor& accessor) {
+  return (accessor.elementBytes() + 3) & ~3u;
+}
+
+/// Stores elements that follow each other without gaps as a buffer has them: columns of matrices
+/// are padded, and elements of vertex attributes start at multiples of four. `out` has room for
+/// accessor.count times the stride, and has zeros.
+void packElements(std::span<const uint8_t> tight, const Accessor& accessor, uint8_t* out);
+
+/// The same. `stride_bytes` becomes 0 when elements follow each other without gaps. Padding inside
+/// a matrix counts as a gap, because not all programs pad the last column.
+std::vector<uint8_t> packAttribute(std::span<const uint8_t> tight, const Accessor& accessor,
+                                   uint32_t& stride_bytes);
+
+/// Stores indices of 32 bits, in the host's order, as ones of `index_bytes`.
+void narrowIndices(std::span<const uint8_t> indices, uint32_t index_bytes, uint8_t* out);
 
 /// Returns the format of an attribute as the payload describes it. A semantic whose accessor does
 /// not have the type glTF 2.0 gives it becomes a custom one.

@@ -478,20 +478,6 @@ Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file,
   return loadTables(document);
 }
 
-Result adoptDocument(Json json, std::vector<uint8_t> bin, Document& document) {
-  document = {};
-  document.json = std::move(json);
-  document.is_glb = true;
-  document.storage.push_back(std::move(bin));
-  for (const Json& buffer : arrayOf(document.json, "buffers")) {
-    const bool is_bin =
-        document.buffers.empty() && !isPlaceholder(buffer) && !document.storage.back().empty();
-    document.buffers.push_back(is_bin ? document.storage.back() : std::span<const uint8_t>());
-    document.missing_buffers.push_back(!is_bin && !isPlaceholder(buffer));
-  }
-  return loadTables(document);
-}
-
 Result embedImages(const FileReader& read_file, Document& document) {
   if (document.is_glb) return {};
   std::map<std::string, ImageFile> files;

@@ -135,10 +135,6 @@ Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file, 
 /// them. Images in data URIs stay as they are. Does nothing to a GLB.
 Result embedImages(const FileReader& read_file, Document& document);
 
-/// Makes a document from parts that are already in memory: JSON with at most one buffer, and the
-/// bytes of that buffer.
-Result adoptDocument(Json json, std::vector<uint8_t> bin, Document& document);
-
 }  // namespace mcc::gltf
 
 #endif  // MCC_GLTF_DOCUMENT_DOCUMENT_H_

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/document/glb.h"
 
+#include <algorithm>
 #include <string_view>
 
 namespace mcc::gltf {
@@ -65,12 +66,19 @@ Result storeChunk(const GlbChunk& chunk, uint64_t number, uint64_t offset, GlbFi
   return {};
 }
 
+/// Appends a chunk and returns where its bytes go, which have the value of its padding.
+uint64_t appendChunk(std::vector<uint8_t>& file, uint32_t type, uint64_t bytes, uint8_t padding) {
+  appendU32(file, padded(bytes));
+  appendU32(file, type);
+  const uint64_t offset = file.size();
+  file.resize(offset + padded(bytes), padding);
+  return offset;
+}
+
 void appendChunk(std::vector<uint8_t>& file, uint32_t type, std::span<const uint8_t> bytes,
                  uint8_t padding) {
-  appendU32(file, padded(bytes.size()));
-  appendU32(file, type);
-  file.insert(file.end(), bytes.begin(), bytes.end());
-  file.resize(padded(file.size()), padding);
+  const uint64_t offset = appendChunk(file, type, bytes.size(), padding);
+  std::copy(bytes.begin(), bytes.end(), file.begin() + static_cast<ptrdiff_t>(offset));
 }
 
 }  // namespace
@@ -112,10 +120,10 @@ Result readGlb(std::span<const uint8_t> file, GlbFile& glb) {
   return {};
 }
 
-Result writeGlb(const std::string& json, std::span<const uint8_t> bin,
-                std::span<const GlbChunk> other_chunks, std::vector<uint8_t>& file) {
+Result startGlb(const std::string& json, uint64_t bin_bytes, std::span<const GlbChunk> other_chunks,
+                std::vector<uint8_t>& file, std::span<uint8_t>& bin) {
   uint64_t length = kHeaderBytes + kChunkHeaderBytes + padded(json.size());
-  if (!bin.empty()) length += kChunkHeaderBytes + padded(bin.size());
+  if (bin_bytes != 0) length += kChunkHeaderBytes + padded(bin_bytes);
   for (const GlbChunk& chunk : other_chunks)
     length += kChunkHeaderBytes + padded(chunk.bytes.size());
   if (length > 0xffffffffu) {
@@ -129,8 +137,17 @@ Result writeGlb(const std::string& json, std::span<const uint8_t> bin,
   appendU32(file, length);
   const std::span text(reinterpret_cast<const uint8_t*>(json.data()), json.size());
   appendChunk(file, kJsonChunk, text, ' ');
-  if (!bin.empty()) appendChunk(file, kBinChunk, bin, 0);
+  const uint64_t offset = bin_bytes == 0 ? 0 : appendChunk(file, kBinChunk, bin_bytes, 0);
   for (const GlbChunk& chunk : other_chunks) appendChunk(file, chunk.type, chunk.bytes, 0);
+  bin = std::span(file).subspan(offset, bin_bytes);
+  return {};
+}
+
+Result writeGlb(const std::string& json, std::span<const uint8_t> bin,
+                std::span<const GlbChunk> other_chunks, std::vector<uint8_t>& file) {
+  std::span<uint8_t> place;
+  MCC_GLTF_TRY(startGlb(json, bin.size(), other_chunks, file, place));
+  std::copy(bin.begin(), bin.end(), place.begin());
   return {};
 }
 

@@ -44,6 +44,11 @@ Result readGlb(std::span<const uint8_t> file, GlbFile& glb);
 Result writeGlb(const std::string& json, std::span<const uint8_t> bin,
                 std::span<const GlbChunk> other_chunks, std::vector<uint8_t>& file);
 
+/// The same for a BIN chunk whose bytes come later: `bin` becomes their place in the file, which
+/// has zeros.
+Result startGlb(const std::string& json, uint64_t bin_bytes, std::span<const GlbChunk> other_chunks,
+                std::vector<uint8_t>& file, std::span<uint8_t>& bin);
+
 }  // namespace mcc::gltf
 
 #endif  // MCC_GLTF_DOCUMENT_GLB_H_

@@ -199,18 +199,16 @@ constexpr AccessorMember kAccessorMembers[] = {
 /// Json.
 template <typename J, typename Visit>
 void visitTableViewsOf(J& root, const Visit& visit) {
-  const Json* metadata = extensionOf(root, kMetadataExtension);
-  if (metadata == nullptr) return;
-  for (const Json& table : arrayOf(*metadata, "propertyTables")) {
-    const Json* properties = findMember(table, "properties");
-    if (properties == nullptr || !properties->is_object()) continue;
-    for (const Json& property : *properties) {
+  J* const metadata = member(member(&root, "extensions"), kMetadataExtension);
+  visitElements(member(metadata, "propertyTables"), [&](J& table) {
+    J* const properties = member(&table, "properties");
+    if (properties == nullptr || !properties->is_object()) return;
+    for (J& property : *properties) {
       for (const char* key : {"values", "arrayOffsets", "stringOffsets"}) {
-        const Json* number = findMember(property, key);
-        if (number != nullptr) visit(const_cast<J&>(*number));
+        if (J* number = member(&property, key)) visit(*number);
       }
     }
-  }
+  });
 }
 
 }  // namespace

@@ -104,13 +104,20 @@ std::string glbText(const Json& json) {
 
 }  // namespace
 
-Result writePackage(const Container& container, Json json, std::vector<uint8_t> bin,
+Result writePackage(const Container& container, Json json, const BufferContent& buffer,
                     const std::vector<GlbChunk>& other_chunks, Package& package) {
-  if (!container.is_gltf) return writeGlb(glbText(json), bin, other_chunks, package.main);
-  if (!bin.empty()) {
-    std::string name = nameOfMade(container, SideFile::Kind::kBuffer, bin);
-    json["buffers"][0]["uri"] = uriOf(name);
-    package.beside.push_back({SideFile::Kind::kBuffer, std::move(name), std::move(bin)});
+  if (!container.is_gltf) {
+    std::span<uint8_t> bin;
+    MCC_GLTF_TRY(startGlb(glbText(json), buffer.byte_count, other_chunks, package.main, bin));
+    return buffer.fill(bin);
+  }
+  if (buffer.byte_count != 0) {
+    SideFile file;
+    file.bytes.resize(buffer.byte_count);
+    MCC_GLTF_TRY(buffer.fill(file.bytes));
+    file.path = nameOfMade(container, file.kind, file.bytes);
+    json["buffers"][0]["uri"] = uriOf(file.path);
+    package.beside.push_back(std::move(file));
   }
   const std::string text = printJson(json) + "\n";
   package.main.assign(text.begin(), text.end());

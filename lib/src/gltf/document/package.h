@@ -6,6 +6,7 @@
 #define MCC_GLTF_DOCUMENT_PACKAGE_H_
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -56,9 +57,17 @@ bool isNameOfMade(const Container& container, std::string_view name);
 /// GLBs. Errors: a file next to it would have a name that no URI can express.
 Result containerOf(const std::string& file_name, Container& container);
 
-/// Stores a document whose buffer 0 is `bin`; other buffers must have a URI already. Other chunks
-/// of a GLB cannot be stored in a .gltf and are left out.
-Result writePackage(const Container& container, Json json, std::vector<uint8_t> bin,
+/// Buffer 0 of a document.
+struct BufferContent {
+  uint64_t byte_count = 0;
+  /// Stores its bytes, in memory that has zeros.
+  std::function<Result(std::span<uint8_t> buffer)> fill;
+};
+
+/// Stores a document; buffers other than buffer 0 must have a URI already. Each byte of buffer 0 is
+/// written once, at its place in the file. Other chunks of a GLB cannot be stored in a .gltf and
+/// are left out.
+Result writePackage(const Container& container, Json json, const BufferContent& buffer,
                     const std::vector<GlbChunk>& other_chunks, Package& package);
 
 /// Adds the files next to the source that the JSON names: images, and buffers if `with_buffers`.

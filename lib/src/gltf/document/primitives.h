@@ -23,6 +23,21 @@ struct PrimitiveRef {
   auto operator<=>(const PrimitiveRef&) const = default;
 };
 
+/// Returns the member of an object that may be null. `J` is Json or const Json.
+template <typename J>
+J* member(J* json, std::string_view key) {
+  if (json == nullptr) return nullptr;
+  J* const found = json->find(key);
+  return found == json->end() ? nullptr : found;
+}
+
+/// Visits the elements of an array that may be null. Anything but an array has no elements.
+template <typename J, typename Visit>
+void visitElements(J* array, const Visit& visit) {
+  if (array == nullptr || !array->is_array()) return;
+  for (J& element : *array) visit(element);
+}
+
 /// Returns an extension of an object, or null.
 inline const Json* extensionOf(const Json& object, std::string_view name) {
   const Json* extensions = findMember(object, "extensions");

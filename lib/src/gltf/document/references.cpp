@@ -99,22 +99,9 @@ void walkKnown(const Json& json, ForeignReferences& foreign) {
   }
 }
 
-/// Returns the member of an object that may be null. `J` is Json or const Json.
-template <typename J>
-J* member(J* json, std::string_view key) {
-  return json == nullptr ? nullptr : const_cast<J*>(findMember(*json, key));
-}
-
 template <typename J, typename Visit>
 void visitMember(J* object, const char* key, uint32_t accessor, const Visit& visit) {
   if (J* number = member(object, key); number != nullptr) visit(*number, accessor);
-}
-
-/// Visits the elements of an array that may be null. Anything but an array has no elements.
-template <typename J, typename Visit>
-void visitElements(J* array, const Visit& visit) {
-  if (array == nullptr || !array->is_array()) return;
-  for (J& element : *array) visit(element);
 }
 
 template <typename J, typename Visit>
@@ -155,36 +142,57 @@ void markAll(const Json* object, std::vector<bool>& is_used) {
 
 }  // namespace
 
-void hideMissingAccessors(size_t accessor_count, Json& root) {
-  const auto hide = [&](Json& number) {
-    uint64_t accessor = 0;
-    if (asUnsigned(number, accessor) && accessor >= accessor_count) number = kNone;
-  };
-  const auto hideAll = [&](Json* map) {
+namespace {
+
+/// Visits the numbers of accessors in the places that glTF 2.0 and EXT_mesh_gpu_instancing define.
+template <typename J, typename Visit>
+void visitAccessorReferencesOf(J& root, const Visit& visit) {
+  const auto visitAll = [&](J* map) {
     if (map == nullptr || !map->is_object()) return;
-    for (Json& number : *map) hide(number);
+    for (J& number : *map) visit(number);
   };
-  const auto hideMember = [&](Json* object, const char* key) {
-    if (Json* number = member(object, key)) hide(*number);
+  const auto visitKey = [&](J* object, const char* key) {
+    if (J* number = member(object, key)) visit(*number);
   };
-  visitElements(member(&root, "meshes"), [&](Json& mesh) {
-    visitElements(member(&mesh, "primitives"), [&](Json& primitive) {
-      hideAll(member(&primitive, "attributes"));
-      visitElements(member(&primitive, "targets"), [&](Json& target) { hideAll(&target); });
-      hideMember(&primitive, "indices");
+  visitElements(member(&root, "meshes"), [&](J& mesh) {
+    visitElements(member(&mesh, "primitives"), [&](J& primitive) {
+      visitAll(member(&primitive, "attributes"));
+      visitElements(member(&primitive, "targets"), [&](J& target) { visitAll(&target); });
+      visitKey(&primitive, "indices");
     });
   });
-  visitElements(member(&root, "skins"),
-                [&](Json& skin) { hideMember(&skin, "inverseBindMatrices"); });
-  visitElements(member(&root, "animations"), [&](Json& animation) {
-    visitElements(member(&animation, "samplers"), [&](Json& sampler) {
-      hideMember(&sampler, "input");
-      hideMember(&sampler, "output");
+  visitElements(member(&root, "skins"), [&](J& skin) { visitKey(&skin, "inverseBindMatrices"); });
+  visitElements(member(&root, "animations"), [&](J& animation) {
+    visitElements(member(&animation, "samplers"), [&](J& sampler) {
+      visitKey(&sampler, "input");
+      visitKey(&sampler, "output");
     });
   });
-  visitElements(member(&root, "nodes"), [&](Json& node) {
-    Json* instancing = member(member(&node, "extensions"), "EXT_mesh_gpu_instancing");
-    hideAll(member(instancing, "attributes"));
+  visitElements(member(&root, "nodes"), [&](J& node) {
+    visitAll(member(member(member(&node, "extensions"), "EXT_mesh_gpu_instancing"), "attributes"));
+  });
+}
+
+bool isMissing(const Json& number, size_t accessor_count) {
+  uint64_t accessor = 0;
+  return asUnsigned(number, accessor) && accessor >= accessor_count;
+}
+
+}  // namespace
+
+void visitMissingAccessors(const Json& root, size_t accessor_count,
+                           const std::function<void(const Json& number)>& visit) {
+  visitAccessorReferencesOf(root, [&](const Json& number) {
+    if (isMissing(number, accessor_count)) visit(number);
+  });
+}
+
+void hideMissingAccessors(size_t accessor_count, Json& root) {
+  bool is_any_missing = false;  // whoever looks for places to change makes a copy of them
+  visitMissingAccessors(root, accessor_count, [&](const Json&) { is_any_missing = true; });
+  if (!is_any_missing) return;
+  visitAccessorReferencesOf(root, [&](Json& number) {
+    if (isMissing(number, accessor_count)) number = kNone;
   });
 }
 

@@ -35,8 +35,11 @@ struct ForeignReferences {
 
 ForeignReferences findForeignReferences(const Json& root);
 
-/// Changes the numbers of accessors that do not exist to one that never will, in the places that
-/// glTF 2.0 and EXT_mesh_gpu_instancing define.
+/// Calls `visit` with every number of an accessor that does not exist, in the places that glTF 2.0
+/// and EXT_mesh_gpu_instancing define.
+void visitMissingAccessors(const Json& root, size_t accessor_count,
+                           const std::function<void(const Json& number)>& visit);
+/// Changes these numbers to one that never will exist.
 void hideMissingAccessors(size_t accessor_count, Json& root);
 
 /// Calls `visit` with every number of a buffer view in the places that glTF 2.0 and the extensions

@@ -1,11 +1,14 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-// Rebuilds the buffers of a document whose accessors changed: bytes that nothing refers to any more
-// are dropped, new buffer views are added, and everything ends up in one buffer, the BIN chunk of a
-// GLB.
-#ifndef MCC_GLTF_DOCUMENT_REBUILD_H_
-#define MCC_GLTF_DOCUMENT_REBUILD_H_
+//
+// Lays out the buffer of a document whose accessors changed, before any byte of it is written:
+// bytes that nothing refers to any more are left out, new buffer views are added, and everything
+// gets its place in one buffer, the BIN chunk of a GLB.
+#ifndef MCC_GLTF_DOCUMENT_LAYOUT_H_
+#define MCC_GLTF_DOCUMENT_LAYOUT_H_
 
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "gltf/document/references.h"
@@ -44,26 +47,52 @@ inline constexpr uint64_t kFirstNewView = uint64_t{1} << 52;
 inline constexpr uint32_t kArrayBuffer = 34962;
 inline constexpr uint32_t kElementArrayBuffer = 34963;
 
+/// A buffer view that the result has in addition to those of the source.
 struct NewView {
-  std::vector<uint8_t> bytes;
-  uint32_t stride_bytes = 0;  ///< 0: none is written
-  uint32_t target = 0;        ///< of the GPU; 0: none is written
+  uint64_t byte_count = 0;
+  const uint8_t* bytes = nullptr;  ///< what it holds; null: whoever fills the buffer stores it
+  std::vector<uint8_t> owned;      ///< where `bytes` are, if nobody else has them
+  uint32_t stride_bytes = 0;       ///< 0: none is written
+  uint32_t target = 0;             ///< of the GPU; 0: none is written
+
+  void hold(std::vector<uint8_t> content) {
+    owned = std::move(content);
+    borrow(owned);
+  }
+  void borrow(std::span<const uint8_t> content) {
+    bytes = content.data();
+    byte_count = content.size();
+  }
 };
 
-/// Removes what was freed and adds what is new.
-/// document   the source, as it was loaded.
+/// Where everything in the buffer is.
+struct Layout {
+  /// Bytes that exist already, of the source or of a new view.
+  struct Run {
+    uint64_t offset = 0;
+    std::span<const uint8_t> bytes;
+  };
+  std::vector<Run> runs;
+  std::vector<uint64_t> offsets;  ///< of each new view
+  uint64_t byte_count = 0;
+
+  /// Stores the runs. `buffer` has `byte_count` bytes, which are zero.
+  void copyTo(std::span<uint8_t> buffer) const;
+};
+
+/// Leaves out what was freed and adds what is new.
+/// document   the source, as it was loaded. The layout borrows its bytes and those of the views.
 /// json       the edited document. Buffer views have the numbers of the source; new view k has the
 ///            number kFirstNewView + k. Accessors keep their numbers; if an old one still has a
 ///            bufferView, nothing about its bytes was edited.
-/// new_views  consumed.
-/// On return `json` has the final numbers and offsets, and `bin` the bytes of its first buffer;
+/// On return `json` has the final numbers and offsets, and the layout is that of its first buffer;
 /// others are those whose bytes are missing, with their views as they were. A number of a view that
 /// does not exist still names none. A view that nothing referred to in the source is kept, unless
 /// it is free. View numbers do not change when foreign.keep_numbers: new views take the free
 /// numbers first, then those after the end.
-Result rebuildBuffers(const Document& document, const ForeignReferences& foreign,
-                      std::vector<NewView>& new_views, Json& json, std::vector<uint8_t>& bin);
+Layout layOut(const Document& document, const ForeignReferences& foreign,
+              std::span<const NewView> new_views, Json& json);
 
 }  // namespace mcc::gltf
 
-#endif  // MCC_GLTF_DOCUMENT_REBUILD_H_
+#endif  // MCC_GLTF_DOCUMENT_LAYOUT_H_

@@ -1,5 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-#include "gltf/document/rebuild.h"
+#include "gltf/document/layout.h"
 
 #include <algorithm>
 #include <set>
@@ -42,28 +42,27 @@ bool isOneByte(const Json& view) {
   return true;
 }
 
-class Rebuilder {
+class LayoutBuilder {
  public:
-  Rebuilder(const Document& document, const ForeignReferences& foreign,
-            std::vector<NewView>& new_views, Json& json, std::vector<uint8_t>& bin)
+  LayoutBuilder(const Document& document, const ForeignReferences& foreign,
+                std::span<const NewView> new_views, Json& json)
       : document_(document),
         foreign_(foreign),
         new_views_(new_views),
         json_(json),
-        bin_(bin),
         ranges_(document.views.size()),
         is_whole_(document.views.size(), false) {}
 
-  Result run() {
+  Layout run() {
     findLiveViews();
     findKeptRanges();
-    layOutBlocks();
-    copyBlocks();
+    placeBlocks();
     moveAccessors();
     numberViews();
+    placeNewViews();
     writeViews();
     writeBuffers();
-    return {};
+    return std::move(layout_);
   }
 
  private:
@@ -105,7 +104,7 @@ class Rebuilder {
     }
   }
 
-  void layOutBlocks() {
+  void placeBlocks() {
     std::vector<ByteRange> live;
     for (size_t view = 0; view < ranges_.size(); ++view) {
       if (isMissing(view)) continue;
@@ -126,22 +125,29 @@ class Rebuilder {
         blocks_.push_back({range, 0});
       }
     }
-    uint64_t end = 0;
+    uint64_t& end = layout_.byte_count;
     for (Block& block : blocks_) {
-      block.target = end + (block.source.begin - end) % alignment;
-      end = block.target + block.source.end - block.source.begin;
+      const auto [buffer, begin, source_end] = block.source;
+      block.target = end + (begin - end) % alignment;
+      end = block.target + (source_end - begin);
+      layout_.runs.push_back(
+          {block.target, document_.buffers[buffer].subspan(begin, source_end - begin)});
     }
-    bin_.assign(end, 0);
   }
 
-  void copyBlocks() {
-    for (const Block& block : blocks_) {
-      const auto bytes = document_.buffers[block.source.buffer];
-      std::copy(bytes.begin() + static_cast<ptrdiff_t>(block.source.begin),
-                bytes.begin() + static_cast<ptrdiff_t>(block.source.end),
-                bin_.begin() + static_cast<ptrdiff_t>(block.target));
+  /// New views follow the bytes of the source.
+  void placeNewViews() {
+    for (const NewView& view : new_views_) {
+      layout_.byte_count = aligned(layout_.byte_count);
+      layout_.offsets.push_back(layout_.byte_count);
+      if (view.bytes != nullptr) {
+        layout_.runs.push_back({layout_.byte_count, {view.bytes, view.byte_count}});
+      }
+      layout_.byte_count += view.byte_count;
     }
   }
+
+  static uint64_t aligned(uint64_t offset) { return (offset + 3) & ~uint64_t{3}; }
 
   /// Returns the new place of a source byte that is kept.
   uint64_t moved(uint32_t buffer, uint64_t offset) const {
@@ -249,7 +255,7 @@ class Rebuilder {
 
   void writeViews() {
     const size_t old_count = document_.views.size();
-    const uint64_t first_new = new_views_.empty() ? 0 : alignedEnd();
+    const uint64_t first_new = new_views_.empty() ? 0 : layout_.offsets[0];
     std::vector<Json> views(view_count_);
     const Json& old_views = arrayOf(json_, "bufferViews");
     for (uint32_t view = 0; view < old_count; ++view) {
@@ -279,7 +285,7 @@ class Rebuilder {
       }
     }
     for (size_t k = 0; k < new_views_.size(); ++k) {
-      views[numbers_[old_count + k]] = appendView(new_views_[k]);
+      views[numbers_[old_count + k]] = jsonOf(new_views_[k], layout_.offsets[k]);
     }
     if (views.empty()) {
       json_.erase("bufferViews");
@@ -288,15 +294,10 @@ class Rebuilder {
     }
   }
 
-  size_t alignedEnd() const { return (bin_.size() + 3) & ~size_t{3}; }
-
-  Json appendView(NewView& view) {
-    bin_.resize(alignedEnd(), 0);
-    Json json = {{"buffer", 0}, {"byteOffset", bin_.size()}, {"byteLength", view.bytes.size()}};
+  static Json jsonOf(const NewView& view, uint64_t offset) {
+    Json json = {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", view.byte_count}};
     if (view.stride_bytes != 0) json["byteStride"] = view.stride_bytes;
     if (view.target != 0) json["target"] = view.target;
-    bin_.insert(bin_.end(), view.bytes.begin(), view.bytes.end());
-    view.bytes = {};
     return json;
   }
 
@@ -304,7 +305,8 @@ class Rebuilder {
     const Json old_buffers = arrayOf(json_, "buffers");
     Json buffers = Json::array();
     nameCodings();
-    if (!bin_.empty() || !coded_extensions_.empty()) buffers.push_back(firstBuffer(old_buffers));
+    const bool has_bytes = layout_.byte_count != 0;
+    if (has_bytes || !coded_extensions_.empty()) buffers.push_back(firstBuffer(old_buffers));
     if (!coded_extensions_.empty()) {
       Json placeholder = {{"byteLength", placeholder_bytes_}};
       for (const std::string& name : coded_extensions_) {
@@ -320,7 +322,8 @@ class Rebuilder {
     }
   }
 
-  /// Returns the buffer of `bin_`, with what the first buffer of the source says about itself.
+  /// Returns the buffer that is laid out, with what the first buffer of the source says about
+  /// itself.
   Json firstBuffer(const Json& old_buffers) const {
     Json first = Json::object();
     for (uint32_t i = 0; i < old_buffers.size(); ++i) {
@@ -330,7 +333,7 @@ class Rebuilder {
     }
     first.erase("uri");
     eraseViewExtensions(first);
-    first["byteLength"] = bin_.size();
+    first["byteLength"] = layout_.byte_count;
     return first;
   }
 
@@ -375,9 +378,9 @@ class Rebuilder {
 
   const Document& document_;
   const ForeignReferences& foreign_;
-  std::vector<NewView>& new_views_;
+  const std::span<const NewView> new_views_;
   Json& json_;
-  std::vector<uint8_t>& bin_;
+  Layout layout_;
   std::vector<std::vector<ByteRange>> ranges_;  ///< ranges of each old view that are kept
   std::vector<ByteRange> kept_;                 ///< the hull of each old view's ranges
   std::vector<bool> is_whole_;
@@ -438,9 +441,16 @@ std::vector<ByteRange> accessorRanges(const Document& document, uint32_t index, 
   return ranges;
 }
 
-Result rebuildBuffers(const Document& document, const ForeignReferences& foreign,
-                      std::vector<NewView>& new_views, Json& json, std::vector<uint8_t>& bin) {
-  return Rebuilder(document, foreign, new_views, json, bin).run();
+void Layout::copyTo(std::span<uint8_t> buffer) const {
+  for (const Run& run : runs) {
+    std::copy(run.bytes.begin(), run.bytes.end(),
+              buffer.begin() + static_cast<ptrdiff_t>(run.offset));
+  }
+}
+
+Layout layOut(const Document& document, const ForeignReferences& foreign,
+              std::span<const NewView> new_views, Json& json) {
+  return LayoutBuilder(document, foreign, new_views, json).run();
 }
 
 }  // namespace mcc::gltf
