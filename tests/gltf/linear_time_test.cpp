@@ -62,7 +62,7 @@ TEST(LinearTime, LosersOfAChainOfPayloads) {
     }
     payloads.push_back(payloadOver(kCount, kCount + 1, kCount + 2, 300));
     std::vector<LeftAlone> left_alone;
-    dropLosers(document, ForeignReferences{}, payloads, left_alone);
+    dropLosers(document, payloads, left_alone);
     EXPECT_EQ(payloads.size(), first_loses ? 1u : kCount + 1);
     EXPECT_EQ(left_alone.size(), first_loses ? kCount : 0u);
   }
@@ -78,7 +78,7 @@ TEST(LinearTime, PayloadsOfAMeshStayOrGoTogether) {
     payloads.push_back(payloadOver(second_mesh, 2, 3, 800));
     payloads.push_back(payloadOver(2, 4, 5, 100));
     std::vector<LeftAlone> left_alone;
-    dropLosers(document, ForeignReferences{}, payloads, left_alone);
+    dropLosers(document, payloads, left_alone);
     return payloads.size();
   };
   EXPECT_EQ(kept(1), 2u);
@@ -106,7 +106,7 @@ TEST(LinearTime, AccessorsOfOneView) {
   Document document;
   ASSERT_TRUE(loadDocument(file, nullptr, document).ok());
   Json json = document.json;
-  EXPECT_EQ(layOut(document, {}, {}, json).byte_count, 100000u);
+  EXPECT_EQ(layOut(document, {}, json).byte_count, 100000u);
   EXPECT_EQ(json["accessors"][99999]["byteOffset"], 99999);
 }
 
@@ -296,7 +296,7 @@ TEST(LinearTime, OwnersOfAPileOfPayloads) {
   ASSERT_TRUE(loadDocument(file, nullptr, document).ok());
   std::vector<EncodedPayload> payloads;
   for (uint32_t i = 0; i < kCount; ++i) payloads.push_back(payloadOver(i, i, i, 1));
-  countFreedBytes(document, ForeignReferences{}, payloads);
+  countFreedBytes(document, payloads);
   EXPECT_EQ(payloads[0].freed_bytes, 128u);  // at both ends there are at most 64 owners
   EXPECT_EQ(payloads[63].freed_bytes, 2u);
   EXPECT_EQ(payloads[64].freed_bytes, 0u);

@@ -77,12 +77,12 @@ class Emitter {
     views_.push_back(std::move(new_view));
   }
 
-  gltf::Result finish(const gltf::ForeignReferences& foreign, std::vector<uint8_t>& file) {
+  gltf::Result finish(std::vector<uint8_t>& file) {
     if (!views_.empty()) {
       addExtensionName("extensionsUsed", json_);
       addExtensionName("extensionsRequired", json_);
     }
-    const gltf::Layout layout = gltf::layOut(document_, foreign, views_, json_);
+    const gltf::Layout layout = gltf::layOut(document_, views_, json_);
     std::span<uint8_t> bin;
     MCC_GLTF_TRY(gltf::startGlb(gltf::printJson(json_), layout.byte_count, document_.other_chunks,
                                 file, bin));
@@ -185,8 +185,7 @@ gltf::Result emit(std::span<const uint8_t> source, const gltf::FileReader& read_
   for (size_t i = 0; i < plans.size(); ++i) payloads[i].plan = std::move(plans[i]);
   std::vector<EmittedPart> parts;
   encodeParts(speed, payloads, parts, notes);
-  const gltf::ForeignReferences foreign = gltf::findForeignReferences(document.json);
-  std::vector<bool> is_taken = gltf::accessorsInOtherUse(document, foreign, payloads);
+  std::vector<bool> is_taken = gltf::accessorsInOtherUse(document, payloads);
   for (const EmittedPart& part : parts) {
     for (const uint32_t left_out : part.draco.left_out) {
       const gltf::AttributePlan& attribute = part.piece->attributes[left_out];
@@ -198,7 +197,7 @@ gltf::Result emit(std::span<const uint8_t> source, const gltf::FileReader& read_
   }
   Emitter emitter(document, std::move(is_taken));
   for (EmittedPart& part : parts) emitter.add(part);
-  return emitter.finish(foreign, file);
+  return emitter.finish(file);
 }
 
 }  // namespace

@@ -173,7 +173,7 @@ Result packageSource(const Document& document, const Input& input, const Output&
     return addFilesBeside(document.json, true, input, output, package, notes);
   }
   Json json = document.json;
-  const Layout layout = layOut(document, findForeignReferences(document.json), {}, json);
+  const Layout layout = layOut(document, {}, json);
   return packageDocument(document, std::move(json), contentOf(layout), input, output, package,
                          notes);
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
+#include <utility>
 
 #include "gltf/check/check_json.h"
 #include "gltf/check/check_values.h"
@@ -89,26 +91,18 @@ class Checker {
 
   /// Checks that the plan read the primitive as it is in the source.
   Result checkSource(const PiecePlan& piece, const PartPlan& part, const PrimitiveRef& ref) const {
-    const Json& primitive = primitiveAt(arrayOf(source_.json, "meshes"), ref);
-    uint64_t indices = kNone;
+    const Primitive& primitive = source_.primitive(ref);
     uint64_t mode = 4;
-    if (const Json* number = findMember(primitive, "indices")) asUnsigned(*number, indices);
-    if (const Json* number = findMember(primitive, "mode")) asUnsigned(*number, mode);
-    size_t attribute_count = 0;
-    uint32_t target_count = 0;
-    visitAttributeMaps(primitive, [&](const Json& map, uint32_t target) {
-      attribute_count += map.size();
-      target_count += target == kNone ? 0 : 1;
-    });
+    if (const Json* number = findMember(*primitive.json, "mode")) asUnsigned(*number, mode);
+    const AccessorMap accessors = accessorsOf(primitive);
     const auto isAsPlanned = [&](const AttributePlan& attribute) {
-      uint32_t accessor = 0;
-      return findAccessor(source_, primitive, attribute, accessor).ok() &&
-             accessor == attribute.accessor;
+      const auto found = accessors.find({attribute.target, attribute.name});
+      return found != accessors.end() && found->second == attribute.accessor;
     };
     const bool is_same =
-        indices == part.indices_accessor && mode == part.mode &&
-        attribute_count == piece.attributes.size() + piece.ordinary.size() &&
-        target_count == piece.target_count &&
+        primitive.indices == part.indices_accessor && mode == part.mode &&
+        primitive.attributes.size() == piece.attributes.size() + piece.ordinary.size() &&
+        primitive.target_count == piece.target_count &&
         std::all_of(piece.attributes.begin(), piece.attributes.end(), isAsPlanned) &&
         std::all_of(piece.ordinary.begin(), piece.ordinary.end(), isAsPlanned);
     return is_same ? Result() : error("", "does not share the accessors of its piece");
@@ -116,12 +110,9 @@ class Checker {
 
   /// Checks that each attribute of a primitive is the one of its payload, or stays next to it.
   Result checkAttributes(const PiecePlan& piece, const ExtensionUse& use) const {
-    const Json& primitive = *use.json;
-    size_t attribute_count = 0;
-    visitAttributeMaps(primitive,
-                       [&](const Json& map, uint32_t) { attribute_count += map.size(); });
-    if (attribute_count != piece.attributes.size() + piece.ordinary.size() ||
-        arrayOf(primitive, "targets").size() != piece.target_count) {
+    const Primitive& primitive = written_.primitive({use.mesh, use.primitive});
+    if (primitive.attributes.size() != piece.attributes.size() + piece.ordinary.size() ||
+        primitive.target_count != piece.target_count) {
       return error("", "has another number of attributes or morph targets");
     }
     if (use.attributes.size() != piece.attributes.size()) {
@@ -147,9 +138,13 @@ class Checker {
     if (piece.ordinary.empty() && piece.vertex_numbers.empty()) return {};
     // No vertex was dropped: attributes next to a payload and numbers of vertices forbid that.
     const std::vector<uint32_t>& source_of = payload.result.pieces[number].source_wedge;
-    const Json& primitive = primitiveAt(arrayOf(written_.json, "meshes"), piece.parts[0].users[0]);
+    const AccessorMap accessors = accessorsOf(written_.primitive(piece.parts[0].users[0]));
     for (const AttributePlan& attribute : piece.ordinary) {
-      MCC_GLTF_TRY(checkOrdinary(primitive, attribute, source_of));
+      const auto found = accessors.find({attribute.target, attribute.name});
+      if (found == accessors.end() || found->second == kNone) {
+        return error("", attribute.label() + " is missing");
+      }
+      MCC_GLTF_TRY(checkOrdinary(found->second, attribute, source_of));
       if (payload.plan.reorders()) reordered_.insert(attribute.accessor);
     }
     for (const uint32_t accessor : piece.vertex_numbers) {
@@ -160,28 +155,20 @@ class Checker {
     return {};
   }
 
-  /// Finds the accessor of an attribute of a primitive.
-  static Result findAccessor(const Document& document, const Json& primitive,
-                             const AttributePlan& attribute, uint32_t& accessor) {
-    uint64_t index = 0;
-    const Json* map = findMember(primitive, "attributes");
-    const Json& targets = arrayOf(primitive, "targets");
-    if (attribute.target != kNone) {
-      map = attribute.target < targets.size() ? &targets[attribute.target] : nullptr;
+  /// The accessors of a primitive by morph target and name.
+  using AccessorMap = std::map<std::pair<uint32_t, std::string_view>, uint32_t>;
+
+  static AccessorMap accessorsOf(const Primitive& primitive) {
+    AccessorMap accessors;
+    for (const auto& [name, target, accessor] : primitive.attributes) {
+      accessors[{target, name}] = accessor;
     }
-    const Json* number = findMember(map, attribute.name);
-    if (number == nullptr || !asUnsigned(*number, index) || index >= document.accessors.size()) {
-      return error("", attribute.label() + " is missing");
-    }
-    accessor = static_cast<uint32_t>(index);
-    return {};
+    return accessors;
   }
 
   /// Checks an attribute that stays next to the payload: every bit must be at its vertex.
-  Result checkOrdinary(const Json& primitive, const AttributePlan& attribute,
+  Result checkOrdinary(uint32_t index, const AttributePlan& attribute,
                        std::span<const uint32_t> source_of) const {
-    uint32_t index = 0;
-    MCC_GLTF_TRY(findAccessor(written_, primitive, attribute, index));
     const Accessor& accessor = written_.accessors[index];
     if (accessor.count != source_.accessors[attribute.accessor].count ||
         formatOf(attribute.name, attribute.target, accessor) != attribute.format) {

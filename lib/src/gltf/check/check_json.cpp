@@ -131,8 +131,8 @@ Exceptions exceptionsOf(const Document& document, const std::vector<PrimitiveRef
   const auto exceptNumber = [&](const Json& number) { exceptions.alike.insert(&number); };
   visitViewReferences(root, [&](const Json& number, uint32_t) { exceptNumber(number); });
   visitMissingAccessors(root, document.accessors.size(), exceptNumber);
-  const Json& meshes = arrayOf(root, "meshes");
-  for (const PrimitiveRef& ref : compressed) exceptGeometry(primitiveAt(meshes, ref), exceptions);
+  for (const PrimitiveRef& ref : compressed)
+    exceptGeometry(*document.primitive(ref).json, exceptions);
   exceptAccessors(root, touched, accessor_count, exceptions);
   return exceptions;
 }
@@ -272,10 +272,9 @@ class BytesChecker {
 /// Where views keep their numbers, adds every view, except those that only compressed accessors
 /// used.
 void addViews(const Document& source, const Touched& touched, BytesChecker& checker) {
-  const ForeignReferences foreign = findForeignReferences(source.json);
-  if (!foreign.keep_numbers) return;
+  if (!source.foreign.keep_numbers) return;
   std::vector<bool> is_freed;
-  for (const ViewUse use : viewUses(source, foreign)) is_freed.push_back(use == ViewUse::kFree);
+  for (const BufferView& view : source.views) is_freed.push_back(view.use == ViewUse::kFree);
   for (const uint32_t index : touched) {
     if (index >= source.accessors.size()) continue;
     const Accessor& accessor = source.accessors[index];
@@ -304,10 +303,10 @@ Result compareRest(const Document& source, const Document& written,
                    const std::vector<ExtensionUse>& uses, const std::set<uint32_t>& reordered) {
   Touched touched = reordered;
   std::vector<PrimitiveRef> compressed;
-  const Json& meshes = arrayOf(source.json, "meshes");
   for (const ExtensionUse& use : uses) {
     const PrimitiveRef ref = {use.mesh, use.primitive};
-    if (extensionOf(primitiveAt(meshes, ref), kExtensionName) == nullptr) compressed.push_back(ref);
+    const bool is_old = extensionOf(*source.primitive(ref).json, kExtensionName) != nullptr;
+    if (!is_old) compressed.push_back(ref);
     touched.insert(use.indices_accessor);
     for (const auto& attribute : use.attributes) touched.insert(attribute.accessor);
   }

@@ -35,10 +35,7 @@ struct Box {
 class Prover {
  public:
   Prover(const Document& source, EncodedPayload& payload, PayloadProof& proof)
-      : source_(source),
-        source_meshes_(arrayOf(source.json, "meshes")),
-        payload_(payload),
-        proof_(proof) {}
+      : source_(source), payload_(payload), proof_(proof) {}
 
   Result run(const RunJobs& run_jobs) {
     MCC_GLTF_TRY(decode(run_jobs));
@@ -185,13 +182,11 @@ class Prover {
   /// Reads the source's triangles again, instead of taking them from the plan.
   Result sourceTriangles(const PrimitiveRef& ref, uint64_t vertex_count,
                          std::vector<uint32_t>& indices) const {
-    const Json& primitive = primitiveAt(source_meshes_, ref);
+    const Primitive& primitive = source_.primitive(ref);
     uint64_t mode = 4;
-    MCC_GLTF_TRY(readOptionalUnsigned(primitive, "mode", ref.path(), 6, mode));
-    uint64_t accessor = 0;
-    if (const Json* number = findMember(primitive, "indices"); number != nullptr) {
-      if (!asUnsigned(*number, accessor)) return error("", "the indices are missing");
-      MCC_GLTF_TRY(readIndices(source_, static_cast<uint32_t>(accessor), indices));
+    MCC_GLTF_TRY(readOptionalUnsigned(*primitive.json, "mode", ref.path(), 6, mode));
+    if (primitive.indices != kNone) {
+      MCC_GLTF_TRY(readIndices(source_, primitive.indices, indices));
     } else {
       for (uint32_t i = 0; i < vertex_count; ++i) indices.push_back(i);
     }
@@ -226,7 +221,6 @@ class Prover {
   }
 
   const Document& source_;
-  const Json& source_meshes_;
   EncodedPayload& payload_;
   PayloadProof& proof_;
   DecodedPayload decoded_;

@@ -91,9 +91,7 @@ class Validator {
     }
   }
 
-  const Json& primitiveOf(const ExtensionUse& use) const {
-    return primitiveAt(meshes_, {use.mesh, use.primitive});
-  }
+  const Json& primitiveOf(const ExtensionUse& use) const { return *use.json; }
 
   /// Checks properties by the JSON Schema that decoding does not look at.
   void checkObject(const ExtensionUse& use) {

@@ -141,21 +141,21 @@ struct OwnedPiece {
 };
 
 /// Finds the owners of the bytes that pieces free.
-ByteOwners ownersOf(const Document& document, const ForeignReferences& foreign,
-                    const std::vector<bool>& in_other_use, const std::vector<OwnedPiece>& pieces,
-                    size_t owner_count) {
+ByteOwners ownersOf(const Document& document, const std::vector<bool>& in_other_use,
+                    const std::vector<OwnedPiece>& pieces, size_t owner_count) {
   std::vector<bool> is_ours(document.accessors.size(), false);
   ByteOwners owners(owner_count);
   for (const OwnedPiece& owned : pieces) {
     visitAccessors(*owned.piece, [&](uint32_t accessor) {
       if (in_other_use[accessor]) return;
       is_ours[accessor] = true;
-      owners.add(accessorRanges(document, accessor, foreign.keep_numbers), owned.owner);
+      owners.add(accessorRanges(document, accessor, document.foreign.keep_numbers), owned.owner);
     });
   }
   for (uint32_t accessor = 0; accessor < is_ours.size(); ++accessor) {
     if (is_ours[accessor]) continue;
-    owners.add(accessorRanges(document, accessor, foreign.keep_numbers), ByteOwners::kSomebodyElse);
+    owners.add(accessorRanges(document, accessor, document.foreign.keep_numbers),
+               ByteOwners::kSomebodyElse);
   }
   for (const Json& image : arrayOf(document.json, "images")) {
     uint64_t view = 0;
@@ -217,9 +217,8 @@ void leaveAlone(const PiecePlan& piece, uint64_t cost_bytes, uint64_t freed_byte
 /// was divided stay or go together, because their positions may meet.
 class LoserSearch {
  public:
-  LoserSearch(const Document& document, const ForeignReferences& foreign,
-              const std::vector<EncodedPayload>& payloads)
-      : payloads_(payloads), owners_(group(document, foreign)) {}
+  LoserSearch(const Document& document, const std::vector<EncodedPayload>& payloads)
+      : payloads_(payloads), owners_(group(document)) {}
 
   /// Returns for each payload whether it loses.
   std::vector<bool> run(std::vector<LeftAlone>& left_alone) {
@@ -260,7 +259,7 @@ class LoserSearch {
     bool is_lost = false;
   };
 
-  ByteOwners group(const Document& document, const ForeignReferences& foreign) {
+  ByteOwners group(const Document& document) {
     std::vector<OwnedPiece> pieces;
     for (size_t i = 0; i < payloads_.size(); ++i) {
       const PayloadPlan& plan = payloads_[i].plan;
@@ -270,8 +269,7 @@ class LoserSearch {
       group_of_.push_back(groups_.size() - 1);
       for (const PiecePlan& piece : plan.pieces) pieces.push_back({&piece, group_of_.back()});
     }
-    return ownersOf(document, foreign, accessorsInOtherUse(document, foreign, payloads_), pieces,
-                    groups_.size());
+    return ownersOf(document, accessorsInOtherUse(document, payloads_), pieces, groups_.size());
   }
 
   void leaveGroupAlone(size_t number, std::vector<LeftAlone>& left_alone) const {
@@ -290,28 +288,26 @@ class LoserSearch {
 
 }  // namespace
 
-void countFreedBytes(const Document& document, const ForeignReferences& foreign,
-                     std::vector<EncodedPayload>& payloads) {
+void countFreedBytes(const Document& document, std::vector<EncodedPayload>& payloads) {
   std::vector<OwnedPiece> pieces;
   for (size_t i = 0; i < payloads.size(); ++i) {
     for (const PiecePlan& piece : payloads[i].plan.pieces) pieces.push_back({&piece, i});
   }
-  const ByteOwners owners = ownersOf(
-      document, foreign, accessorsInOtherUse(document, foreign, payloads), pieces, payloads.size());
+  const ByteOwners owners =
+      ownersOf(document, accessorsInOtherUse(document, payloads), pieces, payloads.size());
   for (size_t i = 0; i < payloads.size(); ++i) payloads[i].freed_bytes = owners.freed()[i];
 }
 
-Result dropTinyPieces(const Document& document, const ForeignReferences& foreign,
-                      const ConvertOptions& options, std::vector<PayloadPlan>& plans,
-                      std::vector<LeftAlone>& left_alone) {
+Result dropTinyPieces(const Document& document, const ConvertOptions& options,
+                      std::vector<PayloadPlan>& plans, std::vector<LeftAlone>& left_alone) {
   std::vector<const PayloadPlan*> all;
   std::vector<OwnedPiece> pieces;
   for (const PayloadPlan& plan : plans) {
     all.push_back(&plan);
     for (const PiecePlan& piece : plan.pieces) pieces.push_back({&piece, pieces.size()});
   }
-  const ByteOwners owners = ownersOf(document, foreign, accessorsInOtherUse(document, foreign, all),
-                                     pieces, pieces.size());
+  const ByteOwners owners =
+      ownersOf(document, accessorsInOtherUse(document, all), pieces, pieces.size());
   const std::vector<uint64_t>& freed = owners.freed();
   std::vector<const PayloadPlan*> plan_of;
   for (const PayloadPlan& plan : plans) plan_of.insert(plan_of.end(), plan.pieces.size(), &plan);
@@ -350,16 +346,16 @@ Result dropTinyPieces(const Document& document, const ForeignReferences& foreign
   return {};
 }
 
-void dropLosers(const Document& document, const ForeignReferences& foreign,
-                std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone) {
-  LoserSearch search(document, foreign, payloads);
+void dropLosers(const Document& document, std::vector<EncodedPayload>& payloads,
+                std::vector<LeftAlone>& left_alone) {
+  LoserSearch search(document, payloads);
   const std::vector<bool> is_lost = search.run(left_alone);
   std::vector<EncodedPayload> winners;
   for (size_t i = 0; i < payloads.size(); ++i) {
     if (!is_lost[i]) winners.push_back(std::move(payloads[i]));
   }
   payloads = std::move(winners);
-  countFreedBytes(document, foreign, payloads);
+  countFreedBytes(document, payloads);
 }
 
 }  // namespace mcc::gltf

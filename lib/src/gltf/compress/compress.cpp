@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "gltf/compress/indices_only.h"
 #include "gltf/compress/quantize.h"
@@ -34,11 +33,11 @@ bool indexTypeFits(ComponentType type, uint32_t vertex_count) {
 /// Writes the payloads into the JSON of the document.
 class Applier {
  public:
-  Applier(const Document& document, const ForeignReferences& foreign, Compressed& compressed)
+  Applier(const Document& document, Compressed& compressed)
       : document_(document),
         source_accessors_(arrayOf(document.json, "accessors")),
         compressed_(compressed),
-        is_taken_(accessorsInOtherUse(document, foreign, compressed.payloads)) {}
+        is_taken_(accessorsInOtherUse(document, compressed.payloads)) {}
 
   std::vector<NewView> run() {
     compressed_.json = document_.json;
@@ -188,16 +187,16 @@ void sortByPlace(std::vector<LeftAlone>& left_alone) {
 
 }  // namespace
 
-std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignReferences& foreign,
+std::vector<bool> accessorsInOtherUse(const Document& document,
                                       const std::vector<EncodedPayload>& payloads) {
   std::vector<const PayloadPlan*> plans;
   for (const EncodedPayload& payload : payloads) plans.push_back(&payload.plan);
-  return accessorsInOtherUse(document, foreign, plans);
+  return accessorsInOtherUse(document, plans);
 }
 
-std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignReferences& foreign,
+std::vector<bool> accessorsInOtherUse(const Document& document,
                                       const std::vector<const PayloadPlan*>& payloads) {
-  std::vector<bool> is_used = accessorsOutsidePayloads(document, foreign, payloads);
+  std::vector<bool> is_used = accessorsOutsidePayloads(document, payloads);
   for (const PayloadPlan* payload : payloads) {
     for (const PiecePlan& piece : payload->pieces) {
       for (const AttributePlan& attribute : piece.ordinary) is_used[attribute.accessor] = true;
@@ -207,25 +206,29 @@ std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignRef
 }
 
 std::vector<bool> accessorsOutsidePayloads(const Document& document,
-                                           const ForeignReferences& foreign,
                                            const std::vector<const PayloadPlan*>& payloads) {
-  std::set<PrimitiveRef> compressed;
+  std::vector<uint64_t> uses_in_payloads(document.accessors.size(), 0);
   for (const PayloadPlan* payload : payloads) {
     for (const PiecePlan& piece : payload->pieces) {
+      uint64_t users = 0;
       for (const PartPlan& part : piece.parts) {
-        compressed.insert(part.users.begin(), part.users.end());
+        users += part.users.size();
+        if (part.indices_accessor == kNone) continue;
+        uses_in_payloads[part.indices_accessor] += part.users.size();
+      }
+      for (const auto* attributes : {&piece.attributes, &piece.ordinary}) {
+        for (const AttributePlan& attribute : *attributes) {
+          uses_in_payloads[attribute.accessor] += users;
+        }
       }
     }
   }
   std::vector<bool> is_used;
-  markAccessorsOutsideMeshes(document, foreign, is_used);
-  markAccessorsOfExtensions(document, is_used);
-  visitPrimitives(document.json, [&](const PrimitiveRef& ref, const Json& primitive) {
-    if (compressed.contains(ref)) return;
-    visitAccessorNumbers(primitive, [&](uint64_t accessor) {
-      if (accessor < is_used.size()) is_used[accessor] = true;
-    });
-  });
+  for (size_t i = 0; i < uses_in_payloads.size(); ++i) {
+    const Accessor& accessor = document.accessors[i];
+    is_used.push_back(accessor.isUsedOutsideMeshes() || accessor.extension_uses != 0 ||
+                      accessor.primitive_uses > uses_in_payloads[i]);
+  }
   return is_used;
 }
 
@@ -252,24 +255,23 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
   compressed = {};
   std::vector<PayloadPlan> plans;
   MCC_GLTF_TRY(planPayloads(document, plans, compressed.left_alone));
-  const ForeignReferences foreign = findForeignReferences(document.json);
-  planVertexNumbers(document, foreign, plans);
+  planVertexNumbers(document, plans);
   if (options.indices_only) {
-    planIndicesOnly(document, foreign, plans);
+    planIndicesOnly(document, plans);
   } else {
     planUnused(options, plans, compressed.notes);
     planQuantization(options, plans, compressed.notes);
   }
   if (!options.allow_larger) {
-    MCC_GLTF_TRY(dropTinyPieces(document, foreign, options, plans, compressed.left_alone));
+    MCC_GLTF_TRY(dropTinyPieces(document, options, plans, compressed.left_alone));
   }
   splitPayloads(options, plans);
   MCC_GLTF_TRY(
       encodePayloads(options, std::move(plans), compressed.payloads, compressed.left_alone));
   if (options.allow_larger) {
-    countFreedBytes(document, foreign, compressed.payloads);
+    countFreedBytes(document, compressed.payloads);
   } else {
-    dropLosers(document, foreign, compressed.payloads, compressed.left_alone);
+    dropLosers(document, compressed.payloads, compressed.left_alone);
   }
   sortByPlace(compressed.left_alone);
   for (const EncodedPayload& payload : compressed.payloads) {
@@ -281,9 +283,8 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
 }
 
 void storePayloads(const Document& document, Compressed& compressed) {
-  const ForeignReferences foreign = findForeignReferences(document.json);
-  compressed.views = Applier(document, foreign, compressed).run();
-  compressed.layout = layOut(document, foreign, compressed.views, compressed.json);
+  compressed.views = Applier(document, compressed).run();
+  compressed.layout = layOut(document, compressed.views, compressed.json);
 }
 
 }  // namespace mcc::gltf

@@ -8,7 +8,6 @@
 #include "gltf/compress/plan.h"
 #include "gltf/document/bounds.h"
 #include "gltf/document/layout.h"
-#include "gltf/document/references.h"
 #include "mcc/gltf.h"
 #include "mcc/writer.h"
 
@@ -54,8 +53,7 @@ Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> pl
                       std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone);
 
 /// Sets EncodedPayload::freed_bytes.
-void countFreedBytes(const Document& document, const ForeignReferences& foreign,
-                     std::vector<EncodedPayload>& payloads);
+void countFreedBytes(const Document& document, std::vector<EncodedPayload>& payloads);
 
 /// Returns the bytes of a payload that holds only one piece of a plan, or 0 when the codec refuses
 /// it.
@@ -64,25 +62,23 @@ uint64_t bytesAlone(const ConvertOptions& options, const PayloadPlan& plan, cons
 /// Drops small pieces that cost at least as many bytes as they free. Inside a payload with larger
 /// pieces, such a loss would not be noticed. A piece that has a position in common with another
 /// piece of its mesh stays, so that no crack can open. Error: no memory.
-Result dropTinyPieces(const Document& document, const ForeignReferences& foreign,
-                      const ConvertOptions& options, std::vector<PayloadPlan>& plans,
-                      std::vector<LeftAlone>& left_alone);
+Result dropTinyPieces(const Document& document, const ConvertOptions& options,
+                      std::vector<PayloadPlan>& plans, std::vector<LeftAlone>& left_alone);
 
 /// Drops the payloads that cost at least as many bytes as they free, treating those of one mesh
 /// together, and counts what the others free. Takes time proportional to the document and the
 /// contents of its payloads, up to a logarithm.
-void dropLosers(const Document& document, const ForeignReferences& foreign,
-                std::vector<EncodedPayload>& payloads, std::vector<LeftAlone>& left_alone);
+void dropLosers(const Document& document, std::vector<EncodedPayload>& payloads,
+                std::vector<LeftAlone>& left_alone);
 
 /// Marks accessors that something other than the primitives of `payloads` uses.
 std::vector<bool> accessorsOutsidePayloads(const Document& document,
-                                           const ForeignReferences& foreign,
                                            const std::vector<const PayloadPlan*>& payloads);
 /// The same, and also marks attributes that stay accessors next to the payloads: payloads must not
 /// take these accessors, and do not free their bytes.
-std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignReferences& foreign,
+std::vector<bool> accessorsInOtherUse(const Document& document,
                                       const std::vector<const PayloadPlan*>& payloads);
-std::vector<bool> accessorsInOtherUse(const Document& document, const ForeignReferences& foreign,
+std::vector<bool> accessorsInOtherUse(const Document& document,
                                       const std::vector<EncodedPayload>& payloads);
 
 /// Returns the extension object of a primitive that uses a part of a piece.

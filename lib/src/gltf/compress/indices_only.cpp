@@ -12,11 +12,11 @@ namespace mcc::gltf {
 namespace {
 
 /// Marks accessors that more than one piece uses, or a piece and something else.
-std::vector<bool> sharedAccessors(const Document& document, const ForeignReferences& foreign,
+std::vector<bool> sharedAccessors(const Document& document,
                                   const std::vector<PayloadPlan>& payloads) {
   std::vector<const PayloadPlan*> all;
   for (const PayloadPlan& payload : payloads) all.push_back(&payload);
-  std::vector<bool> is_shared = accessorsOutsidePayloads(document, foreign, all);
+  std::vector<bool> is_shared = accessorsOutsidePayloads(document, all);
   std::vector<const PiecePlan*> user(is_shared.size(), nullptr);  // the first user
   for (const PayloadPlan& payload : payloads) {
     for (const PiecePlan& piece : payload.pieces) {
@@ -39,8 +39,7 @@ bool canBeReordered(const Document& document, const Accessor& accessor) {
 
 }  // namespace
 
-void planIndicesOnly(const Document& document, const ForeignReferences& foreign,
-                     std::vector<PayloadPlan>& payloads) {
+void planIndicesOnly(const Document& document, std::vector<PayloadPlan>& payloads) {
   for (PayloadPlan& payload : payloads) {
     payload.indices_only = true;
     for (PiecePlan& piece : payload.pieces) {
@@ -49,9 +48,9 @@ void planIndicesOnly(const Document& document, const ForeignReferences& foreign,
       piece.ordinary = std::move(all);
     }
   }
-  const std::vector<bool> is_shared = sharedAccessors(document, foreign, payloads);
+  const std::vector<bool> is_shared = sharedAccessors(document, payloads);
   for (PayloadPlan& payload : payloads) {
-    payload.keep_vertex_order |= foreign.keep_numbers;
+    payload.keep_vertex_order |= document.foreign.keep_numbers;
     for (const PiecePlan& piece : payload.pieces) {
       for (const AttributePlan& attribute : piece.ordinary) {
         payload.keep_vertex_order |=

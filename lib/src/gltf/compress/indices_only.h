@@ -16,8 +16,7 @@ namespace mcc::gltf {
 /// Moves the attributes of all pieces to PiecePlan::ordinary. They will be reordered, so that the
 /// payload need not store the order. Where something else refers to one of them, the vertex order
 /// is kept instead.
-void planIndicesOnly(const Document& document, const ForeignReferences& foreign,
-                     std::vector<PayloadPlan>& payloads);
+void planIndicesOnly(const Document& document, std::vector<PayloadPlan>& payloads);
 
 /// Returns the positions of such a piece as the codec gets them, to find those that are equal.
 AttributeView weldingView(const PiecePlan& piece);

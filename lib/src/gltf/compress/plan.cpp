@@ -31,24 +31,19 @@ class Planner {
                     document.decoded.zeroLimit()) {}
 
   Result run() {
-    findFilledAccessors();
     const Json& meshes = arrayOf(document_.json, "meshes");
-    Result result;
     std::string mesh_part;
-    visitPrimitives(document_.json, [&](const PrimitiveRef& ref, const Json& primitive) {
-      if (!result.ok()) return;
-      if (!primitive.is_object()) {
-        result = error(ref.path(), "must be an object");
-        return;
-      }
+    for (const Primitive& primitive : document_.primitives) {
+      const PrimitiveRef& ref = primitive.ref;
+      if (!primitive.json->is_object()) return error(ref.path(), "must be an object");
       if (ref.primitive == 0) {
         mesh_part = nameInNote(orderDependentPart(meshes[ref.mesh], NumbersOfVertices::kStay));
       }
-      const std::string note = planPrimitive(ref, primitive, mesh_part);
-      const bool is_ours = extensionOf(primitive, kExtensionName) != nullptr;
+      const std::string note = planPrimitive(primitive, mesh_part);
+      const bool is_ours = extensionOf(*primitive.json, kExtensionName) != nullptr;
       if (!note.empty()) left_alone_.push_back({ref, note + (is_ours ? "" : "; left as it was")});
-    });
-    return result;
+    }
+    return {};
   }
 
  private:
@@ -82,8 +77,8 @@ class Planner {
   }
 
   /// Adds a primitive to the plan, or returns why it stays as it was.
-  std::string planPrimitive(const PrimitiveRef& ref, const Json& json,
-                            const std::string& mesh_part) {
+  std::string planPrimitive(const Primitive& primitive, const std::string& mesh_part) {
+    const Json& json = *primitive.json;
     uint64_t mode = 4;
     const Result has_mode = readOptionalUnsigned(json, "mode", "", kNone, mode);
     if (!has_mode.ok()) return noteOf(has_mode);
@@ -97,13 +92,11 @@ class Planner {
         nameInNote(orderDependentPart(json, NumbersOfVertices::kCanChange));
     const std::string& unknown = own_part.empty() ? mesh_part : own_part;
 
-    PiecePlan piece;
-    uint32_t indices = kNone;
-    Result collected = collectAttributes(json, piece);
-    if (collected.ok()) collected = readIndicesNumber(json, indices);
-    if (!collected.ok()) return noteOf(collected);
+    if (!primitive.fault.ok()) return noteOf(primitive.fault);
+    PiecePlan piece = pieceOf(primitive);
+    const uint32_t indices = primitive.indices;
     note = attributeNote(piece);
-    if (note.empty()) note = codedNote(json, piece);
+    if (note.empty()) note = codedNote(primitive, piece);
     if (!note.empty()) return note;
     piece.wedge_count =
         static_cast<uint32_t>(document_.accessors[piece.attributes[0].accessor].count);
@@ -125,7 +118,7 @@ class Planner {
     if (!unknown.empty() && (mode != 4 || indices == kNone)) {
       return "has " + unknown + ", which may rely on it not being an indexed triangle list";
     }
-    addUser(ref, !unknown.empty(), std::move(piece), known, part);
+    addUser(primitive.ref, !unknown.empty(), std::move(piece), known, part);
     return "";
   }
 
@@ -136,22 +129,10 @@ class Planner {
     return extensionOf(json, kExtensionName) == nullptr ? "" : "is compressed already";
   }
 
-  /// Marks the accessors that payloads of the source fill.
-  void findFilledAccessors() {
-    is_filled_.assign(document_.accessors.size(), false);
-    visitPrimitives(document_.json, [&](const PrimitiveRef&, const Json& primitive) {
-      const Json* extension = extensionOf(primitive, kExtensionName);
-      if (extension == nullptr) return;
-      visitFilledAccessors(primitive, *extension, [&](uint64_t accessor) {
-        if (accessor < is_filled_.size()) is_filled_[accessor] = true;
-      });
-    });
-  }
-
   /// Returns why an accessor cannot be read, or may mean something else than what can be read.
   std::string unreadableNote(uint32_t index) const {
     const Accessor& accessor = document_.accessors[index];
-    if (is_filled_[index]) return "is in the payload of another primitive";
+    if (accessor.is_filled) return "is in the payload of another primitive";
     std::string unknown = unknownExtension(accessors_[index]);
     for (const uint32_t view :
          {accessor.view, accessor.sparse.index_view, accessor.sparse.value_view}) {
@@ -165,69 +146,36 @@ class Planner {
   }
 
   /// Returns why accessors of a primitive cannot be read; empty when they can be.
-  std::string codedNote(const Json& json, const PiecePlan& piece) const {
+  std::string codedNote(const Primitive& primitive, const PiecePlan& piece) const {
     for (const AttributePlan& attribute : piece.attributes) {
       const std::string reason = unreadableNote(attribute.accessor);
       if (!reason.empty()) return attribute.label() + " " + reason;
     }
-    uint64_t accessor = 0;
-    const Json* indices = findMember(json, "indices");
-    if (indices != nullptr && asUnsigned(*indices, accessor) &&
-        accessor < document_.accessors.size()) {
-      std::string reason = unreadableNote(static_cast<uint32_t>(accessor));
-      const Accessor& claimed = document_.accessors[accessor];
-      if (reason.empty() && claimed.normalized) reason = "is normalized, which indices cannot be";
+    const bool has_indices = primitive.indices != kNone;
+    if (has_indices) {
+      std::string reason = unreadableNote(primitive.indices);
+      if (reason.empty() && document_.accessors[primitive.indices].normalized) {
+        reason = "is normalized, which indices cannot be";
+      }
       if (!reason.empty()) return "its index accessor " + reason;
     }
-    if (extensionOf(json, kMeshExtension) == nullptr) return "";
-    const bool is_decoded = indices != nullptr && accessor < document_.accessors.size() &&
-                            document_.accessors[accessor].decoded != kNone;
+    if (extensionOf(*primitive.json, kMeshExtension) == nullptr) return "";
+    const bool is_decoded = has_indices && document_.accessors[primitive.indices].decoded != kNone;
     return is_decoded ? "" : std::string("is compressed with ") + kMeshExtension;
   }
 
-  Result readAccessorIndex(const Json& json, const std::string& path, uint32_t& accessor) const {
-    uint64_t index = 0;
-    if (!asUnsigned(json, index)) return error(path, "must be the number of an accessor");
-    if (index >= document_.accessors.size()) {
-      return error(path, "there is no accessor " + std::to_string(index));
-    }
-    accessor = static_cast<uint32_t>(index);
-    return {};
-  }
-
-  /// Reads the number of the index accessor; kNone without indices.
-  Result readIndicesNumber(const Json& json, uint32_t& accessor) const {
-    const Json* indices = findMember(json, "indices");
-    return indices == nullptr ? Result{} : readAccessorIndex(*indices, "indices", accessor);
-  }
-
-  Result collectMap(const Json& map, const std::string& path, uint32_t target,
-                    PiecePlan& piece) const {
-    if (!map.is_object()) return error(path, "must be an object");
-    for (const auto& [name, value] : map.items()) {
-      AttributePlan attribute;
+  PiecePlan pieceOf(const Primitive& primitive) const {
+    PiecePlan piece;
+    piece.target_count = primitive.target_count;
+    for (const auto& [name, target, accessor] : primitive.attributes) {
+      AttributePlan& attribute = piece.attributes.emplace_back();
       attribute.name = name;
       attribute.target = target;
-      MCC_GLTF_TRY(readAccessorIndex(value, at(path, name), attribute.accessor));
-      attribute.format = formatOf(name, target, document_.accessors[attribute.accessor]);
-      piece.attributes.push_back(std::move(attribute));
-    }
-    return {};
-  }
-
-  Result collectAttributes(const Json& json, PiecePlan& piece) const {
-    const Json* attributes = findMember(json, "attributes");
-    if (attributes == nullptr) return error("", "\"attributes\" is missing");
-    MCC_GLTF_TRY(collectMap(*attributes, "attributes", kNone, piece));
-    if (const Json* targets = findMember(json, "targets"); targets != nullptr) {
-      if (!targets->is_array()) return error("targets", "must be an array");
-      piece.target_count = static_cast<uint32_t>(targets->size());
-      for (uint32_t i = 0; i < targets->size(); ++i) {
-        MCC_GLTF_TRY(collectMap((*targets)[i], at("targets", i), i, piece));
-      }
+      attribute.accessor = accessor;
+      attribute.format = formatOf(attribute.name, target, document_.accessors[accessor]);
     }
     std::stable_sort(piece.attributes.begin(), piece.attributes.end(), comesBefore);
-    return {};
+    return piece;
   }
 
   /// Returns why the attributes cannot be coded; empty when they can.
@@ -393,10 +341,9 @@ class Planner {
   std::vector<PayloadPlan>& payloads_;
   std::vector<LeftAlone>& left_alone_;
   std::map<std::string, KnownPiece> pieces_;
-  std::vector<bool> is_filled_;  ///< accessors that are already compressed
-  std::set<uint32_t> zeros_;     ///< accessors whose zeros were counted, and others
-  uint64_t zero_bytes_ = 0;      ///< sum over all accessors that are read
-  uint64_t room_bytes_;          ///< that may still be held
+  std::set<uint32_t> zeros_;  ///< accessors whose zeros were counted, and others
+  uint64_t zero_bytes_ = 0;   ///< sum over all accessors that are read
+  uint64_t room_bytes_;       ///< that may still be held
 };
 
 }  // namespace

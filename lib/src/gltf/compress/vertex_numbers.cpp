@@ -21,34 +21,20 @@ void visitVertexNumbers(const Json& primitive, const Visit& visit) {
   });
 }
 
-/// Counts the uses of each accessor: each member of a primitive that names it, and one for
-/// everything else.
-std::vector<uint32_t> countUses(const Document& document, const ForeignReferences& foreign) {
-  std::vector<bool> is_used_outside;
-  markAccessorsOutsideMeshes(document, foreign, is_used_outside);
-  std::vector<uint32_t> counts(is_used_outside.begin(), is_used_outside.end());
-  const auto add = [&](uint64_t accessor) {
-    if (accessor < counts.size()) ++counts[accessor];
-  };
-  visitPrimitives(document.json, [&](const PrimitiveRef&, const Json& primitive) {
-    visitAccessorNumbers(primitive, add);
-    visitExtensionAccessors(primitive, [&](const Json& number, ExtensionAccessor) {
-      uint64_t accessor = 0;
-      if (asUnsigned(number, accessor)) add(accessor);
-    });
-  });
-  return counts;
+/// Counts the uses of an accessor: each member of a primitive that names it, and one for everything
+/// else.
+uint64_t useCount(const Accessor& accessor) {
+  return uint64_t{accessor.primitive_uses} + accessor.extension_uses +
+         (accessor.isUsedOutsideMeshes() ? 1 : 0);
 }
 
 /// Finds the accessors of vertex numbers of pieces.
 class Collector {
  public:
-  Collector(const Document& document, const ForeignReferences& foreign)
+  explicit Collector(const Document& document)
       : document_(document),
-        meshes_(arrayOf(document.json, "meshes")),
         accessors_(arrayOf(document.json, "accessors")),
         views_(arrayOf(document.json, "bufferViews")),
-        use_counts_(countUses(document, foreign)),
         room_(kMaxSharing * document.source_bytes) {}
 
   /// Collects the accessors of a piece. Returns false if one of them is also used by something
@@ -57,7 +43,7 @@ class Collector {
     std::vector<uint64_t> named;
     for (const PartPlan& part : piece.parts) {
       for (const PrimitiveRef& user : part.users) {
-        visitVertexNumbers(primitiveAt(meshes_, user),
+        visitVertexNumbers(*document_.primitive(user).json,
                            [&](uint64_t accessor) { named.push_back(accessor); });
       }
     }
@@ -66,7 +52,7 @@ class Collector {
       while (end < named.size() && named[end] == named[i]) ++end;
       if (named[i] >= document_.accessors.size()) return false;
       const auto accessor = static_cast<uint32_t>(named[i]);
-      const bool is_only_ours = use_counts_[accessor] == end - i;
+      const bool is_only_ours = useCount(document_.accessors[accessor]) == end - i;
       if (!is_only_ours || !canBeChanged(accessor, piece.wedge_count)) return false;
       piece.vertex_numbers.push_back(accessor);
     }
@@ -91,18 +77,15 @@ class Collector {
   }
 
   const Document& document_;
-  const Json& meshes_;
   const Json& accessors_;
   const Json& views_;
-  const std::vector<uint32_t> use_counts_;
   uint64_t room_;  ///< numbers that may still be read
 };
 
 }  // namespace
 
-void planVertexNumbers(const Document& document, const ForeignReferences& foreign,
-                       std::vector<PayloadPlan>& payloads) {
-  Collector collector(document, foreign);
+void planVertexNumbers(const Document& document, std::vector<PayloadPlan>& payloads) {
+  Collector collector(document);
   for (PayloadPlan& payload : payloads) {
     for (PiecePlan& piece : payload.pieces) {
       if (!collector.collect(piece)) payload.keep_vertex_order = true;

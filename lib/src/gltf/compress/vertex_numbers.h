@@ -18,8 +18,7 @@ namespace mcc::gltf {
 /// Finds such accessors and sets PiecePlan::vertex_numbers. Where one of them cannot be changed,
 /// because it is shared with something else or cannot be read, the payload keeps the order of the
 /// vertices instead. Takes time proportional to the document and these accessors.
-void planVertexNumbers(const Document& document, const ForeignReferences& foreign,
-                       std::vector<PayloadPlan>& payloads);
+void planVertexNumbers(const Document& document, std::vector<PayloadPlan>& payloads);
 
 /// Gives the accessors in piece.vertex_numbers new views with the numbers of the decoded vertices.
 /// Does nothing when decoded vertices have the numbers of the source.

@@ -23,13 +23,11 @@ Result inPlace(Result result, const std::string& where) {
 
 template <typename Visit>
 void visitTrianglePrimitives(const Document& document, const Visit& visit) {
-  visitPrimitives(document.json, [&](const PrimitiveRef& ref, const Json& primitive) {
+  for (const Primitive& primitive : document.primitives) {
     uint64_t mode = 4;
-    const Json* number = findMember(primitive, "mode");
-    if (number == nullptr || (asUnsigned(*number, mode) && mode >= 4)) {
-      visit(primitive, ref.path());
-    }
-  });
+    const Json* number = findMember(*primitive.json, "mode");
+    if (number == nullptr || (asUnsigned(*number, mode) && mode >= 4)) visit(primitive);
+  }
 }
 
 /// How many coded bytes may be decoded, counted as often as they are: views and primitives may name
@@ -298,10 +296,12 @@ Result decodeViews(const ForeignDecoders& decoders, Document& document, const Do
                    Result* refused) {
   if (!decoders.view) return {};
   std::vector<bool> is_used(document.accessors.size(), false);
-  const auto markUsed = [&](const Json& primitive, const std::string&) {
-    visitAccessorNumbers(primitive, [&](uint64_t accessor) {
+  const auto markUsed = [&](const Primitive& primitive) {
+    const auto mark = [&](uint32_t accessor) {
       if (accessor < is_used.size()) is_used[accessor] = true;
-    });
+    };
+    for (const Primitive::Attribute& attribute : primitive.attributes) mark(attribute.accessor);
+    mark(primitive.indices);
   };
   visitTrianglePrimitives(document, markUsed);
   if (source != nullptr) visitTrianglePrimitives(*source, markUsed);
@@ -328,8 +328,8 @@ Result decodeMeshes(const ForeignDecoders& decoders, Document& document, Result*
   if (!decoders.mesh) return {};
   MeshReader reader(decoders, document);
   Result result;
-  visitTrianglePrimitives(document, [&](const Json& primitive, const std::string& path) {
-    if (result.ok()) result = reader.read(primitive, path);
+  visitTrianglePrimitives(document, [&](const Primitive& primitive) {
+    if (result.ok()) result = reader.read(*primitive.json, primitive.ref.path());
   });
   if (refused != nullptr && refused->ok()) *refused = reader.firstDamage();
   return result;

@@ -258,8 +258,7 @@ Result decompressDocument(const Document& document, const FileDecodeOptions& opt
   } else {
     decompressed.decoder = std::move(decoder);
   }
-  const ForeignReferences foreign = findForeignReferences(document.json);
-  decompressed.layout = layOut(document, foreign, views, decompressed.json);
+  decompressed.layout = layOut(document, views, decompressed.json);
   return {};
 }
 

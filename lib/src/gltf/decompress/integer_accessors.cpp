@@ -126,12 +126,9 @@ void storeWeightsOf(const std::vector<uint32_t>& sets, IntegerAccessors& accesso
 
 }  // namespace
 
-IntegerAccessors::IntegerAccessors(const Document& source, const ForeignReferences& foreign,
-                                   const CodedAttributes& coded, Json& json,
+IntegerAccessors::IntegerAccessors(const Document& source, const CodedAttributes& coded, Json& json,
                                    std::vector<NewView>& views)
     : source_(source), coded_(coded), json_(json["accessors"]), views_(views) {
-  markAccessorsOutsideMeshes(source, foreign, is_used_otherwise_);
-  markAccessorsOfExtensions(source, is_used_otherwise_);
   for (const Json& mesh : arrayOf(json, "meshes")) {
     for (const Json& primitive : arrayOf(mesh, "primitives")) {
       if (const Json* map = findMember(primitive, "attributes")) noteUser(*map, false);
@@ -151,7 +148,9 @@ void IntegerAccessors::noteUser(const Json& map, bool is_target) {
 
 const AttributeInfo* IntegerAccessors::coding(uint32_t accessor) const {
   const auto found = coded_.find(accessor);
-  if (found == coded_.end() || is_used_otherwise_[accessor]) return nullptr;
+  if (found == coded_.end()) return nullptr;
+  const Accessor& source = source_.accessors[accessor];
+  if (source.isUsedOutsideMeshes() || source.extension_uses != 0) return nullptr;
   switch (found->second.coding) {
     case AttributeCoding::kLattice:
     case AttributeCoding::kOctahedral:

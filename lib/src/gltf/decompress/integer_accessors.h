@@ -22,8 +22,8 @@ using CodedAttributes = std::map<uint32_t, AttributeInfo>;
 class IntegerAccessors {
  public:
   /// json and views are those of layOut(); both must outlive the object.
-  IntegerAccessors(const Document& source, const ForeignReferences& foreign,
-                   const CodedAttributes& coded, Json& json, std::vector<NewView>& views);
+  IntegerAccessors(const Document& source, const CodedAttributes& coded, Json& json,
+                   std::vector<NewView>& views);
 
   /// Returns how an accessor was coded if it still holds floats on a grid and all its users mean
   /// the same attribute by it; else null.
@@ -48,7 +48,6 @@ class IntegerAccessors {
   Json& json_;
   std::vector<NewView>& views_;
   std::map<uint32_t, std::set<std::string>> meanings_;  ///< the attributes it is used as
-  std::vector<bool> is_used_otherwise_;
   std::set<uint32_t> replaced_;
 };
 

@@ -41,11 +41,9 @@ struct MeshPlan {
 
 class PositionStore {
  public:
-  PositionStore(const Document& source, const ForeignReferences& foreign,
-                IntegerAccessors& accessors, Json& json, std::vector<NewView>& views,
-                std::vector<std::string>& notes)
+  PositionStore(const Document& source, IntegerAccessors& accessors, Json& json,
+                std::vector<NewView>& views, std::vector<std::string>& notes)
       : source_(source),
-        foreign_(foreign),
         accessors_(accessors),
         json_(json),
         nodes_(member("nodes")),
@@ -54,7 +52,7 @@ class PositionStore {
         skin_room_(kSkinBytes + kMaxCopies * source.source_bytes),
         views_(views),
         notes_(notes),
-        node_extension_(nodeDependentExtension(source.json, foreign)) {}
+        node_extension_(nodeDependentExtension(source.json, source.foreign)) {}
 
   bool run() {
     collectMeshes();
@@ -419,8 +417,11 @@ class PositionStore {
     const Json* number = findMember(skin, "inverseBindMatrices");
     if (number == nullptr || !asUnsigned(*number, accessor)) return false;
     const auto users = matrix_users_.find(accessor);
-    return users != matrix_users_.end() && users->second == 1 &&
-           foreign_.accessors.count(accessor) == 0;
+    return users != matrix_users_.end() && users->second == 1 && !isForeign(accessor);
+  }
+
+  bool isForeign(uint64_t accessor) const {
+    return accessor < source_.accessors.size() && source_.accessors[accessor].is_foreign;
   }
 
   /// Returns the number of a skin whose matrices apply to lattice points.
@@ -456,7 +457,6 @@ class PositionStore {
   }
 
   const Document& source_;
-  const ForeignReferences& foreign_;
   IntegerAccessors& accessors_;
   Json& json_;
   Json* const nodes_;
@@ -479,9 +479,8 @@ class PositionStore {
 
 void storeIntegers(const Document& source, const CodedAttributes& coded, Json& json,
                    std::vector<NewView>& views, std::vector<std::string>& notes) {
-  const ForeignReferences foreign = findForeignReferences(source.json);
-  IntegerAccessors accessors(source, foreign, coded, json, views);
-  bool needs_extension = PositionStore(source, foreign, accessors, json, views, notes).run();
+  IntegerAccessors accessors(source, coded, json, views);
+  bool needs_extension = PositionStore(source, accessors, json, views, notes).run();
   needs_extension |= storeIntegerValues(coded, arrayOf(json, "meshes"), accessors, notes);
   if (!needs_extension) return;
   addExtensionName(json, "extensionsUsed", "KHR_mesh_quantization");

@@ -4,27 +4,17 @@
 #include <algorithm>
 #include <set>
 
-#include "gltf/document/primitives.h"
-#include "gltf/document/references.h"
+#include "gltf/document/layout.h"
 #include "gltf/document/uri.h"
 
 namespace mcc::gltf {
 namespace {
 
-/// Bytes of one buffer.
-struct Range {
-  uint32_t buffer = 0;
-  uint64_t begin = 0;
-  uint64_t end = 0;
-
-  auto operator<=>(const Range&) const = default;
-};
-
 /// Sorts ranges and joins those that touch.
-void join(std::vector<Range>& ranges) {
+void join(std::vector<ByteRange>& ranges) {
   std::sort(ranges.begin(), ranges.end());
   size_t count = 0;
-  for (const Range& range : ranges) {
+  for (const ByteRange& range : ranges) {
     const bool touches = count != 0 && ranges[count - 1].buffer == range.buffer &&
                          range.begin <= ranges[count - 1].end;
     if (touches) {
@@ -36,9 +26,9 @@ void join(std::vector<Range>& ranges) {
   ranges.resize(count);
 }
 
-uint64_t bytesOf(const std::vector<Range>& ranges) {
+uint64_t bytesOf(const std::vector<ByteRange>& ranges) {
   uint64_t sum = 0;
-  for (const Range& range : ranges) sum += range.end - range.begin;
+  for (const ByteRange& range : ranges) sum += range.end - range.begin;
   return sum;
 }
 
@@ -67,28 +57,14 @@ class ContentsWalk {
     ranges_.push_back({view.buffer, view.offset, view.offset + view.length});
   }
 
-  /// Adds the bytes that an accessor uses of a view; of a coded view they are not known one by one.
-  void addElements(uint64_t index, uint64_t offset, uint64_t count, uint64_t element_bytes) {
-    if (index >= document_.views.size() || count == 0) return;
-    const BufferView& view = document_.views[index];
-    if (view.isCoded()) return addView(index);
-    const uint64_t stride = view.stride == 0 ? element_bytes : view.stride;
-    const uint64_t begin = view.offset + offset;
-    ranges_.push_back({view.buffer, begin, begin + stride * (count - 1) + element_bytes});
-  }
-
+  /// Adds the bytes that an accessor uses; of a coded view they are not known one by one.
   void addAccessor(uint64_t index) {
     if (index >= document_.accessors.size() || !known_.insert(index).second) return;
     const Accessor& accessor = document_.accessors[index];
-    const Sparse& sparse = accessor.sparse;
     if (!accessor.is_known_type) return;
     if (!accessor.fault.ok()) return addView(accessor.view);  // its range was not checked
-    if (accessor.view != kNone) {
-      addElements(accessor.view, accessor.offset, accessor.count, accessor.elementBytes());
-    }
-    addElements(sparse.index_view, sparse.index_offset, sparse.count,
-                componentBytes(sparse.index_type));
-    addElements(sparse.value_view, sparse.value_offset, sparse.count, accessor.elementBytes());
+    const auto ranges = accessorRanges(document_, static_cast<uint32_t>(index), false);
+    ranges_.insert(ranges_.end(), ranges.begin(), ranges.end());
   }
 
   void addNumber(const Json& object, const char* key, bool is_accessor) {
@@ -99,13 +75,14 @@ class ContentsWalk {
   }
 
   void addGeometry() {
-    visitPrimitives(document_.json, [&](const PrimitiveRef&, const Json& primitive) {
-      visitAccessorNumbers(primitive, [&](uint64_t accessor) { addAccessor(accessor); });
+    for (const Primitive& primitive : document_.primitives) {
+      for (const auto& attribute : primitive.attributes) addAccessor(attribute.accessor);
+      addAccessor(primitive.indices);
       for (const char* name : {kExtensionName, kMeshExtension}) {
-        const Json* extension = extensionOf(primitive, name);
+        const Json* extension = extensionOf(*primitive.json, name);
         if (extension != nullptr) addNumber(*extension, "bufferView", false);
       }
-    });
+    }
   }
 
   void addImages() {
@@ -146,8 +123,8 @@ class ContentsWalk {
 
   const Document& document_;
   Contents result_;
-  std::vector<Range> ranges_;  ///< of everything that was added
-  std::set<uint64_t> known_;   ///< accessors that were added
+  std::vector<ByteRange> ranges_;  ///< of everything that was added
+  std::set<uint64_t> known_;       ///< accessors that were added
   uint64_t data_uri_bytes_ = 0;
 };
 

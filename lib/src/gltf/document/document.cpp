@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string_view>
+#include <utility>
 
 #include "gltf/document/fallback.h"
 #include "gltf/document/image_type.h"
-#include "gltf/document/references.h"
+#include "gltf/document/known_extensions.h"
 #include "gltf/document/uri.h"
+#include "mcc/gltf.h"
 
 namespace mcc::gltf {
 namespace {
@@ -364,6 +367,166 @@ Result parseAccessor(const Document& document, const Json& json, const std::stri
   return {};
 }
 
+/// Collects the accessors that a primitive names.
+class PrimitiveParser {
+ public:
+  PrimitiveParser(size_t accessor_count, Primitive& primitive)
+      : accessor_count_(accessor_count), primitive_(primitive) {}
+
+  void parse() {
+    const Json& json = *primitive_.json;
+    if (const Json* attributes = findMember(json, "attributes")) {
+      addMap(*attributes, "attributes", kNone);
+    } else {
+      note("", "\"attributes\" is missing");
+    }
+    if (const Json* targets = findMember(json, "targets")) addTargets(*targets);
+    if (const Json* indices = findMember(json, "indices")) {
+      primitive_.indices = numberOf(*indices, "indices");
+    }
+  }
+
+ private:
+  void note(std::string where, std::string what) {
+    if (primitive_.fault.ok()) primitive_.fault = error(std::move(where), std::move(what));
+  }
+
+  uint32_t numberOf(const Json& json, const std::string& path) {
+    uint64_t index = 0;
+    if (!asUnsigned(json, index)) {
+      note(path, "must be the number of an accessor");
+    } else if (index >= accessor_count_) {
+      note(path, "there is no accessor " + std::to_string(index));
+    } else {
+      return static_cast<uint32_t>(index);
+    }
+    return kNone;
+  }
+
+  void addMap(const Json& map, const std::string& path, uint32_t target) {
+    if (!map.is_object()) return note(path, "must be an object");
+    for (const auto& [name, value] : map.items()) {
+      primitive_.attributes.push_back({name, target, numberOf(value, at(path, name))});
+    }
+  }
+
+  void addTargets(const Json& targets) {
+    if (!targets.is_array()) return note("targets", "must be an array");
+    primitive_.target_count = static_cast<uint32_t>(targets.size());
+    for (uint32_t i = 0; i < targets.size(); ++i) addMap(targets[i], at("targets", i), i);
+  }
+
+  const size_t accessor_count_;
+  Primitive& primitive_;
+};
+
+/// Finds the primitives, and who uses which view and accessor.
+class UseFinder {
+ public:
+  explicit UseFinder(Document& document) : document_(document), root_(document.json) {}
+
+  void run() {
+    document_.foreign = findForeignReferences(root_);
+    for (const uint64_t index : document_.foreign.accessors) {
+      if (index < document_.accessors.size()) document_.accessors[index].is_foreign = true;
+    }
+    for (const Json& mesh : arrayOf(root_, "meshes")) addPrimitives(mesh);
+    addScene();
+    addViews();
+  }
+
+ private:
+  Accessor* accessorOf(const Json* number) {
+    uint64_t index = 0;
+    const bool exists =
+        number != nullptr && asUnsigned(*number, index) && index < document_.accessors.size();
+    return exists ? &document_.accessors[index] : nullptr;
+  }
+
+  void addPrimitives(const Json& mesh) {
+    PrimitiveRef ref = {static_cast<uint32_t>(document_.first_primitive_of.size()), 0};
+    document_.first_primitive_of.push_back(static_cast<uint32_t>(document_.primitives.size()));
+    for (const Json& json : arrayOf(mesh, "primitives")) {
+      Primitive& primitive = document_.primitives.emplace_back();
+      primitive.ref = ref;
+      primitive.json = &json;
+      PrimitiveParser(document_.accessors.size(), primitive).parse();
+      addUses(primitive);
+      ++ref.primitive;
+    }
+  }
+
+  void addUses(const Primitive& primitive) {
+    const auto add = [&](uint32_t accessor) {
+      if (accessor != kNone) ++document_.accessors[accessor].primitive_uses;
+    };
+    for (const Primitive::Attribute& attribute : primitive.attributes) add(attribute.accessor);
+    add(primitive.indices);
+    visitExtensionAccessors(*primitive.json, [&](const Json& number, ExtensionAccessor) {
+      if (Accessor* accessor = accessorOf(&number)) ++accessor->extension_uses;
+    });
+    if (const Json* extension = extensionOf(*primitive.json, kExtensionName)) {
+      visitFilledAccessors(*primitive.json, *extension, [&](uint64_t index) {
+        if (index < document_.accessors.size()) document_.accessors[index].is_filled = true;
+      });
+    }
+  }
+
+  void addScene() {
+    const auto add = [&](const Json* number) {
+      if (Accessor* accessor = accessorOf(number)) accessor->is_in_scene = true;
+    };
+    for (const Json& skin : arrayOf(root_, "skins")) add(findMember(skin, "inverseBindMatrices"));
+    for (const Json& animation : arrayOf(root_, "animations")) {
+      for (const Json& sampler : arrayOf(animation, "samplers")) {
+        add(findMember(sampler, "input"));
+        add(findMember(sampler, "output"));
+      }
+    }
+    for (const Json& node : arrayOf(root_, "nodes")) {
+      const Json* map = findMember(extensionOf(node, "EXT_mesh_gpu_instancing"), "attributes");
+      if (map == nullptr || !map->is_object()) continue;
+      for (const Json& number : *map) add(&number);
+    }
+  }
+
+  void addViews() {
+    std::vector<BufferView>& views = document_.views;
+    std::vector<bool> is_referred(views.size(), false);
+    visitViewReferences(root_, [&](const Json& number, uint32_t) {
+      uint64_t view = 0;
+      if (asUnsigned(number, view) && view < views.size()) is_referred[view] = true;
+    });
+    std::set<std::pair<uint32_t, uint64_t>> begins;
+    for (size_t i = 0; i < views.size(); ++i) {
+      if (is_referred[i]) begins.emplace(views[i].buffer, views[i].offset);
+    }
+    const Json& json = arrayOf(root_, "bufferViews");
+    for (size_t i = 0; i < views.size(); ++i) {
+      if (document_.foreign.views.contains(i)) {
+        views[i].use = ViewUse::kUnknown;
+      } else if (!is_referred[i]) {
+        const bool is_free =
+            isOneByte(json[i]) && begins.contains({views[i].buffer, views[i].offset});
+        views[i].use = is_free ? ViewUse::kFree : ViewUse::kUnknown;
+      }
+    }
+  }
+
+  static bool isOneByte(const Json& view) {
+    uint64_t length = 0;
+    const Json* member = findMember(view, "byteLength");
+    if (member == nullptr || !asUnsigned(*member, length) || length != 1) return false;
+    for (const char* key : {"byteStride", "target", "extensions"}) {
+      if (findMember(view, key) != nullptr) return false;
+    }
+    return true;
+  }
+
+  Document& document_;
+  const Json& root_;
+};
+
 /// Says once how many views are not whole; images in them have no other note.
 void noteFaults(Document& document) {
   const auto isFaulty = [](const BufferView& view) { return !view.fault.ok(); };
@@ -389,6 +552,7 @@ Result loadTables(Document& document) {
     accessor.fault = parseAccessor(document, accessors[i], at("/accessors", i), accessor);
   }
   noteFaults(document);
+  UseFinder(document).run();
   return {};
 }
 
@@ -405,7 +569,7 @@ void addView(ImageFile& file, Document& document) {
   document.json["buffers"].push_back({{"byteLength", file.bytes.size()}});
   document.json["bufferViews"].push_back({{"buffer", buffer}, {"byteLength", file.bytes.size()}});
   file.view = static_cast<uint32_t>(document.views.size());
-  document.views.push_back({static_cast<uint32_t>(buffer), 0, file.bytes.size(), 0, {}, {}});
+  document.views.push_back({static_cast<uint32_t>(buffer), 0, file.bytes.size(), 0, {}, {}, {}});
 }
 
 Result embedImage(const FileReader& read_file, size_t index,

@@ -1,9 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// A loaded glTF file: its JSON as it was, its buffers, and typed tables of the JSON's buffer views
-// and accessors. The ranges of all views and accessors have been checked. What is wrong with one
-// of them is its `fault`, and concerns only who needs it; what is wrong with the file as a whole
-// keeps it from being loaded.
+// A loaded glTF file: its JSON as it was, its buffers, and typed tables of the JSON's buffer views,
+// accessors and primitives, with who uses which. The ranges of all views and accessors have been
+// checked. What is wrong with one of them is its `fault`, and concerns only who needs it; what is
+// wrong with the file as a whole keeps it from being loaded.
 #ifndef MCC_GLTF_DOCUMENT_DOCUMENT_H_
 #define MCC_GLTF_DOCUMENT_DOCUMENT_H_
 
@@ -11,10 +11,13 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gltf/base/decoded_bytes.h"
 #include "gltf/document/glb.h"
+#include "gltf/document/primitives.h"
+#include "gltf/document/references.h"
 #include "json/json.h"
 #include "mcc/types.h"
 
@@ -32,6 +35,16 @@ struct ViewCoding {
   uint32_t decoded = kNone;  ///< index into Document::storage; kNone: not decoded
 };
 
+/// Who needs a buffer view.
+enum class ViewUse : uint8_t {
+  kReferred,  ///< only places that glTF and the extensions on our list define refer to it
+  kUnknown,   ///< something we do not understand may refer to it, so its bytes are kept
+  /// Nothing refers to it. It only keeps a number in use that was freed before others which must
+  /// stay; its one byte belongs to another view. Nobody else makes such views, so the number can be
+  /// used again.
+  kFree,
+};
+
 struct BufferView {
   uint32_t buffer = 0;  ///< `buffer`, `offset` and `length` locate its bytes, coded or not
   uint64_t offset = 0;
@@ -41,6 +54,7 @@ struct BufferView {
   /// Why its bytes cannot be used as the JSON says. The range above is then the part of them that
   /// exists, which may be empty.
   Result fault;
+  ViewUse use = ViewUse::kReferred;
 
   bool isCoded() const { return !coding.extension.empty(); }
   /// Number of bytes that accessors may use.
@@ -74,7 +88,14 @@ struct Accessor {
   /// Why its elements cannot be read. What the JSON says may then not fit its view, and what could
   /// not be parsed has the value above.
   Result fault;
+  // Who names it.
+  uint32_t primitive_uses = 0;  ///< attributes, morph targets and indices of primitives
+  uint32_t extension_uses = 0;  ///< members of the extensions of primitives
+  bool is_filled = false;       ///< a payload of ours fills it
+  bool is_in_scene = false;     ///< a skin, an animation or instances of a node
+  bool is_foreign = false;      ///< perhaps something that we do not understand
 
+  bool isUsedOutsideMeshes() const { return is_in_scene || is_foreign; }
   uint32_t componentCount() const { return columns * rows; }
   uint32_t tightBytes() const { return componentCount() * componentBytes(component_type); }
   /// Bytes between the columns of a matrix: glTF starts each at a multiple of four.
@@ -95,6 +116,22 @@ struct Accessor {
   }
 };
 
+/// A primitive of a mesh.
+struct Primitive {
+  struct Attribute {
+    std::string_view name;
+    uint32_t target = kNone;    ///< morph target it belongs to; kNone: the base mesh
+    uint32_t accessor = kNone;  ///< kNone: there is no such accessor
+  };
+  PrimitiveRef ref;
+  const Json* json = nullptr;         ///< in Document::json
+  std::vector<Attribute> attributes;  ///< those of the base mesh first, in the order of the JSON
+  uint32_t target_count = 0;
+  uint32_t indices = kNone;  ///< accessor; kNone: there is none
+  /// What is wrong with the numbers of its accessors. Its place begins at the primitive.
+  Result fault;
+};
+
 struct Document {
   Json json;
   bool is_glb = false;
@@ -108,6 +145,9 @@ struct Document {
   std::vector<uint32_t> same_buffers;
   std::vector<BufferView> views;
   std::vector<Accessor> accessors;
+  std::vector<Primitive> primitives;         ///< in the order of the JSON
+  std::vector<uint32_t> first_primitive_of;  ///< number of the first primitive of each mesh
+  ForeignReferences foreign;
   std::vector<GlbChunk> other_chunks;
   uint64_t source_bytes = 0;  ///< size of the file and of the files its buffers came from
   /// The bytes that were decoded, apart from our own payloads. There is no limit unless one is set
@@ -117,6 +157,9 @@ struct Document {
   /// Owns the buffers that are not part of the file, and everything that was decoded.
   std::vector<std::vector<uint8_t>> storage;
 
+  const Primitive& primitive(const PrimitiveRef& ref) const {
+    return primitives[first_primitive_of[ref.mesh] + ref.primitive];
+  }
   bool isMissing(uint32_t buffer) const {
     return buffer < missing_buffers.size() && missing_buffers[buffer];
   }

@@ -147,13 +147,11 @@ class Sharing {
 
   void check(const std::vector<ExtensionUse>& uses) {
     for (const ExtensionUse& use : uses) claimAll(use);
-    visitPrimitives(document_.json, [&](const PrimitiveRef& ref, const Json& primitive) {
-      noteOrdinary(primitive, ref.path());
-    });
-    std::vector<bool> is_used;
-    markAccessorsOutsideMeshes(document_, ForeignReferences{}, is_used);
+    for (const Primitive& primitive : document_.primitives) {
+      noteOrdinary(*primitive.json, primitive.ref.path());
+    }
     for (const auto& [accessor, ignored] : origins_) {
-      if (!is_used[accessor]) continue;
+      if (!document_.accessors[accessor].is_in_scene) continue;
       issues_.add(Rule::kUsedElsewhere, at("/accessors", accessor),
                   "is filled from a payload, but something outside of meshes refers to it, too");
     }
@@ -316,16 +314,15 @@ void checkPart(const ExtensionUse& use, const PieceInfo& piece, Issues& issues) 
 
 void findExtensionUses(const Document& document, Issues& issues, std::vector<ExtensionUse>& uses) {
   uses.clear();
-  visitPrimitives(document.json, [&](const PrimitiveRef& ref, const Json& primitive) {
-    const Json* extension = extensionOf(primitive, kExtensionName);
-    if (extension == nullptr) return;
-    ExtensionUse use;
-    use.mesh = ref.mesh;
-    use.primitive = ref.primitive;
-    use.json = &primitive;
-    readExtension(document, *extension, primitive, issues, use);
-    uses.push_back(std::move(use));
-  });
+  for (const Primitive& primitive : document.primitives) {
+    const Json* extension = extensionOf(*primitive.json, kExtensionName);
+    if (extension == nullptr) continue;
+    ExtensionUse& use = uses.emplace_back();
+    use.mesh = primitive.ref.mesh;
+    use.primitive = primitive.ref.primitive;
+    use.json = primitive.json;
+    readExtension(document, *extension, *primitive.json, issues, use);
+  }
   if (!uses.empty()) Sharing(document, issues).check(uses);
 }
 

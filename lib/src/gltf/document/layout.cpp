@@ -32,22 +32,10 @@ void visitOldViews(const Document& document, const Json& json, const Visit& visi
   });
 }
 
-bool isOneByte(const Json& view) {
-  uint64_t length = 0;
-  const Json* member = findMember(view, "byteLength");
-  if (member == nullptr || !asUnsigned(*member, length) || length != 1) return false;
-  for (const char* key : {"byteStride", "target", "extensions"}) {
-    if (findMember(view, key) != nullptr) return false;
-  }
-  return true;
-}
-
 class LayoutBuilder {
  public:
-  LayoutBuilder(const Document& document, const ForeignReferences& foreign,
-                std::span<const NewView> new_views, Json& json)
+  LayoutBuilder(const Document& document, std::span<const NewView> new_views, Json& json)
       : document_(document),
-        foreign_(foreign),
         new_views_(new_views),
         json_(json),
         ranges_(document.views.size()),
@@ -75,16 +63,16 @@ class LayoutBuilder {
   }
 
   void findLiveViews() {
-    const std::vector<ViewUse> uses = viewUses(document_, foreign_);
-    for (uint32_t view = 0; view < uses.size(); ++view) {
-      const bool stays_free = uses[view] == ViewUse::kFree && new_views_.empty();
-      if (uses[view] == ViewUse::kUnknown || stays_free) keepWhole(view);
+    for (uint32_t view = 0; view < document_.views.size(); ++view) {
+      const ViewUse use = document_.views[view].use;
+      const bool stays_free = use == ViewUse::kFree && new_views_.empty();
+      if (use == ViewUse::kUnknown || stays_free) keepWhole(view);
     }
     std::vector<bool> is_referred(document_.views.size(), false);
     visitOldViews(document_, json_, [&](uint32_t view, uint32_t accessor) {
       is_referred[view] = true;
       const bool is_old = accessor < document_.accessors.size();
-      if (!is_old || foreign_.keep_numbers || document_.views[view].isCoded() ||
+      if (!is_old || document_.foreign.keep_numbers || document_.views[view].isCoded() ||
           !document_.accessors[accessor].is_known_type ||
           !document_.accessors[accessor].fault.ok() || document_.accessors[accessor].count == 0) {
         keepWhole(view);
@@ -115,7 +103,7 @@ class LayoutBuilder {
     });
     // Runs with gaps smaller than the alignment stay together, so that an untouched buffer does not
     // change.
-    const uint64_t alignment = foreign_.alignment();
+    const uint64_t alignment = document_.foreign.alignment();
     for (const ByteRange& range : live) {
       Block* last = blocks_.empty() ? nullptr : &blocks_.back();
       if (last != nullptr && last->source.buffer == range.buffer &&
@@ -206,9 +194,9 @@ class LayoutBuilder {
     numbers_.assign(old_count + new_views_.size(), kNone);
     std::vector<uint32_t> free_numbers;
     for (uint32_t view = 0; view < old_count; ++view) {
-      if (!ranges_[view].empty() && !foreign_.keep_numbers) {
+      if (!ranges_[view].empty() && !document_.foreign.keep_numbers) {
         numbers_[view] = view_count_++;
-      } else if (foreign_.keep_numbers) {
+      } else if (document_.foreign.keep_numbers) {
         numbers_[view] = view_count_++;
         if (ranges_[view].empty()) free_numbers.push_back(view);
       }
@@ -377,7 +365,6 @@ class LayoutBuilder {
   }
 
   const Document& document_;
-  const ForeignReferences& foreign_;
   const std::span<const NewView> new_views_;
   Json& json_;
   Layout layout_;
@@ -393,28 +380,6 @@ class LayoutBuilder {
 };
 
 }  // namespace
-
-std::vector<ViewUse> viewUses(const Document& document, const ForeignReferences& foreign) {
-  std::vector<ViewUse> uses(document.views.size(), ViewUse::kUnknown);
-  visitOldViews(document, document.json,
-                [&](uint32_t view, uint32_t) { uses[view] = ViewUse::kReferred; });
-  std::set<std::pair<uint32_t, uint64_t>> begins;
-  for (uint32_t view = 0; view < uses.size(); ++view) {
-    const BufferView& range = document.views[view];
-    if (uses[view] == ViewUse::kReferred) begins.emplace(range.buffer, range.offset);
-  }
-  const Json& views = arrayOf(document.json, "bufferViews");
-  for (uint32_t view = 0; view < uses.size(); ++view) {
-    const BufferView& range = document.views[view];
-    if (foreign.views.count(view) != 0) {
-      uses[view] = ViewUse::kUnknown;
-    } else if (uses[view] == ViewUse::kUnknown && isOneByte(views[view]) &&
-               begins.count({range.buffer, range.offset}) != 0) {
-      uses[view] = ViewUse::kFree;
-    }
-  }
-  return uses;
-}
 
 std::vector<ByteRange> accessorRanges(const Document& document, uint32_t index, bool whole_views) {
   const Accessor& accessor = document.accessors[index];
@@ -448,9 +413,8 @@ void Layout::copyTo(std::span<uint8_t> buffer) const {
   }
 }
 
-Layout layOut(const Document& document, const ForeignReferences& foreign,
-              std::span<const NewView> new_views, Json& json) {
-  return LayoutBuilder(document, foreign, new_views, json).run();
+Layout layOut(const Document& document, std::span<const NewView> new_views, Json& json) {
+  return LayoutBuilder(document, new_views, json).run();
 }
 
 }  // namespace mcc::gltf

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "gltf/document/references.h"
+#include "gltf/document/document.h"
 
 namespace mcc::gltf {
 
@@ -20,19 +20,9 @@ struct ByteRange {
   uint32_t buffer = 0;
   uint64_t begin = 0;
   uint64_t end = 0;
-};
 
-/// Who needs a buffer view of a document.
-enum class ViewUse : uint8_t {
-  kReferred,  ///< only places that glTF and the extensions on our list define refer to it
-  kUnknown,   ///< something we do not understand may refer to it, so its bytes are kept
-  /// Nothing refers to it. It only keeps a number in use that was freed before others which must
-  /// stay; its one byte belongs to another view. Nobody else makes such views, so the number can be
-  /// used again.
-  kFree,
+  auto operator<=>(const ByteRange&) const = default;
 };
-
-std::vector<ViewUse> viewUses(const Document& document, const ForeignReferences& foreign);
 
 /// Returns the source bytes an accessor needs: its elements, or its whole buffer views if
 /// `whole_views`.
@@ -88,10 +78,9 @@ struct Layout {
 /// On return `json` has the final numbers and offsets, and the layout is that of its first buffer;
 /// others are those whose bytes are missing, with their views as they were. A number of a view that
 /// does not exist still names none. A view that nothing referred to in the source is kept, unless
-/// it is free. View numbers do not change when foreign.keep_numbers: new views take the free
-/// numbers first, then those after the end.
-Layout layOut(const Document& document, const ForeignReferences& foreign,
-              std::span<const NewView> new_views, Json& json);
+/// it is free. View numbers do not change when document.foreign.keep_numbers: new views take the
+/// free numbers first, then those after the end.
+Layout layOut(const Document& document, std::span<const NewView> new_views, Json& json);
 
 }  // namespace mcc::gltf
 

@@ -44,11 +44,6 @@ inline const Json* extensionOf(const Json& object, std::string_view name) {
   return extensions == nullptr ? nullptr : findMember(*extensions, name);
 }
 
-/// Returns the primitive that visitPrimitives() reported; `meshes` are those of the document.
-inline const Json& primitiveAt(const Json& meshes, const PrimitiveRef& ref) {
-  return arrayOf(meshes[ref.mesh], "primitives")[ref.primitive];
-}
-
 /// Calls visit(const PrimitiveRef&, const Json& primitive) for all primitives in their order.
 template <typename Visit>
 void visitPrimitives(const Json& root, const Visit& visit) {
@@ -74,20 +69,6 @@ void visitAttributeMaps(const Json& primitive, const Visit& visit) {
     if (map.is_object()) visit(map, target);
     ++target;
   }
-}
-
-/// Calls visit(uint64_t accessor) for each attribute, including those of morph targets, and for the
-/// indices.
-template <typename Visit>
-void visitAccessorNumbers(const Json& primitive, const Visit& visit) {
-  const auto visitNumber = [&](const Json& number) {
-    uint64_t accessor = 0;
-    if (asUnsigned(number, accessor)) visit(accessor);
-  };
-  visitAttributeMaps(primitive, [&](const Json& map, uint32_t) {
-    for (const Json& number : map) visitNumber(number);
-  });
-  if (const Json* indices = findMember(primitive, "indices")) visitNumber(*indices);
 }
 
 /// Calls visit(uint64_t accessor) for the accessors that the payload of a compressed primitive

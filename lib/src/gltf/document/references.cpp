@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "gltf/document/known_extensions.h"
+#include "gltf/document/primitives.h"
 #include "mcc/gltf.h"
 
 namespace mcc::gltf {
@@ -128,16 +129,6 @@ void visitViewReferencesOf(J& root, const Visit& visit) {
   } else {
     editTableViews(root, [&](J& view) { visit(view, kNone); });
   }
-}
-
-void mark(const Json* json, std::vector<bool>& is_used) {
-  uint64_t index = 0;
-  if (json != nullptr && asUnsigned(*json, index) && index < is_used.size()) is_used[index] = true;
-}
-
-void markAll(const Json* object, std::vector<bool>& is_used) {
-  if (object == nullptr || !object->is_object()) return;
-  for (const Json& value : *object) mark(&value, is_used);
 }
 
 }  // namespace
@@ -267,37 +258,6 @@ std::string nodeDependentExtension(const Json& root, const ForeignReferences& fo
     }
   }
   return "";
-}
-
-void markAccessorsOutsideMeshes(const Document& document, const ForeignReferences& foreign,
-                                std::vector<bool>& is_used) {
-  is_used.resize(document.accessors.size(), false);
-  for (const uint64_t index : foreign.accessors) {
-    if (index < is_used.size()) is_used[index] = true;
-  }
-  for (const Json& skin : arrayOf(document.json, "skins")) {
-    mark(findMember(skin, "inverseBindMatrices"), is_used);
-  }
-  for (const Json& animation : arrayOf(document.json, "animations")) {
-    for (const Json& sampler : arrayOf(animation, "samplers")) {
-      mark(findMember(sampler, "input"), is_used);
-      mark(findMember(sampler, "output"), is_used);
-    }
-  }
-  for (const Json& node : arrayOf(document.json, "nodes")) {
-    const Json* extensions = findMember(node, "extensions");
-    if (extensions == nullptr) continue;
-    const Json* instancing = findMember(*extensions, "EXT_mesh_gpu_instancing");
-    if (instancing != nullptr) markAll(findMember(*instancing, "attributes"), is_used);
-  }
-}
-
-void markAccessorsOfExtensions(const Document& document, std::vector<bool>& is_used) {
-  is_used.resize(document.accessors.size(), false);
-  visitPrimitives(document.json, [&](const PrimitiveRef&, const Json& primitive) {
-    visitExtensionAccessors(primitive,
-                            [&](const Json& number, ExtensionAccessor) { mark(&number, is_used); });
-  });
 }
 
 }  // namespace mcc::gltf

@@ -1,4 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
 // Finds out what refers to buffer views and accessors, in the document and in parts of it that we
 // do not understand.
 #ifndef MCC_GLTF_DOCUMENT_REFERENCES_H_
@@ -11,8 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gltf/document/document.h"
-#include "gltf/document/primitives.h"
+#include "json/json.h"
 
 namespace mcc::gltf {
 
@@ -74,14 +74,6 @@ inline constexpr char kMeshExtension[] = "KHR_draco_mesh_compression";
 /// Adds a name to a list of extensions, or removes it. A list that becomes empty is removed.
 void addExtensionName(Json& root, const char* list, const char* name);
 void removeExtensionName(Json& root, const char* list, const char* name);
-
-/// Marks accessors that something other than mesh primitives uses: skins, animations, instancing,
-/// foreign references.
-void markAccessorsOutsideMeshes(const Document& document, const ForeignReferences& foreign,
-                                std::vector<bool>& is_used);
-
-/// Marks accessors that extensions of primitives use.
-void markAccessorsOfExtensions(const Document& document, std::vector<bool>& is_used);
 
 }  // namespace mcc::gltf
 
