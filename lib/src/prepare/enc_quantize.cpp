@@ -146,13 +146,18 @@ class Quantizer {
   QuantizedAttribute toLattice(std::vector<std::string>& notes) {
     result_.info.coding = AttributeCoding::kLattice;
     result_.info.bits = std::min<uint8_t>(view_.quantization_bits, 24);
-    if (view_.lattice == nullptr && isRuined()) {
-      notes.push_back(name() + " has outliers, for which a lattice of " +
-                      std::to_string(result_.info.bits) +
-                      " bits would be too coarse for all other values: kept exact");
-      return copyInstead();
+    Lattice lattice;
+    if (view_.lattice != nullptr) {
+      lattice = *view_.lattice;
+    } else if (delta_step_ > 0) {
+      lattice.step = delta_step_;
+    } else {
+      const std::string problem = fitOwn(lattice);
+      if (!problem.empty()) {
+        notes.push_back(name() + problem + ": kept exact");
+        return copyInstead();
+      }
     }
-    Lattice lattice = view_.lattice != nullptr ? *view_.lattice : ownLattice();
     const uint32_t origins = view_.format.morph_target != 0 ? 0 : components_;
     for (uint32_t c = origins; c < 4; ++c) lattice.origin[c] = 0;
     if (!(lattice.step > 0) || !std::isfinite(lattice.step)) {
@@ -163,8 +168,7 @@ class Quantizer {
     result_.values.resize(size_t{count_} * components_);
     for (uint32_t w = 0; w < count_; ++w) {
       for (uint32_t c = 0; c < components_; ++c) {
-        const double x = component(w, c);
-        const double q = std::floor((x - double{lattice.origin[c]}) / double{lattice.step} + 0.5);
+        const double q = latticePoint(component(w, c), lattice.origin[c], lattice.step);
         if (std::fabs(q) > double{1 << 28}) {
           notes.push_back(name() + " reaches beyond the given lattice: kept exact");
           return copyInstead();
@@ -180,19 +184,25 @@ class Quantizer {
     return std::move(result_);
   }
 
-  /// Returns whether outliers would ruin the other values. Deltas and vectors have steps that do
-  /// not depend on their range, so it cannot happen to them.
-  bool isRuined() const {
-    if (view_.format.morph_target != 0 || view_.format.semantic == Semantic::kNormal ||
-        view_.format.semantic == Semantic::kTangent) {
-      return false;
-    }
+  /// Fits a lattice to the values, from the corner of their bounding box on. Returns why there is
+  /// none; empty when there is one. Deltas and vectors have steps that do not depend on their
+  /// range, so outliers ruin only others.
+  std::string fitOwn(Lattice& lattice) const {
+    const uint8_t bits = result_.info.bits;
+    lattice.step = 1;
+    if (count_ == 0) return "";
     Extent extent(components_);
     (void)extent.add(count_, [this](uint64_t w, uint32_t c) {  // all values are finite
       return component(static_cast<uint32_t>(w), c);
     });
-    if (view_.format.semantic == Semantic::kWeights && extent.isInside(0, 1)) return false;
-    return isRuinedByOutliers(extent, result_.info.bits);
+    const Semantic semantic = view_.format.semantic;
+    const bool has_step = semantic == Semantic::kNormal || semantic == Semantic::kTangent ||
+                          (semantic == Semantic::kWeights && extent.isInside(0, 1));
+    if (!has_step && view_.format.morph_target == 0 && isRuinedByOutliers(extent, bits)) {
+      return " has outliers, for which a lattice of " + std::to_string(bits) +
+             " bits would be too coarse for all other values";
+    }
+    return fitLattice(extent, bits, lattice) ? "" : " spans a range that no lattice covers";
   }
 
   /// Keeps the values exactly, if a lattice does not suit them.
@@ -200,30 +210,6 @@ class Quantizer {
     result_.info.lattice = Lattice{};
     result_.info.bits = 0;
     return copyExactly();
-  }
-
-  /// Returns a lattice for the values. For deltas it goes through 0, so that vertices that do not
-  /// move stay where they are; otherwise it starts at the corner of the bounding box.
-  Lattice ownLattice() const {
-    Lattice lattice;
-    if (delta_step_ > 0) {
-      lattice.step = delta_step_;
-      return lattice;
-    }
-    double extent = 0;
-    for (uint32_t c = 0; c < components_; ++c) {
-      float low = count_ == 0 ? 0 : component(0, c);
-      float high = low;
-      for (uint32_t w = 1; w < count_; ++w) {
-        low = std::min(low, component(w, c));
-        high = std::max(high, component(w, c));
-      }
-      lattice.origin[c] = low == 0 ? 0.0f : low;
-      extent = std::max(extent, double{high} - double{low});
-    }
-    const double cells = std::ldexp(1.0, result_.info.bits) - 1;
-    lattice.step = extent == 0 ? 1.0f : static_cast<float>(extent / cells);
-    return lattice;
   }
 
   QuantizedAttribute toOctahedral() {

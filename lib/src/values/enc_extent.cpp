@@ -53,6 +53,23 @@ bool Extent::isInside(float low, float high) const {
   return true;
 }
 
+bool fitLattice(const Extent& extent, uint8_t bits, Lattice& lattice) {
+  const double last_point = static_cast<double>((uint64_t{1} << bits) - 1);
+  lattice = {};
+  const double size = extent.size();
+  constexpr float kAnyStep = 0x1p-24f;  // any step will do, since all values are the origin
+  lattice.step = size == 0 ? kAnyStep : static_cast<float>(size / last_point);
+  if (!std::isnormal(lattice.step)) return false;
+  for (uint32_t c = 0; c < extent.component_count; ++c) {
+    lattice.origin[c] = extent.min[c];
+    while (latticePoint(extent.max[c], lattice.origin[c], lattice.step) > last_point) {
+      lattice.step = std::nextafter(lattice.step, std::numeric_limits<float>::infinity());
+      if (!std::isfinite(lattice.step)) return false;
+    }
+  }
+  return true;
+}
+
 bool isRuinedByOutliers(Extent& extent, uint8_t bits) {
   const double size = extent.size();
   return size > 0 && extent.innerSize() * std::exp2((bits + 1) / 2) < size;

@@ -59,6 +59,16 @@ struct Extent {
 /// Whether a few far values leave less than half of the bits to the others.
 bool isRuinedByOutliers(Extent& extent, uint8_t bits);
 
+/// Fits a lattice of 2^bits points to the largest side of a box, which it begins at the smallest
+/// values of. Every value has a point. Returns false when float32 has no such step.
+bool fitLattice(const Extent& extent, uint8_t bits, Lattice& lattice);
+
+/// Returns the number of the lattice point of a value along an axis, rounded as the writer rounds:
+/// to the nearest, ties upwards.
+inline double latticePoint(float value, float origin, float step) {
+  return std::floor((double{value} - double{origin}) / double{step} + 0.5);
+}
+
 /// The lattice of 0..1 with points at both ends: 0 and 1 stay what they are.
 Lattice unitLattice(uint8_t bits);
 

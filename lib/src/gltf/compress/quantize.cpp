@@ -26,30 +26,6 @@ bool addTo(Extent& extent, const AttributePlan& attribute) {
                     [&](uint64_t i, uint32_t c) { return floatAt(attribute, i, c); });
 }
 
-/// Returns the lattice point of a value, rounded as the writer will round it.
-double latticePoint(float value, float origin, float step) {
-  return std::floor((double{value} - double{origin}) / double{step} + 0.5);
-}
-
-/// Fits a lattice with step = size / (2^bits - 1), enlarged until every value has a point. Returns
-/// false when float32 has no such step.
-bool fitBox(const Extent& extent, uint8_t bits, Lattice& lattice) {
-  const double last_point = static_cast<double>((uint64_t{1} << bits) - 1);
-  lattice = {};
-  const double size = extent.size();
-  constexpr float kAnyStep = 0x1p-24f;  // any step will do, since all values are the origin
-  lattice.step = size == 0 ? kAnyStep : static_cast<float>(size / last_point);
-  if (!std::isnormal(lattice.step)) return false;
-  for (uint32_t c = 0; c < extent.component_count; ++c) {
-    lattice.origin[c] = extent.min[c];
-    while (latticePoint(extent.max[c], lattice.origin[c], lattice.step) > last_point) {
-      lattice.step = std::nextafter(lattice.step, std::numeric_limits<float>::infinity());
-      if (!std::isfinite(lattice.step)) return false;
-    }
-  }
-  return true;
-}
-
 /// Finds the lattice with the largest step that keeps every point within `distance` of its source.
 /// Rounding to the lattice and the two float32 roundings of decoding move a component by at most
 /// step / 2 + 2^-24 (|scaled| + |decoded|). Returns false when float32 or 24 bits allow no such
@@ -187,7 +163,7 @@ class QuantizationPlanner {
       }
       return;
     }
-    if (isRuinedByOutliers(extent, bits) || !fitBox(extent, bits, lattice)) {
+    if (isRuinedByOutliers(extent, bits) || !fitLattice(extent, bits, lattice)) {
       notes_.push_back(where(*group[0].piece, *group[0].attribute) +
                        " has outliers for which a lattice of " + std::to_string(bits) +
                        " bits would be too coarse for all other values; it stays exact");
@@ -248,7 +224,7 @@ class QuantizationPlanner {
     Lattice lattice;
     if (is_unit_range) {  // 0 and 1 are lattice points: black stays black, and no weight of 0 grows
       useLattice(attribute, unitLattice(bits), bits);
-    } else if (isRuinedByOutliers(extent, bits) || !fitBox(extent, bits, lattice)) {
+    } else if (isRuinedByOutliers(extent, bits) || !fitLattice(extent, bits, lattice)) {
       notes_.push_back(where(piece, attribute) + " has outliers for which a lattice of " +
                        std::to_string(bits) +
                        " bits would be too coarse for all other values; it stays exact");
@@ -261,7 +237,7 @@ class QuantizationPlanner {
   void planNormal(const PiecePlan& piece, AttributePlan& attribute, const Extent& extent,
                   uint8_t bits) {
     Lattice lattice;
-    if (fitBox(extent, bits, lattice)) {
+    if (fitLattice(extent, bits, lattice)) {
       useLattice(attribute, lattice, bits);
     } else {
       notes_.push_back(where(piece, attribute) + " has values no lattice can hold; it stays exact");
