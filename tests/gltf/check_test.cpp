@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <functional>
 
-#include "gltf/check/check_values.h"
 #include "gltf/check/prove.h"
+#include "gltf/check/values.h"
 #include "gltf/compress/quantize.h"
 #include "gltf/gltf_builder.h"
 

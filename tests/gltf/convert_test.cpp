@@ -9,7 +9,7 @@
 
 #include <set>
 
-#include "gltf/check/check_json.h"
+#include "gltf/check/compare.h"
 #include "gltf/document/references.h"
 #include "gltf/round_trip.h"
 

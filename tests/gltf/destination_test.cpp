@@ -7,8 +7,8 @@
 #include <map>
 #include <thread>
 
-#include "gltf/files/work_lock.h"
 #include "gltf/gltf_builder.h"
+#include "host/work_lock.h"
 #include "support/scratch_folder.h"
 #if !defined(_WIN32)
 #include <fcntl.h>

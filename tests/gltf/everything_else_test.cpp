@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "gltf/check/check_json.h"
+#include "gltf/check/compare.h"
 #include "gltf/round_trip.h"
 #include "support/scratch_folder.h"
 #include "support/validator.h"

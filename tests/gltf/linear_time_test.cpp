@@ -5,8 +5,7 @@
 // measures such documents.
 #include <gtest/gtest.h>
 
-#include "gltf/check/check_json.h"
-#include "gltf/check/same_bytes.h"
+#include "gltf/check/compare.h"
 #include "gltf/compress/compress.h"
 #include "gltf/document/layout.h"
 #include "gltf/round_trip.h"

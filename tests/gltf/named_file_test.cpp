@@ -9,7 +9,7 @@
 
 #include <fstream>
 
-#include "gltf/files/system.h"
+#include "host/system.h"
 #include "support/scratch_folder.h"
 
 namespace mcc::gltf::test {

@@ -7,8 +7,8 @@
 
 #include <fstream>
 
-#include "gltf/base/payload.h"
 #include "gltf/decompress/decompress.h"
+#include "gltf/document/payload.h"
 #include "gltf/round_trip.h"
 #include "support/scratch_folder.h"
 

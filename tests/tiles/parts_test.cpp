@@ -11,7 +11,7 @@
 #include <set>
 #include <thread>
 
-#include "gltf/files/work_lock.h"
+#include "host/work_lock.h"
 #include "tiles/part.h"
 #include "tiles/part_record.h"
 #include "tiles/tiles_fixture.h"

@@ -6,13 +6,13 @@
 
 #include "bench/geometry.h"
 #include "foreign/draco_codec.h"
-#include "gltf/base/parallel.h"
 #include "gltf/compress/quantize.h"
 #include "gltf/decompress/coded_input.h"
-#include "gltf/document/bounds.h"
+#include "gltf/document/accessors.h"
 #include "gltf/document/layout.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
+#include "host/parallel.h"
 
 namespace mcc::bench {
 namespace {

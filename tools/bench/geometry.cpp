@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "gltf/base/parallel.h"
 #include "gltf/compress/quantize.h"
 #include "gltf/decompress/coded_input.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
+#include "host/parallel.h"
 
 namespace mcc::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <exception>
 
 #include "bench/memory_count.h"
-#include "gltf/base/parallel.h"
+#include "host/parallel.h"
 
 namespace mcc::bench {
 namespace {

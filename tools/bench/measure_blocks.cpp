@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "bench/codecs.h"
-#include "gltf/base/parallel.h"
+#include "host/parallel.h"
 
 namespace mcc::bench {
 namespace {

@@ -7,10 +7,10 @@
 #include <map>
 #include <stdexcept>
 
-#include "gltf/base/payload.h"
 #include "gltf/compress/plan.h"
 #include "gltf/document/accessors.h"
 #include "gltf/document/glb.h"
+#include "gltf/document/payload.h"
 #include "support/mesh_compare.h"
 #include "support/sha256.h"
 

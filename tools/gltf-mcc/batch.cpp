@@ -10,10 +10,9 @@
 
 #include "convert_report.h"
 #include "file_roles.h"
-#include "gltf/base/path_text.h"
-#include "gltf/base/printable.h"
 #include "gltf/files/file_io.h"
-#include "gltf/files/system.h"
+#include "host/system.h"
+#include "host/text.h"
 #include "jobs/run.h"
 #include "json/json.h"
 #include "notes.h"

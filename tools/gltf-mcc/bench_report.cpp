@@ -10,7 +10,7 @@
 #include <functional>
 
 #include "comparison_report.h"
-#include "gltf/base/printable.h"
+#include "host/text.h"
 #include "report_file.h"
 
 namespace mcc::tool {

@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gltf/base/path_text.h"
-#include "gltf/base/printable.h"
+#include "host/text.h"
 #include "mcc/gltf.h"
 #include "progress_line.h"
 

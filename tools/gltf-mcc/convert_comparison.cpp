@@ -13,11 +13,10 @@
 #include "bench/emit_draco.h"
 #include "bench/geometry.h"
 #include "comparison_report.h"
-#include "gltf/base/parallel.h"
-#include "gltf/base/path_text.h"
-#include "gltf/base/printable.h"
 #include "gltf/document/glb.h"
 #include "gltf/files/file_io.h"
+#include "host/parallel.h"
+#include "host/text.h"
 #include "interrupt.h"
 
 namespace mcc::tool {

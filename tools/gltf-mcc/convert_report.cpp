@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "convert_summary.h"
-#include "gltf/base/printable.h"
 #include "gltf/inspect/report_json.h"
+#include "host/text.h"
 #include "notes.h"
 
 namespace mcc::tool {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "gltf/base/printable.h"
+#include "host/text.h"
 #include "mcc/gltf.h"
 #include "notes.h"
 

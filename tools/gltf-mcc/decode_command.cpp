@@ -5,8 +5,7 @@
 
 #include "batch.h"
 #include "commands.h"
-#include "gltf/base/path_text.h"
-#include "gltf/base/printable.h"
+#include "host/text.h"
 #include "in_out.h"
 #include "interrupt.h"
 #include "notes.h"

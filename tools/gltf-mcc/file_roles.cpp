@@ -2,9 +2,9 @@
 #include "file_roles.h"
 
 #include "console.h"
-#include "gltf/base/path_text.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
+#include "host/text.h"
 #include "standard_streams.h"
 
 namespace mcc::tool {

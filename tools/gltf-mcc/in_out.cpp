@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "gltf/base/path_text.h"
+#include "host/text.h"
 #include "standard_streams.h"
 #include "suggest.h"
 

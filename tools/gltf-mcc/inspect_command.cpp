@@ -5,11 +5,9 @@
 
 #include "bars.h"
 #include "commands.h"
-#include "gltf/base/path_text.h"
-#include "gltf/base/printable.h"
 #include "gltf/files/file_io.h"
-#include "gltf/inspect/inspect_json.h"
 #include "gltf/inspect/report_json.h"
+#include "host/text.h"
 #include "plain_report.h"
 #include "progress_line.h"
 #include "report_file.h"

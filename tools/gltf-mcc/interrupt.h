@@ -5,7 +5,7 @@
 #ifndef MCC_TOOL_INTERRUPT_H_
 #define MCC_TOOL_INTERRUPT_H_
 
-#include "gltf/files/temporary_files.h"
+#include "host/temporary_files.h"
 
 namespace mcc::tool {
 

@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "gltf/base/printable.h"
+#include "host/text.h"
 #include "table.h"
 
 namespace mcc::tool {

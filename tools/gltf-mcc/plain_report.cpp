@@ -5,13 +5,12 @@
 
 #include <set>
 
-#include "gltf/base/parallel.h"
-#include "gltf/base/printable.h"
 #include "gltf/document/contents.h"
-#include "gltf/document/primitives.h"
 #include "gltf/document/references.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
+#include "host/parallel.h"
+#include "host/text.h"
 #include "suggest.h"
 
 namespace mcc::tool {

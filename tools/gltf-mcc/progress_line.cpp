@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "console.h"
-#include "gltf/base/printable.h"
+#include "host/text.h"
 #include "terminal.h"
 
 namespace mcc::tool {

@@ -1,8 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "report_file.h"
 
-#include "gltf/base/path_text.h"
 #include "gltf/files/file_io.h"
+#include "host/text.h"
 #include "interrupt.h"
 #include "json/json.h"
 

@@ -4,10 +4,10 @@
 #include <cstdio>
 
 #include "console.h"
-#include "gltf/base/path_text.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
-#include "gltf/files/system.h"
+#include "host/system.h"
+#include "host/text.h"
 #include "interrupt.h"
 
 namespace mcc::tool {

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "suggest.h"
 
-#include "gltf/base/path_text.h"
+#include "host/text.h"
 
 #include <algorithm>
 #include <filesystem>

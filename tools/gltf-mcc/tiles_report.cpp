@@ -7,7 +7,7 @@
 #include <map>
 
 #include "convert_report.h"
-#include "gltf/base/printable.h"
+#include "host/text.h"
 #include "json/json.h"
 
 namespace mcc::tool {
@@ -140,9 +140,7 @@ Json fileJson(const TilesRunResult& result, uint32_t number) {
 }
 
 /// Prints JSON in one line; names of files may be any bytes.
-std::string lineOf(const Json& json) {
-  return json.dump(-1, true);
-}
+std::string lineOf(const Json& json) { return json.dump(-1, true); }
 
 /// Returns a line of JSON for each file, with its notes.
 std::string fileLines(const TilesRunResult& result) {

@@ -5,9 +5,8 @@
 #include <filesystem>
 
 #include "file_roles.h"
-#include "gltf/base/path_text.h"
-#include "gltf/base/printable.h"
 #include "gltf/files/file_io.h"
+#include "host/text.h"
 #include "interrupt.h"
 #include "other_programs.h"
 #include "program.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "gltf/base/printable.h"
+#include "host/text.h"
 #include "suggest.h"
 #include "terminal.h"
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "commands.h"
-#include "gltf/base/printable.h"
+#include "host/text.h"
 #include "mcc/gltf.h"
 #include "report_file.h"
 #include "standard_streams.h"

@@ -6,10 +6,10 @@
 #if defined(MCC_HAS_FOREIGN)
 #include "foreign/brotli_codec.h"
 #endif
-#include "gltf/base/path_text.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
+#include "host/text.h"
 #include "json/json.h"
 
 namespace mcc::tool {

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <cstdio>
 
-#include "gltf/base/path_text.h"
-#include "gltf/base/result.h"
+#include "host/result.h"
+#include "host/text.h"
 #include "jobs/hash.h"
 
 namespace mcc::jobs {

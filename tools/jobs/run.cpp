@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <mutex>
 
-#include "gltf/base/parallel.h"
+#include "host/parallel.h"
 
 namespace mcc::jobs {
 namespace {

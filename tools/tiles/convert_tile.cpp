@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gltf/base/result.h"
+#include "host/result.h"
 
 namespace mcc::tiles {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "gltf/base/path_text.h"
-#include "gltf/base/result.h"
+#include "host/result.h"
+#include "host/text.h"
 
 namespace mcc::tiles {
 

@@ -8,10 +8,10 @@
 #include <deque>
 #include <thread>
 
-#include "gltf/base/path_text.h"
-#include "gltf/base/result.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
+#include "host/result.h"
+#include "host/text.h"
 #include "tiles/file_table.h"
 
 namespace mcc::tiles {

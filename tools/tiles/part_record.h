@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gltf/files/work_lock.h"
+#include "host/work_lock.h"
 #include "jobs/record.h"
 #include "tiles/part.h"
 

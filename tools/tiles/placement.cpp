@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "gltf/base/result.h"
 #include "gltf/document/package.h"
+#include "host/result.h"
 #include "json/json.h"
 
 namespace mcc::tiles {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "gltf/base/result.h"
+#include "host/result.h"
 #include "json/json.h"
 #include "tiles/little_endian.h"
 

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <string>
 
-#include "gltf/base/result.h"
 #include "gltf/document/glb.h"
+#include "host/result.h"
 #include "json/json.h"
 #include "tiles/little_endian.h"
 #include "tiles/matrix.h"

@@ -1,9 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "tiles/tile_uri.h"
 
-#include "gltf/base/path_text.h"
-#include "gltf/base/result.h"
 #include "gltf/document/uri.h"
+#include "host/result.h"
+#include "host/text.h"
 #include "tiles/file_table.h"
 
 namespace mcc::tiles {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "gltf/base/path_text.h"
-#include "gltf/base/result.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
+#include "host/result.h"
+#include "host/text.h"
 #include "json/json_scanner.h"
 #include "json/numbers.h"
 

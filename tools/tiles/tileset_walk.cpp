@@ -13,11 +13,10 @@
 #include <unordered_map>
 #include <utility>
 
-#include "gltf/base/path_text.h"
-#include "gltf/base/printable.h"
-#include "gltf/base/result.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
+#include "host/result.h"
+#include "host/text.h"
 #include "json/json.h"
 #include "tiles/subtree.h"
 #include "tiles/tile_uri.h"

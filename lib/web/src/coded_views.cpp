@@ -1,9 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "coded_views.h"
 
-#include "gltf/base/result.h"
 #include "gltf/decompress/coded_input.h"
-#include "gltf/document/extension_json.h"
+#include "gltf/document/extension_uses.h"
+#include "host/result.h"
 
 namespace mcc::web {
 namespace {

@@ -5,10 +5,10 @@
 #include <wasi/api.h>
 #include <ctime>
 
-#include "gltf/base/result.h"
 #include "gltf/files/destination.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
+#include "host/result.h"
 
 namespace mcc::gltf {
 namespace {

@@ -10,13 +10,9 @@
 
 #include "format/codings.h"
 #include "gltf/api/convert_report.h"
-#include "gltf/base/parallel.h"
-#include "gltf/base/path_text.h"
-#include "gltf/base/printable.h"
 #include "gltf/check/check.h"
 #include "gltf/check/prove.h"
 #include "gltf/compress/compress.h"
-#include "gltf/decompress/add_fallback.h"
 #include "gltf/decompress/coded_input.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/document/contents.h"
@@ -24,6 +20,8 @@
 #include "gltf/document/uri.h"
 #include "gltf/files/destination.h"
 #include "gltf/files/named_file.h"
+#include "host/parallel.h"
+#include "host/text.h"
 
 namespace mcc::gltf {
 namespace {

@@ -5,7 +5,7 @@
 #ifndef MCC_GLTF_API_CONVERT_H_
 #define MCC_GLTF_API_CONVERT_H_
 
-#include "gltf/files/temporary_files.h"
+#include "host/temporary_files.h"
 #include "mcc/gltf.h"
 
 namespace mcc::gltf {

@@ -7,13 +7,12 @@
 #include <string_view>
 #include <utility>
 
-#include "gltf/check/check_json.h"
-#include "gltf/check/check_values.h"
+#include "gltf/check/compare.h"
 #include "gltf/check/prove.h"
+#include "gltf/check/values.h"
 #include "gltf/decompress/coded_input.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/document/accessors.h"
-#include "gltf/document/bounds.h"
 #include "gltf/document/contents.h"
 
 namespace mcc::gltf {

@@ -6,10 +6,10 @@
 #include <map>
 #include <tuple>
 
-#include "gltf/base/parallel.h"
-#include "gltf/base/payload.h"
-#include "gltf/check/check_values.h"
+#include "gltf/check/values.h"
 #include "gltf/document/accessors.h"
+#include "gltf/document/payload.h"
+#include "host/parallel.h"
 
 namespace mcc::gltf {
 namespace {

@@ -8,17 +8,16 @@
 #include <set>
 
 #include "container/payload_header.h"
-#include "gltf/base/issues.h"
-#include "gltf/base/parallel.h"
-#include "gltf/base/payload.h"
-#include "gltf/base/printable.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/document/accessors.h"
-#include "gltf/document/bounds.h"
+#include "gltf/document/issues.h"
 #include "gltf/document/package.h"
+#include "gltf/document/payload.h"
 #include "gltf/document/references.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
+#include "host/parallel.h"
+#include "host/text.h"
 
 namespace mcc::gltf {
 namespace {

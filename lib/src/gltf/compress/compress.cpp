@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <map>
 
-#include "gltf/compress/indices_only.h"
 #include "gltf/compress/quantize.h"
-#include "gltf/compress/unused.h"
-#include "gltf/compress/vertex_numbers.h"
+#include "gltf/compress/vertices.h"
 
 namespace mcc::gltf {
 namespace {

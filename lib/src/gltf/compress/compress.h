@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gltf/compress/plan.h"
-#include "gltf/document/bounds.h"
+#include "gltf/document/accessors.h"
 #include "gltf/document/layout.h"
 #include "mcc/gltf.h"
 #include "mcc/writer.h"

@@ -1,10 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include <mutex>
 
-#include "gltf/base/parallel.h"
-#include "gltf/base/payload.h"
 #include "gltf/compress/compress.h"
-#include "gltf/compress/indices_only.h"
+#include "gltf/compress/vertices.h"
+#include "gltf/document/payload.h"
+#include "host/parallel.h"
 
 namespace mcc::gltf {
 namespace {

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <tuple>
 
-#include "gltf/base/printable.h"
 #include "gltf/document/references.h"
+#include "host/text.h"
 #include "mesh/face_mesh.h"
 
 namespace mcc::gltf {

@@ -10,7 +10,7 @@
 
 #include "gltf/document/accessors.h"
 #include "gltf/document/document.h"
-#include "gltf/document/primitives.h"
+#include "gltf/document/references.h"
 #include "mcc/gltf.h"
 #include "mcc/writer.h"
 

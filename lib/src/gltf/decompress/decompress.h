@@ -16,10 +16,11 @@
 #include <utility>
 #include <vector>
 
-#include "gltf/base/payload.h"
 #include "gltf/decompress/integer_accessors.h"
-#include "gltf/document/extension_json.h"
+#include "gltf/document/extension_uses.h"
 #include "gltf/document/layout.h"
+#include "gltf/document/payload.h"
+#include "json/json.h"
 #include "mcc/gltf.h"
 
 namespace mcc::gltf {
@@ -119,6 +120,12 @@ struct Decompressed {
 /// before memory is taken. Safe for untrusted documents.
 Result decompressDocument(const Document& document, const FileDecodeOptions& options,
                           Decompressed& decompressed);
+
+/// Adds another buffer, the last one, to a compressed document. The extension is no longer
+/// required. The caller names the buffer.
+/// bin       the bytes of the first buffer.
+/// fallback  receives the bytes of the new one, made from the decoded payloads.
+Result addFallback(const std::vector<uint8_t>& bin, Json& json, std::vector<uint8_t>& fallback);
 
 }  // namespace mcc::gltf
 

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Reads the elements of accessors, however they are stored.
+// Reads the elements of accessors, however they are stored, and stores them; their bounds.
 #ifndef MCC_GLTF_DOCUMENT_ACCESSORS_H_
 #define MCC_GLTF_DOCUMENT_ACCESSORS_H_
 
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gltf/document/document.h"
+#include "json/json.h"
 
 namespace mcc::gltf {
 
@@ -76,6 +77,31 @@ void narrowIndices(std::span<const uint8_t> indices, uint32_t index_bytes, uint8
 /// Returns the format of an attribute as the payload describes it. A semantic whose accessor does
 /// not have the type glTF 2.0 gives it becomes a custom one.
 AttributeFormat formatOf(const std::string& name, uint32_t target, const Accessor& accessor);
+
+/// Smallest and largest value of each component. NaN is ignored; for a component without numbers
+/// they are infinite.
+struct Bounds {
+  std::vector<double> min;
+  std::vector<double> max;
+  bool is_finite = true;  ///< all values are finite, so that JSON can represent the bounds
+};
+
+Bounds boundsOf(const AccessorData& elements, ComponentType type);
+/// The same for elements without padding between them.
+Bounds boundsOf(std::span<const uint8_t> tight, ComponentType type, uint32_t component_count);
+/// The same for indices, of which there must be at least one.
+Bounds boundsOf(std::span<const uint32_t> indices);
+
+/// Returns finite bounds as `min` and `max` of an accessor hold them: integers have no fraction.
+Json boundNumbers(const std::vector<double>& values, ComponentType type);
+
+/// Writes finite bounds into an accessor: both when `is_required`, else only those it already has.
+void setBounds(const Bounds& bounds, ComponentType type, bool is_required, Json& accessor);
+
+/// Returns how `min` or `max` of an accessor differs from the decoded values; empty when it does
+/// not. Bounds that JSON cannot represent may be missing.
+std::string boundsDifference(const Json& declared, const std::vector<double>& decoded,
+                             ComponentType type);
 
 }  // namespace mcc::gltf
 

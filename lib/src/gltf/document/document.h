@@ -7,6 +7,7 @@
 #ifndef MCC_GLTF_DOCUMENT_DOCUMENT_H_
 #define MCC_GLTF_DOCUMENT_DOCUMENT_H_
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -14,9 +15,8 @@
 #include <string_view>
 #include <vector>
 
-#include "gltf/base/decoded_bytes.h"
 #include "gltf/document/glb.h"
-#include "gltf/document/primitives.h"
+#include "gltf/document/payload.h"
 #include "gltf/document/references.h"
 #include "json/json.h"
 #include "mcc/types.h"
@@ -177,6 +177,10 @@ Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file, 
 /// Moves the image files of a .gltf into buffer views, so that a GLB in another folder still has
 /// them. Images in data URIs stay as they are. Does nothing to a GLB.
 Result embedImages(const FileReader& read_file, Document& document);
+
+/// Removes a fallback from a document whose buffer `number` does not exist. Returns false, and
+/// changes nothing, when anything but compressed accessors may need that buffer.
+bool removeFallback(size_t number, Json& json);
 
 }  // namespace mcc::gltf
 

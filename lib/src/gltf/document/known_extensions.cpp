@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <initializer_list>
 
-#include "gltf/document/primitives.h"
+#include "gltf/document/references.h"
 
 namespace mcc::gltf {
 namespace {

@@ -91,6 +91,11 @@ std::vector<std::string> filesOf(const Json& json, const char* list);
 /// Returns the files in both lists.
 std::vector<std::string> filesBeside(const Json& json);
 
+/// Returns the media type of an image by its first bytes, for the types of glTF and of its
+/// extensions for textures (PNG, JPEG, KTX 2, WebP, AVIF, DDS, Basis), and an empty string for
+/// everything else. What the JSON or the name of a file says does not count.
+std::string imageTypeOf(std::span<const uint8_t> bytes);
+
 }  // namespace mcc::gltf
 
 #endif  // MCC_GLTF_DOCUMENT_PACKAGE_H_

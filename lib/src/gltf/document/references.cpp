@@ -6,7 +6,6 @@
 #include <type_traits>
 
 #include "gltf/document/known_extensions.h"
-#include "gltf/document/primitives.h"
 #include "mcc/gltf.h"
 
 namespace mcc::gltf {

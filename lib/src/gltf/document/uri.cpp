@@ -6,7 +6,7 @@
 #include <cctype>
 #include <string_view>
 
-#include "gltf/base/printable.h"
+#include "host/text.h"
 
 namespace mcc::gltf {
 namespace {

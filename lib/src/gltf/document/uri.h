@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf/base/result.h"
+#include "host/result.h"
 
 namespace mcc::gltf {
 

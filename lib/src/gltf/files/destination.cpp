@@ -5,10 +5,10 @@
 #include <chrono>
 #include <system_error>
 
-#include "gltf/base/path_text.h"
 #include "gltf/document/uri.h"
-#include "gltf/files/system.h"
-#include "gltf/files/work_lock.h"
+#include "host/system.h"
+#include "host/text.h"
+#include "host/work_lock.h"
 
 namespace mcc::gltf {
 namespace {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <system_error>
 
-#include "gltf/base/path_text.h"
-#include "gltf/files/system.h"
+#include "host/system.h"
+#include "host/text.h"
 
 namespace mcc::gltf {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "gltf/document/document.h"
-#include "gltf/files/system.h"
-#include "gltf/files/temporary_files.h"
+#include "host/system.h"
+#include "host/temporary_files.h"
 
 namespace mcc::gltf {
 

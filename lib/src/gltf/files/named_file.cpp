@@ -4,10 +4,10 @@
 #include <cerrno>
 #include <cstring>
 
-#include "gltf/base/path_text.h"
 #include "gltf/document/uri.h"
 #include "gltf/files/file_io.h"
-#include "gltf/files/system.h"
+#include "host/system.h"
+#include "host/text.h"
 
 namespace mcc::gltf {
 namespace {

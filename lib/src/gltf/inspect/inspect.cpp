@@ -5,13 +5,13 @@
 #include <numbers>
 
 #include "format/methods.h"
-#include "gltf/base/parallel.h"
-#include "gltf/base/payload.h"
-#include "gltf/check/check_values.h"
+#include "gltf/check/values.h"
 #include "gltf/decompress/decompress.h"
+#include "gltf/document/payload.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
-#include "gltf/inspect/coding_names.h"
+#include "gltf/inspect/report_json.h"
+#include "host/parallel.h"
 #include "mcc/gltf.h"
 #include "mcc/writer.h"
 

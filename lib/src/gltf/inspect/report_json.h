@@ -1,12 +1,13 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Writes reports of conversions as JSON, for the tool and for the web.
+// Reports as JSON.
 #ifndef MCC_GLTF_INSPECT_REPORT_JSON_H_
 #define MCC_GLTF_INSPECT_REPORT_JSON_H_
 
 #include <cstdint>
 #include <string>
 
+#include "format/methods.h"
 #include "json/json.h"
 #include "mcc/gltf.h"
 
@@ -20,6 +21,19 @@ Json reportJson(const ConvertReport& report, const ConvertOptions& options);
 
 /// Returns a name such as "lattice 14" or "exact float". With `bits` 0, the bits are left out.
 std::string codingName(AttributeCoding coding, uint32_t bits);
+
+/// Returns everything that is known about the payloads of a file. `input` is the file's name.
+Json inspectJson(const std::string& input, const InspectReport& report);
+
+/// Returns a text such as "f32x3" or "u8x4n".
+std::string typeText(const AttributeInfo& attribute);
+
+/// Returns "manifold", "cut", …
+std::string surfaceName(SurfaceCoding surface);
+
+/// Describes the predictor byte of attribute `index` of a piece in the specification's words:
+/// "weights, palette". Empty for an alias.
+std::string predictorName(AttributeInfos attributes, uint32_t index);
 
 }  // namespace mcc::gltf
 

@@ -4,13 +4,13 @@
 // purpose.
 #include <algorithm>
 
-#include "gltf/base/parallel.h"
-#include "gltf/base/payload.h"
 #include "gltf/decompress/coded_input.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/document/accessors.h"
+#include "gltf/document/payload.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
+#include "host/parallel.h"
 #include "mcc/gltf.h"
 #include "mcc/writer.h"
 

@@ -1,0 +1,382 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/check/compare.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <tuple>
+#include <unordered_set>
+
+#include "gltf/document/accessors.h"
+#include "gltf/document/known_extensions.h"
+#include "gltf/document/layout.h"
+#include "gltf/document/references.h"
+
+namespace mcc::gltf {
+/// How far the pairs that are moved alike have been compared. They come in ascending order.
+struct SameBytes::Sweep {
+  uint64_t end = 0;         ///< bytes before it that belong to an earlier pair were compared
+  uint64_t difference = 0;  ///< the last of them that differs
+  bool has_difference = false;
+};
+
+void SameBytes::add(const ByteRange& in_source, const ByteRange& in_result, size_t number) {
+  if (in_source.end - in_source.begin != in_result.end - in_result.begin) {
+    first_ = std::min(first_, number);
+  } else if (in_source.begin != in_source.end) {
+    pairs_.push_back({in_source, in_result.buffer, in_result.begin, number});
+  }
+}
+
+bool SameBytes::isMovedAlike(const Pair& a, const Pair& b) const {
+  return a.in_source.buffer == b.in_source.buffer && a.result_buffer == b.result_buffer &&
+         a.result_begin - a.in_source.begin == b.result_begin - b.in_source.begin;
+}
+
+bool SameBytes::differs(const Pair& pair, Sweep& sweep) const {
+  const auto [buffer, begin, end] = pair.in_source;
+  if (sweep.has_difference && begin <= sweep.difference && sweep.difference < end) return true;
+  const uint64_t from = std::max(begin, sweep.end);
+  if (from >= end) return false;
+  const auto a = source_.buffers[buffer].subspan(from, end - from);
+  const auto b =
+      result_.buffers[pair.result_buffer].subspan(pair.result_begin + (from - begin), end - from);
+  const auto found = std::mismatch(a.begin(), a.end(), b.begin()).first;
+  sweep.end = end;
+  if (found == a.end()) return false;
+  sweep.has_difference = true;
+  sweep.difference = from + static_cast<uint64_t>(found - a.begin());
+  sweep.end = sweep.difference + 1;
+  return true;
+}
+
+size_t SameBytes::firstDifference() {
+  const auto key = [](const Pair& pair) {
+    return std::tuple(pair.in_source.buffer, pair.result_buffer,
+                      pair.result_begin - pair.in_source.begin, pair.in_source.begin);
+  };
+  std::sort(pairs_.begin(), pairs_.end(),
+            [&](const Pair& a, const Pair& b) { return key(a) < key(b); });
+  Sweep sweep;
+  for (size_t i = 0; i < pairs_.size(); ++i) {
+    if (i != 0 && !isMovedAlike(pairs_[i - 1], pairs_[i])) sweep = {};
+    if (differs(pairs_[i], sweep)) first_ = std::min(first_, pairs_[i].number);
+  }
+  return first_;
+}
+
+namespace {
+
+/// What does not count when the JSON of a document is compared.
+struct Exceptions {
+  std::unordered_set<const Json*> hidden;  ///< is as if it was not there
+  std::unordered_set<const Json*> alike;   ///< is equal to anything that is alike as well
+
+  bool isVisible(const Json& value) const { return !hidden.contains(&value); }
+  bool hasVisible(const Json& json) const {
+    return std::any_of(json.begin(), json.end(), [&](const Json& v) { return isVisible(v); });
+  }
+  void hide(const Json& object, std::initializer_list<const char*> keys) {
+    for (const char* key : keys) {
+      if (const Json* member = findMember(object, key)) hidden.insert(member);
+    }
+  }
+  /// Hides a member that has nothing visible in it.
+  void hideEmpty(const Json& object, const char* key) {
+    const Json* const member = findMember(object, key);
+    if (member != nullptr && member->is_structured() && !hasVisible(*member)) {
+      hidden.insert(member);
+    }
+  }
+};
+
+/// Compares two values, each with its exceptions.
+class Comparison {
+ public:
+  Comparison(const Exceptions& in_a, const Exceptions& in_b) : in_a_(in_a), in_b_(in_b) {}
+
+  /// Whether two values differ. `path` is extended to the place of the difference.
+  bool differs(const Json& a, const Json& b, std::string& path) const {
+    if (in_a_.alike.contains(&a)) return !in_b_.alike.contains(&b);
+    if (!a.is_structured() || a.kind() != b.kind()) return !(a == b);
+    const std::vector<size_t> of_a = visibleOf(a, in_a_);
+    const std::vector<size_t> of_b = visibleOf(b, in_b_);
+    if (of_a.size() != of_b.size()) return true;
+    const size_t length = path.size();
+    for (size_t i = 0; i < of_a.size(); ++i) {
+      path = a.is_array() ? at(path, of_a[i]) : at(path, a.keyAt(of_a[i]));
+      const bool has_key = a.is_array() || a.keyAt(of_a[i]) == b.keyAt(of_b[i]);
+      if (!has_key || differs(a[of_a[i]], b[of_b[i]], path)) return true;
+      path.resize(length);
+    }
+    return false;
+  }
+
+ private:
+  /// Returns the numbers of what is visible in an array or object, members sorted by key; those
+  /// with the same key stay in the order of the object.
+  static std::vector<size_t> visibleOf(const Json& json, const Exceptions& exceptions) {
+    std::vector<size_t> numbers;
+    for (size_t i = 0; i < json.size(); ++i) {
+      if (exceptions.isVisible(json[i])) numbers.push_back(i);
+    }
+    if (json.is_array()) return numbers;
+    std::stable_sort(numbers.begin(), numbers.end(),
+                     [&](size_t a, size_t b) { return json.keyAt(a) < json.keyAt(b); });
+    return numbers;
+  }
+
+  const Exceptions& in_a_;
+  const Exceptions& in_b_;
+};
+
+/// The accessors that something compressed uses, before or after.
+using Touched = std::set<uint32_t>;
+
+void exceptLists(const Json& root, Exceptions& exceptions) {
+  const auto isOfCodec = [](const Json& name) {
+    return name == kExtensionName || name == kMeshExtension ||
+           std::find(std::begin(kViewExtensions), std::end(kViewExtensions), name.text()) !=
+               std::end(kViewExtensions);
+  };
+  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+    for (const Json& name : arrayOf(root, list)) {
+      if (name.is_string() && isOfCodec(name)) exceptions.hidden.insert(&name);
+    }
+    exceptions.hideEmpty(root, list);
+  }
+}
+
+void exceptGeometry(const Json& primitive, Exceptions& exceptions) {
+  exceptions.hide(primitive, {"attributes", "indices", "mode", "targets"});
+  const Json* const extensions = findMember(primitive, "extensions");
+  if (extensions == nullptr) return;
+  exceptions.hide(*extensions, {kExtensionName, kMeshExtension});
+  exceptions.hideEmpty(primitive, "extensions");
+}
+
+void exceptAccessors(const Json& root, const Touched& touched, size_t accessor_count,
+                     Exceptions& exceptions) {
+  const Json& accessors = arrayOf(root, "accessors");
+  for (size_t i = 0; i < accessors.size(); ++i) {
+    const Json& accessor = accessors[i];
+    if (i >= accessor_count) exceptions.hidden.insert(&accessor);
+    exceptions.hide(accessor, {"byteOffset"});
+    if (const Json* sparse = findMember(accessor, "sparse")) {
+      for (const char* part : {"indices", "values"}) {
+        if (const Json* place = findMember(*sparse, part)) exceptions.hide(*place, {"byteOffset"});
+      }
+    }
+    if (!touched.contains(static_cast<uint32_t>(i))) continue;
+    exceptions.hide(accessor, {"bufferView", "sparse", "min", "max", "count", "componentType"});
+  }
+  exceptions.hideEmpty(root, "accessors");
+}
+
+/// Returns what a conversion may change: numbers and places of buffer views, and the compressed
+/// geometry itself. Accessors from `accessor_count` on are ours.
+Exceptions exceptionsOf(const Document& document, const std::vector<PrimitiveRef>& compressed,
+                        const Touched& touched, size_t accessor_count) {
+  Exceptions exceptions;
+  const Json& root = document.json;
+  exceptions.hide(root, {"buffers", "bufferViews"});
+  exceptLists(root, exceptions);
+  const auto exceptNumber = [&](const Json& number) { exceptions.alike.insert(&number); };
+  visitViewReferences(root, [&](const Json& number, uint32_t) { exceptNumber(number); });
+  visitMissingAccessors(root, document.accessors.size(), exceptNumber);
+  for (const PrimitiveRef& ref : compressed)
+    exceptGeometry(*document.primitive(ref).json, exceptions);
+  exceptAccessors(root, touched, accessor_count, exceptions);
+  return exceptions;
+}
+
+ByteRange viewRange(const Document& document, uint64_t view) {
+  const BufferView& range = document.views[view];
+  return {range.buffer, range.offset, range.offset + range.length};
+}
+
+/// Compares the bytes of everything that a conversion must not change.
+class BytesChecker {
+ public:
+  BytesChecker(const Document& source, const Document& written)
+      : source_(source), written_(written), bytes_(source, written) {}
+
+  void addAccessor(uint32_t index) {
+    const Accessor& a = source_.accessors[index];
+    if (!a.is_known_type || (a.view == kNone && a.sparse.count == 0)) return;
+    const Accessor& b = written_.accessors[index];
+    const bool is_same = a.fault.ok() == b.fault.ok() && a.count == b.count &&
+                         a.elementBytes() == b.elementBytes() &&
+                         strideOf(source_, a) == strideOf(written_, b);
+    const std::vector<ByteRange> in_source = accessorRanges(source_, index, false);
+    const std::vector<ByteRange> in_written = accessorRanges(written_, index, false);
+    if (!is_same || in_source.size() != in_written.size()) {
+      return addDifference("/accessors", index, "has another size");
+    }
+    if (!sameCodings(a, b)) return addDifference("/accessors", index, "the coded bytes changed");
+    for (size_t i = 0; i < in_source.size(); ++i) {
+      add(in_source[i], in_written[i], "/accessors", index, "its elements changed");
+    }
+  }
+
+  void addImages() {
+    const Json& images = arrayOf(source_.json, "images");
+    const Json& new_images = arrayOf(written_.json, "images");
+    for (size_t i = 0; i < images.size(); ++i) {
+      const Json* number = findMember(images[i], "bufferView");
+      if (number == nullptr) continue;
+      const Json* new_number = findMember(new_images[i], "bufferView");
+      addViews(number, new_number, "/images", i, "the image changed");
+    }
+  }
+
+  /// Adds the property tables. Their views have names of their own.
+  void addTables() {
+    const auto numbersOf = [](const Document& document) {
+      std::vector<const Json*> numbers;
+      visitTableViews(document.json, [&](const Json& number) { numbers.push_back(&number); });
+      return numbers;
+    };
+    const std::vector<const Json*> old_numbers = numbersOf(source_);
+    const std::vector<const Json*> new_numbers = numbersOf(written_);
+    if (old_numbers.size() != new_numbers.size()) {
+      return addDifference("/extensions", 0, "a property table is lost");
+    }
+    for (size_t i = 0; i < old_numbers.size(); ++i) {
+      uint64_t view = 0;
+      if (!asUnsigned(*old_numbers[i], view)) continue;
+      addViews(old_numbers[i], new_numbers[i], "/bufferViews", view, "a property table changed");
+    }
+  }
+
+  void addView(uint32_t view) {
+    if (view >= written_.views.size()) {
+      return addDifference("/bufferViews", view, "the bytes changed");
+    }
+    add(viewRange(source_, view), viewRange(written_, view), "/bufferViews", view,
+        "the bytes changed");
+  }
+
+  Result run() {
+    const size_t first = std::min(bytes_.firstDifference(), first_);
+    if (first == SameBytes::kNothing) return {};
+    return error(at(places_[first].array, places_[first].index), places_[first].what);
+  }
+
+ private:
+  struct Place {
+    const char* array;
+    uint64_t index;
+    const char* what;
+  };
+
+  static uint64_t strideOf(const Document& document, const Accessor& accessor) {
+    return accessor.view == kNone ? 0 : document.views[accessor.view].stride;
+  }
+
+  void add(const ByteRange& in_source, const ByteRange& in_written, const char* array,
+           uint64_t index, const char* what) {
+    bytes_.add(in_source, in_written, places_.size());
+    places_.push_back({array, index, what});
+  }
+
+  void addDifference(const char* array, uint64_t index, const char* what) {
+    first_ = std::min(first_, places_.size());
+    places_.push_back({array, index, what});
+  }
+
+  /// Adds the views that two members name. A view that does not exist was wrong in the source, too.
+  void addViews(const Json* number, const Json* new_number, const char* array, uint64_t index,
+                const char* what) {
+    uint64_t old_view = 0;
+    uint64_t new_view = 0;
+    if (!asUnsigned(*number, old_view) || old_view >= source_.views.size()) return;
+    const bool exists = new_number != nullptr && asUnsigned(*new_number, new_view) &&
+                        new_view < written_.views.size();
+    if (!exists) return addDifference(array, index, what);
+    add(viewRange(source_, old_view), viewRange(written_, new_view), array, index, what);
+  }
+
+  /// Whether views that another codec compressed are described as they were.
+  bool sameCodings(const Accessor& a, const Accessor& b) const {
+    if ((a.view == kNone) != (b.view == kNone)) return false;
+    bool is_same = a.view == kNone || sameCoding(a.view, b.view);
+    if (a.sparse.count != 0 && b.sparse.count != 0) {
+      is_same &= sameCoding(a.sparse.index_view, b.sparse.index_view) &&
+                 sameCoding(a.sparse.value_view, b.sparse.value_view);
+    }
+    return is_same;
+  }
+
+  bool sameCoding(uint32_t source_view, uint32_t written_view) const {
+    const ViewCoding& a = source_.views[source_view].coding;
+    const ViewCoding& b = written_.views[written_view].coding;
+    return a.extension == b.extension && a.mode == b.mode && a.filter == b.filter &&
+           a.count == b.count && a.stride == b.stride;
+  }
+
+  const Document& source_;
+  const Document& written_;
+  SameBytes bytes_;
+  std::vector<Place> places_;  ///< of the pairs, by number
+  size_t first_ = SameBytes::kNothing;
+};
+
+/// Where views keep their numbers, adds every view, except those that only compressed accessors
+/// used.
+void addViews(const Document& source, const Touched& touched, BytesChecker& checker) {
+  if (!source.foreign.keep_numbers) return;
+  std::vector<bool> is_freed;
+  for (const BufferView& view : source.views) is_freed.push_back(view.use == ViewUse::kFree);
+  for (const uint32_t index : touched) {
+    if (index >= source.accessors.size()) continue;
+    const Accessor& accessor = source.accessors[index];
+    if (accessor.view != kNone) is_freed[accessor.view] = true;
+    if (accessor.decoded_from != kNone) is_freed[accessor.decoded_from] = true;
+    if (accessor.sparse.count == 0) continue;
+    is_freed[accessor.sparse.index_view] = true;
+    is_freed[accessor.sparse.value_view] = true;
+  }
+  for (uint32_t view = 0; view < source.views.size(); ++view) {
+    if (!is_freed[view]) checker.addView(view);
+  }
+}
+
+}  // namespace
+
+bool equalJson(const Json& a, const Json& b) { return firstDifference(a, b).empty(); }
+
+std::string firstDifference(const Json& a, const Json& b) {
+  std::string path;
+  if (!Comparison({}, {}).differs(a, b, path)) return "";
+  return path.empty() ? "/" : path;
+}
+
+Result compareRest(const Document& source, const Document& written,
+                   const std::vector<ExtensionUse>& uses, const std::set<uint32_t>& reordered) {
+  Touched touched = reordered;
+  std::vector<PrimitiveRef> compressed;
+  for (const ExtensionUse& use : uses) {
+    const PrimitiveRef ref = {use.mesh, use.primitive};
+    const bool is_old = extensionOf(*source.primitive(ref).json, kExtensionName) != nullptr;
+    if (!is_old) compressed.push_back(ref);
+    touched.insert(use.indices_accessor);
+    for (const auto& attribute : use.attributes) touched.insert(attribute.accessor);
+  }
+  const size_t count = source.accessors.size();
+  const Exceptions in_source = exceptionsOf(source, compressed, touched, count);
+  const Exceptions in_written = exceptionsOf(written, compressed, touched, count);
+  std::string path;
+  if (Comparison(in_source, in_written).differs(source.json, written.json, path)) {
+    return error(path.empty() ? "/" : path, "the JSON changed");
+  }
+  BytesChecker checker(source, written);
+  for (uint32_t i = 0; i < count; ++i) {
+    if (!touched.contains(i)) checker.addAccessor(i);
+  }
+  checker.addImages();
+  checker.addTables();
+  addViews(source, touched, checker);
+  return checker.run();
+}
+
+}  // namespace mcc::gltf

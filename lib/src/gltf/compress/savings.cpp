@@ -1,0 +1,361 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Makes sure that files never become larger: decides which payloads save more than they cost.
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <unordered_map>
+
+#include "gltf/compress/compress.h"
+#include "gltf/document/layout.h"
+#include "host/parallel.h"
+#include "host/text.h"
+
+namespace mcc::gltf {
+namespace {
+
+constexpr uint64_t kViewJsonBytes = 48;      // {"buffer":0,"byteOffset":…,"byteLength":…}
+constexpr uint64_t kSmallPieceBytes = 2048;  // larger pieces always save bytes
+constexpr uint64_t kSharedBytes = 24;        // bytes of a payload that its pieces share
+
+/// Returns the bytes of JSON that a piece adds to the file.
+uint64_t jsonCostOf(const PiecePlan& piece, size_t number) {
+  uint64_t cost = 0;
+  for (size_t part = 0; part < piece.parts.size(); ++part) {
+    const size_t bytes = extensionJson(0, number, piece, part).dump().size();
+    cost += (bytes + sizeof("\"extensions\":{}")) * piece.parts[part].users.size();
+  }
+  return cost;
+}
+
+/// Returns the bytes that a payload adds to the file.
+uint64_t costOf(const EncodedPayload& payload) {
+  uint64_t cost = ((payload.result.payload.size() + 3) & ~uint64_t{3}) + kViewJsonBytes;
+  for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
+    cost += jsonCostOf(payload.plan.pieces[i], i);
+  }
+  return cost;
+}
+
+/// Counts source bytes by who needs them. A byte is freed when only owners need it, and no more of
+/// them than kMostOwners, so that the lists of owners are no longer than that. Each of these owners
+/// frees it only as long as the others stay.
+class ByteOwners {
+ public:
+  static constexpr size_t kSomebodyElse = ~size_t{0};
+  static constexpr size_t kMostOwners = 64;
+
+  explicit ByteOwners(size_t owner_count) : freed_(owner_count, 0), segments_of_(owner_count) {}
+
+  void add(const std::vector<ByteRange>& ranges, size_t owner) {
+    for (const ByteRange& range : ranges) {
+      if (range.begin == range.end) continue;
+      edges_.push_back({range.buffer, range.begin, true, owner});
+      edges_.push_back({range.buffer, range.end, false, owner});
+    }
+  }
+
+  /// Counts the bytes, after all ranges were added.
+  void count() {
+    std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
+      return std::tie(a.buffer, a.offset, a.is_begin) < std::tie(b.buffer, b.offset, b.is_begin);
+    });
+    std::map<size_t, uint32_t> open;  // owner -> open ranges
+    for (size_t i = 0; i < edges_.size(); ++i) {
+      const Edge& edge = edges_[i];
+      uint32_t& count_of = open[edge.owner];
+      count_of += edge.is_begin ? 1 : ~0u;
+      if (count_of == 0) open.erase(edge.owner);
+      if (open.empty() || open.size() > kMostOwners || open.count(kSomebodyElse) != 0) continue;
+      addSegment(edges_[i + 1].offset - edge.offset,
+                 open);  // a range is open, so i is not last
+    }
+  }
+
+  const std::vector<uint64_t>& freed() const { return freed_; }
+  /// Returns the bytes that the owners which have not left free together.
+  uint64_t total() const { return total_; }
+
+  /// Records that an owner needs its bytes again. Adds the owners that free less because of this to
+  /// `losers`.
+  void leave(size_t owner, std::vector<size_t>& losers) {
+    for (const size_t number : segments_of_[owner]) {
+      Segment& segment = segments_[number];
+      if (segment.bytes == 0) continue;
+      for (const size_t other : segment.owners) {
+        freed_[other] -= segment.bytes;
+        if (other != owner) losers.push_back(other);
+      }
+      total_ -= segment.bytes;
+      segment.bytes = 0;
+    }
+  }
+
+ private:
+  struct Edge {
+    uint32_t buffer;
+    uint64_t offset;
+    bool is_begin;
+    size_t owner;
+  };
+
+  /// A run of bytes with the same owners. `bytes` is 0 when one of them has left.
+  struct Segment {
+    uint64_t bytes;
+    std::vector<size_t> owners;
+  };
+
+  void addSegment(uint64_t bytes, const std::map<size_t, uint32_t>& open) {
+    if (bytes == 0) return;
+    Segment segment = {bytes, {}};
+    for (const auto& [owner, ignored] : open) {
+      segment.owners.push_back(owner);
+      segments_of_[owner].push_back(segments_.size());
+      freed_[owner] += bytes;
+    }
+    total_ += bytes;
+    segments_.push_back(std::move(segment));
+  }
+
+  std::vector<Edge> edges_;
+  std::vector<Segment> segments_;
+  std::vector<uint64_t> freed_;
+  std::vector<std::vector<size_t>> segments_of_;  ///< by owner
+  uint64_t total_ = 0;
+};
+
+template <typename Visit>
+void visitAccessors(const PiecePlan& piece, const Visit& visit) {
+  for (const AttributePlan& attribute : piece.attributes) visit(attribute.accessor);
+  for (const PartPlan& part : piece.parts) {
+    if (part.indices_accessor != kNone) visit(part.indices_accessor);
+  }
+}
+
+struct OwnedPiece {
+  const PiecePlan* piece;
+  size_t owner;
+};
+
+/// Finds the owners of the bytes that pieces free.
+ByteOwners ownersOf(const Document& document, const std::vector<bool>& in_other_use,
+                    const std::vector<OwnedPiece>& pieces, size_t owner_count) {
+  std::vector<bool> is_ours(document.accessors.size(), false);
+  ByteOwners owners(owner_count);
+  for (const OwnedPiece& owned : pieces) {
+    visitAccessors(*owned.piece, [&](uint32_t accessor) {
+      if (in_other_use[accessor]) return;
+      is_ours[accessor] = true;
+      owners.add(accessorRanges(document, accessor, document.foreign.keep_numbers), owned.owner);
+    });
+  }
+  for (uint32_t accessor = 0; accessor < is_ours.size(); ++accessor) {
+    if (is_ours[accessor]) continue;
+    owners.add(accessorRanges(document, accessor, document.foreign.keep_numbers),
+               ByteOwners::kSomebodyElse);
+  }
+  for (const Json& image : arrayOf(document.json, "images")) {
+    uint64_t view = 0;
+    const Json* number = findMember(image, "bufferView");
+    if (number == nullptr || !asUnsigned(*number, view) || view >= document.views.size()) continue;
+    const BufferView& range = document.views[view];
+    owners.add({{range.buffer, range.offset, range.offset + range.length}},
+               ByteOwners::kSomebodyElse);
+  }
+  owners.count();
+  return owners;
+}
+
+const AccessorData& positionsOf(const PiecePlan& piece) {
+  return (piece.attributes.empty() ? piece.ordinary : piece.attributes)[0].source;
+}
+
+std::string_view textOf(std::span<const uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// Finds the pieces among those asked for that have a position in common with another piece of the
+/// plan, and marks both. Such a piece cannot stay uncompressed alone, because the surfaces would
+/// come apart.
+std::vector<bool> touchingPieces(const PayloadPlan& plan, const std::vector<bool>& is_asked) {
+  std::vector<bool> touches(plan.pieces.size(), false);
+  if (std::find(is_asked.begin(), is_asked.end(), true) == is_asked.end()) return touches;
+  std::unordered_map<std::string_view, size_t> owner_of;  // position -> a piece that was asked for
+  // Pieces that share a position are marked when the second of them is visited.
+  for (const bool are_asked : {true, false}) {
+    for (size_t k = 0; k < plan.pieces.size(); ++k) {
+      if (is_asked[k] != are_asked) continue;
+      const AccessorData& positions = positionsOf(plan.pieces[k]);
+      for (uint64_t i = 0; i < positions.count; ++i) {
+        const std::string_view position = textOf(positions.element(i));
+        const auto owner =
+            are_asked ? owner_of.try_emplace(position, k).first : owner_of.find(position);
+        if (owner == owner_of.end() || owner->second == k) continue;
+        touches[owner->second] = true;
+        touches[k] = true;
+      }
+    }
+  }
+  return touches;
+}
+
+/// Leaves the primitives of a piece as they were. `cost_bytes` is the size of payload and JSON.
+void leaveAlone(const PiecePlan& piece, uint64_t cost_bytes, uint64_t freed_bytes,
+                std::vector<LeftAlone>& left_alone) {
+  const std::string note = "would not become smaller (payload and JSON " +
+                           std::to_string(cost_bytes) + " bytes, buffers " +
+                           std::to_string(freed_bytes) + " bytes); left as it was";
+  for (const PartPlan& part : piece.parts) {
+    for (const PrimitiveRef& user : part.users) left_alone.push_back({user, note, true});
+  }
+}
+
+/// Finds the payloads that cost at least as many bytes as they free. The payloads of one mesh that
+/// was divided stay or go together, because their positions may meet.
+class LoserSearch {
+ public:
+  LoserSearch(const Document& document, const std::vector<EncodedPayload>& payloads)
+      : payloads_(payloads), owners_(group(document)) {}
+
+  /// Returns for each payload whether it loses.
+  std::vector<bool> run(std::vector<LeftAlone>& left_alone) {
+    std::vector<size_t> asked(groups_.size());
+    std::iota(asked.begin(), asked.end(), size_t{0});
+    // Bytes that losers need again may turn others into losers.
+    while (!asked.empty()) {
+      std::vector<size_t> losers;
+      for (const size_t number : asked) {
+        if (!groups_[number].is_lost && groups_[number].cost >= owners_.freed()[number]) {
+          losers.push_back(number);
+          groups_[number].is_lost = true;
+        }
+      }
+      for (const size_t number : losers) leaveGroupAlone(number, left_alone);
+      asked.clear();
+      for (const size_t number : losers) owners_.leave(number, asked);
+    }
+    uint64_t total_cost = 0;
+    for (const Group& group : groups_) total_cost += group.is_lost ? 0 : group.cost;
+    // Payloads that share accessors may each gain by the same bytes, and still lose together.
+    const bool all_lose = total_cost >= owners_.total();
+    for (size_t number = 0; all_lose && number < groups_.size(); ++number) {
+      if (groups_[number].is_lost) continue;
+      groups_[number].is_lost = true;
+      leaveGroupAlone(number, left_alone);
+    }
+    std::vector<bool> is_lost;
+    for (const size_t number : group_of_) is_lost.push_back(groups_[number].is_lost);
+    return is_lost;
+  }
+
+ private:
+  /// The payloads of a mesh.
+  struct Group {
+    std::vector<size_t> payloads;
+    uint64_t cost = 0;
+    bool is_lost = false;
+  };
+
+  ByteOwners group(const Document& document) {
+    std::vector<OwnedPiece> pieces;
+    for (size_t i = 0; i < payloads_.size(); ++i) {
+      const PayloadPlan& plan = payloads_[i].plan;
+      if (i == 0 || payloads_[i - 1].plan.mesh != plan.mesh) groups_.emplace_back();
+      groups_.back().payloads.push_back(i);
+      groups_.back().cost += costOf(payloads_[i]);
+      group_of_.push_back(groups_.size() - 1);
+      for (const PiecePlan& piece : plan.pieces) pieces.push_back({&piece, group_of_.back()});
+    }
+    return ownersOf(document, accessorsInOtherUse(document, payloads_), pieces, groups_.size());
+  }
+
+  void leaveGroupAlone(size_t number, std::vector<LeftAlone>& left_alone) const {
+    for (const size_t i : groups_[number].payloads) {
+      for (const PiecePlan& piece : payloads_[i].plan.pieces) {
+        leaveAlone(piece, groups_[number].cost, owners_.freed()[number], left_alone);
+      }
+    }
+  }
+
+  const std::vector<EncodedPayload>& payloads_;
+  std::vector<Group> groups_;
+  std::vector<size_t> group_of_;  ///< group of each payload
+  ByteOwners owners_;
+};
+
+}  // namespace
+
+void countFreedBytes(const Document& document, std::vector<EncodedPayload>& payloads) {
+  std::vector<OwnedPiece> pieces;
+  for (size_t i = 0; i < payloads.size(); ++i) {
+    for (const PiecePlan& piece : payloads[i].plan.pieces) pieces.push_back({&piece, i});
+  }
+  const ByteOwners owners =
+      ownersOf(document, accessorsInOtherUse(document, payloads), pieces, payloads.size());
+  for (size_t i = 0; i < payloads.size(); ++i) payloads[i].freed_bytes = owners.freed()[i];
+}
+
+Result dropTinyPieces(const Document& document, const ConvertOptions& options,
+                      std::vector<PayloadPlan>& plans, std::vector<LeftAlone>& left_alone) {
+  std::vector<const PayloadPlan*> all;
+  std::vector<OwnedPiece> pieces;
+  for (const PayloadPlan& plan : plans) {
+    all.push_back(&plan);
+    for (const PiecePlan& piece : plan.pieces) pieces.push_back({&piece, pieces.size()});
+  }
+  const ByteOwners owners =
+      ownersOf(document, accessorsInOtherUse(document, all), pieces, pieces.size());
+  const std::vector<uint64_t>& freed = owners.freed();
+  std::vector<const PayloadPlan*> plan_of;
+  for (const PayloadPlan& plan : plans) plan_of.insert(plan_of.end(), plan.pieces.size(), &plan);
+  std::vector<uint64_t> bytes_alone(pieces.size(), 0);
+  MCC_GLTF_TRY(runParallel(pieces.size(), options.thread_count, [&](size_t i) -> Result {
+    const bool is_small = plan_of[i]->pieces.size() > 1 && freed[i] < kSmallPieceBytes;
+    if (is_small) bytes_alone[i] = bytesAlone(options, *plan_of[i], *pieces[i].piece);
+    return {};
+  }));
+  size_t next = 0;
+  for (PayloadPlan& plan : plans) {
+    std::vector<bool> is_tiny;
+    std::vector<uint64_t> costs;
+    const size_t first = next;
+    for (const PiecePlan& piece : plan.pieces) {
+      const uint64_t bytes = bytes_alone[next];
+      costs.push_back(bytes == 0 ? 0
+                                 : jsonCostOf(piece, 1) + bytes - std::min(bytes, kSharedBytes));
+      is_tiny.push_back(bytes != 0 && costs.back() >= freed[next]);
+      ++next;
+    }
+    const std::vector<bool> touches = touchingPieces(plan, is_tiny);
+    std::vector<bool> is_dropped;
+    for (size_t i = 0; i < plan.pieces.size(); ++i) {
+      is_dropped.push_back(is_tiny[i] && !touches[i]);
+      if (!is_dropped.back()) continue;
+      leaveAlone(plan.pieces[i], costs[i], freed[first + i], left_alone);
+    }
+    std::vector<PiecePlan> kept;
+    for (size_t i = 0; i < plan.pieces.size(); ++i) {
+      if (!is_dropped[i]) kept.push_back(std::move(plan.pieces[i]));
+    }
+    plan.pieces = std::move(kept);
+  }
+  std::erase_if(plans, [](const PayloadPlan& plan) { return plan.pieces.empty(); });
+  return {};
+}
+
+void dropLosers(const Document& document, std::vector<EncodedPayload>& payloads,
+                std::vector<LeftAlone>& left_alone) {
+  LoserSearch search(document, payloads);
+  const std::vector<bool> is_lost = search.run(left_alone);
+  std::vector<EncodedPayload> winners;
+  for (size_t i = 0; i < payloads.size(); ++i) {
+    if (!is_lost[i]) winners.push_back(std::move(payloads[i]));
+  }
+  payloads = std::move(winners);
+  countFreedBytes(document, payloads);
+}
+
+}  // namespace mcc::gltf

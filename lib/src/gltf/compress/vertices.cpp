@@ -1,0 +1,292 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/compress/vertices.h"
+
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+#include <set>
+#include <utility>
+
+#include "gltf/compress/compress.h"
+#include "gltf/document/accessors.h"
+#include "gltf/document/known_extensions.h"
+
+namespace mcc::gltf {
+namespace {
+
+/// Marks accessors that more than one piece uses, or a piece and something else.
+std::vector<bool> sharedAccessors(const Document& document,
+                                  const std::vector<PayloadPlan>& payloads) {
+  std::vector<const PayloadPlan*> all;
+  for (const PayloadPlan& payload : payloads) all.push_back(&payload);
+  std::vector<bool> is_shared = accessorsOutsidePayloads(document, all);
+  std::vector<const PiecePlan*> user(is_shared.size(), nullptr);  // the first user
+  for (const PayloadPlan& payload : payloads) {
+    for (const PiecePlan& piece : payload.pieces) {
+      for (const AttributePlan& attribute : piece.ordinary) {
+        const PiecePlan*& first = user[attribute.accessor];
+        if (first == nullptr) first = &piece;
+        if (first != &piece) is_shared[attribute.accessor] = true;
+      }
+    }
+  }
+  return is_shared;
+}
+
+/// Whether the elements may be stored in another order. Sparse and coded accessors would grow, and
+/// accessors without a view have no elements to move.
+bool canBeReordered(const Document& document, const Accessor& accessor) {
+  const bool is_coded = accessor.view != kNone && document.views[accessor.view].isCoded();
+  return accessor.sparse.count == 0 && accessor.is_known_type && !is_coded;
+}
+
+}  // namespace
+
+void planIndicesOnly(const Document& document, std::vector<PayloadPlan>& payloads) {
+  for (PayloadPlan& payload : payloads) {
+    payload.indices_only = true;
+    for (PiecePlan& piece : payload.pieces) {
+      std::vector<AttributePlan> all = std::exchange(piece.attributes, {});
+      std::move(piece.ordinary.begin(), piece.ordinary.end(), std::back_inserter(all));
+      piece.ordinary = std::move(all);
+    }
+  }
+  const std::vector<bool> is_shared = sharedAccessors(document, payloads);
+  for (PayloadPlan& payload : payloads) {
+    payload.keep_vertex_order |= document.foreign.keep_numbers;
+    for (const PiecePlan& piece : payload.pieces) {
+      for (const AttributePlan& attribute : piece.ordinary) {
+        payload.keep_vertex_order |=
+            is_shared[attribute.accessor] ||
+            !canBeReordered(document, document.accessors[attribute.accessor]);
+      }
+    }
+  }
+}
+
+AttributeView weldingView(const PiecePlan& piece) {
+  const AttributePlan& position = piece.ordinary[0];
+  AttributeView view;
+  view.format = position.format;
+  view.data = position.source.data;
+  view.stride_bytes = position.source.stride_bytes;
+  return view;
+}
+
+void reorderAttributes(const Document& document, const PiecePlan& piece,
+                       const std::vector<uint32_t>& source_wedge, Json& accessors,
+                       std::vector<NewView>& views) {
+  std::set<uint32_t> reordered;  // an accessor may serve as several attributes
+  for (const AttributePlan& attribute : piece.ordinary) {
+    const Accessor& accessor = document.accessors[attribute.accessor];
+    if (accessor.view == kNone || !reordered.insert(attribute.accessor).second) continue;
+    std::vector<uint8_t> tight;
+    for (const uint32_t wedge : source_wedge) {
+      const auto element = attribute.source.element(wedge);
+      tight.insert(tight.end(), element.begin(), element.end());
+    }
+    NewView view;
+    view.target = kArrayBuffer;
+    view.hold(packAttribute(tight, accessor, view.stride_bytes));
+    Json& edited = accessors[attribute.accessor];
+    edited.erase("byteOffset");
+    edited["bufferView"] = kFirstNewView + views.size();
+    views.push_back(std::move(view));
+  }
+}
+
+namespace {
+
+/// Calls visit(uint64_t accessor) for the accessors of vertex numbers of a primitive. A member that
+/// is no number of an accessor counts as one that does not exist.
+template <typename Visit>
+void visitVertexNumbers(const Json& primitive, const Visit& visit) {
+  visitExtensionAccessors(primitive, [&](const Json& number, ExtensionAccessor what) {
+    if (what != ExtensionAccessor::kVertexNumbers) return;
+    uint64_t accessor = 0;
+    visit(asUnsigned(number, accessor) ? accessor : uint64_t{kNone});
+  });
+}
+
+/// Counts the uses of an accessor: each member of a primitive that names it, and one for everything
+/// else.
+uint64_t useCount(const Accessor& accessor) {
+  return uint64_t{accessor.primitive_uses} + accessor.extension_uses +
+         (accessor.isUsedOutsideMeshes() ? 1 : 0);
+}
+
+/// Finds the accessors of vertex numbers of pieces.
+class Collector {
+ public:
+  explicit Collector(const Document& document)
+      : document_(document),
+        accessors_(arrayOf(document.json, "accessors")),
+        views_(arrayOf(document.json, "bufferViews")),
+        room_(kMaxSharing * document.source_bytes) {}
+
+  /// Collects the accessors of a piece. Returns false if one of them is also used by something
+  /// else, or cannot be changed.
+  bool collect(PiecePlan& piece) {
+    std::vector<uint64_t> named;
+    for (const PartPlan& part : piece.parts) {
+      for (const PrimitiveRef& user : part.users) {
+        visitVertexNumbers(*document_.primitive(user).json,
+                           [&](uint64_t accessor) { named.push_back(accessor); });
+      }
+    }
+    std::sort(named.begin(), named.end());
+    for (size_t i = 0, end = 0; i < named.size(); i = end) {
+      while (end < named.size() && named[end] == named[i]) ++end;
+      if (named[i] >= document_.accessors.size()) return false;
+      const auto accessor = static_cast<uint32_t>(named[i]);
+      const bool is_only_ours = useCount(document_.accessors[accessor]) == end - i;
+      if (!is_only_ours || !canBeChanged(accessor, piece.wedge_count)) return false;
+      piece.vertex_numbers.push_back(accessor);
+    }
+    return true;
+  }
+
+ private:
+  /// Whether the elements can be read and stored again in the same way. Accessors over the same
+  /// bytes become separate, so there is a limit to them.
+  bool canBeChanged(uint32_t index, uint32_t vertex_count) {
+    const Accessor& accessor = document_.accessors[index];
+    if (accessor.view == kNone || accessor.sparse.count != 0 || accessor.normalized) return false;
+    if (document_.views[accessor.view].isCoded() || !unknownExtension(accessors_[index]).empty() ||
+        !unknownExtension(views_[accessor.view]).empty() || accessor.count > room_) {
+      return false;
+    }
+    room_ -= accessor.count;
+    std::vector<uint32_t> numbers;
+    if (!readIndices(document_, index, numbers).ok()) return false;
+    return std::all_of(numbers.begin(), numbers.end(),
+                       [&](uint32_t number) { return number < vertex_count; });
+  }
+
+  const Document& document_;
+  const Json& accessors_;
+  const Json& views_;
+  uint64_t room_;  ///< numbers that may still be read
+};
+
+}  // namespace
+
+void planVertexNumbers(const Document& document, std::vector<PayloadPlan>& payloads) {
+  Collector collector(document);
+  for (PayloadPlan& payload : payloads) {
+    for (PiecePlan& piece : payload.pieces) {
+      if (!collector.collect(piece)) payload.keep_vertex_order = true;
+    }
+    if (!payload.keep_vertex_order) continue;
+    for (PiecePlan& piece : payload.pieces) piece.vertex_numbers.clear();
+  }
+}
+
+bool isIdentity(const std::vector<uint32_t>& source_wedge) {
+  for (uint32_t i = 0; i < source_wedge.size(); ++i) {
+    if (source_wedge[i] != i) return false;
+  }
+  return true;
+}
+
+void renumberVertices(const Document& document, const PiecePlan& piece,
+                      const std::vector<uint32_t>& source_wedge, Json& accessors,
+                      std::vector<NewView>& views) {
+  if (piece.vertex_numbers.empty() || isIdentity(source_wedge)) return;
+  const Json& old_views = arrayOf(document.json, "bufferViews");
+  std::vector<uint32_t> decoded_wedge(source_wedge.size());
+  for (uint32_t i = 0; i < source_wedge.size(); ++i) decoded_wedge[source_wedge[i]] = i;
+  for (const uint32_t index : piece.vertex_numbers) {
+    const Accessor& accessor = document.accessors[index];
+    std::vector<uint32_t> numbers;
+    // They could be read before. Without numbers, there is nothing to change.
+    if (!readIndices(document, index, numbers).ok() || numbers.empty()) continue;
+    const uint32_t bytes_each = componentBytes(accessor.component_type);
+    std::vector<uint8_t> bytes;
+    for (uint32_t& number : numbers) {
+      number = decoded_wedge[number];
+      for (uint32_t byte = 0; byte < bytes_each; ++byte) {
+        bytes.push_back(static_cast<uint8_t>(number >> (8 * byte)));
+      }
+    }
+    NewView view;
+    view.hold(std::move(bytes));
+    Json& edited = accessors[index];
+    edited.erase("byteOffset");
+    edited["bufferView"] = kFirstNewView + views.size();
+    const Json* target = findMember(old_views[accessor.view], "target");
+    uint64_t number = 0;
+    if (target != nullptr && asUnsigned(*target, number) && number <= 0xffffffffu) {
+      view.target = static_cast<uint32_t>(number);
+    }
+    setBounds(boundsOf(numbers), ComponentType::kUint32, false, edited);
+    views.push_back(std::move(view));
+  }
+}
+
+namespace {
+
+/// Returns the vertices that a triangle uses, in ascending order.
+std::vector<uint32_t> usedVertices(const PiecePlan& piece) {
+  std::vector<bool> is_used(piece.wedge_count, false);
+  for (const PartPlan& part : piece.parts) {
+    for (const uint32_t vertex : part.triangles) is_used[vertex] = true;
+  }
+  std::vector<uint32_t> used;
+  for (uint32_t vertex = 0; vertex < piece.wedge_count; ++vertex) {
+    if (is_used[vertex]) used.push_back(vertex);
+  }
+  return used;
+}
+
+void keepVertices(std::vector<uint32_t> kept, PiecePlan& piece) {
+  std::vector<uint32_t> new_number(piece.wedge_count, kNone);
+  for (uint32_t i = 0; i < kept.size(); ++i) new_number[kept[i]] = i;
+  for (PartPlan& part : piece.parts) {
+    for (uint32_t& vertex : part.triangles) vertex = new_number[vertex];
+  }
+  for (AttributePlan& attribute : piece.attributes) {
+    AccessorData& source = attribute.source;
+    std::vector<uint8_t> elements(kept.size() * source.element_bytes);
+    for (size_t i = 0; i < kept.size(); ++i) {
+      std::memcpy(elements.data() + i * source.element_bytes, source.element(kept[i]).data(),
+                  source.element_bytes);
+    }
+    source.owned = std::move(elements);
+    source.data = source.owned.data();
+    source.stride_bytes = source.element_bytes;
+    source.count = kept.size();
+  }
+  piece.wedge_count = static_cast<uint32_t>(kept.size());
+  piece.kept = std::move(kept);
+}
+
+}  // namespace
+
+void planUnused(const ConvertOptions& options, std::vector<PayloadPlan>& payloads,
+                std::vector<std::string>& notes) {
+  for (PayloadPlan& payload : payloads) {
+    uint64_t unused = 0;
+    bool is_kept = !options.drop_unused;
+    for (PiecePlan& piece : payload.pieces) {
+      std::vector<uint32_t> used = usedVertices(piece);
+      if (used.size() == piece.wedge_count) continue;
+      unused += piece.wedge_count - used.size();
+      // An extension may refer to vertices by number, attributes may stay next to the payload, and
+      // a primitive needs at least one vertex.
+      const bool must_stay = payload.keep_vertex_order || !piece.vertex_numbers.empty() ||
+                             !piece.ordinary.empty() || used.empty();
+      if (must_stay) is_kept = true;
+      if (options.drop_unused && !must_stay) keepVertices(std::move(used), piece);
+    }
+    if (unused == 0) continue;
+    const std::string which =
+        unused == 1 ? "1 vertex is" : std::to_string(unused) + " vertices are";
+    notes.push_back(at("/meshes", payload.mesh) + ": " + which + " in no triangle" +
+                    (!options.drop_unused ? "; --drop-unused leaves out what nothing refers to"
+                     : is_kept            ? ", and not all can be left out"
+                                          : ", and left out"));
+  }
+}
+
+}  // namespace mcc::gltf

@@ -1,0 +1,402 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/document/extension_uses.h"
+
+#include <map>
+#include <tuple>
+
+#include "gltf/document/accessors.h"
+#include "gltf/document/references.h"
+
+namespace mcc::gltf {
+namespace {
+
+constexpr uint64_t kMaxNumber = 0xffffffffu;
+
+/// Reads the number of an accessor at `path`. Returns false and adds an issue when it does not
+/// exist.
+bool readAccessorNumber(const Document& document, const Json& number, const std::string& path,
+                        Rule rule, Issues& issues, uint32_t& accessor) {
+  uint64_t index = 0;
+  if (!issues.passes(rule, readUnsigned(number, path, kMaxNumber, index))) return false;
+  if (index >= document.accessors.size()) {
+    issues.add(Rule::kReference, path, "there is no accessor " + std::to_string(index));
+    return false;
+  }
+  accessor = static_cast<uint32_t>(index);
+  return true;
+}
+
+/// Reads one map from names to attribute ids; the primitive's own map names the accessors.
+void readMap(const Document& document, const Json& ids, const std::string& path,
+             const Json* accessors, const std::string& accessors_path, uint32_t target,
+             Issues& issues, ExtensionUse& use) {
+  if (!ids.is_object()) return issues.add(Rule::kSchema, path, "must be an object");
+  for (const auto& [name, id] : ids.items()) {
+    ExtensionUse::AttributeUse attribute;
+    attribute.name = name;
+    attribute.target = target;
+    attribute.path = at(path, name);
+    const bool has_id =
+        issues.passes(Rule::kSchema, readUnsigned(id, attribute.path, kMaxNumber, attribute.id));
+    const Json* number = findMember(accessors, name);
+    if (number == nullptr) {
+      issues.add(Rule::kAttributeName, attribute.path,
+                 "the primitive has no attribute of this name");
+    } else if (readAccessorNumber(document, *number, at(accessors_path, name), Rule::kReference,
+                                  issues, attribute.accessor) &&
+               has_id) {
+      use.attributes.push_back(std::move(attribute));
+    }
+  }
+}
+
+void readTargets(const Document& document, const Json& extension, const Json& primitive,
+                 Issues& issues, ExtensionUse& use) {
+  const Json* targets = findMember(extension, "targets");
+  if (targets == nullptr) return;
+  const std::string path = use.path + "/targets";
+  if (!targets->is_array() || targets->empty()) {
+    return issues.add(Rule::kSchema, path, "must be an array that is not empty");
+  }
+  const Json& own = arrayOf(primitive, "targets");
+  if (targets->size() != own.size()) {
+    issues.add(Rule::kTargetCount, path,
+               "has " + std::to_string(targets->size()) + " targets, the primitive " +
+                   std::to_string(own.size()));
+  }
+  const std::string own_path = primitivePath(use.mesh, use.primitive) + "/targets";
+  for (uint32_t i = 0; i < std::min(targets->size(), own.size()); ++i) {
+    readMap(document, (*targets)[i], at(path, i), &own[i], at(own_path, i), i, issues, use);
+  }
+}
+
+void readView(const Document& document, const Json& extension, Issues& issues, ExtensionUse& use) {
+  uint64_t number = 0;
+  if (!issues.passes(Rule::kSchema,
+                     readUnsigned(extension, "bufferView", use.path, kMaxNumber, number))) {
+    return;
+  }
+  const std::string path = use.path + "/bufferView";
+  if (number >= document.views.size()) {
+    return issues.add(Rule::kReference, path, "there is no bufferView " + std::to_string(number));
+  }
+  const BufferView& view = document.views[number];
+  if (!view.fault.ok()) return issues.add(Rule::kPayloadView, path, view.fault.message());
+  if (view.isCoded()) {
+    return issues.add(
+        Rule::kPayloadView, path,
+        "bufferView " + std::to_string(number) + " is coded with " + view.coding.extension);
+  }
+  use.view = static_cast<uint32_t>(number);
+}
+
+void readExtension(const Document& document, const Json& extension, const Json& primitive,
+                   Issues& issues, ExtensionUse& use) {
+  const std::string primitive_path = primitivePath(use.mesh, use.primitive);
+  use.path = primitive_path + "/extensions/" + kExtensionName;
+  if (!extension.is_object()) return issues.add(Rule::kSchema, use.path, "must be an object");
+  if (findMember(primitive["extensions"], kMeshExtension) != nullptr) {
+    issues.add(Rule::kTwoCompressions, use.path,
+               std::string("the primitive is compressed with ") + kMeshExtension + ", too");
+  }
+  readView(document, extension, issues, use);
+  const auto read = [&](const char* key, uint64_t& number) {
+    return issues.passes(Rule::kSchema,
+                         readOptionalUnsigned(extension, key, use.path, kMaxNumber, number));
+  };
+  const bool has_piece = read("piece", use.piece);
+  use.has_numbers = read("part", use.part) && has_piece;
+  uint64_t mode = 4;
+  if (issues.passes(Rule::kMode,
+                    readOptionalUnsigned(primitive, "mode", primitive_path, 6, mode)) &&
+      mode != 4) {
+    issues.add(Rule::kMode, primitive_path + "/mode",
+               "must be 4 (triangles) in a compressed primitive");
+  }
+  if (const Json* indices = findMember(primitive, "indices"); indices != nullptr) {
+    readAccessorNumber(document, *indices, primitive_path + "/indices", Rule::kIndices, issues,
+                       use.indices_accessor);
+  } else {
+    issues.add(Rule::kIndices, primitive_path, "\"indices\" is missing");
+  }
+  if (const Json* ids = findMember(extension, "attributes"); ids != nullptr) {
+    readMap(document, *ids, use.path + "/attributes", findMember(primitive, "attributes"),
+            primitive_path + "/attributes", kNone, issues, use);
+  }
+  readTargets(document, extension, primitive, issues, use);
+}
+
+/// Returns the attributes, or those of a morph target, that an extension object names. `extension`
+/// may be null.
+const Json* codedMap(const Json* extension, uint32_t target) {
+  if (extension == nullptr) return nullptr;
+  if (target == kNone) return findMember(*extension, "attributes");
+  const Json& targets = arrayOf(*extension, "targets");
+  return target < targets.size() ? &targets[target] : nullptr;
+}
+
+/// Returns the JSON path of the attributes or of a morph target of a primitive.
+std::string mapPath(const std::string& primitive_path, uint32_t target) {
+  return target == kNone ? primitive_path + "/attributes" : at(primitive_path + "/targets", target);
+}
+
+/// Finds accessors that have two sources, or that something else refers to as well.
+class Sharing {
+ public:
+  Sharing(const Document& document, Issues& issues) : document_(document), issues_(issues) {}
+
+  void check(const std::vector<ExtensionUse>& uses) {
+    for (const ExtensionUse& use : uses) claimAll(use);
+    for (const Primitive& primitive : document_.primitives) {
+      noteOrdinary(*primitive.json, primitive.ref.path());
+    }
+    for (const auto& [accessor, ignored] : origins_) {
+      if (!document_.accessors[accessor].is_in_scene) continue;
+      issues_.add(Rule::kUsedElsewhere, at("/accessors", accessor),
+                  "is filled from a payload, but something outside of meshes refers to it, too");
+    }
+  }
+
+ private:
+  /// Where the elements of an accessor come from: (buffer view, piece, is a part, id).
+  using Origin = std::tuple<uint32_t, uint64_t, bool, uint64_t>;
+
+  void claim(uint32_t accessor, const Origin& origin, const std::string& path) {
+    if (accessor == kNone) return;
+    const auto [found, is_new] = origins_.try_emplace(accessor, origin);
+    if (is_new || found->second == origin) return;
+    issues_.add(Rule::kFilledTwice, path,
+                "accessor " + std::to_string(accessor) +
+                    " is filled from two different places of the payloads");
+  }
+
+  void claimAll(const ExtensionUse& use) {
+    for (const ExtensionUse::AttributeUse& attribute : use.attributes) {
+      claim(attribute.accessor, {use.view, use.piece, false, attribute.id}, attribute.path);
+    }
+    claim(use.indices_accessor, {use.view, use.piece, true, use.part}, use.path);
+  }
+
+  /// Notes the accessors that a primitive refers to and no payload fills.
+  void noteOrdinary(const Json& primitive, const std::string& path) {
+    const Json* ours = extensionOf(primitive, kExtensionName);
+    const Json* indices = findMember(primitive, "indices");
+    if (indices != nullptr && ours == nullptr) note(*indices, path + "/indices");
+    visitAttributeMaps(primitive, [&](const Json& map, uint32_t target) {
+      const Json* coded = codedMap(ours, target);
+      for (const auto& [name, accessor] : map.items()) {
+        if (findMember(coded, name) == nullptr) note(accessor, at(mapPath(path, target), name));
+      }
+    });
+  }
+
+  void note(const Json& accessor, const std::string& path) {
+    uint64_t index = 0;
+    if (!asUnsigned(accessor, index) || index >= document_.accessors.size() ||
+        !origins_.contains(static_cast<uint32_t>(index))) {
+      return;
+    }
+    issues_.add(Rule::kUsedElsewhere, path,
+                "accessor " + std::to_string(index) +
+                    " is filled from a payload; only what that payload fills may refer to it");
+  }
+
+  const Document& document_;
+  Issues& issues_;
+  std::map<uint32_t, Origin> origins_;
+};
+
+void checkAttribute(const Document& document, const ExtensionUse::AttributeUse& attribute,
+                    const PieceInfo& piece, Issues& issues) {
+  if (attribute.id >= piece.attributes.size()) {
+    return issues.add(Rule::kAttributeNumber, attribute.path,
+                      "there is no attribute " + std::to_string(attribute.id) +
+                          " in the payload's piece, which has " +
+                          std::to_string(piece.attributes.size()));
+  }
+  const Accessor& accessor = document.accessors[attribute.accessor];
+  const std::string accessor_path = at("/accessors", attribute.accessor);
+  if (accessor.count != piece.wedge_count) {
+    issues.add(Rule::kCount, accessor_path + "/count",
+               std::to_string(accessor.count) + " does not match the payload, which has " +
+                   std::to_string(piece.wedge_count) + " vertices");
+  }
+  if (!accessor.is_known_type) {
+    return issues.add(Rule::kType, accessor_path,
+                      accessor.fault.ok() ? "the type is unknown" : accessor.fault.what);
+  }
+  if (attribute.name == "POSITION" && attribute.target == kNone && attribute.id != 0) {
+    return issues.add(Rule::kAttributeNumber, attribute.path,
+                      "must be attribute 0, which all others are predicted from");
+  }
+  const AttributeFormat& coded = piece.attributes[attribute.id].format;
+  const AttributeFormat named = formatOf(attribute.name, attribute.target, accessor);
+  if (coded.component_type != named.component_type ||
+      coded.component_count != named.component_count || coded.normalized != named.normalized) {
+    return issues.add(Rule::kType, accessor_path,
+                      "its type is " + describeType(accessor) +
+                          ", which is not that of attribute " + std::to_string(attribute.id) +
+                          " in the payload");
+  }
+  if (coded != named) {
+    issues.add(Rule::kSemantic, attribute.path,
+               "attribute " + std::to_string(attribute.id) + " of the payload is not " +
+                   attribute.name + (attribute.target == kNone ? "" : " of this morph target"));
+  }
+}
+
+void checkIndices(const Document& document, const ExtensionUse& use, const PieceInfo& piece,
+                  Issues& issues) {
+  if (use.indices_accessor == kNone) return;
+  const Accessor& accessor = document.accessors[use.indices_accessor];
+  const std::string path = at("/accessors", use.indices_accessor);
+  if (use.part < piece.parts.size()) {
+    const uint64_t count = uint64_t{3} * piece.parts[use.part].triangle_count;
+    if (accessor.count != count) {
+      issues.add(Rule::kCount, path + "/count",
+                 std::to_string(accessor.count) + " does not match the payload, which has " +
+                     std::to_string(count) + " indices");
+    }
+  }
+  const ComponentType type = accessor.component_type;
+  const bool is_unsigned = type == ComponentType::kUint8 || type == ComponentType::kUint16 ||
+                           type == ComponentType::kUint32;
+  if (!accessor.is_known_type || accessor.componentCount() != 1 || accessor.normalized ||
+      !is_unsigned) {
+    return issues.add(Rule::kIndices, path, "indices must be SCALAR of an unsigned type");
+  }
+  // The largest value of a type is not a valid index: it restarts strips.
+  const bool fits = type == ComponentType::kUint32 ||
+                    (type == ComponentType::kUint16 && piece.wedge_count <= 0xffff) ||
+                    (type == ComponentType::kUint8 && piece.wedge_count <= 0xff);
+  if (!fits) {
+    issues.add(Rule::kIndexRange, path + "/componentType",
+               "cannot hold indices of " + std::to_string(piece.wedge_count) + " vertices");
+  }
+}
+
+/// Attributes next to the payload must have as many elements as the piece has vertices, also in
+/// morph targets. Accessors that the payload fills are checked where they are named.
+void checkOrdinaryAttributes(const Document& document, const ExtensionUse& use,
+                             const PieceInfo& piece, Issues& issues) {
+  const Json& primitive = *use.json;
+  const Json* extension = extensionOf(primitive, kExtensionName);
+  const std::string path = primitivePath(use.mesh, use.primitive);
+  visitAttributeMaps(primitive, [&](const Json& map, uint32_t target) {
+    const Json* coded = codedMap(extension, target);
+    for (const auto& [name, value] : map.items()) {
+      uint64_t index = 0;
+      if (findMember(coded, name) != nullptr) continue;
+      if (asUnsigned(value, index) && index < document.accessors.size() &&
+          document.accessors[index].count == piece.wedge_count) {
+        continue;
+      }
+      issues.add(Rule::kCount, at(mapPath(path, target), name),
+                 "the accessor does not have the payload's " + std::to_string(piece.wedge_count) +
+                     " elements");
+    }
+  });
+}
+
+void checkPart(const ExtensionUse& use, const PieceInfo& piece, Issues& issues) {
+  if (use.part >= piece.parts.size()) {
+    issues.add(Rule::kPart, use.path + "/part",
+               "there is no part " + std::to_string(use.part) + " in the piece, which has " +
+                   std::to_string(piece.parts.size()));
+  } else if (piece.parts[use.part].triangle_count == 0) {
+    issues.add(Rule::kPart, use.path,
+               "part " + std::to_string(use.part) +
+                   " of the piece has no triangles, so no primitive may name it");
+  }
+}
+
+}  // namespace
+
+void findExtensionUses(const Document& document, Issues& issues, std::vector<ExtensionUse>& uses) {
+  uses.clear();
+  for (const Primitive& primitive : document.primitives) {
+    const Json* extension = extensionOf(*primitive.json, kExtensionName);
+    if (extension == nullptr) continue;
+    ExtensionUse& use = uses.emplace_back();
+    use.mesh = primitive.ref.mesh;
+    use.primitive = primitive.ref.primitive;
+    use.json = primitive.json;
+    readExtension(document, *extension, *primitive.json, issues, use);
+  }
+  if (!uses.empty()) Sharing(document, issues).check(uses);
+}
+
+Result findExtensionUses(const Document& document, std::vector<ExtensionUse>& uses) {
+  Issues issues(1);
+  findExtensionUses(document, issues, uses);
+  return issues.first();
+}
+
+std::vector<PayloadUse> payloadUses(const Document& document,
+                                    const std::vector<ExtensionUse>& uses) {
+  using Range = std::tuple<uint32_t, uint64_t, uint64_t>;
+  std::map<uint32_t, std::vector<const ExtensionUse*>> by_view;
+  for (const ExtensionUse& use : uses) {
+    if (use.view != kNone) by_view[use.view].push_back(&use);
+  }
+  std::vector<PayloadUse> payloads;
+  std::map<Range, size_t> by_range;
+  for (const auto& [number, users] : by_view) {
+    const BufferView& view = document.views[number];
+    const Range range = {view.buffer, view.offset, view.length};
+    const auto [found, is_new] = by_range.try_emplace(range, payloads.size());
+    if (is_new) payloads.push_back({number, {}});
+    std::vector<const ExtensionUse*>& all = payloads[found->second].users;
+    all.insert(all.end(), users.begin(), users.end());
+  }
+  return payloads;
+}
+
+Result checkPayloadLengths(const Document& document, const std::vector<PayloadUse>& payloads) {
+  uint64_t available = 0;
+  for (const auto& buffer : document.buffers) available += buffer.size();
+  for (const PayloadUse& payload : payloads) {
+    const uint64_t length = document.views[payload.view].length;
+    if (length > available) {
+      return error(at("/bufferViews", payload.view),
+                   "overlaps other payloads, which together are longer than all buffers");
+    }
+    available -= length;
+  }
+  return {};
+}
+
+std::span<const uint8_t> payloadBytes(const Document& document, uint32_t view) {
+  const BufferView& range = document.views[view];
+  return document.buffers[range.buffer].subspan(range.offset, range.length);
+}
+
+void checkAgainstPayload(const Document& document, const ExtensionUse& use, const PayloadInfo& info,
+                         Issues& issues) {
+  if (use.piece >= info.pieces.size()) {
+    return issues.add(Rule::kPiece, use.path + "/piece",
+                      "there is no piece " + std::to_string(use.piece) +
+                          " in the payload, which has " + std::to_string(info.pieces.size()));
+  }
+  const PieceInfo& piece = info.pieces[use.piece];
+  if (piece.wedge_count == 0) {
+    return issues.add(Rule::kPiece, use.path,
+                      "piece " + std::to_string(use.piece) +
+                          " of the payload has no vertices, so no primitive may name it");
+  }
+  checkPart(use, piece, issues);
+  for (const ExtensionUse::AttributeUse& attribute : use.attributes) {
+    checkAttribute(document, attribute, piece, issues);
+  }
+  checkIndices(document, use, piece, issues);
+  checkOrdinaryAttributes(document, use, piece, issues);
+}
+
+Result checkAgainstPayload(const Document& document, const ExtensionUse& use,
+                           const PayloadInfo& info) {
+  Issues issues(1);
+  checkAgainstPayload(document, use, info, issues);
+  return issues.first();
+}
+
+}  // namespace mcc::gltf
