@@ -10,6 +10,7 @@
 
 #include "gltf/check/prove.h"
 #include "gltf/check/values.h"
+#include "gltf/compress/compress.h"
 #include "gltf/compress/quantize.h"
 #include "gltf/gltf_builder.h"
 

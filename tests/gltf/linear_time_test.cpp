@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "gltf/check/compare.h"
-#include "gltf/compress/compress.h"
+#include "gltf/compress/savings.h"
 #include "gltf/document/layout.h"
 #include "gltf/round_trip.h"
 

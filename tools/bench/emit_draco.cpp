@@ -185,7 +185,7 @@ gltf::Result emit(std::span<const uint8_t> source, const gltf::FileReader& read_
   for (size_t i = 0; i < plans.size(); ++i) payloads[i].plan = std::move(plans[i]);
   std::vector<EmittedPart> parts;
   encodeParts(speed, payloads, parts, notes);
-  std::vector<bool> is_taken = gltf::accessorsInOtherUse(document, payloads);
+  std::vector<bool> is_taken = gltf::accessorsInOtherUse(document, gltf::plansOf(payloads));
   for (const EmittedPart& part : parts) {
     for (const uint32_t left_out : part.draco.left_out) {
       const gltf::AttributePlan& attribute = part.piece->attributes[left_out];

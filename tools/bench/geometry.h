@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf/compress/compress.h"
+#include "gltf/compress/savings.h"
 #include "mcc/gltf.h"
 #include "mcc/writer.h"
 

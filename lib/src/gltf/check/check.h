@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "gltf/compress/compress.h"
+#include "gltf/compress/encode.h"
 #include "mcc/gltf.h"
 
 namespace mcc::gltf {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf/compress/compress.h"
+#include "gltf/compress/encode.h"
 #include "mcc/gltf.h"
 
 namespace mcc::gltf {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "gltf/compress/quantize.h"
+#include "gltf/compress/savings.h"
 #include "gltf/compress/vertices.h"
 
 namespace mcc::gltf {
@@ -35,7 +36,7 @@ class Applier {
       : document_(document),
         source_accessors_(arrayOf(document.json, "accessors")),
         compressed_(compressed),
-        is_taken_(accessorsInOtherUse(document, compressed.payloads)) {}
+        is_taken_(accessorsInOtherUse(document, plansOf(compressed.payloads))) {}
 
   std::vector<NewView> run() {
     compressed_.json = document_.json;
@@ -184,69 +185,6 @@ void sortByPlace(std::vector<LeftAlone>& left_alone) {
 }
 
 }  // namespace
-
-std::vector<bool> accessorsInOtherUse(const Document& document,
-                                      const std::vector<EncodedPayload>& payloads) {
-  std::vector<const PayloadPlan*> plans;
-  for (const EncodedPayload& payload : payloads) plans.push_back(&payload.plan);
-  return accessorsInOtherUse(document, plans);
-}
-
-std::vector<bool> accessorsInOtherUse(const Document& document,
-                                      const std::vector<const PayloadPlan*>& payloads) {
-  std::vector<bool> is_used = accessorsOutsidePayloads(document, payloads);
-  for (const PayloadPlan* payload : payloads) {
-    for (const PiecePlan& piece : payload->pieces) {
-      for (const AttributePlan& attribute : piece.ordinary) is_used[attribute.accessor] = true;
-    }
-  }
-  return is_used;
-}
-
-std::vector<bool> accessorsOutsidePayloads(const Document& document,
-                                           const std::vector<const PayloadPlan*>& payloads) {
-  std::vector<uint64_t> uses_in_payloads(document.accessors.size(), 0);
-  for (const PayloadPlan* payload : payloads) {
-    for (const PiecePlan& piece : payload->pieces) {
-      uint64_t users = 0;
-      for (const PartPlan& part : piece.parts) {
-        users += part.users.size();
-        if (part.indices_accessor == kNone) continue;
-        uses_in_payloads[part.indices_accessor] += part.users.size();
-      }
-      for (const auto* attributes : {&piece.attributes, &piece.ordinary}) {
-        for (const AttributePlan& attribute : *attributes) {
-          uses_in_payloads[attribute.accessor] += users;
-        }
-      }
-    }
-  }
-  std::vector<bool> is_used;
-  for (size_t i = 0; i < uses_in_payloads.size(); ++i) {
-    const Accessor& accessor = document.accessors[i];
-    is_used.push_back(accessor.isUsedOutsideMeshes() || accessor.extension_uses != 0 ||
-                      accessor.primitive_uses > uses_in_payloads[i]);
-  }
-  return is_used;
-}
-
-Json extensionJson(uint64_t buffer_view, size_t piece_number, const PiecePlan& piece,
-                   size_t part_number) {
-  Json json = {{"bufferView", buffer_view}};
-  if (piece_number != 0) json["piece"] = piece_number;
-  if (part_number != 0) json["part"] = part_number;
-  if (piece.attributes.empty()) return json;
-  Json attributes = Json::object();
-  std::vector<Json> targets(piece.target_count, Json::object());
-  for (size_t id = 0; id < piece.attributes.size(); ++id) {
-    const AttributePlan& attribute = piece.attributes[id];
-    Json& map = attribute.target == kNone ? attributes : targets[attribute.target];
-    map.append(attribute.name, id);  // names are unique
-  }
-  json["attributes"] = std::move(attributes);
-  if (!targets.empty()) json["targets"] = std::move(targets);
-  return json;
-}
 
 Result compressDocument(const Document& document, const ConvertOptions& options,
                         Compressed& compressed) {

@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+#include "gltf/compress/encode.h"
+
 #include <mutex>
 
-#include "gltf/compress/compress.h"
 #include "gltf/compress/vertices.h"
 #include "gltf/document/payload.h"
 #include "host/parallel.h"
@@ -133,6 +134,12 @@ class EncodingProgress {
 };
 
 }  // namespace
+
+std::vector<const PayloadPlan*> plansOf(const std::vector<EncodedPayload>& payloads) {
+  std::vector<const PayloadPlan*> plans;
+  for (const EncodedPayload& payload : payloads) plans.push_back(&payload.plan);
+  return plans;
+}
 
 uint64_t bytesAlone(const ConvertOptions& options, const PayloadPlan& plan,
                     const PiecePlan& piece) {

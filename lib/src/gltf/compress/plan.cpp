@@ -433,6 +433,24 @@ void splitPayloads(const ConvertOptions& options, std::vector<PayloadPlan>& payl
   payloads = std::move(split);
 }
 
+Json extensionJson(uint64_t buffer_view, size_t piece_number, const PiecePlan& piece,
+                   size_t part_number) {
+  Json json = {{"bufferView", buffer_view}};
+  if (piece_number != 0) json["piece"] = piece_number;
+  if (part_number != 0) json["part"] = part_number;
+  if (piece.attributes.empty()) return json;
+  Json attributes = Json::object();
+  std::vector<Json> targets(piece.target_count, Json::object());
+  for (size_t id = 0; id < piece.attributes.size(); ++id) {
+    const AttributePlan& attribute = piece.attributes[id];
+    Json& map = attribute.target == kNone ? attributes : targets[attribute.target];
+    map.append(attribute.name, id);  // names are unique
+  }
+  json["attributes"] = std::move(attributes);
+  if (!targets.empty()) json["targets"] = std::move(targets);
+  return json;
+}
+
 Result planPayloads(const Document& document, std::vector<PayloadPlan>& payloads,
                     std::vector<LeftAlone>& left_alone) {
   return Planner(document, payloads, left_alone).run();

@@ -96,6 +96,10 @@ bool comesBefore(const AttributePlan& a, const AttributePlan& b);
 Result planPayloads(const Document& document, std::vector<PayloadPlan>& payloads,
                     std::vector<LeftAlone>& left_alone);
 
+/// Returns the extension object of a primitive that uses a part of a piece.
+Json extensionJson(uint64_t buffer_view, size_t piece_number, const PiecePlan& piece,
+                   size_t part_number);
+
 /// Divides payloads that hold more than every reader accepts by its default Limits, and gives
 /// pieces that may be cut into blocks payloads of their own. What the pieces of a mesh share, such
 /// as their lattice, must have been chosen before.

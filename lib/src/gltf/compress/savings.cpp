@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-//
-// Makes sure that files never become larger: decides which payloads save more than they cost.
+#include "gltf/compress/savings.h"
+
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -9,7 +9,6 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "gltf/compress/compress.h"
 #include "gltf/document/layout.h"
 #include "host/parallel.h"
 #include "host/text.h"
@@ -269,7 +268,8 @@ class LoserSearch {
       group_of_.push_back(groups_.size() - 1);
       for (const PiecePlan& piece : plan.pieces) pieces.push_back({&piece, group_of_.back()});
     }
-    return ownersOf(document, accessorsInOtherUse(document, payloads_), pieces, groups_.size());
+    return ownersOf(document, accessorsInOtherUse(document, plansOf(payloads_)), pieces,
+                    groups_.size());
   }
 
   void leaveGroupAlone(size_t number, std::vector<LeftAlone>& left_alone) const {
@@ -288,13 +288,51 @@ class LoserSearch {
 
 }  // namespace
 
+std::vector<bool> accessorsInOtherUse(const Document& document,
+                                      const std::vector<const PayloadPlan*>& payloads) {
+  std::vector<bool> is_used = accessorsOutsidePayloads(document, payloads);
+  for (const PayloadPlan* payload : payloads) {
+    for (const PiecePlan& piece : payload->pieces) {
+      for (const AttributePlan& attribute : piece.ordinary) is_used[attribute.accessor] = true;
+    }
+  }
+  return is_used;
+}
+
+std::vector<bool> accessorsOutsidePayloads(const Document& document,
+                                           const std::vector<const PayloadPlan*>& payloads) {
+  std::vector<uint64_t> uses_in_payloads(document.accessors.size(), 0);
+  for (const PayloadPlan* payload : payloads) {
+    for (const PiecePlan& piece : payload->pieces) {
+      uint64_t users = 0;
+      for (const PartPlan& part : piece.parts) {
+        users += part.users.size();
+        if (part.indices_accessor == kNone) continue;
+        uses_in_payloads[part.indices_accessor] += part.users.size();
+      }
+      for (const auto* attributes : {&piece.attributes, &piece.ordinary}) {
+        for (const AttributePlan& attribute : *attributes) {
+          uses_in_payloads[attribute.accessor] += users;
+        }
+      }
+    }
+  }
+  std::vector<bool> is_used;
+  for (size_t i = 0; i < uses_in_payloads.size(); ++i) {
+    const Accessor& accessor = document.accessors[i];
+    is_used.push_back(accessor.isUsedOutsideMeshes() || accessor.extension_uses != 0 ||
+                      accessor.primitive_uses > uses_in_payloads[i]);
+  }
+  return is_used;
+}
+
 void countFreedBytes(const Document& document, std::vector<EncodedPayload>& payloads) {
   std::vector<OwnedPiece> pieces;
   for (size_t i = 0; i < payloads.size(); ++i) {
     for (const PiecePlan& piece : payloads[i].plan.pieces) pieces.push_back({&piece, i});
   }
   const ByteOwners owners =
-      ownersOf(document, accessorsInOtherUse(document, payloads), pieces, payloads.size());
+      ownersOf(document, accessorsInOtherUse(document, plansOf(payloads)), pieces, payloads.size());
   for (size_t i = 0; i < payloads.size(); ++i) payloads[i].freed_bytes = owners.freed()[i];
 }
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "gltf/compress/compress.h"
+#include "gltf/compress/savings.h"
 #include "gltf/document/accessors.h"
 #include "gltf/document/known_extensions.h"
 
