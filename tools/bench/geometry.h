@@ -10,8 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "gltf/compress/compress.h"
 #include "gltf/compress/savings.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "mcc/writer.h"
 
 namespace mcc::bench {

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "host/text.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "progress_line.h"
 
 namespace mcc::tool {

@@ -7,7 +7,7 @@
 #include <array>
 
 #include "host/text.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "notes.h"
 
 namespace mcc::tool {

@@ -11,7 +11,7 @@
 #include "help.h"
 #include "host/text.h"
 #include "interrupt.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "parse.h"
 #include "standard_streams.h"
 #include "suggest.h"

@@ -5,7 +5,8 @@
 
 #include "commands.h"
 #include "host/text.h"
-#include "mcc/gltf.h"
+#include "mcc/files.h"
+#include "mcc/glb.h"
 #include "report_file.h"
 #include "standard_streams.h"
 #include "suggest.h"

@@ -12,7 +12,7 @@
 #include "gltf/api/convert.h"
 #include "gltf/inspect/report_json.h"
 #include "json/json.h"
-#include "mcc/gltf.h"
+#include "mcc/files.h"
 
 struct mcc_document {
   std::vector<uint8_t> bytes;

@@ -9,8 +9,9 @@
 #include <span>
 #include <vector>
 
+#include "gltf/compress/compress.h"
 #include "gltf/compress/encode.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::gltf {
 

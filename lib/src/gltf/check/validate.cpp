@@ -18,6 +18,7 @@
 #include "gltf/files/named_file.h"
 #include "host/parallel.h"
 #include "host/text.h"
+#include "mcc/files.h"
 
 namespace mcc::gltf {
 namespace {
@@ -390,6 +391,11 @@ Result validate(const Source& source, const ValidateOptions& options, Validation
     report.is_truncated = total > report.issues.size();
     return {};
   });
+}
+
+Result validateGlb(std::span<const uint8_t> source, const ValidateOptions& options,
+                   ValidationReport& report) {
+  return validate({{}, source}, options, report);
 }
 
 }  // namespace mcc::gltf

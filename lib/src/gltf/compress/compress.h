@@ -10,7 +10,9 @@
 #include "gltf/compress/encode.h"
 #include "gltf/compress/plan.h"
 #include "gltf/document/layout.h"
-#include "mcc/gltf.h"
+#include "gltf/document/references.h"
+#include "mcc/glb.h"
+#include "mcc/writer.h"
 
 namespace mcc::gltf {
 

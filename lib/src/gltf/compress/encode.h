@@ -9,7 +9,7 @@
 
 #include "gltf/compress/plan.h"
 #include "gltf/document/accessors.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "mcc/writer.h"
 
 namespace mcc::gltf {

@@ -9,7 +9,7 @@
 
 #include "gltf/compress/encode.h"
 #include "gltf/compress/plan.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::gltf {
 

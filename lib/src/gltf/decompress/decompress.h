@@ -21,7 +21,7 @@
 #include "gltf/document/layout.h"
 #include "gltf/document/payload.h"
 #include "json/json.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::gltf {
 

@@ -11,7 +11,7 @@
 #include "gltf/document/package.h"
 #include "gltf/document/references.h"
 #include "gltf/document/uri.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::gltf {
 namespace {

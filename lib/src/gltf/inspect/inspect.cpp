@@ -12,7 +12,8 @@
 #include "gltf/files/named_file.h"
 #include "gltf/inspect/report_json.h"
 #include "host/parallel.h"
-#include "mcc/gltf.h"
+#include "mcc/files.h"
+#include "mcc/glb.h"
 #include "mcc/writer.h"
 
 namespace mcc::gltf {

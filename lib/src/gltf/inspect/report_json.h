@@ -9,7 +9,7 @@
 
 #include "format/methods.h"
 #include "json/json.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::gltf {
 

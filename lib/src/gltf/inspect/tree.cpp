@@ -11,7 +11,8 @@
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
 #include "host/parallel.h"
-#include "mcc/gltf.h"
+#include "mcc/files.h"
+#include "mcc/glb.h"
 #include "mcc/writer.h"
 
 namespace mcc::gltf {
