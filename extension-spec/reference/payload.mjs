@@ -15,7 +15,7 @@ import { decodePositions, positionModels } from './positions.mjs';
 import { creasesOf, decodeSeams, seamModels } from './seams.mjs';
 import { seenPositions } from './seenpositions.mjs';
 import { decodeStitching, stitchModels } from './stitch.mjs';
-import { decodeTriangles, triangleModels } from './triangles.mjs';
+import { decodeTriangles, indicesOf, triangleModels } from './triangles.mjs';
 import { createWedges } from './wedges.mjs';
 
 // [A.3.6] All models of a payload, and what else it has one of.
@@ -109,13 +109,4 @@ function resultOf({ piece, table, parts, wedgeOrder, values }) {
 		indices: (part) => indicesOf(table, parts[part]).map((w) => placeOf[w]),
 		elements: (i) => elementsOf(piece, piece.attributes[i], values, wedgeOrder),
 	};
-}
-
-// The wedges of the triangles of a part.
-export function indicesOf(table, triangles) {
-	const indices = new Uint32Array(3 * triangles.length);
-	triangles.forEach(({ triangle, corner }, i) => {
-		for (let k = 0; k < 3; ++k) indices[3 * i + k] = table.wedges[3 * triangle + ((corner + k) % 3)];
-	});
-	return indices;
 }

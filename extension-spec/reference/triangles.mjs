@@ -91,3 +91,12 @@ function checkParts({ partTriangles }, { part }) {
 	for (const p of part) ++counts[p];
 	valid(partTriangles.every((count, p) => count === counts[p]), 'A.9.4', 'a part has another number of triangles');
 }
+
+// The wedges of the triangles of a part.
+export function indicesOf(table, triangles) {
+	const indices = new Uint32Array(3 * triangles.length);
+	triangles.forEach(({ triangle, corner }, i) => {
+		for (let k = 0; k < 3; ++k) indices[3 * i + k] = table.wedges[3 * triangle + ((corner + k) % 3)];
+	});
+	return indices;
+}

@@ -5,7 +5,7 @@ import { asTrap, checkIndexType, claimsBlocks, FLAGS_END } from './arguments.mjs
 import { BlockDecoder, runTask } from './block_decoder.mjs';
 import { Chunks } from './chunks.mjs';
 import { checkClaims } from './claims.mjs';
-import { decodePayload } from './decoder.mjs';
+import { decodePayload } from './decode.mjs';
 import { MccError, requireArgument } from './error.mjs';
 import { wholeModule } from './source.mjs';
 

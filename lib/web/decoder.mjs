@@ -2,44 +2,10 @@
 //
 // Decodes payloads of KHR_mesh_collapse_compression, on this thread or in workers.
 import { blocksOf, decodeGlued } from './blocks.mjs';
-import { Decoder } from './core.mjs';
-import { MccError } from './error.mjs';
 import { createPool } from './pool.mjs';
-import { pageSource, usePageSource } from './source.mjs';
 
-export { MccError };
-
-/**
- * Loads the decoder. If it is never called, the first decodePayload() loads the modules next to
- * this one.
- */
-export async function init(options) {
-  await usePageSource(options ?? {}).core();
-}
-
-/** Resolves when the whole decoder is loaded. Awaiting it starts the loading. */
-export const ready = {
-  then: (fulfilled, rejected) => pageSource().whole().then(() => {}).then(fulfilled, rejected),
-};
-
-/** Returns the decoder of a module, always the same one. */
-const decoderOf = (loaded) => (loaded.decoder ??= new Decoder(loaded.module));
-
-export async function decodePayload(bytes, options) {
-  const from = pageSource();
-  try {
-    return await decoderOf(await from.first()).decode(bytes, options);
-  } catch (error) {
-    if (error.code !== 'NotInCore') throw error;
-    return decoderOf(await from.whole()).decode(bytes, options);
-  }
-}
-
-export function decodePayloadSync(bytes, options) {
-  const { decoder } = pageSource();
-  if (decoder === undefined) throw new MccError('the decoder is not loaded yet: await ready first', 'Load');
-  return decoderOf(decoder).decodeSync(bytes, options);
-}
+export { decodePayload, decodePayloadSync, init, ready } from './decode.mjs';
+export { MccError } from './error.mjs';
 
 /** Creates a pool that decodes several payloads at a time, in workers. */
 export const createDecoderPool = (options) => createPool(options, { blocksOf, decodeGlued });

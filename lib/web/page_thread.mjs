@@ -2,5 +2,5 @@
 //
 // What loaders import only for surfaces in blocks, and where no worker can start: gluing and decoding on the page's thread.
 export { decodeGlued, OnThisThread } from './blocks.mjs';
-export { decodePayload } from './decoder.mjs';
+export { decodePayload } from './decode.mjs';
 export { showBlock } from './three_blocks.mjs';

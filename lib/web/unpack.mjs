@@ -3,7 +3,7 @@
 // Turns a GLB into one without the extension, for loaders that do not know it.
 import { ARRAYS, asTrap } from './arguments.mjs';
 import { Budget, forAll, namedBytes, sum } from './budget.mjs';
-import { decodePayload } from './decoder.mjs';
+import { decodePayload } from './decode.mjs';
 import { COMPONENT_COUNTS, elementsOf, EXTENSION_NAME, extensionUses, originOf, payloadsOf } from './document.mjs';
 import { fail } from './error.mjs';
 

@@ -4,7 +4,7 @@
 // know it.
 import { asTrap } from './arguments.mjs';
 import { Budget, fetchAndDecode, forAll } from './budget.mjs';
-import { decodePayload } from './decoder.mjs';
+import { decodePayload } from './decode.mjs';
 import { elementsOf, originOf, payloadsOf } from './document.mjs';
 import { elementBytes, membersOf, removeExtension, viewBytes, viewOf } from './unpack.mjs';
 

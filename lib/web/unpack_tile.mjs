@@ -4,7 +4,7 @@
 // kind inside. In C++ tools/tiles/tile_file.h does the same.
 import { asTrap } from './arguments.mjs';
 import { Budget, forAll, sum } from './budget.mjs';
-import { decodePayload } from './decoder.mjs';
+import { decodePayload } from './decode.mjs';
 import { fail, placed } from './error.mjs';
 import { decodePacked, readPacked, unpackGlb } from './unpack.mjs';
 
