@@ -37,7 +37,7 @@ endfunction()
 set(mcc_headers_reader allocator.h c_api.h decoded_limit.h error.h export.h job_runner.h reader.h status.h
                        tinygltf.h types.h)
 set(mcc_headers_writer run_jobs.h writer.h)
-set(mcc_headers_gltf gltf.h result.h)
+set(mcc_headers_gltf files.h glb.h result.h)
 
 # mcc_install(ALIAS...): these libraries, their headers, CMake package, pkg-config files, and the
 # target `uninstall`.

@@ -10,7 +10,7 @@
 #include "gltf/files/file_io.h"
 #include "gltf/scene_positions.h"
 #include "gltf/tuples.h"
-#include "mcc/gltf.h"
+#include "mcc/files.h"
 #include "support/scratch_folder.h"
 #include "support/validator.h"
 

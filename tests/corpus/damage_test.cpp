@@ -16,7 +16,7 @@
 #include "format/predictors.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/files/file_io.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "robustness/damage.h"
 
 namespace mcc::test {

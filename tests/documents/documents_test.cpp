@@ -15,6 +15,7 @@
 #include "documents/compare.h"
 #include "foreign/decoders.h"
 #include "gltf/files/file_io.h"
+#include "mcc/files.h"
 #include "support/scratch_folder.h"
 #include "support/validator.h"
 
@@ -103,9 +104,8 @@ class Way {
   }
 
   Result validateConverted(const RandomDocument& document, ValidationReport& validation) {
-    Source source = {out_ / converted_name, {}};
-    if (document.to_memory) source.bytes = converted[converted_name];
-    return validate(source, {}, validation);
+    if (document.to_memory) return validateGlb(converted[converted_name], {}, validation);
+    return validate({out_ / converted_name, {}}, {}, validation);
   }
 
   std::string converted_name;

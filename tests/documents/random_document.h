@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::gltf::test {
 

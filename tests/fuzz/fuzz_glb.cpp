@@ -12,7 +12,7 @@
 #include "fuzz/byte_feed.h"
 #include "gltf/document/glb.h"
 #include "json/json.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "robustness/damage.h"
 
 namespace mcc::gltf::test {
@@ -75,7 +75,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   InspectReport inspect_report;
   test::requireMessage(inspectGlb(file, true, inspect_report));
   ValidationReport validation;
-  test::requireMessage(validate({"file.glb", file}, {}, validation));
+  test::requireMessage(validateGlb(file, {}, validation));
   if (!result.ok()) return 0;
   std::vector<uint8_t> converted;
   ConvertOptions options;

@@ -12,7 +12,7 @@
 #include "container/payload_header.h"
 #include "fuzz/byte_feed.h"
 #include "gltf/document/glb.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "robustness/payloads.h"
 #include "support/mesh_generators.h"
 

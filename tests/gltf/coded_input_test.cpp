@@ -10,6 +10,7 @@
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
 #include "gltf/made_up_codecs.h"
+#include "mcc/files.h"
 #include "support/scratch_folder.h"
 
 namespace mcc::gltf::test {
@@ -112,7 +113,8 @@ TEST(CodedViews, StayCodedBesideAFallback) {
     ASSERT_TRUE(readFile(path, file).ok());
     Document document;
     ASSERT_TRUE(loadDocument(file, readerOf(folder.path()), document).ok());
-    EXPECT_EQ(document.json["extensionsRequired"], Json::array({kViewName}));  // ours has a fallback
+    EXPECT_EQ(document.json["extensionsRequired"],
+              Json::array({kViewName}));  // ours has a fallback
     ASSERT_EQ(document.json["buffers"].size(), 3u);
     EXPECT_EQ(document.json["buffers"][1]["extensions"][kViewName]["fallback"], true);
     const std::string fallback = document.json["buffers"][2]["uri"];

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "gltf/made_up_codecs.h"
-#include "mcc/gltf.h"
+#include "mcc/files.h"
 
 namespace mcc::gltf::test {
 namespace {
@@ -124,7 +124,7 @@ void tryAll(std::span<const uint8_t> file) {
   InspectReport inspect_report;
   expectOneLine(inspectGlb(file, true, inspect_report));
   ValidationReport validation;
-  expectOneLine(validate({"file.glb", file}, {}, validation));
+  expectOneLine(validateGlb(file, {}, validation));
   EXPECT_TRUE(decoded.ok() || !validation.isValid()) << decoded.message();
 }
 

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "gltf/gltf_builder.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::gltf::test {
 namespace {

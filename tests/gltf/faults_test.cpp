@@ -40,7 +40,7 @@ bool mentions(const std::string& text, const std::string& part) {
 
 std::vector<ValidationIssue> issuesOf(const std::vector<uint8_t>& file) {
   ValidationReport report;
-  EXPECT_EQ(validate({"file.glb", file}, {}, report).message(), "");
+  EXPECT_EQ(validateGlb(file, {}, report).message(), "");
   return report.issues;
 }
 
@@ -331,9 +331,7 @@ TEST(Faults, OfWhatOtherCodecsCompressed) {
 
 /// Numbers beyond binary64 are JSON, though no numbers of glTF.
 TEST(Faults, BoundsThatAreInfiniteAreReplaced) {
-  const auto spelt = [](const std::string& number) {
-    return Json::number(number);
-  };
+  const auto spelt = [](const std::string& number) { return Json::number(number); };
   const std::vector<Json> bounds = {{spelt("1e999"), spelt("1e999"), spelt("-1E+400")},
                                     {nullptr, nullptr, nullptr},
                                     {"NaN", "Infinity", "-Infinity"},

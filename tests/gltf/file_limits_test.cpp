@@ -136,10 +136,10 @@ TEST(FileLimits, OfConvertAndValidate) {
   ValidateOptions validate_options;
   ValidationReport validation;
   validate_options.max_decoded_bytes = kDecodedBytes;
-  ASSERT_TRUE(validate({{}, file}, validate_options, validation).ok());
+  ASSERT_TRUE(validateGlb(file, validate_options, validation).ok());
   EXPECT_TRUE(validation.isValid());
   validate_options.max_decoded_bytes = kDecodedBytes - 1;
-  ASSERT_TRUE(validate({{}, file}, validate_options, validation).ok());
+  ASSERT_TRUE(validateGlb(file, validate_options, validation).ok());
   ASSERT_EQ(validation.issues.size(), 1u);
   EXPECT_EQ(validation.issues[0].code, "FILE_ABOVE_LIMIT");
 }

@@ -215,7 +215,7 @@ TEST(LinearTime, MembersOfTheRootLarge) {
   ASSERT_EQ(trip.error, "");
   ASSERT_EQ(trip.report.payloads.size(), 1u);
   ValidationReport report;
-  ASSERT_EQ(validate({"a.glb", trip.converted}, {}, report).message(), "");
+  ASSERT_EQ(validateGlb(trip.converted, {}, report).message(), "");
   EXPECT_TRUE(report.isValid());
 }
 
@@ -444,7 +444,7 @@ TEST(LinearTime, PayloadsThatOverlapAreNotRead) {
     std::vector<uint8_t> file;
     EXPECT_TRUE(writeGlb(printJson(json), glb.bin, {}, file).ok());
     ValidationReport validation;
-    EXPECT_EQ(validate({"a.glb", file}, {}, validation).message(), "");
+    EXPECT_EQ(validateGlb(file, {}, validation).message(), "");
     std::vector<uint8_t> output;
     DecodeReport report;
     const std::string message = decodeGlb(file, output, report).message();

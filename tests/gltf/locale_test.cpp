@@ -100,7 +100,7 @@ std::vector<uint8_t> documentWithBounds() {
 
 std::vector<std::string> messagesOf(std::span<const uint8_t> file) {
   ValidationReport report;
-  EXPECT_TRUE(validate({{}, file}, {}, report).ok());
+  EXPECT_TRUE(validateGlb(file, {}, report).ok());
   std::vector<std::string> issues;
   for (const ValidationIssue& issue : report.issues) issues.push_back(issue.message);
   return issues;

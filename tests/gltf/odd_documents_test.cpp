@@ -9,6 +9,7 @@
 #include "gltf/files/file_io.h"
 #include "gltf/made_up_codecs.h"
 #include "gltf/round_trip.h"
+#include "mcc/files.h"
 #include "support/scratch_folder.h"
 
 namespace mcc::gltf::test {

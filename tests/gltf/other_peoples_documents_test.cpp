@@ -48,7 +48,7 @@ Outcome outcomeOf(const std::function<void(Document2&)>& change) {
   EXPECT_TRUE(isCompressed(converted, 1, 0));
   outcome.is_compressed = isCompressed(converted, 0, 0);
   ValidationReport report;
-  EXPECT_EQ(validate({"a.glb", outcome.trip.converted}, {}, report).message(), "");
+  EXPECT_EQ(validateGlb(outcome.trip.converted, {}, report).message(), "");
   if (document.builder.json.value("faulty", false)) return outcome;
   for (const ValidationIssue& issue : report.issues) {
     EXPECT_NE(issue.severity, Severity::kError) << issue.pointer << ": " << issue.message;
@@ -280,9 +280,7 @@ TEST(OtherPeoplesDocuments, InstancesAndVariants) {
 
 /// A number may be spelt in any way that JSON allows.
 TEST(OtherPeoplesDocuments, NumbersInOtherSpellings) {
-  const auto spelt = [](const std::string& number) {
-    return Json::number(number);
-  };
+  const auto spelt = [](const std::string& number) { return Json::number(number); };
   expectCompressed([&](Document2& d) {
     d.accessor("NORMAL")["count"] = spelt("4.41E2");
     d.accessor("NORMAL")["byteOffset"] = spelt("-0");
@@ -421,7 +419,7 @@ TEST(OtherPeoplesDocuments, MatricesAsAttributes) {
         ASSERT_EQ(decodeGlb(trip.converted, integers, report, {DecodeTo::kIntegers}).message(), "");
         EXPECT_EQ(elementsOf(trip.source, accessor), elementsOf(integers, accessor));
         ValidationReport validation;
-        ASSERT_EQ(validate({"a.glb", trip.converted}, {}, validation).message(), "");
+        ASSERT_EQ(validateGlb(trip.converted, {}, validation).message(), "");
         EXPECT_TRUE(validation.isValid());
       }
     }

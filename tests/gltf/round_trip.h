@@ -11,7 +11,7 @@
 
 #include "gltf/document/accessors.h"
 #include "gltf/gltf_builder.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::gltf::test {
 

@@ -10,6 +10,7 @@
 
 #include "gltf/files/file_io.h"
 #include "gltf/round_trip.h"
+#include "mcc/files.h"
 
 namespace mcc::gltf::test {
 namespace {

@@ -10,6 +10,7 @@
 #include "gltf/base/payload.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/round_trip.h"
+#include "mcc/files.h"
 #include "support/scratch_folder.h"
 
 namespace mcc::gltf::test {

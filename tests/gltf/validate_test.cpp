@@ -12,7 +12,7 @@
 
 #include "gltf/gltf_builder.h"
 #include "gltf/round_trip.h"
-#include "mcc/gltf.h"
+#include "mcc/files.h"
 
 namespace mcc::gltf::test {
 namespace {
@@ -21,7 +21,7 @@ constexpr char kExtensionPath[] = "/meshes/0/primitives/0/extensions/KHR_mesh_co
 
 ValidationReport validated(std::span<const uint8_t> file, const ValidateOptions& options = {}) {
   ValidationReport report;
-  const Result result = validate({"file.glb", file}, options, report);
+  const Result result = validateGlb(file, options, report);
   EXPECT_EQ(result.message(), "");
   return report;
 }

@@ -16,7 +16,7 @@
 #include <functional>
 #include <set>
 
-#include "mcc/gltf.h"
+#include "mcc/files.h"
 #include "mcc/tinygltf.h"
 #include "support/scratch_folder.h"
 

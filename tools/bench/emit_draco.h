@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::bench {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "gltf/compress/compress.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "mcc/writer.h"
 
 namespace mcc::bench {

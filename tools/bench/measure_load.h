@@ -7,7 +7,7 @@
 #include <span>
 
 #include "foreign/foreign_mesh.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::bench {
 

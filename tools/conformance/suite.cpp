@@ -14,7 +14,7 @@
 #include "found.h"
 #include "gltf/base/payload.h"
 #include "header_fields.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "negatives.h"
 #include "sources.h"
 

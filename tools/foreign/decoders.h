@@ -2,7 +2,7 @@
 #ifndef MCC_TOOLS_FOREIGN_DECODERS_H_
 #define MCC_TOOLS_FOREIGN_DECODERS_H_
 
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::foreign {
 

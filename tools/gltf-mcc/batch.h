@@ -11,7 +11,7 @@
 
 #include "commands.h"
 #include "json/json.h"
-#include "mcc/gltf.h"
+#include "mcc/files.h"
 
 namespace mcc::tool {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/measure.h"
-#include "mcc/gltf.h"
+#include "mcc/result.h"
 #include "table.h"
 
 namespace mcc::tool {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "options.h"
 #include "table.h"
 

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "commands.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::tool {
 

@@ -10,7 +10,7 @@
 
 #include "gltf/base/path_text.h"
 #include "gltf/base/printable.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "progress_line.h"
 
 namespace mcc::tool {

@@ -81,10 +81,13 @@ int ConvertCommand::runMany() const {
     gltf::ConvertOptions of_file = convert;
     of_file.thread_count = thread_count;
     gltf::ConvertReport done;
-    const gltf::Result outcome = gltf::convertTo({{to, nullptr}, &temporaryFiles()},
+    const gltf::Result outcome = gltf::convertTo({{to, nullptr}, &temporaryFiles(), &result.files},
                                                  {gltf::pathOf(file), {}}, of_file, done);
     if (!outcome.ok()) return outcome;
-    result = {done.copied, done.input_bytes, done.output_bytes, done.files, done.notes, {}};
+    result.copied = done.copied;
+    result.input_bytes = done.input_bytes;
+    result.output_bytes = done.output_bytes;
+    result.notes = done.notes;
     if (!report.empty()) {
       result.details =
           reportJson({file, gltf::textOf(to), std::move(done), {}, {}}, of_file, nullptr);
@@ -129,6 +132,7 @@ gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison&
   }
   result = compared.begin(source.source(), converted.output, convert);
   if (!result.ok()) return result;
+  gltf::FilesInUse used;
   {
     WorkProgress progress(common.is_quiet, converted.input);
     gltf::ConvertOptions watched = convert;
@@ -139,17 +143,18 @@ gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison&
         compared.beginSize(source.source(), convert, converted.report);
       }
     };
-    result = gltf::convertTo(sink.sink(), source.source(), watched, converted.report);
+    gltf::ListedSink listed = sink.sink();
+    listed.files = &used;
+    result = gltf::convertTo(listed, source.source(), watched, converted.report);
   }
   if (result.ok()) result = sink.finish();
   if (!result.ok()) return result;
-  const gltf::ConvertReport& done = converted.report;
   if (is_measured && !input_size.valid()) {
-    input_size = measure("input", [&]() { return source.contents(done.files.input); });
+    input_size = measure("input", [&]() { return source.contents(used.input); });
   }
   std::future<WholeSize> output_size;
-  if (is_measured && !done.copied) {
-    output_size = measure("output", [&]() { return sink.contents(done.files.output); });
+  if (is_measured && !converted.report.copied) {
+    output_size = measure("output", [&]() { return sink.contents(used.output); });
   }
   result = compared.finish(source.source(), convert, converted.report, shown, !report.empty());
   converted.draco = compared.line;

@@ -10,7 +10,7 @@
 
 #include "commands.h"
 #include "json/json.h"
-#include "mcc/gltf.h"
+#include "mcc/files.h"
 #include "whole_sizes.h"
 
 namespace mcc::tool {

@@ -6,7 +6,7 @@
 
 #include "commands.h"
 #include "json/json.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "report_file.h"
 #include "whole_sizes.h"
 

@@ -7,7 +7,7 @@
 #include <array>
 
 #include "gltf/base/printable.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "notes.h"
 
 namespace mcc::tool {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "convert_report.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::tool {
 

@@ -49,9 +49,12 @@ int DecodeCommand::runMany() const {
     gltf::DecodeReport done;
     gltf::FileDecodeOptions of_file = decoding;
     of_file.thread_count = threads_of_file;
-    gltf::Result outcome =
-        gltf::decodeTo({{to, nullptr}, &temporaryFiles()}, {gltf::pathOf(file), {}}, of_file, done);
-    result = {done.copied, done.input_bytes, done.output_bytes, done.files, done.notes, {}};
+    gltf::Result outcome = gltf::decodeTo({{to, nullptr}, &temporaryFiles(), &result.files},
+                                          {gltf::pathOf(file), {}}, of_file, done);
+    result.copied = done.copied;
+    result.input_bytes = done.input_bytes;
+    result.output_bytes = done.output_bytes;
+    result.notes = std::move(done.notes);
     return outcome;
   };
   return runBatch(options);

@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "mcc/gltf.h"
+#include "mcc/result.h"
 
 namespace mcc::tool {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "commands.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "tiles/part.h"
 
 namespace mcc::tool {

@@ -6,7 +6,7 @@
 
 #include "gltf/document/document.h"
 #include "gltf/document/package.h"
-#include "mcc/gltf.h"
+#include "mcc/files.h"
 #include "table.h"
 
 namespace mcc::tool {

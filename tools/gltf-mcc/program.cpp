@@ -12,7 +12,7 @@
 #include "gltf/base/printable.h"
 #include "help.h"
 #include "interrupt.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "parse.h"
 #include "standard_streams.h"
 #include "suggest.h"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "json/json.h"
-#include "mcc/gltf.h"
+#include "mcc/result.h"
 
 namespace mcc::tool {
 

@@ -399,7 +399,8 @@ Result TilesRun::makeGltf(uint32_t file) {
   accuracy.applyTo(options);
   MCC_GLTF_TRY(makeFolderOf(name(file)));
   gltf::ConvertReport report;
-  MCC_GLTF_TRY(gltf::convertTo({{out(name(file)), nullptr}, &temporaryFiles()},
+  gltf::FilesInUse files;
+  MCC_GLTF_TRY(gltf::convertTo({{out(name(file)), nullptr}, &temporaryFiles(), &files},
                                {in(name(file)), {}}, options, report, input_));
   made.figures.add(report, accuracy);
   made.input_bytes = report.input_bytes;
@@ -408,7 +409,7 @@ Result TilesRun::makeGltf(uint32_t file) {
   std::vector<std::string> notes = report.notes;
   if (!accuracy.note.empty()) notes.push_back(accuracy.note);
   addNotes(file, notes);
-  keep(file, notes, {report.files.output.begin() + 1, report.files.output.end()});
+  keep(file, notes, {files.output.begin() + 1, files.output.end()});
   return {};
 }
 

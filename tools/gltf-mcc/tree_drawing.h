@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mcc/gltf.h"
+#include "mcc/files.h"
 
 namespace mcc::tool {
 

@@ -5,7 +5,7 @@
 
 #include "commands.h"
 #include "gltf/base/printable.h"
-#include "mcc/gltf.h"
+#include "mcc/files.h"
 #include "report_file.h"
 #include "standard_streams.h"
 #include "suggest.h"

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "json/json.h"
-#include "mcc/gltf.h"
+#include "mcc/result.h"
 
 namespace mcc::jobs {
 

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "tiles/placement.h"
 #include "tiles/tile_demand.h"
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mcc/gltf.h"
+#include "mcc/result.h"
 #include "tiles/part.h"
 
 namespace mcc::tiles {

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "mcc/gltf.h"
+#include "mcc/result.h"
 #include "tiles/matrix.h"
 #include "tiles/tile_file.h"
 

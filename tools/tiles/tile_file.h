@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "mcc/gltf.h"
+#include "mcc/result.h"
 
 namespace mcc::tiles {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "mcc/gltf.h"
+#include "mcc/result.h"
 
 namespace mcc::tiles {
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mcc/gltf.h"
+#include "mcc/result.h"
 #include "tiles/matrix.h"
 
 namespace mcc::tiles {

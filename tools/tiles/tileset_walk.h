@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "mcc/gltf.h"
+#include "mcc/result.h"
 #include "tiles/file_table.h"
 #include "tiles/part.h"
 #include "tiles/tile_demand.h"

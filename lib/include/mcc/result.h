@@ -6,7 +6,7 @@
 
 namespace mcc::gltf {
 
-/// Result of every fallible call of mcc/gltf.h: `what` is empty on success.
+/// Result of every fallible call of mcc/glb.h and mcc/files.h: `what` is empty on success.
 struct [[nodiscard]] Result {
   std::string where;  ///< JSON path ("/meshes/0/primitives/2"), "byte 20", a file name, or empty
   std::string what;   ///< what is wrong and, where that helps, what to do; one line, no full stop

@@ -48,7 +48,7 @@
 #include "mcc/reader.h"
 
 #if __has_include("mcc/gltf.h")
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #define MCC_TINYGLTF_HAS_ENCODE 1
 #endif
 

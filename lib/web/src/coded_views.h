@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "gltf/document/document.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::web {
 

@@ -12,7 +12,7 @@
 #include "coded_views.h"
 #include "gltf/inspect/report_json.h"
 #include "json/json.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 #define MCC_EXPORT(name) extern "C" __attribute__((export_name(name), used))
 

@@ -2,7 +2,7 @@
 //
 // convert IN OUT BACK: uses writer, document layer and C API together.
 #include "mcc/c_api.h"
-#include "mcc/gltf.h"
+#include "mcc/files.h"
 #include "mcc/writer.h"
 
 #include <cstdio>

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // documents IN OUT: a program that uses only the document layer.
-#include "mcc/gltf.h"
+#include "mcc/files.h"
 
 int main(int argument_count, char** arguments) {
   if (argument_count != 3) return 2;

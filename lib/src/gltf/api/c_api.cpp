@@ -12,7 +12,7 @@
 #include "gltf/api/convert.h"
 #include "gltf/inspect/inspect_json.h"
 #include "json/json.h"
-#include "mcc/gltf.h"
+#include "mcc/files.h"
 
 struct mcc_document {
   std::vector<uint8_t> bytes;
@@ -162,8 +162,7 @@ mcc_status mcc_inspect_glb(const void* glb, size_t byte_count, const char* name,
         if (!result.ok()) return result;
         // Names in the JSON of a file need not be UTF-8; dump() must not throw for them.
         const std::string text =
-            mcc::gltf::inspectJson(name == nullptr ? "" : name, report)
-                .dump(2);
+            mcc::gltf::inspectJson(name == nullptr ? "" : name, report).dump(2);
         sink.bytes->assign(text.begin(), text.end());
         return result;
       });

@@ -80,11 +80,14 @@ struct Input {
 struct Output {
   std::vector<uint8_t>* bytes = nullptr;
   std::unique_ptr<Destination> destination;  ///< null for an output in memory
+  FilesInUse* files = nullptr;               ///< null: nobody asks
   Container container;
 
   Result open(const ListedSink& listed, bool with_fallback) {
     const Sink& sink = listed.sink;
     bytes = sink.bytes;
+    files = listed.files;
+    if (files != nullptr) *files = {};
     if (bytes != nullptr && with_fallback) {
       return error("", "a fallback is a second file; name a file for the output");
     }
@@ -101,23 +104,33 @@ struct Output {
     return {};
   }
 
-  Result commit() { return destination ? destination->commit() : Result{}; }
+  Result commit() {
+    if (destination == nullptr) return {};
+    MCC_GLTF_TRY(destination->commit());
+    if (files != nullptr) destination->listFiles(*files);
+    return {};
+  }
 };
 
+/// Lists the files of a source. Images are in use as files of their own unless the output embeds
+/// them.
+void listInput(const Input& input, const Document& document, bool embeds, FilesInUse& files) {
+  files.input = {input.path};
+  const fs::path folder = folderOf(input.path);
+  for (const std::string& path : filesOf(document.json, "buffers")) {
+    files.input.push_back(folder / pathOf(path));
+  }
+  for (const std::string& path : filesOf(document.json, "images")) {
+    (embeds ? files.input : files.other_input).push_back(folder / pathOf(path));
+  }
+}
+
 /// Loads the source for an output. For a GLB, image files move into its buffers.
-Result loadFor(const Output& output, Input& input, Document& document, FilesInUse& files) {
+Result loadFor(const Output& output, Input& input, Document& document) {
   MCC_GLTF_TRY(input.load(document));
   if (input.isFile()) {
-    files.input = {input.path};
-    files.other_input.clear();
-    const fs::path folder = folderOf(input.path);
     const bool embeds = !document.is_glb && !output.container.is_gltf;
-    for (const std::string& path : filesOf(document.json, "buffers")) {
-      files.input.push_back(folder / pathOf(path));
-    }
-    for (const std::string& path : filesOf(document.json, "images")) {
-      (embeds ? files.input : files.other_input).push_back(folder / pathOf(path));
-    }
+    if (output.files != nullptr) listInput(input, document, embeds, *output.files);
     if (output.destination) {
       MCC_GLTF_TRY(output.destination->checkSource(input.path, document.json));
     }
@@ -217,7 +230,7 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
   Compressed& compressed = conversion.compressed;
   Package& package = conversion.package;
   tell(options, "reading");
-  MCC_GLTF_TRY(loadFor(output, input, document, report.files));
+  MCC_GLTF_TRY(loadFor(output, input, document));
   document.decoded = DecodedBytes(options.max_decoded_bytes, document.source_bytes);
   report.input_contents = contentsOf(document);
   Result refused;
@@ -299,7 +312,7 @@ Result decodeInput(Input& input, const Output& output, const FileDecodeOptions& 
   report = {};
   const Stopwatch watch;
   Document document;
-  MCC_GLTF_TRY(loadFor(output, input, document, report.files));
+  MCC_GLTF_TRY(loadFor(output, input, document));
   report.input_bytes = document.source_bytes;
   report.notes = document.notes;
   Decompressed decompressed;
@@ -392,9 +405,7 @@ Result convertTo(const ListedSink& sink, const Source& source, const ConvertOpti
     }
     const std::span<const uint8_t> written = output.destination ? stored : *output.bytes;
     MCC_GLTF_TRY(inInput(input, checkOutput(conversion, options, written, read_file, report)));
-    MCC_GLTF_TRY(output.commit());
-    if (output.destination) output.destination->listFiles(report.files);
-    return {};
+    return output.commit();
   });
   cleanNotes(report.notes);
   cleanNotes(report.remarks);
@@ -414,22 +425,20 @@ Result decodeTo(const ListedSink& sink, const Source& source, const FileDecodeOp
     Package package;
     MCC_GLTF_TRY(inInput(input, decodeInput(input, output, options, package, report)));
     MCC_GLTF_TRY(output.write(std::move(package)));
-    MCC_GLTF_TRY(output.commit());
-    if (output.destination) output.destination->listFiles(report.files);
-    return {};
+    return output.commit();
   });
   cleanNotes(report.notes);
   return result;
 }
 
 Result convert(const Source& source, const Sink& sink, const ConvertOptions& options,
-               ConvertReport& report) {
-  return convertTo({sink, nullptr}, source, options, report);
+               ConvertReport& report, FilesInUse* files) {
+  return convertTo({sink, nullptr, files}, source, options, report);
 }
 
 Result decode(const Source& source, const Sink& sink, DecodeReport& report,
-              const FileDecodeOptions& options) {
-  return decodeTo({sink, nullptr}, source, options, report);
+              const FileDecodeOptions& options, FilesInUse* files) {
+  return decodeTo({sink, nullptr, files}, source, options, report);
 }
 
 Result convertGlb(std::span<const uint8_t> source, const ConvertOptions& options,

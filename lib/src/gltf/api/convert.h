@@ -6,7 +6,7 @@
 #define MCC_GLTF_API_CONVERT_H_
 
 #include "gltf/files/temporary_files.h"
-#include "mcc/gltf.h"
+#include "mcc/files.h"
 
 namespace mcc::gltf {
 
@@ -14,6 +14,7 @@ namespace mcc::gltf {
 struct ListedSink {
   Sink sink;
   TemporaryFiles* temporaries = nullptr;  ///< null: nothing is listed. Borrowed
+  FilesInUse* files = nullptr;  ///< receives which files were read and written, see convert()
 };
 
 /// Checks options before any work is done for them: numbers of bits, enumerators, and what cannot

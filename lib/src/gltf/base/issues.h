@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "gltf/base/result.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "mcc/status.h"
 
 namespace mcc::gltf {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "gltf/compress/compress.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::gltf {
 

@@ -19,6 +19,7 @@
 #include "gltf/document/references.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
+#include "mcc/files.h"
 
 namespace mcc::gltf {
 namespace {
@@ -393,6 +394,11 @@ Result validate(const Source& source, const ValidateOptions& options, Validation
     report.is_truncated = total > report.issues.size();
     return {};
   });
+}
+
+Result validateGlb(std::span<const uint8_t> source, const ValidateOptions& options,
+                   ValidationReport& report) {
+  return validate({{}, source}, options, report);
 }
 
 }  // namespace mcc::gltf

@@ -8,7 +8,7 @@
 #include "gltf/base/payload.h"
 #include "gltf/compress/plan.h"
 #include "gltf/document/references.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "mcc/writer.h"
 
 namespace mcc::gltf {
@@ -30,7 +30,7 @@ struct Compressed {
   std::vector<LeftAlone> left_alone;
   std::vector<std::string> notes;
   std::vector<std::string> remarks;  ///< see ConvertReport::remarks
-  double decode_seconds = 0;  ///< time of decodePayloads()
+  double decode_seconds = 0;         ///< time of decodePayloads()
 };
 
 /// Compresses every primitive for which that saves bytes. If there is no payload in the result,

@@ -11,7 +11,7 @@
 #include "gltf/document/accessors.h"
 #include "gltf/document/document.h"
 #include "gltf/document/primitives.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 #include "mcc/writer.h"
 
 namespace mcc::gltf {

@@ -6,7 +6,7 @@
 #define MCC_GLTF_DECOMPRESS_CODED_INPUT_H_
 
 #include "gltf/document/references.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::gltf {
 

@@ -11,7 +11,7 @@
 #include "gltf/decompress/integer_accessors.h"
 #include "gltf/document/extension_json.h"
 #include "gltf/document/rebuild.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::gltf {
 

@@ -5,7 +5,7 @@
 #define MCC_GLTF_DOCUMENT_CONTENTS_H_
 
 #include "gltf/document/document.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::gltf {
 

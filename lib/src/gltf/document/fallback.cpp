@@ -4,7 +4,7 @@
 #include <set>
 
 #include "gltf/document/references.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::gltf {
 namespace {

@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "gltf/document/known_extensions.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::gltf {
 namespace {

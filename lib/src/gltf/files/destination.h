@@ -12,7 +12,7 @@
 
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
-#include "mcc/gltf.h"
+#include "mcc/files.h"
 
 namespace mcc::gltf {
 

@@ -12,7 +12,7 @@
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
 #include "gltf/inspect/coding_names.h"
-#include "mcc/gltf.h"
+#include "mcc/files.h"
 #include "mcc/writer.h"
 
 namespace mcc::gltf {

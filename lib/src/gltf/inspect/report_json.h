@@ -8,7 +8,7 @@
 #include <string>
 
 #include "json/json.h"
-#include "mcc/gltf.h"
+#include "mcc/glb.h"
 
 namespace mcc::gltf {
 

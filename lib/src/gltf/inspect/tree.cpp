@@ -11,7 +11,7 @@
 #include "gltf/document/accessors.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
-#include "mcc/gltf.h"
+#include "mcc/files.h"
 #include "mcc/writer.h"
 
 namespace mcc::gltf {

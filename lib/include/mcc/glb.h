@@ -1,12 +1,12 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Adds KHR_mesh_collapse_compression to glTF 2.0 files, and removes it again.
-// No exception leaves these functions; they use no globals and may run in parallel.
-#ifndef MCC_GLTF_H_
-#define MCC_GLTF_H_
+// Adds KHR_mesh_collapse_compression to glTF 2.0 documents in memory, and removes it again; files.h
+// does so for files. No exception leaves these functions; they use no globals and may run in
+// parallel.
+#ifndef MCC_GLB_H_
+#define MCC_GLB_H_
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
@@ -83,7 +83,7 @@ struct ForeignDecoders {
   std::function<Result(const CodedMesh& coded, DecodedMesh& mesh)> mesh;
 };
 
-/// How convert() compresses.
+/// How convertGlb() compresses.
 struct ConvertOptions {
   QuantizationBits bits;
   bool lossless = false;  ///< every float keeps every bit; `bits` is ignored
@@ -158,7 +158,7 @@ struct StreamReport {
   double bits = 0;
 };
 
-/// A payload that convert() wrote.
+/// A payload that convertGlb() wrote.
 struct PayloadReport {
   uint32_t mesh = 0;  ///< the first mesh it belongs to
   uint64_t payload_bytes = 0;
@@ -189,14 +189,6 @@ struct PrimitiveReport {
   std::string note;  ///< why it was left uncompressed; empty when it was compressed
 };
 
-/// The files of a conversion. A list is empty where the document came from memory or went to it.
-struct FilesInUse {
-  std::vector<std::filesystem::path> input;         ///< counted in input_bytes, the main one first
-  std::vector<std::filesystem::path> other_input;   ///< images that stay separate files
-  std::vector<std::filesystem::path> output;        ///< counted in output_bytes, the main one first
-  std::vector<std::filesystem::path> other_output;  ///< the fallback
-};
-
 /// What the bytes of a document and its buffers are for. The four sums add up to its size.
 struct Contents {
   uint64_t geometry_bytes = 0;    ///< attributes, indices and morph targets of meshes, coded or not
@@ -208,14 +200,13 @@ struct Contents {
   uint32_t animation_count = 0;
 };
 
-/// What convert() did.
+/// What convertGlb() did.
 struct ConvertReport {
   uint64_t input_bytes = 0;     ///< with all buffers
   uint64_t output_bytes = 0;    ///< with all buffers, without the fallback
   uint64_t fallback_bytes = 0;  ///< size of the fallback file
   Contents input_contents;
   Contents output_contents;
-  FilesInUse files;
   bool copied = false;   ///< compression gained nothing, so the output is the input
   bool checked = false;  ///< the output was decoded and compared with the source
   double encode_seconds = 0;
@@ -239,7 +230,7 @@ enum class DecodeTo : uint8_t {
   kIntegers,
 };
 
-/// How decode() decodes.
+/// How decodeGlb() decodes.
 struct FileDecodeOptions {
   DecodeTo decode_to = DecodeTo::kFloats;
   uint32_t thread_count = 1;  ///< the result does not depend on it
@@ -248,9 +239,8 @@ struct FileDecodeOptions {
   uint64_t max_decoded_bytes = 0;
 };
 
-/// What decode() did.
+/// What decodeGlb() did.
 struct DecodeReport {
-  FilesInUse files;
   uint64_t input_bytes = 0;
   uint64_t output_bytes = 0;
   bool copied = false;         ///< nothing was compressed, so the output is the input
@@ -330,7 +320,7 @@ struct InspectReport {
 /// Numbered as in the reports of Khronos' glTF validator.
 enum class Severity : uint8_t { kError = 0, kWarning = 1, kInfo = 2, kHint = 3 };
 
-/// One finding of validate(): an error, or something worth knowing.
+/// One finding of validateGlb(): an error, or something worth knowing.
 struct ValidationIssue {
   Severity severity = Severity::kError;
   std::string code;     ///< "COUNT_MISMATCH"; tools/gltf-mcc/README.md lists them
@@ -338,14 +328,14 @@ struct ValidationIssue {
   std::string pointer;  ///< JSON pointer (RFC 6901); empty where the issue has no place in the JSON
 };
 
-/// Bounds of validate().
+/// Bounds of validateGlb().
 struct ValidateOptions {
   Limits limits;                   ///< of each payload
   uint64_t max_decoded_bytes = 0;  ///< of the file, see decodedLimit(); 0: the default
   uint32_t max_issues = 1000;      ///< further issues are counted but not listed; 0: all are listed
 };
 
-/// What validate() found.
+/// What validateGlb() found.
 struct ValidationReport {
   std::vector<ValidationIssue> issues;  ///< in the order they were found
   uint64_t issue_counts[4] = {};        ///< by severity; all issues, listed or not
@@ -367,99 +357,41 @@ struct ValidationReport {
   bool isValid() const { return issue_counts[static_cast<size_t>(Severity::kError)] == 0; }
 };
 
-/// Where a document comes from.
-struct Source {
-  std::filesystem::path path;  ///< a .glb or .gltf file, next to its buffers and images
-  /// The document itself when it is in memory; `path` is then only its name in messages. A .gltf in
-  /// memory needs its buffers in data URIs. Borrowed.
-  std::optional<std::span<const uint8_t>> bytes;
-};
-
-/// Where a document goes to.
-struct Sink {
-  /// NAME.gltf gets its buffer next to it, in NAME.bin; any other name is that of a GLB.
-  std::filesystem::path path;
-  std::vector<uint8_t>* bytes = nullptr;  ///< when not null: receives a GLB, and no file is written
-};
-
-/// Compresses the triangle primitives of a glTF file. Everything except mesh geometry is preserved
-/// unchanged. When compression gains nothing, the source is copied byte for byte, unless source and
-/// sink differ in their container (GLB or .gltf). Geometry that other codecs compressed is decoded
-/// by options.decoders and compressed again. The output is decoded and compared with the source
-/// before the call returns.
+/// Compresses the triangle primitives of a glTF document: a GLB, or a .gltf with its buffers in
+/// data URIs. The output is a GLB. Everything except mesh geometry is preserved unchanged. When
+/// compression gains nothing, a GLB is copied byte for byte. Geometry that other codecs compressed
+/// is decoded by options.decoders and compressed again. The output is decoded and compared with the
+/// source before the call returns.
 ///
-/// Files are written under temporary names, read back, checked, and renamed together: after an
-/// error, existing files are as they were. Both paths may name the same file. The .bin of a .gltf
-/// replaces another file only when the .gltf that was there referred to it. Images of a .gltf that
-/// are separate files move into a GLB; when the output is a .gltf they stay files, and are copied
-/// where it lies in another folder. Absolute URIs, URIs that lead out of the folder of the source,
-/// and files above 4 GiB are refused. A pipe or a device as the source is read no farther than the
-/// length in a GLB's header.
-///
-/// After an error the bytes of a sink in memory are unspecified, and `report` holds what was known
-/// when it occurred. Safe for untrusted input. Deterministic. Inverse: decode().
-/// Tests: tests/gltf/, tests/cli/.
-MCC_API Result convert(const Source& source, const Sink& sink, const ConvertOptions& options,
-                       ConvertReport& report);
-
-/// Like convert(), from memory to memory, and from file to file.
+/// After an error `output` is unspecified, and `report` holds what was known when it occurred. Safe
+/// for untrusted input. Deterministic. Inverse: decodeGlb(). Tests: tests/gltf/, tests/cli/.
 MCC_API Result convertGlb(std::span<const uint8_t> source, const ConvertOptions& options,
                           std::vector<uint8_t>& output, ConvertReport& report);
-MCC_API Result convertFile(const std::filesystem::path& source, const std::filesystem::path& output,
-                           const ConvertOptions& options, ConvertReport& report);
 
-/// Turns compressed primitives into ordinary accessors again; a file without any is copied. Files
-/// are treated as by convert(). A payload is decoded once, however many primitives and buffer views
-/// name its bytes; accessors of the same elements share a buffer view. Safe for untrusted input: a
-/// file that asks for more than options.max_decoded_bytes is refused before memory is taken.
-/// Inverse: convert(). Tests: tests/gltf/, tests/cli/.
-MCC_API Result decode(const Source& source, const Sink& sink, DecodeReport& report,
-                      const FileDecodeOptions& options = {});
-
-/// Like decode(), from memory to memory, and from file to file.
+/// Turns compressed primitives into ordinary accessors again; a GLB without any is copied. A
+/// payload is decoded once, however many primitives and buffer views name its bytes; accessors of
+/// the same elements share a buffer view. Safe for untrusted input: a document that asks for more
+/// than options.max_decoded_bytes is refused before memory is taken. Inverse: convertGlb(). Tests:
+/// tests/gltf/, tests/cli/.
 MCC_API Result decodeGlb(std::span<const uint8_t> source, std::vector<uint8_t>& output,
                          DecodeReport& report, const FileDecodeOptions& options = {});
-MCC_API Result decodeFile(const std::filesystem::path& source, const std::filesystem::path& output,
-                          DecodeReport& report, const FileDecodeOptions& options = {});
 
-/// Lists the payloads of a file. With `count_codes` the payloads are also decoded, to count their
-/// codes and the bits of their streams. Safe for untrusted input: decoding is bounded by the
+/// Lists the payloads of a document. With `count_codes` the payloads are also decoded, to count
+/// their codes and the bits of their streams. Safe for untrusted input: decoding is bounded by the
 /// default of decodedLimit().
 MCC_API Result inspectGlb(std::span<const uint8_t> source, bool count_codes, InspectReport& report);
-MCC_API Result inspectFile(const std::filesystem::path& source, bool count_codes,
-                           InspectReport& report);
 
-/// Checks a file against every rule of the extension for loaders and writers: the extension
+/// Checks a document against every rule of the extension for loaders and writers: the extension
 /// objects, the accessors they fill, the lists of extensions, fallbacks, and the payloads, which
 /// are decoded. Continues after an issue wherever that is possible. It does not check whether the
-/// rest of the file is valid glTF, except that it can be loaded; use a general glTF validator for
-/// that.
-/// Errors: the file cannot be read. Everything that is wrong inside the file goes to `report`.
+/// rest of the document is valid glTF, except that it can be loaded; use a general glTF validator
+/// for that.
+/// Errors: the document cannot be read. Everything that is wrong inside of it goes to `report`.
 /// Safe for untrusted input. Deterministic. Tests: tests/gltf/validate_test.cpp,
 /// tests/cli/validate_test.cpp.
-MCC_API Result validate(const Source& source, const ValidateOptions& options,
-                        ValidationReport& report);
-
-/// The tree of the edges along which a surface was contracted.
-struct McTree {
-  /// One contracted edge. `parent` is the mc-vertex, or was contracted before `child`.
-  struct Edge {
-    uint32_t parent = 0;
-    uint32_t child = 0;
-  };
-  std::vector<float> positions;   ///< 3 per vertex
-  std::vector<uint32_t> indices;  ///< 3 per triangle
-  std::vector<Edge> edges;        ///< in the order of the contractions, without those to dummies
-  bool is_of_payload = false;     ///< false: the source was compressed in memory to get a tree
-};
-
-/// Returns the mc-tree of a primitive. Where the primitive is compressed, this is the tree of the
-/// payload's piece, with all triangles of that piece. Otherwise the primitive is compressed in
-/// memory as convert() would. Errors: there is no such primitive; it has no triangles, or cannot be
-/// read. Safe for untrusted input. Deterministic. Tests: tests/gltf/tree_test.cpp.
-MCC_API Result mcTree(const Source& source, uint32_t mesh, uint32_t primitive,
-                      const ForeignDecoders& decoders, McTree& tree);
+MCC_API Result validateGlb(std::span<const uint8_t> source, const ValidateOptions& options,
+                           ValidationReport& report);
 
 }  // namespace mcc::gltf
 
-#endif  // MCC_GLTF_H_
+#endif  // MCC_GLB_H_
