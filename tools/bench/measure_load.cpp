@@ -1,5 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "bench/measure_load.h"
+#include "mcc/files.h"
 
 #include <algorithm>
 
