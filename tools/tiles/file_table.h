@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mcc/result.h"
+#include "mcc/types.h"
 #include "tiles/part.h"
 
 namespace mcc::tiles {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mcc/result.h"
+#include "mcc/types.h"
 
 namespace mcc::tiles {
 

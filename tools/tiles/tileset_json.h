@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mcc/result.h"
+#include "mcc/types.h"
 #include "tiles/matrix.h"
 
 namespace mcc::tiles {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mcc/result.h"
+#include "mcc/types.h"
 #include "tiles/file_table.h"
 #include "tiles/part.h"
 #include "tiles/tile_demand.h"
