@@ -6,7 +6,7 @@ import { ALIAS } from './attributeheader.mjs';
 import { elementsOf } from './components.mjs';
 import { failUnless } from './errors.mjs';
 import { concatenate } from './glb.mjs';
-import { indicesOf } from './payload.mjs';
+import { indicesOf } from './orders.mjs';
 import { NONE, head } from './surface.mjs';
 
 // [A.11.4] The glued piece; `decoded` are the decoded blocks, `blocks` what the table of blocks says of them.

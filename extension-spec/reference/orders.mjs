@@ -171,3 +171,12 @@ export function partsOfTable(piece, table) {
 	table.part.forEach((p, triangle) => parts[p].push({ triangle, corner: 0 }));
 	return parts;
 }
+
+// The wedges of the triangles of a part.
+export function indicesOf(table, triangles) {
+	const indices = new Uint32Array(3 * triangles.length);
+	triangles.forEach(({ triangle, corner }, i) => {
+		for (let k = 0; k < 3; ++k) indices[3 * i + k] = table.wedges[3 * triangle + ((corner + k) % 3)];
+	});
+	return indices;
+}

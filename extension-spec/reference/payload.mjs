@@ -9,7 +9,7 @@ import { connectivityModels, decodeConnectivity } from './connectivity.mjs';
 import { arrayOf, checkEnds, createCoder } from './entropy.mjs';
 import { failUnless } from './errors.mjs';
 import { sequenceWithoutPositions, umbrellasOfPivots } from './order.mjs';
-import { decodeTriangleOrder, decodeWedgeOrder, orderModels, partsOfTable } from './orders.mjs';
+import { decodeTriangleOrder, decodeWedgeOrder, indicesOf, orderModels, partsOfTable } from './orders.mjs';
 import { decodePivots, pivotModels } from './pivots.mjs';
 import { decodePositions, positionModels } from './positions.mjs';
 import { creasesOf, decodeSeams, seamModels } from './seams.mjs';
@@ -109,13 +109,4 @@ function resultOf({ piece, table, parts, wedgeOrder, values }) {
 		indices: (part) => indicesOf(table, parts[part]).map((w) => placeOf[w]),
 		elements: (i) => elementsOf(piece, piece.attributes[i], values, wedgeOrder),
 	};
-}
-
-// The wedges of the triangles of a part.
-export function indicesOf(table, triangles) {
-	const indices = new Uint32Array(3 * triangles.length);
-	triangles.forEach(({ triangle, corner }, i) => {
-		for (let k = 0; k < 3; ++k) indices[3 * i + k] = table.wedges[3 * triangle + ((corner + k) % 3)];
-	});
-	return indices;
 }
