@@ -14,7 +14,7 @@ export function init(options?: InitOptions): Promise<void>;
  * Resolves when the whole decoder is loaded, which decodePayloadSync() needs. Awaiting it starts
  * the loading.
  */
-export const ready: PromiseLike<void>;
+export const ready: Promise<void>;
 
 /** Decodes a payload: all bytes of the extension's buffer view. Safe for untrusted bytes. */
 export function decodePayload(bytes: Uint8Array, options?: DecodeOptions): Promise<DecodedPayload>;

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Decodes payloads of KHR_mesh_collapse_compression, on this thread or in workers.
-import { blocksOf, decodeGlued } from './blocks.mjs';
+import { blocksOf, decodeGlued } from './block_stream.mjs';
 import { Decoder } from './core.mjs';
 import { MccError } from './error.mjs';
 import { createPool } from './pool.mjs';
@@ -17,10 +17,19 @@ export async function init(options) {
   await usePageSource(options ?? {}).core();
 }
 
+/** A promise whose work begins when somebody asks for its result. */
+class WhenAsked extends Promise {
+  static get [Symbol.species]() {
+    return Promise;
+  }
+
+  then(fulfilled, rejected) {
+    return pageSource().whole().then(() => {}).then(fulfilled, rejected);
+  }
+}
+
 /** Resolves when the whole decoder is loaded. Awaiting it starts the loading. */
-export const ready = {
-  then: (fulfilled, rejected) => pageSource().whole().then(() => {}).then(fulfilled, rejected),
-};
+export const ready = new WhenAsked(() => {});
 
 /** Returns the decoder of a module, always the same one. */
 const decoderOf = (loaded) => (loaded.decoder ??= new Decoder(loaded.module));
