@@ -6,68 +6,56 @@
 #include "container/enc_payload.h"
 #include "entropy/enc_coder.h"
 #include "format/predictors.h"
-#include "reader/piece.h"
+#include "robustness/answers_io.h"
 #include "robustness/observed_codes.h"
 #include "support/mesh_generators.h"
 
 namespace mcc::test {
 namespace {
 
-/// A decoder whose answers are recorded for encoding. When a model is asked for the first time, its
-/// answer is drawn. From then on it gives the same answer, which soon costs nothing, except for a
-/// few that a budget of bits pays for.
-class ForgingIo {
+/// Answers that are recorded for encoding. When a model is asked for the first time, its answer is
+/// drawn. From then on it gives the same answer, which soon costs nothing, except for a few that a
+/// budget of bits pays for.
+class ForgedAnswers final : public Answers {
  public:
-  using Burst = SameIo<ForgingIo>;
-  using CodesBurst = SameIo<ForgingIo>;
-  static constexpr bool kEncoding = false;
-  static constexpr bool kFast = false;
-
-  ForgingIo(uint64_t seed, uint64_t budget_bits, bool single)
+  ForgedAnswers(uint64_t seed, uint64_t budget_bits, bool single)
       : random_(seed), budget_(budget_bits * kCostOne), encoder_(single) {
     percent_ones_ = random_.between(random_.chance(50) ? 40 : 5, 70);
     surprises_ = random_.chance(50) ? 0 : random_.between(1, 200);
     odd_tokens_ = random_.chance(70) ? 0 : random_.between(1, 30);
   }
 
-  WatchedModels& watched() { return watched_; }
   uint64_t symbols() const { return symbols_; }
   EncoderIo::Streams finish() { return encoder_.finish(); }
 
-  bool bit(BitModel& model, bool = false) {
+  bool bit(BitModel& model) override {
     ++symbols_;
     const auto [at, is_new] = usual_.try_emplace(&model, 0);
     if (is_new) at->second = random_.chance(percent_ones_) ? 1 : 0;
     const bool one = (at->second != 0) != surprises();
-    watched_.see(&model, one);
     return encoder_.bit(model, one);
   }
 
-  template <uint32_t kState>
-  uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t = 0) {
+  uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t state) override {
     ++symbols_;
     const auto [at, is_new] = usual_.try_emplace(&row, 0);
     if (is_new) at->second = random_.below(random_.chance(odd_tokens_) ? kTokenCount : 2);
     last_token_ = &at->second;
     const uint32_t symbol = surprises() ? random_.below(kTokenCount) : at->second;
-    return encoder_.token<kState>(row, schedule, symbol);
+    switch (state) {
+      case 0: return encoder_.token<0>(row, schedule, symbol);
+      case 1: return encoder_.token<1>(row, schedule, symbol);
+      default: return encoder_.token<2>(row, schedule, symbol);
+    }
   }
 
-  uint32_t raw(uint32_t bits, uint32_t = 0) {
+  uint32_t raw(uint32_t bits) override {
     if (bits == 0) return 0;
     ++symbols_;
     if (!hasBudget() && last_token_ != nullptr)
       *last_token_ = 0;  // tokens with raw bits cost too much
     return encoder_.raw(bits, static_cast<uint32_t>(random_.next() & ((uint64_t{1} << bits) - 1)));
   }
-
-  uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t, uint32_t& negative) {
-    const uint32_t value = base + raw(bits);
-    negative = raw(sign && value != 0 ? 1 : 0);
-    return value;
-  }
-
-  bool overrun() const { return false; }
 
  private:
   bool hasBudget() const { return encoder_.cost() < budget_; }
@@ -76,7 +64,6 @@ class ForgingIo {
   Random random_;
   const uint64_t budget_;
   EncoderIo encoder_;
-  WatchedModels watched_;
   std::unordered_map<const void*, uint32_t> usual_;  ///< answer of each model
   uint32_t* last_token_ = nullptr;
   uint32_t percent_ones_ = 0;
@@ -84,7 +71,6 @@ class ForgingIo {
   uint32_t odd_tokens_ = 0;  ///< percent of the rows
   uint64_t symbols_ = 0;
 };
-static_assert(SymbolIo<ForgingIo>);
 
 struct Kind {
   Semantic semantic;
@@ -269,7 +255,8 @@ class Forger {
     claims.face_count = 8 * operations_ + 8;
     claims.dummy_count = has_dummies_ ? 3 : 0;
     claims.has_handles = draft_.header.has(piece_flag::kHandles);
-    ForgingIo io(seed_, budgetBits(), draft_.single);
+    ForgedAnswers answers(seed_, budgetBits(), draft_.single);
+    AnswersIo io(answers);
     const ObservedCodes observed = observeCodes(io, claims);
     if (!observed.failure.empty() || !observed.complete || observed.faces == 0 ||
         observed.faces > kMaxElementsPerByte * max_bytes_)
@@ -297,10 +284,10 @@ class Forger {
   /// work.
   bool code(ForgedPayload& forged) {
     for (int pass = 0; pass < 3; ++pass) {
-      ForgingIo io(seed_, budgetBits(), draft_.single);
-      if (codeStages(io)) continue;
-      forged.symbols = io.symbols();
-      const EncoderIo::Streams streams = io.finish();
+      ForgedAnswers answers(seed_, budgetBits(), draft_.single);
+      if (codeStages(answers)) continue;
+      forged.symbols = answers.symbols();
+      const EncoderIo::Streams streams = answers.finish();
       const PayloadHeader header = draft_.payloadHeader();
       forged.elements = elementsOf(header);
       forged.bytes = writePayload(header, {streams.codes, streams.tokens, streams.raw});
@@ -311,10 +298,11 @@ class Forger {
   }
 
   /// Returns true if a count was learnt, so that everything has to be coded again.
-  bool codeStages(ForgingIo& io) {
+  bool codeStages(Answers& answers) {
+    AnswersIo io(answers);
     PayloadModels models;
     PieceHeader& h = draft_.header;
-    PieceCoder<ForgingIo> piece(io, models, h, draft_.attributes, {});
+    PieceCoder<AnswersIo> piece(io, models, h, draft_.attributes, {});
     const PieceTruth nothing;
     if (!piece.codeConnectivity(nothing).ok() || !piece.codeStitch(nothing).ok()) return false;
     const auto learnWedges = [&](size_t surface_wedges) {

@@ -11,7 +11,7 @@
 
 #include "entropy/decoder_io.h"
 #include "format/predictors.h"
-#include "reader/piece.h"
+#include "robustness/answers_io.h"
 #include "robustness/damage.h"
 #include "robustness/face_check.h"
 #include "robustness/observed_codes.h"
@@ -28,46 +28,31 @@ uint64_t runsFromEnvironment() {
   return text == nullptr ? kRuns : std::strtoull(text, nullptr, 10);
 }
 
-/// A decoder whose answers are random, with a bias that changes from time to time.
-class RandomIo {
+/// Answers that are random, with a bias that changes from time to time.
+class RandomAnswers final : public Answers {
  public:
-  using Burst = SameIo<RandomIo>;
-  using CodesBurst = SameIo<RandomIo>;
-  static constexpr bool kEncoding = false;
-  static constexpr bool kFast = true;  // compiles the inner loops of the decoder
+  RandomAnswers(uint64_t seed, uint32_t budget) : random_(seed), budget_(budget) { lean(); }
 
-  RandomIo(uint64_t seed, uint32_t budget) : random_(seed), budget_(budget) { lean(); }
-
-  WatchedModels& watched() { return watched_; }
-
-  bool bit(BitModel& model, bool = false) {
+  bool bit(BitModel& model) override {
     step();
     const bool one = random_.chance(percent_);
     model.update(one);
-    watched_.see(&model, one);
     return one;
   }
 
-  template <uint32_t kState>
-  uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t = 0) {
+  uint32_t token(TokenRow& row, const TokenSchedule& schedule, uint32_t) override {
     step();
     const uint32_t symbol = random_.below(random_.chance(10) ? kTokenCount : 4);
     row.adapt(symbol, schedule);
     return symbol;
   }
 
-  uint32_t raw(uint32_t bits, uint32_t = 0) {
+  uint32_t raw(uint32_t bits) override {
     step();
     return static_cast<uint32_t>(random_.next() & ((uint64_t{1} << bits) - 1));
   }
 
-  uint32_t magnitude(uint32_t base, uint32_t bits, bool sign, uint32_t, uint32_t& negative) {
-    const uint32_t value = base + raw(bits);
-    negative = raw(sign && value != 0 ? 1 : 0);
-    return value;
-  }
-
-  bool overrun() const { return used_ > budget_; }
+  bool overrun() const override { return used_ > budget_; }
   uint64_t used() const { return used_; }
 
  private:
@@ -85,16 +70,16 @@ class RandomIo {
   uint64_t used_ = 0;
   uint32_t percent_ = 50;
   uint32_t left_ = 0;
-  WatchedModels watched_;
 };
-static_assert(SymbolIo<RandomIo>);
 
 ObservedCodes observe(uint64_t seed, const McCounts& claims) {
-  RandomIo io(seed, 1u << 22);
+  RandomAnswers answers(seed, 1u << 22);
+  AnswersIo io(answers);
   ObservedCodes observed = observeCodes(io, claims);
   // Every answer belongs to an operation, or closes a node, of which an operation makes at most
   // two; handles take some more.
-  if (io.used() > 200 * (uint64_t{claims.operation_count} + 10)) observed.failure = "too much work";
+  if (answers.used() > 200 * (uint64_t{claims.operation_count} + 10))
+    observed.failure = "too much work";
   return observed;
 }
 
@@ -181,9 +166,10 @@ class RandomPiece {
  private:
   /// Returns false if claims were learnt and another pass is needed.
   bool runOnce(Depth* depth) {
-    RandomIo io(seed_, 1u << 22);
+    RandomAnswers answers(seed_, 1u << 22);
+    AnswersIo io(answers);
     PayloadModels models;
-    PieceCoder<RandomIo> piece(io, models, header_, attributes_, {});
+    PieceCoder<AnswersIo> piece(io, models, header_, attributes_, {});
     const PieceTruth nothing;
     // Fails when the last vertices have no triangle, which the faces cannot show.
     if (!piece.codeConnectivity(nothing).ok()) return true;

@@ -18,6 +18,7 @@
 #include "json/json.h"
 #include "mcc/writer.h"
 #include "positions/enc_fit.h"
+#include "positions/enc_recording.h"
 #include "reader/piece.h"
 
 namespace {

@@ -15,6 +15,7 @@
 #include "entropy/enc_coder.h"
 #include "format/predictors.h"
 #include "positions/enc_prices.h"
+#include "positions/enc_recording.h"
 #include "positions/vertex.h"
 
 namespace mcc {

@@ -11,10 +11,11 @@
 #include "base/enc_jobs.h"
 #include "format/features.h"
 #include "mcc/types.h"
-#include "positions/enc_recording.h"
 #include "positions/parameters.h"
 
 namespace mcc {
+
+class PositionRecording;  // positions/enc_recording.h
 
 /// One piece as the trials see it.
 struct PositionCandidate {

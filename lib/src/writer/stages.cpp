@@ -7,6 +7,7 @@
 
 #include "base/enc_exceptions.h"
 #include "format/predictors.h"
+#include "positions/enc_recording.h"
 #include "writer/instances.h"
 #include "writer/truth.h"
 
@@ -76,7 +77,8 @@ Status StageRunner::codeSurface(StreamSizes* sizes) {
 }
 
 Status StageRunner::recordPositions(RecordedPositions& recorded) {
-  PositionRecording& recording = recorded.recording;
+  recorded.recording = std::make_shared<PositionRecording>();
+  PositionRecording& recording = *recorded.recording;
   PositionCandidate& candidate = recorded.candidate;
   const uint32_t group_count = piece_->groups.count;
   const std::span<const int32_t> positions(plan_.positions.data(), 3 * size_t{group_count});

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "entropy/enc_coder.h"
+#include "mesh/face_mesh.h"
+#include "positions/record.h"
 #include "writer/plan.h"
 
 namespace mcc {
@@ -38,7 +40,7 @@ class StageModels {
 /// meanwhile.
 struct RecordedPositions {
   Array<VertexRecord> records;
-  PositionRecording recording;
+  std::shared_ptr<PositionRecording> recording;
   PositionCandidate candidate;  ///< refers to the recording
 };
 
