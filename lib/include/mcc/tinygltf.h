@@ -47,7 +47,7 @@
 #include "mcc/decoded_limit.h"
 #include "mcc/reader.h"
 
-#if __has_include("mcc/gltf.h")
+#if __has_include("mcc/glb.h")
 #include "mcc/glb.h"
 #define MCC_TINYGLTF_HAS_ENCODE 1
 #endif
