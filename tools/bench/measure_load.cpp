@@ -5,6 +5,7 @@
 
 #include "bench/emit_draco.h"
 #include "foreign/tinygltf_loader.h"
+#include "mcc/files.h"
 
 namespace mcc::bench {
 namespace {
