@@ -28,17 +28,17 @@ export interface EncodeOptions {
   tangentBits?: number;
   /** Default 12. */
   weightBits?: number;
-  /** Every float keeps every bit. Excludes maxError, lattice, and bits other than 0. */
+  /** Every float keeps every bit. Excludes maxPositionError, positionLattice, and bits other than 0. */
   lossless?: boolean;
-  /** No position moves farther than this. Excludes positionBits and lattice. */
-  maxError?: number;
-  /** maxError is a fraction of the longest side of the bounding box. */
-  maxErrorRelative?: boolean;
+  /** No position moves farther than this. Excludes positionBits and positionLattice. */
+  maxPositionError?: number;
+  /** maxPositionError is a fraction of the longest side of the bounding box. */
+  isErrorRelative?: boolean;
   /**
    * x, y, z of a point of the lattice of positions, and its step. For tiles that must fit
    * together.
    */
-  lattice?: [number, number, number, number];
+  positionLattice?: [number, number, number, number];
   /** What shares a lattice of positions. Default 'mesh'. */
   grid?: 'mesh' | 'scene' | 'primitive';
   keepVertexOrder?: boolean;

@@ -13,14 +13,14 @@ const BITS = {
   positionBits: [14, 1, 24], normalBits: [10, 2, 16], texcoordBits: [12, 1, 24], colorBits: [8, 1, 24],
   tangentBits: [12, 2, 16], weightBits: [12, 1, 24],
 };
-const FLAGS = ['lossless', 'indicesOnly', 'keepVertexOrder', 'keepTriangleOrder', 'maxErrorRelative', 'allowLarger',
+const FLAGS = ['lossless', 'indicesOnly', 'keepVertexOrder', 'keepTriangleOrder', 'isErrorRelative', 'allowLarger',
   'dropUnused'];
 /** What the value of another option has to be, and how to say it. */
 const OTHERS = {
   grid: [(grid) => GRIDS.includes(grid), `one of ${GRIDS.join(', ')}`],
   prefer: [(prefer) => PREFERENCES.includes(prefer), `one of ${PREFERENCES.join(', ')}`],
-  maxError: [(maxError) => Number.isFinite(maxError) && maxError > 0, 'a number above 0'],
-  lattice: [(lattice) => (Array.isArray(lattice) || ArrayBuffer.isView(lattice)) && lattice.length === 4 && lattice.every(Number.isFinite) && lattice[3] > 0,
+  maxPositionError: [(maxPositionError) => Number.isFinite(maxPositionError) && maxPositionError > 0, 'a number above 0'],
+  positionLattice: [(lattice) => (Array.isArray(lattice) || ArrayBuffer.isView(lattice)) && lattice.length === 4 && lattice.every(Number.isFinite) && lattice[3] > 0,
     'four numbers: x, y, z of a point and the step'],
   blockTriangles: [(count) => Number.isInteger(count) && count >= 0 && count < 2 ** 32 - 1, 'a number of triangles, or 0 for no blocks'],
   fallback: [(fallback) => fallback === false, 'false: a fallback is a second file, which the command line tool writes'],
@@ -28,9 +28,9 @@ const OTHERS = {
 };
 /** Options that exclude others, as in the command line tool. */
 const CONTRADICTIONS = {
-  lossless: [...Object.keys(BITS), 'maxError', 'lattice'],
-  maxError: ['positionBits', 'lattice'],
-  lattice: ['positionBits'],
+  lossless: [...Object.keys(BITS), 'maxPositionError', 'positionLattice'],
+  maxPositionError: ['positionBits', 'positionLattice'],
+  positionLattice: ['positionBits'],
 };
 
 let source = {};
@@ -200,12 +200,12 @@ function checkOption(name, value) {
 }
 
 function setOptions(exports, options) {
-  const { grid = 'mesh', maxError, prefer = 'balanced', lattice, blockTriangles } = options;
+  const { grid = 'mesh', maxPositionError, prefer = 'balanced', positionLattice, blockTriangles } = options;
   const flag = (name) => (options[name] ? 1 : 0);
   exports.setBits(...Object.entries(BITS).map(([name, [standard]]) => options[name] ?? standard));
   exports.setModes(flag('lossless'), flag('indicesOnly'), GRIDS.indexOf(grid), flag('keepVertexOrder'),
     flag('keepTriangleOrder'), PREFERENCES.indexOf(prefer), flag('allowLarger'), flag('dropUnused'));
   if (blockTriangles !== undefined) exports.setBlocks(blockTriangles);
-  if (maxError !== undefined) exports.setMaxError(maxError, flag('maxErrorRelative'));
-  if (lattice !== undefined) exports.setLattice(...lattice);
+  if (maxPositionError !== undefined) exports.setMaxError(maxPositionError, flag('isErrorRelative'));
+  if (positionLattice !== undefined) exports.setLattice(...positionLattice);
 }

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <vector>
 
-#include "mcc/writer.h"
+#include "mcc/simple.h"
 
 int main(int argument_count, char** arguments) {
   if (argument_count != 2) return 2;
@@ -30,22 +30,18 @@ int main(int argument_count, char** arguments) {
     }
   }
 
-  mcc::AttributeView position;
-  position.format.semantic = mcc::Semantic::kPosition;  // three floats are the default
-  position.data = positions.data();
-  position.stride_bytes = 3 * sizeof(float);
-  position.quantization_bits = 14;  // 0 would keep every bit
-  const mcc::PartView part{indices};
-  const mcc::PieceView piece{kAround * kAcross, {&position, 1}, {&part, 1}};
+  mcc::simple::Mesh mesh;
+  mesh.add("POSITION", positions);  // three floats are the default
+  mesh.primitives = {indices};
 
-  mcc::EncodeResult result;
-  const mcc::Status status = mcc::encode({&piece, 1}, {}, result);
+  std::vector<uint8_t> payload;
+  const mcc::Status status = mcc::simple::encode(mesh, payload);
   if (!status.ok()) {
     std::fprintf(stderr, "%s\n", status.what);
     return 1;
   }
   std::ofstream(arguments[1], std::ios::binary)
-      .write(reinterpret_cast<const char*>(result.payload.data()),
-             static_cast<std::streamsize>(result.payload.size()));
-  std::printf("%zu triangles in %zu bytes\n", indices.size() / 3, result.payload.size());
+      .write(reinterpret_cast<const char*>(payload.data()),
+             static_cast<std::streamsize>(payload.size()));
+  std::printf("%zu triangles in %zu bytes\n", indices.size() / 3, payload.size());
 }

@@ -132,7 +132,7 @@ static void test_round_trip(const mcc_encoding* encoding) {
   EXPECT(piece.wedge_count == kWedges && piece.attribute_count == 2 && piece.part_count == 1);
   EXPECT(mcc_payload_attribute(payload, 0, 1, &attribute).error == MCC_OK);
   EXPECT(attribute.format.semantic == MCC_COLOR && attribute.format.normalized == 1);
-  EXPECT(mcc_element_bytes(&attribute.format) == 4 && attribute.coding == 1);
+  EXPECT(mcc_element_bytes(&attribute.format) == 4 && attribute.coding == MCC_CODING_INTEGER);
   EXPECT(mcc_payload_attribute(payload, 0, 2, &attribute).error == MCC_ERROR_BAD_ARGUMENT);
   EXPECT(mcc_payload_part(payload, 0, 0, &triangle_count).error == MCC_OK);
   EXPECT(triangle_count == kTriangles);

@@ -75,9 +75,16 @@ class Documents(unittest.TestCase):
         usual = gltf_mcc.convert(data)
         for options in ({"position_bits": 9}, {"normal_bits": 7}, {"lossless": True}, {"indices_only": True},
                         {"keep_vertex_order": True}, {"keep_triangle_order": True}, {"max_position_error": 0.01},
-                        {"prefer": "speed", "block_triangles": 100}):
+                        {"prefer": "speed", "block_triangles": 100}, {"position_lattice": (0, 0, 0, 0.125)}):
             self.assertNotEqual(gltf_mcc.convert(data, **options), usual, options)
-        self.assertEqual(gltf_mcc.convert(data, threads=2, grid="scene"), usual)
+        self.assertEqual(gltf_mcc.convert(data, thread_count=2, grid="scene"), usual)
+
+    def test_wrong_lattices(self):
+        data = (SAMPLES / "torus.glb").read_bytes()
+        with self.assertRaises(ValueError):
+            gltf_mcc.convert(data, position_lattice=(0, 0, 0))
+        with self.assertRaises(gltf_mcc.Error):
+            gltf_mcc.convert(data, position_lattice=(0, 0, 0, 0))
 
     def test_refusals(self):
         with self.assertRaisesRegex(gltf_mcc.Error, "neither a GLB nor JSON") as caught:
@@ -147,6 +154,13 @@ class Meshes(unittest.TestCase):
         self.assertEqual(piece.attributes[0].coding, "lattice")
         self.assertEqual(piece.attributes[0].bits, 10)
         self.assertEqual([len(part) for part in piece.parts], [half // 3, len(indices) // 3 - half // 3])
+
+    def test_wrong_lattices(self):
+        data = (SAMPLES / "torus.glb").read_bytes()
+        with self.assertRaises(ValueError):
+            gltf_mcc.convert(data, position_lattice=(0, 0, 0))
+        with self.assertRaises(gltf_mcc.Error):
+            gltf_mcc.convert(data, position_lattice=(0, 0, 0, 0))
 
     def test_refusals(self):
         positions, indices = grid(5)
@@ -356,6 +370,13 @@ class MeshesOfFiles(unittest.TestCase):
         with self.assertRaisesRegex(gltf_mcc.Error, pattern) as caught:
             gltf_mcc.meshes(made.glb(), **options)
         self.assertEqual(caught.exception.code, code)
+
+    def test_wrong_lattices(self):
+        data = (SAMPLES / "torus.glb").read_bytes()
+        with self.assertRaises(ValueError):
+            gltf_mcc.convert(data, position_lattice=(0, 0, 0))
+        with self.assertRaises(gltf_mcc.Error):
+            gltf_mcc.convert(data, position_lattice=(0, 0, 0, 0))
 
     def test_refusals(self):
         made = Builder()

@@ -1,192 +1,218 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// One call to decode and one to encode: what they return is what the reader and the writer do.
+// Whole meshes through mcc/simple.h: with every kind of attribute, with errors, and hostile bytes.
 #include "mcc/simple.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstring>
-#include <random>
+#include <map>
 
+#include "mcc/glb.h"
 #include "support/mesh_generators.h"
 
 namespace mcc::test {
 namespace {
 
-template <typename T>
-MeshAttribute attributeOf(const std::string& name, const std::vector<T>& values, uint32_t count,
-                          ComponentType type, bool normalized = false, int target = -1) {
-  MeshAttribute attribute;
-  attribute.name = name;
-  attribute.morph_target = target;
-  attribute.component_type = type;
-  attribute.component_count = count;
-  attribute.normalized = normalized;
-  attribute.data.resize(values.size() * sizeof(T));
-  std::memcpy(attribute.data.data(), values.data(), attribute.data.size());
-  return attribute;
-}
+constexpr simple::EncodeOptions kExact = {0, 0, 0, 0, 0, 0, true, true};
 
-std::vector<float> floatsOf(const MeshAttribute& attribute) {
-  std::vector<float> values(attribute.data.size() / 4);
-  std::memcpy(values.data(), attribute.data.data(), attribute.data.size());
+// What is written here and in glb.h is one set of defaults.
+constexpr gltf::QuantizationBits kBits;
+constexpr simple::EncodeOptions kDefaults;
+static_assert(kDefaults.position_bits == kBits.position && kDefaults.normal_bits == kBits.normal &&
+              kDefaults.texcoord_bits == kBits.texcoord && kDefaults.color_bits == kBits.color &&
+              kDefaults.tangent_bits == kBits.tangent && kDefaults.weight_bits == kBits.weight);
+
+std::vector<float> waves(uint32_t count, float scale) {
+  std::vector<float> values(count);
+  for (uint32_t i = 0; i < count; ++i) values[i] = scale * std::sin(static_cast<float>(i) * 0.37f);
   return values;
 }
 
-/// A mesh with every kind of attribute, in another order than payloads have.
-Mesh meshOf(const TestMesh& source, uint64_t seed) {
-  std::mt19937_64 random(seed);
-  const auto anyFloats = [&](uint32_t count, float low, float high) {
-    std::vector<float> values(size_t{count} * source.vertexCount());
-    for (float& value : values) {
-      value = std::uniform_real_distribution<float>(low, high)(random);
-    }
-    return values;
-  };
-  Mesh mesh;
-  mesh.vertex_count = source.vertexCount();
-  std::vector<float> normals = anyFloats(3, -1, 1);
-  for (size_t i = 0; i < normals.size(); i += 3) {
-    const float length = std::hypot(normals[i], normals[i + 1], normals[i + 2]);
-    for (size_t c = 0; c < 3; ++c) normals[i + c] /= length;
-  }
-  std::vector<uint8_t> colours(size_t{4} * source.vertexCount());
-  for (uint8_t& colour : colours) colour = static_cast<uint8_t>(random());
-  mesh.attributes.push_back(
-      attributeOf("TEXCOORD_1", anyFloats(2, 0, 1), 2, ComponentType::kFloat32));
-  mesh.attributes.push_back(
-      attributeOf("COLOR_0", colours, 4, ComponentType::kUint8, /*normalized=*/true));
-  mesh.attributes.push_back(attributeOf("POSITION", source.positions, 3, ComponentType::kFloat32));
-  mesh.attributes.push_back(attributeOf("_HEAT", anyFloats(1, 0, 9), 1, ComponentType::kFloat32));
-  mesh.attributes.push_back(attributeOf("NORMAL", normals, 3, ComponentType::kFloat32));
-  mesh.attributes.push_back(attributeOf("POSITION", anyFloats(3, -.1f, .1f), 3,
-                                        ComponentType::kFloat32, false, /*target=*/1));
-  const size_t half = source.indices.size() / 6 * 3;
-  const auto middle = source.indices.begin() + static_cast<ptrdiff_t>(half);
-  mesh.primitives = {{source.indices.begin(), middle}, {middle, source.indices.end()}};
+void addIntegers(simple::Mesh& mesh, const char* name, ComponentType type, uint8_t component_count,
+                 bool normalized) {
+  const size_t size = size_t{mesh.vertex_count} * componentBytes(type) * component_count;
+  std::vector<uint8_t> bytes(size);
+  for (size_t i = 0; i < size; ++i) bytes[i] = static_cast<uint8_t>(i * i >> 3);
+  mesh.attributes.push_back({name, simple::kBase, type, component_count, normalized, bytes});
+}
+
+/// The generated mesh with all attributes that glTF names, one that it does not name, and two morph
+/// targets; its triangles are two primitives.
+simple::Mesh fullMesh(const TestMesh& source) {
+  simple::Mesh mesh;
+  const uint32_t count = source.vertexCount();
+  mesh.add("TEXCOORD_0", waves(2 * count, 1), 2);
+  mesh.add("POSITION", source.positions);
+  mesh.add("NORMAL", source.normals.empty() ? waves(3 * count, 1) : source.normals);
+  mesh.add("TANGENT", waves(4 * count, 1), 4);
+  mesh.add("TEXCOORD_1", waves(2 * count, 7), 2);
+  mesh.add("COLOR_0", waves(4 * count, 0.5f), 4);
+  addIntegers(mesh, "JOINTS_0", ComponentType::kUint8, 4, false);
+  mesh.add("WEIGHTS_0", std::vector<float>(size_t{4} * count, 0.25f), 4);
+  addIntegers(mesh, "COLOR_1", ComponentType::kUint16, 3, true);
+  addIntegers(mesh, "_FEATURE_ID_0", ComponentType::kUint16, 1, false);
+  mesh.add("POSITION", waves(3 * count, 0.1f), 3, 0);
+  mesh.add("NORMAL", waves(3 * count, 0.2f), 3, 0);
+  mesh.add("POSITION", waves(3 * count, 3), 3, 1);
+  const auto middle = source.indices.begin() + source.triangleCount() / 2 * 3;
+  mesh.primitives.emplace_back(source.indices.begin(), middle);
+  mesh.primitives.emplace_back(middle, source.indices.end());
   return mesh;
 }
 
-void expectNear(const MeshAttribute& source, const MeshAttribute& decoded, double distance,
-                const std::vector<uint32_t>& source_vertices) {
-  const std::vector<float> a = floatsOf(source);
-  const std::vector<float> b = floatsOf(decoded);
-  const uint32_t count = source.component_count;
-  ASSERT_EQ(a.size(), b.size());
-  for (size_t i = 0; i < b.size(); ++i) {
-    EXPECT_NEAR(b[i], a[source_vertices[i / count] * count + i % count], distance) << source.name;
-  }
+std::vector<TestMesh> meshes() {
+  return {torus(16, 10), chartGrid(12, 10, 4), withRandomWedges(sheetWithHoles(4, 1), 2, 2),
+          looseTriangles(9), withRandomWedges(randomSoup(4), 5, 2)};
 }
 
-TEST(Simple, EveryKindOfAttributeComesBackUnderItsName) {
-  for (const TestMesh& source : {torus(20, 9), soup(3, 40, 20, {}),
-                                 unionOf(std::vector{icosphere(1), tetrahedron()}, "two")}) {
-    const Mesh mesh = meshOf(source, 7);
-    std::vector<uint8_t> payload;
-    std::vector<uint32_t> vertices;
-    ASSERT_EQ(encodeMesh(mesh, payload, {}, &vertices).what, std::string());
-    Mesh decoded;
-    ASSERT_EQ(decodeMesh(payload, decoded).what, std::string());
-    EXPECT_EQ(decoded.vertex_count, mesh.vertex_count);
-    ASSERT_EQ(decoded.primitives.size(), 2u);
-    EXPECT_EQ(decoded.primitives[0].size(), mesh.primitives[0].size());
-    EXPECT_EQ(decoded.primitives[1].size(), mesh.primitives[1].size());
-    ASSERT_EQ(decoded.attributes.size(), mesh.attributes.size());
-    EXPECT_EQ(decoded.attributes[0].name, "POSITION");
-    EXPECT_EQ(decoded.find("_HEAT"), nullptr);
-    ASSERT_NE(decoded.find("_"), nullptr);
-    EXPECT_EQ(decoded.find("POSITION", 0), nullptr);
-    ASSERT_NE(decoded.find("POSITION", 1), nullptr);
-    expectNear(*mesh.find("POSITION"), *decoded.find("POSITION"), 1e-3, vertices);
-    expectNear(*mesh.find("POSITION", 1), *decoded.find("POSITION", 1), 1e-3, vertices);
-    expectNear(*mesh.find("NORMAL"), *decoded.find("NORMAL"), 5e-3, vertices);
-    expectNear(*mesh.find("TEXCOORD_1"), *decoded.find("TEXCOORD_1"), 3e-4, vertices);
-    expectNear(*mesh.find("_HEAT"), *decoded.find("_"), 0, vertices);
-    const MeshAttribute& colours = *decoded.find("COLOR_0");
-    EXPECT_TRUE(colours.normalized);
-    EXPECT_EQ(colours.component_type, ComponentType::kUint8);
-    for (size_t i = 0; i < colours.data.size(); ++i) {
-      EXPECT_EQ(colours.data[i], mesh.attributes[1].data[vertices[i / 4] * 4 + i % 4]);
+/// Encodes and decodes; the one mesh that comes back.
+simple::Mesh roundTripOf(const simple::Mesh& mesh, const simple::EncodeOptions& options) {
+  std::vector<uint8_t> payload;
+  const Status encoded = simple::encode(mesh, payload, options);
+  EXPECT_TRUE(encoded.ok()) << encoded.what;
+  std::vector<simple::Mesh> decoded;
+  const Status status = simple::decode(payload, decoded);
+  EXPECT_TRUE(status.ok()) << status.what;
+  EXPECT_EQ(decoded.size(), 1u);
+  return decoded.size() == 1 ? std::move(decoded[0]) : simple::Mesh();
+}
+
+TEST(Simple, EveryBitComesBack) {
+  for (const TestMesh& source : meshes()) {
+    SCOPED_TRACE(source.name);
+    const simple::Mesh mesh = fullMesh(source);
+    const simple::Mesh back = roundTripOf(mesh, kExact);
+    EXPECT_EQ(back.vertex_count, mesh.vertex_count);
+    EXPECT_EQ(back.primitives, mesh.primitives);
+    ASSERT_EQ(back.attributes.size(), mesh.attributes.size());
+    for (const simple::Attribute& expected : mesh.attributes) {
+      SCOPED_TRACE(expected.name + " " + std::to_string(expected.target));
+      const std::string name = expected.name[0] == '_' ? "_" : expected.name;
+      const simple::Attribute* found = back.find(name, expected.target);
+      ASSERT_NE(found, nullptr);
+      EXPECT_EQ(found->type, expected.type);
+      EXPECT_EQ(found->component_count, expected.component_count);
+      EXPECT_EQ(found->normalized, expected.normalized);
+      EXPECT_EQ(found->bytes, expected.bytes);
     }
+    EXPECT_EQ(back.find("POSITION", 2), nullptr);
   }
 }
 
-TEST(Simple, ZeroBitsAreExact) {
-  const Mesh mesh = meshOf(torus(7, 5), 9);
-  std::vector<uint8_t> payload;
-  std::vector<uint32_t> vertices;
-  ASSERT_TRUE(encodeMesh(mesh, payload, {0, 0, 0, 0, 0, 0}, &vertices).ok());
-  Mesh decoded;
-  ASSERT_TRUE(decodeMesh(payload, decoded).ok());
-  for (const MeshAttribute& attribute : decoded.attributes) {
-    if (attribute.name == "_" || attribute.name == "COLOR_0") continue;
-    expectNear(*mesh.find(attribute.name, attribute.morph_target), attribute, 0, vertices);
+/// The largest difference of two arrays of floats.
+float farthest(std::span<const float> a, std::span<const float> b) {
+  EXPECT_EQ(a.size(), b.size());
+  float most = 0;
+  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    most = std::max(most, std::abs(a[i] - b[i]));
+  }
+  return most;
+}
+
+TEST(Simple, BitsBoundTheErrors) {
+  simple::EncodeOptions options;
+  options.keep_vertex_order = true;
+  for (const TestMesh& source : meshes()) {
+    SCOPED_TRACE(source.name);
+    const simple::Mesh mesh = fullMesh(source);
+    const simple::Mesh back = roundTripOf(mesh, options);
+    float largest = 0;
+    for (const float x : source.positions) largest = std::max(largest, std::abs(x));
+    const auto error = [&](const char* name, int target = simple::kBase) {
+      return farthest(mesh.find(name, target)->floats(), back.find(name, target)->floats());
+    };
+    EXPECT_GT(error("TEXCOORD_1"), 0);
+    EXPECT_LE(error("POSITION"), 2 * largest / 16383);
+    EXPECT_LE(error("TEXCOORD_1"), 14.0f / 4095);
+    EXPECT_LE(error("POSITION", 0), 2 * largest / 16383);
+    EXPECT_LE(error("POSITION", 1), 2 * largest / 16383);
+    EXPECT_TRUE(back.find("JOINTS_0")->floats().empty());
+    EXPECT_EQ(back.find("JOINTS_0")->bytes, mesh.find("JOINTS_0")->bytes);
   }
 }
 
-TEST(Simple, OnePieceOfSeveralIsTheSameAsAlone) {
-  const TestMesh first = torus(9, 5);
-  const TestMesh second = icosphere(2);
-  std::vector<AttributeView> views[2];
-  std::vector<PieceView> pieces;
-  std::vector<PartView> parts[2];
-  size_t i = 0;
-  for (const TestMesh* mesh : {&first, &second}) {
-    AttributeView view;
-    view.data = mesh->positions.data();
-    view.stride_bytes = 12;
-    views[i] = {view};
-    parts[i] = {PartView{mesh->indices}};
-    pieces.push_back({mesh->vertexCount(), views[i], parts[i]});
-    ++i;
-  }
-  EncodeResult result;
-  ASSERT_TRUE(encode(pieces, {}, result).ok());
-  Mesh decoded;
-  ASSERT_TRUE(decodeMesh(result.payload, decoded, 1).ok());
-  EXPECT_EQ(decoded.vertex_count, second.vertexCount());
-  EXPECT_EQ(decoded.primitives[0].size(), second.indices.size());
-  const std::vector<float> positions = floatsOf(decoded.attributes[0]);
-  for (uint32_t v = 0; v < decoded.vertex_count; ++v) {
-    const uint32_t source = result.pieces[1].source_wedge[v];
-    for (uint32_t c = 0; c < 3; ++c) {
-      EXPECT_EQ(positions[3 * v + c], second.positions[3 * source + c]);
+/// Without kept orders triangles still have their corners' positions.
+TEST(Simple, OrdersMayChange) {
+  const auto trianglesOf = [](const simple::Mesh& mesh) {
+    std::map<std::array<float, 9>, int> triangles;
+    const std::span<const float> positions = mesh.find("POSITION")->floats();
+    for (const std::vector<uint32_t>& indices : mesh.primitives) {
+      for (size_t i = 0; i < indices.size(); i += 3) {
+        std::array<std::array<float, 3>, 3> corners;
+        for (size_t k = 0; k < 3; ++k) {
+          std::copy_n(positions.begin() + indices[i + k] * 3, 3, corners[k].begin());
+        }
+        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()),
+                    corners.end());
+        std::array<float, 9> key;
+        for (size_t k = 0; k < 9; ++k) key[k] = corners[k / 3][k % 3];
+        ++triangles[key];
+      }
     }
+    return triangles;
+  };
+  simple::EncodeOptions options;
+  options.position_bits = 0;
+  for (const TestMesh& source : {torus(16, 10), chartGrid(12, 10, 4)}) {
+    simple::Mesh mesh;
+    mesh.add("POSITION", source.positions);
+    mesh.primitives = {source.indices};
+    EXPECT_EQ(trianglesOf(roundTripOf(mesh, options)), trianglesOf(mesh)) << source.name;
   }
-  EXPECT_EQ(decodeMesh(result.payload, decoded, 2).error, Error::kBadArgument);
 }
 
-TEST(Simple, RefusesWhatItCannotEncode) {
-  std::vector<uint8_t> payload;
-  Mesh mesh = meshOf(tetrahedron(), 1);
-  mesh.attributes[0].data.pop_back();
-  EXPECT_EQ(encodeMesh(mesh, payload).error, Error::kBadArgument);
-  mesh = meshOf(tetrahedron(), 1);
-  mesh.attributes[0].component_count = 7;
-  EXPECT_EQ(encodeMesh(mesh, payload).error, Error::kBadArgument);
-  mesh = meshOf(tetrahedron(), 1);
-  mesh.attributes[5].morph_target = 70000;
-  EXPECT_EQ(encodeMesh(mesh, payload).error, Error::kBadArgument);
-  mesh = meshOf(tetrahedron(), 1);
-  mesh.primitives[0][0] = 4;
-  EXPECT_EQ(encodeMesh(mesh, payload).error, Error::kBadArgument);
-  EXPECT_EQ(encodeMesh({}, payload).error, Error::kBadArgument);
+TEST(Simple, WrongMeshes) {
+  const simple::Mesh good = fullMesh(torus(6, 4));
+  const auto refused = [&](auto change) {
+    simple::Mesh mesh = good;
+    simple::EncodeOptions options;
+    change(mesh, options);
+    std::vector<uint8_t> payload = {1};
+    const Status status = simple::encode(mesh, payload, options);
+    EXPECT_TRUE(payload.empty());
+    return status.error == Error::kBadArgument;
+  };
+  EXPECT_TRUE(refused([](auto& mesh, auto&) { mesh = {}; }));
+  EXPECT_TRUE(refused([](auto& mesh, auto&) { mesh.primitives.clear(); }));
+  EXPECT_TRUE(refused([](auto& mesh, auto&) { mesh.attributes.clear(); }));
+  EXPECT_TRUE(refused([](auto& mesh, auto&) { mesh.attributes[1].name = "Position"; }));
+  EXPECT_TRUE(refused([](auto& mesh, auto&) { mesh.attributes[1].target = -2; }));
+  EXPECT_TRUE(refused([](auto& mesh, auto&) { mesh.attributes[0].target = 0xffff; }));
+  EXPECT_TRUE(refused([](auto& mesh, auto&) { mesh.attributes[0].bytes.pop_back(); }));
+  EXPECT_TRUE(refused([](auto& mesh, auto&) { mesh.attributes[0].component_count = 5; }));
+  EXPECT_TRUE(refused([](auto& mesh, auto&) { mesh.attributes[0].component_count = 0; }));
+  EXPECT_TRUE(refused([](auto& mesh, auto&) { mesh.attributes[0].type = ComponentType{9}; }));
+  EXPECT_TRUE(refused([](auto& mesh, auto&) { mesh.primitives[0].pop_back(); }));
+  EXPECT_TRUE(refused([](auto& mesh, auto&) { mesh.primitives[0][0] = mesh.vertex_count; }));
+  EXPECT_TRUE(refused([](auto& mesh, auto&) { ++mesh.vertex_count; }));
+  EXPECT_TRUE(refused([](auto&, auto& options) { options.position_bits = 25; }));
+  EXPECT_TRUE(refused([](auto&, auto& options) { options.normal_bits = 1; }));
 }
 
-TEST(Simple, DamagedPayloadsAreRefusedOrDecoded) {
+TEST(Simple, HostileBytes) {
   std::vector<uint8_t> payload;
-  ASSERT_TRUE(encodeMesh(meshOf(torus(6, 5), 3), payload).ok());
-  Mesh decoded;
+  ASSERT_TRUE(simple::encode(fullMesh(torus(8, 6)), payload).ok());
+  std::vector<simple::Mesh> decoded;
+  const auto decode = [&](std::span<const uint8_t> bytes) {
+    decoded.resize(1);
+    const Status status = simple::decode(bytes, decoded);
+    EXPECT_EQ(decoded.empty(), !status.ok());
+    return status.error;
+  };
+  for (size_t size = 0; size < payload.size(); ++size) {
+    EXPECT_NE(decode({payload.data(), size}), Error::kOk) << size;
+  }
   for (size_t i = 0; i < payload.size(); ++i) {
-    payload[i] ^= 0x10;
-    EXPECT_FALSE(decodeMesh(payload, decoded).ok()) << i;
-    payload[i] ^= 0x10;
-    EXPECT_FALSE(decodeMesh(std::span(payload).first(i), decoded).ok()) << i;
+    std::vector<uint8_t> damaged = payload;
+    damaged[i] ^= static_cast<uint8_t>(1u << i % 8);
+    EXPECT_NE(decode(damaged), Error::kOk) << i;
   }
-  Limits limits;
-  limits.max_triangles = 59;
-  EXPECT_EQ(decodeMesh(payload, decoded, 0, limits).error, Error::kLimit);
+  EXPECT_EQ(decode(payload), Error::kOk);
+  EXPECT_EQ(simple::decode(payload, decoded, 100).error, Error::kLimit);
+  EXPECT_TRUE(decoded.empty());
 }
 
 }  // namespace

@@ -180,12 +180,12 @@ describe('options', () => {
     const lattice = [0, 0, 0, 1];
     for (const [options, message] of [
       [{ lossless: true, positionBits: 3 }, 'lossless excludes positionBits'], [{ normalBits: 8, lossless: true }, 'lossless excludes normalBits'],
-      [{ lossless: true, maxError: 1 }, 'lossless excludes maxError'], [{ lossless: true, lattice }, 'lossless excludes lattice'],
-      [{ maxError: 1, positionBits: 3 }, 'maxError excludes positionBits'], [{ maxError: 1, lattice }, 'maxError excludes lattice'],
-      [{ lattice, positionBits: 3 }, 'lattice excludes positionBits'], [{ lattice: 5 }, 'lattice must be four numbers: x, y, z of a point and the step'],
+      [{ lossless: true, maxPositionError: 1 }, 'lossless excludes maxPositionError'], [{ lossless: true, positionLattice: lattice }, 'lossless excludes positionLattice'],
+      [{ maxPositionError: 1, positionBits: 3 }, 'maxPositionError excludes positionBits'], [{ maxPositionError: 1, positionLattice: lattice }, 'maxPositionError excludes positionLattice'],
+      [{ positionLattice: lattice, positionBits: 3 }, 'positionLattice excludes positionBits'], [{ positionLattice: 5 }, 'positionLattice must be four numbers: x, y, z of a point and the step'],
     ]) assert.equal(await messageOf(encodeGlb(torus, options), 'BadArgument'), message);
     for (const options of [null, { lossless: true, positionBits: 0 }, { lossless: false, positionBits: 3 }, { lossless: undefined, positionBits: 3 },
-      { maxError: 1, normalBits: 8 }, { lattice: new Float32Array([0, 0, 0, 0.01]) }]) await encodeGlb(torus, options);
+      { maxPositionError: 1, normalBits: 8 }, { positionLattice: new Float32Array([0, 0, 0, 0.01]) }]) await encodeGlb(torus, options);
   });
 });
 

@@ -32,8 +32,8 @@ const CASES = [
   ['textured', { lossless: true }, ['--lossless']],
   ['textured', { positionBits: 11, normalBits: 8, texcoordBits: 10 },
     ['--quantize-position', '11', '--quantize-normal', '8', '--quantize-texcoord', '10']],
-  ['sphere', { maxError: 0.001 }, ['--max-error', '0.001']],
-  ['sphere', { maxError: 0.0005, maxErrorRelative: true }, ['--max-error-relative', '0.0005']],
+  ['sphere', { maxPositionError: 0.001 }, ['--max-error', '0.001']],
+  ['sphere', { maxPositionError: 0.0005, isErrorRelative: true }, ['--max-error-relative', '0.0005']],
   ['two_materials', { keepVertexOrder: true, keepTriangleOrder: true }, ['--keep-order', 'both']],
   ['skinned', { indicesOnly: true }, ['--indices-only']],
   ['two_materials', { grid: 'primitive' }, ['--grid', 'primitive']],
@@ -79,8 +79,8 @@ test('what is wrong is said', async () => {
     assert.ok(error.message.length > 10);
     return error.code;
   });
-  for (const options of [{ positionBits: 25 }, { normalBits: 1 }, { positionBits: '14' }, { grid: 'world' }, { maxError: 0 },
-    { positionbits: 14 }, { lossless: 1 }, { effort: 1 }, { prefer: 'beauty' }, { blockTriangles: -1 }, { lattice: [0, 0, 0, 0] }, { fallback: true }]) {
+  for (const options of [{ positionBits: 25 }, { normalBits: 1 }, { positionBits: '14' }, { grid: 'world' }, { maxPositionError: 0 },
+    { positionbits: 14 }, { lossless: 1 }, { effort: 1 }, { prefer: 'beauty' }, { blockTriangles: -1 }, { positionLattice: [0, 0, 0, 0] }, { fallback: true }]) {
     assert.equal(await codeOf(sample('torus'), options), 'BadArgument', JSON.stringify(options));
   }
   assert.equal(await codeOf('torus.glb'), 'BadArgument');

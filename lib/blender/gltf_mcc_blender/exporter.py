@@ -86,7 +86,7 @@ class ExportCompressed(bpy.types.Operator, ExportHelper):
                 plain, position_bits=self.position_bits, normal_bits=self.normal_bits,
                 texcoord_bits=self.texcoord_bits, color_bits=self.color_bits, weight_bits=self.weight_bits,
                 lossless=self.lossless, prefer=self.prefer, keep_vertex_order=self.keep_vertex_order,
-                threads=os.cpu_count() or 1)
+                thread_count=os.cpu_count() or 1)
             return os.path.getsize(plain), small
 
 

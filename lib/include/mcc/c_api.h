@@ -203,14 +203,24 @@ typedef struct mcc_piece_info {
   uint32_t part_count;      /**< triangle lists; each is one glTF primitive */
 } mcc_piece_info;
 
-/** How an attribute is stored, see mcc::AttributeCoding. */
+/** How an attribute is coded, see mcc::AttributeCoding. */
+enum {
+  MCC_CODING_LATTICE = 0,
+  MCC_CODING_INTEGER = 1,
+  MCC_CODING_EXACT_FLOAT = 2,
+  MCC_CODING_OCTAHEDRAL = 3,
+  MCC_CODING_TANGENT_ANGLE = 4,
+  MCC_CODING_ALIAS = 5,
+  MCC_CODING_GRID = 6
+};
+
+/** The type of an attribute, and how it is stored. */
 typedef struct mcc_attribute_info {
   size_t struct_bytes; /**< sizeof(mcc_attribute_info), set by the caller */
   mcc_attribute_format format;
-  /** 0 lattice, 1 integer, 2 exact float, 3 octahedral, 4 tangent angle, 5 alias, 6 grid */
-  uint32_t coding;
-  uint32_t bits; /**< of codings 0, 3, 4 and 6; 0 for the others */
-  /** of coding 0: values are off by at most half a step, weights by at most one step */
+  uint32_t coding; /**< MCC_CODING_LATTICE … MCC_CODING_GRID */
+  uint32_t bits;   /**< 0 for integers, exact floats and aliases */
+  /** of MCC_CODING_LATTICE: values are off by at most half a step, weights by at most one step */
   mcc_lattice lattice;
 } mcc_attribute_info;
 

@@ -1,209 +1,88 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Decodes a payload into named arrays, and encodes a mesh, in one call each:
-//
-//   mcc::Mesh mesh;
-//   if (const mcc::Status status = mcc::decodeMesh(bytes, mesh); !status.ok()) return status.what;
-//   const mcc::MeshAttribute* normals = mesh.find("NORMAL");
-//
-// Threads, blocks, memory of your own, kept orders and lattices: reader.h and writer.h. These
-// functions are made of those, and need gltf-mcc::reader, and gltf-mcc::writer to encode. They may
-// throw std::bad_alloc.
+// The short way: a payload of KHR_mesh_collapse_compression becomes arrays in one call, and arrays
+// a payload in another. For memory of the caller's, blocks while they load, progress or threads see
+// reader.h and writer.h; for whole glTF files, glb.h and files.h. Header-only: decode() needs
+// gltf-mcc::reader, encode() gltf-mcc::writer.
 #ifndef MCC_SIMPLE_H_
 #define MCC_SIMPLE_H_
 
-#include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "mcc/reader.h"
-#if __has_include("mcc/writer.h")
-#include "mcc/writer.h"
-#endif
+#include "mcc/status.h"  // error, what, offset_bytes, ok()
+#include "mcc/types.h"   // ComponentType: kInt8, kUint8, kInt16, kUint16, kUint32, kFloat32
 
-namespace mcc {
+namespace mcc::simple {
 
-/// An attribute of the vertices of a mesh.
-struct MeshAttribute {
-  std::string name;       ///< "POSITION", "TEXCOORD_1"; "_" when only the glTF file has its name
-  int morph_target = -1;  ///< number of the morph target that it is a delta of; -1: the base mesh
-  ComponentType component_type = ComponentType::kFloat32;
-  uint32_t component_count = 3;
-  bool normalized = false;    ///< integers stand for 0 to 1, or -1 to 1
-  std::vector<uint8_t> data;  ///< the components of one vertex after the other, without gaps
+/// What Attribute::target is for the mesh itself.
+inline constexpr int kBase = -1;
+
+/// A vertex attribute: an element for each vertex, tightly packed, in the host's byte order.
+struct Attribute {
+  /// As in glTF: "POSITION", "NORMAL", "TANGENT", "TEXCOORD_n", "COLOR_n", "JOINTS_n", "WEIGHTS_n".
+  /// Of any other the payload does not have the name: it is decoded as "_", in the encoded order.
+  std::string name;
+  int target = kBase;  ///< or the index of a morph target, from 0: then these are its deltas
+  ComponentType type = ComponentType::kFloat32;
+  uint8_t component_count = 3;  ///< 1 to 4; 9 and 16 for matrices
+  bool normalized = false;
+  std::vector<uint8_t> bytes;
+
+  /// The numbers of a kFloat32 attribute, as long as `bytes` stays; empty for other types.
+  std::span<const float> floats() const;
 };
 
-/// Vertices and the triangles of the primitives that use them.
+/// Vertices, and the triangle lists on them. Owns all its arrays.
 struct Mesh {
   uint32_t vertex_count = 0;
-  std::vector<MeshAttribute> attributes;          ///< numbered as in the glTF file; POSITION first
-  std::vector<std::vector<uint32_t>> primitives;  ///< numbers of vertices, three per triangle
+  std::vector<Attribute> attributes;
+  /// One list for each primitive of glTF with these vertices; three vertices for each triangle.
+  std::vector<std::vector<uint32_t>> primitives;
 
-  /// Returns an attribute, or null.
-  const MeshAttribute* find(std::string_view name, int morph_target = -1) const;
+  /// Returns an attribute, or null if there is none. Borrowed.
+  const Attribute* find(std::string_view name, int target = kBase) const;
+  /// Adds a copy of floats, and sets vertex_count if it is 0.
+  void add(std::string name, std::span<const float> values, uint8_t component_count = 3,
+           int target = kBase);
 };
 
-/// Decodes one piece of a payload: the bytes of the buffer view that
-/// KHR_mesh_collapse_compression names, and its `piece`. The extension's `part` is the number of
-/// the primitive. On an error `mesh` is unspecified; the errors are those of Payload::open() and
-/// Payload::decode(), and kBadArgument when there is no such piece. Safe for untrusted bytes, and
-/// from several threads. Time and memory are linear in what is decoded, which `limits` bounds.
-/// Tests: tests/roundtrip/simple_test.cpp.
-inline Status decodeMesh(std::span<const uint8_t> payload, Mesh& mesh, size_t piece = 0,
-                         const Limits& limits = {});
-
-/// Bits of each component of float attributes; 0 keeps every bit. Other types stay exact.
-struct MeshBits {
-  uint8_t position = 14;  ///< 1 to 24, over the longest side of the mesh; also those below
-  uint8_t normal = 10;    ///< 2 to 16
-  uint8_t texcoord = 12;
-  uint8_t color = 8;
-  uint8_t tangent = 12;  ///< 2 to 16
-  uint8_t weight = 12;
+/// What encode() keeps. Bits are those of each component of float attributes, and 0 keeps every
+/// bit; other types and other attributes are exact. See QuantizationBits in glb.h.
+struct EncodeOptions {
+  uint8_t position_bits = 14;  ///< 0..24, on the longest side of the box; deltas have its step
+  uint8_t normal_bits = 10;    ///< 0, 2..16, octahedral
+  uint8_t texcoord_bits = 12;  ///< 0..24
+  uint8_t color_bits = 8;      ///< 0..24
+  uint8_t tangent_bits = 12;   ///< 0, 2..16
+  uint8_t weight_bits = 12;    ///< 0..24
+  /// Vertices, and triangles with their first corners, come back in their order. That costs bytes.
+  bool keep_vertex_order = false;
+  bool keep_triangle_order = false;
 };
 
-#if __has_include("mcc/writer.h")
-/// Encodes a mesh. Its vertices and triangles get another order in the payload, in which
-/// decodeMesh() returns them: `source_vertices`, if not null, says which vertex each of them was.
-/// Attributes are sorted as payloads have them. Errors: those of encode(), and kBadArgument when an
-/// attribute has another size than its vertices need. Deterministic. Inverse: decodeMesh().
-inline Status encodeMesh(const Mesh& mesh, std::vector<uint8_t>& payload, const MeshBits& bits = {},
-                         std::vector<uint32_t>* source_vertices = nullptr);
-#endif
+/// Decodes a payload, which is the whole content of a buffer view. The extension object's `piece`
+/// and `part` are the numbers of a mesh and of a primitive in it; without them both are 0.
+/// max_decoded_bytes  what all arrays may take; 0: 1024 for each byte of the payload, but at least
+///                    256 MiB and at most 4 GiB
+/// Returns what is wrong with the payload, and kLimit where it asks for more; `meshes` is then
+/// empty. Throws std::bad_alloc only. Safe for untrusted input: all counts are checked before
+/// memory is taken. Deterministic. Inverse: encode(). Tests: tests/roundtrip/simple_test.cpp.
+Status decode(std::span<const uint8_t> payload, std::vector<Mesh>& meshes,
+              uint64_t max_decoded_bytes = 0);
 
-// ------------------------------------------------------------------- Implementation
+/// Encodes a mesh. It comes back as meshes[0], with vertices and triangles in another order.
+/// Returns kBadArgument (no POSITION, no primitive, an index that is no vertex, indices that are no
+/// triangles, an attribute of another size, a target below kBase or above 65534, bits out of
+/// range), kLimit (2^28 vertices or triangles), kOutOfMemory; `payload` is then empty.
+/// Deterministic. Inverse: decode(). Tests: tests/roundtrip/simple_test.cpp.
+Status encode(const Mesh& mesh, std::vector<uint8_t>& payload, const EncodeOptions& options = {});
 
-namespace simple {
+}  // namespace mcc::simple
 
-inline std::string nameOf(const AttributeFormat& format) {
-  static constexpr const char* kNames[] = {"POSITION", "NORMAL",  "TANGENT",  "TEXCOORD_",
-                                           "COLOR_",   "JOINTS_", "WEIGHTS_", "_"};
-  std::string name = kNames[static_cast<size_t>(format.semantic)];
-  const bool has_number =
-      format.semantic >= Semantic::kTexcoord && format.semantic != Semantic::kCustom;
-  return has_number ? name + std::to_string(unsigned{format.set_index}) : name;
-}
-
-inline AttributeFormat formatOf(const MeshAttribute& attribute) {
-  AttributeFormat type;
-  type.component_type = attribute.component_type;
-  type.normalized = attribute.normalized;
-  type.component_count = static_cast<uint8_t>(attribute.component_count);
-  type.morph_target = static_cast<uint16_t>(attribute.morph_target + 1);
-  return namedFormat(attribute.name, type, attribute.component_count > 4);
-}
-
-inline uint8_t bitsOf(const AttributeFormat& format, const MeshBits& bits) {
-  switch (format.semantic) {
-    case Semantic::kPosition: return bits.position;
-    case Semantic::kNormal: return bits.normal;
-    case Semantic::kTangent: return bits.tangent;
-    case Semantic::kTexcoord: return bits.texcoord;
-    case Semantic::kColor: return bits.color;
-    case Semantic::kWeights: return bits.weight;
-    default: return 0;
-  }
-}
-
-/// Makes room for a piece, and says where its attributes and triangles go.
-inline void takeRoom(const PieceInfo& info, Mesh& mesh, std::vector<AttributeTarget>& attributes,
-                     std::vector<PartTarget>& parts) {
-  mesh.vertex_count = info.wedge_count;
-  for (const AttributeInfo& coded : info.attributes) {
-    const AttributeFormat& format = coded.format;
-    MeshAttribute& attribute = mesh.attributes.emplace_back();
-    attribute.name = nameOf(format);
-    attribute.morph_target = int{format.morph_target} - 1;
-    attribute.component_type = format.component_type;
-    attribute.component_count = format.component_count;
-    attribute.normalized = format.normalized;
-    attribute.data.resize(size_t{info.wedge_count} * elementBytes(format));
-    attributes.push_back({attribute.data.data(), elementBytes(format)});
-  }
-  for (const PartInfo& part : info.parts) {
-    mesh.primitives.emplace_back(size_t{3} * part.triangle_count);
-    parts.push_back({mesh.primitives.back().data(), IndexType::kUint32});
-  }
-}
-
-}  // namespace simple
-
-inline const MeshAttribute* Mesh::find(std::string_view name, int morph_target) const {
-  for (const MeshAttribute& attribute : attributes) {
-    if (attribute.name == name && attribute.morph_target == morph_target) return &attribute;
-  }
-  return nullptr;
-}
-
-inline Status decodeMesh(std::span<const uint8_t> payload, Mesh& mesh, size_t piece,
-                         const Limits& limits) {
-  Payload opened;
-  mesh = {};
-  if (const Status status = opened.open(payload, limits); !status.ok()) return status;
-  const std::span<const PieceInfo> infos = opened.info().pieces;
-  if (piece >= infos.size()) return fail(Error::kBadArgument, "the payload has no such piece");
-  std::vector<AttributeTarget> attributes;
-  std::vector<PartTarget> parts;
-  simple::takeRoom(infos[piece], mesh, attributes, parts);
-  size_t most_attributes = 0;
-  size_t most_parts = 0;
-  for (const PieceInfo& info : infos) {
-    most_attributes = std::max(most_attributes, info.attributes.size());
-    most_parts = std::max(most_parts, info.parts.size());
-  }
-  // Other pieces are decoded, because pieces share what they have learnt, and dropped.
-  const std::vector<AttributeTarget> no_attributes(most_attributes);
-  const std::vector<PartTarget> no_parts(most_parts);
-  std::vector<PieceTarget> targets;
-  for (const PieceInfo& info : infos) {
-    targets.push_back({std::span(no_attributes).first(info.attributes.size()),
-                       std::span(no_parts).first(info.parts.size())});
-  }
-  targets[piece] = {attributes, parts};
-  return opened.decode(targets);
-}
-
-#if __has_include("mcc/writer.h")
-inline Status encodeMesh(const Mesh& mesh, std::vector<uint8_t>& payload, const MeshBits& bits,
-                         std::vector<uint32_t>* source_vertices) {
-  std::vector<AttributeView> attributes;
-  for (const MeshAttribute& attribute : mesh.attributes) {
-    AttributeView view;
-    view.format = simple::formatOf(attribute);
-    if (!isComponentCount(attribute.component_count) || attribute.morph_target < -1 ||
-        attribute.morph_target > 65533 ||
-        attribute.data.size() != uint64_t{mesh.vertex_count} * elementBytes(view.format)) {
-      return fail(Error::kBadArgument, "an attribute has another size than its vertices need");
-    }
-    view.data = attribute.data.data();
-    view.stride_bytes = elementBytes(view.format);
-    view.quantization_bits = simple::bitsOf(view.format, bits);
-    attributes.push_back(view);
-  }
-  std::stable_sort(attributes.begin(), attributes.end(),
-                   [](const AttributeView& a, const AttributeView& b) {
-                     const auto key = [](const AttributeFormat& f) {
-                       return uint32_t{f.morph_target} << 16 |
-                              static_cast<uint32_t>(f.semantic) << 8 | f.set_index;
-                     };
-                     return key(a.format) < key(b.format);
-                   });
-  std::vector<PartView> parts;
-  for (const std::vector<uint32_t>& indices : mesh.primitives) parts.push_back({indices});
-  const PieceView piece = {mesh.vertex_count, attributes, parts};
-  EncodeResult result;
-  const Status status = encode({&piece, 1}, {}, result);
-  if (!status.ok()) return status;
-  payload = std::move(result.payload);
-  if (source_vertices != nullptr) *source_vertices = std::move(result.pieces[0].source_wedge);
-  return {};
-}
-#endif
-
-}  // namespace mcc
+#include "mcc/simple_inline.h"
 
 #endif  // MCC_SIMPLE_H_

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import ctypes.util
+import enum
 import os
 from ctypes import POINTER, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
 from pathlib import Path
@@ -40,6 +41,17 @@ class OpenOptions(ctypes.Structure):
 class PieceInfo(ctypes.Structure):
     _fields_ = [("struct_bytes", c_size_t), ("wedge_count", c_uint32), ("vertex_count", c_uint32),
                 ("attribute_count", c_uint32), ("part_count", c_uint32)]
+
+
+class Coding(enum.IntEnum):
+    """MCC_CODING_… of mcc/c_api.h."""
+    LATTICE = 0
+    INTEGER = 1
+    EXACT_FLOAT = 2
+    OCTAHEDRAL = 3
+    TANGENT_ANGLE = 4
+    ALIAS = 5
+    GRID = 6
 
 
 class AttributeInfo(ctypes.Structure):

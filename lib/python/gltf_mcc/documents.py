@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import json
 import os
-from typing import Any, Callable, Dict, Optional, Tuple, Union
+from typing import Any, Callable, Dict, Optional, Sequence, Tuple, Union
 
 from . import _library
 from ._library import library
@@ -28,13 +28,13 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
             texcoord_bits: Optional[int] = None, color_bits: Optional[int] = None,
             tangent_bits: Optional[int] = None, weight_bits: Optional[int] = None, lossless: bool = False,
             grid: str = "mesh", max_position_error: float = 0.0, is_error_relative: bool = False,
-            indices_only: bool = False, keep_vertex_order: bool = False, keep_triangle_order: bool = False,
+            position_lattice: Optional[Sequence[float]] = None, indices_only: bool = False, keep_vertex_order: bool = False, keep_triangle_order: bool = False,
             drop_unused: bool = False, prefer: str = "balanced", block_triangles: Optional[int] = None,
-            threads: int = 1, max_decoded_bytes: int = 0) -> bytes:
+            thread_count: int = 1, max_decoded_bytes: int = 0) -> bytes:
     """Compresses the meshes of a GLB and returns the GLB that results.
 
     The result is decoded and compared with the source before the call returns; where compression gains
-    nothing, the result is the source. The same input gives the same bytes, whatever `threads` is.
+    nothing, the result is the source. The same input gives the same bytes, whatever `thread_count` is.
 
     Args:
         source: the bytes of a GLB, or the path of a .glb file
@@ -44,12 +44,14 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
         grid: which primitives share a lattice of positions: "mesh", "scene" or "primitive"
         max_position_error: if not 0, how far a position may move, in units of the file; replaces position_bits
         is_error_relative: the error is a fraction of the largest side of the bounding box
+        position_lattice: x, y, z of a point of the lattice of positions, and its step, for tiles that must fit
+            together; replaces grid, position_bits and max_position_error
         indices_only: only the triangles are compressed
         keep_vertex_order, keep_triangle_order: decoded elements come in the order of the source
         drop_unused: vertices that no triangle uses are left out
         prefer: "balanced", "size" or "speed" of decoding
         block_triangles: triangles of a block of a large surface, 0 for no blocks; None: `prefer` decides
-        threads: how many threads to use
+        thread_count: how many threads to use
         max_decoded_bytes: bounds what a compressed source may decode to; 0 is the library's default
 
     Raises:
@@ -71,18 +73,22 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
     options.grid = choice(grid, _GRIDS, "grid")
     options.max_position_error = max_position_error
     options.is_error_relative = is_error_relative
+    if position_lattice is not None:
+        x, y, z, step = position_lattice
+        lattice = _library.Lattice((x, y, z, 0), step)
+        options.position_lattice = ctypes.pointer(lattice)
     options.indices_only = indices_only
     options.keep_vertex_order = keep_vertex_order
     options.keep_triangle_order = keep_triangle_order
     options.drop_unused = drop_unused
     options.prefer = choice(prefer, PREFERENCES, "prefer")
-    options.thread_count = unsigned(threads, "threads")
+    options.thread_count = unsigned(thread_count, "thread_count")
     options.max_decoded_bytes = unsigned(max_decoded_bytes, "max_decoded_bytes", 64)
     return _document(source, lambda glb, document: library.mcc_convert_glb(
         glb, len(glb), ctypes.byref(options), document))
 
 
-def decode(source: Source, *, to_integers: bool = False, threads: int = 1, max_decoded_bytes: int = 0) -> bytes:
+def decode(source: Source, *, to_integers: bool = False, thread_count: int = 1, max_decoded_bytes: int = 0) -> bytes:
     """Turns the compressed primitives of a GLB into ordinary accessors again and returns the GLB.
 
     Safe for untrusted input.
@@ -90,7 +96,7 @@ def decode(source: Source, *, to_integers: bool = False, threads: int = 1, max_d
     Args:
         source: the bytes of a GLB, or the path of a .glb file
         to_integers: quantised attributes stay integers (KHR_mesh_quantization)
-        threads: how many threads to use; the result does not depend on it
+        thread_count: how many threads to use; the result does not depend on it
         max_decoded_bytes: a GLB that asks for more is refused before memory is taken; 0 allows 1024 bytes for
             each byte of the GLB, but at least 256 MiB and at most 4 GiB
 
@@ -102,7 +108,7 @@ def decode(source: Source, *, to_integers: bool = False, threads: int = 1, max_d
     options = _library.DecodeGlbOptions()
     library.mcc_decode_glb_options_init(ctypes.byref(options), ctypes.sizeof(options))
     options.decode_to_integers = to_integers
-    options.thread_count = unsigned(threads, "threads")
+    options.thread_count = unsigned(thread_count, "thread_count")
     options.max_decoded_bytes = unsigned(max_decoded_bytes, "max_decoded_bytes", 64)
     return _document(source, lambda glb, document: library.mcc_decode_glb(
         glb, len(glb), ctypes.byref(options), document))

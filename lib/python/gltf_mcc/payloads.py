@@ -17,7 +17,6 @@ _SEMANTICS = ("POSITION", "NORMAL", "TANGENT", "TEXCOORD", "COLOR", "JOINTS", "W
 _CUSTOM = 7
 _NUMBERED = {"TEXCOORD", "COLOR", "JOINTS", "WEIGHTS"}
 _FORMATS = "bBhHIf"  # of struct and memoryview, by the number of the component type
-_CODINGS = ("lattice", "integer", "exact float", "octahedral", "tangent angle", "alias", "grid")
 
 
 @dataclass
@@ -210,7 +209,7 @@ def _attribute(facts: _library.AttributeInfo, memory: bytearray, count: int) -> 
         if name in _NUMBERED:
             name += f"_{form.set_index}"
     data = array_over(memory, _FORMATS[form.component_type], (count, form.component_count))
-    return Attribute(name, data, bool(form.normalized), form.morph_target, _CODINGS[facts.coding], facts.bits)
+    return Attribute(name, data, bool(form.normalized), form.morph_target, _library.Coding(facts.coding).name.lower().replace("_", " "), facts.bits)
 
 
 def _buffer_of(array: Any, what: str) -> Tuple[memoryview, str]:

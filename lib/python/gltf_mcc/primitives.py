@@ -54,7 +54,7 @@ class Mesh:
     primitives: List[Primitive]
 
 
-def meshes(source: Source, *, threads: int = 1, max_decoded_bytes: int = 0) -> List[Mesh]:
+def meshes(source: Source, *, thread_count: int = 1, max_decoded_bytes: int = 0) -> List[Mesh]:
     """Returns the meshes of a GLB as arrays, whether they are compressed or not.
 
         for mesh in gltf_mcc.meshes("small.glb"):
@@ -68,7 +68,7 @@ def meshes(source: Source, *, threads: int = 1, max_decoded_bytes: int = 0) -> L
 
     Args:
         source: the bytes of a GLB, or the path of a .glb file
-        threads: how many threads decode
+        thread_count: how many threads decode
         max_decoded_bytes: bounds what compressed meshes decode to, as in decode(), and the bytes of all arrays; by
             default the arrays may take eight bytes for each byte of the decoded GLB, and at least 256 MiB
 
@@ -78,7 +78,7 @@ def meshes(source: Source, *, threads: int = 1, max_decoded_bytes: int = 0) -> L
         MemoryError: memory ran out
     """
     limit = unsigned(max_decoded_bytes, "max_decoded_bytes", 64)
-    plain = decode(source, threads=threads, max_decoded_bytes=limit)
+    plain = decode(source, thread_count=thread_count, max_decoded_bytes=limit)
     document = Document(plain, limit or max(2**28, 8 * len(plain)))
     return [_mesh(document, mesh, f"/meshes/{k}") for k, mesh in enumerate(list_in(document.json, "meshes", ""))]
 

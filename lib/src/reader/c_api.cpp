@@ -24,6 +24,7 @@ namespace {
 static_assert(MCC_ERROR_CANCELLED == static_cast<int>(Error::kCancelled));
 static_assert(MCC_CUSTOM == static_cast<int>(Semantic::kCustom));
 static_assert(MCC_FLOAT32 == static_cast<int>(ComponentType::kFloat32));
+static_assert(MCC_CODING_GRID == static_cast<int>(AttributeCoding::kGrid));
 static_assert(MCC_NO_OFFSET == Status::kNoOffset);
 
 /// Converts an allocator, of which one function alone would be called with memory of the other's.
