@@ -12,6 +12,7 @@
 
 #include "cli/run_tool.h"
 #include "gltf/scene_positions.h"
+#include "mcc/glb.h"
 #include "tiles/tile_file.h"
 #include "tiles/tileset_builder.h"
 

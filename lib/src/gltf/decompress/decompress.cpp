@@ -141,9 +141,8 @@ class PayloadDecoder::Run {
   uint8_t* addDetour(const std::vector<Target>& targets, bool is_part, uint64_t byte_count) {
     const auto is_wanted = [&](const Target& target) { return placeOf(target) != nullptr; };
     if (std::none_of(targets.begin(), targets.end(), is_wanted)) return nullptr;
-    Detour& detour = detours_.emplace_back(&targets, is_part);
-    detour.elements.resize(byte_count);
-    return detour.elements.data();
+    detours_.push_back({&targets, is_part, std::vector<uint8_t>(byte_count)});
+    return detours_.back().elements.data();
   }
 
   void addAttribute(const PieceInfo& info, size_t piece, size_t number) {

@@ -15,7 +15,7 @@ namespace mcc::gltf {
 /// rounding of the coded grid. Positions become lattice points. The lattice goes into new nodes
 /// that take over the meshes of their parents, or into the inverse bind matrices of skins. What
 /// cannot become integer stays float, with a note.
-/// json and views are those of rebuildBuffers().
+/// json and views are those of layOut().
 void storeIntegers(const Document& source, const CodedAttributes& coded, Json& json,
                    std::vector<NewView>& views, std::vector<std::string>& notes);
 
