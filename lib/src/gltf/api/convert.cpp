@@ -111,18 +111,21 @@ Result loadFor(const Output& output, Input& input, Document& document, FilesInUs
     files.input = {input.path};
     files.other_input.clear();
     const fs::path folder = folderOf(input.path);
-    const bool embeds = !document.is_glb && !output.container.is_gltf;
     for (const std::string& path : filesOf(document.json, "buffers")) {
       files.input.push_back(folder / pathOf(path));
-    }
-    for (const std::string& path : filesOf(document.json, "images")) {
-      (embeds ? files.input : files.other_input).push_back(folder / pathOf(path));
     }
     if (output.destination) {
       MCC_GLTF_TRY(output.destination->checkSource(input.path, document.json));
     }
   }
+  const std::vector<std::string> images = filesOf(document.json, "images");
   if (!output.container.is_gltf) MCC_GLTF_TRY(embedImages(input.read_file, document));
+  if (!input.isFile()) return {};
+  const std::vector<std::string> apart = filesOf(document.json, "images");
+  for (const std::string& path : images) {
+    const bool is_apart = std::find(apart.begin(), apart.end(), path) != apart.end();
+    (is_apart ? files.other_input : files.input).push_back(folderOf(input.path) / pathOf(path));
+  }
   return {};
 }
 
