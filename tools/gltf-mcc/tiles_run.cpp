@@ -17,6 +17,7 @@
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
+#include "gltf/files/system.h"
 #include "gltf/inspect/report_json.h"
 #include "interrupt.h"
 #include "jobs/run.h"
@@ -219,6 +220,9 @@ Result TilesRun::claimOutputs() {
     if (code && !fs::is_directory(output_)) {
       return {options_.output, "the folder cannot be created: " + code.message()};
     }
+  }
+  if (!gltf::system::mayWrite(output_)) {
+    return {options_.output, "the folder is read-only; choose another one"};
   }
   record_ = std::make_unique<tiles::PartRecord>(input_, output_, options_.part);
   MCC_GLTF_TRY(record_->open(options_.waits));
