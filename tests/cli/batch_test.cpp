@@ -295,6 +295,17 @@ TEST_F(Batch, CollisionsAreRefused) {
   EXPECT_EQ(run("convert -o none/out in/torus.glb in/sphere.glb").status, 1);
 }
 
+/// One thread tells about files in the order of the command line, whatever their sizes.
+TEST_F(Batch, OneThreadKeepsTheOrder) {
+  for (const auto& [first, second] : {std::pair("torus", "sphere"), std::pair("sphere", "torus")}) {
+    const ToolResult result =
+        run(std::string("convert --force -o out/ in/") + first + ".glb in/" + second + ".glb");
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(result.out.find(std::string("[1/2] in/") + first), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find(std::string("[2/2] in/") + second), std::string::npos) << result.out;
+  }
+}
+
 TEST_F(Batch, FormatsAndReport) {
   const std::string files = "in/torus.glb in/none.glb in/sphere.glb";
   const ToolResult csv = run("convert -o out/ --format csv --report r.json " + files);
@@ -418,8 +429,7 @@ TEST_F(Streams, BuffersMustBeInside) {
   const ToolResult result =
       runCommand(folder_, std::string("( '") + MCC_TOOL_GLTF_MCC + "' convert - b.glb < a.gltf )");
   EXPECT_EQ(result.status, 1);
-  EXPECT_NE(result.err.find("standard input: /buffers/0/uri: the file \"a."),
-            std::string::npos)
+  EXPECT_NE(result.err.find("standard input: /buffers/0/uri: the file \"a."), std::string::npos)
       << result.err;
 #endif
 }

@@ -277,6 +277,15 @@ TEST_F(Cli, WrongUsageSaysWhatIsWrong) {
   expectSays("-i in.glb -o out.glb", "name a command before -i; did you mean: gltf-mcc convert -i");
   expectSays("frobnicate in.glb", "\"frobnicate\" is not a command; the commands are convert, ");
   expectSays("convert in.glb", "convert: OUT is missing");
+  expectSays("convert", "convert: IN is missing");
+  expectSays("inspect", "inspect: IN is missing");
+  expectSays("validate", "validate: FILE is missing");
+  expectSays("tree in.glb", "tree: OUT is missing");
+  expectSays("convert in.glb out.glb --max-error", "--max-error: X is missing");
+  expectSays("convert in.glb -o", "--output: FILE|DIR is missing");
+  expectSays("convert in.glb out.glb --grid", "--grid: mesh|scene|primitive is missing");
+  expectSays("convert --lattice 0,0,1 in.glb out.glb",
+             "--lattice: takes 4 numbers with commas between them, X,Y,Z,STEP, not 0,0,1");
   expectSays("decode in.glb", "decode: OUT is missing");
   expectSays("decode a.glb b.glb c.glb", "decode: several inputs need a folder: -o DIR");
   expectSays("convert in.glb out.glb --max-error -1", "--max-error: -1 is not greater than 0");
@@ -295,9 +304,27 @@ TEST_F(Cli, WrongUsageSaysWhatIsWrong) {
              "convert: folder: there is no .glb or .gltf file in this folder");
   expectSays("convert -o out.glb in.glb in.glb",
              "convert: out.glb: is the name of a file, but several");
+  store(folder_ / "city.json", R"({"asset": {"version": "1.1"}, "geometricError": 9, "root": {}})");
+  for (const char* out : {" out", " out.glb", " folder"}) {
+    expectSays(std::string("convert city.json") + out,
+               "convert: city.json: is a tileset of 3D Tiles; to compress it, write: gltf-mcc "
+               "tiles city.json DIR");
+  }
+  EXPECT_NE(run("inspect city.json").err.find("this is a tileset of 3D Tiles, not a glTF file"),
+            std::string::npos);
   expectSays("convert in.glb out.obj", "convert: out.obj: only .glb and .gltf files are written");
   expectSays("convert in.glb out.glb --frobnicate", "convert: there is no option --frobnicate");
   EXPECT_EQ(run("convert in.glb out.vrm").status, 0);
+}
+
+/// Options with lists may come before the names of files.
+TEST_F(Cli, ListsTakeOneWord) {
+  ASSERT_EQ(run("convert --lattice 0,0,0,0.001 in.glb before.glb").status, 0);
+  ASSERT_EQ(run("convert in.glb behind.glb --lattice 0,0,0,0.001").status, 0);
+  EXPECT_EQ(contentOf(folder_ / "before.glb"), contentOf(folder_ / "behind.glb"));
+  ASSERT_EQ(run("tree --view 1,0,0 in.glb before.svg").status, 0);
+  ASSERT_EQ(run("tree in.glb behind.svg --view 1,0,0").status, 0);
+  EXPECT_EQ(contentOf(folder_ / "before.svg"), contentOf(folder_ / "behind.svg"));
 }
 
 TEST_F(Cli, HelpAndVersion) {
@@ -374,6 +401,9 @@ TEST_F(Cli, BadDestination) {
   expectFailure("convert in.glb locked/out.glb",
                 "locked/out.glb: the folder \"locked\" is read-only");
   expectFailure("convert in.glb kept.glb", "kept.glb: the file exists and is read-only");
+  // Before any work is done, of which there would be one message for each file.
+  expectFailure("convert in.glb -o locked", "locked: the folder is read-only; choose");
+  expectFailure("convert bad.glb locked/out.glb", "locked/out.glb: the folder \"locked\" is");
   expectFailure("convert in.glb in.glb/out.glb", "is not a folder");
   expectFailure("convert in.glb out.glb --report none/r.json", "none/r.json: the report cannot be");
   EXPECT_EQ(contentOf(folder_ / "kept.glb"), "precious");

@@ -218,5 +218,57 @@ TEST_F(ConvertOutput, BatchShowsMissingTextures) {
   EXPECT_NE(batch.out.find("wood.jpg"), std::string::npos) << batch.out << batch.err;
 }
 
+/// So it is where the image would move into a GLB, which goes on naming it.
+TEST_F(ConvertOutput, AGlbNamesAMissingTexture) {
+  Builder builder;
+  builder.addMesh({Sheet(20).addTo(builder)});
+  builder.json["images"] = {{{"uri", "wood.jpg"}}, {{"uri", "wood.jpg"}}};
+  store("in.glb", builder.toGlb());
+  ASSERT_EQ(run("convert in.glb in.gltf").status, 0);
+  for (const char* command : {"convert", "decode"}) {
+    const Outcome result = run(std::string(command) + " in.gltf out.glb");
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(result.out.find("\"wood.jpg\": there is no such file; it stays a separate file"),
+              std::string::npos)
+        << result.out;
+    EXPECT_NE(run("inspect out.glb --format json").status, 1);
+    EXPECT_NE(contentOf(folder_ / "out.glb").find("\"uri\":\"wood.jpg\""), std::string::npos);
+  }
+}
+
+/// An image that stays a separate file counts neither before nor after.
+TEST_F(ConvertOutput, SumsAreWithoutImagesOfUnknownType) {
+  Builder builder;
+  builder.addMesh({Sheet(20).addTo(builder)});
+  builder.json["images"] = {{{"uri", "odd.png"}}};
+  store("in.glb", builder.toGlb());
+  ASSERT_EQ(run("convert in.glb in.gltf --lossless").status, 0);
+  ASSERT_EQ(run("decode in.gltf plain.gltf").status, 0);
+  store("odd.png", std::vector<uint8_t>(5000, 'x'));
+  const Outcome result = run("convert plain.gltf out.glb --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json report = Json::parse(contentOf(folder_ / "r.json"));
+  EXPECT_EQ(report["files"]["input"]["bytes"], report["input_bytes"]);
+  EXPECT_EQ(report["files"]["output"]["bytes"], report["output_bytes"]);
+}
+
+/// Rows of attributes that are coded in several ways say which primitives they are about.
+TEST_F(ConvertOutput, AttributesNameTheirPrimitives) {
+  const std::string koi = samplePath("koi.glb");
+  const Outcome result = run("convert " + koi + " out.glb -v --grid primitive");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto endOf = [&](const std::string& name, size_t from) {
+    const size_t row = result.out.find("\n" + name, from);
+    return result.out.find('\n', row + 1);
+  };
+  EXPECT_TRUE(result.out.substr(0, endOf("POSITION", 0)).ends_with(" all")) << result.out;
+  // The second primitive is still.
+  const size_t first = endOf("target 0 POSITION", 0);
+  EXPECT_TRUE(result.out.substr(0, first).ends_with(" 0/0")) << result.out;
+  EXPECT_TRUE(result.out.substr(0, endOf("target 0 POSITION", first)).ends_with(" 0/1"));
+  const Outcome csv = run("convert " + koi + " out.glb --format csv");
+  EXPECT_EQ(csv.out.find("mesh/primitive"), std::string::npos) << csv.out;
+}
+
 }  // namespace
 }  // namespace mcc::gltf::test

@@ -97,6 +97,12 @@ TEST(ValidateCommand, SeveralFilesAndStandardInput) {
   const ToolResult json = runTool(folder, "validate --format json " + good + " " + good);
   EXPECT_EQ(json.status, 0);
   EXPECT_EQ(json.out.substr(0, 2), "[\n");
+  const ToolResult plain = runTool(folder, "validate " + samplePath("torus.glb"));
+  EXPECT_EQ(plain.status, 0);
+  EXPECT_NE(plain.out.find("valid; nothing in it is compressed with KHR_mesh_collapse_compression, "
+                           "so there was nothing to check\n"),
+            std::string::npos)
+      << plain.out;
   const ToolResult missing = runTool(folder, "validate none.glb " + good);
   EXPECT_EQ(missing.status, 1);
   EXPECT_NE(missing.err.find("none.glb"), std::string::npos);

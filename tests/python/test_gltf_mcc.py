@@ -400,6 +400,26 @@ class MeshesOfFiles(unittest.TestCase):
             with self.assertRaisesRegex(gltf_mcc.Error, "gltf-mcc decode IN.gltf OUT.glb"):
                 gltf_mcc.meshes(path)
 
+    def test_messages_begin_with_the_name_of_the_file(self):
+        made = Builder()
+        made.primitive(attributes={"POSITION": made.positions(), "_A": made.positions(5)})
+        with tempfile.TemporaryDirectory() as folder:
+            for name, content, reads in (("text.glb", b"no GLB", (gltf_mcc.convert, gltf_mcc.decode, gltf_mcc.inspect, gltf_mcc.meshes)),
+                                         ("odd.glb", made.glb(), (gltf_mcc.meshes,))):
+                path = Path(folder, name)
+                path.write_bytes(content)
+                for read in reads:
+                    with self.assertRaises(gltf_mcc.Error) as of_bytes:
+                        read(content)
+                    for given in (path, str(path)):
+                        with self.assertRaises(gltf_mcc.Error) as of_file:
+                            read(given)
+                        self.assertEqual(str(of_file.exception), f"{path}: {of_bytes.exception}")
+                        self.assertEqual(of_file.exception.code, of_bytes.exception.code)
+        with self.assertRaises(gltf_mcc.Error) as caught:  # the option is wrong, not the file
+            gltf_mcc.convert(SAMPLES / "torus.glb", position_bits=99)
+        self.assertNotIn("torus.glb", str(caught.exception))
+
     def test_false_claims_raise_nothing_else(self):
         """Every member of the JSON, one after the other, becomes something that it should not be."""
         made = Builder()

@@ -146,8 +146,11 @@ std::string Batch::nameOf(Outcome outcome) const {
 
 gltf::Result Batch::makeFolder() const {
   std::error_code code;
-  if (fs::is_directory(options_.folder, code)) return {};
   const std::string name = gltf::textOf(options_.folder);
+  if (fs::is_directory(options_.folder, code)) {
+    if (gltf::system::mayWrite(options_.folder)) return {};
+    return {name, "the folder is read-only; choose another one"};
+  }
   if (fs::exists(options_.folder, code)) {
     return {name, "is a file; several inputs need a folder"};
   }

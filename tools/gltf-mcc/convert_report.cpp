@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
 #include "convert_summary.h"
 #include "gltf/inspect/report_json.h"
 #include "host/text.h"
@@ -36,6 +39,8 @@ void addAttribute(const gltf::AttributeReport& attribute, Totals& totals) {
     const bool is_same = total.name == attribute.name && total.is_angle == attribute.is_angle &&
                          total.coding == attribute.coding && total.bits == attribute.bits;
     if (!is_same) continue;
+    total.primitives.insert(total.primitives.end(), attribute.primitives.begin(),
+                            attribute.primitives.end());
     total.coded_bits += attribute.coded_bits;
     total.vertex_count += attribute.vertex_count;
     total.max_error = std::max(total.max_error, attribute.max_error);
@@ -69,9 +74,31 @@ std::string errorText(const gltf::AttributeReport& attribute, double error) {
   return fmt::format("{:.3g}{}", error, attribute.is_angle ? " deg" : "");
 }
 
-Table streamTable(const Totals& totals, Format format) {
-  Table table(
-      {"stream", "bytes", "bits/vertex", "bits/position", "coding", "max error", "promised"}, {4});
+/// Returns "all", or a few as "0/1 2/0" (mesh/primitive), or how many there are.
+std::string primitivesText(const gltf::AttributeReport& attribute, size_t compressed_count) {
+  constexpr size_t kMostNamed = 4;
+  constexpr std::string_view kMeshes = "/meshes/";
+  constexpr std::string_view kPrimitives = "/primitives";
+  const std::set<std::string> paths(attribute.primitives.begin(), attribute.primitives.end());
+  if (paths.size() == compressed_count) return "all";
+  if (paths.size() > kMostNamed) return fmt::format("{} of {}", paths.size(), compressed_count);
+  std::string text;
+  for (std::string path : paths) {
+    path.replace(path.find(kPrimitives), kPrimitives.size(), "");
+    text += (text.empty() ? "" : " ") + path.substr(kMeshes.size());
+  }
+  return text;
+}
+
+Table streamTable(const gltf::ConvertReport& report, const Totals& totals, Format format) {
+  std::vector<std::string> columns = {"stream", "bytes",     "bits/vertex", "bits/position",
+                                      "coding", "max error", "promised"};
+  const bool names_primitives = format != Format::kCsv;
+  if (names_primitives) columns.push_back("mesh/primitive");
+  const auto compressed_count = static_cast<size_t>(
+      std::count_if(report.primitives.begin(), report.primitives.end(),
+                    [](const gltf::PrimitiveReport& primitive) { return primitive.compressed; }));
+  Table table(columns, {4, 7});
   const auto bytes = [&](double bits) {
     return count(static_cast<uint64_t>(bits / 8 + 0.5), format);
   };
@@ -83,12 +110,15 @@ Table streamTable(const Totals& totals, Format format) {
                   perVertex(stream.bits, totals.vertex_count)});
   }
   for (const auto& attribute : totals.attributes) {
-    table.addRow({attribute.name, bytes(attribute.coded_bits),
-                  perVertex(attribute.coded_bits, attribute.vertex_count),
-                  perVertex(attribute.coded_bits, totals.vertex_count),
-                  gltf::codingName(attribute.coding, attribute.bits),
-                  errorText(attribute, attribute.max_error),
-                  errorText(attribute, attribute.promised_error)});
+    std::vector<std::string> row = {attribute.name,
+                                    bytes(attribute.coded_bits),
+                                    perVertex(attribute.coded_bits, attribute.vertex_count),
+                                    perVertex(attribute.coded_bits, totals.vertex_count),
+                                    gltf::codingName(attribute.coding, attribute.bits),
+                                    errorText(attribute, attribute.max_error),
+                                    errorText(attribute, attribute.promised_error)};
+    if (names_primitives) row.push_back(primitivesText(attribute, compressed_count));
+    table.addRow(std::move(row));
   }
   table.addRule();
   const double all_bits = 8 * static_cast<double>(totals.payload_bytes);
@@ -111,7 +141,7 @@ Table primitiveTable(const gltf::ConvertReport& report, Format format) {
 std::string tablesText(const Converted& converted, const Totals& totals, Format format) {
   const gltf::ConvertReport& report = converted.report;
   std::string text;
-  if (!report.payloads.empty()) text += "\n" + streamTable(totals, format).print(format);
+  if (!report.payloads.empty()) text += "\n" + streamTable(report, totals, format).print(format);
   if (!report.primitives.empty()) text += "\n" + primitiveTable(report, format).print(format);
   if (!converted.sizes.empty()) text += "\n" + wholeSizesText(converted.sizes, format);
   if (report.checked && !report.copied) {
@@ -142,7 +172,7 @@ std::string reportText(const Converted& converted, const CommonOptions& options)
   const gltf::ConvertReport& report = converted.report;
   const Totals totals = totalsOf(report);
   if (options.format == Format::kCsv) {
-    Table table = streamTable(totals, options.format);
+    Table table = streamTable(report, totals, options.format);
     for (const WholeSize& size : converted.sizes) {
       table.addRow({size.name + " file", std::to_string(size.bytes)});
       table.addRow({size.name + " file after brotli", std::to_string(size.brotli_bytes)});

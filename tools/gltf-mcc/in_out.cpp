@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "gltf/document/package.h"
+#include "gltf/files/file_io.h"
 #include "host/text.h"
+#include "json/json.h"
 #include "standard_streams.h"
 #include "suggest.h"
 
@@ -27,6 +30,19 @@ void refuseFolder(const std::string& command, const std::vector<std::string>& wo
   throw UsageError(command, words[0] + ": is a folder; to " + command +
                                 " all models in it, write: -o " + folder + " " +
                                 shellWord(words[0]));
+}
+
+/// Refuses a tileset, before anything is said about the name of the output, which is a folder then.
+void refuseTileset(const std::string& command, const std::string& input) {
+  std::vector<uint8_t> bytes;
+  gltf::Json json;
+  const bool is_json = gltf::pathOf(input).extension() == ".json" &&
+                       gltf::readFile(gltf::pathOf(input), bytes).ok() &&
+                       gltf::readJson(bytes, json).ok() && json.is_object();
+  if (!is_json || !json.contains("root") || !json.contains("geometricError")) return;
+  throw UsageError(command,
+                   input + ": is a tileset of 3D Tiles; to compress it, write: gltf-mcc tiles " +
+                       shellWord(input) + " DIR");
 }
 
 /// Returns the paths of the .glb and .gltf files in a folder, in the order of their bytes.
@@ -83,6 +99,7 @@ void InOut::sort(const std::string& command) {
   if (inputs.empty() || output.empty()) {
     throw UsageError(command, inputs.empty() ? "IN is missing" : "OUT is missing");
   }
+  for (const std::string& path : inputs) refuseTileset(command, path);
   // A GLB may have any other extension (.vrm), but these belong to other formats.
   const std::string extension = gltf::textOf(gltf::pathOf(output).extension());
   if (isOtherFormat(output)) {

@@ -82,8 +82,18 @@ bool readAll(const CLI::results_t& texts, std::vector<Value>& values) {
   return true;
 }
 
+/// Takes one word with commas apart, so that a list never takes the words behind it.
+CLI::results_t listOf(const Option& option, const std::string& text) {
+  CLI::results_t items = CLI::detail::split(text, ',');
+  if (option.count == 0 || items.size() == static_cast<size_t>(option.count)) return items;
+  throw UsageError(option.shownNames().back(), "takes " + std::to_string(option.count) +
+                                                   " numbers with commas between them, " +
+                                                   option.value + ", not " + text);
+}
+
 /// Returns whether the texts are what the option takes, and stores their value if they are.
-bool store(const Option& option, const CLI::results_t& texts) {
+bool store(const Option& option, const CLI::results_t& given) {
+  const CLI::results_t texts = option.is_list ? listOf(option, given[0]) : given;
   if (option.pick) {
     int number = 0;
     if (!readAll(texts, number)) return false;
@@ -109,7 +119,7 @@ CLI::Option* addTo(CLI::App& app, const Option& option) {
     return app.add_flag(option.names, *std::get<bool*>(option.target), option.help);
   CLI::Option* added = app.add_option(
       option.names, [&option](const CLI::results_t& texts) { return store(option, texts); });
-  if (takesMany(option)) added->expected(CLI::detail::expected_max_vector_size);
+  if (takesMany(option) && !option.is_list) added->expected(CLI::detail::expected_max_vector_size);
   if (option.limits.kind != Limits::kNone) {
     added->check([&option](const std::string& text) { return wrongNumber(option.limits, text); });
   }
@@ -128,9 +138,6 @@ void addOptions(CLI::App& app, const Command& command) {
     }
     CLI::Option* added = addTo(app, option);
     if (!option.isFlag()) added->type_name(option.value);
-    if (option.count != 0) added->expected(option.count);
-    if (option.is_list) added->delimiter(',');
-    if (option.is_list && option.count == 0) added->allow_extra_args(false);  // the files follow
     if (option.is_required) added->required();
   }
   for (const Option& option : command.options) {
@@ -152,6 +159,27 @@ void findWrongWord(const CLI::App& app, Parsed& parsed) {
     parsed.word = given->results().back();
     return;
   }
+}
+
+/// Returns "convert: IN is missing" or "--jobs: N is missing" in place of CLI11's texts about what
+/// a command or an option needs; empty if the failure is another one.
+std::string missingText(const CLI::App& app, const Command& command,
+                        const CLI::ParseError& failure) {
+  const bool is_argument = dynamic_cast<const CLI::RequiredError*>(&failure) != nullptr;
+  const bool is_value = dynamic_cast<const CLI::ArgumentMismatch*>(&failure) != nullptr;
+  for (const Option& option : command.options) {
+    const std::string name = option.names.substr(option.names.rfind(',') + 1);
+    const CLI::Option* given = app.get_option_no_throw(name);
+    if (given == nullptr) continue;
+    const bool has_none = given->count() == 0;
+    if (is_argument && option.is_required && has_none) {
+      return command.name + ": " + name + " is missing";
+    }
+    const std::string what = failure.what();
+    const bool is_of_it = what.starts_with(name + ": ") && what.ends_with(" missing");
+    if (is_value && is_of_it) return name + ": " + option.value + " is missing";
+  }
+  return "";
 }
 
 const Command* chosenOf(const CLI::App& app, const Program& program) {
@@ -190,9 +218,12 @@ Parsed parse(const Program& program, const std::vector<std::string>& words) {
     if (dynamic_cast<const CLI::ExtrasError*>(&failure) != nullptr) {
       parsed.left_over = app.remaining(true);
     }
-    const bool is_of_value = dynamic_cast<const CLI::ValidationError*>(&failure) != nullptr;
-    if (is_of_value && parsed.command != nullptr) {
-      findWrongWord(*app.get_subcommand(parsed.command->name), parsed);
+    if (parsed.command != nullptr) {
+      const CLI::App& chosen = *app.get_subcommand(parsed.command->name);
+      const bool is_of_value = dynamic_cast<const CLI::ValidationError*>(&failure) != nullptr;
+      if (is_of_value) findWrongWord(chosen, parsed);
+      const std::string missing = missingText(chosen, *parsed.command, failure);
+      if (!missing.empty()) parsed.message = missing;
     }
   } catch (const UsageError& failure) {
     parsed.kind = Parsed::kWrong;

@@ -76,7 +76,7 @@ gltf::Result StreamSink::open(const std::string& name) {
     return {name,
             "is a device or a pipe, and a .gltf has its buffer in a file next to it; name a file"};
   }
-  return {};
+  return gltf::checkWritable(gltf::pathOf(name));
 }
 
 gltf::ListedSink StreamSink::sink() {

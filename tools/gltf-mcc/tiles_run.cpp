@@ -16,6 +16,7 @@
 #include "gltf/inspect/report_json.h"
 #include "host/parallel.h"
 #include "host/result.h"
+#include "host/system.h"
 #include "host/text.h"
 #include "interrupt.h"
 #include "jobs/run.h"
@@ -218,6 +219,9 @@ Result TilesRun::claimOutputs() {
     if (code && !fs::is_directory(output_)) {
       return {options_.output, "the folder cannot be created: " + code.message()};
     }
+  }
+  if (!gltf::system::mayWrite(output_)) {
+    return {options_.output, "the folder is read-only; choose another one"};
   }
   record_ = std::make_unique<tiles::PartRecord>(input_, output_, options_.part);
   MCC_GLTF_TRY(record_->open(options_.waits));

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "commands.h"
@@ -38,6 +39,12 @@ std::string countsText(const gltf::ValidationReport& report) {
                         is_plural ? "s" : "");
   }
   return text.empty() ? "valid" : text;
+}
+
+bool usesExtension(const gltf::ValidationReport& report) {
+  const std::vector<std::string>& used = report.extensions_used;
+  return report.compressed_primitive_count != 0 || report.payload_count != 0 ||
+         std::find(used.begin(), used.end(), gltf::kExtensionName) != used.end();
 }
 
 /// Returns a report in the format of Khronos' glTF validator.
@@ -134,7 +141,10 @@ struct ValidateCommand {
     const gltf::ValidationReport& report = file.report;
     if (common.is_quiet && report.isValid()) return "";
     std::string text = fmt::format("{}: {}", gltf::printable(file.file), countsText(report));
-    if (!common.is_quiet) {
+    if (!common.is_quiet && report.isValid() && !usesExtension(report)) {
+      text += fmt::format("; nothing in it is compressed with {}, so there was nothing to check",
+                          gltf::kExtensionName);
+    } else if (!common.is_quiet) {
       text += fmt::format("; {} of {} primitives compressed, in {}: {} triangles, {} vertices",
                           report.compressed_primitive_count, report.primitive_count,
                           counted(report.payload_count, "payload", "payloads"),
@@ -160,7 +170,7 @@ void addValidate(Program& program) {
   auto state = std::make_shared<ValidateCommand>();
   command.name = "validate";
   command.summary = "Check compressed files against all rules";
-  command.add("FILES", "FILE", &state->files, "The files").is_required = true;
+  command.add("FILE", "FILE", &state->files, "The files").is_required = true;
   command.add("--max-issues", "N", &state->options.max_issues,
               "List at most N issues of a file, 0: all [1000]");
   addDecodedLimitOption(command, state->options.max_decoded_bytes);

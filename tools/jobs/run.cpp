@@ -20,8 +20,11 @@ bool isUpToDate(uint32_t job, const Work& work, Record& record) {
 }  // namespace
 
 Result runJobs(std::vector<uint32_t> jobs, const Work& work, Record& record) {
-  std::stable_sort(jobs.begin(), jobs.end(),
-                   [&](uint32_t a, uint32_t b) { return work.bytesOf(a) > work.bytesOf(b); });
+  // The last ones should be small, so that all threads end at about the same time.
+  if (work.thread_count > 1) {
+    std::stable_sort(jobs.begin(), jobs.end(),
+                     [&](uint32_t a, uint32_t b) { return work.bytesOf(a) > work.bytesOf(b); });
+  }
   std::mutex mutex;  // guards `done` and all that end() does
   size_t done = 0;
   return gltf::runParallel(jobs.size(), work.thread_count, [&](size_t i) -> Result {

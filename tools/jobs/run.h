@@ -27,9 +27,9 @@ struct Work {
   bool is_forced = false;     ///< also makes what is up to date
 };
 
-/// Does the jobs. Begins with the largest, because they take longest; the first ones are then also
-/// the most memory that is ever needed. A job that fails does not stop the others.
-/// Errors: not all jobs were done, as there is no memory.
+/// Does the jobs: one thread in their order, several begin with the largest, because they take
+/// longest; the first ones are then also the most memory that is ever needed. A job that fails does
+/// not stop the others. Errors: not all jobs were done, as there is no memory.
 gltf::Result runJobs(std::vector<uint32_t> jobs, const Work& work, Record& record);
 
 /// Returns "[####----] 1 of 2 files".

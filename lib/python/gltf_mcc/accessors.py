@@ -11,7 +11,7 @@ import struct
 from typing import Any, Callable, Dict, List, Optional, Tuple
 
 from .arrays import array_over, numpy
-from .errors import Error
+from .errors import Error, printable
 
 _CODES = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}  # of struct and memoryview
 _SCALES = {"b": 127, "B": 255, "h": 32767, "H": 65535, "I": 2**32 - 1}
@@ -22,8 +22,7 @@ _FOREIGN = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshop
 
 def refuse(path: str, what: str) -> Error:
     """Returns the exception for something that is wrong with the document."""
-    text = f"{path}: {what}" if path else what
-    return Error("".join(c if c.isprintable() else repr(c)[1:-1] for c in text), "DOCUMENT")
+    return Error(printable(f"{path}: {what}" if path else what), "DOCUMENT")
 
 
 def list_in(owner: Dict[str, Any], name: str, path: str) -> List[Any]:

@@ -9,7 +9,7 @@ from typing import Any, Callable, Dict, Optional, Sequence, Tuple, Union
 
 from . import _library
 from ._library import library
-from .errors import check
+from .errors import check, naming
 
 Source = Union[bytes, bytearray, memoryview, str, "os.PathLike[str]"]
 
@@ -153,7 +153,8 @@ def _document(source: Source, call: Callable[[bytes, Any], _library.Status]) -> 
         message = library.mcc_document_message(document).decode("utf-8", "replace") if document else None
         if message and not isinstance(source, (bytes, bytearray, memoryview)) and os.fspath(source).endswith(".gltf"):
             message += "; gltf-mcc decode IN.gltf OUT.glb makes a GLB of a .gltf and its files"
-        check(status, message or None)
+        with naming(source):
+            check(status, message or None)
         size = ctypes.c_size_t()
         data = library.mcc_document_bytes(document, ctypes.byref(size))
         return ctypes.string_at(data, size.value)

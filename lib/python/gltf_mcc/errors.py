@@ -2,8 +2,10 @@
 """What the library refuses, as exceptions."""
 from __future__ import annotations
 
+import contextlib
 import ctypes
-from typing import Optional, Tuple
+import os
+from typing import Any, Iterator, Optional, Tuple
 
 from ._library import Status, library
 
@@ -33,6 +35,23 @@ class Error(ValueError):
     def __reduce__(self) -> Tuple[type, Tuple[str, str, Optional[int]]]:
         # Exceptions are pickled with the arguments of ValueError otherwise; Dask and multiprocessing send them.
         return type(self), (str(self), self.code, self.offset_bytes)
+
+
+def printable(text: str) -> str:
+    """Returns a text whose control characters are escaped, since names in it may come from a file."""
+    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+
+
+@contextlib.contextmanager
+def naming(source: Any) -> Iterator[None]:
+    """If the source is a path, an Error about what is in that file begins with it."""
+    try:
+        yield
+    except Error as failure:
+        if isinstance(source, (bytes, bytearray, memoryview)) or failure.code == "BAD_ARGUMENT":
+            raise
+        text = f"{printable(os.fsdecode(source))}: {failure}"
+        raise Error(text, failure.code, failure.offset_bytes) from failure.__cause__
 
 
 def check(status: Status, text: Optional[str] = None) -> None:

@@ -9,6 +9,7 @@ from typing import Any, Dict, List, Optional, Sequence
 from .accessors import Document, count_in, list_in, object_in, refuse, refuse_foreign, text_in
 from .arrays import array_over, numpy
 from .documents import Source, decode, unsigned
+from .errors import naming
 
 _FLOATS = ("POSITION", "NORMAL", "TANGENT", "TEXCOORD_", "COLOR_", "WEIGHTS_")  # what no program wants as integers
 _KINDS = ("points", "lines", "lines", "lines", "triangles", "triangles", "triangles")  # by `mode`
@@ -79,8 +80,9 @@ def meshes(source: Source, *, thread_count: int = 1, max_decoded_bytes: int = 0)
     """
     limit = unsigned(max_decoded_bytes, "max_decoded_bytes", 64)
     plain = decode(source, thread_count=thread_count, max_decoded_bytes=limit)
-    document = Document(plain, limit or max(2**28, 8 * len(plain)))
-    return [_mesh(document, mesh, f"/meshes/{k}") for k, mesh in enumerate(list_in(document.json, "meshes", ""))]
+    with naming(source):
+        document = Document(plain, limit or max(2**28, 8 * len(plain)))
+        return [_mesh(document, mesh, f"/meshes/{k}") for k, mesh in enumerate(list_in(document.json, "meshes", ""))]
 
 
 def _mesh(document: Document, mesh: Any, path: str) -> Mesh:

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <set>
 
 #include "format/codings.h"
 #include "gltf/api/convert_report.h"
@@ -111,30 +112,34 @@ struct Output {
   }
 };
 
-/// Lists the files of a source. Images are in use as files of their own unless the output embeds
-/// them.
-void listInput(const Input& input, const Document& document, bool embeds, FilesInUse& files) {
-  files.input = {input.path};
+/// Lists the files of a source. `images` are the image files that it names; those that the document
+/// still names were not embedded.
+void listInput(const Input& input, const Document& document, const std::vector<std::string>& images,
+               FilesInUse& files) {
   const fs::path folder = folderOf(input.path);
+  files.input = {input.path};
+  files.other_input.clear();
   for (const std::string& path : filesOf(document.json, "buffers")) {
     files.input.push_back(folder / pathOf(path));
   }
-  for (const std::string& path : filesOf(document.json, "images")) {
-    (embeds ? files.input : files.other_input).push_back(folder / pathOf(path));
+  const std::vector<std::string> left = filesOf(document.json, "images");
+  const std::set<std::string> apart(left.begin(), left.end());
+  for (const std::string& path : images) {
+    (apart.contains(path) ? files.other_input : files.input).push_back(folder / pathOf(path));
   }
 }
 
 /// Loads the source for an output. For a GLB, image files move into its buffers.
 Result loadFor(const Output& output, Input& input, Document& document) {
   MCC_GLTF_TRY(input.load(document));
-  if (input.isFile()) {
-    const bool embeds = !document.is_glb && !output.container.is_gltf;
-    if (output.files != nullptr) listInput(input, document, embeds, *output.files);
-    if (output.destination) {
-      MCC_GLTF_TRY(output.destination->checkSource(input.path, document.json));
-    }
+  if (input.isFile() && output.destination) {
+    MCC_GLTF_TRY(output.destination->checkSource(input.path, document.json));
   }
+  const std::vector<std::string> images = filesOf(document.json, "images");
   if (!output.container.is_gltf) MCC_GLTF_TRY(embedImages(input.read_file, document));
+  if (input.isFile() && output.files != nullptr) {
+    listInput(input, document, images, *output.files);
+  }
   return {};
 }
 

@@ -54,6 +54,9 @@ Result checkShape(const Json& json) {
   if (!json.is_object()) return error("JSON", "this is not a glTF file: the JSON is not an object");
   const Json* asset = findMember(json, "asset");
   const Json* version = asset != nullptr ? findMember(*asset, "version") : nullptr;
+  if (findMember(json, "root") != nullptr && findMember(json, "geometricError") != nullptr) {
+    return error("JSON", "this is a tileset of 3D Tiles, not a glTF file; see gltf-mcc tiles");
+  }
   if (version == nullptr || !version->is_string()) {
     return error("/asset/version", "this is not a glTF file: it has no version");
   }
@@ -560,6 +563,7 @@ Result loadTables(Document& document) {
 struct ImageFile {
   std::span<const uint8_t> bytes;
   uint32_t view = kNone;  ///< the view it became, for all images that name it
+  bool is_missing = false;
 };
 
 void addView(ImageFile& file, Document& document) {
@@ -585,9 +589,12 @@ Result embedImage(const FileReader& read_file, size_t index,
   ImageFile& file = found->second;
   if (is_new) {
     document.storage.emplace_back();
-    MCC_GLTF_TRY(fetchUri(uri, path + "/uri", read_file, document.storage.back()));
+    const Result read = fetchUri(uri, path + "/uri", read_file, document.storage.back());
+    if (!read.ok()) document.notes.push_back(read.message() + "; it stays a separate file");
+    file.is_missing = !read.ok();
     file.bytes = document.storage.back();
   }
+  if (file.is_missing) return {};
   const std::string type = imageTypeOf(file.bytes);
   if (type.empty()) {
     document.notes.push_back(path + ": is not a known type of image; it stays a separate file");
