@@ -129,7 +129,8 @@ class LayoutBuilder {
       layout_.byte_count = aligned(layout_.byte_count);
       layout_.offsets.push_back(layout_.byte_count);
       if (view.bytes != nullptr) {
-        layout_.runs.push_back({layout_.byte_count, {view.bytes, view.byte_count}});
+        const std::span<const uint8_t> bytes(view.bytes, static_cast<size_t>(view.byte_count));
+        layout_.runs.push_back({layout_.byte_count, bytes});
       }
       layout_.byte_count += view.byte_count;
     }
