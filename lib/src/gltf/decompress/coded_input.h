@@ -5,7 +5,7 @@
 #ifndef MCC_GLTF_DECOMPRESS_CODED_INPUT_H_
 #define MCC_GLTF_DECOMPRESS_CODED_INPUT_H_
 
-#include "gltf/document/references.h"
+#include "gltf/document/document.h"
 #include "mcc/glb.h"
 
 namespace mcc::gltf {
