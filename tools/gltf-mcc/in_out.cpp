@@ -38,8 +38,8 @@ void refuseTileset(const std::string& command, const std::string& input) {
   gltf::Json json;
   const bool is_json = gltf::pathOf(input).extension() == ".json" &&
                        gltf::readFile(gltf::pathOf(input), bytes).ok() &&
-                       gltf::readJson(bytes, json).ok() && json.is_object();
-  if (!is_json || !json.contains("root") || !json.contains("geometricError")) return;
+                       gltf::readJson(bytes, json).ok();
+  if (!is_json || !gltf::isTileset(json)) return;
   throw UsageError(command,
                    input + ": is a tileset of 3D Tiles; to compress it, write: gltf-mcc tiles " +
                        shellWord(input) + " DIR");

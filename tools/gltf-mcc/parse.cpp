@@ -82,7 +82,7 @@ bool readAll(const CLI::results_t& texts, std::vector<Value>& values) {
   return true;
 }
 
-/// Takes one word with commas apart, so that a list never takes the words behind it.
+/// Splits a list at its commas. A list is one word, so that names of files may follow it.
 CLI::results_t listOf(const Option& option, const std::string& text) {
   CLI::results_t items = CLI::detail::split(text, ',');
   if (option.count == 0 || items.size() == static_cast<size_t>(option.count)) return items;

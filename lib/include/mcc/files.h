@@ -28,8 +28,7 @@ struct Source {
 
 /// Where a document goes to.
 struct Sink {
-  /// NAME.gltf gets its buffer next to it, in
-  /// NAME.<hash>.bin; any other name is that of a GLB.
+  /// NAME.gltf gets its buffer next to it, in NAME.<hash>.bin; any other name is that of a GLB.
   std::filesystem::path path;
   std::vector<uint8_t>* bytes = nullptr;  ///< when not null: receives a GLB, and no file is written
 };

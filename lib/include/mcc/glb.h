@@ -210,8 +210,8 @@ struct ConvertReport {
   bool copied = false;   ///< compression gained nothing, so the output is the input
   bool checked = false;  ///< the output was decoded and compared with the source
   double encode_seconds = 0;
-  double decode_seconds = 0;
-  double check_seconds = 0;
+  double decode_seconds = 0;  ///< of all payloads, added up over the threads
+  double check_seconds = 0;   ///< for comparing what was decoded, and the written file
   std::vector<PayloadReport> payloads;
   std::vector<PrimitiveReport> primitives;  ///< all primitives of the file, in file order
   /// What the user may want to do something about: "/meshes/0/primitives/1: why".

@@ -24,7 +24,7 @@ inline constexpr int kBase = -1;
 /// A vertex attribute: an element for each vertex, tightly packed, in the host's byte order.
 struct Attribute {
   /// As in glTF: "POSITION", "NORMAL", "TANGENT", "TEXCOORD_n", "COLOR_n", "JOINTS_n", "WEIGHTS_n".
-  /// Of any other the payload does not have the name: it is decoded as "_", in the encoded order.
+  /// The payload does not hold other names: such attributes come back as "_", in their order.
   std::string name;
   int target = kBase;  ///< or the index of a morph target, from 0: then these are its deltas
   ComponentType type = ComponentType::kFloat32;

@@ -12,6 +12,7 @@
 #include "gltf/document/references.h"
 
 namespace mcc::gltf {
+
 /// How far the pairs that are moved alike have been compared. They come in ascending order.
 struct SameBytes::Sweep {
   uint64_t end = 0;         ///< bytes before it that belong to an earlier pair were compared
@@ -187,11 +188,6 @@ Exceptions exceptionsOf(const Document& document, const std::vector<PrimitiveRef
     exceptGeometry(*document.primitive(ref).json, exceptions);
   exceptAccessors(root, touched, accessor_count, exceptions);
   return exceptions;
-}
-
-ByteRange viewRange(const Document& document, uint64_t view) {
-  const BufferView& range = document.views[view];
-  return {range.buffer, range.offset, range.offset + range.length};
 }
 
 /// Compares the bytes of everything that a conversion must not change.

@@ -160,9 +160,7 @@ ByteOwners ownersOf(const Document& document, const std::vector<bool>& in_other_
     uint64_t view = 0;
     const Json* number = findMember(image, "bufferView");
     if (number == nullptr || !asUnsigned(*number, view) || view >= document.views.size()) continue;
-    const BufferView& range = document.views[view];
-    owners.add({{range.buffer, range.offset, range.offset + range.length}},
-               ByteOwners::kSomebodyElse);
+    owners.add({viewRange(document, view)}, ByteOwners::kSomebodyElse);
   }
   owners.count();
   return owners;

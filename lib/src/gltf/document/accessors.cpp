@@ -10,6 +10,7 @@
 #include "mcc/reader.h"
 
 namespace mcc::gltf {
+
 // glTF buffers are little-endian, and accessors are filled by memcpy. Reader and writer work on
 // either.
 static_assert(std::endian::native == std::endian::little,

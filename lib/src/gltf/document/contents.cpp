@@ -53,8 +53,7 @@ class ContentsWalk {
  private:
   void addView(uint64_t index) {
     if (index >= document_.views.size()) return;
-    const BufferView& view = document_.views[index];
-    ranges_.push_back({view.buffer, view.offset, view.offset + view.length});
+    ranges_.push_back(viewRange(document_, index));
   }
 
   /// Adds the bytes that an accessor uses; of a coded view they are not known one by one.

@@ -54,7 +54,7 @@ Result checkShape(const Json& json) {
   if (!json.is_object()) return error("JSON", "this is not a glTF file: the JSON is not an object");
   const Json* asset = findMember(json, "asset");
   const Json* version = asset != nullptr ? findMember(*asset, "version") : nullptr;
-  if (findMember(json, "root") != nullptr && findMember(json, "geometricError") != nullptr) {
+  if (isTileset(json)) {
     return error("JSON", "this is a tileset of 3D Tiles, not a glTF file; see gltf-mcc tiles");
   }
   if (version == nullptr || !version->is_string()) {

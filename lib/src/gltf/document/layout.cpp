@@ -15,11 +15,6 @@ struct Block {
   uint64_t target = 0;  ///< where it begins in the new buffer
 };
 
-ByteRange viewRange(const Document& document, uint32_t view) {
-  const BufferView& from = document.views[view];
-  return {from.buffer, from.offset, from.offset + from.length};
-}
-
 /// Calls visit(uint32_t view, uint32_t accessor) for the references in `json` to views of the
 /// document.
 template <typename Visit>
@@ -381,6 +376,11 @@ class LayoutBuilder {
 };
 
 }  // namespace
+
+ByteRange viewRange(const Document& document, uint64_t view) {
+  const BufferView& from = document.views[view];
+  return {from.buffer, from.offset, from.offset + from.length};
+}
 
 std::vector<ByteRange> accessorRanges(const Document& document, uint32_t index, bool whole_views) {
   const Accessor& accessor = document.accessors[index];

@@ -24,6 +24,9 @@ struct ByteRange {
   auto operator<=>(const ByteRange&) const = default;
 };
 
+/// Returns the bytes of a view, coded or not.
+ByteRange viewRange(const Document& document, uint64_t view);
+
 /// Returns the source bytes an accessor needs: its elements, or its whole buffer views if
 /// `whole_views`.
 std::vector<ByteRange> accessorRanges(const Document& document, uint32_t accessor,

@@ -157,6 +157,10 @@ bool canCopyBuffers(const Json& json) {
   });
 }
 
+bool isTileset(const Json& json) {
+  return findMember(json, "root") != nullptr && findMember(json, "geometricError") != nullptr;
+}
+
 Result readJson(std::span<const uint8_t> file, Json& json) {
   GlbFile glb;
   glb.json = file;

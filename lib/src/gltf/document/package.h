@@ -81,6 +81,9 @@ Result addCopies(const Json& json, bool with_buffers, const FileReader& read_fil
 /// the extension of a buffer (.bin, .glbin, .glbuf).
 bool canCopyBuffers(const Json& json);
 
+/// Whether JSON is that of a tileset of 3D Tiles, which users take for a glTF file.
+bool isTileset(const Json& json);
+
 /// Reads the JSON of a GLB or .gltf.
 Result readJson(std::span<const uint8_t> file, Json& json);
 

@@ -4,6 +4,7 @@
 #include "mcc/decoded_limit.h"
 
 namespace mcc::gltf {
+
 DecodedBytes::DecodedBytes(uint64_t max_decoded_bytes, uint64_t file_bytes)
     : limit_(decodedLimit(max_decoded_bytes, file_bytes)), file_bytes_(file_bytes) {}
 
