@@ -10,7 +10,6 @@
 #include "gltf/compress/plan.h"
 #include "gltf/document/accessors.h"
 #include "gltf/document/payload.h"
-#include "support/gltf_builder.h"
 #include "support/mesh_compare.h"
 #include "support/sha256.h"
 
@@ -50,8 +49,7 @@ class Document {
     builder_.json["buffers"] = {{{"byteLength", builder_.bin.size()}}};
   }
 
-  const Json& json() const { return builder_.json; }
-  const std::vector<uint8_t>& bin() const { return builder_.bin; }
+  const gltf::test::Builder& made() const { return builder_; }
   const Json& expected() const { return expected_; }
 
  private:
@@ -280,11 +278,29 @@ Asset encodeSource(const Source& source) {
   return asset;
 }
 
+std::string slug(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'))
+      out += c;
+    else if (c >= 'A' && c <= 'Z')
+      out += static_cast<char>(c - 'A' + 'a');
+    else if (!out.empty() && out.back() != '_')
+      out += '_';
+  }
+  return out;
+}
+
+gltf::test::Builder documentOf(const Asset& asset) {
+  gltf::test::Builder made = Document(asset).made();
+  if (asset.numbers_with_fractions) writeFractions(made.json);
+  made.bin.resize((made.bin.size() + 3) & ~size_t{3}, 0);
+  return made;
+}
+
 std::vector<uint8_t> makeGlb(const Asset& asset) {
-  const Document document(asset);
-  Json json = document.json();
-  if (asset.numbers_with_fractions) writeFractions(json);
-  return glbOf(json, document.bin());
+  const gltf::test::Builder made = documentOf(asset);
+  return glbOf(made.json, made.bin);
 }
 
 Json expectedOf(const Asset& asset) { return Document(asset).expected(); }
