@@ -61,7 +61,7 @@ void compareJson(const Json& a, const Json& b, const std::string& path, const Sk
 // ---- Values ------------------------------------------------------------------------------------
 
 double component(const Elements& elements, size_t i, size_t c) {
-  return componentAt(elements.component_type, elements.values[i].data(), c);
+  return componentAt(static_cast<int>(elements.component_type), elements.values[i].data(), c);
 }
 
 struct Box {

@@ -47,7 +47,7 @@ inline uint32_t widthOf(int component_type) {
 
 /// Calls `use` with a zero of a component type.
 template <typename Use>
-auto withType(uint64_t component_type, const Use& use) {
+auto withType(int component_type, const Use& use) {
   switch (component_type) {
     case kByte: return use(int8_t{});
     case kUnsignedByte: return use(uint8_t{});
@@ -59,7 +59,7 @@ auto withType(uint64_t component_type, const Use& use) {
 }
 
 /// The value of a component of tight elements.
-inline double componentAt(uint64_t component_type, const void* tight, size_t number) {
+inline double componentAt(int component_type, const void* tight, size_t number) {
   return withType(component_type, [&](auto typed) {
     std::memcpy(&typed, static_cast<const uint8_t*>(tight) + number * sizeof typed, sizeof typed);
     return static_cast<double>(typed);
