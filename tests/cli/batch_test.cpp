@@ -12,8 +12,8 @@
 #include <set>
 
 #include "cli/run_tool.h"
-#include "gltf/gltf_builder.h"
 #include "json/json.h"
+#include "support/gltf_builder.h"
 #include "support/made_files.h"
 
 namespace mcc::test {

@@ -12,8 +12,8 @@
 #include <map>
 
 #include "cli/run_tool.h"
-#include "gltf/gltf_builder.h"
 #include "json/json.h"
+#include "support/gltf_builder.h"
 
 namespace mcc::test {
 namespace {

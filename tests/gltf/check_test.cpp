@@ -12,7 +12,7 @@
 #include "gltf/check/values.h"
 #include "gltf/compress/compress.h"
 #include "gltf/compress/quantize.h"
-#include "gltf/gltf_builder.h"
+#include "support/gltf_builder.h"
 
 namespace mcc::gltf::test {
 namespace {
