@@ -65,10 +65,10 @@ MCC_API Result convertFile(const std::filesystem::path& source, const std::files
 /// Like decodeGlb(), for files, which are treated as by convert(). Inverse: convert().
 /// Tests: tests/gltf/, tests/cli/.
 MCC_API Result decode(const Source& source, const Sink& sink, DecodeReport& report,
-                      const FileDecodeOptions& options = {}, FilesInUse* files = nullptr);
+                      const DecodeOptions& options = {}, FilesInUse* files = nullptr);
 /// The same, from file to file.
 MCC_API Result decodeFile(const std::filesystem::path& source, const std::filesystem::path& output,
-                          DecodeReport& report, const FileDecodeOptions& options = {});
+                          DecodeReport& report, const DecodeOptions& options = {});
 
 /// Like inspectGlb(), for a file.
 MCC_API Result inspectFile(const std::filesystem::path& source, bool count_codes,

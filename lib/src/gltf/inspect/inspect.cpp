@@ -70,7 +70,7 @@ class StreamCounter {
   explicit StreamCounter(InspectPayload& report) : report_(report) {}
 
   Result run(DecodedPayload& decoded, const std::string& where) {
-    DecodeOptions options;
+    mcc::DecodeOptions options;
     options.histogram = &report_.codes;
     options.stage_bits = [](void* user, uint32_t piece, DecodeStage stage, uint32_t attribute,
                             uint64_t bits) {

@@ -84,7 +84,7 @@ Result treeOfPayload(const Document& document, const ExtensionUse& use, const Js
   MCC_GLTF_TRY(checkAgainstPayload(document, use, decoded.payload.info()));
   EdgeTaker taker;
   taker.wanted_piece = static_cast<uint32_t>(use.piece);
-  DecodeOptions options;
+  mcc::DecodeOptions options;
   options.mc_edge = EdgeTaker::take;
   options.mc_edge_user = &taker;
   MCC_GLTF_TRY(toResult(decodePieces(decoded, options), where));
@@ -151,7 +151,7 @@ Result treeOfTriangles(const Document& document, const Json& primitive, const st
   DecodedPayload decoded;
   MCC_GLTF_TRY(toResult(decoded.payload.open(encoded.payload), where));
   EdgeTaker taker;
-  DecodeOptions options;
+  mcc::DecodeOptions options;
   options.mc_edge = EdgeTaker::take;
   options.mc_edge_user = &taker;
   MCC_GLTF_TRY(toResult(decodePieces(decoded, options), where));
