@@ -78,26 +78,6 @@ MCC_API Result inspectFile(const std::filesystem::path& source, bool count_codes
 MCC_API Result validate(const Source& source, const ValidateOptions& options,
                         ValidationReport& report);
 
-/// The tree of the edges along which a surface was contracted.
-struct McTree {
-  /// One contracted edge. `parent` is the mc-vertex, or was contracted before `child`.
-  struct Edge {
-    uint32_t parent = 0;
-    uint32_t child = 0;
-  };
-  std::vector<float> positions;   ///< 3 per vertex
-  std::vector<uint32_t> indices;  ///< 3 per triangle
-  std::vector<Edge> edges;        ///< in the order of the contractions, without those to dummies
-  bool is_of_payload = false;     ///< false: the source was compressed in memory to get a tree
-};
-
-/// Returns the mc-tree of a primitive. Where the primitive is compressed, this is the tree of the
-/// payload's piece, with all triangles of that piece. Otherwise the primitive is compressed in
-/// memory as convert() would. Errors: there is no such primitive; it has no triangles, or cannot be
-/// read. Safe for untrusted input. Deterministic. Tests: tests/gltf/tree_test.cpp.
-MCC_API Result mcTree(const Source& source, uint32_t mesh, uint32_t primitive,
-                      const ForeignDecoders& decoders, McTree& tree);
-
 }  // namespace mcc::gltf
 
 #endif  // MCC_FILES_H_
