@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <deque>
 
-#include "gltf/decompress/integers.h"
 #include "gltf/document/accessors.h"
 #include "gltf/document/references.h"
 #include "host/parallel.h"

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "gltf/decompress/integer_accessors.h"
+#include "gltf/decompress/integers.h"
 #include "gltf/document/extension_uses.h"
 #include "gltf/document/layout.h"
 #include "gltf/document/payload.h"
