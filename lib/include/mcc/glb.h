@@ -280,8 +280,6 @@ struct InspectPiece {
   uint32_t part_count = 0;
   SurfaceCoding surface = SurfaceCoding::kManifold;
   std::vector<AttributeInfo> attributes;
-  std::vector<std::string>
-      attribute_names;                    ///< as in the JSON; "(unused)" when no primitive names it
   std::vector<InspectAttribute> details;  ///< one for each of `attributes`
   std::vector<InspectBlock> blocks;       ///< empty: coded as a whole
   std::string whole_because;  ///< why a large piece is coded as a whole, as far as a file shows it
