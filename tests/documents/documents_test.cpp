@@ -132,7 +132,7 @@ class Way {
 
   Result decodeFrom(const fs::path& path, const Bytes& bytes, const RandomDocument& document,
                     const fs::path& folder, DecodeTo to, Files& files) {
-    FileDecodeOptions options;
+    DecodeOptions options;
     options.decode_to = to;
     files.clear();
     fs::remove_all(folder);

@@ -1256,13 +1256,13 @@ class Maker {
     options.lossless = chance(30);
     if (chance(30)) {
       static const uint8_t kBits[] = {0, 1, 2, 8, 12, 14, 16, 20, 24};
-      options.bits.position = kBits[below(9)];
-      options.bits.texcoord = kBits[below(9)];
-      options.bits.color = kBits[below(9)];
-      options.bits.weight = kBits[below(9)];
+      options.position_bits = kBits[below(9)];
+      options.texcoord_bits = kBits[below(9)];
+      options.color_bits = kBits[below(9)];
+      options.weight_bits = kBits[below(9)];
       static const uint8_t kUnitBits[] = {0, 2, 3, 8, 10, 12, 16};
-      options.bits.normal = kUnitBits[below(7)];
-      options.bits.tangent = kUnitBits[below(7)];
+      options.normal_bits = kUnitBits[below(7)];
+      options.tangent_bits = kUnitBits[below(7)];
     }
     if (chance(8)) {
       options.is_error_relative = chance(50);
@@ -1430,12 +1430,12 @@ std::string describe(const ConvertOptions& options) {
   const ConvertOptions standard;
   std::string text;
   const auto add = [&](const std::string& word) { text += (text.empty() ? "" : " ") + word; };
-  const QuantizationBits& bits = options.bits;
+  const QuantizationBits& bits = options;
   if (options.lossless) add("lossless");
-  if (bits.position != 14 || bits.normal != 10 || bits.texcoord != 12) {
-    add("bits " + std::to_string(bits.position) + "," + std::to_string(bits.normal) + "," +
-        std::to_string(bits.texcoord) + "," + std::to_string(bits.color) + "," +
-        std::to_string(bits.tangent) + "," + std::to_string(bits.weight));
+  if (bits.position_bits != 14 || bits.normal_bits != 10 || bits.texcoord_bits != 12) {
+    add("bits " + std::to_string(bits.position_bits) + "," + std::to_string(bits.normal_bits) +
+        "," + std::to_string(bits.texcoord_bits) + "," + std::to_string(bits.color_bits) + "," +
+        std::to_string(bits.tangent_bits) + "," + std::to_string(bits.weight_bits));
   }
   if (options.max_position_error != 0)
     add("max-error " + std::to_string(options.max_position_error) +

@@ -207,7 +207,7 @@ TEST_F(Check, NoticesAnotherPayloadInPlaceOfAnOldOne) {
   EXPECT_EQ(verdict(compressed_.json, bin_), "");
   // The same triangles with other bits: a payload that fits the JSON in every count.
   ConvertOptions options;
-  options.bits.position = 9;
+  options.position_bits = 9;
   Compressed other;
   Document document;
   ASSERT_TRUE(loadDocument(file_, nullptr, document).ok());

@@ -139,15 +139,24 @@ TEST(Integers, AttributesGetTheSmallestTypeOfTheirGrid) {
   EXPECT_LT(both.integers.size() * 10, both.trip.decoded.size() * 7);
 
   ConvertOptions coarse;
-  coarse.bits = {.position = 8, .normal = 8, .texcoord = 8, .color = 8, .tangent = 8, .weight = 8};
+  static_cast<QuantizationBits&>(coarse) = {.position_bits = 8,
+                                            .normal_bits = 8,
+                                            .texcoord_bits = 8,
+                                            .color_bits = 8,
+                                            .tangent_bits = 8,
+                                            .weight_bits = 8};
   const BothDecodes small = decodeBoth(builder, coarse);
   EXPECT_EQ(accessorOf(small, attributes["POSITION"])["componentType"], kUnsignedByte);
   EXPECT_EQ(accessorOf(small, attributes["NORMAL"])["componentType"], kByte);
   EXPECT_EQ(accessorOf(small, attributes["TANGENT"])["componentType"], kByte);
 
   ConvertOptions fine;
-  fine.bits = {
-      .position = 17, .normal = 16, .texcoord = 17, .color = 17, .tangent = 16, .weight = 17};
+  static_cast<QuantizationBits&>(fine) = {.position_bits = 17,
+                                          .normal_bits = 16,
+                                          .texcoord_bits = 17,
+                                          .color_bits = 17,
+                                          .tangent_bits = 16,
+                                          .weight_bits = 17};
   const BothDecodes large = decodeBoth(builder, fine);
   EXPECT_EQ(accessorOf(large, attributes["POSITION"])["componentType"], kFloat);
   EXPECT_EQ(accessorOf(large, attributes["NORMAL"])["componentType"], kShort);

@@ -188,7 +188,7 @@ TEST(KnownExtensions, PropertyTablesKeepTheirBytesAndAlignment) {
 TEST(KnownExtensions, PropertyTablesSurviveIntegers) {
   const RoundTrip trip = roundTrip(buildingWithTable(false, 4));
   ASSERT_EQ(trip.error, "");
-  FileDecodeOptions options;
+  DecodeOptions options;
   options.decode_to = DecodeTo::kIntegers;
   std::vector<uint8_t> decoded;
   DecodeReport report;
@@ -231,7 +231,7 @@ TEST(KnownExtensions, InstancesKeepTheirIds) {
     EXPECT_EQ(elementsInOrder(*file, ids), elementsInOrder(trip.source, ids));
   }
   // The node would not show its instances if its mesh moved into a child.
-  FileDecodeOptions options;
+  DecodeOptions options;
   options.decode_to = DecodeTo::kIntegers;
   std::vector<uint8_t> decoded;
   DecodeReport report;

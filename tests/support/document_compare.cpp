@@ -598,7 +598,7 @@ class Comparison {
     Box own;
     own.add(source);
     if (!own.is_finite) return bound;
-    const QuantizationBits& bits = options_.bits;
+    const QuantizationBits& bits = options_;
     const auto allow = [&](double value) {
       bound.is_exact = false;
       bound.value = value + std::ldexp(own.largest() + own.side(), -22);
@@ -607,15 +607,16 @@ class Comparison {
         options_.position_lattice ? options_.position_lattice->step
         : options_.max_position_error > 0
             ? 2 * options_.max_position_error * (options_.is_error_relative ? positions.side() : 1)
-        : bits.position == 0 ? 0
-                             : positions.side() / stepsOf(bits.position);
+        : bits.position_bits == 0 ? 0
+                                  : positions.side() / stepsOf(bits.position_bits);
     const bool is_vector = source.type == "VEC3";
     if (attribute.name == "POSITION" && is_vector) {
       // The deltas of exact positions may have a lattice of their own.
-      const double delta_step =
-          is_base || bits.position == 0 ? 0 : std::max(own.side(), 1.0) / stepsOf(bits.position);
+      const double delta_step = is_base || bits.position_bits == 0
+                                    ? 0
+                                    : std::max(own.side(), 1.0) / stepsOf(bits.position_bits);
       const double step = std::max(position_step, delta_step);
-      if (step == 0 && (bits.position == 0 || !is_base))
+      if (step == 0 && (bits.position_bits == 0 || !is_base))
         return bound;  // otherwise all are one point
       // Decoding rounds twice, relative to the lattice's origin.
       const double origin = options_.position_lattice ? 2 : 0;
@@ -623,32 +624,34 @@ class Comparison {
       if (options_.max_position_error > 0 && !options_.position_lattice && is_base)
         bound.distance = position_step / 2;
       if (bound.distance != 0) bound.value = bound.distance;
-    } else if (attribute.name == "NORMAL" && is_vector && bits.normal != 0) {
-      allow((is_base ? own.side() / 2 : 1) / stepsOf(bits.normal));
-      if (is_base) bound.radians = 4.5 / (std::ldexp(1.0, bits.normal) - 2) + 1e-5;
-    } else if (attribute.name == "TANGENT" && bits.tangent != 0 &&
+    } else if (attribute.name == "NORMAL" && is_vector && bits.normal_bits != 0) {
+      allow((is_base ? own.side() / 2 : 1) / stepsOf(bits.normal_bits));
+      if (is_base) bound.radians = 4.5 / (std::ldexp(1.0, bits.normal_bits) - 2) + 1e-5;
+    } else if (attribute.name == "TANGENT" && bits.tangent_bits != 0 &&
                (is_vector || source.type == "VEC4")) {
-      allow(is_base ? std::ldexp(1.0, -bits.tangent) : 1 / stepsOf(bits.tangent));
+      allow(is_base ? std::ldexp(1.0, -bits.tangent_bits) : 1 / stepsOf(bits.tangent_bits));
       const bool has_lossy_normal =
-          bits.normal != 0 && std::any_of(all.begin(), all.end(), [](const Attribute& other) {
+          bits.normal_bits != 0 && std::any_of(all.begin(), all.end(), [](const Attribute& other) {
             return other.name == "NORMAL" && other.target < 0 &&
                    other.source.component_type == 5126;
           });
       if (is_base) {
         // The angle around a normal on the octahedral grid or, without a normal, a grid of its own.
-        const double own_grid = 4.5 / (std::ldexp(1.0, bits.tangent) - 2);
+        const double own_grid = 4.5 / (std::ldexp(1.0, bits.tangent_bits) - 2);
         const double around_normal =
-            std::numbers::pi * std::ldexp(1.0, -bits.tangent) + 0.004 +
-            (has_lossy_normal ? 4.5 / (std::ldexp(1.0, bits.normal) - 2) : 0);
+            std::numbers::pi * std::ldexp(1.0, -bits.tangent_bits) + 0.004 +
+            (has_lossy_normal ? 4.5 / (std::ldexp(1.0, bits.normal_bits) - 2) : 0);
         bound.radians = std::max(own_grid, around_normal);
       }
-    } else if (isNamed(attribute.name, "TEXCOORD") && source.type == "VEC2" && bits.texcoord != 0) {
-      allow(std::max(own.side(), is_base ? 0 : 1.0) / stepsOf(bits.texcoord) / 2);
+    } else if (isNamed(attribute.name, "TEXCOORD") && source.type == "VEC2" &&
+               bits.texcoord_bits != 0) {
+      allow(std::max(own.side(), is_base ? 0 : 1.0) / stepsOf(bits.texcoord_bits) / 2);
     } else if (isNamed(attribute.name, "COLOR") &&
-               (source.type == "VEC3" || source.type == "VEC4") && bits.color != 0) {
-      allow(std::max(own.side(), 1.0) / stepsOf(bits.color) / 2);
-    } else if (isNamed(attribute.name, "WEIGHTS") && source.type == "VEC4" && bits.weight != 0) {
-      allow(std::max(own.side(), 1.0) / stepsOf(bits.weight));
+               (source.type == "VEC3" || source.type == "VEC4") && bits.color_bits != 0) {
+      allow(std::max(own.side(), 1.0) / stepsOf(bits.color_bits) / 2);
+    } else if (isNamed(attribute.name, "WEIGHTS") && source.type == "VEC4" &&
+               bits.weight_bits != 0) {
+      allow(std::max(own.side(), 1.0) / stepsOf(bits.weight_bits));
     }
     return bound;
   }
