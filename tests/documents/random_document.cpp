@@ -140,7 +140,7 @@ class Printer {
     switch (random_.below(5)) {
       case 0: out_ += plain == "0" ? (random_.chance(50) ? "-0" : "-0.0") : plain + "e0"; break;
       case 1: out_ += is_whole ? plain + ".0" : plain + "000"; break;
-      case 2: out_ += is_whole && plain != "0" ? plain + "0E-1" : plain; break;
+      case 2: out_ += is_whole && plain != "0" && plain != "-0" ? plain + "0E-1" : plain; break;
       case 3: out_ += is_whole ? plain + ".000e+00" : plain + "E0"; break;
       default: out_ += plain; break;
     }
