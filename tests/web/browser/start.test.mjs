@@ -23,6 +23,8 @@ test('preload() loads the core and starts one worker, before there is a file', a
   const { page, violations, requests } = await open();
   await preload(page);
   assert.deepEqual(requests.filter((path) => path.endsWith('.wasm')), ['/lib/wasm/mcc_decoder_core_simd.wasm']);
+  // The browser may tell of a worker later than the page knows it.
+  for (let waited = 0; page.workers().length === 0 && waited < 10_000; waited += 20) await new Promise((resolve) => { setTimeout(resolve, 20); });
   assert.equal(page.workers().length, 1);
   assert.deepEqual(violations(), []);
   await page.close();
