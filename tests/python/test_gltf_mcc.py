@@ -165,15 +165,6 @@ class Meshes(unittest.TestCase):
         self.assertEqual(piece.attributes[0].bits, 10)
         self.assertEqual([len(part) for part in piece.parts], [half // 3, len(indices) // 3 - half // 3])
 
-    def test_enumerations_are_those_of_the_header(self):
-        header = (SAMPLES.parent / "lib/include/mcc/c_api.h").read_text()
-        for prefix, own in (("MCC_CODING_", {c.name: c.value for c in _library.Coding}),
-                            ("MCC_PREFER_", {n.upper(): k for k, n in enumerate(documents.PREFERENCES)}),
-                            ("MCC_GRID_", {n.upper(): k for k, n in enumerate(documents.GRIDS)}),
-                            ("MCC_DECODE_TO_", {n.upper(): k for k, n in enumerate(documents.DECODE_TO)})):
-            found = re.findall(rf"\b{prefix}(\w+) = (\d+)", header)
-            self.assertEqual(own, {name: int(number) for name, number in found}, prefix)
-
     def test_wrong_lattices(self):
         data = (SAMPLES / "torus.glb").read_bytes()
         with self.assertRaises(ValueError):
@@ -389,15 +380,6 @@ class MeshesOfFiles(unittest.TestCase):
         with self.assertRaisesRegex(gltf_mcc.Error, pattern) as caught:
             gltf_mcc.meshes(made.glb(), **options)
         self.assertEqual(caught.exception.code, code)
-
-    def test_enumerations_are_those_of_the_header(self):
-        header = (SAMPLES.parent / "lib/include/mcc/c_api.h").read_text()
-        for prefix, own in (("MCC_CODING_", {c.name: c.value for c in _library.Coding}),
-                            ("MCC_PREFER_", {n.upper(): k for k, n in enumerate(documents.PREFERENCES)}),
-                            ("MCC_GRID_", {n.upper(): k for k, n in enumerate(documents.GRIDS)}),
-                            ("MCC_DECODE_TO_", {n.upper(): k for k, n in enumerate(documents.DECODE_TO)})):
-            found = re.findall(rf"\b{prefix}(\w+) = (\d+)", header)
-            self.assertEqual(own, {name: int(number) for name, number in found}, prefix)
 
     def test_wrong_lattices(self):
         data = (SAMPLES / "torus.glb").read_bytes()

@@ -37,7 +37,7 @@ void addVerbosityOptions(Command& command, CommonOptions& options) {
   command.addFlag("-v,--verbose", options.is_verbose, "Print more");
 }
 
-void addJobs(Command& command, uint32_t& count, const char* help) {
+void addThreadCount(Command& command, uint32_t& count, const char* help) {
   command.add("-j,--thread-count", "N", &count, help).limits = between(1, 1024);
 }
 

@@ -244,7 +244,7 @@ void addConvert(Program& program) {
   command.add("--report", "FILE", &state->report, "Write all figures to this JSON file");
   state->comparison.addOptions(command);
   addFormatOption(command, state->common);
-  addJobs(command, state->convert.thread_count, "Threads to use [1]");
+  addThreadCount(command, state->convert.thread_count, "Threads to use [1]");
   command.addFlag("--force", state->is_forced, "With -o DIR: also convert what is up to date");
   addDecodedLimitOption(command, state->convert.max_decoded_bytes);
   addVerbosityOptions(command, state->common);

@@ -97,7 +97,7 @@ void addDecode(Program& program) {
   command.addWords("--decode-to", state->decoding.decode_to,
                    {{"floats", gltf::DecodeTo::kFloats}, {"integers", gltf::DecodeTo::kIntegers}},
                    "What quantised attributes become [floats]");
-  addJobs(command, state->decoding.thread_count, "Threads to use [1]");
+  addThreadCount(command, state->decoding.thread_count, "Threads to use [1]");
   command.addFlag("--force", state->is_forced, "With -o DIR: also decode what is up to date");
   addDecodedLimitOption(command, state->decoding.max_decoded_bytes);
   addVerbosityOptions(command, state->common);

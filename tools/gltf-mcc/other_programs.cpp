@@ -55,7 +55,7 @@ Command& addTiles(Program& program, TilesOptions& options) {
   addPreference(command, options.convert);
   command.add("--report", "FILE", &options.report, "Write all figures to this JSON file");
   addFormatOption(command, options.common);
-  addJobs(command, options.job_count, "Tiles at the same time [1]");
+  addThreadCount(command, options.job_count, "Tiles at the same time [1]");
   command.add("--part", "K/N", &options.part_text,
               "Make only the K-th of N parts; the parts of several machines make a whole");
   command.addFlag("--wait", options.waits, "Wait for other runs that write to the same folder");

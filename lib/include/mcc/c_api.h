@@ -3,11 +3,11 @@
  * @file
  * C API of the reader, the writer and the glTF layer, for C99 and for other languages.
  *
- * - Functions return an mcc_status; no C++ exception leaves them. An argument that can be seen to
- * be wrong gives MCC_ERROR_BAD_ARGUMENT: null for a pointer that must not be null, a number that is
- *   no enumerator, a flag that is neither 0 nor 1, a count or stride that leads beyond all memory,
- *   one function of an allocator without the other. Whether memory is there, and is as large as the
- *   caller says, cannot be seen.
+ * - Functions return an mcc_status; no C++ exception leaves them. An argument that can be seen
+ *   to be wrong gives MCC_ERROR_BAD_ARGUMENT: null for a pointer that must not be null, a number
+ *   that is no enumerator, a flag that is neither 0 nor 1, a count or stride that leads beyond all
+ *   memory, one function of an allocator without the other. Whether memory is there, and is as
+ *   large as the caller says, cannot be seen.
  * - Objects (mcc_payload, mcc_encoding, mcc_document) are created by one function and released by
  *   their own release function, which accepts null. They may move between threads, but several
  *   threads may use one at the same time only to read it.
