@@ -2,7 +2,7 @@
 
 // The header of a payload [A.2].
 
-import { finishAttributes, readAttributeHeader } from './attributeheader.mjs';
+import { PLANES, finishAttributes, readAttributeHeader } from './attributeheader.mjs';
 import { checkBlock, checkBlocks, readBlockTable } from './blocktable.mjs';
 import { crc32, createReader, remaining, take, u32, u8, varint, zigzag } from './bytes.mjs';
 import { fail, failUnless } from './errors.mjs';
@@ -15,10 +15,9 @@ const valid = (condition, section, message) => failUnless(condition, 'BadHeader'
 // [A.2.1] The header, with the streams of the payload or of each block.
 export function readHeader(bytes) {
 	const reader = createReader(bytes);
-	checkMagic(reader);
-	const checksum = u32(reader), flags = u8(reader);
+	const minorVersion = readVersion(reader), checksum = u32(reader), flags = u8(reader);
 	const [SINGLE_CODER, MANY_PIECES, PADDED, BLOCKS] = [0, 1, 2, 3].map((i) => bit(flags, i));
-	const header = { SINGLE_CODER, MANY_PIECES, PADDED, BLOCKS };
+	const header = { minorVersion, SINGLE_CODER, MANY_PIECES, PADDED, BLOCKS };
 	const end = header.BLOCKS ? readHeaderLength(reader) : bytes.length;
 	const sum = crc32(bytes.subarray(0, 2), bytes.subarray(6, end));
 	failUnless(sum === checksum, 'BadChecksum', 'A.2.1', 'the checksum of the payload does not match');
@@ -30,13 +29,16 @@ export function readHeader(bytes) {
 	return header;
 }
 const bit = (flags, i) => ((flags >> i) & 1) === 1;
-function checkMagic(reader) {
+// The minor version.
+function readVersion(reader) {
 	const { bytes } = reader;
 	const draft = bytes[0] === 0x4d && bytes[1] === 0x43 && bytes[2] === 0x43;
 	if (draft) fail('UnsupportedVersion', 'A.2.1', 'the payload is of a withdrawn draft');
 	failUnless(bytes[0] === 0x4b, 'BadMagic', 'A.2.1', 'the bytes are not a payload');
 	u8(reader);
-	failUnless(u8(reader) >> 4 === 1, 'UnsupportedVersion', 'A.2.1', 'the major version is not 1');
+	const version = u8(reader);
+	failUnless(version >> 4 === 1, 'UnsupportedVersion', 'A.2.1', 'the major version is not 1');
+	return version & 15;
 }
 
 function readHeaderLength(reader) {
@@ -57,7 +59,7 @@ function pieceCount(reader, { MANY_PIECES }) {
 function readPieces(reader, header, count) {
 	const pieces = [], totals = { vertices: 0, wedges: 0, triangles: 0, attributes: 0 };
 	for (let i = 0; i < count; ++i) {
-		const piece = readPiece(reader, pieces[i - 1], totals, header.BLOCKS);
+		const piece = readPiece(reader, header, pieces[i - 1], totals);
 		if (header.BLOCKS) checkBlock(piece, pieces[0]);
 		pieces.push(piece);
 	}
@@ -65,23 +67,24 @@ function readPieces(reader, header, count) {
 }
 
 // [A.2.2]
-function readPiece(reader, before, totals, isBlock) {
+function readPiece(reader, header, before, totals) {
 	const piece = readPieceFlags(reader);
+	valid(!piece.MIRRORS || header.minorVersion >= 1, 'A.2.2', 'MIRRORS in a payload of version 1.0');
 	readCounts(reader, piece);
 	checkCounts(reader, piece, totals);
 	readParts(reader, piece);
-	readAttributes(reader, piece, before, totals, isBlock);
+	readAttributes(reader, header, piece, before, totals);
 	return piece;
 }
 
 function readPieceFlags(reader) {
 	const flags = varint(reader);
-	valid(flags < 2 ** 12, 'A.2.2', 'reserved flags are set');
+	valid(flags < 2 ** 13, 'A.2.2', 'reserved flags are set');
 	const surface = (flags >> 7) & 3;
 	const piece = {
 		SEAMS: bit(flags, 0), MANY_PARTS: bit(flags, 1), SAME_ATTRIBUTES: bit(flags, 2), HOLES: bit(flags, 3),
 		HANDLES: bit(flags, 4), CREASES: bit(flags, 5), ISOLATED: bit(flags, 6), LISTED: bit(flags, 9),
-		TRIANGLE_ORDER: bit(flags, 10), VERTEX_ORDER: bit(flags, 11),
+		TRIANGLE_ORDER: bit(flags, 10), VERTEX_ORDER: bit(flags, 11), MIRRORS: bit(flags, 12),
 		COPIES: surface === 1 || surface === 2, INTERIOR_COPIES: surface === 2, PIVOTS: surface === 3,
 	};
 	valid(piece.SEAMS || !piece.CREASES, 'A.2.2', 'CREASES without SEAMS');
@@ -137,11 +140,11 @@ function readParts(reader, piece) {
 }
 
 // [A.2.3]
-function readAttributes(reader, piece, before, totals, isBlock) {
+function readAttributes(reader, header, piece, before, totals) {
 	const within = (count) => failUnless(count <= LIMITS.attributes, 'Limit', 'A.2.3', 'too many attributes');
 	if (piece.SAME_ATTRIBUTES) {
 		valid(before !== undefined, 'A.2.3', 'the first piece has SAME_ATTRIBUTES');
-		if (!isBlock) within(totals.attributes += before.attributes.length);
+		if (!header.BLOCKS) within(totals.attributes += before.attributes.length);
 		const { attributes, octahedralNormal, exactNormal } = before;
 		Object.assign(piece, { attributes, octahedralNormal, exactNormal });
 	} else {
@@ -154,7 +157,10 @@ function readAttributes(reader, piece, before, totals, isBlock) {
 	}
 	const { SAME_ATTRIBUTES, attributes } = piece;
 	piece.component_sum = SAME_ATTRIBUTES ? before.component_sum : sumOf(attributes.map((a) => a.components));
-	valid(piece.attributes.length !== 0 || !piece.CREASES, 'A.2.3', 'CREASES without attributes');
+	const needsAttributes = piece.CREASES || piece.MIRRORS;
+	valid(piece.attributes.length !== 0 || !needsAttributes, 'A.2.3', 'CREASES or MIRRORS without attributes');
+	const planes = piece.attributes.length !== 0 && (piece.attributes[0].predictor & PLANES) !== 0;
+	valid(!planes || !piece.MIRRORS, 'A.6.2', 'planes is set in a piece with MIRRORS');
 }
 
 const POSITION_CODINGS = [0, 1, 2, 6];

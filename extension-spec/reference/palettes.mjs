@@ -11,21 +11,32 @@ import { residualOfSlot } from './positionresiduals.mjs';
 import { vector } from './prediction.mjs';
 
 export const paletteModels = () => ({
-	PRESENT: arrayOf(3), REGULAR: arrayOf(2), CHANGE: arrayOf(2), COUNT: golombModel(), FIRST: golombModel(),
-	GAP: golombModel(),
+	PRESENT: arrayOf(3), REGULAR: arrayOf(2), CHANGE: arrayOf(2), IMAGE: arrayOf(2), COUNT: golombModel(),
+	FIRST: golombModel(), GAP: golombModel(),
 });
 
-// [A.6.11] The palette of each axis; undefined for an axis without one.
-export const readPalettes = (coder, models, groupCount) =>
-	(vector((s) => (bit(coder, models.PRESENT[s]) ? readPalette(coder, models, groupCount) : undefined)));
+// [A.6.11] The palette of each axis; undefined for an axis without one. Without MIRRORS there are no mirrors.
+export const readPalettes = (coder, models, groupCount, mirrors) => vector((s) => {
+	const mirror = mirrors.find(({ axis }) => axis === s);
+	return bit(coder, models.PRESENT[s]) ? readPalette(coder, models, groupCount, mirror) : undefined;
+});
 
 const valid = (condition, message) => failUnless(condition, 'BadAttribute', 'A.6.11', message);
-function readPalette(coder, models, groupCount) {
+function readPalette(coder, models, groupCount, mirror) {
 	const count = golomb(coder, models.COUNT) + 1;
 	valid(count <= groupCount && count <= 2 ** 23, 'a palette has more values than there are groups');
 	const value = [signedGolomb(coder, models.FIRST)];
-	let gap = 1, c = 0;
+	let gap = 1, c = 0, image = 0;
 	for (let i = 1; i < count; ++i) {
+		const next = mirror === undefined ? undefined : nextImage(value, mirror.sum);
+		if (next !== undefined) {
+			image = bit(coder, models.IMAGE[image]);
+			if (image) {
+				gap = next - value[i - 1];
+				value.push(next);
+				continue;
+			}
+		}
 		c = bit(coder, models.REGULAR[c]);
 		if (!c) gap = golomb(coder, models.GAP) + 1;
 		else if (bit(coder, models.CHANGE[0])) gap += bit(coder, models.CHANGE[1]) ? 1 : -1;
@@ -33,6 +44,21 @@ function readPalette(coder, models, groupCount) {
 		valid(gap >= 1 && value[i] <= 2 ** 31 - 1, 'the values of a palette do not ascend, or exceed 31 bits');
 	}
 	return { value, ...cellsOf(value) };
+}
+
+// [A.6.11] The smallest image of a value that is above the last value, undefined if there is none below 2^31. The
+// values ascend, so that it is the image of the last one of them that has such an image.
+function nextImage(value, sum) {
+	const last = value[value.length - 1];
+	let low = 0, high = value.length;
+	while (low < high) {
+		const middle = (low + high) >> 1;
+		if (sum - value[middle] > last) low = middle + 1;
+		else high = middle;
+	}
+	if (low === 0) return undefined;
+	const image = sum - value[low - 1];
+	return image < 2 ** 31 ? image : undefined;
 }
 
 // [A.6.11] The ranks, in 1/256, at the ends of cells that are 2^g wide.

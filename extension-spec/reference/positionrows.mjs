@@ -40,7 +40,7 @@ function frequenciesOf(bucket) {
 const sumOf = (numbers) => numbers.reduce((a, b) => a + b, 0);
 
 // [A.6.7] makeRow(f)
-function cumulative(frequencies) {
+export function cumulative(frequencies) {
 	const total = sumOf(frequencies), c = [];
 	let before = 0;
 	for (let i = 0; i < 16; ++i) {

@@ -6,6 +6,9 @@ import { FOLD, GRID, PALETTE, PLANES, SHEAR, SPLIT } from './attributeheader.mjs
 import { f, move } from './floats.mjs';
 import { readTails } from './grids.mjs';
 import { isolatedModels, readIsolated } from './isolated.mjs';
+import {
+	candidatesOf, createMates, findMates, lookedAt, magnitudeOfImage, mirrorModels, readImage, readMirrors,
+} from './mirrors.mjs';
 import { decodeInOrder } from './order.mjs';
 import { codeWithPalettes, paletteModels, readPalettes } from './palettes.mjs';
 import { codeWithPlanes, planeModels, readPlanes } from './planes.mjs';
@@ -15,9 +18,11 @@ import { bitsOfPosition, readTables, tableModels } from './positiontables.mjs';
 import { normalOfFan, predict, sortAxes, vector } from './prediction.mjs';
 import { NONE, prev } from './surface.mjs';
 
+const FILE_ORDER = [0, 1, 2];
+
 export const positionModels = () => ({
 	tables: tableModels(), ...residualModels(), isolated: isolatedModels(), palettes: paletteModels(),
-	planes: planeModels(),
+	planes: planeModels(), mirrors: mirrorModels(),
 });
 
 // [A.6] The coordinates q of every group, then of every isolated wedge, and the sequence of the groups.
@@ -30,10 +35,12 @@ export function decodePositions(coder, models, gridModels, piece, surface, group
 		...readTables(coder, models.tables, predictor),
 		last: vector(() => 2 ** P / 2), farScale: vector(() => 8 * 2 ** P), nearScale: vector(() => 64),
 	};
-	if (predictor & PALETTE) p.palettes = readPalettes(coder, models.palettes, groups.count);
+	const mirrors = piece.MIRRORS ? readMirrors(coder, P) : [];
+	if (piece.MIRRORS) p.mates = createMates(mirrors, groups.count);
+	if (predictor & PALETTE) p.palettes = readPalettes(coder, models.palettes, groups.count, mirrors);
 	if (predictor & PLANES) p.planes = readPlanes(coder);
 	const sequence = decodeInOrder(surface, piece, groups, {
-		codeSeed: (h, neighbour) => codeSeed(p, surface.tail[h], neighbour),
+		codeSeed: (h, neighbour) => codeSeed(p, h, neighbour),
 		codeFan: (fan) => codeFan(p, fan),
 	});
 	for (const q of readIsolated(coder, models.isolated, piece.isolated_count)) p.q.push(q);
@@ -54,9 +61,27 @@ function degreesOf(surface, groupCount) {
 // [A.6.3]
 function codeFan(p, fan) {
 	const prediction = predict(p, fan);
+	if (p.mates === undefined) return codeFanAlone(p, fan, prediction);
+	const axis = () => (p.predictor & SHEAR ? sortAxes([0, 1, 2], normalOfFan(p, fan)) : FILE_ORDER);
+	const seen = { v: fan.v, start: fan.fan[0], neighbours: lookedAt(fan), prediction, axis };
+	return codeWithMirrors(p, seen, () => codeFanAlone(p, fan, prediction));
+}
+
+function codeFanAlone(p, fan, prediction) {
 	if (p.predictor & PLANES) return keep(p, fan.v, codeWithPlanes(p, fan, prediction, normalOfFan(p, fan)));
 	if (p.predictor & SHEAR) return keep(p, fan.v, codeSheared(p, fan, prediction));
 	return keep(p, fan.v, codeUnsheared(p, prediction, contextsOf(p, fan, prediction)));
+}
+
+// [A.6.14] A vertex that may be an image; codeAlone() codes one that is not.
+function codeWithMirrors(p, { v, start, neighbours, prediction, axis }, codeAlone) {
+	const { step, fraction } = prediction;
+	const expected = vector((s) => (step[s] + ((fraction[s] + 128) >> 8)) | 0);
+	const image = readImage(p, candidatesOf(p, neighbours, expected));
+	if (image === undefined) codeAlone();
+	else keep(p, v, { q: image.q, magnitude: magnitudeOfImage(image.q, expected, axis()) });
+	p.mates.start[v] = start;
+	findMates(p, v, image?.candidate);
 }
 
 function keep(p, g, { q, magnitude }) {
@@ -114,7 +139,17 @@ function shearOf(normal, fold) {
 }
 
 // [A.6.8]
-function codeSeed(p, g, neighbour) {
+function codeSeed(p, h, neighbour) {
+	const g = p.surface.tail[h];
+	if (p.mates === undefined) return codeSeedAlone(p, g, neighbour);
+	// Without a neighbour there are no candidates, and what is expected has no effect.
+	const neighbours = neighbour === NONE ? [] : [neighbour];
+	const prediction = { step: neighbour === NONE ? [0, 0, 0] : p.q[neighbour], fraction: [0, 0, 0] };
+	const seen = { v: g, start: h, neighbours, prediction, axis: () => FILE_ORDER };
+	return codeWithMirrors(p, seen, () => codeSeedAlone(p, g, neighbour));
+}
+
+function codeSeedAlone(p, g, neighbour) {
 	const alone = neighbour === NONE, scales = alone ? p.farScale : p.nearScale, zero = [0, 0, 0];
 	const step = alone ? p.last.slice() : p.q[neighbour].slice();
 	const prediction = { step, fraction: zero.slice(), spread: zero, third: zero, magnitudes: zero };

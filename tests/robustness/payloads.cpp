@@ -10,6 +10,7 @@
 #include "mcc/writer.h"
 #include "support/mesh_compare.h"
 #include "support/mesh_generators.h"
+#include "support/mirrored.h"
 
 namespace mcc::test {
 namespace {
@@ -148,6 +149,19 @@ void addExact(PayloadList& list, const TestMesh& mesh) {
   list.add("exact attributes on " + mesh.name, {&view, 1});
 }
 
+void addMirrors(PayloadList& list) {
+  list.add(mirrored(halfSheet(7, 5, 1), 0));
+  list.add(withNoise(mirrored(mirrored(halfSheet(6, 5, 2), 0), 1), 14));
+  for (uint64_t variation = 1; variation <= 6; ++variation) {
+    EncodeSettings settings;
+    settings.variation = variation;
+    list.add(mirrored(book(4, 3, 2), 0), {static_cast<uint8_t>(variation % 2 * 12), 0, 0},
+             settings);
+  }
+  // Three streams.
+  list.add(mirrored(halfSheet(50, 40, 3), 0));
+}
+
 std::vector<NamedPayload> makePayloads() {
   PayloadList list;
   list.add(tetrahedron());
@@ -194,6 +208,7 @@ std::vector<NamedPayload> makePayloads() {
   list.add(chartGrid(50, 50, 9));
   list.add(unionOf(std::array{randomVoxels(5, 9, 40), book(5, 8, 8), flipped(icosphere(4), 3, 999)},
                    "big copies"));
+  addMirrors(list);
   addParts(list, withDegenerates(withIndexDuplicates(grid(50, 50), 1, 80), 2, 80), 3);
   addAttributes(list, withNormals(torus(60, 40)));
   list.add(shuffled(chartGrid(50, 50, 9), 1), {}, keepingOrders(true, true));

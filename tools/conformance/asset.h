@@ -56,6 +56,7 @@ struct Source {
   std::string shows;  ///< one sentence
   std::vector<SourcePiece> pieces;
   EncodeSettings options;
+  bool may_have_mirrors = false;  ///< assets of version 1.0 have none
 };
 
 /// What a primitive names of a piece.

@@ -37,6 +37,9 @@ class HeaderFields {
   Bytes& bytes(const std::string& name);
   /// Sets a field, as a varint or in the field's fixed size.
   void set(const std::string& name, uint32_t value);
+  void setMinorVersion(uint8_t minor) {
+    version_ = static_cast<uint8_t>((version_ & 0xf0) | minor);
+  }
   void insertBefore(const std::string& name, const std::string& added, const Bytes& bytes);
   void erase(const std::string& name);
 

@@ -78,6 +78,7 @@ class Maker {
     documents();
     sharedAccessors();
     emptyParts();
+    mirrors();
     if (!problems_.empty()) throw std::runtime_error(problems_);
     return std::move(all_);
   }
@@ -1357,6 +1358,57 @@ class Maker {
                p.erase("targets");
                j["accessors"][p["indices"].get<size_t>()]["count"] = 0;
              });
+  }
+
+  void mirrors() {
+    const std::vector<Source> sources = mirroredSources();
+    const Asset asset = encodeSource(sources[0]);
+    const auto bad = [&](const std::string& name, const std::string& section,
+                         const std::string& shows,
+                         const std::function<void(HeaderFields&)>& change) {
+      block(name, section, Error::kBadHeader, shows, asset, change);
+    };
+    bad("mirrors with planes", "A.6.2", "MIRRORS with planes",
+        [](HeaderFields& f) { f.set("0.0.predictor", position_mode::kPlanes); });
+    bad("mirrors without attributes", "A.2.3", "MIRRORS without attributes", [](HeaderFields& f) {
+      f.set("0.attributes", 0);
+      for (const char* const name :
+           {"kind", "predictor", "lattice", "step", "origin 0", "origin 1", "origin 2"}) {
+        if (f.has(std::string("0.0.") + name)) f.erase(std::string("0.0.") + name);
+      }
+    });
+    bad("mirrors in 1 0", "A.2.2", "MIRRORS in a payload of version 1.0",
+        [](HeaderFields& f) { f.setMinorVersion(0); });
+    block("mirrors in a block", "A.11.1", Error::kBadHeader, "A block has MIRRORS",
+          encodeSource(blockSources()[0]), [](HeaderFields& f) {
+            f.setMinorVersion(1);
+            f.set("0.flags", f.get("0.flags") | piece_flag::kMirrors);
+          });
+    searchMirrors(asset);
+  }
+
+  /// Damages streams until each error of mirrors was met.
+  void searchMirrors(const Asset& asset) {
+    std::map<std::string, const char*> wanted = {
+        {"a mirror has no axis", "The axis of a mirror is 3"},
+        {"there are too many mirrors", "Four mirrors"},
+        {"a vertex is the image of none",
+         "A vertex is the image of a candidate that there is not"}};
+    test::Random random(1);
+    const size_t first = static_cast<size_t>(headerOf(asset.payload).header_bytes);
+    for (uint32_t round = 0; round < 200 * kRounds && !wanted.empty(); ++round) {
+      Bytes payload = asset.payload;
+      const size_t rest = payload.size() - first;
+      payload[first + random.below(static_cast<uint32_t>(rest))] ^=
+          static_cast<uint8_t>(1 + random.below(255));
+      repairChecksum(payload);
+      const Status status = decode(payload);
+      const auto found = wanted.find(status.what);
+      if (status.ok() || found == wanted.end()) continue;
+      add(found->first, "A.6.14", Error::kBadAttribute, found->second, asset, payload);
+      wanted.erase(found);
+    }
+    for (const auto& [what, shows] : wanted) problems_ += what + ": was not found\n";
   }
 
   // ---- Documents that a validator reports -------------------------------------------------------

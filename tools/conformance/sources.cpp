@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "support/mesh_generators.h"
+#include "support/mirrored.h"
 
 namespace mcc::conformance {
 namespace {
@@ -1155,6 +1156,63 @@ std::vector<Source> rareSources() {
                            });
                          }));
     all.back().options.variation = variation;
+  }
+  return all;
+}
+
+namespace {
+
+/// Vertices on mirrors, near images, seeds that are images, and halves that are apart.
+void mirroredSurfaces(std::vector<Source>& all) {
+  const auto positions = [](SourceBuilder& b) { b.positions(12, Floats::kAny); };
+  const TestMesh half = halfSheet(6, 5, 1);
+  const TestMesh one = mirrored(half, 0);
+  const TestMesh two = mirrored(one, 1);
+  const TestMesh three = mirrored(two, 2);
+  const TestMesh apart = translated(jittered(torus(7, 5), 1, 0.05f), 4, 0, 0);
+  all.push_back(single("one", "A surface with two equal halves", one, positions));
+  all.push_back(single("two", "Four equal quarters", two, positions));
+  all.push_back(
+      single("three", "Eight equal parts, two of which meet in no edge", three, positions));
+  all.push_back(single("near", "Images that are a step away", withNoise(two, 12), positions));
+  all.push_back(single("apart", "The halves are two components: a seed has no candidates",
+                       mirrored(apart, 0), positions));
+  all.push_back(single("other_triangles", "The triangles of the halves differ", flipped(two, 3, 20),
+                       positions));
+  all.push_back(
+      single("bowties", "Seeds that are images", mirrored(bowTies(4, 3, 2), 0), positions));
+  all.push_back(single("not_manifold", "Halves of a surface that is cut or has pivots",
+                       mirrored(book(4, 3, 3), 0), positions));
+  all.push_back(single("crowded", "Vertices with more corners than are looked at",
+                       mirrored(openFan(40), 0), positions));
+  all.push_back(
+      single("isolated", "Isolated wedges have no images", withUnused(one, 3, 9), positions));
+}
+
+}  // namespace
+
+std::vector<Source> mirroredSources() {
+  std::vector<Source> all;
+  mirroredSurfaces(all);
+  all.push_back(single("integers", "Integer positions with mirrors",
+                       mirrored(halfSheet(6, 5, 2), 1),
+                       [](SourceBuilder& b) { b.integerPositions(ComponentType::kInt16); }));
+  all.push_back(single("floats", "Exact floats with mirrors", mirrored(halfSheet(6, 5, 3), 0),
+                       [](SourceBuilder& b) { b.positions(0, Floats::kAny); }));
+  // Any mirrors, with any way to code positions: palettes with images, shear, weights.
+  const size_t plain = all.size();
+  for (size_t i = 0; i < plain; ++i) {
+    for (uint64_t variation = 1; variation <= 2; ++variation) {
+      Source source = all[i];
+      source.name += "_" + std::to_string(variation);
+      source.options.variation = 10 * i + variation;
+      all.push_back(std::move(source));
+    }
+  }
+  for (Source& source : all) {
+    source.name = "mirrors_" + source.name;
+    source.shows = "Mirrors: " + source.shows;
+    source.may_have_mirrors = true;
   }
   return all;
 }

@@ -285,10 +285,14 @@ Suite makeSuite() {
   addFound(candidates);
   for (const Source& source : rareSources()) addAsset(candidates, encodeSource(source));
   addSpellings(candidates);
+  for (const Source& source : mirroredSources()) {
+    Asset asset = encodeSource(source);
+    if (asset.payload[kVersionOffset] != kVersionMajor << 4) addAsset(candidates, std::move(asset));
+  }
   numberNames(candidates);
   Suite suite;
   Json manifest = {{"extension", gltf::kExtensionName},
-                   {"payloadVersion", "1.0"},
+                   {"payloadVersion", "1.1"},
                    {"assets", Json::array()},
                    {"negative", Json::array()},
                    {"invalid", Json::array()}};

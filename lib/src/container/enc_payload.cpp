@@ -139,10 +139,18 @@ uint32_t writePadding(ByteWriter& out, const PayloadHeader& header, uint64_t hav
   return flags | payload_flag::kPadded;
 }
 
-ByteWriter beginPayload(uint32_t flags) {
+/// Returns the first minor version that has all that the payload uses.
+uint32_t minorVersionOf(const PayloadHeader& header) {
+  for (size_t i = 0; i < header.pieces.size(); ++i) {
+    if (header.pieces[i].has(piece_flag::kMirrors)) return 1;
+  }
+  return 0;
+}
+
+ByteWriter beginPayload(const PayloadHeader& header, uint32_t flags) {
   ByteWriter out;
   out.writeU8(kMagic);
-  out.writeU8(static_cast<uint8_t>(kVersionMajor << 4 | kVersionMinor));
+  out.writeU8(static_cast<uint8_t>(kVersionMajor << 4 | minorVersionOf(header)));
   out.writeU32(0);  // the checksum
   out.writeU8(static_cast<uint8_t>(flags));
   return out;
@@ -176,7 +184,7 @@ std::vector<uint8_t> writePayload(const PayloadHeader& header, const Streams& st
     pieces.writeVarint(static_cast<uint32_t>(streams.tokens.size()));
   }
   const uint64_t have = kChecksummedFrom + 1 + pieces.size() + bytesOf(streams);
-  ByteWriter out = beginPayload(writePadding(pieces, header, have));
+  ByteWriter out = beginPayload(header, writePadding(pieces, header, have));
   out.writeBytes(pieces.bytes());
   writeStreams(out, streams);
   return endPayload(out);
@@ -196,7 +204,7 @@ std::vector<uint8_t> writeBlocks(PayloadHeader& header, std::span<const Streams>
     writeBlock(pieces, header, i);
   }
   const uint64_t have = kChecksummedFrom + 1 + pieces.size() + stream_bytes;
-  ByteWriter out = beginPayload(writePadding(pieces, header, have));
+  ByteWriter out = beginPayload(header, writePadding(pieces, header, have));
   const size_t other_bytes = out.size() + pieces.size();
   size_t length_bytes = 1;  // of the header's length, which counts its own bytes too
   while ((other_bytes + length_bytes) >> (7 * length_bytes) != 0) ++length_bytes;

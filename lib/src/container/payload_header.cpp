@@ -187,8 +187,8 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
     MCC_TRY(in.readVarint(piece.attribute_count));
   }
   if (piece.attribute_count == 0) {  // indices only
-    return piece.has(piece_flag::kCreases)
-               ? fail(Error::kBadHeader, "a piece without positions has creases", at)
+    return piece.has(piece_flag::kCreases | piece_flag::kMirrors)
+               ? fail(Error::kBadHeader, "a piece without positions has creases or mirrors", at)
                : Status{};
   }
   if (header.hasBlocks() && !header.pieces.empty()) {
@@ -220,6 +220,8 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
        position.bits > position_mode::kMaxBitsOfPlanes)) {
     return fail(Error::kBadHeader, "these positions cannot have planes", at);
   }
+  if ((position.predictor & position_mode::kPlanes) != 0 && piece.has(piece_flag::kMirrors))
+    return fail(Error::kBadHeader, "positions with planes have mirrors", at);
   return {};
 }
 
@@ -245,7 +247,7 @@ struct Totals {
 Status checkBlock(const PayloadHeader& header, const PieceHeader& block, size_t at) {
   const bool is_first = header.pieces.empty();
   if (block.hasPivots() || block.face_count == 0 || block.attribute_count == 0 ||
-      block.has(piece_flag::kTriangleOrder | piece_flag::kVertexOrder) ||
+      block.has(piece_flag::kTriangleOrder | piece_flag::kVertexOrder | piece_flag::kMirrors) ||
       block.has(piece_flag::kSameAttributes) == is_first ||
       (!is_first && block.part_count != header.pieces[0].part_count)) {
     return fail(Error::kBadHeader, "a block has what no block has", at);
@@ -258,7 +260,8 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, T
   PieceHeader piece;
   const size_t at = in.offset();
   MCC_TRY(in.readVarint(piece.flags));
-  if ((piece.flags & ~piece_flag::kAll) != 0)
+  const uint32_t reserved = header.version_minor == 0 ? piece_flag::kMirrors : 0;
+  if ((piece.flags & (~piece_flag::kAll | reserved)) != 0)
     return fail(Error::kBadHeader, "reserved bits are set", at);
   if (piece.has(piece_flag::kCreases) && !piece.has(piece_flag::kSeams))
     return fail(Error::kBadHeader, "a piece without seams has creases", at);

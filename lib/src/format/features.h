@@ -37,6 +37,7 @@ enum class Feature : uint8_t {
   kExactNormals,
   kExactGrids,
   kMemory,
+  kMirrors,
 };
 
 struct FeatureInfo {
@@ -72,6 +73,7 @@ inline constexpr FeatureInfo kFeatures[] = {
     {Feature::kExactNormals, "exact-normals", "A.10", "exact normals as values on a grid"},
     {Feature::kExactGrids, "exact-grids", "A.10.5", "exact floats as ordered integers"},
     {Feature::kMemory, "memory", "A.10.10", "charts and exact normals remember nothing"},
+    {Feature::kMirrors, "mirrors", "A.6.14", "mirrored halves are coded twice"},
 };
 
 /// A set of features.

@@ -16,7 +16,7 @@ inline constexpr uint8_t kMagic = 'K';
 inline constexpr uint8_t kWithdrawnMagic[3] = {'M', 'C', 'C'};  ///< of a draft
 /// The version of the format. Readers accept any minor one: reserved bits announce what it adds.
 inline constexpr uint8_t kVersionMajor = 1;
-inline constexpr uint8_t kVersionMinor = 0;
+inline constexpr uint8_t kVersionMinor = 1;  ///< the highest; what uses nothing new is written as 0
 inline constexpr size_t kVersionOffset = 1;
 inline constexpr size_t kChecksumOffset = 2;
 inline constexpr size_t kChecksummedFrom = 6;  ///< the checksum covers bytes 0, 1 and from here on
@@ -43,9 +43,12 @@ inline constexpr uint32_t kSurfaceMask = 3u << kSurfaceShift;  ///< SurfaceCodin
 inline constexpr uint32_t kListed = 1u << 9;
 inline constexpr uint32_t kTriangleOrder = 1u << 10;
 inline constexpr uint32_t kVertexOrder = 1u << 11;
-inline constexpr uint32_t kAll = 0xfff;
+inline constexpr uint32_t kMirrors = 1u << 12;  ///< of minor version 1
+inline constexpr uint32_t kAll = 0x1fff;
 /// The flags of pieces that this decoder knows.
-inline constexpr uint32_t kDecoded = kAll & ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder);
+inline constexpr uint32_t kDecoded = kAll &
+                                     ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder) &
+                                     ~(decodes::kMirrors ? 0 : kMirrors);
 }  // namespace piece_flag
 
 struct PieceFlagInfo {
@@ -65,6 +68,7 @@ inline constexpr PieceFlagInfo kPieceFlags[] = {
     {piece_flag::kCreases, "CREASES", "A.7.4"},
     {piece_flag::kTriangleOrder, "TRIANGLE_ORDER", "A.3.5 A.9.1 A.9.2"},
     {piece_flag::kVertexOrder, "VERTEX_ORDER", "A.3.5 A.9.1 A.9.3"},
+    {piece_flag::kMirrors, "MIRRORS", "A.6.14"},
 };
 
 struct SurfaceInfo {

@@ -220,7 +220,7 @@ class Trials {
     CostIo io;
     PaletteModels models;
     for (const PositionCandidate& piece : pieces_) {
-      (void)PositionPalettes(Allocator{}).code(io, models, piece.palettes, ~0u);
+      (void)PositionPalettes(Allocator{}).code(io, models, piece.palettes, ~0u, Mirrors{});
     }
     return static_cast<double>(io.cost()) / kCostOne;
   }

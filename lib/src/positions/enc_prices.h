@@ -24,6 +24,8 @@ inline constexpr double kPaletteValue = 40;
 /// pivots instead of collapsed.
 inline constexpr double kCopy = 250;
 inline constexpr double kPivotFace = 40;
+/// Candidates are looked for around the mates of three neighbours.
+inline constexpr double kMirrors = 20;
 /// Compared with three streams; a single coder needs a division per token.
 inline constexpr double kSingleCoder = 60;
 }  // namespace price_ns

@@ -147,7 +147,7 @@ class PositionRecording {
       any_.push_back(fan.o[i] != nullptr ? indexOf(fan.o[i]) : kNone);
     }
   }
-  void seed(uint32_t v, const VertexRecord* neighbour) {
+  void seed(uint32_t v, const VertexRecord* neighbour, uint32_t) {
     addVisit(v, neighbour != nullptr ? indexOf(neighbour) : kNoNeighbour, Kind::kSeed);
   }
   Status check() const { return {}; }

@@ -87,6 +87,7 @@ struct AnyFan {
   const VertexRecord* n[2 * kFanLimit + 2];  ///< neighbours, starting from the clockwise-most
   /// Across from v over the edge n[i], n[i+1]; null if unknown.
   const VertexRecord* o[2 * kFanLimit + 1];
+  uint32_t first;  ///< the clockwise-most half-edge of the fan that leaves the vertex
   uint32_t face_count;
   uint32_t neighbour_count;  ///< face_count, or one more if the fan is not closed
   bool closed;
@@ -220,7 +221,7 @@ Status RegionGrowth::plantSeed(Visitor& visitor, uint32_t& cursor) {
       const VertexRecord* neighbour = nullptr;
       if (known(faces_.vertex(nextHalfEdge(h)))) neighbour = &recordAt(nextHalfEdge(h));
       if (known(faces_.vertex(prevHalfEdge(h)))) neighbour = &recordAt(prevHalfEdge(h));
-      visitor.seed(v, neighbour);
+      visitor.seed(v, neighbour, h);
       entered(h);
       pushRing(h);
       pushOtherUmbrellas(v, h);
@@ -352,6 +353,7 @@ inline void RegionGrowth::walkFan(uint32_t half_edge, AnyFan& fan) {
     if (next == h[end - 1]) break;  // met the other side beyond its limit
     h[--first] = next;
   }
+  fan.first = h[first];
   fan.face_count = end - first;
   fan.neighbour_count = fan.face_count + (fan.closed ? 0 : 1);
   for (uint32_t i = 0; i < fan.face_count; ++i) {

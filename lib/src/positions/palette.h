@@ -13,6 +13,7 @@
 #include "base/memory.h"
 #include "entropy/numbers.h"
 #include "mcc/status.h"
+#include "positions/mirror.h"
 
 namespace mcc {
 
@@ -91,6 +92,7 @@ struct PaletteModels {
   BitModel regular[2];  ///< whether a gap is nearly the one before, given whether that one was
   BitModel change[2];
   GolombModel gap;
+  BitModel image[2];  ///< whether a value is an image of one before, given whether the last was
 };
 
 /// Owns the palettes of a piece and their memory.
@@ -107,12 +109,14 @@ class PositionPalettes {
   }
 
   /// Codes the palettes; `truth` has three (encoder). A palette with more values than `limit` is an
-  /// error.
+  /// error. Each axis has at most one of the mirrors that matters, the first.
   template <class Io>
-  Status code(Io& io, PaletteModels& models, const AxisPalette* truth, uint32_t limit) {
+  Status code(Io& io, PaletteModels& models, const AxisPalette* truth, uint32_t limit,
+              const Mirrors& mirrors) {
     for (uint32_t s = 0; s < 3; ++s) {
       if (!io.bit(models.present[s], Io::kEncoding && truth[s].count != 0)) continue;
-      MCC_TRY(codeAxis(io, models, Io::kEncoding ? truth[s] : AxisPalette{}, limit, values_[s]));
+      MCC_TRY(codeAxis(io, models, Io::kEncoding ? truth[s] : AxisPalette{}, limit,
+                       mirrors.across(s), values_[s]));
       if (!index(s)) return fail(Error::kOutOfMemory, "no memory for a palette");
     }
     return {};
@@ -121,7 +125,7 @@ class PositionPalettes {
  private:
   template <class Io>
   static Status codeAxis(Io& io, PaletteModels& models, const AxisPalette& truth, uint32_t limit,
-                         Array<int32_t>& values) {
+                         const Mirror* mirror, Array<int32_t>& values) {
     const uint32_t count = codeGolomb(io, models.count, truth.count - 1) + 1;
     if (count > std::min(limit, kMaxPalette) || count == 0) {
       return fail(Error::kBadAttribute, "a palette has more values than there are vertices");
@@ -131,7 +135,24 @@ class PositionPalettes {
     values[0] = static_cast<int32_t>(value);
     int64_t gap = 1;
     uint32_t context = 0;
+    uint32_t is_image = 0;
+    uint32_t behind = 0;  // the value whose image is the next one above `value` is before this
     for (uint32_t i = 1; i < count; ++i) {
+      if (mirror != nullptr) {
+        if (int64_t{mirror->sum} - value > value) behind = i;
+        while (behind != 0 && int64_t{mirror->sum} - values[behind - 1] <= value) --behind;
+        const int64_t image = behind != 0 ? int64_t{mirror->sum} - values[behind - 1] : 0;
+        if (behind != 0 && image <= INT32_MAX) {
+          is_image =
+              io.bit(models.image[is_image], Io::kEncoding && truth.values[i] == image) ? 1 : 0;
+          if (is_image != 0) {
+            gap = image - value;
+            value = image;
+            values[i] = static_cast<int32_t>(value);
+            continue;
+          }
+        }
+      }
       const int64_t target = Io::kEncoding ? int64_t{truth.values[i]} - truth.values[i - 1] : 0;
       const bool regular = target - gap <= 1 && gap - target <= 1;
       context = io.bit(models.regular[context], regular) ? 1 : 0;

@@ -87,7 +87,9 @@ class PositionCoder {
     Prediction prediction;
     vertex_.codeAny(io_, v, fan, prediction);
   }
-  void seed(uint32_t v, const VertexRecord* neighbour) { vertex_.codeSeed(io_, v, neighbour); }
+  void seed(uint32_t v, const VertexRecord* neighbour, uint32_t) {
+    vertex_.codeSeed(io_, v, neighbour);
+  }
   Status check() const {
     if (!io_.overrun()) return {};
     return fail(Error::kTruncated, "the token stream ends inside the positions");

@@ -87,6 +87,21 @@ class VertexCoder {
   }
   void codeSeed(Io& io, uint32_t v, const VertexRecord* neighbour);
 
+  /// Predicts a vertex with a plain fan, which codePlain() does by itself.
+  void predict(uint32_t v, const FaceView& faces, const PlainFan& fan,
+               Prediction& prediction) const {
+    Beyond beyond{};
+    if (has(position_mode::kWeights))
+      beyond = lookBeyond(faces, records_, fan, has(position_mode::kSelect));
+    predictPlain(p_, fan, &beyond, records_[v].degree(), modes(), prediction);
+  }
+  /// Stores a vertex at `q` that was expected at `from`. `axis` is that of each slot.
+  void storeAt(uint32_t v, const Lanes<uint32_t>& q, const Lanes<uint32_t>& from,
+               const uint8_t* axis) const {
+    const Lanes<uint32_t> d = q - from;
+    store(v, q, Lanes<uint32_t>{d[axis[0]], d[axis[1]], d[axis[2]], 0});
+  }
+
   bool has(uint32_t mode) const {
     if ((kModes >> 8 & mode) != 0) return (kModes & mode) != 0;
     return p_.has(mode);

@@ -27,6 +27,7 @@
 #include "format/decodes.h"
 #include "format/predictors.h"
 #include "positions/isolated.h"
+#include "positions/mirrored.h"
 #include "positions/positions.h"
 #include "reader/attribute_stage.h"
 #include "surface/leftovers.h"
@@ -41,6 +42,7 @@ struct PayloadModels {
   Lazy<PivotModels> pivots;
   Lazy<StitchModels> stitch;
   PositionModels positions;
+  Lazy<MirrorModels> mirrors;
   IsolatedModels isolated;
   TailModels position_tails;
   SeamModels seams;
@@ -72,6 +74,7 @@ struct PieceTruth {
   const int32_t* exact_positions = nullptr;
   const AxisPalette* palettes = nullptr;    ///< 3, if the position has them
   const AxisPlanes* planes = nullptr;       ///< 3, if the position has them
+  const Mirrors* mirrors = nullptr;         ///< if the piece has them
   const uint32_t* corner_source = nullptr;  ///< source wedge of corner 3f+k
   LeftoverTruth leftovers;
   const uint32_t* triangle_order = nullptr;  ///< see TriangleOrderCoder
@@ -266,6 +269,9 @@ class PieceCoder : public CodedPiece {
   template <uint32_t kModes>
   Status runModes(const PositionParameters& parameters, const PieceTruth& truth);
 
+  Status runMirrored(const PositionParameters& parameters, const Mirrors& mirrors,
+                     const PieceTruth& truth);
+
   /// Used without positions: enters the groups in the order of the faces.
   Status enterGroups() {
     Array<uint8_t> is_entered(allocator_);
@@ -348,9 +354,13 @@ Status PieceCoder<Io>::codePositions(const PieceTruth& truth, const PositionPara
   PositionParameters parameters = fitted != nullptr ? *fitted : PositionParameters{};
   describePositions(attributes_[0], parameters);
   MCC_TRY(codePositionTables(io_, models_.positions.tables, parameters));
+  Mirrors mirrors;
+  if (decodes::kMirrors && header_.has(piece_flag::kMirrors))
+    MCC_TRY(codeMirrors(io_, parameters.bits, Io::kEncoding ? *truth.mirrors : mirrors, mirrors));
   PositionPalettes palettes(allocator_);
   if (parameters.has(position_mode::kPalette)) {
-    MCC_TRY(palettes.code(io_, models_.positions.tables.palettes, truth.palettes, groups.count));
+    MCC_TRY(palettes.code(io_, models_.positions.tables.palettes, truth.palettes, groups.count,
+                          mirrors));
     for (uint32_t s = 0; s < 3; ++s) parameters.palette[s] = palettes.axis(s);
   }
   std::optional<GridPlanes> grid;  // small payloads would notice the time that its tables take
@@ -365,7 +375,11 @@ Status PieceCoder<Io>::codePositions(const PieceTruth& truth, const PositionPara
   models_.positions.rows.prepare(parameters.modes);
   sequence.clear();
   if (needsSequence() && !sequence.resize(groups.count)) return noMemory();
-  MCC_TRY(runPositions(parameters, truth));
+  if (decodes::kMirrors && header_.has(piece_flag::kMirrors)) {
+    MCC_TRY(runMirrored(parameters, mirrors, truth));
+  } else {
+    MCC_TRY(runPositions(parameters, truth));
+  }
   if (header_.isolated_count != 0) {
     const int32_t* const known =
         Io::kEncoding ? truth.positions + 3 * size_t{groups.count} : nullptr;
@@ -469,6 +483,17 @@ Status PieceCoder<Io>::codePositionTails(const PieceTruth& truth) {
   }
   if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside the positions");
   return {};
+}
+
+template <SymbolIo Io>
+Status PieceCoder<Io>::runMirrored(const PositionParameters& parameters, const Mirrors& mirrors,
+                                   const PieceTruth& truth) {
+  MirrorModels* const models = models_.mirrors.get(allocator_);
+  if (models == nullptr) return noMemory();
+  const GroupPositions vertices{groups, records.data(), truth.positions};
+  return MirroredPositionCoder<Io>(io_, models_.positions, *models, parameters, mirrors, mesh,
+                                   vertices)
+      .run(needsSequence() ? sequence.data() : nullptr);
 }
 
 template <SymbolIo Io>

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "exact/enc_grid.h"
+#include "positions/enc_mirrors.h"
 #include "positions/enc_prices.h"
 #include "writer/predictor_search.h"
 #include "writer/stages.h"
@@ -40,13 +41,75 @@ Status surfaceCost(Plan& plan, uint64_t& cost) {
 
 using Runners = std::vector<std::unique_ptr<StageRunner>>;
 
+/// The ways to code positions that are left when mirrors are still to be chosen. The first is the
+/// best without mirrors.
+using PositionChoices = std::vector<PositionParameters>;
+
 /// Chooses once for all pieces, since they share tables and models. Consumes the recordings.
-PositionParameters choosePositions(std::vector<RecordedPositions> recorded, double surface_bits,
-                                   const EncodeSettings& options, const Jobs& jobs) {
+PositionChoices choosePositions(std::vector<RecordedPositions> recorded, double surface_bits,
+                                const EncodeSettings& options, const Jobs& jobs) {
   std::vector<PositionCandidate> candidates;
-  for (const RecordedPositions& piece : recorded) candidates.push_back(piece.candidate);
-  return choosePositionParameters(candidates, surface_bits, {options.prefer, options.without},
-                                  jobs);
+  bool any_mirrors = false;
+  for (const RecordedPositions& piece : recorded) {
+    candidates.push_back(piece.candidate);
+    any_mirrors |= piece.has_mirrors;
+  }
+  PositionSettings settings{options.prefer, options.without};
+  PositionChoices choices = {choosePositionParameters(candidates, surface_bits, settings, jobs)};
+  // A palette of all coordinates is dear when mirrors save half of them.
+  if (any_mirrors && choices[0].has(position_mode::kPalette)) {
+    settings.without.add(Feature::kPalette);
+    choices.push_back(choosePositionParameters(candidates, surface_bits, settings, jobs));
+  }
+  return choices;
+}
+
+/// Gives all pieces the same way to code their positions.
+void setPositions(std::vector<Plan>& plans, const PositionParameters& parameters,
+                  bool with_mirrors) {
+  for (Plan& plan : plans) {
+    plan.positions_as = parameters;
+    plan.attributes[0].info.predictor = parameters.modes;
+    plan.header.flags &= ~piece_flag::kMirrors;
+    if (with_mirrors && plan.mirrors.count != 0) plan.header.flags |= piece_flag::kMirrors;
+  }
+}
+
+/// Counts what the positions of all pieces cost, with their surfaces.
+Status costWithPositions(std::vector<Plan>& plans, double& bits) {
+  EncoderIo io;
+  StageModels models;
+  for (Plan& plan : plans) {
+    StageRunner runner(io, models, plan);
+    MCC_TRY(runner.codeSurface(nullptr));
+    MCC_TRY(runner.codePositions(nullptr));
+  }
+  bits = static_cast<double>(io.cost()) / kCostOne;
+  return {};
+}
+
+/// Settles how positions are coded: by the first choice without mirrors, or by any with them.
+Status settlePositions(std::vector<Plan>& plans, const PositionChoices& choices,
+                       const EncodeSettings& options) {
+  setPositions(plans, choices[0], false);
+  const bool any_mirrors = std::any_of(plans.begin(), plans.end(),
+                                       [](const Plan& plan) { return plan.mirrors.count != 0; });
+  if (!any_mirrors || choices[0].has(position_mode::kPlanes)) return {};
+  double least = 0;
+  MCC_TRY(costWithPositions(plans, least));
+  const TimePrice price(options.prefer);
+  const PositionParameters* best = nullptr;
+  for (const PositionParameters& choice : choices) {
+    double bits = 0;
+    setPositions(plans, choice, true);
+    MCC_TRY(costWithPositions(plans, bits));
+    bits += price.surcharge(bits, price_ns::kMirrors);
+    if (bits >= least) continue;
+    least = bits;
+    best = &choice;
+  }
+  setPositions(plans, best != nullptr ? *best : choices[0], best != nullptr);
+  return {};
 }
 
 /// Lists the ways to code an attribute. Unit vectors on a grid may be coded as floats as well;
@@ -199,20 +262,36 @@ Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const 
   std::vector<RecordedPositions> recorded(plans.size());
   MCC_TRY(jobs.tryAll(plans.size(),
                       [&](size_t i) { return runners[i]->recordPositions(recorded[i]); }));
-  PositionParameters chosen;
+  for (size_t i = 0; i < plans.size() && !options.without.has(Feature::kMirrors); ++i) {
+    plans[i].mirrors = findMirrors(plans[i].positions, sumBits(recorded[i].candidate.bits));
+    recorded[i].has_mirrors = plans[i].mirrors.count != 0;
+  }
+  PositionChoices choices;
   MCC_TRY(jobs.tryAll(2, [&](size_t i) -> Status {
     if (i == 1) return chooseMethods(plans, runners, io, options);
-    chosen = choosePositions(std::move(recorded), surface_bits, options, jobs);
+    choices = choosePositions(std::move(recorded), surface_bits, options, jobs);
     return {};
   }));
-  for (Plan& plan : plans) {
-    plan.positions_as = chosen;
-    plan.attributes[0].info.predictor = chosen.modes;
-  }
-  return {};
+  return settlePositions(plans, choices, options);
 }
 
-Status varyAll(std::vector<Plan>& plans, Variation& variation) {
+namespace {
+
+/// Half of the pieces have mirrors, if the way to code positions allows them.
+void varyMirrors(std::vector<Plan>& plans, std::span<const PositionCandidate> candidates,
+                 Variation variation) {
+  for (size_t i = 0; i < plans.size(); ++i) {
+    Plan& plan = plans[i];
+    if (plan.positions_as.has(position_mode::kPlanes) || !variation.coin()) continue;
+    plan.header.flags |= piece_flag::kMirrors;
+    const uint32_t sum_bits = sumBits(candidates[i].bits);
+    plan.mirrors = variation.mirrors(findMirrors(plan.positions, sum_bits), sum_bits);
+  }
+}
+
+}  // namespace
+
+Status varyAll(std::vector<Plan>& plans, const FeatureSet& without, Variation& variation) {
   StageModels models;
   EncoderIo io;
   Runners runners;
@@ -236,6 +315,7 @@ Status varyAll(std::vector<Plan>& plans, Variation& variation) {
       plan.header.flags ^= piece_flag::kCreases;
     for (const uint32_t a : codingOrder(plan)) varyAttributeMethod(plan, a, variation);
   }
+  if (!without.has(Feature::kMirrors)) varyMirrors(plans, candidates, variation.apart());
   return {};
 }
 

@@ -16,6 +16,7 @@
 #include "exact/grid.h"
 #include "positions/enc_fit.h"
 #include "positions/enc_planes.h"
+#include "positions/mirrors.h"
 #include "prepare/enc_cut.h"
 #include "prepare/enc_quantize.h"
 #include "prepare/enc_triangles.h"
@@ -52,6 +53,7 @@ struct Plan {
   bool finds_coordinates = false;  ///< `coordinates` are still to be found
   std::optional<bool> has_planes;  ///< whether there are `planes`; nothing: not known yet
   AxisPlanes planes[3];
+  Mirrors mirrors;                  ///< if the header has them
   PositionParameters positions_as;  ///< the chosen parameters with fitted tables
   std::vector<uint32_t> wedge_source;
   std::vector<uint32_t> part_of_face;

@@ -111,6 +111,7 @@ Status StageRunner::codePositions(StreamSizes* sizes) {
     for (uint32_t s = 0; s < 3; ++s) palettes[s] = plan_.coordinates.palette(s);
     truth_->palettes = palettes;
     truth_->planes = plan_.planes;
+    truth_->mirrors = &plan_.mirrors;
   }
   MCC_TRY(piece_->codePositions(*truth_, &plan_.positions_as));
   account(sizes, &StreamSizes::position_bits);

@@ -11,6 +11,7 @@
 
 #include "format/predictors.h"
 #include "positions/enc_fit.h"
+#include "positions/mirror.h"
 
 namespace mcc {
 
@@ -34,6 +35,22 @@ class Variation {
   template <class T>
   T oneOf(const std::vector<T>& all) {
     return all[below(static_cast<uint32_t>(all.size()))];
+  }
+
+  /// Returns a sequence for choices that came later, which leave those of this one as they are.
+  Variation apart() const { return Variation((state_ ^ 0xd1b54a32d192ed03u) | 1); }
+
+  /// Returns the mirrors of a piece: those that were found, or any. `sum_bits` is how many bits a
+  /// sum may have, with its sign.
+  Mirrors mirrors(const Mirrors& found, uint32_t sum_bits) {
+    if (found.count != 0 && below(4) != 0) return found;
+    Mirrors any;
+    any.count = 1 + below(kMaxMirrors);
+    for (uint32_t i = 0; i < any.count; ++i) {
+      const uint32_t sum = below(1u << 31) << 1 | below(2);
+      any.mirror[i] = {below(3), static_cast<int32_t>(sum) >> (32 - sum_bits)};
+    }
+    return any;
   }
 
   PositionParameters positions(std::span<const PositionCandidate> pieces) {

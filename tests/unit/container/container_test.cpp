@@ -140,6 +140,7 @@ Draft anyDraft(uint64_t seed) {
                                 piece_flag::kIsolated, piece_flag::kListed, piece_flag::kSeams}) {
       h.flags |= sometimes(flag);
     }
+    if (seed % 16 == 8) h.flags |= piece_flag::kMirrors;
     h.setSurface(static_cast<SurfaceCoding>(random.below(4)));
     if (h.hasPivots()) h.flags &= ~(piece_flag::kHoles | piece_flag::kHandles);
     h.face_count = anyCount(random, limit) + 1;
@@ -207,7 +208,11 @@ TEST(Container, EveryFieldComesBack) {
     PayloadHeader parsed{Allocator{}};
     const Status status = parsePayload(payload, {}, parsed);
     ASSERT_TRUE(status.ok()) << seed << ": " << status.what;
-    EXPECT_EQ(parsed.version_minor, kVersionMinor);
+    // What uses nothing of a later minor version is written as the first one.
+    const bool mirrors = std::any_of(
+        draft.pieces.begin(), draft.pieces.end(),
+        [](const Draft::Piece& piece) { return piece.header.has(piece_flag::kMirrors); });
+    EXPECT_EQ(parsed.version_minor, mirrors ? 1 : 0);
     EXPECT_EQ(parsed.singleCoder(), (draft.flags & payload_flag::kSingleCoder) != 0);
     ASSERT_EQ(parsed.pieces.size(), draft.pieces.size());
     for (size_t p = 0; p < draft.pieces.size(); ++p) {
@@ -306,6 +311,14 @@ TEST(Container, ReservedBits) {
     EXPECT_EQ(errorAfter([bit](Draft& d) { d.pieces[0].header.flags |= 1u << bit; }),
               Error::kBadHeader);
   }
+  // What version 1.1 adds is reserved in 1.0.
+  Draft mirrors = simpleDraft();
+  mirrors.pieces[0].header.flags |= piece_flag::kMirrors;
+  std::vector<uint8_t> payload = mirrors.write();
+  EXPECT_EQ(parseError(payload), Error::kOk);
+  payload[kVersionOffset] = kVersionMajor << 4;
+  repairChecksum(payload);
+  EXPECT_EQ(parseError(payload), Error::kBadHeader);
 }
 
 TEST(Container, CountsThatContradictEachOther) {

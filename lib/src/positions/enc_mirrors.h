@@ -1,0 +1,21 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Finds the mirrors of a piece.
+#ifndef MCC_POSITIONS_ENC_MIRRORS_H_
+#define MCC_POSITIONS_ENC_MIRRORS_H_
+
+#include <cstdint>
+#include <span>
+
+#include "positions/mirrors.h"
+
+namespace mcc {
+
+/// Returns the mirrors across an axis that have images of most positions (3 coordinates each), with
+/// at least a tenth of all. `sum_bits` is how many bits a sum may have, with its sign.
+/// The time is linear in the number of positions.
+Mirrors findMirrors(std::span<const int32_t> positions, uint32_t sum_bits);
+
+}  // namespace mcc
+
+#endif  // MCC_POSITIONS_ENC_MIRRORS_H_

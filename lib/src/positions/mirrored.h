@@ -1,0 +1,159 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Codes the positions of a piece with mirrors: as positions/positions.h does, but first says of
+// each vertex whether it is the image of one that is known. [A.6.14]
+#ifndef MCC_POSITIONS_MIRRORED_H_
+#define MCC_POSITIONS_MIRRORED_H_
+
+#include <cstdint>
+
+#include "positions/mirrors.h"
+#include "positions/positions.h"
+
+namespace mcc {
+
+template <class Io>
+class MirroredPositionCoder {
+ public:
+  MirroredPositionCoder(Io& io, PositionModels& models, MirrorModels& mirror_models,
+                        const PositionParameters& parameters, const Mirrors& mirrors,
+                        FaceMesh& mesh, const GroupPositions& vertices)
+      : io_(io),
+        models_(mirror_models),
+        parameters_(parameters),
+        truth_(vertices.truth),
+        records_(vertices.records),
+        vertex_count_(vertices.groups.count),
+        vertex_(models.rows, parameters, vertices.records, vertices.truth),
+        growth_(mesh, vertices.groups, vertices.records, parameters.has(position_mode::kWeights),
+                mesh.allocator()),
+        mates_(growth_.faces(), vertices.records, mirrors, mesh.allocator()) {}
+
+  Status run(uint32_t* order) {
+    if (!mates_.init(vertex_count_)) return fail(Error::kOutOfMemory, "no memory for the mirrors");
+    MCC_TRY(growth_.run(*this, order));
+    return check();
+  }
+
+  // --- visitor of RegionGrowth ---
+
+  /// Nothing is gained from an inner loop: plain() codes all plain fans.
+  struct Plain {
+    explicit Plain(MirroredPositionCoder&) {}
+    bool visit(uint32_t, const PlainFan&) const { return false; }
+    void close(MirroredPositionCoder&) const {}
+    void reopen(MirroredPositionCoder&) const {}
+  };
+  void plain(uint32_t v, const PlainFan& fan) {
+    Prediction prediction;
+    vertex_.predict(v, growth_.faces(), fan, prediction);
+    const VertexRecord* const around[3] = {fan.n1, fan.n0, fan.n2};
+    code(v, prediction, around, 1);
+    mates_.add(v, prevHalfEdge(growth_.faces().twin(fan.beyond0)));
+  }
+  void fan(uint32_t v, const AnyFan& fan) {
+    Prediction prediction;
+    predictAny(parameters_, fan, prediction);
+    const uint32_t last = fan.neighbour_count - 1;
+    const VertexRecord* const around[3] = {fan.n[(last + 1) / 2], fan.n[0], fan.n[last]};
+    code(v, prediction, around, 0);
+    mates_.add(v, fan.first);
+  }
+  void seed(uint32_t v, const VertexRecord* neighbour, uint32_t half_edge) {
+    Lanes<uint32_t> from{};
+    if (neighbour != nullptr) from = coordinates(neighbour);
+    mates_.findCandidates({&neighbour, neighbour != nullptr ? 1u : 0u}, from);
+    if (!codeImage(v, from, kNoShear)) vertex_.codeSeed(io_, v, neighbour);
+    mates_.add(v, half_edge);
+  }
+  Status check() const {
+    if (names_none_) return fail(Error::kBadAttribute, "a vertex is the image of none");
+    if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside the positions");
+    return {};
+  }
+
+ private:
+  void code(uint32_t v, const Prediction& prediction,
+            std::span<const VertexRecord* const> neighbours, uint32_t is_plain) {
+    const FinePoint& at = prediction.at;
+    const Lanes<uint32_t> from =
+        at.step + lanesAs<uint32_t>(lanesAs<int32_t>(at.fraction + 128) >> 8);
+    mates_.findCandidates(neighbours, from);
+    const bool shears = parameters_.has(position_mode::kShear);
+    if (codeImage(v, from, shears ? makeShear(prediction.normal) : kNoShear)) return;
+    vertex_.codeVertex(io_, v, prediction, is_plain);
+  }
+
+  /// Returns whether the vertex is the image of a candidate; then it is coded.
+  bool codeImage(uint32_t v, const Lanes<uint32_t>& from, const Shear& shear) {
+    if (mates_.count() == 0) return false;
+    uint32_t choice = Io::kEncoding ? choose(v, from) : 0;
+    choice = io_.template token<0>(models_.candidate[mates_.context()], kPositionSchedule, choice);
+    if (choice == 0) return false;
+    const bool is_near = choice >= kNearCandidate;
+    const uint32_t candidate = choice - (is_near ? kNearCandidate : 1);
+    if (candidate >= mates_.count()) {
+      names_none_ = true;
+      return false;
+    }
+    mates_.name(candidate);
+    Lanes<uint32_t> q = mates_.imageOf(candidate);
+    if (is_near) q += residualFrom(v, q);
+    vertex_.storeAt(v, q, from, shear.axis);
+    return true;
+  }
+  Lanes<uint32_t> residualFrom(uint32_t v, const Lanes<uint32_t>& image) {
+    const auto code = [&](auto state, uint32_t s) {
+      constexpr uint32_t kState = kCompact ? 0 : decltype(state)::value;
+      const int32_t truth = Io::kEncoding ? static_cast<int32_t>(truthOf(v)[s] - image[s]) : 0;
+      return static_cast<uint32_t>(
+          codeResidual<kState>(io_, models_.residual[s], 0, 0, 0, truth, std::false_type{}));
+    };
+    const uint32_t x = code(std::integral_constant<uint32_t, 0>{}, 0);
+    const uint32_t y = code(std::integral_constant<uint32_t, 1>{}, 1);
+    const uint32_t z = code(std::integral_constant<uint32_t, 2>{}, 2);
+    return Lanes<uint32_t>{x, y, z, 0};
+  }
+
+  Lanes<uint32_t> truthOf(uint32_t v) const {
+    const int32_t* q = truth_ + 3 * size_t{v};
+    return Lanes<uint32_t>{static_cast<uint32_t>(q[0]), static_cast<uint32_t>(q[1]),
+                           static_cast<uint32_t>(q[2]), 0};
+  }
+  /// The encoder's choice: an image that is the vertex, else the nearest one if it is a step away
+  /// or far nearer than what is expected.
+  uint32_t choose(uint32_t v, const Lanes<uint32_t>& from) const {
+    const Lanes<uint32_t> q = truthOf(v);
+    const auto distance = [&](const Lanes<uint32_t>& to) {
+      const Lanes<uint32_t> d = absoluteLanes(to - q);
+      return uint64_t{d[0]} + d[1] + d[2];
+    };
+    uint32_t nearest = 0;
+    uint64_t least = ~uint64_t{0};
+    for (uint32_t i = 0; i < mates_.count(); ++i) {
+      const uint64_t d = distance(mates_.imageOf(i));
+      if (d == 0) return 1 + i;
+      if (d >= least) continue;
+      least = d;
+      nearest = i;
+    }
+    const uint64_t expected = distance(from);
+    const bool pays = least <= 3 ? least < expected : 8 * least < expected;
+    return pays ? kNearCandidate + nearest : 0;
+  }
+
+  Io& io_;
+  MirrorModels& models_;
+  const PositionParameters& parameters_;
+  const int32_t* const truth_;
+  VertexRecord* const records_;
+  const uint32_t vertex_count_;
+  VertexCoder<Io, kAnyModes> vertex_;
+  RegionGrowth growth_;
+  MirrorMates mates_;
+  bool names_none_ = false;  ///< a vertex is said to be the image of a candidate that there is not
+};
+
+}  // namespace mcc
+
+#endif  // MCC_POSITIONS_MIRRORED_H_
