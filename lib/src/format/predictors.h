@@ -58,6 +58,11 @@ namespace exact_tangent_method {
 inline constexpr uint8_t kPerpendicular = 0x01;  ///< perpendicular to the exact normal
 }  // namespace exact_tangent_method
 
+namespace tangent_method {                    // both methods of quantised tangents
+inline constexpr uint8_t kRepeats = 0x01;  ///< flags for tangents that one seen before is equal to
+inline constexpr uint8_t kFaces = 0x02;    ///< of points: they lie in the faces' planes
+}  // namespace tangent_method
+
 namespace texcoord_method {
 inline constexpr uint8_t kHinge = 0x01;  ///< otherwise the diagonal
 inline constexpr uint8_t kRemembers = 0x02;
@@ -128,6 +133,12 @@ inline constexpr PredictorField kNormalWeight = {
 inline constexpr PredictorField kNormalBlend = {
     normal_method::kBlend, 2, Feature::kNormalBlend, {{"", "", 0}, {"blend", "", 0}}};
 
+inline constexpr PredictorField kTangentRepeats = {tangent_method::kRepeats,
+                                                   2,
+                                                   Feature::kTangentRepeats,
+                                                   {{"", "", 0}, {"repeats", "", 5}},
+                                                   decodes::kTangentPoints};
+
 /// A mode of positions.
 constexpr PredictorField modeField(uint8_t mask, Feature feature, const char* word,
                                    const char* sections, uint8_t ns, bool is_decoded = true) {
@@ -188,15 +199,17 @@ inline constexpr MethodInfo kMethods[] = {
      "chart",
      "A.10.13 A.10.12 A.10.7",
      kHasEqualities,
-     1,
-     {detail::kEqualities}},
+     2,
+     {detail::kTangentRepeats, detail::kEqualities}},
     {AttributeMethod::kTangentPoint,
      "tangent point",
      "chart",
      "A.10.13 A.10.12 A.10.6",
      kHasEqualities,
-     1,
-     {detail::kEqualities},
+     3,
+     {detail::kTangentRepeats,
+      {tangent_method::kFaces, 2, Feature::kTangentFaces, {{"", "", 0}, {"faces", "", 5}}},
+      detail::kEqualities},
      decodes::kTangentPoints},
     {AttributeMethod::kSkin,
      "skin",

@@ -14,6 +14,7 @@
 
 #include "values/attribute_job.h"
 #include "vectors/normals.h"
+#include "vectors/tangent_repeats.h"
 #include "vectors/tangents.h"
 
 namespace mcc {
@@ -23,6 +24,7 @@ inline constexpr uint32_t kTangentPointWords = 3;  ///< grid point, 1 if the sig
 struct TangentPointModels {
   TokenRow row[2][kLengthContexts];
   BitModel negative[3];  ///< [predicted: unknown, positive, negative]
+  TangentRepeatModels repeats;
 
   TangentPointModels() {
     for (auto& component : row) {
@@ -46,12 +48,14 @@ class TangentPointCoder {
   /// `normals` has 3 floats per wedge; it is null if the piece has no normals. `sums` has 4 floats
   /// per wedge, from addFaceTangents(), which are overwritten.
   TangentPointCoder(const AttributeJob<Io>& job, TangentPointModels& models, const float* normals,
-                    float* sums)
+                    const int32_t* normal_points, float* sums)
       : job_(job),
         models_(models),
         centre_(octahedralCentre(job.info.bits)),
+        in_faces_((job.info.predictor & tangent_method::kFaces) != 0),
         normals_(normals),
-        sums_(sums) {}
+        sums_(sums),
+        repeats_(job, models.repeats, normal_points) {}
 
   void run() {
     gatherGroups(job_.wedges, job_.groups, sums_);
@@ -76,18 +80,24 @@ class TangentPointCoder {
   const AttributeJob<Io> job_;
   TangentPointModels& models_;
   const int32_t centre_;
+  const bool in_faces_;
   const float* const normals_;
   float* const sums_;
   int32_t last_[2] = {};
+  TangentRepeats<Io, kTangentPointWords> repeats_;
 };
 
 template <class Io>
 void TangentPointCoder<Io>::codeGroup(uint32_t w) {
   const float* sum = sums_ + 4 * size_t{w};
-  const uint32_t entry = job_.entryFace(w);
   float direction[3] = {sum[0], sum[1], sum[2]};
+  if (repeats_.code(w, manhattanLength(direction) > kShortestSum)) {
+    for (uint32_t s = 0; s < 2; ++s) last_[s] = at(w)[s] - centre_;
+    return;
+  }
+  const uint32_t entry = job_.entryFace(w);
   uint32_t context = kNoNeighbours;
-  if (normals_ != nullptr) projectOnPlane(normals_ + 3 * size_t{w}, direction);
+  if (normals_ != nullptr && !in_faces_) projectOnPlane(normals_ + 3 * size_t{w}, direction);
   float length = manhattanLength(direction);
   if (entry != kNone) {
     const auto [n, p] = job_.othersOf(entry);
@@ -95,7 +105,7 @@ void TangentPointCoder<Io>::codeGroup(uint32_t w) {
     if (!(length > kShortestSum)) {
       addDecoded(n, direction);
       addDecoded(p, direction);
-      if (normals_ != nullptr) projectOnPlane(normals_ + 3 * size_t{w}, direction);
+      if (normals_ != nullptr && !in_faces_) projectOnPlane(normals_ + 3 * size_t{w}, direction);
       length = manhattanLength(direction);
     }
   }
