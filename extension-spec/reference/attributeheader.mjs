@@ -124,9 +124,9 @@ function findPartners(attributes) {
 // [A.2.4] The methods by their numbers, with the bits that their predictor byte may have.
 const METHODS = [
 	{ name: 'position', bits: 255, fits: (a) => a.number === 0 },
-	{ name: 'tangent point', bits: 128, fits: (a) => a.coding === OCTAHEDRAL && a.semantic === TANGENT },
+	{ name: 'tangent point', bits: 131, fits: (a) => a.coding === OCTAHEDRAL && a.semantic === TANGENT },
 	{ name: 'normal', bits: 135, fits: (a) => a.coding === OCTAHEDRAL },
-	{ name: 'tangent', bits: 128, fits: (a) => a.coding === TANGENT_ANGLE },
+	{ name: 'tangent', bits: 129, fits: (a) => a.coding === TANGENT_ANGLE },
 	{ name: 'alias', bits: 0, fits: (a) => a.coding === ALIAS },
 	{ name: 'skin', bits: 128, fits: (a) => a.semantic === JOINTS && a.partner !== undefined },
 	{ name: 'skin weights', bits: 3, fits: (a) => a.semantic === WEIGHTS && a.partner !== undefined },

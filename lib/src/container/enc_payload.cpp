@@ -1,10 +1,12 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "container/enc_payload.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "base/bytes.h"
 #include "base/enc_bytes.h"
+#include "format/predictors.h"
 #include "format/usual.h"
 
 namespace mcc {
@@ -139,10 +141,23 @@ uint32_t writePadding(ByteWriter& out, const PayloadHeader& header, uint64_t hav
   return flags | payload_flag::kPadded;
 }
 
-ByteWriter beginPayload(uint32_t flags) {
+/// The lowest version that has everything the payload uses.
+uint8_t neededMinorVersion(const PayloadHeader& header) {
+  uint8_t version = 0;
+  for (size_t p = 0; p < header.pieces.size(); ++p) {
+    const AttributeInfos attributes = header.attributesOf(header.pieces[p]);
+    for (uint32_t i = 0; i < attributes.size(); ++i) {
+      const AttributeMethod method = methodOf(attributes, i);
+      version = std::max(version, minorVersionOf(method, attributes[i].predictor));
+    }
+  }
+  return version;
+}
+
+ByteWriter beginPayload(const PayloadHeader& header, uint32_t flags) {
   ByteWriter out;
   out.writeU8(kMagic);
-  out.writeU8(static_cast<uint8_t>(kVersionMajor << 4 | kVersionMinor));
+  out.writeU8(static_cast<uint8_t>(kVersionMajor << 4 | neededMinorVersion(header)));
   out.writeU32(0);  // the checksum
   out.writeU8(static_cast<uint8_t>(flags));
   return out;
@@ -176,7 +191,7 @@ std::vector<uint8_t> writePayload(const PayloadHeader& header, const Streams& st
     pieces.writeVarint(static_cast<uint32_t>(streams.tokens.size()));
   }
   const uint64_t have = kChecksummedFrom + 1 + pieces.size() + bytesOf(streams);
-  ByteWriter out = beginPayload(writePadding(pieces, header, have));
+  ByteWriter out = beginPayload(header, writePadding(pieces, header, have));
   out.writeBytes(pieces.bytes());
   writeStreams(out, streams);
   return endPayload(out);
@@ -196,7 +211,7 @@ std::vector<uint8_t> writeBlocks(PayloadHeader& header, std::span<const Streams>
     writeBlock(pieces, header, i);
   }
   const uint64_t have = kChecksummedFrom + 1 + pieces.size() + stream_bytes;
-  ByteWriter out = beginPayload(writePadding(pieces, header, have));
+  ByteWriter out = beginPayload(header, writePadding(pieces, header, have));
   const size_t other_bytes = out.size() + pieces.size();
   size_t length_bytes = 1;  // of the header's length, which counts its own bytes too
   while ((other_bytes + length_bytes) >> (7 * length_bytes) != 0) ++length_bytes;

@@ -74,8 +74,8 @@ inline constexpr FeatureInfo kFeatures[] = {
     {Feature::kExactNormals, "exact-normals", "A.10", "exact normals as values on a grid"},
     {Feature::kExactGrids, "exact-grids", "A.10.5", "exact floats as ordered integers"},
     {Feature::kMemory, "memory", "A.10.10", "charts and exact normals remember nothing"},
-    {Feature::kTangentRepeats, "tangent-repeats", "A.10.13", "no flags for repeated tangents"},
-    {Feature::kTangentFaces, "tangent-faces", "A.10.13", "tangents beside normals, not in faces"},
+    {Feature::kTangentRepeats, "tangent-repeats", "A.10.19", "no flags for repeated tangents"},
+    {Feature::kTangentFaces, "tangent-faces", "A.10.19", "tangents beside normals, not in faces"},
 };
 
 /// A set of features.

@@ -16,7 +16,7 @@ inline constexpr uint8_t kMagic = 'K';
 inline constexpr uint8_t kWithdrawnMagic[3] = {'M', 'C', 'C'};  ///< of a draft
 /// The version of the format. Readers accept any minor one: reserved bits announce what it adds.
 inline constexpr uint8_t kVersionMajor = 1;
-inline constexpr uint8_t kVersionMinor = 0;
+inline constexpr uint8_t kVersionMinor = 1;
 inline constexpr size_t kVersionOffset = 1;
 inline constexpr size_t kChecksumOffset = 2;
 inline constexpr size_t kChecksummedFrom = 6;  ///< the checksum covers bytes 0, 1 and from here on

@@ -97,6 +97,7 @@ struct PredictorField {
   Feature feature;      ///< without it, the encoder does not try other values than the first
   PredictorValue value[3];
   bool is_decoded = true;  ///< otherwise this decoder knows value 0 only
+  uint8_t since = 0;       ///< minor version of the format that added the field
 
   constexpr uint8_t shift() const { return static_cast<uint8_t>(std::countr_zero(mask)); }
   constexpr uint8_t valueOf(uint8_t predictor) const {
@@ -136,8 +137,9 @@ inline constexpr PredictorField kNormalBlend = {
 inline constexpr PredictorField kTangentRepeats = {tangent_method::kRepeats,
                                                    2,
                                                    Feature::kTangentRepeats,
-                                                   {{"", "", 0}, {"repeats", "", 5}},
-                                                   decodes::kTangentPoints};
+                                                   {{"", "", 0}, {"repeats", "A.10.19", 5}},
+                                                   decodes::kTangentRepeats,
+                                                   1};
 
 /// A mode of positions.
 constexpr PredictorField modeField(uint8_t mask, Feature feature, const char* word,
@@ -208,7 +210,12 @@ inline constexpr MethodInfo kMethods[] = {
      kHasEqualities,
      3,
      {detail::kTangentRepeats,
-      {tangent_method::kFaces, 2, Feature::kTangentFaces, {{"", "", 0}, {"faces", "", 5}}},
+      {tangent_method::kFaces,
+       2,
+       Feature::kTangentFaces,
+       {{"", "", 0}, {"faces", "A.10.19", 5}},
+       true,
+       1},
       detail::kEqualities},
      decodes::kTangentPoints},
     {AttributeMethod::kSkin,
@@ -270,6 +277,15 @@ constexpr bool isValidPredictor(AttributeMethod method, uint8_t predictor) {
   }
   return rest == 0 &&
          (method != AttributeMethod::kPosition || position_mode::goTogether(predictor));
+}
+
+/// The minor version of the format that has everything a byte asks for.
+constexpr uint8_t minorVersionOf(AttributeMethod method, uint8_t predictor) {
+  uint8_t version = 0;
+  for (const PredictorField& field : infoOf(method)) {
+    if (field.valueOf(predictor) != 0 && field.since > version) version = field.since;
+  }
+  return version;
 }
 
 /// The bits of a method's byte that this decoder knows.

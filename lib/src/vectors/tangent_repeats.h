@@ -2,7 +2,7 @@
 //
 // Tangents that are equal to one seen before: to that of another corner of the face, as exporters
 // write them which compute a tangent per face, or to the last one beside the same normal, as they
-// do where charts have no direction. [A.10.13]
+// do where charts have no direction. [A.10.19]
 #ifndef MCC_VECTORS_TANGENT_REPEATS_H_
 #define MCC_VECTORS_TANGENT_REPEATS_H_
 
@@ -26,7 +26,8 @@ class TangentRepeats {
   TangentRepeats(const AttributeJob<Io>& job, TangentRepeatModels& models, const int32_t* normals)
       : job_(job),
         models_(models),
-        is_on_((job.info.predictor & tangent_method::kRepeats) != 0),
+        is_on_(decodes::kTangentRepeats &&
+               (job.info.predictor & tangent_method::kRepeats) != 0),
         normals_(normals) {
     if (is_on_) std::fill_n(latest_, kSlots, kNone);
   }

@@ -250,7 +250,7 @@ MCC_INLINE void TangentCoder<Io>::predictFour(uint32_t w) {
 template <class Io>
 void TangentCoder<Io>::codeGroup(uint32_t w) {
   const float* sum = sums_ + 4 * size_t{w};
-  if (decodes::kTangentPoints && repeats_.code(w, sum[1] != 0)) {
+  if (repeats_.code(w, sum[1] != 0)) {
     last_ = job_.values[2 * size_t{w}];
     return;
   }
