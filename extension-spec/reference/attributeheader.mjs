@@ -91,7 +91,7 @@ function readFloat(reader, form, usual) {
 }
 
 // [A.2.4] What depends on all headers of a piece.
-export function finishAttributes(attributes) {
+export function finishAttributes(attributes, minorVersion) {
 	const isOctahedralNormal = (a) => a.coding === OCTAHEDRAL && a.semantic !== TANGENT && a.target === 0;
 	const octahedralNormal = attributes.find(isOctahedralNormal);
 	const exactNormal = attributes.find((a) => a.semantic === NORMAL && a.target === 0 && a.components === 3
@@ -99,6 +99,8 @@ export function finishAttributes(attributes) {
 	findPartners(attributes);
 	for (const a of attributes) {
 		setMethod(a);
+		const isNew = a.method.startsWith('tangent') && (a.predictor & 3) !== 0;
+		valid(!isNew || minorVersion >= 1, 'a predictor is new in minor version 1');
 		if (a.coding === ALIAS) checkAlias(a, attributes);
 		if (a.coding === TANGENT_ANGLE) valid(octahedralNormal !== undefined, 'a tangent angle has no normal');
 	}

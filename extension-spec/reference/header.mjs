@@ -15,10 +15,9 @@ const valid = (condition, section, message) => failUnless(condition, 'BadHeader'
 // [A.2.1] The header, with the streams of the payload or of each block.
 export function readHeader(bytes) {
 	const reader = createReader(bytes);
-	checkMagic(reader);
-	const checksum = u32(reader), flags = u8(reader);
+	const minorVersion = readVersion(reader), checksum = u32(reader), flags = u8(reader);
 	const [SINGLE_CODER, MANY_PIECES, PADDED, BLOCKS] = [0, 1, 2, 3].map((i) => bit(flags, i));
-	const header = { SINGLE_CODER, MANY_PIECES, PADDED, BLOCKS };
+	const header = { minorVersion, SINGLE_CODER, MANY_PIECES, PADDED, BLOCKS };
 	const end = header.BLOCKS ? readHeaderLength(reader) : bytes.length;
 	const sum = crc32(bytes.subarray(0, 2), bytes.subarray(6, end));
 	failUnless(sum === checksum, 'BadChecksum', 'A.2.1', 'the checksum of the payload does not match');
@@ -30,13 +29,16 @@ export function readHeader(bytes) {
 	return header;
 }
 const bit = (flags, i) => ((flags >> i) & 1) === 1;
-function checkMagic(reader) {
+// The minor version.
+function readVersion(reader) {
 	const { bytes } = reader;
 	const draft = bytes[0] === 0x4d && bytes[1] === 0x43 && bytes[2] === 0x43;
 	if (draft) fail('UnsupportedVersion', 'A.2.1', 'the payload is of a withdrawn draft');
 	failUnless(bytes[0] === 0x4b, 'BadMagic', 'A.2.1', 'the bytes are not a payload');
 	u8(reader);
-	failUnless(u8(reader) >> 4 === 1, 'UnsupportedVersion', 'A.2.1', 'the major version is not 1');
+	const version = u8(reader);
+	failUnless(version >> 4 === 1, 'UnsupportedVersion', 'A.2.1', 'the major version is not 1');
+	return version & 15;
 }
 
 function readHeaderLength(reader) {
@@ -57,7 +59,7 @@ function pieceCount(reader, { MANY_PIECES }) {
 function readPieces(reader, header, count) {
 	const pieces = [], totals = { vertices: 0, wedges: 0, triangles: 0, attributes: 0 };
 	for (let i = 0; i < count; ++i) {
-		const piece = readPiece(reader, pieces[i - 1], totals, header.BLOCKS);
+		const piece = readPiece(reader, header, pieces[i - 1], totals);
 		if (header.BLOCKS) checkBlock(piece, pieces[0]);
 		pieces.push(piece);
 	}
@@ -65,12 +67,12 @@ function readPieces(reader, header, count) {
 }
 
 // [A.2.2]
-function readPiece(reader, before, totals, isBlock) {
+function readPiece(reader, header, before, totals) {
 	const piece = readPieceFlags(reader);
 	readCounts(reader, piece);
 	checkCounts(reader, piece, totals);
 	readParts(reader, piece);
-	readAttributes(reader, piece, before, totals, isBlock);
+	readAttributes(reader, header, piece, before, totals);
 	return piece;
 }
 
@@ -137,11 +139,11 @@ function readParts(reader, piece) {
 }
 
 // [A.2.3]
-function readAttributes(reader, piece, before, totals, isBlock) {
+function readAttributes(reader, header, piece, before, totals) {
 	const within = (count) => failUnless(count <= LIMITS.attributes, 'Limit', 'A.2.3', 'too many attributes');
 	if (piece.SAME_ATTRIBUTES) {
 		valid(before !== undefined, 'A.2.3', 'the first piece has SAME_ATTRIBUTES');
-		if (!isBlock) within(totals.attributes += before.attributes.length);
+		if (!header.BLOCKS) within(totals.attributes += before.attributes.length);
 		const { attributes, octahedralNormal, exactNormal } = before;
 		Object.assign(piece, { attributes, octahedralNormal, exactNormal });
 	} else {
@@ -150,7 +152,7 @@ function readAttributes(reader, piece, before, totals, isBlock) {
 		piece.attributes = [];
 		for (let i = 0; i < count; ++i) piece.attributes.push(readAttributeHeader(reader, piece.attributes));
 		checkPosition(piece.attributes[0]);
-		Object.assign(piece, finishAttributes(piece.attributes));
+		Object.assign(piece, finishAttributes(piece.attributes, header.minorVersion));
 	}
 	const { SAME_ATTRIBUTES, attributes } = piece;
 	piece.component_sum = SAME_ATTRIBUTES ? before.component_sum : sumOf(attributes.map((a) => a.components));

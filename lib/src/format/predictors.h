@@ -58,7 +58,7 @@ namespace exact_tangent_method {
 inline constexpr uint8_t kPerpendicular = 0x01;  ///< perpendicular to the exact normal
 }  // namespace exact_tangent_method
 
-namespace tangent_method {                    // both methods of quantised tangents
+namespace tangent_method {                 // both methods of quantised tangents
 inline constexpr uint8_t kRepeats = 0x01;  ///< flags for tangents that one seen before is equal to
 inline constexpr uint8_t kFaces = 0x02;    ///< of points: they lie in the faces' planes
 }  // namespace tangent_method
@@ -134,12 +134,9 @@ inline constexpr PredictorField kNormalWeight = {
 inline constexpr PredictorField kNormalBlend = {
     normal_method::kBlend, 2, Feature::kNormalBlend, {{"", "", 0}, {"blend", "", 0}}};
 
-inline constexpr PredictorField kTangentRepeats = {tangent_method::kRepeats,
-                                                   2,
-                                                   Feature::kTangentRepeats,
-                                                   {{"", "", 0}, {"repeats", "A.10.19", 5}},
-                                                   decodes::kTangentRepeats,
-                                                   1};
+inline constexpr PredictorField kTangentRepeats = {
+    tangent_method::kRepeats, 2, Feature::kTangentRepeats, {{"", "", 0}, {"repeats", "A.10.19", 5}},
+    decodes::kTangentRepeats, 1};
 
 /// A mode of positions.
 constexpr PredictorField modeField(uint8_t mask, Feature feature, const char* word,
