@@ -7,6 +7,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "format/predictors.h"
 #include "gltf/compress/plan.h"
 #include "gltf/document/accessors.h"
 #include "gltf/document/glb.h"
@@ -278,6 +279,16 @@ const Asset& closestTo(const std::vector<uint8_t>& payload, std::span<const Asse
     if (differences <= kMostDifferences) return asset;
   }
   throw std::runtime_error("a payload that was found is like no asset: search anew");
+}
+
+EncodeSettings ofVersion10() {
+  EncodeSettings settings;
+  for (const MethodInfo& method : kMethods) {
+    for (const PredictorField& field : method) {
+      if (field.since != 0) settings.without.add(field.feature);
+    }
+  }
+  return settings;
 }
 
 Asset encodeSource(const Source& source) {

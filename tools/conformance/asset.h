@@ -45,11 +45,14 @@ struct SourcePiece {
   std::vector<std::vector<uint32_t>> parts;
 };
 
+/// Settings without what later versions of the format added.
+EncodeSettings ofVersion10();
+
 struct Source {
   std::string name;   ///< of the file, without extension
   std::string shows;  ///< one sentence
   std::vector<SourcePiece> pieces;
-  EncodeSettings options;
+  EncodeSettings options = ofVersion10();
 };
 
 /// What a primitive names of a piece.

@@ -173,6 +173,7 @@ class SourceBuilder {
 
   Random& random() { return random_; }
   SourcePiece& piece() { return piece_; }
+  Place at(uint32_t wedge) const { return {mesh_, wedge}; }
   SourcePiece take() { return std::move(piece_); }
 
   using Value = std::function<float(const Place&, uint32_t)>;
@@ -1169,6 +1170,140 @@ std::vector<Source> rareSources() {
                          }));
     all.back().options.variation = variation;
   }
+  return all;
+}
+
+namespace {
+
+/// A sphere of triangles with wedges of their own, whose normals are smooth nevertheless.
+TestMesh sphereOfFaces(uint32_t level) {
+  TestMesh mesh = flatShaded(icosphere(level));
+  for (size_t w = 0; w < mesh.vertexCount(); ++w) {
+    const float* p = &mesh.positions[3 * w];
+    const float length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+    for (size_t c = 0; c < 3; ++c) mesh.normals[3 * w + c] = p[c] / length;
+  }
+  return mesh;
+}
+
+/// Tangents in the faces of a mesh without shared wedges: one for each face, or one for each
+/// corner.
+void tangentsInFaces(SourceBuilder& b, uint8_t bits, bool one_per_face) {
+  NamedAttribute a = makeAttribute("TANGENT", kBase, "VEC4", ComponentType::kFloat32);
+  a.bits = bits;
+  for (uint32_t w = 0; w < b.piece().wedge_count; ++w) {
+    const uint32_t first = w / 3 * 3;
+    const Place corners[] = {b.at(first), b.at(first + 1), b.at(first + 2)};
+    const double share = one_per_face ? 0.3 : 0.2 * (w % 3) + 0.1;
+    double t[3];
+    double square = 0;
+    for (uint32_t c = 0; c < 3; ++c) {
+      const double from = corners[0].position(c);
+      t[c] =
+          (corners[1].position(c) - from) * (1 - share) + (corners[2].position(c) - from) * share;
+      square += t[c] * t[c];
+    }
+    for (const double x : t)
+      a.append(static_cast<float>(square > 0 ? x / std::sqrt(square) : &x == t ? 1.0 : 0.0));
+    a.append(first % 5 == 0 ? -1.0f : 1.0f);
+  }
+  b.piece().attributes.push_back(std::move(a));
+}
+
+/// How the tangents of a source of version 1.1 are made.
+struct TangentCase {
+  const char* name;
+  const char* shows;
+  TestMesh mesh;
+  std::vector<uint64_t> variations;
+  std::function<void(SourceBuilder&)> fill;  ///< after the positions
+};
+
+std::vector<TangentCase> tangentCases() {
+  const TestMesh faces = sphereOfFaces(1);
+  return {
+      {"angles",
+       "angles with few values, beside few normals",
+       withNormals(withRandomWedges(torus(12, 9), 4, 3)),
+       {1, 2, 3},
+       [](SourceBuilder& b) {
+         b.normals(4);
+         b.texcoords("TEXCOORD_0", 9);
+         b.tangents(3, true);
+       }},
+      {"angles_without_chart",
+       "angles with few values, beside many normals",
+       uvSphere(24, 16),
+       {1, 2, 3},
+       [](SourceBuilder& b) {
+         b.normals(5);
+         b.tangents(2, true);
+       }},
+      {"one_per_face",
+       "a tangent for each face, not beside the normals",
+       faces,
+       {0, 1, 2, 3, 4},
+       [](SourceBuilder& b) {
+         b.normals(8);
+         b.texcoords("TEXCOORD_0", 9);
+         tangentsInFaces(b, 9, true);
+       }},
+      {"in_faces",
+       "tangents in the faces, another for each corner",
+       faces,
+       {0, 1, 2, 3, 4},
+       [](SourceBuilder& b) {
+         b.normals(8);
+         b.texcoords("TEXCOORD_0", 9);
+         tangentsInFaces(b, 9, false);
+       }},
+      {"exact_normals",
+       "points beside exact normals",
+       faces,
+       {1, 2},
+       [](SourceBuilder& b) {
+         b.normals(0, Floats::kBinary);
+         tangentsInFaces(b, 5, true);
+       }},
+      {"no_normals",
+       "points without normals, few values",
+       torus(9, 7),
+       {1, 2, 3},
+       [](SourceBuilder& b) { b.tangents(3, false); }},
+      {"flat_faces",
+       "points at faces without an area",
+       withDegenerates(faces, 5, 9),
+       {1, 2, 3},
+       [](SourceBuilder& b) {
+         b.normals(6);
+         b.texcoords("TEXCOORD_0", 9);
+         b.tangents(6, false);
+       }},
+  };
+}
+
+}  // namespace
+
+std::vector<Source> sourcesOfVersion11() {
+  std::vector<Source> all;
+  for (const TangentCase& c : tangentCases()) {
+    for (const uint64_t variation : c.variations) {
+      all.push_back(single("tangents_" + std::string(c.name) + "_" + std::to_string(variation),
+                           std::string("Version 1.1: ") + c.shows, c.mesh, [&](SourceBuilder& b) {
+                             b.positions(10);
+                             c.fill(b);
+                           }));
+      all.back().options.variation = variation;
+      all.back().options.without = {};
+    }
+  }
+  const TangentCase in_blocks = tangentCases()[0];
+  all.push_back(
+      inBlocks("repeated_tangents", in_blocks.shows, in_blocks.mesh, 60, 3, [&](SourceBuilder& b) {
+        b.positions(10);
+        in_blocks.fill(b);
+      }));
+  all.back().options.without = {};
   return all;
 }
 

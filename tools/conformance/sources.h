@@ -27,6 +27,9 @@ std::vector<Source> blockSources();
 /// Branches of a decoder that nothing else enters.
 std::vector<Source> rareSources();
 
+/// Sources of assets of minor version 1: tangents that repeat, or lie in faces.
+std::vector<Source> sourcesOfVersion11();
+
 /// A random source: surface, attributes, options. The same for the same seed on every machine.
 Source randomSource(uint64_t seed);
 /// The same of an isosurface whose positions may lie on planes.

@@ -134,6 +134,8 @@ inline constexpr PredictorField kNormalWeight = {
 inline constexpr PredictorField kNormalBlend = {
     normal_method::kBlend, 2, Feature::kNormalBlend, {{"", "", 0}, {"blend", "", 0}}};
 
+/// It comes after the equalities, which find most of what repeats at no cost in flags: chosen first
+/// it would hide what they gain.
 inline constexpr PredictorField kTangentRepeats = {
     tangent_method::kRepeats, 2, Feature::kTangentRepeats, {{"", "", 0}, {"repeats", "A.10.19", 5}},
     decodes::kTangentRepeats, 1};
@@ -199,21 +201,21 @@ inline constexpr MethodInfo kMethods[] = {
      "A.10.13 A.10.12 A.10.7",
      kHasEqualities,
      2,
-     {detail::kTangentRepeats, detail::kEqualities}},
+     {detail::kEqualities, detail::kTangentRepeats}},
     {AttributeMethod::kTangentPoint,
      "tangent point",
      "chart",
      "A.10.13 A.10.12 A.10.6",
      kHasEqualities,
      3,
-     {detail::kTangentRepeats,
+     {detail::kEqualities,
+      detail::kTangentRepeats,
       {tangent_method::kFaces,
        2,
        Feature::kTangentFaces,
        {{"", "", 0}, {"faces", "A.10.19", 5}},
        true,
-       1},
-      detail::kEqualities},
+       1}},
      decodes::kTangentPoints},
     {AttributeMethod::kSkin,
      "skin",

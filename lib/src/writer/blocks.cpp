@@ -399,7 +399,8 @@ class BlocksEncoder {
     // A block may have too few vertices to see planes in them.
     findPlanesOf(plans[0], whole_.attributes[0].values);
     Variation variation(options_.variation);
-    MCC_TRY(variation.active() ? varyAll(plans, variation) : chooseAll(plans, options_, jobs_));
+    MCC_TRY(variation.active() ? varyAll(plans, variation, options_.without)
+                               : chooseAll(plans, options_, jobs_));
     chosen_ = choicesOf(plans[0]);
     std::swap(plans[0], taken_[sample()]->plan);
     return {};

@@ -148,11 +148,12 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, const EncoderIo
 }
 
 /// Chooses at random, instead of chooseAttributeMethod().
-void varyAttributeMethod(Plan& plan, uint32_t index, Variation& variation) {
+void varyAttributeMethod(Plan& plan, uint32_t index, Variation& variation,
+                         const FeatureSet& without) {
   std::vector<AttributeInfo> infos;
   for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
   infos[index] = variation.oneOf(exactAlternatives(infos[index], {}));
-  variation.predictors(infos, index);
+  variation.predictors(infos, index, without);
   for (size_t i = 0; i < infos.size(); ++i) plan.attributes[i].info = infos[i];
 }
 
@@ -212,7 +213,7 @@ Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const 
   return {};
 }
 
-Status varyAll(std::vector<Plan>& plans, Variation& variation) {
+Status varyAll(std::vector<Plan>& plans, Variation& variation, const FeatureSet& without) {
   StageModels models;
   EncoderIo io;
   Runners runners;
@@ -234,7 +235,7 @@ Status varyAll(std::vector<Plan>& plans, Variation& variation) {
     plan.attributes[0].info.predictor = positions.modes;
     if (plan.header.has(piece_flag::kSeams) && variation.coin())
       plan.header.flags ^= piece_flag::kCreases;
-    for (const uint32_t a : codingOrder(plan)) varyAttributeMethod(plan, a, variation);
+    for (const uint32_t a : codingOrder(plan)) varyAttributeMethod(plan, a, variation, without);
   }
   return {};
 }
